@@ -1,0 +1,119 @@
+/// Integer arithmetic with stated rounding and overflow.
+///
+/// Rounding is always to nearest, ties away from zero, so that every function here is odd:
+/// f(-x) == -f(x). Overflow saturates. No signed value is ever shifted.
+#pragma once
+
+#include <stdint.h>
+
+namespace whisker {
+
+constexpr int32_t saturate32(int64_t x) noexcept {
+  return x > INT32_MAX ? INT32_MAX : x < INT32_MIN ? INT32_MIN : static_cast<int32_t>(x);
+}
+
+constexpr int16_t saturate16(int32_t x) noexcept {
+  return x > INT16_MAX ? INT16_MAX : x < INT16_MIN ? INT16_MIN : static_cast<int16_t>(x);
+}
+
+constexpr int32_t saturating_add(int32_t a, int32_t b) noexcept {
+  int32_t sum = 0;
+  if (!__builtin_add_overflow(a, b, &sum)) return sum;
+  return a < 0 ? INT32_MIN : INT32_MAX;
+}
+
+constexpr int32_t saturating_subtract(int32_t a, int32_t b) noexcept {
+  int32_t difference = 0;
+  if (!__builtin_sub_overflow(a, b, &difference)) return difference;
+  return a < 0 ? INT32_MIN : INT32_MAX;
+}
+
+/// -x, with -INT32_MIN == INT32_MAX.
+constexpr int32_t saturating_negate(int32_t x) noexcept { return x == INT32_MIN ? INT32_MAX : -x; }
+
+constexpr uint32_t magnitude(int32_t x) noexcept {
+  return x < 0 ? 0U - static_cast<uint32_t>(x) : static_cast<uint32_t>(x);
+}
+
+constexpr uint64_t magnitude(int64_t x) noexcept {
+  return x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
+}
+
+/// n / d to nearest, ties away from zero. d > 0; |n| + d / 2 must fit.
+constexpr int64_t divide_rounded(int64_t n, int64_t d) noexcept {
+  return (n < 0 ? n - d / 2 : n + d / 2) / d;
+}
+
+/// x / 2^kBits to nearest, ties away from zero. |x| + 2^(kBits - 1) must fit.
+template <int kBits>
+constexpr int64_t scale_down(int64_t x) noexcept {
+  static_assert(kBits > 0 && kBits < 62);
+  constexpr int64_t kOne = INT64_C(1) << kBits;
+  return (x < 0 ? x - kOne / 2 : x + kOne / 2) / kOne;
+}
+
+template <int kBits>
+constexpr int32_t scale_down(int32_t x) noexcept {
+  static_assert(kBits > 0 && kBits < 30);
+  constexpr int32_t kOne = INT32_C(1) << kBits;
+  return (x < 0 ? x - kOne / 2 : x + kOne / 2) / kOne;
+}
+
+/// a * b / c to nearest, saturating. c > 0.
+constexpr int32_t multiply_divide(int32_t a, int32_t b, int32_t c) noexcept {
+  return saturate32(divide_rounded(static_cast<int64_t>(a) * b, c));
+}
+
+/// A number with kFraction binary places in an integer of type Rep; arithmetic saturates.
+template <int kFraction, class Rep>
+class Fixed {
+ public:
+  static constexpr int32_t kOne = INT32_C(1) << kFraction;
+
+  constexpr Fixed() noexcept = default;
+  static constexpr Fixed from_raw(Rep raw) noexcept {
+    Fixed f;
+    f.raw_ = raw;
+    return f;
+  }
+  /// numerator / denominator to nearest. denominator > 0.
+  static constexpr Fixed ratio(int32_t numerator, int32_t denominator) noexcept {
+    return from_raw(clamp(divide_rounded(static_cast<int64_t>(numerator) * kOne, denominator)));
+  }
+  constexpr Rep raw() const noexcept { return raw_; }
+
+  friend constexpr bool operator==(Fixed a, Fixed b) noexcept { return a.raw_ == b.raw_; }
+  friend constexpr bool operator!=(Fixed a, Fixed b) noexcept { return a.raw_ != b.raw_; }
+  friend constexpr bool operator<(Fixed a, Fixed b) noexcept { return a.raw_ < b.raw_; }
+  friend constexpr bool operator>(Fixed a, Fixed b) noexcept { return a.raw_ > b.raw_; }
+  friend constexpr bool operator<=(Fixed a, Fixed b) noexcept { return a.raw_ <= b.raw_; }
+  friend constexpr bool operator>=(Fixed a, Fixed b) noexcept { return a.raw_ >= b.raw_; }
+  friend constexpr Fixed operator-(Fixed a) noexcept { return from_raw(clamp(-int64_t{a.raw_})); }
+  friend constexpr Fixed operator+(Fixed a, Fixed b) noexcept {
+    return from_raw(clamp(int64_t{a.raw_} + b.raw_));
+  }
+  friend constexpr Fixed operator-(Fixed a, Fixed b) noexcept {
+    return from_raw(clamp(int64_t{a.raw_} - b.raw_));
+  }
+  friend constexpr Fixed operator*(Fixed a, Fixed b) noexcept {
+    return from_raw(clamp(scale_down<kFraction>(int64_t{a.raw_} * b.raw_)));
+  }
+
+ private:
+  static_assert(sizeof(Rep) <= 4, "products are formed in 64 bits");
+  static constexpr Rep clamp(int64_t x) noexcept {
+    constexpr int64_t kMax = static_cast<int64_t>((UINT64_C(1) << (8 * sizeof(Rep) - 1)) - 1);
+    return static_cast<Rep>(x > kMax ? kMax : x < -kMax - 1 ? -kMax - 1 : x);
+  }
+  Rep raw_ = 0;
+};
+
+using Q7 = Fixed<7, int16_t>;    ///< the fuzzy inputs D and R; resolution 1/128
+using Q14 = Fixed<14, int16_t>;  ///< the fuzzy outputs SA and SD; [-2, 2)
+using Q15 = Fixed<15, int16_t>;  ///< [-1, 1)
+using Q30 = Fixed<30, int32_t>;  ///< sines and cosines; [-2, 2)
+
+static_assert((Q15::from_raw(INT16_MIN) * Q15::from_raw(INT16_MIN)).raw() == INT16_MAX);
+static_assert(scale_down<4>(INT32_C(24)) == 2 && scale_down<4>(INT32_C(-24)) == -2);
+
+}  // namespace whisker

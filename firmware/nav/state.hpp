@@ -1,0 +1,47 @@
+/// What the navigation does and why: the words of the trace, of the pictures and of the bus.
+#pragma once
+
+#include <stdint.h>
+
+namespace whisker::nav {
+
+/// What the robot is doing at this tick.
+enum class Mode : uint8_t {
+  idle,       ///< no goal
+  facing,     ///< turning to the target direction
+  looking,    ///< standing still until every beam has a trustworthy reading
+  steering,   ///< turning to the heading that the response table asked for
+  probing,    ///< deflecting by delta to find a heading on which the step is safe
+  stepping,   ///< driving a step in free space
+  searching,  ///< danger area: looking for an exit on both sides
+  skirting,   ///< danger area: driving a small step along the obstacle's edge
+  arrived,    ///< at the goal, standing
+  gave_up,    ///< a stated budget is used up, standing
+  stopped,    ///< safe stop after a fault, standing
+};
+constexpr int kModes = 11;
+
+/// Why it does that.
+enum class Why : uint8_t {
+  none,
+  goal_set,        ///< a new goal
+  target_free,     ///< nothing near in the target direction: straight on
+  table,           ///< the response table turned the step away from the target direction
+  narrow,          ///< the planned step is not free: deflected by delta
+  target_blocked,  ///< an obstacle in the target direction within the danger range
+  exit_left,       ///< the exit on the left needs the smaller turn
+  exit_right,      ///< the exit on the right needs the smaller turn
+  same_side,       ///< the target stays blocked: deflecting to the side chosen before
+  blind,           ///< readings are lost: waiting
+  at_goal,
+  no_exit,      ///< no free heading all around
+  step_budget,  ///< the number of steps is used up
+  cancelled,
+  fault,  ///< see Health for its name
+};
+constexpr int kWhys = 15;
+
+const char* name(Mode mode) noexcept;
+const char* name(Why why) noexcept;
+
+}  // namespace whisker::nav

@@ -1,0 +1,50 @@
+#include "firmware/params.hpp"
+
+namespace whisker {
+namespace {
+
+struct RangeCheck {
+  bool ok = true;
+  template <class Tag>
+  void number(const char*, const Unit<Tag>& x, Unit<Tag> low, Unit<Tag> high) {
+    ok = ok && low <= x && x <= high;
+  }
+  void number(const char*, const Angle& x, Angle low, Angle high) {
+    ok = ok && low.raw() <= x.raw() && x.raw() <= high.raw();
+  }
+  void count(const char*, const int32_t& x, int32_t low, int32_t high) { ok = ok && low <= x && x <= high; }
+  template <class E>
+  void choice(const char*, const E& x, const char* const*, int names) {
+    ok = ok && static_cast<int>(x) < names;
+  }
+};
+
+/// v^2 / 2a + v (lag + one period): how far full speed carries the body after the order to stop.
+Length stopping_distance(const Params& p) {
+  const int64_t v = p.wheels.max_speed.raw();
+  const int64_t braking = divide_rounded(v * v, 2 * int64_t{p.wheels.max_acceleration.raw()});
+  return Length::from_raw(saturate32(braking)) + p.wheels.max_speed * (p.wheels.motor_lag + p.safety.period);
+}
+
+}  // namespace
+
+ParamFault check(const Params& p) noexcept {
+  RangeCheck ranges;
+  for_each_param(p, ranges);
+  if (!ranges.ok) return ParamFault::out_of_range;
+  if (p.body.track > p.body.radius * 2) return ParamFault::track_wider_than_body;
+  if (p.rangefinders.min_range >= p.rangefinders.max_range) return ParamFault::ranges_reversed;
+  if (p.rangefinders.side_angle.raw() + p.rangefinders.cone.raw() / 2 > (90_deg).raw()) {
+    return ParamFault::cones_apart_from_front;
+  }
+  if (p.thesis.danger_range <= p.body.radius + p.body.margin) return ParamFault::danger_inside_body;
+  if (p.thesis.small_step > p.thesis.base_step) return ParamFault::steps_reversed;
+  if (stopping_distance(p) > p.rangefinders.max_range / 4) return ParamFault::stop_longer_than_margin;
+  const Duration between = milliseconds(1000 / p.rangefinders.rate_hz) + p.rangefinders.latency;
+  if (p.conditioning.stale_after <= between) return ParamFault::stale_before_next_reading;
+  if (p.safety.lost_after < p.conditioning.stale_after) return ParamFault::lost_before_stale;
+  if (p.safety.max_gap < p.safety.period * 2) return ParamFault::gap_below_period;
+  return ParamFault::none;
+}
+
+}  // namespace whisker

@@ -1,0 +1,159 @@
+/// Every number that a user may change, in one struct: unit in the type, default beside it,
+/// key and range in for_each_param, relations in check().
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/core/angle.hpp"
+#include "firmware/core/units.hpp"
+
+namespace whisker {
+
+using namespace literals;
+
+struct BodyParams {
+  Length radius = 90_mm;  ///< of the smallest disc that covers the robot
+  Length margin = 30_mm;  ///< kept free around the body when a step is planned
+  Length track = 140_mm;  ///< between the wheels' contact points
+};
+
+struct WheelParams {
+  Speed max_speed = 300_mm_per_s;
+  Acceleration max_acceleration = 1000_mm_per_s2;
+  AngularRate max_turn_rate = 3000_mrad_per_s;
+  Duration motor_lag = 50_ms;       ///< time constant from command to wheel speed
+  int32_t counts_per_metre = 5000;  ///< encoder counts per metre of rim travel
+};
+
+struct RangefinderParams {
+  Angle side_angle = 30_deg;  ///< left beam's axis from straight ahead; right mirrored
+  Angle cone = 25_deg;        ///< full width
+  Length min_range = 20_mm;
+  Length max_range = 2000_mm;  ///< also what a clear reading counts as
+  Length offset = 0_mm;        ///< of the apexes, along each beam's axis from the centre
+  int32_t rate_hz = 50;
+  Duration latency = 20_ms;  ///< from the measurement to its arrival
+};
+
+/// How several readings become one.
+enum class Consensus : uint8_t {
+  agreeing,  ///< the last `reads` readings lie within `tolerance`: their minimum
+  median,    ///< the median of the last `reads` readings
+};
+
+struct ConditioningParams {
+  Consensus consensus = Consensus::agreeing;
+  int32_t reads = 3;
+  Length tolerance = 60_mm;       ///< of agreeing readings
+  Duration stale_after = 100_ms;  ///< no new measurement for this long: stale
+  Angle stuck_turn = 60_deg;      ///< the same millimetre over this turn: stuck
+};
+
+/// Which distance is D: the thesis says both.
+enum class DistanceSource : uint8_t {
+  front,  ///< the main sensor (section 1.2)
+  mean,   ///< the mean of the three (section 1.1)
+};
+
+struct ThesisParams {
+  DistanceSource distance_source = DistanceSource::front;
+  Angle base_turn = 30_deg;
+  Length base_step = 200_mm;
+  Length small_step = 100_mm;
+  Angle delta = 10_deg;          ///< deflection between two probes
+  Length danger_range = 300_mm;  ///< the target direction is blocked below this
+  int32_t max_steps = 4000;      ///< positions visited before it gives up
+};
+
+struct MotionParams {
+  Duration settle = 120_ms;  ///< time constant of the approach to a stop
+  Angle turn_tolerance = 1_deg;
+  Length drive_tolerance = 2_mm;
+};
+
+struct SafetyParams {
+  Duration period = 10_ms;        ///< of tick(): the control period
+  Duration max_gap = 100_ms;      ///< between two ticks; above: the clock jumped
+  Duration lost_after = 1000_ms;  ///< a beam lost for this long stops the robot for good
+  int32_t max_refusals = 5;       ///< of the drive, in a row
+};
+
+struct Params {
+  BodyParams body;
+  WheelParams wheels;
+  RangefinderParams rangefinders;
+  ConditioningParams conditioning;
+  ThesisParams thesis;
+  MotionParams motion;
+  SafetyParams safety;
+};
+
+/// The relations between parameters; each names what must hold.
+enum class ParamFault : uint8_t {
+  none,
+  out_of_range,               ///< a value lies outside its own range
+  track_wider_than_body,      ///< track <= 2 radius
+  ranges_reversed,            ///< min_range < max_range
+  cones_apart_from_front,     ///< side_angle + cone / 2 <= 90 degrees
+  danger_inside_body,         ///< danger_range > radius + margin
+  steps_reversed,             ///< small_step <= base_step
+  stop_longer_than_margin,    ///< what the body needs to stop from full speed <= max_range / 4
+  stale_before_next_reading,  ///< stale_after > 1 / rate + latency
+  lost_before_stale,          ///< lost_after >= stale_after
+  gap_below_period,           ///< max_gap >= 2 period
+};
+
+/// Calls f.number(key, field, min, max), f.count(key, field, min, max) or
+/// f.choice(key, field, names, count) for every parameter. The key's suffix is the unit that
+/// hosts use: m, mps, mps2, radps, deg, s, hz.
+template <class P, class F>
+constexpr void for_each_param(P& p, F&& f) {
+  constexpr const char* kConsensus[] = {"agreeing", "median"};
+  constexpr const char* kSource[] = {"front", "mean"};
+
+  f.number("body_radius_m", p.body.radius, 20_mm, 1_m);
+  f.number("body_margin_m", p.body.margin, 0_mm, 500_mm);
+  f.number("wheel_track_m", p.body.track, 20_mm, 2_m);
+
+  f.number("wheel_speed_max_mps", p.wheels.max_speed, 20_mm_per_s, 3200_mm_per_s);
+  f.number("wheel_acceleration_max_mps2", p.wheels.max_acceleration, 50_mm_per_s2, 20000_mm_per_s2);
+  f.number("turn_rate_max_radps", p.wheels.max_turn_rate, 100_mrad_per_s, 20000_mrad_per_s);
+  f.number("motor_lag_s", p.wheels.motor_lag, 0_ms, 500_ms);
+  f.count("encoder_counts_per_m", p.wheels.counts_per_metre, 100, 1000000);
+
+  f.number("range_side_angle_deg", p.rangefinders.side_angle, 5_deg, 85_deg);
+  f.number("range_cone_deg", p.rangefinders.cone, 1_deg, 90_deg);
+  f.number("range_min_m", p.rangefinders.min_range, 0_mm, 1_m);
+  f.number("range_max_m", p.rangefinders.max_range, 200_mm, 60_m);
+  f.number("range_offset_m", p.rangefinders.offset, 0_mm, 1_m);
+  f.count("range_rate_hz", p.rangefinders.rate_hz, 5, 100);
+  f.number("range_latency_s", p.rangefinders.latency, 0_ms, 200_ms);
+
+  f.choice("consensus", p.conditioning.consensus, kConsensus, 2);
+  f.count("consensus_reads", p.conditioning.reads, 1, 5);
+  f.number("consensus_tolerance_m", p.conditioning.tolerance, 1_mm, 1_m);
+  f.number("stale_after_s", p.conditioning.stale_after, 20_ms, 2000_ms);
+  f.number("stuck_turn_deg", p.conditioning.stuck_turn, 30_deg, 170_deg);
+
+  f.choice("thesis_distance", p.thesis.distance_source, kSource, 2);
+  f.number("thesis_base_turn_deg", p.thesis.base_turn, 5_deg, 60_deg);
+  f.number("thesis_base_step_m", p.thesis.base_step, 20_mm, 2_m);
+  f.number("thesis_small_step_m", p.thesis.small_step, 10_mm, 1_m);
+  f.number("thesis_delta_deg", p.thesis.delta, 1_deg, 45_deg);
+  f.number("thesis_danger_range_m", p.thesis.danger_range, 50_mm, 5_m);
+  f.count("thesis_max_steps", p.thesis.max_steps, 1, 1000000);
+
+  f.number("motion_settle_s", p.motion.settle, 20_ms, 1000_ms);
+  f.number("turn_tolerance_deg", p.motion.turn_tolerance, 0_deg, 10_deg);
+  f.number("drive_tolerance_m", p.motion.drive_tolerance, 0_mm, 50_mm);
+
+  f.number("control_period_s", p.safety.period, 5_ms, 50_ms);
+  f.number("max_tick_gap_s", p.safety.max_gap, 10_ms, 1000_ms);
+  f.number("lost_after_s", p.safety.lost_after, 50_ms, 10000_ms);
+  f.count("max_drive_refusals", p.safety.max_refusals, 1, 1000);
+}
+
+/// The first fault found; ParamFault::none for a set that the core accepts.
+ParamFault check(const Params& params) noexcept;
+
+}  // namespace whisker

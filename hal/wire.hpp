@@ -1,0 +1,46 @@
+/// The values that cross the hardware boundary. They are integers of the width that a bus
+/// carries, so that a robot behind a bus gets exactly the bits that a robot on a board gets.
+#pragma once
+
+#include <stdint.h>
+
+namespace whisker::hal {
+
+enum class RangeStatus : uint8_t {
+  ok,        ///< mm is a distance
+  clear,     ///< healthy, and nothing within the maximum range; mm is not used
+  too_near,  ///< something nearer than the minimum range; mm is not used
+  invalid,   ///< the reading is lost; mm is not used
+  stale,     ///< the sensor has no new reading; mm is not used
+};
+
+/// One rangefinder's latest measurement.
+struct RangeReading {
+  uint16_t mm;  ///< distance from the sensor's apex, mm; 0..65533
+  RangeStatus status;
+  uint8_t age_ms;    ///< time since the distance was true, ms; 255 means 255 or more
+  uint8_t sequence;  ///< goes up by one with every new measurement, modulo 16
+};
+
+constexpr int kBeams = 3;
+enum Beam : int { kLeft = 0, kFront = 1, kRight = 2 };
+
+struct RangeReadings {
+  RangeReading beam[kBeams];  ///< indexed by Beam
+};
+
+/// Wheel rim speeds, 0.1 mm/s, forward positive; +-3.2767 m/s.
+struct WheelSpeeds {
+  int16_t left;
+  int16_t right;
+};
+
+/// Encoder counts since power-up, modulo 2^24, forward positive.
+struct EncoderCounts {
+  uint32_t left;
+  uint32_t right;
+};
+
+constexpr uint32_t kEncoderModulus = UINT32_C(1) << 24;
+
+}  // namespace whisker::hal

@@ -1,0 +1,41 @@
+/// What a run leaves behind: one record per control tick, and the verdict.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "firmware/nav/state.hpp"
+#include "hal/wire.hpp"
+
+namespace whisker {
+
+struct TickRecord {
+  double t_s = 0;
+  double x_m = 0, y_m = 0, heading_rad = 0;  ///< true pose
+  hal::RangeReadings ranges{};               ///< as measured, by hal::Beam
+  double v_left_mps = 0, v_right_mps = 0;    ///< true wheel speeds
+  nav::Mode mode = nav::Mode::idle;
+  nav::Why why = nav::Why::none;
+  std::uint8_t danger_count = 0;                         ///< the thesis's t
+  bool looked = false;                                   ///< a decision was taken from a look at this tick
+  std::int16_t d_q7 = 0, r_q7 = 0;                       ///< fuzzy inputs last used, 1/128
+  std::int16_t sa_q14 = 0, sd_q14 = 0;                   ///< fuzzy outputs last used, 1/16384
+  hal::WheelSpeeds command{};                            ///< 0.1 mm/s
+  double est_x_m = 0, est_y_m = 0, est_heading_rad = 0;  ///< the core's own estimate
+};
+
+enum class Verdict { reached, unreachable, gave_up, contact, fault };
+
+struct RunResult {
+  Verdict verdict = Verdict::gave_up;
+  std::string detail;  ///< a few words: which fault, which limit
+  double time_s = 0;
+  double path_m = 0;            ///< true length driven by the body's centre
+  double final_distance_m = 0;  ///< true distance from the goal
+  double min_clearance_m = 0;   ///< smallest true gap between body and obstacle; <= 0 at a contact
+  std::uint64_t ticks = 0;
+  std::uint64_t hash = 0;  ///< FNV-1a 64 over every tick's wheel command
+};
+
+}  // namespace whisker

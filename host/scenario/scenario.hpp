@@ -1,0 +1,55 @@
+/// What a scenario file says, in SI units. docs/scenario.md describes the file.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/params.hpp"
+#include "host/sim/geometry.hpp"
+
+namespace whisker {
+
+struct Goal {
+  sim::Vec2 at;
+  double tolerance_m = 0.10;
+};
+
+struct Bounds {
+  sim::Vec2 min;
+  sim::Vec2 max;
+};
+
+/// A disc that moves along a polyline at constant speed, there and back for ever.
+struct Mover {
+  sim::Vec2 center;  ///< where it is at time 0; a point of the path
+  double radius_m = 0;
+  std::vector<sim::Vec2> path;
+  double speed_mps = 0;
+};
+
+struct Noise {
+  double range_sigma_m = 0;
+  double range_dropout = 0;      ///< probability that a reading is lost and says so
+  double range_false_clear = 0;  ///< probability that a reading wrongly says that nothing is there
+  double wheel_scale_sigma = 0;  ///< relative error of each wheel's encoder, drawn once a run
+  double heading_drift_deg_per_sqrt_m = 0;
+};
+
+struct Scenario {
+  std::string name;
+  std::uint64_t seed = 1;  ///< of the noise
+  double time_limit_s = 600;
+  sim::Pose start;  ///< heading towards the goal unless the file gives one
+  Goal goal;
+  std::optional<Bounds> bounds;  ///< the free world lies inside
+  std::vector<sim::Disc> discs;
+  std::vector<std::vector<sim::Vec2>> polygons;  ///< solid
+  std::vector<std::vector<sim::Vec2>> walls;     ///< polylines of zero thickness
+  std::vector<Mover> movers;
+  Noise noise;
+  Params robot;
+};
+
+}  // namespace whisker
