@@ -39,10 +39,13 @@ ParamFault check(const Params& p) noexcept {
   }
   if (p.thesis.danger_range <= p.body.radius + p.body.margin) return ParamFault::danger_inside_body;
   if (p.thesis.small_step > p.thesis.base_step) return ParamFault::steps_reversed;
-  if (stopping_distance(p) > p.rangefinders.max_range / 4) return ParamFault::stop_longer_than_margin;
+  if (stopping_distance(p) > p.rangefinders.max_range / 4) return ParamFault::stop_longer_than_range;
   const Duration between = milliseconds(1000 / p.rangefinders.rate_hz) + p.rangefinders.latency;
   if (p.conditioning.stale_after <= between) return ParamFault::stale_before_next_reading;
   if (p.safety.lost_after < p.conditioning.stale_after) return ParamFault::lost_before_stale;
+  const Length count = millimetres(1000) / p.wheels.counts_per_metre;
+  const Length turn_way = arc(p.motion.turn_tolerance, p.body.track / 2);
+  if (p.motion.drive_tolerance < count || turn_way < count) return ParamFault::tolerance_below_encoder;
   if (p.safety.max_gap < p.safety.period * 2) return ParamFault::gap_below_period;
   return ParamFault::none;
 }

@@ -66,16 +66,17 @@ struct ThesisParams {
 };
 
 struct MotionParams {
-  Duration settle = 120_ms;  ///< time constant of the approach to a stop
+  Duration settle = 80_ms;  ///< time constant of the approach to a stop
   Angle turn_tolerance = 1_deg;
   Length drive_tolerance = 2_mm;
 };
 
 struct SafetyParams {
-  Duration period = 10_ms;        ///< of tick(): the control period
-  Duration max_gap = 100_ms;      ///< between two ticks; above: the clock jumped
-  Duration lost_after = 1000_ms;  ///< a beam lost for this long stops the robot for good
-  int32_t max_refusals = 5;       ///< of the drive, in a row
+  Duration period = 10_ms;           ///< of tick(): the control period
+  Duration max_gap = 100_ms;         ///< between two ticks; above: the clock jumped
+  Duration lost_after = 1000_ms;     ///< a beam lost for this long stops the robot for good
+  Duration stalled_after = 2000_ms;  ///< commanded to move without a count for this long: a fault
+  int32_t max_refusals = 5;          ///< of the drive, in a row
 };
 
 struct Params {
@@ -97,9 +98,10 @@ enum class ParamFault : uint8_t {
   cones_apart_from_front,     ///< side_angle + cone / 2 <= 90 degrees
   danger_inside_body,         ///< danger_range > radius + margin
   steps_reversed,             ///< small_step <= base_step
-  stop_longer_than_margin,    ///< what the body needs to stop from full speed <= max_range / 4
+  stop_longer_than_range,     ///< what the body needs to stop from full speed <= max_range / 4
   stale_before_next_reading,  ///< stale_after > 1 / rate + latency
   lost_before_stale,          ///< lost_after >= stale_after
+  tolerance_below_encoder,    ///< drive_tolerance and the rim's way at turn_tolerance >= one count
   gap_below_period,           ///< max_gap >= 2 period
 };
 
@@ -144,12 +146,13 @@ constexpr void for_each_param(P& p, F&& f) {
   f.count("thesis_max_steps", p.thesis.max_steps, 1, 1000000);
 
   f.number("motion_settle_s", p.motion.settle, 20_ms, 1000_ms);
-  f.number("turn_tolerance_deg", p.motion.turn_tolerance, 0_deg, 10_deg);
-  f.number("drive_tolerance_m", p.motion.drive_tolerance, 0_mm, 50_mm);
+  f.number("turn_tolerance_deg", p.motion.turn_tolerance, Angle::turns(1, 3600), 10_deg);
+  f.number("drive_tolerance_m", p.motion.drive_tolerance, 1_mm, 50_mm);
 
   f.number("control_period_s", p.safety.period, 5_ms, 50_ms);
   f.number("max_tick_gap_s", p.safety.max_gap, 10_ms, 1000_ms);
   f.number("lost_after_s", p.safety.lost_after, 50_ms, 10000_ms);
+  f.number("wheels_stalled_after_s", p.safety.stalled_after, 200_ms, 10000_ms);
   f.count("max_drive_refusals", p.safety.max_refusals, 1, 1000);
 }
 

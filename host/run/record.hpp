@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/fuzzy/response.hpp"
 #include "firmware/nav/state.hpp"
 #include "hal/wire.hpp"
 
@@ -21,6 +22,7 @@ struct TickRecord {
   bool looked = false;                                   ///< a decision was taken from a look at this tick
   std::int16_t d_q7 = 0, r_q7 = 0;                       ///< fuzzy inputs last used, 1/128
   std::int16_t sa_q14 = 0, sd_q14 = 0;                   ///< fuzzy outputs last used, 1/16384
+  fuzzy::Cell cell{};                                    ///< of the response table, last used
   hal::WheelSpeeds command{};                            ///< 0.1 mm/s
   double est_x_m = 0, est_y_m = 0, est_heading_rad = 0;  ///< the core's own estimate
 };

@@ -1,0 +1,18 @@
+#include "firmware/health.hpp"
+
+namespace whisker {
+
+const char* name(Fault fault) noexcept {
+  switch (fault) {
+    case Fault::none: return "none";
+    case Fault::invalid_params: return "invalid_params";
+    case Fault::clock_jump: return "clock_jump";
+    case Fault::range_lost: return "range_lost";
+    case Fault::drive_refused: return "drive_refused";
+    case Fault::encoder_jump: return "encoder_jump";
+    case Fault::wheels_stalled: return "wheels_stalled";
+  }
+  return "?";
+}
+
+}  // namespace whisker

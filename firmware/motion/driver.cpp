@@ -1,0 +1,65 @@
+#include "firmware/motion/driver.hpp"
+
+namespace whisker::motion {
+namespace {
+
+/// The highest speed from which `rest` is enough to stop: v with v^2 / 2a + v * settle = rest.
+Speed approach_speed(Length rest, const Params& params) noexcept {
+  if (rest <= Length{}) return Speed{};
+  const int64_t a = params.wheels.max_acceleration.raw();
+  const int64_t lead = (params.wheels.max_acceleration * params.motion.settle).raw();
+  const uint32_t root = square_root(static_cast<uint64_t>(lead * lead + 2 * a * rest.raw()));
+  return Speed::from_raw(saturate32(static_cast<int64_t>(root) - lead));
+}
+
+Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noexcept {
+  const Speed v = min(approach_speed(abs(rest), params), limit_speed);
+  return rest < Length{} ? -v : v;
+}
+
+}  // namespace
+
+void Driver::begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept {
+  if (manoeuvre.kind == Kind::keep) return;
+  current_ = manoeuvre;
+  origin_ = pose.at;
+  finished_ = manoeuvre.kind == Kind::stop;
+  still_ticks_ = 0;
+  stalled_ticks_ = 0;
+}
+
+WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
+  if (finished_) return {};
+  const Length half_track = params.body.track / 2;
+  const Angle error = current_.heading - pose.heading;
+  const Speed turn_limit = min(params.wheels.max_speed, params.wheels.max_turn_rate * half_track);
+  if (current_.kind == Kind::turn) {
+    if (magnitude(error) <= params.motion.turn_tolerance.raw()) {
+      finished_ = true;
+      return {};
+    }
+    return mix(Speed{}, signed_approach(arc(error, half_track), turn_limit, params), params.wheels.max_speed);
+  }
+  const Length rest = current_.length - along(pose.at - origin_, current_.heading);
+  if (rest <= params.motion.drive_tolerance) {
+    finished_ = true;
+    return {};
+  }
+  const Speed forward = min(approach_speed(rest, params), params.wheels.max_speed);
+  const Speed correction = signed_approach(arc(error, half_track), turn_limit, params);
+  // Half the forward speed at most, so that the correction bends the path and never reverses a wheel.
+  return mix(forward, limit(correction, forward / 2), params.wheels.max_speed);
+}
+
+WheelPair Driver::step(const Pose& pose, CountStep counts, bool paused, const Params& params) noexcept {
+  const WheelPair want = paused ? WheelPair{} : target(pose, params);
+  speeds_ = slew(speeds_, want, params.wheels.max_acceleration * params.safety.period);
+
+  const bool still = counts.left == 0 && counts.right == 0;
+  const bool commanded = speeds_.left != Speed{} || speeds_.right != Speed{};
+  still_ticks_ = still && !commanded ? still_ticks_ + (still_ticks_ < kStillTicks ? 1 : 0) : 0;
+  stalled_ticks_ = still && commanded ? stalled_ticks_ + (stalled_ticks_ < INT32_MAX ? 1 : 0) : 0;
+  return speeds_;
+}
+
+}  // namespace whisker::motion

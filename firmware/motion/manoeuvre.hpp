@@ -1,0 +1,24 @@
+/// What navigation asks of motion: one of these at a time.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/core/angle.hpp"
+#include "firmware/core/units.hpp"
+
+namespace whisker::motion {
+
+enum class Kind : uint8_t {
+  keep,   ///< go on with the one under way
+  stop,   ///< come to rest as fast as the acceleration limit allows, and stand
+  turn,   ///< turn on the spot to `heading`, the shorter way
+  drive,  ///< drive `length` straight along `heading`, and stand
+};
+
+struct Manoeuvre {
+  Kind kind = Kind::keep;
+  Angle heading;
+  Length length;
+};
+
+}  // namespace whisker::motion

@@ -1,0 +1,52 @@
+/// The seam between what the robot knows and what it does next.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/core/trig.hpp"
+#include "firmware/fuzzy/engine.hpp"
+#include "firmware/motion/manoeuvre.hpp"
+#include "firmware/nav/state.hpp"
+#include "firmware/ranges/echo.hpp"
+
+namespace whisker::nav {
+
+struct Goal {
+  Vec at;
+  Length tolerance;
+};
+
+/// What a planner sees at a tick.
+struct View {
+  Pose pose;            ///< the body's own estimate
+  bool settled = true;  ///< the last manoeuvre is over and the body stands
+  ranges::Echoes look;  ///< consensus of the readings taken since the body stood; pending until then
+};
+
+enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };
+
+/// What it wants, and why.
+struct Decision {
+  motion::Manoeuvre manoeuvre;  ///< Kind::keep: go on
+  Mode mode = Mode::idle;
+  Why why = Why::none;
+  Outcome outcome = Outcome::none;
+  uint8_t danger_count = 0;  ///< the thesis's t: positions since the target direction was last free
+  bool looked = false;       ///< this tick's decision used the look
+  fuzzy::Inputs inputs;      ///< of the response table, as last used
+  fuzzy::Response response;
+};
+
+/// A planner is called once a tick, never blocks, and keeps its last mode, why and outcome until they
+/// change. set_goal and cancel may come at any time; the next step() answers them.
+class Planner {
+ public:
+  virtual void set_goal(const Goal& goal) noexcept = 0;
+  virtual void cancel() noexcept = 0;
+  virtual Decision step(const View& view) noexcept = 0;
+
+ protected:
+  ~Planner() = default;
+};
+
+}  // namespace whisker::nav

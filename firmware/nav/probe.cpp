@@ -1,0 +1,42 @@
+#include "firmware/nav/probe.hpp"
+
+namespace whisker::nav {
+namespace {
+
+/// The distance of a point from the way from the origin to (step, 0).
+Length gap(Vec point, Length step) noexcept {
+  if (point.x < Length{}) return norm(point);
+  if (point.x <= step) return abs(point.y);
+  return norm({point.x - step, point.y});
+}
+
+}  // namespace
+
+void Probe::configure(const Params& params) noexcept {
+  const RangefinderParams& r = params.rangefinders;
+  reach_ = params.body.radius + params.body.margin;
+  const Vec apex = polar(r.side_angle, r.offset);
+  side_apex_x_ = apex.x;
+  side_apex_y_ = apex.y;
+  front_apex_ = r.offset;
+  const uint32_t half_cone = r.cone.raw() / 2;
+  const bool overlaps_ahead = half_cone >= r.side_angle.raw();
+  const Angle inner = overlaps_ahead ? Angle{} : r.side_angle - Angle::from_raw(half_cone);
+  inner_cos_ = cos(inner);
+  inner_sin_ = sin(inner);
+}
+
+bool Probe::free(const ranges::Echoes& look, Length step) const noexcept {
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const ranges::Echo& echo = look.beam[i];
+    if (!ranges::usable(echo.validity)) return false;
+    if (echo.validity == ranges::Validity::clear) continue;
+    const Vec nearest = i == hal::kFront ? Vec{front_apex_ + echo.distance, Length{}}
+                                         : Vec{side_apex_x_ + echo.distance * inner_cos_,
+                                               side_apex_y_ + echo.distance * inner_sin_};
+    if (gap(nearest, step) < reach_) return false;
+  }
+  return true;
+}
+
+}  // namespace whisker::nav

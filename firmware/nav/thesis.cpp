@@ -1,0 +1,231 @@
+#include "firmware/nav/thesis.hpp"
+
+namespace whisker::nav {
+namespace {
+
+/// How far an exit search turns to each side; both together leave out what lies behind.
+constexpr uint32_t kSearchLimit = (150_deg).raw();
+
+/// A position counts as the goal only well inside the tolerance: the estimate has its own error.
+Length close_enough(Length tolerance) noexcept { return tolerance - tolerance / 8; }
+
+}  // namespace
+
+ThesisPlanner::ThesisPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept
+    : params_(params), engine_(table) {
+  probe_.configure(params);
+}
+
+void ThesisPlanner::set_goal(const Goal& goal) noexcept {
+  goal_ = goal;
+  request_ = Request::goal;
+}
+
+void ThesisPlanner::cancel() noexcept { request_ = Request::cancel; }
+
+Decision ThesisPlanner::step(const View& view) noexcept {
+  decision_.manoeuvre = {};
+  decision_.looked = false;
+  switch (request_) {
+    case Request::none:
+      if (phase_ != Phase::rest && view.settled) decide(view);
+      break;
+    case Request::goal:
+      phase_ = Phase::at_position;
+      steps_ = 0;
+      decision_ = Decision{};
+      decision_.mode = Mode::facing;
+      decision_.why = Why::goal_set;
+      decision_.outcome = Outcome::running;
+      decision_.manoeuvre.kind = motion::Kind::stop;
+      break;
+    case Request::cancel:
+      finish(Mode::idle, Why::cancelled, Outcome::none);
+      decision_.manoeuvre.kind = motion::Kind::stop;
+      break;
+  }
+  request_ = Request::none;
+  return decision_;
+}
+
+void ThesisPlanner::decide(const View& view) noexcept {
+  if (phase_ == Phase::at_position || phase_ == Phase::move) {
+    arrive_at_position(view);
+    return;
+  }
+  // Every other phase turned the body and now wants to see what lies ahead.
+  if (!ranges::usable(view.look)) {
+    if (decision_.mode == Mode::facing) decision_.mode = Mode::looking;
+    return;
+  }
+  decision_.looked = true;
+  switch (phase_) {
+    case Phase::face: choose(view); break;
+    case Phase::probe: probe(view); break;
+    case Phase::search_left:
+    case Phase::search_right: search(view); break;
+    case Phase::rest:
+    case Phase::at_position:
+    case Phase::move: break;
+  }
+}
+
+void ThesisPlanner::arrive_at_position(const View& view) noexcept {
+  const Vec to_goal = goal_.at - view.pose.at;
+  if (norm(to_goal) <= close_enough(goal_.tolerance)) {
+    finish(Mode::arrived, Why::at_goal, Outcome::reached);
+    return;
+  }
+  if (steps_ >= params_.thesis.max_steps) {
+    finish(Mode::gave_up, Why::step_budget, Outcome::gave_up);
+    return;
+  }
+  ++steps_;
+  target_ = bearing(to_goal);
+  phase_ = Phase::face;
+  decision_.mode = Mode::facing;
+  turn_to(target_);
+}
+
+void ThesisPlanner::choose(const View& view) noexcept {
+  const Length distance = norm(goal_.at - view.pose.at);
+  const Length reach = params_.body.radius + params_.body.margin;
+  const bool target_free = probe_.free(view.look, min(params_.thesis.danger_range - reach, distance));
+  if (target_free) {
+    steer(view, distance);
+  } else {
+    follow_danger(view);
+  }
+}
+
+void ThesisPlanner::steer(const View& view, Length distance) noexcept {
+  const ranges::Echo* const beam = view.look.beam;
+  const Length left = beam[hal::kLeft].distance;
+  const Length front = beam[hal::kFront].distance;
+  const Length right = beam[hal::kRight].distance;
+  decision_.danger_count = 0;
+  decision_.inputs =
+      fuzzy::scale(left, front, right, params_.rangefinders.max_range, params_.thesis.distance_source);
+  decision_.response = engine_(decision_.inputs);
+  planned_ = min(params_.thesis.base_step * decision_.response.step, distance);
+
+  const Angle turn = front >= distance ? Angle{} : scaled(params_.thesis.base_turn, decision_.response.turn);
+  base_ = target_ + turn;
+  deflections_ = 0;
+  // Deflect the way the table leans; where it does not, to the side with more room.
+  const int32_t lean = turn.wrapped();
+  if (lean != 0) {
+    side_ = lean > 0 ? 1 : -1;
+  } else if (left != right) {
+    side_ = left > right ? 1 : -1;
+  }
+  if (lean == 0) {
+    decision_.why = Why::target_free;
+    probe(view);
+    return;
+  }
+  decision_.mode = Mode::steering;
+  decision_.why = Why::table;
+  phase_ = Phase::probe;
+  turn_to(base_);
+}
+
+void ThesisPlanner::follow_danger(const View& view) noexcept {
+  base_ = target_;
+  planned_ = params_.thesis.small_step;
+  if (decision_.danger_count == 0) {
+    decision_.danger_count = 1;
+    decision_.mode = Mode::searching;
+    decision_.why = Why::target_blocked;
+    exit_left_ = 0;
+    deflections_ = 0;
+    side_ = 1;
+    deflect(Phase::search_left);
+    return;
+  }
+  if (decision_.danger_count != UINT8_MAX) ++decision_.danger_count;
+  decision_.why = Why::same_side;
+  deflections_ = 0;
+  probe(view);
+}
+
+void ThesisPlanner::probe(const View& view) noexcept {
+  if (probe_.free(view.look, planned_)) {
+    drive(planned_);
+    return;
+  }
+  if (static_cast<uint64_t>(deflections_ + 1) * params_.thesis.delta.raw() >= (UINT64_C(1) << 32)) {
+    finish(Mode::gave_up, Why::no_exit, Outcome::gave_up);
+    return;
+  }
+  decision_.mode = Mode::probing;
+  if (decision_.danger_count == 0) decision_.why = Why::narrow;
+  deflect(Phase::probe);
+}
+
+void ThesisPlanner::search(const View& view) noexcept {
+  const bool left = phase_ == Phase::search_left;
+  if (probe_.free(view.look, planned_)) {
+    if (!left) {
+      take_exit(-1, Why::exit_right);
+      return;
+    }
+    exit_left_ = deflections_;
+  }
+  // The right side is worth a look only below the turn that the left side needs.
+  const uint64_t limit = left || exit_left_ == 0
+                             ? uint64_t{kSearchLimit}
+                             : static_cast<uint64_t>(exit_left_ - 1) * params_.thesis.delta.raw();
+  const uint64_t next = static_cast<uint64_t>(deflections_ + 1) * params_.thesis.delta.raw();
+  if ((!left || exit_left_ == 0) && next <= limit) {
+    deflect(phase_);
+    return;
+  }
+  if (left && exit_left_ != 1) {
+    deflections_ = 0;
+    side_ = -1;
+    deflect(Phase::search_right);
+    return;
+  }
+  if (exit_left_ == 0) {
+    finish(Mode::gave_up, Why::no_exit, Outcome::gave_up);
+    return;
+  }
+  deflections_ = exit_left_;
+  take_exit(1, Why::exit_left);
+}
+
+void ThesisPlanner::take_exit(int32_t side, Why why) noexcept {
+  side_ = side;
+  decision_.why = why;
+  phase_ = Phase::probe;
+  turn_to(base_ + deflection());
+}
+
+Angle ThesisPlanner::deflection() const noexcept { return params_.thesis.delta * (deflections_ * side_); }
+
+void ThesisPlanner::deflect(Phase phase) noexcept {
+  phase_ = phase;
+  ++deflections_;
+  turn_to(base_ + deflection());
+}
+
+void ThesisPlanner::turn_to(Angle heading) noexcept {
+  decision_.manoeuvre = {motion::Kind::turn, heading, Length{}};
+}
+
+void ThesisPlanner::drive(Length length) noexcept {
+  phase_ = Phase::move;
+  decision_.mode = decision_.danger_count == 0 ? Mode::stepping : Mode::skirting;
+  decision_.manoeuvre = {motion::Kind::drive, base_ + deflection(), length};
+}
+
+void ThesisPlanner::finish(Mode mode, Why why, Outcome outcome) noexcept {
+  phase_ = Phase::rest;
+  decision_.mode = mode;
+  decision_.why = why;
+  decision_.outcome = outcome;
+  decision_.danger_count = 0;
+}
+
+}  // namespace whisker::nav

@@ -1,0 +1,75 @@
+/// From raw readings to echoes: one sensor's history, its age, and its health.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/core/angle.hpp"
+#include "firmware/core/units.hpp"
+#include "firmware/health.hpp"
+#include "firmware/params.hpp"
+#include "firmware/ranges/echo.hpp"
+#include "hal/wire.hpp"
+
+namespace whisker::ranges {
+
+/// One beam. Keeps the last usable measurements; a lost one is counted and never stored, so that it
+/// can neither stand for "far" nor vote.
+class BeamConditioner {
+ public:
+  static constexpr int kHistory = 5;  ///< the largest ConditioningParams::reads
+
+  /// Takes the reading that the HAL shows at this tick; one already seen (same sequence) only ages.
+  /// heading: the body's, to tell a stuck sensor from a quiet world.
+  void update(const hal::RangeReading& reading, Time now, Angle heading, const Params& params,
+              Health& health) noexcept;
+  /// The HAL had nothing to show.
+  void miss(Time now, const Params& params, Health& health) noexcept;
+
+  /// The consensus of the measurements taken at or after `since`.
+  Echo look(Time since, const Params& params) const noexcept;
+  /// The latest measurement by itself, fit for watching, not for planning.
+  Echo latest() const noexcept { return latest_; }
+  /// How long ago the last usable measurement arrived.
+  Duration lost_for(Time now) const noexcept { return now - last_usable_; }
+  /// Forgets everything; the beam is pending and, from `now`, not yet lost.
+  void reset(Time now) noexcept;
+
+ private:
+  struct Measurement {
+    Length distance;
+    Time taken;
+    Validity validity = Validity::pending;
+  };
+  Validity classify(const hal::RangeReading& reading, Angle heading, const Params& params,
+                    Health& health) noexcept;
+  bool is_stuck(const hal::RangeReading& reading, Angle heading, Angle stuck_turn) noexcept;
+  void age(Time now, const Params& params, Health& health) noexcept;
+
+  Measurement history_[kHistory];
+  int8_t count_ = 0;
+  int8_t newest_ = 0;
+  Echo latest_;
+  Time last_new_;
+  Time last_usable_;
+  uint16_t repeated_mm_ = 0;
+  bool repeating_ = false;
+  Angle repeated_since_;
+  uint8_t sequence_ = 0xFF;
+};
+
+class Conditioner {
+ public:
+  void reset(Time now) noexcept;
+  /// readings == nullptr: the HAL refused.
+  void update(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
+              Health& health) noexcept;
+  Echoes look(Time since, const Params& params) const noexcept;
+  Echoes latest() const noexcept;
+  /// The longest time for which some beam has had no usable measurement.
+  Duration lost_for(Time now) const noexcept;
+
+ private:
+  BeamConditioner beam_[hal::kBeams];
+};
+
+}  // namespace whisker::ranges

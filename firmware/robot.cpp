@@ -1,0 +1,139 @@
+#include "firmware/robot.hpp"
+
+namespace whisker {
+
+Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& planner,
+             const Params& params) noexcept
+    : rangefinders_(rangefinders), drive_(drive), planner_(planner), params_(params) {
+  if (check(params) != ParamFault::none) {
+    fail(Fault::invalid_params);
+    return;
+  }
+  odometry_.configure(params);
+}
+
+void Robot::place(const Pose& pose) noexcept {
+  odometry_.place(pose);
+  status_.pose = pose;
+}
+
+void Robot::set_goal(const nav::Goal& goal) noexcept { planner_.set_goal(goal); }
+
+void Robot::cancel() noexcept { planner_.cancel(); }
+
+void Robot::reset() noexcept {
+  status_.health.fault = check(params_) == ParamFault::none ? Fault::none : Fault::invalid_params;
+  started_ = false;
+  drive_refusals_ = 0;
+  encoder_refusals_ = 0;
+  was_settled_ = false;
+  driver_.begin({motion::Kind::stop, {}, {}}, status_.pose);
+  planner_.cancel();
+}
+
+const Status& Robot::tick(Time now) noexcept {
+  if (status_.health.fault == Fault::invalid_params) {
+    status_.command = {};
+    if (!drive_.command(status_.command)) count(status_.health.drive_refused);
+    return status_;
+  }
+  check_clock(now);
+  sense(now);
+  const motion::CountStep counts = measure();
+  if (driver_.settled() && !was_settled_) settled_since_ = now;
+  was_settled_ = driver_.settled();
+  navigate();
+  drive(counts);
+  return status_;
+}
+
+void Robot::check_clock(Time now) noexcept {
+  if (!started_) {
+    started_ = true;
+    conditioner_.reset(now);
+    settled_since_ = now;
+  } else {
+    const Duration gap = now - last_tick_;
+    if (gap <= Duration{} || gap > params_.safety.max_gap) {
+      count(status_.health.clock_jumps);
+      fail(Fault::clock_jump);
+    } else if (gap > params_.safety.period + params_.safety.period / 2) {
+      count(status_.health.late_ticks);
+    }
+  }
+  last_tick_ = now;
+}
+
+void Robot::sense(Time now) noexcept {
+  hal::RangeReadings readings;
+  const bool read = rangefinders_.read(readings);
+  if (!read) count(status_.health.range_refused);
+  conditioner_.update(read ? &readings : nullptr, now, odometry_.pose().heading, params_, status_.health);
+  status_.echoes = conditioner_.latest();
+  const Duration lost = conditioner_.lost_for(now);
+  beams_fresh_ = lost <= params_.conditioning.stale_after;
+  if (lost > params_.safety.lost_after) fail(Fault::range_lost);
+}
+
+motion::CountStep Robot::measure() noexcept {
+  motion::CountStep step;
+  hal::EncoderCounts counts{};
+  if (!drive_.read(counts)) {
+    count(status_.health.encoder_refused);
+    if (++encoder_refusals_ >= params_.safety.max_refusals) fail(Fault::drive_refused);
+    return step;
+  }
+  encoder_refusals_ = 0;
+  if (!odometry_.update(counts, step)) {
+    count(status_.health.encoder_jumps);
+    fail(Fault::encoder_jump);
+    step = {};
+  }
+  status_.pose = odometry_.pose();
+  return step;
+}
+
+void Robot::navigate() noexcept {
+  if (faulted()) return;
+  const bool settled = driver_.settled();
+  nav::View view{status_.pose, settled, {}};
+  if (settled) view.look = conditioner_.look(settled_since_, params_);
+  status_.decision = planner_.step(view);
+  driver_.begin(status_.decision.manoeuvre, status_.pose);
+  if (!beams_fresh_ && status_.decision.outcome == nav::Outcome::running) {
+    status_.decision.why = nav::Why::blind;
+  }
+}
+
+void Robot::drive(motion::CountStep counts) noexcept {
+  const bool paused = faulted() || !beams_fresh_ || drive_refusals_ > 0;
+  const motion::WheelPair speeds = driver_.step(status_.pose, counts, paused, params_);
+  if (params_.safety.period * driver_.stalled_ticks() > params_.safety.stalled_after) {
+    count(status_.health.wheel_stalls);
+    fail(Fault::wheels_stalled);
+  }
+  status_.command = motion::to_wire(speeds);
+  if (drive_.command(status_.command)) {
+    drive_refusals_ = 0;
+    return;
+  }
+  count(status_.health.drive_refused);
+  driver_.halt();
+  status_.command = {};
+  if (++drive_refusals_ >= params_.safety.max_refusals) fail(Fault::drive_refused);
+}
+
+void Robot::show_fault() noexcept {
+  status_.decision.manoeuvre = {};
+  status_.decision.mode = nav::Mode::stopped;
+  status_.decision.why = nav::Why::fault;
+  status_.decision.looked = false;
+}
+
+void Robot::fail(Fault fault) noexcept {
+  if (faulted()) return;
+  status_.health.fault = fault;
+  show_fault();
+}
+
+}  // namespace whisker

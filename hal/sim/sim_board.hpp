@@ -1,0 +1,31 @@
+#pragma once
+
+#include "hal/drive.hpp"
+#include "hal/rangefinders.hpp"
+#include "host/sim/plant.hpp"
+
+namespace whisker::hal {
+
+/// The simulated robot as a board. Never refuses; tests wrap it to make it do so.
+class SimBoard final : public Rangefinders, public Drive {
+ public:
+  explicit SimBoard(sim::Plant& plant) noexcept : plant_(plant) {}
+
+  bool read(RangeReadings& out) noexcept override {
+    out = plant_.ranges();
+    return true;
+  }
+  bool read(EncoderCounts& out) noexcept override {
+    out = plant_.encoders();
+    return true;
+  }
+  bool command(WheelSpeeds speeds) noexcept override {
+    plant_.command(speeds);
+    return true;
+  }
+
+ private:
+  sim::Plant& plant_;
+};
+
+}  // namespace whisker::hal

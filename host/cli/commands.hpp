@@ -1,0 +1,13 @@
+/// One function a subcommand: it declares its options and, when chosen, runs and sets `status`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace whisker::cli {
+
+void add_run(CLI::App& app, int& status);
+void add_world(CLI::App& app, int& status);
+void add_table(CLI::App& app, int& status);
+void add_figures(CLI::App& app, int& status);
+
+}  // namespace whisker::cli

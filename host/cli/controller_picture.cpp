@@ -1,0 +1,73 @@
+#include "host/cli/controller_picture.hpp"
+
+#include <cmath>
+
+#include "firmware/fuzzy/engine.hpp"
+#include "firmware/fuzzy/rules.hpp"
+
+namespace whisker::cli {
+namespace {
+
+using namespace fuzzy;
+
+double value(Q7 x) { return x.raw() / 128.0; }
+double value(Q14 x) { return x.raw() / 16384.0; }
+Q7 q7(double x) { return Q7::from_raw(static_cast<std::int16_t>(std::lround(x * 128))); }
+
+report::Variable input(const char* symbol, const char* meaning, double min, double max,
+                       const char* const (&names)[kTerms], const std::int16_t (&centres)[kTerms]) {
+  report::Variable v{symbol, meaning, min, max, {}};
+  for (int i = 0; i < kTerms; ++i) v.terms.push_back({names[i], value(Q7::from_raw(centres[i]))});
+  return v;
+}
+
+std::string term_of(const report::Variable& v, double x) {
+  for (const report::Term& t : v.terms) {
+    if (t.centre == x) return t.name;
+  }
+  return {};
+}
+
+std::vector<std::vector<report::Rule>> picture_of(const Q14 (&rules)[kTerms][kTerms],
+                                                  const report::Variable& v) {
+  std::vector<std::vector<report::Rule>> rows;
+  for (const auto& line : rules) {
+    std::vector<report::Rule>& row = rows.emplace_back();
+    for (const Q14 q : line) row.push_back({term_of(v, value(q)), value(q)});
+  }
+  return rows;
+}
+
+}  // namespace
+
+report::FuzzyPicture controller_picture() {
+  using namespace turn_terms;
+  using namespace step_terms;
+  report::FuzzyPicture p;
+  p.d = input("D", "distance to the obstacles ahead", 0, 10, {"VS", "S", "M", "B", "VB"}, kDistanceCentres);
+  p.r =
+      input("R", "right distance minus left distance", -8, 8, {"RVB", "RB", "CE", "LB", "LVB"}, kBiasCentres);
+  p.sa = {"SA",
+          "turn factor, positive: turn left",
+          -1.5,
+          1.5,
+          {{"TRVB", value(TRVB)},
+           {"TRB", value(TRB)},
+           {"Z", value(Z)},
+           {"TLB", value(TLB)},
+           {"TLVB", value(TLVB)}}};
+  p.sd = {"SD",
+          "step factor",
+          0,
+          2,
+          {{"VS", value(VS)}, {"S", value(S)}, {"M", value(M)}, {"B", value(B)}, {"VB", value(VB)}}};
+  p.turn = picture_of(kRules.turn, p.sa);
+  p.step = picture_of(kRules.step, p.sd);
+  const auto at = [](double d, double r) { return Engine(kDefaultTable)({q7(d), q7(r)}); };
+  p.sa_at = [at](double d, double r) { return value(at(d, r).turn); };
+  p.sd_at = [at](double d, double r) { return value(at(d, r).step); };
+  p.source = kEngineName;
+  return p;
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "host/report/fuzzy_picture.hpp"
+
+namespace whisker::cli {
+
+/// The core's own rules and engine, as the pictures want them.
+report::FuzzyPicture controller_picture();
+
+}  // namespace whisker::cli

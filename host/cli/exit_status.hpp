@@ -1,0 +1,36 @@
+/// The exit statuses of the whisker command.
+#pragma once
+
+#include <stdexcept>
+
+#include "host/run/record.hpp"
+
+namespace whisker::cli {
+
+enum Exit : int {
+  kReached = 0,
+  kFailure = 1,   ///< anything else: a full disk, a bug
+  kBadInput = 2,  ///< a wrong file, a wrong option
+  kUnreachable = 3,
+  kGaveUp = 4,
+  kContact = 5,
+  kFault = 6,
+};
+
+/// The user's words cannot be followed; what() is the one line that says why.
+class UsageError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+constexpr int exit_status(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::reached: return kReached;
+    case Verdict::unreachable: return kUnreachable;
+    case Verdict::gave_up: return kGaveUp;
+    case Verdict::contact: return kContact;
+    case Verdict::fault: return kFault;
+  }
+  return kFailure;
+}
+
+}  // namespace whisker::cli

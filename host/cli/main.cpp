@@ -1,0 +1,64 @@
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/scenario/error.hpp"
+
+namespace {
+
+/// Errors are one line, whatever a library put into them.
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  return text;
+}
+
+constexpr const char* kFooter = R"(
+Exit status of run: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
+6 fault (safe stop), 2 bad input or usage, 1 anything else.
+
+First steps:
+  whisker world discs --seed 1 --out discs.toml
+  whisker run discs.toml --svg discs.svg --trace discs.csv
+  whisker table --svg table.svg)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace whisker::cli;
+  CLI::App app{"Whisker: a navigation core for small robots with three rangefinders, in a simulated world."};
+  app.name("whisker");
+  app.footer(kFooter);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "whisker " WHISKER_VERSION);
+  int status = kFailure;
+  add_run(app, status);
+  add_world(app, status);
+  add_table(app, status);
+  add_figures(app, status);
+  try {
+    app.parse(argc, argv);
+    return status;
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    fmt::print(stderr, "whisker: {} (see whisker --help)\n", one_line(e.what()));
+    return kBadInput;
+  } catch (const UsageError& e) {
+    fmt::print(stderr, "whisker: {}\n", one_line(e.what()));
+    return kBadInput;
+  } catch (const whisker::InputError& e) {
+    fmt::print(stderr, "{}\n", one_line(e.what()));
+    return kBadInput;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "whisker: {}\n", one_line(e.what()));
+    return kFailure;
+  }
+}

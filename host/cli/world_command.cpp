@@ -1,0 +1,51 @@
+#include <memory>
+#include <string>
+
+#include <fmt/core.h>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/output.hpp"
+#include "host/report/file.hpp"
+#include "host/scenario/write.hpp"
+#include "host/worlds/generate.hpp"
+
+namespace whisker::cli {
+namespace {
+
+struct Options {
+  std::string kind;
+  worlds::Options world;
+  std::string out;
+};
+
+int execute(const Options& o) {
+  check_outputs({o.out});
+  const std::string text = to_toml(worlds::generate(*worlds::kind_of(o.kind), o.world));
+  if (o.out.empty()) {
+    fmt::print("{}", text);
+  } else {
+    report::write_file(o.out, text);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_world(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("world", "Make a random scenario file");
+  const auto o = std::make_shared<Options>();
+  cmd->add_option("KIND", o->kind, "discs, poles, u-trap, spiral, maze, rooms or enclosed")
+      ->required()
+      ->check(CLI::IsMember({"discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed"}));
+  cmd->add_option("--seed", o->world.seed, "The same seed gives the same world everywhere")->required();
+  cmd->add_option("--discs", o->world.discs, "Number of discs (kind discs)")
+      ->check(CLI::Range(0, 200))
+      ->capture_default_str();
+  cmd->add_flag("--box", o->world.box, "A closed box around the discs (kind discs)");
+  cmd->add_flag("--noise", o->world.noise, "With the reference robot's sensor noise and odometry error");
+  cmd->add_option("--out", o->out, "File to write, instead of standard output");
+  cmd->callback([o, &status] { status = execute(*o); });
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,25 @@
+/// One run: the core drives the simulated robot until there is a verdict.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host/run/record.hpp"
+#include "host/scenario/scenario.hpp"
+
+namespace whisker {
+
+struct RunOptions {
+  std::optional<std::uint64_t> seed;           ///< of the noise, instead of the scenario's
+  std::vector<TickRecord>* records = nullptr;  ///< gets one record a tick, and one more at a contact
+  /// Called about once a simulated second with the simulated time and the distance left.
+  std::function<void(double time_s, double distance_m)> progress;
+};
+
+/// Deterministic: the same scenario and seed give the same hash on every machine.
+/// The scenario must be one that the loader accepts.
+RunResult run(const Scenario& scenario, const RunOptions& options = {});
+
+}  // namespace whisker

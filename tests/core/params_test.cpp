@@ -1,0 +1,102 @@
+#include "firmware/params.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace whisker {
+namespace {
+
+TEST(Params, TheDefaultsAreAccepted) { EXPECT_EQ(check(Params{}), ParamFault::none); }
+
+struct Broken {
+  ParamFault fault;
+  std::function<void(Params&)> apply;
+};
+
+TEST(Params, EveryRelationIsChecked) {
+  const Broken cases[] = {
+      {ParamFault::out_of_range, [](Params& p) { p.body.radius = Length{}; }},
+      {ParamFault::out_of_range, [](Params& p) { p.conditioning.consensus = static_cast<Consensus>(2); }},
+      {ParamFault::track_wider_than_body,
+       [](Params& p) { p.body.track = p.body.radius * 2 + micrometres(1); }},
+      {ParamFault::ranges_reversed,
+       [](Params& p) { p.rangefinders.min_range = p.rangefinders.max_range = 300_mm; }},
+      {ParamFault::cones_apart_from_front,
+       [](Params& p) {
+         p.rangefinders.side_angle = 80_deg;
+         p.rangefinders.cone = 30_deg;
+       }},
+      {ParamFault::danger_inside_body, [](Params& p) { p.thesis.danger_range = 120_mm; }},
+      {ParamFault::steps_reversed, [](Params& p) { p.thesis.small_step = 201_mm; }},
+      {ParamFault::stop_longer_than_range, [](Params& p) { p.wheels.max_acceleration = 50_mm_per_s2; }},
+      {ParamFault::stale_before_next_reading, [](Params& p) { p.conditioning.stale_after = 40_ms; }},
+      {ParamFault::lost_before_stale, [](Params& p) { p.safety.lost_after = 99_ms; }},
+      {ParamFault::tolerance_below_encoder, [](Params& p) { p.wheels.counts_per_metre = 400; }},
+      {ParamFault::tolerance_below_encoder,
+       [](Params& p) { p.motion.turn_tolerance = Angle::turns(1, 3600); }},
+      {ParamFault::gap_below_period, [](Params& p) { p.safety.max_gap = 19_ms; }},
+  };
+  std::set<ParamFault> seen;
+  for (const Broken& c : cases) {
+    Params p;
+    c.apply(p);
+    EXPECT_EQ(check(p), c.fault) << static_cast<int>(c.fault);
+    seen.insert(c.fault);
+  }
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::gap_below_period));
+}
+
+/// Puts the field number `wanted` just outside its range, low or high, and remembers its key.
+struct PushOut {
+  int wanted;
+  bool high;
+  int index = 0;
+  std::string key;
+  template <class Tag>
+  void number(const char* k, Unit<Tag>& x, Unit<Tag> low, Unit<Tag> top) {
+    if (index++ != wanted) return;
+    key = k;
+    x = high ? top + Unit<Tag>::from_raw(1) : low - Unit<Tag>::from_raw(1);
+  }
+  void number(const char* k, Angle& x, Angle low, Angle top) {
+    if (index++ != wanted) return;
+    key = k;
+    x = high ? top + Angle::from_raw(1) : low - Angle::from_raw(1);
+  }
+  void count(const char* k, std::int32_t& x, std::int32_t low, std::int32_t top) {
+    if (index++ != wanted) return;
+    key = k;
+    x = high ? top + 1 : low - 1;
+  }
+  template <class E>
+  void choice(const char* k, E& x, const char* const*, int names) {
+    if (index++ != wanted) return;
+    key = k;
+    x = static_cast<E>(names);
+  }
+};
+
+TEST(Params, EveryFieldHasARangeAtBothEndsAndAKeyOfItsOwn) {
+  Params counted;
+  PushOut counter{-1, false, 0, {}};
+  for_each_param(counted, counter);
+  std::set<std::string> keys;
+  for (int i = 0; i < counter.index; ++i) {
+    for (const bool high : {false, true}) {
+      Params p;
+      PushOut push{i, high, 0, {}};
+      for_each_param(p, push);
+      EXPECT_EQ(check(p), ParamFault::out_of_range) << push.key << (high ? " high" : " low");
+      keys.insert(push.key);
+    }
+  }
+  EXPECT_EQ(keys.size(), static_cast<std::size_t>(counter.index));
+  EXPECT_GE(counter.index, 30);
+}
+
+}  // namespace
+}  // namespace whisker

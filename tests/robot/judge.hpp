@@ -1,0 +1,20 @@
+/// An outside judge of a run: re-checks contact, speed limits and rolling from the records alone, with
+/// geometry of its own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/run/record.hpp"
+#include "host/scenario/scenario.hpp"
+
+namespace whisker::test {
+
+struct Ruling {
+  std::string complaint;       ///< empty: nothing to object to
+  double min_clearance_m = 0;  ///< over the records
+};
+
+Ruling judge(const Scenario& scenario, const std::vector<TickRecord>& records, const RunResult& result);
+
+}  // namespace whisker::test
