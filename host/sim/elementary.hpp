@@ -23,7 +23,7 @@ struct SinCos {
   double cos;
 };
 
-/// |x| <= 1e6 rad; absolute error of each < 1.5e-16 (2^-53 is 1.1e-16).
+/// |x| <= 1e6 rad; absolute error of each < 2e-16 (2^-53 is 1.1e-16).
 SinCos sin_cos(double x);
 
 /// The angle of (x, y) in [-pi, pi]; relative error < 4e-16. arc_tangent(0, 0) is 0.
