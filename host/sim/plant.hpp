@@ -20,6 +20,7 @@ class Plant {
   /// The robot stands still at `start`; its sensors take their first measurement, at time 0. The world is
   /// kept by reference: it must outlive the plant, and its owner may change it between two calls.
   Plant(const WorldView& world, const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed, Pose start);
+  Plant(const WorldView&&, const RobotSpec&, const NoiseSpec&, uint64_t, Pose) = delete;
 
   /// The wheels' target from now on.
   void command(hal::WheelSpeeds speeds);

@@ -62,8 +62,8 @@ double by_points(Vec2 apex, double axis, double half_width, const std::function<
   return nearest;
 }
 
-/// No ray may find a nearer point, and a slightly wider cone must hold a sample that is about as near: `gap` is
-/// the largest distance from a point of the shape to the next sample.
+/// No ray may find a nearer point, and a slightly wider cone must hold a sample that is about as near: `gap`
+/// is the largest distance from a point of the shape to the next sample.
 template <class Shape>
 void judge(const Shape& shape, const std::function<Vec2(double)>& outline, double gap) {
   const Vec2 apex = point(2);
@@ -82,19 +82,21 @@ void judge(const Shape& shape, const std::function<Vec2(double)>& outline, doubl
 TEST(ConeRange, ToADiscAgreesWithDenseRaysAndPoints) {
   EXPECT_TRUE(rc::check([] {
     const Disc disc{point(3), real(0.01, 1.5)};
-    judge(disc,
-          [&](double t) {
-            const double a = t * 360 * kDegree;
-            return disc.center + Vec2{std::cos(a), std::sin(a)} * disc.radius;
-          },
-          disc.radius * 360 * kDegree / 4000);
+    judge(
+        disc,
+        [&](double t) {
+          const double a = t * 360 * kDegree;
+          return disc.center + Vec2{std::cos(a), std::sin(a)} * disc.radius;
+        },
+        disc.radius * 360 * kDegree / 4000);
   }));
 }
 
 TEST(ConeRange, ToASegmentAgreesWithDenseRaysAndPoints) {
   EXPECT_TRUE(rc::check([] {
     const Segment s{point(3), point(3)};
-    judge(s, [&](double t) { return s.a + (s.b - s.a) * t; }, std::hypot(s.b.x - s.a.x, s.b.y - s.a.y) / 4000);
+    judge(
+        s, [&](double t) { return s.a + (s.b - s.a) * t; }, std::hypot(s.b.x - s.a.x, s.b.y - s.a.y) / 4000);
   }));
 }
 
@@ -152,11 +154,13 @@ TEST(ConeRange, AWallAcrossEndsAtItsFoot) {
 
 TEST(ConeRange, AWallWhoseFootIsOutsideEndsOnTheEdge) {
   // The line y = 1 meets the 12.5 degree edge at 1 / sin 12.5.
-  EXPECT_NEAR(range(cone_at({0, 0}, 0, 12.5 * kDegree), Segment{{-9, 1}, {9, 1}}), 1 / std::sin(12.5 * kDegree), 1e-10);
+  EXPECT_NEAR(range(cone_at({0, 0}, 0, 12.5 * kDegree), Segment{{-9, 1}, {9, 1}}),
+              1 / std::sin(12.5 * kDegree), 1e-10);
 }
 
 TEST(ConeRange, ASegmentInsideTheConeMayEndAtItsEnd) {
-  EXPECT_DOUBLE_EQ(range(cone_at({0, 0}, 0, 12.5 * kDegree), Segment{{1, 0.1}, {5, 0.2}}), std::hypot(1, 0.1));
+  EXPECT_DOUBLE_EQ(range(cone_at({0, 0}, 0, 12.5 * kDegree), Segment{{1, 0.1}, {5, 0.2}}),
+                   std::hypot(1, 0.1));
 }
 
 TEST(ConeRange, ASegmentThatLiesAlongTheAxisOrAnEdgeIsSeenAtItsNearEnd) {

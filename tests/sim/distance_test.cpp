@@ -26,9 +26,7 @@ TEST(Distance, ToASegmentMeetsItsInsideOrItsEnds) {
   EXPECT_DOUBLE_EQ(distance({1, 0}, s), 0);
 }
 
-TEST(Distance, ToASegmentOfNoLengthIsToItsPoint) {
-  EXPECT_DOUBLE_EQ(distance({3, 4}, {{0, 0}, {0, 0}}), 5);
-}
+TEST(Distance, ToASegmentOfNoLengthIsToItsPoint) { EXPECT_DOUBLE_EQ(distance({3, 4}, {{0, 0}, {0, 0}}), 5); }
 
 TEST(Distance, ToASegmentAgreesWithATernarySearchAlongIt) {
   EXPECT_TRUE(rc::check([] {

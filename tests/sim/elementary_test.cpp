@@ -103,9 +103,9 @@ TEST(Elementary, WholeBelowAgreesWithFloor) {
   for (const double x : {0.0, -0.0, 0.5, -0.5, 1.0, -1.0, -1.5, 1e15 + 0.5, -1e15 - 0.5, 4e18, -4e18}) {
     EXPECT_EQ(whole_below(x), static_cast<int64_t>(std::floor(x))) << x;
   }
-  EXPECT_EQ(largest_error(-1e7, 1e7,
-                          [](double x) { return static_cast<double>(whole_below(x)) - std::floor(x); }),
-            0.0);
+  EXPECT_EQ(
+      largest_error(-1e7, 1e7, [](double x) { return static_cast<double>(whole_below(x)) - std::floor(x); }),
+      0.0);
 }
 
 }  // namespace

@@ -25,8 +25,10 @@ TEST(Arc, IsACircleOfItsRadius) {
     RC_PRE(std::fabs(turn) > 1e-3);
     const double radius = length / turn, heading = from.heading + turn * f;
     const Pose to = along({from, length, turn}, f);
-    RC_ASSERT(std::fabs(to.at.x - (from.at.x + radius * (std::sin(heading) - std::sin(from.heading)))) < 1e-11);
-    RC_ASSERT(std::fabs(to.at.y - (from.at.y - radius * (std::cos(heading) - std::cos(from.heading)))) < 1e-11);
+    RC_ASSERT(std::fabs(to.at.x - (from.at.x + radius * (std::sin(heading) - std::sin(from.heading)))) <
+              1e-11);
+    RC_ASSERT(std::fabs(to.at.y - (from.at.y - radius * (std::cos(heading) - std::cos(from.heading)))) <
+              1e-11);
     RC_ASSERT(std::fabs(to.heading - heading) < 1e-12);
   }));
 }
@@ -124,8 +126,9 @@ TEST(Sweep, AGrazingPassIsAContactExactlyIfTheGapCloses) {
     const Disc disc{{0, body + 0.05 + miss}, 0.05};
     const Segment end{{0, body + miss}, {0, 1}};
     const Segment alongside{{0, body + miss}, {9, body + miss}};
-    const WorldView worlds[] = {
-        {&disc, 1, nullptr, 0, nullptr, 0}, {nullptr, 0, &end, 1, nullptr, 0}, {nullptr, 0, &alongside, 1, nullptr, 0}};
+    const WorldView worlds[] = {{&disc, 1, nullptr, 0, nullptr, 0},
+                                {nullptr, 0, &end, 1, nullptr, 0},
+                                {nullptr, 0, &alongside, 1, nullptr, 0}};
     for (const WorldView& world : worlds) {
       const Sweep got = swept(world, arc, 1, body);
       EXPECT_EQ(got.contact, miss < 0) << miss;

@@ -18,7 +18,8 @@ TEST(MovingDisc, RunsThereAndBackForEver) {
   const MovingDisc mover{path, 3, 0.1, 0.5, 0};
   const struct {
     double t, x, y;
-  } expected[] = {{0, 0, 0}, {2, 1, 0}, {6, 3, 0}, {7, 3, 0.5}, {8, 3, 1}, {9, 3, 0.5}, {10, 3, 0}, {15, 0.5, 0}, {16, 0, 0}, {1618, 1, 0}};
+  } expected[] = {{0, 0, 0},   {2, 1, 0},  {6, 3, 0},    {7, 3, 0.5}, {8, 3, 1},
+                  {9, 3, 0.5}, {10, 3, 0}, {15, 0.5, 0}, {16, 0, 0},  {1618, 1, 0}};
   for (const auto& e : expected) {
     EXPECT_NEAR(position(mover, e.t).x, e.x, 1e-12) << e.t;
     EXPECT_NEAR(position(mover, e.t).y, e.y, 1e-12) << e.t;
@@ -80,7 +81,8 @@ TEST(Clearance, IsTheLeastDistanceLessTheBodysRadius) {
     double expected = std::numeric_limits<double>::infinity();
     for (const Disc& d : discs) expected = std::fmin(expected, signed_distance(p, d));
     for (const Segment& s : segments) expected = std::fmin(expected, distance(p, s));
-    if (moving == 1) expected = std::fmin(expected, signed_distance(p, {position(movers[0], t), movers[0].radius}));
+    if (moving == 1)
+      expected = std::fmin(expected, signed_distance(p, {position(movers[0], t), movers[0].radius}));
     const double got = clearance({discs.data(), n, segments.data(), n, movers, moving}, p, t, radius);
     RC_ASSERT(got == expected - radius || std::fabs(got - (expected - radius)) < 1e-12);
   }));
