@@ -1,6 +1,5 @@
 /// The few elementary functions that the simulator needs, written out so that every compiler and
-/// WebAssembly give the same bits. Errors are the largest measured; tests/sim/elementary_test.cpp asserts
-/// them.
+/// WebAssembly give the same bits; tests/sim/elementary_test.cpp asserts the error bounds given here.
 #pragma once
 
 #include <stdint.h>
@@ -29,10 +28,10 @@ SinCos sin_cos(double x);
 /// The angle of (x, y) in [-pi, pi]; relative error < 4e-16. arc_tangent(0, 0) is 0.
 double arc_tangent(double y, double x);
 
-/// x positive and normal; relative error < 4e-16.
+/// x positive and normal; relative error < 2e-16.
 double natural_log(double x);
 
-/// x in [-700, 700]; relative error < 3e-16. Below -700 the result is 0.
+/// x in [-700, 700]; relative error < 2e-16. Below -700 the result is 0.
 double exponential(double x);
 
 }  // namespace whisker::sim

@@ -61,7 +61,7 @@ TEST(Sweep, StopsStraightMotionAtADiscWhereTheQuadraticSays) {
     const double s = dot(u, q) - std::sqrt(std::fmax(0.0, touch * touch - off * off));
     RC_PRE(std::fabs(off - touch) > 1e-6);
     const bool hit = off < touch && s > 0 && s < length;
-    RC_CLASSIFY(hit);
+    RC_CLASSIFY(hit, "hit");
     const Sweep got = swept({&disc, 1, nullptr, 0, nullptr, 0}, {from, length, 0}, 1, body);
     RC_ASSERT(got.contact == hit);
     if (hit) {
@@ -100,7 +100,7 @@ TEST(Sweep, AgreesWithTinyStepsAlongAnArcAmongAllShapes) {
       least = std::fmin(least, gap);
     }
     const Sweep got = swept(world, arc, 1, body);
-    RC_CLASSIFY(got.contact);
+    RC_CLASSIFY(got.contact, "contact");
     // A gap that the tiny steps straddle may be either.
     if (contact <= 1) {
       RC_ASSERT(got.contact);

@@ -233,7 +233,7 @@ TEST(Plant, SmallestClearanceAgreesWithManyPosesOfARun) {
         least = std::fmin(least, clearance(world, plant.pose().at, plant.time(), robot.radius));
       }
     }
-    RC_CLASSIFY(plant.in_contact());
+    RC_CLASSIFY(plant.in_contact(), "contact");
     if (plant.in_contact()) {
       RC_ASSERT(plant.min_clearance() <= 0);
       RC_ASSERT(clearance(world, plant.pose().at, plant.contact_time(), robot.radius) <= 3 * kContactGap);
