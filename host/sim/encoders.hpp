@@ -1,0 +1,32 @@
+/// What the wheel encoders tell: the distance rolled, with their own errors.
+#pragma once
+
+#include <stdint.h>
+
+#include "hal/wire.hpp"
+#include "host/sim/random.hpp"
+#include "host/sim/spec.hpp"
+
+namespace whisker::sim {
+
+/// counts = floor((distance + drift) * counts_per_m * (1 + scale error)) modulo 2^24, wheel by wheel. The
+/// scale errors are drawn once. The drift is a random walk, opposite on the two wheels: the heading that
+/// odometry computes gains an error of standard deviation drift * sqrt(path), while the body itself is not
+/// moved.
+class Encoders {
+ public:
+  Encoders(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed);
+
+  /// The wheels rolled this far, m, while the body's centre travelled `path`, m (not negative).
+  void roll(double left, double right, double path);
+  hal::EncoderCounts counts() const;
+
+ private:
+  double counts_per_m_[2];
+  double drift_per_sqrt_m_;  // of one wheel, m
+  double distance_[2] = {0, 0};
+  double drift_ = 0;
+  Random walk_;
+};
+
+}  // namespace whisker::sim

@@ -1,0 +1,59 @@
+/// The three rangefinders: when they measure, what they see, how it goes wrong, and when it arrives.
+#pragma once
+
+#include <stdint.h>
+
+#include "hal/wire.hpp"
+#include "host/sim/geometry.hpp"
+#include "host/sim/random.hpp"
+#include "host/sim/spec.hpp"
+#include "host/sim/world.hpp"
+
+namespace whisker::sim {
+
+/// Measurement k is taken by all three at k / rate (to the nearest microsecond) and arrives `latency` later.
+///
+/// In this order: lost with the dropout's probability (invalid); wrongly clear with the false clear's; clear
+/// if the cone holds nothing nearer than max_range; else the distance plus noise, which may make it clear or
+/// too_near; rounded to the nearest millimetre. Each measurement draws the same count of random numbers
+/// whatever the outcome. Before the first arrival: stale, age 255, sequence 15.
+class RangeSensors {
+ public:
+  RangeSensors(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed);
+
+  /// When the next measurement is due, microseconds from the start.
+  int64_t due_us() const { return due_us_; }
+  /// Takes the measurement that is due, from this pose at due_us().
+  void measure(const WorldView& world, const Pose& pose);
+  /// The newest measurement that has arrived at this time, microseconds; not before the last measure().
+  hal::RangeReadings read(int64_t now_us) const;
+
+ private:
+  struct Faults {
+    Random noise;
+    Random dropout;
+    Random false_clear;
+  };
+  hal::RangeReading classified(Faults& faults, double metres) const;
+
+  static constexpr int64_t kKept = 32;
+  struct Measurement {
+    int64_t at_us;
+    hal::RangeReadings readings;  // age not yet known
+  };
+
+  double interval_us_;
+  int64_t latency_us_;
+  double offset_;
+  double min_range_;
+  double max_range_;
+  SinCos side_;
+  SinCos half_width_;
+  NoiseSpec noise_;
+  Faults faults_[hal::kBeams];
+  int64_t count_ = 0;
+  int64_t due_us_ = 0;
+  Measurement kept_[kKept] = {};
+};
+
+}  // namespace whisker::sim

@@ -1,0 +1,112 @@
+#include "host/sim/elementary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace whisker::sim {
+namespace {
+
+/// The largest error over random and evenly spaced arguments; the judge computes in long double.
+template <class Error>
+double largest_error(double low, double high, Error error) {
+  std::mt19937_64 random(20240601);
+  std::uniform_real_distribution<double> anywhere(low, high);
+  constexpr int kCount = 400000;
+  double worst = 0;
+  for (int i = 0; i <= kCount; ++i) {
+    worst = std::fmax(worst, error(low + (high - low) * i / kCount));
+    worst = std::fmax(worst, error(anywhere(random)));
+  }
+  return worst;
+}
+
+double relative(double x, long double exact) {
+  return static_cast<double>(std::fabs((static_cast<long double>(x) - exact) / exact));
+}
+
+double absolute(double x, long double exact) {
+  return static_cast<double>(std::fabs(static_cast<long double>(x) - exact));
+}
+
+TEST(Elementary, SineAndCosineAreRightFarFromZeroToo) {
+  const auto error = [](double x) {
+    const SinCos sc = sin_cos(x);
+    return std::fmax(absolute(sc.sin, std::sin(static_cast<long double>(x))),
+                     absolute(sc.cos, std::cos(static_cast<long double>(x))));
+  };
+  const double near = largest_error(-10, 10, error);
+  const double far = largest_error(-1e6, 1e6, error);
+  RecordProperty("near", std::to_string(near * 1e16));
+  RecordProperty("far", std::to_string(far * 1e16));
+  EXPECT_LT(near, 2e-16);
+  EXPECT_LT(far, 2e-16);
+}
+
+TEST(Elementary, QuarterTurnsAgreeWithTheLibrary) {
+  for (int k = -8; k <= 8; ++k) {
+    const SinCos sc = sin_cos(k * (kPi / 2));
+    EXPECT_NEAR(sc.sin, std::sin(k * (kPi / 2)), 1.2e-16) << k;
+    EXPECT_NEAR(sc.cos, std::cos(k * (kPi / 2)), 1.2e-16) << k;
+  }
+  EXPECT_EQ(sin_cos(0).sin, 0.0);
+  EXPECT_EQ(sin_cos(0).cos, 1.0);
+}
+
+TEST(Elementary, ArcTangentIsRightAllAroundTheCircle) {
+  const double worst = largest_error(-3.14159, 3.14159, [](double angle) {
+    const double x = 3.7 * std::cos(angle);
+    const double y = 3.7 * std::sin(angle);
+    const long double exact = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+    return y == 0 ? 0.0 : relative(arc_tangent(y, x), exact);
+  });
+  RecordProperty("worst", std::to_string(worst * 1e16));
+  EXPECT_LT(worst, 4e-16);
+}
+
+TEST(Elementary, ArcTangentIsRightOnTheAxes) {
+  EXPECT_EQ(arc_tangent(0, 0), 0.0);
+  EXPECT_EQ(arc_tangent(0, 2), 0.0);
+  EXPECT_EQ(arc_tangent(0, -2), kPi);
+  EXPECT_EQ(arc_tangent(2, 0), kPi / 2);
+  EXPECT_EQ(arc_tangent(-2, 0), -kPi / 2);
+  EXPECT_EQ(arc_tangent(1, 1), kPi / 4);
+  EXPECT_EQ(arc_tangent(-1, -1), -(kPi - kPi / 4));
+}
+
+TEST(Elementary, LogarithmIsRightFromTheSmallestToTheLargest) {
+  const auto error = [](double x) {
+    return x == 1 ? 0.0 : relative(natural_log(x), std::log(static_cast<long double>(x)));
+  };
+  double worst = largest_error(1e-9, 1, error);
+  worst = std::fmax(worst, largest_error(0.99, 1.01, error));
+  worst = std::fmax(worst, largest_error(1, 1e6, error));
+  for (int e = -1022; e <= 1023; ++e) worst = std::fmax(worst, error(std::ldexp(1.37, e)));
+  RecordProperty("worst", std::to_string(worst * 1e16));
+  EXPECT_LT(worst, 2e-16);
+  EXPECT_EQ(natural_log(1), 0.0);
+}
+
+TEST(Elementary, ExponentialIsRightAndVanishesFarBelowZero) {
+  const auto error = [](double x) { return relative(exponential(x), std::exp(static_cast<long double>(x))); };
+  double worst = largest_error(-700, 700, error);
+  worst = std::fmax(worst, largest_error(-1, 1, error));
+  RecordProperty("worst", std::to_string(worst * 1e16));
+  EXPECT_LT(worst, 2e-16);
+  EXPECT_EQ(exponential(0), 1.0);
+  EXPECT_EQ(exponential(-701), 0.0);
+}
+
+TEST(Elementary, WholeBelowAgreesWithFloor) {
+  for (const double x : {0.0, -0.0, 0.5, -0.5, 1.0, -1.0, -1.5, 1e15 + 0.5, -1e15 - 0.5, 4e18, -4e18}) {
+    EXPECT_EQ(whole_below(x), static_cast<int64_t>(std::floor(x))) << x;
+  }
+  EXPECT_EQ(
+      largest_error(-1e7, 1e7, [](double x) { return static_cast<double>(whole_below(x)) - std::floor(x); }),
+      0.0);
+}
+
+}  // namespace
+}  // namespace whisker::sim

@@ -1,0 +1,88 @@
+#include "host/sim/encoders.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace whisker::sim {
+namespace {
+
+RobotSpec with_counts(double counts_per_m) {
+  RobotSpec robot;
+  robot.counts_per_m = counts_per_m;
+  return robot;
+}
+
+TEST(Encoders, CountWholeStepsDownwards) {
+  Encoders encoders(with_counts(1000), {}, 1);
+  encoders.roll(0.00199, -0.0001, 0.001);
+  EXPECT_EQ(encoders.counts().left, 1U);
+  EXPECT_EQ(encoders.counts().right, hal::kEncoderModulus - 1);
+  encoders.roll(0.00002, -0.001, 0.001);
+  EXPECT_EQ(encoders.counts().left, 2U);
+  EXPECT_EQ(encoders.counts().right, hal::kEncoderModulus - 2);
+}
+
+TEST(Encoders, LoseNothingInManySmallRolls) {
+  Encoders encoders(with_counts(5000), {}, 1);
+  for (int i = 0; i < 100000; ++i) encoders.roll(0.00001, 0.00003, 0.00002);
+  EXPECT_NEAR(encoders.counts().left, 5000, 1);
+  EXPECT_NEAR(encoders.counts().right, 15000, 1);
+}
+
+TEST(Encoders, WrapAtTwoToTheTwentyFourBothWays) {
+  Encoders encoders(with_counts(1024), {}, 1);
+  const double turn = hal::kEncoderModulus / 1024.0;
+  encoders.roll(turn - 0.5 / 1024, -turn + 0.5 / 1024, 0);
+  EXPECT_EQ(encoders.counts().left, hal::kEncoderModulus - 1);
+  EXPECT_EQ(encoders.counts().right, 0U);
+  encoders.roll(1.0 / 1024, -1.0 / 1024, 0);
+  EXPECT_EQ(encoders.counts().left, 0U);
+  EXPECT_EQ(encoders.counts().right, hal::kEncoderModulus - 1);
+}
+
+TEST(Encoders, ScaleErrorsHaveTheirMeanAndSigmaAndAreIndependent) {
+  constexpr int kRuns = 20000;
+  constexpr double kSigma = 0.01;
+  NoiseSpec noise;
+  noise.wheel_scale_sigma = kSigma;
+  double sum = 0, squares = 0, product = 0;
+  for (int seed = 0; seed < kRuns; ++seed) {
+    Encoders encoders(with_counts(1e6), noise, static_cast<std::uint64_t>(seed));
+    encoders.roll(1, 1, 1);
+    const double left = encoders.counts().left / 1e6 - 1, right = encoders.counts().right / 1e6 - 1;
+    sum += left + right;
+    squares += left * left + right * right;
+    product += left * right;
+  }
+  // Four standard deviations of each estimate; seeds 0 to 19999.
+  EXPECT_NEAR(sum / (2 * kRuns), 0, 4 * kSigma / std::sqrt(2.0 * kRuns));
+  EXPECT_NEAR(std::sqrt(squares / (2 * kRuns)), kSigma, 4 * kSigma / std::sqrt(4.0 * kRuns));
+  EXPECT_NEAR(product / kRuns, 0, 4 * kSigma * kSigma / std::sqrt(double{kRuns}));
+}
+
+TEST(Encoders, DriftTurnsTheOdometryByTheRootOfThePath) {
+  constexpr int kRuns = 4000;
+  constexpr double kDrift = 0.01;
+  NoiseSpec noise;
+  noise.heading_drift_rad_per_sqrt_m = kDrift;
+  const RobotSpec robot = with_counts(1e6);
+  for (const int metres : {1, 4}) {
+    double sum = 0, squares = 0;
+    for (int seed = 0; seed < kRuns; ++seed) {
+      Encoders encoders(robot, noise, static_cast<std::uint64_t>(seed));
+      for (int i = 0; i < 100 * metres; ++i) encoders.roll(0.01, 0.01, 0.01);
+      const double left = encoders.counts().left / 1e6, right = encoders.counts().right / 1e6;
+      EXPECT_NEAR(0.5 * (left + right), metres, 2e-6);
+      const double heading = (right - left) / robot.track;
+      sum += heading;
+      squares += heading * heading;
+    }
+    const double sigma = kDrift * std::sqrt(double{1} * metres);
+    EXPECT_NEAR(sum / kRuns, 0, 4 * sigma / std::sqrt(double{kRuns})) << metres;
+    EXPECT_NEAR(std::sqrt(squares / kRuns), sigma, 4 * sigma / std::sqrt(2.0 * kRuns)) << metres;
+  }
+}
+
+}  // namespace
+}  // namespace whisker::sim

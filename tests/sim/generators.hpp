@@ -1,0 +1,21 @@
+/// Random places and shapes for properties. rapidcheck prints its seed and takes it back in RC_PARAMS.
+#pragma once
+
+#include <rapidcheck.h>
+
+#include "host/sim/geometry.hpp"
+
+namespace whisker::sim {
+
+/// A multiple of a micro-unit in [low, high).
+inline double real(double low, double high) {
+  return 1e-6 * *rc::gen::inRange<int>(static_cast<int>(low * 1e6), static_cast<int>(high * 1e6));
+}
+
+inline Vec2 point(double reach) {
+  const double x = real(-reach, reach);
+  const double y = real(-reach, reach);
+  return {x, y};
+}
+
+}  // namespace whisker::sim
