@@ -1,0 +1,143 @@
+#include "host/scenario/load.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include "host/scenario/bearing.hpp"
+#include "host/scenario/check.hpp"
+#include "host/scenario/contact.hpp"
+#include "host/scenario/params_text.hpp"
+#include "host/scenario/reader.hpp"
+#include "host/scenario/robot.hpp"
+
+namespace whisker {
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{16} << 20;
+constexpr std::size_t kMostPoints = 4096;
+constexpr double kLongestTime = 1e6;  // s
+constexpr double kFastestMover = 10;  // m/s
+
+void read_places(const TableReader& start, const TableReader& goal, Scenario& s) {
+  s.start.at = {start.number("x_m", kCoordinate), start.number("y_m", kCoordinate)};
+  s.goal.at = {goal.number("x_m", kCoordinate), goal.number("y_m", kCoordinate)};
+  s.goal.tolerance_m = goal.number_or("tolerance_m", kLength, Goal{}.tolerance_m);
+  s.start.heading = start.has("heading_deg") ? start.number("heading_deg", {-360, 360}) * kRadPerDeg
+                                             : bearing(s.start.at, s.goal.at);
+}
+
+void read_obstacles(const TableReader& top, Scenario& s) {
+  if (top.has("bounds")) {
+    const TableReader table = top.table("bounds", {"min", "max"});
+    s.bounds = Bounds{table.point("min"), table.point("max")};
+    check_bounds(table, *s.bounds);
+  }
+  for (const TableReader& table : top.tables("disc", {"center", "radius_m"})) {
+    s.discs.push_back({table.point("center"), table.number("radius_m", kLength)});
+  }
+  for (const TableReader& table : top.tables("polygon", {"points"})) {
+    s.polygons.push_back(table.points("points", 3, kMostPoints));
+    check_polygon(table, s.polygons.back());
+  }
+  for (const TableReader& table : top.tables("wall", {"points"})) {
+    s.walls.push_back(table.points("points", 2, kMostPoints));
+  }
+  for (const TableReader& table : top.tables("mover", {"center", "radius_m", "path", "speed_mps"})) {
+    s.movers.push_back({table.point("center"), table.number("radius_m", kLength),
+                        table.points("path", 2, kMostPoints), table.number("speed_mps", {0, kFastestMover})});
+    check_mover(table, s.movers.back());
+  }
+}
+
+Noise read_noise(const TableReader& table) {
+  Noise n;
+  n.range_sigma_m = table.number_or("range_sigma_m", {0, 10}, 0);
+  n.range_dropout = table.number_or("range_dropout", kProbability, 0);
+  n.range_false_clear = table.number_or("range_false_clear", kProbability, 0);
+  n.wheel_scale_sigma = table.number_or("wheel_scale_sigma", {0, 1}, 0);
+  n.heading_drift_deg_per_sqrt_m = table.number_or("heading_drift_deg_per_sqrt_m", {0, 360}, 0);
+  return n;
+}
+
+}  // namespace
+
+std::string read_file(const std::string& file) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), std::fclose);
+  if (!stream) throw InputError(file, 1, 1, fmt::format("cannot open the file: {}", std::strerror(errno)));
+  std::string text;
+  char block[65536];
+  while (const std::size_t n = std::fread(block, 1, sizeof block, stream.get())) {
+    text.append(block, n);
+    if (text.size() > kMostBytes) throw InputError(file, 1, 1, "the file is larger than 16 MiB");
+  }
+  if (std::ferror(stream.get()) != 0) {
+    throw InputError(file, 1, 1, fmt::format("cannot read the file: {}", std::strerror(errno)));
+  }
+  return text;
+}
+
+Scenario parse_scenario(std::string_view text, const std::string& name) {
+  const toml::table root = parse_toml(text, name);
+  const TableReader top(name, root, "",
+                        {"name", "seed", "time_limit_s", "start", "goal", "bounds", "disc", "polygon", "wall",
+                         "mover", "noise", "robot"});
+  const TableReader start = top.table("start", {"x_m", "y_m", "heading_deg"});
+  const TableReader goal = top.table("goal", {"x_m", "y_m", "tolerance_m"});
+
+  Scenario s;
+  s.name = top.text("name");
+  if (top.has("seed")) {
+    s.seed = static_cast<std::uint64_t>(top.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
+  }
+  s.time_limit_s = top.number_or("time_limit_s", {0, kLongestTime, true}, s.time_limit_s);
+  read_places(start, goal, s);
+  read_obstacles(top, s);
+  if (top.has("noise")) {
+    s.noise = read_noise(top.table("noise", {"range_sigma_m", "range_dropout", "range_false_clear",
+                                             "wheel_scale_sigma", "heading_drift_deg_per_sqrt_m"}));
+  }
+  if (top.has("robot")) {
+    const TableReader robot = top.table("robot", robot_keys());
+    read_robot(robot, s.robot);
+    check_robot(robot, s.robot);
+  }
+  check_places(start, goal, s);
+  return s;
+}
+
+Scenario load_scenario(const std::string& file) { return parse_scenario(read_file(file), file); }
+
+void apply_robot_file(Params& params, const std::string& file) {
+  const toml::table root = parse_toml(read_file(file), file);
+  std::vector<std::string_view> known = robot_keys();
+  known.emplace_back("robot");
+  const TableReader top(file, root, "", known);
+  Params changed = params;
+  read_robot(top, changed);
+  if (top.has("robot")) {
+    const TableReader nested = top.table("robot", robot_keys());
+    for (const std::string_view key : robot_keys()) {
+      if (top.has(key) && nested.has(key)) {
+        nested.fail_at(key, fmt::format("'{}' is set both at the top level and in [robot]", key));
+      }
+    }
+    read_robot(nested, changed);
+  }
+  check_robot(top, changed);
+  params = changed;
+}
+
+void apply_robot_file(Scenario& scenario, const std::string& file) {
+  Scenario changed = scenario;
+  apply_robot_file(changed.robot, file);
+  const std::string fault = start_fault(changed);
+  if (!fault.empty()) throw InputError(file, 1, 1, "with this robot " + fault);
+  scenario.robot = changed.robot;
+}
+
+}  // namespace whisker

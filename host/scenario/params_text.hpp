@@ -1,0 +1,44 @@
+/// The robot's parameters as text: in files, in messages and in the manual.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware/params.hpp"
+
+namespace whisker {
+
+/// raw = SI value * numerator / denominator.
+struct ParamUnit {
+  const char* symbol;
+  double numerator;
+  double denominator;
+};
+
+constexpr ParamUnit unit_of(const Length&) { return {"m", 1e6, 1}; }
+constexpr ParamUnit unit_of(const Speed&) { return {"m/s", 1e6, 1}; }
+constexpr ParamUnit unit_of(const Acceleration&) { return {"m/s^2", 1e6, 1}; }
+constexpr ParamUnit unit_of(const AngularRate&) { return {"rad/s", 1e6, 1}; }
+constexpr ParamUnit unit_of(const Duration&) { return {"s", 1e3, 1}; }
+constexpr ParamUnit unit_of(const Angle&) { return {"deg", 4294967296.0, 360}; }
+
+/// To nearest. |si| <= 1e9.
+std::int64_t to_raw(double si, ParamUnit unit);
+/// The shortest decimal that to_raw() takes back to the same raw value.
+std::string si_text(std::int64_t raw, ParamUnit unit);
+
+/// The keys of a [robot] table, in the order of for_each_param.
+std::vector<std::string_view> robot_keys();
+
+/// `key = value` lines for the parameters that differ from the reference robot's.
+std::string robot_toml(const Params& params);
+
+/// The table of docs/scenario.md: key, unit, default and range of every parameter.
+std::string params_markdown();
+
+/// What must hold, in words; empty for ParamFault::none.
+const char* relation(ParamFault fault);
+
+}  // namespace whisker

@@ -1,0 +1,70 @@
+/// Strict reading of one TOML table: every fault is an InputError at its own place in the file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <toml++/toml.h>
+
+#include "host/sim/geometry.hpp"
+
+namespace whisker {
+
+/// What a number may be.
+struct Limits {
+  double low;
+  double high;
+  bool low_excluded = false;
+};
+
+constexpr double kFarthest = 1000;  ///< m; no coordinate or length of a scenario exceeds it
+constexpr Limits kCoordinate{-kFarthest, kFarthest};
+constexpr Limits kLength{0, kFarthest, true};
+constexpr Limits kProbability{0, 1};
+
+/// Reads and checks whole files.
+toml::table parse_toml(std::string_view text, const std::string& file);
+/// At most 16 MiB. Throws InputError if the file cannot be read.
+std::string read_file(const std::string& file);
+
+class TableReader {
+ public:
+  /// `title` names the table in messages ("[start]"); empty for the file's top level.
+  /// A key outside `known` is an error.
+  TableReader(const std::string& file, const toml::table& table, std::string title,
+              const std::vector<std::string_view>& known);
+
+  bool has(std::string_view key) const { return table_.contains(key); }
+
+  double number(std::string_view key, Limits limits) const;
+  double number_or(std::string_view key, Limits limits, double fallback) const;
+  /// A TOML integer in [low, high].
+  std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high) const;
+  /// One line of text.
+  std::string text(std::string_view key) const;
+  sim::Vec2 point(std::string_view key) const;
+  /// At least `fewest` points, no two neighbours the same.
+  std::vector<sim::Vec2> points(std::string_view key, std::size_t fewest, std::size_t most) const;
+
+  TableReader table(std::string_view key, const std::vector<std::string_view>& known) const;
+  /// One reader for each [[key]]; none if the key is missing.
+  std::vector<TableReader> tables(std::string_view key, const std::vector<std::string_view>& known) const;
+
+  /// Throws at the table's, or at the key's value's, position.
+  [[noreturn]] void fail(std::string_view what) const;
+  [[noreturn]] void fail_at(std::string_view key, std::string_view what) const;
+
+ private:
+  const toml::node& require(std::string_view key) const;
+  [[noreturn]] void fail(const toml::node& node, std::string_view what) const;
+  double number(std::string_view key, const toml::node& node, Limits limits) const;
+  sim::Vec2 point(std::string_view key, const toml::node& node) const;
+
+  const std::string& file_;
+  const toml::table& table_;
+  std::string title_;
+};
+
+}  // namespace whisker

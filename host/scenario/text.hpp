@@ -1,0 +1,23 @@
+/// Small text tools of the file formats.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace whisker {
+
+/// The shortest decimal that reads back as the same double, with a point or an exponent so
+/// that TOML takes it for a float.
+std::string toml_number(double x);
+
+/// Quoted and escaped as a TOML basic string.
+std::string toml_string(std::string_view text);
+
+/// The known word that a misspelt one resembles most; empty if none is close.
+std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& known);
+
+/// "a, b or c".
+std::string join_or(const std::vector<std::string_view>& words);
+
+}  // namespace whisker

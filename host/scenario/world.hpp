@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "host/scenario/scenario.hpp"
+
+namespace whisker {
+
+/// The obstacles of a scenario as the simulator wants them: round ones and straight edges.
+struct World {
+  std::vector<sim::Disc> discs;
+  std::vector<sim::Segment> segments;  ///< of the polygons, then the walls, then the bounds
+  std::vector<Mover> movers;
+};
+
+World make_world(const Scenario& scenario);
+
+}  // namespace whisker

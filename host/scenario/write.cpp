@@ -1,0 +1,94 @@
+#include "host/scenario/write.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "host/scenario/bearing.hpp"
+#include "host/scenario/params_text.hpp"
+#include "host/scenario/text.hpp"
+
+namespace whisker {
+namespace {
+
+std::string pair(sim::Vec2 p) { return fmt::format("[{}, {}]", toml_number(p.x), toml_number(p.y)); }
+
+std::string list(const std::vector<sim::Vec2>& points) {
+  std::string out = "[";
+  for (const sim::Vec2 p : points) out += (out.size() == 1 ? "" : ", ") + pair(p);
+  return out + "]";
+}
+
+/// The shortest decimal of degrees that reads back as this heading, or the nearest there is.
+std::string degrees(double heading) {
+  const double exact = heading / kRadPerDeg;
+  for (const double candidate : {exact, std::nextafter(exact, -1e9), std::nextafter(exact, 1e9)}) {
+    for (int digits = 1; digits <= 17; ++digits) {
+      const double rounded = std::strtod(fmt::format("{:.{}g}", candidate, digits).c_str(), nullptr);
+      if (rounded * kRadPerDeg == heading) return toml_number(rounded);
+    }
+  }
+  return toml_number(exact);
+}
+
+std::string places(const Scenario& s) {
+  std::string out =
+      fmt::format("\n[start]\nx_m = {}\ny_m = {}\n", toml_number(s.start.at.x), toml_number(s.start.at.y));
+  if (s.start.heading == bearing(s.start.at, s.goal.at)) {
+    out += "# heading_deg: towards the goal\n";
+  } else {
+    out += fmt::format("heading_deg = {}\n", degrees(s.start.heading));
+  }
+  out += fmt::format("\n[goal]\nx_m = {}\ny_m = {}\ntolerance_m = {}\n", toml_number(s.goal.at.x),
+                     toml_number(s.goal.at.y), toml_number(s.goal.tolerance_m));
+  if (s.bounds) {
+    out += fmt::format("\n[bounds]  # solid outer wall\nmin = {}\nmax = {}\n", pair(s.bounds->min),
+                       pair(s.bounds->max));
+  }
+  return out;
+}
+
+std::string obstacles(const Scenario& s) {
+  std::string out;
+  for (const sim::Disc& d : s.discs) {
+    out += fmt::format("\n[[disc]]\ncenter = {}\nradius_m = {}\n", pair(d.center), toml_number(d.radius));
+  }
+  for (const auto& points : s.polygons)
+    out += fmt::format("\n[[polygon]]  # solid\npoints = {}\n", list(points));
+  for (const auto& points : s.walls) {
+    out += fmt::format("\n[[wall]]  # zero thickness\npoints = {}\n", list(points));
+  }
+  for (const Mover& m : s.movers) {
+    out +=
+        fmt::format("\n[[mover]]  # there and back along its path\ncenter = {}\nradius_m = {}\npath = {}\n",
+                    pair(m.center), toml_number(m.radius_m), list(m.path));
+    out += fmt::format("speed_mps = {}\n", toml_number(m.speed_mps));
+  }
+  return out;
+}
+
+std::string noise(const Noise& n) {
+  std::string out;
+  const auto line = [&](const char* key, double x, const char* comment) {
+    if (x != 0) out += fmt::format("{} = {}{}\n", key, toml_number(x), comment);
+  };
+  line("range_sigma_m", n.range_sigma_m, "");
+  line("range_dropout", n.range_dropout, "  # readings lost, and saying so");
+  line("range_false_clear", n.range_false_clear, "  # readings that wrongly say that nothing is there");
+  line("wheel_scale_sigma", n.wheel_scale_sigma, "  # of each wheel's encoder, once a run");
+  line("heading_drift_deg_per_sqrt_m", n.heading_drift_deg_per_sqrt_m, "");
+  return out.empty() ? out : "\n[noise]\n" + out;
+}
+
+}  // namespace
+
+std::string to_toml(const Scenario& s) {
+  const std::string robot = robot_toml(s.robot);
+  return fmt::format("name = {}\nseed = {}  # of the noise\ntime_limit_s = {}\n", toml_string(s.name), s.seed,
+                     toml_number(s.time_limit_s)) +
+         places(s) + obstacles(s) + noise(s.noise) +
+         (robot.empty() ? robot : "\n[robot]  # what differs from the reference robot\n" + robot);
+}
+
+}  // namespace whisker
