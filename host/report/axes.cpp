@@ -8,12 +8,15 @@
 namespace whisker::report {
 namespace {
 
-constexpr double kPixelsPerGridLine = 60;
+constexpr double kLeastGridPixels = 42;
 constexpr double kFarthest = 1e5;
 
 double grid_step(const View& view) {
-  const double step = round_step(kPixelsPerGridLine / view.pixels_per_metre);
-  return step * view.pixels_per_metre < kPixelsPerGridLine * 0.6 ? step * 2 : step;
+  const double least = kLeastGridPixels / view.pixels_per_metre;
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double lead : {1.0, 2.0, 5.0})
+    if (decade * lead >= least) return decade * lead;
+  return decade * 10;
 }
 
 void widen(double& low, double& high, double span) {
@@ -116,10 +119,7 @@ void draw_axes(Svg& svg, const View& view) {
     svg.text({view.corner.x - 6, view.page({0, y}).y + 4}, decimals(y, places), "");
   svg.close();
   svg.text({view.corner.x + view.width() / 2, view.bottom() + 35}, "x / m", R"(text-anchor="middle")");
-  const double y = view.corner.y + view.height() / 2;
-  const double x = view.corner.x - 38;
-  svg.text({x, y}, "y / m",
-           fmt::format(R"svg(text-anchor="middle" transform="rotate(-90 {} {})")svg", number(x), number(y)));
+  svg.text_upwards({view.corner.x - 38, view.corner.y + view.height() / 2}, "y / m");
   draw_scale_bar(svg, view);
 }
 

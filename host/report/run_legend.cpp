@@ -23,11 +23,15 @@ class Column {
     y_ += 4;
   }
   /// The middle of the next row's swatch.
-  Point row(const std::string& label, const std::string& right = "") {
+  Point row(const std::string& label) {
     y_ += kRow;
     svg_.text({corner_.x + kSwatch + 8, y_ - 4}, label, "");
-    if (!right.empty()) svg_.text({corner_.x + kLegendWidth - 12, y_ - 4}, right, R"(text-anchor="end")");
     return {corner_.x + kSwatch / 2, y_ - 8};
+  }
+  /// Two figures at the right end of the row before.
+  void figures(const std::string& first, const std::string& second) {
+    svg_.text({corner_.x + kLegendWidth - 48, y_ - 4}, first, R"(text-anchor="end")");
+    svg_.text({corner_.x + kLegendWidth, y_ - 4}, second, R"(text-anchor="end")");
   }
   void note(const std::string& text) {
     y_ += 16;
@@ -47,8 +51,8 @@ void draw_classes(Svg& svg, Column& column, const TrackSummary& track) {
   for (std::size_t k = 0; k < kDoings; ++k) {
     const Look& look = kLooks[k];
     const double share = track.total_m > 0 ? 100 * track.metres[k] / track.total_m : 0;
-    const Point c =
-        column.row(look.label, fmt::format("{} m  {} %", decimals(track.metres[k], 2), decimals(share, 0)));
+    const Point c = column.row(look.label);
+    column.figures(decimals(track.metres[k], 2) + " m", decimals(share, 0) + " %");
     svg.line({c.x - kSwatch / 2, c.y}, {c.x + kSwatch / 2, c.y},
              fmt::format(R"(class="key {}" stroke="{}" stroke-width="{}" stroke-dasharray="{}")", look.name,
                          look.colour, number(look.width), look.dashes));

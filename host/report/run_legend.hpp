@@ -18,7 +18,7 @@ struct LegendContent {
   bool movers = false;
 };
 
-constexpr double kLegendWidth = 252;  ///< px, of one column
+constexpr double kLegendWidth = 270;  ///< px, of one column
 
 /// Draws from the corner down; with `columns` 2 the marks stand to the right of the classes. Returns its
 /// height.

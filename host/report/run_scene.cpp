@@ -29,12 +29,9 @@ PathData polyline(const View& view, const std::vector<Vec2>& points, bool closed
   return data;
 }
 
-void draw_bounds(Svg& svg, const View& view, const Bounds& bounds) {
-  const Point corner = view.page({bounds.min.x, bounds.max.y});
-  const double width = (bounds.max.x - bounds.min.x) * view.pixels_per_metre;
-  const double height = (bounds.max.y - bounds.min.y) * view.pixels_per_metre;
-  svg.rect(view.corner, view.width(), view.height(), fmt::format(R"(class="outside" fill="{}")", kOutside));
-  svg.rect(corner, width, height, R"(class="bounds" fill="#fff" stroke="#454543" stroke-width="2")");
+void draw_bounds(Svg& svg, const View& view, const Bounds& bounds, std::string_view attributes) {
+  svg.rect(view.page({bounds.min.x, bounds.max.y}), (bounds.max.x - bounds.min.x) * view.pixels_per_metre,
+           (bounds.max.y - bounds.min.y) * view.pixels_per_metre, attributes);
 }
 
 void draw_movers(Svg& svg, const View& view, const std::vector<Mover>& movers, double time_s) {
@@ -84,9 +81,12 @@ Box scene_box(const Scenario& scenario, const std::vector<TickRecord>& records) 
 }
 
 void draw_world(Svg& svg, const View& view, const Scenario& scenario, double time_s) {
-  svg.rect(view.corner, view.width(), view.height(), R"(fill="#fff")");
-  if (scenario.bounds) draw_bounds(svg, view, *scenario.bounds);
+  const auto& bounds = scenario.bounds;
+  svg.rect(view.corner, view.width(), view.height(), fmt::format(R"(fill="{}")", bounds ? kOutside : "#fff"));
+  if (bounds) draw_bounds(svg, view, *bounds, R"(fill="#fff")");
   draw_grid(svg, view);
+  if (bounds)
+    draw_bounds(svg, view, *bounds, R"(class="bounds" fill="none" stroke="#454543" stroke-width="2")");
   svg.open(fmt::format(R"(class="obstacles" {})", kObstacle));
   for (const sim::Disc& d : scenario.discs)
     svg.circle(view.page(d.center), d.radius * view.pixels_per_metre, "");

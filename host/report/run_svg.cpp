@@ -47,7 +47,7 @@ Layout lay_out(const Box& box, double top, const LegendContent& content) {
     layout.height = layout.legend.y + beside + kEdge;
   } else {
     layout.legend = {layout.view.right() + 28, top};
-    layout.width = layout.legend.x + kLegendWidth + kEdge - 12;
+    layout.width = layout.legend.x + kLegendWidth + kEdge;
     const double stack = marks_height(content) + classes_height(content) + 8;
     layout.height = std::max(layout.view.bottom() + kBelowPlot, top + stack + kEdge);
   }

@@ -110,6 +110,12 @@ PathData& PathData::close() {
   return *this;
 }
 
+PathData& PathData::box(Point corner, double width, double height) {
+  move(corner);
+  text_ += fmt::format("h{}v{}h{}z", number(width), number(height), number(-width));
+  return *this;
+}
+
 Svg::Svg(double width, double height, std::string_view title) {
   const std::string w = number(width);
   const std::string h = number(height);
@@ -157,6 +163,12 @@ Svg& Svg::text(Point at, std::string_view text, std::string_view attributes) {
   out_ += fmt::format("<text x=\"{}\" y=\"{}\" {}>{}</text>\n", number(at.x), number(at.y), attributes,
                       escape(text));
   return *this;
+}
+
+Svg& Svg::text_upwards(Point at, std::string_view text_) {
+  return text(
+      at, text_,
+      fmt::format(R"svg(text-anchor="middle" transform="rotate(-90 {} {})")svg", number(at.x), number(at.y)));
 }
 
 Svg& Svg::open_clipped(std::string_view id, Point corner, double width, double height) {

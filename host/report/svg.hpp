@@ -31,6 +31,7 @@ class PathData {
   PathData& line(Point p) { return add('L', p); }
   PathData& dot(Point p);  ///< a stroke of no length: visible with round caps
   PathData& close();
+  PathData& box(Point corner, double width, double height);
   bool empty() const { return text_.empty(); }
   const std::string& text() const { return text_; }
 
@@ -52,6 +53,8 @@ class Svg {
   Svg& line(Point a, Point b, std::string_view attributes);
   Svg& path(const PathData& data, std::string_view attributes);
   Svg& text(Point at, std::string_view text, std::string_view attributes);
+  /// Centred on the place, read from below.
+  Svg& text_upwards(Point at, std::string_view text);
   /// A group whose content is cut off outside the rectangle; closed by close(). `id` is unique in the file.
   Svg& open_clipped(std::string_view id, Point corner, double width, double height);
 
