@@ -16,7 +16,8 @@ std::string membership_svg(const Variable& variable, const std::string& title);
 /// The rule base as coloured squares: one 5 x 5 picture for SA, one for SD. Throws as check() does.
 std::string rules_svg(const FuzzyPicture& picture, const std::string& title);
 
-/// The response as two surfaces seen from above the front left corner. Throws as check() does.
+/// The response as two surfaces seen from above the corner where D is least and R greatest. Throws as check()
+/// does.
 std::string surface_svg(const FuzzyPicture& picture, const std::string& title);
 
 /// File names ("figure2.svg" to "figure7.svg") and their content, in order. Throws as check() does.

@@ -31,7 +31,7 @@ PathData membership(const Plot& plot, const Variable& v, std::size_t term) {
 std::string membership_svg(const Variable& variable, const std::string& title) {
   check(variable);
   const Plot plot{{64, 80}, 560, 190, {variable.min, variable.max}, {0, 1}};
-  Svg svg(650, 346, title);
+  Svg svg(650, 324, title);
   svg.text({20, 30}, title, R"(font-size="15" font-weight="bold")");
   svg.rect(plot.corner, plot.width, plot.height, R"(fill="#fff")");
   svg.line(plot.page(variable.min, 0.5), plot.page(variable.max, 0.5),

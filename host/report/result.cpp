@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/report/svg.hpp"
+
 namespace whisker::report {
 namespace {
 
@@ -59,7 +61,7 @@ std::string verdict_words(const RunResult& result) {
   if (result.verdict != Verdict::reached)
     words += fmt::format(", {:.2f} m from the goal", result.final_distance_m);
   if (std::isfinite(result.min_clearance_m))
-    words += fmt::format(", min clearance {:.3f} m", result.min_clearance_m);
+    words += fmt::format(", min clearance {} m", decimals(result.min_clearance_m, 3));
   if (!result.detail.empty()) words += fmt::format(" ({})", result.detail);
   return words;
 }

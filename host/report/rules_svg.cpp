@@ -35,9 +35,6 @@ void draw_rule_base(Svg& svg, Point corner, const FuzzyPicture& picture, const V
   for (std::size_t j = 0; j < columns; ++j)
     svg.text({corner.x + kSquare * (static_cast<double>(j) + 0.5), corner.y + height + 18},
              picture.r.terms[j].name, "");
-  svg.text({corner.x + kSquare * static_cast<double>(columns) / 2, corner.y + height + 38},
-           picture.r.symbol + ": " + picture.r.meaning, R"(fill="#444")");
-  svg.text_upwards({corner.x - 42, corner.y + height / 2}, picture.d.symbol + ": " + picture.d.meaning);
   svg.close();
 }
 
@@ -53,6 +50,10 @@ std::string rules_svg(const FuzzyPicture& picture, const std::string& title) {
                  ColourScale::diverging(picture.sa.min, picture.sa.max), "turn");
   draw_rule_base(svg, {72 + width + 92, 84}, picture, picture.sd, picture.step,
                  ColourScale::sequential(picture.sd.min, picture.sd.max), "step");
+  svg.text({20, height + 126},
+           "Across: " + picture.r.symbol + ", " + picture.r.meaning + ". Up: " + picture.d.symbol + ", " +
+               picture.d.meaning + ".",
+           R"(fill="#555")");
   return std::move(svg).finish();
 }
 

@@ -25,13 +25,10 @@ struct Layout {
   double height = 0;
 };
 
-double marks_height(const LegendContent& c) {
-  const int rows = 2 + c.end + c.contact + c.looks + c.cones + c.obstacles + c.walls + c.movers;
-  return 18 + 20.0 * rows;
-}
-
-double classes_height(const LegendContent& c) {
-  return 18 + 20.0 * kDoings + (c.track.danger_entries > 0 ? 16 : 0) + (c.track.without_place > 0 ? 16 : 0);
+/// Drawn once for nothing but its size.
+double legend_height(int columns, const LegendContent& content) {
+  Svg scratch(1, 1, "");
+  return draw_legend(scratch, {}, columns, content);
 }
 
 Layout lay_out(const Box& box, double top, const LegendContent& content) {
@@ -40,16 +37,15 @@ Layout lay_out(const Box& box, double top, const LegendContent& content) {
   const double y = box.max().y - box.min().y;
   layout.legend_below = x > 1.4 * y;
   layout.view = fit(box, {kLeft, top}, layout.legend_below ? 860 : 600, layout.legend_below ? 620 : 640);
-  const double beside = std::max(marks_height(content), classes_height(content));
+  const double legend = legend_height(layout.legend_below ? 2 : 1, content);
   if (layout.legend_below) {
     layout.legend = {kLeft, layout.view.bottom() + kBelowPlot};
     layout.width = layout.view.right() + kEdge;
-    layout.height = layout.legend.y + beside + kEdge;
+    layout.height = layout.legend.y + legend + kEdge;
   } else {
     layout.legend = {layout.view.right() + 28, top};
     layout.width = layout.legend.x + kLegendWidth + kEdge;
-    const double stack = marks_height(content) + classes_height(content) + 8;
-    layout.height = std::max(layout.view.bottom() + kBelowPlot, top + stack + kEdge);
+    layout.height = std::max(layout.view.bottom() + kBelowPlot, top + legend + kEdge);
   }
   layout.width = std::max(layout.width, kMinWidth);
   return layout;

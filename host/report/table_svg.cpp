@@ -14,7 +14,7 @@ namespace {
 constexpr double kSide = 400;
 constexpr double kCell = 2.5;
 constexpr int kCells = 160;  // kSide / kCell
-constexpr int kLevels = 48;
+constexpr int kLevels = 49;  // odd: zero in the middle of a diverging scale has a level of its own
 
 using Function = std::function<double(double, double)>;
 

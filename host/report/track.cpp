@@ -63,6 +63,31 @@ std::vector<Piece> full_pieces(const std::vector<TickRecord>& records) {
   return all;
 }
 
+/// A point too far from the line between two others, or `from`. Of those nearly as far as the farthest it is
+/// the one nearest to the middle: halves keep a jagged path of n points at n log n, ends would make it n^2.
+std::size_t split_point(const std::vector<Vec2>& points, std::size_t from, std::size_t to,
+                        double tolerance_m) {
+  const auto distance = [&](std::size_t i) {
+    return distance_to_segment(points[i], points[from], points[to]);
+  };
+  double farthest = tolerance_m;
+  std::size_t split = from;
+  for (std::size_t i = from + 1; i < to; ++i) {
+    if (const double d = distance(i); d > farthest) {
+      farthest = d;
+      split = i;
+    }
+  }
+  if (split == from) return from;
+  const double enough = std::max(0.9 * farthest, tolerance_m);
+  const std::size_t middle = from + (to - from) / 2;
+  for (std::size_t away = 0; away <= (to - from) / 2; ++away) {
+    if (middle + away < to && distance(middle + away) > enough) return middle + away;
+    if (middle - away > from && distance(middle - away) > enough) return middle - away;
+  }
+  return split;
+}
+
 }  // namespace
 
 Doing doing(const TickRecord& record) noexcept {
@@ -114,15 +139,7 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance_m
   while (!open.empty()) {
     const auto [from, to] = open.back();
     open.pop_back();
-    double worst = tolerance_m;
-    std::size_t split = from;
-    for (std::size_t i = from + 1; i < to; ++i) {
-      const double d = distance_to_segment(points[i], points[from], points[to]);
-      if (d > worst) {
-        worst = d;
-        split = i;
-      }
-    }
+    const std::size_t split = split_point(points, from, to, tolerance_m);
     if (split == from) continue;
     keep[split] = true;
     open.emplace_back(from, split);
