@@ -16,7 +16,7 @@ struct RunPicture {
   double path_tolerance = 5e-4;  ///< m; a path point nearer than this to the drawn line is left out
 };
 
-/// The SVG file. Axes are equal, in metres; the card is 620 to 960 px wide. Records may be empty; those
+/// The SVG file. Axes are equal, in metres; the card is 620 to 980 px wide. Records may be empty; those
 /// without a finite position are left out, and the legend says how many. Equal input gives equal bytes.
 std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& records, const RunResult& result,
                     const RunPicture& options = {});

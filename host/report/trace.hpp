@@ -1,4 +1,4 @@
-/// The trace of a run as CSV: a header, then one row per control tick. docs: the columns, in order.
+/// The trace of a run as CSV: a header, then one row per control tick. The columns, in order:
 ///
 /// | column | unit, decimals | |
 /// |---|---|---|
