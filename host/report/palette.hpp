@@ -1,0 +1,32 @@
+/// The looks of what a run picture shows. The four path classes differ in hue for colour-blind eyes too,
+/// in lightness for grey print, and in width or dashes.
+#pragma once
+
+#include "host/report/track.hpp"
+
+namespace whisker::report {
+
+struct Look {
+  const char* name;    ///< class attribute in the SVG
+  const char* label;   ///< in the legend
+  const char* colour;  ///< #rrggbb
+  double width;        ///< px
+  const char* dashes;  ///< stroke-dasharray; "none": solid
+};
+
+/// Indexed by Doing.
+constexpr Look kLooks[kDoings] = {
+    {"free", "free driving", "#3487c4", 2.0, "none"},
+    {"table", "steered by the table", "#e69f00", 3.0, "none"},
+    {"probing", "probing: deflected", "#1f1f1f", 2.0, "5 2.5"},
+    {"danger", "danger area", "#b3261e", 3.6, "none"},
+};
+
+constexpr const char* kObstacle = R"(fill="#d3d3d0" stroke="#6f6f6c" stroke-width="0.8")";
+constexpr const char* kWall =
+    R"(fill="none" stroke="#454543" stroke-width="2.4" stroke-linecap="round" stroke-linejoin="round")";
+constexpr const char* kOutside = "#dcdcd8";
+constexpr const char* kGoalColour = "#00795c";
+constexpr const char* kContactColour = "#d0006f";
+
+}  // namespace whisker::report

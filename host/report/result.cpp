@@ -1,0 +1,69 @@
+#include "host/report/result.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/report/svg.hpp"
+
+namespace whisker::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Six decimals print shortly: 0.1 + 0.2 becomes 0.3.
+Json rounded(double x) {
+  const double y = std::round(x * 1e6) / 1e6;
+  return std::isfinite(y) ? Json(y + 0.0) : Json(nullptr);
+}
+
+const char* opening(Verdict verdict) noexcept {
+  switch (verdict) {
+    case Verdict::reached: return "reached in";
+    case Verdict::unreachable: return "found unreachable after";
+    case Verdict::gave_up: return "gave up after";
+    case Verdict::contact: return "contact after";
+    case Verdict::fault: return "stopped by a fault after";
+  }
+  return "?";
+}
+
+}  // namespace
+
+const char* outcome(Verdict verdict) noexcept {
+  switch (verdict) {
+    case Verdict::reached: return "reached";
+    case Verdict::unreachable: return "unreachable";
+    case Verdict::gave_up: return "gave_up";
+    case Verdict::contact: return "contact";
+    case Verdict::fault: return "fault";
+  }
+  return "?";
+}
+
+std::string result_json(const RunResult& result) {
+  Json json;
+  json["outcome"] = outcome(result.verdict);
+  json["time_s"] = rounded(result.time_s);
+  json["path_m"] = rounded(result.path_m);
+  json["final_distance_m"] = rounded(result.final_distance_m);
+  json["min_clearance_m"] = rounded(result.min_clearance_m);
+  json["ticks"] = result.ticks;
+  json["hash"] = fmt::format("{:016x}", result.hash);
+  json["detail"] = result.detail;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string verdict_words(const RunResult& result) {
+  std::string words = opening(result.verdict);
+  words += fmt::format(" {:.1f} s, {:.2f} m", result.time_s, result.path_m);
+  if (result.verdict != Verdict::reached)
+    words += fmt::format(", {:.2f} m from the goal", result.final_distance_m);
+  if (std::isfinite(result.min_clearance_m))
+    words += fmt::format(", min clearance {} m", decimals(result.min_clearance_m, 3));
+  if (!result.detail.empty()) words += fmt::format(" ({})", result.detail);
+  return words;
+}
+
+}  // namespace whisker::report

@@ -1,0 +1,20 @@
+/// The verdict of a run, for programs and for people.
+#pragma once
+
+#include <string>
+
+#include "host/run/record.hpp"
+
+namespace whisker::report {
+
+/// reached | unreachable | gave_up | contact | fault
+const char* outcome(Verdict verdict) noexcept;
+
+/// One JSON object on one line, without a newline at the end. Lengths and times are rounded to 1e-6. A
+/// number that is not finite (the clearance in an empty world) becomes null.
+std::string result_json(const RunResult& result);
+
+/// "reached in 48.2 s, 12.31 m, min clearance 0.031 m": one line, the detail in brackets if there is one.
+std::string verdict_words(const RunResult& result);
+
+}  // namespace whisker::report

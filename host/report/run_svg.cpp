@@ -1,0 +1,118 @@
+#include "host/report/run_svg.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/report/axes.hpp"
+#include "host/report/result.hpp"
+#include "host/report/run_legend.hpp"
+#include "host/report/run_scene.hpp"
+#include "host/report/units.hpp"
+
+namespace whisker::report {
+namespace {
+
+constexpr double kLeft = 62;
+constexpr double kEdge = 20;
+constexpr double kBelowPlot = 52;
+constexpr double kMinWidth = 620;
+
+struct Layout {
+  View view;
+  bool legend_below = false;
+  Point legend;
+  double width = 0;
+  double height = 0;
+};
+
+/// Drawn once for nothing but its size.
+double legend_height(int columns, const LegendContent& content) {
+  Svg scratch(1, 1, "");
+  return draw_legend(scratch, {}, columns, content);
+}
+
+Layout lay_out(const Box& box, double top, const LegendContent& content) {
+  Layout layout;
+  const double x = box.max().x - box.min().x;
+  const double y = box.max().y - box.min().y;
+  layout.legend_below = x > 1.4 * y;
+  layout.view = fit(box, {kLeft, top}, layout.legend_below ? 860 : 600, layout.legend_below ? 620 : 640);
+  const double legend = legend_height(layout.legend_below ? 2 : 1, content);
+  if (layout.legend_below) {
+    layout.legend = {kLeft, layout.view.bottom() + kBelowPlot};
+    layout.width = layout.view.right() + kEdge;
+    layout.height = layout.legend.y + legend + kEdge;
+  } else {
+    layout.legend = {layout.view.right() + 28, top};
+    layout.width = layout.legend.x + kLegendWidth + kEdge;
+    layout.height = std::max(layout.view.bottom() + kBelowPlot, top + legend + kEdge);
+  }
+  layout.width = std::max(layout.width, kMinWidth);
+  return layout;
+}
+
+/// The last record that has a place, or null.
+const TickRecord* last_placed(const std::vector<TickRecord>& records) {
+  const auto it = std::find_if(records.rbegin(), records.rend(), [](const TickRecord& r) {
+    return drawable({r.x_m, r.y_m});
+  });
+  return it == records.rend() ? nullptr : &*it;
+}
+
+sim::Pose pose(const TickRecord& r) {
+  return {{r.x_m, r.y_m}, std::isfinite(r.heading_rad) ? r.heading_rad : 0.0};
+}
+
+std::string name_of(const Scenario& scenario) {
+  return scenario.name.empty() ? "unnamed scenario" : shortened(scenario.name, 70);
+}
+
+}  // namespace
+
+std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& records, const RunResult& result,
+                    const RunPicture& options) {
+  const TickRecord* end = last_placed(records);
+  const auto entries = danger_entries(records, options.cones);
+  LegendContent content;
+  content.track = summarise(records);
+  content.looks = options.looks && content.track.looks > 0;
+  content.cones = !entries.empty();
+  content.end = end != nullptr;
+  content.contact = result.verdict == Verdict::contact;
+  content.obstacles = !scenario.discs.empty() || !scenario.polygons.empty();
+  content.walls = !scenario.walls.empty();
+  content.movers = !scenario.movers.empty();
+
+  const double top = options.subtitle.empty() ? 66 : 84;
+  const Layout layout = lay_out(scene_box(scenario, records), top, content);
+  const View& view = layout.view;
+  const double body = metres(scenario.robot.body.radius);
+  const std::string words = verdict_words(result);
+
+  Svg svg(layout.width, layout.height, name_of(scenario) + ": " + words);
+  svg.text({kEdge, 28}, name_of(scenario), R"(class="name" font-size="17" font-weight="bold")");
+  svg.text({kEdge, 49}, shortened(words, 110), R"(class="verdict" font-size="13")");
+  if (!options.subtitle.empty())
+    svg.text({kEdge, 68}, shortened(options.subtitle, 120), R"(class="subtitle" font-size="12" fill="#555")");
+
+  svg.open_clipped("plot", view.corner, view.width(), view.height());
+  draw_world(svg, view, scenario, end != nullptr ? end->t_s : 0.0);
+  draw_goal(svg, view, scenario.goal);
+  for (const TickRecord* entry : entries) draw_cones(svg, view, scenario.robot.rangefinders, *entry);
+  draw_body(
+      svg, view, body, scenario.start,
+      R"(class="body start" fill="#fff" fill-opacity="0.7" stroke="#222" stroke-width="1.2" stroke-dasharray="3 2")");
+  draw_path(svg, view, records, options.path_tolerance);
+  if (content.looks) draw_looks(svg, view, records);
+  if (end != nullptr)
+    draw_body(svg, view, body, pose(*end),
+              R"(class="body end" fill="#c9d8e4" fill-opacity="0.65" stroke="#222" stroke-width="1.5")");
+  if (content.contact) draw_contact(svg, view, body, end != nullptr ? pose(*end) : scenario.start);
+  draw_labels(svg, view, scenario, end, result.verdict);
+  svg.close();
+  draw_axes(svg, view);
+  draw_legend(svg, layout.legend, layout.legend_below ? 2 : 1, content);
+  return std::move(svg).finish();
+}
+
+}  // namespace whisker::report

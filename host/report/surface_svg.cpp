@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/report/colour.hpp"
+#include "host/report/figures.hpp"
+#include "host/report/plot.hpp"
+
+namespace whisker::report {
+namespace {
+
+constexpr int kCellsR = 32;  // over the thesis's ranges, cells of half a unit: every centre is a line
+constexpr int kCellsD = 20;
+constexpr double kWidth = 250;   ///< px from the front corner to the right corner, and to the left one
+constexpr double kDepth = 118;   ///< px that these corners lie higher on the page
+constexpr double kHeight = 190;  ///< px from the lowest to the highest output
+
+/// A block over R (0 at the right corner, 1 at the front) and D (0 at the front, 1 at the left), output up:
+/// so that the low corner of the turn factor lies in front.
+struct Block {
+  Point front;
+  Range r, d, out;
+
+  Point at(double r01, double d01, double out01) const {
+    return {front.x + kWidth * (1 - r01 - d01), front.y - kDepth * (1 - r01 + d01) - kHeight * out01};
+  }
+  double share(double value) const {
+    return std::isfinite(value) ? (value - out.min) / (out.max - out.min) : 0.0;
+  }
+};
+
+double between(Range range, double share) { return range.min + (range.max - range.min) * share; }
+
+void draw_walls(Svg& svg, const Block& block) {
+  PathData walls;
+  walls.move(block.at(1, 1, 0))
+      .line(block.at(0, 1, 0))
+      .line(block.at(0, 1, 1))
+      .line(block.at(1, 1, 1))
+      .close();
+  walls.move(block.at(0, 0, 0))
+      .line(block.at(0, 1, 0))
+      .line(block.at(0, 1, 1))
+      .line(block.at(0, 0, 1))
+      .close();
+  svg.path(walls, R"(fill="#fff" stroke="#b8b8b4")");
+  PathData lines;
+  for (const double value : ticks(block.out, 4)) {
+    const double z = block.share(value);
+    lines.move(block.at(1, 1, z)).line(block.at(0, 1, z)).line(block.at(0, 0, z));
+    const Point p = block.at(1, 1, z);
+    svg.text({p.x - 6, p.y + 4}, decimals(value, 1), R"(text-anchor="end" font-size="11" fill="#444")");
+  }
+  svg.path(lines, R"(fill="none" stroke="#e0e0dc")");
+}
+
+void draw_floor(Svg& svg, const Block& block, const FuzzyPicture& picture) {
+  PathData floor;
+  floor.move(block.at(1, 1, 0)).line(block.at(1, 0, 0)).line(block.at(0, 0, 0));
+  svg.path(floor, R"(fill="none" stroke="#8c8c88")");
+  svg.open(R"(class="axes" font-size="11" fill="#444" text-anchor="middle")");
+  for (const double value : ticks(block.r, 8)) {
+    const Point p = block.at((value - block.r.min) / (block.r.max - block.r.min), 0, 0);
+    svg.text({p.x + 10, p.y + 16}, decimals(value, 0), "");
+  }
+  for (const double value : ticks(block.d, 5)) {
+    const Point p = block.at(1, (value - block.d.min) / (block.d.max - block.d.min), 0);
+    svg.text({p.x - 10, p.y + 16}, decimals(value, 0), "");
+  }
+  const Point r = block.at(0.5, 0, 0);
+  const Point d = block.at(1, 0.5, 0);
+  svg.text({r.x + 34, r.y + 36}, picture.r.symbol, R"(font-weight="bold")");
+  svg.text({d.x - 34, d.y + 36}, picture.d.symbol, R"(font-weight="bold")");
+  svg.close();
+}
+
+/// From the far corner to the near one, so that what is nearer covers what is behind.
+void draw_surface(Svg& svg, const Block& block, const std::function<double(double, double)>& f,
+                  const ColourScale& scale) {
+  const auto value = [&](int i, int j) {
+    return f(between(block.d, static_cast<double>(j) / kCellsD),
+             between(block.r, static_cast<double>(i) / kCellsR));
+  };
+  const auto corner = [&](int i, int j) {
+    return block.at(static_cast<double>(i) / kCellsR, static_cast<double>(j) / kCellsD,
+                    block.share(value(i, j)));
+  };
+  svg.open(
+      R"(class="surface" stroke="#000" stroke-opacity="0.22" stroke-width="0.5" stroke-linejoin="round")");
+  for (int i = 0; i < kCellsR; ++i) {
+    for (int j = kCellsD - 1; j >= 0; --j) {
+      PathData cell;
+      cell.move(corner(i, j))
+          .line(corner(i + 1, j))
+          .line(corner(i + 1, j + 1))
+          .line(corner(i, j + 1))
+          .close();
+      const double mean = (value(i, j) + value(i + 1, j) + value(i + 1, j + 1) + value(i, j + 1)) / 4;
+      svg.path(cell, fmt::format(R"(fill="{}")", scale.at(mean)));
+    }
+  }
+  svg.close();
+}
+
+void draw_block(Svg& svg, Point front, const FuzzyPicture& picture, const Variable& output,
+                const std::function<double(double, double)>& f, const ColourScale& scale) {
+  const Block block{
+      front, {picture.r.min, picture.r.max}, {picture.d.min, picture.d.max}, {output.min, output.max}};
+  svg.text({front.x - kWidth - 20, front.y - 2 * kDepth - kHeight - 16},
+           output.symbol + ": " + output.meaning, R"(font-size="13" font-weight="bold")");
+  draw_walls(svg, block);
+  draw_surface(svg, block, f, scale);
+  draw_floor(svg, block, picture);
+}
+
+}  // namespace
+
+std::string surface_svg(const FuzzyPicture& picture, const std::string& title) {
+  check(picture);
+  Svg svg(1130, 590, title);
+  svg.text({20, 30}, title, R"(font-size="15" font-weight="bold")");
+  draw_block(svg, {296, 512}, picture, picture.sa, picture.sa_at,
+             ColourScale::diverging(picture.sa.min, picture.sa.max));
+  draw_block(svg, {850, 512}, picture, picture.sd, picture.sd_at,
+             ColourScale::sequential(picture.sd.min, picture.sd.max));
+  svg.text({20, 572},
+           picture.r.symbol + ": " + picture.r.meaning + "; " + picture.d.symbol + ": " + picture.d.meaning,
+           R"(fill="#555")");
+  return std::move(svg).finish();
+}
+
+}  // namespace whisker::report

@@ -1,0 +1,89 @@
+#include "host/report/trace.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "host/report/file.hpp"
+#include "host/report/units.hpp"
+
+namespace whisker::report {
+namespace {
+
+/// Half a unit of the last decimal or less is written without a sign: 0.0000, never -0.0000.
+double unsigned_zero(double x, int decimals) {
+  return std::fabs(x) * std::pow(10.0, decimals) <= 0.5 ? 0.0 : x;
+}
+
+class Row {
+ public:
+  explicit Row(std::string& out) : out_(out) {}
+  Row& number(double x, int decimals) {
+    separate();
+    fmt::format_to(std::back_inserter(out_), "{:.{}f}", unsigned_zero(x, decimals), decimals);
+    return *this;
+  }
+  Row& count(unsigned n) {
+    separate();
+    fmt::format_to(std::back_inserter(out_), "{}", n);
+    return *this;
+  }
+  Row& word(const char* text) {
+    separate();
+    out_ += text;
+    return *this;
+  }
+  Row& range(const hal::RangeReading& reading, const RangefinderParams& sensor) {
+    switch (reading.status) {
+      case hal::RangeStatus::ok: return number(reading.mm / 1000.0, 4);
+      case hal::RangeStatus::clear: return number(metres(sensor.max_range), 4);
+      case hal::RangeStatus::too_near: return number(metres(sensor.min_range), 4);
+      case hal::RangeStatus::invalid:
+      case hal::RangeStatus::stale: return word("");
+    }
+    return word("");
+  }
+  void end() { out_ += '\n'; }
+
+ private:
+  void separate() {
+    if (!first_) out_ += ',';
+    first_ = false;
+  }
+  std::string& out_;
+  bool first_ = true;
+};
+
+void add_row(std::string& out, const RangefinderParams& sensor, const TickRecord& r) {
+  Row row(out);
+  row.number(r.t_s, 3).number(r.x_m, 6).number(r.y_m, 6).number(r.heading_rad, 6);
+  for (const hal::RangeReading& reading : r.ranges.beam) row.range(reading, sensor);
+  row.number(r.v_left_mps, 5).number(r.v_right_mps, 5).word(nav::name(r.mode)).word(nav::name(r.why));
+  row.count(r.danger_count).count(r.looked ? 1 : 0);
+  row.number(r.d_q7 / 128.0, 4).number(r.r_q7 / 128.0, 4);
+  row.number(r.sa_q14 / 16384.0, 5).number(r.sd_q14 / 16384.0, 5);
+  row.number(r.command.left / 10000.0, 5).number(r.command.right / 10000.0, 5);
+  row.number(r.est_x_m, 6).number(r.est_y_m, 6).number(r.est_heading_rad, 6);
+  row.end();
+}
+
+}  // namespace
+
+const char* const kTraceHeader =
+    "t_s,x_m,y_m,heading_rad,left_m,front_m,right_m,v_left_mps,v_right_mps,state,why,"
+    "t,looked,d,r,sa,sd,cmd_left_mps,cmd_right_mps,est_x_m,est_y_m,est_heading_rad";
+
+std::string trace_csv(const Scenario& scenario, const std::vector<TickRecord>& records) {
+  std::string out = kTraceHeader;
+  out += '\n';
+  out.reserve(out.size() + records.size() * 200);
+  for (const TickRecord& r : records) add_row(out, scenario.robot.rangefinders, r);
+  return out;
+}
+
+void write_trace(const std::string& path, const Scenario& scenario, const std::vector<TickRecord>& records) {
+  write_file(path, trace_csv(scenario, records));
+}
+
+}  // namespace whisker::report

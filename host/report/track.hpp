@@ -1,0 +1,50 @@
+/// What the robot did along its path, in the few classes that a picture can tell apart.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "host/run/record.hpp"
+#include "host/sim/geometry.hpp"
+
+namespace whisker::report {
+
+enum class Doing {
+  free,     ///< driving where the target lies
+  table,    ///< steered by the response table
+  probing,  ///< deflected because the planned step was not free
+  danger,   ///< danger area: searching an exit or skirting an edge
+};
+constexpr int kDoings = 4;
+
+/// The class of one tick. A danger counter above 0 is always `danger`; standing modes count as `free`.
+Doing doing(const TickRecord& record) noexcept;
+
+/// What a reader wants counted.
+struct TrackSummary {
+  std::array<double, kDoings> metres{};  ///< driven, by Doing
+  double total_m = 0;
+  int danger_entries = 0;  ///< times that the danger counter left 0
+  int longest_danger = 0;  ///< largest danger counter
+  int looks = 0;           ///< ticks at which a decision was taken from a look
+  int without_place = 0;   ///< records whose position cannot be drawn: left out everywhere
+};
+TrackSummary summarise(const std::vector<TickRecord>& records);
+
+/// A stretch of the path driven in one class; at least two different points.
+struct Piece {
+  Doing doing;
+  std::vector<sim::Vec2> points;
+};
+
+/// The path as pieces that join end to start, every point dropped that lies within `tolerance_m` of what is
+/// drawn without it. Doubles the tolerance until at most `max_points` remain, if the number of pieces allows.
+std::vector<Piece> pieces(const std::vector<TickRecord>& records, double tolerance_m, std::size_t max_points);
+
+/// Ramer-Douglas-Peucker: keeps both ends; every dropped point lies within the tolerance of the kept line.
+std::vector<sim::Vec2> simplified(const std::vector<sim::Vec2>& points, double tolerance_m);
+
+/// Where a mover is: it starts at its centre toward the end of its path, then there and back.
+sim::Vec2 mover_position(const std::vector<sim::Vec2>& path, sim::Vec2 center, double driven_m);
+
+}  // namespace whisker::report

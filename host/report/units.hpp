@@ -1,0 +1,16 @@
+/// The core's quantities as numbers for pictures and files.
+#pragma once
+
+#include "firmware/core/angle.hpp"
+#include "firmware/core/units.hpp"
+
+namespace whisker::report {
+
+constexpr double metres(Length length) { return static_cast<double>(length.raw()) / 1e6; }
+
+/// In [-pi, pi).
+constexpr double radians(Angle angle) {
+  return static_cast<double>(angle.wrapped()) / 4294967296.0 * 6.283185307179586;
+}
+
+}  // namespace whisker::report

@@ -1,0 +1,182 @@
+#include "host/report/figures.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "host/report/colour.hpp"
+#include "host/report/table_svg.hpp"
+#include "tests/report/controller.hpp"
+#include "tests/report/xml.hpp"
+
+namespace whisker::report {
+namespace {
+
+using testing::Element;
+using testing::parse_xml;
+using testing::thesis_picture;
+
+std::vector<std::string> words(const Element& root, const char* group) {
+  std::vector<std::string> all;
+  for (const Element* g : root.by_class(group))
+    for (const Element* t : g->by_name("text")) all.push_back(t->text);
+  return all;
+}
+
+TEST(ThesisFigures, are_figures_2_to_7_well_formed_with_plain_coordinates) {
+  const auto figures = thesis_figures(thesis_picture());
+  ASSERT_EQ(figures.size(), 6U);
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    EXPECT_EQ(figures[i].first, "figure" + std::to_string(i + 2) + ".svg");
+    const Element root = parse_xml(figures[i].second);
+    EXPECT_EQ(testing::odd_coordinate(root), "") << figures[i].first;
+    EXPECT_EQ(root.by_name("title").at(0)->text.rfind("Figure " + std::to_string(i + 2), 0), 0U);
+    EXPECT_LT(figures[i].second.size(), 200000U) << figures[i].first;
+  }
+  EXPECT_EQ(figures, thesis_figures(thesis_picture()));
+}
+
+TEST(MembershipSvg, peaks_at_each_centre_and_crosses_its_neighbour_half_way_up) {
+  const Variable r = thesis_picture().r;
+  const Element root = parse_xml(membership_svg(r, "R"));
+  const Element* frame = root.by_class("frame").at(0);
+  const auto x = [&](double value) {
+    return frame->number("x") + (value - r.min) / (r.max - r.min) * frame->number("width");
+  };
+  const auto peaks = root.by_name("circle");
+  ASSERT_EQ(peaks.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(peaks[i]->number("cx"), x(r.terms[i].centre), 0.01);
+    EXPECT_NEAR(peaks[i]->number("cy"), frame->number("y"), 0.01);
+  }
+  EXPECT_EQ(root.by_class("term").size(), 5U);
+}
+
+TEST(RulesSvg, has_25_squares_an_output_in_the_colours_of_their_values) {
+  const FuzzyPicture picture = thesis_picture();
+  const Element root = parse_xml(rules_svg(picture, "rules"));
+  const auto squares = root.by_class("turn").at(0)->by_name("rect");
+  ASSERT_EQ(squares.size(), 25U);
+  EXPECT_EQ(root.by_class("step").at(0)->by_name("rect").size(), 25U);
+  const ColourScale scale = ColourScale::diverging(-1.5, 1.5);
+  std::size_t k = 0;
+  for (const auto& row : picture.turn)
+    for (const Rule& rule : row) EXPECT_EQ(squares[k++]->attributes.at("fill"), scale.at(rule.value));
+  // D rises upwards: the first row of rules is the lowest on the page.
+  EXPECT_GT(squares[0]->number("y"), squares[24]->number("y"));
+}
+
+TEST(TableSvg, names_each_rule_at_its_centre) {
+  const FuzzyPicture picture = thesis_picture();
+  const Element root = parse_xml(table_svg(picture));
+  EXPECT_EQ(testing::odd_coordinate(root), "");
+  const std::vector<std::string> labels = words(*root.by_class("turn").at(0), "rules");
+  ASSERT_EQ(labels.size(), 50U);
+  EXPECT_EQ(labels[0], "TLVB");
+  EXPECT_EQ(labels[1], "+1.50");
+  EXPECT_EQ(labels[9], "-1.50");
+  const Element* map = root.by_class("turn").at(0);
+  const Element* frame = map->by_class("frame").at(0);
+  const Element* first = map->by_class("rules").at(0)->by_name("text").at(0);
+  EXPECT_NEAR(first->number("x"), frame->number("x") + frame->number("width") / 16, 0.01);
+}
+
+/// The fill of the heat map at a place of the plane, from the rectangles of the file.
+std::string colour_at(const Element& map, double r01, double d01) {
+  const Element* frame = map.by_class("frame").at(0);
+  const double x = frame->number("x") + r01 * frame->number("width");
+  const double y = frame->number("y") + (1 - d01) * frame->number("height");
+  std::string colour;
+  for (const Element* level : map.by_class("cells").at(0)->by_name("path")) {
+    double left = 0, top = 0, width = 0, height = 0;
+    int read = 0;
+    const char* at = level->attributes.at("d").c_str();
+    while (std::sscanf(at, "M%lf %lfh%lfv%lfh%*fz%n", &left, &top, &width, &height, &read) == 4) {
+      if (x >= left && x < left + width && y >= top && y < top + height) {
+        EXPECT_EQ(colour, "") << "two rectangles at one place";
+        colour = level->attributes.at("fill");
+      }
+      at += read;
+    }
+  }
+  return colour;
+}
+
+TEST(TableSvg, paints_each_place_in_the_colour_of_its_value) {
+  const FuzzyPicture picture = thesis_picture();
+  const Element root = parse_xml(table_svg(picture));
+  const ColourScale scale = ColourScale::diverging(-1.5, 1.5);
+  const Element& map = *root.by_class("turn").at(0);
+  for (double r01 = 0.03; r01 < 1; r01 += 0.11) {
+    for (double d01 = 0.03; d01 < 1; d01 += 0.11) {
+      const std::string colour = colour_at(map, r01, d01);
+      ASSERT_EQ(colour.size(), 7U);
+      const std::string exact = scale.at(picture.sa_at(10 * d01, -8 + 16 * r01));
+      for (std::size_t c = 1; c < 7; c += 2)
+        EXPECT_NEAR(std::stoi(colour.substr(c, 2), nullptr, 16), std::stoi(exact.substr(c, 2), nullptr, 16),
+                    14)
+            << r01 << " " << d01;
+    }
+  }
+}
+
+TEST(TableSvg, has_a_numbered_colour_bar_for_each_output) {
+  const Element root = parse_xml(table_svg(thesis_picture()));
+  EXPECT_EQ(root.by_class("colour-bar").size(), 2U);
+}
+
+TEST(TableSvg, survives_a_response_that_is_not_a_number) {
+  FuzzyPicture picture = thesis_picture();
+  picture.sa_at = [](double, double) { return std::numeric_limits<double>::quiet_NaN(); };
+  picture.sd_at = [](double, double) { return std::numeric_limits<double>::infinity(); };
+  EXPECT_EQ(testing::odd_coordinate(parse_xml(table_svg(picture))), "");
+  for (const auto& [name, svg] : thesis_figures(picture))
+    EXPECT_EQ(testing::odd_coordinate(parse_xml(svg)), "") << name;
+}
+
+TEST(FuzzyPicture, that_does_not_fit_is_refused_by_name) {
+  const auto refusal = [](auto&& spoil) {
+    FuzzyPicture picture = thesis_picture();
+    spoil(picture);
+    try {
+      table_svg(picture);
+    } catch (const std::invalid_argument& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal([](FuzzyPicture& p) { p.turn[2].pop_back(); }), "the rules of SA are not 5 x 5");
+  EXPECT_EQ(refusal([](FuzzyPicture& p) { p.step.pop_back(); }), "the rules of SD are not 5 x 5");
+  EXPECT_EQ(refusal([](FuzzyPicture& p) { p.d.max = p.d.min; }), "D: the range is empty");
+  EXPECT_EQ(refusal([](FuzzyPicture& p) { p.r.terms.resize(1); }), "R: fewer than two terms");
+  EXPECT_EQ(refusal([](FuzzyPicture& p) { p.r.terms[2].centre = 5; }), "R: the centre of LB is out of order");
+  EXPECT_EQ(refusal([](FuzzyPicture& p) { p.sd_at = nullptr; }), "a response function is missing");
+  EXPECT_EQ(refusal([](FuzzyPicture&) {}), "");
+}
+
+TEST(ColourScale, runs_from_end_to_end_and_stays_there) {
+  for (const ColourScale& scale : {ColourScale::diverging(-1, 1), ColourScale::sequential(-1, 1)}) {
+    EXPECT_EQ(scale.at(-5), scale.at(-1));
+    EXPECT_EQ(scale.at(5), scale.at(1));
+    std::set<std::string> seen;
+    for (int i = 0; i <= 40; ++i) seen.insert(scale.at(-1 + i / 20.0));
+    EXPECT_EQ(seen.size(), 41U);
+  }
+}
+
+TEST(ColourScale, of_turns_is_neutral_at_zero) {
+  const std::string middle = ColourScale::diverging(-1.5, 1.5).at(0);
+  EXPECT_EQ(middle, "#f7f7f4");
+}
+
+TEST(ColourScale, writes_in_an_ink_that_can_be_read) {
+  EXPECT_STREQ(ColourScale::sequential(0, 2).ink(0), "#1a1a1a");
+  EXPECT_STREQ(ColourScale::sequential(0, 2).ink(2), "#fff");
+}
+
+}  // namespace
+}  // namespace whisker::report

@@ -1,0 +1,86 @@
+#include "host/report/result.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace whisker::report {
+namespace {
+
+RunResult sample() {
+  RunResult r;
+  r.verdict = Verdict::reached;
+  r.time_s = 48.2;
+  r.path_m = 0.1 + 0.2;
+  r.final_distance_m = 0.0987654321;
+  r.min_clearance_m = 0.031;
+  r.ticks = 4820;
+  r.hash = 0xABC;
+  return r;
+}
+
+TEST(ResultJson, is_the_object_of_the_contract_on_one_line) {
+  EXPECT_EQ(result_json(sample()),
+            R"({"outcome":"reached","time_s":48.2,"path_m":0.3,"final_distance_m":0.098765,)"
+            R"("min_clearance_m":0.031,"ticks":4820,"hash":"0000000000000abc","detail":""})");
+}
+
+TEST(ResultJson, names_each_outcome) {
+  const std::pair<Verdict, const char*> all[] = {{Verdict::reached, "reached"},
+                                                 {Verdict::unreachable, "unreachable"},
+                                                 {Verdict::gave_up, "gave_up"},
+                                                 {Verdict::contact, "contact"},
+                                                 {Verdict::fault, "fault"}};
+  for (const auto& [verdict, name] : all) {
+    RunResult r = sample();
+    r.verdict = verdict;
+    EXPECT_EQ(nlohmann::json::parse(result_json(r))["outcome"], name);
+  }
+}
+
+TEST(ResultJson, keeps_all_bits_of_hash_and_ticks) {
+  RunResult r = sample();
+  r.hash = UINT64_MAX;
+  r.ticks = UINT64_MAX;
+  const auto json = nlohmann::json::parse(result_json(r));
+  EXPECT_EQ(json["hash"], "ffffffffffffffff");
+  EXPECT_EQ(json["ticks"].get<std::uint64_t>(), UINT64_MAX);
+}
+
+TEST(ResultJson, stays_json_on_one_line_whatever_it_holds) {
+  RunResult r = sample();
+  r.detail = "line\nbreak \"quote\" \xFF";
+  r.min_clearance_m = INFINITY;
+  r.path_m = std::nan("");
+  r.final_distance_m = -1e-9;
+  const std::string text = result_json(r);
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_TRUE(json["min_clearance_m"].is_null());
+  EXPECT_TRUE(json["path_m"].is_null());
+  EXPECT_EQ(json["final_distance_m"].dump(), "0.0");
+}
+
+TEST(VerdictWords, say_what_a_person_asks_first) {
+  RunResult r = sample();
+  r.path_m = 12.309;
+  EXPECT_EQ(verdict_words(r), "reached in 48.2 s, 12.31 m, min clearance 0.031 m");
+  r.verdict = Verdict::gave_up;
+  r.final_distance_m = 1.5;
+  r.detail = "time limit";
+  EXPECT_EQ(verdict_words(r),
+            "gave up after 48.2 s, 12.31 m, 1.50 m from the goal, min clearance 0.031 m (time limit)");
+  r.verdict = Verdict::contact;
+  r.min_clearance_m = -0.0001;
+  EXPECT_EQ(verdict_words(r).find("-0.000"), std::string::npos);
+}
+
+TEST(VerdictWords, are_silent_about_a_clearance_that_nothing_gave) {
+  RunResult r = sample();
+  r.min_clearance_m = INFINITY;
+  EXPECT_EQ(verdict_words(r).find("clearance"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace whisker::report

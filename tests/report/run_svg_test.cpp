@@ -1,0 +1,270 @@
+#include "host/report/run_svg.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "host/report/palette.hpp"
+#include "tests/report/script.hpp"
+#include "tests/report/xml.hpp"
+
+namespace whisker::report {
+namespace {
+
+using testing::Element;
+using ::testing::HasSubstr;
+using testing::parse_xml;
+using testing::result_of;
+
+constexpr Verdict kVerdicts[] = {Verdict::reached, Verdict::unreachable, Verdict::gave_up, Verdict::contact,
+                                 Verdict::fault};
+
+struct Drawn {
+  std::string text;
+  Element root;
+};
+
+Drawn draw(const Scenario& scenario, const std::vector<TickRecord>& records, const RunResult& result,
+           const RunPicture& options = {}) {
+  Drawn drawn;
+  drawn.text = run_svg(scenario, records, result, options);
+  drawn.root = parse_xml(drawn.text);
+  return drawn;
+}
+
+Drawn draw_garden(Verdict verdict) {
+  const Scenario scenario = testing::garden();
+  const auto records = testing::garden_run(scenario);
+  return draw(scenario, records, result_of(verdict, scenario, records));
+}
+
+/// Ten minutes at full speed that never go straight and change class again and again.
+std::vector<TickRecord> ten_restless_minutes() {
+  std::mt19937 random(5);
+  std::vector<TickRecord> records(60000);
+  double x = 1;
+  double y = 1;
+  double heading = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    heading += (static_cast<double>(random() % 2001) - 1000) / 4000;
+    if (x < 0 || x > 4 || y < 0 || y > 4) heading = std::atan2(2 - y, 2 - x);
+    x += 0.003 * std::cos(heading);
+    y += 0.003 * std::sin(heading);
+    TickRecord& r = records[i];
+    r.t_s = 0.01 * static_cast<double>(i);
+    r.x_m = x;
+    r.y_m = y;
+    r.heading_rad = heading;
+    r.mode = nav::Mode::stepping;
+    r.why = static_cast<nav::Why>((i / 50) % nav::kWhys);
+    r.looked = true;
+  }
+  return records;
+}
+
+TEST(RunSvg, is_well_formed_with_plain_coordinates_for_each_verdict) {
+  for (const Verdict verdict : kVerdicts) {
+    const Drawn drawn = draw_garden(verdict);
+    EXPECT_EQ(drawn.root.name, "svg");
+    EXPECT_EQ(testing::odd_coordinate(drawn.root), "");
+  }
+}
+
+TEST(RunSvg, gives_equal_bytes_for_equal_input) {
+  EXPECT_EQ(draw_garden(Verdict::reached).text, draw_garden(Verdict::reached).text);
+}
+
+TEST(RunSvg, has_the_name_and_the_verdict_as_text) {
+  const Drawn drawn = draw_garden(Verdict::reached);
+  EXPECT_EQ(drawn.root.by_class("name").at(0)->text, "garden: four discs, a wall & <a mover>");
+  EXPECT_THAT(drawn.root.by_class("verdict").at(0)->text, HasSubstr("reached in 22."));
+  EXPECT_THAT(drawn.root.by_name("title").at(0)->text, HasSubstr("reached in 22."));
+}
+
+TEST(RunSvg, marks_a_contact_exactly_when_there_was_one) {
+  for (const Verdict verdict : kVerdicts) {
+    const Drawn drawn = draw_garden(verdict);
+    EXPECT_EQ(drawn.root.by_class("contact").size(), verdict == Verdict::contact ? 1U : 0U);
+  }
+}
+
+TEST(RunSvg, puts_the_contact_where_the_robot_last_was) {
+  const Drawn drawn = draw_garden(Verdict::contact);
+  const Element* mark = drawn.root.by_class("contact").at(0)->by_name("circle").at(0);
+  const Element* body = drawn.root.by_class("end").at(0)->by_name("circle").at(0);
+  EXPECT_EQ(mark->number("cx"), body->number("cx"));
+  EXPECT_EQ(mark->number("cy"), body->number("cy"));
+}
+
+TEST(RunSvg, has_a_key_for_each_class_and_a_line_for_each_driven_one) {
+  const Drawn drawn = draw_garden(Verdict::reached);
+  EXPECT_EQ(drawn.root.by_class("key").size(), static_cast<std::size_t>(kDoings));
+  const Element* path = drawn.root.by_class("path").at(0);
+  for (const Look& look : kLooks) {
+    ASSERT_EQ(path->by_class(look.name).size(), 1U) << look.name;
+    EXPECT_EQ(path->by_class(look.name).at(0)->attributes.at("stroke"), look.colour);
+  }
+  const Scenario scenario = testing::garden();
+  const auto straight = testing::follow(scenario, {{{0.5, 0.5}}});
+  const Drawn one = draw(scenario, straight, result_of(Verdict::gave_up, scenario, straight));
+  EXPECT_EQ(one.root.by_class("key").size(), static_cast<std::size_t>(kDoings));
+  EXPECT_EQ(one.root.by_class("path").at(0)->children.size(), 1U);
+}
+
+TEST(RunSvg, counts_the_share_of_each_class_in_the_legend) {
+  Scenario scenario;
+  const auto records = testing::follow(scenario, {{{1, 0}}, {{4, 0}, nav::Mode::stepping, nav::Why::table}});
+  const Drawn drawn = draw(scenario, records, result_of(Verdict::reached, scenario, records));
+  std::vector<std::string> words;
+  for (const Element* text : drawn.root.by_class("legend").at(0)->by_name("text"))
+    words.push_back(text->text);
+  EXPECT_THAT(words, ::testing::IsSupersetOf({"free driving", "1.00 m", "25 %", "steered by the table",
+                                              "3.00 m", "75 %", "looked here (2 looks)"}));
+}
+
+/// Page coordinates of a small disc, which the picture shows as a circle in the same order.
+std::vector<const Element*> discs_of(const Drawn& drawn) {
+  return drawn.root.by_class("obstacles").at(0)->by_name("circle");
+}
+
+RC_GTEST_PROP(RunSvg, has_equal_axes_and_keeps_places_in_worlds_from_one_to_fifty_metres, ()) {
+  const double size = *rc::gen::inRange(10, 500) / 10.0;
+  const auto coordinate = rc::gen::map(rc::gen::inRange(-1000, 1001), [&](int k) { return k * size / 2000; });
+  Scenario scenario;
+  scenario.goal.at = {size, *coordinate};
+  for (int i = 0; i < 6; ++i) scenario.discs.push_back({{*coordinate, *coordinate}, size / 30});
+  const Drawn drawn = draw(scenario, {}, {});
+  const auto circles = discs_of(drawn);
+  RC_ASSERT(circles.size() == 6U);
+  const double scale = circles[0]->number("r") / scenario.discs[0].radius;
+  for (std::size_t i = 1; i < 6; ++i) {
+    const sim::Vec2 world = scenario.discs[i].center - scenario.discs[0].center;
+    const double x = circles[i]->number("cx") - circles[0]->number("cx");
+    const double y = circles[0]->number("cy") - circles[i]->number("cy");
+    // Coordinates have two decimals, and so has the radius that the scale is taken from.
+    const double slack = 0.011 + 0.006 / circles[0]->number("r") * std::fmax(std::fabs(x), std::fabs(y));
+    RC_ASSERT(std::fabs(x - world.x * scale) <= slack);
+    RC_ASSERT(std::fabs(y - world.y * scale) <= slack);
+  }
+}
+
+TEST(RunSvg, numbers_its_axes_where_the_metres_are) {
+  const Drawn drawn = draw_garden(Verdict::reached);
+  const auto circles = discs_of(drawn);
+  const double scale = circles.at(0)->number("r") / 0.25;
+  for (const Element* tick : drawn.root.by_class("x-axis").at(0)->by_name("text"))
+    EXPECT_NEAR(tick->number("x"), circles[0]->number("cx") + (std::stod(tick->text) - 1.15) * scale, 0.2)
+        << tick->text;
+  // The numbers hang 4 px low, so that their middle is at the line.
+  for (const Element* tick : drawn.root.by_class("y-axis").at(0)->by_name("text"))
+    EXPECT_NEAR(tick->number("y") - 4, circles[0]->number("cy") - (std::stod(tick->text) - 0.75) * scale, 0.2)
+        << tick->text;
+  EXPECT_GE(drawn.root.by_class("x-axis").at(0)->by_name("text").size(), 4U);
+  EXPECT_GE(drawn.root.by_class("y-axis").at(0)->by_name("text").size(), 4U);
+}
+
+TEST(RunSvg, draws_the_scale_bar_as_long_as_it_says) {
+  const Drawn drawn = draw_garden(Verdict::reached);
+  const Element* bar = drawn.root.by_class("scale-bar").at(0);
+  EXPECT_EQ(bar->by_name("text").at(0)->text, "1 m");
+  const Element* label = bar->by_name("text").at(0);
+  const double right =
+      drawn.root.by_class("frame").at(0)->number("x") + drawn.root.by_class("frame").at(0)->number("width");
+  EXPECT_NEAR(right - (label->number("x") + 6), discs_of(drawn).at(0)->number("r") / 0.25, 0.05);
+}
+
+TEST(RunSvg, of_ten_restless_minutes_stays_below_300_kilobytes) {
+  Scenario scenario = testing::garden();
+  const auto records = ten_restless_minutes();
+  const Drawn drawn = draw(scenario, records, result_of(Verdict::gave_up, scenario, records));
+  EXPECT_LT(drawn.text.size(), 300000U);
+  EXPECT_GT(drawn.root.by_class("path").at(0)->children.size(), 2U);
+}
+
+TEST(RunSvg, without_a_record_shows_the_world) {
+  const Drawn drawn = draw(testing::garden(), {}, {});
+  EXPECT_EQ(discs_of(drawn).size(), 4U);
+  EXPECT_EQ(drawn.root.by_class("start").size(), 1U);
+  EXPECT_EQ(drawn.root.by_class("end").size(), 0U);
+  EXPECT_EQ(drawn.root.by_class("looks").size(), 0U);
+  EXPECT_TRUE(drawn.root.by_class("path").at(0)->children.empty());
+}
+
+TEST(RunSvg, of_a_contact_before_the_first_record_marks_the_start) {
+  RunResult result;
+  result.verdict = Verdict::contact;
+  const Drawn drawn = draw(testing::garden(), {}, result);
+  EXPECT_EQ(drawn.root.by_class("contact").at(0)->by_name("circle").at(0)->number("cx"),
+            drawn.root.by_class("start").at(0)->by_name("circle").at(0)->number("cx"));
+}
+
+TEST(RunSvg, widens_its_frame_for_a_robot_that_left_the_bounds) {
+  const Scenario scenario = testing::garden();
+  const auto records = testing::follow(scenario, {{{-3, 0.4}}});
+  const Drawn drawn = draw(scenario, records, result_of(Verdict::fault, scenario, records));
+  const Element* frame = drawn.root.by_class("frame").at(0);
+  const Element* end = drawn.root.by_class("end").at(0)->by_name("circle").at(0);
+  EXPECT_GT(end->number("cx") - end->number("r"), frame->number("x"));
+}
+
+TEST(RunSvg, survives_numbers_that_no_page_holds) {
+  const Scenario scenario = testing::garden();
+  auto records = testing::garden_run(scenario);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  records[10].x_m = nan;
+  records[20].y_m = INFINITY;
+  records[30].x_m = -1e300;
+  records[40].heading_rad = nan;
+  for (TickRecord& r : records) r.t_s = 1e15;
+  records.back().heading_rad = INFINITY;
+  RunResult result;
+  result.time_s = nan;
+  result.min_clearance_m = -INFINITY;
+  const Drawn drawn = draw(scenario, records, result);
+  EXPECT_EQ(testing::odd_coordinate(drawn.root), "");
+  EXPECT_THAT(drawn.text, HasSubstr("3 records without a position left out"));
+}
+
+TEST(RunSvg, shows_the_beams_where_the_danger_area_was_entered) {
+  const Scenario scenario = testing::garden();
+  const auto records = testing::garden_run(scenario);
+  const RunResult result = result_of(Verdict::reached, scenario, records);
+  const Drawn drawn = draw(scenario, records, result);
+  ASSERT_EQ(drawn.root.by_class("cones").size(), 1U);
+  EXPECT_EQ(drawn.root.by_class("cones").at(0)->by_name("path").size(), 3U);
+  RunPicture none;
+  none.cones = 0;
+  EXPECT_TRUE(draw(scenario, records, result, none).root.by_class("cones").empty());
+}
+
+TEST(RunSvg, shows_no_beam_for_a_lost_reading) {
+  const Scenario scenario = testing::garden();
+  auto records = testing::garden_run(scenario);
+  for (TickRecord& r : records) r.ranges.beam[hal::kFront].status = hal::RangeStatus::stale;
+  const Drawn drawn = draw(scenario, records, result_of(Verdict::reached, scenario, records));
+  EXPECT_EQ(drawn.root.by_class("cones").at(0)->by_name("path").size(), 2U);
+}
+
+TEST(RunSvg, moves_the_mover_to_where_it_is_at_the_end) {
+  const Scenario scenario = testing::garden();
+  const auto records = testing::garden_run(scenario);
+  const Drawn drawn = draw(scenario, records, result_of(Verdict::reached, scenario, records));
+  const double scale = discs_of(drawn).at(0)->number("r") / 0.25;
+  const double x = discs_of(drawn)[0]->number("cx") + (1.45 + 0.05 * records.back().t_s - 1.15) * scale;
+  EXPECT_NEAR(drawn.root.by_class("mover").at(0)->number("cx"), x, 0.3);
+}
+
+TEST(RunSvg, keeps_a_name_of_any_bytes_well_formed) {
+  Scenario scenario = testing::garden();
+  scenario.name = std::string(500, '<') + "\xFF\x01";
+  EXPECT_NO_THROW(draw(scenario, {}, {}));
+  scenario.name = "\xFF\x01]]>&";
+  EXPECT_NO_THROW(draw(scenario, {}, {}, {"sub & title <"}));
+}
+
+}  // namespace
+}  // namespace whisker::report

@@ -1,0 +1,31 @@
+/// A file as expat sees it, for questions that a test asks.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace whisker::testing {
+
+struct Element {
+  std::string name;
+  std::map<std::string, std::string> attributes;
+  std::string text;
+  std::vector<Element> children;
+
+  /// One of the words of the class attribute.
+  bool has_class(std::string_view word) const;
+  double number(const std::string& attribute) const;
+  /// Itself and everything below, in document order, that has the class.
+  std::vector<const Element*> by_class(std::string_view word) const;
+  std::vector<const Element*> by_name(std::string_view tag) const;
+};
+
+/// Throws std::runtime_error with expat's words and the line if the text is not well-formed.
+Element parse_xml(std::string_view text);
+
+/// The first coordinate in any attribute that is not a plain decimal number, or an empty string.
+std::string odd_coordinate(const Element& root);
+
+}  // namespace whisker::testing
