@@ -17,7 +17,7 @@ cxx_files() { find firmware hal host tests \( -name '*.hpp' -o -name '*.cpp' \) 
 
 build() {
   cmake --preset "$1"
-  cmake --build --preset "$1" -j "$jobs"
+  cmake --build --preset "$1" -j "$jobs" -- --quiet
 }
 
 # The gates on the source tree are labelled build: they ask nothing of a compiler, so one stage runs them.
