@@ -1,0 +1,103 @@
+# shellcheck shell=bash
+# The stages of scripts/test: each is a function that runs under set -e with its output in a log.
+
+# Floors of firmware/'s coverage in per cent: raise them when the tests get better.
+readonly line_floor=95
+readonly branch_floor=85
+
+readonly fuzz_seconds=${FUZZ_SECONDS:-60}
+readonly soak_count=${SOAK_COUNT:-200}
+
+jobs=$(nproc)
+export CXX=g++  # of the presets that name no compiler
+export CTEST_PARALLEL_LEVEL=$jobs
+export UBSAN_OPTIONS=print_stacktrace=1
+
+cxx_files() { find firmware hal host tests \( -name '*.hpp' -o -name '*.cpp' \) -print0; }
+
+build() {
+  cmake --preset "$1"
+  cmake --build --preset "$1" -j "$jobs" -- --quiet
+}
+
+# The gates on the source tree are labelled build: they ask nothing of a compiler, so one stage runs them.
+build_and_test() {
+  build "$1"
+  ctest --preset "$1" --no-tests=error -LE '^build$'
+}
+
+stage_shell() {
+  for script in scripts/* .ci/run; do bash -n "$script"; done
+  shellcheck -x scripts/* .ci/run
+}
+
+stage_format() { cxx_files | xargs -0 clang-format-14 --dry-run -Werror; }
+
+stage_gcc() {
+  build host
+  ctest --preset host --no-tests=error -LE '^cross$'
+}
+
+stage_cross() {
+  cmake --preset host | tee build/cross-configure.log
+  if grep "^-- No compiler for" build/cross-configure.log; then return 1; fi
+  ctest --preset host --no-tests=error -L '^cross$' -V
+}
+
+stage_clang() { build_and_test clang; }
+
+stage_asan() { build_and_test asan; }
+
+stage_coverage() {
+  build coverage
+  find build/coverage -name '*.gcda' -delete
+  ctest --preset coverage --no-tests=error -LE '^build$'
+  # Exceptions cannot leave the core, so the branches of a throw are no branches of its own.
+  gcovr -j "$jobs" --root . --filter firmware/ --exclude-throw-branches --json build/coverage/all.json \
+    build/coverage
+  {
+    gcovr --root . --add-tracefile build/coverage/all.json
+    gcovr --root . --add-tracefile build/coverage/all.json --branches
+  } | tee build/coverage/summary.txt
+  gcovr --root . --add-tracefile build/coverage/all.json --fail-under-line "$line_floor" \
+    --fail-under-branch "$branch_floor" >/dev/null
+}
+
+stage_closed() { build_and_test closed; }
+
+stage_core() {
+  build core
+  build_and_test core-tests
+}
+
+stage_tidy() {
+  cmake --preset core
+  find firmware -name '*.cpp' -print0 | xargs -0 -n 4 -P "$jobs" clang-tidy-14 -p build/core --quiet
+}
+
+stage_long() {
+  build host
+  WHISKER_LONG=1 ctest --preset host --no-tests=error -LE '^build$'
+}
+
+stage_fuzz() {
+  local fuzzer name
+  build fuzz
+  for fuzzer in build/fuzz/fuzzers/*; do
+    name=$(basename "$fuzzer")
+    mkdir -p "build/fuzz/corpus/$name" "build/fuzz/findings"
+    "$fuzzer" -max_total_time="$fuzz_seconds" -timeout=10 -artifact_prefix="build/fuzz/findings/$name-" \
+      "build/fuzz/corpus/$name" host/worlds/scenarios
+  done
+}
+
+stage_soak() {
+  local kind seed=${SOAK_SEED:-$RANDOM}
+  build asan
+  echo "again: SOAK_SEED=$seed SOAK_COUNT=$soak_count scripts/test --only soak"
+  for kind in discs poles u-trap spiral maze rooms enclosed; do
+    echo "$kind"
+    build/asan/whisker campaign "$kind" --count "$soak_count" --seed "$seed" --jobs "$jobs" \
+      --csv "build/soak-$kind.csv"
+  done
+}

@@ -1,0 +1,203 @@
+"""Each gate refuses what it is there to refuse, and accepts its neighbour. usage: gates_can_fail.py CXX [ARM_CXX ARM_NM]"""
+
+import contextlib
+import io
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import absolute_paths
+import core_alone
+import cross
+import headers_alone
+import include_direction
+import lengths
+
+CXX, ARM_CXX, ARM_NM = (sys.argv[1:] + [None] * 3)[:3]
+
+
+@contextlib.contextmanager
+def tree(files):
+    """A folder with these files: path -> text."""
+    with tempfile.TemporaryDirectory() as root:
+        for path, text in files.items():
+            target = pathlib.Path(root, path)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(text)
+        yield root
+
+
+def run(gate, files, *arguments):
+    """(exit status, output) of a gate's main on a tree."""
+    printed = io.StringIO()
+    with tree(files) as root, contextlib.redirect_stdout(printed):
+        return gate(root, *arguments), printed.getvalue()
+
+
+class IncludeDirection(unittest.TestCase):
+    def errors(self, path, line):
+        return include_direction.errors(path, line + "\n", lambda target: "missing" not in target)
+
+    def test_goes_down(self):
+        for path, line in (
+            ("firmware/nav/a.cpp", '#include "firmware/fuzzy/b.hpp"'),
+            ("firmware/nav/a.cpp", '#include "firmware/nav/b.hpp"'),
+            ("firmware/nav/a.cpp", '#include "firmware/params.hpp"'),
+            ("firmware/robot.cpp", '#include "firmware/motion/b.hpp"'),
+            ("firmware/robot.hpp", '#include "hal/drive.hpp"'),
+            ("firmware/ranges/a.hpp", '#include "hal/wire.hpp"'),
+            ("firmware/core/a.hpp", "#include <stdint.h>"),
+            ("hal/drive.hpp", '#include "hal/wire.hpp"'),
+            ("hal/sim/a.cpp", '#include "host/sim/body.hpp"'),
+            ("hal/sim/a.cpp", "#include <vector>"),
+            ("host/run/a.cpp", '#include "hal/sim/b.hpp"'),
+            ("tests/core/a.cpp", '#include "tests/support/b.hpp"'),
+        ):
+            self.assertEqual(self.errors(path, line), [], (path, line))
+
+    def test_never_up_or_out(self):
+        for path, line in (
+            ("firmware/core/a.hpp", '#include "firmware/params.hpp"'),
+            ("firmware/params.hpp", '#include "firmware/ranges/b.hpp"'),
+            ("firmware/ranges/a.hpp", '#include "firmware/fuzzy/b.hpp"'),
+            ("firmware/fuzzy/a.hpp", '#include "firmware/nav/b.hpp"'),
+            ("firmware/nav/a.hpp", '#include "firmware/motion/b.hpp"'),
+            ("firmware/motion/a.hpp", '#include "firmware/robot.hpp"'),
+            ("firmware/unknown/a.hpp", '#include "firmware/core/b.hpp"'),
+            ("firmware/nav/a.cpp", "#include <vector>"),
+            ("firmware/nav/a.cpp", "  #  include <cstdint>"),
+            ("firmware/nav/a.cpp", '#include "host/sim/body.hpp"'),
+            ("firmware/nav/a.cpp", '#include "hal/wire.hpp"'),
+            ("firmware/robot.hpp", '#include "hal/sim/b.hpp"'),
+            ("firmware/nav/a.cpp", '#include "missing.hpp"'),
+            ("firmware/nav/a.cpp", "#include WHERE"),
+            ("hal/drive.hpp", "#include <cstdint>"),
+            ("hal/drive.hpp", '#include "hal/sim/b.hpp"'),
+            ("hal/drive.hpp", '#include "firmware/core/units.hpp"'),
+            ("hal/sim/a.cpp", '#include "hal/can/b.hpp"'),
+            ("hal/sim/a.cpp", '#include "host/cli/b.hpp"'),
+            ("host/run/a.cpp", '#include "tests/support/b.hpp"'),
+            ("host/run/a.cpp", '#include "/usr/include/stdio.h"'),
+        ):
+            self.assertEqual(len(self.errors(path, line)), 1, (path, line))
+
+    def test_refuses_an_empty_tree(self):
+        self.assertEqual(run(include_direction.main, {})[0], 1)
+
+
+class HeadersAlone(unittest.TestCase):
+    def status(self, text):
+        return run(headers_alone.main, {"firmware/core/a.hpp": text}, CXX, "-Wall", "-Werror")[0]
+
+    def test_accepts_a_complete_header(self):
+        self.assertEqual(self.status("#pragma once\n#include <stdint.h>\nstruct A { uint8_t x; };\n"), 0)
+
+    def test_refuses_a_missing_include(self):
+        self.assertEqual(self.status("#pragma once\nstruct A { uint8_t x; };\n"), 1)
+
+    def test_refuses_a_missing_guard(self):
+        self.assertEqual(self.status("struct A { int x; };\n"), 1)
+
+
+class Lengths(unittest.TestCase):
+    def status(self, **files):
+        return run(lengths.main, {f"host/{name}.cpp": "\n" * n for name, n in files.items()})[0]
+
+    def test_accepts_the_limits(self):
+        self.assertEqual(self.status(a=400, b=100, c=1), 0)
+
+    def test_refuses_a_long_file(self):
+        self.assertEqual(self.status(a=401, b=100, c=1), 1)
+
+    def test_refuses_a_long_median(self):
+        self.assertEqual(self.status(a=400, b=101, c=1), 1)
+
+
+class AbsolutePaths(unittest.TestCase):
+    def test_refuses_a_home(self):
+        for text in ('open("/home/me/world.toml")', "#include </opt/x/y.h>", "set(X '/usr/lib/x')"):
+            self.assertEqual(len(absolute_paths.errors(text)), 1, text)
+
+    def test_accepts_what_is_everywhere(self):
+        for text in ('"/dev/ttyS0"', '"/"', '"host/sim/a.hpp"', '"http://example.org/a/b"', '// "a" / b / "c"'):
+            self.assertEqual(absolute_paths.errors(text), [], text)
+
+
+class CoreAlone(unittest.TestCase):
+    def lookups(self, file, command):
+        line = f'{{"cmd": "{command}", "args": ["fmt"], "file": "{file}", "line": 1}}\n'
+        with tree({"trace": '{"version": {"major": 1, "minor": 2}}\n' + line}) as folder:
+            return core_alone.lookups("/root", f"{folder}/trace")
+
+    def test_refuses_a_look_outside(self):
+        self.assertEqual(len(self.lookups("/root/host/CMakeLists.txt", "find_package")), 1)
+        self.assertEqual(len(self.lookups("/root/CMakeLists.txt", "FetchContent_Declare")), 1)
+
+    def test_accepts_the_rest(self):
+        self.assertEqual(self.lookups("/root/CMakeLists.txt", "add_library"), [])
+        self.assertEqual(self.lookups("/usr/share/cmake/Modules/X.cmake", "find_program"), [])
+
+
+def cross_status(target, compiler, text, *options):
+    with tempfile.TemporaryDirectory() as work:
+        gate = lambda root: cross.main([target, root, work, compiler, *options])  # noqa: E731
+        return run(gate, {"firmware/core/a.cpp": text})
+
+
+class NoFloat(unittest.TestCase):
+    def test_accepts_integers(self):
+        status, output = cross_status("no-float", CXX, "int twice(int x) { return 2 * x; }\n")
+        self.assertEqual(status, 0, output)
+
+    def test_refuses_a_float(self):
+        status, output = cross_status("no-float", CXX, "float twice(float x) { return 2 * x; }\n")
+        self.assertEqual(status, 1)
+        self.assertIn("SSE", output)
+
+
+class ArmSymbols(unittest.TestCase):
+    ACCEPTED = (
+        "long long f(long long a, long long b) { return a / b * a % b; }",
+        "struct S { int x[64]; }; void f(S& a, const S& b) { a = b; a = {}; }",
+        "int f(int x) { switch (x) { case 1: return 7; case 2: return 4; case 3: return 9; case 4: return 1; "
+        "case 5: return 88; default: return 0; } }",
+        "constexpr int kTable[] = {3, 1, 4}; int f(int i) { return kTable[i]; }",
+    )
+    REFUSED = (
+        ("float f(float x) { return x * x; }", "__aeabi_fmul"),
+        ("double f(double x) { return x + x; }", "__aeabi_dadd"),
+        ("int* f() { return new int; }", "_Znwj"),
+        ("void f(int* p) { delete p; }", "_ZdlPv"),
+        ("extern \"C\" void* malloc(unsigned); void* f() { return malloc(4); }", "malloc"),
+        ("int g(); int f() { static const int x = g(); return x; } int g() { return 1; }", "guard"),
+        ("int g() noexcept; int x = g();", "before main"),
+        ("int calls; int f() { return ++calls; }", "state"),
+        ("int f() { static int calls = 7; return ++calls; }", "state"),
+        ("extern \"C\" int printf(const char*, ...); void f() { printf(\"x\"); }", "printf"),
+        ("struct B { virtual ~B() = default; }; struct D : B { ~D(); }; D::~D() {}", "_ZdlPv"),
+    )  # fmt: skip
+
+    def run_gate(self, text):
+        return cross_status("arm", ARM_CXX, text + "\n", "--nm", ARM_NM)
+
+    def test_accepts_integer_and_memory_helpers(self):
+        for text in self.ACCEPTED:
+            status, output = self.run_gate(text)
+            self.assertEqual(status, 0, text + "\n" + output)
+
+    def test_refuses_everything_else(self):
+        for text, reason in self.REFUSED:
+            status, output = self.run_gate(text)
+            self.assertEqual(status, 1, text)
+            self.assertIn(reason, output, text)
+
+    def test_refuses_an_exception(self):
+        self.assertEqual(self.run_gate("void f() { throw 1; }")[0], 1)
+
+
+if not ARM_CXX:
+    del ArmSymbols
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,41 @@
+/// Any bytes as a scenario file: a scenario that can be written and read back, or one line that says what is
+/// wrong.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+#include <string_view>
+
+#include "host/scenario/scenario.hpp"
+
+namespace {
+
+constexpr const char* kName = "fuzz.toml";
+
+void require(bool holds, std::string_view what, const std::string& text) {
+  if (holds) return;
+  std::cerr << what << ":\n" << text << "\n";
+  std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(data, data + size);
+  whisker::Scenario scenario;
+  try {
+    scenario = whisker::parse_scenario(text, kName);
+  } catch (const whisker::InputError& error) {
+    const std::string message = error.what();
+    require(message.rfind(std::string(kName) + ":", 0) == 0,
+            "the message does not begin with FILE:", message);
+    require(message.find('\n') == std::string::npos, "the message has more than one line", message);
+    return 0;
+  }
+  const std::string written = whisker::to_toml(scenario);
+  require(whisker::to_toml(whisker::parse_scenario(written, kName)) == written,
+          "written, read and written again: differs", written);
+  return 0;
+}
