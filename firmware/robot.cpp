@@ -27,7 +27,7 @@ void Robot::reset() noexcept {
   drive_refusals_ = 0;
   encoder_refusals_ = 0;
   was_settled_ = false;
-  driver_.begin({motion::Kind::stop, {}, {}}, status_.pose);
+  driver_.begin({nav::Kind::stop, {}, {}}, status_.pose);
   planner_.cancel();
 }
 

@@ -19,11 +19,11 @@ Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noex
 
 }  // namespace
 
-void Driver::begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept {
-  if (manoeuvre.kind == Kind::keep) return;
+void Driver::begin(const nav::Manoeuvre& manoeuvre, const Pose& pose) noexcept {
+  if (manoeuvre.kind == nav::Kind::keep) return;
   current_ = manoeuvre;
   origin_ = pose.at;
-  finished_ = manoeuvre.kind == Kind::stop;
+  finished_ = manoeuvre.kind == nav::Kind::stop;
   still_ticks_ = 0;
   stalled_ticks_ = 0;
 }
@@ -33,7 +33,7 @@ WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
   const Length half_track = params.body.track / 2;
   const Angle error = current_.heading - pose.heading;
   const Speed turn_limit = min(params.wheels.max_speed, params.wheels.max_turn_rate * half_track);
-  if (current_.kind == Kind::turn) {
+  if (current_.kind == nav::Kind::turn) {
     if (magnitude(error) <= params.motion.turn_tolerance.raw()) {
       finished_ = true;
       return {};

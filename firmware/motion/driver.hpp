@@ -5,7 +5,7 @@
 
 #include "firmware/core/trig.hpp"
 #include "firmware/core/units.hpp"
-#include "firmware/motion/manoeuvre.hpp"
+#include "firmware/nav/manoeuvre.hpp"
 #include "firmware/motion/mixer.hpp"
 #include "firmware/motion/odometry.hpp"
 #include "firmware/params.hpp"
@@ -16,8 +16,8 @@ namespace whisker::motion {
 /// over the way that is left, less what the motor's lag adds.
 class Driver {
  public:
-  /// Starts a manoeuvre; Kind::keep changes nothing. The wheels go over from their present speeds.
-  void begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept;
+  /// Starts a manoeuvre; nav::Kind::keep changes nothing. The wheels go over from their present speeds.
+  void begin(const nav::Manoeuvre& manoeuvre, const Pose& pose) noexcept;
 
   /// One control tick. paused: come to rest, and take the manoeuvre up again afterwards.
   /// Returns the new wheel speeds, at most max_acceleration x period from the ones before.
@@ -34,7 +34,7 @@ class Driver {
   static constexpr int32_t kStillTicks = 3;
   WheelPair target(const Pose& pose, const Params& params) noexcept;
 
-  Manoeuvre current_{Kind::stop, {}, {}};
+  nav::Manoeuvre current_{nav::Kind::stop, {}, {}};
   Vec origin_;
   WheelPair speeds_;
   bool finished_ = true;

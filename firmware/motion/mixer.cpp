@@ -16,7 +16,7 @@ WheelPair mix(Speed forward, Speed turning, Speed max_speed) noexcept {
   return {shrink(wheels.left, max_speed, peak), shrink(wheels.right, max_speed, peak)};
 }
 
-WheelPair slew(WheelPair now, WheelPair want, Speed max_change) noexcept {
+WheelPair slew(const WheelPair& now, const WheelPair& want, Speed max_change) noexcept {
   const Speed left = want.left - now.left;
   const Speed right = want.right - now.right;
   const Speed peak = max(abs(left), abs(right));

@@ -17,7 +17,7 @@ WheelPair mix(Speed forward, Speed turning, Speed max) noexcept;
 
 /// One control tick from `now` towards `want`: both wheels cover the same fraction of their way, and
 /// none changes by more than `max_change`, so that the curvature passes smoothly from one to the other.
-WheelPair slew(WheelPair now, WheelPair want, Speed max_change) noexcept;
+WheelPair slew(const WheelPair& now, const WheelPair& want, Speed max_change) noexcept;
 
 /// To the wire's 0.1 mm/s, to nearest; saturates.
 hal::WheelSpeeds to_wire(WheelPair speeds) noexcept;

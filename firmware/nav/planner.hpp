@@ -5,7 +5,7 @@
 
 #include "firmware/core/trig.hpp"
 #include "firmware/fuzzy/engine.hpp"
-#include "firmware/motion/manoeuvre.hpp"
+#include "firmware/nav/manoeuvre.hpp"
 #include "firmware/nav/state.hpp"
 #include "firmware/ranges/echo.hpp"
 
@@ -27,7 +27,7 @@ enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };
 
 /// What it wants, and why.
 struct Decision {
-  motion::Manoeuvre manoeuvre;  ///< Kind::keep: go on
+  Manoeuvre manoeuvre;  ///< Kind::keep: go on
   Mode mode = Mode::idle;
   Why why = Why::none;
   Outcome outcome = Outcome::none;

@@ -37,11 +37,11 @@ Decision ThesisPlanner::step(const View& view) noexcept {
       decision_.mode = Mode::facing;
       decision_.why = Why::goal_set;
       decision_.outcome = Outcome::running;
-      decision_.manoeuvre.kind = motion::Kind::stop;
+      decision_.manoeuvre.kind = Kind::stop;
       break;
     case Request::cancel:
       finish(Mode::idle, Why::cancelled, Outcome::none);
-      decision_.manoeuvre.kind = motion::Kind::stop;
+      decision_.manoeuvre.kind = Kind::stop;
       break;
   }
   request_ = Request::none;
@@ -211,13 +211,13 @@ void ThesisPlanner::deflect(Phase phase) noexcept {
 }
 
 void ThesisPlanner::turn_to(Angle heading) noexcept {
-  decision_.manoeuvre = {motion::Kind::turn, heading, Length{}};
+  decision_.manoeuvre = {Kind::turn, heading, Length{}};
 }
 
 void ThesisPlanner::drive(Length length) noexcept {
   phase_ = Phase::move;
   decision_.mode = decision_.danger_count == 0 ? Mode::stepping : Mode::skirting;
-  decision_.manoeuvre = {motion::Kind::drive, base_ + deflection(), length};
+  decision_.manoeuvre = {Kind::drive, base_ + deflection(), length};
 }
 
 void ThesisPlanner::finish(Mode mode, Why why, Outcome outcome) noexcept {

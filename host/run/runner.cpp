@@ -7,10 +7,13 @@
 #include "hal/sim/sim_board.hpp"
 #include "host/run/hash.hpp"
 #include "host/run/spec.hpp"
-#include "host/scenario/world.hpp"
+#include "host/run/sim_world.hpp"
 
 namespace whisker {
 namespace {
+
+/// What stands for the clearance of an empty world: no scenario is larger.
+constexpr double kFarAway = 1000.0;
 
 std::optional<Verdict> verdict_of(const Status& status) {
   if (status.health.fault != Fault::none) {
@@ -65,10 +68,9 @@ double distance_left(const sim::Plant& plant, const Scenario& scenario) {
 }  // namespace
 
 RunResult run(const Scenario& scenario, const RunOptions& options) {
-  const World world = build_world(scenario);
+  const SimWorld world(scenario);
   const Params& params = scenario.robot;
-  const sim::WorldView view = world.view();
-  sim::Plant plant(view, robot_spec(params), noise_spec(scenario.noise),
+  sim::Plant plant(world.view(), robot_spec(params), noise_spec(scenario.noise),
                    options.seed.value_or(scenario.seed), scenario.start);
   hal::SimBoard board(plant);
   nav::ThesisPlanner planner(params, fuzzy::kDefaultTable);
@@ -115,7 +117,7 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   result.verdict = *verdict;
   result.path_m = plant.path_length();
   result.final_distance_m = distance_left(plant, scenario);
-  result.min_clearance_m = plant.min_clearance();
+  result.min_clearance_m = std::fmin(plant.min_clearance(), kFarAway);
   result.hash = hash.value();
   return result;
 }

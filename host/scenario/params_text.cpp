@@ -105,12 +105,15 @@ const char* relation(ParamFault fault) {
     case ParamFault::danger_inside_body:
       return "thesis_danger_range_m must be greater than body_radius_m + body_margin_m";
     case ParamFault::steps_reversed: return "thesis_small_step_m must not be greater than thesis_base_step_m";
-    case ParamFault::stop_longer_than_margin:
+    case ParamFault::stop_longer_than_range:
       return "the way to stop from wheel_speed_max_mps (braking, motor_lag_s and control_period_s) must not "
              "be longer than range_max_m / 4";
     case ParamFault::stale_before_next_reading:
       return "stale_after_s must be greater than 1 / range_rate_hz + range_latency_s";
     case ParamFault::lost_before_stale: return "lost_after_s must not be less than stale_after_s";
+    case ParamFault::tolerance_below_encoder:
+      return "drive_tolerance_m, and the rim's way over turn_tolerance_deg, must not be less than "
+             "1 / encoder_counts_per_m";
     case ParamFault::gap_below_period: return "max_tick_gap_s must be at least 2 control_period_s";
   }
   return "";

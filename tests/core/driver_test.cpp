@@ -10,6 +10,9 @@
 namespace whisker::motion {
 namespace {
 
+using nav::Kind;
+using nav::Manoeuvre;
+
 /// Wheels with a first-order lag and encoders, enough to close the loop around the driver.
 class Loop {
  public:

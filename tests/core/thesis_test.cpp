@@ -12,7 +12,7 @@
 namespace whisker::nav {
 namespace {
 
-using motion::Kind;
+
 using ranges::Echo;
 using ranges::Echoes;
 using ranges::Validity;

@@ -1,6 +1,7 @@
 // The decisions of whole runs, compared with committed ones. An intended change of behaviour commits the new
 // files: run this program once with WHISKER_UPDATE_GOLDEN=1 in the environment, and read the diff.
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -22,6 +23,8 @@ constexpr const char* kEngine = "closed";
 #else
 constexpr const char* kEngine = "table";
 #endif
+
+const std::filesystem::path kSource = WHISKER_SOURCE_DIR;
 
 struct Case {
   std::string name;
@@ -46,10 +49,10 @@ std::string decisions(const Scenario& scenario) {
 }
 
 std::vector<Case> cases() {
-  const std::string folder = std::string(WHISKER_SOURCE_DIR) + "/host/worlds/scenarios/";
+  const std::filesystem::path folder = kSource / "host/worlds/scenarios";
   std::vector<Case> all;
   for (const char* name : {"two_discs", "figure8_u_trap", "figure9_discs", "figure10_discs"}) {
-    all.push_back({name, load_scenario(folder + name + ".toml")});
+    all.push_back({name, load_scenario(folder / (std::string(name) + ".toml"))});
   }
   for (const auto kind :
        {worlds::Kind::discs, worlds::Kind::poles, worlds::Kind::u_trap, worlds::Kind::spiral,
@@ -67,7 +70,7 @@ std::vector<Case> cases() {
 TEST(Golden, EveryDecisionIsTheCommittedOne) {
   const bool update = std::getenv("WHISKER_UPDATE_GOLDEN") != nullptr;
   for (const Case& c : cases()) {
-    const std::string path = fmt::format("{}/tests/robot/golden/{}/{}.csv", WHISKER_SOURCE_DIR, kEngine, c.name);
+    const std::filesystem::path path = kSource / "tests/robot/golden" / kEngine / (c.name + ".csv");
     const std::string now = decisions(c.scenario);
     if (update) std::ofstream(path) << now;
     std::ifstream file(path);

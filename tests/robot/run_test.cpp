@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@
 namespace whisker {
 namespace {
 
-const std::string kScenarios = std::string(WHISKER_SOURCE_DIR) + "/host/worlds/scenarios/";
+const std::filesystem::path kScenarios = std::filesystem::path(WHISKER_SOURCE_DIR) / "host/worlds/scenarios";
 
 struct Drive {
   RunResult result;
@@ -125,7 +126,7 @@ TEST(Run, DropoutsAndFalseClearsCostTimeAndNothingElse) {
 }
 
 TEST(Run, TheSeedOfTheNoiseDecidesAndOptionsOverrideIt) {
-  Scenario s = load_scenario(kScenarios + "two_discs.toml");
+  Scenario s = load_scenario(kScenarios / "two_discs.toml");
   s.noise.range_sigma_m = 0.01;
   RunOptions other;
   other.seed = s.seed + 1;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <ios>
 
@@ -12,7 +13,7 @@ namespace {
 // golden.txt: a seed and its hash a line. A change there is a change of every simulated run: it must be
 // meant.
 TEST(Golden, TheScriptedDriveComesOutTheSameEverywhere) {
-  std::ifstream golden(WHISKER_SOURCE_DIR "/tests/sim/golden.txt");
+  std::ifstream golden(std::filesystem::path(WHISKER_SOURCE_DIR) / "tests/sim/golden.txt");
   std::uint64_t seed = 0, hash = 0;
   int lines = 0;
   while (golden >> std::dec >> seed >> std::hex >> hash) {

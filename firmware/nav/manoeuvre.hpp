@@ -6,7 +6,7 @@
 #include "firmware/core/angle.hpp"
 #include "firmware/core/units.hpp"
 
-namespace whisker::motion {
+namespace whisker::nav {
 
 enum class Kind : uint8_t {
   keep,   ///< go on with the one under way
@@ -21,4 +21,4 @@ struct Manoeuvre {
   Length length;
 };
 
-}  // namespace whisker::motion
+}  // namespace whisker::nav
