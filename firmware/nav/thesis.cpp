@@ -1,5 +1,7 @@
 #include "firmware/nav/thesis.hpp"
 
+#include "firmware/fuzzy/scale.hpp"
+
 namespace whisker::nav {
 namespace {
 

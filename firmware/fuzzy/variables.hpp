@@ -1,0 +1,57 @@
+/// The variables of the fuzzy stage, their terms and the shapes that every engine shares.
+///
+/// | | meaning | range | raw unit |
+/// |---|---|---|---|
+/// | D | distance to the obstacles ahead | [0, 10] | 1/128 |
+/// | R | right distance - left distance; positive: an obstacle nearer on the left | [-8, 8] | 1/128 |
+/// | SA | turn factor; positive: turn left | [-1.5, 1.5] | 1/16384 |
+/// | SD | step factor | [0, 2) | 1/16384 |
+///
+/// docs/fuzzy.md says which figures are the source's and which are a reconstruction.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "firmware/core/fixed.hpp"
+
+namespace whisker::fuzzy {
+
+struct Inputs {
+  Q7 distance;  ///< D
+  Q7 bias;      ///< R
+};
+
+/// Where in its table an engine looked: the lower corner of the cell, counted from the smallest D and R.
+struct Cell {
+  uint8_t distance;
+  uint8_t bias;
+};
+
+struct Response {
+  Q14 turn;  ///< SA
+  Q14 step;  ///< SD
+  Cell cell;
+};
+
+constexpr int kTerms = 5;
+
+/// Where each term of D (VS S M B VB) and of R (RVB RB CE LB LVB) is fully true; raw Q7.
+constexpr int16_t kDistanceCentres[kTerms] = {128, 384, 640, 896, 1152};
+constexpr int16_t kBiasCentres[kTerms] = {-896, -512, 0, 512, 896};
+
+/// Outside its outer centres an input changes nothing: the outer terms are shoulders.
+constexpr int16_t kDistanceLow = kDistanceCentres[0];
+constexpr int16_t kDistanceHigh = kDistanceCentres[kTerms - 1];
+constexpr int16_t kBiasLow = kBiasCentres[0];
+constexpr int16_t kBiasHigh = kBiasCentres[kTerms - 1];
+constexpr int16_t kDistanceSpan = kDistanceHigh - kDistanceLow;
+constexpr int16_t kBiasSpan = kBiasHigh - kBiasLow;
+
+/// What each of the 25 rules answers, by the terms of D and R. Any values are allowed.
+struct RuleBase {
+  Q14 turn[kTerms][kTerms];
+  Q14 step[kTerms][kTerms];
+};
+
+}  // namespace whisker::fuzzy
