@@ -16,7 +16,8 @@ struct Arc {
 /// The pose after this fraction of the arc, 0..1: the chord along the mean heading, exact.
 Pose along(const Arc& arc, double fraction);
 
-constexpr double kContactGap = 1e-9;      ///< m: a smaller gap is a contact
+constexpr double kContactGap =
+    1e-9;  ///< m: a larger gap is no contact, a gap of 0 is one, between them either
 constexpr double kClearanceSlack = 1e-4;  ///< m: how far the smallest gap reported may exceed the true one
 
 struct Sweep {

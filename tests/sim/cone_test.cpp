@@ -114,6 +114,13 @@ TEST(ConeRange, ToADiscBesideTheConeEndsOnTheConesEdge) {
   EXPECT_NEAR(range(cone_at({0, 0}, 0, 30 * kDegree), mirrored), 2 - 0.8, 1e-14);
 }
 
+TEST(ConeRange, ADiscWhoseCentreIsJustOutsideIsSeenAlongTheEdge) {
+  const double c = std::cos(30 * kDegree), s = std::sin(30 * kDegree);
+  const Disc disc{{c - 0.005 * s, s + 0.005 * c}, 0.02};
+  EXPECT_NEAR(range(cone_at({0, 0}, 0, 30 * kDegree), disc), 1 - std::sqrt(0.02 * 0.02 - 0.005 * 0.005),
+              1e-14);
+}
+
 TEST(ConeRange, AnEdgeThatIsTangentToADiscTouchesIt) {
   const double c = std::cos(30 * kDegree), s = std::sin(30 * kDegree);
   const auto beside = [&](double off) { return Disc{{2 * c - off * s, 2 * s + off * c}, 0.5}; };

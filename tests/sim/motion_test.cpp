@@ -120,9 +120,9 @@ TEST(Sweep, AgreesWithTinyStepsAlongAnArcAmongAllShapes) {
 
 TEST(Sweep, AGrazingPassIsAContactExactlyIfTheGapCloses) {
   // The body passes a disc, a wall's end and a wall alongside, each at a miss of so many metres.
-  for (const double miss : {-1e-3, -1e-6, -1e-7, 1e-7, 1e-6, 1e-3}) {
+  for (const double miss : {-1e-3, -1e-6, -1e-7, -1e-8, 1e-8, 1e-7, 1e-6, 1e-3}) {
     const double body = 0.09;
-    const Arc arc{{{-0.2, 0}, 0}, 0.4, 0};
+    const Arc arc{{{-0.2137, 0}, 0}, 0.4, 0};
     const Disc disc{{0, body + 0.05 + miss}, 0.05};
     const Segment end{{0, body + miss}, {0, 1}};
     const Segment alongside{{0, body + miss}, {9, body + miss}};

@@ -246,6 +246,44 @@ TEST(Plant, SmallestClearanceAgreesWithManyPosesOfARun) {
   }));
 }
 
+TEST(Plant, MeasuresFromWhereItIsAtThatMomentBetweenTwoSteps) {
+  const Segment wall{{30, -50}, {30, 50}};
+  const WorldView world{nullptr, 0, &wall, 1, nullptr, 0};
+  RobotSpec robot;
+  robot.max_speed = 3;
+  robot.max_acceleration = 1000;
+  robot.motor_lag = 0;
+  robot.max_range = 60;
+  robot.rate_hz = 30;
+  robot.latency_s = 0;
+  Plant plant(world, robot, {}, 1, {});
+  plant.command({30000, 30000});
+  for (int tick = 1; tick <= 300; ++tick) {
+    plant.advance();
+    const hal::RangeReading front = plant.ranges().beam[hal::kFront];
+    const int taken = tick * 30 / 100;
+    const double t = taken / 30.0;
+    // 3 ms to full speed.
+    const double x = taken == 0 ? 0 : 3 * t - 0.0045;
+    ASSERT_NEAR(front.mm, (30 - x) * 1000, 0.51) << tick;
+    ASSERT_EQ(front.age_ms, std::lround(plant.time() * 1000 - t * 1000)) << tick;
+    ASSERT_EQ(front.sequence, taken % 16) << tick;
+  }
+}
+
+TEST(Plant, AMoverThatPassesRightThroughWithinATickIsAContact) {
+  // The near disc has set a smallest gap that the mover is far above when the tick begins.
+  const Disc near_by{{0, 0.2}, 0.1};
+  const Vec2 path[] = {{1.03, 0}, {-1.03, 0}};
+  const MovingDisc mover{path, 2, 0.05, 200, 0};
+  const WorldView world{&near_by, 1, nullptr, 0, &mover, 1};
+  Plant plant(world, {}, {}, 1, {});
+  EXPECT_NEAR(plant.min_clearance(), 0.01, 1e-12);
+  plant.advance();
+  EXPECT_TRUE(plant.in_contact());
+  EXPECT_NEAR(plant.contact_time(), (1.03 - 0.14) / 200, 1e-9);
+}
+
 TEST(Plant, TheReferenceRobotIsTheCoresDefault) {
   const RobotSpec ours, core = robot_spec(Params{});
   EXPECT_EQ(core.radius, ours.radius);

@@ -89,6 +89,21 @@ TEST(Wheel, NeverLeavesTheIntervalFromItsSpeedToTheTargetNorExceedsItsAccelerati
   }));
 }
 
+TEST(Wheel, EndsOnItsTargetAfterAWholeNumberOfLimitedSteps) {
+  for (const double limit : {0.1, 0.3, 0.7, 1.1}) {
+    for (int steps = 1; steps <= 300; ++steps) {
+      const WheelModel wheel(0, limit, 0.002);
+      const double target = limit * 0.002 * steps;
+      double v = 0;
+      for (int i = 0; i < steps + 1; ++i) {
+        v = wheel.step(v, target).speed;
+        ASSERT_LE(v, target) << limit << ' ' << steps;
+      }
+      ASSERT_EQ(v, target);
+    }
+  }
+}
+
 TEST(Wheel, ComesToAnExactStop) {
   const WheelModel wheel(0.5, 1.0, 0.002);
   double v = 0.3;

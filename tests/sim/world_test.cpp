@@ -63,6 +63,11 @@ TEST(Clearance, OfAnEmptyWorldIsInfinite) {
   EXPECT_EQ(clearance({}, {0, 0}, 0, 0.09), std::numeric_limits<double>::infinity());
 }
 
+TEST(Clearance, DeepInsideOneDiscASmallOneDoesNotMatter) {
+  const Disc discs[] = {{{0, 0}, 1}, {{0.1, 0}, 0.01}};
+  EXPECT_DOUBLE_EQ(clearance({discs, 2, nullptr, 0, nullptr, 0}, {0, 0}, 0, 0.09), -1.09);
+}
+
 TEST(Clearance, IsTheLeastDistanceLessTheBodysRadius) {
   EXPECT_TRUE(rc::check([] {
     std::vector<Disc> discs;
