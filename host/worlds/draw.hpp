@@ -1,0 +1,35 @@
+/// One draw of each kind of world; whether it keeps the kind's promise is the caller's question.
+#pragma once
+
+#include <vector>
+
+#include "host/scenario/scenario.hpp"
+#include "host/worlds/generate.hpp"
+#include "host/worlds/random.hpp"
+
+namespace whisker::worlds {
+
+/// Files carry whole 0.1 mm.
+double tidy(double metres);
+sim::Vec2 tidy(sim::Vec2 p);
+
+/// A closed rectangle around the segment, half the thickness beyond each end.
+std::vector<sim::Vec2> bar(sim::Vec2 a, sim::Vec2 b, double thickness);
+
+/// Adds discs with centres in [low, high)^2, none within radius + kKeptFree of start or goal.
+struct DiscField {
+  int count;
+  double radius_min, radius_max;
+  double low, high;
+};
+void add_discs(Scenario& scenario, Random& random, const DiscField& field);
+
+void draw_discs(Scenario& scenario, Random& random, const Options& options);
+void draw_poles(Scenario& scenario, Random& random, const Options& options);
+void draw_u_trap(Scenario& scenario, Random& random);
+void draw_spiral(Scenario& scenario, Random& random);
+void draw_maze(Scenario& scenario, Random& random);
+void draw_rooms(Scenario& scenario, Random& random, const Options& options);
+void draw_enclosed(Scenario& scenario, Random& random, const Options& options);
+
+}  // namespace whisker::worlds
