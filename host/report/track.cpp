@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "host/report/axes.hpp"
 
 namespace whisker::report {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using sim::Vec2;
 
@@ -173,7 +176,7 @@ Vec2 mover_position(const std::vector<Vec2>& path, Vec2 center, double driven_m)
   if (path.size() < 2) return center;
   std::vector<double> at = {0};
   double start = 0;
-  double nearest = INFINITY;
+  double nearest = kInfinity;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const Vec2 along = path[i] - path[i - 1];
     const double size = length(along);

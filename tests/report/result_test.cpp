@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace whisker::report {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 RunResult sample() {
   RunResult r;
@@ -51,7 +54,7 @@ TEST(ResultJson, keeps_all_bits_of_hash_and_ticks) {
 TEST(ResultJson, stays_json_on_one_line_whatever_it_holds) {
   RunResult r = sample();
   r.detail = "line\nbreak \"quote\" \xFF";
-  r.min_clearance_m = INFINITY;
+  r.min_clearance_m = kInfinity;
   r.path_m = std::nan("");
   r.final_distance_m = -1e-9;
   const std::string text = result_json(r);
@@ -78,7 +81,7 @@ TEST(VerdictWords, say_what_a_person_asks_first) {
 
 TEST(VerdictWords, are_silent_about_a_clearance_that_nothing_gave) {
   RunResult r = sample();
-  r.min_clearance_m = INFINITY;
+  r.min_clearance_m = kInfinity;
   EXPECT_EQ(verdict_words(r).find("clearance"), std::string::npos);
 }
 

@@ -15,6 +15,8 @@
 namespace whisker::report {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 using testing::Element;
 using ::testing::HasSubstr;
 using testing::parse_xml;
@@ -216,14 +218,14 @@ TEST(RunSvg, survives_numbers_that_no_page_holds) {
   auto records = testing::garden_run(scenario);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   records[10].x_m = nan;
-  records[20].y_m = INFINITY;
+  records[20].y_m = kInfinity;
   records[30].x_m = -1e300;
   records[40].heading_rad = nan;
   for (TickRecord& r : records) r.t_s = 1e15;
-  records.back().heading_rad = INFINITY;
+  records.back().heading_rad = kInfinity;
   RunResult result;
   result.time_s = nan;
-  result.min_clearance_m = -INFINITY;
+  result.min_clearance_m = -kInfinity;
   const Drawn drawn = draw(scenario, records, result);
   EXPECT_EQ(testing::odd_coordinate(drawn.root), "");
   EXPECT_THAT(drawn.text, HasSubstr("3 records without a position left out"));

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/report/units.hpp"
 
 namespace whisker::testing {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using sim::Vec2;
 
@@ -17,14 +20,14 @@ double distance_along(Vec2 from, double heading, const sim::Disc& disc) {
   const Vec2 d{std::cos(heading), std::sin(heading)};
   const double along = dot(disc.center - from, d);
   const double aside = cross(d, disc.center - from);
-  if (along < 0 || std::fabs(aside) >= disc.radius) return INFINITY;
+  if (along < 0 || std::fabs(aside) >= disc.radius) return kInfinity;
   return along - std::sqrt(disc.radius * disc.radius - aside * aside);
 }
 
 hal::RangeReading beam(const Scenario& scenario, Vec2 from, double axis) {
   const RangefinderParams& sensor = scenario.robot.rangefinders;
   const double half = report::radians(sensor.cone) / 2;
-  double nearest = INFINITY;
+  double nearest = kInfinity;
   for (int i = -4; i <= 4; ++i)
     for (const sim::Disc& disc : scenario.discs)
       nearest = std::min(nearest, distance_along(from, axis + half * i / 4, disc));
@@ -96,7 +99,7 @@ RunResult result_of(Verdict verdict, const Scenario& scenario, const std::vector
   RunResult result;
   result.verdict = verdict;
   result.ticks = records.size();
-  result.min_clearance_m = INFINITY;
+  result.min_clearance_m = kInfinity;
   Vec2 last = scenario.start.at;
   for (const TickRecord& r : records) {
     const Vec2 at{r.x_m, r.y_m};

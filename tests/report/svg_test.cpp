@@ -11,6 +11,8 @@
 namespace whisker::report {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 using whisker::testing::parse_xml;
 
 std::string text_of(const std::string& escaped) {
@@ -65,7 +67,7 @@ TEST(Number, is_short_and_never_a_word) {
   EXPECT_EQ(number(-0.001), "0");
   EXPECT_EQ(number(100), "100");
   EXPECT_EQ(number(std::nan("")), "0");
-  EXPECT_EQ(number(INFINITY), "0");
+  EXPECT_EQ(number(kInfinity), "0");
   EXPECT_EQ(number(-1e30), "-1000000");
 }
 

@@ -12,6 +12,8 @@
 namespace whisker::report {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 using nav::Mode;
 using nav::Why;
 using sim::Vec2;
@@ -26,7 +28,7 @@ TickRecord tick(Mode mode, Why why, int danger = 0) {
 
 double to_segment(Vec2 p, Vec2 a, Vec2 b) {
   // By search, not by projection: independent of the code under test.
-  double best = INFINITY;
+  double best = kInfinity;
   for (int i = 0; i <= 2000; ++i) {
     const Vec2 q = a + (b - a) * (i / 2000.0);
     best = std::fmin(best, std::hypot(p.x - q.x, p.y - q.y));
@@ -80,7 +82,7 @@ TEST(TrackSummary, leaves_out_records_without_a_place) {
   auto records = testing::garden_run(testing::garden());
   const double total = summarise(records).total_m;
   records[100].x_m = std::numeric_limits<double>::quiet_NaN();
-  records[200].y_m = INFINITY;
+  records[200].y_m = kInfinity;
   records[300].x_m = 1e12;
   const TrackSummary s = summarise(records);
   EXPECT_EQ(s.without_place, 3);
@@ -106,7 +108,7 @@ RC_GTEST_PROP(Simplified, stays_within_the_tolerance_and_keeps_the_ends, ()) {
     }
   }
   for (const Vec2 p : points) {
-    double nearest = kept.size() == 1 ? std::hypot(p.x - kept[0].x, p.y - kept[0].y) : double{INFINITY};
+    double nearest = kept.size() == 1 ? std::hypot(p.x - kept[0].x, p.y - kept[0].y) : kInfinity;
     for (std::size_t k = 0; k + 1 < kept.size(); ++k)
       nearest = std::fmin(nearest, to_segment(p, kept[k], kept[k + 1]));
     RC_ASSERT(nearest <= tolerance + 0.0006);

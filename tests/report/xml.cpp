@@ -2,8 +2,8 @@
 
 #include <expat.h>
 
+#include <algorithm>
 #include <memory>
-#include <regex>
 #include <set>
 #include <stdexcept>
 
@@ -28,6 +28,17 @@ void on_end(void* user, const XML_Char*) { static_cast<Builder*>(user)->open.pop
 
 void on_text(void* user, const XML_Char* text, int length) {
   static_cast<Builder*>(user)->open.back()->text.append(text, static_cast<std::size_t>(length));
+}
+
+/// Digits, with a sign before and one point inside at most.
+bool plain_number(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789";
+  if (!text.empty() && text.front() == '-') text.remove_prefix(1);
+  const std::size_t whole = std::min(text.find_first_not_of(kDigits), text.size());
+  const std::string_view rest = text.substr(whole);
+  if (whole == 0 || rest.empty()) return whole > 0;
+  return rest.front() == '.' && rest.size() > 1 &&
+         rest.find_first_not_of(kDigits, 1) == std::string_view::npos;
 }
 
 template <class Match>
@@ -76,10 +87,9 @@ Element parse_xml(std::string_view text) {
 std::string odd_coordinate(const Element& root) {
   static const std::set<std::string> kPlain = {"x",  "y",  "x1", "y1",    "x2",     "y2",
                                                "cx", "cy", "r",  "width", "height", "stroke-width"};
-  static const std::regex kNumber("-?[0-9]+(\\.[0-9]+)?");
   static const std::string kPathCharacters = "0123456789.- MLHVZhvz";
   for (const auto& [key, value] : root.attributes) {
-    if (kPlain.count(key) != 0 && !std::regex_match(value, kNumber)) return key + "=" + value;
+    if (kPlain.count(key) != 0 && !plain_number(value)) return key + "=" + value;
     if (key == "d" && value.find_first_not_of(kPathCharacters) != std::string::npos) return "d with " + value;
     if (key == "viewBox" && value.find_first_not_of("0123456789. ") != std::string::npos) return value;
   }
