@@ -1,6 +1,7 @@
 /// Any bytes as a scenario file: a scenario that can be written and read back, or one line that says what is
 /// wrong.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -8,7 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "host/scenario/scenario.hpp"
+#include "host/scenario/load.hpp"
+#include "host/scenario/write.hpp"
 
 namespace {
 
@@ -35,7 +37,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   const std::string written = whisker::to_toml(scenario);
-  require(whisker::to_toml(whisker::parse_scenario(written, kName)) == written,
-          "written, read and written again: differs", written);
+  whisker::Scenario again = whisker::parse_scenario(written, kName);
+  // to_toml promises the heading within one unit in the last place, and all else bit for bit.
+  require(std::abs(again.start.heading - scenario.start.heading) < 1e-9, "another heading", written);
+  again.start.heading = scenario.start.heading;
+  require(whisker::to_toml(again) == written, "written, read and written again: differs", written);
   return 0;
 }
