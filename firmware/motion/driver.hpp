@@ -5,9 +5,9 @@
 
 #include "firmware/core/trig.hpp"
 #include "firmware/core/units.hpp"
-#include "firmware/nav/manoeuvre.hpp"
 #include "firmware/motion/mixer.hpp"
 #include "firmware/motion/odometry.hpp"
+#include "firmware/nav/manoeuvre.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker::motion {

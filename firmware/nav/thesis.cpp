@@ -212,9 +212,7 @@ void ThesisPlanner::deflect(Phase phase) noexcept {
   turn_to(base_ + deflection());
 }
 
-void ThesisPlanner::turn_to(Angle heading) noexcept {
-  decision_.manoeuvre = {Kind::turn, heading, Length{}};
-}
+void ThesisPlanner::turn_to(Angle heading) noexcept { decision_.manoeuvre = {Kind::turn, heading, Length{}}; }
 
 void ThesisPlanner::drive(Length length) noexcept {
   phase_ = Phase::move;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "firmware/fuzzy/engine.hpp"
 #include "firmware/fuzzy/rules.hpp"
 
@@ -38,6 +40,15 @@ std::vector<std::vector<report::Rule>> picture_of(const Q14 (&rules)[kTerms][kTe
   return rows;
 }
 
+std::string engine_name() {
+#ifdef WHISKER_ENGINE_CLOSED
+  return fmt::format("closed form on the 5 x 5 rules, {} bytes", sizeof(Engine::Table));
+#else
+  return fmt::format("bilinear table of {} x {} nodes, {} bytes", Engine::kDistanceNodes, Engine::kBiasNodes,
+                     sizeof(Engine::Table));
+#endif
+}
+
 }  // namespace
 
 report::FuzzyPicture controller_picture() {
@@ -66,7 +77,7 @@ report::FuzzyPicture controller_picture() {
   const auto at = [](double d, double r) { return Engine(kDefaultTable)({q7(d), q7(r)}); };
   p.sa_at = [at](double d, double r) { return value(at(d, r).turn); };
   p.sd_at = [at](double d, double r) { return value(at(d, r).step); };
-  p.source = kEngineName;
+  p.source = engine_name();
   return p;
 }
 

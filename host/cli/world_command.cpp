@@ -1,4 +1,5 @@
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/core.h>
@@ -19,9 +20,17 @@ struct Options {
   std::string out;
 };
 
+std::string generated(const Options& o) {
+  try {
+    return to_toml(worlds::generate(*worlds::kind_named(o.kind), o.world));
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(e.what());
+  }
+}
+
 int execute(const Options& o) {
   check_outputs({o.out});
-  const std::string text = to_toml(worlds::generate(*worlds::kind_of(o.kind), o.world));
+  const std::string text = generated(o);
   if (o.out.empty()) {
     fmt::print("{}", text);
   } else {
@@ -39,10 +48,9 @@ void add_world(CLI::App& app, int& status) {
       ->required()
       ->check(CLI::IsMember({"discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed"}));
   cmd->add_option("--seed", o->world.seed, "The same seed gives the same world everywhere")->required();
-  cmd->add_option("--discs", o->world.discs, "Number of discs (kind discs)")
-      ->check(CLI::Range(0, 200))
-      ->capture_default_str();
-  cmd->add_flag("--box", o->world.box, "A closed box around the discs (kind discs)");
+  cmd->add_option("--discs", o->world.discs, "Number of discs; 30 by default for kind discs")
+      ->check(CLI::Range(0, 200));
+  cmd->add_flag("--box", o->world.box, "A closed box around it (kinds discs, poles, enclosed)");
   cmd->add_flag("--noise", o->world.noise, "With the reference robot's sensor noise and odometry error");
   cmd->add_option("--out", o->out, "File to write, instead of standard output");
   cmd->callback([o, &status] { status = execute(*o); });

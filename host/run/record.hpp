@@ -35,7 +35,8 @@ struct RunResult {
   double time_s = 0;
   double path_m = 0;            ///< true length driven by the body's centre
   double final_distance_m = 0;  ///< true distance from the goal
-  double min_clearance_m = 0;   ///< smallest true gap between body and obstacle; <= 0 at a contact; 1000 in an empty world
+  double min_clearance_m =
+      0;  ///< smallest true gap between body and obstacle; <= 0 at a contact; 1000 in an empty world
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;  ///< FNV-1a 64 over every tick's wheel command
 };

@@ -6,8 +6,8 @@
 #include "firmware/robot.hpp"
 #include "hal/sim/sim_board.hpp"
 #include "host/run/hash.hpp"
-#include "host/run/spec.hpp"
 #include "host/run/sim_world.hpp"
+#include "host/run/spec.hpp"
 
 namespace whisker {
 namespace {
@@ -86,11 +86,6 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   std::optional<Verdict> verdict;
   for (std::uint64_t tick = 0; !verdict; ++tick) {
     const double t_s = static_cast<double>(tick * period_ms) / 1000.0;
-    if (t_s > scenario.time_limit_s) {
-      verdict = Verdict::gave_up;
-      result.detail = "time_limit";
-      break;
-    }
     const hal::RangeReadings ranges = plant.ranges();
     const Status& status = robot.tick(Time::from_raw(static_cast<std::uint32_t>(tick * period_ms)));
     hash.add(status.command);
@@ -102,13 +97,18 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
       result.detail = detail_of(*verdict, status);
       break;
     }
+    const double next_s = static_cast<double>((tick + 1) * period_ms) / 1000.0;
+    if (next_s > scenario.time_limit_s) {
+      verdict = Verdict::gave_up;
+      result.detail = "time_limit";
+      break;
+    }
     plant.advance();
     if (plant.in_contact()) {
       verdict = Verdict::contact;
       result.time_s = plant.contact_time();
       result.detail = nav::name(status.decision.mode);
       if (options.records != nullptr) {
-        const double next_s = static_cast<double>((tick + 1) * period_ms) / 1000.0;
         options.records->push_back(record_of(plant, status, plant.ranges(), next_s));
       }
     }

@@ -12,7 +12,6 @@
 namespace whisker::nav {
 namespace {
 
-
 using ranges::Echo;
 using ranges::Echoes;
 using ranges::Validity;
