@@ -104,6 +104,12 @@ TEST(Wheel, EndsOnItsTargetAfterAWholeNumberOfLimitedSteps) {
   }
 }
 
+TEST(Wheel, RoundingDoesNotCarryALimitedStepBeyondItsTarget) {
+  const double limit = 0x1.28059e44af227p+4, v = -0x1.f7e633f3b89cp-5, target = -0x1.918ba6d7b4871p-6;
+  ASSERT_GT(v + limit * 0.002, target);
+  EXPECT_EQ(WheelModel(0, limit, 0.002).step(v, target).speed, target);
+}
+
 TEST(Wheel, ComesToAnExactStop) {
   const WheelModel wheel(0.5, 1.0, 0.002);
   double v = 0.3;
