@@ -70,7 +70,7 @@ double distance_left(const sim::Plant& plant, const Scenario& scenario) {
 RunResult run(const Scenario& scenario, const RunOptions& options) {
   const SimWorld world(scenario);
   const Params& params = scenario.robot;
-  sim::Plant plant(world.view(), robot_spec(params), noise_spec(scenario.noise),
+  sim::Plant plant(world.view(), sim::robot_spec(params), noise_spec(scenario.noise),
                    options.seed.value_or(scenario.seed), scenario.start);
   hal::SimBoard board(plant);
   nav::ThesisPlanner planner(params, fuzzy::kDefaultTable);

@@ -5,13 +5,8 @@
 namespace whisker {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using sim::kPi;
 
-template <class Tag>
-double micro(Unit<Tag> x) {
-  return x.raw() * 1e-6;
-}
-double seconds(Duration t) { return t.raw() * 1e-3; }
 Length length(double metres) {
   return micrometres(static_cast<std::int32_t>(std::floor(metres * 1e6 + 0.5)));
 }
@@ -19,24 +14,6 @@ Length length(double metres) {
 }  // namespace
 
 double radians(Angle angle) { return angle.wrapped() * (kPi / 2147483648.0); }
-
-sim::RobotSpec robot_spec(const Params& p) {
-  sim::RobotSpec s;
-  s.radius = micro(p.body.radius);
-  s.track = micro(p.body.track);
-  s.max_acceleration = micro(p.wheels.max_acceleration);
-  s.motor_lag = seconds(p.wheels.motor_lag);
-  s.counts_per_m = p.wheels.counts_per_metre;
-  s.side_angle = radians(p.rangefinders.side_angle);
-  s.cone_half_width = radians(p.rangefinders.cone) / 2;
-  s.min_range = micro(p.rangefinders.min_range);
-  s.max_range = micro(p.rangefinders.max_range);
-  s.offset = micro(p.rangefinders.offset);
-  s.rate_hz = p.rangefinders.rate_hz;
-  s.latency_s = seconds(p.rangefinders.latency);
-  s.period_s = seconds(p.safety.period);
-  return s;
-}
 
 sim::NoiseSpec noise_spec(const Noise& n) {
   return {n.range_sigma_m, n.range_dropout, n.range_false_clear, n.wheel_scale_sigma,

@@ -1,13 +1,12 @@
-/// The simulated robot's numbers, taken from the core's own parameters.
+/// Between the core's units and the simulator's.
 #pragma once
 
 #include "firmware/core/trig.hpp"
 #include "host/scenario/scenario.hpp"
-#include "host/sim/plant.hpp"
+#include "host/sim/spec.hpp"
 
 namespace whisker {
 
-sim::RobotSpec robot_spec(const Params& params);
 sim::NoiseSpec noise_spec(const Noise& noise);
 double radians(Angle angle);  ///< in [-pi, pi)
 
