@@ -7,12 +7,13 @@ namespace whisker::fuzzy {
 
 /// Nodes lie 2^kDistanceShift apart in D and 2^kBiasShift apart in R (raw Q7), from outer centre to
 /// outer centre; an input outside them counts as the nearest one. The four weights of a look-up sum to
-/// a power of two, and its result is rounded to nearest, ties away from zero: it stays within its cell's
-/// four nodes, and a mirrored table mirrors it exactly. It takes the same instructions for every input.
+/// a power of two, and results are rounded to nearest, ties of turn toward zero, ties of step up: they stay
+/// within their cell's four nodes, and a table mirrored in R (turn negated, step kept) mirrors them exactly.
 template <int kDistanceShift, int kBiasShift>
 class BilinearGrid {
  public:
   static_assert(kDistanceSpan % (1 << kDistanceShift) == 0 && kBiasSpan % (1 << kBiasShift) == 0);
+  static_assert(kDistanceSpan < 2048 && kBiasSpan < 2048, "place() divides with 11 bits to spare");
   static_assert(kDistanceShift + kBiasShift <= 14, "the sums of an interpolation are formed in 32 bits");
   static constexpr int16_t kDistanceSpacing = 1 << kDistanceShift;
   static constexpr int16_t kBiasSpacing = 1 << kBiasShift;
@@ -42,7 +43,7 @@ class BilinearGrid {
     const int32_t w0 = kWhole - w1 - w2 - w3;
     const int32_t turn = w0 * near[0].turn + w1 * near[1].turn + w2 * far[0].turn + w3 * far[1].turn;
     const int32_t step = w0 * near[0].step + w1 * near[1].step + w2 * far[0].step + w3 * far[1].step;
-    // Ties of turn go toward zero, for the mirror's sake; those of step need no such care.
+    // A mirrored turn sums to the opposite, a mirrored step to the same: only turn's ties must heed the sign.
     const uint32_t turn_up = static_cast<uint32_t>(turn + (kWhole / 2 - 1));
     const uint32_t step_up = static_cast<uint32_t>(step + kWhole / 2);
     return {quotient(turn_up + (turn_up >> 31)),
@@ -72,8 +73,8 @@ class BilinearGrid {
 
   /// floor(sum / kWhole) of a sum in two's complement; its sixteen bits are cut out, no sign is shifted.
   [[gnu::always_inline]] static Q14 quotient(uint32_t sum) noexcept {
-    const uint16_t bits = static_cast<uint16_t>(sum >> kWholeBits);
-    return Q14::from_raw(static_cast<int16_t>(bits <= INT16_MAX ? bits : -int32_t{UINT16_MAX - bits} - 1));
+    const int32_t bits = static_cast<uint16_t>(sum >> kWholeBits);
+    return Q14::from_raw(static_cast<int16_t>(bits <= INT16_MAX ? bits : bits - INT32_C(0x10000)));
   }
 
   const Table* table_;

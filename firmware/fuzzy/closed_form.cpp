@@ -3,8 +3,6 @@
 namespace whisker::fuzzy {
 namespace {
 
-constexpr int32_t kFull = 1536;  // the smallest multiple of every gap between centres: fractions are exact
-
 /// An input between two neighbouring centres, seen from the nearer one.
 struct Place {
   uint8_t cell;

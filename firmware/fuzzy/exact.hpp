@@ -7,16 +7,6 @@
 
 namespace whisker::fuzzy {
 
-/// A membership of 1. Every distance between neighbouring centres divides it, so memberships are exact.
-constexpr int32_t kFull = 1536;
-
-constexpr bool gaps_divide_full(const int16_t (&centres)[kTerms]) noexcept {
-  for (int i = 1; i < kTerms; ++i)
-    if (centres[i] <= centres[i - 1] || kFull % (centres[i] - centres[i - 1]) != 0) return false;
-  return true;
-}
-static_assert(gaps_divide_full(kDistanceCentres) && gaps_divide_full(kBiasCentres));
-
 /// How true term `i` is of x: 1 at its own centre, 0 at its neighbours', straight between; shoulders outside.
 constexpr int32_t membership(const int16_t (&centres)[kTerms], int i, int32_t x) noexcept {
   const int32_t own = centres[i];

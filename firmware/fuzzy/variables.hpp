@@ -10,7 +10,6 @@
 /// docs/fuzzy.md says which figures are the source's and which are a reconstruction.
 #pragma once
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "firmware/core/fixed.hpp"
@@ -47,6 +46,16 @@ constexpr int16_t kBiasLow = kBiasCentres[0];
 constexpr int16_t kBiasHigh = kBiasCentres[kTerms - 1];
 constexpr int16_t kDistanceSpan = kDistanceHigh - kDistanceLow;
 constexpr int16_t kBiasSpan = kBiasHigh - kBiasLow;
+
+/// A membership of 1. Every gap between neighbouring centres divides it, so memberships are exact integers.
+constexpr int16_t kFull = 1536;
+
+constexpr bool gaps_divide_full(const int16_t (&centres)[kTerms]) noexcept {
+  for (int i = 1; i < kTerms; ++i)
+    if (centres[i] <= centres[i - 1] || kFull % (centres[i] - centres[i - 1]) != 0) return false;
+  return true;
+}
+static_assert(gaps_divide_full(kDistanceCentres) && gaps_divide_full(kBiasCentres));
 
 /// What each of the 25 rules answers, by the terms of D and R. Any values are allowed.
 struct RuleBase {

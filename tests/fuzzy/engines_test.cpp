@@ -1,0 +1,130 @@
+// Both engines on every pair of inputs: 2.6 million of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "firmware/fuzzy/closed_form.hpp"
+#include "firmware/fuzzy/engine.hpp"
+#include "firmware/fuzzy/exact.hpp"
+#include "firmware/fuzzy/response_table.hpp"
+#include "firmware/fuzzy/rules.hpp"
+#include "tests/fuzzy/corners.hpp"
+#include "tests/fuzzy/inputs.hpp"
+
+namespace whisker::fuzzy {
+namespace {
+
+// 1.5 % of the spans in use: SA covers 3, SD covers 0.3..1.7.
+constexpr double kTurnBar = 0.015 * 3.0;
+constexpr double kStepBar = 0.015 * 1.4;
+
+struct Largest {
+  int turn = 0;
+  int step = 0;
+};
+
+template <class Engine>
+Largest largest_errors(const Engine& engine, const char* name) {
+  const Exact exact{kRules};
+  Largest largest;
+  for_every_input([&](Inputs in) {
+    const Response a = engine(in);
+    const Response b = exact(in);
+    largest.turn = std::max(largest.turn, std::abs(a.turn.raw() - b.turn.raw()));
+    largest.step = std::max(largest.step, std::abs(a.step.raw() - b.step.raw()));
+  });
+  std::printf("%s: max error SA %.5f, SD %.5f\n", name, largest.turn / double{Q14::kOne},
+              largest.step / double{Q14::kOne});
+  return largest;
+}
+
+TEST(Bilinear, StaysWithinOnePointFivePercentOfExactInferenceOnEveryInput) {
+  const Largest largest = largest_errors(Bilinear{kResponseTable}, "bilinear");
+  EXPECT_LE(largest.turn / double{Q14::kOne}, kTurnBar);
+  EXPECT_LE(largest.step / double{Q14::kOne}, kStepBar);
+}
+
+TEST(ClosedForm, EqualsExactInferenceOnEveryInput) {
+  const Largest largest = largest_errors(ClosedForm{kRules}, "closed form");
+  EXPECT_EQ(largest.turn, 0);
+  EXPECT_EQ(largest.step, 0);
+}
+
+template <class Engine>
+int unmirrored_inputs(const Engine& engine) {
+  int count = 0;
+  for_every_input([&](Inputs in) {
+    const Response here = engine(in);
+    const Response there = engine({in.distance, -in.bias});
+    count += here.turn.raw() != -there.turn.raw() || here.step.raw() != there.step.raw();
+  });
+  return count;
+}
+
+TEST(Bilinear, MirrorsExactlyOnEveryInput) { EXPECT_EQ(unmirrored_inputs(Bilinear{kResponseTable}), 0); }
+TEST(ClosedForm, MirrorsExactlyOnEveryInput) { EXPECT_EQ(unmirrored_inputs(ClosedForm{kRules}), 0); }
+TEST(Exact, MirrorsExactlyOnEveryInput) { EXPECT_EQ(unmirrored_inputs(Exact{kRules}), 0); }
+
+template <class Engine>
+int outside_their_corners(const typename Engine::Table& table) {
+  const Engine engine{table};
+  int count = 0;
+  for_every_input([&](Inputs in) {
+    const Response response = engine(in);
+    count += !within(response, corners(table, response.cell));
+  });
+  return count;
+}
+
+TEST(Bilinear, StaysWithinTheCornersOfItsCellOnEveryInput) {
+  EXPECT_EQ(outside_their_corners<Bilinear>(kResponseTable), 0);
+}
+TEST(ClosedForm, StaysWithinTheCornersOfItsRuleCellOnEveryInput) {
+  EXPECT_EQ(outside_their_corners<ClosedForm>(kRules), 0);
+}
+
+TEST(Bilinear, NamesACellThatHoldsTheInputWithinTheNodes) {
+  const Bilinear bilinear{kResponseTable};
+  int strays = 0;
+  for_every_input([&](Inputs in) {
+    const Cell cell = bilinear(in).cell;
+    const int d = std::clamp<int>(in.distance.raw(), kDistanceLow, kDistanceHigh) - kDistanceLow;
+    const int r = std::clamp<int>(in.bias.raw(), kBiasLow, kBiasHigh) - kBiasLow;
+    const int low_d = cell.distance * Bilinear::kDistanceSpacing;
+    const int low_r = cell.bias * Bilinear::kBiasSpacing;
+    strays += d < low_d || d > low_d + Bilinear::kDistanceSpacing || r < low_r ||
+              r > low_r + Bilinear::kBiasSpacing || cell.distance + 1 >= Bilinear::kDistanceNodes ||
+              cell.bias + 1 >= Bilinear::kBiasNodes;
+  });
+  EXPECT_EQ(strays, 0);
+}
+
+TEST(ClosedForm, NamesTheRuleCellThatExactInferenceNames) {
+  const ClosedForm closed{kRules};
+  const Exact exact{kRules};
+  int different = 0;
+  for_every_input([&](Inputs in) {
+    const Cell a = closed(in).cell;
+    const Cell b = exact(in).cell;
+    different += a.distance != b.distance || a.bias != b.bias;
+  });
+  EXPECT_EQ(different, 0);
+}
+
+TEST(Engine, RunsOnItsDefaultTable) {
+  const Engine engine{kDefaultTable};
+  const Exact exact{kRules};
+  for (int d = 0; d <= kDistanceMax; d += 7) {
+    for (int r = -kBiasMax; r <= kBiasMax; r += 5) {
+      const Response a = engine(inputs(d, r));
+      const Response b = exact(inputs(d, r));
+      ASSERT_LE(std::abs(a.turn.raw() - b.turn.raw()), kTurnBar * Q14::kOne) << d << ' ' << r;
+      ASSERT_LE(std::abs(a.step.raw() - b.step.raw()), kStepBar * Q14::kOne) << d << ' ' << r;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whisker::fuzzy
