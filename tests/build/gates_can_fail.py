@@ -120,7 +120,7 @@ class AbsolutePaths(unittest.TestCase):
             self.assertEqual(len(absolute_paths.errors(text)), 1, text)
 
     def test_accepts_what_is_everywhere(self):
-        for text in ('"/dev/ttyS0"', '"/"', '"host/sim/a.hpp"', '"http://example.org/a/b"', '// "a" / b / "c"'):
+        for text in ('"/dev/ttyS0"', 'ROOT "/tests/a/b.txt"', '"/"', '"host/sim/a.hpp"', '"http://example.org/a/b"', '// "a" / b / "c"'):
             self.assertEqual(absolute_paths.errors(text), [], text)
 
 
