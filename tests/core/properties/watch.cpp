@@ -15,9 +15,10 @@ Watch::Watch(const Params& params)
     : top_((params.wheels.max_speed.raw() + kUnit / 2) / kUnit),
       // Two speeds rounded to the wire may lie one unit further apart than they were.
       change_((params.wheels.max_acceleration * params.safety.period).raw() / kUnit + 1),
-      ticks_to_stand_(
-          params.wheels.max_speed.raw() / (params.wheels.max_acceleration * params.safety.period).raw() + 1) {
-}
+      // Rounded up, and one for a fault that is found when the tick's command is already made.
+      ticks_to_stand_((params.wheels.max_speed.raw() - 1) /
+                          (params.wheels.max_acceleration * params.safety.period).raw() +
+                      2) {}
 
 std::string Watch::see(const Status& status, bool refused) {
   std::string broken = speeds(status, refused);
