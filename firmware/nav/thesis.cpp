@@ -31,7 +31,7 @@ Decision ThesisPlanner::step(const View& view) noexcept {
   decision_.looked = false;
   switch (request_) {
     case Request::none:
-      if (phase_ != Phase::rest && view.settled) decide(view);
+      if (view.settled) decide(view);
       break;
     case Request::goal:
       phase_ = Phase::at_position;
@@ -52,26 +52,28 @@ Decision ThesisPlanner::step(const View& view) noexcept {
 }
 
 void ThesisPlanner::decide(const View& view) noexcept {
-  if (phase_ == Phase::at_position || phase_ == Phase::move) {
-    arrive_at_position(view);
-    return;
-  }
-  // Every other phase turned the body and now wants to see what lies ahead.
-  if (!ranges::usable(view.look)) {
-    if (decision_.mode == Mode::facing) decision_.mode = Mode::looking;
-    return;
-  }
-  decision_.looked = true;
-  surroundings_.add(view.look, view.pose.heading);
   switch (phase_) {
-    case Phase::face: choose(view); break;
-    case Phase::probe: probe(view); break;
-    case Phase::search_left:
-    case Phase::search_right: search(view); break;
-    case Phase::rest:
+    case Phase::rest: break;
     case Phase::at_position:
-    case Phase::move: break;
+    case Phase::move: arrive_at_position(view); break;
+    case Phase::face:
+      if (sees(view)) choose(view);
+      break;
+    case Phase::probe:
+      if (sees(view)) probe(view);
+      break;
+    case Phase::search_left:
+    case Phase::search_right:
+      if (sees(view)) search(view);
+      break;
   }
+}
+
+bool ThesisPlanner::sees(const View& view) noexcept {
+  decision_.looked = ranges::usable(view.look);
+  if (!decision_.looked && decision_.mode == Mode::facing) decision_.mode = Mode::looking;
+  if (decision_.looked) surroundings_.add(view.look, view.pose.heading);
+  return decision_.looked;
 }
 
 bool ThesisPlanner::step_is_free(const View& view) const noexcept {

@@ -42,6 +42,7 @@ class ThesisPlanner final : public Planner {
 
   void decide(const View& view) noexcept;
   bool step_is_free(const View& view) const noexcept;
+  bool sees(const View& view) noexcept;
   void arrive_at_position(const View& view) noexcept;
   void choose(const View& view) noexcept;
   void steer(const View& view, Length distance) noexcept;
