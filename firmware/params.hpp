@@ -46,7 +46,7 @@ struct ConditioningParams {
   int32_t reads = 3;
   Length tolerance = 60_mm;       ///< of agreeing readings
   Duration stale_after = 100_ms;  ///< no new measurement for this long: stale
-  Angle stuck_turn = 60_deg;      ///< the same millimetre over this turn: stuck
+  Angle stuck_turn = 150_deg;     ///< the same millimetre over this turn: stuck
 };
 
 /// Which distance is D: the thesis says both.
@@ -140,7 +140,7 @@ constexpr void for_each_param(P& p, F&& f) {
   f.count("consensus_reads", p.conditioning.reads, 1, 5);
   f.number("consensus_tolerance_m", p.conditioning.tolerance, 1_mm, 1_m);
   f.number("stale_after_s", p.conditioning.stale_after, 20_ms, 2000_ms);
-  f.number("stuck_turn_deg", p.conditioning.stuck_turn, 30_deg, 170_deg);
+  f.number("stuck_turn_deg", p.conditioning.stuck_turn, 60_deg, 170_deg);
 
   f.choice("thesis_distance", p.thesis.distance_source, kSource, 2);
   f.number("thesis_base_turn_deg", p.thesis.base_turn, 5_deg, 60_deg);

@@ -16,6 +16,7 @@ Length close_enough(Length tolerance) noexcept { return tolerance - tolerance / 
 ThesisPlanner::ThesisPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept
     : params_(params), engine_(table) {
   probe_.configure(params);
+  surroundings_.configure(params);
 }
 
 void ThesisPlanner::set_goal(const Goal& goal) noexcept {
@@ -71,7 +72,12 @@ void ThesisPlanner::decide(const View& view) noexcept {
 bool ThesisPlanner::sees(const View& view) noexcept {
   decision_.looked = ranges::usable(view.look);
   if (!decision_.looked && decision_.mode == Mode::facing) decision_.mode = Mode::looking;
+  if (decision_.looked) surroundings_.add(view.look, view.pose.heading);
   return decision_.looked;
+}
+
+bool ThesisPlanner::step_is_free(const View& view) const noexcept {
+  return probe_.free(view.look, planned_) && surroundings_.allow(view.pose.heading, planned_);
 }
 
 void ThesisPlanner::arrive_at_position(const View& view) noexcept {
@@ -85,6 +91,7 @@ void ThesisPlanner::arrive_at_position(const View& view) noexcept {
     return;
   }
   ++steps_;
+  surroundings_.forget();
   target_ = bearing(to_goal);
   phase_ = Phase::face;
   decision_.mode = Mode::facing;
@@ -154,7 +161,7 @@ void ThesisPlanner::follow_danger(const View& view) noexcept {
 }
 
 void ThesisPlanner::probe(const View& view) noexcept {
-  if (probe_.free(view.look, planned_)) {
+  if (step_is_free(view)) {
     drive(planned_);
     return;
   }
@@ -169,7 +176,7 @@ void ThesisPlanner::probe(const View& view) noexcept {
 
 void ThesisPlanner::search(const View& view) noexcept {
   const bool left = phase_ == Phase::search_left;
-  if (probe_.free(view.look, planned_)) {
+  if (step_is_free(view)) {
     if (!left) {
       take_exit(-1, Why::exit_right);
       return;

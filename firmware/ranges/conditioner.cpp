@@ -32,7 +32,8 @@ bool BeamConditioner::is_stuck(const hal::RangeReading& reading, Angle heading, 
     repeated_since_ = heading;
     return false;
   }
-  // A cone can show one wall at one distance over its own width; over more, only a dead sensor can.
+  // A cone shows the nearest point of one thing at one distance over its own width, and a pocket can hold a
+  // second thing just as far; only a dead sensor repeats the millimetre over half a turn.
   return magnitude(heading - repeated_since_) >= stuck_turn.raw();
 }
 

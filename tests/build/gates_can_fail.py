@@ -118,9 +118,10 @@ class AbsolutePaths(unittest.TestCase):
     def test_refuses_a_home(self):
         for text in ('open("/home/me/world.toml")', "#include </opt/x/y.h>", "set(X '/usr/lib/x')"):
             self.assertEqual(len(absolute_paths.errors(text)), 1, text)
+        self.assertEqual(len(absolute_paths.errors('open("/checkout/whisker/a.toml")', "/checkout/whisker")), 1)
 
     def test_accepts_what_is_everywhere(self):
-        for text in ('"/dev/ttyS0"', '"/"', '"host/sim/a.hpp"', '"http://example.org/a/b"', '// "a" / b / "c"'):
+        for text in ('"/dev/ttyS0"', 'ROOT "/tests/a/b.txt"', '"/"', '"host/sim/a.hpp"', '"http://example.org/a/b"', '// "a" / b / "c"'):
             self.assertEqual(absolute_paths.errors(text), [], text)
 
 

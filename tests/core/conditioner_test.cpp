@@ -160,14 +160,19 @@ TEST_F(BeamTest, AStaleStatusOrAnAbsentReadingOnlyAges) {
   EXPECT_EQ(health_.range_stale, 2U);
 }
 
-TEST_F(BeamTest, TheSameMillimetreOverSixtyDegreesIsStuck) {
-  for (int deg = 0; deg < 60; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
+TEST_F(BeamTest, TheSameMillimetreOverMostOfHalfATurnIsStuck) {
+  for (int deg = 0; deg < 150; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
   EXPECT_EQ(beam_.latest().validity, Validity::ok);
-  see(RangeStatus::ok, 700, Angle::turns(60, 360));
+  see(RangeStatus::ok, 700, Angle::turns(150, 360));
   EXPECT_EQ(beam_.latest().validity, Validity::stuck);
   EXPECT_EQ(health_.range_stuck, 1U);
-  see(RangeStatus::ok, 701, Angle::turns(63, 360));
+  see(RangeStatus::ok, 701, Angle::turns(153, 360));
   EXPECT_EQ(beam_.latest().validity, Validity::ok);
+}
+
+TEST_F(BeamTest, TwoThingsEquallyFarAreNotAStuckSensor) {
+  for (int deg = 0; deg < 120; deg += 3) see(RangeStatus::ok, 167, Angle::turns(deg, 360));
+  EXPECT_EQ(health_.range_stuck, 0U);
 }
 
 TEST_F(BeamTest, DrivingAlongAWallIsNotStuck) {

@@ -101,6 +101,18 @@ TEST(Bilinear, NamesACellThatHoldsTheInputWithinTheNodes) {
   EXPECT_EQ(strays, 0);
 }
 
+TEST(Bilinear, RoundsTiesOfTurnTowardZeroAndTiesOfStepUp) {
+  const Inputs halfway = inputs(kDistanceLow + Bilinear::kDistanceSpacing / 2, kBiasLow);
+  Bilinear::Table table{};
+  const Bilinear bilinear{table};
+  table.node[0][0] = {1, 1};
+  EXPECT_EQ(bilinear(halfway).turn.raw(), 0);
+  EXPECT_EQ(bilinear(halfway).step.raw(), 1);
+  table.node[0][0] = {-1, -1};
+  EXPECT_EQ(bilinear(halfway).turn.raw(), 0);
+  EXPECT_EQ(bilinear(halfway).step.raw(), 0);
+}
+
 TEST(ClosedForm, NamesTheRuleCellThatExactInferenceNames) {
   const ClosedForm closed{kRules};
   const Exact exact{kRules};

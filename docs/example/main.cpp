@@ -1,0 +1,46 @@
+// A whole firmware around the core: three drivers, the parameters of the robot, and a loop.
+#include "firmware/nav/thesis.hpp"
+#include "firmware/robot.hpp"
+#include "hal/clock.hpp"
+
+using namespace whisker;
+
+// Yours: three classes over your own drivers. The headers in hal/ state what each must promise.
+struct Sonar final : hal::Rangefinders {
+  bool read(hal::RangeReadings& out) noexcept override;
+};
+struct Motors final : hal::Drive {
+  bool command(hal::WheelSpeeds speeds) noexcept override;
+  bool read(hal::EncoderCounts& out) noexcept override;
+};
+struct Timer final : hal::Clock {
+  uint32_t now_ms() noexcept override;
+};
+
+// Your robot is not ours: change what differs. Everything has a unit, and check() knows what fits together.
+constexpr Params my_robot() {
+  Params p;
+  p.body.radius = 75_mm;
+  p.body.track = 110_mm;
+  p.wheels.max_speed = 250_mm_per_s;
+  p.wheels.counts_per_metre = 3200;
+  return p;
+}
+
+int main() {
+  static constexpr Params params = my_robot();
+  static Sonar sonar;
+  static Motors motors;
+  static Timer timer;
+  static nav::ThesisPlanner planner{params, fuzzy::kDefaultTable};
+  static Robot robot{sonar, motors, planner, params};
+
+  robot.place({{0_m, 0_m}, 0_deg});
+  robot.set_goal({{4_m, 1_m}, 100_mm});
+  for (uint32_t next = timer.now_ms();; next += 10) {
+    while (static_cast<int32_t>(timer.now_ms() - next) < 0) {
+    }
+    const Status& status = robot.tick(Time::from_raw(next));
+    if (status.decision.outcome == nav::Outcome::reached) robot.cancel();
+  }
+}

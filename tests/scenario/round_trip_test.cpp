@@ -1,0 +1,203 @@
+// Random scenarios survive writing and reading. RC_PARAMS="seed=... reproduce=..." repeats a failure.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scenario/bearing.hpp"
+#include "host/scenario/contact.hpp"
+#include "host/scenario/load.hpp"
+#include "host/scenario/write.hpp"
+
+namespace whisker {
+namespace {
+
+using sim::Vec2;
+
+std::uint64_t bits() { return *rc::gen::resize(100, rc::gen::arbitrary<std::uint64_t>()); }
+int below(int n) { return static_cast<int>(bits() % static_cast<std::uint64_t>(n)); }
+/// Every second number is one that a person would write.
+double number(double low, double high) {
+  const double x = low + (high - low) * (static_cast<double>(bits() >> 11) / 9007199254740992.0);
+  return below(2) == 0 ? x : std::clamp(std::round(x * 100) / 100, low, high);
+}
+Vec2 point(double extent) {
+  const double x = number(-extent, extent);
+  return {x, number(-extent, extent)};
+}
+
+std::string any_name() {
+  const char* const pieces[] = {
+      "a", "Z9", " ", "\"", "\\", "#", "=", "'", "\xC3\xA9", "\xE2\x86\x92", "\xF0\x9F\xA4\x96"};
+  std::string name;
+  for (int i = below(12); i > 0; --i) name += pieces[below(11)];
+  return name;
+}
+
+/// Points at growing angles around a centre: a simple polygon.
+std::vector<Vec2> star(Vec2 center) {
+  std::vector<Vec2> points;
+  const int n = 3 + below(6);
+  for (int i = 0; i < n; ++i) {
+    const double angle = (i + number(0, 0.8)) * 6.283185307179586 / n;
+    points.push_back(center + Vec2{std::cos(angle), std::sin(angle)} * number(0.5, 3));
+  }
+  return points;
+}
+
+/// Sets each parameter anew and takes back what check() refuses.
+struct Shuffle {
+  const Params& whole;
+  template <class T>
+  void number(const char*, T& x, T low, T high) {
+    const T old = x;
+    const auto span = static_cast<std::uint64_t>(std::int64_t{high.raw()} - std::int64_t{low.raw()});
+    x = T::from_raw(static_cast<decltype(low.raw())>(std::int64_t{low.raw()} +
+                                                     static_cast<std::int64_t>(bits() % (span + 1))));
+    if (check(whole) != ParamFault::none) x = old;
+  }
+  void count(const char*, std::int32_t& x, std::int32_t low, std::int32_t high) {
+    const std::int32_t old = x;
+    x = low + below(high - low + 1);
+    if (check(whole) != ParamFault::none) x = old;
+  }
+  template <class E>
+  void choice(const char*, E& x, const char* const*, int count) {
+    x = static_cast<E>(below(count));
+  }
+};
+
+struct Values {
+  std::vector<std::int64_t> all;
+  template <class T>
+  void number(const char*, const T& x, T, T) {
+    all.push_back(x.raw());
+  }
+  void count(const char*, const std::int32_t& x, std::int32_t, std::int32_t) { all.push_back(x); }
+  template <class E>
+  void choice(const char*, const E& x, const char* const*, int) {
+    all.push_back(static_cast<std::int64_t>(x));
+  }
+};
+
+std::vector<std::int64_t> values(const Params& params) {
+  Values v;
+  for_each_param(params, v);
+  return v.all;
+}
+
+/// Adds what `add` makes unless the start touches it.
+template <class F>
+void try_add(Scenario& s, F&& add) {
+  Scenario more = s;
+  add(more);
+  if (start_fault(more).empty()) s = more;
+}
+
+Scenario any_scenario() {
+  Scenario s;
+  s.name = any_name();
+  s.seed = bits() >> 1;
+  s.time_limit_s = number(1, 5000);
+  s.start.at = point(50);
+  s.goal = {point(50), number(0.01, 2)};
+  s.start.heading = below(3) == 0 ? bearing(s.start.at, s.goal.at) : number(-360, 360) * kRadPerDeg;
+  if (below(2) == 0) {
+    Shuffle shuffle{s.robot};
+    for_each_param(s.robot, shuffle);
+  }
+  if (below(2) == 0)
+    s.bounds = Bounds{{number(-90, -60), number(-90, -60)}, {number(60, 90), number(60, 90)}};
+  for (int i = below(5); i > 0; --i) {
+    try_add(s, [](Scenario& t) { t.discs.push_back({point(40), number(0.01, 5)}); });
+    try_add(s, [](Scenario& t) { t.polygons.push_back(star(point(40))); });
+    try_add(s, [](Scenario& t) { t.walls.push_back({point(40), point(41), point(42)}); });
+    try_add(s, [](Scenario& t) {
+      const Vec2 a = point(40);
+      t.movers.push_back({a, number(0.01, 1), {point(43), a, point(44)}, number(0, 2)});
+    });
+  }
+  if (below(2) == 0) s.noise = {number(0, 1), number(0, 1), number(0, 1), number(0, 1), number(0, 9)};
+  return s;
+}
+
+void same(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+  RC_ASSERT(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) RC_ASSERT(a[i].x == b[i].x && a[i].y == b[i].y);
+}
+void same(Vec2 a, Vec2 b) { same(std::vector<Vec2>{a}, std::vector<Vec2>{b}); }
+
+void same_outlines(const std::vector<std::vector<Vec2>>& a, const std::vector<std::vector<Vec2>>& b) {
+  RC_ASSERT(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) same(a[i], b[i]);
+}
+
+void same_obstacles(const Scenario& a, const Scenario& b) {
+  RC_ASSERT(a.bounds.has_value() == b.bounds.has_value());
+  if (a.bounds) same({a.bounds->min, a.bounds->max}, {b.bounds->min, b.bounds->max});
+  RC_ASSERT(a.discs.size() == b.discs.size());
+  for (std::size_t i = 0; i < a.discs.size(); ++i) {
+    same(a.discs[i].center, b.discs[i].center);
+    RC_ASSERT(a.discs[i].radius == b.discs[i].radius);
+  }
+  same_outlines(a.polygons, b.polygons);
+  same_outlines(a.walls, b.walls);
+  RC_ASSERT(a.movers.size() == b.movers.size());
+  for (std::size_t i = 0; i < a.movers.size(); ++i) {
+    same(a.movers[i].center, b.movers[i].center);
+    same(a.movers[i].path, b.movers[i].path);
+    RC_ASSERT(a.movers[i].radius_m == b.movers[i].radius_m);
+    RC_ASSERT(a.movers[i].speed_mps == b.movers[i].speed_mps);
+  }
+}
+
+RC_GTEST_PROP(RoundTrip, GivesTheSameScenarioBitForBit, ()) {
+  const Scenario a = any_scenario();
+  RC_PRE(start_fault(a).empty());
+  const std::string text = to_toml(a);
+  RC_LOG() << text;
+  const Scenario b = parse_scenario(text, "text");
+  RC_ASSERT(a.name == b.name);
+  RC_ASSERT(a.seed == b.seed);
+  RC_ASSERT(a.time_limit_s == b.time_limit_s);
+  same(a.start.at, b.start.at);
+  RC_ASSERT(a.start.heading == b.start.heading);
+  same(a.goal.at, b.goal.at);
+  RC_ASSERT(a.goal.tolerance_m == b.goal.tolerance_m);
+  same_obstacles(a, b);
+  RC_ASSERT(a.noise.range_sigma_m == b.noise.range_sigma_m);
+  RC_ASSERT(a.noise.range_dropout == b.noise.range_dropout);
+  RC_ASSERT(a.noise.range_false_clear == b.noise.range_false_clear);
+  RC_ASSERT(a.noise.wheel_scale_sigma == b.noise.wheel_scale_sigma);
+  RC_ASSERT(a.noise.heading_drift_deg_per_sqrt_m == b.noise.heading_drift_deg_per_sqrt_m);
+  RC_ASSERT(values(a.robot) == values(b.robot));
+  RC_ASSERT(to_toml(b) == text);
+}
+
+// Whatever the bytes are, the answer is a scenario or one line of complaint.
+RC_GTEST_PROP(Parser, AnswersAnyDamagedFileInOneLine, ()) {
+  std::string text = to_toml(any_scenario());
+  for (int i = 1 + below(4); i > 0; --i) {
+    const std::size_t at = bits() % text.size();
+    switch (below(3)) {
+      case 0: text[at] = static_cast<char>(below(256)); break;
+      case 1: text.erase(at, 1 + static_cast<std::size_t>(below(20))); break;
+      default: text.insert(at, text.substr(bits() % text.size(), static_cast<std::size_t>(below(30)))); break;
+    }
+    if (text.empty()) text = "=";
+  }
+  RC_LOG() << text;
+  try {
+    const Scenario s = parse_scenario(text, "text");
+    RC_ASSERT(start_fault(s).empty());
+    RC_ASSERT(check(s.robot) == ParamFault::none);
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    RC_ASSERT(message.rfind("text:", 0) == 0U);
+    RC_ASSERT(message.find('\n') == std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace whisker
