@@ -106,7 +106,8 @@ enum class ParamFault : uint8_t {
   stuck_within_cone,          ///< stuck_turn > cone: within it a real thing keeps its distance
   tolerance_above_step,       ///< drive_tolerance < small_step, turn_tolerance < delta
   tolerance_below_wire,       ///< the rim's way at turn_tolerance >= 0.1 mm/s x settle
-  stalled_before_count,       ///< stalled_after >= twice what the slowest count takes
+  stalled_before_count,       ///< stalled_after >= what the slowest count and the slowest stop take
+  settle_below_lag,           ///< settle >= motor_lag + period
 };
 
 /// Calls f.number(key, field, min, max), f.count(key, field, min, max) or

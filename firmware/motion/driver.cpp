@@ -42,14 +42,9 @@ void Driver::begin(const nav::Manoeuvre& manoeuvre, const Pose& pose) noexcept {
   nearest_ = Length::from_raw(INT32_MAX);
 }
 
-// Less than an eighth of the tolerance at a time would let a body that wanders pass for one that arrives.
-void Driver::approach(Length rest, Length tolerance) noexcept {
-  if (rest + tolerance / 8 < nearest_) {
-    nearest_ = rest;
-    waiting_ticks_ = 0;
-  } else {
-    count_up(waiting_ticks_);
-  }
+void Driver::approach(Length rest) noexcept {
+  count_while(rest >= nearest_, waiting_ticks_);
+  nearest_ = min(nearest_, rest);
 }
 
 WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
@@ -63,7 +58,7 @@ WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
       return {};
     }
     const Length way = arc(error, half_track);
-    approach(abs(way), arc(params.motion.turn_tolerance, half_track));
+    approach(abs(way));
     return mix(Speed{}, signed_approach(way, turn_limit, params), params.wheels.max_speed);
   }
   const Length rest = current_.length - along(pose.at - origin_, current_.heading);
@@ -71,7 +66,7 @@ WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
     finished_ = true;
     return {};
   }
-  approach(rest, params.motion.drive_tolerance);
+  approach(rest);
   const Speed forward = min(approach_speed(rest, params), params.wheels.max_speed);
   const Speed correction = signed_approach(arc(error, half_track), turn_limit, params);
   // Half the forward speed at most, so that the correction bends the path and never reverses a wheel.

@@ -37,7 +37,7 @@ class Driver {
  private:
   static constexpr int32_t kStillTicks = 3;
   WheelPair target(const Pose& pose, const Params& params) noexcept;
-  void approach(Length rest, Length tolerance) noexcept;
+  void approach(Length rest) noexcept;
 
   nav::Manoeuvre current_{nav::Kind::stop, {}, {}};
   Vec origin_;
@@ -46,7 +46,7 @@ class Driver {
   int32_t still_ticks_ = 0;
   int32_t stalled_ticks_ = 0;
   int32_t waiting_ticks_ = 0;
-  Length nearest_;  // rest of the manoeuvre when it last came nearer
+  Length nearest_;  // the smallest rest of this manoeuvre so far
 };
 
 }  // namespace whisker::motion

@@ -122,8 +122,11 @@ const char* relation(ParamFault fault) {
     case ParamFault::tolerance_below_wire:
       return "the rim's way over turn_tolerance_deg must not be less than 0.0001 m/s x motion_settle_s";
     case ParamFault::stalled_before_count:
-      return "wheels_stalled_after_s must be at least twice what the slowest count takes: motor_lag_s + "
-             "motion_settle_s + the time to accelerate over 1 / encoder_counts_per_m";
+      return "wheels_stalled_after_s must not be less than 16 motor_lag_s + 2 motion_settle_s + twice the "
+             "time "
+             "to accelerate over 1 / encoder_counts_per_m";
+    case ParamFault::settle_below_lag:
+      return "motion_settle_s must not be less than motor_lag_s + control_period_s";
   }
   return "";
 }

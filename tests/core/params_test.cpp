@@ -56,6 +56,7 @@ TEST(Params, EveryRelationIsChecked) {
          p.safety.stalled_after = 200_ms;
          p.motion.settle = 200_ms;
        }},
+      {ParamFault::settle_below_lag, [](Params& p) { p.motion.settle = 59_ms; }},
   };
   std::set<ParamFault> seen;
   for (const Broken& c : cases) {
@@ -64,7 +65,7 @@ TEST(Params, EveryRelationIsChecked) {
     EXPECT_EQ(check(p), c.fault) << static_cast<int>(c.fault);
     seen.insert(c.fault);
   }
-  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::stalled_before_count));
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::settle_below_lag));
 }
 
 TEST(Params, AChoiceOutsideItsNamesIsRefused) {
