@@ -106,9 +106,9 @@ class JudgeComplains(Case):
 
     def test_objects_to_ranges_that_miss_an_obstacle(self):
         for change in (
-            lambda scene, *_: scene.discs.append(((0.0, 0.7), 0.3)),
-            lambda scene, *_: scene.walls.append([(0.3, 0.3), (0.5, 0.3)]),
-            lambda scene, *_: scene.polygons.append([(0.3, 0.3), (0.5, 0.3), (0.4, 0.4)]),
+            lambda scene, *_: scene.discs.append(((0.7, 0.7), 0.1)),
+            lambda scene, *_: scene.walls.append([(0.5, 0.7), (0.7, 0.6)]),
+            lambda scene, *_: scene.polygons.append([(0.5, 0.6), (0.7, 0.6), (0.6, 0.7)]),
         ):
             self.object_to("the nearest thing in its cone", change)
 
