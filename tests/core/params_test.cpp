@@ -57,6 +57,7 @@ TEST(Params, EveryRelationIsChecked) {
          p.motion.settle = 200_ms;
        }},
       {ParamFault::settle_below_lag, [](Params& p) { p.motion.settle = 59_ms; }},
+      {ParamFault::step_beyond_range, [](Params& p) { p.thesis.base_step = 941_mm; }},
   };
   std::set<ParamFault> seen;
   for (const Broken& c : cases) {
@@ -65,7 +66,7 @@ TEST(Params, EveryRelationIsChecked) {
     EXPECT_EQ(check(p), c.fault) << static_cast<int>(c.fault);
     seen.insert(c.fault);
   }
-  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::settle_below_lag));
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::step_beyond_range));
 }
 
 TEST(Params, AChoiceOutsideItsNamesIsRefused) {
