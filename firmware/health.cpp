@@ -11,6 +11,8 @@ const char* name(Fault fault) noexcept {
     case Fault::drive_refused: return "drive_refused";
     case Fault::encoder_jump: return "encoder_jump";
     case Fault::wheels_stalled: return "wheels_stalled";
+    case Fault::range_unsteady: return "range_unsteady";
+    case Fault::no_progress: return "no_progress";
   }
   return "?";
 }

@@ -14,6 +14,8 @@ enum class Fault : uint8_t {
   drive_refused,   ///< the drive refused commands or gave no counts, several times in a row
   encoder_jump,    ///< the counts moved further than the wheels can
   wheels_stalled,  ///< commanded to move, and the counts stand still
+  range_unsteady,  ///< it stood and looked for too long: a beam's readings come, and never agree
+  no_progress,     ///< the wheels turn, and the turn or step comes no nearer to its end, or to its rest
 };
 
 const char* name(Fault fault) noexcept;
@@ -30,6 +32,8 @@ struct Health {
   uint32_t encoder_refused = 0;     ///< ticks without counts
   uint32_t encoder_jumps = 0;
   uint32_t wheel_stalls = 0;
+  uint32_t unsteady_looks = 0;
+  uint32_t no_progress = 0;
   uint32_t late_ticks = 0;  ///< ticks more than half a period late
   uint32_t clock_jumps = 0;
 };

@@ -1,7 +1,11 @@
 #include "firmware/params.hpp"
 
+#include "firmware/core/trig.hpp"
+
 namespace whisker {
 namespace {
+
+constexpr Speed kWireSpeed = Speed::from_raw(100);  // the smallest that hal::WheelSpeeds can say
 
 struct RangeCheck {
   bool ok = true;
@@ -26,6 +30,15 @@ Length stopping_distance(const Params& p) {
   return Length::from_raw(saturate32(braking)) + p.wheels.max_speed * (p.wheels.motor_lag + p.safety.period);
 }
 
+/// Twice what passes from the order to move to the first count, and from one count to the next near a
+/// manoeuvre's end, where the speed is a tolerance (at least one count) per `settle`; and what the motor's
+/// lag needs to bring full speed below one count.
+Duration slowest_count(const Params& p, Length count) {
+  const int64_t square_ms2 = int64_t{count.raw()} * 2 * 1000000 / p.wheels.max_acceleration.raw();
+  const uint32_t starting_ms = square_root(static_cast<uint64_t>(square_ms2));
+  return (p.motion.settle + milliseconds(static_cast<int32_t>(starting_ms))) * 2 + p.wheels.motor_lag * 16;
+}
+
 }  // namespace
 
 ParamFault check(const Params& p) noexcept {
@@ -47,6 +60,14 @@ ParamFault check(const Params& p) noexcept {
   const Length turn_way = arc(p.motion.turn_tolerance, p.body.track / 2);
   if (p.motion.drive_tolerance < count || turn_way < count) return ParamFault::tolerance_below_encoder;
   if (p.safety.max_gap < p.safety.period * 2) return ParamFault::gap_below_period;
+  if (p.conditioning.stuck_turn.raw() <= p.rangefinders.cone.raw()) return ParamFault::stuck_within_cone;
+  if (p.motion.drive_tolerance >= p.thesis.small_step ||
+      p.motion.turn_tolerance.raw() >= p.thesis.delta.raw()) {
+    return ParamFault::tolerance_above_step;
+  }
+  if (turn_way < kWireSpeed * p.motion.settle) return ParamFault::tolerance_below_wire;
+  if (p.safety.stalled_after < slowest_count(p, count)) return ParamFault::stalled_before_count;
+  if (p.motion.settle < p.wheels.motor_lag + p.safety.period) return ParamFault::settle_below_lag;
   return ParamFault::none;
 }
 

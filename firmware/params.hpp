@@ -75,7 +75,7 @@ struct SafetyParams {
   Duration period = 10_ms;           ///< of tick(): the control period
   Duration max_gap = 100_ms;         ///< between two ticks; above: the clock jumped
   Duration lost_after = 1000_ms;     ///< a beam lost for this long stops the robot for good
-  Duration stalled_after = 2000_ms;  ///< commanded to move without a count for this long: a fault
+  Duration stalled_after = 2000_ms;  ///< wheels without counts, or a manoeuvre without progress: a fault
   int32_t max_refusals = 5;          ///< of the drive, in a row
 };
 
@@ -103,6 +103,11 @@ enum class ParamFault : uint8_t {
   lost_before_stale,          ///< lost_after >= stale_after
   tolerance_below_encoder,    ///< drive_tolerance and the rim's way at turn_tolerance >= one count
   gap_below_period,           ///< max_gap >= 2 period
+  stuck_within_cone,          ///< stuck_turn > cone: within it a real thing keeps its distance
+  tolerance_above_step,       ///< drive_tolerance < small_step, turn_tolerance < delta
+  tolerance_below_wire,       ///< the rim's way at turn_tolerance >= 0.1 mm/s x settle
+  stalled_before_count,       ///< stalled_after >= what the slowest count and the slowest stop take
+  settle_below_lag,           ///< settle >= motor_lag + period
 };
 
 /// Calls f.number(key, field, min, max), f.count(key, field, min, max) or
@@ -135,7 +140,7 @@ constexpr void for_each_param(P& p, F&& f) {
   f.count("consensus_reads", p.conditioning.reads, 1, 5);
   f.number("consensus_tolerance_m", p.conditioning.tolerance, 1_mm, 1_m);
   f.number("stale_after_s", p.conditioning.stale_after, 20_ms, 2000_ms);
-  f.number("stuck_turn_deg", p.conditioning.stuck_turn, 60_deg, 170_deg);
+  f.number("stuck_turn_deg", p.conditioning.stuck_turn, 30_deg, 170_deg);
 
   f.choice("thesis_distance", p.thesis.distance_source, kSource, 2);
   f.number("thesis_base_turn_deg", p.thesis.base_turn, 5_deg, 60_deg);

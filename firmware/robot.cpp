@@ -22,7 +22,8 @@ void Robot::set_goal(const nav::Goal& goal) noexcept { planner_.set_goal(goal); 
 void Robot::cancel() noexcept { planner_.cancel(); }
 
 void Robot::reset() noexcept {
-  status_.health.fault = check(params_) == ParamFault::none ? Fault::none : Fault::invalid_params;
+  if (status_.health.fault == Fault::invalid_params) return;
+  status_.health.fault = Fault::none;
   started_ = false;
   drive_refusals_ = 0;
   encoder_refusals_ = 0;
@@ -39,11 +40,12 @@ const Status& Robot::tick(Time now) noexcept {
   }
   check_clock(now);
   sense(now);
-  const motion::CountStep counts = measure();
+  motion::CountStep counts;
+  const bool measured = measure(counts);
   if (driver_.settled() && !was_settled_) settled_since_ = now;
   was_settled_ = driver_.settled();
   navigate();
-  drive(counts);
+  drive(measured ? &counts : nullptr);
   return status_;
 }
 
@@ -75,22 +77,21 @@ void Robot::sense(Time now) noexcept {
   if (lost > params_.safety.lost_after) fail(Fault::range_lost);
 }
 
-motion::CountStep Robot::measure() noexcept {
-  motion::CountStep step;
+bool Robot::measure(motion::CountStep& step) noexcept {
   hal::EncoderCounts counts{};
   if (!drive_.read(counts)) {
     count(status_.health.encoder_refused);
     if (++encoder_refusals_ >= params_.safety.max_refusals) fail(Fault::drive_refused);
-    return step;
+    return false;
   }
   encoder_refusals_ = 0;
   if (!odometry_.update(counts, step)) {
     count(status_.health.encoder_jumps);
     fail(Fault::encoder_jump);
-    step = {};
+    return false;
   }
   status_.pose = odometry_.pose();
-  return step;
+  return true;
 }
 
 void Robot::navigate() noexcept {
@@ -103,15 +104,39 @@ void Robot::navigate() noexcept {
   if (!beams_fresh_ && status_.decision.outcome == nav::Outcome::running) {
     status_.decision.why = nav::Why::blind;
   }
+  watch_look(settled);
 }
 
-void Robot::drive(motion::CountStep counts) noexcept {
-  const bool paused = faulted() || !beams_fresh_ || drive_refusals_ > 0;
-  const motion::WheelPair speeds = driver_.step(status_.pose, counts, paused, params_);
-  if (params_.safety.period * driver_.stalled_ticks() > params_.safety.stalled_after) {
+void Robot::watch_look(bool settled) noexcept {
+  const bool waits = settled && status_.decision.outcome == nav::Outcome::running &&
+                     status_.decision.manoeuvre.kind == nav::Kind::keep;
+  // Each reading that a look needs may take `lost_after` before the beam is lost, and one is under way.
+  const Duration longest = params_.safety.lost_after * (params_.conditioning.reads + 1);
+  if (waits && last_tick_ - settled_since_ > longest) {
+    count(status_.health.unsteady_looks);
+    fail(Fault::range_unsteady);
+  }
+}
+
+bool Robot::overdue(int32_t ticks) const noexcept {
+  return params_.safety.period * ticks > params_.safety.stalled_after;
+}
+
+void Robot::watch_driver() noexcept {
+  if (faulted()) return;
+  if (overdue(driver_.stalled_ticks())) {
     count(status_.health.wheel_stalls);
     fail(Fault::wheels_stalled);
+  } else if (overdue(driver_.waiting_ticks())) {
+    count(status_.health.no_progress);
+    fail(Fault::no_progress);
   }
+}
+
+void Robot::drive(const motion::CountStep* counts) noexcept {
+  const bool paused = faulted() || !beams_fresh_ || drive_refusals_ > 0 || counts == nullptr;
+  const motion::WheelPair speeds = driver_.step(status_.pose, counts, paused, params_);
+  watch_driver();
   status_.command = motion::to_wire(speeds);
   if (drive_.command(status_.command)) {
     drive_refusals_ = 0;

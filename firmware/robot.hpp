@@ -33,7 +33,8 @@ struct Status {
 ///   every 10 ms:  robot.tick(Time::from_raw(clock.now_ms()));
 ///
 /// A failure ends in the safe state: both wheels slow down at the acceleration limit to zero, stay
-/// there, and status().health.fault names the cause until reset(). All references must outlive the robot.
+/// there, and status().health.fault names the cause until reset(). All references must outlive the robot,
+/// and the parameters must not change while it lives.
 class Robot {
  public:
   Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& planner,
@@ -41,10 +42,11 @@ class Robot {
 
   /// Tells the robot where it stands. It takes the wheels' next counts as zero.
   void place(const Pose& pose) noexcept;
-  /// Accepted in any state; while a fault stands it is kept for after reset().
+  /// Accepted in any state; one given while a fault stands is dropped by reset().
   void set_goal(const nav::Goal& goal) noexcept;
   void cancel() noexcept;
-  /// Clears the fault and forgets all readings; the goal must be set again.
+  /// Clears the fault and forgets all readings; the goal must be set again. Parameters that check() refused
+  /// at construction stay refused.
   void reset() noexcept;
 
   /// One control tick. `now` is the time of this tick, about params.safety.period after the last.
@@ -54,9 +56,12 @@ class Robot {
  private:
   void check_clock(Time now) noexcept;
   void sense(Time now) noexcept;
-  motion::CountStep measure() noexcept;
+  bool measure(motion::CountStep& step) noexcept;
   void navigate() noexcept;
-  void drive(motion::CountStep counts) noexcept;
+  void watch_look(bool settled) noexcept;
+  void drive(const motion::CountStep* counts) noexcept;
+  void watch_driver() noexcept;
+  bool overdue(int32_t ticks) const noexcept;
   void show_fault() noexcept;
   void fail(Fault fault) noexcept;
   bool faulted() const noexcept { return status_.health.fault != Fault::none; }

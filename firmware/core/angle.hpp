@@ -54,6 +54,7 @@ constexpr Angle scaled(Angle a, Fixed<kFraction, Rep> k) noexcept {
 }
 
 /// The length of the arc that a point at this radius describes; the angle is taken in [-1/2, 1/2) turn.
+/// |radius| <= 600 m.
 constexpr Length arc(Angle a, Length radius) noexcept {
   constexpr int64_t kTwoPiQ28 = 1686629713;
   const int64_t circumference = scale_down<28>(radius.raw() * kTwoPiQ28);

@@ -17,6 +17,18 @@ Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noex
   return rest < Length{} ? -v : v;
 }
 
+void count_up(int32_t& ticks) noexcept {
+  if (ticks < INT32_MAX) ++ticks;
+}
+
+void count_while(bool condition, int32_t& ticks) noexcept {
+  if (condition) {
+    count_up(ticks);
+  } else {
+    ticks = 0;
+  }
+}
+
 }  // namespace
 
 void Driver::begin(const nav::Manoeuvre& manoeuvre, const Pose& pose) noexcept {
@@ -26,6 +38,13 @@ void Driver::begin(const nav::Manoeuvre& manoeuvre, const Pose& pose) noexcept {
   finished_ = manoeuvre.kind == nav::Kind::stop;
   still_ticks_ = 0;
   stalled_ticks_ = 0;
+  waiting_ticks_ = 0;
+  nearest_ = Length::from_raw(INT32_MAX);
+}
+
+void Driver::approach(Length rest) noexcept {
+  count_while(rest >= nearest_, waiting_ticks_);
+  nearest_ = min(nearest_, rest);
 }
 
 WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
@@ -38,27 +57,36 @@ WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
       finished_ = true;
       return {};
     }
-    return mix(Speed{}, signed_approach(arc(error, half_track), turn_limit, params), params.wheels.max_speed);
+    const Length way = arc(error, half_track);
+    approach(abs(way));
+    return mix(Speed{}, signed_approach(way, turn_limit, params), params.wheels.max_speed);
   }
   const Length rest = current_.length - along(pose.at - origin_, current_.heading);
   if (rest <= params.motion.drive_tolerance) {
     finished_ = true;
     return {};
   }
+  approach(rest);
   const Speed forward = min(approach_speed(rest, params), params.wheels.max_speed);
   const Speed correction = signed_approach(arc(error, half_track), turn_limit, params);
   // Half the forward speed at most, so that the correction bends the path and never reverses a wheel.
   return mix(forward, limit(correction, forward / 2), params.wheels.max_speed);
 }
 
-WheelPair Driver::step(const Pose& pose, CountStep counts, bool paused, const Params& params) noexcept {
+WheelPair Driver::step(const Pose& pose, const CountStep* counts, bool paused,
+                       const Params& params) noexcept {
   const WheelPair want = paused ? WheelPair{} : target(pose, params);
   speeds_ = slew(speeds_, want, params.wheels.max_acceleration * params.safety.period);
 
-  const bool still = counts.left == 0 && counts.right == 0;
+  if (counts == nullptr) {
+    still_ticks_ = 0;
+    return speeds_;
+  }
+  const bool still = counts->left == 0 && counts->right == 0;
   const bool commanded = speeds_.left != Speed{} || speeds_.right != Speed{};
-  still_ticks_ = still && !commanded ? still_ticks_ + (still_ticks_ < kStillTicks ? 1 : 0) : 0;
-  stalled_ticks_ = still && commanded ? stalled_ticks_ + (stalled_ticks_ < INT32_MAX ? 1 : 0) : 0;
+  count_while(still && !commanded, still_ticks_);
+  count_while(still && commanded, stalled_ticks_);
+  if (finished_) count_while(!commanded && !settled(), waiting_ticks_);
   return speeds_;
 }
 

@@ -42,9 +42,10 @@ bool Odometry::update(const hal::EncoderCounts& counts, CountStep& step) noexcep
   }
 
   difference_ += step.right - step.left;
-  const uint64_t turned = static_cast<uint64_t>(difference_) * turn_per_count_;
+  const uint64_t turned = magnitude(difference_) * turn_per_count_;
+  const Angle size = Angle::from_raw(static_cast<uint32_t>(turned >> 16));
   const Angle before = heading_;
-  heading_ = start_heading_ + Angle::from_raw(static_cast<uint32_t>(turned >> 16));
+  heading_ = start_heading_ + (difference_ < 0 ? -size : size);
 
   const Angle change = heading_ - before;
   const Angle middle = before + scaled(change, Q15::ratio(1, 2));

@@ -1,16 +1,8 @@
 #include "firmware/nav/probe.hpp"
 
+#include "firmware/nav/way.hpp"
+
 namespace whisker::nav {
-namespace {
-
-/// The distance of a point from the way from the origin to (step, 0).
-Length gap(Vec point, Length step) noexcept {
-  if (point.x < Length{}) return norm(point);
-  if (point.x <= step) return abs(point.y);
-  return norm({point.x - step, point.y});
-}
-
-}  // namespace
 
 void Probe::configure(const Params& params) noexcept {
   const RangefinderParams& r = params.rangefinders;
@@ -34,7 +26,7 @@ bool Probe::free(const ranges::Echoes& look, Length step) const noexcept {
     const Vec nearest = i == hal::kFront ? Vec{front_apex_ + echo.distance, Length{}}
                                          : Vec{side_apex_x_ + echo.distance * inner_cos_,
                                                side_apex_y_ + echo.distance * inner_sin_};
-    if (gap(nearest, step) < reach_) return false;
+    if (gap_from_way(nearest, step) < reach_) return false;
   }
   return true;
 }

@@ -16,6 +16,7 @@ Length close_enough(Length tolerance) noexcept { return tolerance - tolerance / 
 ThesisPlanner::ThesisPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept
     : params_(params), engine_(table) {
   probe_.configure(params);
+  surroundings_.configure(params);
 }
 
 void ThesisPlanner::set_goal(const Goal& goal) noexcept {
@@ -30,7 +31,7 @@ Decision ThesisPlanner::step(const View& view) noexcept {
   decision_.looked = false;
   switch (request_) {
     case Request::none:
-      if (phase_ != Phase::rest && view.settled) decide(view);
+      if (view.settled) decide(view);
       break;
     case Request::goal:
       phase_ = Phase::at_position;
@@ -51,25 +52,32 @@ Decision ThesisPlanner::step(const View& view) noexcept {
 }
 
 void ThesisPlanner::decide(const View& view) noexcept {
-  if (phase_ == Phase::at_position || phase_ == Phase::move) {
-    arrive_at_position(view);
-    return;
-  }
-  // Every other phase turned the body and now wants to see what lies ahead.
-  if (!ranges::usable(view.look)) {
-    if (decision_.mode == Mode::facing) decision_.mode = Mode::looking;
-    return;
-  }
-  decision_.looked = true;
   switch (phase_) {
-    case Phase::face: choose(view); break;
-    case Phase::probe: probe(view); break;
-    case Phase::search_left:
-    case Phase::search_right: search(view); break;
-    case Phase::rest:
+    case Phase::rest: break;
     case Phase::at_position:
-    case Phase::move: break;
+    case Phase::move: arrive_at_position(view); break;
+    case Phase::face:
+      if (sees(view)) choose(view);
+      break;
+    case Phase::probe:
+      if (sees(view)) probe(view);
+      break;
+    case Phase::search_left:
+    case Phase::search_right:
+      if (sees(view)) search(view);
+      break;
   }
+}
+
+bool ThesisPlanner::sees(const View& view) noexcept {
+  decision_.looked = ranges::usable(view.look);
+  if (!decision_.looked && decision_.mode == Mode::facing) decision_.mode = Mode::looking;
+  if (decision_.looked) surroundings_.add(view.look, view.pose.heading);
+  return decision_.looked;
+}
+
+bool ThesisPlanner::step_is_free(const View& view) const noexcept {
+  return probe_.free(view.look, planned_) && surroundings_.allow(view.pose.heading, planned_);
 }
 
 void ThesisPlanner::arrive_at_position(const View& view) noexcept {
@@ -83,6 +91,7 @@ void ThesisPlanner::arrive_at_position(const View& view) noexcept {
     return;
   }
   ++steps_;
+  surroundings_.forget();
   target_ = bearing(to_goal);
   phase_ = Phase::face;
   decision_.mode = Mode::facing;
@@ -152,7 +161,7 @@ void ThesisPlanner::follow_danger(const View& view) noexcept {
 }
 
 void ThesisPlanner::probe(const View& view) noexcept {
-  if (probe_.free(view.look, planned_)) {
+  if (step_is_free(view)) {
     drive(planned_);
     return;
   }
@@ -167,7 +176,7 @@ void ThesisPlanner::probe(const View& view) noexcept {
 
 void ThesisPlanner::search(const View& view) noexcept {
   const bool left = phase_ == Phase::search_left;
-  if (probe_.free(view.look, planned_)) {
+  if (step_is_free(view)) {
     if (!left) {
       take_exit(-1, Why::exit_right);
       return;

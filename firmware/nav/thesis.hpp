@@ -14,6 +14,7 @@
 
 #include "firmware/nav/planner.hpp"
 #include "firmware/nav/probe.hpp"
+#include "firmware/nav/surroundings.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker::nav {
@@ -40,6 +41,8 @@ class ThesisPlanner final : public Planner {
   };
 
   void decide(const View& view) noexcept;
+  bool step_is_free(const View& view) const noexcept;
+  bool sees(const View& view) noexcept;
   void arrive_at_position(const View& view) noexcept;
   void choose(const View& view) noexcept;
   void steer(const View& view, Length distance) noexcept;
@@ -56,6 +59,7 @@ class ThesisPlanner final : public Planner {
   const Params& params_;
   fuzzy::Engine engine_;
   Probe probe_;
+  Surroundings surroundings_;  // of this position
 
   Request request_ = Request::none;
   Goal goal_{};

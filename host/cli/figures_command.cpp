@@ -8,6 +8,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
 #include "host/report/figures.hpp"
 #include "host/report/file.hpp"
 #include "host/report/run_svg.hpp"
@@ -22,8 +23,7 @@ struct Options {
   std::string out;
 };
 
-void draw_run(const std::string& scenario_file, const std::string& svg_file) {
-  const Scenario scenario = load_scenario(scenario_file);
+void draw_run(const Scenario& scenario, const std::string& svg_file) {
   std::vector<TickRecord> records;
   RunOptions options;
   options.records = &records;
@@ -34,14 +34,17 @@ void draw_run(const std::string& scenario_file, const std::string& svg_file) {
 
 int execute(const Options& o) {
   if (!std::filesystem::is_directory(o.out)) throw UsageError(fmt::format("{}: no such folder", o.out));
+  const Scenario figure8 = load_scenario(o.scenarios + "/figure8_u_trap.toml");
+  const Scenario figure9 = load_scenario(o.scenarios + "/figure9_discs.toml");
+  const Scenario figure10 = load_scenario(o.scenarios + "/figure10_discs.toml");
   for (const auto& [file, svg] : report::thesis_figures(controller_picture())) {
     const std::string path = fmt::format("{}/{}", o.out, file);
     report::write_file(path, svg);
     fmt::print("{}\n", path);
   }
-  draw_run(o.scenarios + "/figure8_u_trap.toml", o.out + "/figure8.svg");
-  draw_run(o.scenarios + "/figure9_discs.toml", o.out + "/figure9.svg");
-  draw_run(o.scenarios + "/figure10_discs.toml", o.out + "/figure10.svg");
+  draw_run(figure8, o.out + "/figure8.svg");
+  draw_run(figure9, o.out + "/figure9.svg");
+  draw_run(figure10, o.out + "/figure10.svg");
   return 0;
 }
 
@@ -50,8 +53,10 @@ int execute(const Options& o) {
 void add_figures(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("figures", "Draw the figures of docs/figures.md anew");
   const auto o = std::make_shared<Options>();
-  cmd->add_option("FOLDER", o->out, "Where to write figure2.svg to figure10.svg")->required();
-  cmd->add_option("--scenarios", o->scenarios, "Folder of the scenario files")->capture_default_str();
+  add_file(*cmd, "FOLDER", o->out, "Where to write figure2.svg to figure10.svg")
+      ->required()
+      ->type_name("FOLDER");
+  add_file(*cmd, "--scenarios", o->scenarios, "Folder of the scenario files")->capture_default_str();
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

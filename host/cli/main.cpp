@@ -7,6 +7,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/output.hpp"
 #include "host/scenario/error.hpp"
 
 namespace {
@@ -18,6 +19,25 @@ std::string one_line(std::string text) {
     if (c == '\n') c = ' ';
   }
   return text;
+}
+
+/// CLI11 would only say that a subcommand is missing.
+void check_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const auto named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (!app.get_subcommands(named).empty()) return;
+  throw whisker::cli::UsageError(fmt::format("no command '{}' (see whisker --help)", argv[1]));
+}
+
+/// Parses and runs; help and version are successes. `status` is set by the command that runs.
+int parse(CLI::App& app, int argc, char** argv, const int& status) {
+  try {
+    check_command(app, argc, argv);
+    app.parse(argc, argv);
+    return status;
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  }
 }
 
 constexpr const char* kFooter = R"(
@@ -44,10 +64,9 @@ int main(int argc, char** argv) {
   add_table(app, status);
   add_figures(app, status);
   try {
-    app.parse(argc, argv);
+    status = parse(app, argc, argv, status);
+    finish_standard_output();
     return status;
-  } catch (const CLI::Success& e) {
-    return app.exit(e);
   } catch (const CLI::ParseError& e) {
     fmt::print(stderr, "whisker: {} (see whisker --help)\n", one_line(e.what()));
     return kBadInput;

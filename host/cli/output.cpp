@@ -2,31 +2,75 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
-#include <set>
+#include <iostream>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "host/cli/exit_status.hpp"
 
 namespace whisker::cli {
+namespace {
 
-void check_outputs(std::initializer_list<std::string> paths) {
-  std::set<std::filesystem::path> seen;
-  for (const std::string& text : paths) {
-    if (text.empty()) continue;
-    std::error_code error;
-    const std::filesystem::path path = text;
-    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder, error)) {
-      throw UsageError(fmt::format("{}: no such folder: {}", text, folder.string()));
-    }
-    if (std::filesystem::is_directory(path, error)) throw UsageError(fmt::format("{}: is a folder", text));
-    const bool device = std::filesystem::is_character_file(path, error);
-    if (!device && !seen.insert(std::filesystem::weakly_canonical(path, error)).second) {
-      throw UsageError(fmt::format("{}: named for two outputs", text));
-    }
+namespace fs = std::filesystem;
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
+
+/// Devices and pipes may be named as often as one likes.
+bool is_device(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error) && !fs::is_regular_file(path, error);
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (is_device(a) || is_device(b)) return false;
+  if (fs::equivalent(a, b, error)) return true;
+  return a.filename() == b.filename() && fs::equivalent(folder_of(a), folder_of(b), error);
+}
+
+void check_place(const std::string& text) {
+  std::error_code error;
+  const fs::path path = text;
+  if (!fs::is_directory(folder_of(path), error)) {
+    throw UsageError(fmt::format("{}: no such folder: {}", text, folder_of(path).string()));
   }
+  if (!path.has_filename() || fs::is_directory(path, error)) {
+    throw UsageError(fmt::format("{}: is a folder", text));
+  }
+}
+
+}  // namespace
+
+void check_outputs(std::initializer_list<std::string> outputs, std::initializer_list<std::string> inputs) {
+  std::vector<std::string> seen;
+  for (const std::string& text : outputs) {
+    if (text.empty()) continue;
+    check_place(text);
+    for (const std::string& input : inputs) {
+      if (!input.empty() && same_file(text, input)) {
+        throw UsageError(fmt::format("{}: would overwrite the input {}", text, input));
+      }
+    }
+    for (const std::string& other : seen) {
+      if (same_file(text, other)) throw UsageError(fmt::format("{}: named for two outputs", text));
+    }
+    seen.push_back(text);
+  }
+}
+
+void finish_standard_output() {
+  errno = 0;
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout.flush();
+  if (!lost) return;
+  // What iostream lost earlier has left no errno.
+  const std::string why = errno != 0 ? ": " + std::generic_category().message(errno) : "";
+  throw std::runtime_error("cannot write to standard output" + why);
 }
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}

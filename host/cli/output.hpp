@@ -6,9 +6,13 @@
 
 namespace whisker::cli {
 
-/// Before any work is done: every named file ("" means none) must lie in a folder that exists, and no two
-/// may be the same. Throws UsageError.
-void check_outputs(std::initializer_list<std::string> paths);
+/// Before any work is done: every named output ("" means none) must lie in a folder that exists, no two may
+/// be the same file, and none an input. Devices and pipes may be named twice. Throws UsageError.
+void check_outputs(std::initializer_list<std::string> outputs,
+                   std::initializer_list<std::string> inputs = {});
+
+/// When all is printed: throws std::runtime_error if standard output did not take all of it.
+void finish_standard_output();
 
 /// A line on the terminal that is written over and over; silent where standard error is no terminal.
 class ProgressLine {

@@ -8,6 +8,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/report/file.hpp"
 #include "host/report/result.hpp"
@@ -36,7 +37,7 @@ void check_planner(const std::string& planner) {
 
 int execute(const Options& o) {
   check_planner(o.planner);
-  check_outputs({o.trace, o.svg});
+  check_outputs({o.trace, o.svg}, {o.scenario, o.robot});
   Scenario scenario = load_scenario(o.scenario);
   if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
 
@@ -76,15 +77,17 @@ int execute(const Options& o) {
 void add_run(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("run", "Drive the simulated robot through a scenario file");
   const auto o = std::make_shared<Options>();
-  cmd->add_option("SCENARIO", o->scenario, "Scenario file (TOML)")->required();
+  add_file(*cmd, "SCENARIO", o->scenario, "Scenario file (TOML)")->required();
   cmd->add_option("--planner", o->planner, "Planner: thesis")
       ->check(CLI::IsMember({"thesis", "skirt", "map"}))
       ->capture_default_str();
-  cmd->add_option("--robot", o->robot, "Parameters of your robot (TOML), over those of the scenario");
-  cmd->add_option("--seed", o->seed, "Seed of the noise, instead of the scenario's");
-  cmd->add_option("--trace", o->trace, "Write one CSV row per control tick");
-  cmd->add_option("--svg", o->svg, "Draw the run");
-  cmd->add_flag("--json", o->json, "Print the result as one JSON object and nothing else");
+  add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenario");
+  cmd->add_option("--seed", o->seed, "Seed of the noise, instead of the scenario's")
+      ->transform(whole_number())
+      ->type_name("N");
+  add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");
+  add_file(*cmd, "--svg", o->svg, "Draw the run");
+  add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

@@ -5,6 +5,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/controller_picture.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/report/file.hpp"
 #include "host/report/table_svg.hpp"
@@ -62,8 +63,8 @@ int execute(const Options& o) {
 void add_table(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("table", "Show the control response table");
   const auto o = std::make_shared<Options>();
-  cmd->add_flag("--csv", o->csv, "Print SA and SD over D and R, every quarter of a unit");
-  cmd->add_option("--svg", o->svg, "Draw both outputs as heat maps with the rules on them");
+  add_switch(*cmd, "--csv", o->csv, "Print SA and SD over D and R, every quarter of a unit");
+  add_file(*cmd, "--svg", o->svg, "Draw both outputs as heat maps with the rules on them");
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

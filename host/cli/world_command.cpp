@@ -6,6 +6,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/report/file.hpp"
 #include "host/scenario/write.hpp"
@@ -47,12 +48,16 @@ void add_world(CLI::App& app, int& status) {
   cmd->add_option("KIND", o->kind, "discs, poles, u-trap, spiral, maze, rooms or enclosed")
       ->required()
       ->check(CLI::IsMember({"discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed"}));
-  cmd->add_option("--seed", o->world.seed, "The same seed gives the same world everywhere")->required();
+  cmd->add_option("--seed", o->world.seed, "The same seed gives the same world everywhere")
+      ->required()
+      ->transform(whole_number())
+      ->type_name("N");
   cmd->add_option("--discs", o->world.discs, "Number of discs; 30 by default for kind discs")
-      ->check(CLI::Range(0, 200));
-  cmd->add_flag("--box", o->world.box, "A closed box around it (kinds discs, poles, enclosed)");
-  cmd->add_flag("--noise", o->world.noise, "With the reference robot's sensor noise and odometry error");
-  cmd->add_option("--out", o->out, "File to write, instead of standard output");
+      ->transform(whole_number(200))
+      ->type_name("N");
+  add_switch(*cmd, "--box", o->world.box, "A closed box around it (kinds discs, poles, enclosed)");
+  add_switch(*cmd, "--noise", o->world.noise, "With the reference robot's sensor noise and odometry error");
+  add_file(*cmd, "--out", o->out, "File to write, instead of standard output");
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

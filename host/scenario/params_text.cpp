@@ -115,6 +115,18 @@ const char* relation(ParamFault fault) {
       return "drive_tolerance_m, and the rim's way over turn_tolerance_deg, must not be less than "
              "1 / encoder_counts_per_m";
     case ParamFault::gap_below_period: return "max_tick_gap_s must be at least 2 control_period_s";
+    case ParamFault::stuck_within_cone: return "stuck_turn_deg must be greater than range_cone_deg";
+    case ParamFault::tolerance_above_step:
+      return "drive_tolerance_m must be less than thesis_small_step_m, and turn_tolerance_deg less than "
+             "thesis_delta_deg";
+    case ParamFault::tolerance_below_wire:
+      return "the rim's way over turn_tolerance_deg must not be less than 0.0001 m/s x motion_settle_s";
+    case ParamFault::stalled_before_count:
+      return "wheels_stalled_after_s must not be less than 16 motor_lag_s + 2 motion_settle_s + twice the "
+             "time "
+             "to accelerate over 1 / encoder_counts_per_m";
+    case ParamFault::settle_below_lag:
+      return "motion_settle_s must not be less than motor_lag_s + control_period_s";
   }
   return "";
 }

@@ -30,7 +30,7 @@ class Loop {
     };
     odometry_.update({count(way_[0]), count(way_[1])}, step);
     const WheelPair before = speeds_;
-    speeds_ = driver_.step(odometry_.pose(), step, paused, params_);
+    speeds_ = driver_.step(odometry_.pose(), &step, paused, params_);
     const Speed most = params_.wheels.max_acceleration * params_.safety.period;
     EXPECT_LE(abs(speeds_.left - before.left), most);
     EXPECT_LE(abs(speeds_.right - before.right), most);

@@ -38,7 +38,7 @@ class FakeBoard final : public hal::Rangefinders, public hal::Drive {
   }
   bool read(hal::EncoderCounts& out) noexcept override {
     if (counts_refuse) return false;
-    out = {count(way_[0] + jump), count(way_[1] + jump)};
+    out = {count(way_[swapped ? 1 : 0] + jump), count(way_[swapped ? 0 : 1] + jump)};
     return true;
   }
   bool command(hal::WheelSpeeds speeds) noexcept override {
@@ -57,7 +57,8 @@ class FakeBoard final : public hal::Rangefinders, public hal::Drive {
   bool counts_refuse = false;
   bool drive_refuses = false;
   bool wheels_blocked = false;
-  double jump = 0;  ///< metres added to both encoders
+  bool swapped = false;  ///< each wheel's counts come as the other's
+  double jump = 0;       ///< metres added to both encoders
   int commands = 0;
 
  private:

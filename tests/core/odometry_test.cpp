@@ -96,6 +96,27 @@ TEST(Odometry, CountsWrapInBothDirections) {
   EXPECT_EQ(odometry.pose().at.x, Length{});
 }
 
+TEST(Odometry, MirroredCountsGiveTheMirroredPoseToTheLastBit) {
+  Odometry odometry;
+  Odometry mirrored;
+  odometry.configure(Params{});
+  mirrored.configure(Params{});
+  const Angle heading = Angle::turns(33, 360);
+  odometry.place({{millimetres(1000), millimetres(50)}, heading});
+  mirrored.place({{millimetres(1000), millimetres(-50)}, -heading});
+  std::uint32_t left = 0, right = 0;
+  CountStep step;
+  for (std::uint32_t tick = 0; tick < 2000; ++tick) {
+    ASSERT_TRUE(odometry.update({left, right}, step));
+    ASSERT_TRUE(mirrored.update({right, left}, step));
+    ASSERT_EQ(mirrored.pose().heading, -odometry.pose().heading) << tick;
+    ASSERT_EQ(mirrored.pose().at.x, odometry.pose().at.x) << tick;
+    ASSERT_EQ(mirrored.pose().at.y, -odometry.pose().at.y) << tick;
+    left = (left + tick * 7 % 11) & kMask;
+    right = (right + tick * 5 % 13) & kMask;
+  }
+}
+
 TEST(Odometry, RefusesAJumpThatNoWheelCanMakeAndGoesOnFromThere) {
   Odometry odometry;
   odometry.configure(Params{});

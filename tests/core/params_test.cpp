@@ -39,6 +39,24 @@ TEST(Params, EveryRelationIsChecked) {
       {ParamFault::tolerance_below_encoder,
        [](Params& p) { p.motion.turn_tolerance = Angle::turns(1, 3600); }},
       {ParamFault::gap_below_period, [](Params& p) { p.safety.max_gap = 19_ms; }},
+      {ParamFault::stuck_within_cone,
+       [](Params& p) { p.conditioning.stuck_turn = p.rangefinders.cone = 30_deg; }},
+      {ParamFault::tolerance_above_step,
+       [](Params& p) { p.motion.drive_tolerance = p.thesis.small_step = 20_mm; }},
+      {ParamFault::tolerance_above_step, [](Params& p) { p.motion.turn_tolerance = p.thesis.delta = 5_deg; }},
+      {ParamFault::tolerance_below_wire,
+       [](Params& p) {
+         p.wheels.counts_per_metre = 1000000;
+         p.body.track = 20_mm;
+         p.motion.turn_tolerance = Angle::turns(1, 3600);
+         p.motion.settle = 1000_ms;
+       }},
+      {ParamFault::stalled_before_count,
+       [](Params& p) {
+         p.safety.stalled_after = 200_ms;
+         p.motion.settle = 200_ms;
+       }},
+      {ParamFault::settle_below_lag, [](Params& p) { p.motion.settle = 59_ms; }},
   };
   std::set<ParamFault> seen;
   for (const Broken& c : cases) {
@@ -47,7 +65,18 @@ TEST(Params, EveryRelationIsChecked) {
     EXPECT_EQ(check(p), c.fault) << static_cast<int>(c.fault);
     seen.insert(c.fault);
   }
-  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::gap_below_period));
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::settle_below_lag));
+}
+
+TEST(Params, AChoiceOutsideItsNamesIsRefused) {
+  for (const int wrong : {2, 3, 255}) {
+    Params p;
+    p.conditioning.consensus = static_cast<Consensus>(wrong);
+    EXPECT_EQ(check(p), ParamFault::out_of_range) << wrong;
+    p = Params{};
+    p.thesis.distance_source = static_cast<DistanceSource>(wrong);
+    EXPECT_EQ(check(p), ParamFault::out_of_range) << wrong;
+  }
 }
 
 /// Puts the field number `wanted` just outside its range, low or high, and remembers its key.

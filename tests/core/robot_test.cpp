@@ -114,6 +114,34 @@ TEST_F(RobotTest, RangefindersThatRefuseAreCountedAndStopIt) {
   EXPECT_EQ(robot_.status().health.range_refused, 140U);
 }
 
+TEST_F(RobotTest, ABeamWhoseReadingsNeverAgreeStopsItForGood) {
+  robot_.set_goal({{5_m, 0_m}, 100_mm});
+  int ticks = 0;
+  while (robot_.status().health.fault == Fault::none && ticks < 600) {
+    board_.show(hal::kLeft, hal::RangeStatus::ok, ticks / 2 % 2 == 0 ? 500 : 700);
+    tick();
+    ++ticks;
+  }
+  // Three readings may each take a second before the beam counts as lost, and one more may be under way.
+  EXPECT_NEAR(ticks, 400, 20);
+  expect_safe_stop(Fault::range_unsteady, 1);
+  EXPECT_EQ(robot_.status().health.unsteady_looks, 1U);
+  tick(100);
+  EXPECT_EQ(robot_.status().health.unsteady_looks, 1U);
+}
+
+TEST_F(RobotTest, ReadingsThatDisagreeWhileItRestsAreNoFault) {
+  for (int i = 0; i < 1000; ++i) {
+    board_.show(hal::kLeft, hal::RangeStatus::ok, i / 2 % 2 == 0 ? 500 : 700);
+    tick();
+  }
+  robot_.set_goal({{1_m, 0_m}, 100_mm});
+  tick(2);
+  EXPECT_EQ(robot_.status().health.fault, Fault::none);
+  tick(1000);
+  EXPECT_EQ(robot_.status().decision.outcome, nav::Outcome::reached);
+}
+
 TEST_F(RobotTest, ADriveThatRefusesIsGivenZeroAndStopsItForGood) {
   cruise();
   board_.drive_refuses = true;
@@ -149,6 +177,22 @@ TEST_F(RobotTest, CountsThatStayAwayStopIt) {
   EXPECT_EQ(robot_.status().health.encoder_refused, 64U);
 }
 
+TEST_F(RobotTest, WithoutCountsItBrakesAndIsNotSettled) {
+  params_.safety.max_refusals = 1000;
+  cruise();
+  board_.counts_refuse = true;
+  tick(40);
+  EXPECT_EQ(robot_.status().health.fault, Fault::none);
+  EXPECT_EQ(board_.commanded().left, 0);
+  EXPECT_EQ(board_.commanded().right, 0);
+  robot_.set_goal({{-(1_m), 0_m}, 100_mm});
+  tick(40);
+  EXPECT_EQ(robot_.status().decision.why, nav::Why::goal_set) << "nothing says that it stands";
+  board_.counts_refuse = false;
+  tick(2000);
+  EXPECT_EQ(robot_.status().decision.outcome, nav::Outcome::reached);
+}
+
 TEST_F(RobotTest, AJumpOfTheCountsStopsIt) {
   cruise();
   board_.jump = 0.07;
@@ -161,6 +205,24 @@ TEST_F(RobotTest, WheelsThatDoNotTurnStopIt) {
   robot_.set_goal({{5_m, 0_m}, 100_mm});
   expect_safe_stop(Fault::wheels_stalled, 320);
   EXPECT_GE(robot_.status().health.wheel_stalls, 1U);
+}
+
+TEST_F(RobotTest, EncodersThatAreSwappedStopItInTheFirstTurn) {
+  board_.swapped = true;
+  robot_.set_goal({{0_m, 5_m}, 100_mm});
+  expect_safe_stop(Fault::no_progress, 300);
+  EXPECT_EQ(robot_.status().health.no_progress, 1U);
+  tick(100);
+  EXPECT_EQ(robot_.status().health.no_progress, 1U);
+}
+
+TEST_F(RobotTest, CountsThatNeverComeToRestStopIt) {
+  robot_.set_goal({{5_m, 0_m}, 100_mm});
+  for (int i = 0; i < 300; ++i) {
+    board_.jump = i % 2 == 0 ? 0 : 0.0002;
+    tick();
+  }
+  expect_safe_stop(Fault::no_progress, 1);
 }
 
 TEST_F(RobotTest, AClockThatJumpsEitherWayStopsIt) {
@@ -214,6 +276,26 @@ TEST_F(RobotTest, ResetClearsTheFaultAndANewGoalDrivesAgain) {
   robot_.set_goal({{6_m, 0_m}, 100_mm});
   tick(4000);
   EXPECT_EQ(robot_.status().decision.outcome, nav::Outcome::reached);
+}
+
+TEST_F(RobotTest, AGoalGivenWhileAFaultStandsIsDroppedByReset) {
+  cruise();
+  board_.jump = 0.07;
+  tick(60);
+  robot_.set_goal({{6_m, 0_m}, 100_mm});
+  robot_.reset();
+  tick(50);
+  EXPECT_EQ(robot_.status().decision.mode, nav::Mode::idle);
+  EXPECT_EQ(robot_.status().decision.why, nav::Why::cancelled);
+}
+
+TEST_F(RobotTest, ParametersThatBecomeValidLaterDoNotBringItToLife) {
+  Params params;
+  params.conditioning.reads = 100;
+  Robot robot(board_, board_, planner_, params);
+  params.conditioning.reads = 3;
+  robot.reset();
+  EXPECT_EQ(robot.status().health.fault, Fault::invalid_params);
 }
 
 TEST_F(RobotTest, AGoalMaySetAtAnyTickAndAnotherMayReplaceIt) {

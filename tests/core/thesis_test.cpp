@@ -148,12 +148,13 @@ TEST(Thesis, ProbesByDeltaUntilTheStepIsFree) {
   const Decision d = p.next_drive([](int deg) { return deg <= -30 ? kOpen : echoes(330, 2000, 335); });
   EXPECT_EQ(d.mode, Mode::stepping);
   EXPECT_EQ(d.why, Why::narrow);
-  EXPECT_EQ(degrees(d.manoeuvre.heading), -30) << "the right side has more room";
+  // The right side has more room. At -30 degrees the gap between two cones hides what was seen there before.
+  EXPECT_EQ(degrees(d.manoeuvre.heading), -40);
   EXPECT_EQ(d.danger_count, 0);
 
   Puppet q = with_goal(3000, 0);
   const Decision e = q.next_drive([](int deg) { return deg >= 40 ? kOpen : echoes(335, 2000, 330); });
-  EXPECT_EQ(degrees(e.manoeuvre.heading), 40);
+  EXPECT_EQ(degrees(e.manoeuvre.heading), 50);
 }
 
 TEST(Thesis, ABlockedTargetIsDangerAndTheSmallerTurnWins) {
@@ -177,7 +178,7 @@ TEST(Thesis, ABlockedTargetIsDangerAndTheSmallerTurnWins) {
   Puppet tie = with_goal(3000, 0);
   EXPECT_EQ(tie.next_drive(exit_at(50, 50)).why, Why::exit_left);
   Puppet first = with_goal(3000, 0);
-  const Decision f = first.next_drive(exit_at(10, 10));
+  const Decision f = first.next_drive([](int deg) { return deg == 0 ? echoes(2000, 2000, 180) : kOpen; });
   EXPECT_EQ(f.why, Why::exit_left);
   EXPECT_EQ(degrees(f.manoeuvre.heading), 10);
 }

@@ -1,0 +1,65 @@
+#include "firmware/nav/surroundings.hpp"
+
+#include "firmware/nav/way.hpp"
+
+namespace whisker::nav {
+namespace {
+
+constexpr int32_t kUmPerMm = 1000;
+constexpr Angle kWidth = Angle::turns(1, Surroundings::kSectors);
+constexpr uint32_t kHalfWidth = kWidth.raw() / 2;
+
+constexpr Angle middle(int sector) noexcept { return kWidth * sector + Angle::from_raw(kHalfWidth); }
+
+}  // namespace
+
+// With its apex ahead of the centre a cone covers less of the circle. A direction counts as covered if the
+// ray from the centre has entered the cone where it leaves the body; nearer there is only the body itself.
+void Surroundings::configure(const Params& params) noexcept {
+  const RangefinderParams& r = params.rangefinders;
+  const Angle half_cone = Angle::from_raw(r.cone.raw() / 2);
+  const Length across = r.offset * sin(half_cone);
+  reach_ = params.body.radius + params.body.margin;
+  side_ = r.side_angle;
+  ahead_ = r.offset * cos(half_cone);
+  half_ = 0;
+  if (across >= params.body.radius) return;
+  const int64_t radius = params.body.radius.raw();
+  const int64_t along =
+      square_root(static_cast<uint64_t>(radius * radius - int64_t{across.raw()} * across.raw()));
+  const Angle lost = atan2(across.raw(), saturate32(along));
+  if (lost.raw() < half_cone.raw()) half_ = (half_cone - lost).raw();
+}
+
+void Surroundings::forget() noexcept {
+  for (uint16_t& mm : free_mm_) mm = kUnknown;
+}
+
+void Surroundings::add(const ranges::Echoes& look, Angle heading) noexcept {
+  const Angle axes[hal::kBeams] = {side_, Angle{}, -side_};
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const ranges::Echo& echo = look.beam[i];
+    if (!ranges::usable(echo.validity)) continue;
+    const int32_t whole_mm = (echo.distance + ahead_).raw() / kUmPerMm;
+    const uint16_t mm = static_cast<uint16_t>(whole_mm > UINT16_MAX ? UINT16_MAX : whole_mm);
+    for (int s = 0; s < kSectors; ++s) {
+      const bool inside = magnitude(middle(s) - heading - axes[i]) + kHalfWidth <= half_;
+      if (inside && mm > free_mm_[s]) free_mm_[s] = mm;
+    }
+  }
+}
+
+bool Surroundings::allow(Angle heading, Length step) const noexcept {
+  constexpr uint32_t kFlank = Angle::turns(1, 4).raw();
+  for (int s = 0; s < kSectors; ++s) {
+    if (free_mm_[s] == kUnknown) continue;
+    const uint32_t away = magnitude(middle(s) - heading);
+    const uint32_t nearest = away > kHalfWidth ? away - kHalfWidth : 0;
+    if (nearest >= kFlank) continue;
+    const Vec point = polar(Angle::from_raw(nearest), millimetres(free_mm_[s]));
+    if (gap_from_way(point, step) < reach_) return false;
+  }
+  return true;
+}
+
+}  // namespace whisker::nav

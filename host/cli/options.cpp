@@ -1,0 +1,34 @@
+#include "host/cli/options.hpp"
+
+#include <charconv>
+
+#include <fmt/core.h>
+
+namespace whisker::cli {
+
+CLI::Validator whole_number(std::uint64_t most) {
+  return CLI::Validator(
+      [most](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data(), end, value);
+        if (error != std::errc{} || rest != end || value > most) {
+          return fmt::format("'{}' is no whole number from 0 to {}", text, most);
+        }
+        // CLI11 would read leading zeros as octal.
+        text = fmt::format("{}", value);
+        return {};
+      },
+      "");
+}
+
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help) {
+  const auto not_empty = [](const std::string& text) { return std::string(text.empty() ? "no name" : ""); };
+  return app.add_option(name, path, help)->check(not_empty)->type_name("FILE");
+}
+
+CLI::Option* add_switch(CLI::App& app, const std::string& name, bool& on, const std::string& help) {
+  return app.add_flag(name, on, help)->disable_flag_override();
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,20 @@
+/// Options that take what they mean and nothing else.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace whisker::cli {
+
+/// Decimal digits only, at most `most`: no sign, no exponent, no 0x. For Option::transform.
+CLI::Validator whole_number(std::uint64_t most = INT64_MAX);
+
+/// A path; an empty one, such as an unset shell variable gives, is refused.
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help);
+
+/// A flag that takes no value.
+CLI::Option* add_switch(CLI::App& app, const std::string& name, bool& on, const std::string& help);
+
+}  // namespace whisker::cli

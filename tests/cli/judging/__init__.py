@@ -1,0 +1,1 @@
+"""What the judge knows, written from the file formats alone: it shares no code with the product."""

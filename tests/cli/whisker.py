@@ -1,0 +1,66 @@
+"""Runs the whisker command. The programs here take its path as their first argument; the rest is unittest's."""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+SCENARIOS = HERE / "scenarios"
+KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
+STATUS = {"reached": 0, "unreachable": 3, "gave_up": 4, "contact": 5, "fault": 6}
+
+binary = ""
+
+
+def whisker(*arguments, **options):
+    """The finished process, its output as text."""
+    return subprocess.run(
+        [binary, *map(str, arguments)],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+        **options,
+    )
+
+
+def with_time_limit(text, seconds):
+    """The scenario's text with another time limit."""
+    changed, count = re.subn(r"(?m)^time_limit_s *=.*$", f"time_limit_s = {seconds}", text)
+    assert count == 1, "the scenario has no time limit to change"
+    return changed
+
+
+class Case(unittest.TestCase):
+    """Each test has an empty folder of its own, `self.folder`."""
+
+    def setUp(self):
+        box = tempfile.TemporaryDirectory(prefix="whisker-cli-")
+        self.addCleanup(box.cleanup)
+        self.folder = pathlib.Path(box.name)
+
+    def file(self, name, text):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def contents(self):
+        """Name and bytes of every file in the folder."""
+        return {
+            str(path.relative_to(self.folder)): path.read_bytes() if path.is_file() else None
+            for path in self.folder.rglob("*")
+        }
+
+
+def main():
+    global binary
+    if len(sys.argv) < 2 or not os.access(sys.argv[1], os.X_OK):
+        sys.exit(f"usage: {sys.argv[0]} WHISKER [unittest options]")
+    # `import whisker` in the test file names another module object than __main__ would.
+    binary = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main(module="__main__", verbosity=2)

@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+#include "firmware/nav/thesis.hpp"
+#include "firmware/robot.hpp"
+#include "tests/core/properties/lagging_board.hpp"
+#include "tests/core/properties/random_params.hpp"
+#include "tests/core/properties/watch.hpp"
+
+namespace whisker::test {
+namespace {
+
+// What check() accepts can work: on a board that does what the parameters say, in an open world, the robot
+// arrives, or says that its steps are used up.
+RC_GTEST_PROP(OpenWorld, EveryAcceptedParameterSetArrives, (std::uint64_t seed)) {
+  Bits bits(seed);
+  const Params params = random_params(bits);
+  LaggingBoard board(params);
+  nav::ThesisPlanner planner(params, fuzzy::kDefaultTable);
+  Robot robot(board, board, planner, params);
+  Watch watch(params);
+  const Length tolerance = max(50_mm, params.motion.drive_tolerance * 4);
+  const nav::Goal goal{{millimetres(bits.whole(-900, 900)), millimetres(bits.whole(-900, 900))}, tolerance};
+  robot.set_goal(goal);
+  Time now;
+  int ticks = 0;
+  while (robot.status().decision.outcome < nav::Outcome::reached &&
+         robot.status().health.fault == Fault::none && ++ticks < 200000) {
+    now = now + params.safety.period;
+    const std::string broken = watch.see(robot.tick(now), false);
+    if (!broken.empty()) RC_FAIL(broken);
+    board.pass();
+  }
+  const nav::Decision& d = robot.status().decision;
+  RC_LOG() << name(robot.status().health.fault) << ' ' << nav::name(d.mode) << ' ' << nav::name(d.why)
+           << " after " << ticks << " ticks\n";
+  RC_ASSERT(d.outcome == nav::Outcome::reached ||
+            (d.why == nav::Why::step_budget && params.thesis.max_steps < 1000));
+  if (d.outcome == nav::Outcome::reached) RC_ASSERT(norm(robot.status().pose.at - goal.at) <= tolerance);
+  RC_CLASSIFY(d.why == nav::Why::step_budget, "step_budget");
+}
+
+}  // namespace
+}  // namespace whisker::test
