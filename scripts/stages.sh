@@ -27,8 +27,11 @@ build_and_test() {
 }
 
 stage_shell() {
-  for script in scripts/* .ci/run; do bash -n "$script"; done
-  shellcheck -x scripts/* .ci/run
+  local scripts
+  mapfile -t scripts < <(grep -lE '^(#!.*bash|# shellcheck shell=bash)$' scripts/* .ci/run)
+  ((${#scripts[@]}))
+  for script in "${scripts[@]}"; do bash -n "$script"; done
+  shellcheck -x "${scripts[@]}"
 }
 
 stage_format() { cxx_files | xargs -0 clang-format-14 --dry-run -Werror; }

@@ -68,9 +68,9 @@ void finish_standard_output() {
   errno = 0;
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout.flush();
   if (!lost) return;
-  const int error = errno != 0 ? errno : EIO;
-  throw std::runtime_error(
-      fmt::format("cannot write to standard output: {}", std::generic_category().message(error)));
+  // What iostream lost earlier has left no errno.
+  const std::string why = errno != 0 ? ": " + std::generic_category().message(errno) : "";
+  throw std::runtime_error("cannot write to standard output" + why);
 }
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}

@@ -9,7 +9,7 @@ import sys
 import whisker
 from whisker import HERE, KINDS, SCENARIOS, STATUS, Case, with_time_limit
 
-LIMIT = 40  # s of simulated time for generated worlds
+LIMIT = 30  # s of simulated time for generated worlds
 CERTAIN = {  # outcomes that no planner can change
     "nothing": "reached",
     "goal_at_start": "reached",
