@@ -30,13 +30,16 @@ Length stopping_distance(const Params& p) {
   return Length::from_raw(saturate32(braking)) + p.wheels.max_speed * (p.wheels.motor_lag + p.safety.period);
 }
 
-/// Twice what passes from the order to move to the first count, and from one count to the next near a
-/// manoeuvre's end, where the speed is a tolerance (at least one count) per `settle`; and what the motor's
-/// lag needs to bring full speed below one count.
+/// Twice what passes from the order to move to the first count, and from one count to the next, be it at the
+/// turn's top speed or near a manoeuvre's end at a tolerance (at least one count) per `settle`; and what the
+/// motor's lag needs to bring full speed below one count.
 Duration slowest_count(const Params& p, Length count) {
   const int64_t square_ms2 = int64_t{count.raw()} * 2 * 1000000 / p.wheels.max_acceleration.raw();
   const uint32_t starting_ms = square_root(static_cast<uint64_t>(square_ms2));
-  return (p.motion.settle + milliseconds(static_cast<int32_t>(starting_ms))) * 2 + p.wheels.motor_lag * 16;
+  const Speed turning = min(p.wheels.max_speed, p.wheels.max_turn_rate * (p.body.track / 2));
+  const Duration rolling = milliseconds(multiply_divide(count.raw(), 1000, turning.raw()));
+  return (p.motion.settle + rolling + milliseconds(static_cast<int32_t>(starting_ms))) * 2 +
+         p.wheels.motor_lag * 16;
 }
 
 }  // namespace
@@ -68,6 +71,8 @@ ParamFault check(const Params& p) noexcept {
   if (turn_way < kWireSpeed * p.motion.settle) return ParamFault::tolerance_below_wire;
   if (p.safety.stalled_after < slowest_count(p, count)) return ParamFault::stalled_before_count;
   if (p.motion.settle < p.wheels.motor_lag + p.safety.period) return ParamFault::settle_below_lag;
+  const Length swept = p.thesis.base_step * 2 + p.body.radius + p.body.margin;
+  if (p.rangefinders.max_range < swept) return ParamFault::step_beyond_range;
   return ParamFault::none;
 }
 

@@ -108,6 +108,7 @@ enum class ParamFault : uint8_t {
   tolerance_below_wire,       ///< the rim's way at turn_tolerance >= 0.1 mm/s x settle
   stalled_before_count,       ///< stalled_after >= what the slowest count and the slowest stop take
   settle_below_lag,           ///< settle >= motor_lag + period
+  step_beyond_range,          ///< max_range >= 2 base_step + radius + margin: no response is a longer step
 };
 
 /// Calls f.number(key, field, min, max), f.count(key, field, min, max) or

@@ -67,7 +67,7 @@ void Robot::check_clock(Time now) noexcept {
 }
 
 void Robot::sense(Time now) noexcept {
-  hal::RangeReadings readings;
+  hal::RangeReadings readings{};
   const bool read = rangefinders_.read(readings);
   if (!read) count(status_.health.range_refused);
   conditioner_.update(read ? &readings : nullptr, now, odometry_.pose().heading, params_, status_.health);

@@ -11,6 +11,13 @@ constexpr uint32_t kHalfWidth = kWidth.raw() / 2;
 
 constexpr Angle middle(int sector) noexcept { return kWidth * sector + Angle::from_raw(kHalfWidth); }
 
+/// A clear beam has nothing to object to, as in Probe: no step reaches beyond the maximum range.
+uint16_t proved_mm(const ranges::Echo& echo, Length ahead) noexcept {
+  const int32_t mm = (echo.distance + ahead).raw() / kUmPerMm;
+  const bool far = echo.validity == ranges::Validity::clear || mm > UINT16_MAX;
+  return far ? UINT16_MAX : static_cast<uint16_t>(mm);
+}
+
 }  // namespace
 
 // With its apex ahead of the centre a cone covers less of the circle. A direction counts as covered if the
@@ -40,8 +47,7 @@ void Surroundings::add(const ranges::Echoes& look, Angle heading) noexcept {
   for (int i = 0; i < hal::kBeams; ++i) {
     const ranges::Echo& echo = look.beam[i];
     if (!ranges::usable(echo.validity)) continue;
-    const int32_t whole_mm = (echo.distance + ahead_).raw() / kUmPerMm;
-    const uint16_t mm = static_cast<uint16_t>(whole_mm > UINT16_MAX ? UINT16_MAX : whole_mm);
+    const uint16_t mm = proved_mm(echo, ahead_);
     for (int s = 0; s < kSectors; ++s) {
       const bool inside = magnitude(middle(s) - heading - axes[i]) + kHalfWidth <= half_;
       if (inside && mm > free_mm_[s]) free_mm_[s] = mm;

@@ -60,7 +60,7 @@ std::string verdict_words(const RunResult& result) {
   words += fmt::format(" {:.1f} s, {:.2f} m", result.time_s, result.path_m);
   if (result.verdict != Verdict::reached)
     words += fmt::format(", {:.2f} m from the goal", result.final_distance_m);
-  if (std::isfinite(result.min_clearance_m))
+  if (result.min_clearance_m < kEmptyWorldClearance)
     words += fmt::format(", min clearance {} m", decimals(result.min_clearance_m, 3));
   if (!result.detail.empty()) words += fmt::format(" ({})", result.detail);
   return words;

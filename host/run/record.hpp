@@ -27,6 +27,9 @@ struct TickRecord {
   double est_x_m = 0, est_y_m = 0, est_heading_rad = 0;  ///< the core's own estimate
 };
 
+/// Stands for the clearance in an empty world, m: no scenario is larger.
+constexpr double kEmptyWorldClearance = 1000.0;
+
 enum class Verdict { reached, unreachable, gave_up, contact, fault };
 
 struct RunResult {

@@ -12,9 +12,6 @@
 namespace whisker {
 namespace {
 
-/// What stands for the clearance of an empty world: no scenario is larger.
-constexpr double kFarAway = 1000.0;
-
 std::optional<Verdict> verdict_of(const Status& status) {
   if (status.health.fault != Fault::none) {
     const bool stands = status.command.left == 0 && status.command.right == 0;
@@ -117,7 +114,7 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   result.verdict = *verdict;
   result.path_m = plant.path_length();
   result.final_distance_m = distance_left(plant, scenario);
-  result.min_clearance_m = std::fmin(plant.min_clearance(), kFarAway);
+  result.min_clearance_m = std::fmin(plant.min_clearance(), kEmptyWorldClearance);
   result.hash = hash.value();
   return result;
 }

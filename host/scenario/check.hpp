@@ -9,7 +9,7 @@ namespace whisker {
 void check_bounds(const TableReader& table, const Bounds& bounds);
 void check_polygon(const TableReader& table, const std::vector<sim::Vec2>& points);
 void check_mover(const TableReader& table, const Mover& mover);
-/// Start and goal within the bounds, and nothing in contact at the start.
-void check_places(const TableReader& start, const TableReader& goal, const Scenario& scenario);
+/// The start within the bounds, and nothing in contact there.
+void check_places(const TableReader& start, const Scenario& scenario);
 
 }  // namespace whisker

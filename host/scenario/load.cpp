@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <memory>
 
@@ -31,6 +32,12 @@ void read_places(const TableReader& start, const TableReader& goal, Scenario& s)
                                              : bearing(s.start.at, s.goal.at);
 }
 
+/// Files often repeat the first point to close a polygon.
+void drop_closing_point(std::vector<sim::Vec2>& points) {
+  const bool closed = points.front().x == points.back().x && points.front().y == points.back().y;
+  if (closed && points.size() > 3) points.pop_back();
+}
+
 void read_obstacles(const TableReader& top, Scenario& s) {
   if (top.has("bounds")) {
     const TableReader table = top.table("bounds", {"min", "max"});
@@ -42,6 +49,7 @@ void read_obstacles(const TableReader& top, Scenario& s) {
   }
   for (const TableReader& table : top.tables("polygon", {"points"})) {
     s.polygons.push_back(table.points("points", 3, kMostPoints));
+    drop_closing_point(s.polygons.back());
     check_polygon(table, s.polygons.back());
   }
   for (const TableReader& table : top.tables("wall", {"points"})) {
@@ -90,7 +98,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   const TableReader goal = top.table("goal", {"x_m", "y_m", "tolerance_m"});
 
   Scenario s;
-  s.name = top.text("name");
+  s.name = top.has("name") ? top.text("name") : std::filesystem::path(name).stem().string();
   if (top.has("seed")) {
     s.seed = static_cast<std::uint64_t>(top.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   }
@@ -106,7 +114,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
     read_robot(robot, s.robot);
     check_robot(robot, s.robot);
   }
-  check_places(start, goal, s);
+  check_places(start, s);
   return s;
 }
 

@@ -57,6 +57,7 @@ TEST(Params, EveryRelationIsChecked) {
          p.motion.settle = 200_ms;
        }},
       {ParamFault::settle_below_lag, [](Params& p) { p.motion.settle = 59_ms; }},
+      {ParamFault::step_beyond_range, [](Params& p) { p.thesis.base_step = 941_mm; }},
   };
   std::set<ParamFault> seen;
   for (const Broken& c : cases) {
@@ -65,7 +66,32 @@ TEST(Params, EveryRelationIsChecked) {
     EXPECT_EQ(check(p), c.fault) << static_cast<int>(c.fault);
     seen.insert(c.fault);
   }
-  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::settle_below_lag));
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::step_beyond_range));
+}
+
+TEST(Params, EachNewestRelationHoldsExactlyAtItsLimit) {
+  Params p;
+  p.conditioning.stuck_turn = 90_deg;
+  p.rangefinders.cone = 90_deg - Angle::from_raw(1);
+  EXPECT_EQ(check(p), ParamFault::none);
+  p = {};
+  p.thesis.small_step = 20_mm;
+  p.motion.drive_tolerance = 20_mm - micrometres(1);
+  p.motion.turn_tolerance = 5_deg - Angle::from_raw(1);
+  p.thesis.delta = 5_deg;
+  EXPECT_EQ(check(p), ParamFault::none);
+  p = {};
+  p.thesis.base_step = 940_mm;  // 2 x 0.94 + 0.12 m is the range
+  EXPECT_EQ(check(p), ParamFault::none);
+  p = {};
+  p.motion.settle = p.wheels.motor_lag + p.safety.period;
+  EXPECT_EQ(check(p), ParamFault::none);
+  p.motion.settle = 80_ms;
+  // 16 x 50 ms of lag, and twice: 80 ms, 0.2 mm at 0.21 m/s (1 ms), 0.2 mm at 1 m/s^2 from rest (20 ms).
+  p.safety.stalled_after = 1002_ms;
+  EXPECT_EQ(check(p), ParamFault::none);
+  p.safety.stalled_after = 1001_ms;
+  EXPECT_EQ(check(p), ParamFault::stalled_before_count);
 }
 
 TEST(Params, AChoiceOutsideItsNamesIsRefused) {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/nav/way.hpp"
+
 namespace whisker::nav {
 namespace {
 
@@ -56,6 +58,13 @@ TEST(Probe, AgreesWithEveryPointThatTheConesAllow) {
   std::printf("probe: %d free and %d blocked cases\n", free_count, blocked_count);
   EXPECT_GT(free_count, 1000);
   EXPECT_GT(blocked_count, 1000);
+}
+
+TEST(Way, IsAsFarAsItsNearestPoint) {
+  EXPECT_EQ(gap_from_way({-(30_mm), 40_mm}, 100_mm), 50_mm);
+  EXPECT_EQ(gap_from_way({0_mm, -(40_mm)}, 100_mm), 40_mm);
+  EXPECT_EQ(gap_from_way({100_mm, 40_mm}, 100_mm), 40_mm);
+  EXPECT_EQ(gap_from_way({130_mm, -(40_mm)}, 100_mm), 50_mm);
 }
 
 TEST(Probe, ABeamThatIsNotUsableBlocks) {

@@ -260,6 +260,9 @@ TEST_F(RobotTest, AnInvalidParameterSetNeverMoves) {
   }
   EXPECT_EQ(robot.status().health.fault, Fault::invalid_params);
   EXPECT_EQ(board_.commands, 499);
+  board_.drive_refuses = true;
+  robot.tick(Time::from_raw(5000));
+  EXPECT_EQ(robot.status().health.drive_refused, 1U);
   robot.reset();
   EXPECT_EQ(robot.status().health.fault, Fault::invalid_params);
 }

@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/health.hpp"
-
 namespace whisker::nav {
 namespace {
 
@@ -294,8 +292,6 @@ TEST(State, EveryWordIsNamedOnce) {
   for (const std::string& w : words) EXPECT_NE(w, "?");
   EXPECT_STREQ(name(static_cast<Mode>(kModes)), "?");
   EXPECT_STREQ(name(static_cast<Why>(kWhys)), "?");
-  EXPECT_STREQ(whisker::name(Fault::range_lost), "range_lost");
-  EXPECT_STREQ(whisker::name(static_cast<Fault>(99)), "?");
 }
 
 }  // namespace

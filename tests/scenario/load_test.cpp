@@ -67,6 +67,14 @@ TEST(Scenario, HasTheStatedDefaults) {
   EXPECT_EQ(s.robot.body.radius, Params{}.body.radius);
 }
 
+TEST(Scenario, MayHaveItsGoalOutsideTheBounds) { EXPECT_EQ(good("goal_outside_bounds").goal.at.x, 4); }
+
+TEST(Scenario, TakesItsFilesNameWhereItNamesNone) { EXPECT_EQ(good("without_name").name, "without_name"); }
+
+TEST(Scenario, AcceptsAPolygonThatRepeatsItsFirstPoint) {
+  EXPECT_EQ(good("polygon_closed_by_hand").polygons.at(0).size(), 3U);
+}
+
 TEST(Scenario, MayHaveItsGoalInsideAnObstacle) { EXPECT_EQ(good("goal_inside_a_disc").discs.size(), 1U); }
 
 TEST(Scenario, MayHaveItsStartJustClearOfAnObstacle) {

@@ -127,7 +127,7 @@ TEST(ParamText, RoundsToTheNearestRawUnit) {
 }
 
 TEST(Relation, IsSaidInWordsForEveryFault) {
-  for (int i = 1; i <= static_cast<int>(ParamFault::settle_below_lag); ++i) {
+  for (int i = 1; i <= static_cast<int>(ParamFault::step_beyond_range); ++i) {
     EXPECT_STRNE(relation(static_cast<ParamFault>(i)), "") << i;
   }
 }

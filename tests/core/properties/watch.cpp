@@ -65,6 +65,7 @@ std::string Watch::counters(const Health& now) {
                     now.drive_refused < before.drive_refused ||
                     now.encoder_refused < before.encoder_refused ||
                     now.encoder_jumps < before.encoder_jumps || now.wheel_stalls < before.wheel_stalls ||
+                    now.unsteady_looks < before.unsteady_looks || now.no_progress < before.no_progress ||
                     now.late_ticks < before.late_ticks || now.clock_jumps < before.clock_jumps;
   return down ? "a counter went down" : "";
 }
