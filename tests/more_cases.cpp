@@ -1,0 +1,19 @@
+// Linked into programs whose properties deserve more than rapidcheck's own hundred cases. What the caller's
+// RC_PARAMS says comes first; a number of cases is added only if it names none.
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+bool ask_for_more_cases() {
+  const char* const given = std::getenv("RC_PARAMS");
+  std::string params = given == nullptr ? "" : given;
+  if (params.find("max_success") != std::string::npos || params.find("reproduce") != std::string::npos)
+    return false;
+  if (!params.empty()) params += ' ';
+  return setenv("RC_PARAMS", (params + "max_success=500").c_str(), 1) == 0;
+}
+
+const bool kMoreCases = ask_for_more_cases();
+
+}  // namespace
