@@ -6,7 +6,7 @@ readonly line_floor=95
 readonly branch_floor=85
 
 readonly fuzz_seconds=${FUZZ_SECONDS:-60}
-readonly soak_count=${SOAK_COUNT:-200}
+readonly soak_count=${SOAK_COUNT:-50}
 
 jobs=$(nproc)
 export CXX=g++  # of the presets that name no compiler
@@ -95,12 +95,8 @@ stage_fuzz() {
 }
 
 stage_soak() {
-  local kind seed=${SOAK_SEED:-$RANDOM}
+  local seed=${SOAK_SEED:-$RANDOM}
   build asan
   echo "again: SOAK_SEED=$seed SOAK_COUNT=$soak_count scripts/test --only soak"
-  for kind in discs poles u-trap spiral maze rooms enclosed; do
-    echo "$kind"
-    build/asan/whisker campaign "$kind" --count "$soak_count" --seed "$seed" --jobs "$jobs" \
-      --csv "build/soak-$kind.csv"
-  done
+  WHISKER=build/asan/whisker scripts/measure "$soak_count" "$seed"
 }

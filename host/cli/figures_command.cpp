@@ -12,6 +12,7 @@
 #include "host/report/figures.hpp"
 #include "host/report/file.hpp"
 #include "host/report/run_svg.hpp"
+#include "host/report/table_svg.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/load.hpp"
 
@@ -37,7 +38,10 @@ int execute(const Options& o) {
   const Scenario figure8 = load_scenario(o.scenarios + "/figure8_u_trap.toml");
   const Scenario figure9 = load_scenario(o.scenarios + "/figure9_discs.toml");
   const Scenario figure10 = load_scenario(o.scenarios + "/figure10_discs.toml");
-  for (const auto& [file, svg] : report::thesis_figures(controller_picture())) {
+  const report::FuzzyPicture picture = controller_picture();
+  auto drawn = report::thesis_figures(picture);
+  drawn.emplace_back("response.svg", report::table_svg(picture));
+  for (const auto& [file, svg] : drawn) {
     const std::string path = fmt::format("{}/{}", o.out, file);
     report::write_file(path, svg);
     fmt::print("{}\n", path);
@@ -53,7 +57,7 @@ int execute(const Options& o) {
 void add_figures(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("figures", "Draw the figures of docs/figures.md anew");
   const auto o = std::make_shared<Options>();
-  add_file(*cmd, "FOLDER", o->out, "Where to write figure2.svg to figure10.svg")
+  add_file(*cmd, "FOLDER", o->out, "Where to write figure2.svg to figure10.svg and response.svg")
       ->required()
       ->type_name("FOLDER");
   add_file(*cmd, "--scenarios", o->scenarios, "Folder of the scenario files")->capture_default_str();

@@ -67,9 +67,7 @@ TEST(Scenario, HasTheStatedDefaults) {
   EXPECT_EQ(s.robot.body.radius, Params{}.body.radius);
 }
 
-TEST(Scenario, MayHaveItsGoalOutsideTheBounds) {
-  EXPECT_EQ(good("goal_outside_bounds").goal.at.x, 4);
-}
+TEST(Scenario, MayHaveItsGoalOutsideTheBounds) { EXPECT_EQ(good("goal_outside_bounds").goal.at.x, 4); }
 
 TEST(Scenario, TakesItsFilesNameWhereItNamesNone) { EXPECT_EQ(good("without_name").name, "without_name"); }
 

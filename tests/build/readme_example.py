@@ -1,0 +1,12 @@
+"""README.md shows docs/example/main.cpp, letter for letter. usage: readme_example.py ROOT"""
+
+import pathlib
+import sys
+
+root = pathlib.Path(sys.argv[1])
+shown = (root / "README.md").read_text()
+example = (root / "docs/example/main.cpp").read_text()
+block = f"<!-- example:begin -->\n```cpp\n{example}```\n<!-- example:end -->\n"
+if block not in shown:
+    sys.exit("README.md: the example between its marks is not docs/example/main.cpp")
+print("README.md shows the example that is compiled")
