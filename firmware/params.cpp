@@ -32,14 +32,14 @@ Length stopping_distance(const Params& p) {
 
 /// Twice what passes from the order to move to the first count, and from one count to the next, be it at the
 /// turn's top speed or near a manoeuvre's end at a tolerance (at least one count) per `settle`; and what the
-/// motor's lag needs to bring full speed below one count.
+/// motor's lag needs to bring full speed below one count, with the ticks in which counts must stand still.
 Duration slowest_count(const Params& p, Length count) {
   const int64_t square_ms2 = int64_t{count.raw()} * 2 * 1000000 / p.wheels.max_acceleration.raw();
   const uint32_t starting_ms = square_root(static_cast<uint64_t>(square_ms2));
   const Speed turning = min(p.wheels.max_speed, p.wheels.max_turn_rate * (p.body.track / 2));
   const Duration rolling = milliseconds(multiply_divide(count.raw(), 1000, turning.raw()));
   return (p.motion.settle + rolling + milliseconds(static_cast<int32_t>(starting_ms))) * 2 +
-         p.wheels.motor_lag * 16;
+         p.wheels.motor_lag * 16 + p.safety.period * 6;
 }
 
 }  // namespace

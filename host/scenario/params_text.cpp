@@ -122,9 +122,9 @@ const char* relation(ParamFault fault) {
     case ParamFault::tolerance_below_wire:
       return "the rim's way over turn_tolerance_deg must not be less than 0.0001 m/s x motion_settle_s";
     case ParamFault::stalled_before_count:
-      return "wheels_stalled_after_s must not be less than 16 motor_lag_s + 2 motion_settle_s + twice the "
-             "time "
-             "to accelerate over 1 / encoder_counts_per_m and to turn by as much at full turn rate";
+      return "wheels_stalled_after_s must not be less than 16 motor_lag_s + 6 control_period_s + 2 "
+             "motion_settle_s + twice the time to accelerate over 1 / encoder_counts_per_m and to turn by as "
+             "much at full turn rate";
     case ParamFault::step_beyond_range:
       return "range_max_m must not be less than 2 thesis_base_step_m + body_radius_m + body_margin_m";
     case ParamFault::settle_below_lag:

@@ -87,10 +87,11 @@ TEST(Params, EachNewestRelationHoldsExactlyAtItsLimit) {
   p.motion.settle = p.wheels.motor_lag + p.safety.period;
   EXPECT_EQ(check(p), ParamFault::none);
   p.motion.settle = 80_ms;
-  // 16 x 50 ms of lag, and twice: 80 ms, 0.2 mm at 0.21 m/s (1 ms), 0.2 mm at 1 m/s^2 from rest (20 ms).
-  p.safety.stalled_after = 1002_ms;
+  // 16 x 50 ms of lag, 6 x 10 ms of ticks, and twice: 80 ms, 0.2 mm at 0.21 m/s (1 ms), 0.2 mm at 1 m/s^2
+  // from rest (20 ms).
+  p.safety.stalled_after = 1062_ms;
   EXPECT_EQ(check(p), ParamFault::none);
-  p.safety.stalled_after = 1001_ms;
+  p.safety.stalled_after = 1061_ms;
   EXPECT_EQ(check(p), ParamFault::stalled_before_count);
 }
 
