@@ -30,7 +30,7 @@ struct Cell {
 struct Response {
   Q14 turn;  ///< SA
   Q14 step;  ///< SD
-  Cell cell;
+  Cell cell{};
 };
 
 constexpr int kTerms = 5;
