@@ -74,6 +74,8 @@ void HalfPlane::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const no
   }
 }
 
+HalfPlane HalfPlane::facing(Angle direction) noexcept { return {q14(cos(direction)), q14(sin(direction))}; }
+
 Wedge::Wedge(Angle axis, Angle half) noexcept
     : left_{q14(sin(axis + half)), -q14(cos(axis + half))},
       right_{-q14(sin(axis - half)), q14(cos(axis - half))} {}
@@ -83,11 +85,13 @@ void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexce
   right_.clip(span, x, dy, margin);
 }
 
-Stadium::Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius) noexcept
+Stadium::Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius,
+                 int32_t abeam) noexcept
     : x_(x),
       y_(y),
       length_(length < kFar ? length : kFar),
       radius_(radius),
+      abeam_(abeam),
       ux_(q14(cos(heading))),
       uy_(q14(sin(heading))) {
   end_x_ = scale_down<14>(ux_ * length_);
@@ -126,7 +130,7 @@ Row Stadium::columns(int row) const noexcept {
   side(span, dy, 1);
   side(span, dy, -1);
   if (span.empty()) return 0;
-  HalfPlane{ux_, uy_}.clip(span, x_, dy, 1);
+  HalfPlane{ux_, uy_}.clip(span, x_, dy, abeam_);
   return span.empty() ? 0 : span.columns();
 }
 

@@ -66,6 +66,8 @@ class Rows {
 
 /// A half plane nx x + ny y >= margin; the normal in 2^-14.
 struct HalfPlane {
+  /// Ahead of its boundary, seen in this direction.
+  static HalfPlane facing(Angle direction) noexcept;
   int32_t nx;
   int32_t ny;
   /// dy from the boundary's origin, whose x is given.
@@ -84,10 +86,10 @@ class Wedge {
   HalfPlane right_;
 };
 
-/// What a disc sweeps on a straight way, without what lies behind its beginning.
+/// What a disc sweeps on a straight way, without what lies less than `abeam` ahead of its beginning.
 class Stadium {
  public:
-  Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius) noexcept;
+  Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius, int32_t abeam) noexcept;
   Rows rows() const noexcept;
   Row columns(int row) const noexcept;
 
@@ -95,7 +97,7 @@ class Stadium {
   void side(Span& span, int32_t dy, int32_t sign) const noexcept;
   int32_t x_, y_;
   int32_t end_x_, end_y_;  // from the beginning
-  int32_t length_, radius_;
+  int32_t length_, radius_, abeam_;
   int32_t ux_, uy_;  // direction, 2^-14
 };
 

@@ -36,7 +36,7 @@ bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const g
     const Angle chord = Angle::from_raw(
         static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
     const Length far = Length::from_raw(multiply_divide(length.raw(), i, samples));
-    if (patch.approaches(pose.at, pose.at + polar(pose.heading + chord, far), reach)) return false;
+    if (patch.approaches(pose.at, pose.heading + chord, far, reach)) return false;
   }
   return true;
 }

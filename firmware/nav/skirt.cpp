@@ -2,6 +2,7 @@
 
 #include "firmware/fuzzy/scale.hpp"
 
+extern "C" int dprintf(int, const char*, ...); extern "C" char* getenv(const char*);
 namespace whisker::nav {
 namespace {
 
@@ -86,6 +87,7 @@ void SkirtPlanner::keep_account(const View& view) noexcept {
 }
 
 void SkirtPlanner::act(const View& view) noexcept {
+  if (getenv("DBG")) dprintf(2, "s%d %d n%d c%d h%d e%.2f g%d f%d t%d\n", side_, (int)phase_, (int)next_, candidate_, halting_, (course_-view.pose.heading).wrapped()/1.19e7, view.granted.raw(), view.forward.raw(), view.turning.raw());
   if (travel_um_ > int64_t{kLongest.raw()}) {
     finish(Mode::gave_up, Why::length_budget, Outcome::gave_up);
     return;
@@ -175,8 +177,8 @@ void SkirtPlanner::go(const View& view) noexcept {
 bool SkirtPlanner::stalled(const View& view) noexcept {
   constexpr Speed kSlow = 20_mm_per_s;
   const bool turns = abs(view.turning) > AngularRate{300_mrad_per_s} * (params_.body.track / 2);
-  const bool slow = view.forward < kSlow && view.granted < Q14::ratio(1, 1);
-  slow_ticks_ = slow ? slow_ticks_ + (turns ? 1 : 4) : 0;
+  const bool slow = view.forward < kSlow;
+  slow_ticks_ = slow ? slow_ticks_ + (turns || view.granted == Q14::ratio(1, 1) ? 1 : 4) : 0;
   return slow_ticks_ >= 50;
 }
 
@@ -191,9 +193,11 @@ void SkirtPlanner::look_along(Angle heading, Phase next) noexcept {
 void SkirtPlanner::look(const View& view) noexcept {
   const ground::Obstacles o = view.patch->along(view.pose.at, look_course_, min(kProbe, distance_),
                                                 params_.body.radius + params_.skirt.planning_margin);
+  if (getenv("DBG")) dprintf(2,"look %d %d at %d %d\n", o.unknown,o.suspect,o.nearest_unknown.x.raw(),o.nearest_unknown.y.raw());
   if (o.suspect > 0 || o.unknown == 0) {
     decision_.looked = true;
     phase_ = next_;
+    decision_.mode = next_ == Phase::go ? Mode::going : Mode::skirting;
     slow_ticks_ = 0;
     return;
   }
@@ -205,7 +209,7 @@ void SkirtPlanner::look(const View& view) noexcept {
     const Angle e = to_cell - axis - view.pose.heading;
     if (magnitude(e) < magnitude(error)) error = e;
   }
-  if (magnitude(error) > (2_deg).raw()) {
+  if (magnitude(error) > (1_deg).raw()) {
     halting_ = false;
     cruise(Speed{}, limit(rate_towards(error, 5), kTurnRate));
   } else if (!halting_) {
@@ -312,7 +316,9 @@ bool SkirtPlanner::came_round(const View& view) const noexcept {
 bool SkirtPlanner::may_leave(const View& view) noexcept {
   if (distance_ >= best_ - kProgress) return false;
   const Angle target = bearing(to_goal_);
-  return way(view, target, min(kProbe, distance_)) == Way::free;
+  const bool wall_side = (target - view.pose.heading).wrapped() * int64_t{side_} > 0;
+  const Way found = way(view, target, min(kProbe, distance_));
+  return found == Way::free || (found == Way::open && !wall_side);
 }
 
 void SkirtPlanner::follow(const View& view) noexcept {
@@ -364,7 +370,7 @@ void SkirtPlanner::follow(const View& view) noexcept {
   const Length error = max(-100_mm, min(wall - wanted, 60_mm));
   const Length near = max(Length{}, 300_mm - front);
   const AngularRate turn = limit(AngularRate::from_raw((error * 20).raw() - (near * 15).raw()), kTurnRate);
-  const bool lost = error == 60_mm;
+  const bool lost = error == 60_mm && near == Length{};
   const Speed top = params_.wheels.max_speed;
   const Speed forward = lost ? abs(turn) * 180_mm : top - Speed::from_raw(multiply_divide(top.raw(), abs(turn).raw(), 4000000));
   cruise(forward, turn * side_);
