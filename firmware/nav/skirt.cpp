@@ -308,7 +308,7 @@ void SkirtPlanner::depart(const View& view) noexcept {
 bool SkirtPlanner::came_round(const View& view) const noexcept {
   if (!moved_away_) return false;
   const int64_t length = travel_um_ - hit_travel_um_;
-  const Length radius = 150_mm + Length::from_raw(saturate32(length / 50));
+  const Length radius = min(350_mm, 150_mm + Length::from_raw(saturate32(length / 50)));
   return norm(view.pose.at - hit_at_) < radius && (turned_ > degrees(300) || turned_ < -degrees(300)) &&
          magnitude(view.pose.heading - hit_heading_) < (90_deg).raw();
 }
