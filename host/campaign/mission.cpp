@@ -1,7 +1,9 @@
 #include "host/campaign/mission.hpp"
 
 #include "host/campaign/motion_count.hpp"
+#include "host/paths/shortest.hpp"
 #include "host/run/runner.hpp"
+#include "host/scenario/world.hpp"
 
 namespace whisker::campaign {
 
@@ -25,6 +27,9 @@ Row drive(const Scenario& scenario, const std::atomic<bool>& stop) {
   row.looks = count.looks();
   row.min_clearance_m = rounded(result.min_clearance_m);
   row.final_distance_m = rounded(result.final_distance_m);
+  const auto shortest_m =
+      paths::shortest_path(make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius);
+  if (shortest_m) row.shortest_m = rounded(*shortest_m);
   row.ticks = result.ticks;
   row.hash = result.hash;
   row.detail = result.detail;
