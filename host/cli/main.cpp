@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   int status = kFailure;
   add_run(app, status);
   add_world(app, status);
+  add_campaign(app, status);
   add_table(app, status);
   add_figures(app, status);
   try {

@@ -80,6 +80,12 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   RunResult result;
   CommandHash hash;
   std::optional<Verdict> verdict;
+  const auto record = [&](const Status& status, const hal::RangeReadings& ranges, double t_s) {
+    if (options.records == nullptr && !options.observe) return;
+    const TickRecord r = record_of(plant, status, ranges, t_s);
+    if (options.records != nullptr) options.records->push_back(r);
+    if (options.observe) options.observe(r);
+  };
   for (std::uint64_t tick = 0; !verdict; ++tick) {
     const double t_s = static_cast<double>(tick * period_ms) / 1000.0;
     const hal::RangeReadings ranges = plant.ranges();
@@ -87,7 +93,7 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
     hash.add(status.command);
     ++result.ticks;
     result.time_s = t_s;
-    if (options.records != nullptr) options.records->push_back(record_of(plant, status, ranges, t_s));
+    record(status, ranges, t_s);
     verdict = verdict_of(status);
     if (verdict) {
       result.detail = detail_of(*verdict, status);
@@ -104,9 +110,7 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
       verdict = Verdict::contact;
       result.time_s = plant.contact_time();
       result.detail = nav::name(status.decision.mode);
-      if (options.records != nullptr) {
-        options.records->push_back(record_of(plant, status, plant.ranges(), next_s));
-      }
+      record(status, plant.ranges(), next_s);
     }
     if (options.progress && tick % ticks_a_second == 0) options.progress(t_s, distance_left(plant, scenario));
   }
