@@ -7,11 +7,13 @@ namespace whisker::nav {
 namespace {
 
 constexpr Length kProbe = 150_mm;
+constexpr Length kShortProbe = 60_mm;
 constexpr Length kProgress = 30_mm;
 constexpr Length kFarView = 800_mm;
 constexpr Length kLongest = 400_m;
 constexpr int64_t kKeepSideTravel = 500000;  // um
 constexpr Angle kFan = Angle::turns(75, 3600);
+constexpr int32_t kEscapes = 6;
 constexpr int32_t kFanSteps = 10;     // to 75 degrees
 constexpr int32_t kSweepSteps = 20;   // to 150 degrees
 constexpr int32_t kCircleSteps = 48;
@@ -63,6 +65,8 @@ void SkirtPlanner::start(const View& view) noexcept {
   decision_ = Decision{};
   decision_.outcome = Outcome::running;
   last_ = view.pose;
+  for (Vec& at : trail_) at = view.pose.at;
+  escapes_ = 0;
   best_ = Length::from_raw(INT32_MAX);
   travel_um_ = 0;
   leave_travel_um_ = -kKeepSideTravel;
@@ -82,6 +86,11 @@ void SkirtPlanner::keep_account(const View& view) noexcept {
   if (norm(view.pose.at - looks_at_) > 10_mm) {
     looks_at_ = view.pose.at;
     looks_here_ = 0;
+  }
+  if (norm(view.pose.at - trail_[trail_newest_]) > 40_mm) {
+    trail_newest_ = (trail_newest_ + 1) % kTrail;
+    trail_[trail_newest_] = view.pose.at;
+    retreats_ = 0;
   }
   if (norm(view.pose.at - hit_at_) > 300_mm) moved_away_ = true;
 }
@@ -113,7 +122,7 @@ void SkirtPlanner::act(const View& view) noexcept {
     case Phase::depart: depart(view); break;
     case Phase::follow: follow(view); break;
     case Phase::feel: feel(view); break;
-    case Phase::retreat: break;
+    case Phase::retreat: retreat(view); break;
   }
 }
 
@@ -227,8 +236,10 @@ void SkirtPlanner::begin_hit(const View& view) noexcept {
   bearing_at_hit_ = bearing(to_goal_);
   exit_left_ = Exit{};
   exit_right_ = Exit{};
+  reach_ = kProbe;
   candidate_ = 1;
   lean_ = 0;
+  laps_ = 0;
   const bool turned_left = (view.pose.heading - bearing_at_hit_).wrapped() > 0;
   bool left_first = turned_left;
   if (travel_um_ - leave_travel_um_ < kKeepSideTravel) {
@@ -287,20 +298,19 @@ void SkirtPlanner::sweep(const View& view) noexcept {
   }
   side_ = wall;
   if (best == nullptr) {
-    candidate_ = 0;
     course_ = bearing_at_hit_;
-    brake_then(Phase::feel);
+    begin_feel();
     return;
   }
   course_ = best->heading;
+  hit_heading_ = course_;
   enter(Phase::depart, Mode::skirting, wall < 0 ? Why::exit_left : Why::exit_right);
 }
 
 void SkirtPlanner::depart(const View& view) noexcept {
   if (!face(view, course_)) return;
-  hit_heading_ = course_;
   slow_ticks_ = 0;
-  commit_until_um_ = travel_um_ + 60000;
+  commit_until_um_ = travel_um_ + min(60_mm, reach_).raw();
   felt_travel_um_ = travel_um_;
   enter(Phase::follow, Mode::skirting, decision_.why);
 }
@@ -311,6 +321,16 @@ bool SkirtPlanner::came_round(const View& view) const noexcept {
   const Length radius = min(350_mm, 150_mm + Length::from_raw(saturate32(length / 50)));
   return norm(view.pose.at - hit_at_) < radius && (turned_ > degrees(300) || turned_ < -degrees(300)) &&
          magnitude(view.pose.heading - hit_heading_) < (90_deg).raw();
+}
+
+/// Twice round something that is not what the robot hit.
+bool SkirtPlanner::lost_wall(const View& view) noexcept {
+  const int64_t turned = turned_ < 0 ? -turned_ : turned_;
+  if (turned < degrees(360) * (laps_ + 1)) return false;
+  const bool again = laps_ > 0 && norm(view.pose.at - lap_at_) < 350_mm;
+  lap_at_ = view.pose.at;
+  ++laps_;
+  return again;
 }
 
 bool SkirtPlanner::may_leave(const View& view) noexcept {
@@ -327,6 +347,16 @@ void SkirtPlanner::follow(const View& view) noexcept {
       finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
       return;
     }
+    if (lost_wall(view)) {
+      if (++escapes_ > kEscapes) {
+        finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+        return;
+      }
+      best_ = distance_;
+      leave_travel_um_ = travel_um_ - kKeepSideTravel;
+      enter(Phase::go, Mode::going, Why::wall_lost);
+      return;
+    }
     if (may_leave(view)) {
       leave_travel_um_ = travel_um_;
       lean_ = 0;
@@ -341,19 +371,17 @@ void SkirtPlanner::follow(const View& view) noexcept {
             view.patch->along(view.pose.at, view.pose.heading + 15_deg * (i * side_), 100_mm,
                               params_.body.radius + params_.skirt.planning_margin);
         if (o.suspect + o.unknown <= 6) {
-          candidate_ = 0;
           course_ = view.pose.heading;
           decision_.why = Why::opening;
-          brake_then(Phase::feel);
+          begin_feel();
           return;
         }
       }
     }
   }
   if (stalled(view)) {
-    candidate_ = 0;
     course_ = view.pose.heading;
-    brake_then(Phase::feel);
+    begin_feel();
     return;
   }
   if (travel_um_ < commit_until_um_) {
@@ -376,6 +404,12 @@ void SkirtPlanner::follow(const View& view) noexcept {
   cruise(forward, turn * side_);
 }
 
+void SkirtPlanner::begin_feel() noexcept {
+  candidate_ = 0;
+  reach_ = kProbe;
+  brake_then(Phase::feel);
+}
+
 void SkirtPlanner::feel(const View& view) noexcept {
   if (came_round(view)) {
     finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
@@ -384,7 +418,7 @@ void SkirtPlanner::feel(const View& view) noexcept {
   decision_.mode = Mode::searching;
   for (; candidate_ < kCircleSteps; ++candidate_) {
     const Angle heading = course_ + 110_deg * side_ - kFan * (candidate_ * side_);
-    const Way found = way(view, heading, kProbe);
+    const Way found = way(view, heading, reach_);
     if (found == Way::blocked) continue;
     if (found == Way::open) {
       look_along(heading, Phase::feel);
@@ -394,7 +428,32 @@ void SkirtPlanner::feel(const View& view) noexcept {
     enter(Phase::depart, Mode::skirting, Why::edge);
     return;
   }
-  finish(Mode::gave_up, Why::no_exit, Outcome::gave_up);
+  if (reach_ == kProbe) {
+    reach_ = kShortProbe;
+    candidate_ = 0;
+    return;
+  }
+  retreat_to_ = trail_[(trail_newest_ + kTrail - 2) % kTrail];
+  course_ = bearing(retreat_to_ - view.pose.at);
+  enter(Phase::retreat, Mode::skirting, Why::way_back);
+}
+
+void SkirtPlanner::retreat(const View& view) noexcept {
+  const Vec rest = retreat_to_ - view.pose.at;
+  const Angle back = bearing(rest);
+  if (norm(rest) < 10_mm || stalled(view)) {
+    course_ = view.pose.heading;
+    if (norm(rest) < 10_mm) {
+      felt_travel_um_ = travel_um_;
+      enter(Phase::follow, Mode::skirting, Why::edge);
+    } else if (++retreats_ < 8) {
+      begin_feel();
+    } else {
+      finish(Mode::gave_up, Why::no_exit, Outcome::gave_up);
+    }
+    return;
+  }
+  steer(view, back, params_.wheels.max_speed / 2);
 }
 
 void SkirtPlanner::enter(Phase phase, Mode mode, Why why) noexcept {

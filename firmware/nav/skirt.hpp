@@ -48,6 +48,9 @@ class SkirtPlanner final : public Planner {
   void follow(const View& view) noexcept;
   void feel(const View& view) noexcept;
   bool may_leave(const View& view) noexcept;
+  bool lost_wall(const View& view) noexcept;
+  void begin_feel() noexcept;
+  void retreat(const View& view) noexcept;
   bool came_round(const View& view) const noexcept;
 
   Way way(const View& view, Angle heading, Length length) const noexcept;
@@ -102,6 +105,15 @@ class SkirtPlanner final : public Planner {
   Exit exit_right_;
   int64_t swept_ = 0;      // 2^-32 turn
   int32_t candidate_ = 0;  // the next heading to be judged
+  static constexpr int kTrail = 8;
+  Vec trail_[kTrail];      // where it came from, 40 mm apart
+  int32_t trail_newest_ = 0;
+  Vec retreat_to_;
+  int32_t retreats_ = 0;
+  Length reach_;           // of the ways that are felt for
+  int32_t laps_ = 0;       // full turns since the hit
+  Vec lap_at_;
+  int32_t escapes_ = 0;
   int64_t felt_travel_um_ = 0;
   int64_t commit_until_um_ = 0;
 };

@@ -37,6 +37,8 @@ const char* name(Why why) noexcept {
     case Why::unknown_ahead: return "unknown_ahead";
     case Why::edge: return "edge";
     case Why::opening: return "opening";
+    case Why::way_back: return "way_back";
+    case Why::wall_lost: return "wall_lost";
     case Why::came_round: return "came_round";
     case Why::at_goal: return "at_goal";
     case Why::no_exit: return "no_exit";

@@ -39,6 +39,8 @@ enum class Why : uint8_t {
   unknown_ahead,  ///< something in the way was never seen: turning a beam onto it
   edge,           ///< along the obstacle's edge
   opening,        ///< the edge may have an opening: looking
+  way_back,       ///< no other way is free: back where it came from
+  wall_lost,      ///< twice round something else than what it met: towards the goal again
   came_round,     ///< back where the obstacle was met, all the way around it
   at_goal,
   no_exit,      ///< no free heading all around
@@ -47,7 +49,7 @@ enum class Why : uint8_t {
   cancelled,
   fault,  ///< see Health for its name
 };
-constexpr int kWhys = 20;
+constexpr int kWhys = 22;
 
 const char* name(Mode mode) noexcept;
 const char* name(Why why) noexcept;

@@ -36,6 +36,7 @@ Doing doing_of_step(nav::Why why) noexcept {
     case nav::Why::exit_right:
     case nav::Why::edge:
     case nav::Why::opening:
+    case nav::Why::way_back:
     case nav::Why::same_side: return Doing::danger;
     case nav::Why::none:
     case nav::Why::goal_set:
@@ -46,6 +47,7 @@ Doing doing_of_step(nav::Why why) noexcept {
     case nav::Why::step_budget:
     case nav::Why::unknown_ahead:
     case nav::Why::came_round:
+    case nav::Why::wall_lost:
     case nav::Why::length_budget:
     case nav::Why::cancelled:
     case nav::Why::fault: return Doing::free;
