@@ -67,8 +67,8 @@ struct ThesisParams {
 
 struct SkirtParams {
   Length cell = 20_mm;             ///< of the clearance patch; 32 x 32 cells
-  Length shield_margin = 20_mm;    ///< kept clear around the body at every tick
-  Length planning_margin = 22_mm;  ///< kept clear around the body on a heading that is chosen
+  Length shield_margin = 16_mm;    ///< kept clear around the body at every tick
+  Length planning_margin = 18_mm;  ///< kept clear around the body on a heading that is chosen
 };
 
 struct MotionParams {

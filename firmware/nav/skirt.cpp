@@ -233,6 +233,7 @@ void SkirtPlanner::begin_hit(const View& view) noexcept {
   hit_travel_um_ = travel_um_;
   turned_ = 0;
   moved_away_ = false;
+  other_way_ = false;
   bearing_at_hit_ = bearing(to_goal_);
   exit_left_ = Exit{};
   exit_right_ = Exit{};
@@ -344,7 +345,7 @@ bool SkirtPlanner::may_leave(const View& view) noexcept {
 void SkirtPlanner::follow(const View& view) noexcept {
   if (view.sighted) {
     if (came_round(view)) {
-      finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+      go_other_way(view);
       return;
     }
     if (lost_wall(view)) {
@@ -404,6 +405,24 @@ void SkirtPlanner::follow(const View& view) noexcept {
   cruise(forward, turn * side_);
 }
 
+void SkirtPlanner::go_other_way(const View& view) noexcept {
+  if (other_way_) {
+    finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+    return;
+  }
+  other_way_ = true;
+  side_ = -side_;
+  hit_at_ = view.pose.at;
+  hit_travel_um_ = travel_um_;
+  turned_ = 0;
+  laps_ = 0;
+  moved_away_ = false;
+  course_ = view.pose.heading + 180_deg;
+  hit_heading_ = course_;
+  decision_.why = Why::came_round;
+  begin_feel();
+}
+
 void SkirtPlanner::begin_feel() noexcept {
   candidate_ = 0;
   reach_ = kProbe;
@@ -411,10 +430,6 @@ void SkirtPlanner::begin_feel() noexcept {
 }
 
 void SkirtPlanner::feel(const View& view) noexcept {
-  if (came_round(view)) {
-    finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
-    return;
-  }
   decision_.mode = Mode::searching;
   for (; candidate_ < kCircleSteps; ++candidate_) {
     const Angle heading = course_ + 110_deg * side_ - kFan * (candidate_ * side_);

@@ -51,6 +51,7 @@ class SkirtPlanner final : public Planner {
   bool lost_wall(const View& view) noexcept;
   void begin_feel() noexcept;
   void retreat(const View& view) noexcept;
+  void go_other_way(const View& view) noexcept;
   bool came_round(const View& view) const noexcept;
 
   Way way(const View& view, Angle heading, Length length) const noexcept;
@@ -114,6 +115,7 @@ class SkirtPlanner final : public Planner {
   int32_t laps_ = 0;       // full turns since the hit
   Vec lap_at_;
   int32_t escapes_ = 0;
+  bool other_way_ = false;  // came round once: going round the other way
   int64_t felt_travel_um_ = 0;
   int64_t commit_until_um_ = 0;
 };
