@@ -13,6 +13,7 @@ constexpr Length kFarView = 800_mm;
 constexpr Length kLongest = 400_m;
 constexpr int64_t kKeepSideTravel = 500000;  // um
 constexpr Angle kFan = Angle::turns(75, 3600);
+constexpr Angle kNotBack = 45_deg;
 constexpr int32_t kEscapes = 6;
 constexpr int32_t kFanSteps = 10;     // to 75 degrees
 constexpr int32_t kSweepSteps = 20;   // to 150 degrees
@@ -300,7 +301,7 @@ void SkirtPlanner::sweep(const View& view) noexcept {
   side_ = wall;
   if (best == nullptr) {
     course_ = bearing_at_hit_;
-    begin_feel();
+    begin_feel(view);
     return;
   }
   course_ = best->heading;
@@ -367,14 +368,16 @@ void SkirtPlanner::follow(const View& view) noexcept {
     }
     if (travel_um_ - felt_travel_um_ > 100000) {
       felt_travel_um_ = travel_um_;
+      const Angle back = way_back(view);
       for (int32_t i = 4; i <= 7; ++i) {
+        if (magnitude(view.pose.heading + 15_deg * (i * side_) - back) < kNotBack.raw()) continue;
         const ground::Obstacles o =
             view.patch->along(view.pose.at, view.pose.heading + 15_deg * (i * side_), 100_mm,
                               params_.body.radius + params_.skirt.planning_margin);
         if (o.suspect + o.unknown <= 6) {
           course_ = view.pose.heading;
           decision_.why = Why::opening;
-          begin_feel();
+          begin_feel(view);
           return;
         }
       }
@@ -382,7 +385,7 @@ void SkirtPlanner::follow(const View& view) noexcept {
   }
   if (stalled(view)) {
     course_ = view.pose.heading;
-    begin_feel();
+    begin_feel(view);
     return;
   }
   if (travel_um_ < commit_until_um_) {
@@ -420,10 +423,21 @@ void SkirtPlanner::go_other_way(const View& view) noexcept {
   course_ = view.pose.heading + 180_deg;
   hit_heading_ = course_;
   decision_.why = Why::came_round;
-  begin_feel();
+  begin_feel(view);
 }
 
-void SkirtPlanner::begin_feel() noexcept {
+Angle SkirtPlanner::way_back(const View& view) const noexcept {
+  const Vec past = trail_[(trail_newest_ + kTrail - 3) % kTrail] - view.pose.at;
+  return norm(past) < 60_mm ? view.pose.heading + 180_deg : bearing(past);
+}
+
+void SkirtPlanner::begin_feel(const View& view) noexcept {
+  // From the wall's side, but not from beyond the wall: where the robot came from lies there.
+  Angle swing = 110_deg;
+  const Angle to_back = (way_back(view) - course_) * side_;
+  const Angle past_back = to_back - kNotBack;
+  if (to_back.raw() > kNotBack.raw() && past_back.raw() < swing.raw()) swing = past_back;
+  feel_from_ = course_ + swing * side_;
   candidate_ = 0;
   reach_ = kProbe;
   brake_then(Phase::feel);
@@ -432,7 +446,7 @@ void SkirtPlanner::begin_feel() noexcept {
 void SkirtPlanner::feel(const View& view) noexcept {
   decision_.mode = Mode::searching;
   for (; candidate_ < kCircleSteps; ++candidate_) {
-    const Angle heading = course_ + 110_deg * side_ - kFan * (candidate_ * side_);
+    const Angle heading = feel_from_ - kFan * (candidate_ * side_);
     const Way found = way(view, heading, reach_);
     if (found == Way::blocked) continue;
     if (found == Way::open) {
@@ -462,7 +476,7 @@ void SkirtPlanner::retreat(const View& view) noexcept {
       felt_travel_um_ = travel_um_;
       enter(Phase::follow, Mode::skirting, Why::edge);
     } else if (++retreats_ < 8) {
-      begin_feel();
+      begin_feel(view);
     } else {
       finish(Mode::gave_up, Why::no_exit, Outcome::gave_up);
     }

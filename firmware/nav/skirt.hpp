@@ -49,7 +49,8 @@ class SkirtPlanner final : public Planner {
   void feel(const View& view) noexcept;
   bool may_leave(const View& view) noexcept;
   bool lost_wall(const View& view) noexcept;
-  void begin_feel() noexcept;
+  void begin_feel(const View& view) noexcept;
+  Angle way_back(const View& view) const noexcept;
   void retreat(const View& view) noexcept;
   void go_other_way(const View& view) noexcept;
   bool came_round(const View& view) const noexcept;
@@ -111,6 +112,7 @@ class SkirtPlanner final : public Planner {
   int32_t trail_newest_ = 0;
   Vec retreat_to_;
   int32_t retreats_ = 0;
+  Angle feel_from_;        // the first heading that is felt for
   Length reach_;           // of the ways that are felt for
   int32_t laps_ = 0;       // full turns since the hit
   Vec lap_at_;
