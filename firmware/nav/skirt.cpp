@@ -2,7 +2,6 @@
 
 #include "firmware/fuzzy/scale.hpp"
 
-extern "C" int dprintf(int, const char*, ...); extern "C" char* getenv(const char*);
 namespace whisker::nav {
 namespace {
 
@@ -18,6 +17,8 @@ constexpr int32_t kEscapes = 6;
 constexpr int32_t kFanSteps = 10;     // to 75 degrees
 constexpr int32_t kSweepSteps = 20;   // to 150 degrees
 constexpr int32_t kCircleSteps = 48;
+constexpr Angle kFineFan = Angle::turns(25, 3600);
+constexpr int32_t kFineCircleSteps = 144;
 constexpr AngularRate kTurnRate = 2500_mrad_per_s;
 constexpr AngularRate kSweepRate = 2000_mrad_per_s;
 constexpr int64_t kDegree = INT64_C(11930465);  // 2^32 / 360
@@ -73,6 +74,7 @@ void SkirtPlanner::start(const View& view) noexcept {
   leave_travel_um_ = -kKeepSideTravel;
   hit_travel_um_ = 0;
   lean_ = 0;
+  fine_ = false;
   stuck_ticks_ = 0;
   candidate_ = 0;
   enter(Phase::survey, Mode::surveying, Why::goal_set);
@@ -97,7 +99,6 @@ void SkirtPlanner::keep_account(const View& view) noexcept {
 }
 
 void SkirtPlanner::act(const View& view) noexcept {
-  if (getenv("DBG")) dprintf(2, "s%d %d n%d c%d h%d e%.2f g%d f%d t%d\n", side_, (int)phase_, (int)next_, candidate_, halting_, (course_-view.pose.heading).wrapped()/1.19e7, view.granted.raw(), view.forward.raw(), view.turning.raw());
   if (travel_um_ > int64_t{kLongest.raw()}) {
     finish(Mode::gave_up, Why::length_budget, Outcome::gave_up);
     return;
@@ -134,8 +135,8 @@ void SkirtPlanner::survey(const View& view) noexcept {
 }
 
 SkirtPlanner::Way SkirtPlanner::way(const View& view, Angle heading, Length length) const noexcept {
-  const ground::Obstacles o = view.patch->along(view.pose.at, heading, length,
-                                                params_.body.radius + params_.skirt.planning_margin);
+  const Length margin = fine_ ? params_.skirt.shield_margin : params_.skirt.planning_margin;
+  const ground::Obstacles o = view.patch->along(view.pose.at, heading, length, params_.body.radius + margin);
   if (o.suspect > 0) return Way::blocked;
   return o.unknown > 0 ? Way::open : Way::free;
 }
@@ -178,7 +179,7 @@ void SkirtPlanner::go(const View& view) noexcept {
     return;
   }
   if (stalled(view)) {
-    look_along(course_, Phase::go);
+    look_along(course_, min(kProbe, distance_), Phase::go);
     return;
   }
   steer(view, course_, params_.wheels.max_speed);
@@ -192,7 +193,8 @@ bool SkirtPlanner::stalled(const View& view) noexcept {
   return slow_ticks_ >= 50;
 }
 
-void SkirtPlanner::look_along(Angle heading, Phase next) noexcept {
+void SkirtPlanner::look_along(Angle heading, Length length, Phase next) noexcept {
+  look_length_ = length;
   look_course_ = heading;
   next_ = next;
   enter(Phase::look, Mode::looking, Why::unknown_ahead);
@@ -201,9 +203,8 @@ void SkirtPlanner::look_along(Angle heading, Phase next) noexcept {
 }
 
 void SkirtPlanner::look(const View& view) noexcept {
-  const ground::Obstacles o = view.patch->along(view.pose.at, look_course_, min(kProbe, distance_),
+  const ground::Obstacles o = view.patch->along(view.pose.at, look_course_, look_length_,
                                                 params_.body.radius + params_.skirt.planning_margin);
-  if (getenv("DBG")) dprintf(2,"look %d %d at %d %d\n", o.unknown,o.suspect,o.nearest_unknown.x.raw(),o.nearest_unknown.y.raw());
   if (o.suspect > 0 || o.unknown == 0) {
     decision_.looked = true;
     phase_ = next_;
@@ -314,6 +315,7 @@ void SkirtPlanner::depart(const View& view) noexcept {
   slow_ticks_ = 0;
   commit_until_um_ = travel_um_ + min(60_mm, reach_).raw();
   felt_travel_um_ = travel_um_;
+  fine_ = false;
   enter(Phase::follow, Mode::skirting, decision_.why);
 }
 
@@ -440,17 +442,19 @@ void SkirtPlanner::begin_feel(const View& view) noexcept {
   feel_from_ = course_ + swing * side_;
   candidate_ = 0;
   reach_ = kProbe;
+  fine_ = false;
   brake_then(Phase::feel);
 }
 
 void SkirtPlanner::feel(const View& view) noexcept {
   decision_.mode = Mode::searching;
-  for (; candidate_ < kCircleSteps; ++candidate_) {
-    const Angle heading = feel_from_ - kFan * (candidate_ * side_);
+  const Angle step = fine_ ? kFineFan : kFan;
+  for (; candidate_ < (fine_ ? kFineCircleSteps : kCircleSteps); ++candidate_) {
+    const Angle heading = feel_from_ - step * (candidate_ * side_);
     const Way found = way(view, heading, reach_);
-    if (found == Way::blocked) continue;
+    if (found == Way::blocked || (fine_ && found == Way::open)) continue;
     if (found == Way::open) {
-      look_along(heading, Phase::feel);
+      look_along(heading, reach_, Phase::feel);
       return;
     }
     course_ = heading;
@@ -462,8 +466,14 @@ void SkirtPlanner::feel(const View& view) noexcept {
     candidate_ = 0;
     return;
   }
+  if (!fine_) {
+    fine_ = true;
+    candidate_ = 0;
+    return;
+  }
   retreat_to_ = trail_[(trail_newest_ + kTrail - 2) % kTrail];
   course_ = bearing(retreat_to_ - view.pose.at);
+  fine_ = false;
   enter(Phase::retreat, Mode::skirting, Why::way_back);
 }
 

@@ -59,7 +59,7 @@ class SkirtPlanner final : public Planner {
   bool stalled(const View& view) noexcept;
   void enter(Phase phase, Mode mode, Why why) noexcept;
   void brake_then(Phase next) noexcept;
-  void look_along(Angle heading, Phase next) noexcept;
+  void look_along(Angle heading, Length length, Phase next) noexcept;
   void steer(const View& view, Angle heading, Speed top) noexcept;
   bool face(const View& view, Angle heading) noexcept;
   void cruise(Speed forward, AngularRate turn) noexcept;
@@ -84,6 +84,7 @@ class SkirtPlanner final : public Planner {
   int64_t lean_ = 0;       // the filtered turn of the table, 2^-32 turn
   Angle course_;           // the heading steered for
   Angle look_course_;      // the heading whose way is being looked at
+  Length look_length_;
   int32_t slow_ticks_ = 0;
   int32_t stuck_ticks_ = 0;
   int32_t looks_here_ = 0;
@@ -113,6 +114,7 @@ class SkirtPlanner final : public Planner {
   Vec retreat_to_;
   int32_t retreats_ = 0;
   Angle feel_from_;        // the first heading that is felt for
+  bool fine_ = false;      // feels in small steps and with the least margin
   Length reach_;           // of the ways that are felt for
   int32_t laps_ = 0;       // full turns since the hit
   Vec lap_at_;
