@@ -4,7 +4,9 @@ import csv
 import io
 import json
 import os
+import pty
 import re
+import select
 import shlex
 import signal
 import subprocess
@@ -15,6 +17,7 @@ from whisker import SCENARIOS, STATUS, Case, with_time_limit
 
 COUNT = 12
 KIND = ("discs", "--discs", 10)
+PROGRESS = re.compile(rb"\r\x1b\[K\[#*\.*\] \d+ of 1000000, \d+\.\d a second, \d+:\d\d to go")
 SHARES = ("success", "reached", "unreachable", "false_unreachable", "gave_up", "contact", "fault")
 
 
@@ -238,11 +241,11 @@ class Refusals(Campaigns):
 class Interruption(Campaigns):
     """The campaign is far too long to end by itself."""
 
-    def begun(self):
+    def begun(self, stderr=subprocess.PIPE):
         arguments = ("campaign", *KIND, "--count", 10**6, "--csv", "rows.csv")
         return subprocess.Popen(
             [whisker.binary, *map(str, arguments)],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder,
+            stdout=subprocess.PIPE, stderr=stderr, text=True, cwd=self.folder,
         )  # fmt: skip
 
     def wait_for_rows(self, process, count):
@@ -272,6 +275,23 @@ class Interruption(Campaigns):
             self.assertEqual(sorted(os.listdir(self.folder)), ["rows.csv"])
             again = self.rows(*KIND, "--count", len(seeds))
             self.assertEqual(again, text)
+
+    def test_a_terminal_sees_a_progress_bar_that_is_wiped_in_the_end(self):
+        terminal, theirs = pty.openpty()
+        seen, end = b"", time.monotonic() + 60
+        with self.begun(theirs) as process:
+            while time.monotonic() < end and not PROGRESS.search(seen):
+                if select.select([terminal], [], [], 0.1)[0]:
+                    seen += os.read(terminal, 4096)
+            process.send_signal(signal.SIGINT)
+            process.wait()
+            while select.select([terminal], [], [], 0)[0]:
+                seen += os.read(terminal, 4096)
+            process.stdout.read()
+        os.close(terminal)
+        os.close(theirs)
+        self.assertRegex(seen, PROGRESS)
+        self.assertRegex(seen, rb"to go\r\x1b\[Kwhisker: interrupted after \d+ of 1000000 missions\r\n\Z")
 
     def test_a_killed_campaign_leaves_whole_rows_beside_the_file(self):
         self.file("rows.csv", "old\n")

@@ -9,6 +9,7 @@
 
 #include "host/scenario/shapes.hpp"
 #include "host/worlds/generate.hpp"
+#include "host/worlds/random.hpp"
 #include "host/worlds/reach.hpp"
 #include "tests/paths/oracle.hpp"
 
@@ -40,6 +41,23 @@ std::vector<Case> cases(int count) {
     }
   }
   return all;
+}
+
+/// Discs and walls on the points and lines of a lattice: many touch, lie on one line or on top of each other.
+Case lattice(int seed) {
+  worlds::Random random(static_cast<std::uint64_t>(seed));
+  constexpr int kSide = 6;
+  const auto point = [&] { return Vec2{1.0 * random.index(kSide), 1.0 * random.index(kSide)}; };
+  const double radii[] = {0.1, 0.25, 0.375, 0.4, 0.5, 0.7, 1.4};
+  Case c{{}, {-0.5, -0.5}, {kSide - 0.5, kSide - 0.5}, "lattice " + std::to_string(seed)};
+  for (int i = random.index(14); i > 0; --i) c.world.discs.push_back({point(), radii[random.index(7)]});
+  for (int i = random.index(14); i > 0; --i) {
+    const Vec2 a = point();
+    const Vec2 b = random.chance(0.7) ? a + (random.chance(0.5) ? Vec2{1, 0} : Vec2{0, 1}) : point();
+    c.world.segments.push_back({a, b});
+  }
+  if (random.chance(0.3)) c.from = point();
+  return c;
 }
 
 Vec2 heading_at_end(const Leg& leg) {
@@ -118,6 +136,33 @@ TEST(Shortest, ExistsWhereTheFloodProvesAWayAndNotWhereItRulesOneOut) {
   }
   EXPECT_GT(proven, 100);
   EXPECT_GT(ruled_out, 40);
+}
+
+TEST(Shortest, HoldsInALatticeWhereMuchTouches) {
+  int ways = 0, compared = 0;
+  for (int seed = 1; seed <= 600; ++seed) {
+    const Case c = lattice(seed);
+    // Gaps of twice the first radius are frequent, and the body just fits; the second never does just fit.
+    for (const double radius : {0.1, 0.1001}) {
+      SCOPED_TRACE(c.name + ", radius " + std::to_string(radius));
+      const auto way = shortest_way(c.world, c.from, c.to, radius);
+      const auto back = shortest_way(c.world, c.to, c.from, radius);
+      ASSERT_EQ(way.has_value(), back.has_value());
+      if (way) {
+        ++ways;
+        expect_gone(c, *way, radius);
+        EXPECT_NEAR(way->length_m, back->length_m, 1e-9);
+      }
+      if (seed > 40) continue;
+      const auto other = some_way(c.world, c.from, c.to, radius);
+      if (!other) continue;
+      ASSERT_TRUE(way);
+      EXPECT_LE(way->length_m, *other + 1e-9);
+      ++compared;
+    }
+  }
+  EXPECT_GT(ways, 400);
+  EXPECT_GT(compared, 40);
 }
 
 TEST(Shortest, IsTheSameBackwards) {
