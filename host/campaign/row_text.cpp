@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "host/campaign/worlds.hpp"
 #include "host/report/result.hpp"
 
 namespace whisker::campaign {
@@ -43,6 +44,9 @@ class Fields {
       } else if (rest_[i] == '"') {
         quotes = !quotes;
       }
+    }
+    if (has_control_characters(field)) {
+      throw std::invalid_argument(fmt::format("column {}: control characters in it", column));
     }
     ended_ = i >= rest_.size();
     rest_.remove_prefix(ended_ ? rest_.size() : i + 1);

@@ -13,11 +13,11 @@ namespace {
 
 constexpr std::string_view kSuffix = ".toml";
 
-bool has_control_characters(const std::string& text) {
+}  // namespace
+
+bool has_control_characters(std::string_view text) {
   return std::any_of(text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7F'; });
 }
-
-}  // namespace
 
 bool is_scenario_file(std::string_view name) {
   return name.size() > kSuffix.size() && name.substr(name.size() - kSuffix.size()) == kSuffix;

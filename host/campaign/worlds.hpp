@@ -29,6 +29,8 @@ struct Files {
 
 bool is_scenario_file(std::string_view name);  ///< it ends in .toml
 
+bool has_control_characters(std::string_view text);  ///< a row holds none
+
 /// The arguments of `whisker world` that make these worlds, without the seed: "discs --discs 20 --noise".
 std::string arguments(worlds::Kind kind, const worlds::Options& options);
 

@@ -20,6 +20,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/cli/one_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 
@@ -56,7 +57,7 @@ void print(const Options& o, const std::vector<campaign::Row>& rows) {
 campaign::Row row_of(const Missions& missions, std::uint64_t index, const std::atomic<bool>& stop) {
   const campaign::Mission m = mission(missions, index);
   campaign::Row row = campaign::drive(m.scenario, stop);
-  row.planner = "thesis";
+  row.planner = name(RunOptions{}.planner);
   row.robot = missions.robot;
   row.world = m.world;
   return row;
@@ -101,8 +102,10 @@ int execute(const Options& o) {
     return 0;
   }
   if (o.worlds.empty()) throw UsageError("KIND|DIR is required");
-  check_outputs({o.csv}, {o.robot});
+  check_outputs({o.csv, o.svg, o.trace}, {o.robot});
   const Missions chosen = missions(o);
+  if (o.replay) return drive_one(mission(chosen, 0).scenario, {}, {o.trace, o.svg, o.json});
+  if (!o.svg.empty() || !o.trace.empty()) throw UsageError("--svg and --trace need --replay");
   std::vector<campaign::Row> rows;
   const bool whole = drive_all(o, chosen, rows);
   print(o, rows);
@@ -149,8 +152,17 @@ void add_campaign(CLI::App& app, int& status) {
   add_switch(*cmd, "--json", o->json, "Print the summary as one JSON object and nothing else");
   cmd->add_option("--merge", o->merge, "Sum up the rows of these files instead of driving")
       ->type_name("FILE");
+  cmd->add_option("--replay", o->replay, "Drive the mission with this seed alone, as `whisker run` does")
+      ->transform(whole_number())
+      ->type_name("S");
+  add_file(*cmd, "--svg", o->svg, "With --replay: draw the run");
+  add_file(*cmd, "--trace", o->trace, "With --replay: write one CSV row per control tick");
   cmd->callback([o, cmd, &status] {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
+    if (o->replay) {
+      refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--robot", "--svg",
+                           "--trace", "--json"});
+    }
     status = execute(*o);
   });
 }

@@ -73,6 +73,9 @@ void take_shard(Missions& m, const std::string& shard) {
 }  // namespace
 
 Missions missions(const CampaignOptions& o) {
+  if (campaign::has_control_characters(o.robot)) {
+    throw UsageError("--robot: the file's name has control characters in it");
+  }
   Missions m;
   m.robot = o.robot;
   if (const auto kind = worlds::kind_named(o.worlds)) {

@@ -43,6 +43,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
 constexpr const char* kFooter = R"(
 Exit status of run: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
 6 fault (safe stop), 2 bad input or usage, 1 anything else.
+Exit status of campaign: 0 whatever the missions came to, 130 interrupted, 2 and 1 as above.
 
 First steps:
   whisker world discs --seed 1 --out discs.toml

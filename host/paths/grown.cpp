@@ -40,10 +40,10 @@ bool cross(const sim::Segment& s, const sim::Segment& t) {
 
 Grown::Grown(const World& world, Vec2 from, Vec2 to, double radius_m)
     : radius_(radius_m), segments_(world.segments), corner_(from) {
-  for (const sim::Disc& d : world.discs) add_rim({d.center, d.radius + radius_m});
+  for (const sim::Disc& d : world.discs) rims_.push_back({d.center, d.radius + radius_m});
   for (const sim::Segment& s : world.segments) {
-    add_rim({s.a, radius_m});
-    add_rim({s.b, radius_m});
+    rims_.push_back({s.a, radius_m});
+    rims_.push_back({s.b, radius_m});
   }
   const auto less = [](const sim::Disc& a, const sim::Disc& b) {
     if (a.center.x != b.center.x) return a.center.x < b.center.x;
@@ -55,8 +55,6 @@ Grown::Grown(const World& world, Vec2 from, Vec2 to, double radius_m)
   lay_grid(from, to);
   fill_grid();
 }
-
-void Grown::add_rim(const sim::Disc& rim) { rims_.push_back(rim); }
 
 void Grown::lay_grid(Vec2 from, Vec2 to) {
   Vec2 high = from;

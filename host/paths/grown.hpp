@@ -43,7 +43,6 @@ class Grown {
     int column_min, column_max, row_min, row_max;
   };
 
-  void add_rim(const sim::Disc& rim);
   void lay_grid(sim::Vec2 from, sim::Vec2 to);
   void fill_grid();
   int column(double x) const;

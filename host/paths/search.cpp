@@ -140,23 +140,16 @@ Way Search::way_to(int last) {
   way.length_m = node(last).way_m;
   std::vector<Leg> backwards;
   for (int i = last; node(i).before >= 0; i = node(i).before) {
-    const Node& here = node(i);
-    const Node& before = node(here.before);
-    const Vec2 begin = here.by_tangent ? before.tangent.line.b : before.tangent.line.a;
-    if (here.swept_rad > 0) {
-      const Leg arc{begin, here.tangent.line.a, disc(here.stand),
-                    here.swept_rad * static_cast<int>(here.stand.side)};
-      Leg* const later = backwards.empty() ? nullptr : &backwards.back();
-      if (later != nullptr && later->turn_rad != 0) {
-        later->from = arc.from;
-        later->turn_rad += arc.turn_rad;
-      } else {
-        backwards.push_back(arc);
-      }
-    }
-    if (here.by_tangent && before.tangent.length_m > 0) {
-      backwards.push_back({before.tangent.line.a, before.tangent.line.b, {}, 0});
-    }
+    // Around the rim, from tangent to tangent, back to where the way arrived at it.
+    const Stand stand = node(i).stand;
+    Leg arc{{}, node(i).tangent.line.a, disc(stand), 0};
+    double swept_rad = node(i).swept_rad;
+    for (; !node(i).by_tangent; i = node(i).before) swept_rad += node(node(i).before).swept_rad;
+    const Tangent& before = node(node(i).before).tangent;
+    arc.from = before.line.b;
+    arc.turn_rad = swept_rad * static_cast<int>(stand.side);
+    if (swept_rad > 0) backwards.push_back(arc);
+    if (before.length_m > 0) backwards.push_back({before.line.a, before.line.b, {}, 0});
   }
   way.legs.assign(backwards.rbegin(), backwards.rend());
   return way;
