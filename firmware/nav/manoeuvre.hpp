@@ -13,12 +13,15 @@ enum class Kind : uint8_t {
   stop,   ///< come to rest as fast as the acceleration limit allows, and stand
   turn,   ///< turn on the spot to `heading`, the shorter way
   drive,  ///< drive `length` straight along `heading`, and stand
+  cruise,  ///< run at these speeds until told otherwise, as far as the shield lets it
 };
 
 struct Manoeuvre {
   Kind kind = Kind::keep;
-  Angle heading;
-  Length length;
+  Angle heading{};
+  Length length{};
+  Speed forward{};  ///< of a cruise
+  Speed turning{};  ///< of a cruise: the rims' speed of turning, counter-clockwise positive
 };
 
 }  // namespace whisker::nav

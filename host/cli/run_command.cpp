@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
   std::string scenario;
-  std::string planner = "thesis";
+  PlannerKind planner = PlannerKind::skirt;
   std::string robot;
   std::optional<std::uint64_t> seed;
   std::string trace;
@@ -24,19 +24,14 @@ struct Options {
   bool json = false;
 };
 
-void check_planner(const std::string& planner) {
-  if (planner == "thesis") return;
-  throw UsageError(fmt::format("--planner {}: not there yet; this version has: thesis", planner));
-}
-
 int execute(const Options& o) {
-  check_planner(o.planner);
   check_outputs({o.trace, o.svg}, {o.scenario, o.robot});
   Scenario scenario = load_scenario(o.scenario);
   if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
 
   RunOptions options;
   options.seed = o.seed;
+  options.planner = o.planner;
   return drive_one(scenario, options, {o.trace, o.svg, o.json});
 }
 
@@ -46,9 +41,7 @@ void add_run(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("run", "Drive the simulated robot through a scenario file");
   const auto o = std::make_shared<Options>();
   add_file(*cmd, "SCENARIO", o->scenario, "Scenario file (TOML)")->required();
-  cmd->add_option("--planner", o->planner, "Planner: thesis")
-      ->check(CLI::IsMember({"thesis", "skirt", "map"}))
-      ->capture_default_str();
+  add_planner(*cmd, o->planner);
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenario");
   cmd->add_option("--seed", o->seed, "Seed of the noise, instead of the scenario's")
       ->transform(whole_number())

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "firmware/nav/thesis.hpp"
 #include "firmware/robot.hpp"
 #include "hal/sim/sim_board.hpp"
 #include "host/run/hash.hpp"
@@ -70,8 +69,8 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   sim::Plant plant(world.view(), sim::robot_spec(params), noise_spec(scenario.noise),
                    options.seed.value_or(scenario.seed), scenario.start);
   hal::SimBoard board(plant);
-  nav::ThesisPlanner planner(params, fuzzy::kDefaultTable);
-  Robot robot(board, board, planner, params);
+  const std::shared_ptr<nav::Planner> planner = make_planner(options.planner, params);
+  Robot robot(board, board, *planner, params);
   robot.place(fixed_pose(scenario.start));
   const Pose goal = fixed_pose({scenario.goal.at, 0});
   robot.set_goal({goal.at, fixed_pose({{scenario.goal.tolerance_m, 0}, 0}).at.x});

@@ -6,12 +6,14 @@
 #include <optional>
 #include <vector>
 
+#include "host/run/planners.hpp"
 #include "host/run/record.hpp"
 #include "host/scenario/scenario.hpp"
 
 namespace whisker {
 
 struct RunOptions {
+PlannerKind planner = PlannerKind::skirt;
   std::optional<std::uint64_t> seed;               ///< of the noise, instead of the scenario's
   std::vector<TickRecord>* records = nullptr;      ///< gets one record a tick, and one more at a contact
   std::function<void(const TickRecord&)> observe;  ///< called with each of these records as it arises
