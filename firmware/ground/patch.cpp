@@ -151,8 +151,7 @@ void Patch::mark(const Proof& proof) noexcept {
 Obstacles Patch::along(Vec from, Angle heading, Length length, Length radius) const noexcept {
   Obstacles found;
   const Point start = local(from);
-  const Stadium stadium(start.x, start.y, heading, units(length), units(radius),
-                        kAbeam);
+  const Stadium stadium(start.x, start.y, heading, units(length), units(radius), kAbeam);
   int32_t nearest = INT32_MAX;
   for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
     const Row inside = stadium.columns(rows.row());

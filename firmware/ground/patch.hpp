@@ -11,10 +11,10 @@ namespace whisker::ground {
 
 /// One beam's evidence: nothing lies within its cone nearer than `free` to the apex.
 struct Proof {
-  Pose from;          ///< the body's, at the time of the measurement
-  Angle axis;         ///< of the beam, from straight ahead
-  Length free;        ///< proved empty
-  bool hit = false;   ///< something lies at `free`
+  Pose from;           ///< the body's, at the time of the measurement
+  Angle axis;          ///< of the beam, from straight ahead
+  Length free;         ///< proved empty
+  bool hit = false;    ///< something lies at `free`
   bool aimed = false;  ///< from a look: what this beam covers and does not clear, no look from here will
 };
 

@@ -85,8 +85,7 @@ void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexce
   right_.clip(span, x, dy, margin);
 }
 
-Stadium::Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius,
-                 int32_t abeam) noexcept
+Stadium::Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius, int32_t abeam) noexcept
     : x_(x),
       y_(y),
       length_(length < kFar ? length : kFar),

@@ -16,9 +16,7 @@ constexpr int kCells = 32;  ///< a side of the window
 constexpr int32_t kUnitsPerCell = 256;
 constexpr int32_t kHalfCell = kUnitsPerCell / 2;
 
-constexpr int32_t floor_div(int32_t n, int32_t d) noexcept {
-  return n >= 0 ? n / d : -((-n + d - 1) / d);
-}
+constexpr int32_t floor_div(int32_t n, int32_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
 constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return -floor_div(-n, d); }
 
 /// The columns first..last of the window, both within 0..31.

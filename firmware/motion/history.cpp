@@ -8,7 +8,8 @@ Pose between(const Pose& a, const Pose& b, int32_t part, int32_t whole) noexcept
     return from + Length::from_raw(multiply_divide((to - from).raw(), part, whole));
   };
   const int32_t turn = multiply_divide((b.heading - a.heading).wrapped(), part, whole);
-  return {{mix(a.at.x, b.at.x), mix(a.at.y, b.at.y)}, a.heading + Angle::from_raw(static_cast<uint32_t>(turn))};
+  return {{mix(a.at.x, b.at.x), mix(a.at.y, b.at.y)},
+          a.heading + Angle::from_raw(static_cast<uint32_t>(turn))};
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const g
   const int32_t samples = 1 + abs(length).raw() / kSample.raw();
   const Length reach = params.body.radius + params.skirt.shield_margin;
   for (int32_t i = 1; i <= samples; ++i) {
-    const Angle chord = Angle::from_raw(
-        static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
+    const Angle chord =
+        Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
     const Length far = Length::from_raw(multiply_divide(length.raw(), i, samples));
     if (patch.approaches(pose.at, pose.heading + chord, far, reach)) return false;
   }
@@ -45,7 +45,7 @@ bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const g
 
 Grant shield(Speed forward, Speed turning, const Pose& pose, const WheelState& wheels,
              const ground::Patch& patch, const Params& params) noexcept {
-  constexpr Q14 kFactors[] = {Q14::ratio(1, 1), Q14::ratio(3, 4),  Q14::ratio(1, 2),
+  constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2),
                               Q14::ratio(3, 10), Q14::ratio(3, 25), Q14::ratio(0, 1)};
   const Speed change = params.wheels.max_acceleration * params.safety.period;
   for (const Q14 factor : kFactors) {

@@ -9,10 +9,10 @@
 namespace whisker::nav {
 
 enum class Kind : uint8_t {
-  keep,   ///< go on with the one under way
-  stop,   ///< come to rest as fast as the acceleration limit allows, and stand
-  turn,   ///< turn on the spot to `heading`, the shorter way
-  drive,  ///< drive `length` straight along `heading`, and stand
+  keep,    ///< go on with the one under way
+  stop,    ///< come to rest as fast as the acceleration limit allows, and stand
+  turn,    ///< turn on the spot to `heading`, the shorter way
+  drive,   ///< drive `length` straight along `heading`, and stand
   cruise,  ///< run at these speeds until told otherwise, as far as the shield lets it
 };
 

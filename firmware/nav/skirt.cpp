@@ -14,8 +14,8 @@ constexpr int64_t kKeepSideTravel = 500000;  // um
 constexpr Angle kFan = Angle::turns(75, 3600);
 constexpr Angle kNotBack = 45_deg;
 constexpr int32_t kEscapes = 6;
-constexpr int32_t kFanSteps = 10;     // to 75 degrees
-constexpr int32_t kSweepSteps = 20;   // to 150 degrees
+constexpr int32_t kFanSteps = 10;    // to 75 degrees
+constexpr int32_t kSweepSteps = 20;  // to 150 degrees
 constexpr int32_t kCircleSteps = 48;
 constexpr Angle kFineFan = Angle::turns(25, 3600);
 constexpr int32_t kFineCircleSteps = 144;
@@ -51,9 +51,7 @@ Decision SkirtPlanner::step(const View& view) noexcept {
   switch (request_) {
     case Request::none: break;
     case Request::goal: start(view); break;
-    case Request::cancel:
-      finish(Mode::idle, Why::cancelled, Outcome::none);
-      break;
+    case Request::cancel: finish(Mode::idle, Why::cancelled, Outcome::none); break;
   }
   request_ = Request::none;
   if (phase_ != Phase::rest) {
@@ -150,7 +148,8 @@ bool SkirtPlanner::choose_course(const View& view, Angle& course) noexcept {
   decision_.response = engine_(decision_.inputs);
   const Angle turn = front >= distance_ ? Angle{} : scaled(params_.thesis.base_turn, decision_.response.turn);
   const int64_t step = turn.wrapped() - lean_;
-  const bool grows = (turn.wrapped() < 0 ? -int64_t{turn.wrapped()} : turn.wrapped()) > (lean_ < 0 ? -lean_ : lean_);
+  const bool grows =
+      (turn.wrapped() < 0 ? -int64_t{turn.wrapped()} : turn.wrapped()) > (lean_ < 0 ? -lean_ : lean_);
   lean_ += grows ? step * 3 / 10 : step * 3 / 50;
 
   const Length length = min(kProbe, distance_);
@@ -262,8 +261,7 @@ void SkirtPlanner::sweep(const View& view) noexcept {
   cruise(Speed{}, kSweepRate * sign);
   if (!view.sighted) return;
 
-  if (mine.open_deg == 0 && swept > 0 && swept <= 150 &&
-      view.sight.beam[hal::kFront].distance >= kFarView) {
+  if (mine.open_deg == 0 && swept > 0 && swept <= 150 && view.sight.beam[hal::kFront].distance >= kFarView) {
     mine.open_deg = swept;
   }
   while (!mine.feasible && candidate_ <= kSweepSteps) {
@@ -278,7 +276,11 @@ void SkirtPlanner::sweep(const View& view) noexcept {
     }
     ++candidate_;
   }
-  const auto score = [](const Exit& e) { return !e.feasible ? 1000 : e.open_deg > 0 ? max(Length::from_raw(e.open_deg), Length::from_raw(e.turn_deg)).raw() : 150 + e.turn_deg / 4; };
+  const auto score = [](const Exit& e) {
+    return !e.feasible      ? 1000
+           : e.open_deg > 0 ? max(Length::from_raw(e.open_deg), Length::from_raw(e.turn_deg)).raw()
+                            : 150 + e.turn_deg / 4;
+  };
   const bool found = mine.feasible && mine.open_deg > 0;
   const bool worse = other.feasible && swept > score(other);
   const bool over = swept >= 150 && (candidate_ > kSweepSteps || mine.feasible);
@@ -295,7 +297,10 @@ void SkirtPlanner::sweep(const View& view) noexcept {
   if (exit_left_.feasible || exit_right_.feasible) {
     const int32_t l = score(exit_left_);
     const int32_t r = score(exit_right_);
-    const bool go_left = l != r ? l < r : exit_left_.turn_deg != exit_right_.turn_deg ? exit_left_.turn_deg < exit_right_.turn_deg : side_ < 0;
+    const bool go_left = l != r ? l < r
+                         : exit_left_.turn_deg != exit_right_.turn_deg
+                             ? exit_left_.turn_deg < exit_right_.turn_deg
+                             : side_ < 0;
     best = go_left ? &exit_left_ : &exit_right_;
     wall = go_left ? -1 : 1;
   }
@@ -406,7 +411,8 @@ void SkirtPlanner::follow(const View& view) noexcept {
   const AngularRate turn = limit(AngularRate::from_raw((error * 20).raw() - (near * 15).raw()), kTurnRate);
   const bool lost = error == 60_mm && near == Length{};
   const Speed top = params_.wheels.max_speed;
-  const Speed forward = lost ? abs(turn) * 180_mm : top - Speed::from_raw(multiply_divide(top.raw(), abs(turn).raw(), 4000000));
+  const Speed forward =
+      lost ? abs(turn) * 180_mm : top - Speed::from_raw(multiply_divide(top.raw(), abs(turn).raw(), 4000000));
   cruise(forward, turn * side_);
 }
 
@@ -512,7 +518,9 @@ void SkirtPlanner::steer(const View& view, Angle heading, Speed top) noexcept {
   const Angle error = heading - view.pose.heading;
   const AngularRate turn = limit(rate_towards(error, 6), kTurnRate);
   const int64_t slower = 1000000 - abs(rate_towards(error, 1)).raw() * INT64_C(12) / 10;
-  const Speed forward = slower <= 0 ? Speed{} : Speed::from_raw(multiply_divide(top.raw(), static_cast<int32_t>(slower), 1000000));
+  const Speed forward =
+      slower <= 0 ? Speed{}
+                  : Speed::from_raw(multiply_divide(top.raw(), static_cast<int32_t>(slower), 1000000));
   cruise(forward, turn);
 }
 

@@ -74,16 +74,16 @@ class SkirtPlanner final : public Planner {
   Phase next_ = Phase::rest;
   bool halting_ = false;
 
-  Pose last_;              // of the tick before
+  Pose last_;  // of the tick before
   Vec to_goal_;
   Length distance_;        // to the goal
   Length best_;            // the least of it so far
   int64_t travel_um_ = 0;  // since the goal was set
   int32_t side_ = 1;       // of the wall while following: +1 left; the way last deflected is the other one
 
-  int64_t lean_ = 0;       // the filtered turn of the table, 2^-32 turn
-  Angle course_;           // the heading steered for
-  Angle look_course_;      // the heading whose way is being looked at
+  int64_t lean_ = 0;   // the filtered turn of the table, 2^-32 turn
+  Angle course_;       // the heading steered for
+  Angle look_course_;  // the heading whose way is being looked at
   Length look_length_;
   int32_t slow_ticks_ = 0;
   int32_t stuck_ticks_ = 0;
@@ -95,7 +95,7 @@ class SkirtPlanner final : public Planner {
   Angle hit_heading_;
   int64_t hit_travel_um_ = 0;
   int64_t leave_travel_um_ = 0;
-  int64_t turned_ = 0;     // since the hit, 2^-32 turn, counter-clockwise positive
+  int64_t turned_ = 0;  // since the hit, 2^-32 turn, counter-clockwise positive
   bool moved_away_ = false;
 
   struct Exit {
@@ -109,14 +109,14 @@ class SkirtPlanner final : public Planner {
   int64_t swept_ = 0;      // 2^-32 turn
   int32_t candidate_ = 0;  // the next heading to be judged
   static constexpr int kTrail = 8;
-  Vec trail_[kTrail];      // where it came from, 40 mm apart
+  Vec trail_[kTrail];  // where it came from, 40 mm apart
   int32_t trail_newest_ = 0;
   Vec retreat_to_;
   int32_t retreats_ = 0;
-  Angle feel_from_;        // the first heading that is felt for
-  bool fine_ = false;      // feels in small steps and with the least margin
-  Length reach_;           // of the ways that are felt for
-  int32_t laps_ = 0;       // full turns since the hit
+  Angle feel_from_;    // the first heading that is felt for
+  bool fine_ = false;  // feels in small steps and with the least margin
+  Length reach_;       // of the ways that are felt for
+  int32_t laps_ = 0;   // full turns since the hit
   Vec lap_at_;
   int32_t escapes_ = 0;
   bool other_way_ = false;  // came round once: going round the other way

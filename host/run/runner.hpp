@@ -13,7 +13,7 @@
 namespace whisker {
 
 struct RunOptions {
-PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = PlannerKind::skirt;
   std::optional<std::uint64_t> seed;               ///< of the noise, instead of the scenario's
   std::vector<TickRecord>* records = nullptr;      ///< gets one record a tick, and one more at a contact
   std::function<void(const TickRecord&)> observe;  ///< called with each of these records as it arises
