@@ -40,9 +40,14 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
   }
 }
 
-constexpr const char* kFooter = R"(
+/// Not fmt: it throws where standard error is closed.
+void complain(const std::string& text) { std::fputs((one_line(text) + "\n").c_str(), stderr); }
+
+constexpr const char* kExitStatus = R"(
 Exit status of run: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
-6 fault (safe stop), 2 bad input or usage, 1 anything else.
+6 fault (safe stop), 2 bad input or usage, 1 anything else.)";
+
+constexpr const char* kFirstSteps = R"(
 
 First steps:
   whisker world discs --seed 1 --out discs.toml
@@ -55,7 +60,6 @@ int main(int argc, char** argv) {
   using namespace whisker::cli;
   CLI::App app{"Whisker: a navigation core for small robots with three rangefinders, in a simulated world."};
   app.name("whisker");
-  app.footer(kFooter);
   app.require_subcommand(1);
   app.set_version_flag("--version", "whisker " WHISKER_VERSION);
   int status = kFailure;
@@ -63,21 +67,23 @@ int main(int argc, char** argv) {
   add_world(app, status);
   add_table(app, status);
   add_figures(app, status);
+  app.footer(std::string(kExitStatus) + kFirstSteps);
+  app.get_subcommand("run")->footer(kExitStatus);
   try {
     status = parse(app, argc, argv, status);
     finish_standard_output();
     return status;
   } catch (const CLI::ParseError& e) {
-    fmt::print(stderr, "whisker: {} (see whisker --help)\n", one_line(e.what()));
+    complain(fmt::format("whisker: {} (see whisker --help)", e.what()));
     return kBadInput;
   } catch (const UsageError& e) {
-    fmt::print(stderr, "whisker: {}\n", one_line(e.what()));
+    complain(fmt::format("whisker: {}", e.what()));
     return kBadInput;
   } catch (const whisker::InputError& e) {
-    fmt::print(stderr, "{}\n", one_line(e.what()));
+    complain(e.what());
     return kBadInput;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "whisker: {}\n", one_line(e.what()));
+    complain(fmt::format("whisker: {}", e.what()));
     return kFailure;
   }
 }

@@ -144,6 +144,18 @@ class Refusals(Case):
                 self.assertEqual(done.returncode, 1)
                 self.assertRegex(done.stderr, r"\Awhisker: cannot write[^\n]*\n\Z")
 
+    def test_a_closed_standard_error_changes_no_exit_status(self):
+        for arguments, status in (
+            (("run", "missing.toml"), 2),
+            (("run", "a.toml", "--bogus"), 2),
+            (("run", "a.toml", "--planner", "skirt"), 2),
+            (("table", "--svg", "/dev/full"), 1),
+        ):
+            with self.subTest(arguments):
+                shell = ["sh", "-c", 'exec "$@" 2>&-', "sh", whisker.binary, *arguments]
+                done = subprocess.run(shell, stdout=subprocess.PIPE, cwd=self.folder, check=False)
+                self.assertEqual((done.returncode, done.stdout), (status, b""))
+
 
 if __name__ == "__main__":
     whisker.main()
