@@ -23,7 +23,11 @@ std::string one_line(std::string text) {
 
 /// CLI11 would only say that a subcommand is missing.
 void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+  if (argc < 2) return;
+  if (argv[1][0] == '-') {
+    if (app.get_option_no_throw(argv[1]) != nullptr) return;
+    throw whisker::cli::UsageError(fmt::format("no option '{}' (see whisker --help)", argv[1]));
+  }
   const auto named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (!app.get_subcommands(named).empty()) return;
   throw whisker::cli::UsageError(fmt::format("no command '{}' (see whisker --help)", argv[1]));

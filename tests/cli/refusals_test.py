@@ -30,7 +30,7 @@ class Refusals(Case):
     def test_a_command_line_that_means_nothing(self):
         self.refused()
         self.refused("nonsense", says="nonsense")
-        self.refused("--bogus")
+        self.refused("--bogus", says="--bogus")
         self.refused("run", says="SCENARIO")
         self.refused("run", "a.toml", "b.toml", says="b.toml")
         self.refused("run", "a.toml", "--bogus", says="--bogus")
