@@ -65,6 +65,12 @@ struct ThesisParams {
   int32_t max_steps = 4000;      ///< positions visited before it gives up
 };
 
+struct SkirtParams {
+  Length cell = 20_mm;             ///< of the clearance patch; 32 x 32 cells
+  Length shield_margin = 16_mm;    ///< kept clear around the body at every tick
+  Length planning_margin = 18_mm;  ///< kept clear around the body on a heading that is chosen
+};
+
 struct MotionParams {
   Duration settle = 80_ms;  ///< time constant of the approach to a stop
   Angle turn_tolerance = 1_deg;
@@ -85,6 +91,7 @@ struct Params {
   RangefinderParams rangefinders;
   ConditioningParams conditioning;
   ThesisParams thesis;
+  SkirtParams skirt;
   MotionParams motion;
   SafetyParams safety;
 };
@@ -150,6 +157,10 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("thesis_delta_deg", p.thesis.delta, 1_deg, 45_deg);
   f.number("thesis_danger_range_m", p.thesis.danger_range, 50_mm, 5_m);
   f.count("thesis_max_steps", p.thesis.max_steps, 1, 1000000);
+
+  f.number("skirt_cell_m", p.skirt.cell, 5_mm, 100_mm);
+  f.number("skirt_shield_margin_m", p.skirt.shield_margin, 0_mm, 500_mm);
+  f.number("skirt_planning_margin_m", p.skirt.planning_margin, 0_mm, 500_mm);
 
   f.number("motion_settle_s", p.motion.settle, 20_ms, 1000_ms);
   f.number("turn_tolerance_deg", p.motion.turn_tolerance, Angle::turns(1, 3600), 10_deg);

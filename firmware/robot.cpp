@@ -10,11 +10,16 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& p
     return;
   }
   odometry_.configure(params);
+  patch_.configure(params);
+  const Duration reach = params.rangefinders.latency + milliseconds(1000 / params.rangefinders.rate_hz);
+  history_.configure(reach / (motion::History::kKept - 2));
 }
 
 void Robot::place(const Pose& pose) noexcept {
   odometry_.place(pose);
   status_.pose = pose;
+  history_.reset();
+  patch_.reset(pose);
 }
 
 void Robot::set_goal(const nav::Goal& goal) noexcept { planner_.set_goal(goal); }
@@ -97,14 +102,49 @@ bool Robot::measure(motion::CountStep& step) noexcept {
 void Robot::navigate() noexcept {
   if (faulted()) return;
   const bool settled = driver_.settled();
-  nav::View view{status_.pose, settled, {}};
+  nav::View view;
+  view.pose = status_.pose;
+  view.settled = settled;
   if (settled) view.look = conditioner_.look(settled_since_, params_);
+  map(settled, view);
   status_.decision = planner_.step(view);
+  guard(status_.decision.manoeuvre);
   driver_.begin(status_.decision.manoeuvre, status_.pose);
   if (!beams_fresh_ && status_.decision.outcome == nav::Outcome::running) {
     status_.decision.why = nav::Why::blind;
   }
   watch_look(settled);
+}
+
+void Robot::map(bool settled, nav::View& view) noexcept {
+  const RangefinderParams& beams = params_.rangefinders;
+  const Angle axes[hal::kBeams] = {beams.side_angle, Angle{}, -beams.side_angle};
+  history_.add(status_.pose, last_tick_);
+  patch_.move_to(status_.pose);
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const ranges::Sight sight = conditioner_.sight(i, params_);
+    view.sight.beam[i] = sight.typical;
+    if (!sight.fresh) continue;
+    view.sighted = true;
+    Pose from;
+    if (!history_.at(sight.taken, from)) continue;
+    const bool aimed = settled && sight.oldest - settled_since_ >= Duration{};
+    patch_.mark({from, axes[i], sight.near.distance, sight.near.validity != ranges::Validity::clear, aimed});
+  }
+  const motion::WheelPair rolling = driver_.wheels().rolling;
+  view.patch = &patch_;
+  view.forward = (rolling.left + rolling.right) / 2;
+  view.turning = (rolling.right - rolling.left) / 2;
+  view.granted = granted_;
+}
+
+void Robot::guard(nav::Manoeuvre& manoeuvre) noexcept {
+  if (manoeuvre.kind != nav::Kind::cruise) return;
+  const motion::Grant grant =
+      motion::shield(manoeuvre.forward, manoeuvre.turning, status_.pose, driver_.wheels(), patch_, params_);
+  manoeuvre.forward = grant.forward;
+  manoeuvre.turning = grant.turning;
+  granted_ = grant.factor;
 }
 
 void Robot::watch_look(bool settled) noexcept {

@@ -7,6 +7,7 @@
 #include "firmware/core/units.hpp"
 #include "firmware/health.hpp"
 #include "firmware/motion/driver.hpp"
+#include "firmware/motion/history.hpp"
 #include "firmware/motion/odometry.hpp"
 #include "firmware/nav/planner.hpp"
 #include "firmware/params.hpp"
@@ -58,6 +59,8 @@ class Robot {
   void sense(Time now) noexcept;
   bool measure(motion::CountStep& step) noexcept;
   void navigate() noexcept;
+  void map(bool settled, nav::View& view) noexcept;
+  void guard(nav::Manoeuvre& manoeuvre) noexcept;
   void watch_look(bool settled) noexcept;
   void drive(const motion::CountStep* counts) noexcept;
   void watch_driver() noexcept;
@@ -74,6 +77,9 @@ class Robot {
   ranges::Conditioner conditioner_;
   motion::Odometry odometry_;
   motion::Driver driver_;
+  motion::History history_;
+  ground::Patch patch_;
+  Q14 granted_;
   Status status_;
 
   Time last_tick_;

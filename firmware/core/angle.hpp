@@ -61,6 +61,13 @@ constexpr Length arc(Angle a, Length radius) noexcept {
   return Length::from_raw(saturate32(scale_down<32>(a.wrapped() * circumference)));
 }
 
+/// The angle over which an arc of this length bends at this radius, modulo a turn. radius > 0.
+constexpr Angle angle_of(Length arc, Length radius) noexcept {
+  constexpr int64_t kRadianQ0 = 683565276;  // 2^32 / 2 pi
+  const int64_t raw = divide_rounded(arc.raw() * kRadianQ0, radius.raw());
+  return Angle::from_raw(static_cast<uint32_t>(static_cast<uint64_t>(raw)));
+}
+
 namespace literals {
 constexpr Angle operator""_deg(unsigned long long x) noexcept {
   return Angle::turns(static_cast<int32_t>(x), 360);

@@ -17,6 +17,13 @@ Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noex
   return rest < Length{} ? -v : v;
 }
 
+/// One tick of a first-order lag, by the trapezoid rule.
+Speed follow(Speed rolling, Speed commanded, const Params& params) noexcept {
+  const int32_t tick = params.safety.period.raw();
+  return rolling + Speed::from_raw(multiply_divide((commanded - rolling).raw(), 2 * tick,
+                                                   2 * params.wheels.motor_lag.raw() + tick));
+}
+
 void count_up(int32_t& ticks) noexcept {
   if (ticks < INT32_MAX) ++ticks;
 }
@@ -33,7 +40,9 @@ void count_while(bool condition, int32_t& ticks) noexcept {
 
 void Driver::begin(const nav::Manoeuvre& manoeuvre, const Pose& pose) noexcept {
   if (manoeuvre.kind == nav::Kind::keep) return;
+  const bool cruises_on = manoeuvre.kind == nav::Kind::cruise && current_.kind == nav::Kind::cruise;
   current_ = manoeuvre;
+  if (cruises_on) return;
   origin_ = pose.at;
   finished_ = manoeuvre.kind == nav::Kind::stop;
   still_ticks_ = 0;
@@ -49,6 +58,9 @@ void Driver::approach(Length rest) noexcept {
 
 WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
   if (finished_) return {};
+  if (current_.kind == nav::Kind::cruise) {
+    return mix(current_.forward, current_.turning, params.wheels.max_speed);
+  }
   const Length half_track = params.body.track / 2;
   const Angle error = current_.heading - pose.heading;
   const Speed turn_limit = min(params.wheels.max_speed, params.wheels.max_turn_rate * half_track);
@@ -77,6 +89,7 @@ WheelPair Driver::step(const Pose& pose, const CountStep* counts, bool paused,
                        const Params& params) noexcept {
   const WheelPair want = paused ? WheelPair{} : target(pose, params);
   speeds_ = slew(speeds_, want, params.wheels.max_acceleration * params.safety.period);
+  rolling_ = {follow(rolling_.left, speeds_.left, params), follow(rolling_.right, speeds_.right, params)};
 
   if (counts == nullptr) {
     still_ticks_ = 0;

@@ -7,6 +7,7 @@
 #include "firmware/core/units.hpp"
 #include "firmware/motion/mixer.hpp"
 #include "firmware/motion/odometry.hpp"
+#include "firmware/motion/shield.hpp"
 #include "firmware/nav/manoeuvre.hpp"
 #include "firmware/params.hpp"
 
@@ -28,6 +29,7 @@ class Driver {
   bool settled() const noexcept { return finished_ && still_ticks_ >= kStillTicks; }
   /// The wheels stand, whatever was commanded last: the drive refused. The manoeuvre goes on from there.
   void halt() noexcept { speeds_ = {}; }
+  WheelState wheels() const noexcept { return {speeds_, rolling_}; }
   /// Ticks in a row for which the wheels were commanded to move and no count came.
   int32_t stalled_ticks() const noexcept { return stalled_ticks_; }
   /// Ticks, pauses left out, since the manoeuvre last came nearer to its end; after its end, ticks for which
@@ -42,6 +44,7 @@ class Driver {
   nav::Manoeuvre current_{nav::Kind::stop, {}, {}};
   Vec origin_;
   WheelPair speeds_;
+  WheelPair rolling_;  // the speeds behind the motors' lag
   bool finished_ = true;
   int32_t still_ticks_ = 0;
   int32_t stalled_ticks_ = 0;

@@ -5,6 +5,7 @@
 
 #include "firmware/core/trig.hpp"
 #include "firmware/fuzzy/engine.hpp"
+#include "firmware/ground/patch.hpp"
 #include "firmware/nav/manoeuvre.hpp"
 #include "firmware/nav/state.hpp"
 #include "firmware/ranges/echo.hpp"
@@ -18,9 +19,15 @@ struct Goal {
 
 /// What a planner sees at a tick.
 struct View {
-  Pose pose;            ///< the body's own estimate
-  bool settled = true;  ///< the last manoeuvre is over and the body stands
-  ranges::Echoes look;  ///< consensus of the readings taken since the body stood; pending until then
+  Pose pose{};             ///< the body's own estimate
+  bool settled = true;     ///< the last manoeuvre is over and the body stands
+  ranges::Echoes look{};   ///< consensus of the readings taken since the body stood; pending until then
+  ranges::Echoes sight{};  ///< the same while it moves: the median of the last few readings of each beam
+  bool sighted = false;    ///< a reading came at this tick
+  const ground::Patch* patch = nullptr;  ///< what is proved free nearby
+  Speed forward{};                       ///< of the body, by its wheels
+  Speed turning{};                       ///< of the rims, counter-clockwise positive
+  Q14 granted{};  ///< part of the last cruise's forward speed that the shield let through
 };
 
 enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };

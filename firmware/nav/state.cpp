@@ -12,6 +12,9 @@ const char* name(Mode mode) noexcept {
     case Mode::stepping: return "stepping";
     case Mode::searching: return "searching";
     case Mode::skirting: return "skirting";
+    case Mode::surveying: return "surveying";
+    case Mode::going: return "going";
+    case Mode::unreachable: return "unreachable";
     case Mode::arrived: return "arrived";
     case Mode::gave_up: return "gave_up";
     case Mode::stopped: return "stopped";
@@ -31,9 +34,16 @@ const char* name(Why why) noexcept {
     case Why::exit_right: return "exit_right";
     case Why::same_side: return "same_side";
     case Why::blind: return "blind";
+    case Why::unknown_ahead: return "unknown_ahead";
+    case Why::edge: return "edge";
+    case Why::opening: return "opening";
+    case Why::way_back: return "way_back";
+    case Why::wall_lost: return "wall_lost";
+    case Why::came_round: return "came_round";
     case Why::at_goal: return "at_goal";
     case Why::no_exit: return "no_exit";
     case Why::step_budget: return "step_budget";
+    case Why::length_budget: return "length_budget";
     case Why::cancelled: return "cancelled";
     case Why::fault: return "fault";
   }

@@ -7,19 +7,22 @@ namespace whisker::nav {
 
 /// What the robot is doing at this tick.
 enum class Mode : uint8_t {
-  idle,       ///< no goal
-  facing,     ///< turning to the target direction
-  looking,    ///< standing still until every beam has a trustworthy reading
-  steering,   ///< turning to the heading that the response table asked for
-  probing,    ///< deflecting by delta to find a heading on which the step is safe
-  stepping,   ///< driving a step in free space
-  searching,  ///< danger area: looking for an exit on both sides
-  skirting,   ///< danger area: driving a small step along the obstacle's edge
-  arrived,    ///< at the goal, standing
-  gave_up,    ///< a stated budget is used up, standing
-  stopped,    ///< safe stop after a fault, standing
+  idle,         ///< no goal
+  facing,       ///< turning to the target direction
+  looking,      ///< standing still until every beam has a trustworthy reading
+  steering,     ///< turning to the heading that the response table asked for
+  probing,      ///< deflecting by delta to find a heading on which the step is safe
+  stepping,     ///< driving a step in free space
+  searching,    ///< danger area: looking for an exit on both sides
+  skirting,     ///< danger area: driving a small step along the obstacle's edge
+  surveying,    ///< turning to both sides before the first movement
+  going,        ///< driving towards the goal by the response table
+  arrived,      ///< at the goal, standing
+  unreachable,  ///< came round what is in the way, standing
+  gave_up,      ///< a stated budget is used up, standing
+  stopped,      ///< safe stop after a fault, standing
 };
-constexpr int kModes = 11;
+constexpr int kModes = 14;
 
 /// Why it does that.
 enum class Why : uint8_t {
@@ -33,13 +36,20 @@ enum class Why : uint8_t {
   exit_right,      ///< the exit on the right needs the smaller turn
   same_side,       ///< the target stays blocked: deflecting to the side chosen before
   blind,           ///< readings are lost: waiting
+  unknown_ahead,   ///< something in the way was never seen: turning a beam onto it
+  edge,            ///< along the obstacle's edge
+  opening,         ///< the edge may have an opening: looking
+  way_back,        ///< no other way is free: back where it came from
+  wall_lost,       ///< twice round something else than what it met: towards the goal again
+  came_round,      ///< back where the obstacle was met, all the way around it
   at_goal,
-  no_exit,      ///< no free heading all around
-  step_budget,  ///< the number of steps is used up
+  no_exit,        ///< no free heading all around
+  step_budget,    ///< the number of steps is used up
+  length_budget,  ///< the length is used up
   cancelled,
   fault,  ///< see Health for its name
 };
-constexpr int kWhys = 15;
+constexpr int kWhys = 22;
 
 const char* name(Mode mode) noexcept;
 const char* name(Why why) noexcept;

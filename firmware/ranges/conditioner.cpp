@@ -71,11 +71,13 @@ void BeamConditioner::age(Time now, const Params& params, Health& health) noexce
 }
 
 void BeamConditioner::miss(Time now, const Params& params, Health& health) noexcept {
+  fresh_ = false;
   age(now, params, health);
 }
 
 void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle heading, const Params& params,
                              Health& health) noexcept {
+  fresh_ = false;
   const bool seen = reading.sequence == sequence_;
   const bool nothing = reading.status == hal::RangeStatus::stale;
   if (seen || nothing) {
@@ -88,10 +90,31 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle h
   latest_ = {distance_of(validity, reading.mm, params.rangefinders.max_range), validity};
   if (!usable(validity)) return;
 
+  fresh_ = true;
   last_usable_ = now;
   newest_ = static_cast<int8_t>((newest_ + 1) % kHistory);
   history_[newest_] = {latest_.distance, now - milliseconds(reading.age_ms)};
   if (count_ < kHistory) ++count_;
+}
+
+Sight BeamConditioner::sight(const Params& params) const noexcept {
+  constexpr int kNear = 4;
+  constexpr int kTypical = 3;
+  Sight s;
+  if (count_ < kNear) return s;
+  Length last[kNear];
+  for (int i = 0; i < kNear; ++i) last[i] = history_[(newest_ - i + kHistory) % kHistory].distance;
+  const Length low = min(last[0], last[1]);
+  const Length high = max(last[0], last[1]);
+  const Length median = max(low, min(high, last[kTypical - 1]));
+  const Length nearest = min(min(low, last[2]), last[3]);
+  const Length far = params.rangefinders.max_range;
+  s.fresh = fresh_;
+  s.taken = history_[newest_].taken;
+  s.oldest = history_[(newest_ - kNear + 1 + kHistory) % kHistory].taken;
+  s.near = {nearest, validity_of(nearest, far)};
+  s.typical = {median, validity_of(median, far)};
+  return s;
 }
 
 Echo BeamConditioner::look(Time since, const Params& params) const noexcept {

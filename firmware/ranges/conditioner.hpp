@@ -12,6 +12,15 @@
 
 namespace whisker::ranges {
 
+/// What a moving beam tells.
+struct Sight {
+  bool fresh = false;  ///< a usable measurement came at this tick
+  Time taken;          ///< when the newest one was
+  Time oldest;         ///< when the oldest of those behind `near` was
+  Echo near;           ///< the nearest of the last four: no single reading can make it far
+  Echo typical;        ///< the median of the last three
+};
+
 /// One beam. Keeps the last usable measurements; a lost one is counted and never stored, so that it
 /// can neither stand for "far" nor vote.
 class BeamConditioner {
@@ -27,6 +36,8 @@ class BeamConditioner {
 
   /// The consensus of the measurements taken at or after `since`.
   Echo look(Time since, const Params& params) const noexcept;
+  /// Pending until there are enough measurements.
+  Sight sight(const Params& params) const noexcept;
   /// The latest measurement by itself, fit for watching, not for planning.
   Echo latest() const noexcept { return latest_; }
   /// How long ago the last usable measurement arrived.
@@ -48,6 +59,7 @@ class BeamConditioner {
   int8_t count_ = 0;
   int8_t newest_ = 0;
   Echo latest_;
+  bool fresh_ = false;
   Time last_new_;
   Time last_usable_;
   uint16_t repeated_mm_ = 0;
@@ -63,6 +75,7 @@ class Conditioner {
   void update(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
               Health& health) noexcept;
   Echoes look(Time since, const Params& params) const noexcept;
+  Sight sight(int beam, const Params& params) const noexcept { return beam_[beam].sight(params); }
   Echoes latest() const noexcept;
   /// The longest time for which some beam has had no usable measurement.
   Duration lost_for(Time now) const noexcept;

@@ -15,6 +15,7 @@ enum Exit : int {
   kGaveUp = 4,
   kContact = 5,
   kFault = 6,
+  kInterrupted = 130,  ///< as a shell reports SIGINT
 };
 
 /// The user's words cannot be followed; what() is the one line that says why.

@@ -28,6 +28,7 @@ void draw_run(const Scenario& scenario, const std::string& svg_file) {
   std::vector<TickRecord> records;
   RunOptions options;
   options.records = &records;
+  options.planner = PlannerKind::thesis;
   const RunResult result = run(scenario, options);
   report::write_file(svg_file, report::run_svg(scenario, records, result));
   fmt::print("{}\n", svg_file);

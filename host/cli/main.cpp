@@ -51,6 +51,10 @@ constexpr const char* kExitStatus = R"(
 Exit status of run: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
 6 fault (safe stop), 2 bad input or usage, 1 anything else.)";
 
+constexpr const char* kCampaignExitStatus = R"(
+Exit status of campaign: 0 whatever the missions came to, 130 interrupted,
+2 bad input or usage, 1 anything else.)";
+
 constexpr const char* kFirstSteps = R"(
 
 First steps:
@@ -69,10 +73,12 @@ int main(int argc, char** argv) {
   int status = kFailure;
   add_run(app, status);
   add_world(app, status);
+  add_campaign(app, status);
   add_table(app, status);
   add_figures(app, status);
-  app.footer(std::string(kExitStatus) + kFirstSteps);
+  app.footer(std::string(kExitStatus) + kCampaignExitStatus + kFirstSteps);
   app.get_subcommand("run")->footer(kExitStatus);
+  app.get_subcommand("campaign")->footer(kCampaignExitStatus);
   try {
     status = parse(app, argc, argv, status);
     finish_standard_output();

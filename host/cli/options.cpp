@@ -27,6 +27,22 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path,
   return app.add_option(name, path, help)->check(not_empty)->type_name("FILE");
 }
 
+CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
+  std::string names;
+  for (const PlannerKind k : kPlanners) names += fmt::format("{}{}", names.empty() ? "" : ", ", name(k));
+  return app
+      .add_option_function<std::string>(
+          "--planner",
+          [&kind](const std::string& text) {
+            const auto named = planner_named(text);
+            if (!named) throw CLI::ValidationError("--planner", fmt::format("no planner '{}'", text));
+            kind = *named;
+          },
+          fmt::format("Planner: {}", names))
+      ->default_str(name(kind))
+      ->type_name("NAME");
+}
+
 CLI::Option* add_switch(CLI::App& app, const std::string& name, bool& on, const std::string& help) {
   return app.add_flag(name, on, help)->disable_flag_override();
 }

@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "host/run/planners.hpp"
+
 namespace whisker::cli {
 
 /// Decimal digits only, at most `most`: no sign, no exponent, no 0x. For Option::transform.
@@ -13,6 +15,9 @@ CLI::Validator whole_number(std::uint64_t most = INT64_MAX);
 
 /// A path; an empty one, such as an unset shell variable gives, is refused.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help);
+
+/// --planner, by name; its default is what `kind` holds.
+CLI::Option* add_planner(CLI::App& app, PlannerKind& kind);
 
 /// A flag that takes no value.
 CLI::Option* add_switch(CLI::App& app, const std::string& name, bool& on, const std::string& help);

@@ -34,6 +34,9 @@ Doing doing_of_step(nav::Why why) noexcept {
     case nav::Why::target_blocked:
     case nav::Why::exit_left:
     case nav::Why::exit_right:
+    case nav::Why::edge:
+    case nav::Why::opening:
+    case nav::Why::way_back:
     case nav::Why::same_side: return Doing::danger;
     case nav::Why::none:
     case nav::Why::goal_set:
@@ -42,6 +45,10 @@ Doing doing_of_step(nav::Why why) noexcept {
     case nav::Why::at_goal:
     case nav::Why::no_exit:
     case nav::Why::step_budget:
+    case nav::Why::unknown_ahead:
+    case nav::Why::came_round:
+    case nav::Why::wall_lost:
+    case nav::Why::length_budget:
     case nav::Why::cancelled:
     case nav::Why::fault: return Doing::free;
   }
@@ -100,10 +107,13 @@ Doing doing(const TickRecord& record) noexcept {
     case nav::Mode::probing: return Doing::probing;
     case nav::Mode::searching:
     case nav::Mode::skirting: return Doing::danger;
+    case nav::Mode::going:
     case nav::Mode::stepping: return doing_of_step(record.why);
     case nav::Mode::idle:
     case nav::Mode::facing:
     case nav::Mode::looking:
+    case nav::Mode::surveying:
+    case nav::Mode::unreachable:
     case nav::Mode::arrived:
     case nav::Mode::gave_up:
     case nav::Mode::stopped: return Doing::free;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "firmware/nav/thesis.hpp"
 #include "firmware/robot.hpp"
 #include "hal/sim/sim_board.hpp"
 #include "host/run/hash.hpp"
@@ -70,8 +69,8 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   sim::Plant plant(world.view(), sim::robot_spec(params), noise_spec(scenario.noise),
                    options.seed.value_or(scenario.seed), scenario.start);
   hal::SimBoard board(plant);
-  nav::ThesisPlanner planner(params, fuzzy::kDefaultTable);
-  Robot robot(board, board, planner, params);
+  const std::shared_ptr<nav::Planner> planner = make_planner(options.planner, params);
+  Robot robot(board, board, *planner, params);
   robot.place(fixed_pose(scenario.start));
   const Pose goal = fixed_pose({scenario.goal.at, 0});
   robot.set_goal({goal.at, fixed_pose({{scenario.goal.tolerance_m, 0}, 0}).at.x});
@@ -81,6 +80,12 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   RunResult result;
   CommandHash hash;
   std::optional<Verdict> verdict;
+  const auto record = [&](const Status& status, const hal::RangeReadings& ranges, double t_s) {
+    if (options.records == nullptr && !options.observe) return;
+    const TickRecord r = record_of(plant, status, ranges, t_s);
+    if (options.records != nullptr) options.records->push_back(r);
+    if (options.observe) options.observe(r);
+  };
   for (std::uint64_t tick = 0; !verdict; ++tick) {
     const double t_s = static_cast<double>(tick * period_ms) / 1000.0;
     const hal::RangeReadings ranges = plant.ranges();
@@ -88,7 +93,7 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
     hash.add(status.command);
     ++result.ticks;
     result.time_s = t_s;
-    if (options.records != nullptr) options.records->push_back(record_of(plant, status, ranges, t_s));
+    record(status, ranges, t_s);
     verdict = verdict_of(status);
     if (verdict) {
       result.detail = detail_of(*verdict, status);
@@ -105,9 +110,7 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
       verdict = Verdict::contact;
       result.time_s = plant.contact_time();
       result.detail = nav::name(status.decision.mode);
-      if (options.records != nullptr) {
-        options.records->push_back(record_of(plant, status, plant.ranges(), next_s));
-      }
+      record(status, plant.ranges(), next_s);
     }
     if (options.progress && tick % ticks_a_second == 0) options.progress(t_s, distance_left(plant, scenario));
   }

@@ -6,14 +6,17 @@
 #include <optional>
 #include <vector>
 
+#include "host/run/planners.hpp"
 #include "host/run/record.hpp"
 #include "host/scenario/scenario.hpp"
 
 namespace whisker {
 
 struct RunOptions {
-  std::optional<std::uint64_t> seed;           ///< of the noise, instead of the scenario's
-  std::vector<TickRecord>* records = nullptr;  ///< gets one record a tick, and one more at a contact
+  PlannerKind planner = PlannerKind::skirt;
+  std::optional<std::uint64_t> seed;               ///< of the noise, instead of the scenario's
+  std::vector<TickRecord>* records = nullptr;      ///< gets one record a tick, and one more at a contact
+  std::function<void(const TickRecord&)> observe;  ///< called with each of these records as it arises
   /// Called about once a simulated second with the simulated time and the distance left.
   std::function<void(double time_s, double distance_m)> progress;
 };

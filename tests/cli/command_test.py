@@ -104,7 +104,7 @@ class OnATerminal(Case):
         shut = text.replace("x_m = 50.0", "x_m = 3.0") + "\n[bounds]\nmin = [-1.0, -1.0]\nmax = [5.0, 1.0]\n"
         shut += "\n[[disc]]\ncenter = [3.0, 0.0]\nradius_m = 0.8\n"
         scene = self.file("shut.toml", shut)
-        return subprocess.Popen([whisker.binary, "run", scene, "--json"], stdout=subprocess.PIPE, stderr=stderr)
+        return subprocess.Popen([whisker.binary, "run", scene, "--planner", "thesis", "--json"], stdout=subprocess.PIPE, stderr=stderr)
 
     def first_words(self, fd, process, seconds):
         """What arrives until a whole progress line is there, the process ends or the time is over."""

@@ -14,6 +14,10 @@ WIDEST = 100
 OPTIONS = {
     (): ("--help", "--version"),
     ("run",): ("SCENARIO", "--planner", "--robot", "--seed", "--trace", "--svg", "--json"),
+    ("campaign",): (
+        "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--robot", "--jobs", "--shard", "--csv", "--json",
+        "--merge", "--replay", "--svg", "--trace",
+    ),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--out", *KINDS),
     ("table",): ("--csv", "--svg"),
     ("figures",): ("FOLDER", "--scenarios"),

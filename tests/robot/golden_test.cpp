@@ -34,6 +34,7 @@ struct Case {
 std::string decisions(const Scenario& scenario) {
   std::vector<TickRecord> records;
   RunOptions options;
+  options.planner = PlannerKind::thesis;
   options.records = &records;
   const RunResult result = run(scenario, options);
   std::string text =

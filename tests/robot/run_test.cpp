@@ -23,9 +23,10 @@ struct Drive {
   std::string complaint;
 };
 
-Drive drive(const Scenario& scenario) {
+Drive drive(const Scenario& scenario, PlannerKind planner = PlannerKind::skirt) {
   Drive d;
   RunOptions options;
+  options.planner = planner;
   options.records = &d.records;
   d.result = run(scenario, options);
   d.complaint = test::judge(scenario, d.records, d.result).complaint;
@@ -68,7 +69,7 @@ TEST(Run, AWallWithoutEndMakesTheThesisPlannerGiveUp) {
   Scenario s = small_world("[[wall]]\npoints = [[1.0, -9.0], [1.0, 9.0]]\n");
   s.robot.thesis.max_steps = 60;
   s.time_limit_s = 600;
-  const Drive d = drive(s);
+  const Drive d = drive(s, PlannerKind::thesis);
   EXPECT_EQ(d.result.verdict, Verdict::gave_up);
   EXPECT_EQ(d.result.detail, "step_budget");
   EXPECT_EQ(d.complaint, "");
@@ -78,14 +79,15 @@ TEST(Run, AClosedRoomGivesNoExitOrABudget) {
   Scenario s = small_world("[[polygon]]\npoints = [[1.7, -0.3], [2.3, -0.3], [2.3, 0.3], [1.7, 0.3]]\n");
   s.robot.thesis.max_steps = 60;
   s.time_limit_s = 600;
-  const Drive d = drive(s);
+  const Drive d = drive(s, PlannerKind::thesis);
   EXPECT_EQ(d.result.verdict, Verdict::gave_up);
   EXPECT_EQ(d.complaint, "");
 }
 
 TEST(Run, AFlankThatNoBeamSeesIsTouchedAndReported) {
   // A pole beside the way, behind the cones when the step begins.
-  const Drive d = drive(small_world("[[disc]]\ncenter = [0.06, 0.105]\nradius_m = 0.02\n"));
+  const Drive d =
+      drive(small_world("[[disc]]\ncenter = [0.06, 0.105]\nradius_m = 0.02\n"), PlannerKind::thesis);
   EXPECT_EQ(d.result.verdict, Verdict::contact);
   EXPECT_EQ(d.complaint, "");
   EXPECT_LE(d.result.min_clearance_m, 1e-9);

@@ -1,0 +1,199 @@
+#include "firmware/ground/patch.hpp"
+
+namespace whisker::ground {
+namespace {
+
+// A cell is covered by the disc of 0.7072 cell around its centre; the rest is for rounding.
+constexpr int32_t kCover = 184;
+constexpr Length kReadingRounding = 1_mm;
+constexpr Angle kSuspectHalf = 6_deg;
+constexpr Length kTestedTravel = 4_mm;
+// To pass a cell d abeam brings the body nearer to it by x^2 / 2d after it lay x ahead: 0.2 mm at 100 mm.
+constexpr int32_t kAbeam = 80;
+// Below this, rounding decides what comes nearer.
+constexpr Length kNoStep = Length::from_raw(100);
+constexpr Length kFarthest = 2_m;
+
+constexpr int64_t floor_divide(int64_t n, int64_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
+
+}  // namespace
+
+int32_t Patch::units(Length l) const noexcept {
+  return saturate32(floor_divide(int64_t{l.raw()} * kUnitsPerCell, cell_um_));
+}
+
+Length Patch::length_of(int32_t units) const noexcept {
+  return Length::from_raw(multiply_divide(units, cell_um_, kUnitsPerCell));
+}
+
+void Patch::configure(const Params& params) noexcept {
+  cell_um_ = params.skirt.cell.raw();
+  offset_ = params.rangefinders.offset;
+  half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
+  footprint_ = units(params.body.radius) - kCover;
+}
+
+Patch::Point Patch::local(Vec at) const noexcept {
+  const auto from_corner = [this](Length x, int32_t corner) {
+    const int64_t um = int64_t{x.raw()} - int64_t{corner} * cell_um_;
+    return saturate32(floor_divide(um * kUnitsPerCell, cell_um_));
+  };
+  return {from_corner(at.x, column_), from_corner(at.y, row_)};
+}
+
+Row Patch::to_torus(Row window) const noexcept {
+  const uint32_t shift = static_cast<uint32_t>(column_) & (kCells - 1);
+  return shift == 0 ? window : (window << shift) | (window >> (kCells - shift));
+}
+
+Row Patch::to_window(Row torus) const noexcept {
+  const uint32_t shift = static_cast<uint32_t>(column_) & (kCells - 1);
+  return shift == 0 ? torus : (torus >> shift) | (torus << (kCells - shift));
+}
+
+void Patch::drop_rows(int first, int count) noexcept {
+  for (int row = first; row < first + count; ++row) {
+    const int s = slot(row);
+    young_[s] = old_[s] = suspect_[s] = tested_[s] = 0;
+  }
+}
+
+void Patch::drop_columns(Row window) noexcept {
+  const Row keep = ~to_torus(window);
+  for (int s = 0; s < kCells; ++s) {
+    young_[s] &= keep;
+    old_[s] &= keep;
+    suspect_[s] &= keep;
+    tested_[s] &= keep;
+  }
+}
+
+void Patch::reset(const Pose& pose) noexcept {
+  drop_rows(0, kCells);
+  last_ = pose;
+  travel_um_ = 0;
+  turned_ = 0;
+  move_to(pose);
+}
+
+void Patch::move_to(const Pose& pose) noexcept {
+  // The body stands in the middle of the window, to the nearest cell.
+  const auto corner = [this](Length x) {
+    return static_cast<int32_t>(floor_divide(int64_t{x.raw()} + cell_um_ / 2, cell_um_)) - kCells / 2;
+  };
+  const int32_t right = corner(pose.at.x) - column_;
+  const int32_t up = corner(pose.at.y) - row_;
+  if (right >= kCells || right <= -kCells || up >= kCells || up <= -kCells) {
+    column_ += right;
+    row_ += up;
+    drop_rows(0, kCells);
+  } else {
+    column_ += right;
+    row_ += up;
+    if (up > 0) drop_rows(kCells - up, up);
+    if (up < 0) drop_rows(0, -up);
+    if (right > 0) drop_columns(columns(kCells - right, kCells - 1));
+    if (right < 0) drop_columns(columns(0, -right - 1));
+  }
+  if (norm(pose.at - tested_at_) > kTestedTravel) {
+    for (Row& row : tested_) row = 0;
+    tested_at_ = pose.at;
+  }
+  age(pose);
+  clear_footprint(pose.at);
+}
+
+void Patch::age(const Pose& pose) noexcept { last_ = pose; }
+
+void Patch::clear_footprint(Vec at) noexcept {
+  const Point centre = local(at);
+  for (Rows rows(centre.y, footprint_); rows.more(); rows.next()) {
+    Span span;
+    span.within_disc(centre.x, rows.offset(centre.y), footprint_);
+    const Row mask = to_torus(span.columns());
+    const int s = slot(rows.row());
+    young_[s] |= mask;
+    suspect_[s] &= ~mask;
+  }
+}
+
+void Patch::mark(const Proof& proof) noexcept {
+  const Angle axis = proof.from.heading + proof.axis;
+  const Point apex = local(proof.from.at + polar(axis, offset_));
+  const Length distance = min(proof.free, kFarthest);
+  const int32_t free = units(distance - kReadingRounding) - kCover;
+  const int32_t echo = units(distance) + kUnitsPerCell;
+  const Wedge cone(axis, half_cone_);
+  const Wedge core(axis, half_cone_.raw() < kSuspectHalf.raw() ? half_cone_ : kSuspectHalf);
+  for (int row = 0; row < kCells; ++row) {
+    const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
+    Span inside;
+    cone.clip(inside, apex.x, dy, kCover);
+    if (inside.empty()) continue;
+    const int s = slot(row);
+    Span empty = inside;
+    empty.within_disc(apex.x, dy, free);
+    const Row clear = to_torus(empty.columns());
+    young_[s] |= clear;
+    suspect_[s] &= ~clear;
+    tested_[s] &= ~clear;
+    const Row unproved = ~(young_[s] | old_[s]);
+    if (proof.aimed) tested_[s] |= to_torus(inside.columns()) & unproved;
+    if (proof.hit) {
+      Span near = inside;
+      core.clip(near, apex.x, dy, 0);
+      near.within_disc(apex.x, dy, echo);
+      suspect_[s] |= to_torus(near.columns()) & unproved;
+    }
+  }
+}
+
+Obstacles Patch::along(Vec from, Angle heading, Length length, Length radius) const noexcept {
+  Obstacles found;
+  const Point start = local(from);
+  const Stadium stadium(start.x, start.y, heading, units(length), units(radius), kAbeam);
+  int32_t nearest = INT32_MAX;
+  for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
+    const Row inside = stadium.columns(rows.row());
+    const int s = slot(rows.row());
+    Row blocked = inside & to_window(~(young_[s] | old_[s]));
+    if (blocked == 0) continue;
+    const Row solid = blocked & to_window(suspect_[s] | tested_[s]);
+    found.suspect += bits(solid);
+    for (Row open = blocked & ~solid; open != 0; open &= open - 1) {
+      ++found.unknown;
+      const int32_t dx = lowest(open) * kUnitsPerCell + kHalfCell - start.x;
+      const int32_t dy = rows.row() * kUnitsPerCell + kHalfCell - start.y;
+      const int32_t squared = dx * dx + dy * dy;
+      if (squared < nearest) {
+        nearest = squared;
+        found.nearest_unknown = {length_of(dx), length_of(dy)};
+      }
+    }
+  }
+  return found;
+}
+
+bool Patch::approaches(Vec from, Angle heading, Length step, Length radius) const noexcept {
+  if (step < kNoStep) return false;
+  const Point here = local(from);
+  const Point there = local(from + polar(heading, step));
+  const int32_t reach = units(radius);
+  const int32_t half = units(step / 2);
+  const HalfPlane ahead = HalfPlane::facing(heading);
+  for (Rows rows(there.y, reach); rows.more(); rows.next()) {
+    Span span;
+    span.within_disc(there.x, rows.offset(there.y), reach);
+    ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
+    if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return true;
+  }
+  return false;
+}
+
+bool Patch::is_clear(Vec at) const noexcept {
+  const Point p = local(at);
+  if (p.x < 0 || p.y < 0 || p.x >= kCells * kUnitsPerCell || p.y >= kCells * kUnitsPerCell) return false;
+  return (to_window(clear_row(p.y / kUnitsPerCell)) >> (p.x / kUnitsPerCell) & 1U) != 0;
+}
+
+}  // namespace whisker::ground

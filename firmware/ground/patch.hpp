@@ -1,0 +1,83 @@
+/// What the beams have proved about the ground near the body: a rolling grid of cells.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/core/trig.hpp"
+#include "firmware/ground/raster.hpp"
+#include "firmware/params.hpp"
+
+namespace whisker::ground {
+
+/// One beam's evidence: nothing lies within its cone nearer than `free` to the apex.
+struct Proof {
+  Pose from;           ///< the body's, at the time of the measurement
+  Angle axis;          ///< of the beam, from straight ahead
+  Length free;         ///< proved empty
+  bool hit = false;    ///< something lies at `free`
+  bool aimed = false;  ///< from a look: what this beam covers and does not clear, no look from here will
+};
+
+/// Cells that lie in the way.
+struct Obstacles {
+  int32_t unknown = 0;  ///< never cleared, and nothing more is known
+  int32_t suspect = 0;  ///< near an echo, or looked at from here in vain
+  Vec nearest_unknown;  ///< where the nearest unknown one is, from the body
+  bool none() const noexcept { return unknown == 0 && suspect == 0; }
+};
+
+/// The clearance patch: 32 x 32 world-aligned cells around the body, in three states and an age.
+///
+/// A cell is *clear* only if a disc around its centre that covers the whole cell lies inside an empty
+/// beam sector, so that with a sensor that reports the nearest thing in its cone clear ground is free ground.
+class Patch {
+ public:
+  void configure(const Params& params) noexcept;
+  /// Nothing is known but the ground under the body.
+  void reset(const Pose& pose) noexcept;
+  /// The body is here now: moves the window along, ages the cells, clears the footprint.
+  void move_to(const Pose& pose) noexcept;
+  void mark(const Proof& proof) noexcept;
+
+  /// What lies within `radius` of the way, ahead of its beginning: a body that stands near something may
+  /// move off along it or away from it.
+  Obstacles along(Vec from, Angle heading, Length length, Length radius) const noexcept;
+  /// True if a step of this length brings the body nearer to a cell that is not clear and then within
+  /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only.
+  bool approaches(Vec from, Angle heading, Length step, Length radius) const noexcept;
+  bool is_clear(Vec at) const noexcept;
+
+ private:
+  struct Point {
+    int32_t x = 0;
+    int32_t y = 0;
+  };
+  Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
+  int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
+  Row to_torus(Row window) const noexcept;
+  Row to_window(Row torus) const noexcept;
+  int32_t units(Length l) const noexcept;
+  Length length_of(int32_t units) const noexcept;
+  Point local(Vec at) const noexcept;
+  void drop_rows(int first, int count) noexcept;
+  void drop_columns(Row window) noexcept;
+  void age(const Pose& pose) noexcept;
+  void clear_footprint(Vec at) noexcept;
+
+  Row young_[kCells] = {};    // cleared since the last ageing
+  Row old_[kCells] = {};      // cleared before it
+  Row suspect_[kCells] = {};  // near an echo
+  Row tested_[kCells] = {};   // covered by a look from here and not cleared
+  int32_t column_ = 0;        // of the window's corner, in cells of the world
+  int32_t row_ = 0;
+  Pose last_;
+  Vec tested_at_;
+  int32_t travel_um_ = 0;
+  uint32_t turned_ = 0;  // 2^-32 turn, saturating
+  Length offset_;
+  Angle half_cone_;
+  int32_t cell_um_ = 20000;
+  int32_t footprint_ = 0;  // grid units
+};
+
+}  // namespace whisker::ground

@@ -1,0 +1,102 @@
+/// Shapes against the rows of a grid window: which columns of a row lie inside.
+///
+/// Coordinates are grid units from the window's corner (256 a cell); a cell lies inside if its centre does.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/core/angle.hpp"
+
+namespace whisker::ground {
+
+/// One bit a cell.
+using Row = uint32_t;
+
+constexpr int kCells = 32;  ///< a side of the window
+constexpr int32_t kUnitsPerCell = 256;
+constexpr int32_t kHalfCell = kUnitsPerCell / 2;
+
+constexpr int32_t floor_div(int32_t n, int32_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
+constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return -floor_div(-n, d); }
+
+/// The columns first..last of the window, both within 0..31.
+constexpr Row columns(int first, int last) noexcept {
+  return first > last ? 0U : (UINT32_MAX >> (kCells - 1 - (last - first))) << first;
+}
+
+int bits(Row row) noexcept;
+/// The column of the lowest bit. row != 0.
+int lowest(Row row) noexcept;
+/// The largest r with r * r <= x.
+int32_t root(uint32_t x) noexcept;
+
+/// An interval of x.
+struct Span {
+  int32_t low = -kUnitsPerCell;
+  int32_t high = (kCells + 1) * kUnitsPerCell;
+
+  bool empty() const noexcept { return low > high; }
+  void within_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
+  void cut_low(int32_t x) noexcept {
+    if (x > low) low = x;
+  }
+  void cut_high(int32_t x) noexcept {
+    if (x < high) high = x;
+  }
+  Row columns() const noexcept;
+};
+
+/// The window's rows whose centres lie within `reach` of y.
+class Rows {
+ public:
+  Rows(int32_t y, int32_t reach) noexcept : Rows(y, y, reach) {}
+  Rows(int32_t low, int32_t high, int32_t reach) noexcept;
+  bool more() const noexcept { return row_ <= last_; }
+  void next() noexcept { ++row_; }
+  int row() const noexcept { return row_; }
+  /// Of the row's centre from y.
+  int32_t offset(int32_t y) const noexcept { return row_ * kUnitsPerCell + kHalfCell - y; }
+
+ private:
+  int row_;
+  int last_;
+};
+
+/// A half plane nx x + ny y >= margin; the normal in 2^-14.
+struct HalfPlane {
+  /// Ahead of its boundary, seen in this direction.
+  static HalfPlane facing(Angle direction) noexcept;
+  int32_t nx;
+  int32_t ny;
+  /// dy from the boundary's origin, whose x is given.
+  void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
+};
+
+/// The points between two directions. half < 90 degrees.
+class Wedge {
+ public:
+  Wedge(Angle axis, Angle half) noexcept;
+  /// Leaves the part of the row that is at least `margin` inside both edges.
+  void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
+
+ private:
+  HalfPlane left_;
+  HalfPlane right_;
+};
+
+/// What a disc sweeps on a straight way, without what lies less than `abeam` ahead of its beginning.
+class Stadium {
+ public:
+  Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius, int32_t abeam) noexcept;
+  Rows rows() const noexcept;
+  Row columns(int row) const noexcept;
+
+ private:
+  void side(Span& span, int32_t dy, int32_t sign) const noexcept;
+  int32_t x_, y_;
+  int32_t end_x_, end_y_;  // from the beginning
+  int32_t length_, radius_, abeam_;
+  int32_t ux_, uy_;  // direction, 2^-14
+};
+
+}  // namespace whisker::ground

@@ -1,0 +1,60 @@
+#include "firmware/motion/shield.hpp"
+
+namespace whisker::motion {
+namespace {
+
+constexpr Length kSample = 20_mm;
+
+/// How far a wheel still rolls: through its lag, this tick at the new command, and braking.
+struct Brake {
+  Length left;
+  Length right;
+};
+
+Speed faster(WheelPair w) noexcept { return max(abs(w.left), abs(w.right)); }
+
+Brake brake(WheelPair command, const WheelState& wheels, const Params& params) noexcept {
+  const Duration tick = params.safety.period;
+  const int64_t a = params.wheels.max_acceleration.raw();
+  const int64_t fastest = faster(command).raw();
+  const auto rolls = [&](Speed commanded, Speed rolling) {
+    // Braked in proportion, each wheel covers half its speed times the time of the faster one.
+    const Length braking = Length::from_raw(saturate32(divide_rounded(commanded.raw() * fastest, 2 * a)));
+    return rolling * params.wheels.motor_lag + commanded * tick + braking;
+  };
+  return {rolls(command.left, wheels.rolling.left), rolls(command.right, wheels.rolling.right)};
+}
+
+bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const ground::Patch& patch,
+          const Params& params) noexcept {
+  const Brake way = brake(command, wheels, params);
+  const Length length = (way.left + way.right) / 2;
+  const Angle turn = angle_of(way.right - way.left, params.body.track);
+  const int32_t samples = 1 + abs(length).raw() / kSample.raw();
+  const Length reach = params.body.radius + params.skirt.shield_margin;
+  for (int32_t i = 1; i <= samples; ++i) {
+    const Angle chord =
+        Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
+    const Length far = Length::from_raw(multiply_divide(length.raw(), i, samples));
+    if (patch.approaches(pose.at, pose.heading + chord, far, reach)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Grant shield(Speed forward, Speed turning, const Pose& pose, const WheelState& wheels,
+             const ground::Patch& patch, const Params& params) noexcept {
+  constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2),
+                              Q14::ratio(3, 10), Q14::ratio(3, 25), Q14::ratio(0, 1)};
+  const Speed change = params.wheels.max_acceleration * params.safety.period;
+  for (const Q14 factor : kFactors) {
+    const WheelPair want = mix(forward * factor, turning, params.wheels.max_speed);
+    if (free(slew(wheels.commanded, want, change), pose, wheels, patch, params)) {
+      return {forward * factor, turning, factor};
+    }
+  }
+  return {Speed{}, Speed{}, Q14{}};
+}
+
+}  // namespace whisker::motion

@@ -1,0 +1,31 @@
+/// Lets through only what ends in a stop on clear ground.
+#pragma once
+
+#include "firmware/core/trig.hpp"
+#include "firmware/core/units.hpp"
+#include "firmware/ground/patch.hpp"
+#include "firmware/motion/mixer.hpp"
+#include "firmware/params.hpp"
+
+namespace whisker::motion {
+
+/// What the wheels do: as commanded last, and as they turn by now behind their motors' lag.
+struct WheelState {
+  WheelPair commanded;
+  WheelPair rolling;
+};
+
+struct Grant {
+  Speed forward;
+  Speed turning;
+  Q14 factor;  ///< of the forward speed that was asked for; zero where the shield only brakes
+};
+
+/// The forward speed that may be commanded this tick beside this rim speed of turning: the largest of a few
+/// fractions of it whose braking arc, after one tick of it, brings the body's disc of `params.shield` nowhere
+/// nearer to a cell that is not clear. If there is none, both wheels brake in proportion, along the arc that
+/// was found free a tick before.
+Grant shield(Speed forward, Speed turning, const Pose& pose, const WheelState& wheels,
+             const ground::Patch& patch, const Params& params) noexcept;
+
+}  // namespace whisker::motion

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "host/campaign/row.hpp"
+
+namespace whisker::campaign {
+
+/// The command that drives this mission again and draws it, for a shell to take as it is.
+std::string replay_command(const Row& row);
+
+/// A line for each mission that did not succeed, each with its replay_command; after `most` of them only
+/// their count. Each line ends in a newline; empty if all succeeded.
+std::string failure_lines(const std::vector<Row>& rows, std::size_t most = 20);
+
+}  // namespace whisker::campaign

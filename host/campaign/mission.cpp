@@ -1,0 +1,39 @@
+#include "host/campaign/mission.hpp"
+
+#include "host/campaign/motion_count.hpp"
+#include "host/paths/shortest.hpp"
+#include "host/run/runner.hpp"
+#include "host/scenario/world.hpp"
+
+namespace whisker::campaign {
+
+Row drive(const Scenario& scenario, const std::atomic<bool>& stop) {
+  MotionCount count(scenario.robot.body.track.raw() * 1e-6);
+  RunOptions options;
+  options.observe = [&](const TickRecord& record) {
+    if (stop) throw Stopped{};
+    count.add(record);
+  };
+  const RunResult result = run(scenario, options);
+
+  Row row;
+  row.seed = scenario.seed;
+  row.verdict = result.verdict;
+  row.time_s = rounded(result.time_s);
+  row.path_m = rounded(result.path_m);
+  row.turned_rad = rounded(count.turned_rad());
+  row.stops = count.stops();
+  row.flips = count.flips();
+  row.looks = count.looks();
+  row.min_clearance_m = rounded(result.min_clearance_m);
+  row.final_distance_m = rounded(result.final_distance_m);
+  const auto shortest_m =
+      paths::shortest_path(make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius);
+  if (shortest_m) row.shortest_m = rounded(*shortest_m);
+  row.ticks = result.ticks;
+  row.hash = result.hash;
+  row.detail = result.detail;
+  return row;
+}
+
+}  // namespace whisker::campaign

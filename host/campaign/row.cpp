@@ -1,0 +1,32 @@
+#include "host/campaign/row.hpp"
+
+#include <cmath>
+#include <string_view>
+
+#include "host/campaign/worlds.hpp"
+
+namespace whisker::campaign {
+
+double rounded(double x) { return std::floor(x * 1e6 + 0.5) / 1e6; }
+
+std::optional<double> ratio(const Row& row) {
+  if (!row.shortest_m || *row.shortest_m <= 0) return std::nullopt;
+  return row.path_m / *row.shortest_m;
+}
+
+std::optional<double> s_per_m(const Row& row) {
+  if (row.path_m <= 0) return std::nullopt;
+  return row.time_s / row.path_m;
+}
+
+bool has_no_way(const Row& row) {
+  if (is_scenario_file(row.world)) return false;
+  const std::string_view world = row.world;
+  return world.substr(0, world.find(' ')) == worlds::name(worlds::Kind::enclosed);
+}
+
+bool succeeded(const Row& row) {
+  return row.verdict == (has_no_way(row) ? Verdict::unreachable : Verdict::reached);
+}
+
+}  // namespace whisker::campaign

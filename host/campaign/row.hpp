@@ -1,0 +1,41 @@
+/// One mission of a campaign: what it was and what came of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host/run/record.hpp"
+
+namespace whisker::campaign {
+
+/// Numbers with a fraction are multiples of 1e-6, so that a row in a file equals the row in memory.
+struct Row {
+  std::uint64_t seed = 0;
+  Verdict verdict = Verdict::gave_up;
+  double time_s = 0;
+  double path_m = 0;  ///< driven
+  double turned_rad = 0;
+  std::uint64_t stops = 0, flips = 0, looks = 0;  ///< as MotionCount defines them
+  double min_clearance_m = 0;
+  double final_distance_m = 0;
+  std::optional<double> shortest_m;  ///< shortest way for a disc of kWayRadius; none: there is no way
+  std::uint64_t ticks = 0;
+  std::uint64_t hash = 0;
+  std::string detail;
+  std::string planner;
+  std::string robot;  ///< file of the robot's parameters; empty: the scenario's
+  std::string world;  ///< arguments of `whisker world` without the seed, or a scenario file (*.toml)
+};
+
+/// The multiple of 1e-6 nearest to x.
+double rounded(double x);
+
+std::optional<double> ratio(const Row& row);    ///< driven path to shortest way
+std::optional<double> s_per_m(const Row& row);  ///< none if nothing was driven
+
+/// The world is known to have no way to its goal: the right verdict is "unreachable".
+bool has_no_way(const Row& row);
+bool succeeded(const Row& row);
+
+}  // namespace whisker::campaign

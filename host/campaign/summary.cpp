@@ -1,0 +1,88 @@
+#include "host/campaign/summary.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "host/campaign/worlds.hpp"
+
+namespace whisker::campaign {
+namespace {
+
+constexpr const char* kScenarioFiles = "scenario files";
+
+void add_once(std::vector<std::string>& words, const std::string& word) {
+  if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
+}
+
+Estimate share_of(const std::vector<Row>& rows, const std::function<bool(const Row&)>& counts) {
+  const auto hits = std::count_if(rows.begin(), rows.end(), counts);
+  return share(static_cast<std::uint64_t>(hits), rows.size());
+}
+
+Estimate share_of(const std::vector<Row>& rows, Verdict verdict) {
+  return share_of(rows, [&](const Row& r) { return r.verdict == verdict; });
+}
+
+std::optional<Estimate> quantile_of(const std::vector<double>& sample, double p) {
+  if (sample.empty()) return std::nullopt;
+  return quantile(sample, p);
+}
+
+PerMetre per_metre(const std::vector<Row>& rows, const std::function<double(const Row&)>& amount_of) {
+  std::vector<double> amounts, metres, each;
+  for (const Row& row : rows) {
+    if (row.path_m <= 0) continue;
+    amounts.push_back(amount_of(row));
+    metres.push_back(row.path_m);
+    each.push_back(amounts.back() / row.path_m);
+  }
+  if (each.empty()) return {};
+  return {rate(amounts, metres), quantile(each, 0.5)};
+}
+
+void add_reached(Summary& s, const std::vector<Row>& rows) {
+  std::vector<double> ratios, paces, clearances;
+  for (const Row& row : rows) {
+    if (row.verdict != Verdict::reached) continue;
+    if (const auto r = ratio(row)) ratios.push_back(*r);
+    if (const auto p = s_per_m(row)) paces.push_back(*p);
+    clearances.push_back(row.min_clearance_m);
+  }
+  if (!ratios.empty()) s.ratio_mean = mean(ratios);
+  s.ratio_p50 = quantile_of(ratios, 0.5);
+  s.ratio_p95 = quantile_of(ratios, 0.95);
+  s.s_per_m_p50 = quantile_of(paces, 0.5);
+  s.s_per_m_p95 = quantile_of(paces, 0.95);
+  s.clearance_p5 = quantile_of(clearances, 0.05);
+}
+
+}  // namespace
+
+Summary summarize(const std::vector<Row>& rows) {
+  Summary s;
+  s.missions = rows.size();
+  s.least_seed = s.greatest_seed = rows.front().seed;
+  for (const Row& row : rows) {
+    s.no_way += has_no_way(row) ? 1U : 0U;
+    s.least_seed = std::min(s.least_seed, row.seed);
+    s.greatest_seed = std::max(s.greatest_seed, row.seed);
+    add_once(s.worlds, is_scenario_file(row.world) ? kScenarioFiles : row.world);
+    add_once(s.planners, row.planner);
+  }
+  s.success = share_of(rows, succeeded);
+  s.reached = share_of(rows, Verdict::reached);
+  s.unreachable = share_of(rows, Verdict::unreachable);
+  s.gave_up = share_of(rows, Verdict::gave_up);
+  s.contact = share_of(rows, Verdict::contact);
+  s.fault = share_of(rows, Verdict::fault);
+  s.false_unreachable =
+      share_of(rows, [](const Row& r) { return r.verdict == Verdict::unreachable && !has_no_way(r); });
+  add_reached(s, rows);
+  s.stops = per_metre(rows, [](const Row& r) { return static_cast<double>(r.stops); });
+  s.flips = per_metre(rows, [](const Row& r) { return static_cast<double>(r.flips); });
+  s.looks = per_metre(rows, [](const Row& r) { return static_cast<double>(r.looks); });
+  s.turned = per_metre(rows, [](const Row& r) { return r.turned_rad; });
+  return s;
+}
+
+}  // namespace whisker::campaign

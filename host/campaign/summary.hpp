@@ -1,0 +1,49 @@
+/// What the rows of a campaign say together.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/campaign/bounds.hpp"
+#include "host/campaign/row.hpp"
+
+namespace whisker::campaign {
+
+/// One thing counted or measured along the way, per metre driven.
+struct PerMetre {
+  std::optional<Estimate> rate;  ///< all of it to all metres; none if nothing was driven
+  std::optional<Estimate> p50;   ///< of the missions
+};
+
+struct Summary {
+  std::uint64_t missions = 0;  ///< at least 1
+  std::uint64_t no_way = 0;    ///< of these in worlds that have no way to the goal
+  std::uint64_t least_seed = 0, greatest_seed = 0;
+  std::vector<std::string> worlds;  ///< each once, in order; the scenario files of a campaign count as one
+  std::vector<std::string> planners;
+
+  /// Shares of all missions. A success is "reached", or "unreachable" where there is no way.
+  Estimate success, reached, unreachable, gave_up, contact, fault;
+  Estimate false_unreachable;  ///< "unreachable" though a way may be there
+
+  /// Of the missions that reached their goals; none without any.
+  std::optional<Estimate> ratio_mean, ratio_p50, ratio_p95;
+  std::optional<Estimate> s_per_m_p50, s_per_m_p95;
+  std::optional<Estimate> clearance_p5;
+  /// Of the missions that drove at all.
+  PerMetre stops, flips, looks, turned;
+};
+
+/// At least one row.
+Summary summarize(const std::vector<Row>& rows);
+
+/// Lines for people, each ended by a newline.
+std::string summary_words(const Summary& summary);
+
+/// One JSON object on one line, without a newline at its end. Shares are fractions; an estimate is an object
+/// with value, low and high; what is not there is null.
+std::string summary_json(const Summary& summary);
+
+}  // namespace whisker::campaign

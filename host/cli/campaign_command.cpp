@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "host/campaign/failures.hpp"
+#include "host/campaign/merge.hpp"
+#include "host/campaign/mission.hpp"
+#include "host/campaign/ordered.hpp"
+#include "host/campaign/row_file.hpp"
+#include "host/campaign/summary.hpp"
+#include "host/cli/campaign_options.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/one_run.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+
+namespace whisker::cli {
+namespace {
+
+using Options = CampaignOptions;
+
+constexpr std::uint64_t kMostMissions = 1000000000;
+
+/// "[#####.....]  512 of 1024, 48.1 a second, 0:11 to go"
+std::string progress(std::uint64_t done, std::uint64_t all, double elapsed_s) {
+  constexpr std::uint64_t kWidth = 30;
+  const auto filled = static_cast<std::size_t>(done * kWidth / all);
+  std::string text =
+      fmt::format("[{}{}] {} of {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), done, all);
+  if (done == 0 || elapsed_s <= 0) return text;
+  const double pace = static_cast<double>(done) / elapsed_s;
+  const auto left_s = static_cast<std::uint64_t>(static_cast<double>(all - done) / pace + 0.5);
+  return text + fmt::format(", {:.1f} a second, {}:{:02} to go", pace, left_s / 60, left_s % 60);
+}
+
+void print(const Options& o, const std::vector<campaign::Row>& rows) {
+  if (rows.empty()) return;
+  const campaign::Summary summary = campaign::summarize(rows);
+  if (o.json) {
+    fmt::print("{}\n", campaign::summary_json(summary));
+  } else {
+    fmt::print("{}{}", campaign::summary_words(summary), campaign::failure_lines(rows));
+    if (!o.csv.empty()) fmt::print("rows: {}\n", o.csv);
+  }
+}
+
+campaign::Row row_of(const Missions& missions, std::uint64_t index, const std::atomic<bool>& stop) {
+  const campaign::Mission m = mission(missions, index);
+  campaign::Row row = campaign::drive(m.scenario, stop);
+  row.planner = name(RunOptions{}.planner);
+  row.robot = missions.robot;
+  row.world = m.world;
+  return row;
+}
+
+int jobs(const Options& o) {
+  if (o.jobs > 0) return o.jobs;
+  const unsigned cores = std::thread::hardware_concurrency();
+  return cores > 0 ? static_cast<int>(cores) : 1;
+}
+
+/// True if it went to its end.
+bool drive_all(const Options& o, const Missions& missions, std::vector<campaign::Row>& rows) {
+  std::optional<campaign::RowFile> file;
+  if (!o.csv.empty()) file.emplace(o.csv);
+  const Interrupt interrupt;
+  ProgressLine line;
+  const auto began = std::chrono::steady_clock::now();
+  campaign::Work work;
+  work.count = missions.last - missions.first;
+  work.jobs = jobs(o);
+  work.make = [&](std::uint64_t i, const std::atomic<bool>& stop) {
+    return row_of(missions, missions.first + i, stop);
+  };
+  work.take = [&](const campaign::Row& row) {
+    if (file) file->add(row);
+    rows.push_back(row);
+  };
+  work.wait = [&](std::uint64_t done) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+    line.show(progress(done, work.count, elapsed.count()));
+  };
+  work.stop = [&] { return interrupt.noted(); };
+  const bool whole = campaign::do_in_order(work) == work.count;
+  if (file) file->finish();
+  return whole;
+}
+
+int execute(const Options& o) {
+  if (!o.merge.empty()) {
+    print(o, campaign::merged(o.merge));
+    return 0;
+  }
+  if (o.worlds.empty()) throw UsageError("KIND|DIR is required");
+  check_outputs({o.csv, o.svg, o.trace}, {o.robot});
+  const Missions chosen = missions(o);
+  if (o.replay) return drive_one(mission(chosen, 0).scenario, {}, {o.trace, o.svg, o.json});
+  if (!o.svg.empty() || !o.trace.empty()) throw UsageError("--svg and --trace need --replay");
+  std::vector<campaign::Row> rows;
+  const bool whole = drive_all(o, chosen, rows);
+  print(o, rows);
+  if (whole) return 0;
+  fmt::print(stderr, "whisker: interrupted after {} of {} missions\n", rows.size(),
+             chosen.last - chosen.first);
+  return kInterrupted;
+}
+
+/// CLI11's own exclusions would swell the help text.
+void refuse_others(const CLI::App& command, std::initializer_list<std::string> allowed) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || std::find(allowed.begin(), allowed.end(), name) != allowed.end()) continue;
+    throw UsageError(fmt::format("{} does not go with {}", name, *allowed.begin()));
+  }
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("campaign", "Drive many missions and sum them up");
+  const auto o = std::make_shared<Options>();
+  cmd->add_option("KIND|DIR", o->worlds,
+                  "A kind of world as in `whisker world`, or a folder of scenario files")
+      ->type_name("");
+  cmd->add_option("--count", o->count, "How many missions; 100 by default, or every file once")
+      ->transform(whole_number(kMostMissions))
+      ->type_name("N");
+  cmd->add_option("--seed", o->seed, "Mission i has seed S + i; 1 by default, or each file's own")
+      ->transform(whole_number())
+      ->type_name("S");
+  cmd->add_option("--discs", o->world.discs, "Number of discs, as in `whisker world`")
+      ->transform(whole_number(200))
+      ->type_name("N");
+  add_switch(*cmd, "--box", o->world.box, "A closed box around, as in `whisker world`");
+  add_switch(*cmd, "--noise", o->world.noise, "Sensor noise and odometry error, as in `whisker world`");
+  add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenarios");
+  cmd->add_option("--jobs", o->jobs, "Missions at a time; as many as there are cores by default")
+      ->transform(whole_number(1024))
+      ->type_name("J");
+  cmd->add_option("--shard", o->shard, "Only the I-th of N parts of the missions")->type_name("I/N");
+  add_file(*cmd, "--csv", o->csv, "Write one row per mission");
+  add_switch(*cmd, "--json", o->json, "Print the summary as one JSON object and nothing else");
+  cmd->add_option("--merge", o->merge, "Sum up the rows of these files instead of driving")
+      ->type_name("FILE");
+  cmd->add_option("--replay", o->replay, "Drive the mission with this seed alone, as `whisker run` does")
+      ->transform(whole_number())
+      ->type_name("S");
+  add_file(*cmd, "--svg", o->svg, "With --replay: draw the run");
+  add_file(*cmd, "--trace", o->trace, "With --replay: write one CSV row per control tick");
+  cmd->callback([o, cmd, &status] {
+    if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
+    if (o->replay) {
+      refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--robot", "--svg",
+                           "--trace", "--json"});
+    }
+    status = execute(*o);
+  });
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,106 @@
+#include "host/cli/campaign_options.hpp"
+
+#include <charconv>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include "host/cli/exit_status.hpp"
+#include "host/scenario/load.hpp"
+
+namespace whisker::cli {
+namespace {
+
+constexpr std::uint64_t kUsualCount = 100;
+
+campaign::Generated generated(const CampaignOptions& o, worlds::Kind kind) {
+  return {kind, o.world, o.replay.value_or(o.seed.value_or(1))};
+}
+
+campaign::Files folder(const CampaignOptions& o) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(o.worlds, error)) {
+    throw UsageError(fmt::format("{}: neither a kind of world nor a folder of scenario files", o.worlds));
+  }
+  if (o.world.discs || o.world.box || o.world.noise) {
+    throw UsageError(
+        "--discs, --box and --noise are for generated worlds; a scenario file says all that itself");
+  }
+  if (o.replay)
+    throw UsageError("--replay is for generated worlds; `whisker run` drives a scenario file again");
+  try {
+    campaign::Files files = campaign::load_folder(o.worlds);
+    files.first_seed = o.seed;
+    return files;
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(e.what());
+  }
+}
+
+std::uint64_t count(const CampaignOptions& o, const campaign::Generated&) {
+  return o.replay ? 1 : o.count.value_or(kUsualCount);
+}
+
+std::uint64_t count(const CampaignOptions& o, const campaign::Files& files) {
+  const std::uint64_t wanted = o.count.value_or(files.names.size());
+  if (wanted > files.names.size() && !o.seed) {
+    throw UsageError(
+        fmt::format("--count {}: {} has {} scenario files; --seed gives each mission a seed of its own",
+                    wanted, o.worlds, files.names.size()));
+  }
+  return wanted;
+}
+
+/// Shard I of N takes the I-th of N blocks, so that the shards' files one after the other are the whole.
+void take_shard(Missions& m, const std::string& shard) {
+  if (shard.empty()) return;
+  std::uint64_t i = 0, n = 0;
+  const char* const end = shard.data() + shard.size();
+  const auto first = std::from_chars(shard.data(), end, i);
+  const bool slash = first.ec == std::errc{} && first.ptr != end && *first.ptr == '/';
+  const auto second = std::from_chars(slash ? first.ptr + 1 : end, end, n);
+  if (second.ec != std::errc{} || second.ptr != end || i < 1 || i > n || n > 1000000) {
+    throw UsageError(fmt::format("--shard {}: not of the form I/N with I from 1 to N", shard));
+  }
+  const std::uint64_t all = m.last;
+  m.first = all * (i - 1) / n;
+  m.last = all * i / n;
+  if (m.first == m.last) throw UsageError(fmt::format("--shard {} of {} missions is empty", shard, all));
+}
+
+}  // namespace
+
+Missions missions(const CampaignOptions& o) {
+  if (campaign::has_control_characters(o.robot)) {
+    throw UsageError("--robot: the file's name has control characters in it");
+  }
+  Missions m;
+  m.robot = o.robot;
+  if (const auto kind = worlds::kind_named(o.worlds)) {
+    m.worlds = generated(o, *kind);
+  } else {
+    m.worlds = folder(o);
+  }
+  m.last = std::visit([&](const auto& worlds) { return count(o, worlds); }, m.worlds);
+  if (m.last == 0) throw UsageError("--count 0: nothing to do");
+  if (o.seed.value_or(1) > INT64_MAX - m.last)
+    throw UsageError("--seed and --count: seeds must be below 2^63");
+  take_shard(m, o.shard);
+  try {
+    mission(m, m.first);
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(e.what());
+  }
+  return m;
+}
+
+campaign::Mission mission(const Missions& m, std::uint64_t index) {
+  campaign::Mission mission =
+      std::visit([&](const auto& worlds) { return campaign::mission(worlds, index); }, m.worlds);
+  if (!m.robot.empty()) apply_robot_file(mission.scenario, m.robot);
+  return mission;
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/campaign/worlds.hpp"
+
+namespace whisker::cli {
+
+struct CampaignOptions {
+  std::string worlds;  ///< KIND or DIR
+  std::optional<std::uint64_t> count;
+  std::optional<std::uint64_t> seed;
+  worlds::Options world;
+  std::string robot;
+  int jobs = 0;  ///< 0: as many as there are cores
+  std::string shard;
+  std::string csv;
+  bool json = false;
+  std::vector<std::string> merge;
+  std::optional<std::uint64_t> replay;
+  std::string svg;
+  std::string trace;
+};
+
+/// Which missions: first, then one after the other up to last, which is not among them.
+struct Missions {
+  std::variant<campaign::Generated, campaign::Files> worlds;
+  std::string robot;
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+};
+
+/// Throws UsageError if the options do not fit each other, InputError for a wrong scenario file.
+Missions missions(const CampaignOptions& options);
+
+/// The mission's scenario with the robot's parameters. Throws InputError if they do not fit.
+campaign::Mission mission(const Missions& missions, std::uint64_t index);
+
+}  // namespace whisker::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "host/run/runner.hpp"
+
+namespace whisker::cli {
+
+struct RunOutputs {
+  std::string trace;  ///< file, "" for none
+  std::string svg;    ///< file, "" for none
+  bool json = false;  ///< on standard output, instead of words
+};
+
+/// Drives one scenario with a progress line, writes what is asked for and prints the result.
+/// Returns the exit status that tells the verdict.
+int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& outputs);
+
+}  // namespace whisker::cli

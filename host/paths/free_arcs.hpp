@@ -1,0 +1,37 @@
+/// Those parts of a grown obstacle's rim on which the body fits.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/paths/grown.hpp"
+#include "host/paths/tangent.hpp"
+
+namespace whisker::paths {
+
+constexpr double kFullTurn = 0x1.921fb54442d18p+2;
+
+class FreeArcs {
+ public:
+  FreeArcs(const Grown& grown, std::size_t rim);
+
+  bool empty() const { return arcs_.empty(); }
+  bool whole() const { return whole_; }  ///< all of the rim is free: one arc, whose ends are one point
+
+  /// A place on an arc: the angle travelled since the arc's beginning by who goes around it this way.
+  struct Place {
+    int arc = 0;
+    double offset_rad = 0;
+  };
+  /// The place at this angle, rad in [-10, 10]; none if the body does not fit there.
+  std::optional<Place> find(double angle, Side side) const;
+
+ private:
+  struct Arc {
+    double from, length;  // rad, counter-clockwise
+  };
+  std::vector<Arc> arcs_;
+  bool whole_ = false;
+};
+
+}  // namespace whisker::paths

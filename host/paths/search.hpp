@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <queue>
+#include <vector>
+
+#include "host/paths/free_arcs.hpp"
+#include "host/paths/grown.hpp"
+#include "host/paths/shortest.hpp"
+
+namespace whisker::paths {
+
+/// A* over the tangents between rims. A node is a tangent at the place where it leaves its rim; from there
+/// the way goes along the tangent, or further around the rim to the next tangent. The tangents of a rim are
+/// found when a way first arrives there, and looked at for obstacles when a way would take them.
+class Search {
+ public:
+  /// The grown obstacles must outlive the search; both points must be free.
+  Search(const Grown& grown, sim::Vec2 from, sim::Vec2 to);
+
+  std::optional<Way> shortest();
+
+ private:
+  using Place = FreeArcs::Place;
+  static constexpr int kStart = -1, kGoal = -2;
+
+  /// A rim with the side on which a way goes around it; kStart and kGoal for the two points.
+  struct Stand {
+    int rim = kStart;
+    Side side = Side::left;
+  };
+  struct Node {
+    Stand stand;
+    Place place;  ///< on the stand's rim
+    Tangent tangent;
+    Stand to;
+    Place to_place;
+    double way_m = 0;  ///< shortest known to where the tangent leaves
+    bool known = false, done = false;
+    int before = -1;          ///< node that the way comes from
+    bool by_tangent = false;  ///< along that node's tangent, not only around the rim
+    double swept_rad = 0;     ///< around the stand's rim, last of all
+  };
+  struct Entry {
+    double estimate_m;
+    int node;
+    bool operator<(const Entry& other) const { return estimate_m > other.estimate_m; }
+  };
+  struct Range {
+    int first = -1, last = -1;
+  };
+
+  const sim::Disc& disc(Stand stand) const;
+  const FreeArcs& arcs(Stand stand) const { return arcs_[static_cast<std::size_t>(stand.rim)]; }
+  Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
+  Range tangents_from(Stand stand);
+  void add_tangent(Stand from, Stand to);
+  void arrive(int node);
+  void go_around(int node);
+  void reach(int node, double way_m, int before, bool by_tangent, double swept_rad);
+  Way way_to(int last);
+
+  const Grown& grown_;
+  sim::Disc start_, goal_;
+  std::vector<FreeArcs> arcs_;
+  std::vector<Node> nodes_;
+  std::vector<Range> ranges_;  // of each stand's nodes, in the order of travel
+  std::priority_queue<Entry> queue_;
+};
+
+}  // namespace whisker::paths

@@ -1,0 +1,27 @@
+#include "host/paths/shortest.hpp"
+
+#include <cmath>
+
+#include "host/paths/grown.hpp"
+#include "host/paths/search.hpp"
+#include "host/scenario/shapes.hpp"
+
+namespace whisker::paths {
+
+double length_m(const Leg& leg) {
+  return leg.turn_rad == 0 ? distance(leg.from, leg.to) : std::fabs(leg.turn_rad) * leg.around.radius;
+}
+
+std::optional<Way> shortest_way(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m) {
+  const Grown grown(world, from, to, radius_m);
+  if (!grown.free(from) || !grown.free(to)) return std::nullopt;
+  if (from.x == to.x && from.y == to.y) return Way{};
+  return Search(grown, from, to).shortest();
+}
+
+std::optional<double> shortest_path(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m) {
+  const std::optional<Way> way = shortest_way(world, from, to, radius_m);
+  return way ? std::optional(way->length_m) : std::nullopt;
+}
+
+}  // namespace whisker::paths

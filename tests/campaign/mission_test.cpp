@@ -1,0 +1,52 @@
+#include "host/campaign/mission.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/campaign/row_text.hpp"
+#include "host/paths/shortest.hpp"
+#include "host/run/runner.hpp"
+#include "host/scenario/world.hpp"
+#include "host/worlds/generate.hpp"
+
+namespace whisker::campaign {
+namespace {
+
+const std::atomic<bool> kOn{false};
+
+Scenario scenario(std::uint64_t seed) {
+  worlds::Options options;
+  options.seed = seed;
+  options.discs = 15;
+  options.noise = seed % 2 == 0;
+  return worlds::generate(worlds::Kind::discs, options);
+}
+
+TEST(Mission, TheRowTellsWhatTheRunTells) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Scenario s = scenario(seed);
+    const Row row = drive(s, kOn);
+    const RunResult result = run(s);
+    EXPECT_EQ(row.seed, seed);
+    EXPECT_EQ(row.verdict, result.verdict);
+    EXPECT_EQ(row.detail, result.detail);
+    EXPECT_EQ(row.hash, result.hash);
+    EXPECT_EQ(row.ticks, result.ticks);
+    EXPECT_NEAR(row.time_s, result.time_s, 6e-7);
+    EXPECT_NEAR(row.path_m, result.path_m, 6e-7);
+    EXPECT_NEAR(row.final_distance_m, result.final_distance_m, 6e-7);
+    EXPECT_NEAR(row.min_clearance_m, result.min_clearance_m, 6e-7);
+    const auto shortest = paths::shortest_path(make_world(s), s.start.at, s.goal.at, 0.10);
+    ASSERT_TRUE(row.shortest_m && shortest);
+    EXPECT_NEAR(*row.shortest_m, *shortest, 6e-7);
+    EXPECT_GT(row.looks, 0U);
+    EXPECT_EQ(to_csv(row), to_csv(drive(s, kOn)));
+  }
+}
+
+TEST(Mission, IsGivenUpWhenToldToStop) {
+  const std::atomic<bool> stop{true};
+  EXPECT_THROW(drive(scenario(1), stop), Stopped);
+}
+
+}  // namespace
+}  // namespace whisker::campaign

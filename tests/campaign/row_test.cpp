@@ -1,0 +1,141 @@
+#include "host/campaign/row.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "host/campaign/row_file.hpp"
+#include "host/campaign/row_text.hpp"
+#include "tests/campaign/rows.hpp"
+
+namespace whisker::campaign {
+namespace {
+
+const std::string kLine =
+    "7,reached,12.500000,2.000000,3.100000,1,2,3,0.050000,0.010000,1.600000,1.250000,6.250000,1250,"
+    "00000000000000ff,at_goal,thesis,,discs --noise";
+
+std::string complaint(const std::string& line) {
+  try {
+    parse_row(line);
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return "";
+}
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string line = kLine;
+  return line.replace(line.find(from), from.size(), to);
+}
+
+TEST(Row, FiguresThatFollowFromOthers) {
+  Row row = parse_row(kLine);
+  EXPECT_EQ(ratio(row), 1.25);
+  EXPECT_EQ(s_per_m(row), 6.25);
+  row.shortest_m.reset();
+  EXPECT_FALSE(ratio(row));
+  row.path_m = 0;
+  EXPECT_FALSE(s_per_m(row));
+}
+
+TEST(Row, SuccessIsReachedWhereThereIsAWayAndUnreachableWhereThereIsNone) {
+  Row row;
+  for (const char* world : {"discs", "maze", "enclosed.toml", "enclosed 2/a.toml", "enclosedness"}) {
+    row.world = world;
+    row.verdict = Verdict::reached;
+    EXPECT_TRUE(succeeded(row)) << world;
+    row.verdict = Verdict::unreachable;
+    EXPECT_FALSE(succeeded(row)) << world;
+  }
+  for (const char* world : {"enclosed", "enclosed --discs 20 --box"}) {
+    row.world = world;
+    EXPECT_TRUE(succeeded(row)) << world;
+    row.verdict = Verdict::gave_up;
+    EXPECT_FALSE(succeeded(row)) << world;
+    row.verdict = Verdict::unreachable;
+  }
+}
+
+TEST(RowText, HasAsManyColumnsAsTheHeader) {
+  const std::string header = kRowHeader;
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(kLine.begin(), kLine.end(), ','));
+  EXPECT_EQ(to_csv(parse_row(kLine)), kLine);
+}
+
+TEST(RowText, EveryRowReadsBackEqual) {
+  worlds::Random random(3);
+  for (int i = 0; i < 5000; ++i) {
+    const Row row = random_row(random);
+    const std::string line = to_csv(row);
+    const Row back = parse_row(line);
+    ASSERT_EQ(to_csv(back), line);
+    ASSERT_EQ(back.seed, row.seed);
+    ASSERT_EQ(back.verdict, row.verdict);
+    ASSERT_EQ(back.time_s, row.time_s);
+    ASSERT_EQ(back.path_m, row.path_m);
+    ASSERT_EQ(back.min_clearance_m, row.min_clearance_m);
+    ASSERT_EQ(back.shortest_m, row.shortest_m);
+    ASSERT_EQ(back.looks, row.looks);
+    ASSERT_EQ(back.hash, row.hash);
+    ASSERT_EQ(back.detail, row.detail);
+    ASSERT_EQ(back.robot, row.robot);
+    ASSERT_EQ(back.world, row.world);
+  }
+}
+
+TEST(RowText, WhatIsWrongIsNamed) {
+  EXPECT_EQ(complaint(kLine), "");
+  EXPECT_EQ(complaint(""), "column seed: '' is no such number");
+  EXPECT_EQ(complaint("7"), "no column outcome");
+  EXPECT_EQ(complaint(with("7,", "-7,")), "column seed: '-7' is no such number");
+  EXPECT_EQ(complaint(with("reached", "Reached")), "column outcome: 'Reached' is none");
+  EXPECT_EQ(complaint(with("12.500000", "nan")), "column time_s: 'nan' is no such number");
+  EXPECT_EQ(complaint(with("12.500000", "inf")), "column time_s: 'inf' is no such number");
+  EXPECT_EQ(complaint(with("2.000000", "-2.000000")), "column path_m: -2 is negative");
+  EXPECT_EQ(complaint(with(",1,2,3,", ",1,2.5,3,")), "column flips: '2.5' is no such number");
+  EXPECT_EQ(complaint(kLine + "\r"), "column world: control characters in it");
+  for (const std::string& line : {with("1.250000", "1.260000"), with("12.500000", "12.5"),
+                                  with("discs", "\"discs\""), kLine + ",", with("00ff", "00FF")}) {
+    EXPECT_EQ(complaint(line), "the row is not one that campaign writes") << line;
+  }
+}
+
+TEST(RowText, NoPrefixOfARowIsARow) {
+  // The last column is free text: only what cuts into the columns before it can be told.
+  for (std::size_t n = 0; n < kLine.rfind(','); ++n) EXPECT_NE(complaint(kLine.substr(0, n)), "") << n;
+}
+
+TEST(RowFile, HoldsTheHeaderAndEveryRow) {
+  const Folder folder;
+  const std::string path = folder.path("rows.csv");
+  RowFile file(path);
+  file.add(parse_row(kLine));
+  EXPECT_EQ(text_of(path), "");
+  EXPECT_EQ(text_of(path + ".part"), std::string(kRowHeader) + "\n" + kLine + "\n") << "whole at any time";
+  file.finish();
+  EXPECT_EQ(text_of(path), std::string(kRowHeader) + "\n" + kLine + "\n");
+  EXPECT_EQ(text_of(path + ".part"), "");
+}
+
+TEST(RowFile, LeavesNoTraceWhenItIsNotFinished) {
+  const Folder folder;
+  const std::string path = folder.file("rows.csv", "old\n");
+  {
+    RowFile file(path);
+    file.add(parse_row(kLine));
+  }
+  EXPECT_EQ(text_of(path), "old\n");
+  EXPECT_EQ(text_of(path + ".part"), "");
+}
+
+TEST(RowFile, SaysWhyItCannotBeWritten) {
+  const Folder folder;
+  for (const std::string& path : {folder.path("no/rows.csv"), folder.path(""), std::string("/dev/full")}) {
+    EXPECT_THROW(RowFile file(path), std::runtime_error) << path;
+  }
+}
+
+}  // namespace
+}  // namespace whisker::campaign

@@ -1,0 +1,32 @@
+/// Rows for tests.
+#pragma once
+
+#include <string>
+
+#include "host/campaign/row.hpp"
+#include "host/worlds/random.hpp"
+
+namespace whisker::campaign {
+
+/// Any row that a file may hold.
+Row random_row(worlds::Random& random);
+
+/// A folder of its own that is removed with all that is in it.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  std::string path(const std::string& name) const { return path_ + "/" + name; }
+  /// Writes the file and returns its path.
+  std::string file(const std::string& name, const std::string& text) const;
+
+ private:
+  std::string path_;
+};
+
+std::string text_of(const std::string& file);
+
+}  // namespace whisker::campaign

@@ -1,0 +1,306 @@
+"""`whisker campaign`: rows, summary, shards, interruption, and that each row is the run it says."""
+
+import csv
+import io
+import json
+import os
+import pty
+import re
+import select
+import shlex
+import signal
+import subprocess
+import time
+
+import whisker
+from whisker import SCENARIOS, STATUS, Case, with_time_limit
+
+COUNT = 12
+KIND = ("discs", "--discs", 10)
+PROGRESS = re.compile(rb"\r\x1b\[K\[#*\.*\] \d+ of 1000000, \d+\.\d a second, \d+:\d\d to go")
+SHARES = ("success", "reached", "unreachable", "false_unreachable", "gave_up", "contact", "fault")
+
+
+def rows_of(text):
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+class Campaigns(Case):
+    def campaign(self, *arguments, **options):
+        done = whisker.whisker("campaign", *arguments, cwd=self.folder, **options)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
+        return done.stdout
+
+    def rows(self, *arguments):
+        """The bytes of the CSV file."""
+        self.campaign(*arguments, "--csv", "rows.csv")
+        return (self.folder / "rows.csv").read_text()
+
+    def refused(self, *arguments, says):
+        before = self.contents()
+        done = whisker.whisker("campaign", *arguments, cwd=self.folder)
+        with self.subTest(arguments):
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertRegex(done.stderr, r"\A[^\n]+\n\Z")
+            self.assertIn(says, done.stderr)
+            self.assertEqual(self.contents(), before)
+
+
+class Rows(Campaigns):
+    def test_are_in_order_of_seed_and_the_same_however_they_are_driven(self):
+        alone = self.rows(*KIND, "--count", COUNT, "--seed", 5, "--jobs", 1)
+        self.assertEqual([int(row["seed"]) for row in rows_of(alone)], list(range(5, 5 + COUNT)))
+        for jobs in (2, 7, 40):
+            self.assertEqual(self.rows(*KIND, "--count", COUNT, "--seed", 5, "--jobs", jobs), alone)
+        self.assertEqual(self.rows(*KIND, "--count", COUNT, "--seed", 5), alone)
+        later = self.rows(*KIND, "--count", 3, "--seed", 9)
+        self.assertEqual(rows_of(later), rows_of(alone)[4:7])
+
+    def test_are_what_world_and_run_give(self):
+        for kind, seed in ((("discs", "--discs", 12, "--box", "--noise"), 3), (("u-trap",), 8), (("rooms", "--discs", 0), 2)):
+            (row,) = rows_of(self.rows(*kind, "--seed", seed, "--count", 1))
+            world = whisker.whisker("world", *kind, "--seed", seed).stdout
+            result = json.loads(whisker.whisker("run", self.file("w.toml", world), "--json").stdout)
+            for key, value in result.items():
+                same = str(value) == row[key] if isinstance(value, (str, int)) else float(row[key]) == value
+                self.assertTrue(same, f"{kind}: {key}: {value} and {row[key]}")
+            self.assertEqual(row["world"], " ".join(map(str, kind)))
+
+    def test_hold_figures_that_fit_each_other(self):
+        for row in rows_of(self.rows(*KIND, "--count", COUNT)):
+            path, time_s = float(row["path_m"]), float(row["time_s"])
+            self.assertAlmostEqual(float(row["ratio"]), path / float(row["shortest_m"]), places=5)
+            self.assertAlmostEqual(float(row["s_per_m"]), time_s / path, places=5)
+            self.assertGreaterEqual(float(row["shortest_m"]), 8 * 2**0.5 - 1e-6)
+            self.assertEqual(int(row["ticks"]), round(time_s * 100) + 1)
+            if row["outcome"] == "reached":
+                self.assertLess(float(row["final_distance_m"]), 0.1)
+                self.assertGreater(float(row["ratio"]), 1 - 0.1 / float(row["shortest_m"]) - 1e-6)
+
+    def test_of_an_enclosed_goal_have_no_way(self):
+        for row in rows_of(self.rows("enclosed", "--count", 2, "--discs", 3)):
+            self.assertEqual((row["shortest_m"], row["ratio"]), ("", ""))
+
+    def test_a_robot_file_counts_for_every_mission(self):
+        self.file("slow.toml", "wheel_speed_max_mps = 0.1\n")
+        usual, slow = (rows_of(self.rows(*KIND, "--count", 3, *robot)) for robot in ((), ("--robot", "slow.toml")))
+        for a, b in zip(usual, slow):
+            self.assertLess(float(a["time_s"]), float(b["time_s"]))
+            self.assertEqual((a["robot"], b["robot"]), ("", "slow.toml"))
+
+
+class Shards(Campaigns):
+    def test_put_together_are_the_whole(self):
+        whole = self.rows(*KIND, "--count", COUNT)
+        words = self.campaign("--merge", "rows.csv")
+        self.assertIn(words, self.campaign(*KIND, "--count", COUNT))
+        for shards in (1, 5, COUNT):
+            names = [f"shard{i}.csv" for i in range(1, shards + 1)]
+            for i, name in enumerate(names, 1):
+                self.campaign(*KIND, "--count", COUNT, "--shard", f"{i}/{shards}", "--csv", name)
+            parts = [(self.folder / name).read_text() for name in names]
+            header = whole.partition("\n")[0] + "\n"
+            self.assertEqual(header + "".join(part.removeprefix(header) for part in parts), whole)
+            self.assertEqual(self.campaign("--merge", *names), words)
+            self.assertEqual(self.campaign("--merge", *reversed(names)), words)
+            self.file("all.csv", "".join(parts))
+            self.assertEqual(self.campaign("--merge", "all.csv"), words)
+
+    def test_what_cannot_be_merged_is_refused_with_its_place(self):
+        text = self.rows(*KIND, "--count", 2)
+        self.refused("--merge", "rows.csv", "rows.csv", says="rows.csv:2:1: ")
+        self.refused("--merge", "none.csv", says="none.csv:1:1: ")
+        self.file("cut.csv", text[:-9])
+        self.refused("--merge", "cut.csv", says="cut.csv:3:1: ")
+        self.file("odd.csv", text.replace(",reached,", ",arrived,").replace(",gave_up,", ",tired,"))
+        self.refused("--merge", "odd.csv", says="odd.csv:2:1: ")
+        self.refused("--merge", "rows.csv", "--count", 3, says="--count")
+        self.refused("discs", "--merge", "rows.csv", says="KIND|DIR")
+        self.refused("--merge", says="--merge")
+
+
+class Summary(Campaigns):
+    def test_json_agrees_with_the_rows(self):
+        text = self.rows("u-trap", "--count", COUNT)
+        rows = rows_of(text)
+        summary = json.loads(self.campaign("--merge", "rows.csv", "--json"))
+        self.assertEqual(self.campaign("u-trap", "--count", COUNT, "--json").count("\n"), 1)
+        self.assertEqual(summary["missions"], COUNT)
+        reached = [row for row in rows if row["outcome"] == "reached"]
+        self.assertGreater(len(reached), 0)
+        self.assertAlmostEqual(summary["success"]["value"], len(reached) / COUNT, places=6)
+        ratios = sorted(float(row["ratio"]) for row in reached)
+        self.assertAlmostEqual(summary["ratio"]["mean"]["value"], sum(ratios) / len(ratios), places=5)
+        self.assertAlmostEqual(summary["ratio"]["p50"]["value"], ratios[(len(ratios) + 1) // 2 - 1], places=5)
+        metres = sum(float(row["path_m"]) for row in rows)
+        for column, key in (("stops", "stops_per_m"), ("flips", "flips_per_m"), ("looks", "looks_per_m")):
+            self.assertAlmostEqual(summary[key]["all"]["value"], sum(int(r[column]) for r in rows) / metres, places=5)
+        for key in SHARES:
+            share = summary[key]
+            self.assertTrue(0 <= share["low"] <= share["value"] <= share["high"] <= 1, key)
+
+    def test_an_enclosed_goal_is_a_success_when_found_unreachable_only(self):
+        rows = rows_of(self.rows("enclosed", "--count", 3, "--discs", 3))
+        summary = json.loads(self.campaign("--merge", "rows.csv", "--json"))
+        right = sum(row["outcome"] == "unreachable" for row in rows)
+        self.assertAlmostEqual(summary["success"]["value"], right / 3, places=5)
+        self.assertEqual((summary["no_way"], summary["false_unreachable"]["value"]), (3, 0))
+
+
+class Failures(Campaigns):
+    """A robot that is too wide for most doors, or has too little time, fails often enough."""
+
+    def replayed(self, line):
+        seed, outcome, command = re.fullmatch(r"seed (\d+) (\w+) \([^)]*\): whisker (.+)", line).groups()
+        done = whisker.whisker(*shlex.split(command), cwd=self.folder)
+        self.assertEqual(done.returncode, STATUS[outcome], done.stderr)
+        svg = self.folder / shlex.split(command)[-1]
+        self.assertTrue(svg.read_bytes().startswith(b"<svg"))
+        (digest,) = re.findall(r"command hash (\w{16})", done.stdout)
+        return int(seed), digest
+
+    def check(self, *arguments):
+        words = self.campaign(*arguments, "--csv", "rows.csv")
+        hashes = {int(row["seed"]): row["hash"] for row in rows_of((self.folder / "rows.csv").read_text())}
+        lines = [line for line in words.splitlines() if line.startswith("seed ")]
+        for line in lines[:3]:
+            seed, digest = self.replayed(line)
+            self.assertEqual(digest, hashes[seed], line)
+        return words, lines
+
+    def test_are_replayed_by_the_command_given(self):
+        self.file("my robot.toml", "body_radius_m = 0.25\n")
+        _, lines = self.check("rooms", "--count", 3, "--discs", 0, "--noise", "--seed", 4, "--robot", "my robot.toml")
+        self.assertGreater(len(lines), 0)
+
+    def test_of_scenario_files_too_and_are_counted_in_the_end(self):
+        worlds = self.folder / "my worlds"
+        worlds.mkdir()
+        (worlds / "late.toml").write_text(with_time_limit((SCENARIOS / "two_discs_and_a_wall.toml").read_text(), 1))
+        words, lines = self.check("my worlds", "--seed", 7, "--count", 23)
+        self.assertEqual(len(lines), 20)
+        self.assertIn("\nand 3 more that failed\n", words)
+
+
+class Folders(Campaigns):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "worlds").mkdir()
+        for name in ("nothing", "all_noise"):
+            text = with_time_limit((SCENARIOS / f"{name}.toml").read_text(), 10)
+            (self.folder / "worlds" / f"{name}.toml").write_text(text)
+
+    def test_every_file_is_driven_once_with_its_own_seed(self):
+        rows = rows_of(self.rows("worlds"))
+        self.assertEqual([(row["world"], row["seed"]) for row in rows], [("worlds/all_noise.toml", "5"), ("worlds/nothing.toml", "1")])
+        for row in rows:
+            result = json.loads(whisker.whisker("run", self.folder / row["world"], "--json").stdout)
+            self.assertEqual(row["hash"], result["hash"])
+
+    def test_with_a_seed_each_mission_has_its_own(self):
+        rows = rows_of(self.rows("worlds", "--seed", 30, "--count", 5))
+        self.assertEqual([row["seed"] for row in rows], ["30", "31", "32", "33", "34"])
+        noisy = [row for row in rows if "noise" in row["world"]]
+        self.assertEqual(len({row["hash"] for row in noisy}), 3)
+        result = whisker.whisker("run", self.folder / "worlds/all_noise.toml", "--seed", 32, "--json").stdout
+        self.assertEqual(noisy[1]["hash"], json.loads(result)["hash"])
+
+    def test_what_does_not_fit_is_refused(self):
+        self.refused("worlds", "--count", 3, says="--seed")
+        self.refused("worlds", "--noise", says="--noise")
+        self.refused("worlds", "--replay", 3, says="whisker run")
+        self.refused("elsewhere", says="elsewhere")
+        (self.folder / "worlds" / "wrong.toml").write_text("name = 1\n")
+        self.refused("worlds", "--csv", "rows.csv", says="worlds/wrong.toml:1:")
+        (self.folder / "empty").mkdir()
+        self.refused("empty", says="no scenario files")
+
+
+class Refusals(Campaigns):
+    def test_a_command_line_that_means_nothing(self):
+        self.refused(says="KIND|DIR")
+        self.refused("cubes", says="cubes")
+        self.refused("discs", "--count", 0, says="--count")
+        self.refused("discs", "--count", "1e3", says="--count")
+        self.refused("discs", "--seed", 2**63 - 1, "--count", 2, says="--seed")
+        self.refused("maze", "--box", says="maze")
+        self.refused("discs", "--svg", "a.svg", says="--replay")
+        self.refused("discs", "--replay", 3, "--csv", "a.csv", says="--csv")
+        self.refused("discs", "--csv", "nowhere/a.csv", says="nowhere")
+        self.refused("discs", "--robot", "none.toml", "--csv", "a.csv", says="none.toml:1:1")
+        for shard in ("0/3", "4/3", "1", "1/", "/2", "1/0", "-1/2", "1/2/3", "a/b", "1 /2", "2/2000000"):
+            self.refused("discs", "--shard", shard, says="--shard")
+        self.refused("discs", "--count", 2, "--shard", "1/3", says="empty")
+
+    def test_a_full_disk_is_a_failure(self):
+        done = whisker.whisker("campaign", *KIND, "--count", 2, "--csv", "/dev/full")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertRegex(done.stderr, r"\Awhisker: cannot write /dev/full: No space left[^\n]*\n\Z")
+
+
+class Interruption(Campaigns):
+    """The campaign is far too long to end by itself."""
+
+    def begun(self, stderr=subprocess.PIPE):
+        arguments = ("campaign", *KIND, "--count", 10**6, "--csv", "rows.csv")
+        return subprocess.Popen(
+            [whisker.binary, *map(str, arguments)],
+            stdout=subprocess.PIPE, stderr=stderr, text=True, cwd=self.folder,
+        )  # fmt: skip
+
+    def wait_for_rows(self, process, count):
+        part = self.folder / "rows.csv.part"
+        end = time.monotonic() + 60
+        while time.monotonic() < end:
+            if part.exists() and part.read_text().count("\n") > count:
+                return
+            self.assertIsNone(process.poll(), "it has ended by itself")
+            time.sleep(0.02)
+        self.fail("no rows in a minute")
+
+    def test_leaves_the_rows_so_far_and_their_summary(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.begun() as process:
+                self.wait_for_rows(process, 3)
+                process.send_signal(number)
+                process.send_signal(number)
+                words, error = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 130)
+            self.assertRegex(error, r"\Awhisker: interrupted after \d+ of 1000000 missions\n\Z")
+            text = (self.folder / "rows.csv").read_text()
+            seeds = [int(row["seed"]) for row in rows_of(text)]
+            self.assertEqual(seeds, list(range(1, len(seeds) + 1)))
+            self.assertGreaterEqual(len(seeds), 3)
+            self.assertTrue(words.startswith(self.campaign("--merge", "rows.csv")))
+            self.assertEqual(sorted(os.listdir(self.folder)), ["rows.csv"])
+            again = self.rows(*KIND, "--count", len(seeds))
+            self.assertEqual(again, text)
+
+    def test_a_terminal_sees_a_progress_bar_that_is_wiped_in_the_end(self):
+        terminal, theirs = pty.openpty()
+        seen, end = b"", time.monotonic() + 60
+        with self.begun(theirs) as process:
+            while time.monotonic() < end and not PROGRESS.search(seen):
+                if select.select([terminal], [], [], 0.1)[0]:
+                    seen += os.read(terminal, 4096)
+            process.send_signal(signal.SIGINT)
+            process.wait()
+            while select.select([terminal], [], [], 0)[0]:
+                seen += os.read(terminal, 4096)
+            process.stdout.read()
+        os.close(terminal)
+        os.close(theirs)
+        self.assertRegex(seen, PROGRESS)
+        self.assertRegex(seen, rb"to go\r\x1b\[Kwhisker: interrupted after \d+ of 1000000 missions\r\n\Z")
+
+    def test_a_killed_campaign_leaves_whole_rows_beside_the_file(self):
+        self.file("rows.csv", "old\n")
+        with self.begun() as process:
+            self.wait_for_rows(process, 2)
+            process.kill()
+        self.assertEqual((self.folder / "rows.csv").read_text(), "old\n")
+        self.campaign("--merge", "rows.csv.part")
+
+
+if __name__ == "__main__":
+    whisker.main()

@@ -1,0 +1,161 @@
+// Ways whose length can be written down.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/paths/shortest.hpp"
+#include "host/scenario/shapes.hpp"
+
+namespace whisker::paths {
+namespace {
+
+using sim::Vec2;
+
+constexpr double kExact = 1e-9;
+const double kPi = std::acos(-1);
+
+double shortest(const World& world, Vec2 from, Vec2 to, double radius) {
+  return shortest_path(world, from, to, radius).value_or(-1);
+}
+
+TEST(ClosedForm, NothingInTheWay) {
+  EXPECT_DOUBLE_EQ(shortest({}, {1, 2}, {4, 6}, 0.1), 5);
+  EXPECT_EQ(shortest({}, {1, 2}, {1, 2}, 0.1), 0);
+  World world;
+  world.discs = {{{0, 0.5}, 0.4}};
+  EXPECT_DOUBLE_EQ(shortest(world, {-1, 0}, {1, 0}, 0.1), 2) << "the line touches the grown disc";
+}
+
+TEST(ClosedForm, AroundADisc) {
+  for (const double radius : {0.01, 0.1, 0.25}) {
+    for (const double off : {0.0, 0.03, -0.2}) {
+      World world;
+      world.discs = {{{0, off}, 0.5}};
+      const double grown = 0.5 + radius;
+      const double d = std::hypot(2, off);
+      // The way takes the side on which less of the disc lies.
+      const double up = 2 * std::acos(grown / d) + 2 * std::atan2(std::fabs(off), 2);
+      const double expected = 2 * std::sqrt(d * d - grown * grown) + grown * (kPi - up);
+      EXPECT_NEAR(shortest(world, {-2, 0}, {2, 0}, radius), expected, kExact) << radius << " " << off;
+    }
+  }
+}
+
+TEST(ClosedForm, OverTwoDiscsInARow) {
+  constexpr double kRadius = 0.1, kGrown = 0.6, kApart = 1.5, kBelow = 0.2, kFrom = 3;
+  World world;
+  world.discs = {{{-kApart, -kBelow}, 0.5}, {{kApart, -kBelow}, 0.5}, {{0, -kBelow - 0.05}, 0.5}};
+  const double d = std::hypot(kFrom - kApart, kBelow);
+  const double rise = std::asin(kGrown / d) - std::atan2(kBelow, kFrom - kApart);
+  const double expected = 2 * (std::sqrt(d * d - kGrown * kGrown) + kGrown * rise + kApart);
+  EXPECT_NEAR(shortest(world, {-kFrom, 0}, {kFrom, 0}, kRadius), expected, kExact);
+}
+
+TEST(ClosedForm, BetweenTwoDiscsFromOneSideToTheOther) {
+  // Points mirrored at the origin; the way crosses it along the inner tangent of the two discs.
+  constexpr double kGrown = 0.6;
+  World world;
+  world.discs = {{{-1, 0.5}, 0.5}, {{1, -0.5}, 0.5}, {{-1, -4}, 3.8}, {{1, 4}, 3.8}};
+  const Vec2 from{-3, 0.5};
+  const double to_centre = std::hypot(1, 0.5);
+  const double heading = std::atan2(-0.5, 1) + std::asin(kGrown / to_centre);
+  const double first = std::sqrt(4 - kGrown * kGrown);
+  const double start = -std::asin(kGrown / 2);
+  const double expected =
+      2 * (first + kGrown * (heading - start) + std::sqrt(to_centre * to_centre - kGrown * kGrown));
+  EXPECT_NEAR(shortest(world, from, from * -1, 0.1), expected, kExact);
+}
+
+TEST(ClosedForm, AroundTheEndOfAWall) {
+  for (const double radius : {0.05, 0.1, 0.4}) {
+    World world;
+    world.segments = {{{0, -5}, {0, 1}}};
+    const double lean = kPi / 4 + std::asin(radius / std::sqrt(2));
+    const double expected = 2 * (std::sqrt(2 - radius * radius) + radius * lean);
+    EXPECT_NEAR(shortest(world, {-1, 0}, {1, 0}, radius), expected, kExact) << radius;
+  }
+}
+
+World u_of_walls() {
+  World world;
+  world.segments = {{{0, -1}, {0, 1}}, {{0, 1}, {2, 1}}, {{2, -1}, {0, -1}}};
+  return world;
+}
+
+double out_of_the_u(double radius) {
+  const double lean = std::asin(radius / std::sqrt(2));
+  return 2 * std::sqrt(2 - radius * radius) + 2 + radius * (kPi + 2 * lean);
+}
+
+TEST(ClosedForm, OutOfAU) {
+  for (const double radius : {0.02, 0.1, 0.5}) {
+    EXPECT_NEAR(shortest(u_of_walls(), {1, 0}, {-1, 0}, radius), out_of_the_u(radius), kExact) << radius;
+  }
+}
+
+TEST(ClosedForm, AWallInPiecesIsTheSameWall) {
+  World pieces;
+  for (const sim::Segment& s : u_of_walls().segments) {
+    for (int i = 0; i < 7; ++i) {
+      pieces.segments.push_back({s.a + (s.b - s.a) * (i / 7.0), s.a + (s.b - s.a) * ((i + 1) / 7.0)});
+      pieces.segments.push_back({s.a, s.a});
+    }
+  }
+  EXPECT_NEAR(shortest(pieces, {1, 0}, {-1, 0}, 0.1), out_of_the_u(0.1), kExact);
+}
+
+TEST(ClosedForm, RepeatedObstaclesChangeNothing) {
+  World world = u_of_walls();
+  const World once = world;
+  world.segments.insert(world.segments.end(), once.segments.rbegin(), once.segments.rend());
+  world.discs = {{{2, 1}, 1e-12}, {{0, 1}, 0.0}, {{0, 1}, 0.0}};
+  EXPECT_NEAR(shortest(world, {1, 0}, {-1, 0}, 0.1), out_of_the_u(0.1), kExact);
+}
+
+TEST(ClosedForm, APolygonOfManySidesIsNearlyADisc) {
+  World disc, polygon;
+  disc.discs = {{{0, 0.1}, 0.5}};
+  constexpr int kSides = 360;
+  for (int i = 0; i < kSides; ++i) {
+    const auto corner = [](int k) {
+      const double angle = 2 * kPi * k / kSides;
+      return Vec2{0.5 * std::cos(angle), 0.1 + 0.5 * std::sin(angle)};
+    };
+    polygon.segments.push_back({corner(i), corner(i + 1)});
+  }
+  const double round = shortest(disc, {-2, 0}, {2, 0}, 0.1);
+  const double edged = shortest(polygon, {-2, 0}, {2, 0}, 0.1);
+  EXPECT_LT(edged, round);
+  EXPECT_NEAR(edged, round, 1e-4);
+}
+
+TEST(ClosedForm, AGapIsPassedWhenTheBodyFits) {
+  for (const double width : {0.2 - 1e-7, 0.2, 0.2 + 1e-7}) {
+    World walls;
+    walls.segments = {{{0, -50}, {0, 0}}, {{0, width}, {0, 50}}};
+    World discs;
+    discs.discs = {{{0, -1}, 1}, {{0, width + 1}, 1}, {{0, -41}, 39}, {{0, width + 41}, 39}};
+    const bool fits = width > 0.2 - 1e-8;
+    const double middle = width / 2;
+    EXPECT_EQ(shortest_path(walls, {-1, middle}, {1, middle}, 0.1).has_value(), true) << "around the ends";
+    const double through = shortest(walls, {-1, middle}, {1, middle}, 0.1);
+    EXPECT_EQ(std::fabs(through - 2) < 1e-6, fits) << width;
+    EXPECT_EQ(std::fabs(shortest(discs, {-2, middle}, {2, middle}, 0.1) - 4) < 1e-6, fits) << width;
+  }
+}
+
+TEST(ClosedForm, NoWayIsNone) {
+  World ring;
+  ring.segments = {{{-1, -1}, {1, -1}}, {{1, -1}, {1, 1}}, {{1, 1}, {-1, 1}}, {{-1, 1}, {-1, -1}}};
+  EXPECT_FALSE(shortest_path(ring, {0, 0}, {3, 0}, 0.1));
+  EXPECT_FALSE(shortest_path(ring, {3, 0}, {0, 0}, 0.1));
+  EXPECT_FALSE(shortest_path(ring, {0, 0}, {0.95, 0}, 0.1)) << "the goal is too near to a wall";
+  EXPECT_FALSE(shortest_path(ring, {0.95, 0}, {0, 0}, 0.1)) << "the start is too near to a wall";
+  EXPECT_DOUBLE_EQ(shortest(ring, {-0.9, 0}, {0.9, 0}, 0.1), 1.8) << "both touch";
+  World disc;
+  disc.discs = {{{3, 0}, 0.5}};
+  EXPECT_FALSE(shortest_path(disc, {0, 0}, {3, 0.2}, 0.1));
+}
+
+}  // namespace
+}  // namespace whisker::paths
