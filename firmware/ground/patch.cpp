@@ -27,7 +27,7 @@ Length Patch::length_of(int32_t units) const noexcept {
 }
 
 void Patch::configure(const Params& params) noexcept {
-  cell_um_ = params.skirt.cell.raw();
+  cell_um_ = patch_cell(params).raw();
   offset_ = params.rangefinders.offset;
   half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
   footprint_ = units(params.body.radius) - kCover;
@@ -180,6 +180,9 @@ bool Patch::approaches(Vec from, Angle heading, Length step, Length radius) cons
   const Point there = local(from + polar(heading, step));
   const int32_t reach = units(radius);
   const int32_t half = units(step / 2);
+  // What lies beyond the window is not known.
+  constexpr int32_t kSize = kCells * kUnitsPerCell;
+  if (there.x < reach || there.y < reach || there.x > kSize - reach || there.y > kSize - reach) return true;
   const HalfPlane ahead = HalfPlane::facing(heading);
   for (Rows rows(there.y, reach); rows.more(); rows.next()) {
     Span span;

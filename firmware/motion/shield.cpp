@@ -31,7 +31,7 @@ bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const g
   const Length length = (way.left + way.right) / 2;
   const Angle turn = angle_of(way.right - way.left, params.body.track);
   const int32_t samples = 1 + abs(length).raw() / kSample.raw();
-  const Length reach = params.body.radius + params.skirt.shield_margin;
+  const Length reach = shield_reach(params);
   for (int32_t i = 1; i <= samples; ++i) {
     const Angle chord =
         Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
@@ -45,8 +45,8 @@ bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const g
 
 Grant shield(Speed forward, Speed turning, const Pose& pose, const WheelState& wheels,
              const ground::Patch& patch, const Params& params) noexcept {
-  constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2),
-                              Q14::ratio(3, 10), Q14::ratio(3, 25), Q14::ratio(0, 1)};
+  constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2), Q14::ratio(3, 10),
+                              Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
   const Speed change = params.wheels.max_acceleration * params.safety.period;
   for (const Q14 factor : kFactors) {
     const WheelPair want = mix(forward * factor, turning, params.wheels.max_speed);
