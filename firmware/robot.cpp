@@ -123,26 +123,32 @@ void Robot::map(bool settled, nav::View& view) noexcept {
   const Angle axes[hal::kBeams] = {beams.side_angle, Angle{}, -beams.side_angle};
   history_.add(status_.pose, last_tick_);
   patch_.move_to(status_.pose);
-  Pose from;
-  Time taken;
+  ground::Proof proofs[hal::kBeams];
   Length free[hal::kBeams];
+  Length moved[hal::kBeams];
   int seen = 0;
   for (int i = 0; i < hal::kBeams; ++i) {
     const ranges::Sight sight = conditioner_.sight(i, params_);
     view.sight.beam[i] = sight.typical;
     if (!sight.fresh) continue;
     view.sighted = true;
-    if (!history_.at(sight.taken, from)) continue;
-    const bool aimed = settled && sight.oldest - settled_since_ >= Duration{};
-    const bool hit = sight.near.validity != ranges::Validity::clear;
-    const ground::Proof proof{from, axes[i], sight.near.distance, hit, aimed, sight.taken};
-    if (hit && witness_.contradicts(from, i, proof.free, sight.farthest)) patch_.doubt(proof, sight.farthest);
+    ground::Proof& proof = proofs[i];
+    if (!history_.at(sight.taken, proof.from)) continue;
+    proof.axis = axes[i];
+    proof.free = free[i] = sight.near.distance;
+    proof.hit = sight.near.validity != ranges::Validity::clear;
+    proof.aimed = settled && sight.oldest - settled_since_ >= Duration{};
+    proof.taken = sight.taken;
     patch_.mark(proof);
-    free[i] = proof.free;
-    taken = sight.taken;
+    if (proof.hit && witness_.contradicts(proof.from, i, proof.free, sight.farthest))
+      moved[i] = sight.farthest;
     ++seen;
   }
-  if (seen == hal::kBeams) witness_.add(from, taken, free);
+  // After all marks: another beam may see ground as empty into which something is about to move.
+  for (int i = 0; i < hal::kBeams; ++i) {
+    if (moved[i] > Length{}) patch_.doubt(proofs[i], moved[i]);
+  }
+  if (seen == hal::kBeams) witness_.add(proofs[0].from, proofs[0].taken, free);
   const motion::WheelPair rolling = driver_.wheels().rolling;
   view.patch = &patch_;
   view.forward = (rolling.left + rolling.right) / 2;

@@ -10,7 +10,7 @@ constexpr int32_t kSlack = 3 * 8;
 constexpr Angle kWidening = Angle::turns(5, 3600);
 // Three readings of a wall at rest are not all this much too near.
 constexpr Length kNoise = 30_mm;
-constexpr Length kStep = 40_mm;
+constexpr Length kStep = 60_mm;
 constexpr Angle kTurn = Angle::turns(75, 3600);
 constexpr Duration kWhile = 250_ms;
 

@@ -34,7 +34,7 @@ class Witness {
   bool contradicts(const Pose& from, int beam, Length nearest, Length farthest) const noexcept;
 
  private:
-  static constexpr int kKept = 8;
+  static constexpr int kKept = 10;
   static constexpr int kSectors = 8;
   using Mask = uint32_t;  // a bit per kept sector
   static_assert(kKept * kBeams <= 32);
