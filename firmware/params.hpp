@@ -66,10 +66,13 @@ struct ThesisParams {
 };
 
 struct SkirtParams {
-  Length cell;                    ///< of the clearance patch; zero: see patch_cell
-  Length shield_margin = 2_mm;    ///< kept clear around the body at every tick, beside a cell's own size
-  Length probe;                   ///< length of a way that is judged; zero: see probe_length
-  Length planning_margin = 4_mm;  ///< the same on a heading that is chosen; more than the shield's
+  Length cell;                       ///< of the clearance patch; zero: see patch_cell
+  Length shield_margin = 2_mm;       ///< kept clear around the body at every tick, beside a cell's own size
+  Length probe;                      ///< length of a way that is judged; zero: see probe_length
+  Length planning_margin = 4_mm;     ///< the same on a heading that is chosen; more than the shield's
+  Length age_travel = 500_mm;        ///< clear ground is forgotten after one to two of these ways
+  Angle age_turn = 340_deg;          ///< or of these turns, whichever comes first
+  Speed mover_speed = 300_mm_per_s;  ///< of things that move and are given room; 0: nothing moves
 };
 
 struct MotionParams {
@@ -167,6 +170,9 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("skirt_probe_m", p.skirt.probe, 0_mm, 2_m);
   f.number("skirt_shield_margin_m", p.skirt.shield_margin, 0_mm, 500_mm);
   f.number("skirt_planning_margin_m", p.skirt.planning_margin, 0_mm, 500_mm);
+  f.number("skirt_age_travel_m", p.skirt.age_travel, 100_mm, 1000_m);
+  f.number("skirt_age_turn_deg", p.skirt.age_turn, 90_deg, 359_deg);
+  f.number("skirt_mover_speed_mps", p.skirt.mover_speed, 0_mm_per_s, 1000_mm_per_s);
 
   f.number("motion_settle_s", p.motion.settle, 20_ms, 1000_ms);
   f.number("turn_tolerance_deg", p.motion.turn_tolerance, Angle::turns(1, 3600), 10_deg);
