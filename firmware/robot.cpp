@@ -139,9 +139,10 @@ void Robot::map(bool settled, nav::View& view) noexcept {
     proof.hit = sight.near.validity != ranges::Validity::clear;
     proof.aimed = settled && sight.oldest - settled_since_ >= Duration{};
     proof.taken = sight.taken;
-    patch_.mark(proof);
-    if (proof.hit && witness_.contradicts(proof.from, i, proof.free, sight.farthest))
+    if (proof.hit && witness_.contradicts(proof.from, i, proof.free, sight.farthest, patch_)) {
       moved[i] = sight.farthest;
+    }
+    patch_.mark(proof);
     ++seen;
   }
   // After all marks: another beam may see ground as empty into which something is about to move.

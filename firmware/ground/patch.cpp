@@ -268,6 +268,19 @@ bool Patch::approaches(Vec from, Angle heading, Length step, Length radius) cons
   return false;
 }
 
+bool Patch::all_clear(Vec centre, Length radius) const noexcept {
+  const Point at = local(centre);
+  const int32_t reach = units(radius) + kCover;
+  constexpr int32_t kEnd = kCells * kUnitsPerCell;
+  if (at.x < reach || at.y < reach || at.x > kEnd - reach || at.y > kEnd - reach) return false;
+  for (Rows rows(at.y, reach); rows.more(); rows.next()) {
+    Span span;
+    span.within_disc(at.x, rows.offset(at.y), reach);
+    if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return false;
+  }
+  return true;
+}
+
 bool Patch::is_clear(Vec at) const noexcept {
   const Point p = local(at);
   if (p.x < 0 || p.y < 0 || p.x >= kCells * kUnitsPerCell || p.y >= kCells * kUnitsPerCell) return false;

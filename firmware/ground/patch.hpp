@@ -56,6 +56,8 @@ class Patch {
   /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only.
   bool approaches(Vec from, Angle heading, Length step, Length radius) const noexcept;
   bool is_clear(Vec at) const noexcept;
+  /// True if all cells that this disc touches are clear, none of them outside the window.
+  bool all_clear(Vec centre, Length radius) const noexcept;
 
  private:
   struct Point {

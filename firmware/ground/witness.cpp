@@ -6,7 +6,7 @@ namespace {
 constexpr int32_t kUm = 125;  // in 1/8 mm
 constexpr Length kFarthest = 2_m;
 // Of the estimated pose over the ways that the scans span, and of a reading's rounding.
-constexpr int32_t kSlack = 3 * 8;
+constexpr Length kSlack = 3_mm;
 constexpr Angle kWidening = Angle::turns(5, 3600);
 // Three readings of a wall at rest are not all this much too near.
 constexpr Length kNoise = 30_mm;
@@ -59,29 +59,37 @@ Witness::Mask Witness::holding(Vec point, Mask among) const noexcept {
       const Length forward = reach * cos(off) - offset_;
       const Length aside = abs(reach * sin(off));
       const Length from_apex = norm({forward, aside});
-      if (from_apex.raw() / kUm + kSlack > scan.free[i]) continue;
+      if ((from_apex + kSlack).raw() / kUm > scan.free[i]) continue;
       // Across the nearer edge.
       const Length inside = forward * sin(half_) - aside * cos(half_);
-      if (inside.raw() / kUm >= kSlack) holding |= 1U << (n * kBeams + i);
+      if (inside >= kSlack) holding |= 1U << (n * kBeams + i);
     }
   }
   return holding;
 }
 
-bool Witness::contradicts(const Pose& from, int beam, Length nearest, Length farthest) const noexcept {
-  if (count_ == 0 || farthest > kReach || nearest <= Length{}) return false;
+bool Witness::contradicts(const Pose& from, int beam, Length nearest, Length farthest,
+                          const Patch& patch) const noexcept {
+  if (farthest > kReach || nearest <= Length{}) return false;
   const Angle axes[kBeams] = {side_, Angle{}, -side_};
   const Angle axis = from.heading + axes[beam];
   const Vec apex = from.at + polar(axis, offset_);
   const Angle half = half_ + kWidening;
   const Angle step = Angle::from_raw(half.raw() / (kSectors / 2));
+  const Length far = farthest + kNoise;
+  // Cells are coarse: what stands in one takes the ground before it, too.
+  const Length beyond = farthest + kNoise / 3;
+  const Length middle = (nearest + beyond) / 2;
+  const Length radius = (beyond - nearest) / 2 + arc(step, far) / 2 + kSlack;
   Mask before = 0;
   for (int k = 0; k <= kSectors; ++k) {
     const Angle direction = axis - half + step * k;
-    const Mask all = ~Mask{0};
-    const Mask here = holding(apex + polar(direction, farthest + kNoise), all);
+    const Mask here = holding(apex + polar(direction, far), ~Mask{0});
     const Mask both = here == 0 ? 0 : holding(apex + polar(direction, nearest), here);
-    if (both == 0 || (k > 0 && (both & before) == 0)) return false;
+    if (k > 0 && (both & before) == 0) {
+      const Angle centre = direction - Angle::from_raw(step.raw() / 2);
+      if (!patch.all_clear(apex + polar(centre, middle), radius)) return false;
+    }
     before = both;
   }
   return true;

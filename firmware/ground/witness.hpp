@@ -5,6 +5,7 @@
 
 #include "firmware/core/trig.hpp"
 #include "firmware/core/units.hpp"
+#include "firmware/ground/patch.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker::ground {
@@ -30,8 +31,10 @@ class Witness {
   /// last one that was kept, or after a while.
   void add(const Pose& from, Time taken, const Length (&free)[kBeams]) noexcept;
 
-  /// True if no point of the beam's cone between these two distances could have been occupied before.
-  bool contradicts(const Pose& from, int beam, Length nearest, Length farthest) const noexcept;
+  /// True if no point of the beam's cone between these two distances could have been occupied before: each
+  /// lies in a kept sector or in clear ground.
+  bool contradicts(const Pose& from, int beam, Length nearest, Length farthest,
+                   const Patch& patch) const noexcept;
 
  private:
   static constexpr int kKept = 10;

@@ -2,9 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
-#include "firmware/nav/state.hpp"
 #include "host/sim/cone.hpp"
 #include "host/sim/spec.hpp"
 #include "host/worlds/generate.hpp"
@@ -66,12 +64,15 @@ Scenario draw(Course course, double speed, worlds::Random& random) {
   return s;
 }
 
-/// For how long the one mover has lain in some beam, near enough to be judged.
+/// For how long some beam has shown the one mover at the distance that it has, near enough to be judged: of
+/// what passes by, a cone may see no more than the far end.
 class Sighting {
  public:
   void look(const Rig& rig, const Scenario& scenario) {
     const sim::RobotSpec spec = sim::robot_spec(scenario.robot);
     const sim::Pose& pose = rig.plant().pose();
+    const sim::WorldView& world = rig.world();
+    const double near = sim::clearance(world, pose.at, rig.plant().time(), 0) + kOff;
     bool seen = false;
     for (int beam = -1; beam <= 1; ++beam) {
       const double axis = pose.heading + beam * spec.side_angle;
@@ -79,7 +80,7 @@ class Sighting {
                            {std::cos(axis), std::sin(axis)},
                            std::cos(spec.cone_half_width),
                            std::sin(spec.cone_half_width)};
-      seen = seen || sim::range(cone, rig.world(), rig.plant().time(), kReach) < kReach;
+      seen = seen || sim::range(cone, world, rig.plant().time(), kReach) < std::fmin(kReach, near);
     }
     since_ = seen ? since_ : rig.plant().time();
   }
@@ -87,6 +88,7 @@ class Sighting {
 
  private:
   static constexpr double kReach = 0.7;  // m
+  static constexpr double kOff = 0.03;
   double since_ = 0;
 };
 
@@ -104,15 +106,6 @@ Tally drive(Course course, double speed, int missions) {
     const bool moving = rig.speed() > kMoving;
     ++(moving ? tally.hit_moving : tally.hit_standing);
     if (moving && sighting.lasting(rig) > kInTime) ++tally.seen;
-    if (moving && std::getenv("VERBOSE")) {
-      const sim::Vec2 d = rig.world().movers[0].points[0] - rig.plant().pose().at;
-      (void)d;
-      const sim::Vec2 m =
-          sim::position(rig.world().movers[0], rig.plant().contact_time()) - rig.plant().pose().at;
-      std::printf("  %d: v %.3f bearing %.0f seen %.2f s at t %.2f mode %s\n", i, rig.speed(),
-                  (std::atan2(m.y, m.x) - rig.plant().pose().heading) * 57.3, sighting.lasting(rig),
-                  rig.plant().contact_time(), nav::name(rig.status().decision.mode));
-    }
     tally.worst = std::fmax(tally.worst, rig.speed());
   }
   std::printf(
