@@ -33,6 +33,8 @@ AngularRate rate_towards(Angle error, int32_t gain) noexcept {
 
 Length close_enough(Length tolerance) noexcept { return tolerance - tolerance / 8; }
 
+static_assert(sizeof(SkirtPlanner) + sizeof(ground::Patch) < 1024);
+
 }  // namespace
 
 SkirtPlanner::SkirtPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept
