@@ -12,6 +12,7 @@ constexpr Length kTestedTravel = 4_mm;
 constexpr int32_t kAbeam = 80;
 // Below this, rounding decides what comes nearer.
 constexpr Length kNoStep = Length::from_raw(100);
+constexpr int32_t kAhead = 3;  // cells
 constexpr Duration kDoubt = 1000_ms;
 
 constexpr int64_t floor_divide(int64_t n, int64_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
@@ -96,12 +97,13 @@ void Patch::reset(const Pose& pose) noexcept {
 }
 
 void Patch::move_to(const Pose& pose) noexcept {
-  // The body stands in the middle of the window, to the nearest cell.
+  // The body stands behind the middle of the window: the beams look ahead.
+  const Vec middle = pose.at + polar(pose.heading, Length::from_raw(cell_um_ * kAhead));
   const auto corner = [this](Length x) {
     return static_cast<int32_t>(floor_divide(int64_t{x.raw()} + cell_um_ / 2, cell_um_)) - kCells / 2;
   };
-  const int32_t right = corner(pose.at.x) - column_;
-  const int32_t up = corner(pose.at.y) - row_;
+  const int32_t right = corner(middle.x) - column_;
+  const int32_t up = corner(middle.y) - row_;
   if (right >= kCells || right <= -kCells || up >= kCells || up <= -kCells) {
     column_ += right;
     row_ += up;
@@ -205,10 +207,13 @@ void Patch::doubt(const Proof& proof, Length farthest) noexcept {
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;
   const int32_t beyond = units(farthest + approach_) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
+  // What is seen in the cone may reach beyond its edges, and be nearer there; behind the apex it is not.
+  const HalfPlane ahead = HalfPlane::facing(axis);
   for (int row = 0; row < kCells; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
     Span around;
     cone.clip(around, apex.x, dy, -approach);
+    ahead.clip(around, apex.x, dy, 0);
     around.within_disc(apex.x, dy, beyond);
     Span nearer;
     nearer.within_disc(apex.x, dy, nearest);

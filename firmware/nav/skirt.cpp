@@ -27,6 +27,8 @@ constexpr int32_t kOpeningCells = 6;
 /// A place counts as the goal only well inside the tolerance: the estimate has its own error.
 Length close_enough(Length tolerance) noexcept { return tolerance - tolerance / 8; }
 
+static_assert(sizeof(SkirtPlanner) + sizeof(ground::Patch) < 1024);
+
 }  // namespace
 
 void SkirtPlanner::set_goal(const Goal& goal) noexcept {

@@ -1,0 +1,296 @@
+#include "firmware/ground/patch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <utility>
+
+#include "host/run/spec.hpp"
+#include "host/worlds/random.hpp"
+#include "tests/ground/cells.hpp"
+
+namespace whisker::test {
+namespace {
+
+using worlds::Random;
+
+constexpr int kAround = 24;  // cells, farther than the window reaches
+constexpr double kCell = 0.02;
+
+double metres(Length l) { return l.raw() * 1e-6; }
+using Cell = std::pair<int, int>;
+
+Vec centre(Cell cell) { return {millimetres(20 * cell.first + 10), millimetres(20 * cell.second + 10)}; }
+Cell cell_of(Vec at) {
+  return {static_cast<int>(std::floor(metres(at.x) / kCell)),
+          static_cast<int>(std::floor(metres(at.y) / kCell))};
+}
+
+std::set<Cell> clear_around(const ground::Patch& patch, Vec at) {
+  std::set<Cell> clear;
+  const Cell here = cell_of(at);
+  for (int y = here.second - kAround; y <= here.second + kAround; ++y) {
+    for (int x = here.first - kAround; x <= here.first + kAround; ++x) {
+      if (patch.is_clear(centre({x, y}))) clear.insert({x, y});
+    }
+  }
+  return clear;
+}
+
+ground::Proof proof(Pose from, Angle axis, Length free, bool hit = true) {
+  ground::Proof p;
+  p.from = from;
+  p.axis = axis;
+  p.free = free;
+  p.hit = hit;
+  return p;
+}
+
+double distance(Cell cell, Vec at) {
+  const Vec c = centre(cell);
+  return std::hypot(metres(c.x) - metres(at.x), metres(c.y) - metres(at.y));
+}
+
+TEST(Patch, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Random random(seed);
+    const Pose pose{{Length::from_raw(random.index(2000000000) - 1000000000),
+                     Length::from_raw(random.index(2000000000) - 1000000000)},
+                    Angle::from_raw(static_cast<std::uint32_t>(random.bits()))};
+    const Params params;
+    ground::Patch patch;
+    patch.configure(params);
+    patch.reset(pose);
+    const std::set<Cell> clear = clear_around(patch, pose.at);
+    EXPECT_GT(clear.size(), 40U);
+    // Each wholly under the body.
+    for (const Cell& cell : clear) ASSERT_LE(distance(cell, pose.at), 0.09 - 0.7071 * kCell);
+  }
+}
+
+// The rows and columns that the window leaves are forgotten, those that it keeps are kept, and no bit comes
+// in at the other end of the torus.
+TEST(Patch, AMovingWindowNeitherLeaksNorLoses) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Random random(seed);
+    Params params;
+    params.skirt.age_travel = 1000_m;
+    params.skirt.age_turn = 359_deg;
+    ground::Patch patch;
+    patch.configure(params);
+    Pose pose{{millimetres(random.index(4000) - 2000), millimetres(random.index(4000) - 2000)},
+              Angle::turns(random.index(8), 8)};
+    patch.reset(pose);
+    std::set<Cell> before = clear_around(patch, pose.at);
+    for (int step = 0; step < 30; ++step) {
+      const int reach = random.chance(0.1) ? 1500 : 60;
+      pose.at = pose.at + Vec{millimetres(random.index(2 * reach + 1) - reach),
+                              millimetres(random.index(2 * reach + 1) - reach)};
+      patch.move_to(pose);
+      const std::set<Cell> moved = clear_around(patch, pose.at);
+      for (const Cell& cell : moved) {
+        ASSERT_TRUE(before.count(cell) == 1 || distance(cell, pose.at) < 0.09)
+            << "seed " << seed << " step " << step << ": a leak at " << cell.first << ' ' << cell.second;
+      }
+      for (const Cell& cell : before) {
+        const bool near = std::fabs(metres(centre(cell).x) - metres(pose.at.x)) < 0.25 &&
+                          std::fabs(metres(centre(cell).y) - metres(pose.at.y)) < 0.25;
+        ASSERT_TRUE(!near || moved.count(cell) == 1) << "seed " << seed << " step " << step << ": lost";
+      }
+      patch.mark(proof(pose, Angle::from_raw(static_cast<std::uint32_t>(random.bits())), 2_m, false));
+      before = clear_around(patch, pose.at);
+    }
+  }
+}
+
+/// A patch with random clear ground around a body at rest.
+ground::Patch draw_patch(Random& random, const Pose& pose) {
+  ground::Patch patch;
+  patch.configure(Params{});
+  patch.reset(pose);
+  const int looks = random.index(30);
+  for (int i = 0; i < looks; ++i) {
+    patch.mark(proof(pose, Angle::from_raw(static_cast<std::uint32_t>(random.bits())),
+                     millimetres(100 + random.index(300))));
+  }
+  return patch;
+}
+
+Pose draw_pose(Random& random) {
+  return {{Length::from_raw(random.index(1000000)), Length::from_raw(random.index(1000000))},
+          random.chance(0.3) ? Angle::turns(random.index(8), 8)
+                             : Angle::from_raw(static_cast<std::uint32_t>(random.bits()))};
+}
+
+TEST(Patch, AlongCountsWhatIsNotClearOnTheWay) {
+  constexpr double kRounding = 0.0005;
+  constexpr double kAbeam = 80 * kCell / 256;
+  int blocked = 0;
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    Random random(seed);
+    const Pose pose = draw_pose(random);
+    const ground::Patch patch = draw_patch(random, pose);
+    const Length length = millimetres(random.index(150));
+    const Length radius = millimetres(20 + random.index(90));
+    const ground::Obstacles found = patch.along(pose.at, pose.heading, length, radius);
+    const double heading = radians(pose.heading);
+    int surely = 0;
+    int perhaps = 0;
+    const Cell here = cell_of(pose.at);
+    for (int y = here.second - 13; y <= here.second + 13; ++y) {
+      for (int x = here.first - 13; x <= here.first + 13; ++x) {
+        if (patch.is_clear(centre({x, y}))) continue;
+        const double dx = metres(centre({x, y}).x) - metres(pose.at.x);
+        const double dy = metres(centre({x, y}).y) - metres(pose.at.y);
+        const double ahead = dx * std::cos(heading) + dy * std::sin(heading);
+        const double on = std::fmin(std::fmax(ahead, 0.0), metres(length));
+        const double off = std::hypot(dx - on * std::cos(heading), dy - on * std::sin(heading));
+        const double by = std::fmin(metres(radius) - off, ahead - kAbeam);
+        if (by > kRounding) ++surely;
+        if (by > -kRounding) ++perhaps;
+      }
+    }
+    ASSERT_GE(found.unknown + found.suspect, surely) << "seed " << seed;
+    ASSERT_LE(found.unknown + found.suspect, perhaps) << "seed " << seed;
+    if (found.unknown > 0) {
+      ASSERT_FALSE(patch.is_clear(pose.at + found.nearest_unknown)) << "seed " << seed;
+    }
+    blocked += found.none() ? 0 : 1;
+  }
+  EXPECT_GT(blocked, 500);
+  EXPECT_LT(blocked, 2900);
+}
+
+TEST(Patch, ApproachesTellsWhatComesNearer) {
+  constexpr double kRounding = 0.0005;
+  int vetoed = 0;
+  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+    Random random(seed);
+    const Pose pose = draw_pose(random);
+    const ground::Patch patch = draw_patch(random, pose);
+    const Length step = micrometres(100 + random.index(60000));
+    const Length radius = millimetres(50 + random.index(60));
+    const double heading = radians(pose.heading);
+    const double ahead = std::fmax(80 * kCell / 256, metres(step) / 2);
+    bool surely = false;
+    bool perhaps = false;
+    const Cell here = cell_of(pose.at);
+    for (int y = here.second - 13; y <= here.second + 13; ++y) {
+      for (int x = here.first - 13; x <= here.first + 13; ++x) {
+        if (patch.is_clear(centre({x, y}))) continue;
+        const double dx = metres(centre({x, y}).x) - metres(pose.at.x);
+        const double dy = metres(centre({x, y}).y) - metres(pose.at.y);
+        const double off =
+            std::hypot(dx - metres(step) * std::cos(heading), dy - metres(step) * std::sin(heading));
+        const double by =
+            std::fmin(metres(radius) - off, dx * std::cos(heading) + dy * std::sin(heading) - ahead);
+        surely = surely || by > kRounding;
+        perhaps = perhaps || by > -kRounding;
+      }
+    }
+    const bool answer = patch.approaches(pose.at, pose.heading, step, radius);
+    ASSERT_TRUE(!surely || answer) << "seed " << seed;
+    ASSERT_TRUE(perhaps || !answer) << "seed " << seed;
+    vetoed += answer ? 1 : 0;
+  }
+  EXPECT_GT(vetoed, 500);
+  EXPECT_LT(vetoed, 2900);
+}
+
+// Seen once, then left behind or turned away from.
+TEST(Patch, AClearCellLivesForOneToTwoSpans) {
+  const Params params;
+  const Length span = params.skirt.age_travel;
+  ground::Patch patch;
+  patch.configure(params);
+  Pose pose;
+  patch.reset(pose);
+  patch.mark(proof(pose, Angle{}, 2_m, false));
+  const Vec seen{200_mm, 0_mm};
+  ASSERT_TRUE(patch.is_clear(seen));
+  // To and fro, where the body's margin never comes near the cell.
+  Length travel{};
+  while (travel < span) {
+    pose.at.y = pose.at.y == 0_mm ? 10_mm : 0_mm;
+    patch.move_to(pose);
+    travel += 10_mm;
+    ASSERT_TRUE(patch.is_clear(seen)) << metres(travel);
+  }
+  while (travel < span * 2) {
+    pose.at.y = pose.at.y == 0_mm ? 10_mm : 0_mm;
+    patch.move_to(pose);
+    travel += 10_mm;
+  }
+  EXPECT_FALSE(patch.is_clear(seen));
+  EXPECT_TRUE(patch.is_clear(pose.at));
+}
+
+TEST(Patch, TurningAgesToo) {
+  ground::Patch patch;
+  patch.configure(Params{});
+  Pose pose;
+  patch.reset(pose);
+  patch.mark(proof(pose, Angle{}, 2_m, false));
+  const Vec seen{200_mm, 0_mm};
+  for (int i = 0; i < 33; ++i) {
+    pose.heading += 10_deg;
+    patch.move_to(pose);
+    ASSERT_TRUE(patch.is_clear(seen));
+  }
+  for (int i = 0; i < 40; ++i) {
+    pose.heading += 10_deg;
+    patch.move_to(pose);
+  }
+  EXPECT_FALSE(patch.is_clear(seen));
+}
+
+// The ground beside the way that the body has come stays clear for at least a span after it passed.
+TEST(Patch, TheWayBackStaysOpen) {
+  const Params params;
+  ground::Patch patch;
+  patch.configure(params);
+  Pose pose;
+  patch.reset(pose);
+  for (int i = 0; i < 24; ++i) patch.mark(proof(pose, 15_deg * i, 2_m, false));
+  const Length reach = params.body.radius + params.skirt.planning_margin;
+  while (pose.at.x < 5_m) {
+    pose.at.x += 5_mm;
+    patch.move_to(pose);
+    for (int i = -4; i <= 4; ++i) patch.mark(proof(pose, 15_deg * i, 2_m, false));
+    if (pose.at.x > 300_mm) {
+      ASSERT_TRUE(patch.along(pose.at, 180_deg, 100_mm, reach).none()) << metres(pose.at.x);
+    }
+  }
+}
+
+TEST(Patch, DoubtTakesBackWhatMayBeReachedAndSparesTheBody) {
+  const Params params;
+  ground::Patch patch;
+  patch.configure(params);
+  const Pose pose;
+  patch.reset(pose);
+  const std::set<Cell> under = clear_around(patch, pose.at);
+  for (int i = 0; i < 24; ++i) patch.mark(proof(pose, 15_deg * i, 2_m, false));
+  ground::Proof p = proof(pose, Angle{}, 200_mm);
+  patch.doubt(p, 210_mm);
+  EXPECT_TRUE(patch.doubting());
+  for (const Cell& cell : under) EXPECT_TRUE(patch.is_clear(centre(cell)));
+  // Lag 50 ms, braking 300 ms, latency 20 ms, two readings 40 ms, a tick 10 ms: 0.42 s at 0.3 m/s.
+  for (int mm = 200 - 126 + 25; mm < 290; mm += 5)
+    EXPECT_FALSE(patch.is_clear({millimetres(mm), 0_mm})) << mm;
+  EXPECT_TRUE(patch.is_clear({-200_mm, 0_mm}));
+  EXPECT_TRUE(patch.is_clear({0_mm, 220_mm}));
+  // For a second no echo clears that near; afterwards it does.
+  p.taken = Time::from_raw(900);
+  patch.mark(p);
+  EXPECT_FALSE(patch.is_clear({150_mm, 0_mm}));
+  p.taken = Time::from_raw(1100);
+  patch.mark(p);
+  EXPECT_TRUE(patch.is_clear({150_mm, 0_mm}));
+  EXPECT_FALSE(patch.doubting());
+}
+
+}  // namespace
+}  // namespace whisker::test
