@@ -33,6 +33,7 @@ std::string replay_command(const Row& row) {
   std::string command = is_scenario_file(row.world)
                             ? fmt::format("whisker run {} --seed {}", shell_word(row.world), row.seed)
                             : fmt::format("whisker campaign {} --replay {}", row.world, row.seed);
+  command += " --planner " + shell_word(row.planner);
   if (!row.robot.empty()) command += " --robot " + shell_word(row.robot);
   return command + " --svg " + shell_word(picture(row));
 }

@@ -7,9 +7,10 @@
 
 namespace whisker::campaign {
 
-Row drive(const Scenario& scenario, const std::atomic<bool>& stop) {
+Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop) {
   MotionCount count(scenario.robot.body.track.raw() * 1e-6);
   RunOptions options;
+  options.planner = planner;
   options.observe = [&](const TickRecord& record) {
     if (stop) throw Stopped{};
     count.add(record);
@@ -33,6 +34,7 @@ Row drive(const Scenario& scenario, const std::atomic<bool>& stop) {
   row.ticks = result.ticks;
   row.hash = result.hash;
   row.detail = result.detail;
+  row.planner = name(planner);
   return row;
 }
 

@@ -56,8 +56,7 @@ void print(const Options& o, const std::vector<campaign::Row>& rows) {
 
 campaign::Row row_of(const Missions& missions, std::uint64_t index, const std::atomic<bool>& stop) {
   const campaign::Mission m = mission(missions, index);
-  campaign::Row row = campaign::drive(m.scenario, stop);
-  row.planner = name(RunOptions{}.planner);
+  campaign::Row row = campaign::drive(m.scenario, missions.planner, stop);
   row.robot = missions.robot;
   row.world = m.world;
   return row;
@@ -104,7 +103,11 @@ int execute(const Options& o) {
   if (o.worlds.empty()) throw UsageError("KIND|DIR is required");
   check_outputs({o.csv, o.svg, o.trace}, {o.robot});
   const Missions chosen = missions(o);
-  if (o.replay) return drive_one(mission(chosen, 0).scenario, {}, {o.trace, o.svg, o.json});
+  if (o.replay) {
+    RunOptions options;
+    options.planner = chosen.planner;
+    return drive_one(mission(chosen, 0).scenario, options, {o.trace, o.svg, o.json});
+  }
   if (!o.svg.empty() || !o.trace.empty()) throw UsageError("--svg and --trace need --replay");
   std::vector<campaign::Row> rows;
   const bool whole = drive_all(o, chosen, rows);
@@ -143,6 +146,7 @@ void add_campaign(CLI::App& app, int& status) {
       ->type_name("N");
   add_switch(*cmd, "--box", o->world.box, "A closed box around, as in `whisker world`");
   add_switch(*cmd, "--noise", o->world.noise, "Sensor noise and odometry error, as in `whisker world`");
+  add_planner(*cmd, o->planner);
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenarios");
   cmd->add_option("--jobs", o->jobs, "Missions at a time; as many as there are cores by default")
       ->transform(whole_number(1024))
@@ -160,8 +164,8 @@ void add_campaign(CLI::App& app, int& status) {
   cmd->callback([o, cmd, &status] {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {
-      refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--robot", "--svg",
-                           "--trace", "--json"});
+      refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--planner", "--robot",
+                           "--svg", "--trace", "--json"});
     }
     status = execute(*o);
   });

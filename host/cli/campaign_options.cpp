@@ -77,6 +77,7 @@ Missions missions(const CampaignOptions& o) {
     throw UsageError("--robot: the file's name has control characters in it");
   }
   Missions m;
+  m.planner = o.planner;
   m.robot = o.robot;
   if (const auto kind = worlds::kind_named(o.worlds)) {
     m.worlds = generated(o, *kind);

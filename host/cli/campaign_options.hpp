@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/campaign/worlds.hpp"
+#include "host/run/planners.hpp"
 
 namespace whisker::cli {
 
@@ -15,6 +16,7 @@ struct CampaignOptions {
   std::optional<std::uint64_t> count;
   std::optional<std::uint64_t> seed;
   worlds::Options world;
+  PlannerKind planner = PlannerKind::skirt;
   std::string robot;
   int jobs = 0;  ///< 0: as many as there are cores
   std::string shard;
@@ -29,6 +31,7 @@ struct CampaignOptions {
 /// Which missions: first, then one after the other up to last, which is not among them.
 struct Missions {
   std::variant<campaign::Generated, campaign::Files> worlds;
+  PlannerKind planner = PlannerKind::skirt;
   std::string robot;
   std::uint64_t first = 0;
   std::uint64_t last = 0;

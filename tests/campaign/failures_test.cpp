@@ -13,18 +13,20 @@ Row failed(std::uint64_t seed, const std::string& world) {
   row.world = world;
   row.verdict = Verdict::contact;
   row.detail = "stepping";
+  row.planner = "thesis";
   return row;
 }
 
 TEST(Replay, NamesTheWorldAsTheCommandTakesIt) {
   EXPECT_EQ(replay_command(failed(7, "discs --discs 20 --noise")),
-            "whisker campaign discs --discs 20 --noise --replay 7 --svg discs-7.svg");
+            "whisker campaign discs --discs 20 --noise --replay 7 --planner thesis --svg discs-7.svg");
   EXPECT_EQ(replay_command(failed(7, "some/two_discs.toml")),
-            "whisker run some/two_discs.toml --seed 7 --svg two_discs-7.svg");
+            "whisker run some/two_discs.toml --seed 7 --planner thesis --svg two_discs-7.svg");
   Row row = failed(7, "some/it's.toml");
   row.robot = "my robot.toml";
   EXPECT_EQ(replay_command(row),
-            "whisker run 'some/it'\\''s.toml' --seed 7 --robot 'my robot.toml' --svg 'it'\\''s-7.svg'");
+            "whisker run 'some/it'\\''s.toml' --seed 7 --planner thesis --robot 'my robot.toml' --svg "
+            "'it'\\''s-7.svg'");
 }
 
 TEST(Failures, AreListedUpToAPointAndThenCounted) {
@@ -34,10 +36,11 @@ TEST(Failures, AreListedUpToAPointAndThenCounted) {
     if (seed % 3 == 0) rows.back().verdict = Verdict::reached;
   }
   const std::string some = failure_lines(rows, 2);
-  EXPECT_EQ(some,
-            "seed 1 contact (stepping): whisker campaign discs --replay 1 --svg discs-1.svg\n"
-            "seed 2 contact (stepping): whisker campaign discs --replay 2 --svg discs-2.svg\n"
-            "and 18 more that failed\n");
+  EXPECT_EQ(
+      some,
+      "seed 1 contact (stepping): whisker campaign discs --replay 1 --planner thesis --svg discs-1.svg\n"
+      "seed 2 contact (stepping): whisker campaign discs --replay 2 --planner thesis --svg discs-2.svg\n"
+      "and 18 more that failed\n");
   const std::string all = failure_lines(rows, 20);
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 20);
   EXPECT_EQ(all.find("more"), std::string::npos);

@@ -24,8 +24,11 @@ Scenario scenario(std::uint64_t seed) {
 TEST(Mission, TheRowTellsWhatTheRunTells) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const Scenario s = scenario(seed);
-    const Row row = drive(s, kOn);
-    const RunResult result = run(s);
+    RunOptions options;
+    options.planner = seed == 3 ? PlannerKind::thesis : PlannerKind::skirt;
+    const Row row = drive(s, options.planner, kOn);
+    const RunResult result = run(s, options);
+    EXPECT_EQ(row.planner, name(options.planner));
     EXPECT_EQ(row.seed, seed);
     EXPECT_EQ(row.verdict, result.verdict);
     EXPECT_EQ(row.detail, result.detail);
@@ -39,13 +42,13 @@ TEST(Mission, TheRowTellsWhatTheRunTells) {
     ASSERT_TRUE(row.shortest_m && shortest);
     EXPECT_NEAR(*row.shortest_m, *shortest, 6e-7);
     EXPECT_GT(row.looks, 0U);
-    EXPECT_EQ(to_csv(row), to_csv(drive(s, kOn)));
+    EXPECT_EQ(to_csv(row), to_csv(drive(s, options.planner, kOn)));
   }
 }
 
 TEST(Mission, IsGivenUpWhenToldToStop) {
   const std::atomic<bool> stop{true};
-  EXPECT_THROW(drive(scenario(1), stop), Stopped);
+  EXPECT_THROW(drive(scenario(1), PlannerKind::thesis, stop), Stopped);
 }
 
 }  // namespace

@@ -102,6 +102,28 @@ TEST(RowText, WhatIsWrongIsNamed) {
   }
 }
 
+TEST(RowText, ADamagedRowIsRefusedOrIsAnotherRow) {
+  const std::string alphabet = "0123456789.,-+e\"' nf\n\xFF";
+  worlds::Random random(5);
+  int refused = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string line = to_csv(random_row(random));
+    const auto place = [&] { return static_cast<std::size_t>(random.index(static_cast<int>(line.size()))); };
+    const char letter = alphabet[static_cast<std::size_t>(random.index(static_cast<int>(alphabet.size())))];
+    switch (random.index(3)) {
+      case 0: line[place()] = letter; break;
+      case 1: line.insert(place(), 1, letter); break;
+      default: line.erase(place(), 1);
+    }
+    try {
+      ASSERT_EQ(to_csv(parse_row(line)), line);
+    } catch (const std::invalid_argument&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 10000);
+}
+
 TEST(RowText, NoPrefixOfARowIsARow) {
   // The last column is free text: only what cuts into the columns before it can be told.
   for (std::size_t n = 0; n < kLine.rfind(','); ++n) EXPECT_NE(complaint(kLine.substr(0, n)), "") << n;

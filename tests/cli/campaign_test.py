@@ -81,6 +81,14 @@ class Rows(Campaigns):
         for row in rows_of(self.rows("enclosed", "--count", 2, "--discs", 3)):
             self.assertEqual((row["shortest_m"], row["ratio"]), ("", ""))
 
+    def test_the_planner_may_be_chosen(self):
+        for planner in ("skirt", "thesis"):
+            rows = rows_of(self.rows(*KIND, "--count", 2, "--seed", 2, "--planner", planner))
+            self.assertEqual({row["planner"] for row in rows}, {planner})
+            world = self.file("w.toml", whisker.whisker("world", *KIND, "--seed", 3).stdout)
+            run = json.loads(whisker.whisker("run", world, "--planner", planner, "--json").stdout)
+            self.assertEqual(rows[1]["hash"], run["hash"])
+
     def test_a_robot_file_counts_for_every_mission(self):
         self.file("slow.toml", "wheel_speed_max_mps = 0.1\n")
         usual, slow = (rows_of(self.rows(*KIND, "--count", 3, *robot)) for robot in ((), ("--robot", "slow.toml")))

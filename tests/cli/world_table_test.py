@@ -15,7 +15,7 @@ OPTIONS = {
     (): ("--help", "--version"),
     ("run",): ("SCENARIO", "--planner", "--robot", "--seed", "--trace", "--svg", "--json"),
     ("campaign",): (
-        "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--robot", "--jobs", "--shard", "--csv", "--json",
+        "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--planner", "--robot", "--jobs", "--shard", "--csv", "--json",
         "--merge", "--replay", "--svg", "--trace",
     ),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--out", *KINDS),
