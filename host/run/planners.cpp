@@ -2,6 +2,9 @@
 
 #include "firmware/nav/skirt.hpp"
 #include "firmware/nav/thesis.hpp"
+#include "host/baselines/bug2.hpp"
+#include "host/baselines/distbug.hpp"
+#include "host/baselines/wall_follower.hpp"
 
 namespace whisker {
 
@@ -9,6 +12,9 @@ std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& param
   switch (kind) {
     case PlannerKind::skirt: return std::make_shared<nav::SkirtPlanner>(params, fuzzy::kDefaultTable);
     case PlannerKind::thesis: return std::make_shared<nav::ThesisPlanner>(params, fuzzy::kDefaultTable);
+    case PlannerKind::bug2: return std::make_shared<baselines::Bug2>(params);
+    case PlannerKind::distbug: return std::make_shared<baselines::DistBug>(params);
+    case PlannerKind::wall_follower: return std::make_shared<baselines::WallFollower>(params);
   }
   return nullptr;
 }
@@ -17,6 +23,9 @@ const char* name(PlannerKind kind) {
   switch (kind) {
     case PlannerKind::skirt: return "skirt";
     case PlannerKind::thesis: return "thesis";
+    case PlannerKind::bug2: return "bug2";
+    case PlannerKind::distbug: return "distbug";
+    case PlannerKind::wall_follower: return "wall-follower";
   }
   return "?";
 }

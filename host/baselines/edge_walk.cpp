@@ -1,0 +1,170 @@
+#include "host/baselines/edge_walk.hpp"
+
+namespace whisker::baselines {
+namespace {
+
+constexpr Length kShortProbe = 60_mm;
+constexpr Angle kCoarse = Angle::turns(75, 3600);
+constexpr std::int32_t kCoarseCircle = 48;
+constexpr Angle kFine = Angle::turns(25, 3600);
+constexpr std::int32_t kFineCircle = 144;
+constexpr Angle kNotBack = 45_deg;
+constexpr std::int32_t kRetreats = 8;
+
+}  // namespace
+
+void EdgeWalk::forget_trail(const nav::View& view) {
+  for (Vec& at : trail_) at = view.pose.at;
+  last_ = view.pose.at;
+}
+
+void EdgeWalk::note(const nav::View& view) {
+  travel_um_ += norm(view.pose.at - last_).raw();
+  last_ = view.pose.at;
+  if (norm(view.pose.at - trail_[newest_]) > 40_mm) {
+    newest_ = (newest_ + 1) % kTrail;
+    trail_[newest_] = view.pose.at;
+    retreats_ = 0;
+  }
+}
+
+void EdgeWalk::begin(std::int32_t side, Angle blocked) {
+  side_ = side;
+  course_ = blocked;
+  feel_from(blocked);
+}
+
+void EdgeWalk::feel_from(Angle heading) {
+  feel_from_ = heading;
+  candidate_ = 0;
+  reach_ = kProbe;
+  fine_ = false;
+  phase_ = Phase::brake;
+}
+
+/// From the wall's side, but not from beyond the wall: where it came from lies there.
+void EdgeWalk::feel_from_wall(const nav::View& view, Angle heading) {
+  course_ = heading;
+  Angle swing = 110_deg;
+  const Angle to_back = (way_back(view, heading) - course_) * side_;
+  const Angle past_back = to_back - kNotBack;
+  if (to_back.raw() > kNotBack.raw() && past_back.raw() < swing.raw()) swing = past_back;
+  feel_from(course_ + swing * side_);
+}
+
+Angle EdgeWalk::way_back(const nav::View& view, Angle heading) const {
+  const Vec past = trail_[(newest_ + kTrail - 3) % kTrail] - view.pose.at;
+  return norm(past) < 60_mm ? heading + 180_deg : bearing(past);
+}
+
+bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
+  switch (phase_) {
+    case Phase::brake:
+      if (view.settled) phase_ = Phase::feel;
+      return true;
+    case Phase::feel: feel(view, decision); return true;
+    case Phase::look:
+      decision.mode = nav::Mode::looking;
+      if (look_.step(view, params_, decision.manoeuvre)) {
+        decision.looked = true;
+        phase_ = Phase::feel;
+      }
+      return true;
+    case Phase::turn:
+      decision.mode = nav::Mode::skirting;
+      decision.manoeuvre = face(view, course_, params_);
+      if (faces(view, course_)) {
+        stall_.reset();
+        straight_until_um_ = travel_um_ + min(60_mm, reach_).raw();
+        felt_um_ = travel_um_;
+        phase_ = Phase::walk;
+      }
+      return true;
+    case Phase::walk: walk(view, decision); return true;
+    case Phase::retreat: return retreat(view, decision);
+  }
+  return false;
+}
+
+bool EdgeWalk::may_open(const nav::View& view) {
+  if (travel_um_ - felt_um_ <= Length{100_mm}.raw()) return false;
+  felt_um_ = travel_um_;
+  const Angle back = way_back(view, view.pose.heading);
+  for (std::int32_t i = 4; i <= 7; ++i) {
+    const Angle heading = view.pose.heading + 15_deg * (i * side_);
+    if (magnitude(heading - back) < kNotBack.raw()) continue;
+    const ground::Obstacles o =
+        view.patch->along(view.pose.at, heading, 100_mm, params_.body.radius + params_.skirt.planning_margin);
+    if (o.suspect + o.unknown <= 6) return true;
+  }
+  return false;
+}
+
+void EdgeWalk::walk(const nav::View& view, nav::Decision& decision) {
+  decision.mode = nav::Mode::skirting;
+  decision.why = nav::Why::edge;
+  const bool opens = view.sighted && may_open(view);
+  if (opens || stall_.stalled(view, params_)) {
+    if (opens) decision.why = nav::Why::opening;
+    decision.manoeuvre = stop();
+    feel_from_wall(view, view.pose.heading);
+    return;
+  }
+  decision.manoeuvre = travel_um_ < straight_until_um_
+                           ? steer(view, course_, params_.wheels.max_speed, params_)
+                           : along_wall(view, side_, params_);
+}
+
+void EdgeWalk::feel(const nav::View& view, nav::Decision& decision) {
+  decision.mode = nav::Mode::searching;
+  const Angle step = fine_ ? kFine : kCoarse;
+  const Length margin = fine_ ? params_.skirt.shield_margin : params_.skirt.planning_margin;
+  for (; candidate_ < (fine_ ? kFineCircle : kCoarseCircle); ++candidate_) {
+    const Angle heading = feel_from_ - step * (candidate_ * side_);
+    const Way found = way(view, heading, reach_, margin, params_);
+    if (found == Way::blocked || (fine_ && found == Way::open)) continue;
+    if (found == Way::open) {
+      look_.begin(heading, reach_);
+      decision.why = nav::Why::unknown_ahead;
+      decision.manoeuvre = stop();
+      phase_ = Phase::look;
+    } else {
+      course_ = heading;
+      phase_ = Phase::turn;
+    }
+    return;
+  }
+  candidate_ = 0;
+  if (reach_ == kProbe) {
+    reach_ = kShortProbe;
+  } else if (!fine_) {
+    fine_ = true;
+  } else {
+    fine_ = false;
+    retreat_to_ = trail_[(newest_ + kTrail - 2) % kTrail];
+    stall_.reset();
+    phase_ = Phase::retreat;
+  }
+}
+
+bool EdgeWalk::retreat(const nav::View& view, nav::Decision& decision) {
+  decision.mode = nav::Mode::skirting;
+  decision.why = nav::Why::way_back;
+  const Vec rest = retreat_to_ - view.pose.at;
+  if (norm(rest) < 10_mm) {
+    felt_um_ = travel_um_;
+    stall_.reset();
+    phase_ = Phase::walk;
+    return true;
+  }
+  if (stall_.stalled(view, params_)) {
+    if (++retreats_ >= kRetreats) return false;
+    decision.manoeuvre = stop();
+    feel_from_wall(view, view.pose.heading);
+    return true;
+  }
+  decision.manoeuvre = steer(view, bearing(rest), params_.wheels.max_speed / 2, params_);
+  return true;
+}
+
+}  // namespace whisker::baselines
