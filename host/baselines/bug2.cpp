@@ -5,7 +5,7 @@ namespace {
 
 constexpr Length kLookAhead = 300_mm;
 constexpr Length kNearer = 30_mm;
-constexpr Length kOnLine = 15_mm;
+constexpr Length kOnLine = 30_mm;
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace whisker::baselines {
 /// direction is any fixed one) and follows the boundary until it meets the m-line nearer to the goal than
 /// where it hit, with the way on free. Back at the hit point: unreachable.
 ///
-/// A body is no point: it meets the m-line where its centre crosses it or comes within 15 mm, and nearer is
+/// A body is no point: it meets the m-line where its centre crosses it or comes within 30 mm, and nearer is
 /// nearer by 30 mm. A boundary that it loses begins a new m-line.
 class Bug2 final : public Walker {
  public:

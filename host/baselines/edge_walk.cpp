@@ -65,7 +65,7 @@ bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
     case Phase::feel: feel(view, decision); return true;
     case Phase::look:
       decision.mode = nav::Mode::looking;
-      if (look_.step(view, params_, decision.manoeuvre)) {
+      if (look_.step(view, look_along_, reach_, params_, decision.manoeuvre)) {
         decision.looked = true;
         phase_ = Phase::feel;
       }
@@ -124,7 +124,8 @@ void EdgeWalk::feel(const nav::View& view, nav::Decision& decision) {
     const Way found = way(view, heading, reach_, margin, params_);
     if (found == Way::blocked || (fine_ && found == Way::open)) continue;
     if (found == Way::open) {
-      look_.begin(heading, reach_);
+      look_.begin();
+      look_along_ = heading;
       decision.why = nav::Why::unknown_ahead;
       decision.manoeuvre = stop();
       phase_ = Phase::look;

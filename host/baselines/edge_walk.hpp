@@ -20,8 +20,8 @@ class EdgeWalk {
   void note(const nav::View& view);
   void forget_trail(const nav::View& view);
 
-  /// The wall will be on this side (+1: left); the way along `blocked` is not free. The caller stops the body,
-  /// here and for resume().
+  /// The wall will be on this side (+1: left); the way along `blocked` is not free. The caller stops the
+  /// body, here and for resume().
   void begin(std::int32_t side, Angle blocked);
   /// The same edge once more, after the body turned away from its `heading` along the wall.
   void resume(const nav::View& view, Angle heading) { feel_from_wall(view, heading); }
@@ -47,6 +47,7 @@ class EdgeWalk {
   Phase phase_ = Phase::walk;
   std::int32_t side_ = 1;
   Look look_;
+  Angle look_along_;
   Stall stall_;
   Angle course_;
 

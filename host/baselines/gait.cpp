@@ -77,15 +77,10 @@ bool Stall::stalled(const nav::View& view, const Params& params) {
   return slow_ticks_ >= kTicks;
 }
 
-void Look::begin(Angle heading, Length length) {
-  heading_ = heading;
-  length_ = length;
-  halting_ = false;
-}
-
-bool Look::step(const nav::View& view, const Params& params, nav::Manoeuvre& manoeuvre) {
+bool Look::step(const nav::View& view, Angle heading, Length length, const Params& params,
+                nav::Manoeuvre& manoeuvre) {
   const ground::Obstacles o =
-      view.patch->along(view.pose.at, heading_, length_, params.body.radius + params.skirt.planning_margin);
+      view.patch->along(view.pose.at, heading, length, params.body.radius + params.skirt.planning_margin);
   if (o.suspect > 0 || o.unknown == 0) return true;
   const Angle to_cell = bearing(o.nearest_unknown);
   const Angle side = params.rangefinders.side_angle;

@@ -39,13 +39,12 @@ class Stall {
 /// Turns beams onto what was never seen in a way, until the way is free or blocked.
 class Look {
  public:
-  void begin(Angle heading, Length length);
-  /// True when it is over; otherwise what to do next.
-  bool step(const nav::View& view, const Params& params, nav::Manoeuvre& manoeuvre);
+  void begin() { halting_ = true; }  ///< the caller stops the body
+  /// Along this way from where the body is. True when it is over; otherwise what to do next.
+  bool step(const nav::View& view, Angle heading, Length length, const Params& params,
+            nav::Manoeuvre& manoeuvre);
 
  private:
-  Angle heading_;
-  Length length_;
   bool halting_ = false;
 };
 

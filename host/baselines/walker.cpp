@@ -50,7 +50,6 @@ void Walker::account(const nav::View& view) {
   last_ = view.pose;
   to_goal_ = goal_.at - view.pose.at;
   distance_ = norm(to_goal_);
-  if (norm(view.pose.at - hit_at_) > 300_mm) moved_away_ = true;
   edge_.note(view);
 }
 
@@ -100,7 +99,7 @@ void Walker::go(const nav::View& view) {
     }
   }
   if (stall_.stalled(view, params_)) {
-    look_.begin(course_, ahead);
+    look_.begin();
     enter(Phase::look_ahead, nav::Mode::looking, nav::Why::unknown_ahead);
     decision_.manoeuvre = stop();
     return;
@@ -109,7 +108,7 @@ void Walker::go(const nav::View& view) {
 }
 
 void Walker::look(const nav::View& view) {
-  if (!look_.step(view, params_, decision_.manoeuvre)) return;
+  if (!look_.step(view, course(view), min(kProbe, distance_), params_, decision_.manoeuvre)) return;
   decision_.looked = true;
   stall_.reset();
   if (phase_ == Phase::look_ahead) {
@@ -123,20 +122,17 @@ void Walker::look(const nav::View& view) {
 
 void Walker::begin_follow(const nav::View& view) {
   hit_at_ = view.pose.at;
-  hit_travel_um_ = travel_um_;
-  turned_ = 0;
-  walks_ = false;
-  moved_away_ = false;
+  on_its_way_ = false;
   edge_.begin(hit(view), course_);
   enter(Phase::follow, nav::Mode::searching, nav::Why::target_blocked);
   decision_.manoeuvre = stop();
 }
 
 bool Walker::came_round(const nav::View& view) const {
-  if (!moved_away_) return false;
-  const Length length = Length::from_raw(saturate32(travel_um_ - hit_travel_um_));
-  return norm(view.pose.at - hit_at_) < min(350_mm, 150_mm + length / 50) &&
-         size(turned_) > kTurn * 300 / 360 && magnitude(view.pose.heading - hit_heading_) < (90_deg).raw();
+  const Length length = Length::from_raw(saturate32(travel_um_ - mark_travel_um_));
+  return size(turned_) > kTurn * 300 / 360 &&
+         norm(view.pose.at - mark_.at) < min(300_mm, 100_mm + length / 100) &&
+         magnitude(view.pose.heading - mark_.heading) < (60_deg).raw();
 }
 
 bool Walker::leave(const nav::View& view) {
@@ -151,35 +147,33 @@ bool Walker::leave(const nav::View& view) {
 }
 
 void Walker::follow(const nav::View& view) {
-  if (!walks_ && edge_.drives()) {
-    walks_ = true;
-    hit_heading_ = view.pose.heading;
-    turned_ = 0;
-  }
   if (view.sighted && edge_.drives()) {
-    if (came_round(view)) {
-      if (can_tell_unreachable()) {
-        finish(nav::Mode::unreachable, nav::Why::came_round, nav::Outcome::unreachable);
-        return;
-      }
-      moved_away_ = false;
+    if (!on_its_way_ && norm(view.pose.at - hit_at_) > 200_mm) {
+      on_its_way_ = true;
+      mark_ = view.pose;
+      mark_travel_um_ = travel_um_;
+      turned_ = 0;
+    }
+    if (on_its_way_ && can_tell_unreachable() && came_round(view)) {
+      finish(nav::Mode::unreachable, nav::Why::came_round, nav::Outcome::unreachable);
+      return;
     }
     if (may_leave(view)) {
       if (leave(view)) return;
       const Angle heading = course(view);
       const Length ahead = min(kProbe, distance_);
-      if (travel_um_ - looked_um_ > Length{100_mm}.raw() &&
+      if (travel_um_ - looked_um_ > Length{50_mm}.raw() &&
           way(view, heading, ahead, params_.skirt.planning_margin, params_) == Way::open) {
         looked_um_ = travel_um_;
         walk_heading_ = view.pose.heading;
-        look_.begin(heading, ahead);
+        look_.begin();
         enter(Phase::look_away, nav::Mode::looking, nav::Why::unknown_ahead);
         decision_.manoeuvre = stop();
         return;
       }
     }
     // Twice round something that is not what it hit.
-    if (size(turned_) > 2 * kTurn) {
+    if (on_its_way_ && size(turned_) > 2 * kTurn) {
       begin(view);
       enter(Phase::go, nav::Mode::going, nav::Why::wall_lost);
       return;

@@ -76,11 +76,10 @@ class Walker : public nav::Planner {
   bool surveyed_left_ = false;
 
   Vec hit_at_;
-  Angle hit_heading_;   ///< of the first movement along the boundary
-  bool walks_ = false;  ///< has moved along the boundary
-  bool moved_away_ = false;
-  std::int64_t hit_travel_um_ = 0;
-  std::int64_t turned_ = 0;  ///< since the hit, 2^-32 turn, counter-clockwise positive
+  bool on_its_way_ = false;  ///< along the boundary, away from where it hit: these say from where
+  Pose mark_;
+  std::int64_t mark_travel_um_ = 0;
+  std::int64_t turned_ = 0;  ///< since the mark, 2^-32 turn, counter-clockwise positive
   std::int64_t looked_um_ = 0;
   Angle walk_heading_;  ///< before a look away from the wall
 };
