@@ -135,11 +135,14 @@ bool Walker::came_round(const nav::View& view) const {
          magnitude(view.pose.heading - mark_.heading) < (60_deg).raw();
 }
 
+Way Walker::way_off(const nav::View& view, Angle heading) const {
+  return way(view, heading, min(free_to_leave(), distance_), params_.skirt.planning_margin, params_);
+}
+
 bool Walker::leave(const nav::View& view) {
   const Angle heading = course(view);
-  const Way found = way(view, heading, min(kProbe, distance_), params_.skirt.planning_margin, params_);
+  const Way found = way_off(view, heading);
   if (found == Way::blocked || (found == Way::open && seen_free(view) < kProbe)) return false;
-  course_ = heading;
   stall_.reset();
   enter(Phase::go, nav::Mode::going, nav::Why::target_free);
   go(view);
@@ -160,10 +163,7 @@ void Walker::follow(const nav::View& view) {
     }
     if (may_leave(view)) {
       if (leave(view)) return;
-      const Angle heading = course(view);
-      const Length ahead = min(kProbe, distance_);
-      if (travel_um_ - looked_um_ > Length{50_mm}.raw() &&
-          way(view, heading, ahead, params_.skirt.planning_margin, params_) == Way::open) {
+      if (travel_um_ - looked_um_ > Length{50_mm}.raw() && way_off(view, course(view)) == Way::open) {
         looked_um_ = travel_um_;
         walk_heading_ = view.pose.heading;
         look_.begin();

@@ -30,8 +30,9 @@ class Walker : public nav::Planner {
   virtual Angle course(const nav::View& view) const = 0;
   /// A boundary is hit: the side that it will be on, +1 for left.
   virtual std::int32_t hit(const nav::View& view) = 0;
-  /// Once per reading while following. The walker leaves if this is true and the course is free.
+  /// Once per reading while following. The walker leaves if this is true and the course is free so far.
   virtual bool may_leave(const nav::View& view) = 0;
+  virtual Length free_to_leave() const { return kProbe; }
   virtual bool can_tell_unreachable() const = 0;
 
   const Params& params() const { return params_; }
@@ -55,6 +56,7 @@ class Walker : public nav::Planner {
   void begin_follow(const nav::View& view);
   void follow(const nav::View& view);
   bool leave(const nav::View& view);
+  Way way_off(const nav::View& view, Angle heading) const;
   bool came_round(const nav::View& view) const;
   void enter(Phase phase, nav::Mode mode, nav::Why why);
   void finish(nav::Mode mode, nav::Why why, nav::Outcome outcome);
