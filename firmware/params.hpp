@@ -68,6 +68,7 @@ struct ThesisParams {
 struct SkirtParams {
   Length cell = 20_mm;             ///< of the clearance patch; 32 x 32 cells
   Length shield_margin = 16_mm;    ///< kept clear around the body at every tick
+  Length probe = 150_mm;           ///< length of a way that is judged
   Length planning_margin = 18_mm;  ///< kept clear around the body on a heading that is chosen
 };
 
@@ -159,6 +160,7 @@ constexpr void for_each_param(P& p, F&& f) {
   f.count("thesis_max_steps", p.thesis.max_steps, 1, 1000000);
 
   f.number("skirt_cell_m", p.skirt.cell, 5_mm, 100_mm);
+  f.number("skirt_probe_m", p.skirt.probe, 20_mm, 1_m);
   f.number("skirt_shield_margin_m", p.skirt.shield_margin, 0_mm, 500_mm);
   f.number("skirt_planning_margin_m", p.skirt.planning_margin, 0_mm, 500_mm);
 

@@ -8,9 +8,9 @@ constexpr Length distance_of(Validity v, uint16_t mm, Length max_range) noexcept
   return v == Validity::clear ? max_range : Length{};
 }
 
-constexpr Validity validity_of(Length d, bool all_clear) noexcept {
+constexpr Validity validity_of(Length d, Length max_range) noexcept {
   if (d == Length{}) return Validity::too_near;
-  return all_clear ? Validity::clear : Validity::ok;
+  return d == max_range ? Validity::clear : Validity::ok;
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle h
   fresh_ = true;
   last_usable_ = now;
   newest_ = static_cast<int8_t>((newest_ + 1) % kHistory);
-  history_[newest_] = {latest_.distance, now - milliseconds(reading.age_ms), validity};
+  history_[newest_] = {latest_.distance, now - milliseconds(reading.age_ms)};
   if (count_ < kHistory) ++count_;
 }
 
@@ -112,8 +112,8 @@ Sight BeamConditioner::sight(const Params& params) const noexcept {
   s.fresh = fresh_;
   s.taken = history_[newest_].taken;
   s.oldest = history_[(newest_ - kNear + 1 + kHistory) % kHistory].taken;
-  s.near = {nearest, validity_of(nearest, nearest == far)};
-  s.typical = {median, validity_of(median, median == far)};
+  s.near = {nearest, validity_of(nearest, far)};
+  s.typical = {median, validity_of(median, far)};
   return s;
 }
 
@@ -121,11 +121,9 @@ Echo BeamConditioner::look(Time since, const Params& params) const noexcept {
   const int wanted = static_cast<int>(params.conditioning.reads);
   if (count_ < wanted) return {};
   Length sorted[kHistory];
-  bool all_clear = true;
   for (int i = 0; i < wanted; ++i) {
     const Measurement& m = history_[(newest_ - i + kHistory) % kHistory];
     if (m.taken - since < Duration{}) return {};
-    all_clear = all_clear && m.validity == Validity::clear;
     int slot = i;
     for (; slot > 0 && sorted[slot - 1] > m.distance; --slot) sorted[slot] = sorted[slot - 1];
     sorted[slot] = m.distance;
@@ -138,7 +136,7 @@ Echo BeamConditioner::look(Time since, const Params& params) const noexcept {
       break;
     case Consensus::median: break;
   }
-  return {agreed, validity_of(agreed, all_clear || agreed == params.rangefinders.max_range)};
+  return {agreed, validity_of(agreed, params.rangefinders.max_range)};
 }
 
 void Conditioner::reset(Time now) noexcept {

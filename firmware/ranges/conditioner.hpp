@@ -49,7 +49,6 @@ class BeamConditioner {
   struct Measurement {
     Length distance;
     Time taken;
-    Validity validity = Validity::pending;
   };
   Validity classify(const hal::RangeReading& reading, Angle heading, const Params& params,
                     Health& health) noexcept;

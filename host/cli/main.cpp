@@ -23,7 +23,11 @@ std::string one_line(std::string text) {
 
 /// CLI11 would only say that a subcommand is missing.
 void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+  if (argc < 2) return;
+  if (argv[1][0] == '-') {
+    if (app.get_option_no_throw(argv[1]) != nullptr) return;
+    throw whisker::cli::UsageError(fmt::format("no option '{}' (see whisker --help)", argv[1]));
+  }
   const auto named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (!app.get_subcommands(named).empty()) return;
   throw whisker::cli::UsageError(fmt::format("no command '{}' (see whisker --help)", argv[1]));
@@ -40,10 +44,18 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
   }
 }
 
-constexpr const char* kFooter = R"(
+/// Not fmt: it throws where standard error is closed.
+void complain(const std::string& text) { std::fputs((one_line(text) + "\n").c_str(), stderr); }
+
+constexpr const char* kExitStatus = R"(
 Exit status of run: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
-6 fault (safe stop), 2 bad input or usage, 1 anything else.
-Exit status of campaign: 0 whatever the missions came to, 130 interrupted, 2 and 1 as above.
+6 fault (safe stop), 2 bad input or usage, 1 anything else.)";
+
+constexpr const char* kCampaignExitStatus = R"(
+Exit status of campaign: 0 whatever the missions came to, 130 interrupted,
+2 bad input or usage, 1 anything else.)";
+
+constexpr const char* kFirstSteps = R"(
 
 First steps:
   whisker world discs --seed 1 --out discs.toml
@@ -56,7 +68,6 @@ int main(int argc, char** argv) {
   using namespace whisker::cli;
   CLI::App app{"Whisker: a navigation core for small robots with three rangefinders, in a simulated world."};
   app.name("whisker");
-  app.footer(kFooter);
   app.require_subcommand(1);
   app.set_version_flag("--version", "whisker " WHISKER_VERSION);
   int status = kFailure;
@@ -65,21 +76,24 @@ int main(int argc, char** argv) {
   add_campaign(app, status);
   add_table(app, status);
   add_figures(app, status);
+  app.footer(std::string(kExitStatus) + kCampaignExitStatus + kFirstSteps);
+  app.get_subcommand("run")->footer(kExitStatus);
+  app.get_subcommand("campaign")->footer(kCampaignExitStatus);
   try {
     status = parse(app, argc, argv, status);
     finish_standard_output();
     return status;
   } catch (const CLI::ParseError& e) {
-    fmt::print(stderr, "whisker: {} (see whisker --help)\n", one_line(e.what()));
+    complain(fmt::format("whisker: {} (see whisker --help)", e.what()));
     return kBadInput;
   } catch (const UsageError& e) {
-    fmt::print(stderr, "whisker: {}\n", one_line(e.what()));
+    complain(fmt::format("whisker: {}", e.what()));
     return kBadInput;
   } catch (const whisker::InputError& e) {
-    fmt::print(stderr, "{}\n", one_line(e.what()));
+    complain(e.what());
     return kBadInput;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "whisker: {}\n", one_line(e.what()));
+    complain(fmt::format("whisker: {}", e.what()));
     return kFailure;
   }
 }

@@ -25,6 +25,8 @@ constexpr Look kLooks[kDoings] = {
 constexpr const char* kObstacle = R"(fill="#d3d3d0" stroke="#6f6f6c" stroke-width="0.8")";
 constexpr const char* kWall =
     R"(fill="none" stroke="#454543" stroke-width="2.4" stroke-linecap="round" stroke-linejoin="round")";
+/// Narrower than any path: the colour of the path stays in sight between dots that are close together.
+constexpr const char* kLookDot = R"(fill="none" stroke="#111" stroke-width="2" stroke-linecap="round")";
 constexpr const char* kOutside = "#dcdcd8";
 constexpr const char* kGoalColour = "#00795c";
 constexpr const char* kContactColour = "#d0006f";

@@ -85,7 +85,7 @@ void draw_marks(Svg& svg, Column& column, const LegendContent& content) {
         fmt::format("looked here ({} look{})", content.track.looks, content.track.looks == 1 ? "" : "s"));
     PathData dots;
     dots.dot({c.x - 8, c.y}).dot(c).dot({c.x + 8, c.y});
-    svg.path(dots, R"(fill="none" stroke="#333" stroke-width="2.6" stroke-linecap="round")");
+    svg.path(dots, kLookDot);
   }
   if (content.cones) {
     c = column.row("beams on entering a danger area");

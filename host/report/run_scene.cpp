@@ -16,6 +16,7 @@ using sim::Vec2;
 
 constexpr std::size_t kMaxPathPoints = 9000;
 constexpr std::size_t kMaxDots = 4000;
+constexpr double kLeastAround = 4;  // m
 
 Vec2 place(const TickRecord& r) { return {r.x_m, r.y_m}; }
 
@@ -60,11 +61,19 @@ double beam_length(const hal::RangeReading& reading, const RangefinderParams& se
 
 }  // namespace
 
-Box scene_box(const Scenario& scenario, const std::vector<TickRecord>& records) {
+namespace {
+
+Box way_box(const Scenario& scenario, const std::vector<TickRecord>& records) {
   Box box;
   const double body = metres(scenario.robot.body.radius);
   box.add(scenario.start.at, body);
   box.add(scenario.goal.at, scenario.goal.tolerance_m);
+  for (const TickRecord& r : records) box.add(place(r), body);
+  return box;
+}
+
+Box world_box(const Scenario& scenario) {
+  Box box;
   if (scenario.bounds) {
     box.add(scenario.bounds->min);
     box.add(scenario.bounds->max);
@@ -76,7 +85,22 @@ Box scene_box(const Scenario& scenario, const std::vector<TickRecord>& records) 
     for (const Vec2 p : wall) box.add(p);
   for (const Mover& m : scenario.movers)
     for (const Vec2 p : m.path) box.add(p, m.radius_m);
-  for (const TickRecord& r : records) box.add(place(r), body);
+  return box;
+}
+
+}  // namespace
+
+Box scene_box(const Scenario& scenario, const std::vector<TickRecord>& records) {
+  Box box = way_box(scenario, records);
+  const Box world = world_box(scenario);
+  if (box.empty() || world.empty()) return box.empty() ? world : box;
+  const Vec2 low = box.min();
+  const Vec2 high = box.max();
+  const double around = std::max({kLeastAround, high.x - low.x, high.y - low.y});
+  box.add(
+      {std::clamp(world.min().x, low.x - around, high.x), std::clamp(world.min().y, low.y - around, high.y)});
+  box.add(
+      {std::clamp(world.max().x, low.x, high.x + around), std::clamp(world.max().y, low.y, high.y + around)});
   return box;
 }
 
@@ -139,8 +163,7 @@ void draw_looks(Svg& svg, const View& view, const std::vector<TickRecord>& recor
       if (taken.emplace(std::lround(p.x / cell), std::lround(p.y / cell)).second) dots.dot(p);
     }
     if (taken.size() > kMaxDots) continue;
-    svg.path(dots, R"(class="looks" fill="none" stroke="#fff" stroke-width="4.4" stroke-linecap="round")");
-    svg.path(dots, R"(fill="none" stroke="#333" stroke-width="2.6" stroke-linecap="round")");
+    svg.path(dots, fmt::format(R"(class="looks" {})", kLookDot));
     return;
   }
 }

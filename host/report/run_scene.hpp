@@ -9,7 +9,8 @@
 
 namespace whisker::report {
 
-/// Everything in the world and on the way that the frame must hold.
+/// What the frame must hold: the whole way, start and goal, and of the world what lies no farther from their
+/// box than that box is long, or 4 m.
 Box scene_box(const Scenario& scenario, const std::vector<TickRecord>& records);
 
 /// Bounds, discs, polygons, walls; movers with their paths and where they are at `time_s`.

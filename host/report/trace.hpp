@@ -1,16 +1,18 @@
 /// The trace of a run as CSV: a header, then one row per control tick. The columns, in order:
 ///
-/// | column | unit, decimals | |
-/// |---|---|---|
-/// | t_s | s, 3 | |
-/// | x_m, y_m | m, 6 | true position |
-/// | heading_rad | rad, 6 | true heading, unbounded |
-/// | left_m, front_m, right_m | m, 4 | measured; clear = the maximum range, too_near = the minimum range,
-/// lost = empty | | v_left_mps, v_right_mps | m/s, 5 | true rim speeds | | state, why | words | nav::Mode,
-/// nav::Why | | t | count | the danger counter | | looked | 0 or 1 | a decision was taken from a look at this
-/// tick | | d, r | fuzzy units, 4 | inputs last used | | sa, sd | factors, 5 | outputs last used | |
-/// cmd_left_mps, cmd_right_mps | m/s, 5 | commanded rim speeds | | est_x_m, est_y_m, est_heading_rad | m, m,
-/// rad, 6 | the core's own estimate |
+/// - t_s: s, 3 decimals
+/// - x_m, y_m: true position, m, 6 decimals
+/// - heading_rad: true heading, rad, 6 decimals, unbounded
+/// - left_m, front_m, right_m: measured ranges, m, 4 decimals; a clear one is the maximum range,
+///   a too_near one the minimum range, a lost one an empty field
+/// - v_left_mps, v_right_mps: true rim speeds, m/s, 5 decimals
+/// - state, why: a word each, of nav::Mode and nav::Why
+/// - t: the danger counter
+/// - looked: 1 if a decision was taken from a look at this tick, else 0
+/// - d, r: fuzzy inputs last used, 4 decimals
+/// - sa, sd: fuzzy outputs last used, 5 decimals
+/// - cmd_left_mps, cmd_right_mps: commanded rim speeds, m/s, 5 decimals
+/// - est_x_m, est_y_m, est_heading_rad: the core's own estimate, m, m, rad, 6 decimals
 #pragma once
 
 #include <string>

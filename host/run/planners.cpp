@@ -10,7 +10,10 @@ namespace whisker {
 
 std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params) {
   switch (kind) {
-    case PlannerKind::skirt: return std::make_shared<nav::SkirtPlanner>(params, fuzzy::kDefaultTable);
+    case PlannerKind::skirt: {
+      const auto skirt = std::make_shared<nav::TableSkirt>(params, fuzzy::kDefaultTable);
+      return {skirt, &skirt->planner};
+    }
     case PlannerKind::thesis: return std::make_shared<nav::ThesisPlanner>(params, fuzzy::kDefaultTable);
     case PlannerKind::bug2: return std::make_shared<baselines::Bug2>(params);
     case PlannerKind::distbug: return std::make_shared<baselines::DistBug>(params);

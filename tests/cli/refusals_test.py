@@ -30,7 +30,7 @@ class Refusals(Case):
     def test_a_command_line_that_means_nothing(self):
         self.refused()
         self.refused("nonsense", says="nonsense")
-        self.refused("--bogus")
+        self.refused("--bogus", says="--bogus")
         self.refused("run", says="SCENARIO")
         self.refused("run", "a.toml", "b.toml", says="b.toml")
         self.refused("run", "a.toml", "--bogus", says="--bogus")
@@ -143,6 +143,18 @@ class Refusals(Case):
                 )  # fmt: skip
                 self.assertEqual(done.returncode, 1)
                 self.assertRegex(done.stderr, r"\Awhisker: cannot write[^\n]*\n\Z")
+
+    def test_a_closed_standard_error_changes_no_exit_status(self):
+        for arguments, status in (
+            (("run", "missing.toml"), 2),
+            (("run", "a.toml", "--bogus"), 2),
+            (("run", "a.toml", "--planner", *PLANNERS_TO_COME), 2),
+            (("table", "--svg", "/dev/full"), 1),
+        ):
+            with self.subTest(arguments):
+                shell = ["sh", "-c", 'exec "$@" 2>&-', "sh", whisker.binary, *arguments]
+                done = subprocess.run(shell, stdout=subprocess.PIPE, cwd=self.folder, check=False)
+                self.assertEqual((done.returncode, done.stdout), (status, b""))
 
 
 if __name__ == "__main__":

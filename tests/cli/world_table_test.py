@@ -97,6 +97,12 @@ class Help(Case):
                     self.assertRegex(done.stdout, rf"(?m)(^|[ {{,]){re.escape(option)}\b", command)
                 self.assertLessEqual(max(map(len, done.stdout.splitlines())), WIDEST, command)
 
+    def test_tells_the_exit_status_of_a_run_where_it_matters(self):
+        for command in OPTIONS:
+            text = whisker.whisker(*command, "--help").stdout
+            self.assertEqual("5 contact" in text, command in ((), ("run",)), command)
+            self.assertEqual("First steps" in text, command == (), command)
+
     def test_names_every_command_and_no_other(self):
         text = whisker.whisker("--help").stdout.partition("Subcommands:\n")[2].partition("\n\n")[0]
         named = {line.split()[0] for line in text.splitlines()}

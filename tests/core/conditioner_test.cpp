@@ -49,8 +49,12 @@ TEST_F(BeamTest, TakesTheNearestOfAgreeingReadingsAndWaitsWhileTheyDisagree) {
   see(561);
   EXPECT_EQ(look().validity, Validity::pending);
   see(560);
-  see(559);
-  EXPECT_EQ(look().distance, 559_mm);
+  see(621);
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(620);
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(561);
+  EXPECT_EQ(look().distance, 561_mm);  // 60 mm apart: they still agree
 }
 
 TEST_F(BeamTest, OneFalseClearNeitherWinsNorVotes) {
@@ -108,6 +112,12 @@ TEST_F(BeamTest, ClearCountsAsTheMaximumRange) {
   EXPECT_EQ(look().distance, 2000_mm);
 }
 
+TEST_F(BeamTest, AThingExactlyAtTheMaximumRangeCountsAsClear) {
+  for (int i = 0; i < 3; ++i) see(2000);
+  EXPECT_EQ(look().validity, Validity::clear);
+  EXPECT_EQ(look().distance, 2_m);
+}
+
 TEST_F(BeamTest, TooNearWinsOverClear) {
   params_.conditioning.tolerance = 1_m;
   for (int i = 0; i < 3; ++i) see(RangeStatus::too_near, 0);
@@ -124,6 +134,26 @@ TEST_F(BeamTest, OnlyReadingsTakenSinceTheBodyStoodCount) {
   EXPECT_EQ(look(since).validity, Validity::pending);
   see(400);
   EXPECT_EQ(look(since).distance, 400_mm);
+}
+
+TEST_F(BeamTest, AReadingCountsFromWhenItWasMeasuredNotFromWhenItCame) {
+  for (int i = 0; i < 3; ++i) see(500);
+  const Time first_measured = Time::from_raw(0);
+  EXPECT_EQ(look(first_measured).validity, Validity::ok);
+  EXPECT_EQ(look(first_measured + milliseconds(1)).validity, Validity::pending);
+}
+
+TEST_F(BeamTest, FromAResetOnItIsPendingAndNotYetLost) {
+  for (int i = 0; i < 3; ++i) see(500);
+  now_ = now_ + milliseconds(5000);
+  beam_.reset(now_);
+  EXPECT_EQ(look().validity, Validity::pending);
+  EXPECT_EQ(beam_.lost_for(now_), 0_ms);
+  beam_.miss(now_ + milliseconds(100), params_, health_);
+  EXPECT_EQ(beam_.latest().validity, Validity::pending);
+  EXPECT_EQ(beam_.lost_for(now_ + milliseconds(100)), 100_ms);
+  beam_.miss(now_ + milliseconds(101), params_, health_);
+  EXPECT_EQ(beam_.latest().validity, Validity::stale);
 }
 
 TEST_F(BeamTest, TheSameSequenceIsTheSameReading) {
@@ -168,6 +198,21 @@ TEST_F(BeamTest, TheSameMillimetreOverMostOfHalfATurnIsStuck) {
   EXPECT_EQ(health_.range_stuck, 1U);
   see(RangeStatus::ok, 701, Angle::turns(153, 360));
   EXPECT_EQ(beam_.latest().validity, Validity::ok);
+}
+
+TEST_F(BeamTest, IsStuckByTheTurnSinceTheFirstRepetitionWhicheverWayTheBodyLooked) {
+  for (int deg = 100; deg < 250; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  see(RangeStatus::ok, 700, Angle::turns(250, 360));
+  EXPECT_EQ(beam_.latest().validity, Validity::stuck);
+}
+
+TEST_F(BeamTest, AClearReadingInBetweenIsNoStuckSensor) {
+  for (int deg = 0; deg < 100; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
+  see(RangeStatus::clear, 0, Angle::turns(100, 360));
+  for (int deg = 103; deg < 200; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  EXPECT_EQ(health_.range_stuck, 0U);
 }
 
 TEST_F(BeamTest, TwoThingsEquallyFarAreNotAStuckSensor) {

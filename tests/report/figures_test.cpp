@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <string>
 
 #include "host/report/colour.hpp"
 #include "host/report/table_svg.hpp"
@@ -173,9 +175,33 @@ TEST(ColourScale, of_turns_is_neutral_at_zero) {
   EXPECT_EQ(middle, "#f7f7f4");
 }
 
+/// Relative luminance of "#rgb" or "#rrggbb" (WCAG 2.1), 0 to 1.
+double luminance(const std::string& colour) {
+  const std::size_t digits = colour.size() / 3;
+  const double weights[] = {0.2126, 0.7152, 0.0722};
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int level = std::stoi(colour.substr(1 + i * digits, digits), nullptr, 16);
+    const double c = level / (digits == 1 ? 15.0 : 255.0);
+    sum += weights[i] * (c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+  }
+  return sum;
+}
+
+double contrast(const std::string& a, const std::string& b) {
+  const auto [dark, light] = std::minmax({luminance(a), luminance(b)});
+  return (light + 0.05) / (dark + 0.05);
+}
+
 TEST(ColourScale, writes_in_an_ink_that_can_be_read) {
   EXPECT_STREQ(ColourScale::sequential(0, 2).ink(0), "#1a1a1a");
   EXPECT_STREQ(ColourScale::sequential(0, 2).ink(2), "#fff");
+  for (const ColourScale& scale : {ColourScale::diverging(-1, 1), ColourScale::sequential(-1, 1)}) {
+    for (int i = -20; i <= 20; ++i) {
+      const double value = i / 20.0;
+      EXPECT_GE(contrast(scale.at(value), scale.ink(value)), 3.5) << scale.at(value);
+    }
+  }
 }
 
 }  // namespace

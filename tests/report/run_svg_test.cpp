@@ -213,6 +213,30 @@ TEST(RunSvg, widens_its_frame_for_a_robot_that_left_the_bounds) {
   EXPECT_GT(end->number("cx") - end->number("r"), frame->number("x"));
 }
 
+TEST(RunSvg, keeps_the_way_in_sight_in_a_world_far_larger) {
+  Scenario scenario = testing::garden();
+  const auto records = testing::garden_run(scenario);
+  const RunResult result = result_of(Verdict::reached, scenario, records);
+  const double scale = discs_of(draw(scenario, records, result)).at(0)->number("r");
+  scenario.walls.push_back({{-800, 20}, {900, 20}});
+  scenario.discs.push_back({{-600, 0}, 500});
+  const Drawn drawn = draw(scenario, records, result);
+  EXPECT_GT(discs_of(drawn).at(0)->number("r"), scale / 5);
+  const Element* frame = drawn.root.by_class("frame").at(0);
+  for (const char* body : {"start", "end"}) {
+    const Element* circle = drawn.root.by_class(body).at(0)->by_name("circle").at(0);
+    EXPECT_GT(circle->number("cx"), frame->number("x"));
+    EXPECT_LT(circle->number("cx"), frame->number("x") + frame->number("width"));
+  }
+}
+
+TEST(RunSvg, leaves_the_colour_of_the_path_in_sight_where_it_looked_often) {
+  const Drawn drawn = draw_garden(Verdict::reached);
+  ASSERT_EQ(drawn.root.by_class("looks").size(), 1U);
+  for (const Look& look : kLooks)
+    EXPECT_LE(drawn.root.by_class("looks").at(0)->number("stroke-width"), look.width) << look.name;
+}
+
 TEST(RunSvg, survives_numbers_that_no_page_holds) {
   const Scenario scenario = testing::garden();
   auto records = testing::garden_run(scenario);

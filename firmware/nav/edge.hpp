@@ -1,0 +1,18 @@
+/// Along an obstacle's edge.
+#pragma once
+
+#include "firmware/nav/side.hpp"
+#include "firmware/nav/steering.hpp"
+#include "firmware/params.hpp"
+#include "firmware/ranges/echo.hpp"
+
+namespace whisker::nav {
+
+/// Keeps the wall at 0.15 m from the body's centre, or the middle of what is narrower than twice that.
+///
+/// The side beam tells the wall's distance: along a straight wall its nearest echo comes from the cone's
+/// outer rim, so w = range x sin(side angle + cone / 2). Something ahead nearer than 0.30 m turns the body
+/// away. Where the wall ends, it drives an arc of 0.18 m around the end.
+Twist along_edge(const ranges::Echoes& sight, Side wall, const Params& params) noexcept;
+
+}  // namespace whisker::nav

@@ -1,0 +1,35 @@
+#include "firmware/nav/steering.hpp"
+
+namespace whisker::nav {
+namespace {
+
+constexpr AngularRate kFastest = 2500_mrad_per_s;
+constexpr int32_t kFaceGain = 5;
+constexpr int32_t kSteerGain = 6;
+constexpr int64_t kMicroradians = 6283185;  // a turn
+
+}  // namespace
+
+AngularRate rate_towards(Angle error, int32_t gain) noexcept {
+  const int64_t microradians = scale_down<32>(error.wrapped() * kMicroradians);
+  return limit(AngularRate::from_raw(saturate32(microradians * gain)), kFastest);
+}
+
+Twist face(Angle error) noexcept { return {Speed{}, rate_towards(error, kFaceGain)}; }
+
+Twist steer(Angle error, Speed top) noexcept {
+  const int64_t off = scale_down<32>(magnitude(error) * kMicroradians);
+  const int64_t part = 1000000 - off * 6 / 5;
+  const Speed forward = part <= 0 ? Speed{} : top * Q15::ratio(static_cast<int32_t>(part), 1000000);
+  return {forward, rate_towards(error, kSteerGain)};
+}
+
+Manoeuvre cruise(Twist twist, const Params& params) noexcept {
+  Manoeuvre m;
+  m.kind = Kind::cruise;
+  m.forward = twist.forward;
+  m.turning = twist.turning * (params.body.track / 2);
+  return m;
+}
+
+}  // namespace whisker::nav

@@ -1,0 +1,29 @@
+/// From the heading that is wanted to a speed and a turn rate.
+#pragma once
+
+#include "firmware/core/angle.hpp"
+#include "firmware/core/units.hpp"
+#include "firmware/nav/manoeuvre.hpp"
+#include "firmware/params.hpp"
+
+namespace whisker::nav {
+
+struct Twist {
+  Speed forward;
+  AngularRate turning;  ///< counter-clockwise positive
+};
+
+/// gain x error, at most the turn rate at which the readings still follow (2.5 rad/s).
+AngularRate rate_towards(Angle error, int32_t gain) noexcept;
+
+/// Turns by the error on the spot.
+Twist face(Angle error) noexcept;
+
+/// Drives while it turns: at `top` straight ahead, slower the more the heading is off, and not at all beyond
+/// 1 / 1.2 rad.
+Twist steer(Angle error, Speed top) noexcept;
+
+/// A cruise at this twist.
+Manoeuvre cruise(Twist twist, const Params& params) noexcept;
+
+}  // namespace whisker::nav

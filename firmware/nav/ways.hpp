@@ -1,0 +1,23 @@
+/// Which headings the clearance patch leaves open, and where to look to know more.
+#pragma once
+
+#include "firmware/nav/planner.hpp"
+#include "firmware/params.hpp"
+
+namespace whisker::nav {
+
+enum class Way : uint8_t {
+  free,     ///< all of it is proved clear
+  open,     ///< nothing known is in it, but not all of it was seen
+  blocked,  ///< an echo came from it, or a look at it from here was in vain
+};
+
+/// The way of this length from where the body stands, with this margin beside the body.
+Way way(const View& view, Angle heading, Length length, Length margin, const Params& params) noexcept;
+
+/// The turn that brings the nearest beam's axis onto the nearest unseen cell in that way, seen from
+/// a body that heads `from`. False: there is no such cell, or the way is blocked.
+bool turn_to_unseen(const View& view, Angle heading, Length length, Angle from, const Params& params,
+                    Angle& turn) noexcept;
+
+}  // namespace whisker::nav
