@@ -25,10 +25,10 @@ Angle Bug2::course(const nav::View& view) const {
   return bearing(from_ + polar(line_, done) - view.pose.at);
 }
 
-std::int32_t Bug2::hit(const nav::View& view) {
+nav::Side Bug2::hit(const nav::View& view) {
   hit_distance_ = distance();
   offset_ = on_line(view).y;
-  return -1;
+  return nav::Side::right;
 }
 
 bool Bug2::may_leave(const nav::View& view) {

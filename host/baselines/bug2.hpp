@@ -8,8 +8,8 @@ namespace whisker::baselines {
 
 /// Along the m-line, the segment from the start to the goal. At an obstacle it turns left (the paper's local
 /// direction is any fixed one) and follows the boundary until it meets the m-line nearer to the goal than
-/// where it hit, with the way on
-/// free, if only for 60 mm: what is behind that is the next obstacle. Back at the hit point: unreachable.
+/// where it hit, with the way on free, if only for 60 mm: what is behind that is the next obstacle. Back at
+/// the hit point: unreachable.
 ///
 /// A body is no point: it meets the m-line where its centre crosses it or comes within 30 mm, and nearer is
 /// nearer by 30 mm. A boundary that it loses begins a new m-line.
@@ -20,7 +20,7 @@ class Bug2 final : public Walker {
  private:
   void begin(const nav::View& view) override;
   Angle course(const nav::View& view) const override;
-  std::int32_t hit(const nav::View& view) override;
+  nav::Side hit(const nav::View& view) override;
   bool may_leave(const nav::View& view) override;
   Length free_to_leave() const override { return 60_mm; }
   bool can_tell_unreachable() const override { return true; }

@@ -19,7 +19,7 @@ class DistBug final : public Walker {
  private:
   void begin(const nav::View& view) override;
   Angle course(const nav::View& view) const override;
-  std::int32_t hit(const nav::View& view) override;
+  nav::Side hit(const nav::View& view) override;
   bool may_leave(const nav::View& view) override;
   bool can_tell_unreachable() const override { return true; }
 

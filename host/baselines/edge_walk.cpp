@@ -1,5 +1,9 @@
 #include "host/baselines/edge_walk.hpp"
 
+#include "firmware/nav/edge.hpp"
+#include "firmware/nav/steering.hpp"
+#include "firmware/nav/ways.hpp"
+
 namespace whisker::baselines {
 namespace {
 
@@ -14,22 +18,18 @@ constexpr std::int32_t kRetreats = 8;
 }  // namespace
 
 void EdgeWalk::forget_trail(const nav::View& view) {
-  for (Vec& at : trail_) at = view.pose.at;
+  trail_.reset(view.pose.at);
   last_ = view.pose.at;
 }
 
 void EdgeWalk::note(const nav::View& view) {
   travel_um_ += norm(view.pose.at - last_).raw();
   last_ = view.pose.at;
-  if (norm(view.pose.at - trail_[newest_]) > 40_mm) {
-    newest_ = (newest_ + 1) % kTrail;
-    trail_[newest_] = view.pose.at;
-    retreats_ = 0;
-  }
+  if (trail_.add(view.pose.at)) retreats_ = 0;
 }
 
-void EdgeWalk::begin(std::int32_t side, Angle blocked) {
-  side_ = side;
+void EdgeWalk::begin(nav::Side wall, Angle blocked) {
+  wall_ = wall;
   course_ = blocked;
   feel_from(blocked);
 }
@@ -37,7 +37,7 @@ void EdgeWalk::begin(std::int32_t side, Angle blocked) {
 void EdgeWalk::feel_from(Angle heading) {
   feel_from_ = heading;
   candidate_ = 0;
-  reach_ = kProbe;
+  reach_ = params_.skirt.probe;
   fine_ = false;
   phase_ = Phase::brake;
 }
@@ -46,15 +46,10 @@ void EdgeWalk::feel_from(Angle heading) {
 void EdgeWalk::feel_from_wall(const nav::View& view, Angle heading) {
   course_ = heading;
   Angle swing = 110_deg;
-  const Angle to_back = (way_back(view, heading) - course_) * side_;
+  const Angle to_back = (trail_.way_back({view.pose.at, heading}) - course_) * turn();
   const Angle past_back = to_back - kNotBack;
   if (to_back.raw() > kNotBack.raw() && past_back.raw() < swing.raw()) swing = past_back;
-  feel_from(course_ + swing * side_);
-}
-
-Angle EdgeWalk::way_back(const nav::View& view, Angle heading) const {
-  const Vec past = trail_[(newest_ + kTrail - 3) % kTrail] - view.pose.at;
-  return norm(past) < 60_mm ? heading + 180_deg : bearing(past);
+  feel_from(course_ + swing * turn());
 }
 
 bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
@@ -72,8 +67,7 @@ bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
       return true;
     case Phase::turn:
       decision.mode = nav::Mode::skirting;
-      decision.manoeuvre = face(view, course_, params_);
-      if (faces(view, course_)) {
+      if (face(view, course_, params_, decision.manoeuvre)) {
         stall_.reset();
         straight_until_um_ = travel_um_ + min(60_mm, reach_).raw();
         felt_um_ = travel_um_;
@@ -89,9 +83,9 @@ bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
 bool EdgeWalk::may_open(const nav::View& view) {
   if (travel_um_ - felt_um_ <= Length{100_mm}.raw()) return false;
   felt_um_ = travel_um_;
-  const Angle back = way_back(view, view.pose.heading);
+  const Angle back = trail_.way_back(view.pose);
   for (std::int32_t i = 4; i <= 7; ++i) {
-    const Angle heading = view.pose.heading + 15_deg * (i * side_);
+    const Angle heading = view.pose.heading + 15_deg * (i * turn());
     if (magnitude(heading - back) < kNotBack.raw()) continue;
     const ground::Obstacles o =
         view.patch->along(view.pose.at, heading, 100_mm, params_.body.radius + params_.skirt.planning_margin);
@@ -110,9 +104,11 @@ void EdgeWalk::walk(const nav::View& view, nav::Decision& decision) {
     feel_from_wall(view, view.pose.heading);
     return;
   }
-  decision.manoeuvre = travel_um_ < straight_until_um_
-                           ? steer(view, course_, params_.wheels.max_speed, params_)
-                           : along_wall(view, side_, params_);
+  const Speed top = params_.wheels.max_speed;
+  decision.manoeuvre =
+      nav::cruise(travel_um_ < straight_until_um_ ? nav::steer(course_ - view.pose.heading, top)
+                                                  : nav::along_edge(view.sight, wall_, params_),
+                  params_);
 }
 
 void EdgeWalk::feel(const nav::View& view, nav::Decision& decision) {
@@ -120,10 +116,10 @@ void EdgeWalk::feel(const nav::View& view, nav::Decision& decision) {
   const Angle step = fine_ ? kFine : kCoarse;
   const Length margin = fine_ ? params_.skirt.shield_margin : params_.skirt.planning_margin;
   for (; candidate_ < (fine_ ? kFineCircle : kCoarseCircle); ++candidate_) {
-    const Angle heading = feel_from_ - step * (candidate_ * side_);
-    const Way found = way(view, heading, reach_, margin, params_);
-    if (found == Way::blocked || (fine_ && found == Way::open)) continue;
-    if (found == Way::open) {
+    const Angle heading = feel_from_ - step * (candidate_ * turn());
+    const nav::Way found = nav::way(view, heading, reach_, margin, params_);
+    if (found == nav::Way::blocked || (fine_ && found == nav::Way::open)) continue;
+    if (found == nav::Way::open) {
       look_.begin();
       look_along_ = heading;
       decision.why = nav::Why::unknown_ahead;
@@ -136,13 +132,13 @@ void EdgeWalk::feel(const nav::View& view, nav::Decision& decision) {
     return;
   }
   candidate_ = 0;
-  if (reach_ == kProbe) {
+  if (reach_ == params_.skirt.probe) {
     reach_ = kShortProbe;
   } else if (!fine_) {
     fine_ = true;
   } else {
     fine_ = false;
-    retreat_to_ = trail_[(newest_ + kTrail - 2) % kTrail];
+    retreat_to_ = trail_.near();
     stall_.reset();
     phase_ = Phase::retreat;
   }
@@ -164,7 +160,8 @@ bool EdgeWalk::retreat(const nav::View& view, nav::Decision& decision) {
     feel_from_wall(view, view.pose.heading);
     return true;
   }
-  decision.manoeuvre = steer(view, bearing(rest), params_.wheels.max_speed / 2, params_);
+  decision.manoeuvre =
+      nav::cruise(nav::steer(bearing(rest) - view.pose.heading, params_.wheels.max_speed / 2), params_);
   return true;
 }
 

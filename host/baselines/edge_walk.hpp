@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include "firmware/nav/side.hpp"
+#include "firmware/nav/trail.hpp"
 #include "host/baselines/gait.hpp"
 
 namespace whisker::baselines {
@@ -20,15 +22,16 @@ class EdgeWalk {
   void note(const nav::View& view);
   void forget_trail(const nav::View& view);
 
-  /// The wall will be on this side (+1: left); the way along `blocked` is not free. The caller stops the
+  /// The wall will be on this side; the way along `blocked` is not free. The caller stops the
   /// body, here and for resume().
-  void begin(std::int32_t side, Angle blocked);
+  void begin(nav::Side wall, Angle blocked);
   /// The same edge once more, after the body turned away from its `heading` along the wall.
   void resume(const nav::View& view, Angle heading) { feel_from_wall(view, heading); }
   /// Fills in manoeuvre, mode, why and looked. False: there is no way at all.
   bool step(const nav::View& view, nav::Decision& decision);
   /// It drives, as opposed to standing and looking for a way.
   bool drives() const { return phase_ == Phase::walk; }
+  nav::Side wall() const { return wall_; }
 
  private:
   enum class Phase : std::uint8_t { brake, feel, look, turn, walk, retreat };
@@ -39,13 +42,11 @@ class EdgeWalk {
   void feel_from(Angle heading);
   void feel(const nav::View& view, nav::Decision& decision);
   bool retreat(const nav::View& view, nav::Decision& decision);
-  Angle way_back(const nav::View& view, Angle heading) const;
-
-  static constexpr int kTrail = 8;
+  std::int32_t turn() const { return nav::sign(wall_); }
 
   const Params& params_;
   Phase phase_ = Phase::walk;
-  std::int32_t side_ = 1;
+  nav::Side wall_ = nav::Side::left;
   Look look_;
   Angle look_along_;
   Stall stall_;
@@ -60,8 +61,7 @@ class EdgeWalk {
   std::int64_t travel_um_ = 0;
   std::int64_t straight_until_um_ = 0;
   std::int64_t felt_um_ = 0;
-  Vec trail_[kTrail];  ///< where it came from, 40 mm apart
-  int newest_ = 0;
+  nav::Trail trail_;
   Vec retreat_to_;
   std::int32_t retreats_ = 0;
 };

@@ -1,4 +1,4 @@
-/// How every boundary follower here drives: speeds that the shield guards, and looks.
+/// What every boundary follower here needs besides the core's steering.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,9 @@
 
 namespace whisker::baselines {
 
-constexpr Length kProbe = 150_mm;  ///< proved free ahead before a heading is taken
-
-enum class Way : std::uint8_t { free, open, blocked };  ///< open: something in it was never seen
-
-/// What the patch says of a straight way that keeps `margin` free around the body.
-Way way(const nav::View& view, Angle heading, Length length, Length margin, const Params& params);
-
 nav::Manoeuvre stop();
-nav::Manoeuvre cruise(Speed forward, AngularRate turn, const Params& params);
-/// Towards this heading, the slower the more it has to turn.
-nav::Manoeuvre steer(const nav::View& view, Angle heading, Speed top, const Params& params);
-/// On the spot towards this heading.
-nav::Manoeuvre face(const nav::View& view, Angle heading, const Params& params);
-bool faces(const nav::View& view, Angle heading);
-/// Along the wall on this side (+1: left), 0.15 m from it or in the middle of a narrower passage.
-nav::Manoeuvre along_wall(const nav::View& view, std::int32_t side, const Params& params);
+/// Turns on the spot towards this heading. True within 3 degrees of it.
+bool face(const nav::View& view, Angle heading, const Params& params, nav::Manoeuvre& manoeuvre);
 
 /// Notes when the shield lets nothing through.
 class Stall {

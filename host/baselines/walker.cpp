@@ -1,5 +1,7 @@
 #include "host/baselines/walker.hpp"
 
+#include "firmware/nav/steering.hpp"
+
 namespace whisker::baselines {
 namespace {
 
@@ -83,17 +85,16 @@ void Walker::act(const nav::View& view) {
 
 void Walker::survey(const nav::View& view) {
   const Angle heading = bearing(to_goal_) + (surveyed_left_ ? -50_deg : 50_deg);
-  decision_.manoeuvre = face(view, heading, params_);
-  if (!faces(view, heading)) return;
+  if (!face(view, heading, params_, decision_.manoeuvre)) return;
   if (surveyed_left_) enter(Phase::go, nav::Mode::going, nav::Why::target_free);
   surveyed_left_ = true;
 }
 
 void Walker::go(const nav::View& view) {
-  const Length ahead = min(kProbe, distance_);
+  const Length ahead = min(params_.skirt.probe, distance_);
   if (view.sighted) {
     course_ = course(view);
-    if (way(view, course_, ahead, params_.skirt.planning_margin, params_) == Way::blocked) {
+    if (nav::way(view, course_, ahead, params_.skirt.planning_margin, params_) == nav::Way::blocked) {
       begin_follow(view);
       return;
     }
@@ -104,11 +105,13 @@ void Walker::go(const nav::View& view) {
     decision_.manoeuvre = stop();
     return;
   }
-  decision_.manoeuvre = steer(view, course_, params_.wheels.max_speed, params_);
+  decision_.manoeuvre =
+      nav::cruise(nav::steer(course_ - view.pose.heading, params_.wheels.max_speed), params_);
 }
 
 void Walker::look(const nav::View& view) {
-  if (!look_.step(view, course(view), min(kProbe, distance_), params_, decision_.manoeuvre)) return;
+  if (!look_.step(view, course(view), min(params_.skirt.probe, distance_), params_, decision_.manoeuvre))
+    return;
   decision_.looked = true;
   stall_.reset();
   if (phase_ == Phase::look_ahead) {
@@ -135,14 +138,15 @@ bool Walker::came_round(const nav::View& view) const {
          magnitude(view.pose.heading - mark_.heading) < (60_deg).raw();
 }
 
-Way Walker::way_off(const nav::View& view, Angle heading) const {
-  return way(view, heading, min(free_to_leave(), distance_), params_.skirt.planning_margin, params_);
+nav::Way Walker::way_off(const nav::View& view, Angle heading) const {
+  return nav::way(view, heading, min(free_to_leave(), distance_), params_.skirt.planning_margin, params_);
 }
 
 bool Walker::leave(const nav::View& view) {
   const Angle heading = course(view);
-  const Way found = way_off(view, heading);
-  if (found == Way::blocked || (found == Way::open && seen_free(view) < kProbe)) return false;
+  const nav::Way found = way_off(view, heading);
+  if (found == nav::Way::blocked || (found == nav::Way::open && seen_free(view) < params_.skirt.probe))
+    return false;
   stall_.reset();
   enter(Phase::go, nav::Mode::going, nav::Why::target_free);
   go(view);
@@ -163,7 +167,7 @@ void Walker::follow(const nav::View& view) {
     }
     if (may_leave(view)) {
       if (leave(view)) return;
-      if (travel_um_ - looked_um_ > Length{50_mm}.raw() && way_off(view, course(view)) == Way::open) {
+      if (travel_um_ - looked_um_ > Length{50_mm}.raw() && way_off(view, course(view)) == nav::Way::open) {
         looked_um_ = travel_um_;
         walk_heading_ = view.pose.heading;
         look_.begin();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "firmware/nav/ways.hpp"
 #include "host/baselines/edge_walk.hpp"
 
 namespace whisker::baselines {
@@ -28,11 +29,11 @@ class Walker : public nav::Planner {
   virtual void begin(const nav::View& view) = 0;
   /// Where to go in the open.
   virtual Angle course(const nav::View& view) const = 0;
-  /// A boundary is hit: the side that it will be on, +1 for left.
-  virtual std::int32_t hit(const nav::View& view) = 0;
+  /// A boundary is hit: the side that it will be on.
+  virtual nav::Side hit(const nav::View& view) = 0;
   /// Once per reading while following. The walker leaves if this is true and the course is free so far.
   virtual bool may_leave(const nav::View& view) = 0;
-  virtual Length free_to_leave() const { return kProbe; }
+  virtual Length free_to_leave() const { return params_.skirt.probe; }
   virtual bool can_tell_unreachable() const = 0;
 
   const Params& params() const { return params_; }
@@ -56,7 +57,7 @@ class Walker : public nav::Planner {
   void begin_follow(const nav::View& view);
   void follow(const nav::View& view);
   bool leave(const nav::View& view);
-  Way way_off(const nav::View& view, Angle heading) const;
+  nav::Way way_off(const nav::View& view, Angle heading) const;
   bool came_round(const nav::View& view) const;
   void enter(Phase phase, nav::Mode mode, nav::Why why);
   void finish(nav::Mode mode, nav::Why why, nav::Outcome outcome);

@@ -17,7 +17,7 @@ class WallFollower final : public Walker {
  private:
   void begin(const nav::View&) override {}
   Angle course(const nav::View&) const override { return bearing(to_goal()); }
-  std::int32_t hit(const nav::View&) override { return 1; }
+  nav::Side hit(const nav::View&) override { return nav::Side::left; }
   bool may_leave(const nav::View& view) override { return seen_free(view) >= min(kSeen, distance()); }
   bool can_tell_unreachable() const override { return false; }
 };

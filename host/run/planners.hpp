@@ -10,9 +10,10 @@
 
 namespace whisker {
 
-enum class PlannerKind { skirt, thesis, bug2, distbug, wall_follower };
-constexpr PlannerKind kPlanners[] = {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::bug2,
-                                     PlannerKind::distbug, PlannerKind::wall_follower};
+enum class PlannerKind { skirt, thesis, bug2, distbug, wall_follower, fan, repulsion };
+constexpr PlannerKind kPlanners[] = {PlannerKind::skirt,    PlannerKind::thesis,        PlannerKind::bug2,
+                                     PlannerKind::distbug,  PlannerKind::wall_follower, PlannerKind::fan,
+                                     PlannerKind::repulsion};
 
 /// With the default response table. The parameters must outlive the planner.
 std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params);
