@@ -44,6 +44,43 @@ Duration slowest_count(const Params& p, Length count) {
 
 }  // namespace
 
+namespace {
+
+constexpr int32_t kHalfWindow = 15;  // cells
+Q30 half_cone_sine(const Params& p) noexcept { return sin(Angle::from_raw(p.rangefinders.cone.raw() / 2)); }
+
+/// A beam proves a cell only where the cone is wide enough for its cover.
+bool first_step_provable(const Params& p) noexcept {
+  const Length rim = p.body.radius - cell_cover(p) - p.rangefinders.offset;
+  return rim >= Length{} && rim * half_cone_sine(p) >= cell_cover(p);
+}
+
+}  // namespace
+
+Length patch_cell(const Params& p) noexcept {
+  if (p.skirt.cell != Length{}) return p.skirt.cell;
+  const Q30 s = half_cone_sine(p);
+  const Length room = p.body.radius - p.rangefinders.offset;
+  const int64_t cover = int64_t{room.raw()} * s.raw() / (int64_t{Q30::kOne} + s.raw());
+  const Length provable = Length::from_raw(saturate32(cover * 256 / 185));
+  return max(Length{}, min(p.body.radius * 2 / 9, provable));
+}
+
+Length cell_cover(const Params& p) noexcept { return patch_cell(p) * 184 / 256; }
+
+Length shield_reach(const Params& p) noexcept {
+  return p.body.radius + cell_cover(p) + p.skirt.shield_margin;
+}
+
+Length planning_reach(const Params& p) noexcept {
+  return p.body.radius + cell_cover(p) + p.skirt.planning_margin;
+}
+
+Length probe_length(const Params& p) noexcept {
+  if (p.skirt.probe != Length{}) return p.skirt.probe;
+  return min(p.body.radius * 5 / 3, patch_cell(p) * kHalfWindow - planning_reach(p));
+}
+
 ParamFault check(const Params& p) noexcept {
   RangeCheck ranges;
   for_each_param(p, ranges);
@@ -73,6 +110,12 @@ ParamFault check(const Params& p) noexcept {
   if (p.motion.settle < p.wheels.motor_lag + p.safety.period) return ParamFault::settle_below_lag;
   const Length swept = p.thesis.base_step * 2 + p.body.radius + p.body.margin;
   if (p.rangefinders.max_range < swept) return ParamFault::step_beyond_range;
+  if (patch_cell(p) < 1_mm || !first_step_provable(p)) return ParamFault::first_step_unprovable;
+  if (patch_cell(p) * kHalfWindow < planning_reach(p) + probe_length(p) ||
+      probe_length(p) < p.body.radius / 2) {
+    return ParamFault::patch_too_small;
+  }
+  if (p.skirt.planning_margin < p.skirt.shield_margin) return ParamFault::planning_below_shield;
   return ParamFault::none;
 }
 

@@ -66,10 +66,13 @@ struct ThesisParams {
 };
 
 struct SkirtParams {
-  Length cell = 20_mm;             ///< of the clearance patch; 32 x 32 cells
-  Length shield_margin = 16_mm;    ///< kept clear around the body at every tick
-  Length probe = 150_mm;           ///< length of a way that is judged
-  Length planning_margin = 18_mm;  ///< kept clear around the body on a heading that is chosen
+  Length cell;                       ///< of the clearance patch; zero: see patch_cell
+  Length shield_margin = 2_mm;       ///< kept clear around the body at every tick, beside a cell's own size
+  Length probe;                      ///< length of a way that is judged; zero: see probe_length
+  Length planning_margin = 4_mm;     ///< the same on a heading that is chosen; more than the shield's
+  Length age_travel = 500_mm;        ///< clear ground is forgotten after one to two of these ways
+  Angle age_turn = 340_deg;          ///< or of these turns, whichever comes first
+  Speed mover_speed = 300_mm_per_s;  ///< of things that move and are given room; 0: nothing moves
 };
 
 struct MotionParams {
@@ -116,7 +119,11 @@ enum class ParamFault : uint8_t {
   tolerance_below_wire,       ///< the rim's way at turn_tolerance >= 0.1 mm/s x settle
   stalled_before_count,       ///< stalled_after >= what the slowest count and the slowest stop take
   settle_below_lag,           ///< settle >= motor_lag + period
-  step_beyond_range,          ///< max_range >= 2 base_step + radius + margin: no response is a longer step
+  first_step_unprovable,  ///< offset + cover / sin(cone / 2) <= radius - cover: no ring around the body stays
+                          ///< unseen
+  patch_too_small,        ///< 15 cells >= planning_reach + probe, and probe >= radius / 2
+  planning_below_shield,  ///< planning_margin >= shield_margin
+  step_beyond_range,      ///< max_range >= 2 base_step + radius + margin: no response is a longer step
 };
 
 /// Calls f.number(key, field, min, max), f.count(key, field, min, max) or
@@ -159,10 +166,13 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("thesis_danger_range_m", p.thesis.danger_range, 50_mm, 5_m);
   f.count("thesis_max_steps", p.thesis.max_steps, 1, 1000000);
 
-  f.number("skirt_cell_m", p.skirt.cell, 5_mm, 100_mm);
-  f.number("skirt_probe_m", p.skirt.probe, 20_mm, 1_m);
+  f.number("skirt_cell_m", p.skirt.cell, 0_mm, 250_mm);
+  f.number("skirt_probe_m", p.skirt.probe, 0_mm, 2_m);
   f.number("skirt_shield_margin_m", p.skirt.shield_margin, 0_mm, 500_mm);
   f.number("skirt_planning_margin_m", p.skirt.planning_margin, 0_mm, 500_mm);
+  f.number("skirt_age_travel_m", p.skirt.age_travel, 100_mm, 1000_m);
+  f.number("skirt_age_turn_deg", p.skirt.age_turn, 90_deg, 359_deg);
+  f.number("skirt_mover_speed_mps", p.skirt.mover_speed, 0_mm_per_s, 1000_mm_per_s);
 
   f.number("motion_settle_s", p.motion.settle, 20_ms, 1000_ms);
   f.number("turn_tolerance_deg", p.motion.turn_tolerance, Angle::turns(1, 3600), 10_deg);
@@ -173,6 +183,23 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("lost_after_s", p.safety.lost_after, 50_ms, 10000_ms);
   f.number("wheels_stalled_after_s", p.safety.stalled_after, 200_ms, 10000_ms);
   f.count("max_drive_refusals", p.safety.max_refusals, 1, 1000);
+}
+
+/// The clearance patch's cell. Unless given: 2/9 of the radius, or less where a narrow cone or sensors far
+/// from the centre could otherwise never prove the ground at the body's rim.
+Length patch_cell(const Params& params) noexcept;
+/// A disc of this radius around a cell's centre covers the cell: a little more than 0.7072 cell, for
+/// rounding.
+Length cell_cover(const Params& params) noexcept;
+/// From the body's centre to the centres of the cells that must be clear at every tick.
+Length shield_reach(const Params& params) noexcept;
+/// The same on a heading that is chosen.
+Length planning_reach(const Params& params) noexcept;
+/// Unless given: 5/3 of the radius, or as far as the patch reaches.
+Length probe_length(const Params& params) noexcept;
+/// A distance that suits the reference body of 90 mm, for this one.
+constexpr Length for_body(const Params& p, Length reference) noexcept {
+  return Length::from_raw(multiply_divide(reference.raw(), p.body.radius.raw(), 90000));
 }
 
 /// The first fault found; ParamFault::none for a set that the core accepts.

@@ -11,6 +11,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& p
   }
   odometry_.configure(params);
   patch_.configure(params);
+  witness_.configure(params);
   const Duration reach = params.rangefinders.latency + milliseconds(1000 / params.rangefinders.rate_hz);
   history_.configure(reach / (motion::History::kKept - 2));
 }
@@ -20,6 +21,7 @@ void Robot::place(const Pose& pose) noexcept {
   status_.pose = pose;
   history_.reset();
   patch_.reset(pose);
+  witness_.reset();
 }
 
 void Robot::set_goal(const nav::Goal& goal) noexcept { planner_.set_goal(goal); }
@@ -121,16 +123,33 @@ void Robot::map(bool settled, nav::View& view) noexcept {
   const Angle axes[hal::kBeams] = {beams.side_angle, Angle{}, -beams.side_angle};
   history_.add(status_.pose, last_tick_);
   patch_.move_to(status_.pose);
+  ground::Proof proofs[hal::kBeams];
+  Length free[hal::kBeams];
+  Length moved[hal::kBeams];
+  int seen = 0;
   for (int i = 0; i < hal::kBeams; ++i) {
     const ranges::Sight sight = conditioner_.sight(i, params_);
     view.sight.beam[i] = sight.typical;
     if (!sight.fresh) continue;
     view.sighted = true;
-    Pose from;
-    if (!history_.at(sight.taken, from)) continue;
-    const bool aimed = settled && sight.oldest - settled_since_ >= Duration{};
-    patch_.mark({from, axes[i], sight.near.distance, sight.near.validity != ranges::Validity::clear, aimed});
+    ground::Proof& proof = proofs[i];
+    if (!history_.at(sight.taken, proof.from)) continue;
+    proof.axis = axes[i];
+    proof.free = free[i] = sight.near.distance;
+    proof.hit = sight.near.validity != ranges::Validity::clear;
+    proof.aimed = settled && sight.oldest - settled_since_ >= Duration{};
+    proof.taken = sight.taken;
+    if (proof.hit && witness_.contradicts(proof.from, i, proof.free, sight.farthest, patch_)) {
+      moved[i] = sight.farthest;
+    }
+    patch_.mark(proof);
+    ++seen;
   }
+  // After all marks: another beam may see ground as empty into which something is about to move.
+  for (int i = 0; i < hal::kBeams; ++i) {
+    if (moved[i] > Length{}) patch_.doubt(proofs[i], moved[i]);
+  }
+  if (seen == hal::kBeams) witness_.add(proofs[0].from, proofs[0].taken, free);
   const motion::WheelPair rolling = driver_.wheels().rolling;
   view.patch = &patch_;
   view.forward = (rolling.left + rolling.right) / 2;

@@ -5,6 +5,8 @@
 
 #include "firmware/core/trig.hpp"
 #include "firmware/core/units.hpp"
+#include "firmware/ground/patch.hpp"
+#include "firmware/ground/witness.hpp"
 #include "firmware/health.hpp"
 #include "firmware/motion/driver.hpp"
 #include "firmware/motion/history.hpp"
@@ -79,6 +81,7 @@ class Robot {
   motion::Driver driver_;
   motion::History history_;
   ground::Patch patch_;
+  ground::Witness witness_;
   Q14 granted_;
   Status status_;
 

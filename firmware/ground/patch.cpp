@@ -12,14 +12,28 @@ constexpr Length kTestedTravel = 4_mm;
 constexpr int32_t kAbeam = 80;
 // Below this, rounding decides what comes nearer.
 constexpr Length kNoStep = Length::from_raw(100);
-constexpr Length kFarthest = 2_m;
+constexpr Duration kDoubt = 1000_ms;
 
 constexpr int64_t floor_divide(int64_t n, int64_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
+
+constexpr int32_t within(int64_t x, int32_t limit) noexcept {
+  return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
+}
+
+/// From the measurement of what moves to the body's rest: two more readings, latency, a tick, lag, braking.
+Duration time_to_stop(const Params& p) noexcept {
+  const int32_t braking = multiply_divide(p.wheels.max_speed.raw(), 1000, p.wheels.max_acceleration.raw());
+  return p.rangefinders.latency + milliseconds(2000 / p.rangefinders.rate_hz) + p.safety.period +
+         p.wheels.motor_lag + milliseconds(braking);
+}
+
+/// Not cut off at the outermost point.
+constexpr bool nearby(int32_t x) noexcept { return x > -kOutermost && x < kOutermost; }
 
 }  // namespace
 
 int32_t Patch::units(Length l) const noexcept {
-  return saturate32(floor_divide(int64_t{l.raw()} * kUnitsPerCell, cell_um_));
+  return within(floor_divide(int64_t{l.raw()} * kUnitsPerCell, cell_um_), kLongest);
 }
 
 Length Patch::length_of(int32_t units) const noexcept {
@@ -27,16 +41,20 @@ Length Patch::length_of(int32_t units) const noexcept {
 }
 
 void Patch::configure(const Params& params) noexcept {
-  cell_um_ = params.skirt.cell.raw();
+  cell_um_ = patch_cell(params).raw();
   offset_ = params.rangefinders.offset;
   half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
   footprint_ = units(params.body.radius) - kCover;
+  ring_ = units(params.body.radius + params.skirt.planning_margin) + kUnitsPerCell;
+  age_travel_ = params.skirt.age_travel;
+  age_turn_ = params.skirt.age_turn.raw();
+  approach_ = params.skirt.mover_speed * time_to_stop(params);
 }
 
 Patch::Point Patch::local(Vec at) const noexcept {
   const auto from_corner = [this](Length x, int32_t corner) {
     const int64_t um = int64_t{x.raw()} - int64_t{corner} * cell_um_;
-    return saturate32(floor_divide(um * kUnitsPerCell, cell_um_));
+    return within(floor_divide(um * kUnitsPerCell, cell_um_), kOutermost);
   };
   return {from_corner(at.x, column_), from_corner(at.y, row_)};
 }
@@ -71,8 +89,9 @@ void Patch::drop_columns(Row window) noexcept {
 void Patch::reset(const Pose& pose) noexcept {
   drop_rows(0, kCells);
   last_ = pose;
-  travel_um_ = 0;
+  travel_ = Length{};
   turned_ = 0;
+  doubting_ = false;
   move_to(pose);
 }
 
@@ -103,7 +122,31 @@ void Patch::move_to(const Pose& pose) noexcept {
   clear_footprint(pose.at);
 }
 
-void Patch::age(const Pose& pose) noexcept { last_ = pose; }
+void Patch::age(const Pose& pose) noexcept {
+  travel_ += norm(pose.at - last_.at);
+  const uint32_t turn = magnitude(pose.heading - last_.heading);
+  turned_ = turn > UINT32_MAX - turned_ ? UINT32_MAX : turned_ + turn;
+  last_ = pose;
+  if (travel_ >= age_travel_ || turned_ >= age_turn_) {
+    for (int s = 0; s < kCells; ++s) {
+      old_[s] = young_[s];
+      young_[s] = 0;
+    }
+    travel_ = Length{};
+    turned_ = 0;
+  }
+  renew_around(pose.at);
+}
+
+void Patch::renew_around(Vec at) noexcept {
+  const Point centre = local(at);
+  for (Rows rows(centre.y, ring_); rows.more(); rows.next()) {
+    Span span;
+    span.within_disc(centre.x, rows.offset(centre.y), ring_);
+    const int s = slot(rows.row());
+    young_[s] |= old_[s] & to_torus(span.columns());
+  }
+}
 
 void Patch::clear_footprint(Vec at) noexcept {
   const Point centre = local(at);
@@ -120,9 +163,11 @@ void Patch::clear_footprint(Vec at) noexcept {
 void Patch::mark(const Proof& proof) noexcept {
   const Angle axis = proof.from.heading + proof.axis;
   const Point apex = local(proof.from.at + polar(axis, offset_));
-  const Length distance = min(proof.free, kFarthest);
-  const int32_t free = units(distance - kReadingRounding) - kCover;
-  const int32_t echo = units(distance) + kUnitsPerCell;
+  if (!nearby(apex.x) || !nearby(apex.y)) return;
+  if (proof.taken - doubted_ > kDoubt) doubting_ = false;
+  const Length room = doubting_ && proof.hit ? approach_ : Length{};
+  const int32_t free = units(proof.free - room - kReadingRounding) - kCover;
+  const int32_t echo = units(proof.free) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
   const Wedge core(axis, half_cone_.raw() < kSuspectHalf.raw() ? half_cone_ : kSuspectHalf);
   for (int row = 0; row < kCells; ++row) {
@@ -145,6 +190,39 @@ void Patch::mark(const Proof& proof) noexcept {
       near.within_disc(apex.x, dy, echo);
       suspect_[s] |= to_torus(near.columns()) & unproved;
     }
+  }
+}
+
+void Patch::doubt(const Proof& proof, Length farthest) noexcept {
+  doubting_ = true;
+  doubted_ = proof.taken;
+  const Angle axis = proof.from.heading + proof.axis;
+  const Point apex = local(proof.from.at + polar(axis, offset_));
+  const Point body = local(last_.at);
+  if (!nearby(apex.x) || !nearby(apex.y)) return;
+  const int32_t approach = units(approach_) + kCover;
+  const int32_t nearest = units(proof.free) - approach;
+  const int32_t echo_ends = units(farthest) + kUnitsPerCell;
+  const int32_t beyond = units(farthest + approach_) + kUnitsPerCell;
+  const Wedge cone(axis, half_cone_);
+  for (int row = 0; row < kCells; ++row) {
+    const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
+    Span around;
+    cone.clip(around, apex.x, dy, -approach);
+    around.within_disc(apex.x, dy, beyond);
+    Span nearer;
+    nearer.within_disc(apex.x, dy, nearest);
+    Span under;
+    under.within_disc(body.x, row * kUnitsPerCell + kHalfCell - body.y, footprint_);
+    const Row taken = to_torus(around.columns() & ~nearer.columns() & ~under.columns());
+    Span echo;
+    cone.clip(echo, apex.x, dy, 0);
+    echo.within_disc(apex.x, dy, echo_ends);
+    const int s = slot(row);
+    young_[s] &= ~taken;
+    old_[s] &= ~taken;
+    suspect_[s] = (suspect_[s] & ~taken) | (taken & to_torus(echo.columns()));
+    tested_[s] &= ~taken;
   }
 }
 
@@ -180,6 +258,9 @@ bool Patch::approaches(Vec from, Angle heading, Length step, Length radius) cons
   const Point there = local(from + polar(heading, step));
   const int32_t reach = units(radius);
   const int32_t half = units(step / 2);
+  // What lies beyond the window is not known.
+  constexpr int32_t kSize = kCells * kUnitsPerCell;
+  if (there.x < reach || there.y < reach || there.x > kSize - reach || there.y > kSize - reach) return true;
   const HalfPlane ahead = HalfPlane::facing(heading);
   for (Rows rows(there.y, reach); rows.more(); rows.next()) {
     Span span;
@@ -188,6 +269,19 @@ bool Patch::approaches(Vec from, Angle heading, Length step, Length radius) cons
     if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return true;
   }
   return false;
+}
+
+bool Patch::all_clear(Vec centre, Length radius) const noexcept {
+  const Point at = local(centre);
+  const int32_t reach = units(radius) + kCover;
+  constexpr int32_t kEnd = kCells * kUnitsPerCell;
+  if (at.x < reach || at.y < reach || at.x > kEnd - reach || at.y > kEnd - reach) return false;
+  for (Rows rows(at.y, reach); rows.more(); rows.next()) {
+    Span span;
+    span.within_disc(at.x, rows.offset(at.y), reach);
+    if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return false;
+  }
+  return true;
 }
 
 bool Patch::is_clear(Vec at) const noexcept {

@@ -16,6 +16,7 @@ struct Proof {
   Length free;         ///< proved empty
   bool hit = false;    ///< something lies at `free`
   bool aimed = false;  ///< from a look: what this beam covers and does not clear, no look from here will
+  Time taken{};
 };
 
 /// Cells that lie in the way.
@@ -28,6 +29,9 @@ struct Obstacles {
 
 /// The clearance patch: 32 x 32 world-aligned cells around the body, in three states and an age.
 ///
+/// Clear cells age: each lives for one to two spans of travel or turning after it was last seen, or after the
+/// body last went by it, so that the way back stays open.
+///
 /// A cell is *clear* only if a disc around its centre that covers the whole cell lies inside an empty
 /// beam sector, so that with a sensor that reports the nearest thing in its cone clear ground is free ground.
 class Patch {
@@ -38,6 +42,12 @@ class Patch {
   /// The body is here now: moves the window along, ages the cells, clears the footprint.
   void move_to(const Pose& pose) noexcept;
   void mark(const Proof& proof) noexcept;
+  /// What this beam sees between `proof.free` and `farthest` has moved there: takes back what was clear
+  /// around it, as far as it may come while the body stops, but for the ground under the body. For a second,
+  /// mark() clears nothing that near to an echo.
+  void doubt(const Proof& proof, Length farthest) noexcept;
+  /// Something moved a moment ago.
+  bool doubting() const noexcept { return doubting_; }
 
   /// What lies within `radius` of the way, ahead of its beginning: a body that stands near something may
   /// move off along it or away from it.
@@ -46,6 +56,8 @@ class Patch {
   /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only.
   bool approaches(Vec from, Angle heading, Length step, Length radius) const noexcept;
   bool is_clear(Vec at) const noexcept;
+  /// True if all cells that this disc touches are clear, none of them outside the window.
+  bool all_clear(Vec centre, Length radius) const noexcept;
 
  private:
   struct Point {
@@ -62,6 +74,7 @@ class Patch {
   void drop_rows(int first, int count) noexcept;
   void drop_columns(Row window) noexcept;
   void age(const Pose& pose) noexcept;
+  void renew_around(Vec at) noexcept;
   void clear_footprint(Vec at) noexcept;
 
   Row young_[kCells] = {};    // cleared since the last ageing
@@ -72,12 +85,18 @@ class Patch {
   int32_t row_ = 0;
   Pose last_;
   Vec tested_at_;
-  int32_t travel_um_ = 0;
-  uint32_t turned_ = 0;  // 2^-32 turn, saturating
+  Length travel_;        // since the last ageing
+  uint32_t turned_ = 0;  // the same, 2^-32 turn
+  bool doubting_ = false;
+  Time doubted_;
   Length offset_;
   Angle half_cone_;
+  Length age_travel_;
+  uint32_t age_turn_ = 0;
+  Length approach_;  // of something that moves, while the body stops
   int32_t cell_um_ = 20000;
   int32_t footprint_ = 0;  // grid units
+  int32_t ring_ = 0;       // the same: of what lies beside the body's way
 };
 
 }  // namespace whisker::ground

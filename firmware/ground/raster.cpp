@@ -7,9 +7,6 @@ namespace {
 
 int32_t q14(Q30 x) noexcept { return static_cast<int32_t>(scale_down<16>(int64_t{x.raw()})); }
 
-// No cell lies this far away; keeps every product within 32 bits.
-constexpr int32_t kFar = 4 * kCells * kUnitsPerCell;
-
 }  // namespace
 
 int bits(Row row) noexcept {
@@ -88,7 +85,7 @@ void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexce
 Stadium::Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius, int32_t abeam) noexcept
     : x_(x),
       y_(y),
-      length_(length < kFar ? length : kFar),
+      length_(length < kLongest ? length : kLongest),
       radius_(radius),
       abeam_(abeam),
       ux_(q14(cos(heading))),

@@ -15,6 +15,10 @@ using Row = uint32_t;
 constexpr int kCells = 32;  ///< a side of the window
 constexpr int32_t kUnitsPerCell = 256;
 constexpr int32_t kHalfCell = kUnitsPerCell / 2;
+/// The longest length that shapes take: its square, and products with a normal, fit into 32 bits.
+constexpr int32_t kLongest = 4 * kCells * kUnitsPerCell - 1;
+/// Points lie at most this far from the window's corner in x and in y.
+constexpr int32_t kOutermost = 2 * kCells * kUnitsPerCell;
 
 constexpr int32_t floor_div(int32_t n, int32_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
 constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return -floor_div(-n, d); }

@@ -17,11 +17,12 @@ Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noex
   return rest < Length{} ? -v : v;
 }
 
-/// One tick of a first-order lag, by the trapezoid rule.
+/// One tick of a first-order lag, by the trapezoid rule; a lag shorter than half a tick is none.
 Speed follow(Speed rolling, Speed commanded, const Params& params) noexcept {
   const int32_t tick = params.safety.period.raw();
-  return rolling + Speed::from_raw(multiply_divide((commanded - rolling).raw(), 2 * tick,
-                                                   2 * params.wheels.motor_lag.raw() + tick));
+  const int32_t whole = 2 * params.wheels.motor_lag.raw() + tick;
+  const int32_t part = 2 * tick < whole ? 2 * tick : whole;
+  return rolling + Speed::from_raw(multiply_divide((commanded - rolling).raw(), part, whole));
 }
 
 void count_up(int32_t& ticks) noexcept {

@@ -4,6 +4,8 @@ namespace whisker::motion {
 namespace {
 
 constexpr Length kSample = 20_mm;
+// The shortest step that ground::Patch judges: a crawl is tested with it.
+constexpr Length kShortest = micrometres(100);
 
 /// How far a wheel still rolls: through its lag, this tick at the new command, and braking.
 struct Brake {
@@ -28,15 +30,19 @@ Brake brake(WheelPair command, const WheelState& wheels, const Params& params) n
 bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const ground::Patch& patch,
           const Params& params) noexcept {
   const Brake way = brake(command, wheels, params);
-  const Length length = (way.left + way.right) / 2;
+  const bool crawls = command.left + command.right != Speed{};
+  const Length rolled = (way.left + way.right) / 2;
+  const Length length =
+      crawls && abs(rolled) < kShortest ? (rolled < Length{} ? -kShortest : kShortest) : rolled;
+  const Angle backwards = length < Length{} ? 180_deg : Angle{};
   const Angle turn = angle_of(way.right - way.left, params.body.track);
   const int32_t samples = 1 + abs(length).raw() / kSample.raw();
-  const Length reach = params.body.radius + params.skirt.shield_margin;
+  const Length reach = shield_reach(params);
   for (int32_t i = 1; i <= samples; ++i) {
     const Angle chord =
         Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
     const Length far = Length::from_raw(multiply_divide(length.raw(), i, samples));
-    if (patch.approaches(pose.at, pose.heading + chord, far, reach)) return false;
+    if (patch.approaches(pose.at, pose.heading + chord + backwards, abs(far), reach)) return false;
   }
   return true;
 }
@@ -45,8 +51,8 @@ bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const g
 
 Grant shield(Speed forward, Speed turning, const Pose& pose, const WheelState& wheels,
              const ground::Patch& patch, const Params& params) noexcept {
-  constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2),
-                              Q14::ratio(3, 10), Q14::ratio(3, 25), Q14::ratio(0, 1)};
+  constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2), Q14::ratio(3, 10),
+                              Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
   const Speed change = params.wheels.max_acceleration * params.safety.period;
   for (const Q14 factor : kFactors) {
     const WheelPair want = mix(forward * factor, turning, params.wheels.max_speed);

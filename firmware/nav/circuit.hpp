@@ -4,13 +4,14 @@
 #include <stdint.h>
 
 #include "firmware/core/trig.hpp"
+#include "firmware/params.hpp"
 
 namespace whisker::nav {
 
 class Circuit {
  public:
   /// The obstacle is met here; the edge is followed from this heading on.
-  void begin(Vec at) noexcept;
+  void begin(Vec at, const Params& params) noexcept;
   void head(Angle heading) noexcept { heading_ = heading; }
   /// Once a tick.
   void move(const Pose& pose, Length travel, Angle turn) noexcept;
@@ -22,6 +23,7 @@ class Circuit {
 
  private:
   Vec at_;
+  Length scale_;  // what 100 mm are to the reference body
   Angle heading_;
   bool left_ = false;      // has been away from the beginning
   int64_t travel_um_ = 0;  // since the beginning

@@ -36,8 +36,7 @@ bool Course::choose(const View& view, Vec to_goal, BendLaw& law, const Params& p
 
   const auto passable = [&](Angle heading) {
     heading_ = heading;
-    return way(view, heading, min(params.skirt.probe, distance), params.skirt.planning_margin, params) !=
-           Way::blocked;
+    return way(view, heading, min(probe_length(params), distance), planning_reach(params)) != Way::blocked;
   };
   decision.why = magnitude(bend_) > kStraight ? Why::table : Why::target_free;
   if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)))) return true;

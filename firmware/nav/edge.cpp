@@ -5,6 +5,8 @@
 namespace whisker::nav {
 namespace {
 
+// All lengths are the reference body's; what is measured is brought to its scale.
+constexpr Length kReference = 90_mm;
 constexpr Length kWanted = 150_mm;
 constexpr Length kTooFar = 60_mm;  // beyond the wanted distance: the wall has ended
 constexpr Length kTooNear = 100_mm;
@@ -22,15 +24,18 @@ Twist along_edge(const ranges::Echoes& sight, Side wall, const Params& params) n
   const Length left = sight.beam[hal::kLeft].distance * outer;
   const Length right = sight.beam[hal::kRight].distance * outer;
   const Length gap = wall == Side::left ? left : right;
-  const Length wanted = min(kWanted, (left + right) / 2);
-  const Length error = max(-kTooNear, min(gap - wanted, kTooFar));
-  const Length ahead = max(Length{}, kAhead - sight.beam[hal::kFront].distance);
+  const auto reference = [&](Length l) {
+    return Length::from_raw(multiply_divide(l.raw(), kReference.raw(), params.body.radius.raw()));
+  };
+  const Length wanted = min(kWanted, reference((left + right) / 2));
+  const Length error = max(-kTooNear, min(reference(gap) - wanted, kTooFar));
+  const Length ahead = max(Length{}, kAhead - reference(sight.beam[hal::kFront].distance));
   const AngularRate towards =
       limit(AngularRate::from_raw((error * kWallGain).raw() - (ahead * kAheadGain).raw()), kFastest);
   const Speed top = params.wheels.max_speed;
   const bool ended = error == kTooFar && ahead == Length{};
   const Speed forward =
-      ended ? abs(towards) * kEndRadius
+      ended ? min(top, abs(towards) * for_body(params, kEndRadius))
             : top - Speed::from_raw(multiply_divide(top.raw(), abs(towards).raw(), kHalts.raw()));
   return {forward, towards * sign(wall)};
 }

@@ -8,7 +8,8 @@
 
 namespace whisker::nav {
 
-/// Keeps the wall at 0.15 m from the body's centre, or the middle of what is narrower than twice that.
+/// Keeps the wall at 0.15 m from the centre of a body of 0.09 m, in proportion for others, or the middle of
+/// what is narrower than twice that.
 ///
 /// The side beam tells the wall's distance: along a straight wall its nearest echo comes from the cone's
 /// outer rim, so w = range x sin(side angle + cone / 2). Something ahead nearer than 0.30 m turns the body

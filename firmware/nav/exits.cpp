@@ -37,7 +37,7 @@ void ExitSearch::judge(const View& view, const Params& params, int32_t swept) no
   Exit& mine = exit(now_);
   for (; !mine.free && candidate_ <= kSteps; ++candidate_) {
     const Angle heading = blocked_ + step_angle(candidate_ * sign(now_));
-    const Way found = way(view, heading, params.skirt.probe, params.skirt.planning_margin, params);
+    const Way found = way(view, heading, probe_length(params), planning_reach(params));
     if (found == Way::open && swept < step_degrees(candidate_) + kSeenBehind && swept < kLast + 15) return;
     if (found != Way::free) continue;
     mine.free = true;

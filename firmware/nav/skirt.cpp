@@ -8,8 +8,8 @@ namespace {
 constexpr Angle kSurvey = 50_deg;  // with the cones' rims, 92 degrees to each side
 constexpr Angle kFacing = 3_deg;
 constexpr Length kProgress = 30_mm;
-constexpr int32_t kLongest = 400000;  // mm
-constexpr int32_t kKeepSide = 500;    // mm of travel after a leave
+constexpr Length kLongest = 400_m;
+constexpr Length kKeepSide = 500_mm;  // of travel after a leave
 constexpr int8_t kEscapes = 6;
 constexpr int8_t kRetreats = 8;
 
@@ -19,8 +19,8 @@ constexpr Q14 kHindered = Q14::ratio(9, 10);
 constexpr Angle kFeelFrom = 110_deg;
 constexpr Angle kNotBack = 45_deg;
 constexpr Length kShortWay = 60_mm;
-constexpr int32_t kCommit = 60;         // mm
-constexpr int32_t kOpeningEvery = 100;  // mm
+constexpr Length kCommit = 60_mm;
+constexpr Length kOpeningEvery = 100_mm;
 constexpr Length kOpeningWay = 100_mm;
 constexpr int32_t kOpeningCells = 6;
 
@@ -58,8 +58,8 @@ void SkirtPlanner::start(const View& view) noexcept {
   last_ = view.pose;
   best_ = Length::from_raw(INT32_MAX);
   travel_mm_ = travel_rest_um_ = 0;
-  left_edge_mm_ = -kKeepSide;
-  trail_.reset(view.pose.at);
+  left_edge_mm_ = -mm(kKeepSide);
+  trail_.reset(view.pose.at, for_body(params_, 40_mm));
   course_.reset();
   surveyed_ = 0;
   escapes_ = 0;
@@ -81,7 +81,7 @@ void SkirtPlanner::keep_account(const View& view) noexcept {
 }
 
 void SkirtPlanner::act(const View& view) noexcept {
-  if (travel_mm_ > kLongest) {
+  if (travel_mm_ > mm(kLongest)) {
     finish(Mode::gave_up, Why::length_budget, Outcome::gave_up);
     return;
   }
@@ -119,7 +119,7 @@ void SkirtPlanner::go(const View& view) noexcept {
     begin_exits(view);
     return;
   }
-  const Length length = min(params_.skirt.probe, distance_);
+  const Length length = min(probe_length(params_), distance_);
   if (stalled(view)) {
     look_along(course_.heading(), length, Phase::go);
     return;
@@ -135,14 +135,21 @@ void SkirtPlanner::go(const View& view) noexcept {
   drive(steer(heading - view.pose.heading, params_.wheels.max_speed));
 }
 
+int32_t SkirtPlanner::mm(Length reference) const noexcept {
+  return for_body(params_, reference).raw() / 1000;
+}
+
 bool SkirtPlanner::stalled(const View& view) noexcept {
-  constexpr Speed kSlow = 20_mm_per_s;
+  const Speed slow = params_.wheels.max_speed / 15;
   constexpr AngularRate kTurns = 300_mrad_per_s;
-  constexpr int32_t kPatience = 80;  // ticks: 0.8 s while it turns, 0.2 s where it is held back
+  // What it takes to start moving, and for readings to show what is ahead: 0.2 s; 0.8 s while it turns.
+  const Duration starts = params_.wheels.motor_lag * 2 + params_.rangefinders.latency +
+                          milliseconds(4000 / params_.rangefinders.rate_hz);
+  const int32_t patience = 4 * starts.raw() / params_.safety.period.raw();
   const bool turns = abs(view.turning) > kTurns * (params_.body.track / 2);
   const bool held = !turns && view.granted < Q14::ratio(1, 1);
-  slow_ticks_ = view.forward < kSlow ? slow_ticks_ + (held ? 4 : 1) : 0;
-  return slow_ticks_ >= kPatience;
+  slow_ticks_ = view.forward < slow ? slow_ticks_ + (held ? 4 : 1) : 0;
+  return slow_ticks_ >= patience;
 }
 
 void SkirtPlanner::look_along(Angle heading, Length length, Phase next) noexcept {
@@ -172,10 +179,10 @@ void SkirtPlanner::look(const View& view) noexcept {
 
 void SkirtPlanner::begin_exits(const View& view) noexcept {
   const Angle target = bearing(to_goal_);
-  circuit_.begin(view.pose.at);
+  circuit_.begin(view.pose.at, params_);
   course_.reset();
   turned_back_ = false;
-  if (travel_mm_ - left_edge_mm_ < kKeepSide) {
+  if (travel_mm_ - left_edge_mm_ < mm(kKeepSide)) {
     exits_.begin_on(target, opposite(wall_));
   } else {
     exits_.begin(target, (view.pose.heading - target).wrapped() > 0 ? Side::left : Side::right);
@@ -201,7 +208,7 @@ void SkirtPlanner::exits(const View& view) noexcept {
 
 void SkirtPlanner::depart(const View& view) noexcept {
   if (!turn_to(view, heading_)) return;
-  commit_mm_ = travel_mm_ + kCommit;
+  commit_mm_ = travel_mm_ + mm(kCommit);
   felt_mm_ = travel_mm_;
   enter(Phase::follow, Mode::skirting, decision_.why);
 }
@@ -217,7 +224,7 @@ void SkirtPlanner::follow(const View& view) noexcept {
       return;
     }
     if (leave(view)) return;
-    if (travel_mm_ - felt_mm_ > kOpeningEvery) {
+    if (travel_mm_ - felt_mm_ > mm(kOpeningEvery)) {
       felt_mm_ = travel_mm_;
       if (opening(view)) {
         begin_feel(view, view.pose.heading);
@@ -239,10 +246,9 @@ void SkirtPlanner::follow(const View& view) noexcept {
 }
 
 bool SkirtPlanner::leave(const View& view) noexcept {
-  if (distance_ >= best_ - kProgress) return false;
+  if (distance_ >= best_ - for_body(params_, kProgress)) return false;
   const Angle target = bearing(to_goal_);
-  const Way found =
-      way(view, target, min(params_.skirt.probe, distance_), params_.skirt.planning_margin, params_);
+  const Way found = way(view, target, min(probe_length(params_), distance_), planning_reach(params_));
   // Away from the wall the unseen may be tried; on its side it is most likely the wall.
   const bool wall_side = (target - view.pose.heading).wrapped() * int64_t{sign(wall_)} > 0;
   if (found == Way::blocked || (found == Way::open && wall_side)) return false;
@@ -256,11 +262,12 @@ bool SkirtPlanner::leave(const View& view) noexcept {
 /// On the wall's side something is nearly clear: a door, or the end of the wall.
 bool SkirtPlanner::opening(const View& view) const noexcept {
   const Angle back = trail_.way_back(view.pose);
-  const Length reach = params_.body.radius + params_.skirt.planning_margin;
+  const Length reach = planning_reach(params_);
   for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
     const Angle heading = view.pose.heading + 1_deg * (degrees * sign(wall_));
     if (magnitude(heading - back) < kNotBack.raw()) continue;
-    const ground::Obstacles o = view.patch->along(view.pose.at, heading, kOpeningWay, reach);
+    const ground::Obstacles o =
+        view.patch->along(view.pose.at, heading, for_body(params_, kOpeningWay), reach);
     if (o.suspect + o.unknown <= kOpeningCells) return true;
   }
   return false;
@@ -272,7 +279,7 @@ void SkirtPlanner::escape() noexcept {
     return;
   }
   best_ = distance_;
-  left_edge_mm_ = travel_mm_ - kKeepSide;
+  left_edge_mm_ = travel_mm_ - mm(kKeepSide);
   enter(Phase::go, Mode::going, Why::wall_lost);
 }
 
@@ -285,7 +292,7 @@ void SkirtPlanner::turn_back(const View& view) noexcept {
   turned_back_ = true;
   wall_ = opposite(wall_);
   const Angle back = view.pose.heading + 180_deg;
-  circuit_.begin(view.pose.at);
+  circuit_.begin(view.pose.at, params_);
   circuit_.head(back);
   begin_feel(view, back);
   decision_.why = Why::came_round;
@@ -303,7 +310,7 @@ void SkirtPlanner::begin_feel(const View& view, Angle ahead) noexcept {
 }
 
 Length SkirtPlanner::reach() const noexcept {
-  return effort_ == Effort::full ? params_.skirt.probe : kShortWay;
+  return effort_ == Effort::full ? probe_length(params_) : for_body(params_, kShortWay);
 }
 
 void SkirtPlanner::feel(const View& view) noexcept {
@@ -311,11 +318,11 @@ void SkirtPlanner::feel(const View& view) noexcept {
   constexpr Angle kFineStep = Angle::turns(25, 3600);
   const bool fine = effort_ == Effort::narrow_ways;
   const Angle step = fine ? kFineStep : kStep;
-  const Length margin = fine ? params_.skirt.shield_margin : params_.skirt.planning_margin;
+  const Length margin = fine ? shield_reach(params_) : planning_reach(params_);
   decision_.mode = Mode::searching;
   for (const int32_t all = fine ? 144 : 48; candidate_ < all; ++candidate_) {
     const Angle heading = feel_from_ - step * (candidate_ * sign(wall_));
-    const Way found = way(view, heading, reach(), margin, params_);
+    const Way found = way(view, heading, reach(), margin);
     if (found == Way::blocked || (fine && found == Way::open)) continue;
     if (found == Way::open) {
       look_along(heading, reach(), Phase::feel);
@@ -337,7 +344,7 @@ void SkirtPlanner::feel(const View& view) noexcept {
 
 void SkirtPlanner::retreat(const View& view) noexcept {
   const Vec rest = retreat_to_ - view.pose.at;
-  if (norm(rest) < 10_mm) {
+  if (norm(rest) < for_body(params_, 10_mm)) {
     felt_mm_ = travel_mm_;
     enter(Phase::follow, Mode::skirting, Why::edge);
   } else if (!stalled(view)) {

@@ -72,6 +72,7 @@ class SkirtPlanner final : public Planner {
 
   bool stalled(const View& view) noexcept;
   Length reach() const noexcept;
+  int32_t mm(Length reference) const noexcept;
   void enter(Phase phase, Mode mode, Why why) noexcept;
   void brake_then(Phase next) noexcept;
   void look_along(Angle heading, Length length, Phase next) noexcept;

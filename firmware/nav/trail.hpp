@@ -9,18 +9,21 @@ namespace whisker::nav {
 
 class Trail {
  public:
-  void reset(Vec at) noexcept;
-  /// True if the body has moved on by a place's distance (40 mm).
+  /// Keeps places this far apart.
+  void reset(Vec at, Length apart) noexcept;
+  /// True if the body has moved on by that.
   bool add(Vec at) noexcept;
-  /// A place passed 80 to 120 mm ago.
+  /// A place passed two to three of these distances ago.
   Vec near() const noexcept { return back(2); }
-  /// The direction from `pose` to where it was 120 to 160 mm ago; straight behind if it has hardly moved.
+  /// The direction from `pose` to where it was three to four of them ago; straight behind if it has hardly
+  /// moved.
   Angle way_back(const Pose& pose) const noexcept;
 
  private:
   static constexpr int kPlaces = 4;
   Vec back(int n) const noexcept { return places_[(newest_ + kPlaces - n) % kPlaces]; }
   Vec places_[kPlaces];
+  Length apart_;
   int8_t newest_ = 0;
 };
 

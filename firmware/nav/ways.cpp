@@ -2,16 +2,15 @@
 
 namespace whisker::nav {
 
-Way way(const View& view, Angle heading, Length length, Length margin, const Params& params) noexcept {
-  const ground::Obstacles o = view.patch->along(view.pose.at, heading, length, params.body.radius + margin);
+Way way(const View& view, Angle heading, Length length, Length reach) noexcept {
+  const ground::Obstacles o = view.patch->along(view.pose.at, heading, length, reach);
   if (o.suspect > 0) return Way::blocked;
   return o.unknown > 0 ? Way::open : Way::free;
 }
 
 bool turn_to_unseen(const View& view, Angle heading, Length length, Angle from, const Params& params,
                     Angle& turn) noexcept {
-  const ground::Obstacles o =
-      view.patch->along(view.pose.at, heading, length, params.body.radius + params.skirt.planning_margin);
+  const ground::Obstacles o = view.patch->along(view.pose.at, heading, length, planning_reach(params));
   if (o.suspect > 0 || o.unknown == 0) return false;
   const Angle front = bearing(o.nearest_unknown) - from;
   const Angle side = params.rangefinders.side_angle;

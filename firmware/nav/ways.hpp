@@ -12,8 +12,8 @@ enum class Way : uint8_t {
   blocked,  ///< an echo came from it, or a look at it from here was in vain
 };
 
-/// The way of this length from where the body stands, with this margin beside the body.
-Way way(const View& view, Angle heading, Length length, Length margin, const Params& params) noexcept;
+/// The way of this length from where the body stands, as wide as `reach` to both sides.
+Way way(const View& view, Angle heading, Length length, Length reach) noexcept;
 
 /// The turn that brings the nearest beam's axis onto the nearest unseen cell in that way, seen from
 /// a body that heads `from`. False: there is no such cell, or the way is blocked.

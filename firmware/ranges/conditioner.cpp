@@ -112,6 +112,7 @@ Sight BeamConditioner::sight(const Params& params) const noexcept {
   s.fresh = fresh_;
   s.taken = history_[newest_].taken;
   s.oldest = history_[(newest_ - kNear + 1 + kHistory) % kHistory].taken;
+  s.farthest = max(high, last[kTypical - 1]);
   s.near = {nearest, validity_of(nearest, far)};
   s.typical = {median, validity_of(median, far)};
   return s;

@@ -19,6 +19,7 @@ struct Sight {
   Time oldest;         ///< when the oldest of those behind `near` was
   Echo near;           ///< the nearest of the last four: no single reading can make it far
   Echo typical;        ///< the median of the last three
+  Length farthest;     ///< of the last three: no single reading can make it near
 };
 
 /// One beam. Keeps the last usable measurements; a lost one is counted and never stored, so that it
