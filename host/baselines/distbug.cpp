@@ -18,7 +18,7 @@ nav::Side DistBug::hit(const nav::View& view) {
 }
 
 bool DistBug::may_leave(const nav::View& view) {
-  const Length free = max(seen_free(view), params().skirt.probe);
+  const Length free = max(seen_free(view), probe_length(params()));
   const bool leaves = distance() - free <= least_ - kStep || free >= distance();
   least_ = min(least_, distance());
   return leaves;

@@ -7,7 +7,8 @@
 namespace whisker::baselines {
 namespace {
 
-constexpr Length kShortProbe = 60_mm;
+constexpr Length kShortProbe = 60_mm;  // as all lengths here: for a body of 0.09 m
+constexpr Length kOpening = 100_mm;
 constexpr Angle kCoarse = Angle::turns(75, 3600);
 constexpr std::int32_t kCoarseCircle = 48;
 constexpr Angle kFine = Angle::turns(25, 3600);
@@ -18,7 +19,7 @@ constexpr std::int32_t kRetreats = 8;
 }  // namespace
 
 void EdgeWalk::forget_trail(const nav::View& view) {
-  trail_.reset(view.pose.at);
+  trail_.reset(view.pose.at, for_body(params_, 40_mm));
   last_ = view.pose.at;
 }
 
@@ -37,7 +38,7 @@ void EdgeWalk::begin(nav::Side wall, Angle blocked) {
 void EdgeWalk::feel_from(Angle heading) {
   feel_from_ = heading;
   candidate_ = 0;
-  reach_ = params_.skirt.probe;
+  reach_ = probe_length(params_);
   fine_ = false;
   phase_ = Phase::brake;
 }
@@ -69,7 +70,7 @@ bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
       decision.mode = nav::Mode::skirting;
       if (face(view, course_, params_, decision.manoeuvre)) {
         stall_.reset();
-        straight_until_um_ = travel_um_ + min(60_mm, reach_).raw();
+        straight_until_um_ = travel_um_ + min(for_body(params_, kShortProbe), reach_).raw();
         felt_um_ = travel_um_;
         phase_ = Phase::walk;
       }
@@ -88,7 +89,7 @@ bool EdgeWalk::may_open(const nav::View& view) {
     const Angle heading = view.pose.heading + 15_deg * (i * turn());
     if (magnitude(heading - back) < kNotBack.raw()) continue;
     const ground::Obstacles o =
-        view.patch->along(view.pose.at, heading, 100_mm, params_.body.radius + params_.skirt.planning_margin);
+        view.patch->along(view.pose.at, heading, for_body(params_, kOpening), planning_reach(params_));
     if (o.suspect + o.unknown <= 6) return true;
   }
   return false;
@@ -114,10 +115,10 @@ void EdgeWalk::walk(const nav::View& view, nav::Decision& decision) {
 void EdgeWalk::feel(const nav::View& view, nav::Decision& decision) {
   decision.mode = nav::Mode::searching;
   const Angle step = fine_ ? kFine : kCoarse;
-  const Length margin = fine_ ? params_.skirt.shield_margin : params_.skirt.planning_margin;
+  const Length beside = fine_ ? shield_reach(params_) : planning_reach(params_);
   for (; candidate_ < (fine_ ? kFineCircle : kCoarseCircle); ++candidate_) {
     const Angle heading = feel_from_ - step * (candidate_ * turn());
-    const nav::Way found = nav::way(view, heading, reach_, margin, params_);
+    const nav::Way found = nav::way(view, heading, reach_, beside);
     if (found == nav::Way::blocked || (fine_ && found == nav::Way::open)) continue;
     if (found == nav::Way::open) {
       look_.begin();
@@ -132,8 +133,8 @@ void EdgeWalk::feel(const nav::View& view, nav::Decision& decision) {
     return;
   }
   candidate_ = 0;
-  if (reach_ == params_.skirt.probe) {
-    reach_ = kShortProbe;
+  if (reach_ == probe_length(params_)) {
+    reach_ = for_body(params_, kShortProbe);
   } else if (!fine_) {
     fine_ = true;
   } else {

@@ -91,10 +91,10 @@ void Walker::survey(const nav::View& view) {
 }
 
 void Walker::go(const nav::View& view) {
-  const Length ahead = min(params_.skirt.probe, distance_);
+  const Length ahead = min(probe_length(params_), distance_);
   if (view.sighted) {
     course_ = course(view);
-    if (nav::way(view, course_, ahead, params_.skirt.planning_margin, params_) == nav::Way::blocked) {
+    if (nav::way(view, course_, ahead, planning_reach(params_)) == nav::Way::blocked) {
       begin_follow(view);
       return;
     }
@@ -110,7 +110,7 @@ void Walker::go(const nav::View& view) {
 }
 
 void Walker::look(const nav::View& view) {
-  if (!look_.step(view, course(view), min(params_.skirt.probe, distance_), params_, decision_.manoeuvre))
+  if (!look_.step(view, course(view), min(probe_length(params_), distance_), params_, decision_.manoeuvre))
     return;
   decision_.looked = true;
   stall_.reset();
@@ -139,13 +139,13 @@ bool Walker::came_round(const nav::View& view) const {
 }
 
 nav::Way Walker::way_off(const nav::View& view, Angle heading) const {
-  return nav::way(view, heading, min(free_to_leave(), distance_), params_.skirt.planning_margin, params_);
+  return nav::way(view, heading, min(free_to_leave(), distance_), planning_reach(params_));
 }
 
 bool Walker::leave(const nav::View& view) {
   const Angle heading = course(view);
   const nav::Way found = way_off(view, heading);
-  if (found == nav::Way::blocked || (found == nav::Way::open && seen_free(view) < params_.skirt.probe))
+  if (found == nav::Way::blocked || (found == nav::Way::open && seen_free(view) < probe_length(params_)))
     return false;
   stall_.reset();
   enter(Phase::go, nav::Mode::going, nav::Why::target_free);
@@ -195,7 +195,7 @@ Length Walker::seen_free(const nav::View& view) const {
     const ranges::Echo& echo = view.sight.beam[i];
     if (!ranges::usable(echo.validity)) continue;
     if (magnitude(view.pose.heading + axes[i] - target) > (6_deg).raw()) continue;
-    free = max(free, echo.distance - params_.body.radius - params_.skirt.planning_margin);
+    free = max(free, echo.distance - planning_reach(params_));
   }
   return free;
 }

@@ -41,7 +41,7 @@ CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
             if (!named) throw CLI::ValidationError("--planner", fmt::format("no planner '{}'", text));
             kind = *named;
           },
-          fmt::format("Planner: {}; baselines: {}", names, baselines))
+          fmt::format("Planner: {};\nbaselines: {}", names, baselines))
       ->default_str(name(kind))
       ->type_name("NAME");
 }

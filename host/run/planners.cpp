@@ -8,7 +8,6 @@
 #include "host/baselines/wall_follower.hpp"
 
 namespace whisker {
-
 namespace {
 
 /// The planner and the law that bends its course live and die together.
