@@ -28,8 +28,11 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path,
 }
 
 CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
-  std::string names;
-  for (const PlannerKind k : kPlanners) names += fmt::format("{}{}", names.empty() ? "" : ", ", name(k));
+  std::string names, baselines;
+  for (const PlannerKind k : kPlanners) {
+    std::string& list = is_baseline(k) ? baselines : names;
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", name(k));
+  }
   return app
       .add_option_function<std::string>(
           "--planner",
@@ -38,7 +41,7 @@ CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
             if (!named) throw CLI::ValidationError("--planner", fmt::format("no planner '{}'", text));
             kind = *named;
           },
-          fmt::format("Planner: {}", names))
+          fmt::format("Planner: {};\nbaselines: {}", names, baselines))
       ->default_str(name(kind))
       ->type_name("NAME");
 }

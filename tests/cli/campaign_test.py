@@ -13,7 +13,7 @@ import subprocess
 import time
 
 import whisker
-from whisker import SCENARIOS, STATUS, Case, with_time_limit
+from whisker import PLANNERS, SCENARIOS, STATUS, Case, with_time_limit
 
 COUNT = 12
 KIND = ("discs", "--discs", 10)
@@ -82,7 +82,7 @@ class Rows(Campaigns):
             self.assertEqual((row["shortest_m"], row["ratio"]), ("", ""))
 
     def test_the_planner_may_be_chosen(self):
-        for planner in ("skirt", "thesis"):
+        for planner in PLANNERS:
             rows = rows_of(self.rows(*KIND, "--count", 2, "--seed", 2, "--planner", planner))
             self.assertEqual({row["planner"] for row in rows}, {planner})
             world = self.file("w.toml", whisker.whisker("world", *KIND, "--seed", 3).stdout)

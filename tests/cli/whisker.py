@@ -11,6 +11,7 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 SCENARIOS = HERE / "scenarios"
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
+PLANNERS = ("skirt", "thesis", "bug2", "distbug", "wall-follower", "fan", "repulsion")
 STATUS = {"reached": 0, "unreachable": 3, "gave_up": 4, "contact": 5, "fault": 6}
 
 binary = ""

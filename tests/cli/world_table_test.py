@@ -8,7 +8,7 @@ import tomllib
 import xml.etree.ElementTree
 
 import whisker
-from whisker import KINDS, Case, with_time_limit
+from whisker import KINDS, PLANNERS, Case, with_time_limit
 
 WIDEST = 100
 OPTIONS = {
@@ -107,6 +107,11 @@ class Help(Case):
         text = whisker.whisker("--help").stdout.partition("Subcommands:\n")[2].partition("\n\n")[0]
         named = {line.split()[0] for line in text.splitlines()}
         self.assertEqual(named, {command[0] for command in OPTIONS if command})
+
+    def test_names_every_planner_and_which_are_baselines(self):
+        for command in ("run", "campaign"):
+            text = " ".join(whisker.whisker(command, "--help").stdout.split())
+            self.assertIn(f"Planner: {', '.join(PLANNERS[:2])}; baselines: {', '.join(PLANNERS[2:])}", text)
 
     def test_version_is_one_line(self):
         done = whisker.whisker("--version")

@@ -1,0 +1,38 @@
+/// Bug2. Source: V. J. Lumelsky, A. A. Stepanov, "Path-planning strategies for a point mobile automaton
+/// moving amidst unknown obstacles of arbitrary shape", Algorithmica 2, 1987.
+#pragma once
+
+#include "host/baselines/walker.hpp"
+
+namespace whisker::baselines {
+
+/// Along the m-line, the segment from the start to the goal. At an obstacle it turns left (the paper's local
+/// direction is any fixed one) and follows the boundary until it meets the m-line nearer to the goal than
+/// where it hit, with the way on free, if only for 60 mm: what is behind that is the next obstacle. Back at
+/// the hit point: unreachable.
+///
+/// A body is no point: it meets the m-line where its centre crosses it or comes within 30 mm, and nearer is
+/// nearer by 30 mm. A boundary that it loses begins a new m-line.
+class Bug2 final : public Walker {
+ public:
+  explicit Bug2(const Params& params) noexcept : Walker(params) {}
+
+ private:
+  void begin(const nav::View& view) override;
+  Angle course(const nav::View& view) const override;
+  nav::Side hit(const nav::View& view) override;
+  bool may_leave(const nav::View& view) override;
+  Length free_to_leave() const override { return for_body(params(), 60_mm); }
+  bool can_tell_unreachable() const override { return true; }
+
+  /// How far the body is along the m-line and to the left of it.
+  Vec on_line(const nav::View& view) const;
+
+  Vec from_;
+  Angle line_;  ///< direction
+  Length length_;
+  Length hit_distance_;  ///< to the goal
+  Length offset_;        ///< from the m-line at the last reading
+};
+
+}  // namespace whisker::baselines

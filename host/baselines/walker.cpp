@@ -1,0 +1,215 @@
+#include "host/baselines/walker.hpp"
+
+#include "firmware/nav/steering.hpp"
+
+namespace whisker::baselines {
+namespace {
+
+constexpr std::int64_t kTurn = INT64_C(1) << 32;
+
+std::int64_t size(std::int64_t x) { return x < 0 ? -x : x; }
+
+}  // namespace
+
+void Walker::set_goal(const nav::Goal& goal) noexcept {
+  goal_ = goal;
+  request_ = Request::goal;
+}
+
+void Walker::cancel() noexcept { request_ = Request::cancel; }
+
+nav::Decision Walker::step(const nav::View& view) noexcept {
+  decision_.manoeuvre = {};
+  decision_.looked = false;
+  switch (request_) {
+    case Request::none: break;
+    case Request::goal: start(view); break;
+    case Request::cancel: finish(nav::Mode::idle, nav::Why::cancelled, nav::Outcome::none); break;
+  }
+  request_ = Request::none;
+  if (phase_ != Phase::rest) {
+    account(view);
+    act(view);
+  }
+  return decision_;
+}
+
+void Walker::start(const nav::View& view) {
+  decision_ = {};
+  decision_.outcome = nav::Outcome::running;
+  last_ = view.pose;
+  travel_um_ = 0;
+  surveyed_left_ = false;
+  edge_.forget_trail(view);
+  account(view);
+  begin(view);
+  enter(Phase::survey, nav::Mode::surveying, nav::Why::goal_set);
+}
+
+void Walker::account(const nav::View& view) {
+  travel_um_ += norm(view.pose.at - last_.at).raw();
+  turned_ += (view.pose.heading - last_.heading).wrapped();
+  last_ = view.pose;
+  to_goal_ = goal_.at - view.pose.at;
+  distance_ = norm(to_goal_);
+  edge_.note(view);
+}
+
+void Walker::act(const nav::View& view) {
+  if (travel_um_ > std::int64_t{kLongest.raw()}) {
+    finish(nav::Mode::gave_up, nav::Why::length_budget, nav::Outcome::gave_up);
+    return;
+  }
+  if (phase_ != Phase::halt && distance_ <= goal_.tolerance - goal_.tolerance / 8) {
+    phase_ = Phase::halt;
+    decision_.manoeuvre = stop();
+    return;
+  }
+  switch (phase_) {
+    case Phase::rest: break;
+    case Phase::halt:
+      if (!view.settled) break;
+      if (distance_ <= goal_.tolerance) {
+        finish(nav::Mode::arrived, nav::Why::at_goal, nav::Outcome::reached);
+      } else {
+        enter(Phase::go, nav::Mode::going, nav::Why::target_free);
+      }
+      break;
+    case Phase::survey: survey(view); break;
+    case Phase::go: go(view); break;
+    case Phase::look_ahead:
+    case Phase::look_away: look(view); break;
+    case Phase::follow: follow(view); break;
+  }
+}
+
+void Walker::survey(const nav::View& view) {
+  const Angle heading = bearing(to_goal_) + (surveyed_left_ ? -50_deg : 50_deg);
+  if (!face(view, heading, params_, decision_.manoeuvre)) return;
+  if (surveyed_left_) enter(Phase::go, nav::Mode::going, nav::Why::target_free);
+  surveyed_left_ = true;
+}
+
+void Walker::go(const nav::View& view) {
+  const Length ahead = min(probe_length(params_), distance_);
+  if (view.sighted) {
+    course_ = course(view);
+    if (nav::way(view, course_, ahead, planning_reach(params_)) == nav::Way::blocked) {
+      begin_follow(view);
+      return;
+    }
+  }
+  if (stall_.stalled(view, params_)) {
+    look_.begin();
+    enter(Phase::look_ahead, nav::Mode::looking, nav::Why::unknown_ahead);
+    decision_.manoeuvre = stop();
+    return;
+  }
+  decision_.manoeuvre =
+      nav::cruise(nav::steer(course_ - view.pose.heading, params_.wheels.max_speed), params_);
+}
+
+void Walker::look(const nav::View& view) {
+  if (!look_.step(view, course(view), min(probe_length(params_), distance_), params_, decision_.manoeuvre))
+    return;
+  decision_.looked = true;
+  stall_.reset();
+  if (phase_ == Phase::look_ahead) {
+    enter(Phase::go, nav::Mode::going, nav::Why::target_free);
+  } else if (!leave(view)) {
+    enter(Phase::follow, nav::Mode::skirting, nav::Why::edge);
+    decision_.manoeuvre = stop();
+    edge_.resume(view, walk_heading_);
+  }
+}
+
+void Walker::begin_follow(const nav::View& view) {
+  hit_at_ = view.pose.at;
+  on_its_way_ = false;
+  edge_.begin(hit(view), course_);
+  enter(Phase::follow, nav::Mode::searching, nav::Why::target_blocked);
+  decision_.manoeuvre = stop();
+}
+
+bool Walker::came_round(const nav::View& view) const {
+  const Length length = Length::from_raw(saturate32(travel_um_ - mark_travel_um_));
+  return size(turned_) > kTurn * 300 / 360 &&
+         norm(view.pose.at - mark_.at) < min(300_mm, 100_mm + length / 100) &&
+         magnitude(view.pose.heading - mark_.heading) < (60_deg).raw();
+}
+
+nav::Way Walker::way_off(const nav::View& view, Angle heading) const {
+  return nav::way(view, heading, min(free_to_leave(), distance_), planning_reach(params_));
+}
+
+bool Walker::leave(const nav::View& view) {
+  const Angle heading = course(view);
+  const nav::Way found = way_off(view, heading);
+  if (found == nav::Way::blocked || (found == nav::Way::open && seen_free(view) < probe_length(params_)))
+    return false;
+  stall_.reset();
+  enter(Phase::go, nav::Mode::going, nav::Why::target_free);
+  go(view);
+  return true;
+}
+
+void Walker::follow(const nav::View& view) {
+  if (view.sighted && edge_.drives()) {
+    if (!on_its_way_ && norm(view.pose.at - hit_at_) > 200_mm) {
+      on_its_way_ = true;
+      mark_ = view.pose;
+      mark_travel_um_ = travel_um_;
+      turned_ = 0;
+    }
+    if (on_its_way_ && can_tell_unreachable() && came_round(view)) {
+      finish(nav::Mode::unreachable, nav::Why::came_round, nav::Outcome::unreachable);
+      return;
+    }
+    if (may_leave(view)) {
+      if (leave(view)) return;
+      if (travel_um_ - looked_um_ > Length{50_mm}.raw() && way_off(view, course(view)) == nav::Way::open) {
+        looked_um_ = travel_um_;
+        walk_heading_ = view.pose.heading;
+        look_.begin();
+        enter(Phase::look_away, nav::Mode::looking, nav::Why::unknown_ahead);
+        decision_.manoeuvre = stop();
+        return;
+      }
+    }
+    // Twice round something that is not what it hit.
+    if (on_its_way_ && size(turned_) > 2 * kTurn) {
+      begin(view);
+      enter(Phase::go, nav::Mode::going, nav::Why::wall_lost);
+      return;
+    }
+  }
+  if (!edge_.step(view, decision_)) finish(nav::Mode::gave_up, nav::Why::no_exit, nav::Outcome::gave_up);
+}
+
+Length Walker::seen_free(const nav::View& view) const {
+  const Angle target = bearing(to_goal_);
+  const Angle side = params_.rangefinders.side_angle;
+  const Angle axes[hal::kBeams] = {side, Angle{}, -side};
+  Length free;
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const ranges::Echo& echo = view.sight.beam[i];
+    if (!ranges::usable(echo.validity)) continue;
+    if (magnitude(view.pose.heading + axes[i] - target) > (6_deg).raw()) continue;
+    free = max(free, echo.distance - planning_reach(params_));
+  }
+  return free;
+}
+
+void Walker::enter(Phase phase, nav::Mode mode, nav::Why why) {
+  phase_ = phase;
+  decision_.mode = mode;
+  decision_.why = why;
+}
+
+void Walker::finish(nav::Mode mode, nav::Why why, nav::Outcome outcome) {
+  enter(Phase::rest, mode, why);
+  decision_.outcome = outcome;
+  decision_.manoeuvre = stop();
+}
+
+}  // namespace whisker::baselines
