@@ -80,6 +80,11 @@ stage_tidy() {
   find firmware -name '*.cpp' -print0 | xargs -0 -n 4 -P "$jobs" clang-tidy-14 -p build/core --quiet
 }
 
+stage_campaign() {
+  build host
+  scripts/bars --gate --count 40 --noisy 20
+}
+
 stage_long() {
   build host
   RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" WHISKER_LONG=1 ctest --preset host --no-tests=error -LE '^build$'

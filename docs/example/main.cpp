@@ -1,5 +1,5 @@
 // A whole firmware around the core: three drivers, the parameters of the robot, and a loop.
-#include "firmware/nav/thesis.hpp"
+#include "firmware/nav/skirt.hpp"
 #include "firmware/robot.hpp"
 #include "hal/clock.hpp"
 
@@ -32,8 +32,8 @@ int main() {
   static Sonar sonar;
   static Motors motors;
   static Timer timer;
-  static nav::ThesisPlanner planner{params, fuzzy::kDefaultTable};
-  static Robot robot{sonar, motors, planner, params};
+  static nav::TableSkirt skirt{params, fuzzy::kDefaultTable};
+  static Robot robot{sonar, motors, skirt.planner, params};
 
   robot.place({{0_m, 0_m}, 0_deg});
   robot.set_goal({{4_m, 1_m}, 100_mm});

@@ -46,7 +46,7 @@ void Patch::configure(const Params& params) noexcept {
   offset_ = params.rangefinders.offset;
   half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
   footprint_ = units(params.body.radius) - kCover;
-  ring_ = units(params.body.radius + params.skirt.planning_margin) + kUnitsPerCell;
+  ring_ = units(planning_reach(params)) + kUnitsPerCell;
   age_travel_ = params.skirt.age_travel;
   age_turn_ = params.skirt.age_turn.raw();
   approach_ = params.skirt.mover_speed * time_to_stop(params);

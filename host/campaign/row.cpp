@@ -15,8 +15,8 @@ std::optional<double> ratio(const Row& row) {
 }
 
 std::optional<double> s_per_m(const Row& row) {
-  if (row.path_m <= 0) return std::nullopt;
-  return row.time_s / row.path_m;
+  if (!row.shortest_m || *row.shortest_m <= 0) return std::nullopt;
+  return row.time_s / *row.shortest_m;
 }
 
 bool has_no_way(const Row& row) {

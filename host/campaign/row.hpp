@@ -32,7 +32,7 @@ struct Row {
 double rounded(double x);
 
 std::optional<double> ratio(const Row& row);    ///< driven path to shortest way
-std::optional<double> s_per_m(const Row& row);  ///< none if nothing was driven
+std::optional<double> s_per_m(const Row& row);  ///< of the shortest way; none without one
 
 /// The world is known to have no way to its goal: the right verdict is "unreachable".
 bool has_no_way(const Row& row);

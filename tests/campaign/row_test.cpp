@@ -13,7 +13,7 @@ namespace whisker::campaign {
 namespace {
 
 const std::string kLine =
-    "7,reached,12.500000,2.000000,3.100000,1,2,3,0.050000,0.010000,1.600000,1.250000,6.250000,1250,"
+    "7,reached,12.500000,2.000000,3.100000,1,2,3,0.050000,0.010000,1.600000,1.250000,7.812500,1250,"
     "00000000000000ff,at_goal,thesis,,discs --noise";
 
 std::string complaint(const std::string& line) {
@@ -33,10 +33,9 @@ std::string with(const std::string& from, const std::string& to) {
 TEST(Row, FiguresThatFollowFromOthers) {
   Row row = parse_row(kLine);
   EXPECT_EQ(ratio(row), 1.25);
-  EXPECT_EQ(s_per_m(row), 6.25);
+  EXPECT_EQ(s_per_m(row), 7.8125);
   row.shortest_m.reset();
   EXPECT_FALSE(ratio(row));
-  row.path_m = 0;
   EXPECT_FALSE(s_per_m(row));
 }
 

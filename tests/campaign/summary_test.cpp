@@ -33,7 +33,7 @@ TEST(Summary, SharesAreOfAllMissionsAndTimesOfThoseThatArrived) {
   EXPECT_EQ(s.unreachable.value, 0);
   EXPECT_EQ(s.ratio_mean->value, 1.25);
   EXPECT_EQ(s.s_per_m_p50->value, 5);
-  EXPECT_EQ(s.s_per_m_p95->value, 10);
+  EXPECT_EQ(s.s_per_m_p95->value, 15);
   EXPECT_EQ(s.stops.rate->value, 0.2) << "19 stops on 95 m";
   EXPECT_EQ(s.stops.p50->value, 15.0 / 90) << "of the three that drove";
 }

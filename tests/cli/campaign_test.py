@@ -70,7 +70,7 @@ class Rows(Campaigns):
         for row in rows_of(self.rows(*KIND, "--count", COUNT)):
             path, time_s = float(row["path_m"]), float(row["time_s"])
             self.assertAlmostEqual(float(row["ratio"]), path / float(row["shortest_m"]), places=5)
-            self.assertAlmostEqual(float(row["s_per_m"]), time_s / path, places=5)
+            self.assertAlmostEqual(float(row["s_per_m"]), time_s / float(row["shortest_m"]), places=5)
             self.assertGreaterEqual(float(row["shortest_m"]), 8 * 2**0.5 - 1e-6)
             self.assertEqual(int(row["ticks"]), round(time_s * 100) + 1)
             if row["outcome"] == "reached":

@@ -58,6 +58,11 @@ TEST(Params, EveryRelationIsChecked) {
        }},
       {ParamFault::settle_below_lag, [](Params& p) { p.motion.settle = 59_ms; }},
       {ParamFault::step_beyond_range, [](Params& p) { p.thesis.base_step = 941_mm; }},
+      {ParamFault::first_step_unprovable, [](Params& p) { p.skirt.cell = 24_mm; }},
+      {ParamFault::first_step_unprovable, [](Params& p) { p.rangefinders.offset = 90_mm; }},
+      {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 200_mm; }},
+      {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 44_mm; }},
+      {ParamFault::planning_below_shield, [](Params& p) { p.skirt.shield_margin = 5_mm; }},
   };
   std::set<ParamFault> seen;
   for (const Broken& c : cases) {
@@ -66,7 +71,7 @@ TEST(Params, EveryRelationIsChecked) {
     EXPECT_EQ(check(p), c.fault) << static_cast<int>(c.fault);
     seen.insert(c.fault);
   }
-  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::step_beyond_range));
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::step_beyond_range)) << "of them all";
 }
 
 TEST(Params, EachNewestRelationHoldsExactlyAtItsLimit) {

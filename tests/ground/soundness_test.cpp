@@ -55,7 +55,7 @@ Pose draw_pose(Random& random) {
 
 /// Somewhere around the body, and where the rule is weakest: cell corners, cone edges, and hair's breadths.
 sim::Vec2 draw_point(const Params& p, const Pose& pose, Random& random) {
-  const double cell = metres(p.skirt.cell);
+  const double cell = metres(patch_cell(p));
   const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
   const double hair =
       random.chance(0.5) ? 0 : std::pow(10.0, random.uniform(-9, -3)) * (random.chance(0.5) ? 1 : -1);
@@ -138,9 +138,9 @@ TEST(Soundness, NoAdversaryHidesInAClearCell) {
       pose.heading += Angle::from_raw(static_cast<uint32_t>(random.index(1 << 29)));
       patch.move_to(pose);
     }
-    for_each_clear(patch, pose, p.skirt.cell.raw(), [&](int column, int row) {
+    for_each_clear(patch, pose, patch_cell(p).raw(), [&](int column, int row) {
       ++clear;
-      ASSERT_FALSE(occupied(square(column, row, metres(p.skirt.cell)), world.view(), Shift{}))
+      ASSERT_FALSE(occupied(square(column, row, metres(patch_cell(p))), world.view(), Shift{}))
           << "seed " << seed << ": cell " << column << ' ' << row;
     });
     if (HasFatalFailure()) return;
@@ -164,7 +164,7 @@ TEST(Soundness, HoldsForTheMovingRobotButForAHair) {
       options.seed = 900 + seed;
       const Scenario scenario = worlds::generate(kind, options);
       Rig rig(scenario);
-      const double cell = metres(scenario.robot.skirt.cell);
+      const double cell = metres(patch_cell(scenario.robot));
       int ticks = 0;
       while (rig.plant().time() < 40) {
         const sim::Pose truth = rig.plant().pose();
@@ -172,7 +172,7 @@ TEST(Soundness, HoldsForTheMovingRobotButForAHair) {
         if (++ticks % 3 != 0) continue;
         const Pose& pose = rig.status().pose;
         const Shift shift{truth, {{metres(pose.at.x), metres(pose.at.y)}, radians(pose.heading)}};
-        for_each_clear(*rig.patch(), pose, scenario.robot.skirt.cell.raw(), [&](int column, int row) {
+        for_each_clear(*rig.patch(), pose, patch_cell(scenario.robot).raw(), [&](int column, int row) {
           ++clear;
           for (int i = 0; i < 2; ++i) {
             if (!occupied(square(column, row, cell, slacks[i]), rig.world(), shift)) break;

@@ -65,7 +65,7 @@ TEST_P(EveryKind, HasTheReferenceNoiseOnlyIfAsked) {
   EXPECT_EQ(noisy.noise.range_sigma_m, 0.01);
   EXPECT_EQ(noisy.noise.range_dropout, 0.02);
   EXPECT_EQ(noisy.noise.range_false_clear, 0.01);
-  EXPECT_EQ(noisy.noise.wheel_scale_sigma, 0.005);
+  EXPECT_EQ(noisy.noise.wheel_scale_sigma, 0.0005);
   EXPECT_EQ(noisy.noise.heading_drift_deg_per_sqrt_m, 0.3);
   noisy.noise = {};
   noisy.name = quiet.name;
