@@ -76,7 +76,7 @@ TEST_P(Baseline, TouchesNothingInAnyClassOfWorld) {
       worlds::Options options;
       options.seed = seed;
       Scenario s = worlds::generate(kind, options);
-      s.time_limit_s = 120;
+      s.time_limit_s = 45;
       RunOptions run_options;
       run_options.planner = GetParam();
       const RunResult r = run(s, run_options);
