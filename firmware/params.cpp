@@ -49,12 +49,6 @@ namespace {
 constexpr int32_t kHalfWindow = 15;  // cells
 Q30 half_cone_sine(const Params& p) noexcept { return sin(Angle::from_raw(p.rangefinders.cone.raw() / 2)); }
 
-/// A beam proves a cell only where the cone is wide enough for its cover.
-bool first_step_provable(const Params& p) noexcept {
-  const Length rim = p.body.radius - cell_cover(p) - p.rangefinders.offset;
-  return rim >= Length{} && rim * half_cone_sine(p) >= cell_cover(p);
-}
-
 }  // namespace
 
 Length patch_cell(const Params& p) noexcept {
@@ -63,7 +57,12 @@ Length patch_cell(const Params& p) noexcept {
   const Length room = p.body.radius - p.rangefinders.offset;
   const int64_t cover = int64_t{room.raw()} * s.raw() / (int64_t{Q30::kOne} + s.raw());
   const Length provable = Length::from_raw(saturate32(cover * 256 / 185));
-  return max(Length{}, min(p.body.radius * 2 / 9, provable));
+  return max(p.body.radius / 9, min(p.body.radius * 2 / 9, provable));
+}
+
+Length blind_reach(const Params& p) noexcept {
+  const int64_t reach = int64_t{cell_cover(p).raw()} * Q30::kOne / half_cone_sine(p).raw();
+  return p.rangefinders.offset + Length::from_raw(saturate32(reach));
 }
 
 Length cell_cover(const Params& p) noexcept { return patch_cell(p) * 184 / 256; }
@@ -110,7 +109,7 @@ ParamFault check(const Params& p) noexcept {
   if (p.motion.settle < p.wheels.motor_lag + p.safety.period) return ParamFault::settle_below_lag;
   const Length swept = p.thesis.base_step * 2 + p.body.radius + p.body.margin;
   if (p.rangefinders.max_range < swept) return ParamFault::step_beyond_range;
-  if (patch_cell(p) < 1_mm || !first_step_provable(p)) return ParamFault::first_step_unprovable;
+  if (blind_reach(p) + patch_cell(p) > p.body.radius * 7 / 4) return ParamFault::cone_too_narrow;
   if (patch_cell(p) * kHalfWindow < planning_reach(p) + probe_length(p) ||
       probe_length(p) < p.body.radius / 2) {
     return ParamFault::patch_too_small;

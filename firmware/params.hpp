@@ -119,11 +119,10 @@ enum class ParamFault : uint8_t {
   tolerance_below_wire,       ///< the rim's way at turn_tolerance >= 0.1 mm/s x settle
   stalled_before_count,       ///< stalled_after >= what the slowest count and the slowest stop take
   settle_below_lag,           ///< settle >= motor_lag + period
-  first_step_unprovable,  ///< offset + cover / sin(cone / 2) <= radius - cover: no ring around the body stays
-                          ///< unseen
-  patch_too_small,        ///< 15 cells >= planning_reach + probe, and probe >= radius / 2
-  planning_below_shield,  ///< planning_margin >= shield_margin
-  step_beyond_range,      ///< max_range >= 2 base_step + radius + margin: no response is a longer step
+  cone_too_narrow,            ///< blind_reach + cell <= 7/4 radius
+  patch_too_small,            ///< 15 cells >= planning_reach + probe, and probe >= radius / 2
+  planning_below_shield,      ///< planning_margin >= shield_margin
+  step_beyond_range,          ///< max_range >= 2 base_step + radius + margin: no response is a longer step
 };
 
 /// Calls f.number(key, field, min, max), f.count(key, field, min, max) or
@@ -185,12 +184,15 @@ constexpr void for_each_param(P& p, F&& f) {
   f.count("max_drive_refusals", p.safety.max_refusals, 1, 1000);
 }
 
-/// The clearance patch's cell. Unless given: 2/9 of the radius, or less where a narrow cone or sensors far
-/// from the centre could otherwise never prove the ground at the body's rim.
+/// The clearance patch's cell. Unless given: 2/9 of the radius, or less, to half of that, where a narrow cone
+/// or sensors far from the centre could otherwise not prove the ground at the body's rim.
 Length patch_cell(const Params& params) noexcept;
 /// A disc of this radius around a cell's centre covers the cell: a little more than 0.7072 cell, for
 /// rounding.
 Length cell_cover(const Params& params) noexcept;
+/// As far as this from the centre no beam can prove a cell from where the body stands: its cone is too narrow
+/// there. Where that is more than the body covers, the ring between must be free when the robot is placed.
+Length blind_reach(const Params& params) noexcept;
 /// From the body's centre to the centres of the cells that must be clear at every tick.
 Length shield_reach(const Params& params) noexcept;
 /// The same on a heading that is chosen.

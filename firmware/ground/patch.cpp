@@ -46,6 +46,8 @@ void Patch::configure(const Params& params) noexcept {
   offset_ = params.rangefinders.offset;
   half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
   footprint_ = units(params.body.radius) - kCover;
+  const int32_t blind = units(blind_reach(params)) + kUnitsPerCell;
+  placed_free_ = blind_reach(params) > params.body.radius - cell_cover(params) ? blind : footprint_;
   ring_ = units(planning_reach(params)) + kUnitsPerCell;
   age_travel_ = params.skirt.age_travel;
   age_turn_ = params.skirt.age_turn.raw();
@@ -94,6 +96,7 @@ void Patch::reset(const Pose& pose) noexcept {
   turned_ = 0;
   doubting_ = false;
   move_to(pose);
+  clear_around(pose.at, placed_free_);
 }
 
 void Patch::move_to(const Pose& pose) noexcept {
@@ -121,7 +124,7 @@ void Patch::move_to(const Pose& pose) noexcept {
     tested_at_ = pose.at;
   }
   age(pose);
-  clear_footprint(pose.at);
+  clear_around(pose.at, footprint_);
 }
 
 void Patch::age(const Pose& pose) noexcept {
@@ -150,11 +153,11 @@ void Patch::renew_around(Vec at) noexcept {
   }
 }
 
-void Patch::clear_footprint(Vec at) noexcept {
+void Patch::clear_around(Vec at, int32_t reach) noexcept {
   const Point centre = local(at);
-  for (Rows rows(centre.y, footprint_); rows.more(); rows.next()) {
+  for (Rows rows(centre.y, reach); rows.more(); rows.next()) {
     Span span;
-    span.within_disc(centre.x, rows.offset(centre.y), footprint_);
+    span.within_disc(centre.x, rows.offset(centre.y), reach);
     const Row mask = to_torus(span.columns());
     const int s = slot(rows.row());
     young_[s] |= mask;

@@ -37,7 +37,8 @@ struct Obstacles {
 class Patch {
  public:
   void configure(const Params& params) noexcept;
-  /// Nothing is known but the ground under the body.
+  /// Nothing is known but the ground under the body, and the ring that no beam can prove from there (see
+  /// blind_reach), which must be free.
   void reset(const Pose& pose) noexcept;
   /// The body is here now: moves the window along, ages the cells, clears the footprint.
   void move_to(const Pose& pose) noexcept;
@@ -75,7 +76,7 @@ class Patch {
   void drop_columns(Row window) noexcept;
   void age(const Pose& pose) noexcept;
   void renew_around(Vec at) noexcept;
-  void clear_footprint(Vec at) noexcept;
+  void clear_around(Vec at, int32_t reach) noexcept;
 
   Row young_[kCells] = {};    // cleared since the last ageing
   Row old_[kCells] = {};      // cleared before it
@@ -95,8 +96,9 @@ class Patch {
   uint32_t age_turn_ = 0;
   Length approach_;  // of something that moves, while the body stops
   int32_t cell_um_ = 20000;
-  int32_t footprint_ = 0;  // grid units
-  int32_t ring_ = 0;       // the same: of what lies beside the body's way
+  int32_t footprint_ = 0;    // grid units
+  int32_t placed_free_ = 0;  // taken for free where the body is placed; grid units
+  int32_t ring_ = 0;         // the same: of what lies beside the body's way
 };
 
 }  // namespace whisker::ground

@@ -127,11 +127,10 @@ const char* relation(ParamFault fault) {
              "much at full turn rate";
     case ParamFault::step_beyond_range:
       return "range_max_m must not be less than 2 thesis_base_step_m + body_radius_m + body_margin_m";
-    case ParamFault::first_step_unprovable:
-      return "range_cone_deg must be wide enough and range_offset_m small enough to prove the ground at the "
-             "body's rim: range_offset_m + 0.72 cell / sin(range_cone_deg / 2) <= body_radius_m - 0.72 cell, "
-             "with "
-             "skirt_cell_m of at least 0.001 or 0 for a suitable one";
+    case ParamFault::cone_too_narrow:
+      return "the beams must be able to prove the ground near the body: range_offset_m + 0.72 cell / "
+             "sin(range_cone_deg / 2) + cell <= 7/4 body_radius_m, with skirt_cell_m, or at 0 a suitable "
+             "cell";
     case ParamFault::patch_too_small:
       return "16 cells of skirt_cell_m must reach farther than body_radius_m + skirt_planning_margin_m + "
              "skirt_probe_m, and skirt_probe_m must not be less than body_radius_m / 2";

@@ -41,7 +41,7 @@ TEST(Mission, TheRowTellsWhatTheRunTells) {
     const auto shortest = paths::shortest_path(make_world(s), s.start.at, s.goal.at, 0.10);
     ASSERT_TRUE(row.shortest_m && shortest);
     EXPECT_NEAR(*row.shortest_m, *shortest, 6e-7);
-    EXPECT_GT(row.looks, 0U);
+    EXPECT_TRUE(row.looks > 0 || options.planner != PlannerKind::thesis);
     EXPECT_EQ(to_csv(row), to_csv(drive(s, options.planner, kOn)));
   }
 }
