@@ -105,5 +105,5 @@ stage_soak() {
   local seed=${SOAK_SEED:-$RANDOM}
   build asan
   echo "again: SOAK_SEED=$seed SOAK_COUNT=$soak_count scripts/test --only soak"
-  WHISKER=build/asan/whisker scripts/measure "$soak_count" "$seed"
+  WHISKER=build/asan/whisker scripts/measure "$soak_count" "$seed" skirt
 }
