@@ -114,10 +114,12 @@ void Patch::move_to(const Pose& pose) noexcept {
   } else {
     column_ += right;
     row_ += up;
-    if (up > 0) drop_rows(kCells - up, up);
-    if (up < 0) drop_rows(0, -up);
-    if (right > 0) drop_columns(columns(kCells - right, kCells - 1));
-    if (right < 0) drop_columns(columns(0, -right - 1));
+    const int rows = static_cast<int>(up);
+    const int cols = static_cast<int>(right);
+    if (rows > 0) drop_rows(kCells - rows, rows);
+    if (rows < 0) drop_rows(0, -rows);
+    if (cols > 0) drop_columns(columns(kCells - cols, kCells - 1));
+    if (cols < 0) drop_columns(columns(0, -cols - 1));
   }
   if (norm(pose.at - tested_at_) > kTestedTravel) {
     for (Row& row : tested_) row = 0;
@@ -234,10 +236,10 @@ void Patch::doubt(const Proof& proof, Length farthest) noexcept {
   }
 }
 
-Obstacles Patch::along(Vec from, Angle heading, Length length, Length radius) const noexcept {
+Obstacles Patch::along(const Vec& from, Angle heading, Length length, Length radius) const noexcept {
   Obstacles found;
   const Point start = local(from);
-  const Stadium stadium(start.x, start.y, heading, units(length), units(radius), kAbeam);
+  const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
   int32_t nearest = INT32_MAX;
   for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
     const Row inside = stadium.columns(rows.row());
@@ -260,7 +262,7 @@ Obstacles Patch::along(Vec from, Angle heading, Length length, Length radius) co
   return found;
 }
 
-bool Patch::approaches(Vec from, Angle heading, Length step, Length radius) const noexcept {
+bool Patch::approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept {
   if (step < kNoStep) return false;
   const Point here = local(from);
   const Point there = local(from + polar(heading, step));
@@ -295,7 +297,7 @@ bool Patch::all_clear(Vec centre, Length radius) const noexcept {
 bool Patch::is_clear(Vec at) const noexcept {
   const Point p = local(at);
   if (p.x < 0 || p.y < 0 || p.x >= kCells * kUnitsPerCell || p.y >= kCells * kUnitsPerCell) return false;
-  return (to_window(clear_row(p.y / kUnitsPerCell)) >> (p.x / kUnitsPerCell) & 1U) != 0;
+  return (to_window(clear_row(static_cast<int>(p.y / kUnitsPerCell))) >> (p.x / kUnitsPerCell) & 1U) != 0;
 }
 
 }  // namespace whisker::ground

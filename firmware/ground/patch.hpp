@@ -52,10 +52,10 @@ class Patch {
 
   /// What lies within `radius` of the way, ahead of its beginning: a body that stands near something may
   /// move off along it or away from it.
-  Obstacles along(Vec from, Angle heading, Length length, Length radius) const noexcept;
+  Obstacles along(const Vec& from, Angle heading, Length length, Length radius) const noexcept;
   /// True if a step of this length brings the body nearer to a cell that is not clear and then within
   /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only.
-  bool approaches(Vec from, Angle heading, Length step, Length radius) const noexcept;
+  bool approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
   bool is_clear(Vec at) const noexcept;
   /// True if all cells that this disc touches are clear, none of them outside the window.
   bool all_clear(Vec centre, Length radius) const noexcept;

@@ -82,14 +82,14 @@ void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexce
   right_.clip(span, x, dy, margin);
 }
 
-Stadium::Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius, int32_t abeam) noexcept
-    : x_(x),
-      y_(y),
-      length_(length < kLongest ? length : kLongest),
-      radius_(radius),
-      abeam_(abeam),
-      ux_(q14(cos(heading))),
-      uy_(q14(sin(heading))) {
+Stadium::Stadium(const Sweep& sweep) noexcept
+    : x_(sweep.x),
+      y_(sweep.y),
+      length_(sweep.length < kLongest ? sweep.length : kLongest),
+      radius_(sweep.radius),
+      abeam_(sweep.abeam),
+      ux_(q14(cos(sweep.heading))),
+      uy_(q14(sin(sweep.heading))) {
   end_x_ = scale_down<14>(ux_ * length_);
   end_y_ = scale_down<14>(uy_ * length_);
 }

@@ -88,10 +88,19 @@ class Wedge {
   HalfPlane right_;
 };
 
-/// What a disc sweeps on a straight way, without what lies less than `abeam` ahead of its beginning.
+/// A straight way of a disc.
+struct Sweep {
+  int32_t x, y;  ///< its beginning
+  Angle heading;
+  int32_t length;
+  int32_t radius;
+  int32_t abeam;  ///< what lies less than this ahead of the beginning is left out
+};
+
+/// What a disc sweeps on a straight way.
 class Stadium {
  public:
-  Stadium(int32_t x, int32_t y, Angle heading, int32_t length, int32_t radius, int32_t abeam) noexcept;
+  explicit Stadium(const Sweep& sweep) noexcept;
   Rows rows() const noexcept;
   Row columns(int row) const noexcept;
 

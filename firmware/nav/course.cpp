@@ -27,7 +27,7 @@ void Course::bend_towards(Angle wanted) noexcept {
   bend_ += static_cast<int32_t>(grows ? change * 3 / 10 : change * 3 / 50);
 }
 
-bool Course::choose(const View& view, Vec to_goal, BendLaw& law, const Params& params, Side& wall,
+bool Course::choose(const View& view, const Vec& to_goal, BendLaw& law, const Params& params, Side& wall,
                     Decision& decision) noexcept {
   const Length distance = norm(to_goal);
   const Angle target = bearing(to_goal);

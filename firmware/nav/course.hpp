@@ -36,7 +36,7 @@ class Course {
 
   /// Once per sensor update. False: every heading within 75 degrees of the goal's is blocked.
   /// `wall` is the side that it last had an obstacle on; it turns away from it first, and updates it.
-  bool choose(const View& view, Vec to_goal, BendLaw& law, const Params& params, Side& wall,
+  bool choose(const View& view, const Vec& to_goal, BendLaw& law, const Params& params, Side& wall,
               Decision& decision) noexcept;
   Angle heading() const noexcept { return heading_; }
 

@@ -159,7 +159,7 @@ TEST(Raster, StadiumHoldsWhatADiscSweepsAheadOfItsBeginning) {
     const int32_t length = std::abs(draw_length(random));
     const int32_t radius = std::abs(draw_length(random)) / 4;
     const int32_t abeam = random.index(200);
-    const Stadium stadium(x, y, heading, length, radius, abeam);
+    const Stadium stadium({x, y, heading, length, radius, abeam});
     const double ux = std::cos(radians_of(heading));
     const double uy = std::sin(radians_of(heading));
     std::uint32_t visited = 0;
