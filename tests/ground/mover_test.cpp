@@ -8,6 +8,7 @@
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"
 #include "tests/ground/rig.hpp"
+#include "tests/effort.hpp"
 
 namespace whisker::test {
 namespace {
@@ -140,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(At, Movers, testing::Values(0.1, 0.2, 0.3, 0.5));
 TEST(Witness, IsNeverContradictedByAWorldAtRest) {
   int ticks = 0;
   for (const worlds::Kind kind : worlds::kKinds) {
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::effort(8); ++seed) {
       worlds::Options options;
       options.seed = 40 + seed;
       Rig rig(worlds::generate(kind, options));
@@ -151,7 +152,7 @@ TEST(Witness, IsNeverContradictedByAWorldAtRest) {
       }
     }
   }
-  EXPECT_GT(ticks, 40000);
+  EXPECT_GT(ticks, static_cast<int>(test::effort(40000)));
 }
 
 /// Ticks, and those with doubt, in noisy worlds at rest.
@@ -163,7 +164,7 @@ struct Doubts {
 
 Doubts drive_noisy(worlds::Kind kind, bool odometry) {
   Doubts d;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(8); ++seed) {
     worlds::Options options;
     options.seed = 60 + seed;
     options.noise = true;

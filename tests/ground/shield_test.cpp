@@ -11,6 +11,7 @@
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"
 #include "tests/ground/rig.hpp"
+#include "tests/effort.hpp"
 
 namespace whisker::test {
 namespace {
@@ -125,7 +126,7 @@ Torment torment(std::uint64_t seed, int count) {
 class ShieldOf300Worlds : public testing::TestWithParam<int> {};
 
 TEST_P(ShieldOf300Worlds, NeverTouchesWhateverIsAskedFor) {
-  const Torment n = torment(static_cast<std::uint64_t>(GetParam()), 300);
+  const Torment n = torment(static_cast<std::uint64_t>(GetParam()), static_cast<int>(test::effort(300)));
   std::printf("%d worlds, %.0f m: the smallest gap is %.4f m, begun beside something %.4f m\n", n.worlds,
               n.path, n.gap, n.beside);
   EXPECT_GT(n.path, n.worlds * 0.2);

@@ -11,6 +11,7 @@
 #include "host/worlds/random.hpp"
 #include "tests/ground/cells.hpp"
 #include "tests/ground/rig.hpp"
+#include "tests/effort.hpp"
 
 namespace whisker::test {
 namespace {
@@ -163,7 +164,7 @@ TEST_P(SoundnessIn, MotionHoldsButForAHair) {
   std::uint64_t clear = 0;
   std::uint64_t touched[2] = {};
   const double slacks[] = {0, kSlack};
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(5); ++seed) {
     worlds::Options options;
     options.seed = 900 + seed;
     const Scenario scenario = worlds::generate(GetParam(), options);

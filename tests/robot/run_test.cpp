@@ -11,6 +11,7 @@
 #include "host/scenario/load.hpp"
 #include "host/worlds/generate.hpp"
 #include "tests/robot/judge.hpp"
+#include "tests/effort.hpp"
 
 namespace whisker {
 namespace {
@@ -146,7 +147,7 @@ TEST(Run, NothingEscapesTheJudgeInRandomWorlds) {
   for (const auto kind :
        {worlds::Kind::discs, worlds::Kind::poles, worlds::Kind::u_trap, worlds::Kind::spiral,
         worlds::Kind::maze, worlds::Kind::rooms, worlds::Kind::enclosed}) {
-    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::effort(12); ++seed) {
       worlds::Options options;
       options.seed = seed;
       options.noise = seed % 3 == 0;

@@ -12,6 +12,7 @@
 #include "host/run/spec.hpp"
 #include "host/scenario/load.hpp"
 #include "host/worlds/generate.hpp"
+#include "tests/effort.hpp"
 
 namespace whisker {
 namespace {
@@ -134,7 +135,7 @@ TEST(Skirt, TakesAnotherGoalOrNoneWhileItFollowsAWall) {
 class SkirtIn : public testing::TestWithParam<worlds::Kind> {};
 
 TEST_P(SkirtIn, EveryWorldComesToItsTrueVerdict) {
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(8); ++seed) {
     worlds::Options options;
     options.seed = 300 + seed;
     const Scenario s = worlds::generate(GetParam(), options);
