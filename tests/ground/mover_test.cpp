@@ -7,8 +7,8 @@
 #include "host/sim/spec.hpp"
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"
-#include "tests/ground/rig.hpp"
 #include "tests/effort.hpp"
+#include "tests/ground/rig.hpp"
 
 namespace whisker::test {
 namespace {

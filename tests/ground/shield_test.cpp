@@ -10,8 +10,8 @@
 #include "host/scenario/contact.hpp"
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"
-#include "tests/ground/rig.hpp"
 #include "tests/effort.hpp"
+#include "tests/ground/rig.hpp"
 
 namespace whisker::test {
 namespace {

@@ -9,9 +9,9 @@
 #include "host/sim/cone.hpp"
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"
+#include "tests/effort.hpp"
 #include "tests/ground/cells.hpp"
 #include "tests/ground/rig.hpp"
-#include "tests/effort.hpp"
 
 namespace whisker::test {
 namespace {

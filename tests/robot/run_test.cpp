@@ -10,8 +10,8 @@
 
 #include "host/scenario/load.hpp"
 #include "host/worlds/generate.hpp"
-#include "tests/robot/judge.hpp"
 #include "tests/effort.hpp"
+#include "tests/robot/judge.hpp"
 
 namespace whisker {
 namespace {
