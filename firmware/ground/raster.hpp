@@ -90,11 +90,12 @@ class Wedge {
 
 /// A straight way of a disc.
 struct Sweep {
-  int32_t x, y;  ///< its beginning
+  int32_t x = 0;  ///< of its beginning
+  int32_t y = 0;
   Angle heading;
-  int32_t length;
-  int32_t radius;
-  int32_t abeam;  ///< what lies less than this ahead of the beginning is left out
+  int32_t length = 0;
+  int32_t radius = 0;
+  int32_t abeam = 0;  ///< what lies less than this ahead of the beginning is left out
 };
 
 /// What a disc sweeps on a straight way.

@@ -44,7 +44,7 @@ class Witness {
   struct Scan {
     Vec at;
     Angle heading;
-    uint16_t free[kBeams];  // 1/8 mm
+    uint16_t free[kBeams] = {};  // 1/8 mm
   };
   /// The kept sectors that hold this point.
   Mask holding(Vec point, Mask among) const noexcept;
