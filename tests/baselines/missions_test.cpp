@@ -73,7 +73,7 @@ TEST_P(Baseline, GoesRoundADisc) {
 
 TEST_P(Baseline, TouchesNothingInAnyClassOfWorld) {
   for (const worlds::Kind kind : worlds::kKinds) {
-    for (std::uint64_t seed = 1; seed <= test::effort(20); ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::effort(8); ++seed) {
       worlds::Options options;
       options.seed = seed;
       Scenario s = worlds::generate(kind, options);
