@@ -120,14 +120,14 @@ Tally drive(Course course, double speed, int missions) {
 class Movers : public testing::TestWithParam<double> {};
 
 TEST_P(Movers, ComeTowardsTheRobot) {
-  const Tally t = drive(Course::oncoming, GetParam(), 200);
+  const Tally t = drive(Course::oncoming, GetParam(), static_cast<int>(test::effort(200)));
   if (GetParam() <= 0.3) {
     EXPECT_EQ(t.seen, 0);
   }
 }
 
 TEST_P(Movers, CrossItsWay) {
-  const Tally t = drive(Course::crossing, GetParam(), 200);
+  const Tally t = drive(Course::crossing, GetParam(), static_cast<int>(test::effort(200)));
   if (GetParam() <= 0.3) {
     EXPECT_EQ(t.seen, 0);
   }

@@ -121,7 +121,7 @@ ground::Proof look(const Params& p, const Cluttered& world, const Pose& pose, in
 TEST(Soundness, NoAdversaryHidesInAClearCell) {
   int worlds_seen = 0;
   int clear = 0;
-  for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(20000); ++seed) {
     Random random(seed);
     const Params p = draw_params(random);
     ground::Patch patch;
@@ -151,7 +151,7 @@ TEST(Soundness, NoAdversaryHidesInAClearCell) {
     if (HasFatalFailure()) return;
   }
   std::printf("%d worlds, %d clear cells\n", worlds_seen, clear);
-  EXPECT_GT(worlds_seen, 5000);
+  EXPECT_GT(worlds_seen, static_cast<int>(test::effort(5000)));
   EXPECT_GT(clear / worlds_seen, 100);
 }
 
