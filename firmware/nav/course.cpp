@@ -6,7 +6,7 @@
 namespace whisker::nav {
 namespace {
 
-constexpr Angle kStep = Angle::turns(75, 3600);
+constexpr Angle kStep = Angle::turns(1, kFan);
 constexpr int32_t kSteps = 10;  // to 75 degrees
 constexpr uint32_t kStraight = (1_deg).raw();
 

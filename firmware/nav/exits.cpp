@@ -5,13 +5,13 @@ namespace {
 
 constexpr AngularRate kSweepRate = 2000_mrad_per_s;
 constexpr int32_t kLast = 150;  // degrees to which exits are looked for on each side
-constexpr int32_t kSteps = 20;  // of 7.5 degrees
+constexpr int32_t kSteps = 20;
 constexpr Length kFarView = 800_mm;
 // The outer rim of a side cone is 42.5 degrees ahead of the front, and a way is as wide as the body.
 constexpr int32_t kSeenBehind = 42;
 
-constexpr Angle step_angle(int32_t n) noexcept { return Angle::turns(75 * n, 3600); }
-constexpr int32_t step_degrees(int32_t n) noexcept { return n * 15 / 2; }
+constexpr Angle step_angle(int32_t n) noexcept { return Angle::turns(n, kFan); }
+constexpr int32_t step_degrees(int32_t n) noexcept { return n * 360 / kFan; }
 
 }  // namespace
 

@@ -4,6 +4,7 @@ namespace whisker::nav {
 namespace {
 
 constexpr AngularRate kFastest = 2500_mrad_per_s;
+constexpr Angle kFacing = 3_deg;
 constexpr int32_t kFaceGain = 5;
 constexpr int32_t kSteerGain = 6;
 constexpr int64_t kMicroradians = 6283185;  // a turn
@@ -30,6 +31,11 @@ Manoeuvre cruise(Twist twist, const Params& params) noexcept {
   m.forward = twist.forward;
   m.turning = twist.turning * (params.body.track / 2);
   return m;
+}
+
+bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept {
+  manoeuvre = cruise(face(error), params);
+  return magnitude(error) < kFacing.raw();
 }
 
 }  // namespace whisker::nav

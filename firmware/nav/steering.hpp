@@ -26,4 +26,7 @@ Twist steer(Angle error, Speed top) noexcept;
 /// A cruise at this twist.
 Manoeuvre cruise(Twist twist, const Params& params) noexcept;
 
+/// Faces what is off by the error. True within 3 degrees of it.
+bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept;
+
 }  // namespace whisker::nav
