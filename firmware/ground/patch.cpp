@@ -48,7 +48,8 @@ void Patch::configure(const Params& params) noexcept {
   footprint_ = units(params.body.radius) - kCover;
   const int32_t blind = units(blind_reach(params)) + kUnitsPerCell;
   placed_free_ = blind_reach(params) > params.body.radius - cell_cover(params) ? blind : footprint_;
-  ring_ = units(planning_reach(params)) + kUnitsPerCell;
+  reach_ = whisker::reach(params);
+  ring_ = units(reach_.planning) + kUnitsPerCell;
   age_travel_ = params.skirt.age_travel;
   age_turn_ = params.skirt.age_turn.raw();
   approach_ = params.skirt.mover_speed * time_to_stop(params);

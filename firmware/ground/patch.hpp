@@ -49,6 +49,8 @@ class Patch {
   void doubt(const Proof& proof, Length farthest) noexcept;
   /// Something moved a moment ago.
   bool doubting() const noexcept { return doubting_; }
+  /// As far as the parameters want ways to be judged.
+  const Reach& reach() const noexcept { return reach_; }
 
   /// What lies within `radius` of the way, ahead of its beginning: a body that stands near something may
   /// move off along it or away from it.
@@ -94,6 +96,7 @@ class Patch {
   Angle half_cone_;
   Length age_travel_;
   uint32_t age_turn_ = 0;
+  Reach reach_;
   Length approach_;  // of something that moves, while the body stops
   int32_t cell_um_ = 20000;
   int32_t footprint_ = 0;    // grid units

@@ -37,7 +37,7 @@ bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const g
   const Angle backwards = length < Length{} ? 180_deg : Angle{};
   const Angle turn = angle_of(way.right - way.left, params.body.track);
   const int32_t samples = 1 + abs(length).raw() / kSample.raw();
-  const Length reach = shield_reach(params);
+  const Length reach = patch.reach().shield;
   for (int32_t i = 1; i <= samples; ++i) {
     const Angle chord =
         Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));

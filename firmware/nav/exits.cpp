@@ -33,11 +33,12 @@ int32_t ExitSearch::cost(const Exit& e) noexcept {
   return e.view > e.turn ? e.view : e.turn;
 }
 
-void ExitSearch::judge(const View& view, const Params& params, int32_t swept) noexcept {
+void ExitSearch::judge(const View& view, int32_t swept) noexcept {
+  const Reach& reach = view.patch->reach();
   Exit& mine = exit(now_);
   for (; !mine.free && candidate_ <= kSteps; ++candidate_) {
     const Angle heading = blocked_ + step_angle(candidate_ * sign(now_));
-    const Way found = way(view, heading, probe_length(params), planning_reach(params));
+    const Way found = way(view, heading, reach.probe, reach.planning);
     if (found == Way::open && swept < step_degrees(candidate_) + kSeenBehind && swept < kLast + 15) return;
     if (found != Way::free) continue;
     mine.free = true;
@@ -46,7 +47,7 @@ void ExitSearch::judge(const View& view, const Params& params, int32_t swept) no
   }
 }
 
-bool ExitSearch::step(const View& view, const Params& params, Twist& twist) noexcept {
+bool ExitSearch::step(const View& view, Twist& twist) noexcept {
   twist = {Speed{}, kSweepRate * sign(now_)};
   if (!view.sighted) return false;
   Exit& mine = exit(now_);
@@ -56,7 +57,7 @@ bool ExitSearch::step(const View& view, const Params& params, Twist& twist) noex
   if (mine.view == 0 && swept > 0 && swept <= kLast && view.sight.beam[hal::kFront].distance >= kFarView) {
     mine.view = swept;
   }
-  judge(view, params, swept);
+  judge(view, swept);
   const bool complete = mine.free && mine.view > 0;
   const bool worse = other.free && swept > cost(other);
   const bool over = swept >= kLast && (candidate_ > kSteps || mine.free);

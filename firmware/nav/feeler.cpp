@@ -41,21 +41,19 @@ void Feeler::begin_at_wall(Angle ahead, const Pose& pose, Side wall) noexcept {
   begin(ahead + swing * sign(wall), wall);
 }
 
-Length Feeler::reach(const Params& params) const noexcept {
-  return effort_ == Effort::full ? probe_length(params) : for_body(params, kShortWay);
-}
-
-Feeler::Found Feeler::step(const View& view, const Params& params, Angle& heading) noexcept {
+Feeler::Found Feeler::step(const View& view, const Params& params, Heading& found) noexcept {
   constexpr Angle kStep = Angle::turns(1, kFan);
   constexpr Angle kFineStep = Angle::turns(1, 3 * kFan);
   const bool narrow = effort_ == Effort::narrow_ways;
   const Angle step = narrow ? kFineStep : kStep;
-  const Length margin = narrow ? shield_reach(params) : planning_reach(params);
+  const Reach& reach = view.patch->reach();
+  const Length beside = narrow ? reach.shield : reach.planning;
+  found.length = effort_ == Effort::full ? reach.probe : for_body(params, kShortWay);
   for (const int32_t all = narrow ? 3 * kFan : kFan; candidate_ < all; ++candidate_) {
-    heading = first_ - step * (candidate_ * sign(wall_));
-    const Way found = way(view, heading, reach(params), margin);
-    if (found == Way::free) return Found::free;
-    if (found == Way::open && !narrow) return Found::unseen;
+    found.angle = first_ - step * (candidate_ * sign(wall_));
+    const Way there = way(view, found.angle, found.length, beside);
+    if (there == Way::free) return Found::free;
+    if (there == Way::open && !narrow) return Found::unseen;
   }
   candidate_ = 0;
   switch (effort_) {
@@ -78,12 +76,12 @@ Feeler::Retreat Feeler::retreat(const View& view, bool stalled, const Params& pa
 
 bool Feeler::opening(const View& view, Side wall, const Params& params) const noexcept {
   const Angle back = trail_.way_back(view.pose);
-  const Length reach = planning_reach(params);
+  const Length length = for_body(params, kOpeningWay);
   for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
     const Angle heading = view.pose.heading + 1_deg * (degrees * sign(wall));
     if (magnitude(heading - back) < kNotBack.raw()) continue;
     const ground::Obstacles o =
-        view.patch->along(view.pose.at, heading, for_body(params, kOpeningWay), reach);
+        view.patch->along(view.pose.at, heading, length, view.patch->reach().planning);
     if (o.suspect + o.unknown <= kOpeningCells) return true;
   }
   return false;

@@ -24,6 +24,10 @@ class Feeler {
     stuck,  ///< that way is not free, either: feel again
     lost,   ///< stuck too often since the body last got on
   };
+  struct Heading {
+    Angle angle;
+    Length length;  ///< of the way that it felt for
+  };
 
   /// Forgets the way here.
   void reset(Vec at, const Params& params) noexcept;
@@ -36,9 +40,7 @@ class Feeler {
   /// there.
   void begin_at_wall(Angle ahead, const Pose& pose, Side wall) noexcept;
   /// All around, first for ways of the full length, then for short ones, then for narrow ones.
-  Found step(const View& view, const Params& params, Angle& heading) noexcept;
-  /// The length of the ways it feels for at present.
-  Length reach(const Params& params) const noexcept;
+  Found step(const View& view, const Params& params, Heading& found) noexcept;
 
   /// Once a tick after `none`; `stalled`: the body does not get on.
   Retreat retreat(const View& view, bool stalled, const Params& params, Manoeuvre& manoeuvre) noexcept;

@@ -89,7 +89,7 @@ void SkirtPlanner::go(const View& view) noexcept {
     begin_exits(view);
     return;
   }
-  const Length length = min(probe_length(params_), distance_);
+  const Length length = min(view.patch->reach().probe, distance_);
   if (stalled(view)) {
     look_along(course_.heading(), length, Phase::go);
     return;
@@ -138,7 +138,7 @@ void SkirtPlanner::begin_exits(const View& view) noexcept {
 
 void SkirtPlanner::exits(const View& view) noexcept {
   Twist twist;
-  const bool over = exits_.step(view, params_, twist);
+  const bool over = exits_.step(view, twist);
   drive(twist);
   if (!over) return;
   if (!exits_.found()) {
@@ -193,7 +193,8 @@ void SkirtPlanner::follow(const View& view) noexcept {
 bool SkirtPlanner::leave(const View& view) noexcept {
   if (distance_ >= best_ - for_body(params_, kProgress)) return false;
   const Angle target = bearing(to_goal_);
-  const Way found = way(view, target, min(probe_length(params_), distance_), planning_reach(params_));
+  const Reach& reach = view.patch->reach();
+  const Way found = way(view, target, min(reach.probe, distance_), reach.planning);
   // Away from the wall the unseen may be tried; on its side it is most likely the wall.
   const bool wall_side = (target - view.pose.heading).wrapped() * int64_t{sign(wall_)} > 0;
   if (found == Way::blocked || (found == Way::open && wall_side)) return false;
@@ -236,12 +237,12 @@ void SkirtPlanner::begin_feel(const View& view, Angle ahead) noexcept {
 
 void SkirtPlanner::feel(const View& view) noexcept {
   decision_.mode = Mode::searching;
-  Angle heading;
-  switch (feeler_.step(view, params_, heading)) {
+  Feeler::Heading found;
+  switch (feeler_.step(view, params_, found)) {
     case Feeler::Found::nothing: break;
-    case Feeler::Found::unseen: look_along(heading, feeler_.reach(params_), Phase::feel); break;
+    case Feeler::Found::unseen: look_along(found.angle, found.length, Phase::feel); break;
     case Feeler::Found::free:
-      heading_ = heading;
+      heading_ = found.angle;
       enter(Phase::depart, Mode::skirting, Why::edge);
       break;
     case Feeler::Found::none: enter(Phase::retreat, Mode::skirting, Why::way_back); break;

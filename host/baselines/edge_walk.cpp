@@ -43,7 +43,7 @@ bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
     case Phase::feel: feel(view, decision); return true;
     case Phase::look:
       decision.mode = nav::Mode::looking;
-      if (look_.step(view, look_along_, feeler_.reach(params_), params_, decision.manoeuvre)) {
+      if (look_.step(view, found_.angle, found_.length, params_, decision.manoeuvre)) {
         decision.looked = true;
         phase_ = Phase::feel;
       }
@@ -52,7 +52,7 @@ bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
       decision.mode = nav::Mode::skirting;
       if (nav::turn_by(course_ - view.pose.heading, params_, decision.manoeuvre)) {
         stall_.reset();
-        straight_until_um_ = travel_um_ + min(for_body(params_, kStraight), feeler_.reach(params_)).raw();
+        straight_until_um_ = travel_um_ + min(for_body(params_, kStraight), found_.length).raw();
         felt_um_ = travel_um_;
         phase_ = Phase::walk;
       }
@@ -88,17 +88,15 @@ void EdgeWalk::walk(const nav::View& view, nav::Decision& decision) {
 
 void EdgeWalk::feel(const nav::View& view, nav::Decision& decision) {
   decision.mode = nav::Mode::searching;
-  Angle heading;
-  switch (feeler_.step(view, params_, heading)) {
+  switch (feeler_.step(view, params_, found_)) {
     case nav::Feeler::Found::nothing: break;
     case nav::Feeler::Found::unseen:
       look_.begin(decision.manoeuvre);
-      look_along_ = heading;
       decision.why = nav::Why::unknown_ahead;
       phase_ = Phase::look;
       break;
     case nav::Feeler::Found::free:
-      course_ = heading;
+      course_ = found_.angle;
       phase_ = Phase::turn;
       break;
     case nav::Feeler::Found::none:

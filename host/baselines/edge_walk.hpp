@@ -50,7 +50,7 @@ class EdgeWalk {
   nav::Side wall_ = nav::Side::left;
   nav::Feeler feeler_;
   nav::Look look_;
-  Angle look_along_;
+  nav::Feeler::Heading found_;
   nav::Stall stall_;
   Angle course_;
 

@@ -71,10 +71,10 @@ void Walker::survey(const nav::View& view) {
 }
 
 void Walker::go(const nav::View& view) {
-  const Length ahead = min(probe_length(params_), distance_);
+  const Reach& reach = view.patch->reach();
   if (view.sighted) {
     course_ = course(view);
-    if (nav::way(view, course_, ahead, planning_reach(params_)) == nav::Way::blocked) {
+    if (nav::way(view, course_, min(reach.probe, distance_), reach.planning) == nav::Way::blocked) {
       begin_follow(view);
       return;
     }
@@ -89,8 +89,8 @@ void Walker::go(const nav::View& view) {
 }
 
 void Walker::look(const nav::View& view) {
-  if (!look_.step(view, course(view), min(probe_length(params_), distance_), params_, decision_.manoeuvre))
-    return;
+  const Length ahead = min(view.patch->reach().probe, distance_);
+  if (!look_.step(view, course(view), ahead, params_, decision_.manoeuvre)) return;
   decision_.looked = true;
   stall_.reset();
   if (phase_ == Phase::look_ahead) {
@@ -118,13 +118,13 @@ bool Walker::came_round(const nav::View& view) const {
 }
 
 nav::Way Walker::way_off(const nav::View& view, Angle heading) const {
-  return nav::way(view, heading, min(free_to_leave(), distance_), planning_reach(params_));
+  return nav::way(view, heading, min(free_to_leave(view), distance_), view.patch->reach().planning);
 }
 
 bool Walker::leave(const nav::View& view) {
   const Angle heading = course(view);
   const nav::Way found = way_off(view, heading);
-  if (found == nav::Way::blocked || (found == nav::Way::open && seen_free(view) < probe_length(params_)))
+  if (found == nav::Way::blocked || (found == nav::Way::open && seen_free(view) < view.patch->reach().probe))
     return false;
   stall_.reset();
   enter(Phase::go, nav::Mode::going, nav::Why::target_free);
@@ -173,7 +173,7 @@ Length Walker::seen_free(const nav::View& view) const {
     const ranges::Echo& echo = view.sight.beam[i];
     if (!ranges::usable(echo.validity)) continue;
     if (magnitude(view.pose.heading + axes[i] - target) > (6_deg).raw()) continue;
-    free = max(free, echo.distance - planning_reach(params_));
+    free = max(free, echo.distance - view.patch->reach().planning);
   }
   return free;
 }

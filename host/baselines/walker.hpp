@@ -32,7 +32,7 @@ class Walker : public nav::GoalPlanner {
   virtual nav::Side hit(const nav::View& view) = 0;
   /// Once per reading while following. The walker leaves if this is true and the course is free so far.
   virtual bool may_leave(const nav::View& view) = 0;
-  virtual Length free_to_leave() const { return probe_length(params_); }
+  virtual Length free_to_leave(const nav::View& view) const { return view.patch->reach().probe; }
   virtual bool can_tell_unreachable() const = 0;
 
   const Params& params() const { return params_; }

@@ -254,7 +254,7 @@ TEST(Patch, TheWayBackStaysOpen) {
   Pose pose;
   patch.reset(pose);
   for (int i = 0; i < 24; ++i) patch.mark(proof(pose, 15_deg * i, 2_m, false));
-  const Length reach = planning_reach(params);
+  const Length reach = patch.reach().planning;
   while (pose.at.x < 5_m) {
     pose.at.x += 5_mm;
     patch.move_to(pose);
