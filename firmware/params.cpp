@@ -56,7 +56,7 @@ Length patch_cell(const Params& p) noexcept {
   const Q30 s = half_cone_sine(p);
   const Length room = p.body.radius - p.rangefinders.offset;
   const int64_t cover = int64_t{room.raw()} * s.raw() / (int64_t{Q30::kOne} + s.raw());
-  const Length provable = Length::from_raw(saturate32(cover * 256 / 185));
+  const Length provable = Length::from_raw(saturate32(cover * 256 / (kCellCover + 1)));
   return max(p.body.radius / 9, min(p.body.radius * 2 / 9, provable));
 }
 
@@ -65,7 +65,7 @@ Length blind_reach(const Params& p) noexcept {
   return p.rangefinders.offset + Length::from_raw(saturate32(reach));
 }
 
-Length cell_cover(const Params& p) noexcept { return patch_cell(p) * 184 / 256; }
+Length cell_cover(const Params& p) noexcept { return patch_cell(p) * kCellCover / 256; }
 
 Reach reach(const Params& p) noexcept {
   const Length covered = p.body.radius + cell_cover(p);

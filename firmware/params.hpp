@@ -35,6 +35,9 @@ struct RangefinderParams {
   Duration latency = 20_ms;  ///< from the measurement to its arrival
 };
 
+/// Of beam 0, 1, 2 (left, front, right), from straight ahead.
+constexpr Angle beam_axis(Angle side_angle, int beam) noexcept { return side_angle * (1 - beam); }
+
 /// How several readings become one.
 enum class Consensus : uint8_t {
   agreeing,  ///< the last `reads` readings lie within `tolerance`: their minimum
@@ -187,8 +190,9 @@ constexpr void for_each_param(P& p, F&& f) {
 /// The clearance patch's cell. Unless given: 2/9 of the radius, or less, to half of that, where a narrow cone
 /// or sensors far from the centre could otherwise not prove the ground at the body's rim.
 Length patch_cell(const Params& params) noexcept;
-/// A disc of this radius around a cell's centre covers the cell: a little more than 0.7072 cell, for
-/// rounding.
+/// A disc of so many 256ths of a cell around its centre covers the cell: 0.7072, and a little for rounding.
+constexpr int32_t kCellCover = 184;
+/// The radius of that disc.
 Length cell_cover(const Params& params) noexcept;
 /// As far as this from the centre no beam can prove a cell from where the body stands: its cone is too narrow
 /// there. Where that is more than the body covers, the ring between must be free when the robot is placed.

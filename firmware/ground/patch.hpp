@@ -36,6 +36,9 @@ struct Obstacles {
 /// beam sector, so that with a sensor that reports the nearest thing in its cone clear ground is free ground.
 class Patch {
  public:
+  /// Rounding decides what a shorter step comes nearer to.
+  static constexpr Length kShortestStep = micrometres(100);
+
   void configure(const Params& params) noexcept;
   /// Nothing is known but the ground under the body, and the ring that no beam can prove from there (see
   /// blind_reach), which must be free.
@@ -56,7 +59,8 @@ class Patch {
   /// move off along it or away from it.
   Obstacles along(const Vec& from, Angle heading, Length length, Length radius) const noexcept;
   /// True if a step of this length brings the body nearer to a cell that is not clear and then within
-  /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only.
+  /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only. False
+  /// below kShortestStep.
   bool approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
   bool is_clear(Vec at) const noexcept;
   /// True if all cells that this disc touches are clear, none of them outside the window.
@@ -69,11 +73,17 @@ class Patch {
   };
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
   int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
-  Row to_torus(Row window) const noexcept;
-  Row to_window(Row torus) const noexcept;
+  uint32_t shift() const noexcept { return static_cast<uint32_t>(column_) & (kCells - 1); }
+  Row to_torus(Row window) const noexcept {
+    return shift() == 0 ? window : (window << shift()) | (window >> (kCells - shift()));
+  }
+  Row to_window(Row torus) const noexcept {
+    return shift() == 0 ? torus : (torus >> shift()) | (torus << (kCells - shift()));
+  }
   int32_t units(Length l) const noexcept;
   Length length_of(int32_t units) const noexcept;
   Point local(Vec at) const noexcept;
+  static bool in_window(Point p, int32_t reach) noexcept;
   void drop_rows(int first, int count) noexcept;
   void drop_columns(Row window) noexcept;
   void age(const Pose& pose) noexcept;

@@ -3,7 +3,6 @@
 namespace whisker::nav {
 namespace {
 
-constexpr AngularRate kFastest = 2500_mrad_per_s;
 constexpr Angle kFacing = 3_deg;
 constexpr int32_t kFaceGain = 5;
 constexpr int32_t kSteerGain = 6;
@@ -13,7 +12,7 @@ constexpr int64_t kMicroradians = 6283185;  // a turn
 
 AngularRate rate_towards(Angle error, int32_t gain) noexcept {
   const int64_t microradians = scale_down<32>(error.wrapped() * kMicroradians);
-  return limit(AngularRate::from_raw(saturate32(microradians * gain)), kFastest);
+  return limit(AngularRate::from_raw(saturate32(microradians * gain)), kFastestTurn);
 }
 
 Twist face(Angle error) noexcept { return {Speed{}, rate_towards(error, kFaceGain)}; }

@@ -13,7 +13,10 @@ struct Twist {
   AngularRate turning;  ///< counter-clockwise positive
 };
 
-/// gain x error, at most the turn rate at which the readings still follow (2.5 rad/s).
+/// The turn rate at which the readings still follow.
+constexpr AngularRate kFastestTurn = 2500_mrad_per_s;
+
+/// gain x error, at most kFastestTurn.
 AngularRate rate_towards(Angle error, int32_t gain) noexcept;
 
 /// Turns by the error on the spot.

@@ -166,13 +166,12 @@ void Walker::follow(const nav::View& view) {
 
 Length Walker::seen_free(const nav::View& view) const {
   const Angle target = bearing(to_goal_);
-  const Angle side = params_.rangefinders.side_angle;
-  const Angle axes[hal::kBeams] = {side, Angle{}, -side};
   Length free;
   for (int i = 0; i < hal::kBeams; ++i) {
     const ranges::Echo& echo = view.sight.beam[i];
     if (!ranges::usable(echo.validity)) continue;
-    if (magnitude(view.pose.heading + axes[i] - target) > (6_deg).raw()) continue;
+    const Angle axis = view.pose.heading + beam_axis(params_.rangefinders.side_angle, i);
+    if (magnitude(axis - target) > (6_deg).raw()) continue;
     free = max(free, echo.distance - view.patch->reach().planning);
   }
   return free;
