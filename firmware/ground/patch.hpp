@@ -24,7 +24,6 @@ struct Obstacles {
   int32_t unknown = 0;  ///< never cleared, and nothing more is known
   int32_t suspect = 0;  ///< near an echo, or looked at from here in vain
   Vec nearest_unknown;  ///< where the nearest unknown one is, from the body
-  bool none() const noexcept { return unknown == 0 && suspect == 0; }
 };
 
 /// The clearance patch: 32 x 32 world-aligned cells around the body, in three states and an age.
@@ -62,6 +61,7 @@ class Patch {
   /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only. False
   /// below kShortestStep.
   bool approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
+  /// The state of one cell, for those who want to see the patch; false outside the window.
   bool is_clear(Vec at) const noexcept;
   /// True if all cells that this disc touches are clear, none of them outside the window.
   bool all_clear(Vec centre, Length radius) const noexcept;
