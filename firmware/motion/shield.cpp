@@ -25,8 +25,15 @@ Brake brake(WheelPair command, const WheelState& wheels, const Params& params) n
   return {rolls(command.left, wheels.rolling.left), rolls(command.right, wheels.rolling.right)};
 }
 
-bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const ground::Patch& patch,
+/// How near its arc may come to what is not clear.
+struct Arc {
+  WheelPair command;
+  Length reach;
+};
+
+bool free(const Arc& arc, const Pose& pose, const WheelState& wheels, const ground::Patch& patch,
           const Params& params) noexcept {
+  const WheelPair command = arc.command;
   const Brake way = brake(command, wheels, params);
   const bool crawls = command.left + command.right != Speed{};
   const Length rolled = (way.left + way.right) / 2;
@@ -36,27 +43,27 @@ bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const g
   const Angle backwards = length < Length{} ? 180_deg : Angle{};
   const Angle turn = angle_of(way.right - way.left, params.body.track);
   const int32_t samples = 1 + abs(length).raw() / kSample.raw();
-  const Length reach = patch.reach().shield;
   for (int32_t i = 1; i <= samples; ++i) {
     const Angle chord =
         Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
     const Length far = Length::from_raw(multiply_divide(length.raw(), i, samples));
-    if (patch.approaches(pose.at, pose.heading + chord + backwards, abs(far), reach)) return false;
+    if (patch.approaches(pose.at, pose.heading + chord + backwards, abs(far), arc.reach)) return false;
   }
   return true;
 }
 
 }  // namespace
 
-Grant shield(Speed forward, Speed turning, const Pose& pose, const WheelState& wheels,
-             const ground::Patch& patch, const Params& params) noexcept {
+Grant shield(const Wish& wish, const Pose& pose, const WheelState& wheels, const ground::Patch& patch,
+             const Params& params) noexcept {
   constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2), Q14::ratio(3, 10),
                               Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
   const Speed change = params.wheels.max_acceleration * params.safety.period;
+  const Length reach = wish.retraces ? (params.body.radius + patch.reach().shield) / 2 : patch.reach().shield;
   for (const Q14 factor : kFactors) {
-    const WheelPair want = mix(forward * factor, turning, params.wheels.max_speed);
-    if (free(slew(wheels.commanded, want, change), pose, wheels, patch, params)) {
-      return {forward * factor, turning, factor};
+    const WheelPair want = mix(wish.forward * factor, wish.turning, params.wheels.max_speed);
+    if (free({slew(wheels.commanded, want, change), reach}, pose, wheels, patch, params)) {
+      return {wish.forward * factor, wish.turning, factor};
     }
   }
   return {Speed{}, Speed{}, Q14{}};

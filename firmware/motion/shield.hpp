@@ -15,6 +15,13 @@ struct WheelState {
   WheelPair rolling;
 };
 
+/// What the wheels shall do.
+struct Wish {
+  Speed forward;
+  Speed turning;          ///< of the rims
+  bool retraces = false;  ///< over ground that the body has just stood on
+};
+
 struct Grant {
   Speed forward;
   Speed turning;
@@ -25,7 +32,11 @@ struct Grant {
 /// fractions of it whose braking arc, after one tick of it, brings the body's disc of `params.shield` nowhere
 /// nearer to a cell that is not clear. If there is none, both wheels brake in proportion, along the arc that
 /// was found free a tick before.
-Grant shield(Speed forward, Speed turning, const Pose& pose, const WheelState& wheels,
-             const ground::Patch& patch, const Params& params) noexcept;
+///
+/// Retracing asks for half of what the cells' size and the margin add to the body's radius. What is not clear
+/// beside a way that was just driven was no nearer then, and the way back must not end at what was only
+/// passed.
+Grant shield(const Wish& wish, const Pose& pose, const WheelState& wheels, const ground::Patch& patch,
+             const Params& params) noexcept;
 
 }  // namespace whisker::motion

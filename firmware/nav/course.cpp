@@ -8,6 +8,8 @@ namespace {
 
 constexpr Angle kStep = Angle::turns(1, kFan);
 constexpr int32_t kSteps = 10;  // to 75 degrees
+constexpr Angle kFineStep = Angle::turns(1, 3 * kFan);
+constexpr int32_t kNearlyFree = 5;  // cells; a gap as wide as the body is free between two of the steps
 constexpr uint32_t kStraight = (1_deg).raw();
 
 }  // namespace
@@ -35,21 +37,36 @@ bool Course::choose(const View& view, const Vec& to_goal, BendLaw& law, const Pa
   bend_towards(view.sight.beam[hal::kFront].distance >= distance ? Angle{} : bend);
 
   const Reach& reach = view.patch->reach();
-  const auto passable = [&](Angle heading) {
+  const Length length = min(reach.probe, distance);
+  int32_t least = kNearlyFree + 1;
+  Angle nearly;
+  Side aside = wall;
+  const auto passable = [&](Angle heading, Side then) {
     heading_ = heading;
-    return way(view, heading, min(reach.probe, distance), reach.planning) != Way::blocked;
+    const int32_t in_the_way = view.patch->along(view.pose.at, heading, length, reach.planning).suspect;
+    if (in_the_way == 0) {
+      wall = then;
+    } else if (in_the_way < least) {
+      least = in_the_way;
+      nearly = heading;
+      aside = then;
+    }
+    return in_the_way == 0;
   };
   decision.why = magnitude(bend_) > kStraight ? Why::table : Why::target_free;
-  if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)))) return true;
+  if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)), wall)) return true;
   decision.why = Why::narrow;
-  if (passable(target)) return true;
+  if (passable(target, wall)) return true;
   for (int32_t i = 1; i <= kSteps; ++i) {
     const Angle off = kStep * (i * sign(wall));
-    if (passable(target - off)) return true;
-    if (passable(target + off)) {
-      wall = opposite(wall);
-      return true;
-    }
+    if (passable(target - off, wall) || passable(target + off, opposite(wall))) return true;
+  }
+  if (least > kNearlyFree) return false;
+  const Angle centre = nearly;
+  const Side then = aside;
+  for (int32_t i = 1; i <= 2; ++i) {
+    const Angle off = kFineStep * i;
+    if (passable(centre - off, then) || passable(centre + off, then)) return true;
   }
   return false;
 }

@@ -4,14 +4,15 @@ namespace whisker::nav {
 namespace {
 
 constexpr AngularRate kSweepRate = 2000_mrad_per_s;
-constexpr int32_t kLast = 150;  // degrees to which exits are looked for on each side
-constexpr int32_t kSteps = 20;
+constexpr int32_t kLast = 150;       // degrees to which exits are looked for on each side
+constexpr int32_t kFine = 2 * kFan;  // a gap as wide as the body shows at few headings
+constexpr int32_t kSteps = 40;
 constexpr Length kFarView = 800_mm;
 // The outer rim of a side cone is 42.5 degrees ahead of the front, and a way is as wide as the body.
 constexpr int32_t kSeenBehind = 42;
 
-constexpr Angle step_angle(int32_t n) noexcept { return Angle::turns(n, kFan); }
-constexpr int32_t step_degrees(int32_t n) noexcept { return n * 360 / kFan; }
+constexpr Angle step_angle(int32_t n) noexcept { return Angle::turns(n, kFine); }
+constexpr int32_t step_degrees(int32_t n) noexcept { return n * 360 / kFine; }
 
 }  // namespace
 

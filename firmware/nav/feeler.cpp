@@ -27,7 +27,9 @@ void Feeler::move(Vec at) noexcept {
   if (trail_.add(at)) retreats_ = 0;
 }
 
-void Feeler::begin(Angle first, Side wall) noexcept {
+void Feeler::begin(Angle first, const Pose& pose, Side wall) noexcept {
+  back_ = trail_.way_back(pose);
+  may_return_ = magnitude(back_ - first) < kNotBack.raw();
   first_ = first;
   wall_ = wall;
   candidate_ = 0;
@@ -35,10 +37,11 @@ void Feeler::begin(Angle first, Side wall) noexcept {
 }
 
 void Feeler::begin_at_wall(Angle ahead, const Pose& pose, Side wall) noexcept {
+  begin(ahead, pose, wall);
   Angle swing = kSwing;
-  const Angle to_back = (trail_.way_back(pose) - ahead) * sign(wall);
+  const Angle to_back = (back_ - ahead) * sign(wall);
   if (to_back.raw() > kNotBack.raw() && (to_back - kNotBack).raw() < swing.raw()) swing = to_back - kNotBack;
-  begin(ahead + swing * sign(wall), wall);
+  first_ = ahead + swing * sign(wall);
 }
 
 Feeler::Found Feeler::step(const View& view, const Params& params, Heading& found) noexcept {
@@ -51,6 +54,7 @@ Feeler::Found Feeler::step(const View& view, const Params& params, Heading& foun
   found.length = effort_ == Effort::full ? reach.probe : for_body(params, kShortWay);
   for (const int32_t all = narrow ? 3 * kFan : kFan; candidate_ < all; ++candidate_) {
     found.angle = first_ - step * (candidate_ * sign(wall_));
+    if (!may_return_ && magnitude(found.angle - back_) < kNotBack.raw()) continue;
     const Way there = way(view, found.angle, found.length, beside);
     if (there == Way::free) return Found::free;
     if (there == Way::open && !narrow) return Found::unseen;
@@ -59,18 +63,24 @@ Feeler::Found Feeler::step(const View& view, const Params& params, Heading& foun
   switch (effort_) {
     case Effort::full: effort_ = Effort::short_ways; return Found::nothing;
     case Effort::short_ways: effort_ = Effort::narrow_ways; return Found::nothing;
-    case Effort::narrow_ways: break;
+    case Effort::narrow_ways: effort_ = Effort::full; break;
   }
-  retreat_to_ = trail_.near();
+  if (!may_return_) {
+    may_return_ = true;
+    return Found::nothing;
+  }
+  for (int i = 0; i < kBack; ++i) retreat_[i] = trail_.back(i);
+  retreated_ = 0;
   return Found::none;
 }
 
 Feeler::Retreat Feeler::retreat(const View& view, bool stalled, const Params& params,
                                 Manoeuvre& manoeuvre) noexcept {
-  const Vec rest = retreat_to_ - view.pose.at;
-  if (norm(rest) < for_body(params, kThere)) return Retreat::there;
+  const Vec rest = retreat_[retreated_] - view.pose.at;
+  if (norm(rest) < for_body(params, kThere) && ++retreated_ == kBack) return Retreat::there;
   if (stalled) return ++retreats_ < kRetreats ? Retreat::stuck : Retreat::lost;
-  manoeuvre = cruise(steer(bearing(rest) - view.pose.heading, params.wheels.max_speed / 2), params);
+  manoeuvre = cruise(steer(bearing(rest) - view.pose.heading, params.wheels.max_speed / 4), params);
+  manoeuvre.retraces = true;
   return Retreat::under_way;
 }
 

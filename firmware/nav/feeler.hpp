@@ -34,12 +34,13 @@ class Feeler {
   /// Once a tick.
   void move(Vec at) noexcept;
 
-  /// From this heading on, away from the wall. The body must stand while it feels.
-  void begin(Angle first, Side wall) noexcept;
+  /// From this heading on, away from the wall. The body must stand at `pose` while it feels.
+  void begin(Angle first, const Pose& pose, Side wall) noexcept;
   /// From the wall's side of `ahead`, but not from beyond the wall: where the body came to `pose` from lies
   /// there.
   void begin_at_wall(Angle ahead, const Pose& pose, Side wall) noexcept;
-  /// All around, first for ways of the full length, then for short ones, then for narrow ones.
+  /// For ways of the full length, then for short ones, then for narrow ones; back along the trail only after
+  /// all of them, unless that is where it was to go.
   Found step(const View& view, const Params& params, Heading& found) noexcept;
 
   /// Once a tick after `none`; `stalled`: the body does not get on.
@@ -53,11 +54,15 @@ class Feeler {
 
   Trail trail_;
   Angle first_;
-  Vec retreat_to_;
+  Angle back_;
+  static constexpr int kBack = 3;
+  Vec retreat_[kBack];  // the places to go back by, the nearest first
   int32_t candidate_ = 0;
   Side wall_ = Side::left;
   Effort effort_ = Effort::full;
+  int8_t retreated_ = 0;
   int8_t retreats_ = 0;
+  bool may_return_ = false;
 };
 
 }  // namespace whisker::nav

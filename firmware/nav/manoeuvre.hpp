@@ -22,8 +22,10 @@ struct Manoeuvre {
   Length length{};
   Speed forward{};  ///< of a cruise
   Speed turning{};  ///< of a cruise: the rims' speed of turning, counter-clockwise positive
+  /// Of a cruise: back over ground that the body has just stood on.
+  bool retraces = false;
 };
 
-constexpr Manoeuvre stop() noexcept { return {Kind::stop, {}, {}, {}, {}}; }
+constexpr Manoeuvre stop() noexcept { return {Kind::stop, {}, {}, {}, {}, false}; }
 
 }  // namespace whisker::nav

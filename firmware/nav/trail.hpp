@@ -13,15 +13,14 @@ class Trail {
   void reset(Vec at, Length apart) noexcept;
   /// True if the body has moved on by that.
   bool add(Vec at) noexcept;
-  /// A place passed two to three of these distances ago.
-  Vec near() const noexcept { return back(2); }
+  static constexpr int kPlaces = 4;
+  /// The last place kept, n = 0, or one of those before it; n < kPlaces.
+  Vec back(int n) const noexcept { return places_[(newest_ + kPlaces - n) % kPlaces]; }
   /// The direction from `pose` to where it was three to four of them ago; straight behind if it has hardly
   /// moved.
   Angle way_back(const Pose& pose) const noexcept;
 
  private:
-  static constexpr int kPlaces = 4;
-  Vec back(int n) const noexcept { return places_[(newest_ + kPlaces - n) % kPlaces]; }
   Vec places_[kPlaces];
   Length apart_;
   int8_t newest_ = 0;

@@ -25,7 +25,7 @@ void EdgeWalk::note(const nav::View& view) {
 void EdgeWalk::begin(nav::Side wall, Angle blocked) {
   wall_ = wall;
   course_ = blocked;
-  feeler_.begin(blocked, wall);
+  feeler_.begin(blocked, {last_, blocked}, wall);
   phase_ = Phase::brake;
 }
 
