@@ -66,7 +66,8 @@ def heading(*cells):
 
 
 def whole_numbers(texts, usage):
-    """Command-line arguments that are counts and seeds."""
-    if not all(text.isdecimal() for text in texts):
-        sys.exit(usage)
+    """Command-line arguments that are counts and seeds. Ends the program with exit status 2 for others."""
+    if not all(text.isascii() and text.isdecimal() for text in texts):
+        print(usage, file=sys.stderr)
+        sys.exit(2)
     return [int(text) for text in texts]
