@@ -48,7 +48,8 @@ def cell(estimate, scale=1, digits=0):
 
 
 def percent(estimate):
-    return cell(estimate, 100)
+    """With a decimal: one mission in a thousand must show."""
+    return cell(estimate, 100, 1)
 
 
 def faults(summary):

@@ -69,10 +69,10 @@ class Tables(Scripts):
         half = {"value": 0.5, "low": 0.25, "high": None}
         self.answer(reached=half, at_goal={**half, "value": 0.375}, s_per_m={"p50": half, "p95": None}, estimate_error_m={"p50": half, "p95": half})
         first = self.rows(self.run_script("measure", 2, 7, "skirt"))[1]
-        self.assertEqual(first, ["15 discs", "50 %", "0 %", "0 %", "0 %", "0 %", "0.5"])
+        self.assertEqual(first, ["15 discs", "50.0 %", "0.0 %", "0.0 %", "0.0 %", "0.0 %", "0.5"])
         self.assertEqual(self.calls()[0], "campaign discs --discs 15 --count 2 --seed 7 --planner skirt --json".split())
         odometry = self.rows(self.run_script("odometry", 1))[2]
-        self.assertEqual(odometry[:4], ["30 discs", "0.05 %", "50 (25-?)", "38 (25-?)"])
+        self.assertEqual(odometry[:4], ["30 discs", "0.05 %", "50.0 (25.0-?)", "37.5 (25.0-?)"])
         self.assertEqual(odometry[-2:], ["0.50 (0.25-?)", "0.50 (0.25-?)"])
         self.answer(s_per_m={"p50": None, "p95": None})
         self.assertEqual(self.rows(self.run_script("measure", 1))[1][-1], "-")
