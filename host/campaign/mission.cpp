@@ -1,6 +1,8 @@
 #include "host/campaign/mission.hpp"
 
+#include <cmath>
 #include "host/campaign/motion_count.hpp"
+
 #include "host/paths/shortest.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/world.hpp"
@@ -9,11 +11,14 @@ namespace whisker::campaign {
 
 Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop) {
   MotionCount count(scenario.robot.body.track.raw() * 1e-6);
+  double estimate_error_m = 0;
   RunOptions options;
   options.planner = planner;
   options.observe = [&](const TickRecord& record) {
     if (stop) throw Stopped{};
     count.add(record);
+    const double x = record.est_x_m - record.x_m, y = record.est_y_m - record.y_m;
+    estimate_error_m = std::sqrt(x * x + y * y);
   };
   const RunResult result = run(scenario, options);
 
@@ -28,6 +33,8 @@ Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>
   row.looks = count.looks();
   row.min_clearance_m = rounded(result.min_clearance_m);
   row.final_distance_m = rounded(result.final_distance_m);
+  row.estimate_error_m = rounded(estimate_error_m);
+  row.at_goal = result.final_distance_m <= scenario.goal.tolerance_m;
   const auto shortest_m =
       paths::shortest_path(make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius);
   if (shortest_m) row.shortest_m = rounded(*shortest_m);

@@ -18,7 +18,9 @@ struct Row {
   double turned_rad = 0;
   std::uint64_t stops = 0, flips = 0, looks = 0;  ///< as MotionCount defines them
   double min_clearance_m = 0;
-  double final_distance_m = 0;
+  double final_distance_m = 0;       ///< true
+  double estimate_error_m = 0;       ///< at the end, between the true place and the robot's estimate of it
+  bool at_goal = false;              ///< final_distance_m is within the goal's tolerance
   std::optional<double> shortest_m;  ///< shortest way for a disc of kWayRadius; none: there is no way
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;

@@ -101,15 +101,16 @@ Verdict verdict_named(const std::string& word) {
 }  // namespace
 
 const char* const kRowHeader =
-    "seed,outcome,time_s,path_m,turned_rad,stops,flips,looks,min_clearance_m,final_distance_m,shortest_m,"
-    "ratio,s_per_m,ticks,hash,detail,planner,robot,world";
+    "seed,outcome,time_s,path_m,turned_rad,stops,flips,looks,min_clearance_m,final_distance_m,"
+    "estimate_error_m,at_goal,shortest_m,ratio,s_per_m,ticks,hash,detail,planner,robot,world";
 
 std::string to_csv(const Row& r) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:016x},{},{},{},{}", r.seed,
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:016x},{},{},{},{}", r.seed,
                      report::outcome(r.verdict), number(r.time_s), number(r.path_m), number(r.turned_rad),
                      r.stops, r.flips, r.looks, number(r.min_clearance_m), number(r.final_distance_m),
-                     number(r.shortest_m), number(ratio(r)), number(s_per_m(r)), r.ticks, r.hash,
-                     quoted(r.detail), quoted(r.planner), quoted(r.robot), quoted(r.world));
+                     number(r.estimate_error_m), r.at_goal ? 1 : 0, number(r.shortest_m), number(ratio(r)),
+                     number(s_per_m(r)), r.ticks, r.hash, quoted(r.detail), quoted(r.planner),
+                     quoted(r.robot), quoted(r.world));
 }
 
 Row parse_row(std::string_view line) {
@@ -125,6 +126,8 @@ Row parse_row(std::string_view line) {
   r.looks = fields.number<std::uint64_t>("looks");
   r.min_clearance_m = fields.number<double>("min_clearance_m");
   r.final_distance_m = fields.amount("final_distance_m");
+  r.estimate_error_m = fields.amount("estimate_error_m");
+  r.at_goal = fields.text("at_goal") == "1";
   r.shortest_m = fields.amount_or_none("shortest_m");
   fields.text("ratio");
   fields.text("s_per_m");

@@ -71,6 +71,7 @@ Summary summarize(const std::vector<Row>& rows) {
   }
   s.success = share_of(rows, succeeded);
   s.reached = share_of(rows, Verdict::reached);
+  s.at_goal = share_of(rows, [](const Row& r) { return r.verdict == Verdict::reached && r.at_goal; });
   s.unreachable = share_of(rows, Verdict::unreachable);
   s.gave_up = share_of(rows, Verdict::gave_up);
   s.contact = share_of(rows, Verdict::contact);
@@ -78,6 +79,10 @@ Summary summarize(const std::vector<Row>& rows) {
   s.false_unreachable =
       share_of(rows, [](const Row& r) { return r.verdict == Verdict::unreachable && !has_no_way(r); });
   add_reached(s, rows);
+  std::vector<double> errors;
+  for (const Row& row : rows) errors.push_back(row.estimate_error_m);
+  s.estimate_error_p50 = quantile(errors, 0.5);
+  s.estimate_error_p95 = quantile(errors, 0.95);
   s.stops = per_metre(rows, [](const Row& r) { return static_cast<double>(r.stops); });
   s.flips = per_metre(rows, [](const Row& r) { return static_cast<double>(r.flips); });
   s.looks = per_metre(rows, [](const Row& r) { return static_cast<double>(r.looks); });

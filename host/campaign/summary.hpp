@@ -26,7 +26,9 @@ struct Summary {
 
   /// Shares of all missions. A success is "reached", or "unreachable" where there is no way.
   Estimate success, reached, unreachable, gave_up, contact, fault;
-  Estimate false_unreachable;  ///< "unreachable" though a way may be there
+  Estimate at_goal;                                 ///< "reached" and truly within the goal's tolerance
+  Estimate false_unreachable;                       ///< "unreachable" though a way may be there
+  Estimate estimate_error_p50, estimate_error_p95;  ///< m, of all missions
 
   /// Of the missions that reached their goals; none without any.
   std::optional<Estimate> ratio_mean, ratio_p50, ratio_p95;

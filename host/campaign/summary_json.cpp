@@ -28,6 +28,7 @@ std::string summary_json(const Summary& s) {
   json["planners"] = s.planners;
   json["success"] = object(s.success);
   json["reached"] = object(s.reached);
+  json["at_goal"] = object(s.at_goal);
   json["unreachable"] = object(s.unreachable);
   json["false_unreachable"] = object(s.false_unreachable);
   json["gave_up"] = object(s.gave_up);
@@ -37,6 +38,7 @@ std::string summary_json(const Summary& s) {
       {"mean", object(s.ratio_mean)}, {"p50", object(s.ratio_p50)}, {"p95", object(s.ratio_p95)}};
   json["s_per_m"] = {{"p50", object(s.s_per_m_p50)}, {"p95", object(s.s_per_m_p95)}};
   json["min_clearance_m"] = {{"p5", object(s.clearance_p5)}};
+  json["estimate_error_m"] = {{"p50", object(s.estimate_error_p50)}, {"p95", object(s.estimate_error_p95)}};
   json["stops_per_m"] = object(s.stops);
   json["flips_per_m"] = object(s.flips);
   json["looks_per_m"] = object(s.looks);

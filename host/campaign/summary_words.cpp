@@ -34,6 +34,7 @@ std::string summary_words(const Summary& s) {
                   joined(s.worlds), joined(s.planners), s.least_seed, s.greatest_seed);
   text += percent_line("success", s.success);
   text += percent_line("reached", s.reached);
+  text += percent_line("  truly there", s.at_goal);
   text += percent_line("unreachable", s.unreachable);
   if (s.no_way > 0) text += percent_line("  though it is not", s.false_unreachable);
   text += percent_line("gave up", s.gave_up);
@@ -45,6 +46,8 @@ std::string summary_words(const Summary& s) {
   text += line("s/m", "p50", s.s_per_m_p50);
   text += line("", "p95", s.s_per_m_p95);
   text += line("clearance", "p5 m", s.clearance_p5);
+  text += line("est. error", "p50 m", s.estimate_error_p50);
+  text += line("", "p95 m", s.estimate_error_p95);
   text += line("stops/m", "all", s.stops.rate);
   text += line("", "p50", s.stops.p50);
   text += line("flips/m", "all", s.flips.rate);

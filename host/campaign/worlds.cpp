@@ -28,6 +28,7 @@ std::string arguments(worlds::Kind kind, const worlds::Options& o) {
   if (o.discs) text += fmt::format(" --discs {}", *o.discs);
   if (o.box) text += " --box";
   if (o.noise) text += " --noise";
+  if (o.wheel_scale_sigma) text += fmt::format(" --wheel-scale-sigma {}", *o.wheel_scale_sigma);
   return text;
 }
 

@@ -146,6 +146,7 @@ void add_campaign(CLI::App& app, int& status) {
       ->type_name("N");
   add_switch(*cmd, "--box", o->world.box, "A closed box around, as in `whisker world`");
   add_switch(*cmd, "--noise", o->world.noise, "Sensor noise and odometry error, as in `whisker world`");
+  add_wheel_scale_sigma(*cmd, o->world.wheel_scale_sigma, "Scale error of the wheels, as in `whisker world`");
   add_planner(*cmd, o->planner);
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenarios");
   cmd->add_option("--jobs", o->jobs, "Missions at a time; as many as there are cores by default")
@@ -164,8 +165,8 @@ void add_campaign(CLI::App& app, int& status) {
   cmd->callback([o, cmd, &status] {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {
-      refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--planner", "--robot",
-                           "--svg", "--trace", "--json"});
+      refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--wheel-scale-sigma",
+                           "--planner", "--robot", "--svg", "--trace", "--json"});
     }
     status = execute(*o);
   });

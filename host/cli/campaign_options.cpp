@@ -24,9 +24,10 @@ campaign::Files folder(const CampaignOptions& o) {
   if (!std::filesystem::is_directory(o.worlds, error)) {
     throw UsageError(fmt::format("{}: neither a kind of world nor a folder of scenario files", o.worlds));
   }
-  if (o.world.discs || o.world.box || o.world.noise) {
+  if (o.world.discs || o.world.box || o.world.noise || o.world.wheel_scale_sigma) {
     throw UsageError(
-        "--discs, --box and --noise are for generated worlds; a scenario file says all that itself");
+        "--discs, --box, --noise and --wheel-scale-sigma are for generated worlds; a scenario file says all "
+        "that itself");
   }
   if (o.replay)
     throw UsageError("--replay is for generated worlds; `whisker run` drives a scenario file again");

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "host/campaign/worlds.hpp"
+#include "host/cli/class_pictures.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"
@@ -24,14 +26,24 @@ struct Options {
   std::string out;
 };
 
-void draw_run(const Scenario& scenario, const std::string& svg_file) {
+void draw_run(const Scenario& scenario, PlannerKind planner, const std::string& svg_file,
+              const report::RunPicture& picture = {}) {
   std::vector<TickRecord> records;
   RunOptions options;
   options.records = &records;
-  options.planner = PlannerKind::thesis;
+  options.planner = planner;
   const RunResult result = run(scenario, options);
-  report::write_file(svg_file, report::run_svg(scenario, records, result));
+  report::write_file(svg_file, report::run_svg(scenario, records, result, picture));
   fmt::print("{}\n", svg_file);
+}
+
+void draw_class(const ClassPicture& c, const std::string& folder) {
+  report::RunPicture picture;
+  picture.subtitle =
+      fmt::format("whisker campaign {} --replay {}", campaign::arguments(c.kind, c.options), c.options.seed);
+  picture.path_tolerance = 2e-3;
+  draw_run(worlds::generate(c.kind, c.options), PlannerKind::skirt, fmt::format("{}/{}", folder, c.file),
+           picture);
 }
 
 int execute(const Options& o) {
@@ -47,20 +59,19 @@ int execute(const Options& o) {
     report::write_file(path, svg);
     fmt::print("{}\n", path);
   }
-  draw_run(figure8, o.out + "/figure8.svg");
-  draw_run(figure9, o.out + "/figure9.svg");
-  draw_run(figure10, o.out + "/figure10.svg");
+  draw_run(figure8, PlannerKind::thesis, o.out + "/figure8.svg");
+  draw_run(figure9, PlannerKind::thesis, o.out + "/figure9.svg");
+  draw_run(figure10, PlannerKind::thesis, o.out + "/figure10.svg");
+  for (const ClassPicture& c : kClassPictures) draw_class(c, o.out);
   return 0;
 }
 
 }  // namespace
 
 void add_figures(CLI::App& app, int& status) {
-  CLI::App* cmd = app.add_subcommand("figures", "Draw the figures of docs/figures.md anew");
+  CLI::App* cmd = app.add_subcommand("figures", "Draw the figures of docs/ anew");
   const auto o = std::make_shared<Options>();
-  add_file(*cmd, "FOLDER", o->out, "Where to write figure2.svg to figure10.svg and response.svg")
-      ->required()
-      ->type_name("FOLDER");
+  add_file(*cmd, "FOLDER", o->out, "Where to write the figures")->required()->type_name("FOLDER");
   add_file(*cmd, "--scenarios", o->scenarios, "Folder of the scenario files")->capture_default_str();
   cmd->callback([o, &status] { status = execute(*o); });
 }

@@ -1,6 +1,7 @@
 #include "host/cli/options.hpp"
 
 #include <charconv>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -20,6 +21,24 @@ CLI::Validator whole_number(std::uint64_t most) {
         return {};
       },
       "");
+}
+
+CLI::Validator amount(double most) {
+  return CLI::Validator(
+      [most](std::string& text) -> std::string {
+        double value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data(), end, value);
+        if (error != std::errc{} || rest != end || std::signbit(value) || !(value <= most)) {
+          return fmt::format("'{}' is no number from 0 to {}", text, most);
+        }
+        return {};
+      },
+      "");
+}
+
+CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, const std::string& help) {
+  return app.add_option("--wheel-scale-sigma", sigma, help)->transform(amount(1))->type_name("S");
 }
 
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help) {

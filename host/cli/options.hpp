@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,12 @@ namespace whisker::cli {
 
 /// Decimal digits only, at most `most`: no sign, no exponent, no 0x. For Option::transform.
 CLI::Validator whole_number(std::uint64_t most = INT64_MAX);
+
+/// A number from 0 to `most`, in decimal. For Option::transform.
+CLI::Validator amount(double most);
+
+/// --wheel-scale-sigma S, for worlds with noise.
+CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, const std::string& help);
 
 /// A path; an empty one, such as an unset shell variable gives, is refused.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help);

@@ -19,7 +19,7 @@ constexpr Look kLooks[kDoings] = {
     {"free", "free driving", "#3487c4", 2.0, "none"},
     {"table", "steered by the table", "#e69f00", 3.0, "none"},
     {"probing", "probing: deflected", "#1f1f1f", 2.0, "5 2.5"},
-    {"danger", "danger area", "#b3261e", 3.6, "none"},
+    {"danger", "along an edge", "#b3261e", 3.6, "none"},
 };
 
 constexpr const char* kObstacle = R"(fill="#d3d3d0" stroke="#6f6f6c" stroke-width="0.8")";
@@ -27,6 +27,8 @@ constexpr const char* kWall =
     R"(fill="none" stroke="#454543" stroke-width="2.4" stroke-linecap="round" stroke-linejoin="round")";
 /// Narrower than any path: the colour of the path stays in sight between dots that are close together.
 constexpr const char* kLookDot = R"(fill="none" stroke="#111" stroke-width="2" stroke-linecap="round")";
+constexpr const char* kStraightWay =
+    R"(fill="none" stroke="#8a8a86" stroke-width="1" stroke-dasharray="1 4")";
 constexpr const char* kOutside = "#dcdcd8";
 constexpr const char* kGoalColour = "#00795c";
 constexpr const char* kContactColour = "#d0006f";

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "host/report/palette.hpp"
+#include "host/report/run_edges.hpp"
 
 namespace whisker::report {
 namespace {
@@ -28,9 +30,9 @@ class Column {
     svg_.text({corner_.x + kSwatch + 8, y_ - 4}, label, "");
     return {corner_.x + kSwatch / 2, y_ - 8};
   }
-  /// Two figures at the right end of the row before.
-  void figures(const std::string& first, const std::string& second) {
-    svg_.text({corner_.x + kLegendWidth - 48, y_ - 4}, first, R"(text-anchor="end")");
+  /// Two figures at the right end of the row before, their right edges `apart` px apart.
+  void figures(const std::string& first, const std::string& second, double apart) {
+    svg_.text({corner_.x + kLegendWidth - apart, y_ - 4}, first, R"(text-anchor="end")");
     svg_.text({corner_.x + kLegendWidth, y_ - 4}, second, R"(text-anchor="end")");
   }
   void note(const std::string& text) {
@@ -52,7 +54,7 @@ void draw_classes(Svg& svg, Column& column, const TrackSummary& track) {
     const Look& look = kLooks[k];
     const double share = track.total_m > 0 ? 100 * track.metres[k] / track.total_m : 0;
     const Point c = column.row(look.label);
-    column.figures(decimals(track.metres[k], 2) + " m", decimals(share, 0) + " %");
+    column.figures(decimals(track.metres[k], 2) + " m", decimals(share, 0) + " %", 48);
     svg.line({c.x - kSwatch / 2, c.y}, {c.x + kSwatch / 2, c.y},
              fmt::format(R"(class="key {}" stroke="{}" stroke-width="{}" stroke-dasharray="{}")", look.name,
                          look.colour, number(look.width), look.dashes));
@@ -62,6 +64,49 @@ void draw_classes(Svg& svg, Column& column, const TrackSummary& track) {
                             track.danger_entries == 1 ? "" : "s", track.longest_danger));
   if (track.without_place > 0)
     column.note(fmt::format("{} records without a position left out", track.without_place));
+}
+
+std::string distance_text(const TickRecord& r, sim::Vec2 goal) {
+  return decimals(std::hypot(r.est_x_m - goal.x, r.est_y_m - goal.y), 2) + " m";
+}
+
+std::string end_text(const Encounter& e, sim::Vec2 goal) {
+  switch (e.end) {
+    case Encounter::End::none: return "-";
+    case Encounter::End::unreachable: return "came round";
+    case Encounter::End::left:
+    case Encounter::End::wall_lost: return distance_text(*e.left, goal);
+  }
+  return "?";
+}
+
+void draw_edges(Column& column, const LegendContent& content) {
+  constexpr std::size_t kRows = 8;
+  constexpr double kApart = 76;
+  const std::size_t all = content.encounters.size();
+  if (all == 0) return;
+  column.gap();
+  column.heading("Distance to the goal");
+  column.figures("at hit", "on leaving", kApart);
+  for (std::size_t i = 0; i < std::min(all, kRows); ++i) {
+    const Encounter& e = content.encounters[i];
+    column.row(fmt::format("edge {}", i + 1));
+    column.figures(distance_text(*e.hit, content.goal), end_text(e, content.goal), kApart);
+  }
+  if (all > kRows) column.note(fmt::format("and {} more edges", all - kRows));
+}
+
+bool any(const std::vector<Encounter>& all, Encounter::End end) {
+  return std::any_of(all.begin(), all.end(), [&](const Encounter& e) { return e.end == end; });
+}
+
+void draw_edge_marks(Svg& svg, Column& column, const std::vector<Encounter>& all) {
+  if (all.empty()) return;
+  draw_hit(svg, column.row("hit: the way to the goal is blocked"));
+  if (any(all, Encounter::End::left)) draw_left(svg, column.row("left the edge: on to the goal"));
+  if (any(all, Encounter::End::wall_lost)) draw_wall_lost(svg, column.row("lost the wall: on to the goal"));
+  if (std::any_of(all.begin(), all.end(), [](const Encounter& e) { return e.turned != nullptr; }))
+    draw_turned(svg, column.row("came round: now the other way"));
 }
 
 void draw_marks(Svg& svg, Column& column, const LegendContent& content) {
@@ -80,6 +125,9 @@ void draw_marks(Svg& svg, Column& column, const LegendContent& content) {
   }
   c = column.row("goal and its tolerance");
   svg.circle(c, 6, fmt::format(R"(fill="#bfe6d6" stroke="{}" stroke-width="1.5")", kGoalColour));
+  c = column.row("straight line from start to goal");
+  svg.line({c.x - kSwatch / 2, c.y}, {c.x + kSwatch / 2, c.y}, kStraightWay);
+  draw_edge_marks(svg, column, content.encounters);
   if (content.looks) {
     c = column.row(
         fmt::format("looked here ({} look{})", content.track.looks, content.track.looks == 1 ? "" : "s"));
@@ -114,6 +162,7 @@ double draw_legend(Svg& svg, Point corner, int columns, const LegendContent& con
   svg.open(R"(class="legend")");
   Column classes(svg, corner);
   draw_classes(svg, classes, content.track);
+  draw_edges(classes, content);
   if (columns == 1) classes.gap();
   Column marks(svg,
                columns == 1 ? Point{corner.x, classes.y()} : Point{corner.x + kLegendWidth + 40, corner.y});

@@ -1,6 +1,10 @@
-/// The legend of a run picture: the path's classes with their share, then the marks that occur.
+/// The legend of a run picture: the path's classes with their share, the edges met, then the marks that
+/// occur.
 #pragma once
 
+#include <vector>
+
+#include "host/report/encounters.hpp"
 #include "host/report/run_svg.hpp"
 #include "host/report/svg.hpp"
 #include "host/report/track.hpp"
@@ -9,6 +13,8 @@ namespace whisker::report {
 
 struct LegendContent {
   TrackSummary track;
+  std::vector<Encounter> encounters;
+  sim::Vec2 goal;
   bool looks = false;
   bool cones = false;
   bool end = false;

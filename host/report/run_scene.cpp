@@ -124,6 +124,11 @@ void draw_world(Svg& svg, const View& view, const Scenario& scenario, double tim
   draw_movers(svg, view, scenario.movers, time_s);
 }
 
+void draw_straight_way(Svg& svg, const View& view, const Scenario& scenario) {
+  svg.line(view.page(scenario.start.at), view.page(scenario.goal.at),
+           fmt::format(R"(class="straight-way" {})", kStraightWay));
+}
+
 void draw_goal(Svg& svg, const View& view, const Goal& goal) {
   const Point c = view.page(goal.at);
   const double radius = goal.tolerance_m * view.pixels_per_metre;

@@ -16,6 +16,9 @@ Box scene_box(const Scenario& scenario, const std::vector<TickRecord>& records);
 /// Bounds, discs, polygons, walls; movers with their paths and where they are at `time_s`.
 void draw_world(Svg& svg, const View& view, const Scenario& scenario, double time_s);
 
+/// The straight line from the start to the goal.
+void draw_straight_way(Svg& svg, const View& view, const Scenario& scenario);
+
 /// The goal with its tolerance circle.
 void draw_goal(Svg& svg, const View& view, const Goal& goal);
 

@@ -5,6 +5,7 @@
 
 #include "host/report/axes.hpp"
 #include "host/report/result.hpp"
+#include "host/report/run_edges.hpp"
 #include "host/report/run_legend.hpp"
 #include "host/report/run_scene.hpp"
 #include "host/report/units.hpp"
@@ -75,6 +76,8 @@ std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& rec
   const auto entries = danger_entries(records, options.cones);
   LegendContent content;
   content.track = summarise(records);
+  content.encounters = encounters(records);
+  content.goal = scenario.goal.at;
   content.looks = options.looks && content.track.looks > 0;
   content.cones = !entries.empty();
   content.end = end != nullptr;
@@ -97,6 +100,7 @@ std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& rec
 
   svg.open_clipped("plot", view.corner, view.width(), view.height());
   draw_world(svg, view, scenario, end != nullptr ? end->t_s : 0.0);
+  draw_straight_way(svg, view, scenario);
   draw_goal(svg, view, scenario.goal);
   for (const TickRecord* entry : entries) draw_cones(svg, view, scenario.robot.rangefinders, *entry);
   draw_body(
@@ -107,6 +111,7 @@ std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& rec
   if (end != nullptr)
     draw_body(svg, view, body, pose(*end),
               R"(class="body end" fill="#c9d8e4" fill-opacity="0.65" stroke="#222" stroke-width="1.5")");
+  draw_encounters(svg, view, content.encounters);
   if (content.contact) draw_contact(svg, view, body, end != nullptr ? pose(*end) : scenario.start);
   draw_labels(svg, view, scenario, end, result.verdict);
   svg.close();

@@ -28,6 +28,12 @@ void check(Kind kind, const Options& o) {
   if (o.discs && (*o.discs < 0 || *o.discs > kMostDiscs)) {
     throw std::invalid_argument(fmt::format("discs must be from 0 to {}, but is {}", kMostDiscs, *o.discs));
   }
+  if (o.wheel_scale_sigma) {
+    if (!o.noise) throw std::invalid_argument("a scale error of the wheels needs noise");
+    if (!(*o.wheel_scale_sigma >= 0 && *o.wheel_scale_sigma <= 1)) {
+      throw std::invalid_argument("the scale error of the wheels must be from 0 to 1");
+    }
+  }
   if (o.box && !has_box(kind)) throw std::invalid_argument(fmt::format("{} has no box", name(kind)));
 }
 
@@ -52,12 +58,12 @@ bool keeps_promise(Kind kind, const Scenario& s) {
   return path_proven(world, s.start.at, s.goal.at, kPassableRadius);
 }
 
-Noise reference_noise() {
+Noise reference_noise(const Options& o) {
   Noise n;
   n.range_sigma_m = 0.01;
   n.range_dropout = 0.02;
   n.range_false_clear = 0.01;
-  n.wheel_scale_sigma = 0.0005;
+  n.wheel_scale_sigma = o.wheel_scale_sigma.value_or(0.0005);
   n.heading_drift_deg_per_sqrt_m = 0.3;
   return n;
 }
@@ -78,7 +84,7 @@ Scenario generate(Kind kind, const Options& options) {
     s.seed = options.seed;
     s.time_limit_s = kTimeLimit;
     s.start.heading = bearing(s.start.at, s.goal.at);
-    if (options.noise) s.noise = reference_noise();
+    if (options.noise) s.noise = reference_noise(options);
     return s;
   }
   throw std::runtime_error(fmt::format("{} draws gave no {} world with {}", kMostDraws, name(kind),

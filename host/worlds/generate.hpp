@@ -27,6 +27,8 @@ struct Options {
   std::optional<int> discs;
   bool box = false;    ///< discs, poles and enclosed: a closed box around, and radii of at most 0.6 m
   bool noise = false;  ///< the reference robot's sensor and odometry noise
+  /// Of each wheel's encoder, instead of the reference robot's: 0 to 1; only with noise.
+  std::optional<double> wheel_scale_sigma = std::nullopt;
 };
 
 constexpr double kPassableRadius = 0.125;  ///< m; every kind but enclosed has a path for such a body

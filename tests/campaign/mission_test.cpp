@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "host/campaign/row_text.hpp"
 #include "host/paths/shortest.hpp"
 #include "host/run/runner.hpp"
@@ -27,6 +30,8 @@ TEST(Mission, TheRowTellsWhatTheRunTells) {
     RunOptions options;
     options.planner = seed == 3 ? PlannerKind::thesis : PlannerKind::skirt;
     const Row row = drive(s, options.planner, kOn);
+    std::vector<TickRecord> records;
+    options.records = &records;
     const RunResult result = run(s, options);
     EXPECT_EQ(row.planner, name(options.planner));
     EXPECT_EQ(row.seed, seed);
@@ -38,6 +43,10 @@ TEST(Mission, TheRowTellsWhatTheRunTells) {
     EXPECT_NEAR(row.path_m, result.path_m, 6e-7);
     EXPECT_NEAR(row.final_distance_m, result.final_distance_m, 6e-7);
     EXPECT_NEAR(row.min_clearance_m, result.min_clearance_m, 6e-7);
+    const TickRecord& last = records.back();
+    EXPECT_NEAR(row.estimate_error_m, std::hypot(last.x_m - last.est_x_m, last.y_m - last.est_y_m), 6e-7);
+    EXPECT_EQ(row.estimate_error_m > 0.01, seed == 2) << "of the wheels alone";
+    EXPECT_EQ(row.at_goal, result.final_distance_m <= s.goal.tolerance_m);
     const auto shortest = paths::shortest_path(make_world(s), s.start.at, s.goal.at, 0.10);
     ASSERT_TRUE(row.shortest_m && shortest);
     EXPECT_NEAR(*row.shortest_m, *shortest, 6e-7);

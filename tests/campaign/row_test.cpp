@@ -13,7 +13,8 @@ namespace whisker::campaign {
 namespace {
 
 const std::string kLine =
-    "7,reached,12.500000,2.000000,3.100000,1,2,3,0.050000,0.010000,1.600000,1.250000,7.812500,1250,"
+    "7,reached,12.500000,2.000000,3.100000,1,2,3,0.050000,0.010000,0.020000,1,1.600000,1.250000,7.812500,"
+    "1250,"
     "00000000000000ff,at_goal,thesis,,discs --noise";
 
 std::string complaint(const std::string& line) {
@@ -75,6 +76,8 @@ TEST(RowText, EveryRowReadsBackEqual) {
     ASSERT_EQ(back.time_s, row.time_s);
     ASSERT_EQ(back.path_m, row.path_m);
     ASSERT_EQ(back.min_clearance_m, row.min_clearance_m);
+    ASSERT_EQ(back.estimate_error_m, row.estimate_error_m);
+    ASSERT_EQ(back.at_goal, row.at_goal);
     ASSERT_EQ(back.shortest_m, row.shortest_m);
     ASSERT_EQ(back.looks, row.looks);
     ASSERT_EQ(back.hash, row.hash);
@@ -95,8 +98,9 @@ TEST(RowText, WhatIsWrongIsNamed) {
   EXPECT_EQ(complaint(with("2.000000", "-2.000000")), "column path_m: -2 is negative");
   EXPECT_EQ(complaint(with(",1,2,3,", ",1,2.5,3,")), "column flips: '2.5' is no such number");
   EXPECT_EQ(complaint(kLine + "\r"), "column world: control characters in it");
-  for (const std::string& line : {with("1.250000", "1.260000"), with("12.500000", "12.5"),
-                                  with("discs", "\"discs\""), kLine + ",", with("00ff", "00FF")}) {
+  for (const std::string& line :
+       {with("1.250000", "1.260000"), with("12.500000", "12.5"), with("discs", "\"discs\""), kLine + ",",
+        with("00ff", "00FF"), with(",1,1.6", ",2,1.6"), with(",1,1.6", ",,1.6")}) {
     EXPECT_EQ(complaint(line), "the row is not one that campaign writes") << line;
   }
 }

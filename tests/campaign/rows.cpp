@@ -40,6 +40,8 @@ Row random_row(worlds::Random& random) {
   r.looks = random.bits() >> random.index(64);
   r.min_clearance_m = rounded(random.uniform(-0.1, 0.1));
   r.final_distance_m = random_amount(random);
+  r.estimate_error_m = random_amount(random);
+  r.at_goal = random.chance(0.5);
   if (random.chance(0.7)) r.shortest_m = random_amount(random);
   r.ticks = random.bits() >> random.index(64);
   r.hash = random.bits();

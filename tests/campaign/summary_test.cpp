@@ -50,6 +50,18 @@ TEST(Summary, WhatIsUnreachableRightlyOrNotIsToldApart) {
   EXPECT_FALSE(s.s_per_m_p50);
 }
 
+TEST(Summary, BelievingToBeThereIsNotBeingThere) {
+  std::vector<Row> rows{row(1, Verdict::reached, 10, 2), row(2, Verdict::reached, 10, 2),
+                        row(3, Verdict::gave_up, 10, 2), row(4, Verdict::contact, 10, 2)};
+  rows[1].at_goal = rows[2].at_goal = true;
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].estimate_error_m = 0.1 * static_cast<double>(4 - i);
+  const Summary s = summarize(rows);
+  EXPECT_EQ(s.reached.value, 0.5);
+  EXPECT_EQ(s.at_goal.value, 0.25);
+  EXPECT_EQ(s.estimate_error_p50.value, 0.2) << "of all four";
+  EXPECT_EQ(s.estimate_error_p95.value, 0.4);
+}
+
 TEST(Summary, AMissionWithoutAKnownWayHasNoRatio) {
   std::vector<Row> rows{row(1, Verdict::reached, 10, 2), row(2, Verdict::reached, 10, 4)};
   rows[1].shortest_m.reset();

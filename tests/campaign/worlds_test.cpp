@@ -34,6 +34,8 @@ TEST(Generated, TheArgumentsNameEveryOption) {
   EXPECT_EQ(arguments(worlds::Kind::u_trap, options), "u-trap");
   options = {1, 0, true, true};
   EXPECT_EQ(arguments(worlds::Kind::enclosed, options), "enclosed --discs 0 --box --noise");
+  options = {1, {}, false, true, 5e-05};
+  EXPECT_EQ(arguments(worlds::Kind::maze, options), "maze --noise --wheel-scale-sigma 5e-05");
 }
 
 TEST(FilesOfAFolder, AreItsScenarioFilesInOrderOfName) {

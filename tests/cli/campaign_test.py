@@ -18,7 +18,7 @@ from whisker import PLANNERS, SCENARIOS, STATUS, Case, with_time_limit
 COUNT = 12
 KIND = ("discs", "--discs", 10)
 PROGRESS = re.compile(rb"\r\x1b\[K\[#*\.*\] \d+ of 1000000, \d+\.\d a second, \d+:\d\d to go")
-SHARES = ("success", "reached", "unreachable", "false_unreachable", "gave_up", "contact", "fault")
+SHARES = ("success", "reached", "at_goal", "unreachable", "false_unreachable", "gave_up", "contact", "fault")
 
 
 def rows_of(text):
@@ -57,7 +57,7 @@ class Rows(Campaigns):
         self.assertEqual(rows_of(later), rows_of(alone)[4:7])
 
     def test_are_what_world_and_run_give(self):
-        for kind, seed in ((("discs", "--discs", 12, "--box", "--noise"), 3), (("u-trap",), 8), (("rooms", "--discs", 0), 2)):
+        for kind, seed in ((("discs", "--discs", 12, "--box", "--noise"), 3), (("u-trap",), 8), (("maze", "--noise", "--wheel-scale-sigma", "0.01"), 2), (("rooms", "--discs", 0), 2)):
             (row,) = rows_of(self.rows(*kind, "--seed", seed, "--count", 1))
             world = whisker.whisker("world", *kind, "--seed", seed).stdout
             result = json.loads(whisker.whisker("run", self.file("w.toml", world), "--json").stdout)
@@ -73,6 +73,8 @@ class Rows(Campaigns):
             self.assertAlmostEqual(float(row["s_per_m"]), time_s / float(row["shortest_m"]), places=5)
             self.assertGreaterEqual(float(row["shortest_m"]), 8 * 2**0.5 - 1e-6)
             self.assertEqual(int(row["ticks"]), round(time_s * 100) + 1)
+            self.assertEqual(row["at_goal"], str(int(float(row["final_distance_m"]) <= 0.1)))
+            self.assertLess(float(row["estimate_error_m"]), 0.01)
             if row["outcome"] == "reached":
                 self.assertLess(float(row["final_distance_m"]), 0.1)
                 self.assertGreater(float(row["ratio"]), 1 - 0.1 / float(row["shortest_m"]) - 1e-6)
@@ -143,6 +145,10 @@ class Summary(Campaigns):
         metres = sum(float(row["path_m"]) for row in rows)
         for column, key in (("stops", "stops_per_m"), ("flips", "flips_per_m"), ("looks", "looks_per_m")):
             self.assertAlmostEqual(summary[key]["all"]["value"], sum(int(r[column]) for r in rows) / metres, places=5)
+        there = [row for row in reached if row["at_goal"] == "1"]
+        self.assertAlmostEqual(summary["at_goal"]["value"], len(there) / COUNT, places=6)
+        errors = sorted(float(row["estimate_error_m"]) for row in rows)
+        self.assertAlmostEqual(summary["estimate_error_m"]["p50"]["value"], errors[(COUNT + 1) // 2 - 1], places=6)
         for key in SHARES:
             share = summary[key]
             self.assertTrue(0 <= share["low"] <= share["value"] <= share["high"] <= 1, key)
@@ -216,6 +222,7 @@ class Folders(Campaigns):
     def test_what_does_not_fit_is_refused(self):
         self.refused("worlds", "--count", 3, says="--seed")
         self.refused("worlds", "--noise", says="--noise")
+        self.refused("worlds", "--wheel-scale-sigma", "0.01", says="--wheel-scale-sigma")
         self.refused("worlds", "--replay", 3, says="whisker run")
         self.refused("elsewhere", says="elsewhere")
         (self.folder / "worlds" / "wrong.toml").write_text("name = 1\n")
@@ -232,6 +239,7 @@ class Refusals(Campaigns):
         self.refused("discs", "--count", "1e3", says="--count")
         self.refused("discs", "--seed", 2**63 - 1, "--count", 2, says="--seed")
         self.refused("maze", "--box", says="maze")
+        self.refused("maze", "--wheel-scale-sigma", "0.01", says="needs noise")
         self.refused("discs", "--svg", "a.svg", says="--replay")
         self.refused("discs", "--replay", 3, "--csv", "a.csv", says="--csv")
         self.refused("discs", "--csv", "nowhere/a.csv", says="nowhere")

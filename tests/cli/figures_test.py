@@ -1,7 +1,9 @@
-"""The committed figures are those that the command draws."""
+"""The committed figures are those that the command draws, and show what the docs say of them."""
 
 import pathlib
+import re
 import tempfile
+import xml.etree.ElementTree
 
 import whisker
 from whisker import Case
@@ -19,6 +21,42 @@ class Figures(Case):
         self.assertEqual(sorted(fresh), sorted(committed))
         for name, picture in fresh.items():
             self.assertTrue(picture == committed[name], f"{name}: build/host/whisker figures docs/figures")
+
+
+class Drives(Case):
+    """One drive of the skirt planner in each class of worlds."""
+
+    def drives(self):
+        drives = {path.stem: path for path in (ROOT / "docs/figures").glob("skirt_*.svg")}
+        self.assertEqual(len(drives), 10)
+        return drives
+
+    def distances(self, path):
+        """(at the hit, on leaving) of each edge in the legend."""
+        texts = [element.text for element in xml.etree.ElementTree.parse(path).iter() if element.tag.endswith("text")]
+        return [tuple(texts[i + 1 : i + 3]) for i, text in enumerate(texts) if re.fullmatch(r"edge \d+", text)]
+
+    def test_leave_each_edge_nearer_to_the_goal_than_ever(self):
+        for name, path in self.drives().items():
+            edges = self.distances(path)
+            self.assertGreater(len(edges), 0, name)
+            if name == "skirt_enclosed":
+                self.assertEqual([left for _, left in edges], ["came round"])
+                continue
+            best = float("inf")
+            for hit, left in ([float(text.removesuffix(" m")) for text in edge] for edge in edges):
+                best = min(best, hit)
+                # By 30 mm, but both are rounded to 10 mm.
+                self.assertGreaterEqual(round(best - left, 2), 0.02, name)
+                best = left
+
+    def test_are_small_and_each_is_in_the_docs(self):
+        text = (ROOT / "docs/skirt-pictures.md").read_text()
+        for name, path in self.drives().items():
+            self.assertLess(path.stat().st_size, 60000, name)
+            self.assertIn(f"](figures/{name}.svg)", text)
+            command = re.search(r">(whisker campaign [^<]*)<", path.read_text()).group(1)
+            self.assertIn(f"`{command}`", text, name)
 
 
 if __name__ == "__main__":

@@ -112,6 +112,9 @@ class Refusals(Case):
         for kind in ("u-trap", "spiral", "maze"):
             self.refused("world", kind, "--seed", "1", "--discs", "3", says=kind)
             self.refused("world", kind, "--seed", "1", "--box", says=kind)
+        self.refused("world", "discs", "--seed", "1", "--wheel-scale-sigma", "0.01", says="needs noise")
+        for sigma in ("-0.1", "-0", "1.1", "nan", "inf", "", "0x1", "1 ", "1%"):
+            self.refused("world", "discs", "--seed", "1", "--noise", "--wheel-scale-sigma", sigma, says="--wheel-scale-sigma")
 
     def test_figures_without_their_scenarios_draw_nothing(self):
         self.refused("figures", "folder", "--scenarios", ".", says="figure8_u_trap.toml:1:1: ")

@@ -15,10 +15,10 @@ OPTIONS = {
     (): ("--help", "--version"),
     ("run",): ("SCENARIO", "--planner", "--robot", "--seed", "--trace", "--svg", "--json"),
     ("campaign",): (
-        "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--planner", "--robot", "--jobs", "--shard", "--csv", "--json",
-        "--merge", "--replay", "--svg", "--trace",
+        "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--robot", "--jobs",
+        "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace",
     ),
-    ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--out", *KINDS),
+    ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
     ("table",): ("--csv", "--svg"),
     ("figures",): ("FOLDER", "--scenarios"),
 }
@@ -38,6 +38,8 @@ class World(Case):
             self.assertEqual(tomllib.loads(text).get("noise"), None)
             noisy = self.made(kind, "--seed", 9, "--noise")
             self.assertGreater(tomllib.loads(noisy)["noise"]["range_sigma_m"], 0)
+            worn = self.made(kind, "--seed", 9, "--noise", "--wheel-scale-sigma", "0.02")
+            self.assertEqual(tomllib.loads(worn), {**tomllib.loads(noisy), "noise": {**tomllib.loads(noisy)["noise"], "wheel_scale_sigma": 0.02}})
             run = whisker.whisker("run", self.file("w.toml", with_time_limit(noisy, 0.5)), "--json")
             self.assertIn(run.returncode, (0, 4), run.stderr)
 

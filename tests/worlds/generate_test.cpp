@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
@@ -67,6 +68,7 @@ TEST_P(EveryKind, HasTheReferenceNoiseOnlyIfAsked) {
   EXPECT_EQ(noisy.noise.range_false_clear, 0.01);
   EXPECT_EQ(noisy.noise.wheel_scale_sigma, 0.0005);
   EXPECT_EQ(noisy.noise.heading_drift_deg_per_sqrt_m, 0.3);
+  EXPECT_EQ(generate(GetParam(), {3, {}, false, true, 0.01}).noise.wheel_scale_sigma, 0.01);
   noisy.noise = {};
   noisy.name = quiet.name;
   EXPECT_EQ(to_toml(noisy), to_toml(quiet));
@@ -85,6 +87,14 @@ TEST(Generate, RefusesOptionsThatAKindDoesNotTake) {
   EXPECT_THROW(generate(Kind::discs, {1, -1, false, false}), std::invalid_argument);
   EXPECT_THROW(generate(Kind::discs, {1, 201, false, false}), std::invalid_argument);
   EXPECT_THROW(generate(Kind::discs, {std::uint64_t{1} << 63, {}, false, false}), std::invalid_argument);
+}
+
+TEST(Generate, RefusesAScaleErrorThatIsNoneOrWithoutNoise) {
+  EXPECT_NO_THROW(generate(Kind::discs, {1, {}, false, true, 0.0}));
+  EXPECT_THROW(generate(Kind::discs, {1, {}, false, false, 0.0}), std::invalid_argument);
+  for (const double sigma : {-1e-9, 1.001, std::nan("")}) {
+    EXPECT_THROW(generate(Kind::discs, {1, {}, false, true, sigma}), std::invalid_argument) << sigma;
+  }
 }
 
 TEST(Generate, GivesUpAloudWhereNoWorldHasAPath) {

@@ -1,0 +1,136 @@
+"""scripts/bars, compare, measure and odometry: what they ask of `whisker campaign` and what they make of its summary.
+
+Behind WHISKER stands a stand-in that notes its arguments and prints one summary, made by the command once.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+
+import whisker
+from whisker import KINDS, PLANNERS, Case
+
+SCRIPTS = pathlib.Path(__file__).resolve().parent.parent.parent / "scripts"
+STAND_IN = '#!/bin/sh\necho "$*" >>"$0.calls"\ncat "$0.json"\nexit "$(cat "$0.status")"\n'
+
+
+class Scripts(Case):
+    def setUp(self):
+        super().setUp()
+        self.command = self.file("whisker", STAND_IN)
+        self.command.chmod(0o755)
+        self.file("whisker.status", "0")
+        done = whisker.whisker("campaign", "discs", "--discs", 0, "--count", 1, "--json")
+        self.summary = json.loads(done.stdout)
+        self.answer()
+
+    def answer(self, **changes):
+        self.file("whisker.json", json.dumps({**self.summary, **changes}))
+
+    def run_script(self, name, *arguments, status=0):
+        done = subprocess.run(
+            [SCRIPTS / name, *map(str, arguments)],
+            env={**os.environ, "WHISKER": str(self.command)},
+            capture_output=True, text=True, timeout=60, check=False,
+        )  # fmt: skip
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def rows(self, done):
+        """The cells of all lines of tables but their rulers."""
+        lines = [line for line in done.stdout.splitlines() if line.startswith("| ")]
+        return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+
+    def calls(self):
+        return [line.split() for line in (self.folder / "whisker.calls").read_text().splitlines()]
+
+
+class Tables(Scripts):
+    def test_have_a_row_for_each_class_and_as_many_cells_as_the_heading(self):
+        for name, arguments, rows in (
+            ("bars", ("--count", 1, "--noisy", 1, "--seed", 1, "--gate"), 20),
+            ("compare", (1,), 8 * 10),
+            ("measure", (1,), 11),
+            ("odometry", (1,), 3 * 6),
+        ):
+            (self.folder / "whisker.calls").unlink(missing_ok=True)
+            table = self.rows(self.run_script(name, *arguments))
+            headings = [row for row in table if row[0] == "world"]
+            self.assertEqual(len(table) - len(headings), rows, name)
+            self.assertEqual({len(row) for row in table}, {len(headings[0])}, name)
+            for call in self.calls():
+                self.assertEqual(call[0], "campaign")
+                self.assertEqual(call[call.index("--count") + 1], "1")
+            kinds = {call[1] for call in self.calls()}
+            self.assertEqual(kinds, {"discs", "maze", "enclosed"} if name == "odometry" else set(KINDS), name)
+
+    def test_show_the_figures_of_the_summary(self):
+        half = {"value": 0.5, "low": 0.25, "high": None}
+        self.answer(reached=half, at_goal={**half, "value": 0.375}, s_per_m={"p50": half, "p95": None}, estimate_error_m={"p50": half, "p95": half})
+        first = self.rows(self.run_script("measure", 2, 7, "skirt"))[1]
+        self.assertEqual(first, ["15 discs", "50.0 %", "0.0 %", "0.0 %", "0.0 %", "0.0 %", "0.5"])
+        self.assertEqual(self.calls()[0], "campaign discs --discs 15 --count 2 --seed 7 --planner skirt --json".split())
+        odometry = self.rows(self.run_script("odometry", 1))[2]
+        self.assertEqual(odometry[:4], ["30 discs", "0.05 %", "50.0 (25.0-?)", "37.5 (25.0-?)"])
+        self.assertEqual(odometry[-2:], ["0.50 (0.25-?)", "0.50 (0.25-?)"])
+        self.answer(s_per_m={"p50": None, "p95": None})
+        self.assertEqual(self.rows(self.run_script("measure", 1))[1][-1], "-")
+
+    def test_compare_asks_every_planner_for_the_same_worlds(self):
+        self.run_script("compare", 3, 40)
+        planners = {call[call.index("--planner") + 1] for call in self.calls()}
+        self.assertEqual(planners, set(PLANNERS))
+        self.assertEqual({tuple(call[call.index("--count") :][:4]) for call in self.calls()}, {("--count", "3", "--seed", "40")})
+
+    def test_odometry_varies_nothing_but_the_wheels(self):
+        self.run_script("odometry", 3, 40)
+        mazes = [call for call in self.calls() if call[1] == "maze"]
+        sigmas = [call[call.index("--wheel-scale-sigma") + 1] for call in mazes]
+        self.assertEqual(sigmas, ["0", "0.0005", "0.001", "0.002", "0.005", "0.01"])
+        rest = {tuple(word for word in call if word not in sigmas) for call in mazes}
+        self.assertEqual(rest, {("campaign", "maze", "--count", "3", "--seed", "40", "--noise", "--wheel-scale-sigma", "--json")})
+
+
+class Status(Scripts):
+    def test_bars_that_are_missed_are_counted(self):
+        slow = {"value": 99, "low": 99, "high": 99}
+        self.answer(s_per_m={"p50": slow, "p95": slow}, ratio=dict.fromkeys(("mean", "p50", "p95"), None))
+        done = self.run_script("bars", "--count", 1, "--noisy", 0, "--seed", 1, status=1)
+        self.assertIn("bars: 9 figures miss their bar", done.stderr)
+        self.assertEqual(done.stdout.count("**99.00 / "), 9)
+
+    def test_the_gate_asks_for_no_contact_and_for_success(self):
+        share = lambda value: {"value": value, "low": 0, "high": 1}
+        gate = ("bars", "--count", 1, "--noisy", 1, "--seed", 1, "--gate")
+        self.run_script(*gate)
+        self.answer(contact=share(0.01))
+        self.assertIn("20 classes fail the gate", self.run_script(*gate, status=1).stderr)
+        self.answer(success=share(0.84))
+        self.assertIn("10 classes fail the gate", self.run_script(*gate, status=1).stderr)
+
+    def test_a_fault_is_a_failure(self):
+        self.answer(missions=4, fault={"value": 0.25, "low": 0, "high": 1})
+        self.assertIn("measure: 11 runs ended in a fault", self.run_script("measure", 4, status=1).stderr)
+        self.assertIn("compare: 70 runs ended in a fault", self.run_script("compare", 4, status=1).stderr)
+
+    def test_a_campaign_that_fails_is_named(self):
+        self.file("whisker.status", "7")
+        for name, *arguments in (("bars", "--seed", 1), ("compare",), ("measure",), ("odometry",)):
+            done = self.run_script(name, *arguments, status=1)
+            self.assertRegex(done.stderr, rf"\A{name}: whisker campaign discs [^\n]*: exit status 7\n\Z")
+
+    def test_a_missing_command_is_named(self):
+        self.command.unlink()
+        for name in ("bars", "compare", "measure", "odometry"):
+            done = self.run_script(name, status=1)
+            self.assertRegex(done.stderr, rf"\A{name}: [^\n]* is missing: cmake [^\n]*\n\Z")
+
+    def test_arguments_that_are_no_numbers_get_the_usage(self):
+        for name in ("compare", "measure", "odometry"):
+            for wrong in (("x",), ("-1",), ("1", "1.5")):
+                self.assertIn(f"usage: scripts/{name} ", self.run_script(name, *wrong, status=2).stderr)
+
+
+if __name__ == "__main__":
+    whisker.main()
