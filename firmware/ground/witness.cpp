@@ -42,26 +42,27 @@ void Witness::add(const Pose& from, Time taken, const Length (&free)[kBeams]) no
 }
 
 Witness::Mask Witness::holding(Vec point, Mask among) const noexcept {
+  const Q30 sine = sin(half_);
+  const Q30 cosine = cos(half_);
   Mask holding = 0;
   for (int n = 0; n < count_; ++n) {
     const Mask beams = among >> (n * kBeams) & ((1U << kBeams) - 1);
     if (beams == 0) continue;
     const Scan& scan = scan_[n];
     const Vec rel = point - scan.at;
-    if (norm(rel) > kFarthest) continue;
+    const Length reach = norm(rel);
+    if (reach > kFarthest) continue;
     const Angle direction = bearing(rel) - scan.heading;
     for (int i = 0; i < kBeams; ++i) {
       if ((beams >> i & 1U) == 0) continue;
       const Angle off = direction - beam_axis(side_, i);
       if (magnitude(off) > (90_deg).raw()) continue;
-      const Length reach = norm(rel);
       const Length forward = reach * cos(off) - offset_;
       const Length aside = abs(reach * sin(off));
-      const Length from_apex = norm({forward, aside});
-      if ((from_apex + kSlack).raw() / kUm > scan.free[i]) continue;
       // Across the nearer edge.
-      const Length inside = forward * sin(half_) - aside * cos(half_);
-      if (inside >= kSlack) holding |= 1U << (n * kBeams + i);
+      if (forward * sine - aside * cosine < kSlack) continue;
+      const Length from_apex = norm({forward, aside});
+      if ((from_apex + kSlack).raw() / kUm <= scan.free[i]) holding |= 1U << (n * kBeams + i);
     }
   }
   return holding;

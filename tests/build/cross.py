@@ -14,7 +14,8 @@ from symbols import forbidden
 COMMON = ["-std=c++17", "-fno-exceptions", "-fno-rtti", "-c"]
 TARGETS = {
     "arm": ["-mcpu=cortex-m0plus", "-mthumb", "-Os", "-ffreestanding"],
-    "avr": ["--target=avr", "-mmcu=atmega328p", "-Os", "-ffreestanding"],
+    # With the compiler's own headers: the stdint.h of avr-libc, where that is installed, hides limits from C++.
+    "avr": ["--target=avr", "-mmcu=atmega328p", "-Os", "-ffreestanding", "-nostdlibinc"],
     # With g++ for x86 a floating-point operation is then an error.
     "no-float": ["-mgeneral-regs-only", "-O2"],
 }

@@ -1,0 +1,118 @@
+#include "firmware/nav/circuit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/nav/ground.hpp"
+
+namespace whisker::nav {
+namespace {
+
+using test::degrees;
+
+/// A body that drives round, counter-clockwise; its place on the circle is the heading's.
+class Round {
+ public:
+  Round(Circuit& circuit, Length radius) : circuit_(circuit), radius_(radius) { place(); }
+
+  void begin() {
+    circuit_.begin(pose_.at, Params{});
+    circuit_.head(pose_.heading);
+  }
+  /// One degree further; the circle's centre may drift.
+  void drive(Vec drift = {}) {
+    const Pose before = pose_;
+    centre_ = centre_ + drift;
+    ++deg_;
+    place();
+    circuit_.move(pose_, norm(pose_.at - before.at), pose_.heading - before.heading);
+  }
+  void jump(Vec by) {
+    centre_ = centre_ + by;
+    place();
+  }
+  const Pose& pose() const { return pose_; }
+
+ private:
+  void place() { pose_ = {centre_ + polar(degrees(deg_) - 90_deg, radius_), degrees(deg_)}; }
+  Circuit& circuit_;
+  Length radius_;
+  Vec centre_;
+  int deg_ = 0;
+  Pose pose_;
+};
+
+TEST(Circuit, ClosesWhereItBeganAfterAWholeTurn) {
+  for (const Length radius : {300_mm, 1_m, 3_m}) {
+    Circuit circuit;
+    Round round(circuit, radius);
+    round.begin();
+    int closed = 0;
+    for (int deg = 1; deg <= 380 && closed == 0; ++deg) {
+      round.drive();
+      if (circuit.closed(round.pose())) closed = deg;
+    }
+    EXPECT_GE(closed, 300);
+    EXPECT_LE(closed, 360);
+  }
+}
+
+TEST(Circuit, DoesNotCloseOnTheSpot) {
+  Circuit circuit;
+  Round round(circuit, 20_mm);
+  round.begin();
+  for (int deg = 1; deg <= 1000; ++deg) {
+    round.drive();
+    EXPECT_FALSE(circuit.closed(round.pose())) << deg;
+  }
+}
+
+TEST(Circuit, DoesNotCloseTheOtherWayRound) {
+  Circuit circuit;
+  Round round(circuit, 500_mm);
+  round.begin();
+  circuit.head(round.pose().heading + 180_deg);
+  for (int deg = 1; deg <= 720; ++deg) {
+    round.drive();
+    EXPECT_FALSE(circuit.closed(round.pose())) << deg;
+  }
+}
+
+TEST(Circuit, DoesNotCloseWithoutAWholeTurn) {
+  Circuit circuit;
+  const Pose here;
+  circuit.begin(here.at, Params{});
+  circuit.head(here.heading);
+  circuit.move({{1_m, 0_mm}, {}}, 1_m, {});
+  circuit.move(here, 1_m, {});
+  EXPECT_FALSE(circuit.closed(here));
+}
+
+// It was met elsewhere: this is another obstacle.
+TEST(Circuit, StraysRoundSomethingElse) {
+  Circuit circuit;
+  Round round(circuit, 500_mm);
+  round.begin();
+  round.jump({3_m, 0_mm});
+  int strays = 0;
+  for (int deg = 1; deg <= 1000 && strays == 0; ++deg) {
+    round.drive();
+    EXPECT_FALSE(circuit.closed(round.pose()));
+    if (circuit.strays(round.pose())) strays = deg;
+  }
+  EXPECT_NEAR(strays, 720, 2) << "two laps that end in one place";
+}
+
+TEST(Circuit, DoesNotStrayWhileItGetsOn) {
+  Circuit circuit;
+  Round round(circuit, 500_mm);
+  round.begin();
+  for (int deg = 1; deg <= 2000; ++deg) {
+    round.drive({2_mm, 0_mm});
+    ASSERT_FALSE(circuit.strays(round.pose())) << deg;
+  }
+}
+
+}  // namespace
+}  // namespace whisker::nav

@@ -1,0 +1,68 @@
+#include "firmware/nav/stall.hpp"
+
+#include <gtest/gtest.h>
+
+namespace whisker::nav {
+namespace {
+
+constexpr int32_t kPatience = 80;
+
+View driving(Speed forward, Q14 granted, Speed turning = {}) {
+  View v;
+  v.forward = forward;
+  v.granted = granted;
+  v.turning = turning;
+  return v;
+}
+
+const Q14 kAll = Q14::ratio(1, 1);
+const Q14 kHalf = Q14::ratio(1, 2);
+constexpr Speed kTurning = 100_mm_per_s;
+
+/// Ticks until it says so; 1000: never.
+int ticks(Stall& stall, const View& v) {
+  for (int n = 1; n < 1000; ++n) {
+    if (stall.stalled(v, kPatience, Params{})) return n;
+  }
+  return 1000;
+}
+
+TEST(Stall, IsPatientWithABodyThatIsSlow) {
+  Stall stall;
+  EXPECT_EQ(ticks(stall, driving({}, kAll)), kPatience);
+  stall.reset();
+  EXPECT_EQ(ticks(stall, driving({}, kAll)), kPatience);
+}
+
+TEST(Stall, IsLessPatientWhereTheShieldHoldsBack) {
+  Stall stall;
+  EXPECT_EQ(ticks(stall, driving({}, kHalf)), kPatience / 4);
+  stall.reset();
+  EXPECT_EQ(ticks(stall, driving({}, kHalf, kTurning)), kPatience) << "while it turns, readings show more";
+  stall.reset();
+  EXPECT_EQ(ticks(stall, driving({}, kHalf, -kTurning)), kPatience);
+}
+
+TEST(Stall, BeginsAgainWhenTheBodyGetsOn) {
+  Stall stall;
+  const View stands = driving({}, kAll);
+  for (int n = 1; n < kPatience; ++n) ASSERT_FALSE(stall.stalled(stands, kPatience, Params{}));
+  EXPECT_FALSE(stall.stalled(driving(200_mm_per_s, kHalf), kPatience, Params{}));
+  EXPECT_EQ(ticks(stall, stands), kPatience);
+  EXPECT_EQ(ticks(stall, driving(200_mm_per_s, kHalf)), 1000);
+}
+
+TEST(Stall, ItsPatienceLeavesTimeToStart) {
+  const Params reference;
+  EXPECT_EQ(patience(reference), 80) << "0.8 s of ticks, of which one at which it is held counts four";
+  Params slow = reference;
+  slow.rangefinders.rate_hz = 10;
+  slow.wheels.motor_lag = 300_ms;
+  EXPECT_GT(patience(slow), 3 * patience(reference));
+  Params fine = reference;
+  fine.safety.period = 5_ms;
+  EXPECT_EQ(patience(fine), 2 * patience(reference)) << "the same time";
+}
+
+}  // namespace
+}  // namespace whisker::nav
