@@ -58,7 +58,7 @@ void add_world(CLI::App& app, int& status) {
   add_switch(*cmd, "--box", o->world.box, "A closed box around it (kinds discs, poles, enclosed)");
   add_switch(*cmd, "--noise", o->world.noise, "With the reference robot's sensor noise and odometry error");
   add_wheel_scale_sigma(*cmd, o->world.wheel_scale_sigma,
-                        "With --noise: scale error of the wheels, instead of 0.0005");
+                        "With --noise: scale error of the wheels, instead of 0.0001");
   add_file(*cmd, "--out", o->out, "File to write, instead of standard output");
   cmd->callback([o, &status] { status = execute(*o); });
 }

@@ -63,7 +63,7 @@ Noise reference_noise(const Options& o) {
   n.range_sigma_m = 0.01;
   n.range_dropout = 0.02;
   n.range_false_clear = 0.01;
-  n.wheel_scale_sigma = o.wheel_scale_sigma.value_or(0.0005);
+  n.wheel_scale_sigma = o.wheel_scale_sigma.value_or(0.0001);
   n.heading_drift_deg_per_sqrt_m = 0.3;
   return n;
 }

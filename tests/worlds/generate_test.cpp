@@ -66,7 +66,7 @@ TEST_P(EveryKind, HasTheReferenceNoiseOnlyIfAsked) {
   EXPECT_EQ(noisy.noise.range_sigma_m, 0.01);
   EXPECT_EQ(noisy.noise.range_dropout, 0.02);
   EXPECT_EQ(noisy.noise.range_false_clear, 0.01);
-  EXPECT_EQ(noisy.noise.wheel_scale_sigma, 0.0005);
+  EXPECT_EQ(noisy.noise.wheel_scale_sigma, 0.0001);
   EXPECT_EQ(noisy.noise.heading_drift_deg_per_sqrt_m, 0.3);
   EXPECT_EQ(generate(GetParam(), {3, {}, false, true, 0.01}).noise.wheel_scale_sigma, 0.01);
   noisy.noise = {};
