@@ -28,9 +28,11 @@ TEST(Trail, LeadsBack) {
     pose.at = polar(30_deg, millimetres(mm));
     trail.add(pose.at);
     if (mm < 300) continue;
-    const Length back = norm(pose.at - trail.near());
-    EXPECT_GE(back, kApart * 2 - 1_mm);
-    EXPECT_LE(back, kApart * 3 + 4_mm);
+    for (int n = 0; n < Trail::kPlaces; ++n) {
+      const Length back = norm(pose.at - trail.back(n));
+      EXPECT_GE(back, kApart * n - 1_mm);
+      EXPECT_LE(back, kApart * (n + 1) + 4_mm);
+    }
     EXPECT_NEAR(in_degrees(trail.way_back(pose) - 210_deg), 0, 0.1);
   }
 }
