@@ -72,7 +72,8 @@ Reach reach(const Params& p) noexcept {
   const Length planning = covered + p.skirt.planning_margin;
   const bool given = p.skirt.probe != Length{};
   const Length within = min(p.body.radius * 5 / 3, patch_cell(p) * kHalfWindow - planning);
-  return {covered + p.skirt.shield_margin, planning, given ? p.skirt.probe : within};
+  return {p.body.radius + p.skirt.shield_margin, p.body.radius + p.skirt.planning_margin,
+          given ? p.skirt.probe : within};
 }
 
 ParamFault check(const Params& p) noexcept {

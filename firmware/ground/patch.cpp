@@ -35,11 +35,11 @@ void Patch::configure(const Params& params) noexcept {
   cell_um_ = patch_cell(params).raw();
   offset_ = params.rangefinders.offset;
   half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
-  footprint_ = units(params.body.radius) - kCellCover;
+  footprint_ = units(params.body.radius);
   const int32_t blind = units(blind_reach(params)) + kUnitsPerCell;
-  placed_free_ = blind_reach(params) > params.body.radius - cell_cover(params) ? blind : footprint_;
+  placed_free_ = blind_reach(params) > params.body.radius - cell_cover(params) ? blind + kCellCover : footprint_;
   reach_ = whisker::reach(params);
-  ring_ = units(reach_.planning) + kUnitsPerCell;
+  ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
   age_travel_ = params.skirt.age_travel;
   age_turn_ = params.skirt.age_turn.raw();
   approach_ = params.skirt.mover_speed * time_to_stop(params);
@@ -140,7 +140,7 @@ void Patch::clear_around(Vec at, int32_t reach) noexcept {
   const Point centre = local(at);
   for (Rows rows(centre.y, reach); rows.more(); rows.next()) {
     Span span;
-    span.within_disc(centre.x, rows.offset(centre.y), reach);
+    span.inside_disc(centre.x, rows.offset(centre.y), reach);
     const Row mask = to_torus(span.columns());
     const int s = slot(rows.row());
     young_[s] |= mask;
@@ -154,18 +154,18 @@ void Patch::mark(const Proof& proof) noexcept {
   if (!nearby(apex.x) || !nearby(apex.y)) return;
   if (proof.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && proof.hit ? approach_ : Length{};
-  const int32_t free = units(proof.free - room - kReadingRounding) - kCellCover;
+  const int32_t free = units(proof.free - room - kReadingRounding);
   const int32_t echo = units(proof.free) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
   const Wedge core(axis, half_cone_.raw() < kSuspectHalf.raw() ? half_cone_ : kSuspectHalf);
   for (int row = 0; row < kCells; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
     Span inside;
-    cone.clip(inside, apex.x, dy, kCellCover);
+    cone.hold(inside, apex.x, dy);
     if (inside.empty()) continue;
     const int s = slot(row);
     Span empty = inside;
-    empty.within_disc(apex.x, dy, free);
+    empty.inside_disc(apex.x, dy, free);
     const Row clear = to_torus(empty.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;
@@ -204,7 +204,7 @@ void Patch::doubt(const Proof& proof, Length farthest) noexcept {
     Span nearer;
     nearer.within_disc(apex.x, dy, nearest);
     Span under;
-    under.within_disc(body.x, row * kUnitsPerCell + kHalfCell - body.y, footprint_);
+    under.within_disc(body.x, row * kUnitsPerCell + kHalfCell - body.y, footprint_ - kCellCover);
     const Row taken = to_torus(around.columns() & ~nearer.columns() & ~under.columns());
     Span echo;
     cone.clip(echo, apex.x, dy, 0);

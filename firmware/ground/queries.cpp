@@ -49,12 +49,13 @@ bool Patch::approaches(const Vec& from, Angle heading, Length step, Length radiu
   const Point there = local(from + polar(heading, step));
   const int32_t reach = units(radius);
   const int32_t half = units(step / 2);
+  constexpr int32_t kBeside = kHalfCell + 3;
   // What lies beyond the window is not known.
-  if (!in_window(there, reach)) return true;
+  if (!in_window(there, reach + kBeside)) return true;
   const HalfPlane ahead = HalfPlane::facing(heading);
-  for (Rows rows(there.y, reach); rows.more(); rows.next()) {
+  for (Rows rows(there.y, reach + kBeside); rows.more(); rows.next()) {
     Span span;
-    span.within_disc(there.x, rows.offset(there.y), reach);
+    span.touched_by_disc(there.x, rows.offset(there.y), reach);
     ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
     if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return true;
   }
@@ -63,11 +64,12 @@ bool Patch::approaches(const Vec& from, Angle heading, Length step, Length radiu
 
 bool Patch::all_clear(Vec centre, Length radius) const noexcept {
   const Point at = local(centre);
-  const int32_t reach = units(radius) + kCellCover;
-  if (!in_window(at, reach)) return false;
-  for (Rows rows(at.y, reach); rows.more(); rows.next()) {
+  const int32_t reach = units(radius);
+  constexpr int32_t kBeside = kHalfCell + 3;
+  if (!in_window(at, reach + kBeside)) return false;
+  for (Rows rows(at.y, reach + kBeside); rows.more(); rows.next()) {
     Span span;
-    span.within_disc(at.x, rows.offset(at.y), reach);
+    span.touched_by_disc(at.x, rows.offset(at.y), reach);
     if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return false;
   }
   return true;

@@ -7,11 +7,25 @@ namespace {
 
 int32_t q14(Q30 x) noexcept { return static_cast<int32_t>(scale_down<16>(int64_t{x.raw()})); }
 
+constexpr int32_t kRounding = 3;
+
 /// Of the disc around x in a row that lies dy from its centre.
 Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
   if (radius < 0 || dy > radius || dy < -radius) return {INT16_MAX, -INT16_MAX};
   const int32_t half = root(static_cast<uint32_t>(radius * radius - dy * dy));
   return {x - half, x + half};
+}
+
+/// Of the cells that the disc around x touches.
+Span touch(int32_t x, int32_t dy, int32_t radius) noexcept {
+  const int32_t off = (dy < 0 ? -dy : dy) - kHalfCell - kRounding;
+  const Span span = chord(x, off < 0 ? 0 : off, radius);
+  return {span.low - kHalfCell - kRounding, span.high + kHalfCell + kRounding};
+}
+
+/// How far the corner of a cell lies from its centre in the direction of this normal.
+int32_t corner(int32_t nx, int32_t ny) noexcept {
+  return (((nx < 0 ? -nx : nx) + (ny < 0 ? -ny : ny)) * kHalfCell >> 14) + kRounding;
 }
 
 }  // namespace
@@ -47,6 +61,18 @@ void Span::within_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
   cut_high(inside.high);
 }
 
+void Span::inside_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
+  const Span span = chord(x, (dy < 0 ? -dy : dy) + kHalfCell + kRounding, radius);
+  cut_low(span.low + kHalfCell + kRounding);
+  cut_high(span.high - kHalfCell - kRounding);
+}
+
+void Span::touched_by_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
+  const Span span = touch(x, dy, radius);
+  cut_low(span.low);
+  cut_high(span.high);
+}
+
 Row Span::columns() const noexcept {
   int first = static_cast<int>(ceil_div(low - kHalfCell, kUnitsPerCell));
   int last = static_cast<int>(floor_div(high - kHalfCell, kUnitsPerCell));
@@ -80,6 +106,11 @@ Wedge::Wedge(Angle axis, Angle half) noexcept
     : left_{q14(sin(axis + half)), -q14(cos(axis + half))},
       right_{-q14(sin(axis - half)), q14(cos(axis - half))} {}
 
+void Wedge::hold(Span& span, int32_t x, int32_t dy) const noexcept {
+  left_.clip(span, x, dy, corner(left_.nx, left_.ny));
+  right_.clip(span, x, dy, corner(right_.nx, right_.ny));
+}
+
 void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
   left_.clip(span, x, dy, margin);
   right_.clip(span, x, dy, margin);
@@ -93,29 +124,31 @@ Stadium::Stadium(const Sweep& sweep) noexcept
       abeam_(sweep.abeam),
       ux_(q14(cos(sweep.heading))),
       uy_(q14(sin(sweep.heading))) {
+  beside_ = radius_ + corner(ux_, uy_);
   end_x_ = scale_down<14>(ux_ * length_);
   end_y_ = scale_down<14>(uy_ * length_);
 }
 
 Rows Stadium::rows() const noexcept {
-  return end_y_ < 0 ? Rows(y_ + end_y_, y_, radius_) : Rows(y_, y_ + end_y_, radius_);
+  const int32_t reach = radius_ + kHalfCell + kRounding;
+  return end_y_ < 0 ? Rows(y_ + end_y_, y_, reach) : Rows(y_, y_ + end_y_, reach);
 }
 
 void Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
   // Where the row crosses the way's long side, if it does.
-  const int32_t from_y = dy - sign * scale_down<14>(ux_ * radius_);
+  const int32_t from_y = dy - sign * scale_down<14>(ux_ * beside_);
   if (uy_ == 0) return;
   const int64_t t = divide_rounded(int64_t{from_y} * 16384, uy_ > 0 ? uy_ : -uy_) * (uy_ > 0 ? 1 : -1);
   if (t < 0 || t > length_) return;
-  const int32_t x = x_ - sign * scale_down<14>(uy_ * radius_) + scale_down<14>(ux_ * static_cast<int32_t>(t));
+  const int32_t x = x_ - sign * scale_down<14>(uy_ * beside_) + scale_down<14>(ux_ * static_cast<int32_t>(t));
   if (x < span.low) span.low = x;
   if (x > span.high) span.high = x;
 }
 
 Row Stadium::columns(int row) const noexcept {
   const int32_t dy = row * kUnitsPerCell + kHalfCell - y_;
-  Span span = chord(x_, dy, radius_);
-  const Span end = chord(x_ + end_x_, dy - end_y_, radius_);
+  Span span = touch(x_, dy, radius_);
+  const Span end = touch(x_ + end_x_, dy - end_y_, radius_);
   if (end.low < span.low) span.low = end.low;
   if (end.high > span.high) span.high = end.high;
   side(span, dy, 1);

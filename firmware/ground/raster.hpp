@@ -44,7 +44,10 @@ struct Span {
   int32_t high = (kCells + 1) * kUnitsPerCell;
 
   bool empty() const noexcept { return low > high; }
+  /// Cells whose centres lie in this disc; those that it holds wholly; those that it touches.
   void within_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
+  void inside_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
+  void touched_by_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
   void cut_low(int32_t x) noexcept {
     if (x > low) low = x;
   }
@@ -84,6 +87,8 @@ struct HalfPlane {
 class Wedge {
  public:
   Wedge(Angle axis, Angle half) noexcept;
+  /// Leaves the cells of the row that lie wholly inside.
+  void hold(Span& span, int32_t x, int32_t dy) const noexcept;
   /// Leaves the part of the row that is at least `margin` inside both edges.
   void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
 
@@ -113,7 +118,7 @@ class Stadium {
   void side(Span& span, int32_t dy, int32_t sign) const noexcept;
   int32_t x_, y_;
   int32_t end_x_, end_y_;  // from the beginning
-  int32_t length_, radius_, abeam_;
+  int32_t length_, radius_, abeam_, beside_;
   int32_t ux_, uy_;  // direction, 2^-14
 };
 
