@@ -157,8 +157,7 @@ void Robot::map(bool settled, nav::View& view) noexcept {
 
 void Robot::guard(nav::Manoeuvre& manoeuvre) noexcept {
   if (manoeuvre.kind != nav::Kind::cruise) return;
-  const motion::Grant grant = motion::shield({manoeuvre.forward, manoeuvre.turning, manoeuvre.retraces},
-                                             status_.pose, driver_.wheels(), patch_, params_);
+  const motion::Grant grant = motion::shield(manoeuvre, status_.pose, driver_.wheels(), patch_, params_);
   manoeuvre.forward = grant.forward;
   manoeuvre.turning = grant.turning;
   granted_ = grant.factor;
