@@ -19,6 +19,7 @@ OPTIONS = {
         "--merge", "--replay", "--svg", "--trace",
     ),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--out", *KINDS),
+    ("movers",): ("--count", "--seed", "--planner", "--contacts"),
     ("table",): ("--csv", "--svg"),
     ("figures",): ("FOLDER", "--scenarios"),
 }
