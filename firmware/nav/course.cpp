@@ -9,6 +9,10 @@ namespace {
 constexpr Angle kStep = Angle::turns(1, kFan);
 constexpr int32_t kSteps = 10;  // to 75 degrees
 constexpr uint32_t kStraight = (1_deg).raw();
+// What stands there may begin to move: where there is room, more of it is left on a course that is not far
+// off.
+constexpr Length kRoom = 30_mm;
+constexpr int32_t kRoomSteps = 6;  // to 45 degrees
 
 }  // namespace
 
@@ -35,23 +39,26 @@ bool Course::choose(const View& view, const Vec& to_goal, BendLaw& law, const Pa
   bend_towards(view.sight.beam[hal::kFront].distance >= distance ? Angle{} : bend);
 
   const Reach& reach = view.patch->reach();
-  const auto passable = [&](Angle heading) {
-    heading_ = heading;
-    return way(view, heading, min(reach.probe, distance), reach.planning) != Way::blocked;
-  };
-  decision.why = magnitude(bend_) > kStraight ? Why::table : Why::target_free;
-  if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)))) return true;
-  decision.why = Why::narrow;
-  if (passable(target)) return true;
-  for (int32_t i = 1; i <= kSteps; ++i) {
-    const Angle off = kStep * (i * sign(wall));
-    if (passable(target - off)) return true;
-    if (passable(target + off)) {
-      wall = opposite(wall);
-      return true;
+  const auto found = [&](Length beside, int32_t steps) {
+    const auto passable = [&](Angle heading) {
+      heading_ = heading;
+      return way(view, heading, min(reach.probe, distance), beside) != Way::blocked;
+    };
+    decision.why = magnitude(bend_) > kStraight ? Why::table : Why::target_free;
+    if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)))) return true;
+    decision.why = Why::narrow;
+    if (passable(target)) return true;
+    for (int32_t i = 1; i <= steps; ++i) {
+      const Angle off = kStep * (i * sign(wall));
+      if (passable(target - off)) return true;
+      if (passable(target + off)) {
+        wall = opposite(wall);
+        return true;
+      }
     }
-  }
-  return false;
+    return false;
+  };
+  return found(reach.planning + for_body(params, kRoom), kRoomSteps) || found(reach.planning, kSteps);
 }
 
 }  // namespace whisker::nav

@@ -8,6 +8,7 @@
 #include "host/scenario/load.hpp"
 #include "host/scenario/write.hpp"
 #include "host/worlds/meeting.hpp"
+#include "tests/effort.hpp"
 
 namespace whisker::campaign {
 namespace {
@@ -113,6 +114,22 @@ TEST(MeetingCount, CountsEachContactOnce) {
   EXPECT_EQ(count.shown, 2U);
   EXPECT_EQ(count.seen, 1U);
 }
+
+class MeetAt : public testing::TestWithParam<double> {};
+
+// What it could have seen in time it does not run into.
+TEST_P(MeetAt, NothingThatWasSeenIsTouchedByAMovingRobot) {
+  for (const Course course : {Course::oncoming, Course::crossing}) {
+    MeetingCount count;
+    for (std::uint64_t seed = 1; seed <= test::effort(200); ++seed) {
+      count.add(meet(worlds::meeting(course, GetParam(), seed), PlannerKind::skirt));
+    }
+    EXPECT_EQ(count.seen, 0U) << name(course);
+    EXPECT_GT(count.said, count.missions / 4) << name(course);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Speed, MeetAt, testing::Values(0.05, 0.1, 0.2, 0.3));
 
 }  // namespace
 }  // namespace whisker::campaign
