@@ -11,6 +11,10 @@ constexpr int32_t kSteps = 10;  // to 75 degrees
 constexpr Angle kFineStep = Angle::turns(1, 3 * kFan);
 constexpr int32_t kNearlyFree = 5;  // cells; a gap as wide as the body is free between two of the steps
 constexpr uint32_t kStraight = (1_deg).raw();
+// What stands there may begin to move: where there is room, more of it is left on a course that is not far
+// off.
+constexpr Length kRoom = 30_mm;
+constexpr int32_t kRoomSteps = 6;  // to 45 degrees
 
 }  // namespace
 
@@ -41,33 +45,38 @@ bool Course::choose(const View& view, const Vec& to_goal, BendLaw& law, const Pa
   int32_t least = kNearlyFree + 1;
   Angle nearly;
   Side aside = wall;
-  const auto in_the_way = [&](Angle heading) {
+  const auto in_the_way = [&](Angle heading, Length beside) {
     heading_ = heading;
-    return view.patch->along(view.pose.at, heading, length, reach.planning).suspect;
+    return view.patch->along(view.pose.at, heading, length, beside).suspect;
   };
-  const auto passable = [&](Angle heading, Side then) {
-    const int32_t cells = in_the_way(heading);
-    if (cells == 0) {
-      wall = then;
-    } else if (cells < least) {
-      least = cells;
-      nearly = heading;
-      aside = then;
+  const auto found = [&](Length beside, int32_t steps) {
+    const auto passable = [&](Angle heading, Side then) {
+      const int32_t cells = in_the_way(heading, beside);
+      if (cells == 0) {
+        wall = then;
+      } else if (cells < least) {
+        least = cells;
+        nearly = heading;
+        aside = then;
+      }
+      return cells == 0;
+    };
+    least = kNearlyFree + 1;
+    decision.why = magnitude(bend_) > kStraight ? Why::table : Why::target_free;
+    if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)), wall)) return true;
+    decision.why = Why::narrow;
+    if (passable(target, wall)) return true;
+    for (int32_t i = 1; i <= steps; ++i) {
+      const Angle off = kStep * (i * sign(wall));
+      if (passable(target - off, wall) || passable(target + off, opposite(wall))) return true;
     }
-    return cells == 0;
+    return false;
   };
-  decision.why = magnitude(bend_) > kStraight ? Why::table : Why::target_free;
-  if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)), wall)) return true;
-  decision.why = Why::narrow;
-  if (passable(target, wall)) return true;
-  for (int32_t i = 1; i <= kSteps; ++i) {
-    const Angle off = kStep * (i * sign(wall));
-    if (passable(target - off, wall) || passable(target + off, opposite(wall))) return true;
-  }
+  if (found(reach.planning + for_body(params, kRoom), kRoomSteps) || found(reach.planning, kSteps)) return true;
   if (least > kNearlyFree) return false;
   for (int32_t i = 1; i <= 2; ++i) {
     const Angle off = kFineStep * i;
-    if (in_the_way(nearly - off) == 0 || in_the_way(nearly + off) == 0) {
+    if (in_the_way(nearly - off, reach.planning) == 0 || in_the_way(nearly + off, reach.planning) == 0) {
       wall = aside;
       return true;
     }

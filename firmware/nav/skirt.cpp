@@ -13,6 +13,7 @@ constexpr int8_t kEscapes = 6;
 
 constexpr Angle kCheapTurn = 25_deg;
 constexpr Q14 kHindered = Q14::ratio(9, 10);
+constexpr Q14 kAll = Q14::ratio(1, 1);
 
 constexpr Length kCommit = 60_mm;
 constexpr Length kOpeningEvery = 100_mm;
@@ -35,8 +36,29 @@ void SkirtPlanner::start(const View& view) noexcept {
 }
 
 void SkirtPlanner::advance(const View& view) noexcept {
+  if (decision_.why == Why::something_moves) decision_.why = otherwise_;
   keep_account(view);
   act(view);
+  if (gives_way(view)) {
+    otherwise_ = decision_.why;
+    decision_.why = Why::something_moves;
+  }
+}
+
+bool SkirtPlanner::gives_way(const View& view) const noexcept {
+  if (decision_.outcome != Outcome::running || !view.patch->doubting()) return false;
+  switch (phase_) {
+    case Phase::survey: break;
+    case Phase::go: return view.granted < kAll || decision_.why == Why::narrow;
+    case Phase::brake:
+    case Phase::depart:
+    case Phase::follow: return view.granted < kAll;
+    case Phase::look:
+    case Phase::exits:
+    case Phase::feel:
+    case Phase::retreat: return true;
+  }
+  return false;
 }
 
 void SkirtPlanner::keep_account(const View& view) noexcept {

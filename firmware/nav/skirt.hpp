@@ -48,6 +48,8 @@ class SkirtPlanner final : public GoalPlanner {
   void advance(const View& view) noexcept override;
   void keep_account(const View& view) noexcept;
   void act(const View& view) noexcept;
+  /// Something moves, and what the body does now is due to that.
+  bool gives_way(const View& view) const noexcept;
 
   void survey(const View& view) noexcept;
   void go(const View& view) noexcept;
@@ -97,7 +99,8 @@ class SkirtPlanner final : public GoalPlanner {
   int32_t felt_mm_ = 0;       // travel at which it last felt for openings
   int32_t commit_mm_ = 0;     // travel until which the chosen heading is kept
   int8_t escapes_ = 0;
-  bool turned_back_ = false;  // came round once: going round the other way
+  bool turned_back_ = false;   // came round once: going round the other way
+  Why otherwise_ = Why::none;  // the reason, if nothing moved
 };
 
 /// The planner as it is meant: its course bends by the response table.

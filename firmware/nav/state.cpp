@@ -40,6 +40,7 @@ const char* name(Why why) noexcept {
     case Why::way_back: return "way_back";
     case Why::wall_lost: return "wall_lost";
     case Why::came_round: return "came_round";
+    case Why::something_moves: return "something_moves";
     case Why::at_goal: return "at_goal";
     case Why::no_exit: return "no_exit";
     case Why::step_budget: return "step_budget";

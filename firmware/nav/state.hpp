@@ -27,21 +27,22 @@ constexpr int kModes = 14;
 /// Why it does that.
 enum class Why : uint8_t {
   none,
-  goal_set,        ///< a new goal
-  target_free,     ///< nothing near in the target direction: straight on
-  table,           ///< the response table turned the step away from the target direction
-  narrow,          ///< the planned step is not free: deflected by delta
-  target_blocked,  ///< an obstacle in the target direction within the danger range
-  exit_left,       ///< the exit on the left needs the smaller turn
-  exit_right,      ///< the exit on the right needs the smaller turn
-  same_side,       ///< the target stays blocked: deflecting to the side chosen before
-  blind,           ///< readings are lost: waiting
-  unknown_ahead,   ///< something in the way was never seen: turning a beam onto it
-  edge,            ///< along the obstacle's edge
-  opening,         ///< the edge may have an opening: looking
-  way_back,        ///< no other way is free: back where it came from
-  wall_lost,       ///< twice round something else than what it met: towards the goal again
-  came_round,      ///< back where the obstacle was met, all the way around it
+  goal_set,         ///< a new goal
+  target_free,      ///< nothing near in the target direction: straight on
+  table,            ///< the response table turned the step away from the target direction
+  narrow,           ///< the planned step is not free: deflected by delta
+  target_blocked,   ///< an obstacle in the target direction within the danger range
+  exit_left,        ///< the exit on the left needs the smaller turn
+  exit_right,       ///< the exit on the right needs the smaller turn
+  same_side,        ///< the target stays blocked: deflecting to the side chosen before
+  blind,            ///< readings are lost: waiting
+  unknown_ahead,    ///< something in the way was never seen: turning a beam onto it
+  edge,             ///< along the obstacle's edge
+  opening,          ///< the edge may have an opening: looking
+  way_back,         ///< no other way is free: back where it came from
+  wall_lost,        ///< twice round something else than what it met: towards the goal again
+  came_round,       ///< back where the obstacle was met, all the way around it
+  something_moves,  ///< something nearby moves: held back, or looking for a way around
   at_goal,
   no_exit,        ///< no free heading all around
   step_budget,    ///< the number of steps is used up
@@ -49,7 +50,7 @@ enum class Why : uint8_t {
   cancelled,
   fault,  ///< see Health for its name
 };
-constexpr int kWhys = 22;
+constexpr int kWhys = 23;
 
 const char* name(Mode mode) noexcept;
 const char* name(Why why) noexcept;

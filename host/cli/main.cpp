@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   add_run(app, status);
   add_world(app, status);
   add_campaign(app, status);
+  add_movers(app, status);
   add_table(app, status);
   add_figures(app, status);
   app.footer(std::string(kExitStatus) + kCampaignExitStatus + kFirstSteps);

@@ -47,6 +47,7 @@ Doing doing_of_step(nav::Why why) noexcept {
     case nav::Why::step_budget:
     case nav::Why::unknown_ahead:
     case nav::Why::came_round:
+    case nav::Why::something_moves:
     case nav::Why::wall_lost:
     case nav::Why::length_budget:
     case nav::Why::cancelled:

@@ -19,6 +19,7 @@ OPTIONS = {
         "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace",
     ),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
+    ("movers",): ("--count", "--seed", "--planner", "--contacts"),
     ("table",): ("--csv", "--svg"),
     ("figures",): ("FOLDER", "--scenarios"),
 }

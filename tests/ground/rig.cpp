@@ -1,7 +1,5 @@
 #include "tests/ground/rig.hpp"
 
-#include <cmath>
-
 #include "host/run/planners.hpp"
 #include "host/run/spec.hpp"
 
@@ -24,7 +22,6 @@ Rig::Rig(const Scenario& scenario, nav::Planner* planner)
 bool Rig::step() {
   const Status& status = robot_.tick(Time::from_raw(now_ms_));
   now_ms_ += static_cast<std::uint32_t>(scenario_.robot.safety.period.raw());
-  speed_ = std::fabs(plant_.v_left() + plant_.v_right()) / 2;
   if (status.health.fault != Fault::none || status.decision.outcome != nav::Outcome::running) return false;
   plant_.advance();
   return !plant_.in_contact();

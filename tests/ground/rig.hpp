@@ -47,8 +47,6 @@ class Rig {
   const ground::Patch* patch() const { return spy_.patch(); }
   const sim::Plant& plant() const { return plant_; }
   const sim::WorldView& world() const { return world_.view(); }
-  /// Of the body's centre, before the last period; turning on the spot is none.
-  double speed() const { return speed_; }
 
  private:
   const Scenario scenario_;
@@ -59,7 +57,6 @@ class Rig {
   Spy spy_;
   Robot robot_;
   std::uint32_t now_ms_ = 0;
-  double speed_ = 0;
 };
 
 }  // namespace whisker::test

@@ -87,7 +87,7 @@ TEST(Course, IgnoresWhatIsBeyondTheGoal) {
 
 TEST(Course, GivesUpTheBendForTheGoalsOwnDirection) {
   Ground g;
-  g.free(100, 420).echo(60, 100, 150_mm);
+  g.free(125, 430).echo(70, 125, 150_mm);
   Bends law(45_deg);
   Course course;
   Decision decision;
@@ -122,6 +122,28 @@ TEST(Course, PassesOnTheOtherSideOfWhatBlocksItsOwn) {
   ASSERT_TRUE(chooses(course, g, {2_m, 0_mm}, wall));
   EXPECT_EQ(wall, Side::right) << "the obstacle is there now";
   EXPECT_GT(in_degrees(course.heading()), 0);
+}
+
+TEST(Course, LeavesRoomWhereThereIsSome) {
+  Ground pole;
+  pole.free(80, 415).echo(62, 72, 140_mm);
+  Ground gap;
+  gap.free(80, 280).free(-55, 55).echo(62, 72, 140_mm).echo(-72, -62, 140_mm);
+  for (const Ground* g : {&pole, &gap}) {
+    const View view = g->view();
+    const Reach& reach = view.patch->reach();
+    ASSERT_NE(way(view, {}, reach.probe, reach.planning), Way::blocked);
+    Bends law(0_deg);
+    Course course;
+    Decision decision;
+    Side wall = Side::left;
+    ASSERT_TRUE(course.choose(view, {2_m, 0_mm}, law, g->params(), wall, decision));
+    if (g == &pole) {
+      EXPECT_LT(in_degrees(course.heading()), -5);
+    } else {
+      EXPECT_NEAR(in_degrees(course.heading()), 0, 1e-5) << "none to leave";
+    }
+  }
 }
 
 TEST(Course, EndsBeforeAWall) {

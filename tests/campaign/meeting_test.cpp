@@ -1,0 +1,135 @@
+#include "host/campaign/meeting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "host/run/runner.hpp"
+#include "host/scenario/load.hpp"
+#include "host/scenario/write.hpp"
+#include "host/worlds/meeting.hpp"
+#include "tests/effort.hpp"
+
+namespace whisker::campaign {
+namespace {
+
+using worlds::Course;
+
+Scenario scene(const std::string& mover) {
+  return parse_scenario(R"(
+    time_limit_s = 60.0
+    [start]
+    x_m = 0.0
+    y_m = 0.0
+    heading_deg = 0.0
+    [goal]
+    x_m = 4.0
+    y_m = 0.0
+    [[mover]]
+)" + mover,
+                        "scene.toml");
+}
+
+TEST(WorldsMeeting, IsTheSameForTheSameSeedAndLoadsAgain) {
+  for (const Course course : worlds::kCourses) {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+      const std::string text = to_toml(worlds::meeting(course, 0.2, seed));
+      EXPECT_EQ(text, to_toml(worlds::meeting(course, 0.2, seed)));
+      EXPECT_NE(text, to_toml(worlds::meeting(course, 0.2, seed + 1)));
+      EXPECT_EQ(to_toml(parse_scenario(text, "meeting.toml")), text);
+    }
+  }
+}
+
+// Without a robot that gives way most of these would end in a contact.
+TEST(WorldsMeeting, BringsTheTwoTogether) {
+  int near = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const RunResult r = run(worlds::meeting(Course::crossing, 0.2, seed));
+    near += r.min_clearance_m < 0.3 ? 1 : 0;
+  }
+  EXPECT_GT(near, 50);
+}
+
+TEST(Meet, ARobotThatIsCrossedWaitsOrGoesAroundAndSaysSo) {
+  // It is in the robot's way when the robot comes: 0.3 m/s after a survey of 2.5 s.
+  for (const char* y : {"1.3", "1.5", "1.7"}) {
+    const Scenario s = scene("center = [1.5, " + std::string(y) + "]\nradius_m = 0.15\npath = [[1.5, " + y +
+                             "], [1.5, -20.0]]\nspeed_mps = 0.2\n");
+    const Meeting m = meet(s, PlannerKind::skirt);
+    EXPECT_EQ(m.verdict, Verdict::reached) << y;
+    EXPECT_TRUE(m.said) << y;
+  }
+}
+
+TEST(Meet, NothingIsSaidOfWhatStands) {
+  const Meeting m = meet(scene("center = [2.0, 0.05]\nradius_m = 0.2\npath = [[2.0, 0.05], [2.0, 9.0]]\n"
+                               "speed_mps = 0.0\n"),
+                         PlannerKind::skirt);
+  EXPECT_EQ(m.verdict, Verdict::reached);
+  EXPECT_FALSE(m.said);
+}
+
+TEST(Meet, KnowsWhatTheBeamsShowed) {
+  const Meeting ahead = meet(scene("center = [1.5, 0.0]\nradius_m = 0.3\npath = [[1.5, 0.0], [-30.0, 0.0]]\n"
+                                   "speed_mps = 0.3\n"),
+                             PlannerKind::skirt);
+  ASSERT_EQ(ahead.verdict, Verdict::contact);
+  EXPECT_GT(ahead.near_s, 0.5);
+  EXPECT_GE(ahead.shown_s, ahead.near_s);
+
+  const Meeting behind =
+      meet(scene("center = [-1.0, 0.0]\nradius_m = 0.3\npath = [[-1.0, 0.0], [30.0, 0.0]]\n"
+                 "speed_mps = 0.6\n"),
+           PlannerKind::skirt);
+  ASSERT_EQ(behind.verdict, Verdict::contact);
+  EXPECT_EQ(behind.shown_s, 0);
+  EXPECT_EQ(behind.near_s, 0);
+}
+
+TEST(MeetingCount, CountsEachContactOnce) {
+  const auto contact = [](double speed_mps, double shown_s, double near_s) {
+    Meeting m;
+    m.verdict = Verdict::contact;
+    m.speed_mps = speed_mps;
+    m.shown_s = shown_s;
+    m.near_s = near_s;
+    return m;
+  };
+  MeetingCount count;
+  count.add(contact(0.01, 9, 9));
+  count.add(contact(0.03, 0.5, 0.5));
+  count.add(contact(0.03, 0.7, 0.5));
+  count.add(contact(0.3, 0.7, 0.7));
+  Meeting reached;
+  reached.verdict = Verdict::reached;
+  reached.said = true;
+  reached.shown_s = reached.near_s = 9;
+  count.add(reached);
+  EXPECT_EQ(count.missions, 5U);
+  EXPECT_EQ(count.reached, 1U);
+  EXPECT_EQ(count.said, 1U);
+  EXPECT_EQ(count.contacts, 4U);
+  EXPECT_EQ(count.moving, 3U);
+  EXPECT_EQ(count.shown, 2U);
+  EXPECT_EQ(count.seen, 1U);
+}
+
+class MeetAt : public testing::TestWithParam<double> {};
+
+// What it could have seen in time it does not run into.
+TEST_P(MeetAt, NothingThatWasSeenIsTouchedByAMovingRobot) {
+  for (const Course course : {Course::oncoming, Course::crossing}) {
+    MeetingCount count;
+    for (std::uint64_t seed = 1; seed <= test::effort(200); ++seed) {
+      count.add(meet(worlds::meeting(course, GetParam(), seed), PlannerKind::skirt));
+    }
+    EXPECT_EQ(count.seen, 0U) << name(course);
+    EXPECT_GT(count.said, count.missions / 4) << name(course);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Speed, MeetAt, testing::Values(0.05, 0.1, 0.2, 0.3));
+
+}  // namespace
+}  // namespace whisker::campaign
