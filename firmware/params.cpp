@@ -68,12 +68,10 @@ Length blind_reach(const Params& p) noexcept {
 Length cell_cover(const Params& p) noexcept { return patch_cell(p) * kCellCover / 256; }
 
 Reach reach(const Params& p) noexcept {
-  const Length covered = p.body.radius + cell_cover(p);
-  const Length planning = covered + p.skirt.planning_margin;
+  const Length planning = p.body.radius + p.skirt.planning_margin;
   const bool given = p.skirt.probe != Length{};
-  const Length within = min(p.body.radius * 5 / 3, patch_cell(p) * kHalfWindow - planning);
-  return {p.body.radius + p.skirt.shield_margin, p.body.radius + p.skirt.planning_margin,
-          given ? p.skirt.probe : within};
+  const Length within = min(p.body.radius * 5 / 3, patch_cell(p) * kHalfWindow - cell_cover(p) - planning);
+  return {p.body.radius + p.skirt.shield_margin, planning, given ? p.skirt.probe : within};
 }
 
 ParamFault check(const Params& p) noexcept {
@@ -107,7 +105,8 @@ ParamFault check(const Params& p) noexcept {
   if (p.rangefinders.max_range < swept) return ParamFault::step_beyond_range;
   if (blind_reach(p) + patch_cell(p) > p.body.radius * 7 / 4) return ParamFault::cone_too_narrow;
   const Reach ways = reach(p);
-  if (patch_cell(p) * kHalfWindow < ways.planning + ways.probe || ways.probe < p.body.radius / 2) {
+  if (patch_cell(p) * kHalfWindow < ways.planning + cell_cover(p) + ways.probe ||
+      ways.probe < p.body.radius / 2) {
     return ParamFault::patch_too_small;
   }
   if (p.skirt.planning_margin < p.skirt.shield_margin) return ParamFault::planning_below_shield;

@@ -70,7 +70,7 @@ struct ThesisParams {
 
 struct SkirtParams {
   Length cell;                       ///< of the clearance patch; zero: see patch_cell
-  Length shield_margin = 2_mm;       ///< kept clear around the body at every tick, beside a cell's own size
+  Length shield_margin = 2_mm;       ///< kept clear around the body at every tick
   Length probe;                      ///< length of a way that is judged; zero: see Reach
   Length planning_margin = 4_mm;     ///< the same on a heading that is chosen; more than the shield's
   Length age_travel = 500_mm;        ///< clear ground is forgotten after one to two of these ways
@@ -199,7 +199,7 @@ Length cell_cover(const Params& params) noexcept;
 Length blind_reach(const Params& params) noexcept;
 /// How far ways are judged, and beside them.
 struct Reach {
-  Length shield;    ///< from the body's centre to the centres of the cells that must be clear at every tick
+  Length shield;    ///< from the body's centre: cells that come nearer must be clear at every tick
   Length planning;  ///< the same on a heading that is chosen
   Length probe;     ///< length of a way; unless given, 5/3 of the radius, or as far as the patch reaches
 };

@@ -37,7 +37,8 @@ void Patch::configure(const Params& params) noexcept {
   half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
   footprint_ = units(params.body.radius);
   const int32_t blind = units(blind_reach(params)) + kUnitsPerCell;
-  placed_free_ = blind_reach(params) > params.body.radius - cell_cover(params) ? blind + kCellCover : footprint_;
+  placed_free_ =
+      blind_reach(params) > params.body.radius - cell_cover(params) ? blind + kCellCover : footprint_;
   reach_ = whisker::reach(params);
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
   age_travel_ = params.skirt.age_travel;
@@ -204,7 +205,7 @@ void Patch::doubt(const Proof& proof, Length farthest) noexcept {
     Span nearer;
     nearer.within_disc(apex.x, dy, nearest);
     Span under;
-    under.within_disc(body.x, row * kUnitsPerCell + kHalfCell - body.y, footprint_ - kCellCover);
+    under.inside_disc(body.x, row * kUnitsPerCell + kHalfCell - body.y, footprint_);
     const Row taken = to_torus(around.columns() & ~nearer.columns() & ~under.columns());
     Span echo;
     cone.clip(echo, apex.x, dy, 0);

@@ -31,8 +31,8 @@ struct Obstacles {
 /// Clear cells age: each lives for one to two spans of travel or turning after it was last seen, or after the
 /// body last went by it, so that the way back stays open.
 ///
-/// A cell is *clear* only if a disc around its centre that covers the whole cell lies inside an empty
-/// beam sector, so that with a sensor that reports the nearest thing in its cone clear ground is free ground.
+/// A cell is *clear* only if it lies inside an empty beam sector as a whole, so that with a sensor that
+/// reports the nearest thing in its cone clear ground is free ground.
 class Patch {
  public:
   /// Rounding decides what a shorter step comes nearer to.
@@ -54,12 +54,12 @@ class Patch {
   /// As far as the parameters want ways to be judged.
   const Reach& reach() const noexcept { return reach_; }
 
-  /// What lies within `radius` of the way, ahead of its beginning: a body that stands near something may
-  /// move off along it or away from it.
+  /// The cells that come within `radius` of the way and whose centres lie ahead of its beginning: a body that
+  /// stands near something may move off along it or away from it.
   Obstacles along(const Vec& from, Angle heading, Length length, Length radius) const noexcept;
   /// True if a step of this length brings the body nearer to a cell that is not clear and then within
-  /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only. False
-  /// below kShortestStep.
+  /// `radius` of it. Cells abeam do not count: to pass them brings it nearer by less than the shield's
+  /// margin. False below kShortestStep.
   bool approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
   /// The state of one cell, for those who want to see the patch; false outside the window.
   bool is_clear(Vec at) const noexcept;

@@ -3,7 +3,7 @@
 namespace whisker::ground {
 namespace {
 
-// To pass a cell d abeam brings the body nearer to it by x^2 / 2d after it lay x ahead: 0.2 mm at 100 mm.
+// To pass a corner d abeam brings the body nearer to it by x^2 / 2d after it lay x ahead (docs/ground.md).
 constexpr int32_t kAbeam = 80;
 constexpr int32_t kWindow = kCells * kUnitsPerCell;
 
@@ -49,11 +49,10 @@ bool Patch::approaches(const Vec& from, Angle heading, Length step, Length radiu
   const Point there = local(from + polar(heading, step));
   const int32_t reach = units(radius);
   const int32_t half = units(step / 2);
-  constexpr int32_t kBeside = kHalfCell + 3;
   // What lies beyond the window is not known.
-  if (!in_window(there, reach + kBeside)) return true;
+  if (!in_window(there, reach + kHalfSquare)) return true;
   const HalfPlane ahead = HalfPlane::facing(heading);
-  for (Rows rows(there.y, reach + kBeside); rows.more(); rows.next()) {
+  for (Rows rows(there.y, reach + kHalfSquare); rows.more(); rows.next()) {
     Span span;
     span.touched_by_disc(there.x, rows.offset(there.y), reach);
     ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
@@ -65,9 +64,8 @@ bool Patch::approaches(const Vec& from, Angle heading, Length step, Length radiu
 bool Patch::all_clear(Vec centre, Length radius) const noexcept {
   const Point at = local(centre);
   const int32_t reach = units(radius);
-  constexpr int32_t kBeside = kHalfCell + 3;
-  if (!in_window(at, reach + kBeside)) return false;
-  for (Rows rows(at.y, reach + kBeside); rows.more(); rows.next()) {
+  if (!in_window(at, reach + kHalfSquare)) return false;
+  for (Rows rows(at.y, reach + kHalfSquare); rows.more(); rows.next()) {
     Span span;
     span.touched_by_disc(at.x, rows.offset(at.y), reach);
     if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return false;

@@ -7,7 +7,7 @@ namespace {
 
 int32_t q14(Q30 x) noexcept { return static_cast<int32_t>(scale_down<16>(int64_t{x.raw()})); }
 
-constexpr int32_t kRounding = 3;
+int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
 
 /// Of the disc around x in a row that lies dy from its centre.
 Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
@@ -16,16 +16,16 @@ Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
   return {x - half, x + half};
 }
 
-/// Of the cells that the disc around x touches.
+/// Of the centres of the cells that this disc touches.
 Span touch(int32_t x, int32_t dy, int32_t radius) noexcept {
-  const int32_t off = (dy < 0 ? -dy : dy) - kHalfCell - kRounding;
+  const int32_t off = absolute(dy) - kHalfSquare;
   const Span span = chord(x, off < 0 ? 0 : off, radius);
-  return {span.low - kHalfCell - kRounding, span.high + kHalfCell + kRounding};
+  return {span.low - kHalfSquare, span.high + kHalfSquare};
 }
 
 /// How far the corner of a cell lies from its centre in the direction of this normal.
 int32_t corner(int32_t nx, int32_t ny) noexcept {
-  return (((nx < 0 ? -nx : nx) + (ny < 0 ? -ny : ny)) * kHalfCell >> 14) + kRounding;
+  return ceil_div((absolute(nx) + absolute(ny)) * kHalfCell, 1 << 14) + kRim;
 }
 
 }  // namespace
@@ -62,9 +62,9 @@ void Span::within_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
 }
 
 void Span::inside_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
-  const Span span = chord(x, (dy < 0 ? -dy : dy) + kHalfCell + kRounding, radius);
-  cut_low(span.low + kHalfCell + kRounding);
-  cut_high(span.high - kHalfCell - kRounding);
+  const Span span = chord(x, absolute(dy) + kHalfSquare, radius);
+  cut_low(span.low + kHalfSquare);
+  cut_high(span.high - kHalfSquare);
 }
 
 void Span::touched_by_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
@@ -125,21 +125,23 @@ Stadium::Stadium(const Sweep& sweep) noexcept
       ux_(q14(cos(sweep.heading))),
       uy_(q14(sin(sweep.heading))) {
   beside_ = radius_ + corner(ux_, uy_);
+  const int32_t skew = (ux_ < 0 ? -uy_ : uy_) - (uy_ < 0 ? -ux_ : ux_);
+  skew_ = scale_down<14>(skew * kHalfCell);
   end_x_ = scale_down<14>(ux_ * length_);
   end_y_ = scale_down<14>(uy_ * length_);
 }
 
 Rows Stadium::rows() const noexcept {
-  const int32_t reach = radius_ + kHalfCell + kRounding;
+  const int32_t reach = radius_ + kHalfSquare;
   return end_y_ < 0 ? Rows(y_ + end_y_, y_, reach) : Rows(y_, y_ + end_y_, reach);
 }
 
 void Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
-  // Where the row crosses the way's long side, if it does.
+  // Where the row crosses this long edge, if it does.
   const int32_t from_y = dy - sign * scale_down<14>(ux_ * beside_);
   if (uy_ == 0) return;
   const int64_t t = divide_rounded(int64_t{from_y} * 16384, uy_ > 0 ? uy_ : -uy_) * (uy_ > 0 ? 1 : -1);
-  if (t < 0 || t > length_) return;
+  if (t < sign * skew_ || t > length_ + sign * skew_) return;
   const int32_t x = x_ - sign * scale_down<14>(uy_ * beside_) + scale_down<14>(ux_ * static_cast<int32_t>(t));
   if (x < span.low) span.low = x;
   if (x > span.high) span.high = x;

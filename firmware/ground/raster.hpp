@@ -1,6 +1,7 @@
-/// Shapes against the rows of a grid window: which columns of a row lie inside.
+/// Shapes against the rows of a grid window: which columns of a row have their centre in it, lie wholly in
+/// it, or touch it.
 ///
-/// Coordinates are grid units from the window's corner (256 a cell); a cell lies inside if its centre does.
+/// Coordinates are grid units from the window's corner (256 a cell).
 #pragma once
 
 #include <stdint.h>
@@ -15,6 +16,9 @@ using Row = uint32_t;
 constexpr int kCells = 32;  ///< a side of the window
 constexpr int32_t kUnitsPerCell = 256;
 constexpr int32_t kHalfCell = kUnitsPerCell / 2;
+/// What points and normals lose by rounding; a cell is judged by a square that is larger by it on every side.
+constexpr int32_t kRim = 3;
+constexpr int32_t kHalfSquare = kHalfCell + kRim;
 /// The longest length that shapes take: its square, and products with a normal, fit into 32 bits.
 constexpr int32_t kLongest = 4 * kCells * kUnitsPerCell - 1;
 /// Points lie at most this far from the window's corner in x and in y.
@@ -107,7 +111,7 @@ struct Sweep {
   int32_t abeam = 0;  ///< what lies less than this ahead of the beginning is left out
 };
 
-/// What a disc sweeps on a straight way.
+/// The cells that a disc touches on a straight way.
 class Stadium {
  public:
   explicit Stadium(const Sweep& sweep) noexcept;
@@ -118,7 +122,9 @@ class Stadium {
   void side(Span& span, int32_t dy, int32_t sign) const noexcept;
   int32_t x_, y_;
   int32_t end_x_, end_y_;  // from the beginning
-  int32_t length_, radius_, abeam_, beside_;
+  int32_t length_, radius_, abeam_;
+  int32_t beside_;   // from the way to its edge: the centres of cells that just touch it
+  int32_t skew_;     // how far on, along the way, that edge begins on the left; as far behind on the right
   int32_t ux_, uy_;  // direction, 2^-14
 };
 

@@ -72,7 +72,8 @@ bool Course::choose(const View& view, const Vec& to_goal, BendLaw& law, const Pa
     }
     return false;
   };
-  if (found(reach.planning + for_body(params, kRoom), kRoomSteps) || found(reach.planning, kSteps)) return true;
+  if (found(reach.planning + for_body(params, kRoom), kRoomSteps) || found(reach.planning, kSteps))
+    return true;
   if (least > kNearlyFree) return false;
   for (int32_t i = 1; i <= 2; ++i) {
     const Angle off = kFineStep * i;

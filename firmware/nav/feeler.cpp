@@ -77,8 +77,11 @@ Feeler::Found Feeler::step(const View& view, const Params& params, Heading& foun
 Feeler::Retreat Feeler::retreat(const View& view, bool stalled, const Params& params,
                                 Manoeuvre& manoeuvre) noexcept {
   const Vec rest = retreat_[retreated_] - view.pose.at;
-  if (norm(rest) < for_body(params, kThere) && ++retreated_ == kBack) return Retreat::there;
-  if (stalled) return ++retreats_ < kRetreats ? Retreat::stuck : Retreat::lost;
+  const bool there = norm(rest) < for_body(params, kThere) && ++retreated_ == kBack;
+  if (there || stalled) {
+    if (++retreats_ == kRetreats) return Retreat::lost;
+    return there ? Retreat::there : Retreat::stuck;
+  }
   manoeuvre = cruise(steer(bearing(rest) - view.pose.heading, params.wheels.max_speed / 4), params);
   manoeuvre.retraces = true;
   return Retreat::under_way;

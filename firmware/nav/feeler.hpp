@@ -20,9 +20,9 @@ class Feeler {
   };
   enum class Retreat : uint8_t {
     under_way,
-    there,  ///< a bit back
+    there,  ///< a bit back: feel or follow again
     stuck,  ///< that way is not free, either: feel again
-    lost,   ///< stuck too often since the body last got on
+    lost,   ///< too many retreats since the body last got on
   };
   struct Heading {
     Angle angle;
@@ -42,6 +42,8 @@ class Feeler {
   /// For ways of the full length, then for short ones, then for narrow ones; back along the trail only after
   /// all of them, unless that is where it was to go.
   Found step(const View& view, const Params& params, Heading& found) noexcept;
+  /// The shield lets nothing through where the last way was found: go on with the next one.
+  void refuse() noexcept { ++candidate_; }
 
   /// Once a tick after `none`; `stalled`: the body does not get on.
   Retreat retreat(const View& view, bool stalled, const Params& params, Manoeuvre& manoeuvre) noexcept;

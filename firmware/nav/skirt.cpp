@@ -16,6 +16,9 @@ constexpr Q14 kHindered = Q14::ratio(9, 10);
 constexpr Q14 kAll = Q14::ratio(1, 1);
 
 constexpr Length kCommit = 60_mm;
+constexpr Length kRefused = 5_mm;  // of the commitment: the shield did not let it begin
+constexpr int kRefusals = 10;
+constexpr int16_t kMostPauses = 1000;
 constexpr Length kOpeningEvery = 100_mm;
 
 static_assert(sizeof(SkirtPlanner) + sizeof(ground::Patch) < 1024);
@@ -26,6 +29,7 @@ void SkirtPlanner::start(const View& view) noexcept {
   last_ = view.pose;
   best_ = Length::from_raw(INT32_MAX);
   travel_mm_ = travel_rest_um_ = 0;
+  paused_mm_ = pauses_ = 0;
   left_edge_mm_ = -mm(kKeepSide);
   feeler_.reset(view.pose.at, params_);
   course_.reset();
@@ -71,11 +75,19 @@ void SkirtPlanner::keep_account(const View& view) noexcept {
   to_goal_ = goal_.at - view.pose.at;
   distance_ = norm(to_goal_);
   feeler_.move(view.pose.at);
+  if (travel_mm_ - paused_mm_ > mm(kProgress)) {
+    paused_mm_ = travel_mm_;
+    pauses_ = 0;
+  }
 }
 
 void SkirtPlanner::act(const View& view) noexcept {
   if (travel_mm_ > mm(kLongest)) {
     finish(Mode::gave_up, Why::length_budget, Outcome::gave_up);
+    return;
+  }
+  if (pauses_ > kMostPauses) {
+    finish(Mode::gave_up, Why::no_exit, Outcome::gave_up);
     return;
   }
   if (is_goal(distance_)) {
@@ -169,6 +181,7 @@ void SkirtPlanner::exits(const View& view) noexcept {
   }
   wall_ = opposite(exits_.side());
   heading_ = exits_.heading();
+  felt_heading_ = false;
   circuit_.head(heading_);
   enter(Phase::depart, Mode::skirting, wall_ == Side::right ? Why::exit_left : Why::exit_right);
 }
@@ -201,7 +214,7 @@ void SkirtPlanner::follow(const View& view) noexcept {
     }
   }
   if (stalled(view)) {
-    begin_feel(view, view.pose.heading);
+    feel_on(view);
     return;
   }
   if (travel_mm_ < commit_mm_) {
@@ -257,6 +270,21 @@ void SkirtPlanner::begin_feel(const View& view, Angle ahead) noexcept {
   brake_then(Phase::feel);
 }
 
+void SkirtPlanner::feel_on(const View& view) noexcept {
+  const bool refused = felt_heading_ && commit_mm_ - travel_mm_ >= mm(kCommit - kRefused);
+  if (!refused)
+    refusals_ = 0;
+  else if (refusals_ < kRefusals)
+    ++refusals_;
+  // Turned to that heading, it may have seen more on the wall's side.
+  if (refusals_ < kRefusals) {
+    begin_feel(view, view.pose.heading);
+    return;
+  }
+  feeler_.refuse();
+  brake_then(Phase::feel);
+}
+
 void SkirtPlanner::feel(const View& view) noexcept {
   decision_.mode = Mode::searching;
   Feeler::Heading found;
@@ -265,6 +293,7 @@ void SkirtPlanner::feel(const View& view) noexcept {
     case Feeler::Found::unseen: look_along(found.angle, found.length, Phase::feel); break;
     case Feeler::Found::free:
       heading_ = found.angle;
+      felt_heading_ = true;
       enter(Phase::depart, Mode::skirting, Why::edge);
       break;
     case Feeler::Found::none: enter(Phase::retreat, Mode::skirting, Why::way_back); break;
@@ -285,6 +314,7 @@ void SkirtPlanner::retreat(const View& view) noexcept {
 
 void SkirtPlanner::enter(Phase phase, Mode mode, Why why) noexcept {
   phase_ = phase;
+  ++pauses_;
   stall_.reset();
   tell(mode, why);
 }

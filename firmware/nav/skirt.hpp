@@ -25,7 +25,7 @@ namespace whisker::nav {
 ///                          unreachable
 /// ```
 /// It ends: each leave is nearer to the goal than the one before by 30 mm, each circuit is bounded, and
-/// the length of the way is (400 m). See docs/skirt.md.
+/// the length of the way is (400 m), and so is what it tries without getting on. See docs/skirt.md.
 class SkirtPlanner final : public GoalPlanner {
  public:
   /// Both references must outlive the planner.
@@ -62,6 +62,8 @@ class SkirtPlanner final : public GoalPlanner {
   void escape() noexcept;
   void turn_back(const View& view) noexcept;
   void begin_feel(const View& view, Angle ahead) noexcept;
+  /// It wanted to drive and cannot.
+  void feel_on(const View& view) noexcept;
   void feel(const View& view) noexcept;
   void retreat(const View& view) noexcept;
 
@@ -98,8 +100,12 @@ class SkirtPlanner final : public GoalPlanner {
   int32_t left_edge_mm_ = 0;  // travel at which an edge was last left
   int32_t felt_mm_ = 0;       // travel at which it last felt for openings
   int32_t commit_mm_ = 0;     // travel until which the chosen heading is kept
+  int32_t paused_mm_ = 0;     // travel at which it last got on
+  int16_t pauses_ = 0;        // phases entered since then
   int8_t escapes_ = 0;
+  int8_t refusals_ = 0;        // in a row, from one place
   bool turned_back_ = false;   // came round once: going round the other way
+  bool felt_heading_ = false;  // the heading chosen is the feeler's
   Why otherwise_ = Why::none;  // the reason, if nothing moved
 };
 

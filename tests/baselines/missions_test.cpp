@@ -127,7 +127,7 @@ TEST(Bug2, LeavesAtTheMLineAndNotAtTheFirstFreeViewOfTheGoal) {
 }
 
 TEST(DistBug, LeavesAsSoonAsTheGoalIsFreeAndNearer) {
-  const Scenario s = three_metres("[[wall]]\npoints = [[1.2, -1.5], [1.2, 0.8]]\n");
+  const Scenario s = three_metres("[[wall]]\npoints = [[1.1, -1.5], [1.3, 0.8]]\n");
   const Drive dist = drive(s, PlannerKind::distbug);
   const Drive bug2 = drive(s, PlannerKind::bug2);
   ASSERT_EQ(dist.result.verdict, Verdict::reached);
@@ -135,7 +135,7 @@ TEST(DistBug, LeavesAsSoonAsTheGoalIsFreeAndNearer) {
 }
 
 TEST(DistBug, TurnsToTheSideThatSeesFarther) {
-  const std::string shelf = "[[wall]]\npoints = [[1.2, 0.9], [1.2, -0.9], [0.3, -0.9]]\n";
+  const std::string shelf = "[[wall]]\npoints = [[1.3, 0.9], [1.1, -0.9], [0.3, -0.9]]\n";
   EXPECT_LT(sides(drive(three_metres(shelf), PlannerKind::distbug)).right_m, 0.1);
   EXPECT_GT(sides(drive(three_metres(shelf), PlannerKind::distbug)).left_m, 0.9);
 }

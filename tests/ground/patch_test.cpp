@@ -53,6 +53,18 @@ double distance(Cell cell, Vec at) {
   return std::hypot(metres(c.x) - metres(at.x), metres(c.y) - metres(at.y));
 }
 
+/// From the farthest corner of the cell, and from its nearest point.
+double farthest(Cell cell, Vec at) {
+  const Vec c = centre(cell);
+  return std::hypot(std::fabs(metres(c.x) - metres(at.x)) + kCell / 2,
+                    std::fabs(metres(c.y) - metres(at.y)) + kCell / 2);
+}
+double nearest(Cell cell, double x, double y) {
+  const Vec c = centre(cell);
+  return std::hypot(std::fmax(std::fabs(metres(c.x) - x) - kCell / 2, 0),
+                    std::fmax(std::fabs(metres(c.y) - y) - kCell / 2, 0));
+}
+
 TEST(Patch, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     Random random(seed);
@@ -66,7 +78,7 @@ TEST(Patch, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
     const std::set<Cell> clear = clear_around(patch, pose.at);
     EXPECT_GT(clear.size(), 40U);
     // Each wholly under the body.
-    for (const Cell& cell : clear) ASSERT_LE(distance(cell, pose.at), 0.09 - 0.7071 * kCell);
+    for (const Cell& cell : clear) ASSERT_LE(farthest(cell, pose.at), 0.09);
   }
 }
 
@@ -127,7 +139,8 @@ Pose draw_pose(Random& random) {
 bool nothing(const ground::Obstacles& found) { return found.unknown == 0 && found.suspect == 0; }
 
 TEST(Patch, AlongCountsWhatIsNotClearOnTheWay) {
-  constexpr double kRounding = 0.0005;
+  constexpr int kSamples = 150;
+  constexpr double kRounding = 0.0006;
   constexpr double kAbeam = 80 * kCell / 256;
   int blocked = 0;
   for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
@@ -147,8 +160,12 @@ TEST(Patch, AlongCountsWhatIsNotClearOnTheWay) {
         const double dx = metres(centre({x, y}).x) - metres(pose.at.x);
         const double dy = metres(centre({x, y}).y) - metres(pose.at.y);
         const double ahead = dx * std::cos(heading) + dy * std::sin(heading);
-        const double on = std::fmin(std::fmax(ahead, 0.0), metres(length));
-        const double off = std::hypot(dx - on * std::cos(heading), dy - on * std::sin(heading));
+        double off = 1;
+        for (int i = 0; i <= kSamples; ++i) {
+          const double on = metres(length) * i / kSamples;
+          off = std::fmin(off, nearest({x, y}, metres(pose.at.x) + on * std::cos(heading),
+                                       metres(pose.at.y) + on * std::sin(heading)));
+        }
         const double by = std::fmin(metres(radius) - off, ahead - kAbeam);
         if (by > kRounding) ++surely;
         if (by > -kRounding) ++perhaps;
@@ -184,8 +201,8 @@ TEST(Patch, ApproachesTellsWhatComesNearer) {
         if (patch.is_clear(centre({x, y}))) continue;
         const double dx = metres(centre({x, y}).x) - metres(pose.at.x);
         const double dy = metres(centre({x, y}).y) - metres(pose.at.y);
-        const double off =
-            std::hypot(dx - metres(step) * std::cos(heading), dy - metres(step) * std::sin(heading));
+        const double off = nearest({x, y}, metres(pose.at.x) + metres(step) * std::cos(heading),
+                                   metres(pose.at.y) + metres(step) * std::sin(heading));
         const double by =
             std::fmin(metres(radius) - off, dx * std::cos(heading) + dy * std::sin(heading) - ahead);
         surely = surely || by > kRounding;

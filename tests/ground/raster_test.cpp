@@ -16,6 +16,8 @@ using worlds::Random;
 constexpr double kTurn = 2 * 3.14159265358979323846;
 // Of a Q14 normal over the longest distance, and of the roundings to whole units.
 constexpr double kUnits = 4;
+// The rim that cells are given, on a diagonal, and the roundings.
+constexpr double kWithRim = kRim * 1.4143 + 3;
 
 double centre(int cell) { return cell * kUnitsPerCell + kHalfCell; }
 double radians_of(Angle a) { return a.wrapped() * (kTurn / 4294967296.0); }
@@ -49,16 +51,18 @@ int32_t draw_length(Random& random) {
   }
 }
 
-/// Every column whose true measure lies clearly on one side is on that side.
+/// Every column whose true measure lies clearly on one side is on that side: by more than `surely` it must be
+/// in, by less than -`surely_not` it must not.
 template <class F>
-void expect_row(Row row, F&& inside_by, const char* what, std::uint64_t seed, int line) {
+void expect_row(Row row, F&& inside_by, const char* what, std::uint64_t seed, int line,
+                double surely = kUnits, double surely_not = kUnits) {
   for (int column = 0; column < kCells; ++column) {
     const double by = inside_by(centre(column), centre(line));
     const bool in = (row >> column & 1U) != 0;
-    if (by > kUnits) {
+    if (by > surely) {
       ASSERT_TRUE(in) << what << " seed " << seed << " column " << column << " by " << by;
     }
-    if (by < -kUnits) {
+    if (by < -surely_not) {
       ASSERT_FALSE(in) << what << " seed " << seed << " column " << column << " by " << by;
     }
   }
@@ -150,31 +154,115 @@ TEST(Raster, WedgeKeepsTheMarginInsideBothEdges) {
   }
 }
 
-TEST(Raster, StadiumHoldsWhatADiscSweepsAheadOfItsBeginning) {
+struct At {
+  double x, y;
+};
+
+/// Of a point from the nearest and from the farthest point of the cell around a centre.
+double nearest(At cell, At p) {
+  return std::hypot(std::fmax(std::fabs(cell.x - p.x) - kHalfCell, 0),
+                    std::fmax(std::fabs(cell.y - p.y) - kHalfCell, 0));
+}
+double farthest(At cell, At p) {
+  return std::hypot(std::fabs(cell.x - p.x) + kHalfCell, std::fabs(cell.y - p.y) + kHalfCell);
+}
+
+double from_segment(At p, At begin, At direction, double length) {
+  const double along = (p.x - begin.x) * direction.x + (p.y - begin.y) * direction.y;
+  const double on = std::fmin(std::fmax(along, 0), length);
+  return std::hypot(p.x - begin.x - on * direction.x, p.y - begin.y - on * direction.y);
+}
+
+/// Between a cell and a segment that does not lie in it from one side to the other.
+double apart(At cell, At begin, At direction, double length) {
+  double d = std::fmin(nearest(cell, begin),
+                       nearest(cell, {begin.x + length * direction.x, begin.y + length * direction.y}));
+  for (const double x : {cell.x - kHalfCell, cell.x + kHalfCell}) {
+    for (const double y : {cell.y - kHalfCell, cell.y + kHalfCell}) {
+      d = std::fmin(d, from_segment({x, y}, begin, direction, length));
+    }
+  }
+  return d;
+}
+
+// A cell that is not wholly inside must never be taken, and one that is touched never be left out.
+TEST(Raster, DiscsTouchAndHoldWholeCells) {
+  for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
+    Random random(seed);
+    const int32_t x = draw_coordinate(random);
+    const int32_t y = draw_coordinate(random);
+    const int32_t radius = draw_length(random);
+    const At middle{static_cast<double>(x), static_cast<double>(y)};
+    for (int row = 0; row < kCells; ++row) {
+      const auto dy = static_cast<int32_t>(centre(row)) - y;
+      Span inside;
+      inside.inside_disc(x, dy, radius);
+      const auto held_by = [&](double cx, double cy) { return radius - farthest({cx, cy}, middle); };
+      expect_row(inside.empty() ? 0 : inside.columns(), held_by, "held", seed, row, kWithRim, 0);
+      if (HasFatalFailure()) return;
+      if (radius < 0) continue;
+      Span touched;
+      touched.touched_by_disc(x, dy, radius);
+      const auto touched_by = [&](double cx, double cy) { return radius - nearest({cx, cy}, middle); };
+      expect_row(touched.empty() ? 0 : touched.columns(), touched_by, "touched", seed, row, 0, kWithRim);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(Raster, WedgeHoldsWholeCells) {
+  for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
+    Random random(seed);
+    const int32_t x = draw_coordinate(random);
+    const int32_t y = draw_coordinate(random);
+    const Angle axis = draw_angle(random);
+    const Angle half = Angle::turns(1 + random.index(449), 3600);
+    const Wedge wedge(axis, half);
+    const double a = radians_of(axis);
+    const double h = radians_of(half);
+    for (int row = 0; row < kCells; ++row) {
+      Span span;
+      wedge.hold(span, x, static_cast<int32_t>(centre(row)) - y);
+      const auto inside_by = [&](double cx, double cy) {
+        double by = 1e9;
+        for (const double dx : {cx - kHalfCell - x, cx + kHalfCell - x}) {
+          for (const double dy : {cy - kHalfCell - y, cy + kHalfCell - y}) {
+            by = std::fmin(by, dx * std::sin(a + h) - dy * std::cos(a + h));
+            by = std::fmin(by, -dx * std::sin(a - h) + dy * std::cos(a - h));
+          }
+        }
+        return by;
+      };
+      expect_row(span.empty() ? 0 : span.columns(), inside_by, "wedge", seed, row, kWithRim, 0);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(Raster, StadiumTouchesWhatADiscSweepsAheadOfItsBeginning) {
   for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
     Random random(seed);
     const int32_t x = draw_coordinate(random);
     const int32_t y = draw_coordinate(random);
     const Angle heading = draw_angle(random);
     const int32_t length = std::abs(draw_length(random));
-    const int32_t radius = std::abs(draw_length(random)) / 4;
+    const int32_t radius = kUnitsPerCell + std::abs(draw_length(random)) / 4;
     const int32_t abeam = random.index(200);
     const Stadium stadium({x, y, heading, length, radius, abeam});
-    const double ux = std::cos(radians_of(heading));
-    const double uy = std::sin(radians_of(heading));
+    const At begin{static_cast<double>(x), static_cast<double>(y)};
+    const At direction{std::cos(radians_of(heading)), std::sin(radians_of(heading))};
     std::uint32_t visited = 0;
     const auto inside_by = [&](double cx, double cy) {
-      const double along = (cx - x) * ux + (cy - y) * uy;
-      const double on = std::fmin(std::fmax(along, 0.0), static_cast<double>(length));
-      return std::fmin(radius - std::hypot(cx - x - on * ux, cy - y - on * uy), along - abeam);
+      const double ahead = (cx - x) * direction.x + (cy - y) * direction.y - abeam;
+      return std::fmin(radius - apart({cx, cy}, begin, direction, length), ahead);
     };
     for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
       visited |= 1U << rows.row();
-      expect_row(stadium.columns(rows.row()), inside_by, "stadium", seed, rows.row());
+      expect_row(stadium.columns(rows.row()), inside_by, "stadium", seed, rows.row(), kUnits, kWithRim);
       if (HasFatalFailure()) return;
     }
     for (int row = 0; row < kCells; ++row) {
-      if ((visited >> row & 1U) == 0) expect_row(0, inside_by, "row left out", seed, row);
+      if ((visited >> row & 1U) == 0) expect_row(0, inside_by, "row left out", seed, row, 0, 0);
       if (HasFatalFailure()) return;
     }
   }

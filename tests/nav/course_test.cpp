@@ -161,9 +161,9 @@ TEST(Course, FindsAGapBetweenTwoStepsOfItsFan) {
   };
   int between = 0;
   for (int middle = 0; middle < 8; ++middle) {
-    for (int half = 15; half <= 30; ++half) {
-      Ground g;
-      g.free(middle - half, middle + half).echo(middle + half, middle - half + 360, 230_mm);
+    for (int half = 15; half <= 45; ++half) {
+      Ground g({{15_mm, 7_mm}, {}});
+      g.free(middle - half, middle + half).echo(middle + half, middle - half + 360, 190_mm);
       bool in_the_fan = false;
       for (int step = -10; step <= 10; ++step) {
         in_the_fan = in_the_fan || free(g.view(), Angle::turns(step, kFan));

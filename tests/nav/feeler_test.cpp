@@ -135,6 +135,38 @@ TEST(Feeler, IsLostWhenItIsStuckInOnePlaceAgainAndAgain) {
   }
 }
 
+TEST(Feeler, GoesOnWithTheNextWayWhereTheShieldRefusesOne) {
+  Ground g;
+  g.free(0, 360);
+  Feeler feeler = come();
+  Felt felt = feel(feeler, g, Side::left);
+  for (int n = 0; n < 10; ++n) {
+    ASSERT_EQ(felt.found, Feeler::Found::free);
+    const double before = in_degrees(felt.way.angle);
+    feeler.refuse();
+    felt.found = feeler.step(g.view(), g.params(), felt.way);
+    EXPECT_NEAR(in_degrees(felt.way.angle), before - 7.5, 0.1) << "away from the wall";
+  }
+}
+
+TEST(Feeler, ARetreatThatLeadsNowhereCountsToo) {
+  Ground g;
+  g.echo(0, 360, 112_mm);
+  Feeler feeler;
+  feeler.reset({}, g.params());
+  Feeler::Retreat end = Feeler::Retreat::there;
+  int times = 0;
+  for (; times < 100 && end != Feeler::Retreat::lost; ++times) {
+    ASSERT_EQ(feel(feeler, g, Side::left).found, Feeler::Found::none);
+    Manoeuvre m;
+    do end = feeler.retreat(g.view(), false, g.params(), m);
+    while (end == Feeler::Retreat::under_way);
+    ASSERT_NE(end, Feeler::Retreat::stuck);
+  }
+  EXPECT_GT(times, 2);
+  EXPECT_LT(times, 20);
+}
+
 TEST(Feeler, NoticesAnOpeningInTheWallBesideIt) {
   const Feeler feeler = come();
   Ground closed;
