@@ -7,6 +7,7 @@ using namespace literals;
 namespace {
 
 constexpr int64_t kDrift = 50;  // odometry is off by at most 1 / 50 of the way
+constexpr int32_t kMostLaps = 3;
 constexpr uint64_t kDegree = (1_deg).raw();
 
 }  // namespace
@@ -20,7 +21,8 @@ void Circuit::begin(Vec at, const Params& params) noexcept {
 void Circuit::move(const Pose& pose, Length travel, Angle turn) noexcept {
   travel_um_ += travel.raw();
   turned_ += turn.wrapped();
-  if (norm(pose.at - at_) > scale_ * 3) left_ = true;
+  farthest_ = max(farthest_, norm(pose.at - at_));
+  if (farthest_ > scale_ * 3) left_ = true;
 }
 
 bool Circuit::closed(const Pose& pose) const noexcept {
@@ -29,9 +31,14 @@ bool Circuit::closed(const Pose& pose) const noexcept {
   return norm(pose.at - at_) < near && magnitude(pose.heading - heading_) < (90_deg).raw();
 }
 
+bool Circuit::may_part(Vec from, Vec to, Side wall) const noexcept {
+  const bool within = turned_ * sign(wall) < 0;
+  return norm((within ? from : to) - at_) <= farthest_;
+}
+
 bool Circuit::strays(const Pose& pose) noexcept {
   if (magnitude(turned_) < 360 * kDegree * static_cast<uint64_t>(laps_ + 1)) return false;
-  const bool again = laps_ > 0 && norm(pose.at - lap_at_) < scale_ * 7 / 2;
+  const bool again = laps_ == kMostLaps || (laps_ > 0 && norm(pose.at - lap_at_) < scale_ * 7 / 2);
   lap_at_ = pose.at;
   ++laps_;
   return again;

@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "firmware/core/trig.hpp"
+#include "firmware/nav/side.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker::nav {
@@ -18,7 +19,11 @@ class Circuit {
 
   /// Back where it began, the same way, after a whole turn: nothing in between was a way.
   bool closed(const Pose& pose) const noexcept;
-  /// Round and round without ever coming by the beginning: this is not what was met. Ask once a tick.
+  /// Whether what was gone round, with the wall on this side, can be between `from` and `to`: it has `to` in
+  /// its middle, or, seen from within, `from`. Places are told apart by how far the circuit reached.
+  bool may_part(Vec from, Vec to, Side wall) const noexcept;
+  /// Round and round without ever coming by the beginning: this is not what was met. Two laps that end in one
+  /// place, or four. Ask once a tick.
   bool strays(const Pose& pose) noexcept;
 
  private:
@@ -26,6 +31,7 @@ class Circuit {
   Length scale_;  // what 100 mm are to the reference body
   Angle heading_;
   bool left_ = false;      // has been away from the beginning
+  Length farthest_;        // from the beginning
   int64_t travel_um_ = 0;  // since the beginning
   int64_t turned_ = 0;     // 2^-32 turn, counter-clockwise positive
   int32_t laps_ = 0;       // whole turns so far

@@ -8,7 +8,8 @@ namespace {
 constexpr Angle kSurvey = 50_deg;  // with the cones' rims, 92 degrees to each side
 constexpr Length kProgress = 30_mm;
 constexpr Length kLongest = 400_m;
-constexpr Length kKeepSide = 500_mm;  // of travel after a leave
+constexpr Length kKeepSide = 500_mm;    // of travel after a leave
+constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, beside kKeepSide
 constexpr int8_t kEscapes = 6;
 
 constexpr Angle kCheapTurn = 25_deg;
@@ -26,6 +27,7 @@ static_assert(sizeof(SkirtPlanner) + sizeof(ground::Patch) < 1024);
 }  // namespace
 
 void SkirtPlanner::start(const View& view) noexcept {
+  began_ = view.pose.at;
   last_ = view.pose;
   best_ = Length::from_raw(INT32_MAX);
   travel_mm_ = travel_rest_um_ = 0;
@@ -246,13 +248,18 @@ void SkirtPlanner::escape() noexcept {
     return;
   }
   best_ = distance_;
-  left_edge_mm_ = travel_mm_ - mm(kKeepSide);
+  wall_ = opposite(wall_);
+  left_edge_mm_ = travel_mm_ + mm(kOtherSide);
   enter(Phase::go, Mode::going, Why::wall_lost);
 }
 
 void SkirtPlanner::turn_back(const View& view) noexcept {
   if (turned_back_) {
-    finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+    if (circuit_.may_part(began_, goal_.at, wall_)) {
+      finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+    } else {
+      escape();
+    }
     return;
   }
   // A gap that is closed from one side may be open from the other one.

@@ -81,6 +81,7 @@ class SkirtPlanner final : public GoalPlanner {
   Phase next_ = Phase::go;
   Side wall_ = Side::left;  ///< where the obstacle is, or was last
 
+  Vec began_;  // where it was given the goal
   Pose last_;  // of the tick before
   Vec to_goal_;
   Length distance_;        // to the goal

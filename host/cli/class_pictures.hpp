@@ -19,8 +19,8 @@ constexpr ClassPicture kClassPictures[] = {
     {"skirt_u_trap.svg", worlds::Kind::u_trap, {8, {}, false, false}},
     {"skirt_spiral.svg", worlds::Kind::spiral, {4, {}, false, false}},
     {"skirt_maze.svg", worlds::Kind::maze, {1, {}, false, false}},
-    {"skirt_rooms.svg", worlds::Kind::rooms, {7, {}, false, false}},
-    {"skirt_poles.svg", worlds::Kind::poles, {2, {}, false, false}},
+    {"skirt_rooms.svg", worlds::Kind::rooms, {4, {}, false, false}},
+    {"skirt_poles.svg", worlds::Kind::poles, {4, {}, false, false}},
     {"skirt_enclosed.svg", worlds::Kind::enclosed, {2, {}, false, false}},
 };
 

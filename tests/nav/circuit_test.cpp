@@ -108,10 +108,28 @@ TEST(Circuit, DoesNotStrayWhileItGetsOn) {
   Circuit circuit;
   Round round(circuit, 500_mm);
   round.begin();
-  for (int deg = 1; deg <= 2000; ++deg) {
+  int strays = 0;
+  for (int deg = 1; deg <= 2000 && strays == 0; ++deg) {
     round.drive({2_mm, 0_mm});
-    ASSERT_FALSE(circuit.strays(round.pose())) << deg;
+    if (circuit.strays(round.pose())) strays = deg;
   }
+  EXPECT_NEAR(strays, 1440, 2) << "so many laps are none of a spiral";
+}
+
+// Counter-clockwise: with the wall on the left it lies within, with the wall on the right all around.
+TEST(Circuit, PartsOnlyWhatLiesOnItsTwoSides) {
+  Circuit circuit;
+  Round round(circuit, 1_m);
+  round.begin();
+  for (int deg = 1; deg <= 360; ++deg) round.drive();
+  const Vec inside{200_mm, 300_mm};
+  const Vec outside{5_m, 0_mm};
+  EXPECT_TRUE(circuit.may_part(outside, inside, Side::left));
+  EXPECT_FALSE(circuit.may_part(inside, outside, Side::left)) << "round an obstacle that the goal is not in";
+  EXPECT_FALSE(circuit.may_part(outside, outside, Side::left));
+  EXPECT_TRUE(circuit.may_part(inside, outside, Side::right));
+  EXPECT_FALSE(circuit.may_part(outside, inside, Side::right)) << "it did come in";
+  EXPECT_FALSE(circuit.may_part(outside, outside, Side::right));
 }
 
 }  // namespace
