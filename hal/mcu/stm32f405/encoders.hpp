@@ -1,0 +1,20 @@
+#pragma once
+
+#include <stdint.h>
+
+#include "hal/wire.hpp"
+
+namespace whisker::stm32f405 {
+
+/// Both quadrature encoders: TIM3 and TIM4 count the edges of their two inputs in 16 bits.
+class Encoders {
+ public:
+  void start() noexcept;
+  /// Counts since start(). Call it at least once in 32767 counts of a wheel.
+  hal::EncoderCounts read() noexcept;
+
+ private:
+  hal::EncoderCounts counts_{};
+};
+
+}  // namespace whisker::stm32f405
