@@ -27,8 +27,8 @@ struct CanCounts {
   uint32_t received = 0;
   uint32_t refused = 0;      ///< send() found the queue full, the port not on the bus, or the frame malformed
   uint32_t expired = 0;      ///< left the queue unsent: too old, or the port went bus-off
-  uint32_t outbid = 0;       ///< of the expired: last lost to a frame of higher priority
-  uint32_t unheard = 0;      ///< of the expired: last had an error or no acknowledgement
+  uint32_t outbid = 0;       ///< of the expired: its last try lost to a frame of higher priority
+  uint32_t unheard = 0;      ///< of the expired: its last try met an error or no acknowledgement
   uint32_t overrun = 0;      ///< times that received frames were lost: nobody took those before
   uint32_t bus_offs = 0;     ///< entries into bus_off
   uint32_t not_started = 0;  ///< times the controller did not answer in its time

@@ -163,7 +163,8 @@ void BxCan::collect() noexcept {
       count(counts_.sent);
     } else {
       count(counts_.expired);
-      count(value(can::kAlst[box], status) != 0 ? counts_.outbid : counts_.unheard);
+      if (value(can::kAlst[box], status) != 0) count(counts_.outbid);
+      if (value(can::kTerr[box], status) != 0) count(counts_.unheard);
     }
     mailbox_[box].busy = false;
     // Written alone: a one clears this flag and its three neighbours, and asks for nothing.
@@ -191,7 +192,6 @@ void BxCan::drop_all() noexcept {
   for (uint8_t box = 0; box < can::kMailboxes; ++box) {
     if (!mailbox_[box].busy) continue;
     count(counts_.expired);
-    count(counts_.unheard);
     mailbox_[box].busy = false;
     store(kBase, can::kTsr, mask(can::kAbrq[box]));
   }

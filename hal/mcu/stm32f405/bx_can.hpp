@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hal/can_port.hpp"
-#include "hal/mcu/shared.hpp"
+#include "hal/mcu/common/shared.hpp"
 #include "hal/mcu/stm32f405/clock.hpp"
 
 namespace whisker::stm32f405 {

@@ -1,6 +1,6 @@
 #include "hal/mcu/stm32f405/encoders.hpp"
 
-#include "hal/mcu/counts.hpp"
+#include "hal/mcu/common/counts.hpp"
 #include "hal/mcu/stm32f405/reg/bases.hpp"
 #include "hal/mcu/stm32f405/reg/tim.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/mcu/analogue_ir.hpp"
+#include "hal/mcu/common/analogue_ir.hpp"
 #include "hal/mcu/stm32f405/adc.hpp"
 #include "hal/rangefinders.hpp"
 

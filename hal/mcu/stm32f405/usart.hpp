@@ -2,7 +2,7 @@
 
 #include <stdint.h>
 
-#include "hal/mcu/shared.hpp"
+#include "hal/mcu/common/shared.hpp"
 #include "hal/mcu/stm32f405/clock.hpp"
 
 namespace whisker::stm32f405 {

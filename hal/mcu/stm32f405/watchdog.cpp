@@ -9,7 +9,7 @@ namespace {
 
 enum Key : uint32_t { kReload = 0xAAAA, kUnlock = 0x5555, kStart = 0xCCCC };
 constexpr uint32_t kDivideBy32 = 3;  // of 32 kHz: a count a millisecond
-constexpr uint32_t kUpdateUs = 2000;
+constexpr uint32_t kUpdateUs = 10000;  // six cycles of the divided oscillator take 6 ms
 
 }  // namespace
 

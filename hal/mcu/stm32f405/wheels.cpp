@@ -1,6 +1,6 @@
 #include "hal/mcu/stm32f405/wheels.hpp"
 
-#include "hal/mcu/counts.hpp"
+#include "hal/mcu/common/counts.hpp"
 
 namespace whisker::stm32f405 {
 

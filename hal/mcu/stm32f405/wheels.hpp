@@ -2,7 +2,7 @@
 
 #include "hal/clock.hpp"
 #include "hal/drive.hpp"
-#include "hal/mcu/governor.hpp"
+#include "hal/mcu/common/governor.hpp"
 #include "hal/mcu/stm32f405/encoders.hpp"
 #include "hal/mcu/stm32f405/motors.hpp"
 

@@ -15,6 +15,8 @@ inline constexpr Field kRqcp[]{{0x08, 0, 1}, {0x08, 8, 1}, {0x08, 16, 1}};  ///<
 inline constexpr Field kTxok[]{{0x08, 1, 1}, {0x08, 9, 1}, {0x08, 17, 1}};  ///< TSR.TXOK0 TSR.TXOK1 TSR.TXOK2
 inline constexpr Field kAlst[]{
     {0x08, 2, 1}, {0x08, 10, 1}, {0x08, 18, 1}};  ///< TSR.ALST0 TSR.ALST1 TSR.ALST2
+inline constexpr Field kTerr[]{
+    {0x08, 3, 1}, {0x08, 11, 1}, {0x08, 19, 1}};  ///< TSR.TERR0 TSR.TERR1 TSR.TERR2
 inline constexpr Field kAbrq[]{
     {0x08, 7, 1}, {0x08, 15, 1}, {0x08, 23, 1}};  ///< TSR.ABRQ0 TSR.ABRQ1 TSR.ABRQ2
 inline constexpr Field kTme[]{{0x08, 26, 1}, {0x08, 27, 1}, {0x08, 28, 1}};  ///< TSR.TME0 TSR.TME1 TSR.TME2

@@ -9,7 +9,7 @@ struct MotorParams {
   int16_t full_speed = 4000;        ///< rim speed at full duty, 0.1 mm/s; 100..32767
   int32_t counts_per_metre = 5000;  ///< of rim travel; 100..1000000
   uint8_t stiffness_per_s = 5;      ///< added speed per way that the wheel lags behind, 1/s
-  int32_t most_lag = 100000;        ///< the lag that still adds speed, 0.1 um; at most 1000000
+  int32_t most_lag = 100000;        ///< at which no more is added, 0.1 um; 0..1000000
 };
 
 /// Holds a wheel at its speed: the duty that should do, and more for the way that the counts lag behind.

@@ -1,4 +1,4 @@
-#include "hal/mcu/nearer.hpp"
+#include "hal/mcu/common/nearer.hpp"
 
 namespace whisker::mcu {
 namespace {

@@ -1,4 +1,4 @@
-#include "hal/mcu/governor.hpp"
+#include "hal/mcu/common/governor.hpp"
 
 namespace whisker::mcu {
 namespace {

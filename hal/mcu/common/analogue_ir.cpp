@@ -1,4 +1,4 @@
-#include "hal/mcu/analogue_ir.hpp"
+#include "hal/mcu/common/analogue_ir.hpp"
 
 namespace whisker::mcu {
 
