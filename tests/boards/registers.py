@@ -142,8 +142,9 @@ def main(root, *options):
         return 0
     rows = rows_of(pathlib.Path(root, FACTS))
     problems, used, checked = check(headers, Facts(rows))
+    wanted = needed(rows, used)
     problems += [f"{FACTS}: no driver uses {'.'.join(r[c] for c in ('peripheral', 'register', 'field'))}"
-                 for r in rows if r not in needed(rows, used)]
+                 for r in rows if r not in wanted]
     if checked == 0:
         problems.append(f"{REG}: nothing to check")
     for problem in problems:
