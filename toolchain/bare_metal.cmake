@@ -21,7 +21,7 @@ set(CMAKE_CXX_FLAGS_RELEASE "-Os -DNDEBUG" CACHE STRING "Options of a release")
 
 # GCC links for clang too: it knows where the compiler's helpers for this processor are.
 set(CMAKE_CXX_LINK_EXECUTABLE
-  "${WHISKER_TRIPLE}-gcc ${WHISKER_FLAGS} -nostdlib -Wl,--gc-sections,--fatal-warnings <LINK_FLAGS> <OBJECTS> -o <TARGET> \
+  "${WHISKER_TRIPLE}-gcc ${WHISKER_FLAGS} -nostdlib -Wl,--gc-sections,--fatal-warnings,-z,noexecstack <LINK_FLAGS> <OBJECTS> -o <TARGET> \
 -Wl,--start-group <LINK_LIBRARIES> -lgcc -Wl,--end-group")
 set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

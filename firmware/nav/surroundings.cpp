@@ -14,7 +14,7 @@ constexpr Angle middle(int sector) noexcept { return kWidth * sector + Angle::fr
 /// A clear beam has nothing to object to, as in Probe: no step reaches beyond the maximum range.
 uint16_t proved_mm(const ranges::Echo& echo, Length ahead) noexcept {
   const int32_t mm = (echo.distance + ahead).raw() / kUmPerMm;
-  const bool far = echo.validity == ranges::Validity::clear || mm > UINT16_MAX;
+  const bool far = echo.validity == ranges::Validity::clear || mm > int32_t{UINT16_MAX};
   return far ? UINT16_MAX : static_cast<uint16_t>(mm);
 }
 

@@ -2,6 +2,8 @@
 #include "hal/board.hpp"
 #include "hal/mcu/common/stack.hpp"
 
+int main();
+
 extern "C" {
 
 extern uint32_t __data_load[];
@@ -10,7 +12,6 @@ extern uint32_t __data_end[];
 extern uint32_t __bss_start[];
 extern uint32_t __bss_end[];
 
-int main();
 [[noreturn]] void reset() noexcept;
 [[noreturn]] void unexpected() noexcept;
 

@@ -5,8 +5,9 @@
 namespace whisker::hal::mcu {
 
 /// The APB timer of Arm's Cortex-M system design kit, free running. Source: DDI 0479, "APB timer".
-template <uintptr_t kBase, uint32_t kHertz>
+template <uintptr_t kBase, uint32_t kFrequency>
 struct CmsdkTimer {
+  static constexpr uint32_t kHertz = kFrequency;
   static constexpr uint32_t kPerMillisecond = kHertz / 1000;
 
   static void start() noexcept {
