@@ -14,7 +14,7 @@ constexpr Angle middle(int sector) noexcept { return kWidth * sector + Angle::fr
 /// A clear beam has nothing to object to, as in Probe: no step reaches beyond the maximum range.
 uint16_t proved_mm(const ranges::Echo& echo, Length ahead) noexcept {
   const int32_t mm = (echo.distance + ahead).raw() / kUmPerMm;
-  const bool far = echo.validity == ranges::Validity::clear || mm > UINT16_MAX;
+  const bool far = echo.validity == ranges::Validity::clear || mm > int32_t{UINT16_MAX};
   return far ? UINT16_MAX : static_cast<uint16_t>(mm);
 }
 
@@ -43,13 +43,13 @@ void Surroundings::forget() noexcept {
 }
 
 void Surroundings::add(const ranges::Echoes& look, Angle heading) noexcept {
-  const Angle axes[hal::kBeams] = {side_, Angle{}, -side_};
   for (int i = 0; i < hal::kBeams; ++i) {
     const ranges::Echo& echo = look.beam[i];
     if (!ranges::usable(echo.validity)) continue;
+    const Angle axis = heading + beam_axis(side_, i);
     const uint16_t mm = proved_mm(echo, ahead_);
     for (int s = 0; s < kSectors; ++s) {
-      const bool inside = magnitude(middle(s) - heading - axes[i]) + kHalfWidth <= half_;
+      const bool inside = magnitude(middle(s) - axis) + kHalfWidth <= half_;
       if (inside && mm > free_mm_[s]) free_mm_[s] = mm;
     }
   }
