@@ -3,7 +3,7 @@
 #include "hal/mcu/stm32f405/bx_can.hpp"
 #include "tests/boards/chip_fixture.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 using hal::CanFrame;
@@ -228,4 +228,4 @@ TEST(CanAbsentTest, AControllerThatDoesNotAnswerIsOffAfterABoundedTime) {
 }
 
 }  // namespace
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -11,7 +11,7 @@
 #include "tests/boards/models/tim_model.hpp"
 #include "tests/boards/models/usart_model.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// A chip with every peripheral that the board uses, as it wakes up.
 struct ModelChip {
@@ -51,4 +51,4 @@ struct ModelChip {
   Troubles troubles;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -10,7 +10,7 @@
 #include "hal/mcu/stm32f405/watchdog.hpp"
 #include "tests/boards/chip_fixture.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 class ClockTest : public ::testing::Test, public ModelChip {
@@ -102,15 +102,16 @@ TEST_F(ClockTest, MillisecondsGoOnOverTheCountersWrap) {
 
 TEST(ScheduleTest, FiresOnceAPeriodOnItsGridAndCountsWhatItMissed) {
   const std::uint32_t start = UINT32_MAX - 55;
-  Schedule schedule(10, start);
+  Schedule schedule;
+  schedule.begin(start);
   int fired = 0;
-  for (std::uint32_t t = 0; t <= 1000; ++t) fired += schedule.due(start + t) ? 1 : 0;
+  for (std::uint32_t t = 0; t <= 1000; ++t) fired += schedule.due(start + t, 10) ? 1 : 0;
   EXPECT_EQ(fired, 100);
   EXPECT_EQ(schedule.missed(), 0U);
-  EXPECT_TRUE(schedule.due(start + 1035));
+  EXPECT_TRUE(schedule.due(start + 1035, 10));
   EXPECT_EQ(schedule.missed(), 2U);
-  EXPECT_FALSE(schedule.due(start + 1039));
-  EXPECT_TRUE(schedule.due(start + 1040));
+  EXPECT_FALSE(schedule.due(start + 1039, 10));
+  EXPECT_TRUE(schedule.due(start + 1040, 10));
 }
 
 TEST_F(ClockTest, TheWatchdogTakesItsTimeOut) {
@@ -151,4 +152,4 @@ TEST(TroublesTest, CountersStopAtTheirMaximum) {
 }
 
 }  // namespace
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

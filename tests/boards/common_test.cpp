@@ -9,7 +9,7 @@
 #include "hal/mcu/common/shared.hpp"
 #include "host/sim/random.hpp"
 
-namespace whisker::mcu {
+namespace whisker::hal::mcu {
 namespace {
 
 using hal::RangeReading;
@@ -257,4 +257,4 @@ TEST(GovernorTest, IsOddAndWithinFullDutyForEveryInput) {
 }
 
 }  // namespace
-}  // namespace whisker::mcu
+}  // namespace whisker::hal::mcu

@@ -8,7 +8,7 @@
 #include "hal/mcu/stm32f405/wheels.hpp"
 #include "tests/boards/chip_fixture.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 class FakeClock final : public hal::Clock {
@@ -121,22 +121,14 @@ TEST_F(UsartTest, TheBaudRateIsNearFromEitherClock) {
   EXPECT_NEAR(usart.baud(42e6), 115200, 115200 * 0.01);
 }
 
-TEST_F(UsartTest, SendsTextAndNumbers) {
-  console.send("t=", troubles);
-  console.send_number(0, troubles);
-  console.send(" ", troubles);
-  console.send_number(UINT32_MAX, troubles);
-  EXPECT_EQ(usart.sent, "t=0 4294967295");
-  EXPECT_EQ(troubles.total(), 0U);
-}
-
-TEST_F(UsartTest, ALineThatIsHeldCostsOneTimeOut) {
-  usart.line_held = true;
+TEST_F(UsartTest, TakesAByteWhenThereIsRoomAndNeverWaits) {
+  EXPECT_TRUE(console.offer('h'));
   const double began = chip.now_us();
-  console.send("hello", troubles);
-  EXPECT_EQ(usart.sent, "h");
-  EXPECT_EQ(troubles.of(Trouble::usart_send_timeout), 1U);
-  EXPECT_LT(chip.now_us() - began, 300);
+  EXPECT_FALSE(console.offer('i'));
+  EXPECT_LE(chip.now_us() - began, 1);
+  for (int i = 0; i < model::UsartModel::kByte; ++i) load(base::kFlash);
+  EXPECT_TRUE(console.offer('o'));
+  EXPECT_EQ(usart.sent, "ho");
 }
 
 TEST_F(UsartTest, BytesWaitInTheRing) {
@@ -198,4 +190,4 @@ TEST(PinsTest, EveryPinHasItsOwnPlaceAndFunction) {
 }
 
 }  // namespace
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

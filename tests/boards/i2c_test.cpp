@@ -9,7 +9,7 @@
 #include "hal/mcu/stm32f405/pins.hpp"
 #include "tests/boards/chip_fixture.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -188,4 +188,4 @@ TEST_F(StuckBusTest, ABusHeldForEverFailsEachTimeWithinABound) {
 }
 
 }  // namespace
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

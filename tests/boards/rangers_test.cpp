@@ -7,7 +7,7 @@
 #include "tests/boards/chip_fixture.hpp"
 #include "tests/boards/models/vl53l0x_model.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 using hal::RangeStatus;
@@ -196,4 +196,4 @@ TEST_F(IrTest, AConversionThatComesLateIsNotTakenForTheNextChannels) {
 }
 
 }  // namespace
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -13,7 +13,7 @@ FACTS = "tests/boards/stm32f405_registers.csv"
 
 CONSTANT = re.compile(
     r"inline constexpr (Address|Register|Field|PinField) (k\w+)(\[\])?\s*(?:= )?([^;]*);\s*///< ([^\n]*)")
-NAMESPACE = re.compile(r"namespace whisker::stm32f405::(\w+) \{(?:  // ([A-Z0-9_ ]+))?\n")
+NAMESPACE = re.compile(r"namespace whisker::hal::stm32f405::(\w+) \{(?:  // ([A-Z0-9_ ]+))?\n")
 PLAIN = re.compile(r"inline constexpr uint8_t k\w+ = \d+;")
 NUMBER = re.compile(r"0x[0-9A-Fa-f]+|\d+")
 FIELDS_OF = {"Address": 1, "Register": 1, "Field": 3, "PinField": 3}

@@ -1,6 +1,6 @@
 #include "hal/mcu/common/analogue_ir.hpp"
 
-namespace whisker::mcu {
+namespace whisker::hal::mcu {
 
 void from_voltage(const IrCurve& curve, int16_t mv, hal::RangeReading& out) noexcept {
   out.mm = 0;
@@ -17,4 +17,4 @@ void from_voltage(const IrCurve& curve, int16_t mv, hal::RangeReading& out) noex
   }
 }
 
-}  // namespace whisker::mcu
+}  // namespace whisker::hal::mcu

@@ -5,7 +5,7 @@
 
 #include "hal/wire.hpp"
 
-namespace whisker::mcu {
+namespace whisker::hal::mcu {
 
 /// voltage = zero + slope / distance, good between the two distances.
 struct IrCurve {
@@ -29,4 +29,4 @@ constexpr int16_t voltage_at(const IrCurve& curve, int16_t mm) noexcept {
   return static_cast<int16_t>(curve.zero_mv + (curve.slope_mv_mm + mm / 2) / mm);
 }
 
-}  // namespace whisker::mcu
+}  // namespace whisker::hal::mcu

@@ -5,7 +5,7 @@
 
 #include "hal/wire.hpp"
 
-namespace whisker::mcu {
+namespace whisker::hal::mcu {
 
 /// From one reading to the next, forward positive. Right for less than 32768 counts.
 constexpr int16_t counts_between(uint32_t before, uint32_t after) noexcept {
@@ -22,4 +22,4 @@ constexpr uint32_t follow_counter(uint32_t total, uint16_t counter) noexcept {
 static_assert(counts_between(0, 5) == 5 && counts_between(2, 0xFFFFFF) == -3);
 static_assert(follow_counter(0xFFFFFF, 1) == 1 && follow_counter(0, 0xFFFF) == 0xFFFFFF);
 
-}  // namespace whisker::mcu
+}  // namespace whisker::hal::mcu

@@ -1,6 +1,6 @@
 #include "hal/mcu/common/governor.hpp"
 
-namespace whisker::mcu {
+namespace whisker::hal::mcu {
 namespace {
 
 constexpr int32_t kFarthest = 20000000;  // 0.1 um, that a wheel can roll between two steps
@@ -26,4 +26,4 @@ int16_t Governor::step(int16_t wanted, int16_t counted, uint8_t elapsed_ms) noex
   return static_cast<int16_t>(speed * kFullDuty / params_.full_speed);
 }
 
-}  // namespace whisker::mcu
+}  // namespace whisker::hal::mcu

@@ -2,7 +2,7 @@
 
 #include <stdint.h>
 
-namespace whisker::mcu {
+namespace whisker::hal::mcu {
 
 /// One motor with its gear and encoder, as it comes from calibration.
 struct MotorParams {
@@ -33,4 +33,4 @@ class Governor {
   int16_t wanted_ = 0;     // of the last call
 };
 
-}  // namespace whisker::mcu
+}  // namespace whisker::hal::mcu

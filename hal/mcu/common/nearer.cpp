@@ -1,6 +1,6 @@
 #include "hal/mcu/common/nearer.hpp"
 
-namespace whisker::mcu {
+namespace whisker::hal::mcu {
 namespace {
 
 using hal::RangeStatus;
@@ -31,4 +31,4 @@ bool Nearer::read(hal::RangeReadings& out) noexcept {
   return true;
 }
 
-}  // namespace whisker::mcu
+}  // namespace whisker::hal::mcu

@@ -2,7 +2,7 @@
 
 #include "hal/rangefinders.hpp"
 
-namespace whisker::mcu {
+namespace whisker::hal::mcu {
 
 /// Two sets of rangefinders that look the same ways: a beam shows the nearer of its two sensors.
 ///
@@ -21,4 +21,4 @@ class Nearer final : public hal::Rangefinders {
   hal::Rangefinders& second_;
 };
 
-}  // namespace whisker::mcu
+}  // namespace whisker::hal::mcu

@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-namespace whisker::mcu {
+namespace whisker::hal::mcu {
 
 /// Keeps the compiler from moving memory accesses across.
 inline void compiler_barrier() noexcept { asm volatile("" ::: "memory"); }
@@ -95,4 +95,4 @@ class Events {
   uint8_t seen_ = 0;
 };
 
-}  // namespace whisker::mcu
+}  // namespace whisker::hal::mcu

@@ -5,7 +5,7 @@
 #include "hal/mcu/stm32f405/reg/adc_common.hpp"
 #include "hal/mcu/stm32f405/reg/bases.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 constexpr uint32_t kDivideBy4 = 1;  // 21 MHz, of at most 36
@@ -44,4 +44,4 @@ bool Adc::convert(uint8_t channel, int16_t& mv, Troubles& troubles) noexcept {
   return true;
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,7 +4,7 @@
 
 #include "hal/mcu/stm32f405/clock.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// Single conversions of ADC1, 12 bits, sampled long enough for a source of 10 kOhm.
 class Adc {
@@ -21,4 +21,4 @@ class Adc {
   uint32_t core_hz_ = 0;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,7 +4,7 @@
 #include "hal/mcu/stm32f405/reg/bases.hpp"
 #include "hal/mcu/stm32f405/reg/can.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 using hal::CanFrame;
@@ -235,4 +235,4 @@ void BxCan::on_receive_interrupt() noexcept {
   }
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,7 +4,7 @@
 #include "hal/mcu/common/shared.hpp"
 #include "hal/mcu/stm32f405/clock.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// CAN1. Frames come in by interrupt and wait in a ring; the controller's three mailboxes are filled by
 /// poll(), in the order of send(), and it repeats a frame by itself until that has left or is too old.
@@ -62,4 +62,4 @@ class BxCan final : public hal::CanPort {
   mcu::Events overruns_;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

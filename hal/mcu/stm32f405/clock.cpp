@@ -5,7 +5,7 @@
 #include "hal/mcu/stm32f405/reg/flash.hpp"
 #include "hal/mcu/stm32f405/reg/rcc.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 constexpr uint32_t kInternalHz = 16000000;
@@ -68,4 +68,4 @@ Clocks start_clocks(Troubles& troubles) noexcept {
   return kFullClocks;
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,7 +4,7 @@
 
 #include "hal/mcu/stm32f405/trouble.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// The frequencies that the drivers divide from.
 struct Clocks {
@@ -26,4 +26,4 @@ constexpr uint32_t kCrystalHz = 8000000;
 /// lock, stays at 16 MHz. Returns what it came to; each step back is counted. Bounded by about 10 ms.
 Clocks start_clocks(Troubles& troubles) noexcept;
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,7 +4,7 @@
 #include "hal/mcu/stm32f405/reg/bases.hpp"
 #include "hal/mcu/stm32f405/reg/tim.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 constexpr uint32_t kBothEdgesOfBoth = 3;  // encoder mode 3
@@ -35,4 +35,4 @@ hal::EncoderCounts Encoders::read() noexcept {
   return counts_;
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

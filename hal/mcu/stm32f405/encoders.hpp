@@ -4,7 +4,7 @@
 
 #include "hal/wire.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// Both quadrature encoders: TIM3 and TIM4 count the edges of their two inputs in 16 bits.
 class Encoders {
@@ -17,4 +17,4 @@ class Encoders {
   hal::EncoderCounts counts_{};
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

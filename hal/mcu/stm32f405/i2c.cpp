@@ -4,7 +4,7 @@
 #include "hal/mcu/stm32f405/reg/bases.hpp"
 #include "hal/mcu/stm32f405/reg/i2c.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 constexpr uint32_t kBusHz = 400000;
@@ -192,4 +192,4 @@ bool I2c::read(uint8_t address, uint8_t reg, uint8_t* in, uint8_t in_size) noexc
   return transfer(address, &reg, 1, in, in_size);
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -5,7 +5,7 @@
 #include "hal/mcu/stm32f405/clock.hpp"
 #include "hal/mcu/stm32f405/patience.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// I2C1 as the only master, 400 kHz. A transfer blocks until it is done, for kTransferUs at least and about
 /// four times as long at most; whatever goes wrong is counted under its name, and the bus is free afterwards
@@ -43,4 +43,4 @@ class I2c {
   Troubles* troubles_ = nullptr;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -2,7 +2,7 @@
 
 #include "hal/mcu/stm32f405/pins.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 constexpr uint8_t address_of(uint8_t beam) noexcept {
@@ -86,4 +86,4 @@ bool I2cRangers::read(hal::RangeReadings& out) noexcept {
   return true;
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

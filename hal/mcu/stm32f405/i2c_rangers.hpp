@@ -3,7 +3,7 @@
 #include "hal/mcu/stm32f405/ranger_kind.hpp"
 #include "hal/rangefinders.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// Three rangefinders of one kind on one bus. They all wake at the same address, so each has a reset line,
 /// and they are woken one after the other.
@@ -50,4 +50,4 @@ class I2cRangers final : public hal::Rangefinders {
   uint32_t now_ms_ = 0;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 using Address = uint32_t;
 
@@ -57,4 +57,4 @@ inline void set(Address base, Field f, uint32_t v) noexcept {
   store(base + f.offset, (load(base + f.offset) & ~mask(f)) | bits(f, v));
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -2,7 +2,7 @@
 
 #include "hal/mcu/stm32f405/pins.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 void IrRangers::poll(uint32_t now_ms) noexcept {
   now_ms_ = now_ms;
@@ -28,4 +28,4 @@ bool IrRangers::read(hal::RangeReadings& out) noexcept {
   return true;
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,7 +4,7 @@
 #include "hal/mcu/stm32f405/adc.hpp"
 #include "hal/rangefinders.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// Three analogue infrared sensors on the converter.
 class IrRangers final : public hal::Rangefinders {
@@ -31,4 +31,4 @@ class IrRangers final : public hal::Rangefinders {
                                              {0, hal::RangeStatus::stale, UINT8_MAX, 15}};
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

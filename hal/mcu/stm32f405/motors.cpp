@@ -3,7 +3,7 @@
 #include "hal/mcu/stm32f405/pins.hpp"
 #include "hal/mcu/stm32f405/reg/tim.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 constexpr uint32_t kHighWhileBelow = 6;  // PWM mode 1
@@ -49,4 +49,4 @@ void Motors::drive_one(uint8_t wheel, int16_t duty) noexcept {
   }
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,7 +4,7 @@
 
 #include "hal/mcu/stm32f405/clock.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// Both motors' drivers: a pulse width from TIM1 and two direction inputs each.
 class Motors {
@@ -21,4 +21,4 @@ class Motors {
   uint32_t steps_ = 0;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -5,7 +5,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// So many polls of a register, shared by all waits of one piece of work.
 class Patience {
@@ -37,4 +37,4 @@ class Patience {
   uint32_t left_;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -3,7 +3,7 @@
 #include "hal/mcu/stm32f405/reg/gpio.hpp"
 #include "hal/mcu/stm32f405/reg/rcc.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 enum Mode : uint32_t { kOutput = 1, kFunction = 2, kAnalogue = 3 };
@@ -74,4 +74,4 @@ void set_up_pins() noexcept {
   make_function_pulled_up(kCanIn, Function::can);
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

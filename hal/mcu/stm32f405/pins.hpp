@@ -6,7 +6,7 @@
 #include "hal/mcu/stm32f405/io.hpp"
 #include "hal/mcu/stm32f405/reg/bases.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 struct Pin {
   Address port;
@@ -57,4 +57,4 @@ void power_peripherals() noexcept;
 /// Gives every pin of `wiring` its function; motors off, rangefinders in reset.
 void set_up_pins() noexcept;
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -6,7 +6,7 @@
 #include "hal/mcu/stm32f405/i2c.hpp"
 #include "hal/wire.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 enum class Taken : uint8_t {
   nothing_new,  ///< it is still measuring
@@ -30,4 +30,4 @@ struct RangerKind {
   uint16_t silent_ms;  ///< without a measurement for this long it is taken for dead
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

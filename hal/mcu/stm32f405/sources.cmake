@@ -10,8 +10,11 @@ set(whisker_stm32f405_sources
   ${CMAKE_CURRENT_LIST_DIR}/i2c.cpp
   ${CMAKE_CURRENT_LIST_DIR}/i2c_rangers.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ir_rangers.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/interrupts.cpp
   ${CMAKE_CURRENT_LIST_DIR}/motors.cpp
   ${CMAKE_CURRENT_LIST_DIR}/pins.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/reporter.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/robot_board.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ticker.cpp
   ${CMAKE_CURRENT_LIST_DIR}/trouble.cpp
   ${CMAKE_CURRENT_LIST_DIR}/usart.cpp

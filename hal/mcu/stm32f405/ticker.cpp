@@ -3,7 +3,7 @@
 #include "hal/mcu/stm32f405/reg/bases.hpp"
 #include "hal/mcu/stm32f405/reg/tim.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 void Ticker::start(const Clocks& clocks) noexcept {
   store(base::kTim2, tim::kPsc, clocks.timer2_hz / 1000000 - 1);
@@ -25,13 +25,12 @@ uint32_t Ticker::now_ms() noexcept {
   return ms_;
 }
 
-bool Schedule::due(uint32_t now_ms) noexcept {
-  const uint32_t late = now_ms - next_;
-  if (late > INT32_MAX) return false;
-  const uint32_t periods = late / period_;
-  missed_ += periods;
-  next_ += (periods + 1) * period_;
+bool Schedule::due(uint32_t now_ms, uint32_t period_ms) noexcept {
+  const uint32_t periods = (now_ms - last_) / period_ms;
+  if (periods == 0) return false;
+  missed_ += periods - 1;
+  last_ += periods * period_ms;
   return true;
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

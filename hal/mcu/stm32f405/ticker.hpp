@@ -5,7 +5,7 @@
 #include "hal/clock.hpp"
 #include "hal/mcu/stm32f405/clock.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// Time from TIM2, a 32-bit count of microseconds that the hardware keeps; no interrupt is needed.
 class Ticker final : public hal::Clock {
@@ -26,15 +26,14 @@ class Ticker final : public hal::Clock {
 /// Says when the next control tick is due, on a fixed grid of periods.
 class Schedule {
  public:
-  Schedule(uint32_t period_ms, uint32_t now_ms) noexcept : period_(period_ms), next_(now_ms + period_ms) {}
+  void begin(uint32_t now_ms) noexcept { last_ = now_ms; }
   /// True once a period. Late by whole periods: those are left out, and missed() counts them.
-  bool due(uint32_t now_ms) noexcept;
+  bool due(uint32_t now_ms, uint32_t period_ms) noexcept;
   uint32_t missed() const noexcept { return missed_; }
 
  private:
-  uint32_t period_;
-  uint32_t next_;
+  uint32_t last_ = 0;
   uint32_t missed_ = 0;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

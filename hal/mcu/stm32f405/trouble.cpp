@@ -1,6 +1,6 @@
 #include "hal/mcu/stm32f405/trouble.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 const char* name(Trouble trouble) noexcept {
   switch (trouble) {
@@ -8,7 +8,6 @@ const char* name(Trouble trouble) noexcept {
     case Trouble::pll_not_locked: return "pll_not_locked";
     case Trouble::clock_not_switched: return "clock_not_switched";
     case Trouble::watchdog_not_ready: return "watchdog_not_ready";
-    case Trouble::usart_send_timeout: return "usart_send_timeout";
     case Trouble::usart_receive_lost: return "usart_receive_lost";
     case Trouble::i2c_nack: return "i2c_nack";
     case Trouble::i2c_bus_stuck: return "i2c_bus_stuck";
@@ -33,4 +32,4 @@ uint32_t Troubles::total() const noexcept {
   return sum;
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -3,14 +3,13 @@
 
 #include <stdint.h>
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 enum class Trouble : uint8_t {
   crystal_not_ready,     ///< the crystal did not start: runs on the internal oscillator
   pll_not_locked,        ///< runs at 16 MHz
   clock_not_switched,    ///< the core stayed on the internal oscillator
   watchdog_not_ready,    ///< it did not take its period in time; it may run with its default
-  usart_send_timeout,    ///< a byte could not leave in time: dropped
   usart_receive_lost,    ///< bytes came faster than they were taken, or damaged
   i2c_nack,              ///< nobody answered to the address, or a byte was refused
   i2c_bus_stuck,         ///< somebody held the bus: the clock was toggled to free it
@@ -21,7 +20,7 @@ enum class Trouble : uint8_t {
   ranger_silent,         ///< a rangefinder stopped measuring: reset
   adc_no_conversion,     ///< a conversion did not end in time
 };
-constexpr uint8_t kTroubles = 14;
+constexpr uint8_t kTroubles = 13;
 
 /// In snake case; never nullptr.
 const char* name(Trouble trouble) noexcept;
@@ -38,4 +37,4 @@ class Troubles {
   uint16_t count_[kTroubles] = {};
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

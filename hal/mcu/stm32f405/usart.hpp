@@ -5,9 +5,10 @@
 #include "hal/mcu/common/shared.hpp"
 #include "hal/mcu/stm32f405/clock.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
-/// USART2: 8 data bits, no parity, 1 stop bit. Bytes come in by interrupt and wait in a ring.
+/// USART2: 8 data bits, no parity, 1 stop bit. Nothing waits for the line: bytes come in by
+/// interrupt and stay in a ring, and go out one at a time when there is room.
 class Usart {
  public:
   static constexpr uint8_t kReceiveDepth = 64;
@@ -15,11 +16,8 @@ class Usart {
   /// baud: up to apb1_hz / 16.
   void start(uint32_t baud, const Clocks& clocks) noexcept;
 
-  /// Waits for room: at most about three bytes' time. False: counted, and the byte is dropped.
-  bool send(uint8_t byte, Troubles& troubles) noexcept;
-  void send(const char* text, Troubles& troubles) noexcept;
-  /// In decimal.
-  void send_number(uint32_t number, Troubles& troubles) noexcept;
+  /// False: the line has no room for it now.
+  bool offer(uint8_t byte) noexcept;
   /// False: nothing has come. Counts what was lost since the last call.
   bool receive(uint8_t& byte, Troubles& troubles) noexcept;
 
@@ -27,10 +25,8 @@ class Usart {
   void on_interrupt() noexcept;
 
  private:
-  uint32_t core_hz_ = 0;
-  uint32_t byte_us_ = 0;
   mcu::Ring<uint8_t, kReceiveDepth> received_;
   mcu::Events lost_;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -1,6 +1,6 @@
 #include "hal/mcu/stm32f405/vl53l0x.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 using namespace vl53l0x;
@@ -33,4 +33,4 @@ Taken take(I2c& bus, uint8_t address, hal::RangeReading& out) noexcept {
 
 const RangerKind kVl53l0x = {start, take, 2, 200};
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

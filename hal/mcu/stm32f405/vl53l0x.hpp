@@ -2,7 +2,7 @@
 
 #include "hal/mcu/stm32f405/ranger_kind.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// VL53L0X and what works like it: 8-bit registers, one to start, one to ask, one to read from. It measures
 /// about 30 times a second with the settings that it wakes up with, to 1.2 m or more.
@@ -28,4 +28,4 @@ constexpr uint8_t kNoTarget = 4;  ///< the light came back too weak or out of ph
 constexpr uint16_t kOutOfReachMm = 8190;
 }  // namespace vl53l0x
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,11 +4,11 @@
 #include "hal/mcu/stm32f405/reg/bases.hpp"
 #include "hal/mcu/stm32f405/reg/iwdg.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 namespace {
 
 enum Key : uint32_t { kReload = 0xAAAA, kUnlock = 0x5555, kStart = 0xCCCC };
-constexpr uint32_t kDivideBy32 = 3;  // of 32 kHz: a count a millisecond
+constexpr uint32_t kDivideBy32 = 3;    // of 32 kHz: a count a millisecond
 constexpr uint32_t kUpdateUs = 10000;  // six cycles of the divided oscillator take 6 ms
 
 }  // namespace
@@ -31,4 +31,4 @@ bool Watchdog::start(uint16_t timeout_ms, const Clocks& clocks, Troubles& troubl
 
 void Watchdog::feed() noexcept { store(base::kIwdg, iwdg::kKr, kReload); }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -4,7 +4,7 @@
 
 #include "hal/mcu/stm32f405/clock.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// The independent watchdog: resets the chip unless fed in time. Once started nothing stops it.
 class Watchdog {
@@ -15,4 +15,4 @@ class Watchdog {
   void feed() noexcept;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -2,7 +2,7 @@
 
 #include "hal/mcu/common/counts.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 void Wheels::start(const Clocks& clocks) noexcept {
   motors_.start(clocks);
@@ -27,4 +27,4 @@ bool Wheels::read(hal::EncoderCounts& out) noexcept {
   return true;
 }
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -6,7 +6,7 @@
 #include "hal/mcu/stm32f405/encoders.hpp"
 #include "hal/mcu/stm32f405/motors.hpp"
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 /// The drive: motors and encoders, with a governor for each wheel. Never refuses.
 class Wheels final : public hal::Drive {
@@ -29,4 +29,4 @@ class Wheels final : public hal::Drive {
   uint32_t governed_ms_ = 0;
 };
 
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -5,7 +5,7 @@
 #include "hal/mcu/stm32f405/reg/adc.hpp"
 #include "tests/boards/models/chip.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 /// One conversion at a time of whatever channel comes first.
 class AdcModel : public Peripheral {
@@ -39,4 +39,4 @@ class AdcModel : public Peripheral {
   int left_ = 0;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 namespace {
 
 std::uint32_t word_at(const std::uint8_t* b) {
@@ -133,4 +133,4 @@ void CanModel::go_bus_off() {
   put(can::kEpvf, 1);
 }
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

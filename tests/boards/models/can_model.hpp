@@ -7,7 +7,7 @@
 #include "hal/mcu/stm32f405/reg/can.hpp"
 #include "tests/boards/models/chip.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 /// bxCAN and the bus it is on.
 class CanModel : public Peripheral {
@@ -41,4 +41,4 @@ class CanModel : public Peripheral {
   std::deque<hal::CanFrame> fifo_;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <iterator>
 
-namespace whisker::stm32f405 {
+namespace whisker::hal::stm32f405 {
 
 std::uint32_t load(Address address) noexcept { return model::Chip::current().load(address); }
 void store(Address address, std::uint32_t value) noexcept { model::Chip::current().store(address, value); }
@@ -52,4 +52,4 @@ void Chip::store(Address address, std::uint32_t value) {
 }
 
 }  // namespace model
-}  // namespace whisker::stm32f405
+}  // namespace whisker::hal::stm32f405

@@ -8,7 +8,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 /// A peripheral: registers that remember what was written, unless a model does more.
 class Peripheral {
@@ -57,4 +57,4 @@ class Chip {
   std::uint64_t accesses_ = 0;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

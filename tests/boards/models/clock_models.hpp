@@ -4,7 +4,7 @@
 #include "hal/mcu/stm32f405/reg/rcc.hpp"
 #include "tests/boards/models/chip.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 /// Oscillators and the clock switch, each with a fault.
 class RccModel : public Peripheral {
@@ -44,4 +44,4 @@ class RccModel : public Peripheral {
   int pll_ = 0;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

@@ -5,7 +5,7 @@
 #include "hal/mcu/stm32f405/reg/gpio.hpp"
 #include "tests/boards/models/chip.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 /// A port: outputs drive their pins, and anybody outside may hold a pin low.
 class GpioModel : public Peripheral {
@@ -48,4 +48,4 @@ class GpioModel : public Peripheral {
   std::uint32_t driven_ = 0;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

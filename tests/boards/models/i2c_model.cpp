@@ -1,6 +1,6 @@
 #include "tests/boards/models/i2c_model.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 bool I2cModel::set_up_for_400khz(double mhz) {
   const double hz = mhz * 1e6 / (3.0 * get(i2c::kCcrValue));
@@ -189,4 +189,4 @@ void I2cModel::end_read() {
   if (get(i2c::kStop) != 0 && !shift_full_) stop();
 }
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

@@ -6,7 +6,7 @@
 #include "hal/mcu/stm32f405/reg/i2c.hpp"
 #include "tests/boards/models/chip.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 /// A device on the bus.
 class I2cDevice {
@@ -63,4 +63,4 @@ class I2cModel : public Peripheral {
   int left_ = 0;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

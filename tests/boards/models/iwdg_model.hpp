@@ -3,7 +3,7 @@
 #include "hal/mcu/stm32f405/reg/iwdg.hpp"
 #include "tests/boards/models/chip.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 /// Its values can be written while it is unlocked, and take their time to be taken over.
 class IwdgModel : public Peripheral {
@@ -39,4 +39,4 @@ class IwdgModel : public Peripheral {
   int left_ = 0;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

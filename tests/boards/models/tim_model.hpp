@@ -3,7 +3,7 @@
 #include "hal/mcu/stm32f405/reg/tim.hpp"
 #include "tests/boards/models/chip.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 /// A timer as a clock, as a pulse width, or as a quadrature counter.
 class TimModel : public Peripheral {
@@ -54,4 +54,4 @@ class TimModel : public Peripheral {
   double prescaler_ = 0;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

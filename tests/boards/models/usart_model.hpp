@@ -6,7 +6,7 @@
 #include "hal/mcu/stm32f405/reg/usart.hpp"
 #include "tests/boards/models/chip.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 class UsartModel : public Peripheral {
  public:
@@ -64,4 +64,4 @@ class UsartModel : public Peripheral {
   int left_ = 0;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

@@ -5,7 +5,7 @@
 #include "hal/mcu/stm32f405/vl53l0x.hpp"
 #include "tests/boards/models/i2c_model.hpp"
 
-namespace whisker::stm32f405::model {
+namespace whisker::hal::stm32f405::model {
 
 /// A time-of-flight sensor: asleep while its reset is held, then at its default address until told another.
 class Vl53l0xModel : public I2cDevice {
@@ -63,4 +63,4 @@ class Vl53l0xModel : public I2cDevice {
   bool ready_ = false;
 };
 
-}  // namespace whisker::stm32f405::model
+}  // namespace whisker::hal::stm32f405::model

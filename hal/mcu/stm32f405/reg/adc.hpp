@@ -3,7 +3,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::adc {  // ADC1
+namespace whisker::hal::stm32f405::adc {  // ADC1
 
 inline constexpr Register kSr{0x00};           ///< SR
 inline constexpr Field kEoc{0x00, 1, 1};       ///< SR.EOC
@@ -14,4 +14,4 @@ inline constexpr Register kSmpr1{0x0C};        ///< SMPR1
 inline constexpr Field kSq1{0x34, 0, 5};       ///< SQR3.SQ1
 inline constexpr Register kDr{0x4C};           ///< DR
 
-}  // namespace whisker::stm32f405::adc
+}  // namespace whisker::hal::stm32f405::adc

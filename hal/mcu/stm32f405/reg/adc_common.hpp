@@ -3,8 +3,8 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::adc_common {  // C_ADC
+namespace whisker::hal::stm32f405::adc_common {  // C_ADC
 
 inline constexpr Field kAdcpre{0x04, 16, 2};  ///< CCR.ADCPRE
 
-}  // namespace whisker::stm32f405::adc_common
+}  // namespace whisker::hal::stm32f405::adc_common

@@ -3,7 +3,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::base {
+namespace whisker::hal::stm32f405::base {
 
 inline constexpr Address kTim1 = 0x40010000;       ///< TIM1
 inline constexpr Address kTim2 = 0x40000000;       ///< TIM2
@@ -22,4 +22,4 @@ inline constexpr Address kRcc = 0x40023800;        ///< RCC
 inline constexpr Address kFlash = 0x40023C00;      ///< FLASH
 inline constexpr Address kNvic = 0xE000E100;       ///< NVIC
 
-}  // namespace whisker::stm32f405::base
+}  // namespace whisker::hal::stm32f405::base

@@ -3,7 +3,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::can {  // CAN1
+namespace whisker::hal::stm32f405::can {  // CAN1
 
 inline constexpr uint8_t kMailboxes = 3;
 inline constexpr Field kInrq{0x00, 0, 1};                                   ///< MCR.INRQ
@@ -53,4 +53,4 @@ inline constexpr Field kFact0{0x21C, 0, 1};                                  ///
 inline constexpr Register kF0r1{0x240};                                      ///< F0R1
 inline constexpr Register kF0r2{0x244};                                      ///< F0R2
 
-}  // namespace whisker::stm32f405::can
+}  // namespace whisker::hal::stm32f405::can

@@ -3,7 +3,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::gpio {  // GPIOA GPIOB GPIOC
+namespace whisker::hal::stm32f405::gpio {  // GPIOA GPIOB GPIOC
 
 inline constexpr PinField kModer{0x00, 2, 0};    ///< MODER.MODER0..MODER15
 inline constexpr PinField kOtyper{0x04, 1, 0};   ///< OTYPER.OT0..OT15
@@ -15,4 +15,4 @@ inline constexpr PinField kBs{0x18, 1, 0};       ///< BSRR.BS0..BS15
 inline constexpr PinField kAfrl{0x20, 4, 0};     ///< AFRL.AFRL0..AFRL7
 inline constexpr PinField kAfrh{0x24, 4, 8};     ///< AFRH.AFRH8..AFRH15
 
-}  // namespace whisker::stm32f405::gpio
+}  // namespace whisker::hal::stm32f405::gpio

@@ -3,7 +3,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::i2c {  // I2C1
+namespace whisker::hal::stm32f405::i2c {  // I2C1
 
 inline constexpr Register kCr1{0x00};           ///< CR1
 inline constexpr Field kPe{0x00, 0, 1};         ///< CR1.PE
@@ -30,4 +30,4 @@ inline constexpr Field kCcrValue{0x1C, 0, 12};  ///< CCR.CCR
 inline constexpr Field kFast{0x1C, 15, 1};      ///< CCR.F_S
 inline constexpr Register kTrise{0x20};         ///< TRISE
 
-}  // namespace whisker::stm32f405::i2c
+}  // namespace whisker::hal::stm32f405::i2c

@@ -3,8 +3,8 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::nvic {  // NVIC
+namespace whisker::hal::stm32f405::nvic {  // NVIC
 
 inline constexpr Register kIser[]{{0x00}, {0x04}, {0x08}};  ///< ISER0 ISER1 ISER2
 
-}  // namespace whisker::stm32f405::nvic
+}  // namespace whisker::hal::stm32f405::nvic

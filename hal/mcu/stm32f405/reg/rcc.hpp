@@ -3,7 +3,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::rcc {  // RCC
+namespace whisker::hal::stm32f405::rcc {  // RCC
 
 inline constexpr Register kCr{0x00};            ///< CR
 inline constexpr Field kHsion{0x00, 0, 1};      ///< CR.HSION
@@ -35,4 +35,4 @@ inline constexpr Field kCan1en{0x40, 25, 1};    ///< APB1ENR.CAN1EN
 inline constexpr Field kTim1en{0x44, 0, 1};     ///< APB2ENR.TIM1EN
 inline constexpr Field kAdc1en{0x44, 8, 1};     ///< APB2ENR.ADC1EN
 
-}  // namespace whisker::stm32f405::rcc
+}  // namespace whisker::hal::stm32f405::rcc

@@ -3,7 +3,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::tim {  // TIM1 TIM2 TIM3 TIM4
+namespace whisker::hal::stm32f405::tim {  // TIM1 TIM2 TIM3 TIM4
 
 inline constexpr Field kCen{0x00, 0, 1};     ///< CR1.CEN
 inline constexpr Field kArpe{0x00, 7, 1};    ///< CR1.ARPE
@@ -29,4 +29,4 @@ inline constexpr Register kCcr1{0x34};       ///< CCR1
 inline constexpr Register kCcr2{0x38};       ///< CCR2
 inline constexpr Field kMoe{0x44, 15, 1};    ///< BDTR.MOE
 
-}  // namespace whisker::stm32f405::tim
+}  // namespace whisker::hal::stm32f405::tim

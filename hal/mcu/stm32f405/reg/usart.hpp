@@ -3,7 +3,7 @@
 
 #include "hal/mcu/stm32f405/io.hpp"
 
-namespace whisker::stm32f405::usart {  // USART2
+namespace whisker::hal::stm32f405::usart {  // USART2
 
 inline constexpr Register kSr{0x00};            ///< SR
 inline constexpr Field kFe{0x00, 1, 1};         ///< SR.FE
@@ -21,4 +21,4 @@ inline constexpr Field kTe{0x0C, 3, 1};         ///< CR1.TE
 inline constexpr Field kRxneie{0x0C, 5, 1};     ///< CR1.RXNEIE
 inline constexpr Field kUe{0x0C, 13, 1};        ///< CR1.UE
 
-}  // namespace whisker::stm32f405::usart
+}  // namespace whisker::hal::stm32f405::usart
