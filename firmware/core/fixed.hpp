@@ -48,8 +48,10 @@ constexpr int64_t divide_rounded(int64_t n, int64_t d) noexcept {
 template <int kBits>
 constexpr int64_t scale_down(int64_t x) noexcept {
   static_assert(kBits > 0 && kBits < 62);
-  constexpr int64_t kOne = INT64_C(1) << kBits;
-  return (x < 0 ? x - kOne / 2 : x + kOne / 2) / kOne;
+  // Not x +- a half: where only the lowest half of such a sum's constant is known, clang 14 for AVR loses the carry.
+  const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
+  const int64_t quotient = static_cast<int64_t>((size + (UINT64_C(1) << (kBits - 1))) >> kBits);
+  return x < 0 ? -quotient : quotient;
 }
 
 template <int kBits>
