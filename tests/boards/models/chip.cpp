@@ -17,8 +17,8 @@ Chip* chip = nullptr;
 
 }  // namespace
 
-Chip::Chip() { chip = this; }
-Chip::~Chip() { chip = nullptr; }
+Chip::Chip() : before_(chip) { chip = this; }
+Chip::~Chip() { chip = before_; }
 Chip& Chip::current() { return *chip; }
 
 void Chip::attach(Address base, Peripheral& peripheral) { peripherals_[base] = &peripheral; }

@@ -29,11 +29,11 @@ class Peripheral {
   std::array<std::uint32_t, kSpan / 4> words_{};
 };
 
-/// One chip at a time: the drivers' load() and store() end here. Access to an address that no peripheral has
-/// is a test's failure, and so is a wait that goes on for ever.
+/// The newest chip is the one at which the drivers' load() and store() end. Access to an address that no
+/// peripheral has is a test's failure, and so is a wait that goes on for ever.
 class Chip {
  public:
-  static constexpr std::uint64_t kMostAccesses = 20000000;
+  static constexpr std::uint64_t kMostAccesses = 200000000;
   /// A poll's time: Patience::kCyclesPerPoll at 16 MHz.
   static constexpr double kUsPerAccess = 0.5;
 
@@ -55,6 +55,7 @@ class Chip {
   Peripheral* find(Address address, std::uint32_t& offset);
   std::map<Address, Peripheral*> peripherals_;
   std::uint64_t accesses_ = 0;
+  Chip* before_;
 };
 
 }  // namespace whisker::hal::stm32f405::model
