@@ -2,10 +2,11 @@
 
 #include <cmath>
 
-#include "hal/mcu/stm32f405/adc.hpp"
+#include "hal/mcu/common/governed_wheels.hpp"
+#include "hal/mcu/stm32f405/encoders.hpp"
+#include "hal/mcu/stm32f405/motors.hpp"
 #include "hal/mcu/stm32f405/pins.hpp"
 #include "hal/mcu/stm32f405/usart.hpp"
-#include "hal/mcu/stm32f405/wheels.hpp"
 #include "tests/boards/chip_fixture.hpp"
 
 namespace whisker::hal::stm32f405 {
@@ -21,20 +22,21 @@ class DriveTest : public ::testing::Test, public ModelChip {
  protected:
   DriveTest() {
     set_up_pins();
-    wheels.start(kFullClocks);
+    motors.start(kFullClocks);
+    encoders.start();
   }
   bool high(int direction) { return gpio_b.output(wiring::kDirections[direction].number); }
   static double share(int duty) { return std::abs(duty) / 32767.0; }
   mcu::MotorParams params{};
   FakeClock clock;
-  Wheels wheels{params, params, clock};
   Motors motors;
+  Encoders encoders;
+  mcu::GovernedWheels<Motors, Encoders> wheels{params, params, motors, encoders, clock};
 };
 
 TEST_F(DriveTest, PulsesAre20kHz) { EXPECT_DOUBLE_EQ(168e6 / tim1.period_clocks(), Motors::kPwmHz); }
 
 TEST_F(DriveTest, DutyAndDirectionAreThoseAskedFor) {
-  motors.start(kFullClocks);
   for (const int left : {-32767, -20000, -1, 0, 1, 16384, 32767}) {
     for (const int right : {-32767, 0, 300, 32767}) {
       motors.drive(static_cast<int16_t>(left), static_cast<int16_t>(right));

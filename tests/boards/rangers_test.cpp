@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "hal/mcu/common/analogue_rangers.hpp"
+#include "hal/mcu/stm32f405/adc.hpp"
 #include "hal/mcu/stm32f405/i2c_rangers.hpp"
-#include "hal/mcu/stm32f405/ir_rangers.hpp"
 #include "hal/mcu/stm32f405/pins.hpp"
 #include "hal/mcu/stm32f405/vl53l0x.hpp"
 #include "tests/boards/chip_fixture.hpp"
@@ -136,7 +137,7 @@ TEST_F(RangersTest, ABusThatIsDeadCostsEachPollABoundedTime) {
 class IrTest : public ::testing::Test, public ModelChip {
  protected:
   IrTest() {
-    converter.start(kInternalClocks);
+    converter.start(kInternalClocks, troubles);
     rangers.start(0);
     adc.raw = [this](std::uint32_t channel) { return channel < 10 || channel > 12 ? 0 : raw[channel - 10]; };
   }
@@ -149,7 +150,8 @@ class IrTest : public ::testing::Test, public ModelChip {
   }
   int raw[3] = {};
   Adc converter;
-  IrRangers rangers{mcu::kGp2y0a21, mcu::kGp2y0a21PeriodMs, converter, troubles};
+  mcu::AnalogueRangers<Adc> rangers{mcu::kGp2y0a21, mcu::kGp2y0a21PeriodMs, wiring::kInfraredChannel,
+                                    converter};
 };
 
 TEST_F(IrTest, ReadsEachChannelsVoltageAsADistance) {
@@ -188,10 +190,10 @@ TEST_F(IrTest, AConversionThatComesLateIsNotTakenForTheNextChannels) {
   raw[1] = raw_of(500);
   adc.never_ends = true;
   int16_t mv = 0;
-  EXPECT_FALSE(converter.convert(10, mv, troubles));
+  EXPECT_FALSE(converter.convert(10, mv));
   adc.never_ends = false;
   for (int i = 0; i < 50; ++i) load(base::kFlash);
-  ASSERT_TRUE(converter.convert(11, mv, troubles));
+  ASSERT_TRUE(converter.convert(11, mv));
   EXPECT_NEAR(mv, 500, 2);
 }
 

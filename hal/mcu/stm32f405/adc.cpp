@@ -21,14 +21,15 @@ constexpr uint32_t sample_times() noexcept {
 
 }  // namespace
 
-void Adc::start(const Clocks& clocks) noexcept {
+void Adc::start(const Clocks& clocks, Troubles& troubles) noexcept {
+  troubles_ = &troubles;
   core_hz_ = clocks.core_hz;
   set(base::kAdcCommon, adc_common::kAdcpre, kDivideBy4);
   store(base::kAdc1, adc::kSmpr1, sample_times());
   set(base::kAdc1, adc::kAdon, 1);
 }
 
-bool Adc::convert(uint8_t channel, int16_t& mv, Troubles& troubles) noexcept {
+bool Adc::convert(uint8_t channel, int16_t& mv) noexcept {
   // A conversion that ended late would be taken for this one.
   store(base::kAdc1, adc::kSr, 0);
   set(base::kAdc1, adc::kSq1, channel);
@@ -36,7 +37,7 @@ bool Adc::convert(uint8_t channel, int16_t& mv, Troubles& troubles) noexcept {
   if (!Patience::for_us(kConversionUs, core_hz_).until(base::kAdc1, adc::kEoc, true)) {
     set(base::kAdc1, adc::kAdon, 0);
     set(base::kAdc1, adc::kAdon, 1);
-    troubles.count(Trouble::adc_no_conversion);
+    troubles_->count(Trouble::adc_no_conversion);
     return false;
   }
   const int32_t raw = static_cast<int32_t>(load(base::kAdc1, adc::kDr) & 0xFFF);

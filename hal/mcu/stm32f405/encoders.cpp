@@ -29,10 +29,11 @@ void Encoders::start() noexcept {
   }
 }
 
-hal::EncoderCounts Encoders::read() noexcept {
+bool Encoders::read(hal::EncoderCounts& out) noexcept {
   counts_.left = mcu::follow_counter(counts_.left, static_cast<uint16_t>(load(kTimers[0], tim::kCnt)));
   counts_.right = mcu::follow_counter(counts_.right, static_cast<uint16_t>(load(kTimers[1], tim::kCnt)));
-  return counts_;
+  out = counts_;
+  return true;
 }
 
 }  // namespace whisker::hal::stm32f405

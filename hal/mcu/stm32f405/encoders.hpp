@@ -11,7 +11,8 @@ class Encoders {
  public:
   void start() noexcept;
   /// Counts since start(). Call it at least once in 32767 counts of a wheel.
-  hal::EncoderCounts read() noexcept;
+  /// Always true.
+  bool read(hal::EncoderCounts& out) noexcept;
 
  private:
   hal::EncoderCounts counts_{};

@@ -13,9 +13,9 @@ RobotBoard* interrupted = nullptr;
 RobotBoard::RobotBoard(const RangerKind& kind, const mcu::MotorParams& left,
                        const mcu::MotorParams& right) noexcept
     : tof_(kind, bus_, troubles_),
-      infrared_(mcu::kGp2y0a21, mcu::kGp2y0a21PeriodMs, adc_, troubles_),
+      infrared_(mcu::kGp2y0a21, mcu::kGp2y0a21PeriodMs, wiring::kInfraredChannel, adc_),
       beams_(tof_, infrared_),
-      wheels_(left, right, ticker_),
+      wheels_(left, right, motors_, encoders_, ticker_),
       reporter_(console_, troubles_, can_) {}
 
 void RobotBoard::start() noexcept {
@@ -23,10 +23,11 @@ void RobotBoard::start() noexcept {
   set_up_pins();
   const Clocks clocks = start_clocks(troubles_);
   ticker_.start(clocks);
-  wheels_.start(clocks);
+  motors_.start(clocks);
+  encoders_.start();
   console_.start(kConsoleBaud, clocks);
   bus_.start(clocks, troubles_);
-  adc_.start(clocks);
+  adc_.start(clocks, troubles_);
   can_.start(kCanBitrate, clocks);
   interrupted = this;
   enable(Interrupt::usart2);

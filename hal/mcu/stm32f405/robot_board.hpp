@@ -1,14 +1,17 @@
 #pragma once
 
+#include "hal/mcu/common/analogue_rangers.hpp"
+#include "hal/mcu/common/governed_wheels.hpp"
 #include "hal/mcu/common/nearer.hpp"
+#include "hal/mcu/stm32f405/adc.hpp"
 #include "hal/mcu/stm32f405/bx_can.hpp"
+#include "hal/mcu/stm32f405/encoders.hpp"
 #include "hal/mcu/stm32f405/i2c_rangers.hpp"
-#include "hal/mcu/stm32f405/ir_rangers.hpp"
+#include "hal/mcu/stm32f405/motors.hpp"
 #include "hal/mcu/stm32f405/reporter.hpp"
 #include "hal/mcu/stm32f405/ticker.hpp"
 #include "hal/mcu/stm32f405/usart.hpp"
 #include "hal/mcu/stm32f405/watchdog.hpp"
-#include "hal/mcu/stm32f405/wheels.hpp"
 
 namespace whisker::hal::stm32f405 {
 
@@ -48,9 +51,11 @@ class RobotBoard {
   I2c bus_;
   I2cRangers tof_;
   Adc adc_;
-  IrRangers infrared_;
+  mcu::AnalogueRangers<Adc> infrared_;
   mcu::Nearer beams_;
-  Wheels wheels_;
+  Motors motors_;
+  Encoders encoders_;
+  mcu::GovernedWheels<Motors, Encoders> wheels_;
   BxCan can_;
   Watchdog watchdog_;
   Reporter reporter_;

@@ -9,7 +9,6 @@ set(whisker_stm32f405_sources
   ${CMAKE_CURRENT_LIST_DIR}/encoders.cpp
   ${CMAKE_CURRENT_LIST_DIR}/i2c.cpp
   ${CMAKE_CURRENT_LIST_DIR}/i2c_rangers.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/ir_rangers.cpp
   ${CMAKE_CURRENT_LIST_DIR}/interrupts.cpp
   ${CMAKE_CURRENT_LIST_DIR}/motors.cpp
   ${CMAKE_CURRENT_LIST_DIR}/pins.cpp
@@ -19,5 +18,4 @@ set(whisker_stm32f405_sources
   ${CMAKE_CURRENT_LIST_DIR}/trouble.cpp
   ${CMAKE_CURRENT_LIST_DIR}/usart.cpp
   ${CMAKE_CURRENT_LIST_DIR}/vl53l0x.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/watchdog.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/wheels.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/watchdog.cpp)

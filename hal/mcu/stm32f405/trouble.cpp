@@ -21,15 +21,4 @@ const char* name(Trouble trouble) noexcept {
   return "unknown";
 }
 
-void Troubles::count(Trouble trouble, uint16_t times) noexcept {
-  uint16_t& counter = count_[static_cast<uint8_t>(trouble)];
-  counter = static_cast<uint16_t>(counter > UINT16_MAX - times ? UINT16_MAX : counter + times);
-}
-
-uint32_t Troubles::total() const noexcept {
-  uint32_t sum = 0;
-  for (const uint16_t counter : count_) sum += counter;
-  return sum;
-}
-
 }  // namespace whisker::hal::stm32f405

@@ -1,7 +1,7 @@
 /// What goes wrong on this board: each cause has a name and a counter.
 #pragma once
 
-#include <stdint.h>
+#include "hal/mcu/common/tally.hpp"
 
 namespace whisker::hal::stm32f405 {
 
@@ -25,16 +25,6 @@ constexpr uint8_t kTroubles = 13;
 /// In snake case; never nullptr.
 const char* name(Trouble trouble) noexcept;
 
-/// Counters that stop at their maximum. The loop's only: interrupts count with mcu::Events.
-class Troubles {
- public:
-  void count(Trouble trouble, uint16_t times = 1) noexcept;
-  uint16_t of(Trouble trouble) const noexcept { return count_[static_cast<uint8_t>(trouble)]; }
-  /// Of all causes; stops at its maximum.
-  uint32_t total() const noexcept;
-
- private:
-  uint16_t count_[kTroubles] = {};
-};
+using Troubles = mcu::Tally<Trouble, kTroubles>;
 
 }  // namespace whisker::hal::stm32f405
