@@ -5,8 +5,8 @@
 
 namespace whisker::hal {
 
-/// Bytes to and from a companion computer, in order and without loss. Not for the control loop of a real robot:
-/// both calls wait.
+/// Bytes to and from a companion computer, in order and without loss. Not for the control loop of a real
+/// robot: both calls wait.
 class ByteStream {
  public:
   /// Waits until all have come. False: the stream has ended or failed, and stays so.

@@ -9,8 +9,9 @@ class Meter {
  public:
   /// The instant, in a unit of its own. Always takes the same path.
   virtual uint32_t stamp() noexcept = 0;
-  /// The work from one stamp to a later one: instructions in an emulator that counts them (ARM, RISC-V), cycles
-  /// where they are exact (AVR). The most that can be told apart is the board's affair, at least 600,000.
+  /// The work from one stamp to a later one: instructions in an emulator that counts them (ARM, RISC-V),
+  /// cycles where they are exact (AVR). The most that can be told apart is the board's affair, at least
+  /// 600,000.
   virtual uint32_t between(uint32_t from, uint32_t to) noexcept = 0;
   /// The deepest stack since the start, bytes.
   virtual uint32_t deepest_stack() noexcept = 0;

@@ -1,6 +1,6 @@
 // A robot whose sensors and wheels are played by a companion through the emulator's own input and output.
-#include "hal/link/session.hpp"
 #include "hal/board.hpp"
+#include "hal/link/session.hpp"
 
 int main() {
   const whisker::hal::Board& board = whisker::hal::board();

@@ -44,14 +44,23 @@ constexpr int64_t divide_rounded(int64_t n, int64_t d) noexcept {
   return (n < 0 ? n - d / 2 : n + d / 2) / d;
 }
 
-/// x / 2^kBits to nearest, ties away from zero. |x| + 2^(kBits - 1) must fit.
+/// x / 2^bits to nearest, ties away from zero. |x| + 2^(bits - 1) must fit.
+#ifndef WHISKER_SMALL  // there one copy serves all
+[[gnu::always_inline]]
+#endif
+constexpr int64_t
+scale_down_by(int64_t x, int bits) noexcept {
+  // Not x +- a half: where only the lowest half of such a sum's constant is known, clang 14 for AVR loses the
+  // carry.
+  const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
+  const int64_t quotient = static_cast<int64_t>((size + (UINT64_C(1) << (bits - 1))) >> bits);
+  return x < 0 ? -quotient : quotient;
+}
+
 template <int kBits>
 constexpr int64_t scale_down(int64_t x) noexcept {
   static_assert(kBits > 0 && kBits < 62);
-  // Not x +- a half: where only the lowest half of such a sum's constant is known, clang 14 for AVR loses the carry.
-  const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
-  const int64_t quotient = static_cast<int64_t>((size + (UINT64_C(1) << (kBits - 1))) >> kBits);
-  return x < 0 ? -quotient : quotient;
+  return scale_down_by(x, kBits);
 }
 
 template <int kBits>

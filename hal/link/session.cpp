@@ -103,7 +103,8 @@ bool Session::obey(Name name) noexcept {
     case Name::goal: {
       Target what;
       if (!hear(what) || robot_ == nullptr) return false;
-      robot_->set_goal({{Length::from_raw(what.x), Length::from_raw(what.y)}, Length::from_raw(what.tolerance)});
+      robot_->set_goal(
+          {{Length::from_raw(what.x), Length::from_raw(what.y)}, Length::from_raw(what.tolerance)});
       return true;
     }
     case Name::place: {
@@ -135,7 +136,8 @@ bool Session::begin(const Begin& what) noexcept {
   nav::Planner* planner = nullptr;
   switch (what.planner) {
     case Planner::skirt:
-      planner = &(new (At{room_for_planner_.bytes}) nav::TableSkirt(my_->params, fuzzy::kDefaultTable))->planner;
+      planner =
+          &(new (At{room_for_planner_.bytes}) nav::TableSkirt(my_->params, fuzzy::kDefaultTable))->planner;
       break;
     case Planner::thesis:
       planner = new (At{room_for_planner_.bytes}) nav::ThesisPlanner(my_->params, fuzzy::kDefaultTable);

@@ -5,9 +5,7 @@
 namespace whisker::chip {
 namespace {
 
-link::Stand stand(const Pose& pose) {
-  return {pose.at.x.raw(), pose.at.y.raw(), pose.heading.raw()};
-}
+link::Stand stand(const Pose& pose) { return {pose.at.x.raw(), pose.at.y.raw(), pose.heading.raw()}; }
 
 }  // namespace
 

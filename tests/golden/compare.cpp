@@ -61,7 +61,8 @@ std::size_t body_size(link::Name name) {
 
 class Judge {
  public:
-  Judge(const chip::Bytes& expected, const chip::Bytes& answered) : expected_(expected), answered_(answered) {}
+  Judge(const chip::Bytes& expected, const chip::Bytes& answered)
+      : expected_(expected), answered_(answered) {}
 
   Judgement result;
 

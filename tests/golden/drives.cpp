@@ -61,16 +61,26 @@ std::vector<Stream> drives() {
     const auto add = [&](const char* world, const Scenario& scenario, double seconds) {
       all.push_back(drive(world, scenario, planner, seconds));
     };
-    add("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), 30);
-    add("discs", generated(worlds::Kind::discs, false), 25);
-    add("maze with noise", generated(worlds::Kind::maze, true), 15);
-    add("all noise", from_file("tests/cli/scenarios/all_noise"), 10);
-    add("crossing mover", from_file("tests/cli/scenarios/crossing_mover"), 8);
-    add("large fast robot", from_file("tests/cli/scenarios/large_fast_robot"), 8);
-    add("small slow robot", from_file("tests/cli/scenarios/small_slow_robot"), 8);
+    add("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), 12);
+    add("discs", generated(worlds::Kind::discs, false), 10);
+    add("maze with noise", generated(worlds::Kind::maze, true), 6);
+    add("all noise", from_file("tests/cli/scenarios/all_noise"), 4);
+    add("crossing mover", from_file("tests/cli/scenarios/crossing_mover"), 3);
+    add("large fast robot", from_file("tests/cli/scenarios/large_fast_robot"), 3);
+    add("small slow robot", from_file("tests/cli/scenarios/small_slow_robot"), 3);
   }
-  all.push_back(drive("spiral", generated(worlds::Kind::spiral, false), PlannerKind::skirt, 20));
-  all.push_back(drive("enclosed", generated(worlds::Kind::enclosed, false), PlannerKind::skirt, 25));
+  all.push_back(drive("spiral", generated(worlds::Kind::spiral, false), PlannerKind::skirt, 6));
+  all.push_back(drive("enclosed", generated(worlds::Kind::enclosed, false), PlannerKind::skirt, 6));
+  return all;
+}
+
+std::vector<Stream> excerpts() {
+  std::vector<Stream> all;
+  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {
+    all.push_back(drive("discs, excerpt", generated(worlds::Kind::discs, true), planner, 4));
+    all.push_back(storm(planner, 1, 1, 100));
+    all.push_back(storm(planner, 2, 2, 100));
+  }
   return all;
 }
 

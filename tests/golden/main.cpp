@@ -5,9 +5,13 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include <fmt/core.h>
 
+#include "firmware/fuzzy/response_table.hpp"
+#include "firmware/fuzzy/rules.hpp"
 #include "tests/golden/compare.hpp"
 #include "tests/golden/stream.hpp"
 
@@ -17,8 +21,10 @@ using whisker::chip::Bytes;
 using namespace whisker::golden;
 
 constexpr const char* kUsage =
-    "usage: whisker_golden record FOLDER                       writes FOLDER/stream.bin and FOLDER/index.txt\n"
-    "       whisker_golden judge FOLDER EXPECTED ANSWERED      exit status 1: they differ, and where\n";
+    "usage: whisker_golden record FOLDER                  writes the recordings full, short and table, each "
+    "with its\n"
+    "                                                     index, and the bytes of both engines' tables\n"
+    "       whisker_golden judge RECORDING EXPECTED ANSWERED   exit status 1: they differ, and where\n";
 
 Bytes read(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -33,19 +39,39 @@ void write(const std::string& path, const char* data, std::size_t size) {
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
-int record(const std::string& folder) {
+void record(const std::string& path, const std::vector<Stream>& streams) {
   std::string index;
-  const Bytes bytes = recording(index);
-  write(folder + "/stream.bin", reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  write(folder + "/index.txt", index.data(), index.size());
+  const Bytes bytes = recording(streams, index);
+  write(path + ".bin", reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  write(path + ".txt", index.data(), index.size());
+}
+
+std::vector<Stream> joined(std::vector<Stream> all, const std::vector<Stream>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// As it lies in the memory of a little-endian target.
+template <class Table>
+void write_table(const std::string& path, const Table& table) {
+  static_assert(std::is_trivially_copyable_v<Table> && sizeof(Table) % sizeof(std::int16_t) == 0);
+  write(path, reinterpret_cast<const char*>(&table), sizeof table);
+}
+
+int record(const std::string& folder) {
+  record(folder + "/full", joined(joined({table_sweep()}, drives()), storms()));
+  record(folder + "/short", joined({table_sweep()}, excerpts()));
+  record(folder + "/table", {table_sweep()});
+  write_table(folder + "/table-engine.bin", whisker::fuzzy::kResponseTable);
+  write_table(folder + "/closed-engine.bin", whisker::fuzzy::kRules);
   return 0;
 }
 
 /// One line of JSON for programs, and for a person the words before it.
-int judge_files(const std::string& folder, const std::string& expected, const std::string& answered) {
-  const Bytes index = read(folder + "/index.txt");
-  const Judgement j =
-      judge(read(folder + "/stream.bin"), std::string(index.begin(), index.end()), read(expected), read(answered));
+int judge_files(const std::string& recording, const std::string& expected, const std::string& answered) {
+  const Bytes index = read(recording + ".txt");
+  const Judgement j = judge(read(recording + ".bin"), std::string(index.begin(), index.end()), read(expected),
+                            read(answered));
   if (!j.difference.empty()) {
     fmt::print("{}\n", j.difference);
     return 1;

@@ -4,15 +4,11 @@
 
 namespace whisker::golden {
 
-chip::Bytes recording(std::string& index) {
-  std::vector<Stream> all{table_sweep()};
-  for (std::vector<Stream> more : {drives(), storms()}) {
-    for (Stream& stream : more) all.push_back(std::move(stream));
-  }
+chip::Bytes recording(const std::vector<Stream>& streams, std::string& index) {
   chip::Bytes bytes;
   chip::append(bytes, link::Name::hello);
   index.clear();
-  for (const Stream& stream : all) {
+  for (const Stream& stream : streams) {
     index += fmt::format("{} {}\n", bytes.size(), stream.name);
     bytes.insert(bytes.end(), stream.messages.begin(), stream.messages.end());
   }

@@ -83,6 +83,8 @@ void interfere(Robot& robot, Bits& bits, chip::Bytes& to) {
   }
 }
 
+}  // namespace
+
 Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
   Stream stream{fmt::format("{} storm {}", name(kind), seed), {}};
   chip::Bytes& to = stream.messages;
@@ -111,13 +113,11 @@ Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
   return stream;
 }
 
-}  // namespace
-
 std::vector<Stream> storms() {
   std::vector<Stream> all;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     for (const PlannerKind kind : {PlannerKind::skirt, PlannerKind::thesis}) {
-      all.push_back(storm(kind, seed, static_cast<int>(seed) % 4, 400));
+      all.push_back(storm(kind, seed, static_cast<int>(seed) % 4, 150));
     }
   }
   return all;

@@ -18,9 +18,20 @@ Stream table_sweep() {
       probe(distance + Bilinear::kDistanceSpacing / 2 - 3, bias + Bilinear::kBiasSpacing / 2 + 5);
     }
   }
-  const int ends[] = {INT16_MIN,           INT16_MIN + 1,      fuzzy::kBiasLow - 1,   fuzzy::kBiasLow,      -1, 0, 1,
-                      fuzzy::kDistanceLow, fuzzy::kBiasHigh,   fuzzy::kBiasHigh + 1,  fuzzy::kDistanceHigh,
-                      1153,                INT16_MAX - 1,      INT16_MAX};
+  const int ends[] = {INT16_MIN,
+                      INT16_MIN + 1,
+                      fuzzy::kBiasLow - 1,
+                      fuzzy::kBiasLow,
+                      -1,
+                      0,
+                      1,
+                      fuzzy::kDistanceLow,
+                      fuzzy::kBiasHigh,
+                      fuzzy::kBiasHigh + 1,
+                      fuzzy::kDistanceHigh,
+                      1153,
+                      INT16_MAX - 1,
+                      INT16_MAX};
   for (const int distance : ends) {
     for (const int bias : ends) probe(distance, bias);
   }

@@ -5,8 +5,8 @@
 
 namespace whisker::hal::mcu {
 
-/// Instructions, in QEMU with `-icount shift=10`, where each takes 1024 ns of the counter's time. On hardware it
-/// gives time, at that scale. `Counter`: as for Milliseconds, with constexpr uint32_t kHertz.
+/// Instructions, in QEMU with `-icount shift=10`, where each takes 1024 ns of the counter's time. On hardware
+/// it gives time, at that scale. `Counter`: as for Milliseconds, with constexpr uint32_t kHertz.
 template <class Counter>
 class CounterMeter final : public Meter {
  public:
@@ -18,7 +18,8 @@ class CounterMeter final : public Meter {
 
  private:
   static constexpr uint64_t kMillion = 1000000;
-  static constexpr uint64_t kPerInstruction = uint64_t{Counter::kHertz} * 1024 / 1000;  // ticks, in millionths
+  static constexpr uint64_t kPerInstruction =
+      uint64_t{Counter::kHertz} * 1024 / 1000;  // ticks, in millionths
 };
 
 }  // namespace whisker::hal::mcu

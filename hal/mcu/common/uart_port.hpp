@@ -5,8 +5,8 @@
 
 namespace whisker::hal::mcu {
 
-/// A UART as a byte stream and as a console; polled. `Uart`: a class with static bool can_read(), uint8_t get(),
-/// bool can_write(), void put(uint8_t).
+/// A UART as a byte stream and as a console; polled. `Uart`: a class with static bool can_read(), uint8_t
+/// get(), bool can_write(), void put(uint8_t).
 template <class Uart>
 class UartPort final : public ByteStream, public Console {
  public:

@@ -1,5 +1,5 @@
-// An AVR in simavr whose three general-purpose registers lead to the host; host/emulators/avr.cpp is their other
-// side.
+// An AVR in simavr whose three general-purpose registers lead to the host; host/emulators/avr.cpp is their
+// other side.
 #include "hal/board.hpp"
 #include "hal/mcu/common/milliseconds.hpp"
 
@@ -14,10 +14,10 @@ volatile uint8_t& output = *reinterpret_cast<volatile uint8_t*>(0x4A);  // GPIOR
 volatile uint8_t& control = *reinterpret_cast<volatile uint8_t*>(0x4B);  // GPIOR2
 
 enum Command : uint8_t {
-  kEnded = 1,   ///< answers 1 once standard input has ended, else 0
-  kCycles = 2,  ///< answers the cycles so far, 4 bytes, low byte first
-  kStack = 3,   ///< answers the lowest stack pointer so far, 2 bytes
-  kLeave = 128, ///< and this much more: ends with a status
+  kEnded = 1,    ///< answers 1 once standard input has ended, else 0
+  kCycles = 2,   ///< answers the cycles so far, 4 bytes, low byte first
+  kStack = 3,    ///< answers the lowest stack pointer so far, 2 bytes
+  kLeave = 128,  ///< and this much more: ends with a status
 };
 
 uint32_t answer(Command command, int bytes) noexcept {

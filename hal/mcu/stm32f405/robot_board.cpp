@@ -1,5 +1,6 @@
 #include "hal/mcu/stm32f405/robot_board.hpp"
 
+#include "hal/board.hpp"
 #include "hal/mcu/stm32f405/interrupts.hpp"
 #include "hal/mcu/stm32f405/pins.hpp"
 
@@ -54,6 +55,12 @@ bool RobotBoard::due(uint32_t period_ms) noexcept {
 }
 
 }  // namespace whisker::hal::stm32f405
+
+/// Until the watchdog resets the chip.
+void whisker::hal::leave(int) noexcept {
+  for (;;) {
+  }
+}
 
 extern "C" {
 

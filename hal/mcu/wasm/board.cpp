@@ -5,7 +5,8 @@
 extern "C" {
 
 [[clang::import_module("host"), clang::import_name("read")]] int32_t host_read(uint8_t* to, int32_t count);
-[[clang::import_module("host"), clang::import_name("write")]] int32_t host_write(const uint8_t* from, int32_t count);
+[[clang::import_module("host"), clang::import_name("write")]] int32_t host_write(const uint8_t* from,
+                                                                                 int32_t count);
 [[clang::import_module("host"), clang::import_name("now_ms")]] uint32_t host_now_ms();
 }
 
