@@ -44,12 +44,14 @@ constexpr int64_t divide_rounded(int64_t n, int64_t d) noexcept {
   return (n < 0 ? n - d / 2 : n + d / 2) / d;
 }
 
-/// x / 2^bits to nearest, ties away from zero. |x| + 2^(bits - 1) must fit.
-#ifndef WHISKER_SMALL  // there one copy serves all
-[[gnu::always_inline]]
+#ifdef WHISKER_SMALL  // one copy serves all
+#define WHISKER_INLINED
+#else
+#define WHISKER_INLINED [[gnu::always_inline]]
 #endif
-constexpr int64_t
-scale_down_by(int64_t x, int bits) noexcept {
+
+/// x / 2^bits to nearest, ties away from zero. |x| + 2^(bits - 1) must fit.
+WHISKER_INLINED constexpr int64_t scale_down_by(int64_t x, int bits) noexcept {
   // Not x +- a half: where only the lowest half of such a sum's constant is known, clang 14 for AVR loses the
   // carry.
   const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);

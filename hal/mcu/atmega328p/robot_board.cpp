@@ -27,6 +27,7 @@ void RobotBoard::start() noexcept {
   clock_.start();
   sonar_.start(0);
   infrared_.start(0);
+  store(reg::kSMCR, bits::kSE);  // idle: the timers run on
   asm volatile("sei" ::: "memory");
 }
 
@@ -34,6 +35,7 @@ void RobotBoard::poll() noexcept {
   const uint32_t now = clock_.now_ms();
   sonar_.poll(now);
   infrared_.poll(now);
+  asm volatile("sleep" ::: "memory");
 }
 
 bool RobotBoard::due(uint8_t period_ms) noexcept {
@@ -51,8 +53,10 @@ bool RobotBoard::due(uint8_t period_ms) noexcept {
 
 void RobotBoard::show(const Status& status) noexcept {
   store(reg::kGPIOR0, 0);
-  store(reg::kGPIOR1, static_cast<uint8_t>(status.health.fault));
-  store(reg::kGPIOR2, static_cast<uint8_t>(troubles_.total()));
+  store(reg::kGPIOR1, static_cast<uint8_t>(static_cast<uint8_t>(status.health.fault) +
+                                           16 * static_cast<uint8_t>(status.decision.outcome)));
+  const uint32_t troubles = troubles_.total();
+  store(reg::kGPIOR2, static_cast<uint8_t>(troubles > UINT8_MAX ? UINT8_MAX : troubles));
 }
 
 }  // namespace whisker::hal::atmega328p

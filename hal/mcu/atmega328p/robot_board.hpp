@@ -21,7 +21,7 @@ class RobotBoard {
 
   /// Once; switches interrupts on.
   void start() noexcept;
-  /// Between two ticks, as often as there is time.
+  /// Between two ticks, as often as there is time: sleeps until the next interrupt, a millisecond at most.
   void poll() noexcept;
   /// True once a period: the time for a tick, and the watchdog is fed.
   bool due(uint8_t period_ms) noexcept;

@@ -43,14 +43,14 @@ class SonarRangers final : public Rangefinders {
   void fail(Trouble trouble, uint32_t now_ms) noexcept;
 
   Troubles& troubles_;
-  Sensor sensor_[kBeams];
-  uint8_t beam_ = 0;
-  Phase phase_ = Phase::quiet;
-  uint32_t slot_ms_ = 0;
-  uint32_t now_ms_ = 0;
-  mcu::Events begun_;
   mcu::Ring<uint16_t, 2> lengths_;  // of echoes, in timer counts
   uint16_t rise_ = 0;               // the interrupt's own
+  mcu::Events begun_;
+  uint32_t slot_ms_ = 0;
+  uint32_t now_ms_ = 0;
+  uint8_t beam_ = 0;
+  Phase phase_ = Phase::quiet;
+  Sensor sensor_[kBeams];
 };
 
 }  // namespace whisker::hal::atmega328p

@@ -2,7 +2,6 @@ set(whisker_atmega328p_sources
   ${CMAKE_CURRENT_LIST_DIR}/../common/analogue_ir.cpp
   ${CMAKE_CURRENT_LIST_DIR}/../common/governor.cpp
   ${CMAKE_CURRENT_LIST_DIR}/../common/nearer.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/../common/pure_virtual.cpp
   ${CMAKE_CURRENT_LIST_DIR}/adc.cpp
   ${CMAKE_CURRENT_LIST_DIR}/encoders.cpp
   ${CMAKE_CURRENT_LIST_DIR}/motors.cpp
