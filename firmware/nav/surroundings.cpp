@@ -7,6 +7,7 @@ namespace {
 
 constexpr int32_t kUmPerMm = 1000;
 constexpr Angle kWidth = Angle::turns(1, Surroundings::kSectors);
+constexpr Length kRounding = 1_mm;  // more than that of a point by its angle
 constexpr uint32_t kHalfWidth = kWidth.raw() / 2;
 
 constexpr Angle middle(int sector) noexcept { return kWidth * sector + Angle::from_raw(kHalfWidth); }
@@ -62,8 +63,9 @@ bool Surroundings::allow(Angle heading, Length step) const noexcept {
     const uint32_t away = magnitude(middle(s) - heading);
     const uint32_t nearest = away > kHalfWidth ? away - kHalfWidth : 0;
     if (nearest >= kFlank) continue;
-    const Vec point = polar(Angle::from_raw(nearest), millimetres(free_mm_[s]));
-    if (gap_from_way(point, step) < reach_) return false;
+    const Length free = millimetres(free_mm_[s]);
+    if (free >= step + reach_ + kRounding) continue;
+    if (near_way(polar(Angle::from_raw(nearest), free), step, reach_)) return false;
   }
   return true;
 }

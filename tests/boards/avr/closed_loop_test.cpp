@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "hal/mcu/atmega328p/robot_params.hpp"
+#include "host/sim/elementary.hpp"
 #include "tests/boards/avr/avr_robot.hpp"
 
 namespace whisker::hal::atmega328p {
@@ -45,6 +46,22 @@ TEST_F(AvrLoopTest, GoesRoundADiscInItsWay) {
   EXPECT_TRUE(robot.run_until(120, [this] { return robot.outcome() == nav::Outcome::reached; }));
   EXPECT_EQ(robot.fault(), Fault::none);
   EXPECT_EQ(robot.troubles(), 0);
+}
+
+/// Where every direction is blocked it looks all around and judges its steps by the most that it can know.
+TEST_F(AvrLoopTest, PennedInItHoldsItsPeriodAndTouchesNothing) {
+  constexpr int kPosts = 24;
+  sim::Disc pen[kPosts];
+  for (int i = 0; i < kPosts; ++i) {
+    const sim::SinCos at = sim::sin_cos(i * (2 * sim::kPi / kPosts));
+    const double away = 0.26 + 0.008 * (i % 5);  // else its sensors would seem stuck
+    pen[i] = {{away * at.cos, away * at.sin}, 0.05};
+  }
+  world.discs = pen;
+  world.disc_count = kPosts;
+  robot.run(20);
+  EXPECT_EQ(robot.fault(), Fault::none);
+  EXPECT_NE(robot.outcome(), nav::Outcome::reached);
 }
 
 TEST_F(AvrLoopTest, ASonarThatDiesStopsItWithAName) {
