@@ -23,8 +23,7 @@ void Motors::start() noexcept {
   drive(0, 0);
   set(reg::kDDRB, kLeftForward | kLeftBackward);
   set(reg::kDDRC, kRightForward | kRightBackward);
-  // Phase correct: a duty of 0 is no pulse at all.
-  store(reg::kTCCR0A, bits::kCOM0A1 | bits::kCOM0B1 | bits::kWGM00);
+  store(reg::kTCCR0A, bits::kCOM0A1 | bits::kCOM0B1 | bits::kWGM01 | bits::kWGM00);
   store(reg::kTCCR0B, bits::kCS01);
   set(reg::kDDRD, kPulses);
 }

@@ -4,7 +4,7 @@
 
 namespace whisker::hal::atmega328p {
 
-/// Both motors' drivers: a pulse width from timer 0, 3.9 kHz and 8 bits, and two direction inputs each.
+/// Both motors' drivers: a pulse width from timer 0, 7.8 kHz and 8 bits, and two direction inputs each.
 class Motors {
  public:
   /// At rest.

@@ -46,6 +46,7 @@ inline constexpr Register kOCR2A{0xB3};
 
 namespace bits {
 inline constexpr uint8_t kWGM00 = bit(0);
+inline constexpr uint8_t kWGM01 = bit(1);
 inline constexpr uint8_t kCOM0B1 = bit(5);
 inline constexpr uint8_t kCOM0A1 = bit(7);
 inline constexpr uint8_t kCS01 = bit(1);

@@ -29,6 +29,7 @@ constexpr double kAnswerUs = 450;
 constexpr double kNoTargetUs = 38000;
 constexpr double kInfraredHalfCone = 0.03;
 constexpr int kLowestRam = 0x100;
+constexpr avr_io_addr_t kExternalInterruptSense = 0x69;  // EICRA
 
 sim::RobotSpec spec() {
   sim::RobotSpec s = sim::robot_spec(kRobotParams);
@@ -79,6 +80,11 @@ struct AvrRobot::Hooks {
     return 0;
   }
 
+  static avr_cycle_count_t slice(avr_t*, avr_cycle_count_t when, void* param) {
+    static_cast<AvrRobot*>(param)->slice();
+    return when + kCyclesPerSlice;
+  }
+
   Trigger triggers[kBeams];
   double echo_us = 0;
 };
@@ -95,10 +101,13 @@ AvrRobot::AvrRobot(const std::string& image, const sim::WorldView& world)
   firmware.frequency = 16000000;
   firmware.vcc = firmware.avcc = firmware.aref = 5000;
   avr_load_firmware(avr_, &firmware);
+  // Else the emulator polls the level of PD2 and PD3 at every cycle, though their own interrupts are off.
+  avr_->data[kExternalInterruptSense] = 0x05;
   avr_register_io_write(avr_, reg::kGPIOR0.address, Hooks::mark, this);
   for (Hooks::Trigger& t : hooks_->triggers) {
     avr_irq_register_notify(port_irq(avr_, 'B', index_of(wiring::kTrigger[t.beam])), Hooks::trigger, &t);
   }
+  avr_cycle_timer_register(avr_, kCyclesPerSlice, Hooks::slice, this);
   see();
 }
 
@@ -154,10 +163,11 @@ double AvrRobot::duty(int wheel) const {
   const bool forward = (port & (left ? wiring::kLeftForward : wiring::kRightForward)) != 0;
   const bool backward = (port & (left ? wiring::kLeftBackward : wiring::kRightBackward)) != 0;
   const bool pulses = (reg_of(reg::kTCCR0A) & (left ? bits::kCOM0A1 : bits::kCOM0B1)) != 0 &&
-                      (reg_of(reg::kTCCR0A) & 3) == bits::kWGM00 && (reg_of(reg::kTCCR0B) & 7) != 0 &&
+                      (reg_of(reg::kTCCR0A) & 3) == (bits::kWGM01 | bits::kWGM00) &&
+                      (reg_of(reg::kTCCR0B) & 7) != 0 &&
                       (reg_of(reg::kDDRD) & wiring::kPulses) == wiring::kPulses;
   if (!pulses || forward == backward) return 0;
-  const double high = reg_of(left ? reg::kOCR0A : reg::kOCR0B) / 255.0;
+  const double high = (reg_of(left ? reg::kOCR0A : reg::kOCR0B) + 1) / 256.0;
   return forward ? high : -high;
 }
 
@@ -183,14 +193,8 @@ void AvrRobot::step_edges() {
 }
 
 void AvrRobot::slice() {
-  const std::uint64_t end = avr_->cycle + kCyclesPerSlice;
-  while (avr_->cycle < end && !crashed_) {
-    const int state = avr_run(avr_);
-    const int pointer = avr_->data[R_SPL] | avr_->data[R_SPH] << 8;
-    if (pointer < lowest_stack_ && pointer >= kLowestRam) lowest_stack_ = pointer;
-    crashed_ = state == cpu_Crashed || state == cpu_Done;
-  }
   step_edges();
+  if (++slices_ % kSlicesPerStep == 0) move_on();
 }
 
 void AvrRobot::move_on() {
@@ -208,8 +212,10 @@ void AvrRobot::move_on() {
 
 void AvrRobot::run(double seconds) {
   for (const double end = plant_.time() + seconds - 1e-9; plant_.time() < end && !crashed_;) {
-    for (int i = 0; i < kSlicesPerStep; ++i) slice();
-    move_on();
+    const int state = avr_run(avr_);
+    const int pointer = avr_->data[R_SPL] | avr_->data[R_SPH] << 8;
+    if (pointer < lowest_stack_ && pointer >= kLowestRam) lowest_stack_ = pointer;
+    crashed_ = state == cpu_Crashed || state == cpu_Done;
   }
 }
 

@@ -70,6 +70,7 @@ class AvrRobot {
   int edges_left_[2] = {};
   int phase_[2] = {};
   EncoderCounts seen_{};
+  std::uint64_t slices_ = 0;
   std::uint64_t ticks_ = 0;
   std::uint64_t began_ = 0;
   std::uint64_t worst_tick_ = 0;
