@@ -65,7 +65,10 @@ bool Surroundings::allow(Angle heading, Length step) const noexcept {
     if (nearest >= kFlank) continue;
     const Length free = millimetres(free_mm_[s]);
     if (free >= step + reach_ + kRounding) continue;
-    if (near_way(polar(Angle::from_raw(nearest), free), step, reach_)) return false;
+    const Angle aside = Angle::from_raw(nearest);
+    const Length beside = free * sin(aside);
+    if (beside >= reach_) continue;
+    if (near_way({free * cos(aside), beside}, step, reach_)) return false;
   }
   return true;
 }
