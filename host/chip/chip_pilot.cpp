@@ -49,6 +49,15 @@ class ChipPilot final : public Pilot {
     });
   }
 
+  ~ChipPilot() override {
+    try {
+      say([](Bytes& to) { append(to, link::Name::end); });
+      hear<link::Total>();
+    } catch (const ChipError&) {
+      // It has ended already.
+    }
+  }
+
   const Status& tick(Time now) override {
     say([&](Bytes& to) { append(to, link::Name::tick, tick_of(plant_, now)); });
     const auto answer = hear<link::Answer>();

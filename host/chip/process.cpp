@@ -1,7 +1,9 @@
 #include "host/chip/process.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <thread>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -15,6 +17,8 @@ namespace whisker::chip {
 namespace {
 
 constexpr int kPatience_ms = 30000;
+constexpr int kGrace_ms = 2000;
+constexpr int kNap_ms = 5;
 
 }  // namespace
 
@@ -54,7 +58,12 @@ Process::Process(const std::string& command) : command_(command) {
 Process::~Process() {
   close(to_child_);
   close(from_child_);
-  kill(-child_, SIGTERM);
+  for (int waited = 0; waited < kGrace_ms; waited += kNap_ms) {
+    if (waitpid(child_, nullptr, WNOHANG) != 0) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(kNap_ms));
+  }
+  // Not SIGTERM: an emulator whose program ends at that moment can wait for itself for ever.
+  kill(-child_, SIGKILL);
   waitpid(child_, nullptr, 0);
 }
 

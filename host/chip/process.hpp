@@ -15,7 +15,8 @@ class ChipError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A command of the shell with pipes to its standard input and output. It ends with this object.
+/// A command of the shell with pipes to its standard input and output. It is given two
+/// seconds to end by itself when this object does.
 class Process {
  public:
   /// Throws ChipError.
