@@ -14,7 +14,8 @@ if(WHISKER_CLANG)
   set(CMAKE_CXX_FLAGS_INIT "${WHISKER_FLAGS} ${WHISKER_CLANG_FLAGS} ${common} -nostdlibinc")
 else()
   set(CMAKE_CXX_COMPILER ${WHISKER_TRIPLE}-g++)
-  set(CMAKE_CXX_FLAGS_INIT "${WHISKER_FLAGS} ${common}")
+  # A file beside each object with its functions' stacks and calls: scripts/budget walks them.
+  set(CMAKE_CXX_FLAGS_INIT "${WHISKER_FLAGS} ${common} -fcallgraph-info=su")
 endif()
 # Not ..._INIT: to that CMake would append its own -O3.
 set(CMAKE_CXX_FLAGS_RELEASE "-Os -DNDEBUG" CACHE STRING "Options of a release")

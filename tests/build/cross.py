@@ -14,7 +14,8 @@ from symbols import forbidden
 COMMON = ["-std=c++17", "-fno-exceptions", "-fno-rtti", "-c"]
 TARGETS = {
     "arm": ["-mcpu=cortex-m0plus", "-mthumb", "-Os", "-ffreestanding"],
-    "avr": ["--target=avr", "-mmcu=atmega328p", "-Os", "-ffreestanding"],
+    # With avr-libc installed, clang would take its <stdint.h>, which keeps its limits from C++.
+    "avr": ["--target=avr", "-mmcu=atmega328p", "-Os", "-ffreestanding", "-nostdlibinc"],
     # With g++ for x86 a floating-point operation is then an error.
     "no-float": ["-mgeneral-regs-only", "-O2"],
 }

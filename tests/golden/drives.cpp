@@ -77,9 +77,9 @@ std::vector<Stream> drives() {
 std::vector<Stream> excerpts() {
   std::vector<Stream> all;
   for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {
-    all.push_back(drive("discs, excerpt", generated(worlds::Kind::discs, true), planner, 4));
-    all.push_back(storm(planner, 1, 1, 100));
-    all.push_back(storm(planner, 2, 2, 100));
+    all.push_back(drive("discs, excerpt", generated(worlds::Kind::discs, true), planner, 2));
+    all.push_back(storm(planner, 1, 1, 80));
+    all.push_back(storm(planner, 2, 2, 80));
   }
   return all;
 }
