@@ -74,6 +74,15 @@ std::vector<Stream> drives() {
   return all;
 }
 
+std::vector<Stream> thesis_only() {
+  constexpr PlannerKind kPlanner = PlannerKind::thesis;
+  std::vector<Stream> all;
+  all.push_back(drive("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), kPlanner, 12));
+  all.push_back(drive("maze with noise", generated(worlds::Kind::maze, true), kPlanner, 6));
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) all.push_back(storm(kPlanner, seed, 2, 100));
+  return all;
+}
+
 std::vector<Stream> excerpts() {
   std::vector<Stream> all;
   for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {

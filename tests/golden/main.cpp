@@ -21,9 +21,9 @@ using whisker::chip::Bytes;
 using namespace whisker::golden;
 
 constexpr const char* kUsage =
-    "usage: whisker_golden record FOLDER                  writes the recordings full, short and table, each "
-    "with its\n"
-    "                                                     index, and the bytes of both engines' tables\n"
+    "usage: whisker_golden record FOLDER\n"
+    "           writes the recordings full, short, table and thesis, each with its index, and the bytes of\n"
+    "           both engines' tables\n"
     "       whisker_golden judge RECORDING EXPECTED ANSWERED   exit status 1: they differ, and where\n";
 
 Bytes read(const std::string& path) {
@@ -62,6 +62,7 @@ int record(const std::string& folder) {
   record(folder + "/full", joined(joined({table_sweep()}, drives()), storms()));
   record(folder + "/short", joined({table_sweep()}, excerpts()));
   record(folder + "/table", {table_sweep()});
+  record(folder + "/thesis", thesis_only());
   write_table(folder + "/table-engine.bin", whisker::fuzzy::kResponseTable);
   write_table(folder + "/closed-engine.bin", whisker::fuzzy::kRules);
   return 0;

@@ -101,6 +101,7 @@ AvrRobot::AvrRobot(const std::string& image, const sim::WorldView& world)
   firmware.frequency = 16000000;
   firmware.vcc = firmware.avcc = firmware.aref = 5000;
   avr_load_firmware(avr_, &firmware);
+  static_ram_ = static_cast<int>(firmware.datasize + firmware.bsssize);
   // Else the emulator polls the level of PD2 and PD3 at every cycle, though their own interrupts are off.
   avr_->data[kExternalInterruptSense] = 0x05;
   avr_register_io_write(avr_, reg::kGPIOR0.address, Hooks::mark, this);

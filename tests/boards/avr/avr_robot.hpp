@@ -43,6 +43,7 @@ class AvrRobot {
   std::uint64_t worst_tick_cycles() const { return worst_tick_; }
   double longest_period_ms() const { return longest_period_ / 16000.0; }
   double shortest_period_ms() const { return shortest_period_ / 16000.0; }
+  int static_ram() const { return static_ram_; }
   int deepest_stack() const;
   bool crashed() const { return crashed_; }
 
@@ -76,6 +77,7 @@ class AvrRobot {
   std::uint64_t worst_tick_ = 0;
   double longest_period_ = 0;
   double shortest_period_ = 1e18;
+  int static_ram_ = 0;
   int lowest_stack_ = 0xFFFF;
   bool crashed_ = false;
 };

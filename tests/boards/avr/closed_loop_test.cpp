@@ -10,6 +10,7 @@ namespace whisker::hal::atmega328p {
 namespace {
 
 constexpr double kCyclesPerPeriod = 0.020 * 16e6;
+constexpr int kRam = 2048;
 
 class AvrLoopTest : public ::testing::Test {
  protected:
@@ -19,10 +20,12 @@ class AvrLoopTest : public ::testing::Test {
     EXPECT_GE(robot.shortest_period_ms(), 18.9);
     EXPECT_LE(robot.longest_period_ms(), 21.1);
     EXPECT_LT(static_cast<double>(robot.worst_tick_cycles()), kCyclesPerPeriod);
-    std::printf("ticks %llu, worst %llu cycles of %.0f, period %.2f to %.2f ms, stack %d bytes\n",
+    EXPECT_LE(robot.static_ram() + robot.deepest_stack(), kRam);
+    std::printf("ticks %llu, worst %llu cycles of %.0f, period %.2f to %.2f ms, RAM %d + stack %d bytes\n",
                 static_cast<unsigned long long>(robot.ticks()),
                 static_cast<unsigned long long>(robot.worst_tick_cycles()), kCyclesPerPeriod,
-                robot.shortest_period_ms(), robot.longest_period_ms(), robot.deepest_stack());
+                robot.shortest_period_ms(), robot.longest_period_ms(), robot.static_ram(),
+                robot.deepest_stack());
   }
   bool stands() const { return robot.duty(0) == 0 && robot.duty(1) == 0; }
 
