@@ -56,7 +56,7 @@ Length patch_cell(const Params& p) noexcept {
   const Q30 s = half_cone_sine(p);
   const Length room = p.body.radius - p.rangefinders.offset;
   const int64_t cover = int64_t{room.raw()} * s.raw() / (int64_t{Q30::kOne} + s.raw());
-  const Length provable = Length::from_raw(saturate32(cover * 256 / 185));
+  const Length provable = Length::from_raw(saturate32(cover * 256 / (kCellCover + 1)));
   return max(p.body.radius / 9, min(p.body.radius * 2 / 9, provable));
 }
 
@@ -65,19 +65,14 @@ Length blind_reach(const Params& p) noexcept {
   return p.rangefinders.offset + Length::from_raw(saturate32(reach));
 }
 
-Length cell_cover(const Params& p) noexcept { return patch_cell(p) * 184 / 256; }
+Length cell_cover(const Params& p) noexcept { return patch_cell(p) * kCellCover / 256; }
 
-Length shield_reach(const Params& p) noexcept {
-  return p.body.radius + cell_cover(p) + p.skirt.shield_margin;
-}
-
-Length planning_reach(const Params& p) noexcept {
-  return p.body.radius + cell_cover(p) + p.skirt.planning_margin;
-}
-
-Length probe_length(const Params& p) noexcept {
-  if (p.skirt.probe != Length{}) return p.skirt.probe;
-  return min(p.body.radius * 5 / 3, patch_cell(p) * kHalfWindow - planning_reach(p));
+Reach reach(const Params& p) noexcept {
+  const Length covered = p.body.radius + cell_cover(p);
+  const Length planning = covered + p.skirt.planning_margin;
+  const bool given = p.skirt.probe != Length{};
+  const Length within = min(p.body.radius * 5 / 3, patch_cell(p) * kHalfWindow - planning);
+  return {covered + p.skirt.shield_margin, planning, given ? p.skirt.probe : within};
 }
 
 ParamFault check(const Params& p) noexcept {
@@ -110,8 +105,8 @@ ParamFault check(const Params& p) noexcept {
   const Length swept = p.thesis.base_step * 2 + p.body.radius + p.body.margin;
   if (p.rangefinders.max_range < swept) return ParamFault::step_beyond_range;
   if (blind_reach(p) + patch_cell(p) > p.body.radius * 7 / 4) return ParamFault::cone_too_narrow;
-  if (patch_cell(p) * kHalfWindow < planning_reach(p) + probe_length(p) ||
-      probe_length(p) < p.body.radius / 2) {
+  const Reach ways = reach(p);
+  if (patch_cell(p) * kHalfWindow < ways.planning + ways.probe || ways.probe < p.body.radius / 2) {
     return ParamFault::patch_too_small;
   }
   if (p.skirt.planning_margin < p.skirt.shield_margin) return ParamFault::planning_below_shield;

@@ -35,6 +35,9 @@ struct RangefinderParams {
   Duration latency = 20_ms;  ///< from the measurement to its arrival
 };
 
+/// Of beam 0, 1, 2 (left, front, right), from straight ahead.
+constexpr Angle beam_axis(Angle side_angle, int beam) noexcept { return side_angle * (1 - beam); }
+
 /// How several readings become one. As wide as every parameter: clang 14 for AVR misreads a number that
 /// crosses the 64th byte of its struct, and four-byte fields alone never do.
 enum class Consensus : int32_t {
@@ -69,7 +72,7 @@ struct ThesisParams {
 struct SkirtParams {
   Length cell;                       ///< of the clearance patch; zero: see patch_cell
   Length shield_margin = 2_mm;       ///< kept clear around the body at every tick, beside a cell's own size
-  Length probe;                      ///< length of a way that is judged; zero: see probe_length
+  Length probe;                      ///< length of a way that is judged; zero: see Reach
   Length planning_margin = 4_mm;     ///< the same on a heading that is chosen; more than the shield's
   Length age_travel = 500_mm;        ///< clear ground is forgotten after one to two of these ways
   Angle age_turn = 340_deg;          ///< or of these turns, whichever comes first
@@ -121,7 +124,7 @@ enum class ParamFault : uint8_t {
   stalled_before_count,       ///< stalled_after >= what the slowest count and the slowest stop take
   settle_below_lag,           ///< settle >= motor_lag + period
   cone_too_narrow,            ///< blind_reach + cell <= 7/4 radius
-  patch_too_small,            ///< 15 cells >= planning_reach + probe, and probe >= radius / 2
+  patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
   planning_below_shield,      ///< planning_margin >= shield_margin
   step_beyond_range,          ///< max_range >= 2 base_step + radius + margin: no response is a longer step
 };
@@ -188,18 +191,21 @@ constexpr void for_each_param(P& p, F&& f) {
 /// The clearance patch's cell. Unless given: 2/9 of the radius, or less, to half of that, where a narrow cone
 /// or sensors far from the centre could otherwise not prove the ground at the body's rim.
 Length patch_cell(const Params& params) noexcept;
-/// A disc of this radius around a cell's centre covers the cell: a little more than 0.7072 cell, for
-/// rounding.
+/// A disc of so many 256ths of a cell around its centre covers the cell: 0.7072, and a little for rounding.
+constexpr int32_t kCellCover = 184;
+/// The radius of that disc.
 Length cell_cover(const Params& params) noexcept;
 /// As far as this from the centre no beam can prove a cell from where the body stands: its cone is too narrow
 /// there. Where that is more than the body covers, the ring between must be free when the robot is placed.
 Length blind_reach(const Params& params) noexcept;
-/// From the body's centre to the centres of the cells that must be clear at every tick.
-Length shield_reach(const Params& params) noexcept;
-/// The same on a heading that is chosen.
-Length planning_reach(const Params& params) noexcept;
-/// Unless given: 5/3 of the radius, or as far as the patch reaches.
-Length probe_length(const Params& params) noexcept;
+/// How far ways are judged, and beside them.
+struct Reach {
+  Length shield;    ///< from the body's centre to the centres of the cells that must be clear at every tick
+  Length planning;  ///< the same on a heading that is chosen
+  Length probe;     ///< length of a way; unless given, 5/3 of the radius, or as far as the patch reaches
+};
+/// Takes a sine and divisions: ground::Patch keeps it.
+Reach reach(const Params& params) noexcept;
 /// A distance that suits the reference body of 90 mm, for this one.
 constexpr Length for_body(const Params& p, Length reference) noexcept {
   return Length::from_raw(multiply_divide(reference.raw(), p.body.radius.raw(), 90000));

@@ -119,8 +119,6 @@ void Robot::navigate() noexcept {
 }
 
 void Robot::map(bool settled, nav::View& view) noexcept {
-  const RangefinderParams& beams = params_.rangefinders;
-  const Angle axes[hal::kBeams] = {beams.side_angle, Angle{}, -beams.side_angle};
   history_.add(status_.pose, last_tick_);
   patch_.move_to(status_.pose);
   ground::Proof proofs[hal::kBeams];
@@ -134,7 +132,7 @@ void Robot::map(bool settled, nav::View& view) noexcept {
     view.sighted = true;
     ground::Proof& proof = proofs[i];
     if (!history_.at(sight.taken, proof.from)) continue;
-    proof.axis = axes[i];
+    proof.axis = beam_axis(params_.rangefinders.side_angle, i);
     proof.free = free[i] = sight.near.distance;
     proof.hit = sight.near.validity != ranges::Validity::clear;
     proof.aimed = settled && sight.oldest - settled_since_ >= Duration{};

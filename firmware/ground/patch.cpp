@@ -3,19 +3,13 @@
 namespace whisker::ground {
 namespace {
 
-// A cell is covered by the disc of 0.7072 cell around its centre; the rest is for rounding.
-constexpr int32_t kCover = 184;
+static_assert(kUnitsPerCell == 256, "kCellCover counts in 256ths of a cell");
+
 constexpr Length kReadingRounding = 1_mm;
 constexpr Angle kSuspectHalf = 6_deg;
 constexpr Length kTestedTravel = 4_mm;
-// To pass a cell d abeam brings the body nearer to it by x^2 / 2d after it lay x ahead: 0.2 mm at 100 mm.
-constexpr int32_t kAbeam = 80;
-// Below this, rounding decides what comes nearer.
-constexpr Length kNoStep = Length::from_raw(100);
 constexpr int32_t kAhead = 3;  // cells
 constexpr Duration kDoubt = 1000_ms;
-
-constexpr int64_t floor_divide(int64_t n, int64_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
 
 constexpr int32_t within(int64_t x, int32_t limit) noexcept {
   return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
@@ -34,21 +28,18 @@ constexpr bool nearby(int32_t x) noexcept { return x > -kOutermost && x < kOuter
 }  // namespace
 
 int32_t Patch::units(Length l) const noexcept {
-  return within(floor_divide(int64_t{l.raw()} * kUnitsPerCell, cell_um_), kLongest);
-}
-
-Length Patch::length_of(int32_t units) const noexcept {
-  return Length::from_raw(multiply_divide(units, cell_um_, kUnitsPerCell));
+  return within(floor_div<int64_t>(int64_t{l.raw()} * kUnitsPerCell, cell_um_), kLongest);
 }
 
 void Patch::configure(const Params& params) noexcept {
   cell_um_ = patch_cell(params).raw();
   offset_ = params.rangefinders.offset;
   half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
-  footprint_ = units(params.body.radius) - kCover;
+  footprint_ = units(params.body.radius) - kCellCover;
   const int32_t blind = units(blind_reach(params)) + kUnitsPerCell;
   placed_free_ = blind_reach(params) > params.body.radius - cell_cover(params) ? blind : footprint_;
-  ring_ = units(planning_reach(params)) + kUnitsPerCell;
+  reach_ = whisker::reach(params);
+  ring_ = units(reach_.planning) + kUnitsPerCell;
   age_travel_ = params.skirt.age_travel;
   age_turn_ = params.skirt.age_turn.raw();
   approach_ = params.skirt.mover_speed * time_to_stop(params);
@@ -57,19 +48,9 @@ void Patch::configure(const Params& params) noexcept {
 Patch::Point Patch::local(Vec at) const noexcept {
   const auto from_corner = [this](Length x, int32_t corner) {
     const int64_t um = int64_t{x.raw()} - int64_t{corner} * cell_um_;
-    return within(floor_divide(um * kUnitsPerCell, cell_um_), kOutermost);
+    return within(floor_div<int64_t>(um * kUnitsPerCell, cell_um_), kOutermost);
   };
   return {from_corner(at.x, column_), from_corner(at.y, row_)};
-}
-
-Row Patch::to_torus(Row window) const noexcept {
-  const uint32_t shift = static_cast<uint32_t>(column_) & (kCells - 1);
-  return shift == 0 ? window : (window << shift) | (window >> (kCells - shift));
-}
-
-Row Patch::to_window(Row torus) const noexcept {
-  const uint32_t shift = static_cast<uint32_t>(column_) & (kCells - 1);
-  return shift == 0 ? torus : (torus >> shift) | (torus << (kCells - shift));
 }
 
 void Patch::drop_rows(int first, int count) noexcept {
@@ -103,7 +84,7 @@ void Patch::move_to(const Pose& pose) noexcept {
   // The body stands behind the middle of the window: the beams look ahead.
   const Vec middle = pose.at + polar(pose.heading, Length::from_raw(cell_um_ * kAhead));
   const auto corner = [this](Length x) {
-    return static_cast<int32_t>(floor_divide(int64_t{x.raw()} + cell_um_ / 2, cell_um_)) - kCells / 2;
+    return static_cast<int32_t>(floor_div<int64_t>(int64_t{x.raw()} + cell_um_ / 2, cell_um_)) - kCells / 2;
   };
   const int32_t right = corner(middle.x) - column_;
   const int32_t up = corner(middle.y) - row_;
@@ -173,14 +154,14 @@ void Patch::mark(const Proof& proof) noexcept {
   if (!nearby(apex.x) || !nearby(apex.y)) return;
   if (proof.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && proof.hit ? approach_ : Length{};
-  const int32_t free = units(proof.free - room - kReadingRounding) - kCover;
+  const int32_t free = units(proof.free - room - kReadingRounding) - kCellCover;
   const int32_t echo = units(proof.free) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
   const Wedge core(axis, half_cone_.raw() < kSuspectHalf.raw() ? half_cone_ : kSuspectHalf);
   for (int row = 0; row < kCells; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
     Span inside;
-    cone.clip(inside, apex.x, dy, kCover);
+    cone.clip(inside, apex.x, dy, kCellCover);
     if (inside.empty()) continue;
     const int s = slot(row);
     Span empty = inside;
@@ -207,7 +188,7 @@ void Patch::doubt(const Proof& proof, Length farthest) noexcept {
   const Point apex = local(proof.from.at + polar(axis, offset_));
   const Point body = local(last_.at);
   if (!nearby(apex.x) || !nearby(apex.y)) return;
-  const int32_t approach = units(approach_) + kCover;
+  const int32_t approach = units(approach_) + kCellCover;
   const int32_t nearest = units(proof.free) - approach;
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;
   const int32_t beyond = units(farthest + approach_) + kUnitsPerCell;
@@ -234,70 +215,6 @@ void Patch::doubt(const Proof& proof, Length farthest) noexcept {
     suspect_[s] = (suspect_[s] & ~taken) | (taken & to_torus(echo.columns()));
     tested_[s] &= ~taken;
   }
-}
-
-Obstacles Patch::along(const Vec& from, Angle heading, Length length, Length radius) const noexcept {
-  Obstacles found;
-  const Point start = local(from);
-  const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
-  int32_t nearest = INT32_MAX;
-  for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
-    const Row inside = stadium.columns(rows.row());
-    const int s = slot(rows.row());
-    Row blocked = inside & to_window(~(young_[s] | old_[s]));
-    if (blocked == 0) continue;
-    const Row solid = blocked & to_window(suspect_[s] | tested_[s]);
-    found.suspect += bits(solid);
-    for (Row open = blocked & ~solid; open != 0; open &= open - 1) {
-      ++found.unknown;
-      const int32_t dx = lowest(open) * kUnitsPerCell + kHalfCell - start.x;
-      const int32_t dy = rows.row() * kUnitsPerCell + kHalfCell - start.y;
-      const int32_t squared = dx * dx + dy * dy;
-      if (squared < nearest) {
-        nearest = squared;
-        found.nearest_unknown = {length_of(dx), length_of(dy)};
-      }
-    }
-  }
-  return found;
-}
-
-bool Patch::approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept {
-  if (step < kNoStep) return false;
-  const Point here = local(from);
-  const Point there = local(from + polar(heading, step));
-  const int32_t reach = units(radius);
-  const int32_t half = units(step / 2);
-  // What lies beyond the window is not known.
-  constexpr int32_t kSize = kCells * kUnitsPerCell;
-  if (there.x < reach || there.y < reach || there.x > kSize - reach || there.y > kSize - reach) return true;
-  const HalfPlane ahead = HalfPlane::facing(heading);
-  for (Rows rows(there.y, reach); rows.more(); rows.next()) {
-    Span span;
-    span.within_disc(there.x, rows.offset(there.y), reach);
-    ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
-    if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return true;
-  }
-  return false;
-}
-
-bool Patch::all_clear(Vec centre, Length radius) const noexcept {
-  const Point at = local(centre);
-  const int32_t reach = units(radius) + kCover;
-  constexpr int32_t kEnd = kCells * kUnitsPerCell;
-  if (at.x < reach || at.y < reach || at.x > kEnd - reach || at.y > kEnd - reach) return false;
-  for (Rows rows(at.y, reach); rows.more(); rows.next()) {
-    Span span;
-    span.within_disc(at.x, rows.offset(at.y), reach);
-    if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return false;
-  }
-  return true;
-}
-
-bool Patch::is_clear(Vec at) const noexcept {
-  const Point p = local(at);
-  if (p.x < 0 || p.y < 0 || p.x >= kCells * kUnitsPerCell || p.y >= kCells * kUnitsPerCell) return false;
-  return (to_window(clear_row(static_cast<int>(p.y / kUnitsPerCell))) >> (p.x / kUnitsPerCell) & 1U) != 0;
 }
 
 }  // namespace whisker::ground

@@ -24,7 +24,6 @@ struct Obstacles {
   int32_t unknown = 0;  ///< never cleared, and nothing more is known
   int32_t suspect = 0;  ///< near an echo, or looked at from here in vain
   Vec nearest_unknown;  ///< where the nearest unknown one is, from the body
-  bool none() const noexcept { return unknown == 0 && suspect == 0; }
 };
 
 /// The clearance patch: 32 x 32 world-aligned cells around the body, in three states and an age.
@@ -36,6 +35,9 @@ struct Obstacles {
 /// beam sector, so that with a sensor that reports the nearest thing in its cone clear ground is free ground.
 class Patch {
  public:
+  /// Rounding decides what a shorter step comes nearer to.
+  static constexpr Length kShortestStep = micrometres(100);
+
   void configure(const Params& params) noexcept;
   /// Nothing is known but the ground under the body, and the ring that no beam can prove from there (see
   /// blind_reach), which must be free.
@@ -49,13 +51,17 @@ class Patch {
   void doubt(const Proof& proof, Length farthest) noexcept;
   /// Something moved a moment ago.
   bool doubting() const noexcept { return doubting_; }
+  /// As far as the parameters want ways to be judged.
+  const Reach& reach() const noexcept { return reach_; }
 
   /// What lies within `radius` of the way, ahead of its beginning: a body that stands near something may
   /// move off along it or away from it.
   Obstacles along(const Vec& from, Angle heading, Length length, Length radius) const noexcept;
   /// True if a step of this length brings the body nearer to a cell that is not clear and then within
-  /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only.
+  /// `radius` of it. Cells abeam do not count: passing them brings it nearer by some micrometres only. False
+  /// below kShortestStep.
   bool approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
+  /// The state of one cell, for those who want to see the patch; false outside the window.
   bool is_clear(Vec at) const noexcept;
   /// True if all cells that this disc touches are clear, none of them outside the window.
   bool all_clear(Vec centre, Length radius) const noexcept;
@@ -67,11 +73,17 @@ class Patch {
   };
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
   int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
-  Row to_torus(Row window) const noexcept;
-  Row to_window(Row torus) const noexcept;
+  uint32_t shift() const noexcept { return static_cast<uint32_t>(column_) & (kCells - 1); }
+  Row to_torus(Row window) const noexcept {
+    return shift() == 0 ? window : (window << shift()) | (window >> (kCells - shift()));
+  }
+  Row to_window(Row torus) const noexcept {
+    return shift() == 0 ? torus : (torus >> shift()) | (torus << (kCells - shift()));
+  }
   int32_t units(Length l) const noexcept;
   Length length_of(int32_t units) const noexcept;
   Point local(Vec at) const noexcept;
+  static bool in_window(Point p, int32_t reach) noexcept;
   void drop_rows(int first, int count) noexcept;
   void drop_columns(Row window) noexcept;
   void age(const Pose& pose) noexcept;
@@ -94,6 +106,7 @@ class Patch {
   Angle half_cone_;
   Length age_travel_;
   uint32_t age_turn_ = 0;
+  Reach reach_;
   Length approach_;  // of something that moves, while the body stops
   int32_t cell_um_ = 20000;
   int32_t footprint_ = 0;    // grid units

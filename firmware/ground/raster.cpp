@@ -7,6 +7,13 @@ namespace {
 
 int32_t q14(Q30 x) noexcept { return static_cast<int32_t>(scale_down<16>(int64_t{x.raw()})); }
 
+/// Of the disc around x in a row that lies dy from its centre.
+Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
+  if (radius < 0 || dy > radius || dy < -radius) return {INT16_MAX, -INT16_MAX};
+  const int32_t half = root(static_cast<uint32_t>(radius * radius - dy * dy));
+  return {x - half, x + half};
+}
+
 }  // namespace
 
 int bits(Row row) noexcept {
@@ -35,13 +42,9 @@ int32_t root(uint32_t x) noexcept {
 }
 
 void Span::within_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
-  if (radius < 0 || dy > radius || dy < -radius) {
-    high = low - 1;
-    return;
-  }
-  const int32_t half = root(static_cast<uint32_t>(radius * radius - dy * dy));
-  cut_low(x - half);
-  cut_high(x + half);
+  const Span inside = chord(x, dy, radius);
+  cut_low(inside.low);
+  cut_high(inside.high);
 }
 
 Row Span::columns() const noexcept {
@@ -111,18 +114,10 @@ void Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
 
 Row Stadium::columns(int row) const noexcept {
   const int32_t dy = row * kUnitsPerCell + kHalfCell - y_;
-  Span span{INT16_MAX, -INT16_MAX};
-  const int32_t dy_end = dy - end_y_;
-  if (dy <= radius_ && -dy <= radius_) {
-    const int32_t half = root(static_cast<uint32_t>(radius_ * radius_ - dy * dy));
-    span = {x_ - half, x_ + half};
-  }
-  if (dy_end <= radius_ && -dy_end <= radius_) {
-    const int32_t half = root(static_cast<uint32_t>(radius_ * radius_ - dy_end * dy_end));
-    const int32_t centre = x_ + end_x_;
-    if (centre - half < span.low) span.low = centre - half;
-    if (centre + half > span.high) span.high = centre + half;
-  }
+  Span span = chord(x_, dy, radius_);
+  const Span end = chord(x_ + end_x_, dy - end_y_, radius_);
+  if (end.low < span.low) span.low = end.low;
+  if (end.high > span.high) span.high = end.high;
   side(span, dy, 1);
   side(span, dy, -1);
   if (span.empty()) return 0;

@@ -20,7 +20,11 @@ constexpr int32_t kLongest = 4 * kCells * kUnitsPerCell - 1;
 /// Points lie at most this far from the window's corner in x and in y.
 constexpr int32_t kOutermost = 2 * kCells * kUnitsPerCell;
 
-constexpr int32_t floor_div(int32_t n, int32_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
+/// d > 0.
+template <class T>
+constexpr T floor_div(T n, T d) noexcept {
+  return n >= 0 ? n / d : -((-n + d - 1) / d);
+}
 constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return -floor_div(-n, d); }
 
 /// The columns first..last of the window, both within 0..31.

@@ -42,7 +42,6 @@ void Witness::add(const Pose& from, Time taken, const Length (&free)[kBeams]) no
 }
 
 Witness::Mask Witness::holding(Vec point, Mask among) const noexcept {
-  const Angle axes[kBeams] = {side_, Angle{}, -side_};
   Mask holding = 0;
   for (int n = 0; n < count_; ++n) {
     const Mask beams = among >> (n * kBeams) & ((1U << kBeams) - 1);
@@ -53,7 +52,7 @@ Witness::Mask Witness::holding(Vec point, Mask among) const noexcept {
     const Angle direction = bearing(rel) - scan.heading;
     for (int i = 0; i < kBeams; ++i) {
       if ((beams >> i & 1U) == 0) continue;
-      const Angle off = direction - axes[i];
+      const Angle off = direction - beam_axis(side_, i);
       if (magnitude(off) > (90_deg).raw()) continue;
       const Length reach = norm(rel);
       const Length forward = reach * cos(off) - offset_;
@@ -71,8 +70,7 @@ Witness::Mask Witness::holding(Vec point, Mask among) const noexcept {
 bool Witness::contradicts(const Pose& from, int beam, Length nearest, Length farthest,
                           const Patch& patch) const noexcept {
   if (farthest > kReach || nearest <= Length{}) return false;
-  const Angle axes[kBeams] = {side_, Angle{}, -side_};
-  const Angle axis = from.heading + axes[beam];
+  const Angle axis = from.heading + beam_axis(side_, beam);
   const Vec apex = from.at + polar(axis, offset_);
   const Angle half = half_ + kWidening;
   const Angle step = Angle::from_raw(half.raw() / (kSectors / 2));

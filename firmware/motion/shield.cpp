@@ -4,8 +4,6 @@ namespace whisker::motion {
 namespace {
 
 constexpr Length kSample = 20_mm;
-// The shortest step that ground::Patch judges: a crawl is tested with it.
-constexpr Length kShortest = micrometres(100);
 
 /// How far a wheel still rolls: through its lag, this tick at the new command, and braking.
 struct Brake {
@@ -32,12 +30,13 @@ bool free(WheelPair command, const Pose& pose, const WheelState& wheels, const g
   const Brake way = brake(command, wheels, params);
   const bool crawls = command.left + command.right != Speed{};
   const Length rolled = (way.left + way.right) / 2;
+  constexpr Length kShortest = ground::Patch::kShortestStep;
   const Length length =
       crawls && abs(rolled) < kShortest ? (rolled < Length{} ? -kShortest : kShortest) : rolled;
   const Angle backwards = length < Length{} ? 180_deg : Angle{};
   const Angle turn = angle_of(way.right - way.left, params.body.track);
   const int32_t samples = 1 + abs(length).raw() / kSample.raw();
-  const Length reach = shield_reach(params);
+  const Length reach = patch.reach().shield;
   for (int32_t i = 1; i <= samples; ++i) {
     const Angle chord =
         Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));

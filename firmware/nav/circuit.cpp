@@ -6,8 +6,8 @@ using namespace literals;
 
 namespace {
 
-constexpr int64_t kDrift = 50;          // odometry is off by at most 1 / 50 of the way
-constexpr uint64_t kDegree = 11930465;  // 2^32 / 360
+constexpr int64_t kDrift = 50;  // odometry is off by at most 1 / 50 of the way
+constexpr uint64_t kDegree = (1_deg).raw();
 
 }  // namespace
 

@@ -6,7 +6,7 @@
 namespace whisker::nav {
 namespace {
 
-constexpr Angle kStep = Angle::turns(75, 3600);
+constexpr Angle kStep = Angle::turns(1, kFan);
 constexpr int32_t kSteps = 10;  // to 75 degrees
 constexpr uint32_t kStraight = (1_deg).raw();
 
@@ -34,9 +34,10 @@ bool Course::choose(const View& view, const Vec& to_goal, BendLaw& law, const Pa
   const Angle bend = law.bend(view.sight, params, decision);
   bend_towards(view.sight.beam[hal::kFront].distance >= distance ? Angle{} : bend);
 
+  const Reach& reach = view.patch->reach();
   const auto passable = [&](Angle heading) {
     heading_ = heading;
-    return way(view, heading, min(probe_length(params), distance), planning_reach(params)) != Way::blocked;
+    return way(view, heading, min(reach.probe, distance), reach.planning) != Way::blocked;
   };
   decision.why = magnitude(bend_) > kStraight ? Why::table : Why::target_free;
   if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)))) return true;

@@ -14,7 +14,6 @@ constexpr int32_t kWallGain = 20;  // rad/s per metre
 constexpr Length kAhead = 300_mm;
 constexpr int32_t kAheadGain = 15;
 constexpr Length kEndRadius = 180_mm;
-constexpr AngularRate kFastest = 2500_mrad_per_s;
 constexpr AngularRate kHalts = 4000_mrad_per_s;  // the forward speed would be zero at this turn rate
 
 }  // namespace
@@ -31,7 +30,7 @@ Twist along_edge(const ranges::Echoes& sight, Side wall, const Params& params) n
   const Length error = max(-kTooNear, min(reference(gap) - wanted, kTooFar));
   const Length ahead = max(Length{}, kAhead - reference(sight.beam[hal::kFront].distance));
   const AngularRate towards =
-      limit(AngularRate::from_raw((error * kWallGain).raw() - (ahead * kAheadGain).raw()), kFastest);
+      limit(AngularRate::from_raw((error * kWallGain).raw() - (ahead * kAheadGain).raw()), kFastestTurn);
   const Speed top = params.wheels.max_speed;
   const bool ended = error == kTooFar && ahead == Length{};
   const Speed forward =

@@ -5,13 +5,13 @@ namespace {
 
 constexpr AngularRate kSweepRate = 2000_mrad_per_s;
 constexpr int32_t kLast = 150;  // degrees to which exits are looked for on each side
-constexpr int32_t kSteps = 20;  // of 7.5 degrees
+constexpr int32_t kSteps = 20;
 constexpr Length kFarView = 800_mm;
 // The outer rim of a side cone is 42.5 degrees ahead of the front, and a way is as wide as the body.
 constexpr int32_t kSeenBehind = 42;
 
-constexpr Angle step_angle(int32_t n) noexcept { return Angle::turns(75 * n, 3600); }
-constexpr int32_t step_degrees(int32_t n) noexcept { return n * 15 / 2; }
+constexpr Angle step_angle(int32_t n) noexcept { return Angle::turns(n, kFan); }
+constexpr int32_t step_degrees(int32_t n) noexcept { return n * 360 / kFan; }
 
 }  // namespace
 
@@ -33,11 +33,12 @@ int32_t ExitSearch::cost(const Exit& e) noexcept {
   return e.view > e.turn ? e.view : e.turn;
 }
 
-void ExitSearch::judge(const View& view, const Params& params, int32_t swept) noexcept {
+void ExitSearch::judge(const View& view, int32_t swept) noexcept {
+  const Reach& reach = view.patch->reach();
   Exit& mine = exit(now_);
   for (; !mine.free && candidate_ <= kSteps; ++candidate_) {
     const Angle heading = blocked_ + step_angle(candidate_ * sign(now_));
-    const Way found = way(view, heading, probe_length(params), planning_reach(params));
+    const Way found = way(view, heading, reach.probe, reach.planning);
     if (found == Way::open && swept < step_degrees(candidate_) + kSeenBehind && swept < kLast + 15) return;
     if (found != Way::free) continue;
     mine.free = true;
@@ -46,7 +47,7 @@ void ExitSearch::judge(const View& view, const Params& params, int32_t swept) no
   }
 }
 
-bool ExitSearch::step(const View& view, const Params& params, Twist& twist) noexcept {
+bool ExitSearch::step(const View& view, Twist& twist) noexcept {
   twist = {Speed{}, kSweepRate * sign(now_)};
   if (!view.sighted) return false;
   Exit& mine = exit(now_);
@@ -56,7 +57,7 @@ bool ExitSearch::step(const View& view, const Params& params, Twist& twist) noex
   if (mine.view == 0 && swept > 0 && swept <= kLast && view.sight.beam[hal::kFront].distance >= kFarView) {
     mine.view = swept;
   }
-  judge(view, params, swept);
+  judge(view, swept);
   const bool complete = mine.free && mine.view > 0;
   const bool worse = other.free && swept > cost(other);
   const bool over = swept >= kLast && (candidate_ > kSteps || mine.free);

@@ -18,7 +18,7 @@ class ExitSearch {
   void begin_on(Angle blocked, Side only) noexcept;
 
   /// Turns and judges; the body must stand. True: over.
-  bool step(const View& view, const Params& params, Twist& twist) noexcept;
+  bool step(const View& view, Twist& twist) noexcept;
 
   /// After the search: whether there is an exit, its side and its heading.
   bool found() const noexcept { return exit_[0].free || exit_[1].free; }
@@ -36,7 +36,7 @@ class ExitSearch {
   Exit& exit(Side s) noexcept { return exit_[s == Side::left ? 1 : 0]; }
   const Exit& exit(Side s) const noexcept { return exit_[s == Side::left ? 1 : 0]; }
   static int32_t cost(const Exit& e) noexcept;
-  void judge(const View& view, const Params& params, int32_t swept) noexcept;
+  void judge(const View& view, int32_t swept) noexcept;
 
   Exit exit_[2];
   Angle blocked_;

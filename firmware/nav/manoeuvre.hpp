@@ -24,4 +24,6 @@ struct Manoeuvre {
   Speed turning{};  ///< of a cruise: the rims' speed of turning, counter-clockwise positive
 };
 
+constexpr Manoeuvre stop() noexcept { return {Kind::stop, {}, {}, {}, {}}; }
+
 }  // namespace whisker::nav

@@ -6,68 +6,37 @@ namespace whisker::nav {
 namespace {
 
 constexpr Angle kSurvey = 50_deg;  // with the cones' rims, 92 degrees to each side
-constexpr Angle kFacing = 3_deg;
 constexpr Length kProgress = 30_mm;
 constexpr Length kLongest = 400_m;
 constexpr Length kKeepSide = 500_mm;  // of travel after a leave
 constexpr int8_t kEscapes = 6;
-constexpr int8_t kRetreats = 8;
 
 constexpr Angle kCheapTurn = 25_deg;
 constexpr Q14 kHindered = Q14::ratio(9, 10);
 
-constexpr Angle kFeelFrom = 110_deg;
-constexpr Angle kNotBack = 45_deg;
-constexpr Length kShortWay = 60_mm;
 constexpr Length kCommit = 60_mm;
 constexpr Length kOpeningEvery = 100_mm;
-constexpr Length kOpeningWay = 100_mm;
-constexpr int32_t kOpeningCells = 6;
-
-/// A place counts as the goal only well inside the tolerance: the estimate has its own error.
-Length close_enough(Length tolerance) noexcept { return tolerance - tolerance / 8; }
 
 static_assert(sizeof(SkirtPlanner) + sizeof(ground::Patch) < 1024);
 
 }  // namespace
 
-void SkirtPlanner::set_goal(const Goal& goal) noexcept {
-  goal_ = goal;
-  request_ = Request::goal;
-}
-
-void SkirtPlanner::cancel() noexcept { request_ = Request::cancel; }
-
-Decision SkirtPlanner::step(const View& view) noexcept {
-  decision_.manoeuvre = {};
-  decision_.looked = false;
-  switch (request_) {
-    case Request::none: break;
-    case Request::goal: start(view); break;
-    case Request::cancel: finish(Mode::idle, Why::cancelled, Outcome::none); break;
-  }
-  request_ = Request::none;
-  if (phase_ != Phase::rest) {
-    keep_account(view);
-    act(view);
-  }
-  return decision_;
-}
-
 void SkirtPlanner::start(const View& view) noexcept {
-  decision_ = Decision{};
-  decision_.outcome = Outcome::running;
   last_ = view.pose;
   best_ = Length::from_raw(INT32_MAX);
   travel_mm_ = travel_rest_um_ = 0;
   left_edge_mm_ = -mm(kKeepSide);
-  trail_.reset(view.pose.at, for_body(params_, 40_mm));
+  feeler_.reset(view.pose.at, params_);
   course_.reset();
   surveyed_ = 0;
   escapes_ = 0;
-  retreats_ = 0;
-  slow_ticks_ = 0;
   enter(Phase::survey, Mode::surveying, Why::goal_set);
+  advance(view);
+}
+
+void SkirtPlanner::advance(const View& view) noexcept {
+  keep_account(view);
+  act(view);
 }
 
 void SkirtPlanner::keep_account(const View& view) noexcept {
@@ -79,7 +48,7 @@ void SkirtPlanner::keep_account(const View& view) noexcept {
   last_ = view.pose;
   to_goal_ = goal_.at - view.pose.at;
   distance_ = norm(to_goal_);
-  if (trail_.add(view.pose.at)) retreats_ = 0;
+  feeler_.move(view.pose.at);
 }
 
 void SkirtPlanner::act(const View& view) noexcept {
@@ -87,15 +56,14 @@ void SkirtPlanner::act(const View& view) noexcept {
     finish(Mode::gave_up, Why::length_budget, Outcome::gave_up);
     return;
   }
-  if (distance_ <= close_enough(goal_.tolerance)) {
-    if (phase_ != Phase::brake || next_ != Phase::rest) brake_then(Phase::rest);
+  if (is_goal(distance_)) {
+    if (phase_ != Phase::brake || next_ != Phase::go) brake_then(Phase::go);
     if (view.settled) finish(Mode::arrived, Why::at_goal, Outcome::reached);
     return;
   }
   switch (phase_) {
-    case Phase::rest: break;
     case Phase::brake:
-      if (view.settled) phase_ = next_ == Phase::rest ? Phase::go : next_;
+      if (view.settled) phase_ = next_;
       break;
     case Phase::survey: survey(view); break;
     case Phase::go: go(view); break;
@@ -121,7 +89,7 @@ void SkirtPlanner::go(const View& view) noexcept {
     begin_exits(view);
     return;
   }
-  const Length length = min(probe_length(params_), distance_);
+  const Length length = min(view.patch->reach().probe, distance_);
   if (stalled(view)) {
     look_along(course_.heading(), length, Phase::go);
     return;
@@ -141,42 +109,18 @@ int32_t SkirtPlanner::mm(Length reference) const noexcept {
   return for_body(params_, reference).raw() / 1000;
 }
 
-bool SkirtPlanner::stalled(const View& view) noexcept {
-  const Speed slow = params_.wheels.max_speed / 15;
-  constexpr AngularRate kTurns = 300_mrad_per_s;
-  // What it takes to start moving, and for readings to show what is ahead: 0.2 s; 0.8 s while it turns.
-  const Duration starts = params_.wheels.motor_lag * 2 + params_.rangefinders.latency +
-                          milliseconds(4000 / params_.rangefinders.rate_hz);
-  const int32_t patience = 4 * starts.raw() / params_.safety.period.raw();
-  const bool turns = abs(view.turning) > kTurns * (params_.body.track / 2);
-  const bool held = !turns && view.granted < Q14::ratio(1, 1);
-  slow_ticks_ = view.forward < slow ? slow_ticks_ + (held ? 4 : 1) : 0;
-  return slow_ticks_ >= patience;
-}
-
 void SkirtPlanner::look_along(Angle heading, Length length, Phase next) noexcept {
   heading_ = heading;
   length_ = length;
   enter(Phase::look, Mode::looking, Why::unknown_ahead);
   next_ = next;
-  decision_.manoeuvre.kind = Kind::stop;
-  halting_ = true;
+  look_.begin(decision_.manoeuvre);
 }
 
 void SkirtPlanner::look(const View& view) noexcept {
-  Angle turn;
-  if (!turn_to_unseen(view, heading_, length_, view.pose.heading, params_, turn)) {
-    decision_.looked = true;
-    enter(next_, next_ == Phase::go ? Mode::going : Mode::skirting, decision_.why);
-    return;
-  }
-  if (magnitude(turn) > (1_deg).raw()) {
-    halting_ = false;
-    drive(face(turn));
-  } else if (!halting_) {
-    decision_.manoeuvre.kind = Kind::stop;
-    halting_ = true;
-  }
+  if (!look_.step(view, heading_, length_, params_, decision_.manoeuvre)) return;
+  decision_.looked = true;
+  enter(next_, next_ == Phase::go ? Mode::going : Mode::skirting, decision_.why);
 }
 
 void SkirtPlanner::begin_exits(const View& view) noexcept {
@@ -194,7 +138,7 @@ void SkirtPlanner::begin_exits(const View& view) noexcept {
 
 void SkirtPlanner::exits(const View& view) noexcept {
   Twist twist;
-  const bool over = exits_.step(view, params_, twist);
+  const bool over = exits_.step(view, twist);
   drive(twist);
   if (!over) return;
   if (!exits_.found()) {
@@ -204,7 +148,6 @@ void SkirtPlanner::exits(const View& view) noexcept {
   wall_ = opposite(exits_.side());
   heading_ = exits_.heading();
   circuit_.head(heading_);
-  effort_ = Effort::full;
   enter(Phase::depart, Mode::skirting, wall_ == Side::right ? Why::exit_left : Why::exit_right);
 }
 
@@ -228,7 +171,7 @@ void SkirtPlanner::follow(const View& view) noexcept {
     if (leave(view)) return;
     if (travel_mm_ - felt_mm_ > mm(kOpeningEvery)) {
       felt_mm_ = travel_mm_;
-      if (opening(view)) {
+      if (feeler_.opening(view, wall_, params_)) {
         begin_feel(view, view.pose.heading);
         decision_.why = Why::opening;
         return;
@@ -250,7 +193,8 @@ void SkirtPlanner::follow(const View& view) noexcept {
 bool SkirtPlanner::leave(const View& view) noexcept {
   if (distance_ >= best_ - for_body(params_, kProgress)) return false;
   const Angle target = bearing(to_goal_);
-  const Way found = way(view, target, min(probe_length(params_), distance_), planning_reach(params_));
+  const Reach& reach = view.patch->reach();
+  const Way found = way(view, target, min(reach.probe, distance_), reach.planning);
   // Away from the wall the unseen may be tried; on its side it is most likely the wall.
   const bool wall_side = (target - view.pose.heading).wrapped() * int64_t{sign(wall_)} > 0;
   if (found == Way::blocked || (found == Way::open && wall_side)) return false;
@@ -259,20 +203,6 @@ bool SkirtPlanner::leave(const View& view) noexcept {
   enter(Phase::go, Mode::going, Why::target_free);
   go(view);
   return true;
-}
-
-/// On the wall's side something is nearly clear: a door, or the end of the wall.
-bool SkirtPlanner::opening(const View& view) const noexcept {
-  const Angle back = trail_.way_back(view.pose);
-  const Length reach = planning_reach(params_);
-  for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
-    const Angle heading = view.pose.heading + 1_deg * (degrees * sign(wall_));
-    if (magnitude(heading - back) < kNotBack.raw()) continue;
-    const ground::Obstacles o =
-        view.patch->along(view.pose.at, heading, for_body(params_, kOpeningWay), reach);
-    if (o.suspect + o.unknown <= kOpeningCells) return true;
-  }
-  return false;
 }
 
 void SkirtPlanner::escape() noexcept {
@@ -301,90 +231,50 @@ void SkirtPlanner::turn_back(const View& view) noexcept {
 }
 
 void SkirtPlanner::begin_feel(const View& view, Angle ahead) noexcept {
-  // From the wall's side, but not from beyond the wall: where the robot came from lies there.
-  Angle swing = kFeelFrom;
-  const Angle to_back = (trail_.way_back(view.pose) - ahead) * sign(wall_);
-  if (to_back.raw() > kNotBack.raw() && (to_back - kNotBack).raw() < swing.raw()) swing = to_back - kNotBack;
-  feel_from_ = ahead + swing * sign(wall_);
-  candidate_ = 0;
-  effort_ = Effort::full;
+  feeler_.begin_at_wall(ahead, view.pose, wall_);
   brake_then(Phase::feel);
 }
 
-Length SkirtPlanner::reach() const noexcept {
-  return effort_ == Effort::full ? probe_length(params_) : for_body(params_, kShortWay);
-}
-
 void SkirtPlanner::feel(const View& view) noexcept {
-  constexpr Angle kStep = Angle::turns(75, 3600);
-  constexpr Angle kFineStep = Angle::turns(25, 3600);
-  const bool fine = effort_ == Effort::narrow_ways;
-  const Angle step = fine ? kFineStep : kStep;
-  const Length margin = fine ? shield_reach(params_) : planning_reach(params_);
   decision_.mode = Mode::searching;
-  for (const int32_t all = fine ? 144 : 48; candidate_ < all; ++candidate_) {
-    const Angle heading = feel_from_ - step * (candidate_ * sign(wall_));
-    const Way found = way(view, heading, reach(), margin);
-    if (found == Way::blocked || (fine && found == Way::open)) continue;
-    if (found == Way::open) {
-      look_along(heading, reach(), Phase::feel);
-      return;
-    }
-    heading_ = heading;
-    enter(Phase::depart, Mode::skirting, Why::edge);
-    return;
+  Feeler::Heading found;
+  switch (feeler_.step(view, params_, found)) {
+    case Feeler::Found::nothing: break;
+    case Feeler::Found::unseen: look_along(found.angle, found.length, Phase::feel); break;
+    case Feeler::Found::free:
+      heading_ = found.angle;
+      enter(Phase::depart, Mode::skirting, Why::edge);
+      break;
+    case Feeler::Found::none: enter(Phase::retreat, Mode::skirting, Why::way_back); break;
   }
-  candidate_ = 0;
-  switch (effort_) {
-    case Effort::full: effort_ = Effort::short_ways; return;
-    case Effort::short_ways: effort_ = Effort::narrow_ways; return;
-    case Effort::narrow_ways: break;
-  }
-  retreat_to_ = trail_.near();
-  enter(Phase::retreat, Mode::skirting, Why::way_back);
 }
 
 void SkirtPlanner::retreat(const View& view) noexcept {
-  const Vec rest = retreat_to_ - view.pose.at;
-  if (norm(rest) < for_body(params_, 10_mm)) {
-    felt_mm_ = travel_mm_;
-    enter(Phase::follow, Mode::skirting, Why::edge);
-  } else if (!stalled(view)) {
-    drive(steer(bearing(rest) - view.pose.heading, params_.wheels.max_speed / 2));
-  } else if (++retreats_ < kRetreats) {
-    begin_feel(view, view.pose.heading);
-  } else {
-    finish(Mode::gave_up, Why::no_exit, Outcome::gave_up);
+  switch (feeler_.retreat(view, stalled(view), params_, decision_.manoeuvre)) {
+    case Feeler::Retreat::under_way: break;
+    case Feeler::Retreat::there:
+      felt_mm_ = travel_mm_;
+      enter(Phase::follow, Mode::skirting, Why::edge);
+      break;
+    case Feeler::Retreat::stuck: begin_feel(view, view.pose.heading); break;
+    case Feeler::Retreat::lost: finish(Mode::gave_up, Why::no_exit, Outcome::gave_up); break;
   }
 }
 
 void SkirtPlanner::enter(Phase phase, Mode mode, Why why) noexcept {
   phase_ = phase;
-  slow_ticks_ = 0;
-  decision_.mode = mode;
-  decision_.why = why;
+  stall_.reset();
+  tell(mode, why);
 }
 
 void SkirtPlanner::brake_then(Phase next) noexcept {
   enter(Phase::brake, decision_.mode, decision_.why);
   next_ = next;
-  decision_.manoeuvre = {};
-  decision_.manoeuvre.kind = Kind::stop;
+  decision_.manoeuvre = stop();
 }
 
 bool SkirtPlanner::turn_to(const View& view, Angle heading) noexcept {
-  const Angle error = heading - view.pose.heading;
-  drive(face(error));
-  return magnitude(error) < kFacing.raw();
-}
-
-void SkirtPlanner::finish(Mode mode, Why why, Outcome outcome) noexcept {
-  phase_ = Phase::rest;
-  decision_.mode = mode;
-  decision_.why = why;
-  decision_.outcome = outcome;
-  decision_.manoeuvre = {};
-  decision_.manoeuvre.kind = Kind::stop;
+  return turn_by(heading - view.pose.heading, params_, decision_.manoeuvre);
 }
 
 }  // namespace whisker::nav

@@ -6,10 +6,11 @@
 #include "firmware/nav/circuit.hpp"
 #include "firmware/nav/course.hpp"
 #include "firmware/nav/exits.hpp"
-#include "firmware/nav/planner.hpp"
+#include "firmware/nav/feeler.hpp"
+#include "firmware/nav/goal_planner.hpp"
+#include "firmware/nav/look.hpp"
+#include "firmware/nav/stall.hpp"
 #include "firmware/nav/steering.hpp"
-#include "firmware/nav/trail.hpp"
-#include "firmware/nav/ways.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker::nav {
@@ -25,19 +26,13 @@ namespace whisker::nav {
 /// ```
 /// It ends: each leave is nearer to the goal than the one before by 30 mm, each circuit is bounded, and
 /// the length of the way is (400 m). See docs/skirt.md.
-class SkirtPlanner final : public Planner {
+class SkirtPlanner final : public GoalPlanner {
  public:
   /// Both references must outlive the planner.
   SkirtPlanner(const Params& params, BendLaw& law) noexcept : params_(params), law_(law) {}
 
-  void set_goal(const Goal& goal) noexcept override;
-  void cancel() noexcept override;
-  Decision step(const View& view) noexcept override;
-
  private:
-  enum class Request : uint8_t { none, goal, cancel };
   enum class Phase : uint8_t {
-    rest,
     brake,    ///< comes to rest, then goes on with `next_`
     survey,   ///< turns to both sides before the first movement
     go,       ///< towards the goal
@@ -48,10 +43,9 @@ class SkirtPlanner final : public Planner {
     feel,     ///< stands at the edge and takes the first free heading from the wall's side
     retreat,  ///< no heading is free: back the way it came
   };
-  /// How hard feel() tries, one after the other.
-  enum class Effort : uint8_t { full, short_ways, narrow_ways };
 
-  void start(const View& view) noexcept;
+  void start(const View& view) noexcept override;
+  void advance(const View& view) noexcept override;
   void keep_account(const View& view) noexcept;
   void act(const View& view) noexcept;
 
@@ -63,30 +57,24 @@ class SkirtPlanner final : public Planner {
   void depart(const View& view) noexcept;
   void follow(const View& view) noexcept;
   bool leave(const View& view) noexcept;
-  bool opening(const View& view) const noexcept;
   void escape() noexcept;
   void turn_back(const View& view) noexcept;
   void begin_feel(const View& view, Angle ahead) noexcept;
   void feel(const View& view) noexcept;
   void retreat(const View& view) noexcept;
 
-  bool stalled(const View& view) noexcept;
-  Length reach() const noexcept;
+  bool stalled(const View& view) noexcept { return stall_.stalled(view, patience(params_), params_); }
   int32_t mm(Length reference) const noexcept;
   void enter(Phase phase, Mode mode, Why why) noexcept;
   void brake_then(Phase next) noexcept;
   void look_along(Angle heading, Length length, Phase next) noexcept;
   void drive(Twist twist) noexcept { decision_.manoeuvre = cruise(twist, params_); }
   bool turn_to(const View& view, Angle heading) noexcept;
-  void finish(Mode mode, Why why, Outcome outcome) noexcept;
 
   const Params& params_;
   BendLaw& law_;
-  Decision decision_;
-  Goal goal_;
-  Request request_ = Request::none;
-  Phase phase_ = Phase::rest;
-  Phase next_ = Phase::rest;
+  Phase phase_ = Phase::survey;
+  Phase next_ = Phase::go;
   Side wall_ = Side::left;  ///< where the obstacle is, or was last
 
   Pose last_;  // of the tick before
@@ -95,25 +83,19 @@ class SkirtPlanner final : public Planner {
   Length best_;            // the least of it at which it was not following an edge
   int32_t travel_mm_ = 0;  // since the goal was set
   int32_t travel_rest_um_ = 0;
-  Trail trail_;
   Course course_;
   ExitSearch exits_;
   Circuit circuit_;
+  Feeler feeler_;
+  Look look_;
+  Stall stall_;
 
   Angle heading_;  // depart, follow: the one chosen; look: the one looked along
   Length length_;  // look: of the way looked along
-  bool halting_ = false;
   int32_t surveyed_ = 0;
-  int32_t slow_ticks_ = 0;
   int32_t left_edge_mm_ = 0;  // travel at which an edge was last left
   int32_t felt_mm_ = 0;       // travel at which it last felt for openings
   int32_t commit_mm_ = 0;     // travel until which the chosen heading is kept
-
-  Effort effort_ = Effort::full;
-  Angle feel_from_;
-  int32_t candidate_ = 0;
-  Vec retreat_to_;
-  int8_t retreats_ = 0;
   int8_t escapes_ = 0;
   bool turned_back_ = false;  // came round once: going round the other way
 };

@@ -3,7 +3,7 @@
 namespace whisker::nav {
 namespace {
 
-constexpr AngularRate kFastest = 2500_mrad_per_s;
+constexpr Angle kFacing = 3_deg;
 constexpr int32_t kFaceGain = 5;
 constexpr int32_t kSteerGain = 6;
 constexpr int64_t kMicroradians = 6283185;  // a turn
@@ -12,7 +12,7 @@ constexpr int64_t kMicroradians = 6283185;  // a turn
 
 AngularRate rate_towards(Angle error, int32_t gain) noexcept {
   const int64_t microradians = scale_down<32>(error.wrapped() * kMicroradians);
-  return limit(AngularRate::from_raw(saturate32(microradians * gain)), kFastest);
+  return limit(AngularRate::from_raw(saturate32(microradians * gain)), kFastestTurn);
 }
 
 Twist face(Angle error) noexcept { return {Speed{}, rate_towards(error, kFaceGain)}; }
@@ -30,6 +30,11 @@ Manoeuvre cruise(Twist twist, const Params& params) noexcept {
   m.forward = twist.forward;
   m.turning = twist.turning * (params.body.track / 2);
   return m;
+}
+
+bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept {
+  manoeuvre = cruise(face(error), params);
+  return magnitude(error) < kFacing.raw();
 }
 
 }  // namespace whisker::nav

@@ -13,7 +13,10 @@ struct Twist {
   AngularRate turning;  ///< counter-clockwise positive
 };
 
-/// gain x error, at most the turn rate at which the readings still follow (2.5 rad/s).
+/// The turn rate at which the readings still follow.
+constexpr AngularRate kFastestTurn = 2500_mrad_per_s;
+
+/// gain x error, at most kFastestTurn.
 AngularRate rate_towards(Angle error, int32_t gain) noexcept;
 
 /// Turns by the error on the spot.
@@ -25,5 +28,8 @@ Twist steer(Angle error, Speed top) noexcept;
 
 /// A cruise at this twist.
 Manoeuvre cruise(Twist twist, const Params& params) noexcept;
+
+/// Faces what is off by the error. True within 3 degrees of it.
+bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept;
 
 }  // namespace whisker::nav

@@ -43,13 +43,13 @@ void Surroundings::forget() noexcept {
 }
 
 void Surroundings::add(const ranges::Echoes& look, Angle heading) noexcept {
-  const Angle axes[hal::kBeams] = {side_, Angle{}, -side_};
   for (int i = 0; i < hal::kBeams; ++i) {
     const ranges::Echo& echo = look.beam[i];
     if (!ranges::usable(echo.validity)) continue;
+    const Angle axis = heading + beam_axis(side_, i);
     const uint16_t mm = proved_mm(echo, ahead_);
     for (int s = 0; s < kSectors; ++s) {
-      const bool inside = magnitude(middle(s) - heading - axes[i]) + kHalfWidth <= half_;
+      const bool inside = magnitude(middle(s) - axis) + kHalfWidth <= half_;
       if (inside && mm > free_mm_[s]) free_mm_[s] = mm;
     }
   }

@@ -8,9 +8,6 @@ namespace {
 /// How far an exit search turns to each side; both together leave out what lies behind.
 constexpr uint32_t kSearchLimit = (150_deg).raw();
 
-/// A position counts as the goal only well inside the tolerance: the estimate has its own error.
-Length close_enough(Length tolerance) noexcept { return tolerance - tolerance / 8; }
-
 }  // namespace
 
 ThesisPlanner::ThesisPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept
@@ -19,41 +16,16 @@ ThesisPlanner::ThesisPlanner(const Params& params, const fuzzy::Engine::Table& t
   surroundings_.configure(params);
 }
 
-void ThesisPlanner::set_goal(const Goal& goal) noexcept {
-  goal_ = goal;
-  request_ = Request::goal;
+void ThesisPlanner::start(const View&) noexcept {
+  phase_ = Phase::at_position;
+  steps_ = 0;
+  tell(Mode::facing, Why::goal_set);
+  decision_.manoeuvre = stop();
 }
 
-void ThesisPlanner::cancel() noexcept { request_ = Request::cancel; }
-
-Decision ThesisPlanner::step(const View& view) noexcept {
-  decision_.manoeuvre = {};
-  decision_.looked = false;
-  switch (request_) {
-    case Request::none:
-      if (view.settled) decide(view);
-      break;
-    case Request::goal:
-      phase_ = Phase::at_position;
-      steps_ = 0;
-      decision_ = Decision{};
-      decision_.mode = Mode::facing;
-      decision_.why = Why::goal_set;
-      decision_.outcome = Outcome::running;
-      decision_.manoeuvre.kind = Kind::stop;
-      break;
-    case Request::cancel:
-      finish(Mode::idle, Why::cancelled, Outcome::none);
-      decision_.manoeuvre.kind = Kind::stop;
-      break;
-  }
-  request_ = Request::none;
-  return decision_;
-}
-
-void ThesisPlanner::decide(const View& view) noexcept {
+void ThesisPlanner::advance(const View& view) noexcept {
+  if (!view.settled) return;
   switch (phase_) {
-    case Phase::rest: break;
     case Phase::at_position:
     case Phase::move: arrive_at_position(view); break;
     case Phase::face:
@@ -82,12 +54,12 @@ bool ThesisPlanner::step_is_free(const View& view) const noexcept {
 
 void ThesisPlanner::arrive_at_position(const View& view) noexcept {
   const Vec to_goal = goal_.at - view.pose.at;
-  if (norm(to_goal) <= close_enough(goal_.tolerance)) {
-    finish(Mode::arrived, Why::at_goal, Outcome::reached);
+  if (is_goal(norm(to_goal))) {
+    end(Mode::arrived, Why::at_goal, Outcome::reached);
     return;
   }
   if (steps_ >= params_.thesis.max_steps) {
-    finish(Mode::gave_up, Why::step_budget, Outcome::gave_up);
+    end(Mode::gave_up, Why::step_budget, Outcome::gave_up);
     return;
   }
   ++steps_;
@@ -166,7 +138,7 @@ void ThesisPlanner::probe(const View& view) noexcept {
     return;
   }
   if (static_cast<uint64_t>(deflections_ + 1) * params_.thesis.delta.raw() >= (UINT64_C(1) << 32)) {
-    finish(Mode::gave_up, Why::no_exit, Outcome::gave_up);
+    end(Mode::gave_up, Why::no_exit, Outcome::gave_up);
     return;
   }
   decision_.mode = Mode::probing;
@@ -199,7 +171,7 @@ void ThesisPlanner::search(const View& view) noexcept {
     return;
   }
   if (exit_left_ == 0) {
-    finish(Mode::gave_up, Why::no_exit, Outcome::gave_up);
+    end(Mode::gave_up, Why::no_exit, Outcome::gave_up);
     return;
   }
   deflections_ = exit_left_;
@@ -229,12 +201,10 @@ void ThesisPlanner::drive(Length length) noexcept {
   decision_.manoeuvre = {Kind::drive, base_ + deflection(), length};
 }
 
-void ThesisPlanner::finish(Mode mode, Why why, Outcome outcome) noexcept {
-  phase_ = Phase::rest;
-  decision_.mode = mode;
-  decision_.why = why;
-  decision_.outcome = outcome;
-  decision_.danger_count = 0;
+/// The body stands already.
+void ThesisPlanner::end(Mode mode, Why why, Outcome outcome) noexcept {
+  finish(mode, why, outcome);
+  decision_.manoeuvre = {};
 }
 
 }  // namespace whisker::nav

@@ -12,26 +12,20 @@
 
 #include <stdint.h>
 
-#include "firmware/nav/planner.hpp"
+#include "firmware/nav/goal_planner.hpp"
 #include "firmware/nav/probe.hpp"
 #include "firmware/nav/surroundings.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker::nav {
 
-class ThesisPlanner final : public Planner {
+class ThesisPlanner final : public GoalPlanner {
  public:
   /// The table and the parameters must outlive the planner; the parameters must pass check().
   ThesisPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept;
 
-  void set_goal(const Goal& goal) noexcept override;
-  void cancel() noexcept override;
-  Decision step(const View& view) noexcept override;
-
  private:
-  enum class Request : uint8_t { none, goal, cancel };
   enum class Phase : uint8_t {
-    rest,         // no goal, or done
     at_position,  // standing at a new position: check the goal, then face it
     face,         // turning to the target, then looking along it
     probe,        // turning to a candidate heading, then looking along it
@@ -40,7 +34,8 @@ class ThesisPlanner final : public Planner {
     move,  // driving the step
   };
 
-  void decide(const View& view) noexcept;
+  void start(const View& view) noexcept override;
+  void advance(const View& view) noexcept override;
   bool step_is_free(const View& view) const noexcept;
   bool sees(const View& view) noexcept;
   void arrive_at_position(const View& view) noexcept;
@@ -53,7 +48,7 @@ class ThesisPlanner final : public Planner {
   void deflect(Phase phase) noexcept;
   void turn_to(Angle heading) noexcept;
   void drive(Length length) noexcept;
-  void finish(Mode mode, Why why, Outcome outcome) noexcept;
+  void end(Mode mode, Why why, Outcome outcome) noexcept;
   Angle deflection() const noexcept;
 
   const Params& params_;
@@ -61,10 +56,7 @@ class ThesisPlanner final : public Planner {
   Probe probe_;
   Surroundings surroundings_;  // of this position
 
-  Request request_ = Request::none;
-  Goal goal_{};
-  Phase phase_ = Phase::rest;
-  Decision decision_;
+  Phase phase_ = Phase::at_position;
   Angle target_;             // direction of the goal from this position
   Angle base_;               // heading from which the deflection counts
   Length planned_;           // step

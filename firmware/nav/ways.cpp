@@ -10,7 +10,7 @@ Way way(const View& view, Angle heading, Length length, Length reach) noexcept {
 
 bool turn_to_unseen(const View& view, Angle heading, Length length, Angle from, const Params& params,
                     Angle& turn) noexcept {
-  const ground::Obstacles o = view.patch->along(view.pose.at, heading, length, planning_reach(params));
+  const ground::Obstacles o = view.patch->along(view.pose.at, heading, length, view.patch->reach().planning);
   if (o.suspect > 0 || o.unknown == 0) return false;
   const Angle front = bearing(o.nearest_unknown) - from;
   const Angle side = params.rangefinders.side_angle;

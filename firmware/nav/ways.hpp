@@ -6,6 +6,9 @@
 
 namespace whisker::nav {
 
+/// So many headings are tried around a turn, 7.5 degrees apart.
+constexpr int32_t kFan = 48;
+
 enum class Way : uint8_t {
   free,     ///< all of it is proved clear
   open,     ///< nothing known is in it, but not all of it was seen

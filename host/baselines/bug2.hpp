@@ -22,7 +22,7 @@ class Bug2 final : public Walker {
   Angle course(const nav::View& view) const override;
   nav::Side hit(const nav::View& view) override;
   bool may_leave(const nav::View& view) override;
-  Length free_to_leave() const override { return for_body(params(), 60_mm); }
+  Length free_to_leave(const nav::View&) const override { return for_body(params(), 60_mm); }
   bool can_tell_unreachable() const override { return true; }
 
   /// How far the body is along the m-line and to the left of it.

@@ -18,7 +18,7 @@ nav::Side DistBug::hit(const nav::View& view) {
 }
 
 bool DistBug::may_leave(const nav::View& view) {
-  const Length free = max(seen_free(view), probe_length(params()));
+  const Length free = max(seen_free(view), view.patch->reach().probe);
   const bool leaves = distance() - free <= least_ - kStep || free >= distance();
   least_ = min(least_, distance());
   return leaves;

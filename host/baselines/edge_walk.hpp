@@ -7,14 +7,17 @@
 
 #include <cstdint>
 
+#include "firmware/nav/feeler.hpp"
+#include "firmware/nav/look.hpp"
 #include "firmware/nav/side.hpp"
-#include "firmware/nav/trail.hpp"
-#include "host/baselines/gait.hpp"
+#include "firmware/nav/stall.hpp"
 
 namespace whisker::baselines {
 
 class EdgeWalk {
  public:
+  static constexpr std::int32_t kPatience = 50;  ///< ticks, see nav::Stall
+
   /// The parameters must outlive it.
   explicit EdgeWalk(const Params& params) : params_(params) {}
 
@@ -39,31 +42,22 @@ class EdgeWalk {
   void walk(const nav::View& view, nav::Decision& decision);
   bool may_open(const nav::View& view);
   void feel_from_wall(const nav::View& view, Angle heading);
-  void feel_from(Angle heading);
   void feel(const nav::View& view, nav::Decision& decision);
   bool retreat(const nav::View& view, nav::Decision& decision);
-  std::int32_t turn() const { return nav::sign(wall_); }
 
   const Params& params_;
   Phase phase_ = Phase::walk;
   nav::Side wall_ = nav::Side::left;
-  Look look_;
-  Angle look_along_;
-  Stall stall_;
+  nav::Feeler feeler_;
+  nav::Look look_;
+  nav::Feeler::Heading found_;
+  nav::Stall stall_;
   Angle course_;
-
-  Angle feel_from_;
-  std::int32_t candidate_ = 0;
-  bool fine_ = false;  ///< small steps of heading and the least margin
-  Length reach_;       ///< of the ways that are felt for
 
   Vec last_;
   std::int64_t travel_um_ = 0;
   std::int64_t straight_until_um_ = 0;
   std::int64_t felt_um_ = 0;
-  nav::Trail trail_;
-  Vec retreat_to_;
-  std::int32_t retreats_ = 0;
 };
 
 }  // namespace whisker::baselines

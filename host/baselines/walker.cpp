@@ -11,32 +11,7 @@ std::int64_t size(std::int64_t x) { return x < 0 ? -x : x; }
 
 }  // namespace
 
-void Walker::set_goal(const nav::Goal& goal) noexcept {
-  goal_ = goal;
-  request_ = Request::goal;
-}
-
-void Walker::cancel() noexcept { request_ = Request::cancel; }
-
-nav::Decision Walker::step(const nav::View& view) noexcept {
-  decision_.manoeuvre = {};
-  decision_.looked = false;
-  switch (request_) {
-    case Request::none: break;
-    case Request::goal: start(view); break;
-    case Request::cancel: finish(nav::Mode::idle, nav::Why::cancelled, nav::Outcome::none); break;
-  }
-  request_ = Request::none;
-  if (phase_ != Phase::rest) {
-    account(view);
-    act(view);
-  }
-  return decision_;
-}
-
-void Walker::start(const nav::View& view) {
-  decision_ = {};
-  decision_.outcome = nav::Outcome::running;
+void Walker::start(const nav::View& view) noexcept {
   last_ = view.pose;
   travel_um_ = 0;
   surveyed_left_ = false;
@@ -44,6 +19,12 @@ void Walker::start(const nav::View& view) {
   account(view);
   begin(view);
   enter(Phase::survey, nav::Mode::surveying, nav::Why::goal_set);
+  advance(view);
+}
+
+void Walker::advance(const nav::View& view) noexcept {
+  account(view);
+  act(view);
 }
 
 void Walker::account(const nav::View& view) {
@@ -60,13 +41,12 @@ void Walker::act(const nav::View& view) {
     finish(nav::Mode::gave_up, nav::Why::length_budget, nav::Outcome::gave_up);
     return;
   }
-  if (phase_ != Phase::halt && distance_ <= goal_.tolerance - goal_.tolerance / 8) {
+  if (phase_ != Phase::halt && is_goal(distance_)) {
     phase_ = Phase::halt;
-    decision_.manoeuvre = stop();
+    decision_.manoeuvre = nav::stop();
     return;
   }
   switch (phase_) {
-    case Phase::rest: break;
     case Phase::halt:
       if (!view.settled) break;
       if (distance_ <= goal_.tolerance) {
@@ -85,24 +65,23 @@ void Walker::act(const nav::View& view) {
 
 void Walker::survey(const nav::View& view) {
   const Angle heading = bearing(to_goal_) + (surveyed_left_ ? -50_deg : 50_deg);
-  if (!face(view, heading, params_, decision_.manoeuvre)) return;
+  if (!nav::turn_by(heading - view.pose.heading, params_, decision_.manoeuvre)) return;
   if (surveyed_left_) enter(Phase::go, nav::Mode::going, nav::Why::target_free);
   surveyed_left_ = true;
 }
 
 void Walker::go(const nav::View& view) {
-  const Length ahead = min(probe_length(params_), distance_);
+  const Reach& reach = view.patch->reach();
   if (view.sighted) {
     course_ = course(view);
-    if (nav::way(view, course_, ahead, planning_reach(params_)) == nav::Way::blocked) {
+    if (nav::way(view, course_, min(reach.probe, distance_), reach.planning) == nav::Way::blocked) {
       begin_follow(view);
       return;
     }
   }
-  if (stall_.stalled(view, params_)) {
-    look_.begin();
+  if (stall_.stalled(view, EdgeWalk::kPatience, params_)) {
+    look_.begin(decision_.manoeuvre);
     enter(Phase::look_ahead, nav::Mode::looking, nav::Why::unknown_ahead);
-    decision_.manoeuvre = stop();
     return;
   }
   decision_.manoeuvre =
@@ -110,15 +89,15 @@ void Walker::go(const nav::View& view) {
 }
 
 void Walker::look(const nav::View& view) {
-  if (!look_.step(view, course(view), min(probe_length(params_), distance_), params_, decision_.manoeuvre))
-    return;
+  const Length ahead = min(view.patch->reach().probe, distance_);
+  if (!look_.step(view, course(view), ahead, params_, decision_.manoeuvre)) return;
   decision_.looked = true;
   stall_.reset();
   if (phase_ == Phase::look_ahead) {
     enter(Phase::go, nav::Mode::going, nav::Why::target_free);
   } else if (!leave(view)) {
     enter(Phase::follow, nav::Mode::skirting, nav::Why::edge);
-    decision_.manoeuvre = stop();
+    decision_.manoeuvre = nav::stop();
     edge_.resume(view, walk_heading_);
   }
 }
@@ -128,7 +107,7 @@ void Walker::begin_follow(const nav::View& view) {
   on_its_way_ = false;
   edge_.begin(hit(view), course_);
   enter(Phase::follow, nav::Mode::searching, nav::Why::target_blocked);
-  decision_.manoeuvre = stop();
+  decision_.manoeuvre = nav::stop();
 }
 
 bool Walker::came_round(const nav::View& view) const {
@@ -139,13 +118,13 @@ bool Walker::came_round(const nav::View& view) const {
 }
 
 nav::Way Walker::way_off(const nav::View& view, Angle heading) const {
-  return nav::way(view, heading, min(free_to_leave(), distance_), planning_reach(params_));
+  return nav::way(view, heading, min(free_to_leave(view), distance_), view.patch->reach().planning);
 }
 
 bool Walker::leave(const nav::View& view) {
   const Angle heading = course(view);
   const nav::Way found = way_off(view, heading);
-  if (found == nav::Way::blocked || (found == nav::Way::open && seen_free(view) < probe_length(params_)))
+  if (found == nav::Way::blocked || (found == nav::Way::open && seen_free(view) < view.patch->reach().probe))
     return false;
   stall_.reset();
   enter(Phase::go, nav::Mode::going, nav::Why::target_free);
@@ -170,9 +149,8 @@ void Walker::follow(const nav::View& view) {
       if (travel_um_ - looked_um_ > Length{50_mm}.raw() && way_off(view, course(view)) == nav::Way::open) {
         looked_um_ = travel_um_;
         walk_heading_ = view.pose.heading;
-        look_.begin();
+        look_.begin(decision_.manoeuvre);
         enter(Phase::look_away, nav::Mode::looking, nav::Why::unknown_ahead);
-        decision_.manoeuvre = stop();
         return;
       }
     }
@@ -188,28 +166,20 @@ void Walker::follow(const nav::View& view) {
 
 Length Walker::seen_free(const nav::View& view) const {
   const Angle target = bearing(to_goal_);
-  const Angle side = params_.rangefinders.side_angle;
-  const Angle axes[hal::kBeams] = {side, Angle{}, -side};
   Length free;
   for (int i = 0; i < hal::kBeams; ++i) {
     const ranges::Echo& echo = view.sight.beam[i];
     if (!ranges::usable(echo.validity)) continue;
-    if (magnitude(view.pose.heading + axes[i] - target) > (6_deg).raw()) continue;
-    free = max(free, echo.distance - planning_reach(params_));
+    const Angle axis = view.pose.heading + beam_axis(params_.rangefinders.side_angle, i);
+    if (magnitude(axis - target) > (6_deg).raw()) continue;
+    free = max(free, echo.distance - view.patch->reach().planning);
   }
   return free;
 }
 
 void Walker::enter(Phase phase, nav::Mode mode, nav::Why why) {
   phase_ = phase;
-  decision_.mode = mode;
-  decision_.why = why;
-}
-
-void Walker::finish(nav::Mode mode, nav::Why why, nav::Outcome outcome) {
-  enter(Phase::rest, mode, why);
-  decision_.outcome = outcome;
-  decision_.manoeuvre = stop();
+  tell(mode, why);
 }
 
 }  // namespace whisker::baselines

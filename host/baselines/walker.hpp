@@ -4,6 +4,9 @@
 
 #include <cstdint>
 
+#include "firmware/nav/goal_planner.hpp"
+#include "firmware/nav/look.hpp"
+#include "firmware/nav/stall.hpp"
 #include "firmware/nav/ways.hpp"
 #include "host/baselines/edge_walk.hpp"
 
@@ -12,13 +15,9 @@ namespace whisker::baselines {
 /// Ends in *reached* within 7/8 of the goal's tolerance, in *gave up* after kLongest driven or without a way
 /// anywhere, and, if the algorithm can tell, in *unreachable*: back where it hit the boundary after a full
 /// turn.
-class Walker : public nav::Planner {
+class Walker : public nav::GoalPlanner {
  public:
   static constexpr Length kLongest = 400_m;
-
-  void set_goal(const nav::Goal& goal) noexcept final;
-  void cancel() noexcept final;
-  nav::Decision step(const nav::View& view) noexcept final;
 
  protected:
   /// The parameters must outlive the planner.
@@ -33,7 +32,7 @@ class Walker : public nav::Planner {
   virtual nav::Side hit(const nav::View& view) = 0;
   /// Once per reading while following. The walker leaves if this is true and the course is free so far.
   virtual bool may_leave(const nav::View& view) = 0;
-  virtual Length free_to_leave() const { return probe_length(params_); }
+  virtual Length free_to_leave(const nav::View& view) const { return view.patch->reach().probe; }
   virtual bool can_tell_unreachable() const = 0;
 
   const Params& params() const { return params_; }
@@ -45,10 +44,10 @@ class Walker : public nav::Planner {
   Length seen_free(const nav::View& view) const;
 
  private:
-  enum class Request : std::uint8_t { none, goal, cancel };
-  enum class Phase : std::uint8_t { rest, halt, survey, go, look_ahead, follow, look_away };
+  enum class Phase : std::uint8_t { halt, survey, go, look_ahead, follow, look_away };
 
-  void start(const nav::View& view);
+  void start(const nav::View& view) noexcept final;
+  void advance(const nav::View& view) noexcept final;
   void account(const nav::View& view);
   void act(const nav::View& view);
   void survey(const nav::View& view);
@@ -60,16 +59,12 @@ class Walker : public nav::Planner {
   nav::Way way_off(const nav::View& view, Angle heading) const;
   bool came_round(const nav::View& view) const;
   void enter(Phase phase, nav::Mode mode, nav::Why why);
-  void finish(nav::Mode mode, nav::Why why, nav::Outcome outcome);
 
   const Params& params_;
   EdgeWalk edge_;
-  Look look_;
-  Stall stall_;
-  nav::Decision decision_;
-  nav::Goal goal_;
-  Request request_ = Request::none;
-  Phase phase_ = Phase::rest;
+  nav::Look look_;
+  nav::Stall stall_;
+  Phase phase_ = Phase::survey;
 
   Pose last_;
   Vec to_goal_;

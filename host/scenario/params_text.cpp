@@ -132,8 +132,9 @@ const char* relation(ParamFault fault) {
              "sin(range_cone_deg / 2) + cell <= 7/4 body_radius_m, with skirt_cell_m, or at 0 a suitable "
              "cell";
     case ParamFault::patch_too_small:
-      return "16 cells of skirt_cell_m must reach farther than body_radius_m + skirt_planning_margin_m + "
-             "skirt_probe_m, and skirt_probe_m must not be less than body_radius_m / 2";
+      return "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
+             "skirt_probe_m, with skirt_cell_m, or at 0 a suitable cell, and skirt_probe_m must not be less "
+             "than body_radius_m / 2";
     case ParamFault::planning_below_shield:
       return "skirt_planning_margin_m must not be less than skirt_shield_margin_m";
     case ParamFault::settle_below_lag:

@@ -100,8 +100,8 @@ void add_obstacle(Cluttered& world, const Params& p, const Pose& pose, Random& r
 }
 
 ground::Proof look(const Params& p, const Cluttered& world, const Pose& pose, int beam) {
-  const Angle axes[] = {p.rangefinders.side_angle, Angle{}, -p.rangefinders.side_angle};
-  const double axis = radians(pose.heading + axes[beam]);
+  const Angle off = beam_axis(p.rangefinders.side_angle, beam);
+  const double axis = radians(pose.heading + off);
   const double half = radians(p.rangefinders.cone) / 2;
   const sim::Vec2 direction{std::cos(axis), std::sin(axis)};
   const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
@@ -111,7 +111,7 @@ ground::Proof look(const Params& p, const Cluttered& world, const Pose& pose, in
   const double d = sim::range(cone, world.view(), 0, max);
   ground::Proof proof;
   proof.from = pose;
-  proof.axis = axes[beam];
+  proof.axis = off;
   proof.hit = d < max;
   proof.free =
       proof.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5))) : p.rangefinders.max_range;

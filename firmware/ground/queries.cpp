@@ -1,0 +1,82 @@
+#include "firmware/ground/patch.hpp"
+
+namespace whisker::ground {
+namespace {
+
+// To pass a cell d abeam brings the body nearer to it by x^2 / 2d after it lay x ahead: 0.2 mm at 100 mm.
+constexpr int32_t kAbeam = 80;
+constexpr int32_t kWindow = kCells * kUnitsPerCell;
+
+}  // namespace
+
+Length Patch::length_of(int32_t units) const noexcept {
+  return Length::from_raw(multiply_divide(units, cell_um_, kUnitsPerCell));
+}
+
+bool Patch::in_window(Point p, int32_t reach) noexcept {
+  return p.x >= reach && p.y >= reach && p.x <= kWindow - reach && p.y <= kWindow - reach;
+}
+
+Obstacles Patch::along(const Vec& from, Angle heading, Length length, Length radius) const noexcept {
+  Obstacles found;
+  const Point start = local(from);
+  const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
+  int32_t nearest = INT32_MAX;
+  for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
+    const Row inside = stadium.columns(rows.row());
+    const int s = slot(rows.row());
+    Row blocked = inside & to_window(~(young_[s] | old_[s]));
+    if (blocked == 0) continue;
+    const Row solid = blocked & to_window(suspect_[s] | tested_[s]);
+    found.suspect += bits(solid);
+    for (Row open = blocked & ~solid; open != 0; open &= open - 1) {
+      ++found.unknown;
+      const int32_t dx = lowest(open) * kUnitsPerCell + kHalfCell - start.x;
+      const int32_t dy = rows.row() * kUnitsPerCell + kHalfCell - start.y;
+      const int32_t squared = dx * dx + dy * dy;
+      if (squared < nearest) {
+        nearest = squared;
+        found.nearest_unknown = {length_of(dx), length_of(dy)};
+      }
+    }
+  }
+  return found;
+}
+
+bool Patch::approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept {
+  if (step < kShortestStep) return false;
+  const Point here = local(from);
+  const Point there = local(from + polar(heading, step));
+  const int32_t reach = units(radius);
+  const int32_t half = units(step / 2);
+  // What lies beyond the window is not known.
+  if (!in_window(there, reach)) return true;
+  const HalfPlane ahead = HalfPlane::facing(heading);
+  for (Rows rows(there.y, reach); rows.more(); rows.next()) {
+    Span span;
+    span.within_disc(there.x, rows.offset(there.y), reach);
+    ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
+    if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return true;
+  }
+  return false;
+}
+
+bool Patch::all_clear(Vec centre, Length radius) const noexcept {
+  const Point at = local(centre);
+  const int32_t reach = units(radius) + kCellCover;
+  if (!in_window(at, reach)) return false;
+  for (Rows rows(at.y, reach); rows.more(); rows.next()) {
+    Span span;
+    span.within_disc(at.x, rows.offset(at.y), reach);
+    if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return false;
+  }
+  return true;
+}
+
+bool Patch::is_clear(Vec at) const noexcept {
+  const Point p = local(at);
+  if (p.x < 0 || p.y < 0 || p.x >= kWindow || p.y >= kWindow) return false;
+  return (to_window(clear_row(static_cast<int>(p.y / kUnitsPerCell))) >> (p.x / kUnitsPerCell) & 1U) != 0;
+}
+
+}  // namespace whisker::ground

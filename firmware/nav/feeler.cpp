@@ -1,0 +1,90 @@
+#include "firmware/nav/feeler.hpp"
+
+#include "firmware/nav/steering.hpp"
+#include "firmware/nav/ways.hpp"
+
+namespace whisker::nav {
+namespace {
+
+// All lengths are the reference body's.
+constexpr Length kTrail = 40_mm;
+constexpr Angle kSwing = 110_deg;
+constexpr Angle kNotBack = 45_deg;
+constexpr Length kShortWay = 60_mm;
+constexpr Length kThere = 10_mm;
+constexpr int8_t kRetreats = 8;
+constexpr Length kOpeningWay = 100_mm;
+constexpr int32_t kOpeningCells = 6;
+
+}  // namespace
+
+void Feeler::reset(Vec at, const Params& params) noexcept {
+  trail_.reset(at, for_body(params, kTrail));
+  retreats_ = 0;
+}
+
+void Feeler::move(Vec at) noexcept {
+  if (trail_.add(at)) retreats_ = 0;
+}
+
+void Feeler::begin(Angle first, Side wall) noexcept {
+  first_ = first;
+  wall_ = wall;
+  candidate_ = 0;
+  effort_ = Effort::full;
+}
+
+void Feeler::begin_at_wall(Angle ahead, const Pose& pose, Side wall) noexcept {
+  Angle swing = kSwing;
+  const Angle to_back = (trail_.way_back(pose) - ahead) * sign(wall);
+  if (to_back.raw() > kNotBack.raw() && (to_back - kNotBack).raw() < swing.raw()) swing = to_back - kNotBack;
+  begin(ahead + swing * sign(wall), wall);
+}
+
+Feeler::Found Feeler::step(const View& view, const Params& params, Heading& found) noexcept {
+  constexpr Angle kStep = Angle::turns(1, kFan);
+  constexpr Angle kFineStep = Angle::turns(1, 3 * kFan);
+  const bool narrow = effort_ == Effort::narrow_ways;
+  const Angle step = narrow ? kFineStep : kStep;
+  const Reach& reach = view.patch->reach();
+  const Length beside = narrow ? reach.shield : reach.planning;
+  found.length = effort_ == Effort::full ? reach.probe : for_body(params, kShortWay);
+  for (const int32_t all = narrow ? 3 * kFan : kFan; candidate_ < all; ++candidate_) {
+    found.angle = first_ - step * (candidate_ * sign(wall_));
+    const Way there = way(view, found.angle, found.length, beside);
+    if (there == Way::free) return Found::free;
+    if (there == Way::open && !narrow) return Found::unseen;
+  }
+  candidate_ = 0;
+  switch (effort_) {
+    case Effort::full: effort_ = Effort::short_ways; return Found::nothing;
+    case Effort::short_ways: effort_ = Effort::narrow_ways; return Found::nothing;
+    case Effort::narrow_ways: break;
+  }
+  retreat_to_ = trail_.near();
+  return Found::none;
+}
+
+Feeler::Retreat Feeler::retreat(const View& view, bool stalled, const Params& params,
+                                Manoeuvre& manoeuvre) noexcept {
+  const Vec rest = retreat_to_ - view.pose.at;
+  if (norm(rest) < for_body(params, kThere)) return Retreat::there;
+  if (stalled) return ++retreats_ < kRetreats ? Retreat::stuck : Retreat::lost;
+  manoeuvre = cruise(steer(bearing(rest) - view.pose.heading, params.wheels.max_speed / 2), params);
+  return Retreat::under_way;
+}
+
+bool Feeler::opening(const View& view, Side wall, const Params& params) const noexcept {
+  const Angle back = trail_.way_back(view.pose);
+  const Length length = for_body(params, kOpeningWay);
+  for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
+    const Angle heading = view.pose.heading + 1_deg * (degrees * sign(wall));
+    if (magnitude(heading - back) < kNotBack.raw()) continue;
+    const ground::Obstacles o =
+        view.patch->along(view.pose.at, heading, length, view.patch->reach().planning);
+    if (o.suspect + o.unknown <= kOpeningCells) return true;
+  }
+  return false;
+}
+
+}  // namespace whisker::nav
