@@ -3,6 +3,7 @@
 #include "firmware/nav/skirt.hpp"
 #include "firmware/robot.hpp"
 #include "hal/board.hpp"
+#include "hal/link/room.hpp"
 
 using namespace whisker;
 
@@ -19,13 +20,15 @@ struct NoWheels final : hal::Drive {
 constexpr Params kParams;
 NoSensors sensors;
 NoWheels wheels;
+link::Room<sizeof(nav::TableSkirt)> room_for_skirt;
+link::Room<sizeof(Robot)> room_for_robot;
 
 }  // namespace
 
 int main() {
   hal::Clock& clock = hal::board().clock;
-  static nav::TableSkirt skirt{kParams, fuzzy::kDefaultTable};
-  static Robot robot{sensors, wheels, skirt.planner, kParams};
+  auto& skirt = room_for_skirt.make<nav::TableSkirt>(kParams, fuzzy::kDefaultTable);
+  auto& robot = room_for_robot.make<Robot>(sensors, wheels, skirt.planner, kParams);
   robot.place({});
   robot.set_goal({{4_m, 1_m}, 100_mm});
   for (int i = 0; i < 10; ++i) robot.tick(Time::from_raw(clock.now_ms()));

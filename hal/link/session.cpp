@@ -1,16 +1,5 @@
 #include "hal/link/session.hpp"
 
-namespace {
-
-/// Some freestanding compilers have no <new>.
-struct At {
-  void* place;
-};
-
-}  // namespace
-
-void* operator new(size_t, At at) noexcept { return at.place; }
-
 namespace whisker::link {
 namespace {
 
@@ -78,7 +67,7 @@ int Session::run(hal::ByteStream& stream, hal::Meter& meter) noexcept {
   stream_ = &stream;
   meter_ = &meter;
   overhead_ = hal::overhead(meter);
-  my_ = new (At{room_for_affairs_.bytes}) Affairs;
+  my_ = &room_for_affairs_.make<Affairs>();
   while (!ended_) {
     uint8_t name = 0;
     if (!stream_->read(&name, 1) || !obey(static_cast<Name>(name))) return 1;
@@ -136,15 +125,14 @@ bool Session::begin(const Begin& what) noexcept {
   nav::Planner* planner = nullptr;
   switch (what.planner) {
     case Planner::skirt:
-      planner =
-          &(new (At{room_for_planner_.bytes}) nav::TableSkirt(my_->params, fuzzy::kDefaultTable))->planner;
+      planner = &room_for_planner_.make<nav::TableSkirt>(my_->params, fuzzy::kDefaultTable).planner;
       break;
     case Planner::thesis:
-      planner = new (At{room_for_planner_.bytes}) nav::ThesisPlanner(my_->params, fuzzy::kDefaultTable);
+      planner = &room_for_planner_.make<nav::ThesisPlanner>(my_->params, fuzzy::kDefaultTable);
       break;
   }
   if (planner == nullptr) return false;
-  robot_ = new (At{room_for_robot_.bytes}) Robot(my_->board, my_->board, *planner, my_->params);
+  robot_ = &room_for_robot_.make<Robot>(my_->board, my_->board, *planner, my_->params);
   robot_->place(pose(what.stand));
   return true;
 }

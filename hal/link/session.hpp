@@ -10,6 +10,7 @@
 #include "hal/link/message.hpp"
 #include "hal/link/params.hpp"
 #include "hal/link/remote_board.hpp"
+#include "hal/link/room.hpp"
 #include "hal/meter.hpp"
 
 namespace whisker::link {
@@ -23,12 +24,6 @@ class Session {
   int run(hal::ByteStream& stream, hal::Meter& meter) noexcept;
 
  private:
-  /// Room for an object that is made while it runs: a session is all zero before, and needs no flash.
-  template <size_t kSize>
-  struct Room {
-    alignas(8) uint8_t bytes[kSize] = {};
-  };
-
   struct Affairs {
     RemoteBoard board;
     Params params;

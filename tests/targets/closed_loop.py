@@ -3,7 +3,9 @@
 usage: closed_loop.py ROOT WHISKER
 """
 
+import concurrent.futures
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -16,10 +18,9 @@ DRIVES = (
     ("cortex-m3 companion-table --serial", TRAP, "skirt"),
     ("cortex-m3", SHORT, "thesis"),
     ("cortex-m0plus", TRAP, "skirt"),
-    ("cortex-m33-clang", TRAP, "skirt"),
     ("rv32imac", TRAP, "skirt"),
     ("cortex-m0plus companion-table --serial", SHORT, "skirt"),
-    ("rv32imac companion-table --serial", SHORT, "thesis"),
+    ("rv32imac companion-table --serial", SHORT, "skirt"),
     ("wasm32", TRAP, "skirt"),
 )
 
@@ -39,20 +40,25 @@ def first_difference(here, there):
     return "one is longer"
 
 
+def judge(root, whisker, folder, number):
+    """What is wrong with this drive, or None; and its verdict."""
+    chip, scenario, planner = DRIVES[number]
+    trace, path = str(pathlib.Path(folder, f"{number}.csv")), str(pathlib.Path(root, scenario))
+    try:
+        here = drive(whisker, path, planner, trace)
+        there = drive(whisker, path, planner, trace, f"{root}/scripts/chip {chip}")
+    except RuntimeError as error:
+        return str(error), None
+    return None if here == there else first_difference(here[1], there[1]), here[0]
+
+
 def main(root, whisker):
     wrong = 0
-    with tempfile.TemporaryDirectory() as folder:
-        for chip, scenario, planner in DRIVES:
-            trace = pathlib.Path(folder, "trace.csv")
-            path = str(pathlib.Path(root, scenario))
-            try:
-                here = drive(whisker, path, planner, str(trace))
-                there = drive(whisker, path, planner, str(trace), f"{root}/scripts/chip {chip}")
-                problem = None if here == there else first_difference(here[1], there[1])
-            except RuntimeError as error:
-                problem = str(error)
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = pool.map(lambda number: judge(root, whisker, folder, number), range(len(DRIVES)))
+        for (chip, scenario, planner), (problem, verdict) in zip(DRIVES, found):
             wrong += problem is not None
-            print(f"{chip}, {planner}, {pathlib.Path(scenario).stem}: {problem or here[0]}", flush=True)
+            print(f"{chip}, {planner}, {pathlib.Path(scenario).stem}: {problem or verdict}", flush=True)
     print(f"closed loop: {len(DRIVES)} drives, {wrong} wrong")
     return 1 if wrong else 0
 

@@ -16,7 +16,7 @@ PROGRAMS = ("bare", "replay", "companion")
 
 # Names as the linker knows them: what none of these images may hold.
 FORBIDDEN = re.compile(
-    r"malloc|calloc|realloc|free|_sbrk|_Zn[wa]\w*|_Zd[la]\w*"
+    r"malloc|calloc|realloc|free|_sbrk|_Zn[wa][jmy](RKSt9nothrow_t|St\w*)?|_Zd[la]\w*"
     r"|_ZGV\w*|__cxa_(?!pure_virtual)\w*|__gxx_\w*|_Unwind_\w*|__dso_handle|__aeabi_atexit|atexit"
     r"|__aeabi_(f|d|cf|cd)(add|sub|rsub|mul|div|cmp\w*|2\w+)|__aeabi_u?[il]2[fd]"
     r"|__(add|sub|mul|div|neg|eq|ne|lt|le|gt|ge|unord|cmp)[sd]f[23]|__(fix|fixuns|float|floatun)\w*|__extend\w*|__trunc\w*"
