@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/run/pilot.hpp"
 #include "host/run/planners.hpp"
 #include "host/run/record.hpp"
 #include "host/scenario/scenario.hpp"
@@ -14,6 +15,7 @@ namespace whisker {
 
 struct RunOptions {
   PlannerKind planner = PlannerKind::skirt;
+  MakePilot pilot = core_pilot;
   std::optional<std::uint64_t> seed;               ///< of the noise, instead of the scenario's
   std::vector<TickRecord>* records = nullptr;      ///< gets one record a tick, and one more at a contact
   std::function<void(const TickRecord&)> observe;  ///< called with each of these records as it arises
