@@ -15,12 +15,12 @@ namespace whisker {
 
 struct RunOptions {
   PlannerKind planner = PlannerKind::skirt;
-  MakePilot pilot = core_pilot;
   std::optional<std::uint64_t> seed;               ///< of the noise, instead of the scenario's
   std::vector<TickRecord>* records = nullptr;      ///< gets one record a tick, and one more at a contact
   std::function<void(const TickRecord&)> observe;  ///< called with each of these records as it arises
   /// Called about once a simulated second with the simulated time and the distance left.
   std::function<void(double time_s, double distance_m)> progress;
+  MakePilot pilot = core_pilot;  ///< what drives
 };
 
 /// Deterministic: the same scenario and seed give the same hash on every machine.
