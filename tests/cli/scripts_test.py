@@ -52,7 +52,7 @@ class Tables(Scripts):
             ("bars", ("--count", 1, "--noisy", 1, "--seed", 1, "--gate"), 20),
             ("compare", (1,), 8 * 10),
             ("measure", (1,), 11),
-            ("odometry", (1,), 3 * 6),
+            ("odometry", (1,), 3 * 7),
         ):
             (self.folder / "whisker.calls").unlink(missing_ok=True)
             table = self.rows(self.run_script(name, *arguments))
@@ -72,7 +72,7 @@ class Tables(Scripts):
         self.assertEqual(first, ["15 discs", "50.0 %", "0.0 %", "0.0 %", "0.0 %", "0.0 %", "0.5"])
         self.assertEqual(self.calls()[0], "campaign discs --discs 15 --count 2 --seed 7 --planner skirt --json".split())
         odometry = self.rows(self.run_script("odometry", 1))[2]
-        self.assertEqual(odometry[:4], ["30 discs", "0.05 %", "50.0 (25.0-?)", "37.5 (25.0-?)"])
+        self.assertEqual(odometry[:4], ["30 discs", "0.01 %", "50.0 (25.0-?)", "37.5 (25.0-?)"])
         self.assertEqual(odometry[-2:], ["0.50 (0.25-?)", "0.50 (0.25-?)"])
         self.answer(s_per_m={"p50": None, "p95": None})
         self.assertEqual(self.rows(self.run_script("measure", 1))[1][-1], "-")
@@ -87,7 +87,7 @@ class Tables(Scripts):
         self.run_script("odometry", 3, 40)
         mazes = [call for call in self.calls() if call[1] == "maze"]
         sigmas = [call[call.index("--wheel-scale-sigma") + 1] for call in mazes]
-        self.assertEqual(sigmas, ["0", "0.0005", "0.001", "0.002", "0.005", "0.01"])
+        self.assertEqual(sigmas, ["0", "0.0001", "0.0005", "0.001", "0.002", "0.005", "0.01"])
         rest = {tuple(word for word in call if word not in sigmas) for call in mazes}
         self.assertEqual(rest, {("campaign", "maze", "--count", "3", "--seed", "40", "--noise", "--wheel-scale-sigma", "--json")})
 

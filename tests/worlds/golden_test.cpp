@@ -22,7 +22,7 @@ struct Golden {
 
 const Golden kGolden[] = {
     {Kind::discs, {1, {}, false, false}, 0x64F0849624F86F89U},
-    {Kind::discs, {2, 15, false, true}, 0x8F429BB0899E0811U},
+    {Kind::discs, {2, 15, false, true}, 0xAA8DD2589526536DU},
     {Kind::discs, {3, 75, true, false}, 0xFAF469207EB99D03U},
     {Kind::poles, {1, {}, false, false}, 0x17B6C6343965FB9FU},
     {Kind::u_trap, {1, {}, false, false}, 0x2C7DC24C6AA8916DU},
@@ -33,7 +33,7 @@ const Golden kGolden[] = {
     {Kind::maze, {1, {}, false, false}, 0xEC38ECA151F7D2B7U},
     {Kind::maze, {2, {}, false, false}, 0x058E47DA2CBE8841U},
     {Kind::rooms, {1, {}, false, false}, 0xC57EC6870340986CU},
-    {Kind::rooms, {2, {}, false, true}, 0x199F571CE9FBD436U},
+    {Kind::rooms, {2, {}, false, true}, 0x3A6C92236A014162U},
     {Kind::enclosed, {1, {}, false, false}, 0x62CDAE2FF45813FFU},
     {Kind::enclosed, {2, {}, false, false}, 0x8813E0211C140D1AU},
     {Kind::enclosed, {3, 30, true, false}, 0xA1573A8143AB0E4CU},

@@ -1,0 +1,31 @@
+// What the shield lets a retreat do that it lets no other way do.
+#include <gtest/gtest.h>
+
+#include "firmware/motion/shield.hpp"
+#include "tests/nav/ground.hpp"
+
+namespace whisker::test {
+namespace {
+
+/// What is granted of a crawl straight ahead, all around walled in at this distance from the body's centre.
+double granted(Length wall, bool retraces) {
+  Ground g;
+  g.echo(0, 360, wall);
+  const motion::Grant grant =
+      motion::shield({40_mm_per_s, Speed{}, retraces}, {}, motion::WheelState{}, g.patch(), g.params());
+  return grant.factor.raw() / 16384.0;
+}
+
+TEST(Retracing, PassesWhatIsCloserThanAnyOtherWayMayCome) {
+  EXPECT_EQ(granted(150_mm, false), 1.0);
+  EXPECT_EQ(granted(150_mm, true), 1.0);
+  EXPECT_LT(granted(118_mm, false), 1.0);
+  EXPECT_EQ(granted(118_mm, true), 1.0);
+}
+
+TEST(Retracing, DoesNotTouchEither) {
+  for (Length wall = 95_mm; wall <= 105_mm; wall += 1_mm) EXPECT_LT(granted(wall, true), 1.0) << wall.raw();
+}
+
+}  // namespace
+}  // namespace whisker::test
