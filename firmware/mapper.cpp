@@ -53,8 +53,7 @@ void GroundMapper::observe(const Standing& body, const ranges::Conditioner& cond
 void GroundMapper::guard(nav::Manoeuvre& manoeuvre, const Pose& pose, const motion::WheelState& wheels,
                          const Params& params) noexcept {
   if (manoeuvre.kind != nav::Kind::cruise) return;
-  const motion::Grant grant = motion::shield({manoeuvre.forward, manoeuvre.turning, manoeuvre.retraces}, pose,
-                                             wheels, patch_, params);
+  const motion::Grant grant = motion::shield(manoeuvre, pose, wheels, patch_, params);
   manoeuvre.forward = grant.forward;
   manoeuvre.turning = grant.turning;
   granted_ = grant.factor;

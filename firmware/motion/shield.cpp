@@ -54,16 +54,17 @@ bool free(const Arc& arc, const Pose& pose, const WheelState& wheels, const grou
 
 }  // namespace
 
-Grant shield(const Wish& wish, const Pose& pose, const WheelState& wheels, const ground::Patch& patch,
-             const Params& params) noexcept {
+Grant shield(const nav::Manoeuvre& cruise, const Pose& pose, const WheelState& wheels,
+             const ground::Patch& patch, const Params& params) noexcept {
   constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2), Q14::ratio(3, 10),
                               Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
   const Speed change = params.wheels.max_acceleration * params.safety.period;
-  const Length reach = wish.retraces ? (params.body.radius + patch.reach().shield) / 2 : patch.reach().shield;
+  const Length reach =
+      cruise.retraces ? (params.body.radius + patch.reach().shield) / 2 : patch.reach().shield;
   for (const Q14 factor : kFactors) {
-    const WheelPair want = mix(wish.forward * factor, wish.turning, params.wheels.max_speed);
+    const WheelPair want = mix(cruise.forward * factor, cruise.turning, params.wheels.max_speed);
     if (free({slew(wheels.commanded, want, change), reach}, pose, wheels, patch, params)) {
-      return {wish.forward * factor, wish.turning, factor};
+      return {cruise.forward * factor, cruise.turning, factor};
     }
   }
   return {Speed{}, Speed{}, Q14{}};

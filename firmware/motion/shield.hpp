@@ -5,6 +5,7 @@
 #include "firmware/core/units.hpp"
 #include "firmware/ground/patch.hpp"
 #include "firmware/motion/mixer.hpp"
+#include "firmware/nav/manoeuvre.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker::motion {
@@ -15,28 +16,21 @@ struct WheelState {
   WheelPair rolling;
 };
 
-/// What the wheels shall do.
-struct Wish {
-  Speed forward;
-  Speed turning;          ///< of the rims
-  bool retraces = false;  ///< over ground that the body has just stood on
-};
-
 struct Grant {
   Speed forward;
   Speed turning;
   Q14 factor;  ///< of the forward speed that was asked for; zero where the shield only brakes
 };
 
-/// The forward speed that may be commanded this tick beside this rim speed of turning: the largest of a few
-/// fractions of it whose braking arc, after one tick of it, brings the body's disc of `params.shield` nowhere
+/// The forward speed of a cruise that may be commanded this tick beside its rim speed of turning: the largest
+/// of a few fractions of it whose braking arc, after one tick of it, brings the disc of Reach::shield nowhere
 /// nearer to a cell that is not clear. If there is none, both wheels brake in proportion, along the arc that
 /// was found free a tick before.
 ///
 /// Retracing asks for half of what the cells' size and the margin add to the body's radius. What is not clear
 /// beside a way that was just driven was no nearer then, and the way back must not end at what was only
 /// passed.
-Grant shield(const Wish& wish, const Pose& pose, const WheelState& wheels, const ground::Patch& patch,
-             const Params& params) noexcept;
+Grant shield(const nav::Manoeuvre& cruise, const Pose& pose, const WheelState& wheels,
+             const ground::Patch& patch, const Params& params) noexcept;
 
 }  // namespace whisker::motion

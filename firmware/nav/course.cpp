@@ -41,17 +41,20 @@ bool Course::choose(const View& view, const Vec& to_goal, BendLaw& law, const Pa
   int32_t least = kNearlyFree + 1;
   Angle nearly;
   Side aside = wall;
-  const auto passable = [&](Angle heading, Side then) {
+  const auto in_the_way = [&](Angle heading) {
     heading_ = heading;
-    const int32_t in_the_way = view.patch->along(view.pose.at, heading, length, reach.planning).suspect;
-    if (in_the_way == 0) {
+    return view.patch->along(view.pose.at, heading, length, reach.planning).suspect;
+  };
+  const auto passable = [&](Angle heading, Side then) {
+    const int32_t cells = in_the_way(heading);
+    if (cells == 0) {
       wall = then;
-    } else if (in_the_way < least) {
-      least = in_the_way;
+    } else if (cells < least) {
+      least = cells;
       nearly = heading;
       aside = then;
     }
-    return in_the_way == 0;
+    return cells == 0;
   };
   decision.why = magnitude(bend_) > kStraight ? Why::table : Why::target_free;
   if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)), wall)) return true;
@@ -62,11 +65,12 @@ bool Course::choose(const View& view, const Vec& to_goal, BendLaw& law, const Pa
     if (passable(target - off, wall) || passable(target + off, opposite(wall))) return true;
   }
   if (least > kNearlyFree) return false;
-  const Angle centre = nearly;
-  const Side then = aside;
   for (int32_t i = 1; i <= 2; ++i) {
     const Angle off = kFineStep * i;
-    if (passable(centre - off, then) || passable(centre + off, then)) return true;
+    if (in_the_way(nearly - off) == 0 || in_the_way(nearly + off) == 0) {
+      wall = aside;
+      return true;
+    }
   }
   return false;
 }

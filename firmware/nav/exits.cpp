@@ -6,7 +6,7 @@ namespace {
 constexpr AngularRate kSweepRate = 2000_mrad_per_s;
 constexpr int32_t kLast = 150;       // degrees to which exits are looked for on each side
 constexpr int32_t kFine = 2 * kFan;  // a gap as wide as the body shows at few headings
-constexpr int32_t kSteps = 40;
+constexpr int32_t kSteps = kLast * kFine / 360;
 constexpr Length kFarView = 800_mm;
 // The outer rim of a side cone is 42.5 degrees ahead of the front, and a way is as wide as the body.
 constexpr int32_t kSeenBehind = 42;

@@ -1,8 +1,8 @@
 #include "host/campaign/mission.hpp"
 
 #include <cmath>
-#include "host/campaign/motion_count.hpp"
 
+#include "host/campaign/motion_count.hpp"
 #include "host/paths/shortest.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/world.hpp"

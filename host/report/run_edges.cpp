@@ -21,31 +21,30 @@ PathData diamond(Point c) {
 
 Point place(const View& view, const TickRecord& r) { return view.page({r.x_m, r.y_m}); }
 
+struct Mark {
+  Point at;
+  std::size_t number;
+};
+
 /// Numbers beside marks, each at the first of eight places that keeps it off the others and off all marks;
 /// left out where there is none.
-class Numbers {
- public:
-  explicit Numbers(std::vector<Point> marks) : taken_(std::move(marks)) {}
-
-  void draw(Svg& svg, Point mark, const std::string& text) {
-    constexpr Point kPlaces[] = {{10, -8}, {-10, -8}, {10, 14}, {-10, 14},
-                                 {14, 4},  {-14, 4},  {0, -11}, {0, 19}};
+void draw_numbers(Svg& svg, const std::vector<Mark>& marks) {
+  constexpr Point kPlaces[] = {{10, -8}, {-10, -8}, {10, 14}, {-10, 14},
+                               {14, 4},  {-14, 4},  {0, -11}, {0, 19}};
+  std::vector<Point> taken;
+  for (const Mark& mark : marks) taken.push_back(mark.at);
+  for (const Mark& mark : marks) {
     for (const Point p : kPlaces) {
-      const Point at{mark.x + p.x, mark.y + p.y};
-      if (!free(at)) continue;
-      taken_.push_back({at.x, at.y - 4});
-      svg.text(at, text, "");
-      return;
+      const Point at{mark.at.x + p.x, mark.at.y + p.y};
+      const Point middle{at.x, at.y - 4};
+      const auto near = [&](Point q) { return std::hypot(q.x - middle.x, q.y - middle.y) < kLabelApart; };
+      if (std::any_of(taken.begin(), taken.end(), near)) continue;
+      taken.push_back(middle);
+      svg.text(at, fmt::format("{}", mark.number), "");
+      break;
     }
   }
-
- private:
-  bool free(Point text) const {
-    return std::none_of(taken_.begin(), taken_.end(),
-                        [&](Point p) { return std::hypot(p.x - text.x, p.y - (text.y - 4)) < kLabelApart; });
-  }
-  std::vector<Point> taken_;
-};
+}
 
 }  // namespace
 
@@ -69,25 +68,21 @@ void draw_wall_lost(Svg& svg, Point at) {
 
 void draw_encounters(Svg& svg, const View& view, const std::vector<Encounter>& all) {
   if (all.empty()) return;
-  std::vector<Point> marks;
+  std::vector<Mark> marks;
   svg.open(R"(class="encounters")");
-  for (const Encounter& e : all) {
-    marks.push_back(place(view, *e.hit));
-    draw_hit(svg, marks.back());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Encounter& e = all[i];
+    marks.push_back({place(view, *e.hit), i + 1});
+    draw_hit(svg, marks.back().at);
     if (e.turned != nullptr) draw_turned(svg, place(view, *e.turned));
     if (e.end != Encounter::End::left && e.end != Encounter::End::wall_lost) continue;
-    marks.push_back(place(view, *e.left));
-    e.end == Encounter::End::left ? draw_left(svg, marks.back()) : draw_wall_lost(svg, marks.back());
+    marks.push_back({place(view, *e.left), i + 1});
+    e.end == Encounter::End::left ? draw_left(svg, marks.back().at) : draw_wall_lost(svg, marks.back().at);
   }
   svg.close();
-  Numbers numbers(marks);
   svg.open(
       R"(class="encounter-numbers" text-anchor="middle" font-size="11" font-weight="bold" stroke="#fff" stroke-width="3" stroke-linejoin="round" paint-order="stroke")");
-  std::size_t mark = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const bool leaves = all[i].end == Encounter::End::left || all[i].end == Encounter::End::wall_lost;
-    for (int k = leaves ? 2 : 1; k > 0; --k) numbers.draw(svg, marks[mark++], fmt::format("{}", i + 1));
-  }
+  draw_numbers(svg, marks);
   svg.close();
 }
 

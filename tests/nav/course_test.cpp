@@ -34,6 +34,13 @@ double heads(Course& course, const View& view, Angle bend, int readings, Decisio
   return in_degrees(course.heading()) - kTarget;
 }
 
+/// Whether it finds a heading at the first reading, without a bend.
+bool chooses(Course& course, const Ground& g, Vec goal, Side& wall) {
+  Bends law(0_deg);
+  Decision decision;
+  return course.choose(g.view(), goal, law, g.params(), wall, decision);
+}
+
 TEST(Course, LeadsStraightToTheGoalInTheOpen) {
   Ground g;
   g.free(0, 360);
@@ -97,11 +104,9 @@ TEST(Course, TurnsAwayFromTheWallFirst) {
   const View view = g.view();
   const Reach& reach = view.patch->reach();
   for (const Side was : {Side::left, Side::right}) {
-    Bends law(0_deg);
     Course course;
-    Decision decision;
     Side wall = was;
-    ASSERT_TRUE(course.choose(view, {2_m, 0_mm}, law, g.params(), wall, decision));
+    ASSERT_TRUE(chooses(course, g, {2_m, 0_mm}, wall));
     EXPECT_EQ(wall, was);
     EXPECT_LT(in_degrees(course.heading()) * sign(was), 0);
     EXPECT_NE(way(view, course.heading(), reach.probe, reach.planning), Way::blocked);
@@ -112,11 +117,9 @@ TEST(Course, TurnsAwayFromTheWallFirst) {
 TEST(Course, PassesOnTheOtherSideOfWhatBlocksItsOwn) {
   Ground g;
   g.free(25, 180).echo(-180, 25, 150_mm);
-  Bends law(0_deg);
   Course course;
-  Decision decision;
   Side wall = Side::left;
-  ASSERT_TRUE(course.choose(g.view(), {2_m, 0_mm}, law, g.params(), wall, decision));
+  ASSERT_TRUE(chooses(course, g, {2_m, 0_mm}, wall));
   EXPECT_EQ(wall, Side::right) << "the obstacle is there now";
   EXPECT_GT(in_degrees(course.heading()), 0);
 }
@@ -124,22 +127,46 @@ TEST(Course, PassesOnTheOtherSideOfWhatBlocksItsOwn) {
 TEST(Course, EndsBeforeAWall) {
   Ground g;
   g.free(130, 230).echo(-130, 130, 150_mm);
-  Bends law(0_deg);
   Course course;
-  Decision decision;
   Side wall = Side::left;
-  EXPECT_FALSE(course.choose(g.view(), {2_m, 0_mm}, law, g.params(), wall, decision));
+  EXPECT_FALSE(chooses(course, g, {2_m, 0_mm}, wall));
+}
+
+TEST(Course, FindsAGapBetweenTwoStepsOfItsFan) {
+  const auto free = [](const View& view, Angle heading) {
+    const Reach& reach = view.patch->reach();
+    return way(view, heading, reach.probe, reach.planning) != Way::blocked;
+  };
+  int between = 0;
+  for (int middle = 0; middle < 8; ++middle) {
+    for (int half = 15; half <= 30; ++half) {
+      Ground g;
+      g.free(middle - half, middle + half).echo(middle + half, middle - half + 360, 230_mm);
+      bool in_the_fan = false;
+      for (int step = -10; step <= 10; ++step) {
+        in_the_fan = in_the_fan || free(g.view(), Angle::turns(step, kFan));
+      }
+      Course course;
+      Side wall = Side::left;
+      const bool found = chooses(course, g, {2_m, 0_mm}, wall);
+      if (in_the_fan) {
+        EXPECT_TRUE(found) << middle << " " << half;
+      } else if (found) {
+        EXPECT_TRUE(free(g.view(), course.heading())) << middle << " " << half;
+        ++between;
+      }
+    }
+  }
+  EXPECT_GT(between, 0);
 }
 
 TEST(Course, ReachesAGoalThatStandsBeforeAWall) {
   Ground g;
   g.free(0, 360, 190_mm).echo(-130, 130, 200_mm);
-  Bends law(0_deg);
   Course course;
-  Decision decision;
   Side wall = Side::left;
-  EXPECT_FALSE(course.choose(g.view(), {150_mm, 0_mm}, law, g.params(), wall, decision));
-  EXPECT_TRUE(course.choose(g.view(), {40_mm, 0_mm}, law, g.params(), wall, decision));
+  EXPECT_FALSE(chooses(course, g, {150_mm, 0_mm}, wall));
+  EXPECT_TRUE(chooses(course, g, {40_mm, 0_mm}, wall));
   EXPECT_EQ(course.heading(), 0_deg);
 }
 

@@ -11,8 +11,11 @@ namespace {
 double granted(Length wall, bool retraces) {
   Ground g;
   g.echo(0, 360, wall);
-  const motion::Grant grant =
-      motion::shield({40_mm_per_s, Speed{}, retraces}, {}, motion::WheelState{}, g.patch(), g.params());
+  nav::Manoeuvre crawl;
+  crawl.kind = nav::Kind::cruise;
+  crawl.forward = 40_mm_per_s;
+  crawl.retraces = retraces;
+  const motion::Grant grant = motion::shield(crawl, {}, motion::WheelState{}, g.patch(), g.params());
   return grant.factor.raw() / 16384.0;
 }
 

@@ -22,13 +22,6 @@ using testing::Element;
 using testing::parse_xml;
 using testing::thesis_picture;
 
-std::vector<std::string> words(const Element& root, const char* group) {
-  std::vector<std::string> all;
-  for (const Element* g : root.by_class(group))
-    for (const Element* t : g->by_name("text")) all.push_back(t->text);
-  return all;
-}
-
 TEST(ThesisFigures, are_figures_2_to_7_well_formed_with_plain_coordinates) {
   const auto figures = thesis_figures(thesis_picture());
   ASSERT_EQ(figures.size(), 6U);
@@ -76,7 +69,7 @@ TEST(TableSvg, names_each_rule_at_its_centre) {
   const FuzzyPicture picture = thesis_picture();
   const Element root = parse_xml(table_svg(picture));
   EXPECT_EQ(testing::odd_coordinate(root), "");
-  const std::vector<std::string> labels = words(*root.by_class("turn").at(0), "rules");
+  const std::vector<std::string> labels = root.by_class("turn").at(0)->texts_of_class("rules");
   ASSERT_EQ(labels.size(), 50U);
   EXPECT_EQ(labels[0], "TLVB");
   EXPECT_EQ(labels[1], "+1.50");

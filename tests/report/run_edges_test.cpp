@@ -20,13 +20,6 @@ Element drawn(const Scenario& scenario, const std::vector<TickRecord>& records) 
   return testing::parse_xml(run_svg(scenario, records, result));
 }
 
-std::vector<std::string> words_of(const Element& root, const char* group) {
-  std::vector<std::string> words;
-  for (const Element* part : root.by_class(group))
-    for (const Element* text : part->by_name("text")) words.push_back(text->text);
-  return words;
-}
-
 TEST(RunEdges, marks_and_numbers_where_edges_were_met_and_left) {
   using nav::Mode;
   using nav::Why;
@@ -43,10 +36,10 @@ TEST(RunEdges, marks_and_numbers_where_edges_were_met_and_left) {
   EXPECT_EQ(marks->by_class("hit").size(), 3U);
   EXPECT_EQ(marks->by_class("left").size(), 1U);
   EXPECT_EQ(marks->by_class("wall-lost").size(), 1U);
-  EXPECT_THAT(words_of(root, "encounter-numbers"), ::testing::ElementsAre("1", "1", "2", "2", "3"));
+  EXPECT_THAT(root.texts_of_class("encounter-numbers"), ::testing::ElementsAre("1", "1", "2", "2", "3"));
   // 7 m from the goal where it first turned aside, sqrt(53) = 7.28 m where it went on.
-  EXPECT_THAT(words_of(root, "legend"), ::testing::IsSupersetOf({"edge 1", "7.00 m", "7.28 m", "edge 3", "-",
-                                                                 "lost the wall: on to the goal"}));
+  EXPECT_THAT(root.texts_of_class("legend"), ::testing::IsSupersetOf({"edge 1", "7.00 m", "7.28 m", "edge 3",
+                                                                      "-", "lost the wall: on to the goal"}));
 }
 
 TEST(RunEdges, lists_the_first_eight_edges_and_counts_the_others) {
@@ -59,7 +52,7 @@ TEST(RunEdges, lists_the_first_eight_edges_and_counts_the_others) {
   }
   const auto records = testing::follow(scenario, legs);
   const Element root = drawn(scenario, records);
-  const auto words = words_of(root, "legend");
+  const auto words = root.texts_of_class("legend");
   EXPECT_THAT(words, ::testing::IsSupersetOf({"edge 8", "and 13 more edges"}));
   EXPECT_THAT(words, ::testing::Not(::testing::Contains("edge 9")));
   EXPECT_EQ(root.by_class("hit").size(), 22U) << "and one in the legend";
@@ -71,7 +64,7 @@ TEST(RunEdges, of_a_way_without_edges_marks_none) {
   const Element root = drawn(scenario, records);
   EXPECT_TRUE(root.by_class("encounters").empty());
   EXPECT_TRUE(root.by_class("hit").empty());
-  EXPECT_THAT(words_of(root, "legend"), ::testing::Not(::testing::Contains("Distance to the goal")));
+  EXPECT_THAT(root.texts_of_class("legend"), ::testing::Not(::testing::Contains("Distance to the goal")));
 }
 
 TEST(RunEdges, draws_the_straight_line_from_start_to_goal) {

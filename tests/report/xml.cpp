@@ -71,6 +71,14 @@ std::vector<const Element*> Element::by_name(std::string_view tag) const {
   return out;
 }
 
+std::vector<std::string> Element::texts_of_class(std::string_view word) const {
+  std::vector<std::string> all;
+  for (const Element* group : by_class(word)) {
+    for (const Element* words : group->by_name("text")) all.push_back(words->text);
+  }
+  return all;
+}
+
 Element parse_xml(std::string_view text) {
   Builder builder;
   const std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser(XML_ParserCreate("UTF-8"),

@@ -20,6 +20,8 @@ struct Element {
   /// Itself and everything below, in document order, that has the class.
   std::vector<const Element*> by_class(std::string_view word) const;
   std::vector<const Element*> by_name(std::string_view tag) const;
+  /// What the <text> elements below those of the class say, in document order.
+  std::vector<std::string> texts_of_class(std::string_view word) const;
 };
 
 /// Throws std::runtime_error with expat's words and the line if the text is not well-formed.
