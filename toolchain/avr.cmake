@@ -14,3 +14,8 @@ set(CMAKE_CXX_LINK_EXECUTABLE
   "avr-gcc -mmcu=${WHISKER_CPU} -nodefaultlibs -Wl,--gc-sections,--relax <LINK_FLAGS> <OBJECTS> -o <TARGET> \
 -Wl,--start-group <LINK_LIBRARIES> -lgcc -Wl,--end-group")
 set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)
+# Through assembly, in which a fault of clang is mended.
+set(CMAKE_CXX_COMPILE_OBJECT
+  "<CMAKE_CXX_COMPILER> <DEFINES> <INCLUDES> <FLAGS> -S <SOURCE> -o <OBJECT>.s"
+  "sh ${CMAKE_CURRENT_LIST_DIR}/avr_assembly.sh <OBJECT>.s"
+  "<CMAKE_CXX_COMPILER> -mmcu=${WHISKER_CPU} -c <OBJECT>.s -o <OBJECT>")

@@ -2,6 +2,7 @@
 # LLVM's bitcode; interrupts stay visible by their numbers in the chip's vector table. Set before: WHISKER_CPU,
 # WHISKER_VECTORS. Debian: llvm-14 beside what avr.cmake needs.
 include(${CMAKE_CURRENT_LIST_DIR}/avr.cmake)
+unset(CMAKE_CXX_COMPILE_OBJECT)
 # Inlined is only what is smaller so than called: first within a file, then among all.
 set(inline -inline-threshold=-20)
 set(inline_all -inline-threshold=-30)
@@ -17,6 +18,6 @@ set(CMAKE_CXX_LINK_EXECUTABLE
 -o <TARGET>.bc"
   "clang++-14 --target=avr -mmcu=${WHISKER_CPU} -Oz -mllvm ${inline_all} -ffunction-sections -fdata-sections -x ir \
 -S <TARGET>.bc -o <TARGET>.s"
-  "sh ${CMAKE_CURRENT_LIST_DIR}/avr_displacements.sh <TARGET>.s"
+  "sh ${CMAKE_CURRENT_LIST_DIR}/avr_assembly.sh <TARGET>.s"
   "clang++-14 --target=avr -mmcu=${WHISKER_CPU} -c <TARGET>.s -o <TARGET>.o"
   "avr-gcc -mmcu=${WHISKER_CPU} -nodefaultlibs -Wl,--gc-sections,--relax <LINK_FLAGS> <TARGET>.o -o <TARGET> -lgcc")
