@@ -28,7 +28,8 @@ class Target:
 
     def command(self, image, serial=False):
         """serial: standard input and output are the board's UART instead of its fast way to the host."""
-        parts = ["timeout", SECONDS, *self.emulator.split()]
+        # In the foreground: who ends the process group ends the emulator, too.
+        parts = ["timeout", "--foreground", "--kill-after=5", SECONDS, *self.emulator.split()]
         if self.emulator.startswith("qemu"):
             parts += ["-serial", "stdio" if serial else "none", "-kernel"]
         return [*parts, str(image)]
@@ -50,8 +51,12 @@ TARGETS = {
 }
 
 
+# Boards with a whole robot as their program: preset -> prefix of its tools.
+ROBOTS = {"stm32f405": "arm-none-eabi-", "atmega328p": "avr-"}
+
+
 def builds():
-    """(preset, target) of everything that is built."""
+    """(preset, target) of everything that runs in an emulator alone."""
     return [(build, target) for target in TARGETS.values() for build in target.builds]
 
 

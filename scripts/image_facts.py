@@ -3,11 +3,14 @@
 import collections
 import pathlib
 import re
+import subprocess
 
 import chips
 
 FLASH = (".text", ".rodata", ".data", ".progmem")
 RAM = (".data", ".bss")
+# AVR reads constants from RAM, whither its start-up copies them.
+RAM_OF_AVR = (*RAM, ".rodata")
 
 # Where a call through a table may lead; what calls by one that is not here is an error.
 INDIRECT = (
@@ -42,7 +45,14 @@ def sections(map_file):
             yield name, int(size, 16), origin
 
 
-def weigh(map_file):
+def sizes(image, prefix):
+    """Bytes of flash, and of RAM without the stack, of a linked image."""
+    text = subprocess.run([f"{prefix}size", image], capture_output=True, text=True, check=True).stdout
+    code, data, bss = map(int, text.splitlines()[1].split()[:3])
+    return code + data, data + bss
+
+
+def weigh(map_file, ram_sections=RAM):
     """Bytes of flash and RAM by stage; what is not the core's is 'helpers' (libgcc) or 'rest'."""
     known = stages()
     flash, ram = collections.Counter(), collections.Counter()
@@ -56,7 +66,7 @@ def weigh(map_file):
             stage = named[1]
         if name.startswith(FLASH):
             flash[stage] += size
-        if name.startswith(RAM) or name == "COMMON":
+        if name.startswith(ram_sections) or name == "COMMON":
             ram[stage] += size
     return flash, ram
 
