@@ -28,7 +28,8 @@ class Target:
 
     def command(self, image, serial=False):
         """serial: standard input and output are the board's UART instead of its fast way to the host."""
-        # In the foreground: who ends the process group ends the emulator, too.
+        # In the foreground: who ends the process group ends the emulator, too. QEMU that waits for input hears no
+        # SIGTERM.
         parts = ["timeout", "--foreground", "--kill-after=5", SECONDS, *self.emulator.split()]
         if self.emulator.startswith("qemu"):
             parts += ["-serial", "stdio" if serial else "none", "-kernel"]
