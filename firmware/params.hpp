@@ -38,8 +38,9 @@ struct RangefinderParams {
 /// Of beam 0, 1, 2 (left, front, right), from straight ahead.
 constexpr Angle beam_axis(Angle side_angle, int beam) noexcept { return side_angle * (1 - beam); }
 
-/// How several readings become one.
-enum class Consensus : uint8_t {
+/// How several readings become one. As wide as every parameter: clang 14 for AVR misreads a number that
+/// crosses the 64th byte of its struct, and four-byte fields alone never do.
+enum class Consensus : int32_t {
   agreeing,  ///< the last `reads` readings lie within `tolerance`: their minimum
   median,    ///< the median of the last `reads` readings
 };
@@ -53,7 +54,7 @@ struct ConditioningParams {
 };
 
 /// Which distance is D: the thesis says both.
-enum class DistanceSource : uint8_t {
+enum class DistanceSource : int32_t {
   front,  ///< the main sensor (section 1.2)
   mean,   ///< the mean of the three (section 1.1)
 };
@@ -212,5 +213,13 @@ constexpr Length for_body(const Params& p, Length reference) noexcept {
 
 /// The first fault found; ParamFault::none for a set that the core accepts.
 ParamFault check(const Params& params) noexcept;
+
+/// WHISKER_SMALL builds the core for a chip with 32 KB of flash and 2 KB of RAM: it remembers no ground (see
+/// mapper.hpp), and takes parameters for good that a test must have given to check().
+#ifdef WHISKER_SMALL
+constexpr bool kParamsAreTrusted = true;
+#else
+constexpr bool kParamsAreTrusted = false;
+#endif
 
 }  // namespace whisker

@@ -5,23 +5,18 @@ namespace whisker {
 Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& planner,
              const Params& params) noexcept
     : rangefinders_(rangefinders), drive_(drive), planner_(planner), params_(params) {
-  if (check(params) != ParamFault::none) {
+  if (!kParamsAreTrusted && check(params) != ParamFault::none) {
     fail(Fault::invalid_params);
     return;
   }
   odometry_.configure(params);
-  patch_.configure(params);
-  witness_.configure(params);
-  const Duration reach = params.rangefinders.latency + milliseconds(1000 / params.rangefinders.rate_hz);
-  history_.configure(reach / (motion::History::kKept - 2));
+  mapper_.configure(params);
 }
 
 void Robot::place(const Pose& pose) noexcept {
   odometry_.place(pose);
   status_.pose = pose;
-  history_.reset();
-  patch_.reset(pose);
-  witness_.reset();
+  mapper_.place(pose);
 }
 
 void Robot::set_goal(const nav::Goal& goal) noexcept { planner_.set_goal(goal); }
@@ -108,59 +103,17 @@ void Robot::navigate() noexcept {
   view.pose = status_.pose;
   view.settled = settled;
   if (settled) view.look = conditioner_.look(settled_since_, params_);
-  map(settled, view);
+  const motion::WheelPair rolling = driver_.wheels().rolling;
+  view.forward = (rolling.left + rolling.right) / 2;
+  view.turning = (rolling.right - rolling.left) / 2;
+  mapper_.observe({status_.pose, last_tick_, settled, settled_since_}, conditioner_, params_, view);
   status_.decision = planner_.step(view);
-  guard(status_.decision.manoeuvre);
+  mapper_.guard(status_.decision.manoeuvre, status_.pose, driver_.wheels(), params_);
   driver_.begin(status_.decision.manoeuvre, status_.pose);
   if (!beams_fresh_ && status_.decision.outcome == nav::Outcome::running) {
     status_.decision.why = nav::Why::blind;
   }
   watch_look(settled);
-}
-
-void Robot::map(bool settled, nav::View& view) noexcept {
-  history_.add(status_.pose, last_tick_);
-  patch_.move_to(status_.pose);
-  ground::Proof proofs[hal::kBeams];
-  Length free[hal::kBeams];
-  Length moved[hal::kBeams];
-  int seen = 0;
-  for (int i = 0; i < hal::kBeams; ++i) {
-    const ranges::Sight sight = conditioner_.sight(i, params_);
-    view.sight.beam[i] = sight.typical;
-    if (!sight.fresh) continue;
-    view.sighted = true;
-    ground::Proof& proof = proofs[i];
-    if (!history_.at(sight.taken, proof.from)) continue;
-    proof.axis = beam_axis(params_.rangefinders.side_angle, i);
-    proof.free = free[i] = sight.near.distance;
-    proof.hit = sight.near.validity != ranges::Validity::clear;
-    proof.aimed = settled && sight.oldest - settled_since_ >= Duration{};
-    proof.taken = sight.taken;
-    if (proof.hit && witness_.contradicts(proof.from, i, proof.free, sight.farthest, patch_)) {
-      moved[i] = sight.farthest;
-    }
-    patch_.mark(proof);
-    ++seen;
-  }
-  // After all marks: another beam may see ground as empty into which something is about to move.
-  for (int i = 0; i < hal::kBeams; ++i) {
-    if (moved[i] > Length{}) patch_.doubt(proofs[i], moved[i]);
-  }
-  if (seen == hal::kBeams) witness_.add(proofs[0].from, proofs[0].taken, free);
-  const motion::WheelPair rolling = driver_.wheels().rolling;
-  view.patch = &patch_;
-  view.forward = (rolling.left + rolling.right) / 2;
-  view.turning = (rolling.right - rolling.left) / 2;
-  view.granted = granted_;
-}
-
-void Robot::guard(nav::Manoeuvre& manoeuvre) noexcept {
-  if (manoeuvre.kind != nav::Kind::cruise) return;
-  const motion::Grant grant = motion::shield(manoeuvre, status_.pose, driver_.wheels(), patch_, params_);
-  manoeuvre.forward = grant.forward;
-  manoeuvre.turning = grant.turning;
-  granted_ = grant.factor;
 }
 
 void Robot::watch_look(bool settled) noexcept {

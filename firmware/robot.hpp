@@ -5,11 +5,9 @@
 
 #include "firmware/core/trig.hpp"
 #include "firmware/core/units.hpp"
-#include "firmware/ground/patch.hpp"
-#include "firmware/ground/witness.hpp"
 #include "firmware/health.hpp"
+#include "firmware/mapper.hpp"
 #include "firmware/motion/driver.hpp"
-#include "firmware/motion/history.hpp"
 #include "firmware/motion/odometry.hpp"
 #include "firmware/nav/planner.hpp"
 #include "firmware/params.hpp"
@@ -61,8 +59,6 @@ class Robot {
   void sense(Time now) noexcept;
   bool measure(motion::CountStep& step) noexcept;
   void navigate() noexcept;
-  void map(bool settled, nav::View& view) noexcept;
-  void guard(nav::Manoeuvre& manoeuvre) noexcept;
   void watch_look(bool settled) noexcept;
   void drive(const motion::CountStep* counts) noexcept;
   void watch_driver() noexcept;
@@ -79,10 +75,7 @@ class Robot {
   ranges::Conditioner conditioner_;
   motion::Odometry odometry_;
   motion::Driver driver_;
-  motion::History history_;
-  ground::Patch patch_;
-  ground::Witness witness_;
-  Q14 granted_;
+  Mapper mapper_;
   Status status_;
 
   Time last_tick_;

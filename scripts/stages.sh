@@ -15,7 +15,7 @@ export UBSAN_OPTIONS=print_stacktrace=1
 # Properties draw the same cases in every run of the gates; the stage long draws new ones.
 export RC_PARAMS=${RC_PARAMS:-seed=1}
 
-cxx_files() { find firmware hal host tests \( -name '*.hpp' -o -name '*.cpp' \) -print0; }
+cxx_files() { find firmware hal host images tests \( -name '*.hpp' -o -name '*.cpp' \) -print0; }
 
 build() {
   cmake --preset "$1"
@@ -25,7 +25,7 @@ build() {
 # The gates on the source tree are labelled build: they ask nothing of a compiler, so one stage runs them.
 build_and_test() {
   build "$1"
-  ctest --preset "$1" --no-tests=error -LE '^build$'
+  ctest --preset "$1" --no-tests=error -LE '^(build|targets)$'
 }
 
 stage_shell() {
@@ -40,13 +40,19 @@ stage_format() { cxx_files | xargs -0 clang-format-14 --dry-run -Werror; }
 
 stage_gcc() {
   build host
-  ctest --preset host --no-tests=error -LE '^cross$'
+  ctest --preset host --no-tests=error -LE '^(cross|targets)$'
 }
 
 stage_cross() {
   cmake --preset host | tee build/cross-configure.log
   if grep "^-- No compiler for" build/cross-configure.log; then return 1; fi
   ctest --preset host --no-tests=error -L '^cross$' -V
+}
+
+stage_targets() {
+  scripts/targets
+  # One after another: each uses all processors by itself.
+  ctest --preset host --no-tests=error -L '^targets$' -V -j 1
 }
 
 stage_clang() { build_and_test clang; }
@@ -99,7 +105,7 @@ stage_campaign() {
 
 stage_long() {
   build host
-  RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" WHISKER_LONG=1 ctest --preset host --no-tests=error -LE '^build$'
+  RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" WHISKER_LONG=1 ctest --preset host --no-tests=error -LE '^(build|targets)$'
 }
 
 stage_fuzz() {

@@ -44,12 +44,26 @@ constexpr int64_t divide_rounded(int64_t n, int64_t d) noexcept {
   return (n < 0 ? n - d / 2 : n + d / 2) / d;
 }
 
+/// x / 2^bits to nearest, ties away from zero.
+constexpr int64_t scale_down_by(int64_t x, int bits) noexcept {
+  const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
+  const int64_t quotient = static_cast<int64_t>(((size >> (bits - 1)) + 1) >> 1);
+  return x < 0 ? -quotient : quotient;
+}
+
 /// x / 2^kBits to nearest, ties away from zero. |x| + 2^(kBits - 1) must fit.
 template <int kBits>
 constexpr int64_t scale_down(int64_t x) noexcept {
   static_assert(kBits > 0 && kBits < 62);
-  constexpr int64_t kOne = INT64_C(1) << kBits;
-  return (x < 0 ? x - kOne / 2 : x + kOne / 2) / kOne;
+#ifdef WHISKER_SMALL  // one copy serves all
+  return scale_down_by(x, kBits);
+#else
+  // Not x +- a half: where only the lowest half of such a sum's constant is known, clang 14 for AVR loses the
+  // carry.
+  const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
+  const int64_t quotient = static_cast<int64_t>((size + (UINT64_C(1) << (kBits - 1))) >> kBits);
+  return x < 0 ? -quotient : quotient;
+#endif
 }
 
 template <int kBits>
@@ -114,6 +128,7 @@ using Q15 = Fixed<15, int16_t>;  ///< [-1, 1)
 using Q30 = Fixed<30, int32_t>;  ///< sines and cosines; [-2, 2)
 
 static_assert((Q15::from_raw(INT16_MIN) * Q15::from_raw(INT16_MIN)).raw() == INT16_MAX);
+static_assert(scale_down_by(24, 4) == 2 && scale_down_by(-24, 4) == -2 && scale_down_by(23, 4) == 1);
 static_assert(scale_down<4>(INT32_C(24)) == 2 && scale_down<4>(INT32_C(-24)) == -2);
 
 }  // namespace whisker

@@ -26,7 +26,7 @@ bool Probe::free(const ranges::Echoes& look, Length step) const noexcept {
     const Vec nearest = i == hal::kFront ? Vec{front_apex_ + echo.distance, Length{}}
                                          : Vec{side_apex_x_ + echo.distance * inner_cos_,
                                                side_apex_y_ + echo.distance * inner_sin_};
-    if (gap_from_way(nearest, step) < reach_) return false;
+    if (near_way(nearest, step, reach_)) return false;
   }
   return true;
 }

@@ -7,6 +7,7 @@ namespace {
 
 constexpr int32_t kUmPerMm = 1000;
 constexpr Angle kWidth = Angle::turns(1, Surroundings::kSectors);
+constexpr Length kRounding = 1_mm;  // more than that of a point by its angle
 constexpr uint32_t kHalfWidth = kWidth.raw() / 2;
 
 constexpr Angle middle(int sector) noexcept { return kWidth * sector + Angle::from_raw(kHalfWidth); }
@@ -14,7 +15,7 @@ constexpr Angle middle(int sector) noexcept { return kWidth * sector + Angle::fr
 /// A clear beam has nothing to object to, as in Probe: no step reaches beyond the maximum range.
 uint16_t proved_mm(const ranges::Echo& echo, Length ahead) noexcept {
   const int32_t mm = (echo.distance + ahead).raw() / kUmPerMm;
-  const bool far = echo.validity == ranges::Validity::clear || mm > UINT16_MAX;
+  const bool far = echo.validity == ranges::Validity::clear || mm > int32_t{UINT16_MAX};
   return far ? UINT16_MAX : static_cast<uint16_t>(mm);
 }
 
@@ -62,8 +63,12 @@ bool Surroundings::allow(Angle heading, Length step) const noexcept {
     const uint32_t away = magnitude(middle(s) - heading);
     const uint32_t nearest = away > kHalfWidth ? away - kHalfWidth : 0;
     if (nearest >= kFlank) continue;
-    const Vec point = polar(Angle::from_raw(nearest), millimetres(free_mm_[s]));
-    if (gap_from_way(point, step) < reach_) return false;
+    const Length free = millimetres(free_mm_[s]);
+    if (free >= step + reach_ + kRounding) continue;
+    const Angle aside = Angle::from_raw(nearest);
+    const Length beside = free * sin(aside);
+    if (beside >= reach_) continue;
+    if (near_way({free * cos(aside), beside}, step, reach_)) return false;
   }
   return true;
 }

@@ -5,11 +5,14 @@
 
 namespace whisker::nav {
 
-/// The distance of a point from the straight way from the origin to (step, 0).
-inline Length gap_from_way(Vec point, Length step) noexcept {
-  if (point.x < Length{}) return norm(point);
-  if (point.x <= step) return abs(point.y);
-  return norm({point.x - step, point.y});
+/// True if a point lies nearer than `reach` to the straight way from the origin to (step, 0). By squares: a
+/// root would take the small chips longer than all the rest.
+inline bool near_way(Vec point, Length step, Length reach) noexcept {
+  const Length beside = point.x < Length{} ? point.x : max(point.x - step, Length{});
+  const int64_t x = beside.raw();
+  const int64_t y = point.y.raw();
+  const int64_t r = reach.raw();
+  return x * x + y * y < r * r;
 }
 
 }  // namespace whisker::nav

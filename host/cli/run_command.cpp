@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "host/chip/chip_pilot.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/one_run.hpp"
@@ -22,9 +23,13 @@ struct Options {
   std::string trace;
   std::string svg;
   bool json = false;
+  std::string chip;
 };
 
 int execute(const Options& o) {
+  if (!o.chip.empty() && is_baseline(o.planner)) {
+    throw UsageError(fmt::format("--chip: planner {} runs on this computer only", name(o.planner)));
+  }
   check_outputs({o.trace, o.svg}, {o.scenario, o.robot});
   Scenario scenario = load_scenario(o.scenario);
   if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
@@ -32,6 +37,7 @@ int execute(const Options& o) {
   RunOptions options;
   options.seed = o.seed;
   options.planner = o.planner;
+  if (!o.chip.empty()) options.pilot = chip::chip_pilot(o.chip);
   return drive_one(scenario, options, {o.trace, o.svg, o.json});
 }
 
@@ -49,6 +55,9 @@ void add_run(CLI::App& app, int& status) {
   add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");
   add_file(*cmd, "--svg", o->svg, "Draw the run");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
+  cmd->add_option("--chip", o->chip,
+                  "Let the core behind this shell command drive, such as\n\"scripts/chip cortex-m3\"")
+      ->type_name("COMMAND");
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

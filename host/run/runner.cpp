@@ -2,9 +2,7 @@
 
 #include <cmath>
 
-#include "firmware/robot.hpp"
-#include "hal/sim/sim_board.hpp"
-#include "host/run/hash.hpp"
+#include "hal/link/command_hash.hpp"
 #include "host/run/sim_world.hpp"
 #include "host/run/spec.hpp"
 
@@ -68,17 +66,12 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   const Params& params = scenario.robot;
   sim::Plant plant(world.view(), sim::robot_spec(params), noise_spec(scenario.noise),
                    options.seed.value_or(scenario.seed), scenario.start);
-  hal::SimBoard board(plant);
-  const std::shared_ptr<nav::Planner> planner = make_planner(options.planner, params);
-  Robot robot(board, board, *planner, params);
-  robot.place(fixed_pose(scenario.start));
-  const Pose goal = fixed_pose({scenario.goal.at, 0});
-  robot.set_goal({goal.at, fixed_pose({{scenario.goal.tolerance_m, 0}, 0}).at.x});
+  const std::unique_ptr<Pilot> pilot = options.pilot(scenario, options.planner, plant);
 
   const std::uint64_t period_ms = static_cast<std::uint64_t>(params.safety.period.raw());
   const std::uint64_t ticks_a_second = 1000 / period_ms;
   RunResult result;
-  CommandHash hash;
+  link::CommandHash hash;
   std::optional<Verdict> verdict;
   const auto record = [&](const Status& status, const hal::RangeReadings& ranges, double t_s) {
     if (options.records == nullptr && !options.observe) return;
@@ -89,7 +82,7 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   for (std::uint64_t tick = 0; !verdict; ++tick) {
     const double t_s = static_cast<double>(tick * period_ms) / 1000.0;
     const hal::RangeReadings ranges = plant.ranges();
-    const Status& status = robot.tick(Time::from_raw(static_cast<std::uint32_t>(tick * period_ms)));
+    const Status& status = pilot->tick(Time::from_raw(static_cast<std::uint32_t>(tick * period_ms)));
     hash.add(status.command);
     ++result.ticks;
     result.time_s = t_s;

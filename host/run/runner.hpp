@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "host/run/pilot.hpp"
 #include "host/run/planners.hpp"
 #include "host/run/record.hpp"
 #include "host/scenario/scenario.hpp"
@@ -19,6 +20,7 @@ struct RunOptions {
   std::function<void(const TickRecord&)> observe;  ///< called with each of these records as it arises
   /// Called about once a simulated second with the simulated time and the distance left.
   std::function<void(double time_s, double distance_m)> progress;
+  MakePilot pilot = core_pilot;  ///< what drives
 };
 
 /// Deterministic: the same scenario and seed give the same hash on every machine.

@@ -7,12 +7,13 @@ import sys
 from sources import finish, sources
 
 # The stages of firmware/, lowest first: a stage includes itself and those before it.
-STAGES = ("core", "health", "params", "ranges", "ground", "fuzzy", "nav", "motion", "robot")
+STAGES = ("core", "health", "params", "ranges", "ground", "fuzzy", "nav", "motion", "mapper", "robot")
 
 # What a stage may include of hal/; a stage that is not named here includes none of it.
 HAL_OF_STAGE = {
     "ranges": {"hal/wire.hpp"},
     "motion": {"hal/wire.hpp"},
+    "mapper": {"hal/wire.hpp"},
     "robot": {"hal/wire.hpp", "hal/rangefinders.hpp", "hal/drive.hpp"},
 }
 
@@ -61,6 +62,14 @@ def hal_error(path, quoted, system):
     return "a backend includes firmware/, the contracts, itself and host/sim/"
 
 
+def image_error(quoted, system):
+    if system is not None:
+        return None if system in FREESTANDING else "an image has only <stdint.h> and <stddef.h>"
+    if quoted.startswith(("firmware/", "images/", "hal/link/")) or re.fullmatch(r"hal/[^/]+", quoted):
+        return None
+    return "an image includes firmware/, the contracts, hal/link/ and images/: the board is linked"
+
+
 def errors(path, text, exists):
     """(line, message) for every wrong #include of this file. exists(path) says what the tree has."""
     found = []
@@ -80,6 +89,8 @@ def errors(path, text, exists):
             error = firmware_error(path, quoted, system)
         elif path.startswith("hal/"):
             error = hal_error(path, quoted, system)
+        elif path.startswith("images/"):
+            error = image_error(quoted, system)
         if error:
             found.append((text.count("\n", 0, match.start()) + 1, f"{match.group().strip()}: {error}"))
     return found

@@ -2,7 +2,7 @@
 
 import pathlib
 
-FOLDERS = ("firmware", "hal", "host", "tests")
+FOLDERS = ("firmware", "hal", "host", "images", "tests")
 SUFFIXES = (".hpp", ".cpp")
 
 

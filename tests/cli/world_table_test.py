@@ -13,7 +13,7 @@ from whisker import KINDS, PLANNERS, Case, with_time_limit
 WIDEST = 100
 OPTIONS = {
     (): ("--help", "--version"),
-    ("run",): ("SCENARIO", "--planner", "--robot", "--seed", "--trace", "--svg", "--json"),
+    ("run",): ("SCENARIO", "--planner", "--robot", "--seed", "--trace", "--svg", "--json", "--chip"),
     ("campaign",): (
         "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--robot", "--jobs",
         "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace",

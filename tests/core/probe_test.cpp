@@ -60,11 +60,16 @@ TEST(Probe, AgreesWithEveryPointThatTheConesAllow) {
   EXPECT_GT(blocked_count, 1000);
 }
 
+void expect_gap(Vec point, Length gap) {
+  EXPECT_FALSE(near_way(point, 100_mm, gap));
+  EXPECT_TRUE(near_way(point, 100_mm, gap + micrometres(1)));
+}
+
 TEST(Way, IsAsFarAsItsNearestPoint) {
-  EXPECT_EQ(gap_from_way({-(30_mm), 40_mm}, 100_mm), 50_mm);
-  EXPECT_EQ(gap_from_way({0_mm, -(40_mm)}, 100_mm), 40_mm);
-  EXPECT_EQ(gap_from_way({100_mm, 40_mm}, 100_mm), 40_mm);
-  EXPECT_EQ(gap_from_way({130_mm, -(40_mm)}, 100_mm), 50_mm);
+  expect_gap({-(30_mm), 40_mm}, 50_mm);
+  expect_gap({0_mm, -(40_mm)}, 40_mm);
+  expect_gap({100_mm, 40_mm}, 40_mm);
+  expect_gap({130_mm, -(40_mm)}, 50_mm);
 }
 
 TEST(Probe, ABeamThatIsNotUsableBlocks) {

@@ -1,0 +1,62 @@
+/// What the robot learns about the ground near it, and how that holds its wheels back.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/core/trig.hpp"
+#include "firmware/core/units.hpp"
+#include "firmware/ground/patch.hpp"
+#include "firmware/ground/witness.hpp"
+#include "firmware/motion/history.hpp"
+#include "firmware/motion/shield.hpp"
+#include "firmware/nav/planner.hpp"
+#include "firmware/params.hpp"
+#include "firmware/ranges/conditioner.hpp"
+
+namespace whisker {
+
+/// Where the body is at a tick, and whether and since when it stands.
+struct Standing {
+  Pose pose;
+  Time now;
+  bool settled = false;
+  Time settled_since;
+};
+
+/// The clearance patch and what it is made from.
+class GroundMapper {
+ public:
+  void configure(const Params& params) noexcept;
+  void place(const Pose& pose) noexcept;
+  /// Marks what the beams show at this tick, and fills in what a planner sees of it.
+  void observe(const Standing& body, const ranges::Conditioner& conditioner, const Params& params,
+               nav::View& view) noexcept;
+  /// Slows a cruise down to what the ground allows.
+  void guard(nav::Manoeuvre& manoeuvre, const Pose& pose, const motion::WheelState& wheels,
+             const Params& params) noexcept;
+
+ private:
+  motion::History history_;
+  ground::Patch patch_;
+  ground::Witness witness_;
+  Q14 granted_;
+};
+
+/// Remembers no ground, for a chip with no room for it: 1.1 KB less. The thesis planner needs none; the
+/// skirt planner cannot do without.
+class NoMapper {
+ public:
+  void configure(const Params&) noexcept {}
+  void place(const Pose&) noexcept {}
+  void observe(const Standing&, const ranges::Conditioner&, const Params&, nav::View&) noexcept {}
+  void guard(nav::Manoeuvre&, const Pose&, const motion::WheelState&, const Params&) noexcept {}
+};
+
+/// The one that the core is built with.
+#ifdef WHISKER_SMALL
+using Mapper = NoMapper;
+#else
+using Mapper = GroundMapper;
+#endif
+
+}  // namespace whisker

@@ -1,0 +1,25 @@
+/// How deep the stack has been: the start-up paints it, and what is no longer paint was used.
+#pragma once
+
+#include <stdint.h>
+
+/// Of the linker script.
+extern "C" uint32_t __stack_bottom[];
+extern "C" uint32_t __stack_top[];
+
+namespace whisker::hal::mcu {
+
+constexpr uint32_t kPaint = 0xC0DEC0DEU;
+
+/// From a function that is called with an empty stack.
+inline void paint_stack(uint32_t* upto) noexcept {
+  for (volatile uint32_t* p = __stack_bottom; p < upto; ++p) *p = kPaint;
+}
+
+inline uint32_t deepest_stack() noexcept {
+  const uint32_t* p = __stack_bottom;
+  while (p < __stack_top && *p == kPaint) ++p;
+  return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(__stack_top) - reinterpret_cast<uintptr_t>(p));
+}
+
+}  // namespace whisker::hal::mcu

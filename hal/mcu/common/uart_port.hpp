@@ -1,0 +1,37 @@
+#pragma once
+
+#include "hal/byte_stream.hpp"
+#include "hal/console.hpp"
+
+namespace whisker::hal::mcu {
+
+/// A UART as a byte stream and as a console; polled. `Uart`: a class with static bool can_read(), uint8_t
+/// get(), bool can_write(), void put(uint8_t).
+template <class Uart>
+class UartPort final : public ByteStream, public Console {
+ public:
+  bool read(uint8_t* to, size_t count) noexcept override {
+    for (; count != 0; --count) {
+      while (!Uart::can_read()) {
+      }
+      *to++ = Uart::get();
+    }
+    return true;
+  }
+  bool write(const uint8_t* from, size_t count) noexcept override {
+    for (; count != 0; --count) put(*from++);
+    return true;
+  }
+  void print(const char* text) noexcept override {
+    while (*text != '\0') put(static_cast<uint8_t>(*text++));
+  }
+
+ private:
+  static void put(uint8_t byte) noexcept {
+    while (!Uart::can_write()) {
+    }
+    Uart::put(byte);
+  }
+};
+
+}  // namespace whisker::hal::mcu

@@ -1,0 +1,1 @@
+target_sources(whisker_board PRIVATE simavr/board.cpp)

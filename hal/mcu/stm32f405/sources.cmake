@@ -1,0 +1,21 @@
+# The drivers. On the chip they touch its registers; a test builds the same sources on models of them.
+set(whisker_stm32f405_sources
+  ${CMAKE_CURRENT_LIST_DIR}/../common/analogue_ir.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/../common/governor.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/../common/nearer.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/adc.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/bx_can.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/clock.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/encoders.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/i2c.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/i2c_rangers.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/interrupts.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/motors.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/pins.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/reporter.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/robot_board.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ticker.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/trouble.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/usart.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/vl53l0x.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/watchdog.cpp)

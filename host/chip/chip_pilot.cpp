@@ -1,0 +1,97 @@
+#include "host/chip/chip_pilot.hpp"
+
+#include "host/chip/process.hpp"
+#include "host/chip/words.hpp"
+#include "host/run/spec.hpp"
+
+namespace whisker::chip {
+namespace {
+
+Status status_of(const link::Answer& a) {
+  Status s;
+  s.command = a.command;
+  s.pose = {{Length::from_raw(a.pose.x), Length::from_raw(a.pose.y)}, Angle::from_raw(a.pose.heading)};
+  s.health.fault = static_cast<Fault>(a.fault);
+  nav::Decision& d = s.decision;
+  d.manoeuvre.kind = static_cast<nav::Kind>(a.manoeuvre);
+  d.mode = static_cast<nav::Mode>(a.mode);
+  d.why = static_cast<nav::Why>(a.why);
+  d.outcome = static_cast<nav::Outcome>(a.outcome);
+  d.danger_count = a.danger_count;
+  d.looked = a.looked != 0;
+  d.inputs = {Q7::from_raw(a.distance), Q7::from_raw(a.bias)};
+  d.response = {Q14::from_raw(a.turn), Q14::from_raw(a.step), {a.cell_distance, a.cell_bias}};
+  for (int i = 0; i < hal::kBeams; ++i) {
+    s.echoes.beam[i] = {Length::from_raw(a.echo[i]), static_cast<ranges::Validity>(a.validity[i])};
+  }
+  return s;
+}
+
+/// Values from another program that are used as indices.
+bool sound(const link::Answer& a) {
+  return a.mode < nav::kModes && a.why < nav::kWhys &&
+         a.outcome <= static_cast<std::uint8_t>(nav::Outcome::gave_up) &&
+         a.fault <= static_cast<std::uint8_t>(Fault::no_progress);
+}
+
+class ChipPilot final : public Pilot {
+ public:
+  ChipPilot(const std::string& command, const Scenario& scenario, PlannerKind planner, sim::Plant& plant)
+      : plant_(plant), process_(command) {
+    say([](Bytes& to) { append(to, link::Name::hello); });
+    if (hear<link::Greeting>().version != link::kVersion)
+      throw ChipError(command + ": speaks another version");
+    say([&](Bytes& to) {
+      append_params(to, scenario.robot);
+      append_begin(to, planner == PlannerKind::thesis ? link::Planner::thesis : link::Planner::skirt,
+                   fixed_pose(scenario.start));
+      append_goal(to, fixed_goal(scenario.goal));
+    });
+  }
+
+  ~ChipPilot() override {
+    try {
+      say([](Bytes& to) { append(to, link::Name::end); });
+      hear<link::Total>();
+    } catch (const ChipError&) {
+      // It has ended already.
+    }
+  }
+
+  const Status& tick(Time now) override {
+    say([&](Bytes& to) { append(to, link::Name::tick, tick_of(plant_, now)); });
+    const auto answer = hear<link::Answer>();
+    if (!sound(answer)) throw ChipError("the chip's answer makes no sense");
+    status_ = status_of(answer);
+    plant_.command(status_.command);
+    return status_;
+  }
+
+ private:
+  template <class F>
+  void say(const F& words) {
+    Bytes bytes;
+    words(bytes);
+    process_.write(bytes.data(), bytes.size());
+  }
+  template <class M>
+  M hear() {
+    std::uint8_t bytes[link::size_of<M>()];
+    process_.read(bytes, sizeof bytes);
+    return link::decode<M>(bytes);
+  }
+
+  sim::Plant& plant_;
+  Process process_;
+  Status status_;
+};
+
+}  // namespace
+
+MakePilot chip_pilot(const std::string& command) {
+  return [command](const Scenario& scenario, PlannerKind planner, sim::Plant& plant) {
+    return std::make_unique<ChipPilot>(command, scenario, planner, plant);
+  };
+}
+
+}  // namespace whisker::chip

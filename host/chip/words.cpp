@@ -1,0 +1,37 @@
+#include "host/chip/words.hpp"
+
+#include "hal/link/params.hpp"
+
+namespace whisker::chip {
+namespace {
+
+link::Stand stand(const Pose& pose) { return {pose.at.x.raw(), pose.at.y.raw(), pose.heading.raw()}; }
+
+}  // namespace
+
+void append_params(Bytes& to, const Params& params) {
+  append(to, link::Name::params);
+  to.resize(to.size() + link::params_size());
+  link::ParamEncoder encoder{to.data() + to.size() - link::params_size()};
+  for_each_param(params, encoder);
+}
+
+void append_begin(Bytes& to, link::Planner planner, const Pose& pose) {
+  append(to, link::Name::begin, link::Begin{planner, stand(pose)});
+}
+
+void append_goal(Bytes& to, const nav::Goal& goal) {
+  append(to, link::Name::goal, link::Target{goal.at.x.raw(), goal.at.y.raw(), goal.tolerance.raw()});
+}
+
+void append_place(Bytes& to, const Pose& pose) { append(to, link::Name::place, stand(pose)); }
+
+link::Tick tick_of(const sim::Plant& plant, Time now) {
+  link::Tick tick;
+  tick.now_ms = now.raw();
+  tick.ranges = plant.ranges();
+  tick.counts = plant.encoders();
+  return tick;
+}
+
+}  // namespace whisker::chip

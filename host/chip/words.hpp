@@ -1,0 +1,33 @@
+/// Messages to a robot at the other end of a byte stream; hal/link/message.hpp has their meaning.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "firmware/robot.hpp"
+#include "hal/link/bytes.hpp"
+#include "hal/link/message.hpp"
+#include "host/sim/plant.hpp"
+
+namespace whisker::chip {
+
+using Bytes = std::vector<std::uint8_t>;
+
+inline void append(Bytes& to, link::Name name) { to.push_back(static_cast<std::uint8_t>(name)); }
+
+template <class M>
+void append(Bytes& to, link::Name name, const M& body) {
+  append(to, name);
+  to.resize(to.size() + link::size_of<M>());
+  link::encode(body, to.data() + to.size() - link::size_of<M>());
+}
+
+void append_params(Bytes& to, const Params& params);
+void append_begin(Bytes& to, link::Planner planner, const Pose& pose);
+void append_goal(Bytes& to, const nav::Goal& goal);
+void append_place(Bytes& to, const Pose& pose);
+
+/// What the plant's sensors say at this tick.
+link::Tick tick_of(const sim::Plant& plant, Time now);
+
+}  // namespace whisker::chip

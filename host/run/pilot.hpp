@@ -1,0 +1,30 @@
+/// What drives a simulated robot: the core in this process, or one on a chip.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "firmware/robot.hpp"
+#include "host/run/planners.hpp"
+#include "host/scenario/scenario.hpp"
+#include "host/sim/plant.hpp"
+
+namespace whisker {
+
+class Pilot {
+ public:
+  virtual ~Pilot() = default;
+  /// One control tick: takes what the plant's sensors say now, and commands its wheels.
+  virtual const Status& tick(Time now) = 0;
+};
+
+/// A pilot that stands at the scenario's start and has its goal. Scenario and plant must outlive it.
+using MakePilot = std::function<std::unique_ptr<Pilot>(const Scenario&, PlannerKind, sim::Plant&)>;
+
+/// The core in this process.
+std::unique_ptr<Pilot> core_pilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant);
+
+/// The scenario's goal in the core's units.
+nav::Goal fixed_goal(const Goal& goal);
+
+}  // namespace whisker

@@ -1,0 +1,36 @@
+// The least firmware: the core with its default planner, and drivers that know nothing. What the budgets
+// weigh.
+#include "firmware/nav/skirt.hpp"
+#include "firmware/robot.hpp"
+#include "hal/board.hpp"
+#include "hal/link/room.hpp"
+
+using namespace whisker;
+
+namespace {
+
+struct NoSensors final : hal::Rangefinders {
+  bool read(hal::RangeReadings&) noexcept override { return false; }
+};
+struct NoWheels final : hal::Drive {
+  bool command(hal::WheelSpeeds) noexcept override { return true; }
+  bool read(hal::EncoderCounts&) noexcept override { return false; }
+};
+
+constexpr Params kParams;
+NoSensors sensors;
+NoWheels wheels;
+link::Room<sizeof(nav::TableSkirt)> room_for_skirt;
+link::Room<sizeof(Robot)> room_for_robot;
+
+}  // namespace
+
+int main() {
+  hal::Clock& clock = hal::board().clock;
+  auto& skirt = room_for_skirt.make<nav::TableSkirt>(kParams, fuzzy::kDefaultTable);
+  auto& robot = room_for_robot.make<Robot>(sensors, wheels, skirt.planner, kParams);
+  robot.place({});
+  robot.set_goal({{4_m, 1_m}, 100_mm});
+  for (int i = 0; i < 10; ++i) robot.tick(Time::from_raw(clock.now_ms()));
+  return robot.status().health.fault == Fault::none ? 1 : 0;
+}

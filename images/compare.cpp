@@ -1,0 +1,103 @@
+// What the fuzzy stage costs, done in four ways: a line for each, with the least, the mean and the most work
+// over a grid of inputs. The only program here that uses floating point.
+#include "firmware/fuzzy/closed_form.hpp"
+#include "firmware/fuzzy/exact.hpp"
+#include "firmware/fuzzy/response_table.hpp"
+#include "firmware/fuzzy/rules.hpp"
+#include "hal/board.hpp"
+#include "images/float_inference.hpp"
+
+using namespace whisker;
+
+/// An engine's call operator as the function that it is on ARM and RISC-V, so that all are called by the same
+/// code.
+using Infer = fuzzy::Response (*)(const void* engine, fuzzy::Inputs);
+
+/// Returns at once: its one instruction, and those of the call, are no work of an engine.
+fuzzy::Response idle(const void*, fuzzy::Inputs) asm("whisker_idle");
+#ifdef __riscv
+asm(".section .text.idle, \"ax\"\nwhisker_idle: ret\n.previous");
+#else
+asm(".section .text.idle, \"ax\"\n.thumb_func\nwhisker_idle: bx lr\n.previous");
+#endif
+
+namespace {
+
+struct Work {
+  uint32_t least = UINT32_MAX;
+  uint32_t most = 0;
+  uint64_t sum = 0;
+  uint32_t count = 0;
+};
+
+void print(uint32_t number) {
+  char digits[11];
+  char* p = digits + sizeof digits - 1;
+  *p = '\0';
+  do {
+    *--p = static_cast<char>('0' + number % 10);
+    number /= 10;
+  } while (number != 0);
+  hal::board().console.print(" ");
+  hal::board().console.print(p);
+}
+
+struct Floating {
+  const images::FloatRules& rules;
+  fuzzy::Response operator()(fuzzy::Inputs in) const noexcept {
+    const images::FloatResponse r = images::infer(rules, static_cast<float>(in.distance.raw()) / 128,
+                                                  static_cast<float>(in.bias.raw()) / 128);
+    const auto q14 = [](float x) { return Q14::from_raw(static_cast<int16_t>(x * 16384)); };
+    return {q14(r.turn), q14(r.step)};
+  }
+};
+
+[[gnu::noinline]] uint32_t timed(Infer infer, const void* engine, fuzzy::Inputs in) {
+  hal::Meter& meter = hal::board().meter;
+  const uint32_t from = meter.stamp();
+  const fuzzy::Response result = infer(engine, in);
+  const uint32_t to = meter.stamp();
+  asm volatile("" : : "r"(&result) : "memory");
+  return meter.between(from, to);
+}
+
+Work measure(Infer infer, const void* engine) {
+  Work work;
+  for (int d = 0; d <= 1280; d += 27) {
+    for (int r = -1024; r <= 1024; r += 37) {
+      const fuzzy::Inputs in{Q7::from_raw(static_cast<int16_t>(d)), Q7::from_raw(static_cast<int16_t>(r))};
+      const uint32_t spent = timed(infer, engine, in);
+      if (spent < work.least) work.least = spent;
+      if (spent > work.most) work.most = spent;
+      work.sum += spent;
+      ++work.count;
+    }
+  }
+  return work;
+}
+
+/// From the first instruction of the engine to its return, both included.
+template <class Engine>
+void report(const char* name, const Engine& engine) {
+  fuzzy::Response (Engine::*const member)(fuzzy::Inputs) const noexcept = &Engine::operator();
+  Infer infer = nullptr;
+  __builtin_memcpy(&infer, &member, sizeof infer);
+  const uint32_t call = measure(idle, nullptr).least - 1;
+  const Work work = measure(infer, &engine);
+  hal::board().console.print(name);
+  print(work.least - call);
+  print(static_cast<uint32_t>(work.sum / work.count) - call);
+  print(work.most - call);
+  hal::board().console.print("\n");
+}
+
+}  // namespace
+
+int main() {
+  const images::FloatRules float_rules = images::as_float(fuzzy::kRules);
+  report("table", fuzzy::Bilinear{fuzzy::kResponseTable});
+  report("closed", fuzzy::ClosedForm{fuzzy::kRules});
+  report("fixed", fuzzy::Exact{fuzzy::kRules});
+  report("float", Floating{float_rules});
+  return 0;
+}

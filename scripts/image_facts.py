@@ -1,0 +1,128 @@
+"""What compilers and linkers leave beside an image: sections by stage of the core, and the deepest chain of calls."""
+
+import collections
+import pathlib
+import re
+import subprocess
+
+import chips
+
+FLASH = (".text", ".rodata", ".data", ".progmem")
+RAM = (".data", ".bss")
+# AVR reads constants from RAM, whither its start-up copies them.
+RAM_OF_AVR = (*RAM, ".rodata")
+
+# Where a call through a table may lead; what calls by one that is not here is an error.
+INDIRECT = (
+    (r"Robot(8navigate|10set_goal|6cancel|5reset)E", r"N7whisker3nav(12SkirtPlanner|13ThesisPlanner)(4stepE|8set_goalE|6cancelE)"),
+    (r"N7whisker3nav", r"N7whisker3nav9TableBend4bendE"),
+    (r"Robot5senseE", r"4readERN7whisker3hal13RangeReadingsE|4readERNS_3hal13RangeReadingsE|4readERNS1?_13RangeReadingsE"),
+    (r"Robot7measureE", r"4readERN7whisker3hal13EncoderCountsE|4readERNS_3hal13EncoderCountsE|4readERNS1?_13EncoderCountsE"),
+    (r"Robot(5driveE|4tickE)", r"7commandE"),
+)  # fmt: skip
+
+# What libgcc's helpers take, read in their code; they have no call graph.
+HELPER_BYTES = {"cortex-m0plus": 112}
+OTHER_HELPER_BYTES = 56
+
+
+def stages():
+    """Base name of each of the core's sources -> its stage."""
+    found = {}
+    for path in sorted((chips.ROOT / "firmware").rglob("*.cpp")):
+        parts = path.relative_to(chips.ROOT / "firmware").parts
+        found[path.name] = parts[0] if len(parts) > 1 else "robot"
+    return found
+
+
+def sections(map_file):
+    """(input section, bytes, object) of everything that the linker placed and kept."""
+    text = pathlib.Path(map_file).read_text()
+    text = text[text.index("Linker script and memory map") :].split("/DISCARD/")[0]
+    pattern = r"^ (\.[\w.$*]+|COMMON)\s+0x([0-9a-f]+)\s+0x([0-9a-f]+) (\S+)$"
+    for name, address, size, origin in re.findall(pattern, text, re.MULTILINE):
+        if int(size, 16) and int(address, 16) or name.startswith(".vectors"):
+            yield name, int(size, 16), origin
+
+
+def sizes(image, prefix):
+    """Bytes of flash, and of RAM without the stack, of a linked image."""
+    text = subprocess.run([f"{prefix}size", image], capture_output=True, text=True, check=True).stdout
+    code, data, bss = map(int, text.splitlines()[1].split()[:3])
+    return code + data, data + bss
+
+
+def weigh(map_file, ram_sections=RAM):
+    """Bytes of flash and RAM by stage; what is not the core's is 'helpers' (libgcc) or 'rest'."""
+    known = stages()
+    flash, ram = collections.Counter(), collections.Counter()
+    for name, size, origin in sections(map_file):
+        member = re.search(r"\((\w+\.cpp)\.obj\)$", origin)
+        of_core = member and "whisker_core" in origin
+        stage = known.get(member[1], "rest") if of_core else "helpers" if "libgcc" in origin else "rest"
+        # What headers of the core define lies in whichever object asked for it first.
+        named = re.search(r"_ZNK?7whisker\d+(" + "|".join(set(known.values())) + r")\d", name)
+        if stage == "rest" and named:
+            stage = named[1]
+        if name.startswith(FLASH):
+            flash[stage] += size
+        if name.startswith(ram_sections) or name == "COMMON":
+            ram[stage] += size
+    return flash, ram
+
+
+class CallGraph:
+    """Of the .ci files that -fcallgraph-info=su writes."""
+
+    def __init__(self, files, helper_bytes):
+        self.own, self.calls, self.helper_bytes = {}, collections.defaultdict(set), helper_bytes
+        for path in files:
+            text = path.read_text()
+            for title, label in re.findall(r'^node: \{ title: "([^"]+)" label: "([^"]*)"', text, re.MULTILINE):
+                size = re.search(r"(\d+) bytes \((\w+)", label)
+                if size:
+                    if size[2] != "static":
+                        raise ValueError(f"{title}: its stack is not static")
+                    self.own[title] = max(self.own.get(title, 0), int(size[1]))
+            for source, target in re.findall(r'sourcename: "([^"]+)" targetname: "([^"]+)"', text):
+                self.calls[source].add(target)
+
+    def targets(self, caller):
+        for called in self.calls[caller]:
+            if called != "__indirect_call":
+                yield called
+                continue
+            rules = [where for who, where in INDIRECT if re.search(who, caller)]
+            if not rules:
+                raise ValueError(f"{caller} calls by a table, and nobody says what")
+            yield from (f for f in self.own if any(re.search(where, f) for where in rules))
+
+    def deepest(self, root):
+        """(bytes, chain of functions) of the deepest chain from the function whose name ends so."""
+        (start,) = [f for f in self.own if f.endswith(root)]
+        return self._deepest(start, {}, ())
+
+    def _deepest(self, function, done, above):
+        if function in above:
+            raise ValueError(f"{function} calls itself: no bound")
+        if function not in done:
+            best = (0, ())
+            for called in self.targets(function):
+                # A constructor's two names are one function.
+                called = called if called in self.own else re.sub(r"C1E", "C2E", called)
+                if called in self.own:
+                    best = max(best, self._deepest(called, done, (*above, function)))
+                elif re.fullmatch(r"__\w+|mem\w+", called):
+                    best = max(best, (self.helper_bytes, (called,)))
+                else:
+                    raise ValueError(f"{called}: not in the call graph")
+            done[function] = (self.own[function] + best[0], (function, *best[1]))
+        return done[function]
+
+
+def core_stack(build, target):
+    """Worst case of Robot::tick, bytes, and its chain of calls."""
+    folder = chips.BUILD / build
+    files = [*(folder / "firmware").rglob("*.ci"), *(folder / "images").rglob("bare-table.dir/**/*.ci")]
+    graph = CallGraph(files, HELPER_BYTES.get(target.name, OTHER_HELPER_BYTES))
+    return graph.deepest("_ZN7whisker5Robot4tickENS_4TimeE")

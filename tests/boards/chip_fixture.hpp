@@ -1,0 +1,54 @@
+#pragma once
+
+#include "hal/mcu/stm32f405/clock.hpp"
+#include "hal/mcu/stm32f405/reg/bases.hpp"
+#include "tests/boards/models/adc_model.hpp"
+#include "tests/boards/models/can_model.hpp"
+#include "tests/boards/models/clock_models.hpp"
+#include "tests/boards/models/gpio_model.hpp"
+#include "tests/boards/models/i2c_model.hpp"
+#include "tests/boards/models/iwdg_model.hpp"
+#include "tests/boards/models/tim_model.hpp"
+#include "tests/boards/models/usart_model.hpp"
+
+namespace whisker::hal::stm32f405 {
+
+/// A chip with every peripheral that the board uses, as it wakes up.
+struct ModelChip {
+  ModelChip() {
+    chip.attach(base::kRcc, rcc);
+    chip.attach(base::kFlash, flash);
+    chip.attach(base::kGpioA, gpio_a);
+    chip.attach(base::kGpioB, gpio_b);
+    chip.attach(base::kGpioC, gpio_c);
+    chip.attach(base::kTim1, tim1);
+    chip.attach(base::kTim2, tim2);
+    chip.attach(base::kTim3, tim3);
+    chip.attach(base::kTim4, tim4);
+    chip.attach(base::kI2c1, i2c);
+    chip.attach(base::kAdc1, adc);
+    chip.attach(base::kAdcCommon, adc_common);
+    chip.attach(base::kUsart2, usart);
+    chip.attach(base::kIwdg, iwdg);
+    chip.attach(base::kCan1, can);
+    chip.attach(base::kNvic, nvic);
+  }
+
+  model::Chip chip;
+  model::RccModel rcc;
+  model::Peripheral flash;
+  model::GpioModel gpio_a, gpio_b, gpio_c;
+  model::TimModel tim1;
+  model::TimModel tim2{16};
+  model::TimModel tim3, tim4;
+  model::I2cModel i2c;
+  model::AdcModel adc;
+  model::Peripheral adc_common;
+  model::UsartModel usart;
+  model::IwdgModel iwdg;
+  model::CanModel can;
+  model::Peripheral nvic;
+  Troubles troubles;
+};
+
+}  // namespace whisker::hal::stm32f405

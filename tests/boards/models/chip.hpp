@@ -1,0 +1,61 @@
+/// The STM32F405 as its drivers see it: registers at addresses, and behind each peripheral a model of what it
+/// does. Time goes on with every access, so that a driver which waits is a driver which polls.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+#include "hal/mcu/stm32f405/io.hpp"
+
+namespace whisker::hal::stm32f405::model {
+
+/// A peripheral: registers that remember what was written, unless a model does more.
+class Peripheral {
+ public:
+  virtual ~Peripheral() = default;
+  virtual std::uint32_t load(std::uint32_t offset) { return word(offset); }
+  virtual void store(std::uint32_t offset, std::uint32_t value) { word(offset) = value; }
+  /// A poll's time has passed.
+  virtual void advance() {}
+
+  std::uint32_t get(Field f) { return value(f, word(f.offset)); }
+  void put(Field f, std::uint32_t v) { word(f.offset) = (word(f.offset) & ~mask(f)) | bits(f, v); }
+  std::uint32_t& word(std::uint32_t offset) { return words_.at(offset / 4); }
+
+  static constexpr std::uint32_t kSpan = 0x400;
+
+ private:
+  std::array<std::uint32_t, kSpan / 4> words_{};
+};
+
+/// The newest chip is the one at which the drivers' load() and store() end. Access to an address that no
+/// peripheral has is a test's failure, and so is a wait that goes on for ever.
+class Chip {
+ public:
+  static constexpr std::uint64_t kMostAccesses = 200000000;
+  /// A poll's time: Patience::kCyclesPerPoll at 16 MHz.
+  static constexpr double kUsPerAccess = 0.5;
+
+  Chip();
+  ~Chip();
+  Chip(const Chip&) = delete;
+  Chip& operator=(const Chip&) = delete;
+
+  /// The peripheral must outlive the chip's use.
+  void attach(Address base, Peripheral& peripheral);
+  std::uint32_t load(Address address);
+  void store(Address address, std::uint32_t value);
+
+  std::uint64_t accesses() const { return accesses_; }
+  double now_us() const { return static_cast<double>(accesses_) * kUsPerAccess; }
+  static Chip& current();
+
+ private:
+  Peripheral* find(Address address, std::uint32_t& offset);
+  std::map<Address, Peripheral*> peripherals_;
+  std::uint64_t accesses_ = 0;
+  Chip* before_;
+};
+
+}  // namespace whisker::hal::stm32f405::model

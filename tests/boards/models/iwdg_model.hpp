@@ -1,0 +1,42 @@
+#pragma once
+
+#include "hal/mcu/stm32f405/reg/iwdg.hpp"
+#include "tests/boards/models/chip.hpp"
+
+namespace whisker::hal::stm32f405::model {
+
+/// Its values can be written while it is unlocked, and take their time to be taken over.
+class IwdgModel : public Peripheral {
+ public:
+  IwdgModel() { word(iwdg::kRlr.offset) = 0xFFF; }
+
+  void store(std::uint32_t offset, std::uint32_t value) override {
+    if (offset == iwdg::kKr.offset) {
+      if (value == 0xCCCC) running = true;
+      if (value == 0xAAAA) ++feedings;
+      unlocked_ = value == 0x5555;
+      return;
+    }
+    const Field busy = offset == iwdg::kPr.offset ? iwdg::kPvu : iwdg::kRvu;
+    if (!unlocked_ || get(busy) != 0) return;
+    word(offset) = value;
+    put(busy, 1);
+    left_ = 200;
+  }
+  void advance() override {
+    if (!running || never_ready || left_ == 0 || --left_ > 0) return;
+    put(iwdg::kPvu, 0);
+    put(iwdg::kRvu, 0);
+  }
+  double timeout_ms() { return (word(iwdg::kRlr.offset) + 1.0) * (4 << word(iwdg::kPr.offset)) / 32.0; }
+
+  bool running = false;
+  int feedings = 0;
+  bool never_ready = false;
+
+ private:
+  bool unlocked_ = false;
+  int left_ = 0;
+};
+
+}  // namespace whisker::hal::stm32f405::model

@@ -1,0 +1,162 @@
+#include "hal/mcu/stm32f405/robot_board.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "firmware/nav/skirt.hpp"
+#include "hal/mcu/common/counts.hpp"
+#include "hal/mcu/stm32f405/pins.hpp"
+#include "hal/mcu/stm32f405/robot_params.hpp"
+#include "hal/mcu/stm32f405/vl53l0x.hpp"
+#include "host/sim/plant.hpp"
+#include "tests/boards/chip_fixture.hpp"
+#include "tests/boards/models/vl53l0x_model.hpp"
+
+namespace whisker::hal::stm32f405 {
+namespace {
+
+/// The whole image but for its start-up: core and drivers on the chip's models, whose pins move a simulated
+/// robot.
+class RobotBoardTest : public ::testing::Test, public ModelChip {
+ protected:
+  RobotBoardTest() {
+    // So that the models' 16 MHz hold.
+    rcc.dead_crystal = rcc.pll_without_lock = true;
+    for (model::Vl53l0xModel& s : sensor) i2c.attach(s);
+    adc.raw = [this](std::uint32_t channel) { return infrared(static_cast<int>(channel) - 10); };
+    gpio_c.on_rise = [this](std::uint8_t pin) {
+      for (int i = 0; i < kBeams; ++i) {
+        if (wiring::kRangerAwake[i].number == pin) sensor[i].reset_line(true);
+      }
+    };
+    board.start();
+    robot.place({});
+  }
+
+  void go(Length x) { robot.set_goal({{x, 0_mm}, 50_mm}); }
+  /// Runs the loop for so long; true as soon as `done`.
+  template <class Done>
+  bool run(double seconds, Done done) {
+    const double end = chip.now_us() + seconds * 1e6;
+    while (chip.now_us() < end) {
+      board.poll(robot.status());
+      if (board.due(10)) {
+        robot.tick(board.now());
+        if (done()) return true;
+      }
+      while (plant.time() * 1e6 < chip.now_us()) move_on();
+    }
+    return false;
+  }
+  static bool never() { return false; }
+
+  model::Vl53l0xModel sensor[kBeams];
+  RobotBoard board{kVl53l0x, kMotorParams, kMotorParams};
+  nav::TableSkirt planner{kRobotParams, fuzzy::kDefaultTable};
+  Robot robot{board.rangefinders(), board.drive(), planner.planner, kRobotParams};
+
+  sim::Segment wall{{0.8, -3.0}, {0.8, 3.0}};
+  sim::WorldView world{nullptr, 0, &wall, 1};
+  sim::Plant plant{world, spec(), {}, 1, {}};
+
+ private:
+  static sim::RobotSpec spec() {
+    sim::RobotSpec s = sim::robot_spec(kRobotParams);
+    s.latency_s = 0.0;
+    s.max_speed = 0.4;
+    return s;
+  }
+  std::int16_t commanded(int wheel) {
+    const bool forward = gpio_b.output(wiring::kDirections[2 * wheel].number);
+    const bool backward = gpio_b.output(wiring::kDirections[2 * wheel + 1].number);
+    const double speed = tim1.duty(wheel + 1) * kMotorParams.full_speed;
+    return static_cast<std::int16_t>(forward == backward ? 0 : forward ? speed : -speed);
+  }
+  void move_on() {
+    plant.command({commanded(0), commanded(1)});
+    plant.advance();
+    const EncoderCounts now = plant.encoders();
+    tim3.turn(mcu::counts_between(seen_.left, now.left));
+    tim4.turn(mcu::counts_between(seen_.right, now.right));
+    seen_ = now;
+    const RangeReadings ranges = plant.ranges();
+    for (int i = 0; i < kBeams; ++i) {
+      if (!gpio_c.output(wiring::kRangerAwake[i].number)) sensor[i].reset_line(false);
+      const RangeReading& r = ranges.beam[i];
+      if (r.sequence == measured_) continue;
+      sensor[i].measure(r.status == RangeStatus::ok ? r.mm : vl53l0x::kOutOfReachMm);
+    }
+    measured_ = ranges.beam[0].sequence;
+  }
+  int infrared(int beam) {
+    const RangeReading r = plant.ranges().beam[beam];
+    const bool seen = r.status == RangeStatus::ok && r.mm >= 60 && r.mm < 1500;
+    return (seen ? mcu::voltage_at(mcu::kGp2y0a21, static_cast<std::int16_t>(r.mm)) : 200) * 4095 / 3300;
+  }
+  EncoderCounts seen_{};
+  std::uint8_t measured_ = 15;
+};
+
+TEST_F(RobotBoardTest, DrivesToItsGoalThroughTheChipsRegisters) {
+  go(500_mm);
+  EXPECT_TRUE(run(30, [this] { return robot.status().decision.outcome == nav::Outcome::reached; }));
+  EXPECT_FALSE(plant.in_contact());
+  EXPECT_NEAR(plant.pose().at.x, 0.5, 0.06);
+  EXPECT_NEAR(plant.pose().at.y, 0, 0.03);
+  EXPECT_EQ(robot.status().health.fault, Fault::none);
+  EXPECT_EQ(robot.status().health.late_ticks, 0U);
+  EXPECT_EQ(board.troubles().total(), 2U) << usart.sent;  // the oscillators
+}
+
+TEST_F(RobotBoardTest, AGoalBehindAWallEndsWithoutAContact) {
+  go(790_mm);
+  run(10, [this] { return robot.status().decision.outcome != nav::Outcome::running && plant.time() > 1; });
+  EXPECT_FALSE(plant.in_contact());
+  EXPECT_GT(plant.pose().at.x, 0.3);
+}
+
+TEST_F(RobotBoardTest, ASensorThatDiesStopsTheRobotWithItsName) {
+  wall = {{9, -3}, {9, 3}};
+  go(5_m);
+  ASSERT_TRUE(run(10, [this] { return plant.v_left() > 0.1 && plant.v_right() > 0.1; }));
+  sensor[1].dead = true;
+  run(3, never);
+  EXPECT_EQ(robot.status().health.fault, Fault::range_lost);
+  EXPECT_GE(board.troubles().of(Trouble::ranger_silent), 1U);
+  EXPECT_FALSE(plant.in_contact());
+  EXPECT_EQ(tim1.duty(1), 0);
+  EXPECT_EQ(tim1.duty(2), 0);
+  EXPECT_NE(usart.sent.find("fault range_lost"), std::string::npos);
+  EXPECT_NE(usart.sent.find("ranger_silent"), std::string::npos);
+}
+
+TEST_F(RobotBoardTest, TheWatchdogIsFedWithEachTickOnly) {
+  run(1, never);
+  const int feedings = iwdg.feedings;
+  run(1, never);
+  EXPECT_NEAR(iwdg.feedings - feedings, 100, 1);
+  for (int i = 0; i < 1000; ++i) board.poll(robot.status());
+  EXPECT_NEAR(iwdg.feedings - feedings, 100, 1);
+}
+
+TEST_F(RobotBoardTest, EverythingDeadAtTheStartEndsInNamesInBoundedTime) {
+  model::Chip another;
+  model::Peripheral nothing[16];
+  const Address bases[] = {base::kRcc,  base::kFlash, base::kGpioA, base::kGpioB, base::kGpioC,
+                           base::kTim1, base::kTim2,  base::kTim3,  base::kTim4,  base::kI2c1,
+                           base::kAdc1, base::kCan1,  base::kIwdg,  base::kNvic,  base::kUsart2};
+  int i = 0;
+  for (const Address b : bases) another.attach(b, nothing[i++]);
+  RobotBoard dead(kVl53l0x, kMotorParams, kMotorParams);
+  dead.start();
+  EXPECT_LT(another.now_us(), 100000);
+  EXPECT_EQ(dead.can().state(), CanState::off);
+  EXPECT_EQ(dead.troubles().of(Trouble::crystal_not_ready), 1U);
+  EXPECT_EQ(dead.troubles().of(Trouble::pll_not_locked), 1U);
+}
+
+TEST(RobotParamsTest, AreOnesThatTheCoreAccepts) { EXPECT_EQ(check(kRobotParams), ParamFault::none); }
+
+}  // namespace
+}  // namespace whisker::hal::stm32f405

@@ -1,0 +1,87 @@
+"""The image for the STM32F405 boots in QEMU, keeps its period, and names what is missing there.
+
+QEMU's netduinoplus2 has the chip's USART and timers; its clock unit, pins, I2C, CAN and watchdog are absent and its
+converter never ends. So every driver must come to the end of its patience, and the core must stop with a fault.
+
+usage: stm32f405_in_qemu.py IMAGE
+"""
+
+import re
+import subprocess
+import sys
+import threading
+
+# One instruction takes a nanosecond there and a timer's count 16: as at 16 MHz, with an instruction a cycle.
+COMMAND = ["qemu-system-arm", "-M", "netduinoplus2", "-display", "none", "-monitor", "none", "-icount", "shift=0",
+           "-serial", "null", "-serial", "stdio", "-kernel"]
+REPORTS = 4
+SECONDS = 60
+
+EXPECTED = {
+    "crystal_not_ready": (1, 1),
+    "pll_not_locked": (1, 1),
+    "can not_started": (1, 1),
+    # A rangefinder is woken about ten times a second: three share the bus, one at a time.
+    "i2c_timeout": (60, 150),
+    "ranger_not_started": (60, 150),
+    # Three conversions every 48 ms.
+    "adc_no_conversion": (150, 300),
+}
+
+
+def reports_of(image):
+    """The first lines that the image prints, one report after the other: a dictionary each."""
+    qemu = subprocess.Popen([*COMMAND, image], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+    deadline = threading.Timer(SECONDS, qemu.kill)
+    deadline.start()
+    reports = []
+    try:
+        for line in qemu.stdout:
+            line = line.strip()
+            if line.startswith("t "):
+                if len(reports) == REPORTS:
+                    break
+                reports.append({"first": line})
+            elif reports:
+                name, count = line.rsplit(" ", 1)
+                reports[-1][name] = int(count)
+    finally:
+        deadline.cancel()
+        qemu.kill()
+        qemu.wait()
+    return reports
+
+
+def problems_of(reports):
+    if len(reports) < REPORTS:
+        return [f"{len(reports)} reports in {SECONDS} s, not {REPORTS}"]
+    found = []
+    for k, report in enumerate(reports):
+        first = re.fullmatch(r"t (\d+) (\w+) (\w+) fault (\w+)", report["first"])
+        if not first:
+            found.append(f"not a report: {report['first']}")
+        elif not 1000 * (k + 1) <= int(first[1]) < 1000 * (k + 1) + 100:
+            found.append(f"report {k} at {first[1]} ms")
+        elif (first[2], first[4]) != ("stopped", "encoder_jump"):
+            # The encoders' timers run free there.
+            found.append(f"the core has not stopped as it should: {report['first']}")
+    last = {name: count for name, count in reports[-1].items() if name != "first"}
+    for name in sorted(EXPECTED.keys() | last.keys()):
+        low, high = EXPECTED.get(name, (0, 0))
+        if not low <= last.get(name, 0) <= high:
+            found.append(f"{name} {last.get(name, 0)}, not {low} to {high}")
+    return found
+
+
+def main(image):
+    reports = reports_of(image)
+    problems = problems_of(reports)
+    for report in reports:
+        print(report)
+    for problem in problems:
+        print(problem)
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

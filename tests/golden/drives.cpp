@@ -1,0 +1,96 @@
+#include <fmt/core.h>
+
+#include "host/run/runner.hpp"
+#include "host/run/spec.hpp"
+#include "host/scenario/load.hpp"
+#include "host/worlds/generate.hpp"
+#include "tests/golden/stream.hpp"
+
+namespace whisker::golden {
+namespace {
+
+/// Drives with the core in this process, and writes down what it is told.
+class RecordingPilot final : public Pilot {
+ public:
+  RecordingPilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant, chip::Bytes& to)
+      : pilot_(core_pilot(scenario, planner, plant)), plant_(plant), to_(to) {
+    const bool skirt = planner == PlannerKind::skirt;
+    chip::append_params(to, scenario.robot);
+    chip::append_begin(to, skirt ? link::Planner::skirt : link::Planner::thesis, fixed_pose(scenario.start));
+    chip::append_goal(to, fixed_goal(scenario.goal));
+  }
+  const Status& tick(Time now) override {
+    chip::append(to_, link::Name::tick, chip::tick_of(plant_, now));
+    return pilot_->tick(now);
+  }
+
+ private:
+  std::unique_ptr<Pilot> pilot_;
+  sim::Plant& plant_;
+  chip::Bytes& to_;
+};
+
+Stream drive(const std::string& world, Scenario scenario, PlannerKind planner, double seconds) {
+  Stream stream{fmt::format("{} {}", name(planner), world), {}};
+  scenario.time_limit_s = seconds;
+  RunOptions options;
+  options.planner = planner;
+  options.pilot = [&](const Scenario& s, PlannerKind kind, sim::Plant& plant) {
+    return std::make_unique<RecordingPilot>(s, kind, plant, stream.messages);
+  };
+  run(scenario, options);
+  return stream;
+}
+
+Scenario from_file(const std::string& name) {
+  return load_scenario(std::string(WHISKER_SOURCE_DIR) + "/" + name + ".toml");
+}
+
+Scenario generated(worlds::Kind kind, bool noise) {
+  worlds::Options options;
+  options.seed = 1;
+  options.noise = noise;
+  return worlds::generate(kind, options);
+}
+
+}  // namespace
+
+std::vector<Stream> drives() {
+  std::vector<Stream> all;
+  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {
+    const auto add = [&](const char* world, const Scenario& scenario, double seconds) {
+      all.push_back(drive(world, scenario, planner, seconds));
+    };
+    add("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), 12);
+    add("discs", generated(worlds::Kind::discs, false), 10);
+    add("maze with noise", generated(worlds::Kind::maze, true), 6);
+    add("all noise", from_file("tests/cli/scenarios/all_noise"), 4);
+    add("crossing mover", from_file("tests/cli/scenarios/crossing_mover"), 3);
+    add("large fast robot", from_file("tests/cli/scenarios/large_fast_robot"), 3);
+    add("small slow robot", from_file("tests/cli/scenarios/small_slow_robot"), 3);
+  }
+  all.push_back(drive("spiral", generated(worlds::Kind::spiral, false), PlannerKind::skirt, 6));
+  all.push_back(drive("enclosed", generated(worlds::Kind::enclosed, false), PlannerKind::skirt, 6));
+  return all;
+}
+
+std::vector<Stream> thesis_only() {
+  constexpr PlannerKind kPlanner = PlannerKind::thesis;
+  std::vector<Stream> all;
+  all.push_back(drive("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), kPlanner, 12));
+  all.push_back(drive("maze with noise", generated(worlds::Kind::maze, true), kPlanner, 6));
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) all.push_back(storm(kPlanner, seed, 2, 100));
+  return all;
+}
+
+std::vector<Stream> excerpts() {
+  std::vector<Stream> all;
+  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {
+    all.push_back(drive("discs, excerpt", generated(worlds::Kind::discs, true), planner, 2));
+    all.push_back(storm(planner, 1, 1, 80));
+    all.push_back(storm(planner, 2, 2, 80));
+  }
+  return all;
+}
+
+}  // namespace whisker::golden

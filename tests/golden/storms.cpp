@@ -1,0 +1,126 @@
+#include <fmt/core.h>
+
+#include "host/chip/words.hpp"
+#include "host/run/planners.hpp"
+#include "tests/core/properties/random_params.hpp"
+#include "tests/core/properties/storm_board.hpp"
+#include "tests/golden/stream.hpp"
+
+namespace whisker::golden {
+namespace {
+
+using test::Bits;
+
+/// A stormy board, asked once a tick before the robot is, so that what it says can be written down.
+class Oracle final : public hal::Rangefinders, public hal::Drive {
+ public:
+  explicit Oracle(test::StormBoard& board) : board_(board) {}
+
+  link::Tick foresee(Time now) {
+    link::Tick tick;
+    tick.now_ms = now.raw();
+    tick.ranges_given = board_.read(tick.ranges) ? 1 : 0;
+    tick.counts_given = board_.read(tick.counts) ? 1 : 0;
+    if (tick.ranges_given == 0) tick.ranges = {};
+    if (tick.counts_given == 0) tick.counts = {};
+    told_ = tick;
+    return tick;
+  }
+  bool accepted() const { return accepted_; }
+
+  bool read(hal::RangeReadings& out) noexcept override {
+    if (told_.ranges_given != 0) out = told_.ranges;
+    return told_.ranges_given != 0;
+  }
+  bool read(hal::EncoderCounts& out) noexcept override {
+    if (told_.counts_given != 0) out = told_.counts;
+    return told_.counts_given != 0;
+  }
+  bool command(hal::WheelSpeeds speeds) noexcept override { return accepted_ = board_.command(speeds); }
+
+ private:
+  test::StormBoard& board_;
+  link::Tick told_;
+  bool accepted_ = true;
+};
+
+Length any_length(Bits& bits) { return Length::from_raw(static_cast<std::int32_t>(bits.next())); }
+
+nav::Goal random_goal(Bits& bits) {
+  if (bits.one_in(10)) return {{any_length(bits), any_length(bits)}, any_length(bits)};
+  const auto near = [&] { return millimetres(bits.whole(-4000, 4000)); };
+  return {{near(), near()}, millimetres(bits.whole(0, 300))};
+}
+
+Time next_tick(Time now, const Params& params, Bits& bits) {
+  if (bits.one_in(1000)) return Time::from_raw(static_cast<std::uint32_t>(bits.next()));
+  if (bits.one_in(10)) return now + milliseconds(bits.whole(1, params.safety.max_gap.raw()));
+  return now + params.safety.period;
+}
+
+/// What a user does, now and then; told to the robot and written down.
+void interfere(Robot& robot, Bits& bits, chip::Bytes& to) {
+  const auto set_goal = [&] {
+    const nav::Goal goal = random_goal(bits);
+    robot.set_goal(goal);
+    chip::append_goal(to, goal);
+  };
+  if (bits.one_in(200)) set_goal();
+  if (bits.one_in(400)) {
+    robot.cancel();
+    chip::append(to, link::Name::cancel);
+  }
+  if (bits.one_in(500)) {
+    const Pose pose{{any_length(bits), millimetres(bits.whole(-9, 9))},
+                    Angle::from_raw(static_cast<std::uint32_t>(bits.next()))};
+    robot.place(pose);
+    chip::append_place(to, pose);
+  }
+  if (robot.status().health.fault != Fault::none && bits.one_in(30)) {
+    robot.reset();
+    chip::append(to, link::Name::reset);
+    set_goal();
+  }
+}
+
+}  // namespace
+
+Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
+  Stream stream{fmt::format("{} storm {}", name(kind), seed), {}};
+  chip::Bytes& to = stream.messages;
+  Bits bits(seed);
+  const Params params = seed == 1 ? Params{} : test::random_params(bits);
+  test::StormBoard board(Bits(bits.next()), params, fury);
+  Oracle oracle(board);
+  const auto planner = make_planner(kind, params);
+  Robot robot(oracle, oracle, *planner, params);
+  chip::append_params(to, params);
+  chip::append_begin(to, kind == PlannerKind::skirt ? link::Planner::skirt : link::Planner::thesis, Pose{});
+  robot.place(Pose{});
+  const nav::Goal goal = random_goal(bits);
+  robot.set_goal(goal);
+  chip::append_goal(to, goal);
+  Time now = Time::from_raw(static_cast<std::uint32_t>(bits.next()));
+  for (int i = 0; i < ticks; ++i) {
+    now = next_tick(now, params, bits);
+    link::Tick tick = oracle.foresee(now);
+    robot.tick(now);
+    tick.accepts = oracle.accepted() ? 1 : 0;
+    chip::append(to, link::Name::tick, tick);
+    board.pass();
+    interfere(robot, bits, to);
+  }
+  return stream;
+}
+
+std::vector<Stream> storms() {
+  std::vector<Stream> all;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    for (const PlannerKind kind : {PlannerKind::skirt, PlannerKind::thesis}) {
+      all.push_back(storm(kind, seed, static_cast<int>(seed) % 4, 150));
+    }
+  }
+  return all;
+}
+
+}  // namespace whisker::golden

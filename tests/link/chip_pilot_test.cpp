@@ -1,0 +1,55 @@
+// A chip that does not do what it should is an error with a name, never a hang.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "host/chip/chip_pilot.hpp"
+#include "host/chip/process.hpp"
+#include "host/run/runner.hpp"
+#include "host/scenario/load.hpp"
+
+namespace whisker::chip {
+namespace {
+
+std::string complaint(const std::string& command) {
+  RunOptions options;
+  options.pilot = chip_pilot(command);
+  Scenario scenario =
+      load_scenario(std::string(WHISKER_SOURCE_DIR) + "/host/worlds/scenarios/two_discs.toml");
+  try {
+    run(scenario, options);
+  } catch (const ChipError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(ChipPilot, NamesWhatIsWrong) {
+  EXPECT_EQ(complaint("exit 3"), "exit 3: the chip has ended");
+  EXPECT_EQ(complaint("no_such_command 2>&-"), "no_such_command 2>&-: the chip has ended");
+  EXPECT_EQ(complaint("yes"), "yes: speaks another version");
+  EXPECT_EQ(complaint("printf '\\001\\000'"), "printf '\\001\\000': the chip has ended")
+      << "after its greeting";
+}
+
+TEST(ChipPilot, RefusesAnswersThatMakeNoSense) {
+  EXPECT_EQ(complaint("printf '\\001\\000'; yes"), "the chip's answer makes no sense");
+}
+
+TEST(ChipPilot, DrivesAsTheCoreInThisProcess) {
+  const Scenario scenario =
+      load_scenario(std::string(WHISKER_SOURCE_DIR) + "/host/worlds/scenarios/two_discs.toml");
+  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {
+    RunOptions options;
+    options.planner = planner;
+    const RunResult here = run(scenario, options);
+    options.pilot = chip_pilot(WHISKER_REPLAY);
+    const RunResult there = run(scenario, options);
+    EXPECT_EQ(here.hash, there.hash);
+    EXPECT_EQ(here.ticks, there.ticks);
+    EXPECT_EQ(here.detail, there.detail);
+  }
+}
+
+}  // namespace
+}  // namespace whisker::chip

@@ -1,0 +1,67 @@
+"""The core on an emulated chip drives the simulated robot as the core in this process does: same rows, same verdict.
+
+usage: closed_loop.py ROOT WHISKER
+"""
+
+import concurrent.futures
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+# (what stands behind --chip, scenario, planner)
+TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
+SHORT = "host/worlds/scenarios/two_discs.toml"
+DRIVES = (
+    ("cortex-m3 companion-table --serial", TRAP, "skirt"),
+    ("cortex-m3", SHORT, "thesis"),
+    ("cortex-m0plus", TRAP, "skirt"),
+    ("rv32imac", TRAP, "skirt"),
+    ("cortex-m0plus companion-table --serial", SHORT, "skirt"),
+    ("rv32imac companion-table --serial", SHORT, "skirt"),
+    ("wasm32", TRAP, "skirt"),
+)
+
+
+def drive(whisker, scenario, planner, trace, chip=None):
+    command = [whisker, "run", scenario, "--planner", planner, "--trace", trace, "--json"]
+    done = subprocess.run(command + (["--chip", chip] if chip else []), capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"exit status {done.returncode}: {done.stderr}{done.stdout}")
+    return json.loads(done.stdout), pathlib.Path(trace).read_text()
+
+
+def first_difference(here, there):
+    for number, (a, b) in enumerate(zip(here.splitlines(), there.splitlines()), 1):
+        if a != b:
+            return f"line {number}:\n  here  {a}\n  there {b}"
+    return "one is longer"
+
+
+def judge(root, whisker, folder, number):
+    """What is wrong with this drive, or None; and its verdict."""
+    chip, scenario, planner = DRIVES[number]
+    trace, path = str(pathlib.Path(folder, f"{number}.csv")), str(pathlib.Path(root, scenario))
+    try:
+        here = drive(whisker, path, planner, trace)
+        there = drive(whisker, path, planner, trace, f"{root}/scripts/chip {chip}")
+    except RuntimeError as error:
+        return str(error), None
+    return None if here == there else first_difference(here[1], there[1]), here[0]
+
+
+def main(root, whisker):
+    wrong = 0
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = pool.map(lambda number: judge(root, whisker, folder, number), range(len(DRIVES)))
+        for (chip, scenario, planner), (problem, verdict) in zip(DRIVES, found):
+            wrong += problem is not None
+            print(f"{chip}, {planner}, {pathlib.Path(scenario).stem}: {problem or verdict}", flush=True)
+    print(f"closed loop: {len(DRIVES)} drives, {wrong} wrong")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,41 @@
+#!/bin/sh
+# Mends FILE.s. A displacement reaches 63. Where a 16-bit number's two bytes lie at 63 and 64, clang 14 writes 64, and
+# its assembler silently encodes another address. Instead the pointer walks on by one and back: loads that move it
+# leave the flags alone. And an alias is no address of program memory, as clang 14 writes and its assembler refuses.
+# usage: avr_assembly.sh FILE.s
+set -eu
+awk '
+  /^\.set .*, pm\(.*\)$/ {
+    sub(/pm\(/, "")
+    sub(/\)$/, "")
+  }
+  $1 ~ /^(ldd|std)$/ && match($0, /[YZ]\+[0-9]+/) && substr($0, RSTART + 2, RLENGTH - 2) + 0 > 63 {
+    pointer = substr($0, RSTART, 1)
+    displacement = substr($0, RSTART + 2, RLENGTH - 2)
+    match($0, /r[0-9]+/)
+    register = substr($0, RSTART, RLENGTH)
+    own = pointer == "Y" ? "^r(28|29)$" : "^r(30|31)$"
+    if (displacement != 64 || register ~ own) {
+      print FILENAME ":" NR ": no way to mend this:" $0 | "cat >&2"
+      exit 1
+    }
+    load = "\tld\t" register ", "
+    save = "\tpush\t" register
+    restore = "\tpop\t" register
+    if ($1 == "ldd") {
+      print load pointer "+"
+      print "\tldd\t" register ", " pointer "+63"
+    } else {
+      print save
+      print load pointer "+"
+      print restore
+      print "\tstd\t" pointer "+63, " register
+    }
+    print save
+    print load "-" pointer
+    print restore
+    next
+  }
+  { print }
+' "$1" >"$1.mended"
+mv "$1.mended" "$1"

@@ -1,0 +1,3 @@
+set(WHISKER_CPU cortex-m4)
+set(WHISKER_BOARD stm32f405)
+include(${CMAKE_CURRENT_LIST_DIR}/cortex_m.cmake)
