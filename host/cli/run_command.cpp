@@ -21,18 +21,19 @@ struct Options {
   std::optional<std::uint64_t> seed;
   std::string trace;
   std::string svg;
+  std::string html;
   bool json = false;
 };
 
 int execute(const Options& o) {
-  check_outputs({o.trace, o.svg}, {o.scenario, o.robot});
+  check_outputs({o.trace, o.svg, o.html}, {o.scenario, o.robot});
   Scenario scenario = load_scenario(o.scenario);
   if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
 
   RunOptions options;
   options.seed = o.seed;
   options.planner = o.planner;
-  return drive_one(scenario, options, {o.trace, o.svg, o.json});
+  return drive_one(scenario, options, {o.trace, o.svg, o.html, o.json});
 }
 
 }  // namespace
@@ -48,6 +49,7 @@ void add_run(CLI::App& app, int& status) {
       ->type_name("N");
   add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");
   add_file(*cmd, "--svg", o->svg, "Draw the run");
+  add_file(*cmd, "--html", o->html, "Write a page that replays the run in a browser");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->callback([o, &status] { status = execute(*o); });
 }

@@ -11,6 +11,23 @@
 namespace whisker {
 namespace {
 
+/// Passes everything on, and remembers which ground it was shown.
+class Shown final : public nav::Planner {
+ public:
+  explicit Shown(nav::Planner& planner) : planner_(planner) {}
+  void set_goal(const nav::Goal& goal) noexcept override { planner_.set_goal(goal); }
+  void cancel() noexcept override { planner_.cancel(); }
+  nav::Decision step(const nav::View& view) noexcept override {
+    patch_ = view.patch;
+    return planner_.step(view);
+  }
+  const ground::Patch* patch() const { return patch_; }
+
+ private:
+  nav::Planner& planner_;
+  const ground::Patch* patch_ = nullptr;
+};
+
 std::optional<Verdict> verdict_of(const Status& status) {
   if (status.health.fault != Fault::none) {
     const bool stands = status.command.left == 0 && status.command.right == 0;
@@ -70,7 +87,8 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
                    options.seed.value_or(scenario.seed), scenario.start);
   hal::SimBoard board(plant);
   const std::shared_ptr<nav::Planner> planner = make_planner(options.planner, params);
-  Robot robot(board, board, *planner, params);
+  Shown shown(*planner);
+  Robot robot(board, board, shown, params);
   robot.place(fixed_pose(scenario.start));
   const Pose goal = fixed_pose({scenario.goal.at, 0});
   robot.set_goal({goal.at, fixed_pose({{scenario.goal.tolerance_m, 0}, 0}).at.x});
@@ -81,10 +99,11 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   CommandHash hash;
   std::optional<Verdict> verdict;
   const auto record = [&](const Status& status, const hal::RangeReadings& ranges, double t_s) {
-    if (options.records == nullptr && !options.observe) return;
+    if (options.records == nullptr && !options.observe && !options.watch) return;
     const TickRecord r = record_of(plant, status, ranges, t_s);
     if (options.records != nullptr) options.records->push_back(r);
     if (options.observe) options.observe(r);
+    if (options.watch) options.watch({r, status.health, shown.patch()});
   };
   for (std::uint64_t tick = 0; !verdict; ++tick) {
     const double t_s = static_cast<double>(tick * period_ms) / 1000.0;
