@@ -61,7 +61,7 @@ export class ProgressPanel {
     const met = this.distance[edge.hit];
     const left = edge.left === null ? null : this.distance[edge.left];
     const jump = make('button', 'link', `${t[edge.hit].toFixed(1)} s`);
-    jump.setAttribute('aria-label', `Go to where edge ${i + 1} was met`);
+    jump.setAttribute('aria-label', `${t[edge.hit].toFixed(1)} s: go to where edge ${i + 1} was met`);
     jump.addEventListener('click', () => this.player.seek(edge.hit));
     const row = make('tr', '', [
       make('td', 'number', String(i + 1)),

@@ -6,7 +6,7 @@ import type {Player} from './player.ts';
 import {firedRules, type FiredRule} from './rules.ts';
 import {usesTable} from './table_use.ts';
 import type {Theme} from './theme.ts';
-import {degrees} from './words.ts';
+import {degrees, ruleThen, ruleWhen} from './words.ts';
 
 const SHOWN_RULES = 4;
 
@@ -60,7 +60,7 @@ export class ResponsePanel {
     const tick = this.player.tick;
     const at = (name: string) => run.column(name)[tick];
     const inUse = usesTable(run, tick);
-    const question = `${at('d')} ${at('r')} ${inUse}`;
+    const question = `${at('d')} ${at('r')} ${run.mode(tick)}`;
     if (question === this.shown) return;
     this.shown = question;
     const rules = firedRules(run.shared.controller, at('d'), at('r'));
@@ -72,26 +72,30 @@ export class ResponsePanel {
     setText('value-sa', at('sa').toFixed(2));
     setText('value-sd', at('sd').toFixed(2));
     const asked = sideways(at('sa') * run.info.robot.base_turn);
-    setText(
-      'table-says',
-      inUse ? `Now it asks for ${asked}.` : `Not in use now; its last answer was ${asked}.`,
-    );
+    setText('table-says', inUse ? `Now it asks for ${asked}.` : this.unused(tick, asked));
     this.listRules(rules);
+  }
+
+  private unused(tick: number, asked: string): string {
+    const instead = this.run.mode(tick) === 'skirting' ? ': along an edge it keeps beside it instead' : '';
+    return `Not in use now${instead}. Its last answer was ${asked}.`;
   }
 
   private listRules(rules: FiredRule[]): void {
     const {controller} = this.run.shared;
     const items = rules.slice(0, SHOWN_RULES).map(({d, r, weight}) => {
-      const [turn] = controller.turn[d][r];
-      const [step] = controller.step[d][r];
+      const [turnTerm, turn] = controller.turn[d][r];
+      const [stepTerm] = controller.step[d][r];
+      const terms = `D ${controller.d.terms[d][0]}, R ${controller.r.terms[r][0]}: SA ${turnTerm}, SD ${stepTerm}`;
       const bar = make('span', 'bar');
       bar.style.setProperty('--share', String(weight));
-      return make('li', '', [
-        make('span', 'rule', `D ${controller.d.terms[d][0]}, R ${controller.r.terms[r][0]}`),
-        make('span', 'rule', `SA ${turn}, SD ${step}`),
+      const item = make('li', '', [
+        make('span', '', `${ruleWhen(d, r)}: ${ruleThen(turn, controller.sa.max)}`),
         bar,
         make('span', 'number', weight.toFixed(2)),
       ]);
+      item.title = terms;
+      return item;
     });
     element('rules').replaceChildren(...items);
   }

@@ -80,6 +80,22 @@ export const COUNTER_WORDS: Record<string, string> = {
   clock_jumps: 'clock jumps',
 };
 
+/** Of the terms of D, the nearest first. */
+const AHEAD = ['very near ahead', 'near ahead', 'some way ahead', 'far ahead', 'very far ahead'];
+/** Of the terms of R, the most negative first: R is right minus left. */
+const SIDES = ['right much nearer', 'right nearer', 'both sides alike', 'left nearer', 'left much nearer'];
+
+/** When the rule of these terms speaks: "near ahead, left nearer". */
+export function ruleWhen(d: number, r: number): string {
+  return `${AHEAD[d]}, ${SIDES[r]}`;
+}
+
+/** What it asks for: "turn right hard". */
+export function ruleThen(turn: number, mostTurn: number): string {
+  if (turn === 0) return 'straight on';
+  return `turn ${turn > 0 ? 'left' : 'right'}${Math.abs(turn) >= mostTurn ? ' hard' : ''}`;
+}
+
 /** What happens at a tick, as one sentence. */
 export function sentence(mode: string, why: string): string {
   const because = BECAUSE[why] ?? why;
