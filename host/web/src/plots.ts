@@ -101,8 +101,11 @@ export class Plots {
     const tick = this.player.tick;
     const now = this.run.t[tick];
     for (const {plot, chart, head, values} of this.plots) {
-      if (this.zoomed) chart.setScale('x', this.window(now));
-      head.style.transform = `translateX(${chart.valToPos(now, 'x')}px)`;
+      const {min, max} = this.window(now);
+      if (this.zoomed) chart.setScale('x', {min, max});
+      // Not by valToPos: the chart takes a new scale a little later.
+      const at = ((now - min) / (max - min)) * (chart.bbox.width / uPlot.pxRatio);
+      head.style.transform = `translateX(${at}px)`;
       plot.lines.forEach(({values: all}, i) => {
         const value = all[tick];
         const text = value === null ? 'lost' : value.toFixed(2);
