@@ -1,6 +1,7 @@
 // The replay page in a browser.
 import assert from 'node:assert/strict';
 import {statSync} from 'node:fs';
+import {join} from 'node:path';
 import {after, afterEach, before, describe, test} from 'node:test';
 import {
   accessibilityFaults,
@@ -14,7 +15,7 @@ import {
   seek,
   tickOf,
 } from './browser.mjs';
-import {Folder, U_TRAP} from './scenarios.mjs';
+import {Folder, ROOT, U_TRAP} from './scenarios.mjs';
 
 describe('the replay page', () => {
   const folder = new Folder();
@@ -269,14 +270,30 @@ describe('the replay page', () => {
   }
 
   test('a moving obstacle is where the simulator has it', async () => {
-    const scenario = new URL('../cli/scenarios/crossing_mover.toml', import.meta.url).pathname;
-    folder.run('mover', scenario);
+    folder.run('mover', join(ROOT, 'tests/cli/scenarios/crossing_mover.toml'));
     const {page, complaints} = await openPage(browser, folder.url('mover.html', '#t=2'));
     const still = await pictureOf(page, 'world');
     await seek(page, 250);
     assert.notEqual((await pictureOf(page, 'world')).sum, still.sum);
     assert.deepEqual(complaints, []);
   });
+
+  for (const [name, words] of [
+    ['blind', /stopped with a fault after 1\.\d s/],
+    ['run_over', /touched an obstacle after 0\.\d s/],
+    ['goal_at_start', /reached the goal in 0\.0 s/],
+    ['no_time', /gave up after/],
+  ]) {
+    test(`opens the short run ${name} at its end and at its beginning`, async () => {
+      folder.run(name, join(ROOT, `tests/cli/scenarios/${name}.toml`));
+      const {page, complaints} = await openPage(browser, folder.url(`${name}.html`, '#t=999'));
+      assert.match(await page.textContent('#verdict'), words);
+      await page.click('#play');
+      await page.waitForFunction(() => !window.whisker.player.playing);
+      await seek(page, 0);
+      assert.deepEqual(complaints, []);
+    });
+  }
 
   test('ten minutes at 100 Hz stay below 5 MB, and open', async () => {
     const long = folder.tenMinutes('long');

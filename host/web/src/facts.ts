@@ -4,7 +4,7 @@ import {element, make, setText} from './dom.ts';
 import type {Player} from './player.ts';
 import type {Theme} from './theme.ts';
 import {stateColour} from './timeline.ts';
-import {COUNTER_WORDS, FAULTS, metres, OUTCOMES, sentence} from './words.ts';
+import {COUNTER_WORDS, FAULTS, metres, sentence, verdict} from './words.ts';
 
 const NOISE: [key: string, words: string, factor: number, unit: string][] = [
   ['range_sigma_m', 'range noise', 1000, 'mm'],
@@ -33,7 +33,7 @@ export class Facts {
     const {result, name, planner, seed, noise} = run.info;
     setText('title', name || 'unnamed scenario');
     document.title = `${name || 'run'} - Whisker`;
-    setText('verdict', `${OUTCOMES[result.outcome] ?? result.outcome} in ${result.time_s.toFixed(1)} s`);
+    setText('verdict', verdict(result.outcome, result.time_s));
     element('verdict').dataset.outcome = result.outcome;
     const clearance = result.min_clearance_m < 1000 ? metres(result.min_clearance_m, 3) : 'nothing near';
     const facts: [string, string][] = [
@@ -67,14 +67,15 @@ export class Facts {
     setText('state', run.mode(tick).replaceAll('_', ' '));
     element('state').style.setProperty('--chip', this.theme.palette[stateColour(run, tick)]);
     element('state').classList.toggle('pale', stateColour(run, tick) === 'still');
-    setText('sentence', sentence(run.mode(tick), run.why(tick)));
+    const fault = run.shared.faults[at('fault')];
+    const named = fault === 'none' ? '' : ` The fault: ${FAULTS[fault] ?? fault}.`;
+    setText('sentence', sentence(run.mode(tick), run.why(tick)) + named);
     setText('now-time', `${run.t[tick].toFixed(2)} s`);
     setText('now-tick', `tick ${tick}`);
     setText('now-distance', metres(this.distance[tick]));
     setText('now-speed', `${((at('v_left_mps') + at('v_right_mps')) / 2).toFixed(2)} m/s`);
     const turning = (at('v_right_mps') - at('v_left_mps')) / run.info.robot.track;
     setText('now-turn', `${((turning * 180) / Math.PI).toFixed(0)}°/s`);
-    const fault = run.shared.faults[at('fault')];
     setText('fault', FAULTS[fault] ?? fault);
     for (const {name, value, item} of this.counters) {
       const text = String(at(name));

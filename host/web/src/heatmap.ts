@@ -44,7 +44,7 @@ export class HeatMap {
     this.draw();
   }
 
-  show(question: Question): void {
+  show(question: Question | null): void {
     this.question = question;
     this.draw();
   }

@@ -63,6 +63,11 @@ export class ResponsePanel {
     const question = `${at('d')} ${at('r')} ${run.mode(tick)}`;
     if (question === this.shown) return;
     this.shown = question;
+    // No step factor is 0: what shows one has not been asked.
+    if (at('sd') === 0) {
+      this.showUnasked();
+      return;
+    }
     const rules = firedRules(run.shared.controller, at('d'), at('r'));
     for (const map of this.maps) {
       map.show({d: at('d'), r: at('r'), cellD: at('cell_d'), cellR: at('cell_r'), rules, inUse});
@@ -74,6 +79,13 @@ export class ResponsePanel {
     const asked = sideways(at('sa') * run.info.robot.base_turn);
     setText('table-says', inUse ? `Now it asks for ${asked}.` : this.unused(tick, asked));
     this.listRules(rules);
+  }
+
+  private showUnasked(): void {
+    for (const map of this.maps) map.show(null);
+    for (const id of ['value-d', 'value-r', 'value-sa', 'value-sd']) setText(id, '-');
+    setText('table-says', 'It has not been asked yet.');
+    element('rules').replaceChildren();
   }
 
   private unused(tick: number, asked: string): string {

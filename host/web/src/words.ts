@@ -41,7 +41,7 @@ export const BECAUSE: Record<string, string> = {
   step_budget: 'its number of steps is used up',
   length_budget: 'its length of way is used up',
   cancelled: 'the goal was cancelled',
-  fault: 'a fault stopped it, see the counters',
+  fault: 'something failed',
 };
 
 export const OUTCOMES: Record<string, string> = {
@@ -94,6 +94,12 @@ export function ruleWhen(d: number, r: number): string {
 export function ruleThen(turn: number, mostTurn: number): string {
   if (turn === 0) return 'straight on';
   return `turn ${turn > 0 ? 'left' : 'right'}${Math.abs(turn) >= mostTurn ? ' hard' : ''}`;
+}
+
+/** "reached the goal in 23.7 s" */
+export function verdict(outcome: string, seconds: number): string {
+  const words = OUTCOMES[outcome] ?? outcome;
+  return `${words} ${outcome === 'reached' ? 'in' : 'after'} ${seconds.toFixed(1)} s`;
 }
 
 /** What happens at a tick, as one sentence. */

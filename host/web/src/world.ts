@@ -12,7 +12,7 @@ const WIDTHS = [2.5, 3, 2.5, 3.5];
 const FOLLOWED_METRES = 2.6;
 
 function sceneBox(run: Run): Box {
-  const {start, goal, tolerance, bounds, discs, polygons, walls} = run.info.world;
+  const {start, goal, tolerance, bounds, discs, polygons, walls, movers} = run.info.world;
   const box = {left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity};
   const add = (x: number, y: number, r = 0) => {
     box.left = Math.min(box.left, x - r);
@@ -45,6 +45,7 @@ function sceneBox(run: Run): Box {
     addNear(bounds[2], bounds[3]);
   }
   for (const [dx, dy, r] of discs) addNear(dx, dy, Math.min(r, around));
+  for (const {path, radius} of movers) for (const [px, py] of path) addNear(px, py, radius);
   for (const points of [...polygons, ...walls]) for (const [px, py] of points) addNear(px, py);
   return box;
 }
@@ -238,10 +239,22 @@ export class WorldView {
       c.fillStyle = colour;
       c.fillText(text, at[0], at[1] + dy);
     };
-    word('start', place(...start), 20, p.muted);
-    word('goal', place(...goal), -20, p.goal);
+    const below = Math.max(8, run.info.robot.radius * camera.scale) + 12;
+    const above = Math.max(8, run.info.world.tolerance * camera.scale) + 12;
+    word('start', place(...start), below, p.muted);
+    word('goal', place(...goal), -above, p.goal);
     const x = run.column('x_m');
     const y = run.column('y_m');
+    if (run.info.result.outcome === 'contact' && tick === run.ticks - 1) {
+      const at = place(x[tick], y[tick]);
+      const radius = Math.max(8, run.info.robot.radius * camera.scale) + 5;
+      c.beginPath();
+      c.arc(at[0], at[1], radius, 0, 2 * Math.PI);
+      c.strokeStyle = p.contact;
+      c.lineWidth = 3;
+      c.stroke();
+      word('contact', at, -radius - 10, p.contact);
+    }
     run.info.edges.forEach(({hit, left}, i) => {
       if (hit > tick) return;
       const numbered: [number, boolean][] = [[hit, true]];
