@@ -166,7 +166,7 @@ void add_campaign(CLI::App& app, int& status) {
   add_file(*cmd, "--svg", o->svg, "With --replay: draw the run");
   add_file(*cmd, "--trace", o->trace, "With --replay: write one CSV row per control tick");
   add_file(*cmd, "--html", o->html,
-           "Write a page of the missions, the worst to replay; or of the one replayed");
+           "Write a page: the missions, and the worst to replay");
   cmd->callback([o, cmd, &status] {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {

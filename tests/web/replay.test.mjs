@@ -184,7 +184,7 @@ describe('the replay page', () => {
     assert.match(await page.textContent('#sentence'), /Follows the edge/);
     assert.match(await page.textContent('#leave-rule'), /it may leave below \d/);
     assert.match(await page.textContent('#table-says'), /Not in use now/);
-    assert.equal(await page.locator('#edge-rows tr.now').count(), 1);
+    assert.equal(await page.locator('#edge-rows tr.current').count(), 1);
     await page.click('#edge-rows button');
     await drawn(page);
     assert.equal(await tickOf(page), await page.evaluate(() => window.whisker.run.info.edges[0].hit));

@@ -4,7 +4,7 @@ import {element, make, setText} from './dom.ts';
 import {histogram} from './histogram.ts';
 import {Scatter} from './scatter.ts';
 import type {Theme} from './theme.ts';
-import {metres, OUTCOMES} from './words.ts';
+import {metres} from './words.ts';
 
 export interface Mission {
   seed: number;
@@ -136,7 +136,7 @@ export class CampaignView {
       return make('tr', '', [
         make('td', 'number', String(i + 1)),
         make('td', '', [link]),
-        make('td', mission.success ? '' : 'bad', OUTCOMES[mission.outcome] ?? mission.outcome),
+        make('td', mission.success ? '' : 'bad', mission.outcome.replaceAll('_', ' ')),
         make('td', 'number', `${mission.time_s.toFixed(1)} s`),
         make('td', 'number', metres(mission.path_m)),
         make('td', 'number', mission.ratio === null ? '' : mission.ratio.toFixed(2)),

@@ -40,7 +40,7 @@ export class ProgressPanel {
   update(): void {
     const {tick} = this.player;
     this.run.info.edges.forEach(({hit, left}, i) => {
-      this.rows[i].classList.toggle('now', hit <= tick && tick < (left ?? Infinity));
+      this.rows[i].classList.toggle('current', hit <= tick && tick < (left ?? Infinity));
       this.rows[i].classList.toggle('later', tick < hit);
     });
     setText('leave-rule', this.leaveRule(tick));
