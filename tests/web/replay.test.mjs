@@ -157,6 +157,29 @@ describe('the replay page', () => {
     assert.ok(Math.abs(head.x - (box.x + 0.8 * box.width)) < 6, 'the playhead is elsewhere');
   });
 
+  test('the world zooms under the wheel, moves under the mouse, and comes back', async () => {
+    const {page} = await open('#t=5');
+    const box = await page.locator('#world').boundingBox();
+    const whole = await pictureOf(page, 'world');
+    await page.mouse.move(box.x + 200, box.y + 200);
+    await page.mouse.wheel(0, -400);
+    // The wheel's event comes some frames later.
+    let zoomed = whole;
+    for (let frame = 0; frame < 50 && zoomed.sum === whole.sum; ++frame) {
+      await drawn(page);
+      zoomed = await pictureOf(page, 'world');
+    }
+    assert.notEqual(zoomed.sum, whole.sum);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 260, box.y + 240, {steps: 4});
+    await page.mouse.up();
+    await drawn(page);
+    assert.notEqual((await pictureOf(page, 'world')).sum, zoomed.sum);
+    await page.click('#fit');
+    await drawn(page);
+    assert.equal((await pictureOf(page, 'world')).sum, whole.sum);
+  });
+
   test('links to a tick, and writes the link', async () => {
     const {page} = await open('#t=12.34');
     assert.equal(await tickOf(page), 1234);

@@ -3,52 +3,15 @@ import {Camera, type Box} from './camera.ts';
 import type {Run} from './data.ts';
 import {element, Surface} from './dom.ts';
 import type {Player} from './player.ts';
+import {listenToHands} from './hands.ts';
 import {Scenery} from './scenery.ts';
+import {sceneBox} from './scene_box.ts';
 import {pathPieces, type Piece} from './shapes.ts';
 import type {Colour, Theme} from './theme.ts';
 
 export const DOING_COLOURS: Colour[] = ['free', 'table', 'probing', 'danger'];
 const WIDTHS = [2.5, 3, 2.5, 3.5];
 const FOLLOWED_METRES = 2.6;
-
-function sceneBox(run: Run): Box {
-  const {start, goal, tolerance, bounds, discs, polygons, walls, movers} = run.info.world;
-  const box = {left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity};
-  const add = (x: number, y: number, r = 0) => {
-    box.left = Math.min(box.left, x - r);
-    box.right = Math.max(box.right, x + r);
-    box.bottom = Math.min(box.bottom, y - r);
-    box.top = Math.max(box.top, y + r);
-  };
-  const x = run.column('x_m');
-  const y = run.column('y_m');
-  for (let i = 0; i < run.ticks; i += 10) add(x[i], y[i], run.info.robot.radius);
-  add(start[0], start[1], 0.1);
-  add(goal[0], goal[1], Math.max(tolerance, 0.1));
-  // Of a vast world only what lies about the way.
-  const around = Math.max(4, box.right - box.left, box.top - box.bottom);
-  const limit = {
-    left: box.left - around,
-    right: box.right + around,
-    bottom: box.bottom - around,
-    top: box.top + around,
-  };
-  const addNear = (px: number, py: number, r = 0) => {
-    add(
-      Math.max(limit.left + r, Math.min(limit.right - r, px)),
-      Math.max(limit.bottom + r, Math.min(limit.top - r, py)),
-      r,
-    );
-  };
-  if (bounds) {
-    addNear(bounds[0], bounds[1]);
-    addNear(bounds[2], bounds[3]);
-  }
-  for (const [dx, dy, r] of discs) addNear(dx, dy, Math.min(r, around));
-  for (const {path, radius} of movers) for (const [px, py] of path) addNear(px, py, radius);
-  for (const points of [...polygons, ...walls]) for (const [px, py] of points) addNear(px, py);
-  return box;
-}
 
 export class WorldView {
   private readonly surface: Surface;
@@ -59,7 +22,6 @@ export class WorldView {
   private following = false;
   /** The reader has moved the view. */
   private moved = false;
-  private readonly pointers = new Map<number, [number, number]>();
 
   constructor(
     private readonly run: Run,
@@ -76,12 +38,11 @@ export class WorldView {
       this.draw();
     });
     this.fit();
-    canvas.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
-    canvas.addEventListener('pointerdown', (event) => this.down(event));
-    canvas.addEventListener('pointermove', (event) => this.move(event));
-    for (const type of ['pointerup', 'pointercancel'] as const) {
-      canvas.addEventListener(type, (event) => this.pointers.delete(event.pointerId));
-    }
+    listenToHands(canvas, {
+      zoom: (factor, x, y) => this.zoom(factor, x, y),
+      pan: (dx, dy) => this.pan(dx, dy),
+      oneFingerPans: () => this.moved,
+    });
     element('fit').addEventListener('click', () => this.showAll());
     element('follow').addEventListener('click', () => this.setFollowing(!this.following));
   }
@@ -297,37 +258,17 @@ export class WorldView {
     camera.x = x + ((camera.x - x) * camera.scale) / scale;
     camera.y = y + ((camera.y - y) * camera.scale) / scale;
     camera.scale = scale;
-    this.moved = true;
-    this.touchable();
-    this.draw();
+    this.movedByHand();
   }
 
-  private wheel(event: WheelEvent): void {
-    event.preventDefault();
-    this.zoom(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
-  }
-
-  private down(event: PointerEvent): void {
-    this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
-    if (event.pointerType === 'mouse') this.surface.canvas.setPointerCapture(event.pointerId);
-  }
-
-  private move(event: PointerEvent): void {
-    const before = this.pointers.get(event.pointerId);
-    if (!before) return;
-    const now: [number, number] = [event.offsetX, event.offsetY];
-    const others = [...this.pointers].filter(([id]) => id !== event.pointerId);
-    this.pointers.set(event.pointerId, now);
-    if (others.length > 0) {
-      const [ox, oy] = others[0][1];
-      const span = (q: [number, number]) => Math.max(1, Math.hypot(q[0] - ox, q[1] - oy));
-      this.zoom(span(now) / span(before), (now[0] + ox) / 2, (now[1] + oy) / 2);
-      return;
-    }
-    if (event.pointerType === 'touch' && !this.moved) return;
+  private pan(dx: number, dy: number): void {
     if (this.following) this.setFollowing(false);
-    this.camera.x -= (now[0] - before[0]) / this.camera.scale;
-    this.camera.y += (now[1] - before[1]) / this.camera.scale;
+    this.camera.x -= dx / this.camera.scale;
+    this.camera.y += dy / this.camera.scale;
+    this.movedByHand();
+  }
+
+  private movedByHand(): void {
     this.moved = true;
     this.touchable();
     this.draw();
