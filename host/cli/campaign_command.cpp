@@ -52,7 +52,6 @@ void print(const Options& o, const std::vector<campaign::Row>& rows) {
   } else {
     fmt::print("{}{}", campaign::summary_words(summary), campaign::failure_lines(rows));
     if (!o.csv.empty()) fmt::print("rows: {}\n", o.csv);
-    if (!o.html.empty()) fmt::print("page: {}\n", o.html);
   }
 }
 
@@ -113,8 +112,11 @@ int execute(const Options& o) {
   if (!o.svg.empty() || !o.trace.empty()) throw UsageError("--svg and --trace need --replay");
   std::vector<campaign::Row> rows;
   const bool whole = drive_all(o, chosen, rows);
-  if (whole && !o.html.empty()) write_campaign_page(o.html, chosen, rows);
   print(o, rows);
+  if (whole && !o.html.empty()) {
+    write_campaign_page(o.html, chosen, rows);
+    if (!o.json) fmt::print("page: {}\n", o.html);
+  }
   if (whole) return 0;
   fmt::print(stderr, "whisker: interrupted after {} of {} missions\n", rows.size(),
              chosen.last - chosen.first);
@@ -165,8 +167,7 @@ void add_campaign(CLI::App& app, int& status) {
       ->type_name("S");
   add_file(*cmd, "--svg", o->svg, "With --replay: draw the run");
   add_file(*cmd, "--trace", o->trace, "With --replay: write one CSV row per control tick");
-  add_file(*cmd, "--html", o->html,
-           "Write a page: the missions, and the worst to replay");
+  add_file(*cmd, "--html", o->html, "Write a page: the missions, and the worst to replay");
   cmd->callback([o, cmd, &status] {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {
