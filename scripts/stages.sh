@@ -43,6 +43,14 @@ stage_gcc() {
   ctest --preset host --no-tests=error -LE '^(cross|targets)$'
 }
 
+stage_web() {
+  cmake --preset host
+  cmake --build --preset host -j "$jobs" --target whisker -- --quiet
+  npm --prefix host/web ci --ignore-scripts --no-audit --no-fund
+  npm --prefix host/web run check
+  node --test --test-reporter=tap tests/web/*.test.mjs
+}
+
 stage_cross() {
   cmake --preset host | tee build/cross-configure.log
   if grep "^-- No compiler for" build/cross-configure.log; then return 1; fi

@@ -17,6 +17,7 @@
 #include "host/campaign/row_file.hpp"
 #include "host/campaign/summary.hpp"
 #include "host/cli/campaign_options.hpp"
+#include "host/cli/campaign_page.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/interrupt.hpp"
@@ -101,17 +102,21 @@ int execute(const Options& o) {
     return 0;
   }
   if (o.worlds.empty()) throw UsageError("KIND|DIR is required");
-  check_outputs({o.csv, o.svg, o.trace}, {o.robot});
+  check_outputs({o.csv, o.svg, o.trace, o.html}, {o.robot});
   const Missions chosen = missions(o);
   if (o.replay) {
     RunOptions options;
     options.planner = chosen.planner;
-    return drive_one(mission(chosen, 0).scenario, options, {o.trace, o.svg, o.json});
+    return drive_one(mission(chosen, 0).scenario, options, {o.trace, o.svg, o.html, o.json});
   }
   if (!o.svg.empty() || !o.trace.empty()) throw UsageError("--svg and --trace need --replay");
   std::vector<campaign::Row> rows;
   const bool whole = drive_all(o, chosen, rows);
   print(o, rows);
+  if (whole && !o.html.empty()) {
+    write_campaign_page(o.html, chosen, rows);
+    if (!o.json) fmt::print("page: {}\n", o.html);
+  }
   if (whole) return 0;
   fmt::print(stderr, "whisker: interrupted after {} of {} missions\n", rows.size(),
              chosen.last - chosen.first);
@@ -162,11 +167,12 @@ void add_campaign(CLI::App& app, int& status) {
       ->type_name("S");
   add_file(*cmd, "--svg", o->svg, "With --replay: draw the run");
   add_file(*cmd, "--trace", o->trace, "With --replay: write one CSV row per control tick");
+  add_file(*cmd, "--html", o->html, "Write a page: the missions, and the worst to replay");
   cmd->callback([o, cmd, &status] {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {
       refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--wheel-scale-sigma",
-                           "--planner", "--robot", "--svg", "--trace", "--json"});
+                           "--planner", "--robot", "--svg", "--trace", "--html", "--json"});
     }
     status = execute(*o);
   });

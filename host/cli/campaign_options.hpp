@@ -25,6 +25,7 @@ struct CampaignOptions {
   std::vector<std::string> merge;
   std::optional<std::uint64_t> replay;
   std::string svg;
+  std::string html;
   std::string trace;
 };
 

@@ -49,6 +49,19 @@ std::string engine_name() {
 #endif
 }
 
+/// Where the cells of the engine begin and end.
+void add_nodes(report::FuzzyPicture& p) {
+#ifdef WHISKER_ENGINE_CLOSED
+  for (const std::int16_t c : kDistanceCentres) p.d_nodes.push_back(value(Q7::from_raw(c)));
+  for (const std::int16_t c : kBiasCentres) p.r_nodes.push_back(value(Q7::from_raw(c)));
+#else
+  const auto node = [](int low, int spacing, int i) { return (low + spacing * i) / 128.0; };
+  for (int i = 0; i < Engine::kDistanceNodes; ++i)
+    p.d_nodes.push_back(node(kDistanceLow, Engine::kDistanceSpacing, i));
+  for (int i = 0; i < Engine::kBiasNodes; ++i) p.r_nodes.push_back(node(kBiasLow, Engine::kBiasSpacing, i));
+#endif
+}
+
 }  // namespace
 
 report::FuzzyPicture controller_picture() {
@@ -77,6 +90,7 @@ report::FuzzyPicture controller_picture() {
   const auto at = [](double d, double r) { return Engine(kDefaultTable)({q7(d), q7(r)}); };
   p.sa_at = [at](double d, double r) { return value(at(d, r).turn); };
   p.sd_at = [at](double d, double r) { return value(at(d, r).step); };
+  add_nodes(p);
   p.source = engine_name();
   return p;
 }

@@ -59,7 +59,7 @@ constexpr const char* kFirstSteps = R"(
 
 First steps:
   whisker world discs --seed 1 --out discs.toml
-  whisker run discs.toml --svg discs.svg --trace discs.csv
+  whisker run discs.toml --html discs.html --trace discs.csv
   whisker table --svg table.svg)";
 
 }  // namespace

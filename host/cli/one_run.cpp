@@ -5,8 +5,11 @@
 
 #include <fmt/core.h>
 
+#include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/output.hpp"
+#include "host/page/page.hpp"
+#include "host/page/recording.hpp"
 #include "host/report/file.hpp"
 #include "host/report/result.hpp"
 #include "host/report/run_svg.hpp"
@@ -32,10 +35,17 @@ RunResult with_progress(const Scenario& scenario, RunOptions& options) {
 
 int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o) {
   std::vector<TickRecord> records;
+  page::Recording recording(scenario.robot);
   if (!o.trace.empty() || !o.svg.empty()) options.records = &records;
+  if (!o.html.empty()) options.watch = [&](const Moment& moment) { recording.add(moment); };
   const RunResult result = with_progress(scenario, options);
   if (!o.trace.empty()) report::write_trace(o.trace, scenario, records);
   if (!o.svg.empty()) report::write_file(o.svg, report::run_svg(scenario, records, result));
+  if (!o.html.empty()) {
+    const page::Watched run{scenario, options.planner, options.seed.value_or(scenario.seed), recording,
+                            result};
+    report::write_file(o.html, page::run_page(page::stored(run), controller_picture()));
+  }
 
   if (o.json) {
     fmt::print("{}\n", report::result_json(result));
@@ -44,6 +54,7 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
                report::verdict_words(result), result.final_distance_m, result.ticks, result.hash);
     if (!o.trace.empty()) fmt::print("trace:   {}\n", o.trace);
     if (!o.svg.empty()) fmt::print("picture: {}\n", o.svg);
+    if (!o.html.empty()) fmt::print("page:    {}\n", o.html);
   }
   return exit_status(result.verdict);
 }

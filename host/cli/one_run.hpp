@@ -9,6 +9,7 @@ namespace whisker::cli {
 struct RunOutputs {
   std::string trace;  ///< file, "" for none
   std::string svg;    ///< file, "" for none
+  std::string html;   ///< file, "" for none
   bool json = false;  ///< on standard output, instead of words
 };
 

@@ -22,6 +22,7 @@ struct Options {
   std::optional<std::uint64_t> seed;
   std::string trace;
   std::string svg;
+  std::string html;
   bool json = false;
   std::string chip;
 };
@@ -30,7 +31,7 @@ int execute(const Options& o) {
   if (!o.chip.empty() && is_baseline(o.planner)) {
     throw UsageError(fmt::format("--chip: planner {} runs on this computer only", name(o.planner)));
   }
-  check_outputs({o.trace, o.svg}, {o.scenario, o.robot});
+  check_outputs({o.trace, o.svg, o.html}, {o.scenario, o.robot});
   Scenario scenario = load_scenario(o.scenario);
   if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
 
@@ -38,7 +39,7 @@ int execute(const Options& o) {
   options.seed = o.seed;
   options.planner = o.planner;
   if (!o.chip.empty()) options.pilot = chip::chip_pilot(o.chip);
-  return drive_one(scenario, options, {o.trace, o.svg, o.json});
+  return drive_one(scenario, options, {o.trace, o.svg, o.html, o.json});
 }
 
 }  // namespace
@@ -54,6 +55,7 @@ void add_run(CLI::App& app, int& status) {
       ->type_name("N");
   add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");
   add_file(*cmd, "--svg", o->svg, "Draw the run");
+  add_file(*cmd, "--html", o->html, "Write a page that replays the run in a browser");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->add_option("--chip", o->chip,
                   "Let the core behind this shell command drive, such as\n\"scripts/chip cortex-m3\"")

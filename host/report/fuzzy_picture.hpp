@@ -31,6 +31,7 @@ struct FuzzyPicture {
   std::vector<std::vector<Rule>> step;  ///< the same for SD
   std::function<double(double d, double r)> sa_at;
   std::function<double(double d, double r)> sd_at;
+  std::vector<double> d_nodes, r_nodes;  ///< borders of the engine's cells, ascending; may be empty
   std::string source;  ///< what computed the surface, e.g. "bilinear table, 41 x 65"; may be empty
 };
 

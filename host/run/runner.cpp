@@ -74,10 +74,11 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   link::CommandHash hash;
   std::optional<Verdict> verdict;
   const auto record = [&](const Status& status, const hal::RangeReadings& ranges, double t_s) {
-    if (options.records == nullptr && !options.observe) return;
+    if (options.records == nullptr && !options.observe && !options.watch) return;
     const TickRecord r = record_of(plant, status, ranges, t_s);
     if (options.records != nullptr) options.records->push_back(r);
     if (options.observe) options.observe(r);
+    if (options.watch) options.watch({r, status.health, pilot->patch()});
   };
   for (std::uint64_t tick = 0; !verdict; ++tick) {
     const double t_s = static_cast<double>(tick * period_ms) / 1000.0;

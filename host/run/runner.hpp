@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "firmware/ground/patch.hpp"
+#include "firmware/health.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/planners.hpp"
 #include "host/run/record.hpp"
@@ -13,11 +15,19 @@
 
 namespace whisker {
 
+/// All that can be seen of one tick; valid during the call only.
+struct Moment {
+  const TickRecord& record;
+  const Health& health;
+  const ground::Patch* patch;  ///< the pilot's
+};
+
 struct RunOptions {
   PlannerKind planner = PlannerKind::skirt;
   std::optional<std::uint64_t> seed;               ///< of the noise, instead of the scenario's
   std::vector<TickRecord>* records = nullptr;      ///< gets one record a tick, and one more at a contact
   std::function<void(const TickRecord&)> observe;  ///< called with each of these records as it arises
+  std::function<void(const Moment&)> watch;        ///< the same, with what only a picture of the inside needs
   /// Called about once a simulated second with the simulated time and the distance left.
   std::function<void(double time_s, double distance_m)> progress;
   MakePilot pilot = core_pilot;  ///< what drives

@@ -17,10 +17,20 @@ class Figures(Case):
             done = whisker.whisker("figures", folder, "--scenarios", ROOT / "host/worlds/scenarios")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             fresh = {path.name: path.read_bytes() for path in pathlib.Path(folder).iterdir()}
-        committed = {path.name: path.read_bytes() for path in (ROOT / "docs/figures").iterdir()}
+        committed = {path.name: path.read_bytes() for path in (ROOT / "docs/figures").glob("*.svg")}
         self.assertEqual(sorted(fresh), sorted(committed))
         for name, picture in fresh.items():
             self.assertTrue(picture == committed[name], f"{name}: build/host/whisker figures docs/figures")
+
+
+    def test_pictures_of_pages_are_small_and_in_the_docs(self):
+        pictures = list((ROOT / "docs/figures").glob("*.png"))
+        self.assertGreater(len(pictures), 0)
+        for path in pictures:
+            self.assertLess(path.stat().st_size, 200000, path.name)
+            self.assertIn(f"](figures/{path.name})", (ROOT / "docs/replay.md").read_text())
+        others = [path.name for path in (ROOT / "docs/figures").iterdir() if path.suffix not in (".svg", ".png")]
+        self.assertEqual(others, [])
 
 
 class Drives(Case):

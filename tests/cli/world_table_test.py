@@ -13,10 +13,10 @@ from whisker import KINDS, PLANNERS, Case, with_time_limit
 WIDEST = 100
 OPTIONS = {
     (): ("--help", "--version"),
-    ("run",): ("SCENARIO", "--planner", "--robot", "--seed", "--trace", "--svg", "--json", "--chip"),
+    ("run",): ("SCENARIO", "--planner", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--chip"),
     ("campaign",): (
         "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--robot", "--jobs",
-        "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace",
+        "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
     ),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
     ("movers",): ("--count", "--seed", "--planner", "--contacts"),

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/campaign/row.hpp"
+#include "host/cli/campaign_options.hpp"
+
+namespace whisker::cli {
+
+/// Drives the worst missions again to record them, and writes a page of all. rows[i] is mission first + i.
+void write_campaign_page(const std::string& path, const Missions& missions,
+                         const std::vector<campaign::Row>& rows);
+
+}  // namespace whisker::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace whisker::page {
+
+/// As browsers' DecompressionStream("deflate") takes it: zlib format, RFC 1950.
+std::string deflated(std::string_view bytes);
+
+}  // namespace whisker::page

@@ -1,0 +1,44 @@
+/// The clearance patch over time, as what changed in it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "firmware/core/trig.hpp"
+#include "firmware/ground/patch.hpp"
+#include "firmware/params.hpp"
+
+namespace whisker::page {
+
+/// A picture is the set of clear cells within kReach cells of the body's own, which is floor(estimate / cell)
+/// in x and in y. Cell (x, y) of the world is bit x mod 64 of row y mod 64; a row is two words of 32 bits,
+/// the low one first. A frame says which words changed since the frame before, by exclusive or.
+class Film {
+ public:
+  static constexpr int kReach = 20;  ///< the patch's window lies within
+  static constexpr std::size_t kSide = 64;
+
+  explicit Film(const Params& params);
+
+  /// Pictures must come in order of their ticks.
+  void add(std::size_t tick, Vec body, const ground::Patch& patch);
+
+  /// A frame each: its tick, and how many words changed.
+  const std::vector<std::int64_t>& ticks() const { return ticks_; }
+  const std::vector<std::int64_t>& changes() const { return changes_; }
+  /// A change each: which word, 0..127, and the bits to turn over.
+  const std::vector<std::int64_t>& words() const { return words_; }
+  const std::vector<std::int64_t>& bits() const { return bits_; }
+
+ private:
+  using Picture = std::array<std::uint32_t, kSide * 2>;
+  Picture picture(Vec body, const ground::Patch& patch) const;
+
+  std::int64_t cell_um_;
+  Picture last_{};
+  std::vector<std::int64_t> ticks_, changes_, words_, bits_;
+};
+
+}  // namespace whisker::page

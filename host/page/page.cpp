@@ -1,0 +1,66 @@
+#include "host/page/page.hpp"
+
+#include <stdexcept>
+
+#include "host/campaign/failures.hpp"
+#include "host/page/json.hpp"
+#include "host/page/template.hpp"
+
+namespace whisker::page {
+namespace {
+
+/// Nothing in it can end the element that it stands in.
+std::string script_safe(const std::string& json) {
+  std::string text;
+  for (const char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string data_element(const Json& data) {
+  return "<script type=\"application/json\" id=\"data\">" +
+         script_safe(data.dump(-1, ' ', true, Json::error_handler_t::replace)) + "</script>\n";
+}
+
+std::string columns_element(std::size_t index, const std::string& columns) {
+  return "<script type=\"text/plain\" id=\"columns-" + std::to_string(index) + "\">" + columns +
+         "</script>\n";
+}
+
+std::string filled(const std::string& data) {
+  std::string page;
+  for (const std::string_view part : template_parts()) page += part;
+  const std::size_t mark = page.find(kDataMark);
+  if (mark == std::string::npos) throw std::logic_error("the page's template has no place for data");
+  return page.replace(mark, kDataMark.size(), data);
+}
+
+}  // namespace
+
+std::string run_page(const StoredRun& run, const Controller& controller) {
+  Json data = {{"format", 1}, {"shared", shared_data(controller)}};
+  data["runs"] = Json::array({Json::parse(run.json)});
+  return filled(data_element(data) + columns_element(0, run.columns));
+}
+
+std::string campaign_page(const std::vector<campaign::Row>& rows, const std::vector<Replay>& replays,
+                          const Controller& controller) {
+  Json data = {{"format", 1}, {"shared", shared_data(controller)}, {"runs", Json::array()}};
+  data["campaign"] = campaign_data(rows);
+  std::string columns;
+  for (std::size_t i = 0; i < replays.size(); ++i) {
+    Json run = Json::parse(replays[i].run.json);
+    run["row"] = replays[i].row;
+    run["command"] = campaign::replay_command(rows[replays[i].row]);
+    data["runs"].push_back(run);
+    columns += columns_element(i, replays[i].run.columns);
+  }
+  return filled(data_element(data) + columns);
+}
+
+}  // namespace whisker::page

@@ -1,0 +1,53 @@
+/// Runs and campaigns as one file for a browser: page, data and everything in it. docs/replay.md has the
+/// format.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/campaign/row.hpp"
+#include "host/page/recording.hpp"
+#include "host/report/fuzzy_picture.hpp"
+#include "host/run/planners.hpp"
+#include "host/scenario/scenario.hpp"
+
+namespace whisker::page {
+
+/// A run that was watched from its first tick to its verdict.
+struct Watched {
+  const Scenario& scenario;
+  PlannerKind planner;
+  std::uint64_t seed;  ///< of the noise
+  const Recording& recording;
+  const RunResult& result;
+};
+
+/// A run as the page stores it.
+struct StoredRun {
+  std::string json;     ///< one object: world, robot, verdict, columns
+  std::string columns;  ///< base64 of the deflated columns
+};
+
+StoredRun stored(const Watched& run);
+
+/// The response table that steers, as the page draws it.
+using Controller = report::FuzzyPicture;
+
+std::string run_page(const StoredRun& run, const Controller& controller);
+
+/// A mission of the campaign that the page can replay.
+struct Replay {
+  std::size_t row;  ///< index into the rows
+  StoredRun run;
+};
+
+/// At least one row.
+std::string campaign_page(const std::vector<campaign::Row>& rows, const std::vector<Replay>& replays,
+                          const Controller& controller);
+
+/// Indices of the rows most worth a look, at most `most`: contacts, faults, other failures, then the longest
+/// ways compared with the shortest; equals in the order of the rows.
+std::vector<std::size_t> worst(const std::vector<campaign::Row>& rows, std::size_t most);
+
+}  // namespace whisker::page

@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <cmath>
+
+#include "host/page/base64.hpp"
+#include "host/page/columns.hpp"
+#include "host/page/deflate.hpp"
+#include "host/page/json.hpp"
+#include "host/report/encounters.hpp"
+#include "host/report/result.hpp"
+#include "host/report/track.hpp"
+#include "host/report/units.hpp"
+
+namespace whisker::page {
+namespace {
+
+using report::metres;
+using report::radians;
+
+Json point(sim::Vec2 p) { return {p.x, p.y}; }
+
+Json points(const std::vector<sim::Vec2>& list) {
+  Json json = Json::array();
+  for (const sim::Vec2 p : list) json.push_back(point(p));
+  return json;
+}
+
+Json lists(const std::vector<std::vector<sim::Vec2>>& all) {
+  Json json = Json::array();
+  for (const auto& list : all) json.push_back(points(list));
+  return json;
+}
+
+Json world_data(const Scenario& s) {
+  Json discs = Json::array();
+  for (const sim::Disc& d : s.discs) discs.push_back({d.center.x, d.center.y, d.radius});
+  Json movers = Json::array();
+  for (const Mover& m : s.movers) {
+    movers.push_back({{"center", point(m.center)},
+                      {"radius", m.radius_m},
+                      {"path", points(m.path)},
+                      {"speed", m.speed_mps}});
+  }
+  Json bounds = nullptr;
+  if (s.bounds) bounds = {s.bounds->min.x, s.bounds->min.y, s.bounds->max.x, s.bounds->max.y};
+  return {{"start", point(s.start.at)}, {"goal", point(s.goal.at)}, {"tolerance", s.goal.tolerance_m},
+          {"bounds", bounds},           {"discs", discs},           {"polygons", lists(s.polygons)},
+          {"walls", lists(s.walls)},    {"movers", movers}};
+}
+
+Json robot_data(const Params& p) {
+  const RangefinderParams& sensor = p.rangefinders;
+  return {{"radius", metres(p.body.radius)},
+          {"track", metres(p.body.track)},
+          {"max_speed", metres(Length::from_raw(p.wheels.max_speed.raw()))},
+          {"side_angle", radians(sensor.side_angle)},
+          {"cone", radians(sensor.cone)},
+          {"min_range", metres(sensor.min_range)},
+          {"max_range", metres(sensor.max_range)},
+          {"offset", metres(sensor.offset)},
+          {"cell", metres(patch_cell(p))},
+          {"base_turn", radians(p.thesis.base_turn)},
+          {"period", static_cast<double>(p.safety.period.raw()) / 1000.0}};
+}
+
+Json noise_data(const Noise& n) {
+  return {{"range_sigma_m", n.range_sigma_m},
+          {"range_dropout", n.range_dropout},
+          {"range_false_clear", n.range_false_clear},
+          {"wheel_scale_sigma", n.wheel_scale_sigma},
+          {"heading_drift_deg_per_sqrt_m", n.heading_drift_deg_per_sqrt_m}};
+}
+
+const char* end_name(report::Encounter::End end) {
+  switch (end) {
+    case report::Encounter::End::none: return "none";
+    case report::Encounter::End::left: return "left";
+    case report::Encounter::End::wall_lost: return "wall_lost";
+    case report::Encounter::End::unreachable: return "unreachable";
+  }
+  return "?";
+}
+
+Json edges_data(const std::vector<TickRecord>& records) {
+  const auto tick = [&](const TickRecord* r) {
+    return r == nullptr ? Json(nullptr) : Json(r - records.data());
+  };
+  Json edges = Json::array();
+  for (const report::Encounter& e : report::encounters(records)) {
+    edges.push_back(
+        {{"hit", tick(e.hit)}, {"turned", tick(e.turned)}, {"left", tick(e.left)}, {"end", end_name(e.end)}});
+  }
+  return edges;
+}
+
+/// Gathers one integer a tick into a column.
+class Writer {
+ public:
+  Writer(Columns& columns, const Recording& recording) : columns_(columns), recording_(recording) {}
+
+  template <class F>
+  void tick(const char* name, Order order, std::int64_t per_unit, F&& value_of) {
+    std::vector<std::int64_t> values;
+    values.reserve(recording_.records().size());
+    for (const TickRecord& r : recording_.records()) values.push_back(static_cast<std::int64_t>(value_of(r)));
+    columns_.add(name, order, per_unit, values);
+  }
+  template <class F>
+  void decimal(const char* name, Order order, std::int64_t per_unit, F&& value_of) {
+    tick(name, order, per_unit,
+         [&](const TickRecord& r) { return std::llround(value_of(r) * static_cast<double>(per_unit)); });
+  }
+  void counter(const char* name, std::uint32_t Health::*counter) {
+    std::vector<std::int64_t> values;
+    for (const Health& h : recording_.health()) values.push_back(h.*counter);
+    columns_.add(name, Order::differences, 1, values);
+  }
+
+ private:
+  Columns& columns_;
+  const Recording& recording_;
+};
+
+constexpr std::int64_t kMicro = 1000000;
+
+void add_motion(Writer& w) {
+  constexpr Order kSmooth = Order::second_differences;
+  w.decimal("t_s", kSmooth, 1000, [](const TickRecord& r) { return r.t_s; });
+  w.decimal("x_m", kSmooth, kMicro, [](const TickRecord& r) { return r.x_m; });
+  w.decimal("y_m", kSmooth, kMicro, [](const TickRecord& r) { return r.y_m; });
+  w.decimal("heading_rad", kSmooth, kMicro, [](const TickRecord& r) { return r.heading_rad; });
+  w.decimal("est_x_m", kSmooth, kMicro, [](const TickRecord& r) { return r.est_x_m; });
+  w.decimal("est_y_m", kSmooth, kMicro, [](const TickRecord& r) { return r.est_y_m; });
+  w.decimal("est_heading_rad", kSmooth, kMicro, [](const TickRecord& r) { return r.est_heading_rad; });
+  w.decimal("v_left_mps", kSmooth, 100000, [](const TickRecord& r) { return r.v_left_mps; });
+  w.decimal("v_right_mps", kSmooth, 100000, [](const TickRecord& r) { return r.v_right_mps; });
+  w.tick("cmd_left_mps", Order::differences, 10000, [](const TickRecord& r) { return r.command.left; });
+  w.tick("cmd_right_mps", Order::differences, 10000, [](const TickRecord& r) { return r.command.right; });
+}
+
+/// A lost reading keeps the value before it: the status says that there is none.
+void add_ranges(Writer& w) {
+  constexpr const char* kRanges[hal::kBeams] = {"left_m", "front_m", "right_m"};
+  constexpr const char* kStatus[hal::kBeams] = {"left_status", "front_status", "right_status"};
+  for (int beam = 0; beam < hal::kBeams; ++beam) {
+    std::int64_t last = 0;
+    w.tick(kRanges[beam], Order::differences, 1000, [&](const TickRecord& r) {
+      const hal::RangeReading& reading = r.ranges.beam[beam];
+      if (reading.status == hal::RangeStatus::ok) last = reading.mm;
+      return last;
+    });
+    w.tick(kStatus[beam], Order::differences, 1,
+           [&](const TickRecord& r) { return static_cast<int>(r.ranges.beam[beam].status); });
+  }
+}
+
+void add_decisions(Writer& w) {
+  constexpr Order kSteady = Order::differences;
+  w.tick("state", kSteady, 1, [](const TickRecord& r) { return static_cast<int>(r.mode); });
+  w.tick("why", kSteady, 1, [](const TickRecord& r) { return static_cast<int>(r.why); });
+  w.tick("doing", kSteady, 1, [](const TickRecord& r) { return static_cast<int>(report::doing(r)); });
+  w.tick("t", kSteady, 1, [](const TickRecord& r) { return r.danger_count; });
+  w.tick("looked", Order::values, 1, [](const TickRecord& r) { return r.looked; });
+  w.tick("d", kSteady, 128, [](const TickRecord& r) { return r.d_q7; });
+  w.tick("r", kSteady, 128, [](const TickRecord& r) { return r.r_q7; });
+  w.tick("sa", kSteady, 16384, [](const TickRecord& r) { return r.sa_q14; });
+  w.tick("sd", kSteady, 16384, [](const TickRecord& r) { return r.sd_q14; });
+  w.tick("cell_d", kSteady, 1, [](const TickRecord& r) { return r.cell.distance; });
+  w.tick("cell_r", kSteady, 1, [](const TickRecord& r) { return r.cell.bias; });
+}
+
+void add_health(Columns& columns, Writer& w, const Recording& recording) {
+  std::vector<std::int64_t> faults;
+  for (const Health& h : recording.health()) faults.push_back(static_cast<int>(h.fault));
+  columns.add("fault", Order::differences, 1, faults);
+  w.counter("range_refused", &Health::range_refused);
+  w.counter("range_invalid", &Health::range_invalid);
+  w.counter("range_stale", &Health::range_stale);
+  w.counter("range_stuck", &Health::range_stuck);
+  w.counter("range_out_of_range", &Health::range_out_of_range);
+  w.counter("drive_refused", &Health::drive_refused);
+  w.counter("encoder_refused", &Health::encoder_refused);
+  w.counter("encoder_jumps", &Health::encoder_jumps);
+  w.counter("wheel_stalls", &Health::wheel_stalls);
+  w.counter("unsteady_looks", &Health::unsteady_looks);
+  w.counter("no_progress", &Health::no_progress);
+  w.counter("late_ticks", &Health::late_ticks);
+  w.counter("clock_jumps", &Health::clock_jumps);
+}
+
+void add_film(Columns& columns, const Film& film) {
+  columns.add("film_tick", Order::second_differences, 1, film.ticks());
+  columns.add("film_changes", Order::values, 1, film.changes());
+  columns.add("film_word", Order::differences, 1, film.words());
+  columns.add("film_bits", Order::values, 1, film.bits());
+}
+
+Json columns_data(const Columns& columns) {
+  Json list = Json::array();
+  for (const Column& c : columns.list())
+    list.push_back({c.name, static_cast<int>(c.order), c.per_unit, c.count});
+  return list;
+}
+
+}  // namespace
+
+StoredRun stored(const Watched& run) {
+  Columns columns;
+  Writer writer(columns, run.recording);
+  add_motion(writer);
+  add_ranges(writer);
+  add_decisions(writer);
+  add_health(columns, writer, run.recording);
+  add_film(columns, run.recording.film());
+  const Json json = {{"name", run.scenario.name},
+                     {"planner", name(run.planner)},
+                     {"seed", run.seed},
+                     {"time_limit", run.scenario.time_limit_s},
+                     {"result", Json::parse(report::result_json(run.result))},
+                     {"world", world_data(run.scenario)},
+                     {"robot", robot_data(run.scenario.robot)},
+                     {"noise", noise_data(run.scenario.noise)},
+                     {"edges", edges_data(run.recording.records())},
+                     {"columns", columns_data(columns)}};
+  return {json.dump(-1, ' ', true, Json::error_handler_t::replace), base64(deflated(columns.bytes()))};
+}
+
+}  // namespace whisker::page

@@ -1,0 +1,226 @@
+/** What the page is about, as the tool has put it into the file. */
+import {bytesOfBase64, decodeColumns, inflated, type ColumnInfo} from './columns.ts';
+import {Film} from './film.ts';
+
+export type Point = [x: number, y: number];
+
+export interface Mover {
+  center: Point;
+  radius: number;
+  path: Point[];
+  speed: number;
+}
+
+export interface World {
+  start: Point;
+  goal: Point;
+  tolerance: number;
+  bounds: [number, number, number, number] | null;
+  discs: [x: number, y: number, radius: number][];
+  polygons: Point[][];
+  walls: Point[][];
+  movers: Mover[];
+}
+
+/** Metres, radians, seconds. */
+export interface RobotInfo {
+  radius: number;
+  track: number;
+  max_speed: number;
+  side_angle: number;
+  cone: number;
+  min_range: number;
+  max_range: number;
+  offset: number;
+  cell: number;
+  base_turn: number;
+  period: number;
+}
+
+export interface Result {
+  outcome: string;
+  time_s: number;
+  path_m: number;
+  final_distance_m: number;
+  min_clearance_m: number;
+  ticks: number;
+  hash: string;
+  detail: string;
+}
+
+/** From the tick that found the way blocked to the tick that left the obstacle. */
+export interface Edge {
+  hit: number;
+  turned: number | null;
+  left: number | null;
+  end: 'none' | 'left' | 'wall_lost' | 'unreachable';
+}
+
+export interface RunInfo {
+  name: string;
+  planner: string;
+  seed: number;
+  time_limit: number;
+  result: Result;
+  world: World;
+  robot: RobotInfo;
+  noise: Record<string, number>;
+  edges: Edge[];
+  columns: ColumnInfo[];
+  row?: number;
+  command?: string;
+}
+
+export interface Variable {
+  symbol: string;
+  meaning: string;
+  min: number;
+  max: number;
+  terms: [name: string, centre: number][];
+}
+
+export interface Controller {
+  d: Variable;
+  r: Variable;
+  sa: Variable;
+  sd: Variable;
+  turn: [term: string, value: number][][];
+  step: [term: string, value: number][][];
+  samples_per_unit: number;
+  sa_thousandths: number[];
+  sd_thousandths: number[];
+  d_nodes: number[];
+  r_nodes: number[];
+  source: string;
+}
+
+export interface Shared {
+  modes: string[];
+  whys: string[];
+  faults: string[];
+  doings: {name: string; label: string}[];
+  controller: Controller;
+}
+
+export interface Estimate {
+  value: number;
+  low: number | null;
+  high: number | null;
+}
+
+export interface CampaignInfo {
+  summary: Record<string, unknown>;
+  fields: string[];
+  rows: (string | number | boolean | null)[][];
+}
+
+export interface PageData {
+  format: number;
+  shared: Shared;
+  runs: RunInfo[];
+  campaign?: CampaignInfo;
+}
+
+/** A reading as hal::RangeStatus numbers it. */
+export const enum RangeStatus {
+  ok,
+  clear,
+  tooNear,
+  invalid,
+  stale,
+}
+
+export const BEAMS = ['left', 'front', 'right'] as const;
+
+export const COUNTERS = [
+  'range_refused',
+  'range_invalid',
+  'range_stale',
+  'range_stuck',
+  'range_out_of_range',
+  'drive_refused',
+  'encoder_refused',
+  'encoder_jumps',
+  'wheel_stalls',
+  'unsteady_looks',
+  'no_progress',
+  'late_ticks',
+  'clock_jumps',
+] as const;
+
+/** One run with all its ticks. */
+export class Run {
+  readonly ticks: number;
+  readonly t: Float64Array;
+  readonly film: Film;
+
+  constructor(
+    readonly info: RunInfo,
+    readonly shared: Shared,
+    private readonly columns: Map<string, Float64Array>,
+  ) {
+    this.t = this.column('t_s');
+    this.ticks = this.t.length;
+    this.film = new Film(
+      this.column('film_tick'),
+      this.column('film_changes'),
+      this.column('film_word'),
+      this.column('film_bits'),
+    );
+  }
+
+  column(name: string): Float64Array {
+    const column = this.columns.get(name);
+    if (!column) throw new Error(`no column ${name}`);
+    return column;
+  }
+
+  mode(tick: number): string {
+    return this.shared.modes[this.column('state')[tick]];
+  }
+  why(tick: number): string {
+    return this.shared.whys[this.column('why')[tick]];
+  }
+
+  /** As the trace has it: clear counts as the maximum range, too near as the minimum; null is lost. */
+  range(beam: number, tick: number): number | null {
+    switch (this.column(`${BEAMS[beam]}_status`)[tick] as RangeStatus) {
+      case RangeStatus.ok:
+        return this.column(`${BEAMS[beam]}_m`)[tick];
+      case RangeStatus.clear:
+        return this.info.robot.max_range;
+      case RangeStatus.tooNear:
+        return this.info.robot.min_range;
+      default:
+        return null;
+    }
+  }
+
+  /** The tick whose time is nearest. */
+  tickAt(time: number): number {
+    let low = 0;
+    let high = this.ticks - 1;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.t[middle] < time) low = middle + 1;
+      else high = middle;
+    }
+    return low > 0 && time - this.t[low - 1] <= this.t[low] - time ? low - 1 : low;
+  }
+}
+
+function textOf(id: string): string {
+  const text = document.getElementById(id)?.textContent;
+  if (!text) throw new Error('this page has no data: it is a template that whisker fills');
+  return text;
+}
+
+export function pageData(): PageData {
+  return JSON.parse(textOf('data')) as PageData;
+}
+
+export async function loadRun(data: PageData, index: number): Promise<Run> {
+  const bytes = await inflated(bytesOfBase64(textOf(`columns-${index}`)));
+  const info = data.runs[index];
+  return new Run(info, data.shared, decodeColumns(bytes, info.columns));
+}

@@ -1,0 +1,87 @@
+/** Now in words, counters and faults, and what the run was. */
+import {COUNTERS, type Run} from './data.ts';
+import {element, make, setText} from './dom.ts';
+import type {Player} from './player.ts';
+import type {Theme} from './theme.ts';
+import {stateColour} from './timeline.ts';
+import {COUNTER_WORDS, FAULTS, metres, sentence, verdict} from './words.ts';
+
+const NOISE: [key: string, words: string, factor: number, unit: string][] = [
+  ['range_sigma_m', 'range noise', 1000, 'mm'],
+  ['range_dropout', 'readings lost', 100, '%'],
+  ['range_false_clear', 'false clear', 100, '%'],
+  ['wheel_scale_sigma', 'wheel scale error', 100, '%'],
+  ['heading_drift_deg_per_sqrt_m', 'heading drift', 1, '°/√m'],
+];
+
+function noiseWords(noise: Record<string, number>): string {
+  const parts = NOISE.filter(([key]) => noise[key] > 0).map(
+    ([key, words, factor, unit]) => `${words} ${Number((noise[key] * factor).toPrecision(3))} ${unit}`,
+  );
+  return parts.length > 0 ? parts.join(', ') : 'none';
+}
+
+export class Facts {
+  private readonly counters: {name: string; value: HTMLElement; item: HTMLElement}[] = [];
+
+  constructor(
+    private readonly run: Run,
+    private readonly player: Player,
+    private readonly theme: Theme,
+    private readonly distance: Float64Array,
+  ) {
+    const {result, name, planner, seed, noise} = run.info;
+    setText('title', name || 'unnamed scenario');
+    document.title = `${name || 'run'} - Whisker`;
+    setText('verdict', verdict(result.outcome, result.time_s));
+    element('verdict').dataset.outcome = result.outcome;
+    const clearance = result.min_clearance_m < 1000 ? metres(result.min_clearance_m, 3) : 'nothing near';
+    const facts: [string, string][] = [
+      ['way driven', metres(result.path_m)],
+      ['nearest to an obstacle', clearance],
+      ['from the goal at the end', metres(result.final_distance_m)],
+      ['planner', planner],
+      ['noise', noiseWords(noise)],
+      ['noise seed', String(seed)],
+      ['ticks', String(result.ticks)],
+      ['command hash', result.hash],
+      ['detail', result.detail || '-'],
+    ];
+    if (run.info.command) facts.push(['again', run.info.command]);
+    element('facts').replaceChildren(
+      ...facts.map(([term, value]) => make('div', '', [make('dt', '', term), make('dd', '', value)])),
+    );
+    element('counters').replaceChildren();
+    for (const counter of COUNTERS) {
+      const value = make('dd', 'number', '0');
+      const item = make('div', 'zero', [make('dt', '', COUNTER_WORDS[counter]), value]);
+      element('counters').append(item);
+      this.counters.push({name: counter, value, item});
+    }
+  }
+
+  update(): void {
+    const {run} = this;
+    const {tick} = this.player;
+    const at = (name: string) => run.column(name)[tick];
+    setText('state', run.mode(tick).replaceAll('_', ' '));
+    element('state').style.setProperty('--chip', this.theme.palette[stateColour(run, tick)]);
+    element('state').classList.toggle('pale', stateColour(run, tick) === 'still');
+    const fault = run.shared.faults[at('fault')];
+    const named = fault === 'none' ? '' : ` The fault: ${FAULTS[fault] ?? fault}.`;
+    setText('sentence', sentence(run.mode(tick), run.why(tick)) + named);
+    setText('now-time', `${run.t[tick].toFixed(2)} s`);
+    setText('now-tick', `tick ${tick}`);
+    setText('now-distance', metres(this.distance[tick]));
+    setText('now-speed', `${((at('v_left_mps') + at('v_right_mps')) / 2).toFixed(2)} m/s`);
+    const turning = (at('v_right_mps') - at('v_left_mps')) / run.info.robot.track;
+    setText('now-turn', `${((turning * 180) / Math.PI).toFixed(0)}°/s`);
+    setText('fault', FAULTS[fault] ?? fault);
+    for (const {name, value, item} of this.counters) {
+      const text = String(at(name));
+      if (value.textContent === text) continue;
+      value.textContent = text;
+      item.classList.toggle('zero', text === '0');
+    }
+  }
+}

@@ -1,0 +1,30 @@
+/** The address says which run and which time: #run=2&t=12.34 */
+
+export interface Place {
+  run: number | null;
+  time: number | null;
+}
+
+function numberOf(text: string | null): number | null {
+  if (text === null || text.trim() === '') return null;
+  const value = Number(text);
+  return Number.isFinite(value) && value >= 0 ? value : null;
+}
+
+export function placeOf(hash: string): Place {
+  const params = new URLSearchParams(hash.replace(/^#/, ''));
+  return {run: numberOf(params.get('run')), time: numberOf(params.get('t'))};
+}
+
+export function hashOf({run, time}: Place): string {
+  const parts: string[] = [];
+  if (run !== null) parts.push(`run=${run}`);
+  if (time !== null) parts.push(`t=${time.toFixed(3).replace(/\.?0+$/, '')}`);
+  return parts.length > 0 ? `#${parts.join('&')}` : '';
+}
+
+/** Without a new entry in the history. */
+export function show(place: Place): void {
+  const hash = hashOf(place);
+  if (hash !== location.hash) history.replaceState(null, '', hash || location.pathname + location.search);
+}

@@ -1,0 +1,50 @@
+import {CampaignView} from './campaign.ts';
+import {loadRun, pageData, type PageData} from './data.ts';
+import {element, setText} from './dom.ts';
+import {placeOf} from './link.ts';
+import {openReplay} from './replay.ts';
+import {Theme} from './theme.ts';
+
+function view(name: 'run' | 'campaign' | 'error'): void {
+  document.body.dataset.view = name;
+  for (const id of ['run', 'campaign', 'error']) element(id).hidden = id !== name;
+}
+
+async function openRun(data: PageData, index: number, theme: Theme): Promise<void> {
+  const run = await loadRun(data, index);
+  view('run');
+  element('to-campaign').hidden = !data.campaign;
+  const player = openReplay(run, data.campaign ? index : null, theme);
+  // For those who test or measure the page, and for the curious.
+  Object.assign(window, {whisker: {run, player}});
+}
+
+async function open(): Promise<void> {
+  const data = pageData();
+  const theme = new Theme();
+  element<HTMLDialogElement>('keys').addEventListener('click', (event) => {
+    (event.currentTarget as HTMLDialogElement).close();
+  });
+  for (const id of ['help', 'help-keys']) {
+    element(id).addEventListener('click', () => element<HTMLDialogElement>('keys').showModal());
+  }
+  const {run} = placeOf(location.hash);
+  if (!data.campaign) {
+    await openRun(data, 0, theme);
+  } else if (run !== null && run < data.runs.length) {
+    await openRun(data, run, theme);
+  } else {
+    view('campaign');
+    new CampaignView(data, theme);
+  }
+  if (!data.campaign) return;
+  // A run's parts hold on to it: another run is another load of the page.
+  addEventListener('hashchange', () => {
+    if (placeOf(location.hash).run !== run) location.reload();
+  });
+}
+
+open().catch((error: unknown) => {
+  view('error');
+  setText('error-text', error instanceof Error ? error.message : String(error));
+});

@@ -1,0 +1,234 @@
+/** Columns over time. */
+import uPlot from 'uplot';
+import {BEAMS, type Run} from './data.ts';
+import {element, setText} from './dom.ts';
+import type {Player} from './player.ts';
+import type {Colour, Theme} from './theme.ts';
+
+interface Line {
+  label: string;
+  colour: Colour;
+  values: ArrayLike<number | null>;
+  dashed?: boolean;
+}
+
+interface Plot {
+  id: string;
+  lines: Line[];
+  low: number;
+  high: number;
+  unit: string;
+  /** The times on an edge are shaded. */
+  edges: boolean;
+}
+
+/** Seconds shown before and after now, unless the whole run is. */
+const BEFORE = 15;
+const AFTER = 5;
+const HEIGHT = 132;
+
+function rangeOf(lines: Line[]): [number, number] {
+  let low = 0;
+  let high = 0;
+  for (const {values} of lines) {
+    for (let i = 0; i < values.length; ++i) {
+      const value = values[i];
+      if (value === null) continue;
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  const air = 0.06 * (high - low) || 1;
+  return [low < 0 ? low - air : 0, high + air];
+}
+
+function plotOf(id: string, unit: string, lines: Line[]): Plot {
+  const [low, high] = rangeOf(lines);
+  return {id, lines, low, high, unit, edges: id === 'plot-goal'};
+}
+
+/** Nearest to the goal that the robot believed to be while off an edge, so far. */
+export function nearestSoFar(run: Run, distance: Float64Array): Float64Array {
+  const doing = run.column('doing');
+  const danger = run.shared.doings.findIndex(({name}) => name === 'danger');
+  const nearest = new Float64Array(run.ticks);
+  let best = distance[0];
+  for (let i = 0; i < run.ticks; ++i) {
+    if (doing[i] !== danger) best = Math.min(best, distance[i]);
+    nearest[i] = best;
+  }
+  return nearest;
+}
+
+export function distanceToGoal(run: Run): Float64Array {
+  const [goalX, goalY] = run.info.world.goal;
+  const x = run.column('est_x_m');
+  const y = run.column('est_y_m');
+  return Float64Array.from(x, (value, i) => Math.hypot(value - goalX, y[i] - goalY));
+}
+
+export class Plots {
+  private readonly plots: {plot: Plot; chart: uPlot; head: HTMLElement; values: HTMLElement[]}[] = [];
+  private zoomed = false;
+
+  constructor(
+    private readonly run: Run,
+    private readonly player: Player,
+    private readonly theme: Theme,
+    distance: Float64Array,
+    nearest: Float64Array,
+  ) {
+    const wheel = (side: 'left' | 'right'): Line[] => [
+      {label: side, colour: side, values: run.column(`v_${side}_mps`)},
+      {label: `${side}, asked`, colour: side, values: run.column(`cmd_${side}_mps`), dashed: true},
+    ];
+    const ranges = BEAMS.map((beam, i): Line => ({label: beam, colour: beam, values: this.rangeValues(i)}));
+    const plots = [
+      plotOf('plot-goal', 'm', [
+        {label: 'distance to the goal', colour: 'accent', values: distance},
+        {label: 'nearest so far', colour: 'goal', values: nearest, dashed: true},
+      ]),
+      plotOf('plot-ranges', 'm', ranges),
+      plotOf('plot-wheels', 'm/s', [...wheel('left'), ...wheel('right')]),
+    ];
+    for (const plot of plots) this.build(plot);
+    for (const id of ['zoom', 'zoom-goal']) {
+      element(id).addEventListener('click', () => this.setZoomed(!this.zoomed));
+    }
+  }
+
+  update(): void {
+    const tick = this.player.tick;
+    const now = this.run.t[tick];
+    for (const {plot, chart, head, values} of this.plots) {
+      const {min, max} = this.window(now);
+      if (this.zoomed) chart.setScale('x', {min, max});
+      // Not by valToPos: the chart takes a new scale a little later.
+      const at = ((now - min) / (max - min)) * (chart.bbox.width / uPlot.pxRatio);
+      head.style.transform = `translateX(${at}px)`;
+      plot.lines.forEach(({values: all}, i) => {
+        const value = all[tick];
+        const text = value === null ? 'lost' : value.toFixed(2);
+        if (values[i].textContent !== text) values[i].textContent = text;
+      });
+    }
+  }
+
+  restyle(): void {
+    for (const {plot, chart} of this.plots.splice(0)) {
+      chart.destroy();
+      this.build(plot);
+    }
+    this.update();
+  }
+
+  setZoomed(on: boolean): void {
+    this.zoomed = on;
+    for (const id of ['zoom', 'zoom-goal']) {
+      element(id).setAttribute('aria-pressed', String(on));
+    }
+    if (!on) {
+      for (const {chart} of this.plots) chart.setScale('x', this.window(0));
+    }
+    this.update();
+  }
+
+  private window(now: number): {min: number; max: number} {
+    const {t, ticks} = this.run;
+    return this.zoomed ? {min: now - BEFORE, max: now + AFTER} : {min: t[0], max: t[ticks - 1]};
+  }
+
+  private shadeEdges(u: uPlot): void {
+    const {t, ticks, info} = this.run;
+    const {left: first, top, width, height} = u.bbox;
+    u.ctx.save();
+    u.ctx.fillStyle = this.theme.palette.danger;
+    u.ctx.globalAlpha = 0.14;
+    for (const {hit, left} of info.edges) {
+      const from = Math.max(first, u.valToPos(t[hit], 'x', true));
+      const to = Math.min(first + width, u.valToPos(t[left ?? ticks - 1], 'x', true));
+      if (to > from) u.ctx.fillRect(from, top, to - from, height);
+    }
+    u.ctx.restore();
+  }
+
+  private rangeValues(beam: number): (number | null)[] {
+    return Array.from(this.run.t, (_, tick) => this.run.range(beam, tick));
+  }
+
+  private build(plot: Plot): void {
+    const p = this.theme.palette;
+    const host = element(plot.id);
+    host.replaceChildren();
+    const legend = document.createElement('p');
+    legend.className = 'legend';
+    const values = plot.lines.map(({label, colour, dashed}) => {
+      const key = document.createElement('span');
+      key.className = dashed ? 'key dashed' : 'key';
+      key.style.setProperty('--key', p[colour]);
+      const value = document.createElement('b');
+      const item = document.createElement('span');
+      item.append(key, ` ${label} `, value, ` ${plot.unit}`);
+      legend.append(item);
+      return value;
+    });
+    const axis: uPlot.Axis = {
+      stroke: p.muted,
+      font: '11px Inter, system-ui, sans-serif',
+      grid: {stroke: p.grid, width: 1},
+      ticks: {stroke: p.line, width: 1, size: 4},
+    };
+    const chart = new uPlot(
+      {
+        width: Math.max(200, host.clientWidth),
+        height: HEIGHT,
+        padding: [6, 4, 0, 0],
+        legend: {show: false},
+        cursor: {show: false},
+        scales: {
+          x: {time: false, range: (_, min, max) => [min, max]},
+          y: {range: [plot.low, plot.high]},
+        },
+        axes: [
+          {...axis, size: 26, space: 60, values: (_, splits) => splits.map((s) => `${s} s`)},
+          {...axis, size: 36, space: 26},
+        ],
+        hooks: plot.edges ? {drawClear: [(u) => this.shadeEdges(u)]} : {},
+        series: [
+          {},
+          ...plot.lines.map(({colour, dashed}) => ({
+            stroke: p[colour],
+            width: dashed ? 1.25 : 1.5,
+            dash: dashed ? [4, 4] : undefined,
+            points: {show: false},
+            spanGaps: false,
+          })),
+        ],
+      },
+      [this.run.t, ...plot.lines.map(({values: v}) => v)] as uPlot.AlignedData,
+      host,
+    );
+    if (plot.edges && this.run.info.edges.length > 0) {
+      const key = document.createElement('span');
+      key.className = 'key shade';
+      const item = document.createElement('span');
+      item.append(key, ' on an edge');
+      legend.append(item);
+    }
+    host.append(legend);
+    const head = document.createElement('div');
+    head.className = 'playhead';
+    chart.over.append(head);
+    chart.over.addEventListener('pointerdown', (event) => {
+      this.player.seekTime(chart.posToVal(event.offsetX, 'x'));
+    });
+    this.plots.push({plot, chart, head, values});
+    new ResizeObserver(() => {
+      const width = Math.max(200, host.clientWidth);
+      if (width === chart.width || !host.contains(chart.root)) return;
+      chart.setSize({width, height: HEIGHT});
+      this.update();
+    }).observe(host);
+    setText(`${plot.id}-about`, plot.lines.map(({label}) => label).join(', '));
+  }
+}

@@ -1,0 +1,114 @@
+/** Why it turns: the response table, what it was asked, and the rules that answer. */
+import type {Run} from './data.ts';
+import {element, make, setText} from './dom.ts';
+import {HeatMap} from './heatmap.ts';
+import type {Player} from './player.ts';
+import {firedRules, type FiredRule} from './rules.ts';
+import {usesTable} from './table_use.ts';
+import type {Theme} from './theme.ts';
+import {degrees, ruleThen, ruleWhen} from './words.ts';
+
+const SHOWN_RULES = 4;
+
+/** "12 degrees left" */
+function sideways(radians: number): string {
+  const d = degrees(radians);
+  if (Math.abs(d) < 0.5) return 'straight on';
+  return `${Math.abs(d).toFixed(0)}° to the ${d > 0 ? 'left' : 'right'}`;
+}
+
+export class ResponsePanel {
+  private readonly maps: HeatMap[];
+  private shown = '';
+
+  constructor(
+    private readonly run: Run,
+    private readonly player: Player,
+    private readonly theme: Theme,
+  ) {
+    const {controller} = run.shared;
+    const p = theme.palette;
+    const turn = [controller.sa.min, controller.sa.max] as [number, number];
+    const step = [controller.sd.terms[0][1], controller.sd.terms.at(-1)![1]] as [number, number];
+    this.maps = [
+      new HeatMap(
+        element<HTMLCanvasElement>('heat-turn'),
+        controller,
+        controller.sa_thousandths,
+        turn,
+        (c) => [c['turn-right'], c['turn-none'], c['turn-left']],
+        p,
+      ),
+      new HeatMap(
+        element<HTMLCanvasElement>('heat-step'),
+        controller,
+        controller.sd_thousandths,
+        step,
+        (c) => [c['step-small'], c['step-large']],
+        p,
+      ),
+    ];
+    setText('table-source', controller.source);
+  }
+
+  restyle(): void {
+    for (const map of this.maps) map.restyle(this.theme.palette);
+  }
+
+  update(): void {
+    const {run} = this;
+    const tick = this.player.tick;
+    const at = (name: string) => run.column(name)[tick];
+    const inUse = usesTable(run, tick);
+    const question = `${at('d')} ${at('r')} ${run.mode(tick)}`;
+    if (question === this.shown) return;
+    this.shown = question;
+    // No step factor is 0: what shows one has not been asked.
+    if (at('sd') === 0) {
+      this.showUnasked();
+      return;
+    }
+    const rules = firedRules(run.shared.controller, at('d'), at('r'));
+    for (const map of this.maps) {
+      map.show({d: at('d'), r: at('r'), cellD: at('cell_d'), cellR: at('cell_r'), rules, inUse});
+    }
+    setText('value-d', at('d').toFixed(2));
+    setText('value-r', at('r').toFixed(2));
+    setText('value-sa', at('sa').toFixed(2));
+    setText('value-sd', at('sd').toFixed(2));
+    const asked = sideways(at('sa') * run.info.robot.base_turn);
+    setText('table-says', inUse ? `Now it asks for ${asked}.` : this.unused(tick, asked));
+    this.listRules(rules);
+  }
+
+  private showUnasked(): void {
+    for (const map of this.maps) map.show(null);
+    for (const id of ['value-d', 'value-r', 'value-sa', 'value-sd']) setText(id, '-');
+    setText('table-says', 'It has not been asked yet.');
+    element('rules').replaceChildren();
+  }
+
+  private unused(tick: number, asked: string): string {
+    const instead = this.run.mode(tick) === 'skirting' ? ': along an edge it keeps beside it instead' : '';
+    return `Not in use now${instead}. Its last answer was ${asked}.`;
+  }
+
+  private listRules(rules: FiredRule[]): void {
+    const {controller} = this.run.shared;
+    const items = rules.slice(0, SHOWN_RULES).map(({d, r, weight}) => {
+      const [turnTerm, turn] = controller.turn[d][r];
+      const [stepTerm] = controller.step[d][r];
+      const terms = `D ${controller.d.terms[d][0]}, R ${controller.r.terms[r][0]}: SA ${turnTerm}, SD ${stepTerm}`;
+      const bar = make('span', 'bar');
+      bar.style.setProperty('--share', String(weight));
+      const item = make('li', '', [
+        make('span', '', `${ruleWhen(d, r)}: ${ruleThen(turn, controller.sa.max)}`),
+        bar,
+        make('span', 'number', weight.toFixed(2)),
+      ]);
+      item.title = terms;
+      return item;
+    });
+    element('rules').replaceChildren(...items);
+  }
+}

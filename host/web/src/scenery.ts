@@ -1,0 +1,147 @@
+/** What both views of the world draw. Lengths are metres; the canvas is set to the world's axes. */
+import {BEAMS, RangeStatus, type Run} from './data.ts';
+import {moverPosition, polyline} from './shapes.ts';
+import type {Palette} from './theme.ts';
+
+const TAU = 2 * Math.PI;
+
+export class Scenery {
+  private readonly discs = new Path2D();
+  private readonly polygons = new Path2D();
+  private readonly walls = new Path2D();
+
+  constructor(private readonly run: Run) {
+    const {discs, polygons, walls} = run.info.world;
+    for (const [x, y, radius] of discs) {
+      this.discs.moveTo(x + radius, y);
+      this.discs.arc(x, y, radius, 0, TAU);
+    }
+    for (const points of polygons) this.polygons.addPath(polyline(points, true));
+    for (const points of walls) this.walls.addPath(polyline(points));
+  }
+
+  /** `pixel` is the size of one in metres. */
+  drawObstacles(c: CanvasRenderingContext2D, p: Palette, pixel: number, time: number): void {
+    const {bounds, movers} = this.run.info.world;
+    c.lineJoin = c.lineCap = 'round';
+    c.fillStyle = p.obstacle;
+    c.strokeStyle = p['obstacle-edge'];
+    c.lineWidth = pixel;
+    for (const path of [this.discs, this.polygons]) {
+      c.fill(path);
+      c.stroke(path);
+    }
+    c.strokeStyle = p.wall;
+    c.lineWidth = 2.5 * pixel;
+    c.stroke(this.walls);
+    if (bounds) c.strokeRect(bounds[0], bounds[1], bounds[2] - bounds[0], bounds[3] - bounds[1]);
+    for (const mover of movers) {
+      c.strokeStyle = p.mover;
+      c.lineWidth = pixel;
+      c.setLineDash([3 * pixel, 4 * pixel]);
+      c.stroke(polyline(mover.path));
+      c.setLineDash([]);
+      const [x, y] = moverPosition(mover, time);
+      c.beginPath();
+      c.arc(x, y, mover.radius, 0, TAU);
+      c.fillStyle = p.obstacle;
+      c.fill();
+      c.lineWidth = 2 * pixel;
+      c.stroke();
+    }
+  }
+
+  drawGoal(c: CanvasRenderingContext2D, p: Palette, pixel: number): void {
+    const {goal, tolerance} = this.run.info.world;
+    c.strokeStyle = c.fillStyle = p.goal;
+    c.lineWidth = 1.5 * pixel;
+    c.beginPath();
+    c.arc(goal[0], goal[1], Math.max(tolerance, 6 * pixel), 0, TAU);
+    c.globalAlpha = 0.22;
+    c.fill();
+    c.globalAlpha = 1;
+    c.stroke();
+    const arm = 4 * pixel;
+    c.stroke(new Path2D(`M${goal[0] - arm},${goal[1]}h${2 * arm}M${goal[0]},${goal[1] - arm}v${2 * arm}`));
+  }
+
+  /** The clear cells, where the robot believes them to be in the true world. */
+  drawPatch(c: CanvasRenderingContext2D, p: Palette, tick: number): void {
+    const {run} = this;
+    const {cell} = run.info.robot;
+    const frame = run.film.seek(tick);
+    if (frame < 0) return;
+    const at = (name: string, i: number) => run.column(name)[i];
+    c.save();
+    c.translate(at('x_m', tick), at('y_m', tick));
+    c.rotate(at('heading_rad', tick) - at('est_heading_rad', tick));
+    c.translate(-at('est_x_m', tick), -at('est_y_m', tick));
+    c.fillStyle = p.clear;
+    const bodyX = Math.floor(at('est_x_m', frame) / cell + 1e-6);
+    const bodyY = Math.floor(at('est_y_m', frame) / cell + 1e-6);
+    c.beginPath();
+    run.film.forEachClear(bodyX, bodyY, (x, y) => c.rect(x * cell, y * cell, cell, cell));
+    c.fill();
+    c.restore();
+  }
+
+  drawBeams(c: CanvasRenderingContext2D, p: Palette, pixel: number, tick: number): void {
+    const {run} = this;
+    const {side_angle, cone, offset} = run.info.robot;
+    const heading = run.column('heading_rad')[tick];
+    for (let beam = 0; beam < 3; ++beam) {
+      const range = run.range(beam, tick);
+      if (range === null) continue;
+      const axis = heading + side_angle * (1 - beam);
+      const x = run.column('x_m')[tick] + offset * Math.cos(axis);
+      const y = run.column('y_m')[tick] + offset * Math.sin(axis);
+      const hit = run.column(`${BEAMS[beam]}_status`)[tick] !== RangeStatus.clear;
+      c.beginPath();
+      c.moveTo(x, y);
+      c.arc(x, y, range, axis - cone / 2, axis + cone / 2);
+      c.closePath();
+      c.fillStyle = c.strokeStyle = p[BEAMS[beam]];
+      c.globalAlpha = 0.13;
+      c.fill();
+      c.globalAlpha = 0.45;
+      c.lineWidth = pixel;
+      c.stroke();
+      c.globalAlpha = 1;
+      if (!hit) continue;
+      c.beginPath();
+      c.arc(x, y, range, axis - cone / 2, axis + cone / 2);
+      c.lineWidth = 3 * pixel;
+      c.stroke();
+    }
+  }
+
+  /** The body, and a ring where the robot believes to be if that is elsewhere. */
+  drawBody(c: CanvasRenderingContext2D, p: Palette, pixel: number, tick: number): void {
+    const {run} = this;
+    const at = (name: string) => run.column(name)[tick];
+    const radius = run.info.robot.radius;
+    const [x, y, heading] = [at('x_m'), at('y_m'), at('heading_rad')];
+    if (Math.hypot(at('est_x_m') - x, at('est_y_m') - y) > Math.max(0.01, pixel)) {
+      c.strokeStyle = p.muted;
+      c.lineWidth = pixel;
+      c.setLineDash([3 * pixel, 3 * pixel]);
+      c.beginPath();
+      c.arc(at('est_x_m'), at('est_y_m'), radius, 0, TAU);
+      c.stroke();
+      c.setLineDash([]);
+    }
+    c.fillStyle = p.body;
+    c.strokeStyle = p.panel;
+    c.lineWidth = 1.5 * pixel;
+    c.beginPath();
+    c.arc(x, y, Math.max(radius, 5 * pixel), 0, TAU);
+    c.fill();
+    c.stroke();
+    const nose = Math.max(radius, 5 * pixel);
+    c.beginPath();
+    c.moveTo(x + 0.2 * nose * Math.cos(heading), y + 0.2 * nose * Math.sin(heading));
+    c.lineTo(x + 0.9 * nose * Math.cos(heading), y + 0.9 * nose * Math.sin(heading));
+    c.lineWidth = Math.max(2 * pixel, 0.16 * nose);
+    c.stroke();
+  }
+}

@@ -1,0 +1,133 @@
+/** The lanes of states and reasons under the world, and the slider over them. */
+import type {Run} from './data.ts';
+import {element, setText, Surface} from './dom.ts';
+import type {Player} from './player.ts';
+import type {Colour, Theme} from './theme.ts';
+import {sentence} from './words.ts';
+
+interface Segment {
+  from: number;
+  /** The first tick behind it. */
+  to: number;
+  label: string;
+  colour: Colour;
+}
+
+const STILL = new Set(['facing', 'looking', 'searching', 'surveying', 'idle']);
+const OVER = new Set(['arrived', 'unreachable', 'gave_up', 'stopped']);
+
+const WHY_COLOURS: Record<string, Colour> = {
+  target_free: 'free',
+  at_goal: 'goal',
+  table: 'table',
+  narrow: 'probing',
+  target_blocked: 'danger',
+  exit_left: 'danger',
+  exit_right: 'danger',
+  same_side: 'danger',
+  edge: 'danger',
+  opening: 'danger',
+  way_back: 'danger',
+  came_round: 'contact',
+  wall_lost: 'contact',
+  no_exit: 'contact',
+  blind: 'contact',
+  fault: 'contact',
+  step_budget: 'contact',
+  length_budget: 'contact',
+};
+
+export function stateColour(run: Run, tick: number): Colour {
+  const mode = run.mode(tick);
+  if (OVER.has(mode)) return mode === 'arrived' ? 'goal' : 'over';
+  if (STILL.has(mode)) return 'still';
+  return (['free', 'table', 'probing', 'danger'] as const)[run.column('doing')[tick]];
+}
+
+function segments(run: Run, of: (tick: number) => [string, Colour]): Segment[] {
+  const all: Segment[] = [];
+  for (let tick = 0; tick < run.ticks; ++tick) {
+    const [label, colour] = of(tick);
+    const last = all[all.length - 1];
+    if (last && last.label === label && last.colour === colour) last.to = tick + 1;
+    else all.push({from: tick, to: tick + 1, label, colour});
+  }
+  return all;
+}
+
+export class Timeline {
+  private readonly surface: Surface;
+  private readonly slider = element<HTMLInputElement>('scrub');
+  private readonly lanes: Segment[][];
+  /** Ticks at which state or reason changes. */
+  private readonly changes: number[];
+
+  constructor(
+    private readonly run: Run,
+    private readonly player: Player,
+    private readonly theme: Theme,
+  ) {
+    this.lanes = [
+      segments(run, (tick) => [run.mode(tick), stateColour(run, tick)]),
+      segments(run, (tick) => {
+        const why = run.why(tick);
+        return [why.replaceAll('_', ' '), WHY_COLOURS[why] ?? 'still'];
+      }),
+    ];
+    this.changes = [...new Set(this.lanes.flat().map(({from}) => from))].sort((a, b) => a - b);
+    this.surface = new Surface(element<HTMLCanvasElement>('lanes'), () => this.draw());
+    this.slider.max = String(player.end);
+    this.slider.addEventListener('input', () => player.seek(Number(this.slider.value)));
+    this.draw();
+  }
+
+  draw(): void {
+    const c = this.surface.clear();
+    const p = this.theme.palette;
+    const {width, height} = this.surface;
+    const lane = (height - 4) / 2;
+    c.font = '11px Inter, system-ui, sans-serif';
+    c.textBaseline = 'middle';
+    c.textAlign = 'left';
+    this.lanes.forEach((list, row) => {
+      const y = row * (lane + 4);
+      for (const {from, to, colour} of list) {
+        const x0 = this.x(from);
+        c.fillStyle = p[colour];
+        c.fillRect(x0, y, Math.max(0.75, this.x(to) - x0), lane);
+      }
+      for (const {from, to, label, colour} of list) {
+        const x0 = Math.max(0, this.x(from));
+        const room = Math.min(width, this.x(to)) - x0;
+        if (c.measureText(label).width + 10 > room) continue;
+        c.fillStyle = colour === 'still' ? p.ink : p.panel;
+        c.fillText(label, x0 + 5, y + lane / 2 + 0.5);
+      }
+    });
+  }
+
+  update(): void {
+    const {tick} = this.player;
+    if (Number(this.slider.value) !== tick) this.slider.value = String(tick);
+    element('lanes-head').style.transform = `translateX(${this.x(tick)}px)`;
+    // Not on every frame: a screen reader would never come to an end.
+    if (this.player.playing) return;
+    const now = `${this.run.t[tick].toFixed(2)} s. ${sentence(this.run.mode(tick), this.run.why(tick))}`;
+    this.slider.setAttribute('aria-valuetext', now);
+    setText('spoken', now);
+  }
+
+  nextChange(): void {
+    const next = this.changes.find((tick) => tick > this.player.tick);
+    this.player.seek(next ?? this.player.end);
+  }
+
+  previousChange(): void {
+    const before = this.changes.filter((tick) => tick < this.player.tick);
+    this.player.seek(before.length > 0 ? before[before.length - 1] : 0);
+  }
+
+  private x(tick: number): number {
+    return (tick / this.run.ticks) * this.surface.width;
+  }
+}

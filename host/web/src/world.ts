@@ -1,0 +1,276 @@
+/** The world from above: the path driven so far, coloured by what the robot did, and the robot. */
+import {Camera, type Box} from './camera.ts';
+import type {Run} from './data.ts';
+import {element, Surface} from './dom.ts';
+import type {Player} from './player.ts';
+import {listenToHands} from './hands.ts';
+import {Scenery} from './scenery.ts';
+import {sceneBox} from './scene_box.ts';
+import {pathPieces, type Piece} from './shapes.ts';
+import type {Colour, Theme} from './theme.ts';
+
+export const DOING_COLOURS: Colour[] = ['free', 'table', 'probing', 'danger'];
+const WIDTHS = [2.5, 3, 2.5, 3.5];
+const FOLLOWED_METRES = 2.6;
+
+export class WorldView {
+  private readonly surface: Surface;
+  private readonly camera = new Camera();
+  private readonly pieces: Piece[];
+  private readonly whole = new Path2D();
+  private readonly box: Box;
+  private following = false;
+  /** The reader has moved the view. */
+  private moved = false;
+
+  constructor(
+    private readonly run: Run,
+    private readonly player: Player,
+    private readonly theme: Theme,
+    private readonly scenery: Scenery,
+  ) {
+    this.box = sceneBox(run);
+    this.pieces = pathPieces(run);
+    for (const piece of this.pieces) this.whole.addPath(piece.path);
+    const canvas = element<HTMLCanvasElement>('world');
+    this.surface = new Surface(canvas, () => {
+      if (!this.moved) this.fit();
+      this.draw();
+    });
+    this.fit();
+    listenToHands(canvas, {
+      zoom: (factor, x, y) => this.zoom(factor, x, y),
+      pan: (dx, dy) => this.pan(dx, dy),
+      oneFingerPans: () => this.moved,
+    });
+    element('fit').addEventListener('click', () => this.showAll());
+    element('follow').addEventListener('click', () => this.setFollowing(!this.following));
+  }
+
+  showAll(): void {
+    this.setFollowing(false);
+    this.moved = false;
+    this.fit();
+    this.draw();
+  }
+
+  setFollowing(on: boolean): void {
+    this.following = on;
+    element('follow').setAttribute('aria-pressed', String(on));
+    if (on) {
+      this.moved = true;
+      this.camera.scale = Math.min(this.surface.width, this.surface.height) / FOLLOWED_METRES;
+      this.touchable();
+    }
+    this.draw();
+  }
+
+  toggleFollowing(): void {
+    if (this.following) this.showAll();
+    else this.setFollowing(true);
+  }
+
+  draw(): void {
+    const {run, theme, camera, surface, scenery} = this;
+    const p = theme.palette;
+    const tick = this.player.tick;
+    const time = run.t[tick];
+    if (this.following) {
+      camera.x = run.column('x_m')[tick];
+      camera.y = run.column('y_m')[tick];
+    }
+    const c = surface.clear();
+    const pixel = 1 / camera.scale;
+    c.save();
+    this.drawGround(c);
+    camera.apply(c, surface.width, surface.height);
+    this.drawGrid(c, pixel);
+    this.drawLineToGoal(c, pixel);
+    scenery.drawPatch(c, p, tick);
+    scenery.drawObstacles(c, p, pixel, time);
+    scenery.drawGoal(c, p, pixel);
+    this.drawPath(c, pixel, tick);
+    scenery.drawBeams(c, p, pixel, tick);
+    scenery.drawBody(c, p, pixel, tick);
+    c.restore();
+    this.drawMarks(c, tick);
+    this.drawScaleBar(c);
+  }
+
+  private fit(): void {
+    this.camera.fit(this.box, this.surface.width, this.surface.height, 18);
+    this.touchable();
+  }
+
+  /** One finger scrolls the page while all is shown, and moves the world when it is larger than its window. */
+  private touchable(): void {
+    this.surface.canvas.style.touchAction = this.moved ? 'none' : 'pan-y';
+  }
+
+  private drawGround(c: CanvasRenderingContext2D): void {
+    const {bounds} = this.run.info.world;
+    const p = this.theme.palette;
+    const {width, height} = this.surface;
+    c.fillStyle = bounds ? p.outside : p.ground;
+    c.fillRect(0, 0, width, height);
+    if (!bounds) return;
+    const [left, bottom] = this.camera.toScreen(bounds[0], bounds[1], width, height);
+    const [right, top] = this.camera.toScreen(bounds[2], bounds[3], width, height);
+    c.fillStyle = p.ground;
+    c.fillRect(left, top, right - left, bottom - top);
+  }
+
+  private drawGrid(c: CanvasRenderingContext2D, pixel: number): void {
+    const {camera, surface} = this;
+    const halfX = (surface.width / 2) * pixel;
+    const halfY = (surface.height / 2) * pixel;
+    const step = camera.scale > 150 ? 0.5 : camera.scale > 20 ? 1 : 10;
+    c.strokeStyle = this.theme.palette.grid;
+    c.lineWidth = pixel;
+    c.beginPath();
+    for (let x = Math.ceil((camera.x - halfX) / step) * step; x <= camera.x + halfX; x += step) {
+      c.moveTo(x, camera.y - halfY);
+      c.lineTo(x, camera.y + halfY);
+    }
+    for (let y = Math.ceil((camera.y - halfY) / step) * step; y <= camera.y + halfY; y += step) {
+      c.moveTo(camera.x - halfX, y);
+      c.lineTo(camera.x + halfX, y);
+    }
+    c.stroke();
+  }
+
+  private drawLineToGoal(c: CanvasRenderingContext2D, pixel: number): void {
+    const {start, goal} = this.run.info.world;
+    c.strokeStyle = this.theme.palette.muted;
+    c.globalAlpha = 0.6;
+    c.lineWidth = pixel;
+    c.setLineDash([pixel, 5 * pixel]);
+    c.beginPath();
+    c.moveTo(start[0], start[1]);
+    c.lineTo(goal[0], goal[1]);
+    c.stroke();
+    c.setLineDash([]);
+    c.globalAlpha = 1;
+  }
+
+  private drawPath(c: CanvasRenderingContext2D, pixel: number, tick: number): void {
+    const p = this.theme.palette;
+    c.lineJoin = 'round';
+    c.lineCap = 'butt';
+    c.strokeStyle = p.muted;
+    c.globalAlpha = 0.25;
+    c.lineWidth = 1.5 * pixel;
+    c.stroke(this.whole);
+    c.globalAlpha = 1;
+    const x = this.run.column('x_m');
+    const y = this.run.column('y_m');
+    for (const {doing, ticks, path} of this.pieces) {
+      if (ticks[0] >= tick) break;
+      c.strokeStyle = p[DOING_COLOURS[doing]];
+      c.lineWidth = WIDTHS[doing] * pixel;
+      if (ticks[ticks.length - 1] <= tick) {
+        c.stroke(path);
+        continue;
+      }
+      c.beginPath();
+      for (const at of ticks) {
+        if (at > tick) break;
+        if (at === ticks[0]) c.moveTo(x[at], y[at]);
+        else c.lineTo(x[at], y[at]);
+      }
+      c.lineTo(x[tick], y[tick]);
+      c.stroke();
+    }
+  }
+
+  /** Words and the numbers of the edges, always upright and of one size. */
+  private drawMarks(c: CanvasRenderingContext2D, tick: number): void {
+    const {camera, surface, run} = this;
+    const p = this.theme.palette;
+    const {start, goal} = run.info.world;
+    const place = (x: number, y: number) => camera.toScreen(x, y, surface.width, surface.height);
+    c.font = '600 12px Inter, system-ui, sans-serif';
+    c.textAlign = 'center';
+    c.textBaseline = 'middle';
+    const word = (text: string, at: [number, number], dy: number, colour: string) => {
+      c.lineWidth = 4;
+      c.lineJoin = 'round';
+      c.strokeStyle = p.ground;
+      c.strokeText(text, at[0], at[1] + dy);
+      c.fillStyle = colour;
+      c.fillText(text, at[0], at[1] + dy);
+    };
+    const below = Math.max(8, run.info.robot.radius * camera.scale) + 12;
+    const above = Math.max(8, run.info.world.tolerance * camera.scale) + 12;
+    word('start', place(...start), below, p.muted);
+    word('goal', place(...goal), -above, p.goal);
+    const x = run.column('x_m');
+    const y = run.column('y_m');
+    if (run.info.result.outcome === 'contact' && tick === run.ticks - 1) {
+      const at = place(x[tick], y[tick]);
+      const radius = Math.max(8, run.info.robot.radius * camera.scale) + 5;
+      c.beginPath();
+      c.arc(at[0], at[1], radius, 0, 2 * Math.PI);
+      c.strokeStyle = p.contact;
+      c.lineWidth = 3;
+      c.stroke();
+      word('contact', at, -radius - 10, p.contact);
+    }
+    run.info.edges.forEach(({hit, left}, i) => {
+      if (hit > tick) return;
+      const numbered: [number, boolean][] = [[hit, true]];
+      if (left !== null && left <= tick) numbered.push([left, false]);
+      for (const [at, met] of numbered) {
+        const [px, py] = place(x[at], y[at]);
+        c.beginPath();
+        c.arc(px, py, 8.5, 0, 2 * Math.PI);
+        c.fillStyle = met ? p.danger : p.panel;
+        c.strokeStyle = met ? p.panel : p.free;
+        c.lineWidth = 2;
+        c.fill();
+        c.stroke();
+        c.fillStyle = met ? p.panel : p.ink;
+        c.font = '700 11px Inter, system-ui, sans-serif';
+        c.fillText(String(i + 1), px, py + 0.5);
+      }
+    });
+  }
+
+  private drawScaleBar(c: CanvasRenderingContext2D): void {
+    const p = this.theme.palette;
+    const step = this.camera.scale > 150 ? 0.5 : this.camera.scale > 20 ? 1 : 10;
+    const length = step * this.camera.scale;
+    const x = this.surface.width - 14 - length;
+    const y = this.surface.height - 12;
+    c.strokeStyle = c.fillStyle = p.muted;
+    c.lineWidth = 1.5;
+    c.stroke(new Path2D(`M${x},${y - 4}v4h${length}v-4`));
+    c.font = '11px Inter, system-ui, sans-serif';
+    c.textAlign = 'center';
+    c.textBaseline = 'bottom';
+    c.fillText(`${step} m`, x + length / 2, y - 3);
+  }
+
+  private zoom(factor: number, px: number, py: number): void {
+    const {camera, surface} = this;
+    const [x, y] = camera.toWorld(px, py, surface.width, surface.height);
+    const scale = Math.max(4, Math.min(2000, camera.scale * factor));
+    camera.x = x + ((camera.x - x) * camera.scale) / scale;
+    camera.y = y + ((camera.y - y) * camera.scale) / scale;
+    camera.scale = scale;
+    this.movedByHand();
+  }
+
+  private pan(dx: number, dy: number): void {
+    if (this.following) this.setFollowing(false);
+    this.camera.x -= dx / this.camera.scale;
+    this.camera.y += dy / this.camera.scale;
+    this.movedByHand();
+  }
+
+  private movedByHand(): void {
+    this.moved = true;
+    this.touchable();
+    this.draw();
+  }
+}

@@ -1,0 +1,134 @@
+#include "host/page/page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/page/template.hpp"
+#include "host/run/runner.hpp"
+
+namespace whisker::page {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Scenario short_run() {
+  Scenario s;
+  s.name = "</script><b>\"one\" & \xc3\xa9";
+  s.goal.at = {1, 0.3};
+  s.discs = {{{0.5, 0.2}, 0.05}};
+  s.time_limit_s = 8;
+  return s;
+}
+
+Controller controller() {
+  Controller c;
+  c.d = {"D", "ahead", 0, 10, {{"VS", 1}, {"VB", 9}}};
+  c.r = {"R", "sides", -8, 8, {{"RVB", -7}, {"LVB", 7}}};
+  c.sa = {"SA", "turn", -1.5, 1.5, {{"TRVB", -1.5}, {"TLVB", 1.5}}};
+  c.sd = {"SD", "step", 0, 2, {{"VS", 0.3}, {"VB", 1.7}}};
+  c.turn = c.step = {{{"Z", 0}, {"Z", 0}}, {{"Z", 0}, {"Z", 0}}};
+  c.sa_at = [](double d, double r) { return 0.01 * d + 0.001 * r; };
+  c.sd_at = [](double, double) { return 1.0; };
+  c.d_nodes = {1, 9};
+  c.r_nodes = {-7, 7};
+  return c;
+}
+
+StoredRun watched(const Scenario& scenario, RunResult& result) {
+  Recording recording(scenario.robot);
+  RunOptions options;
+  options.watch = [&](const Moment& moment) { recording.add(moment); };
+  result = run(scenario, options);
+  return stored({scenario, options.planner, 77, recording, result});
+}
+
+/// What stands in the element of this id.
+std::string content(const std::string& page, const std::string& id) {
+  const std::size_t open = page.find(" id=\"" + id + "\">");
+  if (open == std::string::npos) return {};
+  const std::size_t from = page.find('>', open) + 1;
+  return page.substr(from, page.find("</script>", from) - from);
+}
+
+TEST(Template, HasOnePlaceForDataAndIsPlainAscii) {
+  std::string page;
+  for (const std::string_view part : template_parts()) page += part;
+  EXPECT_EQ(page.find(kDataMark), page.rfind(kDataMark));
+  EXPECT_NE(page.find(kDataMark), std::string::npos);
+  for (const char c : page) ASSERT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << static_cast<int>(c);
+  EXPECT_THAT(page, Not(HasSubstr("http://localhost")));
+  EXPECT_LT(page.size(), 150000U);
+}
+
+TEST(Page, HoldsTheRunWhateverItsNameIs) {
+  const Scenario scenario = short_run();
+  RunResult result;
+  const StoredRun run = watched(scenario, result);
+  const std::string page = run_page(run, controller());
+  const auto data = nlohmann::json::parse(content(page, "data"));
+  EXPECT_EQ(data["format"], 1);
+  EXPECT_EQ(data["runs"][0]["name"], scenario.name);
+  EXPECT_EQ(data["runs"][0]["seed"], 77);
+  EXPECT_EQ(data["runs"][0]["result"]["ticks"], result.ticks);
+  EXPECT_EQ(data["runs"][0]["columns"][0], nlohmann::json({"t_s", 2, 1000, result.ticks}));
+  EXPECT_EQ(data["shared"]["modes"].size(), static_cast<std::size_t>(nav::kModes));
+  EXPECT_EQ(data["shared"]["whys"].size(), static_cast<std::size_t>(nav::kWhys));
+  EXPECT_EQ(content(page, "columns-0"), run.columns);
+  EXPECT_FALSE(data.contains("campaign"));
+}
+
+TEST(Page, SamplesTheControllerRowByRow) {
+  RunResult result;
+  const std::string page = run_page(watched(short_run(), result), controller());
+  const auto data = nlohmann::json::parse(content(page, "data"));
+  const auto& samples = data["shared"]["controller"]["sa_thousandths"];
+  ASSERT_EQ(samples.size(), 41U * 65U);
+  EXPECT_EQ(samples[0], -8);
+  EXPECT_EQ(samples[64], 8);
+  EXPECT_EQ(samples[40 * 65 + 32], 100);
+}
+
+TEST(Page, OfACampaignHasItsRowsAndReplays) {
+  RunResult result;
+  const StoredRun run = watched(short_run(), result);
+  campaign::Row row;
+  row.seed = 5;
+  row.verdict = Verdict::contact;
+  row.world = "discs --noise";
+  row.planner = "skirt";
+  const std::string page = campaign_page({row, row}, {{1, run}, {0, run}}, controller());
+  const auto data = nlohmann::json::parse(content(page, "data"));
+  EXPECT_EQ(data["campaign"]["summary"]["missions"], 2);
+  ASSERT_EQ(data["campaign"]["rows"].size(), 2U);
+  EXPECT_EQ(data["campaign"]["rows"][0].size(), data["campaign"]["fields"].size());
+  EXPECT_EQ(data["campaign"]["rows"][0][1], "contact");
+  EXPECT_EQ(data["runs"][0]["row"], 1);
+  EXPECT_THAT(data["runs"][1]["command"].get<std::string>(), HasSubstr("--replay 5"));
+  EXPECT_EQ(content(page, "columns-1"), run.columns);
+}
+
+TEST(Recording, ChangesNothingAboutTheRun) {
+  RunResult result;
+  watched(short_run(), result);
+  EXPECT_EQ(result.hash, run(short_run()).hash);
+}
+
+TEST(Recording, HasAllTicksAndAFrameEveryFiftyMilliseconds) {
+  const Scenario scenario = short_run();
+  Recording recording(scenario.robot);
+  RunOptions options;
+  options.watch = [&](const Moment& moment) { recording.add(moment); };
+  const RunResult result = run(scenario, options);
+  EXPECT_EQ(recording.records().size(), result.ticks);
+  EXPECT_EQ(recording.health().size(), result.ticks);
+  ASSERT_GT(recording.film().ticks().size(), 2U);
+  for (std::size_t i = 0; i < recording.film().ticks().size(); ++i) {
+    EXPECT_EQ(recording.film().ticks()[i], static_cast<std::int64_t>(5 * i));
+  }
+}
+
+}  // namespace
+}  // namespace whisker::page

@@ -1,0 +1,329 @@
+// The replay page in a browser.
+import assert from 'node:assert/strict';
+import {statSync} from 'node:fs';
+import {join} from 'node:path';
+import {after, afterEach, before, describe, test} from 'node:test';
+import {
+  accessibilityFaults,
+  closePages,
+  DESKTOP,
+  drawn,
+  launch,
+  openPage,
+  PHONE,
+  pictureOf,
+  seek,
+  tickOf,
+} from './browser.mjs';
+import {Folder, ROOT, U_TRAP} from './scenarios.mjs';
+
+describe('the replay page', () => {
+  const folder = new Folder();
+  let browser;
+  let result;
+  before(async () => {
+    result = folder.run('run', U_TRAP);
+    browser = await launch();
+  });
+  afterEach(() => closePages(browser));
+  after(async () => {
+    await browser?.close();
+    folder.remove();
+  });
+  const open = (hash = '', options = {}) => openPage(browser, folder.url('run.html', hash), options);
+
+  test('opens from a file, whole and without a complaint', async () => {
+    const {page, complaints} = await open();
+    assert.equal(await page.textContent('#title'), 'figure 8: U-trap');
+    assert.match(await page.textContent('#verdict'), /^reached the goal in 23\.\d s$/);
+    assert.match(await page.textContent('#facts'), new RegExp(result.hash));
+    for (const id of ['world', 'closeup', 'lanes', 'heat-turn', 'heat-step']) {
+      assert.ok((await pictureOf(page, id)).colours > 8, `${id} is empty`);
+    }
+    assert.equal(await page.locator('.uplot').count(), 3);
+    assert.deepEqual(complaints, []);
+  });
+
+  test('plays, pauses at the end, and plays again from the start', async () => {
+    const {page, complaints} = await open();
+    await page.click('#play');
+    await page.waitForFunction(() => window.whisker.player.tick > 20);
+    assert.equal(await page.getAttribute('#play', 'aria-label'), 'Pause');
+    await page.click('#play');
+    const paused = await tickOf(page);
+    await drawn(page);
+    assert.equal(await tickOf(page), paused);
+    await page.selectOption('#speed', '64');
+    await page.click('#play');
+    await page.waitForFunction(() => !window.whisker.player.playing);
+    assert.equal(await tickOf(page), result.ticks - 1);
+    assert.equal(await page.textContent('#state'), 'arrived');
+    await page.selectOption('#speed', '0.1');
+    await page.click('#play');
+    assert.ok((await tickOf(page)) < result.ticks / 2);
+    assert.deepEqual(complaints, []);
+  });
+
+  test('obeys the keyboard', async () => {
+    const {page} = await open('#t=10');
+    const presses = [
+      ['ArrowRight', 1001],
+      ['ArrowLeft', 1000],
+      ['Shift+ArrowRight', 1100],
+      ['Shift+ArrowLeft', 1000],
+      ['End', result.ticks - 1],
+      ['Home', 0],
+    ];
+    for (const [key, tick] of presses) {
+      await page.keyboard.press(key);
+      assert.equal(await tickOf(page), tick, key);
+    }
+    await page.keyboard.press(']');
+    const change = await tickOf(page);
+    assert.ok(change > 0);
+    const [at, earlier] = await page.evaluate((tick) => {
+      const {run} = window.whisker;
+      const words = (i) => `${run.mode(i)} ${run.why(i)}`;
+      return [words(tick), words(tick - 1)];
+    }, change);
+    assert.notEqual(at, earlier);
+    await page.keyboard.press('[');
+    assert.equal(await tickOf(page), 0);
+    await page.keyboard.press('+');
+    assert.equal(await page.inputValue('#speed'), '2');
+    await page.keyboard.press(' ');
+    assert.equal(await page.evaluate(() => window.whisker.player.playing), true);
+    await page.keyboard.press(' ');
+    assert.equal(await page.evaluate(() => window.whisker.player.playing), false);
+    await page.keyboard.press('f');
+    assert.equal(await page.getAttribute('#follow', 'aria-pressed'), 'true');
+    await page.keyboard.press('0');
+    assert.equal(await page.getAttribute('#follow', 'aria-pressed'), 'false');
+    await page.keyboard.press('?');
+    assert.ok(await page.isVisible('#keys'));
+    await page.keyboard.press('Escape');
+    assert.ok(!(await page.isVisible('#keys')));
+  });
+
+  test('every control can be reached by the keyboard alone', async () => {
+    const {page} = await open();
+    const reached = new Set();
+    for (let i = 0; i < 40; ++i) {
+      await page.keyboard.press('Tab');
+      reached.add(await page.evaluate(() => document.activeElement?.id));
+    }
+    for (const id of [
+      'play',
+      'scrub',
+      'speed',
+      'copy',
+      'follow',
+      'fit',
+      'theme',
+      'help',
+      'zoom',
+      'zoom-goal',
+    ]) {
+      assert.ok(reached.has(id), `${id} was not reached`);
+    }
+    await page.focus('#scrub');
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await tickOf(page), 1, 'the slider moves by one tick');
+  });
+
+  test('scrubs, and everything follows', async () => {
+    const {page} = await open();
+    const box = await page.locator('#lanes').boundingBox();
+    const seen = [];
+    await page.mouse.move(box.x + 2, box.y + 10);
+    await page.mouse.down();
+    for (const part of [0.2, 0.5, 0.8]) {
+      await page.mouse.move(box.x + part * box.width, box.y + 10, {steps: 3});
+      await drawn(page);
+      const tick = await tickOf(page);
+      assert.ok(Math.abs(tick - part * result.ticks) < 0.02 * result.ticks, `${tick} is not at ${part}`);
+      seen.push([
+        await pictureOf(page, 'world'),
+        await pictureOf(page, 'closeup'),
+        await page.textContent('#now-time'),
+      ]);
+    }
+    await page.mouse.up();
+    for (const i of [0, 1]) {
+      assert.notEqual(new Set(seen.map((picture) => picture[i].sum)).size, 1, 'the picture stands still');
+    }
+    assert.equal(new Set(seen.map((picture) => picture[2])).size, 3);
+    const head = await page.locator('#lanes-head').boundingBox();
+    assert.ok(Math.abs(head.x - (box.x + 0.8 * box.width)) < 6, 'the playhead is elsewhere');
+  });
+
+  test('the world zooms under the wheel, moves under the mouse, and comes back', async () => {
+    const {page} = await open('#t=5');
+    const box = await page.locator('#world').boundingBox();
+    const whole = await pictureOf(page, 'world');
+    await page.mouse.move(box.x + 200, box.y + 200);
+    await page.mouse.wheel(0, -400);
+    // The wheel's event comes some frames later.
+    let zoomed = whole;
+    for (let frame = 0; frame < 50 && zoomed.sum === whole.sum; ++frame) {
+      await drawn(page);
+      zoomed = await pictureOf(page, 'world');
+    }
+    assert.notEqual(zoomed.sum, whole.sum);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 260, box.y + 240, {steps: 4});
+    await page.mouse.up();
+    await drawn(page);
+    assert.notEqual((await pictureOf(page, 'world')).sum, zoomed.sum);
+    await page.click('#fit');
+    await drawn(page);
+    assert.equal((await pictureOf(page, 'world')).sum, whole.sum);
+  });
+
+  test('links to a tick, and writes the link', async () => {
+    const {page} = await open('#t=12.34');
+    assert.equal(await tickOf(page), 1234);
+    assert.equal(await page.textContent('#clock'), '12.34 s');
+    await page.keyboard.press('ArrowRight');
+    await drawn(page);
+    assert.equal(new URL(page.url()).hash, '#t=12.35');
+    await page.evaluate(() => (location.hash = '#t=3'));
+    await page.waitForFunction(() => window.whisker.player.tick === 300);
+    const late = await open('#t=99999');
+    assert.equal(await tickOf(late.page), result.ticks - 1);
+    const nonsense = await open('#t=soon');
+    assert.equal(await tickOf(nonsense.page), 0);
+    assert.deepEqual(nonsense.complaints, []);
+  });
+
+  test('says what it does and why', async () => {
+    const {page} = await open();
+    const tick = await page.evaluate(() => {
+      const {run} = window.whisker;
+      for (let i = 0; i < run.ticks; ++i) if (run.mode(i) === 'skirting' && run.why(i) === 'edge') return i;
+      return -1;
+    });
+    await seek(page, tick);
+    assert.match(await page.textContent('#sentence'), /Follows the edge/);
+    assert.match(await page.textContent('#leave-rule'), /it may leave below \d/);
+    assert.match(await page.textContent('#table-says'), /Not in use now/);
+    assert.equal(await page.locator('#edge-rows tr.current').count(), 1);
+    await page.click('#edge-rows button');
+    await drawn(page);
+    assert.equal(await tickOf(page), await page.evaluate(() => window.whisker.run.info.edges[0].hit));
+  });
+
+  test('the edges left are nearer to the goal than those met', async () => {
+    const {page} = await open();
+    const rows = await page.locator('#edge-rows tr').allTextContents();
+    assert.ok(rows.length > 0);
+    for (const row of rows) assert.match(row, /s\d+\.\d+ m\d+\.\d+ m\d+\.\d+ m$/);
+  });
+
+  test('plots follow the time and lead to it', async () => {
+    const {page} = await open('#t=5');
+    const head = page.locator('#plot-ranges .playhead');
+    const early = (await head.boundingBox()).x;
+    await seek(page, 2000);
+    assert.ok((await head.boundingBox()).x > early + 50);
+    const plot = page.locator('#plot-ranges .u-over');
+    const {width} = await plot.boundingBox();
+    await plot.click({position: {x: width / 2, y: 20}});
+    await drawn(page);
+    assert.ok(Math.abs((await tickOf(page)) - result.ticks / 2) < 0.02 * result.ticks);
+    await page.click('#zoom');
+    await drawn(page);
+    const box = await page.locator('#plot-ranges .u-over').boundingBox();
+    assert.ok(
+      Math.abs((await head.boundingBox()).x - (box.x + 0.75 * box.width)) < 4,
+      'now is not at three quarters',
+    );
+  });
+
+  test('light and dark, by the system and by the button', async () => {
+    const ground = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    const [light, dark] = [await open('#t=8'), await open('#t=8', {colorScheme: 'dark'})];
+    const [lightGround, darkGround] = [await ground(light.page), await ground(dark.page)];
+    assert.notEqual(lightGround, darkGround);
+    const before = await pictureOf(light.page, 'world');
+    await light.page.click('#theme');
+    await drawn(light.page);
+    assert.equal(await ground(light.page), darkGround);
+    assert.notEqual((await pictureOf(light.page, 'world')).sum, before.sum);
+    await dark.page.keyboard.press('d');
+    assert.equal(await ground(dark.page), lightGround);
+    assert.deepEqual([...light.complaints, ...dark.complaints], []);
+  });
+
+  for (const [name, viewport] of [
+    ['a phone', PHONE],
+    ['a small phone', {width: 320, height: 568}],
+    ['a tablet', {width: 820, height: 1180}],
+  ]) {
+    test(`fits ${name}`, async () => {
+      const {page, complaints} = await open('#t=8', {
+        viewport,
+        touch: true,
+      });
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
+      const wide = await page.evaluate(() =>
+        [...document.querySelectorAll('main *')]
+          .filter(
+            (e) =>
+              e.id !== 'scrub' && e.getBoundingClientRect().right > innerWidth + 0.5 && !e.closest('.scroll'),
+          )
+          .map((e) => e.id || e.className || e.tagName),
+      );
+      assert.deepEqual(wide, []);
+      assert.ok(await page.isVisible('#play'));
+      await page.tap('#play');
+      await page.waitForFunction(() => window.whisker.player.tick > 830);
+      assert.deepEqual(complaints, []);
+    });
+  }
+
+  for (const [colorScheme, viewport] of [
+    ['light', PHONE],
+    ['dark', DESKTOP],
+  ]) {
+    test(`axe finds no fault: ${colorScheme}, ${viewport.width} px`, async () => {
+      const {page} = await open('#t=10', {colorScheme, viewport});
+      assert.deepEqual(await accessibilityFaults(page), []);
+    });
+  }
+
+  test('a moving obstacle is where the simulator has it', async () => {
+    folder.run('mover', join(ROOT, 'tests/cli/scenarios/crossing_mover.toml'));
+    const {page, complaints} = await openPage(browser, folder.url('mover.html', '#t=2'));
+    const still = await pictureOf(page, 'world');
+    await seek(page, 250);
+    assert.notEqual((await pictureOf(page, 'world')).sum, still.sum);
+    assert.deepEqual(complaints, []);
+  });
+
+  for (const [name, words] of [
+    ['blind', /stopped with a fault after 1\.\d s/],
+    ['run_over', /touched an obstacle after 0\.\d s/],
+    ['goal_at_start', /reached the goal in 0\.0 s/],
+    ['no_time', /gave up after/],
+  ]) {
+    test(`opens the short run ${name} at its end and at its beginning`, async () => {
+      folder.run(name, join(ROOT, `tests/cli/scenarios/${name}.toml`));
+      const {page, complaints} = await openPage(browser, folder.url(`${name}.html`, '#t=999'));
+      assert.match(await page.textContent('#verdict'), words);
+      await page.click('#play');
+      await page.waitForFunction(() => !window.whisker.player.playing);
+      await seek(page, 0);
+      assert.deepEqual(complaints, []);
+    });
+  }
+
+  test('ten minutes at 100 Hz stay below 5 MB, and open', async () => {
+    const long = folder.tenMinutes('long');
+    assert.equal(long.ticks, 60001);
+    assert.ok(statSync(folder.at('long.html')).size < 5e6);
+    const {page, complaints} = await openPage(browser, folder.url('long.html', '#t=599.99'));
+    assert.equal(await tickOf(page), 59999);
+    assert.deepEqual(complaints, []);
+  });
+});

@@ -1,0 +1,68 @@
+// What whisker writes for these tests. The command is $WHISKER, or build/host/whisker.
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {fileURLToPath} from 'node:url';
+
+export const ROOT = fileURLToPath(new URL('../..', import.meta.url));
+const WHISKER = process.env.WHISKER ?? join(ROOT, 'build/host/whisker');
+
+/** The command's standard output. Any verdict is fine; bad input and failures are not. */
+export function whisker(...args) {
+  try {
+    return execFileSync(WHISKER, args.map(String), {
+      encoding: 'utf8',
+      stdio: ['ignore', 'pipe', 'pipe'],
+    });
+  } catch (error) {
+    if (![3, 4, 5, 6].includes(error.status)) throw error;
+    return error.stdout;
+  }
+}
+
+export class Folder {
+  constructor() {
+    this.path = mkdtempSync(join(tmpdir(), 'whisker-web-'));
+  }
+  at(name) {
+    return join(this.path, name);
+  }
+  url(name, hash = '') {
+    return `file://${this.at(name)}${hash}`;
+  }
+  remove() {
+    rmSync(this.path, {recursive: true, force: true});
+  }
+
+  /** Writes a world and drives through it: NAME.html, NAME.csv, and the result as an object. */
+  drive(name, world, ...options) {
+    const scenario = this.at(`${name}.toml`);
+    whisker('world', ...world, '--out', scenario);
+    return this.run(name, scenario, ...options);
+  }
+  run(name, scenario, ...options) {
+    const files = ['--html', this.at(`${name}.html`), '--trace', this.at(`${name}.csv`)];
+    return JSON.parse(whisker('run', scenario, ...files, '--json', ...options));
+  }
+
+  /** 600 s at 100 Hz: a mission with noise that would take longer still. */
+  tenMinutes(name) {
+    const scenario = this.at(`${name}.toml`);
+    whisker('world', 'rooms', '--noise', '--seed', 116, '--out', scenario);
+    const text = readFileSync(scenario, 'utf8');
+    writeFileSync(scenario, text.replace(/^time_limit_s *=.*$/m, 'time_limit_s = 600.0'));
+    return this.run(name, scenario);
+  }
+
+  /** The rows of NAME.csv as objects of strings. */
+  trace(name) {
+    const [header, ...lines] = readFileSync(this.at(`${name}.csv`), 'utf8')
+      .trimEnd()
+      .split('\n');
+    const names = header.split(',');
+    return lines.map((line) => Object.fromEntries(line.split(',').map((value, i) => [names[i], value])));
+  }
+}
+
+export const U_TRAP = join(ROOT, 'host/worlds/scenarios/figure8_u_trap.toml');

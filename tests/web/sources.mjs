@@ -1,0 +1,19 @@
+// The page's own modules, bundled on the fly.
+import {join} from 'node:path';
+import {require} from './browser.mjs';
+import {ROOT} from './scenarios.mjs';
+
+async function module(name) {
+  const {outputFiles} = await require('esbuild').build({
+    entryPoints: [join(ROOT, 'host/web/src', name)],
+    bundle: true,
+    write: false,
+    format: 'esm',
+  });
+  return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString('base64')}`);
+}
+
+export const words = () => module('words.ts');
+export const columns = () => module('columns.ts');
+export const link = () => module('link.ts');
+export const histogram = () => module('histogram.ts');
