@@ -1,0 +1,34 @@
+#pragma once
+
+#include "firmware/can/input_set.hpp"
+#include "hal/drive.hpp"
+#include "hal/rangefinders.hpp"
+
+namespace whisker::can_remote {
+
+/// Rangefinders and wheels at the other end of a bus: they say what the last input set said.
+class RemoteBoard final : public hal::Rangefinders, public hal::Drive {
+ public:
+  /// braked: the wheels were braked without the core's knowledge, so its next command is refused once, and it
+  /// begins anew from a stand.
+  void hear(const can::InputSet& set, bool braked) noexcept {
+    set_ = set;
+    braked_ = braked;
+  }
+
+  bool read(hal::RangeReadings& out) noexcept override {
+    out = set_.ranges;
+    return true;
+  }
+  bool read(hal::EncoderCounts& out) noexcept override {
+    if (set_.counts_valid) out = set_.counts;
+    return set_.counts_valid;
+  }
+  bool command(hal::WheelSpeeds) noexcept override { return !braked_; }
+
+ private:
+  can::InputSet set_;
+  bool braked_ = false;
+};
+
+}  // namespace whisker::can_remote
