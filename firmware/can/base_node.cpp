@@ -35,7 +35,9 @@ bool BaseNode::send_set(const InputSet& set, Pace pace) noexcept {
   wheels.tick = static_cast<uint8_t>(set.tick % WheelState::kTickModulus);
   wheels.counts = set.counts;
   taken = send(wheels, kLife_ms) && taken;
-  return send(Sync{pace, set.tick, set.period_ms, mission_}, kLife_ms) && taken;
+  taken = send(Sync{pace, set.tick, set.period_ms, mission_}, kLife_ms) && taken;
+  flush();
+  return taken;
 }
 
 hal::WheelSpeeds BaseNode::control() noexcept {

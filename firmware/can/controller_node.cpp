@@ -68,6 +68,7 @@ void ControllerNode::answer(hal::WheelSpeeds speeds, const NavStatus& status) no
   answered_ = true;
   braked_ = false;
   repeat_answer();
+  flush();
 }
 
 bool ControllerNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
@@ -155,6 +156,7 @@ MissionStatus ControllerNode::obey(const MissionOrder& order) noexcept {
   order_ = order.order;
   mission_ = mission;
   order_taken_ = false;
+  braked_ = order.order == Order::resume;
   sets_.forget();
   stepped_ = false;
   answered_ = false;

@@ -88,6 +88,8 @@ class Node {
   static bool read(const hal::CanFrame& frame, M& m) noexcept {
     return decode(frame, m);
   }
+  /// Lets the port move what was sent just now.
+  void flush() noexcept { port_.poll(now_); }
   /// Latches a safe stop if the robot is running. Time-outs do not count in lockstep.
   void stop(uint16_t error) noexcept;
   /// A new order ends a safe stop. False: an E-stop stands, or there is no handshake.
