@@ -10,5 +10,7 @@ void add_world(CLI::App& app, int& status);
 void add_campaign(CLI::App& app, int& status);
 void add_table(CLI::App& app, int& status);
 void add_figures(CLI::App& app, int& status);
+void add_dbc(CLI::App& app, int& status);
+void add_protocol(CLI::App& app, int& status);
 
 }  // namespace whisker::cli

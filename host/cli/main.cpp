@@ -76,6 +76,8 @@ int main(int argc, char** argv) {
   add_campaign(app, status);
   add_table(app, status);
   add_figures(app, status);
+  add_dbc(app, status);
+  add_protocol(app, status);
   app.footer(std::string(kExitStatus) + kCampaignExitStatus + kFirstSteps);
   app.get_subcommand("run")->footer(kExitStatus);
   app.get_subcommand("campaign")->footer(kCampaignExitStatus);
