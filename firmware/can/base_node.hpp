@@ -10,7 +10,7 @@ namespace whisker::can {
 
 enum class OrderState : uint8_t {
   none,
-  waiting,   ///< not answered yet: sent again and again
+  waiting,  ///< not answered yet: sent again and again
   accepted,
   refused,
 };
@@ -62,7 +62,7 @@ class BaseNode final : public Node {
   uint32_t tick_ = 0;
   uint32_t command_seen_ = 0;
   uint8_t period_ms_ = 10;
-  bool commanded_ = false;   // a command for this mission has come
+  bool commanded_ = false;  // a command for this mission has come
   bool status_come_ = false;
 
   MissionValues values_;

@@ -49,8 +49,8 @@ class ControllerNode final : public Node {
   void repeat_answer() noexcept;
 
   InputSets sets_;
-  uint32_t tick_ = 0;      // of the last set taken
-  bool stepped_ = false;   // there is one, in this mission
+  uint32_t tick_ = 0;     // of the last set taken
+  bool stepped_ = false;  // there is one, in this mission
   bool answered_ = false;
   bool asked_again_ = false;
   WheelCommand command_;
@@ -67,7 +67,7 @@ class ControllerNode final : public Node {
   Mission mission_;
   Order order_ = Order::cancel;
   uint8_t number_ = 0;
-  bool numbered_ = false;   // number_ is of an accepted order
+  bool numbered_ = false;  // number_ is of an accepted order
   bool has_mission_ = false;
   bool order_taken_ = true;
 

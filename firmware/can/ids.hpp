@@ -1,4 +1,5 @@
-/// Identifiers: function << 4 | node of the sender. A lower one wins the bus, so the function is the priority.
+/// Identifiers: function << 4 | node of the sender. A lower one wins the bus, so the function is the
+/// priority.
 #pragma once
 
 #include <stdint.h>
@@ -19,9 +20,7 @@ constexpr uint8_t node_of(uint8_t robot, Party party) noexcept {
   return party == Party::base ? static_cast<uint8_t>(robot + kBaseOffset) : robot;
 }
 
-constexpr Party other(Party party) noexcept {
-  return party == Party::base ? Party::controller : Party::base;
-}
+constexpr Party other(Party party) noexcept { return party == Party::base ? Party::controller : Party::base; }
 
 constexpr uint32_t id_of(uint8_t function, uint8_t node) noexcept {
   return static_cast<uint32_t>(function) << 4 | node;

@@ -30,7 +30,8 @@ hal::RangeReading InputSets::to_wire(const hal::RangeReading& reading) noexcept 
   hal::RangeReading wire = reading;
   wire.sequence &= 0x0F;
   // A damaged reading must not look like a good one.
-  if (wire.status > hal::RangeStatus::stale || (wire.status == hal::RangeStatus::ok && wire.mm >= Any::kNone)) {
+  if (wire.status > hal::RangeStatus::stale ||
+      (wire.status == hal::RangeStatus::ok && wire.mm >= Any::kNone)) {
     wire.status = hal::RangeStatus::invalid;
   }
   if (wire.status != hal::RangeStatus::ok) {

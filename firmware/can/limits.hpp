@@ -19,7 +19,7 @@ constexpr uint32_t kRestartAfter_ms = 100;    ///< of a port that left the bus
 constexpr uint32_t kBusOffWindow_ms = 10000;  ///< so many bus-offs within this time, and it stays away
 constexpr int kBusOffLimit = 5;
 
-constexpr uint8_t kLife_ms = 20;       ///< of a cyclic frame in the port's queue: older ones are stale
+constexpr uint8_t kLife_ms = 20;        ///< of a cyclic frame in the port's queue: older ones are stale
 constexpr uint8_t kEventLife_ms = 100;  ///< of all others
 
 }  // namespace whisker::can

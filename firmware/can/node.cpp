@@ -7,8 +7,8 @@ namespace {
 
 /// More than any port keeps: a babbler cannot hold the node here.
 constexpr int kMostFrames = 64;
-constexpr uint16_t kLateness = Error::command_late | Error::odometry_late | Error::range_late |
-                               Error::peer_lost | Error::bus_off;
+constexpr uint16_t kLateness =
+    Error::command_late | Error::odometry_late | Error::range_late | Error::peer_lost | Error::bus_off;
 constexpr uint16_t kForGood = Error::bus_off_latched | Error::duplicate_node;
 
 uint16_t at_most_16(uint32_t x) noexcept { return x > UINT16_MAX ? UINT16_MAX : static_cast<uint16_t>(x); }
@@ -89,9 +89,7 @@ void Node::attend(uint32_t now_ms) noexcept {
   if (guard_.on_bus()) publish();
 }
 
-bool Node::is_for_us(uint8_t node) const noexcept {
-  return node == 0 || node == node_ || node == peer_node_;
-}
+bool Node::is_for_us(uint8_t node) const noexcept { return node == 0 || node == node_ || node == peer_node_; }
 
 void Node::receive(const hal::CanFrame& frame) noexcept {
   Kind kind = Kind::e_stop;

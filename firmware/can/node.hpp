@@ -6,7 +6,8 @@
 ///      | port off the bus         | peer lost          | new order     | time-out, peer stopped, bus-off
 ///      +-- any                    +-- any              +-- safe_stop <-+
 ///
-///   any -- a frame on an E-stop identifier --> e_stopped -- a valid clear, wheels at rest --> what else holds
+///   any -- a frame on an E-stop identifier --> e_stopped -- a valid clear, wheels at rest --> what else
+///   holds
 #pragma once
 
 #include <stdint.h>

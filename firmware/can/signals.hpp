@@ -167,15 +167,38 @@ inline constexpr Signal kDiagnostics[] = {
 
 /// Messages in the order of the table below.
 enum class Kind : uint8_t {
-  e_stop, sync, fault, mission, mission_reply, wheel_command, wheel_state, range_left, range_front,
-  range_right, nav_status, param_request, param_reply, heartbeat, info, info_request, diagnostics,
+  e_stop,
+  sync,
+  fault,
+  mission,
+  mission_reply,
+  wheel_command,
+  wheel_state,
+  range_left,
+  range_front,
+  range_right,
+  nav_status,
+  param_request,
+  param_reply,
+  heartbeat,
+  info,
+  info_request,
+  diagnostics,
 };
 constexpr int kKinds = 17;
 
 template <size_t kCount>
-constexpr Message message(const char* name, uint8_t function, uint8_t size, bool from_controller, bool from_base,
-                          uint16_t cycle_ms, const char* about, const Signal (&signals)[kCount]) noexcept {
-  return {name, function, size, from_controller, from_base, cycle_ms, about, signals,
+constexpr Message message(const char* name, uint8_t function, uint8_t size, bool from_controller,
+                          bool from_base, uint16_t cycle_ms, const char* about,
+                          const Signal (&signals)[kCount]) noexcept {
+  return {name,
+          function,
+          size,
+          from_controller,
+          from_base,
+          cycle_ms,
+          about,
+          signals,
           static_cast<uint8_t>(kCount)};
 }
 

@@ -33,7 +33,7 @@ const char* fault_word(int64_t raw) noexcept {
 }
 
 const char* mission_part_word(int64_t raw) noexcept {
-  constexpr const char* kNames[] = {"order",  "start_x", "start_y", "start_heading",
+  constexpr const char* kNames[] = {"order",  "start_x", "start_y",       "start_heading",
                                     "goal_x", "goal_y",  "goal_tolerance"};
   return pick(kNames, raw);
 }

@@ -60,20 +60,20 @@ enum class InfoPart : uint8_t { table_hash, version };
 /// Bits of Heartbeat's Errors. The first group latches a safe stop.
 struct Error {
   enum Bit : uint16_t {
-    command_late = 1 << 0,    ///< base: no valid command for too long
-    odometry_late = 1 << 1,   ///< controller: no valid counts for too long
-    range_late = 1 << 2,      ///< controller: no valid range of a beam for too long
-    peer_lost = 1 << 3,       ///< no heartbeat of the other party for too long
-    bus_off = 1 << 4,         ///< the port left the bus
-    bus_off_latched = 1 << 5, ///< it did so too often: it stays away until the node starts anew
-    peer_restarted = 1 << 6,  ///< the other party has another boot number
-    peer_stopped = 1 << 7,    ///< the other party is in a safe stop
-    duplicate_node = 1 << 8,  ///< somebody else sends with this node's number
+    command_late = 1 << 0,     ///< base: no valid command for too long
+    odometry_late = 1 << 1,    ///< controller: no valid counts for too long
+    range_late = 1 << 2,       ///< controller: no valid range of a beam for too long
+    peer_lost = 1 << 3,        ///< no heartbeat of the other party for too long
+    bus_off = 1 << 4,          ///< the port left the bus
+    bus_off_latched = 1 << 5,  ///< it did so too often: it stays away until the node starts anew
+    peer_restarted = 1 << 6,   ///< the other party has another boot number
+    peer_stopped = 1 << 7,     ///< the other party is in a safe stop
+    duplicate_node = 1 << 8,   ///< somebody else sends with this node's number
     e_stop = 1 << 9,
-    wrong_version = 1 << 10,  ///< the other party speaks another protocol or another table
-    core_fault = 1 << 11,     ///< see NavStatus
-    drive_refused = 1 << 12,  ///< base: the drive stage did not take a command
-    sensors_refused = 1 << 13, ///< base: the rangefinders could not be asked
+    wrong_version = 1 << 10,    ///< the other party speaks another protocol or another table
+    core_fault = 1 << 11,       ///< see NavStatus
+    drive_refused = 1 << 12,    ///< base: the drive stage did not take a command
+    sensors_refused = 1 << 13,  ///< base: the rangefinders could not be asked
   };
 };
 

@@ -47,7 +47,7 @@ class Session {
   Robot* robot_ = nullptr;
   hal::Room<sizeof(Affairs)> room_for_affairs_;
   hal::Room<(sizeof(nav::TableSkirt) > sizeof(nav::ThesisPlanner) ? sizeof(nav::TableSkirt)
-                                                             : sizeof(nav::ThesisPlanner))>
+                                                                  : sizeof(nav::ThesisPlanner))>
       room_for_planner_;
   hal::Room<sizeof(Robot)> room_for_robot_;
   uint32_t ticks_ = 0;

@@ -48,7 +48,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
 void complain(const std::string& text) { std::fputs((one_line(text) + "\n").c_str(), stderr); }
 
 constexpr const char* kExitStatus = R"(
-Exit status of run: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
+Exit status of run, hil and plant: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
 6 fault (safe stop), 2 bad input or usage, 1 anything else.)";
 
 constexpr const char* kCampaignExitStatus = R"(
@@ -76,10 +76,13 @@ int main(int argc, char** argv) {
   add_campaign(app, status);
   add_table(app, status);
   add_figures(app, status);
+  add_plant(app, status);
+  add_controller(app, status);
+  add_hil(app, status);
   add_dbc(app, status);
   add_protocol(app, status);
   app.footer(std::string(kExitStatus) + kCampaignExitStatus + kFirstSteps);
-  app.get_subcommand("run")->footer(kExitStatus);
+  for (const char* name : {"run", "hil", "plant"}) app.get_subcommand(name)->footer(kExitStatus);
   app.get_subcommand("campaign")->footer(kCampaignExitStatus);
   try {
     status = parse(app, argc, argv, status);

@@ -1,10 +1,9 @@
 #include "host/hil/bus_pilot.hpp"
 
-#include <cstdlib>
-
 #include "firmware/can/param_server.hpp"
 #include "hal/can_remote/base.hpp"
 #include "hal/sim/sim_board.hpp"
+#include "host/hil/words.hpp"
 #include "host/run/spec.hpp"
 
 namespace whisker::hil {
@@ -56,12 +55,13 @@ class BusPilot final : public Pilot {
     ++figures_.sets;
     status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
     status_.command = base_.drive();
+    figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
     return status_;
   }
 
   const char* trouble() const override {
     if (node_.state() == can::NodeState::e_stopped) return "e_stop";
-    return node_.state() == can::NodeState::safe_stop ? "safe_stop" : nullptr;
+    return lockstep() && node_.state() == can::NodeState::safe_stop ? "safe_stop" : nullptr;
   }
 
  private:
@@ -85,21 +85,27 @@ class BusPilot final : public Pilot {
     explain();
   }
 
-  void explain() {
-    const char* what = nullptr;
+  std::string words() const {
     switch (node_.state()) {
-      case can::NodeState::off_bus: what = "waits for the bus"; break;
+      case can::NodeState::off_bus: {
+        const std::string what = options_.bus_waits_for ? options_.bus_waits_for() : "";
+        return "waits for " + (what.empty() ? "the bus" : what);
+      }
       case can::NodeState::waiting:
-        what = (node_.errors() & can::Error::wrong_version) != 0 ? "the controller speaks another protocol"
+        return (node_.errors() & can::Error::wrong_version) != 0 ? "the controller speaks another protocol"
                                                                  : "waits for the controller";
-        break;
-      case can::NodeState::e_stopped: what = "E-stop"; break;
-      case can::NodeState::safe_stop: what = "safe stop"; break;
+      case can::NodeState::e_stopped: return "E-stop";
+      case can::NodeState::safe_stop: return "safe stop: " + words_of(node_.errors());
       case can::NodeState::ready:
-      case can::NodeState::running: what = ""; break;
+      case can::NodeState::running: break;
     }
-    if (said_ == what) return;
-    said_ = what;
+    return "";
+  }
+
+  void explain() {
+    std::string now = words();
+    if (said_ == now) return;
+    said_ = std::move(now);
     if (options_.say && !said_.empty()) options_.say(said_);
   }
 
@@ -109,7 +115,8 @@ class BusPilot final : public Pilot {
     give(can::Order::start);
     restarts_ = node_.peer_restarts();
     begun_ = true;
-    due_us_ = clock_.now_us();
+    begun_us_ = clock_.now_us();
+    due_us_ = begun_us_;
   }
 
   void give(can::Order order) {
@@ -181,7 +188,19 @@ class BusPilot final : public Pilot {
     }
     if (!answered) ++figures_.misses;
     check();
+    resume();
     return answered ? status_of(node_.status()) : status_;
+  }
+
+  /// A safe stop of which the cause is gone does not end the mission.
+  void resume() {
+    if (resuming_ && node_.order_state() == can::OrderState::accepted) ++figures_.resumed;
+    if (node_.order_state() == can::OrderState::waiting) return;
+    resuming_ = false;
+    const bool stopped = node_.state() == can::NodeState::safe_stop || node_.state() == can::NodeState::ready;
+    if (!stopped || !node_.matched()) return;
+    node_.give(can::Order::resume, mission_, options_.pace);
+    resuming_ = true;
   }
 
   Clock& clock_;
@@ -195,9 +214,11 @@ class BusPilot final : public Pilot {
   can_remote::Base base_;
   Status status_;
   std::string said_;
+  std::uint64_t begun_us_ = 0;
   std::uint64_t due_us_ = 0;
   std::uint32_t restarts_ = 0;
   bool begun_ = false;
+  bool resuming_ = false;
 };
 
 }  // namespace

@@ -25,14 +25,15 @@ class Interrupted : public std::runtime_error {
 struct BusOptions {
   can::Identity identity{1, 1, 0};
   can::Pace pace = can::Pace::lockstep;
-  std::uint32_t resend_ms = 20;                   ///< lockstep: a set without an answer is sent again
-  std::function<void(const std::string&)> say;    ///< gets what it waits for, once each
-  std::function<bool()> interrupted;              ///< true: give up
+  std::uint32_t resend_ms = 20;                 ///< lockstep: a set without an answer is sent again
+  std::function<void(const std::string&)> say;  ///< gets what it waits for, once each
+  std::function<std::string()> bus_waits_for;   ///< what keeps the port from the bus, if it is known
+  std::function<bool()> interrupted;            ///< true: give up
 };
 
-/// The controller at the other end of a bus drives the simulated robot; this side is the base. Port, clock and
-/// figures must outlive it. The first tick waits for a controller, hands over the robot's parameters and gives
-/// the mission. Its ticks throw ControllerRestarted and Interrupted.
+/// The controller at the other end of a bus drives the simulated robot; this side is the base. Port, clock
+/// and figures must outlive it. The first tick waits for a controller, hands over the robot's parameters and
+/// gives the mission. Its ticks throw ControllerRestarted and Interrupted.
 MakePilot bus_pilot(hal::CanPort& port, Clock& clock, const BusOptions& options, Figures& figures);
 
 }  // namespace whisker::hil

@@ -45,9 +45,7 @@ class Writer {
     std::string mux;
     if (s.part == can::kMultiplexor) mux = " M";
     if (s.part >= 0) mux = fmt::format(" m{}", s.part);
-    const std::string listener = e.sender.empty()           ? ""
-                                 : e.sender == "Controller" ? "Base"
-                                                            : "Controller";
+    const std::string listener = e.sender.empty() ? "" : e.sender == "Controller" ? "Base" : "Controller";
     put(" SG_ {}{} : {}|{}@1{} ({},0) [{}|{}] \"{}\" {}\n", s.name, mux, s.start, s.length,
         s.is_signed ? '-' : '+', s.factor, physical(s, s.min), physical(s, s.max), s.unit,
         node(listener, robot_));

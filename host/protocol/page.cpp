@@ -94,11 +94,11 @@ class Writer {
   std::string text() {
     out_ = fmt::format(kBeginning, fmt::arg("most_lost", can::kMostLost), fmt::arg("hash", can::kTableHash),
                        fmt::arg("order_ms", can::kOrderRepeat_ms));
-    out_ += fmt::format(kStates, fmt::arg("hold", can::kHoldAfter_ms), fmt::arg("range", can::kRangeLatch_ms),
-                        fmt::arg("odometry", can::kOdometryLate_ms),
-                        fmt::arg("command", can::kCommandLate_ms), fmt::arg("peer", can::kPeerLost_ms),
-                        fmt::arg("restart", can::kRestartAfter_ms), fmt::arg("limit", can::kBusOffLimit),
-                        fmt::arg("window", can::kBusOffWindow_ms / 1000));
+    out_ +=
+        fmt::format(kStates, fmt::arg("hold", can::kHoldAfter_ms), fmt::arg("range", can::kRangeLatch_ms),
+                    fmt::arg("odometry", can::kOdometryLate_ms), fmt::arg("command", can::kCommandLate_ms),
+                    fmt::arg("peer", can::kPeerLost_ms), fmt::arg("restart", can::kRestartAfter_ms),
+                    fmt::arg("limit", can::kBusOffLimit), fmt::arg("window", can::kBusOffWindow_ms / 1000));
     errors();
     messages();
     for (const can::Message& m : can::kMessages) signals(m);
@@ -126,7 +126,8 @@ class Writer {
 
   void messages() {
     put("\n## Messages\n\nIdentifiers of robot 1: from its controller, and from its base.\n\n"
-        "| message | function | controller | base | bytes | period | meaning |\n|---|---|---|---|---|---|---|\n");
+        "| message | function | controller | base | bytes | period | meaning "
+        "|\n|---|---|---|---|---|---|---|\n");
     for (const can::Message& m : can::kMessages) {
       const auto id = [&](bool sends, can::Party party) {
         return sends ? fmt::format("0x{:03X}", can::id_of(m.function, can::node_of(1, party))) : "";
@@ -156,8 +157,8 @@ class Writer {
       const std::string unit = *s.unit != 0 ? fmt::format("{} {}", s.factor, s.unit) : "";
       const std::string named = words(s);
       put("| {}{} | {}..{} | {} | {}..{} | {} | {}{}{} |\n", s.name, part, s.start, s.start + s.length - 1,
-          s.is_signed ? "signed" : "", s.min, s.max, unit, s.about, *s.about != 0 && !named.empty() ? ": " : "",
-          named);
+          s.is_signed ? "signed" : "", s.min, s.max, unit, s.about,
+          *s.about != 0 && !named.empty() ? ": " : "", named);
     }
   }
 
@@ -207,7 +208,8 @@ class ParamRows {
 };
 
 void Writer::params() {
-  put("\n## Parameters\n\nBy the index of ParamRequest. A write is checked against the range, a commit against "
+  put("\n## Parameters\n\nBy the index of ParamRequest. A write is checked against the range, a commit "
+      "against "
       "all relations; a mission\nthat starts takes the values committed last.\n\n"
       "| index | parameter | unit of 1 | default | range |\n|---|---|---|---|---|\n");
   const Params defaults;

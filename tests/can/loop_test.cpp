@@ -21,8 +21,8 @@ Scenario scenario_of(worlds::Kind kind) {
 TEST_P(EveryWorld, TheTrajectoryOverTheBusIsTheOneInProcess) {
   const Scenario scenario = scenario_of(GetParam());
   bus::MemoryBus wire;
-  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, wire.attach(),
-                                             wire.attach());
+  const auto over_bus =
+      test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, wire.attach(), wire.attach());
   const RunResult direct = run(scenario);
   EXPECT_EQ(over_bus.result.hash, direct.hash);
   EXPECT_EQ(over_bus.result.ticks, direct.ticks);
@@ -34,8 +34,8 @@ TEST_P(EveryWorld, TheTrajectoryOverTheBusIsTheOneInProcess) {
 TEST_P(EveryWorld, InRealTimeWithoutAMissToo) {
   const Scenario scenario = scenario_of(GetParam());
   bus::MemoryBus wire;
-  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::thesis, can::Pace::real_time,
-                                             wire.attach(), wire.attach());
+  const auto over_bus =
+      test::drive_over_bus(scenario, PlannerKind::thesis, can::Pace::real_time, wire.attach(), wire.attach());
   RunOptions options;
   options.planner = PlannerKind::thesis;
   const RunResult direct = run(scenario, options);
