@@ -15,8 +15,9 @@ BaseNode::BaseNode(hal::CanPort& port, const Identity& identity, int16_t ramp) n
     : Node(port, Party::base, identity), ramp_(ramp) {}
 
 void BaseNode::poll(uint32_t now) noexcept {
-  attend(now);
+  listen(now);
   if (ordered() && now - command_seen_ > kCommandLate_ms) stop(Error::command_late);
+  publish();
   if (order_state_ != OrderState::waiting || !matched() || !at_rest()) return;
   if (order_due_ || now - ordered_at_ >= kOrderRepeat_ms) send_order();
 }

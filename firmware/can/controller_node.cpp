@@ -6,8 +6,9 @@ ControllerNode::ControllerNode(hal::CanPort& port, const Identity& identity) noe
     : Node(port, Party::controller, identity) {}
 
 void ControllerNode::poll(uint32_t now) noexcept {
-  attend(now);
+  listen(now);
   watch();
+  publish();
   if (asked_again_) repeat_answer();
   const bool drives = running() && !holding_;
   if (!drives && !lockstep() && matched() && now - braked_at_ >= kStopRepeat_ms) brake();

@@ -70,7 +70,7 @@ void Node::press_e_stop() noexcept {
   running_ = false;
 }
 
-void Node::attend(uint32_t now_ms) noexcept {
+void Node::listen(uint32_t now_ms) noexcept {
   now_ = now_ms;
   if (!begun_) {
     begun_ = true;
@@ -86,7 +86,6 @@ void Node::attend(uint32_t now_ms) noexcept {
     stop(Error::peer_lost);
     lose_peer();
   }
-  if (guard_.on_bus()) publish();
 }
 
 bool Node::is_for_us(uint8_t node) const noexcept { return node == 0 || node == node_ || node == peer_node_; }
@@ -220,6 +219,7 @@ void Node::lose_peer() noexcept {
 }
 
 void Node::publish() noexcept {
+  if (!guard_.on_bus()) return;
   Heartbeat beat;
   beat.state = state();
   beat.errors = errors();

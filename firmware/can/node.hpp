@@ -75,8 +75,10 @@ class Node {
   virtual void forget_peer() noexcept = 0;
   virtual bool at_rest() const noexcept = 0;
 
-  /// Moves frames, and does all that is due but the party's own business. Call it every millisecond.
-  void attend(uint32_t now_ms) noexcept;
+  /// Hears what came, and sees what did not. The party looks after its own time-outs next, then publishes.
+  void listen(uint32_t now_ms) noexcept;
+  /// Heartbeat, Info, Fault and Diagnostics, as they are due.
+  void publish() noexcept;
   template <class M>
   bool send(const M& m, uint8_t life_ms = kEventLife_ms) noexcept {
     AliveSender& alive = sent_[static_cast<uint8_t>(M::kKind)];
@@ -113,7 +115,6 @@ class Node {
   bool hear_info(const hal::CanFrame& frame) noexcept;
   void match() noexcept;
   void lose_peer() noexcept;
-  void publish() noexcept;
   void publish_info() noexcept;
   void publish_fault() noexcept;
   void publish_diagnostics() noexcept;

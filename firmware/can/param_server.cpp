@@ -97,7 +97,9 @@ ParamReply ParamServer::answer(const ParamRequest& request, bool busy, bool& com
   } else if (request.action == ParamAction::write) {
     reply.status = write_param(staged_, request.index, request.value);
   }
-  if (!read_param(staged_, request.index, reply.value)) reply.status = ParamStatus::no_such;
+  if (!read_param(staged_, request.index, reply.value) && reply.status == ParamStatus::ok) {
+    reply.status = ParamStatus::no_such;
+  }
   return reply;
 }
 

@@ -150,7 +150,7 @@ inline constexpr Signal kInfoRequest[] = {
 
 inline constexpr Signal kDiagnostics[] = {
   {"Part",       12,  4, false, 0, 3,       "1", "", "in turn", kMultiplexor, diagnostics_part_word},
-  {"Crc",        16, 16, false, 0, kMost16, "1", "", "frames with a wrong CRC", 0},
+  {"CrcErrors",  16, 16, false, 0, kMost16, "1", "", "frames with a wrong CRC", 0},
   {"Lost",       32, 16, false, 0, kMost16, "1", "", "frames missed by their counters", 0},
   {"Repeated",   48, 16, false, 0, kMost16, "1", "", "frames with the counter of the one before", 0},
   {"Malformed",  16, 16, false, 0, kMost16, "1", "", "wrong length, remote, extended", 1},
