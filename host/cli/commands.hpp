@@ -13,6 +13,7 @@ void add_figures(CLI::App& app, int& status);
 void add_plant(CLI::App& app, int& status);
 void add_controller(CLI::App& app, int& status);
 void add_hil(CLI::App& app, int& status);
+void add_replay(CLI::App& app, int& status);
 void add_dbc(CLI::App& app, int& status);
 void add_protocol(CLI::App& app, int& status);
 
