@@ -39,7 +39,9 @@ CLI::Option* add_bus(CLI::App& app, BusChoice& choice) {
       ->check(CLI::Range(1, static_cast<int>(can::kRobots)))
       ->type_name("N");
   add_file(app, "--record", choice.record, "Write all frames as a candump log");
-  return app.add_option("--can", choice.name, "CAN interface, such as vcan0; it need not be there yet")
+  return app
+      .add_option("--can", choice.name,
+                  "CAN interface, such as vcan0, or slcan:PATH for a serial\nline; it need not be there yet")
       ->type_name("IFACE");
 }
 

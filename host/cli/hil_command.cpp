@@ -11,6 +11,7 @@
 #include "host/cli/bus_options.hpp"
 #include "host/cli/bus_run.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/scenario_options.hpp"
 
@@ -62,6 +63,7 @@ int execute(const Options& o) {
   BusChoice controller = o.bus;
   controller.record.clear();
   const bool is_private = o.bus.name == kPrivate;
+  if (o.bus.name.rfind("slcan:", 0) == 0) throw UsageError("hil: a serial line has one end here; see plant");
   auto lines =
       is_private ? hil::private_lines() : std::pair{hil::open_line(o.bus.name), hil::open_line(o.bus.name)};
   const ControllerProcess child([&] {

@@ -8,6 +8,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/output.hpp"
+#include "host/hil/line.hpp"
 #include "host/scenario/error.hpp"
 
 namespace {
@@ -93,6 +94,9 @@ int main(int argc, char** argv) {
     complain(fmt::format("whisker: {} (see whisker --help)", e.what()));
     return kBadInput;
   } catch (const UsageError& e) {
+    complain(fmt::format("whisker: {}", e.what()));
+    return kBadInput;
+  } catch (const whisker::hil::BusError& e) {
     complain(fmt::format("whisker: {}", e.what()));
     return kBadInput;
   } catch (const whisker::InputError& e) {

@@ -56,9 +56,10 @@ int execute(const Options& o) {
   if (o.json) {
     print_json(r);
   } else {
-    fmt::print("robot {}: {} steps in {} mission{}, {} answers compared, command hash {:016x}\n", r.robot, r.steps,
-               r.missions, r.missions == 1 ? "" : "s", r.compared, r.hash);
-    if (r.unknown > 0) fmt::print("{} answers are to input sets that the log does not have whole\n", r.unknown);
+    fmt::print("robot {}: {} steps in {} mission{}, {} answers compared, command hash {:016x}\n", r.robot,
+               r.steps, r.missions, r.missions == 1 ? "" : "s", r.compared, r.hash);
+    if (r.unknown > 0)
+      fmt::print("{} answers are to input sets that the log does not have whole\n", r.unknown);
     fmt::print("{}\n", r.difference.empty() ? "the core gives the recorded commands" : r.difference);
   }
   return r.difference.empty() ? 0 : kFailure;

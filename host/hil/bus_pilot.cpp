@@ -59,6 +59,8 @@ class BusPilot final : public Pilot {
     return status_;
   }
 
+  bool sees_inside() const override { return false; }
+
   const char* trouble() const override {
     if (node_.state() == can::NodeState::e_stopped) return "e_stop";
     return lockstep() && node_.state() == can::NodeState::safe_stop ? "safe_stop" : nullptr;

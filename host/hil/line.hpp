@@ -26,7 +26,8 @@ class Line {
   virtual std::string waits_for() const = 0;
 };
 
-/// name: a CAN interface of Linux, which need not be there yet. Throws BusError.
+/// name: a CAN interface of Linux, or "slcan:PATH" for an adapter or a board at a serial device, a pseudo
+/// terminal or a Unix socket. What it names need not be there yet. Throws BusError.
 std::unique_ptr<Line> open_line(const std::string& name);
 
 /// The two ends of a bus that nobody else sees; each may go to another process. Throws BusError.

@@ -56,7 +56,8 @@ class Replay {
       case Kind::range_left: return hear_range<Kind::range_left>(hal::kLeft, frame);
       case Kind::range_front: return hear_range<Kind::range_front>(hal::kFront, frame);
       case Kind::range_right: return hear_range<Kind::range_right>(hal::kRight, frame);
-      case Kind::wheel_state: return with<can::WheelState>(frame, [&](const auto& m) { sets_.hear(m), keep(); });
+      case Kind::wheel_state:
+        return with<can::WheelState>(frame, [&](const auto& m) { sets_.hear(m), keep(); });
       case Kind::sync: return with<can::Sync>(frame, [&](const auto& m) { sets_.hear(m), keep(); });
       case Kind::mission: return hear_mission(frame);
       case Kind::mission_reply: return with<can::MissionReply>(frame, [&](const auto& m) { accept(m); });

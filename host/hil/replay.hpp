@@ -19,12 +19,12 @@ struct ReplayResult {
   std::uint64_t frames = 0;   ///< of this robot, whole
   std::uint64_t damaged = 0;  ///< of this robot, with a wrong length or CRC
   std::uint64_t missions = 0;
-  std::uint64_t steps = 0;    ///< of the core
-  std::uint64_t compared = 0; ///< commands and states that the log has too
-  std::uint64_t unknown = 0;  ///< answers to sets that the log does not have whole
-  std::uint64_t missing = 0;  ///< steps whose answers are not in the log
-  std::uint64_t hash = 0;     ///< FNV-1a 64 over the wheel commands of all steps
-  std::string difference;     ///< the first one, with its line; "" for none
+  std::uint64_t steps = 0;     ///< of the core
+  std::uint64_t compared = 0;  ///< commands and states that the log has too
+  std::uint64_t unknown = 0;   ///< answers to sets that the log does not have whole
+  std::uint64_t missing = 0;   ///< steps whose answers are not in the log
+  std::uint64_t hash = 0;      ///< FNV-1a 64 over the wheel commands of all steps
+  std::string difference;      ///< the first one, with its line; "" for none
 };
 
 /// Feeds the recorded inputs to the core and compares what it says with what was recorded. Throws

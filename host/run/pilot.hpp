@@ -16,6 +16,8 @@ class Pilot {
   virtual ~Pilot() = default;
   /// One control tick: takes what the plant's sensors say now, and commands its wheels.
   virtual const Status& tick(Time now) = 0;
+  /// The status has all that the core knows; false: only what a bus carries.
+  virtual bool sees_inside() const { return true; }
   /// Why the robot will not move any more although its core knows of no fault; nullptr: it will.
   virtual const char* trouble() const { return nullptr; }
 };

@@ -76,7 +76,8 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   std::optional<Verdict> verdict;
   const auto record = [&](const Status& status, const hal::RangeReadings& ranges, double t_s) {
     if (options.records == nullptr && !options.observe) return;
-    const TickRecord r = record_of(plant, status, ranges, t_s);
+    TickRecord r = record_of(plant, status, ranges, t_s);
+    r.inside = pilot->sees_inside();
     if (options.records != nullptr) options.records->push_back(r);
     if (options.observe) options.observe(r);
   };

@@ -6,6 +6,7 @@
 #include "host/hil/bus_pilot.hpp"
 #include "host/hil/planners.hpp"
 #include "host/run/runner.hpp"
+#include "host/worlds/random.hpp"
 
 namespace whisker::test {
 
@@ -22,6 +23,28 @@ class SharedTime final : public hil::Clock {
  private:
   std::uint64_t now_us_ = 0;
   std::function<void(std::uint32_t)> others_;
+};
+
+/// Drops one frame in fifty on the way out.
+class LossyPort final : public hal::CanPort {
+ public:
+  LossyPort(hal::CanPort& port, std::uint64_t seed) : port_(port), random_(seed) {}
+  bool send(const hal::CanFrame& frame, std::uint8_t lifetime_ms) noexcept override {
+    if (!random_.chance(0.02)) return port_.send(frame, lifetime_ms);
+    ++dropped_;
+    return true;
+  }
+  bool receive(hal::CanFrame& out) noexcept override { return port_.receive(out); }
+  void poll(std::uint32_t now_ms) noexcept override { port_.poll(now_ms); }
+  void restart() noexcept override { port_.restart(); }
+  hal::CanState state() const noexcept override { return port_.state(); }
+  const hal::CanCounts& counts() const noexcept override { return port_.counts(); }
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  hal::CanPort& port_;
+  worlds::Random random_;
+  std::uint64_t dropped_ = 0;
 };
 
 struct LoopResult {

@@ -31,6 +31,20 @@ TEST_P(EveryWorld, TheTrajectoryOverTheBusIsTheOneInProcess) {
   EXPECT_GT(direct.ticks, 100U);
 }
 
+TEST_P(EveryWorld, TheTrajectoryIsTheSameWithTwoPercentOfTheFramesDropped) {
+  const Scenario scenario = scenario_of(GetParam());
+  bus::MemoryBus wire;
+  test::LossyPort base(wire.attach(), 1), controller(wire.attach(), 2);
+  const auto over_bus =
+      test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, base, controller);
+  const RunResult direct = run(scenario);
+  EXPECT_EQ(over_bus.result.hash, direct.hash);
+  EXPECT_EQ(over_bus.result.ticks, direct.ticks);
+  EXPECT_GT(over_bus.figures.resent, direct.ticks / 20);
+  EXPECT_GT(base.dropped() + controller.dropped(), direct.ticks / 10);
+  EXPECT_EQ(over_bus.figures.health.stops, 0U);
+}
+
 TEST_P(EveryWorld, InRealTimeWithoutAMissToo) {
   const Scenario scenario = scenario_of(GetParam());
   bus::MemoryBus wire;
