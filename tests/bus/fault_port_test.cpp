@@ -271,6 +271,25 @@ TEST(FaultPort, GoesDownAndComesBack) {
   EXPECT_TRUE(rig.port.send(frame(4), kLife_ms));
 }
 
+TEST(FaultPort, HearsNothingWhileItIsDownNotEvenLater) {
+  Fault delay = fault(FaultKind::delay, 2, 3, Direction::in);
+  delay.ticks = 2;
+  Rig rig({fault(FaultKind::down, 2, 3), delay});
+  rig.tick({});
+  rig.tick({}, {frame(1)});
+  for (int i = 0; i < 4; ++i) rig.tick({});
+  EXPECT_THAT(rig.at_port(), IsEmpty());
+}
+
+TEST(FaultPort, CountsWhatIsLateAndFindsNoRoomThen) {
+  Rig rig({fault(FaultKind::delay, 1, 2, Direction::out)});
+  rig.tick(Frames(12, frame(1)));
+  rig.tick(Frames(12, frame(2)));
+  EXPECT_EQ(rig.at_peer().size(), CanPort::kReceiveDepth);
+  EXPECT_EQ(rig.port.counts().sent, 24U);
+  EXPECT_EQ(rig.port.counts().expired, 24U - CanPort::kSendDepth);
+}
+
 TEST(FaultPort, DropsWhatADriverHasNoRoomForUntilItIsTooOld) {
   Rig rig({fault(FaultKind::full, 1, 4)});
   rig.tick(Frames(20, frame(1)));
