@@ -9,7 +9,7 @@ SCRIPT = pathlib.Path(sys.argv.pop(1)) / "scripts" / "with-vcan"
 
 
 def run(*arguments):
-    done = subprocess.run([SCRIPT, *map(str, arguments)], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([SCRIPT, *map(str, arguments)], capture_output=True, text=True, timeout=110, check=False)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -17,7 +17,7 @@ def run(*arguments):
 PROGRAM = r"""
 ip -br link | sed -n 's/^\(vcan[0-9]*\) .*UP.*/\1/p'
 candump -L -n 1 vcan2 &
-sleep 1
+until grep -q "vcan2 .* raw" /proc/net/can/rcvlist_all; do sleep 0.1; done
 "$1" cansend vcan0 111#
 cansend vcan2 123#AA
 wait
