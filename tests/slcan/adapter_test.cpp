@@ -81,6 +81,13 @@ TEST_F(SlcanAdapter, GoesOnAfterGarbage) {
   EXPECT_EQ(port.line_counts().bad_lines, 2U);
 }
 
+TEST_F(SlcanAdapter, TakesNoFrameFromTheEndOfALineThatIsTooLong) {
+  for (std::size_t length = 1; length < 4 * kLongestLine; ++length) {
+    EXPECT_EQ(answer(std::string(length, 'q') + "t1230\r"), "\a") << length;
+  }
+  EXPECT_THAT(taken(port), IsEmpty());
+}
+
 RC_GTEST_FIXTURE_PROP(SlcanAdapter, WhateverComesBeforeALineEndIsForgottenAfterIt, (std::string noise)) {
   // Commands change the state, on purpose.
   pipe.come(noise + "\r");
