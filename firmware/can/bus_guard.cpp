@@ -1,7 +1,6 @@
 #include "firmware/can/bus_guard.hpp"
 
 #include "firmware/can/limits.hpp"
-#include "firmware/health.hpp"
 
 namespace whisker::can {
 
@@ -10,14 +9,13 @@ void BusGuard::note_bus_off(uint32_t now_ms) noexcept {
   if (bus_offs_ >= kRemembered && now_ms - before_[0] < kBusOffWindow_ms) latched_ = true;
   for (int i = 1; i < kRemembered; ++i) before_[i - 1] = before_[i];
   before_[kRemembered - 1] = now_ms;
-  count(bus_offs_);
+  ++bus_offs_;
 }
 
 void BusGuard::watch(hal::CanPort& port, uint32_t now_ms) noexcept {
   const hal::CanState state = port.state();
   const bool off = state == hal::CanState::bus_off;
-  if (off && !was_off_) note_bus_off(now_ms);
-  was_off_ = off;
+  while (bus_offs_ < port.counts().bus_offs) note_bus_off(now_ms);
   on_bus_ = !latched_ && (state == hal::CanState::active || state == hal::CanState::passive);
   const bool silent = off || state == hal::CanState::off;
   if (silent && !silent_) silent_since_ = now_ms;

@@ -22,10 +22,9 @@ class BusGuard {
   void note_bus_off(uint32_t now_ms) noexcept;
 
   uint32_t before_[kRemembered] = {};
-  uint32_t bus_offs_ = 0;
+  uint32_t bus_offs_ = 0;  // as the port counts them: it may be off again before the next look
   uint32_t silent_since_ = 0;
   bool silent_ = false;
-  bool was_off_ = false;
   bool on_bus_ = false;
   bool latched_ = false;
 };

@@ -12,6 +12,10 @@ class StatePort final : public hal::CanPort {
   hal::CanState now = hal::CanState::active;
   int restarts = 0;
 
+  void fail() {
+    now = hal::CanState::bus_off;
+    ++counts_.bus_offs;
+  }
   bool send(const hal::CanFrame&, std::uint8_t) noexcept override { return false; }
   bool receive(hal::CanFrame&) noexcept override { return false; }
   void poll(std::uint32_t) noexcept override {}
@@ -31,7 +35,7 @@ struct Guarded {
     for (std::uint32_t i = 0; i < ms; ++i) guard.watch(port, ++now);
   }
   void bus_off() {
-    port.now = hal::CanState::bus_off;
+    port.fail();
     pass(1);
   }
   void recover() {
