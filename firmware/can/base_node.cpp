@@ -3,10 +3,15 @@
 namespace whisker::can {
 namespace {
 
-int16_t towards_zero(int16_t speed, int16_t step) noexcept {
-  if (speed > step) return static_cast<int16_t>(speed - step);
-  if (speed < -step) return static_cast<int16_t>(speed + step);
-  return 0;
+int32_t size_of(int16_t speed) noexcept { return speed < 0 ? -int32_t{speed} : int32_t{speed}; }
+
+/// Both wheels lose the same part of their speed, so that the path keeps its curvature; the faster one loses
+/// `step`.
+hal::WheelSpeeds slowed(hal::WheelSpeeds now, int16_t step) noexcept {
+  const int32_t fastest = size_of(now.left) > size_of(now.right) ? size_of(now.left) : size_of(now.right);
+  if (fastest <= step) return {};
+  const auto rest = [&](int16_t speed) { return static_cast<int16_t>(speed * (fastest - step) / fastest); };
+  return {rest(now.left), rest(now.right)};
 }
 
 }  // namespace
@@ -45,7 +50,7 @@ hal::WheelSpeeds BaseNode::control() noexcept {
   if (running() && commanded_ && command_.mode == DriveMode::drive) {
     speeds_ = command_.speeds;
   } else {
-    speeds_ = {towards_zero(speeds_.left, ramp_), towards_zero(speeds_.right, ramp_)};
+    speeds_ = slowed(speeds_, ramp_);
   }
   return speeds_;
 }

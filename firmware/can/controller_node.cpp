@@ -116,7 +116,7 @@ bool ControllerNode::hear_sync(const hal::CanFrame& frame) noexcept {
   Sync sync;
   if (!read(frame, sync)) return false;
   if (!numbered_ || sync.mission != number_) {
-    count(tally().unmatched);
+    count(tally().stale);
     return true;
   }
   set_pace(sync.pace);

@@ -20,7 +20,8 @@
 
 namespace whisker::can {
 
-/// Frames that came, by what became of them. Each counter stops at its maximum.
+/// Frames that came, by what became of them: each counts once in the first ten. Each counter stops at its
+/// maximum.
 struct BusHealth {
   uint32_t accepted = 0;      ///< obeyed, or at least understood
   uint32_t foreign = 0;       ///< other robots, other protocols: no error
@@ -29,13 +30,14 @@ struct BusHealth {
   uint32_t repeated = 0;      ///< the counter of the frame before
   uint32_t astray = 0;        ///< the counter jumped
   uint32_t out_of_range = 0;  ///< a value outside its range
-  uint32_t unmatched = 0;     ///< before the handshake, or of another mission
-  uint32_t stale = 0;         ///< commands that answer an input set of long ago
-  uint32_t e_stops = 0;       ///< on an E-stop identifier
-  uint32_t lost = 0;          ///< never came, by the counters of those that did
+  uint32_t unmatched = 0;     ///< before the handshake
   uint32_t duplicates = 0;    ///< sent by somebody else with this node's number
-  uint32_t skipped = 0;       ///< ticks without a complete input set
-  uint32_t stops = 0;         ///< safe stops
+  uint32_t e_stops = 0;       ///< on an E-stop identifier
+
+  uint32_t stale = 0;    ///< of the accepted: answers to a set of long ago, sets of another mission
+  uint32_t lost = 0;     ///< never came, by the counters of those that did
+  uint32_t skipped = 0;  ///< ticks without a complete input set
+  uint32_t stops = 0;    ///< safe stops
 };
 
 struct Identity {

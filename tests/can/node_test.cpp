@@ -622,7 +622,7 @@ TEST_F(ControllerAlone, SetsOfAnotherMissionDoNotCount) {
   mission_ ^= 1;
   pass(30);
   EXPECT_EQ(steps_, before);
-  EXPECT_GE(node_.health().unmatched, 3U);
+  EXPECT_GE(node_.health().stale, 3U);
 }
 
 TEST_F(ControllerAlone, OlderSetsAreNeverSteppedOn) {

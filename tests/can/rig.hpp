@@ -63,19 +63,18 @@ class Rig {
   static constexpr std::uint32_t kFault = 300;  ///< the tick from which faults of the tests hold: it cruises
 
   Rig(const Scenario& scenario, bus::Schedule at_base, bus::Schedule at_controller, std::uint64_t seed = 1,
-      std::uint32_t frames_per_ms = bus::MemoryBus::kUnlimited)
+      can_remote::PlannerMaker* planners = nullptr)
       : scenario_(scenario),
         world_(scenario_),
         plant_(world_.view(), sim::robot_spec(scenario_.robot), noise_spec(scenario_.noise), scenario_.seed,
                scenario_.start),
         board_(plant_),
-        wire_(frames_per_ms),
         base_port_(wire_.attach(), std::move(at_base), seed, repair),
         controller_port_(wire_.attach(), std::move(at_controller), seed + 1, repair),
         node_(base_port_, {1, 11, 0}, 100),
         base_(node_, board_, board_),
-        controller_(
-            std::make_unique<can_remote::Controller>(controller_port_, can::Identity{1, 22, 0}, planners_)),
+        controller_(std::make_unique<can_remote::Controller>(controller_port_, can::Identity{1, 22, 0},
+                                                             planners != nullptr ? *planners : straight_)),
         third(wire_, 3) {
     third.poll(0);
   }
@@ -129,7 +128,7 @@ class Rig {
   bus::MemoryBus wire_;
   bus::FaultPort base_port_;
   bus::FaultPort controller_port_;
-  StraightMaker planners_;
+  StraightMaker straight_;
   can::BaseNode node_;
   can_remote::Base base_;
   std::unique_ptr<can_remote::Controller> controller_;
