@@ -178,6 +178,7 @@ std::vector<hal::CanFrame> golden_frames() {
   beat.uptime_s = 200;
   return {
       encode(EStop{}, 0, 0),
+      encode(EStop{kClearCommand}, 0, 0),
       encode(EStop{kClearCommand}, 1, 1),
       encode(Sync{Pace::lockstep, 123456789, 10, 42}, 9, 2),
       encode(FaultReport{Severity::latched, Error::e_stop, 3, 4}, 1, 3),
