@@ -9,8 +9,8 @@
 namespace whisker {
 namespace {
 
-std::optional<Verdict> verdict_of(const Status& status) {
-  if (status.health.fault != Fault::none) {
+std::optional<Verdict> verdict_of(const Status& status, const Pilot& pilot) {
+  if (status.health.fault != Fault::none || pilot.trouble() != nullptr) {
     const bool stands = status.command.left == 0 && status.command.right == 0;
     return stands ? std::optional(Verdict::fault) : std::nullopt;
   }
@@ -24,7 +24,8 @@ std::optional<Verdict> verdict_of(const Status& status) {
   return std::nullopt;
 }
 
-std::string detail_of(Verdict verdict, const Status& status) {
+std::string detail_of(Verdict verdict, const Status& status, const Pilot& pilot) {
+  if (verdict == Verdict::fault && status.health.fault == Fault::none) return pilot.trouble();
   return verdict == Verdict::fault ? name(status.health.fault) : nav::name(status.decision.why);
 }
 
@@ -75,7 +76,8 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   std::optional<Verdict> verdict;
   const auto record = [&](const Status& status, const hal::RangeReadings& ranges, double t_s) {
     if (options.records == nullptr && !options.observe && !options.watch) return;
-    const TickRecord r = record_of(plant, status, ranges, t_s);
+    TickRecord r = record_of(plant, status, ranges, t_s);
+    r.inside = pilot->sees_inside();
     if (options.records != nullptr) options.records->push_back(r);
     if (options.observe) options.observe(r);
     if (options.watch) options.watch({r, status.health, pilot->patch()});
@@ -88,9 +90,9 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
     ++result.ticks;
     result.time_s = t_s;
     record(status, ranges, t_s);
-    verdict = verdict_of(status);
+    verdict = verdict_of(status, *pilot);
     if (verdict) {
-      result.detail = detail_of(*verdict, status);
+      result.detail = detail_of(*verdict, status, *pilot);
       break;
     }
     const double next_s = static_cast<double>((tick + 1) * period_ms) / 1000.0;
