@@ -90,7 +90,7 @@ TEST_P(Baseline, TouchesNothingInAnyClassOfWorld) {
 TEST_P(Baseline, StandsWhereItStartsIfThatIsTheGoal) {
   Scenario s = three_metres("");
   s.goal.at = s.start.at;
-  const RunResult r = run(s, {GetParam(), {}, nullptr, {}, {}});
+  const RunResult r = drive(s, GetParam()).result;
   EXPECT_EQ(r.verdict, Verdict::reached);
   EXPECT_LT(r.path_m, 0.01);
 }
@@ -151,7 +151,7 @@ TEST(Unreachable, IsToldByThoseWhoRememberWhereTheyHit) {
   for (const PlannerKind kind :
        {PlannerKind::bug2, PlannerKind::distbug, PlannerKind::fan, PlannerKind::repulsion}) {
     for (const std::string& around : {kFence, kPen}) {
-      const RunResult r = run(three_metres(around), {kind, {}, nullptr, {}, {}});
+      const RunResult r = drive(three_metres(around), kind).result;
       EXPECT_EQ(r.verdict, Verdict::unreachable) << name(kind) << around;
       EXPECT_GT(r.min_clearance_m, 0);
     }
@@ -161,7 +161,7 @@ TEST(Unreachable, IsToldByThoseWhoRememberWhereTheyHit) {
 TEST(Unreachable, IsNotToldByTheWallFollowerWhichGivesUpWithinItsLength) {
   Scenario s = three_metres(kPen);
   s.time_limit_s = 20000;
-  const RunResult r = run(s, {PlannerKind::wall_follower, {}, nullptr, {}, {}});
+  const RunResult r = drive(s, PlannerKind::wall_follower).result;
   EXPECT_EQ(r.verdict, Verdict::gave_up);
   EXPECT_EQ(r.detail, "length_budget");
   EXPECT_NEAR(r.path_m, 400, 8);
