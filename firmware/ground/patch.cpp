@@ -11,6 +11,9 @@ constexpr Length kTestedTravel = 4_mm;
 constexpr int32_t kAhead = 3;  // cells
 constexpr Duration kDoubt = 1000_ms;
 
+// From any apex that is nearby.
+constexpr int32_t kWholeWindow = 5 * kCells * kUnitsPerCell;
+
 constexpr int32_t within(int64_t x, int32_t limit) noexcept {
   return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
 }
@@ -129,21 +132,25 @@ void Patch::age(const Pose& pose) noexcept {
 
 void Patch::renew_around(Vec at) noexcept {
   const Point centre = local(at);
+  const Row box = to_torus(Span{centre.x - ring_, centre.x + ring_}.columns());
   for (Rows rows(centre.y, ring_); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    if ((box & old_[s] & ~young_[s]) == 0) continue;
     Span span;
     span.within_disc(centre.x, rows.offset(centre.y), ring_);
-    const int s = slot(rows.row());
     young_[s] |= old_[s] & to_torus(span.columns());
   }
 }
 
 void Patch::clear_around(Vec at, int32_t reach) noexcept {
   const Point centre = local(at);
+  const Row box = to_torus(Span{centre.x - reach, centre.x + reach}.columns());
   for (Rows rows(centre.y, reach); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    if ((box & (~young_[s] | suspect_[s])) == 0) continue;
     Span span;
     span.inside_disc(centre.x, rows.offset(centre.y), reach);
     const Row mask = to_torus(span.columns());
-    const int s = slot(rows.row());
     young_[s] |= mask;
     suspect_[s] &= ~mask;
   }
@@ -159,21 +166,23 @@ void Patch::mark(const Proof& proof) noexcept {
   const int32_t echo = units(proof.free) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
   const Wedge core(axis, half_cone_.raw() < kSuspectHalf.raw() ? half_cone_ : kSuspectHalf);
-  for (int row = 0; row < kCells; ++row) {
-    const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
-    Span inside;
+  const int32_t reach = proof.aimed ? kWholeWindow : proof.hit ? echo : free;
+  for (Rows rows = cone.rows(apex.y, reach); rows.more(); rows.next()) {
+    const int32_t dy = rows.offset(apex.y);
+    Span inside = Span::around(apex.x, reach);
     cone.hold(inside, apex.x, dy);
-    if (inside.empty()) continue;
-    const int s = slot(row);
+    const int s = slot(rows.row());
+    const Row covered = to_torus(inside.columns());
+    if ((covered & (~young_[s] | suspect_[s] | tested_[s])) == 0) continue;
     Span empty = inside;
     empty.inside_disc(apex.x, dy, free);
     const Row clear = to_torus(empty.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;
     tested_[s] &= ~clear;
-    const Row unproved = ~(young_[s] | old_[s]);
-    if (proof.aimed) tested_[s] |= to_torus(inside.columns()) & unproved;
-    if (proof.hit) {
+    const Row unproved = covered & ~(young_[s] | old_[s]);
+    if (proof.aimed) tested_[s] |= unproved;
+    if (proof.hit && unproved != 0) {
       Span near = inside;
       core.clip(near, apex.x, dy, 0);
       near.within_disc(apex.x, dy, echo);
