@@ -10,6 +10,7 @@ constexpr Angle kSuspectHalf = 6_deg;
 constexpr Length kTestedTravel = 4_mm;
 constexpr int32_t kAhead = 3;  // cells
 constexpr Duration kDoubt = 1000_ms;
+constexpr int64_t kNear = INT32_C(1) << 30;
 
 // From any apex that is nearby.
 constexpr int32_t kWholeWindow = 5 * kCells * kUnitsPerCell;
@@ -30,9 +31,14 @@ constexpr bool nearby(int32_t x) noexcept { return x > -kOutermost && x < kOuter
 
 }  // namespace
 
-int32_t Patch::units(Length l) const noexcept {
-  return within(floor_div<int64_t>(int64_t{l.raw()} * kUnitsPerCell, cell_um_), kLongest);
+int32_t Patch::units(int64_t um, int32_t most) const noexcept {
+  const int64_t n = um * kUnitsPerCell;
+  // Most are near: a division of 32 bits is quicker.
+  if (n < kNear && n > -kNear) return within(floor_div(static_cast<int32_t>(n), cell_um_), most);
+  return within(floor_div<int64_t>(n, cell_um_), most);
 }
+
+int32_t Patch::units(Length l) const noexcept { return units(l.raw(), kLongest); }
 
 void Patch::configure(const Params& params) noexcept {
   cell_um_ = patch_cell(params).raw();
@@ -51,8 +57,7 @@ void Patch::configure(const Params& params) noexcept {
 
 Patch::Point Patch::local(Vec at) const noexcept {
   const auto from_corner = [this](Length x, int32_t corner) {
-    const int64_t um = int64_t{x.raw()} - int64_t{corner} * cell_um_;
-    return within(floor_div<int64_t>(um * kUnitsPerCell, cell_um_), kOutermost);
+    return units(int64_t{x.raw()} - int64_t{corner} * cell_um_, kOutermost);
   };
   return {from_corner(at.x, column_), from_corner(at.y, row_)};
 }
@@ -106,7 +111,7 @@ void Patch::move_to(const Pose& pose) noexcept {
     if (cols > 0) drop_columns(columns(kCells - cols, kCells - 1));
     if (cols < 0) drop_columns(columns(0, -cols - 1));
   }
-  if (norm(pose.at - tested_at_) > kTestedTravel) {
+  if (farther(pose.at - tested_at_, kTestedTravel)) {
     for (Row& row : tested_) row = 0;
     tested_at_ = pose.at;
   }

@@ -81,6 +81,7 @@ class Patch {
     return shift() == 0 ? torus : (torus >> shift()) | (torus << (kCells - shift()));
   }
   int32_t units(Length l) const noexcept;
+  int32_t units(int64_t um, int32_t most) const noexcept;
   Length length_of(int32_t units) const noexcept;
   Point local(Vec at) const noexcept;
   static bool in_window(Point p, int32_t reach) noexcept;

@@ -12,7 +12,7 @@ int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
 /// Of the disc around x in a row that lies dy from its centre.
 Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
   if (radius < 0 || dy > radius || dy < -radius) return {INT16_MAX, -INT16_MAX};
-  const int32_t half = root(static_cast<uint32_t>(radius * radius - dy * dy));
+  const int32_t half = static_cast<int32_t>(square_root_32(static_cast<uint32_t>(radius * radius - dy * dy)));
   return {x - half, x + half};
 }
 
@@ -34,17 +34,6 @@ int bits(Row row) noexcept {
   int n = 0;
   for (; row != 0; row &= row - 1) ++n;
   return n;
-}
-
-int32_t root(uint32_t x) noexcept {
-  uint32_t bit = UINT32_C(1) << 15;
-  while (bit * bit > x) bit >>= 1;
-  uint32_t r = 0;
-  for (; bit != 0; bit >>= 1) {
-    const uint32_t larger = r | bit;
-    if (larger * larger <= x) r = larger;
-  }
-  return static_cast<int32_t>(r);
 }
 
 void Span::within_disc(int32_t x, int32_t dy, int32_t radius) noexcept {

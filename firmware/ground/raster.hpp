@@ -37,8 +37,6 @@ constexpr Row columns(int first, int last) noexcept {
 }
 
 int bits(Row row) noexcept;
-/// The largest r with r * r <= x.
-int32_t root(uint32_t x) noexcept;
 
 /// An interval of x.
 struct Span {

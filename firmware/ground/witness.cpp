@@ -16,14 +16,6 @@ constexpr Duration kWhile = 250_ms;
 // Nearer to a sector's rim than this, three directions in 2^-14 do not decide.
 constexpr Length kHair = micrometres(500);
 
-/// norm(v) > length, without the root. Nothing is nearer than a negative length.
-bool farther(Vec v, Length length) noexcept {
-  const uint64_t x = magnitude(v.x.raw());
-  const uint64_t y = magnitude(v.y.raw());
-  const uint64_t beyond = static_cast<uint64_t>(int64_t{length.raw()} + 1);
-  return length < Length{} || x * x + y * y >= beyond * beyond;
-}
-
 }  // namespace
 
 void Witness::configure(const Params& params) noexcept {
@@ -37,7 +29,7 @@ void Witness::configure(const Params& params) noexcept {
 void Witness::add(const Pose& from, Time taken, const Length (&free)[kBeams]) noexcept {
   if (count_ > 0) {
     const Scan& last = scan_[newest_];
-    if (norm(from.at - last.at) < kStep && magnitude(from.heading - last.heading) < kTurn.raw() &&
+    if (!farther(from.at - last.at, kStep - micrometres(1)) && magnitude(from.heading - last.heading) < kTurn.raw() &&
         taken - newest_taken_ < kWhile) {
       return;
     }
@@ -61,7 +53,7 @@ Witness::Facing Witness::facing(Angle direction) noexcept {
 
 Vec Witness::seen(Vec v, Facing facing) noexcept {
   const auto sum = [](int64_t a, int64_t b) {
-    return Length::from_raw(static_cast<int32_t>(scale_down<14>(a + b)));
+    return Length::from_raw(static_cast<int32_t>((a + b) / (1 << 14)));
   };
   const int64_t x = v.x.raw();
   const int64_t y = v.y.raw();
