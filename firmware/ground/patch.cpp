@@ -170,7 +170,8 @@ void Patch::mark(const Proof& proof) noexcept {
   const int32_t free = units(proof.free - room - kReadingRounding);
   const int32_t echo = units(proof.free) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
-  const Wedge core(axis, half_cone_.raw() < kSuspectHalf.raw() ? half_cone_ : kSuspectHalf);
+  const bool wide = proof.hit && half_cone_.raw() > kSuspectHalf.raw();
+  const Wedge core = wide ? Wedge(axis, kSuspectHalf) : cone;
   const int32_t reach = proof.aimed ? kWholeWindow : proof.hit ? echo : free;
   for (Rows rows = cone.rows(apex.y, reach); rows.more(); rows.next()) {
     const int32_t dy = rows.offset(apex.y);

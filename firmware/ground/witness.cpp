@@ -106,10 +106,15 @@ bool Witness::contradicts(const Pose& from, int beam, Length nearest, Length far
   const Length radius = (beyond - nearest) / 2 + arc(step, far) / 2 + kSlack;
   // Of those sectors, the ones that hold the whole ray across the arc.
   const auto across = [&](Angle direction, Mask among) {
-    const Mask beyond_it = among == 0 ? 0 : holding(apex + polar(direction, far), among);
-    return beyond_it == 0 ? 0 : holding(apex + polar(direction, nearest), beyond_it);
+    if (among == 0) return Mask{0};
+    const Q30 x = cos(direction);
+    const Q30 y = sin(direction);
+    const Mask behind = holding(apex + Vec{far * x, far * y}, among);
+    return behind == 0 ? Mask{0} : holding(apex + Vec{nearest * x, nearest * y}, behind);
   };
-  for (int k = 0; k < kSectors; ++k) {
+  for (int n = 0; n < kSectors; ++n) {
+    // What stands there mostly stands in the middle of the cone.
+    const int k = (n + kSectors / 2) % kSectors;
     const Angle right = axis - half + step * k;
     const Angle centre = right + step - Angle::from_raw(step.raw() / 2);
     if (patch.all_clear(apex + polar(centre, middle), radius)) continue;
