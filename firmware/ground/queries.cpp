@@ -30,12 +30,11 @@ Obstacles Patch::along(const Vec& from, Angle heading, Length length, Length rad
     blocked &= stadium.columns(rows.row());
     const Row solid = blocked & to_window(suspect_[s] | tested_[s]);
     found.suspect += bits(solid);
-    int32_t column = 0;
-    for (Row open = blocked & ~solid; open != 0; open >>= 1, ++column) {
+    const int32_t dy = rows.offset(start.y);
+    int32_t dx = kHalfCell - start.x;
+    for (Row open = blocked & ~solid; open != 0; open >>= 1, dx += kUnitsPerCell) {
       if ((open & 1U) == 0) continue;
       ++found.unknown;
-      const int32_t dx = column * kUnitsPerCell + kHalfCell - start.x;
-      const int32_t dy = rows.row() * kUnitsPerCell + kHalfCell - start.y;
       const int32_t squared = dx * dx + dy * dy;
       if (squared < nearest) {
         nearest = squared;

@@ -98,7 +98,12 @@ Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
   const int32_t lower = left > right ? right : left;
   const bool up = left_.ny >= 0 && right_.ny >= 0;
   const bool down = left_.ny <= 0 && right_.ny <= 0;
-  return Rows(down ? y - radius : lower < 0 ? y + lower : y, up ? y + radius : higher > 0 ? y + higher : y,
+  return Rows(down        ? y - radius
+              : lower < 0 ? y + lower
+                          : y,
+              up           ? y + radius
+              : higher > 0 ? y + higher
+                           : y,
               kRim);
 }
 

@@ -29,7 +29,7 @@ template <class T>
 constexpr T floor_div(T n, T d) noexcept {
   return n >= 0 ? n / d : -((-n + d - 1) / d);
 }
-constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return -floor_div(-n, d); }
+constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return n > 0 ? (n + d - 1) / d : n / d; }
 
 /// The columns first..last of the window, both within 0..31.
 constexpr Row columns(int first, int last) noexcept {

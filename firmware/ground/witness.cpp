@@ -29,8 +29,8 @@ void Witness::configure(const Params& params) noexcept {
 void Witness::add(const Pose& from, Time taken, const Length (&free)[kBeams]) noexcept {
   if (count_ > 0) {
     const Scan& last = scan_[newest_];
-    if (!farther(from.at - last.at, kStep - micrometres(1)) && magnitude(from.heading - last.heading) < kTurn.raw() &&
-        taken - newest_taken_ < kWhile) {
+    if (!farther(from.at - last.at, kStep - micrometres(1)) &&
+        magnitude(from.heading - last.heading) < kTurn.raw() && taken - newest_taken_ < kWhile) {
       return;
     }
   }
@@ -65,7 +65,7 @@ bool Witness::holds(const Scan& scan, int beam, Vec way) const noexcept {
   const Angle off = bearing(way) - scan.heading - beam_axis(side_, beam);
   const Length forward = reach * cos(off) - offset_;
   const Length aside = abs(reach * sin(off));
-  // Across the nearer edge.
+  // Across the nearer edge; behind the apex, that is never inside.
   if (forward * sin(half_) - aside * cos(half_) < kSlack) return false;
   return (norm({forward, aside}) + kSlack).raw() / kUm <= scan.free[beam];
 }
@@ -75,7 +75,9 @@ Witness::Mask Witness::holding(Vec point, Mask among) const noexcept {
   for (int n = 0; n < count_ && among >> (n * kBeams) != 0; ++n) {
     const Scan& scan = scan_[n];
     const Vec way = point - scan.at;
-    if (farther(way, kFarthest)) continue;
+    uint16_t free = 0;
+    for (const uint16_t f : scan.free) free = f > free ? f : free;
+    if (farther(way, min(kFarthest, offset_ + Length::from_raw(free * kUm)))) continue;
     const Vec ahead = seen(way, scan.facing);
     for (int i = 0; i < kBeams; ++i) {
       const Mask bit = Mask{1} << (n * kBeams + i);
@@ -83,9 +85,9 @@ Witness::Mask Witness::holding(Vec point, Mask among) const noexcept {
       const Vec at = seen(ahead, beam_[i]);
       const Vec from_apex{at.x - offset_, abs(at.y)};
       const Length inwards = -seen(from_apex, edge_).y;
-      const Length free = Length::from_raw(scan.free[i] * kUm) - kSlack;
-      if (inwards < kSlack - kHair || farther(from_apex, free + kHair)) continue;
-      const bool well_inside = inwards >= kSlack + kHair && !farther(from_apex, free - kHair);
+      const Length rim = Length::from_raw(scan.free[i] * kUm) - kSlack;
+      if (inwards < kSlack - kHair || farther(from_apex, rim + kHair)) continue;
+      const bool well_inside = inwards >= kSlack + kHair && !farther(from_apex, rim - kHair);
       if (well_inside || holds(scan, i, way)) holding |= bit;
     }
   }
