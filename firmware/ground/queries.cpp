@@ -17,7 +17,8 @@ bool Patch::in_window(Point p, int32_t reach) noexcept {
   return p.x >= reach && p.y >= reach && p.x <= kWindow - reach && p.y <= kWindow - reach;
 }
 
-Obstacles Patch::along(const Vec& from, Angle heading, Length length, Length radius) const noexcept {
+Obstacles Patch::along(const Vec& from, Angle heading, Length length, Length radius,
+                       int32_t enough) const noexcept {
   Obstacles found;
   const Point start = local(from);
   const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
@@ -30,6 +31,7 @@ Obstacles Patch::along(const Vec& from, Angle heading, Length length, Length rad
     blocked &= stadium.columns(rows.row());
     const Row solid = blocked & to_window(suspect_[s] | tested_[s]);
     found.suspect += bits(solid);
+    if (found.suspect >= enough) break;
     const int32_t dy = rows.offset(start.y);
     int32_t dx = kHalfCell - start.x;
     for (Row open = blocked & ~solid; open != 0; open >>= 1, dx += kUnitsPerCell) {
