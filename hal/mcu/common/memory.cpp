@@ -11,9 +11,11 @@ void* memset(void* to, int value, size_t count);
 
 // Nearly all that is copied or filled are whole words.
 using Word [[gnu::may_alias]] = uint32_t;
+constexpr bool kByWords = sizeof(void*) >= sizeof(Word);
 
 void* memcpy(void* to, const void* from, size_t count) {
-  if ((reinterpret_cast<uintptr_t>(to) | reinterpret_cast<uintptr_t>(from) | count) % sizeof(Word) == 0) {
+  if (kByWords &&
+      (reinterpret_cast<uintptr_t>(to) | reinterpret_cast<uintptr_t>(from) | count) % sizeof(Word) == 0) {
     auto* d = static_cast<Word*>(to);
     const auto* s = static_cast<const Word*>(from);
     for (; count != 0; count -= sizeof(Word)) *d++ = *s++;
@@ -34,7 +36,7 @@ void* memmove(void* to, const void* from, size_t count) {
 }
 
 void* memset(void* to, int value, size_t count) {
-  if ((reinterpret_cast<uintptr_t>(to) | count) % sizeof(Word) == 0) {
+  if (kByWords && (reinterpret_cast<uintptr_t>(to) | count) % sizeof(Word) == 0) {
     const Word word = static_cast<unsigned char>(value) * UINT32_C(0x01010101);
     auto* d = static_cast<Word*>(to);
     for (; count != 0; count -= sizeof(Word)) *d++ = word;
