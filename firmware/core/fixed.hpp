@@ -40,8 +40,13 @@ constexpr uint64_t magnitude(int64_t x) noexcept {
 }
 
 /// n / d to nearest, ties away from zero. d > 0; |n| + d / 2 must fit.
-constexpr int64_t divide_rounded(int64_t n, int64_t d) noexcept {
-  return (n < 0 ? n - d / 2 : n + d / 2) / d;
+[[gnu::noinline]] constexpr int64_t divide_rounded(int64_t n, int64_t d) noexcept {
+  const int64_t sum = n < 0 ? n - d / 2 : n + d / 2;
+  const int32_t small_sum = saturate32(sum);
+  const int32_t small_d = saturate32(d);
+  // Most chips divide 32 bits much faster.
+  if (small_sum == sum && small_d == d && sum != INT32_MIN) return small_sum / small_d;
+  return sum / d;
 }
 
 /// x / 2^bits to nearest, ties away from zero.

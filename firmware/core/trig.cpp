@@ -10,8 +10,8 @@ template <size_t kTerms>
 int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noexcept {
   const int64_t x = x_q30;
   const int64_t square = scale_down<30>(x * x);
-  int64_t sum = c[kTerms - 1];
-  for (size_t i = kTerms - 1; i-- > 0;) sum = c[i] + scale_down<30>(sum * square);
+  int32_t sum = c[kTerms - 1];
+  for (size_t i = kTerms - 1; i-- > 0;) sum = static_cast<int32_t>(c[i] + scale_down<30>(sum * square));
   return static_cast<int32_t>(scale_down<30>(sum * x));
 }
 
@@ -19,6 +19,12 @@ int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noexcept {
 constexpr int32_t kSine[] = {1686629674, -693597876, 85564854, -5016767, 161942};
 constexpr int32_t kArcTangent[] = {683565198, -227850059, 136616721, -96801258, 71767194,
                                    -49455063, 27193166,   -9844330,  1679347};
+
+uint64_t squared(Vec v) noexcept {
+  const uint64_t x = magnitude(v.x.raw());
+  const uint64_t y = magnitude(v.y.raw());
+  return x * x + y * y;
+}
 
 }  // namespace
 
@@ -46,7 +52,19 @@ Angle atan2(int32_t y, int32_t x) noexcept {
   return Angle::from_raw(y < 0 ? 0U - turn : turn);
 }
 
+uint32_t square_root_32(uint32_t x) noexcept {
+  uint32_t bit = UINT32_C(1) << 15;
+  while (bit * bit > x) bit >>= 1;
+  uint32_t root = 0;
+  for (; bit != 0; bit >>= 1) {
+    const uint32_t larger = root | bit;
+    if (larger * larger <= x) root = larger;
+  }
+  return root;
+}
+
 uint32_t square_root(uint64_t x) noexcept {
+  if (x <= UINT32_MAX) return square_root_32(static_cast<uint32_t>(x));
   uint64_t rest = x;
   uint64_t root = 0;
   uint64_t bit = UINT64_C(1) << 62;
@@ -64,10 +82,13 @@ uint32_t square_root(uint64_t x) noexcept {
 }
 
 Length norm(Vec v) noexcept {
-  const uint64_t x = magnitude(v.x.raw());
-  const uint64_t y = magnitude(v.y.raw());
-  const uint32_t root = square_root(x * x + y * y);
+  const uint32_t root = square_root(squared(v));
   return Length::from_raw(root > INT32_MAX ? INT32_MAX : static_cast<int32_t>(root));
+}
+
+bool farther(Vec v, Length length) noexcept {
+  const uint64_t beyond = uint64_t{magnitude(length.raw())} + 1;
+  return length < Length{} || squared(v) >= beyond * beyond;
 }
 
 Vec polar(Angle direction, Length length) noexcept {

@@ -20,6 +20,7 @@ Angle atan2(int32_t y, int32_t x) noexcept;
 
 /// The largest r with r * r <= x.
 uint32_t square_root(uint64_t x) noexcept;
+uint32_t square_root_32(uint32_t x) noexcept;
 
 /// A point or a displacement in the plane.
 struct Vec {
@@ -39,6 +40,9 @@ inline Angle bearing(Vec v) noexcept { return atan2(v.y.raw(), v.x.raw()); }
 
 /// Rounded down; saturates. Off by less than 1 um.
 Length norm(Vec v) noexcept;
+
+/// norm(v) > length, without the root. Nothing is nearer than a negative length.
+bool farther(Vec v, Length length) noexcept;
 
 /// The displacement of this length in this direction; each coordinate to nearest.
 Vec polar(Angle direction, Length length) noexcept;

@@ -6,9 +6,9 @@ namespace {
 /// An input between two neighbouring centres, seen from the nearer one.
 struct Place {
   uint8_t cell;
-  uint8_t near;      // index of the nearer centre
-  uint8_t far;       // index of the other one
-  int32_t fraction;  // from near (0) toward far; at most kFull / 2
+  int32_t near;      // index of the nearer centre
+  int32_t to_other;  // 1 or -1
+  int32_t fraction;  // from near (0) toward the other one; at most kFull / 2
 };
 
 /// kFull / gap of every cell, so that the target divides by no gap.
@@ -28,32 +28,29 @@ Place place(int16_t input) noexcept {
   static constexpr UnitsPerStep kUnits = units_per_step(kCentres);
   constexpr int16_t kTop = kCentres[kTerms - 1];
   const int16_t x = input < kCentres[0] ? kCentres[0] : input > kTop ? kTop : input;
-  const uint8_t cell = static_cast<uint8_t>((x >= kCentres[1] ? 1 : 0) + (x >= kCentres[2] ? 1 : 0) +
-                                            (x >= kCentres[3] ? 1 : 0));
-  const uint8_t next = static_cast<uint8_t>(cell + 1);
+  const uint8_t cell = x < kCentres[2] ? (x < kCentres[1] ? 0 : 1) : (x < kCentres[3] ? 2 : 3);
   const int32_t fraction = (int32_t{x} - kCentres[cell]) * kUnits.of[cell];
-  if (fraction <= kFull / 2) return {cell, cell, next, fraction};
-  return {cell, next, cell, kFull - fraction};
+  if (fraction <= kFull / 2) return {cell, cell, 1, fraction};
+  return {cell, cell + 1, -1, kFull - fraction};
 }
 
-/// How strong the four rules of a cell are. With both fractions at most a half, min(1 - u, v) is v and
-/// min(u, 1 - v) is u, so that only u and v need comparing.
-struct Strengths {
-  int32_t near;
-  int32_t along_d;
-  int32_t along_r;
-  int32_t across;
+static_assert(sizeof(RuleBase) == 2 * sizeof(RuleBase::turn), "a rule's step lies behind its turn");
+
+/// The four rules of a cell. With both fractions at most a half, their strengths min(1 - u, 1 - v),
+/// min(1 - u, v), min(u, 1 - v) and min(u, v) are 1 - more, more, less and less.
+struct Rules {
+  const Q14* nearest;
+  const Q14* along_more;
+  const Q14* along_less;
+  const Q14* across;
 };
 
-Strengths strengths(int32_t u, int32_t v) noexcept {
-  return u < v ? Strengths{kFull - v, u, v, u} : Strengths{kFull - u, u, v, v};
-}
-
-Q14 mean(const Q14 (&near)[kTerms], const Q14 (&far)[kTerms], const Place& r, const Strengths& w) noexcept {
-  const int32_t sum = w.near * near[r.near].raw() + w.along_d * far[r.near].raw() +
-                      w.along_r * near[r.far].raw() + w.across * far[r.far].raw();
-  const int32_t total = kFull + 2 * w.across;
-  return Q14::from_raw(static_cast<int16_t>((sum < 0 ? sum - total / 2 : sum + total / 2) / total));
+[[gnu::always_inline]] inline Q14 mean(const Rules& rules, int which, int32_t more, int32_t less) noexcept {
+  const int32_t nearest = rules.nearest[which].raw();
+  const int32_t sum = kFull * nearest + more * (rules.along_more[which].raw() - nearest) +
+                      less * (rules.along_less[which].raw() + rules.across[which].raw());
+  const int32_t half = kFull / 2 + less;
+  return Q14::from_raw(static_cast<int16_t>((sum < 0 ? sum - half : sum + half) / (2 * half)));
 }
 
 }  // namespace
@@ -61,10 +58,15 @@ Q14 mean(const Q14 (&near)[kTerms], const Q14 (&far)[kTerms], const Place& r, co
 Response ClosedForm::operator()(Inputs in) const noexcept {
   const Place d = place<kDistanceCentres>(in.distance.raw());
   const Place r = place<kBiasCentres>(in.bias.raw());
-  const Strengths w = strengths(d.fraction, r.fraction);
-  return {mean(table_->turn[d.near], table_->turn[d.far], r, w),
-          mean(table_->step[d.near], table_->step[d.far], r, w),
-          {d.cell, r.cell}};
+  const Q14* const nearest = &table_->turn[d.near][r.near];
+  const Q14* const along_d = nearest + d.to_other * kTerms;
+  const Q14* const along_r = nearest + r.to_other;
+  const Q14* const across = along_d + r.to_other;
+  const bool d_more = d.fraction >= r.fraction;
+  const Rules rules{nearest, d_more ? along_d : along_r, d_more ? along_r : along_d, across};
+  const int32_t more = d_more ? d.fraction : r.fraction;
+  const int32_t less = d_more ? r.fraction : d.fraction;
+  return {mean(rules, 0, more, less), mean(rules, kTerms * kTerms, more, less), {d.cell, r.cell}};
 }
 
 }  // namespace whisker::fuzzy

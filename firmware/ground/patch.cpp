@@ -10,6 +10,10 @@ constexpr Angle kSuspectHalf = 6_deg;
 constexpr Length kTestedTravel = 4_mm;
 constexpr int32_t kAhead = 3;  // cells
 constexpr Duration kDoubt = 1000_ms;
+constexpr int64_t kNear = INT32_C(1) << 30;
+
+// From any apex that is nearby.
+constexpr int32_t kWholeWindow = 5 * kCells * kUnitsPerCell;
 
 constexpr int32_t within(int64_t x, int32_t limit) noexcept {
   return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
@@ -27,9 +31,14 @@ constexpr bool nearby(int32_t x) noexcept { return x > -kOutermost && x < kOuter
 
 }  // namespace
 
-int32_t Patch::units(Length l) const noexcept {
-  return within(floor_div<int64_t>(int64_t{l.raw()} * kUnitsPerCell, cell_um_), kLongest);
+int32_t Patch::units(int64_t um, int32_t most) const noexcept {
+  const int64_t n = um * kUnitsPerCell;
+  // Most are near: a division of 32 bits is quicker.
+  if (n < kNear && n > -kNear) return within(floor_div(static_cast<int32_t>(n), cell_um_), most);
+  return within(floor_div<int64_t>(n, cell_um_), most);
 }
+
+int32_t Patch::units(Length l) const noexcept { return units(l.raw(), kLongest); }
 
 void Patch::configure(const Params& params) noexcept {
   cell_um_ = patch_cell(params).raw();
@@ -48,8 +57,7 @@ void Patch::configure(const Params& params) noexcept {
 
 Patch::Point Patch::local(Vec at) const noexcept {
   const auto from_corner = [this](Length x, int32_t corner) {
-    const int64_t um = int64_t{x.raw()} - int64_t{corner} * cell_um_;
-    return within(floor_div<int64_t>(um * kUnitsPerCell, cell_um_), kOutermost);
+    return units(int64_t{x.raw()} - int64_t{corner} * cell_um_, kOutermost);
   };
   return {from_corner(at.x, column_), from_corner(at.y, row_)};
 }
@@ -103,7 +111,7 @@ void Patch::move_to(const Pose& pose) noexcept {
     if (cols > 0) drop_columns(columns(kCells - cols, kCells - 1));
     if (cols < 0) drop_columns(columns(0, -cols - 1));
   }
-  if (norm(pose.at - tested_at_) > kTestedTravel) {
+  if (farther(pose.at - tested_at_, kTestedTravel)) {
     for (Row& row : tested_) row = 0;
     tested_at_ = pose.at;
   }
@@ -129,21 +137,25 @@ void Patch::age(const Pose& pose) noexcept {
 
 void Patch::renew_around(Vec at) noexcept {
   const Point centre = local(at);
+  const Row box = to_torus(Span{centre.x - ring_, centre.x + ring_}.columns());
   for (Rows rows(centre.y, ring_); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    if ((box & old_[s] & ~young_[s]) == 0) continue;
     Span span;
     span.within_disc(centre.x, rows.offset(centre.y), ring_);
-    const int s = slot(rows.row());
     young_[s] |= old_[s] & to_torus(span.columns());
   }
 }
 
 void Patch::clear_around(Vec at, int32_t reach) noexcept {
   const Point centre = local(at);
+  const Row box = to_torus(Span{centre.x - reach, centre.x + reach}.columns());
   for (Rows rows(centre.y, reach); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    if ((box & (~young_[s] | suspect_[s])) == 0) continue;
     Span span;
     span.inside_disc(centre.x, rows.offset(centre.y), reach);
     const Row mask = to_torus(span.columns());
-    const int s = slot(rows.row());
     young_[s] |= mask;
     suspect_[s] &= ~mask;
   }
@@ -158,22 +170,25 @@ void Patch::mark(const Proof& proof) noexcept {
   const int32_t free = units(proof.free - room - kReadingRounding);
   const int32_t echo = units(proof.free) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
-  const Wedge core(axis, half_cone_.raw() < kSuspectHalf.raw() ? half_cone_ : kSuspectHalf);
-  for (int row = 0; row < kCells; ++row) {
-    const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
-    Span inside;
+  const bool wide = proof.hit && half_cone_.raw() > kSuspectHalf.raw();
+  const Wedge core = wide ? Wedge(axis, kSuspectHalf) : cone;
+  const int32_t reach = proof.aimed ? kWholeWindow : proof.hit ? echo : free;
+  for (Rows rows = cone.rows(apex.y, reach); rows.more(); rows.next()) {
+    const int32_t dy = rows.offset(apex.y);
+    Span inside = Span::around(apex.x, reach);
     cone.hold(inside, apex.x, dy);
-    if (inside.empty()) continue;
-    const int s = slot(row);
+    const int s = slot(rows.row());
+    const Row covered = to_torus(inside.columns());
+    if ((covered & (~young_[s] | suspect_[s] | tested_[s])) == 0) continue;
     Span empty = inside;
     empty.inside_disc(apex.x, dy, free);
     const Row clear = to_torus(empty.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;
     tested_[s] &= ~clear;
-    const Row unproved = ~(young_[s] | old_[s]);
-    if (proof.aimed) tested_[s] |= to_torus(inside.columns()) & unproved;
-    if (proof.hit) {
+    const Row unproved = covered & ~(young_[s] | old_[s]);
+    if (proof.aimed) tested_[s] |= unproved;
+    if (proof.hit && unproved != 0) {
       Span near = inside;
       core.clip(near, apex.x, dy, 0);
       near.within_disc(apex.x, dy, echo);

@@ -56,7 +56,9 @@ class Patch {
 
   /// The cells that come within `radius` of the way and whose centres lie ahead of its beginning: a body that
   /// stands near something may move off along it or away from it.
-  Obstacles along(const Vec& from, Angle heading, Length length, Length radius) const noexcept;
+  /// It stops at the row in which so many suspect ones are reached: what else lies there is not counted.
+  Obstacles along(const Vec& from, Angle heading, Length length, Length radius,
+                  int32_t enough = INT32_MAX) const noexcept;
   /// True if a step of this length brings the body nearer to a cell that is not clear and then within
   /// `radius` of it. Cells abeam do not count: to pass them brings it nearer by less than the shield's
   /// margin. False below kShortestStep.
@@ -81,6 +83,7 @@ class Patch {
     return shift() == 0 ? torus : (torus >> shift()) | (torus << (kCells - shift()));
   }
   int32_t units(Length l) const noexcept;
+  int32_t units(int64_t um, int32_t most) const noexcept;
   Length length_of(int32_t units) const noexcept;
   Point local(Vec at) const noexcept;
   static bool in_window(Point p, int32_t reach) noexcept;

@@ -17,22 +17,26 @@ bool Patch::in_window(Point p, int32_t reach) noexcept {
   return p.x >= reach && p.y >= reach && p.x <= kWindow - reach && p.y <= kWindow - reach;
 }
 
-Obstacles Patch::along(const Vec& from, Angle heading, Length length, Length radius) const noexcept {
+Obstacles Patch::along(const Vec& from, Angle heading, Length length, Length radius,
+                       int32_t enough) const noexcept {
   Obstacles found;
   const Point start = local(from);
   const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
+  const Row box = stadium.box();
   int32_t nearest = INT32_MAX;
   for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
-    const Row inside = stadium.columns(rows.row());
     const int s = slot(rows.row());
-    Row blocked = inside & to_window(~(young_[s] | old_[s]));
+    Row blocked = box & to_window(~(young_[s] | old_[s]));
     if (blocked == 0) continue;
+    blocked &= stadium.columns(rows.row());
     const Row solid = blocked & to_window(suspect_[s] | tested_[s]);
     found.suspect += bits(solid);
-    for (Row open = blocked & ~solid; open != 0; open &= open - 1) {
+    if (found.suspect >= enough) break;
+    const int32_t dy = rows.offset(start.y);
+    int32_t dx = kHalfCell - start.x;
+    for (Row open = blocked & ~solid; open != 0; open >>= 1, dx += kUnitsPerCell) {
+      if ((open & 1U) == 0) continue;
       ++found.unknown;
-      const int32_t dx = lowest(open) * kUnitsPerCell + kHalfCell - start.x;
-      const int32_t dy = rows.row() * kUnitsPerCell + kHalfCell - start.y;
       const int32_t squared = dx * dx + dy * dy;
       if (squared < nearest) {
         nearest = squared;
@@ -52,11 +56,14 @@ bool Patch::approaches(const Vec& from, Angle heading, Length step, Length radiu
   // What lies beyond the window is not known.
   if (!in_window(there, reach + kHalfSquare)) return true;
   const HalfPlane ahead = HalfPlane::facing(heading);
+  const Row box = Span::around(there.x, reach).columns();
   for (Rows rows(there.y, reach + kHalfSquare); rows.more(); rows.next()) {
+    const Row unclear = box & to_window(~clear_row(rows.row()));
+    if (unclear == 0) continue;
     Span span;
     span.touched_by_disc(there.x, rows.offset(there.y), reach);
     ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
-    if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return true;
+    if ((span.columns() & unclear) != 0) return true;
   }
   return false;
 }
@@ -65,10 +72,13 @@ bool Patch::all_clear(Vec centre, Length radius) const noexcept {
   const Point at = local(centre);
   const int32_t reach = units(radius);
   if (!in_window(at, reach + kHalfSquare)) return false;
+  const Row box = Span::around(at.x, reach).columns();
   for (Rows rows(at.y, reach + kHalfSquare); rows.more(); rows.next()) {
+    const Row unclear = box & to_window(~clear_row(rows.row()));
+    if (unclear == 0) continue;
     Span span;
     span.touched_by_disc(at.x, rows.offset(at.y), reach);
-    if ((span.columns() & to_window(~clear_row(rows.row()))) != 0) return false;
+    if ((span.columns() & unclear) != 0) return false;
   }
   return true;
 }

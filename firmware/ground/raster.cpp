@@ -12,7 +12,7 @@ int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
 /// Of the disc around x in a row that lies dy from its centre.
 Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
   if (radius < 0 || dy > radius || dy < -radius) return {INT16_MAX, -INT16_MAX};
-  const int32_t half = root(static_cast<uint32_t>(radius * radius - dy * dy));
+  const int32_t half = static_cast<int32_t>(square_root_32(static_cast<uint32_t>(radius * radius - dy * dy)));
   return {x - half, x + half};
 }
 
@@ -36,25 +36,6 @@ int bits(Row row) noexcept {
   return n;
 }
 
-int lowest(Row row) noexcept {
-  int n = 0;
-  for (; (row & 1U) == 0; row >>= 1) ++n;
-  return n;
-}
-
-int32_t root(uint32_t x) noexcept {
-  uint32_t r = 0;
-  for (uint32_t bit = UINT32_C(1) << 30; bit != 0; bit >>= 2) {
-    if (x >= r + bit) {
-      x -= r + bit;
-      r = (r >> 1) + bit;
-    } else {
-      r >>= 1;
-    }
-  }
-  return static_cast<int32_t>(r);
-}
-
 void Span::within_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
   const Span inside = chord(x, dy, radius);
   cut_low(inside.low);
@@ -74,11 +55,11 @@ void Span::touched_by_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
 }
 
 Row Span::columns() const noexcept {
-  int first = static_cast<int>(ceil_div(low - kHalfCell, kUnitsPerCell));
-  int last = static_cast<int>(floor_div(high - kHalfCell, kUnitsPerCell));
-  if (first < 0) first = 0;
-  if (last > kCells - 1) last = kCells - 1;
-  return ground::columns(first, last);
+  constexpr int32_t kLastCentre = kCells * kUnitsPerCell - kHalfCell;
+  if (low > kLastCentre || high < kHalfCell) return 0;
+  const int32_t first = low < kHalfCell ? 0 : (low - kHalfCell + kUnitsPerCell - 1) / kUnitsPerCell;
+  const int32_t last = high > kLastCentre ? kCells - 1 : (high - kHalfCell) / kUnitsPerCell;
+  return ground::columns(static_cast<int>(first), static_cast<int>(last));
 }
 
 Rows::Rows(int32_t low, int32_t high, int32_t reach) noexcept
@@ -104,11 +85,31 @@ HalfPlane HalfPlane::facing(Angle direction) noexcept { return {q14(cos(directio
 
 Wedge::Wedge(Angle axis, Angle half) noexcept
     : left_{q14(sin(axis + half)), -q14(cos(axis + half))},
-      right_{-q14(sin(axis - half)), q14(cos(axis - half))} {}
+      right_{-q14(sin(axis - half)), q14(cos(axis - half))},
+      left_corner_(corner(left_.nx, left_.ny)),
+      right_corner_(corner(right_.nx, right_.ny)) {}
+
+Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
+  // Of the points at this radius, the edges reach farthest up and down, but where straight up or down lies
+  // between them.
+  const int32_t left = scale_down<14>(left_.nx * radius);
+  const int32_t right = scale_down<14>(-right_.nx * radius);
+  const int32_t higher = left > right ? left : right;
+  const int32_t lower = left > right ? right : left;
+  const bool up = left_.ny >= 0 && right_.ny >= 0;
+  const bool down = left_.ny <= 0 && right_.ny <= 0;
+  return Rows(down        ? y - radius
+              : lower < 0 ? y + lower
+                          : y,
+              up           ? y + radius
+              : higher > 0 ? y + higher
+                           : y,
+              kRim);
+}
 
 void Wedge::hold(Span& span, int32_t x, int32_t dy) const noexcept {
-  left_.clip(span, x, dy, corner(left_.nx, left_.ny));
-  right_.clip(span, x, dy, corner(right_.nx, right_.ny));
+  left_.clip(span, x, dy, left_corner_);
+  right_.clip(span, x, dy, right_corner_);
 }
 
 void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
@@ -136,13 +137,20 @@ Rows Stadium::rows() const noexcept {
   return end_y_ < 0 ? Rows(y_ + end_y_, y_, reach) : Rows(y_, y_ + end_y_, reach);
 }
 
+Row Stadium::box() const noexcept {
+  const int32_t reach = radius_ + kUnitsPerCell;
+  return end_x_ < 0 ? Span{x_ + end_x_ - reach, x_ + reach}.columns()
+                    : Span{x_ - reach, x_ + end_x_ + reach}.columns();
+}
+
 void Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
   // Where the row crosses this long edge, if it does.
   const int32_t from_y = dy - sign * scale_down<14>(ux_ * beside_);
   if (uy_ == 0) return;
-  const int64_t t = divide_rounded(int64_t{from_y} * 16384, uy_ > 0 ? uy_ : -uy_) * (uy_ > 0 ? 1 : -1);
+  const int32_t half = uy_ / 2;
+  const int32_t t = (from_y * (1 << 14) + ((from_y < 0) == (uy_ < 0) ? half : -half)) / uy_;
   if (t < sign * skew_ || t > length_ + sign * skew_) return;
-  const int32_t x = x_ - sign * scale_down<14>(uy_ * beside_) + scale_down<14>(ux_ * static_cast<int32_t>(t));
+  const int32_t x = x_ - sign * scale_down<14>(uy_ * beside_) + scale_down<14>(ux_ * t);
   if (x < span.low) span.low = x;
   if (x > span.high) span.high = x;
 }

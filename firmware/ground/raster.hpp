@@ -29,7 +29,7 @@ template <class T>
 constexpr T floor_div(T n, T d) noexcept {
   return n >= 0 ? n / d : -((-n + d - 1) / d);
 }
-constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return -floor_div(-n, d); }
+constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return n > 0 ? (n + d - 1) / d : n / d; }
 
 /// The columns first..last of the window, both within 0..31.
 constexpr Row columns(int first, int last) noexcept {
@@ -37,16 +37,16 @@ constexpr Row columns(int first, int last) noexcept {
 }
 
 int bits(Row row) noexcept;
-/// The column of the lowest bit. row != 0.
-int lowest(Row row) noexcept;
-/// The largest r with r * r <= x.
-int32_t root(uint32_t x) noexcept;
 
 /// An interval of x.
 struct Span {
   int32_t low = -kUnitsPerCell;
   int32_t high = (kCells + 1) * kUnitsPerCell;
 
+  /// As far as a disc touches cells in any row.
+  static Span around(int32_t x, int32_t radius) noexcept {
+    return {x - radius - kHalfSquare, x + radius + kHalfSquare};
+  }
   bool empty() const noexcept { return low > high; }
   /// Cells whose centres lie in this disc; those that it holds wholly; those that it touches.
   void within_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
@@ -91,6 +91,8 @@ struct HalfPlane {
 class Wedge {
  public:
   Wedge(Angle axis, Angle half) noexcept;
+  /// All rows with points of the wedge at most this far from its apex.
+  Rows rows(int32_t y, int32_t radius) const noexcept;
   /// Leaves the cells of the row that lie wholly inside.
   void hold(Span& span, int32_t x, int32_t dy) const noexcept;
   /// Leaves the part of the row that is at least `margin` inside both edges.
@@ -99,6 +101,8 @@ class Wedge {
  private:
   HalfPlane left_;
   HalfPlane right_;
+  int32_t left_corner_;  // how far a cell's corner lies from its centre across this edge
+  int32_t right_corner_;
 };
 
 /// A straight way of a disc.
@@ -117,6 +121,8 @@ class Stadium {
   explicit Stadium(const Sweep& sweep) noexcept;
   Rows rows() const noexcept;
   Row columns(int row) const noexcept;
+  /// The columns of all rows.
+  Row box() const noexcept;
 
  private:
   void side(Span& span, int32_t dy, int32_t sign) const noexcept;

@@ -13,6 +13,8 @@ constexpr Length kNoise = 30_mm;
 constexpr Length kStep = 60_mm;
 constexpr Angle kTurn = Angle::turns(75, 3600);
 constexpr Duration kWhile = 250_ms;
+// Nearer to a sector's rim than this, three directions in 2^-14 do not decide.
+constexpr Length kHair = micrometres(500);
 
 }  // namespace
 
@@ -20,13 +22,15 @@ void Witness::configure(const Params& params) noexcept {
   side_ = params.rangefinders.side_angle;
   half_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
   offset_ = params.rangefinders.offset;
+  edge_ = facing(half_);
+  for (int i = 0; i < kBeams; ++i) beam_[i] = facing(beam_axis(side_, i));
 }
 
 void Witness::add(const Pose& from, Time taken, const Length (&free)[kBeams]) noexcept {
   if (count_ > 0) {
     const Scan& last = scan_[newest_];
-    if (norm(from.at - last.at) < kStep && magnitude(from.heading - last.heading) < kTurn.raw() &&
-        taken - newest_taken_ < kWhile) {
+    if (!farther(from.at - last.at, kStep - micrometres(1)) &&
+        magnitude(from.heading - last.heading) < kTurn.raw() && taken - newest_taken_ < kWhile) {
       return;
     }
   }
@@ -36,33 +40,55 @@ void Witness::add(const Pose& from, Time taken, const Length (&free)[kBeams]) no
   Scan& scan = scan_[newest_];
   scan.at = from.at;
   scan.heading = from.heading;
+  scan.facing = facing(from.heading);
   for (int i = 0; i < kBeams; ++i) {
     scan.free[i] = static_cast<uint16_t>(min(free[i], kFarthest).raw() / kUm);
   }
 }
 
+Witness::Facing Witness::facing(Angle direction) noexcept {
+  const auto q14 = [](Q30 x) { return static_cast<int16_t>(scale_down<16>(int64_t{x.raw()})); };
+  return {q14(cos(direction)), q14(sin(direction))};
+}
+
+Vec Witness::seen(Vec v, Facing facing) noexcept {
+  const auto sum = [](int64_t a, int64_t b) {
+    return Length::from_raw(static_cast<int32_t>((a + b) / (1 << 14)));
+  };
+  const int64_t x = v.x.raw();
+  const int64_t y = v.y.raw();
+  return {sum(x * facing.cos, y * facing.sin), sum(y * facing.cos, -x * facing.sin)};
+}
+
+bool Witness::holds(const Scan& scan, int beam, Vec way) const noexcept {
+  const Length reach = norm(way);
+  const Angle off = bearing(way) - scan.heading - beam_axis(side_, beam);
+  const Length forward = reach * cos(off) - offset_;
+  const Length aside = abs(reach * sin(off));
+  // Across the nearer edge; behind the apex, that is never inside.
+  if (forward * sin(half_) - aside * cos(half_) < kSlack) return false;
+  return (norm({forward, aside}) + kSlack).raw() / kUm <= scan.free[beam];
+}
+
 Witness::Mask Witness::holding(Vec point, Mask among) const noexcept {
-  const Q30 sine = sin(half_);
-  const Q30 cosine = cos(half_);
   Mask holding = 0;
-  for (int n = 0; n < count_; ++n) {
-    const Mask beams = among >> (n * kBeams) & ((1U << kBeams) - 1);
-    if (beams == 0) continue;
+  for (int n = 0; n < count_ && among >> (n * kBeams) != 0; ++n) {
     const Scan& scan = scan_[n];
-    const Vec rel = point - scan.at;
-    const Length reach = norm(rel);
-    if (reach > kFarthest) continue;
-    const Angle direction = bearing(rel) - scan.heading;
+    const Vec way = point - scan.at;
+    uint16_t free = 0;
+    for (const uint16_t f : scan.free) free = f > free ? f : free;
+    if (farther(way, min(kFarthest, offset_ + Length::from_raw(free * kUm)))) continue;
+    const Vec ahead = seen(way, scan.facing);
     for (int i = 0; i < kBeams; ++i) {
-      if ((beams >> i & 1U) == 0) continue;
-      const Angle off = direction - beam_axis(side_, i);
-      if (magnitude(off) > (90_deg).raw()) continue;
-      const Length forward = reach * cos(off) - offset_;
-      const Length aside = abs(reach * sin(off));
-      // Across the nearer edge.
-      if (forward * sine - aside * cosine < kSlack) continue;
-      const Length from_apex = norm({forward, aside});
-      if ((from_apex + kSlack).raw() / kUm <= scan.free[i]) holding |= 1U << (n * kBeams + i);
+      const Mask bit = Mask{1} << (n * kBeams + i);
+      if ((among & bit) == 0) continue;
+      const Vec at = seen(ahead, beam_[i]);
+      const Vec from_apex{at.x - offset_, abs(at.y)};
+      const Length inwards = -seen(from_apex, edge_).y;
+      const Length rim = Length::from_raw(scan.free[i] * kUm) - kSlack;
+      if (inwards < kSlack - kHair || farther(from_apex, rim + kHair)) continue;
+      const bool well_inside = inwards >= kSlack + kHair && !farther(from_apex, rim - kHair);
+      if (well_inside || holds(scan, i, way)) holding |= bit;
     }
   }
   return holding;
@@ -80,16 +106,21 @@ bool Witness::contradicts(const Pose& from, int beam, Length nearest, Length far
   const Length beyond = farthest + kNoise / 3;
   const Length middle = (nearest + beyond) / 2;
   const Length radius = (beyond - nearest) / 2 + arc(step, far) / 2 + kSlack;
-  Mask before = 0;
-  for (int k = 0; k <= kSectors; ++k) {
-    const Angle direction = axis - half + step * k;
-    const Mask here = holding(apex + polar(direction, far), ~Mask{0});
-    const Mask both = here == 0 ? 0 : holding(apex + polar(direction, nearest), here);
-    if (k > 0 && (both & before) == 0) {
-      const Angle centre = direction - Angle::from_raw(step.raw() / 2);
-      if (!patch.all_clear(apex + polar(centre, middle), radius)) return false;
-    }
-    before = both;
+  // Of those sectors, the ones that hold the whole ray across the arc.
+  const auto across = [&](Angle direction, Mask among) {
+    if (among == 0) return Mask{0};
+    const Q30 x = cos(direction);
+    const Q30 y = sin(direction);
+    const Mask behind = holding(apex + Vec{far * x, far * y}, among);
+    return behind == 0 ? Mask{0} : holding(apex + Vec{nearest * x, nearest * y}, behind);
+  };
+  for (int n = 0; n < kSectors; ++n) {
+    // What stands there mostly stands in the middle of the cone.
+    const int k = (n + kSectors / 2) % kSectors;
+    const Angle right = axis - half + step * k;
+    const Angle centre = right + step - Angle::from_raw(step.raw() / 2);
+    if (patch.all_clear(apex + polar(centre, middle), radius)) continue;
+    if (across(right + step, across(right, ~Mask{0})) == 0) return false;
   }
   return true;
 }

@@ -47,7 +47,7 @@ bool Course::choose(const View& view, const Vec& to_goal, BendLaw& law, const Pa
   Side aside = wall;
   const auto in_the_way = [&](Angle heading, Length beside) {
     heading_ = heading;
-    return view.patch->along(view.pose.at, heading, length, beside).suspect;
+    return view.patch->along(view.pose.at, heading, length, beside, kNearlyFree + 1).suspect;
   };
   const auto found = [&](Length beside, int32_t steps) {
     const auto passable = [&](Angle heading, Side then) {

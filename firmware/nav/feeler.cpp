@@ -94,7 +94,7 @@ bool Feeler::opening(const View& view, Side wall, const Params& params) const no
     const Angle heading = view.pose.heading + 1_deg * (degrees * sign(wall));
     if (magnitude(heading - back) < kNotBack.raw()) continue;
     const ground::Obstacles o =
-        view.patch->along(view.pose.at, heading, length, view.patch->reach().planning);
+        view.patch->along(view.pose.at, heading, length, view.patch->reach().planning, kOpeningCells + 1);
     if (o.suspect + o.unknown <= kOpeningCells) return true;
   }
   return false;

@@ -106,6 +106,27 @@ TEST(SquareRoot, IsTheFloorAroundEverySquare) {
   }
 }
 
+TEST(SquareRoot, Of32BitsIsTheSame) {
+  for (std::uint64_t x = 0; x <= UINT32_MAX; x += 1 + x / 50000) {
+    const auto r = std::uint64_t{square_root_32(static_cast<std::uint32_t>(x))};
+    ASSERT_TRUE(r * r <= x && x < (r + 1) * (r + 1)) << x;
+  }
+  EXPECT_EQ(square_root_32(UINT32_MAX), 65535U);
+}
+
+TEST(Vectors, FartherIsWhatTheNormSays) {
+  for (int32_t x = -3000000; x <= 3000000; x += 77777) {
+    for (const int32_t y : {-2500000, -1, 0, 3, 1234567}) {
+      const Vec v{micrometres(x), micrometres(y)};
+      const Length n = norm(v);
+      ASSERT_FALSE(farther(v, n)) << x << ' ' << y;
+      ASSERT_TRUE(farther(v, n - micrometres(1))) << x << ' ' << y;
+    }
+  }
+  EXPECT_TRUE(farther({}, micrometres(-1)));
+  EXPECT_FALSE(farther({}, Length{}));
+}
+
 TEST(Vectors, NormPolarAndAlongAgreeWithDoubles) {
   Worst norm_error;
   Worst polar_error;

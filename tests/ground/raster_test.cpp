@@ -68,18 +68,6 @@ void expect_row(Row row, F&& inside_by, const char* what, std::uint64_t seed, in
   }
 }
 
-TEST(Raster, RootIsTheLargestWhoseSquareFits) {
-  Random random(1);
-  for (int i = 0; i < 200000; ++i) {
-    const auto x = static_cast<std::uint32_t>(random.bits() >> (32 + random.index(32)));
-    const auto r = static_cast<std::uint64_t>(root(x));
-    ASSERT_LE(r * r, x);
-    ASSERT_GT((r + 1) * (r + 1), x);
-  }
-  EXPECT_EQ(root(0), 0);
-  EXPECT_EQ(root(UINT32_MAX), 65535);
-}
-
 TEST(Raster, ColumnsAreTheBitsFromFirstToLast) {
   for (int first = 0; first < kCells; ++first) {
     for (int last = -1; last < kCells; ++last) {
@@ -87,9 +75,6 @@ TEST(Raster, ColumnsAreTheBitsFromFirstToLast) {
       for (int i = first; i <= last; ++i) expected |= 1U << i;
       ASSERT_EQ(columns(first, last), expected);
       ASSERT_EQ(bits(expected), last < first ? 0 : last - first + 1);
-      if (expected != 0) {
-        ASSERT_EQ(lowest(expected), first);
-      }
     }
   }
 }
