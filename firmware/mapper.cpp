@@ -13,6 +13,7 @@ void GroundMapper::place(const Pose& pose) noexcept {
   history_.reset();
   patch_.reset(pose);
   witness_.reset();
+  for (ranges::Scatter& scatter : scatter_) scatter = {};
 }
 
 void GroundMapper::observe(const Standing& body, const ranges::Conditioner& conditioner, const Params& params,
@@ -31,8 +32,10 @@ void GroundMapper::observe(const Standing& body, const ranges::Conditioner& cond
     ground::Proof& proof = proofs[i];
     if (!history_.at(sight.taken, proof.from)) continue;
     proof.axis = beam_axis(params.rangefinders.side_angle, i);
-    proof.free = free[i] = sight.near.distance;
+    scatter_[i].add(sight);
     proof.hit = sight.near.validity != ranges::Validity::clear;
+    const Length allowance = proof.hit ? scatter_[i].allowance() : Length{};
+    proof.free = free[i] = max(Length{}, sight.near.distance - allowance);
     proof.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     proof.taken = sight.taken;
     if (proof.hit && witness_.contradicts(proof.from, i, proof.free, sight.farthest, patch_)) {

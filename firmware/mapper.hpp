@@ -12,6 +12,7 @@
 #include "firmware/nav/planner.hpp"
 #include "firmware/params.hpp"
 #include "firmware/ranges/conditioner.hpp"
+#include "firmware/ranges/scatter.hpp"
 
 namespace whisker {
 
@@ -39,6 +40,7 @@ class GroundMapper {
   motion::History history_;
   ground::Patch patch_;
   ground::Witness witness_;
+  ranges::Scatter scatter_[hal::kBeams];
   Q14 granted_;
 };
 

@@ -71,9 +71,9 @@ struct ThesisParams {
 
 struct SkirtParams {
   Length cell;                       ///< of the clearance patch; zero: see patch_cell
-  Length shield_margin = 2_mm;       ///< kept clear around the body at every tick
+  Length shield_margin = 4_mm;       ///< kept clear around the body at every tick
   Length probe;                      ///< length of a way that is judged; zero: see Reach
-  Length planning_margin = 4_mm;     ///< the same on a heading that is chosen; more than the shield's
+  Length planning_margin = 6_mm;     ///< the same on a heading that is chosen; more than the shield's
   Length age_travel = 500_mm;        ///< clear ground is forgotten after one to two of these ways
   Angle age_turn = 340_deg;          ///< or of these turns, whichever comes first
   Speed mover_speed = 300_mm_per_s;  ///< of things that move and are given room; 0: nothing moves

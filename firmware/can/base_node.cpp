@@ -84,9 +84,9 @@ void BaseNode::send_order() noexcept {
   ordered_at_ = now_ms();
 }
 
-void BaseNode::request(const ParamRequest& what) noexcept {
+void BaseNode::request(const ParamRequest& request) noexcept {
   replied_ = false;
-  send(what);
+  send(request);
 }
 
 bool BaseNode::replied(ParamReply& reply) const noexcept {

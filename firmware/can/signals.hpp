@@ -20,15 +20,15 @@ constexpr int8_t kMultiplexor = -2;  ///< of the one that says which part a fram
 using Word = const char* (*)(int64_t raw) noexcept;
 
 struct Signal {
-  const char* name;
-  uint8_t start;   ///< lowest bit
-  uint8_t length;  ///< 1..32 bits
-  bool is_signed;  ///< two's complement
-  int64_t min;     ///< raw; a frame with a value outside [min, max] is not obeyed
-  int64_t max;
-  const char* factor;  ///< physical value = raw x factor
-  const char* unit;
-  const char* about;
+  const char* name = nullptr;
+  uint8_t start = 0;       ///< lowest bit
+  uint8_t length = 0;      ///< 1..32 bits
+  bool is_signed = false;  ///< two's complement
+  int64_t min = 0;         ///< raw; a frame with a value outside [min, max] is not obeyed
+  int64_t max = 0;
+  const char* factor = nullptr;  ///< physical value = raw x factor
+  const char* unit = nullptr;
+  const char* about = nullptr;
   int8_t part = kAlways;
   Word word = nullptr;  ///< names of the values
 };

@@ -113,6 +113,8 @@ Sight BeamConditioner::sight(const Params& params) const noexcept {
   s.taken = history_[newest_].taken;
   s.oldest = history_[(newest_ - kNear + 1 + kHistory) % kHistory].taken;
   s.farthest = max(high, last[kTypical - 1]);
+  s.measured = min(low, last[2]) > Length{} && s.farthest < far;
+  s.bend = abs(last[0] - last[1] * 2 + last[2]);
   s.near = {nearest, validity_of(nearest, far)};
   s.typical = {median, validity_of(median, far)};
   return s;

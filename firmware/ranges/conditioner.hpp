@@ -20,6 +20,8 @@ struct Sight {
   Echo near;           ///< the nearest of the last four: no single reading can make it far
   Echo typical;        ///< the median of the last three
   Length farthest;     ///< of the last three: no single reading can make it near
+  bool measured = false;  ///< the last three are all distances of something
+  Length bend;            ///< if so, how far the second of them lies off the line through the others, twice
 };
 
 /// One beam. Keeps the last usable measurements; a lost one is counted and never stored, so that it
