@@ -20,7 +20,8 @@ struct Planners final : can_remote::PlannerMaker {
 
 Planners planners;
 
-/// Nothing else on the board differs from one start to the next than the instant at which the other end speaks.
+/// Nothing else on the board differs from one start to the next than the instant at which the other end
+/// speaks.
 uint16_t boot_number(const hal::Board& board) noexcept {
   uint8_t byte = 0;
   while (board.line->take(&byte, 1) == 0) {

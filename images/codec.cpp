@@ -1,5 +1,5 @@
-// What a frame of the CAN protocol costs, of every message and with any content: a line for writing and one for
-// reading, with the least, the mean and the most work.
+// What a frame of the CAN protocol costs, of every message and with any content: a line for writing and one
+// for reading, with the least, the mean and the most work.
 #include "firmware/can/messages.hpp"
 #include "images/work.hpp"
 
@@ -69,9 +69,8 @@ int main() {
   using can::Kind;
   measure_all<can::EStop, can::Sync, can::FaultReport, can::MissionOrder, can::MissionValue,
               can::MissionReply, can::WheelCommand, can::WheelState, can::Range<Kind::range_left>,
-              can::Range<Kind::range_front>, can::Range<Kind::range_right>, can::NavStatus,
-              can::ParamRequest, can::ParamReply, can::Heartbeat, can::Info, can::InfoRequest,
-              can::Diagnostics>();
+              can::Range<Kind::range_front>, can::Range<Kind::range_right>, can::NavStatus, can::ParamRequest,
+              can::ParamReply, can::Heartbeat, can::Info, can::InfoRequest, can::Diagnostics>();
   const uint32_t own = hal::overhead(hal::board().meter);
   images::print_work("write", writing, own);
   images::print_work("read", reading, own);
