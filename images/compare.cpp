@@ -4,8 +4,8 @@
 #include "firmware/fuzzy/exact.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/fuzzy/rules.hpp"
-#include "hal/board.hpp"
 #include "images/float_inference.hpp"
+#include "images/work.hpp"
 
 using namespace whisker;
 
@@ -22,25 +22,6 @@ asm(".section .text.idle, \"ax\"\n.thumb_func\nwhisker_idle: bx lr\n.previous");
 #endif
 
 namespace {
-
-struct Work {
-  uint32_t least = UINT32_MAX;
-  uint32_t most = 0;
-  uint64_t sum = 0;
-  uint32_t count = 0;
-};
-
-void print(uint32_t number) {
-  char digits[11];
-  char* p = digits + sizeof digits - 1;
-  *p = '\0';
-  do {
-    *--p = static_cast<char>('0' + number % 10);
-    number /= 10;
-  } while (number != 0);
-  hal::board().console.print(" ");
-  hal::board().console.print(p);
-}
 
 struct Floating {
   const images::FloatRules& rules;
@@ -61,16 +42,12 @@ struct Floating {
   return meter.between(from, to);
 }
 
-Work measure(Infer infer, const void* engine) {
-  Work work;
+images::Work measure(Infer infer, const void* engine) {
+  images::Work work;
   for (int d = 0; d <= 1280; d += 27) {
     for (int r = -1024; r <= 1024; r += 37) {
       const fuzzy::Inputs in{Q7::from_raw(static_cast<int16_t>(d)), Q7::from_raw(static_cast<int16_t>(r))};
-      const uint32_t spent = timed(infer, engine, in);
-      if (spent < work.least) work.least = spent;
-      if (spent > work.most) work.most = spent;
-      work.sum += spent;
-      ++work.count;
+      work.add(timed(infer, engine, in));
     }
   }
   return work;
@@ -83,12 +60,7 @@ void report(const char* name, const Engine& engine) {
   Infer infer = nullptr;
   __builtin_memcpy(&infer, &member, sizeof infer);
   const uint32_t call = measure(idle, nullptr).least - 1;
-  const Work work = measure(infer, &engine);
-  hal::board().console.print(name);
-  print(work.least - call);
-  print(static_cast<uint32_t>(work.sum / work.count) - call);
-  print(work.most - call);
-  hal::board().console.print("\n");
+  images::print_work(name, measure(infer, &engine), call);
 }
 
 }  // namespace

@@ -39,6 +39,10 @@ CLI::Option* add_bus(CLI::App& app, BusChoice& choice) {
       ->check(CLI::Range(1, static_cast<int>(can::kRobots)))
       ->type_name("N");
   add_file(app, "--record", choice.record, "Write all frames as a candump log");
+  app.add_option("--drop", choice.drop_percent,
+                 "Lose so many of the frames that are sent and received, at random")
+      ->check(CLI::Range(0.0, 100.0))
+      ->type_name("PERCENT");
   return app
       .add_option("--can", choice.name,
                   "CAN interface, such as vcan0, or slcan:PATH for a serial\nline; it need not be there yet")

@@ -14,12 +14,13 @@ struct BusChoice {
   std::string name;
   int robot = 1;
   std::string record;
+  double drop_percent = 0;  ///< of the frames in each direction
 
   /// With a boot number of its own.
   can::Identity identity() const;
 };
 
-/// --can, --node and --record.
+/// --can, --node, --record and --drop.
 CLI::Option* add_bus(CLI::App& app, BusChoice& choice);
 
 constexpr double kBitrate = 500000;  ///< of the bus whose load is told

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "host/bus/fault_port.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/hil/controller_loop.hpp"
@@ -20,6 +21,13 @@ std::function<void(const std::string&)> speaker(const char* who, const BusChoice
   };
 }
 
+/// Inside this a recorder gets what passes on the bus.
+bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
+  bus::Fault loss{bus::FaultKind::loss};
+  loss.chance = choice.drop_percent / 100;
+  return {port, {loss}, static_cast<std::uint64_t>(choice.robot)};
+}
+
 }  // namespace
 
 int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
@@ -32,6 +40,7 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
     figures.bits += hil::bits_on_bus(frame);
     recorder.write(frame);
   });
+  bus::FaultPort port = lossy(tap, bus);
   hil::WallClock clock([&line] { return line.descriptor(); });
   hil::BusOptions how;
   how.identity = bus.identity();
@@ -39,7 +48,7 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   how.say = speaker("plant", bus);
   how.bus_waits_for = [&line] { return line.waits_for(); };
   how.interrupted = [&interrupt] { return interrupt.noted(); };
-  options.pilot = hil::bus_pilot(tap, clock, how, figures);
+  options.pilot = hil::bus_pilot(port, clock, how, figures);
   RunOutputs all = outputs;
   all.bus_json = [&figures] { return hil::figures_json(figures, kBitrate); };
   all.bus_words = [&figures] { return hil::figures_words(figures, kBitrate); };
@@ -66,7 +75,8 @@ void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line) 
   how.planner = planner;
   how.say = speaker("controller", bus);
   how.interrupted = [&interrupt] { return interrupt.noted(); };
-  hil::control(tap, line, how);
+  bus::FaultPort port = lossy(tap, bus);
+  hil::control(port, line, how);
   recorder.close();
 }
 

@@ -62,6 +62,7 @@ int execute(const Options& o) {
   const Scenario scenario = o.scenario.load({o.bus.record});
   BusChoice controller = o.bus;
   controller.record.clear();
+  controller.drop_percent = 0;
   const bool is_private = o.bus.name == kPrivate;
   if (o.bus.name.rfind("slcan:", 0) == 0) throw UsageError("hil: a serial line has one end here; see plant");
   auto lines =

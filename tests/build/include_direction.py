@@ -66,9 +66,9 @@ def hal_error(path, quoted, system):
 def image_error(quoted, system):
     if system is not None:
         return None if system in FREESTANDING else "an image has only <stdint.h> and <stddef.h>"
-    if quoted.startswith(("firmware/", "images/", "hal/link/")) or re.fullmatch(r"hal/[^/]+", quoted):
+    if quoted.startswith(("firmware/", "images/", "hal/can_remote/", "hal/link/", "hal/slcan/")) or re.fullmatch(r"hal/[^/]+", quoted):
         return None
-    return "an image includes firmware/, the contracts, hal/link/ and images/: the board is linked"
+    return "an image includes firmware/, the contracts, hal/can_remote/, hal/link/, hal/slcan/ and images/: the board is linked"
 
 
 def errors(path, text, exists):

@@ -33,6 +33,13 @@ class Hil(Case):
             self.assertEqual(bus["sets"], alone["ticks"])
             self.assertEqual((bus["safe_stops"], bus["refused"], bus["deadline_misses"]), (0, 0, 0))
 
+    def test_lost_frames_change_nothing(self):
+        scenario = self.world("discs", 5)
+        both = self.json_of("hil", scenario, "--drop", 5)
+        self.assertEqual(both["hash"], self.json_of("run", scenario)["hash"])
+        self.assertGreater(both["bus"]["resent"], 0)
+        self.assertGreater(both["bus"]["lost"], 0)
+
     def test_options_reach_the_other_process(self):
         scenario = self.world("discs")
         robot = self.file("robot.toml", "body_radius_m = 0.1\nwheel_speed_max_mps = 0.25\n")
@@ -111,6 +118,7 @@ class Refusals(Case):
         self.refused("hil", scenario, "--can", "slcan:/dev/null")
         self.refused("hil", scenario, "--can", "a-name-that-is-too-long-for-an-interface")
         self.refused("hil", scenario, "--record", scenario)
+        self.refused("hil", scenario, "--drop", "101")
         self.refused("dbc", "--robot", "0")
         self.assertIn("s.toml", self.refused("hil", self.file("s.toml", "x = 1\n")))
 

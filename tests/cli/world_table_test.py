@@ -19,11 +19,11 @@ OPTIONS = {
         "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
     ),
     ("plant",): (
-        "SCENARIO", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record",
+        "SCENARIO", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
     ),
-    ("controller",): ("--can", "--node", "--planner", "--record"),
+    ("controller",): ("--can", "--node", "--planner", "--record", "--drop"),
     ("hil",): (
-        "SCENARIO", "--can", "--node", "--realtime", "--planner", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record",
+        "SCENARIO", "--can", "--node", "--realtime", "--planner", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
     ),
     ("replay",): ("LOG", "--node", "--planner", "--json"),
     ("dbc",): ("--robot",),

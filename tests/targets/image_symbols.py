@@ -12,7 +12,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 import chips  # noqa: E402
 
 TOOLS = {"cortex": "arm-none-eabi-", "rv32im": "riscv64-unknown-elf-", "atmega": "avr-"}
-PROGRAMS = ("bare", "replay", "companion")
+PROGRAMS = [f"{program}-{engine}" for program in ("bare", "replay", "companion") for engine in chips.ENGINES]
 
 # Names as the linker knows them: what none of these images may hold.
 FORBIDDEN = re.compile(
@@ -64,14 +64,14 @@ def main():
     checked, problems = 0, []
     for build, target in chips.builds():
         prefix = next((tool for start, tool in TOOLS.items() if build.startswith(start)), None)
-        for program in PROGRAMS if prefix else ():
-            for engine in chips.ENGINES:
-                image = chips.image(build, target, f"{program}-{engine}")
-                checked += 1
-                problems += [f"{image}: {name}" for name in forbidden(symbols(prefix, image))]
-                if prefix == "avr-":
-                    listing = subprocess.run([prefix + "objdump", "-dC", image], capture_output=True, text=True, check=True)
-                    problems += [f"{image}: {what}" for what in miscompiled(listing.stdout)]
+        node = ["can-node"] if "mps2" in target.emulator else []
+        for program in PROGRAMS + node if prefix else ():
+            image = chips.image(build, target, program)
+            checked += 1
+            problems += [f"{image}: {name}" for name in forbidden(symbols(prefix, image))]
+            if prefix == "avr-":
+                listing = subprocess.run([prefix + "objdump", "-dC", image], capture_output=True, text=True, check=True)
+                problems += [f"{image}: {what}" for what in miscompiled(listing.stdout)]
     print(*problems, sep="\n")
     print(f"image symbols: {checked} images, {len(problems)} problems")
     return 1 if problems or not checked else 0
