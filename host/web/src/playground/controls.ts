@@ -38,7 +38,7 @@ export class Controls {
     this.speed.addEventListener('change', () => (play.speed = Number(this.speed.value)));
     element('play').addEventListener('click', () => this.toggle());
     element('again').addEventListener('click', () => play.begin());
-    element('finish').addEventListener('click', () => play.finish());
+    element('finish').addEventListener('click', () => play.hurry());
     document.addEventListener('keydown', (event) => this.key(event));
     const keys = element<HTMLDialogElement>('keys');
     for (const id of ['help', 'help-keys']) {
@@ -83,8 +83,7 @@ export class Controls {
   private toggle(): void {
     const {play} = this;
     if (play.over) play.begin();
-    play.playing = !play.playing;
-    play.select(play.selected);
+    play.setPlaying(!play.playing);
   }
 
   private key(event: KeyboardEvent): void {
