@@ -17,6 +17,7 @@ enum class Fault : uint8_t {
   range_unsteady,  ///< it stood and looked for too long: a beam's readings come, and never agree
   no_progress,     ///< the wheels turn, and the turn or step comes no nearer to its end, or to its rest
 };
+constexpr int kFaults = 9;
 
 const char* name(Fault fault) noexcept;
 

@@ -1,6 +1,7 @@
 /// What every board gives to a program. One board is linked; its folder has the rest.
 #pragma once
 
+#include "hal/byte_line.hpp"
 #include "hal/byte_stream.hpp"
 #include "hal/clock.hpp"
 #include "hal/console.hpp"
@@ -12,6 +13,7 @@ struct Board {
   Clock& clock;
   Console& console;    ///< on the UART
   ByteStream& serial;  ///< the same UART, for a companion instead of a person
+  ByteLine* line;      ///< the same UART again, without waiting; null where it can only be waited for
   ByteStream& host;    ///< to the emulator's own input and output: many times faster than the UART
   Meter& meter;
 };

@@ -15,7 +15,7 @@ struct CanFrame {
 
 enum class CanState : uint8_t {
   off,       ///< never started, or the controller did not answer
-  starting,  ///< waits for the bus to be idle
+  starting,  ///< waits for the bus to be idle, or for its interface or line to be there
   active,    ///< takes part in the bus
   passive,   ///< still takes part; an error counter passed 127
   bus_off,   ///< its transmit errors passed 255; silent until restart()

@@ -3,7 +3,7 @@
 #include "firmware/nav/skirt.hpp"
 #include "firmware/robot.hpp"
 #include "hal/board.hpp"
-#include "hal/link/room.hpp"
+#include "hal/room.hpp"
 
 using namespace whisker;
 
@@ -20,8 +20,8 @@ struct NoWheels final : hal::Drive {
 constexpr Params kParams;
 NoSensors sensors;
 NoWheels wheels;
-link::Room<sizeof(nav::TableSkirt)> room_for_skirt;
-link::Room<sizeof(Robot)> room_for_robot;
+hal::Room<sizeof(nav::TableSkirt)> room_for_skirt;
+hal::Room<sizeof(Robot)> room_for_robot;
 
 }  // namespace
 

@@ -10,8 +10,8 @@
 #include "hal/link/message.hpp"
 #include "hal/link/params.hpp"
 #include "hal/link/remote_board.hpp"
-#include "hal/link/room.hpp"
 #include "hal/meter.hpp"
+#include "hal/room.hpp"
 
 namespace whisker::link {
 
@@ -45,11 +45,11 @@ class Session {
   uint32_t overhead_ = 0;
   Affairs* my_ = nullptr;
   Robot* robot_ = nullptr;
-  Room<sizeof(Affairs)> room_for_affairs_;
-  Room<(sizeof(nav::TableSkirt) > sizeof(nav::ThesisPlanner) ? sizeof(nav::TableSkirt)
-                                                             : sizeof(nav::ThesisPlanner))>
+  hal::Room<sizeof(Affairs)> room_for_affairs_;
+  hal::Room<(sizeof(nav::TableSkirt) > sizeof(nav::ThesisPlanner) ? sizeof(nav::TableSkirt)
+                                                                  : sizeof(nav::ThesisPlanner))>
       room_for_planner_;
-  Room<sizeof(Robot)> room_for_robot_;
+  hal::Room<sizeof(Robot)> room_for_robot_;
   uint32_t ticks_ = 0;
   bool ended_ = false;
   uint8_t buffer_[params_size()] = {};

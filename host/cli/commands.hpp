@@ -11,5 +11,11 @@ void add_campaign(CLI::App& app, int& status);
 void add_movers(CLI::App& app, int& status);
 void add_table(CLI::App& app, int& status);
 void add_figures(CLI::App& app, int& status);
+void add_plant(CLI::App& app, int& status);
+void add_controller(CLI::App& app, int& status);
+void add_hil(CLI::App& app, int& status);
+void add_replay(CLI::App& app, int& status);
+void add_dbc(CLI::App& app, int& status);
+void add_protocol(CLI::App& app, int& status);
 
 }  // namespace whisker::cli

@@ -8,6 +8,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/output.hpp"
+#include "host/hil/line.hpp"
 #include "host/scenario/error.hpp"
 
 namespace {
@@ -48,7 +49,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
 void complain(const std::string& text) { std::fputs((one_line(text) + "\n").c_str(), stderr); }
 
 constexpr const char* kExitStatus = R"(
-Exit status of run: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
+Exit status of run, hil and plant: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
 6 fault (safe stop), 2 bad input or usage, 1 anything else.)";
 
 constexpr const char* kCampaignExitStatus = R"(
@@ -77,8 +78,14 @@ int main(int argc, char** argv) {
   add_movers(app, status);
   add_table(app, status);
   add_figures(app, status);
+  add_plant(app, status);
+  add_controller(app, status);
+  add_hil(app, status);
+  add_replay(app, status);
+  add_dbc(app, status);
+  add_protocol(app, status);
   app.footer(std::string(kExitStatus) + kCampaignExitStatus + kFirstSteps);
-  app.get_subcommand("run")->footer(kExitStatus);
+  for (const char* name : {"run", "hil", "plant"}) app.get_subcommand(name)->footer(kExitStatus);
   app.get_subcommand("campaign")->footer(kCampaignExitStatus);
   try {
     status = parse(app, argc, argv, status);
@@ -88,6 +95,9 @@ int main(int argc, char** argv) {
     complain(fmt::format("whisker: {} (see whisker --help)", e.what()));
     return kBadInput;
   } catch (const UsageError& e) {
+    complain(fmt::format("whisker: {}", e.what()));
+    return kBadInput;
+  } catch (const whisker::hil::BusError& e) {
     complain(fmt::format("whisker: {}", e.what()));
     return kBadInput;
   } catch (const whisker::InputError& e) {

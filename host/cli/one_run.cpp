@@ -18,15 +18,16 @@
 namespace whisker::cli {
 namespace {
 
-RunResult with_progress(const Scenario& scenario, RunOptions& options) {
+RunResult with_progress(const Scenario& scenario, RunOptions& options, const RunOutputs& outputs) {
   ProgressLine line;
   auto last = std::chrono::steady_clock::now();
   options.progress = [&](double time_s, double distance_m) {
     const auto now = std::chrono::steady_clock::now();
     if (now - last < std::chrono::milliseconds(200)) return;
     last = now;
-    line.show(fmt::format("{:.0f} s of at most {:.0f} s simulated, {:.2f} m from the goal", time_s,
-                          scenario.time_limit_s, distance_m));
+    line.show(fmt::format("{:.0f} s of at most {:.0f} s simulated, {:.2f} m from the goal{}{}", time_s,
+                          scenario.time_limit_s, distance_m, outputs.bus_words ? ", " : "",
+                          outputs.bus_words ? outputs.bus_words() : ""));
   };
   return run(scenario, options);
 }
@@ -38,7 +39,7 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
   page::Recording recording(scenario.robot);
   if (!o.trace.empty() || !o.svg.empty()) options.records = &records;
   if (!o.html.empty()) options.watch = [&](const Moment& moment) { recording.add(moment); };
-  const RunResult result = with_progress(scenario, options);
+  const RunResult result = with_progress(scenario, options, o);
   if (!o.trace.empty()) report::write_trace(o.trace, scenario, records);
   if (!o.svg.empty()) report::write_file(o.svg, report::run_svg(scenario, records, result));
   if (!o.html.empty()) {
@@ -48,10 +49,11 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
   }
 
   if (o.json) {
-    fmt::print("{}\n", report::result_json(result));
+    fmt::print("{}\n", report::result_json(result, o.bus_json ? o.bus_json() : ""));
   } else {
     fmt::print("{}\n{:.2f} m from the goal after {} ticks, command hash {:016x}\n",
                report::verdict_words(result), result.final_distance_m, result.ticks, result.hash);
+    if (o.bus_words) fmt::print("bus:     {}\n", o.bus_words());
     if (!o.trace.empty()) fmt::print("trace:   {}\n", o.trace);
     if (!o.svg.empty()) fmt::print("picture: {}\n", o.svg);
     if (!o.html.empty()) fmt::print("page:    {}\n", o.html);

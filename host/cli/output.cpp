@@ -8,7 +8,6 @@
 #include <iostream>
 #include <stdexcept>
 #include <system_error>
-#include <vector>
 
 #include <fmt/core.h>
 
@@ -47,7 +46,7 @@ void check_place(const std::string& text) {
 
 }  // namespace
 
-void check_outputs(std::initializer_list<std::string> outputs, std::initializer_list<std::string> inputs) {
+void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
   std::vector<std::string> seen;
   for (const std::string& text : outputs) {
     if (text.empty()) continue;

@@ -1,15 +1,14 @@
 /// Where results go.
 #pragma once
 
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace whisker::cli {
 
 /// Before any work is done: every named output ("" means none) must lie in a folder that exists, no two may
 /// be the same file, and none an input. Devices and pipes may be named twice. Throws UsageError.
-void check_outputs(std::initializer_list<std::string> outputs,
-                   std::initializer_list<std::string> inputs = {});
+void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs = {});
 
 /// When all is printed: throws std::runtime_error if standard output did not take all of it.
 void finish_standard_output();

@@ -42,7 +42,7 @@ const char* outcome(Verdict verdict) noexcept {
   return "?";
 }
 
-std::string result_json(const RunResult& result) {
+std::string result_json(const RunResult& result, const std::string& bus) {
   Json json;
   json["outcome"] = outcome(result.verdict);
   json["time_s"] = rounded(result.time_s);
@@ -52,6 +52,7 @@ std::string result_json(const RunResult& result) {
   json["ticks"] = result.ticks;
   json["hash"] = fmt::format("{:016x}", result.hash);
   json["detail"] = result.detail;
+  if (!bus.empty()) json["bus"] = Json::parse(bus);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -67,6 +67,7 @@ void draw_classes(Svg& svg, Column& column, const TrackSummary& track) {
 }
 
 std::string distance_text(const TickRecord& r, sim::Vec2 goal) {
+  if (!r.inside) return "?";
   return decimals(std::hypot(r.est_x_m - goal.x, r.est_y_m - goal.y), 2) + " m";
 }
 

@@ -61,10 +61,15 @@ void add_row(std::string& out, const RangefinderParams& sensor, const TickRecord
   for (const hal::RangeReading& reading : r.ranges.beam) row.range(reading, sensor);
   row.number(r.v_left_mps, 5).number(r.v_right_mps, 5).word(nav::name(r.mode)).word(nav::name(r.why));
   row.count(r.danger_count).count(r.looked ? 1 : 0);
-  row.number(r.d_q7 / 128.0, 4).number(r.r_q7 / 128.0, 4);
-  row.number(r.sa_q14 / 16384.0, 5).number(r.sd_q14 / 16384.0, 5);
+  const auto inner = [&](double x, int decimals) { r.inside ? row.number(x, decimals) : row.word(""); };
+  inner(r.d_q7 / 128.0, 4);
+  inner(r.r_q7 / 128.0, 4);
+  inner(r.sa_q14 / 16384.0, 5);
+  inner(r.sd_q14 / 16384.0, 5);
   row.number(r.command.left / 10000.0, 5).number(r.command.right / 10000.0, 5);
-  row.number(r.est_x_m, 6).number(r.est_y_m, 6).number(r.est_heading_rad, 6);
+  inner(r.est_x_m, 6);
+  inner(r.est_y_m, 6);
+  inner(r.est_heading_rad, 6);
   row.end();
 }
 

@@ -13,6 +13,8 @@
 /// - sa, sd: fuzzy outputs last used, 5 decimals
 /// - cmd_left_mps, cmd_right_mps: commanded rim speeds, m/s, 5 decimals
 /// - est_x_m, est_y_m, est_heading_rad: the core's own estimate, m, m, rad, 6 decimals
+///
+/// d, r, sa, sd and the estimate are empty fields where a bus lies between: it does not carry them.
 #pragma once
 
 #include <string>

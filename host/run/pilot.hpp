@@ -18,6 +18,10 @@ class Pilot {
   virtual const Status& tick(Time now) = 0;
   /// What the planner was shown last; null before its first step, and on a chip.
   virtual const ground::Patch* patch() const { return nullptr; }
+  /// The status has all that the core knows; false: only what a bus carries.
+  virtual bool sees_inside() const { return true; }
+  /// Why the robot will not move any more although its core knows of no fault; nullptr: it will.
+  virtual const char* trouble() const { return nullptr; }
 };
 
 /// A pilot that stands at the scenario's start and has its goal. Scenario and plant must outlive it.

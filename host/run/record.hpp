@@ -25,6 +25,7 @@ struct TickRecord {
   fuzzy::Cell cell{};                                    ///< of the response table, last used
   hal::WheelSpeeds command{};                            ///< 0.1 mm/s
   double est_x_m = 0, est_y_m = 0, est_heading_rad = 0;  ///< the core's own estimate
+  bool inside = true;  ///< false: the core is far away and does not tell the fuzzy values and its estimate
 };
 
 /// Stands for the clearance in an empty world, m: no scenario is larger.

@@ -7,8 +7,8 @@
 namespace whisker {
 namespace {
 
-std::optional<Verdict> verdict_of(const Status& status) {
-  if (status.health.fault != Fault::none) {
+std::optional<Verdict> verdict_of(const Status& status, const Pilot& pilot) {
+  if (status.health.fault != Fault::none || pilot.trouble() != nullptr) {
     const bool stands = status.command.left == 0 && status.command.right == 0;
     return stands ? std::optional(Verdict::fault) : std::nullopt;
   }
@@ -22,7 +22,8 @@ std::optional<Verdict> verdict_of(const Status& status) {
   return std::nullopt;
 }
 
-const char* detail_of(Verdict verdict, const Status& status) {
+const char* detail_of(Verdict verdict, const Status& status, const Pilot& pilot) {
+  if (verdict == Verdict::fault && status.health.fault == Fault::none) return pilot.trouble();
   return verdict == Verdict::fault ? name(status.health.fault) : nav::name(status.decision.why);
 }
 
@@ -67,9 +68,9 @@ void Trip::decide() {
   status_ = &pilot_->tick(Time::from_raw(static_cast<std::uint32_t>(now_ms)));
   hash_.add(status_->command);
   ++ticks_;
-  verdict_ = verdict_of(*status_);
+  verdict_ = verdict_of(*status_, *pilot_);
   if (verdict_) {
-    detail_ = detail_of(*verdict_, *status_);
+    detail_ = detail_of(*verdict_, *status_, *pilot_);
   } else if (static_cast<double>(now_ms + period_ms_) / 1000.0 > scenario_->time_limit_s) {
     verdict_ = Verdict::gave_up;
     detail_ = "time_limit";
@@ -96,7 +97,11 @@ double Trip::distance_left() const {
   return std::sqrt(sim::dot(d, d));
 }
 
-TickRecord Trip::record() const { return record_of(*plant_, *status_, ranges_, t_s_); }
+TickRecord Trip::record() const {
+  TickRecord r = record_of(*plant_, *status_, ranges_, t_s_);
+  r.inside = pilot_->sees_inside();
+  return r;
+}
 
 RunResult Trip::result() const {
   RunResult result;

@@ -7,13 +7,14 @@ import sys
 from sources import finish, sources
 
 # The stages of firmware/, lowest first: a stage includes itself and those before it.
-STAGES = ("core", "health", "params", "ranges", "ground", "fuzzy", "nav", "motion", "mapper", "robot")
+STAGES = ("core", "health", "params", "ranges", "ground", "fuzzy", "nav", "motion", "mapper", "robot", "can")
 
 # What a stage may include of hal/; a stage that is not named here includes none of it.
 HAL_OF_STAGE = {
     "ranges": {"hal/wire.hpp"},
     "motion": {"hal/wire.hpp"},
     "mapper": {"hal/wire.hpp"},
+    "can": {"hal/wire.hpp", "hal/can_port.hpp"},
     "robot": {"hal/wire.hpp", "hal/rangefinders.hpp", "hal/drive.hpp"},
 }
 

@@ -10,7 +10,11 @@ namespace {
 
 constexpr int kMost = 1000000;
 
-Scenario u_trap() { return worlds::generate(worlds::Kind::u_trap, {2}); }
+Scenario u_trap() {
+  worlds::Options options;
+  options.seed = 2;
+  return worlds::generate(worlds::Kind::u_trap, options);
+}
 
 TEST(Drive, IsTheRunHoweverItsTicksAreCut) {
   worlds::Options options;

@@ -1,14 +1,16 @@
 #pragma once
 
+#include "hal/byte_line.hpp"
 #include "hal/byte_stream.hpp"
 #include "hal/console.hpp"
 
 namespace whisker::hal::mcu {
 
-/// A UART as a byte stream and as a console; polled. `Uart`: a class with static bool can_read(), uint8_t
-/// get(), bool can_write(), void put(uint8_t).
+/// A UART as a byte stream, as a line and as a console; polled: what comes while nobody looks is lost, unless
+/// the UART itself holds it. `Uart`: a class with static bool can_read(), uint8_t get(), bool can_write(),
+/// void put(uint8_t).
 template <class Uart>
-class UartPort final : public ByteStream, public Console {
+class UartPort final : public ByteStream, public ByteLine, public Console {
  public:
   bool read(uint8_t* to, size_t count) noexcept override {
     for (; count != 0; --count) {
@@ -22,6 +24,17 @@ class UartPort final : public ByteStream, public Console {
     for (; count != 0; --count) put(*from++);
     return true;
   }
+  size_t take(uint8_t* to, size_t room) noexcept override {
+    size_t count = 0;
+    while (count < room && Uart::can_read()) to[count++] = Uart::get();
+    return count;
+  }
+  size_t offer(const uint8_t* from, size_t count) noexcept override {
+    size_t taken = 0;
+    while (taken < count && Uart::can_write()) Uart::put(from[taken++]);
+    return taken;
+  }
+  bool ready() noexcept override { return true; }
   void print(const char* text) noexcept override {
     while (*text != '\0') put(static_cast<uint8_t>(*text++));
   }

@@ -57,7 +57,7 @@ class CycleMeter final : public Meter {
 mcu::Milliseconds<Cycles> clock;
 HostStream host;
 CycleMeter meter;
-const Board kBoard{clock, host, host, host, meter};
+const Board kBoard{clock, host, host, nullptr, host, meter};
 
 }  // namespace
 

@@ -12,18 +12,6 @@ using hal::CanState;
 
 constexpr Address kBase = base::kCan1;
 constexpr uint8_t kBytes = 8;
-constexpr uint32_t kBaseId = 0x7FF;
-constexpr uint32_t kLongId = 0x1FFFFFFF;
-
-void count(uint32_t& counter, uint32_t times = 1) noexcept {
-  counter = counter > UINT32_MAX - times ? UINT32_MAX : counter + times;
-}
-
-bool past(uint32_t now_ms, uint32_t then_ms) noexcept { return now_ms - then_ms <= INT32_MAX; }
-
-bool well_formed(const CanFrame& frame) noexcept {
-  return frame.size <= kBytes && frame.id <= (frame.extended ? kLongId : kBaseId);
-}
 
 uint32_t word_of(const uint8_t* bytes) noexcept {
   return bytes[0] | uint32_t{bytes[1]} << 8 | uint32_t{bytes[2]} << 16 | uint32_t{bytes[3]} << 24;
@@ -122,14 +110,7 @@ void BxCan::see_state() noexcept {
 }
 
 bool BxCan::send(const CanFrame& frame, uint8_t lifetime_ms) noexcept {
-  const bool fits = waiting_ < kSendDepth && lifetime_ms > 0 && lifetime_ms <= kLongestLife;
-  if (!fits || !on_bus() || !well_formed(frame)) {
-    count(counts_.refused);
-    return false;
-  }
-  queue_[(first_ + waiting_) % kSendDepth] = {frame, now_ms_ + lifetime_ms};
-  ++waiting_;
-  return true;
+  return outbox_.put(frame, lifetime_ms, on_bus(), counts_);
 }
 
 void BxCan::load_mailbox(uint8_t box, const CanFrame& frame) noexcept {
@@ -144,13 +125,13 @@ void BxCan::load_mailbox(uint8_t box, const CanFrame& frame) noexcept {
 
 void BxCan::fill() noexcept {
   const uint32_t status = load(kBase, can::kTsr);
-  for (uint8_t box = 0; box < can::kMailboxes && waiting_ > 0; ++box) {
+  for (uint8_t box = 0; box < can::kMailboxes; ++box) {
+    const hal::CanOutbox::Waiting* next = outbox_.first();
+    if (next == nullptr) return;
     if (mailbox_[box].busy || value(can::kTme[box], status) == 0) continue;
-    const Waiting& next = queue_[first_];
-    mailbox_[box] = {true, false, next.until_ms};
-    load_mailbox(box, next.frame);
-    first_ = static_cast<uint8_t>((first_ + 1) % kSendDepth);
-    --waiting_;
+    mailbox_[box] = {true, false, next->until_ms};
+    load_mailbox(box, next->frame);
+    outbox_.pop();
   }
 }
 
@@ -172,23 +153,18 @@ void BxCan::collect() noexcept {
   }
 }
 
+/// Of the mailboxes: the queue sees to itself.
 void BxCan::drop_stale() noexcept {
-  while (waiting_ > 0 && past(now_ms_, queue_[first_].until_ms)) {
-    count(counts_.expired);
-    first_ = static_cast<uint8_t>((first_ + 1) % kSendDepth);
-    --waiting_;
-  }
   for (uint8_t box = 0; box < can::kMailboxes; ++box) {
     Mailbox& mailbox = mailbox_[box];
-    if (!mailbox.busy || mailbox.given_up || !past(now_ms_, mailbox.until_ms)) continue;
+    if (!mailbox.busy || mailbox.given_up || !reached(now_ms_, mailbox.until_ms)) continue;
     mailbox.given_up = true;
     store(kBase, can::kTsr, mask(can::kAbrq[box]));
   }
 }
 
 void BxCan::drop_all() noexcept {
-  count(counts_.expired, waiting_);
-  waiting_ = 0;
+  outbox_.drop_all(counts_);
   for (uint8_t box = 0; box < can::kMailboxes; ++box) {
     if (!mailbox_[box].busy) continue;
     count(counts_.expired);
@@ -201,6 +177,7 @@ void BxCan::poll(uint32_t now_ms) noexcept {
   now_ms_ = now_ms;
   count(counts_.overrun, overruns_.collect());
   see_state();
+  outbox_.expire(now_ms, counts_);
   if (!on_bus()) return;
   collect();
   drop_stale();

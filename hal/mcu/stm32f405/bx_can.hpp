@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/can_port.hpp"
+#include "hal/can_queue.hpp"
 #include "hal/mcu/common/shared.hpp"
 #include "hal/mcu/stm32f405/clock.hpp"
 
@@ -29,10 +29,6 @@ class BxCan final : public hal::CanPort {
   void on_receive_interrupt() noexcept;
 
  private:
-  struct Waiting {
-    hal::CanFrame frame;
-    uint32_t until_ms;
-  };
   struct Mailbox {
     bool busy = false;
     bool given_up = false;  // asked to drop its frame
@@ -54,9 +50,7 @@ class BxCan final : public hal::CanPort {
   uint32_t now_ms_ = 0;
   uint32_t started_ms_ = 0;
   bool join_timed_ = false;
-  Waiting queue_[kSendDepth] = {};
-  uint8_t first_ = 0;
-  uint8_t waiting_ = 0;
+  hal::CanOutbox outbox_;
   Mailbox mailbox_[3];
   mcu::Ring<hal::CanFrame, kReceiveDepth> received_;
   mcu::Events overruns_;

@@ -3,18 +3,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
-namespace whisker::link {
+namespace whisker::hal {
 
 struct RoomAddress {
   void* at;
 };
 
-}  // namespace whisker::link
+}  // namespace whisker::hal
 
 /// Some freestanding compilers have no <new>.
-inline void* operator new(size_t, whisker::link::RoomAddress room) noexcept { return room.at; }
+inline void* operator new(size_t, whisker::hal::RoomAddress room) noexcept { return room.at; }
 
-namespace whisker::link {
+namespace whisker::hal {
 
 /// Room for one object that is made while the program runs. Itself all zero and without a constructor that
 /// runs: it needs no flash, no guard, and no code before main. Nothing is ever destroyed.
@@ -31,4 +31,4 @@ class Room {
   alignas(8) uint8_t bytes_[kSize] = {};
 };
 
-}  // namespace whisker::link
+}  // namespace whisker::hal

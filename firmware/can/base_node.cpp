@@ -1,0 +1,152 @@
+#include "firmware/can/base_node.hpp"
+
+namespace whisker::can {
+namespace {
+
+int32_t size_of(int16_t speed) noexcept { return speed < 0 ? -int32_t{speed} : int32_t{speed}; }
+
+/// Both wheels lose the same part of their speed, so that the path keeps its curvature; the faster one loses
+/// `step`.
+hal::WheelSpeeds slowed(hal::WheelSpeeds now, int16_t step) noexcept {
+  const int32_t fastest = size_of(now.left) > size_of(now.right) ? size_of(now.left) : size_of(now.right);
+  if (fastest <= step) return {};
+  const auto rest = [&](int16_t speed) { return static_cast<int16_t>(speed * (fastest - step) / fastest); };
+  return {rest(now.left), rest(now.right)};
+}
+
+}  // namespace
+
+BaseNode::BaseNode(hal::CanPort& port, const Identity& identity, int16_t ramp) noexcept
+    : Node(port, Party::base, identity), ramp_(ramp) {}
+
+void BaseNode::poll(uint32_t now) noexcept {
+  listen(now);
+  if (ordered() && now - command_seen_ > kCommandLate_ms) stop(Error::command_late);
+  publish();
+  if (order_state_ != OrderState::waiting || !matched() || !at_rest()) return;
+  if (order_due_ || now - ordered_at_ >= kOrderRepeat_ms) send_order();
+}
+
+bool BaseNode::send_set(const InputSet& set, Pace pace) noexcept {
+  set_pace(pace);
+  tick_ = set.tick;
+  period_ms_ = set.period_ms;
+  const auto tick16 = static_cast<uint16_t>(set.tick);
+  const hal::RangeReading* beam = set.ranges.beam;
+  bool taken = send(Range<Kind::range_left>{InputSets::to_wire(beam[hal::kLeft]), tick16}, kLife_ms);
+  taken = send(Range<Kind::range_front>{InputSets::to_wire(beam[hal::kFront]), tick16}, kLife_ms) && taken;
+  taken = send(Range<Kind::range_right>{InputSets::to_wire(beam[hal::kRight]), tick16}, kLife_ms) && taken;
+  WheelState wheels;
+  wheels.valid = set.counts_valid ? 1 : 0;
+  wheels.tick = static_cast<uint8_t>(set.tick % WheelState::kTickModulus);
+  wheels.counts = set.counts;
+  taken = send(wheels, kLife_ms) && taken;
+  taken = send(Sync{pace, set.tick, set.period_ms, mission_}, kLife_ms) && taken;
+  flush();
+  return taken;
+}
+
+hal::WheelSpeeds BaseNode::control() noexcept {
+  if (running() && commanded_ && command_.mode == DriveMode::drive) {
+    speeds_ = command_.speeds;
+  } else {
+    speeds_ = slowed(speeds_, ramp_);
+  }
+  return speeds_;
+}
+
+bool BaseNode::answered(uint32_t tick) const noexcept {
+  const auto tick16 = static_cast<uint16_t>(tick);
+  return commanded_ && command_.mode == DriveMode::drive && command_.tick == tick16 && status_come_ &&
+         status_.tick == tick16;
+}
+
+void BaseNode::give(Order order, const Mission& mission, Pace pace) noexcept {
+  set_pace(pace);
+  order_ = order;
+  values_ = values_of(mission);
+  mission_ = static_cast<uint8_t>(mission_ + 1);
+  order_state_ = OrderState::waiting;
+  order_due_ = true;
+  commanded_ = false;
+  status_come_ = false;
+  rest();
+  release();
+}
+
+void BaseNode::send_order() noexcept {
+  bool taken = true;
+  for (int i = 0; i < kMissionValues && taken; ++i) {
+    taken = send(MissionValue{static_cast<MissionPart>(i + 1), mission_, values_.of[i]});
+  }
+  taken = taken && send(MissionOrder{MissionPart::order, mission_, order_, digest_of(values_)});
+  order_due_ = !taken;
+  ordered_at_ = now_ms();
+}
+
+void BaseNode::request(const ParamRequest& what) noexcept {
+  replied_ = false;
+  send(what);
+}
+
+bool BaseNode::replied(ParamReply& reply) const noexcept {
+  if (replied_) reply = reply_;
+  return replied_;
+}
+
+bool BaseNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
+  if (kind == Kind::wheel_command) return hear_command(frame);
+  if (kind == Kind::mission_reply) return hear_reply(frame);
+  if (kind == Kind::nav_status) {
+    NavStatus status;
+    if (!read(frame, status)) return false;
+    status_ = status;
+    status_come_ = true;
+    return true;
+  }
+  ParamReply reply;
+  if (!read(frame, reply)) return false;
+  reply_ = reply;
+  replied_ = true;
+  return true;
+}
+
+bool BaseNode::hear_command(const hal::CanFrame& frame) noexcept {
+  WheelCommand command;
+  if (!read(frame, command)) return false;
+  const auto behind = static_cast<uint16_t>(tick_ - command.tick);
+  if (command.mode == DriveMode::drive && behind * period_ms_ > (lockstep() ? 0U : kCommandLate_ms)) {
+    count(tally().stale);
+    return true;
+  }
+  command_ = command;
+  commanded_ = true;
+  command_seen_ = now_ms();
+  return true;
+}
+
+bool BaseNode::hear_reply(const hal::CanFrame& frame) noexcept {
+  MissionReply reply;
+  if (!read(frame, reply)) return false;
+  if (reply.mission != mission_ || order_state_ != OrderState::waiting) return true;
+  switch (reply.status) {
+    case MissionStatus::accepted:
+      order_state_ = OrderState::accepted;
+      if (order_ == Order::cancel) break;
+      command_seen_ = now_ms();
+      if (!run()) order_state_ = OrderState::refused;
+      break;
+    case MissionStatus::incomplete: order_due_ = true; break;
+    case MissionStatus::refused:
+    case MissionStatus::unknown: order_state_ = OrderState::refused; break;
+  }
+  return true;
+}
+
+void BaseNode::forget_peer() noexcept {
+  commanded_ = false;
+  status_come_ = false;
+  replied_ = false;
+}
+
+}  // namespace whisker::can

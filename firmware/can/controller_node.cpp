@@ -1,0 +1,192 @@
+#include "firmware/can/controller_node.hpp"
+
+namespace whisker::can {
+
+ControllerNode::ControllerNode(hal::CanPort& port, const Identity& identity) noexcept
+    : Node(port, Party::controller, identity) {}
+
+void ControllerNode::poll(uint32_t now) noexcept {
+  listen(now);
+  watch();
+  publish();
+  if (asked_again_) repeat_answer();
+  const bool drives = running() && !holding_;
+  if (!drives && !lockstep() && matched() && now - braked_at_ >= kStopRepeat_ms) brake();
+}
+
+void ControllerNode::watch() noexcept {
+  holding_ = false;
+  // Before its first step the robot has not moved.
+  if (!ordered() || lockstep() || !stepped_) return;
+  const uint32_t now = now_ms();
+  for (const uint32_t seen : beam_seen_) {
+    if (now - seen > kHoldAfter_ms) holding_ = true;
+    if (now - seen > kRangeLatch_ms) stop(Error::range_late);
+  }
+  if (now - wheels_seen_ > kOdometryLate_ms || now - set_seen_ > kRangeLatch_ms) stop(Error::odometry_late);
+}
+
+void ControllerNode::brake() noexcept {
+  WheelCommand command;
+  command.tick = static_cast<uint16_t>(tick_);
+  if (!send(command, kLife_ms)) return;
+  braked_at_ = now_ms();
+  braked_ = true;
+}
+
+void ControllerNode::repeat_answer() noexcept {
+  asked_again_ = false;
+  send(command_, kLife_ms);
+  send(status_, kLife_ms);
+}
+
+bool ControllerNode::take_order(Order& order, Mission& mission) noexcept {
+  if (order_taken_) return false;
+  order_taken_ = true;
+  order = order_;
+  mission = mission_;
+  return true;
+}
+
+bool ControllerNode::take_set(InputSet& set) noexcept {
+  if (!running() || !order_taken_ || !sets_.complete()) return false;
+  const InputSet next = sets_.set();
+  const uint32_t ahead = next.tick - tick_;
+  if (stepped_ && (ahead == 0 || ahead > INT32_MAX || (lockstep() && ahead != 1))) return false;
+  for (uint32_t i = 1; stepped_ && i < ahead && i < kKinds; ++i) count(tally().skipped);
+  tick_ = next.tick;
+  stepped_ = true;
+  answered_ = false;
+  set_seen_ = now_ms();
+  set = next;
+  return true;
+}
+
+void ControllerNode::answer(hal::WheelSpeeds speeds, const NavStatus& status) noexcept {
+  command_ = {DriveMode::drive, speeds, static_cast<uint16_t>(tick_)};
+  status_ = status;
+  status_.tick = static_cast<uint16_t>(tick_);
+  answered_ = true;
+  braked_ = false;
+  repeat_answer();
+  flush();
+}
+
+bool ControllerNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
+  switch (kind) {
+    case Kind::range_left: return hear_range<Kind::range_left>(hal::kLeft, frame);
+    case Kind::range_front: return hear_range<Kind::range_front>(hal::kFront, frame);
+    case Kind::range_right: return hear_range<Kind::range_right>(hal::kRight, frame);
+    case Kind::wheel_state: return hear_wheels(frame);
+    case Kind::sync: return hear_sync(frame);
+    case Kind::mission: return hear_mission(frame);
+    case Kind::param_request: return hear_param(frame);
+    case Kind::e_stop:
+    case Kind::fault:
+    case Kind::mission_reply:
+    case Kind::wheel_command:
+    case Kind::nav_status:
+    case Kind::param_reply:
+    case Kind::heartbeat:
+    case Kind::info:
+    case Kind::info_request:
+    case Kind::diagnostics: break;  // no frames of a base, or the node's own business
+  }
+  return true;
+}
+
+template <Kind kKind>
+bool ControllerNode::hear_range(int beam, const hal::CanFrame& frame) noexcept {
+  Range<kKind> range;
+  if (!read(frame, range) || !InputSets::sound(range.reading)) return false;
+  sets_.hear(beam, range.reading, range.tick);
+  beam_seen_[beam] = now_ms();
+  return true;
+}
+
+bool ControllerNode::hear_wheels(const hal::CanFrame& frame) noexcept {
+  WheelState state;
+  if (!read(frame, state)) return false;
+  sets_.hear(state);
+  if (state.valid != 0) wheels_seen_ = now_ms();
+  return true;
+}
+
+bool ControllerNode::hear_sync(const hal::CanFrame& frame) noexcept {
+  Sync sync;
+  if (!read(frame, sync)) return false;
+  if (!numbered_ || sync.mission != number_) {
+    count(tally().stale);
+    return true;
+  }
+  set_pace(sync.pace);
+  sets_.hear(sync);
+  asked_again_ = lockstep() && answered_ && sync.tick == tick_;
+  return true;
+}
+
+bool ControllerNode::hear_mission(const hal::CanFrame& frame) noexcept {
+  MissionValue part;
+  if (!read(frame, part)) return false;
+  if (part.part != MissionPart::order) {
+    parts_.hear(part);
+    return true;
+  }
+  MissionOrder order;
+  if (!read(frame, order)) return false;
+  send(MissionReply{obey(order), order.mission});
+  return true;
+}
+
+MissionStatus ControllerNode::obey(const MissionOrder& order) noexcept {
+  if (!parts_.complete(order)) return MissionStatus::incomplete;
+  if (numbered_ && order.mission == number_) return MissionStatus::accepted;
+  Mission mission;
+  if (!mission_of(parts_.values(), mission)) return MissionStatus::refused;
+  if (order.order == Order::resume && !has_mission_) return MissionStatus::unknown;
+  if (order.order == Order::cancel) {
+    rest();
+    has_mission_ = false;
+  } else {
+    set_pace(Pace::real_time);
+    if (!run()) return MissionStatus::refused;
+    has_mission_ = true;
+  }
+  number_ = order.mission;
+  numbered_ = true;
+  order_ = order.order;
+  mission_ = mission;
+  order_taken_ = false;
+  braked_ = order.order == Order::resume;
+  sets_.forget();
+  stepped_ = false;
+  answered_ = false;
+  asked_again_ = false;
+  for (uint32_t& seen : beam_seen_) seen = now_ms();
+  wheels_seen_ = now_ms();
+  set_seen_ = now_ms();
+  return MissionStatus::accepted;
+}
+
+bool ControllerNode::hear_param(const hal::CanFrame& frame) noexcept {
+  ParamRequest request;
+  if (!read(frame, request)) return false;
+  bool committed = false;
+  send(server_.answer(request, ordered(), committed));
+  if (committed) committed_ = server_.staged();
+  return true;
+}
+
+void ControllerNode::forget_peer() noexcept {
+  sets_.forget();
+  parts_.forget();
+  numbered_ = false;
+  has_mission_ = false;
+  order_taken_ = true;
+  stepped_ = false;
+  answered_ = false;
+  asked_again_ = false;
+  set_pace(Pace::real_time);
+}
+
+}  // namespace whisker::can

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/can/input_set.hpp"
+#include "firmware/can/mission.hpp"
+#include "firmware/can/node.hpp"
+#include "firmware/can/param_server.hpp"
+
+namespace whisker::can {
+
+/// The party that decides. It steps on complete input sets only, and names the set in its answer. Allocates
+/// nothing, waits for nothing.
+///
+///   every millisecond:  node.poll(now);
+///                       if (node.take_order(...)) ...;
+///                       if (node.take_set(set)) { ...; node.answer(...); }
+class ControllerNode final : public Node {
+ public:
+  ControllerNode(hal::CanPort& port, const Identity& identity) noexcept;
+
+  void poll(uint32_t now_ms) noexcept;
+
+  /// An order was accepted since the last call. For a cancel, `mission` has no meaning.
+  bool take_order(Order& order, Mission& mission) noexcept;
+  /// The next complete input set, while the robot runs: once each, and never an older one.
+  bool take_set(InputSet& set) noexcept;
+  /// Since the last answer the wheels were told to brake: whoever plans their speeds must begin at zero.
+  bool braked() const noexcept { return braked_; }
+  /// The answer to the set that was taken last. In lockstep it is kept, and sent again when asked.
+  void answer(hal::WheelSpeeds speeds, const NavStatus& status) noexcept;
+
+  /// Parameters that a commit has found good.
+  const Params& params() const noexcept { return committed_; }
+
+ private:
+  bool hear(Kind kind, const hal::CanFrame& frame) noexcept override;
+  void forget_peer() noexcept override;
+  bool at_rest() const noexcept override { return true; }
+  template <Kind kKind>
+  bool hear_range(int beam, const hal::CanFrame& frame) noexcept;
+  bool hear_wheels(const hal::CanFrame& frame) noexcept;
+  bool hear_sync(const hal::CanFrame& frame) noexcept;
+  bool hear_mission(const hal::CanFrame& frame) noexcept;
+  bool hear_param(const hal::CanFrame& frame) noexcept;
+  MissionStatus obey(const MissionOrder& order) noexcept;
+  void watch() noexcept;
+  void brake() noexcept;
+  void repeat_answer() noexcept;
+
+  InputSets sets_;
+  uint32_t tick_ = 0;     // of the last set taken
+  bool stepped_ = false;  // there is one, in this mission
+  bool answered_ = false;
+  bool asked_again_ = false;
+  WheelCommand command_;
+  NavStatus status_;
+
+  uint32_t beam_seen_[hal::kBeams] = {};
+  uint32_t wheels_seen_ = 0;
+  uint32_t set_seen_ = 0;
+  uint32_t braked_at_ = 0;
+  bool holding_ = false;
+  bool braked_ = false;
+
+  MissionParts parts_;
+  Mission mission_;
+  Order order_ = Order::cancel;
+  uint8_t number_ = 0;
+  bool numbered_ = false;  // number_ is of an accepted order
+  bool has_mission_ = false;
+  bool order_taken_ = true;
+
+  ParamServer server_;
+  Params committed_;
+};
+
+}  // namespace whisker::can

@@ -1,0 +1,71 @@
+#include "firmware/can/input_set.hpp"
+
+namespace whisker::can {
+namespace {
+
+constexpr uint8_t kWheels = 1 << hal::kBeams;
+constexpr uint8_t kSynced = kWheels << 1;
+constexpr uint8_t kAll = (kSynced << 1) - 1;
+using Any = Range<Kind::range_left>;
+
+}  // namespace
+
+bool InputSets::sound(hal::RangeReading& wire) noexcept {
+  switch (wire.status) {
+    case hal::RangeStatus::ok: return wire.mm < Any::kNone;
+    case hal::RangeStatus::clear:
+      if (wire.mm != Any::kClear) return false;
+      break;
+    case hal::RangeStatus::too_near:
+    case hal::RangeStatus::invalid:
+    case hal::RangeStatus::stale:
+      if (wire.mm != Any::kNone) return false;
+      break;
+  }
+  wire.mm = 0;
+  return true;
+}
+
+hal::RangeReading InputSets::to_wire(const hal::RangeReading& reading) noexcept {
+  hal::RangeReading wire = reading;
+  wire.sequence &= 0x0F;
+  // A damaged reading must not look like a good one.
+  if (wire.status > hal::RangeStatus::stale ||
+      (wire.status == hal::RangeStatus::ok && wire.mm >= Any::kNone)) {
+    wire.status = hal::RangeStatus::invalid;
+  }
+  if (wire.status != hal::RangeStatus::ok) {
+    wire.mm = wire.status == hal::RangeStatus::clear ? Any::kClear : Any::kNone;
+  }
+  return wire;
+}
+
+void InputSets::hear(int beam, const hal::RangeReading& reading, uint16_t tick) noexcept {
+  ranges_.beam[beam] = reading;
+  range_tick_[beam] = tick;
+  seen_ = static_cast<uint8_t>(seen_ | 1 << beam);
+}
+
+void InputSets::hear(const WheelState& state) noexcept {
+  wheels_ = state;
+  seen_ |= kWheels;
+}
+
+void InputSets::hear(const Sync& sync) noexcept {
+  sync_ = sync;
+  seen_ |= kSynced;
+}
+
+bool InputSets::complete() const noexcept {
+  if (seen_ != kAll || wheels_.tick != sync_.tick % WheelState::kTickModulus) return false;
+  for (const uint16_t tick : range_tick_) {
+    if (tick != static_cast<uint16_t>(sync_.tick)) return false;
+  }
+  return true;
+}
+
+InputSet InputSets::set() const noexcept {
+  return {sync_.tick, sync_.period_ms, ranges_, wheels_.counts, wheels_.valid != 0};
+}
+
+}  // namespace whisker::can

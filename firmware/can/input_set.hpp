@@ -1,0 +1,43 @@
+/// All that the base measured at one tick.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/can/messages.hpp"
+
+namespace whisker::can {
+
+struct InputSet {
+  uint32_t tick = 0;
+  uint8_t period_ms = 10;
+  hal::RangeReadings ranges{};
+  hal::EncoderCounts counts{};
+  bool counts_valid = false;
+};
+
+/// Puts the frames of a tick together. Frames may come in any order; of each kind the latest counts.
+class InputSets {
+ public:
+  /// The reading in the form of the HAL. False: status and distance contradict each other.
+  static bool sound(hal::RangeReading& wire) noexcept;
+  /// The reading in the form of the wire.
+  static hal::RangeReading to_wire(const hal::RangeReading& reading) noexcept;
+
+  void hear(int beam, const hal::RangeReading& reading, uint16_t tick) noexcept;
+  void hear(const WheelState& state) noexcept;
+  void hear(const Sync& sync) noexcept;
+  /// All five frames of the last Sync's tick are there.
+  bool complete() const noexcept;
+  /// Only when complete().
+  InputSet set() const noexcept;
+  void forget() noexcept { *this = InputSets{}; }
+
+ private:
+  hal::RangeReadings ranges_{};
+  uint16_t range_tick_[hal::kBeams] = {};
+  WheelState wheels_;
+  Sync sync_;
+  uint8_t seen_ = 0;
+};
+
+}  // namespace whisker::can

@@ -1,0 +1,44 @@
+/// A mission as the bus carries it: six values, one frame each, and an order that they all must match.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/can/messages.hpp"
+#include "firmware/core/trig.hpp"
+#include "firmware/nav/planner.hpp"
+
+namespace whisker::can {
+
+struct Mission {
+  Pose start{};
+  nav::Goal goal{};
+};
+
+/// Parts 1 to 6 as raw values.
+struct MissionValues {
+  uint32_t of[kMissionValues] = {};
+};
+
+MissionValues values_of(const Mission& mission) noexcept;
+/// False: a value is out of its range.
+bool mission_of(const MissionValues& values, Mission& mission) noexcept;
+/// FNV-1a 32, folded to 16 bits.
+uint16_t digest_of(const MissionValues& values) noexcept;
+
+/// Gathers the parts of one mission after the other.
+class MissionParts {
+ public:
+  /// A part of another mission begins anew.
+  void hear(const MissionValue& part) noexcept;
+  /// All parts of this mission are there, and match.
+  bool complete(const MissionOrder& order) const noexcept;
+  const MissionValues& values() const noexcept { return values_; }
+  void forget() noexcept { seen_ = 0; }
+
+ private:
+  MissionValues values_;
+  uint8_t mission_ = 0;
+  uint8_t seen_ = 0;
+};
+
+}  // namespace whisker::can

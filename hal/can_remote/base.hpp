@@ -1,0 +1,55 @@
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/can/base_node.hpp"
+#include "hal/drive.hpp"
+#include "hal/rangefinders.hpp"
+
+namespace whisker::can_remote {
+
+/// Sensors and wheels as a node of the bus.
+///
+///   every millisecond:  base.node().poll(now);
+///   every period:       base.drive();  base.measure(tick++, period);  base.publish(Pace::real_time);
+class Base {
+ public:
+  Base(can::BaseNode& node, hal::Rangefinders& rangefinders, hal::Drive& drive) noexcept
+      : node_(node), rangefinders_(rangefinders), drive_(drive) {}
+
+  /// The input set of a tick is what the hardware says now.
+  void measure(uint32_t tick, uint8_t period_ms) noexcept {
+    set_ = {};
+    set_.tick = tick;
+    set_.period_ms = period_ms;
+    const bool asked = rangefinders_.read(set_.ranges);
+    for (hal::RangeReading& reading : set_.ranges.beam) {
+      if (!asked) reading.status = hal::RangeStatus::invalid;
+    }
+    set_.counts_valid = drive_.read(set_.counts);
+    tell(can::Error::sensors_refused, !asked);
+  }
+  /// Sends the set; in lockstep as often as it takes.
+  bool publish(can::Pace pace) noexcept { return node_.send_set(set_, pace); }
+  /// Gives the wheels the speeds that they shall have until the next call.
+  hal::WheelSpeeds drive() noexcept {
+    const hal::WheelSpeeds speeds = node_.control();
+    tell(can::Error::drive_refused, !drive_.command(speeds));
+    return speeds;
+  }
+  can::BaseNode& node() noexcept { return node_; }
+
+ private:
+  void tell(uint16_t bit, bool on) noexcept {
+    trouble_ = static_cast<uint16_t>(on ? trouble_ | bit : trouble_ & ~bit);
+    node_.report(trouble_, 0);
+  }
+
+  can::BaseNode& node_;
+  hal::Rangefinders& rangefinders_;
+  hal::Drive& drive_;
+  can::InputSet set_;
+  uint16_t trouble_ = 0;
+};
+
+}  // namespace whisker::can_remote

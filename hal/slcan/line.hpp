@@ -1,0 +1,19 @@
+/// A CAN frame as a line of the LAWICEL protocol, "SLCAN": t (base) or T (extended), r and R for remote
+/// frames; the identifier in 3 or 8 hexadecimal digits, the size in one, and the bytes in two each. Lines end
+/// with a carriage return, which is not part of them here. Source: LAWICEL AB, CAN232 manual.
+#pragma once
+
+#include "hal/can_port.hpp"
+
+namespace whisker::hal::slcan {
+
+constexpr uint8_t kLongestLine = 1 + 8 + 1 + 2 * 8;
+constexpr uint8_t kEnd = '\r';
+
+/// Returns the line's length. frame: well-formed; to: room for kLongestLine.
+uint8_t write_line(const CanFrame& frame, uint8_t* to) noexcept;
+
+/// False: no frame; `out` is untouched. Digits of either case; nothing may follow them.
+bool read_line(const uint8_t* line, uint8_t size, CanFrame& out) noexcept;
+
+}  // namespace whisker::hal::slcan

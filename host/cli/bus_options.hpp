@@ -1,0 +1,27 @@
+/// The options of the commands that use a CAN bus.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "firmware/can/node.hpp"
+
+namespace whisker::cli {
+
+struct BusChoice {
+  std::string name;
+  int robot = 1;
+  std::string record;
+
+  /// With a boot number of its own.
+  can::Identity identity() const;
+};
+
+/// --can, --node and --record.
+CLI::Option* add_bus(CLI::App& app, BusChoice& choice);
+
+constexpr double kBitrate = 500000;  ///< of the bus whose load is told
+
+}  // namespace whisker::cli

@@ -1,0 +1,73 @@
+#include "host/cli/bus_run.hpp"
+
+#include <cstdio>
+
+#include <fmt/core.h>
+
+#include "host/cli/exit_status.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/hil/controller_loop.hpp"
+#include "host/hil/recorder.hpp"
+#include "host/hil/tap.hpp"
+#include "host/hil/wall_clock.hpp"
+
+namespace whisker::cli {
+namespace {
+
+std::function<void(const std::string&)> speaker(const char* who, const BusChoice& bus) {
+  return [who, name = bus.name, robot = bus.robot](const std::string& words) {
+    fmt::print(stderr, "{} {} on {}: {}\n", who, robot, name, words);
+  };
+}
+
+}  // namespace
+
+int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
+                 const BusChoice& bus, can::Pace pace, hil::Line& line) {
+  const Interrupt interrupt;
+  hil::Recorder recorder(bus.record, bus.name);
+  hil::Figures figures;
+  hil::Tap tap(line.port(), [&](const hal::CanFrame& frame) {
+    ++figures.frames;
+    figures.bits += hil::bits_on_bus(frame);
+    recorder.write(frame);
+  });
+  hil::WallClock clock([&line] { return line.descriptor(); });
+  hil::BusOptions how;
+  how.identity = bus.identity();
+  how.pace = pace;
+  how.say = speaker("plant", bus);
+  how.bus_waits_for = [&line] { return line.waits_for(); };
+  how.interrupted = [&interrupt] { return interrupt.noted(); };
+  options.pilot = hil::bus_pilot(tap, clock, how, figures);
+  RunOutputs all = outputs;
+  all.bus_json = [&figures] { return hil::figures_json(figures, kBitrate); };
+  all.bus_words = [&figures] { return hil::figures_words(figures, kBitrate); };
+  for (;;) {
+    try {
+      const int status = drive_one(scenario, options, all);
+      recorder.close();
+      return status;
+    } catch (const hil::ControllerRestarted&) {
+      how.say("the controller started anew, so the run begins again");
+      figures = {};
+    } catch (const hil::Interrupted&) {
+      return kInterrupted;
+    }
+  }
+}
+
+void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line) {
+  const Interrupt interrupt;
+  hil::Recorder recorder(bus.record, bus.name);
+  hil::Tap tap(line.port(), [&recorder](const hal::CanFrame& frame) { recorder.write(frame); });
+  hil::ControllerOptions how;
+  how.identity = bus.identity();
+  how.planner = planner;
+  how.say = speaker("controller", bus);
+  how.interrupted = [&interrupt] { return interrupt.noted(); };
+  hil::control(tap, line, how);
+  recorder.close();
+}
+
+}  // namespace whisker::cli

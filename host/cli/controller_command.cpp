@@ -1,0 +1,35 @@
+#include <memory>
+
+#include "host/cli/bus_options.hpp"
+#include "host/cli/bus_run.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+
+namespace whisker::cli {
+namespace {
+
+struct Options {
+  BusChoice bus;
+  PlannerKind planner = PlannerKind::skirt;
+};
+
+int execute(const Options& o) {
+  check_outputs({o.bus.record});
+  const auto line = hil::open_line(o.bus.name);
+  control_on_bus(o.bus, o.planner, *line);
+  return 0;
+}
+
+}  // namespace
+
+void add_controller(CLI::App& app, int& status) {
+  CLI::App* cmd =
+      app.add_subcommand("controller", "Put the firmware core on a CAN bus; it waits for missions");
+  const auto o = std::make_shared<Options>();
+  add_bus(*cmd, o->bus)->required();
+  add_planner(*cmd, o->planner);
+  cmd->callback([o, &status] { status = execute(*o); });
+}
+
+}  // namespace whisker::cli

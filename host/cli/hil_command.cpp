@@ -1,0 +1,95 @@
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "host/cli/bus_options.hpp"
+#include "host/cli/bus_run.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/scenario_options.hpp"
+
+namespace whisker::cli {
+namespace {
+
+constexpr const char* kPrivate = "private";
+
+struct Options {
+  ScenarioChoice scenario;
+  BusChoice bus;
+  PlannerKind planner = PlannerKind::skirt;
+  bool real_time = false;
+};
+
+/// The controller in a process of its own; ends with this object, or with this process.
+class ControllerProcess {
+ public:
+  template <class F>
+  explicit ControllerProcess(const F& control) {
+    std::fflush(nullptr);
+    const pid_t parent = getpid();
+    child_ = fork();
+    if (child_ < 0) throw std::runtime_error("no process for the controller");
+    if (child_ > 0) return;
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    int status = 1;
+    try {
+      if (getppid() == parent) control();
+      status = 0;
+    } catch (const std::exception& e) {
+      std::fprintf(stderr, "whisker: %s\n", e.what());
+    }
+    _exit(status);
+  }
+  ~ControllerProcess() {
+    kill(child_, SIGTERM);
+    waitpid(child_, nullptr, 0);
+  }
+  ControllerProcess(const ControllerProcess&) = delete;
+  ControllerProcess& operator=(const ControllerProcess&) = delete;
+
+ private:
+  pid_t child_ = -1;
+};
+
+int execute(const Options& o) {
+  const Scenario scenario = o.scenario.load({o.bus.record});
+  BusChoice controller = o.bus;
+  controller.record.clear();
+  const bool is_private = o.bus.name == kPrivate;
+  if (o.bus.name.rfind("slcan:", 0) == 0) throw UsageError("hil: a serial line has one end here; see plant");
+  auto lines =
+      is_private ? hil::private_lines() : std::pair{hil::open_line(o.bus.name), hil::open_line(o.bus.name)};
+  const ControllerProcess child([&] {
+    lines.first.reset();
+    control_on_bus(controller, o.planner, *lines.second);
+  });
+  lines.second.reset();
+  return drive_on_bus(scenario, o.scenario.run_options(), o.scenario.outputs, o.bus,
+                      o.real_time ? can::Pace::real_time : can::Pace::lockstep, *lines.first);
+}
+
+}  // namespace
+
+void add_hil(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("hil", "Plant and controller in two processes on a CAN bus");
+  const auto o = std::make_shared<Options>();
+  o->bus.name = kPrivate;
+  add_scenario(*cmd, o->scenario);
+  add_bus(*cmd, o->bus)
+      ->description(
+          "CAN interface, such as vcan0; \"private\": a bus of their own, which\n"
+          "needs no CAN on this computer")
+      ->capture_default_str();
+  add_planner(*cmd, o->planner);
+  add_switch(*cmd, "--realtime", o->real_time, "A tick each period, instead of waiting for each answer");
+  cmd->callback([o, &status] { status = execute(*o); });
+}
+
+}  // namespace whisker::cli

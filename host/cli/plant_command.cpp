@@ -1,0 +1,39 @@
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host/cli/bus_options.hpp"
+#include "host/cli/bus_run.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/cli/scenario_options.hpp"
+
+namespace whisker::cli {
+namespace {
+
+struct Options {
+  ScenarioChoice scenario;
+  BusChoice bus;
+  bool real_time = false;
+};
+
+int execute(const Options& o) {
+  const Scenario scenario = o.scenario.load({o.bus.record});
+  const auto line = hil::open_line(o.bus.name);
+  return drive_on_bus(scenario, o.scenario.run_options(), o.scenario.outputs, o.bus,
+                      o.real_time ? can::Pace::real_time : can::Pace::lockstep, *line);
+}
+
+}  // namespace
+
+void add_plant(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("plant", "Put the simulated robot on a CAN bus and give it a mission");
+  const auto o = std::make_shared<Options>();
+  add_scenario(*cmd, o->scenario);
+  add_bus(*cmd, o->bus)->required();
+  add_switch(*cmd, "--realtime", o->real_time, "A tick each period, instead of waiting for each answer");
+  cmd->callback([o, &status] { status = execute(*o); });
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,33 @@
+#include <memory>
+
+#include <fmt/core.h>
+
+#include "firmware/can/ids.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/options.hpp"
+#include "host/protocol/dbc.hpp"
+#include "host/protocol/page.hpp"
+
+namespace whisker::cli {
+
+void add_dbc(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("dbc", "Print the CAN protocol as a DBC file");
+  const auto robot = std::make_shared<int>(1);
+  cmd->add_option("--robot", *robot, "Whose identifiers: 1 to 7")
+      ->check(CLI::Range(1, static_cast<int>(can::kRobots)))
+      ->type_name("N");
+  cmd->callback([robot, &status] {
+    fmt::print("{}", protocol::dbc(static_cast<std::uint8_t>(*robot)));
+    status = 0;
+  });
+}
+
+void add_protocol(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("protocol", "Print the CAN protocol for a reader (Markdown)");
+  cmd->callback([&status] {
+    fmt::print("{}", protocol::page());
+    status = 0;
+  });
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,29 @@
+/// The options of the commands that drive one scenario.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "host/cli/one_run.hpp"
+
+namespace whisker::cli {
+
+struct ScenarioChoice {
+  std::string file;
+  std::string robot;
+  std::optional<std::uint64_t> seed;
+  RunOutputs outputs;
+
+  /// Checks all outputs, these among them, then reads the files. Throws UsageError and InputError.
+  Scenario load(std::initializer_list<std::string> more_outputs = {}) const;
+  RunOptions run_options() const;
+};
+
+/// SCENARIO, --robot, --seed, --trace, --svg, --html and --json.
+void add_scenario(CLI::App& app, ScenarioChoice& choice);
+
+}  // namespace whisker::cli

@@ -1,0 +1,234 @@
+#include "host/hil/bus_pilot.hpp"
+
+#include "firmware/can/param_server.hpp"
+#include "hal/can_remote/base.hpp"
+#include "hal/sim/sim_board.hpp"
+#include "host/hil/words.hpp"
+#include "host/run/spec.hpp"
+
+namespace whisker::hil {
+namespace {
+
+constexpr std::uint64_t kNap_us = 1000;
+constexpr std::uint8_t kCommitIndex = 255;  // the reply must not be taken for that to a write
+
+std::int16_t ramp_of(const Params& p) {
+  const std::int32_t um_per_s = (p.wheels.max_acceleration * p.safety.period).raw();
+  return saturate16(um_per_s / 100 > 0 ? um_per_s / 100 : 1);
+}
+
+Status status_of(const can::NavStatus& n) {
+  Status s;
+  s.decision.outcome = n.outcome;
+  s.decision.mode = n.state;
+  s.decision.why = n.why;
+  s.decision.danger_count = n.danger;
+  s.decision.looked = n.looked != 0;
+  s.health.fault = n.fault < kFaults ? static_cast<Fault>(n.fault) : Fault::none;
+  return s;
+}
+
+class BusPilot final : public Pilot {
+ public:
+  BusPilot(hal::CanPort& port, Clock& clock, const BusOptions& options, Figures& figures,
+           const Scenario& scenario, sim::Plant& plant)
+      : clock_(clock),
+        options_(options),
+        figures_(figures),
+        params_(scenario.robot),
+        mission_{fixed_pose(scenario.start), fixed_goal(scenario.goal)},
+        period_us_(static_cast<std::uint64_t>(scenario.robot.safety.period.raw()) * 1000),
+        board_(plant),
+        node_(port, options.identity, ramp_of(scenario.robot)),
+        base_(node_, board_, board_) {}
+
+  ~BusPilot() override {
+    node_.give(can::Order::cancel, mission_, options_.pace);
+    for (int i = 0; i < 100 && node_.order_state() == can::OrderState::waiting; ++i) nap();
+    figures_.health = node_.health();
+  }
+
+  const Status& tick(Time now) override {
+    if (!begun_) begin();
+    const auto period_ms = static_cast<std::uint8_t>(period_us_ / 1000);
+    base_.measure(now.raw() / period_ms, period_ms);
+    ++figures_.sets;
+    status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
+    status_.command = base_.drive();
+    figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
+    return status_;
+  }
+
+  bool sees_inside() const override { return false; }
+
+  const char* trouble() const override {
+    if (node_.state() == can::NodeState::e_stopped) return "e_stop";
+    return lockstep() && node_.state() == can::NodeState::safe_stop ? "safe_stop" : nullptr;
+  }
+
+ private:
+  bool lockstep() const { return options_.pace == can::Pace::lockstep; }
+  bool node_running() const { return node_.state() == can::NodeState::running; }
+
+  void nap() {
+    node_.poll(clock_.now_ms());
+    clock_.wait(kNap_us);
+    node_.poll(clock_.now_ms());
+  }
+
+  void watchful_nap() {
+    nap();
+    check();
+  }
+
+  void check() {
+    if (options_.interrupted && options_.interrupted()) throw Interrupted("interrupted");
+    if (begun_ && node_.peer_restarts() != restarts_) throw ControllerRestarted("the controller restarted");
+    explain();
+  }
+
+  std::string words() const {
+    switch (node_.state()) {
+      case can::NodeState::off_bus: {
+        const std::string what = options_.bus_waits_for ? options_.bus_waits_for() : "";
+        return "waits for " + (what.empty() ? "the bus" : what);
+      }
+      case can::NodeState::waiting:
+        return (node_.errors() & can::Error::wrong_version) != 0 ? "the controller speaks another protocol"
+                                                                 : "waits for the controller";
+      case can::NodeState::e_stopped: return "E-stop";
+      case can::NodeState::safe_stop: return "safe stop: " + words_of(node_.errors());
+      case can::NodeState::ready:
+      case can::NodeState::running: break;
+    }
+    return "";
+  }
+
+  void explain() {
+    std::string now = words();
+    if (said_ == now) return;
+    said_ = std::move(now);
+    if (options_.say && !said_.empty()) options_.say(said_);
+  }
+
+  void begin() {
+    while (!node_.matched()) watchful_nap();
+    hand_over_params();
+    give(can::Order::start);
+    restarts_ = node_.peer_restarts();
+    begun_ = true;
+    begun_us_ = clock_.now_us();
+    due_us_ = begun_us_;
+  }
+
+  void give(can::Order order) {
+    do {
+      node_.give(order, mission_, options_.pace);
+      while (node_.order_state() == can::OrderState::waiting) watchful_nap();
+    } while (node_.order_state() == can::OrderState::refused);
+  }
+
+  void hand_over_params() {
+    std::uint32_t raw = 0;
+    for (std::uint8_t i = 0; can::read_param(params_, i, raw); ++i) {
+      ask({can::ParamAction::write, i, raw});
+    }
+    ask({can::ParamAction::commit, kCommitIndex, 0});
+  }
+
+  void ask(const can::ParamRequest& request) {
+    can::ParamReply reply;
+    do {
+      node_.request(request);
+      for (std::uint32_t waited = 0; waited < options_.resend_ms; ++waited) {
+        watchful_nap();
+        if (node_.replied(reply) && reply.index == request.index) break;
+      }
+    } while (!node_.replied(reply) || reply.index != request.index || reply.status == can::ParamStatus::busy);
+    if (reply.status != can::ParamStatus::ok) throw std::runtime_error("the controller refuses a parameter");
+  }
+
+  Status in_lockstep(std::uint32_t tick) {
+    const std::uint64_t sent_us = clock_.now_us();
+    base_.publish(can::Pace::lockstep);
+    std::uint32_t sent_ms = clock_.now_ms();
+    node_.poll(sent_ms);
+    while (node_running() || node_.state() == can::NodeState::waiting ||
+           node_.state() == can::NodeState::off_bus) {
+      if (node_.answered(tick)) {
+        figures_.round_trip_us.push_back(static_cast<std::uint32_t>(clock_.now_us() - sent_us));
+        return status_of(node_.status());
+      }
+      watchful_nap();
+      if (clock_.now_ms() - sent_ms < options_.resend_ms || node_.answered(tick)) continue;
+      base_.publish(can::Pace::lockstep);
+      ++figures_.resent;
+      sent_ms = clock_.now_ms();
+    }
+    explain();
+    return status_;
+  }
+
+  Status in_time(std::uint32_t tick) {
+    const std::uint64_t sent_us = clock_.now_us();
+    if (sent_us > due_us_ + period_us_) {
+      ++figures_.late;
+      due_us_ = sent_us;
+    }
+    due_us_ += period_us_;
+    base_.publish(can::Pace::real_time);
+    node_.poll(clock_.now_ms());
+    bool answered = false;
+    while (clock_.now_us() < due_us_) {
+      const std::uint64_t left = due_us_ - clock_.now_us();
+      clock_.wait(left < kNap_us ? left : kNap_us);
+      node_.poll(clock_.now_ms());
+      if (!answered && node_.answered(tick)) {
+        answered = true;
+        figures_.round_trip_us.push_back(static_cast<std::uint32_t>(clock_.now_us() - sent_us));
+      }
+    }
+    if (!answered) ++figures_.misses;
+    check();
+    resume();
+    return answered ? status_of(node_.status()) : status_;
+  }
+
+  /// A safe stop of which the cause is gone does not end the mission.
+  void resume() {
+    if (resuming_ && node_.order_state() == can::OrderState::accepted) ++figures_.resumed;
+    if (node_.order_state() == can::OrderState::waiting) return;
+    resuming_ = false;
+    const bool stopped = node_.state() == can::NodeState::safe_stop || node_.state() == can::NodeState::ready;
+    if (!stopped || !node_.matched()) return;
+    node_.give(can::Order::resume, mission_, options_.pace);
+    resuming_ = true;
+  }
+
+  Clock& clock_;
+  const BusOptions options_;
+  Figures& figures_;
+  const Params params_;
+  const can::Mission mission_;
+  const std::uint64_t period_us_;
+  hal::SimBoard board_;
+  can::BaseNode node_;
+  can_remote::Base base_;
+  Status status_;
+  std::string said_;
+  std::uint64_t begun_us_ = 0;
+  std::uint64_t due_us_ = 0;
+  std::uint32_t restarts_ = 0;
+  bool begun_ = false;
+  bool resuming_ = false;
+};
+
+}  // namespace
+
+MakePilot bus_pilot(hal::CanPort& port, Clock& clock, const BusOptions& options, Figures& figures) {
+  return [&port, &clock, options, &figures](const Scenario& scenario, PlannerKind, sim::Plant& plant) {
+    return std::make_unique<BusPilot>(port, clock, options, figures, scenario, plant);
+  };
+}
+
+}  // namespace whisker::hil

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "firmware/can/base_node.hpp"
+#include "host/hil/clock.hpp"
+#include "host/hil/figures.hpp"
+#include "host/run/pilot.hpp"
+
+namespace whisker::hil {
+
+/// The controller has started anew and forgotten the mission: the run must begin again.
+class ControllerRestarted : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Whoever waits was told to stop.
+class Interrupted : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct BusOptions {
+  can::Identity identity{1, 1, 0};
+  can::Pace pace = can::Pace::lockstep;
+  std::uint32_t resend_ms = 20;                 ///< lockstep: a set without an answer is sent again
+  std::function<void(const std::string&)> say;  ///< gets what it waits for, once each
+  std::function<std::string()> bus_waits_for;   ///< what keeps the port from the bus, if it is known
+  std::function<bool()> interrupted;            ///< true: give up
+};
+
+/// The controller at the other end of a bus drives the simulated robot; this side is the base. Port, clock
+/// and figures must outlive it. The first tick waits for a controller, hands over the robot's parameters and
+/// gives the mission. Its ticks throw ControllerRestarted and Interrupted.
+MakePilot bus_pilot(hal::CanPort& port, Clock& clock, const BusOptions& options, Figures& figures);
+
+}  // namespace whisker::hil

@@ -1,0 +1,24 @@
+/// Logs as `candump -L` writes them: (seconds.micros) interface ID#DATA, a line a frame.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hal/can_port.hpp"
+
+namespace whisker::hil {
+
+struct LogFrame {
+  std::uint64_t time_us = 0;
+  std::string interface;
+  hal::CanFrame frame{};
+};
+
+/// Without a newline.
+std::string log_line(const LogFrame& entry);
+/// std::nullopt: no line of a log. Error frames and CAN FD frames are none.
+std::optional<LogFrame> parse_log_line(std::string_view line);
+
+}  // namespace whisker::hil

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+namespace whisker::hil {
+
+/// Time, and waiting for what the bus may bring.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  virtual std::uint64_t now_us() = 0;  ///< since any fixed instant, monotonic
+  /// Returns after this time, or earlier when a frame may have come.
+  virtual void wait(std::uint64_t most_us) = 0;
+
+  std::uint32_t now_ms() { return static_cast<std::uint32_t>(now_us() / 1000); }
+};
+
+}  // namespace whisker::hil

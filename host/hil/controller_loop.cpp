@@ -1,0 +1,45 @@
+#include "host/hil/controller_loop.hpp"
+
+#include "hal/can_remote/controller.hpp"
+#include "host/hil/planners.hpp"
+#include "host/hil/wall_clock.hpp"
+#include "host/hil/words.hpp"
+
+namespace whisker::hil {
+namespace {
+
+std::string words_for(const can::Node& node, const Line& line) {
+  switch (node.state()) {
+    case can::NodeState::off_bus: {
+      const std::string what = line.waits_for();
+      return what.empty() ? "waits for the bus" : "waits for " + what;
+    }
+    case can::NodeState::waiting:
+      return (node.errors() & can::Error::wrong_version) != 0 ? "the base speaks another protocol"
+                                                              : "waits for the base";
+    case can::NodeState::ready: return "waits for a mission";
+    case can::NodeState::running: return "drives";
+    case can::NodeState::safe_stop: return "safe stop: " + words_of(node.errors());
+    case can::NodeState::e_stopped: return "E-stop";
+  }
+  return "";
+}
+
+}  // namespace
+
+void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
+  constexpr std::uint64_t kNap_us = 1000;
+  HostPlanners planners(options.planner);
+  const auto controller = std::make_unique<can_remote::Controller>(port, options.identity, planners);
+  WallClock clock([&line] { return line.descriptor(); });
+  std::string said;
+  while (!options.interrupted()) {
+    controller->poll(clock.now_ms());
+    const std::string words = words_for(controller->node(), line);
+    if (words != said && options.say) options.say(words);
+    said = words;
+    clock.wait(kNap_us);
+  }
+}
+
+}  // namespace whisker::hil

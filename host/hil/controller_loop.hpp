@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "firmware/can/node.hpp"
+#include "host/hil/line.hpp"
+#include "host/run/planners.hpp"
+
+namespace whisker::hil {
+
+struct ControllerOptions {
+  can::Identity identity{1, 1, 0};
+  PlannerKind planner = PlannerKind::skirt;
+  std::function<void(const std::string&)> say;  ///< gets what the controller does or waits for, once each
+  std::function<bool()> interrupted;            ///< true: end
+};
+
+/// The firmware core as a node of the bus, until it is interrupted. port: the line's own, or one around it.
+void control(hal::CanPort& port, Line& line, const ControllerOptions& options);
+
+}  // namespace whisker::hil

@@ -1,0 +1,56 @@
+#include "host/hil/figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace whisker::hil {
+namespace {
+
+/// In percent of what the bus can carry, over the time that has passed.
+double load_percent(const Figures& f, double bitrate) {
+  return f.wall_s > 0 ? 100.0 * static_cast<double>(f.bits) / (f.wall_s * bitrate) : 0.0;
+}
+
+double rounded(double x) { return std::round(x * 100.0) / 100.0; }
+
+}  // namespace
+
+std::string figures_json(const Figures& f, double bitrate) {
+  nlohmann::ordered_json json;
+  json["sets"] = f.sets;
+  json["resent"] = f.resent;
+  json["deadline_misses"] = f.misses;
+  json["late_periods"] = f.late;
+  json["round_trip_us"] = {{"p50", percentile(f.round_trip_us, 0.5)},
+                           {"p99", percentile(f.round_trip_us, 0.99)},
+                           {"max", percentile(f.round_trip_us, 1.0)}};
+  json["frames"] = f.frames;
+  json["load_percent"] = rounded(load_percent(f, bitrate));
+  json["ticks_per_s"] = f.wall_s > 0 ? rounded(static_cast<double>(f.sets) / f.wall_s) : 0.0;
+  json["lost"] = f.health.lost;
+  json["refused"] = f.health.crc + f.health.malformed + f.health.repeated + f.health.astray +
+                    f.health.out_of_range + f.health.stale;
+  json["safe_stops"] = f.health.stops;
+  json["resumed"] = f.resumed;
+  return json.dump();
+}
+
+std::string figures_words(const Figures& f, double bitrate) {
+  return fmt::format("{} missed, {} resent, round trip {} us (99 %: {} us), {} frames, load {:.1f} %",
+                     f.misses, f.resent, percentile(f.round_trip_us, 0.5), percentile(f.round_trip_us, 0.99),
+                     f.frames, load_percent(f, bitrate));
+}
+
+std::uint32_t percentile(std::vector<std::uint32_t> samples, double part) {
+  if (samples.empty()) return 0;
+  const double rank = std::ceil(part * static_cast<double>(samples.size()));
+  const auto index = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
+  const auto nth = samples.begin() + static_cast<std::ptrdiff_t>(std::min(index, samples.size() - 1));
+  std::nth_element(samples.begin(), nth, samples.end());
+  return *nth;
+}
+
+}  // namespace whisker::hil

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+
+#include "host/run/planners.hpp"
+
+namespace whisker::hil {
+
+struct ReplayOptions {
+  int robot = 0;  ///< 1..7; 0: the first one in the log
+  PlannerKind planner = PlannerKind::skirt;
+};
+
+struct ReplayResult {
+  int robot = 0;              ///< 0: the log has no robot
+  std::uint64_t frames = 0;   ///< of this robot, whole
+  std::uint64_t damaged = 0;  ///< of this robot, with a wrong length or CRC
+  std::uint64_t missions = 0;
+  std::uint64_t steps = 0;     ///< of the core
+  std::uint64_t compared = 0;  ///< commands and states that the log has too
+  std::uint64_t unknown = 0;   ///< answers to sets that the log does not have whole
+  std::uint64_t missing = 0;   ///< steps whose answers are not in the log
+  std::uint64_t hash = 0;      ///< FNV-1a 64 over the wheel commands of all steps
+  std::string difference;      ///< the first one, with its line; "" for none
+};
+
+/// Feeds the recorded inputs to the core and compares what it says with what was recorded. Throws
+/// std::runtime_error "line N: ..." for a line that is none of a candump log.
+ReplayResult replay(std::istream& log, const ReplayOptions& options);
+
+}  // namespace whisker::hil

@@ -1,0 +1,17 @@
+#include "host/hil/words.hpp"
+
+#include "firmware/can/words.hpp"
+
+namespace whisker::hil {
+
+std::string words_of(std::uint16_t errors) {
+  std::string words;
+  for (int bit = 0; bit < 16; ++bit) {
+    if ((errors >> bit & 1) == 0) continue;
+    const char* const word = can::error_word(bit);
+    words += (words.empty() ? "" : ", ") + std::string(word != nullptr ? word : "unknown");
+  }
+  return words;
+}
+
+}  // namespace whisker::hil

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace whisker::protocol {
+
+/// The messages of one robot (1..7) and of the E-stop for all, as a DBC file. Messages that both parties send
+/// appear twice: HeartbeatController, HeartbeatBase.
+std::string dbc(std::uint8_t robot);
+
+}  // namespace whisker::protocol

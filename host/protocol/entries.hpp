@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "firmware/can/signals.hpp"
+
+namespace whisker::protocol {
+
+/// A message as one sender sends it.
+struct Entry {
+  const can::Message* message;
+  std::uint32_t id;
+  std::string name;    ///< unique in a robot
+  std::string sender;  ///< Controller, Base, or "" for anybody
+};
+
+/// Of one robot, by identifier.
+std::vector<Entry> entries_of(std::uint8_t robot);
+
+/// Crc and Counter, which every message has.
+extern const can::Signal kProtection[2];
+
+/// A raw value in the signal's unit, as short as it can be told.
+std::string physical(const can::Signal& signal, std::int64_t raw);
+
+}  // namespace whisker::protocol

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace whisker::protocol {
+
+/// docs/protocol.md: every message with its signals, times, errors and parameters, for a reader.
+std::string page();
+
+}  // namespace whisker::protocol

@@ -1,0 +1,217 @@
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "firmware/can/messages.hpp"
+#include "firmware/can/mission.hpp"
+#include "host/hil/candump.hpp"
+
+namespace whisker::can {
+namespace {
+
+/// Takes note of the signals that a message's each() visits.
+struct Visitor {
+  std::vector<const Signal*> seen;
+  template <class T>
+  void operator()(const Signal& s, const T&) {
+    seen.push_back(&s);
+  }
+};
+
+template <class M>
+void expect_all_signals(const M& m) {
+  const Message& message = message_of(M::kKind);
+  Visitor v;
+  M::each(m, v);
+  ASSERT_EQ(v.seen.size(), message.count) << message.name;
+  for (int i = 0; i < message.count; ++i) EXPECT_EQ(v.seen[static_cast<std::size_t>(i)], &message.signals[i]);
+}
+
+TEST(Codec, EachMessageHasAllItsSignals) {
+  expect_all_signals(EStop{});
+  expect_all_signals(Sync{});
+  expect_all_signals(FaultReport{});
+  expect_all_signals(MissionReply{});
+  expect_all_signals(WheelCommand{});
+  expect_all_signals(WheelState{});
+  expect_all_signals(Range<Kind::range_left>{});
+  expect_all_signals(NavStatus{});
+  expect_all_signals(ParamRequest{});
+  expect_all_signals(ParamReply{});
+  expect_all_signals(Heartbeat{});
+}
+
+TEST(Codec, SharedPartsLieAtOnePlace) {
+  for (int i = 4; i < 10; ++i) {
+    EXPECT_EQ(kMission[i].start, MissionValue::kHeading.start);
+    EXPECT_EQ(kMission[i].length, MissionValue::kHeading.length);
+    EXPECT_EQ(kMission[i].part, i - 3);
+  }
+  for (int i = 1; i < 13; ++i) {
+    EXPECT_EQ(kDiagnostics[i].start, kDiagnostics[1 + (i - 1) % 3].start);
+    EXPECT_EQ(kDiagnostics[i].length, 16);
+    EXPECT_EQ(kDiagnostics[i].part, (i - 1) / 3);
+  }
+  EXPECT_EQ(kInfo[2].start, kInfo[3].start);
+}
+
+/// Bit by bit, from the table's words alone.
+std::int64_t slow_raw(const hal::CanFrame& f, const Signal& s) {
+  std::int64_t raw = 0;
+  for (int i = s.length - 1; i >= 0; --i) {
+    const int bit = s.start + i;
+    raw = raw * 2 + (f.data[bit / 8] >> (bit % 8) & 1);
+  }
+  return s.is_signed && raw >= INT64_C(1) << (s.length - 1) ? raw - (INT64_C(1) << s.length) : raw;
+}
+
+RC_GTEST_PROP(Codec, AWheelCommandComesBack, (std::int16_t left, std::int16_t right, std::uint16_t tick)) {
+  RC_PRE(left != INT16_MIN && right != INT16_MIN);
+  const WheelCommand in{DriveMode::drive, {left, right}, tick};
+  const hal::CanFrame frame = encode(in, 3, 11);
+  RC_ASSERT(frame.id == 0x103U && frame.size == 8 && !frame.extended && !frame.remote);
+  RC_ASSERT(frame.data[0] == crc_of(frame.id, frame.data, frame.size) && counter_of(frame) == 11);
+  RC_ASSERT(slow_raw(frame, kWheelCommand[1]) == left && slow_raw(frame, kWheelCommand[2]) == right);
+  RC_ASSERT(slow_raw(frame, kWheelCommand[3]) == tick && slow_raw(frame, kWheelCommand[0]) == 1);
+  WheelCommand out;
+  RC_ASSERT(decode(frame, out));
+  RC_ASSERT(out.speeds.left == left && out.speeds.right == right && out.tick == tick && out.mode == in.mode);
+}
+
+/// What decode() says of any content must be what the table says.
+template <class M>
+void agrees_with_the_table(const hal::CanFrame& frame) {
+  const Message& message = message_of(M::kKind);
+  bool in_range = true;
+  for (int i = 0; i < message.count; ++i) {
+    const std::int64_t raw = slow_raw(frame, message.signals[i]);
+    in_range = in_range && raw >= message.signals[i].min && raw <= message.signals[i].max;
+  }
+  M m;
+  RC_ASSERT(decode(frame, m) == in_range);
+}
+
+RC_GTEST_PROP(Codec, AnyContentIsJudgedByTheTable, (std::vector<std::uint8_t> bytes)) {
+  hal::CanFrame frame{};
+  frame.size = 8;
+  for (std::size_t i = 0; i < 8 && i < bytes.size(); ++i) frame.data[i] = bytes[i];
+  agrees_with_the_table<EStop>(frame);
+  agrees_with_the_table<Sync>(frame);
+  agrees_with_the_table<WheelCommand>(frame);
+  agrees_with_the_table<WheelState>(frame);
+  agrees_with_the_table<Range<Kind::range_right>>(frame);
+  agrees_with_the_table<NavStatus>(frame);
+  agrees_with_the_table<Heartbeat>(frame);
+  agrees_with_the_table<ParamReply>(frame);
+}
+
+RC_GTEST_PROP(Codec, OneFlippedByteNeverPassesTheCrc,
+              (std::uint64_t bits, std::uint8_t at, std::uint8_t flip)) {
+  RC_PRE(flip != 0);
+  hal::CanFrame frame = sealed(bits, 0x119, 8, 3);
+  frame.data[at % 8] ^= flip;
+  RC_ASSERT(frame.data[0] != crc_of(frame.id, frame.data, frame.size));
+}
+
+TEST(Codec, AFrameOfAnotherIdentifierNeverPassesTheCrc) {
+  for (std::uint32_t id = 0; id < 0x800; ++id) {
+    hal::CanFrame frame = sealed(0x123456789A0000, id, 8, 0);
+    for (int bit = 0; bit < 11; ++bit) {
+      EXPECT_NE(frame.data[0], crc_of(id ^ 1U << bit, frame.data, 8));
+    }
+  }
+}
+
+RC_GTEST_PROP(Mission, ComesBackInParts,
+              (std::int32_t x, std::int32_t y, std::uint32_t heading, std::int32_t gx)) {
+  RC_PRE(x != INT32_MIN && y != INT32_MIN && gx != INT32_MIN);
+  const Mission in{{{Length::from_raw(x), Length::from_raw(y)}, Angle::from_raw(heading)},
+                   {{Length::from_raw(gx), Length::from_raw(7)}, Length::from_raw(100)}};
+  MissionParts parts;
+  const MissionValues values = values_of(in);
+  const MissionOrder order{MissionPart::order, 9, Order::start, digest_of(values)};
+  for (int i = 0; i < kMissionValues; ++i) {
+    RC_ASSERT(!parts.complete(order));
+    MissionValue part;
+    RC_ASSERT(decode(encode(MissionValue{static_cast<MissionPart>(i + 1), 9, values.of[i]}, 9, 0), part));
+    parts.hear(part);
+  }
+  RC_ASSERT(parts.complete(order));
+  Mission out;
+  RC_ASSERT(mission_of(parts.values(), out));
+  RC_ASSERT(out.start.at.x == in.start.at.x && out.start.at.y == in.start.at.y);
+  RC_ASSERT(out.start.heading.raw() == heading && out.goal.at.x == in.goal.at.x);
+  MissionOrder other = order;
+  other.digest ^= 1;
+  RC_ASSERT(!parts.complete(other));
+  other = order;
+  other.mission = 8;
+  RC_ASSERT(!parts.complete(other));
+}
+
+TEST(Mission, ValuesOutOfRangeAreRefused) {
+  Mission m{{}, {{}, Length::from_raw(1)}};
+  Mission out;
+  EXPECT_TRUE(mission_of(values_of(m), out));
+  m.goal.tolerance = Length::from_raw(0);
+  EXPECT_FALSE(mission_of(values_of(m), out));
+  m.goal.tolerance = Length::from_raw(1);
+  m.start.at.x = Length::from_raw(INT32_MIN);
+  EXPECT_FALSE(mission_of(values_of(m), out));
+}
+
+/// Frames that other tools decode: tests/can/golden_frames.txt has their bytes and their physical values.
+std::vector<hal::CanFrame> golden_frames() {
+  WheelState wheels{1, 5, {0x123456, 0xFFFFFE}};
+  Range<Kind::range_left> left{{1234, hal::RangeStatus::ok, 20, 7}, 0xBEEF};
+  Range<Kind::range_front> front{{65535, hal::RangeStatus::clear, 0, 15}, 0};
+  Range<Kind::range_right> right{{65534, hal::RangeStatus::stale, 255, 0}, 1};
+  Heartbeat beat;
+  beat.state = NodeState::safe_stop;
+  beat.errors = Error::command_late | Error::bus_off;
+  beat.boot = 0xABCD;
+  beat.uptime_s = 200;
+  return {
+      encode(EStop{}, 0, 0),
+      encode(EStop{kClearCommand}, 0, 0),
+      encode(EStop{kClearCommand}, 1, 1),
+      encode(Sync{Pace::lockstep, 123456789, 10, 42}, 9, 2),
+      encode(FaultReport{Severity::latched, Error::e_stop, 3, 4}, 1, 3),
+      encode(MissionOrder{MissionPart::order, 2, Order::resume, 0xCAFE}, 9, 4),
+      encode(MissionValue{MissionPart::start_heading, 2, 0x40000000}, 9, 5),
+      encode(MissionValue{MissionPart::goal_x, 2, static_cast<std::uint32_t>(-4000000)}, 9, 6),
+      encode(MissionReply{MissionStatus::incomplete, 2}, 1, 7),
+      encode(WheelCommand{DriveMode::drive, {3000, -2999}, 0x1234}, 1, 8),
+      encode(wheels, 9, 9),
+      encode(left, 9, 10),
+      encode(front, 9, 11),
+      encode(right, 9, 12),
+      encode(NavStatus{nav::Outcome::reached, nav::Mode::arrived, 1, nav::Why::at_goal, 3, 0, 999}, 1, 13),
+      encode(ParamRequest{ParamAction::write, 4, 0xFFFFFFFF}, 9, 14),
+      encode(ParamReply{ParamStatus::out_of_range, 4, 50000}, 1, 0),
+      encode(beat, 9, 1),
+      encode(Info{InfoPart::table_hash, 0xABCD, 0x12345678}, 1, 2),
+      encode(Info{InfoPart::version, 0xABCD, 0x010203}, 9, 3),
+      encode(Diagnostics{2, {1, 65535, 3}}, 9, 4),
+  };
+}
+
+TEST(Codec, GoldenFramesAreTheCommittedOnes) {
+  std::ifstream file(std::string(WHISKER_SOURCE_DIR) + "/tests/can/golden_frames.txt");
+  ASSERT_TRUE(file);
+  std::string line;
+  for (const hal::CanFrame& frame : golden_frames()) {
+    ASSERT_TRUE(std::getline(file, line));
+    const std::string text = hil::log_line({0, "can0", frame});
+    EXPECT_EQ(line.substr(0, line.find(' ')), text.substr(text.rfind(' ') + 1)) << line;
+  }
+  EXPECT_FALSE(std::getline(file, line)) << line;
+}
+
+}  // namespace
+}  // namespace whisker::can

@@ -1,0 +1,79 @@
+"""The committed forms of the protocol are the table's, and another reader understands them.
+
+usage: dbc_test.py WHISKER ROOT
+"""
+
+import decimal
+import importlib.util
+import io
+import os
+import pathlib
+import subprocess
+import sys
+import unittest
+from contextlib import redirect_stderr, redirect_stdout
+
+SYSTEM_PYTHON = "/usr/bin/python3"  # Debian's packages are for this one
+
+
+def printed(*arguments):
+    return subprocess.run([WHISKER, *arguments], check=True, capture_output=True).stdout
+
+
+def load_dbc(data):
+    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+        import canmatrix.formats
+
+        return canmatrix.formats.loads_flat(data.decode(), import_type="dbc")
+
+
+class Committed(unittest.TestCase):
+    def test_the_dbc_file_is_that_of_robot_1(self):
+        self.assertEqual(printed("dbc"), (ROOT / "whisker.dbc").read_bytes(), "whisker dbc > whisker.dbc")
+
+    def test_the_page_is_the_tables(self):
+        self.assertEqual(printed("protocol"), (ROOT / "docs/protocol.md").read_bytes(), "whisker protocol > docs/protocol.md")
+
+
+class Canmatrix(unittest.TestCase):
+    def test_golden_frames_have_their_physical_values(self):
+        matrix = load_dbc((ROOT / "whisker.dbc").read_bytes())
+        seen = set()
+        for line in (ROOT / "tests/can/golden_frames.txt").read_text().splitlines():
+            frame_text, name, *values = line.split()
+            identifier, data = frame_text.split("#")
+            frame = matrix.frame_by_name(name)
+            self.assertEqual(frame.arbitration_id.id, int(identifier, 16), line)
+            self.assertEqual(frame.size, len(data) // 2, line)
+            decoded = frame.decode(bytes.fromhex(data))
+            for value in values:
+                signal, _, number = value.partition("=")
+                # The frame rounds to its own steps.
+                step = abs(decoded[signal].signal.factor)
+                self.assertLessEqual(abs(decoded[signal].phys_value - decimal.Decimal(number)), step / 2, line)
+            self.assertEqual({s for s in decoded} - {"Crc"}, {v.partition("=")[0] for v in values}, line)
+            seen.add(name)
+        messages = {name.removesuffix("Controller").removesuffix("Base").removesuffix("All") for name in seen}
+        everything = {f.name.removesuffix("Controller").removesuffix("Base").removesuffix("All") for f in matrix.frames}
+        self.assertEqual(everything - messages, {"InfoRequest"})
+
+    def test_names_of_values_are_there(self):
+        frame = load_dbc((ROOT / "whisker.dbc").read_bytes()).frame_by_name("NavStatus")
+        self.assertEqual(frame.signal_by_name("Outcome").values[2], "reached")
+        self.assertEqual(frame.attributes.get("GenMsgCycleTime"), "10")
+
+    def test_every_robot_has_its_own_identifiers(self):
+        seen = set()
+        for robot in range(1, 8):
+            frames = load_dbc(printed("dbc", "--robot", str(robot))).frames
+            own = {f.arbitration_id.id for f in frames} - {0x010}
+            self.assertEqual(len(own), len(frames) - 1)
+            self.assertFalse(own & seen)
+            seen |= own
+
+
+if __name__ == "__main__":
+    if importlib.util.find_spec("canmatrix") is None and sys.executable != SYSTEM_PYTHON:
+        os.execv(SYSTEM_PYTHON, [SYSTEM_PYTHON, "-B", *sys.argv])
+    WHISKER, ROOT = sys.argv[1], pathlib.Path(sys.argv[2])
+    unittest.main(argv=sys.argv[:1])

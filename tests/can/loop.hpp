@@ -1,0 +1,71 @@
+/// Both parties in one process, on a bus in memory, in a time of their own.
+#pragma once
+
+#include "hal/can_remote/controller.hpp"
+#include "host/bus/memory_bus.hpp"
+#include "host/hil/bus_pilot.hpp"
+#include "host/hil/planners.hpp"
+#include "host/run/runner.hpp"
+#include "host/worlds/random.hpp"
+
+namespace whisker::test {
+
+/// Waiting lets a millisecond pass, in which the controller is polled.
+class SharedTime final : public hil::Clock {
+ public:
+  explicit SharedTime(std::function<void(std::uint32_t now_ms)> others) : others_(std::move(others)) {}
+  std::uint64_t now_us() override { return now_us_; }
+  void wait(std::uint64_t) override {
+    now_us_ += 1000;
+    others_(now_ms());
+  }
+
+ private:
+  std::uint64_t now_us_ = 0;
+  std::function<void(std::uint32_t)> others_;
+};
+
+/// Drops one frame in fifty on the way out.
+class LossyPort final : public hal::CanPort {
+ public:
+  LossyPort(hal::CanPort& port, std::uint64_t seed) : port_(port), random_(seed) {}
+  bool send(const hal::CanFrame& frame, std::uint8_t lifetime_ms) noexcept override {
+    if (!random_.chance(0.02)) return port_.send(frame, lifetime_ms);
+    ++dropped_;
+    return true;
+  }
+  bool receive(hal::CanFrame& out) noexcept override { return port_.receive(out); }
+  void poll(std::uint32_t now_ms) noexcept override { port_.poll(now_ms); }
+  void restart() noexcept override { port_.restart(); }
+  hal::CanState state() const noexcept override { return port_.state(); }
+  const hal::CanCounts& counts() const noexcept override { return port_.counts(); }
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  hal::CanPort& port_;
+  worlds::Random random_;
+  std::uint64_t dropped_ = 0;
+};
+
+struct LoopResult {
+  RunResult result;
+  hil::Figures figures;
+};
+
+/// A run over the bus. wrap(port) may return another port, for the base's side and then the controller's.
+inline LoopResult drive_over_bus(const Scenario& scenario, PlannerKind kind, can::Pace pace,
+                                 hal::CanPort& base_port, hal::CanPort& controller_port) {
+  hil::HostPlanners planners(kind);
+  can_remote::Controller controller(controller_port, {1, 77, 0}, planners);
+  SharedTime time([&](std::uint32_t now_ms) { controller.poll(now_ms); });
+  LoopResult out;
+  hil::BusOptions bus;
+  bus.pace = pace;
+  bus.resend_ms = 3;
+  RunOptions options;
+  options.pilot = hil::bus_pilot(base_port, time, bus, out.figures);
+  out.result = run(scenario, options);
+  return out;
+}
+
+}  // namespace whisker::test

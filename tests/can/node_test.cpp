@@ -1,0 +1,754 @@
+// Each party alone, millisecond by millisecond, against another that a test plays.
+#include <gtest/gtest.h>
+
+#include "firmware/can/base_node.hpp"
+#include "firmware/can/controller_node.hpp"
+#include "tests/can/party.hpp"
+
+namespace whisker::can {
+namespace {
+
+constexpr Identity kIdentity{1, 500, 0x000100};
+constexpr std::uint16_t kPeerBoot = 600;
+constexpr int kRamp = 100;
+
+/// A base that runs on the commands of a controller that the test plays.
+class BaseAlone : public testing::Test {
+ protected:
+  bus::MemoryBus wire_;
+  BaseNode base_{wire_.attach(), kIdentity, kRamp};
+  test::Party peer_{wire_, 1};
+  std::uint32_t now_ = 1000;
+  std::uint32_t tick_ = 0;
+  bool beats_ = true;
+  bool answers_ = true;
+  NodeState peer_state_ = NodeState::running;
+  std::int16_t speed_ = 2000;
+  hal::WheelSpeeds speeds_{};
+
+  BaseAlone() {
+    peer_.poll(now_);
+    base_.poll(now_);
+  }
+
+  /// One millisecond; every tenth is a tick.
+  void pass() {
+    ++now_;
+    peer_.poll(now_);
+    if (beats_ && now_ % 100 == 0) {
+      Heartbeat beat;
+      beat.boot = kPeerBoot;
+      beat.state = peer_state_;
+      peer_.say(beat);
+    }
+    base_.poll(now_);
+    if (now_ % 10 != 0) return;
+    speeds_ = base_.control();
+    base_.send_set({++tick_, 10, {}, {}, true}, Pace::real_time);
+    if (answers_)
+      peer_.say(WheelCommand{DriveMode::drive, {speed_, speed_}, static_cast<std::uint16_t>(tick_)});
+  }
+  void pass(int ms) {
+    for (int i = 0; i < ms; ++i) pass();
+  }
+  void shake_hands() {
+    peer_.greet(kPeerBoot);
+    pass(2);
+    ASSERT_EQ(base_.state(), NodeState::ready);
+  }
+  void start() {
+    shake_hands();
+    base_.give(Order::start, {{}, {{}, 100_mm}}, Pace::real_time);
+    pass();
+    pass();
+    MissionOrder order;
+    ASSERT_TRUE(peer_.last(order));
+    peer_.say(MissionReply{MissionStatus::accepted, order.mission});
+    pass();
+    ASSERT_EQ(base_.order_state(), OrderState::accepted);
+    pass(30);
+    ASSERT_EQ(base_.state(), NodeState::running);
+    ASSERT_EQ(speeds_.left, speed_);
+  }
+  /// Milliseconds until the node says so, at most 2000.
+  template <class F>
+  int until(const F& holds) {
+    for (int ms = 0; ms < 2000; ++ms) {
+      if (holds()) return ms;
+      pass();
+    }
+    return 2000;
+  }
+  int until_stopped() {
+    return until([&] { return base_.state() != NodeState::running; });
+  }
+  /// The wheels go down by the ramp, never up, and stay at zero.
+  void expect_braking() {
+    int before = speeds_.left;
+    const int ticks = (before + kRamp - 1) / kRamp;
+    for (int i = 0; i < ticks + 2; ++i) {
+      pass(10);
+      EXPECT_LE(speeds_.left, before);
+      EXPECT_GE(speeds_.left, before - kRamp);
+      before = speeds_.left;
+    }
+    EXPECT_EQ(speeds_.left, 0);
+    EXPECT_EQ(speeds_.right, 0);
+  }
+};
+
+TEST_F(BaseAlone, NothingMovesBeforeTheHandshake) {
+  pass(500);
+  EXPECT_EQ(base_.state(), NodeState::waiting);
+  EXPECT_EQ(speeds_.left, 0);
+  EXPECT_GT(base_.health().unmatched, 10U);
+}
+
+TEST_F(BaseAlone, NothingMovesBeforeAnOrder) {
+  shake_hands();
+  pass(300);
+  EXPECT_EQ(base_.state(), NodeState::ready);
+  EXPECT_EQ(speeds_.left, 0);
+}
+
+TEST_F(BaseAlone, AnotherProtocolOrTableNeverMatches) {
+  Heartbeat beat;
+  beat.protocol = kProtocol + 1;
+  beat.boot = kPeerBoot;
+  beats_ = false;
+  peer_.say(beat);
+  peer_.say(Info{InfoPart::table_hash, kPeerBoot, kTableHash});
+  pass(5);
+  EXPECT_EQ(base_.state(), NodeState::waiting);
+  EXPECT_NE(base_.errors() & Error::wrong_version, 0);
+  beat.protocol = kProtocol;
+  peer_.say(beat);
+  peer_.say(Info{InfoPart::table_hash, kPeerBoot, kTableHash ^ 1});
+  pass(5);
+  EXPECT_EQ(base_.state(), NodeState::waiting);
+  EXPECT_NE(base_.errors() & Error::wrong_version, 0);
+  peer_.say(Info{InfoPart::table_hash, kPeerBoot, kTableHash});
+  pass(5);
+  EXPECT_EQ(base_.state(), NodeState::ready);
+}
+
+TEST_F(BaseAlone, InfoOfAnEarlierLifeDoesNotCount) {
+  beats_ = false;
+  Heartbeat beat;
+  beat.boot = kPeerBoot;
+  peer_.say(Info{InfoPart::table_hash, kPeerBoot - 1, kTableHash});
+  peer_.say(beat);
+  peer_.say(Info{InfoPart::table_hash, kPeerBoot - 1, kTableHash});
+  pass(5);
+  EXPECT_EQ(base_.state(), NodeState::waiting);
+}
+
+TEST_F(BaseAlone, ALateCommandStopsAfter50MillisecondsAndLatches) {
+  start();
+  until([&] { return now_ % 10 == 1; });  // the last answer has been heard
+  answers_ = false;
+  const int ms = until_stopped();
+  EXPECT_EQ(ms, 51);
+  EXPECT_EQ(base_.state(), NodeState::safe_stop);
+  EXPECT_EQ(base_.errors(), Error::command_late);
+  EXPECT_EQ(base_.health().stops, 1U);
+  expect_braking();
+  answers_ = true;
+  pass(500);
+  EXPECT_EQ(base_.state(), NodeState::safe_stop) << "commands alone do not end it";
+  EXPECT_EQ(speeds_.left, 0);
+}
+
+TEST_F(BaseAlone, AStaleCommandIsNoCommand) {
+  start();
+  until([&] { return now_ % 10 == 1; });
+  answers_ = false;
+  const int ms = until([&] {
+    // Always in time, and always an answer to a set of 60 ms ago.
+    if (now_ % 10 == 5) {
+      peer_.say(WheelCommand{DriveMode::drive, {speed_, speed_}, static_cast<std::uint16_t>(tick_ - 6)});
+    }
+    return base_.state() != NodeState::running;
+  });
+  EXPECT_EQ(ms, 51);
+  EXPECT_GE(base_.health().stale, 4U);
+}
+
+TEST_F(BaseAlone, ACommandToStopBrakesWithoutALatch) {
+  start();
+  answers_ = false;
+  for (int i = 0; i < 300; ++i) {
+    if (now_ % 10 == 0) peer_.say(WheelCommand{});
+    pass();
+  }
+  EXPECT_EQ(base_.state(), NodeState::running);
+  EXPECT_EQ(speeds_.left, 0);
+  answers_ = true;
+  pass(20);
+  EXPECT_EQ(speeds_.left, speed_);
+}
+
+TEST_F(BaseAlone, ALostHeartbeatStopsAfter300Milliseconds) {
+  start();
+  until([&] { return now_ % 100 == 1; });
+  beats_ = false;
+  const int ms = until_stopped();
+  EXPECT_EQ(ms, 300);
+  EXPECT_NE(base_.errors() & Error::peer_lost, 0);
+  expect_braking();
+  beats_ = true;
+  pass(300);
+  EXPECT_EQ(base_.state(), NodeState::safe_stop);
+}
+
+TEST_F(BaseAlone, ThePeersSafeStopStops) {
+  start();
+  peer_state_ = NodeState::safe_stop;
+  EXPECT_LE(until_stopped(), 101);
+  EXPECT_NE(base_.errors() & Error::peer_stopped, 0);
+}
+
+TEST_F(BaseAlone, ANewBootNumberStopsAndAsksForANewHandshake) {
+  start();
+  beats_ = false;
+  Heartbeat beat;
+  beat.boot = kPeerBoot + 1;
+  peer_.say(beat);
+  pass();
+  EXPECT_EQ(base_.state(), NodeState::safe_stop);
+  EXPECT_NE(base_.errors() & Error::peer_restarted, 0);
+  EXPECT_FALSE(base_.matched());
+  EXPECT_EQ(base_.peer_restarts(), 1U);
+  pass(5);
+  EXPECT_GE(peer_.heard<InfoRequest>(), 1);
+  peer_.say(Info{InfoPart::table_hash, kPeerBoot + 1, kTableHash});
+  pass(5);
+  EXPECT_TRUE(base_.matched());
+}
+
+TEST_F(BaseAlone, AnOrderEndsASafeStop) {
+  start();
+  answers_ = false;
+  until_stopped();
+  base_.give(Order::resume, {{}, {{}, 100_mm}}, Pace::real_time);
+  peer_.forget();
+  const int ms = until([&] { return peer_.heard<MissionOrder>() > 0; });
+  EXPECT_GE(ms, 190) << "not before the wheels stand";
+  pass(200);
+  EXPECT_GE(peer_.heard<MissionOrder>(), 3 * 7) << "repeated until it is answered";
+  MissionOrder order;
+  ASSERT_TRUE(peer_.last(order));
+  EXPECT_EQ(order.order, Order::resume);
+  answers_ = true;
+  peer_.say(MissionReply{MissionStatus::accepted, order.mission});
+  pass(20);
+  EXPECT_EQ(base_.state(), NodeState::running);
+  EXPECT_EQ(base_.errors(), 0);
+}
+
+TEST_F(BaseAlone, AnyDataFrameOnAnEStopIdentifierStops) {
+  for (const std::uint32_t id : {0x010U, 0x011U, 0x019U}) {
+    for (std::uint8_t size = 0; size <= 8; ++size) {
+      bus::MemoryBus wire;
+      BaseNode base{wire.attach(), kIdentity, kRamp};
+      test::Party peer{wire, 1};
+      hal::CanFrame frame{id, false, false, size, {1, 2, 3, 4, 5, 6, 7, 8}};
+      base.poll(1);
+      peer.send(frame);
+      peer.poll(2);
+      base.poll(2);
+      EXPECT_EQ(base.state(), NodeState::e_stopped) << id << " " << int{size};
+      EXPECT_EQ(base.health().e_stops, 1U);
+    }
+  }
+}
+
+TEST_F(BaseAlone, OtherRobotsEStopsRemoteAndExtendedFramesDoNot) {
+  const hal::CanFrame frames[] = {
+      {0x012, false, false, 2, {}}, {0x01A, false, false, 2, {}}, {0x011, false, true, 2, {}},
+      {0x011, true, false, 2, {}},  {0x018, false, false, 2, {}},
+  };
+  for (const hal::CanFrame& frame : frames) peer_.send(frame);
+  pass(3);
+  EXPECT_EQ(base_.state(), NodeState::waiting);
+  EXPECT_EQ(base_.health().e_stops, 0U);
+  EXPECT_EQ(base_.health().malformed, 2U);
+  EXPECT_EQ(base_.health().foreign, 3U);
+}
+
+TEST_F(BaseAlone, AnEStopLatchesUntilAValidClearAtRest) {
+  start();
+  peer_.send({0x011, false, false, 0, {}});
+  pass();
+  EXPECT_EQ(base_.state(), NodeState::e_stopped);
+  peer_.say(EStop{kClearCommand});
+  pass();
+  EXPECT_EQ(base_.state(), NodeState::e_stopped) << "the wheels still turn";
+  expect_braking();
+  hal::CanFrame wrong = peer_.frame(EStop{kClearCommand});
+  wrong.data[0] ^= 1;
+  peer_.send(wrong);
+  wrong = peer_.frame(EStop{3});
+  peer_.send(wrong);
+  pass(300);
+  EXPECT_EQ(base_.state(), NodeState::e_stopped);
+  EXPECT_EQ(base_.errors() & Error::e_stop, Error::e_stop);
+  peer_.say(EStop{kClearCommand});
+  pass(2);
+  EXPECT_EQ(base_.state(), NodeState::ready);
+  pass(100);
+  EXPECT_EQ(speeds_.left, 0) << "a clear does not start anything";
+}
+
+TEST_F(BaseAlone, BadFramesAreCountedAndNeverObeyed) {
+  start();
+  const std::int16_t before = speed_;
+  answers_ = false;
+  const BusHealth was = base_.health();
+  const auto command = [&] {
+    return WheelCommand{DriveMode::drive, {9999, 9999}, static_cast<std::uint16_t>(tick_)};
+  };
+  hal::CanFrame frame = peer_.frame(command());
+  frame.data[3] ^= 0x10;
+  peer_.send(frame);
+  frame = peer_.frame(command());
+  frame.size = 7;
+  peer_.send(frame);
+  frame.size = 8;
+  frame.remote = true;
+  peer_.send(frame);
+  frame.remote = false;
+  frame.extended = true;
+  peer_.send(frame);
+  // A value out of range, with a right CRC.
+  peer_.send(sealed(UINT64_C(5) << 12, 0x101, 8, static_cast<std::uint8_t>((counter_of(frame) + 1) % 15)));
+  // A base's message from a controller's node.
+  peer_.send(encode(Sync{}, 1, 0));
+  pass(2);
+  const BusHealth& h = base_.health();
+  EXPECT_EQ(h.crc, was.crc + 1);
+  EXPECT_EQ(h.malformed, was.malformed + 4);
+  EXPECT_EQ(h.out_of_range, was.out_of_range + 1);
+  EXPECT_EQ(base_.command().speeds.left, before);
+}
+
+TEST_F(BaseAlone, RepeatedAndStrayCountersAreCountedAndNeverObeyed) {
+  start();
+  answers_ = false;
+  pass(2);
+  const BusHealth was = base_.health();
+  const auto tick16 = static_cast<std::uint16_t>(tick_);
+  const hal::CanFrame good = peer_.frame(WheelCommand{DriveMode::drive, {1, 1}, tick16});
+  peer_.send(good);
+  pass();
+  EXPECT_EQ(base_.command().speeds.left, 1);
+  const std::uint8_t counter = counter_of(good);
+  const auto with = [&](int ahead, std::int16_t speed) {
+    return encode(WheelCommand{DriveMode::drive, {speed, speed}, tick16}, 1,
+                  static_cast<std::uint8_t>((counter + ahead) % kAliveModulus));
+  };
+  peer_.send(with(0, 2));
+  pass();
+  EXPECT_EQ(base_.health().repeated, was.repeated + 1);
+  EXPECT_EQ(base_.command().speeds.left, 1);
+  peer_.send(with(kMostLost + 2, 3));
+  pass();
+  EXPECT_EQ(base_.health().astray, was.astray + 1);
+  EXPECT_EQ(base_.command().speeds.left, 1);
+  peer_.send(with(kMostLost + 3, 4));
+  pass();
+  EXPECT_EQ(base_.command().speeds.left, 4) << "the next one is judged by the stray";
+  peer_.send(with(kMostLost + 3 + 5, 5));
+  pass();
+  EXPECT_EQ(base_.health().lost, was.lost + 4);
+  EXPECT_EQ(base_.command().speeds.left, 5);
+}
+
+TEST_F(BaseAlone, AStuckCounterEndsInASafeStop) {
+  start();
+  until([&] { return now_ % 10 == 1; });
+  answers_ = false;
+  const hal::CanFrame stuck = peer_.frame(WheelCommand{DriveMode::drive, {speed_, speed_}, 0});
+  const int ms = until([&] {
+    if (now_ % 10 == 5) {
+      peer_.send(encode(WheelCommand{DriveMode::drive, {speed_, speed_}, static_cast<std::uint16_t>(tick_)},
+                        1, counter_of(stuck)));
+    }
+    return base_.state() != NodeState::running;
+  });
+  EXPECT_LE(ms, 56);
+  EXPECT_GE(base_.health().repeated, 4U);
+}
+
+TEST_F(BaseAlone, SomebodyElseWithItsNumberStopsForGood) {
+  start();
+  test::Party twin{wire_, 9};
+  twin.poll(now_);
+  twin.say(Heartbeat{});
+  pass();
+  EXPECT_EQ(base_.health().duplicates, 1U);
+  EXPECT_NE(base_.errors() & Error::duplicate_node, 0);
+  expect_braking();
+  base_.give(Order::start, {{}, {{}, 100_mm}}, Pace::real_time);
+  pass(200);
+  EXPECT_EQ(base_.state(), NodeState::safe_stop);
+}
+
+TEST_F(BaseAlone, HeartbeatsCarryStateAndErrorsAtOnce) {
+  start();
+  answers_ = false;
+  until_stopped();
+  pass(2);
+  Heartbeat beat;
+  ASSERT_TRUE(peer_.last(beat));
+  EXPECT_EQ(beat.state, NodeState::safe_stop);
+  EXPECT_EQ(beat.errors, Error::command_late);
+  EXPECT_EQ(beat.boot, kIdentity.boot);
+  FaultReport fault;
+  ASSERT_TRUE(peer_.last(fault));
+  EXPECT_EQ(fault.severity, Severity::latched);
+  EXPECT_EQ(fault.errors, Error::command_late);
+  EXPECT_EQ(fault.stops, 1U);
+  peer_.forget();
+  pass(3000);
+  EXPECT_NEAR(peer_.heard<Heartbeat>(), 30, 1);
+  EXPECT_NEAR(peer_.heard<FaultReport>(), 3, 1);
+  EXPECT_NEAR(peer_.heard<Diagnostics>(), 6, 1);
+}
+
+TEST_F(BaseAlone, DiagnosticsTellTheCounters) {
+  shake_hands();
+  hal::CanFrame bad = peer_.frame(WheelCommand{});
+  bad.data[0] ^= 1;
+  peer_.send(bad);
+  peer_.forget();
+  pass(2100);
+  bool told = false;
+  for (const hal::CanFrame& f : peer_.frames()) {
+    Diagnostics d;
+    if (f.id >> 4 == message_of(Kind::diagnostics).function && decode(f, d) && d.part == 0) {
+      told = d.value[0] == 1;
+    }
+  }
+  EXPECT_TRUE(told);
+}
+
+/// A controller that gets its sets from a base that the test plays.
+class ControllerAlone : public testing::Test {
+ protected:
+  bus::MemoryBus wire_;
+  ControllerNode node_{wire_.attach(), kIdentity};
+  test::Party peer_{wire_, 9};
+  std::uint32_t now_ = 1000;
+  std::uint32_t tick_ = 100;
+  std::uint8_t mission_ = 7;
+  Pace pace_ = Pace::real_time;
+  bool beats_ = true;
+  bool sends_[5] = {true, true, true, true, true};  // ranges, wheels, sync
+  int steps_ = 0;
+
+  ControllerAlone() {
+    peer_.poll(now_);
+    node_.poll(now_);
+  }
+
+  void send_set(std::uint32_t tick) {
+    const auto tick16 = static_cast<std::uint16_t>(tick);
+    const hal::RangeReading reading{500, hal::RangeStatus::ok, 10, 1};
+    if (sends_[0]) peer_.say(Range<Kind::range_left>{reading, tick16});
+    if (sends_[1]) peer_.say(Range<Kind::range_front>{reading, tick16});
+    if (sends_[2]) peer_.say(Range<Kind::range_right>{reading, tick16});
+    if (sends_[3]) peer_.say(WheelState{1, static_cast<std::uint8_t>(tick % 8), {tick, tick}});
+    if (sends_[4]) peer_.say(Sync{pace_, tick, 10, mission_});
+  }
+  void pass() {
+    ++now_;
+    if (beats_ && now_ % 100 == 0) {
+      Heartbeat beat;
+      beat.boot = kPeerBoot;
+      beat.state = NodeState::running;
+      peer_.say(beat);
+    }
+    if (now_ % 10 == 0) send_set(++tick_);
+    peer_.poll(now_);
+    node_.poll(now_);
+    Order order = Order::cancel;
+    Mission mission;
+    node_.take_order(order, mission);
+    InputSet set;
+    if (node_.take_set(set)) {
+      ++steps_;
+      EXPECT_EQ(set.tick, tick_);
+      node_.answer({1000, 1000}, {});
+    }
+    peer_.poll(now_);
+  }
+  void pass(int ms) {
+    for (int i = 0; i < ms; ++i) pass();
+  }
+  void order(Order what) {
+    const MissionValues values = values_of({{}, {{1_m, 0_m}, 100_mm}});
+    for (int i = 0; i < kMissionValues; ++i) {
+      peer_.say(MissionValue{static_cast<MissionPart>(i + 1), mission_, values.of[i]});
+    }
+    peer_.say(MissionOrder{MissionPart::order, mission_, what, digest_of(values)});
+    pass(2);
+  }
+  MissionStatus replied() {
+    MissionReply reply;
+    EXPECT_TRUE(peer_.last(reply));
+    EXPECT_EQ(reply.mission, mission_);
+    return reply.status;
+  }
+  void start() {
+    peer_.greet(kPeerBoot);
+    pass(2);
+    ASSERT_EQ(node_.state(), NodeState::ready);
+    order(Order::start);
+    ASSERT_EQ(replied(), MissionStatus::accepted);
+    pass(50);
+    ASSERT_EQ(node_.state(), NodeState::running);
+    ASSERT_GE(steps_, 4);
+    while (now_ % 10 != 1) pass();
+  }
+  DriveMode last_mode() {
+    WheelCommand command;
+    EXPECT_TRUE(peer_.last(command));
+    return command.mode;
+  }
+};
+
+TEST_F(ControllerAlone, StepsOnceOnEachCompleteSetAndNamesIt) {
+  start();
+  const int before = steps_;
+  pass(100);
+  EXPECT_EQ(steps_, before + 10);
+  WheelCommand command;
+  ASSERT_TRUE(peer_.last(command));
+  EXPECT_EQ(command.mode, DriveMode::drive);
+  EXPECT_EQ(command.tick, static_cast<std::uint16_t>(tick_));
+  EXPECT_EQ(command.speeds.left, 1000);
+  NavStatus status;
+  ASSERT_TRUE(peer_.last(status));
+  EXPECT_EQ(status.tick, command.tick);
+}
+
+TEST_F(ControllerAlone, StandsStillWithoutAMission) {
+  peer_.greet(kPeerBoot);
+  pass(200);
+  EXPECT_EQ(steps_, 0);
+  EXPECT_EQ(node_.state(), NodeState::ready);
+  EXPECT_EQ(last_mode(), DriveMode::stop);
+}
+
+TEST_F(ControllerAlone, ASetWithoutOneFrameIsSkipped) {
+  for (int missing = 0; missing < 5; ++missing) {
+    if (missing == 0) start();
+    const int before = steps_;
+    const std::uint32_t skipped = node_.health().skipped;
+    sends_[missing] = false;
+    pass(10);
+    sends_[missing] = true;
+    pass(10);
+    EXPECT_EQ(steps_, before + 1) << missing;
+    EXPECT_EQ(node_.health().skipped, skipped + 1) << missing;
+    EXPECT_EQ(node_.state(), NodeState::running) << missing;
+  }
+}
+
+TEST_F(ControllerAlone, AMissingRangeBrakesAfter30MillisecondsAndLatchesAfter100) {
+  for (int beam = 0; beam < 3; ++beam) {
+    if (beam == 0) start();
+    while (now_ % 10 != 0) pass();
+    sends_[beam] = false;
+    int ms = 0;
+    for (; last_mode() == DriveMode::drive && ms < 500; ++ms) pass();
+    EXPECT_GT(ms, 30);
+    EXPECT_LE(ms, 32);
+    EXPECT_EQ(node_.state(), NodeState::running);
+    EXPECT_TRUE(node_.braked());
+    for (; node_.state() == NodeState::running && ms < 500; ++ms) pass();
+    EXPECT_EQ(ms, 101);
+    EXPECT_NE(node_.errors() & Error::range_late, 0);
+    sends_[beam] = true;
+    pass(500);
+    EXPECT_EQ(node_.state(), NodeState::safe_stop);
+    ++mission_;
+    order(Order::resume);
+    EXPECT_EQ(replied(), MissionStatus::accepted);
+    EXPECT_EQ(node_.state(), NodeState::running);
+    pass(50);
+  }
+}
+
+TEST_F(ControllerAlone, ARangeThatComesBackInTimeGoesOn) {
+  start();
+  sends_[1] = false;
+  pass(60);
+  EXPECT_EQ(last_mode(), DriveMode::stop);
+  sends_[1] = true;
+  pass(20);
+  EXPECT_EQ(last_mode(), DriveMode::drive);
+  EXPECT_EQ(node_.state(), NodeState::running);
+  EXPECT_EQ(node_.health().stops, 0U);
+}
+
+TEST_F(ControllerAlone, MissingCountsStopAfter50Milliseconds) {
+  start();
+  while (now_ % 10 != 0) pass();
+  sends_[3] = false;
+  int ms = 0;
+  for (; node_.state() == NodeState::running && ms < 500; ++ms) pass();
+  EXPECT_EQ(ms, 51);
+  EXPECT_NE(node_.errors() & Error::odometry_late, 0);
+  pass(20);
+  EXPECT_EQ(last_mode(), DriveMode::stop);
+}
+
+TEST_F(ControllerAlone, ASilentBaseStopsIt) {
+  start();
+  for (bool& sends : sends_) sends = false;
+  int ms = 0;
+  for (; node_.state() == NodeState::running && ms < 500; ++ms) pass();
+  EXPECT_LE(ms, 52);
+  beats_ = false;
+  pass(400);
+  EXPECT_FALSE(node_.matched());
+}
+
+TEST_F(ControllerAlone, SetsOfAnotherMissionDoNotCount) {
+  start();
+  const int before = steps_;
+  mission_ ^= 1;
+  pass(30);
+  EXPECT_EQ(steps_, before);
+  EXPECT_GE(node_.health().stale, 3U);
+}
+
+TEST_F(ControllerAlone, OlderSetsAreNeverSteppedOn) {
+  start();
+  const int before = steps_;
+  tick_ -= 20;
+  pass(45);
+  EXPECT_EQ(steps_, before);
+  pass(60);
+  EXPECT_EQ(node_.state(), NodeState::safe_stop) << "it has had no set for 100 ms";
+}
+
+TEST_F(ControllerAlone, InLockstepTheSameSetGetsTheSameAnswer) {
+  pace_ = Pace::lockstep;
+  start();
+  const int before = steps_;
+  peer_.forget();
+  send_set(tick_);
+  for (int i = 0; i < 3; ++i) {
+    node_.poll(now_);
+    InputSet set;
+    EXPECT_FALSE(node_.take_set(set));
+  }
+  peer_.poll(now_);
+  EXPECT_EQ(steps_, before);
+  EXPECT_EQ(peer_.heard<WheelCommand>(), 1);
+  EXPECT_EQ(peer_.heard<NavStatus>(), 1);
+  WheelCommand command;
+  ASSERT_TRUE(peer_.last(command));
+  EXPECT_EQ(command.tick, static_cast<std::uint16_t>(tick_));
+}
+
+TEST_F(ControllerAlone, InLockstepItWaitsForEver) {
+  pace_ = Pace::lockstep;
+  start();
+  for (bool& sends : sends_) sends = false;
+  beats_ = false;
+  pass(5000);
+  EXPECT_EQ(node_.health().stops, 0U);
+  EXPECT_EQ(node_.state(), NodeState::waiting);
+  for (bool& sends : sends_) sends = true;
+  beats_ = true;
+  tick_ = tick_ - 500;  // the ticks stood still
+  peer_.greet(kPeerBoot, NodeState::running);
+  const int before = steps_;
+  pass(20);
+  EXPECT_EQ(node_.state(), NodeState::running);
+  EXPECT_GT(steps_, before);
+}
+
+TEST_F(ControllerAlone, AnOrderNeedsAllItsParts) {
+  peer_.greet(kPeerBoot);
+  pass(2);
+  peer_.say(MissionOrder{MissionPart::order, mission_, Order::start, 0});
+  pass(2);
+  EXPECT_EQ(replied(), MissionStatus::incomplete);
+  EXPECT_EQ(node_.state(), NodeState::ready);
+  order(Order::resume);
+  EXPECT_EQ(replied(), MissionStatus::unknown);
+  ++mission_;
+  order(Order::start);
+  EXPECT_EQ(replied(), MissionStatus::accepted);
+}
+
+TEST_F(ControllerAlone, AnEStopRefusesOrdersUntilItIsCleared) {
+  start();
+  peer_.send({0x010, false, false, 1, {0}});
+  pass(2);
+  EXPECT_EQ(node_.state(), NodeState::e_stopped);
+  pass(20);
+  EXPECT_EQ(last_mode(), DriveMode::stop);
+  ++mission_;
+  order(Order::start);
+  EXPECT_EQ(replied(), MissionStatus::refused);
+  peer_.say(EStop{kClearCommand});
+  pass(2);
+  EXPECT_EQ(node_.state(), NodeState::ready);
+  order(Order::start);
+  EXPECT_EQ(replied(), MissionStatus::accepted);
+}
+
+TEST_F(ControllerAlone, ANewBaseForgetsTheMission) {
+  start();
+  beats_ = false;
+  peer_.greet(kPeerBoot + 1);
+  pass(5);
+  EXPECT_EQ(node_.state(), NodeState::safe_stop);
+  const int before = steps_;
+  pass(30);
+  EXPECT_EQ(steps_, before);
+  order(Order::start);
+  EXPECT_EQ(replied(), MissionStatus::accepted);
+}
+
+TEST_F(ControllerAlone, ParametersAreReadCheckedAndCommitted) {
+  peer_.greet(kPeerBoot);
+  pass(2);
+  const auto ask = [&](const ParamRequest& request) {
+    peer_.say(request);
+    pass(2);
+    ParamReply reply;
+    EXPECT_TRUE(peer_.last(reply));
+    EXPECT_EQ(reply.index, request.index);
+    return reply;
+  };
+  // 0: body radius, um.
+  EXPECT_EQ(ask({ParamAction::read, 0, 0}).value, 90000U);
+  EXPECT_EQ(ask({ParamAction::write, 0, 19999}).status, ParamStatus::out_of_range);
+  EXPECT_EQ(ask({ParamAction::read, 0, 0}).value, 90000U);
+  EXPECT_EQ(ask({ParamAction::write, 0, 95000}).status, ParamStatus::ok);
+  EXPECT_EQ(node_.params().body.radius, 90_mm) << "not before a commit";
+  EXPECT_EQ(ask({ParamAction::commit, 255, 0}).status, ParamStatus::ok);
+  EXPECT_EQ(node_.params().body.radius, 95_mm);
+  EXPECT_EQ(ask({ParamAction::read, 200, 0}).status, ParamStatus::no_such);
+  EXPECT_EQ(ask({ParamAction::write, 200, 0}).status, ParamStatus::no_such);
+  // 2: the track; wider than the body.
+  EXPECT_EQ(ask({ParamAction::write, 2, 2000000}).status, ParamStatus::ok);
+  const ParamReply reply = ask({ParamAction::commit, 255, 0});
+  EXPECT_EQ(reply.status, ParamStatus::inconsistent);
+  EXPECT_EQ(reply.value, static_cast<std::uint32_t>(ParamFault::track_wider_than_body));
+  EXPECT_EQ(node_.params().body.track, 140_mm);
+  order(Order::start);
+  EXPECT_EQ(ask({ParamAction::write, 0, 90000}).status, ParamStatus::busy);
+  EXPECT_EQ(ask({ParamAction::commit, 255, 0}).status, ParamStatus::busy);
+  EXPECT_EQ(ask({ParamAction::read, 0, 0}).value, 95000U);
+}
+
+}  // namespace
+}  // namespace whisker::can

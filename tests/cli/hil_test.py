@@ -1,0 +1,129 @@
+"""`whisker hil`, `plant`, `controller` and `replay`, where no CAN is needed."""
+
+import csv
+import json
+import re
+
+import whisker
+from whisker import KINDS, STATUS, Case, with_time_limit
+
+PRIVATE_TRACE = ("d", "r", "sa", "sd", "est_x_m", "est_y_m", "est_heading_rad")  # what the bus does not carry
+
+
+class Hil(Case):
+    def world(self, kind, seconds=30, seed=5):
+        text = whisker.whisker("world", kind, "--seed", seed, "--noise").stdout
+        return self.file(f"{kind}.toml", with_time_limit(text, seconds))
+
+    def json_of(self, *arguments):
+        done = whisker.whisker(*arguments, "--json")
+        self.assertTrue(done.stdout, done.stderr)
+        result = json.loads(done.stdout)
+        if "outcome" in result:
+            self.assertEqual(done.returncode, STATUS[result["outcome"]])
+        return result
+
+    def test_two_processes_give_the_run_of_one(self):
+        for kind in KINDS:
+            scenario = self.world(kind)
+            alone = self.json_of("run", scenario)
+            both = self.json_of("hil", scenario)
+            bus = both.pop("bus")
+            self.assertEqual(both, alone, kind)
+            self.assertEqual(bus["sets"], alone["ticks"])
+            self.assertEqual((bus["safe_stops"], bus["refused"], bus["deadline_misses"]), (0, 0, 0))
+
+    def test_options_reach_the_other_process(self):
+        scenario = self.world("discs")
+        robot = self.file("robot.toml", "body_radius_m = 0.1\nwheel_speed_max_mps = 0.25\n")
+        options = ("--planner", "thesis", "--robot", robot, "--seed", 77)
+        alone = self.json_of("run", scenario, *options)
+        both = self.json_of("hil", scenario, *options, "--node", 7)
+        self.assertEqual(both["hash"], alone["hash"])
+        self.assertNotEqual(both["hash"], self.json_of("hil", scenario)["hash"])
+
+    def test_the_trace_has_all_that_the_bus_carries(self):
+        scenario = self.world("u-trap", 10)
+        self.json_of("run", scenario, "--trace", self.folder / "run.csv")
+        self.json_of("hil", scenario, "--trace", self.folder / "hil.csv")
+        rows = [list(csv.DictReader((self.folder / name).read_text().splitlines())) for name in ("run.csv", "hil.csv")]
+        self.assertEqual(len(rows[0]), len(rows[1]))
+        for alone, both in zip(*rows):
+            self.assertEqual([both[key] for key in PRIVATE_TRACE], [""] * 7)
+            self.assertEqual(both, {**alone, **dict.fromkeys(PRIVATE_TRACE, "")})
+
+    def test_a_recorded_run_replays_to_the_bit(self):
+        scenario, log = self.world("rooms"), self.folder / "run.log"
+        result = self.json_of("hil", scenario, "--record", log)
+        for line in log.read_text().splitlines():
+            self.assertRegex(line, r"\A\(\d{10}\.\d{6}\) private [0-9A-F]{3}#([0-9A-F]{2}){2,8}\Z")
+        replay = self.json_of("replay", log)
+        self.assertEqual((replay["same"], replay["hash"], replay["steps"]), (True, result["hash"], result["ticks"]))
+        self.assertEqual((replay["robot"], replay["missions"], replay["unknown_sets"], replay["damaged"]), (1, 1, 0, 0))
+        other = whisker.whisker("replay", log, "--planner", "thesis")
+        self.assertEqual(other.returncode, 1)
+        self.assertRegex(other.stdout, r"line \d+: tick \d+: recorded .*, the core says ")
+
+    def test_a_replay_finds_altered_ranges(self):
+        log = self.folder / "run.log"
+        self.json_of("hil", self.world("discs", 8), "--record", log)
+        lines = log.read_text().splitlines()
+        ranges = [i for i, line in enumerate(lines) if " 139#" in line]
+        for i in ranges[300:]:
+            place, _, data = lines[i].partition("#")
+            frame = bytearray.fromhex(data)
+            frame[1] = frame[1] & 0x0F | 0x20  # too near
+            frame[2:4] = b"\xfe\xff"
+            frame[0] = crc(0x139, frame[1:])
+            lines[i] = place + "#" + frame.hex().upper()
+        log.write_text("\n".join(lines) + "\n")
+        replay = self.json_of("replay", log)
+        self.assertFalse(replay["same"])
+        self.assertGreater(int(re.match(r"line (\d+)", replay["difference"])[1]), ranges[300])
+
+    def test_damaged_frames_are_counted_not_replayed(self):
+        log = self.folder / "run.log"
+        self.json_of("hil", self.world("discs", 8), "--record", log)
+        text = log.read_text() + "(1000000000.000000) can0 139#00FFFFFFFFFFFFFF\n(1000000000.000000) can0 139#01\n(1.000000) can0 00000123#R\n"
+        log.write_text(text)
+        replay = self.json_of("replay", log)
+        self.assertEqual((replay["same"], replay["damaged"]), (True, 2))
+
+
+class Refusals(Case):
+    def refused(self, *arguments):
+        done = whisker.whisker(*arguments)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        return done.stderr
+
+    def test_bad_logs_are_one_line(self):
+        self.assertIn("No such file", self.refused("replay", self.folder / "none.log"))
+        self.assertIn("is empty", self.refused("replay", self.file("empty.log", "")))
+        self.assertIn("line 2: not a frame", self.refused("replay", self.file("bad.log", "(1.000000) can0 123#\nx\n")))
+        self.assertIn("no commands", self.refused("replay", self.file("other.log", "(1.000000) can0 123#\n")))
+
+    def test_bad_usage_is_one_line(self):
+        scenario = self.file("s.toml", whisker.whisker("world", "discs", "--seed", 1).stdout)
+        self.refused("plant", scenario)
+        self.refused("controller")
+        self.refused("controller", "--can", "vcan0", "--node", "8")
+        self.refused("hil", scenario, "--can", "slcan:/dev/null")
+        self.refused("hil", scenario, "--can", "a-name-that-is-too-long-for-an-interface")
+        self.refused("hil", scenario, "--record", scenario)
+        self.refused("dbc", "--robot", "0")
+        self.assertIn("s.toml", self.refused("hil", self.file("s.toml", "x = 1\n")))
+
+
+def crc(identifier, data):
+    """AUTOSAR E2E Profile 1, bit by bit."""
+    value = 0
+    for byte in (identifier & 0xFF, identifier >> 8, *data):
+        value ^= byte
+        for _ in range(8):
+            value = (value << 1 ^ 0x1D if value & 0x80 else value << 1) & 0xFF
+    return value
+
+
+if __name__ == "__main__":
+    whisker.main()

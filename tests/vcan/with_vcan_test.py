@@ -1,0 +1,59 @@
+"""scripts/with-vcan. usage: with_vcan_test.py ROOT Bus|Usage"""
+
+import pathlib
+import subprocess
+import sys
+import unittest
+
+SCRIPT = pathlib.Path(sys.argv.pop(1)) / "scripts" / "with-vcan"
+
+
+def run(*arguments):
+    done = subprocess.run([SCRIPT, *map(str, arguments)], capture_output=True, text=True, timeout=110, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+# Its first argument is with-vcan itself: the inner bus is another one.
+PROGRAM = r"""
+ip -br link | sed -n 's/^\(vcan[0-9]*\) .*UP.*/\1/p'
+candump -L -n 1 vcan2 &
+until grep -q "vcan2 .* raw" /proc/net/can/rcvlist_all; do sleep 0.1; done
+"$1" cansend vcan0 111#
+cansend vcan2 123#AA
+wait
+echo "$2|$3|" >&2
+exit 7
+"""
+
+
+class Bus(unittest.TestCase):
+    """Under scripts/with-vcan: where its caller made a bus, it can make another. Few runs, as each takes seconds."""
+
+    def test_makes_private_interfaces_and_passes_arguments_output_and_status(self):
+        status, out, err = run("--which", "--count", 3, "bash", "-c", PROGRAM, "bash", SCRIPT, "a  b", "*")
+        self.assertEqual(status, 7, err)
+        self.assertRegex(out, r"\Avcan0\nvcan1\nvcan2\n\(\S+\) vcan2 123#AA\n\Z")
+        self.assertRegex(err, r"\Awith-vcan: (user-namespace|network-namespace)\na  b\|\*\|\n\Z")
+
+    def test_ends_a_command_that_does_not_end(self):
+        self.assertEqual(run("--timeout", 1, "sleep", 50)[0], 124)
+
+
+class Usage(unittest.TestCase):
+    """Anywhere."""
+
+    def test_refuses_what_it_does_not_know(self):
+        for wrong in ((), ("--count",), ("--count", 0, "true"), ("--count", 17, "true"), ("--timeout", "x", "true"), ("--nonsense", "true")):
+            status, out, err = run(*wrong)
+            self.assertEqual((status, out), (2, ""), wrong)
+            self.assertRegex(err, r"\Awith-vcan: [^\n]*\n\Z", wrong)
+
+    def test_names_its_options(self):
+        status, out, _ = run("--help")
+        self.assertEqual(status, 0)
+        for option in ("--count", "--timeout", "--vm", "--which"):
+            self.assertIn(option, out)
+
+
+if __name__ == "__main__":
+    unittest.main()
