@@ -19,6 +19,9 @@ import {Stage} from './stage.ts';
 
 const FIRST: State = {kind: 'u-trap', seed: 7, who: 'both', own: null, noise: NO_NOISE, rules: null};
 
+/** Milliseconds. */
+const PANELS_EVERY = 80;
+
 async function module(): Promise<Uint8Array> {
   return inflated(bytesOfBase64(element('module').textContent ?? ''));
 }
@@ -58,9 +61,14 @@ async function open(): Promise<void> {
     written = hash;
     history.replaceState(null, '', hash);
   };
-  const draw = () => {
+  let panels = 0;
+  const draw = (now: number) => {
     stage.draw();
     play.runs.forEach((run, i) => showCard(stage.cards[i], run, theme));
+    controls.update();
+    // The panels are for reading: while it drives, no eye misses the pictures between.
+    if (play.playing && now - panels < PANELS_EVERY) return;
+    panels = now;
     closeUp.run = response.run = focus();
     closeUp.scenery = stage.scenery();
     closeUp.draw();
@@ -69,7 +77,6 @@ async function open(): Promise<void> {
     rules.light(usesTable(focus(), 0) ? firedRules(controller, at('d'), at('r')) : []);
     showProgress(focus(), play.runs.length > 1);
     showLedger(play.runs, notesOf(play));
-    controls.update();
   };
   let last = 0;
   let pending = false;
@@ -81,7 +88,7 @@ async function open(): Promise<void> {
       // A hidden page gets no frames; it goes on where it was.
       if (play.playing) play.pass(Math.min(0.1, Math.max(0, (now - last) / 1000)));
       last = now;
-      draw();
+      draw(now);
       if (play.playing) request();
     });
   };
