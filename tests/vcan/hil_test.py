@@ -15,6 +15,7 @@ import unittest
 
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
 PATIENCE_S = 60
+FAR = "time_limit_s = 900.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 200.0\ny_m = 0.0\n"
 
 
 def ip(*arguments):
@@ -117,7 +118,8 @@ class OnTheBus(unittest.TestCase):
         self.assertEqual(result["bus"]["safe_stops"], 0)
 
     def test_cansend_stops_the_robot(self):
-        scenario = self.world("discs", 600)
+        scenario = self.folder / "far.toml"
+        scenario.write_text(FAR)
         controller = self.start("controller", "--can", "vcan0")
         plant = self.start("plant", scenario, "--can", "vcan0", "--json")
         controller.wait_for("drives")
