@@ -48,6 +48,7 @@ stage_web() {
   cmake --build --preset host -j "$jobs" --target whisker -- --quiet
   npm --prefix host/web ci --ignore-scripts --no-audit --no-fund
   npm --prefix host/web run check
+  scripts/playground --build-only
   node --test --test-reporter=tap tests/web/*.test.mjs
 }
 

@@ -1,19 +1,18 @@
 #include "host/run/planners.hpp"
 
-#include "firmware/nav/skirt.hpp"
-#include "firmware/nav/thesis.hpp"
 #include "host/baselines/bends.hpp"
 #include "host/baselines/bug2.hpp"
 #include "host/baselines/distbug.hpp"
 #include "host/baselines/wall_follower.hpp"
+#include "host/run/core_pilot.hpp"
 
 namespace whisker {
 namespace {
 
 /// The planner and the law that bends its course live and die together.
-template <class Skirt, class... Table>
-std::shared_ptr<nav::Planner> make_skirt(const Params& params, const Table&... table) {
-  const auto skirt = std::make_shared<Skirt>(params, table...);
+template <class Bend>
+std::shared_ptr<nav::Planner> bent_skirt(const Params& params) {
+  const auto skirt = std::make_shared<baselines::BentSkirt<Bend>>(params);
   return {skirt, &skirt->planner};
 }
 
@@ -21,13 +20,13 @@ std::shared_ptr<nav::Planner> make_skirt(const Params& params, const Table&... t
 
 std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params) {
   switch (kind) {
-    case PlannerKind::skirt: return make_skirt<nav::TableSkirt>(params, fuzzy::kDefaultTable);
-    case PlannerKind::thesis: return std::make_shared<nav::ThesisPlanner>(params, fuzzy::kDefaultTable);
+    case PlannerKind::skirt:
+    case PlannerKind::thesis: return make_core_planner(kind, params, fuzzy::kDefaultTable);
     case PlannerKind::bug2: return std::make_shared<baselines::Bug2>(params);
     case PlannerKind::distbug: return std::make_shared<baselines::DistBug>(params);
     case PlannerKind::wall_follower: return std::make_shared<baselines::WallFollower>(params);
-    case PlannerKind::fan: return make_skirt<baselines::BentSkirt<baselines::FanBend>>(params);
-    case PlannerKind::repulsion: return make_skirt<baselines::BentSkirt<baselines::RepulsionBend>>(params);
+    case PlannerKind::fan: return bent_skirt<baselines::FanBend>(params);
+    case PlannerKind::repulsion: return bent_skirt<baselines::RepulsionBend>(params);
   }
   return nullptr;
 }

@@ -1,21 +1,51 @@
-// Writes the pictures of docs/replay.md. usage: npm run figures
+// Writes the pictures of docs/replay.md and docs/playground.md. usage: npm run figures
+// The playground's page must have been built: scripts/playground --build-only
 import {execFileSync} from 'node:child_process';
 import {statSync} from 'node:fs';
 import {fileURLToPath} from 'node:url';
 import {drawn, launch, openPage, PHONE} from '../../tests/web/browser.mjs';
 import {Folder} from '../../tests/web/scenarios.mjs';
 
+const PLAYGROUND = new URL('../../out/playground/index.html', import.meta.url).href;
 const FIGURES = [
   {name: 'replay', hash: '#t=31', viewport: {width: 1440, height: 900}, colorScheme: 'light'},
   {name: 'replay-phone', hash: '#t=12', viewport: PHONE, colorScheme: 'dark', touch: true},
+  {
+    name: 'playground',
+    url: PLAYGROUND,
+    seconds: 16,
+    viewport: {width: 1440, height: 900},
+    colorScheme: 'light',
+  },
+  {
+    name: 'playground-phone',
+    url: `${PLAYGROUND}#world=discs&seed=3&planner=skirt`,
+    seconds: 32,
+    viewport: PHONE,
+    colorScheme: 'dark',
+    touch: true,
+  },
 ];
 
 const folder = new Folder();
 const browser = await launch();
 try {
   folder.drive('discs', ['discs', '--noise', '--seed', 1]);
-  for (const {name, hash, ...options} of FIGURES) {
-    const {page} = await openPage(browser, folder.url('discs.html', hash), options);
+  for (const {name, url, seconds, ...options} of FIGURES) {
+    const {page} = await openPage(browser, url ?? folder.url('discs.html', options.hash), {
+      reducedMotion: 'reduce',
+      ...options,
+    });
+    if (seconds) {
+      await page.evaluate((ticks) => {
+        const {play} = window.whisker;
+        for (const run of play.runs) {
+          run.advance(ticks);
+          run.refresh();
+        }
+        play.select(null);
+      }, 100 * seconds);
+    }
     await drawn(page);
     const path = fileURLToPath(new URL(`../../docs/figures/${name}.png`, import.meta.url));
     await page.screenshot({path});

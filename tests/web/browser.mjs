@@ -22,12 +22,13 @@ export function launch() {
 export async function openPage(
   browser,
   url,
-  {viewport = DESKTOP, colorScheme = 'light', touch = false} = {},
+  {viewport = DESKTOP, colorScheme = 'light', touch = false, reducedMotion = 'no-preference'} = {},
 ) {
   const context = await browser.newContext({
     viewport,
     colorScheme,
     hasTouch: touch,
+    reducedMotion,
   });
   const page = await context.newPage();
   const complaints = [];

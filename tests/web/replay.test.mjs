@@ -35,7 +35,10 @@ describe('the replay page', () => {
   test('opens from a file, whole and without a complaint', async () => {
     const {page, complaints} = await open();
     assert.equal(await page.textContent('#title'), 'figure 8: U-trap');
-    assert.match(await page.textContent('#verdict'), new RegExp(`^reached the goal in ${result.time_s.toFixed(1)} s$`));
+    assert.match(
+      await page.textContent('#verdict'),
+      new RegExp(`^reached the goal in ${result.time_s.toFixed(1)} s$`),
+    );
     assert.match(await page.textContent('#facts'), new RegExp(result.hash));
     for (const id of ['world', 'closeup', 'lanes', 'heat-turn', 'heat-step']) {
       assert.ok((await pictureOf(page, id)).colours > 8, `${id} is empty`);

@@ -36,6 +36,15 @@ export class Camera {
     return [this.x + (px - width / 2) / this.scale, this.y - (py - height / 2) / this.scale];
   }
 
+  /** About this place of a canvas of this size; for a camera that is not turned. */
+  zoom(factor: number, px: number, py: number, width: number, height: number): void {
+    const [x, y] = this.toWorld(px, py, width, height);
+    const scale = Math.max(4, Math.min(2000, this.scale * factor));
+    this.x = x + ((this.x - x) * this.scale) / scale;
+    this.y = y + ((this.y - y) * this.scale) / scale;
+    this.scale = scale;
+  }
+
   fit(box: Box, width: number, height: number, margin: number): void {
     this.x = (box.left + box.right) / 2;
     this.y = (box.bottom + box.top) / 2;

@@ -1,8 +1,7 @@
 /** What the robot senses, from its own seat: ahead is up. */
 import {Camera} from './camera.ts';
-import {BEAMS, RangeStatus, type Run} from './data.ts';
+import {BEAMS, RangeStatus, type Seen} from './data.ts';
 import {element, setText, Surface} from './dom.ts';
-import type {Player} from './player.ts';
 import type {Scenery} from './scenery.ts';
 import type {Theme} from './theme.ts';
 import {usesTable} from './table_use.ts';
@@ -24,10 +23,10 @@ export class CloseUp {
   private readonly camera = new Camera();
 
   constructor(
-    private readonly run: Run,
-    private readonly player: Player,
+    public run: Seen,
+    private readonly player: {readonly tick: number},
     private readonly theme: Theme,
-    private readonly scenery: Scenery,
+    public scenery: Scenery,
   ) {
     this.surface = new Surface(element<HTMLCanvasElement>('closeup'), () => this.draw());
   }

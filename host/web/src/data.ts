@@ -148,8 +148,38 @@ export const COUNTERS = [
   'clock_jumps',
 ] as const;
 
+/** What can be seen of a robot at a tick: of a run that is over, or of one under way. */
+export interface Seen {
+  readonly info: {readonly world: World; readonly robot: RobotInfo};
+  readonly shared: {readonly controller: Controller};
+  readonly t: ArrayLike<number>;
+  /** The clear cells. `seek` returns the tick of the last picture at or before a tick, or -1. */
+  readonly film: {
+    seek(tick: number): number;
+    forEachClear(bodyX: number, bodyY: number, clear: (x: number, y: number) => void): void;
+  };
+  column(name: string): ArrayLike<number>;
+  mode(tick: number): string;
+  why(tick: number): string;
+  range(beam: number, tick: number): number | null;
+}
+
+/** As the trace has it: clear counts as the maximum range, too near as the minimum; null is lost. */
+export function rangeOf(seen: Seen, beam: number, tick: number): number | null {
+  switch (seen.column(`${BEAMS[beam]}_status`)[tick] as RangeStatus) {
+    case RangeStatus.ok:
+      return seen.column(`${BEAMS[beam]}_m`)[tick];
+    case RangeStatus.clear:
+      return seen.info.robot.max_range;
+    case RangeStatus.tooNear:
+      return seen.info.robot.min_range;
+    default:
+      return null;
+  }
+}
+
 /** One run with all its ticks. */
-export class Run {
+export class Run implements Seen {
   readonly ticks: number;
   readonly t: Float64Array;
   readonly film: Film;
@@ -182,18 +212,8 @@ export class Run {
     return this.shared.whys[this.column('why')[tick]];
   }
 
-  /** As the trace has it: clear counts as the maximum range, too near as the minimum; null is lost. */
   range(beam: number, tick: number): number | null {
-    switch (this.column(`${BEAMS[beam]}_status`)[tick] as RangeStatus) {
-      case RangeStatus.ok:
-        return this.column(`${BEAMS[beam]}_m`)[tick];
-      case RangeStatus.clear:
-        return this.info.robot.max_range;
-      case RangeStatus.tooNear:
-        return this.info.robot.min_range;
-      default:
-        return null;
-    }
+    return rangeOf(this, beam, tick);
   }
 
   /** The tick whose time is nearest. */

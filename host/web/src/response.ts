@@ -1,8 +1,7 @@
 /** Why it turns: the response table, what it was asked, and the rules that answer. */
-import type {Run} from './data.ts';
+import type {Seen} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import {HeatMap} from './heatmap.ts';
-import type {Player} from './player.ts';
 import {firedRules, type FiredRule} from './rules.ts';
 import {usesTable} from './table_use.ts';
 import type {Theme} from './theme.ts';
@@ -22,8 +21,8 @@ export class ResponsePanel {
   private shown = '';
 
   constructor(
-    private readonly run: Run,
-    private readonly player: Player,
+    public run: Seen,
+    private readonly player: {readonly tick: number},
     private readonly theme: Theme,
   ) {
     const {controller} = run.shared;
@@ -51,7 +50,9 @@ export class ResponsePanel {
     setText('table-source', controller.source);
   }
 
+  /** The palette or the table is another one. */
   restyle(): void {
+    this.shown = '';
     for (const map of this.maps) map.restyle(this.theme.palette);
   }
 

@@ -1,10 +1,19 @@
 /** Which part of the world a picture of a run must show. */
 import type {Box} from './camera.ts';
-import type {Run} from './data.ts';
+import type {Point, Run, World} from './data.ts';
 
 /** The whole way, start and goal, and of the world what lies no farther from them than they are apart, or 4 m. */
 export function sceneBox(run: Run): Box {
-  const {start, goal, tolerance, bounds, discs, polygons, walls, movers} = run.info.world;
+  const x = run.column('x_m');
+  const y = run.column('y_m');
+  const way: Point[] = [];
+  for (let i = 0; i < run.ticks; i += 10) way.push([x[i], y[i]]);
+  return sceneBoxOf(run.info.world, way, run.info.robot.radius);
+}
+
+/** The same for a world and the places of a way. */
+export function sceneBoxOf(world: World, way: Point[], radius = 0): Box {
+  const {start, goal, tolerance, bounds, discs, polygons, walls, movers} = world;
   const box = {left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity};
   const add = (x: number, y: number, r = 0) => {
     box.left = Math.min(box.left, x - r);
@@ -12,9 +21,7 @@ export function sceneBox(run: Run): Box {
     box.bottom = Math.min(box.bottom, y - r);
     box.top = Math.max(box.top, y + r);
   };
-  const x = run.column('x_m');
-  const y = run.column('y_m');
-  for (let i = 0; i < run.ticks; i += 10) add(x[i], y[i], run.info.robot.radius);
+  for (const [x, y] of way) add(x, y, radius);
   add(start[0], start[1], 0.1);
   add(goal[0], goal[1], Math.max(tolerance, 0.1));
   // Of a vast world only what lies about the way.

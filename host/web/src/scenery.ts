@@ -1,5 +1,5 @@
 /** What both views of the world draw. Lengths are metres; the canvas is set to the world's axes. */
-import {BEAMS, RangeStatus, type Run} from './data.ts';
+import {BEAMS, RangeStatus, type Seen} from './data.ts';
 import {moverPosition, polyline} from './shapes.ts';
 import type {Palette} from './theme.ts';
 
@@ -10,7 +10,7 @@ export class Scenery {
   private readonly polygons = new Path2D();
   private readonly walls = new Path2D();
 
-  constructor(private readonly run: Run) {
+  constructor(private readonly run: Seen) {
     const {discs, polygons, walls} = run.info.world;
     for (const [x, y, radius] of discs) {
       this.discs.moveTo(x + radius, y);

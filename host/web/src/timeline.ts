@@ -1,5 +1,5 @@
 /** The lanes of states and reasons under the world, and the slider over them. */
-import type {Run} from './data.ts';
+import type {Run, Seen} from './data.ts';
 import {element, setText, Surface} from './dom.ts';
 import type {Player} from './player.ts';
 import type {Colour, Theme} from './theme.ts';
@@ -37,7 +37,7 @@ const WHY_COLOURS: Record<string, Colour> = {
   length_budget: 'contact',
 };
 
-export function stateColour(run: Run, tick: number): Colour {
+export function stateColour(run: Seen, tick: number): Colour {
   const mode = run.mode(tick);
   if (OVER.has(mode)) return mode === 'arrived' ? 'goal' : 'over';
   if (STILL.has(mode)) return 'still';

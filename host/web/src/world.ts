@@ -1,4 +1,5 @@
 /** The world from above: the path driven so far, coloured by what the robot did, and the robot. */
+import {drawGrid, drawGround, drawLineToGoal, drawScaleBar} from './backdrop.ts';
 import {Camera, type Box} from './camera.ts';
 import type {Run} from './data.ts';
 import {element, Surface} from './dom.ts';
@@ -7,10 +8,9 @@ import {listenToHands} from './hands.ts';
 import {Scenery} from './scenery.ts';
 import {sceneBox} from './scene_box.ts';
 import {pathPieces, type Piece} from './shapes.ts';
-import type {Colour, Theme} from './theme.ts';
+import type {Theme} from './theme.ts';
+import {DOING_COLOURS, DOING_WIDTHS} from './way_looks.ts';
 
-export const DOING_COLOURS: Colour[] = ['free', 'table', 'probing', 'danger'];
-const WIDTHS = [2.5, 3, 2.5, 3.5];
 const FOLLOWED_METRES = 2.6;
 
 export class WorldView {
@@ -82,10 +82,10 @@ export class WorldView {
     const c = surface.clear();
     const pixel = 1 / camera.scale;
     c.save();
-    this.drawGround(c);
+    drawGround(c, p, camera, surface, run.info.world.bounds);
     camera.apply(c, surface.width, surface.height);
-    this.drawGrid(c, pixel);
-    this.drawLineToGoal(c, pixel);
+    drawGrid(c, p, camera, surface);
+    drawLineToGoal(c, p, pixel, run.info.world);
     scenery.drawPatch(c, p, tick);
     scenery.drawObstacles(c, p, pixel, time);
     scenery.drawGoal(c, p, pixel);
@@ -94,7 +94,7 @@ export class WorldView {
     scenery.drawBody(c, p, pixel, tick);
     c.restore();
     this.drawMarks(c, tick);
-    this.drawScaleBar(c);
+    drawScaleBar(c, p, camera, surface);
   }
 
   private fit(): void {
@@ -105,52 +105,6 @@ export class WorldView {
   /** One finger scrolls the page while all is shown, and moves the world when it is larger than its window. */
   private touchable(): void {
     this.surface.canvas.style.touchAction = this.moved ? 'none' : 'pan-y';
-  }
-
-  private drawGround(c: CanvasRenderingContext2D): void {
-    const {bounds} = this.run.info.world;
-    const p = this.theme.palette;
-    const {width, height} = this.surface;
-    c.fillStyle = bounds ? p.outside : p.ground;
-    c.fillRect(0, 0, width, height);
-    if (!bounds) return;
-    const [left, bottom] = this.camera.toScreen(bounds[0], bounds[1], width, height);
-    const [right, top] = this.camera.toScreen(bounds[2], bounds[3], width, height);
-    c.fillStyle = p.ground;
-    c.fillRect(left, top, right - left, bottom - top);
-  }
-
-  private drawGrid(c: CanvasRenderingContext2D, pixel: number): void {
-    const {camera, surface} = this;
-    const halfX = (surface.width / 2) * pixel;
-    const halfY = (surface.height / 2) * pixel;
-    const step = camera.scale > 150 ? 0.5 : camera.scale > 20 ? 1 : 10;
-    c.strokeStyle = this.theme.palette.grid;
-    c.lineWidth = pixel;
-    c.beginPath();
-    for (let x = Math.ceil((camera.x - halfX) / step) * step; x <= camera.x + halfX; x += step) {
-      c.moveTo(x, camera.y - halfY);
-      c.lineTo(x, camera.y + halfY);
-    }
-    for (let y = Math.ceil((camera.y - halfY) / step) * step; y <= camera.y + halfY; y += step) {
-      c.moveTo(camera.x - halfX, y);
-      c.lineTo(camera.x + halfX, y);
-    }
-    c.stroke();
-  }
-
-  private drawLineToGoal(c: CanvasRenderingContext2D, pixel: number): void {
-    const {start, goal} = this.run.info.world;
-    c.strokeStyle = this.theme.palette.muted;
-    c.globalAlpha = 0.6;
-    c.lineWidth = pixel;
-    c.setLineDash([pixel, 5 * pixel]);
-    c.beginPath();
-    c.moveTo(start[0], start[1]);
-    c.lineTo(goal[0], goal[1]);
-    c.stroke();
-    c.setLineDash([]);
-    c.globalAlpha = 1;
   }
 
   private drawPath(c: CanvasRenderingContext2D, pixel: number, tick: number): void {
@@ -167,7 +121,7 @@ export class WorldView {
     for (const {doing, ticks, path} of this.pieces) {
       if (ticks[0] >= tick) break;
       c.strokeStyle = p[DOING_COLOURS[doing]];
-      c.lineWidth = WIDTHS[doing] * pixel;
+      c.lineWidth = DOING_WIDTHS[doing] * pixel;
       if (ticks[ticks.length - 1] <= tick) {
         c.stroke(path);
         continue;
@@ -236,28 +190,8 @@ export class WorldView {
     });
   }
 
-  private drawScaleBar(c: CanvasRenderingContext2D): void {
-    const p = this.theme.palette;
-    const step = this.camera.scale > 150 ? 0.5 : this.camera.scale > 20 ? 1 : 10;
-    const length = step * this.camera.scale;
-    const x = this.surface.width - 14 - length;
-    const y = this.surface.height - 12;
-    c.strokeStyle = c.fillStyle = p.muted;
-    c.lineWidth = 1.5;
-    c.stroke(new Path2D(`M${x},${y - 4}v4h${length}v-4`));
-    c.font = '11px Inter, system-ui, sans-serif';
-    c.textAlign = 'center';
-    c.textBaseline = 'bottom';
-    c.fillText(`${step} m`, x + length / 2, y - 3);
-  }
-
   private zoom(factor: number, px: number, py: number): void {
-    const {camera, surface} = this;
-    const [x, y] = camera.toWorld(px, py, surface.width, surface.height);
-    const scale = Math.max(4, Math.min(2000, camera.scale * factor));
-    camera.x = x + ((camera.x - x) * camera.scale) / scale;
-    camera.y = y + ((camera.y - y) * camera.scale) / scale;
-    camera.scale = scale;
+    this.camera.zoom(factor, px, py, this.surface.width, this.surface.height);
     this.movedByHand();
   }
 

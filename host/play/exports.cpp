@@ -1,0 +1,241 @@
+/// What the page calls: host/web/src/playground/core.ts. Everything that is not one number goes through a
+/// list of numbers in memory, which `list` gives room for and the calls that answer with a list's length
+/// write.
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "firmware/fuzzy/generate.hpp"
+#include "firmware/fuzzy/rules.hpp"
+#include "host/play/drive.hpp"
+#include "host/play/flat.hpp"
+#include "host/play/rule_faults.hpp"
+#include "host/scenario/nearest.hpp"
+#include "host/worlds/kept.hpp"
+
+#define WHISKER_EXPORT(NAME) extern "C" [[clang::export_name(#NAME)]]
+
+namespace whisker::play {
+namespace {
+
+constexpr int kSides = 2;
+constexpr int kPatchReach = 20;
+
+std::vector<double> exchanged;
+fuzzy::RuleBase rules = fuzzy::kRules;
+fuzzy::Bilinear::Table table = fuzzy::kResponseTable;
+std::unique_ptr<Drive> drives[kSides];
+
+double value(Q14 x) { return x.raw() / 16384.0; }
+double metres(Length x) { return x.raw() / 1e6; }
+double half_turns(Angle x) { return x.wrapped() / 2147483648.0; }
+
+int answer() { return static_cast<int>(exchanged.size()); }
+
+/// As long as the table's own span is sampled: quarters of a unit over the whole of D and of R.
+constexpr int kSamples = 4;
+constexpr int kRows = 10 * kSamples;
+constexpr int kColumns = 16 * kSamples;
+
+}  // namespace
+
+WHISKER_EXPORT(list) double* list(int count) {
+  exchanged.resize(static_cast<std::size_t>(count));
+  return exchanged.data();
+}
+
+/// A scenario of this kind as flat() has it; 0 if there is none.
+WHISKER_EXPORT(generate) int generate(int kind, double seed, int discs, int box, int noise) {
+  worlds::Options options;
+  options.seed = static_cast<std::uint64_t>(seed);
+  if (discs >= 0) options.discs = discs;
+  options.box = box != 0;
+  options.noise = noise != 0;
+  const std::optional<Scenario> scenario = worlds::first_kept(worlds::kKinds[kind], options);
+  if (!scenario) return 0;
+  exchanged = flat(*scenario);
+  return answer();
+}
+
+/// 0: the scenario in the list is a good one; 1: it is none; 2: the robot touches something at its start.
+WHISKER_EXPORT(judge) int judge() {
+  const std::optional<Scenario> scenario = scenario_of(exchanged);
+  if (!scenario) return 1;
+  return start_is_free(*scenario) ? 0 : 2;
+}
+
+/// The robot on this side starts anew in the scenario in the list; planner: 0 skirt, 1 thesis.
+WHISKER_EXPORT(begin) int begin(int side, int planner) {
+  const std::optional<Scenario> scenario = scenario_of(exchanged);
+  if (!scenario) return 0;
+  const PlannerKind kind = planner == 0 ? PlannerKind::skirt : PlannerKind::thesis;
+  drives[side] = std::make_unique<Drive>(*scenario, kind, table);
+  return 1;
+}
+
+WHISKER_EXPORT(change) int change(int side) {
+  const std::optional<Scenario> scenario = scenario_of(exchanged);
+  if (!scenario) return 0;
+  drives[side]->change(*scenario);
+  return 1;
+}
+
+WHISKER_EXPORT(advance) void advance(int side, int ticks) { drives[side]->advance(ticks); }
+
+/// The columns of the trace, in the order of core.ts.
+WHISKER_EXPORT(record) int record(int side) {
+  const Trip& trip = drives[side]->trip();
+  const TickRecord r = trip.record();
+  exchanged = {r.t_s,
+               r.x_m,
+               r.y_m,
+               r.heading_rad,
+               r.est_x_m,
+               r.est_y_m,
+               r.est_heading_rad,
+               r.v_left_mps,
+               r.v_right_mps,
+               static_cast<double>(r.mode),
+               static_cast<double>(r.why),
+               static_cast<double>(report::doing(r)),
+               static_cast<double>(r.danger_count),
+               r.d_q7 / 128.0,
+               r.r_q7 / 128.0,
+               r.sa_q14 / 16384.0,
+               r.sd_q14 / 16384.0,
+               static_cast<double>(r.cell.distance),
+               static_cast<double>(r.cell.bias),
+               static_cast<double>(trip.status().health.fault)};
+  for (const hal::RangeReading& reading : r.ranges.beam) {
+    exchanged.push_back(reading.mm / 1000.0);
+    exchanged.push_back(static_cast<double>(reading.status));
+  }
+  return answer();
+}
+
+/// Verdict or -1, time, way, distance from the goal, clearance, ticks, and the hash in four parts of 16 bits,
+/// the highest first.
+WHISKER_EXPORT(result) int result(int side) {
+  const Trip& trip = drives[side]->trip();
+  const RunResult r = trip.result();
+  exchanged = {trip.verdict() ? static_cast<double>(*trip.verdict()) : -1.0,
+               r.time_s,
+               r.path_m,
+               r.final_distance_m,
+               r.min_clearance_m,
+               static_cast<double>(r.ticks)};
+  for (int shift = 48; shift >= 0; shift -= 16)
+    exchanged.push_back(static_cast<double>(static_cast<std::uint16_t>(r.hash >> shift)));
+  return answer();
+}
+
+/// The way from this place of it on: x, y, what it did.
+WHISKER_EXPORT(way) int way(int side, int from) {
+  const std::vector<Drive::Passed>& all = drives[side]->way();
+  exchanged.clear();
+  for (std::size_t i = static_cast<std::size_t>(from); i < all.size(); ++i) {
+    exchanged.insert(exchanged.end(), {all[i].at.x, all[i].at.y, static_cast<double>(all[i].doing)});
+  }
+  return answer();
+}
+
+/// The clear cells' places, in cells of the world; nothing without a patch.
+WHISKER_EXPORT(clear_cells) int clear_cells(int side) {
+  const Drive& drive = *drives[side];
+  exchanged.clear();
+  const ground::Patch* patch = drive.trip().patch();
+  if (patch == nullptr) return 0;
+  const std::int32_t cell = patch_cell(drive.scenario().robot).raw();
+  const Vec at = drive.trip().status().pose.at;
+  const auto floor_of = [&](Length x) {
+    return x.raw() >= 0 ? x.raw() / cell : -((cell - 1 - x.raw()) / cell);
+  };
+  const std::int32_t middle_x = floor_of(at.x);
+  const std::int32_t middle_y = floor_of(at.y);
+  for (std::int32_t y = middle_y - kPatchReach; y <= middle_y + kPatchReach; ++y) {
+    for (std::int32_t x = middle_x - kPatchReach; x <= middle_x + kPatchReach; ++x) {
+      const Vec centre{micrometres(x * cell + cell / 2), micrometres(y * cell + cell / 2)};
+      if (patch->is_clear(centre)) exchanged.insert(exchanged.end(), {double(x), double(y)});
+    }
+  }
+  return answer();
+}
+
+/// radius, track, top speed, side angle and cone in half turns, least and greatest range, offset, cell, base
+/// turn in half turns, period: of the reference robot.
+WHISKER_EXPORT(robot) int robot() {
+  const Params p;
+  exchanged = {metres(p.body.radius),
+               metres(p.body.track),
+               p.wheels.max_speed.raw() / 1e6,
+               half_turns(p.rangefinders.side_angle),
+               half_turns(p.rangefinders.cone),
+               metres(p.rangefinders.min_range),
+               metres(p.rangefinders.max_range),
+               metres(p.rangefinders.offset),
+               metres(patch_cell(p)),
+               half_turns(p.thesis.base_turn),
+               p.safety.period.raw() / 1000.0};
+  return answer();
+}
+
+/// The 25 turns, then the 25 steps, raw.
+WHISKER_EXPORT(get_rules) int get_rules() {
+  exchanged.clear();
+  for (const auto* picture : {&rules.turn, &rules.step})
+    for (const auto& row : *picture)
+      for (const Q14 q : row) exchanged.push_back(q.raw());
+  return answer();
+}
+
+/// The same from the list; the table follows. Answers with the faults of rule_faults().
+WHISKER_EXPORT(set_rules) std::uint32_t set_rules() {
+  const double* next = exchanged.data();
+  for (auto* picture : {&rules.turn, &rules.step})
+    for (auto& row : *picture)
+      for (Q14& q : row) q = Q14::from_raw(static_cast<std::int16_t>(*next++));
+  fuzzy::generate<fuzzy::Bilinear>(rules, table);
+  return rule_faults(rules);
+}
+
+WHISKER_EXPORT(at_fault) int at_fault(int d, int r) { return rule_at_fault(rules, d, r) ? 1 : 0; }
+
+/// Distance nodes, bias nodes, their spacings, and both answers of each node, raw.
+WHISKER_EXPORT(get_table) int get_table() {
+  using fuzzy::Bilinear;
+  exchanged = {Bilinear::kDistanceNodes, Bilinear::kBiasNodes, Bilinear::kDistanceSpacing,
+               Bilinear::kBiasSpacing};
+  for (const auto& row : table.node)
+    for (const Bilinear::Node& node : row)
+      exchanged.insert(exchanged.end(), {double(node.turn), double(node.step)});
+  return answer();
+}
+
+/// Turn and step in thousandths over all of D, and within over all of R, at quarters of a unit.
+WHISKER_EXPORT(sample_table) int sample_table() {
+  exchanged.clear();
+  const fuzzy::Bilinear engine(table);
+  for (int i = 0; i <= kRows; ++i) {
+    for (int j = 0; j <= kColumns; ++j) {
+      const auto d = static_cast<std::int16_t>(i * 128 / kSamples);
+      const auto r = static_cast<std::int16_t>(j * 128 / kSamples - 8 * 128);
+      const fuzzy::Response at = engine({Q7::from_raw(d), Q7::from_raw(r)});
+      exchanged.insert(exchanged.end(), {value(at.turn) * 1000, value(at.step) * 1000});
+    }
+  }
+  return answer();
+}
+
+/// Word number i of a list: 0 states, 1 reasons, 2 faults, 3 kinds of worlds. Null beyond its end.
+WHISKER_EXPORT(word) const char* word(int which, int i) {
+  switch (which) {
+    case 0: return i < nav::kModes ? nav::name(static_cast<nav::Mode>(i)) : nullptr;
+    case 1: return i < nav::kWhys ? nav::name(static_cast<nav::Why>(i)) : nullptr;
+    case 2: return i <= static_cast<int>(Fault::no_progress) ? name(static_cast<Fault>(i)) : nullptr;
+    case 3: return i < static_cast<int>(std::size(worlds::kKinds)) ? name(worlds::kKinds[i]) : nullptr;
+    default: return nullptr;
+  }
+}
+
+}  // namespace whisker::play

@@ -1,0 +1,24 @@
+/// A scenario as a list of numbers: how the playground's page hands it over.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/scenario/scenario.hpp"
+
+namespace whisker::play {
+
+/// In this order, SI units; a list of points is its length and their coordinates, a list of things its length
+/// and those:
+///   seed, time limit; start x, y; goal x, y, tolerance;
+///   1 and min x, min y, max x, max y of the bounds, or 0;
+///   discs: x, y, radius; polygons: points; walls: points; movers: centre x, y, radius, speed, points;
+///   the five of Noise, in its order.
+/// The robot is the reference robot; it starts towards the goal. The seed is below 2^53.
+std::vector<double> flat(const Scenario& scenario);
+
+/// Nothing if the list ends too early or too late, or a number is none or beyond what a scenario file may
+/// say.
+std::optional<Scenario> scenario_of(const std::vector<double>& list);
+
+}  // namespace whisker::play

@@ -1,0 +1,34 @@
+#include "host/run/core_pilot.hpp"
+
+#include <utility>
+
+#include "firmware/nav/skirt.hpp"
+#include "firmware/nav/thesis.hpp"
+#include "host/run/spec.hpp"
+
+namespace whisker {
+
+CorePilot::CorePilot(const Scenario& scenario, std::shared_ptr<nav::Planner> planner, sim::Plant& plant)
+    : board_(plant),
+      planner_(std::move(planner)),
+      shown_(*planner_),
+      robot_(board_, board_, shown_, scenario.robot) {
+  robot_.place(fixed_pose(scenario.start));
+  robot_.set_goal(fixed_goal(scenario.goal));
+}
+
+nav::Goal fixed_goal(const Goal& goal) {
+  return {fixed_pose({goal.at, 0}).at, fixed_pose({{goal.tolerance_m, 0}, 0}).at.x};
+}
+
+std::shared_ptr<nav::Planner> make_core_planner(PlannerKind kind, const Params& params,
+                                                const fuzzy::Engine::Table& table) {
+  if (kind == PlannerKind::skirt) {
+    const auto skirt = std::make_shared<nav::TableSkirt>(params, table);
+    return {skirt, &skirt->planner};
+  }
+  if (kind == PlannerKind::thesis) return std::make_shared<nav::ThesisPlanner>(params, table);
+  return nullptr;
+}
+
+}  // namespace whisker

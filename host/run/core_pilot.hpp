@@ -1,0 +1,47 @@
+#pragma once
+
+#include "hal/sim/sim_board.hpp"
+#include "host/run/pilot.hpp"
+
+namespace whisker {
+
+/// The core in this process, with any planner.
+class CorePilot final : public Pilot {
+ public:
+  /// Scenario and plant must outlive it; the planner was made with the scenario's robot.
+  CorePilot(const Scenario& scenario, std::shared_ptr<nav::Planner> planner, sim::Plant& plant);
+  const Status& tick(Time now) override { return robot_.tick(now); }
+  const ground::Patch* patch() const override { return shown_.patch(); }
+  /// Another one, while it drives or after it has ended.
+  void set_goal(const nav::Goal& goal) { robot_.set_goal(goal); }
+
+ private:
+  /// Passes everything on, and remembers which ground it was shown.
+  class Shown final : public nav::Planner {
+   public:
+    explicit Shown(nav::Planner& planner) : planner_(planner) {}
+    void set_goal(const nav::Goal& goal) noexcept override { planner_.set_goal(goal); }
+    void cancel() noexcept override { planner_.cancel(); }
+    nav::Decision step(const nav::View& view) noexcept override {
+      patch_ = view.patch;
+      return planner_.step(view);
+    }
+    const ground::Patch* patch() const { return patch_; }
+
+   private:
+    nav::Planner& planner_;
+    const ground::Patch* patch_ = nullptr;
+  };
+
+  hal::SimBoard board_;
+  std::shared_ptr<nav::Planner> planner_;
+  Shown shown_;
+  Robot robot_;
+};
+
+/// The core's own planners, skirt and thesis, with this response table; null for the others. Parameters and
+/// table must outlive the planner.
+std::shared_ptr<nav::Planner> make_core_planner(PlannerKind kind, const Params& params,
+                                                const fuzzy::Engine::Table& table);
+
+}  // namespace whisker

@@ -1,0 +1,119 @@
+#include "host/run/trip.hpp"
+
+#include <cmath>
+
+#include "host/run/spec.hpp"
+
+namespace whisker {
+namespace {
+
+std::optional<Verdict> verdict_of(const Status& status, const Pilot& pilot) {
+  if (status.health.fault != Fault::none || pilot.trouble() != nullptr) {
+    const bool stands = status.command.left == 0 && status.command.right == 0;
+    return stands ? std::optional(Verdict::fault) : std::nullopt;
+  }
+  switch (status.decision.outcome) {
+    case nav::Outcome::reached: return Verdict::reached;
+    case nav::Outcome::unreachable: return Verdict::unreachable;
+    case nav::Outcome::gave_up: return Verdict::gave_up;
+    case nav::Outcome::none:
+    case nav::Outcome::running: break;
+  }
+  return std::nullopt;
+}
+
+const char* detail_of(Verdict verdict, const Status& status, const Pilot& pilot) {
+  if (verdict == Verdict::fault && status.health.fault == Fault::none) return pilot.trouble();
+  return verdict == Verdict::fault ? name(status.health.fault) : nav::name(status.decision.why);
+}
+
+TickRecord record_of(const sim::Plant& plant, const Status& status, const hal::RangeReadings& ranges,
+                     double t_s) {
+  TickRecord r;
+  r.t_s = t_s;
+  r.x_m = plant.pose().at.x;
+  r.y_m = plant.pose().at.y;
+  r.heading_rad = plant.pose().heading;
+  r.ranges = ranges;
+  r.v_left_mps = plant.v_left();
+  r.v_right_mps = plant.v_right();
+  r.mode = status.decision.mode;
+  r.why = status.decision.why;
+  r.danger_count = status.decision.danger_count;
+  r.looked = status.decision.looked;
+  r.d_q7 = status.decision.inputs.distance.raw();
+  r.r_q7 = status.decision.inputs.bias.raw();
+  r.sa_q14 = status.decision.response.turn.raw();
+  r.sd_q14 = status.decision.response.step.raw();
+  r.cell = status.decision.response.cell;
+  r.command = status.command;
+  r.est_x_m = status.pose.at.x.raw() * 1e-6;
+  r.est_y_m = status.pose.at.y.raw() * 1e-6;
+  r.est_heading_rad = radians(status.pose.heading);
+  return r;
+}
+
+}  // namespace
+
+Trip::Trip(const Scenario& scenario, sim::Plant& plant, Pilot& pilot)
+    : scenario_(&scenario),
+      plant_(&plant),
+      pilot_(&pilot),
+      period_ms_(static_cast<std::uint64_t>(scenario.robot.safety.period.raw())) {}
+
+void Trip::decide() {
+  const std::uint64_t now_ms = ticks_ * period_ms_;
+  t_s_ = static_cast<double>(now_ms) / 1000.0;
+  ranges_ = plant_->ranges();
+  status_ = &pilot_->tick(Time::from_raw(static_cast<std::uint32_t>(now_ms)));
+  hash_.add(status_->command);
+  ++ticks_;
+  verdict_ = verdict_of(*status_, *pilot_);
+  if (verdict_) {
+    detail_ = detail_of(*verdict_, *status_, *pilot_);
+  } else if (static_cast<double>(now_ms + period_ms_) / 1000.0 > scenario_->time_limit_s) {
+    verdict_ = Verdict::gave_up;
+    detail_ = "time_limit";
+  }
+}
+
+void Trip::move() {
+  plant_->advance();
+  if (!plant_->in_contact()) return;
+  verdict_ = Verdict::contact;
+  detail_ = nav::name(status_->decision.mode);
+  ranges_ = plant_->ranges();
+  t_s_ = static_cast<double>(ticks_ * period_ms_) / 1000.0;
+}
+
+void Trip::resume() {
+  if (verdict_ == Verdict::contact || verdict_ == Verdict::fault) return;
+  verdict_.reset();
+  detail_ = "";
+}
+
+double Trip::distance_left() const {
+  const sim::Vec2 d = scenario_->goal.at - plant_->pose().at;
+  return std::sqrt(sim::dot(d, d));
+}
+
+TickRecord Trip::record() const {
+  TickRecord r = record_of(*plant_, *status_, ranges_, t_s_);
+  r.inside = pilot_->sees_inside();
+  return r;
+}
+
+RunResult Trip::result() const {
+  RunResult result;
+  result.verdict = verdict_.value_or(result.verdict);
+  result.detail = detail_;
+  result.time_s = verdict_ == Verdict::contact ? plant_->contact_time() : t_s_;
+  result.path_m = plant_->path_length();
+  result.final_distance_m = distance_left();
+  result.min_clearance_m = std::fmin(plant_->min_clearance(), kEmptyWorldClearance);
+  result.ticks = ticks_;
+  result.hash = hash_.value();
+  return result;
+}
+
+}  // namespace whisker

@@ -1,0 +1,53 @@
+/// One run, a tick at a time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hal/link/command_hash.hpp"
+#include "host/run/pilot.hpp"
+#include "host/run/record.hpp"
+#include "host/scenario/scenario.hpp"
+#include "host/sim/plant.hpp"
+
+namespace whisker {
+
+/// decide(), move(), decide(), move(), ... until one of them ends it. All references must outlive it; the
+/// plant stands at the scenario's start, and the pilot drives it.
+class Trip {
+ public:
+  Trip(const Scenario& scenario, sim::Plant& plant, Pilot& pilot);
+
+  /// The pilot's tick. Ends with a verdict of the pilot's, or when no time is left for another tick.
+  void decide();
+  /// The plant's period after it. Ends with a contact.
+  void move();
+  /// After a verdict of the pilot's: it has got another task. A contact and a fault are for good.
+  void resume();
+
+  const std::optional<Verdict>& verdict() const { return verdict_; }
+  std::uint64_t ticks() const { return ticks_; }  ///< decided so far
+  double time() const { return t_s_; }            ///< of the last of them, or of the contact's record
+  const Status& status() const { return *status_; }
+  const ground::Patch* patch() const { return pilot_->patch(); }
+  double distance_left() const;  ///< true, to the goal's middle
+  /// Of the last tick, or of the contact.
+  TickRecord record() const;
+  /// So far; the verdict and its detail count only once there is one.
+  RunResult result() const;
+
+ private:
+  const Scenario* scenario_;
+  sim::Plant* plant_;
+  Pilot* pilot_;
+  std::uint64_t period_ms_;
+  std::uint64_t ticks_ = 0;
+  double t_s_ = 0;
+  const Status* status_ = nullptr;
+  hal::RangeReadings ranges_{};
+  link::CommandHash hash_;
+  std::optional<Verdict> verdict_;
+  const char* detail_ = "";
+};
+
+}  // namespace whisker

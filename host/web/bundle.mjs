@@ -1,0 +1,49 @@
+// What both pages are bundled with: build.mjs and playground.mjs.
+import {readFile} from 'node:fs/promises';
+import {build} from 'esbuild';
+
+const here = (path) => new URL(path, import.meta.url);
+// Dark colours are written once; the system's choice and the reader's button both use them.
+const DARK = /:root\[data-theme='dark'\] \{([^}]*)\}/;
+
+async function bundled(options) {
+  const result = await build({
+    bundle: true,
+    minify: true,
+    write: false,
+    charset: 'ascii',
+    legalComments: 'none',
+    target: ['chrome103', 'firefox113', 'safari16.4'],
+    ...options,
+  });
+  return result.outputFiles[0].text.trim();
+}
+
+async function style(sheets) {
+  const texts = await Promise.all(sheets.map((sheet) => readFile(here(`src/${sheet}`), 'utf8')));
+  const own = texts.join('\n');
+  const dark = own.match(DARK)[1];
+  const plots = await readFile(here('node_modules/uplot/dist/uPlot.min.css'), 'utf8');
+  const contents = `${plots}${own}
+    @media (prefers-color-scheme: dark) {:root:not([data-theme='light']) {${dark}}}`;
+  return bundled({stdin: {contents, loader: 'css'}});
+}
+
+/** The page of src/HTML with everything in its place: its style sheets, its script and what else it asks for. */
+export async function bundledPage({html, sheets, entry, more = {}}) {
+  const [text, css, script] = await Promise.all([
+    readFile(here(`src/${html}`), 'utf8'),
+    style(sheets),
+    bundled({entryPoints: [here(`src/${entry}`).pathname], format: 'iife'}),
+  ]);
+  if (/<\/(script|style)/i.test(css + script)) throw new Error('the bundle would end its own element');
+  const parts = {style: css, script, ...more};
+  // Functions: a replacement string would give $ a meaning.
+  const page = Object.entries(parts).reduce(
+    (whole, [name, part]) => whole.replace(`<!--${name}-->`, () => part),
+    text.replace(/\n\s*/g, '\n'),
+  );
+  const notAscii = page.match(/[^\x00-\x7f]/);
+  if (notAscii) throw new Error(`not ASCII: ${notAscii[0]}`);
+  return page;
+}

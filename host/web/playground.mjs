@@ -1,0 +1,25 @@
+// Builds the playground's page, one file. usage: node playground.mjs MODULE.wasm PAGE.html
+import {deflateSync} from 'node:zlib';
+import {readFile, writeFile} from 'node:fs/promises';
+import {bundledPage} from './bundle.mjs';
+
+const MOST_BYTES = 200_000;
+const [module, file] = process.argv.slice(2);
+if (!file) {
+  console.error('usage: node playground.mjs MODULE.wasm PAGE.html');
+  process.exit(2);
+}
+const wasm = await readFile(module);
+const imports = WebAssembly.Module.imports(await WebAssembly.compile(wasm));
+if (imports.length > 0) throw new Error(`the module imports ${imports.map(({name}) => name).join(', ')}`);
+const page = await bundledPage({
+  html: 'playground.html',
+  sheets: ['style.css', 'playground.css'],
+  entry: 'playground/main.ts',
+  more: {module: deflateSync(wasm, {level: 9}).toString('base64')},
+});
+if (page.length > MOST_BYTES) throw new Error(`${page.length} bytes; at most ${MOST_BYTES}`);
+await writeFile(file, page);
+console.log(
+  `${file}: ${page.length} bytes, of them ${wasm.length} bytes of WebAssembly before they are packed`,
+);

@@ -1,0 +1,78 @@
+/** What each robot does now, in words, and what came of its drive. */
+import {element, make, setText} from '../dom.ts';
+import type {Theme} from '../theme.ts';
+import {stateColour} from '../timeline.ts';
+import {FAULTS, metres, sentence, verdict} from '../words.ts';
+import type {LiveRun} from './live.ts';
+
+export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
+  const part = (name: string) => card.querySelector<HTMLElement>(`[data-part=${name}]`)!;
+  const say = (name: string, text: string) => {
+    if (part(name).textContent !== text) part(name).textContent = text;
+  };
+  const {outcome, time, way} = run.result;
+  say('planner', `${run.planner} planner`);
+  say('state', run.mode().replaceAll('_', ' '));
+  const colour = stateColour(run, 0);
+  part('state').style.setProperty('--chip', theme.palette[colour]);
+  part('state').classList.toggle('pale', colour === 'still');
+  const fault = run.fault();
+  say(
+    'sentence',
+    sentence(run.mode(), run.why()) + (fault === 'none' ? '' : ` The fault: ${FAULTS[fault]}.`),
+  );
+  say('verdict', outcome ? verdict(outcome, time) : '');
+  part('verdict').dataset.outcome = outcome ?? '';
+  say('clock', `${time.toFixed(1)} s, ${metres(way, 1)}`);
+}
+
+const PROGRESS = {
+  skirt:
+    'Where the way is blocked it follows the edge, and leaves it only where it is nearer to the goal than ever before. ' +
+    'So each edge brings it nearer, and no dead end can hold it; all the way round without such a place means that there is no way.',
+  thesis:
+    'It may: it leaves an edge as soon as the goal comes into sight, nearer or not, and can walk into the same trap for ever. ' +
+    'The skirt planner is what mends that.',
+};
+
+/** Of the robot that the panels look at. */
+export function showProgress(run: LiveRun, several: boolean): void {
+  setText('progress', PROGRESS[run.planner]);
+  setText('to-goal', metres(run.distance));
+  setText('nearest', metres(run.nearest));
+  for (const whose of document.querySelectorAll('.whose')) {
+    whose.textContent = several ? `(${run.planner} planner)` : '';
+  }
+}
+
+export interface HashNote {
+  /** Of the native run, if it is on record. */
+  native: string | null;
+  /** What else is to be said. */
+  words: string;
+}
+
+export function showLedger(runs: LiveRun[], notes: HashNote[]): void {
+  const rows = runs.map((run, i) => {
+    const {hash, ticks, outcome} = run.result;
+    const {native, words} = notes[i];
+    const known = native !== null && outcome !== null;
+    const equal = native === hash;
+    const mark = make(
+      'span',
+      equal ? 'equal' : 'bad',
+      equal ? 'equals the native run' : 'differs from the native run',
+    );
+    const row = make('div', '', [
+      make('dt', '', run.planner),
+      make('dd', '', [
+        make('code', '', hash),
+        make('span', 'muted', ` ${ticks} ticks `),
+        known ? mark : make('span', 'muted', words),
+      ]),
+    ]);
+    row.dataset.planner = run.planner;
+    return row;
+  });
+  element('hashes').replaceChildren(...rows);
+}

@@ -1,0 +1,75 @@
+/** The response table as the replay page's panels want it, from the rules that the core has now. */
+import type {Controller, Variable} from '../data.ts';
+import type {Core} from './core.ts';
+
+const ONE = 16384;
+const Q7 = 128;
+
+export const TERMS = {
+  d: ['VS', 'S', 'M', 'B', 'VB'],
+  r: ['RVB', 'RB', 'CE', 'LB', 'LVB'],
+  turn: ['TRVB', 'TRB', 'Z', 'TLB', 'TLVB'],
+  step: ['VS', 'S', 'M', 'B', 'VB'],
+} as const;
+/** Where the terms of D and R are fully true, raw: firmware/fuzzy/variables.hpp. */
+const CENTRES = {d: [128, 384, 640, 896, 1152], r: [-896, -512, 0, 512, 896]};
+
+/** The five answers of each output, raw and rising; the default rules use all of them. */
+export interface Answers {
+  turn: number[];
+  step: number[];
+}
+
+export function answersOf(rules: number[]): Answers {
+  const distinct = (list: number[]) => [...new Set(list)].sort((a, b) => a - b);
+  return {turn: distinct(rules.slice(0, 25)), step: distinct(rules.slice(25))};
+}
+
+function variable(symbol: string, meaning: string, min: number, max: number, terms: Variable['terms']) {
+  return {symbol, meaning, min, max, terms};
+}
+
+function named(names: readonly string[], values: number[], one: number): Variable['terms'] {
+  return names.map((name, i) => [name, values[i] / one]);
+}
+
+/** Fills what depends on the rules; the object and its arrays stay the same. */
+export function refreshController(controller: Controller, core: Core, answers: Answers): void {
+  const rules = core.rules();
+  const picture = (from: number, values: number[], names: readonly string[]) =>
+    TERMS.d.map((_, d) =>
+      TERMS.r.map((__, r): [string, number] => {
+        const raw = rules[from + 5 * d + r];
+        return [names[values.indexOf(raw)] ?? '', raw / ONE];
+      }),
+    );
+  controller.turn.splice(0, 5, ...picture(0, answers.turn, TERMS.turn));
+  controller.step.splice(0, 5, ...picture(25, answers.step, TERMS.step));
+  const samples = core.samples();
+  for (let i = 0; 2 * i < samples.length; ++i) {
+    controller.sa_thousandths[i] = samples[2 * i];
+    controller.sd_thousandths[i] = samples[2 * i + 1];
+  }
+}
+
+export function controllerOf(core: Core, answers: Answers): Controller {
+  const {rows, columns, spacing} = core.table();
+  const nodes = (count: number, low: number, step: number) =>
+    Array.from({length: count}, (_, i) => (low + step * i) / Q7);
+  const controller: Controller = {
+    d: variable('D', 'distance to the obstacles ahead', 0, 10, named(TERMS.d, CENTRES.d, Q7)),
+    r: variable('R', 'right distance minus left distance', -8, 8, named(TERMS.r, CENTRES.r, Q7)),
+    sa: variable('SA', 'turn factor', -1.5, 1.5, named(TERMS.turn, answers.turn, ONE)),
+    sd: variable('SD', 'step factor', 0, 2, named(TERMS.step, answers.step, ONE)),
+    turn: [],
+    step: [],
+    samples_per_unit: 4,
+    sa_thousandths: [],
+    sd_thousandths: [],
+    d_nodes: nodes(rows, CENTRES.d[0], spacing[0]),
+    r_nodes: nodes(columns, CENTRES.r[0], spacing[1]),
+    source: `Bilinear table of ${rows} × ${columns} nodes, made from the 25 rules on this page`,
+  };
+  refreshController(controller, core, answers);
+  return controller;
+}

@@ -1,0 +1,107 @@
+/** Which world, who drives, how fast; and the keys. */
+import {element, setText} from '../dom.ts';
+import type {Playground} from './playground.ts';
+import type {Who} from './share.ts';
+import type {Stage} from './stage.ts';
+
+const SPEEDS = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64];
+const WORLD_WORDS: Record<string, string> = {
+  discs: '30 discs',
+  poles: 'discs and poles',
+  'u-trap': 'U-trap',
+  spiral: 'spirals and traps',
+  maze: 'maze',
+  rooms: 'rooms',
+  enclosed: 'no way to the goal',
+};
+
+export class Controls {
+  private readonly kind = element<HTMLSelectElement>('kind');
+  private readonly seed = element<HTMLInputElement>('seed');
+  private readonly speed = element<HTMLSelectElement>('speed');
+
+  constructor(
+    private readonly play: Playground,
+    private readonly stage: Stage,
+    kinds: string[],
+  ) {
+    this.kind.replaceChildren(...kinds.map((kind) => new Option(WORLD_WORDS[kind] ?? kind, kind)));
+    this.kind.addEventListener('change', () => this.world(this.kind.value, play.state.seed));
+    this.seed.addEventListener('change', () => this.world(play.state.kind, Number(this.seed.value)));
+    element('next-seed').addEventListener('click', () => this.world(play.state.kind, play.state.seed + 1));
+    element('original').addEventListener('click', () => this.world(play.state.kind, play.state.seed));
+    for (const who of ['skirt', 'thesis', 'both'] as const) {
+      element(`who-${who}`).addEventListener('click', () => this.who(who));
+    }
+    this.speed.replaceChildren(...SPEEDS.map((s) => new Option(`${s}×`, String(s))));
+    this.speed.value = String(play.speed);
+    this.speed.addEventListener('change', () => (play.speed = Number(this.speed.value)));
+    element('play').addEventListener('click', () => this.toggle());
+    element('again').addEventListener('click', () => play.begin());
+    element('finish').addEventListener('click', () => play.hurry());
+    document.addEventListener('keydown', (event) => this.key(event));
+    const keys = element<HTMLDialogElement>('keys');
+    for (const id of ['help', 'help-keys']) {
+      element(id).addEventListener('click', () => (keys.open ? keys.close() : keys.showModal()));
+    }
+  }
+
+  update(): void {
+    const {play} = this;
+    const {kind, seed, who, own} = play.state;
+    this.kind.value = kind;
+    if (document.activeElement !== this.seed) this.seed.value = String(seed);
+    for (const name of ['skirt', 'thesis', 'both'] as const) {
+      element(`who-${name}`).setAttribute('aria-pressed', String(name === who));
+    }
+    element('original').hidden = own === null;
+    element('play').setAttribute('aria-label', play.playing ? 'Pause' : 'Play');
+    element('play').classList.toggle('playing', play.playing);
+    setText('clock', `${play.time.toFixed(1)} s`);
+    // Not on every frame: a screen reader would never come to an end.
+    const over = play.runs.filter((run) => run.over);
+    setText('spoken', over.map((run) => `${run.planner}: ${run.result.outcome}`).join('. '));
+  }
+
+  private world(kind: string, seed: number): void {
+    const {play, stage} = this;
+    const good = Number.isSafeInteger(seed) && seed >= 0;
+    const done = good && play.restore({...play.state, kind, seed, own: null});
+    setText('told', done ? '' : 'There is no such world: take another seed, a whole number from 0 on.');
+    if (done) {
+      play.playing = true;
+      stage.fit();
+    }
+    this.seed.value = String(play.state.seed);
+  }
+
+  private who(who: Who): void {
+    this.play.setWho(who);
+    this.stage.fit();
+  }
+
+  private toggle(): void {
+    const {play} = this;
+    if (play.over) play.begin();
+    play.setPlaying(!play.playing);
+  }
+
+  private key(event: KeyboardEvent): void {
+    const target = event.target as HTMLElement;
+    if (event.ctrlKey || event.altKey || event.metaKey || element<HTMLDialogElement>('keys').open) return;
+    if (['INPUT', 'SELECT', 'TEXTAREA'].includes(target.tagName)) return;
+    // A button's own keys press it.
+    if (target.tagName === 'BUTTON' && [' ', 'Enter'].includes(event.key)) return;
+    const actions: Record<string, () => void> = {
+      ' ': () => this.toggle(),
+      r: () => this.play.begin(),
+      '0': () => this.stage.fit(),
+      d: () => element('theme').click(),
+      n: () => this.world(this.play.state.kind, this.play.state.seed + 1),
+    };
+    const action = actions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+}

@@ -1,0 +1,35 @@
+/** What can be taken away: the address, the scenario, the table. */
+import {element} from '../dom.ts';
+import type {Core} from './core.ts';
+import {tableHeader} from './header.ts';
+import type {Playground} from './playground.ts';
+import {scenarioToml} from './toml.ts';
+
+function save(name: string, text: string): void {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([text], {type: 'text/plain'}));
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+export function offerFiles(play: Playground, core: Core): void {
+  element('save-scenario').addEventListener('click', () => {
+    const {kind, seed, own} = play.state;
+    save(`${kind}-${seed}${own ? '-changed' : ''}.toml`, scenarioToml(play.name, play.situation));
+  });
+  element('save-table').addEventListener('click', () => {
+    const {rules} = play.state;
+    const note = rules ? `Of rules edited in the playground: ${rules}` : null;
+    save('response_table.hpp', tableHeader(core.table(), note));
+  });
+  element('copy').addEventListener('click', async () => {
+    const said = element('copied');
+    try {
+      await navigator.clipboard.writeText(location.href);
+      said.textContent = 'copied';
+    } catch {
+      said.textContent = 'the address bar has it';
+    }
+  });
+}

@@ -1,0 +1,112 @@
+/** A robot under way: what the replay page's parts want to know of a run, of which only now is known. */
+import {rangeOf, type Controller, type Seen} from '../data.ts';
+import type {Core, Planner, Result} from './core.ts';
+import type {Situation} from './situation.ts';
+
+/** A stretch of the way in one class. */
+export interface Stretch {
+  doing: number;
+  path: Path2D;
+}
+
+export class LiveRun implements Seen {
+  /** Of the only tick there is. */
+  readonly tick = 0;
+  info: Seen['info'];
+  result: Result;
+  stretches: Stretch[] = [];
+  private readonly columns = new Map<string, Float64Array>();
+  private cells: Float64Array = new Float64Array();
+  private passed = 0;
+  private last: [x: number, y: number] = [0, 0];
+  /** The least true distance to the goal on the way so far, m. */
+  nearest = Infinity;
+
+  constructor(
+    private readonly core: Core,
+    private readonly side: number,
+    readonly planner: Planner,
+    situation: Situation,
+    readonly shared: {readonly controller: Controller},
+  ) {
+    core.begin(side, planner, situation);
+    this.info = {world: situation.world, robot: core.robot};
+    this.result = core.result(side);
+    this.refresh();
+  }
+
+  get over(): boolean {
+    return this.result.outcome !== null;
+  }
+
+  advance(ticks: number): void {
+    if (!this.over) this.core.advance(this.side, ticks);
+  }
+
+  change(situation: Situation): void {
+    const [x, y] = situation.world.goal;
+    if (x !== this.info.world.goal[0] || y !== this.info.world.goal[1]) this.nearest = Infinity;
+    this.core.change(this.side, situation);
+    this.info = {world: situation.world, robot: this.core.robot};
+    this.refresh();
+  }
+
+  /** Asks the core what there is to see. */
+  refresh(): void {
+    this.core.record(this.side, this.columns);
+    this.result = this.core.result(this.side);
+    this.cells = this.core.clearCells(this.side);
+    const way = this.core.way(this.side, this.passed);
+    for (let i = 0; i < way.length; i += 3) this.pass(way[i], way[i + 1], way[i + 2]);
+    this.passed += way.length / 3;
+    this.nearest = Math.min(this.nearest, this.distance);
+  }
+
+  /** True, m. */
+  get distance(): number {
+    return this.away(this.column('x_m')[0], this.column('y_m')[0]);
+  }
+
+  get t(): Float64Array {
+    return this.column('t_s');
+  }
+  column(name: string): Float64Array {
+    return this.columns.get(name)!;
+  }
+  mode(): string {
+    return this.core.words.modes[this.column('state')[0]];
+  }
+  why(): string {
+    return this.core.words.whys[this.column('why')[0]];
+  }
+  fault(): string {
+    return this.core.words.faults[this.column('fault')[0]];
+  }
+  range(beam: number, tick: number): number | null {
+    return rangeOf(this, beam, tick);
+  }
+
+  readonly film = {
+    seek: () => 0,
+    forEachClear: (_x: number, _y: number, clear: (x: number, y: number) => void) => {
+      for (let i = 0; i < this.cells.length; i += 2) clear(this.cells[i], this.cells[i + 1]);
+    },
+  };
+
+  private away(x: number, y: number): number {
+    const {goal} = this.info.world;
+    return Math.hypot(goal[0] - x, goal[1] - y);
+  }
+
+  private pass(x: number, y: number, doing: number): void {
+    this.nearest = Math.min(this.nearest, this.away(x, y));
+    let stretch = this.stretches.at(-1);
+    if (!stretch || stretch.doing !== doing) {
+      stretch = {doing, path: new Path2D()};
+      stretch.path.moveTo(...(this.stretches.length > 0 ? this.last : ([x, y] as [number, number])));
+      this.stretches.push(stretch);
+    }
+    stretch.path.lineTo(x, y);
+    this.last = [x, y];
+  }
+}

@@ -1,0 +1,124 @@
+import {CloseUp} from '../closeup.ts';
+import {bytesOfBase64, inflated} from '../columns.ts';
+import {element, setText} from '../dom.ts';
+import {ResponsePanel} from '../response.ts';
+import {firedRules} from '../rules.ts';
+import {usesTable} from '../table_use.ts';
+import {Theme} from '../theme.ts';
+import {showCard, showLedger, showProgress} from './cards.ts';
+import {Controls} from './controls.ts';
+import {answersOf, controllerOf, refreshController} from './controller.ts';
+import {Core} from './core.ts';
+import {offerFiles} from './files.ts';
+import {notesOf} from './native.ts';
+import {NO_NOISE, NoisePanel} from './noise_panel.ts';
+import {Playground} from './playground.ts';
+import {RulesPanel} from './rules_panel.ts';
+import {hashOf, stateOf, type State} from './share.ts';
+import {Stage} from './stage.ts';
+
+const FIRST: State = {kind: 'u-trap', seed: 7, who: 'both', own: null, noise: NO_NOISE, rules: null};
+
+/** Milliseconds. */
+const PANELS_EVERY = 80;
+
+async function module(): Promise<Uint8Array> {
+  return inflated(bytesOfBase64(element('module').textContent ?? ''));
+}
+
+async function open(): Promise<void> {
+  const theme = new Theme();
+  const core = await Core.load(await module());
+  const state = await stateOf(location.hash, core.words.kinds, FIRST);
+  const answers = answersOf(core.rules());
+  const controller = controllerOf(core, answers);
+  let play: Playground;
+  try {
+    play = new Playground(core, controller, state);
+  } catch {
+    play = new Playground(core, controller, FIRST);
+  }
+  document.body.dataset.view = 'playground';
+  element('playground').hidden = false;
+
+  const stage = new Stage(play, theme);
+  const focus = () => play.runs[stage.focus] ?? play.runs[0];
+  const closeUp = new CloseUp(focus(), {tick: 0}, theme, stage.scenery());
+  const response = new ResponsePanel(focus(), {tick: 0}, theme);
+  const noise = new NoisePanel((values) => play.setNoise(values));
+  const rules = new RulesPanel(core, theme, () => {
+    refreshController(controller, core, answers);
+    response.restyle();
+    play.setRules(rules.code);
+  });
+  const controls = new Controls(play, stage, core.words.kinds);
+  offerFiles(play, core);
+
+  let written = '';
+  const remember = async () => {
+    const hash = await hashOf(play.state);
+    if (hash === written) return;
+    written = hash;
+    history.replaceState(null, '', hash);
+  };
+  let panels = 0;
+  const draw = (now: number) => {
+    stage.draw();
+    play.runs.forEach((run, i) => showCard(stage.cards[i], run, theme));
+    controls.update();
+    // The panels are for reading: while it drives, no eye misses the pictures between.
+    if (play.playing && now - panels < PANELS_EVERY) return;
+    panels = now;
+    closeUp.run = response.run = focus();
+    closeUp.scenery = stage.scenery();
+    closeUp.draw();
+    response.update();
+    const at = (name: string) => focus().column(name)[0];
+    rules.light(usesTable(focus(), 0) ? firedRules(controller, at('d'), at('r')) : []);
+    showProgress(focus(), play.runs.length > 1);
+    showLedger(play.runs, notesOf(play));
+  };
+  let last = 0;
+  let pending = false;
+  const request = () => {
+    if (pending) return;
+    pending = true;
+    requestAnimationFrame((now) => {
+      pending = false;
+      // A hidden page gets no frames; it goes on where it was.
+      if (play.playing) play.pass(Math.min(0.1, Math.max(0, (now - last) / 1000)));
+      last = now;
+      draw(now);
+      if (play.playing) request();
+    });
+  };
+  play.onChange(() => {
+    request();
+    void remember();
+  });
+  stage.onChange(request);
+  theme.onChange(() => {
+    response.restyle();
+    request();
+  });
+  addEventListener('hashchange', async () => {
+    const next = await stateOf(location.hash, core.words.kinds, FIRST);
+    if (!play.restore(next)) return;
+    rules.setCode(next.rules);
+    noise.show(next.noise);
+  });
+  noise.show(play.state.noise);
+  if (play.state.rules) rules.setCode(play.state.rules);
+  play.begin();
+  // For those who test or measure the page, and for the curious.
+  Object.assign(window, {whisker: {play, core, stage}});
+  play.playing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
+  last = performance.now();
+  request();
+}
+
+open().catch((error: unknown) => {
+  document.body.dataset.view = 'error';
+  element('error').hidden = false;
+  setText('error-text', error instanceof Error ? error.message : String(error));
+});

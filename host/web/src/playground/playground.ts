@@ -1,0 +1,216 @@
+/** The world, its robots and what the visitor does to them. */
+import {Camera} from '../camera.ts';
+import type {World} from '../data.ts';
+import {sceneBoxOf} from '../scene_box.ts';
+import type {Core, Planner} from './core.ts';
+import type {Controller} from '../data.ts';
+import {LiveRun} from './live.ts';
+import type {State} from './share.ts';
+import type {Situation} from './situation.ts';
+import {distanceTo, moved, sized, withNew, without, type NewKind, type Thing} from './things.ts';
+
+/** Metres between a robot and what is put beside it. */
+const KEPT_FREE = 0.005;
+/** Milliseconds of a frame that the simulation may take. */
+const BUDGET = 11;
+const HURRIED_BUDGET = 40;
+const BATCH = 20;
+
+export class Playground {
+  readonly camera = new Camera();
+  situation: Situation;
+  runs: LiveRun[] = [];
+  selected: Thing | null = null;
+  playing = false;
+  speed = 1;
+  /** Something was changed under way: this drive is no scenario's. */
+  touched = false;
+  private owed = 0;
+  private hurried = false;
+  private readonly listeners: (() => void)[] = [];
+
+  constructor(
+    private readonly core: Core,
+    readonly controller: Controller,
+    public state: State,
+  ) {
+    this.situation = this.given();
+    this.begin();
+  }
+
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  get planners(): Planner[] {
+    return this.state.who === 'both' ? ['skirt', 'thesis'] : [this.state.who];
+  }
+  get over(): boolean {
+    return this.runs.every((run) => run.over);
+  }
+  get time(): number {
+    return Math.max(...this.runs.map((run) => run.result.time));
+  }
+  /** "u-trap, seed 7" */
+  get name(): string {
+    const {kind, seed, own} = this.state;
+    return `${kind}, seed ${seed}${own ? ', changed' : ''}`;
+  }
+
+  /** From the start, in the world as it is now. */
+  begin(): void {
+    this.situation = {...this.situation, noise: this.state.noise};
+    this.runs = this.planners.map(
+      (planner, side) => new LiveRun(this.core, side, planner, this.situation, {controller: this.controller}),
+    );
+    this.touched = false;
+    this.owed = 0;
+    this.hurried = false;
+    this.changed();
+  }
+
+  /** Another state; a world of the generator's unless it has its own. */
+  restore(state: State): boolean {
+    const before = this.state;
+    this.state = state;
+    try {
+      this.situation = this.given();
+    } catch {
+      this.state = before;
+      return false;
+    }
+    this.selected = null;
+    this.begin();
+    return true;
+  }
+
+  setPlaying(on: boolean): void {
+    this.playing = on;
+    this.hurried = false;
+    this.changed();
+  }
+
+  setWho(who: State['who']): void {
+    this.state = {...this.state, who};
+    this.begin();
+  }
+
+  setNoise(noise: number[]): void {
+    this.state = {...this.state, noise};
+    this.begin();
+  }
+
+  setRules(rules: string | null): void {
+    this.state = {...this.state, rules};
+    if (this.time > 0) this.touched = true;
+    this.changed();
+  }
+
+  select(thing: Thing | null): void {
+    this.selected = thing;
+    this.changed();
+  }
+
+  move(dx: number, dy: number): boolean {
+    const thing = this.selected;
+    if (!thing) return false;
+    return this.edit(moved(this.situation.world, thing, dx, dy), thing);
+  }
+
+  size(factor: number): boolean {
+    const thing = this.selected;
+    return thing !== null && this.edit(sized(this.situation.world, thing, factor), thing);
+  }
+
+  remove(): boolean {
+    const thing = this.selected;
+    if (!thing || thing.kind === 'start' || thing.kind === 'goal') return false;
+    this.selected = null;
+    return this.edit(without(this.situation.world, thing), null);
+  }
+
+  /** Near the middle of what is shown, where there is room. */
+  add(kind: NewKind): boolean {
+    for (let i = 0; i < 60; ++i) {
+      // Sunflower seeds: evenly spread, from the middle outwards.
+      const [angle, radius] = [2.4 * i, 0.35 * Math.sqrt(i)];
+      const at: [number, number] = [
+        this.camera.x + radius * Math.cos(angle),
+        this.camera.y + radius * Math.sin(angle),
+      ];
+      const [world, thing] = withNew(this.situation.world, kind, at);
+      if (!this.edit(world, thing)) continue;
+      this.select(thing);
+      return true;
+    }
+    return false;
+  }
+
+  fit(width: number, height: number): void {
+    this.camera.fit(sceneBoxOf(this.situation.world, []), width, height, 16);
+  }
+
+  /** So much time has passed on the visitor's clock, s. */
+  pass(seconds: number): void {
+    const {period} = this.core.robot;
+    this.owed = this.hurried ? Infinity : this.owed + (seconds * this.speed) / period;
+    const until = performance.now() + (this.hurried ? HURRIED_BUDGET : BUDGET);
+    while (this.owed >= 1 && !this.over && performance.now() < until) {
+      const ticks = Math.min(BATCH, Math.floor(this.owed));
+      for (const run of this.runs) this.drive(run, ticks);
+      this.owed -= ticks;
+    }
+    // What the machine cannot keep up with is not owed for ever.
+    if (this.owed >= 1) this.owed = 0;
+    for (const run of this.runs) run.refresh();
+    if (this.over) this.playing = this.hurried = false;
+  }
+
+  /** As fast as it goes, to the verdict of all. */
+  hurry(): void {
+    if (this.over) return;
+    this.playing = this.hurried = true;
+    this.changed();
+  }
+
+  private drive(run: LiveRun, ticks: number): void {
+    run.advance(ticks);
+    run.result = this.core.result(this.runs.indexOf(run));
+  }
+
+  private given(): Situation {
+    const {own, kind, seed, noise} = this.state;
+    const situation = own ?? this.core.generate(kind, seed, false);
+    if (!situation || this.core.judge(situation) !== 'good') throw new Error('no such world');
+    return {...situation, noise};
+  }
+
+  private edit(world: World, thing: Thing | null): boolean {
+    const situation = {...this.situation, world};
+    if (this.core.judge(situation) !== 'good') return false;
+    const start = thing?.kind === 'start';
+    if (thing && !start && thing.kind !== 'goal' && !this.clearOfRobots(world, thing)) return false;
+    this.situation = situation;
+    this.state = {...this.state, own: situation};
+    if (start) {
+      this.begin();
+      return true;
+    }
+    for (const run of this.runs) run.change(situation);
+    if (this.time > 0) this.touched = true;
+    else this.begin();
+    this.changed();
+    return true;
+  }
+
+  private clearOfRobots(world: World, thing: Thing): boolean {
+    const least = this.core.robot.radius + KEPT_FREE;
+    return this.runs.every(
+      (run) => distanceTo(world, thing, [run.column('x_m')[0], run.column('y_m')[0]]) > least,
+    );
+  }
+
+  private changed(): void {
+    for (const listener of this.listeners) listener();
+  }
+}

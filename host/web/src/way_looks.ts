@@ -1,0 +1,5 @@
+/** How a stretch of a way looks, by what the robot did: report::Doing. */
+import type {Colour} from './theme.ts';
+
+export const DOING_COLOURS: Colour[] = ['free', 'table', 'probing', 'danger'];
+export const DOING_WIDTHS = [2.5, 3, 2.5, 3.5];

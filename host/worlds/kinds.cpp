@@ -1,0 +1,25 @@
+#include "host/worlds/generate.hpp"
+
+namespace whisker::worlds {
+
+const char* name(Kind kind) {
+  switch (kind) {
+    case Kind::discs: return "discs";
+    case Kind::poles: return "poles";
+    case Kind::u_trap: return "u-trap";
+    case Kind::spiral: return "spiral";
+    case Kind::maze: return "maze";
+    case Kind::rooms: return "rooms";
+    case Kind::enclosed: return "enclosed";
+  }
+  return "?";
+}
+
+std::optional<Kind> kind_named(std::string_view text) {
+  for (const Kind kind : kKinds) {
+    if (text == name(kind)) return kind;
+  }
+  return std::nullopt;
+}
+
+}  // namespace whisker::worlds

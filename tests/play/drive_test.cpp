@@ -1,0 +1,89 @@
+#include "host/play/drive.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/run/runner.hpp"
+#include "host/worlds/generate.hpp"
+
+namespace whisker::play {
+namespace {
+
+constexpr int kMost = 1000000;
+
+Scenario u_trap() {
+  worlds::Options options;
+  options.seed = 2;
+  return worlds::generate(worlds::Kind::u_trap, options);
+}
+
+TEST(Drive, IsTheRunHoweverItsTicksAreCut) {
+  worlds::Options options;
+  options.noise = true;
+  const Scenario scenario = worlds::generate(worlds::Kind::u_trap, options);
+  const RunResult expected = run(scenario);
+  for (const int ticks : {1, 7, kMost}) {
+    Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+    while (!drive.trip().verdict()) drive.advance(ticks);
+    const RunResult result = drive.trip().result();
+    EXPECT_EQ(result.hash, expected.hash) << ticks;
+    EXPECT_EQ(result.verdict, expected.verdict);
+    EXPECT_EQ(result.ticks, expected.ticks);
+    EXPECT_EQ(result.time_s, expected.time_s);
+    EXPECT_EQ(result.path_m, expected.path_m);
+    EXPECT_EQ(result.min_clearance_m, expected.min_clearance_m);
+  }
+}
+
+TEST(Drive, AChangeToTheSameWorldChangesNothing) {
+  const Scenario scenario = u_trap();
+  Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+  while (!drive.trip().verdict()) {
+    drive.advance(50);
+    if (!drive.trip().verdict()) drive.change(scenario);
+  }
+  EXPECT_EQ(drive.trip().result().hash, run(scenario).hash);
+}
+
+TEST(Drive, ReachesAGoalThatMovesAgainAndAgain) {
+  Scenario scenario;
+  scenario.goal.at = {1, 0};
+  Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+  for (const sim::Vec2 goal : {sim::Vec2{1, 0}, sim::Vec2{0.5, 0.8}, sim::Vec2{-0.5, 0}}) {
+    scenario.goal.at = goal;
+    drive.change(scenario);
+    drive.advance(kMost);
+    ASSERT_EQ(drive.trip().verdict(), Verdict::reached);
+    EXPECT_LT(drive.trip().distance_left(), scenario.goal.tolerance_m);
+  }
+}
+
+TEST(Drive, AContactIsForGood) {
+  Scenario scenario;
+  scenario.goal.at = {2, 0};
+  Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+  drive.advance(300);
+  Scenario struck = scenario;
+  struck.discs = {{drive.plant().pose().at, 0.2}};
+  drive.change(struck);
+  drive.advance(1);
+  ASSERT_EQ(drive.trip().verdict(), Verdict::contact);
+  drive.change(scenario);
+  drive.advance(10);
+  EXPECT_EQ(drive.trip().verdict(), Verdict::contact);
+}
+
+TEST(Drive, ItsWayEndsWhereItIs) {
+  Drive drive(u_trap(), PlannerKind::thesis, fuzzy::kDefaultTable);
+  drive.advance(3000);
+  const sim::Vec2 off = drive.way().back().at - drive.plant().pose().at;
+  EXPECT_LT(sim::dot(off, off), 0.005 * 0.005);
+  double length = 0;
+  for (std::size_t i = 1; i < drive.way().size(); ++i) {
+    const sim::Vec2 leg = drive.way()[i].at - drive.way()[i - 1].at;
+    length += sim::square_root(sim::dot(leg, leg));
+  }
+  EXPECT_NEAR(length, drive.plant().path_length(), 0.01 * drive.plant().path_length() + 0.005);
+}
+
+}  // namespace
+}  // namespace whisker::play

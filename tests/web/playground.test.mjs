@@ -1,0 +1,294 @@
+// The playground in a browser.
+import assert from 'node:assert/strict';
+import {readFileSync, statSync} from 'node:fs';
+import {join} from 'node:path';
+import {after, afterEach, before, describe, test} from 'node:test';
+import {accessibilityFaults, closePages, drawn, launch, openPage, PHONE, pictureOf} from './browser.mjs';
+import {Folder, ROOT, whisker} from './scenarios.mjs';
+
+const PAGE = process.env.PLAYGROUND ?? join(ROOT, 'out/playground/index.html');
+
+describe('the playground', () => {
+  const folder = new Folder();
+  let browser;
+  before(async () => {
+    browser = await launch();
+  });
+  afterEach(() => closePages(browser));
+  after(async () => {
+    await browser?.close();
+    folder.remove();
+  });
+  // It plays by itself unless the reader wants less motion.
+  const open = (hash = '', options = {}) =>
+    openPage(browser, `file://${PAGE}${hash}`, {reducedMotion: 'reduce', ...options});
+  const play = (page, look) => page.evaluate(`(({play, stage}) => (${look}))(window.whisker)`);
+  const toTheEnd = async (page) => {
+    await page.click('#finish');
+    await page.waitForFunction(() => window.whisker.play.over);
+    await drawn(page);
+  };
+  /** Where a place of the world is on the screen, in the view of a robot. */
+  const place = (page, [x, y], card = 0) =>
+    page.evaluate(
+      ([at, which]) => {
+        const canvas = document.querySelectorAll('.card canvas')[which];
+        const box = canvas.getBoundingClientRect();
+        const [px, py] = window.whisker.play.camera.toScreen(at[0], at[1], box.width, box.height);
+        return [box.left + px, box.top + py];
+      },
+      [[x, y], card],
+    );
+  const drag = async (page, from, to, card = 0) => {
+    const [x0, y0] = await place(page, from, card);
+    const [x1, y1] = await place(page, to, card);
+    await page.mouse.move(x0, y0);
+    await page.mouse.down();
+    await page.mouse.move((x0 + x1) / 2, (y0 + y1) / 2, {steps: 3});
+    await page.mouse.move(x1, y1, {steps: 3});
+    await page.mouse.up();
+    await drawn(page);
+  };
+  const near = (a, b, what) =>
+    assert.ok(Math.hypot(a[0] - b[0], a[1] - b[1]) < 0.03, `${what}: ${a}, not ${b}`);
+  const download = async (page, button) => {
+    const [file] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
+    const path = folder.at(file.suggestedFilename());
+    await file.saveAs(path);
+    return path;
+  };
+
+  test('opens from a file, whole and without a complaint', async () => {
+    const {page, complaints} = await open();
+    assert.equal(await page.locator('.card:visible').count(), 2);
+    for (const id of ['closeup', 'heat-turn', 'heat-step']) {
+      assert.ok((await pictureOf(page, id)).colours > 8, `${id} is empty`);
+    }
+    assert.equal(await page.locator('.rule').count(), 25);
+    assert.match(await page.textContent('#rules-good'), /Symmetric and safe/);
+    assert.equal(await play(page, 'play.time'), 0);
+    assert.deepEqual(complaints, []);
+  });
+
+  test('is one file of less than 200 kB', () => {
+    assert.ok(statSync(PAGE).size < 200_000);
+  });
+
+  test('drives by itself, unless less motion is wanted', async () => {
+    const {page} = await open('', {reducedMotion: 'no-preference'});
+    await page.waitForFunction(() => window.whisker.play.time > 0.2);
+  });
+
+  test('plays, pauses, and begins again', async () => {
+    const {page} = await open('#world=discs&seed=3&planner=skirt');
+    await page.click('#play');
+    await page.waitForFunction(() => window.whisker.play.time > 0.3);
+    await page.keyboard.press('Control');
+    await page.click('#play');
+    const time = await play(page, 'play.time');
+    await drawn(page);
+    assert.equal(await play(page, 'play.time'), time);
+    await page.locator('body').press('r');
+    assert.equal(await play(page, 'play.time'), 0);
+  });
+
+  test('shows the hash, and that it equals the native one', async () => {
+    const {page, complaints} = await open('#world=u-trap&seed=7&planner=skirt');
+    await toTheEnd(page);
+    assert.match(await page.textContent('#card-0 .verdict'), /^reached the goal in/);
+    assert.match(await page.textContent('#hashes'), /equals the native run/);
+    const world = folder.at('u.toml');
+    whisker('world', 'u-trap', '--seed', 7, '--out', world);
+    const {hash} = JSON.parse(whisker('run', world, '--json'));
+    assert.match(await page.textContent('#hashes'), new RegExp(hash));
+    assert.deepEqual(complaints, []);
+  });
+
+  test('the scenario that it saves drives natively to the same hash', async () => {
+    const {page} = await open('#world=maze&seed=11&planner=skirt&noise=0.01_0.02_0.01_0.0001_0.3');
+    await page.selectOption('#things', {index: 1});
+    await page.locator('#card-0 canvas').press('ArrowLeft');
+    assert.equal(await play(page, 'play.touched'), false);
+    await toTheEnd(page);
+    const file = await download(page, '#save-scenario');
+    const {hash} = JSON.parse(whisker('run', file, '--json'));
+    assert.match(await page.textContent('#hashes'), new RegExp(hash));
+  });
+
+  test('an obstacle is dragged, while it drives, in both worlds', async () => {
+    const {page, complaints} = await open('#world=discs&seed=3&planner=both');
+    const before = await play(page, 'play.situation.world.discs[0]');
+    await page.click('#play');
+    await page.waitForFunction(() => window.whisker.play.time > 0.2);
+    const to = [before[0] + 0.5, before[1] - 0.4];
+    await drag(page, before, to, 1);
+    near(await play(page, 'play.situation.world.discs[0]'), to, 'the disc');
+    assert.deepEqual(await play(page, 'play.runs.map((run) => run.info.world.discs[0])'), [
+      await play(page, 'play.situation.world.discs[0]'),
+      await play(page, 'play.situation.world.discs[0]'),
+    ]);
+    assert.equal(await play(page, 'play.touched'), true);
+    assert.match(await page.textContent('#hashes'), /changed under way/);
+    await page.click('#original');
+    assert.deepEqual(await play(page, 'play.situation.world.discs[0]'), before);
+    assert.deepEqual(complaints, []);
+  });
+
+  test('the goal is dragged and reached where it is then', async () => {
+    const {page} = await open('#world=u-trap&seed=1&planner=skirt');
+    const {start, goal} = await play(page, 'play.situation.world');
+    await page.evaluate(() => window.whisker.play.pass(1));
+    const to = [goal[0] + 0.3 * (start[0] - goal[0]), goal[1] + 0.3 * (start[1] - goal[1]) + 0.2];
+    await drag(page, goal, to);
+    near(await play(page, 'play.situation.world.goal'), to, 'the goal');
+    await toTheEnd(page);
+    assert.equal(await play(page, 'play.runs[0].result.outcome'), 'reached');
+    assert.ok((await play(page, 'play.runs[0].distance')) < 0.11);
+  });
+
+  test('nothing is put onto a robot', async () => {
+    const {page} = await open('#world=discs&seed=3&planner=skirt');
+    const [x, y] = await play(page, 'play.situation.world.discs[0]');
+    const {start} = await play(page, 'play.situation.world');
+    await drag(page, [x, y], start);
+    const [nx, ny, radius] = await play(page, 'play.situation.world.discs[0]');
+    assert.ok(Math.hypot(nx - start[0], ny - start[1]) > radius + 0.09);
+  });
+
+  test('things are added, sized and removed by keyboard alone', async () => {
+    const {page} = await open('#world=u-trap&seed=7&planner=skirt');
+    for (const kind of ['disc', 'bar', 'wall', 'mover']) {
+      await page.locator(`#add-${kind}`).press('Enter');
+      assert.equal(await page.textContent('#told'), '', kind);
+    }
+    const count =
+      'Object.fromEntries(["discs", "polygons", "walls", "movers"].map((k) => [k, play.situation.world[k].length]))';
+    assert.deepEqual(await play(page, count), {discs: 1, polygons: 2, walls: 1, movers: 1});
+    await page.selectOption('#things', {index: 3});
+    const canvas = page.locator('#card-0 canvas');
+    const [x, y, radius] = await play(page, 'play.situation.world.discs[0]');
+    await canvas.press('Shift+ArrowUp');
+    await canvas.press('-');
+    const [nx, ny, smaller] = await play(page, 'play.situation.world.discs[0]');
+    near([nx, ny], [x, y + 0.25], 'the disc');
+    assert.ok(smaller < radius);
+    await canvas.press('Delete');
+    assert.equal(await play(page, 'play.situation.world.discs.length'), 0);
+    await toTheEnd(page);
+  });
+
+  test('an edit of a rule warns, shows in the table and changes the drive', async () => {
+    const {page} = await open('#world=discs&seed=3&planner=skirt');
+    await toTheEnd(page);
+    const hash = await play(page, 'play.runs[0].result.hash');
+    const picture = (await pictureOf(page, 'heat-turn')).sum;
+    // Near ahead, the left much nearer: hard right becomes hard left.
+    const square = page.locator('[data-rule="14"]');
+    assert.match(await square.getAttribute('aria-label'), /left much nearer: turn right hard/);
+    await square.click({modifiers: ['Shift']});
+    assert.match(await square.getAttribute('aria-label'), /turn left hard, changed, at fault/);
+    assert.match(await page.textContent('#rule-warnings'), /Not symmetric/);
+    assert.match(
+      await page.textContent('#rule-warnings'),
+      /Unsafe: a rule turns towards the side that is nearer/,
+    );
+    await drawn(page);
+    assert.notEqual((await pictureOf(page, 'heat-turn')).sum, picture);
+    assert.match(await page.textContent('#hashes'), /changed under way/);
+    await page.click('#again');
+    await toTheEnd(page);
+    assert.notEqual(await play(page, 'play.runs[0].result.hash'), hash);
+    const table = readFileSync(await download(page, '#save-table'), 'utf8');
+    assert.notEqual(table, readFileSync(join(ROOT, 'firmware/fuzzy/response_table.hpp'), 'utf8'));
+
+    await page.click('#rules-mirror');
+    assert.equal(await page.textContent('#rule-warnings'), '');
+    await page.click('#edit-step');
+    await page.locator('[data-rule="22"]').click();
+    assert.match(await page.textContent('#rule-warnings'), /steps longer|Not symmetric|^$/);
+    await page.click('#rules-reset');
+    await page.click('#again');
+    await toTheEnd(page);
+    assert.equal(await play(page, 'play.runs[0].result.hash'), hash);
+    assert.match(await page.textContent('#hashes'), /equals the native run/);
+  });
+
+  test('the planner is switched, and the address with it', async () => {
+    const {page} = await open('#world=spiral&seed=2&planner=skirt');
+    await page.click('#who-thesis');
+    assert.equal(await page.textContent('#card-0 h2'), 'thesis planner');
+    await page.waitForFunction(() => location.hash.includes('planner=thesis'));
+    await page.click('#who-both');
+    assert.equal(await page.locator('.card:visible').count(), 2);
+    await page.selectOption('#kind', 'rooms');
+    await page.waitForFunction(() => location.hash.includes('world=rooms'));
+    await page.fill('#seed', '5');
+    await page.locator('#seed').press('Enter');
+    assert.equal(await play(page, 'play.state.seed'), 5);
+    await page.fill('#seed', '-1');
+    await page.locator('#seed').press('Enter');
+    assert.match(await page.textContent('#told'), /no such world/);
+    assert.equal(await play(page, 'play.state.seed'), 5);
+  });
+
+  test('the address alone brings all of it back', async () => {
+    const first = (await open('#world=discs&seed=8&planner=skirt')).page;
+    await first.click('#add-disc');
+    await first.locator('#card-0 canvas').press('ArrowUp');
+    await first.locator('#noise-0').fill('12');
+    await first.locator('[data-rule="03"]').click();
+    await first.waitForFunction(
+      () => /own=.*/.test(location.hash) && /noise=0.012/.test(location.hash) && /rules=/.test(location.hash),
+    );
+    await first.click('#again');
+    await toTheEnd(first);
+    const url = first.url();
+    assert.ok(url.length < 4000, `${url.length} characters`);
+    const {page: second, complaints} = await open(url.slice(url.indexOf('#')));
+    assert.equal(await second.inputValue('#noise-0'), '12');
+    assert.equal(await second.locator('.rule.own').count(), 1);
+    await toTheEnd(second);
+    assert.equal(
+      await play(second, 'play.runs[0].result.hash'),
+      await play(first, 'play.runs[0].result.hash'),
+    );
+    assert.deepEqual(complaints, []);
+  });
+
+  test('an address that says nonsense opens the first world', async () => {
+    for (const hash of [
+      '#world=moon&seed=x&planner=me&noise=a_b&rules=9&own=!!',
+      '#own=eJyLjgUAARUAuQ',
+      '#noise=9_9_9_9_9',
+    ]) {
+      const {page, complaints} = await open(hash);
+      assert.equal(await play(page, 'play.state.kind'), 'u-trap');
+      assert.deepEqual(complaints, []);
+    }
+  });
+
+  test('noise begins the drive anew, and the same noise gives the same drive', async () => {
+    const {page} = await open('#world=u-trap&seed=3&planner=skirt');
+    await toTheEnd(page);
+    const quiet = await play(page, 'play.runs[0].result.hash');
+    await page.click('#noise-reference');
+    assert.equal(await play(page, 'play.time'), 0);
+    await toTheEnd(page);
+    assert.notEqual(await play(page, 'play.runs[0].result.hash'), quiet);
+    await page.click('#noise-none');
+    await toTheEnd(page);
+    assert.equal(await play(page, 'play.runs[0].result.hash'), quiet);
+  });
+
+  for (const options of [{colorScheme: 'light'}, {colorScheme: 'dark'}, {viewport: PHONE, touch: true}]) {
+    test(`is accessible: ${JSON.stringify(options)}`, async () => {
+      const {page, complaints} = await open('', options);
+      await page.locator('[data-rule="14"]').click();
+      await page.evaluate(() => window.whisker.play.pass(2));
+      assert.deepEqual(await accessibilityFaults(page), []);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wide <= 0, `${wide} pixels too wide`);
+      assert.deepEqual(complaints, []);
+    });
+  }
+});
