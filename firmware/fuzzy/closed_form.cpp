@@ -1,14 +1,16 @@
 #include "firmware/fuzzy/closed_form.hpp"
 
+#include <stddef.h>
+
 namespace whisker::fuzzy {
 namespace {
 
 /// An input between two neighbouring centres, seen from the nearer one.
 struct Place {
   uint8_t cell;
-  int32_t near;      // index of the nearer centre
-  int32_t to_other;  // 1 or -1
-  int32_t fraction;  // from near (0) toward the other one; at most kFull / 2
+  int32_t near;        // index of the nearer centre
+  ptrdiff_t to_other;  // 1 or -1
+  int32_t fraction;    // from near (0) toward the other one; at most kFull / 2
 };
 
 /// kFull / gap of every cell, so that the target divides by no gap.
@@ -48,7 +50,7 @@ struct Rules {
 [[gnu::always_inline]] inline Q14 mean(const Rules& rules, int which, int32_t more, int32_t less) noexcept {
   const int32_t nearest = rules.nearest[which].raw();
   const int32_t sum = kFull * nearest + more * (rules.along_more[which].raw() - nearest) +
-                      less * (rules.along_less[which].raw() + rules.across[which].raw());
+                      less * (int32_t{rules.along_less[which].raw()} + rules.across[which].raw());
   const int32_t half = kFull / 2 + less;
   return Q14::from_raw(static_cast<int16_t>((sum < 0 ? sum - half : sum + half) / (2 * half)));
 }
