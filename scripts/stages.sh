@@ -130,7 +130,7 @@ stage_tidy() {
 
 stage_campaign() {
   build host
-  scripts/bars --gate --count 20 --noisy 10
+  scripts/bars --gate --count 50 --noisy 50
 }
 
 stage_long() {
