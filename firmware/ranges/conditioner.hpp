@@ -14,12 +14,12 @@ namespace whisker::ranges {
 
 /// What a moving beam tells.
 struct Sight {
-  bool fresh = false;  ///< a usable measurement came at this tick
-  Time taken;          ///< when the newest one was
-  Time oldest;         ///< when the oldest of those behind `near` was
-  Echo near;           ///< the nearest of the last four: no single reading can make it far
-  Echo typical;        ///< the median of the last three
-  Length farthest;     ///< of the last three: no single reading can make it near
+  bool fresh = false;     ///< a usable measurement came at this tick
+  Time taken;             ///< when the newest one was
+  Time oldest;            ///< when the oldest of those behind `near` was
+  Echo near;              ///< the nearest of the last four: no single reading can make it far
+  Echo typical;           ///< the median of the last three
+  Length farthest;        ///< of the last three: no single reading can make it near
   bool measured = false;  ///< the last three are all distances of something
   Length bend;            ///< if so, how far the second of them lies off the line through the others, twice
 };
