@@ -3,18 +3,22 @@
 usage: hil_test.py WHISKER
 """
 
+import fcntl
 import json
+import os
 import pathlib
 import re
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
-PATIENCE_S = 60
+PATIENCE_S = 200  # with any one step
+WATCH_S = 0.02  # between two looks
 FAR = "time_limit_s = 900.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 200.0\ny_m = 0.0\n"
 
 
@@ -24,6 +28,39 @@ def ip(*arguments):
 
 def once(*arguments):
     return subprocess.run([WHISKER, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+
+
+def wait_until(condition, trouble):
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(trouble())
+        time.sleep(WATCH_S)
+
+
+class Valve:
+    """A record that is written to a pipe: its writer drives on only as far as the pipe is emptied."""
+
+    ROOM = 4096  # bytes: about a dozen ticks
+
+    def __init__(self, path):
+        os.mkfifo(path)
+        self.pipe = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+        fcntl.fcntl(self.pipe, fcntl.F_SETPIPE_SZ, self.ROOM)
+
+    def drip(self):
+        try:
+            os.read(self.pipe, self.ROOM)
+        except BlockingIOError:
+            pass
+
+    def open(self):
+        os.set_blocking(self.pipe, True)
+        threading.Thread(target=self.drain, daemon=True).start()
+
+    def drain(self):
+        while os.read(self.pipe, self.ROOM):
+            pass
 
 
 class Running:
@@ -37,12 +74,23 @@ class Running:
         self.log.seek(0)
         return self.log.read()
 
-    def wait_for(self, pattern):
-        end = time.monotonic() + PATIENCE_S
-        while not re.search(pattern, self.words()):
-            if time.monotonic() > end or (self.process.poll() is not None and not re.search(pattern, self.words())):
-                raise AssertionError(f"no {pattern!r} in: {self.words()}")
-            time.sleep(0.02)
+    def says(self, pattern):
+        if re.search(pattern, self.words()):
+            return True
+        over = self.process.poll() is not None
+        if over and not re.search(pattern, self.words()):
+            raise AssertionError(f"it is over without {pattern!r}: {self.words()}")
+        return over
+
+    def wait_for(self, pattern, valve=None):
+        def found():
+            if self.says(pattern):
+                return True
+            if valve is not None:
+                valve.drip()
+            return False
+
+        wait_until(found, lambda: f"no {pattern!r} in: {self.words()}")
 
     def result(self):
         out, _ = self.process.communicate(timeout=PATIENCE_S)
@@ -59,6 +107,36 @@ class Running:
         self.log.close()
 
 
+def listeners():
+    """Sockets that take every frame of vcan0."""
+    return len(re.findall(r"vcan0.* raw$", pathlib.Path("/proc/self/net/can/rcvlist_all").read_text("ascii"), re.M))
+
+
+class Candump:
+    """A log of vcan0 from the constructor to end()."""
+
+    LAST = "7FF#"  # nobody else's
+
+    def __init__(self, path):
+        self.path = path
+        before = listeners()
+        with open(path, "w", encoding="ascii") as file:
+            # Line by line: a full buffer would keep the last frame.
+            self.process = subprocess.Popen(["stdbuf", "-oL", "candump", "-r", "4000000", "-L", "vcan0"], stdout=file)
+        wait_until(lambda: listeners() > before, lambda: "candump does not listen")
+
+    def end(self):
+        subprocess.run(["cansend", "vcan0", self.LAST], check=True)
+        wait_until(lambda: self.LAST in self.path.read_text("ascii"), lambda: "candump does not write")
+        self.process.terminate()
+        self.process.wait(PATIENCE_S)
+        return [line for line in self.path.read_text("ascii").splitlines() if self.LAST not in line]
+
+
+def frames_of(log_lines):
+    return [line.split()[2] for line in log_lines]
+
+
 class OnTheBus(unittest.TestCase):
     def setUp(self):
         box = tempfile.TemporaryDirectory(prefix="whisker-hil-")
@@ -69,6 +147,11 @@ class OnTheBus(unittest.TestCase):
         running = Running(*arguments)
         self.addCleanup(running.close)
         return running
+
+    def start_behind_valve(self, *arguments):
+        """The plant, which does not reach the end of its run before the valve is open."""
+        valve = Valve(self.folder / "valve")
+        return self.start("plant", *arguments, "--record", self.folder / "valve"), valve
 
     def world(self, kind, seconds):
         text = once("world", kind, "--seed", 4, "--noise").stdout
@@ -85,34 +168,56 @@ class OnTheBus(unittest.TestCase):
             both = json.loads(once("hil", scenario, "--can", "vcan0", "--json").stdout)
             self.assertEqual(both["hash"], self.hash_of(scenario), kind)
 
+    def test_so_it_is_when_two_per_cent_of_the_frames_are_lost(self):
+        lost = 0
+        for kind in KINDS:
+            scenario = self.world(kind, 1)
+            both = json.loads(once("hil", scenario, "--can", "vcan0", "--drop", 2, "--json").stdout)
+            self.assertEqual(both["hash"], self.hash_of(scenario), kind)
+            lost += both["bus"]["lost"]
+        self.assertGreater(lost, 0)
+
     def test_either_may_come_late_and_the_controller_may_start_anew(self):
-        scenario = self.world("discs", 12)
-        plant = self.start("plant", scenario, "--can", "vcan0", "--json")
+        scenario = self.world("discs", 5)
+        plant, valve = self.start_behind_valve(scenario, "--can", "vcan0", "--json")
         plant.wait_for("waits for the controller")
         first = self.start("controller", "--can", "vcan0")
-        first.wait_for("drives")
+        first.wait_for("drives", valve)
         first.end(signal.SIGKILL)
         second = self.start("controller", "--can", "vcan0")
-        plant.wait_for("the run begins again")
+        plant.wait_for("the run begins again", valve)
+        valve.open()
         self.assertEqual(plant.result()["hash"], self.hash_of(scenario))
         second.wait_for("waits for the base")
         again = self.start("plant", scenario, "--can", "vcan0", "--json")
         self.assertEqual(again.result()["hash"], self.hash_of(scenario))
         self.assertEqual(second.end(signal.SIGINT), 0)
 
-    def test_the_interface_may_go_and_come_back(self):
-        scenario = self.world("maze", 15)
+    def test_the_plant_may_start_anew(self):
+        scenario = self.world("poles", 5)
         controller = self.start("controller", "--can", "vcan0")
-        plant = self.start("plant", scenario, "--can", "vcan0", "--json")
-        controller.wait_for("drives")
+        first, valve = self.start_behind_valve(scenario, "--can", "vcan0")
+        controller.wait_for("drives", valve)
+        first.end(signal.SIGKILL)
+        second = self.start("plant", scenario, "--can", "vcan0", "--json")
+        self.assertEqual(second.result()["hash"], self.hash_of(scenario))
+
+    def test_the_interface_may_go_and_come_back(self):
+        scenario = self.world("maze", 8)
+        controller = self.start("controller", "--can", "vcan0")
+        plant, valve = self.start_behind_valve(scenario, "--can", "vcan0", "--json")
+        controller.wait_for("drives", valve)
         ip("set", "vcan0", "down")
-        plant.wait_for("waits for .*vcan0")
+        plant.wait_for("waits for vcan0 is down", valve)
+        controller.wait_for("waits for vcan0 is down")
         ip("set", "vcan0", "up")
-        controller.wait_for("(?s)drives.*waits.*drives")
+        controller.wait_for("(?s)is down.*drives", valve)
         ip("del", "vcan0")
-        controller.wait_for("(?s)drives.*waits.*drives.*waits for .*vcan0")
+        plant.wait_for("waits for vcan0 does not exist", valve)
+        controller.wait_for("waits for vcan0 does not exist")
         ip("add", "vcan0", "type", "vcan")
         ip("set", "vcan0", "up")
+        valve.open()
         result = plant.result()
         self.assertEqual(result["hash"], self.hash_of(scenario))
         self.assertEqual(result["bus"]["safe_stops"], 0)
@@ -121,25 +226,36 @@ class OnTheBus(unittest.TestCase):
         scenario = self.folder / "far.toml"
         scenario.write_text(FAR)
         controller = self.start("controller", "--can", "vcan0")
-        plant = self.start("plant", scenario, "--can", "vcan0", "--json")
-        controller.wait_for("drives")
+        plant, valve = self.start_behind_valve(scenario, "--can", "vcan0", "--json")
+        controller.wait_for("drives", valve)
         subprocess.run(["cansend", "vcan0", "010#"], check=True)
+        valve.open()
         result = plant.result()
         self.assertEqual((plant.process.returncode, result["outcome"], result["detail"]), (6, "fault", "e_stop"))
         controller.wait_for("E-stop")
 
     def test_what_candump_wrote_replays(self):
-        scenario, log = self.world("rooms", 6), self.folder / "candump.log"
-        with open(log, "w", encoding="ascii") as file:
-            dump = subprocess.Popen(["candump", "-r", "4000000", "-L", "vcan0"], stdout=file)
-        try:
-            result = json.loads(once("hil", scenario, "--can", "vcan0", "--json").stdout)
-        finally:
-            time.sleep(0.5)
-            dump.terminate()
-            dump.wait(PATIENCE_S)
-        replay = json.loads(once("replay", log, "--json").stdout)
+        dump = Candump(self.folder / "candump.log")
+        result = json.loads(once("hil", self.world("rooms", 6), "--can", "vcan0", "--json").stdout)
+        dump.end()
+        replay = json.loads(once("replay", dump.path, "--json").stdout)
         self.assertEqual((replay["same"], replay["hash"], replay["steps"]), (True, result["hash"], result["ticks"]))
+
+    def test_others_read_and_play_what_was_recorded(self):
+        log = self.folder / "run.log"
+        result = json.loads(once("hil", self.world("discs", 3), "--record", log, "--json").stdout)
+        frames = frames_of(log.read_text().splitlines())
+
+        fields = ("-T", "fields", "-E", "separator=#", "-e", "can.id", "-e", "data.data")
+        shark = subprocess.run(["tshark", "-r", log, *fields], capture_output=True, text=True, timeout=PATIENCE_S, check=True)
+        read = [line.partition("#") for line in shark.stdout.splitlines()]
+        self.assertEqual([f"{int(number, 0):03X}#{data.upper()}" for number, _, data in read], frames)
+
+        dump = Candump(self.folder / "played.log")
+        subprocess.run(["canplayer", "-t", "-I", log, "vcan0=private"], timeout=PATIENCE_S, check=True)
+        self.assertEqual(frames_of(dump.end()), frames)
+        replay = json.loads(once("replay", dump.path, "--json").stdout)
+        self.assertEqual((replay["same"], replay["hash"]), (True, result["hash"]))
 
     def test_two_robots_share_the_bus(self):
         worlds = self.world("discs", 5), self.world("poles", 5)
