@@ -3,22 +3,18 @@
 usage: hil_test.py WHISKER
 """
 
-import fcntl
 import json
-import os
 import pathlib
 import re
 import signal
 import subprocess
 import sys
 import tempfile
-import threading
-import time
 import unittest
 
+from bus import PATIENCE_S, Candump, Meddler, Running, Valve, frames_of
+
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
-PATIENCE_S = 200  # with any one step
-WATCH_S = 0.02  # between two looks
 FAR = "time_limit_s = 900.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 200.0\ny_m = 0.0\n"
 
 
@@ -30,113 +26,6 @@ def once(*arguments):
     return subprocess.run([WHISKER, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
 
 
-def wait_until(condition, trouble):
-    end = time.monotonic() + PATIENCE_S
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(trouble())
-        time.sleep(WATCH_S)
-
-
-class Valve:
-    """A record that is written to a pipe: its writer drives on only as far as the pipe is emptied."""
-
-    ROOM = 4096  # bytes: about a dozen ticks
-
-    def __init__(self, path):
-        os.mkfifo(path)
-        self.pipe = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
-        fcntl.fcntl(self.pipe, fcntl.F_SETPIPE_SZ, self.ROOM)
-
-    def drip(self):
-        try:
-            os.read(self.pipe, self.ROOM)
-        except BlockingIOError:
-            pass
-
-    def open(self):
-        os.set_blocking(self.pipe, True)
-        threading.Thread(target=self.drain, daemon=True).start()
-
-    def drain(self):
-        while os.read(self.pipe, self.ROOM):
-            pass
-
-
-class Running:
-    """A whisker process whose words on standard error can be waited for."""
-
-    def __init__(self, *arguments):
-        self.log = tempfile.TemporaryFile("w+")
-        self.process = subprocess.Popen([WHISKER, *map(str, arguments)], stdout=subprocess.PIPE, stderr=self.log, text=True)
-
-    def words(self):
-        self.log.seek(0)
-        return self.log.read()
-
-    def says(self, pattern):
-        if re.search(pattern, self.words()):
-            return True
-        over = self.process.poll() is not None
-        if over and not re.search(pattern, self.words()):
-            raise AssertionError(f"it is over without {pattern!r}: {self.words()}")
-        return over
-
-    def wait_for(self, pattern, valve=None):
-        def found():
-            if self.says(pattern):
-                return True
-            if valve is not None:
-                valve.drip()
-            return False
-
-        wait_until(found, lambda: f"no {pattern!r} in: {self.words()}")
-
-    def result(self):
-        out, _ = self.process.communicate(timeout=PATIENCE_S)
-        return json.loads(out) if out else None
-
-    def end(self, how=signal.SIGTERM):
-        if self.process.poll() is None:
-            self.process.send_signal(how)
-        self.process.communicate(timeout=PATIENCE_S)
-        return self.process.returncode
-
-    def close(self):
-        self.end(signal.SIGKILL)
-        self.log.close()
-
-
-def listeners():
-    """Sockets that take every frame of vcan0."""
-    return len(re.findall(r"vcan0.* raw$", pathlib.Path("/proc/self/net/can/rcvlist_all").read_text("ascii"), re.M))
-
-
-class Candump:
-    """A log of vcan0 from the constructor to end()."""
-
-    LAST = "7FF#"  # nobody else's
-
-    def __init__(self, path):
-        self.path = path
-        before = listeners()
-        with open(path, "w", encoding="ascii") as file:
-            # Line by line: a full buffer would keep the last frame.
-            self.process = subprocess.Popen(["stdbuf", "-oL", "candump", "-r", "4000000", "-L", "vcan0"], stdout=file)
-        wait_until(lambda: listeners() > before, lambda: "candump does not listen")
-
-    def end(self):
-        subprocess.run(["cansend", "vcan0", self.LAST], check=True)
-        wait_until(lambda: self.LAST in self.path.read_text("ascii"), lambda: "candump does not write")
-        self.process.terminate()
-        self.process.wait(PATIENCE_S)
-        return [line for line in self.path.read_text("ascii").splitlines() if self.LAST not in line]
-
-
-def frames_of(log_lines):
-    return [line.split()[2] for line in log_lines]
-
-
 class OnTheBus(unittest.TestCase):
     def setUp(self):
         box = tempfile.TemporaryDirectory(prefix="whisker-hil-")
@@ -144,7 +33,7 @@ class OnTheBus(unittest.TestCase):
         self.folder = pathlib.Path(box.name)
 
     def start(self, *arguments):
-        running = Running(*arguments)
+        running = Running(WHISKER, *arguments)
         self.addCleanup(running.close)
         return running
 
@@ -176,6 +65,17 @@ class OnTheBus(unittest.TestCase):
             self.assertEqual(both["hash"], self.hash_of(scenario), kind)
             lost += both["bus"]["lost"]
         self.assertGreater(lost, 0)
+
+    def test_so_it_is_beside_a_process_that_meddles(self):
+        scenario = self.world("u-trap", 3)
+        meddler = Meddler()
+        try:
+            both = json.loads(once("hil", scenario, "--can", "vcan0", "--json").stdout)
+        finally:
+            said = meddler.end()
+        self.assertEqual((both["hash"], both["bus"]["safe_stops"]), (self.hash_of(scenario), 0))
+        self.assertGreater(said, both["ticks"])
+        self.assertGreater(both["bus"]["refused"], said / 10)
 
     def test_either_may_come_late_and_the_controller_may_start_anew(self):
         scenario = self.world("discs", 5)
