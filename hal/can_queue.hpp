@@ -52,7 +52,11 @@ class CanOutbox {
     waiting_ = 0;
   }
   /// Null: none waits.
-  const Waiting* first() const noexcept { return waiting_ > 0 ? &queue_[first_] : nullptr; }
+  const Waiting* first() const noexcept { return at(0); }
+  /// The frame behind so many others; null: so many do not wait.
+  const Waiting* at(uint8_t behind) const noexcept {
+    return behind < waiting_ ? &queue_[(first_ + behind) % CanPort::kSendDepth] : nullptr;
+  }
   /// Only while there is a first().
   void pop() noexcept {
     first_ = static_cast<uint8_t>((first_ + 1) % CanPort::kSendDepth);
@@ -70,6 +74,7 @@ class CanOutbox {
 class CanInbox {
  public:
   bool full() const noexcept { return waiting_ == CanPort::kReceiveDepth; }
+  uint8_t room() const noexcept { return static_cast<uint8_t>(CanPort::kReceiveDepth - waiting_); }
   /// A frame for which there is no room is lost, and counted.
   void push(const CanFrame& frame, CanCounts& counts) noexcept {
     if (full()) {

@@ -63,10 +63,10 @@ stage_vcan() {
   build host
   local -r tests=(ctest --preset host --no-tests=error -j 1)
   if [[ $(scripts/with-vcan --which 2>&1) == *": vm" ]]; then
-    scripts/with-vcan --timeout 300 "${tests[@]}" -L '^(vcan|vm)$'
+    scripts/with-vcan --timeout 900 "${tests[@]}" -L '^(vcan|vm)$'
   else
-    scripts/with-vcan --timeout 300 "${tests[@]}" -L '^vcan$'
-    scripts/with-vcan --timeout 300 --vm "${tests[@]}" -L '^vm$'
+    scripts/with-vcan --timeout 900 "${tests[@]}" -L '^vcan$'
+    scripts/with-vcan --timeout 900 --vm "${tests[@]}" -L '^vm$'
   fi
 }
 

@@ -135,61 +135,85 @@ void SocketCan::see_error(const uint8_t* data, uint32_t kinds) noexcept {
   }
 }
 
+void SocketCan::take(const can_frame& wire) noexcept {
+  if (!on_bus()) return;
+  if ((wire.can_id & CAN_ERR_FLAG) != 0) {
+    see_error(wire.data, wire.can_id);
+  } else {
+    inbox_.push(frame_of(wire), counts_);
+  }
+}
+
+void SocketCan::see_loss(msghdr& message) noexcept {
+  for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
+    if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SO_RXQ_OVFL) continue;
+    uint32_t lost = 0;
+    std::memcpy(&lost, CMSG_DATA(c), sizeof lost);
+    count(counts_.overrun, lost - lost_);
+    lost_ = lost;
+  }
+}
+
 void SocketCan::fetch() noexcept {
+  constexpr unsigned kMost = kReceiveDepth;
   // While off the bus everything is taken, and dropped.
   while (!on_bus() || !inbox_.full()) {
-    can_frame wire{};
-    iovec part{&wire, sizeof wire};
-    alignas(cmsghdr) char extra[CMSG_SPACE(sizeof(uint32_t))];
-    msghdr message{};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    message.msg_control = extra;
-    message.msg_controllen = sizeof extra;
-    const ssize_t got = recvmsg(socket_, &message, 0);
+    can_frame wires[kMost];
+    iovec parts[kMost];
+    struct alignas(cmsghdr) Extra {
+      char of[CMSG_SPACE(sizeof(uint32_t))];
+    } extras[kMost];
+    mmsghdr messages[kMost];
+    const unsigned room = on_bus() ? inbox_.room() : kMost;
+    for (unsigned i = 0; i < room; ++i) {
+      parts[i] = {&wires[i], sizeof wires[i]};
+      messages[i] = {};
+      messages[i].msg_hdr.msg_iov = &parts[i];
+      messages[i].msg_hdr.msg_iovlen = 1;
+      messages[i].msg_hdr.msg_control = &extras[i];
+      messages[i].msg_hdr.msg_controllen = sizeof extras[i];
+    }
+    const int got = recvmmsg(socket_, messages, room, 0, nullptr);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) {
       if (!gone(errno) || !on_bus()) return;
       leave();
       continue;
     }
-    for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
-      if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SO_RXQ_OVFL) continue;
-      uint32_t lost = 0;
-      std::memcpy(&lost, CMSG_DATA(c), sizeof lost);
-      count(counts_.overrun, lost - lost_);
-      lost_ = lost;
+    for (int i = 0; i < got; ++i) {
+      see_loss(messages[i].msg_hdr);
+      if (messages[i].msg_len == CAN_MTU) take(wires[i]);
     }
-    if (!on_bus() || got != CAN_MTU) continue;
-    if ((wire.can_id & CAN_ERR_FLAG) != 0) {
-      see_error(wire.data, wire.can_id);
-    } else {
-      inbox_.push(frame_of(wire), counts_);
-    }
+    if (static_cast<unsigned>(got) < room) return;
   }
-}
-
-/// False: not now.
-bool SocketCan::transmit(const CanFrame& frame) noexcept {
-  const can_frame wire = wire_of(frame);
-  if (write(socket_, &wire, sizeof wire) == sizeof wire) {
-    count(counts_.sent);
-    return true;
-  }
-  if (gone(errno)) {
-    leave();
-    return false;
-  }
-  // Nothing else changes with time: the controller listens only, or its driver wants no such frame.
-  if (errno == ENOBUFS || errno == EAGAIN || errno == EINTR) return false;
-  count(counts_.expired);
-  return true;
 }
 
 void SocketCan::flush() noexcept {
-  for (const CanOutbox::Waiting* next = outbox_.first(); next != nullptr; next = outbox_.first()) {
-    if (!transmit(next->frame)) return;
-    outbox_.pop();
+  can_frame wires[kSendDepth];
+  iovec parts[kSendDepth];
+  mmsghdr messages[kSendDepth];
+  unsigned waiting = 0;
+  for (; const CanOutbox::Waiting* next = outbox_.at(static_cast<uint8_t>(waiting)); ++waiting) {
+    wires[waiting] = wire_of(next->frame);
+    parts[waiting] = {&wires[waiting], sizeof wires[waiting]};
+    messages[waiting] = {};
+    messages[waiting].msg_hdr.msg_iov = &parts[waiting];
+    messages[waiting].msg_hdr.msg_iovlen = 1;
+  }
+  for (unsigned done = 0; done < waiting;) {
+    const int put = sendmmsg(socket_, messages + done, waiting - done, 0);
+    const unsigned gone_out = put > 0 ? static_cast<unsigned>(put) : 0;
+    if (put <= 0) {
+      if (gone(errno)) return leave();
+      if (errno == ENOBUFS || errno == EAGAIN || errno == EINTR) return;
+      // Nothing else changes with time: the controller listens only, or its driver wants no such frame.
+      count(counts_.expired);
+      outbox_.pop();
+      ++done;
+    }
+    count(counts_.sent, gone_out);
+    for (unsigned i = 0; i < gone_out; ++i) outbox_.pop();
+    done += gone_out;
   }
 }
 

@@ -6,6 +6,10 @@
 
 #include "hal/can_queue.hpp"
 
+// Linux's.
+struct can_frame;
+struct msghdr;
+
 namespace whisker::hal::socketcan {
 
 struct SocketCanError : std::runtime_error {
@@ -63,7 +67,8 @@ class SocketCan final : public CanPort {
   void flush() noexcept;
   void see_error(const uint8_t* data, uint32_t kinds) noexcept;
   void expire() noexcept;
-  bool transmit(const CanFrame& frame) noexcept;
+  void take(const can_frame& wire) noexcept;
+  void see_loss(msghdr& message) noexcept;
 
   std::string name_;
   std::vector<Accept> accept_;

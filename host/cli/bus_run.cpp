@@ -1,6 +1,7 @@
 #include "host/cli/bus_run.hpp"
 
 #include <cstdio>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -23,9 +24,13 @@ std::function<void(const std::string&)> speaker(const char* who, const BusChoice
 
 /// Inside this a recorder gets what passes on the bus.
 bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
-  bus::Fault loss{bus::FaultKind::loss};
-  loss.chance = choice.drop_percent / 100;
-  return {port, {loss}, static_cast<std::uint64_t>(choice.robot)};
+  bus::Schedule faults;
+  if (choice.drop_percent > 0) {
+    bus::Fault loss{bus::FaultKind::loss};
+    loss.chance = choice.drop_percent / 100;
+    faults.push_back(loss);
+  }
+  return {port, std::move(faults), static_cast<std::uint64_t>(choice.robot)};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "firmware/can/param_server.hpp"
 #include "hal/can_remote/base.hpp"
 #include "hal/sim/sim_board.hpp"
+#include "host/hil/resend.hpp"
 #include "host/hil/words.hpp"
 #include "host/run/spec.hpp"
 
@@ -38,6 +39,7 @@ class BusPilot final : public Pilot {
         params_(scenario.robot),
         mission_{fixed_pose(scenario.start), fixed_goal(scenario.goal)},
         period_us_(static_cast<std::uint64_t>(scenario.robot.safety.period.raw()) * 1000),
+        resend_(std::uint64_t{options.resend_ms} * 1000),
         board_(plant),
         node_(port, options.identity, ramp_of(scenario.robot)),
         base_(node_, board_, board_) {}
@@ -151,19 +153,24 @@ class BusPilot final : public Pilot {
   Status in_lockstep(std::uint32_t tick) {
     const std::uint64_t sent_us = clock_.now_us();
     base_.publish(can::Pace::lockstep);
-    std::uint32_t sent_ms = clock_.now_ms();
-    node_.poll(sent_ms);
+    resend_.sent(sent_us);
     while (node_running() || node_.state() == can::NodeState::waiting ||
            node_.state() == can::NodeState::off_bus) {
-      if (node_.answered(tick)) {
-        figures_.round_trip_us.push_back(static_cast<std::uint32_t>(clock_.now_us() - sent_us));
+      // An answer can come with the news that the controller is lost, and then it drives nothing.
+      if (node_running() && node_.answered(tick)) {
+        const std::uint64_t now_us = clock_.now_us();
+        resend_.answered(now_us);
+        figures_.round_trip_us.push_back(static_cast<std::uint32_t>(now_us - sent_us));
         return status_of(node_.status());
       }
-      watchful_nap();
-      if (clock_.now_ms() - sent_ms < options_.resend_ms || node_.answered(tick)) continue;
+      clock_.wait(kNap_us);
+      const std::uint64_t now_us = clock_.now_us();
+      node_.poll(static_cast<std::uint32_t>(now_us / 1000));
+      check();
+      if (!node_running() || node_.answered(tick) || !resend_.due(now_us)) continue;
       base_.publish(can::Pace::lockstep);
       ++figures_.resent;
-      sent_ms = clock_.now_ms();
+      resend_.sent_again(now_us);
     }
     explain();
     return status_;
@@ -211,6 +218,7 @@ class BusPilot final : public Pilot {
   const Params params_;
   const can::Mission mission_;
   const std::uint64_t period_us_;
+  Resend resend_;
   hal::SimBoard board_;
   can::BaseNode node_;
   can_remote::Base base_;

@@ -25,7 +25,7 @@ class Interrupted : public std::runtime_error {
 struct BusOptions {
   can::Identity identity{1, 1, 0};
   can::Pace pace = can::Pace::lockstep;
-  std::uint32_t resend_ms = 20;                 ///< lockstep: a set without an answer is sent again
+  std::uint32_t resend_ms = 20;  ///< lockstep: the shortest wait before a set is sent again, see Resend
   std::function<void(const std::string&)> say;  ///< gets what it waits for, once each
   std::function<std::string()> bus_waits_for;   ///< what keeps the port from the bus, if it is known
   std::function<bool()> interrupted;            ///< true: give up

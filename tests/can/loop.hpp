@@ -10,19 +10,31 @@
 
 namespace whisker::test {
 
+/// What is slower than it should be, in the base's waits of a millisecond.
+struct Slowness {
+  std::uint32_t controller = 1;      ///< it is polled in each of so many
+  std::uint32_t base_stalls = 0;     ///< after each of so many the base does nothing for a while; 0: never
+  std::uint64_t stall_us = 1000000;  ///< longer than a heartbeat may stay away
+};
+
 /// Waiting lets a millisecond pass, in which the controller is polled.
 class SharedTime final : public hil::Clock {
  public:
-  explicit SharedTime(std::function<void(std::uint32_t now_ms)> others) : others_(std::move(others)) {}
+  explicit SharedTime(std::function<void(std::uint32_t now_ms)> others, const Slowness& slowness = {})
+      : others_(std::move(others)), slowness_(slowness) {}
   std::uint64_t now_us() override { return now_us_; }
   void wait(std::uint64_t) override {
+    ++waits_;
     now_us_ += 1000;
-    others_(now_ms());
+    if (waits_ % slowness_.controller == 0) others_(now_ms());
+    if (slowness_.base_stalls > 0 && waits_ % slowness_.base_stalls == 0) now_us_ += slowness_.stall_us;
   }
 
  private:
   std::uint64_t now_us_ = 0;
+  std::uint64_t waits_ = 0;
   std::function<void(std::uint32_t)> others_;
+  const Slowness slowness_;
 };
 
 /// Drops one frame in fifty on the way out.
@@ -52,12 +64,13 @@ struct LoopResult {
   hil::Figures figures;
 };
 
-/// A run over the bus. wrap(port) may return another port, for the base's side and then the controller's.
+/// A run over the bus.
 inline LoopResult drive_over_bus(const Scenario& scenario, PlannerKind kind, can::Pace pace,
-                                 hal::CanPort& base_port, hal::CanPort& controller_port) {
+                                 hal::CanPort& base_port, hal::CanPort& controller_port,
+                                 const Slowness& slowness = {}) {
   hil::HostPlanners planners(kind);
   can_remote::Controller controller(controller_port, {1, 77, 0}, planners);
-  SharedTime time([&](std::uint32_t now_ms) { controller.poll(now_ms); });
+  SharedTime time([&](std::uint32_t now_ms) { controller.poll(now_ms); }, slowness);
   LoopResult out;
   hil::BusOptions bus;
   bus.pace = pace;

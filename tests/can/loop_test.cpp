@@ -1,5 +1,7 @@
 #include "tests/can/loop.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "host/worlds/generate.hpp"
@@ -55,6 +57,31 @@ TEST_P(EveryWorld, InRealTimeWithoutAMissToo) {
   const RunResult direct = run(scenario, options);
   EXPECT_EQ(over_bus.figures.misses, 0U);
   EXPECT_EQ(over_bus.result.hash, direct.hash);
+}
+
+TEST(Lockstep, ABaseThatLosesSightOfTheControllerDrivesTheSame) {
+  const Scenario scenario = scenario_of(worlds::Kind::discs);
+  bus::MemoryBus wire;
+  test::Slowness slow;
+  slow.base_stalls = 37;
+  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, wire.attach(),
+                                             wire.attach(), slow);
+  EXPECT_EQ(over_bus.result.hash, run(scenario).hash);
+  EXPECT_EQ(over_bus.figures.health.stops, 0U);
+  EXPECT_GT(*std::max_element(over_bus.figures.round_trip_us.begin(), over_bus.figures.round_trip_us.end()),
+            slow.stall_us);
+}
+
+TEST(Lockstep, ASlowControllerGetsFewSetsTwice) {
+  const Scenario scenario = scenario_of(worlds::Kind::discs);
+  bus::MemoryBus wire;
+  test::Slowness slow;
+  slow.controller = 25;
+  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, wire.attach(),
+                                             wire.attach(), slow);
+  EXPECT_EQ(over_bus.result.hash, run(scenario).hash);
+  EXPECT_LE(over_bus.figures.resent, 10U);
+  EXPECT_GT(over_bus.figures.sets, 1000U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Worlds, EveryWorld, testing::ValuesIn(worlds::kKinds));

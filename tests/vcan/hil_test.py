@@ -10,11 +10,11 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
+from bus import PATIENCE_S, Candump, Meddler, Running, Valve, frames_of
+
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
-PATIENCE_S = 60
 FAR = "time_limit_s = 900.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 200.0\ny_m = 0.0\n"
 
 
@@ -26,39 +26,6 @@ def once(*arguments):
     return subprocess.run([WHISKER, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
 
 
-class Running:
-    """A whisker process whose words on standard error can be waited for."""
-
-    def __init__(self, *arguments):
-        self.log = tempfile.TemporaryFile("w+")
-        self.process = subprocess.Popen([WHISKER, *map(str, arguments)], stdout=subprocess.PIPE, stderr=self.log, text=True)
-
-    def words(self):
-        self.log.seek(0)
-        return self.log.read()
-
-    def wait_for(self, pattern):
-        end = time.monotonic() + PATIENCE_S
-        while not re.search(pattern, self.words()):
-            if time.monotonic() > end or (self.process.poll() is not None and not re.search(pattern, self.words())):
-                raise AssertionError(f"no {pattern!r} in: {self.words()}")
-            time.sleep(0.02)
-
-    def result(self):
-        out, _ = self.process.communicate(timeout=PATIENCE_S)
-        return json.loads(out) if out else None
-
-    def end(self, how=signal.SIGTERM):
-        if self.process.poll() is None:
-            self.process.send_signal(how)
-        self.process.communicate(timeout=PATIENCE_S)
-        return self.process.returncode
-
-    def close(self):
-        self.end(signal.SIGKILL)
-        self.log.close()
-
-
 class OnTheBus(unittest.TestCase):
     def setUp(self):
         box = tempfile.TemporaryDirectory(prefix="whisker-hil-")
@@ -66,9 +33,14 @@ class OnTheBus(unittest.TestCase):
         self.folder = pathlib.Path(box.name)
 
     def start(self, *arguments):
-        running = Running(*arguments)
+        running = Running(WHISKER, *arguments)
         self.addCleanup(running.close)
         return running
+
+    def start_behind_valve(self, *arguments):
+        """The plant, which does not reach the end of its run before the valve is open."""
+        valve = Valve(self.folder / "valve")
+        return self.start("plant", *arguments, "--record", self.folder / "valve"), valve
 
     def world(self, kind, seconds):
         text = once("world", kind, "--seed", 4, "--noise").stdout
@@ -85,34 +57,67 @@ class OnTheBus(unittest.TestCase):
             both = json.loads(once("hil", scenario, "--can", "vcan0", "--json").stdout)
             self.assertEqual(both["hash"], self.hash_of(scenario), kind)
 
+    def test_so_it_is_when_two_per_cent_of_the_frames_are_lost(self):
+        lost = 0
+        for kind in KINDS:
+            scenario = self.world(kind, 1)
+            both = json.loads(once("hil", scenario, "--can", "vcan0", "--drop", 2, "--json").stdout)
+            self.assertEqual(both["hash"], self.hash_of(scenario), kind)
+            lost += both["bus"]["lost"]
+        self.assertGreater(lost, 0)
+
+    def test_so_it_is_beside_a_process_that_meddles(self):
+        scenario = self.world("u-trap", 3)
+        meddler = Meddler()
+        try:
+            both = json.loads(once("hil", scenario, "--can", "vcan0", "--json").stdout)
+        finally:
+            said = meddler.end()
+        self.assertEqual((both["hash"], both["bus"]["safe_stops"]), (self.hash_of(scenario), 0))
+        self.assertGreater(said, both["ticks"])
+        self.assertGreater(both["bus"]["refused"], said / 10)
+
     def test_either_may_come_late_and_the_controller_may_start_anew(self):
-        scenario = self.world("discs", 12)
-        plant = self.start("plant", scenario, "--can", "vcan0", "--json")
+        scenario = self.world("discs", 5)
+        plant, valve = self.start_behind_valve(scenario, "--can", "vcan0", "--json")
         plant.wait_for("waits for the controller")
         first = self.start("controller", "--can", "vcan0")
-        first.wait_for("drives")
+        first.wait_for("drives", valve)
         first.end(signal.SIGKILL)
         second = self.start("controller", "--can", "vcan0")
-        plant.wait_for("the run begins again")
+        plant.wait_for("the run begins again", valve)
+        valve.open()
         self.assertEqual(plant.result()["hash"], self.hash_of(scenario))
         second.wait_for("waits for the base")
         again = self.start("plant", scenario, "--can", "vcan0", "--json")
         self.assertEqual(again.result()["hash"], self.hash_of(scenario))
         self.assertEqual(second.end(signal.SIGINT), 0)
 
-    def test_the_interface_may_go_and_come_back(self):
-        scenario = self.world("maze", 15)
+    def test_the_plant_may_start_anew(self):
+        scenario = self.world("poles", 5)
         controller = self.start("controller", "--can", "vcan0")
-        plant = self.start("plant", scenario, "--can", "vcan0", "--json")
-        controller.wait_for("drives")
+        first, valve = self.start_behind_valve(scenario, "--can", "vcan0")
+        controller.wait_for("drives", valve)
+        first.end(signal.SIGKILL)
+        second = self.start("plant", scenario, "--can", "vcan0", "--json")
+        self.assertEqual(second.result()["hash"], self.hash_of(scenario))
+
+    def test_the_interface_may_go_and_come_back(self):
+        scenario = self.world("maze", 8)
+        controller = self.start("controller", "--can", "vcan0")
+        plant, valve = self.start_behind_valve(scenario, "--can", "vcan0", "--json")
+        controller.wait_for("drives", valve)
         ip("set", "vcan0", "down")
-        plant.wait_for("waits for .*vcan0")
+        plant.wait_for("waits for vcan0 is down", valve)
+        controller.wait_for("waits for vcan0 is down")
         ip("set", "vcan0", "up")
-        controller.wait_for("(?s)drives.*waits.*drives")
+        controller.wait_for("(?s)is down.*drives", valve)
         ip("del", "vcan0")
-        controller.wait_for("(?s)drives.*waits.*drives.*waits for .*vcan0")
+        plant.wait_for("waits for vcan0 does not exist", valve)
+        controller.wait_for("waits for vcan0 does not exist")
         ip("add", "vcan0", "type", "vcan")
         ip("set", "vcan0", "up")
+        valve.open()
         result = plant.result()
         self.assertEqual(result["hash"], self.hash_of(scenario))
         self.assertEqual(result["bus"]["safe_stops"], 0)
@@ -121,25 +126,36 @@ class OnTheBus(unittest.TestCase):
         scenario = self.folder / "far.toml"
         scenario.write_text(FAR)
         controller = self.start("controller", "--can", "vcan0")
-        plant = self.start("plant", scenario, "--can", "vcan0", "--json")
-        controller.wait_for("drives")
+        plant, valve = self.start_behind_valve(scenario, "--can", "vcan0", "--json")
+        controller.wait_for("drives", valve)
         subprocess.run(["cansend", "vcan0", "010#"], check=True)
+        valve.open()
         result = plant.result()
         self.assertEqual((plant.process.returncode, result["outcome"], result["detail"]), (6, "fault", "e_stop"))
         controller.wait_for("E-stop")
 
     def test_what_candump_wrote_replays(self):
-        scenario, log = self.world("rooms", 6), self.folder / "candump.log"
-        with open(log, "w", encoding="ascii") as file:
-            dump = subprocess.Popen(["candump", "-r", "4000000", "-L", "vcan0"], stdout=file)
-        try:
-            result = json.loads(once("hil", scenario, "--can", "vcan0", "--json").stdout)
-        finally:
-            time.sleep(0.5)
-            dump.terminate()
-            dump.wait(PATIENCE_S)
-        replay = json.loads(once("replay", log, "--json").stdout)
+        dump = Candump(self.folder / "candump.log")
+        result = json.loads(once("hil", self.world("rooms", 6), "--can", "vcan0", "--json").stdout)
+        dump.end()
+        replay = json.loads(once("replay", dump.path, "--json").stdout)
         self.assertEqual((replay["same"], replay["hash"], replay["steps"]), (True, result["hash"], result["ticks"]))
+
+    def test_others_read_and_play_what_was_recorded(self):
+        log = self.folder / "run.log"
+        result = json.loads(once("hil", self.world("discs", 3), "--record", log, "--json").stdout)
+        frames = frames_of(log.read_text().splitlines())
+
+        fields = ("-T", "fields", "-E", "separator=#", "-e", "can.id", "-e", "data.data")
+        shark = subprocess.run(["tshark", "-r", log, *fields], capture_output=True, text=True, timeout=PATIENCE_S, check=True)
+        read = [line.partition("#") for line in shark.stdout.splitlines()]
+        self.assertEqual([f"{int(number, 0):03X}#{data.upper()}" for number, _, data in read], frames)
+
+        dump = Candump(self.folder / "played.log")
+        subprocess.run(["canplayer", "-t", "-I", log, "vcan0=private"], timeout=PATIENCE_S, check=True)
+        self.assertEqual(frames_of(dump.end()), frames)
+        replay = json.loads(once("replay", dump.path, "--json").stdout)
+        self.assertEqual((replay["same"], replay["hash"]), (True, result["hash"]))
 
     def test_two_robots_share_the_bus(self):
         worlds = self.world("discs", 5), self.world("poles", 5)
