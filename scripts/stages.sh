@@ -85,17 +85,6 @@ stage_targets() {
 
 stage_clang() { build_and_test clang; }
 
-# The command's own tests take as long as all others here.
-stage_asan() {
-  build asan
-  ctest --preset asan --no-tests=error -LE '^(build|cli|targets|vcan|vm)$'
-}
-
-stage_asan_cli() {
-  build asan
-  ctest --preset asan --no-tests=error -L '^cli$'
-}
-
 # Only the tests that drive the core: the others ask the same of every build of it.
 build_and_test_core() {
   local preset=$1 labels=$2
@@ -104,6 +93,21 @@ build_and_test_core() {
   cmake --build --preset "$preset" -j "$jobs" --target "$@" -- --quiet
   find "build/$preset" -name '*.gcda' -delete
   ctest --preset "$preset" --no-tests=error -L "$labels"
+}
+
+# What a chip runs, but for its CAN nodes, and the world it is tried in.
+readonly sanitized='core|fuzzy|ground|nav|robot|bus|link|slcan|sim'
+
+stage_asan() {
+  build_and_test_core asan "^($sanitized)\$" \
+    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_ground_tests whisker_nav_tests \
+    whisker_run_tests whisker_bus_tests whisker_link_tests whisker_slcan_tests whisker_sim_tests
+}
+
+# The host's own tools take three times as long.
+stage_asan_host() {
+  build asan
+  ctest --preset asan --no-tests=error -LE "^(build|targets|vcan|vm|$sanitized)\$"
 }
 
 stage_coverage() {
