@@ -1,6 +1,7 @@
 /// The look-up engine: a table of nodes, and straight lines between them.
 #pragma once
 
+#include "firmware/fuzzy/packed_bilinear.hpp"
 #include "firmware/fuzzy/variables.hpp"
 
 namespace whisker::fuzzy {
@@ -20,7 +21,7 @@ class BilinearGrid {
   static constexpr uint8_t kDistanceNodes = kDistanceSpan / kDistanceSpacing + 1;
   static constexpr uint8_t kBiasNodes = kBiasSpan / kBiasSpacing + 1;
 
-  struct Node {
+  struct alignas(int) Node {
     int16_t turn;  ///< raw Q14
     int16_t step;  ///< raw Q14
   };
@@ -33,6 +34,11 @@ class BilinearGrid {
   BilinearGrid(const Table&&) = delete;
 
   Response operator()(Inputs in) const noexcept {
+#ifdef WHISKER_PACKED_BILINEAR
+    if constexpr (kDistanceShift == kBiasShift) {
+      return packed::look_up<kBiasShift, kBiasNodes>(table_->node, in);
+    }
+#endif
     const Place d = place<kDistanceShift, kDistanceLow, kDistanceSpan>(in.distance.raw());
     const Place r = place<kBiasShift, kBiasLow, kBiasSpan>(in.bias.raw());
     const Node* const near = &table_->node[d.cell][r.cell];

@@ -16,7 +16,7 @@
 
 namespace whisker::fuzzy {
 
-struct Inputs {
+struct alignas(int) Inputs {
   Q7 distance;  ///< D
   Q7 bias;      ///< R
 };
