@@ -29,6 +29,9 @@ Status status_of(const can::NavStatus& n) {
   return s;
 }
 
+/// No order will ever be obeyed; trouble() has the word for it.
+struct Hopeless {};
+
 class BusPilot final : public Pilot {
  public:
   BusPilot(hal::CanPort& port, Clock& clock, const BusOptions& options, Figures& figures,
@@ -51,11 +54,14 @@ class BusPilot final : public Pilot {
   }
 
   const Status& tick(Time now) override {
-    if (!begun_) begin();
     const auto period_ms = static_cast<std::uint8_t>(period_us_ / 1000);
-    base_.measure(now.raw() / period_ms, period_ms);
-    ++figures_.sets;
-    status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
+    try {
+      if (!begun_) begin();
+      base_.measure(now.raw() / period_ms, period_ms);
+      ++figures_.sets;
+      status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
+    } catch (const Hopeless&) {
+    }
     status_.command = base_.drive();
     figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
     return status_;
@@ -65,6 +71,9 @@ class BusPilot final : public Pilot {
 
   const char* trouble() const override {
     if (node_.state() == can::NodeState::e_stopped) return "e_stop";
+    if (const std::uint16_t bits = node_.for_good(); bits != 0) {
+      return (bits & can::Error::duplicate_node) != 0 ? "duplicate_node" : "bus_off_latched";
+    }
     return lockstep() && node_.state() == can::NodeState::safe_stop ? "safe_stop" : nullptr;
   }
 
@@ -85,6 +94,7 @@ class BusPilot final : public Pilot {
 
   void check() {
     if (options_.interrupted && options_.interrupted()) throw Interrupted("interrupted");
+    if (node_.for_good() != 0) throw Hopeless();
     if (begun_ && node_.peer_restarts() != restarts_) throw ControllerRestarted("the controller restarted");
     explain();
   }
