@@ -63,7 +63,7 @@ class BusPilot final : public Pilot {
     } catch (const Hopeless&) {
     }
     status_.command = base_.drive();
-    figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
+    if (begun_) figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
     return status_;
   }
 
