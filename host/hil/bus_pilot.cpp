@@ -10,13 +10,15 @@
 namespace whisker::hil {
 namespace {
 
-constexpr std::uint64_t kNap_us = 1000;
 constexpr std::uint8_t kCommitIndex = 255;  // the reply must not be taken for that to a write
 
 std::int16_t ramp_of(const Params& p) {
   const std::int32_t um_per_s = (p.wheels.max_acceleration * p.safety.period).raw();
   return saturate16(um_per_s / 100 > 0 ? um_per_s / 100 : 1);
 }
+
+/// Ticks begin with a millisecond, as the waits end.
+std::uint64_t whole_ms(std::uint64_t us) { return us - us % 1000; }
 
 Status status_of(const can::NavStatus& n) {
   Status s;
@@ -83,7 +85,7 @@ class BusPilot final : public Pilot {
 
   void nap() {
     node_.poll(clock_.now_ms());
-    clock_.wait(kNap_us);
+    clock_.wait_a_ms();
     node_.poll(clock_.now_ms());
   }
 
@@ -130,7 +132,7 @@ class BusPilot final : public Pilot {
     restarts_ = node_.peer_restarts();
     begun_ = true;
     begun_us_ = clock_.now_us();
-    due_us_ = begun_us_;
+    due_us_ = whole_ms(begun_us_);
   }
 
   void give(can::Order order) {
@@ -173,7 +175,7 @@ class BusPilot final : public Pilot {
         figures_.round_trip_us.push_back(static_cast<std::uint32_t>(now_us - sent_us));
         return status_of(node_.status());
       }
-      clock_.wait(kNap_us);
+      clock_.wait_a_ms();
       const std::uint64_t now_us = clock_.now_us();
       node_.poll(static_cast<std::uint32_t>(now_us / 1000));
       check();
@@ -190,15 +192,14 @@ class BusPilot final : public Pilot {
     const std::uint64_t sent_us = clock_.now_us();
     if (sent_us > due_us_ + period_us_) {
       ++figures_.late;
-      due_us_ = sent_us;
+      due_us_ = whole_ms(sent_us);
     }
     due_us_ += period_us_;
     base_.publish(can::Pace::real_time);
     node_.poll(clock_.now_ms());
     bool answered = false;
     while (clock_.now_us() < due_us_) {
-      const std::uint64_t left = due_us_ - clock_.now_us();
-      clock_.wait(left < kNap_us ? left : kNap_us);
+      clock_.wait_a_ms();
       node_.poll(clock_.now_ms());
       if (!answered && node_.answered(tick)) {
         answered = true;
