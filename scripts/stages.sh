@@ -85,7 +85,7 @@ stage_targets() {
 
 stage_clang() { build_and_test clang; }
 
-# Only the tests that drive the core: the others ask the same of every build of it.
+# build_and_test_core PRESET LABELS TARGET...: builds these programs alone, and runs the tests with these labels.
 build_and_test_core() {
   local preset=$1 labels=$2
   shift 2
@@ -95,13 +95,13 @@ build_and_test_core() {
   ctest --preset "$preset" --no-tests=error -L "$labels"
 }
 
-# What a chip runs, but for its CAN nodes, and the world it is tried in.
-readonly sanitized='core|fuzzy|ground|nav|robot|bus|link|slcan|sim'
+# What a chip runs, and the world it is tried in.
+readonly sanitized='core|fuzzy|ground|nav|robot|bus|can|link|slcan|sim'
 
 stage_asan() {
   build_and_test_core asan "^($sanitized)\$" \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_ground_tests whisker_nav_tests \
-    whisker_run_tests whisker_bus_tests whisker_link_tests whisker_slcan_tests whisker_sim_tests
+    whisker_run_tests whisker_bus_tests whisker_can_tests whisker_link_tests whisker_slcan_tests whisker_sim_tests
 }
 
 # The host's own tools take three times as long.
@@ -147,6 +147,8 @@ stage_campaign() {
 stage_long() {
   build host
   RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" WHISKER_LONG=1 ctest --preset host --no-tests=error -LE '^(build|targets|vcan|vm)$'
+  scripts/targets cortex-m3
+  WHISKER_LONG=1 ctest --preset host --no-tests=error -R '^targets: a chip is a node of the CAN bus '
 }
 
 stage_fuzz() {

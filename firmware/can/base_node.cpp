@@ -23,6 +23,7 @@ void BaseNode::poll(uint32_t now) noexcept {
   listen(now);
   if (ordered() && now - command_seen_ > kCommandLate_ms) stop(Error::command_late);
   publish();
+  if (order_state_ == OrderState::waiting && for_good() != 0) order_state_ = OrderState::refused;
   if (order_state_ != OrderState::waiting || !matched() || !at_rest()) return;
   if (order_due_ || now - ordered_at_ >= kOrderRepeat_ms) send_order();
 }

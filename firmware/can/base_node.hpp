@@ -12,7 +12,7 @@ enum class OrderState : uint8_t {
   none,
   waiting,  ///< not answered yet: sent again and again
   accepted,
-  refused,
+  refused,  ///< or pointless: see for_good()
 };
 
 /// The party with the sensors and the wheels, which also gives the missions. Allocates nothing, waits for

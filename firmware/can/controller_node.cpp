@@ -16,8 +16,7 @@ void ControllerNode::poll(uint32_t now) noexcept {
 
 void ControllerNode::watch() noexcept {
   holding_ = false;
-  // Before its first step the robot has not moved.
-  if (!ordered() || lockstep() || !stepped_) return;
+  if (!ordered() || !timed()) return;
   const uint32_t now = now_ms();
   for (const uint32_t seen : beam_seen_) {
     if (now - seen > kHoldAfter_ms) holding_ = true;

@@ -37,6 +37,8 @@ class ControllerNode final : public Node {
   bool hear(Kind kind, const hal::CanFrame& frame) noexcept override;
   void forget_peer() noexcept override;
   bool at_rest() const noexcept override { return true; }
+  /// Before its first step the robot has not moved, and it is not known whether it shall go in lockstep.
+  bool timed() const noexcept override { return !lockstep() && stepped_; }
   template <Kind kKind>
   bool hear_range(int beam, const hal::CanFrame& frame) noexcept;
   bool hear_wheels(const hal::CanFrame& frame) noexcept;

@@ -39,13 +39,17 @@ uint16_t Node::errors() const noexcept {
   return bits;
 }
 
+uint16_t Node::for_good() const noexcept {
+  return static_cast<uint16_t>((errors() | (peer_heard_ ? peer_.errors : 0)) & kForGood);
+}
+
 void Node::report(uint16_t bits, uint8_t core_fault) noexcept {
   standing_ = bits;
   core_fault_ = core_fault;
 }
 
 void Node::stop(uint16_t error) noexcept {
-  if (lockstep() && (error & kLateness) != 0) return;
+  if (!timed() && (error & kLateness) != 0) return;
   if (running_) {
     count(health_.stops);
     running_ = false;

@@ -53,6 +53,8 @@ class Node {
 
   NodeState state() const noexcept;
   uint16_t errors() const noexcept;
+  /// The errors among its own and the other party's that no order ends: that party must start anew.
+  uint16_t for_good() const noexcept;
   const BusHealth& health() const noexcept { return health_; }
   /// The other party lives, and speaks this protocol with this table.
   bool matched() const noexcept { return matched_; }
@@ -77,6 +79,8 @@ class Node {
   /// The other party has started anew: nothing that it said before counts.
   virtual void forget_peer() noexcept {}
   virtual bool at_rest() const noexcept { return true; }
+  /// Lateness counts now.
+  virtual bool timed() const noexcept { return !lockstep(); }
 
   /// Hears what came, and sees what did not. The party looks after its own time-outs next, then publishes.
   void listen(uint32_t now_ms) noexcept;
@@ -96,7 +100,7 @@ class Node {
   }
   /// Lets the port move what was sent just now.
   void flush() noexcept { port_.poll(now_); }
-  /// Latches a safe stop if the robot is running. Time-outs do not count in lockstep.
+  /// Latches a safe stop if the robot is running. Lateness does so only while timed().
   void stop(uint16_t error) noexcept;
   /// A new order ends a safe stop. False: an E-stop stands, or there is no handshake.
   bool run() noexcept;

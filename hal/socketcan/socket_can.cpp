@@ -54,6 +54,15 @@ can_frame wire_of(const CanFrame& frame) noexcept {
   return wire;
 }
 
+/// One frame, for the calls that move several. It points to both arguments.
+mmsghdr message_of(can_frame& wire, iovec& part) noexcept {
+  part = {&wire, sizeof wire};
+  mmsghdr message{};
+  message.msg_hdr.msg_iov = &part;
+  message.msg_hdr.msg_iovlen = 1;
+  return message;
+}
+
 }  // namespace
 
 SocketCan::SocketCan(std::string interface, std::vector<Accept> accept)
@@ -166,10 +175,7 @@ void SocketCan::fetch() noexcept {
     mmsghdr messages[kMost];
     const unsigned room = on_bus() ? inbox_.room() : kMost;
     for (unsigned i = 0; i < room; ++i) {
-      parts[i] = {&wires[i], sizeof wires[i]};
-      messages[i] = {};
-      messages[i].msg_hdr.msg_iov = &parts[i];
-      messages[i].msg_hdr.msg_iovlen = 1;
+      messages[i] = message_of(wires[i], parts[i]);
       messages[i].msg_hdr.msg_control = &extras[i];
       messages[i].msg_hdr.msg_controllen = sizeof extras[i];
     }
@@ -195,10 +201,7 @@ void SocketCan::flush() noexcept {
   unsigned waiting = 0;
   for (; const CanOutbox::Waiting* next = outbox_.at(static_cast<uint8_t>(waiting)); ++waiting) {
     wires[waiting] = wire_of(next->frame);
-    parts[waiting] = {&wires[waiting], sizeof wires[waiting]};
-    messages[waiting] = {};
-    messages[waiting].msg_hdr.msg_iov = &parts[waiting];
-    messages[waiting].msg_hdr.msg_iovlen = 1;
+    messages[waiting] = message_of(wires[waiting], parts[waiting]);
   }
   for (unsigned done = 0; done < waiting;) {
     const int put = sendmmsg(socket_, messages + done, waiting - done, 0);

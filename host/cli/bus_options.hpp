@@ -15,6 +15,7 @@ struct BusChoice {
   int robot = 1;
   std::string record;
   double drop_percent = 0;  ///< of the frames in each direction
+  bool real_time = false;
 
   /// With a boot number of its own.
   can::Identity identity() const;

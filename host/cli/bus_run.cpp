@@ -9,6 +9,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/hil/controller_loop.hpp"
+#include "host/hil/precedence.hpp"
 #include "host/hil/recorder.hpp"
 #include "host/hil/tap.hpp"
 #include "host/hil/wall_clock.hpp"
@@ -20,6 +21,11 @@ std::function<void(const std::string&)> speaker(const char* who, const BusChoice
   return [who, name = bus.name, robot = bus.robot](const std::string& words) {
     fmt::print(stderr, "{} {} on {}: {}\n", who, robot, name, words);
   };
+}
+
+void run_before_others(const std::function<void(const std::string&)>& say) {
+  const std::string forbidden = hil::take_precedence();
+  if (!forbidden.empty()) say("ticks may be late, as it gets no real-time priority: " + forbidden);
 }
 
 /// Inside this a recorder gets what passes on the bus.
@@ -36,7 +42,7 @@ bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
 }  // namespace
 
 int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
-                 const BusChoice& bus, can::Pace pace, hil::Line& line) {
+                 const BusChoice& bus, hil::Line& line) {
   const Interrupt interrupt;
   hil::Recorder recorder(bus.record, bus.name);
   hil::Figures figures;
@@ -49,10 +55,11 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   hil::WallClock clock([&line] { return line.descriptor(); });
   hil::BusOptions how;
   how.identity = bus.identity();
-  how.pace = pace;
+  how.pace = bus.real_time ? can::Pace::real_time : can::Pace::lockstep;
   how.say = speaker("plant", bus);
   how.bus_waits_for = [&line] { return line.waits_for(); };
   how.interrupted = [&interrupt] { return interrupt.noted(); };
+  if (bus.real_time) run_before_others(how.say);
   options.pilot = hil::bus_pilot(port, clock, how, figures);
   RunOutputs all = outputs;
   all.bus_json = [&figures] { return hil::figures_json(figures, kBitrate); };
@@ -81,6 +88,7 @@ void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line) 
   how.say = speaker("controller", bus);
   how.interrupted = [&interrupt] { return interrupt.noted(); };
   bus::FaultPort port = lossy(tap, bus);
+  if (bus.real_time) run_before_others(how.say);
   hil::control(port, line, how);
   recorder.close();
 }

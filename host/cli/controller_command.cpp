@@ -29,6 +29,8 @@ void add_controller(CLI::App& app, int& status) {
   const auto o = std::make_shared<Options>();
   add_bus(*cmd, o->bus)->required();
   add_planner(*cmd, o->planner);
+  add_switch(*cmd, "--realtime", o->bus.real_time,
+             "Be ready for a plant with --realtime: run before other processes");
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

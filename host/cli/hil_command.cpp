@@ -24,7 +24,6 @@ struct Options {
   ScenarioChoice scenario;
   BusChoice bus;
   PlannerKind planner = PlannerKind::skirt;
-  bool real_time = false;
 };
 
 /// The controller in a process of its own; ends with this object, or with this process.
@@ -72,8 +71,7 @@ int execute(const Options& o) {
     control_on_bus(controller, o.planner, *lines.second);
   });
   lines.second.reset();
-  return drive_on_bus(scenario, o.scenario.run_options(), o.scenario.outputs, o.bus,
-                      o.real_time ? can::Pace::real_time : can::Pace::lockstep, *lines.first);
+  return drive_on_bus(scenario, o.scenario.run_options(), o.scenario.outputs, o.bus, *lines.first);
 }
 
 }  // namespace
@@ -89,7 +87,7 @@ void add_hil(CLI::App& app, int& status) {
           "needs no CAN on this computer")
       ->capture_default_str();
   add_planner(*cmd, o->planner);
-  add_switch(*cmd, "--realtime", o->real_time, "A tick each period, instead of waiting for each answer");
+  add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

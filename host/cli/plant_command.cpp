@@ -15,14 +15,12 @@ namespace {
 struct Options {
   ScenarioChoice scenario;
   BusChoice bus;
-  bool real_time = false;
 };
 
 int execute(const Options& o) {
   const Scenario scenario = o.scenario.load({o.bus.record});
   const auto line = hil::open_line(o.bus.name);
-  return drive_on_bus(scenario, o.scenario.run_options(), o.scenario.outputs, o.bus,
-                      o.real_time ? can::Pace::real_time : can::Pace::lockstep, *line);
+  return drive_on_bus(scenario, o.scenario.run_options(), o.scenario.outputs, o.bus, *line);
 }
 
 }  // namespace
@@ -32,7 +30,7 @@ void add_plant(CLI::App& app, int& status) {
   const auto o = std::make_shared<Options>();
   add_scenario(*cmd, o->scenario);
   add_bus(*cmd, o->bus)->required();
-  add_switch(*cmd, "--realtime", o->real_time, "A tick each period, instead of waiting for each answer");
+  add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

@@ -10,13 +10,15 @@
 namespace whisker::hil {
 namespace {
 
-constexpr std::uint64_t kNap_us = 1000;
 constexpr std::uint8_t kCommitIndex = 255;  // the reply must not be taken for that to a write
 
 std::int16_t ramp_of(const Params& p) {
   const std::int32_t um_per_s = (p.wheels.max_acceleration * p.safety.period).raw();
   return saturate16(um_per_s / 100 > 0 ? um_per_s / 100 : 1);
 }
+
+/// Ticks begin with a millisecond, as the waits end.
+std::uint64_t whole_ms(std::uint64_t us) { return us - us % 1000; }
 
 Status status_of(const can::NavStatus& n) {
   Status s;
@@ -28,6 +30,9 @@ Status status_of(const can::NavStatus& n) {
   s.health.fault = n.fault < kFaults ? static_cast<Fault>(n.fault) : Fault::none;
   return s;
 }
+
+/// No order will ever be obeyed; trouble() has the word for it.
+struct Hopeless {};
 
 class BusPilot final : public Pilot {
  public:
@@ -51,13 +56,16 @@ class BusPilot final : public Pilot {
   }
 
   const Status& tick(Time now) override {
-    if (!begun_) begin();
     const auto period_ms = static_cast<std::uint8_t>(period_us_ / 1000);
-    base_.measure(now.raw() / period_ms, period_ms);
-    ++figures_.sets;
-    status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
+    try {
+      if (!begun_) begin();
+      base_.measure(now.raw() / period_ms, period_ms);
+      ++figures_.sets;
+      status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
+    } catch (const Hopeless&) {
+    }
     status_.command = base_.drive();
-    figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
+    if (begun_) figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
     return status_;
   }
 
@@ -65,6 +73,9 @@ class BusPilot final : public Pilot {
 
   const char* trouble() const override {
     if (node_.state() == can::NodeState::e_stopped) return "e_stop";
+    if (const std::uint16_t bits = node_.for_good(); bits != 0) {
+      return (bits & can::Error::duplicate_node) != 0 ? "duplicate_node" : "bus_off_latched";
+    }
     return lockstep() && node_.state() == can::NodeState::safe_stop ? "safe_stop" : nullptr;
   }
 
@@ -74,7 +85,7 @@ class BusPilot final : public Pilot {
 
   void nap() {
     node_.poll(clock_.now_ms());
-    clock_.wait(kNap_us);
+    clock_.wait_a_ms();
     node_.poll(clock_.now_ms());
   }
 
@@ -85,6 +96,7 @@ class BusPilot final : public Pilot {
 
   void check() {
     if (options_.interrupted && options_.interrupted()) throw Interrupted("interrupted");
+    if (node_.for_good() != 0) throw Hopeless();
     if (begun_ && node_.peer_restarts() != restarts_) throw ControllerRestarted("the controller restarted");
     explain();
   }
@@ -120,7 +132,7 @@ class BusPilot final : public Pilot {
     restarts_ = node_.peer_restarts();
     begun_ = true;
     begun_us_ = clock_.now_us();
-    due_us_ = begun_us_;
+    due_us_ = whole_ms(begun_us_);
   }
 
   void give(can::Order order) {
@@ -163,7 +175,7 @@ class BusPilot final : public Pilot {
         figures_.round_trip_us.push_back(static_cast<std::uint32_t>(now_us - sent_us));
         return status_of(node_.status());
       }
-      clock_.wait(kNap_us);
+      clock_.wait_a_ms();
       const std::uint64_t now_us = clock_.now_us();
       node_.poll(static_cast<std::uint32_t>(now_us / 1000));
       check();
@@ -180,15 +192,14 @@ class BusPilot final : public Pilot {
     const std::uint64_t sent_us = clock_.now_us();
     if (sent_us > due_us_ + period_us_) {
       ++figures_.late;
-      due_us_ = sent_us;
+      due_us_ = whole_ms(sent_us);
     }
     due_us_ += period_us_;
     base_.publish(can::Pace::real_time);
     node_.poll(clock_.now_ms());
     bool answered = false;
     while (clock_.now_us() < due_us_) {
-      const std::uint64_t left = due_us_ - clock_.now_us();
-      clock_.wait(left < kNap_us ? left : kNap_us);
+      clock_.wait_a_ms();
       node_.poll(clock_.now_ms());
       if (!answered && node_.answered(tick)) {
         answered = true;

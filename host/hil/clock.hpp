@@ -12,6 +12,8 @@ class Clock {
   /// Returns after this time, or earlier when a frame may have come.
   virtual void wait(std::uint64_t most_us) = 0;
 
+  /// Until now_ms() changes at most: who counts milliseconds sees each one when it begins.
+  void wait_a_ms() { wait(1000 - now_us() % 1000); }
   std::uint32_t now_ms() { return static_cast<std::uint32_t>(now_us() / 1000); }
 };
 

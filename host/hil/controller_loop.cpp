@@ -28,7 +28,6 @@ std::string words_for(const can::Node& node, const Line& line) {
 }  // namespace
 
 void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
-  constexpr std::uint64_t kNap_us = 1000;
   HostPlanners planners(options.planner);
   const auto controller = std::make_unique<can_remote::Controller>(port, options.identity, planners);
   WallClock clock([&line] { return line.descriptor(); });
@@ -38,7 +37,7 @@ void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
     const std::string words = words_for(controller->node(), line);
     if (words != said && options.say) options.say(words);
     said = words;
-    clock.wait(kNap_us);
+    clock.wait_a_ms();
   }
 }
 

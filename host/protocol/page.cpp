@@ -72,7 +72,8 @@ constexpr const char* kStates = R"(## States and time-outs
 | e_stopped | latched: until a valid clear while the wheels stand |
 
 A node is polled every millisecond, so each time below is kept within one millisecond more. They hold in real
-time; in lockstep time stands still while the base waits.
+time; in lockstep time stands still while the base waits. The controller's hold from its first step on: before that the
+robot has not moved.
 
 | what is missing | for | who sees it | what follows |
 |---|---|---|---|

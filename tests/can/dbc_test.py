@@ -10,6 +10,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 from contextlib import redirect_stderr, redirect_stdout
 
@@ -56,6 +57,27 @@ class Canmatrix(unittest.TestCase):
         messages = {name.removesuffix("Controller").removesuffix("Base").removesuffix("All") for name in seen}
         everything = {f.name.removesuffix("Controller").removesuffix("Base").removesuffix("All") for f in matrix.frames}
         self.assertEqual(everything - messages, {"InfoRequest"})
+
+    def test_every_frame_of_a_run_decodes_and_keeps_its_ranges(self):
+        frames = {f.arbitration_id.id: f for f in load_dbc((ROOT / "whisker.dbc").read_bytes()).frames}
+        with tempfile.TemporaryDirectory(prefix="whisker-dbc-") as folder:
+            world, log = pathlib.Path(folder, "world.toml"), pathlib.Path(folder, "run.log")
+            world.write_text("time_limit_s = 2.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 9.0\ny_m = 0.0\n")
+            subprocess.run([WHISKER, "hil", world, "--record", log], capture_output=True, timeout=60, check=False)
+            lines = log.read_text("ascii").splitlines()
+        speeds = []
+        for line in lines:
+            identifier, _, data = line.split()[2].partition("#")
+            frame = frames[int(identifier, 16)]
+            self.assertEqual(frame.size, len(data) // 2, line)
+            values = {name: decoded.phys_value for name, decoded in frame.decode(bytes.fromhex(data)).items()}
+            for name, value in values.items():
+                signal = frame.signal_by_name(name)
+                self.assertTrue(signal.min <= value <= signal.max, f"{line}: {name} {value}")
+            if frame.name == "WheelCommand":
+                speeds.append(values["Left"])
+        self.assertGreater(len(speeds), 200)
+        self.assertTrue(0.1 < max(speeds) <= 0.3, max(speeds))
 
     def test_names_of_values_are_there(self):
         frame = load_dbc((ROOT / "whisker.dbc").read_bytes()).frame_by_name("NavStatus")

@@ -1,6 +1,9 @@
 /// Both parties in one process, on a bus in memory, in a time of their own.
 #pragma once
 
+#include <deque>
+#include <functional>
+
 #include "hal/can_remote/controller.hpp"
 #include "host/bus/memory_bus.hpp"
 #include "host/hil/bus_pilot.hpp"
@@ -59,18 +62,57 @@ class LossyPort final : public hal::CanPort {
   std::uint64_t dropped_ = 0;
 };
 
+/// At the end of a line that lets frames out at the multiples of `every_ms` alone, and loses none.
+class StutteringPort final : public hal::CanPort {
+ public:
+  StutteringPort(hal::CanPort& port, std::uint32_t every_ms) : port_(port), every_ms_(every_ms) {}
+  bool send(const hal::CanFrame& frame, std::uint8_t lifetime_ms) noexcept override {
+    return port_.send(frame, lifetime_ms);
+  }
+  bool receive(hal::CanFrame& out) noexcept override {
+    if (let_out_.empty()) return false;
+    out = let_out_.front();
+    let_out_.pop_front();
+    return true;
+  }
+  void poll(std::uint32_t now_ms) noexcept override {
+    port_.poll(now_ms);
+    for (hal::CanFrame frame{}; port_.receive(frame);) kept_.push_back(frame);
+    if (now_ms / every_ms_ == turn_) return;
+    turn_ = now_ms / every_ms_;
+    let_out_.insert(let_out_.end(), kept_.begin(), kept_.end());
+    kept_.clear();
+  }
+  void restart() noexcept override { port_.restart(); }
+  hal::CanState state() const noexcept override { return port_.state(); }
+  const hal::CanCounts& counts() const noexcept override { return port_.counts(); }
+
+ private:
+  hal::CanPort& port_;
+  const std::uint32_t every_ms_;
+  std::uint32_t turn_ = 0;
+  std::deque<hal::CanFrame> kept_;
+  std::deque<hal::CanFrame> let_out_;
+};
+
 struct LoopResult {
   RunResult result;
   hil::Figures figures;
 };
 
-/// A run over the bus.
-inline LoopResult drive_over_bus(const Scenario& scenario, PlannerKind kind, can::Pace pace,
-                                 hal::CanPort& base_port, hal::CanPort& controller_port,
-                                 const Slowness& slowness = {}) {
+/// A run over the bus. others: who else is on it, polled with the controller.
+inline LoopResult drive_over_bus(
+    const Scenario& scenario, PlannerKind kind, can::Pace pace, hal::CanPort& base_port,
+    hal::CanPort& controller_port, const Slowness& slowness = {},
+    const std::function<void(std::uint32_t now_ms)>& others = [](std::uint32_t) {}) {
   hil::HostPlanners planners(kind);
   can_remote::Controller controller(controller_port, {1, 77, 0}, planners);
-  SharedTime time([&](std::uint32_t now_ms) { controller.poll(now_ms); }, slowness);
+  SharedTime time(
+      [&](std::uint32_t now_ms) {
+        controller.poll(now_ms);
+        others(now_ms);
+      },
+      slowness);
   LoopResult out;
   hil::BusOptions bus;
   bus.pace = pace;

@@ -84,6 +84,42 @@ TEST(Lockstep, ASlowControllerGetsFewSetsTwice) {
   EXPECT_GT(over_bus.figures.sets, 1000U);
 }
 
+TEST(Lockstep, HeartbeatsThatComeTooLateStopNothing) {
+  Scenario scenario = scenario_of(worlds::Kind::discs);
+  scenario.time_limit_s = 5;
+  for (const std::uint32_t every_ms : {50U, 290U, 350U, 1000U, 3000U}) {
+    bus::MemoryBus wire;
+    test::StutteringPort base(wire.attach(), every_ms), controller(wire.attach(), every_ms);
+    const auto over_bus =
+        test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, base, controller);
+    EXPECT_EQ(over_bus.result.hash, run(scenario).hash) << every_ms;
+    EXPECT_EQ(over_bus.figures.health.stops, 0U) << every_ms;
+    EXPECT_GE(over_bus.figures.round_trip_us.back(), 1000 * every_ms / 2) << every_ms;
+  }
+}
+
+class Twins : public testing::TestWithParam<std::tuple<can::Pace, std::uint32_t>> {};
+
+TEST_P(Twins, OfTheControllerEndTheRunWithAFault) {
+  const auto [pace, from_ms] = GetParam();
+  bus::MemoryBus wire;
+  bus::MemoryPort &base = wire.attach(), &controller = wire.attach();
+  hil::HostPlanners planners(PlannerKind::skirt);
+  can_remote::Controller twin(wire.attach(), {1, 88, 0}, planners);
+  const auto twins_turn = [&twin, from = from_ms](std::uint32_t now_ms) {
+    if (now_ms >= from) twin.poll(now_ms);
+  };
+  const auto over_bus = test::drive_over_bus(scenario_of(worlds::Kind::discs), PlannerKind::skirt, pace, base,
+                                             controller, {}, twins_turn);
+  EXPECT_EQ(over_bus.result.verdict, Verdict::fault);
+  EXPECT_EQ(over_bus.result.detail, "duplicate_node");
+  EXPECT_EQ(over_bus.result.ticks > 10, from_ms > 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Now, Twins,
+                         testing::Combine(testing::Values(can::Pace::lockstep, can::Pace::real_time),
+                                          testing::Values(0U, 1500U)));
+
 INSTANTIATE_TEST_SUITE_P(Worlds, EveryWorld, testing::ValuesIn(worlds::kKinds));
 
 }  // namespace

@@ -394,6 +394,31 @@ TEST_F(BaseAlone, SomebodyElseWithItsNumberStopsForGood) {
   EXPECT_EQ(base_.state(), NodeState::safe_stop);
 }
 
+TEST_F(BaseAlone, AnOrderToAControllerWithATwinIsRefusedAtOnce) {
+  for (const std::uint16_t error : {Error::duplicate_node, Error::bus_off_latched}) {
+    if (base_.state() == NodeState::waiting) start();
+    beats_ = false;
+    Heartbeat beat;
+    beat.boot = kPeerBoot;
+    beat.state = NodeState::safe_stop;
+    beat.errors = error;
+    peer_.say(beat);
+    pass();
+    EXPECT_EQ(base_.for_good(), error);
+    expect_braking();
+    peer_.forget();
+    base_.give(Order::resume, {{}, {{}, 100_mm}}, Pace::real_time);
+    pass(200);
+    EXPECT_EQ(base_.order_state(), OrderState::refused);
+    EXPECT_EQ(peer_.heard<MissionOrder>(), 0);
+    beat.errors = 0;
+    beat.state = NodeState::ready;
+    peer_.say(beat);
+    pass(2);
+    EXPECT_EQ(base_.for_good(), 0);
+  }
+}
+
 TEST_F(BaseAlone, HeartbeatsCarryStateAndErrorsAtOnce) {
   start();
   answers_ = false;
@@ -671,6 +696,27 @@ TEST_F(ControllerAlone, InLockstepItWaitsForEver) {
   pass(20);
   EXPECT_EQ(node_.state(), NodeState::running);
   EXPECT_GT(steps_, before);
+}
+
+TEST_F(ControllerAlone, ABaseThatIsLostBeforeTheFirstStepStopsNothing) {
+  for (bool& sends : sends_) sends = false;
+  peer_.greet(kPeerBoot);
+  pass(2);
+  order(Order::start);
+  EXPECT_EQ(replied(), MissionStatus::accepted);
+  beats_ = false;
+  pass(1000);
+  EXPECT_EQ(node_.state(), NodeState::waiting);
+  EXPECT_EQ(node_.health().stops, 0U);
+  beats_ = true;
+  for (bool& sends : sends_) sends = true;
+  pass(120);
+  EXPECT_EQ(node_.state(), NodeState::running);
+  EXPECT_GT(steps_, 0);
+  beats_ = false;
+  pass(302);
+  EXPECT_EQ(node_.state(), NodeState::safe_stop) << "it has stepped";
+  EXPECT_NE(node_.errors() & Error::peer_lost, 0);
 }
 
 TEST_F(ControllerAlone, AnOrderNeedsAllItsParts) {

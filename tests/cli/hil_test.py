@@ -2,7 +2,10 @@
 
 import csv
 import json
+import os
 import re
+import subprocess
+import time
 
 import whisker
 from whisker import KINDS, STATUS, Case, with_time_limit
@@ -95,6 +98,39 @@ class Hil(Case):
         log.write_text(text)
         replay = self.json_of("replay", log)
         self.assertEqual((replay["same"], replay["damaged"]), (True, 2))
+
+
+class Precedence(Case):
+    WORDS = "gets no real-time priority: Operation not permitted"
+    AHEAD = "time_limit_s = 2.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 200.0\ny_m = 0.0\n"
+
+    def policies(self, *prefix, options):
+        """Those that the plant was seen with, and what was said."""
+        scenario = self.file("ahead.toml", self.AHEAD)
+        hil = subprocess.Popen(
+            [*prefix, whisker.binary, "hil", scenario, *options], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+        )
+        seen = set()
+        while hil.poll() is None:
+            seen.add(os.sched_getscheduler(hil.pid))
+            time.sleep(0.01)
+        return seen, hil.communicate()[1]
+
+    def test_ticks_in_time_go_before_other_processes_where_that_is_allowed(self):
+        seen, said = self.policies(options=["--realtime"])
+        self.assertEqual(os.SCHED_FIFO in seen, self.WORDS not in said)
+
+    def test_where_it_is_not_the_run_goes_on_and_says_so(self):
+        # Who is not root has no such right; root gives it up.
+        drop = ("setpriv", "--inh-caps=-sys_nice", "--bounding-set=-sys_nice") if os.geteuid() == 0 else ()
+        seen, said = self.policies("prlimit", "--rtprio=0", *drop, options=["--realtime"])
+        self.assertNotIn(os.SCHED_FIFO, seen)
+        self.assertEqual(said.count(self.WORDS), 2, said)
+
+    def test_lockstep_asks_for_nothing(self):
+        seen, said = self.policies(options=[])
+        self.assertNotIn(os.SCHED_FIFO, seen)
+        self.assertNotIn("priority", said)
 
 
 class Refusals(Case):

@@ -1,12 +1,18 @@
-"""scripts/bars, compare, measure and odometry: what they ask of `whisker campaign` and what they make of its summary.
+"""scripts/bars, compare, measure and odometry: what they ask of `whisker campaign` and what they make of its summary;
+and what scripts/bus-figures makes of a log.
 
 Behind WHISKER stands a stand-in that notes its arguments and prints one summary, made by the command once.
 """
 
+import importlib.machinery
+import importlib.util
 import json
 import os
 import pathlib
 import subprocess
+import sys
+import tempfile
+import unittest
 
 import whisker
 from whisker import KINDS, PLANNERS, Case
@@ -92,6 +98,60 @@ class Tables(Scripts):
         self.assertEqual(rest, {("campaign", "maze", "--count", "3", "--seed", "40", "--noise", "--wheel-scale-sigma", "--json")})
 
 
+class BusFigures(unittest.TestCase):
+    def setUp(self):
+        self.figures = self.program("bus-figures")
+        self.runs = self.program("bus_runs.py")
+
+    def program(self, name):
+        sys.path.insert(0, str(SCRIPTS))
+        self.addCleanup(sys.path.remove, str(SCRIPTS))
+        loader = importlib.machinery.SourceFileLoader(name, str(SCRIPTS / name))
+        module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+        loader.exec_module(module)
+        return module
+
+    def test_a_stop_is_that_after_the_last_command(self):
+        with tempfile.TemporaryDirectory() as box:
+            log = pathlib.Path(box, "run.log")
+            log.write_text(
+                "(10.000000) vcan0 101#0010000000000000\n"  # to drive, with 0
+                "(10.055000) vcan0 709#0040000000000000\n"  # safe stop
+                "(11.000000) vcan0 709#0030000000000000\n"
+                "(12.000000) vcan0 101#0010B80BB80B0000\n"
+                "(12.000500) vcan0 101#0000000000000000\n"  # to stop
+                "(12.051000) vcan0 709#0040000000000000\n"
+                "(12.060000) vcan0 119#0010020000030000\n"
+                "(12.300000) vcan0 119#0020030000030000\n"
+                "(12.310000) vcan0 119#0030030000030000\n"
+                "(12.400000) vcan0 709#0040"  # being written
+            )
+            stop = self.runs.stop_of(log)
+        self.assertEqual({key: round(value, 3) for key, value in stop.items()}, {"speed_mps": 0.3, "latency_ms": 51, "braking_ms": 249})
+
+    def test_what_misses_its_bar_is_bold_and_counted(self):
+        lockstep = {"world": "u-trap", "ticks": 7, "ticks_per_s": 500.0, "same": True}
+        trip = {"p50": 1, "p99": 2, "max": 3}
+        live = {"world": "spiral", "ticks": 101, "deadline_misses": 0, "round_trip_us": trip, "frames": 730, "load_percent": 19.6}
+        stop = {"speed_mps": 0.3, "latency_ms": 50.5, "braking_ms": 400.0}
+        good = self.figures.table_of({"lockstep": [lockstep], "real_time": live, "stops": [stop]}, 1)
+        self.assertEqual((good.missed, good.text().count("**")), (0, 0))
+        bad = {
+            "lockstep": [{**lockstep, "ticks_per_s": 499.4}, {**lockstep, "same": False}],
+            "real_time": {**live, "ticks": 100, "deadline_misses": 1},
+            "stops": [stop, {**stop, "latency_ms": 51.2}],
+        }
+        table = self.figures.table_of(bad, 1)
+        self.assertEqual((table.missed, table.text().count("**")), (5, 10))
+        self.assertIn("**500 ticks/s, another trajectory**", table.text())
+        self.assertIn("| **50.5 to 51.2 ms** | 51 ms |", table.text())
+
+    def test_its_page_has_a_place_for_the_table(self):
+        page = self.figures.PAGE.read_text()
+        for mark in self.figures.MARKS:
+            self.assertEqual(page.count(mark), 1)
+
+
 class Status(Scripts):
     def test_bars_that_are_missed_are_counted(self):
         slow = {"value": 99, "low": 99, "high": 99}
@@ -122,7 +182,7 @@ class Status(Scripts):
 
     def test_a_missing_command_is_named(self):
         self.command.unlink()
-        for name in ("bars", "compare", "measure", "odometry"):
+        for name in ("bars", "bus-figures", "compare", "measure", "odometry"):
             done = self.run_script(name, status=1)
             self.assertRegex(done.stderr, rf"\A{name}: [^\n]* is missing: cmake [^\n]*\n\Z")
 

@@ -1,23 +1,25 @@
 """The core on an emulated chip, as a CAN node behind its UART, drives the simulated robot into a U-trap: the
-commands are those of the core in the simulator's process.
+commands are those of the core in the simulator's process. With WHISKER_LONG in the environment it drives out again.
 
 usage: can_node.py ROOT WHISKER
 """
 
 import json
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import time
 
-SECONDS = 10  # of the drive
+SECONDS = 10  # of the drive, if it is not the whole
 PATIENCE_S = 300
+LONG_PATIENCE_S = 800
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
 
 
-def hash_of(command):
-    done = subprocess.run([*map(str, command), "--json"], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+def hash_of(command, patience_s):
+    done = subprocess.run([*map(str, command), "--json"], capture_output=True, text=True, timeout=patience_s, check=False)
     if not done.stdout:
         raise RuntimeError(f"exit status {done.returncode}: {done.stderr}")
     result = json.loads(done.stdout)
@@ -25,14 +27,16 @@ def hash_of(command):
 
 
 def main(root, whisker):
+    whole = "WHISKER_LONG" in os.environ
+    limit, patience_s = ("", LONG_PATIENCE_S) if whole else (f"time_limit_s = {SECONDS}\n", PATIENCE_S)
     with tempfile.TemporaryDirectory(prefix="whisker-node-") as folder:
         scenario, socket = pathlib.Path(folder, "trap.toml"), pathlib.Path(folder, "node.sock")
-        scenario.write_text(f"time_limit_s = {SECONDS}\n" + pathlib.Path(root, TRAP).read_text())
+        scenario.write_text(limit + pathlib.Path(root, TRAP).read_text())
         chip = subprocess.Popen([f"{root}/scripts/chip", "cortex-m3", "can-node", "--socket", socket])
         try:
-            here = hash_of([whisker, "run", scenario])
+            here = hash_of([whisker, "run", scenario], patience_s)
             began = time.monotonic()
-            there = hash_of([whisker, "plant", scenario, "--can", f"slcan:{socket}"])
+            there = hash_of([whisker, "plant", scenario, "--can", f"slcan:{socket}"], patience_s)
             took_s = time.monotonic() - began
         finally:
             chip.terminate()

@@ -25,6 +25,36 @@ def wait_until(condition, trouble):
         time.sleep(WATCH_S)
 
 
+class Interface:
+    """A virtual CAN interface of one's own, up from the constructor to close()."""
+
+    def __init__(self, name):
+        self.name = name
+        self.add()
+
+    def set(self, *arguments):
+        done = subprocess.run(["ip", "link", *arguments], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+        if done.returncode != 0:
+            raise AssertionError(f"ip link {' '.join(arguments)}: {done.stderr.strip()}; under scripts/with-vcan?")
+
+    def add(self):
+        self.set("add", "dev", self.name, "type", "vcan")
+        self.up()
+
+    def up(self):
+        self.set("set", self.name, "up")
+
+    def down(self):
+        self.set("set", self.name, "down")
+
+    def remove(self):
+        self.set("del", self.name)
+
+    def close(self):
+        # The test may have failed while it was away.
+        subprocess.run(["ip", "link", "del", self.name], capture_output=True, timeout=PATIENCE_S, check=False)
+
+
 class Valve:
     """A record that is written to a pipe: its writer drives on only as far as the pipe is emptied."""
 
@@ -104,7 +134,7 @@ class Candump:
 
     LAST = "7FF#"  # nobody else's
 
-    def __init__(self, path, interface="vcan0"):
+    def __init__(self, path, interface):
         self.path = path
         self.interface = interface
         before = listeners(interface)
@@ -132,7 +162,7 @@ class Meddler:
 
     FRAME = struct.Struct("<IB3x8s")
 
-    def __init__(self, interface="vcan0"):
+    def __init__(self, interface):
         self.bus = socket.socket(socket.PF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
         self.bus.bind((interface,))
         self.bus.settimeout(WATCH_S)

@@ -1,4 +1,4 @@
-"""`whisker plant`, `controller` and `hil` on a real vcan0, with can-utils and iproute2 as the others on the bus.
+"""`whisker plant`, `controller` and `hil` on an interface of Linux, with can-utils and iproute2 as the others on it.
 
 usage: hil_test.py WHISKER
 """
@@ -12,14 +12,11 @@ import sys
 import tempfile
 import unittest
 
-from bus import PATIENCE_S, Candump, Meddler, Running, Valve, frames_of
+from bus import PATIENCE_S, Candump, Interface, Meddler, Running, Valve, frames_of
 
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
+BUS = "vhil0"
 FAR = "time_limit_s = 900.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 200.0\ny_m = 0.0\n"
-
-
-def ip(*arguments):
-    subprocess.run(["ip", "link", *arguments], check=True)
 
 
 def once(*arguments):
@@ -31,6 +28,8 @@ class OnTheBus(unittest.TestCase):
         box = tempfile.TemporaryDirectory(prefix="whisker-hil-")
         self.addCleanup(box.cleanup)
         self.folder = pathlib.Path(box.name)
+        self.interface = Interface(BUS)
+        self.addCleanup(self.interface.close)
 
     def start(self, *arguments):
         running = Running(WHISKER, *arguments)
@@ -54,23 +53,23 @@ class OnTheBus(unittest.TestCase):
     def test_the_trajectory_is_that_of_one_process(self):
         for kind in KINDS:
             scenario = self.world(kind, 3)
-            both = json.loads(once("hil", scenario, "--can", "vcan0", "--json").stdout)
+            both = json.loads(once("hil", scenario, "--can", BUS, "--json").stdout)
             self.assertEqual(both["hash"], self.hash_of(scenario), kind)
 
     def test_so_it_is_when_two_per_cent_of_the_frames_are_lost(self):
         lost = 0
         for kind in KINDS:
             scenario = self.world(kind, 1)
-            both = json.loads(once("hil", scenario, "--can", "vcan0", "--drop", 2, "--json").stdout)
+            both = json.loads(once("hil", scenario, "--can", BUS, "--drop", 2, "--json").stdout)
             self.assertEqual(both["hash"], self.hash_of(scenario), kind)
             lost += both["bus"]["lost"]
         self.assertGreater(lost, 0)
 
     def test_so_it_is_beside_a_process_that_meddles(self):
         scenario = self.world("u-trap", 3)
-        meddler = Meddler()
+        meddler = Meddler(BUS)
         try:
-            both = json.loads(once("hil", scenario, "--can", "vcan0", "--json").stdout)
+            both = json.loads(once("hil", scenario, "--can", BUS, "--json").stdout)
         finally:
             said = meddler.end()
         self.assertEqual((both["hash"], both["bus"]["safe_stops"]), (self.hash_of(scenario), 0))
@@ -79,44 +78,43 @@ class OnTheBus(unittest.TestCase):
 
     def test_either_may_come_late_and_the_controller_may_start_anew(self):
         scenario = self.world("discs", 5)
-        plant, valve = self.start_behind_valve(scenario, "--can", "vcan0", "--json")
+        plant, valve = self.start_behind_valve(scenario, "--can", BUS, "--json")
         plant.wait_for("waits for the controller")
-        first = self.start("controller", "--can", "vcan0")
+        first = self.start("controller", "--can", BUS)
         first.wait_for("drives", valve)
         first.end(signal.SIGKILL)
-        second = self.start("controller", "--can", "vcan0")
+        second = self.start("controller", "--can", BUS)
         plant.wait_for("the run begins again", valve)
         valve.open()
         self.assertEqual(plant.result()["hash"], self.hash_of(scenario))
         second.wait_for("waits for the base")
-        again = self.start("plant", scenario, "--can", "vcan0", "--json")
+        again = self.start("plant", scenario, "--can", BUS, "--json")
         self.assertEqual(again.result()["hash"], self.hash_of(scenario))
         self.assertEqual(second.end(signal.SIGINT), 0)
 
     def test_the_plant_may_start_anew(self):
         scenario = self.world("poles", 5)
-        controller = self.start("controller", "--can", "vcan0")
-        first, valve = self.start_behind_valve(scenario, "--can", "vcan0")
+        controller = self.start("controller", "--can", BUS)
+        first, valve = self.start_behind_valve(scenario, "--can", BUS)
         controller.wait_for("drives", valve)
         first.end(signal.SIGKILL)
-        second = self.start("plant", scenario, "--can", "vcan0", "--json")
+        second = self.start("plant", scenario, "--can", BUS, "--json")
         self.assertEqual(second.result()["hash"], self.hash_of(scenario))
 
     def test_the_interface_may_go_and_come_back(self):
         scenario = self.world("maze", 8)
-        controller = self.start("controller", "--can", "vcan0")
-        plant, valve = self.start_behind_valve(scenario, "--can", "vcan0", "--json")
+        controller = self.start("controller", "--can", BUS)
+        plant, valve = self.start_behind_valve(scenario, "--can", BUS, "--json")
         controller.wait_for("drives", valve)
-        ip("set", "vcan0", "down")
-        plant.wait_for("waits for vcan0 is down", valve)
-        controller.wait_for("waits for vcan0 is down")
-        ip("set", "vcan0", "up")
+        self.interface.down()
+        plant.wait_for(f"waits for {BUS} is down", valve)
+        controller.wait_for(f"waits for {BUS} is down")
+        self.interface.up()
         controller.wait_for("(?s)is down.*drives", valve)
-        ip("del", "vcan0")
-        plant.wait_for("waits for vcan0 does not exist", valve)
-        controller.wait_for("waits for vcan0 does not exist")
-        ip("add", "vcan0", "type", "vcan")
-        ip("set", "vcan0", "up")
+        self.interface.remove()
+        plant.wait_for(f"waits for {BUS} does not exist", valve)
+        controller.wait_for(f"waits for {BUS} does not exist")
+        self.interface.add()
         valve.open()
         result = plant.result()
         self.assertEqual(result["hash"], self.hash_of(scenario))
@@ -125,18 +123,18 @@ class OnTheBus(unittest.TestCase):
     def test_cansend_stops_the_robot(self):
         scenario = self.folder / "far.toml"
         scenario.write_text(FAR)
-        controller = self.start("controller", "--can", "vcan0")
-        plant, valve = self.start_behind_valve(scenario, "--can", "vcan0", "--json")
+        controller = self.start("controller", "--can", BUS)
+        plant, valve = self.start_behind_valve(scenario, "--can", BUS, "--json")
         controller.wait_for("drives", valve)
-        subprocess.run(["cansend", "vcan0", "010#"], check=True)
+        subprocess.run(["cansend", BUS, "010#"], check=True)
         valve.open()
         result = plant.result()
         self.assertEqual((plant.process.returncode, result["outcome"], result["detail"]), (6, "fault", "e_stop"))
         controller.wait_for("E-stop")
 
     def test_what_candump_wrote_replays(self):
-        dump = Candump(self.folder / "candump.log")
-        result = json.loads(once("hil", self.world("rooms", 6), "--can", "vcan0", "--json").stdout)
+        dump = Candump(self.folder / "candump.log", BUS)
+        result = json.loads(once("hil", self.world("rooms", 6), "--can", BUS, "--json").stdout)
         dump.end()
         replay = json.loads(once("replay", dump.path, "--json").stdout)
         self.assertEqual((replay["same"], replay["hash"], replay["steps"]), (True, result["hash"], result["ticks"]))
@@ -151,20 +149,29 @@ class OnTheBus(unittest.TestCase):
         read = [line.partition("#") for line in shark.stdout.splitlines()]
         self.assertEqual([f"{int(number, 0):03X}#{data.upper()}" for number, _, data in read], frames)
 
-        dump = Candump(self.folder / "played.log")
-        subprocess.run(["canplayer", "-t", "-I", log, "vcan0=private"], timeout=PATIENCE_S, check=True)
+        dump = Candump(self.folder / "played.log", BUS)
+        subprocess.run(["canplayer", "-t", "-I", log, f"{BUS}=private"], timeout=PATIENCE_S, check=True)
         self.assertEqual(frames_of(dump.end()), frames)
         replay = json.loads(once("replay", dump.path, "--json").stdout)
         self.assertEqual((replay["same"], replay["hash"]), (True, result["hash"]))
 
     def test_two_robots_share_the_bus(self):
         worlds = self.world("discs", 5), self.world("poles", 5)
-        both = [self.start("hil", world, "--can", "vcan0", "--node", node, "--json") for node, world in enumerate(worlds, 1)]
+        both = [self.start("hil", world, "--can", BUS, "--node", node, "--json") for node, world in enumerate(worlds, 1)]
         for hil, world in zip(both, worlds):
             self.assertEqual(hil.result()["hash"], self.hash_of(world))
 
+    def test_two_controllers_with_one_number_are_a_fault(self):
+        scenario = self.world("discs", 5)
+        controllers = [self.start("controller", "--can", BUS) for _ in range(2)]
+        for controller in controllers:
+            controller.wait_for("safe stop: duplicate_node")
+        plant = self.start("plant", scenario, "--can", BUS, "--json")
+        result = plant.result()
+        self.assertEqual((plant.process.returncode, result["outcome"], result["detail"]), (6, "fault", "duplicate_node"))
+
     def test_real_time_tells_its_figures(self):
-        result = json.loads(once("hil", self.world("discs", 3), "--can", "vcan0", "--realtime", "--json").stdout)
+        result = json.loads(once("hil", self.world("discs", 3), "--can", BUS, "--realtime", "--json").stdout)
         self.assertEqual(result["bus"]["sets"], result["ticks"])
         for key in ("deadline_misses", "round_trip_us", "load_percent"):
             self.assertIn(key, result["bus"])

@@ -33,9 +33,9 @@ class RawSocket {
   RawSocket() : socket_(socket(PF_CAN, SOCK_RAW, CAN_RAW)) {
     sockaddr_can address{};
     address.can_family = AF_CAN;
-    address.can_ifindex = static_cast<int>(if_nametoindex("vcan0"));
+    address.can_ifindex = static_cast<int>(if_nametoindex("vtest0"));
     if (bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
-      throw SocketCanError("no vcan0");
+      throw SocketCanError("no vtest0");
   }
   ~RawSocket() { close(socket_); }
   void write(std::uint32_t id) {
@@ -52,10 +52,12 @@ class RawSocket {
 class SocketCanTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    shell("ip link del vcan0 2>&1; ip link add dev vcan0 type vcan && ip link set vcan0 up");
+    shell("ip link add dev vtest0 type vcan && ip link set vtest0 up");
     port.poll(now);
     ASSERT_EQ(port.state(), CanState::active) << port.waits_for();
   }
+  // What it did to the interface goes with it.
+  void TearDown() override { shell("ip link del vtest0"); }
   /// The port's clock runs with this one.
   template <class Condition>
   bool soon(const Condition& condition) {
@@ -79,13 +81,13 @@ class SocketCanTest : public ::testing::Test {
     return soon([&] { return port.state() == state; });
   }
   std::uint32_t now = UINT32_MAX - 30;
-  SocketCan port{"vcan0"};
+  SocketCan port{"vtest0"};
 };
 
 TEST_F(SocketCanTest, ReceivesWhatCansendSends) {
   shell(
-      "cansend vcan0 123#1122334455667788 && cansend vcan0 7FF# && cansend vcan0 12345678#AA && cansend "
-      "vcan0 321#R4");
+      "cansend vtest0 123#1122334455667788 && cansend vtest0 7FF# && cansend vtest0 12345678#AA && cansend "
+      "vtest0 321#R4");
   const CanFrame full{0x123, false, false, 8, {0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88}};
   const CanFrame extended{0x12345678, true, false, 1, {0xAA}};
   EXPECT_THAT(next(4), ElementsAre(full, frame(0x7FF, 0), extended, remote(0x321, 4)));
@@ -93,25 +95,25 @@ TEST_F(SocketCanTest, ReceivesWhatCansendSends) {
 }
 
 TEST_F(SocketCanTest, SendsWhatCandumpShows) {
-  const std::string list = "grep -c 'vcan0.*raw' /proc/self/net/can/rcvlist_all || true";
+  const std::string list = "grep -c 'vtest0.*raw' /proc/self/net/can/rcvlist_all || true";
   const std::string before = shell(list);
-  Running candump("timeout 20 candump -L -n 4 vcan0");
+  Running candump("timeout 20 candump -L -n 4 vtest0");
   ASSERT_TRUE(soon([&] { return shell(list) != before; }));
   const CanFrame frames[] = {frame(0x700, 8, 0x10), frame(0x001, 0), frame(0x1FFFFFFF, 3, 0xF0),
                              remote(0x123, 2)};
   for (const CanFrame& f : frames) ASSERT_TRUE(port.send(f, kLife_ms));
   port.poll(++now);
   const std::string log = candump.wait();
-  EXPECT_THAT(log, ::testing::ContainsRegex("^\\([0-9.]+\\) vcan0 700#1011121314151617\n"
-                                            "\\([0-9.]+\\) vcan0 001#\n"
-                                            "\\([0-9.]+\\) vcan0 1FFFFFFF#F0F1F2\n"
-                                            "\\([0-9.]+\\) vcan0 123#R2\n$"));
+  EXPECT_THAT(log, ::testing::ContainsRegex("^\\([0-9.]+\\) vtest0 700#1011121314151617\n"
+                                            "\\([0-9.]+\\) vtest0 001#\n"
+                                            "\\([0-9.]+\\) vtest0 1FFFFFFF#F0F1F2\n"
+                                            "\\([0-9.]+\\) vtest0 123#R2\n$"));
   EXPECT_EQ(port.counts().sent, 4U);
   EXPECT_THAT(taken(port), IsEmpty()) << "its own";
 }
 
 TEST_F(SocketCanTest, TwoPortsSeeEachOther) {
-  SocketCan other("vcan0");
+  SocketCan other("vtest0");
   other.poll(now);
   for (std::uint32_t id = 0; id < CanPort::kSendDepth; ++id) ASSERT_TRUE(other.send(frame(id), kLife_ms));
   EXPECT_FALSE(other.send(frame(1), kLife_ms));
@@ -122,11 +124,12 @@ TEST_F(SocketCanTest, TwoPortsSeeEachOther) {
 }
 
 TEST_F(SocketCanTest, FiltersByIdentifierFormatAndKind) {
-  SocketCan picky("vcan0", {{0x120, 0x7F0, false}, {0x1234500, 0x1FFFFF00, true}});
+  SocketCan picky("vtest0", {{0x120, 0x7F0, false}, {0x1234500, 0x1FFFFF00, true}});
   picky.poll(now);
   shell(
-      "cansend vcan0 12F#01 && cansend vcan0 130#02 && cansend vcan0 121#R && cansend vcan0 00000125#03 && "
-      "cansend vcan0 01234567#04 && cansend vcan0 120#05");
+      "cansend vtest0 12F#01 && cansend vtest0 130#02 && cansend vtest0 121#R && cansend vtest0 00000125#03 "
+      "&& "
+      "cansend vtest0 01234567#04 && cansend vtest0 120#05");
   std::vector<CanFrame> frames;
   soon([&] {
     picky.poll(now);
@@ -138,20 +141,20 @@ TEST_F(SocketCanTest, FiltersByIdentifierFormatAndKind) {
 
 TEST_F(SocketCanTest, ComesBackWithTheInterface) {
   ASSERT_TRUE(port.send(frame(1), kLife_ms));
-  shell("ip link set vcan0 down");
+  shell("ip link set vtest0 down");
   EXPECT_TRUE(comes_to(CanState::starting));
-  EXPECT_EQ(port.waits_for(), "vcan0 is down");
+  EXPECT_EQ(port.waits_for(), "vtest0 is down");
   EXPECT_FALSE(port.send(frame(2), kLife_ms));
   EXPECT_EQ(port.counts().sent + port.counts().expired, 1U);
-  shell("ip link set vcan0 up");
+  shell("ip link set vtest0 up");
   EXPECT_TRUE(comes_to(CanState::active));
   EXPECT_EQ(port.waits_for(), "");
-  shell("cansend vcan0 123#");
+  shell("cansend vtest0 123#");
   EXPECT_EQ(next(1).size(), 1U);
 }
 
 TEST_F(SocketCanTest, SeesAnInterfaceDownOnSending) {
-  shell("ip link set vcan0 down && ip link set vcan0 up");
+  shell("ip link set vtest0 down && ip link set vtest0 up");
   EXPECT_TRUE(comes_to(CanState::active));
   ASSERT_TRUE(port.send(frame(1), kLife_ms));
   port.poll(++now);
@@ -159,14 +162,14 @@ TEST_F(SocketCanTest, SeesAnInterfaceDownOnSending) {
 }
 
 TEST_F(SocketCanTest, FindsAnInterfaceThatWasMadeAnew) {
-  shell("ip link del vcan0");
+  shell("ip link del vtest0");
   EXPECT_TRUE(comes_to(CanState::starting));
-  EXPECT_TRUE(soon([&] { return port.waits_for() == "vcan0 does not exist"; }));
-  shell("ip link add dev vcan0 type vcan");
-  EXPECT_TRUE(soon([&] { return port.waits_for() == "vcan0 is down"; }));
-  shell("ip link set vcan0 up");
+  EXPECT_TRUE(soon([&] { return port.waits_for() == "vtest0 does not exist"; }));
+  shell("ip link add dev vtest0 type vcan");
+  EXPECT_TRUE(soon([&] { return port.waits_for() == "vtest0 is down"; }));
+  shell("ip link set vtest0 up");
   EXPECT_TRUE(comes_to(CanState::active));
-  shell("cansend vcan0 123#");
+  shell("cansend vtest0 123#");
   EXPECT_EQ(next(1).size(), 1U);
   ASSERT_TRUE(port.send(frame(1), kLife_ms));
   port.poll(++now);
@@ -174,50 +177,50 @@ TEST_F(SocketCanTest, FindsAnInterfaceThatWasMadeAnew) {
 }
 
 TEST_F(SocketCanTest, NoticesThatItWasMadeAnewBetweenTwoPolls) {
-  shell("ip link del vcan0 && ip link add dev vcan0 type vcan && ip link set vcan0 up");
+  shell("ip link del vtest0 && ip link add dev vtest0 type vcan && ip link set vtest0 up");
   port.poll(++now);
   ASSERT_TRUE(comes_to(CanState::active));
-  shell("cansend vcan0 123#");
+  shell("cansend vtest0 123#");
   EXPECT_EQ(next(1).size(), 1U);
 }
 
 TEST_F(SocketCanTest, ForgetsWhatWasOnTheBusBeforeItWentDown) {
-  shell("cansend vcan0 111# && ip link set vcan0 down && ip link set vcan0 up");
+  shell("cansend vtest0 111# && ip link set vtest0 down && ip link set vtest0 up");
   ASSERT_TRUE(comes_to(CanState::active));
-  shell("cansend vcan0 222#");
+  shell("cansend vtest0 222#");
   EXPECT_THAT(next(1), ElementsAre(frame(0x222, 0)));
 }
 
 // Error frames of a controller's driver: to a raw socket they are frames like others.
 TEST_F(SocketCanTest, IsSilentAfterBusOffUntilItIsRestarted) {
   ASSERT_TRUE(port.send(frame(1), kLife_ms));
-  shell("cansend vcan0 20000040#0000000000000000");
+  shell("cansend vtest0 20000040#0000000000000000");
   ASSERT_TRUE(comes_to(CanState::bus_off));
   EXPECT_EQ(port.counts().bus_offs, 1U);
-  EXPECT_EQ(port.waits_for(), "vcan0 is bus-off");
+  EXPECT_EQ(port.waits_for(), "vtest0 is bus-off");
   EXPECT_FALSE(port.send(frame(2), kLife_ms));
-  shell("cansend vcan0 123#");
+  shell("cansend vtest0 123#");
   for (int i = 0; i < 200; ++i) port.poll(++now);
   EXPECT_EQ(port.state(), CanState::bus_off);
   port.restart();
   EXPECT_EQ(port.state(), CanState::starting);
   EXPECT_TRUE(comes_to(CanState::active));
   EXPECT_THAT(taken(port), IsEmpty());
-  shell("cansend vcan0 20000040#0000000000000000");
+  shell("cansend vtest0 20000040#0000000000000000");
   ASSERT_TRUE(comes_to(CanState::bus_off));
   EXPECT_EQ(port.counts().bus_offs, 2U);
 }
 
 TEST_F(SocketCanTest, KnowsWhenItIsPassive) {
-  shell("cansend vcan0 20000004#0020000000000000");
+  shell("cansend vtest0 20000004#0020000000000000");
   EXPECT_TRUE(comes_to(CanState::passive));
   EXPECT_TRUE(port.send(frame(1), kLife_ms));
-  shell("cansend vcan0 20000004#0001000000000000");
+  shell("cansend vtest0 20000004#0001000000000000");
   EXPECT_TRUE(soon([&] { return port.counts().overrun == 1; }));
   EXPECT_EQ(port.state(), CanState::passive);
-  shell("cansend vcan0 20000004#0040000000000000");
+  shell("cansend vtest0 20000004#0040000000000000");
   EXPECT_TRUE(comes_to(CanState::active));
-  shell("cansend vcan0 20000004#0010000000000000 && cansend vcan0 20000004#0008000000000000");
+  shell("cansend vtest0 20000004#0010000000000000 && cansend vtest0 20000004#0008000000000000");
   EXPECT_TRUE(comes_to(CanState::active));
   EXPECT_THAT(taken(port), IsEmpty());
 }
@@ -239,7 +242,7 @@ TEST_F(SocketCanTest, CountsWhatTheKernelDropped) {
 }
 
 /// 16 bytes a frame: one each 128 ms, and a queue for two more.
-constexpr const char* kSlow = "tc qdisc replace dev vcan0 root tbf rate 1kbit burst 16 limit 32";
+constexpr const char* kSlow = "tc qdisc replace dev vtest0 root tbf rate 1kbit burst 16 limit 32";
 
 TEST_F(SocketCanTest, DropsWhatTheKernelHasNoRoomForUntilItIsTooOld) {
   shell(kSlow);
@@ -256,7 +259,7 @@ TEST_F(SocketCanTest, DropsWhatTheKernelHasNoRoomForUntilItIsTooOld) {
 
 // Lost arbitration, and passive so that its arrival shows.
 TEST_F(SocketCanTest, NamesTheReasonOfWhatWasDropped) {
-  shell("cansend vcan0 20000006#0020000000000000");
+  shell("cansend vtest0 20000006#0020000000000000");
   ASSERT_TRUE(comes_to(CanState::passive));
   shell(kSlow);
   const auto drop_some = [&] {
@@ -277,7 +280,7 @@ TEST_F(SocketCanTest, NamesTheReasonOfWhatWasDropped) {
 }
 
 TEST_F(SocketCanTest, KnowsThatNobodyAcknowledges) {
-  shell("cansend vcan0 20000024#0020000000000000");
+  shell("cansend vtest0 20000024#0020000000000000");
   ASSERT_TRUE(comes_to(CanState::passive));
   shell(kSlow);
   while (port.send(frame(0x111), kLife_ms)) {

@@ -43,7 +43,7 @@ class Usage(unittest.TestCase):
     """Anywhere."""
 
     def test_refuses_what_it_does_not_know(self):
-        for wrong in ((), ("--count",), ("--count", 0, "true"), ("--count", 17, "true"), ("--timeout", "x", "true"), ("--nonsense", "true")):
+        for wrong in ((), ("--count",), ("--count", 0, "true"), ("--count", 17, "true"), ("--timeout", "x", "true"), ("--tty", "/dev/null", "true"), ("--nonsense", "true")):
             status, out, err = run(*wrong)
             self.assertEqual((status, out), (2, ""), wrong)
             self.assertRegex(err, r"\Awith-vcan: [^\n]*\n\Z", wrong)
@@ -51,7 +51,7 @@ class Usage(unittest.TestCase):
     def test_names_its_options(self):
         status, out, _ = run("--help")
         self.assertEqual(status, 0)
-        for option in ("--count", "--timeout", "--vm", "--which"):
+        for option in ("--count", "--timeout", "--vm", "--tty", "--which"):
             self.assertIn(option, out)
 
 

@@ -1,0 +1,17 @@
+#include "host/hil/precedence.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+#include <sched.h>
+
+namespace whisker::hil {
+
+std::string take_precedence() {
+  constexpr int kPriority = 10;  // before ordinary processes, behind the kernel's own threads
+  sched_param how{};
+  how.sched_priority = kPriority;
+  return sched_setscheduler(0, SCHED_FIFO, &how) == 0 ? "" : std::strerror(errno);
+}
+
+}  // namespace whisker::hil
