@@ -1,5 +1,8 @@
 #include "host/page/film.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace whisker::page {
 namespace {
 
@@ -15,6 +18,21 @@ Length centre(std::int64_t cell, std::int64_t cell_um) {
 std::size_t wrapped(std::int64_t cell) { return static_cast<std::uint64_t>(cell) % Film::kSide; }
 
 }  // namespace
+
+void Frames::append(const Frames& more, std::size_t from_tick) {
+  const auto from =
+      std::lower_bound(more.ticks.begin(), more.ticks.end(), static_cast<std::int64_t>(from_tick));
+  const std::ptrdiff_t first = from - more.ticks.begin();
+  const std::ptrdiff_t change =
+      std::accumulate(more.changes.begin(), more.changes.begin() + first, std::ptrdiff_t{0});
+  const auto add = [](auto& to, const auto& list, std::ptrdiff_t skipped) {
+    to.insert(to.end(), list.begin() + skipped, list.end());
+  };
+  add(ticks, more.ticks, first);
+  add(changes, more.changes, first);
+  add(words, more.words, change);
+  add(bits, more.bits, change);
+}
 
 Film::Film(const Params& params) : cell_um_(patch_cell(params).raw()) {}
 
@@ -32,17 +50,17 @@ Film::Picture Film::picture(Vec body, const ground::Patch& patch) const {
   return now;
 }
 
-void Film::add(std::size_t tick, Vec body, const ground::Patch& patch) {
+void Film::add(std::size_t tick, Vec body, const ground::Patch& patch, Frames& frames) {
   const Picture now = picture(body, patch);
   std::int64_t changes = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (now[i] == last_[i]) continue;
-    words_.push_back(static_cast<std::int64_t>(i));
-    bits_.push_back(now[i] ^ last_[i]);
+    frames.words.push_back(static_cast<std::int64_t>(i));
+    frames.bits.push_back(now[i] ^ last_[i]);
     ++changes;
   }
-  ticks_.push_back(static_cast<std::int64_t>(tick));
-  changes_.push_back(changes);
+  frames.ticks.push_back(static_cast<std::int64_t>(tick));
+  frames.changes.push_back(changes);
   last_ = now;
 }
 
