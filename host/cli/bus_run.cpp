@@ -36,7 +36,7 @@ bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
 }  // namespace
 
 int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
-                 const BusChoice& bus, can::Pace pace, hil::Line& line) {
+                 const BusChoice& bus, can::Pace pace, hil::Line& line, LiveView* view) {
   const Interrupt interrupt;
   hil::Recorder recorder(bus.record, bus.name);
   hil::Figures figures;
@@ -50,25 +50,39 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   hil::BusOptions how;
   how.identity = bus.identity();
   how.pace = pace;
-  how.say = speaker("plant", bus);
+  how.say = [view, speak = speaker("plant", bus)](const std::string& words) {
+    if (!words.empty()) speak(words);
+    if (view != nullptr) view->feed().say(words);
+  };
   how.bus_waits_for = [&line] { return line.waits_for(); };
   how.interrupted = [&interrupt] { return interrupt.noted(); };
   options.pilot = hil::bus_pilot(port, clock, how, figures);
   RunOutputs all = outputs;
   all.bus_json = [&figures] { return hil::figures_json(figures, kBitrate); };
   all.bus_words = [&figures] { return hil::figures_words(figures, kBitrate); };
-  for (;;) {
+  if (view != nullptr) {
+    options.watch = [view](const Moment& moment) { view->feed().add(moment); };
+    all.ended = [view](const RunResult& result) { view->feed().end(result); };
+    view->feed().begin(setting(scenario, options, all));
+    view->start();
+  }
+  int status = kInterrupted;
+  for (bool again = true; again;) {
+    again = false;
     try {
-      const int status = drive_one(scenario, options, all);
+      status = drive_one(scenario, options, all);
       recorder.close();
-      return status;
     } catch (const hil::ControllerRestarted&) {
       how.say("the controller started anew, so the run begins again");
       figures = {};
+      if (view != nullptr) view->feed().begin(setting(scenario, options, all));
+      again = true;
     } catch (const hil::Interrupted&) {
-      return kInterrupted;
+      // The status says so already.
     }
   }
+  if (view != nullptr) view->finish(interrupt);
+  return status;
 }
 
 void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line) {
