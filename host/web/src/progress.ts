@@ -86,7 +86,11 @@ export class ProgressPanel {
       make('td', 'number', [jump]),
       make('td', 'number', metres(met)),
       make('td', 'number', left === null ? '' : metres(left)),
-      make('td', 'number', left === null ? ENDS[edge.end] || this.onIt() : ENDS[edge.end] || metres(met - left)),
+      make(
+        'td',
+        'number',
+        left === null ? ENDS[edge.end] || this.onIt() : ENDS[edge.end] || metres(met - left),
+      ),
     ]);
   }
 }
