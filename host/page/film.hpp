@@ -23,12 +23,11 @@ struct Frames {
   void append(const Frames& more, std::size_t from_tick);
 };
 
-/// A picture is the set of clear cells within kReach cells of the body's own, which is floor(estimate / cell)
-/// in x and in y. Cell (x, y) of the world is bit x mod 64 of row y mod 64; a row is two words of 32 bits,
-/// the low one first. A frame says which words changed since the frame before, by exclusive or.
+/// A picture is the set of clear cells, see for_each_clear_cell. Cell (x, y) of the world is bit x mod 64 of
+/// row y mod 64; a row is two words of 32 bits, the low one first. A frame says which words changed since the
+/// frame before, by exclusive or.
 class Film {
  public:
-  static constexpr int kReach = 20;  ///< the patch's window lies within
   static constexpr std::size_t kSide = 64;
 
   explicit Film(const Params& params);
@@ -40,7 +39,7 @@ class Film {
   using Picture = std::array<std::uint32_t, kSide * 2>;
   Picture picture(Vec body, const ground::Patch& patch) const;
 
-  std::int64_t cell_um_;
+  Params params_;
   Picture last_{};
 };
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "host/run/clear_cells.hpp"
 #include "host/run/runner.hpp"
 #include "host/worlds/generate.hpp"
 
@@ -62,8 +63,8 @@ TEST(Film, ShowsTheCellsThatThePatchHas) {
     }
     const std::int64_t x = below(r.est_x_m, cell), y = below(r.est_y_m, cell);
     Cells shown;
-    for (std::int64_t j = y - Film::kReach; j <= y + Film::kReach; ++j) {
-      for (std::int64_t i = x - Film::kReach; i <= x + Film::kReach; ++i) {
+    for (std::int64_t j = y - kPatchReach; j <= y + kPatchReach; ++j) {
+      for (std::int64_t i = x - kPatchReach; i <= x + kPatchReach; ++i) {
         const auto column = static_cast<std::uint64_t>(i) % Film::kSide;
         const auto row = static_cast<std::uint64_t>(j) % Film::kSide;
         if ((picture[2 * row + column / 32] >> (column % 32) & 1U) != 0) shown.emplace(i, j);
