@@ -63,25 +63,23 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   if (view != nullptr) {
     options.watch = [view](const Moment& moment) { view->feed().add(moment); };
     all.ended = [view](const RunResult& result) { view->feed().end(result); };
-    view->feed().begin(setting(scenario, options, all));
     view->start();
   }
   int status = kInterrupted;
-  for (bool again = true; again;) {
-    again = false;
+  for (;;) {
+    if (view != nullptr) view->feed().begin(setting(scenario, options, all));
     try {
       status = drive_one(scenario, options, all);
       recorder.close();
+      break;
     } catch (const hil::ControllerRestarted&) {
       how.say("the controller started anew, so the run begins again");
       figures = {};
-      if (view != nullptr) view->feed().begin(setting(scenario, options, all));
-      again = true;
     } catch (const hil::Interrupted&) {
-      // The status says so already.
+      break;
     }
   }
-  if (view != nullptr) view->finish(interrupt);
+  if (view != nullptr) view->stay(interrupt);
   return status;
 }
 

@@ -43,13 +43,15 @@ void LiveView::start() {
   fmt::print(stderr, "watch it at http://{}:{}/\n", host_of(address_), server_.port());
 }
 
-void LiveView::finish(const Interrupt& interrupt) {
+void LiveView::stay(const Interrupt& interrupt) const {
+  if (!stay_ || interrupt.noted()) return;
+  finish_standard_output();
+  fmt::print(stderr, "the run is over and can still be watched; Ctrl-C ends\n");
+  while (!interrupt.noted()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+LiveView::~LiveView() {
   feed_.close();
-  if (stay_ && !interrupt.noted()) {
-    finish_standard_output();
-    fmt::print(stderr, "the run is over and can still be watched; Ctrl-C ends\n");
-    while (!interrupt.noted()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
   server_.wait_for_watchers(kFarewell);
 }
 

@@ -17,12 +17,16 @@ class LiveView {
  public:
   /// Takes the port, but does not answer yet. Throws UsageError.
   LiveView(const std::string& address, int port, bool stay);
+  /// Who listens is told the end, which takes some seconds at most.
+  ~LiveView();
+  LiveView(const LiveView&) = delete;
+  LiveView& operator=(const LiveView&) = delete;
 
   view::Feed& feed() { return feed_; }
   /// Begins to answer, and says where. A process must not fork any more then.
   void start();
-  /// After the run: who listens is told the end; with `stay`, serves it until the interruption.
-  void finish(const Interrupt& interrupt);
+  /// After the run: returns at the interruption, or at once where nobody asked to stay.
+  void stay(const Interrupt& interrupt) const;
 
  private:
   view::Feed feed_;
