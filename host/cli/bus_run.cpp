@@ -42,7 +42,7 @@ bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
 }  // namespace
 
 int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
-                 const BusChoice& bus, hil::Line& line) {
+                 const BusChoice& bus, hil::Line& line, LiveView* view) {
   const Interrupt interrupt;
   hil::Recorder recorder(bus.record, bus.name);
   hil::Figures figures;
@@ -56,26 +56,38 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   hil::BusOptions how;
   how.identity = bus.identity();
   how.pace = bus.real_time ? can::Pace::real_time : can::Pace::lockstep;
-  how.say = speaker("plant", bus);
+  how.say = [view, speak = speaker("plant", bus)](const std::string& words) {
+    if (!words.empty()) speak(words);
+    if (view != nullptr) view->feed().say(words);
+  };
   how.bus_waits_for = [&line] { return line.waits_for(); };
   how.interrupted = [&interrupt] { return interrupt.noted(); };
-  if (bus.real_time) run_before_others(how.say);
+  if (bus.real_time) run_before_others(speaker("plant", bus));
   options.pilot = hil::bus_pilot(port, clock, how, figures);
   RunOutputs all = outputs;
   all.bus_json = [&figures] { return hil::figures_json(figures, kBitrate); };
   all.bus_words = [&figures] { return hil::figures_words(figures, kBitrate); };
+  if (view != nullptr) {
+    options.watch = [view](const Moment& moment) { view->feed().add(moment); };
+    all.ended = [view](const RunResult& result) { view->feed().end(result); };
+    view->start();
+  }
+  int status = kInterrupted;
   for (;;) {
+    if (view != nullptr) view->feed().begin(setting(scenario, options, all));
     try {
-      const int status = drive_one(scenario, options, all);
+      status = drive_one(scenario, options, all);
       recorder.close();
-      return status;
+      break;
     } catch (const hil::ControllerRestarted&) {
       how.say("the controller started anew, so the run begins again");
       figures = {};
     } catch (const hil::Interrupted&) {
-      return kInterrupted;
+      break;
     }
   }
+  if (view != nullptr) view->stay(interrupt);
+  return status;
 }
 
 void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line) {

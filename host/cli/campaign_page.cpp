@@ -16,7 +16,7 @@ page::StoredRun driven_again(const Missions& missions, std::uint64_t index) {
   options.planner = missions.planner;
   options.watch = [&](const Moment& moment) { recording.add(moment); };
   const RunResult result = run(scenario, options);
-  return page::stored({scenario, options.planner, scenario.seed, recording, result});
+  return page::stored({scenario, options.planner, scenario.seed}, recording.ticks(), result);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ constexpr const char* kPrivate = "private";
 struct Options {
   ScenarioChoice scenario;
   BusChoice bus;
+  ViewChoice view;
   PlannerKind planner = PlannerKind::skirt;
 };
 
@@ -64,6 +65,7 @@ int execute(const Options& o) {
   controller.drop_percent = 0;
   const bool is_private = o.bus.name == kPrivate;
   if (o.bus.name.rfind("slcan:", 0) == 0) throw UsageError("hil: a serial line has one end here; see plant");
+  const auto view = o.view.open();
   auto lines =
       is_private ? hil::private_lines() : std::pair{hil::open_line(o.bus.name), hil::open_line(o.bus.name)};
   const ControllerProcess child([&] {
@@ -71,7 +73,9 @@ int execute(const Options& o) {
     control_on_bus(controller, o.planner, *lines.second);
   });
   lines.second.reset();
-  return drive_on_bus(scenario, o.scenario.run_options(), o.scenario.outputs, o.bus, *lines.first);
+  RunOptions options = o.scenario.run_options();
+  options.planner = o.planner;
+  return drive_on_bus(scenario, options, o.scenario.outputs, o.bus, *lines.first, view.get());
 }
 
 }  // namespace
@@ -88,6 +92,7 @@ void add_hil(CLI::App& app, int& status) {
       ->capture_default_str();
   add_planner(*cmd, o->planner);
   add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
+  add_view(*cmd, o->view);
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

@@ -34,18 +34,28 @@ RunResult with_progress(const Scenario& scenario, RunOptions& options, const Run
 
 }  // namespace
 
+page::Setting setting(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs) {
+  const auto planner = outputs.knows_planner ? std::optional(options.planner) : std::nullopt;
+  return {scenario, planner, options.seed.value_or(scenario.seed), !outputs.on_bus()};
+}
+
 int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o) {
   std::vector<TickRecord> records;
   page::Recording recording(scenario.robot);
   if (!o.trace.empty() || !o.svg.empty()) options.records = &records;
-  if (!o.html.empty()) options.watch = [&](const Moment& moment) { recording.add(moment); };
+  if (!o.html.empty()) {
+    options.watch = [&, also = options.watch](const Moment& moment) {
+      recording.add(moment);
+      if (also) also(moment);
+    };
+  }
   const RunResult result = with_progress(scenario, options, o);
+  if (o.ended) o.ended(result);
   if (!o.trace.empty()) report::write_trace(o.trace, scenario, records);
   if (!o.svg.empty()) report::write_file(o.svg, report::run_svg(scenario, records, result));
   if (!o.html.empty()) {
-    const page::Watched run{scenario, options.planner, options.seed.value_or(scenario.seed), recording,
-                            result};
-    report::write_file(o.html, page::run_page(page::stored(run), controller_picture()));
+    const page::StoredRun run = page::stored(setting(scenario, options, o), recording.ticks(), result);
+    report::write_file(o.html, page::run_page(run, controller_picture()));
   }
 
   if (o.json) {

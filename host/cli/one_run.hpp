@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "host/page/page.hpp"
 #include "host/run/runner.hpp"
 
 namespace whisker::cli {
@@ -16,7 +17,14 @@ struct RunOutputs {
   /// end.
   std::function<std::string()> bus_json = nullptr;
   std::function<std::string()> bus_words = nullptr;
+  bool knows_planner = true;                              ///< false: whoever drives has not said which
+  std::function<void(const RunResult&)> ended = nullptr;  ///< gets the verdict first of all
+
+  bool on_bus() const { return bus_json != nullptr; }
 };
+
+/// What a page says of the run before its first tick.
+page::Setting setting(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs);
 
 /// Drives one scenario with a progress line, writes what is asked for and prints the result.
 /// Returns the exit status that tells the verdict.

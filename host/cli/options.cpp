@@ -41,9 +41,13 @@ CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, 
   return app.add_option("--wheel-scale-sigma", sigma, help)->transform(amount(1))->type_name("S");
 }
 
-CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help) {
+CLI::Option* add_name(CLI::App& app, const std::string& option, std::string& name, const std::string& help) {
   const auto not_empty = [](const std::string& text) { return std::string(text.empty() ? "no name" : ""); };
-  return app.add_option(name, path, help)->check(not_empty)->type_name("FILE");
+  return app.add_option(option, name, help)->check(not_empty);
+}
+
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help) {
+  return add_name(app, name, path, help)->type_name("FILE");
 }
 
 CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {

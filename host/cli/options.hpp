@@ -20,7 +20,10 @@ CLI::Validator amount(double most);
 /// --wheel-scale-sigma S, for worlds with noise.
 CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, const std::string& help);
 
-/// A path; an empty one, such as an unset shell variable gives, is refused.
+/// A name; an empty one, such as an unset shell variable gives, is refused.
+CLI::Option* add_name(CLI::App& app, const std::string& option, std::string& name, const std::string& help);
+
+/// A path, as add_name has it.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help);
 
 /// --planner, by name; its default is what `kind` holds.

@@ -15,12 +15,16 @@ namespace {
 struct Options {
   ScenarioChoice scenario;
   BusChoice bus;
+  ViewChoice view;
 };
 
 int execute(const Options& o) {
   const Scenario scenario = o.scenario.load({o.bus.record});
+  const auto view = o.view.open();
   const auto line = hil::open_line(o.bus.name);
-  return drive_on_bus(scenario, o.scenario.run_options(), o.scenario.outputs, o.bus, *line);
+  RunOutputs outputs = o.scenario.outputs;
+  outputs.knows_planner = false;
+  return drive_on_bus(scenario, o.scenario.run_options(), outputs, o.bus, *line, view.get());
 }
 
 }  // namespace
@@ -31,6 +35,7 @@ void add_plant(CLI::App& app, int& status) {
   add_scenario(*cmd, o->scenario);
   add_bus(*cmd, o->bus)->required();
   add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
+  add_view(*cmd, o->view);
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

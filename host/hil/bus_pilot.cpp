@@ -122,7 +122,7 @@ class BusPilot final : public Pilot {
     std::string now = words();
     if (said_ == now) return;
     said_ = std::move(now);
-    if (options_.say && !said_.empty()) options_.say(said_);
+    if (options_.say) options_.say(said_);
   }
 
   void begin() {

@@ -26,7 +26,7 @@ struct BusOptions {
   can::Identity identity{1, 1, 0};
   can::Pace pace = can::Pace::lockstep;
   std::uint32_t resend_ms = 20;  ///< lockstep: the shortest wait before a set is sent again, see Resend
-  std::function<void(const std::string&)> say;  ///< gets what it waits for, once each
+  std::function<void(const std::string&)> say;  ///< gets what it waits for, once each; "": it drives
   std::function<std::string()> bus_waits_for;   ///< what keeps the port from the bus, if it is known
   std::function<bool()> interrupted;            ///< true: give up
 };

@@ -11,7 +11,7 @@ std::string take_precedence() {
   constexpr int kPriority = 10;  // before ordinary processes, behind the kernel's own threads
   sched_param how{};
   how.sched_priority = kPriority;
-  return sched_setscheduler(0, SCHED_FIFO, &how) == 0 ? "" : std::strerror(errno);
+  return sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &how) == 0 ? "" : std::strerror(errno);
 }
 
 }  // namespace whisker::hil

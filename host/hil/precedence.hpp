@@ -4,8 +4,8 @@
 
 namespace whisker::hil {
 
-/// Lets this process run before all ordinary ones, as a tick each period needs. Returns what forbids it;
-/// empty: nothing did.
+/// Lets this thread run before all ordinary ones, as a tick each period needs. Threads and processes that it
+/// starts later are ordinary. Returns what forbids it; empty: nothing did.
 std::string take_precedence();
 
 }  // namespace whisker::hil

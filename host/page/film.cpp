@@ -1,48 +1,54 @@
 #include "host/page/film.hpp"
 
+#include <algorithm>
+#include <numeric>
+
+#include "host/run/clear_cells.hpp"
+
 namespace whisker::page {
 namespace {
-
-std::int64_t cell_of(Length x, std::int64_t cell_um) {
-  const std::int64_t um = x.raw();
-  return um >= 0 ? um / cell_um : -((-um + cell_um - 1) / cell_um);
-}
-
-Length centre(std::int64_t cell, std::int64_t cell_um) {
-  return Length::from_raw(static_cast<std::int32_t>(cell * cell_um + cell_um / 2));
-}
 
 std::size_t wrapped(std::int64_t cell) { return static_cast<std::uint64_t>(cell) % Film::kSide; }
 
 }  // namespace
 
-Film::Film(const Params& params) : cell_um_(patch_cell(params).raw()) {}
+void Frames::append(const Frames& more, std::size_t from_tick) {
+  const auto from =
+      std::lower_bound(more.ticks.begin(), more.ticks.end(), static_cast<std::int64_t>(from_tick));
+  const std::ptrdiff_t first = from - more.ticks.begin();
+  const std::ptrdiff_t change =
+      std::accumulate(more.changes.begin(), more.changes.begin() + first, std::ptrdiff_t{0});
+  const auto add = [](auto& to, const auto& list, std::ptrdiff_t skipped) {
+    to.insert(to.end(), list.begin() + skipped, list.end());
+  };
+  add(ticks, more.ticks, first);
+  add(changes, more.changes, first);
+  add(words, more.words, change);
+  add(bits, more.bits, change);
+}
+
+Film::Film(const Params& params) : params_(params) {}
 
 Film::Picture Film::picture(Vec body, const ground::Patch& patch) const {
-  const std::int64_t middle_x = cell_of(body.x, cell_um_);
-  const std::int64_t middle_y = cell_of(body.y, cell_um_);
   Picture now{};
-  for (std::int64_t y = middle_y - kReach; y <= middle_y + kReach; ++y) {
-    for (std::int64_t x = middle_x - kReach; x <= middle_x + kReach; ++x) {
-      if (!patch.is_clear({centre(x, cell_um_), centre(y, cell_um_)})) continue;
-      const std::size_t column = wrapped(x);
-      now[2 * wrapped(y) + column / 32] |= std::uint32_t{1} << (column % 32);
-    }
-  }
+  for_each_clear_cell(patch, params_, body, [&now](std::int64_t x, std::int64_t y) {
+    const std::size_t column = wrapped(x);
+    now[2 * wrapped(y) + column / 32] |= std::uint32_t{1} << (column % 32);
+  });
   return now;
 }
 
-void Film::add(std::size_t tick, Vec body, const ground::Patch& patch) {
+void Film::add(std::size_t tick, Vec body, const ground::Patch& patch, Frames& frames) {
   const Picture now = picture(body, patch);
   std::int64_t changes = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (now[i] == last_[i]) continue;
-    words_.push_back(static_cast<std::int64_t>(i));
-    bits_.push_back(now[i] ^ last_[i]);
+    frames.words.push_back(static_cast<std::int64_t>(i));
+    frames.bits.push_back(now[i] ^ last_[i]);
     ++changes;
   }
-  ticks_.push_back(static_cast<std::int64_t>(tick));
-  changes_.push_back(changes);
+  frames.ticks.push_back(static_cast<std::int64_t>(tick));
+  frames.changes.push_back(changes);
   last_ = now;
 }
 

@@ -12,33 +12,35 @@
 
 namespace whisker::page {
 
-/// A picture is the set of clear cells within kReach cells of the body's own, which is floor(estimate / cell)
-/// in x and in y. Cell (x, y) of the world is bit x mod 64 of row y mod 64; a row is two words of 32 bits,
-/// the low one first. A frame says which words changed since the frame before, by exclusive or.
+/// Pictures as what changed from each to the next.
+struct Frames {
+  /// A picture each: its tick, and how many words changed.
+  std::vector<std::int64_t> ticks, changes;
+  /// A change each: which word, 0..127, and the bits to turn over.
+  std::vector<std::int64_t> words, bits;
+
+  /// The pictures of `more` from this tick on.
+  void append(const Frames& more, std::size_t from_tick);
+};
+
+/// A picture is the set of clear cells, see for_each_clear_cell. Cell (x, y) of the world is bit x mod 64 of
+/// row y mod 64; a row is two words of 32 bits, the low one first. A frame says which words changed since the
+/// frame before, by exclusive or.
 class Film {
  public:
-  static constexpr int kReach = 20;  ///< the patch's window lies within
   static constexpr std::size_t kSide = 64;
 
   explicit Film(const Params& params);
 
-  /// Pictures must come in order of their ticks.
-  void add(std::size_t tick, Vec body, const ground::Patch& patch);
-
-  /// A frame each: its tick, and how many words changed.
-  const std::vector<std::int64_t>& ticks() const { return ticks_; }
-  const std::vector<std::int64_t>& changes() const { return changes_; }
-  /// A change each: which word, 0..127, and the bits to turn over.
-  const std::vector<std::int64_t>& words() const { return words_; }
-  const std::vector<std::int64_t>& bits() const { return bits_; }
+  /// Appends the picture of this tick, as what changed since the last call. Pictures must come in order.
+  void add(std::size_t tick, Vec body, const ground::Patch& patch, Frames& frames);
 
  private:
   using Picture = std::array<std::uint32_t, kSide * 2>;
   Picture picture(Vec body, const ground::Patch& patch) const;
 
-  std::int64_t cell_um_;
+  Params params_;
   Picture last_{};
-  std::vector<std::int64_t> ticks_, changes_, words_, bits_;
 };
 
 }  // namespace whisker::page

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/page/page.hpp"
+#include "host/report/encounters.hpp"
 
 namespace whisker::page {
 
@@ -11,6 +12,21 @@ using Json = nlohmann::ordered_json;
 
 /// What all runs of a page have in common: names of states and reasons, colours, the response table.
 Json shared_data(const Controller& controller);
+
+/// A run before its first tick: world, robot and noise.
+Json setting_data(const Setting& setting);
+
+Json edges_data(const std::vector<report::EncounterFinder::Found>& found);
+
+/// Some ticks as columns.
+struct Packed {
+  Json list;         ///< of the columns
+  std::string data;  ///< base64 of the deflated columns
+};
+Packed packed(const Ticks& ticks);
+
+/// Plain ASCII on one line, whatever is in it.
+std::string text_of(const Json& json);
 
 Json campaign_data(const std::vector<campaign::Row>& rows);
 

@@ -23,8 +23,7 @@ std::string script_safe(const std::string& json) {
 }
 
 std::string data_element(const Json& data) {
-  return "<script type=\"application/json\" id=\"data\">" +
-         script_safe(data.dump(-1, ' ', true, Json::error_handler_t::replace)) + "</script>\n";
+  return "<script type=\"application/json\" id=\"data\">" + script_safe(text_of(data)) + "</script>\n";
 }
 
 std::string columns_element(std::size_t index, const std::string& columns) {
@@ -32,15 +31,30 @@ std::string columns_element(std::size_t index, const std::string& columns) {
          "</script>\n";
 }
 
+void put(std::string& page, std::string_view mark, const std::string& text) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos) throw std::logic_error("the page's template has no " + std::string(mark));
+  page.replace(at, mark.size(), text);
+}
+
 std::string filled(const std::string& data) {
   std::string page;
   for (const std::string_view part : template_parts()) page += part;
-  const std::size_t mark = page.find(kDataMark);
-  if (mark == std::string::npos) throw std::logic_error("the page's template has no place for data");
-  return page.replace(mark, kDataMark.size(), data);
+  put(page, kDataMark, data);
+  return page;
 }
 
 }  // namespace
+
+std::string text_of(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
+
+std::string live_page(const std::string& events, const Controller& controller) {
+  const Json data = {
+      {"format", 1}, {"shared", shared_data(controller)}, {"runs", Json::array()}, {"live", events}};
+  std::string page = filled(data_element(data));
+  put(page, kPolicy, std::string(kPolicy) + " connect-src 'self';");
+  return page;
+}
 
 std::string run_page(const StoredRun& run, const Controller& controller) {
   Json data = {{"format", 1}, {"shared", shared_data(controller)}};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,12 @@
 
 namespace whisker::page {
 
-/// A run that was watched from its first tick to its verdict.
-struct Watched {
+/// What is known of a run before its first tick.
+struct Setting {
   const Scenario& scenario;
-  PlannerKind planner;
-  std::uint64_t seed;  ///< of the noise
-  const Recording& recording;
-  const RunResult& result;
+  std::optional<PlannerKind> planner;  ///< none: whoever drives has not said which
+  std::uint64_t seed;                  ///< of the noise
+  bool inside = true;                  ///< as TickRecord::inside of all its ticks
 };
 
 /// A run as the page stores it.
@@ -29,12 +29,17 @@ struct StoredRun {
   std::string columns;  ///< base64 of the deflated columns
 };
 
-StoredRun stored(const Watched& run);
+/// All ticks up to the verdict.
+StoredRun stored(const Setting& setting, const Ticks& ticks, const RunResult& result);
 
 /// The response table that steers, as the page draws it.
 using Controller = report::FuzzyPicture;
 
 std::string run_page(const StoredRun& run, const Controller& controller);
+
+/// The page without a run: it watches one that goes on, of which its own server tells at this address. The
+/// only page that may ask a server.
+std::string live_page(const std::string& events, const Controller& controller);
 
 /// A mission of the campaign that the page can replay.
 struct Replay {

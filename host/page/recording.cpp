@@ -18,13 +18,21 @@ Recording::Recording(const Params& params)
     : ticks_a_frame_(static_cast<std::size_t>(std::max(1, kFrameMs / params.safety.period.raw()))),
       film_(params) {}
 
+void Ticks::append(const Ticks& more, std::size_t index, std::size_t first) {
+  const auto from = static_cast<std::ptrdiff_t>(index);
+  records.insert(records.end(), more.records.begin() + from, more.records.end());
+  health.insert(health.end(), more.health.begin() + from, more.health.end());
+  frames.append(more.frames, first + index);
+}
+
 void Recording::add(const Moment& moment) {
   const TickRecord& r = moment.record;
-  if (moment.patch != nullptr && records_.size() % ticks_a_frame_ == 0) {
-    film_.add(records_.size(), {fixed(r.est_x_m), fixed(r.est_y_m)}, *moment.patch);
+  if (moment.patch != nullptr && count_ % ticks_a_frame_ == 0) {
+    film_.add(count_, {fixed(r.est_x_m), fixed(r.est_y_m)}, *moment.patch, ticks_.frames);
   }
-  records_.push_back(r);
-  health_.push_back(moment.health);
+  ticks_.records.push_back(r);
+  ticks_.health.push_back(moment.health);
+  ++count_;
 }
 
 }  // namespace whisker::page

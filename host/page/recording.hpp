@@ -2,12 +2,23 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "host/page/film.hpp"
 #include "host/run/runner.hpp"
 
 namespace whisker::page {
+
+/// Ticks one after the other.
+struct Ticks {
+  std::vector<TickRecord> records;
+  std::vector<Health> health;  ///< one for each record
+  Frames frames;               ///< of the clearance patch, one every 50 ms where there is a patch
+
+  /// The ticks of `more` from the one with this index among them; its first is the run's tick `first`.
+  void append(const Ticks& more, std::size_t index, std::size_t first);
+};
 
 class Recording {
  public:
@@ -17,15 +28,15 @@ class Recording {
   /// For RunOptions::watch.
   void add(const Moment& moment);
 
-  const std::vector<TickRecord>& records() const { return records_; }
-  const std::vector<Health>& health() const { return health_; }  ///< one for each record
-  const Film& film() const { return film_; }                     ///< a frame every 50 ms
+  const Ticks& ticks() const { return ticks_; }
+  /// The same, which the recording then no longer holds; it goes on behind them.
+  Ticks take() { return std::exchange(ticks_, {}); }
 
  private:
   std::size_t ticks_a_frame_;
-  std::vector<TickRecord> records_;
-  std::vector<Health> health_;
+  std::size_t count_ = 0;
   Film film_;
+  Ticks ticks_;
 };
 
 }  // namespace whisker::page

@@ -80,28 +80,16 @@ const char* end_name(report::Encounter::End end) {
   return "?";
 }
 
-Json edges_data(const std::vector<TickRecord>& records) {
-  const auto tick = [&](const TickRecord* r) {
-    return r == nullptr ? Json(nullptr) : Json(r - records.data());
-  };
-  Json edges = Json::array();
-  for (const report::Encounter& e : report::encounters(records)) {
-    edges.push_back(
-        {{"hit", tick(e.hit)}, {"turned", tick(e.turned)}, {"left", tick(e.left)}, {"end", end_name(e.end)}});
-  }
-  return edges;
-}
-
 /// Gathers one integer a tick into a column.
 class Writer {
  public:
-  Writer(Columns& columns, const Recording& recording) : columns_(columns), recording_(recording) {}
+  Writer(Columns& columns, const Ticks& ticks) : columns_(columns), ticks_(ticks) {}
 
   template <class F>
   void tick(const char* name, Order order, std::int64_t per_unit, F&& value_of) {
     std::vector<std::int64_t> values;
-    values.reserve(recording_.records().size());
-    for (const TickRecord& r : recording_.records()) values.push_back(static_cast<std::int64_t>(value_of(r)));
+    values.reserve(ticks_.records.size());
+    for (const TickRecord& r : ticks_.records) values.push_back(static_cast<std::int64_t>(value_of(r)));
     columns_.add(name, order, per_unit, values);
   }
   template <class F>
@@ -111,13 +99,13 @@ class Writer {
   }
   void counter(const char* name, std::uint32_t Health::*counter) {
     std::vector<std::int64_t> values;
-    for (const Health& h : recording_.health()) values.push_back(h.*counter);
+    for (const Health& h : ticks_.health) values.push_back(h.*counter);
     columns_.add(name, Order::differences, 1, values);
   }
 
  private:
   Columns& columns_;
-  const Recording& recording_;
+  const Ticks& ticks_;
 };
 
 constexpr std::int64_t kMicro = 1000000;
@@ -168,9 +156,9 @@ void add_decisions(Writer& w) {
   w.tick("cell_r", kSteady, 1, [](const TickRecord& r) { return r.cell.bias; });
 }
 
-void add_health(Columns& columns, Writer& w, const Recording& recording) {
+void add_health(Columns& columns, Writer& w, const std::vector<Health>& health) {
   std::vector<std::int64_t> faults;
-  for (const Health& h : recording.health()) faults.push_back(static_cast<int>(h.fault));
+  for (const Health& h : health) faults.push_back(static_cast<int>(h.fault));
   columns.add("fault", Order::differences, 1, faults);
   w.counter("range_refused", &Health::range_refused);
   w.counter("range_invalid", &Health::range_invalid);
@@ -187,11 +175,11 @@ void add_health(Columns& columns, Writer& w, const Recording& recording) {
   w.counter("clock_jumps", &Health::clock_jumps);
 }
 
-void add_film(Columns& columns, const Film& film) {
-  columns.add("film_tick", Order::second_differences, 1, film.ticks());
-  columns.add("film_changes", Order::values, 1, film.changes());
-  columns.add("film_word", Order::differences, 1, film.words());
-  columns.add("film_bits", Order::values, 1, film.bits());
+void add_film(Columns& columns, const Frames& film) {
+  columns.add("film_tick", Order::second_differences, 1, film.ticks);
+  columns.add("film_changes", Order::values, 1, film.changes);
+  columns.add("film_word", Order::differences, 1, film.words);
+  columns.add("film_bits", Order::values, 1, film.bits);
 }
 
 Json columns_data(const Columns& columns) {
@@ -203,25 +191,49 @@ Json columns_data(const Columns& columns) {
 
 }  // namespace
 
-StoredRun stored(const Watched& run) {
+Json setting_data(const Setting& s) {
+  Json planner = nullptr;
+  if (s.planner) planner = name(*s.planner);
+  return {{"name", s.scenario.name},
+          {"planner", planner},
+          {"inside", s.inside},
+          {"seed", s.seed},
+          {"time_limit", s.scenario.time_limit_s},
+          {"world", world_data(s.scenario)},
+          {"robot", robot_data(s.scenario.robot)},
+          {"noise", noise_data(s.scenario.noise)}};
+}
+
+Json edges_data(const std::vector<report::EncounterFinder::Found>& found) {
+  const auto tick = [](const std::optional<std::size_t>& i) { return i ? Json(*i) : Json(nullptr); };
+  Json edges = Json::array();
+  for (const auto& e : found) {
+    edges.push_back(
+        {{"hit", e.hit}, {"turned", tick(e.turned)}, {"left", tick(e.left)}, {"end", end_name(e.end)}});
+  }
+  return edges;
+}
+
+Packed packed(const Ticks& ticks) {
   Columns columns;
-  Writer writer(columns, run.recording);
+  Writer writer(columns, ticks);
   add_motion(writer);
   add_ranges(writer);
   add_decisions(writer);
-  add_health(columns, writer, run.recording);
-  add_film(columns, run.recording.film());
-  const Json json = {{"name", run.scenario.name},
-                     {"planner", name(run.planner)},
-                     {"seed", run.seed},
-                     {"time_limit", run.scenario.time_limit_s},
-                     {"result", Json::parse(report::result_json(run.result))},
-                     {"world", world_data(run.scenario)},
-                     {"robot", robot_data(run.scenario.robot)},
-                     {"noise", noise_data(run.scenario.noise)},
-                     {"edges", edges_data(run.recording.records())},
-                     {"columns", columns_data(columns)}};
-  return {json.dump(-1, ' ', true, Json::error_handler_t::replace), base64(deflated(columns.bytes()))};
+  add_health(columns, writer, ticks.health);
+  add_film(columns, ticks.frames);
+  return {columns_data(columns), base64(deflated(columns.bytes()))};
+}
+
+StoredRun stored(const Setting& setting, const Ticks& ticks, const RunResult& result) {
+  report::EncounterFinder finder;
+  for (const TickRecord& r : ticks.records) finder.add(r);
+  Packed columns = packed(ticks);
+  Json json = setting_data(setting);
+  json["result"] = Json::parse(report::result_json(result));
+  json["edges"] = edges_data(finder.found());
+  json["columns"] = std::move(columns.list);
+  return {text_of(json), std::move(columns.data)};
 }
 
 }  // namespace whisker::page

@@ -12,4 +12,7 @@ const std::vector<std::string_view>& template_parts();
 /// Where the data goes; it occurs once.
 constexpr std::string_view kDataMark = "<!--data-->";
 
+/// What the page may load: nothing.
+constexpr std::string_view kPolicy = "default-src 'none';";
+
 }  // namespace whisker::page

@@ -11,6 +11,7 @@
 #include "host/play/drive.hpp"
 #include "host/play/flat.hpp"
 #include "host/play/rule_faults.hpp"
+#include "host/run/clear_cells.hpp"
 #include "host/scenario/nearest.hpp"
 #include "host/worlds/kept.hpp"
 
@@ -20,7 +21,6 @@ namespace whisker::play {
 namespace {
 
 constexpr int kSides = 2;
-constexpr int kPatchReach = 20;
 
 std::vector<double> exchanged;
 fuzzy::RuleBase rules = fuzzy::kRules;
@@ -146,19 +146,10 @@ WHISKER_EXPORT(clear_cells) int clear_cells(int side) {
   exchanged.clear();
   const ground::Patch* patch = drive.trip().patch();
   if (patch == nullptr) return 0;
-  const std::int32_t cell = patch_cell(drive.scenario().robot).raw();
-  const Vec at = drive.trip().status().pose.at;
-  const auto floor_of = [&](Length x) {
-    return x.raw() >= 0 ? x.raw() / cell : -((cell - 1 - x.raw()) / cell);
-  };
-  const std::int32_t middle_x = floor_of(at.x);
-  const std::int32_t middle_y = floor_of(at.y);
-  for (std::int32_t y = middle_y - kPatchReach; y <= middle_y + kPatchReach; ++y) {
-    for (std::int32_t x = middle_x - kPatchReach; x <= middle_x + kPatchReach; ++x) {
-      const Vec centre{micrometres(x * cell + cell / 2), micrometres(y * cell + cell / 2)};
-      if (patch->is_clear(centre)) exchanged.insert(exchanged.end(), {double(x), double(y)});
-    }
-  }
+  for_each_clear_cell(*patch, drive.scenario().robot, drive.trip().status().pose.at,
+                      [](std::int64_t x, std::int64_t y) {
+                        exchanged.insert(exchanged.end(), {static_cast<double>(x), static_cast<double>(y)});
+                      });
   return answer();
 }
 

@@ -35,21 +35,28 @@ Encounter::End end_of(const TickRecord& r) {
 
 }  // namespace
 
+void EncounterFinder::add(const TickRecord& r) {
+  const std::size_t number = count_++;
+  if (!drawable({r.x_m, r.y_m})) return;
+  if (!inside_ && doing(r) == Doing::danger) {
+    found_.push_back({number, {}, {}});
+    inside_ = true;
+  } else if (inside_ && leaves(r)) {
+    found_.back().left = number;
+    found_.back().end = end_of(r);
+    inside_ = false;
+  } else if (inside_ && r.why == nav::Why::came_round && !found_.back().turned) {
+    found_.back().turned = number;
+  }
+}
+
 std::vector<Encounter> encounters(const std::vector<TickRecord>& records) {
+  EncounterFinder finder;
+  for (const TickRecord& r : records) finder.add(r);
+  const auto record = [&](const std::optional<std::size_t>& i) { return i ? &records[*i] : nullptr; };
   std::vector<Encounter> all;
-  bool inside = false;
-  for (const TickRecord& r : records) {
-    if (!drawable({r.x_m, r.y_m})) continue;
-    if (!inside && doing(r) == Doing::danger) {
-      all.push_back({&r});
-      inside = true;
-    } else if (inside && leaves(r)) {
-      all.back().left = &r;
-      all.back().end = end_of(r);
-      inside = false;
-    } else if (inside && r.why == nav::Why::came_round && all.back().turned == nullptr) {
-      all.back().turned = &r;
-    }
+  for (const EncounterFinder::Found& e : finder.found()) {
+    all.push_back({&records[e.hit], record(e.turned), record(e.left), e.end});
   }
   return all;
 }

@@ -3,25 +3,11 @@
 import {readFileSync, statSync} from 'node:fs';
 import {gzipSync} from 'node:zlib';
 import {DESKTOP, launch, openPage} from '../../tests/web/browser.mjs';
+import {frameRate, print, printLoadTime} from './timing.mjs';
 
 const PAGE = new URL('../../out/playground/index.html', import.meta.url);
 const MODULE = new URL('../../build/playground/host/play/whisker.wasm', import.meta.url);
-const LOADS = 7;
-
-const at = (values, p) => [...values].sort((a, b) => a - b)[Math.max(0, Math.ceil(p * values.length) - 1)];
-
-/** Milliseconds from asking for the file to the first picture. */
-async function loadTime(browser) {
-  const context = await browser.newContext({viewport: DESKTOP, reducedMotion: 'reduce'});
-  const page = await context.newPage();
-  await page.goto(PAGE.href);
-  await page.waitForFunction(() => document.body.dataset.view);
-  const time = await page.evaluate(
-    () => new Promise((done) => requestAnimationFrame(() => setTimeout(() => done(performance.now())))),
-  );
-  await context.close();
-  return time;
-}
+const STILL = {reducedMotion: 'reduce'};
 
 /** Gaps between frames while it drives, ms, and how many times real time it drove. */
 function frames(page, speed, seconds) {
@@ -47,26 +33,19 @@ function frames(page, speed, seconds) {
 }
 
 const wasm = readFileSync(MODULE);
-console.log(`module              ${wasm.length} bytes, ${gzipSync(wasm, {level: 9}).length} packed`);
-console.log(`page                ${statSync(PAGE).size} bytes`);
+print('module', `${wasm.length} bytes, ${gzipSync(wasm, {level: 9}).length} packed`);
+print('page', `${statSync(PAGE).size} bytes`);
 const browser = await launch();
 try {
-  const loads = [];
-  for (let i = 0; i < LOADS; ++i) loads.push(await loadTime(browser));
-  console.log(`load                ${at(loads, 0.5).toFixed(0)} ms, median of ${LOADS}`);
+  await printLoadTime(browser, PAGE.href, {viewport: DESKTOP, ...STILL});
   for (const [who, speed] of [
     ['skirt', 1],
     ['both', 1],
     ['both', 16],
   ]) {
-    const {page} = await openPage(browser, `${PAGE.href}#world=rooms&seed=3&planner=${who}`, {
-      reducedMotion: 'reduce',
-    });
+    const {page} = await openPage(browser, `${PAGE.href}#world=rooms&seed=3&planner=${who}`, STILL);
     const {gaps, times} = await frames(page, speed, 4);
-    const rate = 1000 / (gaps.reduce((sum, gap) => sum + gap, 0) / gaps.length);
-    console.log(
-      `${`${who} at ${speed} x`.padEnd(20)}${rate.toFixed(0)} frames a second, 95 % within ${at(gaps, 0.95).toFixed(1)} ms, ${times.toFixed(1)} times real time`,
-    );
+    print(`${who} at ${speed} x`, `${frameRate(gaps)}, ${times.toFixed(1)} times real time`);
     await page.context().close();
   }
 } finally {

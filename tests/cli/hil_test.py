@@ -1,9 +1,12 @@
 """`whisker hil`, `plant`, `controller` and `replay`, where no CAN is needed."""
 
 import csv
+import http.client
 import json
 import os
 import re
+import signal
+import socket
 import subprocess
 import time
 
@@ -13,7 +16,7 @@ from whisker import KINDS, STATUS, Case, with_time_limit
 PRIVATE_TRACE = ("d", "r", "sa", "sd", "est_x_m", "est_y_m", "est_heading_rad")  # what the bus does not carry
 
 
-class Hil(Case):
+class OnABus(Case):
     def world(self, kind, seconds=30, seed=5):
         text = whisker.whisker("world", kind, "--seed", seed, "--noise").stdout
         return self.file(f"{kind}.toml", with_time_limit(text, seconds))
@@ -26,6 +29,8 @@ class Hil(Case):
             self.assertEqual(done.returncode, STATUS[result["outcome"]])
         return result
 
+
+class Hil(OnABus):
     def test_two_processes_give_the_run_of_one(self):
         for kind in KINDS:
             scenario = self.world(kind)
@@ -112,7 +117,7 @@ class Precedence(Case):
         )
         seen = set()
         while hil.poll() is None:
-            seen.add(os.sched_getscheduler(hil.pid))
+            seen.add(os.sched_getscheduler(hil.pid) & ~os.SCHED_RESET_ON_FORK)
             time.sleep(0.01)
         return seen, hil.communicate()[1]
 
@@ -131,6 +136,79 @@ class Precedence(Case):
         seen, said = self.policies(options=[])
         self.assertNotIn(os.SCHED_FIFO, seen)
         self.assertNotIn("priority", said)
+
+
+class View(OnABus):
+    def test_who_is_watched_drives_the_same_way(self):
+        scenario = self.world("u-trap", 10)
+        alone = whisker.whisker("hil", scenario, "--json", "--trace", self.folder / "alone.csv")
+        seen = whisker.whisker("hil", scenario, "--json", "--trace", self.folder / "seen.csv", "--view", 0)
+        self.assertRegex(seen.stderr, r"(?m)^watch it at http://127\.0\.0\.1:\d+/$")
+        self.assertNotIn("can watch", seen.stderr)
+        results = [json.loads(done.stdout) for done in (alone, seen)]
+        for result in results:
+            del result["bus"]
+        self.assertEqual(*results)
+        self.assertEqual((self.folder / "alone.csv").read_bytes(), (self.folder / "seen.csv").read_bytes())
+
+    def test_a_run_that_is_over_is_served_until_the_interruption(self):
+        scenario = self.world("discs", 5)
+        command = [whisker.binary, "hil", scenario, "--json", "--view", "0", "--view-stay"]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            try:
+                port = None
+                for line in process.stderr:
+                    port = int(m[1]) if (m := re.match(r"watch it at \S+:(\d+)/", line)) else port
+                    if "can still be watched" in line:
+                        break
+                result = json.loads(process.stdout.readline())
+                for _ in range(2):
+                    server = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+                    server.request("GET", "/events")
+                    events = re.findall(r"(?m)^data: (.*)$", server.getresponse().read().decode())
+                    self.assertEqual(json.loads(events[-1])["result"]["hash"], result["hash"])
+                process.send_signal(signal.SIGINT)
+                self.assertEqual(process.wait(60), STATUS[result["outcome"]])
+            finally:
+                process.kill()
+
+    def test_the_default_port_is_the_documented_one(self):
+        done = whisker.whisker("hil", self.world("discs", 1), "--view")
+        # It may be another program's.
+        self.assertIn("8765", done.stderr)
+
+    def test_it_warns_where_others_can_watch(self):
+        done = whisker.whisker("hil", self.world("discs", 1), "--view", 0, "--view-address", "0.0.0.0")
+        self.assertRegex(done.stderr, r"(?m)^whoever can reach 0\.0\.0\.0 port \d+ can watch this run$")
+
+    def test_a_page_of_a_run_on_a_bus_knows_what_it_does_not_know(self):
+        page = self.folder / "page.html"
+        whisker.whisker("hil", self.world("discs", 5), "--planner", "thesis", "--html", page)
+        data = re.search(r'<script type="application/json" id="data">(.*?)</script>', page.read_text(), re.S)[1]
+        run = json.loads(data)["runs"][0]
+        self.assertEqual((run["planner"], run["inside"]), ("thesis", False))
+
+    def test_what_cannot_be_served_is_refused_before_anything_starts(self):
+        scenario = self.world("discs", 5)
+        before = self.contents()
+
+        def refused(*arguments, says):
+            done = whisker.whisker(*arguments, "--trace", self.folder / "t.csv", "--record", self.folder / "r.log")
+            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+            self.assertRegex(done.stderr, r"\A[^\n]+\n\Z")
+            self.assertIn(says, done.stderr)
+            self.assertEqual(self.contents(), before)
+
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+            refused("hil", scenario, "--view", port, says=f"port {port}: Address already in use")
+            refused("plant", scenario, "--can", "slcan:nothing", "--view", port, says="Address already in use")
+        for wrong in ("65536", "-1", "x", "1.5"):
+            refused("hil", scenario, "--view", wrong, says=wrong)
+        refused("hil", scenario, "--view", 0, "--view-address", "192.0.2.1", says="192.0.2.1")
+        refused("hil", scenario, "--view", 0, "--view-address", "", says="--view")
+        refused("hil", scenario, "--view-stay", says="--view")
+        refused("hil", scenario, "--view-address", "127.0.0.1", says="--view")
 
 
 class Refusals(Case):

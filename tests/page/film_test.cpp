@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "host/run/clear_cells.hpp"
 #include "host/run/runner.hpp"
 #include "host/worlds/generate.hpp"
 
@@ -46,6 +47,7 @@ TEST(Film, ShowsTheCellsThatThePatchHas) {
   const Scenario scenario = discs();
   const double cell = patch_cell(scenario.robot).raw() * 1e-6;
   Film film(scenario.robot);
+  Frames frames;
   std::array<std::uint32_t, Film::kSide * 2> picture{};
   std::size_t tick = 0, change = 0, pictures = 0;
   RunOptions options;
@@ -54,15 +56,15 @@ TEST(Film, ShowsTheCellsThatThePatchHas) {
     const TickRecord& r = moment.record;
     const Vec at{Length::from_raw(static_cast<std::int32_t>(std::lround(r.est_x_m * 1e6))),
                  Length::from_raw(static_cast<std::int32_t>(std::lround(r.est_y_m * 1e6)))};
-    film.add(tick - 1, at, *moment.patch);
-    for (; change < film.words().size(); ++change) {
-      picture[static_cast<std::size_t>(film.words()[change])] ^=
-          static_cast<std::uint32_t>(film.bits()[change]);
+    film.add(tick - 1, at, *moment.patch, frames);
+    for (; change < frames.words.size(); ++change) {
+      picture[static_cast<std::size_t>(frames.words[change])] ^=
+          static_cast<std::uint32_t>(frames.bits[change]);
     }
     const std::int64_t x = below(r.est_x_m, cell), y = below(r.est_y_m, cell);
     Cells shown;
-    for (std::int64_t j = y - Film::kReach; j <= y + Film::kReach; ++j) {
-      for (std::int64_t i = x - Film::kReach; i <= x + Film::kReach; ++i) {
+    for (std::int64_t j = y - kPatchReach; j <= y + kPatchReach; ++j) {
+      for (std::int64_t i = x - kPatchReach; i <= x + kPatchReach; ++i) {
         const auto column = static_cast<std::uint64_t>(i) % Film::kSide;
         const auto row = static_cast<std::uint64_t>(j) % Film::kSide;
         if ((picture[2 * row + column / 32] >> (column % 32) & 1U) != 0) shown.emplace(i, j);
@@ -73,8 +75,8 @@ TEST(Film, ShowsTheCellsThatThePatchHas) {
   };
   run(scenario, options);
   EXPECT_GT(pictures, 20U);
-  EXPECT_EQ(film.ticks().size(), pictures);
-  EXPECT_GT(film.words().size(), 500U);
+  EXPECT_EQ(frames.ticks.size(), pictures);
+  EXPECT_GT(frames.words.size(), 500U);
 }
 
 }  // namespace

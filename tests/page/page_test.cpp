@@ -42,7 +42,7 @@ StoredRun watched(const Scenario& scenario, RunResult& result) {
   RunOptions options;
   options.watch = [&](const Moment& moment) { recording.add(moment); };
   result = run(scenario, options);
-  return stored({scenario, options.planner, 77, recording, result});
+  return stored({scenario, options.planner, 77}, recording.ticks(), result);
 }
 
 /// What stands in the element of this id.
@@ -122,11 +122,11 @@ TEST(Recording, HasAllTicksAndAFrameEveryFiftyMilliseconds) {
   RunOptions options;
   options.watch = [&](const Moment& moment) { recording.add(moment); };
   const RunResult result = run(scenario, options);
-  EXPECT_EQ(recording.records().size(), result.ticks);
-  EXPECT_EQ(recording.health().size(), result.ticks);
-  ASSERT_GT(recording.film().ticks().size(), 2U);
-  for (std::size_t i = 0; i < recording.film().ticks().size(); ++i) {
-    EXPECT_EQ(recording.film().ticks()[i], static_cast<std::int64_t>(5 * i));
+  EXPECT_EQ(recording.ticks().records.size(), result.ticks);
+  EXPECT_EQ(recording.ticks().health.size(), result.ticks);
+  ASSERT_GT(recording.ticks().frames.ticks.size(), 2U);
+  for (std::size_t i = 0; i < recording.ticks().frames.ticks.size(); ++i) {
+    EXPECT_EQ(recording.ticks().frames.ticks[i], static_cast<std::int64_t>(5 * i));
   }
 }
 

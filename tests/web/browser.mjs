@@ -18,11 +18,17 @@ export function launch() {
   });
 }
 
-/** A page that is open on `url` and has drawn itself; `complaints` grows with whatever is wrong. */
+/** A page that is open on `url` and has drawn itself; `complaints` grows with whatever is wrong. It may ask `server`. */
 export async function openPage(
   browser,
   url,
-  {viewport = DESKTOP, colorScheme = 'light', touch = false, reducedMotion = 'no-preference'} = {},
+  {
+    viewport = DESKTOP,
+    colorScheme = 'light',
+    touch = false,
+    reducedMotion = 'no-preference',
+    server = null,
+  } = {},
 ) {
   const context = await browser.newContext({
     viewport,
@@ -39,6 +45,7 @@ export async function openPage(
   });
   page.on('pageerror', (error) => complaints.push(error.stack));
   page.on('request', (request) => {
+    if (server && request.url().startsWith(server)) return;
     if (!/^(file|data|blob):/.test(request.url())) complaints.push(`asked for ${request.url()}`);
   });
   await page.goto(url);

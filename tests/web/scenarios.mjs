@@ -1,5 +1,6 @@
 // What whisker writes for these tests. The command is $WHISKER, or build/host/whisker.
-import {execFileSync} from 'node:child_process';
+import {execFileSync, spawn} from 'node:child_process';
+import {once} from 'node:events';
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
@@ -18,6 +19,40 @@ export function whisker(...args) {
   } catch (error) {
     if (![3, 4, 5, 6].includes(error.status)) throw error;
     return error.stdout;
+  }
+}
+
+/** The command while it runs. */
+export class Running {
+  constructor(...args) {
+    this.process = spawn(WHISKER, args.map(String), {stdio: ['ignore', 'pipe', 'pipe']});
+    this.out = '';
+    this.said = '';
+    this.process.stdout.on('data', (text) => (this.out += text));
+    this.process.stderr.on('data', (text) => (this.said += text));
+    this.closed = once(this.process, 'close');
+  }
+  /** What a pattern finds in what it says on standard error, as soon as it does. */
+  async says(pattern) {
+    for (;;) {
+      const found = this.said.match(pattern);
+      if (found) return found;
+      if (this.process.exitCode !== null) throw new Error(`it only said: ${this.said}`);
+      await Promise.race([once(this.process.stderr, 'data'), this.closed]);
+    }
+  }
+  /** Where it can be watched. */
+  async url() {
+    return (await this.says(/watch it at (\S+)/))[1];
+  }
+  /** Its exit status and the verdict that --json prints. */
+  async result() {
+    const [status] = await this.closed;
+    return {status, ...JSON.parse(this.out)};
+  }
+  stop(signal = 'SIGINT') {
+    this.process.kill(signal);
+    return this.closed;
   }
 }
 

@@ -35,6 +35,28 @@ export function decodeColumns(bytes: Uint8Array, infos: ColumnInfo[]): Map<strin
   return columns;
 }
 
+/** A column that more values may follow. */
+export class GrowingColumn {
+  private length: number;
+
+  constructor(private values: Float64Array) {
+    this.length = values.length;
+  }
+
+  /** All values so far. */
+  append(more: Float64Array): Float64Array {
+    const length = this.length + more.length;
+    if (length > this.values.length) {
+      const larger = new Float64Array(2 * length);
+      larger.set(this.values.subarray(0, this.length));
+      this.values = larger;
+    }
+    this.values.set(more, this.length);
+    this.length = length;
+    return this.values.subarray(0, length);
+  }
+}
+
 export function bytesOfBase64(text: string): Uint8Array<ArrayBuffer> {
   const binary = atob(text.trim());
   const bytes = new Uint8Array(binary.length);

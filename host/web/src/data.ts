@@ -1,5 +1,5 @@
 /** What the page is about, as the tool has put it into the file. */
-import {bytesOfBase64, decodeColumns, inflated, type ColumnInfo} from './columns.ts';
+import {bytesOfBase64, decodeColumns, GrowingColumn, inflated, type ColumnInfo} from './columns.ts';
 import {Film} from './film.ts';
 
 export type Point = [x: number, y: number];
@@ -56,15 +56,23 @@ export interface Edge {
   end: 'none' | 'left' | 'wall_lost' | 'unreachable';
 }
 
-export interface RunInfo {
+/** A run before its first tick. */
+export interface Setting {
   name: string;
-  planner: string;
+  /** Null: whoever drives has not said it. */
+  planner: string | null;
+  /** False: the page does not know what the core asks its table, what it believes and what it counts. */
+  inside: boolean;
   seed: number;
   time_limit: number;
-  result: Result;
   world: World;
   robot: RobotInfo;
   noise: Record<string, number>;
+}
+
+export interface RunInfo extends Setting {
+  /** Null: it goes on, or nobody knows how it ended. */
+  result: Result | null;
   edges: Edge[];
   columns: ColumnInfo[];
   row?: number;
@@ -118,6 +126,8 @@ export interface PageData {
   format: number;
   shared: Shared;
   runs: RunInfo[];
+  /** Where the events of a run that goes on come from. */
+  live?: string;
   campaign?: CampaignInfo;
 }
 
@@ -150,7 +160,7 @@ export const COUNTERS = [
 
 /** What can be seen of a robot at a tick: of a run that is over, or of one under way. */
 export interface Seen {
-  readonly info: {readonly world: World; readonly robot: RobotInfo};
+  readonly info: {readonly world: World; readonly robot: RobotInfo; readonly inside: boolean};
   readonly shared: {readonly controller: Controller};
   readonly t: ArrayLike<number>;
   /** The clear cells. `seek` returns the tick of the last picture at or before a tick, or -1. */
@@ -178,25 +188,54 @@ export function rangeOf(seen: Seen, beam: number, tick: number): number | null {
   }
 }
 
-/** One run with all its ticks. */
+/** What the robot believes, and what is true. */
+const BELIEFS = [
+  ['est_x_m', 'x_m'],
+  ['est_y_m', 'y_m'],
+  ['est_heading_rad', 'heading_rad'],
+] as const;
+
+/** One run with all its ticks, or with all so far. */
 export class Run implements Seen {
-  readonly ticks: number;
-  readonly t: Float64Array;
-  readonly film: Film;
+  readonly film = new Film();
+  private readonly growing = new Map<string, GrowingColumn>();
+  private readonly columns = new Map<string, Float64Array>();
 
   constructor(
     readonly info: RunInfo,
     readonly shared: Shared,
-    private readonly columns: Map<string, Float64Array>,
+    columns: Map<string, Float64Array>,
   ) {
-    this.t = this.column('t_s');
-    this.ticks = this.t.length;
-    this.film = new Film(
-      this.column('film_tick'),
-      this.column('film_changes'),
-      this.column('film_word'),
-      this.column('film_bits'),
-    );
+    this.grow(columns, 0);
+  }
+
+  get ticks(): number {
+    return this.t.length;
+  }
+  get t(): Float64Array {
+    return this.column('t_s');
+  }
+
+  /** More ticks; `from` is the first one's number: the next, or 0, and then they are all ticks anew. */
+  grow(columns: Map<string, Float64Array>, from: number): void {
+    for (const [name, values] of columns) {
+      const column = from > 0 && this.growing.get(name);
+      if (column) this.columns.set(name, column.append(values));
+      else {
+        this.growing.set(name, new GrowingColumn(values));
+        this.columns.set(name, values);
+      }
+    }
+    if (!this.info.inside) {
+      for (const [belief, truth] of BELIEFS) this.columns.set(belief, this.column(truth));
+    }
+    const film = ['tick', 'changes', 'word', 'bits'].map((name) => this.column(`film_${name}`));
+    this.film.grow(film[0], film[1], film[2], film[3]);
+  }
+
+  /** Where the robot has proved the ground clear is known. */
+  get hasFilm(): boolean {
+    return this.film.ticks.length > 0;
   }
 
   column(name: string): Float64Array {

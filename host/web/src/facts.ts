@@ -1,6 +1,7 @@
 /** Now in words, counters and faults, and what the run was. */
 import {COUNTERS, type Run} from './data.ts';
 import {element, make, setText} from './dom.ts';
+import type {WayToGoal} from './goal.ts';
 import type {Player} from './player.ts';
 import type {Theme} from './theme.ts';
 import {stateColour} from './timeline.ts';
@@ -21,6 +22,18 @@ function noiseWords(noise: Record<string, number>): string {
   return parts.length > 0 ? parts.join(', ') : 'none';
 }
 
+/** Where the core is far away, much stays there. */
+function sayWhatIsUnknown(run: Run): void {
+  const {inside} = run.info;
+  element('counters-unknown').hidden = inside;
+  for (const id of ['course-key', 'rules']) element(id).hidden = !inside;
+  element('clear-unknown').hidden = run.hasFilm;
+  for (const id of ['clear-known', 'clear-key']) element(id).hidden = !run.hasFilm;
+  if (!run.hasFilm) {
+    element('closeup').setAttribute('aria-label', 'The robot from near, ahead is up, and its three beams');
+  }
+}
+
 export class Facts {
   private readonly counters: {name: string; value: HTMLElement; item: HTMLElement}[] = [];
 
@@ -28,36 +41,55 @@ export class Facts {
     private readonly run: Run,
     private readonly player: Player,
     private readonly theme: Theme,
-    private readonly distance: Float64Array,
+    private readonly way: WayToGoal,
   ) {
-    const {result, name, planner, seed, noise} = run.info;
+    const {name, inside} = run.info;
     setText('title', name || 'unnamed scenario');
     document.title = `${name || 'run'} - Whisker`;
-    setText('verdict', verdict(result.outcome, result.time_s));
-    element('verdict').dataset.outcome = result.outcome;
-    const clearance = result.min_clearance_m < 1000 ? metres(result.min_clearance_m, 3) : 'nothing near';
-    const facts: [string, string][] = [
-      ['way driven', metres(result.path_m)],
-      ['nearest to an obstacle', clearance],
-      ['from the goal at the end', metres(result.final_distance_m)],
-      ['planner', planner],
-      ['noise', noiseWords(noise)],
-      ['noise seed', String(seed)],
-      ['ticks', String(result.ticks)],
-      ['command hash', result.hash],
-      ['detail', result.detail || '-'],
-    ];
-    if (run.info.command) facts.push(['again', run.info.command]);
-    element('facts').replaceChildren(
-      ...facts.map(([term, value]) => make('div', '', [make('dt', '', term), make('dd', '', value)])),
-    );
+    this.list('under way');
+    sayWhatIsUnknown(run);
     element('counters').replaceChildren();
+    if (!inside) return;
     for (const counter of COUNTERS) {
       const value = make('dd', 'number', '0');
       const item = make('div', 'zero', [make('dt', '', COUNTER_WORDS[counter]), value]);
       element('counters').append(item);
       this.counters.push({name: counter, value, item});
     }
+  }
+
+  /** The run has ended, or what tells of it has. */
+  end(): void {
+    this.list('broken off');
+  }
+
+  /** What is known of the run; without a verdict, these words are it. */
+  private list(unknown: string): void {
+    const {result, planner, seed, noise, command} = this.run.info;
+    setText('verdict', result ? verdict(result.outcome, result.time_s) : unknown);
+    element('verdict').dataset.outcome = result?.outcome ?? 'none';
+    const facts: [string, string][] = [
+      ['planner', planner ?? 'not known here'],
+      ['noise', noiseWords(noise)],
+      ['noise seed', String(seed)],
+    ];
+    if (result) {
+      const clearance = result.min_clearance_m < 1000 ? metres(result.min_clearance_m, 3) : 'nothing near';
+      facts.unshift(
+        ['way driven', metres(result.path_m)],
+        ['nearest to an obstacle', clearance],
+        ['from the goal at the end', metres(result.final_distance_m)],
+      );
+      facts.push(
+        ['ticks', String(result.ticks)],
+        ['command hash', result.hash],
+        ['detail', result.detail || '-'],
+      );
+    }
+    if (command) facts.push(['again', command]);
+    element('facts').replaceChildren(
+      ...facts.map(([term, value]) => make('div', '', [make('dt', '', term), make('dd', '', value)])),
+    );
   }
 
   update(): void {
@@ -72,7 +104,7 @@ export class Facts {
     setText('sentence', sentence(run.mode(tick), run.why(tick)) + named);
     setText('now-time', `${run.t[tick].toFixed(2)} s`);
     setText('now-tick', `tick ${tick}`);
-    setText('now-distance', metres(this.distance[tick]));
+    setText('now-distance', metres(this.way.distance[tick]));
     setText('now-speed', `${((at('v_left_mps') + at('v_right_mps')) / 2).toFixed(2)} m/s`);
     const turning = (at('v_right_mps') - at('v_left_mps')) / run.info.robot.track;
     setText('now-turn', `${((turning * 180) / Math.PI).toFixed(0)}°/s`);

@@ -6,18 +6,18 @@ const REACH = 20;
 export class Film {
   /** Bit x mod 64 of row y mod 64 is cell (x, y). */
   private readonly picture = new Uint32Array(SIDE * 2);
-  private readonly firstChange: Uint32Array;
+  private readonly firstChange = [0];
+  ticks = new Float64Array();
+  private words = new Float64Array();
+  private bits = new Float64Array();
   /** Frames that the picture holds; -1: none yet. */
   private shown = -1;
 
-  constructor(
-    readonly ticks: Float64Array,
-    changes: Float64Array,
-    private readonly words: Float64Array,
-    private readonly bits: Float64Array,
-  ) {
-    this.firstChange = new Uint32Array(ticks.length + 1);
-    for (let i = 0; i < ticks.length; ++i) this.firstChange[i + 1] = this.firstChange[i] + changes[i];
+  /** All frames, of which those that were known stay as they are. */
+  grow(ticks: Float64Array, changes: Float64Array, words: Float64Array, bits: Float64Array): void {
+    Object.assign(this, {ticks, words, bits});
+    const first = this.firstChange;
+    for (let i = first.length - 1; i < ticks.length; ++i) first.push(first[i] + changes[i]);
   }
 
   /** Shows the last frame at or before this tick and returns that frame's tick, or -1 before the first. */

@@ -1,11 +1,12 @@
 import {CampaignView} from './campaign.ts';
-import {loadRun, pageData, type PageData} from './data.ts';
+import {loadRun, pageData, type PageData, type Run} from './data.ts';
 import {element, setText} from './dom.ts';
 import {placeOf} from './link.ts';
-import {openReplay} from './replay.ts';
+import {Live} from './live.ts';
+import {openReplay, type Replay} from './replay.ts';
 import {Theme} from './theme.ts';
 
-function view(name: 'run' | 'campaign' | 'error'): void {
+function view(name: 'run' | 'campaign' | 'error' | 'waiting'): void {
   document.body.dataset.view = name;
   for (const id of ['run', 'campaign', 'error']) element(id).hidden = id !== name;
 }
@@ -14,9 +15,17 @@ async function openRun(data: PageData, index: number, theme: Theme): Promise<voi
   const run = await loadRun(data, index);
   view('run');
   element('to-campaign').hidden = !data.campaign;
-  const player = openReplay(run, data.campaign ? index : null, theme);
-  // For those who test or measure the page, and for the curious.
+  expose(run, openReplay(run, data.campaign ? index : null, theme));
+}
+
+/** For those who test or measure the page, and for the curious. */
+function expose(run: Run, {player}: Replay): void {
   Object.assign(window, {whisker: {run, player}});
+}
+
+function fail(error: unknown): void {
+  view('error');
+  setText('error-text', error instanceof Error ? error.message : String(error));
 }
 
 async function open(): Promise<void> {
@@ -29,7 +38,14 @@ async function open(): Promise<void> {
     element(id).addEventListener('click', () => element<HTMLDialogElement>('keys').showModal());
   }
   const {run} = placeOf(location.hash);
-  if (!data.campaign) {
+  if (data.live) {
+    view('waiting');
+    const opened = (opened: Run, replay: Replay) => {
+      view('run');
+      expose(opened, replay);
+    };
+    new Live(data, theme, opened, fail);
+  } else if (!data.campaign) {
     await openRun(data, 0, theme);
   } else if (run !== null && run < data.runs.length) {
     await openRun(data, run, theme);
@@ -44,7 +60,4 @@ async function open(): Promise<void> {
   });
 }
 
-open().catch((error: unknown) => {
-  view('error');
-  setText('error-text', error instanceof Error ? error.message : String(error));
-});
+open().catch(fail);

@@ -10,6 +10,10 @@ export class Player {
   tick = 0;
   playing = false;
   speed = 1;
+  /** More ticks may come. */
+  live = false;
+  /** Shows the newest tick, whenever one comes. */
+  following = false;
   private time = 0;
   private last = 0;
   private pending = false;
@@ -29,8 +33,10 @@ export class Player {
     return this.run.ticks - 1;
   }
 
+  /** Whoever goes to the newest tick of a run that goes on follows it. */
   seek(tick: number): void {
     this.tick = Math.max(0, Math.min(this.end, Math.round(tick)));
+    this.following = this.live && this.tick === this.end;
     this.time = this.run.t[this.tick];
     this.request();
   }
@@ -39,20 +45,35 @@ export class Player {
     this.seek(this.run.tickAt(time));
   }
 
+  /** The run has more ticks. */
+  grow(): void {
+    if (this.following) this.seek(this.end);
+    else this.request();
+  }
+
+  /** No more will come. */
+  stopLive(): void {
+    this.live = this.following = false;
+    this.request();
+  }
+
   play(): void {
-    if (this.tick === this.end) this.seek(0);
+    if (this.tick === this.end) {
+      this.seek(this.live ? this.end : 0);
+      if (this.following) return;
+    }
     this.playing = true;
     this.last = performance.now();
     this.request();
   }
 
   pause(): void {
-    this.playing = false;
+    this.playing = this.following = false;
     this.request();
   }
 
   toggle(): void {
-    if (this.playing) this.pause();
+    if (this.playing || this.following) this.pause();
     else this.play();
   }
 
@@ -81,7 +102,10 @@ export class Player {
       this.time += Math.min(0.1, Math.max(0, (now - this.last) / 1000)) * this.speed;
       this.last = now;
       this.tick = this.run.tickAt(this.time);
-      if (this.tick === this.end) this.playing = false;
+      if (this.tick === this.end) {
+        this.playing = false;
+        this.following = this.live;
+      }
     }
     for (const listener of this.listeners) listener();
     if (this.playing) this.request();

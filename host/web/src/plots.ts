@@ -1,22 +1,22 @@
 /** Columns over time. */
 import uPlot from 'uplot';
 import {BEAMS, type Run} from './data.ts';
-import {element, setText} from './dom.ts';
+import {element, make, setText} from './dom.ts';
+import type {WayToGoal} from './goal.ts';
 import type {Player} from './player.ts';
 import type {Colour, Theme} from './theme.ts';
 
 interface Line {
   label: string;
   colour: Colour;
-  values: ArrayLike<number | null>;
+  values: () => ArrayLike<number | null>;
   dashed?: boolean;
 }
 
 interface Plot {
   id: string;
   lines: Line[];
-  low: number;
-  high: number;
+  range: [low: number, high: number];
   unit: string;
   /** The times on an edge are shaded. */
   edges: boolean;
@@ -30,7 +30,8 @@ const HEIGHT = 132;
 function rangeOf(lines: Line[]): [number, number] {
   let low = 0;
   let high = 0;
-  for (const {values} of lines) {
+  for (const line of lines) {
+    const values = line.values();
     for (let i = 0; i < values.length; ++i) {
       const value = values[i];
       if (value === null) continue;
@@ -43,50 +44,37 @@ function rangeOf(lines: Line[]): [number, number] {
 }
 
 function plotOf(id: string, unit: string, lines: Line[]): Plot {
-  const [low, high] = rangeOf(lines);
-  return {id, lines, low, high, unit, edges: id === 'plot-goal'};
-}
-
-/** Nearest to the goal that the robot believed to be while off an edge, so far. */
-export function nearestSoFar(run: Run, distance: Float64Array): Float64Array {
-  const doing = run.column('doing');
-  const danger = run.shared.doings.findIndex(({name}) => name === 'danger');
-  const nearest = new Float64Array(run.ticks);
-  let best = distance[0];
-  for (let i = 0; i < run.ticks; ++i) {
-    if (doing[i] !== danger) best = Math.min(best, distance[i]);
-    nearest[i] = best;
-  }
-  return nearest;
-}
-
-export function distanceToGoal(run: Run): Float64Array {
-  const [goalX, goalY] = run.info.world.goal;
-  const x = run.column('est_x_m');
-  const y = run.column('est_y_m');
-  return Float64Array.from(x, (value, i) => Math.hypot(value - goalX, y[i] - goalY));
+  return {id, lines, range: rangeOf(lines), unit, edges: id === 'plot-goal'};
 }
 
 export class Plots {
-  private readonly plots: {plot: Plot; chart: uPlot; head: HTMLElement; values: HTMLElement[]}[] = [];
+  private readonly plots: {
+    plot: Plot;
+    chart: uPlot;
+    head: HTMLElement;
+    shade: HTMLElement;
+    values: HTMLElement[];
+  }[] = [];
+  private readonly ranges: (number | null)[][] = BEAMS.map(() => []);
   private zoomed = false;
 
   constructor(
     private readonly run: Run,
     private readonly player: Player,
     private readonly theme: Theme,
-    distance: Float64Array,
-    nearest: Float64Array,
+    way: WayToGoal,
   ) {
     const wheel = (side: 'left' | 'right'): Line[] => [
-      {label: side, colour: side, values: run.column(`v_${side}_mps`)},
-      {label: `${side}, asked`, colour: side, values: run.column(`cmd_${side}_mps`), dashed: true},
+      {label: side, colour: side, values: () => run.column(`v_${side}_mps`)},
+      {label: `${side}, asked`, colour: side, values: () => run.column(`cmd_${side}_mps`), dashed: true},
     ];
-    const ranges = BEAMS.map((beam, i): Line => ({label: beam, colour: beam, values: this.rangeValues(i)}));
+    this.grow();
+    const ranges = BEAMS.map((beam, i): Line => ({label: beam, colour: beam, values: () => this.ranges[i]}));
+    const distance = run.info.inside ? 'distance to the goal' : 'true distance to the goal';
     const plots = [
       plotOf('plot-goal', 'm', [
-        {label: 'distance to the goal', colour: 'accent', values: distance},
-        {label: 'nearest so far', colour: 'goal', values: nearest, dashed: true},
+        {label: distance, colour: 'accent', values: () => way.distance},
+        {label: 'nearest so far', colour: 'goal', values: () => way.nearest, dashed: true},
       ]),
       plotOf('plot-ranges', 'm', ranges),
       plotOf('plot-wheels', 'm/s', [...wheel('left'), ...wheel('right')]),
@@ -107,11 +95,29 @@ export class Plots {
       const at = ((now - min) / (max - min)) * (chart.bbox.width / uPlot.pxRatio);
       head.style.transform = `translateX(${at}px)`;
       plot.lines.forEach(({values: all}, i) => {
-        const value = all[tick];
+        const value = all()[tick];
         const text = value === null ? 'lost' : value.toFixed(2);
         if (values[i].textContent !== text) values[i].textContent = text;
       });
     }
+  }
+
+  /** The run has more ticks. */
+  grow(): void {
+    const {run} = this;
+    this.ranges.forEach((values, beam) => {
+      for (let tick = values.length; tick < run.ticks; ++tick) values.push(run.range(beam, tick));
+    });
+  }
+
+  /** Draws what has come since. */
+  redraw(): void {
+    for (const {plot, chart, shade} of this.plots) {
+      plot.range = rangeOf(plot.lines);
+      shade.hidden = !this.isShaded(plot);
+      chart.setData(this.data(plot));
+    }
+    this.update();
   }
 
   restyle(): void {
@@ -138,6 +144,10 @@ export class Plots {
     return this.zoomed ? {min: now - BEFORE, max: now + AFTER} : {min: t[0], max: t[ticks - 1]};
   }
 
+  private isShaded(plot: Plot): boolean {
+    return plot.edges && this.run.info.edges.length > 0;
+  }
+
   private shadeEdges(u: uPlot): void {
     const {t, ticks, info} = this.run;
     const {left: first, top, width, height} = u.bbox;
@@ -152,8 +162,8 @@ export class Plots {
     u.ctx.restore();
   }
 
-  private rangeValues(beam: number): (number | null)[] {
-    return Array.from(this.run.t, (_, tick) => this.run.range(beam, tick));
+  private data(plot: Plot): uPlot.AlignedData {
+    return [this.run.t, ...plot.lines.map(({values}) => values())] as uPlot.AlignedData;
   }
 
   private build(plot: Plot): void {
@@ -187,7 +197,7 @@ export class Plots {
         cursor: {show: false},
         scales: {
           x: {time: false, range: (_, min, max) => [min, max]},
-          y: {range: [plot.low, plot.high]},
+          y: {range: () => plot.range},
         },
         axes: [
           {...axis, size: 26, space: 60, values: (_, splits) => splits.map((s) => `${s} s`)},
@@ -205,16 +215,12 @@ export class Plots {
           })),
         ],
       },
-      [this.run.t, ...plot.lines.map(({values: v}) => v)] as uPlot.AlignedData,
+      this.data(plot),
       host,
     );
-    if (plot.edges && this.run.info.edges.length > 0) {
-      const key = document.createElement('span');
-      key.className = 'key shade';
-      const item = document.createElement('span');
-      item.append(key, ' on an edge');
-      legend.append(item);
-    }
+    const shade = make('span', '', [make('span', 'key shade'), document.createTextNode(' on an edge')]);
+    shade.hidden = !this.isShaded(plot);
+    legend.append(shade);
     host.append(legend);
     const head = document.createElement('div');
     head.className = 'playhead';
@@ -222,7 +228,7 @@ export class Plots {
     chart.over.addEventListener('pointerdown', (event) => {
       this.player.seekTime(chart.posToVal(event.offsetX, 'x'));
     });
-    this.plots.push({plot, chart, head, values});
+    this.plots.push({plot, chart, head, shade, values});
     new ResizeObserver(() => {
       const width = Math.max(200, host.clientWidth);
       if (width === chart.width || !host.contains(chart.root)) return;

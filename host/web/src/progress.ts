@@ -1,6 +1,7 @@
 /** Why it does not get stuck: the edges it followed, and how much nearer it left each. */
 import type {Edge, Run} from './data.ts';
 import {element, make, setText} from './dom.ts';
+import type {WayToGoal} from './goal.ts';
 import type {Player} from './player.ts';
 import {metres} from './words.ts';
 
@@ -8,33 +9,46 @@ import {metres} from './words.ts';
 const NEARER = 0.03;
 const REFERENCE_RADIUS = 0.09;
 
+function notSkirt(planner: string | null): string {
+  return planner === null
+    ? 'Which planner drives is not known here, and so neither is what keeps it from getting stuck.'
+    : `The rule of the skirt planner does not hold here: this is ${planner}.`;
+}
+
 const ENDS: Record<Edge['end'], string> = {
-  none: 'the run ended on it',
+  none: '',
   left: '',
   wall_lost: 'not the one it met',
   unreachable: 'all the way round: no way',
 };
 
 export class ProgressPanel {
-  private readonly rows: HTMLElement[] = [];
+  private rows: HTMLElement[] = [];
   private readonly skirts: boolean;
+  private shown = '';
 
   constructor(
     private readonly run: Run,
     private readonly player: Player,
-    private readonly distance: Float64Array,
-    private readonly nearest: Float64Array,
+    private readonly way: WayToGoal,
   ) {
     this.skirts = run.info.planner === 'skirt';
     element('rule-of-progress').hidden = !this.skirts;
-    setText(
-      'planner-of-progress',
-      this.skirts ? '' : `The rule of the skirt planner does not hold here: this is ${run.info.planner}.`,
-    );
-    const {edges} = run.info;
+    setText('planner-of-progress', this.skirts ? '' : notSkirt(run.info.planner));
+    this.grow();
+  }
+
+  /** The run has more ticks. */
+  grow(): void {
+    const {edges, result} = this.run.info;
+    const now = JSON.stringify([edges, result !== null]);
+    if (now === this.shown) return;
+    this.shown = now;
     element('edges').hidden = edges.length === 0;
-    setText('edges-none', edges.length === 0 ? 'Nothing stood in its way in this run.' : '');
-    edges.forEach((edge, i) => this.add(edge, i));
+    const none = result ? 'Nothing stood in its way in this run.' : 'Nothing has stood in its way so far.';
+    setText('edges-none', edges.length === 0 ? none : '');
+    this.rows = edges.map((edge, i) => this.row(edge, i));
+    element('edge-rows').replaceChildren(...this.rows);
   }
 
   update(): void {
@@ -48,29 +62,35 @@ export class ProgressPanel {
 
   private leaveRule(tick: number): string {
     const on = this.run.info.edges.find(({hit, left}) => hit <= tick && tick < (left ?? Infinity));
-    if (!on || !this.skirts) return '';
+    if (!on || !this.skirts || !this.run.info.inside) return '';
     const nearer = (NEARER * this.run.info.robot.radius) / REFERENCE_RADIUS;
     return (
-      `On an edge now, ${metres(this.distance[tick])} from the goal: ` +
-      `it may leave below ${metres(this.nearest[tick] - nearer)}.`
+      `On an edge now, ${metres(this.way.distance[tick])} from the goal: ` +
+      `it may leave below ${metres(this.way.nearest[tick] - nearer)}.`
     );
   }
 
-  private add(edge: Edge, i: number): void {
+  private onIt(): string {
+    return this.run.info.result ? 'the run ended on it' : '';
+  }
+
+  private row(edge: Edge, i: number): HTMLElement {
     const {t} = this.run;
-    const met = this.distance[edge.hit];
-    const left = edge.left === null ? null : this.distance[edge.left];
+    const met = this.way.distance[edge.hit];
+    const left = edge.left === null ? null : this.way.distance[edge.left];
     const jump = make('button', 'link', `${t[edge.hit].toFixed(1)} s`);
     jump.setAttribute('aria-label', `${t[edge.hit].toFixed(1)} s: go to where edge ${i + 1} was met`);
     jump.addEventListener('click', () => this.player.seek(edge.hit));
-    const row = make('tr', '', [
+    return make('tr', '', [
       make('td', 'number', String(i + 1)),
       make('td', 'number', [jump]),
       make('td', 'number', metres(met)),
       make('td', 'number', left === null ? '' : metres(left)),
-      make('td', 'number', left === null ? ENDS[edge.end] : ENDS[edge.end] || metres(met - left)),
+      make(
+        'td',
+        'number',
+        left === null ? ENDS[edge.end] || this.onIt() : ENDS[edge.end] || metres(met - left),
+      ),
     ]);
-    this.rows.push(row);
-    element('edge-rows').append(row);
   }
 }

@@ -1,10 +1,11 @@
 /** One run on the page: everything that shows it. */
 import {CloseUp} from './closeup.ts';
-import type {Run} from './data.ts';
+import type {Edge, Result, Run} from './data.ts';
 import {Facts} from './facts.ts';
+import {WayToGoal} from './goal.ts';
 import {placeOf, show} from './link.ts';
 import {Player} from './player.ts';
-import {distanceToGoal, nearestSoFar, Plots} from './plots.ts';
+import {Plots} from './plots.ts';
 import {ProgressPanel} from './progress.ts';
 import {ResponsePanel} from './response.ts';
 import {Scenery} from './scenery.ts';
@@ -13,26 +14,38 @@ import {Timeline} from './timeline.ts';
 import {Transport} from './transport.ts';
 import {WorldView} from './world.ts';
 
-/** `index` is the run's number in the address; null where there is only one. */
-export function openReplay(run: Run, index: number | null, theme: Theme): Player {
+/** Milliseconds between two times that the plots of a run that goes on are drawn anew. */
+const PLOTS_EVERY = 250;
+
+export interface Replay {
+  readonly run: Run;
+  readonly player: Player;
+  /** More ticks, as Run.grow takes them, and all edges so far. */
+  grow(columns: Map<string, Float64Array>, edges: Edge[], from: number): void;
+  /** No more will come. */
+  end(result: Result | null): void;
+}
+
+/** `index` is the run's number in the address; null where there is only one. Live: it goes on. */
+export function openReplay(run: Run, index: number | null, theme: Theme, live = false): Replay {
   const player = new Player(run);
-  const distance = distanceToGoal(run);
-  const nearest = nearestSoFar(run, distance);
+  player.live = live;
+  const way = new WayToGoal(run);
   const scenery = new Scenery(run);
   const world = new WorldView(run, player, theme, scenery);
   const closeUp = new CloseUp(run, player, theme, scenery);
   const timeline = new Timeline(run, player, theme);
   const response = new ResponsePanel(run, player, theme);
-  const plots = new Plots(run, player, theme, distance, nearest);
-  const progress = new ProgressPanel(run, player, distance, nearest);
-  const facts = new Facts(run, player, theme, distance);
+  const plots = new Plots(run, player, theme, way);
+  const progress = new ProgressPanel(run, player, way);
+  const facts = new Facts(run, player, theme, way);
   const transport = new Transport(run, player, timeline, world, theme);
 
   const update = () => {
     world.draw();
     closeUp.draw();
     for (const part of [timeline, response, plots, progress, facts, transport]) part.update();
-    if (!player.playing) show({run: index, time: run.t[player.tick]});
+    if (!player.playing) show({run: index, time: player.following ? null : run.t[player.tick]});
   };
   player.onChange(update);
   theme.onChange(() => {
@@ -46,7 +59,29 @@ export function openReplay(run: Run, index: number | null, theme: Theme): Player
     if (time !== null && player.run.tickAt(time) !== player.tick) player.seekTime(time);
   };
   addEventListener('hashchange', followAddress);
+  if (live) player.seek(player.end);
   followAddress();
   player.request();
-  return player;
+  let plotsWait = false;
+  const drawPlots = () => {
+    plotsWait = false;
+    plots.redraw();
+  };
+  return {
+    run,
+    player,
+    grow(columns, edges, from) {
+      run.grow(columns, from);
+      run.info.edges = edges;
+      for (const part of [way, world, timeline, progress, plots]) part.grow();
+      if (!plotsWait) setTimeout(drawPlots, PLOTS_EVERY);
+      plotsWait = true;
+      player.grow();
+    },
+    end(result) {
+      run.info.result = result;
+      facts.end();
+      player.stopLive();
+    },
+  };
 }

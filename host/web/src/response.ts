@@ -8,6 +8,7 @@ import type {Theme} from './theme.ts';
 import {degrees, ruleThen, ruleWhen} from './words.ts';
 
 const SHOWN_RULES = 4;
+const UNKNOWN = 'What it is asked and what it answers is not known here: that stays in the controller.';
 
 /** "12 degrees left" */
 function sideways(radians: number): string {
@@ -66,7 +67,7 @@ export class ResponsePanel {
     this.shown = question;
     // No step factor is 0: what shows one has not been asked.
     if (at('sd') === 0) {
-      this.showUnasked();
+      this.showUnasked(run.info.inside ? 'It has not been asked yet.' : UNKNOWN);
       return;
     }
     const rules = firedRules(run.shared.controller, at('d'), at('r'));
@@ -82,10 +83,10 @@ export class ResponsePanel {
     this.listRules(rules);
   }
 
-  private showUnasked(): void {
+  private showUnasked(words: string): void {
     for (const map of this.maps) map.show(null);
     for (const id of ['value-d', 'value-r', 'value-sa', 'value-sd']) setText(id, '-');
-    setText('table-says', 'It has not been asked yet.');
+    setText('table-says', words);
     element('rules').replaceChildren();
   }
 

@@ -40,12 +40,13 @@ function simplified(x: Float64Array, y: Float64Array, from: number, to: number, 
 /** At most this many ticks are simplified at once, which bounds the work of a long way. */
 const CHUNK = 400;
 
-export function pathPieces(run: Run, tolerance = 0.002): Piece[] {
+/** Those that begin at this tick, where a piece does. */
+export function pathPieces(run: Run, first = 0, tolerance = 0.002): Piece[] {
   const x = run.column('x_m');
   const y = run.column('y_m');
   const doing = run.column('doing');
   const pieces: Piece[] = [];
-  for (let from = 0; from < run.ticks - 1;) {
+  for (let from = first; from < run.ticks - 1;) {
     let to = from + 1;
     while (to < run.ticks - 1 && to - from < CHUNK && doing[to + 1] === doing[from + 1]) ++to;
     const ticks = [from, ...simplified(x, y, from, to, tolerance)];

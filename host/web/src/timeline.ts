@@ -44,40 +44,49 @@ export function stateColour(run: Seen, tick: number): Colour {
   return (['free', 'table', 'probing', 'danger'] as const)[run.column('doing')[tick]];
 }
 
-function segments(run: Run, of: (tick: number) => [string, Colour]): Segment[] {
-  const all: Segment[] = [];
-  for (let tick = 0; tick < run.ticks; ++tick) {
-    const [label, colour] = of(tick);
+/** What a lane says of a tick. */
+type Lane = (run: Run, tick: number) => [label: string, colour: Colour];
+
+const LANES: Lane[] = [
+  (run, tick) => [run.mode(tick), stateColour(run, tick)],
+  (run, tick) => {
+    const why = run.why(tick);
+    return [why.replaceAll('_', ' '), WHY_COLOURS[why] ?? 'still'];
+  },
+];
+
+/** Goes on with these segments up to the last tick. */
+function extend(all: Segment[], run: Run, lane: Lane): void {
+  for (let tick = all.at(-1)?.to ?? 0; tick < run.ticks; ++tick) {
+    const [label, colour] = lane(run, tick);
     const last = all[all.length - 1];
     if (last && last.label === label && last.colour === colour) last.to = tick + 1;
     else all.push({from: tick, to: tick + 1, label, colour});
   }
-  return all;
 }
 
 export class Timeline {
   private readonly surface: Surface;
   private readonly slider = element<HTMLInputElement>('scrub');
-  private readonly lanes: Segment[][];
+  private readonly lanes: Segment[][] = LANES.map(() => []);
   /** Ticks at which state or reason changes. */
-  private readonly changes: number[];
+  private changes: number[] = [];
 
   constructor(
     private readonly run: Run,
     private readonly player: Player,
     private readonly theme: Theme,
   ) {
-    this.lanes = [
-      segments(run, (tick) => [run.mode(tick), stateColour(run, tick)]),
-      segments(run, (tick) => {
-        const why = run.why(tick);
-        return [why.replaceAll('_', ' '), WHY_COLOURS[why] ?? 'still'];
-      }),
-    ];
-    this.changes = [...new Set(this.lanes.flat().map(({from}) => from))].sort((a, b) => a - b);
     this.surface = new Surface(element<HTMLCanvasElement>('lanes'), () => this.draw());
-    this.slider.max = String(player.end);
     this.slider.addEventListener('input', () => player.seek(Number(this.slider.value)));
+    this.grow();
+  }
+
+  /** The run has more ticks. */
+  grow(): void {
+    this.lanes.forEach((list, i) => extend(list, this.run, LANES[i]));
+    this.changes = [...new Set(this.lanes.flat().map(({from}) => from))].sort((a, b) => a - b);
+    this.slider.max = String(this.player.end);
     this.draw();
   }
 
@@ -111,7 +120,7 @@ export class Timeline {
     if (Number(this.slider.value) !== tick) this.slider.value = String(tick);
     element('lanes-head').style.transform = `translateX(${this.x(tick)}px)`;
     // Not on every frame: a screen reader would never come to an end.
-    if (this.player.playing) return;
+    if (this.player.playing || this.player.following) return;
     const now = `${this.run.t[tick].toFixed(2)} s. ${sentence(this.run.mode(tick), this.run.why(tick))}`;
     this.slider.setAttribute('aria-valuetext', now);
     setText('spoken', now);

@@ -28,6 +28,7 @@ export class Transport {
       ['forward', () => player.seek(player.tick + 1)],
       ['previous', () => timeline.previousChange()],
       ['next', () => timeline.nextChange()],
+      ['to-live', () => player.seek(player.end)],
       ['copy', () => void this.copy()],
     ];
     for (const [id, action] of clicks) element(id).addEventListener('click', action);
@@ -35,9 +36,12 @@ export class Transport {
   }
 
   update(): void {
-    const {playing, speed} = this.player;
-    element('play').setAttribute('aria-label', playing ? 'Pause' : 'Play');
-    element('play').classList.toggle('playing', playing);
+    const {playing, following, live, speed} = this.player;
+    const moving = playing || following;
+    element('play').setAttribute('aria-label', moving ? 'Pause' : 'Play');
+    element('play').classList.toggle('playing', moving);
+    for (const id of ['to-live', 'key-live']) element(id).hidden = !live;
+    element('to-live').setAttribute('aria-pressed', String(following));
     if (this.speed.value !== String(speed)) this.speed.value = String(speed);
     setText('clock', `${this.run.t[this.player.tick].toFixed(2)} s`);
     setText('clock-end', `of ${this.run.t[this.player.end].toFixed(1)} s`);
@@ -61,7 +65,7 @@ export class Transport {
     if (target.closest('select, dialog')) return;
     if (event.key === ' ' && target.closest('button, a, summary')) return;
     const seconds = (by: number) => player.seekTime(run.t[player.tick] + by);
-    const keys: Record<string, () => void> = {
+    const keys: Record<string, () => unknown> = {
       ' ': () => player.toggle(),
       k: () => player.toggle(),
       ArrowLeft: () => (event.shiftKey ? seconds(-1) : player.seek(player.tick - 1)),
@@ -77,6 +81,7 @@ export class Transport {
       '=': () => player.shiftSpeed(1),
       f: () => this.world.toggleFollowing(),
       '0': () => this.world.showAll(),
+      l: () => player.live && player.seek(player.end),
       d: () => this.theme.toggle(),
       '?': () => element<HTMLDialogElement>('keys').showModal(),
     };

@@ -16,9 +16,9 @@ const FOLLOWED_METRES = 2.6;
 export class WorldView {
   private readonly surface: Surface;
   private readonly camera = new Camera();
-  private readonly pieces: Piece[];
-  private readonly whole = new Path2D();
-  private readonly box: Box;
+  private pieces: Piece[] = [];
+  private whole = new Path2D();
+  private box: Box;
   private following = false;
   /** The reader has moved the view. */
   private moved = false;
@@ -30,8 +30,7 @@ export class WorldView {
     private readonly scenery: Scenery,
   ) {
     this.box = sceneBox(run);
-    this.pieces = pathPieces(run);
-    for (const piece of this.pieces) this.whole.addPath(piece.path);
+    this.extend();
     const canvas = element<HTMLCanvasElement>('world');
     this.surface = new Surface(canvas, () => {
       if (!this.moved) this.fit();
@@ -45,6 +44,15 @@ export class WorldView {
     });
     element('fit').addEventListener('click', () => this.showAll());
     element('follow').addEventListener('click', () => this.setFollowing(!this.following));
+  }
+
+  /** The run has more ticks. */
+  grow(): void {
+    this.extend();
+    const box = sceneBox(this.run);
+    const same = (['left', 'bottom', 'right', 'top'] as const).every((side) => box[side] === this.box[side]);
+    this.box = box;
+    if (!same && !this.moved) this.fit();
   }
 
   showAll(): void {
@@ -95,6 +103,14 @@ export class WorldView {
     c.restore();
     this.drawMarks(c, tick);
     drawScaleBar(c, p, camera, surface);
+  }
+
+  /** The last piece may become longer. */
+  private extend(): void {
+    const from = this.pieces.pop()?.ticks[0] ?? 0;
+    this.pieces.push(...pathPieces(this.run, from));
+    this.whole = new Path2D();
+    for (const {path} of this.pieces) this.whole.addPath(path);
   }
 
   private fit(): void {
@@ -160,7 +176,7 @@ export class WorldView {
     word('goal', place(...goal), -above, p.goal);
     const x = run.column('x_m');
     const y = run.column('y_m');
-    if (run.info.result.outcome === 'contact' && tick === run.ticks - 1) {
+    if (run.info.result?.outcome === 'contact' && tick === run.ticks - 1) {
       const at = place(x[tick], y[tick]);
       const radius = Math.max(8, run.info.robot.radius * camera.scale) + 5;
       c.beginPath();

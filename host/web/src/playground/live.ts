@@ -30,7 +30,7 @@ export class LiveRun implements Seen {
     readonly shared: {readonly controller: Controller},
   ) {
     core.begin(side, planner, situation);
-    this.info = {world: situation.world, robot: core.robot};
+    this.info = {world: situation.world, robot: core.robot, inside: true};
     this.result = core.result(side);
     this.refresh();
   }
@@ -47,7 +47,7 @@ export class LiveRun implements Seen {
     const [x, y] = situation.world.goal;
     if (x !== this.info.world.goal[0] || y !== this.info.world.goal[1]) this.nearest = Infinity;
     this.core.change(this.side, situation);
-    this.info = {world: situation.world, robot: this.core.robot};
+    this.info = {world: situation.world, robot: this.core.robot, inside: true};
     this.refresh();
   }
 

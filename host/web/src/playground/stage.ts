@@ -7,6 +7,17 @@ import type {LiveRun} from './live.ts';
 import type {Playground} from './playground.ts';
 import {View} from './view.ts';
 
+/** The same as the first, for the other robot. */
+function secondCard(): HTMLElement {
+  const first = element('card-0');
+  const second = first.cloneNode(true) as HTMLElement;
+  second.id = 'card-1';
+  const canvas = second.querySelector('canvas')!;
+  canvas.setAttribute('aria-label', canvas.getAttribute('aria-label')!.replace('first', 'second'));
+  first.after(second);
+  return second;
+}
+
 export class Stage {
   readonly cards: HTMLElement[];
   /** Which robot the panels look at. */
@@ -27,7 +38,7 @@ export class Stage {
       remove: () => play.remove(),
       add: (kind) => this.told(play.add(kind)),
     });
-    this.cards = [element('card-0'), element('card-1')];
+    this.cards = [element('card-0'), secondCard()];
     this.views = this.cards.map((card, side) => this.view(card, side, theme));
     element('fit').addEventListener('click', () => this.fit());
     play.onChange(() => this.follow());

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/core/trig.hpp"
+#include "firmware/ground/patch.hpp"
+#include "firmware/params.hpp"
+
+namespace whisker {
+
+/// Cells from the body's own in x and in y: the patch's window lies within.
+constexpr std::int64_t kPatchReach = 20;
+
+/// Calls use(x, y) for every clear cell, row by row upwards. A cell is a place of the world: the body's own
+/// is floor(estimate / cell) in x and in y.
+template <class F>
+void for_each_clear_cell(const ground::Patch& patch, const Params& params, Vec body, const F& use) {
+  const std::int64_t size = patch_cell(params).raw();
+  const auto cell_of = [size](Length x) {
+    return x.raw() >= 0 ? x.raw() / size : -((size - 1 - x.raw()) / size);
+  };
+  const auto centre = [size](std::int64_t cell) {
+    return Length::from_raw(static_cast<std::int32_t>(cell * size + size / 2));
+  };
+  const std::int64_t middle_x = cell_of(body.x), middle_y = cell_of(body.y);
+  for (std::int64_t y = middle_y - kPatchReach; y <= middle_y + kPatchReach; ++y) {
+    for (std::int64_t x = middle_x - kPatchReach; x <= middle_x + kPatchReach; ++x) {
+      if (patch.is_clear({centre(x), centre(y)})) use(x, y);
+    }
+  }
+}
+
+}  // namespace whisker

@@ -1,0 +1,98 @@
+/** A run that goes on: what its server tells, put into the page as it comes. */
+import {bytesOfBase64, decodeColumns, inflated, type ColumnInfo} from './columns.ts';
+import {Run, type Edge, type PageData, type Result, type RunInfo, type Setting} from './data.ts';
+import {element, setText} from './dom.ts';
+import {openReplay, type Replay} from './replay.ts';
+import type {Theme} from './theme.ts';
+
+/** As host/view/feed.hpp says it. */
+interface News {
+  run: string;
+  /** The tick that the columns begin with. */
+  from: number;
+  says: string;
+  ended: boolean;
+  result: Result | null;
+  edges: Edge[];
+  columns: ColumnInfo[];
+  data: string;
+  setting?: Setting;
+}
+
+const AGAIN_MS = 2000;
+
+type State = 'connecting' | 'live' | 'ended';
+
+export class Live {
+  state: State = 'connecting';
+  private name = '';
+  private setting: Setting | null = null;
+  private replay: Replay | null = null;
+  private source: EventSource | null = null;
+  /** News are unpacked one after the other. */
+  private last = Promise.resolve();
+
+  constructor(
+    private readonly data: PageData,
+    private readonly theme: Theme,
+    private readonly shown: (run: Run, replay: Replay) => void,
+    private readonly failed: (error: unknown) => void,
+  ) {
+    element('live').hidden = false;
+    this.tell('connecting', '');
+    this.connect();
+  }
+
+  private connect(): void {
+    const source = new EventSource(this.data.live!);
+    this.source = source;
+    source.onmessage = ({data}) => {
+      this.last = this.last.then(() => this.take(JSON.parse(data as string) as News)).catch(this.failed);
+    };
+    source.onerror = () => {
+      if (this.state === 'ended') return;
+      this.tell('connecting', this.setting ? 'nobody answers; the run may be over' : '');
+      if (source.readyState === EventSource.CLOSED) setTimeout(() => this.connect(), AGAIN_MS);
+    };
+  }
+
+  private async take(news: News): Promise<void> {
+    const ticks = this.replay?.run.ticks ?? 0;
+    const another = this.name !== '' && news.run !== this.name;
+    // A run's parts hold on to it: another run is another load of the page.
+    if (another || (news.from !== ticks && news.from !== 0)) {
+      this.source?.close();
+      location.reload();
+      return;
+    }
+    this.name = news.run;
+    this.setting ??= news.setting!;
+    const columns = decodeColumns(await inflated(bytesOfBase64(news.data)), news.columns);
+    if (this.replay) this.replay.grow(columns, news.edges, news.from);
+    else if (columns.get('t_s')!.length > 0) this.open(this.setting, news, columns);
+    else setText('live-name', this.setting.name);
+    if (news.ended) this.end(news.result);
+    else this.tell('live', news.says);
+  }
+
+  private open(setting: Setting, {edges}: News, columns: Map<string, Float64Array>): void {
+    setText('live-name', '');
+    const info: RunInfo = {...setting, result: null, edges, columns: []};
+    const run = new Run(info, this.data.shared, columns);
+    this.replay = openReplay(run, null, this.theme, true);
+    this.shown(run, this.replay);
+  }
+
+  private end(result: Result | null): void {
+    this.source?.close();
+    this.tell('ended', result ? '' : 'it was interrupted');
+    this.replay?.end(result);
+  }
+
+  private tell(state: State, words: string): void {
+    this.state = state;
+    element('live').dataset.state = state;
+    setText('live-state', state);
+    setText('live-says', words);
+  }
+}

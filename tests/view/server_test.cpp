@@ -1,0 +1,217 @@
+#include "host/view/server.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+
+#include <future>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/view/watched.hpp"
+
+namespace whisker::view {
+namespace {
+
+using nlohmann::json;
+using testing::drive;
+using ::testing::HasSubstr;
+using testing::setting;
+using testing::short_run;
+
+constexpr const char* kHere = "127.0.0.1";
+constexpr const char* kPath = "/events";
+
+struct Event {
+  std::string id;
+  json news;
+};
+
+/// The events of a stream, whole ones only.
+std::vector<Event> events_of(const std::string& text) {
+  std::vector<Event> events;
+  std::size_t from = 0;
+  for (std::size_t end = 0; (end = text.find("\n\n", from)) != std::string::npos; from = end + 2) {
+    const std::string block = text.substr(from, end - from);
+    const std::size_t line = block.find('\n');
+    if (block.rfind("id: ", 0) != 0) continue;
+    EXPECT_EQ(block.compare(line + 1, 6, "data: "), 0) << block.substr(0, 100);
+    events.push_back({block.substr(4, line - 4), json::parse(block.substr(line + 7))});
+  }
+  return events;
+}
+
+/// All that the server tells from this place on.
+std::vector<Event> listen(int port, const std::string& from = "") {
+  httplib::Client client(kHere, port);
+  client.set_read_timeout(std::chrono::seconds(60));
+  httplib::Headers headers;
+  if (!from.empty()) headers.emplace("Last-Event-ID", from);
+  const auto answer = client.Get(kPath, headers);
+  EXPECT_TRUE(answer && answer->status == 200);
+  EXPECT_EQ(answer->get_header_value("Content-Type"), "text/event-stream");
+  return events_of(answer->body);
+}
+
+std::size_t ticks_of(const std::vector<Event>& events) {
+  std::size_t ticks = events.empty() ? 0 : events.front().news["from"].get<std::size_t>();
+  for (const Event& event : events) {
+    EXPECT_EQ(event.news["from"], ticks);
+    ticks += event.news["columns"][0][3].get<std::size_t>();
+  }
+  return ticks;
+}
+
+/// A connection that has asked for the events; it reads only what it is told to.
+class Idle {
+ public:
+  explicit Idle(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    const int small = 4096;
+    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+    const std::string request = std::string("GET ") + kPath + " HTTP/1.1\r\nHost: here\r\n\r\n";
+    EXPECT_EQ(send(socket_, request.data(), request.size(), 0), static_cast<ssize_t>(request.size()));
+  }
+  ~Idle() { ::close(socket_); }
+  Idle(const Idle&) = delete;
+  Idle& operator=(const Idle&) = delete;
+
+  std::string read_some() const {
+    char bytes[64];
+    const ssize_t n = recv(socket_, bytes, sizeof bytes, 0);
+    return {bytes, n > 0 ? static_cast<std::size_t>(n) : 0U};
+  }
+
+ private:
+  int socket_;
+};
+
+TEST(Server, ServesThePageAndNothingElse) {
+  const Feed feed;
+  Server server(kHere, 0, feed, "<p>page</p>");
+  server.start();
+  httplib::Client client(kHere, server.port());
+  const auto page = client.Get("/");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->status, 200);
+  EXPECT_EQ(page->body, "<p>page</p>");
+  EXPECT_THAT(page->get_header_value("Content-Type"), HasSubstr("text/html"));
+  EXPECT_EQ(page->get_header_value("Cache-Control"), "no-store");
+  for (const char* path : {"/nothing", "/../etc/passwd", "/events/x"}) {
+    const auto other = client.Get(path);
+    ASSERT_TRUE(other);
+    EXPECT_EQ(other->status, 404) << path;
+  }
+  const auto posted = client.Post("/", "x", "text/plain");
+  EXPECT_TRUE(!posted || posted->status >= 400);
+}
+
+TEST(Server, TellsEverybodyAllAndThenLetsThemGo) {
+  Feed feed;
+  Server server(kHere, 0, feed, "");
+  server.start();
+  const auto watch = [&server] { return listen(server.port()); };
+  auto first = std::async(std::launch::async, watch);
+  auto second = std::async(std::launch::async, watch);
+  const RunResult result = drive(short_run(), feed);
+  const auto late = watch();
+  for (const auto& events : {first.get(), second.get(), late}) {
+    ASSERT_FALSE(events.empty());
+    EXPECT_TRUE(events.front().news.contains("setting"));
+    EXPECT_EQ(ticks_of(events), result.ticks);
+    EXPECT_EQ(events.back().news["result"]["ticks"], result.ticks);
+  }
+  EXPECT_EQ(late.size(), 1U);
+}
+
+TEST(Server, GoesOnBehindTheLastEventThatABrowserHas) {
+  Feed feed;
+  Server server(kHere, 0, feed, "");
+  server.start();
+  const RunResult result = drive(short_run(), feed);
+  const std::string id = listen(server.port()).back().id;
+  const std::string middle = id.substr(0, id.find('/')) + "/321";
+  const auto rest = listen(server.port(), middle);
+  EXPECT_EQ(rest.front().news["from"], 321);
+  EXPECT_EQ(ticks_of(rest), result.ticks);
+  for (const char* nonsense : {"x", "/", "x/", "x/1x", "x/-1", "x/99999999999999999999"}) {
+    EXPECT_EQ(ticks_of(listen(server.port(), nonsense)), result.ticks) << nonsense;
+  }
+}
+
+TEST(Server, OneWhoReadsNothingKeepsNobodyWaiting) {
+  Feed feed;
+  auto server = std::make_unique<Server>(kHere, 0, feed, "");
+  server->start();
+  const Idle idle(server->port());
+  EXPECT_FALSE(idle.read_some().empty());
+  // More than the kernel takes for one who does not read.
+  Scenario scenario = short_run();
+  scenario.name.assign(8 << 20, 'x');
+  const RunResult result = drive(scenario, feed);
+  EXPECT_EQ(ticks_of(listen(server->port())), result.ticks);
+  server.reset();
+}
+
+TEST(Server, OneWhoIsGoneIsForgotten) {
+  Feed feed;
+  feed.begin(setting(short_run()));
+  Server server(kHere, 0, feed, "");
+  server.start();
+  for (int i = 0; i < 3 * Server::kMostWatchers; ++i) {
+    // Each finds a place, as soon as those before it are noticed to be gone.
+    std::string answer;
+    while (answer.find(" 200 ") == std::string::npos) answer = Idle(server.port()).read_some();
+    feed.say(std::to_string(i));
+  }
+}
+
+TEST(Server, TooManyAreRefused) {
+  Feed feed;
+  feed.begin(setting(short_run()));
+  Server server(kHere, 0, feed, "");
+  server.start();
+  std::vector<std::unique_ptr<Idle>> all;
+  for (int i = 0; i < Server::kMostWatchers; ++i) {
+    all.push_back(std::make_unique<Idle>(server.port()));
+    EXPECT_THAT(all.back()->read_some(), HasSubstr(" 200 "));
+  }
+  EXPECT_THAT(Idle(server.port()).read_some(), HasSubstr(" 503 "));
+  httplib::Client client(kHere, server.port());
+  EXPECT_TRUE(client.Get("/"));
+}
+
+TEST(Server, APortHasOneServer) {
+  const Feed feed;
+  const Server server(kHere, 0, feed, "");
+  EXPECT_GT(server.port(), 0);
+  try {
+    const Server other(kHere, server.port(), feed, "");
+    ADD_FAILURE() << "two servers have the same port";
+  } catch (const ServerError& e) {
+    EXPECT_THAT(e.what(), HasSubstr(std::to_string(server.port()) + ": Address already in use"));
+  }
+}
+
+TEST(Server, AnAddressOfNobodyIsRefused) {
+  const Feed feed;
+  EXPECT_THROW(Server("192.0.2.1", 0, feed, ""), ServerError);
+  EXPECT_THROW(Server("no.such.name.invalid", 0, feed, ""), ServerError);
+}
+
+TEST(Server, MayEndBeforeItBegins) {
+  const Feed feed;
+  const Server never(kHere, 0, feed, "");
+  Server at_once(kHere, 0, feed, "");
+  at_once.start();
+}
+
+}  // namespace
+}  // namespace whisker::view

@@ -1,0 +1,20 @@
+/// Runs to watch.
+#pragma once
+
+#include <functional>
+
+#include "host/page/page.hpp"
+#include "host/run/runner.hpp"
+#include "host/view/feed.hpp"
+
+namespace whisker::view::testing {
+
+/// Some seconds to the goal, around a disc.
+Scenario short_run();
+
+inline page::Setting setting(const Scenario& scenario) { return {scenario, PlannerKind::skirt, 7}; }
+
+/// Begins, drives and ends; `each` is called after every tick.
+RunResult drive(const Scenario& scenario, Feed& feed, const std::function<void(const Moment&)>& each = {});
+
+}  // namespace whisker::view::testing

@@ -1,0 +1,242 @@
+// A run on a bus, watched in a browser while it goes on.
+import assert from 'node:assert/strict';
+import {once} from 'node:events';
+import {readFileSync, writeFileSync} from 'node:fs';
+import {connect, createServer} from 'node:net';
+import {after, afterEach, before, describe, test} from 'node:test';
+import {
+  accessibilityFaults,
+  closePages,
+  DESKTOP,
+  drawn,
+  launch,
+  openPage,
+  PHONE,
+  pictureOf,
+  tickOf,
+} from './browser.mjs';
+import {Folder, Running, whisker} from './scenarios.mjs';
+
+// Lost frames are sent again after a while: a run of 46 s takes some seconds, and is the same run.
+const SLOW = ['--drop', 1];
+
+const ticksOf = (page) => page.evaluate(() => window.whisker?.run.ticks ?? 0);
+const grown = (page, than) => page.waitForFunction((n) => window.whisker?.run.ticks > n, than);
+const state = (page, word) =>
+  page.waitForFunction((w) => document.getElementById('live').dataset.state === w, word);
+
+describe('the live page', () => {
+  const folder = new Folder();
+  const all = [];
+  let browser;
+  let alone;
+  const scenario = folder.at('trap.toml');
+  before(async () => {
+    alone = folder.drive('trap', ['u-trap', '--seed', 7]);
+    browser = await launch();
+  });
+  afterEach(async () => {
+    await closePages(browser);
+    await Promise.all(all.splice(0).map((one) => one.stop('SIGKILL')));
+  });
+  after(async () => {
+    await browser?.close();
+    folder.remove();
+  });
+  const start = (command, ...options) => {
+    const one = new Running(command, scenario, '--view', 0, '--json', ...options);
+    all.push(one);
+    return one;
+  };
+  const watch = async (one, options = {}) => {
+    const server = await one.url();
+    return openPage(browser, server + (options.hash ?? ''), {server, ...options});
+  };
+  /** All ticks are there, each once and in order, and they are those of the run. */
+  const assertWhole = async (page) => {
+    const {times, x} = await page.evaluate(() => {
+      const {run} = window.whisker;
+      return {times: [...run.t], x: [...run.column('x_m')]};
+    });
+    const trace = folder.trace('trap');
+    assert.equal(times.length, trace.length);
+    trace.forEach((row, i) => {
+      assert.ok(Math.abs(times[i] - Number(row.t_s)) < 1e-9, `tick ${i} is at ${times[i]}`);
+      assert.ok(Math.abs(x[i] - Number(row.x_m)) < 6e-7, `x at tick ${i}`);
+    });
+  };
+
+  test('follows the run, can look back, and sees the end', async () => {
+    const hil = start('hil', ...SLOW);
+    const {page, complaints} = await watch(hil);
+    await grown(page, 100);
+    assert.equal(await page.textContent('#live-state'), 'live');
+    assert.equal(await page.textContent('#verdict'), 'under way');
+    const early = await tickOf(page);
+    await grown(page, early + 100);
+    await drawn(page);
+    assert.ok((await tickOf(page)) > early, 'it does not follow');
+    assert.ok((await pictureOf(page, 'world')).colours > 8);
+    assert.equal(await page.getAttribute('#to-live', 'aria-pressed'), 'true');
+
+    await page.keyboard.press('Home');
+    await grown(page, (await ticksOf(page)) + 50);
+    await drawn(page);
+    assert.equal(await tickOf(page), 0, 'it does not stay where the reader looks');
+    assert.equal(await page.getAttribute('#to-live', 'aria-pressed'), 'false');
+    await page.keyboard.press('l');
+    await grown(page, (await ticksOf(page)) + 10);
+    assert.ok((await tickOf(page)) > early, 'it does not come back');
+    await page.keyboard.press('Space');
+    const paused = await tickOf(page);
+    await grown(page, paused + 50);
+    assert.equal(await tickOf(page), paused);
+    await page.click('#to-live');
+
+    await state(page, 'ended');
+    const {status, bus, ...result} = await hil.result();
+    assert.equal(status, 0);
+    assert.deepEqual(result, alone, 'watched, the run is another one');
+    assert.ok(bus.sets > 0);
+    await drawn(page);
+    assert.match(await page.textContent('#facts'), new RegExp(alone.hash));
+    assert.match(await page.textContent('#verdict'), /^reached the goal in/);
+    assert.equal(await tickOf(page), alone.ticks - 1);
+    assert.ok(await page.isHidden('#to-live'));
+    assert.ok((await page.locator('#edge-rows tr').count()) > 0);
+    await assertWhole(page);
+    assert.deepEqual(complaints, []);
+  });
+
+  test('says what the bus does not tell', async () => {
+    const hil = start('hil', '--view-stay');
+    await hil.says(/the run is over/);
+    const {page} = await watch(hil);
+    await state(page, 'ended');
+    await drawn(page);
+    for (const id of ['clear-unknown', 'counters-unknown']) assert.ok(await page.isVisible(`#${id}`), id);
+    for (const id of ['clear-known', 'clear-key', 'course-key']) assert.ok(await page.isHidden(`#${id}`), id);
+    assert.match(await page.textContent('#table-says'), /not known here/);
+    assert.match(await page.textContent('#plot-goal'), /true distance to the goal/);
+    assert.equal(await page.locator('#counters > *').count(), 0);
+    assert.ok(await page.isVisible('#rule-of-progress'));
+    assert.equal(await page.textContent('#leave-rule'), '');
+  });
+
+  test('of a planner that nobody names no rule is told', async () => {
+    whisker('hil', scenario, '--html', folder.at('hil.html'));
+    const html = readFileSync(folder.at('hil.html'), 'utf8');
+    writeFileSync(folder.at('nameless.html'), html.replace('"planner":"skirt"', '"planner":null'));
+    const {page, complaints} = await openPage(browser, folder.url('nameless.html'));
+    assert.ok(await page.isHidden('#rule-of-progress'));
+    assert.match(await page.textContent('#planner-of-progress'), /not known here/);
+    assert.match(await page.textContent('#facts'), /plannernot known here/);
+    assert.doesNotMatch(await page.textContent('#run'), /skirt/);
+    assert.deepEqual(complaints, []);
+  });
+
+  test('who comes late is told everything, and several may come', async () => {
+    const hil = start('hil', '--view-stay');
+    await hil.says(/the run is over/);
+    for (let i = 0; i < 2; ++i) {
+      const {page, complaints} = await watch(hil);
+      await state(page, 'ended');
+      await assertWhole(page);
+      assert.deepEqual(complaints, []);
+    }
+    await hil.stop();
+    assert.equal((await hil.result()).status, 0);
+  });
+
+  test('a line that breaks loses nothing and doubles nothing', async () => {
+    const hil = start('hil', ...SLOW);
+    const {port} = new URL(await hil.url());
+    const open = new Set();
+    const proxy = createServer((near) => {
+      const far = connect(port, '127.0.0.1');
+      near.pipe(far).pipe(near);
+      for (const end of [near, far]) end.on('error', () => {});
+      open.add(near);
+      near.on('close', () => far.destroy());
+    });
+    await once(proxy.listen(0, '127.0.0.1'), 'listening');
+    try {
+      const {page} = await openPage(browser, `http://127.0.0.1:${proxy.address().port}/`, {server: 'http:'});
+      for (const ticks of [100, 1500]) {
+        await grown(page, ticks);
+        for (const end of open) end.destroy();
+        await state(page, 'connecting');
+        await state(page, 'live');
+      }
+      await state(page, 'ended');
+      await assertWhole(page);
+    } finally {
+      proxy.close();
+    }
+  });
+
+  test('sees an interruption', async () => {
+    const hil = start('hil', ...SLOW);
+    const {page, complaints} = await watch(hil);
+    await grown(page, 100);
+    const [status] = await hil.stop();
+    assert.equal(status, 130);
+    await state(page, 'ended');
+    assert.match(await page.textContent('#live-says'), /interrupted/);
+    assert.equal(await page.textContent('#verdict'), 'broken off');
+    assert.deepEqual(complaints, []);
+  });
+
+  test('another run at the same place is shown instead', async () => {
+    const first = start('hil', ...SLOW);
+    const {page} = await watch(first);
+    await grown(page, 100);
+    const {port} = new URL(await first.url());
+    await first.stop('SIGKILL');
+    await state(page, 'connecting');
+    assert.match(await page.textContent('#live-says'), /nobody answers/);
+    const other = folder.at('other.toml');
+    whisker('world', 'discs', '--seed', 3, '--out', other);
+    const second = new Running('hil', other, '--view', port, '--view-stay', '--json');
+    all.push(second);
+    await page.waitForFunction(() => document.getElementById('title').textContent.includes('discs'));
+    await state(page, 'ended');
+  });
+
+  test('says what a plant without a bus waits for', async () => {
+    const plant = start('plant', '--can', `slcan:${folder.at('nothing')}`);
+    const {page, complaints} = await watch(plant);
+    await page.waitForFunction(() => document.getElementById('live-says').textContent !== '');
+    assert.match(await page.textContent('#live-says'), /^waits for /);
+    assert.match(await page.textContent('#live-name'), /u-trap/);
+    assert.ok(await page.isHidden('#run'));
+    await plant.stop();
+    await state(page, 'ended');
+    assert.deepEqual(complaints, []);
+  });
+
+  test('a link to a time stays at it', async () => {
+    const hil = start('hil', '--view-stay', ...SLOW);
+    await hil.says(/: drives/);
+    const {page} = await watch(hil, {hash: '#t=0.5'});
+    await grown(page, 500);
+    assert.equal(await tickOf(page), 50);
+    assert.equal(new URL(page.url()).hash, '#t=0.5');
+  });
+
+  for (const [colorScheme, viewport] of [
+    ['light', PHONE],
+    ['dark', DESKTOP],
+  ]) {
+    test(`fits and axe finds no fault: ${colorScheme}, ${viewport.width} px`, async () => {
+      const hil = start('hil', ...SLOW);
+      const {page} = await watch(hil, {colorScheme, viewport, touch: viewport === PHONE});
+      await grown(page, 1000);
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), viewport.width);
+      if (process.env.SHOTS) {
+        await page.screenshot({path: `${process.env.SHOTS}/${colorScheme}.png`, fullPage: true});
+      }
+      assert.deepEqual(await accessibilityFaults(page), []);
+    });
+  }
+});
