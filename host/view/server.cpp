@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
+#include <system_error>
 #include <thread>
 
 #include <fmt/core.h>
@@ -125,7 +125,7 @@ Server::Server(const std::string& address, int port, const Feed& feed, std::stri
   in.port = port == 0 ? in.http.bind_to_any_port(address) : in.http.bind_to_port(address, port) ? port : -1;
   if (in.port < 0) {
     throw ServerError(fmt::format("cannot serve on {}, port {}: {}", address, port,
-                                  errno != 0 ? std::strerror(errno) : "no such address"));
+                                  errno != 0 ? std::generic_category().message(errno) : "no such address"));
   }
 }
 

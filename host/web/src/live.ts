@@ -47,13 +47,24 @@ export class Live {
     const source = new EventSource(this.data.live!);
     this.source = source;
     source.onmessage = ({data}) => {
-      this.last = this.last.then(() => this.take(JSON.parse(data as string) as News)).catch(this.failed);
+      const news = JSON.parse(data as string) as News;
+      if (news.ended) source.close();
+      this.then(() => this.take(news));
     };
     source.onerror = () => {
-      if (this.state === 'ended') return;
-      this.tell('connecting', this.setting ? 'nobody answers; the run may be over' : '');
-      if (source.readyState === EventSource.CLOSED) setTimeout(() => this.connect(), AGAIN_MS);
+      const closed = source.readyState === EventSource.CLOSED;
+      this.then(() => this.lost());
+      if (closed) setTimeout(() => this.connect(), AGAIN_MS);
     };
+  }
+
+  private then(next: () => void | Promise<void>): void {
+    this.last = this.last.then(next).catch(this.failed);
+  }
+
+  private lost(): void {
+    if (this.state === 'ended') return;
+    this.tell('connecting', this.setting ? 'nobody answers; the run may be over' : '');
   }
 
   private async take(news: News): Promise<void> {
@@ -84,7 +95,6 @@ export class Live {
   }
 
   private end(result: Result | null): void {
-    this.source?.close();
     this.tell('ended', result ? '' : 'it was interrupted');
     this.replay?.end(result);
   }

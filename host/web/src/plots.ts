@@ -95,7 +95,7 @@ export class Plots {
       const at = ((now - min) / (max - min)) * (chart.bbox.width / uPlot.pxRatio);
       head.style.transform = `translateX(${at}px)`;
       plot.lines.forEach(({values: all}, i) => {
-        const value = all()[tick];
+        const value = all()[tick] ?? null;
         const text = value === null ? 'lost' : value.toFixed(2);
         if (values[i].textContent !== text) values[i].textContent = text;
       });

@@ -41,7 +41,15 @@ export function openReplay(run: Run, index: number | null, theme: Theme, live = 
   const facts = new Facts(run, player, theme, way);
   const transport = new Transport(run, player, timeline, world, theme);
 
+  // Once a frame, however many news come between two.
+  let grown = false;
+  const catchUp = () => {
+    if (!grown) return;
+    grown = false;
+    for (const part of [way, world, timeline, progress, plots]) part.grow();
+  };
   const update = () => {
+    catchUp();
     world.draw();
     closeUp.draw();
     for (const part of [timeline, response, plots, progress, facts, transport]) part.update();
@@ -49,6 +57,7 @@ export function openReplay(run: Run, index: number | null, theme: Theme, live = 
   };
   player.onChange(update);
   theme.onChange(() => {
+    catchUp();
     timeline.draw();
     response.restyle();
     plots.restyle();
@@ -65,6 +74,7 @@ export function openReplay(run: Run, index: number | null, theme: Theme, live = 
   let plotsWait = false;
   const drawPlots = () => {
     plotsWait = false;
+    catchUp();
     plots.redraw();
   };
   return {
@@ -73,7 +83,7 @@ export function openReplay(run: Run, index: number | null, theme: Theme, live = 
     grow(columns, edges, from) {
       run.grow(columns, from);
       run.info.edges = edges;
-      for (const part of [way, world, timeline, progress, plots]) part.grow();
+      grown = true;
       if (!plotsWait) setTimeout(drawPlots, PLOTS_EVERY);
       plotsWait = true;
       player.grow();
