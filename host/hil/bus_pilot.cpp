@@ -175,7 +175,7 @@ class BusPilot final : public Pilot {
         figures_.round_trip_us.push_back(static_cast<std::uint32_t>(now_us - sent_us));
         return status_of(node_.status());
       }
-      clock_.wait_a_ms();
+      clock_.wait(Clock::kNap_us);
       const std::uint64_t now_us = clock_.now_us();
       node_.poll(static_cast<std::uint32_t>(now_us / 1000));
       check();

@@ -7,6 +7,9 @@ namespace whisker::hil {
 /// Time, and waiting for what the bus may bring.
 class Clock {
  public:
+  /// In lockstep, where no time-out holds: fewer naps leave more of a computer to the other party.
+  static constexpr std::uint64_t kNap_us = 1000;
+
   virtual ~Clock() = default;
   virtual std::uint64_t now_us() = 0;  ///< since any fixed instant, monotonic
   /// Returns after this time, or earlier when a frame may have come.

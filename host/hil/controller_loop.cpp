@@ -37,7 +37,11 @@ void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
     const std::string words = words_for(controller->node(), line);
     if (words != said && options.say) options.say(words);
     said = words;
-    clock.wait_a_ms();
+    if (controller->node().lockstep()) {
+      clock.wait(Clock::kNap_us);
+    } else {
+      clock.wait_a_ms();
+    }
   }
 }
 
