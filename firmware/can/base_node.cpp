@@ -116,7 +116,7 @@ bool BaseNode::hear_command(const hal::CanFrame& frame) noexcept {
   WheelCommand command;
   if (!read(frame, command)) return false;
   const auto behind = static_cast<uint16_t>(tick_ - command.tick);
-  if (command.mode == DriveMode::drive && behind * period_ms_ > (lockstep() ? 0U : kCommandLate_ms)) {
+  if (command.mode == DriveMode::drive && behind * period_ms_ > (lockstep() ? 0U : kCommandOld_ms)) {
     count(tally().stale);
     return true;
   }

@@ -8,7 +8,8 @@ namespace whisker::can {
 constexpr uint32_t kHoldAfter_ms = 30;        ///< a beam's range is missing: brake, go on when it comes back
 constexpr uint32_t kRangeLatch_ms = 100;      ///< it is still missing: safe stop
 constexpr uint32_t kOdometryLate_ms = 50;     ///< no counts, or no complete input set: safe stop
-constexpr uint32_t kCommandLate_ms = 50;      ///< no command: safe stop
+constexpr uint32_t kCommandLate_ms = 49;      ///< no command: safe stop at the 50th
+constexpr uint32_t kCommandOld_ms = 50;       ///< a command for measurements of before then is none
 constexpr uint32_t kPeerLost_ms = 300;        ///< no heartbeat: safe stop
 constexpr uint32_t kHeartbeat_ms = 100;       ///< between two of the own
 constexpr uint32_t kFaultRepeat_ms = 1000;    ///< between two Fault frames while an error stands

@@ -81,7 +81,7 @@ robot has not moved.
 | the same | {range} ms | controller | safe stop, range_late |
 | valid counts | {odometry} ms | controller | safe stop, odometry_late |
 | a complete input set | {range} ms | controller | safe stop, odometry_late |
-| a valid command, or one that is not older than this | {command} ms | base | ramp down, safe stop, command_late |
+| a valid command for measurements of the last {old} ms | {command} ms | base | ramp down, safe stop, command_late |
 | the other party's heartbeat | {peer} ms | both | safe stop, peer_lost |
 | the bus, after bus-off | at once | both | safe stop, bus_off; back on the bus after {restart} ms |
 | the same, {limit} times in {window} s | at once | both | bus_off_latched until the node starts anew |
@@ -98,8 +98,9 @@ class Writer {
     out_ +=
         fmt::format(kStates, fmt::arg("hold", can::kHoldAfter_ms), fmt::arg("range", can::kRangeLatch_ms),
                     fmt::arg("odometry", can::kOdometryLate_ms), fmt::arg("command", can::kCommandLate_ms),
-                    fmt::arg("peer", can::kPeerLost_ms), fmt::arg("restart", can::kRestartAfter_ms),
-                    fmt::arg("limit", can::kBusOffLimit), fmt::arg("window", can::kBusOffWindow_ms / 1000));
+                    fmt::arg("old", can::kCommandOld_ms), fmt::arg("peer", can::kPeerLost_ms),
+                    fmt::arg("restart", can::kRestartAfter_ms), fmt::arg("limit", can::kBusOffLimit),
+                    fmt::arg("window", can::kBusOffWindow_ms / 1000));
     errors();
     messages();
     for (const can::Message& m : can::kMessages) signals(m);

@@ -133,18 +133,18 @@ class BusFigures(unittest.TestCase):
         lockstep = {"world": "u-trap", "ticks": 7, "ticks_per_s": 500.0, "same": True}
         trip = {"p50": 1, "p99": 2, "max": 3}
         live = {"world": "spiral", "ticks": 101, "deadline_misses": 0, "round_trip_us": trip, "frames": 730, "load_percent": 19.6}
-        stop = {"speed_mps": 0.3, "latency_ms": 50.5, "braking_ms": 400.0}
+        stop = {"speed_mps": 0.3, "latency_ms": 49.5, "braking_ms": 400.0}
         good = self.figures.table_of({"lockstep": [lockstep], "real_time": live, "stops": [stop]}, 1)
         self.assertEqual((good.missed, good.text().count("**")), (0, 0))
         bad = {
             "lockstep": [{**lockstep, "ticks_per_s": 499.4}, {**lockstep, "same": False}],
             "real_time": {**live, "ticks": 100, "deadline_misses": 1},
-            "stops": [stop, {**stop, "latency_ms": 51.2}],
+            "stops": [stop, {**stop, "latency_ms": 50.2}],
         }
         table = self.figures.table_of(bad, 1)
         self.assertEqual((table.missed, table.text().count("**")), (5, 10))
         self.assertIn("**500 ticks/s, another trajectory**", table.text())
-        self.assertIn("| **50.5 to 51.2 ms** | 51 ms |", table.text())
+        self.assertIn("| **49.5 to 50.2 ms** | 50 ms |", table.text())
 
     def test_its_page_has_a_place_for_the_table(self):
         page = self.figures.PAGE.read_text()
