@@ -160,6 +160,7 @@ bool SkirtPlanner::guided(const View& view, Vec& to) noexcept {
   guided_ = advice != Guide::Advice::none;
   if (advice != Guide::Advice::wait) return false;
   decision_.manoeuvre = stop();
+  stall_.reset();
   return true;
 }
 
@@ -266,7 +267,7 @@ bool SkirtPlanner::leave(const View& view) noexcept {
 
 void SkirtPlanner::escape() noexcept {
   if (++escapes_ > kEscapes) {
-    finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+    give_up_goal();
     return;
   }
   best_ = distance_;
@@ -275,10 +276,20 @@ void SkirtPlanner::escape() noexcept {
   enter(Phase::go, Mode::going, Why::wall_lost);
 }
 
+void SkirtPlanner::give_up_goal() noexcept {
+  if (guide_ != nullptr && guide_->doubt()) {
+    best_ = distance_;
+    escapes_ = 0;
+    enter(Phase::go, Mode::going, Why::wall_lost);
+    return;
+  }
+  finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+}
+
 void SkirtPlanner::turn_back(const View& view) noexcept {
-  if (turned_back_) {
+  if (turned_back_ || (guide_ != nullptr && guide_->knows_no_way())) {
     if (circuit_.may_part(began_, goal_.at, wall_)) {
-      finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+      give_up_goal();
     } else {
       escape();
     }

@@ -64,6 +64,7 @@ class SkirtPlanner final : public GoalPlanner {
   bool leave(const View& view) noexcept;
   void escape() noexcept;
   void turn_back(const View& view) noexcept;
+  void give_up_goal() noexcept;
   void begin_feel(const View& view, Angle ahead) noexcept;
   /// It wanted to drive and cannot.
   void feel_on(const View& view) noexcept;
