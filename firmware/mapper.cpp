@@ -17,10 +17,9 @@ void GroundMapper::place(const Pose& pose) noexcept {
 }
 
 void GroundMapper::observe(const Standing& body, const ranges::Conditioner& conditioner, const Params& params,
-                           nav::View& view) noexcept {
+                           Proofs& proofs, nav::View& view) noexcept {
   history_.add(body.pose, body.now);
   patch_.move_to(body.pose);
-  ground::Proof proofs[hal::kBeams];
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
   int seen = 0;
@@ -42,6 +41,7 @@ void GroundMapper::observe(const Standing& body, const ranges::Conditioner& cond
       moved[i] = sight.farthest;
     }
     patch_.mark(proof);
+    view.proved = static_cast<uint8_t>(view.proved | 1U << i);
     ++seen;
   }
   // After all marks: another beam may see ground as empty into which something is about to move.
@@ -49,6 +49,7 @@ void GroundMapper::observe(const Standing& body, const ranges::Conditioner& cond
     if (moved[i] > Length{}) patch_.doubt(proofs[i], moved[i]);
   }
   if (seen == hal::kBeams) witness_.add(proofs[0].from, proofs[0].taken, free);
+  view.proofs = proofs;
   view.patch = &patch_;
   view.granted = granted_;
 }

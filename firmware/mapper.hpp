@@ -27,11 +27,13 @@ struct Standing {
 /// The clearance patch and what it is made from.
 class GroundMapper {
  public:
+  using Proofs = ground::Proof[hal::kBeams];
   void configure(const Params& params) noexcept;
   void place(const Pose& pose) noexcept;
   /// Marks what the beams show at this tick, and fills in what a planner sees of it.
+  /// `proofs` must live as long as the view.
   void observe(const Standing& body, const ranges::Conditioner& conditioner, const Params& params,
-               nav::View& view) noexcept;
+               Proofs& proofs, nav::View& view) noexcept;
   /// Slows a cruise down to what the ground allows.
   void guard(nav::Manoeuvre& manoeuvre, const Pose& pose, const motion::WheelState& wheels,
              const Params& params) noexcept;
@@ -48,9 +50,11 @@ class GroundMapper {
 /// skirt planner cannot do without.
 class NoMapper {
  public:
+  struct Proofs {};
   void configure(const Params&) noexcept {}
   void place(const Pose&) noexcept {}
-  void observe(const Standing&, const ranges::Conditioner&, const Params&, nav::View&) noexcept {}
+  void observe(const Standing&, const ranges::Conditioner&, const Params&, const Proofs&,
+               nav::View&) noexcept {}
   void guard(nav::Manoeuvre&, const Pose&, const motion::WheelState&, const Params&) noexcept {}
 };
 

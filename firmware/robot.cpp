@@ -106,7 +106,8 @@ void Robot::navigate() noexcept {
   const motion::WheelPair rolling = driver_.wheels().rolling;
   view.forward = (rolling.left + rolling.right) / 2;
   view.turning = (rolling.right - rolling.left) / 2;
-  mapper_.observe({status_.pose, last_tick_, settled, settled_since_}, conditioner_, params_, view);
+  Mapper::Proofs proofs{};
+  mapper_.observe({status_.pose, last_tick_, settled, settled_since_}, conditioner_, params_, proofs, view);
   status_.decision = planner_.step(view);
   mapper_.guard(status_.decision.manoeuvre, status_.pose, driver_.wheels(), params_);
   driver_.begin(status_.decision.manoeuvre, status_.pose);

@@ -37,6 +37,8 @@ void SkirtPlanner::start(const View& view) noexcept {
   course_.reset();
   surveyed_ = 0;
   escapes_ = 0;
+  guided_ = false;
+  if (guide_ != nullptr) guide_->start(view, goal_);
   enter(Phase::survey, Mode::surveying, Why::goal_set);
   advance(view);
 }
@@ -44,6 +46,7 @@ void SkirtPlanner::start(const View& view) noexcept {
 void SkirtPlanner::advance(const View& view) noexcept {
   if (decision_.why == Why::something_moves) decision_.why = otherwise_;
   keep_account(view);
+  if (guide_ != nullptr) guide_->observe(view);
   act(view);
   if (gives_way(view)) {
     otherwise_ = decision_.why;
@@ -121,11 +124,20 @@ void SkirtPlanner::survey(const View& view) noexcept {
 
 void SkirtPlanner::go(const View& view) noexcept {
   best_ = min(best_, distance_);
-  if (view.sighted && !course_.choose(view, to_goal_, law_, params_, wall_, decision_)) {
+  Vec to = to_goal_;
+  if (guide_ != nullptr && guided(view, to)) return;
+  if (view.sighted && !course_.choose(view, to, law_, params_, wall_, decision_)) {
+    if (guided_ && guide_->refuse(view)) {
+      course_.reset();
+      brake_then(Phase::go);
+      return;
+    }
+    if (guided_) best_ = distance_;
+    guided_ = false;
     begin_exits(view);
     return;
   }
-  const Length length = min(view.patch->reach().probe, distance_);
+  const Length length = min(view.patch->reach().probe, norm(to));
   if (stalled(view)) {
     look_along(course_.heading(), length, Phase::go);
     return;
@@ -139,6 +151,17 @@ void SkirtPlanner::go(const View& view) noexcept {
     heading += Angle::from_raw(static_cast<uint32_t>(turn > most ? most : turn < -most ? -most : turn));
   }
   drive(steer(heading - view.pose.heading, params_.wheels.max_speed));
+}
+
+bool SkirtPlanner::guided(const View& view, Vec& to) noexcept {
+  const Guide::Advice advice = guide_->advise(view, distance_, to);
+  // It may have led away from the goal: what comes now is measured anew.
+  if (guided_ && advice == Guide::Advice::none) best_ = distance_;
+  guided_ = advice != Guide::Advice::none;
+  if (advice != Guide::Advice::wait) return false;
+  decision_.manoeuvre = stop();
+  stall_.reset();
+  return true;
 }
 
 int32_t SkirtPlanner::mm(Length reference) const noexcept {
@@ -244,7 +267,7 @@ bool SkirtPlanner::leave(const View& view) noexcept {
 
 void SkirtPlanner::escape() noexcept {
   if (++escapes_ > kEscapes) {
-    finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+    give_up_goal();
     return;
   }
   best_ = distance_;
@@ -253,10 +276,20 @@ void SkirtPlanner::escape() noexcept {
   enter(Phase::go, Mode::going, Why::wall_lost);
 }
 
+void SkirtPlanner::give_up_goal() noexcept {
+  if (guide_ != nullptr && guide_->doubt()) {
+    best_ = distance_;
+    escapes_ = 0;
+    enter(Phase::go, Mode::going, Why::wall_lost);
+    return;
+  }
+  finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+}
+
 void SkirtPlanner::turn_back(const View& view) noexcept {
-  if (turned_back_) {
+  if (turned_back_ || (guide_ != nullptr && guide_->knows_no_way())) {
     if (circuit_.may_part(began_, goal_.at, wall_)) {
-      finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+      give_up_goal();
     } else {
       escape();
     }

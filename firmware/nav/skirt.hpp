@@ -8,6 +8,7 @@
 #include "firmware/nav/exits.hpp"
 #include "firmware/nav/feeler.hpp"
 #include "firmware/nav/goal_planner.hpp"
+#include "firmware/nav/guide.hpp"
 #include "firmware/nav/look.hpp"
 #include "firmware/nav/stall.hpp"
 #include "firmware/nav/steering.hpp"
@@ -28,8 +29,9 @@ namespace whisker::nav {
 /// the length of the way is (400 m), and so is what it tries without getting on. See docs/skirt.md.
 class SkirtPlanner final : public GoalPlanner {
  public:
-  /// Both references must outlive the planner.
-  SkirtPlanner(const Params& params, BendLaw& law) noexcept : params_(params), law_(law) {}
+  /// What is given must outlive the planner. A guide, if there is one, says where to drive in free space.
+  SkirtPlanner(const Params& params, BendLaw& law, Guide* guide = nullptr) noexcept
+      : params_(params), law_(law), guide_(guide) {}
 
  private:
   enum class Phase : uint8_t {
@@ -53,6 +55,7 @@ class SkirtPlanner final : public GoalPlanner {
 
   void survey(const View& view) noexcept;
   void go(const View& view) noexcept;
+  bool guided(const View& view, Vec& to) noexcept;
   void look(const View& view) noexcept;
   void begin_exits(const View& view) noexcept;
   void exits(const View& view) noexcept;
@@ -61,6 +64,7 @@ class SkirtPlanner final : public GoalPlanner {
   bool leave(const View& view) noexcept;
   void escape() noexcept;
   void turn_back(const View& view) noexcept;
+  void give_up_goal() noexcept;
   void begin_feel(const View& view, Angle ahead) noexcept;
   /// It wanted to drive and cannot.
   void feel_on(const View& view) noexcept;
@@ -77,6 +81,7 @@ class SkirtPlanner final : public GoalPlanner {
 
   const Params& params_;
   BendLaw& law_;
+  Guide* guide_;
   Phase phase_ = Phase::survey;
   Phase next_ = Phase::go;
   Side wall_ = Side::left;  ///< where the obstacle is, or was last
@@ -105,6 +110,7 @@ class SkirtPlanner final : public GoalPlanner {
   int16_t pauses_ = 0;        // phases entered since then
   int8_t escapes_ = 0;
   int8_t refusals_ = 0;        // in a row, from one place
+  bool guided_ = false;        // drives where the guide says
   bool turned_back_ = false;   // came round once: going round the other way
   bool felt_heading_ = false;  // the heading chosen is the feeler's
   Why otherwise_ = Why::none;  // the reason, if nothing moved

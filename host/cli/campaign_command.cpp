@@ -172,7 +172,7 @@ void add_campaign(CLI::App& app, int& status) {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {
       refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--wheel-scale-sigma",
-                           "--planner", "--robot", "--svg", "--trace", "--html", "--json"});
+                           "--planner", "--map-bytes", "--robot", "--svg", "--trace", "--html", "--json"});
     }
     status = execute(*o);
   });

@@ -53,20 +53,39 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path,
 CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
   std::string names, baselines;
   for (const PlannerKind k : kPlanners) {
+    if (map_bytes(k) != 0 && k != PlannerKind::map) continue;
     std::string& list = is_baseline(k) ? baselines : names;
     list += fmt::format("{}{}", list.empty() ? "" : ", ", name(k));
   }
-  return app
-      .add_option_function<std::string>(
-          "--planner",
-          [&kind](const std::string& text) {
-            const auto named = planner_named(text);
-            if (!named) throw CLI::ValidationError("--planner", fmt::format("no planner '{}'", text));
-            kind = *named;
-          },
-          fmt::format("Planner: {};\nbaselines: {}", names, baselines))
-      ->default_str(name(kind))
-      ->type_name("NAME");
+  CLI::Option* const option =
+      app.add_option_function<std::string>(
+             "--planner",
+             [&kind](const std::string& text) {
+               const auto named = planner_named(text);
+               if (!named) throw CLI::ValidationError("--planner", fmt::format("no planner '{}'", text));
+               kind = *named;
+             },
+             fmt::format("Planner: {};\nbaselines: {}", names, baselines))
+          ->default_str(name(kind))
+          ->type_name("NAME");
+  // After --planner: CLI11 calls back in the order in which options were added.
+  app.add_option_function<std::string>(
+         "--map-bytes",
+         [&kind](const std::string& text) {
+           if (map_bytes(kind) == 0) {
+             throw CLI::ValidationError("--map-bytes", fmt::format("planner {} has no map", name(kind)));
+           }
+           for (const PlannerKind k : kPlanners) {
+             if (map_bytes(k) == 0 || text != fmt::format("{}", map_bytes(k))) continue;
+             kind = k;
+             return;
+           }
+           throw CLI::ValidationError("--map-bytes", fmt::format("no map of '{}' bytes", text));
+         },
+         "Of planner map: 1024, 2048, 4096, 8192 or 16384")
+      ->default_str("2048")
+      ->type_name("N");
+  return option;
 }
 
 CLI::Option* add_switch(CLI::App& app, const std::string& name, bool& on, const std::string& help) {

@@ -20,7 +20,7 @@ struct Options {
 };
 
 int execute(const Options& o) {
-  if (!o.chip.empty() && is_baseline(o.planner)) {
+  if (!o.chip.empty() && o.planner > PlannerKind::thesis) {
     throw UsageError(fmt::format("--chip: planner {} runs on this computer only", name(o.planner)));
   }
   const Scenario scenario = o.scenario.load();

@@ -2,11 +2,21 @@
 
 #include <utility>
 
+#include "firmware/nav/map_planner.hpp"
 #include "firmware/nav/skirt.hpp"
 #include "firmware/nav/thesis.hpp"
 #include "host/run/spec.hpp"
 
 namespace whisker {
+namespace {
+
+template <int kBytes>
+std::shared_ptr<nav::Planner> with_map(const Params& params, const fuzzy::Engine::Table& table) {
+  const auto map = std::make_shared<nav::TableMap<kBytes>>(params, table);
+  return {map, &map->planner};
+}
+
+}  // namespace
 
 CorePilot::CorePilot(const Scenario& scenario, std::shared_ptr<nav::Planner> planner, sim::Plant& plant)
     : board_(plant),
@@ -28,7 +38,14 @@ std::shared_ptr<nav::Planner> make_core_planner(PlannerKind kind, const Params& 
     return {skirt, &skirt->planner};
   }
   if (kind == PlannerKind::thesis) return std::make_shared<nav::ThesisPlanner>(params, table);
-  return nullptr;
+  switch (map_bytes(kind)) {
+    case 1024: return with_map<1024>(params, table);
+    case 2048: return with_map<2048>(params, table);
+    case 4096: return with_map<4096>(params, table);
+    case 8192: return with_map<8192>(params, table);
+    case 16384: return with_map<16384>(params, table);
+    default: return nullptr;
+  }
 }
 
 }  // namespace whisker

@@ -39,8 +39,8 @@ class CorePilot final : public Pilot {
   Robot robot_;
 };
 
-/// The core's own planners, skirt and thesis, with this response table; null for the others. Parameters and
-/// table must outlive the planner.
+/// The core's own planners, skirt, thesis and map, with this response table; null for the others. Parameters
+/// and table must outlive the planner.
 std::shared_ptr<nav::Planner> make_core_planner(PlannerKind kind, const Params& params,
                                                 const fuzzy::Engine::Table& table);
 

@@ -21,7 +21,12 @@ std::shared_ptr<nav::Planner> bent_skirt(const Params& params) {
 std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params) {
   switch (kind) {
     case PlannerKind::skirt:
-    case PlannerKind::thesis: return make_core_planner(kind, params, fuzzy::kDefaultTable);
+    case PlannerKind::thesis:
+    case PlannerKind::map:
+    case PlannerKind::map_1024:
+    case PlannerKind::map_4096:
+    case PlannerKind::map_8192:
+    case PlannerKind::map_16384: return make_core_planner(kind, params, fuzzy::kDefaultTable);
     case PlannerKind::bug2: return std::make_shared<baselines::Bug2>(params);
     case PlannerKind::distbug: return std::make_shared<baselines::DistBug>(params);
     case PlannerKind::wall_follower: return std::make_shared<baselines::WallFollower>(params);
@@ -35,6 +40,11 @@ const char* name(PlannerKind kind) {
   switch (kind) {
     case PlannerKind::skirt: return "skirt";
     case PlannerKind::thesis: return "thesis";
+    case PlannerKind::map: return "map";
+    case PlannerKind::map_1024: return "map-1024";
+    case PlannerKind::map_4096: return "map-4096";
+    case PlannerKind::map_8192: return "map-8192";
+    case PlannerKind::map_16384: return "map-16384";
     case PlannerKind::bug2: return "bug2";
     case PlannerKind::distbug: return "distbug";
     case PlannerKind::wall_follower: return "wall-follower";

@@ -10,16 +10,42 @@
 
 namespace whisker {
 
-enum class PlannerKind { skirt, thesis, bug2, distbug, wall_follower, fan, repulsion };
-constexpr PlannerKind kPlanners[] = {PlannerKind::skirt,    PlannerKind::thesis,        PlannerKind::bug2,
-                                     PlannerKind::distbug,  PlannerKind::wall_follower, PlannerKind::fan,
-                                     PlannerKind::repulsion};
+enum class PlannerKind {
+  skirt,
+  thesis,
+  map,  ///< of 2048 bytes
+  map_1024,
+  map_4096,
+  map_8192,
+  map_16384,
+  bug2,
+  distbug,
+  wall_follower,
+  fan,
+  repulsion
+};
+constexpr PlannerKind kPlanners[] = {
+    PlannerKind::skirt,    PlannerKind::thesis,        PlannerKind::map,       PlannerKind::map_1024,
+    PlannerKind::map_4096, PlannerKind::map_8192,      PlannerKind::map_16384, PlannerKind::bug2,
+    PlannerKind::distbug,  PlannerKind::wall_follower, PlannerKind::fan,       PlannerKind::repulsion};
+
+/// How many bytes its map has; 0: it has none.
+constexpr int map_bytes(PlannerKind kind) {
+  switch (kind) {
+    case PlannerKind::map: return 2048;
+    case PlannerKind::map_1024: return 1024;
+    case PlannerKind::map_4096: return 4096;
+    case PlannerKind::map_8192: return 8192;
+    case PlannerKind::map_16384: return 16384;
+    default: return 0;
+  }
+}
 
 /// With the default response table. The parameters must outlive the planner.
 std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params);
 
 /// One to compare with, for hosts only.
-constexpr bool is_baseline(PlannerKind kind) { return kind > PlannerKind::thesis; }
+constexpr bool is_baseline(PlannerKind kind) { return kind >= PlannerKind::bug2; }
 
 /// As on the command line: "skirt".
 const char* name(PlannerKind kind);

@@ -84,7 +84,7 @@ class Rows(Campaigns):
             self.assertEqual((row["shortest_m"], row["ratio"]), ("", ""))
 
     def test_the_planner_may_be_chosen(self):
-        for planner in PLANNERS:
+        for planner in (*PLANNERS, "map", "map-16384"):
             rows = rows_of(self.rows(*KIND, "--count", 2, "--seed", 2, "--planner", planner))
             self.assertEqual({row["planner"] for row in rows}, {planner})
             world = self.file("w.toml", whisker.whisker("world", *KIND, "--seed", 3).stdout)

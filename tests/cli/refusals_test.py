@@ -6,7 +6,6 @@ import subprocess
 import whisker
 from whisker import SCENARIOS, Case
 
-PLANNERS_TO_COME = ("map",)  # named in the contract, not in this version
 SCENE = (SCENARIOS / "no_time.toml").read_text()
 
 
@@ -43,9 +42,14 @@ class Refusals(Case):
         self.refused("world", "cubes", "--seed", "1", says="cubes")
         self.refused("figures", says="FOLDER")
 
-    def test_planners_that_are_unknown_or_not_there_yet(self):
-        for planner in (*PLANNERS_TO_COME, "nonsense", ""):
+    def test_planners_that_are_unknown(self):
+        for planner in ("nonsense", ""):
             self.refused("run", "a.toml", "--planner", planner, says=planner)
+
+    def test_maps_of_other_sizes_and_of_planners_without_one(self):
+        for size in ("2000", "0", "-1", "2 KB", ""):
+            self.refused("run", "a.toml", "--planner", "map", "--map-bytes", size, says="--map-bytes")
+        self.refused("run", "a.toml", "--map-bytes", "2048", says="skirt")
 
     def test_numbers_that_are_none(self):
         wrong = ("-1", "+1", "1e30", "1.5", "0x10", "", " 7", "7 ", "7x", "nan", "9223372036854775808", "9" * 40)
@@ -151,7 +155,7 @@ class Refusals(Case):
         for arguments, status in (
             (("run", "missing.toml"), 2),
             (("run", "a.toml", "--bogus"), 2),
-            (("run", "a.toml", "--planner", *PLANNERS_TO_COME), 2),
+            (("run", "a.toml", "--planner", "nonsense"), 2),
             (("table", "--svg", "/dev/full"), 1),
         ):
             with self.subTest(arguments):

@@ -13,23 +13,24 @@ from whisker import KINDS, PLANNERS, Case, with_time_limit
 WIDEST = 100
 OPTIONS = {
     (): ("--help", "--version"),
-    ("run",): ("SCENARIO", "--planner", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--chip"),
+    ("run",): ("SCENARIO", "--planner", "--map-bytes", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--chip"),
     ("campaign",): (
-        "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--robot", "--jobs",
-        "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
+        "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--map-bytes",
+        "--robot", "--jobs", "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
     ),
     ("plant",): (
         "SCENARIO", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
     ),
-    ("controller",): ("--can", "--node", "--planner", "--record", "--drop"),
+    ("controller",): ("--can", "--node", "--planner", "--map-bytes", "--record", "--drop"),
     ("hil",): (
-        "SCENARIO", "--can", "--node", "--realtime", "--planner", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
+        "SCENARIO", "--can", "--node", "--realtime", "--planner", "--map-bytes", "--robot", "--seed", "--trace", "--svg", "--html",
+        "--json", "--record", "--drop",
     ),
-    ("replay",): ("LOG", "--node", "--planner", "--json"),
+    ("replay",): ("LOG", "--node", "--planner", "--map-bytes", "--json"),
     ("dbc",): ("--robot",),
     ("protocol",): (),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
-    ("movers",): ("--count", "--seed", "--planner", "--contacts"),
+    ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--contacts"),
     ("table",): ("--csv", "--svg"),
     ("figures",): ("FOLDER", "--scenarios"),
 }
@@ -124,7 +125,7 @@ class Help(Case):
     def test_names_every_planner_and_which_are_baselines(self):
         for command in ("run", "campaign"):
             text = " ".join(whisker.whisker(command, "--help").stdout.split())
-            self.assertIn(f"Planner: {', '.join(PLANNERS[:2])}; baselines: {', '.join(PLANNERS[2:])}", text)
+            self.assertIn(f"Planner: {', '.join(PLANNERS[:2])}, map; baselines: {', '.join(PLANNERS[2:])}", text)
 
     def test_version_is_one_line(self):
         done = whisker.whisker("--version")

@@ -1,4 +1,5 @@
-// The skirt planner ends in a true verdict, wherever it starts and whatever stands around it.
+// The skirt planner ends in a true verdict, with a map and without, wherever it starts and whatever stands
+// around it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,11 +34,22 @@ struct Case {
   Verdict verdict;
 };
 
+RunResult drive(const Scenario& scenario, PlannerKind planner) {
+  RunOptions options;
+  options.planner = planner;
+  return run(scenario, options);
+}
+
+constexpr PlannerKind kBoth[] = {PlannerKind::skirt, PlannerKind::map};
+
 void expect(const Case& c) {
-  const RunResult r = run(c.scenario);
-  EXPECT_EQ(static_cast<int>(r.verdict), static_cast<int>(c.verdict)) << c.name << ": " << r.detail;
-  EXPECT_GT(r.min_clearance_m, 0) << c.name;
-  EXPECT_LT(r.path_m, 410) << c.name;
+  for (const PlannerKind planner : kBoth) {
+    SCOPED_TRACE(std::string(name(planner)) + ", " + c.name);
+    const RunResult r = drive(c.scenario, planner);
+    EXPECT_EQ(static_cast<int>(r.verdict), static_cast<int>(c.verdict)) << r.detail;
+    EXPECT_GT(r.min_clearance_m, 0);
+    EXPECT_LT(r.path_m, 410);
+  }
 }
 
 TEST(Skirt, GetsOutOfTraps) {
@@ -83,10 +95,12 @@ TEST(Skirt, FindsTheUnreachableUnreachable) {
                         {"the goal is in a disc", scene(kAhead, disc), Verdict::unreachable},
                         {"the start is fenced in", scene(kAhead, wall(cell)), Verdict::unreachable}};
   for (const Case& c : cases) expect(c);
-  const RunResult r = run(scene(kAhead, wall(tight)));
-  EXPECT_TRUE(r.verdict == Verdict::gave_up || r.verdict == Verdict::unreachable ||
-              r.verdict == Verdict::fault);
-  EXPECT_GT(r.min_clearance_m, 0);
+  for (const PlannerKind planner : kBoth) {
+    const RunResult r = drive(scene(kAhead, wall(tight)), planner);
+    EXPECT_TRUE(r.verdict == Verdict::gave_up || r.verdict == Verdict::unreachable ||
+                r.verdict == Verdict::fault);
+    EXPECT_GT(r.min_clearance_m, 0);
+  }
 }
 
 TEST(Skirt, StartsWhereItIsPut) {
@@ -139,10 +153,13 @@ TEST_P(SkirtIn, EveryWorldComesToItsTrueVerdict) {
     worlds::Options options;
     options.seed = 300 + seed;
     const Scenario s = worlds::generate(GetParam(), options);
-    const RunResult r = run(s);
     const Verdict truth = GetParam() == worlds::Kind::enclosed ? Verdict::unreachable : Verdict::reached;
-    EXPECT_EQ(static_cast<int>(r.verdict), static_cast<int>(truth)) << s.name << ": " << r.detail;
-    EXPECT_GT(r.min_clearance_m, 0) << s.name;
+    for (const PlannerKind planner : kBoth) {
+      const RunResult r = drive(s, planner);
+      EXPECT_EQ(static_cast<int>(r.verdict), static_cast<int>(truth))
+          << name(planner) << ", " << s.name << ": " << r.detail;
+      EXPECT_GT(r.min_clearance_m, 0) << name(planner) << ", " << s.name;
+    }
   }
 }
 

@@ -1,0 +1,71 @@
+/// How far every cell is from the goal, level by level, as if all that is unknown were free.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/map/map.hpp"
+
+namespace whisker::map {
+
+/// Levels from the origin to this place in open ground.
+int32_t distance(Place d) noexcept;
+
+/// A step goes to the four neighbours at odd levels and to all eight at even ones, not across the corner of
+/// something that blocks: so a level is a cell's side, to 12 %. A goal outside the window comes in over the
+/// border.
+///
+/// Of each cell the plan keeps its level modulo 3. That is exact: four-neighbours differ by one at most.
+class Flood {
+ public:
+  struct Task {
+    Place body;                ///< of the window
+    Place goal;                ///< the same; it may lie outside
+    int32_t most = INT16_MAX;  ///< levels
+    bool suspects_block = false;
+  };
+
+  /// Until it is over, nothing that blocks may open, and the window may not move.
+  void begin(Map& map, const Task& task) noexcept;
+  /// Goes on for so many words of rows, and up to one row more. True: over.
+  bool run(Map& map, int32_t words) noexcept;
+
+  bool reached() const noexcept { return reached_ >= 0; }
+  /// The body's level.
+  int32_t level() const noexcept { return reached_; }
+  /// All levels that were used; what it took.
+  int32_t levels() const noexcept { return level_; }
+
+  bool blocked(const Map& map, Place p) const noexcept;
+  /// 0..2: the level modulo 3; negative: not reached, or outside.
+  int phase(const Map& map, Place p) const noexcept;
+  /// The next cell on the way from p to the goal, as straight at `aim` as there is one. False: p is the goal,
+  /// or where the way leaves the window.
+  bool next(const Map& map, Place p, Place aim, Place& on) const noexcept;
+
+ private:
+  struct Line;
+  enum class Entry : uint8_t { goal, facing_border, any_border };
+  Word passable(const Map& map, int32_t row, int w) const noexcept;
+  Word front(const Map& map, int32_t row, int w) const noexcept;
+  Word entering(const Map& map, int32_t row, int w) const noexcept;
+  void spread(Map& map, int32_t row) noexcept;
+  void begin_level(const Map& map) noexcept;
+  bool end_level(Map& map) noexcept;
+  bool reaches_border(const Map& map) const noexcept;
+  int32_t farthest(const Map& map) const noexcept;
+
+  Task task_;
+  int32_t level_ = 0;  // under way
+  int32_t row_ = 0;    // next of this level
+  int32_t last_ = -1;  // of this level
+  int32_t low_ = 0;    // rows with cells of the level before
+  int32_t high_ = -1;
+  int32_t new_low_ = 0;  // of this one
+  int32_t new_high_ = -1;
+  int32_t reached_ = -1;
+  int32_t detour_ = 0;  // levels by which the border is farther than it looks
+  Entry entry_ = Entry::goal;
+  bool over_ = true;
+};
+
+}  // namespace whisker::map

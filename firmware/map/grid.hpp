@@ -1,0 +1,47 @@
+/// The cells of the map and of the plan upon them: bit planes, one row some words.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/core/units.hpp"
+
+namespace whisker::map {
+
+using Word = uint32_t;
+constexpr int kWordBits = 32;
+constexpr int kMostWords = 6;
+
+/// A window of words x 32 columns and so many rows.
+struct Shape {
+  int16_t words = 0;
+  int16_t rows = 0;
+  Length cell{};  ///< a cell's side, for the reference body
+
+  constexpr int32_t columns() const noexcept { return words * kWordBits; }
+  constexpr int32_t size() const noexcept { return int32_t{words} * rows; }
+};
+
+/// Two bits say what is known of a cell, two hold its level in the plan.
+constexpr int kPlanes = 4;
+
+/// A cell by its column and row, of the world or of the window.
+struct Place {
+  int32_t x = 0;
+  int32_t y = 0;
+  friend constexpr Place operator+(Place a, Place b) noexcept { return {a.x + b.x, a.y + b.y}; }
+  friend constexpr Place operator-(Place a, Place b) noexcept { return {a.x - b.x, a.y - b.y}; }
+  friend constexpr bool operator==(Place a, Place b) noexcept { return a.x == b.x && a.y == b.y; }
+  friend constexpr bool operator!=(Place a, Place b) noexcept { return !(a == b); }
+};
+
+/// The columns first..last as bits of the word `w`; both may lie outside the window.
+constexpr Word columns(int32_t first, int32_t last, int w) noexcept {
+  const int32_t low = first - w * kWordBits;
+  const int32_t high = last - w * kWordBits;
+  if (low >= kWordBits || high < 0 || low > high) return 0;
+  const Word from = low <= 0 ? ~Word{0} : ~Word{0} << low;
+  const Word to = high >= kWordBits - 1 ? ~Word{0} : ~(~Word{0} << (high + 1));
+  return from & to;
+}
+
+}  // namespace whisker::map

@@ -1,0 +1,216 @@
+#include "firmware/nav/map_guide.hpp"
+
+#include "firmware/map/sight.hpp"
+
+namespace whisker::nav {
+namespace {
+
+constexpr int32_t kWordsATick = 1600;
+constexpr int32_t kEvery = 16;
+constexpr Length kDearer = 2500_mm;  // what the way around what is only suspected may cost more
+constexpr Length kHorizon = 3000_mm;
+constexpr Length kAhead = 600_mm;
+constexpr Length kSlack = 200_mm;
+constexpr Length kKept = 100_mm;
+constexpr Length kReached = 250_mm;
+constexpr Length kNoProgress = 25_m;
+constexpr Length kProgress = 150_mm;
+constexpr Length kBarred = 200_mm;
+constexpr Length kBarrier = 120_mm;
+constexpr Length kBarrierLife = 6000_mm;
+constexpr int8_t kCredits = 2;
+constexpr int32_t kRefusals = 12;
+
+}  // namespace
+
+void MapGuide::start(const View& view, const Goal& goal) noexcept {
+  goal_ = goal;
+  map_.configure(params_);
+  map_.reset(view.pose.at, goal.at);
+  stage_ = Stage::idle;
+  has_way_ = no_way_ = waits_ = false;
+  credits_ = kCredits;
+  active_ = true;
+  refusals_ = 0;
+  best_ = Length::from_raw(INT32_MAX);
+  last_ = view.pose.at;
+  travel_mm_ = travel_rest_um_ = improved_mm_ = 0;
+  for (Barrier& b : barrier_) b = {};
+}
+
+void MapGuide::observe(const View& view) noexcept {
+  travel_rest_um_ += norm(view.pose.at - last_).raw();
+  travel_mm_ += travel_rest_um_ / 1000;
+  travel_rest_um_ %= 1000;
+  last_ = view.pose.at;
+  const Length distance = norm(goal_.at - view.pose.at);
+  if (distance < best_ - reference(kProgress)) {
+    best_ = distance;
+    improved_mm_ = travel_mm_;
+    refusals_ = 0;
+    active_ = true;
+  }
+  const bool hold = stage_ != Stage::idle;
+  for (int i = 0; i < hal::kBeams; ++i) {
+    if ((view.proved >> i & 1U) != 0) map_.mark(view.proofs[i], hold);
+  }
+  const map::Place body = map_.place(view.pose.at);
+  if (!hold) map_.set(body, map::State::free);
+  plan(view);
+}
+
+void MapGuide::raise_barriers() noexcept {
+  const int32_t reach = reference(kBarrier).raw() / map_.cell().raw() + 1;
+  for (const Barrier& b : barrier_) {
+    if (b.until_mm <= travel_mm_) continue;
+    const map::Place centre = map_.place(b.at);
+    for (int32_t dy = -reach; dy <= reach; ++dy) {
+      for (int32_t dx = -reach; dx <= reach; ++dx) {
+        const map::Place p = centre + map::Place{dx, dy};
+        if (!farther(map_.middle(p) - b.at, reference(kBarrier))) map_.set(p, map::State::occupied);
+      }
+    }
+  }
+}
+
+void MapGuide::begin(Stage stage, int32_t most, const View& view) noexcept {
+  stage_ = stage;
+  map::Flood::Task task;
+  task.body = map_.place(view.pose.at);
+  task.goal = map_.place(goal_.at);
+  task.most = most;
+  task.suspects_block = stage != Stage::passing;
+  flood_.begin(map_, task);
+}
+
+void MapGuide::plan(const View& view) noexcept {
+  ++ticks_;
+  if (stage_ == Stage::idle) {
+    if (ticks_ < kEvery && !waits_) return;
+    ticks_ = 0;
+    map_.follow(view.pose.at, goal_.at);
+    raise_barriers();
+    begin(Stage::strict, INT16_MAX, view);
+    return;
+  }
+  if (!flood_.run(map_, kWordsATick)) return;
+  const int32_t dearer = reference(kDearer).raw() / map_.cell().raw();
+  switch (stage_) {
+    case Stage::idle: break;
+    case Stage::strict:
+      strict_ = flood_.reached() ? flood_.level() : INT16_MAX;
+      if (strict_ - map::distance(map_.place(goal_.at) - map_.place(view.pose.at)) <= dearer) break;
+      begin(Stage::passing, INT16_MAX, view);
+      return;
+    case Stage::passing:
+      if (!flood_.reached()) {
+        has_way_ = false;
+        no_way_ = true;
+        stage_ = Stage::idle;
+        waits_ = false;
+        return;
+      }
+      if (strict_ - flood_.level() > dearer) break;
+      begin(Stage::again, INT16_MAX, view);
+      return;
+    case Stage::again: break;
+  }
+  finish(view);
+  stage_ = Stage::idle;
+  waits_ = false;
+}
+
+bool MapGuide::sees(Vec from, Vec to) const noexcept {
+  return map::each_cell(map_, from, to, [this](map::Place p) { return !flood_.blocked(map_, p); });
+}
+
+/// What the straight way there costs more than the best one; all there is, where something blocks it.
+Length MapGuide::dearer(Vec from, Vec to) const noexcept {
+  int32_t levels = 0;
+  int before = flood_.phase(map_, map_.place(from));
+  const bool open = before >= 0 && map::each_cell(map_, from, to, [&](map::Place p) {
+                      const int now = flood_.phase(map_, p);
+                      if (now < 0) return !map_.holds(p);
+                      levels += (now - before + 4) % 3 - 1;
+                      before = now;
+                      return true;
+                    });
+  return open ? map_.cell() * levels + norm(to - from) : Length::from_raw(INT32_MAX);
+}
+
+bool MapGuide::straight(const View& view) const noexcept {
+  const Vec to_goal = goal_.at - view.pose.at;
+  const Vec ahead = polar(bearing(to_goal), min(norm(to_goal), reference(kAhead)));
+  return dearer(view.pose.at, view.pose.at + ahead) <= reference(kSlack);
+}
+
+void MapGuide::finish(const View& view) noexcept {
+  const bool had_way = has_way_;
+  has_way_ = true;
+  no_way_ = false;
+  if (straight(view)) {
+    way_ = goal_.at;
+    return;
+  }
+  if (had_way && farther(way_ - view.pose.at, reference(kReached)) &&
+      dearer(view.pose.at, way_) <= reference(kKept)) {
+    return;
+  }
+  const map::Place goal = map_.place(goal_.at);
+  map::Place p = map_.place(view.pose.at);
+  if (flood_.phase(map_, p) < 0) {
+    has_way_ = false;
+    return;
+  }
+  const int32_t most = reference(kHorizon).raw() / map_.cell().raw();
+  map::Place on = p;
+  bool first = true;
+  for (int32_t i = 0; i < most && flood_.next(map_, p, goal, on); ++i) {
+    p = on;
+    const Vec at = p == goal ? goal_.at : map_.middle(p);
+    if (first || sees(view.pose.at, at)) way_ = at;
+    first = false;
+  }
+  if (first) way_ = p == goal ? goal_.at : goal_.at;
+}
+
+Guide::Advice MapGuide::advise(const View& view, Length, Vec& place) noexcept {
+  if (travel_mm_ - improved_mm_ > mm(kNoProgress)) active_ = false;
+  if (!active_) return Advice::none;
+  if (waits_) return Advice::wait;
+  if (!has_way_) return Advice::none;
+  place = way_ - view.pose.at;
+  return Advice::place;
+}
+
+void MapGuide::bar(Vec at) noexcept {
+  newest_ = static_cast<int8_t>((newest_ + 1) % kBarriers);
+  barrier_[newest_] = {at, travel_mm_ + mm(kBarrierLife)};
+}
+
+bool MapGuide::doubt() noexcept {
+  if (no_way_ || credits_ == 0) return false;
+  --credits_;
+  map_.doubt_all();
+  for (Barrier& b : barrier_) b = {};
+  stage_ = Stage::idle;
+  has_way_ = false;
+  waits_ = active_ = true;
+  refusals_ = 0;
+  improved_mm_ = travel_mm_;
+  return true;
+}
+
+bool MapGuide::refuse(const View& view) noexcept {
+  if (!active_) return false;
+  if (++refusals_ > kRefusals) {
+    active_ = false;
+    return false;
+  }
+  bar(view.pose.at + polar(bearing(way_ - view.pose.at), reference(kBarred)));
+  stage_ = Stage::idle;
+  waits_ = true;
+  return true;
+}
+
+}  // namespace whisker::nav

@@ -1,0 +1,70 @@
+/// The way by the map: plans all the time, a little each tick, and says where to drive next.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/map/flood.hpp"
+#include "firmware/map/map.hpp"
+#include "firmware/nav/guide.hpp"
+#include "firmware/params.hpp"
+
+namespace whisker::nav {
+
+class MapGuide final : public Guide {
+ public:
+  /// As map::Map. The parameters must outlive it, too.
+  MapGuide(const Params& params, const map::Shape& shape, map::Word* storage) noexcept
+      : params_(params), map_(shape, storage) {}
+
+  void start(const View& view, const Goal& goal) noexcept override;
+  void observe(const View& view) noexcept override;
+  Advice advise(const View& view, Length distance, Vec& place) noexcept override;
+  bool refuse(const View& view) noexcept override;
+  bool knows_no_way() const noexcept override { return no_way_; }
+  bool doubt() noexcept override;
+
+  const map::Map& map() const noexcept { return map_; }
+
+ private:
+  enum class Stage : uint8_t { idle, strict, passing, again };
+  struct Barrier {
+    Vec at;
+    int32_t until_mm = 0;
+  };
+
+  void begin(Stage stage, int32_t most, const View& view) noexcept;
+  void plan(const View& view) noexcept;
+  void finish(const View& view) noexcept;
+  Length dearer(Vec from, Vec to) const noexcept;
+  bool straight(const View& view) const noexcept;
+  bool sees(Vec from, Vec to) const noexcept;
+  void raise_barriers() noexcept;
+  void bar(Vec at) noexcept;
+  Length reference(Length l) const noexcept { return for_body(params_, l); }
+  int32_t mm(Length l) const noexcept { return reference(l).raw() / 1000; }
+
+  const Params& params_;
+  map::Map map_;
+  map::Flood flood_;
+  Goal goal_;
+  Stage stage_ = Stage::idle;
+  Vec way_;  // the place to drive to
+  bool has_way_ = false;
+  bool no_way_ = false;  // by the last plan
+  bool waits_ = false;   // for the next plan
+  bool active_ = true;
+  int8_t refusals_ = 0;
+  int8_t credits_ = 0;
+  int32_t strict_ = 0;       // levels to the body if suspects block
+  int32_t ticks_ = 0;        // since a plan was begun
+  Length best_;              // the least distance to the goal
+  int32_t improved_mm_ = 0;  // travel at which that was
+  Vec last_;
+  int32_t travel_mm_ = 0;
+  int32_t travel_rest_um_ = 0;
+  static constexpr int kBarriers = 4;
+  Barrier barrier_[kBarriers];
+  int8_t newest_ = 0;
+};
+
+}  // namespace whisker::nav

@@ -1,0 +1,50 @@
+/// The skirt planner with a map that guides it.
+#pragma once
+
+#include "firmware/nav/map_guide.hpp"
+#include "firmware/nav/skirt.hpp"
+
+namespace whisker::nav {
+
+/// What a map of so many bytes holds: cells, plan and bookkeeping.
+template <int kBytes>
+constexpr map::Shape kMapShape{};
+template <>
+inline constexpr map::Shape kMapShape<1024>{1, 48, 125_mm};
+template <>
+inline constexpr map::Shape kMapShape<2048>{2, 56, 100_mm};
+template <>
+inline constexpr map::Shape kMapShape<4096>{3, 80, 80_mm};
+template <>
+inline constexpr map::Shape kMapShape<8192>{4, 124, micrometres(66700)};
+template <>
+inline constexpr map::Shape kMapShape<16384>{6, 168, 50_mm};
+
+/// A guide with room for its map.
+template <int kBytes>
+class MapOf {
+ public:
+  explicit MapOf(const Params& params) noexcept : guide(params, kMapShape<kBytes>, storage_) {}
+  MapGuide guide;
+
+ private:
+  map::Word storage_[map::kPlanes * kMapShape<kBytes>.size()];
+};
+static_assert(sizeof(MapOf<1024>) <= 1024);
+static_assert(sizeof(MapOf<2048>) <= 2048);
+static_assert(sizeof(MapOf<4096>) <= 4096);
+static_assert(sizeof(MapOf<8192>) <= 8192);
+static_assert(sizeof(MapOf<16384>) <= 16384);
+
+/// The planner as it is meant: its course bends by the response table.
+template <int kBytes>
+struct TableMap {
+  /// Both references must outlive it.
+  TableMap(const Params& params, const fuzzy::Engine::Table& table) noexcept
+      : law(table), map(params), planner(params, law, &map.guide) {}
+  TableBend law;
+  MapOf<kBytes> map;
+  SkirtPlanner planner;
+};
+
+}  // namespace whisker::nav

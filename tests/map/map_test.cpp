@@ -1,0 +1,143 @@
+// The map's window and what beams put into it.
+#include "firmware/map/map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "tests/effort.hpp"
+#include "tests/map/room.hpp"
+
+namespace whisker::map {
+namespace {
+
+constexpr Shape kShape{2, 57, 100_mm};
+constexpr Vec kFrom{50_mm, 50_mm};  // the middle of a cell
+
+ground::Proof proof(Vec at, Angle axis, Length free, bool hit) {
+  ground::Proof p;
+  p.from = {at, axis};
+  p.free = free;
+  p.hit = hit;
+  return p;
+}
+
+TEST(Map, HoldsBodyAndGoalIfBothFit) {
+  const Vec body{1_m, 2_m};
+  const Vec goal{3_m, Length{} - 1_m};
+  test::Room room(kShape, body, goal);
+  EXPECT_TRUE(room.map.holds(room.map.place(body)));
+  EXPECT_TRUE(room.map.holds(room.map.place(goal)));
+}
+
+TEST(Map, LeansTowardsAFarGoal) {
+  test::Room room(kShape, {}, {20_m, Length{}});
+  const Place body = room.map.place({});
+  EXPECT_GE(body.x, kShape.columns() / 6);
+  EXPECT_LT(body.x, kShape.columns() / 3);
+  EXPECT_NEAR(body.y, kShape.rows / 2, 1);
+}
+
+TEST(Map, APlaceIsTheOneWhoseMiddleItIs) {
+  test::Room room(kShape, {5_m, Length{} - 3_m}, {});
+  for (int y = 0; y < kShape.rows; ++y) {
+    for (int x = 0; x < kShape.columns(); ++x)
+      EXPECT_EQ(room.map.place(room.map.middle({x, y})), (Place{x, y}));
+  }
+}
+
+TEST(Map, KeepsWhatTheMovedWindowStillHolds) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> draw(-70, 70);
+  for (std::size_t i = 0; i < test::effort(60); ++i) {
+    test::Room room(kShape);
+    room.scatter(random, 0.3);
+    for (int y = 5; y < 9; ++y) room.map.set({40, y}, State::free);
+    std::vector<State> before;
+    const auto all = [&](auto&& each) {
+      for (int y = 0; y < kShape.rows; ++y) {
+        for (int x = 0; x < kShape.columns(); ++x) each(Place{x, y});
+      }
+    };
+    all([&](Place p) { before.push_back(room.map.at(p)); });
+    const Place corner = room.map.corner();
+    const Vec body = room.map.middle({draw(random), draw(random)});
+    const bool moved = room.map.follow(body, body);
+    const Place step = room.map.corner() - corner;
+    EXPECT_EQ(moved, step != Place{});
+    ASSERT_TRUE(room.map.holds(room.map.place(body)));
+    all([&](Place p) {
+      const Place old = p + step;
+      const bool held = old.x >= 0 && old.y >= 0 && old.x < kShape.columns() && old.y < kShape.rows;
+      const auto index = static_cast<std::size_t>(old.y * kShape.columns() + old.x);
+      EXPECT_EQ(room.map.at(p), held ? before[index] : State::unknown);
+    });
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(Map, StandsStillWhileTheBodyIsWellInside) {
+  test::Room room(kShape);
+  EXPECT_FALSE(room.map.follow({1_m, 1_m}, {2_m, 2_m}));
+  EXPECT_TRUE(room.map.follow({3_m, Length{}}, {4_m, Length{}}));
+}
+
+TEST(Map, ABeamThatSeesNothingFreesTheCellsWithinIt) {
+  test::Room room(kShape);
+  room.map.mark(proof(kFrom, Angle{}, 2_m, false), false);
+  EXPECT_EQ(room.map.at(room.map.place({1_m, Length{}})), State::free);
+  EXPECT_EQ(room.map.at(room.map.place({1800_mm, 50_mm})), State::free);
+  EXPECT_EQ(room.map.at(room.map.place({2100_mm, Length{}})), State::unknown);
+  EXPECT_EQ(room.map.at(room.map.place({1_m, 500_mm})), State::unknown);
+  EXPECT_EQ(room.map.at(room.map.place({Length{} - 1_m, Length{}})), State::unknown);
+}
+
+TEST(Map, ANearEchoIsSureAndAFarOneIsNot) {
+  test::Room near(kShape);
+  near.map.mark(proof(kFrom, Angle{}, 200_mm, true), false);
+  EXPECT_EQ(near.map.at(near.map.place({250_mm, 50_mm})), State::occupied);
+  test::Room far(kShape);
+  far.map.mark(proof(kFrom, Angle{}, 900_mm, true), false);
+  EXPECT_EQ(far.map.at(far.map.place({950_mm, 50_mm})), State::suspect);
+  EXPECT_EQ(far.map.at(far.map.place({550_mm, 50_mm})), State::free);
+}
+
+TEST(Map, WhatIsSeenEmptyIsFreeWhateverItWas) {
+  test::Room room(kShape);
+  const Place p = room.map.place({1_m, Length{}});
+  room.map.set(p, State::occupied);
+  room.map.mark(proof({}, Angle{}, 2_m, false), true);
+  EXPECT_EQ(room.map.at(p), State::occupied);
+  room.map.mark(proof({}, Angle{}, 2_m, false), false);
+  EXPECT_EQ(room.map.at(p), State::free);
+}
+
+TEST(Map, AnEchoDoesNotTakeBackWhatWasSeenEmpty) {
+  test::Room room(kShape);
+  room.map.mark(proof({}, Angle{}, 2_m, false), false);
+  room.map.mark(proof({}, Angle{}, 700_mm, true), false);
+  const Place p = room.map.place({700_mm, 10_mm});
+  EXPECT_EQ(room.map.at(p), State::free);
+}
+
+TEST(Map, DoubtsWhatBlocksAndKeepsWhatIsFree) {
+  test::Room room(kShape);
+  room.map.set({3, 4}, State::occupied);
+  room.map.set({4, 4}, State::suspect);
+  room.map.set({5, 4}, State::free);
+  room.map.doubt_all();
+  EXPECT_EQ(room.map.at({3, 4}), State::unknown);
+  EXPECT_EQ(room.map.at({4, 4}), State::unknown);
+  EXPECT_EQ(room.map.at({5, 4}), State::free);
+}
+
+TEST(Map, MarksNothingFromOutsideItsWindow) {
+  test::Room room(kShape);
+  const std::vector<Word> before = room.storage;
+  room.map.mark(proof({50_m, 50_m}, Angle{}, 2_m, true), false);
+  EXPECT_EQ(room.storage, before);
+}
+
+}  // namespace
+}  // namespace whisker::map
