@@ -1,5 +1,7 @@
 #include "firmware/mapper.hpp"
 
+#ifndef WHISKER_SMALL
+
 namespace whisker {
 
 void GroundMapper::configure(const Params& params) noexcept {
@@ -64,3 +66,5 @@ void GroundMapper::guard(nav::Manoeuvre& manoeuvre, const Pose& pose, const moti
 }
 
 }  // namespace whisker
+
+#endif

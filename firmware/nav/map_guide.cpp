@@ -1,5 +1,7 @@
 #include "firmware/nav/map_guide.hpp"
 
+#ifndef WHISKER_SMALL
+
 #include "firmware/map/sight.hpp"
 
 namespace whisker::nav {
@@ -214,3 +216,5 @@ bool MapGuide::refuse(const View& view) noexcept {
 }
 
 }  // namespace whisker::nav
+
+#endif

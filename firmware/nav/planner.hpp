@@ -24,12 +24,14 @@ struct View {
   ranges::Echoes look{};   ///< consensus of the readings taken since the body stood; pending until then
   ranges::Echoes sight{};  ///< the same while it moves: the median of the last few readings of each beam
   bool sighted = false;    ///< a reading came at this tick
-  const ground::Patch* patch = nullptr;   ///< what is proved free nearby
+  const ground::Patch* patch = nullptr;  ///< what is proved free nearby
+  Speed forward{};                       ///< of the body, by its wheels
+  Speed turning{};                       ///< of the rims, counter-clockwise positive
+  Q14 granted{};  ///< part of the last cruise's forward speed that the shield let through
+#ifndef WHISKER_SMALL
   const ground::Proof* proofs = nullptr;  ///< of the beams, taken in at this tick
   uint8_t proved = 0;                     ///< a bit for each beam that has one
-  Speed forward{};                        ///< of the body, by its wheels
-  Speed turning{};                        ///< of the rims, counter-clockwise positive
-  Q14 granted{};  ///< part of the last cruise's forward speed that the shield let through
+#endif
 };
 
 enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };
