@@ -173,7 +173,7 @@ void MapGuide::finish(const View& view) noexcept {
     if (first || sees(view.pose.at, at)) way_ = at;
     first = false;
   }
-  if (first) way_ = p == goal ? goal_.at : goal_.at;
+  if (first) way_ = goal_.at;
 }
 
 Guide::Advice MapGuide::advise(const View& view, Length, Vec& place) noexcept {

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/core.h>
@@ -9,9 +10,16 @@
 
 #include "firmware/can/ids.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/logged_run.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
 #include "host/hil/replay.hpp"
+#include "host/page/page.hpp"
+#include "host/page/recording.hpp"
+#include "host/report/file.hpp"
+#include "host/report/trace.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -19,16 +27,47 @@ namespace {
 struct Options {
   std::string log;
   hil::ReplayOptions replay;
+  std::string trace;  // "" for none
+  std::string html;   // "" for none
   bool json = false;
 };
 
-hil::ReplayResult replayed(const Options& o) {
+/// What the log's last mission shows.
+class Show {
+ public:
+  explicit Show(const Options& o) : run_(o.log), planner_(o.replay.planner) {}
+
+  void watch(hil::ReplayOptions& replay) {
+    replay.begins = [this](const can::Mission& mission, const Params& params) {
+      run_.begin(mission, params);
+      recording_.emplace(params);
+    };
+    replay.stepped = [this](const can::InputSet& set, const Status& status, const ground::Patch* patch) {
+      recording_->add({run_.step(set, status), status.health, patch});
+    };
+  }
+
+  void write(const Options& o) const {
+    if (!o.trace.empty()) report::write_trace(o.trace, run_.scenario(), run_.records());
+    if (o.html.empty()) return;
+    const page::StoredRun stored =
+        page::stored({run_.scenario(), planner_, run_.scenario().seed}, recording_->ticks(), run_.result());
+    report::write_file(o.html, page::run_page(stored, controller_picture()));
+  }
+
+ private:
+  LoggedRun run_;
+  PlannerKind planner_;
+  std::optional<page::Recording> recording_;
+};
+
+hil::ReplayResult replayed(const Options& o, const hil::ReplayOptions& replay) {
   std::ifstream log(o.log);
   if (!log || log.peek() == std::ifstream::traits_type::eof()) {
     throw UsageError(fmt::format("{}: {}", o.log, log ? "is empty" : std::strerror(errno)));
   }
   try {
-    return hil::replay(log, o.replay);
+    return hil::replay(log, replay);
   } catch (const std::runtime_error& e) {
     throw UsageError(fmt::format("{}: {}", o.log, e.what()));
   }
@@ -51,8 +90,13 @@ void print_json(const hil::ReplayResult& r) {
 }
 
 int execute(const Options& o) {
-  const hil::ReplayResult r = replayed(o);
+  check_outputs({o.trace, o.html}, {o.log});
+  Show show(o);
+  hil::ReplayOptions replay = o.replay;
+  if (!o.trace.empty() || !o.html.empty()) show.watch(replay);
+  const hil::ReplayResult r = replayed(o, replay);
   if (r.compared == 0) throw UsageError(fmt::format("{}: no commands of a robot with their inputs", o.log));
+  show.write(o);
   if (o.json) {
     print_json(r);
   } else {
@@ -61,6 +105,8 @@ int execute(const Options& o) {
     if (r.unknown > 0)
       fmt::print("{} answers are to input sets that the log does not have whole\n", r.unknown);
     fmt::print("{}\n", r.difference.empty() ? "the core gives the recorded commands" : r.difference);
+    if (!o.trace.empty()) fmt::print("trace:   {}\n", o.trace);
+    if (!o.html.empty()) fmt::print("page:    {}\n", o.html);
   }
   return r.difference.empty() ? 0 : kFailure;
 }
@@ -75,6 +121,9 @@ void add_replay(CLI::App& app, int& status) {
       ->check(CLI::Range(1, static_cast<int>(can::kRobots)))
       ->type_name("N");
   add_planner(*cmd, o->replay.planner);
+  add_file(*cmd, "--trace", o->trace,
+           "Write the last mission's ticks as CSV, the core's estimate for the true pose");
+  add_file(*cmd, "--html", o->html, "Write the last mission as a page for a browser, without the world");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->footer("\nExit status of replay: 0 the same commands, 1 others, 2 bad input or usage.");
   cmd->callback([o, &status] { status = execute(*o); });

@@ -13,16 +13,33 @@
 #include "hal/link/command_hash.hpp"
 #include "host/hil/candump.hpp"
 #include "host/hil/planners.hpp"
+#include "host/run/shown_planner.hpp"
 
 namespace whisker::hil {
 namespace {
 
 using can::Kind;
 
+/// Planners of one kind that can be watched.
+class ShownPlanners final : public can_remote::PlannerMaker {
+ public:
+  explicit ShownPlanners(PlannerKind kind) : planners_(kind) {}
+  nav::Planner& make(const Params& params) noexcept override {
+    return shown_.emplace(planners_.make(params));
+  }
+  const ground::Patch* patch() const { return shown_ ? shown_->patch() : nullptr; }
+
+ private:
+  HostPlanners planners_;
+  std::optional<ShownPlanner> shown_;
+};
+
 class Replay {
  public:
   explicit Replay(const ReplayOptions& options)
-      : planners_(options.planner), pilot_(std::make_unique<can_remote::Pilot>(planners_)) {
+      : options_(options),
+        planners_(options.planner),
+        pilot_(std::make_unique<can_remote::Pilot>(planners_)) {
     result_.robot = options.robot;
   }
 
@@ -110,7 +127,10 @@ class Replay {
     }
     accepted_ = reply.mission;
     pilot_->obey(order_->order, mission, params_);
-    if (order_->order == can::Order::start) ++result_.missions;
+    if (order_->order == can::Order::start) {
+      ++result_.missions;
+      if (options_.begins) options_.begins(mission, params_);
+    }
     braked_ = order_->order == can::Order::resume;
     stepped_ = false;
     for (auto& set : kept_) set.reset();
@@ -154,6 +174,7 @@ class Replay {
     tick16_ = static_cast<std::uint16_t>(set.tick);
     ++result_.steps;
     hash_.add(status_.command);
+    if (options_.stepped) options_.stepped(set, status_, planners_.patch());
   }
 
   /// Answers that never reached the log leave a gap in the counters: the core made those steps all the same.
@@ -202,7 +223,8 @@ class Replay {
     if (result_.difference.empty()) result_.difference = fmt::format("line {}: {}", line_, what);
   }
 
-  HostPlanners planners_;
+  const ReplayOptions& options_;
+  ShownPlanners planners_;
   std::unique_ptr<can_remote::Pilot> pilot_;
   ReplayResult result_;
   link::CommandHash hash_;

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <istream>
 #include <optional>
 #include <string>
 
+#include "firmware/can/input_set.hpp"
+#include "firmware/can/mission.hpp"
+#include "firmware/robot.hpp"
 #include "host/run/planners.hpp"
 
 namespace whisker::hil {
@@ -12,6 +16,10 @@ namespace whisker::hil {
 struct ReplayOptions {
   int robot = 0;  ///< 1..7; 0: the first one in the log
   PlannerKind planner = PlannerKind::skirt;
+  /// Called when the robot is put to a mission's start, and after each of its steps with the ground that the
+  /// planner was shown, or null. The arguments are valid during the call only.
+  std::function<void(const can::Mission&, const Params&)> begins = nullptr;
+  std::function<void(const can::InputSet&, const Status&, const ground::Patch*)> stepped = nullptr;
 };
 
 struct ReplayResult {

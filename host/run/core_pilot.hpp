@@ -2,6 +2,7 @@
 
 #include "hal/sim/sim_board.hpp"
 #include "host/run/pilot.hpp"
+#include "host/run/shown_planner.hpp"
 
 namespace whisker {
 
@@ -16,26 +17,9 @@ class CorePilot final : public Pilot {
   void set_goal(const nav::Goal& goal) { robot_.set_goal(goal); }
 
  private:
-  /// Passes everything on, and remembers which ground it was shown.
-  class Shown final : public nav::Planner {
-   public:
-    explicit Shown(nav::Planner& planner) : planner_(planner) {}
-    void set_goal(const nav::Goal& goal) noexcept override { planner_.set_goal(goal); }
-    void cancel() noexcept override { planner_.cancel(); }
-    nav::Decision step(const nav::View& view) noexcept override {
-      patch_ = view.patch;
-      return planner_.step(view);
-    }
-    const ground::Patch* patch() const { return patch_; }
-
-   private:
-    nav::Planner& planner_;
-    const ground::Patch* patch_ = nullptr;
-  };
-
   hal::SimBoard board_;
   std::shared_ptr<nav::Planner> planner_;
-  Shown shown_;
+  ShownPlanner shown_;
   Robot robot_;
 };
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "host/run/spec.hpp"
+#include "host/run/told.hpp"
 
 namespace whisker {
 namespace {
@@ -12,14 +12,7 @@ std::optional<Verdict> verdict_of(const Status& status, const Pilot& pilot) {
     const bool stands = status.command.left == 0 && status.command.right == 0;
     return stands ? std::optional(Verdict::fault) : std::nullopt;
   }
-  switch (status.decision.outcome) {
-    case nav::Outcome::reached: return Verdict::reached;
-    case nav::Outcome::unreachable: return Verdict::unreachable;
-    case nav::Outcome::gave_up: return Verdict::gave_up;
-    case nav::Outcome::none:
-    case nav::Outcome::running: break;
-  }
-  return std::nullopt;
+  return whisker::verdict_of(status.decision.outcome);
 }
 
 const char* detail_of(Verdict verdict, const Status& status, const Pilot& pilot) {
@@ -29,27 +22,12 @@ const char* detail_of(Verdict verdict, const Status& status, const Pilot& pilot)
 
 TickRecord record_of(const sim::Plant& plant, const Status& status, const hal::RangeReadings& ranges,
                      double t_s) {
-  TickRecord r;
-  r.t_s = t_s;
+  TickRecord r = told(status, ranges, t_s);
   r.x_m = plant.pose().at.x;
   r.y_m = plant.pose().at.y;
   r.heading_rad = plant.pose().heading;
-  r.ranges = ranges;
   r.v_left_mps = plant.v_left();
   r.v_right_mps = plant.v_right();
-  r.mode = status.decision.mode;
-  r.why = status.decision.why;
-  r.danger_count = status.decision.danger_count;
-  r.looked = status.decision.looked;
-  r.d_q7 = status.decision.inputs.distance.raw();
-  r.r_q7 = status.decision.inputs.bias.raw();
-  r.sa_q14 = status.decision.response.turn.raw();
-  r.sd_q14 = status.decision.response.step.raw();
-  r.cell = status.decision.response.cell;
-  r.command = status.command;
-  r.est_x_m = status.pose.at.x.raw() * 1e-6;
-  r.est_y_m = status.pose.at.y.raw() * 1e-6;
-  r.est_heading_rad = radians(status.pose.heading);
   return r;
 }
 

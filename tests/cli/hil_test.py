@@ -79,6 +79,35 @@ class Hil(OnABus):
         self.assertEqual(other.returncode, 1)
         self.assertRegex(other.stdout, r"line \d+: tick \d+: recorded .*, the core says ")
 
+    def test_a_replay_shows_what_the_core_knew(self):
+        scenario, log = self.world("rooms"), self.folder / "run.log"
+        result = self.json_of("run", scenario, "--trace", self.folder / "run.csv")
+        self.json_of("hil", scenario, "--record", log)
+        self.json_of("replay", log, "--trace", self.folder / "log.csv", "--html", self.folder / "log.html")
+        rows = [list(csv.DictReader((self.folder / name).read_text().splitlines())) for name in ("run.csv", "log.csv")]
+        self.assertEqual(len(rows[0]), len(rows[1]))
+        for run, logged in zip(*rows):
+            for true, estimate in (("x_m", "est_x_m"), ("y_m", "est_y_m"), ("heading_rad", "est_heading_rad")):
+                self.assertEqual(logged[true], run[estimate])
+            # A wheel's speed is a whole number of counts: 0.2 mm each, in 10 ms.
+            for wheel in ("v_left_mps", "v_right_mps"):
+                self.assertAlmostEqual(float(logged[wheel]), float(run[wheel]), delta=0.03)
+            for key in set(run) - {"x_m", "y_m", "heading_rad", "v_left_mps", "v_right_mps"}:
+                self.assertEqual(logged[key], run[key], key)
+        data = re.search(r'<script type="application/json" id="data">(.*?)</script>', (self.folder / "log.html").read_text(), re.S)[1]
+        run = json.loads(data)["runs"][0]
+        self.assertEqual((run["result"]["outcome"], run["result"]["hash"]), (result["outcome"], result["hash"]))
+        self.assertEqual((run["planner"], run["inside"]), ("skirt", True))
+
+    def test_a_log_that_breaks_off_shows_what_there_is(self):
+        log, page = self.folder / "run.log", self.folder / "page.html"
+        self.json_of("hil", self.world("rooms"), "--record", log)
+        lines = log.read_text().splitlines()
+        log.write_text("\n".join(lines[: len(lines) // 2]) + "\n")
+        self.assertTrue(self.json_of("replay", log, "--html", page)["same"])
+        run = json.loads(re.search(r'id="data">(.*?)</script>', page.read_text(), re.S)[1])["runs"][0]
+        self.assertEqual(run["result"]["outcome"], "gave_up")
+
     def test_a_replay_finds_altered_ranges(self):
         log = self.folder / "run.log"
         self.json_of("hil", self.world("discs", 8), "--record", log)
@@ -221,6 +250,7 @@ class Refusals(Case):
     def test_bad_logs_are_one_line(self):
         self.assertIn("No such file", self.refused("replay", self.folder / "none.log"))
         self.assertIn("is empty", self.refused("replay", self.file("empty.log", "")))
+        self.refused("replay", self.file("own.log", "x\n"), "--html", self.folder / "own.log")
         self.assertIn("line 2: not a frame", self.refused("replay", self.file("bad.log", "(1.000000) can0 123#\nx\n")))
         self.assertIn("no commands", self.refused("replay", self.file("other.log", "(1.000000) can0 123#\n")))
 

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/hil/replay.hpp"
+#include "host/run/record.hpp"
+#include "host/scenario/scenario.hpp"
+
+namespace whisker::cli {
+
+/// The last mission of a log, as a run. A log has neither the world nor the true place: the world is empty,
+/// and the core's own estimate stands for the truth. The wheels' speeds are those of their counts.
+class LoggedRun {
+ public:
+  explicit LoggedRun(std::string name) : name_(std::move(name)) {}
+
+  void begin(const can::Mission& mission, const Params& params);
+  /// The record of this step, until the next one.
+  const TickRecord& step(const can::InputSet& set, const Status& status);
+
+  const Scenario& scenario() const { return scenario_; }
+  const std::vector<TickRecord>& records() const { return records_; }
+  /// As far as the log goes.
+  RunResult result() const;
+
+ private:
+  std::string name_;
+  Scenario scenario_;
+  std::vector<TickRecord> records_;
+  Fault fault_ = Fault::none;
+  nav::Outcome outcome_ = nav::Outcome::none;
+  std::uint32_t first_tick_ = 0;
+  hal::EncoderCounts counts_{};
+};
+
+}  // namespace whisker::cli

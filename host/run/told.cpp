@@ -1,0 +1,38 @@
+#include "host/run/told.hpp"
+
+#include "host/run/spec.hpp"
+
+namespace whisker {
+
+TickRecord told(const Status& status, const hal::RangeReadings& ranges, double t_s) {
+  TickRecord r;
+  r.t_s = t_s;
+  r.ranges = ranges;
+  r.mode = status.decision.mode;
+  r.why = status.decision.why;
+  r.danger_count = status.decision.danger_count;
+  r.looked = status.decision.looked;
+  r.d_q7 = status.decision.inputs.distance.raw();
+  r.r_q7 = status.decision.inputs.bias.raw();
+  r.sa_q14 = status.decision.response.turn.raw();
+  r.sd_q14 = status.decision.response.step.raw();
+  r.cell = status.decision.response.cell;
+  r.command = status.command;
+  r.est_x_m = status.pose.at.x.raw() * 1e-6;
+  r.est_y_m = status.pose.at.y.raw() * 1e-6;
+  r.est_heading_rad = radians(status.pose.heading);
+  return r;
+}
+
+std::optional<Verdict> verdict_of(nav::Outcome outcome) {
+  switch (outcome) {
+    case nav::Outcome::reached: return Verdict::reached;
+    case nav::Outcome::unreachable: return Verdict::unreachable;
+    case nav::Outcome::gave_up: return Verdict::gave_up;
+    case nav::Outcome::none:
+    case nav::Outcome::running: break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace whisker

@@ -1,0 +1,17 @@
+/// What the core tells at a tick, in a record's terms.
+#pragma once
+
+#include <optional>
+
+#include "firmware/robot.hpp"
+#include "host/run/record.hpp"
+
+namespace whisker {
+
+/// All but the true pose and the true speeds.
+TickRecord told(const Status& status, const hal::RangeReadings& ranges, double t_s);
+
+/// None: it is on its way, or has no goal.
+std::optional<Verdict> verdict_of(nav::Outcome outcome);
+
+}  // namespace whisker
