@@ -32,8 +32,8 @@ int32_t clamped(int32_t x, int32_t most) noexcept { return x > most ? most : x <
 
 /// The cells that an echo may have come from.
 struct Map::Box {
-  Place low{INT32_MAX, INT32_MAX};
-  Place high{INT32_MIN, INT32_MIN};
+  Place low{INT16_MAX, INT16_MAX};
+  Place high{-1, -1};
   void add(int32_t x, int32_t y) noexcept {
     if (x < low.x) low.x = x;
     if (x > high.x) high.x = x;
