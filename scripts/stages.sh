@@ -96,11 +96,11 @@ build_and_test_core() {
 }
 
 # What a chip runs, and the world it is tried in.
-readonly sanitized='core|fuzzy|ground|nav|robot|bus|can|link|slcan|sim'
+readonly sanitized='core|fuzzy|ground|map|nav|robot|bus|can|link|slcan|sim'
 
 stage_asan() {
   build_and_test_core asan "^($sanitized)\$" \
-    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_ground_tests whisker_nav_tests \
+    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_ground_tests whisker_map_tests whisker_nav_tests \
     whisker_run_tests whisker_bus_tests whisker_can_tests whisker_link_tests whisker_slcan_tests whisker_sim_tests
 }
 
@@ -111,8 +111,8 @@ stage_asan_host() {
 }
 
 stage_coverage() {
-  build_and_test_core coverage '^(core|fuzzy|ground|robot)$' \
-    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_ground_tests whisker_run_tests
+  build_and_test_core coverage '^(core|fuzzy|ground|map|robot)$' \
+    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_ground_tests whisker_map_tests whisker_run_tests
   # Exceptions cannot leave the core, so the branches of a throw are no branches of its own.
   gcovr -j "$jobs" --root . --filter firmware/ --exclude-throw-branches --json build/coverage/all.json \
     build/coverage
