@@ -121,8 +121,7 @@ void add_replay(CLI::App& app, int& status) {
       ->check(CLI::Range(1, static_cast<int>(can::kRobots)))
       ->type_name("N");
   add_planner(*cmd, o->replay.planner);
-  add_file(*cmd, "--trace", o->trace,
-           "Write the last mission's ticks as CSV, the core's estimate for the true pose");
+  add_file(*cmd, "--trace", o->trace, "Write the last mission as CSV; the true pose is the estimate");
   add_file(*cmd, "--html", o->html, "Write the last mission as a page for a browser, without the world");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->footer("\nExit status of replay: 0 the same commands, 1 others, 2 bad input or usage.");
