@@ -1,9 +1,9 @@
-// The least firmware: the core with its default planner, and drivers that know nothing. What the budgets
+// The least firmware: the core with one planner, and drivers that know nothing. What the budgets
 // weigh.
-#include "firmware/nav/skirt.hpp"
 #include "firmware/robot.hpp"
 #include "hal/board.hpp"
 #include "hal/room.hpp"
+#include "images/planner.hpp"
 
 using namespace whisker;
 
@@ -20,15 +20,15 @@ struct NoWheels final : hal::Drive {
 constexpr Params kParams;
 NoSensors sensors;
 NoWheels wheels;
-hal::Room<sizeof(nav::TableSkirt)> room_for_skirt;
+hal::Room<sizeof(images::Planner)> room_for_planner;
 hal::Room<sizeof(Robot)> room_for_robot;
 
 }  // namespace
 
 int main() {
   hal::Clock& clock = hal::board().clock;
-  auto& skirt = room_for_skirt.make<nav::TableSkirt>(kParams, fuzzy::kDefaultTable);
-  auto& robot = room_for_robot.make<Robot>(sensors, wheels, skirt.planner, kParams);
+  nav::Planner& planner = room_for_planner.make<images::Planner>(kParams, fuzzy::kDefaultTable).planner;
+  auto& robot = room_for_robot.make<Robot>(sensors, wheels, planner, kParams);
   robot.place({});
   robot.set_goal({{4_m, 1_m}, 100_mm});
   for (int i = 0; i < 10; ++i) robot.tick(Time::from_raw(clock.now_ms()));

@@ -1,20 +1,20 @@
 // The controller of a robot as a node of a CAN bus, behind the board's UART: it looks like an SLCAN adapter.
-#include "firmware/nav/skirt.hpp"
 #include "hal/board.hpp"
 #include "hal/can_remote/controller.hpp"
 #include "hal/slcan/slcan.hpp"
+#include "images/planner.hpp"
 
 using namespace whisker;
 
 namespace {
 
-hal::Room<sizeof(nav::TableSkirt)> room_for_skirt;
+hal::Room<sizeof(images::Planner)> room_for_planner;
 hal::Room<sizeof(hal::slcan::Slcan)> room_for_port;
 hal::Room<sizeof(can_remote::Controller)> room_for_controller;
 
 struct Planners final : can_remote::PlannerMaker {
   nav::Planner& make(const Params& params) noexcept override {
-    return room_for_skirt.make<nav::TableSkirt>(params, fuzzy::kDefaultTable).planner;
+    return room_for_planner.make<images::Planner>(params, fuzzy::kDefaultTable).planner;
   }
 };
 

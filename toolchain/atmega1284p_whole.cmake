@@ -2,4 +2,5 @@
 set(WHISKER_CPU atmega1284p)
 set(WHISKER_BOARD simavr)
 set(WHISKER_VECTORS)
+set(WHISKER_MAP_BYTES 0)
 include(${CMAKE_CURRENT_LIST_DIR}/avr_whole.cmake)

@@ -6,7 +6,7 @@
 /// |---|---|---|
 /// | H hello | - | Greeting |
 /// | P parameters | every parameter's raw value, 4 bytes, in the order of for_each_param | - |
-/// | B begin | Begin: planner and pose; a new robot with the last parameters | - |
+/// | B begin | Begin: planner, its map and pose; a new robot with the last parameters | - |
 /// | G goal | Target | - |
 /// | L place | Stand | - |
 /// | C cancel, R reset | - | - |
@@ -38,17 +38,19 @@ enum class Name : uint8_t {
   end = 'E',
 };
 
-constexpr uint8_t kVersion = 1;
+constexpr uint8_t kVersion = 2;
 
 /// Every message's each(m, f) calls f(name, field) for its fields, in the order of the bytes; M may be const.
 struct Greeting {
   uint8_t version = kVersion;
-  uint8_t engine = 0;  ///< 0: look-up, 1: closed form
+  uint8_t engine = 0;           ///< 0: look-up, 1: closed form
+  uint16_t most_map_bytes = 0;  ///< of the largest map that there is room for; 0: none
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) {
     f("version", m.version);
     f("engine", m.engine);
+    f("most_map_bytes", m.most_map_bytes);
   }
 };
 
@@ -65,15 +67,17 @@ struct Stand {
   }
 };
 
-enum class Planner : uint8_t { skirt, thesis };
+enum class Planner : uint8_t { skirt, thesis, map };
 
 struct Begin {
   Planner planner = Planner::skirt;
+  uint16_t map_bytes = 0;  ///< of Planner::map, see nav::kMapShape
   Stand stand;
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) {
     f("planner", m.planner);
+    f("map_bytes", m.map_bytes);
     Stand::each(m.stand, f);
   }
 };

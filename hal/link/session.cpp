@@ -77,7 +77,7 @@ int Session::run(hal::ByteStream& stream, hal::Meter& meter) noexcept {
 
 bool Session::obey(Name name) noexcept {
   switch (name) {
-    case Name::hello: return say(Greeting{kVersion, kEngine});
+    case Name::hello: return say(Greeting{kVersion, kEngine, kMostMapBytes});
     case Name::params: {
       if (!hear(params_size())) return false;
       ParamDecoder decoder{buffer_};
@@ -121,6 +121,25 @@ bool Session::obey(Name name) noexcept {
   return false;
 }
 
+template <int kBytes>
+nav::Planner* Session::make_map() noexcept {
+  if constexpr (kBytes <= kMostMapBytes) {
+    return &room_for_planner_.make<nav::TableMap<kBytes>>(my_->params, fuzzy::kDefaultTable).planner;
+  }
+  return nullptr;
+}
+
+nav::Planner* Session::make_map(uint16_t bytes) noexcept {
+  switch (bytes) {
+    case 1024: return make_map<1024>();
+    case 2048: return make_map<2048>();
+    case 4096: return make_map<4096>();
+    case 8192: return make_map<8192>();
+    case 16384: return make_map<16384>();
+    default: return nullptr;
+  }
+}
+
 bool Session::begin(const Begin& what) noexcept {
   nav::Planner* planner = nullptr;
   switch (what.planner) {
@@ -130,6 +149,7 @@ bool Session::begin(const Begin& what) noexcept {
     case Planner::thesis:
       planner = &room_for_planner_.make<nav::ThesisPlanner>(my_->params, fuzzy::kDefaultTable);
       break;
+    case Planner::map: planner = make_map(what.map_bytes); break;
   }
   if (planner == nullptr) return false;
   robot_ = &room_for_robot_.make<Robot>(my_->board, my_->board, *planner, my_->params);

@@ -1,6 +1,7 @@
 /// A robot whose companion plays its sensors and its wheels; hal/link/message.hpp has the words.
 #pragma once
 
+#include "firmware/nav/map_planner.hpp"
 #include "firmware/nav/skirt.hpp"
 #include "firmware/nav/thesis.hpp"
 #include "firmware/robot.hpp"
@@ -14,6 +15,17 @@
 #include "hal/room.hpp"
 
 namespace whisker::link {
+
+/// Of the largest map that there is room for; 0: none.
+constexpr int kMostMapBytes = WHISKER_MAP_BYTES;
+
+/// What the largest planner takes.
+template <int kMapBytes>
+constexpr size_t kPlannerSize = sizeof(nav::TableMap<kMapBytes>);
+template <>
+inline constexpr size_t kPlannerSize<0> = sizeof(nav::TableSkirt) > sizeof(nav::ThesisPlanner)
+                                              ? sizeof(nav::TableSkirt)
+                                              : sizeof(nav::ThesisPlanner);
 
 class Session {
  public:
@@ -32,6 +44,9 @@ class Session {
 
   bool obey(Name name) noexcept;
   bool begin(const Begin& what) noexcept;
+  nav::Planner* make_map(uint16_t bytes) noexcept;
+  template <int kBytes>
+  nav::Planner* make_map() noexcept;
   bool tick(const Tick& what) noexcept;
   bool probe(const Probe& what) noexcept;
   bool hear(size_t count) noexcept { return stream_->read(buffer_, count); }
@@ -46,9 +61,7 @@ class Session {
   Affairs* my_ = nullptr;
   Robot* robot_ = nullptr;
   hal::Room<sizeof(Affairs)> room_for_affairs_;
-  hal::Room<(sizeof(nav::TableSkirt) > sizeof(nav::ThesisPlanner) ? sizeof(nav::TableSkirt)
-                                                                  : sizeof(nav::ThesisPlanner))>
-      room_for_planner_;
+  hal::Room<kPlannerSize<kMostMapBytes>> room_for_planner_;
   hal::Room<sizeof(Robot)> room_for_robot_;
   uint32_t ticks_ = 0;
   bool ended_ = false;

@@ -1,5 +1,7 @@
 #include "host/chip/chip_pilot.hpp"
 
+#include <string>
+
 #include "host/chip/process.hpp"
 #include "host/chip/words.hpp"
 #include "host/run/spec.hpp"
@@ -39,12 +41,15 @@ class ChipPilot final : public Pilot {
   ChipPilot(const std::string& command, const Scenario& scenario, PlannerKind planner, sim::Plant& plant)
       : plant_(plant), process_(command) {
     say([](Bytes& to) { append(to, link::Name::hello); });
-    if (hear<link::Greeting>().version != link::kVersion)
-      throw ChipError(command + ": speaks another version");
+    const auto greeting = hear<link::Greeting>();
+    if (greeting.version != link::kVersion) throw ChipError(command + ": speaks another version");
+    if (map_bytes(planner) > greeting.most_map_bytes) {
+      throw NoRoom(command + ": has room for " + std::to_string(greeting.most_map_bytes) +
+                   " bytes of map, not " + std::to_string(map_bytes(planner)));
+    }
     say([&](Bytes& to) {
       append_params(to, scenario.robot);
-      append_begin(to, planner == PlannerKind::thesis ? link::Planner::thesis : link::Planner::skirt,
-                   fixed_pose(scenario.start));
+      append_begin(to, planner, fixed_pose(scenario.start));
       append_goal(to, fixed_goal(scenario.goal));
     });
   }

@@ -1,14 +1,21 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 #include "host/run/pilot.hpp"
 
 namespace whisker::chip {
 
+/// The chip cannot hold the planner's map.
+class NoRoom : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The core at the other end of a command's standard input and output, for example an image in an emulator:
-/// the simulator waits for it at every tick. The command must speak hal/link/message.hpp. Throws ChipError.
-/// The planner must be one that chips have, see is_baseline().
+/// the simulator waits for it at every tick. The command must speak hal/link/message.hpp. Throws ChipError
+/// and NoRoom. The planner must be one that chips have, see is_baseline().
 MakePilot chip_pilot(const std::string& command);
 
 }  // namespace whisker::chip

@@ -7,6 +7,11 @@ namespace {
 
 link::Stand stand(const Pose& pose) { return {pose.at.x.raw(), pose.at.y.raw(), pose.heading.raw()}; }
 
+link::Planner on_chip(PlannerKind planner) {
+  if (map_bytes(planner) != 0) return link::Planner::map;
+  return planner == PlannerKind::thesis ? link::Planner::thesis : link::Planner::skirt;
+}
+
 }  // namespace
 
 void append_params(Bytes& to, const Params& params) {
@@ -16,8 +21,9 @@ void append_params(Bytes& to, const Params& params) {
   for_each_param(params, encoder);
 }
 
-void append_begin(Bytes& to, link::Planner planner, const Pose& pose) {
-  append(to, link::Name::begin, link::Begin{planner, stand(pose)});
+void append_begin(Bytes& to, PlannerKind planner, const Pose& pose) {
+  const auto bytes = static_cast<std::uint16_t>(map_bytes(planner));
+  append(to, link::Name::begin, link::Begin{on_chip(planner), bytes, stand(pose)});
 }
 
 void append_goal(Bytes& to, const nav::Goal& goal) {

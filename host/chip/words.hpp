@@ -7,6 +7,7 @@
 #include "firmware/robot.hpp"
 #include "hal/link/bytes.hpp"
 #include "hal/link/message.hpp"
+#include "host/run/planners.hpp"
 #include "host/sim/plant.hpp"
 
 namespace whisker::chip {
@@ -23,7 +24,8 @@ void append(Bytes& to, link::Name name, const M& body) {
 }
 
 void append_params(Bytes& to, const Params& params);
-void append_begin(Bytes& to, link::Planner planner, const Pose& pose);
+/// The planner must be one that chips have, see is_baseline().
+void append_begin(Bytes& to, PlannerKind planner, const Pose& pose);
 void append_goal(Bytes& to, const nav::Goal& goal);
 void append_place(Bytes& to, const Pose& pose);
 

@@ -20,14 +20,18 @@ struct Options {
 };
 
 int execute(const Options& o) {
-  if (!o.chip.empty() && o.planner > PlannerKind::thesis) {
+  if (!o.chip.empty() && is_baseline(o.planner)) {
     throw UsageError(fmt::format("--chip: planner {} runs on this computer only", name(o.planner)));
   }
   const Scenario scenario = o.scenario.load();
   RunOptions options = o.scenario.run_options();
   options.planner = o.planner;
   if (!o.chip.empty()) options.pilot = chip::chip_pilot(o.chip);
-  return drive_one(scenario, options, o.scenario.outputs);
+  try {
+    return drive_one(scenario, options, o.scenario.outputs);
+  } catch (const chip::NoRoom& e) {
+    throw UsageError(e.what());
+  }
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct Judgement {
 };
 
 /// `recorded` with `index` is what the chip was told, `expected` what the core answers in this process.
-/// Work and stack are not compared. Throws std::runtime_error on bytes that are no recording.
+/// Work, stack and room for maps are not compared. Throws std::runtime_error on bytes that are no recording.
 Judgement judge(const chip::Bytes& recorded, const std::string& index, const chip::Bytes& expected,
                 const chip::Bytes& answered);
 

@@ -9,14 +9,16 @@
 namespace whisker::golden {
 namespace {
 
+/// Of those that the smallest target of the whole recording has room for.
+constexpr PlannerKind kLargestMapOfAll = PlannerKind::map_8192;
+
 /// Drives with the core in this process, and writes down what it is told.
 class RecordingPilot final : public Pilot {
  public:
   RecordingPilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant, chip::Bytes& to)
       : pilot_(core_pilot(scenario, planner, plant)), plant_(plant), to_(to) {
-    const bool skirt = planner == PlannerKind::skirt;
     chip::append_params(to, scenario.robot);
-    chip::append_begin(to, skirt ? link::Planner::skirt : link::Planner::thesis, fixed_pose(scenario.start));
+    chip::append_begin(to, planner, fixed_pose(scenario.start));
     chip::append_goal(to, fixed_goal(scenario.goal));
   }
   const Status& tick(Time now) override {
@@ -71,6 +73,15 @@ std::vector<Stream> drives() {
   }
   all.push_back(drive("spiral", generated(worlds::Kind::spiral, false), PlannerKind::skirt, 6));
   all.push_back(drive("enclosed", generated(worlds::Kind::enclosed, false), PlannerKind::skirt, 6));
+  for (const PlannerKind planner : {PlannerKind::map, kLargestMapOfAll}) {
+    all.push_back(drive("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), planner, 12));
+    all.push_back(drive("maze with noise", generated(worlds::Kind::maze, true), planner, 6));
+  }
+  all.push_back(drive("enclosed", generated(worlds::Kind::enclosed, false), PlannerKind::map, 6));
+  all.push_back(
+      drive("crossing mover", from_file("tests/cli/scenarios/crossing_mover"), PlannerKind::map, 3));
+  all.push_back(
+      drive("large fast robot", from_file("tests/cli/scenarios/large_fast_robot"), PlannerKind::map, 3));
   return all;
 }
 

@@ -95,7 +95,7 @@ Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
   const auto planner = make_planner(kind, params);
   Robot robot(oracle, oracle, *planner, params);
   chip::append_params(to, params);
-  chip::append_begin(to, kind == PlannerKind::skirt ? link::Planner::skirt : link::Planner::thesis, Pose{});
+  chip::append_begin(to, kind, Pose{});
   robot.place(Pose{});
   const nav::Goal goal = random_goal(bits);
   robot.set_goal(goal);
@@ -116,7 +116,7 @@ Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
 std::vector<Stream> storms() {
   std::vector<Stream> all;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    for (const PlannerKind kind : {PlannerKind::skirt, PlannerKind::thesis}) {
+    for (const PlannerKind kind : {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map}) {
       all.push_back(storm(kind, seed, static_cast<int>(seed) % 4, 150));
     }
   }

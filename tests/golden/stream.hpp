@@ -19,7 +19,7 @@ struct Stream {
 /// Inputs of the response table: every node of the look-up, a point inside every cell, the ends of the range.
 Stream table_sweep();
 
-/// Drives in simulated worlds, with either planner.
+/// Drives in simulated worlds, with every planner that chips have.
 std::vector<Stream> drives();
 /// Boards that lie, refuse and jump, users who interfere, and robots of any accepted parameters.
 std::vector<Stream> storms();
@@ -27,7 +27,7 @@ std::vector<Stream> storms();
 Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks);
 /// The beginnings of some of them, for targets whose emulator is slow.
 std::vector<Stream> excerpts();
-/// For cores without the skirt planner: drives and storms with the thesis planner alone.
+/// For cores without the skirt planner and its map: drives and storms with the thesis planner alone.
 std::vector<Stream> thesis_only();
 
 /// The streams one after the other, begun with a hello and ended; `index` gets a line for each: where its

@@ -11,8 +11,9 @@
 namespace whisker::chip {
 namespace {
 
-std::string complaint(const std::string& command) {
+std::string complaint(const std::string& command, PlannerKind planner = PlannerKind::skirt) {
   RunOptions options;
+  options.planner = planner;
   options.pilot = chip_pilot(command);
   Scenario scenario =
       load_scenario(std::string(WHISKER_SOURCE_DIR) + "/host/worlds/scenarios/two_discs.toml");
@@ -20,6 +21,8 @@ std::string complaint(const std::string& command) {
     run(scenario, options);
   } catch (const ChipError& e) {
     return e.what();
+  } catch (const NoRoom& e) {
+    return std::string("no room: ") + e.what();
   }
   return "";
 }
@@ -28,18 +31,25 @@ TEST(ChipPilot, NamesWhatIsWrong) {
   EXPECT_EQ(complaint("exit 3"), "exit 3: the chip has ended");
   EXPECT_EQ(complaint("no_such_command 2>&-"), "no_such_command 2>&-: the chip has ended");
   EXPECT_EQ(complaint("yes"), "yes: speaks another version");
-  EXPECT_EQ(complaint("printf '\\001\\000'"), "printf '\\001\\000': the chip has ended")
+  EXPECT_EQ(complaint("printf '\\002\\000\\000\\010'"), "printf '\\002\\000\\000\\010': the chip has ended")
       << "after its greeting";
 }
 
+TEST(ChipPilot, RefusesAMapThatTheChipHasNoRoomFor) {
+  const std::string chip = "printf '\\002\\000\\000\\010'";
+  EXPECT_EQ(complaint(chip, PlannerKind::map), chip + ": the chip has ended") << "2048 bytes are room enough";
+  EXPECT_EQ(complaint(chip, PlannerKind::map_4096),
+            "no room: " + chip + ": has room for 2048 bytes of map, not 4096");
+}
+
 TEST(ChipPilot, RefusesAnswersThatMakeNoSense) {
-  EXPECT_EQ(complaint("printf '\\001\\000'; yes"), "the chip's answer makes no sense");
+  EXPECT_EQ(complaint("printf '\\002\\000\\000\\010'; yes"), "the chip's answer makes no sense");
 }
 
 TEST(ChipPilot, DrivesAsTheCoreInThisProcess) {
   const Scenario scenario =
       load_scenario(std::string(WHISKER_SOURCE_DIR) + "/host/worlds/scenarios/two_discs.toml");
-  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {
+  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map_1024}) {
     RunOptions options;
     options.planner = planner;
     const RunResult here = run(scenario, options);

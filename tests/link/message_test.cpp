@@ -122,14 +122,24 @@ TEST(Session, EndsWithAnErrorOnEverythingElse) {
 
 TEST(Session, RefusesAPlannerThatItHasNot) {
   chip::Bytes bytes;
-  chip::append(bytes, Name::begin, Begin{static_cast<Planner>(2), {}});
+  chip::append(bytes, Name::begin, Begin{static_cast<Planner>(3), 0, {}});
   chip::append(bytes, Name::end);
   EXPECT_EQ(outcome(bytes).status, 1);
 }
 
+TEST(Session, HasMapsOfTheKnownSizesOnly) {
+  for (unsigned size = 0; size <= UINT16_MAX; ++size) {
+    chip::Bytes bytes;
+    chip::append(bytes, Name::begin, Begin{Planner::map, static_cast<std::uint16_t>(size), {}});
+    chip::append(bytes, Name::end);
+    const bool known = size >= 1024 && size <= kMostMapBytes && (size & (size - 1)) == 0;
+    ASSERT_EQ(outcome(bytes).status, known ? 0 : 1) << size;
+  }
+}
+
 TEST(Session, NewParametersAskForANewBeginning) {
   chip::Bytes bytes;
-  chip::append_begin(bytes, Planner::skirt, Pose{});
+  chip::append_begin(bytes, PlannerKind::skirt, Pose{});
   chip::append(bytes, Name::tick, Tick{});
   chip::append_params(bytes, Params{});
   const std::size_t good = bytes.size();

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-# (what stands behind --chip, scenario, planner)
+# (what stands behind --chip, scenario, planner and what goes with it)
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
 SHORT = "host/worlds/scenarios/two_discs.toml"
 DRIVES = (
@@ -22,11 +22,18 @@ DRIVES = (
     ("cortex-m0plus companion-table --serial", SHORT, "skirt"),
     ("rv32imac companion-table --serial", SHORT, "skirt"),
     ("wasm32", TRAP, "skirt"),
+    ("cortex-m0plus", SHORT, "map"),
+    ("cortex-m3", TRAP, "map --map-bytes 16384"),
+)
+# What a chip has no room for, and what is said then.
+REFUSALS = (
+    ("atmega1284p", "map", "has room for 0 bytes of map, not 2048"),
+    ("cortex-m0plus", "map --map-bytes 16384", "has room for 8192 bytes of map, not 16384"),
 )
 
 
 def drive(whisker, scenario, planner, trace, chip=None):
-    command = [whisker, "run", scenario, "--planner", planner, "--trace", trace, "--json"]
+    command = [whisker, "run", scenario, "--planner", *planner.split(), "--trace", trace, "--json"]
     done = subprocess.run(command + (["--chip", chip] if chip else []), capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"exit status {done.returncode}: {done.stderr}{done.stdout}")
@@ -52,6 +59,18 @@ def judge(root, whisker, folder, number):
     return None if here == there else first_difference(here[1], there[1]), here[0]
 
 
+def refuses(root, whisker, folder, chip, planner, words):
+    """None if that is all it says, and nothing is written."""
+    trace = pathlib.Path(folder, "refused.csv")
+    try:
+        drive(whisker, str(pathlib.Path(root, SHORT)), planner, str(trace), f"{root}/scripts/chip {chip}")
+    except RuntimeError as error:
+        said = str(error)
+        well = said.startswith("exit status 2: ") and said.endswith(words + "\n")
+        return None if well and not trace.exists() else said
+    return "it drove"
+
+
 def main(root, whisker):
     wrong = 0
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -59,7 +78,11 @@ def main(root, whisker):
         for (chip, scenario, planner), (problem, verdict) in zip(DRIVES, found):
             wrong += problem is not None
             print(f"{chip}, {planner}, {pathlib.Path(scenario).stem}: {problem or verdict}", flush=True)
-    print(f"closed loop: {len(DRIVES)} drives, {wrong} wrong")
+        for chip, planner, words in REFUSALS:
+            problem = refuses(root, whisker, folder, chip, planner, words)
+            wrong += problem is not None
+            print(f"{chip}, {planner}: {problem or words}")
+    print(f"closed loop: {len(DRIVES)} drives, {len(REFUSALS)} refusals, {wrong} wrong")
     return 1 if wrong else 0
 
 
