@@ -108,19 +108,6 @@ bool Flood::reaches_border(const Map& map) const noexcept {
   return any != 0;
 }
 
-bool Flood::run(Map& map, int32_t words) noexcept {
-  while (!over_ && words > 0) {
-    if (row_ <= last_) {
-      spread(map, row_++);
-      words -= map.shape().words;
-    } else {
-      over_ = end_level(map);
-      --words;
-    }
-  }
-  return over_;
-}
-
 Word Flood::passable(const Map& map, int32_t row, int w) const noexcept {
   const int32_t i = row * map.shape().words + w;
   const Word solid = task_.suspects_block ? map.blocking()[i] : map.blocking()[i] & map.sure()[i];
@@ -128,81 +115,191 @@ Word Flood::passable(const Map& map, int32_t row, int w) const noexcept {
   return ~solid;
 }
 
-Word Flood::front(const Map& map, int32_t row, int w) const noexcept {
-  const int32_t i = row * map.shape().words + w;
-  const Word high = map.level_high()[i];
-  const Word low = map.level_low()[i];
-  switch ((level_ + 2) % 3) {
-    case 0: return low & ~high;
-    case 1: return high & ~low;
-    default: return high & low;
+/// The row that is being spread to, and those above and below. Each is read once a level: what a level adds
+/// is of another phase than what it comes from.
+class Flood::Rows {
+ public:
+  Rows(Flood& flood, Map& map) noexcept
+      : flood_(flood),
+        shape_(map.shape()),
+        blocking_(map.blocking()),
+        sure_(map.sure()),
+        high_(map.level_high()),
+        low_(map.level_low()),
+        any_state_(flood.task_.suspects_block ? ~Word{0} : 0),
+        body_inside_(map.holds(flood.task_.body)) {
+    begin_level();
   }
-}
+  Rows(const Rows&) = delete;
+  Rows& operator=(const Rows&) = delete;
 
-Word Flood::entering(const Map& map, int32_t row, int w) const noexcept {
-  const int32_t half = half_width(level_ - detour_, row - task_.goal.y);
-  if (half < 0) return 0;
-  const Word near = columns(task_.goal.x - half, task_.goal.x + half, w);
-  const int32_t right = map.shape().columns() - 1;
-  const bool any = entry_ == Entry::any_border;
-  Word border = 0;
-  if (row == 0 && (any || task_.goal.y < 0)) border = ~Word{0};
-  if (row == map.shape().rows - 1 && (any || task_.goal.y >= map.shape().rows)) border = ~Word{0};
-  if (any || task_.goal.x < 0) border |= columns(0, 0, w);
-  if (any || task_.goal.x > right) border |= columns(right, right, w);
-  return near & border;
-}
+  void begin_level() noexcept;
+  /// The next row of the level, or any as the first.
+  void spread(int32_t row) noexcept;
 
-/// A row's words, with none on either side.
-struct Flood::Line {
-  Word at[kMostWords + 2] = {};
-  Word from_left(int w) const noexcept { return at[w + 1] << 1 | at[w] >> (kWordBits - 1); }
-  Word from_right(int w) const noexcept { return at[w + 1] >> 1 | at[w + 2] << (kWordBits - 1); }
+ private:
+  /// A row's words, with none on either side.
+  struct Row {
+    Word front[kMostWords + 2] = {};  ///< of the level before
+    Word open[kMostWords + 2] = {};   ///< does not block
+    Word fresh[kMostWords + 2] = {};  ///< the same, without a level
+    Word any = 0;                     ///< of the front
+  };
+  /// What lies beside the cells of the middle one of three words.
+  static Word beside(Word left, Word middle, Word right) noexcept {
+    return middle << 1 | left >> (kWordBits - 1) | middle >> 1 | right << (kWordBits - 1);
+  }
+
+  void read(int32_t row, Row& to) const noexcept;
+  void move_on(int32_t row) noexcept;
+  Word entering(int32_t row, int w) const noexcept;
+
+  Flood& flood_;
+  const Shape& shape_;
+  const Word* const blocking_;
+  const Word* const sure_;
+  Word* const high_;
+  Word* const low_;
+  const Word any_state_;  // suspects block, too
+  const bool body_inside_;
+  Row row_[3];
+  Row* above_ = &row_[0];
+  Row* here_ = &row_[1];
+  Row* below_ = &row_[2];
+  // Of the level:
+  bool first_ = true;  // no row was read
+  bool diagonal_ = false;
+  bool enters_ = false;  // over a side:
+  bool top_ = false;
+  bool bottom_ = false;
+  Word left_ = 0;
+  Word right_ = 0;
+  Word not_high_ = 0;  // the planes' bits where the level before is not
+  Word not_low_ = 0;
+  Word in_high_ = 0;  // where this one is
+  Word in_low_ = 0;
 };
 
-void Flood::spread(Map& map, int32_t row) noexcept {
-  const int words = map.shape().words;
-  Line fronts[3];
+void Flood::Rows::begin_level() noexcept {
+  const auto all = [](bool set) { return set ? ~Word{0} : Word{0}; };
+  const int phase = flood_.level_ % 3;
+  first_ = true;
+  diagonal_ = flood_.level_ % 2 == 0;
+  enters_ = flood_.entry_ != Entry::goal;
+  const bool any = flood_.entry_ == Entry::any_border;
+  const Place& goal = flood_.task_.goal;
+  top_ = any || goal.y < 0;
+  bottom_ = any || goal.y >= shape_.rows;
+  left_ = any || goal.x < 0 ? 1U : 0;
+  right_ = any || goal.x >= shape_.columns() ? Word{1} << (kWordBits - 1) : 0;
+  in_high_ = all(phase != 0);
+  in_low_ = all(phase != 1);
+  not_high_ = all(phase == 1);
+  not_low_ = all(phase == 2);
+}
+
+void Flood::Rows::read(int32_t row, Row& to) const noexcept {
+  to.any = 0;
+  if (row < 0 || row >= shape_.rows) {
+    for (int w = 1; w <= shape_.words; ++w) to.front[w] = to.open[w] = to.fresh[w] = 0;
+    return;
+  }
+  const int words = shape_.words;
+  const int32_t first = row * words;
+  const Word* const blocking = blocking_ + first;
+  const Word* const sure = sure_ + first;
+  const Word* const high = high_ + first;
+  const Word* const low = low_ + first;
+  const Word not_high = not_high_;
+  const Word not_low = not_low_;
+  const Word any_state = any_state_;
   Word any = 0;
-  for (int k = 0; k < 3; ++k) {
-    const int32_t r = row + k - 1;
-    if (r < 0 || r >= map.shape().rows) continue;
-    for (int w = 0; w < words; ++w) any |= fronts[k].at[w + 1] = front(map, r, w);
-  }
-  const bool enters = entry_ != Entry::goal;
-  if (any == 0 && !enters) return;
-  const bool diagonal = level_ % 2 == 0;
-  Line opens[3];
-  for (int k = diagonal ? 0 : 1; k < (diagonal ? 3 : 2); ++k) {
-    const int32_t r = row + k - 1;
-    if (r < 0 || r >= map.shape().rows) continue;
-    for (int w = 0; w < words; ++w) opens[k].at[w + 1] = passable(map, r, w);
-  }
-  const Line& front_here = fronts[1];
-  const Line& open_here = opens[1];
   for (int w = 0; w < words; ++w) {
-    const int32_t i = row * words + w;
-    const Word open = open_here.at[w + 1] & ~(map.level_high()[i] | map.level_low()[i]);
-    if (open == 0) continue;
-    Word news =
-        front_here.from_left(w) | front_here.from_right(w) | fronts[0].at[w + 1] | fronts[2].at[w + 1];
-    if (diagonal) {
-      const Word left = open_here.from_left(w);
-      const Word right = open_here.from_right(w);
-      for (int k = 0; k < 3; k += 2) {
-        const Word beside = opens[k].at[w + 1];
-        news |= ((fronts[k].from_left(w) & left) | (fronts[k].from_right(w) & right)) & beside;
-      }
-    }
-    if (enters) news |= entering(map, row, w);
-    news &= open;
-    if (news == 0) continue;
-    if (row < new_low_) new_low_ = row;
-    new_high_ = row;
-    const int phase = level_ % 3;
-    if (phase != 0) map.level_high()[i] |= news;
-    if (phase != 1) map.level_low()[i] |= news;
+    const Word h = high[w];
+    const Word l = low[w];
+    const Word front = (h ^ not_high) & (l ^ not_low);
+    const Word open = ~(blocking[w] & (sure[w] | any_state));
+    any |= front;
+    to.front[w + 1] = front;
+    to.open[w + 1] = open;
+    to.fresh[w + 1] = open & ~(h | l);
   }
+  to.any = any;
+  const Place& body = flood_.task_.body;
+  if (row != body.y || !body_inside_) return;
+  const int w = static_cast<int>(body.x / kWordBits);
+  const Word bit = Word{1} << (body.x % kWordBits);
+  to.open[w + 1] |= bit;
+  to.fresh[w + 1] |= bit & ~(high[w] | low[w]);
+}
+
+void Flood::Rows::move_on(int32_t row) noexcept {
+  if (first_) {
+    read(row - 1, *above_);
+    read(row, *here_);
+    first_ = false;
+  } else {
+    Row* const oldest = above_;
+    above_ = here_;
+    here_ = below_;
+    below_ = oldest;
+  }
+  read(row + 1, *below_);
+}
+
+Word Flood::Rows::entering(int32_t row, int w) const noexcept {
+  const Place& goal = flood_.task_.goal;
+  Word border = w == 0 ? left_ : 0;
+  if (w == shape_.words - 1) border |= right_;
+  if ((row == 0 && top_) || (row == shape_.rows - 1 && bottom_)) border = ~Word{0};
+  if (border == 0) return 0;
+  const int32_t half = half_width(flood_.level_ - flood_.detour_, row - goal.y);
+  return border & columns(goal.x - half, goal.x + half, w);
+}
+
+void Flood::Rows::spread(int32_t row) noexcept {
+  move_on(row);
+  const Row& above = *above_;
+  const Row& here = *here_;
+  const Row& below = *below_;
+  if ((above.any | here.any | below.any) == 0 && !enters_) return;
+  const int words = shape_.words;
+  for (int w = 1; w <= words; ++w) {
+    const Word fresh = here.fresh[w];
+    if (fresh == 0) continue;
+    Word news = beside(here.front[w - 1], here.front[w], here.front[w + 1]) | above.front[w] | below.front[w];
+    if (diagonal_) {
+      // Not across the corner of something that blocks: over the open cells of both rows.
+      const Word* const open = here.open + w;
+      const Word* const a = above.front + w;
+      const Word* const b = below.front + w;
+      news |= beside(a[-1] & open[-1], a[0] & open[0], a[1] & open[1]) & above.open[w];
+      news |= beside(b[-1] & open[-1], b[0] & open[0], b[1] & open[1]) & below.open[w];
+    }
+    if (enters_) news |= entering(row, w - 1);
+    news &= fresh;
+    if (news == 0) continue;
+    if (row < flood_.new_low_) flood_.new_low_ = row;
+    flood_.new_high_ = row;
+    const int32_t i = row * words + w - 1;
+    high_[i] |= news & in_high_;
+    low_[i] |= news & in_low_;
+  }
+}
+
+bool Flood::run(Map& map, int32_t words) noexcept {
+  Rows rows(*this, map);
+  while (!over_ && words > 0) {
+    if (row_ <= last_) {
+      rows.spread(row_++);
+      words -= map.shape().words;
+    } else {
+      over_ = end_level(map);
+      rows.begin_level();
+      --words;
+    }
+  }
+  return over_;
 }
 
 bool Flood::blocked(const Map& map, Place p) const noexcept {

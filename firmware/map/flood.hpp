@@ -43,12 +43,9 @@ class Flood {
   bool next(const Map& map, Place p, Place aim, Place& on) const noexcept;
 
  private:
-  struct Line;
+  class Rows;
   enum class Entry : uint8_t { goal, facing_border, any_border };
   Word passable(const Map& map, int32_t row, int w) const noexcept;
-  Word front(const Map& map, int32_t row, int w) const noexcept;
-  Word entering(const Map& map, int32_t row, int w) const noexcept;
-  void spread(Map& map, int32_t row) noexcept;
   void begin_level(const Map& map) noexcept;
   bool end_level(Map& map) noexcept;
   bool reaches_border(const Map& map) const noexcept;
