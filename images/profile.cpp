@@ -1,16 +1,15 @@
-// Like replay, but an answer's work is that of the clearance patch alone. The linker puts the functions below
-// between the robot and the patch (--wrap).
+// Like replay, but an answer's work is that of one part of the core alone: the clearance patch, what the
+// map's beams mark, or the flood upon it. The linker puts the functions below between the part and who calls
+// it (--wrap).
 #include "firmware/ground/patch.hpp"
+#include "firmware/map/flood.hpp"
 #include "hal/board.hpp"
 #include "hal/link/session.hpp"
 
 namespace {
 
-using whisker::ground::Patch;
-using whisker::ground::Proof;
-
-/// What passed between two calls of between(), instead of the time.
-class PatchMeter final : public whisker::hal::Meter {
+/// What passed while the part ran, instead of the time.
+class PartMeter final : public whisker::hal::Meter {
  public:
   uint32_t stamp() noexcept override { return 0; }
   uint32_t between(uint32_t, uint32_t) noexcept override {
@@ -20,43 +19,55 @@ class PatchMeter final : public whisker::hal::Meter {
   }
   uint32_t deepest_stack() noexcept override { return board().deepest_stack(); }
 
-  template <class F>
-  void measure(const F& call) noexcept {
-    const uint32_t from = board().stamp();
-    call();
-    passed_ += board().between(from, board().stamp());
-  }
+  static whisker::hal::Meter& board() noexcept { return whisker::hal::board().meter; }
+  void add(uint32_t from) noexcept { passed_ += board().between(from, board().stamp()); }
 
  private:
-  static whisker::hal::Meter& board() noexcept { return whisker::hal::board().meter; }
   uint32_t passed_ = 0;
 };
 
-PatchMeter meter;
+PartMeter meter;
+
+/// Of the part, from here to the end of the block.
+class Run {
+ public:
+  Run() noexcept : from_(PartMeter::board().stamp()) {}
+  ~Run() { meter.add(from_); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+ private:
+  uint32_t from_;
+};
 
 }  // namespace
 
-#define WHISKER_MARK _ZN7whisker6ground5Patch4markERKNS0_5ProofE
-#define WHISKER_MOVE _ZN7whisker6ground5Patch7move_toERKNS_4PoseE
-#define WHISKER_JOIN(a, b) a##b
-#define WHISKER_REAL(name) WHISKER_JOIN(__real_, name)
-#define WHISKER_WRAP(name) WHISKER_JOIN(__wrap_, name)
+#define WHISKER_MEASURED(function, Result, parameters, arguments) \
+  extern "C" Result __real_##function parameters noexcept;        \
+  extern "C" Result __wrap_##function parameters noexcept {       \
+    const Run run;                                                \
+    return __real_##function arguments;                           \
+  }
 
-extern "C" {
-void WHISKER_REAL(WHISKER_MARK)(Patch* patch, const Proof& proof) noexcept;
-void WHISKER_WRAP(WHISKER_MARK)(Patch* patch, const Proof& proof) noexcept;
-void WHISKER_REAL(WHISKER_MOVE)(Patch* patch, const whisker::Pose& pose) noexcept;
-void WHISKER_WRAP(WHISKER_MOVE)(Patch* patch, const whisker::Pose& pose) noexcept;
+using namespace whisker;
+using ground::Patch;
+using map::Flood;
+using map::Map;
 
-void WHISKER_WRAP(WHISKER_MARK)(Patch* patch, const Proof& proof) noexcept {
-  meter.measure([&] { WHISKER_REAL(WHISKER_MARK)(patch, proof); });
-}
-void WHISKER_WRAP(WHISKER_MOVE)(Patch* patch, const whisker::Pose& pose) noexcept {
-  meter.measure([&] { WHISKER_REAL(WHISKER_MOVE)(patch, pose); });
-}
-}
+#if defined(WHISKER_PROFILE_PATCH)
+WHISKER_MEASURED(_ZN7whisker6ground5Patch4markERKNS0_5ProofE, void,
+                 (Patch * patch, const ground::Proof& proof), (patch, proof))
+WHISKER_MEASURED(_ZN7whisker6ground5Patch7move_toERKNS_4PoseE, void, (Patch * patch, const Pose& pose),
+                 (patch, pose))
+#elif defined(WHISKER_PROFILE_MARKS)
+WHISKER_MEASURED(_ZN7whisker3map3Map4markERKNS_6ground5ProofEb, void,
+                 (Map * map, const ground::Proof& proof, bool hold), (map, proof, hold))
+#elif defined(WHISKER_PROFILE_FLOOD)
+WHISKER_MEASURED(_ZN7whisker3map5Flood3runERNS0_3MapEl, bool, (Flood * flood, Map& map, int32_t words),
+                 (flood, map, words))
+#endif
 
 int main() {
-  static whisker::link::Session session;
-  return session.run(whisker::hal::board().host, meter);
+  static link::Session session;
+  return session.run(hal::board().host, meter);
 }

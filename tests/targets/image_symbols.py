@@ -64,8 +64,10 @@ def main():
     checked, problems = 0, []
     for build, target in chips.builds():
         prefix = next((tool for start, tool in TOOLS.items() if build.startswith(start)), None)
-        node = ["can-node"] if "mps2" in target.emulator else []
-        for program in PROGRAMS + node if prefix else ():
+        more = [] if prefix == "avr-" else ["bare-map-table"]
+        more += ["can-node"] if "mps2" in target.emulator else []
+        more += ["can-node-stm32f103"] if target.name == "cortex-m3" else []
+        for program in PROGRAMS + more if prefix else ():
             image = chips.image(build, target, program)
             checked += 1
             problems += [f"{image}: {name}" for name in forbidden(symbols(prefix, image))]
