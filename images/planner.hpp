@@ -1,20 +1,14 @@
-/// The planner of the images that have but one: WHISKER_PLANNER_MAP says of how many bytes its map is.
+/// The planner of the images that have but one.
 #pragma once
 
-#include "firmware/nav/map_planner.hpp"
+#include "firmware/nav/default_planner.hpp"
 
 namespace whisker::images {
 
-template <int kMapBytes>
-struct PlannerOf {
-  using Type = nav::TableMap<kMapBytes>;
-};
-/// No map: the skirt planner.
-template <>
-struct PlannerOf<0> {
-  using Type = nav::TableSkirt;
-};
-
-using Planner = PlannerOf<WHISKER_PLANNER_MAP>::Type;
+#ifdef WHISKER_PLANNER_MAP  // the bytes of its map, or 0
+using Planner = nav::PlannerWithMap<WHISKER_PLANNER_MAP>::Type;
+#else
+using Planner = nav::DefaultPlanner;
+#endif
 
 }  // namespace whisker::images

@@ -77,7 +77,7 @@ int Session::run(hal::ByteStream& stream, hal::Meter& meter) noexcept {
 
 bool Session::obey(Name name) noexcept {
   switch (name) {
-    case Name::hello: return say(Greeting{kVersion, kEngine, kMostMapBytes});
+    case Name::hello: return say(Greeting{kVersion, kEngine, nav::kRoomForMap});
     case Name::params: {
       if (!hear(params_size())) return false;
       ParamDecoder decoder{buffer_};
@@ -123,7 +123,7 @@ bool Session::obey(Name name) noexcept {
 
 template <int kBytes>
 nav::Planner* Session::make_map() noexcept {
-  if constexpr (kBytes <= kMostMapBytes) {
+  if constexpr (kBytes <= nav::kRoomForMap) {
     return &room_for_planner_.make<nav::TableMap<kBytes>>(my_->params, fuzzy::kDefaultTable).planner;
   }
   return nullptr;

@@ -1,8 +1,7 @@
 /// A robot whose companion plays its sensors and its wheels; hal/link/message.hpp has the words.
 #pragma once
 
-#include "firmware/nav/map_planner.hpp"
-#include "firmware/nav/skirt.hpp"
+#include "firmware/nav/default_planner.hpp"
 #include "firmware/nav/thesis.hpp"
 #include "firmware/robot.hpp"
 #include "hal/byte_stream.hpp"
@@ -15,9 +14,6 @@
 #include "hal/room.hpp"
 
 namespace whisker::link {
-
-/// Of the largest map that there is room for; 0: none.
-constexpr int kMostMapBytes = WHISKER_MAP_BYTES;
 
 /// What the largest planner takes.
 template <int kMapBytes>
@@ -61,7 +57,7 @@ class Session {
   Affairs* my_ = nullptr;
   Robot* robot_ = nullptr;
   hal::Room<sizeof(Affairs)> room_for_affairs_;
-  hal::Room<kPlannerSize<kMostMapBytes>> room_for_planner_;
+  hal::Room<kPlannerSize<nav::kRoomForMap>> room_for_planner_;
   hal::Room<sizeof(Robot)> room_for_robot_;
   uint32_t ticks_ = 0;
   bool ended_ = false;

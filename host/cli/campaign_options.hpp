@@ -16,7 +16,7 @@ struct CampaignOptions {
   std::optional<std::uint64_t> count;
   std::optional<std::uint64_t> seed;
   worlds::Options world;
-  PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = kDefaultPlanner;
   std::string robot;
   int jobs = 0;  ///< 0: as many as there are cores
   std::string shard;
@@ -32,7 +32,7 @@ struct CampaignOptions {
 /// Which missions: first, then one after the other up to last, which is not among them.
 struct Missions {
   std::variant<campaign::Generated, campaign::Files> worlds;
-  PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = kDefaultPlanner;
   std::string robot;
   std::uint64_t first = 0;
   std::uint64_t last = 0;

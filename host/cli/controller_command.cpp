@@ -11,7 +11,7 @@ namespace {
 
 struct Options {
   BusChoice bus;
-  PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = kDefaultPlanner;
 };
 
 int execute(const Options& o) {

@@ -24,7 +24,7 @@ struct Options {
   ScenarioChoice scenario;
   BusChoice bus;
   ViewChoice view;
-  PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = kDefaultPlanner;
 };
 
 /// The controller in a process of its own; ends with this object, or with this process.

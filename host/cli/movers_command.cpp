@@ -24,7 +24,7 @@ constexpr std::uint64_t kMostMissions = 1000000;
 struct Options {
   std::uint64_t count = 200;
   std::uint64_t seed = 1;
-  PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = kDefaultPlanner;
   std::string contacts;
 };
 

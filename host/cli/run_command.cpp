@@ -15,7 +15,7 @@ namespace {
 
 struct Options {
   ScenarioChoice scenario;
-  PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = kDefaultPlanner;
   std::string chip;
 };
 

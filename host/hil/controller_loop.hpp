@@ -11,7 +11,7 @@ namespace whisker::hil {
 
 struct ControllerOptions {
   can::Identity identity{1, 1, 0};
-  PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = kDefaultPlanner;
   std::function<void(const std::string&)> say;  ///< gets what the controller does or waits for, once each
   std::function<bool()> interrupted;            ///< true: end
 };

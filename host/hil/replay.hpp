@@ -15,7 +15,7 @@ namespace whisker::hil {
 
 struct ReplayOptions {
   int robot = 0;  ///< 1..7; 0: the first one in the log
-  PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = kDefaultPlanner;
   /// Called when the robot is put to a mission's start, and after each of its steps with the ground that the
   /// planner was shown, or null. The arguments are valid during the call only.
   std::function<void(const can::Mission&, const Params&)> begins = nullptr;

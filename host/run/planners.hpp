@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "firmware/nav/default_planner.hpp"
 #include "firmware/nav/planner.hpp"
 #include "firmware/params.hpp"
 
@@ -40,6 +41,15 @@ constexpr int map_bytes(PlannerKind kind) {
     default: return 0;
   }
 }
+
+/// Of those who choose none: see firmware/nav/default_planner.hpp.
+constexpr PlannerKind default_planner() {
+  for (const PlannerKind kind : kPlanners) {
+    if (map_bytes(kind) == nav::kDefaultMapBytes) return kind;
+  }
+  return PlannerKind::skirt;
+}
+constexpr PlannerKind kDefaultPlanner = default_planner();
 
 /// With the default response table. The parameters must outlive the planner.
 std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params);

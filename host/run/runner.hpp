@@ -23,7 +23,7 @@ struct Moment {
 };
 
 struct RunOptions {
-  PlannerKind planner = PlannerKind::skirt;
+  PlannerKind planner = kDefaultPlanner;
   std::optional<std::uint64_t> seed;               ///< of the noise, instead of the scenario's
   std::vector<TickRecord>* records = nullptr;      ///< gets one record a tick, and one more at a contact
   std::function<void(const TickRecord&)> observe;  ///< called with each of these records as it arises

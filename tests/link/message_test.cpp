@@ -132,7 +132,7 @@ TEST(Session, HasMapsOfTheKnownSizesOnly) {
     chip::Bytes bytes;
     chip::append(bytes, Name::begin, Begin{Planner::map, static_cast<std::uint16_t>(size), {}});
     chip::append(bytes, Name::end);
-    const bool known = size >= 1024 && size <= kMostMapBytes && (size & (size - 1)) == 0;
+    const bool known = size >= 1024 && size <= nav::kRoomForMap && (size & (size - 1)) == 0;
     ASSERT_EQ(outcome(bytes).status, known ? 0 : 1) << size;
   }
 }

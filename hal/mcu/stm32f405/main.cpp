@@ -1,5 +1,5 @@
 // The reference robot on an STM32F405: drives 2 m ahead and stands.
-#include "firmware/nav/skirt.hpp"
+#include "firmware/nav/default_planner.hpp"
 #include "hal/mcu/stm32f405/robot_board.hpp"
 #include "hal/mcu/stm32f405/robot_params.hpp"
 #include "hal/mcu/stm32f405/vl53l0x.hpp"
@@ -8,7 +8,7 @@ int main() {
   using namespace whisker;
   using namespace whisker::hal::stm32f405;
   static RobotBoard board(kVl53l0x, kMotorParams, kMotorParams);
-  static nav::TableSkirt planner(kRobotParams, fuzzy::kDefaultTable);
+  static nav::DefaultPlanner planner(kRobotParams, fuzzy::kDefaultTable);
   static Robot robot(board.rangefinders(), board.drive(), planner.planner, kRobotParams);
 
   board.start();
