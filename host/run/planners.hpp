@@ -50,6 +50,7 @@ constexpr PlannerKind default_planner() {
   return PlannerKind::skirt;
 }
 constexpr PlannerKind kDefaultPlanner = default_planner();
+static_assert(map_bytes(kDefaultPlanner) == nav::kDefaultMapBytes);
 
 /// With the default response table. The parameters must outlive the planner.
 std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params);
