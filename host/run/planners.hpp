@@ -7,6 +7,7 @@
 
 #include "firmware/nav/planner.hpp"
 #include "firmware/params.hpp"
+#include "host/run/shown_guide.hpp"
 
 namespace whisker {
 
@@ -41,7 +42,14 @@ constexpr int map_bytes(PlannerKind kind) {
   }
 }
 
+/// A planner, and the guide in it.
+struct SeenPlanner {
+  std::shared_ptr<nav::Planner> planner;
+  const ShownGuide* guide = nullptr;  ///< null without a map; lives as long as the planner
+};
+
 /// With the default response table. The parameters must outlive the planner.
+SeenPlanner make_seen_planner(PlannerKind kind, const Params& params);
 std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params);
 
 /// One to compare with, for hosts only.
