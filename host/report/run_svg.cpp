@@ -7,6 +7,7 @@
 #include "host/report/result.hpp"
 #include "host/report/run_edges.hpp"
 #include "host/report/run_legend.hpp"
+#include "host/report/run_map.hpp"
 #include "host/report/run_scene.hpp"
 #include "host/report/units.hpp"
 
@@ -85,6 +86,8 @@ std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& rec
   content.obstacles = !scenario.discs.empty() || !scenario.polygons.empty();
   content.walls = !scenario.walls.empty();
   content.movers = !scenario.movers.empty();
+  content.hand_overs = hand_overs(records);
+  if (end != nullptr) content.map = options.map;
 
   const double top = options.subtitle.empty() ? 66 : 84;
   const Layout layout = lay_out(scene_box(scenario, records), top, content);
@@ -100,6 +103,7 @@ std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& rec
 
   svg.open_clipped("plot", view.corner, view.width(), view.height());
   draw_world(svg, view, scenario, end != nullptr ? end->t_s : 0.0);
+  if (content.map != nullptr) draw_map(svg, view, *content.map, *end);
   draw_straight_way(svg, view, scenario);
   draw_goal(svg, view, scenario.goal);
   for (const TickRecord* entry : entries) draw_cones(svg, view, scenario.robot.rangefinders, *entry);
@@ -111,7 +115,9 @@ std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& rec
   if (end != nullptr)
     draw_body(svg, view, body, pose(*end),
               R"(class="body end" fill="#c9d8e4" fill-opacity="0.65" stroke="#222" stroke-width="1.5")");
+  if (content.map != nullptr) draw_way_points(svg, view, records);
   draw_encounters(svg, view, content.encounters);
+  draw_hand_overs(svg, view, content.hand_overs);
   if (content.contact) draw_contact(svg, view, body, end != nullptr ? pose(*end) : scenario.start);
   draw_labels(svg, view, scenario, end, result.verdict);
   svg.close();

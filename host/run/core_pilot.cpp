@@ -58,4 +58,15 @@ SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzz
   }
 }
 
+std::optional<map::Shape> map_shape(PlannerKind kind) {
+  switch (map_bytes(kind)) {
+    case 1024: return nav::kMapShape<1024>;
+    case 2048: return nav::kMapShape<2048>;
+    case 4096: return nav::kMapShape<4096>;
+    case 8192: return nav::kMapShape<8192>;
+    case 16384: return nav::kMapShape<16384>;
+    default: return std::nullopt;
+  }
+}
+
 }  // namespace whisker

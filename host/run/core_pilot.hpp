@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "firmware/map/grid.hpp"
 #include "hal/sim/sim_board.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/shown_planner.hpp"
@@ -24,8 +27,11 @@ class CorePilot final : public Pilot {
   Robot robot_;
 };
 
-/// The core's own planners, skirt, thesis and map, with this response table; no planner for the others. Parameters
-/// and table must outlive the planner.
+/// The core's own planners, skirt, thesis and map, with this response table; no planner for the others.
+/// Parameters and table must outlive the planner.
 SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table);
+
+/// Of the map that a planner of this kind has, for the reference body; none without a map.
+std::optional<map::Shape> map_shape(PlannerKind kind);
 
 }  // namespace whisker

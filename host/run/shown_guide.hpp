@@ -13,9 +13,13 @@ class ShownGuide final : public nav::Guide {
   void start(const nav::View& view, const nav::Goal& goal) noexcept override {
     said_ = Guidance::none;
     goal_ = goal.at;
+    body_ = view.pose.at;
     guide_.start(view, goal);
   }
-  void observe(const nav::View& view) noexcept override { guide_.observe(view); }
+  void observe(const nav::View& view) noexcept override {
+    body_ = view.pose.at;
+    guide_.observe(view);
+  }
   Advice advise(const nav::View& view, Length distance, Vec& place) noexcept override {
     const Advice advice = guide_.advise(view, distance, place);
     way_ = view.pose.at + place;
@@ -34,6 +38,8 @@ class ShownGuide final : public nav::Guide {
   Guidance said() const { return said_; }
   /// The place to go to, in the estimate's world; where has_place().
   Vec way() const { return way_; }
+  Vec body() const { return body_; }
+  Vec goal() const { return goal_; }
   const nav::MapGuide& inside() const { return guide_; }
 
  private:
@@ -49,6 +55,7 @@ class ShownGuide final : public nav::Guide {
   nav::MapGuide& guide_;
   Guidance said_ = Guidance::none;
   Vec way_;
+  Vec body_;
   Vec goal_;
 };
 

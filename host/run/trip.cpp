@@ -76,9 +76,7 @@ double Trip::distance_left() const {
   return std::sqrt(sim::dot(d, d));
 }
 
-TickRecord Trip::record() const {
-  return record_of(*plant_, *pilot_, *status_, ranges_, t_s_);
-}
+TickRecord Trip::record() const { return record_of(*plant_, *pilot_, *status_, ranges_, t_s_); }
 
 RunResult Trip::result() const {
   RunResult result;
