@@ -28,7 +28,7 @@ MapPicture picture_of(const ShownGuide& guide) {
   picture.corner = map.corner();
   picture.columns = map.shape().columns();
   picture.rows = map.shape().rows;
-  picture.cell_m = map.cell().raw() * 1e-6;
+  picture.cell_m = map.cell().raw() / 1e6;
   picture.cells.reserve(static_cast<std::size_t>(picture.columns) * static_cast<std::size_t>(picture.rows));
   for (std::int32_t y = 0; y < picture.rows; ++y)
     for (std::int32_t x = 0; x < picture.columns; ++x) picture.cells.push_back(map.at({x, y}));
