@@ -114,7 +114,7 @@ class Hil(OnABus):
         pages = [json.loads(re.search(r'id="data">(.*?)</script>', (self.folder / name).read_text(), re.S)[1])["runs"][0] for name in ("run.html", "log.html", "hil.html")]
         pictures = [[count for name, _, _, count in page["columns"] if name == "map_tick"] for page in pages]
         self.assertEqual(pictures[0], pictures[1])
-        self.assertGreater(pictures[0][0], 100)
+        self.assertGreater(pictures[0][0], 20)
         self.assertEqual(pictures[2], [0])
         for page in pages:
             self.assertEqual(page["map"], {"bytes": 1024, "columns": 32, "rows": 48, "cell": 0.125})

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "host/report/palette.hpp"
 #include "host/report/run_svg.hpp"
@@ -122,6 +123,35 @@ TEST(RunMap, shows_plan_way_points_and_hand_overs_with_a_legend) {
   EXPECT_THAT(words, IsSupersetOf({"map: seen free", "map: suspect", "map: occupied", "its window at the end",
                                    "way points that it led to", "its last plan",
                                    "the map hands over to the edges", "the map leads again"}));
+}
+
+TEST(RunSvg, may_go_without_its_legend) {
+  const Scenario scenario = testing::garden();
+  const auto records = garden_run();
+  RunPicture options;
+  options.legend = false;
+  const Element root = testing::parse_xml(
+      run_svg(scenario, records, testing::result_of(Verdict::reached, scenario, records), options));
+  const Element whole = drawn(records, nullptr);
+  EXPECT_TRUE(root.by_class("legend").empty());
+  EXPECT_EQ(root.by_class("path").size(), 1U);
+  EXPECT_LT(root.number("width") * root.number("height"),
+            0.8 * whole.number("width") * whole.number("height"));
+}
+
+TEST(RunSvg, has_room_for_the_run_beside_it) {
+  const Scenario scenario;
+  const auto near = testing::follow(scenario, {{{1, 0}}});
+  const auto far = testing::follow(scenario, {{{1, 7}}});
+  const auto size = [&](const std::vector<TickRecord>& records, const std::vector<TickRecord>* beside) {
+    RunPicture options;
+    options.beside = beside;
+    const Element root = testing::parse_xml(
+        run_svg(scenario, records, testing::result_of(Verdict::gave_up, scenario, records), options));
+    return std::pair{root.number("width"), root.number("height")};
+  };
+  EXPECT_EQ(size(near, &far), size(far, &near));
+  EXPECT_NE(size(near, &far), size(near, nullptr));
 }
 
 TEST(RunMap, is_not_there_without_one) {
