@@ -184,10 +184,14 @@ describe('the decoded data', () => {
 
   test('every state and reason has plain words', async () => {
     const {page} = await openPage(browser, folder.url('u-trap.html'));
-    const {modes, whys, faults} = await page.evaluate(() => window.whisker.run.shared);
-    const {DOES, BECAUSE, FAULTS} = await import('./sources.mjs').then(({words}) => words());
+    const {modes, whys, faults, guides} = await page.evaluate(() => window.whisker.run.shared);
+    const {DOES, BECAUSE, FAULTS, LED, sentence} = await import('./sources.mjs').then(({words}) => words());
     assert.deepEqual([...modes].sort(), Object.keys(DOES).sort());
     assert.deepEqual([...whys].sort(), Object.keys(BECAUSE).sort());
     assert.deepEqual([...faults].sort(), Object.keys(FAULTS).sort());
+    assert.ok(Object.keys(LED).every((guide) => guides.includes(guide)));
+    assert.match(sentence('going', 'target_free', 'place'), /^Drives to the next place .* nothing is near/);
+    assert.equal(sentence('going', 'target_free', 'goal'), sentence('going', 'target_free'));
+    assert.equal(sentence('skirting', 'edge', 'place'), sentence('skirting', 'edge'));
   });
 });

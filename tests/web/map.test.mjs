@@ -135,6 +135,8 @@ describe('the map on the replay page', () => {
     const before = await pictureOf(page, 'world');
     await seek(page, tick);
     assert.notEqual((await pictureOf(page, 'world')).sum, before.sum);
+    assert.match(await page.textContent('#sentence'), /^Drives to the next place on the way/);
+    assert.ok(await page.isVisible('#way-key'));
   });
 
   test('is nothing for the skirt planner', async () => {

@@ -234,7 +234,7 @@ describe('the playground', () => {
   test('the map planner drives natively to the same hash, and shows its map', async () => {
     const {page, complaints} = await open('#world=rooms&seed=3&planner=map');
     assert.equal(await page.textContent('#card-0 h2'), 'map planner');
-    assert.equal(await page.locator('.map-key:visible').count(), 4);
+    assert.equal(await page.locator('.map-key:visible').count(), 5);
     const canvas = () =>
       page.evaluate(() => {
         const picture = document.querySelector('.card canvas');

@@ -216,7 +216,9 @@ export class Run implements Seen {
     readonly shared: Shared,
     columns: Map<string, Float64Array>,
   ) {
-    this.map = info.map && info.inside ? new MapFilm(info.map) : null;
+    // The first word is nothing: who drives does not tell.
+    const tells = columns.get('guide')?.[0] !== 0;
+    this.map = info.map && info.inside && tells ? new MapFilm(info.map) : null;
     this.grow(columns, 0);
   }
 

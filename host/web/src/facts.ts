@@ -36,7 +36,8 @@ function andMap({planner, map}: Run['info']): string {
 /** Where the core is far away, much stays there. */
 function sayWhatIsUnknown(run: Run): void {
   const {inside, map} = run.info;
-  element('map-unknown').hidden = inside || !map;
+  element('way-key').hidden = !run.map;
+  element('map-unknown').hidden = !map || run.map !== null;
   element('counters-unknown').hidden = inside;
   for (const id of ['course-key', 'rules']) element(id).hidden = !inside;
   element('clear-unknown').hidden = run.hasFilm;
@@ -115,7 +116,7 @@ export class Facts {
     element('state').classList.toggle('pale', stateColour(run, tick) === 'still');
     const fault = run.shared.faults[at('fault')];
     const named = fault === 'none' ? '' : ` The fault: ${FAULTS[fault] ?? fault}.`;
-    setText('sentence', sentence(run.mode(tick), run.why(tick)) + named);
+    setText('sentence', sentence(run.mode(tick), run.why(tick), run.guide(tick)) + named);
     setText('now-time', `${run.t[tick].toFixed(2)} s`);
     setText('now-tick', `tick ${tick}`);
     setText('now-distance', metres(this.way.distance[tick]));

@@ -136,7 +136,7 @@ export class Timeline {
     element('lanes-head').style.transform = `translateX(${this.x(tick)}px)`;
     // Not on every frame: a screen reader would never come to an end.
     if (this.player.playing || this.player.following) return;
-    const now = `${this.run.t[tick].toFixed(2)} s. ${sentence(this.run.mode(tick), this.run.why(tick))}`;
+    const now = `${this.run.t[tick].toFixed(2)} s. ${sentence(this.run.mode(tick), this.run.why(tick), this.run.guide(tick))}`;
     this.slider.setAttribute('aria-valuetext', now);
     setText('spoken', now);
   }

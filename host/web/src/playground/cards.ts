@@ -19,7 +19,7 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   const fault = run.fault();
   say(
     'sentence',
-    sentence(run.mode(), run.why()) + (fault === 'none' ? '' : ` The fault: ${FAULTS[fault]}.`),
+    sentence(run.mode(), run.why(), run.guide()) + (fault === 'none' ? '' : ` The fault: ${FAULTS[fault]}.`),
   );
   say('verdict', outcome ? verdict(outcome, time) : '');
   part('verdict').dataset.outcome = outcome ?? '';
