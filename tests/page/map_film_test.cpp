@@ -127,6 +127,7 @@ TEST(MapFilm, IsEmptyWithoutAMap) {
   const Scenario scenario = far();
   Recording recording(scenario.robot);
   RunOptions options;
+  options.planner = PlannerKind::skirt;
   options.watch = [&](const Moment& moment) { recording.add(moment); };
   run(scenario, options);
   EXPECT_TRUE(recording.ticks().map.x.empty());

@@ -70,6 +70,7 @@ TEST(ShownGuide, TellsAtEachTickWhatLeads) {
 
 TEST(ShownGuide, IsNotThereWithoutAMap) {
   RunOptions options;
+  options.planner = PlannerKind::skirt;
   std::vector<TickRecord> records;
   options.records = &records;
   options.watch = [](const Moment& moment) { EXPECT_EQ(moment.guide, nullptr); };

@@ -140,7 +140,7 @@ describe('the map on the replay page', () => {
   });
 
   test('is nothing for the skirt planner', async () => {
-    folder.drive('skirt', ['u-trap', '--seed', 7]);
+    folder.drive('skirt', ['u-trap', '--seed', 7], '--planner', 'skirt');
     const {page, complaints} = await open('skirt', '#t=8');
     assert.equal(await page.textContent('#planner-name'), 'skirt planner');
     assert.match(await page.textContent('.what'), /rangefinders and no map drives/);

@@ -20,6 +20,7 @@ const COLOURS: (Colour | null)[] = [null, 'map-free', 'map-suspect', 'map-occupi
 
 export class MapScenery {
   private readonly cells = COLOURS.map(() => new Path2D());
+  private plan: [x: number, y: number][] = [];
   private shown = -1;
 
   constructor(private readonly map: MapSeen) {}
@@ -69,6 +70,7 @@ export class MapScenery {
     const {columns, rows, cell} = map.info;
     const [left, bottom] = map.corner;
     this.cells.forEach((_, state) => (this.cells[state] = new Path2D()));
+    this.plan = [];
     for (let y = bottom; y < bottom + rows; ++y) {
       for (let from = left; from < left + columns;) {
         const state = map.state(from, y);
@@ -76,6 +78,9 @@ export class MapScenery {
         while (to < left + columns && map.state(to, y) === state) ++to;
         if (state !== 0) this.cells[state].rect(from * cell, y * cell, (to - from) * cell, cell);
         from = to;
+      }
+      for (let x = left; x < left + columns; ++x) {
+        if (map.onWay(x, y)) this.plan.push([(x + 0.5) * cell, (y + 0.5) * cell]);
       }
     }
   }
@@ -91,18 +96,12 @@ export class MapScenery {
   }
 
   private drawPlan(c: CanvasRenderingContext2D, p: Palette, pixel: number): void {
-    const {map} = this;
-    const {columns, rows, cell} = map.info;
-    const [left, bottom] = map.corner;
+    const radius = 1.5 * pixel;
     c.fillStyle = p.map;
     c.beginPath();
-    for (let y = bottom; y < bottom + rows; ++y) {
-      for (let x = left; x < left + columns; ++x) {
-        if (!map.onWay(x, y)) continue;
-        const [px, py] = [(x + 0.5) * cell, (y + 0.5) * cell];
-        c.moveTo(px + 1.5 * pixel, py);
-        c.arc(px, py, 1.5 * pixel, 0, 2 * Math.PI);
-      }
+    for (const [x, y] of this.plan) {
+      c.moveTo(x + radius, y);
+      c.arc(x, y, radius, 0, 2 * Math.PI);
     }
     c.fill();
   }
