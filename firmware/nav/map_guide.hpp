@@ -24,6 +24,9 @@ class MapGuide final : public Guide {
   bool doubt() noexcept override;
 
   const map::Map& map() const noexcept { return map_; }
+  const map::Flood& flood() const noexcept { return flood_; }
+  /// No plan is under way: flood() is whole, and the last one.
+  bool planned() const noexcept { return stage_ == Stage::idle && !waits_; }
 
  private:
   enum class Stage : uint8_t { idle, strict, passing, again };

@@ -24,4 +24,25 @@ constexpr ClassPicture kClassPictures[] = {
     {"skirt_enclosed.svg", worlds::Kind::enclosed, {2, {}, false, false}},
 };
 
+/// The map planner beside the skirt planner in one world of a class: the first one, seeds from 1, whose goal
+/// both reach and where the skirt planner's way, by the shortest, is longer than its median in the class; of
+/// `enclosed` the first one of which both say so.
+struct MapPicturePair {
+  const char* name;  ///< map_NAME.svg, map_NAME_skirt.svg
+  worlds::Kind kind;
+  worlds::Options options;  ///< without the seed
+  double skirts_median;     ///< as in docs/map.md
+};
+
+constexpr MapPicturePair kMapPictures[] = {
+    {"30_discs", worlds::Kind::discs, {}, 1.053},
+    {"50_discs", worlds::Kind::discs, {1, 50, false, false}, 1.333},
+    {"75_discs", worlds::Kind::discs, {1, 75, true, false}, 1.487},
+    {"u_trap", worlds::Kind::u_trap, {}, 1.544},
+    {"spiral", worlds::Kind::spiral, {}, 1.447},
+    {"maze", worlds::Kind::maze, {}, 1.407},
+    {"rooms", worlds::Kind::rooms, {}, 2.243},
+    {"enclosed", worlds::Kind::enclosed, {}, 0},
+};
+
 }  // namespace whisker::cli

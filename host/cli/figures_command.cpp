@@ -1,10 +1,13 @@
+#include <atomic>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/core.h>
 
+#include "host/campaign/mission.hpp"
 #include "host/campaign/worlds.hpp"
 #include "host/cli/class_pictures.hpp"
 #include "host/cli/commands.hpp"
@@ -15,6 +18,7 @@
 #include "host/report/file.hpp"
 #include "host/report/run_svg.hpp"
 #include "host/report/table_svg.hpp"
+#include "host/run/map_picture.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/load.hpp"
 
@@ -26,15 +30,29 @@ struct Options {
   std::string out;
 };
 
+/// A run with all that its picture shows.
+struct Driven {
+  Driven(const Scenario& scenario, PlannerKind planner) : map(scenario.robot) {
+    RunOptions options;
+    options.records = &records;
+    options.planner = planner;
+    options.watch = [this](const Moment& moment) { map.look(moment.guide); };
+    result = run(scenario, options);
+  }
+  void draw(const Scenario& scenario, const std::string& svg_file, report::RunPicture picture) const {
+    if (map.last()) picture.map = &*map.last();
+    report::write_file(svg_file, report::run_svg(scenario, records, result, picture));
+    fmt::print("{}\n", svg_file);
+  }
+
+  std::vector<TickRecord> records;
+  MapWatch map;
+  RunResult result;
+};
+
 void draw_run(const Scenario& scenario, PlannerKind planner, const std::string& svg_file,
               const report::RunPicture& picture = {}) {
-  std::vector<TickRecord> records;
-  RunOptions options;
-  options.records = &records;
-  options.planner = planner;
-  const RunResult result = run(scenario, options);
-  report::write_file(svg_file, report::run_svg(scenario, records, result, picture));
-  fmt::print("{}\n", svg_file);
+  Driven(scenario, planner).draw(scenario, svg_file, picture);
 }
 
 void draw_class(const ClassPicture& c, const std::string& folder) {
@@ -44,6 +62,42 @@ void draw_class(const ClassPicture& c, const std::string& folder) {
   picture.path_tolerance = 2e-3;
   draw_run(worlds::generate(c.kind, c.options), PlannerKind::skirt, fmt::format("{}/{}", folder, c.file),
            picture);
+}
+
+bool shows_the_difference(const MapPicturePair& pair, const campaign::Mission& mission) {
+  const std::atomic<bool> never{false};
+  const auto driven = [&](PlannerKind planner) {
+    campaign::Row row = campaign::drive(mission.scenario, planner, never);
+    row.world = mission.world;
+    return row;
+  };
+  const campaign::Row skirt = driven(PlannerKind::skirt);
+  if (!campaign::succeeded(skirt) || campaign::ratio(skirt).value_or(1) <= pair.skirts_median) return false;
+  return campaign::succeeded(driven(PlannerKind::map));
+}
+
+void draw_pair(const MapPicturePair& pair, const std::string& folder) {
+  constexpr std::uint64_t kSeeds = 200;
+  for (std::uint64_t i = 0; i < kSeeds; ++i) {
+    const campaign::Mission mission = campaign::mission(campaign::Generated{pair.kind, pair.options}, i);
+    if (!shows_the_difference(pair, mission)) continue;
+    const Driven skirt(mission.scenario, PlannerKind::skirt);
+    const Driven map(mission.scenario, PlannerKind::map);
+    report::RunPicture picture;
+    picture.path_tolerance = 2e-3;
+    picture.legend = false;
+    picture.beside = &map.records;
+    picture.subtitle =
+        fmt::format("skirt planner: whisker campaign {} --replay {}", mission.world, mission.seed);
+    skirt.draw(mission.scenario, fmt::format("{}/map_{}_skirt.svg", folder, pair.name), picture);
+    picture.beside = &skirt.records;
+    picture.subtitle = fmt::format("map planner, 2048 bytes: whisker campaign {} --planner map --replay {}",
+                                   mission.world, mission.seed);
+    map.draw(mission.scenario, fmt::format("{}/map_{}.svg", folder, pair.name), picture);
+    return;
+  }
+  throw std::runtime_error(
+      fmt::format("{}: no seed up to {} shows how the planners differ", pair.name, kSeeds));
 }
 
 int execute(const Options& o) {
@@ -63,6 +117,7 @@ int execute(const Options& o) {
   draw_run(figure9, PlannerKind::thesis, o.out + "/figure9.svg");
   draw_run(figure10, PlannerKind::thesis, o.out + "/figure10.svg");
   for (const ClassPicture& c : kClassPictures) draw_class(c, o.out);
+  for (const MapPicturePair& pair : kMapPictures) draw_pair(pair, o.out);
   return 0;
 }
 

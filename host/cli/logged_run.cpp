@@ -29,10 +29,10 @@ void LoggedRun::begin(const can::Mission& mission, const Params& params) {
   records_.clear();
 }
 
-const TickRecord& LoggedRun::step(const can::InputSet& set, const Status& status) {
+const TickRecord& LoggedRun::step(const can::InputSet& set, const Status& status, const ShownGuide* guide) {
   if (records_.empty()) first_tick_ = set.tick;
   const double period_s = set.period_ms * 1e-3;
-  TickRecord r = told(status, set.ranges, (set.tick - first_tick_) * period_s);
+  TickRecord r = told(status, guide, set.ranges, (set.tick - first_tick_) * period_s);
   r.x_m = r.est_x_m;
   r.y_m = r.est_y_m;
   r.heading_rad = r.est_heading_rad;

@@ -32,6 +32,15 @@ RunResult with_progress(const Scenario& scenario, RunOptions& options, const Run
   return run(scenario, options);
 }
 
+/// With a map, the picture says how large that is.
+report::RunPicture picture(const MapWatch& map, PlannerKind planner) {
+  report::RunPicture picture;
+  if (!map.last()) return picture;
+  picture.subtitle = fmt::format("map planner, {} bytes", map_bytes(planner));
+  picture.map = &*map.last();
+  return picture;
+}
+
 }  // namespace
 
 page::Setting setting(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs) {
@@ -42,6 +51,7 @@ page::Setting setting(const Scenario& scenario, const RunOptions& options, const
 int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o) {
   std::vector<TickRecord> records;
   page::Recording recording(scenario.robot);
+  MapWatch map(scenario.robot);
   if (!o.trace.empty() || !o.svg.empty()) options.records = &records;
   if (!o.html.empty()) {
     options.watch = [&, also = options.watch](const Moment& moment) {
@@ -49,10 +59,17 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
       if (also) also(moment);
     };
   }
+  if (!o.svg.empty()) {
+    options.watch = [&, also = options.watch](const Moment& moment) {
+      map.look(moment.guide);
+      if (also) also(moment);
+    };
+  }
   const RunResult result = with_progress(scenario, options, o);
   if (o.ended) o.ended(result);
   if (!o.trace.empty()) report::write_trace(o.trace, scenario, records);
-  if (!o.svg.empty()) report::write_file(o.svg, report::run_svg(scenario, records, result));
+  if (!o.svg.empty())
+    report::write_file(o.svg, report::run_svg(scenario, records, result, picture(map, options.planner)));
   if (!o.html.empty()) {
     const page::StoredRun run = page::stored(setting(scenario, options, o), recording.ticks(), result);
     report::write_file(o.html, page::run_page(run, controller_picture()));

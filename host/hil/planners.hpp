@@ -12,13 +12,15 @@ class HostPlanners final : public can_remote::PlannerMaker {
  public:
   explicit HostPlanners(PlannerKind kind) : kind_(kind) {}
   nav::Planner& make(const Params& params) noexcept override {
-    planner_ = make_planner(kind_, params);
-    return *planner_;
+    planner_ = make_seen_planner(kind_, params);
+    return *planner_.planner;
   }
+  /// Of the planner made last; null without a map.
+  const ShownGuide* guide() const { return planner_.guide; }
 
  private:
   PlannerKind kind_;
-  std::shared_ptr<nav::Planner> planner_;
+  SeenPlanner planner_;
 };
 
 }  // namespace whisker::hil

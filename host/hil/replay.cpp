@@ -28,6 +28,7 @@ class ShownPlanners final : public can_remote::PlannerMaker {
     return shown_.emplace(planners_.make(params));
   }
   const ground::Patch* patch() const { return shown_ ? shown_->patch() : nullptr; }
+  const ShownGuide* guide() const { return planners_.guide(); }
 
  private:
   HostPlanners planners_;
@@ -174,7 +175,7 @@ class Replay {
     tick16_ = static_cast<std::uint16_t>(set.tick);
     ++result_.steps;
     hash_.add(status_.command);
-    if (options_.stepped) options_.stepped(set, status_, planners_.patch());
+    if (options_.stepped) options_.stepped(set, status_, planners_.patch(), planners_.guide());
   }
 
   /// Answers that never reached the log leave a gap in the counters: the core made those steps all the same.

@@ -17,9 +17,10 @@ struct ReplayOptions {
   int robot = 0;  ///< 1..7; 0: the first one in the log
   PlannerKind planner = kDefaultPlanner;
   /// Called when the robot is put to a mission's start, and after each of its steps with the ground that the
-  /// planner was shown, or null. The arguments are valid during the call only.
+  /// planner was shown and its guide, or null. The arguments are valid during the call only.
   std::function<void(const can::Mission&, const Params&)> begins = nullptr;
-  std::function<void(const can::InputSet&, const Status&, const ground::Patch*)> stepped = nullptr;
+  std::function<void(const can::InputSet&, const Status&, const ground::Patch*, const ShownGuide*)> stepped =
+      nullptr;
 };
 
 struct ReplayResult {

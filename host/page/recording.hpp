@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/page/film.hpp"
+#include "host/page/map_film.hpp"
 #include "host/run/runner.hpp"
 
 namespace whisker::page {
@@ -15,6 +16,7 @@ struct Ticks {
   std::vector<TickRecord> records;
   std::vector<Health> health;  ///< one for each record
   Frames frames;               ///< of the clearance patch, one every 50 ms where there is a patch
+  MapFrames map;               ///< of the map, where there is one: see MapWatch
 
   /// The ticks of `more` from the one with this index among them; its first is the run's tick `first`.
   void append(const Ticks& more, std::size_t index, std::size_t first);
@@ -36,6 +38,8 @@ class Recording {
   std::size_t ticks_a_frame_;
   std::size_t count_ = 0;
   Film film_;
+  MapWatch map_watch_;
+  MapFilm map_film_;
   Ticks ticks_;
 };
 

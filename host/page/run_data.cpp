@@ -9,6 +9,7 @@
 #include "host/report/result.hpp"
 #include "host/report/track.hpp"
 #include "host/report/units.hpp"
+#include "host/run/core_pilot.hpp"
 
 namespace whisker::page {
 namespace {
@@ -68,6 +69,15 @@ Json noise_data(const Noise& n) {
           {"range_false_clear", n.range_false_clear},
           {"wheel_scale_sigma", n.wheel_scale_sigma},
           {"heading_drift_deg_per_sqrt_m", n.heading_drift_deg_per_sqrt_m}};
+}
+
+Json map_data(const Setting& s) {
+  const auto shape = s.planner ? map_shape(*s.planner) : std::nullopt;
+  if (!shape) return nullptr;
+  return {{"bytes", map_bytes(*s.planner)},
+          {"columns", shape->columns()},
+          {"rows", shape->rows},
+          {"cell", metres(for_body(s.scenario.robot, shape->cell))}};
 }
 
 const char* end_name(report::Encounter::End end) {
@@ -154,6 +164,9 @@ void add_decisions(Writer& w) {
   w.tick("sd", kSteady, 16384, [](const TickRecord& r) { return r.sd_q14; });
   w.tick("cell_d", kSteady, 1, [](const TickRecord& r) { return r.cell.distance; });
   w.tick("cell_r", kSteady, 1, [](const TickRecord& r) { return r.cell.bias; });
+  w.tick("guide", kSteady, 1, [](const TickRecord& r) { return static_cast<int>(r.guide); });
+  w.decimal("way_x_m", kSteady, kMicro, [](const TickRecord& r) { return r.way_x_m; });
+  w.decimal("way_y_m", kSteady, kMicro, [](const TickRecord& r) { return r.way_y_m; });
 }
 
 void add_health(Columns& columns, Writer& w, const std::vector<Health>& health) {
@@ -182,6 +195,15 @@ void add_film(Columns& columns, const Frames& film) {
   columns.add("film_bits", Order::values, 1, film.bits);
 }
 
+void add_map(Columns& columns, const MapFrames& map) {
+  columns.add("map_tick", Order::second_differences, 1, map.pictures.ticks);
+  columns.add("map_x", Order::differences, 1, map.x);
+  columns.add("map_y", Order::differences, 1, map.y);
+  columns.add("map_changes", Order::values, 1, map.pictures.changes);
+  columns.add("map_word", Order::differences, 1, map.pictures.words);
+  columns.add("map_bits", Order::values, 1, map.pictures.bits);
+}
+
 Json columns_data(const Columns& columns) {
   Json list = Json::array();
   for (const Column& c : columns.list())
@@ -196,6 +218,7 @@ Json setting_data(const Setting& s) {
   if (s.planner) planner = name(*s.planner);
   return {{"name", s.scenario.name},
           {"planner", planner},
+          {"map", map_data(s)},
           {"inside", s.inside},
           {"seed", s.seed},
           {"time_limit", s.scenario.time_limit_s},
@@ -222,6 +245,7 @@ Packed packed(const Ticks& ticks) {
   add_decisions(writer);
   add_health(columns, writer, ticks.health);
   add_film(columns, ticks.frames);
+  add_map(columns, ticks.map);
   return {columns_data(columns), base64(deflated(columns.bytes()))};
 }
 

@@ -4,6 +4,7 @@
 #include "firmware/nav/state.hpp"
 #include "host/page/json.hpp"
 #include "host/report/palette.hpp"
+#include "host/run/guidance.hpp"
 
 namespace whisker::page {
 namespace {
@@ -73,12 +74,15 @@ Json shared_data(const Controller& controller) {
   Json faults = Json::array();
   for (int i = 0; i <= static_cast<int>(Fault::no_progress); ++i)
     faults.push_back(name(static_cast<Fault>(i)));
+  Json guides = Json::array();
+  for (int i = 0; i < kGuidances; ++i) guides.push_back(name(static_cast<Guidance>(i)));
   Json doings = Json::array();
   for (const report::Look& look : report::kLooks)
     doings.push_back({{"name", look.name}, {"label", look.label}});
   return {{"modes", names<nav::Mode>(nav::kModes)},
           {"whys", names<nav::Why>(nav::kWhys)},
           {"faults", faults},
+          {"guides", guides},
           {"doings", doings},
           {"controller", controller_data(controller)}};
 }

@@ -17,14 +17,17 @@ Drive::Drive(const Scenario& scenario, PlannerKind planner, const fuzzy::Engine:
              scenario_.start),
       pilot_(scenario_, make_core_planner(planner, scenario_.robot, table), plant_),
       trip_(scenario_, plant_, pilot_),
+      map_(scenario_.robot),
       way_{{scenario_.start.at, report::Doing::free}} {
   trip_.decide();
+  map_.look(trip_.guide());
 }
 
 void Drive::advance(int ticks) {
   for (; ticks > 0 && !trip_.verdict(); --ticks) {
     trip_.move();
     if (!trip_.verdict()) trip_.decide();
+    map_.look(trip_.guide());
     note();
   }
 }

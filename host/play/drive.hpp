@@ -6,6 +6,7 @@
 
 #include "host/report/track.hpp"
 #include "host/run/core_pilot.hpp"
+#include "host/run/map_picture.hpp"
 #include "host/run/sim_world.hpp"
 #include "host/run/trip.hpp"
 
@@ -13,8 +14,8 @@ namespace whisker::play {
 
 class Drive {
  public:
-  /// From the scenario's start; the planner is skirt or thesis. The table must outlive it; its changes take
-  /// effect at once. Until the first change() its commands are those of run().
+  /// From the scenario's start; the planner is one of the core's own. The table must outlive it; its changes
+  /// take effect at once. Until the first change() its commands are those of run().
   Drive(const Scenario& scenario, PlannerKind planner, const fuzzy::Engine::Table& table);
   Drive(const Drive&) = delete;
   Drive& operator=(const Drive&) = delete;
@@ -26,6 +27,8 @@ class Drive {
   void change(const Scenario& scenario);
 
   const Trip& trip() const { return trip_; }
+  /// As MapWatch takes pictures of it; nothing without a map.
+  const std::optional<MapPicture>& map() const { return map_.last(); }
   const sim::Plant& plant() const { return plant_; }
   const Scenario& scenario() const { return scenario_; }
 
@@ -46,6 +49,7 @@ class Drive {
   sim::Plant plant_;
   CorePilot pilot_;
   Trip trip_;
+  MapWatch map_;
   std::vector<Passed> way_;
 };
 

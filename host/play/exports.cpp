@@ -21,6 +21,7 @@ namespace whisker::play {
 namespace {
 
 constexpr int kSides = 2;
+constexpr PlannerKind kOffered[] = {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map};
 
 std::vector<double> exchanged;
 fuzzy::RuleBase rules = fuzzy::kRules;
@@ -65,12 +66,11 @@ WHISKER_EXPORT(judge) int judge() {
   return start_is_free(*scenario) ? 0 : 2;
 }
 
-/// The robot on this side starts anew in the scenario in the list; planner: 0 skirt, 1 thesis.
+/// The robot on this side starts anew in the scenario in the list; planner: 0 skirt, 1 thesis, 2 map.
 WHISKER_EXPORT(begin) int begin(int side, int planner) {
   const std::optional<Scenario> scenario = scenario_of(exchanged);
   if (!scenario) return 0;
-  const PlannerKind kind = planner == 0 ? PlannerKind::skirt : PlannerKind::thesis;
-  drives[side] = std::make_unique<Drive>(*scenario, kind, table);
+  drives[side] = std::make_unique<Drive>(*scenario, kOffered[planner], table);
   return 1;
 }
 
@@ -106,7 +106,10 @@ WHISKER_EXPORT(record) int record(int side) {
                r.sd_q14 / 16384.0,
                static_cast<double>(r.cell.distance),
                static_cast<double>(r.cell.bias),
-               static_cast<double>(trip.status().health.fault)};
+               static_cast<double>(trip.status().health.fault),
+               static_cast<double>(r.guide),
+               r.way_x_m,
+               r.way_y_m};
   for (const hal::RangeReading& reading : r.ranges.beam) {
     exchanged.push_back(reading.mm / 1000.0);
     exchanged.push_back(static_cast<double>(reading.status));
@@ -150,6 +153,20 @@ WHISKER_EXPORT(clear_cells) int clear_cells(int side) {
                       [](std::int64_t x, std::int64_t y) {
                         exchanged.insert(exchanged.end(), {static_cast<double>(x), static_cast<double>(y)});
                       });
+  return answer();
+}
+
+/// Columns, rows, side of a cell, first cell of the window, the state of each cell row by row, and the places
+/// of the plan's way; nothing without a map.
+WHISKER_EXPORT(map) int map_cells(int side) {
+  const std::optional<MapPicture>& picture = drives[side]->map();
+  exchanged.clear();
+  if (!picture) return 0;
+  exchanged = {static_cast<double>(picture->columns), static_cast<double>(picture->rows), picture->cell_m,
+               static_cast<double>(picture->corner.x), static_cast<double>(picture->corner.y)};
+  for (const map::State state : picture->cells) exchanged.push_back(static_cast<double>(state));
+  for (const map::Place p : picture->way)
+    exchanged.insert(exchanged.end(), {static_cast<double>(p.x), static_cast<double>(p.y)});
   return answer();
 }
 
@@ -218,13 +235,15 @@ WHISKER_EXPORT(sample_table) int sample_table() {
   return answer();
 }
 
-/// Word number i of a list: 0 states, 1 reasons, 2 faults, 3 kinds of worlds. Null beyond its end.
+/// Word number i of a list: 0 states, 1 reasons, 2 faults, 3 kinds of worlds, 4 what a map says. Null beyond
+/// its end.
 WHISKER_EXPORT(word) const char* word(int which, int i) {
   switch (which) {
     case 0: return i < nav::kModes ? nav::name(static_cast<nav::Mode>(i)) : nullptr;
     case 1: return i < nav::kWhys ? nav::name(static_cast<nav::Why>(i)) : nullptr;
     case 2: return i <= static_cast<int>(Fault::no_progress) ? name(static_cast<Fault>(i)) : nullptr;
     case 3: return i < static_cast<int>(std::size(worlds::kKinds)) ? name(worlds::kKinds[i]) : nullptr;
+    case 4: return i < kGuidances ? name(static_cast<Guidance>(i)) : nullptr;
     default: return nullptr;
   }
 }

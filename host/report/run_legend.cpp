@@ -8,6 +8,7 @@
 
 #include "host/report/palette.hpp"
 #include "host/report/run_edges.hpp"
+#include "host/report/run_map.hpp"
 
 namespace whisker::report {
 namespace {
@@ -110,6 +111,35 @@ void draw_edge_marks(Svg& svg, Column& column, const std::vector<Encounter>& all
     draw_turned(svg, column.row("came round: now the other way"));
 }
 
+void draw_map_marks(Svg& svg, Column& column, const LegendContent& content) {
+  if (content.map == nullptr) return;
+  for (const MapLook& look : kMapLooks) {
+    const Point c = column.row(look.label);
+    svg.rect({c.x - 8, c.y - 6}, 16, 12, look.fill);
+  }
+  Point c = column.row("its window at the end");
+  svg.rect({c.x - 8, c.y - 6}, 16, 12,
+           fmt::format(R"(fill="none" stroke="{}" stroke-width="0.8")", kMapColour));
+  c = column.row("way points that it led to");
+  PathData dots;
+  dots.dot({c.x - 8, c.y}).dot(c).dot({c.x + 8, c.y});
+  svg.path(dots, fmt::format(R"({} stroke-width="4")", kMapDots));
+  if (!content.map->way.empty()) {
+    c = column.row("its last plan");
+    PathData plan;
+    for (const int i : {-2, -1, 0, 1, 2}) plan.dot({c.x + 5.0 * i, c.y});
+    svg.path(plan, fmt::format(R"({} stroke-width="2.4")", kMapDots));
+  }
+}
+
+void draw_hand_over_marks(Svg& svg, Column& column, const std::vector<HandOver>& all) {
+  const auto any = [&](bool to_edges) {
+    return std::any_of(all.begin(), all.end(), [&](const HandOver& h) { return h.to_edges == to_edges; });
+  };
+  if (any(true)) draw_to_edges(svg, column.row("the map hands over to the edges"));
+  if (any(false)) draw_to_map(svg, column.row("the map leads again"));
+}
+
 void draw_marks(Svg& svg, Column& column, const LegendContent& content) {
   column.heading("Marks");
   Point c = column.row("robot at the start");
@@ -129,6 +159,8 @@ void draw_marks(Svg& svg, Column& column, const LegendContent& content) {
   c = column.row("straight line from start to goal");
   svg.line({c.x - kSwatch / 2, c.y}, {c.x + kSwatch / 2, c.y}, kStraightWay);
   draw_edge_marks(svg, column, content.encounters);
+  draw_map_marks(svg, column, content);
+  draw_hand_over_marks(svg, column, content.hand_overs);
   if (content.looks) {
     c = column.row(
         fmt::format("looked here ({} look{})", content.track.looks, content.track.looks == 1 ? "" : "s"));

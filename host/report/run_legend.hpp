@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/report/encounters.hpp"
+#include "host/report/hand_overs.hpp"
 #include "host/report/run_svg.hpp"
 #include "host/report/svg.hpp"
 #include "host/report/track.hpp"
@@ -15,6 +16,8 @@ struct LegendContent {
   TrackSummary track;
   std::vector<Encounter> encounters;
   sim::Vec2 goal;
+  std::vector<HandOver> hand_overs;
+  const MapPicture* map = nullptr;
   bool looks = false;
   bool cones = false;
   bool end = false;

@@ -14,7 +14,11 @@
 /// - cmd_left_mps, cmd_right_mps: commanded rim speeds, m/s, 5 decimals
 /// - est_x_m, est_y_m, est_heading_rad: the core's own estimate, m, m, rad, 6 decimals
 ///
-/// d, r, sa, sd and the estimate are empty fields where a bus lies between: it does not carry them.
+/// - guide: what the map of the planner says, a word of Guidance
+/// - way_x_m, way_y_m: the place that it leads to, in the estimate's world, 6 decimals
+///
+/// d, r, sa, sd and the estimate are empty fields where a bus lies between: it does not carry them. The last
+/// three are empty for planners without a map, too, and the place is where the guide has none.
 #pragma once
 
 #include <string>

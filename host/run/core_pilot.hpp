@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "firmware/map/grid.hpp"
 #include "hal/sim/sim_board.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/shown_planner.hpp"
@@ -10,22 +13,25 @@ namespace whisker {
 class CorePilot final : public Pilot {
  public:
   /// Scenario and plant must outlive it; the planner was made with the scenario's robot.
-  CorePilot(const Scenario& scenario, std::shared_ptr<nav::Planner> planner, sim::Plant& plant);
+  CorePilot(const Scenario& scenario, SeenPlanner planner, sim::Plant& plant);
   const Status& tick(Time now) override { return robot_.tick(now); }
   const ground::Patch* patch() const override { return shown_.patch(); }
+  const ShownGuide* guide() const override { return planner_.guide; }
   /// Another one, while it drives or after it has ended.
   void set_goal(const nav::Goal& goal) { robot_.set_goal(goal); }
 
  private:
   hal::SimBoard board_;
-  std::shared_ptr<nav::Planner> planner_;
+  SeenPlanner planner_;
   ShownPlanner shown_;
   Robot robot_;
 };
 
-/// The core's own planners, skirt, thesis and map, with this response table; null for the others. Parameters
-/// and table must outlive the planner.
-std::shared_ptr<nav::Planner> make_core_planner(PlannerKind kind, const Params& params,
-                                                const fuzzy::Engine::Table& table);
+/// The core's own planners, skirt, thesis and map, with this response table; no planner for the others.
+/// Parameters and table must outlive the planner.
+SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table);
+
+/// Of the map that a planner of this kind has, for the reference body; none without a map.
+std::optional<map::Shape> map_shape(PlannerKind kind);
 
 }  // namespace whisker

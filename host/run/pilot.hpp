@@ -18,6 +18,8 @@ class Pilot {
   virtual const Status& tick(Time now) = 0;
   /// What the planner was shown last; null before its first step, and on a chip.
   virtual const ground::Patch* patch() const { return nullptr; }
+  /// Likewise what the planner's map tells it; null without a map, too.
+  virtual const ShownGuide* guide() const { return nullptr; }
   /// The status has all that the core knows; false: only what a bus carries.
   virtual bool sees_inside() const { return true; }
   /// Why the robot will not move any more although its core knows of no fault; nullptr: it will.

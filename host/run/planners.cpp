@@ -18,7 +18,7 @@ std::shared_ptr<nav::Planner> bent_skirt(const Params& params) {
 
 }  // namespace
 
-std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params) {
+SeenPlanner make_seen_planner(PlannerKind kind, const Params& params) {
   switch (kind) {
     case PlannerKind::skirt:
     case PlannerKind::thesis:
@@ -27,13 +27,17 @@ std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& param
     case PlannerKind::map_4096:
     case PlannerKind::map_8192:
     case PlannerKind::map_16384: return make_core_planner(kind, params, fuzzy::kDefaultTable);
-    case PlannerKind::bug2: return std::make_shared<baselines::Bug2>(params);
-    case PlannerKind::distbug: return std::make_shared<baselines::DistBug>(params);
-    case PlannerKind::wall_follower: return std::make_shared<baselines::WallFollower>(params);
-    case PlannerKind::fan: return bent_skirt<baselines::FanBend>(params);
-    case PlannerKind::repulsion: return bent_skirt<baselines::RepulsionBend>(params);
+    case PlannerKind::bug2: return {std::make_shared<baselines::Bug2>(params)};
+    case PlannerKind::distbug: return {std::make_shared<baselines::DistBug>(params)};
+    case PlannerKind::wall_follower: return {std::make_shared<baselines::WallFollower>(params)};
+    case PlannerKind::fan: return {bent_skirt<baselines::FanBend>(params)};
+    case PlannerKind::repulsion: return {bent_skirt<baselines::RepulsionBend>(params)};
   }
-  return nullptr;
+  return {};
+}
+
+std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params) {
+  return make_seen_planner(kind, params).planner;
 }
 
 const char* name(PlannerKind kind) {

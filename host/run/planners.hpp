@@ -8,6 +8,7 @@
 #include "firmware/nav/default_planner.hpp"
 #include "firmware/nav/planner.hpp"
 #include "firmware/params.hpp"
+#include "host/run/shown_guide.hpp"
 
 namespace whisker {
 
@@ -52,7 +53,14 @@ constexpr PlannerKind default_planner() {
 constexpr PlannerKind kDefaultPlanner = default_planner();
 static_assert(map_bytes(kDefaultPlanner) == nav::kDefaultMapBytes);
 
+/// A planner, and the guide in it.
+struct SeenPlanner {
+  std::shared_ptr<nav::Planner> planner;
+  const ShownGuide* guide = nullptr;  ///< null without a map; lives as long as the planner
+};
+
 /// With the default response table. The parameters must outlive the planner.
+SeenPlanner make_seen_planner(PlannerKind kind, const Params& params);
 std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params);
 
 /// One to compare with, for hosts only.

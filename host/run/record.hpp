@@ -8,6 +8,7 @@
 #include "firmware/fuzzy/variables.hpp"
 #include "firmware/nav/state.hpp"
 #include "hal/wire.hpp"
+#include "host/run/guidance.hpp"
 
 namespace whisker {
 
@@ -26,6 +27,8 @@ struct TickRecord {
   hal::WheelSpeeds command{};                            ///< 0.1 mm/s
   double est_x_m = 0, est_y_m = 0, est_heading_rad = 0;  ///< the core's own estimate
   bool inside = true;  ///< false: the core is far away and does not tell the fuzzy values and its estimate
+  Guidance guide = Guidance::unknown;
+  double way_x_m = 0, way_y_m = 0;  ///< where the guide leads to, in the estimate's world; 0 without a place
 };
 
 /// Stands for the clearance in an empty world, m: no scenario is larger.

@@ -20,6 +20,7 @@ struct Moment {
   const TickRecord& record;
   const Health& health;
   const ground::Patch* patch;  ///< the pilot's
+  const ShownGuide* guide = nullptr;
 };
 
 struct RunOptions {

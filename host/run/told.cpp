@@ -4,7 +4,7 @@
 
 namespace whisker {
 
-TickRecord told(const Status& status, const hal::RangeReadings& ranges, double t_s) {
+TickRecord told(const Status& status, const ShownGuide* guide, const hal::RangeReadings& ranges, double t_s) {
   TickRecord r;
   r.t_s = t_s;
   r.ranges = ranges;
@@ -21,6 +21,13 @@ TickRecord told(const Status& status, const hal::RangeReadings& ranges, double t
   r.est_x_m = status.pose.at.x.raw() * 1e-6;
   r.est_y_m = status.pose.at.y.raw() * 1e-6;
   r.est_heading_rad = radians(status.pose.heading);
+  if (guide != nullptr) {
+    r.guide = guide->said();
+    if (has_place(r.guide)) {
+      r.way_x_m = guide->way().x.raw() * 1e-6;
+      r.way_y_m = guide->way().y.raw() * 1e-6;
+    }
+  }
   return r;
 }
 

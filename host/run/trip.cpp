@@ -20,9 +20,10 @@ const char* detail_of(Verdict verdict, const Status& status, const Pilot& pilot)
   return verdict == Verdict::fault ? name(status.health.fault) : nav::name(status.decision.why);
 }
 
-TickRecord record_of(const sim::Plant& plant, const Status& status, const hal::RangeReadings& ranges,
-                     double t_s) {
-  TickRecord r = told(status, ranges, t_s);
+TickRecord record_of(const sim::Plant& plant, const Pilot& pilot, const Status& status,
+                     const hal::RangeReadings& ranges, double t_s) {
+  TickRecord r = told(status, pilot.guide(), ranges, t_s);
+  r.inside = pilot.sees_inside();
   r.x_m = plant.pose().at.x;
   r.y_m = plant.pose().at.y;
   r.heading_rad = plant.pose().heading;
@@ -75,11 +76,7 @@ double Trip::distance_left() const {
   return std::sqrt(sim::dot(d, d));
 }
 
-TickRecord Trip::record() const {
-  TickRecord r = record_of(*plant_, *status_, ranges_, t_s_);
-  r.inside = pilot_->sees_inside();
-  return r;
-}
+TickRecord Trip::record() const { return record_of(*plant_, *pilot_, *status_, ranges_, t_s_); }
 
 RunResult Trip::result() const {
   RunResult result;

@@ -30,6 +30,7 @@ class Trip {
   double time() const { return t_s_; }            ///< of the last of them, or of the contact's record
   const Status& status() const { return *status_; }
   const ground::Patch* patch() const { return pilot_->patch(); }
+  const ShownGuide* guide() const { return pilot_->guide(); }
   double distance_left() const;  ///< true, to the goal's middle
   /// Of the last tick, or of the contact.
   TickRecord record() const;

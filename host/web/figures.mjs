@@ -9,6 +9,13 @@ import {Folder} from '../../tests/web/scenarios.mjs';
 const PLAYGROUND = new URL('../../out/playground/index.html', import.meta.url).href;
 const FIGURES = [
   {name: 'replay', hash: '#t=31', viewport: {width: 1440, height: 900}, colorScheme: 'light'},
+  {
+    name: 'replay-map',
+    file: 'map.html',
+    hash: '#t=40',
+    viewport: {width: 1440, height: 900},
+    colorScheme: 'light',
+  },
   {name: 'replay-phone', hash: '#t=12', viewport: PHONE, colorScheme: 'dark', touch: true},
   {
     name: 'playground',
@@ -31,8 +38,9 @@ const folder = new Folder();
 const browser = await launch();
 try {
   folder.drive('discs', ['discs', '--noise', '--seed', 1]);
-  for (const {name, url, seconds, ...options} of FIGURES) {
-    const {page} = await openPage(browser, url ?? folder.url('discs.html', options.hash), {
+  folder.drive('map', ['rooms', '--seed', 4], '--planner', 'map');
+  for (const {name, url, file = 'discs.html', seconds, ...options} of FIGURES) {
+    const {page} = await openPage(browser, url ?? folder.url(file, options.hash), {
       reducedMotion: 'reduce',
       ...options,
     });

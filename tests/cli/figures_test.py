@@ -70,5 +70,24 @@ class Drives(Case):
             self.assertIn(f"`{command}`", text, name)
 
 
+class Pairs(Case):
+    """The map planner beside the skirt planner, one world of each class."""
+
+    def test_show_both_in_one_world_with_the_map_of_one(self):
+        folder = ROOT / "docs/figures"
+        text = (ROOT / "docs/map.md").read_text()
+        names = {path.stem.removesuffix("_skirt") for path in folder.glob("map_*.svg")}
+        self.assertEqual(len(names), 8)
+        for name in names:
+            skirt, led = (folder / f"{name}{end}.svg" for end in ("_skirt", ""))
+            for path in (skirt, led):
+                self.assertLess(path.stat().st_size, 60000, path.name)
+                self.assertIn(f"](figures/{path.name})", text)
+            commands = [re.search(r": (whisker campaign [^<]*)<", path.read_text()).group(1) for path in (skirt, led)]
+            self.assertEqual(commands[1].replace(" --planner map", ""), commands[0])
+            self.assertNotIn("class=\"map\"", skirt.read_text())
+            self.assertIn("class=\"map\"", led.read_text())
+
+
 if __name__ == "__main__":
     whisker.main()

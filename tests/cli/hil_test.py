@@ -13,7 +13,7 @@ import time
 import whisker
 from whisker import KINDS, STATUS, Case, with_time_limit
 
-PRIVATE_TRACE = ("d", "r", "sa", "sd", "est_x_m", "est_y_m", "est_heading_rad")  # what the bus does not carry
+PRIVATE_TRACE = ("d", "r", "sa", "sd", "est_x_m", "est_y_m", "est_heading_rad", "guide", "way_x_m", "way_y_m")  # what the bus does not carry
 
 
 class OnABus(Case):
@@ -64,7 +64,7 @@ class Hil(OnABus):
         rows = [list(csv.DictReader((self.folder / name).read_text().splitlines())) for name in ("run.csv", "hil.csv")]
         self.assertEqual(len(rows[0]), len(rows[1]))
         for alone, both in zip(*rows):
-            self.assertEqual([both[key] for key in PRIVATE_TRACE], [""] * 7)
+            self.assertEqual([both[key] for key in PRIVATE_TRACE], [""] * len(PRIVATE_TRACE))
             self.assertEqual(both, {**alone, **dict.fromkeys(PRIVATE_TRACE, "")})
 
     def test_a_recorded_run_replays_to_the_bit(self):
@@ -98,6 +98,26 @@ class Hil(OnABus):
         run = json.loads(data)["runs"][0]
         self.assertEqual((run["result"]["outcome"], run["result"]["hash"]), (result["outcome"], result["hash"]))
         self.assertEqual((run["planner"], run["inside"]), ("skirt", True))
+
+    def test_a_replay_shows_the_map_that_led(self):
+        scenario, log = self.world("rooms", 4), self.folder / "run.log"
+        options = ("--planner", "map", "--map-bytes", 1024)
+        self.json_of("run", scenario, *options, "--trace", self.folder / "run.csv", "--html", self.folder / "run.html")
+        self.json_of("hil", scenario, *options, "--record", log, "--html", self.folder / "hil.html")
+        self.json_of("replay", log, *options, "--trace", self.folder / "log.csv", "--html", self.folder / "log.html")
+        led = [
+            [(row["guide"], row["way_x_m"], row["way_y_m"]) for row in csv.DictReader((self.folder / name).read_text().splitlines())]
+            for name in ("run.csv", "log.csv")
+        ]
+        self.assertEqual(*led)
+        self.assertIn("place", {guide for guide, _, _ in led[0]})
+        pages = [json.loads(re.search(r'id="data">(.*?)</script>', (self.folder / name).read_text(), re.S)[1])["runs"][0] for name in ("run.html", "log.html", "hil.html")]
+        pictures = [[count for name, _, _, count in page["columns"] if name == "map_tick"] for page in pages]
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertGreater(pictures[0][0], 20)
+        self.assertEqual(pictures[2], [0])
+        for page in pages:
+            self.assertEqual(page["map"], {"bytes": 1024, "columns": 32, "rows": 48, "cell": 0.125})
 
     def test_a_log_that_breaks_off_shows_what_there_is(self):
         log, page = self.folder / "run.log", self.folder / "page.html"

@@ -110,6 +110,18 @@ TEST(Page, OfACampaignHasItsRowsAndReplays) {
   EXPECT_EQ(content(page, "columns-1"), run.columns);
 }
 
+TEST(Page, SaysHowLargeTheMapIs) {
+  const Scenario scenario = short_run();
+  const auto map_of = [&](std::optional<PlannerKind> planner) {
+    const RunResult none;
+    return nlohmann::json::parse(stored({scenario, planner, 1}, {}, none).json)["map"];
+  };
+  EXPECT_TRUE(map_of(PlannerKind::skirt).is_null());
+  EXPECT_TRUE(map_of(std::nullopt).is_null());
+  const nlohmann::json expected = {{"bytes", 1024}, {"columns", 32}, {"rows", 48}, {"cell", 0.125}};
+  EXPECT_EQ(map_of(PlannerKind::map_1024), expected);
+}
+
 TEST(Recording, ChangesNothingAboutTheRun) {
   RunResult result;
   watched(short_run(), result);

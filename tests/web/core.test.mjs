@@ -44,6 +44,10 @@ describe('the core in the playground', () => {
       assert.equal(here.outcome, there.outcome);
       assert.equal(here.ticks, there.ticks);
 
+      const led = native(world, 'map');
+      assert.equal(drive(quiet, 'map').hash, led.hash);
+      assert.notEqual(led.hash, there.hash);
+
       // The thesis's planner with noise, cut short: it may go on for half an hour.
       const noisy = {...quiet, noise: REFERENCE_NOISE, seed: 9, timeLimit: 60};
       const own = folder.at('own.toml');
@@ -73,15 +77,15 @@ describe('the core in the playground', () => {
     }; // prettier-ignore
     const file = folder.at('hand.toml');
     writeFileSync(file, scenarioToml('by hand', situation));
-    for (const planner of ['skirt', 'thesis']) {
+    for (const planner of ['skirt', 'thesis', 'map']) {
       assert.equal(drive(situation, planner).hash, native(file, planner).hash, planner);
     }
   });
 
   test('the hashes on record are what the native program gives', () => {
     const recorded = JSON.parse(readFileSync(join(ROOT, 'host/web/src/playground/native.json'), 'utf8'));
-    const now = nativeHashes([1], ['skirt']);
-    assert.equal(Object.keys(now).length, KINDS.length);
+    const now = nativeHashes([1], ['skirt', 'map']);
+    assert.equal(Object.keys(now).length, 2 * KINDS.length);
     for (const [name, hash] of Object.entries(now)) assert.equal(recorded[name], hash, name);
   });
 
@@ -115,6 +119,27 @@ describe('the core in the playground', () => {
     assert.notEqual(drive(situation, 'skirt').hash, before);
     core.setRules(rules);
     assert.equal(drive(situation, 'skirt').hash, before);
+  });
+
+  test('the map has a window around the robot, and a plan that begins beside it', () => {
+    const situation = core.generate('rooms', 4, false);
+    core.begin(0, 'map', situation);
+    core.advance(0, 3000);
+    const record = new Map();
+    core.record(0, record);
+    const at = (name) => record.get(name)[0];
+    const [columns, rows, cell, left, bottom, ...rest] = core.map(0);
+    assert.deepEqual([columns, rows, cell], [64, 56, 0.1]);
+    const states = rest.slice(0, columns * rows);
+    assert.deepEqual([...new Set(states)].sort(), [0, 1, 2, 3]);
+    const body = [Math.floor(at('est_x_m') / cell) - left, Math.floor(at('est_y_m') / cell) - bottom];
+    assert.equal(states[body[0] + columns * body[1]], 1, 'the robot does not stand on free ground');
+    const way = rest.slice(columns * rows);
+    assert.ok(way.length > 10);
+    assert.ok(Math.abs(way[0] - body[0]) <= 2 && Math.abs(way[1] - body[1]) <= 2);
+    assert.ok(['goal', 'place'].includes(core.words.guides[at('guide')]));
+    core.begin(0, 'skirt', situation);
+    assert.equal(core.map(0).length, 0);
   });
 
   test('a goal that moves on is driven to', () => {

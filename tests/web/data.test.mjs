@@ -26,8 +26,10 @@ const TOLERANCES = {
   est_x_m: 6e-7,
   est_y_m: 6e-7,
   est_heading_rad: 6e-7,
+  way_x_m: 6e-7,
+  way_y_m: 6e-7,
 };
-const WORDS = {state: 'mode', why: 'why'};
+const WORDS = {state: 'mode', why: 'why', guide: 'guide'};
 const BEAMS = ['left_m', 'front_m', 'right_m'];
 
 /** Every column of the trace at these ticks, as the page decodes it. */
@@ -39,6 +41,7 @@ function decoded(page, ticks) {
         const row = Object.fromEntries(names.map((name) => [name, run.column(name)[tick]]));
         beams.forEach((name, i) => (row[name] = run.range(i, tick)));
         for (const [name, method] of Object.entries(words)) row[name] = run[method](tick);
+        if (!['goal', 'place'].includes(row.guide)) row.way_x_m = row.way_y_m = null;
         return row;
       });
     },
@@ -64,6 +67,7 @@ describe('the decoded data', () => {
   const runs = {
     'u-trap': () => folder.run('u-trap', U_TRAP),
     noise: () => folder.drive('noise', ['rooms', '--noise', '--seed', 2]),
+    map: () => folder.drive('map', ['rooms', '--noise', '--seed', 4], '--planner', 'map'),
     thesis: () => folder.drive('thesis', ['discs', '--noise', '--seed', 3], '--planner', 'thesis'),
   };
   for (const [name, drive] of Object.entries(runs)) {
@@ -180,10 +184,14 @@ describe('the decoded data', () => {
 
   test('every state and reason has plain words', async () => {
     const {page} = await openPage(browser, folder.url('u-trap.html'));
-    const {modes, whys, faults} = await page.evaluate(() => window.whisker.run.shared);
-    const {DOES, BECAUSE, FAULTS} = await import('./sources.mjs').then(({words}) => words());
+    const {modes, whys, faults, guides} = await page.evaluate(() => window.whisker.run.shared);
+    const {DOES, BECAUSE, FAULTS, LED, sentence} = await import('./sources.mjs').then(({words}) => words());
     assert.deepEqual([...modes].sort(), Object.keys(DOES).sort());
     assert.deepEqual([...whys].sort(), Object.keys(BECAUSE).sort());
     assert.deepEqual([...faults].sort(), Object.keys(FAULTS).sort());
+    assert.ok(Object.keys(LED).every((guide) => guides.includes(guide)));
+    assert.match(sentence('going', 'target_free', 'place'), /^Drives to the next place .* nothing is near/);
+    assert.equal(sentence('going', 'target_free', 'goal'), sentence('going', 'target_free'));
+    assert.equal(sentence('skirting', 'edge', 'place'), sentence('skirting', 'edge'));
   });
 });

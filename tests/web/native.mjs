@@ -5,7 +5,7 @@ export const KINDS = ['discs', 'poles', 'u-trap', 'spiral', 'maze', 'rooms', 'en
 const SEEDS = [1, 2, 3, 7];
 
 /** By "class seed planner". */
-export function nativeHashes(seeds = SEEDS, planners = ['skirt', 'thesis']) {
+export function nativeHashes(seeds = SEEDS, planners = ['skirt', 'thesis', 'map']) {
   const folder = new Folder();
   const hashes = {};
   try {

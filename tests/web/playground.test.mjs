@@ -231,6 +231,40 @@ describe('the playground', () => {
     assert.equal(await play(page, 'play.state.seed'), 5);
   });
 
+  test('the map planner drives natively to the same hash, and shows its map', async () => {
+    const {page, complaints} = await open('#world=rooms&seed=3&planner=map');
+    assert.equal(await page.textContent('#card-0 h2'), 'map planner');
+    assert.equal(await page.locator('.map-key:visible').count(), 5);
+    const canvas = () =>
+      page.evaluate(() => {
+        const picture = document.querySelector('.card canvas');
+        const {data} = picture.getContext('2d').getImageData(0, 0, picture.width, picture.height);
+        return new Set(new Uint32Array(data.buffer)).size;
+      });
+    const before = await canvas();
+    await page.evaluate(() => {
+      const {play} = window.whisker;
+      play.runs[0].advance(1500);
+      play.runs[0].refresh();
+      play.select(null);
+    });
+    await drawn(page);
+    assert.ok((await canvas()) > before, 'nothing of a map is drawn');
+    const known = await play(
+      page,
+      '[...Array(64 * 56).keys()].filter((i) => { const {map} = play.runs[0]; return map.state(map.corner[0] + (i % 64), map.corner[1] + Math.floor(i / 64)) > 0; }).length',
+    );
+    assert.ok(known > 100, `${known} cells are known`);
+    await toTheEnd(page);
+    assert.match(await page.textContent('#hashes'), /equals the native run/);
+    await page.click('#who-skirt-map');
+    assert.equal(await page.locator('.card:visible').count(), 2);
+    await page.waitForFunction(() => location.hash.includes('planner=skirt-map'));
+    await page.click('#who-both');
+    assert.equal(await page.locator('.map-key:visible').count(), 0);
+    assert.deepEqual(complaints, []);
+  });
+
   test('the address alone brings all of it back', async () => {
     const first = (await open('#world=discs&seed=8&planner=skirt')).page;
     await first.click('#add-disc');

@@ -62,7 +62,7 @@ export class CloseUp {
     this.label(tick);
   }
 
-  /** Where the goal is, and where the response table asks to go. */
+  /** Where the goal is and the place that a map leads to, and where the response table asks to go. */
   private drawArrows(c: CanvasRenderingContext2D, pixel: number, tick: number): void {
     const {run} = this;
     const p = this.theme.palette;
@@ -72,8 +72,13 @@ export class CloseUp {
     const dy = goalY - at('est_y_m');
     const reach = run.info.robot.radius * 3;
     if (Math.hypot(dx, dy) < reach) return;
-    // Both as the robot believes, turned into the true world.
-    const toGoal = Math.atan2(dy, dx) + at('heading_rad') - at('est_heading_rad');
+    // All as the robot believes, turned into the true world.
+    const turn = at('heading_rad') - at('est_heading_rad');
+    const toGoal = Math.atan2(dy, dx) + turn;
+    const led = run.guide(tick) === 'place';
+    const ahead = led
+      ? Math.atan2(at('way_y_m') - at('est_y_m'), at('way_x_m') - at('est_x_m')) + turn
+      : toGoal;
     const arrow = (direction: number, length: number, colour: string, dashed: boolean) => {
       const tip = (r: number, side: number): [number, number] => [
         at('x_m') + r * Math.cos(direction + side),
@@ -95,7 +100,8 @@ export class CloseUp {
       c.stroke();
     };
     arrow(toGoal, reach * 1.25, p.goal, true);
-    if (usesTable(run, tick)) arrow(toGoal + at('sa') * run.info.robot.base_turn, reach, p.table, false);
+    if (led) arrow(ahead, reach * 1.25, p.map, true);
+    if (usesTable(run, tick)) arrow(ahead + at('sa') * run.info.robot.base_turn, reach, p.table, false);
   }
 
   private label(tick: number): void {

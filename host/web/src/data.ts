@@ -1,6 +1,7 @@
 /** What the page is about, as the tool has put it into the file. */
 import {bytesOfBase64, decodeColumns, GrowingColumn, inflated, type ColumnInfo} from './columns.ts';
-import {Film} from './film.ts';
+import {Film, MapFilm, type MapInfo} from './film.ts';
+import type {MapSeen} from './map_scenery.ts';
 
 export type Point = [x: number, y: number];
 
@@ -61,6 +62,8 @@ export interface Setting {
   name: string;
   /** Null: whoever drives has not said it. */
   planner: string | null;
+  /** Of the planner; null: it has none, or nobody knows. */
+  map: MapInfo | null;
   /** False: the page does not know what the core asks its table, what it believes and what it counts. */
   inside: boolean;
   seed: number;
@@ -106,6 +109,8 @@ export interface Shared {
   modes: string[];
   whys: string[];
   faults: string[];
+  /** What a map says at a tick; nothing where there is none. */
+  guides: string[];
   doings: {name: string; label: string}[];
   controller: Controller;
 }
@@ -168,8 +173,12 @@ export interface Seen {
     seek(tick: number): number;
     forEachClear(bodyX: number, bodyY: number, clear: (x: number, y: number) => void): void;
   };
+  /** Null: there is none, or it is not known here. */
+  readonly map: MapSeen | null;
   column(name: string): ArrayLike<number>;
   mode(tick: number): string;
+  /** What the map says. */
+  guide(tick: number): string;
   why(tick: number): string;
   range(beam: number, tick: number): number | null;
 }
@@ -198,6 +207,7 @@ const BELIEFS = [
 /** One run with all its ticks, or with all so far. */
 export class Run implements Seen {
   readonly film = new Film();
+  readonly map: MapFilm | null;
   private readonly growing = new Map<string, GrowingColumn>();
   private readonly columns = new Map<string, Float64Array>();
 
@@ -206,6 +216,9 @@ export class Run implements Seen {
     readonly shared: Shared,
     columns: Map<string, Float64Array>,
   ) {
+    // The first word is nothing: who drives does not tell.
+    const tells = columns.get('guide')?.[0] !== 0;
+    this.map = info.map && info.inside && tells ? new MapFilm(info.map) : null;
     this.grow(columns, 0);
   }
 
@@ -229,8 +242,11 @@ export class Run implements Seen {
     if (!this.info.inside) {
       for (const [belief, truth] of BELIEFS) this.columns.set(belief, this.column(truth));
     }
-    const film = ['tick', 'changes', 'word', 'bits'].map((name) => this.column(`film_${name}`));
-    this.film.grow(film[0], film[1], film[2], film[3]);
+    const all = (name: string) =>
+      [this.column(`${name}_tick`), this.column(`${name}_changes`), this.column(`${name}_word`), this.column(`${name}_bits`)] as const; // prettier-ignore
+    this.film.grow(...all('film'));
+    this.map?.grow(...all('map'));
+    this.map?.growWindows(this.column('map_x'), this.column('map_y'));
   }
 
   /** Where the robot has proved the ground clear is known. */
@@ -249,6 +265,10 @@ export class Run implements Seen {
   }
   why(tick: number): string {
     return this.shared.whys[this.column('why')[tick]];
+  }
+
+  guide(tick: number): string {
+    return this.shared.guides[this.column('guide')[tick]];
   }
 
   range(beam: number, tick: number): number | null {

@@ -22,9 +22,22 @@ function noiseWords(noise: Record<string, number>): string {
   return parts.length > 0 ? parts.join(', ') : 'none';
 }
 
+/** "map planner, 2048 bytes"; nothing where nobody has said who drives. */
+function plannerWords({planner, map}: Run['info']): string {
+  if (map) return `map planner, ${map.bytes} bytes`;
+  return planner ? `${planner} planner` : '';
+}
+
+function andMap({planner, map}: Run['info']): string {
+  if (map) return ` and a map of ${map.bytes} bytes`;
+  return planner ? ' and no map' : '';
+}
+
 /** Where the core is far away, much stays there. */
 function sayWhatIsUnknown(run: Run): void {
-  const {inside} = run.info;
+  const {inside, map} = run.info;
+  element('way-key').hidden = !run.map;
+  element('map-unknown').hidden = !map || run.map !== null;
   element('counters-unknown').hidden = inside;
   for (const id of ['course-key', 'rules']) element(id).hidden = !inside;
   element('clear-unknown').hidden = run.hasFilm;
@@ -45,6 +58,8 @@ export class Facts {
   ) {
     const {name, inside} = run.info;
     setText('title', name || 'unnamed scenario');
+    setText('planner-name', plannerWords(run.info));
+    setText('and-map', andMap(run.info));
     document.title = `${name || 'run'} - Whisker`;
     this.list('under way');
     sayWhatIsUnknown(run);
@@ -65,11 +80,11 @@ export class Facts {
 
   /** What is known of the run; without a verdict, these words are it. */
   private list(unknown: string): void {
-    const {result, planner, seed, noise, command} = this.run.info;
+    const {result, planner, map, seed, noise, command} = this.run.info;
     setText('verdict', result ? verdict(result.outcome, result.time_s) : unknown);
     element('verdict').dataset.outcome = result?.outcome ?? 'none';
     const facts: [string, string][] = [
-      ['planner', planner ?? 'not known here'],
+      ['planner', map ? plannerWords(this.run.info) : (planner ?? 'not known here')],
       ['noise', noiseWords(noise)],
       ['noise seed', String(seed)],
     ];
@@ -101,7 +116,7 @@ export class Facts {
     element('state').classList.toggle('pale', stateColour(run, tick) === 'still');
     const fault = run.shared.faults[at('fault')];
     const named = fault === 'none' ? '' : ` The fault: ${FAULTS[fault] ?? fault}.`;
-    setText('sentence', sentence(run.mode(tick), run.why(tick)) + named);
+    setText('sentence', sentence(run.mode(tick), run.why(tick), run.guide(tick)) + named);
     setText('now-time', `${run.t[tick].toFixed(2)} s`);
     setText('now-tick', `tick ${tick}`);
     setText('now-distance', metres(this.way.distance[tick]));

@@ -9,7 +9,13 @@ import {metres} from './words.ts';
 const NEARER = 0.03;
 const REFERENCE_RADIUS = 0.09;
 
-function notSkirt(planner: string | null): string {
+function notSkirt({planner, map}: Run['info']): string {
+  if (map) {
+    return (
+      'Its map leads as long as that brings it nearer to the goal. Where it does not, it follows the edges by the rule ' +
+      'of the skirt planner, and the map leads again where the goal is nearer than ever before. So this ends, too.'
+    );
+  }
   return planner === null
     ? 'Which planner drives is not known here, and so neither is what keeps it from getting stuck.'
     : `The rule of the skirt planner does not hold here: this is ${planner}.`;
@@ -34,7 +40,7 @@ export class ProgressPanel {
   ) {
     this.skirts = run.info.planner === 'skirt';
     element('rule-of-progress').hidden = !this.skirts;
-    setText('planner-of-progress', this.skirts ? '' : notSkirt(run.info.planner));
+    setText('planner-of-progress', this.skirts ? '' : notSkirt(run.info));
     this.grow();
   }
 

@@ -1,5 +1,6 @@
 /** What both views of the world draw. Lengths are metres; the canvas is set to the world's axes. */
 import {BEAMS, RangeStatus, type Seen} from './data.ts';
+import {MapScenery} from './map_scenery.ts';
 import {moverPosition, polyline} from './shapes.ts';
 import type {Palette} from './theme.ts';
 
@@ -9,8 +10,10 @@ export class Scenery {
   private readonly discs = new Path2D();
   private readonly polygons = new Path2D();
   private readonly walls = new Path2D();
+  private readonly map: MapScenery | null;
 
   constructor(private readonly run: Seen) {
+    this.map = run.map && new MapScenery(run.map);
     const {discs, polygons, walls} = run.info.world;
     for (const [x, y, radius] of discs) {
       this.discs.moveTo(x + radius, y);
@@ -71,17 +74,35 @@ export class Scenery {
     const {cell} = run.info.robot;
     const frame = run.film.seek(tick);
     if (frame < 0) return;
-    const at = (name: string, i: number) => run.column(name)[i];
+    const bodyX = Math.floor(run.column('est_x_m')[frame] / cell + 1e-6);
+    const bodyY = Math.floor(run.column('est_y_m')[frame] / cell + 1e-6);
+    this.asBelieved(c, tick, () => {
+      c.fillStyle = p.clear;
+      c.beginPath();
+      run.film.forEachClear(bodyX, bodyY, (x, y) => c.rect(x * cell, y * cell, cell, cell));
+      c.fill();
+    });
+  }
+
+  /** The map with its plan, likewise, and the place that it leads to. */
+  drawMap(c: CanvasRenderingContext2D, p: Palette, pixel: number, tick: number): void {
+    const {run, map} = this;
+    if (!map) return;
+    const at = (name: string) => run.column(name)[tick];
+    this.asBelieved(c, tick, () => {
+      map.draw(c, p, pixel, tick);
+      if (run.guide(tick) !== 'place') return;
+      map.drawWayPoint(c, p, pixel, [at('est_x_m'), at('est_y_m')], [at('way_x_m'), at('way_y_m')]);
+    });
+  }
+
+  private asBelieved(c: CanvasRenderingContext2D, tick: number, draw: () => void): void {
+    const at = (name: string) => this.run.column(name)[tick];
     c.save();
-    c.translate(at('x_m', tick), at('y_m', tick));
-    c.rotate(at('heading_rad', tick) - at('est_heading_rad', tick));
-    c.translate(-at('est_x_m', tick), -at('est_y_m', tick));
-    c.fillStyle = p.clear;
-    const bodyX = Math.floor(at('est_x_m', frame) / cell + 1e-6);
-    const bodyY = Math.floor(at('est_y_m', frame) / cell + 1e-6);
-    c.beginPath();
-    run.film.forEachClear(bodyX, bodyY, (x, y) => c.rect(x * cell, y * cell, cell, cell));
-    c.fill();
+    c.translate(at('x_m'), at('y_m'));
+    c.rotate(at('heading_rad') - at('est_heading_rad'));
+    c.translate(-at('est_x_m'), -at('est_y_m'));
+    draw();
     c.restore();
   }
 

@@ -5,6 +5,7 @@ const KEY = 'whisker-theme';
 const PROPERTIES = [
   'ink', 'muted', 'line', 'grid', 'panel', 'ground', 'outside', 'obstacle', 'obstacle-edge', 'wall', 'goal', 'contact',
   'clear', 'unknown', 'body', 'free', 'table', 'probing', 'danger', 'still', 'over', 'left', 'front', 'right', 'mover',
+  'map', 'map-free', 'map-suspect', 'map-occupied',
   'turn-right', 'turn-none', 'turn-left', 'step-small', 'step-large', 'accent',
 ] as const; // prettier-ignore
 

@@ -47,6 +47,13 @@ export function stateColour(run: Seen, tick: number): Colour {
 /** What a lane says of a tick. */
 type Lane = (run: Run, tick: number) => [label: string, colour: Colour];
 
+const GUIDES: Record<string, [label: string, colour: Colour]> = {
+  goal: ['straight', 'free'],
+  place: ['way point', 'map'],
+  wait: ['plans', 'still'],
+  none: ['edges', 'danger'],
+};
+
 const LANES: Lane[] = [
   (run, tick) => [run.mode(tick), stateColour(run, tick)],
   (run, tick) => {
@@ -54,6 +61,10 @@ const LANES: Lane[] = [
     return [why.replaceAll('_', ' '), WHY_COLOURS[why] ?? 'still'];
   },
 ];
+
+/** What the map says; before the first movement nobody has asked it. */
+const MAP_LANE: Lane = (run, tick) =>
+  run.why(tick) === 'goal_set' ? ['', 'still'] : GUIDES[run.guide(tick)];
 
 /** Goes on with these segments up to the last tick. */
 function extend(all: Segment[], run: Run, lane: Lane): void {
@@ -68,7 +79,7 @@ function extend(all: Segment[], run: Run, lane: Lane): void {
 export class Timeline {
   private readonly surface: Surface;
   private readonly slider = element<HTMLInputElement>('scrub');
-  private readonly lanes: Segment[][] = LANES.map(() => []);
+  private readonly lanes: {says: Lane; segments: Segment[]}[];
   /** Ticks at which state or reason changes. */
   private changes: number[] = [];
 
@@ -77,6 +88,9 @@ export class Timeline {
     private readonly player: Player,
     private readonly theme: Theme,
   ) {
+    this.lanes = (run.map ? [...LANES, MAP_LANE] : LANES).map((says) => ({says, segments: []}));
+    element('lane-map').hidden = !run.map;
+    element('lane-rows').classList.toggle('three', run.map !== null);
     this.surface = new Surface(element<HTMLCanvasElement>('lanes'), () => this.draw());
     this.slider.addEventListener('input', () => player.seek(Number(this.slider.value)));
     this.grow();
@@ -84,8 +98,9 @@ export class Timeline {
 
   /** The run has more ticks. */
   grow(): void {
-    this.lanes.forEach((list, i) => extend(list, this.run, LANES[i]));
-    this.changes = [...new Set(this.lanes.flat().map(({from}) => from))].sort((a, b) => a - b);
+    for (const {says, segments} of this.lanes) extend(segments, this.run, says);
+    const starts = this.lanes.slice(0, LANES.length).flatMap(({segments}) => segments.map(({from}) => from));
+    this.changes = [...new Set(starts)].sort((a, b) => a - b);
     this.slider.max = String(this.player.end);
     this.draw();
   }
@@ -94,18 +109,18 @@ export class Timeline {
     const c = this.surface.clear();
     const p = this.theme.palette;
     const {width, height} = this.surface;
-    const lane = (height - 4) / 2;
+    const lane = (height + 4) / this.lanes.length - 4;
     c.font = '11px Inter, system-ui, sans-serif';
     c.textBaseline = 'middle';
     c.textAlign = 'left';
-    this.lanes.forEach((list, row) => {
+    this.lanes.forEach(({segments}, row) => {
       const y = row * (lane + 4);
-      for (const {from, to, colour} of list) {
+      for (const {from, to, colour} of segments) {
         const x0 = this.x(from);
         c.fillStyle = p[colour];
         c.fillRect(x0, y, Math.max(0.75, this.x(to) - x0), lane);
       }
-      for (const {from, to, label, colour} of list) {
+      for (const {from, to, label, colour} of segments) {
         const x0 = Math.max(0, this.x(from));
         const room = Math.min(width, this.x(to)) - x0;
         if (c.measureText(label).width + 10 > room) continue;
@@ -121,7 +136,7 @@ export class Timeline {
     element('lanes-head').style.transform = `translateX(${this.x(tick)}px)`;
     // Not on every frame: a screen reader would never come to an end.
     if (this.player.playing || this.player.following) return;
-    const now = `${this.run.t[tick].toFixed(2)} s. ${sentence(this.run.mode(tick), this.run.why(tick))}`;
+    const now = `${this.run.t[tick].toFixed(2)} s. ${sentence(this.run.mode(tick), this.run.why(tick), this.run.guide(tick))}`;
     this.slider.setAttribute('aria-valuetext', now);
     setText('spoken', now);
   }

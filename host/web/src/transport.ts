@@ -81,6 +81,7 @@ export class Transport {
       '=': () => player.shiftSpeed(1),
       f: () => this.world.toggleFollowing(),
       '0': () => this.world.showAll(),
+      m: () => this.world.toggleMap(),
       l: () => player.live && player.seek(player.end),
       d: () => this.theme.toggle(),
       '?': () => element<HTMLDialogElement>('keys').showModal(),

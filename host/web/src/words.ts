@@ -18,6 +18,12 @@ export const DOES: Record<string, string> = {
   stopped: 'Stopped for safety',
 };
 
+/** The same where a map leads it towards the goal. */
+export const LED: Record<string, string> = {
+  place: 'Drives to the next place on the way that its map knows',
+  wait: 'Waits until its map has another plan',
+};
+
 /** Why it does that, by reason. */
 export const BECAUSE: Record<string, string> = {
   none: '',
@@ -103,10 +109,11 @@ export function verdict(outcome: string, seconds: number): string {
   return `${words} ${outcome === 'reached' ? 'in' : 'after'} ${seconds.toFixed(1)} s`;
 }
 
-/** What happens at a tick, as one sentence. */
-export function sentence(mode: string, why: string): string {
+/** What happens at a tick, as one sentence. `guide`: what a map says. */
+export function sentence(mode: string, why: string, guide = ''): string {
   const because = BECAUSE[why] ?? why;
-  return `${DOES[mode] ?? mode}${because ? `: ${because}` : ''}.`;
+  const does = (mode === 'going' && LED[guide]) || (DOES[mode] ?? mode);
+  return `${does}${because ? `: ${because}` : ''}.`;
 }
 
 /** "0.42 m" */

@@ -20,6 +20,7 @@ export class WorldView {
   private whole = new Path2D();
   private box: Box;
   private following = false;
+  private showsMap = true;
   /** The reader has moved the view. */
   private moved = false;
 
@@ -43,6 +44,9 @@ export class WorldView {
       oneFingerPans: () => this.moved,
     });
     element('fit').addEventListener('click', () => this.showAll());
+    for (const id of ['show-map', 'key-map']) element(id).hidden = !run.map;
+    element('show-map').addEventListener('click', () => this.toggleMap());
+    this.showMapKeys();
     element('follow').addEventListener('click', () => this.setFollowing(!this.following));
   }
 
@@ -78,6 +82,13 @@ export class WorldView {
     else this.setFollowing(true);
   }
 
+  toggleMap(): void {
+    if (!this.run.map) return;
+    this.showsMap = !this.showsMap;
+    this.showMapKeys();
+    this.draw();
+  }
+
   draw(): void {
     const {run, theme, camera, surface, scenery} = this;
     const p = theme.palette;
@@ -96,6 +107,7 @@ export class WorldView {
     drawLineToGoal(c, p, pixel, run.info.world);
     scenery.drawPatch(c, p, tick);
     scenery.drawObstacles(c, p, pixel, time);
+    if (this.showsMap) scenery.drawMap(c, p, pixel, tick);
     scenery.drawGoal(c, p, pixel);
     this.drawPath(c, pixel, tick);
     scenery.drawBeams(c, p, pixel, tick);
@@ -103,6 +115,13 @@ export class WorldView {
     c.restore();
     this.drawMarks(c, tick);
     drawScaleBar(c, p, camera, surface);
+  }
+
+  private showMapKeys(): void {
+    element('show-map').setAttribute('aria-pressed', String(this.showsMap));
+    for (const key of document.querySelectorAll<HTMLElement>('.map-key')) {
+      key.hidden = !this.run.map || !this.showsMap;
+    }
   }
 
   /** The last piece may become longer. */

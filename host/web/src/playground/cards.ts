@@ -19,7 +19,7 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   const fault = run.fault();
   say(
     'sentence',
-    sentence(run.mode(), run.why()) + (fault === 'none' ? '' : ` The fault: ${FAULTS[fault]}.`),
+    sentence(run.mode(), run.why(), run.guide()) + (fault === 'none' ? '' : ` The fault: ${FAULTS[fault]}.`),
   );
   say('verdict', outcome ? verdict(outcome, time) : '');
   part('verdict').dataset.outcome = outcome ?? '';
@@ -33,6 +33,9 @@ const PROGRESS = {
   thesis:
     'It may: it leaves an edge as soon as the goal comes into sight, nearer or not, and can walk into the same trap for ever. ' +
     'The skirt planner is what mends that.',
+  map:
+    'Its map of what the beams have seen, 2048 bytes in all, leads as long as that brings it nearer to the goal. ' +
+    'Where it does not, it follows the edges by the rule of the skirt planner, and the map leads again where the goal is nearer than ever before.',
 };
 
 /** Of the robot that the panels look at. */

@@ -1,7 +1,7 @@
 /** Which world, who drives, how fast; and the keys. */
 import {element, setText} from '../dom.ts';
 import type {Playground} from './playground.ts';
-import type {Who} from './share.ts';
+import {WHO, type Who} from './share.ts';
 import type {Stage} from './stage.ts';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64];
@@ -30,7 +30,7 @@ export class Controls {
     this.seed.addEventListener('change', () => this.world(play.state.kind, Number(this.seed.value)));
     element('next-seed').addEventListener('click', () => this.world(play.state.kind, play.state.seed + 1));
     element('original').addEventListener('click', () => this.world(play.state.kind, play.state.seed));
-    for (const who of ['skirt', 'thesis', 'both'] as const) {
+    for (const who of Object.keys(WHO) as Who[]) {
       element(`who-${who}`).addEventListener('click', () => this.who(who));
     }
     this.speed.replaceChildren(...SPEEDS.map((s) => new Option(`${s}×`, String(s))));
@@ -51,9 +51,11 @@ export class Controls {
     const {kind, seed, who, own} = play.state;
     this.kind.value = kind;
     if (document.activeElement !== this.seed) this.seed.value = String(seed);
-    for (const name of ['skirt', 'thesis', 'both'] as const) {
+    for (const name of Object.keys(WHO) as Who[]) {
       element(`who-${name}`).setAttribute('aria-pressed', String(name === who));
     }
+    const noMap = play.runs.every((run) => run.map === null);
+    for (const key of document.querySelectorAll<HTMLElement>('.map-key')) key.hidden = noMap;
     element('original').hidden = own === null;
     element('play').setAttribute('aria-label', play.playing ? 'Pause' : 'Play');
     element('play').classList.toggle('playing', play.playing);

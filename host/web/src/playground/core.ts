@@ -15,6 +15,7 @@ interface Exports {
   result(side: number): number;
   way(side: number, from: number): number;
   clear_cells(side: number): number;
+  map(side: number): number;
   robot(): number;
   get_rules(): number;
   set_rules(): number;
@@ -28,10 +29,11 @@ interface Exports {
 const COLUMNS = [
   't_s', 'x_m', 'y_m', 'heading_rad', 'est_x_m', 'est_y_m', 'est_heading_rad', 'v_left_mps', 'v_right_mps',
   'state', 'why', 'doing', 't', 'd', 'r', 'sa', 'sd', 'cell_d', 'cell_r', 'fault',
+  'guide', 'way_x_m', 'way_y_m',
   'left_m', 'left_status', 'front_m', 'front_status', 'right_m', 'right_status',
 ] as const; // prettier-ignore
 
-export const PLANNERS = ['skirt', 'thesis'] as const;
+export const PLANNERS = ['skirt', 'thesis', 'map'] as const;
 export type Planner = (typeof PLANNERS)[number];
 
 export const OUTCOMES = ['reached', 'unreachable', 'gave_up', 'contact', 'fault'] as const;
@@ -64,7 +66,7 @@ export const RULE_FAULTS = {
   stepsLongerNear: 16,
 } as const;
 
-const WORDS = {modes: 0, whys: 1, faults: 2, kinds: 3} as const;
+const WORDS = {modes: 0, whys: 1, faults: 2, kinds: 3, guides: 4} as const;
 
 export class Core {
   readonly words: Record<keyof typeof WORDS, string[]>;
@@ -140,6 +142,11 @@ export class Core {
 
   clearCells(side: number): Float64Array {
     return this.read(this.wasm.clear_cells(side));
+  }
+
+  /** Columns, rows, side of a cell, corner, states, and places of the plan's way; empty without a map. */
+  map(side: number): Float64Array {
+    return this.read(this.wasm.map(side));
   }
 
   /** 25 turns and 25 steps, raw. */

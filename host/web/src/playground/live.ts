@@ -1,6 +1,7 @@
 /** A robot under way: what the replay page's parts want to know of a run, of which only now is known. */
 import {rangeOf, type Controller, type Seen} from '../data.ts';
 import type {Core, Planner, Result} from './core.ts';
+import {LiveMap} from './live_map.ts';
 import type {Situation} from './situation.ts';
 
 /** A stretch of the way in one class. */
@@ -15,6 +16,8 @@ export class LiveRun implements Seen {
   info: Seen['info'];
   result: Result;
   stretches: Stretch[] = [];
+  /** Null: its planner has none. */
+  readonly map: LiveMap | null;
   private readonly columns = new Map<string, Float64Array>();
   private cells: Float64Array = new Float64Array();
   private passed = 0;
@@ -31,6 +34,7 @@ export class LiveRun implements Seen {
   ) {
     core.begin(side, planner, situation);
     this.info = {world: situation.world, robot: core.robot, inside: true};
+    this.map = planner === 'map' ? new LiveMap() : null;
     this.result = core.result(side);
     this.refresh();
   }
@@ -56,6 +60,7 @@ export class LiveRun implements Seen {
     this.core.record(this.side, this.columns);
     this.result = this.core.result(this.side);
     this.cells = this.core.clearCells(this.side);
+    this.map?.show(this.core.map(this.side));
     const way = this.core.way(this.side, this.passed);
     for (let i = 0; i < way.length; i += 3) this.pass(way[i], way[i + 1], way[i + 2]);
     this.passed += way.length / 3;
@@ -81,6 +86,9 @@ export class LiveRun implements Seen {
   }
   fault(): string {
     return this.core.words.faults[this.column('fault')[0]];
+  }
+  guide(): string {
+    return this.core.words.guides[this.column('guide')[0]];
   }
   range(beam: number, tick: number): number | null {
     return rangeOf(this, beam, tick);

@@ -5,7 +5,7 @@ import {sceneBoxOf} from '../scene_box.ts';
 import type {Core, Planner} from './core.ts';
 import type {Controller} from '../data.ts';
 import {LiveRun} from './live.ts';
-import type {State} from './share.ts';
+import {WHO, type State} from './share.ts';
 import type {Situation} from './situation.ts';
 import {distanceTo, moved, sized, withNew, without, type NewKind, type Thing} from './things.ts';
 
@@ -42,8 +42,8 @@ export class Playground {
     this.listeners.push(listener);
   }
 
-  get planners(): Planner[] {
-    return this.state.who === 'both' ? ['skirt', 'thesis'] : [this.state.who];
+  get planners(): readonly Planner[] {
+    return WHO[this.state.who];
   }
   get over(): boolean {
     return this.runs.every((run) => run.over);

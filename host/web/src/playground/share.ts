@@ -3,7 +3,19 @@ import {bytesOfBase64, inflated} from '../columns.ts';
 import {flat, situationOf, type Situation} from './situation.ts';
 import type {Planner} from './core.ts';
 
-export type Who = Planner | 'both';
+/** Alone, or two side by side. */
+export const WHO = {
+  skirt: ['skirt'],
+  thesis: ['thesis'],
+  map: ['map'],
+  both: ['skirt', 'thesis'],
+  'skirt-map': ['skirt', 'map'],
+} as const satisfies Record<string, readonly Planner[]>;
+export type Who = keyof typeof WHO;
+
+export function isWho(text: string): text is Who {
+  return Object.hasOwn(WHO, text);
+}
 
 export interface State {
   kind: string;
@@ -69,7 +81,7 @@ export async function stateOf(hash: string, kinds: string[], otherwise: State): 
   return {
     kind: kinds.includes(kind) ? kind : otherwise.kind,
     seed: Number.isSafeInteger(seed) && seed >= 0 ? seed : otherwise.seed,
-    who: ['skirt', 'thesis', 'both'].includes(who) ? (who as Who) : otherwise.who,
+    who: isWho(who) ? who : otherwise.who,
     noise: noiseOf(params.get('noise')),
     rules: /^[0-4]{50}$/.test(rules) ? rules : null,
     own: own ? await ownOf(own) : null,

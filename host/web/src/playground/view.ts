@@ -72,6 +72,7 @@ export class View {
     drawLineToGoal(c, p, pixel, world);
     scenery.drawPatch(c, p, 0);
     scenery.drawObstacles(c, p, pixel, run.t[0]);
+    scenery.drawMap(c, p, pixel, 0);
     if (selected) this.drawSelected(c, p, pixel, world, selected);
     scenery.drawGoal(c, p, pixel);
     this.drawWay(c, p, pixel);

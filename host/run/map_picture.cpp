@@ -1,0 +1,50 @@
+#include "host/run/map_picture.hpp"
+
+#include <algorithm>
+
+namespace whisker {
+namespace {
+
+constexpr std::int32_t kEveryMs = 100;
+
+std::vector<map::Place> way_of(const ShownGuide& guide) {
+  const map::Map& map = guide.inside().map();
+  const map::Flood& flood = guide.inside().flood();
+  const map::Place goal = map.place(guide.goal());
+  std::vector<map::Place> way;
+  map::Place p = map.place(guide.body());
+  if (flood.phase(map, p) < 0) return way;
+  const auto cells =
+      static_cast<std::size_t>(map.shape().columns()) * static_cast<std::size_t>(map.shape().rows);
+  for (map::Place next; way.size() < cells && flood.next(map, p, goal, next); p = next) way.push_back(next);
+  return way;
+}
+
+}  // namespace
+
+MapPicture picture_of(const ShownGuide& guide) {
+  const map::Map& map = guide.inside().map();
+  MapPicture picture;
+  picture.corner = map.corner();
+  picture.columns = map.shape().columns();
+  picture.rows = map.shape().rows;
+  picture.cell_m = map.cell().raw() / 1e6;
+  picture.cells.reserve(static_cast<std::size_t>(picture.columns) * static_cast<std::size_t>(picture.rows));
+  for (std::int32_t y = 0; y < picture.rows; ++y)
+    for (std::int32_t x = 0; x < picture.columns; ++x) picture.cells.push_back(map.at({x, y}));
+  picture.way = way_of(guide);
+  return picture;
+}
+
+MapWatch::MapWatch(const Params& params)
+    : every_(std::max(1, kEveryMs / params.safety.period.raw())), since_(every_) {}
+
+bool MapWatch::look(const ShownGuide* guide) {
+  ++since_;
+  if (guide == nullptr || since_ < every_ || !guide->inside().planned()) return false;
+  since_ = 0;
+  last_ = picture_of(*guide);
+  return true;
+}
+
+}  // namespace whisker

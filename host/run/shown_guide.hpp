@@ -1,0 +1,62 @@
+#pragma once
+
+#include "firmware/nav/map_guide.hpp"
+#include "host/run/guidance.hpp"
+
+namespace whisker {
+
+/// Passes everything on to a map's guide, and remembers what it said. It must outlive this.
+class ShownGuide final : public nav::Guide {
+ public:
+  explicit ShownGuide(nav::MapGuide& guide) : guide_(guide) {}
+
+  void start(const nav::View& view, const nav::Goal& goal) noexcept override {
+    said_ = Guidance::none;
+    goal_ = goal.at;
+    body_ = view.pose.at;
+    guide_.start(view, goal);
+  }
+  void observe(const nav::View& view) noexcept override {
+    body_ = view.pose.at;
+    guide_.observe(view);
+  }
+  Advice advise(const nav::View& view, Length distance, Vec& place) noexcept override {
+    const Advice advice = guide_.advise(view, distance, place);
+    way_ = view.pose.at + place;
+    said_ = guidance(advice);
+    return advice;
+  }
+  bool refuse(const nav::View& view) noexcept override {
+    const bool goes_on = guide_.refuse(view);
+    said_ = goes_on ? Guidance::wait : Guidance::none;
+    return goes_on;
+  }
+  bool knows_no_way() const noexcept override { return guide_.knows_no_way(); }
+  bool doubt() noexcept override { return guide_.doubt(); }
+
+  /// The last it said: it is asked in free space only, and no longer holds from when it was refused for good.
+  Guidance said() const { return said_; }
+  /// The place to go to, in the estimate's world; where has_place().
+  Vec way() const { return way_; }
+  Vec body() const { return body_; }
+  Vec goal() const { return goal_; }
+  const nav::MapGuide& inside() const { return guide_; }
+
+ private:
+  Guidance guidance(Advice advice) const {
+    switch (advice) {
+      case Advice::none: return Guidance::none;
+      case Advice::place: return way_ == goal_ ? Guidance::goal : Guidance::place;
+      case Advice::wait: return Guidance::wait;
+    }
+    return Guidance::unknown;
+  }
+
+  nav::MapGuide& guide_;
+  Guidance said_ = Guidance::none;
+  Vec way_;
+  Vec body_;
+  Vec goal_;
+};
+
+}  // namespace whisker

@@ -1,0 +1,164 @@
+#include "host/report/run_map.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "host/report/palette.hpp"
+#include "host/report/run_svg.hpp"
+#include "tests/report/script.hpp"
+#include "tests/report/xml.hpp"
+
+namespace whisker::report {
+namespace {
+
+using map::State;
+using ::testing::Contains;
+using testing::Element;
+using ::testing::IsSupersetOf;
+
+MapPicture random_map(unsigned seed) {
+  std::mt19937 random(seed);
+  MapPicture picture;
+  picture.corner = {-10, -5};
+  picture.columns = 32;
+  picture.rows = 20;
+  picture.cell_m = 0.1;
+  picture.cells.resize(32 * 20);
+  for (State& state : picture.cells) state = static_cast<State>(random() % 4);
+  picture.way = {{4, 4}, {5, 5}, {6, 5}};
+  return picture;
+}
+
+Element drawn(const std::vector<TickRecord>& records, const MapPicture* map) {
+  const Scenario scenario = testing::garden();
+  RunPicture options;
+  options.map = map;
+  return testing::parse_xml(
+      run_svg(scenario, records, testing::result_of(Verdict::gave_up, scenario, records), options));
+}
+
+std::vector<TickRecord> garden_run() { return testing::garden_run(testing::garden()); }
+
+/// What the boxes "Mx yhWvHh-Wz" cover.
+std::vector<int> covered(const std::string& path, const MapPicture& map) {
+  std::vector<int> count(map.cells.size());
+  int x = 0, y = 0, width = 0, height = 0, back = 0, used = 0;
+  const char* at = path.c_str();
+  while (std::sscanf(at, "M%d %dh%dv%dh%dz%n", &x, &y, &width, &height, &back, &used) == 5) {
+    EXPECT_EQ(back, -width);
+    for (int j = y; j < y + height; ++j)
+      for (int i = x; i < x + width; ++i) ++count.at(static_cast<std::size_t>(j * map.columns + i));
+    at += used;
+  }
+  EXPECT_EQ(*at, '\0') << path;
+  return count;
+}
+
+TEST(RunMap, covers_each_cell_with_its_own_colour_once) {
+  const MapPicture map = random_map(3);
+  const Element root = drawn(garden_run(), &map);
+  for (const MapLook& look : kMapLooks) {
+    const auto found = root.by_class(look.name);
+    ASSERT_EQ(found.size(), 1U) << look.name;
+    const std::vector<int> count = covered(found[0]->attributes.at("d"), map);
+    for (std::size_t i = 0; i < count.size(); ++i)
+      ASSERT_EQ(count[i], map.cells[i] == look.state) << look.name;
+  }
+}
+
+TEST(RunMap, takes_one_box_for_what_is_one) {
+  MapPicture map = random_map(3);
+  for (State& state : map.cells) state = State::free;
+  const Element root = drawn(garden_run(), &map);
+  EXPECT_EQ(root.by_class("map-free").at(0)->attributes.at("d"), "M0 0h32v20h-32z");
+  EXPECT_TRUE(root.by_class("map-occupied").empty());
+}
+
+TEST(RunMap, lies_where_the_robot_believes_it_to_lie) {
+  auto records = garden_run();
+  TickRecord& last = records.back();
+  last.x_m = 2;
+  last.y_m = 1;
+  last.est_x_m = 1.9;
+  last.est_y_m = 1;
+  last.heading_rad = last.est_heading_rad = 0.5;
+  const auto corner = [&] {
+    const MapPicture map = random_map(1);
+    const std::string text = drawn(records, &map).by_class("map").at(0)->attributes.at("transform");
+    double a = 0, b = 0, c = 0, d = 0, x = 0, y = 0;
+    EXPECT_EQ(std::sscanf(text.c_str(), "matrix(%lf %lf %lf %lf %lf %lf)", &a, &b, &c, &d, &x, &y), 6);
+    return std::vector<double>{a, b, x, y};
+  };
+  const auto drifted = corner();
+  EXPECT_NEAR(drifted[1], 0, 1e-9);
+  last.est_x_m = 2;
+  const auto exact = corner();
+  EXPECT_DOUBLE_EQ(drifted[0], exact[0]);
+  // 0.1 m is one cell.
+  EXPECT_NEAR(drifted[2] - exact[2], exact[0], 0.01);
+  last.heading_rad += 0.1;
+  EXPECT_LT(corner()[1], -0.01) << "turned counter-clockwise, it rises to the right";
+}
+
+TEST(RunMap, shows_plan_way_points_and_hand_overs_with_a_legend) {
+  const MapPicture map = random_map(2);
+  auto records = garden_run();
+  const std::size_t part = records.size() / 4;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    TickRecord& r = records[i];
+    r.guide = i < part || i / part == 2 ? Guidance::none : Guidance::place;
+    r.way_x_m = 1 + 0.5 * static_cast<double>(i / part);
+    r.way_y_m = 1;
+  }
+  const Element root = drawn(records, &map);
+  EXPECT_EQ(root.by_class("plan").size(), 1U);
+  EXPECT_EQ(root.by_class("to-edges").size(), 2U) << "one in the legend";
+  EXPECT_EQ(root.by_class("to-map").size(), 2U);
+  const auto words = root.texts_of_class("legend");
+  EXPECT_THAT(words, IsSupersetOf({"map: seen free", "map: suspect", "map: occupied", "its window at the end",
+                                   "way points that it led to", "its last plan",
+                                   "the map hands over to the edges", "the map leads again"}));
+}
+
+TEST(RunSvg, may_go_without_its_legend) {
+  const Scenario scenario = testing::garden();
+  const auto records = garden_run();
+  RunPicture options;
+  options.legend = false;
+  const Element root = testing::parse_xml(
+      run_svg(scenario, records, testing::result_of(Verdict::reached, scenario, records), options));
+  const Element whole = drawn(records, nullptr);
+  EXPECT_TRUE(root.by_class("legend").empty());
+  EXPECT_EQ(root.by_class("path").size(), 1U);
+  EXPECT_LT(root.number("width") * root.number("height"),
+            0.8 * whole.number("width") * whole.number("height"));
+}
+
+TEST(RunSvg, has_room_for_the_run_beside_it) {
+  const Scenario scenario;
+  const auto near = testing::follow(scenario, {{{1, 0}}});
+  const auto far = testing::follow(scenario, {{{1, 7}}});
+  const auto size = [&](const std::vector<TickRecord>& records, const std::vector<TickRecord>* beside) {
+    RunPicture options;
+    options.beside = beside;
+    const Element root = testing::parse_xml(
+        run_svg(scenario, records, testing::result_of(Verdict::gave_up, scenario, records), options));
+    return std::pair{root.number("width"), root.number("height")};
+  };
+  EXPECT_EQ(size(near, &far), size(far, &near));
+  EXPECT_NE(size(near, &far), size(near, nullptr));
+}
+
+TEST(RunMap, is_not_there_without_one) {
+  const Element root = drawn(garden_run(), nullptr);
+  EXPECT_TRUE(root.by_class("map").empty());
+  EXPECT_THAT(root.texts_of_class("legend"), ::testing::Not(Contains("map: suspect")));
+}
+
+}  // namespace
+}  // namespace whisker::report
