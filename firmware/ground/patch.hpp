@@ -63,6 +63,8 @@ class Patch {
   /// `radius` of it. Cells abeam do not count: to pass them brings it nearer by less than the shield's
   /// margin. False below kShortestStep.
   bool approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
+  /// No further than this from the body, along each axis, anything is known.
+  Length half_window() const noexcept { return Length::from_raw(cell_um_ * (kCells / 2)); }
   /// The state of one cell, for those who want to see the patch; false outside the window.
   bool is_clear(Vec at) const noexcept;
   /// True if all cells that this disc touches are clear, none of them outside the window.

@@ -10,7 +10,7 @@ using ground::kUnitsPerCell;
 constexpr int32_t kInside =
     ground::kUnitsPerCell * 23 / 32;  // a disc so large around its middle covers a cell
 constexpr Length kFar = 2_m;          // for the reference body
-constexpr Length kSure = 120_mm;      // across: all that an echo can have come from is one thing
+constexpr Length kSure = 160_mm;      // across: all that an echo can have come from is one thing
 constexpr Angle kSuspectHalf = 6_deg;
 constexpr int32_t kNearBorder = 9;            // a ninth of the window
 constexpr int32_t kBias = 10, kBiasPart = 3;  // the body lies at most 3/10 of the window off its middle
@@ -134,6 +134,17 @@ void Map::doubt_all() noexcept {
   for (int32_t i = 0; i < shape_.size(); ++i) {
     sure()[i] &= ~blocking()[i];
     blocking()[i] = 0;
+  }
+}
+
+void Map::free(const ground::Patch& patch, Vec body) noexcept {
+  const Length radius = Length::from_raw(cell_um_ / 5 * 3);
+  const int32_t reach = patch.half_window().raw() / cell_um_;
+  const Place at = place(body);
+  for (int32_t y = at.y - reach; y <= at.y + reach; ++y) {
+    for (int32_t x = at.x - reach; x <= at.x + reach; ++x) {
+      if (patch.all_clear(middle({x, y}), radius)) set({x, y}, State::free);
+    }
   }
 }
 

@@ -33,6 +33,9 @@ class Map {
   bool follow(Vec body, Vec goal) noexcept;
   /// What one beam shows. `hold`: what blocks stays so, for a plan is being made.
   void mark(const ground::Proof& proof, bool hold) noexcept;
+  /// What is free by the patch as good as a whole: beams show it together that do not singly. Not while a
+  /// plan is being made.
+  void free(const ground::Patch& patch, Vec body) noexcept;
   void set(Place p, State state) noexcept;
   State at(Place p) const noexcept;
   /// Of everything that is no free ground, nothing is known.

@@ -20,7 +20,7 @@ class Guide {
   virtual Advice advise(const View& view, Length distance, Vec& place) noexcept = 0;
   /// Every heading that leads about there is blocked. False: there is no better advice.
   virtual bool refuse(const View& view) noexcept = 0;
-  /// It knows of no way at all.
+  /// It knows of no way at all, or has doubted what it knew already.
   virtual bool knows_no_way() const noexcept = 0;
   /// Along edges there was no way either. True: it doubts what it knew, and there is advice again.
   virtual bool doubt() noexcept = 0;

@@ -12,16 +12,17 @@ constexpr int32_t kEvery = 16;
 constexpr Length kDearer = 2500_mm;  // what the way around what is only suspected may cost more
 constexpr Length kHorizon = 3000_mm;
 constexpr Length kAhead = 600_mm;
-constexpr Length kSlack = 200_mm;
+constexpr Length kSlack = 100_mm;
 constexpr Length kKept = 100_mm;
 constexpr Length kReached = 250_mm;
-constexpr Length kNoProgress = 25_m;
+constexpr Length kNoProgress = 20_m;  // of the first spell; half as much of each later one
 constexpr Length kProgress = 150_mm;
 constexpr Length kBarred = 200_mm;
 constexpr Length kBarrier = 120_mm;
 constexpr Length kBarrierLife = 6000_mm;
-constexpr int8_t kCredits = 2;
+constexpr int8_t kCredits = 1;
 constexpr int32_t kRefusals = 12;
+constexpr int8_t kMostSpells = 16;
 
 }  // namespace
 
@@ -33,7 +34,7 @@ void MapGuide::start(const View& view, const Goal& goal) noexcept {
   has_way_ = no_way_ = waits_ = false;
   credits_ = kCredits;
   active_ = true;
-  refusals_ = 0;
+  refusals_ = spells_ = 0;
   best_ = Length::from_raw(INT32_MAX);
   last_ = view.pose.at;
   travel_mm_ = travel_rest_um_ = improved_mm_ = 0;
@@ -91,6 +92,7 @@ void MapGuide::plan(const View& view) noexcept {
     if (ticks_ < kEvery && !waits_) return;
     ticks_ = 0;
     map_.follow(view.pose.at, goal_.at);
+    map_.free(*view.patch, view.pose.at);
     raise_barriers();
     begin(Stage::strict, INT16_MAX, view);
     return;
@@ -177,12 +179,17 @@ void MapGuide::finish(const View& view) noexcept {
 }
 
 Guide::Advice MapGuide::advise(const View& view, Length, Vec& place) noexcept {
-  if (travel_mm_ - improved_mm_ > mm(kNoProgress)) active_ = false;
+  if (active_ && travel_mm_ - improved_mm_ > mm(kNoProgress) >> spells_) hand_over();
   if (!active_) return Advice::none;
   if (waits_) return Advice::wait;
   if (!has_way_) return Advice::none;
   place = way_ - view.pose.at;
   return Advice::place;
+}
+
+void MapGuide::hand_over() noexcept {
+  active_ = false;
+  if (spells_ < kMostSpells) ++spells_;
 }
 
 void MapGuide::bar(Vec at) noexcept {
@@ -206,7 +213,7 @@ bool MapGuide::doubt() noexcept {
 bool MapGuide::refuse(const View& view) noexcept {
   if (!active_) return false;
   if (++refusals_ > kRefusals) {
-    active_ = false;
+    hand_over();
     return false;
   }
   bar(view.pose.at + polar(bearing(way_ - view.pose.at), reference(kBarred)));

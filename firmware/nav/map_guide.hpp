@@ -20,7 +20,7 @@ class MapGuide final : public Guide {
   void observe(const View& view) noexcept override;
   Advice advise(const View& view, Length distance, Vec& place) noexcept override;
   bool refuse(const View& view) noexcept override;
-  bool knows_no_way() const noexcept override { return no_way_; }
+  bool knows_no_way() const noexcept override { return no_way_ || credits_ == 0; }
   bool doubt() noexcept override;
 
   const map::Map& map() const noexcept { return map_; }
@@ -42,6 +42,7 @@ class MapGuide final : public Guide {
   bool straight(const View& view) const noexcept;
   bool sees(Vec from, Vec to) const noexcept;
   void raise_barriers() noexcept;
+  void hand_over() noexcept;
   void bar(Vec at) noexcept;
   Length reference(Length l) const noexcept { return for_body(params_, l); }
   int32_t mm(Length l) const noexcept { return reference(l).raw() / 1000; }
@@ -58,6 +59,7 @@ class MapGuide final : public Guide {
   bool active_ = true;
   int8_t refusals_ = 0;
   int8_t credits_ = 0;
+  int8_t spells_ = 0;        // of the map that are over
   int32_t strict_ = 0;       // levels to the body if suspects block
   int32_t ticks_ = 0;        // since a plan was begun
   Length best_;              // the least distance to the goal
