@@ -30,13 +30,23 @@ def need_whisker():
         sys.exit(f"{PROGRAM}: {WHISKER} is missing: cmake --preset host && cmake --build --preset host")
 
 
-def campaign(arguments, count, first_seed, *more):
-    """The summary that `whisker campaign --json` prints; see docs/campaign.md. Ends the program if it fails."""
-    command = ["campaign", *arguments.split(), "--count", str(count), "--seed", str(first_seed), *more]
-    done = subprocess.run([WHISKER, *command, "--json"], stdout=subprocess.PIPE, check=False)
+def summary(command, arguments, count, first_seed, *more):
+    """The summary that this command of whisker prints. Ends the program if it fails."""
+    words = [command, *arguments.split(), "--count", str(count), "--seed", str(first_seed), *more]
+    done = subprocess.run([WHISKER, *words, "--json"], stdout=subprocess.PIPE, check=False)
     if done.returncode != 0:
-        sys.exit(f"{PROGRAM}: whisker {' '.join(command)}: exit status {done.returncode}")
+        sys.exit(f"{PROGRAM}: whisker {' '.join(words)}: exit status {done.returncode}")
     return json.loads(done.stdout)
+
+
+def campaign(arguments, count, first_seed, *more):
+    """Of `whisker campaign --json`; see docs/campaign.md."""
+    return summary("campaign", arguments, count, first_seed, *more)
+
+
+def scan(arguments, count, first_seed):
+    """Of `whisker scanner --json`, in the same worlds; see docs/comparison.md."""
+    return summary("scanner", arguments, count, first_seed)
 
 
 def cell(estimate, scale=1, digits=0):

@@ -79,10 +79,15 @@ Summary summarize(const std::vector<Row>& rows) {
   s.false_unreachable =
       share_of(rows, [](const Row& r) { return r.verdict == Verdict::unreachable && !has_no_way(r); });
   add_reached(s, rows);
-  std::vector<double> errors;
-  for (const Row& row : rows) errors.push_back(row.estimate_error_m);
+  std::vector<double> errors, paths;
+  for (const Row& row : rows) {
+    errors.push_back(row.estimate_error_m);
+    paths.push_back(row.path_m);
+  }
   s.estimate_error_p50 = quantile(errors, 0.5);
   s.estimate_error_p95 = quantile(errors, 0.95);
+  s.path_p50 = quantile(paths, 0.5);
+  s.path_p95 = quantile(paths, 0.95);
   s.stops = per_metre(rows, [](const Row& r) { return static_cast<double>(r.stops); });
   s.flips = per_metre(rows, [](const Row& r) { return static_cast<double>(r.flips); });
   s.looks = per_metre(rows, [](const Row& r) { return static_cast<double>(r.looks); });

@@ -29,6 +29,7 @@ struct Summary {
   Estimate at_goal;                                 ///< "reached" and truly within the goal's tolerance
   Estimate false_unreachable;                       ///< "unreachable" though a way may be there
   Estimate estimate_error_p50, estimate_error_p95;  ///< m, of all missions
+  Estimate path_p50, path_p95;                      ///< m driven, of all missions
 
   /// Of the missions that reached their goals; none without any.
   std::optional<Estimate> ratio_mean, ratio_p50, ratio_p95;

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "host/campaign/scan.hpp"
 #include "host/campaign/summary.hpp"
 
 namespace whisker::campaign {
@@ -14,17 +15,26 @@ Json object(const std::optional<Estimate>& e) {
   return {{"value", number(e->value)}, {"low", number(e->low)}, {"high", number(e->high)}};
 }
 
+Json missions(const Summary& s) {
+  return {{"missions", s.missions},
+          {"no_way", s.no_way},
+          {"least_seed", s.least_seed},
+          {"greatest_seed", s.greatest_seed},
+          {"worlds", s.worlds}};
+}
+
+Json ratio(const Summary& s) {
+  return {{"mean", object(s.ratio_mean)}, {"p50", object(s.ratio_p50)}, {"p95", object(s.ratio_p95)}};
+}
+
+std::string text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 Json object(const PerMetre& p) { return {{"all", object(p.rate)}, {"p50", object(p.p50)}}; }
 
 }  // namespace
 
 std::string summary_json(const Summary& s) {
-  Json json;
-  json["missions"] = s.missions;
-  json["no_way"] = s.no_way;
-  json["least_seed"] = s.least_seed;
-  json["greatest_seed"] = s.greatest_seed;
-  json["worlds"] = s.worlds;
+  Json json = missions(s);
   json["planners"] = s.planners;
   json["success"] = object(s.success);
   json["reached"] = object(s.reached);
@@ -34,16 +44,26 @@ std::string summary_json(const Summary& s) {
   json["gave_up"] = object(s.gave_up);
   json["contact"] = object(s.contact);
   json["fault"] = object(s.fault);
-  json["ratio"] = {
-      {"mean", object(s.ratio_mean)}, {"p50", object(s.ratio_p50)}, {"p95", object(s.ratio_p95)}};
+  json["ratio"] = ratio(s);
   json["s_per_m"] = {{"p50", object(s.s_per_m_p50)}, {"p95", object(s.s_per_m_p95)}};
   json["min_clearance_m"] = {{"p5", object(s.clearance_p5)}};
   json["estimate_error_m"] = {{"p50", object(s.estimate_error_p50)}, {"p95", object(s.estimate_error_p95)}};
+  json["path_m"] = {{"p50", object(s.path_p50)}, {"p95", object(s.path_p95)}};
   json["stops_per_m"] = object(s.stops);
   json["flips_per_m"] = object(s.flips);
   json["looks_per_m"] = object(s.looks);
   json["turned_rad_per_m"] = object(s.turned);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text(json);
+}
+
+std::string scan_json(const Summary& s) {
+  Json json = missions(s);
+  json["success"] = object(s.success);
+  json["reached"] = object(s.reached);
+  json["unreachable"] = object(s.unreachable);
+  json["false_unreachable"] = object(s.false_unreachable);
+  json["ratio"] = ratio(s);
+  return text(json);
 }
 
 }  // namespace whisker::campaign

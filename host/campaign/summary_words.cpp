@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "host/campaign/scan.hpp"
 #include "host/campaign/summary.hpp"
 
 namespace whisker::campaign {
@@ -26,6 +27,10 @@ std::string line(const char* what, const char* which, const std::optional<Estima
   return start + fmt::format("{:>9.3f}     {} to {}\n", e->value, bound(e->low, 3), bound(e->high, 3));
 }
 
+std::string ratio_lines(const Summary& s) {
+  return line("ratio", "mean", s.ratio_mean) + line("", "p50", s.ratio_p50) + line("", "p95", s.ratio_p95);
+}
+
 }  // namespace
 
 std::string summary_words(const Summary& s) {
@@ -40,14 +45,14 @@ std::string summary_words(const Summary& s) {
   text += percent_line("gave up", s.gave_up);
   text += percent_line("contact", s.contact);
   text += percent_line("fault", s.fault);
-  text += line("ratio", "mean", s.ratio_mean);
-  text += line("", "p50", s.ratio_p50);
-  text += line("", "p95", s.ratio_p95);
+  text += ratio_lines(s);
   text += line("s/m", "p50", s.s_per_m_p50);
   text += line("", "p95", s.s_per_m_p95);
   text += line("clearance", "p5 m", s.clearance_p5);
   text += line("est. error", "p50 m", s.estimate_error_p50);
   text += line("", "p95 m", s.estimate_error_p95);
+  text += line("driven", "p50 m", s.path_p50);
+  text += line("", "p95 m", s.path_p95);
   text += line("stops/m", "all", s.stops.rate);
   text += line("", "p50", s.stops.p50);
   text += line("flips/m", "all", s.flips.rate);
@@ -57,6 +62,12 @@ std::string summary_words(const Summary& s) {
   text += line("rad/m", "all", s.turned.rate);
   text += line("", "p50", s.turned.p50);
   return text;
+}
+
+std::string scan_words(const Summary& s) {
+  return fmt::format("{} worlds, {}, a scanner all round, seeds {} to {}; 95 % bounds beside each figure\n",
+                     s.missions, joined(s.worlds), s.least_seed, s.greatest_seed) +
+         percent_line("reached", s.reached) + percent_line("unreachable", s.unreachable) + ratio_lines(s);
 }
 
 }  // namespace whisker::campaign

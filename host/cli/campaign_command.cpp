@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fmt/core.h>
@@ -13,14 +11,13 @@
 #include "host/campaign/failures.hpp"
 #include "host/campaign/merge.hpp"
 #include "host/campaign/mission.hpp"
-#include "host/campaign/ordered.hpp"
 #include "host/campaign/row_file.hpp"
 #include "host/campaign/summary.hpp"
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/campaign_page.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
-#include "host/cli/interrupt.hpp"
+#include "host/cli/many_runs.hpp"
 #include "host/cli/one_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
@@ -29,20 +26,6 @@ namespace whisker::cli {
 namespace {
 
 using Options = CampaignOptions;
-
-constexpr std::uint64_t kMostMissions = 1000000000;
-
-/// "[#####.....]  512 of 1024, 48.1 a second, 0:11 to go"
-std::string progress(std::uint64_t done, std::uint64_t all, double elapsed_s) {
-  constexpr std::uint64_t kWidth = 30;
-  const auto filled = static_cast<std::size_t>(done * kWidth / all);
-  std::string text =
-      fmt::format("[{}{}] {} of {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), done, all);
-  if (done == 0 || elapsed_s <= 0) return text;
-  const double pace = static_cast<double>(done) / elapsed_s;
-  const auto left_s = static_cast<std::uint64_t>(static_cast<double>(all - done) / pace + 0.5);
-  return text + fmt::format(", {:.1f} a second, {}:{:02} to go", pace, left_s / 60, left_s % 60);
-}
 
 void print(const Options& o, const std::vector<campaign::Row>& rows) {
   if (rows.empty()) return;
@@ -55,43 +38,19 @@ void print(const Options& o, const std::vector<campaign::Row>& rows) {
   }
 }
 
-campaign::Row row_of(const Missions& missions, std::uint64_t index, const std::atomic<bool>& stop) {
-  const campaign::Mission m = mission(missions, index);
-  campaign::Row row = campaign::drive(m.scenario, missions.planner, stop);
-  row.robot = missions.robot;
-  row.world = m.world;
-  return row;
-}
-
-int jobs(const Options& o) {
-  if (o.jobs > 0) return o.jobs;
-  const unsigned cores = std::thread::hardware_concurrency();
-  return cores > 0 ? static_cast<int>(cores) : 1;
-}
-
 /// True if it went to its end.
 bool drive_all(const Options& o, const Missions& missions, std::vector<campaign::Row>& rows) {
   std::optional<campaign::RowFile> file;
   if (!o.csv.empty()) file.emplace(o.csv);
-  const Interrupt interrupt;
-  ProgressLine line;
-  const auto began = std::chrono::steady_clock::now();
-  campaign::Work work;
-  work.count = missions.last - missions.first;
-  work.jobs = jobs(o);
-  work.make = [&](std::uint64_t i, const std::atomic<bool>& stop) {
-    return row_of(missions, missions.first + i, stop);
-  };
-  work.take = [&](const campaign::Row& row) {
-    if (file) file->add(row);
-    rows.push_back(row);
-  };
-  work.wait = [&](std::uint64_t done) {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
-    line.show(progress(done, work.count, elapsed.count()));
-  };
-  work.stop = [&] { return interrupt.noted(); };
-  const bool whole = campaign::do_in_order(work) == work.count;
+  const bool whole = drive_many(
+      missions, o.jobs,
+      [&](const Scenario& scenario, const std::atomic<bool>& stop) {
+        return campaign::drive(scenario, missions.planner, stop);
+      },
+      [&](const campaign::Row& row) {
+        if (file) file->add(row);
+        rows.push_back(row);
+      });
   if (file) file->finish();
   return whole;
 }
@@ -137,26 +96,12 @@ void refuse_others(const CLI::App& command, std::initializer_list<std::string> a
 void add_campaign(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("campaign", "Drive many missions and sum them up");
   const auto o = std::make_shared<Options>();
-  cmd->add_option("KIND|DIR", o->worlds,
-                  "A kind of world as in `whisker world`, or a folder of scenario files")
-      ->type_name("");
-  cmd->add_option("--count", o->count, "How many missions; 100 by default, or every file once")
-      ->transform(whole_number(kMostMissions))
-      ->type_name("N");
-  cmd->add_option("--seed", o->seed, "Mission i has seed S + i; 1 by default, or each file's own")
-      ->transform(whole_number())
-      ->type_name("S");
-  cmd->add_option("--discs", o->world.discs, "Number of discs, as in `whisker world`")
-      ->transform(whole_number(200))
-      ->type_name("N");
-  add_switch(*cmd, "--box", o->world.box, "A closed box around, as in `whisker world`");
+  add_worlds(*cmd, *o, "missions");
   add_switch(*cmd, "--noise", o->world.noise, "Sensor noise and odometry error, as in `whisker world`");
   add_wheel_scale_sigma(*cmd, o->world.wheel_scale_sigma, "Scale error of the wheels, as in `whisker world`");
   add_planner(*cmd, o->planner);
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenarios");
-  cmd->add_option("--jobs", o->jobs, "Missions at a time; as many as there are cores by default")
-      ->transform(whole_number(1024))
-      ->type_name("J");
+  add_jobs(*cmd, *o);
   cmd->add_option("--shard", o->shard, "Only the I-th of N parts of the missions")->type_name("I/N");
   add_file(*cmd, "--csv", o->csv, "Write one row per mission");
   add_switch(*cmd, "--json", o->json, "Print the summary as one JSON object and nothing else");

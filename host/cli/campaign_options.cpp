@@ -8,12 +8,14 @@
 #include <fmt/core.h>
 
 #include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
 #include "host/scenario/load.hpp"
 
 namespace whisker::cli {
 namespace {
 
 constexpr std::uint64_t kUsualCount = 100;
+constexpr std::uint64_t kMostMissions = 1000000000;
 
 campaign::Generated generated(const CampaignOptions& o, worlds::Kind kind) {
   return {kind, o.world, o.replay.value_or(o.seed.value_or(1))};
@@ -72,6 +74,29 @@ void take_shard(Missions& m, const std::string& shard) {
 }
 
 }  // namespace
+
+CLI::Option* add_worlds(CLI::App& app, CampaignOptions& o, const std::string& each) {
+  CLI::Option* worlds = app.add_option(
+      "KIND|DIR", o.worlds, "A kind of world as in `whisker world`, or a folder of scenario files");
+  worlds->type_name("");
+  app.add_option("--count", o.count, fmt::format("How many {}; 100 by default, or every file once", each))
+      ->transform(whole_number(kMostMissions))
+      ->type_name("N");
+  app.add_option("--seed", o.seed, "Mission i has seed S + i; 1 by default, or each file's own")
+      ->transform(whole_number())
+      ->type_name("S");
+  app.add_option("--discs", o.world.discs, "Number of discs, as in `whisker world`")
+      ->transform(whole_number(200))
+      ->type_name("N");
+  add_switch(app, "--box", o.world.box, "A closed box around, as in `whisker world`");
+  return worlds;
+}
+
+void add_jobs(CLI::App& app, CampaignOptions& o) {
+  app.add_option("--jobs", o.jobs, "Missions at a time; as many as there are cores by default")
+      ->transform(whole_number(1024))
+      ->type_name("J");
+}
 
 Missions missions(const CampaignOptions& o) {
   if (campaign::has_control_characters(o.robot)) {

@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "host/campaign/worlds.hpp"
 #include "host/run/planners.hpp"
 
@@ -37,6 +39,11 @@ struct Missions {
   std::uint64_t first = 0;
   std::uint64_t last = 0;
 };
+
+/// KIND|DIR, --count, --seed, --discs and --box; `each` says what the count counts. Returns the first.
+CLI::Option* add_worlds(CLI::App& app, CampaignOptions& options, const std::string& each);
+/// --jobs.
+void add_jobs(CLI::App& app, CampaignOptions& options);
 
 /// Throws UsageError if the options do not fit each other, InputError for a wrong scenario file.
 Missions missions(const CampaignOptions& options);

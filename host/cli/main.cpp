@@ -53,7 +53,7 @@ Exit status of run, hil and plant: 0 reached, 3 unreachable, 4 time limit or gav
 6 fault (safe stop), 2 bad input or usage, 1 anything else.)";
 
 constexpr const char* kCampaignExitStatus = R"(
-Exit status of campaign: 0 whatever the missions came to, 130 interrupted,
+Exit status of campaign and scanner: 0 whatever the missions came to, 130 interrupted,
 2 bad input or usage, 1 anything else.)";
 
 constexpr const char* kFirstSteps = R"(
@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
   add_run(app, status);
   add_world(app, status);
   add_campaign(app, status);
+  add_scanner(app, status);
   add_movers(app, status);
   add_table(app, status);
   add_figures(app, status);
@@ -86,7 +87,7 @@ int main(int argc, char** argv) {
   add_protocol(app, status);
   app.footer(std::string(kExitStatus) + kCampaignExitStatus + kFirstSteps);
   for (const char* name : {"run", "hil", "plant"}) app.get_subcommand(name)->footer(kExitStatus);
-  app.get_subcommand("campaign")->footer(kCampaignExitStatus);
+  for (const char* name : {"campaign", "scanner"}) app.get_subcommand(name)->footer(kCampaignExitStatus);
   try {
     status = parse(app, argc, argv, status);
     finish_standard_output();

@@ -34,6 +34,8 @@ TEST(Summary, SharesAreOfAllMissionsAndTimesOfThoseThatArrived) {
   EXPECT_EQ(s.ratio_mean->value, 1.25);
   EXPECT_EQ(s.s_per_m_p50->value, 5);
   EXPECT_EQ(s.s_per_m_p95->value, 15);
+  EXPECT_EQ(s.path_p50.value, 2) << "of all four";
+  EXPECT_EQ(s.path_p95.value, 90);
   EXPECT_EQ(s.stops.rate->value, 0.2) << "19 stops on 95 m";
   EXPECT_EQ(s.stops.p50->value, 15.0 / 90) << "of the three that drove";
 }

@@ -149,6 +149,8 @@ class Summary(Campaigns):
         self.assertAlmostEqual(summary["at_goal"]["value"], len(there) / COUNT, places=6)
         errors = sorted(float(row["estimate_error_m"]) for row in rows)
         self.assertAlmostEqual(summary["estimate_error_m"]["p50"]["value"], errors[(COUNT + 1) // 2 - 1], places=6)
+        driven = sorted(float(row["path_m"]) for row in rows)
+        self.assertAlmostEqual(summary["path_m"]["p50"]["value"], driven[(COUNT + 1) // 2 - 1], places=6)
         for key in SHARES:
             share = summary[key]
             self.assertTrue(0 <= share["low"] <= share["value"] <= share["high"] <= 1, key)

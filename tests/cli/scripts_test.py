@@ -56,6 +56,7 @@ class Tables(Scripts):
     def test_have_a_row_for_each_class_and_as_many_cells_as_the_heading(self):
         for name, arguments, rows in (
             ("bars", ("--count", 1, "--noisy", 1, "--seed", 1, "--gate"), 20),
+            ("bars", ("--planner", "map", "--count", 1, "--noisy", 1, "--seed", 1, "--gate"), 20),
             ("compare", (1,), 8 * 10),
             ("measure", (1,), 11),
             ("odometry", (1,), 3 * 7),
@@ -64,9 +65,12 @@ class Tables(Scripts):
             table = self.rows(self.run_script(name, *arguments))
             headings = [row for row in table if row[0] == "world"]
             self.assertEqual(len(table) - len(headings), rows, name)
-            self.assertEqual({len(row) for row in table}, {len(headings[0])}, name)
+            width = 0
+            for row in table:
+                width = len(row) if row in headings else width
+                self.assertEqual(len(row), width, (name, row))
             for call in self.calls():
-                self.assertEqual(call[0], "campaign")
+                self.assertIn(call[0], ("campaign", "scanner") if name == "compare" else ("campaign",))
                 self.assertEqual(call[call.index("--count") + 1], "1")
             kinds = {call[1] for call in self.calls()}
             self.assertEqual(kinds, {"discs", "maze", "enclosed"} if name == "odometry" else set(KINDS), name)
@@ -84,9 +88,15 @@ class Tables(Scripts):
         self.assertEqual(self.rows(self.run_script("measure", 1))[1][-1], "-")
 
     def test_compare_asks_every_planner_for_the_same_worlds(self):
-        self.run_script("compare", 3, 40)
-        planners = {call[call.index("--planner") + 1] for call in self.calls()}
-        self.assertEqual(planners, set(PLANNERS))
+        done = self.run_script("compare", 3, 40)
+        campaigns = [call for call in self.calls() if call[0] == "campaign"]
+        planners = {tuple(call[call.index("--planner") + 1 : -1]) for call in campaigns}
+        self.assertEqual(planners, {*((p,) for p in PLANNERS), ("map",), ("map", "--map-bytes", "16384")})
+        scans = [call for call in self.calls() if call[0] == "scanner"]
+        self.assertEqual((len(campaigns), len(scans)), (9 * 10, 10))
+        headings = [row for row in self.rows(done) if row[0] == "world"]
+        self.assertEqual([row[-1] for row in headings].count("scanner"), 2)
+        self.assertEqual({tuple(row[:4]) for row in headings}, {("world", "skirt", "map", "map, 16 KB")})
         self.assertEqual({tuple(call[call.index("--count") :][:4]) for call in self.calls()}, {("--count", "3", "--seed", "40")})
 
     def test_odometry_varies_nothing_but_the_wheels(self):
@@ -160,6 +170,43 @@ class Status(Scripts):
         self.assertIn("bars: 9 figures miss their bar", done.stderr)
         self.assertEqual(done.stdout.count("**99.00 / "), 9)
 
+    def test_the_map_planners_bars_depend_on_its_bytes_and_on_the_skirt_planner(self):
+        figure = lambda value: {"value": value, "low": value, "high": value}
+        self.answer(
+            ratio={"mean": None, "p50": figure(1.22), "p95": figure(1.9)},
+            s_per_m={"p50": figure(5), "p95": None},
+            looks_per_m={"all": figure(8.01), "p50": None},
+            path_m={"p50": figure(28.28), "p95": None},
+        )
+        rows, bold = {}, {}
+        for size in (2048, 16384):
+            (self.folder / "whisker.calls").unlink(missing_ok=True)
+            arguments = ("--planner", "map", "--map-bytes", size, "--count", 3, "--noisy", 2, "--seed", 4)
+            done = self.run_script("bars", *arguments, status=1)
+            rows[size] = {row[0]: row[1:] for row in self.rows(done)}
+            bold[size] = {row[0] for row in self.rows(done) if "**1.2" in row[4]}
+            for kind in ("rooms", "maze"):
+                words = f"campaign {kind} --count {{}} --seed 4"
+                calls = [" ".join(call) for call in self.calls() if call[1] == kind]
+                of_map = f"--planner map --map-bytes {size} --json"
+                self.assertEqual(
+                    calls,
+                    [f"{words.format(3)} --json", f"{words.format(3)} {of_map}", f"{words.format(2)} --noise {of_map}"],
+                )
+        self.assertEqual(rows[2048]["rooms"][3:], ["1.220 / 1.35", "1.90 / 5", "**5.00 / 4.99**", "**8.01 / 8**", "-"])
+        self.assertEqual(rows[16384]["rooms"][3:5], ["1.220 / 1.25", "1.90 / 3.5"])
+        self.assertEqual(rows[2048]["enclosed"][-1], "28.28 / 28.28")
+        self.assertEqual(bold[2048], {"30 discs", "U-traps", "spirals", "mazes"})
+        self.assertEqual(bold[16384], {"30 discs", "50 discs", "U-traps", "spirals", "mazes"})
+        self.answer(s_per_m={"p50": figure(40), "p95": None})
+        done = self.run_script("bars", "--planner", "map", "--count", 1, "--noisy", 0, "--seed", 1, status=1)
+        self.assertIn("| **40.00 / 15** |", done.stdout)
+        self.assertIn("| **40.00 / 39.99** |", done.stdout)
+
+    def test_bars_are_of_maps_that_have_some(self):
+        for wrong in (("--map-bytes", 2048), ("--planner", "map", "--map-bytes", 4096), ("--planner", "fan")):
+            self.assertIn("usage: bars ", self.run_script("bars", *wrong, status=2).stderr)
+
     def test_the_gate_asks_for_no_contact_and_for_success(self):
         share = lambda value: {"value": value, "low": 0, "high": 1}
         gate = ("bars", "--count", 1, "--noisy", 1, "--seed", 1, "--gate")
@@ -172,7 +219,7 @@ class Status(Scripts):
     def test_a_fault_is_a_failure(self):
         self.answer(missions=4, fault={"value": 0.25, "low": 0, "high": 1})
         self.assertIn("measure: 11 runs ended in a fault", self.run_script("measure", 4, status=1).stderr)
-        self.assertIn("compare: 70 runs ended in a fault", self.run_script("compare", 4, status=1).stderr)
+        self.assertIn("compare: 90 runs ended in a fault", self.run_script("compare", 4, status=1).stderr)
 
     def test_a_campaign_that_fails_is_named(self):
         self.file("whisker.status", "7")

@@ -30,6 +30,7 @@ OPTIONS = {
     ("dbc",): ("--robot",),
     ("protocol",): (),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
+    ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--contacts"),
     ("table",): ("--csv", "--svg"),
     ("figures",): ("FOLDER", "--scenarios"),

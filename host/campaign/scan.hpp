@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "host/campaign/row.hpp"
+#include "host/campaign/summary.hpp"
+#include "host/scenario/scenario.hpp"
+
+namespace whisker::campaign {
+
+/// The trip of a body of kWayRadius with a scanner of the range of this robot's beams, see
+/// host/scanner/trip.hpp. Fills seed, verdict, path_m, shortest_m and planner ("scanner"): it has no other
+/// figures.
+Row scan(const Scenario& scenario);
+
+/// As summary_words and summary_json, but only of the figures that these rows have.
+std::string scan_words(const Summary& summary);
+std::string scan_json(const Summary& summary);
+
+}  // namespace whisker::campaign

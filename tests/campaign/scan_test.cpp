@@ -1,0 +1,60 @@
+#include "host/campaign/scan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/campaign/mission.hpp"
+#include "host/scanner/trip.hpp"
+#include "host/worlds/generate.hpp"
+
+namespace whisker::campaign {
+namespace {
+
+Scenario scenario(worlds::Kind kind, std::uint64_t seed) {
+  worlds::Options options;
+  options.seed = seed;
+  return worlds::generate(kind, options);
+}
+
+Row row(worlds::Kind kind, std::uint64_t seed) {
+  Row row = scan(scenario(kind, seed));
+  row.world = worlds::name(kind);
+  return row;
+}
+
+TEST(Scan, TheRowTellsOfTheTripOfThisRobotsRange) {
+  Scenario s = scenario(worlds::Kind::rooms, 3);
+  for (const Length range : {2_m, 500_mm}) {
+    s.robot.rangefinders.max_range = range;
+    const Row row = scan(s);
+    const scanner::Trip trip =
+        scanner::drive(make_world(s), s.start.at, s.goal.at, kWayRadius, range.raw() * 1e-6);
+    EXPECT_EQ(row.verdict, Verdict::reached);
+    EXPECT_EQ(row.seed, 3U);
+    EXPECT_NEAR(row.path_m, trip.driven_m, 6e-7);
+    EXPECT_NEAR(row.shortest_m.value_or(0), trip.shortest_m.value_or(1), 6e-7);
+  }
+}
+
+TEST(Scan, ItsSummaryHasNoFigureThatIsNotItsOwn) {
+  const Summary s = summarize({row(worlds::Kind::u_trap, 1), row(worlds::Kind::u_trap, 2)});
+  const auto json = nlohmann::json::parse(scan_json(s));
+  EXPECT_EQ(json["missions"], 2);
+  EXPECT_EQ(json["reached"]["value"], 1);
+  EXPECT_GE(json["ratio"]["p50"]["value"], 0.999);
+  EXPECT_FALSE(json.contains("contact") || json.contains("s_per_m") || json.contains("stops_per_m"));
+  const auto all = nlohmann::json::parse(summary_json(s));
+  for (const auto& [key, value] : json.items()) EXPECT_EQ(all[key], value) << key;
+  EXPECT_EQ(scan_words(s).find("s/m"), std::string::npos);
+  EXPECT_NE(scan_words(s).find("u-trap"), std::string::npos);
+}
+
+TEST(Scan, AGoalWithoutAWayIsASuccessIfItSaysSo) {
+  const Summary s = summarize({row(worlds::Kind::enclosed, 1), row(worlds::Kind::enclosed, 2)});
+  EXPECT_EQ(s.success.value, 1);
+  EXPECT_FALSE(s.ratio_p50);
+}
+
+}  // namespace
+}  // namespace whisker::campaign

@@ -1,0 +1,108 @@
+#include "host/scanner/trip.hpp"
+
+#include <gtest/gtest.h>
+
+#include "host/paths/shortest.hpp"
+#include "host/worlds/generate.hpp"
+
+namespace whisker::scanner {
+namespace {
+
+using sim::Vec2;
+
+constexpr double kRadius = 0.1;
+constexpr double kRange = 2;
+
+double shortest(const World& world, Vec2 from, Vec2 to) {
+  return paths::shortest_path(world, from, to, kRadius).value_or(-1);
+}
+
+/// A blind alley along x that is open at -1 and shut at its end.
+World alley(double end) {
+  World world;
+  world.segments = {{{-1, -1}, {end, -1}}, {{end, -1}, {end, 1}}, {{end, 1}, {-1, 1}}};
+  return world;
+}
+
+double ratio(const Trip& trip) { return trip.driven_m / trip.shortest_m.value_or(0); }
+
+TEST(Trip, AnEmptyWorldIsCrossedStraight) {
+  const Trip trip = drive({}, {1, 2}, {9, 8}, kRadius, kRange);
+  EXPECT_TRUE(trip.reached);
+  EXPECT_NEAR(trip.driven_m, 10, 1e-9);
+  EXPECT_EQ(drive({}, {1, 2}, {1, 2}, kRadius, kRange).driven_m, 0);
+}
+
+TEST(Trip, WhatItSeesFromTheStartCostsNoDetour) {
+  World world;
+  world.discs = {{{1.5, 0.1}, 0.5}};
+  const Trip trip = drive(world, {0, 0}, {3, 0}, kRadius, kRange);
+  EXPECT_TRUE(trip.reached);
+  EXPECT_NEAR(ratio(trip), 1, 0.002) << "but for what lies beyond the rim that it sees";
+  EXPECT_NEAR(*trip.shortest_m, shortest(world, {0, 0}, {3, 0}), 0.004);
+  const World u = alley(1);
+  EXPECT_NEAR(drive(u, {-3, 0}, {2, 0}, kRadius, 9).driven_m, shortest(u, {-3, 0}, {2, 0}), 1e-4);
+}
+
+TEST(Trip, GoesIntoADeadEndUntilItSeesItsEndAndOutAgain) {
+  const Vec2 start{-2, 0}, goal{6, 0};
+  const World world = alley(4);
+  const double shown = 4 - kRange;  // the end comes into sight here, but not yet its corners
+  const double least = (shown - start.x) + shortest(world, {shown, 0}, goal);
+  const Trip trip = drive(world, start, goal, kRadius, kRange);
+  EXPECT_TRUE(trip.reached);
+  EXPECT_GT(trip.driven_m, least);
+  EXPECT_LT(trip.driven_m, least + 2 * 0.7);
+  EXPECT_GT(trip.driven_m, 1.4 * shortest(world, start, goal));
+}
+
+TEST(Trip, EndsWhereWhatItSawLeavesNoWay) {
+  World world;
+  world.segments = {{{4, -1}, {6, -1}}, {{6, -1}, {6, 1}}, {{6, 1}, {4, 1}}, {{4, 1}, {4, -1}}};
+  const Trip trip = drive(world, {0, 0}, {5, 0}, kRadius, kRange);
+  EXPECT_FALSE(trip.reached);
+  EXPECT_GT(trip.driven_m, 4) << "it had to see the far side";
+  EXPECT_LT(trip.driven_m, 12);
+}
+
+TEST(Trip, WhatTheBodyMeetsIsKnown) {
+  constexpr double kBlind = kRadius / 2;
+  World world;
+  world.segments = {{{1, -0.5}, {1, 0.3}}};
+  const Trip trip = drive(world, {0, 0}, {2, 0}, kRadius, kBlind);
+  EXPECT_TRUE(trip.reached);
+  EXPECT_GT(trip.driven_m, shortest(world, {0.9, 0}, {2, 0}) + 0.9 - 0.02);
+  EXPECT_LT(ratio(trip), 1.5);
+}
+
+struct Class {
+  worlds::Kind kind;
+  std::optional<int> discs;
+  bool box;
+};
+
+TEST(Trip, IsNeverShorterThanTheShortestWayAndAlwaysEnds) {
+  for (const Class& c : {Class{worlds::Kind::discs, 30, false}, Class{worlds::Kind::discs, 75, true},
+                         Class{worlds::Kind::poles, {}, false}, Class{worlds::Kind::u_trap, {}, false},
+                         Class{worlds::Kind::spiral, {}, false}, Class{worlds::Kind::maze, {}, false},
+                         Class{worlds::Kind::rooms, {}, false}, Class{worlds::Kind::enclosed, {}, false}}) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+      worlds::Options options;
+      options.seed = seed;
+      options.discs = c.discs;
+      options.box = c.box;
+      const Scenario s = worlds::generate(c.kind, options);
+      const World world = make_world(s);
+      const Trip trip = drive(world, s.start.at, s.goal.at, kRadius, kRange);
+      EXPECT_EQ(trip.reached, c.kind != worlds::Kind::enclosed) << worlds::name(c.kind) << " " << seed;
+      if (!trip.reached) continue;
+      EXPECT_GE(ratio(trip), 0.999) << worlds::name(c.kind) << " " << seed;
+      EXPECT_LT(ratio(trip), 4) << worlds::name(c.kind) << " " << seed;
+      EXPECT_NEAR(*trip.shortest_m, shortest(world, s.start.at, s.goal.at), 0.02)
+          << worlds::name(c.kind) << " " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whisker::scanner
