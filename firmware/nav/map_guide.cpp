@@ -7,7 +7,7 @@
 namespace whisker::nav {
 namespace {
 
-constexpr int32_t kWordsATick = 1600;
+constexpr int32_t kRowsATick = 800;
 constexpr int32_t kEvery = 16;
 constexpr Length kDearer = 2500_mm;  // what the way around what is only suspected may cost more
 constexpr Length kHorizon = 3000_mm;
@@ -97,7 +97,7 @@ void MapGuide::plan(const View& view) noexcept {
     begin(Stage::strict, INT16_MAX, view);
     return;
   }
-  if (!flood_.run(map_, kWordsATick)) return;
+  if (!flood_.run(map_, kRowsATick * map_.shape().words)) return;
   const int32_t dearer = reference(kDearer).raw() / map_.cell().raw();
   switch (stage_) {
     case Stage::idle: break;
