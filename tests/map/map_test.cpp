@@ -103,6 +103,24 @@ TEST(Map, ANearEchoIsSureAndAFarOneIsNot) {
   EXPECT_EQ(far.map.at(far.map.place({550_mm, 50_mm})), State::free);
 }
 
+TEST(Map, WhatThePatchShowsIsFreeAsFarAsItShowsIt) {
+  test::Room room(kShape);
+  ground::Patch patch;
+  patch.configure(room.params);
+  patch.reset({kFrom, {}});
+  const auto cell = [&](int32_t x_mm) { return room.map.place({millimetres(x_mm), 50_mm}); };
+  for (const int32_t x : {50, 150, 250, 350}) room.map.set(cell(x), State::occupied);
+  room.map.free(patch, kFrom);
+  EXPECT_EQ(room.map.at(cell(50)), State::free);
+  EXPECT_EQ(room.map.at(cell(150)), State::occupied);
+  // The body drives on: its footprints show together what none of them does.
+  for (int32_t x = 50; x <= 200; x += 10) patch.move_to({{millimetres(x), 50_mm}, {}});
+  room.map.free(patch, {200_mm, 50_mm});
+  EXPECT_EQ(room.map.at(cell(150)), State::free);
+  EXPECT_EQ(room.map.at(cell(250)), State::occupied);
+  EXPECT_EQ(room.map.at(cell(350)), State::occupied);
+}
+
 TEST(Map, WhatIsSeenEmptyIsFreeWhateverItWas) {
   test::Room room(kShape);
   const Place p = room.map.place({1_m, Length{}});
