@@ -18,7 +18,7 @@
 /// - way_x_m, way_y_m: the place that it leads to, in the estimate's world, 6 decimals
 ///
 /// d, r, sa, sd and the estimate are empty fields where a bus lies between: it does not carry them. The last
-/// three are empty for planners without a map, too, and the place is where the guide has none.
+/// three are empty for planners without a map and on a chip, too, and the place is where the guide has none.
 #pragma once
 
 #include <string>
