@@ -198,7 +198,7 @@ void MapGuide::bar(Vec at) noexcept {
 }
 
 bool MapGuide::doubt() noexcept {
-  if (no_way_ || credits_ == 0) return false;
+  if (knows_no_way()) return false;
   --credits_;
   map_.doubt_all();
   for (Barrier& b : barrier_) b = {};

@@ -31,17 +31,17 @@ struct MapPicturePair {
   const char* name;  ///< map_NAME.svg, map_NAME_skirt.svg
   worlds::Kind kind;
   worlds::Options options;  ///< without the seed
-  double skirts_median;     ///< as in docs/map.md
+  double skirts_median;     ///< as in docs/skirt.md
 };
 
 constexpr MapPicturePair kMapPictures[] = {
-    {"30_discs", worlds::Kind::discs, {}, 1.053},
-    {"50_discs", worlds::Kind::discs, {1, 50, false, false}, 1.333},
-    {"75_discs", worlds::Kind::discs, {1, 75, true, false}, 1.487},
-    {"u_trap", worlds::Kind::u_trap, {}, 1.544},
-    {"spiral", worlds::Kind::spiral, {}, 1.447},
-    {"maze", worlds::Kind::maze, {}, 1.407},
-    {"rooms", worlds::Kind::rooms, {}, 2.243},
+    {"30_discs", worlds::Kind::discs, {}, 1.060},
+    {"50_discs", worlds::Kind::discs, {1, 50, false, false}, 1.358},
+    {"75_discs", worlds::Kind::discs, {1, 75, true, false}, 1.533},
+    {"u_trap", worlds::Kind::u_trap, {}, 1.497},
+    {"spiral", worlds::Kind::spiral, {}, 1.393},
+    {"maze", worlds::Kind::maze, {}, 1.506},
+    {"rooms", worlds::Kind::rooms, {}, 2.667},
     {"enclosed", worlds::Kind::enclosed, {}, 0},
 };
 

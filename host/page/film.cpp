@@ -12,10 +12,23 @@ std::size_t wrapped(std::int64_t cell) { return static_cast<std::uint64_t>(cell)
 
 }  // namespace
 
+void Frames::add(std::size_t tick, const std::uint32_t* now, const std::uint32_t* last, std::size_t count) {
+  const std::size_t had = words.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (now[i] == last[i]) continue;
+    words.push_back(static_cast<std::int64_t>(i));
+    bits.push_back(now[i] ^ last[i]);
+  }
+  ticks.push_back(static_cast<std::int64_t>(tick));
+  changes.push_back(static_cast<std::int64_t>(words.size() - had));
+}
+
+std::ptrdiff_t Frames::before(std::size_t tick) const {
+  return std::lower_bound(ticks.begin(), ticks.end(), static_cast<std::int64_t>(tick)) - ticks.begin();
+}
+
 void Frames::append(const Frames& more, std::size_t from_tick) {
-  const auto from =
-      std::lower_bound(more.ticks.begin(), more.ticks.end(), static_cast<std::int64_t>(from_tick));
-  const std::ptrdiff_t first = from - more.ticks.begin();
+  const std::ptrdiff_t first = more.before(from_tick);
   const std::ptrdiff_t change =
       std::accumulate(more.changes.begin(), more.changes.begin() + first, std::ptrdiff_t{0});
   const auto add = [](auto& to, const auto& list, std::ptrdiff_t skipped) {
@@ -40,15 +53,7 @@ Film::Picture Film::picture(Vec body, const ground::Patch& patch) const {
 
 void Film::add(std::size_t tick, Vec body, const ground::Patch& patch, Frames& frames) {
   const Picture now = picture(body, patch);
-  std::int64_t changes = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i] == last_[i]) continue;
-    frames.words.push_back(static_cast<std::int64_t>(i));
-    frames.bits.push_back(now[i] ^ last_[i]);
-    ++changes;
-  }
-  frames.ticks.push_back(static_cast<std::int64_t>(tick));
-  frames.changes.push_back(changes);
+  frames.add(tick, now.data(), last_.data(), now.size());
   last_ = now;
 }
 

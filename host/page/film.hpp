@@ -16,9 +16,13 @@ namespace whisker::page {
 struct Frames {
   /// A picture each: its tick, and how many words changed.
   std::vector<std::int64_t> ticks, changes;
-  /// A change each: which word, 0..127, and the bits to turn over.
+  /// A change each: which word of the picture, and the bits to turn over.
   std::vector<std::int64_t> words, bits;
 
+  /// The next picture; both have `count` words.
+  void add(std::size_t tick, const std::uint32_t* now, const std::uint32_t* last, std::size_t count);
+  /// How many pictures come before this tick.
+  std::ptrdiff_t before(std::size_t tick) const;
   /// The pictures of `more` from this tick on.
   void append(const Frames& more, std::size_t from_tick);
 };

@@ -1,6 +1,5 @@
 #include "host/page/map_film.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace whisker::page {
@@ -35,9 +34,7 @@ std::vector<std::uint32_t> words_of(const MapPicture& picture) {
 }  // namespace
 
 void MapFrames::append(const MapFrames& more, std::size_t from_tick) {
-  const auto& ticks = more.pictures.ticks;
-  const auto from = std::lower_bound(ticks.begin(), ticks.end(), static_cast<std::int64_t>(from_tick));
-  const std::ptrdiff_t first = from - ticks.begin();
+  const std::ptrdiff_t first = more.pictures.before(from_tick);
   pictures.append(more.pictures, from_tick);
   x.insert(x.end(), more.x.begin() + first, more.x.end());
   y.insert(y.end(), more.y.begin() + first, more.y.end());
@@ -46,15 +43,7 @@ void MapFrames::append(const MapFrames& more, std::size_t from_tick) {
 void MapFilm::add(std::size_t tick, const MapPicture& picture, MapFrames& frames) {
   std::vector<std::uint32_t> now = words_of(picture);
   last_.resize(now.size());
-  std::int64_t changes = 0;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (now[i] == last_[i]) continue;
-    frames.pictures.words.push_back(static_cast<std::int64_t>(i));
-    frames.pictures.bits.push_back(now[i] ^ last_[i]);
-    ++changes;
-  }
-  frames.pictures.ticks.push_back(static_cast<std::int64_t>(tick));
-  frames.pictures.changes.push_back(changes);
+  frames.pictures.add(tick, now.data(), last_.data(), now.size());
   frames.x.push_back(picture.corner.x);
   frames.y.push_back(picture.corner.y);
   last_ = std::move(now);

@@ -1,5 +1,6 @@
 #include "host/run/core_pilot.hpp"
 
+#include <type_traits>
 #include <utility>
 
 #include "firmware/nav/map_planner.hpp"
@@ -21,10 +22,17 @@ struct ShownMap {
   nav::SkirtPlanner planner;
 };
 
-template <int kBytes>
-SeenPlanner with_map(const Params& params, const fuzzy::Engine::Table& table) {
-  const auto map = std::make_shared<ShownMap<kBytes>>(params, table);
-  return {{map, &map->planner}, &map->guide};
+/// What `make` makes of the size of this planner's map, an integral constant; nothing without a map.
+template <class Made, class Make>
+Made of_map(PlannerKind kind, const Make& make) {
+  switch (map_bytes(kind)) {
+    case 1024: return make(std::integral_constant<int, 1024>());
+    case 2048: return make(std::integral_constant<int, 2048>());
+    case 4096: return make(std::integral_constant<int, 4096>());
+    case 8192: return make(std::integral_constant<int, 8192>());
+    case 16384: return make(std::integral_constant<int, 16384>());
+    default: return {};
+  }
 }
 
 }  // namespace
@@ -48,25 +56,14 @@ SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzz
     return {{skirt, &skirt->planner}};
   }
   if (kind == PlannerKind::thesis) return {std::make_shared<nav::ThesisPlanner>(params, table)};
-  switch (map_bytes(kind)) {
-    case 1024: return with_map<1024>(params, table);
-    case 2048: return with_map<2048>(params, table);
-    case 4096: return with_map<4096>(params, table);
-    case 8192: return with_map<8192>(params, table);
-    case 16384: return with_map<16384>(params, table);
-    default: return {};
-  }
+  return of_map<SeenPlanner>(kind, [&](auto bytes) -> SeenPlanner {
+    const auto map = std::make_shared<ShownMap<bytes()>>(params, table);
+    return {{map, &map->planner}, &map->guide};
+  });
 }
 
 std::optional<map::Shape> map_shape(PlannerKind kind) {
-  switch (map_bytes(kind)) {
-    case 1024: return nav::kMapShape<1024>;
-    case 2048: return nav::kMapShape<2048>;
-    case 4096: return nav::kMapShape<4096>;
-    case 8192: return nav::kMapShape<8192>;
-    case 16384: return nav::kMapShape<16384>;
-    default: return std::nullopt;
-  }
+  return of_map<std::optional<map::Shape>>(kind, [](auto bytes) { return nav::kMapShape<bytes()>; });
 }
 
 }  // namespace whisker

@@ -36,17 +36,6 @@ class Campaigns(Case):
         self.campaign(*arguments, "--csv", "rows.csv")
         return (self.folder / "rows.csv").read_text()
 
-    def refused(self, *arguments, says):
-        before = self.contents()
-        done = whisker.whisker("campaign", *arguments, cwd=self.folder)
-        with self.subTest(arguments):
-            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
-            self.assertRegex(done.stderr, r"\A[^\n]+\n\Z")
-            self.assertIn(says, done.stderr)
-            self.assertEqual(self.contents(), before)
-
-
-class Rows(Campaigns):
     def test_are_in_order_of_seed_and_the_same_however_they_are_driven(self):
         alone = self.rows(*KIND, "--count", COUNT, "--seed", 5, "--jobs", 1)
         self.assertEqual([int(row["seed"]) for row in rows_of(alone)], list(range(5, 5 + COUNT)))
@@ -118,15 +107,15 @@ class Shards(Campaigns):
 
     def test_what_cannot_be_merged_is_refused_with_its_place(self):
         text = self.rows(*KIND, "--count", 2)
-        self.refused("--merge", "rows.csv", "rows.csv", says="rows.csv:2:1: ")
-        self.refused("--merge", "none.csv", says="none.csv:1:1: ")
+        self.refused("campaign", "--merge", "rows.csv", "rows.csv", says="rows.csv:2:1: ")
+        self.refused("campaign", "--merge", "none.csv", says="none.csv:1:1: ")
         self.file("cut.csv", text[:-9])
-        self.refused("--merge", "cut.csv", says="cut.csv:3:1: ")
+        self.refused("campaign", "--merge", "cut.csv", says="cut.csv:3:1: ")
         self.file("odd.csv", text.replace(",reached,", ",arrived,").replace(",gave_up,", ",tired,"))
-        self.refused("--merge", "odd.csv", says="odd.csv:2:1: ")
-        self.refused("--merge", "rows.csv", "--count", 3, says="--count")
-        self.refused("discs", "--merge", "rows.csv", says="KIND|DIR")
-        self.refused("--merge", says="--merge")
+        self.refused("campaign", "--merge", "odd.csv", says="odd.csv:2:1: ")
+        self.refused("campaign", "--merge", "rows.csv", "--count", 3, says="--count")
+        self.refused("campaign", "discs", "--merge", "rows.csv", says="KIND|DIR")
+        self.refused("campaign", "--merge", says="--merge")
 
 
 class Summary(Campaigns):
@@ -222,33 +211,33 @@ class Folders(Campaigns):
         self.assertEqual(noisy[1]["hash"], json.loads(result)["hash"])
 
     def test_what_does_not_fit_is_refused(self):
-        self.refused("worlds", "--count", 3, says="--seed")
-        self.refused("worlds", "--noise", says="--noise")
-        self.refused("worlds", "--wheel-scale-sigma", "0.01", says="--wheel-scale-sigma")
-        self.refused("worlds", "--replay", 3, says="whisker run")
-        self.refused("elsewhere", says="elsewhere")
+        self.refused("campaign", "worlds", "--count", 3, says="--seed")
+        self.refused("campaign", "worlds", "--noise", says="--noise")
+        self.refused("campaign", "worlds", "--wheel-scale-sigma", "0.01", says="--wheel-scale-sigma")
+        self.refused("campaign", "worlds", "--replay", 3, says="whisker run")
+        self.refused("campaign", "elsewhere", says="elsewhere")
         (self.folder / "worlds" / "wrong.toml").write_text("name = 1\n")
-        self.refused("worlds", "--csv", "rows.csv", says="worlds/wrong.toml:1:")
+        self.refused("campaign", "worlds", "--csv", "rows.csv", says="worlds/wrong.toml:1:")
         (self.folder / "empty").mkdir()
-        self.refused("empty", says="no scenario files")
+        self.refused("campaign", "empty", says="no scenario files")
 
 
 class Refusals(Campaigns):
     def test_a_command_line_that_means_nothing(self):
-        self.refused(says="KIND|DIR")
-        self.refused("cubes", says="cubes")
-        self.refused("discs", "--count", 0, says="--count")
-        self.refused("discs", "--count", "1e3", says="--count")
-        self.refused("discs", "--seed", 2**63 - 1, "--count", 2, says="--seed")
-        self.refused("maze", "--box", says="maze")
-        self.refused("maze", "--wheel-scale-sigma", "0.01", says="needs noise")
-        self.refused("discs", "--svg", "a.svg", says="--replay")
-        self.refused("discs", "--replay", 3, "--csv", "a.csv", says="--csv")
-        self.refused("discs", "--csv", "nowhere/a.csv", says="nowhere")
-        self.refused("discs", "--robot", "none.toml", "--csv", "a.csv", says="none.toml:1:1")
+        self.refused("campaign", says="KIND|DIR")
+        self.refused("campaign", "cubes", says="cubes")
+        self.refused("campaign", "discs", "--count", 0, says="--count")
+        self.refused("campaign", "discs", "--count", "1e3", says="--count")
+        self.refused("campaign", "discs", "--seed", 2**63 - 1, "--count", 2, says="--seed")
+        self.refused("campaign", "maze", "--box", says="maze")
+        self.refused("campaign", "maze", "--wheel-scale-sigma", "0.01", says="needs noise")
+        self.refused("campaign", "discs", "--svg", "a.svg", says="--replay")
+        self.refused("campaign", "discs", "--replay", 3, "--csv", "a.csv", says="--csv")
+        self.refused("campaign", "discs", "--csv", "nowhere/a.csv", says="nowhere")
+        self.refused("campaign", "discs", "--robot", "none.toml", "--csv", "a.csv", says="none.toml:1:1")
         for shard in ("0/3", "4/3", "1", "1/", "/2", "1/0", "-1/2", "1/2/3", "a/b", "1 /2", "2/2000000"):
-            self.refused("discs", "--shard", shard, says="--shard")
-        self.refused("discs", "--count", 2, "--shard", "1/3", says="empty")
+            self.refused("campaign", "discs", "--shard", shard, says="--shard")
+        self.refused("campaign", "discs", "--count", 2, "--shard", "1/3", says="empty")
 
     def test_a_full_disk_is_a_failure(self):
         done = whisker.whisker("campaign", *KIND, "--count", 2, "--csv", "/dev/full")

@@ -239,14 +239,10 @@ class View(OnABus):
 
     def test_what_cannot_be_served_is_refused_before_anything_starts(self):
         scenario = self.world("discs", 5)
-        before = self.contents()
+        outputs = ("--trace", self.folder / "t.csv", "--record", self.folder / "r.log")
 
         def refused(*arguments, says):
-            done = whisker.whisker(*arguments, "--trace", self.folder / "t.csv", "--record", self.folder / "r.log")
-            self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
-            self.assertRegex(done.stderr, r"\A[^\n]+\n\Z")
-            self.assertIn(says, done.stderr)
-            self.assertEqual(self.contents(), before)
+            self.refused(*arguments, *outputs, says=says)
 
         with socket.create_server(("127.0.0.1", 0)) as taken:
             port = taken.getsockname()[1]

@@ -16,16 +16,6 @@ class Refusals(Case):
         self.file("robot.toml", "body_radius_m = 0.08\n")
         (self.folder / "folder").mkdir()
 
-    def refused(self, *arguments, status=2, says=""):
-        before = self.contents()
-        done = whisker.whisker(*arguments, cwd=self.folder)
-        with self.subTest(arguments):
-            self.assertEqual(done.returncode, status, done.stderr)
-            self.assertEqual(done.stdout, "")
-            self.assertRegex(done.stderr, r"\A[^\n]+\n\Z")
-            self.assertIn(says, done.stderr)
-            self.assertEqual(self.contents(), before)
-
     def test_a_command_line_that_means_nothing(self):
         self.refused()
         self.refused("nonsense", says="nonsense")

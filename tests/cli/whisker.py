@@ -57,6 +57,16 @@ class Case(unittest.TestCase):
             for path in self.folder.rglob("*")
         }
 
+    def refused(self, *arguments, status=2, says=""):
+        """One line on standard error says so, and no file is written or lost."""
+        before = self.contents()
+        done = whisker(*arguments, cwd=self.folder)
+        with self.subTest(arguments):
+            self.assertEqual((done.returncode, done.stdout), (status, ""), done.stderr)
+            self.assertRegex(done.stderr, r"\A[^\n]+\n\Z")
+            self.assertIn(says, done.stderr)
+            self.assertEqual(self.contents(), before)
+
 
 def main():
     global binary
