@@ -148,6 +148,22 @@ void Map::free(const ground::Patch& patch, Vec body) noexcept {
   }
 }
 
+/// The cells that have a level, all that lie beside them, and the window's rim, where a plan may come in: no
+/// other is of any account to the plan so far.
+Word Map::reached(int32_t row, int w) const noexcept {
+  const int32_t words = shape_.words;
+  if (row == 0 || row == shape_.rows - 1) return ~Word{0};
+  Word near = 0;
+  for (int32_t i = (row - 1) * words + w; i <= (row + 1) * words + w; i += words) {
+    const auto levels = [this](int32_t at) { return level_high()[at] | level_low()[at]; };
+    const Word here = levels(i);
+    near |= here | here << 1 | here >> 1;
+    near |= w == 0 ? 1U : levels(i - 1) >> (kWordBits - 1);
+    near |= w == words - 1 ? Word{1} << (kWordBits - 1) : levels(i + 1) << (kWordBits - 1);
+  }
+  return near;
+}
+
 void Map::mark(const ground::Proof& proof, bool hold) noexcept {
   const Angle axis = proof.from.heading + proof.axis;
   const Vec from = proof.from.at + polar(axis, offset_);
@@ -197,7 +213,7 @@ void Map::mark(const ground::Proof& proof, bool hold) noexcept {
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
       Word cells = columns(c.first, c.last, w);
-      if (hold) cells &= ~blocking()[i];
+      if (hold && (cells & blocking()[i]) != 0) cells &= ~(blocking()[i] & reached(row, w));
       sure()[i] |= cells;
       blocking()[i] &= ~cells;
     }

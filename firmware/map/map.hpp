@@ -31,7 +31,7 @@ class Map {
   void reset(Vec body, Vec goal) noexcept;
   /// Moves the window on where the body comes near its border. True: it moved.
   bool follow(Vec body, Vec goal) noexcept;
-  /// What one beam shows. `hold`: what blocks stays so, for a plan is being made.
+  /// What one beam shows. `hold`: a plan is being made, and what blocks where it has come to stays so.
   void mark(const ground::Proof& proof, bool hold) noexcept;
   /// What is free by the patch as good as a whole: beams show it together that do not singly. Not while a
   /// plan is being made.
@@ -62,6 +62,7 @@ class Map {
  private:
   struct Box;
   Word* plane(int n) const noexcept { return planes_ + ptrdiff_t{n} * shape_.size(); }
+  Word reached(int32_t row, int w) const noexcept;
   int32_t units(Length l) const noexcept;
   Place corner_for(Vec body, Vec goal) const noexcept;
   void move_by(Place step) noexcept;

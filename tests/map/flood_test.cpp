@@ -99,8 +99,8 @@ struct Case {
 };
 
 template <class Each>
-void each_case(const Each& each) {
-  for (unsigned seed = 1; seed <= test::effort(60); ++seed) {
+void each_case(const Each& each, std::uint64_t count = 60) {
+  for (unsigned seed = 1; seed <= test::effort(count); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Case c(seed);
     each(c);
@@ -171,6 +171,43 @@ TEST(Flood, SpreadOverTicksIsTheWhole) {
     EXPECT_EQ(parts.level(), level);
     EXPECT_EQ(c.room.storage, whole);
   });
+}
+
+TEST(Flood, IsTheWholeOneOfTheMapThatItEndsWithWhereCellsOpenMeanwhile) {
+  int opened = 0;
+  each_case(
+      [&](Case& c) {
+        Map& map = c.room.map;
+        const auto blocked = [&map] {
+          int n = 0;
+          for (int i = 0; i < map.shape().size(); ++i) n += __builtin_popcount(map.blocking()[i]);
+          return n;
+        };
+        Flood parts;
+        parts.begin(map, c.task);
+        const int at_first = blocked();
+        std::uniform_int_distribution<int32_t> words(1, 300);
+        std::uniform_int_distribution<int32_t> column(0, map.shape().columns() - 1);
+        std::uniform_int_distribution<int32_t> row(0, map.shape().rows - 1);
+        std::uniform_int_distribution<uint32_t> heading;
+        while (!parts.run(map, words(c.random))) {
+          ground::Proof clear;
+          clear.from.at = map.middle({column(c.random), row(c.random)});
+          clear.from.heading = Angle::from_raw(heading(c.random));
+          clear.free = 2_m;
+          map.mark(clear, true);
+        }
+        opened += at_first - blocked();
+        const int32_t level = parts.level();
+        const std::vector<Word> in_parts = c.room.storage;
+        Flood whole;
+        whole.begin(map, c.task);
+        whole.run(map, kWhole);
+        EXPECT_EQ(level, whole.level());
+        EXPECT_EQ(in_parts, c.room.storage);
+      },
+      1000);
+  EXPECT_GT(opened, 1000);
 }
 
 TEST(Flood, GoesAroundOutsideTheWindowAtAPrice) {
