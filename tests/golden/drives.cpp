@@ -48,9 +48,9 @@ Scenario from_file(const std::string& name) {
   return load_scenario(std::string(WHISKER_SOURCE_DIR) + "/" + name + ".toml");
 }
 
-Scenario generated(worlds::Kind kind, bool noise) {
+Scenario generated(worlds::Kind kind, bool noise, std::uint64_t seed = 1) {
   worlds::Options options;
-  options.seed = 1;
+  options.seed = seed;
   options.noise = noise;
   return worlds::generate(kind, options);
 }
@@ -76,6 +76,7 @@ std::vector<Stream> drives() {
   for (const PlannerKind planner : {PlannerKind::map, kLargestMapOfAll}) {
     all.push_back(drive("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), planner, 12));
     all.push_back(drive("maze with noise", generated(worlds::Kind::maze, true), planner, 6));
+    all.push_back(drive("maze", generated(worlds::Kind::maze, false, 3), planner, 4));
   }
   all.push_back(drive("enclosed", generated(worlds::Kind::enclosed, false), PlannerKind::map, 6));
   all.push_back(
