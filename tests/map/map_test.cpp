@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <random>
 #include <vector>
 
@@ -125,10 +126,26 @@ TEST(Map, WhatIsSeenEmptyIsFreeWhateverItWas) {
   test::Room room(kShape);
   const Place p = room.map.place({1_m, Length{}});
   room.map.set(p, State::occupied);
-  room.map.mark(proof({}, Angle{}, 2_m, false), true);
-  EXPECT_EQ(room.map.at(p), State::occupied);
   room.map.mark(proof({}, Angle{}, 2_m, false), false);
   EXPECT_EQ(room.map.at(p), State::free);
+}
+
+TEST(Map, WhatAPlanHasComeToStaysBlockedUntilItIsMade) {
+  for (int dy = -2; dy <= 2; ++dy) {
+    for (int dx = -2; dx <= 2; ++dx) {
+      test::Room room(kShape);
+      const Place p = room.map.place({1_m, Length{}});
+      room.map.set(p, State::occupied);
+      const Place level = p + Place{dx, dy};
+      Word* const plane = dx == dy ? room.map.level_low() : room.map.level_high();
+      plane[level.y * kShape.words + level.x / kWordBits] = Word{1} << (level.x % kWordBits);
+      room.map.mark(proof({}, Angle{}, 2_m, false), true);
+      const bool beside = std::abs(dx) < 2 && std::abs(dy) < 2;
+      EXPECT_EQ(room.map.at(p), beside ? State::occupied : State::free) << dx << ", " << dy;
+      room.map.mark(proof({}, Angle{}, 2_m, false), false);
+      EXPECT_EQ(room.map.at(p), State::free) << dx << ", " << dy;
+    }
+  }
 }
 
 TEST(Map, AnEchoDoesNotTakeBackWhatWasSeenEmpty) {
