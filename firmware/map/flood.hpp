@@ -24,7 +24,8 @@ class Flood {
     bool suspects_block = false;
   };
 
-  /// Until it is over, nothing that blocks may open, and the window may not move.
+  /// Until it is over, the window may not move, and what blocks may open only where the flood has not come
+  /// to, as Map::mark holds it.
   void begin(Map& map, const Task& task) noexcept;
   /// Goes on for so many words of rows, and up to one row more. True: over.
   bool run(Map& map, int32_t words) noexcept;

@@ -150,7 +150,7 @@ void Map::free(const ground::Patch& patch, Vec body) noexcept {
 
 /// The cells that have a level, all that lie beside them, and the window's rim, where a plan may come in: no
 /// other is of any account to the plan so far.
-Word Map::reached(int32_t row, int w) const noexcept {
+Word Map::touched(int32_t row, int w) const noexcept {
   const int32_t words = shape_.words;
   if (row == 0 || row == shape_.rows - 1) return ~Word{0};
   Word near = 0;
@@ -213,7 +213,7 @@ void Map::mark(const ground::Proof& proof, bool hold) noexcept {
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
       Word cells = columns(c.first, c.last, w);
-      if (hold && (cells & blocking()[i]) != 0) cells &= ~(blocking()[i] & reached(row, w));
+      if (hold && (cells & blocking()[i]) != 0) cells &= ~(blocking()[i] & touched(row, w));
       sure()[i] |= cells;
       blocking()[i] &= ~cells;
     }

@@ -62,7 +62,7 @@ class Map {
  private:
   struct Box;
   Word* plane(int n) const noexcept { return planes_ + ptrdiff_t{n} * shape_.size(); }
-  Word reached(int32_t row, int w) const noexcept;
+  Word touched(int32_t row, int w) const noexcept;
   int32_t units(Length l) const noexcept;
   Place corner_for(Vec body, Vec goal) const noexcept;
   void move_by(Place step) noexcept;
