@@ -110,7 +110,8 @@ bool Flood::reaches_border(const Map& map) const noexcept {
 
 Word Flood::passable(const Map& map, int32_t row, int w) const noexcept {
   const int32_t i = row * map.shape().words + w;
-  const Word solid = task_.suspects_block ? map.blocking()[i] : map.blocking()[i] & map.sure()[i];
+  const Word solid =
+      task_.strict ? map.blocking()[i] | map.cramped(row, w) : map.blocking()[i] & map.sure()[i];
   if (row == task_.body.y) return ~solid | columns(task_.body.x, task_.body.x, w);
   return ~solid;
 }
@@ -121,12 +122,14 @@ class Flood::Rows {
  public:
   Rows(Flood& flood, Map& map) noexcept
       : flood_(flood),
+        map_(map),
         shape_(map.shape()),
         blocking_(map.blocking()),
         sure_(map.sure()),
         high_(map.level_high()),
         low_(map.level_low()),
-        any_state_(flood.task_.suspects_block ? ~Word{0} : 0),
+        any_state_(flood.task_.strict ? ~Word{0} : 0),
+        cramps_(flood.task_.strict && map.shape().fine()),
         body_inside_(map.holds(flood.task_.body)) {
     begin_level();
   }
@@ -151,16 +154,20 @@ class Flood::Rows {
   }
 
   void read(int32_t row, Row& to) const noexcept;
+  // Out of line, so that read() keeps its words in registers: most maps have no cramped cells.
+  [[gnu::noinline]] void cramp(int32_t row, Row& to) const noexcept;
   void move_on(int32_t row) noexcept;
   Word entering(int32_t row, int w) const noexcept;
 
   Flood& flood_;
+  const Map& map_;
   const Shape& shape_;
   const Word* const blocking_;
   const Word* const sure_;
   Word* const high_;
   Word* const low_;
   const Word any_state_;  // suspects block, too
+  const bool cramps_;     // cramped cells, too
   const bool body_inside_;
   Row row_[3];
   Row* above_ = &row_[0];
@@ -225,12 +232,21 @@ void Flood::Rows::read(int32_t row, Row& to) const noexcept {
     to.fresh[w + 1] = open & ~(h | l);
   }
   to.any = any;
+  if (cramps_) cramp(row, to);
   const Place& body = flood_.task_.body;
   if (row != body.y || !body_inside_) return;
   const int w = static_cast<int>(body.x / kWordBits);
   const Word bit = Word{1} << (body.x % kWordBits);
   to.open[w + 1] |= bit;
   to.fresh[w + 1] |= bit & ~(high[w] | low[w]);
+}
+
+void Flood::Rows::cramp(int32_t row, Row& to) const noexcept {
+  for (int w = 0; w < shape_.words; ++w) {
+    const Word cramped = map_.cramped(row, w);
+    to.open[w + 1] &= ~cramped;
+    to.fresh[w + 1] &= ~cramped;
+  }
 }
 
 void Flood::Rows::move_on(int32_t row) noexcept {

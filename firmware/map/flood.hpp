@@ -21,7 +21,7 @@ class Flood {
     Place body;                ///< of the window
     Place goal;                ///< the same; it may lie outside
     int32_t most = INT16_MAX;  ///< levels
-    bool suspects_block = false;
+    bool strict = false;       ///< suspects block, and so do cramped cells
   };
 
   /// Until it is over, the window may not move, and what blocks may open only where the flood has not come

@@ -11,6 +11,9 @@ using Word = uint32_t;
 constexpr int kWordBits = 32;
 constexpr int kMostWords = 6;
 
+/// A body with a radius of 90 mm has no room for its middle beside a cell that blocks, if that is narrower.
+constexpr Length kRoom = millimetres(75);
+
 /// A window of words x 32 columns and so many rows.
 struct Shape {
   int16_t words = 0;
@@ -19,6 +22,8 @@ struct Shape {
 
   constexpr int32_t columns() const noexcept { return words * kWordBits; }
   constexpr int32_t size() const noexcept { return int32_t{words} * rows; }
+  /// Cells are narrower than the room that the body needs.
+  constexpr bool fine() const noexcept { return cell < kRoom; }
 };
 
 /// Two bits say what is known of a cell, two hold its level in the plan.

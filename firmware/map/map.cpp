@@ -148,18 +148,35 @@ void Map::free(const ground::Patch& patch, Vec body) noexcept {
   }
 }
 
+Word Map::cramped(int32_t row, int w) const noexcept {
+  if (!shape_.fine()) return 0;
+  const int32_t words = shape_.words;
+  const int32_t i = row * words + w;
+  const Word here = blocking()[i];
+  Word beside = here << 1 | here >> 1;
+  if (w > 0) beside |= blocking()[i - 1] >> (kWordBits - 1);
+  if (w < words - 1) beside |= blocking()[i + 1] << (kWordBits - 1);
+  if (row > 0) beside |= blocking()[i - words];
+  if (row < shape_.rows - 1) beside |= blocking()[i + words];
+  return beside & ~here & ~sure()[i];
+}
+
 /// The cells that have a level, all that lie beside them, and the window's rim, where a plan may come in: no
-/// other is of any account to the plan so far.
+/// other is of any account to the plan so far. What opens in a fine map makes room beside it: one cell more.
 Word Map::touched(int32_t row, int w) const noexcept {
   const int32_t words = shape_.words;
-  if (row == 0 || row == shape_.rows - 1) return ~Word{0};
+  const int32_t reach = shape_.fine() ? 2 : 1;
+  if (row < reach || row >= shape_.rows - reach) return ~Word{0};
   Word near = 0;
-  for (int32_t i = (row - 1) * words + w; i <= (row + 1) * words + w; i += words) {
+  for (int32_t i = (row - reach) * words + w; i <= (row + reach) * words + w; i += words) {
     const auto levels = [this](int32_t at) { return level_high()[at] | level_low()[at]; };
+    const Word left = w == 0 ? ~Word{0} : levels(i - 1);
     const Word here = levels(i);
-    near |= here | here << 1 | here >> 1;
-    near |= w == 0 ? 1U : levels(i - 1) >> (kWordBits - 1);
-    near |= w == words - 1 ? Word{1} << (kWordBits - 1) : levels(i + 1) << (kWordBits - 1);
+    const Word right = w == words - 1 ? ~Word{0} : levels(i + 1);
+    near |= here;
+    for (int32_t n = 1; n <= reach; ++n) {
+      near |= here << n | here >> n | left >> (kWordBits - n) | right << (kWordBits - n);
+    }
   }
   return near;
 }
@@ -213,7 +230,10 @@ void Map::mark(const ground::Proof& proof, bool hold) noexcept {
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
       Word cells = columns(c.first, c.last, w);
-      if (hold && (cells & blocking()[i]) != 0) cells &= ~(blocking()[i] & touched(row, w));
+      if (hold) {
+        const Word closed = cells & (blocking()[i] | cramped(row, w));
+        if (closed != 0) cells &= ~(closed & touched(row, w));
+      }
       sure()[i] |= cells;
       blocking()[i] &= ~cells;
     }

@@ -59,6 +59,10 @@ class Map {
   Word* level_high() const noexcept { return plane(2); }
   Word* level_low() const noexcept { return plane(3); }
 
+  /// Unseen cells beside what blocks, of the four neighbours: there is no room for the body. None where cells
+  /// are as wide as that takes.
+  Word cramped(int32_t row, int w) const noexcept;
+
  private:
   struct Box;
   Word* plane(int n) const noexcept { return planes_ + ptrdiff_t{n} * shape_.size(); }

@@ -82,7 +82,7 @@ void MapGuide::begin(Stage stage, int32_t most, const View& view) noexcept {
   task.body = map_.place(view.pose.at);
   task.goal = map_.place(goal_.at);
   task.most = most;
-  task.suspects_block = stage != Stage::passing;
+  task.strict = stage != Stage::passing;
   flood_.begin(map_, task);
 }
 

@@ -131,20 +131,49 @@ TEST(Map, WhatIsSeenEmptyIsFreeWhateverItWas) {
 }
 
 TEST(Map, WhatAPlanHasComeToStaysBlockedUntilItIsMade) {
-  for (int dy = -2; dy <= 2; ++dy) {
-    for (int dx = -2; dx <= 2; ++dx) {
-      test::Room room(kShape);
-      const Place p = room.map.place({1_m, Length{}});
-      room.map.set(p, State::occupied);
-      const Place level = p + Place{dx, dy};
-      Word* const plane = dx == dy ? room.map.level_low() : room.map.level_high();
-      plane[level.y * kShape.words + level.x / kWordBits] = Word{1} << (level.x % kWordBits);
-      room.map.mark(proof({}, Angle{}, 2_m, false), true);
-      const bool beside = std::abs(dx) < 2 && std::abs(dy) < 2;
-      EXPECT_EQ(room.map.at(p), beside ? State::occupied : State::free) << dx << ", " << dy;
-      room.map.mark(proof({}, Angle{}, 2_m, false), false);
-      EXPECT_EQ(room.map.at(p), State::free) << dx << ", " << dy;
+  for (const Shape& shape : {kShape, Shape{6, 57, 50_mm}}) {
+    const int reach = shape.fine() ? 2 : 1;
+    for (int dy = -3; dy <= 3; ++dy) {
+      for (int dx = -3; dx <= 3; ++dx) {
+        test::Room room(shape);
+        const Place p = room.map.place({1_m, Length{}});
+        room.map.set(p, State::occupied);
+        const Place level = p + Place{dx, dy};
+        Word* const plane = dx == dy ? room.map.level_low() : room.map.level_high();
+        plane[level.y * shape.words + level.x / kWordBits] = Word{1} << (level.x % kWordBits);
+        room.map.mark(proof({}, Angle{}, 2_m, false), true);
+        const bool beside = std::abs(dx) <= reach && std::abs(dy) <= reach;
+        EXPECT_EQ(room.map.at(p), beside ? State::occupied : State::free) << dx << ", " << dy;
+        room.map.mark(proof({}, Angle{}, 2_m, false), false);
+        EXPECT_EQ(room.map.at(p), State::free) << dx << ", " << dy;
+      }
     }
+  }
+}
+
+TEST(Map, UnseenCellsBesideWhatBlocksAreCrampedWhereCellsAreFine) {
+  std::mt19937 random(7);
+  for (const Shape& shape : {Shape{3, 40, 50_mm}, Shape{1, 40, micrometres(66700)}, Shape{3, 40, 80_mm}}) {
+    test::Room room(shape);
+    room.scatter(random, 0.2);
+    for (int y = 10; y < 20; ++y) {
+      for (int x = 20; x < shape.columns(); ++x) {
+        if ((x + y) % 3 == 0) room.map.set({x, y}, State::free);
+      }
+    }
+    int cramped = 0;
+    for (int y = 0; y < shape.rows; ++y) {
+      for (int x = 0; x < shape.columns(); ++x) {
+        const auto blocks = [&](Place p) { return room.map.holds(p) && room.map.at(p) >= State::suspect; };
+        const bool beside =
+            blocks({x - 1, y}) || blocks({x + 1, y}) || blocks({x, y - 1}) || blocks({x, y + 1});
+        const bool due = beside && room.map.at({x, y}) == State::unknown && shape.cell < 75_mm;
+        ASSERT_EQ(room.map.cramped(y, x / kWordBits) >> (x % kWordBits) & 1U, due ? 1U : 0U)
+            << x << ", " << y;
+        cramped += due;
+      }
+    }
+    EXPECT_EQ(cramped > 100, shape.fine());
   }
 }
 
