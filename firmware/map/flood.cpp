@@ -148,10 +148,6 @@ class Flood::Rows {
     Word fresh[kMostWords + 2] = {};  ///< the same, without a level
     Word any = 0;                     ///< of the front
   };
-  /// What lies beside the cells of the middle one of three words.
-  static Word beside(Word left, Word middle, Word right) noexcept {
-    return middle << 1 | left >> (kWordBits - 1) | middle >> 1 | right << (kWordBits - 1);
-  }
 
   void read(int32_t row, Row& to) const noexcept;
   // Out of line, so that read() keeps its words in registers: most maps have no cramped cells.

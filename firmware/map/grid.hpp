@@ -11,7 +11,7 @@ using Word = uint32_t;
 constexpr int kWordBits = 32;
 constexpr int kMostWords = 6;
 
-/// A body with a radius of 90 mm has no room for its middle beside a cell that blocks, if that is narrower.
+/// Beside a blocked cell narrower than this there is no room for the middle of a body with a radius of 90 mm.
 constexpr Length kRoom = millimetres(75);
 
 /// A window of words x 32 columns and so many rows.
@@ -47,6 +47,11 @@ constexpr Word columns(int32_t first, int32_t last, int w) noexcept {
   const Word from = low <= 0 ? ~Word{0} : ~Word{0} << low;
   const Word to = high >= kWordBits - 1 ? ~Word{0} : ~(~Word{0} << (high + 1));
   return from & to;
+}
+
+/// What lies beside the cells of the middle one of three words.
+constexpr Word beside(Word left, Word middle, Word right) noexcept {
+  return middle << 1 | left >> (kWordBits - 1) | middle >> 1 | right << (kWordBits - 1);
 }
 
 }  // namespace whisker::map

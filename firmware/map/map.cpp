@@ -152,13 +152,11 @@ Word Map::cramped(int32_t row, int w) const noexcept {
   if (!shape_.fine()) return 0;
   const int32_t words = shape_.words;
   const int32_t i = row * words + w;
-  const Word here = blocking()[i];
-  Word beside = here << 1 | here >> 1;
-  if (w > 0) beside |= blocking()[i - 1] >> (kWordBits - 1);
-  if (w < words - 1) beside |= blocking()[i + 1] << (kWordBits - 1);
-  if (row > 0) beside |= blocking()[i - words];
-  if (row < shape_.rows - 1) beside |= blocking()[i + words];
-  return beside & ~here & ~sure()[i];
+  const Word* const here = blocking() + i;
+  Word near = beside(w > 0 ? here[-1] : 0, *here, w < words - 1 ? here[1] : 0);
+  if (row > 0) near |= here[-words];
+  if (row < shape_.rows - 1) near |= here[words];
+  return near & ~*here & ~sure()[i];
 }
 
 /// The cells that have a level, all that lie beside them, and the window's rim, where a plan may come in: no

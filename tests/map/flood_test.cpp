@@ -37,15 +37,7 @@ class Oracle {
     if (!map_.holds(p)) return false;
     const State s = map_.at(p);
     if (p == task_.body) return true;
-    return s != State::occupied && !(task_.strict && (s == State::suspect || cramped(p)));
-  }
-  bool cramped(Place p) const {
-    if (map_.shape().cell >= 75_mm || map_.at(p) != State::unknown) return false;
-    for (const Place d : {Place{1, 0}, Place{-1, 0}, Place{0, 1}, Place{0, -1}}) {
-      const Place q = p + d;
-      if (map_.holds(q) && map_.at(q) >= State::suspect) return true;
-    }
-    return false;
+    return s != State::occupied && !(task_.strict && (s == State::suspect || test::cramped(map_, p)));
   }
   bool enters(Place p, int l) const {
     const Place g = task_.goal;

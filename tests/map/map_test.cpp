@@ -164,10 +164,7 @@ TEST(Map, UnseenCellsBesideWhatBlocksAreCrampedWhereCellsAreFine) {
     int cramped = 0;
     for (int y = 0; y < shape.rows; ++y) {
       for (int x = 0; x < shape.columns(); ++x) {
-        const auto blocks = [&](Place p) { return room.map.holds(p) && room.map.at(p) >= State::suspect; };
-        const bool beside =
-            blocks({x - 1, y}) || blocks({x + 1, y}) || blocks({x, y - 1}) || blocks({x, y + 1});
-        const bool due = beside && room.map.at({x, y}) == State::unknown && shape.cell < 75_mm;
+        const bool due = test::cramped(room.map, {x, y});
         ASSERT_EQ(room.map.cramped(y, x / kWordBits) >> (x % kWordBits) & 1U, due ? 1U : 0U)
             << x << ", " << y;
         cramped += due;

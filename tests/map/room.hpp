@@ -32,4 +32,14 @@ struct Room {
   map::Map map;
 };
 
+/// Cell by cell: in a fine map, an unseen one beside what blocks.
+inline bool cramped(const map::Map& map, map::Place p) {
+  if (map.shape().cell >= millimetres(75) || map.at(p) != map::State::unknown) return false;
+  for (const map::Place d : {map::Place{1, 0}, map::Place{-1, 0}, map::Place{0, 1}, map::Place{0, -1}}) {
+    const map::Place q = p + d;
+    if (map.holds(q) && map.at(q) >= map::State::suspect) return true;
+  }
+  return false;
+}
+
 }  // namespace whisker::test
