@@ -20,6 +20,25 @@ inline constexpr map::Shape kMapShape<8192>{4, 124, micrometres(66700)};
 template <>
 inline constexpr map::Shape kMapShape<16384>{6, 168, 50_mm};
 
+/// A size of map that is known when it is compiled.
+template <int kBytes>
+struct MapBytes {
+  static constexpr int kValue = kBytes;
+};
+
+/// What `make` makes of MapBytes<bytes>; nothing where there is no such map.
+template <class Made, class Make>
+Made with_map_of(int bytes, const Make& make) {
+  switch (bytes) {
+    case 1024: return make(MapBytes<1024>());
+    case 2048: return make(MapBytes<2048>());
+    case 4096: return make(MapBytes<4096>());
+    case 8192: return make(MapBytes<8192>());
+    case 16384: return make(MapBytes<16384>());
+    default: return Made();
+  }
+}
+
 /// A guide with room for its map.
 template <int kBytes>
 class MapOf {

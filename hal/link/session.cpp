@@ -121,23 +121,13 @@ bool Session::obey(Name name) noexcept {
   return false;
 }
 
-template <int kBytes>
-nav::Planner* Session::make_map() noexcept {
-  if constexpr (kBytes <= nav::kRoomForMap) {
-    return &room_for_planner_.make<nav::TableMap<kBytes>>(my_->params, fuzzy::kDefaultTable).planner;
-  }
-  return nullptr;
-}
-
 nav::Planner* Session::make_map(uint16_t bytes) noexcept {
-  switch (bytes) {
-    case 1024: return make_map<1024>();
-    case 2048: return make_map<2048>();
-    case 4096: return make_map<4096>();
-    case 8192: return make_map<8192>();
-    case 16384: return make_map<16384>();
-    default: return nullptr;
-  }
+  return nav::with_map_of<nav::Planner*>(bytes, [this](auto size) -> nav::Planner* {
+    if constexpr (size.kValue <= nav::kRoomForMap) {
+      return &room_for_planner_.make<nav::TableMap<size.kValue>>(my_->params, fuzzy::kDefaultTable).planner;
+    }
+    return nullptr;
+  });
 }
 
 bool Session::begin(const Begin& what) noexcept {

@@ -41,8 +41,6 @@ class Session {
   bool obey(Name name) noexcept;
   bool begin(const Begin& what) noexcept;
   nav::Planner* make_map(uint16_t bytes) noexcept;
-  template <int kBytes>
-  nav::Planner* make_map() noexcept;
   bool tick(const Tick& what) noexcept;
   bool probe(const Probe& what) noexcept;
   bool hear(size_t count) noexcept { return stream_->read(buffer_, count); }

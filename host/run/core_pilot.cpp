@@ -1,6 +1,5 @@
 #include "host/run/core_pilot.hpp"
 
-#include <type_traits>
 #include <utility>
 
 #include "firmware/nav/map_planner.hpp"
@@ -21,19 +20,6 @@ struct ShownMap {
   ShownGuide guide;
   nav::SkirtPlanner planner;
 };
-
-/// What `make` makes of the size of this planner's map, an integral constant; nothing without a map.
-template <class Made, class Make>
-Made of_map(PlannerKind kind, const Make& make) {
-  switch (map_bytes(kind)) {
-    case 1024: return make(std::integral_constant<int, 1024>());
-    case 2048: return make(std::integral_constant<int, 2048>());
-    case 4096: return make(std::integral_constant<int, 4096>());
-    case 8192: return make(std::integral_constant<int, 8192>());
-    case 16384: return make(std::integral_constant<int, 16384>());
-    default: return {};
-  }
-}
 
 }  // namespace
 
@@ -56,14 +42,15 @@ SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzz
     return {{skirt, &skirt->planner}};
   }
   if (kind == PlannerKind::thesis) return {std::make_shared<nav::ThesisPlanner>(params, table)};
-  return of_map<SeenPlanner>(kind, [&](auto bytes) -> SeenPlanner {
-    const auto map = std::make_shared<ShownMap<bytes()>>(params, table);
+  return nav::with_map_of<SeenPlanner>(map_bytes(kind), [&](auto bytes) -> SeenPlanner {
+    const auto map = std::make_shared<ShownMap<bytes.kValue>>(params, table);
     return {{map, &map->planner}, &map->guide};
   });
 }
 
 std::optional<map::Shape> map_shape(PlannerKind kind) {
-  return of_map<std::optional<map::Shape>>(kind, [](auto bytes) { return nav::kMapShape<bytes()>; });
+  return nav::with_map_of<std::optional<map::Shape>>(map_bytes(kind),
+                                                     [](auto bytes) { return nav::kMapShape<bytes.kValue>; });
 }
 
 }  // namespace whisker
