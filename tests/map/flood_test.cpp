@@ -130,7 +130,7 @@ TEST(Flood, HasTheLevelsOfOneCellByCell) {
       }
     }
   });
-  EXPECT_GT(reached, 30);
+  EXPECT_GT(reached, static_cast<int>(test::effort(30)));
 }
 
 TEST(Flood, DescendsByOneLevelAStep) {
@@ -155,7 +155,7 @@ TEST(Flood, DescendsByOneLevelAStep) {
                   p.y == c.room.map.shape().rows - 1);
     }
   });
-  EXPECT_GT(steps, 500);
+  EXPECT_GT(steps, static_cast<int>(test::effort(500)));
 }
 
 TEST(Flood, SpreadOverTicksIsTheWhole) {
