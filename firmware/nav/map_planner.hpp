@@ -1,6 +1,8 @@
 /// The skirt planner with a map that guides it.
 #pragma once
 
+#include <stdint.h>
+
 #include "firmware/nav/map_guide.hpp"
 #include "firmware/nav/skirt.hpp"
 
@@ -28,7 +30,7 @@ struct MapBytes {
 
 /// What `make` makes of MapBytes<bytes>; nothing where there is no such map.
 template <class Made, class Make>
-Made with_map_of(int bytes, const Make& make) {
+Made with_map_of(int32_t bytes, const Make& make) {
   switch (bytes) {
     case 1024: return make(MapBytes<1024>());
     case 2048: return make(MapBytes<2048>());
