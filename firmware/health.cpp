@@ -13,6 +13,8 @@ const char* name(Fault fault) noexcept {
     case Fault::wheels_stalled: return "wheels_stalled";
     case Fault::range_unsteady: return "range_unsteady";
     case Fault::no_progress: return "no_progress";
+    case Fault::pose_out_of_range: return "pose_out_of_range";
+    case Fault::wheel_runaway: return "wheel_runaway";
   }
   return "?";
 }

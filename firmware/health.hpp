@@ -11,13 +11,15 @@ enum class Fault : uint8_t {
   invalid_params,  ///< check() refused the parameter set
   clock_jump,      ///< tick() was called with a time too far from the one before, or before it
   range_lost,      ///< a beam had no usable reading for too long
-  drive_refused,   ///< the drive refused commands or gave no counts, several times in a row
+  drive_refused,   ///< the drive refused too many commands or reads of the counts, close to one another
   encoder_jump,    ///< the counts moved further than the wheels can
-  wheels_stalled,  ///< commanded to move, and the counts stand still
+  wheels_stalled,  ///< commanded to move, and the counts of one wheel or of both stand still
   range_unsteady,  ///< it stood and looked for too long: a beam's readings come, and never agree
-  no_progress,     ///< the wheels turn, and the turn or step comes no nearer to its end, or to its rest
+  no_progress,  ///< a turn or step comes no nearer to its end, or the robot stays in one place for too long
+  pose_out_of_range,  ///< the body left kBodyLimit, or was placed beyond kPlaceLimit (core/region.hpp)
+  wheel_runaway,      ///< a wheel turns much further than it was commanded, or backwards
 };
-constexpr int kFaults = 9;
+constexpr int kFaults = 11;
 
 const char* name(Fault fault) noexcept;
 
@@ -33,9 +35,11 @@ struct Health {
   uint32_t encoder_refused = 0;     ///< ticks without counts
   uint32_t encoder_jumps = 0;
   uint32_t wheel_stalls = 0;
+  uint32_t wheel_runaways = 0;
   uint32_t unsteady_looks = 0;
   uint32_t no_progress = 0;
-  uint32_t late_ticks = 0;  ///< ticks more than half a period late
+  uint32_t pose_out_of_range = 0;  ///< times the body left the region, and placements outside
+  uint32_t late_ticks = 0;         ///< ticks more than a quarter of a period late
   uint32_t clock_jumps = 0;
 };
 

@@ -12,9 +12,16 @@ void GroundMapper::configure(const Params& params) noexcept {
 }
 
 void GroundMapper::place(const Pose& pose) noexcept {
-  history_.reset();
+  forget(pose);
   patch_.reset(pose);
+}
+
+void GroundMapper::forget(const Pose& pose) noexcept {
+  history_.reset();
+  patch_.forget(pose);
   witness_.reset();
+  seen_ = 0;
+  granted_ = Q14{};
   for (ranges::Scatter& scatter : scatter_) scatter = {};
 }
 
@@ -24,6 +31,7 @@ void GroundMapper::observe(const Standing& body, const ranges::Conditioner& cond
   patch_.move_to(body.pose);
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
+  const Length proving = proving_range(params.rangefinders);
   int seen = 0;
   for (int i = 0; i < hal::kBeams; ++i) {
     const ranges::Sight sight = conditioner.sight(i, params);
@@ -34,16 +42,24 @@ void GroundMapper::observe(const Standing& body, const ranges::Conditioner& cond
     if (!history_.at(sight.taken, proof.from)) continue;
     proof.axis = beam_axis(params.rangefinders.side_angle, i);
     scatter_[i].add(sight);
-    proof.hit = sight.near.validity != ranges::Validity::clear;
+    proof.hit = sight.near.validity != ranges::Validity::clear && sight.near.distance <= proving;
     const Length allowance = proof.hit ? scatter_[i].allowance() : Length{};
-    proof.free = free[i] = max(Length{}, sight.near.distance - allowance);
+    proof.free = free[i] = max(Length{}, min(sight.near.distance, proving) - allowance);
     proof.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     proof.taken = sight.taken;
     if (proof.hit && witness_.contradicts(proof.from, i, proof.free, sight.farthest, patch_)) {
       moved[i] = sight.farthest;
     }
-    patch_.mark(proof);
-    view.proved = static_cast<uint8_t>(view.proved | 1U << i);
+    const uint8_t bit = static_cast<uint8_t>(1U << i);
+    // Only a reading of something is evidence by itself.
+    if (!sight.clear) {
+      patch_.mark(proof);
+    } else if ((seen_ & bit) != 0) {
+      patch_.mark(proof, &last_[i]);
+    }
+    last_[i] = {proof.from, proof.free};
+    seen_ |= bit;
+    view.proved = static_cast<uint8_t>(view.proved | bit);
     ++seen;
   }
   // After all marks: another beam may see ground as empty into which something is about to move.
@@ -57,9 +73,9 @@ void GroundMapper::observe(const Standing& body, const ranges::Conditioner& cond
 }
 
 void GroundMapper::guard(nav::Manoeuvre& manoeuvre, const Pose& pose, const motion::WheelState& wheels,
-                         const Params& params) noexcept {
+                         Duration elapsed, const Params& params) noexcept {
   if (manoeuvre.kind != nav::Kind::cruise) return;
-  const motion::Grant grant = motion::shield(manoeuvre, pose, wheels, patch_, params);
+  const motion::Grant grant = motion::shield(manoeuvre, pose, wheels, patch_, elapsed, params);
   manoeuvre.forward = grant.forward;
   manoeuvre.turning = grant.turning;
   granted_ = grant.factor;

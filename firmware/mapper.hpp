@@ -30,12 +30,16 @@ class GroundMapper {
   using Proofs = ground::Proof[hal::kBeams];
   void configure(const Params& params) noexcept;
   void place(const Pose& pose) noexcept;
+  /// Nothing is known but the ground under the body: it may not be where it was thought to be.
+  void forget(const Pose& pose) noexcept;
+  /// Between the last tick and the next one the body moved in a way that nobody followed.
+  void lose_history() noexcept { history_.reset(); }
   /// Marks what the beams show at this tick, and fills in what a planner sees of it.
   /// `proofs` must live as long as the view.
   void observe(const Standing& body, const ranges::Conditioner& conditioner, const Params& params,
                Proofs& proofs, nav::View& view) noexcept;
-  /// Slows a cruise down to what the ground allows.
-  void guard(nav::Manoeuvre& manoeuvre, const Pose& pose, const motion::WheelState& wheels,
+  /// Slows a cruise down to what the ground allows; `elapsed` since the last tick.
+  void guard(nav::Manoeuvre& manoeuvre, const Pose& pose, const motion::WheelState& wheels, Duration elapsed,
              const Params& params) noexcept;
 
  private:
@@ -43,6 +47,8 @@ class GroundMapper {
   ground::Patch patch_;
   ground::Witness witness_;
   ranges::Scatter scatter_[hal::kBeams];
+  ground::Earlier last_[hal::kBeams];  // reading of each beam, if it is
+  uint8_t seen_ = 0;                   // a bit for each beam that has one
   Q14 granted_;
 };
 
@@ -53,9 +59,11 @@ class NoMapper {
   struct Proofs {};
   void configure(const Params&) noexcept {}
   void place(const Pose&) noexcept {}
+  void forget(const Pose&) noexcept {}
+  void lose_history() noexcept {}
   void observe(const Standing&, const ranges::Conditioner&, const Params&, const Proofs&,
                nav::View&) noexcept {}
-  void guard(nav::Manoeuvre&, const Pose&, const motion::WheelState&, const Params&) noexcept {}
+  void guard(nav::Manoeuvre&, const Pose&, const motion::WheelState&, Duration, const Params&) noexcept {}
 };
 
 /// The one that the core is built with.

@@ -33,6 +33,7 @@ struct RangefinderParams {
   Length offset = 0_mm;        ///< of the apexes, along each beam's axis from the centre
   int32_t rate_hz = 50;
   Duration latency = 20_ms;  ///< from the measurement to its arrival
+  Length clear_range;        ///< no reading proves ground free beyond; zero: max_range (hal/rangefinders.hpp)
 };
 
 /// Of beam 0, 1, 2 (left, front, right), from straight ahead.
@@ -77,6 +78,7 @@ struct SkirtParams {
   Length age_travel = 500_mm;        ///< clear ground is forgotten after one to two of these ways
   Angle age_turn = 340_deg;          ///< or of these turns, whichever comes first
   Speed mover_speed = 300_mm_per_s;  ///< of things that move and are given room; 0: nothing moves
+  Length length_budget = 400_m;      ///< of way, after which it gives up; of the map planner, too
 };
 
 struct MotionParams {
@@ -87,7 +89,7 @@ struct MotionParams {
 
 struct SafetyParams {
   Duration period = 10_ms;           ///< of tick(): the control period
-  Duration max_gap = 100_ms;         ///< between two ticks; above: the clock jumped
+  Duration max_gap;                  ///< between two ticks; zero: see longest_gap
   Duration lost_after = 1000_ms;     ///< a beam lost for this long stops the robot for good
   Duration stalled_after = 2000_ms;  ///< wheels without counts, or a manoeuvre without progress: a fault
   int32_t max_refusals = 5;          ///< of the drive, in a row
@@ -117,8 +119,9 @@ enum class ParamFault : uint8_t {
   stale_before_next_reading,  ///< stale_after > 1 / rate + latency
   lost_before_stale,          ///< lost_after >= stale_after
   tolerance_below_encoder,    ///< drive_tolerance and the rim's way at turn_tolerance >= one count
-  gap_below_period,           ///< max_gap >= 2 period
+  gap_below_period,           ///< max_gap, unless zero, >= 2 period
   stuck_within_cone,          ///< stuck_turn > cone: within it a real thing keeps its distance
+  cone_too_wide,              ///< cone <= 60 degrees: the same millimetre all round is no stuck sensor
   tolerance_above_step,       ///< drive_tolerance < small_step, turn_tolerance < delta
   tolerance_below_wire,       ///< the rim's way at turn_tolerance >= 0.1 mm/s x settle
   stalled_before_count,       ///< stalled_after >= what the slowest count and the slowest stop take
@@ -126,8 +129,11 @@ enum class ParamFault : uint8_t {
   cone_too_narrow,            ///< blind_reach + cell <= 7/4 radius
   patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
   planning_below_shield,      ///< planning_margin >= shield_margin
-  step_beyond_range,          ///< max_range >= 2 base_step + radius + margin: no response is a longer step
+  step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no response is a longer step
 };
+constexpr int kParamFaults = 22;
+
+const char* name(ParamFault fault) noexcept;
 
 /// Calls f.number(key, field, min, max), f.count(key, field, min, max) or
 /// f.choice(key, field, names, count) for every parameter. The key's suffix is the unit that
@@ -182,22 +188,32 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("drive_tolerance_m", p.motion.drive_tolerance, 1_mm, 50_mm);
 
   f.number("control_period_s", p.safety.period, 5_ms, 50_ms);
-  f.number("max_tick_gap_s", p.safety.max_gap, 10_ms, 1000_ms);
+  f.number("max_tick_gap_s", p.safety.max_gap, 0_ms, 1000_ms);
   f.number("lost_after_s", p.safety.lost_after, 50_ms, 10000_ms);
   f.number("wheels_stalled_after_s", p.safety.stalled_after, 200_ms, 10000_ms);
   f.count("max_drive_refusals", p.safety.max_refusals, 1, 1000);
+
+  // On the CAN bus a parameter is its place in this list: new ones go to the end.
+  f.number("range_clear_m", p.rangefinders.clear_range, 0_mm, 60_m);
+  f.number("length_budget_m", p.skirt.length_budget, 1_m, 2000_m);
 }
 
+/// As far as readings prove ground free.
+constexpr Length proving_range(const RangefinderParams& r) noexcept {
+  return r.clear_range == Length{} ? r.max_range : min(r.clear_range, r.max_range);
+}
 /// The clearance patch's cell. Unless given: 2/9 of the radius, or less, to half of that, where a narrow cone
 /// or sensors far from the centre could otherwise not prove the ground at the body's rim.
-Length patch_cell(const Params& params) noexcept;
+constexpr Length patch_cell(const Params& params) noexcept;
 /// A disc of so many 256ths of a cell around its centre covers the cell: 0.7072, and a little for rounding.
 constexpr int32_t kCellCover = 184;
+/// Ways are judged within so many cells of the patch's centre.
+constexpr int32_t kHalfWindow = 15;
 /// The radius of that disc.
-Length cell_cover(const Params& params) noexcept;
+constexpr Length cell_cover(const Params& params) noexcept;
 /// As far as this from the centre no beam can prove a cell from where the body stands: its cone is too narrow
 /// there. Where that is more than the body covers, the ring between must be free when the robot is placed.
-Length blind_reach(const Params& params) noexcept;
+constexpr Length blind_reach(const Params& params) noexcept;
 /// How far ways are judged, and beside them.
 struct Reach {
   Length shield;    ///< from the body's centre: cells that come nearer must be clear at every tick
@@ -205,14 +221,23 @@ struct Reach {
   Length probe;     ///< length of a way; unless given, 5/3 of the radius, or as far as the patch reaches
 };
 /// Takes a sine and divisions: ground::Patch keeps it.
-Reach reach(const Params& params) noexcept;
+constexpr Reach reach(const Params& params) noexcept;
+/// The longest time between two ticks that is accepted, and for which every movement is judged: the body must
+/// be able to stop although the next tick comes that late. Unless given: 50 ms more than the period, so that
+/// a bus that is silent for 40 ms is outlived. A longer gap is
+/// Fault::clock_jump.
+constexpr Duration longest_gap(const Params& p) noexcept {
+  if (p.safety.max_gap != Duration{}) return p.safety.max_gap;
+  return p.safety.period + 50_ms;
+}
 /// A distance that suits the reference body of 90 mm, for this one.
 constexpr Length for_body(const Params& p, Length reference) noexcept {
   return Length::from_raw(multiply_divide(reference.raw(), p.body.radius.raw(), 90000));
 }
 
-/// The first fault found; ParamFault::none for a set that the core accepts.
-ParamFault check(const Params& params) noexcept;
+/// The first fault found; ParamFault::none for a set that the core accepts. It may be asked in a
+/// static_assert. All faults: for_each_relation in params/relations.hpp.
+constexpr ParamFault check(const Params& params) noexcept;
 
 /// WHISKER_SMALL builds the core for a chip with 32 KB of flash and 2 KB of RAM: it remembers no ground (see
 /// mapper.hpp), and takes parameters for good that a test must have given to check().
@@ -223,3 +248,6 @@ constexpr bool kParamsAreTrusted = false;
 #endif
 
 }  // namespace whisker
+
+// The definitions of what is constexpr above.
+#include "firmware/params/relations.hpp"

@@ -1,6 +1,34 @@
 #include "firmware/robot.hpp"
 
+#include "firmware/nav/steering.hpp"
+
 namespace whisker {
+namespace {
+
+#ifndef WHISKER_SMALL
+// What the wheels still do from before a reset is no one's command.
+constexpr Duration kUnwatched = 500_ms;
+constexpr Length kPlace = 30_mm;  // for the reference body
+// Standing, it may wait this many times stalled_after, and turn around this often.
+constexpr int32_t kWaits = 60;
+constexpr int32_t kTurns = 30;
+
+/// Braking from full speed, until the wheels have followed.
+Duration braking_time(const Params& p) noexcept {
+  return milliseconds(multiply_divide(p.wheels.max_speed.raw(), 1000, p.wheels.max_acceleration.raw())) +
+         p.wheels.motor_lag * 4;
+}
+
+/// What is done in one place takes less than this.
+Duration longest_stay(const Params& p) noexcept {
+  constexpr int32_t kMicroradians = 6283185;  // a turn
+  const AngularRate rate = min(p.wheels.max_turn_rate, nav::kFastestTurn);
+  return p.safety.stalled_after * kWaits +
+         milliseconds(multiply_divide(kMicroradians, 1000 * kTurns, rate.raw()));
+}
+#endif
+
+}  // namespace
 
 Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& planner,
              const Params& params) noexcept
@@ -11,27 +39,87 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& p
   }
   odometry_.configure(params);
   mapper_.configure(params);
+#ifndef WHISKER_SMALL
+  wheel_watch_.configure(params);
+#endif
 }
 
-void Robot::place(const Pose& pose) noexcept {
+bool Robot::place(const Pose& pose) noexcept {
+  if (kCorrects && !within(pose.at, kPlaceLimit)) {
+    leave_region();
+    return false;
+  }
+  if (!started_ || faulted() || !has_goal_) {
+    put_down(pose);
+    return true;
+  }
+  if constexpr (kCorrects) correct(pose);
+  return kCorrects;
+}
+
+void Robot::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
   status_.pose = pose;
   mapper_.place(pose);
+  if constexpr (kCorrects) {
+    frame_.tie(pose, pose);
+    if (has_goal_) aim_again();
+  }
 }
 
-void Robot::set_goal(const nav::Goal& goal) noexcept { planner_.set_goal(goal); }
+void Robot::correct(const Pose& pose) noexcept {
+  if (pose.at == status_.pose.at && pose.heading == status_.pose.heading) return;
+  frame_.tie(odometry_.pose(), pose);
+  status_.pose = pose;
+  aim_again();
+}
 
-void Robot::cancel() noexcept { planner_.cancel(); }
+#ifndef WHISKER_SMALL
+void Robot::aim_again() noexcept {
+  Vec at;
+  has_goal_ = frame_.aim_again(at);
+  goal_refused_ = !has_goal_;
+  if (has_goal_) {
+    planner_.move_goal(at);
+  } else {
+    planner_.cancel();
+  }
+}
+#endif
+
+bool Robot::set_goal(const nav::Goal& goal) noexcept {
+  nav::Goal inside = goal;
+  has_goal_ = frame_.aim(goal.at, inside.at);
+  goal_refused_ = !has_goal_;
+  if (has_goal_) {
+    planner_.set_goal(inside);
+  } else {
+    planner_.cancel();
+  }
+  return has_goal_;
+}
+
+void Robot::cancel() noexcept {
+  has_goal_ = goal_refused_ = false;
+  planner_.cancel();
+}
 
 void Robot::reset() noexcept {
   if (status_.health.fault == Fault::invalid_params) return;
   status_.health.fault = Fault::none;
   started_ = false;
-  drive_refusals_ = 0;
-  encoder_refusals_ = 0;
+  drive_refusals_.reset();
+  encoder_refusals_.reset();
   was_settled_ = false;
-  driver_.begin({nav::Kind::stop, {}, {}}, status_.pose);
-  planner_.cancel();
+#ifndef WHISKER_SMALL
+  // The next counts may tell of the whole way to rest.
+  since_counts_ += braking_time(params_);
+  wheel_watch_.reset();
+  unwatched_ = kUnwatched;
+#endif
+  mapper_.forget(body());
+  driver_.begin({nav::Kind::stop, {}, {}}, body());
+  cancel();
 }
 
 const Status& Robot::tick(Time now) noexcept {
@@ -51,22 +139,56 @@ const Status& Robot::tick(Time now) noexcept {
   return status_;
 }
 
+#ifdef WHISKER_SMALL
+// No movement is judged for how long it holds, so the wheels' speeds may go by the nominal period.
+void Robot::check_clock(Time now) noexcept {
+  const Duration gap = now - last_tick_;
+  last_tick_ = now;
+  if (!started_) {
+    started_ = true;
+    conditioner_.reset(now);
+    settled_since_ = now;
+  } else if (gap <= Duration{} || gap > longest_gap(params_)) {
+    count(status_.health.clock_jumps);
+    fail(Fault::clock_jump);
+  } else if (gap.raw() - params_.safety.period.raw() > params_.safety.period.raw() >> 2) {
+    count(status_.health.late_ticks);
+  }
+}
+#else
 void Robot::check_clock(Time now) noexcept {
   if (!started_) {
     started_ = true;
     conditioner_.reset(now);
     settled_since_ = now;
+    pass(params_.safety.period);
   } else {
     const Duration gap = now - last_tick_;
-    if (gap <= Duration{} || gap > params_.safety.max_gap) {
+    const bool longer = gap > longest_gap(params_);
+    const bool braked = braked_elsewhere_ && gap <= params_.safety.lost_after;
+    if (longer && braked) mapper_.lose_history();
+    if (gap <= Duration{} || (longer && !braked)) {
       count(status_.health.clock_jumps);
       fail(Fault::clock_jump);
-    } else if (gap > params_.safety.period + params_.safety.period / 2) {
+    } else if (gap > params_.safety.period + params_.safety.period / 4) {
       count(status_.health.late_ticks);
     }
+    pass(gap > Duration{} ? gap : params_.safety.period);
   }
   last_tick_ = now;
+  braked_elsewhere_ = false;
 }
+
+void Robot::pass(Duration gap) noexcept {
+  elapsed_ = min(gap, longest_gap(params_));
+  since_counts_ += gap;
+  if (unwatched_ > Duration{}) {
+    unwatched_ -= gap;
+  } else {
+    wheel_watch_.expect(driver_.wheels().rolling, elapsed_);
+  }
+}
+#endif
 
 void Robot::sense(Time now) noexcept {
   hal::RangeReadings readings{};
@@ -83,38 +205,61 @@ bool Robot::measure(motion::CountStep& step) noexcept {
   hal::EncoderCounts counts{};
   if (!drive_.read(counts)) {
     count(status_.health.encoder_refused);
-    if (++encoder_refusals_ >= params_.safety.max_refusals) fail(Fault::drive_refused);
+    if (encoder_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::drive_refused);
     return false;
   }
-  encoder_refusals_ = 0;
-  if (!odometry_.update(counts, step)) {
+  encoder_refusals_.accept();
+  const bool sound = odometry_.update(counts, since_counts(), step);
+  since_counts_ = Duration{};
+  if (!sound) {
     count(status_.health.encoder_jumps);
     fail(Fault::encoder_jump);
     return false;
   }
-  status_.pose = odometry_.pose();
+  const Pose inside = odometry_.pose();
+  status_.pose = frame_.outward(inside);
+#ifndef WHISKER_SMALL
+  if (!faulted() && !(within(status_.pose.at, kBodyLimit) && within(inside.at, kBodyLimit))) leave_region();
+#endif
+  watch_wheels(step);
   return true;
+}
+
+void Robot::leave_region() noexcept {
+  count(status_.health.pose_out_of_range);
+  fail(Fault::pose_out_of_range);
 }
 
 void Robot::navigate() noexcept {
   if (faulted()) return;
   const bool settled = driver_.settled();
   nav::View view;
-  view.pose = status_.pose;
+  view.pose = body();
+  view.elapsed = elapsed();
   view.settled = settled;
   if (settled) view.look = conditioner_.look(settled_since_, params_);
   const motion::WheelPair rolling = driver_.wheels().rolling;
   view.forward = (rolling.left + rolling.right) / 2;
   view.turning = (rolling.right - rolling.left) / 2;
   Mapper::Proofs proofs{};
-  mapper_.observe({status_.pose, last_tick_, settled, settled_since_}, conditioner_, params_, proofs, view);
+  mapper_.observe({view.pose, last_tick_, settled, settled_since_}, conditioner_, params_, proofs, view);
   status_.decision = planner_.step(view);
-  mapper_.guard(status_.decision.manoeuvre, status_.pose, driver_.wheels(), params_);
-  driver_.begin(status_.decision.manoeuvre, status_.pose);
+  has_goal_ = status_.decision.outcome == nav::Outcome::running;
+  if (goal_refused_) {
+    status_.decision.outcome = nav::Outcome::gave_up;
+    status_.decision.mode = nav::Mode::gave_up;
+    status_.decision.why = nav::Why::goal_out_of_range;
+  }
+#ifndef WHISKER_SMALL
+  limit_turning(status_.decision.manoeuvre, params_);
+#endif
+  mapper_.guard(status_.decision.manoeuvre, view.pose, driver_.wheels(), elapsed(), params_);
+  driver_.begin(status_.decision.manoeuvre, view.pose);
   if (!beams_fresh_ && status_.decision.outcome == nav::Outcome::running) {
     status_.decision.why = nav::Why::blind;
   }
   watch_look(settled);
+  watch_place();
 }
 
 void Robot::watch_look(bool settled) noexcept {
@@ -128,34 +273,65 @@ void Robot::watch_look(bool settled) noexcept {
   }
 }
 
-bool Robot::overdue(int32_t ticks) const noexcept {
-  return params_.safety.period * ticks > params_.safety.stalled_after;
-}
-
 void Robot::watch_driver() noexcept {
   if (faulted()) return;
-  if (overdue(driver_.stalled_ticks())) {
+  if (driver_.stalled_for() > params_.safety.stalled_after) {
     count(status_.health.wheel_stalls);
     fail(Fault::wheels_stalled);
-  } else if (overdue(driver_.waiting_ticks())) {
+  } else if (driver_.waiting_for() > params_.safety.stalled_after) {
     count(status_.health.no_progress);
     fail(Fault::no_progress);
   }
 }
 
+void Robot::watch_wheels(const motion::CountStep& counts) noexcept {
+#ifdef WHISKER_SMALL
+  static_cast<void>(counts);
+#else
+  if (faulted() || unwatched_ > Duration{}) return;
+  switch (wheel_watch_.judge(counts)) {
+    case motion::WheelWatch::Finding::none: break;
+    case motion::WheelWatch::Finding::stalled:
+      count(status_.health.wheel_stalls);
+      fail(Fault::wheels_stalled);
+      break;
+    case motion::WheelWatch::Finding::runaway:
+      count(status_.health.wheel_runaways);
+      fail(Fault::wheel_runaway);
+      break;
+  }
+#endif
+}
+
+/// Whatever a planner waits for or tries, it does not try it for ever in one place.
+void Robot::watch_place() noexcept {
+#ifndef WHISKER_SMALL
+  const bool leaves = farther(body().at - place_, for_body(params_, kPlace));
+  if (leaves || status_.decision.outcome != nav::Outcome::running) {
+    place_ = body().at;
+    at_place_for_ = Duration{};
+    return;
+  }
+  at_place_for_ += elapsed_;
+  if (at_place_for_ <= longest_stay(params_)) return;
+  count(status_.health.no_progress);
+  fail(Fault::no_progress);
+#endif
+}
+
 void Robot::drive(const motion::CountStep* counts) noexcept {
-  const bool paused = faulted() || !beams_fresh_ || drive_refusals_ > 0 || counts == nullptr;
-  const motion::WheelPair speeds = driver_.step(status_.pose, counts, paused, params_);
+  const bool paused = faulted() || !beams_fresh_ || drive_refusals_.refused() || counts == nullptr;
+  const motion::WheelPair speeds = driver_.step(body(), counts, paused, elapsed(), params_);
   watch_driver();
   status_.command = motion::to_wire(speeds);
   if (drive_.command(status_.command)) {
-    drive_refusals_ = 0;
+    drive_refusals_.accept();
     return;
   }
   count(status_.health.drive_refused);
   driver_.halt();
   status_.command = {};
-  if (++drive_refusals_ >= params_.safety.max_refusals) fail(Fault::drive_refused);
+  if (drive_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::drive_refused);
 }
 
 void Robot::show_fault() noexcept {

@@ -8,7 +8,10 @@
 #include "firmware/health.hpp"
 #include "firmware/mapper.hpp"
 #include "firmware/motion/driver.hpp"
+#include "firmware/motion/frame.hpp"
 #include "firmware/motion/odometry.hpp"
+#include "firmware/motion/refusals.hpp"
+#include "firmware/motion/wheel_watch.hpp"
 #include "firmware/nav/planner.hpp"
 #include "firmware/params.hpp"
 #include "firmware/ranges/conditioner.hpp"
@@ -36,33 +39,67 @@ struct Status {
 /// A failure ends in the safe state: both wheels slow down at the acceleration limit to zero, stay
 /// there, and status().health.fault names the cause until reset(). All references must outlive the robot,
 /// and the parameters must not change while it lives.
+///
+/// Places are those of its user, and lie at most kPlaceLimit out (core/region.hpp).
 class Robot {
  public:
   Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& planner,
         const Params& params) noexcept;
 
-  /// Tells the robot where it stands. It takes the wheels' next counts as zero.
-  void place(const Pose& pose) noexcept;
-  /// Accepted in any state; one given while a fault stands is dropped by reset().
-  void set_goal(const nav::Goal& goal) noexcept;
+  /// Tells the robot where it is.
+  ///
+  /// Without a goal under way it is put down there: it forgets all ground, and takes the wheels' next counts
+  /// as zero. With one, its estimate is corrected: what it knows of the ground stays around the body as it
+  /// is, what the wheels are doing goes on, and the goal lies elsewhere from then on. Who carries the robot
+  /// away must cancel() before.
+  ///
+  /// False: nothing was changed. Beyond kPlaceLimit that is a fault, too. A core built with WHISKER_SMALL
+  /// takes no corrections.
+  bool place(const Pose& pose) noexcept;
+  /// Accepted in any state; one given while a fault stands is dropped by reset(). False: it lies beyond
+  /// kPlaceLimit, or corrections have moved it there. It is refused with Why::goal_out_of_range, and the
+  /// mission under way ends.
+  bool set_goal(const nav::Goal& goal) noexcept;
   void cancel() noexcept;
-  /// Clears the fault and forgets all readings; the goal must be set again. Parameters that check() refused
-  /// at construction stay refused.
+  /// Clears the fault and forgets all readings and all ground but that under the body: the pose goes on from
+  /// the estimate, which a fault may have cost some distance. The goal must be set again. Parameters that
+  /// check() refused at construction stay refused.
   void reset() noexcept;
 
-  /// One control tick. `now` is the time of this tick, about params.safety.period after the last.
+  /// Something else has braked the wheels since the last tick, as a bus does that misses messages: the next
+  /// gap may be as long as safety.lost_after.
+  void braked_elsewhere() noexcept { braked_elsewhere_ = true; }
+
+  /// One control tick. `now` is the time of this tick, about params.safety.period after the last, and at most
+  /// longest_gap(params): each command is judged to hold for that long.
   const Status& tick(Time now) noexcept;
   const Status& status() const noexcept { return status_; }
 
  private:
+#ifdef WHISKER_SMALL
+  using Frame = motion::OneFrame;
+  static constexpr bool kCorrects = false;
+#else
+  using Frame = motion::Frame;
+  static constexpr bool kCorrects = true;
+#endif
+
   void check_clock(Time now) noexcept;
+  void pass(Duration gap) noexcept;
   void sense(Time now) noexcept;
   bool measure(motion::CountStep& step) noexcept;
+  void put_down(const Pose& pose) noexcept;
+  void correct(const Pose& pose) noexcept;
+  void aim_again() noexcept;
+  void leave_region() noexcept;
+  /// By the odometry.
+  Pose body() const noexcept { return kCorrects ? odometry_.pose() : status_.pose; }
   void navigate() noexcept;
   void watch_look(bool settled) noexcept;
   void drive(const motion::CountStep* counts) noexcept;
   void watch_driver() noexcept;
-  bool overdue(int32_t ticks) const noexcept;
+  void watch_wheels(const motion::CountStep& counts) noexcept;
+  void watch_place() noexcept;
   void show_fault() noexcept;
   void fail(Fault fault) noexcept;
   bool faulted() const noexcept { return status_.health.fault != Fault::none; }
@@ -74,6 +111,7 @@ class Robot {
 
   ranges::Conditioner conditioner_;
   motion::Odometry odometry_;
+  Frame frame_;
   motion::Driver driver_;
   Mapper mapper_;
   Status status_;
@@ -81,10 +119,28 @@ class Robot {
   Time last_tick_;
   Time settled_since_;
   bool started_ = false;
+  bool has_goal_ = false;  // under way
+  bool goal_refused_ = false;
   bool was_settled_ = false;
   bool beams_fresh_ = false;
-  int32_t drive_refusals_ = 0;
-  int32_t encoder_refusals_ = 0;
+  bool braked_elsewhere_ = false;
+#ifdef WHISKER_SMALL
+  Duration elapsed() const noexcept { return params_.safety.period; }
+  Duration since_counts() const noexcept { return longest_gap(params_); }
+#else
+  Duration elapsed() const noexcept { return elapsed_; }
+  Duration since_counts() const noexcept { return since_counts_; }
+#endif
+  Duration elapsed_;       // since the tick before, at most the longest gap
+  Duration since_counts_;  // since the counts were last read
+  motion::Refusals drive_refusals_;
+  motion::Refusals encoder_refusals_;
+#ifndef WHISKER_SMALL
+  motion::WheelWatch wheel_watch_;
+  Duration unwatched_;  // until the wheels' watch begins
+#endif
+  Vec place_;  // that it has not left
+  Duration at_place_for_;
 };
 
 }  // namespace whisker

@@ -8,7 +8,7 @@ namespace whisker::hal {
 
 enum class RangeStatus : uint8_t {
   ok,        ///< mm is a distance
-  clear,     ///< healthy, and nothing within the maximum range; mm is not used
+  clear,     ///< healthy, and nothing came back from within the maximum range; mm is not used
   too_near,  ///< something nearer than the minimum range; mm is not used
   invalid,   ///< the reading is lost; mm is not used
   stale,     ///< the sensor has no new reading; mm is not used
@@ -18,7 +18,8 @@ enum class RangeStatus : uint8_t {
 struct RangeReading {
   uint16_t mm;  ///< distance from the sensor's apex, mm; 0..65533
   RangeStatus status;
-  uint8_t age_ms;    ///< time since the distance was true, ms; 255 means 255 or more
+  uint8_t age_ms;    ///< time since the distance was true, ms: what the measurement took is a part of it.
+                     ///< 255 means 255 or more: the core takes such a reading for none
   uint8_t sequence;  ///< goes up by one with every new measurement, modulo 16
 };
 

@@ -55,8 +55,9 @@ using map::Flood;
 using map::Map;
 
 #if defined(WHISKER_PROFILE_PATCH)
-WHISKER_MEASURED(_ZN7whisker6ground5Patch4markERKNS0_5ProofE, void,
-                 (Patch * patch, const ground::Proof& proof), (patch, proof))
+WHISKER_MEASURED(_ZN7whisker6ground5Patch4markERKNS0_5ProofEPKNS0_7EarlierE, void,
+                 (Patch * patch, const ground::Proof& proof, const ground::Earlier* before),
+                 (patch, proof, before))
 WHISKER_MEASURED(_ZN7whisker6ground5Patch7move_toERKNS_4PoseE, void, (Patch * patch, const Pose& pose),
                  (patch, pose))
 #elif defined(WHISKER_PROFILE_MARKS)

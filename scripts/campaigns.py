@@ -3,6 +3,8 @@
 import json
 import os
 import pathlib
+import platform
+import re
 import subprocess
 import sys
 
@@ -62,23 +64,69 @@ def percent(estimate):
     return cell(estimate, 100, 1)
 
 
+def missions_of(summary, key):
+    return round(summary[key]["value"] * summary["missions"])
+
+
 def faults(summary):
     """Missions that ended in a fault."""
-    return round(summary["fault"]["value"] * summary["missions"])
+    return missions_of(summary, "fault")
+
+
+def off_goal(summary):
+    """Missions whose robot says that it is at the goal, and is not."""
+    return missions_of(summary, "off_goal")
+
+
+def line(*cells):
+    return f"| {' | '.join(cells)} |"
+
+
+def heading_of(*cells):
+    return f"{line(*cells)}\n|{'---|' * len(cells)}"
 
 
 def row(*cells):
-    print(f"| {' | '.join(cells)} |", flush=True)
+    print(line(*cells), flush=True)
 
 
 def heading(*cells):
-    row(*cells)
-    print(f"|{'---|' * len(cells)}")
+    print(heading_of(*cells), flush=True)
+
+
+def place_in(page, name):
+    """The page before and after what stands between its marks <!-- NAME:begin --> and <!-- NAME:end -->, with the
+    marks. Ends the program if it has no such place."""
+    begin, end = f"<!-- {name}:begin -->\n", f"<!-- {name}:end -->\n"
+    text = page.read_text()
+    if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
+        sys.exit(f"{PROGRAM}: {page.name} has no place for the table ({begin.strip()})")
+    return text.partition(begin)[0] + begin, end + text.partition(end)[2]
+
+
+def put(page, name, text):
+    """Replaces what stands between the page's marks."""
+    before, after = place_in(page, name)
+    page.write_text(before + text + after)
+
+
+def machine():
+    """"AMD EPYC, 2 cores, Debian GNU/Linux 12 (bookworm)"."""
+    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    return f"{model[1] if model else platform.machine()}, {os.cpu_count()} cores, {platform.freedesktop_os_release()['PRETTY_NAME']}"
+
+
+def whole_number(text):
+    """A command-line argument that is a count or a seed; ValueError for others."""
+    if not (text.isascii() and text.isdecimal()):
+        raise ValueError(text)
+    return int(text)
 
 
 def whole_numbers(texts, usage):
     """Command-line arguments that are counts and seeds. Ends the program with exit status 2 for others."""
-    if not all(text.isascii() and text.isdecimal() for text in texts):
+    try:
+        return [whole_number(text) for text in texts]
+    except ValueError:
         print(usage, file=sys.stderr)
         sys.exit(2)
-    return [int(text) for text in texts]

@@ -14,8 +14,12 @@ RAM_OF_AVR = (*RAM, ".rodata")
 
 # Where a call through a table may lead; what calls by one that is not here is an error.
 INDIRECT = (
-    (r"Robot(8navigate|8set_goal|6cancel|5reset)E", r"3nav11GoalPlanner(4stepE|8set_goalE|6cancelE)"),
+    (
+        r"Robot(8navigate|8set_goal|6cancel|5reset|9aim_again|7correct|8put_down|5place)E",
+        r"3nav11GoalPlanner(4stepE|8set_goalE|9move_goalE|6cancelE)",
+    ),
     (r"3nav11GoalPlanner6answerE", r"3nav(12SkirtPlanner|13ThesisPlanner)(5startE|7advanceE)"),
+    (r"3nav11GoalPlanner9move_goalE", r"3nav(11GoalPlanner|12SkirtPlanner)11follow_goalE"),
     (r"3nav6Course", r"N7whisker3nav9TableBend4bendE"),
     # Reads that do nothing are one function.
     (r"Robot(5senseE|7measureE)", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
@@ -23,7 +27,7 @@ INDIRECT = (
 )  # fmt: skip
 NO_GUIDE = ((r"N7whisker3nav12SkirtPlanner", None),)
 # Of the skirt planner with a map.
-GUIDE = ((r"N7whisker3nav12SkirtPlanner", r"N7whisker3nav8MapGuide(5start|7observe|6advise|6refuse|5doubt)E|MapGuide12knows_no_way"),)
+GUIDE = ((r"N7whisker3nav12SkirtPlanner", r"N7whisker3nav8MapGuide(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|MapGuide12knows_no_way"),)
 # Of the controller on a bus: node, port and line.
 NODE = (
     (r"3can4Node10understandE", r"ControllerNode4hearE"),

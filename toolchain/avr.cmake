@@ -6,9 +6,9 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 set(CMAKE_CXX_COMPILER clang++-14)
 set(CMAKE_CXX_COMPILER_TARGET avr)
 # Not -ffreestanding, under which clang mangles main, which avr-libc's start-up calls.
-# No inlining: what clang inlines for AVR it spills, and grows by half.
+# Inlined is only what is much smaller so than called: what else clang inlines for AVR it spills, and grows by half.
 set(CMAKE_CXX_FLAGS_INIT "-mmcu=${WHISKER_CPU} -fno-builtin -nostdlibinc -fno-exceptions -fno-rtti \
--fno-threadsafe-statics -fno-use-cxa-atexit -fno-inline -ffunction-sections -fdata-sections")
+-fno-threadsafe-statics -fno-use-cxa-atexit -mllvm -inline-threshold=-30 -ffunction-sections -fdata-sections")
 set(CMAKE_CXX_FLAGS_RELEASE "-Oz -DNDEBUG" CACHE STRING "Options of a release")
 set(CMAKE_CXX_LINK_EXECUTABLE
   "avr-gcc -mmcu=${WHISKER_CPU} -nodefaultlibs -Wl,--gc-sections,--relax <LINK_FLAGS> <OBJECTS> -o <TARGET> \

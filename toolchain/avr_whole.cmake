@@ -3,7 +3,8 @@
 # WHISKER_VECTORS. Debian: llvm-14 beside what avr.cmake needs.
 include(${CMAKE_CURRENT_LIST_DIR}/avr.cmake)
 unset(CMAKE_CXX_COMPILE_OBJECT)
-# Inlined is only what is smaller so than called: first within a file, then among all.
+# Inlined is only what is smaller so than called: first within a file, then among all. Functions with the same code
+# become one.
 set(inline -inline-threshold=-20)
 set(inline_all -inline-threshold=-30)
 set(CMAKE_CXX_FLAGS_INIT "-mmcu=${WHISKER_CPU} -flto -mllvm ${inline} -fno-builtin -nostdlibinc -fno-exceptions -fno-rtti \
@@ -14,7 +15,7 @@ foreach(vector ${WHISKER_VECTORS})
 endforeach()
 set(CMAKE_CXX_LINK_EXECUTABLE
   "llvm-link-14 <OBJECTS> <LINK_LIBRARIES> -o <TARGET>.all.bc"
-  "opt-14 --internalize-public-api-list=${kept} ${inline_all} -passes=internalize,globaldce <TARGET>.all.bc \
+  "opt-14 --internalize-public-api-list=${kept} ${inline_all} -passes=internalize,globaldce,mergefunc <TARGET>.all.bc \
 -o <TARGET>.bc"
   "clang++-14 --target=avr -mmcu=${WHISKER_CPU} -Oz -mllvm ${inline_all} -ffunction-sections -fdata-sections -x ir \
 -S <TARGET>.bc -o <TARGET>.s"

@@ -5,7 +5,8 @@
 
 using namespace whisker;
 
-// Yours: three classes over your own drivers. The headers in hal/ state what each must promise.
+// Yours: three classes over your own drivers, whose headers in hal/ state what each must promise; a way to
+// print a line, and a lamp.
 struct Sonar final : hal::Rangefinders {
   bool read(hal::RangeReadings& out) noexcept override;
 };
@@ -16,6 +17,8 @@ struct Motors final : hal::Drive {
 struct Timer final : hal::Clock {
   uint32_t now_ms() noexcept override;
 };
+void print(const char* words);
+void set_lamp(bool on);
 
 // Your robot is not ours: change what differs. Everything has a unit, and check() knows what fits together.
 constexpr Params my_robot() {
@@ -26,6 +29,7 @@ constexpr Params my_robot() {
   p.wheels.counts_per_metre = 3200;
   return p;
 }
+static_assert(check(my_robot()) == ParamFault::none, "the parameters do not fit: ask `whisker robot check`");
 
 int main() {
   static constexpr Params params = my_robot();
@@ -37,10 +41,18 @@ int main() {
 
   robot.place({{0_m, 0_m}, 0_deg});
   robot.set_goal({{4_m, 1_m}, 100_mm});
+  Fault told = Fault::none;
   for (uint32_t next = timer.now_ms();; next += 10) {
     while (static_cast<int32_t>(timer.now_ms() - next) < 0) {
     }
     const Status& status = robot.tick(Time::from_raw(next));
+    const Fault fault = status.health.fault;
+    if (fault != Fault::none) {
+      // The wheels are told to stop until robot.reset(): yours is to say why, and to call somebody.
+      if (fault != told) print(fault == Fault::invalid_params ? name(check(params)) : name(fault));
+      set_lamp(next / 500 % 2 == 0);
+    }
+    told = fault;
     if (status.decision.outcome == nav::Outcome::reached) robot.cancel();
   }
 }

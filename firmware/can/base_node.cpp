@@ -95,16 +95,38 @@ bool BaseNode::replied(ParamReply& reply) const noexcept {
   return replied_;
 }
 
-bool BaseNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
-  if (kind == Kind::wheel_command) return hear_command(frame);
-  if (kind == Kind::mission_reply) return hear_reply(frame);
-  if (kind == Kind::nav_status) {
-    NavStatus status;
-    if (!read(frame, status)) return false;
-    status_ = status;
-    status_come_ = true;
-    return true;
+Heard BaseNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
+  switch (kind) {
+    case Kind::wheel_command: return in_range(hear_command(frame));
+    case Kind::mission_reply: return in_range(hear_reply(frame));
+    case Kind::nav_status: return in_range(hear_status(frame));
+    case Kind::param_reply: return in_range(hear_param(frame));
+    case Kind::e_stop:
+    case Kind::sync:
+    case Kind::fault:
+    case Kind::mission:
+    case Kind::wheel_state:
+    case Kind::range_left:
+    case Kind::range_front:
+    case Kind::range_right:
+    case Kind::param_request:
+    case Kind::heartbeat:
+    case Kind::info:
+    case Kind::info_request:
+    case Kind::diagnostics: break;  // no frames of a controller, or the node's own business
   }
+  return Heard::unknown;
+}
+
+bool BaseNode::hear_status(const hal::CanFrame& frame) noexcept {
+  NavStatus status;
+  if (!read(frame, status)) return false;
+  status_ = status;
+  status_come_ = true;
+  return true;
+}
+
+bool BaseNode::hear_param(const hal::CanFrame& frame) noexcept {
   ParamReply reply;
   if (!read(frame, reply)) return false;
   reply_ = reply;
@@ -139,6 +161,7 @@ bool BaseNode::hear_reply(const hal::CanFrame& frame) noexcept {
       break;
     case MissionStatus::incomplete: order_due_ = true; break;
     case MissionStatus::refused:
+    case MissionStatus::out_of_range:
     case MissionStatus::unknown: order_state_ = OrderState::refused; break;
   }
   return true;

@@ -71,15 +71,15 @@ void ControllerNode::answer(hal::WheelSpeeds speeds, const NavStatus& status) no
   flush();
 }
 
-bool ControllerNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
+Heard ControllerNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
   switch (kind) {
-    case Kind::range_left: return hear_range<Kind::range_left>(hal::kLeft, frame);
-    case Kind::range_front: return hear_range<Kind::range_front>(hal::kFront, frame);
-    case Kind::range_right: return hear_range<Kind::range_right>(hal::kRight, frame);
-    case Kind::wheel_state: return hear_wheels(frame);
-    case Kind::sync: return hear_sync(frame);
-    case Kind::mission: return hear_mission(frame);
-    case Kind::param_request: return hear_param(frame);
+    case Kind::range_left: return in_range(hear_range<Kind::range_left>(hal::kLeft, frame));
+    case Kind::range_front: return in_range(hear_range<Kind::range_front>(hal::kFront, frame));
+    case Kind::range_right: return in_range(hear_range<Kind::range_right>(hal::kRight, frame));
+    case Kind::wheel_state: return in_range(hear_wheels(frame));
+    case Kind::sync: return in_range(hear_sync(frame));
+    case Kind::mission: return in_range(hear_mission(frame));
+    case Kind::param_request: return in_range(hear_param(frame));
     case Kind::e_stop:
     case Kind::fault:
     case Kind::mission_reply:
@@ -91,7 +91,7 @@ bool ControllerNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
     case Kind::info_request:
     case Kind::diagnostics: break;  // no frames of a base, or the node's own business
   }
-  return true;
+  return Heard::unknown;
 }
 
 template <Kind kKind>
@@ -141,7 +141,7 @@ MissionStatus ControllerNode::obey(const MissionOrder& order) noexcept {
   if (!parts_.complete(order)) return MissionStatus::incomplete;
   if (numbered_ && order.mission == number_) return MissionStatus::accepted;
   Mission mission;
-  if (!mission_of(parts_.values(), mission)) return MissionStatus::refused;
+  if (!mission_of(parts_.values(), mission)) return MissionStatus::out_of_range;
   if (order.order == Order::resume && !has_mission_) return MissionStatus::unknown;
   if (order.order == Order::cancel) {
     rest();

@@ -34,7 +34,7 @@ class ControllerNode final : public Node {
   const Params& params() const noexcept { return committed_; }
 
  private:
-  bool hear(Kind kind, const hal::CanFrame& frame) noexcept override;
+  Heard hear(Kind kind, const hal::CanFrame& frame) noexcept override;
   void forget_peer() noexcept override;
   bool at_rest() const noexcept override { return true; }
   /// Before its first step the robot has not moved, and it is not known whether it shall go in lockstep.

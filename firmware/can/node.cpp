@@ -97,8 +97,10 @@ bool Node::is_for_us(uint8_t node) const noexcept { return node == 0 || node == 
 void Node::receive(const hal::CanFrame& frame) noexcept {
   Kind kind = Kind::e_stop;
   const auto node = static_cast<uint8_t>(frame.id & 0x0F);
-  if (frame.id > 0x7FF || !kind_of(frame.id, kind) || !is_for_us(node)) {
+  if (frame.id > 0x7FF || !is_for_us(node)) {
     count(health_.foreign);
+  } else if (!kind_of(frame.id, kind)) {
+    count(node == peer_node_ ? health_.unknown : health_.foreign);
   } else if (frame.extended || frame.remote) {
     count(health_.malformed);
   } else if (kind == Kind::e_stop) {
@@ -150,10 +152,10 @@ void Node::understand(Kind kind, const hal::CanFrame& frame) noexcept {
     case Arrival::in_turn: break;
   }
   for (; lost > 0; --lost) count(health_.lost);
-  bool in_range = true;
+  Heard heard = Heard::understood;
   switch (kind) {
-    case Kind::heartbeat: in_range = hear_heartbeat(frame); break;
-    case Kind::info: in_range = hear_info(frame); break;
+    case Kind::heartbeat: heard = in_range(hear_heartbeat(frame)); break;
+    case Kind::info: heard = in_range(hear_info(frame)); break;
     case Kind::info_request: announce_ = true; break;
     case Kind::diagnostics:
     case Kind::fault: break;  // for people and tools
@@ -173,10 +175,18 @@ void Node::understand(Kind kind, const hal::CanFrame& frame) noexcept {
         count(health_.unmatched);
         return;
       }
-      in_range = hear(kind, frame);
+      heard = hear(kind, frame);
       break;
   }
-  count(in_range ? health_.accepted : health_.out_of_range);
+  settle(heard);
+}
+
+void Node::settle(Heard heard) noexcept {
+  switch (heard) {
+    case Heard::understood: count(health_.accepted); break;
+    case Heard::out_of_range: count(health_.out_of_range); break;
+    case Heard::unknown: count(health_.unknown); break;
+  }
 }
 
 bool Node::hear_heartbeat(const hal::CanFrame& frame) noexcept {

@@ -20,7 +20,7 @@
 
 namespace whisker::can {
 
-/// Frames that came, by what became of them: each counts once in the first ten. Each counter stops at its
+/// Frames that came, by what became of them: each counts once in the first eleven. Each counter stops at its
 /// maximum.
 struct BusHealth {
   uint32_t accepted = 0;      ///< obeyed, or at least understood
@@ -33,6 +33,7 @@ struct BusHealth {
   uint32_t unmatched = 0;     ///< before the handshake
   uint32_t duplicates = 0;    ///< sent by somebody else with this node's number
   uint32_t e_stops = 0;       ///< on an E-stop identifier
+  uint32_t unknown = 0;       ///< of the other party, and this one has no use for such a message
 
   uint32_t stale = 0;    ///< of the accepted: answers to a set of long ago, sets of another mission
   uint32_t lost = 0;     ///< never came, by the counters of those that did
@@ -44,6 +45,13 @@ struct Identity {
   uint8_t robot;     ///< 1..kRobots
   uint16_t boot;     ///< another one at every start
   uint32_t version;  ///< of the firmware: major << 16 | minor << 8 | patch
+};
+
+/// What a party makes of a frame that is whole and in turn.
+enum class Heard : uint8_t {
+  understood,
+  out_of_range,  ///< a value is
+  unknown,       ///< the party has no use for such a message
 };
 
 class Node {
@@ -74,8 +82,9 @@ class Node {
   ~Node() = default;
 
   // Not pure: that would ask for a run-time library.
-  /// A frame of the other party that is whole, in turn and expected. False: a value is out of its range.
-  virtual bool hear(Kind, const hal::CanFrame&) noexcept { return true; }
+  /// A frame of the other party that is whole and in turn, after the handshake.
+  virtual Heard hear(Kind, const hal::CanFrame&) noexcept { return Heard::unknown; }
+  static constexpr Heard in_range(bool is) noexcept { return is ? Heard::understood : Heard::out_of_range; }
   /// The other party has started anew: nothing that it said before counts.
   virtual void forget_peer() noexcept {}
   virtual bool at_rest() const noexcept { return true; }
@@ -118,6 +127,7 @@ class Node {
   bool is_for_us(uint8_t node) const noexcept;
   bool is_sound(Kind kind, const hal::CanFrame& frame) noexcept;
   void understand(Kind kind, const hal::CanFrame& frame) noexcept;
+  void settle(Heard heard) noexcept;
   bool hear_heartbeat(const hal::CanFrame& frame) noexcept;
   bool hear_info(const hal::CanFrame& frame) noexcept;
   void match() noexcept;

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "firmware/can/words.hpp"
+#include "firmware/core/region.hpp"
 
 namespace whisker::can {
 
@@ -67,21 +68,23 @@ inline constexpr Signal kFault[] = {
   {"Count",    40, 16, false, 0, kMost16, "1", "", "safe stops since the start; stays at its maximum"},
 };
 
+constexpr int32_t kPlaceLimitUm = kPlaceLimit.raw();
+
 inline constexpr Signal kMission[] = {
   {"Part",          12,  4, false, 0, 6,                 "1",                           "",    "one frame each", kMultiplexor, mission_part_word},
   {"Mission",       16,  8, false, 0, kMost8,            "1",                           "",    "number, another one for every order"},
   {"Order",         24,  8, false, 0, 2,                 "1",                           "",    "obeyed once all other parts are there", 0, order_word},
   {"Digest",        32, 16, false, 0, kMost16,           "1",                           "",    "over the values of parts 1 to 6", 0},
-  {"StartX",        24, 32, true,  -2147483647, INT32_MAX, "0.000001",                  "m",   "where the robot stands", 1},
-  {"StartY",        24, 32, true,  -2147483647, INT32_MAX, "0.000001",                  "m",   "", 2},
+  {"StartX",        24, 32, true,  -kPlaceLimitUm, kPlaceLimitUm, "0.000001",                    "m",   "where the robot stands", 1},
+  {"StartY",        24, 32, true,  -kPlaceLimitUm, kPlaceLimitUm, "0.000001",                    "m",   "", 2},
   {"StartHeading",  24, 32, false, 0, kMost32,           "8.381903171539306640625E-08", "deg", "counter-clockwise from x", 3},
-  {"GoalX",         24, 32, true,  -2147483647, INT32_MAX, "0.000001",                  "m",   "", 4},
-  {"GoalY",         24, 32, true,  -2147483647, INT32_MAX, "0.000001",                  "m",   "", 5},
+  {"GoalX",         24, 32, true,  -kPlaceLimitUm, kPlaceLimitUm, "0.000001",                    "m",   "", 4},
+  {"GoalY",         24, 32, true,  -kPlaceLimitUm, kPlaceLimitUm, "0.000001",                    "m",   "", 5},
   {"GoalTolerance", 24, 32, true,  1, INT32_MAX,         "0.000001",                    "m",   "reached within this distance", 6},
 };
 
 inline constexpr Signal kMissionReply[] = {
-  {"Status",  12,  4, false, 0, 3,       "1", "", "what became of the order", kAlways, mission_status_word},
+  {"Status",  12,  4, false, 0, 4,       "1", "", "what became of the order", kAlways, mission_status_word},
   {"Mission", 16,  8, false, 0, kMost8,  "1", "", "of the order"},
 };
 

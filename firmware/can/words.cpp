@@ -44,7 +44,7 @@ const char* order_word(int64_t raw) noexcept {
 }
 
 const char* mission_status_word(int64_t raw) noexcept {
-  constexpr const char* kNames[] = {"accepted", "incomplete", "refused", "unknown"};
+  constexpr const char* kNames[] = {"accepted", "incomplete", "refused", "unknown", "out_of_range"};
   return pick(kNames, raw);
 }
 

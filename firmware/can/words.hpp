@@ -29,9 +29,10 @@ enum class Order : uint8_t {
 
 enum class MissionStatus : uint8_t {
   accepted,
-  incomplete,  ///< parts are missing, or do not match the digest: send all again
-  refused,     ///< E-stop, no handshake, or parameters that do not go together
-  unknown,     ///< resume without a mission
+  incomplete,    ///< parts are missing, or do not match the digest: send all again
+  refused,       ///< E-stop, no handshake, or parameters that do not go together
+  unknown,       ///< resume without a mission
+  out_of_range,  ///< start or goal lies farther out than a robot takes them, or a value makes no sense
 };
 
 enum class DriveMode : uint8_t { stop, drive };

@@ -1,104 +1,14 @@
 #include "firmware/core/trig.hpp"
 
-#include <stddef.h>
+namespace whisker::at_run_time {
 
-namespace whisker {
-namespace {
+Q30 sin(Angle a) noexcept { return formula::sin(a); }
+Angle atan2(int32_t y, int32_t x) noexcept { return formula::atan2(y, x); }
+uint32_t square_root(uint64_t x) noexcept { return formula::square_root(x); }
+uint32_t square_root_32(uint32_t x) noexcept { return formula::square_root_32(x); }
+Length norm(Vec v) noexcept { return formula::norm(v); }
+bool farther(Vec v, Length length) noexcept { return formula::farther(v, length); }
+Vec polar(Angle direction, Length length) noexcept { return formula::polar(direction, length); }
+Length along(Vec v, Angle direction) noexcept { return formula::along(v, direction); }
 
-/// c[0] x + c[1] x^3 + ... for x in [0, 1] as Q30, in the unit of the coefficients.
-template <size_t kTerms>
-int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noexcept {
-  const int64_t x = x_q30;
-  const int64_t square = scale_down<30>(x * x);
-  int32_t sum = c[kTerms - 1];
-  for (size_t i = kTerms - 1; i-- > 0;) sum = static_cast<int32_t>(c[i] + scale_down<30>(sum * square));
-  return static_cast<int32_t>(scale_down<30>(sum * x));
-}
-
-// Minimax fits (Remez exchange) of sin(x pi / 2), unit 2^-30, and of atan(x), unit 2^-32 turn.
-constexpr int32_t kSine[] = {1686629674, -693597876, 85564854, -5016767, 161942};
-constexpr int32_t kArcTangent[] = {683565198, -227850059, 136616721, -96801258, 71767194,
-                                   -49455063, 27193166,   -9844330,  1679347};
-
-uint64_t squared(Vec v) noexcept {
-  const uint64_t x = magnitude(v.x.raw());
-  const uint64_t y = magnitude(v.y.raw());
-  return x * x + y * y;
-}
-
-}  // namespace
-
-Q30 sin(Angle a) noexcept {
-  const uint32_t half = UINT32_C(1) << 31;
-  const uint32_t quarter = UINT32_C(1) << 30;
-  const bool negative = a.raw() > half;
-  uint32_t first_half = negative ? 0U - a.raw() : a.raw();
-  if (first_half > quarter) first_half = half - first_half;
-  const int32_t s = odd_polynomial(kSine, static_cast<int32_t>(first_half));
-  const int32_t capped = s > Q30::kOne ? Q30::kOne : s;
-  return Q30::from_raw(negative ? -capped : capped);
-}
-
-Angle atan2(int32_t y, int32_t x) noexcept {
-  const uint32_t ax = magnitude(x);
-  const uint32_t ay = magnitude(y);
-  if (ax == 0 && ay == 0) return Angle{};
-  const uint32_t low = ax < ay ? ax : ay;
-  const uint32_t high = ax < ay ? ay : ax;
-  const uint64_t ratio = ((uint64_t{low} << 30) + high / 2) / high;
-  uint32_t turn = static_cast<uint32_t>(odd_polynomial(kArcTangent, static_cast<int32_t>(ratio)));
-  if (ax < ay) turn = (UINT32_C(1) << 30) - turn;
-  if (x < 0) turn = (UINT32_C(1) << 31) - turn;
-  return Angle::from_raw(y < 0 ? 0U - turn : turn);
-}
-
-uint32_t square_root_32(uint32_t x) noexcept {
-  uint32_t bit = UINT32_C(1) << 15;
-  while (bit * bit > x) bit >>= 1;
-  uint32_t root = 0;
-  for (; bit != 0; bit >>= 1) {
-    const uint32_t larger = root | bit;
-    if (larger * larger <= x) root = larger;
-  }
-  return root;
-}
-
-uint32_t square_root(uint64_t x) noexcept {
-  if (x <= UINT32_MAX) return square_root_32(static_cast<uint32_t>(x));
-  uint64_t rest = x;
-  uint64_t root = 0;
-  uint64_t bit = UINT64_C(1) << 62;
-  while (bit > x) bit >>= 2;
-  while (bit != 0) {
-    if (rest >= root + bit) {
-      rest -= root + bit;
-      root = (root >> 1) + bit;
-    } else {
-      root >>= 1;
-    }
-    bit >>= 2;
-  }
-  return static_cast<uint32_t>(root);
-}
-
-Length norm(Vec v) noexcept {
-  const uint32_t root = square_root(squared(v));
-  return Length::from_raw(root > INT32_MAX ? INT32_MAX : static_cast<int32_t>(root));
-}
-
-bool farther(Vec v, Length length) noexcept {
-  const uint64_t beyond = uint64_t{magnitude(length.raw())} + 1;
-  return length < Length{} || squared(v) >= beyond * beyond;
-}
-
-Vec polar(Angle direction, Length length) noexcept {
-  return {length * cos(direction), length * sin(direction)};
-}
-
-Length along(Vec v, Angle direction) noexcept {
-  const int64_t x = scale_down<4>(int64_t{v.x.raw()} * cos(direction).raw());
-  const int64_t y = scale_down<4>(int64_t{v.y.raw()} * sin(direction).raw());
-  return Length::from_raw(saturate32(scale_down<26>(x + y)));
-}
-
-}  // namespace whisker
+}  // namespace whisker::at_run_time

@@ -64,22 +64,23 @@ using Acceleration = Unit<struct AccelerationTag>;
 using AngularRate = Unit<struct AngularRateTag>;
 using Duration = Unit<struct DurationTag>;
 
+// In parentheses: Arduino and some vendors' headers have macros abs(), min() and max().
 template <class Tag>
-constexpr Unit<Tag> abs(Unit<Tag> a) noexcept {
+constexpr Unit<Tag>(abs)(Unit<Tag> a) noexcept {
   return a.raw() < 0 ? -a : a;
 }
 template <class Tag>
-constexpr Unit<Tag> min(Unit<Tag> a, Unit<Tag> b) noexcept {
+constexpr Unit<Tag>(min)(Unit<Tag> a, Unit<Tag> b) noexcept {
   return b < a ? b : a;
 }
 template <class Tag>
-constexpr Unit<Tag> max(Unit<Tag> a, Unit<Tag> b) noexcept {
+constexpr Unit<Tag>(max)(Unit<Tag> a, Unit<Tag> b) noexcept {
   return a < b ? b : a;
 }
 /// x within [-limit, limit]. limit >= 0.
 template <class Tag>
 constexpr Unit<Tag> limit(Unit<Tag> x, Unit<Tag> limit) noexcept {
-  return max(-limit, min(x, limit));
+  return (max)(-limit, (min)(x, limit));
 }
 
 /// An instant on a millisecond counter that wraps; compare instants only by their difference.

@@ -1,6 +1,10 @@
 /// The fuzzy engine that the core is built with, and its default table: constant data, in flash.
 #pragma once
 
+#ifdef WHISKER_ENGINE_ANY
+#error "a source of the core that asks for the engine belongs to engine_sources in firmware/CMakeLists.txt"
+#endif
+
 #ifdef WHISKER_ENGINE_CLOSED
 #include "firmware/fuzzy/closed_form.hpp"
 #include "firmware/fuzzy/rules.hpp"

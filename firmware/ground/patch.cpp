@@ -19,10 +19,10 @@ constexpr int32_t within(int64_t x, int32_t limit) noexcept {
   return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
 }
 
-/// From the measurement of what moves to the body's rest: two more readings, latency, a tick, lag, braking.
+/// From the measurement of what moves to the body's rest: two more readings, latency, a gap, lag, braking.
 Duration time_to_stop(const Params& p) noexcept {
   const int32_t braking = multiply_divide(p.wheels.max_speed.raw(), 1000, p.wheels.max_acceleration.raw());
-  return p.rangefinders.latency + milliseconds(2000 / p.rangefinders.rate_hz) + p.safety.period +
+  return p.rangefinders.latency + milliseconds(2000 / p.rangefinders.rate_hz) + longest_gap(p) +
          p.wheels.motor_lag + milliseconds(braking);
 }
 
@@ -79,13 +79,17 @@ void Patch::drop_columns(Row window) noexcept {
   }
 }
 
-void Patch::reset(const Pose& pose) noexcept {
+void Patch::forget(const Pose& pose) noexcept {
   drop_rows(0, kCells);
   last_ = pose;
   travel_ = Length{};
   turned_ = 0;
   doubting_ = false;
   move_to(pose);
+}
+
+void Patch::reset(const Pose& pose) noexcept {
+  forget(pose);
   clear_around(pose.at, placed_free_);
 }
 
@@ -161,15 +165,24 @@ void Patch::clear_around(Vec at, int32_t reach) noexcept {
   }
 }
 
-void Patch::mark(const Proof& proof) noexcept {
+void Patch::mark(const Proof& proof, const Earlier* before) noexcept {
   const Angle axis = proof.from.heading + proof.axis;
-  const Point apex = local(proof.from.at + polar(axis, offset_));
+  const Vec from = proof.from.at + polar(axis, offset_);
+  const Point apex = local(from);
   if (!nearby(apex.x) || !nearby(apex.y)) return;
+  const Angle axis_before = before == nullptr ? axis : before->from.heading + proof.axis;
+  const Vec from_before = before == nullptr ? from : before->from.at + polar(axis_before, offset_);
+  const Point apex_before = local(from_before);
+  if (!nearby(apex_before.x) || !nearby(apex_before.y)) return;
   if (proof.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && proof.hit ? approach_ : Length{};
   const int32_t free = units(proof.free - room - kReadingRounding);
+  const int32_t free_before = before == nullptr ? free : units(before->free - room - kReadingRounding);
   const int32_t echo = units(proof.free) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
+  const bool moved =
+      from.x != from_before.x || from.y != from_before.y || axis != axis_before || free_before < free;
+  const Wedge cone_before = moved ? Wedge(axis_before, half_cone_) : cone;
   const bool wide = proof.hit && half_cone_.raw() > kSuspectHalf.raw();
   const Wedge core = wide ? Wedge(axis, kSuspectHalf) : cone;
   const int32_t reach = proof.aimed ? kWholeWindow : proof.hit ? echo : free;
@@ -182,6 +195,11 @@ void Patch::mark(const Proof& proof) noexcept {
     if ((covered & (~young_[s] | suspect_[s] | tested_[s])) == 0) continue;
     Span empty = inside;
     empty.inside_disc(apex.x, dy, free);
+    if (moved) {
+      const int32_t dy_before = rows.offset(apex_before.y);
+      cone_before.hold(empty, apex_before.x, dy_before);
+      empty.inside_disc(apex_before.x, dy_before, free_before);
+    }
     const Row clear = to_torus(empty.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;

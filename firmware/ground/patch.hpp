@@ -19,6 +19,12 @@ struct Proof {
   Time taken{};
 };
 
+/// What a beam had shown empty one reading before, and from where.
+struct Earlier {
+  Pose from;
+  Length free;
+};
+
 /// Cells that lie in the way.
 struct Obstacles {
   int32_t unknown = 0;  ///< never cleared, and nothing more is known
@@ -42,9 +48,13 @@ class Patch {
   /// Nothing is known but the ground under the body, and the ring that no beam can prove from there (see
   /// blind_reach), which must be free.
   void reset(const Pose& pose) noexcept;
+  /// The same without the ring.
+  void forget(const Pose& pose) noexcept;
   /// The body is here now: moves the window along, ages the cells, clears the footprint.
   void move_to(const Pose& pose) noexcept;
-  void mark(const Proof& proof) noexcept;
+  /// Clears the cells that both readings show empty, each from its own pose: one that wrongly says that
+  /// nothing is there clears nothing. Without an earlier one, what the proof alone shows.
+  void mark(const Proof& proof, const Earlier* before = nullptr) noexcept;
   /// What this beam sees between `proof.free` and `farthest` has moved there: takes back what was clear
   /// around it, as far as it may come while the body stops, but for the ground under the body. For a second,
   /// mark() clears nothing that near to an echo.

@@ -20,7 +20,7 @@ class Flood {
   struct Task {
     Place body;                ///< of the window
     Place goal;                ///< the same; it may lie outside
-    int32_t most = INT16_MAX;  ///< levels
+    int32_t most = INT32_MAX;  ///< levels
     bool strict = false;       ///< suspects block, and so do cramped cells
   };
 

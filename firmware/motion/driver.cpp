@@ -17,24 +17,20 @@ Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noex
   return rest < Length{} ? -v : v;
 }
 
+constexpr int32_t kStillPeriods = 3;
+
 /// One tick of a first-order lag, by the trapezoid rule; a lag shorter than half a tick is none.
-Speed follow(Speed rolling, Speed commanded, const Params& params) noexcept {
-  const int32_t tick = params.safety.period.raw();
+Speed follow(Speed rolling, Speed commanded, Duration elapsed, const Params& params) noexcept {
+  const int32_t tick = elapsed.raw();
   const int32_t whole = 2 * params.wheels.motor_lag.raw() + tick;
   const int32_t part = 2 * tick < whole ? 2 * tick : whole;
   return rolling + Speed::from_raw(multiply_divide((commanded - rolling).raw(), part, whole));
 }
 
-void count_up(int32_t& ticks) noexcept {
-  if (ticks < INT32_MAX) ++ticks;
-}
-
-void count_while(bool condition, int32_t& ticks) noexcept {
-  if (condition) {
-    count_up(ticks);
-  } else {
-    ticks = 0;
-  }
+void count_while(bool condition, Duration elapsed, Duration& time) noexcept {
+  // It would wrap after 24 days: by then a fault has stopped the robot.
+  const uint32_t longer = static_cast<uint32_t>(time.raw()) + static_cast<uint32_t>(elapsed.raw());
+  time = Duration::from_raw(condition ? static_cast<int32_t>(longer) : 0);
 }
 
 }  // namespace
@@ -46,18 +42,17 @@ void Driver::begin(const nav::Manoeuvre& manoeuvre, const Pose& pose) noexcept {
   if (cruises_on) return;
   origin_ = pose.at;
   finished_ = manoeuvre.kind == nav::Kind::stop;
-  still_ticks_ = 0;
-  stalled_ticks_ = 0;
-  waiting_ticks_ = 0;
+  settled_ = false;
+  still_for_ = stalled_for_ = waiting_for_ = Duration{};
   nearest_ = Length::from_raw(INT32_MAX);
 }
 
-void Driver::approach(Length rest) noexcept {
-  count_while(rest >= nearest_, waiting_ticks_);
+void Driver::approach(Length rest, Duration elapsed) noexcept {
+  count_while(rest >= nearest_, elapsed, waiting_for_);
   nearest_ = min(nearest_, rest);
 }
 
-WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
+WheelPair Driver::target(const Pose& pose, Duration elapsed, const Params& params) noexcept {
   if (finished_) return {};
   if (current_.kind == nav::Kind::cruise) {
     return mix(current_.forward, current_.turning, params.wheels.max_speed);
@@ -71,7 +66,7 @@ WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
       return {};
     }
     const Length way = arc(error, half_track);
-    approach(abs(way));
+    approach(abs(way), elapsed);
     return mix(Speed{}, signed_approach(way, turn_limit, params), params.wheels.max_speed);
   }
   const Length rest = current_.length - along(pose.at - origin_, current_.heading);
@@ -79,28 +74,31 @@ WheelPair Driver::target(const Pose& pose, const Params& params) noexcept {
     finished_ = true;
     return {};
   }
-  approach(rest);
+  approach(rest, elapsed);
   const Speed forward = min(approach_speed(rest, params), params.wheels.max_speed);
   const Speed correction = signed_approach(arc(error, half_track), turn_limit, params);
   // Half the forward speed at most, so that the correction bends the path and never reverses a wheel.
   return mix(forward, limit(correction, forward / 2), params.wheels.max_speed);
 }
 
-WheelPair Driver::step(const Pose& pose, const CountStep* counts, bool paused,
+WheelPair Driver::step(const Pose& pose, const CountStep* counts, bool paused, Duration elapsed,
                        const Params& params) noexcept {
-  const WheelPair want = paused ? WheelPair{} : target(pose, params);
-  speeds_ = slew(speeds_, want, params.wheels.max_acceleration * params.safety.period);
-  rolling_ = {follow(rolling_.left, speeds_.left, params), follow(rolling_.right, speeds_.right, params)};
+  const WheelPair want = paused ? WheelPair{} : target(pose, elapsed, params);
+  speeds_ = slew(speeds_, want, params.wheels.max_acceleration * elapsed);
+  rolling_ = {follow(rolling_.left, speeds_.left, elapsed, params),
+              follow(rolling_.right, speeds_.right, elapsed, params)};
 
   if (counts == nullptr) {
-    still_ticks_ = 0;
+    still_for_ = Duration{};
+    settled_ = false;
     return speeds_;
   }
   const bool still = counts->left == 0 && counts->right == 0;
   const bool commanded = speeds_.left != Speed{} || speeds_.right != Speed{};
-  count_while(still && !commanded, still_ticks_);
-  count_while(still && commanded, stalled_ticks_);
-  if (finished_) count_while(!commanded && !settled(), waiting_ticks_);
+  count_while(still && !commanded, elapsed, still_for_);
+  count_while(still && commanded, elapsed, stalled_for_);
+  settled_ = finished_ && still_for_ >= params.safety.period * kStillPeriods;
+  if (finished_) count_while(!commanded && !settled_, elapsed, waiting_for_);
   return speeds_;
 }
 

@@ -22,33 +22,35 @@ class Driver {
 
   /// One control tick. counts == nullptr: none came, so nothing says that the body stands.
   /// paused: come to rest, and take the manoeuvre up again afterwards.
-  /// Returns the new wheel speeds, at most max_acceleration x period from the ones before.
-  WheelPair step(const Pose& pose, const CountStep* counts, bool paused, const Params& params) noexcept;
+  /// elapsed: since the tick before.
+  /// Returns the new wheel speeds, at most max_acceleration x elapsed from the ones before.
+  WheelPair step(const Pose& pose, const CountStep* counts, bool paused, Duration elapsed,
+                 const Params& params) noexcept;
 
-  /// The manoeuvre is over and the counts have stood still for three ticks.
-  bool settled() const noexcept { return finished_ && still_ticks_ >= kStillTicks; }
+  /// The manoeuvre is over and the counts have stood still for three periods.
+  bool settled() const noexcept { return settled_; }
   /// The wheels stand, whatever was commanded last: the drive refused. The manoeuvre goes on from there.
   void halt() noexcept { speeds_ = {}; }
   WheelState wheels() const noexcept { return {speeds_, rolling_}; }
-  /// Ticks in a row for which the wheels were commanded to move and no count came.
-  int32_t stalled_ticks() const noexcept { return stalled_ticks_; }
-  /// Ticks, pauses left out, since the manoeuvre last came nearer to its end; after its end, ticks for which
-  /// the wheels were commanded to stand and the body did not.
-  int32_t waiting_ticks() const noexcept { return waiting_ticks_; }
+  /// For how long the wheels have been commanded to move and no count came.
+  Duration stalled_for() const noexcept { return stalled_for_; }
+  /// How long ago, pauses left out, the manoeuvre last came nearer to its end; after its end, for how long
+  /// the wheels have been commanded to stand and the body did not.
+  Duration waiting_for() const noexcept { return waiting_for_; }
 
  private:
-  static constexpr int32_t kStillTicks = 3;
-  WheelPair target(const Pose& pose, const Params& params) noexcept;
-  void approach(Length rest) noexcept;
+  WheelPair target(const Pose& pose, Duration elapsed, const Params& params) noexcept;
+  void approach(Length rest, Duration elapsed) noexcept;
 
   nav::Manoeuvre current_{nav::Kind::stop, {}, {}};
   Vec origin_;
   WheelPair speeds_;
   WheelPair rolling_;  // the speeds behind the motors' lag
   bool finished_ = true;
-  int32_t still_ticks_ = 0;
-  int32_t stalled_ticks_ = 0;
-  int32_t waiting_ticks_ = 0;
+  bool settled_ = false;
+  Duration still_for_;
+  Duration stalled_for_;
+  Duration waiting_for_;
   Length nearest_;  // the smallest rest of this manoeuvre so far
 };
 

@@ -24,9 +24,10 @@ class Odometry {
   void configure(const Params& params) noexcept;
   /// Puts the body at a pose; the next counts are the new zero.
   void place(const Pose& pose) noexcept;
-  /// Takes both counters, modulo 2^24. False: a wheel moved further than twice its full speed over the
-  /// longest allowed gap; the step is left out of the pose and the new counts are the new zero.
-  bool update(const hal::EncoderCounts& counts, CountStep& step) noexcept;
+  /// Takes both counters, modulo 2^24, `since` the update before. False: a wheel moved further than at twice
+  /// its full speed over that time and a period; the step is left out of the pose and the new counts are the
+  /// new zero.
+  bool update(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept;
 
   Pose pose() const noexcept;
 
@@ -38,7 +39,8 @@ class Odometry {
   int64_t difference_ = 0;       // right minus left, counts since place()
   int64_t um_per_count_ = 0;     // 2^-16 um
   uint64_t turn_per_count_ = 0;  // 2^-48 turn
-  int32_t max_step_ = 0;         // counts
+  Duration period_;
+  uint32_t counts_per_ms_ = 0;  // at twice the full speed, 2^-8 count
   hal::EncoderCounts last_{};
   bool has_last_ = false;
 };

@@ -5,7 +5,7 @@ namespace {
 
 constexpr Length kSample = 20_mm;
 
-/// How far a wheel still rolls: through its lag, this tick at the new command, and braking.
+/// How far a wheel still rolls: through its lag, at the new command until the next tick, and braking.
 struct Brake {
   Length left;
   Length right;
@@ -14,13 +14,13 @@ struct Brake {
 Speed faster(WheelPair w) noexcept { return max(abs(w.left), abs(w.right)); }
 
 Brake brake(WheelPair command, const WheelState& wheels, const Params& params) noexcept {
-  const Duration tick = params.safety.period;
+  const Duration hold = longest_gap(params);
   const int64_t a = params.wheels.max_acceleration.raw();
   const int64_t fastest = faster(command).raw();
   const auto rolls = [&](Speed commanded, Speed rolling) {
     // Braked in proportion, each wheel covers half its speed times the time of the faster one.
     const Length braking = Length::from_raw(saturate32(divide_rounded(commanded.raw() * fastest, 2 * a)));
-    return rolling * params.wheels.motor_lag + commanded * tick + braking;
+    return rolling * params.wheels.motor_lag + commanded * hold + braking;
   };
   return {rolls(command.left, wheels.rolling.left), rolls(command.right, wheels.rolling.right)};
 }
@@ -55,10 +55,10 @@ bool free(const Arc& arc, const Pose& pose, const WheelState& wheels, const grou
 }  // namespace
 
 Grant shield(const nav::Manoeuvre& cruise, const Pose& pose, const WheelState& wheels,
-             const ground::Patch& patch, const Params& params) noexcept {
+             const ground::Patch& patch, Duration elapsed, const Params& params) noexcept {
   constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2), Q14::ratio(3, 10),
                               Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
-  const Speed change = params.wheels.max_acceleration * params.safety.period;
+  const Speed change = params.wheels.max_acceleration * elapsed;
   const Length reach = cruise.retraces ? params.body.radius - params.body.radius / 22 : patch.reach().shield;
   for (const Q14 factor : kFactors) {
     const WheelPair want = mix(cruise.forward * factor, cruise.turning, params.wheels.max_speed);

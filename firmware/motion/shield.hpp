@@ -23,14 +23,16 @@ struct Grant {
 };
 
 /// The forward speed of a cruise that may be commanded this tick beside its rim speed of turning: the largest
-/// of a few fractions of it whose braking arc, after one tick of it, brings the disc of Reach::shield nowhere
-/// nearer to a cell that is not clear. If there is none, both wheels brake in proportion, along the arc that
-/// was found free a tick before.
+/// of a few fractions of it whose braking arc, after the longest gap that may pass before the next tick,
+/// brings the disc of Reach::shield nowhere nearer to a cell that is not clear. If there is none, both wheels
+/// brake in proportion, along the arc that was found free a tick before.
+///
+/// `elapsed` since the last tick: what the wheels' speeds may change by now.
 ///
 /// Retracing asks for half of what the cells' size and the margin add to the body's radius. What is not clear
 /// beside a way that was just driven was no nearer then, and the way back must not end at what was only
 /// passed.
 Grant shield(const nav::Manoeuvre& cruise, const Pose& pose, const WheelState& wheels,
-             const ground::Patch& patch, const Params& params) noexcept;
+             const ground::Patch& patch, Duration elapsed, const Params& params) noexcept;
 
 }  // namespace whisker::motion

@@ -14,6 +14,8 @@ class Guide {
   };
 
   virtual void start(const View& view, const Goal& goal) noexcept = 0;
+  /// The goal lies there by now.
+  virtual void move_goal(Vec at) noexcept = 0;
   /// Once a tick, whatever the body does.
   virtual void observe(const View& view) noexcept = 0;
   /// Where to drive in free space: to `place`, from the body. `distance` is the goal's.

@@ -23,6 +23,7 @@ constexpr Length kBarrierLife = 6000_mm;
 constexpr int8_t kCredits = 1;
 constexpr int32_t kRefusals = 12;
 constexpr int8_t kMostSpells = 16;
+constexpr int32_t kNoWay = INT32_MAX / 2;  // levels
 
 }  // namespace
 
@@ -35,10 +36,16 @@ void MapGuide::start(const View& view, const Goal& goal) noexcept {
   credits_ = kCredits;
   active_ = true;
   refusals_ = spells_ = 0;
-  best_ = Length::from_raw(INT32_MAX);
+  best_.reset();
   last_ = view.pose.at;
   travel_mm_ = travel_rest_um_ = improved_mm_ = 0;
   for (Barrier& b : barrier_) b = {};
+}
+
+void MapGuide::move_goal(Vec at) noexcept {
+  if (way_ == goal_.at) way_ = at;
+  goal_.at = at;
+  best_.follow(at);
 }
 
 void MapGuide::observe(const View& view) noexcept {
@@ -47,8 +54,8 @@ void MapGuide::observe(const View& view) noexcept {
   travel_rest_um_ %= 1000;
   last_ = view.pose.at;
   const Length distance = norm(goal_.at - view.pose.at);
-  if (distance < best_ - reference(kProgress)) {
-    best_ = distance;
+  if (distance < best_.distance() - reference(kProgress)) {
+    best_.set(view.pose.at, distance);
     improved_mm_ = travel_mm_;
     refusals_ = 0;
     active_ = true;
@@ -76,12 +83,11 @@ void MapGuide::raise_barriers() noexcept {
   }
 }
 
-void MapGuide::begin(Stage stage, int32_t most, const View& view) noexcept {
+void MapGuide::begin(Stage stage, const View& view) noexcept {
   stage_ = stage;
   map::Flood::Task task;
   task.body = map_.place(view.pose.at);
   task.goal = map_.place(goal_.at);
-  task.most = most;
   task.strict = stage != Stage::passing;
   flood_.begin(map_, task);
 }
@@ -94,7 +100,7 @@ void MapGuide::plan(const View& view) noexcept {
     map_.follow(view.pose.at, goal_.at);
     map_.free(*view.patch, view.pose.at);
     raise_barriers();
-    begin(Stage::strict, INT16_MAX, view);
+    begin(Stage::strict, view);
     return;
   }
   if (!flood_.run(map_, kRowsATick * map_.shape().words)) return;
@@ -102,9 +108,9 @@ void MapGuide::plan(const View& view) noexcept {
   switch (stage_) {
     case Stage::idle: break;
     case Stage::strict:
-      strict_ = flood_.reached() ? flood_.level() : INT16_MAX;
+      strict_ = flood_.reached() ? flood_.level() : kNoWay;
       if (strict_ - map::distance(map_.place(goal_.at) - map_.place(view.pose.at)) <= dearer) break;
-      begin(Stage::passing, INT16_MAX, view);
+      begin(Stage::passing, view);
       return;
     case Stage::passing:
       if (!flood_.reached()) {
@@ -115,7 +121,7 @@ void MapGuide::plan(const View& view) noexcept {
         return;
       }
       if (strict_ - flood_.level() > dearer) break;
-      begin(Stage::again, INT16_MAX, view);
+      begin(Stage::again, view);
       return;
     case Stage::again: break;
   }
@@ -130,16 +136,23 @@ bool MapGuide::sees(Vec from, Vec to) const noexcept {
 
 /// What the straight way there costs more than the best one; all there is, where something blocks it.
 Length MapGuide::dearer(Vec from, Vec to) const noexcept {
+  constexpr Length kBlocked = Length::from_raw(INT32_MAX);
   int32_t levels = 0;
   int before = flood_.phase(map_, map_.place(from));
-  const bool open = before >= 0 && map::each_cell(map_, from, to, [&](map::Place p) {
-                      const int now = flood_.phase(map_, p);
-                      if (now < 0) return !map_.holds(p);
-                      levels += (now - before + 4) % 3 - 1;
-                      before = now;
-                      return true;
-                    });
-  return open ? map_.cell() * levels + norm(to - from) : Length::from_raw(INT32_MAX);
+  if (before < 0) return kBlocked;
+  bool leaves = false;
+  const bool open = map::each_cell(map_, from, to, [&](map::Place p) {
+    const int now = flood_.phase(map_, p);
+    if (now < 0) {
+      // A line that leaves the window does not come back, and may be of any length.
+      leaves = !map_.holds(p);
+      return false;
+    }
+    levels += (now - before + 4) % 3 - 1;
+    before = now;
+    return true;
+  });
+  return open || leaves ? map_.cell() * levels + norm(to - from) : kBlocked;
 }
 
 bool MapGuide::straight(const View& view) const noexcept {

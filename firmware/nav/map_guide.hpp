@@ -6,6 +6,7 @@
 #include "firmware/map/flood.hpp"
 #include "firmware/map/map.hpp"
 #include "firmware/nav/guide.hpp"
+#include "firmware/nav/nearest.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker::nav {
@@ -17,6 +18,7 @@ class MapGuide final : public Guide {
       : params_(params), map_(shape, storage) {}
 
   void start(const View& view, const Goal& goal) noexcept override;
+  void move_goal(Vec at) noexcept override;
   void observe(const View& view) noexcept override;
   Advice advise(const View& view, Length distance, Vec& place) noexcept override;
   bool refuse(const View& view) noexcept override;
@@ -35,7 +37,7 @@ class MapGuide final : public Guide {
     int32_t until_mm = 0;
   };
 
-  void begin(Stage stage, int32_t most, const View& view) noexcept;
+  void begin(Stage stage, const View& view) noexcept;
   void plan(const View& view) noexcept;
   void finish(const View& view) noexcept;
   Length dearer(Vec from, Vec to) const noexcept;
@@ -59,10 +61,10 @@ class MapGuide final : public Guide {
   bool active_ = true;
   int8_t refusals_ = 0;
   int8_t credits_ = 0;
-  int8_t spells_ = 0;        // of the map that are over
-  int32_t strict_ = 0;       // levels to the body if suspects block
-  int32_t ticks_ = 0;        // since a plan was begun
-  Length best_;              // the least distance to the goal
+  int8_t spells_ = 0;   // of the map that are over
+  int32_t strict_ = 0;  // levels to the body if suspects block
+  int32_t ticks_ = 0;   // since a plan was begun
+  Nearest best_;
   int32_t improved_mm_ = 0;  // travel at which that was
   Vec last_;
   int32_t travel_mm_ = 0;

@@ -15,6 +15,9 @@ namespace whisker::nav {
 struct Goal {
   Vec at;
   Length tolerance;
+  friend constexpr bool operator==(const Goal& a, const Goal& b) noexcept {
+    return a.at.x == b.at.x && a.at.y == b.at.y && a.tolerance == b.tolerance;
+  }
 };
 
 /// What a planner sees at a tick.
@@ -27,7 +30,8 @@ struct View {
   const ground::Patch* patch = nullptr;  ///< what is proved free nearby
   Speed forward{};                       ///< of the body, by its wheels
   Speed turning{};                       ///< of the rims, counter-clockwise positive
-  Q14 granted{};  ///< part of the last cruise's forward speed that the shield let through
+  Q14 granted{};       ///< part of the last cruise's forward speed that the shield let through
+  Duration elapsed{};  ///< since the tick before
 #ifndef WHISKER_SMALL
   const ground::Proof* proofs = nullptr;  ///< of the beams, taken in at this tick
   uint8_t proved = 0;                     ///< a bit for each beam that has one
@@ -53,6 +57,8 @@ struct Decision {
 class Planner {
  public:
   virtual void set_goal(const Goal& goal) noexcept = 0;
+  /// The goal lies there by now, as the pose was corrected; the way to it goes on.
+  virtual void move_goal(Vec at) noexcept = 0;
   virtual void cancel() noexcept = 0;
   virtual Decision step(const View& view) noexcept = 0;
 

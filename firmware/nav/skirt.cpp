@@ -7,7 +7,6 @@ namespace {
 
 constexpr Angle kSurvey = 50_deg;  // with the cones' rims, 92 degrees to each side
 constexpr Length kProgress = 30_mm;
-constexpr Length kLongest = 400_m;
 constexpr Length kKeepSide = 500_mm;    // of travel after a leave
 constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, beside kKeepSide
 constexpr int8_t kEscapes = 6;
@@ -29,7 +28,7 @@ static_assert(sizeof(SkirtPlanner) + sizeof(ground::Patch) < 1024);
 void SkirtPlanner::start(const View& view) noexcept {
   began_ = view.pose.at;
   last_ = view.pose;
-  best_ = Length::from_raw(INT32_MAX);
+  best_.reset();
   travel_mm_ = travel_rest_um_ = 0;
   paused_mm_ = pauses_ = 0;
   left_edge_mm_ = -mm(kKeepSide);
@@ -41,6 +40,11 @@ void SkirtPlanner::start(const View& view) noexcept {
   if (guide_ != nullptr) guide_->start(view, goal_);
   enter(Phase::survey, Mode::surveying, Why::goal_set);
   advance(view);
+}
+
+void SkirtPlanner::follow_goal() noexcept {
+  best_.follow(goal_.at);
+  if (guide_ != nullptr) guide_->move_goal(goal_.at);
 }
 
 void SkirtPlanner::advance(const View& view) noexcept {
@@ -87,7 +91,7 @@ void SkirtPlanner::keep_account(const View& view) noexcept {
 }
 
 void SkirtPlanner::act(const View& view) noexcept {
-  if (travel_mm_ > mm(kLongest)) {
+  if (travel_mm_ > params_.skirt.length_budget.raw() / 1000) {
     finish(Mode::gave_up, Why::length_budget, Outcome::gave_up);
     return;
   }
@@ -123,7 +127,7 @@ void SkirtPlanner::survey(const View& view) noexcept {
 }
 
 void SkirtPlanner::go(const View& view) noexcept {
-  best_ = min(best_, distance_);
+  if (distance_ < best_.distance()) measure_anew();
   Vec to = to_goal_;
   if (guide_ != nullptr && guided(view, to)) return;
   if (view.sighted && !course_.choose(view, to, law_, params_, wall_, decision_)) {
@@ -132,7 +136,7 @@ void SkirtPlanner::go(const View& view) noexcept {
       brake_then(Phase::go);
       return;
     }
-    if (guided_) best_ = distance_;
+    if (guided_) measure_anew();
     guided_ = false;
     begin_exits(view);
     return;
@@ -156,7 +160,7 @@ void SkirtPlanner::go(const View& view) noexcept {
 bool SkirtPlanner::guided(const View& view, Vec& to) noexcept {
   const Guide::Advice advice = guide_->advise(view, distance_, to);
   // It may have led away from the goal: what comes now is measured anew.
-  if (guided_ && advice == Guide::Advice::none) best_ = distance_;
+  if (guided_ && advice == Guide::Advice::none) measure_anew();
   guided_ = advice != Guide::Advice::none;
   if (advice != Guide::Advice::wait) return false;
   decision_.manoeuvre = stop();
@@ -179,6 +183,13 @@ void SkirtPlanner::look_along(Angle heading, Length length, Phase next) noexcept
 void SkirtPlanner::look(const View& view) noexcept {
   if (!look_.step(view, heading_, length_, params_, decision_.manoeuvre)) return;
   decision_.looked = true;
+  if (look_.in_vain()) {
+    if (next_ == Phase::go) {
+      begin_exits(view);
+      return;
+    }
+    feeler_.refuse();
+  }
   enter(next_, next_ == Phase::go ? Mode::going : Mode::skirting, decision_.why);
 }
 
@@ -251,7 +262,7 @@ void SkirtPlanner::follow(const View& view) noexcept {
 }
 
 bool SkirtPlanner::leave(const View& view) noexcept {
-  if (distance_ >= best_ - for_body(params_, kProgress)) return false;
+  if (distance_ >= best_.distance() - for_body(params_, kProgress)) return false;
   const Angle target = bearing(to_goal_);
   const Reach& reach = view.patch->reach();
   const Way found = way(view, target, min(reach.probe, distance_), reach.planning);
@@ -270,7 +281,7 @@ void SkirtPlanner::escape() noexcept {
     give_up_goal();
     return;
   }
-  best_ = distance_;
+  measure_anew();
   wall_ = opposite(wall_);
   left_edge_mm_ = travel_mm_ + mm(kOtherSide);
   enter(Phase::go, Mode::going, Why::wall_lost);
@@ -278,7 +289,7 @@ void SkirtPlanner::escape() noexcept {
 
 void SkirtPlanner::give_up_goal() noexcept {
   if (guide_ != nullptr && guide_->doubt()) {
-    best_ = distance_;
+    measure_anew();
     escapes_ = 0;
     enter(Phase::go, Mode::going, Why::wall_lost);
     return;

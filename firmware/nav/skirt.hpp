@@ -10,6 +10,7 @@
 #include "firmware/nav/goal_planner.hpp"
 #include "firmware/nav/guide.hpp"
 #include "firmware/nav/look.hpp"
+#include "firmware/nav/nearest.hpp"
 #include "firmware/nav/stall.hpp"
 #include "firmware/nav/steering.hpp"
 #include "firmware/params.hpp"
@@ -26,7 +27,7 @@ namespace whisker::nav {
 ///                          unreachable
 /// ```
 /// It ends: each leave is nearer to the goal than the one before by 30 mm, each circuit is bounded, and
-/// the length of the way is (400 m), and so is what it tries without getting on. See docs/skirt.md.
+/// the length of the way is (`length_budget`), and so is what it tries without getting on. See docs/skirt.md.
 class SkirtPlanner final : public GoalPlanner {
  public:
   /// What is given must outlive the planner. A guide, if there is one, says where to drive in free space.
@@ -48,6 +49,9 @@ class SkirtPlanner final : public GoalPlanner {
 
   void start(const View& view) noexcept override;
   void advance(const View& view) noexcept override;
+  void follow_goal() noexcept override;
+  /// From here on, progress is what comes nearer than this.
+  void measure_anew() noexcept { best_.set(last_.at, distance_); }
   void keep_account(const View& view) noexcept;
   void act(const View& view) noexcept;
   /// Something moves, and what the body does now is due to that.
@@ -90,7 +94,7 @@ class SkirtPlanner final : public GoalPlanner {
   Pose last_;  // of the tick before
   Vec to_goal_;
   Length distance_;        // to the goal
-  Length best_;            // the least of it at which it was not following an edge
+  Nearest best_;           // of the places where it was not following an edge
   int32_t travel_mm_ = 0;  // since the goal was set
   int32_t travel_rest_um_ = 0;
   Course course_;

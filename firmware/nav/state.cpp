@@ -47,6 +47,7 @@ const char* name(Why why) noexcept {
     case Why::length_budget: return "length_budget";
     case Why::cancelled: return "cancelled";
     case Why::fault: return "fault";
+    case Why::goal_out_of_range: return "goal_out_of_range";
   }
   return "?";
 }

@@ -48,9 +48,10 @@ enum class Why : uint8_t {
   step_budget,    ///< the number of steps is used up
   length_budget,  ///< the length is used up
   cancelled,
-  fault,  ///< see Health for its name
+  fault,              ///< see Health for its name
+  goal_out_of_range,  ///< the goal lies farther out than kPlaceLimit: refused
 };
-constexpr int kWhys = 23;
+constexpr int kWhys = 24;
 
 const char* name(Mode mode) noexcept;
 const char* name(Why why) noexcept;

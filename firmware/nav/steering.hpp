@@ -16,6 +16,11 @@ struct Twist {
 /// The turn rate at which the readings still follow.
 constexpr AngularRate kFastestTurn = 2500_mrad_per_s;
 
+/// `wanted`, or what the encoders can tell, if that is more: a little more than the turn that one count
+/// makes, as both wheels may count at once. A body that tries to face anything more nearly may swing about it
+/// for ever.
+Angle nearest_facing(Angle wanted, const Params& params) noexcept;
+
 /// gain x error, at most kFastestTurn.
 AngularRate rate_towards(Angle error, int32_t gain) noexcept;
 
@@ -26,10 +31,13 @@ Twist face(Angle error) noexcept;
 /// 1 / 1.2 rad.
 Twist steer(Angle error, Speed top) noexcept;
 
+/// A cruise that turns faster than the wheels' limit is slowed down as a whole: its path stays.
+void limit_turning(Manoeuvre& manoeuvre, const Params& params) noexcept;
+
 /// A cruise at this twist.
 Manoeuvre cruise(Twist twist, const Params& params) noexcept;
 
-/// Faces what is off by the error. True within 3 degrees of it.
+/// Faces what is off by the error. True within 3 degrees of it, see nearest_facing.
 bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept;
 
 }  // namespace whisker::nav

@@ -79,7 +79,8 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle h
                              Health& health) noexcept {
   fresh_ = false;
   const bool seen = reading.sequence == sequence_;
-  const bool nothing = reading.status == hal::RangeStatus::stale;
+  // Of a reading that is so old or older, nobody knows where the body was then.
+  const bool nothing = reading.status == hal::RangeStatus::stale || reading.age_ms == UINT8_MAX;
   if (seen || nothing) {
     age(now, params, health);
     return;
@@ -115,6 +116,7 @@ Sight BeamConditioner::sight(const Params& params) const noexcept {
   s.farthest = max(high, last[kTypical - 1]);
   s.measured = min(low, last[2]) > Length{} && s.farthest < far;
   s.bend = abs(last[0] - last[1] * 2 + last[2]);
+  s.clear = last[0] == far;
   s.near = {nearest, validity_of(nearest, far)};
   s.typical = {median, validity_of(median, far)};
   return s;

@@ -18,6 +18,7 @@ struct Sight {
   Time taken;             ///< when the newest one was
   Time oldest;            ///< when the oldest of those behind `near` was
   Echo near;              ///< the nearest of the last four: no single reading can make it far
+  bool clear = false;     ///< the newest one says that nothing is there
   Echo typical;           ///< the median of the last three
   Length farthest;        ///< of the last three: no single reading can make it near
   bool measured = false;  ///< the last three are all distances of something

@@ -1,16 +1,6 @@
 #include "hal/can_remote/pilot.hpp"
 
 namespace whisker::can_remote {
-namespace {
-
-/// Counts of a wheel at full speed over the longest gap that the core takes for one: half of what its
-/// odometry believes.
-uint32_t most_counts(const Params& p) noexcept {
-  const Length way = p.wheels.max_speed * p.safety.max_gap;
-  return static_cast<uint32_t>(multiply_divide(way.raw(), p.wheels.counts_per_metre, 1000000)) + 1;
-}
-
-}  // namespace
 
 void Pilot::obey(can::Order order, const can::Mission& mission, const Params& params) noexcept {
   switch (order) {
@@ -26,7 +16,6 @@ void Pilot::obey(can::Order order, const can::Mission& mission, const Params& pa
       break;
     case can::Order::resume:
       if (!ready()) break;
-      board_.resume(most_counts(params_));
       robot_->reset();
       robot_->set_goal(mission.goal);
       break;
@@ -35,6 +24,7 @@ void Pilot::obey(can::Order order, const can::Mission& mission, const Params& pa
 
 const Status& Pilot::step(const can::InputSet& set, bool braked) noexcept {
   board_.hear(set, braked);
+  if (braked) robot_->braked_elsewhere();
   return robot_->tick(Time::from_raw(set.tick * set.period_ms));
 }
 

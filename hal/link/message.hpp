@@ -1,3 +1,5 @@
+/// docs/link.md is made from this.
+///
 /// The words between a robot on a chip and the companion that plays its sensors and its wheels.
 ///
 /// The companion sends messages, each a byte that names it and a body; the chip answers some:

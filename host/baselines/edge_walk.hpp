@@ -16,7 +16,7 @@ namespace whisker::baselines {
 
 class EdgeWalk {
  public:
-  static constexpr std::int32_t kPatience = 50;  ///< ticks, see nav::Stall
+  static constexpr Duration kPatience = milliseconds(500);  ///< see nav::Stall
 
   /// The parameters must outlive it.
   explicit EdgeWalk(const Params& params) : params_(params) {}

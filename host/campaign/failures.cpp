@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "host/campaign/worlds.hpp"
 #include "host/report/result.hpp"
 
@@ -27,6 +25,14 @@ std::string picture(const Row& row) {
   return fmt::format("{}-{}.svg", stem, row.seed);
 }
 
+bool off_goal(const Row& row) { return row.verdict == Verdict::off_goal; }
+
+std::string line_of(const Row& row) {
+  const std::string why = off_goal(row) ? fmt::format("{:.2f} m off", row.final_distance_m) : row.detail;
+  return fmt::format("seed {} {} ({}): {}\n", row.seed, report::outcome(row.verdict), why,
+                     replay_command(row));
+}
+
 }  // namespace
 
 std::string replay_command(const Row& row) {
@@ -39,19 +45,24 @@ std::string replay_command(const Row& row) {
 }
 
 std::string failure_lines(const std::vector<Row>& rows, std::size_t most) {
-  const auto failed = static_cast<std::size_t>(
-      std::count_if(rows.begin(), rows.end(), [](const Row& r) { return !succeeded(r); }));
-  std::string text;
+  std::string lines, counts;
   std::size_t shown = 0;
-  for (const Row& row : rows) {
-    if (shown == most) break;
-    if (succeeded(row)) continue;
-    text += fmt::format("seed {} {} ({}): {}\n", row.seed, report::outcome(row.verdict), row.detail,
-                        replay_command(row));
-    ++shown;
-  }
-  if (failed > shown) text += fmt::format("and {} more that failed\n", failed - shown);
-  return text;
+  const auto add = [&](const char* what, bool (*is_one)(const Row&)) {
+    std::size_t more = 0;
+    for (const Row& row : rows) {
+      if (!is_one(row)) continue;
+      if (shown < most) {
+        lines += line_of(row);
+        ++shown;
+      } else {
+        ++more;
+      }
+    }
+    if (more > 0) counts += fmt::format("and {} more that {}\n", more, what);
+  };
+  add("failed", [](const Row& row) { return !succeeded(row); });
+  add("are not where they believe to be", [](const Row& row) { return succeeded(row) && off_goal(row); });
+  return lines + counts;
 }
 
 }  // namespace whisker::campaign

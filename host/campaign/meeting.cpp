@@ -71,7 +71,7 @@ Meeting meet(const Scenario& scenario, PlannerKind planner) {
 
 void MeetingCount::add(const Meeting& meeting) {
   ++missions;
-  if (meeting.verdict == Verdict::reached) ++reached;
+  if (says_reached(meeting.verdict)) ++reached;
   if (meeting.said) ++said;
   if (meeting.verdict != Verdict::contact) return;
   ++contacts;

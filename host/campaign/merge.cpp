@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <tuple>
@@ -24,10 +25,10 @@ struct Found {
 };
 using Rows = std::map<Key, Found>;
 
-void add(Rows& rows, const std::string& file, std::size_t number, const std::string& line) {
+void add(Rows& rows, const std::string& file, std::size_t number, const std::string& line, RowFormat format) {
   Row row;
   try {
-    row = parse_row(line);
+    row = parse_row(line, format);
   } catch (const std::invalid_argument& e) {
     throw InputError(file, number, 1, e.what());
   }
@@ -40,18 +41,29 @@ void add(Rows& rows, const std::string& file, std::size_t number, const std::str
   }
 }
 
+std::optional<RowFormat> format_of(const std::string& header) {
+  for (const RowFormat format : {RowFormat::judged, RowFormat::believed}) {
+    if (header == row_header(format)) return format;
+  }
+  return std::nullopt;
+}
+
 void add_file(Rows& rows, const std::string& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file, 1, 1, std::generic_category().message(errno));
   std::string line;
   std::size_t number = 0;
+  RowFormat format{};
   while (std::getline(in, line)) {
     ++number;
     if (in.eof()) throw InputError(file, number, 1, "the last line is cut off: it has no end of line");
-    if (line == kRowHeader) continue;
+    if (const auto header = format_of(line)) {
+      format = *header;
+      continue;
+    }
     if (number == 1)
       throw InputError(file, 1, 1, fmt::format("not the header of a campaign: {}", kRowHeader));
-    add(rows, file, number, line);
+    add(rows, file, number, line, format);
   }
   if (in.bad()) throw InputError(file, number + 1, 1, "cannot be read");
   if (number == 0) throw InputError(file, 1, 1, "empty: not even the header of a campaign");

@@ -33,8 +33,9 @@ Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>
   row.looks = count.looks();
   row.min_clearance_m = rounded(result.min_clearance_m);
   row.final_distance_m = rounded(result.final_distance_m);
+  if (result.believed_distance_m) row.believed_distance_m = rounded(*result.believed_distance_m);
   row.estimate_error_m = rounded(estimate_error_m);
-  row.at_goal = result.final_distance_m <= scenario.goal.tolerance_m;
+  row.at_goal = at_goal(result.final_distance_m, scenario.goal.tolerance_m);
   const auto shortest_m =
       paths::shortest_path(make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius);
   if (shortest_m) row.shortest_m = rounded(*shortest_m);

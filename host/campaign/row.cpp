@@ -26,7 +26,9 @@ bool has_no_way(const Row& row) {
 }
 
 bool succeeded(const Row& row) {
-  return row.verdict == (has_no_way(row) ? Verdict::unreachable : Verdict::reached);
+  return has_no_way(row) ? row.verdict == Verdict::unreachable : says_reached(row.verdict);
 }
+
+bool truly_there(const Row& row) { return row.verdict == Verdict::reached; }
 
 }  // namespace whisker::campaign

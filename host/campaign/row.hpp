@@ -18,7 +18,8 @@ struct Row {
   double turned_rad = 0;
   std::uint64_t stops = 0, flips = 0, looks = 0;  ///< as MotionCount defines them
   double min_clearance_m = 0;
-  double final_distance_m = 0;       ///< true
+  double final_distance_m = 0;                ///< true
+  std::optional<double> believed_distance_m;  ///< by the robot's estimate; none: the row does not tell
   double estimate_error_m = 0;       ///< at the end, between the true place and the robot's estimate of it
   bool at_goal = false;              ///< final_distance_m is within the goal's tolerance
   std::optional<double> shortest_m;  ///< shortest way for a disc of kWayRadius; none: there is no way
@@ -38,6 +39,9 @@ std::optional<double> s_per_m(const Row& row);  ///< of the shortest way; none w
 
 /// The world is known to have no way to its goal: the right verdict is "unreachable".
 bool has_no_way(const Row& row);
+/// The verdict is the right one by what the robot can know: to be off the goal and not to know it succeeds.
 bool succeeded(const Row& row);
+/// The robot says that it has reached its goal, and it has.
+bool truly_there(const Row& row);
 
 }  // namespace whisker::campaign

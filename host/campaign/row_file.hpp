@@ -10,7 +10,9 @@ namespace whisker::campaign {
 
 /// Rows go, each in one write, into PATH.part beside the file; finish() gives it its name. So PATH is the old
 /// file or the whole new one, and what a killed process leaves in PATH.part is made of whole rows too.
-/// A device or a pipe is written to directly. Errors throw std::runtime_error "cannot write PATH: REASON".
+/// Two that write PATH at a time would mix their rows: the second one's constructor throws. A device or a
+/// pipe is written to directly, and so is standard output, "-". Errors throw std::runtime_error "cannot write
+/// PATH: REASON".
 class RowFile {
  public:
   explicit RowFile(const std::string& path);  ///< writes the header
@@ -22,6 +24,7 @@ class RowFile {
   void finish();
 
  private:
+  void take_part();
   void write_line(std::string_view line);
   [[noreturn]] void fail(int error) const;
 

@@ -14,8 +14,9 @@
 namespace whisker::campaign {
 namespace {
 
-constexpr Verdict kVerdicts[] = {Verdict::reached, Verdict::unreachable, Verdict::gave_up, Verdict::contact,
-                                 Verdict::fault};
+constexpr Verdict kVerdicts[] = {Verdict::reached, Verdict::off_goal, Verdict::unreachable,
+                                 Verdict::gave_up, Verdict::contact,  Verdict::fault};
+constexpr const char* kNoSuchRow = "the row is not one that campaign writes";
 
 std::string number(std::optional<double> x) { return x ? fmt::format("{:.6f}", *x) : std::string(); }
 
@@ -98,13 +99,8 @@ Verdict verdict_named(const std::string& word) {
   throw std::invalid_argument(fmt::format("column outcome: '{}' is none", word));
 }
 
-}  // namespace
-
-const char* const kRowHeader =
-    "seed,outcome,time_s,path_m,turned_rad,stops,flips,looks,min_clearance_m,final_distance_m,"
-    "estimate_error_m,at_goal,shortest_m,ratio,s_per_m,ticks,hash,detail,planner,robot,world";
-
-std::string to_csv(const Row& r) {
+/// The columns of RowFormat::believed.
+std::string first_columns(const Row& r) {
   return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:016x},{},{},{},{}", r.seed,
                      report::outcome(r.verdict), number(r.time_s), number(r.path_m), number(r.turned_rad),
                      r.stops, r.flips, r.looks, number(r.min_clearance_m), number(r.final_distance_m),
@@ -113,8 +109,8 @@ std::string to_csv(const Row& r) {
                      quoted(r.robot), quoted(r.world));
 }
 
-Row parse_row(std::string_view line) {
-  Fields fields(line);
+/// Reads what first_columns() writes.
+Row first_columns(Fields& fields) {
   Row r;
   r.seed = fields.number<std::uint64_t>("seed");
   r.verdict = verdict_named(fields.text("outcome"));
@@ -137,7 +133,38 @@ Row parse_row(std::string_view line) {
   r.planner = fields.text("planner");
   r.robot = fields.text("robot");
   r.world = fields.text("world");
-  if (to_csv(r) != line) throw std::invalid_argument("the row is not one that campaign writes");
+  return r;
+}
+
+bool contradicts_itself(const Row& r) { return says_reached(r.verdict) && r.at_goal != truly_there(r); }
+
+}  // namespace
+
+const char* const kRowHeader =
+    "seed,outcome,time_s,path_m,turned_rad,stops,flips,looks,min_clearance_m,final_distance_m,"
+    "estimate_error_m,at_goal,shortest_m,ratio,s_per_m,ticks,hash,detail,planner,robot,world,"
+    "believed_distance_m,truly_there";
+
+std::string_view row_header(RowFormat format) {
+  const std::string_view all = kRowHeader;
+  return format == RowFormat::judged ? all : all.substr(0, all.find(",believed_distance_m"));
+}
+
+std::string to_csv(const Row& r) {
+  return fmt::format("{},{},{}", first_columns(r), number(r.believed_distance_m), truly_there(r) ? 1 : 0);
+}
+
+Row parse_row(std::string_view line, RowFormat format) {
+  Fields fields(line);
+  Row r = first_columns(fields);
+  if (format == RowFormat::believed) {
+    if (r.verdict == Verdict::off_goal || first_columns(r) != line) throw std::invalid_argument(kNoSuchRow);
+    if (r.verdict == Verdict::reached && !r.at_goal) r.verdict = Verdict::off_goal;
+    return r;
+  }
+  r.believed_distance_m = fields.amount_or_none("believed_distance_m");
+  fields.text("truly_there");
+  if (contradicts_itself(r) || to_csv(r) != line) throw std::invalid_argument(kNoSuchRow);
   return r;
 }
 

@@ -41,12 +41,13 @@ PerMetre per_metre(const std::vector<Row>& rows, const std::function<double(cons
 }
 
 void add_reached(Summary& s, const std::vector<Row>& rows) {
-  std::vector<double> ratios, paces, clearances;
+  std::vector<double> ratios, paces, clearances, distances;
   for (const Row& row : rows) {
-    if (row.verdict != Verdict::reached) continue;
+    if (!says_reached(row.verdict)) continue;
     if (const auto r = ratio(row)) ratios.push_back(*r);
     if (const auto p = s_per_m(row)) paces.push_back(*p);
     clearances.push_back(row.min_clearance_m);
+    distances.push_back(row.final_distance_m);
   }
   if (!ratios.empty()) s.ratio_mean = mean(ratios);
   s.ratio_p50 = quantile_of(ratios, 0.5);
@@ -54,6 +55,8 @@ void add_reached(Summary& s, const std::vector<Row>& rows) {
   s.s_per_m_p50 = quantile_of(paces, 0.5);
   s.s_per_m_p95 = quantile_of(paces, 0.95);
   s.clearance_p5 = quantile_of(clearances, 0.05);
+  s.final_distance_p50 = quantile_of(distances, 0.5);
+  s.final_distance_p95 = quantile_of(distances, 0.95);
 }
 
 }  // namespace
@@ -70,8 +73,9 @@ Summary summarize(const std::vector<Row>& rows) {
     add_once(s.planners, row.planner);
   }
   s.success = share_of(rows, succeeded);
-  s.reached = share_of(rows, Verdict::reached);
-  s.at_goal = share_of(rows, [](const Row& r) { return r.verdict == Verdict::reached && r.at_goal; });
+  s.truly_there = share_of(rows, Verdict::reached);
+  s.off_goal = share_of(rows, Verdict::off_goal);
+  s.reached = share_of(rows, [](const Row& r) { return says_reached(r.verdict); });
   s.unreachable = share_of(rows, Verdict::unreachable);
   s.gave_up = share_of(rows, Verdict::gave_up);
   s.contact = share_of(rows, Verdict::contact);

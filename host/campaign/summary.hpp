@@ -24,17 +24,19 @@ struct Summary {
   std::vector<std::string> worlds;  ///< each once, in order; the scenario files of a campaign count as one
   std::vector<std::string> planners;
 
-  /// Shares of all missions. A success is "reached", or "unreachable" where there is no way.
+  /// Shares of all missions. A success is that the robot says "reached", or "unreachable" where there is no
+  /// way: all that it can know.
   Estimate success, reached, unreachable, gave_up, contact, fault;
-  Estimate at_goal;                                 ///< "reached" and truly within the goal's tolerance
+  Estimate truly_there, off_goal;                   ///< it says "reached", and that is true, or not
   Estimate false_unreachable;                       ///< "unreachable" though a way may be there
   Estimate estimate_error_p50, estimate_error_p95;  ///< m, of all missions
   Estimate path_p50, path_p95;                      ///< m driven, of all missions
 
-  /// Of the missions that reached their goals; none without any.
+  /// Of the missions that say "reached"; none without any.
   std::optional<Estimate> ratio_mean, ratio_p50, ratio_p95;
   std::optional<Estimate> s_per_m_p50, s_per_m_p95;
   std::optional<Estimate> clearance_p5;
+  std::optional<Estimate> final_distance_p50, final_distance_p95;  ///< m, true
   /// Of the missions that drove at all.
   PerMetre stops, flips, looks, turned;
 };

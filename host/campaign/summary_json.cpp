@@ -36,9 +36,11 @@ Json object(const PerMetre& p) { return {{"all", object(p.rate)}, {"p50", object
 std::string summary_json(const Summary& s) {
   Json json = missions(s);
   json["planners"] = s.planners;
+  json["truly_there"] = object(s.truly_there);
   json["success"] = object(s.success);
   json["reached"] = object(s.reached);
-  json["at_goal"] = object(s.at_goal);
+  json["off_goal"] = object(s.off_goal);
+  json["at_goal"] = object(s.truly_there);  // its older name
   json["unreachable"] = object(s.unreachable);
   json["false_unreachable"] = object(s.false_unreachable);
   json["gave_up"] = object(s.gave_up);
@@ -47,6 +49,7 @@ std::string summary_json(const Summary& s) {
   json["ratio"] = ratio(s);
   json["s_per_m"] = {{"p50", object(s.s_per_m_p50)}, {"p95", object(s.s_per_m_p95)}};
   json["min_clearance_m"] = {{"p5", object(s.clearance_p5)}};
+  json["final_distance_m"] = {{"p50", object(s.final_distance_p50)}, {"p95", object(s.final_distance_p95)}};
   json["estimate_error_m"] = {{"p50", object(s.estimate_error_p50)}, {"p95", object(s.estimate_error_p95)}};
   json["path_m"] = {{"p50", object(s.path_p50)}, {"p95", object(s.path_p95)}};
   json["stops_per_m"] = object(s.stops);

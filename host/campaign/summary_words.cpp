@@ -37,9 +37,10 @@ std::string summary_words(const Summary& s) {
   std::string text =
       fmt::format("{} missions, {}, planner {}, seeds {} to {}; 95 % bounds beside each figure\n", s.missions,
                   joined(s.worlds), joined(s.planners), s.least_seed, s.greatest_seed);
+  text += percent_line("truly there", s.truly_there);
   text += percent_line("success", s.success);
-  text += percent_line("reached", s.reached);
-  text += percent_line("  truly there", s.at_goal);
+  text += percent_line("says reached", s.reached);
+  text += percent_line("  but off the goal", s.off_goal);
   text += percent_line("unreachable", s.unreachable);
   if (s.no_way > 0) text += percent_line("  though it is not", s.false_unreachable);
   text += percent_line("gave up", s.gave_up);
@@ -49,6 +50,8 @@ std::string summary_words(const Summary& s) {
   text += line("s/m", "p50", s.s_per_m_p50);
   text += line("", "p95", s.s_per_m_p95);
   text += line("clearance", "p5 m", s.clearance_p5);
+  text += line("off goal", "p50 m", s.final_distance_p50);
+  text += line("", "p95 m", s.final_distance_p95);
   text += line("est. error", "p50 m", s.estimate_error_p50);
   text += line("", "p95 m", s.estimate_error_p95);
   text += line("driven", "p50 m", s.path_p50);

@@ -32,8 +32,7 @@ Status status_of(const link::Answer& a) {
 /// Values from another program that are used as indices.
 bool sound(const link::Answer& a) {
   return a.mode < nav::kModes && a.why < nav::kWhys &&
-         a.outcome <= static_cast<std::uint8_t>(nav::Outcome::gave_up) &&
-         a.fault <= static_cast<std::uint8_t>(Fault::no_progress);
+         a.outcome <= static_cast<std::uint8_t>(nav::Outcome::gave_up) && a.fault < kFaults;
 }
 
 class ChipPilot final : public Pilot {

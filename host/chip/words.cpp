@@ -1,5 +1,7 @@
 #include "host/chip/words.hpp"
 
+#include <string>
+
 #include "hal/link/params.hpp"
 
 namespace whisker::chip {
@@ -9,7 +11,9 @@ link::Stand stand(const Pose& pose) { return {pose.at.x.raw(), pose.at.y.raw(), 
 
 link::Planner on_chip(PlannerKind planner) {
   if (map_bytes(planner) != 0) return link::Planner::map;
-  return planner == PlannerKind::thesis ? link::Planner::thesis : link::Planner::skirt;
+  if (planner == PlannerKind::thesis) return link::Planner::thesis;
+  if (planner == PlannerKind::skirt) return link::Planner::skirt;
+  throw NoSuchPlanner(std::string(name(planner)) + ": no chip has this planner");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "firmware/robot.hpp"
@@ -23,8 +24,14 @@ void append(Bytes& to, link::Name name, const M& body) {
   link::encode(body, to.data() + to.size() - link::size_of<M>());
 }
 
+/// The protocol has no word for this planner: it is one for hosts only.
+class NoSuchPlanner : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
 void append_params(Bytes& to, const Params& params);
-/// The planner must be one that chips have, see is_baseline().
+/// Throws NoSuchPlanner; nothing is appended then.
 void append_begin(Bytes& to, PlannerKind planner, const Pose& pose);
 void append_goal(Bytes& to, const nav::Goal& goal);
 void append_place(Bytes& to, const Pose& pose);

@@ -41,7 +41,7 @@ CLI::Option* add_bus(CLI::App& app, BusChoice& choice) {
   add_file(app, "--record", choice.record, "Write all frames as a candump log");
   app.add_option("--drop", choice.drop_percent,
                  "Lose so many of the frames that are sent and received, at random")
-      ->check(CLI::Range(0.0, 100.0))
+      ->transform(amount(100))
       ->type_name("PERCENT");
   return app
       .add_option("--can", choice.name,

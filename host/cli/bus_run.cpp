@@ -65,6 +65,7 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   if (bus.real_time) run_before_others(speaker("plant", bus));
   options.pilot = hil::bus_pilot(port, clock, how, figures);
   RunOutputs all = outputs;
+  all.record = bus.record;
   all.bus_json = [&figures] { return hil::figures_json(figures, kBitrate); };
   all.bus_words = [&figures] { return hil::figures_words(figures, kBitrate); };
   if (view != nullptr) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/core.h>
@@ -21,20 +22,41 @@
 #include "host/cli/one_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/provenance.hpp"
+#include "host/scenario/load.hpp"
 
 namespace whisker::cli {
 namespace {
 
 using Options = CampaignOptions;
 
-void print(const Options& o, const std::vector<campaign::Row>& rows) {
+/// chosen: null for rows of files, which say themselves who drove.
+Provenance provenance(const Options& o, const Missions* chosen) {
+  Provenance p;
+  if (chosen == nullptr) return p;
+  p.planner = name(chosen->planner);
+  if (const auto* generated = std::get_if<campaign::Generated>(&chosen->worlds)) {
+    p.seed = generated->first_seed;
+    Params robot;
+    if (!o.robot.empty()) apply_robot_file(robot, o.robot);
+    p.robot_name = robot_name(robot, o.robot, "");
+    p.robot_digest = robot_digest(robot);
+  } else {
+    p.seed = o.seed;
+    p.robot_name = o.robot.empty() ? "as each scenario has it" : o.robot;
+  }
+  return p;
+}
+
+void print(const Options& o, const std::vector<campaign::Row>& rows, const Missions* chosen) {
   if (rows.empty()) return;
   const campaign::Summary summary = campaign::summarize(rows);
   if (o.json) {
-    fmt::print("{}\n", campaign::summary_json(summary));
+    fmt::print("{}\n", with_provenance(campaign::summary_json(summary), provenance(o, chosen)));
   } else {
-    fmt::print("{}{}", campaign::summary_words(summary), campaign::failure_lines(rows));
-    if (!o.csv.empty()) fmt::print("rows: {}\n", o.csv);
+    std::FILE* const out = words_beside({o.csv, o.html});
+    fmt::print(out, "{}{}", campaign::summary_words(summary), campaign::failure_lines(rows));
+    if (!o.csv.empty()) fmt::print(out, "rows: {}\n", o.csv);
   }
 }
 
@@ -57,24 +79,26 @@ bool drive_all(const Options& o, const Missions& missions, std::vector<campaign:
 
 int execute(const Options& o) {
   if (!o.merge.empty()) {
-    print(o, campaign::merged(o.merge));
+    print(o, campaign::merged(o.merge), nullptr);
     return 0;
   }
   if (o.worlds.empty()) throw UsageError("KIND|DIR is required");
-  check_outputs({o.csv, o.svg, o.trace, o.html}, {o.robot});
+  check_outputs({o.csv, o.svg, o.trace, o.html}, {o.robot}, o.json);
   const Missions chosen = missions(o);
   if (o.replay) {
     RunOptions options;
     options.planner = chosen.planner;
-    return drive_one(mission(chosen, 0).scenario, options, {o.trace, o.svg, o.html, o.json});
+    const Scenario scenario = mission(chosen, 0).scenario;
+    const RunOutputs outputs{o.trace, o.svg, o.html, o.json, robot_name(scenario.robot, o.robot, o.worlds)};
+    return drive_one(scenario, options, outputs);
   }
   if (!o.svg.empty() || !o.trace.empty()) throw UsageError("--svg and --trace need --replay");
   std::vector<campaign::Row> rows;
   const bool whole = drive_all(o, chosen, rows);
-  print(o, rows);
+  print(o, rows, &chosen);
   if (whole && !o.html.empty()) {
     write_campaign_page(o.html, chosen, rows);
-    if (!o.json) fmt::print("page: {}\n", o.html);
+    if (!o.json) fmt::print(words_beside({o.csv, o.html}), "page: {}\n", o.html);
   }
   if (whole) return 0;
   fmt::print(stderr, "whisker: interrupted after {} of {} missions\n", rows.size(),
@@ -112,7 +136,7 @@ void add_campaign(CLI::App& app, int& status) {
       ->type_name("S");
   add_file(*cmd, "--svg", o->svg, "With --replay: draw the run");
   add_file(*cmd, "--trace", o->trace, "With --replay: write one CSV row per control tick");
-  add_file(*cmd, "--html", o->html, "Write a page: the missions, and the worst to replay");
+  add_file(*cmd, "--html", o->html, "Write a page: the missions, and their replays");
   cmd->callback([o, cmd, &status] {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {

@@ -24,7 +24,10 @@ campaign::Generated generated(const CampaignOptions& o, worlds::Kind kind) {
 campaign::Files folder(const CampaignOptions& o) {
   std::error_code error;
   if (!std::filesystem::is_directory(o.worlds, error)) {
-    throw UsageError(fmt::format("{}: neither a kind of world nor a folder of scenario files", o.worlds));
+    std::vector<std::string_view> kinds;
+    for (const worlds::Kind kind : worlds::kKinds) kinds.emplace_back(name(kind));
+    throw UsageError(fmt::format("{}: neither a kind of world nor a folder of scenario files{}", o.worlds,
+                                 did_you_mean(o.worlds, kinds)));
   }
   if (o.world.discs || o.world.box || o.world.noise || o.world.wheel_scale_sigma) {
     throw UsageError(

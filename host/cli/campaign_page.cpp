@@ -1,5 +1,7 @@
 #include "host/cli/campaign_page.hpp"
 
+#include <utility>
+
 #include "host/cli/controller_picture.hpp"
 #include "host/page/page.hpp"
 #include "host/report/file.hpp"
@@ -7,16 +9,18 @@
 namespace whisker::cli {
 namespace {
 
-constexpr std::size_t kReplays = 8;
+constexpr std::size_t kMostBytes = 5'000'000;  // of all missions to replay: a page to mail
 
 page::StoredRun driven_again(const Missions& missions, std::uint64_t index) {
   const Scenario scenario = mission(missions, index).scenario;
-  page::Recording recording(scenario.robot);
+  page::Recording recording(scenario.robot, page::Detail::coarse);
   RunOptions options;
   options.planner = missions.planner;
   options.watch = [&](const Moment& moment) { recording.add(moment); };
   const RunResult result = run(scenario, options);
-  return page::stored({scenario, options.planner, scenario.seed}, recording.ticks(), result);
+  recording.end();
+  return page::stored({scenario, options.planner, scenario.seed}, recording.ticks(), result,
+                      page::Detail::coarse);
 }
 
 }  // namespace
@@ -24,8 +28,12 @@ page::StoredRun driven_again(const Missions& missions, std::uint64_t index) {
 void write_campaign_page(const std::string& path, const Missions& missions,
                          const std::vector<campaign::Row>& rows) {
   std::vector<page::Replay> replays;
-  for (const std::size_t row : page::worst(rows, kReplays)) {
-    replays.push_back({row, driven_again(missions, missions.first + row)});
+  std::size_t bytes = 0;
+  for (const std::size_t row : page::worst(rows, rows.size())) {
+    page::StoredRun run = driven_again(missions, missions.first + row);
+    bytes += run.json.size() + run.columns.size();
+    if (bytes > kMostBytes && !replays.empty()) break;
+    replays.push_back({row, std::move(run)});
   }
   report::write_file(path, page::campaign_page(rows, replays, controller_picture()));
 }

@@ -15,6 +15,7 @@ enum Exit : int {
   kGaveUp = 4,
   kContact = 5,
   kFault = 6,
+  kOffGoal = 7,
   kInterrupted = 130,  ///< as a shell reports SIGINT
 };
 
@@ -26,6 +27,7 @@ class UsageError : public std::runtime_error {
 constexpr int exit_status(Verdict verdict) {
   switch (verdict) {
     case Verdict::reached: return kReached;
+    case Verdict::off_goal: return kOffGoal;
     case Verdict::unreachable: return kUnreachable;
     case Verdict::gave_up: return kGaveUp;
     case Verdict::contact: return kContact;

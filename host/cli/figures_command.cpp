@@ -3,6 +3,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -26,7 +27,7 @@ namespace whisker::cli {
 namespace {
 
 struct Options {
-  std::string scenarios = "host/worlds/scenarios";
+  std::string scenarios;  // "": those that this program has in it
   std::string out;
 };
 
@@ -100,11 +101,24 @@ void draw_pair(const MapPicturePair& pair, const std::string& folder) {
       fmt::format("{}: no seed up to {} shows how the planners differ", pair.name, kSeeds));
 }
 
+/// As they were when this program was built.
+constexpr std::pair<const char*, const char*> kScenarios[] = {
+#include <figure_scenarios.inc>
+};
+
+Scenario scenario(const Options& o, const std::string& name) {
+  if (!o.scenarios.empty()) return load_scenario(fmt::format("{}/{}", o.scenarios, name));
+  for (const auto& [known, text] : kScenarios) {
+    if (name == known) return parse_scenario(text, name);
+  }
+  throw std::logic_error("no scenario " + name);
+}
+
 int execute(const Options& o) {
   if (!std::filesystem::is_directory(o.out)) throw UsageError(fmt::format("{}: no such folder", o.out));
-  const Scenario figure8 = load_scenario(o.scenarios + "/figure8_u_trap.toml");
-  const Scenario figure9 = load_scenario(o.scenarios + "/figure9_discs.toml");
-  const Scenario figure10 = load_scenario(o.scenarios + "/figure10_discs.toml");
+  const Scenario figure8 = scenario(o, "figure8_u_trap.toml");
+  const Scenario figure9 = scenario(o, "figure9_discs.toml");
+  const Scenario figure10 = scenario(o, "figure10_discs.toml");
   const report::FuzzyPicture picture = controller_picture();
   auto drawn = report::thesis_figures(picture);
   drawn.emplace_back("response.svg", report::table_svg(picture));
@@ -127,7 +141,7 @@ void add_figures(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("figures", "Draw the figures of docs/ anew");
   const auto o = std::make_shared<Options>();
   add_file(*cmd, "FOLDER", o->out, "Where to write the figures")->required()->type_name("FOLDER");
-  add_file(*cmd, "--scenarios", o->scenarios, "Folder of the scenario files")->capture_default_str();
+  add_file(*cmd, "--scenarios", o->scenarios, "Folder of other scenario files for figures 8 to 10");
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

@@ -69,13 +69,14 @@ int execute(const Options& o) {
   auto lines =
       is_private ? hil::private_lines() : std::pair{hil::open_line(o.bus.name), hil::open_line(o.bus.name)};
   const ControllerProcess child([&] {
+    if (view) view->abandon();
     lines.first.reset();
     control_on_bus(controller, o.planner, *lines.second);
   });
   lines.second.reset();
   RunOptions options = o.scenario.run_options();
   options.planner = o.planner;
-  return drive_on_bus(scenario, options, o.scenario.outputs, o.bus, *lines.first, view.get());
+  return drive_on_bus(scenario, options, o.scenario.run_outputs(scenario), o.bus, *lines.first, view.get());
 }
 
 }  // namespace

@@ -10,20 +10,12 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/page/page.hpp"
+#include "host/view/names.hpp"
 
 namespace whisker::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kFarewell{3000};
-
-bool is_loopback(const std::string& address) {
-  return address == "localhost" || address == "::1" || address.rfind("127.", 0) == 0;
-}
-
-/// As an address of the web has it.
-std::string host_of(const std::string& address) {
-  return address.find(':') == std::string::npos ? address : "[" + address + "]";
-}
 
 }  // namespace
 
@@ -37,10 +29,10 @@ LiveView::LiveView(const std::string& address, int port, bool stay) try
 
 void LiveView::start() {
   server_.start();
-  if (!is_loopback(address_)) {
+  if (!view::is_loopback(address_)) {
     fmt::print(stderr, "whoever can reach {} port {} can watch this run\n", address_, server_.port());
   }
-  fmt::print(stderr, "watch it at http://{}:{}/\n", host_of(address_), server_.port());
+  fmt::print(stderr, "watch it at {}\n", server_.url());
 }
 
 void LiveView::stay(const Interrupt& interrupt) const {

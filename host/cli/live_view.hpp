@@ -25,6 +25,8 @@ class LiveView {
   view::Feed& feed() { return feed_; }
   /// Begins to answer, and says where. A process must not fork any more then.
   void start();
+  /// In a process that was forked before: the port is the parent's alone.
+  void abandon() { server_.abandon(); }
   /// After the run: returns at the interruption, or at once where nobody asked to stay.
   void stay(const Interrupt& interrupt) const;
 

@@ -1,6 +1,7 @@
 #include "host/cli/logged_run.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "hal/link/command_hash.hpp"
 #include "host/run/spec.hpp"
@@ -71,7 +72,8 @@ RunResult LoggedRun::result() const {
     before = at;
   }
   const sim::Vec2 left = scenario_.goal.at - before;
-  result.final_distance_m = std::sqrt(sim::dot(left, left));
+  result.final_distance_m = std::numeric_limits<double>::quiet_NaN();
+  result.believed_distance_m = std::sqrt(sim::dot(left, left));
   result.min_clearance_m = kEmptyWorldClearance;
   result.time_s = scenario_.time_limit_s;
   result.ticks = records_.size();

@@ -23,7 +23,7 @@ class LoggedRun {
 
   const Scenario& scenario() const { return scenario_; }
   const std::vector<TickRecord>& records() const { return records_; }
-  /// As far as the log goes.
+  /// As far as the log goes; the verdict is the robot's own word, the distance left what it believes.
   RunResult result() const;
 
  private:

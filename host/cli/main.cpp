@@ -1,13 +1,17 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/version.hpp"
 #include "host/hil/line.hpp"
 #include "host/scenario/error.hpp"
 
@@ -23,15 +27,27 @@ std::string one_line(std::string text) {
 }
 
 /// CLI11 would only say that a subcommand is missing.
-void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2) return;
-  if (argv[1][0] == '-') {
-    if (app.get_option_no_throw(argv[1]) != nullptr) return;
-    throw whisker::cli::UsageError(fmt::format("no option '{}' (see whisker --help)", argv[1]));
+void check_command(const CLI::App& app, int argc, char** argv, int at = 1) {
+  if (argc <= at && at > 1) {
+    const std::string first = app.get_subcommands({}).front()->get_name();
+    throw whisker::cli::UsageError(
+        fmt::format("{0} needs a command: whisker {0} {1}", app.get_name(), first));
   }
-  const auto named = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
-  if (!app.get_subcommands(named).empty()) return;
-  throw whisker::cli::UsageError(fmt::format("no command '{}' (see whisker --help)", argv[1]));
+  if (argc <= at) return;
+  const std::string word = argv[at];
+  if (word[0] == '-') {
+    if (app.get_option_no_throw(word) != nullptr) return;
+    throw whisker::cli::UsageError(fmt::format("no option '{}' (see whisker --help)", word));
+  }
+  std::vector<std::string_view> known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    known.emplace_back(command->get_name());
+    if (command->get_name() != word) continue;
+    const bool has_commands = !command->get_subcommands({}).empty();
+    return has_commands ? check_command(*command, argc, argv, at + 1) : void();
+  }
+  throw whisker::cli::UsageError(
+      fmt::format("no command '{}'{} (see whisker --help)", word, whisker::cli::did_you_mean(word, known)));
 }
 
 /// Parses and runs; help and version are successes. `status` is set by the command that runs.
@@ -49,8 +65,9 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
 void complain(const std::string& text) { std::fputs((one_line(text) + "\n").c_str(), stderr); }
 
 constexpr const char* kExitStatus = R"(
-Exit status of run, hil and plant: 0 reached, 3 unreachable, 4 time limit or gave up, 5 contact,
-6 fault (safe stop), 2 bad input or usage, 1 anything else.)";
+Exit status of run, hil and plant: 0 reached and truly there, 7 the robot says reached and is off
+the goal, 3 unreachable, 4 time limit or gave up, 5 contact, 6 fault (safe stop),
+2 bad input or usage, 1 anything else.)";
 
 constexpr const char* kCampaignExitStatus = R"(
 Exit status of campaign and scanner: 0 whatever the missions came to, 130 interrupted,
@@ -70,10 +87,11 @@ int main(int argc, char** argv) {
   CLI::App app{"Whisker: a navigation core for small robots with three rangefinders, in a simulated world."};
   app.name("whisker");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "whisker " WHISKER_VERSION);
+  app.set_version_flag("--version", "whisker " + version());
   int status = kFailure;
   add_run(app, status);
   add_world(app, status);
+  add_robot(app, status);
   add_campaign(app, status);
   add_scanner(app, status);
   add_movers(app, status);
@@ -100,6 +118,9 @@ int main(int argc, char** argv) {
     return kBadInput;
   } catch (const whisker::hil::BusError& e) {
     complain(fmt::format("whisker: {}", e.what()));
+    return kBadInput;
+  } catch (const whisker::InputErrors& e) {
+    for (const whisker::InputError& error : e.all()) complain(error.what());
     return kBadInput;
   } catch (const whisker::InputError& e) {
     complain(e.what());

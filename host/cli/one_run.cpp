@@ -8,6 +8,7 @@
 #include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/provenance.hpp"
 #include "host/page/page.hpp"
 #include "host/page/recording.hpp"
 #include "host/report/file.hpp"
@@ -39,6 +40,15 @@ report::RunPicture picture(const MapWatch& map, PlannerKind planner) {
   picture.subtitle = fmt::format("map planner, {} bytes", map_bytes(planner));
   picture.map = &*map.last();
   return picture;
+}
+
+Provenance provenance(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs) {
+  Provenance p;
+  p.seed = options.seed.value_or(scenario.seed);
+  if (outputs.knows_planner) p.planner = name(options.planner);
+  p.robot_name = outputs.robot_name;
+  p.robot_digest = robot_digest(scenario.robot);
+  return p;
 }
 
 }  // namespace
@@ -76,14 +86,16 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
   }
 
   if (o.json) {
-    fmt::print("{}\n", report::result_json(result, o.bus_json ? o.bus_json() : ""));
+    const std::string json = report::result_json(result, o.bus_json ? o.bus_json() : "");
+    fmt::print("{}\n", with_provenance(json, provenance(scenario, options, o)));
   } else {
-    fmt::print("{}\n{:.2f} m from the goal after {} ticks, command hash {:016x}\n",
+    std::FILE* const out = words_beside({o.trace, o.svg, o.html, o.record});
+    fmt::print(out, "{}\n{:.2f} m from the goal after {} ticks, command hash {:016x}\n",
                report::verdict_words(result), result.final_distance_m, result.ticks, result.hash);
-    if (o.bus_words) fmt::print("bus:     {}\n", o.bus_words());
-    if (!o.trace.empty()) fmt::print("trace:   {}\n", o.trace);
-    if (!o.svg.empty()) fmt::print("picture: {}\n", o.svg);
-    if (!o.html.empty()) fmt::print("page:    {}\n", o.html);
+    if (o.bus_words) fmt::print(out, "bus:     {}\n", o.bus_words());
+    if (!o.trace.empty()) fmt::print(out, "trace:   {}\n", o.trace);
+    if (!o.svg.empty()) fmt::print(out, "picture: {}\n", o.svg);
+    if (!o.html.empty()) fmt::print(out, "page:    {}\n", o.html);
   }
   return exit_status(result.verdict);
 }

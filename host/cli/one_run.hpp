@@ -13,6 +13,8 @@ struct RunOutputs {
   std::string svg;    ///< file, "" for none
   std::string html;   ///< file, "" for none
   bool json = false;  ///< on standard output, instead of words
+  std::string robot_name = "reference";
+  std::string record = "";  ///< where the frames of a bus go, "" for nowhere
   /// Set for a run on a bus: what it cost, as one JSON object, and as words for the progress line and the
   /// end.
   std::function<std::string()> bus_json = nullptr;

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "host/scenario/text.hpp"
+
 namespace whisker::cli {
 
 CLI::Validator whole_number(std::uint64_t most) {
@@ -50,6 +52,21 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path,
   return add_name(app, name, path, help)->type_name("FILE");
 }
 
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known) {
+  const std::string_view near = nearest_word(word, known);
+  return near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
+}
+
+namespace {
+
+std::vector<std::string_view> planner_names() {
+  std::vector<std::string_view> names;
+  for (const PlannerKind kind : kPlanners) names.emplace_back(name(kind));
+  return names;
+}
+
+}  // namespace
+
 CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
   std::string names, baselines;
   for (const PlannerKind k : kPlanners) {
@@ -62,7 +79,10 @@ CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
              "--planner",
              [&kind](const std::string& text) {
                const auto named = planner_named(text);
-               if (!named) throw CLI::ValidationError("--planner", fmt::format("no planner '{}'", text));
+               if (!named) {
+                 throw CLI::ValidationError("--planner", fmt::format("no planner '{}'{}", text,
+                                                                     did_you_mean(text, planner_names())));
+               }
                kind = *named;
              },
              fmt::format("Planner: {};\nbaselines: {}", names, baselines))

@@ -4,12 +4,17 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "host/run/planners.hpp"
 
 namespace whisker::cli {
+
+/// "; did you mean 'known'?" if one of these is like the word, else nothing.
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known);
 
 /// Decimal digits only, at most `most`: no sign, no exponent, no 0x. For Option::transform.
 CLI::Validator whole_number(std::uint64_t most = INT64_MAX);

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -17,6 +18,8 @@ namespace whisker::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kStandardOutput = "-";
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
 
@@ -46,10 +49,17 @@ void check_place(const std::string& text) {
 
 }  // namespace
 
-void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
+                   bool standard_output_is_taken) {
   std::vector<std::string> seen;
   for (const std::string& text : outputs) {
     if (text.empty()) continue;
+    if (text == kStandardOutput) {
+      if (standard_output_is_taken)
+        throw UsageError("-: standard output is for what another option prints there");
+      standard_output_is_taken = true;
+      continue;
+    }
     check_place(text);
     for (const std::string& input : inputs) {
       if (!input.empty() && same_file(text, input)) {
@@ -61,6 +71,10 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
     }
     seen.push_back(text);
   }
+}
+
+std::FILE* words_beside(std::initializer_list<std::string_view> outputs) {
+  return std::find(outputs.begin(), outputs.end(), kStandardOutput) == outputs.end() ? stdout : stderr;
 }
 
 void finish_standard_output() {

@@ -22,7 +22,7 @@ int execute(const Options& o) {
   const Scenario scenario = o.scenario.load({o.bus.record});
   const auto view = o.view.open();
   const auto line = hil::open_line(o.bus.name);
-  RunOutputs outputs = o.scenario.outputs;
+  RunOutputs outputs = o.scenario.run_outputs(scenario);
   outputs.knows_planner = false;
   return drive_on_bus(scenario, o.scenario.run_options(), outputs, o.bus, *line, view.get());
 }

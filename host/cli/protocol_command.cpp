@@ -24,8 +24,10 @@ void add_dbc(CLI::App& app, int& status) {
 
 void add_protocol(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("protocol", "Print the CAN protocol for a reader (Markdown)");
-  cmd->callback([&status] {
-    fmt::print("{}", protocol::page());
+  const auto link = std::make_shared<bool>(false);
+  cmd->add_flag("--link", *link, "The companion's protocol on a byte stream instead");
+  cmd->callback([link, &status] {
+    fmt::print("{}", *link ? protocol::link_page() : protocol::page());
     status = 0;
   });
 }

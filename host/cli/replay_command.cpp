@@ -15,6 +15,7 @@
 #include "host/cli/logged_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/provenance.hpp"
 #include "host/hil/replay.hpp"
 #include "host/page/page.hpp"
 #include "host/page/recording.hpp"
@@ -74,7 +75,7 @@ hil::ReplayResult replayed(const Options& o, const hil::ReplayOptions& replay) {
   }
 }
 
-void print_json(const hil::ReplayResult& r) {
+void print_json(const hil::ReplayResult& r, const Provenance& provenance) {
   nlohmann::ordered_json json;
   json["same"] = r.difference.empty();
   json["robot"] = r.robot;
@@ -87,27 +88,38 @@ void print_json(const hil::ReplayResult& r) {
   json["missing_answers"] = r.missing;
   json["hash"] = fmt::format("{:016x}", r.hash);
   json["difference"] = r.difference;
-  fmt::print("{}\n", json.dump());
+  json["cut_line"] = r.cut;
+  fmt::print("{}\n", with_provenance(json.dump(), provenance));
 }
 
 int execute(const Options& o) {
-  check_outputs({o.trace, o.html}, {o.log});
+  check_outputs({o.trace, o.html}, {o.log}, o.json);
   Show show(o);
   hil::ReplayOptions replay = o.replay;
   if (!o.trace.empty() || !o.html.empty()) show.watch(replay);
+  Provenance provenance;
+  provenance.planner = name(o.replay.planner);
+  provenance.robot_name = o.log;
+  replay.begins = [&provenance, also = replay.begins](const can::Mission& mission, const Params& params) {
+    provenance.robot_digest = robot_digest(params);
+    if (also) also(mission, params);
+  };
   const hil::ReplayResult r = replayed(o, replay);
+  if (r.cut > 0)
+    fmt::print(stderr, "whisker: {}: line {}, the last, is cut off and left out\n", o.log, r.cut);
   if (r.compared == 0) throw UsageError(fmt::format("{}: no commands of a robot with their inputs", o.log));
   show.write(o);
   if (o.json) {
-    print_json(r);
+    print_json(r, provenance);
   } else {
-    fmt::print("robot {}: {} steps in {} mission{}, {} answers compared, command hash {:016x}\n", r.robot,
-               r.steps, r.missions, r.missions == 1 ? "" : "s", r.compared, r.hash);
+    std::FILE* const out = words_beside({o.trace, o.html});
+    fmt::print(out, "robot {}: {} steps in {} mission{}, {} answers compared, command hash {:016x}\n",
+               r.robot, r.steps, r.missions, r.missions == 1 ? "" : "s", r.compared, r.hash);
     if (r.unknown > 0)
-      fmt::print("{} answers are to input sets that the log does not have whole\n", r.unknown);
-    fmt::print("{}\n", r.difference.empty() ? "the core gives the recorded commands" : r.difference);
-    if (!o.trace.empty()) fmt::print("trace:   {}\n", o.trace);
-    if (!o.html.empty()) fmt::print("page:    {}\n", o.html);
+      fmt::print(out, "{} answers are to input sets that the log does not have whole\n", r.unknown);
+    fmt::print(out, "{}\n", r.difference.empty() ? "the core gives the recorded commands" : r.difference);
+    if (!o.trace.empty()) fmt::print(out, "trace:   {}\n", o.trace);
+    if (!o.html.empty()) fmt::print(out, "page:    {}\n", o.html);
   }
   return r.difference.empty() ? 0 : kFailure;
 }

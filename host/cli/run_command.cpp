@@ -28,7 +28,7 @@ int execute(const Options& o) {
   options.planner = o.planner;
   if (!o.chip.empty()) options.pilot = chip::chip_pilot(o.chip);
   try {
-    return drive_one(scenario, options, o.scenario.outputs);
+    return drive_one(scenario, options, o.scenario.run_outputs(scenario));
   } catch (const chip::NoRoom& e) {
     throw UsageError(e.what());
   }

@@ -10,6 +10,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/many_runs.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/provenance.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -23,7 +24,9 @@ int execute(const CampaignOptions& o) {
   if (!rows.empty()) {
     const campaign::Summary summary = campaign::summarize(rows);
     if (o.json) {
-      fmt::print("{}\n", campaign::scan_json(summary));
+      Provenance provenance;
+      provenance.seed = o.seed;
+      fmt::print("{}\n", with_provenance(campaign::scan_json(summary), provenance));
     } else {
       fmt::print("{}", campaign::scan_words(summary));
     }

@@ -4,6 +4,7 @@
 
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/provenance.hpp"
 #include "host/scenario/load.hpp"
 
 namespace whisker::cli {
@@ -13,10 +14,16 @@ Scenario ScenarioChoice::load(std::initializer_list<std::string> more_outputs) c
   all.push_back(outputs.trace);
   all.push_back(outputs.svg);
   all.push_back(outputs.html);
-  check_outputs(all, {file, robot});
+  check_outputs(all, {file, robot}, outputs.json);
   Scenario scenario = load_scenario(file);
   if (!robot.empty()) apply_robot_file(scenario, robot);
   return scenario;
+}
+
+RunOutputs ScenarioChoice::run_outputs(const Scenario& scenario) const {
+  RunOutputs all = outputs;
+  all.robot_name = robot_name(scenario.robot, robot, file);
+  return all;
 }
 
 RunOptions ScenarioChoice::run_options() const {

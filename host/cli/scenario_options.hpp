@@ -21,6 +21,8 @@ struct ScenarioChoice {
   /// Checks all outputs, these among them, then reads the files. Throws UsageError and InputError.
   Scenario load(std::initializer_list<std::string> more_outputs = {}) const;
   RunOptions run_options() const;
+  /// scenario: what load() gave.
+  RunOutputs run_outputs(const Scenario& scenario) const;
 };
 
 /// SCENARIO, --robot, --seed, --trace, --svg, --html and --json.

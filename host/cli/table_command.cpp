@@ -44,12 +44,12 @@ void print_rules(const report::FuzzyPicture& p, const report::Variable& out,
 }
 
 int execute(const Options& o) {
-  check_outputs({o.svg});
+  check_outputs({o.svg}, {}, o.csv);
   const report::FuzzyPicture picture = controller_picture();
   if (!o.svg.empty()) report::write_file(o.svg, report::table_svg(picture));
   if (o.csv) {
     print_csv(picture);
-  } else {
+  } else if (o.svg != "-") {
     fmt::print("The 25 rules of the control response table ({}).\n\n", picture.source);
     print_rules(picture, picture.sa, picture.turn);
     print_rules(picture, picture.sd, picture.step);

@@ -47,7 +47,11 @@ void add_world(CLI::App& app, int& status) {
   const auto o = std::make_shared<Options>();
   cmd->add_option("KIND", o->kind, "discs, poles, u-trap, spiral, maze, rooms or enclosed")
       ->required()
-      ->check(CLI::IsMember({"discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed"}));
+      ->check([](const std::string& text) {
+        std::vector<std::string_view> kinds;
+        for (const worlds::Kind kind : worlds::kKinds) kinds.emplace_back(name(kind));
+        return worlds::kind_named(text) ? "" : fmt::format("no kind '{}'{}", text, did_you_mean(text, kinds));
+      });
   cmd->add_option("--seed", o->world.seed, "The same seed gives the same world everywhere")
       ->required()
       ->transform(whole_number())

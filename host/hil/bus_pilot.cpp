@@ -1,6 +1,9 @@
 #include "host/hil/bus_pilot.hpp"
 
+#include <fmt/format.h>
+
 #include "firmware/can/param_server.hpp"
+#include "firmware/motion/odometry.hpp"
 #include "hal/can_remote/base.hpp"
 #include "hal/sim/sim_board.hpp"
 #include "host/hil/resend.hpp"
@@ -47,7 +50,10 @@ class BusPilot final : public Pilot {
         resend_(std::uint64_t{options.resend_ms} * 1000),
         board_(plant),
         node_(port, options.identity, ramp_of(scenario.robot)),
-        base_(node_, board_, board_) {}
+        base_(node_, board_, board_) {
+    odometry_.configure(params_);
+    odometry_.place(mission_.start);
+  }
 
   ~BusPilot() override {
     node_.give(can::Order::cancel, mission_, options_.pace);
@@ -60,16 +66,19 @@ class BusPilot final : public Pilot {
     try {
       if (!begun_) begin();
       base_.measure(now.raw() / period_ms, period_ms);
+      reckon();
       ++figures_.sets;
       status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
     } catch (const Hopeless&) {
     }
     status_.command = base_.drive();
+    figures_.run_s = static_cast<double>(figures_.sets * period_us_) * 1e-6;
     if (begun_) figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
     return status_;
   }
 
   bool sees_inside() const override { return false; }
+  std::optional<Pose> estimate() const override { return odometry_.pose(); }
 
   const char* trouble() const override {
     if (node_.state() == can::NodeState::e_stopped) return "e_stop";
@@ -80,8 +89,17 @@ class BusPilot final : public Pilot {
   }
 
  private:
+  static constexpr Duration kLongestPause = milliseconds(1000);
   bool lockstep() const { return options_.pace == can::Pace::lockstep; }
   bool node_running() const { return node_.state() == can::NodeState::running; }
+
+  /// The bus does not carry the core's estimate, but all that it follows from. After a pause, the wheels may
+  /// have gone further than in one period.
+  void reckon() {
+    hal::EncoderCounts counts{};
+    motion::CountStep step;
+    if (board_.read(counts)) odometry_.update(counts, kLongestPause, step);
+  }
 
   void nap() {
     node_.poll(clock_.now_ms());
@@ -92,6 +110,21 @@ class BusPilot final : public Pilot {
   void watchful_nap() {
     nap();
     check();
+  }
+
+  void ask_for(const char* answer) {
+    awaited_ = answer;
+    asked_us_ = clock_.now_us();
+  }
+
+  /// A controller that is away may come back; one that is there and silent will not speak.
+  void watch_patience() {
+    const std::uint64_t now_us = clock_.now_us();
+    const bool e_stopped =
+        node_.state() == can::NodeState::e_stopped || node_.peer().state == can::NodeState::e_stopped;
+    if (!node_.matched() || e_stopped) asked_us_ = now_us;
+    if (now_us - asked_us_ <= std::uint64_t{options_.patience_ms} * 1000) return;
+    throw NoAnswer(fmt::format("the controller sends no {} for {} ms", awaited_, options_.patience_ms));
   }
 
   void check() {
@@ -136,9 +169,13 @@ class BusPilot final : public Pilot {
   }
 
   void give(can::Order order) {
+    ask_for("MissionReply that accepts");
     do {
       node_.give(order, mission_, options_.pace);
-      while (node_.order_state() == can::OrderState::waiting) watchful_nap();
+      while (node_.order_state() == can::OrderState::waiting) {
+        watchful_nap();
+        watch_patience();
+      }
     } while (node_.order_state() == can::OrderState::refused);
   }
 
@@ -152,7 +189,9 @@ class BusPilot final : public Pilot {
 
   void ask(const can::ParamRequest& request) {
     can::ParamReply reply;
+    ask_for("ParamReply");
     do {
+      watch_patience();
       node_.request(request);
       for (std::uint32_t waited = 0; waited < options_.resend_ms; ++waited) {
         watchful_nap();
@@ -166,6 +205,7 @@ class BusPilot final : public Pilot {
     const std::uint64_t sent_us = clock_.now_us();
     base_.publish(can::Pace::lockstep);
     resend_.sent(sent_us);
+    ask_for("WheelCommand and NavStatus");
     while (node_running() || node_.state() == can::NodeState::waiting ||
            node_.state() == can::NodeState::off_bus) {
       // An answer can come with the news that the controller is lost, and then it drives nothing.
@@ -179,6 +219,7 @@ class BusPilot final : public Pilot {
       const std::uint64_t now_us = clock_.now_us();
       node_.poll(static_cast<std::uint32_t>(now_us / 1000));
       check();
+      watch_patience();
       if (!node_running() || node_.answered(tick) || !resend_.due(now_us)) continue;
       base_.publish(can::Pace::lockstep);
       ++figures_.resent;
@@ -233,8 +274,11 @@ class BusPilot final : public Pilot {
   hal::SimBoard board_;
   can::BaseNode node_;
   can_remote::Base base_;
+  motion::Odometry odometry_;
   Status status_;
   std::string said_;
+  const char* awaited_ = "";
+  std::uint64_t asked_us_ = 0;
   std::uint64_t begun_us_ = 0;
   std::uint64_t due_us_ = 0;
   std::uint32_t restarts_ = 0;

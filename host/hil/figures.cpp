@@ -9,9 +9,10 @@
 namespace whisker::hil {
 namespace {
 
-/// In percent of what the bus can carry, over the time that has passed.
+/// In percent of what the bus can carry while the robot drives in real time. In lockstep the frames of an
+/// hour may pass in a second: of that second the bus could carry only a part.
 double load_percent(const Figures& f, double bitrate) {
-  return f.wall_s > 0 ? 100.0 * static_cast<double>(f.bits) / (f.wall_s * bitrate) : 0.0;
+  return f.run_s > 0 ? 100.0 * static_cast<double>(f.bits) / (f.run_s * bitrate) : 0.0;
 }
 
 double rounded(double x) { return std::round(x * 100.0) / 100.0; }
@@ -39,9 +40,11 @@ std::string figures_json(const Figures& f, double bitrate) {
 }
 
 std::string figures_words(const Figures& f, double bitrate) {
-  return fmt::format("{} missed, {} resent, round trip {} us (99 %: {} us), {} frames, load {:.1f} %",
-                     f.misses, f.resent, percentile(f.round_trip_us, 0.5), percentile(f.round_trip_us, 0.99),
-                     f.frames, load_percent(f, bitrate));
+  return fmt::format(
+      "{} missed, {} resent, round trip {} us (99 %: {} us), {} frames, load of the bus in real time {:.1f} "
+      "%",
+      f.misses, f.resent, percentile(f.round_trip_us, 0.5), percentile(f.round_trip_us, 0.99), f.frames,
+      load_percent(f, bitrate));
 }
 
 std::uint32_t percentile(std::vector<std::uint32_t> samples, double part) {

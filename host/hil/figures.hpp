@@ -20,6 +20,7 @@ struct Figures {
   std::uint64_t frames = 0;                  ///< on the bus, as this side saw them
   std::uint64_t bits = 0;                    ///< of them, at most
   double wall_s = 0;                         ///< from the first tick until now
+  double run_s = 0;                          ///< the same in the robot's time: ticks of a period each
 };
 
 /// One JSON object without a newline. bitrate: of the bus whose load is told.

@@ -1,5 +1,7 @@
 #include "host/hil/recorder.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -12,7 +14,8 @@ namespace whisker::hil {
 Recorder::Recorder(const std::string& file, const std::string& interface)
     : name_(file), interface_(interface) {
   if (file.empty()) return;
-  file_ = std::fopen(file.c_str(), "we");
+  const int copy = file == "-" ? ::dup(STDOUT_FILENO) : -1;
+  file_ = copy < 0 ? std::fopen(file.c_str(), "we") : ::fdopen(copy, "w");
   if (file_ == nullptr) throw std::runtime_error("cannot write " + file + ": " + std::strerror(errno));
   std::setvbuf(file_, nullptr, _IOLBF, 1 << 12);
 }

@@ -10,7 +10,8 @@ namespace whisker::hil {
 /// Writes frames into a log as they come, whole lines only, so that a run that ends badly leaves its log.
 class Recorder {
  public:
-  /// file: "" for none. interface: the name that the log gives the bus. Throws std::runtime_error.
+  /// file: "" for none, "-" for standard output. interface: the name that the log gives the bus. Throws
+  /// std::runtime_error.
   Recorder(const std::string& file, const std::string& interface);
   ~Recorder();
   Recorder(const Recorder&) = delete;

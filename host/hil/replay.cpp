@@ -253,13 +253,22 @@ class Replay {
 ReplayResult replay(std::istream& log, const ReplayOptions& options) {
   Replay replay(options);
   std::string line;
+  std::uint64_t cut = 0;
   for (std::uint64_t number = 1; std::getline(log, line); ++number) {
     if (line.empty()) continue;
-    const auto entry = parse_log_line(line);
-    if (!entry) throw std::runtime_error(fmt::format("line {}: not a frame as candump -L writes it", number));
-    replay.hear(entry->frame, number);
+    if (const auto entry = parse_log_line(line)) {
+      replay.hear(entry->frame, number);
+      continue;
+    }
+    const bool unfinished = log.eof() && line.front() == '(';
+    if (!unfinished) {
+      throw std::runtime_error(fmt::format("line {}: not a frame as candump -L writes it", number));
+    }
+    cut = number;
   }
-  return replay.result();
+  ReplayResult result = replay.result();
+  result.cut = cut;
+  return result;
 }
 
 }  // namespace whisker::hil

@@ -34,10 +34,13 @@ struct ReplayResult {
   std::uint64_t missing = 0;   ///< steps whose answers are not in the log
   std::uint64_t hash = 0;      ///< FNV-1a 64 over the wheel commands of all steps
   std::string difference;      ///< the first one, with its line; "" for none
+  std::uint64_t cut =
+      0;  ///< number of the last line if that is only the beginning of one; left out. 0: whole
 };
 
 /// Feeds the recorded inputs to the core and compares what it says with what was recorded. Throws
-/// std::runtime_error "line N: ..." for a line that is none of a candump log.
+/// std::runtime_error "line N: ..." for a line that is none of a candump log; only the last one may be cut
+/// off, as a recorder that is ended leaves it.
 ReplayResult replay(std::istream& log, const ReplayOptions& options);
 
 }  // namespace whisker::hil

@@ -22,14 +22,18 @@ Json row_data(const campaign::Row& row) {
           number(campaign::s_per_m(row)),
           row.min_clearance_m,
           row.estimate_error_m,
-          row.detail};
+          row.detail,
+          row.final_distance_m};
 }
+
+constexpr int kOffGoal = 3;
 
 /// Smaller is more worth a look.
 int severity(const campaign::Row& row) {
   if (row.verdict == Verdict::contact) return 0;
   if (row.verdict == Verdict::fault) return 1;
-  return campaign::succeeded(row) ? 3 : 2;
+  if (!campaign::succeeded(row)) return 2;
+  return row.verdict == Verdict::off_goal ? kOffGoal : kOffGoal + 1;
 }
 
 }  // namespace
@@ -38,7 +42,7 @@ Json campaign_data(const std::vector<campaign::Row>& rows) {
   Json list = Json::array();
   for (const campaign::Row& row : rows) list.push_back(row_data(row));
   const Json fields = {"seed",  "outcome", "success",   "time_s",         "path_m", "shortest_m",
-                       "ratio", "s_per_m", "clearance", "estimate_error", "detail"};
+                       "ratio", "s_per_m", "clearance", "estimate_error", "detail", "final_distance_m"};
   return {{"summary", Json::parse(campaign::summary_json(campaign::summarize(rows)))},
           {"fields", fields},
           {"rows", list}};
@@ -50,6 +54,7 @@ std::vector<std::size_t> worst(const std::vector<campaign::Row>& rows, std::size
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const int first = severity(rows[a]), second = severity(rows[b]);
     if (first != second) return first < second;
+    if (first == kOffGoal) return rows[a].final_distance_m > rows[b].final_distance_m;
     return campaign::ratio(rows[a]).value_or(0) > campaign::ratio(rows[b]).value_or(0);
   });
   order.resize(std::min(order.size(), most));

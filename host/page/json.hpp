@@ -23,7 +23,7 @@ struct Packed {
   Json list;         ///< of the columns
   std::string data;  ///< base64 of the deflated columns
 };
-Packed packed(const Ticks& ticks);
+Packed packed(const Ticks& ticks, Detail detail = Detail::full);
 
 /// Plain ASCII on one line, whatever is in it.
 std::string text_of(const Json& json);

@@ -66,6 +66,10 @@ std::string campaign_page(const std::vector<campaign::Row>& rows, const std::vec
                           const Controller& controller) {
   Json data = {{"format", 1}, {"shared", shared_data(controller)}, {"runs", Json::array()}};
   data["campaign"] = campaign_data(rows);
+  data["campaign"]["order"] = worst(rows, rows.size());
+  Json& commands = data["campaign"]["commands"] = Json::array();
+  for (const campaign::Row& row : rows) commands.push_back(campaign::replay_command(row));
+  for (const Replay& replay : replays) commands[replay.row] = nullptr;
   std::string columns;
   for (std::size_t i = 0; i < replays.size(); ++i) {
     Json run = Json::parse(replays[i].run.json);

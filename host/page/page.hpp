@@ -29,8 +29,9 @@ struct StoredRun {
   std::string columns;  ///< base64 of the deflated columns
 };
 
-/// All ticks up to the verdict.
-StoredRun stored(const Setting& setting, const Ticks& ticks, const RunResult& result);
+/// All ticks up to the verdict, as they were recorded.
+StoredRun stored(const Setting& setting, const Ticks& ticks, const RunResult& result,
+                 Detail detail = Detail::full);
 
 /// The response table that steers, as the page draws it.
 using Controller = report::FuzzyPicture;
@@ -51,8 +52,9 @@ struct Replay {
 std::string campaign_page(const std::vector<campaign::Row>& rows, const std::vector<Replay>& replays,
                           const Controller& controller);
 
-/// Indices of the rows most worth a look, at most `most`: contacts, faults, other failures, then the longest
-/// ways compared with the shortest; equals in the order of the rows.
+/// Indices of the rows most worth a look, at most `most`: contacts, faults, other failures, those farthest
+/// off a goal that they believe to have reached, then the longest ways compared with the shortest; equals in
+/// the order of the rows.
 std::vector<std::size_t> worst(const std::vector<campaign::Row>& rows, std::size_t most);
 
 }  // namespace whisker::page

@@ -6,7 +6,15 @@
 namespace whisker::page {
 namespace {
 
-constexpr std::int32_t kFrameMs = 50;
+struct Pace {
+  std::int32_t sample_ms, frame_ms;
+};
+constexpr Pace kFull{0, 50};
+constexpr Pace kCoarse{200, 1000};
+
+std::size_t one_in(std::int32_t wanted, std::int32_t step) {
+  return static_cast<std::size_t>(std::max(1, wanted / std::max(1, step)));
+}
 
 Length fixed(double metres) {
   return Length::from_raw(static_cast<std::int32_t>(std::llround(metres * 1e6)));
@@ -14,10 +22,12 @@ Length fixed(double metres) {
 
 }  // namespace
 
-Recording::Recording(const Params& params)
-    : ticks_a_frame_(static_cast<std::size_t>(std::max(1, kFrameMs / params.safety.period.raw()))),
-      film_(params),
-      map_watch_(params) {}
+Recording::Recording(const Params& params, Detail detail) : film_(params), map_watch_(params) {
+  const Pace pace = detail == Detail::full ? kFull : kCoarse;
+  const std::int32_t period = params.safety.period.raw();
+  every_ = one_in(pace.sample_ms, period);
+  kept_a_frame_ = one_in(pace.frame_ms, period * static_cast<std::int32_t>(every_));
+}
 
 void Ticks::append(const Ticks& more, std::size_t index, std::size_t first) {
   const auto from = static_cast<std::ptrdiff_t>(index);
@@ -29,13 +39,27 @@ void Ticks::append(const Ticks& more, std::size_t index, std::size_t first) {
 
 void Recording::add(const Moment& moment) {
   const TickRecord& r = moment.record;
-  if (moment.patch != nullptr && count_ % ticks_a_frame_ == 0) {
-    film_.add(count_, {fixed(r.est_x_m), fixed(r.est_y_m)}, *moment.patch, ticks_.frames);
+  const bool kept = count_++ % every_ == 0;
+  if (moment.patch != nullptr && kept && kept_ % kept_a_frame_ == 0) {
+    film_.add(kept_, {fixed(r.est_x_m), fixed(r.est_y_m)}, *moment.patch, ticks_.frames);
   }
-  if (map_watch_.look(moment.guide)) map_film_.add(count_, *map_watch_.last(), ticks_.map);
-  ticks_.records.push_back(r);
-  ticks_.health.push_back(moment.health);
-  ++count_;
+  if (map_watch_.look(moment.guide)) map_film_.add(kept_, *map_watch_.last(), ticks_.map);
+  if (kept) {
+    keep(r, moment.health);
+  } else {
+    last_ = {r, moment.health};
+  }
+}
+
+void Recording::end() {
+  if (last_) keep(last_->first, last_->second);
+}
+
+void Recording::keep(const TickRecord& record, const Health& health) {
+  ticks_.records.push_back(record);
+  ticks_.health.push_back(health);
+  last_.reset();
+  ++kept_;
 }
 
 }  // namespace whisker::page

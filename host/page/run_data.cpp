@@ -90,10 +90,14 @@ const char* end_name(report::Encounter::End end) {
   return "?";
 }
 
+constexpr std::int64_t kMilli = 1000;
+constexpr std::int64_t kMicro = 1000000;
+
 /// Gathers one integer a tick into a column.
 class Writer {
  public:
-  Writer(Columns& columns, const Ticks& ticks) : columns_(columns), ticks_(ticks) {}
+  Writer(Columns& columns, const Ticks& ticks, Detail detail)
+      : columns_(columns), ticks_(ticks), finest_(detail == Detail::full ? kMicro : kMilli) {}
 
   template <class F>
   void tick(const char* name, Order order, std::int64_t per_unit, F&& value_of) {
@@ -102,10 +106,12 @@ class Writer {
     for (const TickRecord& r : ticks_.records) values.push_back(static_cast<std::int64_t>(value_of(r)));
     columns_.add(name, order, per_unit, values);
   }
+  /// A coarse one has no more than thousandths.
   template <class F>
   void decimal(const char* name, Order order, std::int64_t per_unit, F&& value_of) {
-    tick(name, order, per_unit,
-         [&](const TickRecord& r) { return std::llround(value_of(r) * static_cast<double>(per_unit)); });
+    const std::int64_t units = std::min(per_unit, finest_);
+    tick(name, order, units,
+         [&](const TickRecord& r) { return std::llround(value_of(r) * static_cast<double>(units)); });
   }
   void counter(const char* name, std::uint32_t Health::*counter) {
     std::vector<std::int64_t> values;
@@ -116,9 +122,8 @@ class Writer {
  private:
   Columns& columns_;
   const Ticks& ticks_;
+  const std::int64_t finest_;
 };
-
-constexpr std::int64_t kMicro = 1000000;
 
 void add_motion(Writer& w) {
   constexpr Order kSmooth = Order::second_differences;
@@ -131,8 +136,10 @@ void add_motion(Writer& w) {
   w.decimal("est_heading_rad", kSmooth, kMicro, [](const TickRecord& r) { return r.est_heading_rad; });
   w.decimal("v_left_mps", kSmooth, 100000, [](const TickRecord& r) { return r.v_left_mps; });
   w.decimal("v_right_mps", kSmooth, 100000, [](const TickRecord& r) { return r.v_right_mps; });
-  w.tick("cmd_left_mps", Order::differences, 10000, [](const TickRecord& r) { return r.command.left; });
-  w.tick("cmd_right_mps", Order::differences, 10000, [](const TickRecord& r) { return r.command.right; });
+  w.decimal("cmd_left_mps", Order::differences, 10000,
+            [](const TickRecord& r) { return r.command.left / 10000.0; });
+  w.decimal("cmd_right_mps", Order::differences, 10000,
+            [](const TickRecord& r) { return r.command.right / 10000.0; });
 }
 
 /// A lost reading keeps the value before it: the status says that there is none.
@@ -184,6 +191,8 @@ void add_health(Columns& columns, Writer& w, const std::vector<Health>& health) 
   w.counter("wheel_stalls", &Health::wheel_stalls);
   w.counter("unsteady_looks", &Health::unsteady_looks);
   w.counter("no_progress", &Health::no_progress);
+  w.counter("pose_out_of_range", &Health::pose_out_of_range);
+  w.counter("wheel_runaways", &Health::wheel_runaways);
   w.counter("late_ticks", &Health::late_ticks);
   w.counter("clock_jumps", &Health::clock_jumps);
 }
@@ -237,9 +246,9 @@ Json edges_data(const std::vector<report::EncounterFinder::Found>& found) {
   return edges;
 }
 
-Packed packed(const Ticks& ticks) {
+Packed packed(const Ticks& ticks, Detail detail) {
   Columns columns;
-  Writer writer(columns, ticks);
+  Writer writer(columns, ticks, detail);
   add_motion(writer);
   add_ranges(writer);
   add_decisions(writer);
@@ -249,11 +258,12 @@ Packed packed(const Ticks& ticks) {
   return {columns_data(columns), base64(deflated(columns.bytes()))};
 }
 
-StoredRun stored(const Setting& setting, const Ticks& ticks, const RunResult& result) {
+StoredRun stored(const Setting& setting, const Ticks& ticks, const RunResult& result, Detail detail) {
   report::EncounterFinder finder;
   for (const TickRecord& r : ticks.records) finder.add(r);
-  Packed columns = packed(ticks);
+  Packed columns = packed(ticks, detail);
   Json json = setting_data(setting);
+  json["detail"] = detail == Detail::full ? "full" : "coarse";
   json["result"] = Json::parse(report::result_json(result));
   json["edges"] = edges_data(finder.found());
   json["columns"] = std::move(columns.list);

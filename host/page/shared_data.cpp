@@ -72,8 +72,7 @@ Json names(int count) {
 
 Json shared_data(const Controller& controller) {
   Json faults = Json::array();
-  for (int i = 0; i <= static_cast<int>(Fault::no_progress); ++i)
-    faults.push_back(name(static_cast<Fault>(i)));
+  for (int i = 0; i < kFaults; ++i) faults.push_back(name(static_cast<Fault>(i)));
   Json guides = Json::array();
   for (int i = 0; i < kGuidances; ++i) guides.push_back(name(static_cast<Guidance>(i)));
   Json doings = Json::array();

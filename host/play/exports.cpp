@@ -117,8 +117,8 @@ WHISKER_EXPORT(record) int record(int side) {
   return answer();
 }
 
-/// Verdict or -1, time, way, distance from the goal, clearance, ticks, and the hash in four parts of 16 bits,
-/// the highest first.
+/// Verdict or -1, time, way, distance from the goal, true and believed, clearance, ticks, and the hash in
+/// four parts of 16 bits, the highest first.
 WHISKER_EXPORT(result) int result(int side) {
   const Trip& trip = drives[side]->trip();
   const RunResult r = trip.result();
@@ -126,6 +126,7 @@ WHISKER_EXPORT(result) int result(int side) {
                r.time_s,
                r.path_m,
                r.final_distance_m,
+               r.believed_distance_m.value_or(-1.0),
                r.min_clearance_m,
                static_cast<double>(r.ticks)};
   for (int shift = 48; shift >= 0; shift -= 16)
@@ -241,7 +242,7 @@ WHISKER_EXPORT(word) const char* word(int which, int i) {
   switch (which) {
     case 0: return i < nav::kModes ? nav::name(static_cast<nav::Mode>(i)) : nullptr;
     case 1: return i < nav::kWhys ? nav::name(static_cast<nav::Why>(i)) : nullptr;
-    case 2: return i <= static_cast<int>(Fault::no_progress) ? name(static_cast<Fault>(i)) : nullptr;
+    case 2: return i < kFaults ? name(static_cast<Fault>(i)) : nullptr;
     case 3: return i < static_cast<int>(std::size(worlds::kKinds)) ? name(worlds::kKinds[i]) : nullptr;
     case 4: return i < kGuidances ? name(static_cast<Guidance>(i)) : nullptr;
     default: return nullptr;

@@ -1,15 +1,16 @@
 #include "host/play/flat.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "host/scenario/bearing.hpp"
+#include "host/scenario/limits.hpp"
+#include "host/scenario/shapes.hpp"
 
 namespace whisker::play {
 namespace {
 
-constexpr double kFarthest = 1000;  // m
-constexpr double kLongestTime = 1e6;
-constexpr double kGreatestSeed = 9007199254740991.0;
-constexpr double kFastestMover = 10;
-constexpr double kMost = 4096;  // of anything
+constexpr Limits kSeed{0, 9007199254740991.0};
 
 using Points = std::vector<sim::Vec2>;
 
@@ -28,40 +29,78 @@ class Reader {
  public:
   explicit Reader(const std::vector<double>& list) : list_(list) {}
 
-  double number(double low, double high) {
-    const double x = at_ < list_.size() ? list_[at_] : low - 1;
+  double number(Limits limits) {
+    const double x = at_ < list_.size() ? list_[at_] : std::nan("");
     ++at_;
-    // Not-a-number is in no range.
-    if (x >= low && x <= high) return x;
+    if (limits.allow(x)) return x;
     good_ = false;
-    return low;
+    return limits.high;
   }
-  double length() { return number(1e-4, kFarthest); }
+  double whole(Limits limits) {
+    const double x = number(limits);
+    demand(x == std::floor(x));
+    return x;
+  }
+  double length() { return number(kLength); }
   sim::Vec2 point() {
-    const double x = number(-kFarthest, kFarthest);
-    return {x, number(-kFarthest, kFarthest)};
+    const double x = number(kCoordinate);
+    return {x, number(kCoordinate)};
   }
-  std::size_t count(double least) {
-    const double n = number(least, kMost);
+  std::size_t count(std::size_t least, std::size_t most) {
+    const double n = whole({static_cast<double>(least), static_cast<double>(most)});
     return good_ ? static_cast<std::size_t>(n) : 0;
   }
-  Points points(double least) {
-    Points points(count(least));
+  /// Of all kinds together.
+  std::size_t things() {
+    const std::size_t n = count(0, kMostThings - things_);
+    things_ += n;
+    return n;
+  }
+  Points points(std::size_t least) {
+    Points points(count(least, std::min(kMostPoints, kMostPointsOfAll - points_)));
+    points_ += points.size();
     for (sim::Vec2& p : points) p = point();
+    demand(all_differ(points));
     return points;
   }
-  std::vector<Points> lines(double least) {
-    std::vector<Points> lines(count(0));
-    for (Points& line : lines) line = points(least);
+  std::vector<Points> lines(std::size_t least) {
+    std::vector<Points> lines(things());
+    for (Points& line : lines) {
+      if (good_) line = points(least);
+    }
     return lines;
   }
+  void demand(bool good) { good_ = good_ && good; }
+  bool good() const { return good_; }
   bool all_good() const { return good_ && at_ == list_.size(); }
 
  private:
   const std::vector<double>& list_;
   std::size_t at_ = 0;
+  std::size_t things_ = 0;
+  std::size_t points_ = 0;
   bool good_ = true;
 };
+
+void read_obstacles(Reader& read, Scenario& s) {
+  s.discs.resize(read.things());
+  for (sim::Disc& d : s.discs) {
+    d.center = read.point();
+    d.radius = read.length();
+  }
+  s.polygons = read.lines(kFewestOfPolygon);
+  s.walls = read.lines(kFewestOfLine);
+  s.movers.resize(read.things());
+  for (Mover& m : s.movers) {
+    m.center = read.point();
+    m.radius_m = read.length();
+    m.speed_mps = read.number(kMoverSpeed);
+    m.path = read.points(kFewestOfLine);
+    if (read.good()) read.demand(is_on_path(m));
+  }
+  if (!read.good()) return;
+  for (const Points& p : s.polygons) read.demand(has_area(p) && !crossing_edges(p));
+}
 
 }  // namespace
 
@@ -89,35 +128,23 @@ std::vector<double> flat(const Scenario& s) {
 std::optional<Scenario> scenario_of(const std::vector<double>& list) {
   Reader read(list);
   Scenario s;
-  s.seed = static_cast<std::uint64_t>(read.number(0, kGreatestSeed));
-  s.time_limit_s = read.number(1e-3, kLongestTime);
+  s.seed = static_cast<std::uint64_t>(read.whole(kSeed));
+  s.time_limit_s = read.number(kTimeLimit);
   s.start.at = read.point();
   s.goal.at = read.point();
   s.goal.tolerance_m = read.length();
   s.start.heading = bearing(s.start.at, s.goal.at);
-  if (read.number(0, 1) > 0) {
+  if (read.number({0, 1}) > 0) {
     const sim::Vec2 min = read.point();
     s.bounds = Bounds{min, read.point()};
+    read.demand(is_sound(*s.bounds));
   }
-  s.discs.resize(read.count(0));
-  for (sim::Disc& d : s.discs) {
-    d.center = read.point();
-    d.radius = read.length();
-  }
-  s.polygons = read.lines(3);
-  s.walls = read.lines(2);
-  s.movers.resize(read.count(0));
-  for (Mover& m : s.movers) {
-    m.center = read.point();
-    m.radius_m = read.length();
-    m.speed_mps = read.number(0, kFastestMover);
-    m.path = read.points(2);
-  }
-  s.noise.range_sigma_m = read.number(0, 10);
-  s.noise.range_dropout = read.number(0, 1);
-  s.noise.range_false_clear = read.number(0, 1);
-  s.noise.wheel_scale_sigma = read.number(0, 1);
-  s.noise.heading_drift_deg_per_sqrt_m = read.number(0, 360);
+  read_obstacles(read, s);
+  s.noise.range_sigma_m = read.number(kRangeSigma);
+  s.noise.range_dropout = read.number(kProbability);
+  s.noise.range_false_clear = read.number(kProbability);
+  s.noise.wheel_scale_sigma = read.number(kWheelScaleSigma);
+  s.noise.heading_drift_deg_per_sqrt_m = read.number(kHeadingDrift);
   if (!read.all_good()) return std::nullopt;
   return s;
 }

@@ -1,6 +1,7 @@
 /// A scenario as a list of numbers: how the playground's page hands it over.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -17,7 +18,12 @@ namespace whisker::play {
 /// The robot is the reference robot; it starts towards the goal. The seed is below 2^53.
 std::vector<double> flat(const Scenario& scenario);
 
-/// Nothing if the list ends too early or too late, or a number is none or beyond what a scenario file may
+/// So much the page takes, of obstacles of all kinds together and of points of polygons, walls and paths: one
+/// more would be too slow to draw and to drive. A file may have more.
+constexpr std::size_t kMostThings = 1000;
+constexpr std::size_t kMostPointsOfAll = 4096;
+
+/// Nothing if the list ends too early or too late, has more than that, or says what a scenario file may not
 /// say.
 std::optional<Scenario> scenario_of(const std::vector<double>& list);
 

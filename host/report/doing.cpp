@@ -27,6 +27,7 @@ Doing doing_of_step(nav::Why why) noexcept {
     case nav::Why::wall_lost:
     case nav::Why::length_budget:
     case nav::Why::cancelled:
+    case nav::Why::goal_out_of_range:
     case nav::Why::fault: return Doing::free;
   }
   return Doing::free;

@@ -1,11 +1,14 @@
 #include "host/report/plot.hpp"
 
+#include <algorithm>
+
 #include "host/report/axes.hpp"
 
 namespace whisker::report {
 
 std::vector<double> ticks(Range range, int count) {
-  return multiples(round_step((range.max - range.min) / count * 1.001), range.min, range.max);
+  const auto [low, high] = std::minmax(range.min, range.max);
+  return multiples(round_step((high - low) / count * 1.001), low, high);
 }
 
 void draw_plot_axes(Svg& svg, const Plot& plot, const std::string& x_name, const std::string& y_name,

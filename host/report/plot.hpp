@@ -17,7 +17,7 @@ struct Plot {
   Point corner;  ///< top left, px
   double width = 0;
   double height = 0;
-  Range x, y;
+  Range x, y;  ///< x with min above max goes to the left
 
   Point page(double px, double py) const {
     return {corner.x + (px - x.min) / (x.max - x.min) * width,

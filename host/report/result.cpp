@@ -21,6 +21,7 @@ Json rounded(double x) {
 const char* opening(Verdict verdict) noexcept {
   switch (verdict) {
     case Verdict::reached: return "reached in";
+    case Verdict::off_goal: return "believes it is there; is";
     case Verdict::unreachable: return "found unreachable after";
     case Verdict::gave_up: return "gave up after";
     case Verdict::contact: return "contact after";
@@ -34,6 +35,7 @@ const char* opening(Verdict verdict) noexcept {
 const char* outcome(Verdict verdict) noexcept {
   switch (verdict) {
     case Verdict::reached: return "reached";
+    case Verdict::off_goal: return "off_goal";
     case Verdict::unreachable: return "unreachable";
     case Verdict::gave_up: return "gave_up";
     case Verdict::contact: return "contact";
@@ -48,6 +50,7 @@ std::string result_json(const RunResult& result, const std::string& bus) {
   json["time_s"] = rounded(result.time_s);
   json["path_m"] = rounded(result.path_m);
   json["final_distance_m"] = rounded(result.final_distance_m);
+  json["believed_distance_m"] = result.believed_distance_m ? rounded(*result.believed_distance_m) : nullptr;
   json["min_clearance_m"] = rounded(result.min_clearance_m);
   json["ticks"] = result.ticks;
   json["hash"] = fmt::format("{:016x}", result.hash);
@@ -58,8 +61,10 @@ std::string result_json(const RunResult& result, const std::string& bus) {
 
 std::string verdict_words(const RunResult& result) {
   std::string words = opening(result.verdict);
+  if (result.verdict == Verdict::off_goal)
+    words += fmt::format(" {:.2f} m off, after", result.final_distance_m);
   words += fmt::format(" {:.1f} s, {:.2f} m", result.time_s, result.path_m);
-  if (result.verdict != Verdict::reached)
+  if (!says_reached(result.verdict))
     words += fmt::format(", {:.2f} m from the goal", result.final_distance_m);
   if (result.min_clearance_m < kEmptyWorldClearance)
     words += fmt::format(", min clearance {} m", decimals(result.min_clearance_m, 3));

@@ -7,15 +7,16 @@
 
 namespace whisker::report {
 
-/// reached | unreachable | gave_up | contact | fault
+/// reached | off_goal | unreachable | gave_up | contact | fault
 const char* outcome(Verdict verdict) noexcept;
 
 /// One JSON object on one line, without a newline at the end. Lengths and times are rounded to 1e-6. A
-/// number that is not finite (the clearance in an empty world) becomes null. bus: a JSON object that becomes
-/// the key "bus"; "" for none.
+/// number that is not finite (the clearance in an empty world) or not known becomes null. bus: a JSON object
+/// that becomes the key "bus"; "" for none.
 std::string result_json(const RunResult& result, const std::string& bus = "");
 
-/// "reached in 48.2 s, 12.31 m, min clearance 0.031 m": one line, the detail in brackets if there is one.
+/// "reached in 48.2 s, 12.31 m, min clearance 0.031 m", "believes it is there; is 5.83 m off, after 48.2 s,
+/// 12.31 m": one line, the detail in brackets if there is one.
 std::string verdict_words(const RunResult& result);
 
 }  // namespace whisker::report

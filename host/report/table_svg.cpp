@@ -85,7 +85,8 @@ void draw_term_names(Svg& svg, const Plot& plot, const FuzzyPicture& picture) {
 
 void draw_map(Svg& svg, Point corner, const FuzzyPicture& picture, const Variable& output, const Function& f,
               const ColourScale& scale, bool sign) {
-  const Plot plot{corner, kSide, kSide, {picture.r.min, picture.r.max}, {picture.d.min, picture.d.max}};
+  // R goes to the left, so that what is nearer on the left is on the left.
+  const Plot plot{corner, kSide, kSide, {picture.r.max, picture.r.min}, {picture.d.min, picture.d.max}};
   svg.open(fmt::format(R"(class="map {}")", sign ? "turn" : "step"));
   svg.text({corner.x, corner.y - 26}, output.symbol + ": " + output.meaning,
            R"(font-size="14" font-weight="bold")");
@@ -110,9 +111,8 @@ std::string table_svg(const FuzzyPicture& picture) {
   draw_map(svg, {602, 84}, picture, picture.sd, picture.sd_at,
            ColourScale::sequential(picture.sd.min, picture.sd.max), false);
   svg.text({20, 548},
-           "Each label stands at a rule's centre: the output term and its value. Blue turns right, orange "
-           "turns left; "
-           "darker is a longer step.",
+           "Left: the left side is nearer. Each label stands at a rule's centre: the output term and its "
+           "value. Blue turns right, orange turns left; darker is a longer step.",
            R"(class="caption" fill="#555")");
   if (!picture.source.empty())
     svg.text({20, 568}, "Surface: " + picture.source, R"(class="caption" fill="#555")");

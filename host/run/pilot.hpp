@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "firmware/robot.hpp"
 #include "host/run/planners.hpp"
@@ -22,6 +23,8 @@ class Pilot {
   virtual const ShownGuide* guide() const { return nullptr; }
   /// The status has all that the core knows; false: only what a bus carries.
   virtual bool sees_inside() const { return true; }
+  /// Where the robot believes to be, for a pilot that does not see inside; none: that is not known.
+  virtual std::optional<Pose> estimate() const { return std::nullopt; }
   /// Why the robot will not move any more although its core knows of no fault; nullptr: it will.
   virtual const char* trouble() const { return nullptr; }
 };

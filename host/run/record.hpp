@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "firmware/nav/state.hpp"
 #include "hal/wire.hpp"
 #include "host/run/guidance.hpp"
+#include "host/run/verdict.hpp"
 
 namespace whisker {
 
@@ -34,14 +36,14 @@ struct TickRecord {
 /// Stands for the clearance in an empty world, m: no scenario is larger.
 constexpr double kEmptyWorldClearance = 1000.0;
 
-enum class Verdict { reached, unreachable, gave_up, contact, fault };
-
 struct RunResult {
   Verdict verdict = Verdict::gave_up;
   std::string detail;  ///< a few words: which fault, which limit
   double time_s = 0;
   double path_m = 0;            ///< true length driven by the body's centre
-  double final_distance_m = 0;  ///< true distance from the goal
+  double final_distance_m = 0;  ///< true distance from the goal; not finite: nobody knows it
+  /// Between the goal and the place where the robot believes to be; none: it has not said.
+  std::optional<double> believed_distance_m;
   double min_clearance_m =
       0;  ///< smallest true gap between body and obstacle; <= 0 at a contact; 1000 in an empty world
   std::uint64_t ticks = 0;

@@ -16,6 +16,10 @@ class ShownGuide final : public nav::Guide {
     body_ = view.pose.at;
     guide_.start(view, goal);
   }
+  void move_goal(Vec at) noexcept override {
+    goal_ = at;
+    guide_.move_goal(at);
+  }
   void observe(const nav::View& view) noexcept override {
     body_ = view.pose.at;
     guide_.observe(view);

@@ -16,9 +16,12 @@ std::optional<Verdict> verdict_of(const Status& status, const Pilot& pilot) {
 }
 
 const char* detail_of(Verdict verdict, const Status& status, const Pilot& pilot) {
+  if (verdict == Verdict::off_goal) return "at_goal_by_its_estimate";
   if (verdict == Verdict::fault && status.health.fault == Fault::none) return pilot.trouble();
   return verdict == Verdict::fault ? name(status.health.fault) : nav::name(status.decision.why);
 }
+
+double length(sim::Vec2 v) { return std::sqrt(sim::dot(v, v)); }
 
 TickRecord record_of(const sim::Plant& plant, const Pilot& pilot, const Status& status,
                      const hal::RangeReadings& ranges, double t_s) {
@@ -49,6 +52,7 @@ void Trip::decide() {
   ++ticks_;
   verdict_ = verdict_of(*status_, *pilot_);
   if (verdict_) {
+    verdict_ = judged(*verdict_, distance_left(), scenario_->goal.tolerance_m);
     detail_ = detail_of(*verdict_, *status_, *pilot_);
   } else if (static_cast<double>(now_ms + period_ms_) / 1000.0 > scenario_->time_limit_s) {
     verdict_ = Verdict::gave_up;
@@ -71,9 +75,12 @@ void Trip::resume() {
   detail_ = "";
 }
 
-double Trip::distance_left() const {
-  const sim::Vec2 d = scenario_->goal.at - plant_->pose().at;
-  return std::sqrt(sim::dot(d, d));
+double Trip::distance_left() const { return length(scenario_->goal.at - plant_->pose().at); }
+
+std::optional<double> Trip::believed_distance() const {
+  const auto pose = pilot_->sees_inside() ? std::optional(status_->pose) : pilot_->estimate();
+  if (!pose) return std::nullopt;
+  return length(scenario_->goal.at - sim::Vec2{pose->at.x.raw() * 1e-6, pose->at.y.raw() * 1e-6});
 }
 
 TickRecord Trip::record() const { return record_of(*plant_, *pilot_, *status_, ranges_, t_s_); }
@@ -85,6 +92,7 @@ RunResult Trip::result() const {
   result.time_s = verdict_ == Verdict::contact ? plant_->contact_time() : t_s_;
   result.path_m = plant_->path_length();
   result.final_distance_m = distance_left();
+  result.believed_distance_m = believed_distance();
   result.min_clearance_m = std::fmin(plant_->min_clearance(), kEmptyWorldClearance);
   result.ticks = ticks_;
   result.hash = hash_.value();

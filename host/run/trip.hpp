@@ -18,7 +18,8 @@ class Trip {
  public:
   Trip(const Scenario& scenario, sim::Plant& plant, Pilot& pilot);
 
-  /// The pilot's tick. Ends with a verdict of the pilot's, or when no time is left for another tick.
+  /// The pilot's tick. Ends with a verdict of the pilot's, judged by the true place, or when no time is left
+  /// for another tick.
   void decide();
   /// The plant's period after it. Ends with a contact.
   void move();
@@ -32,6 +33,8 @@ class Trip {
   const ground::Patch* patch() const { return pilot_->patch(); }
   const ShownGuide* guide() const { return pilot_->guide(); }
   double distance_left() const;  ///< true, to the goal's middle
+  /// The same from where the robot believes to be; none: that is not known.
+  std::optional<double> believed_distance() const;
   /// Of the last tick, or of the contact.
   TickRecord record() const;
   /// So far; the verdict and its detail count only once there is one.

@@ -16,6 +16,8 @@ std::string one_line(std::string text) {
 }  // namespace
 
 InputError::InputError(std::string_view file, std::size_t line, std::size_t column, std::string_view what)
-    : std::runtime_error(one_line(fmt::format("{}:{}:{}: {}", file, line, column, what))) {}
+    : std::runtime_error(one_line(fmt::format("{}:{}:{}: {}", file, line, column, what))),
+      line_(line),
+      column_(column) {}
 
 }  // namespace whisker

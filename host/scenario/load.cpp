@@ -20,9 +20,6 @@ namespace whisker {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;
-constexpr std::size_t kMostPoints = 4096;
-constexpr double kLongestTime = 1e6;  // s
-constexpr double kFastestMover = 10;  // m/s
 
 void read_places(const TableReader& start, const TableReader& goal, Scenario& s) {
   s.start.at = {start.number("x_m", kCoordinate), start.number("y_m", kCoordinate)};
@@ -48,27 +45,28 @@ void read_obstacles(const TableReader& top, Scenario& s) {
     s.discs.push_back({table.point("center"), table.number("radius_m", kLength)});
   }
   for (const TableReader& table : top.tables("polygon", {"points"})) {
-    s.polygons.push_back(table.points("points", 3, kMostPoints));
+    s.polygons.push_back(table.points("points", kFewestOfPolygon, kMostPoints));
     drop_closing_point(s.polygons.back());
     check_polygon(table, s.polygons.back());
   }
   for (const TableReader& table : top.tables("wall", {"points"})) {
-    s.walls.push_back(table.points("points", 2, kMostPoints));
+    s.walls.push_back(table.points("points", kFewestOfLine, kMostPoints));
   }
   for (const TableReader& table : top.tables("mover", {"center", "radius_m", "path", "speed_mps"})) {
     s.movers.push_back({table.point("center"), table.number("radius_m", kLength),
-                        table.points("path", 2, kMostPoints), table.number("speed_mps", {0, kFastestMover})});
+                        table.points("path", kFewestOfLine, kMostPoints),
+                        table.number("speed_mps", kMoverSpeed)});
     check_mover(table, s.movers.back());
   }
 }
 
 Noise read_noise(const TableReader& table) {
   Noise n;
-  n.range_sigma_m = table.number_or("range_sigma_m", {0, 10}, 0);
+  n.range_sigma_m = table.number_or("range_sigma_m", kRangeSigma, 0);
   n.range_dropout = table.number_or("range_dropout", kProbability, 0);
   n.range_false_clear = table.number_or("range_false_clear", kProbability, 0);
-  n.wheel_scale_sigma = table.number_or("wheel_scale_sigma", {0, 1}, 0);
-  n.heading_drift_deg_per_sqrt_m = table.number_or("heading_drift_deg_per_sqrt_m", {0, 360}, 0);
+  n.wheel_scale_sigma = table.number_or("wheel_scale_sigma", kWheelScaleSigma, 0);
+  n.heading_drift_deg_per_sqrt_m = table.number_or("heading_drift_deg_per_sqrt_m", kHeadingDrift, 0);
   return n;
 }
 
@@ -102,7 +100,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   if (top.has("seed")) {
     s.seed = static_cast<std::uint64_t>(top.integer("seed", 0, std::numeric_limits<std::int64_t>::max()));
   }
-  s.time_limit_s = top.number_or("time_limit_s", {0, kLongestTime, true}, s.time_limit_s);
+  s.time_limit_s = top.number_or("time_limit_s", kTimeLimit, s.time_limit_s);
   read_places(start, goal, s);
   read_obstacles(top, s);
   if (top.has("noise")) {
@@ -110,7 +108,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
                                              "wheel_scale_sigma", "heading_drift_deg_per_sqrt_m"}));
   }
   if (top.has("robot")) {
-    const TableReader robot = top.table("robot", robot_keys());
+    const RobotTables robot{top.table("robot", robot_keys())};
     read_robot(robot, s.robot);
     check_robot(robot, s.robot);
   }
@@ -125,18 +123,16 @@ void apply_robot_file(Params& params, const std::string& file) {
   std::vector<std::string_view> known = robot_keys();
   known.emplace_back("robot");
   const TableReader top(file, root, "", known);
-  Params changed = params;
-  read_robot(top, changed);
-  if (top.has("robot")) {
-    const TableReader nested = top.table("robot", robot_keys());
-    for (const std::string_view key : robot_keys()) {
-      if (top.has(key) && nested.has(key)) {
-        nested.fail_at(key, fmt::format("'{}' is set both at the top level and in [robot]", key));
-      }
+  RobotTables tables{top};
+  if (top.has("robot")) tables.push_back(top.table("robot", robot_keys()));
+  for (const std::string_view key : robot_keys()) {
+    if (tables.size() > 1 && top.has(key) && tables.back().has(key)) {
+      tables.back().fail_at(key, fmt::format("'{}' is set both at the top level and in [robot]", key));
     }
-    read_robot(nested, changed);
   }
-  check_robot(top, changed);
+  Params changed = params;
+  read_robot(tables, changed);
+  check_robot(tables, changed);
   params = changed;
 }
 

@@ -106,27 +106,34 @@ const char* relation(ParamFault fault) {
       return "thesis_danger_range_m must be greater than body_radius_m + body_margin_m";
     case ParamFault::steps_reversed: return "thesis_small_step_m must not be greater than thesis_base_step_m";
     case ParamFault::stop_longer_than_range:
-      return "the way to stop from wheel_speed_max_mps (braking, motor_lag_s and control_period_s) must not "
-             "be longer than range_max_m / 4";
+      return "the way to stop from wheel_speed_max_mps (braking at wheel_acceleration_max_mps2, motor_lag_s "
+             "and the longest gap between two ticks: max_tick_gap_s, or at 0 what control_period_s makes it) "
+             "must "
+             "not be longer than range_max_m / 4";
     case ParamFault::stale_before_next_reading:
       return "stale_after_s must be greater than 1 / range_rate_hz + range_latency_s";
     case ParamFault::lost_before_stale: return "lost_after_s must not be less than stale_after_s";
     case ParamFault::tolerance_below_encoder:
-      return "drive_tolerance_m, and the rim's way over turn_tolerance_deg, must not be less than "
-             "1 / encoder_counts_per_m";
-    case ParamFault::gap_below_period: return "max_tick_gap_s must be at least 2 control_period_s";
+      return "drive_tolerance_m, and the rim's way over turn_tolerance_deg (at wheel_track_m / 2), must not "
+             "be less "
+             "than 1 / encoder_counts_per_m";
+    case ParamFault::gap_below_period: return "max_tick_gap_s must be at least 2 control_period_s, or 0";
+    case ParamFault::cone_too_wide: return "range_cone_deg must not be greater than 60";
     case ParamFault::stuck_within_cone: return "stuck_turn_deg must be greater than range_cone_deg";
     case ParamFault::tolerance_above_step:
       return "drive_tolerance_m must be less than thesis_small_step_m, and turn_tolerance_deg less than "
              "thesis_delta_deg";
     case ParamFault::tolerance_below_wire:
-      return "the rim's way over turn_tolerance_deg must not be less than 0.0001 m/s x motion_settle_s";
+      return "the rim's way over turn_tolerance_deg (at wheel_track_m / 2) must not be less than 0.0001 m/s "
+             "x "
+             "motion_settle_s";
     case ParamFault::stalled_before_count:
       return "wheels_stalled_after_s must not be less than 16 motor_lag_s + 6 control_period_s + 2 "
              "motion_settle_s + twice the time to accelerate over 1 / encoder_counts_per_m and to turn by as "
              "much at full turn rate";
     case ParamFault::step_beyond_range:
-      return "range_max_m must not be less than 2 thesis_base_step_m + body_radius_m + body_margin_m";
+      return "range_clear_m and range_max_m must not be less than 2 thesis_base_step_m + body_radius_m + "
+             "body_margin_m";
     case ParamFault::cone_too_narrow:
       return "the beams must be able to prove the ground near the body: range_offset_m + 0.72 cell / "
              "sin(range_cone_deg / 2) + cell <= 7/4 body_radius_m, with skirt_cell_m, or at 0 a suitable "

@@ -5,13 +5,18 @@
 #include <cmath>
 
 #include "host/scenario/error.hpp"
+#include "host/scenario/nesting.hpp"
 #include "host/scenario/text.hpp"
 
 namespace whisker {
 namespace {
 
+InputError error_in(const std::string& file, toml::source_position at, std::string_view what) {
+  return {file, at.line == 0 ? 1 : at.line, at.column == 0 ? 1 : at.column, what};
+}
+
 [[noreturn]] void fail_in(const std::string& file, toml::source_position at, std::string_view what) {
-  throw InputError(file, at.line == 0 ? 1 : at.line, at.column == 0 ? 1 : at.column, what);
+  throw error_in(file, at, what);
 }
 
 bool before(toml::source_position a, toml::source_position b) {
@@ -42,6 +47,7 @@ std::string describe(Limits limits) {
 }  // namespace
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
+  check_nesting(text, file);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
@@ -69,7 +75,17 @@ void TableReader::fail(const toml::node& node, std::string_view what) const {
   fail_in(file_, node.source().begin, what);
 }
 
-void TableReader::fail(std::string_view what) const { fail(table_, what); }
+InputError TableReader::error(std::string_view what) const {
+  return error_in(file_, table_.source().begin, what);
+}
+
+InputError TableReader::error_at(std::string_view key, std::string_view what) const {
+  return error_in(file_, require(key).source().begin, what);
+}
+
+std::size_t TableReader::line_of(std::string_view key) const { return require(key).source().begin.line; }
+
+void TableReader::fail(std::string_view what) const { throw error(what); }
 
 void TableReader::fail_at(std::string_view key, std::string_view what) const { fail(require(key), what); }
 

@@ -8,21 +8,11 @@
 
 #include <toml++/toml.h>
 
+#include "host/scenario/error.hpp"
+#include "host/scenario/limits.hpp"
 #include "host/sim/geometry.hpp"
 
 namespace whisker {
-
-/// What a number may be.
-struct Limits {
-  double low;
-  double high;
-  bool low_excluded = false;
-};
-
-constexpr double kFarthest = 1000;  ///< m; no coordinate or length of a scenario exceeds it
-constexpr Limits kCoordinate{-kFarthest, kFarthest};
-constexpr Limits kLength{0, kFarthest, true};
-constexpr Limits kProbability{0, 1};
 
 /// Reads and checks whole files.
 toml::table parse_toml(std::string_view text, const std::string& file);
@@ -52,7 +42,12 @@ class TableReader {
   /// One reader for each [[key]]; none if the key is missing.
   std::vector<TableReader> tables(std::string_view key, const std::vector<std::string_view>& known) const;
 
-  /// Throws at the table's, or at the key's value's, position.
+  /// An error at the table's, or at the key's value's, position.
+  InputError error(std::string_view what) const;
+  InputError error_at(std::string_view key, std::string_view what) const;
+  /// The line of the key's value.
+  std::size_t line_of(std::string_view key) const;
+  /// Throws that error.
   [[noreturn]] void fail(std::string_view what) const;
   [[noreturn]] void fail_at(std::string_view key, std::string_view what) const;
 

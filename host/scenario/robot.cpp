@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "host/scenario/param_list.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/text.hpp"
+#include "host/scenario/violations.hpp"
 
 namespace whisker {
 namespace {
@@ -22,6 +25,7 @@ Unit<Tag> from_raw(Unit<Tag>, std::int64_t raw) {
 
 struct Setter {
   const TableReader& table;
+  std::vector<InputError>& errors;
 
   template <class T>
   void number(const char* key, T& x, T low, T high) {
@@ -29,44 +33,84 @@ struct Setter {
     const ParamUnit unit = unit_of(x);
     // The range is checked after rounding, so that a limit that is no whole raw unit
     // (170 degrees) is inside its own range.
-    const double si = table.number(key, {-kAnyNumber, kAnyNumber});
-    const std::int64_t raw = to_raw(std::clamp(si, -kMostSi, kMostSi), unit);
-    if (raw < std::int64_t{low.raw()} || raw > std::int64_t{high.raw()}) {
-      table.fail_at(key, fmt::format("'{}' must be from {} to {} {}, but is {}", key,
-                                     si_text(low.raw(), unit), si_text(high.raw(), unit), unit.symbol, si));
-    }
-    x = from_raw(x, raw);
+    tried([&] {
+      const double si = table.number(key, {-kAnyNumber, kAnyNumber});
+      const std::int64_t raw = to_raw(std::clamp(si, -kMostSi, kMostSi), unit);
+      if (raw < std::int64_t{low.raw()} || raw > std::int64_t{high.raw()}) {
+        table.fail_at(key, fmt::format("'{}' must be from {} to {} {}, but is {}", key,
+                                       si_text(low.raw(), unit), si_text(high.raw(), unit), unit.symbol, si));
+      }
+      x = from_raw(x, raw);
+    });
   }
 
   void count(const char* key, std::int32_t& x, std::int32_t low, std::int32_t high) {
-    if (table.has(key)) x = static_cast<std::int32_t>(table.integer(key, low, high));
+    if (table.has(key)) tried([&] { x = static_cast<std::int32_t>(table.integer(key, low, high)); });
   }
 
   template <class E>
   void choice(const char* key, E& x, const char* const* names, int count) {
     if (!table.has(key)) return;
-    const std::string word = table.text(key);
-    for (int i = 0; i < count; ++i) {
-      if (word == names[i]) {
-        x = static_cast<E>(i);
-        return;
+    tried([&] {
+      const std::string word = table.text(key);
+      const auto* const named = std::find(names, names + count, word);
+      if (named == names + count) {
+        const std::vector<std::string_view> words(names, names + count);
+        table.fail_at(key, fmt::format("'{}' must be {}, but is '{}'", key, join_or(words), word));
       }
+      x = static_cast<E>(named - names);
+    });
+  }
+
+  template <class F>
+  void tried(const F& set) {
+    try {
+      set();
+    } catch (const InputError& e) {
+      errors.push_back(e);
     }
-    const std::vector<std::string_view> words(names, names + count);
-    table.fail_at(key, fmt::format("'{}' must be {}, but is '{}'", key, join_or(words), word));
   }
 };
 
-}  // namespace
-
-void read_robot(const TableReader& table, Params& params) {
-  Setter setter{table};
-  for_each_param(params, setter);
+const TableReader* table_with(const RobotTables& tables, const char* key) {
+  const auto found = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.has(key); });
+  return found == tables.end() ? nullptr : &*found;
 }
 
-void check_robot(const TableReader& table, const Params& params) {
-  const ParamFault fault = check(params);
-  if (fault != ParamFault::none) table.fail(relation(fault));
+InputError error_of(const RobotTables& tables, const std::vector<ParamEntry>& list, const Violation& v) {
+  std::string values, mends;
+  const TableReader* where = nullptr;
+  const char* at = nullptr;
+  for (const std::size_t place : v.keys) {
+    const ParamEntry& e = list[place];
+    const TableReader* const table = table_with(tables, e.key);
+    if (where == nullptr && table != nullptr) where = table, at = e.key;
+    values +=
+        fmt::format("{}{} = {} ({})", values.empty() ? "" : ", ", e.key, e.text(),
+                    table == nullptr ? "not in this file" : fmt::format("line {}", table->line_of(e.key)));
+  }
+  for (const std::string& fit : v.fits) mends += (mends.empty() ? "" : " or ") + fit;
+  const std::string what =
+      fmt::format("{}: {}{}", values, relation(v.fault), mends.empty() ? "" : "; it would fit with " + mends);
+  return where == nullptr ? tables.front().error(what) : where->error_at(at, what);
+}
+
+}  // namespace
+
+void read_robot(const RobotTables& tables, Params& params) {
+  std::vector<InputError> errors;
+  for (const TableReader& table : tables) {
+    Setter setter{table, errors};
+    for_each_param(params, setter);
+  }
+  if (!errors.empty()) throw InputErrors(std::move(errors));
+}
+
+void check_robot(const RobotTables& tables, const Params& params) {
+  const std::vector<ParamEntry> list = param_list(params);
+  std::vector<InputError> errors;
+  for (const Violation& v : violations(params)) errors.push_back(error_of(tables, list, v));
+  if (!errors.empty()) throw InputErrors(std::move(errors));
 }
 
 }  // namespace whisker

@@ -21,6 +21,11 @@ bool in_box(Vec2 p, const Segment& s) {
          p.y <= std::max(s.a.y, s.b.y);
 }
 
+bool pass(const Segment& a, const Segment& b) {
+  return orientation(b.a, b.b, a.a) * orientation(b.a, b.b, a.b) < 0 &&
+         orientation(a.a, a.b, b.a) * orientation(a.a, a.b, b.b) < 0;
+}
+
 bool folds_back(const Segment& first, const Segment& second) {
   const Vec2 u = first.b - first.a;
   const Vec2 v = second.b - second.a;
@@ -80,12 +85,13 @@ bool inside(Vec2 p, const std::vector<Vec2>& polygon) {
   return odd;
 }
 
-std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const std::vector<Vec2>& polygon) {
+using EdgePair = std::optional<std::pair<std::size_t, std::size_t>>;
+
+namespace {
+
+/// The first two edges that are no neighbours and of which this is true.
+EdgePair two_edges(const std::vector<Vec2>& polygon, bool (*are)(const Segment&, const Segment&)) {
   const std::size_t n = polygon.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t next = i + 1 == n ? 0 : i + 1;
-    if (folds_back(edge(polygon, i), edge(polygon, next))) return std::minmax(i, next);
-  }
   // Only edges whose spans along x overlap are compared: a long outline stays fast.
   const auto low = [&](std::size_t i) { return std::min(edge(polygon, i).a.x, edge(polygon, i).b.x); };
   const auto high = [&](std::size_t i) { return std::max(edge(polygon, i).a.x, edge(polygon, i).b.x); };
@@ -96,10 +102,23 @@ std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const std::vec
     for (std::size_t m = k + 1; m < n && low(order[m]) <= high(order[k]); ++m) {
       const auto [i, j] = std::minmax(order[k], order[m]);
       const bool neighbours = j - i == 1 || j - i == n - 1;
-      if (!neighbours && intersect(edge(polygon, i), edge(polygon, j))) return std::pair{i, j};
+      if (!neighbours && are(edge(polygon, i), edge(polygon, j))) return std::pair{i, j};
     }
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+EdgePair passing_edges(const std::vector<Vec2>& polygon) { return two_edges(polygon, pass); }
+
+EdgePair crossing_edges(const std::vector<Vec2>& polygon) {
+  const std::size_t n = polygon.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = i + 1 == n ? 0 : i + 1;
+    if (folds_back(edge(polygon, i), edge(polygon, next))) return std::minmax(i, next);
+  }
+  return two_edges(polygon, intersect);
 }
 
 }  // namespace whisker

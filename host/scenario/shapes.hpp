@@ -24,6 +24,8 @@ sim::Segment edge(const std::vector<sim::Vec2>& polygon, std::size_t i);
 double signed_area(const std::vector<sim::Vec2>& polygon);
 /// Even-odd rule; a point of the outline may count as either.
 bool inside(sim::Vec2 p, const std::vector<sim::Vec2>& polygon);
+/// Two edges that pass through each other, each with an end on either side; the lower index first.
+std::optional<std::pair<std::size_t, std::size_t>> passing_edges(const std::vector<sim::Vec2>& polygon);
 /// Two edges that cross, touch or fold back on each other; the lower index first.
 std::optional<std::pair<std::size_t, std::size_t>> crossing_edges(const std::vector<sim::Vec2>& polygon);
 

@@ -15,11 +15,28 @@ namespace {
 // So many ticks at most are copied while the driver may have to wait.
 constexpr std::size_t kWhole = 256;
 
+// So many of those are told at a time: a long run takes no one's memory or time at once.
+constexpr std::size_t kMostParts = 16;
+
 using page::Json;
+using Edges = std::vector<report::EncounterFinder::Found>;
 
 std::string new_name() {
   std::random_device random;
   return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+/// What these were when only so many ticks were over.
+Edges as_of(std::size_t ticks, Edges edges) {
+  const auto later = [ticks](const std::optional<std::size_t>& tick) { return tick && *tick >= ticks; };
+  while (!edges.empty() && edges.back().hit >= ticks) edges.pop_back();
+  for (auto& edge : edges) {
+    if (later(edge.turned)) edge.turned.reset();
+    if (!later(edge.left)) continue;
+    edge.left.reset();
+    edge.end = report::Encounter::End::none;
+  }
+  return edges;
 }
 
 }  // namespace
@@ -77,7 +94,7 @@ bool Feed::over(const Place& place) const {
 std::optional<std::string> Feed::news(Place& place) const {
   Json json;
   std::string setting, result;
-  std::vector<report::EncounterFinder::Found> edges;
+  Edges edges;
   std::vector<std::shared_ptr<const page::Ticks>> parts;
   page::Ticks last;
   std::size_t from = 0;
@@ -89,13 +106,17 @@ std::optional<std::string> Feed::news(Place& place) const {
       place.next = 0;
     }
     from = place.next;
-    parts.assign(whole_.begin() + static_cast<std::ptrdiff_t>(std::min(from / kWhole, whole_.size())),
-                 whole_.end());
-    last = last_->ticks();
-    edges = edges_.found();
-    result = result_;
-    json = {{"run", run_}, {"from", from}, {"says", words_}, {"ended", closed_}};
-    place = {run_, count_, notes_};
+    const std::size_t part = std::min(from / kWhole, whole_.size());
+    const bool all = whole_.size() - part <= kMostParts;
+    const std::size_t end = all ? whole_.size() : part + kMostParts;
+    parts.assign(whole_.begin() + static_cast<std::ptrdiff_t>(part),
+                 whole_.begin() + static_cast<std::ptrdiff_t>(end));
+    if (all) last = last_->ticks();
+    const std::size_t next = all ? count_ : end * kWhole;
+    edges = as_of(next, edges_.found());
+    if (all) result = result_;
+    json = {{"run", run_}, {"from", from}, {"says", words_}, {"ended", all && closed_}};
+    place = {run_, next, notes_};
   }
   page::Ticks ticks;
   std::size_t first = from / kWhole * kWhole;

@@ -37,7 +37,7 @@ class Feed {
   void close();
 
   /// What has come since this place, as one JSON object, and moves the place behind it; none if nothing has.
-  /// docs/replay.md has the format.
+  /// Of more than some thousand ticks the next news has the rest. docs/replay.md has the format.
   std::optional<std::string> news(Place& place) const;
   /// All is told, and nothing more will come.
   bool over(const Place& place) const;

@@ -1,26 +1,27 @@
 #include "host/view/server.hpp"
 
-#include <httplib.h>
-
+#include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <charconv>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include <fmt/core.h>
+#include <poll.h>
+
+#include "host/view/client.hpp"
+#include "host/view/names.hpp"
 
 namespace whisker::view {
 namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPace{50};     // between two events
-constexpr milliseconds kQuiet{2000};  // a word after so long, so that one who is gone is noticed
-constexpr milliseconds kStart{5000};
-constexpr int kSpareThreads = 8;  // for the page
-
-std::string id_of(const Place& place) { return fmt::format("{}/{}", place.run, place.next); }
+constexpr std::size_t kMostClients = 128;
+constexpr milliseconds kTurn{20};     // between two looks at the feed
+constexpr milliseconds kWork{50};     // at most for news before all are looked after again
+constexpr milliseconds kNoRoom{100};  // before the next try to accept one
 
 /// What is no id is the beginning.
 Place place_of(const std::string& id) {
@@ -34,118 +35,175 @@ Place place_of(const std::string& id) {
   return place;
 }
 
-/// Two servers on one port would share its visitors; httplib would allow that.
-void own_port(int socket) {
-  const int on = 1;
-  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+const char* name_of(int status) {
+  switch (status) {
+    case 200: return "OK";
+    case 400: return "Bad Request";
+    case 403: return "Forbidden";
+    case 404: return "Not Found";
+    case 405: return "Method Not Allowed";
+    case 421: return "Misdirected Request";
+    case 431: return "Request Header Fields Too Large";
+    case 503: return "Service Unavailable";
+    case 505: return "HTTP Version Not Supported";
+    default: return "Error";
+  }
+}
+
+/// With its empty line. Nobody keeps what is answered, and no page of another site may use it.
+std::string head_of(int status, const char* type, const std::string& more = "") {
+  return fmt::format(
+      "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n"
+      "Cross-Origin-Resource-Policy: same-origin\r\nX-Frame-Options: DENY\r\nConnection: close\r\n{}\r\n",
+      status, name_of(status), type, more);
+}
+
+Bytes whole(int status, const char* type, const std::string& body, const std::string& more = "") {
+  const std::string length = fmt::format("Content-Length: {}\r\n", body.size());
+  return std::make_shared<std::string>(head_of(status, type, length + more) + body);
 }
 
 }  // namespace
 
 struct Server::Inside {
   const Feed& feed;
-  const std::string page;
-  httplib::Server http{};
-  int port = 0;
+  Socket listening;
+  const int port;
+  const Names names;
+  const Bytes page;
+  const Bytes stream = std::make_shared<std::string>(head_of(200, "text/event-stream"));
+  Bell bell{};
   std::thread thread{};
   std::atomic<int> watchers{0};
   std::atomic<bool> stopping{false};
+  std::vector<Client> clients{};
+  Clock::time_point accepts{};
+  std::size_t first{0};  // of those who are told
 
-  Inside(const Feed& told, std::string text) : feed(told), page(std::move(text)) {}
+  Inside(const std::string& address, int wanted, const Feed& told, const std::string& text)
+      : feed(told),
+        listening(listen_on(address, wanted)),
+        port(port_of(listening)),
+        names(address, port),
+        page(whole(200, "text/html; charset=utf-8", text)) {}
 
-  /// One who watches.
-  class Stream {
-   public:
-    Stream(Inside& server, Place place) : server_(server), place_(std::move(place)) {}
-    ~Stream() { --server_.watchers; }
-    Stream(const Stream&) = delete;
-    Stream& operator=(const Stream&) = delete;
-
-    /// False: this one is gone.
-    bool step(httplib::DataSink& sink) {
-      if (server_.stopping) return false;
-      if (server_.feed.over(place_)) {
-        sink.done();
-        return true;
-      }
-      const auto news = server_.feed.news(place_);
-      if (news) return write(sink, fmt::format("id: {}\ndata: {}\n\n", id_of(place_), *news)) && pause();
-      quiet_ += kPace;
-      return (quiet_ < kQuiet || write(sink, ":\n\n")) && pause();
-    }
-
-   private:
-    bool write(httplib::DataSink& sink, const std::string& text) {
-      quiet_ = {};
-      return sink.write(text.data(), text.size());
-    }
-    bool pause() {
-      std::this_thread::sleep_for(kPace);
-      return true;
-    }
-
-    Inside& server_;
-    Place place_;
-    milliseconds quiet_{0};
-  };
-
-  void watch(const httplib::Request& request, httplib::Response& response) {
-    response.set_header("Cache-Control", "no-store");
-    if (++watchers > kMostWatchers) {
-      --watchers;
-      response.status = 503;
-      response.set_content("too many watch this run already\n", "text/plain");
-      return;
-    }
-    const auto stream = std::make_shared<Stream>(*this, place_of(request.get_header_value("Last-Event-ID")));
-    response.set_chunked_content_provider(
-        "text/event-stream", [stream](std::size_t, httplib::DataSink& sink) { return stream->step(sink); });
-  }
+  void run();
+  void wait(Clock::time_point now);
+  void accept(Clock::time_point now);
+  void make_room();
+  void serve(Client& client, const Asked& asked, Clock::time_point now);
+  void tell();
+  void count();
 };
 
-Server::Server(const std::string& address, int port, const Feed& feed, std::string page)
-    : inside_(std::make_unique<Inside>(feed, std::move(page))) {
-  Inside& in = *inside_;
-  in.http.set_socket_options(own_port);
-  in.http.set_tcp_nodelay(true);
-  in.http.set_keep_alive_max_count(1);
-  in.http.set_keep_alive_timeout(2);
-  in.http.set_read_timeout(std::chrono::seconds(2));
-  in.http.set_write_timeout(std::chrono::seconds(2));
-  in.http.set_payload_max_length(0);
-  in.http.new_task_queue = [] { return new httplib::ThreadPool(kMostWatchers + kSpareThreads); };
-  in.http.Get("/", [&in](const httplib::Request&, httplib::Response& response) {
-    response.set_header("Cache-Control", "no-store");
-    response.set_content(in.page, "text/html; charset=utf-8");
-  });
-  in.http.Get(
-      std::string("/") + kEvents,
-      [&in](const httplib::Request& request, httplib::Response& response) { in.watch(request, response); });
-  errno = 0;
-  in.port = port == 0 ? in.http.bind_to_any_port(address) : in.http.bind_to_port(address, port) ? port : -1;
-  if (in.port < 0) {
-    throw ServerError(fmt::format("cannot serve on {}, port {}: {}", address, port,
-                                  errno != 0 ? std::generic_category().message(errno) : "no such address"));
+void Server::Inside::run() {
+  while (!stopping) {
+    wait(Clock::now());
+    const auto now = Clock::now();
+    for (Client& client : clients) {
+      if (const auto asked = client.move(now)) serve(client, *asked, now);
+    }
+    accept(now);
+    tell();
+    clients.erase(std::remove_if(clients.begin(), clients.end(), [](const Client& c) { return c.gone(); }),
+                  clients.end());
+    count();
+  }
+  clients.clear();
+}
+
+void Server::Inside::wait(Clock::time_point now) {
+  std::vector<pollfd> all{{bell.descriptor(), POLLIN, 0},
+                          {now >= accepts ? listening.descriptor() : -1, POLLIN, 0}};
+  for (const Client& client : clients) all.push_back({client.descriptor(), client.waits_for(), 0});
+  const bool idle = clients.empty() && now >= accepts;
+  poll(all.data(), all.size(), idle ? -1 : static_cast<int>(kTurn.count()));
+}
+
+void Server::Inside::accept(Clock::time_point now) {
+  if (now < accepts) return;
+  for (;;) {
+    Socket socket;
+    const Accepted came = accept_one(listening, socket);
+    if (came == Accepted::no_descriptor) {
+      accepts = now + kNoRoom;
+      make_room();
+    }
+    if (came != Accepted::one) return;
+    if (clients.size() >= kMostClients) make_room();
+    clients.emplace_back(std::move(socket), now);
   }
 }
+
+/// The one that has been here longest without watching has had its time.
+void Server::Inside::make_room() {
+  const auto oldest =
+      std::find_if(clients.begin(), clients.end(), [](const Client& c) { return !c.watches(); });
+  if (oldest != clients.end()) clients.erase(oldest);
+}
+
+void Server::Inside::serve(Client& client, const Asked& asked, Clock::time_point now) {
+  const auto say = [&](int status, const std::string& words, const std::string& more = "") {
+    client.answer(whole(status, "text/plain; charset=utf-8", words + "\n", more), now);
+  };
+  const Request& request = asked.request;
+  if (asked.status != 200) {
+    say(asked.status, asked.fault, asked.status == 405 ? "Allow: GET\r\n" : "");
+  } else if (!names.knows(request.host)) {
+    say(421, fmt::format("this server has another name: open {}", names.url()));
+  } else if (request.origin && !Names::same(*request.origin, request.host)) {
+    say(403, "only this server's own page may ask it");
+  } else if (request.path == "/") {
+    client.answer(page, now);
+  } else if (request.path != std::string("/") + kEvents) {
+    say(404, "there is nothing here but the page at /");
+  } else if (watchers >= kMostWatchers) {
+    say(503, fmt::format("{} watch this run already, and there is no room for more", kMostWatchers),
+        "Retry-After: 2\r\n");
+  } else {
+    client.watch(stream, place_of(request.last_event_id), now);
+    ++watchers;
+  }
+}
+
+/// Whoever is not reached this time is the first next time.
+void Server::Inside::tell() {
+  const auto until = Clock::now() + kWork;
+  for (std::size_t i = 0; i < clients.size(); ++i) {
+    Client& client = clients[(first + i) % clients.size()];
+    const auto now = Clock::now();
+    if (!client.listens(now) || !client.tell(feed, now) || Clock::now() < until) continue;
+    first += i + 1;
+    return;
+  }
+}
+
+void Server::Inside::count() {
+  watchers = static_cast<int>(
+      std::count_if(clients.begin(), clients.end(), [](const Client& c) { return c.watches(); }));
+}
+
+Server::Server(const std::string& address, int port, const Feed& feed, const std::string& page)
+    : inside_(std::make_unique<Inside>(address, port, feed, page)) {}
 
 Server::~Server() {
   if (!inside_->thread.joinable()) return;
   inside_->stopping = true;
-  inside_->http.stop();
+  inside_->bell.ring();
   inside_->thread.join();
 }
 
 int Server::port() const { return inside_->port; }
 
+const std::string& Server::url() const { return inside_->names.url(); }
+
 void Server::start() {
-  Inside& in = *inside_;
-  in.thread = std::thread([&in] { in.http.listen_after_bind(); });
-  // Before it listens, a stop() would be forgotten.
-  for (milliseconds waited{0}; !in.http.is_running(); waited += milliseconds(1)) {
-    if (waited > kStart) throw ServerError("the server does not start");
-    std::this_thread::sleep_for(milliseconds(1));
-  }
+  inside_->thread = std::thread([this] { inside_->run(); });
+}
+
+void Server::abandon() {
+  inside_->listening.close();
+  inside_->bell.close();
 }
 
 void Server::wait_for_watchers(milliseconds most) const {

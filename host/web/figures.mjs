@@ -1,10 +1,11 @@
 // Writes the pictures of docs/replay.md and docs/playground.md. usage: npm run figures
 // The playground's page must have been built: scripts/playground --build-only
 import {execFileSync} from 'node:child_process';
-import {statSync} from 'node:fs';
+import {statSync, writeFileSync} from 'node:fs';
 import {fileURLToPath} from 'node:url';
 import {drawn, launch, openPage, PHONE} from '../../tests/web/browser.mjs';
 import {Folder} from '../../tests/web/scenarios.mjs';
+import {RECORD, sourcesHash} from './sources_hash.mjs';
 
 const PLAYGROUND = new URL('../../out/playground/index.html', import.meta.url).href;
 const FIGURES = [
@@ -60,6 +61,7 @@ try {
     execFileSync('pngquant', ['--force', '--output', path, '256', path]);
     console.log(`${path}: ${statSync(path).size} bytes`);
   }
+  writeFileSync(RECORD, `${sourcesHash()}\n`);
 } finally {
   await browser.close();
   folder.remove();

@@ -67,12 +67,21 @@ TEST_F(RangersTest, SequenceGoesUpByOneWithEachMeasurement) {
   const std::uint8_t before = reading(1).sequence;
   pass(33 * 20);
   EXPECT_EQ(reading(1).sequence, (before + 20) % 16);
-  EXPECT_LE(reading(1).age_ms, 34);
+  EXPECT_GE(reading(1).age_ms, vl53l0x::kRangingMs);
+  EXPECT_LE(reading(1).age_ms, vl53l0x::kRangingMs + 34);
+}
+
+TEST_F(RangersTest, AgeIsSinceTheMeasurementBegan) {
+  pass(200);
+  // The last one ended at a multiple of 33 ms, and was fetched within the next two polls.
+  const std::uint32_t ended = now - 1 - (now - 1) % 33;
+  EXPECT_GE(reading(0).age_ms, now - 1 - ended + 33 - 2);
+  EXPECT_LE(reading(0).age_ms, now - 1 - ended + 33);
 }
 
 TEST_F(RangersTest, TellNothingInReachFromALostReading) {
   distance[0] = vl53l0x::kOutOfReachMm;
-  status[1] = vl53l0x::kNoTarget;
+  status[1] = vl53l0x::kNoSignal;
   status[2] = 6;
   pass(250);
   EXPECT_EQ(reading(0).status, RangeStatus::clear);
@@ -110,7 +119,7 @@ TEST_F(RangersTest, ASensorThatDiesIsSilentAndComesBack) {
   pass(300);
   EXPECT_TRUE(rangers.measuring(2));
   EXPECT_EQ(reading(2).mm, 500);
-  EXPECT_LE(reading(2).age_ms, 34);
+  EXPECT_LE(reading(2).age_ms, vl53l0x::kRangingMs + 34);
 }
 
 TEST_F(RangersTest, ASensorThatStopsMeasuringIsReset) {

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import json
 import pathlib
 import sys
 import tempfile
@@ -13,6 +14,12 @@ import cross
 import headers_alone
 import include_direction
 import lengths
+import node_versions
+import old_cmake
+import readme_compiles
+import readme_layout
+import vendor_macros
+import version
 
 CXX, ARM_CXX, ARM_NM = (sys.argv[1:] + [None] * 3)[:3]
 
@@ -116,6 +123,50 @@ class Lengths(unittest.TestCase):
         self.assertEqual(self.status(a=400, b=101, c=1), 1)
 
 
+class ReadmeLayout(unittest.TestCase):
+    def status(self, readme):
+        files = {f"{part}/a.cpp": "" for part in readme_layout.PARTS}
+        return run(readme_layout.main, {"README.md": readme, **files, "host/run/b.cpp": ""})
+
+    def test_wants_every_folder_and_no_other(self):
+        rows = "| `firmware/` | |\n| `hal/` | |\n| `host/` | {} |\n"
+        self.assertEqual(self.status(rows.format("`run/`"))[0], 0)
+        self.assertIn("host/run/ is not named", self.status(rows.format(""))[1])
+        self.assertIn("host/gone/ is named and not there", self.status(rows.format("`run/`, `gone/`"))[1])
+
+
+class Version(unittest.TestCase):
+    HEADER = "".join(f"#define WHISKER_VERSION_{part} {n}\n" for part, n in zip(version.PARTS, (1, 2, 3)))
+
+    def problems(self, *headings, **others):
+        return list(version.problems(self.HEADER, "\n".join(f"## {h}" for h in headings) + "\n", others))
+
+    def test_wants_the_newest_release_to_be_the_headers(self):
+        new, old = "[1.2.3] - 2026-01-02", "[1.2.2] - 2026-01-01"
+        self.assertEqual(self.problems("[Unreleased]", new, old, CMake="1.2.3"), [])
+        self.assertEqual(len(self.problems("[Unreleased]", old)), 1)
+        self.assertEqual(len(self.problems("[Unreleased]", new, old, "[1.2.10] - 2026-01-01")), 1)
+        self.assertEqual(len(self.problems(new)), 1)
+        self.assertEqual(len(self.problems("[Unreleased]", new, CMake="1.2.4")), 1)
+
+
+class OldCMake(unittest.TestCase):
+    def test_refuses_a_command_of_a_newer_one(self):
+        called = {"cmake_path": "a:1", "add_library": "b:2", "our_own": "c:3"}
+        self.assertEqual(list(old_cmake.too_new("cmake", called, (3, 18))), ["a:1: cmake_path() needs CMake 3.20"])
+        self.assertEqual(list(old_cmake.too_new("cmake", called, (3, 20))), [])
+
+
+class VendorMacros(unittest.TestCase):
+    def status(self, line):
+        files = {"firmware/a.hpp": f"#pragma once\n{line}\n", "firmware/a.cpp": ""}
+        return run(vendor_macros.main, files, CXX)[0]
+
+    def test_refuses_a_name_that_is_a_macro(self):
+        self.assertEqual(self.status("constexpr int (min)(int a, int b) { return a < b ? a : b; }"), 0)
+        self.assertEqual(self.status("constexpr int min(int a, int b) { return a < b ? a : b; }"), 1)
+
+
 class AbsolutePaths(unittest.TestCase):
     def test_refuses_a_home(self):
         for text in ('open("/home/me/world.toml")', "#include </opt/x/y.h>", "set(X '/usr/lib/x')"):
@@ -125,6 +176,64 @@ class AbsolutePaths(unittest.TestCase):
     def test_accepts_what_is_everywhere(self):
         for text in ('"/dev/ttyS0"', 'ROOT "/tests/a/b.txt"', '"/"', '"host/sim/a.hpp"', '"http://example.org/a/b"', '// "a" / b / "c"'):
             self.assertEqual(absolute_paths.errors(text), [], text)
+
+
+class ReadmeCompiles(unittest.TestCase):
+    def status(self, line):
+        files = {
+            "README.md": f"<!-- compile:begin -->\n```\n{line}\n```\n<!-- compile:end -->\n",
+            "docs/example/main.cpp": '#include "firmware/a/a.hpp"\n',
+            "firmware/a.cpp": "int a;\n",
+            "firmware/a/b.cpp": "int b;\n",
+            "firmware/a/a.hpp": "",
+        }
+        return run(readme_compiles.main, files, CXX)[0]
+
+    def test_accepts_a_line_that_compiles_all(self):
+        self.assertEqual(self.status("g++ -I. -c docs/example/main.cpp firmware/*.cpp firmware/*/*.cpp"), 0)
+
+    def test_refuses_a_line_that_misses_files_or_is_no_line_of_a_shell(self):
+        for line in (
+            "g++ -I. -c docs/example/main.cpp firmware/**/*.cpp",
+            "g++ -c docs/example/main.cpp firmware/*.cpp firmware/*/*.cpp",
+            "g++ -I. -c docs/example/main.cpp $(wildcard firmware/*.cpp firmware/*/*.cpp)",
+            "two\nlines",
+        ):
+            self.assertEqual(self.status(line), 1, line)
+
+
+class NodeVersions(unittest.TestCase):
+    def status(self, **engines):
+        lock = {"packages": {"": {"engines": {"node": ">=18"}}, "node_modules/a": {"version": "1.0.0", "engines": engines}}}
+        return run(node_versions.main, {"web/package-lock.json": json.dumps(lock)})
+
+    def test_accepts_what_debian_can_run(self):
+        self.assertEqual(self.status()[0], 0)
+        self.assertEqual(self.status(node="^18.18.0 || >=20", npm=">=9", vscode="^1.90")[0], 0)
+
+    def test_refuses_what_it_cannot(self):
+        status, output = self.status(node=">=20")
+        self.assertEqual(status, 1)
+        self.assertIn("a 1.0.0 wants node '>=20'; Debian 12 has 18.20.4", output)
+        self.assertEqual(self.status(npm=">=10")[0], 1)
+        self.assertEqual(self.status(node="eighteen")[0], 1)
+        self.assertEqual(run(node_versions.main, {"a.txt": ""})[0], 1)
+        self.assertEqual(run(node_versions.main, {"package-lock.json": '{"dependencies": {}}'})[0], 1)
+
+    def test_ranges(self):
+        node = (18, 20, 4)
+        for wanted in (
+            "", "*", "x", "18", "18.x", "18.20", "v18.20.4", "=18.20.4", ">=18", ">= 18.20.4", ">17", "<=18", "<19", "<18.21",
+            "^18", "^18.18.0", "~18.20.1", "~18", ">=16 <19", "14 || 18 || 20", "16 - 18", "16.0.0 - 18.20.4", "^16||^18", ">18.20.3",
+        ):  # fmt: skip
+            self.assertTrue(node_versions.satisfies(node, wanted), wanted)
+        for wanted in (
+            "19", "20.x", "18.19", "18.20.5", ">=18.20.5", ">18", "<18", "<18.20.4", "<=18.19", "^20", "^18.21.0", "~18.19.0",
+            ">=16 <18", "14 || 16 || 20", "14 - 16", "^20.19.0 || >=22.12.0", "^0.18.0", "<*",
+        ):  # fmt: skip
+            self.assertFalse(node_versions.satisfies(node, wanted), wanted)
+        self.assertTrue(node_versions.satisfies((0, 3, 9), "^0.3.1"))
+        self.assertFalse(node_versions.satisfies((0, 4, 0), "^0.3.1"))
 
 
 class CoreAlone(unittest.TestCase):

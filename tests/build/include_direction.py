@@ -7,7 +7,7 @@ import sys
 from sources import finish, sources
 
 # The stages of firmware/, lowest first: a stage includes itself and those before it.
-STAGES = ("core", "health", "params", "ranges", "ground", "fuzzy", "map", "nav", "motion", "mapper", "robot", "can")
+STAGES = ("version", "core", "health", "params", "ranges", "ground", "fuzzy", "map", "nav", "motion", "mapper", "robot", "can")
 
 # What a stage may include of hal/; a stage that is not named here includes none of it.
 HAL_OF_STAGE = {

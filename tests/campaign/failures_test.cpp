@@ -49,5 +49,18 @@ TEST(Failures, AreListedUpToAPointAndThenCounted) {
   EXPECT_EQ(failure_lines(rows), "");
 }
 
+TEST(Failures, ThoseThatOnlyBelieveToBeThereComeAfterThem) {
+  std::vector<Row> rows{failed(1, "discs"), failed(2, "discs"), failed(3, "discs"), failed(4, "discs")};
+  for (const std::size_t off : {0U, 2U, 3U}) {
+    rows[off].verdict = Verdict::off_goal;
+    rows[off].final_distance_m = 2.856;
+  }
+  EXPECT_EQ(
+      failure_lines(rows, 2),
+      "seed 2 contact (stepping): whisker campaign discs --replay 2 --planner thesis --svg discs-2.svg\n"
+      "seed 1 off_goal (2.86 m off): whisker campaign discs --replay 1 --planner thesis --svg discs-1.svg\n"
+      "and 2 more that are not where they believe to be\n");
+}
+
 }  // namespace
 }  // namespace whisker::campaign

@@ -68,6 +68,24 @@ TEST_F(Merge, AWrongFileIsRefusedWithItsLine) {
   EXPECT_EQ(complaint({folder_.path("")}), folder_.path("") + ":1:1: cannot be read");
 }
 
+// Written by a `whisker campaign` that called a belief `reached`.
+TEST_F(Merge, RowsFromBeforeOffGoalAreJudgedByTheirTruePlace) {
+  const std::string old = std::string(WHISKER_SOURCE_DIR) + "/tests/campaign/old_rows.csv";
+  int reached = 0, off = 0, other = 0;
+  for (const Row& row : merged({old})) {
+    EXPECT_FALSE(row.believed_distance_m);
+    EXPECT_EQ(row.verdict == Verdict::off_goal, row.final_distance_m > 0.1 && row.detail == "at_goal");
+    ++(row.verdict == Verdict::reached ? reached : row.verdict == Verdict::off_goal ? off : other);
+  }
+  EXPECT_EQ(reached, 2);
+  EXPECT_EQ(off, 5);
+  EXPECT_EQ(other, 1);
+  const std::string both = folder_.file("both.csv", text_of(old) + kHead + line(99999, "maze"));
+  EXPECT_EQ(merged({both}).size(), 9U);
+  const std::string mixed = folder_.file("mixed.csv", text_of(old) + line(99999, "maze"));
+  EXPECT_EQ(complaint({mixed}), mixed + ":10:1: the row is not one that campaign writes");
+}
+
 TEST_F(Merge, HeadersAloneHaveNothingToSumUp) {
   const std::string empty = folder_.file("empty.csv", kHead);
   EXPECT_EQ(complaint({empty, empty}), empty + ":1:1: no mission in it");

@@ -46,6 +46,7 @@ TEST(Mission, TheRowTellsWhatTheRunTells) {
     const TickRecord& last = records.back();
     EXPECT_NEAR(row.estimate_error_m, std::hypot(last.x_m - last.est_x_m, last.y_m - last.est_y_m), 6e-7);
     EXPECT_EQ(row.estimate_error_m > 0.01, seed == 2) << "of the wheels alone";
+    EXPECT_NEAR(row.believed_distance_m.value(), *result.believed_distance_m, 6e-7);
     EXPECT_EQ(row.at_goal, result.final_distance_m <= s.goal.tolerance_m);
     const auto shortest = paths::shortest_path(make_world(s), s.start.at, s.goal.at, 0.10);
     ASSERT_TRUE(row.shortest_m && shortest);

@@ -15,7 +15,9 @@ namespace {
 const std::string kLine =
     "7,reached,12.500000,2.000000,3.100000,1,2,3,0.050000,0.010000,0.020000,1,1.600000,1.250000,7.812500,"
     "1250,"
-    "00000000000000ff,at_goal,thesis,,discs --noise";
+    "00000000000000ff,at_goal,thesis,,discs --noise,0.080000,1";
+/// The same before there was off_goal.
+const std::string kOldLine = kLine.substr(0, kLine.find(",0.080000,1"));
 
 std::string complaint(const std::string& line) {
   try {
@@ -46,6 +48,10 @@ TEST(Row, SuccessIsReachedWhereThereIsAWayAndUnreachableWhereThereIsNone) {
     row.world = world;
     row.verdict = Verdict::reached;
     EXPECT_TRUE(succeeded(row)) << world;
+    EXPECT_TRUE(truly_there(row)) << world;
+    row.verdict = Verdict::off_goal;
+    EXPECT_TRUE(succeeded(row)) << world << ": as far as the robot can know";
+    EXPECT_FALSE(truly_there(row)) << world;
     row.verdict = Verdict::unreachable;
     EXPECT_FALSE(succeeded(row)) << world;
   }
@@ -78,6 +84,7 @@ TEST(RowText, EveryRowReadsBackEqual) {
     ASSERT_EQ(back.min_clearance_m, row.min_clearance_m);
     ASSERT_EQ(back.estimate_error_m, row.estimate_error_m);
     ASSERT_EQ(back.at_goal, row.at_goal);
+    ASSERT_EQ(back.believed_distance_m, row.believed_distance_m);
     ASSERT_EQ(back.shortest_m, row.shortest_m);
     ASSERT_EQ(back.looks, row.looks);
     ASSERT_EQ(back.hash, row.hash);
@@ -97,12 +104,30 @@ TEST(RowText, WhatIsWrongIsNamed) {
   EXPECT_EQ(complaint(with("12.500000", "inf")), "column time_s: 'inf' is no such number");
   EXPECT_EQ(complaint(with("2.000000", "-2.000000")), "column path_m: -2 is negative");
   EXPECT_EQ(complaint(with(",1,2,3,", ",1,2.5,3,")), "column flips: '2.5' is no such number");
-  EXPECT_EQ(complaint(kLine + "\r"), "column world: control characters in it");
+  EXPECT_EQ(complaint(kLine + "\r"), "column truly_there: control characters in it");
+  EXPECT_EQ(complaint(kOldLine), "no column believed_distance_m");
   for (const std::string& line :
        {with("1.250000", "1.260000"), with("12.500000", "12.5"), with("discs", "\"discs\""), kLine + ",",
-        with("00ff", "00FF"), with(",1,1.6", ",2,1.6"), with(",1,1.6", ",,1.6")}) {
+        with("00ff", "00FF"), with(",1,1.6", ",2,1.6"), with(",1,1.6", ",,1.6"), with(",1,1.6", ",0,1.6"),
+        with("reached", "off_goal"), with(",0.080000,1", ",0.080000,0")}) {
     EXPECT_EQ(complaint(line), "the row is not one that campaign writes") << line;
   }
+}
+
+TEST(RowText, AnOldRowTellsWhatItsRobotBelievedAndIsJudgedByItsTruePlace) {
+  const Row there = parse_row(kOldLine, RowFormat::believed);
+  EXPECT_EQ(there.verdict, Verdict::reached);
+  EXPECT_FALSE(there.believed_distance_m);
+  std::string line = kOldLine;
+  line.replace(line.find(",1,1.6"), 2, ",0");
+  const Row off = parse_row(line, RowFormat::believed);
+  EXPECT_EQ(off.verdict, Verdict::off_goal);
+  EXPECT_TRUE(succeeded(off));
+  EXPECT_EQ(to_csv(off).find("7,off_goal,"), 0U) << to_csv(off);
+  EXPECT_EQ(to_csv(parse_row(to_csv(off))), to_csv(off));
+  for (std::string wrong :
+       {with("reached", "off_goal").substr(0, kOldLine.size() + 1), kLine, kOldLine + ","})
+    EXPECT_THROW(parse_row(wrong, RowFormat::believed), std::invalid_argument) << wrong;
 }
 
 TEST(RowText, ADamagedRowIsRefusedOrIsAnotherRow) {
@@ -128,8 +153,7 @@ TEST(RowText, ADamagedRowIsRefusedOrIsAnotherRow) {
 }
 
 TEST(RowText, NoPrefixOfARowIsARow) {
-  // The last column is free text: only what cuts into the columns before it can be told.
-  for (std::size_t n = 0; n < kLine.rfind(','); ++n) EXPECT_NE(complaint(kLine.substr(0, n)), "") << n;
+  for (std::size_t n = 0; n < kLine.size(); ++n) EXPECT_NE(complaint(kLine.substr(0, n)), "") << n;
 }
 
 TEST(RowFile, HoldsTheHeaderAndEveryRow) {

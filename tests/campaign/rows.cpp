@@ -27,11 +27,11 @@ double random_amount(worlds::Random& random) {
 }  // namespace
 
 Row random_row(worlds::Random& random) {
-  constexpr Verdict kVerdicts[] = {Verdict::reached, Verdict::unreachable, Verdict::gave_up, Verdict::contact,
-                                   Verdict::fault};
+  constexpr Verdict kVerdicts[] = {Verdict::reached, Verdict::off_goal, Verdict::unreachable,
+                                   Verdict::gave_up, Verdict::contact,  Verdict::fault};
   Row r;
   r.seed = random.bits() >> (1 + random.index(60));
-  r.verdict = kVerdicts[random.index(5)];
+  r.verdict = kVerdicts[random.index(6)];
   r.time_s = random_amount(random);
   r.path_m = random_amount(random);
   r.turned_rad = random_amount(random);
@@ -41,7 +41,8 @@ Row random_row(worlds::Random& random) {
   r.min_clearance_m = rounded(random.uniform(-0.1, 0.1));
   r.final_distance_m = random_amount(random);
   r.estimate_error_m = random_amount(random);
-  r.at_goal = random.chance(0.5);
+  if (random.chance(0.7)) r.believed_distance_m = random_amount(random);
+  r.at_goal = says_reached(r.verdict) ? r.verdict == Verdict::reached : random.chance(0.5);
   if (random.chance(0.7)) r.shortest_m = random_amount(random);
   r.ticks = random.bits() >> random.index(64);
   r.hash = random.bits();

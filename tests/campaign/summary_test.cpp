@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace whisker::campaign {
 namespace {
 
@@ -53,15 +55,34 @@ TEST(Summary, WhatIsUnreachableRightlyOrNotIsToldApart) {
 }
 
 TEST(Summary, BelievingToBeThereIsNotBeingThere) {
-  std::vector<Row> rows{row(1, Verdict::reached, 10, 2), row(2, Verdict::reached, 10, 2),
+  std::vector<Row> rows{row(1, Verdict::off_goal, 10, 2), row(2, Verdict::reached, 10, 2),
                         row(3, Verdict::gave_up, 10, 2), row(4, Verdict::contact, 10, 2)};
   rows[1].at_goal = rows[2].at_goal = true;
+  rows[0].final_distance_m = 2.9;
+  rows[1].final_distance_m = 0.05;
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].estimate_error_m = 0.1 * static_cast<double>(4 - i);
   const Summary s = summarize(rows);
+  EXPECT_EQ(s.success.value, 0.5);
   EXPECT_EQ(s.reached.value, 0.5);
-  EXPECT_EQ(s.at_goal.value, 0.25);
+  EXPECT_EQ(s.truly_there.value, 0.25);
+  EXPECT_EQ(s.off_goal.value, 0.25);
+  EXPECT_EQ(s.final_distance_p50->value, 0.05) << "of the two that say reached";
+  EXPECT_EQ(s.final_distance_p95->value, 2.9);
+  EXPECT_EQ(s.ratio_mean->value, 1) << "of both";
   EXPECT_EQ(s.estimate_error_p50.value, 0.2) << "of all four";
   EXPECT_EQ(s.estimate_error_p95.value, 0.4);
+}
+
+TEST(Summary, LeadsWithWhatIsTrue) {
+  const Summary s = summarize({row(1, Verdict::off_goal, 10, 2), row(2, Verdict::reached, 10, 2)});
+  const std::string words = summary_words(s);
+  EXPECT_EQ(words.find("truly there"), words.find('\n') + 1) << words;
+  const auto json = nlohmann::json::parse(summary_json(s));
+  EXPECT_EQ(json["truly_there"], json["at_goal"]);
+  EXPECT_EQ(json["truly_there"]["value"], 0.5);
+  EXPECT_EQ(json["off_goal"]["value"], 0.5);
+  EXPECT_EQ(json["reached"]["value"], 1.0);
+  EXPECT_EQ(json["success"]["value"], 1.0);
 }
 
 TEST(Summary, AMissionWithoutAKnownWayHasNoRatio) {

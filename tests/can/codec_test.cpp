@@ -129,9 +129,9 @@ TEST(Codec, AFrameOfAnotherIdentifierNeverPassesTheCrc) {
 
 RC_GTEST_PROP(Mission, ComesBackInParts,
               (std::int32_t x, std::int32_t y, std::uint32_t heading, std::int32_t gx)) {
-  RC_PRE(x != INT32_MIN && y != INT32_MIN && gx != INT32_MIN);
-  const Mission in{{{Length::from_raw(x), Length::from_raw(y)}, Angle::from_raw(heading)},
-                   {{Length::from_raw(gx), Length::from_raw(7)}, Length::from_raw(100)}};
+  const auto place = [](std::int32_t um) { return Length::from_raw(um % (kPlaceLimitUm + 1)); };
+  const Mission in{{{place(x), place(y)}, Angle::from_raw(heading)},
+                   {{place(gx), Length::from_raw(7)}, Length::from_raw(100)}};
   MissionParts parts;
   const MissionValues values = values_of(in);
   const MissionOrder order{MissionPart::order, 9, Order::start, digest_of(values)};

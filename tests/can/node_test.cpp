@@ -332,6 +332,41 @@ TEST_F(BaseAlone, BadFramesAreCountedAndNeverObeyed) {
   EXPECT_EQ(base_.command().speeds.left, before);
 }
 
+TEST_F(BaseAlone, EveryMessageOfAControllerIsUnderstoodByItsNameAndNoOther) {
+  start();
+  answers_ = beats_ = false;
+  ParamReply none;
+  for (int k = 0; k < kKinds; ++k) {
+    const auto kind = static_cast<Kind>(k);
+    // Heartbeat and Info are the handshake's; another boot number in them would end it.
+    if (kind == Kind::e_stop || kind == Kind::heartbeat || kind == Kind::info) continue;
+    const Message& m = message_of(kind);
+    const BusHealth was = base_.health();
+    peer_.send(sealed(0, id_of(m.function, 1), m.size, 7));
+    pass(2);
+    EXPECT_EQ(base_.health().accepted, was.accepted + (m.from_controller ? 1 : 0)) << m.name;
+    EXPECT_EQ(base_.health().malformed, was.malformed + (m.from_controller ? 0 : 1)) << m.name;
+    EXPECT_EQ(base_.replied(none), k >= static_cast<int>(Kind::param_reply)) << m.name;
+  }
+}
+
+TEST_F(BaseAlone, AMessageThatNobodyKnowsIsCountedAndNeverTakenForAnother) {
+  start();
+  answers_ = false;
+  pass(2);
+  const BusHealth was = base_.health();
+  for (const std::uint32_t function : {0x18U, 0x20U, 0x74U, 0x7FU}) {
+    peer_.send(sealed(0, id_of(static_cast<std::uint8_t>(function), 1), 8, 0));
+  }
+  peer_.send(sealed(0, id_of(0x18, 2), 8, 0));  // of another robot
+  pass(2);
+  EXPECT_EQ(base_.health().unknown, was.unknown + 4);
+  EXPECT_EQ(base_.health().foreign, was.foreign + 1);
+  EXPECT_EQ(base_.health().accepted, was.accepted);
+  ParamReply reply;
+  EXPECT_FALSE(base_.replied(reply));
+}
+
 TEST_F(BaseAlone, RepeatedAndStrayCountersAreCountedAndNeverObeyed) {
   start();
   answers_ = false;
@@ -511,8 +546,8 @@ class ControllerAlone : public testing::Test {
   void pass(int ms) {
     for (int i = 0; i < ms; ++i) pass();
   }
-  void order(Order what) {
-    const MissionValues values = values_of({{}, {{1_m, 0_m}, 100_mm}});
+  void order(Order what, const Mission& mission = {{}, {{1_m, 0_m}, 100_mm}}) {
+    const MissionValues values = values_of(mission);
     for (int i = 0; i < kMissionValues; ++i) {
       peer_.say(MissionValue{static_cast<MissionPart>(i + 1), mission_, values.of[i]});
     }
@@ -747,6 +782,26 @@ TEST_F(ControllerAlone, AnEStopRefusesOrdersUntilItIsCleared) {
   pass(2);
   EXPECT_EQ(node_.state(), NodeState::ready);
   order(Order::start);
+  EXPECT_EQ(replied(), MissionStatus::accepted);
+}
+
+TEST_F(ControllerAlone, RefusesAStartOrAGoalThatIsTooFarOutByName) {
+  peer_.greet(kPeerBoot);
+  pass(2);
+  const Length beyond = kPlaceLimit + micrometres(1);
+  const nav::Goal goal{{1_m, 0_m}, 100_mm};
+  const Mission missions[] = {{{{beyond, 0_m}, {}}, goal},
+                              {{{0_m, -beyond}, {}}, goal},
+                              {{}, {{-beyond, 0_m}, 100_mm}},
+                              {{}, {{0_m, Length::from_raw(INT32_MAX)}, 100_mm}}};
+  for (const Mission& mission : missions) {
+    ++mission_;
+    order(Order::start, mission);
+    EXPECT_EQ(replied(), MissionStatus::out_of_range);
+    EXPECT_EQ(node_.state(), NodeState::ready);
+  }
+  ++mission_;
+  order(Order::start, {{{kPlaceLimit, -kPlaceLimit}, {}}, {{-kPlaceLimit, kPlaceLimit}, 100_mm}});
   EXPECT_EQ(replied(), MissionStatus::accepted);
 }
 

@@ -12,7 +12,7 @@ import whisker
 from whisker import SCENARIOS, STATUS, Case, with_time_limit
 
 NOISY = SCENARIOS / "all_noise.toml"
-KEYS = {"outcome", "time_s", "path_m", "final_distance_m", "min_clearance_m", "ticks", "hash"}
+KEYS = {"outcome", "time_s", "path_m", "final_distance_m", "believed_distance_m", "min_clearance_m", "ticks", "hash"}
 PROGRESS = re.compile(rb"\r\x1b\[K\d+ s of at most 1000000 s simulated, \d+\.\d\d m from the goal")
 
 
@@ -21,8 +21,10 @@ def run(*arguments):
 
 
 def result(*arguments):
-    """The one object that --json prints."""
-    return json.loads(run(*arguments, "--json").stdout)
+    """The one object that --json prints, but for the name of the file that the robot is from."""
+    told = json.loads(run(*arguments, "--json").stdout)
+    del told["robot_name"]
+    return told
 
 
 class Run(Case):
@@ -33,6 +35,7 @@ class Run(Case):
     def test_the_exit_status_tells_the_outcome(self):
         for name, outcome in (
             ("nothing", "reached"),
+            ("bad_wheels", "off_goal"),
             ("no_time", "gave_up"),
             ("run_over", "contact"),
             ("blind", "fault"),
@@ -56,6 +59,20 @@ class Run(Case):
         self.assertIn(str(trace), done.stdout)
         self.assertIn(str(svg), done.stdout)
         self.assertEqual(done.stderr, "")
+
+    def test_a_robot_that_only_believes_to_be_there_has_not_reached_its_goal(self):
+        scenario, svg = SCENARIOS / "bad_wheels.toml", self.folder / "off.svg"
+        told = result(scenario)
+        self.assertEqual(told["outcome"], "off_goal")
+        self.assertGreater(told["final_distance_m"], 0.1)
+        self.assertLessEqual(told["believed_distance_m"], 0.1)
+        done = run(scenario, "--svg", svg)
+        self.assertEqual(done.returncode, 7)
+        words = f"believes it is there; is {told['final_distance_m']:.2f} m off, after "
+        self.assertTrue(done.stdout.startswith(words), done.stdout)
+        self.assertIn(words, svg.read_text())
+        wide = self.file("wide.toml", scenario.read_text().replace("[noise]", f"tolerance_m = {told['final_distance_m'] * 1.5}\n[noise]"))
+        self.assertEqual(run(wide).returncode, 0, "the same wheels, a tolerance that fits them")
 
     def test_the_same_seed_gives_the_same_bytes(self):
         written = []

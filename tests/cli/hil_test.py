@@ -4,6 +4,7 @@ import csv
 import http.client
 import json
 import os
+import pathlib
 import re
 import signal
 import socket
@@ -11,7 +12,7 @@ import subprocess
 import time
 
 import whisker
-from whisker import KINDS, STATUS, Case, with_time_limit
+from whisker import KINDS, SCENARIOS, STATUS, Case, with_time_limit
 
 PRIVATE_TRACE = ("d", "r", "sa", "sd", "est_x_m", "est_y_m", "est_heading_rad", "guide", "way_x_m", "way_y_m")  # what the bus does not carry
 
@@ -40,6 +41,42 @@ class Hil(OnABus):
             self.assertEqual(both, alone, kind)
             self.assertEqual(bus["sets"], alone["ticks"])
             self.assertEqual((bus["safe_stops"], bus["refused"], bus["deadline_misses"]), (0, 0, 0))
+
+    def test_a_robot_off_its_goal_is_judged_the_same(self):
+        both = self.json_of("hil", SCENARIOS / "bad_wheels.toml")
+        del both["bus"]
+        self.assertEqual(both["outcome"], "off_goal")
+        self.assertEqual(both, self.json_of("run", SCENARIOS / "bad_wheels.toml"))
+
+    def test_the_load_is_that_of_a_bus_in_real_time(self):
+        """Some 7 frames a period of 10 ms: a fifth of 500 kbit/s, however fast the frames passed in lockstep."""
+        scenario = self.world("discs", 5)
+        load = self.json_of("hil", scenario)["bus"]["load_percent"]
+        self.assertTrue(10 < load < 40, load)
+        words = whisker.whisker("hil", scenario).stdout
+        self.assertIn(f"load of the bus in real time {load:.1f} %", words)
+
+    def test_a_log_that_ends_within_a_line_is_replayed_up_to_there(self):
+        log = self.folder / "whole.log"
+        self.json_of("hil", self.world("discs", 3), "--record", log)
+        lines = log.read_text().splitlines(keepends=True)
+        whole = json.loads(whisker.whisker("replay", log, "--json").stdout)
+        self.assertEqual((whole["same"], whole["cut_line"]), (True, 0))
+        for rest in (1, 5, 20, 26):
+            self.assertLess(rest, len(lines[-1]) - 1)
+            cut = self.file("cut.log", "".join(lines[:-1]) + lines[-1][:rest])
+            done = whisker.whisker("replay", cut, "--json")
+            told = json.loads(done.stdout)
+            self.assertEqual((done.returncode, told["same"], told["cut_line"]), (0, True, len(lines)), rest)
+            self.assertEqual(done.stderr, f"whisker: {cut}: line {len(lines)}, the last, is cut off and left out\n")
+        self.file("cut.log", lines[0] + lines[1][:9] + "\n" + "".join(lines[2:]))
+        self.refused("replay", "cut.log", says="cut.log: line 2: not a frame")
+        self.file("cut.log", lines[0][:9])
+        self.refused_all("replay", "cut.log")
+
+    def refused_all(self, *arguments):
+        done = whisker.whisker(*arguments, cwd=self.folder)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
 
     def test_lost_frames_change_nothing(self):
         scenario = self.world("discs", 5)
@@ -96,7 +133,9 @@ class Hil(OnABus):
                 self.assertEqual(logged[key], run[key], key)
         data = re.search(r'<script type="application/json" id="data">(.*?)</script>', (self.folder / "log.html").read_text(), re.S)[1]
         run = json.loads(data)["runs"][0]
-        self.assertEqual((run["result"]["outcome"], run["result"]["hash"]), (result["outcome"], result["hash"]))
+        self.assertEqual((run["result"]["outcome"], run["result"]["hash"]), (result["outcome"].replace("off_goal", "reached"), result["hash"]))
+        self.assertIsNone(run["result"]["final_distance_m"], "no log has the true place")
+        self.assertAlmostEqual(run["result"]["believed_distance_m"], result["believed_distance_m"], places=4)
         self.assertEqual((run["planner"], run["inside"]), ("skirt", True))
 
     def test_a_replay_shows_the_map_that_led(self):
@@ -218,6 +257,24 @@ class View(OnABus):
                     self.assertEqual(json.loads(events[-1])["result"]["hash"], result["hash"])
                 process.send_signal(signal.SIGINT)
                 self.assertEqual(process.wait(60), STATUS[result["outcome"]])
+            finally:
+                process.kill()
+
+    def test_the_controller_does_not_hold_the_port(self):
+        def sockets(process):
+            folder = pathlib.Path(f"/proc/{process}/fd")
+            files = {os.readlink(file) for file in folder.iterdir()}
+            return {file for file in files if file.startswith("socket:")}
+
+        command = [whisker.binary, "hil", self.world("rooms", 5), "--realtime", "--view", "0"]
+        with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+            try:
+                for line in process.stderr:
+                    if ": drives" in line:
+                        break
+                (child,) = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+                self.assertTrue(sockets(child), "it has its end of the bus")
+                self.assertFalse(sockets(child) & sockets(process.pid))
             finally:
                 process.kill()
 

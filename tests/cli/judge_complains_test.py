@@ -158,6 +158,18 @@ class JudgeComplains(Case):
 
         self.object_to("reached, but", change)
 
+    def test_objects_to_a_goal_that_is_denied_from_near(self):
+        def change(scene, track, result):
+            result["outcome"] = "off_goal"
+            scene.tolerance = math.dist(track.rows[-1].at, scene.goal) + 0.001
+
+        self.object_to("off the goal, but only", change)
+        self.object_to("the wheels are exact", lambda *a: a[2].update(outcome="off_goal"))
+
+    def test_objects_to_a_belief_that_is_none(self):
+        for outcome in ("reached", "off_goal"):
+            self.object_to("believes the goal to be", lambda *a, o=outcome: a[2].update(outcome=o, believed_distance_m=0.2))
+
     def test_objects_to_a_fault_that_drives_on(self):
         def change(_, track, result):
             result["outcome"] = "fault"

@@ -59,7 +59,8 @@ class Tables(Scripts):
             ("bars", ("--planner", "map", "--count", 1, "--noisy", 1, "--seed", 1, "--gate"), 20),
             ("compare", (1,), 8 * 10),
             ("measure", (1,), 11),
-            ("odometry", (1,), 3 * 7),
+            ("odometry", (1, "--only", "wheels"), 3 * 7),
+            ("odometry", (1, "--only", "classes"), 10 + 10 * 4),
         ):
             (self.folder / "whisker.calls").unlink(missing_ok=True)
             table = self.rows(self.run_script(name, *arguments))
@@ -73,16 +74,17 @@ class Tables(Scripts):
                 self.assertIn(call[0], ("campaign", "scanner") if name == "compare" else ("campaign",))
                 self.assertEqual(call[call.index("--count") + 1], "1")
             kinds = {call[1] for call in self.calls()}
-            self.assertEqual(kinds, {"discs", "maze", "enclosed"} if name == "odometry" else set(KINDS), name)
+            self.assertEqual(kinds, {"discs", "maze", "enclosed"} if "wheels" in arguments else set(KINDS), name)
 
     def test_show_the_figures_of_the_summary(self):
         half = {"value": 0.5, "low": 0.25, "high": None}
-        self.answer(reached=half, at_goal={**half, "value": 0.375}, s_per_m={"p50": half, "p95": None}, estimate_error_m={"p50": half, "p95": half})
+        there = {**half, "value": 0.375}
+        self.answer(reached=half, truly_there=there, s_per_m={"p50": half, "p95": None}, estimate_error_m={"p50": half, "p95": half}, final_distance_m={"p50": there, "p95": None})
         first = self.rows(self.run_script("measure", 2, 7, "skirt"))[1]
-        self.assertEqual(first, ["15 discs", "50.0 %", "0.0 %", "0.0 %", "0.0 %", "0.0 %", "0.5"])
+        self.assertEqual(first, ["15 discs", "37.5 %", "50.0 %", "0.0 %", "0.0 %", "0.0 %", "0.0 %", "0.5"])
         self.assertEqual(self.calls()[0], "campaign discs --discs 15 --count 2 --seed 7 --planner skirt --json".split())
-        odometry = self.rows(self.run_script("odometry", 1))[2]
-        self.assertEqual(odometry[:4], ["30 discs", "0.01 %", "50.0 (25.0-?)", "37.5 (25.0-?)"])
+        odometry = self.rows(self.run_script("odometry", 1, "--only", "wheels"))[2]
+        self.assertEqual(odometry[:5], ["30 discs", "0.01 %", "37.5 (25.0-?)", "50.0 (25.0-?)", "0.38 (0.25-?)"])
         self.assertEqual(odometry[-2:], ["0.50 (0.25-?)", "0.50 (0.25-?)"])
         self.answer(s_per_m={"p50": None, "p95": None})
         self.assertEqual(self.rows(self.run_script("measure", 1))[1][-1], "-")
@@ -100,12 +102,37 @@ class Tables(Scripts):
         self.assertEqual({tuple(call[call.index("--count") :][:4]) for call in self.calls()}, {("--count", "3", "--seed", "40")})
 
     def test_odometry_varies_nothing_but_the_wheels(self):
-        self.run_script("odometry", 3, 40)
+        self.run_script("odometry", 3, 40, "--only", "wheels")
         mazes = [call for call in self.calls() if call[1] == "maze"]
         sigmas = [call[call.index("--wheel-scale-sigma") + 1] for call in mazes]
         self.assertEqual(sigmas, ["0", "0.0001", "0.0005", "0.001", "0.002", "0.005", "0.01"])
         rest = {tuple(word for word in call if word not in sigmas) for call in mazes}
         self.assertEqual(rest, {("campaign", "maze", "--count", "3", "--seed", "40", "--noise", "--wheel-scale-sigma", "--json")})
+
+
+    def test_odometry_shows_ideal_and_real_wheels_side_by_side(self):
+        half = {"value": 0.5, "low": 0.25, "high": None}
+        self.answer(reached=half, truly_there={**half, "value": 0.375}, contact={**half, "value": 0}, final_distance_m={"p50": {**half, "value": 2.857}, "p95": None})
+        done = self.run_script("odometry", 2, 40)
+        self.assertIn("`scripts/odometry 2 40`: 2 missions a class and grade, seeds 40 to 41, on ", done.stdout)
+        table = self.rows(done)
+        self.assertEqual(table[0], ["world", "ideal", "wheels 0.05 %", "wheels 0.5 %", "wheels 1 %"])
+        self.assertEqual(table[1], ["15 discs", *["50 % / 37.5 % / 0 / 2.86 m"] * 4])
+        calls = [" ".join(call) for call in self.calls()]
+        self.assertEqual(len(calls), len(set(calls)), "no campaign is driven twice")
+        rooms = ["--noise --wheel-scale-sigma " + sigma + " " for sigma in ("0.0005", "0.005", "0.01")]
+        self.assertEqual([call for call in calls if "rooms" in call], [f"campaign rooms --count 2 --seed 40 {noise}--json" for noise in ("", *rooms)])
+
+    def test_a_table_is_put_between_its_marks_and_nowhere_else(self):
+        page = self.file("page.md", "a\n<!-- x:begin -->\nold\n<!-- x:end -->\nb\n")
+        put = f"import sys, pathlib; sys.path.insert(0, {str(SCRIPTS)!r}); import campaigns; campaigns.put(pathlib.Path({str(page)!r}), sys.argv[1], 'new\\n')"
+        subprocess.run([sys.executable, "-B", "-c", put, "x"], check=True)
+        self.assertEqual(page.read_text(), "a\n<!-- x:begin -->\nnew\n<!-- x:end -->\nb\n")
+        done = subprocess.run([sys.executable, "-B", "-c", put, "y"], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, "page.md has no place for the table" in done.stderr), (1, True))
+        for name, marks in (("README.md", ("realistic",)), ("docs/odometry.md", ("realistic", "wheels"))):
+            for mark in marks:
+                self.assertEqual((SCRIPTS.parent / name).read_text().count(f"<!-- {mark}:begin -->\n"), 1, name)
 
 
 class BusFigures(unittest.TestCase):
@@ -184,7 +211,7 @@ class Status(Scripts):
             arguments = ("--planner", "map", "--map-bytes", size, "--count", 3, "--noisy", 2, "--seed", 4)
             done = self.run_script("bars", *arguments, status=1)
             rows[size] = {row[0]: row[1:] for row in self.rows(done)}
-            bold[size] = {row[0] for row in self.rows(done) if "**1.2" in row[4]}
+            bold[size] = {row[0] for row in self.rows(done) if "**1.2" in row[5]}
             for kind in ("rooms", "maze"):
                 words = f"campaign {kind} --count {{}} --seed 4"
                 calls = [" ".join(call) for call in self.calls() if call[1] == kind]
@@ -193,8 +220,8 @@ class Status(Scripts):
                     calls,
                     [f"{words.format(3)} --json", f"{words.format(3)} {of_map}", f"{words.format(2)} --noise {of_map}"],
                 )
-        self.assertEqual(rows[2048]["rooms"][3:], ["1.220 / 1.35", "1.90 / 5", "**5.00 / 4.99**", "**8.01 / 8**", "-"])
-        self.assertEqual(rows[16384]["rooms"][3:5], ["1.220 / 1.25", "1.90 / 3.5"])
+        self.assertEqual(rows[2048]["rooms"][4:], ["1.220 / 1.35", "1.90 / 5", "**5.00 / 4.99**", "**8.01 / 8**", "-"])
+        self.assertEqual(rows[16384]["rooms"][4:6], ["1.220 / 1.25", "1.90 / 3.5"])
         self.assertEqual(rows[2048]["enclosed"][-1], "28.28 / 28.28")
         self.assertEqual(bold[2048], {"30 discs", "U-traps", "spirals", "mazes"})
         self.assertEqual(bold[16384], {"30 discs", "50 discs", "U-traps", "spirals", "mazes"})
@@ -202,6 +229,15 @@ class Status(Scripts):
         done = self.run_script("bars", "--planner", "map", "--count", 1, "--noisy", 0, "--seed", 1, status=1)
         self.assertIn("| **40.00 / 15** |", done.stdout)
         self.assertIn("| **40.00 / 39.99** |", done.stdout)
+
+    def test_bars_count_belief_and_show_the_truth_beside_it(self):
+        share = lambda value: {"value": value, "low": value, "high": value}
+        self.answer(success=share(1), truly_there=share(0.02))
+        table = self.rows(self.run_script("bars", "--count", 1, "--noisy", 1, "--seed", 1, "--gate"))
+        self.assertEqual(table[0][:4], ["world", "missions", "truly there", "success"])
+        self.assertEqual(table[1][:4], ["15 discs", "1", "2.00 % (2.00-2.00)", "100.00 % (100.00-100.00)"])
+        self.answer(no_way=1)
+        self.assertEqual(self.rows(self.run_script("bars", "--count", 1, "--noisy", 0, "--seed", 1, "--gate"))[-1][2], "-")
 
     def test_bars_are_of_maps_that_have_some(self):
         for wrong in (("--map-bytes", 2048), ("--planner", "map", "--map-bytes", 4096), ("--planner", "fan")):
@@ -220,6 +256,10 @@ class Status(Scripts):
         self.answer(missions=4, fault={"value": 0.25, "low": 0, "high": 1})
         self.assertIn("measure: 11 runs ended in a fault", self.run_script("measure", 4, status=1).stderr)
         self.assertIn("compare: 90 runs ended in a fault", self.run_script("compare", 4, status=1).stderr)
+
+    def test_a_comparison_of_robots_that_are_not_where_they_say_is_a_failure(self):
+        self.answer(missions=4, off_goal={"value": 0.25, "low": 0, "high": 1})
+        self.assertIn("compare: 90 robots are not at the goal", self.run_script("compare", 4, status=1).stderr)
 
     def test_a_campaign_that_fails_is_named(self):
         self.file("whisker.status", "7")

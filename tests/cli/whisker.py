@@ -12,7 +12,9 @@ HERE = pathlib.Path(__file__).resolve().parent
 SCENARIOS = HERE / "scenarios"
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
 PLANNERS = ("skirt", "thesis", "bug2", "distbug", "wall-follower", "fan", "repulsion")
-STATUS = {"reached": 0, "unreachable": 3, "gave_up": 4, "contact": 5, "fault": 6}
+# What every object says of how it came about.
+ORIGIN = ("schema", "version", "seed", "planner", "robot_name", "robot_digest")
+STATUS = {"reached": 0, "unreachable": 3, "gave_up": 4, "contact": 5, "fault": 6, "off_goal": 7}
 
 binary = ""
 

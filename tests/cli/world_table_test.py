@@ -33,6 +33,7 @@ OPTIONS = {
     ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--contacts"),
     ("table",): ("--csv", "--svg"),
+    ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),
     ("figures",): ("FOLDER", "--scenarios"),
 }
 
@@ -130,7 +131,7 @@ class Help(Case):
 
     def test_version_is_one_line(self):
         done = whisker.whisker("--version")
-        self.assertRegex(done.stdout, r"\Awhisker \d+\.\d+\.\d+\n\Z")
+        self.assertRegex(done.stdout, r"\Awhisker \d+\.\d+\.\d+ \([-.+A-Za-z0-9]+\)\n\Z")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 

@@ -28,9 +28,9 @@ class Loop {
     const auto count = [&](double way) {
       return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(way * counts)) & 0xFFFFFF);
     };
-    odometry_.update({count(way_[0]), count(way_[1])}, step);
+    odometry_.update({count(way_[0]), count(way_[1])}, params_.safety.period, step);
     const WheelPair before = speeds_;
-    speeds_ = driver_.step(odometry_.pose(), &step, paused, params_);
+    speeds_ = driver_.step(odometry_.pose(), &step, paused, params_.safety.period, params_);
     const Speed most = params_.wheels.max_acceleration * params_.safety.period;
     EXPECT_LE(abs(speeds_.left - before.left), most);
     EXPECT_LE(abs(speeds_.right - before.right), most);
@@ -139,13 +139,13 @@ TEST(Driver, KeepChangesNothing) {
   EXPECT_NEAR(loop.pose().at.x.raw() * 1e-3, 300, 2.5);
 }
 
-TEST(Driver, CountsTheTicksWithoutMotion) {
+TEST(Driver, TellsForHowLongNothingMoved) {
   const Params params;
   Loop loop(params);
   loop.block();
   loop.begin({Kind::drive, {}, 300_mm});
   for (int i = 0; i < 50; ++i) loop.tick(false);
-  EXPECT_EQ(loop.driver().stalled_ticks(), 50);
+  EXPECT_EQ(loop.driver().stalled_for(), params.safety.period * 50);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@ namespace whisker {
 namespace {
 
 TEST(Health, EveryFaultHasANameOfItsOwn) {
-  constexpr int kFaults = static_cast<int>(Fault::no_progress) + 1;
   std::set<std::string> names;
   for (int i = 0; i < kFaults; ++i) names.insert(name(static_cast<Fault>(i)));
   EXPECT_EQ(names.size(), static_cast<std::size_t>(kFaults));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint32_t kMask = hal::kEncoderModulus - 1;
+constexpr Duration kSince = milliseconds(90);  // with a period of 10 ms, 100 ms of twice the full speed
 
 struct Drift {
   double position_m;
@@ -23,14 +25,13 @@ Drift drift_over(double path_m, int counts_per_metre, Length track, std::uint64_
   Params params;
   params.wheels.counts_per_metre = counts_per_metre;
   params.body.track = track;
-  params.safety.max_gap = milliseconds(1000);
   Odometry odometry;
   odometry.configure(params);
   odometry.place({});
   double x = 0, y = 0, heading = 0, path = 0;
   std::uint32_t left = 0xFFFFF0, right = 5;
   CountStep step;
-  odometry.update({left, right}, step);
+  odometry.update({left, right}, kSince, step);
   std::uint64_t state = seed;
   int dl = 15, dr = 15;
   for (int tick = 0; path < path_m; ++tick) {
@@ -41,7 +42,7 @@ Drift drift_over(double path_m, int counts_per_metre, Length track, std::uint64_
     }
     left = (left + static_cast<std::uint32_t>(dl)) & kMask;
     right = (right + static_cast<std::uint32_t>(dr)) & kMask;
-    EXPECT_TRUE(odometry.update({left, right}, step));
+    EXPECT_TRUE(odometry.update({left, right}, kSince, step));
     const double sl = static_cast<double>(dl) / counts_per_metre;
     const double sr = static_cast<double>(dr) / counts_per_metre;
     const double turn = (sr - sl) / (track.raw() * 1e-6);
@@ -75,7 +76,7 @@ TEST(Odometry, TheFirstCountsAreTheZeroWhateverTheyAre) {
   odometry.configure(Params{});
   odometry.place({{millimetres(5), millimetres(7)}, Angle::turns(1, 8)});
   CountStep step;
-  EXPECT_TRUE(odometry.update({123456, 7654321}, step));
+  EXPECT_TRUE(odometry.update({123456, 7654321}, kSince, step));
   EXPECT_EQ(odometry.pose().at.x, millimetres(5));
   EXPECT_EQ(odometry.pose().at.y, millimetres(7));
   EXPECT_EQ(odometry.pose().heading, Angle::turns(1, 8));
@@ -86,12 +87,12 @@ TEST(Odometry, CountsWrapInBothDirections) {
   odometry.configure(Params{});
   odometry.place({});
   CountStep step;
-  odometry.update({kMask, 0}, step);
-  EXPECT_TRUE(odometry.update({4, 5}, step));
+  odometry.update({kMask, 0}, kSince, step);
+  EXPECT_TRUE(odometry.update({4, 5}, kSince, step));
   EXPECT_EQ(step.left, 5);
   EXPECT_EQ(step.right, 5);
   EXPECT_EQ(odometry.pose().at.x, millimetres(1));
-  EXPECT_TRUE(odometry.update({kMask, 0}, step));
+  EXPECT_TRUE(odometry.update({kMask, 0}, kSince, step));
   EXPECT_EQ(step.left, -5);
   EXPECT_EQ(odometry.pose().at.x, Length{});
 }
@@ -107,8 +108,8 @@ TEST(Odometry, MirroredCountsGiveTheMirroredPoseToTheLastBit) {
   std::uint32_t left = 0, right = 0;
   CountStep step;
   for (std::uint32_t tick = 0; tick < 2000; ++tick) {
-    ASSERT_TRUE(odometry.update({left, right}, step));
-    ASSERT_TRUE(mirrored.update({right, left}, step));
+    ASSERT_TRUE(odometry.update({left, right}, kSince, step));
+    ASSERT_TRUE(mirrored.update({right, left}, kSince, step));
     ASSERT_EQ(mirrored.pose().heading, -odometry.pose().heading) << tick;
     ASSERT_EQ(mirrored.pose().at.x, odometry.pose().at.x) << tick;
     ASSERT_EQ(mirrored.pose().at.y, -odometry.pose().at.y) << tick;
@@ -122,15 +123,28 @@ TEST(Odometry, RefusesAJumpThatNoWheelCanMakeAndGoesOnFromThere) {
   odometry.configure(Params{});
   odometry.place({});
   CountStep step;
-  odometry.update({0, 0}, step);
-  EXPECT_TRUE(odometry.update({302, 302}, step));  // twice 0.3 m/s for 0.1 s is 300 counts, and 2 to spare
+  odometry.update({0, 0}, kSince, step);
+  EXPECT_TRUE(
+      odometry.update({302, 302}, kSince, step));  // twice 0.3 m/s for 0.1 s is 300 counts, and 2 to spare
   const Pose before = odometry.pose();
-  EXPECT_FALSE(odometry.update({605, 302}, step));
-  EXPECT_FALSE(odometry.update({302, 605}, step));
+  EXPECT_FALSE(odometry.update({605, 302}, kSince, step));
+  EXPECT_FALSE(odometry.update({302, 605}, kSince, step));
   EXPECT_EQ(odometry.pose().at.x, before.at.x);
-  EXPECT_FALSE(odometry.update({302 + 8000000, 605}, step));
-  EXPECT_TRUE(odometry.update({302 + 8000001, 606}, step));
+  EXPECT_FALSE(odometry.update({302 + 8000000, 605}, kSince, step));
+  EXPECT_TRUE(odometry.update({302 + 8000001, 606}, kSince, step));
   EXPECT_EQ(odometry.pose().at.x, before.at.x + micrometres(200));
+}
+
+TEST(Odometry, WhatIsAJumpGoesByTheTimeSinceTheLastCounts) {
+  for (const auto& [since_ms, most] : {std::pair{1, 35U}, {10, 62U}, {30, 122U}, {600, 1832U}}) {
+    Odometry odometry;
+    odometry.configure(Params{});
+    odometry.place({});
+    CountStep step;
+    odometry.update({0, 0}, milliseconds(since_ms), step);
+    EXPECT_TRUE(odometry.update({most, 0}, milliseconds(since_ms), step)) << since_ms;
+    EXPECT_FALSE(odometry.update({most + most + 1, 0}, milliseconds(since_ms), step)) << since_ms;
+  }
 }
 
 }  // namespace

@@ -10,6 +10,17 @@
 namespace whisker {
 namespace {
 
+// What a compiler finds, before any robot runs.
+constexpr Params with_shield_margin(Length margin) {
+  Params p;
+  p.skirt.shield_margin = margin;
+  return p;
+}
+static_assert(check(Params{}) == ParamFault::none);
+static_assert(check(with_shield_margin(6_mm)) == ParamFault::none);
+static_assert(check(with_shield_margin(7_mm)) == ParamFault::planning_below_shield);
+static_assert(check(with_shield_margin(501_mm)) == ParamFault::out_of_range);
+
 TEST(Params, TheDefaultsAreAccepted) { EXPECT_EQ(check(Params{}), ParamFault::none); }
 
 struct Broken {
@@ -41,6 +52,7 @@ TEST(Params, EveryRelationIsChecked) {
       {ParamFault::gap_below_period, [](Params& p) { p.safety.max_gap = 19_ms; }},
       {ParamFault::stuck_within_cone,
        [](Params& p) { p.conditioning.stuck_turn = p.rangefinders.cone = 30_deg; }},
+      {ParamFault::cone_too_wide, [](Params& p) { p.rangefinders.cone = 60_deg + Angle::from_raw(1); }},
       {ParamFault::tolerance_above_step,
        [](Params& p) { p.motion.drive_tolerance = p.thesis.small_step = 20_mm; }},
       {ParamFault::tolerance_above_step, [](Params& p) { p.motion.turn_tolerance = p.thesis.delta = 5_deg; }},
@@ -58,6 +70,7 @@ TEST(Params, EveryRelationIsChecked) {
        }},
       {ParamFault::settle_below_lag, [](Params& p) { p.motion.settle = 59_ms; }},
       {ParamFault::step_beyond_range, [](Params& p) { p.thesis.base_step = 941_mm; }},
+      {ParamFault::step_beyond_range, [](Params& p) { p.rangefinders.clear_range = 519_mm; }},
       {ParamFault::cone_too_narrow, [](Params& p) { p.rangefinders.cone = 3_deg; }},
       {ParamFault::cone_too_narrow, [](Params& p) { p.rangefinders.offset = 120_mm; }},
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 200_mm; }},
@@ -71,13 +84,63 @@ TEST(Params, EveryRelationIsChecked) {
     EXPECT_EQ(check(p), c.fault) << static_cast<int>(c.fault);
     seen.insert(c.fault);
   }
-  EXPECT_EQ(seen.size(), static_cast<std::size_t>(ParamFault::step_beyond_range)) << "of them all";
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(kParamFaults) - 1) << "of them all";
+}
+
+std::set<ParamFault> violated(const Params& p) {
+  std::set<ParamFault> found;
+  for_each_relation(p, [&found](ParamFault fault, bool holds) {
+    if (!holds) found.insert(fault);
+    return true;
+  });
+  return found;
+}
+
+TEST(Params, EveryRelationIsAskedOnceAndAllThatFailAreFound) {
+  std::multiset<ParamFault> asked;
+  for_each_relation(Params{}, [&asked](ParamFault fault, bool holds) {
+    EXPECT_TRUE(holds) << name(fault);
+    asked.insert(fault);
+    return true;
+  });
+  ASSERT_EQ(asked.size(), static_cast<std::size_t>(kParamFaults) - 1);
+  for (int i = 1; i < kParamFaults; ++i) EXPECT_EQ(asked.count(static_cast<ParamFault>(i)), 1U) << i;
+
+  Params p;
+  p.body.track = 181_mm;
+  p.thesis.small_step = 201_mm;
+  p.skirt.shield_margin = 7_mm;
+  EXPECT_EQ(violated(p), (std::set<ParamFault>{ParamFault::track_wider_than_body, ParamFault::steps_reversed,
+                                               ParamFault::planning_below_shield}));
+  EXPECT_EQ(check(p), ParamFault::track_wider_than_body) << "the first";
+}
+
+TEST(Params, NoRelationIsAskedOfValuesOutsideTheirRanges) {
+  Params p;
+  p.rangefinders.rate_hz = 0;  // divided by
+  EXPECT_EQ(violated(p), std::set<ParamFault>{ParamFault::out_of_range});
+}
+
+TEST(Params, EveryFaultHasANameOfItsOwn) {
+  std::set<std::string> names;
+  for (int i = 0; i < kParamFaults; ++i) names.insert(name(static_cast<ParamFault>(i)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(kParamFaults));
+  EXPECT_EQ(names.count("?"), 0U);
+  EXPECT_STREQ(name(ParamFault::none), "none");
+  EXPECT_STREQ(name(ParamFault::track_wider_than_body), "track_wider_than_body");
+  EXPECT_STREQ(name(static_cast<ParamFault>(kParamFaults)), "?");
 }
 
 TEST(Params, EachNewestRelationHoldsExactlyAtItsLimit) {
   Params p;
-  p.conditioning.stuck_turn = 90_deg;
-  p.rangefinders.cone = 90_deg - Angle::from_raw(1);
+  p.conditioning.stuck_turn = 60_deg;
+  p.rangefinders.cone = 60_deg - Angle::from_raw(1);
+  EXPECT_EQ(check(p), ParamFault::none);
+  p = {};
+  p.rangefinders.cone = 60_deg;
+  EXPECT_EQ(check(p), ParamFault::none);
+  p = {};
+  p.rangefinders.clear_range = 520_mm;  // 2 x 0.2 + 0.12 m
   EXPECT_EQ(check(p), ParamFault::none);
   p = {};
   p.thesis.small_step = 20_mm;

@@ -157,5 +157,41 @@ TEST(Vectors, SaturateAtTheEndOfTheWorld) {
   EXPECT_EQ((Vec{Length::from_raw(INT32_MAX), {}} + Vec{Length::from_raw(1), {}}).x.raw(), INT32_MAX);
 }
 
+/// What the compiler works out for this number, beside what the same call gives at run time.
+template <std::int32_t kX, std::int32_t kY>
+void expect_the_same_from_compiler_and_machine() {
+  constexpr Angle kAngle =
+      Angle::from_raw(static_cast<std::uint32_t>(kX) * 3U + static_cast<std::uint32_t>(kY));
+  constexpr Vec kVec{micrometres(kX), micrometres(kY)};
+  constexpr std::uint64_t kSquare = static_cast<std::uint64_t>(std::int64_t{kX} * kX);
+  constexpr Q30 kSin = sin(kAngle);
+  constexpr Q30 kCos = cos(kAngle);
+  constexpr Angle kBearing = bearing(kVec);
+  constexpr std::uint32_t kRoot = square_root(kSquare + 1);
+  constexpr Length kNorm = norm(kVec);
+  constexpr bool kFarther = farther(kVec, kNorm);
+  constexpr Vec kPolar = polar(kAngle, kNorm);
+  constexpr Length kAlong = along(kVec, kAngle);
+  const Angle angle = kAngle;
+  const Vec vec = kVec;
+  EXPECT_EQ(at_run_time::sin(angle), kSin);
+  EXPECT_EQ(cos(angle), kCos);
+  EXPECT_EQ(at_run_time::atan2(vec.y.raw(), vec.x.raw()), kBearing);
+  EXPECT_EQ(at_run_time::square_root(kSquare + 1), kRoot);
+  EXPECT_EQ(at_run_time::norm(vec), kNorm);
+  EXPECT_EQ(at_run_time::farther(vec, kNorm), kFarther);
+  EXPECT_EQ(at_run_time::polar(angle, kNorm), kPolar);
+  EXPECT_EQ(at_run_time::along(vec, angle), kAlong);
+}
+
+TEST(Trigonometry, IsTheSameInAConstantExpression) {
+  expect_the_same_from_compiler_and_machine<0, 0>();
+  expect_the_same_from_compiler_and_machine<1, -1>();
+  expect_the_same_from_compiler_and_machine<-90000, 1234567>();
+  expect_the_same_from_compiler_and_machine<2000000000, -1999999999>();
+  expect_the_same_from_compiler_and_machine<INT32_MIN, INT32_MAX>();
+  expect_the_same_from_compiler_and_machine<987654321, 123456789>();
+}
+
 }  // namespace
 }  // namespace whisker

@@ -91,7 +91,8 @@ std::vector<Stream> thesis_only() {
   std::vector<Stream> all;
   all.push_back(drive("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), kPlanner, 12));
   all.push_back(drive("maze with noise", generated(worlds::Kind::maze, true), kPlanner, 6));
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) all.push_back(storm(kPlanner, seed, 2, 100));
+  all.push_back(drive("rooms with noise", generated(worlds::Kind::rooms, true), kPlanner, 6));
+  all.push_back(drive("discs", generated(worlds::Kind::discs, false), kPlanner, 6));
   return all;
 }
 

@@ -54,7 +54,7 @@ nav::Goal random_goal(Bits& bits) {
 
 Time next_tick(Time now, const Params& params, Bits& bits) {
   if (bits.one_in(1000)) return Time::from_raw(static_cast<std::uint32_t>(bits.next()));
-  if (bits.one_in(10)) return now + milliseconds(bits.whole(1, params.safety.max_gap.raw()));
+  if (bits.one_in(10)) return now + milliseconds(bits.whole(1, longest_gap(params).raw()));
   return now + params.safety.period;
 }
 

@@ -27,7 +27,8 @@ std::vector<Stream> storms();
 Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks);
 /// The beginnings of some of them, for targets whose emulator is slow.
 std::vector<Stream> excerpts();
-/// For cores without the skirt planner and its map: drives and storms with the thesis planner alone.
+/// For the small core, which has no skirt planner and no map: drives with the thesis planner.
+/// Even ticks and sound wheels, which the small core takes for granted.
 std::vector<Stream> thesis_only();
 
 /// The streams one after the other, begun with a hello and ended; `index` gets a line for each: where its

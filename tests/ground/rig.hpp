@@ -20,6 +20,7 @@ class Spy final : public nav::Planner {
  public:
   explicit Spy(nav::Planner& planner) : planner_(planner) {}
   void set_goal(const nav::Goal& goal) noexcept override { planner_.set_goal(goal); }
+  void move_goal(Vec at) noexcept override { planner_.move_goal(at); }
   void cancel() noexcept override { planner_.cancel(); }
   nav::Decision step(const nav::View& view) noexcept override {
     view_ = view;

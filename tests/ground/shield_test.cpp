@@ -23,6 +23,7 @@ class Malice final : public nav::Planner {
  public:
   explicit Malice(std::uint64_t seed) : random_(seed) {}
   void set_goal(const nav::Goal&) noexcept override {}
+  void move_goal(Vec) noexcept override {}
   void cancel() noexcept override {}
   nav::Decision step(const nav::View& view) noexcept override {
     if (rest_-- <= 0) plot();
@@ -144,6 +145,7 @@ RC_GTEST_PROP(Shield, NeverTouchesFromAnySeed, (std::uint64_t seed)) {
 TEST(Shield, GrantsAStraightWishInOpenGroundInFull) {
   class Straight final : public nav::Planner {
     void set_goal(const nav::Goal&) noexcept override {}
+    void move_goal(Vec) noexcept override {}
     void cancel() noexcept override {}
     nav::Decision step(const nav::View& view) noexcept override {
       nav::Decision d;

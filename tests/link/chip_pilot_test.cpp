@@ -5,6 +5,7 @@
 
 #include "host/chip/chip_pilot.hpp"
 #include "host/chip/process.hpp"
+#include "host/chip/words.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/load.hpp"
 
@@ -23,6 +24,8 @@ std::string complaint(const std::string& command, PlannerKind planner = PlannerK
     return e.what();
   } catch (const NoRoom& e) {
     return std::string("no room: ") + e.what();
+  } catch (const NoSuchPlanner& e) {
+    return std::string("no such planner: ") + e.what();
   }
   return "";
 }
@@ -41,6 +44,15 @@ TEST(ChipPilot, RefusesAMapThatTheChipHasNoRoomFor) {
   EXPECT_EQ(complaint(chip, PlannerKind::map), chip + ": the chip has ended") << "2048 bytes are room enough";
   EXPECT_EQ(complaint(chip, PlannerKind::map_4096),
             "no room: " + chip + ": has room for 2048 bytes of map, not 4096");
+}
+
+TEST(ChipPilot, RefusesAPlannerThatNoChipHas) {
+  const std::string chip = "head -c 1 >/dev/null; printf '\\002\\000\\000\\010'; cat >/dev/null";
+  for (const PlannerKind kind : kPlanners) {
+    if (!is_baseline(kind)) continue;
+    EXPECT_EQ(complaint(chip, kind),
+              std::string("no such planner: ") + name(kind) + ": no chip has this planner");
+  }
 }
 
 TEST(ChipPilot, RefusesAnswersThatMakeNoSense) {

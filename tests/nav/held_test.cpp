@@ -35,6 +35,7 @@ End drive(const Ground& ground) {
     const Length rim = view.turning * ground.params().safety.period;
     view.pose.heading += angle_of(rim * 2, ground.params().body.track);
     view.settled = !turns;
+    view.elapsed = ground.params().safety.period;
     view.granted = {};
     view.sighted = end.ticks % 2 == 0;
   }

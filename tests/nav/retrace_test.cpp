@@ -15,7 +15,8 @@ double granted(Length wall, bool retraces) {
   crawl.kind = nav::Kind::cruise;
   crawl.forward = 40_mm_per_s;
   crawl.retraces = retraces;
-  const motion::Grant grant = motion::shield(crawl, {}, motion::WheelState{}, g.patch(), g.params());
+  const motion::Grant grant =
+      motion::shield(crawl, {}, motion::WheelState{}, g.patch(), g.params().safety.period, g.params());
   return grant.factor.raw() / 16384.0;
 }
 

@@ -5,10 +5,12 @@
 namespace whisker::nav {
 namespace {
 
-constexpr int32_t kPatience = 80;
+constexpr int32_t kTicks = 80;
+constexpr Duration kPatience = milliseconds(10 * kTicks);
 
 View driving(Speed forward, Q14 granted, Speed turning = {}) {
   View v;
+  v.elapsed = milliseconds(10);
   v.forward = forward;
   v.granted = granted;
   v.turning = turning;
@@ -29,39 +31,39 @@ int ticks(Stall& stall, const View& v) {
 
 TEST(Stall, IsPatientWithABodyThatIsSlow) {
   Stall stall;
-  EXPECT_EQ(ticks(stall, driving({}, kAll)), kPatience);
+  EXPECT_EQ(ticks(stall, driving({}, kAll)), kTicks);
   stall.reset();
-  EXPECT_EQ(ticks(stall, driving({}, kAll)), kPatience);
+  EXPECT_EQ(ticks(stall, driving({}, kAll)), kTicks);
 }
 
 TEST(Stall, IsLessPatientWhereTheShieldHoldsBack) {
   Stall stall;
-  EXPECT_EQ(ticks(stall, driving({}, kHalf)), kPatience / 4);
+  EXPECT_EQ(ticks(stall, driving({}, kHalf)), kTicks / 4);
   stall.reset();
-  EXPECT_EQ(ticks(stall, driving({}, kHalf, kTurning)), kPatience) << "while it turns, readings show more";
+  EXPECT_EQ(ticks(stall, driving({}, kHalf, kTurning)), kTicks) << "while it turns, readings show more";
   stall.reset();
-  EXPECT_EQ(ticks(stall, driving({}, kHalf, -kTurning)), kPatience);
+  EXPECT_EQ(ticks(stall, driving({}, kHalf, -kTurning)), kTicks);
 }
 
 TEST(Stall, BeginsAgainWhenTheBodyGetsOn) {
   Stall stall;
   const View stands = driving({}, kAll);
-  for (int n = 1; n < kPatience; ++n) ASSERT_FALSE(stall.stalled(stands, kPatience, Params{}));
+  for (int n = 1; n < kTicks; ++n) ASSERT_FALSE(stall.stalled(stands, kPatience, Params{}));
   EXPECT_FALSE(stall.stalled(driving(200_mm_per_s, kHalf), kPatience, Params{}));
-  EXPECT_EQ(ticks(stall, stands), kPatience);
+  EXPECT_EQ(ticks(stall, stands), kTicks);
   EXPECT_EQ(ticks(stall, driving(200_mm_per_s, kHalf)), 1000);
 }
 
 TEST(Stall, ItsPatienceLeavesTimeToStart) {
   const Params reference;
-  EXPECT_EQ(patience(reference), 80) << "0.8 s of ticks, of which one at which it is held counts four";
+  EXPECT_EQ(patience(reference), 800_ms) << "of which a time for which it is held counts four times";
   Params slow = reference;
   slow.rangefinders.rate_hz = 10;
   slow.wheels.motor_lag = 300_ms;
-  EXPECT_GT(patience(slow), 3 * patience(reference));
+  EXPECT_GT(patience(slow), patience(reference) * 3);
   Params fine = reference;
   fine.safety.period = 5_ms;
-  EXPECT_EQ(patience(fine), 2 * patience(reference)) << "the same time";
+  EXPECT_EQ(patience(fine), patience(reference));
 }
 
 }  // namespace

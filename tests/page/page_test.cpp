@@ -110,6 +110,22 @@ TEST(Page, OfACampaignHasItsRowsAndReplays) {
   EXPECT_EQ(content(page, "columns-1"), run.columns);
 }
 
+TEST(Page, OfACampaignSaysHowToDriveWhatItHasNoRoomFor) {
+  RunResult result;
+  campaign::Row good, bad;
+  good.seed = 5;
+  good.world = bad.world = "discs";
+  good.planner = bad.planner = "skirt";
+  good.verdict = Verdict::reached;
+  bad.seed = 6;
+  bad.verdict = Verdict::contact;
+  const std::string page = campaign_page({good, bad}, {{1, watched(short_run(), result)}}, controller());
+  const auto campaign = nlohmann::json::parse(content(page, "data"))["campaign"];
+  EXPECT_EQ(campaign["order"], nlohmann::json({1, 0}));
+  EXPECT_THAT(campaign["commands"][0].get<std::string>(), HasSubstr("--replay 5"));
+  EXPECT_TRUE(campaign["commands"][1].is_null());
+}
+
 TEST(Page, SaysHowLargeTheMapIs) {
   const Scenario scenario = short_run();
   const auto map_of = [&](std::optional<PlannerKind> planner) {
@@ -140,6 +156,30 @@ TEST(Recording, HasAllTicksAndAFrameEveryFiftyMilliseconds) {
   for (std::size_t i = 0; i < recording.ticks().frames.ticks.size(); ++i) {
     EXPECT_EQ(recording.ticks().frames.ticks[i], static_cast<std::int64_t>(5 * i));
   }
+}
+
+TEST(Recording, CoarseHasFiveTicksASecondAndTheLast) {
+  const Scenario scenario = short_run();
+  Recording full(scenario.robot), coarse(scenario.robot, Detail::coarse);
+  RunOptions options;
+  options.watch = [&](const Moment& moment) {
+    full.add(moment);
+    coarse.add(moment);
+  };
+  const RunResult result = run(scenario, options);
+  coarse.end();
+  const std::vector<TickRecord>& all = full.ticks().records;
+  const std::vector<TickRecord>& some = coarse.ticks().records;
+  ASSERT_EQ(all.size(), result.ticks);
+  ASSERT_EQ(some.size(), (all.size() - 1) / 20 + 1 + ((all.size() - 1) % 20 != 0 ? 1 : 0));
+  EXPECT_EQ(coarse.ticks().health.size(), some.size());
+  for (std::size_t i = 0; i + 1 < some.size(); ++i) EXPECT_EQ(some[i].t_s, all[20 * i].t_s);
+  EXPECT_EQ(some.back().t_s, all.back().t_s);
+  const std::vector<std::int64_t>& frames = coarse.ticks().frames.ticks;
+  ASSERT_GT(frames.size(), 2U);
+  for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i], static_cast<std::int64_t>(5 * i));
+  EXPECT_LT(stored({scenario, {}, 1}, coarse.ticks(), result, Detail::coarse).columns.size() * 5,
+            stored({scenario, {}, 1}, full.ticks(), result).columns.size());
 }
 
 }  // namespace

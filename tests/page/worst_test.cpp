@@ -28,6 +28,14 @@ TEST(Worst, ContactsThenFaultsThenFailuresThenLongWays) {
   EXPECT_THAT(worst(rows, 0), IsEmpty());
 }
 
+TEST(Worst, BeforeLongWaysComeThoseThatOnlyBelieveToBeThereTheFarthestOffFirst) {
+  std::vector<campaign::Row> rows = {row(Verdict::reached, 90), row(Verdict::off_goal, 50),
+                                     row(Verdict::off_goal, 12), row(Verdict::gave_up, 20)};
+  rows[1].final_distance_m = 0.2;
+  rows[2].final_distance_m = 5.8;
+  EXPECT_THAT(worst(rows, 99), ElementsAre(3, 2, 1, 0));
+}
+
 TEST(Worst, UnreachableIsNoFailureWhereThereIsNoWay) {
   std::vector<campaign::Row> rows = {row(Verdict::unreachable, 40), row(Verdict::reached, 12)};
   rows[0].shortest_m.reset();

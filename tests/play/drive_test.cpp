@@ -57,6 +57,20 @@ TEST(Drive, ReachesAGoalThatMovesAgainAndAgain) {
   }
 }
 
+TEST(Drive, WhoOnlyBelievesToBeThereIsOffTheGoalAndSetsOutAgainForAnother) {
+  Scenario scenario;
+  scenario.goal.at = {4, 0};
+  scenario.noise.wheel_scale_sigma = 0.02;
+  Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+  drive.advance(kMost);
+  ASSERT_EQ(drive.trip().verdict(), Verdict::off_goal);
+  scenario.goal.at = {0, 0};
+  drive.change(scenario);
+  EXPECT_FALSE(drive.trip().verdict());
+  drive.advance(kMost);
+  EXPECT_TRUE(says_reached(drive.trip().verdict().value()));
+}
+
 TEST(Drive, AContactIsForGood) {
   Scenario scenario;
   scenario.goal.at = {2, 0};

@@ -77,7 +77,16 @@ TEST(TableSvg, names_each_rule_at_its_centre) {
   const Element* map = root.by_class("turn").at(0);
   const Element* frame = map->by_class("frame").at(0);
   const Element* first = map->by_class("rules").at(0)->by_name("text").at(0);
-  EXPECT_NEAR(first->number("x"), frame->number("x") + frame->number("width") / 16, 0.01);
+  // TLVB is the rule for an obstacle on the right, which is on the right.
+  EXPECT_NEAR(first->number("x"), frame->number("x") + frame->number("width") * 15 / 16, 0.01);
+}
+
+TEST(TableSvg, the_axis_of_r_is_numbered_from_the_left_side_nearer) {
+  const Element root = parse_xml(table_svg(thesis_picture()));
+  const auto numbers = root.by_class("turn").at(0)->by_class("x-axis").at(0)->by_name("text");
+  ASSERT_EQ(numbers.size(), 9U);
+  EXPECT_EQ(numbers.front()->text, "-8");
+  EXPECT_GT(numbers.front()->number("x"), numbers.back()->number("x"));
 }
 
 /// The fill of the heat map at a place of the plane, from the rectangles of the file.
@@ -110,7 +119,7 @@ TEST(TableSvg, paints_each_place_in_the_colour_of_its_value) {
     for (double d01 = 0.03; d01 < 1; d01 += 0.11) {
       const std::string colour = colour_at(map, r01, d01);
       ASSERT_EQ(colour.size(), 7U);
-      const std::string exact = scale.at(picture.sa_at(10 * d01, -8 + 16 * r01));
+      const std::string exact = scale.at(picture.sa_at(10 * d01, 8 - 16 * r01));
       for (std::size_t c = 1; c < 7; c += 2)
         EXPECT_NEAR(std::stoi(colour.substr(c, 2), nullptr, 16), std::stoi(exact.substr(c, 2), nullptr, 16),
                     14)

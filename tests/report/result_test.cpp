@@ -17,6 +17,7 @@ RunResult sample() {
   r.time_s = 48.2;
   r.path_m = 0.1 + 0.2;
   r.final_distance_m = 0.0987654321;
+  r.believed_distance_m = 0.05;
   r.min_clearance_m = 0.031;
   r.ticks = 4820;
   r.hash = 0xABC;
@@ -24,17 +25,16 @@ RunResult sample() {
 }
 
 TEST(ResultJson, is_the_object_of_the_contract_on_one_line) {
-  EXPECT_EQ(result_json(sample()),
-            R"({"outcome":"reached","time_s":48.2,"path_m":0.3,"final_distance_m":0.098765,)"
-            R"("min_clearance_m":0.031,"ticks":4820,"hash":"0000000000000abc","detail":""})");
+  EXPECT_EQ(
+      result_json(sample()),
+      R"({"outcome":"reached","time_s":48.2,"path_m":0.3,"final_distance_m":0.098765,)"
+      R"("believed_distance_m":0.05,"min_clearance_m":0.031,"ticks":4820,"hash":"0000000000000abc","detail":""})");
 }
 
 TEST(ResultJson, names_each_outcome) {
-  const std::pair<Verdict, const char*> all[] = {{Verdict::reached, "reached"},
-                                                 {Verdict::unreachable, "unreachable"},
-                                                 {Verdict::gave_up, "gave_up"},
-                                                 {Verdict::contact, "contact"},
-                                                 {Verdict::fault, "fault"}};
+  const std::pair<Verdict, const char*> all[] = {
+      {Verdict::reached, "reached"}, {Verdict::off_goal, "off_goal"}, {Verdict::unreachable, "unreachable"},
+      {Verdict::gave_up, "gave_up"}, {Verdict::contact, "contact"},   {Verdict::fault, "fault"}};
   for (const auto& [verdict, name] : all) {
     RunResult r = sample();
     r.verdict = verdict;
@@ -77,6 +77,24 @@ TEST(VerdictWords, say_what_a_person_asks_first) {
   r.verdict = Verdict::contact;
   r.min_clearance_m = -0.0001;
   EXPECT_EQ(verdict_words(r).find("-0.000"), std::string::npos);
+}
+
+TEST(ResultJson, has_null_for_a_distance_that_nobody_knows) {
+  RunResult r = sample();
+  r.final_distance_m = std::nan("");
+  r.believed_distance_m.reset();
+  const auto json = nlohmann::json::parse(result_json(r));
+  EXPECT_TRUE(json["final_distance_m"].is_null());
+  EXPECT_TRUE(json["believed_distance_m"].is_null());
+}
+
+TEST(VerdictWords, do_not_call_a_belief_the_truth) {
+  RunResult r = sample();
+  r.verdict = Verdict::off_goal;
+  r.path_m = 12.309;
+  r.final_distance_m = 5.8349;
+  EXPECT_EQ(verdict_words(r),
+            "believes it is there; is 5.83 m off, after 48.2 s, 12.31 m, min clearance 0.031 m");
 }
 
 TEST(VerdictWords, are_silent_about_a_clearance_that_nothing_gave) {

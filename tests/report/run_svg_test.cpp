@@ -22,8 +22,8 @@ using ::testing::HasSubstr;
 using testing::parse_xml;
 using testing::result_of;
 
-constexpr Verdict kVerdicts[] = {Verdict::reached, Verdict::unreachable, Verdict::gave_up, Verdict::contact,
-                                 Verdict::fault};
+constexpr Verdict kVerdicts[] = {Verdict::reached, Verdict::off_goal, Verdict::unreachable,
+                                 Verdict::gave_up, Verdict::contact,  Verdict::fault};
 
 struct Drawn {
   std::string text;
@@ -78,6 +78,12 @@ TEST(RunSvg, is_well_formed_with_plain_coordinates_for_each_verdict) {
 
 TEST(RunSvg, gives_equal_bytes_for_equal_input) {
   EXPECT_EQ(draw_garden(Verdict::reached).text, draw_garden(Verdict::reached).text);
+}
+
+TEST(RunSvg, says_what_a_robot_off_the_goal_believes) {
+  const Drawn drawn = draw_garden(Verdict::off_goal);
+  EXPECT_THAT(drawn.root.by_class("verdict").at(0)->text, HasSubstr("believes it is there; is "));
+  EXPECT_THAT(drawn.root.by_class("verdict").at(0)->text, HasSubstr(" m off, after 22."));
 }
 
 TEST(RunSvg, has_the_name_and_the_verdict_as_text) {

@@ -85,6 +85,9 @@ Ruling judge(const Scenario& scenario, const std::vector<TickRecord>& records, c
   const double left =
       std::hypot(records[last].x_m - scenario.goal.at.x, records[last].y_m - scenario.goal.at.y);
   if (std::fabs(left - result.final_distance_m) > 1e-6) object(last, "the final distance is another one");
+  const double beyond = left - scenario.goal.tolerance_m;
+  if (result.verdict == Verdict::reached && beyond > 1e-6) object(last, "reached is claimed from afar");
+  if (result.verdict == Verdict::off_goal && beyond < -1e-6) object(last, "at the goal, and called off it");
   if (result.min_clearance_m > ruling.min_clearance_m + 2e-4)
     object(last, "the clearance claimed is too large");
   return ruling;

@@ -76,6 +76,18 @@ TEST(Run, AWallWithoutEndMakesTheThesisPlannerGiveUp) {
   EXPECT_EQ(d.complaint, "");
 }
 
+TEST(Run, TheLengthBudgetIsTheRobots) {
+  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::map}) {
+    Scenario s = small_world("");
+    s.robot.skirt.length_budget = 1_m;
+    const Drive d = drive(s, planner);
+    EXPECT_EQ(d.result.verdict, Verdict::gave_up);
+    EXPECT_EQ(d.result.detail, "length_budget");
+    EXPECT_NEAR(d.result.path_m, 1.0, 0.05);
+    EXPECT_EQ(d.complaint, "");
+  }
+}
+
 TEST(Run, AClosedRoomGivesNoExitOrABudget) {
   Scenario s = small_world("[[polygon]]\npoints = [[1.7, -0.3], [2.3, -0.3], [2.3, 0.3], [1.7, 0.3]]\n");
   s.robot.thesis.max_steps = 60;
@@ -143,7 +155,7 @@ TEST(Run, TheSeedOfTheNoiseDecidesAndOptionsOverrideIt) {
 
 // Whatever becomes of the mission, the judge must find nothing that the verdict hides.
 TEST(Run, NothingEscapesTheJudgeInRandomWorlds) {
-  int verdicts[5] = {};
+  int verdicts[6] = {};
   for (const auto kind :
        {worlds::Kind::discs, worlds::Kind::poles, worlds::Kind::u_trap, worlds::Kind::spiral,
         worlds::Kind::maze, worlds::Kind::rooms, worlds::Kind::enclosed}) {
@@ -158,10 +170,12 @@ TEST(Run, NothingEscapesTheJudgeInRandomWorlds) {
       ++verdicts[static_cast<int>(d.result.verdict)];
     }
   }
-  std::printf("84 worlds, seeds 1-12: %d reached, %d gave up, %d contacts, %d faults\n", verdicts[0],
-              verdicts[2], verdicts[3], verdicts[4]);
-  EXPECT_GT(verdicts[0], 10);
-  EXPECT_EQ(verdicts[4], 0);
+  const auto of = [&](Verdict verdict) { return verdicts[static_cast<int>(verdict)]; };
+  std::printf("84 worlds, seeds 1-12: %d reached, %d off the goal, %d gave up, %d contacts, %d faults\n",
+              of(Verdict::reached), of(Verdict::off_goal), of(Verdict::gave_up), of(Verdict::contact),
+              of(Verdict::fault));
+  EXPECT_GT(of(Verdict::reached), 10);
+  EXPECT_EQ(of(Verdict::fault), 0);
 }
 
 }  // namespace

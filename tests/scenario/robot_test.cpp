@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 
 #include "host/scenario/load.hpp"
+#include "host/scenario/param_list.hpp"
 #include "host/scenario/params_text.hpp"
+#include "host/scenario/violations.hpp"
 #include "tests/scenario/temporary_file.hpp"
 
 namespace whisker {
@@ -25,8 +27,76 @@ TEST(RobotFile, WithAnErrorChangesNothing) {
   const TemporaryFile file("body_radius_m = 0.12\nwheel_track_m = 0.5\n");
   Params params;
   EXPECT_EQ(message_of<InputError>([&] { apply_robot_file(params, file.path()); }),
-            file.path() + ":1:1: the wheels must lie within the body: wheel_track_m <= 2 body_radius_m");
+            file.path() +
+                ":2:17: wheel_track_m = 0.5 (line 2), body_radius_m = 0.12 (line 1): the wheels must lie "
+                "within the body: wheel_track_m <= 2 body_radius_m; it would fit with wheel_track_m from "
+                "0.022861 to 0.24 or body_radius_m from 0.25 to 0.269999");
   EXPECT_EQ(params.body.radius, 90_mm);
+}
+
+std::vector<std::string> all_errors(const std::string& text) {
+  const TemporaryFile file(text);
+  Params params;
+  try {
+    apply_robot_file(params, file.path());
+  } catch (const InputErrors& errors) {
+    std::vector<std::string> lines;
+    for (const InputError& e : errors.all())
+      lines.push_back(std::string(e.what()).substr(file.path().size()));
+    return lines;
+  }
+  return {};
+}
+
+TEST(RobotFile, IsToldEveryRelationThatDoesNotHold) {
+  const auto lines = all_errors(
+      "thesis_small_step_m = 0.3\nstale_after_s = 0.03\n\n[robot]\nskirt_shield_margin_m = 0.01\n");
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_THAT(lines[0], testing::StartsWith(
+                            ":1:23: thesis_small_step_m = 0.3 (line 1), thesis_base_step_m = 0.2 (not in "
+                            "this file): "));
+  EXPECT_THAT(lines[0],
+              HasSubstr("; it would fit with thesis_small_step_m <= 0.2 or thesis_base_step_m from 0.3 to"));
+  EXPECT_THAT(lines[1], testing::StartsWith(":2:17: stale_after_s = 0.03 (line 2), "));
+  EXPECT_THAT(lines[1], HasSubstr("stale_after_s from 0.041 to 1"));
+  EXPECT_THAT(lines[2], testing::StartsWith(":5:25: "));
+}
+
+TEST(RobotFile, IsToldEveryValueOutOfRangeBeforeAnyRelation) {
+  const auto lines =
+      all_errors("body_radius_m = 9\nrange_rate_hz = true\nconsensus = \"mode\"\nstale_after_s = 0.03\n");
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_THAT(lines[0], HasSubstr(":1:17: 'body_radius_m' must be from 0.02 to 1 m, but is 9"));
+  EXPECT_THAT(lines[1], HasSubstr(":2:17: 'range_rate_hz' must be an integer"));
+  EXPECT_THAT(lines[2], HasSubstr(":3:13: 'consensus' must be agreeing or median"));
+}
+
+TEST(Violations, NameTheirKeysAndWhatIsSaidToFitDoes) {
+  // One value of one parameter at a time, far from the default: each mend that is named must be one.
+  const std::vector<ParamEntry> list = param_list(Params{});
+  int mended = 0;
+  for (std::size_t place = 0; place < list.size(); ++place) {
+    for (const std::int64_t raw : {list[place].low, list[place].high}) {
+      Params params;
+      set_param(params, place, raw);
+      for (const Violation& v : violations(params)) {
+        EXPECT_FALSE(v.keys.empty()) << name(v.fault);
+        for (const std::string& fit : v.fits) {
+          const TemporaryFile file(fit.substr(0, fit.find(' ')) + " = " +
+                                   fit.substr(fit.find_last_of(" =") + 1) + "\n");
+          Params changed = params;
+          try {
+            apply_robot_file(changed, file.path());
+          } catch (const InputErrors& errors) {
+            for (const InputError& e : errors.all())
+              EXPECT_THAT(e.what(), testing::Not(HasSubstr(relation(v.fault))));
+          }
+          ++mended;
+        }
+      }
+    }
+  }
+  EXPECT_GT(mended, 50);
 }
 
 TEST(RobotFile, ThatSetsAParameterTwiceIsRefused) {
@@ -127,7 +197,7 @@ TEST(ParamText, RoundsToTheNearestRawUnit) {
 }
 
 TEST(Relation, IsSaidInWordsForEveryFault) {
-  for (int i = 1; i <= static_cast<int>(ParamFault::step_beyond_range); ++i) {
+  for (int i = 1; i < kParamFaults; ++i) {
     EXPECT_STRNE(relation(static_cast<ParamFault>(i)), "") << i;
   }
 }

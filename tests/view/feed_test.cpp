@@ -138,6 +138,33 @@ TEST(Feed, TellsTheEdgesThatThePageOfTheRunHas) {
   EXPECT_EQ(next(feed, place)["edges"].dump(), json::parse(page::edges_data(finder.found()).dump()).dump());
 }
 
+TEST(Feed, TellsALongRunInPartsThatAreEachTrue) {
+  Feed feed;
+  Scenario scenario = short_run();
+  scenario.walls = {{{0.5, -0.6}, {0.5, 0.6}}};
+  scenario.goal.at = {60, 0.3};
+  scenario.time_limit_s = 120;
+  const RunResult result = drive(scenario, feed);
+  ASSERT_GT(result.ticks, 10000U);
+  Place place;
+  std::size_t ticks = 0, parts = 0;
+  for (auto news = feed.news(place); news; news = feed.news(place), ++parts) {
+    const json part = json::parse(*news);
+    EXPECT_EQ(part["from"], ticks);
+    ticks += ticks_of(part);
+    EXPECT_LT(ticks_of(part), 17U * 256U);
+    EXPECT_EQ(part["ended"], ticks == result.ticks);
+    EXPECT_EQ(part["result"].is_null(), ticks < result.ticks);
+    for (const json& edge : part["edges"]) {
+      EXPECT_LT(edge["hit"].get<std::size_t>(), ticks);
+      EXPECT_TRUE(edge["left"].is_null() || edge["left"].get<std::size_t>() < ticks);
+      EXPECT_EQ(edge["left"].is_null(), edge["end"] == "none");
+    }
+  }
+  EXPECT_EQ(ticks, result.ticks);
+  EXPECT_GE(parts, 3U);
+}
+
 TEST(Feed, GoesOnWhereABrokenLineEnded) {
   Feed feed;
   drive(short_run(), feed);

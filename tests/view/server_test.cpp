@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <httplib.h>
 
 #include <future>
 #include <memory>
@@ -11,18 +10,23 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/view/http.hpp"
 #include "tests/view/watched.hpp"
 
 namespace whisker::view {
 namespace {
 
 using nlohmann::json;
+using testing::Answer;
+using testing::ask;
 using testing::drive;
+using testing::get;
 using ::testing::HasSubstr;
+using testing::kHere;
+using testing::Line;
 using testing::setting;
 using testing::short_run;
 
-constexpr const char* kHere = "127.0.0.1";
 constexpr const char* kPath = "/events";
 
 struct Event {
@@ -46,14 +50,10 @@ std::vector<Event> events_of(const std::string& text) {
 
 /// All that the server tells from this place on.
 std::vector<Event> listen(int port, const std::string& from = "") {
-  httplib::Client client(kHere, port);
-  client.set_read_timeout(std::chrono::seconds(60));
-  httplib::Headers headers;
-  if (!from.empty()) headers.emplace("Last-Event-ID", from);
-  const auto answer = client.Get(kPath, headers);
-  EXPECT_TRUE(answer && answer->status == 200);
-  EXPECT_EQ(answer->get_header_value("Content-Type"), "text/event-stream");
-  return events_of(answer->body);
+  const Answer answer = get(port, kPath, from.empty() ? "" : "Last-Event-ID: " + from + "\r\n");
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(answer.header("Content-Type"), "text/event-stream");
+  return events_of(answer.body);
 }
 
 std::size_t ticks_of(const std::vector<Event>& events) {
@@ -68,49 +68,26 @@ std::size_t ticks_of(const std::vector<Event>& events) {
 /// A connection that has asked for the events; it reads only what it is told to.
 class Idle {
  public:
-  explicit Idle(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    const int small = 4096;
-    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
-    const std::string request = std::string("GET ") + kPath + " HTTP/1.1\r\nHost: here\r\n\r\n";
-    EXPECT_EQ(send(socket_, request.data(), request.size(), 0), static_cast<ssize_t>(request.size()));
-  }
-  ~Idle() { ::close(socket_); }
-  Idle(const Idle&) = delete;
-  Idle& operator=(const Idle&) = delete;
-
-  std::string read_some() const {
-    char bytes[64];
-    const ssize_t n = recv(socket_, bytes, sizeof bytes, 0);
-    return {bytes, n > 0 ? static_cast<std::size_t>(n) : 0U};
-  }
+  explicit Idle(int port) : line_(port, 4096) { line_.send(ask(port, kPath) + "\r\n"); }
+  std::string read_some() const { return line_.read_some(); }
 
  private:
-  int socket_;
+  Line line_;
 };
 
 TEST(Server, ServesThePageAndNothingElse) {
   const Feed feed;
   Server server(kHere, 0, feed, "<p>page</p>");
   server.start();
-  httplib::Client client(kHere, server.port());
-  const auto page = client.Get("/");
-  ASSERT_TRUE(page);
-  EXPECT_EQ(page->status, 200);
-  EXPECT_EQ(page->body, "<p>page</p>");
-  EXPECT_THAT(page->get_header_value("Content-Type"), HasSubstr("text/html"));
-  EXPECT_EQ(page->get_header_value("Cache-Control"), "no-store");
+  const Answer page = get(server.port(), "/");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_EQ(page.body, "<p>page</p>");
+  EXPECT_THAT(page.header("Content-Type"), HasSubstr("text/html"));
+  EXPECT_EQ(page.header("Cache-Control"), "no-store");
+  EXPECT_EQ(get(server.port(), "/?x").status, 200);
   for (const char* path : {"/nothing", "/../etc/passwd", "/events/x"}) {
-    const auto other = client.Get(path);
-    ASSERT_TRUE(other);
-    EXPECT_EQ(other->status, 404) << path;
+    EXPECT_EQ(get(server.port(), path).status, 404) << path;
   }
-  const auto posted = client.Post("/", "x", "text/plain");
-  EXPECT_TRUE(!posted || posted->status >= 400);
 }
 
 TEST(Server, TellsEverybodyAllAndThenLetsThemGo) {
@@ -184,8 +161,7 @@ TEST(Server, TooManyAreRefused) {
     EXPECT_THAT(all.back()->read_some(), HasSubstr(" 200 "));
   }
   EXPECT_THAT(Idle(server.port()).read_some(), HasSubstr(" 503 "));
-  httplib::Client client(kHere, server.port());
-  EXPECT_TRUE(client.Get("/"));
+  EXPECT_EQ(get(server.port(), "/").status, 200);
 }
 
 TEST(Server, APortHasOneServer) {

@@ -1,5 +1,6 @@
 // The page of a campaign in a browser.
 import assert from 'node:assert/strict';
+import {readFileSync, statSync, writeFileSync} from 'node:fs';
 import {after, afterEach, before, describe, test} from 'node:test';
 import {
   accessibilityFaults,
@@ -11,7 +12,7 @@ import {
   pictureOf,
   tickOf,
 } from './browser.mjs';
-import {Folder, whisker} from './scenarios.mjs';
+import {Folder, whisker, withoutOrigin} from './scenarios.mjs';
 
 const MISSIONS = ['campaign', 'u-trap', '--count', 12, '--planner', 'bug2'];
 
@@ -33,9 +34,11 @@ describe('the page of a campaign', () => {
   test('shows outcomes, spreads and ways', async () => {
     const {page, complaints} = await open();
     const rows = await page.locator('#shares tr').allTextContents();
+    assert.match(rows[0], /^truly there/);
     const share = (name) => rows.find((row) => row.startsWith(name));
     for (const [name, key] of [
-      ['reached', 'reached'],
+      ['truly there', 'truly_there'],
+      ['says it is there', 'reached'],
       ['gave up', 'gave_up'],
       ['contact', 'contact'],
     ]) {
@@ -47,11 +50,34 @@ describe('the page of a campaign', () => {
     assert.deepEqual(complaints, []);
   });
 
+  test('does not count belief for truth', async () => {
+    const noisy = ['discs', '--count', 6, '--noise', '--wheel-scale-sigma', 0.005, '--seed', 11];
+    const file = folder.at('noisy.html');
+    const told = JSON.parse(whisker('campaign', ...noisy, '--json', '--html', file));
+    assert.equal(told.truly_there.value, 0);
+    assert.equal(told.reached.value, 1);
+    const {page, complaints} = await openPage(browser, folder.url('noisy.html'));
+    const rows = await page.locator('#shares tr').allTextContents();
+    assert.match(rows[0], /^truly there00\.0 %/);
+    const verdicts = page.locator('#replays tr td:nth-child(3)');
+    const off = (await verdicts.allTextContents()).map((text) => {
+      assert.match(text, /^believes it is there; is \d+\.\d\d m off$/);
+      return Number(text.match(/is (\S+) m/)[1]);
+    });
+    assert.deepEqual(
+      off,
+      [...off].sort((a, b) => b - a),
+      'the farthest off first',
+    );
+    assert.equal(await page.locator('#replays td.bad').count(), off.length);
+    assert.deepEqual(complaints, []);
+  });
+
   test('puts the worst first, and replays them', async () => {
     const {page, complaints} = await open();
     const verdicts = await page.locator('#replays tr td:nth-child(3)').allTextContents();
-    assert.equal(verdicts.length, 8);
-    const failed = verdicts.map((verdict) => verdict !== 'reached');
+    assert.equal(verdicts.length, 12);
+    const failed = verdicts.map((verdict) => verdict !== 'reached the goal');
     assert.deepEqual(
       failed,
       [...failed].sort((a, b) => b - a),
@@ -62,7 +88,7 @@ describe('the page of a campaign', () => {
     const seed = await page.evaluate(() => window.whisker.run.info.seed);
     const [again] = await page.evaluate(() => [window.whisker.run.info.result]);
     assert.deepEqual(
-      JSON.parse(whisker('campaign', 'u-trap', '--planner', 'bug2', '--replay', seed, '--json')),
+      withoutOrigin(JSON.parse(whisker('campaign', 'u-trap', '--planner', 'bug2', '--replay', seed, '--json'))),
       again,
     );
     assert.match(await page.textContent('#facts'), new RegExp(`--replay ${seed} `));
@@ -71,9 +97,80 @@ describe('the page of a campaign', () => {
     assert.deepEqual(complaints, []);
   });
 
+  test('every mission of a hundred opens, in a page of less than 3 MB', async () => {
+    const file = folder.at('hundred.html');
+    const rows = whisker(
+      'campaign',
+      'maze',
+      '--noise',
+      '--count',
+      100,
+      '--html',
+      file,
+      '--csv',
+      folder.at('hundred.csv'),
+    );
+    assert.ok(rows.length > 0 && statSync(file).size < 3e6, `${statSync(file).size} bytes`);
+    const {page, complaints} = await openPage(browser, folder.url('hundred.html'));
+    assert.equal(await page.locator('#replays tr').count(), 20);
+    await page.click('#replays-all');
+    assert.equal(await page.locator('#replays a').count(), 100);
+    assert.equal(await page.textContent('#replays-note'), '');
+    const trace = folder.trace('hundred');
+    for (const i of [0, 19, 57, 99]) {
+      const mission = await openPage(browser, folder.url('hundred.html', `#run=${i}&t=99999`));
+      const {seed, t, x, result} = await mission.page.evaluate(() => {
+        const {run, player} = window.whisker;
+        return {
+          seed: run.info.seed,
+          t: run.t[player.tick],
+          x: [...run.column('x_m')],
+          result: run.info.result,
+        };
+      });
+      const row = trace.find((one) => Number(one.seed) === seed);
+      assert.equal(result.hash, row.hash);
+      assert.ok(Math.abs(t - Number(row.time_s)) < 0.011, `the last tick is at ${t}`);
+      assert.ok(x.length < Number(row.time_s) * 5 + 3);
+      assert.match(await mission.page.textContent('#facts'), /five ticks a second/);
+      assert.equal(await mission.page.textContent('#now-tick'), `tick ${Math.round(t * 100)}`);
+      assert.deepEqual(mission.complaints, []);
+    }
+    assert.deepEqual(complaints, []);
+  });
+
+  test('a mission that the page has no room for says how to drive it', async () => {
+    // As the tool writes it for a campaign that is larger than that.
+    const html = readFileSync(folder.at('campaign.html'), 'utf8').replace(
+      /(id="data">)(.*?)(<\/script>)/s,
+      (_, before, text, behind) => {
+        const data = JSON.parse(text);
+        const {row, command} = data.runs.pop();
+        data.campaign.commands[row] = command;
+        return before + JSON.stringify(data).replaceAll('<', '\\u003c') + behind;
+      },
+    );
+    writeFileSync(folder.at('cut.html'), html);
+    const {page, complaints} = await openPage(browser, folder.url('cut.html'));
+    assert.match(await page.textContent('#replays-note'), /room for 11 of 12 missions/);
+    await page.evaluate(() =>
+      Object.defineProperty(navigator, 'clipboard', {
+        value: {writeText: async (text) => (window.copied = text)},
+      }),
+    );
+    await page.click('#replays button');
+    await page.waitForFunction(() => window.copied);
+    assert.match(
+      await page.evaluate(() => window.copied),
+      /^whisker campaign u-trap --replay \d+ --planner bug2/,
+    );
+    assert.deepEqual(complaints, []);
+  });
+
   test('links to a tick of a replay', async () => {
-    const {page} = await open('#run=3&t=1.5');
-    assert.equal(await tickOf(page), 150);
+    const {page} = await open('#run=3&t=1.6');
+    assert.equal(await tickOf(page), 8);
+    assert.equal(await page.textContent('#now-tick'), 'tick 160');
     assert.equal(await page.evaluate(() => window.whisker.run.info.row !== undefined), true);
   });
 

@@ -4,6 +4,7 @@ import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {after, before, describe, test} from 'node:test';
 import {KINDS, nativeHashes} from './native.mjs';
+import {randomSituation} from './random_scenarios.mjs';
 import {Folder, ROOT, whisker} from './scenarios.mjs';
 import * as sources from './sources.mjs';
 
@@ -80,6 +81,49 @@ describe('the core in the playground', () => {
     for (const planner of ['skirt', 'thesis', 'map']) {
       assert.equal(drive(situation, planner).hash, native(file, planner).hash, planner);
     }
+  });
+
+  test('what it drives the native program drives alike, and what it refuses that refuses', () => {
+    const planners = ['skirt', 'thesis', 'map'];
+    const verdicts = {good: 0, none: 0, touches: 0};
+    for (let seed = 1; seed <= 150; ++seed) {
+      const situation = randomSituation(seed);
+      const judged = core.judge(situation);
+      ++verdicts[judged];
+      const file = folder.at('random.toml');
+      writeFileSync(file, scenarioToml(`random ${seed}`, situation));
+      const planner = planners[seed % 3];
+      if (judged === 'good') {
+        assert.equal(drive(situation, planner).hash, native(file, planner).hash, `seed ${seed}`);
+      } else {
+        assert.throws(
+          () => whisker('run', file),
+          ({status}) => status === 2,
+          `seed ${seed}`,
+        );
+      }
+    }
+    assert.ok(verdicts.good > 30 && verdicts.none > 30, JSON.stringify(verdicts));
+  });
+
+  test('more things or points than the page takes are none, and a native scenario may have them', () => {
+    const good = core.generate('u-trap', 1, false);
+    const [x, y] = good.world.start;
+    const judge = (world) => core.judge({...good, world: {...good.world, polygons: [], ...world}});
+    const discs = (n) => Array.from({length: n}, () => [x + 5, y, 0.1]);
+    assert.equal(judge({discs: discs(1000)}), 'good');
+    assert.equal(judge({discs: discs(1001)}), 'none');
+    const walls = [[[x + 5, y], [x + 6, y]]]; // prettier-ignore
+    assert.equal(judge({discs: discs(1000), walls}), 'none');
+    const long = (n) => [Array.from({length: n}, (_, i) => [x + 5 + i / 100, y])];
+    assert.equal(judge({walls: long(4096)}), 'good');
+    assert.equal(judge({walls: [...long(4095), ...walls]}), 'none');
+    const file = folder.at('large.toml');
+    writeFileSync(
+      file,
+      scenarioToml('large', {...good, timeLimit: 1, world: {...good.world, discs: discs(1001)}}),
+    );
+    assert.equal(typeof native(file, 'skirt').hash, 'string');
   });
 
   test('the hashes on record are what the native program gives', () => {

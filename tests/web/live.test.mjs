@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import {once} from 'node:events';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {connect, createServer} from 'node:net';
+import {join} from 'node:path';
 import {after, afterEach, before, describe, test} from 'node:test';
 import {
   accessibilityFaults,
@@ -15,7 +16,7 @@ import {
   pictureOf,
   tickOf,
 } from './browser.mjs';
-import {Folder, Running, whisker} from './scenarios.mjs';
+import {Folder, ROOT, Running, whisker} from './scenarios.mjs';
 
 // Lost frames are sent again after a while: the run takes some seconds, and is the same run.
 const SLOW = ['--drop', 1];
@@ -120,6 +121,24 @@ describe('the live page', () => {
     assert.deepEqual(complaints, []);
   });
 
+  test('judges a robot by its true place, which the bus does not tell', async () => {
+    const hil = start('hil', join(ROOT, 'tests/cli/scenarios/bad_wheels.toml'), '--view-stay');
+    await hil.says(/the run is over/);
+    const {page} = await watch(hil);
+    await state(page, 'ended');
+    await drawn(page);
+    assert.match(await page.textContent('#verdict'), /^believes it is there; is \d\.\d\d m off, after/);
+    const chip = await page.evaluate(() => {
+      const style = getComputedStyle(document.documentElement);
+      return ['goal', 'over'].find(
+        (name) =>
+          style.getPropertyValue(`--${name}`).trim() ===
+          document.getElementById('state').style.getPropertyValue('--chip').trim(),
+      );
+    });
+    assert.equal(chip, 'over');
+  });
+
   test('says what the bus does not tell', async () => {
     const hil = start('hil', trap, '--view-stay');
     await hil.says(/the run is over/);
@@ -166,7 +185,11 @@ describe('the live page', () => {
     const open = new Set();
     const proxy = createServer((near) => {
       const far = connect(port, '127.0.0.1');
-      near.pipe(far).pipe(near);
+      // A server answers to its own name only.
+      near.once('data', (bytes) => {
+        far.write(bytes.toString('latin1').replace(/^host: .*$/im, `Host: 127.0.0.1:${port}`));
+        near.pipe(far).pipe(near);
+      });
       for (const end of [near, far]) end.on('error', () => {});
       open.add(near);
       near.on('close', () => far.destroy());
@@ -187,6 +210,32 @@ describe('the live page', () => {
       times.forEach((time, i) => assert.equal(time, i / 100));
     } finally {
       proxy.close();
+    }
+  });
+
+  test('who finds no room is told so, and comes in when there is some', async () => {
+    const hil = startLong();
+    const {port} = new URL(await hil.url());
+    const others = await Promise.all(
+      Array.from({length: 24}, async () => {
+        const line = connect(port, '127.0.0.1');
+        line.on('error', () => {});
+        line.write(`GET /events HTTP/1.1\r\nHost: 127.0.0.1:${port}\r\n\r\n`);
+        await once(line, 'data');
+        line.resume();
+        return line;
+      }),
+    );
+    try {
+      const {page} = await watch(hil);
+      await page.waitForFunction(() => document.getElementById('live-says').textContent !== '');
+      assert.match(await page.textContent('#live-says'), /24 watch this run already/);
+      assert.ok(await page.isVisible('#live-says'));
+      for (const line of others) line.destroy();
+      await grown(page, 10);
+      await state(page, 'live');
+    } finally {
+      for (const line of others) line.destroy();
     }
   });
 

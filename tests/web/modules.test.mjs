@@ -49,3 +49,11 @@ test('histogram: round steps and quantiles', async () => {
   assert.equal(quantile([1, 2, 3, 4], 0.95), 4);
   assert.equal(quantile([7], 0.05), 7);
 });
+
+test('words: what moves does not stand yet', async () => {
+  const {sentence} = await sources.words();
+  assert.equal(sentence('looking', 'none', '', 0), 'Stands and looks.');
+  assert.equal(sentence('looking', 'none', '', 0.16), 'Comes to a stand and looks.');
+  assert.equal(sentence('stopped', 'fault', '', 0.16), 'Stops for safety: something failed.');
+  assert.equal(sentence('stopped', 'fault', '', 0.004), 'Stopped for safety: something failed.');
+});

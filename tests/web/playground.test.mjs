@@ -104,6 +104,36 @@ describe('the playground', () => {
     assert.deepEqual(complaints, []);
   });
 
+  test('a robot that only believes to be there is not shown as one that is', async () => {
+    const {page, complaints} = await open(
+      '#world=discs&seed=11&planner=skirt&noise=0.01_0.02_0.01_0.005_0.3',
+    );
+    await toTheEnd(page);
+    const {outcome, distance, believed} = await play(page, 'play.runs[0].result');
+    assert.equal(outcome, 'off_goal');
+    assert.ok(believed <= 0.1 && distance > 0.1);
+    const verdict = page.locator('#card-0 .verdict');
+    assert.ok(
+      (await verdict.textContent()).startsWith(
+        `believes it is there; is ${distance.toFixed(2)} m off, after`,
+      ),
+    );
+    const colour = await verdict.evaluate((node) => getComputedStyle(node).color);
+    const contact = await verdict.evaluate((node) => {
+      node.dataset.outcome = 'contact';
+      return getComputedStyle(node).color;
+    });
+    assert.equal(colour, contact);
+    assert.match(await page.textContent('#spoken'), /believes it is there; is/);
+    const world = folder.at('off.toml');
+    whisker('world', 'discs', '--seed', 11, '--noise', '--wheel-scale-sigma', 0.005, '--out', world);
+    const native = JSON.parse(whisker('run', world, '--json'));
+    assert.equal(native.outcome, 'off_goal');
+    assert.ok(Math.abs(native.final_distance_m - distance) < 1e-6);
+    assert.ok(Math.abs(native.believed_distance_m - believed) < 1e-6);
+    assert.deepEqual(complaints, []);
+  });
+
   test('the scenario that it saves drives natively to the same hash', async () => {
     const {page} = await open('#world=maze&seed=11&planner=skirt&noise=0.01_0.02_0.01_0.0001_0.3');
     await page.selectOption('#things', {index: 1});
@@ -216,6 +246,7 @@ describe('the playground', () => {
   test('the planner is switched, and the address with it', async () => {
     const {page} = await open('#world=spiral&seed=2&planner=skirt');
     await page.click('#who-thesis');
+    await drawn(page);
     assert.equal(await page.textContent('#card-0 h2'), 'thesis planner');
     await page.waitForFunction(() => location.hash.includes('planner=thesis'));
     await page.click('#who-both');
@@ -261,6 +292,7 @@ describe('the playground', () => {
     assert.equal(await page.locator('.card:visible').count(), 2);
     await page.waitForFunction(() => location.hash.includes('planner=skirt-map'));
     await page.click('#who-both');
+    await drawn(page);
     assert.equal(await page.locator('.map-key:visible').count(), 0);
     assert.deepEqual(complaints, []);
   });
@@ -289,17 +321,36 @@ describe('the playground', () => {
     assert.deepEqual(complaints, []);
   });
 
-  test('an address that says nonsense opens the first world', async () => {
-    for (const hash of [
-      '#world=moon&seed=x&planner=me&noise=a_b&rules=9&own=!!',
-      '#own=eJyLjgUAARUAuQ',
-      '#noise=9_9_9_9_9',
-    ]) {
-      const {page, complaints} = await open(hash);
-      assert.equal(await play(page, 'play.state.kind'), 'u-trap');
-      assert.deepEqual(complaints, []);
+  test('things as small as they get are good for a file', async () => {
+    const {page} = await open('#world=u-trap&seed=7&planner=skirt');
+    const canvas = page.locator('#card-0 canvas');
+    for (const kind of ['disc', 'bar', 'wall']) {
+      await page.locator(`#add-${kind}`).press('Enter');
+      for (let i = 0; i < 60; ++i) await canvas.press('-');
     }
+    whisker('run', await download(page, '#save-scenario'));
   });
+
+  for (const width of [390, 412, 800, 1440]) {
+    test(`all of the world is in view at first, also at ${width} px`, async () => {
+      const {page} = await open('', {viewport: {width, height: 860}});
+      const off = await page.evaluate(() => {
+        const {camera, situation} = window.whisker.play;
+        const shown = [...document.querySelectorAll('.card canvas')].filter(
+          (canvas) => canvas.clientWidth > 0,
+        );
+        return shown.flatMap(({clientWidth: width, clientHeight: height}) =>
+          [situation.world.start, situation.world.goal, ...situation.world.polygons.flat()].filter(
+            ([x, y]) => {
+              const [px, py] = camera.toScreen(x, y, width, height);
+              return px < 0 || py < 0 || px > width || py > height;
+            },
+          ),
+        );
+      });
+      assert.deepEqual(off, []);
+    });
+  }
 
   test('noise begins the drive anew, and the same noise gives the same drive', async () => {
     const {page} = await open('#world=u-trap&seed=3&planner=skirt');

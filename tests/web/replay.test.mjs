@@ -1,6 +1,6 @@
 // The replay page in a browser.
 import assert from 'node:assert/strict';
-import {statSync} from 'node:fs';
+import {readFileSync, statSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {after, afterEach, before, describe, test} from 'node:test';
 import {
@@ -15,7 +15,7 @@ import {
   seek,
   tickOf,
 } from './browser.mjs';
-import {Folder, ROOT, U_TRAP} from './scenarios.mjs';
+import {Folder, ROOT, U_TRAP, whisker} from './scenarios.mjs';
 
 describe('the replay page', () => {
   const folder = new Folder();
@@ -189,7 +189,7 @@ describe('the replay page', () => {
     assert.equal(await page.textContent('#clock'), '12.34 s');
     await page.keyboard.press('ArrowRight');
     await drawn(page);
-    assert.equal(new URL(page.url()).hash, '#t=12.35');
+    await page.waitForFunction(() => location.hash === '#t=12.35');
     await page.evaluate(() => (location.hash = '#t=3'));
     await page.waitForFunction(() => window.whisker.player.tick === 300);
     const late = await open('#t=99999');
@@ -197,6 +197,46 @@ describe('the replay page', () => {
     const nonsense = await open('#t=soon');
     assert.equal(await tickOf(nonsense.page), 0);
     assert.deepEqual(nonsense.complaints, []);
+  });
+
+  test('nothing stands that moves', async () => {
+    folder.drive('enclosed', ['enclosed', '--noise', '--seed', 1]);
+    const {page} = await openPage(browser, folder.url('enclosed.html', '#t=99999'));
+    assert.ok(parseFloat(await page.textContent('#now-speed')) > 0.1, 'it is still fast when it knows');
+    assert.match(await page.textContent('#sentence'), /^Comes to a stand: the goal cannot be reached/);
+  });
+
+  test('where the beams read otherwise than the table was asked, it says so', async () => {
+    const scenario = folder.at('false_clear.toml');
+    whisker('world', 'discs', '--seed', 3, '--out', scenario);
+    writeFileSync(scenario, `${readFileSync(scenario, 'utf8')}\n[noise]\nrange_false_clear = 0.9\n`);
+    const {outcome} = folder.run('false_clear', scenario);
+    assert.equal(outcome, 'contact');
+    const {page} = await openPage(browser, folder.url('false_clear.html', '#t=99'));
+    const found = await page.evaluate(() => {
+      const {run} = window.whisker;
+      for (let tick = run.ticks - 1; tick > 0; --tick)
+        if (run.range(1, tick) < 0.3 && run.column('d')[tick] > 9) return tick;
+      return -1;
+    });
+    assert.ok(found > 0);
+    await seek(page, found);
+    assert.match(await page.textContent('#table-says'), /agreed on before: at this tick they read otherwise/);
+    assert.doesNotMatch(await page.textContent('#run'), /distance ahead, now/);
+  });
+
+  test('an obstacle on the left is on the left, and colours mean the same in all pictures', async () => {
+    const {page} = await open();
+    const colours = await page.evaluate(() => {
+      const canvas = document.getElementById('heat-turn');
+      const at = (x, y) => [
+        ...canvas.getContext('2d').getImageData(x * canvas.width, y * canvas.height, 1, 1).data,
+      ];
+      return [at(0.25, 0.75), at(0.85, 0.75)];
+    });
+    const blue = ([r, , b]) => b > r;
+    // Near ahead: the left nearer turns right, blue, as in `whisker table --svg`.
+    assert.deepEqual(colours.map(blue), [true, false]);
   });
 
   test('says what it does and why', async () => {
@@ -309,6 +349,7 @@ describe('the replay page', () => {
     ['run_over', /touched an obstacle after 0\.\d s/],
     ['goal_at_start', /reached the goal in 0\.0 s/],
     ['no_time', /gave up after/],
+    ['bad_wheels', /^believes it is there; is \d\.\d\d m off, after \d+\.\d s$/],
   ]) {
     test(`opens the short run ${name} at its end and at its beginning`, async () => {
       folder.run(name, join(ROOT, `tests/cli/scenarios/${name}.toml`));
@@ -320,6 +361,58 @@ describe('the replay page', () => {
       assert.deepEqual(complaints, []);
     });
   }
+
+  test('a robot that only believes to be there is not shown as one that is', async () => {
+    const looks = (page) =>
+      page.evaluate(() => {
+        const colour = (name) =>
+          getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+        const shown = document.createElement('i');
+        document.body.append(shown);
+        const rgb = (name) => {
+          shown.style.color = colour(name);
+          return getComputedStyle(shown).color;
+        };
+        return {
+          verdict: getComputedStyle(document.getElementById('verdict')).color,
+          chip: document.getElementById('state').style.getPropertyValue('--chip').trim(),
+          goal: rgb('goal'),
+          contact: rgb('contact'),
+          goalChip: colour('goal'),
+        };
+      });
+    const off = folder.run('off', join(ROOT, 'tests/cli/scenarios/bad_wheels.toml'));
+    assert.equal(off.outcome, 'off_goal');
+    const {page, complaints} = await openPage(browser, folder.url('off.html', '#t=999'));
+    const words = `believes it is there; is ${off.final_distance_m.toFixed(2)} m off, after`;
+    assert.ok((await page.textContent('#verdict')).startsWith(words));
+    assert.ok(
+      whisker('run', join(ROOT, 'tests/cli/scenarios/bad_wheels.toml')).startsWith(words),
+      'as the command says',
+    );
+    const wrong = await looks(page);
+    assert.equal(wrong.verdict, wrong.contact);
+    assert.notEqual(wrong.chip, wrong.goalChip);
+    const facts = await page.textContent('#facts');
+    assert.match(facts, new RegExp(`from the goal at the end${off.final_distance_m.toFixed(3)} m`));
+    assert.match(facts, new RegExp(`as it believes${off.believed_distance_m.toFixed(3)} m`));
+    assert.match(await page.textContent('#sentence'), /by its own estimate it is at the goal/);
+    const right = await looks((await open('#t=999')).page);
+    assert.equal(right.verdict, right.goal);
+    assert.equal(right.chip, right.goalChip);
+    assert.deepEqual(complaints, []);
+  });
+
+  test('of a log nobody knows where the robot truly was', async () => {
+    const log = folder.at('run.log');
+    whisker('hil', U_TRAP, '--record', log);
+    whisker('replay', log, '--html', folder.at('log.html'));
+    const {page, complaints} = await openPage(browser, folder.url('log.html', '#t=999'));
+    assert.match(await page.textContent('#verdict'), /^believes it is there after \d+\.\d s$/);
+    assert.equal(await page.getAttribute('#verdict', 'data-outcome'), 'believed');
+    assert.match(await page.textContent('#facts'), /from the goal at the endnot known here/);
+    assert.deepEqual(complaints, []);
+  });
 
   test('ten minutes at 100 Hz stay below 5 MB, and open', async () => {
     const long = folder.tenMinutes('long');

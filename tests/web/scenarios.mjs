@@ -17,7 +17,7 @@ export function whisker(...args) {
       stdio: ['ignore', 'pipe', 'pipe'],
     });
   } catch (error) {
-    if (![3, 4, 5, 6].includes(error.status)) throw error;
+    if (![3, 4, 5, 6, 7].includes(error.status)) throw error;
     return error.stdout;
   }
 }
@@ -104,3 +104,10 @@ export class Folder {
 }
 
 export const U_TRAP = join(ROOT, 'host/worlds/scenarios/figure8_u_trap.toml');
+
+const ORIGIN = ['schema', 'version', 'seed', 'planner', 'robot_name', 'robot_digest'];
+
+/** A result of the command without what it says of how it came about: pages have that elsewhere. */
+export function withoutOrigin(result) {
+  return Object.fromEntries(Object.entries(result).filter(([key]) => !ORIGIN.includes(key)));
+}

@@ -10,6 +10,7 @@ constexpr Params robot_params() noexcept {
   Params p;
   p.safety.period = 20_ms;
   p.safety.lost_after = 2000_ms;
+  p.rangefinders.clear_range = 600_mm;  // docs/boards.md
   p.rangefinders.rate_hz = 6;
   p.rangefinders.latency = 20_ms;
   p.rangefinders.cone = 30_deg;

@@ -47,25 +47,25 @@ void SonarRangers::on_interrupt() noexcept {
   }
 }
 
-void SonarRangers::finish(RangeStatus status, uint16_t mm, uint32_t now_ms) noexcept {
+void SonarRangers::finish(RangeStatus status, uint16_t mm) noexcept {
   Sensor& sensor = sensor_[beam_];
   sensor.reading.status = status;
   sensor.reading.mm = mm;
   sensor.reading.sequence = static_cast<uint8_t>((sensor.reading.sequence + 1) % 16);
-  sensor.measured_ms = now_ms;
+  sensor.fired_ms = slot_ms_;
   phase_ = Phase::quiet;
   beam_ = static_cast<uint8_t>(beam_ + 1 < kBeams ? beam_ + 1 : 0);
 }
 
-void SonarRangers::fail(Trouble trouble, uint32_t now_ms) noexcept {
+void SonarRangers::fail(Trouble trouble) noexcept {
   troubles_.count(trouble);
-  finish(RangeStatus::invalid, 0, now_ms);
+  finish(RangeStatus::invalid, 0);
 }
 
 void SonarRangers::fire(uint32_t now_ms) noexcept {
   slot_ms_ = now_ms;
   if (is_set(reg::kPINB, wiring::kEcho)) {
-    fail(Trouble::echo_line_high, now_ms);
+    fail(Trouble::echo_line_high);
     return;
   }
   uint16_t late = 0;
@@ -87,11 +87,11 @@ void SonarRangers::wait(uint32_t now_ms) noexcept {
     const RangeStatus status = mm > kFarthestMm  ? RangeStatus::clear
                                : mm < kNearestMm ? RangeStatus::too_near
                                                  : RangeStatus::ok;
-    finish(status, mm, now_ms);
+    finish(status, mm);
   } else if (phase_ == Phase::shot && since > kAnswerMs) {
-    fail(Trouble::echo_missing, now_ms);
+    fail(Trouble::echo_missing);
   } else if (since > kEndlessMs) {
-    fail(Trouble::echo_endless, now_ms);
+    fail(Trouble::echo_endless);
   }
 }
 
@@ -107,7 +107,7 @@ void SonarRangers::poll(uint32_t now_ms) noexcept {
 bool SonarRangers::read(RangeReadings& out) noexcept {
   for (uint8_t i = 0; i < kBeams; ++i) {
     const Sensor& sensor = sensor_[i];
-    const uint32_t age = now_ms_ - sensor.measured_ms;
+    const uint32_t age = now_ms_ - sensor.fired_ms;
     out.beam[i] = sensor.reading;
     if (sensor.reading.status == RangeStatus::stale) continue;
     out.beam[i].age_ms = static_cast<uint8_t>(age > UINT8_MAX ? UINT8_MAX : age);

@@ -11,8 +11,9 @@ namespace whisker::hal::atmega328p {
 /// ```
 /// quiet -> shot -> echo                    the next beam when the slot is over and the line is low
 /// ```
-/// An echo's length is the sound's way there and back. Without a target the sensor ends it by itself after 38
-/// ms.
+/// An echo's length is the sound's way there and back. Where none comes back, the sensor ends it by itself
+/// after 38 ms. That is all that it says of open ground, and of a target that is soft, small or slanted: it
+/// is reported as clear, and proves as much as range_clear_m says.
 class SonarRangers final : public Rangefinders {
  public:
   static constexpr uint8_t kSlotMs = 45;      ///< a beam's: so much until the next one fires
@@ -35,12 +36,12 @@ class SonarRangers final : public Rangefinders {
   enum class Phase : uint8_t { quiet, shot, echo };
   struct Sensor {
     RangeReading reading;
-    uint32_t measured_ms;
+    uint32_t fired_ms;  // the distance was true a few milliseconds later
   };
   void fire(uint32_t now_ms) noexcept;
   void wait(uint32_t now_ms) noexcept;
-  void finish(RangeStatus status, uint16_t mm, uint32_t now_ms) noexcept;
-  void fail(Trouble trouble, uint32_t now_ms) noexcept;
+  void finish(RangeStatus status, uint16_t mm) noexcept;
+  void fail(Trouble trouble) noexcept;
 
   Troubles& troubles_;
   mcu::Ring<uint16_t, 2> lengths_;  // of echoes, in timer counts

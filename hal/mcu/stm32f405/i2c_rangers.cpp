@@ -77,7 +77,7 @@ void I2cRangers::poll(uint32_t now_ms) noexcept {
 bool I2cRangers::read(hal::RangeReadings& out) noexcept {
   for (int i = 0; i < hal::kBeams; ++i) {
     const Sensor& sensor = sensor_[i];
-    const uint32_t age = now_ms_ - sensor.measured_ms;
+    const uint32_t age = now_ms_ - sensor.measured_ms + kind_.ranging_ms;
     hal::RangeReading& reading = out.beam[i];
     reading = sensor.reading;
     if (reading.status == hal::RangeStatus::stale) continue;

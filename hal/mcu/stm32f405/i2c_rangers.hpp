@@ -34,7 +34,7 @@ class I2cRangers final : public hal::Rangefinders {
   struct Sensor {
     Phase phase = Phase::held;
     uint32_t since_ms = 0;     // in this phase
-    uint32_t measured_ms = 0;  // last
+    uint32_t measured_ms = 0;  // when the last measurement was fetched
     hal::RangeReading reading{0, hal::RangeStatus::stale, UINT8_MAX, 15};
   };
   void hold(uint8_t beam, uint32_t now_ms) noexcept;

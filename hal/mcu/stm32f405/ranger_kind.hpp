@@ -28,6 +28,7 @@ struct RangerKind {
   Taken (*take)(I2c& bus, uint8_t address, hal::RangeReading& out) noexcept;
   uint16_t wake_ms;    ///< from the release of its reset until it answers
   uint16_t silent_ms;  ///< without a measurement for this long it is taken for dead
+  uint8_t ranging_ms;  ///< what a measurement takes: a part of its age when it is fetched
 };
 
 }  // namespace whisker::hal::stm32f405

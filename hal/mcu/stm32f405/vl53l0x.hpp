@@ -24,8 +24,11 @@ constexpr uint8_t kModelValue = 0xEE;
 constexpr uint8_t kRangeBytes = 12;
 /// Values of the status.
 constexpr uint8_t kValid = 11;
-constexpr uint8_t kNoTarget = 4;  ///< the light came back too weak or out of phase: nothing within reach
+/// The light came back too weak or out of phase. That is all that it says of open ground, and of a black or
+/// slanted target: it is reported as clear, and proves as much as range_clear_m says.
+constexpr uint8_t kNoSignal = 4;
 constexpr uint16_t kOutOfReachMm = 8190;
+constexpr uint8_t kRangingMs = 33;  ///< the timing budget that it wakes up with
 }  // namespace vl53l0x
 
 }  // namespace whisker::hal::stm32f405

@@ -1,24 +1,12 @@
 /** A campaign: what came of its missions, and the worst of them to replay. */
+import {copied} from './address.ts';
 import type {Estimate, PageData} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import {histogram} from './histogram.ts';
+import {isGood, type Mission} from './mission.ts';
 import {Scatter} from './scatter.ts';
 import type {Theme} from './theme.ts';
-import {metres} from './words.ts';
-
-export interface Mission {
-  seed: number;
-  outcome: string;
-  success: boolean;
-  time_s: number;
-  path_m: number;
-  shortest_m: number | null;
-  ratio: number | null;
-  s_per_m: number | null;
-  clearance: number;
-  estimate_error: number;
-  detail: string;
-}
+import {ending, metres} from './words.ts';
 
 function missions({fields, rows}: NonNullable<PageData['campaign']>): Mission[] {
   return rows.map(
@@ -31,13 +19,33 @@ function percent(share: number): string {
 }
 
 const SHARES: [key: string, words: string][] = [
-  ['success', 'right verdict'],
-  ['reached', 'reached'],
+  ['truly_there', 'truly there'],
+  ['success', 'right by its own estimate'],
+  ['reached', 'says it is there'],
+  ['off_goal', 'says so and is not'],
   ['unreachable', 'unreachable'],
   ['gave_up', 'gave up'],
   ['contact', 'contact'],
   ['fault', 'fault'],
 ];
+
+const SHOWN_AT_FIRST = 20;
+
+function replayLink({seed}: Mission, replay: number): HTMLElement {
+  const link = make('a', '', `seed ${seed}`) as HTMLAnchorElement;
+  link.href = `#run=${replay}`;
+  return link;
+}
+
+/** For a mission that is not in the page. */
+function copyButton({seed}: Mission, command: string): HTMLElement {
+  const button = make('button', 'link', `seed ${seed}: copy command`);
+  button.title = command;
+  button.addEventListener('click', async () => {
+    button.textContent = `seed ${seed}: ${(await copied(command)) ? 'copied' : command}`;
+  });
+  return button;
+}
 
 export class CampaignView {
   private readonly missions: Mission[];
@@ -93,7 +101,7 @@ export class CampaignView {
   }
 
   private distributions(): void {
-    const reached = this.missions.filter(({outcome}) => outcome === 'reached');
+    const reached = this.missions.filter(({outcome}) => ['reached', 'off_goal'].includes(outcome));
     const numbers = (of: (m: Mission) => number | null) =>
       reached.map(of).filter((x): x is number => x !== null && x < 1000);
     element('histograms').replaceChildren(
@@ -129,20 +137,36 @@ export class CampaignView {
   }
 
   private replays(): void {
-    const rows = this.data.runs.map((run, i) => {
-      const mission = this.missions[run.row!];
-      const link = make('a', '', `seed ${mission.seed}`) as HTMLAnchorElement;
-      link.href = `#run=${i}`;
-      return make('tr', '', [
-        make('td', 'number', String(i + 1)),
-        make('td', '', [link]),
-        make('td', mission.success ? '' : 'bad', mission.outcome.replaceAll('_', ' ')),
-        make('td', 'number', `${mission.time_s.toFixed(1)} s`),
-        make('td', 'number', metres(mission.path_m)),
-        make('td', 'number', mission.ratio === null ? '' : mission.ratio.toFixed(2)),
-        make('td', 'number', mission.clearance < 1000 ? metres(mission.clearance, 3) : ''),
-      ]);
-    });
-    element('replays').replaceChildren(...rows);
+    const {order, commands} = this.data.campaign!;
+    const replayed = new Map(this.data.runs.map(({row}, i) => [row!, i]));
+    const show = (most: number) => {
+      element('replays').replaceChildren(
+        ...order.slice(0, most).map((row, i) => this.row(i, row, replayed.get(row), commands[row])),
+      );
+      element('replays-all').hidden = most >= order.length;
+    };
+    setText('replays-all', `Show all ${order.length}`);
+    element('replays-all').addEventListener('click', () => show(order.length));
+    const stored = this.data.runs.length;
+    setText(
+      'replays-note',
+      stored < order.length
+        ? `This page has room for ${stored} of ${order.length} missions, the worst first. The others are driven again by their command.`
+        : '',
+    );
+    show(SHOWN_AT_FIRST);
+  }
+
+  private row(i: number, row: number, replay: number | undefined, command: string | null): HTMLElement {
+    const mission = this.missions[row];
+    return make('tr', '', [
+      make('td', 'number', String(i + 1)),
+      make('td', '', [replay === undefined ? copyButton(mission, command!) : replayLink(mission, replay)]),
+      make('td', isGood(mission) ? '' : 'bad', ending(mission)),
+      make('td', 'number', `${mission.time_s.toFixed(1)} s`),
+      make('td', 'number', metres(mission.path_m)),
+      make('td', 'number', mission.ratio === null ? '' : mission.ratio.toFixed(2)),
+      make('td', 'number', mission.clearance < 1000 ? metres(mission.clearance, 3) : ''),
+    ]);
   }
 }

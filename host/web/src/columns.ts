@@ -68,3 +68,20 @@ export async function inflated(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Arr
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
+
+/** The same of bytes that anybody may have made: null where they would become more than `most`, which is noticed in time. */
+export async function inflatedUpTo(most: number, bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array | null> {
+  const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate')).getReader();
+  const all = new Uint8Array(most);
+  let length = 0;
+  for (;;) {
+    const {done, value} = await reader.read();
+    if (done) return all.subarray(0, length);
+    if (length + value.length > most) {
+      await reader.cancel();
+      return null;
+    }
+    all.set(value, length);
+    length += value.length;
+  }
+}

@@ -42,7 +42,10 @@ export interface Result {
   outcome: string;
   time_s: number;
   path_m: number;
-  final_distance_m: number;
+  /** Null: nobody knows the true place. */
+  final_distance_m: number | null;
+  /** Null: the robot has not said what it believes. */
+  believed_distance_m: number | null;
   min_clearance_m: number;
   ticks: number;
   hash: string;
@@ -78,6 +81,8 @@ export interface RunInfo extends Setting {
   result: Result | null;
   edges: Edge[];
   columns: ColumnInfo[];
+  /** Coarse: some ticks a second only. */
+  detail?: 'full' | 'coarse';
   row?: number;
   command?: string;
 }
@@ -125,6 +130,10 @@ export interface CampaignInfo {
   summary: Record<string, unknown>;
   fields: string[];
   rows: (string | number | boolean | null)[][];
+  /** Of the rows: the worst first. */
+  order: number[];
+  /** Row by row: what drives the mission again; null where the page can replay it. */
+  commands: (string | null)[];
 }
 
 export interface PageData {
@@ -159,6 +168,8 @@ export const COUNTERS = [
   'wheel_stalls',
   'unsteady_looks',
   'no_progress',
+  'pose_out_of_range',
+  'wheel_runaways',
   'late_ticks',
   'clock_jumps',
 ] as const;
@@ -175,6 +186,8 @@ export interface Seen {
   };
   /** Null: there is none, or it is not known here. */
   readonly map: MapSeen | null;
+  /** It only believes that it has reached its goal. */
+  readonly offGoal: boolean;
   column(name: string): ArrayLike<number>;
   mode(tick: number): string;
   /** What the map says. */
@@ -195,6 +208,11 @@ export function rangeOf(seen: Seen, beam: number, tick: number): number | null {
     default:
       return null;
   }
+}
+
+/** Forwards, m/s. */
+export function speedOf(seen: Seen, tick: number): number {
+  return (seen.column('v_left_mps')[tick] + seen.column('v_right_mps')[tick]) / 2;
 }
 
 /** What the robot believes, and what is true. */
@@ -247,6 +265,10 @@ export class Run implements Seen {
     this.film.grow(...all('film'));
     this.map?.grow(...all('map'));
     this.map?.growWindows(this.column('map_x'), this.column('map_y'));
+  }
+
+  get offGoal(): boolean {
+    return this.info.result?.outcome === 'off_goal';
   }
 
   /** Where the robot has proved the ground clear is known. */

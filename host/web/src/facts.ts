@@ -1,11 +1,11 @@
 /** Now in words, counters and faults, and what the run was. */
-import {COUNTERS, type Run} from './data.ts';
+import {COUNTERS, speedOf, type Run} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import type {WayToGoal} from './goal.ts';
 import type {Player} from './player.ts';
 import type {Theme} from './theme.ts';
 import {stateColour} from './timeline.ts';
-import {COUNTER_WORDS, FAULTS, metres, sentence, verdict} from './words.ts';
+import {COUNTER_WORDS, FAULTS, metres, sentence, verdict, verdictClass} from './words.ts';
 
 const NOISE: [key: string, words: string, factor: number, unit: string][] = [
   ['range_sigma_m', 'range noise', 1000, 'mm'],
@@ -31,6 +31,10 @@ function plannerWords({planner, map}: Run['info']): string {
 function andMap({planner, map}: Run['info']): string {
   if (map) return ` and a map of ${map.bytes} bytes`;
   return planner ? ' and no map' : '';
+}
+
+function orUnknown(distance: number | null): string {
+  return distance === null ? 'not known here' : metres(distance, 3);
 }
 
 /** Where the core is far away, much stays there. */
@@ -81,8 +85,8 @@ export class Facts {
   /** What is known of the run; without a verdict, these words are it. */
   private list(unknown: string): void {
     const {result, planner, map, seed, noise, command} = this.run.info;
-    setText('verdict', result ? verdict(result.outcome, result.time_s) : unknown);
-    element('verdict').dataset.outcome = result?.outcome ?? 'none';
+    setText('verdict', result ? verdict(result, result.time_s) : unknown);
+    element('verdict').dataset.outcome = result ? verdictClass(result) : 'none';
     const facts: [string, string][] = [
       ['planner', map ? plannerWords(this.run.info) : (planner ?? 'not known here')],
       ['noise', noiseWords(noise)],
@@ -93,7 +97,8 @@ export class Facts {
       facts.unshift(
         ['way driven', metres(result.path_m)],
         ['nearest to an obstacle', clearance],
-        ['from the goal at the end', metres(result.final_distance_m)],
+        ['from the goal at the end', orUnknown(result.final_distance_m)],
+        ['as it believes', orUnknown(result.believed_distance_m)],
       );
       facts.push(
         ['ticks', String(result.ticks)],
@@ -101,6 +106,7 @@ export class Facts {
         ['detail', result.detail || '-'],
       );
     }
+    if (this.run.info.detail === 'coarse') facts.push(['stored', 'five ticks a second, to a millimetre']);
     if (command) facts.push(['again', command]);
     element('facts').replaceChildren(
       ...facts.map(([term, value]) => make('div', '', [make('dt', '', term), make('dd', '', value)])),
@@ -114,13 +120,14 @@ export class Facts {
     setText('state', run.mode(tick).replaceAll('_', ' '));
     element('state').style.setProperty('--chip', this.theme.palette[stateColour(run, tick)]);
     element('state').classList.toggle('pale', stateColour(run, tick) === 'still');
+    const speed = speedOf(run, tick);
     const fault = run.shared.faults[at('fault')];
     const named = fault === 'none' ? '' : ` The fault: ${FAULTS[fault] ?? fault}.`;
-    setText('sentence', sentence(run.mode(tick), run.why(tick), run.guide(tick)) + named);
+    setText('sentence', sentence(run.mode(tick), run.why(tick), run.guide(tick), speed) + named);
     setText('now-time', `${run.t[tick].toFixed(2)} s`);
-    setText('now-tick', `tick ${tick}`);
+    setText('now-tick', `tick ${Math.round(run.t[tick] / run.info.robot.period)}`);
     setText('now-distance', metres(this.way.distance[tick]));
-    setText('now-speed', `${((at('v_left_mps') + at('v_right_mps')) / 2).toFixed(2)} m/s`);
+    setText('now-speed', `${speed.toFixed(2)} m/s`);
     const turning = (at('v_right_mps') - at('v_left_mps')) / run.info.robot.track;
     setText('now-turn', `${((turning * 180) / Math.PI).toFixed(0)}°/s`);
     setText('fault', FAULTS[fault] ?? fault);

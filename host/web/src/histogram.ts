@@ -37,7 +37,7 @@ export interface Spread {
 export function histogram({title, unit, values, from, tail}: Spread): HTMLElement {
   const figure = make('figure', 'histogram', [make('figcaption', '', title)]);
   if (values.length === 0) {
-    figure.append(make('p', 'muted', 'no mission reached its goal'));
+    figure.append(make('p', 'muted', 'no mission says that it is there'));
     return figure;
   }
   const sorted = [...values].sort((a, b) => a - b);

@@ -22,9 +22,3 @@ export function hashOf({run, time}: Place): string {
   if (time !== null) parts.push(`t=${time.toFixed(3).replace(/\.?0+$/, '')}`);
   return parts.length > 0 ? `#${parts.join('&')}` : '';
 }
-
-/** Without a new entry in the history. */
-export function show(place: Place): void {
-  const hash = hashOf(place);
-  if (hash !== location.hash) history.replaceState(null, '', hash || location.pathname + location.search);
-}

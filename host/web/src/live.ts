@@ -53,7 +53,7 @@ export class Live {
     };
     source.onerror = () => {
       const closed = source.readyState === EventSource.CLOSED;
-      this.then(() => this.lost());
+      this.then(async () => this.lost(closed ? await this.refusal() : ''));
       if (closed) setTimeout(() => this.connect(), AGAIN_MS);
     };
   }
@@ -62,9 +62,22 @@ export class Live {
     this.last = this.last.then(next).catch(this.failed);
   }
 
-  private lost(): void {
+  /** Why there are no events: what a browser keeps from who listens to them. */
+  private async refusal(): Promise<string> {
+    const stop = new AbortController();
+    try {
+      const answer = await fetch(this.data.live!, {signal: stop.signal});
+      return answer.ok ? '' : (await answer.text()).trim();
+    } catch {
+      return '';
+    } finally {
+      stop.abort();
+    }
+  }
+
+  private lost(refusal: string): void {
     if (this.state === 'ended') return;
-    this.tell('connecting', this.setting ? 'nobody answers; the run may be over' : '');
+    this.tell('connecting', refusal || 'nobody answers; the run may be over');
   }
 
   private async take(news: News): Promise<void> {

@@ -1,9 +1,10 @@
 /** One run on the page: everything that shows it. */
+import {Address} from './address.ts';
 import {CloseUp} from './closeup.ts';
 import type {Edge, Result, Run} from './data.ts';
 import {Facts} from './facts.ts';
 import {WayToGoal} from './goal.ts';
-import {placeOf, show} from './link.ts';
+import {hashOf, placeOf} from './link.ts';
 import {Player} from './player.ts';
 import {Plots} from './plots.ts';
 import {ProgressPanel} from './progress.ts';
@@ -39,7 +40,9 @@ export function openReplay(run: Run, index: number | null, theme: Theme, live = 
   const plots = new Plots(run, player, theme, way);
   const progress = new ProgressPanel(run, player, way);
   const facts = new Facts(run, player, theme, way);
-  const transport = new Transport(run, player, timeline, world, theme);
+  const hash = () => hashOf({run: index, time: player.following ? null : run.t[player.tick]});
+  const transport = new Transport(run, player, timeline, world, theme, hash);
+  const address = new Address(hash);
 
   // Once a frame, however many news come between two.
   let grown = false;
@@ -53,7 +56,7 @@ export function openReplay(run: Run, index: number | null, theme: Theme, live = 
     world.draw();
     closeUp.draw();
     for (const part of [timeline, response, plots, progress, facts, transport]) part.update();
-    if (!player.playing) show({run: index, time: player.following ? null : run.t[player.tick]});
+    if (!player.playing) address.change();
   };
   player.onChange(update);
   theme.onChange(() => {
@@ -91,6 +94,7 @@ export function openReplay(run: Run, index: number | null, theme: Theme, live = 
     end(result) {
       run.info.result = result;
       facts.end();
+      timeline.end();
       player.stopLive();
     },
   };

@@ -3,7 +3,7 @@ import type {Seen} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import {HeatMap} from './heatmap.ts';
 import {firedRules, type FiredRule} from './rules.ts';
-import {usesTable} from './table_use.ts';
+import {asksOfNow, usesTable} from './table_use.ts';
 import type {Theme} from './theme.ts';
 import {degrees, ruleThen, ruleWhen} from './words.ts';
 
@@ -62,7 +62,8 @@ export class ResponsePanel {
     const tick = this.player.tick;
     const at = (name: string) => run.column(name)[tick];
     const inUse = usesTable(run, tick);
-    const question = `${at('d')} ${at('r')} ${run.mode(tick)}`;
+    const ofNow = asksOfNow(run, tick);
+    const question = `${at('d')} ${at('r')} ${run.mode(tick)} ${ofNow}`;
     if (question === this.shown) return;
     this.shown = question;
     // No step factor is 0: what shows one has not been asked.
@@ -72,14 +73,21 @@ export class ResponsePanel {
     }
     const rules = firedRules(run.shared.controller, at('d'), at('r'));
     for (const map of this.maps) {
-      map.show({d: at('d'), r: at('r'), cellD: at('cell_d'), cellR: at('cell_r'), rules, inUse});
+      map.show({
+        d: at('d'),
+        r: at('r'),
+        cellD: at('cell_d'),
+        cellR: at('cell_r'),
+        rules,
+        inUse: inUse && ofNow,
+      });
     }
     setText('value-d', at('d').toFixed(2));
     setText('value-r', at('r').toFixed(2));
     setText('value-sa', at('sa').toFixed(2));
     setText('value-sd', at('sd').toFixed(2));
     const asked = sideways(at('sa') * run.info.robot.base_turn);
-    setText('table-says', inUse ? `Now it asks for ${asked}.` : this.unused(tick, asked));
+    setText('table-says', this.says(tick, inUse, ofNow, asked));
     this.listRules(rules);
   }
 
@@ -90,7 +98,10 @@ export class ResponsePanel {
     element('rules').replaceChildren();
   }
 
-  private unused(tick: number, asked: string): string {
+  private says(tick: number, inUse: boolean, ofNow: boolean, asked: string): string {
+    if (inUse && ofNow) return `Now it asks for ${asked}.`;
+    if (inUse)
+      return `It asks for ${asked}, by what the beams agreed on before: at this tick they read otherwise.`;
     const instead = this.run.mode(tick) === 'skirting' ? ': along an edge it keeps beside it instead' : '';
     return `Not in use now${instead}. Its last answer was ${asked}.`;
   }

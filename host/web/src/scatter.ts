@@ -1,11 +1,13 @@
 /** Every mission as a dot: the shortest way there is against the way that was driven. */
-import type {Mission} from './campaign.ts';
 import {element, Surface} from './dom.ts';
 import {roundStep} from './histogram.ts';
+import {isGood, type Mission} from './mission.ts';
 import type {Theme} from './theme.ts';
 
 const MARGIN = {left: 44, right: 12, top: 10, bottom: 34};
 const RATIOS = [1, 2, 5, 10];
+/** The worst have a number; the page lists them in the same order. */
+const NUMBERED = 8;
 
 export class Scatter {
   private readonly surface: Surface;
@@ -38,12 +40,13 @@ export class Scatter {
     for (const {mission, replay} of this.dots) {
       const [x, y] = this.place(mission);
       c.beginPath();
-      c.arc(x, y, replay < 0 ? 3 : 8, 0, 2 * Math.PI);
-      c.fillStyle = mission.success ? p.free : p.contact;
-      c.globalAlpha = replay < 0 ? 0.55 : 1;
+      const numbered = replay >= 0 && replay < NUMBERED;
+      c.arc(x, y, numbered ? 8 : 3, 0, 2 * Math.PI);
+      c.fillStyle = isGood(mission) ? p.free : p.contact;
+      c.globalAlpha = numbered ? 1 : 0.55;
       c.fill();
       c.globalAlpha = 1;
-      if (replay < 0) continue;
+      if (!numbered) continue;
       c.fillStyle = p.panel;
       c.textAlign = 'center';
       c.textBaseline = 'middle';
@@ -81,11 +84,14 @@ export class Scatter {
   }
 
   private click(event: MouseEvent): void {
-    for (const {mission, replay} of this.dots) {
-      if (replay < 0) continue;
+    const away = ({mission}: {mission: Mission}) => {
       const [x, y] = this.place(mission);
-      if (Math.hypot(event.offsetX - x, event.offsetY - y) < 12) location.hash = `run=${replay}`;
-    }
+      return Math.hypot(event.offsetX - x, event.offsetY - y);
+    };
+    const near = this.dots
+      .filter((dot) => dot.replay >= 0 && away(dot) < 12)
+      .sort((a, b) => away(a) - away(b));
+    if (near.length > 0) location.hash = `run=${near[0].replay}`;
   }
 
   private place(mission: Mission): [number, number] {

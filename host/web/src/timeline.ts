@@ -1,5 +1,5 @@
 /** The lanes of states and reasons under the world, and the slider over them. */
-import type {Run, Seen} from './data.ts';
+import {speedOf, type Run, type Seen} from './data.ts';
 import {element, setText, Surface} from './dom.ts';
 import type {Player} from './player.ts';
 import type {Colour, Theme} from './theme.ts';
@@ -35,11 +35,12 @@ const WHY_COLOURS: Record<string, Colour> = {
   fault: 'contact',
   step_budget: 'contact',
   length_budget: 'contact',
+  goal_out_of_range: 'contact',
 };
 
 export function stateColour(run: Seen, tick: number): Colour {
   const mode = run.mode(tick);
-  if (OVER.has(mode)) return mode === 'arrived' ? 'goal' : 'over';
+  if (OVER.has(mode)) return mode === 'arrived' && !run.offGoal ? 'goal' : 'over';
   if (STILL.has(mode)) return 'still';
   return (['free', 'table', 'probing', 'danger'] as const)[run.column('doing')[tick]];
 }
@@ -58,7 +59,8 @@ const LANES: Lane[] = [
   (run, tick) => [run.mode(tick), stateColour(run, tick)],
   (run, tick) => {
     const why = run.why(tick);
-    return [why.replaceAll('_', ' '), WHY_COLOURS[why] ?? 'still'];
+    const colour = why === 'at_goal' && run.offGoal ? 'over' : (WHY_COLOURS[why] ?? 'still');
+    return [why.replaceAll('_', ' '), colour];
   },
 ];
 
@@ -105,6 +107,12 @@ export class Timeline {
     this.draw();
   }
 
+  /** The colour of the last state depends on the verdict. */
+  end(): void {
+    for (const {segments} of this.lanes) segments.length = 0;
+    this.grow();
+  }
+
   draw(): void {
     const c = this.surface.clear();
     const p = this.theme.palette;
@@ -136,7 +144,9 @@ export class Timeline {
     element('lanes-head').style.transform = `translateX(${this.x(tick)}px)`;
     // Not on every frame: a screen reader would never come to an end.
     if (this.player.playing || this.player.following) return;
-    const now = `${this.run.t[tick].toFixed(2)} s. ${sentence(this.run.mode(tick), this.run.why(tick), this.run.guide(tick))}`;
+    const {run} = this;
+    const says = sentence(run.mode(tick), run.why(tick), run.guide(tick), speedOf(run, tick));
+    const now = `${run.t[tick].toFixed(2)} s. ${says}`;
     this.slider.setAttribute('aria-valuetext', now);
     setText('spoken', now);
   }

@@ -1,4 +1,5 @@
 /** Buttons and keys. */
+import {copied, linkWith} from './address.ts';
 import type {Run} from './data.ts';
 import {element, setText} from './dom.ts';
 import {SPEEDS, type Player} from './player.ts';
@@ -19,6 +20,7 @@ export class Transport {
     private readonly timeline: Timeline,
     private readonly world: WorldView,
     private readonly theme: Theme,
+    private readonly hash: () => string,
   ) {
     this.speed.replaceChildren(...SPEEDS.map((s) => new Option(speedWords(s), String(s))));
     this.speed.addEventListener('change', () => player.setSpeed(Number(this.speed.value)));
@@ -48,13 +50,8 @@ export class Transport {
   }
 
   private async copy(): Promise<void> {
-    const link = location.href;
-    try {
-      await navigator.clipboard.writeText(link);
-      setText('copied', 'Link copied');
-    } catch {
-      setText('copied', 'The address bar has the link');
-    }
+    const done = await copied(linkWith(this.hash()));
+    setText('copied', done ? 'Link copied' : 'The address bar has the link');
     setTimeout(() => setText('copied', ''), 2500);
   }
 

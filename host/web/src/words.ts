@@ -12,7 +12,7 @@ export const DOES: Record<string, string> = {
   skirting: 'Follows the edge of what is in the way',
   surveying: 'Turns to both sides to see the ground around it before the first move',
   going: 'Drives towards the goal',
-  arrived: 'Stands at the goal',
+  arrived: 'Stands',
   unreachable: 'Stands: the goal cannot be reached',
   gave_up: 'Stands: it gave up',
   stopped: 'Stopped for safety',
@@ -42,17 +42,19 @@ export const BECAUSE: Record<string, string> = {
   way_back: 'no other way is free, so it goes back where it came from',
   wall_lost: 'what it went round cannot be what parts it from the goal, so it heads for the goal again',
   came_round: 'it is back where it met the obstacle',
-  at_goal: 'it is there',
+  at_goal: 'by its own estimate it is at the goal',
   no_exit: 'no heading all around is free',
   step_budget: 'its number of steps is used up',
   something_moves: 'something nearby moves, so it waits, looks or goes around',
   length_budget: 'its length of way is used up',
   cancelled: 'the goal was cancelled',
   fault: 'something failed',
+  goal_out_of_range: 'the goal is farther out than 1,000 m',
 };
 
-export const OUTCOMES: Record<string, string> = {
+const OUTCOMES: Record<string, string> = {
   reached: 'reached the goal',
+  off_goal: 'believes it is there',
   unreachable: 'found the goal unreachable',
   gave_up: 'gave up',
   contact: 'touched an obstacle',
@@ -69,6 +71,8 @@ export const FAULTS: Record<string, string> = {
   wheels_stalled: 'the wheels stand still',
   range_unsteady: 'a beam never agreed with itself',
   no_progress: 'a turn or step came to no end',
+  pose_out_of_range: 'farther out than 1,000 m',
+  wheel_runaway: 'a wheel does not turn as it is told',
 };
 
 export const COUNTER_WORDS: Record<string, string> = {
@@ -83,6 +87,8 @@ export const COUNTER_WORDS: Record<string, string> = {
   wheel_stalls: 'wheel stalls',
   unsteady_looks: 'unsteady looks',
   no_progress: 'moves without progress',
+  pose_out_of_range: 'times farther out than 1,000 m',
+  wheel_runaways: 'wheels that did not turn as told',
   late_ticks: 'late ticks',
   clock_jumps: 'clock jumps',
 };
@@ -103,17 +109,47 @@ export function ruleThen(turn: number, mostTurn: number): string {
   return `turn ${turn > 0 ? 'left' : 'right'}${Math.abs(turn) >= mostTurn ? ' hard' : ''}`;
 }
 
-/** "reached the goal in 23.7 s" */
-export function verdict(outcome: string, seconds: number): string {
-  const words = OUTCOMES[outcome] ?? outcome;
-  return `${words} ${outcome === 'reached' ? 'in' : 'after'} ${seconds.toFixed(1)} s`;
+/** How a run ended, as far as its verdict tells. */
+export interface Ended {
+  outcome: string;
+  /** True; null: it is not known. */
+  final_distance_m: number | null;
 }
 
-/** What happens at a tick, as one sentence. `guide`: what a map says. */
-export function sentence(mode: string, why: string, guide = ''): string {
+/** The robot says that it is at the goal; where it is, nobody knows. */
+function onlyBelieves({outcome, final_distance_m}: Ended): boolean {
+  return outcome === 'reached' && final_distance_m === null;
+}
+
+/** "reached the goal", "believes it is there; is 5.83 m off" */
+export function ending(ended: Ended): string {
+  if (onlyBelieves(ended)) return OUTCOMES.off_goal;
+  const words = OUTCOMES[ended.outcome] ?? ended.outcome;
+  return ended.outcome === 'off_goal' ? `${words}; is ${metres(ended.final_distance_m!)} off` : words;
+}
+
+/** "reached the goal in 23.7 s", "believes it is there; is 5.83 m off, after 23.7 s" */
+export function verdict(ended: Ended, seconds: number): string {
+  const time = `${seconds.toFixed(1)} s`;
+  if (ended.outcome === 'reached' && !onlyBelieves(ended)) return `${ending(ended)} in ${time}`;
+  return `${ending(ended)}${ended.outcome === 'off_goal' ? ',' : ''} after ${time}`;
+}
+
+/** For a style sheet: only what truly reached its goal is `reached`. */
+export function verdictClass(ended: Ended): string {
+  return onlyBelieves(ended) ? 'believed' : ended.outcome;
+}
+
+/** m/s: slower than this it stands. */
+const STANDS_BELOW = 0.01;
+
+/** What happens at a tick, as one sentence. `guide`: what a map says; `speed`: forwards, m/s. */
+export function sentence(mode: string, why: string, guide: string, speed: number): string {
   const because = BECAUSE[why] ?? why;
   const does = (mode === 'going' && LED[guide]) || (DOES[mode] ?? mode);
-  return `${does}${because ? `: ${because}` : ''}.`;
+  const moves = Math.abs(speed) >= STANDS_BELOW;
+  const now = moves ? does.replace(/^Stands/, 'Comes to a stand').replace(/^Stopped/, 'Stops') : does;
+  return `${now}${because ? `: ${because}` : ''}.`;
 }
 
 /** "0.42 m" */

@@ -2,8 +2,8 @@
 
 import math
 
-OUTCOMES = ("reached", "unreachable", "gave_up", "contact", "fault")
-KEYS = ("outcome", "time_s", "path_m", "final_distance_m", "min_clearance_m", "ticks", "hash")
+OUTCOMES = ("reached", "off_goal", "unreachable", "gave_up", "contact", "fault")
+KEYS = ("outcome", "time_s", "path_m", "final_distance_m", "believed_distance_m", "min_clearance_m", "ticks", "hash")
 FAR = 1000.0  # m: the least that may stand for the clearance of an empty world
 CLEARANCE_SLACK = 2e-4  # m: 0.1 mm of the format, and as much for the search between two rows
 
@@ -65,8 +65,14 @@ def check_lengths(scenario, trace, result):
     left = math.dist(rows[-1].at, scenario.goal)
     if abs(result["final_distance_m"] - left) > 2 * unit:
         yield f"result: ends {result['final_distance_m']} m from the goal, but the trace {left:.6f}"
-    if result["outcome"] == "reached" and scenario.odometry_is_exact and left > scenario.tolerance + unit:
+    if result["outcome"] == "reached" and left > scenario.tolerance + unit:
         yield f"result: reached, but {left:.4f} m from the goal; tolerance {scenario.tolerance}"
+    if result["outcome"] == "off_goal" and left < scenario.tolerance - unit:
+        yield f"result: off the goal, but only {left:.4f} m from it; tolerance {scenario.tolerance}"
+    if result["outcome"] == "off_goal" and scenario.odometry_is_exact:
+        yield "result: off the goal, but the wheels are exact"
+    if result["outcome"] in ("reached", "off_goal") and not result["believed_distance_m"] <= scenario.tolerance:
+        yield f"result: it stops {result['believed_distance_m']} m from where it believes the goal to be"
 
 
 def check_clearance(world, trace, result):

@@ -31,7 +31,7 @@ RC_GTEST_PROP(OpenWorld, EveryAcceptedParameterSetArrives, (std::uint64_t seed))
   while (robot.status().decision.outcome < nav::Outcome::reached &&
          robot.status().health.fault == Fault::none && ++ticks < 200000) {
     now = now + params.safety.period;
-    const std::string broken = watch.see(robot.tick(now), false);
+    const std::string broken = watch.see(robot.tick(now), params.safety.period, false);
     if (!broken.empty()) RC_FAIL(broken);
     board.pass();
   }

@@ -13,16 +13,16 @@ constexpr int32_t kUnit = 100;  // um/s on the wire
 
 Watch::Watch(const Params& params)
     : top_((params.wheels.max_speed.raw() + kUnit / 2) / kUnit),
-      // Two speeds rounded to the wire may lie one unit further apart than they were.
-      change_((params.wheels.max_acceleration * params.safety.period).raw() / kUnit + 1),
-      // Rounded up, and one for a fault that is found when the tick's command is already made.
-      ticks_to_stand_((params.wheels.max_speed.raw() - 1) /
-                          (params.wheels.max_acceleration * params.safety.period).raw() +
-                      2) {}
+      acceleration_(params.wheels.max_acceleration),
+      to_stand_(milliseconds(multiply_divide(params.wheels.max_speed.raw(), 1000,
+                                             params.wheels.max_acceleration.raw())) +
+                longest_gap(params) * 2) {}
 
-std::string Watch::see(const Status& status, bool refused) {
+std::string Watch::see(const Status& status, Duration elapsed, bool refused) {
+  // Two speeds rounded to the wire may lie one unit further apart than they were.
+  change_ = (acceleration_ * elapsed).raw() / kUnit + 1;
   std::string broken = speeds(status, refused);
-  if (broken.empty()) broken = faults(status);
+  if (broken.empty()) broken = faults(status, elapsed);
   if (broken.empty()) broken = counters(status.health);
   if (nav::name(status.decision.mode)[0] == '?' || nav::name(status.decision.why)[0] == '?') {
     broken = "a word without a name";
@@ -43,30 +43,31 @@ std::string Watch::speeds(const Status& status, bool refused) {
   return "";
 }
 
-std::string Watch::faults(const Status& status) {
+std::string Watch::faults(const Status& status, Duration elapsed) {
   const Fault fault = status.health.fault;
   if (fault_ != Fault::none && fault != fault_) return "the first fault did not stay";
   fault_ = fault;
-  faulted_ticks_ = fault == Fault::none ? 0 : faulted_ticks_ + 1;
+  faulted_for_ = fault == Fault::none ? Duration{} : faulted_for_ + elapsed;
   if (fault == Fault::none) return "";
   if (status.decision.mode != nav::Mode::stopped || status.decision.why != nav::Why::fault) {
     return "a fault that does not show";
   }
   const bool moving = status.command.left != 0 || status.command.right != 0;
-  return moving && faulted_ticks_ >= ticks_to_stand_ ? "still moving after a fault" : "";
+  return moving && faulted_for_ >= to_stand_ ? "still moving after a fault" : "";
 }
 
 std::string Watch::counters(const Health& now) {
   const Health before = health_;
   health_ = now;
-  const bool down = now.range_refused < before.range_refused || now.range_invalid < before.range_invalid ||
-                    now.range_stale < before.range_stale || now.range_stuck < before.range_stuck ||
-                    now.range_out_of_range < before.range_out_of_range ||
-                    now.drive_refused < before.drive_refused ||
-                    now.encoder_refused < before.encoder_refused ||
-                    now.encoder_jumps < before.encoder_jumps || now.wheel_stalls < before.wheel_stalls ||
-                    now.unsteady_looks < before.unsteady_looks || now.no_progress < before.no_progress ||
-                    now.late_ticks < before.late_ticks || now.clock_jumps < before.clock_jumps;
+  const bool down =
+      now.range_refused < before.range_refused || now.range_invalid < before.range_invalid ||
+      now.range_stale < before.range_stale || now.range_stuck < before.range_stuck ||
+      now.range_out_of_range < before.range_out_of_range || now.drive_refused < before.drive_refused ||
+      now.encoder_refused < before.encoder_refused || now.encoder_jumps < before.encoder_jumps ||
+      now.wheel_stalls < before.wheel_stalls || now.wheel_runaways < before.wheel_runaways ||
+      now.unsteady_looks < before.unsteady_looks || now.no_progress < before.no_progress ||
+      now.pose_out_of_range < before.pose_out_of_range || now.late_ticks < before.late_ticks ||
+      now.clock_jumps < before.clock_jumps;
   return down ? "a counter went down" : "";
 }
 

@@ -1,8 +1,9 @@
 /** What each robot does now, in words, and what came of its drive. */
 import {element, make, setText} from '../dom.ts';
+import {speedOf} from '../data.ts';
 import type {Theme} from '../theme.ts';
 import {stateColour} from '../timeline.ts';
-import {FAULTS, metres, sentence, verdict} from '../words.ts';
+import {FAULTS, metres, sentence, verdict, verdictClass} from '../words.ts';
 import type {LiveRun} from './live.ts';
 
 export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
@@ -10,7 +11,8 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   const say = (name: string, text: string) => {
     if (part(name).textContent !== text) part(name).textContent = text;
   };
-  const {outcome, time, way} = run.result;
+  const {time, way} = run.result;
+  const {ended} = run;
   say('planner', `${run.planner} planner`);
   say('state', run.mode().replaceAll('_', ' '));
   const colour = stateColour(run, 0);
@@ -19,10 +21,11 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   const fault = run.fault();
   say(
     'sentence',
-    sentence(run.mode(), run.why(), run.guide()) + (fault === 'none' ? '' : ` The fault: ${FAULTS[fault]}.`),
+    sentence(run.mode(), run.why(), run.guide(), speedOf(run, 0)) +
+      (fault === 'none' ? '' : ` The fault: ${FAULTS[fault]}.`),
   );
-  say('verdict', outcome ? verdict(outcome, time) : '');
-  part('verdict').dataset.outcome = outcome ?? '';
+  say('verdict', ended ? verdict(ended, time) : '');
+  part('verdict').dataset.outcome = ended ? verdictClass(ended) : '';
   say('clock', `${time.toFixed(1)} s, ${metres(way, 1)}`);
 }
 

@@ -1,5 +1,6 @@
 /** Which world, who drives, how fast; and the keys. */
 import {element, setText} from '../dom.ts';
+import {ending} from '../words.ts';
 import type {Playground} from './playground.ts';
 import {WHO, type Who} from './share.ts';
 import type {Stage} from './stage.ts';
@@ -62,7 +63,7 @@ export class Controls {
     setText('clock', `${play.time.toFixed(1)} s`);
     // Not on every frame: a screen reader would never come to an end.
     const over = play.runs.filter((run) => run.over);
-    setText('spoken', over.map((run) => `${run.planner}: ${run.result.outcome}`).join('. '));
+    setText('spoken', over.map((run) => `${run.planner}: ${ending(run.ended!)}`).join('. '));
   }
 
   private world(kind: string, seed: number): void {

@@ -36,13 +36,15 @@ const COLUMNS = [
 export const PLANNERS = ['skirt', 'thesis', 'map'] as const;
 export type Planner = (typeof PLANNERS)[number];
 
-export const OUTCOMES = ['reached', 'unreachable', 'gave_up', 'contact', 'fault'] as const;
+export const OUTCOMES = ['reached', 'off_goal', 'unreachable', 'gave_up', 'contact', 'fault'] as const;
 
 export interface Result {
   outcome: (typeof OUTCOMES)[number] | null;
   time: number;
   way: number;
+  /** From the goal: true, and as the robot believes. */
   distance: number;
+  believed: number;
   clearance: number;
   ticks: number;
   hash: string;
@@ -127,10 +129,12 @@ export class Core {
   }
 
   result(side: number): Result {
-    const [outcome, time, way, distance, clearance, ticks, ...hash] = this.read(this.wasm.result(side));
+    const [outcome, time, way, distance, believed, clearance, ticks, ...hash] = this.read(
+      this.wasm.result(side),
+    );
     return {
       outcome: OUTCOMES[outcome] ?? null,
-      time, way, distance, clearance, ticks,
+      time, way, distance, believed, clearance, ticks,
       hash: hash.map((part) => part.toString(16).padStart(4, '0')).join(''),
     }; // prettier-ignore
   }

@@ -1,8 +1,10 @@
 /** What can be taken away: the address, the scenario, the table. */
-import {element} from '../dom.ts';
+import {copied, linkWith} from '../address.ts';
+import {element, setText} from '../dom.ts';
 import type {Core} from './core.ts';
 import {tableHeader} from './header.ts';
 import type {Playground} from './playground.ts';
+import {hashOf} from './share.ts';
 import {scenarioToml} from './toml.ts';
 
 function save(name: string, text: string): void {
@@ -24,12 +26,7 @@ export function offerFiles(play: Playground, core: Core): void {
     save('response_table.hpp', tableHeader(core.table(), note));
   });
   element('copy').addEventListener('click', async () => {
-    const said = element('copied');
-    try {
-      await navigator.clipboard.writeText(location.href);
-      said.textContent = 'copied';
-    } catch {
-      said.textContent = 'the address bar has it';
-    }
+    const done = await copied(linkWith(await hashOf(play.state)));
+    setText('copied', done ? 'copied' : 'the address bar has it');
   });
 }

@@ -3,6 +3,7 @@ import {rangeOf, type Controller, type Seen} from '../data.ts';
 import type {Core, Planner, Result} from './core.ts';
 import {LiveMap} from './live_map.ts';
 import type {Situation} from './situation.ts';
+import type {Ended} from '../words.ts';
 
 /** A stretch of the way in one class. */
 export interface Stretch {
@@ -37,6 +38,16 @@ export class LiveRun implements Seen {
     this.map = planner === 'map' ? new LiveMap() : null;
     this.result = core.result(side);
     this.refresh();
+  }
+
+  get offGoal(): boolean {
+    return this.result.outcome === 'off_goal';
+  }
+
+  /** Null: it is under way. */
+  get ended(): Ended | null {
+    const {outcome, distance} = this.result;
+    return outcome && {outcome, final_distance_m: distance};
   }
 
   get over(): boolean {

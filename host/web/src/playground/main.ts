@@ -1,9 +1,10 @@
 import {CloseUp} from '../closeup.ts';
 import {bytesOfBase64, inflated} from '../columns.ts';
+import {Address} from '../address.ts';
 import {element, setText} from '../dom.ts';
 import {ResponsePanel} from '../response.ts';
 import {firedRules} from '../rules.ts';
-import {usesTable} from '../table_use.ts';
+import {asksOfNow, usesTable} from '../table_use.ts';
 import {Theme} from '../theme.ts';
 import {showCard, showLedger, showProgress} from './cards.ts';
 import {Controls} from './controls.ts';
@@ -22,6 +23,13 @@ const FIRST: State = {kind: 'u-trap', seed: 7, who: 'both', own: null, noise: NO
 /** Milliseconds. */
 const PANELS_EVERY = 80;
 
+const NO_SUCH_WORLD = 'its world is none, or too large for this page';
+
+function sayLinkFault(fault: string): void {
+  element('link-fault').hidden = fault === '';
+  setText('link-fault', fault && `This link could not be read: ${fault}.`);
+}
+
 async function module(): Promise<Uint8Array> {
   return inflated(bytesOfBase64(element('module').textContent ?? ''));
 }
@@ -29,13 +37,15 @@ async function module(): Promise<Uint8Array> {
 async function open(): Promise<void> {
   const theme = new Theme();
   const core = await Core.load(await module());
-  const state = await stateOf(location.hash, core.words.kinds, FIRST);
+  const first = await stateOf(location.hash, core.words.kinds, FIRST);
   const answers = answersOf(core.rules());
   const controller = controllerOf(core, answers);
   let play: Playground;
+  sayLinkFault(first.fault);
   try {
-    play = new Playground(core, controller, state);
+    play = new Playground(core, controller, first.state);
   } catch {
+    sayLinkFault(NO_SUCH_WORLD);
     play = new Playground(core, controller, FIRST);
   }
   document.body.dataset.view = 'playground';
@@ -54,13 +64,7 @@ async function open(): Promise<void> {
   const controls = new Controls(play, stage, core.words.kinds);
   offerFiles(play, core);
 
-  let written = '';
-  const remember = async () => {
-    const hash = await hashOf(play.state);
-    if (hash === written) return;
-    written = hash;
-    history.replaceState(null, '', hash);
-  };
+  const address = new Address(() => hashOf(play.state));
   let panels = 0;
   const draw = (now: number) => {
     stage.draw();
@@ -74,7 +78,8 @@ async function open(): Promise<void> {
     closeUp.draw();
     response.update();
     const at = (name: string) => focus().column(name)[0];
-    rules.light(usesTable(focus(), 0) ? firedRules(controller, at('d'), at('r')) : []);
+    const speak = usesTable(focus(), 0) && asksOfNow(focus(), 0);
+    rules.light(speak ? firedRules(controller, at('d'), at('r')) : []);
     showProgress(focus(), play.runs.length > 1);
     showLedger(play.runs, notesOf(play));
   };
@@ -94,7 +99,7 @@ async function open(): Promise<void> {
   };
   play.onChange(() => {
     request();
-    void remember();
+    address.change();
   });
   stage.onChange(request);
   theme.onChange(() => {
@@ -102,10 +107,16 @@ async function open(): Promise<void> {
     request();
   });
   addEventListener('hashchange', async () => {
-    const next = await stateOf(location.hash, core.words.kinds, FIRST);
-    if (!play.restore(next)) return;
-    rules.setCode(next.rules);
-    noise.show(next.noise);
+    const {state, fault} = await stateOf(location.hash, core.words.kinds, FIRST);
+    sayLinkFault(fault);
+    if (fault) return;
+    if (!play.restore(state)) {
+      sayLinkFault(NO_SUCH_WORLD);
+      return;
+    }
+    stage.fit();
+    rules.setCode(state.rules);
+    noise.show(state.noise);
   });
   noise.show(play.state.noise);
   if (play.state.rules) rules.setCode(play.state.rules);

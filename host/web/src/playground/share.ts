@@ -1,5 +1,5 @@
 /** The whole state of the page in its address. */
-import {bytesOfBase64, inflated} from '../columns.ts';
+import {bytesOfBase64, inflatedUpTo} from '../columns.ts';
 import {flat, situationOf, type Situation} from './situation.ts';
 import type {Planner} from './core.ts';
 
@@ -52,38 +52,87 @@ export async function hashOf(state: State): Promise<string> {
   return `#${params}`;
 }
 
-function noiseOf(text: string | null): number[] {
-  const list = (text ?? '').split('_').map(Number);
-  return list.length === 5 && list.every((x) => x >= 0 && Number.isFinite(x)) ? list : [0, 0, 0, 0, 0];
+/** A link that is longer, or becomes longer when it is unpacked, is none of this page's. */
+const MOST_CHARACTERS = 200_000;
+const MOST_BYTES = 500_000;
+
+/** Why a link is not what it says. */
+class LinkError extends Error {}
+
+function noiseOf(text: string): number[] {
+  const list = text.split('_').map(Number);
+  if (list.length === 5 && list.every((x) => x >= 0 && Number.isFinite(x))) return list;
+  throw new LinkError('its noise is no noise');
 }
 
-async function ownOf(text: string): Promise<Situation | null> {
+async function ownOf(text: string): Promise<Situation> {
+  if (text.length > MOST_CHARACTERS) throw new LinkError('its world is too large for this page');
+  let bytes: Uint8Array | null;
   try {
-    const bytes = await inflated(bytesOfBase64(text.replaceAll('-', '+').replaceAll('_', '/')));
+    bytes = await inflatedUpTo(MOST_BYTES, bytesOfBase64(text.replaceAll('-', '+').replaceAll('_', '/')));
+  } catch {
+    throw new LinkError('its world is damaged');
+  }
+  if (!bytes) throw new LinkError('its world is too large for this page');
+  try {
     const list = JSON.parse(new TextDecoder().decode(bytes)) as unknown;
-    if (!Array.isArray(list) || !list.every((x) => typeof x === 'number')) return null;
+    if (!Array.isArray(list) || !list.every((x) => typeof x === 'number')) throw new RangeError();
     const own = situationOf(list as number[]);
     // A list that is too short reads as numbers that are none: its own list has another length.
-    return flat(own).length === list.length ? own : null;
+    if (flat(own).length !== list.length) throw new RangeError();
+    return own;
   } catch {
-    return null;
+    throw new LinkError('its world is damaged');
   }
 }
 
-/** What the address does not say, or says wrongly, is as in `otherwise`. */
-export async function stateOf(hash: string, kinds: string[], otherwise: State): Promise<State> {
+/** Throws LinkError. */
+async function readLink(hash: string, kinds: string[], otherwise: State): Promise<State> {
   const params = new URLSearchParams(hash.replace(/^#/, ''));
-  const kind = params.get('world') ?? '';
-  const seed = Number(params.get('seed') ?? NaN);
-  const who = params.get('planner') ?? '';
-  const rules = params.get('rules') ?? '';
+  const take = <T>(name: string, of: (text: string) => T, missing: T): T => {
+    const text = params.get(name);
+    return text === null ? missing : of(text);
+  };
+  const demand = <T>(good: boolean, value: T, words: string): T => {
+    if (!good) throw new LinkError(words);
+    return value;
+  };
   const own = params.get('own');
   return {
-    kind: kinds.includes(kind) ? kind : otherwise.kind,
-    seed: Number.isSafeInteger(seed) && seed >= 0 ? seed : otherwise.seed,
-    who: isWho(who) ? who : otherwise.who,
-    noise: noiseOf(params.get('noise')),
-    rules: /^[0-4]{50}$/.test(rules) ? rules : null,
-    own: own ? await ownOf(own) : null,
+    kind: take(
+      'world',
+      (text) => demand(kinds.includes(text), text, 'its world is unknown to this page'),
+      otherwise.kind,
+    ),
+    seed: take(
+      'seed',
+      (text) =>
+        demand(/^[0-9]+$/.test(text) && Number.isSafeInteger(Number(text)), Number(text), 'its seed is none'),
+      otherwise.seed,
+    ),
+    who: take(
+      'planner',
+      (text) => demand(isWho(text), text as Who, 'its planner is unknown to this page'),
+      otherwise.who,
+    ),
+    noise: take('noise', noiseOf, [0, 0, 0, 0, 0]),
+    rules: take('rules', (text) => demand(/^[0-4]{50}$/.test(text), text, 'its rules are none'), null),
+    own: own === null ? null : await ownOf(own),
   };
+}
+
+export interface Read {
+  state: State;
+  /** What is wrong with the link; "" for nothing. */
+  fault: string;
+}
+
+/** What the address does not say is as in `otherwise`, and so is all of it where something in it is wrong. */
+export async function stateOf(hash: string, kinds: string[], otherwise: State): Promise<Read> {
+  try {
+    return {state: await readLink(hash, kinds, otherwise), fault: ''};
+  } catch (error) {
+    if (!(error instanceof LinkError)) throw error;
+    return {state: otherwise, fault: error.message};
+  }
 }

@@ -43,6 +43,8 @@ export class Stage {
     element('fit').addEventListener('click', () => this.fit());
     play.onChange(() => this.follow());
     this.follow();
+    // Where the second view has changed no size, nothing else would ask for it.
+    this.fit();
   }
 
   onChange(listener: () => void): void {
@@ -121,7 +123,7 @@ export class Stage {
   private told(done: boolean): void {
     element('told').textContent = done
       ? ''
-      : 'There is no room for that: the robot or its start is in the way.';
+      : 'That cannot be: the robot or its start would be in the way, or the thing too small or one too many.';
   }
 
   private changed(): void {

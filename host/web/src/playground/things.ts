@@ -83,9 +83,9 @@ export function thingAt(world: World, at: Point, reach: number): Thing | null {
   return best;
 }
 
-/** Millimetres: what is in the page is what is in a file. */
+/** Millimetres: what is in the page is what is in a file. No 0 has a sign, which a link would lose. */
 export function tidy(x: number): number {
-  return Math.round(x * 1000) / 1000;
+  return Math.round(x * 1000) / 1000 + 0;
 }
 
 export function moved(world: World, thing: Thing, dx: number, dy: number): World {

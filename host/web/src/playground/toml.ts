@@ -4,7 +4,7 @@ import {NOISE_KEYS, type Situation} from './situation.ts';
 
 /** The shortest decimal that reads back as the same number. */
 function number(x: number): string {
-  const text = String(x);
+  const text = Object.is(x, -0) ? '-0' : String(x);
   return /[.e]/.test(text) ? text : `${text}.0`;
 }
 
@@ -38,7 +38,7 @@ export function scenarioToml(name: string, {seed, timeLimit, world, noise}: Situ
         `path = ${points(path)}\nspeed_mps = ${number(speed)}`,
     );
   }
-  const disturbed = NOISE_KEYS.flatMap((key, i) => (noise[i] > 0 ? [`${key} = ${number(noise[i])}`] : []));
+  const disturbed = NOISE_KEYS.flatMap((key, i) => (noise[i] !== 0 ? [`${key} = ${number(noise[i])}`] : []));
   if (disturbed.length > 0) parts.push(`[noise]\n${disturbed.join('\n')}`);
   return `${parts.join('\n\n')}\n`;
 }

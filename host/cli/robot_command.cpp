@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/cli/provenance.hpp"
+#include "host/cli/test_drives.hpp"
+#include "host/report/file.hpp"
+#include "host/report/result.hpp"
+#include "host/scenario/load.hpp"
+#include "host/scenario/robot_header.hpp"
+
+namespace whisker::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string file;
+  std::string header;
+  PlannerKind planner = kDefaultPlanner;
+  bool json = false;
+};
+
+bool reached(const TestDrive& drive) { return drive.result.verdict == Verdict::reached; }
+
+Json violations_json(const InputErrors& errors) {
+  Json all = Json::array();
+  for (const InputError& e : errors.all()) {
+    all.push_back({{"line", e.line()}, {"column", e.column()}, {"text", e.what()}});
+  }
+  return all;
+}
+
+Json drives_json(const std::vector<TestDrive>& drives) {
+  Json all = Json::array();
+  for (const TestDrive& drive : drives) {
+    Json one = Json::parse(report::result_json(drive.result));
+    one["world"] = drive.world;
+    all.push_back(one);
+  }
+  return all;
+}
+
+/// params: null if they are refused.
+void print_json(const Options& o, const Params* params, const Json& violations,
+                const std::vector<TestDrive>& drives) {
+  const bool fit = params != nullptr && std::all_of(drives.begin(), drives.end(), reached);
+  const Json json = {{"fit", fit}, {"violations", violations}, {"drives", drives_json(drives)}};
+  Provenance provenance;
+  provenance.planner = name(o.planner);
+  provenance.robot_name = o.file;
+  if (params != nullptr) provenance.robot_digest = robot_digest(*params);
+  fmt::print("{}\n", with_provenance(json.dump(-1, ' ', false, Json::error_handler_t::replace), provenance));
+}
+
+int execute(const Options& o) {
+  check_outputs({o.header}, {o.file}, o.json);
+  std::FILE* const out = words_beside({o.header});
+  Params params;
+  try {
+    apply_robot_file(params, o.file);
+  } catch (const InputErrors& errors) {
+    if (!o.json) throw;
+    print_json(o, nullptr, violations_json(errors), {});
+    return kBadInput;
+  }
+  const std::vector<TestDrive> drives = test_drives(params, o.planner);
+  const bool fit = std::all_of(drives.begin(), drives.end(), reached);
+  if (o.json) print_json(o, &params, Json::array(), drives);
+  for (const TestDrive& drive : drives) {
+    if (!o.json) fmt::print(out, "{}: {}\n", drive.world, report::verdict_words(drive.result));
+    if (!reached(drive)) {
+      fmt::print(stderr, "whisker: {}: the drive through {} failed: {}\n", o.file, drive.world,
+                 report::verdict_words(drive.result));
+    }
+  }
+  if (!fit) return kFault;
+  if (!o.header.empty()) report::write_file(o.header, robot_header(params, o.file));
+  if (!o.json) {
+    fmt::print(out, "fit: {}\n", o.file);
+    if (!o.header.empty()) fmt::print(out, "header: {}\n", o.header);
+  }
+  return 0;
+}
+
+constexpr const char* kStatus = R"(
+Exit status of robot check: 0 fit, 2 a parameter or a relation is wrong: every one, a line each,
+6 a test drive failed, 1 anything else.)";
+
+}  // namespace
+
+void add_robot(CLI::App& app, int& status) {
+  CLI::App* robot = app.add_subcommand("robot", "Work on the parameters of a robot");
+  robot->require_subcommand(1);
+  CLI::App* cmd =
+      robot->add_subcommand("check", "Say whether a robot's parameters fit, and drive it a little");
+  const auto o = std::make_shared<Options>();
+  add_file(*cmd, "ROBOT", o->file, "Robot file (TOML)")->required();
+  add_file(*cmd, "--header", o->header, "Write the parameters of a fit robot as a C++ header");
+  add_planner(*cmd, o->planner);
+  add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
+  cmd->footer(kStatus);
+  cmd->callback([o, &status] { status = execute(*o); });
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,20 @@
+/// A few drives that every fit robot ends at its goal.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/run/planners.hpp"
+#include "host/run/record.hpp"
+
+namespace whisker::cli {
+
+struct TestDrive {
+  std::string world;  ///< "the empty world", "the corridor", "the field of discs"
+  RunResult result;
+};
+
+/// Without noise, in worlds in proportion to the body. The parameters must pass check().
+std::vector<TestDrive> test_drives(const Params& params, PlannerKind planner);
+
+}  // namespace whisker::cli

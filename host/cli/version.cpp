@@ -1,0 +1,9 @@
+#include "host/cli/version.hpp"
+
+#include <commit.hpp>
+
+namespace whisker::cli {
+
+std::string version() { return WHISKER_VERSION " (" WHISKER_COMMIT ")"; }
+
+}  // namespace whisker::cli

@@ -1,0 +1,45 @@
+/// What the numbers and shapes of a scenario may be, whoever hands one over: a file, or the playground's
+/// page.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "host/scenario/scenario.hpp"
+
+namespace whisker {
+
+/// What a number may be.
+struct Limits {
+  double low;
+  double high;
+  bool low_excluded = false;
+
+  /// Not-a-number is in no range.
+  bool allow(double x) const { return x <= high && (low_excluded ? x > low : x >= low); }
+};
+
+constexpr double kFarthest = 1000;  ///< m; no coordinate or length of a scenario exceeds it
+constexpr Limits kCoordinate{-kFarthest, kFarthest};
+constexpr Limits kLength{0, kFarthest, true};
+constexpr Limits kProbability{0, 1};
+constexpr Limits kTimeLimit{0, 1e6, true};  // s
+constexpr Limits kMoverSpeed{0, 10};        // m/s
+constexpr Limits kRangeSigma{0, 10};        // m
+constexpr Limits kWheelScaleSigma{0, 1};    //
+constexpr Limits kHeadingDrift{0, 360};     // deg/m^0.5
+constexpr std::size_t kMostPoints = 4096;   ///< of one list
+constexpr std::size_t kFewestOfPolygon = 3;
+constexpr std::size_t kFewestOfLine = 2;
+
+bool is_sound(const Bounds& bounds);
+bool is_within(sim::Vec2 p, const Bounds& bounds);
+/// No point is the same as the one before it.
+bool all_differ(const std::vector<sim::Vec2>& points);
+bool has_area(const std::vector<sim::Vec2>& polygon);
+/// How far the mover is off its path, m, and whether that is more than rounding a coordinate by hand may
+/// cost.
+double off_path(const Mover& mover);
+bool is_on_path(const Mover& mover);
+
+}  // namespace whisker

@@ -1,0 +1,31 @@
+/// The parameters as a list of numbers: what treats all of them alike.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/scenario/params_text.hpp"
+
+namespace whisker {
+
+struct ParamEntry {
+  const char* key;
+  std::int64_t raw;
+  std::int64_t low;  ///< its own range
+  std::int64_t high;
+  ParamUnit unit;            ///< symbol "" for a count or a choice
+  const char* word;          ///< of a choice; else null
+  const char* type;          ///< "Length"; "int32_t" for a count, "" for a choice
+  std::string text() const;  ///< as in a file
+  std::string text_of(std::int64_t other) const;
+};
+
+/// In the order of for_each_param.
+std::vector<ParamEntry> param_list(const Params& params);
+
+/// Sets the parameter with this place in the list; raw must lie within its range.
+void set_param(Params& params, std::size_t place, std::int64_t raw);
+
+}  // namespace whisker

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "firmware/params.hpp"
+
+namespace whisker {
+
+/// A C++ header with `constexpr whisker::Params my_robot()`: what differs from the reference robot, and a
+/// static_assert on check(). source: the file that it was made from.
+std::string robot_header(const Params& params, const std::string& source);
+
+}  // namespace whisker

@@ -1,0 +1,129 @@
+#include "host/scenario/violations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "host/scenario/param_list.hpp"
+#include "host/scenario/params_text.hpp"
+
+namespace whisker {
+namespace {
+
+using Broken = std::array<bool, kParamFaults>;
+
+Broken broken(const Params& params) {
+  Broken found{};
+  for_each_relation(params, [&found](ParamFault fault, bool holds) {
+    found[static_cast<std::size_t>(fault)] = !holds;
+    return true;
+  });
+  return found;
+}
+
+bool is_of_a_key(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// The relation's sentence names the keys that it is about.
+std::vector<std::size_t> keys_in(std::string_view sentence, const std::vector<ParamEntry>& list) {
+  std::vector<std::size_t> keys;
+  for (std::size_t i = 0; i < sentence.size();) {
+    std::size_t end = i;
+    while (end < sentence.size() && is_of_a_key(sentence[end])) ++end;
+    const std::string_view word = sentence.substr(i, end - i);
+    const auto named = std::find_if(list.begin(), list.end(), [&](const auto& e) { return e.key == word; });
+    const auto place = static_cast<std::size_t>(named - list.begin());
+    if (named != list.end() && std::find(keys.begin(), keys.end(), place) == keys.end())
+      keys.push_back(place);
+    i = std::max(end, i + 1);
+  }
+  return keys;
+}
+
+/// The values of one parameter that would do, on one side of what it is.
+struct Fitting {
+  std::int64_t nearest;
+  std::int64_t farthest;
+};
+
+/// Where `fits` turns from `inside`, where it does, to `outside`, where it does not: the last that does.
+std::int64_t edge(std::int64_t inside, std::int64_t outside, const std::function<bool(std::int64_t)>& fits) {
+  while (std::abs(inside - outside) > 1) {
+    const std::int64_t middle = inside + (outside - inside) / 2;
+    (fits(middle) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+/// The first stretch that fits on the way from `now`, which does not, to the range's end; found if it is
+/// longer than a 64th of that way, or at its end.
+std::optional<Fitting> towards(std::int64_t now, std::int64_t end,
+                               const std::function<bool(std::int64_t)>& fits) {
+  constexpr std::int64_t kSamples = 64;
+  std::int64_t before = now;
+  std::optional<Fitting> found;
+  for (std::int64_t i = 1; i <= kSamples; ++i) {
+    const std::int64_t sample = now + (end - now) * i / kSamples;
+    if (sample == before) continue;
+    const bool good = fits(sample);
+    if (good && !found) found = Fitting{edge(sample, before, fits), sample};
+    if (found && !good) return Fitting{found->nearest, edge(found->farthest, sample, fits)};
+    if (found) found->farthest = sample;
+    before = sample;
+  }
+  return found;
+}
+
+std::string words(const ParamEntry& e, const Fitting& f) {
+  if (f.nearest == f.farthest) return fmt::format("{} = {}", e.key, e.text_of(f.nearest));
+  if (f.farthest == e.high) return fmt::format("{} >= {}", e.key, e.text_of(f.nearest));
+  if (f.farthest == e.low) return fmt::format("{} <= {}", e.key, e.text_of(f.nearest));
+  return fmt::format("{} from {} to {}", e.key, e.text_of(std::min(f.nearest, f.farthest)),
+                     e.text_of(std::max(f.nearest, f.farthest)));
+}
+
+/// What would mend the relation: `strictly` without breaking one that holds.
+std::vector<std::string> mends(const Params& params, const Violation& v, const Broken& now, bool strictly) {
+  const std::vector<ParamEntry> list = param_list(params);
+  std::vector<std::string> all;
+  for (const std::size_t place : v.keys) {
+    if (list[place].word != nullptr) continue;
+    const auto fits = [&](std::int64_t raw) {
+      Params changed = params;
+      set_param(changed, place, raw);
+      const Broken then = broken(changed);
+      if (then[static_cast<std::size_t>(v.fault)]) return false;
+      for (std::size_t i = 0; strictly && i < then.size(); ++i) {
+        if (then[i] && !now[i]) return false;
+      }
+      return true;
+    };
+    for (const std::int64_t end : {list[place].low, list[place].high}) {
+      if (const auto found = towards(list[place].raw, end, fits)) all.push_back(words(list[place], *found));
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Violation> violations(const Params& params) {
+  const Broken now = broken(params);
+  const std::vector<ParamEntry> list = param_list(params);
+  std::vector<Violation> all;
+  for_each_relation(params, [&](ParamFault fault, bool holds) {
+    if (!holds) all.push_back({fault, keys_in(relation(fault), list), {}});
+    return true;
+  });
+  for (Violation& v : all) {
+    v.fits = mends(params, v, now, true);
+    if (v.fits.empty()) v.fits = mends(params, v, now, false);
+  }
+  return all;
+}
+
+}  // namespace whisker

@@ -1,0 +1,27 @@
+"""README.md's Layout names every folder of firmware/, hal/ and host/, and none that is not there. usage: readme_layout.py ROOT"""
+
+import pathlib
+import re
+import sys
+
+from sources import finish
+
+PARTS = ("firmware", "hal", "host")
+
+
+def problems(root, text):
+    for part in PARTS:
+        row = re.search(rf"^\| `{part}/` \|(.*)\|$", text, re.MULTILINE)
+        named = set(re.findall(r"`(\w+)/`", row[1])) if row else set()
+        there = {path.name for path in pathlib.Path(root, part).iterdir() if path.is_dir()}
+        for name in sorted(there ^ named):
+            yield f"README.md: {part}/{name}/ is {'not named' if name in there else 'named and not there'}"
+
+
+def main(root):
+    found = list(problems(root, pathlib.Path(root, "README.md").read_text()))
+    return finish("layout", len(PARTS), found)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

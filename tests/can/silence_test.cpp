@@ -1,0 +1,123 @@
+// A node of another make that shakes hands and then leaves a request without an answer: nobody waits for
+// ever, and what stays away has a name.
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "host/worlds/generate.hpp"
+#include "tests/can/loop.hpp"
+#include "tests/can/party.hpp"
+
+namespace whisker {
+namespace {
+
+Scenario short_way() {
+  worlds::Options options;
+  options.seed = 3;
+  return worlds::generate(worlds::Kind::discs, options);
+}
+
+/// A controller that greets, lives, and answers these requests alone: orders with this status.
+class Taciturn {
+ public:
+  Taciturn(bus::MemoryBus& wire, std::set<can::Kind> answers, can::MissionStatus status)
+      : party_(wire, 1), answers_(std::move(answers)), status_(status) {}
+
+  void poll(std::uint32_t now_ms) {
+    party_.poll(now_ms);
+    if (now_ms % 100 == 0) party_.greet(kBoot);
+    const auto frames = party_.frames();
+    party_.forget();
+    for (const hal::CanFrame& frame : frames) answer(frame);
+  }
+
+ private:
+  static constexpr std::uint16_t kBoot = 7;
+
+  bool answers(can::Kind kind, const hal::CanFrame& frame) const {
+    return answers_.count(kind) != 0 && frame.id >> 4 == can::message_of(kind).function;
+  }
+  void answer(const hal::CanFrame& frame) {
+    can::ParamRequest request;
+    can::MissionOrder order;
+    if (answers(can::Kind::param_request, frame) && can::decode(frame, request)) {
+      party_.say(can::ParamReply{can::ParamStatus::ok, request.index, request.value});
+    } else if (answers(can::Kind::mission, frame) && can::decode(frame, order) &&
+               order.part == can::MissionPart::order) {
+      party_.say(can::MissionReply{status_, order.mission});
+    }
+  }
+
+  test::Party party_;
+  const std::set<can::Kind> answers_;
+  const can::MissionStatus status_;
+};
+
+/// What the plant says when it gives up, and the seconds that it waited.
+std::pair<std::string, double> given_up(const std::set<can::Kind>& answers, can::Pace pace,
+                                        can::MissionStatus status = can::MissionStatus::accepted) {
+  bus::MemoryBus wire;
+  hal::CanPort& port = wire.attach();
+  Taciturn controller(wire, answers, status);
+  test::SharedTime time([&](std::uint32_t now_ms) { controller.poll(now_ms); });
+  hil::Figures figures;
+  hil::BusOptions bus;
+  bus.pace = pace;
+  bus.patience_ms = 2000;
+  RunOptions options;
+  options.pilot = hil::bus_pilot(port, time, bus, figures);
+  std::string said = "it drove";
+  try {
+    run(short_way(), options);
+  } catch (const hil::NoAnswer& e) {
+    said = e.what();
+  }
+  return {said, static_cast<double>(time.now_us()) * 1e-6};
+}
+
+TEST(Silence, ThePlantNamesTheRequestThatStaysWithoutAnAnswer) {
+  using can::Kind;
+  for (const can::Pace pace : {can::Pace::lockstep, can::Pace::real_time}) {
+    const auto [param, waited_s] = given_up({}, pace);
+    EXPECT_EQ(param, "the controller sends no ParamReply for 2000 ms");
+    EXPECT_LT(waited_s, 3);
+    const auto [mission, mission_s] = given_up({Kind::param_request}, pace);
+    EXPECT_EQ(mission, "the controller sends no MissionReply that accepts for 2000 ms");
+    EXPECT_LT(mission_s, 4);
+    const auto [refusal, refusal_s] =
+        given_up({Kind::param_request, Kind::mission}, pace, can::MissionStatus::refused);
+    EXPECT_EQ(refusal, mission);
+    EXPECT_LT(refusal_s, 4);
+  }
+  const auto [set, set_s] = given_up({Kind::param_request, Kind::mission}, can::Pace::lockstep);
+  EXPECT_EQ(set, "the controller sends no WheelCommand and NavStatus for 2000 ms");
+  EXPECT_LT(set_s, 5);
+}
+
+/// A controller beside a base of another make that falls silent, in real time; the errors that it shows then.
+TEST(Silence, TheControllerNamesWhatABaseNoLongerSends) {
+  bus::MemoryBus wire;
+  can::ControllerNode node(wire.attach(), {1, 5, 0});
+  test::Party base(wire, 9);
+  std::uint32_t now = 0;
+  const auto pass = [&](int ms, bool beats) {
+    for (int i = 0; i < ms; ++i) {
+      base.poll(++now);
+      if (beats && now % 50 == 0) base.greet(6);
+      node.poll(now);
+    }
+  };
+  pass(1000, false);
+  EXPECT_EQ(node.state(), can::NodeState::waiting);
+  pass(200, true);
+  EXPECT_EQ(node.state(), can::NodeState::ready);
+  pass(1000, true);
+  EXPECT_EQ(node.state(), can::NodeState::ready) << "no mission, no error";
+  EXPECT_EQ(node.errors(), 0U);
+  pass(400, false);
+  EXPECT_EQ(node.state(), can::NodeState::waiting) << "nothing ran that could be stopped";
+}
+
+}  // namespace
+}  // namespace whisker

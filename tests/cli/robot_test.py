@@ -1,0 +1,112 @@
+"""`whisker robot check`: what it refuses, what it drives, and the header that it writes."""
+
+import json
+import pathlib
+import subprocess
+
+import whisker
+from whisker import SCENARIOS, Case
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+
+
+def check(*arguments, **options):
+    return whisker.whisker("robot", "check", *arguments, **options)
+
+
+class RobotCheck(Case):
+    def test_a_fit_robot_drives_in_three_worlds(self):
+        for name, text in (
+            ("reference", ""),
+            ("small", "body_radius_m = 0.075\nwheel_track_m = 0.11\nencoder_counts_per_m = 3200\n"),
+            ("large", "[robot]\nbody_radius_m = 0.2\nwheel_track_m = 0.3\nthesis_danger_range_m = 0.4\n"),
+        ):
+            robot = self.file(f"{name}.toml", text)
+            done = check(robot)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+            self.assertEqual([line.split(":")[0] for line in done.stdout.splitlines()],
+                             ["the empty world", "the corridor", "the field of discs", "fit"])  # fmt: skip
+            result = json.loads(check(robot, "--json").stdout)
+            self.assertEqual((result["fit"], result["violations"]), (True, []))
+            self.assertEqual([drive["outcome"] for drive in result["drives"]], ["reached"] * 3)
+
+    def test_every_violation_is_a_line_and_run_refuses_the_same(self):
+        robot = self.file("bad.toml", "thesis_small_step_m = 0.3\nstale_after_s = 0.03\n[robot]\nskirt_shield_margin_m = 0.01\n")
+        done = check(robot, "--header", self.folder / "bad.hpp")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        lines = done.stderr.splitlines()
+        self.assertEqual([line.split(": ")[0] for line in lines], [f"{robot}:{place}" for place in ("1:23", "2:17", "4:25")])
+        for line in lines:
+            self.assertRegex(line, r" \(line \d\).*; it would fit with [a-z_]+ (<=|>=|=|from) ")
+        self.assertEqual(list(self.contents()), ["bad.toml"], "no header")
+        self.assertEqual(whisker.whisker("run", SCENARIOS / "nothing.toml", "--robot", robot).stderr, done.stderr)
+        told = check(robot, "--json")
+        self.assertEqual((told.returncode, told.stderr), (2, ""))
+        result = json.loads(told.stdout)
+        self.assertEqual((result["fit"], result["drives"]), (False, []))
+        self.assertEqual([v["text"] for v in result["violations"]], lines)
+
+    def test_a_drive_that_fails_is_named(self):
+        short = self.file("short.toml", "length_budget_m = 5\n")
+        done = check(short, "--header", self.folder / "short.hpp")
+        self.assertEqual(done.returncode, 6)
+        self.assertRegex(done.stderr, r"\Awhisker: \S+short.toml: the drive through the field of discs failed: gave up after .*length_budget.*\n\Z")
+        self.assertEqual(list(self.contents()), ["short.toml"], "no header")
+        result = json.loads(check(short, "--json").stdout)
+        self.assertEqual([drive["outcome"] for drive in result["drives"]], ["reached", "reached", "gave_up"])
+        self.assertFalse(result["fit"])
+
+    def test_files_that_are_none(self):
+        self.refused("robot", says="robot")
+        self.refused("robot", "check", says="ROBOT")
+        self.refused("robot", "check", "missing.toml", says="missing.toml:1:1: ")
+        self.file("odd.toml", "nonsense = 1\n")
+        self.refused("robot", "check", "odd.toml", "--json", says="odd.toml:1:1: unknown key 'nonsense'")
+        self.refused("robot", "check", "odd.toml", "--header", "odd.toml", says="would overwrite")
+
+
+class Header(Case):
+    def compiled(self, text, compiler="g++"):
+        source = self.file("use.cpp", text)
+        command = [compiler, "-std=c++17", "-Wall", "-Wextra", "-Werror", "-Wconversion", f"-I{ROOT}", f"-I{self.folder}", "-fsyntax-only", source]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_compiles_and_holds_what_the_file_says(self):
+        robot = self.file("my robot.toml", "body_radius_m = 0.075\nwheel_track_m = 0.11\nconsensus = \"median\"\nconsensus_reads = 5\nturn_tolerance_deg = 2.5\n")
+        header = self.folder / "my_robot.hpp"
+        done = check(robot, "--header", header)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn(f"header: {header}\n", done.stdout)
+        text = header.read_text()
+        self.assertIn("static_assert(whisker::check(my_robot()) == whisker::ParamFault::none", text)
+        self.assertEqual(text.count("  p."), 5, "only what differs from the reference robot")
+        self.compiled(
+            '#include "my_robot.hpp"\n#include "my_robot.hpp"\nusing namespace whisker;\n'
+            "static_assert(my_robot().body.radius == 75_mm && my_robot().conditioning.reads == 5);\n"
+            "static_assert(my_robot().conditioning.consensus == Consensus::median);\n"
+            "static_assert(my_robot().motion.turn_tolerance == Angle::turns(25, 3600));\n"
+        )
+
+    def test_every_parameter_has_its_field(self):
+        """Each one a little off its default, as far as that alone fits."""
+        keys = (ROOT / "docs/scenario.md").read_text().split("<!-- params:begin -->")[1].split("<!-- params:end -->")[0]
+        rows = [[cell.strip() for cell in row.strip("|").split("|")] for row in keys.strip().splitlines()[2:]]
+        wanted = []
+        for key, unit, default, _ in rows:
+            key = key.strip("`")
+            other = {"integer": lambda: int(default) + 1, "one of": lambda: {"agreeing": '"median"', "front": '"mean"'}[default.strip('"')]}
+            value = other.get(unit, lambda: round(float(default) * 1.05, 4) or 0.02)()
+            zeros = {"skirt_probe_m": 0.1, "skirt_cell_m": 0.019, "range_clear_m": 1.5, "max_tick_gap_s": 0.03}
+            value = zeros.get(key, value)
+            robot = self.file("one.toml", f"{key} = {value}\n")
+            done = check(robot, "--header", self.folder / "one.hpp")
+            self.assertIn(done.returncode, (0, 6), (key, done.stderr))
+            if done.returncode == 0:
+                wanted.append(key)
+                self.assertIn(f"// {key} = ", (self.folder / "one.hpp").read_text())
+        self.assertGreater(len(wanted), len(rows) - 3)
+
+
+if __name__ == "__main__":
+    whisker.main()
