@@ -88,7 +88,9 @@ describe('the page of a campaign', () => {
     const seed = await page.evaluate(() => window.whisker.run.info.seed);
     const [again] = await page.evaluate(() => [window.whisker.run.info.result]);
     assert.deepEqual(
-      withoutOrigin(JSON.parse(whisker('campaign', 'u-trap', '--planner', 'bug2', '--replay', seed, '--json'))),
+      withoutOrigin(
+        JSON.parse(whisker('campaign', 'u-trap', '--planner', 'bug2', '--replay', seed, '--json')),
+      ),
       again,
     );
     assert.match(await page.textContent('#facts'), new RegExp(`--replay ${seed} `));
