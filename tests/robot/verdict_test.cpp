@@ -89,7 +89,7 @@ TEST(Verdicts, IdealWheelsAreNeverOffTheGoal) {
       }
     }
   }
-  EXPECT_GT(worst, 0.5) << "of the tolerance: else this has tested nothing";
+  EXPECT_GT(worst, 0.4) << "of the tolerance: else this has tested nothing";
   EXPECT_LT(worst, 0.95);
 }
 
