@@ -4,6 +4,8 @@
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
+
 #include "firmware/can/ids.hpp"
 #include "host/cli/options.hpp"
 

@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "firmware/can/node.hpp"
+#include "host/cli/cli11_forward.hpp"
 
 namespace whisker::cli {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/campaign/failures.hpp"
 #include "host/campaign/merge.hpp"
@@ -28,10 +29,8 @@
 namespace whisker::cli {
 namespace {
 
-using Options = CampaignOptions;
-
 /// chosen: null for rows of files, which say themselves who drove.
-Provenance provenance(const Options& o, const Missions* chosen) {
+Provenance provenance(const CampaignOptions& o, const Missions* chosen) {
   Provenance p;
   if (chosen == nullptr) return p;
   p.planner = name(chosen->planner);
@@ -48,7 +47,7 @@ Provenance provenance(const Options& o, const Missions* chosen) {
   return p;
 }
 
-void print(const Options& o, const std::vector<campaign::Row>& rows, const Missions* chosen) {
+void print(const CampaignOptions& o, const std::vector<campaign::Row>& rows, const Missions* chosen) {
   if (rows.empty()) return;
   const campaign::Summary summary = campaign::summarize(rows);
   if (o.json) {
@@ -61,7 +60,7 @@ void print(const Options& o, const std::vector<campaign::Row>& rows, const Missi
 }
 
 /// True if it went to its end.
-bool drive_all(const Options& o, const Missions& missions, std::vector<campaign::Row>& rows) {
+bool drive_all(const CampaignOptions& o, const Missions& missions, std::vector<campaign::Row>& rows) {
   std::optional<campaign::RowFile> file;
   if (!o.csv.empty()) file.emplace(o.csv);
   const bool whole = drive_many(
@@ -77,7 +76,7 @@ bool drive_all(const Options& o, const Missions& missions, std::vector<campaign:
   return whole;
 }
 
-int execute(const Options& o) {
+int run_campaign(const CampaignOptions& o) {
   if (!o.merge.empty()) {
     print(o, campaign::merged(o.merge), nullptr);
     return 0;
@@ -119,7 +118,7 @@ void refuse_others(const CLI::App& command, std::initializer_list<std::string> a
 
 void add_campaign(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("campaign", "Drive many missions and sum them up");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<CampaignOptions>();
   add_worlds(*cmd, *o, "missions");
   add_switch(*cmd, "--noise", o->world.noise, "Sensor noise and odometry error, as in `whisker world`");
   add_wheel_scale_sigma(*cmd, o->world.wheel_scale_sigma, "Scale error of the wheels, as in `whisker world`");
@@ -143,7 +142,7 @@ void add_campaign(CLI::App& app, int& status) {
       refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--wheel-scale-sigma",
                            "--planner", "--map-bytes", "--robot", "--svg", "--trace", "--html", "--json"});
     }
-    status = execute(*o);
+    status = run_campaign(*o);
   });
 }
 

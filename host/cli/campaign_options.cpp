@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"

@@ -6,9 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "host/campaign/worlds.hpp"
+#include "host/cli/cli11_forward.hpp"
 #include "host/run/planners.hpp"
 
 namespace whisker::cli {

@@ -1,7 +1,7 @@
 /// One function a subcommand: it declares its options and, when chosen, runs and sets `status`.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "host/cli/cli11_forward.hpp"
 
 namespace whisker::cli {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/campaign/mission.hpp"
 #include "host/campaign/worlds.hpp"
@@ -26,7 +27,7 @@
 namespace whisker::cli {
 namespace {
 
-struct Options {
+struct FiguresOptions {
   std::string scenarios;  // "": those that this program has in it
   std::string out;
 };
@@ -106,7 +107,7 @@ constexpr std::pair<const char*, const char*> kScenarios[] = {
 #include <figure_scenarios.inc>
 };
 
-Scenario scenario(const Options& o, const std::string& name) {
+Scenario scenario(const FiguresOptions& o, const std::string& name) {
   if (!o.scenarios.empty()) return load_scenario(fmt::format("{}/{}", o.scenarios, name));
   for (const auto& [known, text] : kScenarios) {
     if (name == known) return parse_scenario(text, name);
@@ -114,7 +115,7 @@ Scenario scenario(const Options& o, const std::string& name) {
   throw std::logic_error("no scenario " + name);
 }
 
-int execute(const Options& o) {
+int execute(const FiguresOptions& o) {
   if (!std::filesystem::is_directory(o.out)) throw UsageError(fmt::format("{}: no such folder", o.out));
   const Scenario figure8 = scenario(o, "figure8_u_trap.toml");
   const Scenario figure9 = scenario(o, "figure9_discs.toml");
@@ -139,7 +140,7 @@ int execute(const Options& o) {
 
 void add_figures(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("figures", "Draw the figures of docs/ anew");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<FiguresOptions>();
   add_file(*cmd, "FOLDER", o->out, "Where to write the figures")->required()->type_name("FOLDER");
   add_file(*cmd, "--scenarios", o->scenarios, "Folder of other scenario files for figures 8 to 10");
   cmd->callback([o, &status] { status = execute(*o); });

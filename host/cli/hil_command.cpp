@@ -8,6 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
+
 #include "host/cli/bus_options.hpp"
 #include "host/cli/bus_run.hpp"
 #include "host/cli/commands.hpp"
@@ -20,7 +22,7 @@ namespace {
 
 constexpr const char* kPrivate = "private";
 
-struct Options {
+struct HilOptions {
   ScenarioChoice scenario;
   BusChoice bus;
   ViewChoice view;
@@ -58,7 +60,7 @@ class ControllerProcess {
   pid_t child_ = -1;
 };
 
-int execute(const Options& o) {
+int execute(const HilOptions& o) {
   const Scenario scenario = o.scenario.load({o.bus.record});
   BusChoice controller = o.bus;
   controller.record.clear();
@@ -83,7 +85,7 @@ int execute(const Options& o) {
 
 void add_hil(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("hil", "Plant and controller in two processes on a CAN bus");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<HilOptions>();
   o->bus.name = kPrivate;
   add_scenario(*cmd, o->scenario);
   add_bus(*cmd, o->bus)

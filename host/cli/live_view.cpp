@@ -4,6 +4,7 @@
 #include <thread>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"

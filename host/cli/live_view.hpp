@@ -4,8 +4,7 @@
 #include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "host/cli/cli11_forward.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/view/feed.hpp"
 #include "host/view/server.hpp"

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/campaign/meeting.hpp"
 #include "host/cli/commands.hpp"
@@ -19,9 +20,9 @@ namespace whisker::cli {
 namespace {
 
 constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.3};
-constexpr std::uint64_t kMostMissions = 1000000;
+constexpr std::uint64_t kMostMeetings = 1000000;
 
-struct Options {
+struct MoversOptions {
   std::uint64_t count = 200;
   std::uint64_t seed = 1;
   PlannerKind planner = kDefaultPlanner;
@@ -34,7 +35,8 @@ const char* kind(const campaign::Meeting& contact) {
   return count.seen > 0 ? "seen" : count.shown > 0 ? "shown" : count.moving > 0 ? "moving" : "standing";
 }
 
-campaign::MeetingCount drive(const Options& o, worlds::Course course, double speed_mps, ProgressLine& line) {
+campaign::MeetingCount drive(const MoversOptions& o, worlds::Course course, double speed_mps,
+                             ProgressLine& line) {
   campaign::MeetingCount count;
   for (std::uint64_t i = 0; i < o.count; ++i) {
     const Scenario scenario = worlds::meeting(course, speed_mps, o.seed + i);
@@ -49,7 +51,7 @@ campaign::MeetingCount drive(const Options& o, worlds::Course course, double spe
   return count;
 }
 
-int execute(const Options& o) {
+int execute(const MoversOptions& o) {
   if (o.count == 0) throw UsageError("--count 0: nothing to do");
   if (o.seed > INT64_MAX - o.count) throw UsageError("--seed and --count: seeds must be below 2^63");
   std::error_code error;
@@ -74,9 +76,9 @@ int execute(const Options& o) {
 
 void add_movers(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("movers", "Drive past things that move and count what is touched");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<MoversOptions>();
   cmd->add_option("--count", o->count, "How many missions a course and speed; 200 by default")
-      ->transform(whole_number(kMostMissions))
+      ->transform(whole_number(kMostMeetings))
       ->type_name("N");
   cmd->add_option("--seed", o->seed, "Mission i has seed S + i; 1 by default")
       ->transform(whole_number())

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/scenario/text.hpp"
 

@@ -7,8 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "host/cli/cli11_forward.hpp"
 #include "host/run/planners.hpp"
 
 namespace whisker::cli {

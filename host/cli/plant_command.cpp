@@ -2,6 +2,8 @@
 #include <optional>
 #include <string>
 
+#include <CLI/CLI.hpp>
+
 #include "host/cli/bus_options.hpp"
 #include "host/cli/bus_run.hpp"
 #include "host/cli/commands.hpp"
@@ -12,13 +14,13 @@
 namespace whisker::cli {
 namespace {
 
-struct Options {
+struct PlantOptions {
   ScenarioChoice scenario;
   BusChoice bus;
   ViewChoice view;
 };
 
-int execute(const Options& o) {
+int execute(const PlantOptions& o) {
   const Scenario scenario = o.scenario.load({o.bus.record});
   const auto view = o.view.open();
   const auto line = hil::open_line(o.bus.name);
@@ -31,7 +33,7 @@ int execute(const Options& o) {
 
 void add_plant(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("plant", "Put the simulated robot on a CAN bus and give it a mission");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<PlantOptions>();
   add_scenario(*cmd, o->scenario);
   add_bus(*cmd, o->bus)->required();
   add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");

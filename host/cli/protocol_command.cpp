@@ -1,6 +1,7 @@
 #include <memory>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "firmware/can/ids.hpp"
 #include "host/cli/commands.hpp"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "firmware/can/ids.hpp"
@@ -25,7 +26,7 @@
 namespace whisker::cli {
 namespace {
 
-struct Options {
+struct ReplayOptions {
   std::string log;
   hil::ReplayOptions replay;
   std::string trace;  // "" for none
@@ -36,7 +37,7 @@ struct Options {
 /// What the log's last mission shows.
 class Show {
  public:
-  explicit Show(const Options& o) : run_(o.log), planner_(o.replay.planner) {}
+  explicit Show(const ReplayOptions& o) : run_(o.log), planner_(o.replay.planner) {}
 
   void watch(hil::ReplayOptions& replay) {
     replay.begins = [this](const can::Mission& mission, const Params& params) {
@@ -49,7 +50,7 @@ class Show {
     };
   }
 
-  void write(const Options& o) const {
+  void write(const ReplayOptions& o) const {
     if (!o.trace.empty()) report::write_trace(o.trace, run_.scenario(), run_.records());
     if (o.html.empty()) return;
     const page::StoredRun stored =
@@ -63,7 +64,7 @@ class Show {
   std::optional<page::Recording> recording_;
 };
 
-hil::ReplayResult replayed(const Options& o, const hil::ReplayOptions& replay) {
+hil::ReplayResult replayed(const ReplayOptions& o, const hil::ReplayOptions& replay) {
   std::ifstream log(o.log);
   if (!log || log.peek() == std::ifstream::traits_type::eof()) {
     throw UsageError(fmt::format("{}: {}", o.log, log ? "is empty" : std::strerror(errno)));
@@ -92,7 +93,7 @@ void print_json(const hil::ReplayResult& r, const Provenance& provenance) {
   fmt::print("{}\n", with_provenance(json.dump(), provenance));
 }
 
-int execute(const Options& o) {
+int execute(const ReplayOptions& o) {
   check_outputs({o.trace, o.html}, {o.log}, o.json);
   Show show(o);
   hil::ReplayOptions replay = o.replay;
@@ -128,7 +129,7 @@ int execute(const Options& o) {
 
 void add_replay(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("replay", "Check that the core gives the commands of a recorded run");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<ReplayOptions>();
   add_file(*cmd, "LOG", o->log, "As written by candump -L, or by --record")->required();
   cmd->add_option("--node", o->replay.robot, "Number of the robot; the first one in the log by default")
       ->check(CLI::Range(1, static_cast<int>(can::kRobots)))

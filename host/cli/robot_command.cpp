@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct RobotOptions {
   std::string file;
   std::string header;
   PlannerKind planner = kDefaultPlanner;
@@ -50,7 +51,7 @@ Json drives_json(const std::vector<TestDrive>& drives) {
 }
 
 /// params: null if they are refused.
-void print_json(const Options& o, const Params* params, const Json& violations,
+void print_json(const RobotOptions& o, const Params* params, const Json& violations,
                 const std::vector<TestDrive>& drives) {
   const bool fit = params != nullptr && std::all_of(drives.begin(), drives.end(), reached);
   const Json json = {{"fit", fit}, {"violations", violations}, {"drives", drives_json(drives)}};
@@ -61,7 +62,7 @@ void print_json(const Options& o, const Params* params, const Json& violations,
   fmt::print("{}\n", with_provenance(json.dump(-1, ' ', false, Json::error_handler_t::replace), provenance));
 }
 
-int execute(const Options& o) {
+int execute(const RobotOptions& o) {
   check_outputs({o.header}, {o.file}, o.json);
   std::FILE* const out = words_beside({o.header});
   Params params;
@@ -102,7 +103,7 @@ void add_robot(CLI::App& app, int& status) {
   robot->require_subcommand(1);
   CLI::App* cmd =
       robot->add_subcommand("check", "Say whether a robot's parameters fit, and drive it a little");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<RobotOptions>();
   add_file(*cmd, "ROBOT", o->file, "Robot file (TOML)")->required();
   add_file(*cmd, "--header", o->header, "Write the parameters of a fit robot as a C++ header");
   add_planner(*cmd, o->planner);

@@ -2,6 +2,7 @@
 #include <string>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/chip/chip_pilot.hpp"
 #include "host/cli/commands.hpp"
@@ -13,13 +14,13 @@
 namespace whisker::cli {
 namespace {
 
-struct Options {
+struct RunCommandOptions {
   ScenarioChoice scenario;
   PlannerKind planner = kDefaultPlanner;
   std::string chip;
 };
 
-int execute(const Options& o) {
+int execute(const RunCommandOptions& o) {
   if (!o.chip.empty() && is_baseline(o.planner)) {
     throw UsageError(fmt::format("--chip: planner {} runs on this computer only", name(o.planner)));
   }
@@ -38,7 +39,7 @@ int execute(const Options& o) {
 
 void add_run(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("run", "Drive the simulated robot through a scenario file");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<RunCommandOptions>();
   add_scenario(*cmd, o->scenario);
   add_planner(*cmd, o->planner);
   cmd->add_option("--chip", o->chip,

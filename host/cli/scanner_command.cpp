@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/campaign/scan.hpp"
 #include "host/cli/campaign_options.hpp"
@@ -15,7 +16,7 @@
 namespace whisker::cli {
 namespace {
 
-int execute(const CampaignOptions& o) {
+int scan(const CampaignOptions& o) {
   const Missions chosen = missions(o);
   std::vector<campaign::Row> rows;
   const bool whole = drive_many(
@@ -45,7 +46,7 @@ void add_scanner(CLI::App& app, int& status) {
   add_worlds(*cmd, *o, "worlds")->required();
   add_jobs(*cmd, *o);
   add_switch(*cmd, "--json", o->json, "Print the figures as one JSON object and nothing else");
-  cmd->callback([o, &status] { status = execute(*o); });
+  cmd->callback([o, &status] { status = scan(*o); });
 }
 
 }  // namespace whisker::cli

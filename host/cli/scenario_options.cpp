@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"

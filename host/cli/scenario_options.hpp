@@ -6,8 +6,7 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
+#include "host/cli/cli11_forward.hpp"
 #include "host/cli/one_run.hpp"
 
 namespace whisker::cli {

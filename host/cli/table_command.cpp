@@ -2,6 +2,7 @@
 #include <string>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/controller_picture.hpp"
@@ -13,7 +14,7 @@
 namespace whisker::cli {
 namespace {
 
-struct Options {
+struct TableOptions {
   bool csv = false;
   std::string svg;
 };
@@ -43,7 +44,7 @@ void print_rules(const report::FuzzyPicture& p, const report::Variable& out,
   fmt::print("\n");
 }
 
-int execute(const Options& o) {
+int execute(const TableOptions& o) {
   check_outputs({o.svg}, {}, o.csv);
   const report::FuzzyPicture picture = controller_picture();
   if (!o.svg.empty()) report::write_file(o.svg, report::table_svg(picture));
@@ -62,7 +63,7 @@ int execute(const Options& o) {
 
 void add_table(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("table", "Show the control response table");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<TableOptions>();
   add_switch(*cmd, "--csv", o->csv, "Print SA and SD over D and R, every quarter of a unit");
   add_file(*cmd, "--svg", o->svg, "Draw both outputs as heat maps with the rules on them");
   cmd->callback([o, &status] { status = execute(*o); });

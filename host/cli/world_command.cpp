@@ -3,6 +3,7 @@
 #include <string>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
@@ -15,13 +16,13 @@
 namespace whisker::cli {
 namespace {
 
-struct Options {
+struct WorldOptions {
   std::string kind;
   worlds::Options world;
   std::string out;
 };
 
-std::string generated(const Options& o) {
+std::string generated(const WorldOptions& o) {
   try {
     return to_toml(worlds::generate(*worlds::kind_named(o.kind), o.world));
   } catch (const std::invalid_argument& e) {
@@ -29,7 +30,7 @@ std::string generated(const Options& o) {
   }
 }
 
-int execute(const Options& o) {
+int execute(const WorldOptions& o) {
   check_outputs({o.out});
   const std::string text = generated(o);
   if (o.out.empty()) {
@@ -44,7 +45,7 @@ int execute(const Options& o) {
 
 void add_world(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("world", "Make a random scenario file");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<WorldOptions>();
   cmd->add_option("KIND", o->kind, "discs, poles, u-trap, spiral, maze, rooms or enclosed")
       ->required()
       ->check([](const std::string& text) {

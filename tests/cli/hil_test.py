@@ -54,7 +54,9 @@ class Hil(OnABus):
         load = self.json_of("hil", scenario)["bus"]["load_percent"]
         self.assertTrue(10 < load < 40, load)
         words = whisker.whisker("hil", scenario).stdout
-        self.assertIn(f"load of the bus in real time {load:.1f} %", words)
+        told = float(re.search(r"load of the bus in real time ([0-9.]+) %", words).group(1))
+        # Heartbeats go by the clock, however fast the lockstep is: two runs have not quite the same frames.
+        self.assertAlmostEqual(told, load, delta=0.5)
 
     def test_a_log_that_ends_within_a_line_is_replayed_up_to_there(self):
         log = self.folder / "whole.log"
