@@ -9,9 +9,10 @@ namespace {
 // What the wheels still do from before a reset is no one's command.
 constexpr Duration kUnwatched = 500_ms;
 constexpr Length kPlace = 30_mm;  // for the reference body
-// Standing, it may wait this many times stalled_after, and turn around this often.
+// In one place it may wait this many times stalled_after, turn around this often, and cross it this often.
 constexpr int32_t kWaits = 60;
 constexpr int32_t kTurns = 30;
+constexpr int32_t kSteps = 30;
 
 /// Braking from full speed, until the wheels have followed.
 Duration braking_time(const Params& p) noexcept {
@@ -19,12 +20,18 @@ Duration braking_time(const Params& p) noexcept {
          p.wheels.motor_lag * 4;
 }
 
+Duration ms_at(Length way, int32_t times, Speed speed) noexcept {
+  return milliseconds(multiply_divide(way.raw(), 1000 * times, speed.raw()));
+}
+
 /// What is done in one place takes less than this.
 Duration longest_stay(const Params& p) noexcept {
   constexpr int32_t kMicroradians = 6283185;  // a turn
   const AngularRate rate = min(p.wheels.max_turn_rate, nav::kFastestTurn);
-  return p.safety.stalled_after * kWaits +
-         milliseconds(multiply_divide(kMicroradians, 1000 * kTurns, rate.raw()));
+  const Duration turn = max(milliseconds(multiply_divide(kMicroradians, 1000, rate.raw())),
+                            ms_at(p.body.track * 22 / 7, 1, p.wheels.max_speed));
+  return p.safety.stalled_after * kWaits + turn * kTurns +
+         ms_at(for_body(p, kPlace), kSteps, p.wheels.max_speed);
 }
 #endif
 
@@ -41,6 +48,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& p
   mapper_.configure(params);
 #ifndef WHISKER_SMALL
   wheel_watch_.configure(params);
+  longest_stay_ = longest_stay(params);
 #endif
 }
 
@@ -313,7 +321,7 @@ void Robot::watch_place() noexcept {
     return;
   }
   at_place_for_ += elapsed_;
-  if (at_place_for_ <= longest_stay(params_)) return;
+  if (at_place_for_ <= longest_stay_) return;
   count(status_.health.no_progress);
   fail(Fault::no_progress);
 #endif

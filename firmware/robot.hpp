@@ -141,6 +141,7 @@ class Robot {
 #endif
   Vec place_;  // that it has not left
   Duration at_place_for_;
+  Duration longest_stay_;
 };
 
 }  // namespace whisker
