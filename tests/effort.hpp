@@ -2,26 +2,23 @@
 #pragma once
 
 #include <cstdint>
-
-// How GCC and clang tell of the sanitizer.
-#if defined(__SANITIZE_ADDRESS__)
-#define WHISKER_SANITIZED
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define WHISKER_SANITIZED
-#endif
-#endif
+#include <cstdlib>
 
 namespace whisker::test {
 
-/// `full` in an optimised build; a sixth, at least one, under sanitizers and for coverage, which are
-/// about ten times slower and look for other faults.
+/// `full` in a release build; a sixth, at least one, in the others, under sanitizers and for coverage, which
+/// are about ten times slower and look for other faults (tests/CMakeLists.txt).
 constexpr std::uint64_t effort(std::uint64_t full) noexcept {
-#if defined(WHISKER_SANITIZED) || !defined(__OPTIMIZE__)
+#ifdef WHISKER_LESS_EFFORT
   return (full + 5) / 6;
 #else
   return full;
 #endif
+}
+
+/// `usual` as above; `whole` with WHISKER_LONG=1, as in the stage long.
+inline std::uint64_t effort(std::uint64_t usual, std::uint64_t whole) noexcept {
+  return std::getenv("WHISKER_LONG") != nullptr ? whole : effort(usual);
 }
 
 }  // namespace whisker::test

@@ -9,6 +9,7 @@
 
 #include "host/run/spec.hpp"
 #include "host/worlds/random.hpp"
+#include "tests/effort.hpp"
 #include "tests/ground/cells.hpp"
 
 namespace whisker::test {
@@ -66,7 +67,7 @@ double nearest(Cell cell, double x, double y) {
 }
 
 TEST(Patch, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(300); ++seed) {
     Random random(seed);
     const Pose pose{{Length::from_raw(random.index(2000000000) - 1000000000),
                      Length::from_raw(random.index(2000000000) - 1000000000)},
@@ -85,7 +86,7 @@ TEST(Patch, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
 // The rows and columns that the window leaves are forgotten, those that it keeps are kept, and no bit comes
 // in at the other end of the torus.
 TEST(Patch, AMovingWindowNeitherLeaksNorLoses) {
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(300); ++seed) {
     Random random(seed);
     Params params;
     params.skirt.age_travel = 1000_m;
@@ -143,7 +144,7 @@ TEST(Patch, AlongCountsWhatIsNotClearOnTheWay) {
   constexpr double kRounding = 0.0006;
   constexpr double kAbeam = 80 * kCell / 256;
   int blocked = 0;
-  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(3000); ++seed) {
     Random random(seed);
     const Pose pose = draw_pose(random);
     const ground::Patch patch = draw_patch(random, pose);
@@ -185,7 +186,7 @@ TEST(Patch, AlongCountsWhatIsNotClearOnTheWay) {
 TEST(Patch, ApproachesTellsWhatComesNearer) {
   constexpr double kRounding = 0.0005;
   int vetoed = 0;
-  for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(3000); ++seed) {
     Random random(seed);
     const Pose pose = draw_pose(random);
     const ground::Patch patch = draw_patch(random, pose);

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 
 #include "host/run/spec.hpp"
 #include "host/worlds/generate.hpp"
@@ -62,7 +61,7 @@ int overlapping(Bench& bench, double cell) {
 }
 
 TEST(LoneFalseClears, ClearNoCellThatHoldsAnything) {
-  const std::uint64_t missions = std::getenv("WHISKER_LONG") != nullptr ? 1000 : test::effort(12);
+  const std::uint64_t missions = test::effort(12, 1000);
   int overlaps = 0, missions_with = 0, contacts = 0, reached = 0;
   for (std::uint64_t seed = 1; seed <= missions; ++seed) {
     worlds::Options options;

@@ -28,7 +28,7 @@ class LimitsOf : public testing::TestWithParam<PlannerKind> {
     Bench bench(scenario, GetParam());
     Most most;
     hal::WheelSpeeds last{};
-    while (bench.plant().time() < 1800 && bench.step(10)) {
+    while (bench.plant().time() < (must_arrive() ? 1800 : 90) && bench.step(10)) {
       const hal::WheelSpeeds now = bench.status().command;
       const double left = now.left * 1e-4, right = now.right * 1e-4;
       const double track = robot.body.track.raw() * 1e-6;
@@ -42,6 +42,10 @@ class LimitsOf : public testing::TestWithParam<PlannerKind> {
     ended_ = bench.ended();
     return most;
   }
+  // Baselines and the thesis's planner may fail in a world that the others pass: they show what they can in
+  // 90 s.
+  static bool must_arrive() { return GetParam() == PlannerKind::skirt || GetParam() == PlannerKind::map; }
+
   std::string ended_;
 };
 
@@ -64,8 +68,7 @@ TEST_P(LimitsOf, TheWheels) {
         EXPECT_LE(most.turn_rate, mrad_per_s * 1e-3 + 2 * kWire / 0.14);
         EXPECT_LE(most.acceleration, mm_per_s2 * 1e-3 + 2 * kWire / 0.01);
         EXPECT_GT(most.turn_rate, 0.8 * std::fmin(mrad_per_s * 1e-3, std::fmin(2.5, mm_per_s * 1e-3 / 0.07)));
-        // Baselines and the thesis's planner may fail in a world that the others pass.
-        if (GetParam() == PlannerKind::skirt || GetParam() == PlannerKind::map) {
+        if (must_arrive()) {
           EXPECT_EQ(ended_, "reached");
         }
       }

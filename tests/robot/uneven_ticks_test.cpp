@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <string>
 
@@ -19,7 +18,7 @@ namespace {
 using worlds::Random;
 
 /// WHISKER_LONG=1: as many as a claim of less than one contact in a thousand takes.
-std::uint64_t missions() { return std::getenv("WHISKER_LONG") != nullptr ? 400 : test::effort(16); }
+std::uint64_t missions() { return test::effort(16, 400); }
 
 /// A pattern of gaps, all of them accepted.
 struct Gaps {
