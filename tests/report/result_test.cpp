@@ -1,15 +1,13 @@
 #include "host/report/result.hpp"
+#include "tests/report/infinity.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace whisker::report {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 RunResult sample() {
   RunResult r;

@@ -9,13 +9,12 @@
 #include <random>
 
 #include "host/report/palette.hpp"
+#include "tests/report/infinity.hpp"
 #include "tests/report/script.hpp"
 #include "tests/report/xml.hpp"
 
 namespace whisker::report {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using testing::Element;
 using ::testing::HasSubstr;

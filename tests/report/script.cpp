@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host/report/units.hpp"
+#include "tests/report/infinity.hpp"
 
 namespace whisker::testing {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using sim::Vec2;
 

@@ -4,14 +4,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "tests/report/infinity.hpp"
 #include "tests/report/xml.hpp"
 
 namespace whisker::report {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using whisker::testing::parse_xml;
 

@@ -7,12 +7,11 @@
 #include <limits>
 
 #include "host/report/palette.hpp"
+#include "tests/report/infinity.hpp"
 #include "tests/report/script.hpp"
 
 namespace whisker::report {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using nav::Mode;
 using nav::Why;
