@@ -188,7 +188,7 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("drive_tolerance_m", p.motion.drive_tolerance, 1_mm, 50_mm);
 
   f.number("control_period_s", p.safety.period, 5_ms, 50_ms);
-  f.number("max_tick_gap_s", p.safety.max_gap, 0_ms, 1000_ms);
+  f.number("max_tick_gap_s", p.safety.max_gap, 0_ms, 250_ms);
   f.number("lost_after_s", p.safety.lost_after, 50_ms, 10000_ms);
   f.number("wheels_stalled_after_s", p.safety.stalled_after, 200_ms, 10000_ms);
   f.count("max_drive_refusals", p.safety.max_refusals, 1, 1000);

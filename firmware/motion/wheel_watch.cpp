@@ -10,7 +10,9 @@ constexpr int32_t kCounts = 10;     // fewer say nothing of a part of them
 
 void WheelWatch::configure(const Params& params) noexcept {
   um_per_count_ = divide_rounded(1000000, params.wheels.counts_per_metre);
-  stretch_ = max(for_body(params, kStretch), way(kCounts));
+  // A command and what it does lie up to a gap apart.
+  const Length gap = params.wheels.max_speed * (longest_gap(params) * 2);
+  stretch_ = max(max(for_body(params, kStretch), way(kCounts)), gap);
 }
 
 int32_t WheelWatch::steady(Wheel& wheel, int32_t counts) noexcept {

@@ -64,6 +64,43 @@ INSTANTIATE_TEST_SUITE_P(Of, UnevenTicks,
                                          Gaps{"from_1_to_100_ms", 1, 100, 100}),
                          [](const auto& of) { return std::string(of.param.name); });
 
+/// About the reference, far enough from it that each figure matters.
+Params draw_robot(Random& random) {
+  for (;;) {
+    Params p;
+    p.wheels.max_speed = Speed::from_raw((100 + random.index(500)) * 1000);
+    p.wheels.max_acceleration = Acceleration::from_raw((300 + random.index(1200)) * 1000);
+    p.wheels.motor_lag = milliseconds(random.index(120));
+    p.rangefinders.rate_hz = 20 + random.index(60);
+    p.rangefinders.latency = milliseconds(random.index(60));
+    p.safety.period = milliseconds(5 + random.index(20));
+    p.safety.max_gap = milliseconds(random.index(251));
+    if (check(p) == ParamFault::none) return p;
+  }
+}
+
+TEST(UnevenTicks, BringNoContactToOtherRobots) {
+  std::map<std::string, int> ends;
+  const std::uint64_t robots = test::effort(24, 1000);
+  for (std::uint64_t seed = 1; seed <= robots; ++seed) {
+    Random random(seed);
+    worlds::Options options;
+    options.seed = 80000 + seed;
+    Scenario scenario = worlds::generate(worlds::Kind::discs, options);
+    scenario.robot = draw_robot(random);
+    Bench bench(scenario, seed % 2 == 0 ? PlannerKind::skirt : PlannerKind::map);
+    const int most = longest_gap(scenario.robot).raw();
+    bench.run(600, [&] { return 1 + random.index(most); });
+    ++ends[bench.ended()];
+    EXPECT_FALSE(bench.plant().in_contact()) << "seed " << seed << ", gaps to " << most << " ms";
+  }
+  for (const auto& [end, count] : ends) std::printf("%s %d  ", end.c_str(), count);
+  std::printf("\n");
+  EXPECT_EQ(ends["reached"] + ends["gave_up"] + ends["running"], static_cast<int>(robots))
+      << "the rest are faults";
+  EXPECT_GE(ends["reached"], static_cast<int>(robots * 9 / 10));
+}
+
 TEST(UnevenTicks, BeyondTheLongestGapTheyAreAFault) {
   for (const int gap : {61, 80, 100}) {
     worlds::Options options;
