@@ -138,10 +138,10 @@ class Robot {
 #ifndef WHISKER_SMALL
   motion::WheelWatch wheel_watch_;
   Duration unwatched_;  // until the wheels' watch begins
-#endif
-  Vec place_;  // that it has not left
+  Vec place_;           // that it has not left
   Duration at_place_for_;
   Duration longest_stay_;
+#endif
 };
 
 }  // namespace whisker
