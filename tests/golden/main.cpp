@@ -1,4 +1,5 @@
 // Records the golden streams, and judges what chips answered to them.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -22,8 +23,9 @@ using namespace whisker::golden;
 
 constexpr const char* kUsage =
     "usage: whisker_golden record FOLDER\n"
-    "           writes the recordings full, short, table and thesis, each with its index, and the bytes of\n"
-    "           both engines' tables\n"
+    "           writes the recordings full, short, table and thesis, of full what the planners skirt and map "
+    "say\n"
+    "           (full-skirt, full-map), each with its index, and the bytes of both engines' tables\n"
     "       whisker_golden judge RECORDING EXPECTED ANSWERED   exit status 1: they differ, and where\n";
 
 Bytes read(const std::string& path) {
@@ -51,6 +53,14 @@ std::vector<Stream> joined(std::vector<Stream> all, const std::vector<Stream>& m
   return all;
 }
 
+/// Those whose name's first word is the planner.
+std::vector<Stream> of_planner(const std::vector<Stream>& all, const std::string& planner) {
+  std::vector<Stream> some;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+               [&](const Stream& stream) { return stream.name.rfind(planner + " ", 0) == 0; });
+  return some;
+}
+
 /// As it lies in the memory of a little-endian target.
 template <class Table>
 void write_table(const std::string& path, const Table& table) {
@@ -59,7 +69,11 @@ void write_table(const std::string& path, const Table& table) {
 }
 
 int record(const std::string& folder) {
-  record(folder + "/full", joined(joined({table_sweep()}, drives()), storms()));
+  const std::vector<Stream> full = joined(joined({table_sweep()}, drives()), storms());
+  record(folder + "/full", full);
+  for (const char* planner : {"skirt", "map"}) {
+    record(folder + "/full-" + planner, of_planner(full, planner));
+  }
   record(folder + "/short", joined({table_sweep()}, excerpts()));
   record(folder + "/table", {table_sweep()});
   record(folder + "/thesis", thesis_only());

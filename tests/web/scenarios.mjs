@@ -1,4 +1,5 @@
 // What whisker writes for these tests. The command is $WHISKER, or build/host/whisker.
+import assert from 'node:assert/strict';
 import {execFileSync, spawn} from 'node:child_process';
 import {once} from 'node:events';
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
@@ -85,8 +86,14 @@ export class Folder {
   tenMinutes(name) {
     const scenario = this.at(`${name}.toml`);
     const kind = ['rooms', '--noise'];
-    whisker('campaign', ...kind, '--count', 300, '--csv', this.at(`${name}_all.csv`));
-    const {seed} = this.trace(`${name}_all`).find((mission) => mission.time_s > 601);
+    // A few at a time: their cost is that of their missions.
+    const seedFrom = (first) => {
+      assert.ok(first <= 300, 'no mission takes that long');
+      whisker('campaign', ...kind, '--seed', first, '--count', 20, '--csv', this.at(`${name}_all.csv`));
+      const mission = this.trace(`${name}_all`).find(({time_s}) => time_s > 601);
+      return mission?.seed ?? seedFrom(first + 20);
+    };
+    const seed = seedFrom(1);
     whisker('world', ...kind, '--seed', seed, '--out', scenario);
     const text = readFileSync(scenario, 'utf8');
     writeFileSync(scenario, text.replace(/^time_limit_s *=.*$/m, 'time_limit_s = 600.0'));
