@@ -29,7 +29,8 @@ nav::Goal random_goal(Bits& bits) {
   return {{near(), near()}, millimetres(bits.whole(0, 300))};
 }
 
-void interfere(Robot& robot, Watch& watch, Bits& bits) {
+/// True: it was reset, and its next tick is a first one.
+bool interfere(Robot& robot, Watch& watch, Bits& bits) {
   if (bits.one_in(300)) robot.set_goal(random_goal(bits));
   if (bits.one_in(700)) robot.cancel();
   if (bits.one_in(900)) {
@@ -40,7 +41,9 @@ void interfere(Robot& robot, Watch& watch, Bits& bits) {
     robot.reset();
     robot.set_goal(random_goal(bits));
     watch.forgive();
+    return true;
   }
+  return false;
 }
 
 // A run of up to a minute on any accepted parameters and any board keeps every promise of Watch, and under
@@ -55,15 +58,16 @@ RC_GTEST_PROP(Storm, NoBoardBreaksAPromise, (std::uint64_t seed)) {
   Watch watch(params);
   robot.set_goal(random_goal(bits));
   Time now = Time::from_raw(static_cast<std::uint32_t>(bits.next()));
+  bool first = true;
   for (int i = 0; i < ticks; ++i) {
     const Time before = now;
     now = next_tick(now, params, bits);
     const Status& status = robot.tick(now);
-    const Duration gap = i == 0 || now - before <= Duration{} ? params.safety.period : now - before;
+    const Duration gap = first || now - before <= Duration{} ? params.safety.period : now - before;
     const std::string broken = watch.see(status, min(gap, longest_gap(params)), board.refused());
     if (!broken.empty()) RC_FAIL("tick " + std::to_string(i) + ": " + broken);
     board.pass();
-    interfere(robot, watch, bits);
+    first = interfere(robot, watch, bits);
   }
   RC_CLASSIFY(robot.status().health.fault != Fault::none, whisker::name(robot.status().health.fault));
 }
