@@ -10,7 +10,6 @@
 
 #include "firmware/core/region.hpp"
 #include "firmware/nav/map_planner.hpp"
-#include "tests/effort.hpp"
 #include "tests/nav/ground.hpp"
 
 namespace {
@@ -62,7 +61,7 @@ Cost cost_of(Vec from, Vec to) {
   Cost cost;
   std::mt19937 random(1);
   const auto draw = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
-  for (int tick = 0; tick < static_cast<int>(test::effort(6000)); ++tick) {
+  for (int tick = 0; tick < 6000; ++tick) {
     const int since = tick % 400;
     if (since == 0) {
       view.pose = {from, bearing(to - from)};
@@ -105,11 +104,11 @@ void expect_bounded() {
   for (const Vec to : {Vec{10_m, Length{}}, Vec{100_m, 30_m}, Vec{kPlaceLimit, Length{}}, corner}) {
     const Cost cost = cost_of<kBytes>({}, to);
     EXPECT_LE(cost.worst, bound) << to.x.raw();
-    EXPECT_GT(cost.advised, static_cast<int>(test::effort(3000))) << to.x.raw();
+    EXPECT_GT(cost.advised, 3000) << to.x.raw();
   }
   const Cost farthest = cost_of<kBytes>(opposite, corner);
   EXPECT_LE(farthest.worst, bound);
-  EXPECT_GT(farthest.advised, static_cast<int>(test::effort(3000)));
+  EXPECT_GT(farthest.advised, 3000);
   EXPECT_GT(near.worst, steps) << "it looked for no way: nothing was counted";
   std::printf("%d bytes: at most %d cells a tick at 10 m, %d at the farthest goal; bound %d\n", kBytes,
               near.worst, farthest.worst, bound);
