@@ -11,9 +11,9 @@
 namespace whisker::motion {
 
 /// Compares what each encoder counts with what its wheel was commanded, behind the motor's lag, over a
-/// stretch of travel: 40 mm for the reference body, or ten counts where that is more. A wheel that follows
-/// within a factor of three is never accused; slip and a lag that is not quite the stated one are far from
-/// that.
+/// stretch of travel: 40 mm for the reference body, ten counts, or two of the longest gaps between ticks at
+/// full speed, whichever is most. A wheel that follows within a factor of three is never accused; slip and a
+/// lag that is not quite the stated one are far from that.
 class WheelWatch {
  public:
   enum class Finding : uint8_t {
