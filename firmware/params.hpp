@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-#include "firmware/core/angle.hpp"
-#include "firmware/core/units.hpp"
+#include "firmware/math/angle.hpp"
+#include "firmware/math/units.hpp"
 
 namespace whisker {
 
@@ -71,10 +71,10 @@ struct ThesisParams {
 };
 
 struct SkirtParams {
-  Length cell;                       ///< of the clearance patch; zero: see patch_cell
+  Length cell;                       ///< of the local grid; zero: see patch_cell
   Length shield_margin = 4_mm;       ///< kept clear around the body at every tick
   Length probe;                      ///< length of a way that is judged; zero: see Reach
-  Length planning_margin = 6_mm;     ///< the same on a heading that is chosen; more than the shield's
+  Length planning_margin = 6_mm;     ///< the same on a heading that is chosen; more than the guard's
   Length age_travel = 500_mm;        ///< clear ground is forgotten after one to two of these ways
   Angle age_turn = 340_deg;          ///< or of these turns, whichever comes first
   Speed mover_speed = 300_mm_per_s;  ///< of things that move and are given room; 0: nothing moves
@@ -202,12 +202,12 @@ constexpr void for_each_param(P& p, F&& f) {
 constexpr Length proving_range(const RangefinderParams& r) noexcept {
   return r.clear_range == Length{} ? r.max_range : min(r.clear_range, r.max_range);
 }
-/// The clearance patch's cell. Unless given: 2/9 of the radius, or less, to half of that, where a narrow cone
+/// The local grid's cell. Unless given: 2/9 of the radius, or less, to half of that, where a narrow cone
 /// or sensors far from the centre could otherwise not prove the ground at the body's rim.
 constexpr Length patch_cell(const Params& params) noexcept;
 /// A disc of so many 256ths of a cell around its centre covers the cell: 0.7072, and a little for rounding.
 constexpr int32_t kCellCover = 184;
-/// Ways are judged within so many cells of the patch's centre.
+/// Ways are judged within so many cells of the local grid's centre.
 constexpr int32_t kHalfWindow = 15;
 /// The radius of that disc.
 constexpr Length cell_cover(const Params& params) noexcept;
@@ -216,11 +216,11 @@ constexpr Length cell_cover(const Params& params) noexcept;
 constexpr Length blind_reach(const Params& params) noexcept;
 /// How far ways are judged, and beside them.
 struct Reach {
-  Length shield;    ///< from the body's centre: cells that come nearer must be clear at every tick
+  Length guard;     ///< from the body's centre: cells that come nearer must be clear at every tick
   Length planning;  ///< the same on a heading that is chosen
-  Length probe;     ///< length of a way; unless given, 5/3 of the radius, or as far as the patch reaches
+  Length probe;     ///< length of a way; unless given, 5/3 of the radius, or as far as the local grid reaches
 };
-/// Takes a sine and divisions: ground::Patch keeps it.
+/// Takes a sine and divisions: perception::LocalGrid keeps it.
 constexpr Reach reach(const Params& params) noexcept;
 /// The longest time between two ticks that is accepted, and for which every movement is judged: the body must
 /// be able to stop although the next tick comes that late. Unless given: 50 ms more than the period, so that

@@ -1,6 +1,6 @@
 #include "firmware/robot.hpp"
 
-#include "firmware/nav/steering.hpp"
+#include "firmware/planning/steering.hpp"
 
 namespace whisker {
 namespace {
@@ -27,7 +27,7 @@ Duration ms_at(Length way, int32_t times, Speed speed) noexcept {
 /// What is done in one place takes less than this.
 Duration longest_stay(const Params& p) noexcept {
   constexpr int32_t kMicroradians = 6283185;  // a turn
-  const AngularRate rate = min(p.wheels.max_turn_rate, nav::kFastestTurn);
+  const AngularRate rate = min(p.wheels.max_turn_rate, planning::kFastestTurn);
   const Duration turn = max(milliseconds(multiply_divide(kMicroradians, 1000, rate.raw())),
                             ms_at(p.body.track * 22 / 7, 1, p.wheels.max_speed));
   return p.safety.stalled_after * kWaits + turn * kTurns +
@@ -37,7 +37,7 @@ Duration longest_stay(const Params& p) noexcept {
 
 }  // namespace
 
-Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& planner,
+Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
              const Params& params) noexcept
     : rangefinders_(rangefinders), drive_(drive), planner_(planner), params_(params) {
   if (!kParamsAreTrusted && check(params) != ParamFault::none) {
@@ -45,7 +45,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& p
     return;
   }
   odometry_.configure(params);
-  mapper_.configure(params);
+  perception_.configure(params);
 #ifndef WHISKER_SMALL
   wheel_watch_.configure(params);
   longest_stay_ = longest_stay(params);
@@ -68,7 +68,7 @@ bool Robot::place(const Pose& pose) noexcept {
 void Robot::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
   status_.pose = pose;
-  mapper_.place(pose);
+  perception_.place(pose);
   if constexpr (kCorrects) {
     frame_.tie(pose, pose);
     if (has_goal_) aim_again();
@@ -95,8 +95,8 @@ void Robot::aim_again() noexcept {
 }
 #endif
 
-bool Robot::set_goal(const nav::Goal& goal) noexcept {
-  nav::Goal inside = goal;
+bool Robot::set_goal(const planning::Goal& goal) noexcept {
+  planning::Goal inside = goal;
   has_goal_ = frame_.aim(goal.at, inside.at);
   goal_refused_ = !has_goal_;
   if (has_goal_) {
@@ -125,8 +125,8 @@ void Robot::reset() noexcept {
   wheel_watch_.reset();
   unwatched_ = kUnwatched;
 #endif
-  mapper_.forget(body());
-  driver_.begin({nav::Kind::stop, {}, {}}, body());
+  perception_.forget(body());
+  motion_controller_.begin({planning::ManoeuvreKind::stop, {}, {}}, body());
   cancel();
 }
 
@@ -138,10 +138,10 @@ const Status& Robot::tick(Time now) noexcept {
   }
   check_clock(now);
   sense(now);
-  motion::CountStep counts;
+  localization::CountStep counts;
   const bool measured = measure(counts);
-  if (driver_.settled() && !was_settled_) settled_since_ = now;
-  was_settled_ = driver_.settled();
+  if (motion_controller_.settled() && !was_settled_) settled_since_ = now;
+  was_settled_ = motion_controller_.settled();
   navigate();
   drive(measured ? &counts : nullptr);
   return status_;
@@ -174,7 +174,7 @@ void Robot::check_clock(Time now) noexcept {
     const Duration gap = now - last_tick_;
     const bool longer = gap > longest_gap(params_);
     const bool braked = braked_elsewhere_ && gap <= params_.safety.lost_after;
-    if (longer && braked) mapper_.lose_history();
+    if (longer && braked) perception_.lose_history();
     if (gap <= Duration{} || (longer && !braked)) {
       count(status_.health.clock_jumps);
       fail(Fault::clock_jump);
@@ -193,7 +193,7 @@ void Robot::pass(Duration gap) noexcept {
   if (unwatched_ > Duration{}) {
     unwatched_ -= gap;
   } else {
-    wheel_watch_.expect(driver_.wheels().rolling, elapsed_);
+    wheel_watch_.expect(motion_controller_.wheels().rolling, elapsed_);
   }
 }
 #endif
@@ -209,7 +209,7 @@ void Robot::sense(Time now) noexcept {
   if (lost > params_.safety.lost_after) fail(Fault::range_lost);
 }
 
-bool Robot::measure(motion::CountStep& step) noexcept {
+bool Robot::measure(localization::CountStep& step) noexcept {
   hal::EncoderCounts counts{};
   if (!drive_.read(counts)) {
     count(status_.health.encoder_refused);
@@ -240,39 +240,40 @@ void Robot::leave_region() noexcept {
 
 void Robot::navigate() noexcept {
   if (faulted()) return;
-  const bool settled = driver_.settled();
-  nav::View view;
+  const bool settled = motion_controller_.settled();
+  planning::View view;
   view.pose = body();
   view.elapsed = elapsed();
   view.settled = settled;
-  if (settled) view.look = conditioner_.look(settled_since_, params_);
-  const motion::WheelPair rolling = driver_.wheels().rolling;
+  if (settled) view.static_scan = conditioner_.look(settled_since_, params_);
+  const WheelPair rolling = motion_controller_.wheels().rolling;
   view.forward = (rolling.left + rolling.right) / 2;
   view.turning = (rolling.right - rolling.left) / 2;
-  Mapper::Proofs proofs{};
-  mapper_.observe({view.pose, last_tick_, settled, settled_since_}, conditioner_, params_, proofs, view);
+  perception::Perception::ConeObservations observations{};
+  perception_.observe({view.pose, last_tick_, settled, settled_since_}, conditioner_, params_, observations,
+                      view);
   status_.decision = planner_.step(view);
-  has_goal_ = status_.decision.outcome == nav::Outcome::running;
+  has_goal_ = status_.decision.outcome == planning::Outcome::running;
   if (goal_refused_) {
-    status_.decision.outcome = nav::Outcome::gave_up;
-    status_.decision.mode = nav::Mode::gave_up;
-    status_.decision.why = nav::Why::goal_out_of_range;
+    status_.decision.outcome = planning::Outcome::gave_up;
+    status_.decision.mode = planning::Mode::gave_up;
+    status_.decision.why = planning::Why::goal_out_of_range;
   }
 #ifndef WHISKER_SMALL
   limit_turning(status_.decision.manoeuvre, params_);
 #endif
-  mapper_.guard(status_.decision.manoeuvre, view.pose, driver_.wheels(), elapsed(), params_);
-  driver_.begin(status_.decision.manoeuvre, view.pose);
-  if (!beams_fresh_ && status_.decision.outcome == nav::Outcome::running) {
-    status_.decision.why = nav::Why::blind;
+  perception_.guard(status_.decision.manoeuvre, view.pose, motion_controller_.wheels(), elapsed(), params_);
+  motion_controller_.begin(status_.decision.manoeuvre, view.pose);
+  if (!beams_fresh_ && status_.decision.outcome == planning::Outcome::running) {
+    status_.decision.why = planning::Why::blind;
   }
   watch_look(settled);
   watch_place();
 }
 
 void Robot::watch_look(bool settled) noexcept {
-  const bool waits = settled && status_.decision.outcome == nav::Outcome::running &&
-                     status_.decision.manoeuvre.kind == nav::Kind::keep;
+  const bool waits = settled && status_.decision.outcome == planning::Outcome::running &&
+                     status_.decision.manoeuvre.kind == planning::ManoeuvreKind::keep;
   // Each reading that a look needs may take `lost_after` before the beam is lost, and one is under way.
   const Duration longest = params_.safety.lost_after * (params_.conditioning.reads + 1);
   if (waits && last_tick_ - settled_since_ > longest) {
@@ -283,27 +284,27 @@ void Robot::watch_look(bool settled) noexcept {
 
 void Robot::watch_driver() noexcept {
   if (faulted()) return;
-  if (driver_.stalled_for() > params_.safety.stalled_after) {
+  if (motion_controller_.stalled_for() > params_.safety.stalled_after) {
     count(status_.health.wheel_stalls);
     fail(Fault::wheels_stalled);
-  } else if (driver_.waiting_for() > params_.safety.stalled_after) {
+  } else if (motion_controller_.waiting_for() > params_.safety.stalled_after) {
     count(status_.health.no_progress);
     fail(Fault::no_progress);
   }
 }
 
-void Robot::watch_wheels(const motion::CountStep& counts) noexcept {
+void Robot::watch_wheels(const localization::CountStep& counts) noexcept {
 #ifdef WHISKER_SMALL
   static_cast<void>(counts);
 #else
   if (faulted() || unwatched_ > Duration{}) return;
   switch (wheel_watch_.judge(counts)) {
-    case motion::WheelWatch::Finding::none: break;
-    case motion::WheelWatch::Finding::stalled:
+    case safety::WheelWatch::Finding::none: break;
+    case safety::WheelWatch::Finding::stalled:
       count(status_.health.wheel_stalls);
       fail(Fault::wheels_stalled);
       break;
-    case motion::WheelWatch::Finding::runaway:
+    case safety::WheelWatch::Finding::runaway:
       count(status_.health.wheel_runaways);
       fail(Fault::wheel_runaway);
       break;
@@ -315,7 +316,7 @@ void Robot::watch_wheels(const motion::CountStep& counts) noexcept {
 void Robot::watch_place() noexcept {
 #ifndef WHISKER_SMALL
   const bool leaves = farther(body().at - place_, for_body(params_, kPlace));
-  if (leaves || status_.decision.outcome != nav::Outcome::running) {
+  if (leaves || status_.decision.outcome != planning::Outcome::running) {
     place_ = body().at;
     at_place_for_ = Duration{};
     return;
@@ -327,25 +328,25 @@ void Robot::watch_place() noexcept {
 #endif
 }
 
-void Robot::drive(const motion::CountStep* counts) noexcept {
+void Robot::drive(const localization::CountStep* counts) noexcept {
   const bool paused = faulted() || !beams_fresh_ || drive_refusals_.refused() || counts == nullptr;
-  const motion::WheelPair speeds = driver_.step(body(), counts, paused, elapsed(), params_);
+  const WheelPair speeds = motion_controller_.step(body(), counts, paused, elapsed(), params_);
   watch_driver();
-  status_.command = motion::to_wire(speeds);
+  status_.command = control::to_wire(speeds);
   if (drive_.command(status_.command)) {
     drive_refusals_.accept();
     return;
   }
   count(status_.health.drive_refused);
-  driver_.halt();
+  motion_controller_.halt();
   status_.command = {};
   if (drive_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::drive_refused);
 }
 
 void Robot::show_fault() noexcept {
   status_.decision.manoeuvre = {};
-  status_.decision.mode = nav::Mode::stopped;
-  status_.decision.why = nav::Why::fault;
+  status_.decision.mode = planning::Mode::stopped;
+  status_.decision.why = planning::Why::fault;
   status_.decision.looked = false;
 }
 

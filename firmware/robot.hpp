@@ -3,18 +3,18 @@
 
 #include <stdint.h>
 
-#include "firmware/core/trig.hpp"
-#include "firmware/core/units.hpp"
+#include "firmware/control/motion_controller.hpp"
 #include "firmware/health.hpp"
-#include "firmware/mapper.hpp"
-#include "firmware/motion/driver.hpp"
-#include "firmware/motion/frame.hpp"
-#include "firmware/motion/odometry.hpp"
-#include "firmware/motion/refusals.hpp"
-#include "firmware/motion/wheel_watch.hpp"
-#include "firmware/nav/planner.hpp"
+#include "firmware/localization/frame.hpp"
+#include "firmware/localization/odometry.hpp"
+#include "firmware/math/trig.hpp"
+#include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
-#include "firmware/ranges/conditioner.hpp"
+#include "firmware/perception/perception.hpp"
+#include "firmware/perception/range_conditioner.hpp"
+#include "firmware/planning/planner.hpp"
+#include "firmware/safety/refusals.hpp"
+#include "firmware/safety/wheel_watch.hpp"
 #include "hal/drive.hpp"
 #include "hal/rangefinders.hpp"
 
@@ -22,9 +22,9 @@ namespace whisker {
 
 /// What happened in the last tick.
 struct Status {
-  nav::Decision decision;
+  planning::Decision decision;
   Pose pose;                   ///< estimated
-  ranges::Echoes echoes;       ///< the latest reading of each beam by itself
+  perception::Echoes echoes;   ///< the latest reading of each beam by itself
   hal::WheelSpeeds command{};  ///< as given to the drive
   Health health;
 };
@@ -43,7 +43,7 @@ struct Status {
 /// Places are those of its user, and lie at most kPlaceLimit out (core/region.hpp).
 class Robot {
  public:
-  Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, nav::Planner& planner,
+  Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
         const Params& params) noexcept;
 
   /// Tells the robot where it is.
@@ -59,7 +59,7 @@ class Robot {
   /// Accepted in any state; one given while a fault stands is dropped by reset(). False: it lies beyond
   /// kPlaceLimit, or corrections have moved it there. It is refused with Why::goal_out_of_range, and the
   /// mission under way ends.
-  bool set_goal(const nav::Goal& goal) noexcept;
+  bool set_goal(const planning::Goal& goal) noexcept;
   void cancel() noexcept;
   /// Clears the fault and forgets all readings and all ground but that under the body: the pose goes on from
   /// the estimate, which a fault may have cost some distance. The goal must be set again. Parameters that
@@ -77,17 +77,17 @@ class Robot {
 
  private:
 #ifdef WHISKER_SMALL
-  using Frame = motion::OneFrame;
+  using Frame = localization::OneFrame;
   static constexpr bool kCorrects = false;
 #else
-  using Frame = motion::Frame;
+  using Frame = localization::Frame;
   static constexpr bool kCorrects = true;
 #endif
 
   void check_clock(Time now) noexcept;
   void pass(Duration gap) noexcept;
   void sense(Time now) noexcept;
-  bool measure(motion::CountStep& step) noexcept;
+  bool measure(localization::CountStep& step) noexcept;
   void put_down(const Pose& pose) noexcept;
   void correct(const Pose& pose) noexcept;
   void aim_again() noexcept;
@@ -96,9 +96,9 @@ class Robot {
   Pose body() const noexcept { return kCorrects ? odometry_.pose() : status_.pose; }
   void navigate() noexcept;
   void watch_look(bool settled) noexcept;
-  void drive(const motion::CountStep* counts) noexcept;
+  void drive(const localization::CountStep* counts) noexcept;
   void watch_driver() noexcept;
-  void watch_wheels(const motion::CountStep& counts) noexcept;
+  void watch_wheels(const localization::CountStep& counts) noexcept;
   void watch_place() noexcept;
   void show_fault() noexcept;
   void fail(Fault fault) noexcept;
@@ -106,14 +106,14 @@ class Robot {
 
   hal::Rangefinders& rangefinders_;
   hal::Drive& drive_;
-  nav::Planner& planner_;
+  planning::Planner& planner_;
   const Params& params_;
 
-  ranges::Conditioner conditioner_;
-  motion::Odometry odometry_;
+  perception::RangeConditioner conditioner_;
+  localization::Odometry odometry_;
   Frame frame_;
-  motion::Driver driver_;
-  Mapper mapper_;
+  control::MotionController motion_controller_;
+  perception::Perception perception_;
   Status status_;
 
   Time last_tick_;
@@ -133,10 +133,10 @@ class Robot {
 #endif
   Duration elapsed_;       // since the tick before, at most the longest gap
   Duration since_counts_;  // since the counts were last read
-  motion::Refusals drive_refusals_;
-  motion::Refusals encoder_refusals_;
+  safety::Refusals drive_refusals_;
+  safety::Refusals encoder_refusals_;
 #ifndef WHISKER_SMALL
-  motion::WheelWatch wheel_watch_;
+  safety::WheelWatch wheel_watch_;
   Duration unwatched_;  // until the wheels' watch begins
   Vec place_;           // that it has not left
   Duration at_place_for_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/wire.hpp"
+#include "hal/types.hpp"
 
 namespace whisker::hal {
 

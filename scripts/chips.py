@@ -15,7 +15,7 @@ QEMU = "-display none -monitor none -semihosting-config enable=on,target=native"
 ARM = "qemu-system-arm -M {} -icount shift=10 " + QEMU
 RISCV = "qemu-system-riscv32 -M virt -bios none -icount shift=0 " + QEMU
 AVR = str(BUILD / "host/whisker_avr")
-NODE = "node " + str(ROOT / "hal/mcu/wasm/run.mjs")
+NODE = "node " + str(ROOT / "hal/emulated/wasm/run.mjs")
 
 
 class Target:
@@ -70,4 +70,4 @@ def builds():
 
 
 def image(build, target, program):
-    return BUILD / build / "images" / (program + target.suffix)
+    return BUILD / build / "firmware/apps" / (program + target.suffix)

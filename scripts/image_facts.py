@@ -142,7 +142,7 @@ class CallGraph:
 def graph_of(build, folders, image, indirect):
     folder = chips.BUILD / build
     files = [path for name in folders for path in (folder / name).rglob("*.ci")]
-    files += (folder / "images").rglob(f"{image}.dir/**/*.ci")
+    files += (folder / "firmware/apps").rglob(f"{image}.dir/**/*.ci")
     return CallGraph(files, HELPER_BYTES.get(build, OTHER_HELPER_BYTES), indirect)
 
 

@@ -15,7 +15,7 @@ export UBSAN_OPTIONS=print_stacktrace=1
 # Properties draw the same cases in every run of the gates; the stage long draws new ones.
 export RC_PARAMS=${RC_PARAMS:-seed=1}
 
-cxx_files() { find firmware hal host images tests \( -name '*.hpp' -o -name '*.cpp' \) -print0; }
+cxx_files() { find firmware hal host tests \( -name '*.hpp' -o -name '*.cpp' \) -print0; }
 
 build() {
   cmake --preset "$1"
@@ -106,12 +106,12 @@ build_and_test_core() {
 }
 
 # What a chip runs, and the world it is tried in.
-readonly sanitized='core|fuzzy|ground|map|nav|robot|bus|can|link|slcan|sim'
+readonly sanitized='robot|fuzzy|perception|planning|global|missions|bus|can|pil_link|slcan|sim'
 
 stage_asan() {
   # A sixth of the cases, as of the random worlds (tests/effort.hpp).
   RC_PARAMS="$RC_PARAMS max_success=85" build_and_test_core asan "^($sanitized)\$" \
-    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_ground_tests whisker_map_tests whisker_nav_tests \
+    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_perception_tests whisker_planning_tests whisker_global_tests \
     whisker_run_tests whisker_bus_tests whisker_can_tests whisker_link_tests whisker_slcan_tests whisker_sim_tests
 }
 
@@ -122,10 +122,10 @@ stage_asan_host() {
 }
 
 stage_coverage() {
-  build_and_test_core coverage '^(core|fuzzy|ground|map|robot)$' \
-    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_ground_tests whisker_map_tests whisker_run_tests
+  build_and_test_core coverage '^(robot|fuzzy|perception|global|missions)$' \
+    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_perception_tests whisker_global_tests whisker_run_tests
   # Exceptions cannot leave the core, so the branches of a throw are no branches of its own.
-  gcovr -j "$jobs" --root . --filter firmware/ --exclude-throw-branches --json build/coverage/all.json \
+  gcovr -j "$jobs" --root . --filter firmware/ --exclude firmware/apps/ --exclude-throw-branches --json build/coverage/all.json \
     build/coverage
   {
     gcovr --root . --add-tracefile build/coverage/all.json
@@ -136,7 +136,7 @@ stage_coverage() {
 }
 
 stage_closed() {
-  build_and_test_core closed '^(core|fuzzy|robot)$' \
+  build_and_test_core closed '^(robot|fuzzy|missions)$' \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_run_tests
 }
 
@@ -147,7 +147,7 @@ stage_core() {
 
 stage_tidy() {
   cmake --preset core
-  find firmware -name '*.cpp' -print0 | xargs -0 -n 4 -P "$jobs" clang-tidy-14 -p build/core --quiet
+  find firmware -path firmware/apps -prune -o -name "*.cpp" -print0 | xargs -0 -n 4 -P "$jobs" clang-tidy-14 -p build/core --quiet
 }
 
 stage_campaign() {

@@ -1,5 +1,5 @@
 // A whole firmware around the core: three drivers, the parameters of the robot, and a loop.
-#include "firmware/nav/skirt.hpp"
+#include "firmware/planning/boundary/boundary_planner.hpp"
 #include "firmware/robot.hpp"
 #include "hal/clock.hpp"
 
@@ -36,7 +36,7 @@ int main() {
   static Sonar sonar;
   static Motors motors;
   static Timer timer;
-  static nav::TableSkirt skirt{params, fuzzy::kDefaultTable};
+  static planning::TableBoundaryPlanner skirt{params, fuzzy::kDefaultTable};
   static Robot robot{sonar, motors, skirt.planner, params};
 
   robot.place({{0_m, 0_m}, 0_deg});
@@ -53,6 +53,6 @@ int main() {
       set_lamp(next / 500 % 2 == 0);
     }
     told = fault;
-    if (status.decision.outcome == nav::Outcome::reached) robot.cancel();
+    if (status.decision.outcome == planning::Outcome::reached) robot.cancel();
   }
 }

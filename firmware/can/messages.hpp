@@ -145,10 +145,10 @@ struct Range {
 
 struct NavStatus {
   static constexpr Kind kKind = Kind::nav_status;
-  nav::Outcome outcome = nav::Outcome::none;
-  nav::Mode state = nav::Mode::idle;
+  planning::Outcome outcome = planning::Outcome::none;
+  planning::Mode state = planning::Mode::idle;
   uint8_t looked = 0;
-  nav::Why why = nav::Why::none;
+  planning::Why why = planning::Why::none;
   uint8_t danger = 0;
   uint8_t fault = 0;
   uint16_t tick = 0;

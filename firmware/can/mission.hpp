@@ -4,14 +4,14 @@
 #include <stdint.h>
 
 #include "firmware/can/messages.hpp"
-#include "firmware/core/trig.hpp"
-#include "firmware/nav/planner.hpp"
+#include "firmware/math/trig.hpp"
+#include "firmware/planning/planner.hpp"
 
 namespace whisker::can {
 
 struct Mission {
   Pose start{};
-  nav::Goal goal{};
+  planning::Goal goal{};
 };
 
 /// Parts 1 to 6 as raw values.

@@ -44,7 +44,7 @@ struct BusHealth {
 struct Identity {
   uint8_t robot;     ///< 1..kRobots
   uint16_t boot;     ///< another one at every start
-  uint32_t version;  ///< of the firmware: major << 16 | minor << 8 | patch
+  uint32_t version;  ///< of the firmware: major << 16 | minor << 8 | local grid
 };
 
 /// What a party makes of a frame that is whole and in turn.

@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #include "firmware/can/words.hpp"
-#include "firmware/core/region.hpp"
+#include "firmware/math/region.hpp"
 
 namespace whisker::can {
 
@@ -112,9 +112,9 @@ inline constexpr Signal kRange[] = {
 
 inline constexpr Signal kNavStatus[] = {
   {"Outcome", 12,  4, false, 0, 4,             "1", "", "of the mission", kAlways, outcome_word},
-  {"State",   16,  5, false, 0, nav::kModes - 1, "1", "", "what it does", kAlways, state_word},
+  {"State",   16,  5, false, 0, planning::kModes - 1, "1", "", "what it does", kAlways, state_word},
   {"Looked",  21,  1, false, 0, 1,             "1", "", "a decision was taken from a look at this tick"},
-  {"Why",     24,  8, false, 0, nav::kWhys - 1, "1", "", "why it does that", kAlways, why_word},
+  {"Why",     24,  8, false, 0, planning::kWhys - 1, "1", "", "why it does that", kAlways, why_word},
   {"Danger",  32,  8, false, 0, kMost8,        "1", "", "positions since the target direction was last free"},
   {"Fault",   40,  8, false, 0, kMost8,        "1", "", "of the core", kAlways, fault_word},
   {"Tick",    48, 16, false, 0, kMost16,       "1", "", "modulo 2^16"},

@@ -64,11 +64,11 @@ const char* outcome_word(int64_t raw) noexcept {
 }
 
 const char* state_word(int64_t raw) noexcept {
-  return raw >= 0 && raw < nav::kModes ? nav::name(static_cast<nav::Mode>(raw)) : nullptr;
+  return raw >= 0 && raw < planning::kModes ? planning::name(static_cast<planning::Mode>(raw)) : nullptr;
 }
 
 const char* why_word(int64_t raw) noexcept {
-  return raw >= 0 && raw < nav::kWhys ? nav::name(static_cast<nav::Why>(raw)) : nullptr;
+  return raw >= 0 && raw < planning::kWhys ? planning::name(static_cast<planning::Why>(raw)) : nullptr;
 }
 
 const char* param_action_word(int64_t raw) noexcept {

@@ -3,9 +3,9 @@
 
 #include <stdint.h>
 
-#include "firmware/nav/planner.hpp"
-#include "firmware/nav/state.hpp"
-#include "hal/wire.hpp"
+#include "firmware/planning/planner.hpp"
+#include "firmware/planning/state.hpp"
+#include "hal/types.hpp"
 
 namespace whisker::can {
 

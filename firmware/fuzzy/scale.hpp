@@ -1,8 +1,8 @@
 /// From the three distances to the two fuzzy inputs.
 #pragma once
 
-#include "firmware/core/units.hpp"
 #include "firmware/fuzzy/variables.hpp"
+#include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker::fuzzy {

@@ -12,7 +12,7 @@
 
 #include <stdint.h>
 
-#include "firmware/core/fixed.hpp"
+#include "firmware/math/fixed.hpp"
 
 namespace whisker::fuzzy {
 

@@ -1,10 +1,10 @@
-/// What follows from the parameters: the clearance patch's cell, and how far the beams and the patch reach.
+/// What follows from the parameters: the local grid's cell, and how far the beams and the local grid reach.
 /// At run time each function is one of params.cpp.
 #pragma once
 
 #include <stdint.h>
 
-#include "firmware/core/trig.hpp"
+#include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
 
 namespace whisker {

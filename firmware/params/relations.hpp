@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include "firmware/core/trig.hpp"
+#include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
 #include "firmware/params/reach.hpp"
 

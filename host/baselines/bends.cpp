@@ -13,12 +13,13 @@ constexpr double kRawPerRad = 683565275.5764316;  // 2^32 / 2 pi
 
 double push(Length range) {
   const double range_m = std::max(range.raw() * 1e-6, kNearest_m);
-  return std::max(1 / range_m - 1 / RepulsionBend::kInfluence_m, 0.0);
+  return std::max(1 / range_m - 1 / RepulsionDeflection::kInfluence_m, 0.0);
 }
 
 }  // namespace
 
-Angle RepulsionBend::bend(const ranges::Echoes& sight, const Params&, nav::Decision&) noexcept {
+Angle RepulsionDeflection::bend(const perception::Echoes& sight, const Params&,
+                                planning::Decision&) noexcept {
   const Length left = sight.beam[hal::kLeft].distance;
   const Length right = sight.beam[hal::kRight].distance;
   const double sides = push(right) - push(left);

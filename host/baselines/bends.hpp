@@ -1,38 +1,39 @@
-/// Laws for the skirt planner's course without the response table: all else is the skirt planner, so the
-/// difference is what the table is worth.
+/// Laws for the boundary planner's course without the response table: all else is the boundary planner, so
+/// the difference is what the table is worth.
 #pragma once
 
-#include "firmware/nav/skirt.hpp"
+#include "firmware/planning/boundary/boundary_planner.hpp"
 
 namespace whisker::baselines {
 
 /// No bend: what is left is the planner's fan of headings beside the goal's direction, the first that the
-/// patch does not block (7.5 degree steps to 75).
-class FanBend final : public nav::BendLaw {
+/// local grid does not block (7.5 degree steps to 75).
+class NoDeflection final : public planning::HeadingDeflection {
  public:
-  Angle bend(const ranges::Echoes&, const Params&, nav::Decision&) noexcept override { return {}; }
+  Angle bend(const perception::Echoes&, const Params&, planning::Decision&) noexcept override { return {}; }
 };
 
 /// Repulsion, each beam's growing with 1 / range - 1 / kInfluence below kInfluence. A side beam pushes to the
 /// other side; the front beam pushes to the side that sees farther. At most 45 degrees.
 /// Source: O. Khatib, "Real-time obstacle avoidance for manipulators and mobile robots", International
 /// Journal of Robotics Research 5 (1), 1986, with bearings for forces.
-class RepulsionBend final : public nav::BendLaw {
+class RepulsionDeflection final : public planning::HeadingDeflection {
  public:
   static constexpr double kInfluence_m = 2.0;
   static constexpr double kSideGain_rad = 0.05;   ///< per 1/m
   static constexpr double kFrontGain_rad = 0.20;  ///< per 1/m
 
-  Angle bend(const ranges::Echoes& sight, const Params& params, nav::Decision& decision) noexcept override;
+  Angle bend(const perception::Echoes& sight, const Params& params,
+             planning::Decision& decision) noexcept override;
 };
 
-/// A skirt planner with one of these laws.
+/// A boundary planner with one of these laws.
 template <class Law>
-struct BentSkirt {
+struct DeflectedBoundaryPlanner {
   /// The parameters must outlive it.
-  explicit BentSkirt(const Params& params) : planner(params, law) {}
+  explicit DeflectedBoundaryPlanner(const Params& params) : planner(params, law) {}
   Law law;
-  nav::SkirtPlanner planner;
+  planning::BoundaryPlanner planner;
 };
 
 }  // namespace whisker::baselines

@@ -9,29 +9,29 @@ constexpr Length kOnLine = 30_mm;
 
 }  // namespace
 
-void Bug2::begin(const nav::View& view) {
+void Bug2::begin(const planning::View& view) {
   from_ = view.pose.at;
   line_ = bearing(to_goal());
   length_ = distance();
 }
 
-Vec Bug2::on_line(const nav::View& view) const {
+Vec Bug2::on_line(const planning::View& view) const {
   const Vec v = view.pose.at - from_;
   return {along(v, line_), along(v, line_ + 90_deg)};
 }
 
-Angle Bug2::course(const nav::View& view) const {
+Angle Bug2::course(const planning::View& view) const {
   const Length done = min(on_line(view).x + kLookAhead, length_);
   return bearing(from_ + polar(line_, done) - view.pose.at);
 }
 
-nav::Side Bug2::hit(const nav::View& view) {
+planning::Side Bug2::hit(const planning::View& view) {
   hit_distance_ = distance();
   offset_ = on_line(view).y;
-  return nav::Side::right;
+  return planning::Side::right;
 }
 
-bool Bug2::may_leave(const nav::View& view) {
+bool Bug2::may_leave(const planning::View& view) {
   const Vec here = on_line(view);
   const bool crossed = (here.y < Length{}) != (offset_ < Length{});
   offset_ = here.y;

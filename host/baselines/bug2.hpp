@@ -18,15 +18,15 @@ class Bug2 final : public Walker {
   explicit Bug2(const Params& params) noexcept : Walker(params) {}
 
  private:
-  void begin(const nav::View& view) override;
-  Angle course(const nav::View& view) const override;
-  nav::Side hit(const nav::View& view) override;
-  bool may_leave(const nav::View& view) override;
-  Length free_to_leave(const nav::View&) const override { return for_body(params(), 60_mm); }
+  void begin(const planning::View& view) override;
+  Angle course(const planning::View& view) const override;
+  planning::Side hit(const planning::View& view) override;
+  bool may_leave(const planning::View& view) override;
+  Length free_to_leave(const planning::View&) const override { return for_body(params(), 60_mm); }
   bool can_tell_unreachable() const override { return true; }
 
   /// How far the body is along the m-line and to the left of it.
-  Vec on_line(const nav::View& view) const;
+  Vec on_line(const planning::View& view) const;
 
   Vec from_;
   Angle line_;  ///< direction

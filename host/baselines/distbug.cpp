@@ -7,18 +7,19 @@ constexpr Length kStep = 100_mm;
 
 }  // namespace
 
-void DistBug::begin(const nav::View&) { least_ = distance(); }
+void DistBug::begin(const planning::View&) { least_ = distance(); }
 
-Angle DistBug::course(const nav::View&) const { return bearing(to_goal()); }
+Angle DistBug::course(const planning::View&) const { return bearing(to_goal()); }
 
-nav::Side DistBug::hit(const nav::View& view) {
+planning::Side DistBug::hit(const planning::View& view) {
   least_ = min(least_, distance());
-  return view.sight.beam[hal::kLeft].distance > view.sight.beam[hal::kRight].distance ? nav::Side::right
-                                                                                      : nav::Side::left;
+  return view.moving_scan.beam[hal::kLeft].distance > view.moving_scan.beam[hal::kRight].distance
+             ? planning::Side::right
+             : planning::Side::left;
 }
 
-bool DistBug::may_leave(const nav::View& view) {
-  const Length free = max(seen_free(view), view.patch->reach().probe);
+bool DistBug::may_leave(const planning::View& view) {
+  const Length free = max(seen_free(view), view.local_grid->reach().probe);
   const bool leaves = distance() - free <= least_ - kStep || free >= distance();
   least_ = min(least_, distance());
   return leaves;

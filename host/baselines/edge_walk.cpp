@@ -1,7 +1,7 @@
 #include "host/baselines/edge_walk.hpp"
 
-#include "firmware/nav/edge.hpp"
-#include "firmware/nav/steering.hpp"
+#include "firmware/planning/boundary/wall_following.hpp"
+#include "firmware/planning/steering.hpp"
 
 namespace whisker::baselines {
 namespace {
@@ -11,47 +11,47 @@ constexpr Length kOpeningEvery = 100_mm;
 
 }  // namespace
 
-void EdgeWalk::forget_trail(const nav::View& view) {
-  feeler_.reset(view.pose.at, params_);
+void EdgeWalk::forget_trail(const planning::View& view) {
+  heading_search_.reset(view.pose.at, params_);
   last_ = view.pose.at;
 }
 
-void EdgeWalk::note(const nav::View& view) {
+void EdgeWalk::note(const planning::View& view) {
   travel_um_ += norm(view.pose.at - last_).raw();
   last_ = view.pose.at;
-  feeler_.move(view.pose.at);
+  heading_search_.move(view.pose.at);
 }
 
-void EdgeWalk::begin(nav::Side wall, Angle blocked) {
+void EdgeWalk::begin(planning::Side wall, Angle blocked) {
   wall_ = wall;
   course_ = blocked;
-  feeler_.begin(blocked, {last_, blocked}, wall);
+  heading_search_.begin(blocked, {last_, blocked}, wall);
   phase_ = Phase::brake;
 }
 
-void EdgeWalk::feel_from_wall(const nav::View& view, Angle heading) {
+void EdgeWalk::feel_from_wall(const planning::View& view, Angle heading) {
   course_ = heading;
-  feeler_.begin_at_wall(heading, {view.pose.at, heading}, wall_);
+  heading_search_.begin_at_wall(heading, {view.pose.at, heading}, wall_);
   phase_ = Phase::brake;
 }
 
-bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
+bool EdgeWalk::step(const planning::View& view, planning::Decision& decision) {
   switch (phase_) {
     case Phase::brake:
       if (view.settled) phase_ = Phase::feel;
       return true;
     case Phase::feel: feel(view, decision); return true;
     case Phase::look:
-      decision.mode = nav::Mode::looking;
-      if (look_.step(view, found_.angle, found_.length, params_, decision.manoeuvre)) {
+      decision.mode = planning::Mode::looking;
+      if (scan_.step(view, found_.angle, found_.length, params_, decision.manoeuvre)) {
         decision.looked = true;
         phase_ = Phase::feel;
       }
       return true;
     case Phase::turn:
-      decision.mode = nav::Mode::skirting;
-      if (nav::turn_by(course_ - view.pose.heading, params_, decision.manoeuvre)) {
-        stall_.reset();
+      decision.mode = planning::Mode::skirting;
+      if (planning::turn_by(course_ - view.pose.heading, params_, decision.manoeuvre)) {
+        stuck_.reset();
         straight_until_um_ = travel_um_ + min(for_body(params_, kStraight), found_.length).raw();
         felt_um_ = travel_um_;
         phase_ = Phase::walk;
@@ -63,64 +63,65 @@ bool EdgeWalk::step(const nav::View& view, nav::Decision& decision) {
   return false;
 }
 
-bool EdgeWalk::may_open(const nav::View& view) {
+bool EdgeWalk::may_open(const planning::View& view) {
   if (travel_um_ - felt_um_ <= std::int64_t{kOpeningEvery.raw()}) return false;
   felt_um_ = travel_um_;
-  return feeler_.opening(view, wall_, params_);
+  return heading_search_.opening(view, wall_, params_);
 }
 
-void EdgeWalk::walk(const nav::View& view, nav::Decision& decision) {
-  decision.mode = nav::Mode::skirting;
-  decision.why = nav::Why::edge;
+void EdgeWalk::walk(const planning::View& view, planning::Decision& decision) {
+  decision.mode = planning::Mode::skirting;
+  decision.why = planning::Why::edge;
   const bool opens = view.sighted && may_open(view);
-  if (opens || stall_.stalled(view, kPatience, params_)) {
-    if (opens) decision.why = nav::Why::opening;
-    decision.manoeuvre = nav::stop();
+  if (opens || stuck_.stalled(view, kPatience, params_)) {
+    if (opens) decision.why = planning::Why::opening;
+    decision.manoeuvre = planning::stop();
     feel_from_wall(view, view.pose.heading);
     return;
   }
   const Speed top = params_.wheels.max_speed;
-  decision.manoeuvre =
-      nav::cruise(travel_um_ < straight_until_um_ ? nav::steer(course_ - view.pose.heading, top)
-                                                  : nav::along_edge(view.sight, wall_, params_),
-                  params_);
+  decision.manoeuvre = planning::cruise(travel_um_ < straight_until_um_
+                                            ? planning::steer(course_ - view.pose.heading, top)
+                                            : planning::along_edge(view.moving_scan, wall_, params_),
+                                        params_);
 }
 
-void EdgeWalk::feel(const nav::View& view, nav::Decision& decision) {
-  decision.mode = nav::Mode::searching;
-  switch (feeler_.step(view, params_, found_)) {
-    case nav::Feeler::Found::nothing: break;
-    case nav::Feeler::Found::unseen:
-      look_.begin(decision.manoeuvre);
-      decision.why = nav::Why::unknown_ahead;
+void EdgeWalk::feel(const planning::View& view, planning::Decision& decision) {
+  decision.mode = planning::Mode::searching;
+  switch (heading_search_.step(view, params_, found_)) {
+    case planning::HeadingSearch::Found::nothing: break;
+    case planning::HeadingSearch::Found::unseen:
+      scan_.begin(decision.manoeuvre);
+      decision.why = planning::Why::unknown_ahead;
       phase_ = Phase::look;
       break;
-    case nav::Feeler::Found::free:
+    case planning::HeadingSearch::Found::free:
       course_ = found_.angle;
       phase_ = Phase::turn;
       break;
-    case nav::Feeler::Found::none:
-      stall_.reset();
+    case planning::HeadingSearch::Found::none:
+      stuck_.reset();
       phase_ = Phase::retreat;
       break;
   }
 }
 
-bool EdgeWalk::retreat(const nav::View& view, nav::Decision& decision) {
-  decision.mode = nav::Mode::skirting;
-  decision.why = nav::Why::way_back;
-  switch (feeler_.retreat(view, stall_.stalled(view, kPatience, params_), params_, decision.manoeuvre)) {
-    case nav::Feeler::Retreat::under_way: return true;
-    case nav::Feeler::Retreat::there:
+bool EdgeWalk::retreat(const planning::View& view, planning::Decision& decision) {
+  decision.mode = planning::Mode::skirting;
+  decision.why = planning::Why::way_back;
+  switch (
+      heading_search_.retreat(view, stuck_.stalled(view, kPatience, params_), params_, decision.manoeuvre)) {
+    case planning::HeadingSearch::Retreat::under_way: return true;
+    case planning::HeadingSearch::Retreat::there:
       felt_um_ = travel_um_;
-      stall_.reset();
+      stuck_.reset();
       phase_ = Phase::walk;
       return true;
-    case nav::Feeler::Retreat::stuck:
-      decision.manoeuvre = nav::stop();
+    case planning::HeadingSearch::Retreat::stuck:
+      decision.manoeuvre = planning::stop();
       feel_from_wall(view, view.pose.heading);
       return true;
-    case nav::Feeler::Retreat::lost: break;
+    case planning::HeadingSearch::Retreat::lost: break;
   }
   return false;
 }

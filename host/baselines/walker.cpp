@@ -1,6 +1,6 @@
 #include "host/baselines/walker.hpp"
 
-#include "firmware/nav/steering.hpp"
+#include "firmware/planning/steering.hpp"
 
 namespace whisker::baselines {
 namespace {
@@ -11,23 +11,23 @@ std::int64_t size(std::int64_t x) { return x < 0 ? -x : x; }
 
 }  // namespace
 
-void Walker::start(const nav::View& view) noexcept {
+void Walker::start(const planning::View& view) noexcept {
   last_ = view.pose;
   travel_um_ = 0;
   surveyed_left_ = false;
   edge_.forget_trail(view);
   account(view);
   begin(view);
-  enter(Phase::survey, nav::Mode::surveying, nav::Why::goal_set);
+  enter(Phase::survey, planning::Mode::surveying, planning::Why::goal_set);
   advance(view);
 }
 
-void Walker::advance(const nav::View& view) noexcept {
+void Walker::advance(const planning::View& view) noexcept {
   account(view);
   act(view);
 }
 
-void Walker::account(const nav::View& view) {
+void Walker::account(const planning::View& view) {
   travel_um_ += norm(view.pose.at - last_.at).raw();
   turned_ += (view.pose.heading - last_.heading).wrapped();
   last_ = view.pose;
@@ -36,23 +36,23 @@ void Walker::account(const nav::View& view) {
   edge_.note(view);
 }
 
-void Walker::act(const nav::View& view) {
+void Walker::act(const planning::View& view) {
   if (travel_um_ > std::int64_t{kLongest.raw()}) {
-    finish(nav::Mode::gave_up, nav::Why::length_budget, nav::Outcome::gave_up);
+    finish(planning::Mode::gave_up, planning::Why::length_budget, planning::Outcome::gave_up);
     return;
   }
   if (phase_ != Phase::halt && is_goal(distance_)) {
     phase_ = Phase::halt;
-    decision_.manoeuvre = nav::stop();
+    decision_.manoeuvre = planning::stop();
     return;
   }
   switch (phase_) {
     case Phase::halt:
       if (!view.settled) break;
       if (distance_ <= goal_.tolerance) {
-        finish(nav::Mode::arrived, nav::Why::at_goal, nav::Outcome::reached);
+        finish(planning::Mode::arrived, planning::Why::at_goal, planning::Outcome::reached);
       } else {
-        enter(Phase::go, nav::Mode::going, nav::Why::target_free);
+        enter(Phase::go, planning::Mode::going, planning::Why::target_free);
       }
       break;
     case Phase::survey: survey(view); break;
@@ -63,76 +63,78 @@ void Walker::act(const nav::View& view) {
   }
 }
 
-void Walker::survey(const nav::View& view) {
+void Walker::survey(const planning::View& view) {
   const Angle heading = bearing(to_goal_) + (surveyed_left_ ? -50_deg : 50_deg);
-  if (!nav::turn_by(heading - view.pose.heading, params_, decision_.manoeuvre)) return;
-  if (surveyed_left_) enter(Phase::go, nav::Mode::going, nav::Why::target_free);
+  if (!planning::turn_by(heading - view.pose.heading, params_, decision_.manoeuvre)) return;
+  if (surveyed_left_) enter(Phase::go, planning::Mode::going, planning::Why::target_free);
   surveyed_left_ = true;
 }
 
-void Walker::go(const nav::View& view) {
-  const Reach& reach = view.patch->reach();
+void Walker::go(const planning::View& view) {
+  const Reach& reach = view.local_grid->reach();
   if (view.sighted) {
     course_ = course(view);
-    if (nav::way(view, course_, min(reach.probe, distance_), reach.planning) == nav::Way::blocked) {
+    if (planning::way(view, course_, min(reach.probe, distance_), reach.planning) ==
+        planning::Way::occupied) {
       begin_follow(view);
       return;
     }
   }
-  if (stall_.stalled(view, EdgeWalk::kPatience, params_)) {
-    look_.begin(decision_.manoeuvre);
-    enter(Phase::look_ahead, nav::Mode::looking, nav::Why::unknown_ahead);
+  if (stuck_.stalled(view, EdgeWalk::kPatience, params_)) {
+    scan_.begin(decision_.manoeuvre);
+    enter(Phase::look_ahead, planning::Mode::looking, planning::Why::unknown_ahead);
     return;
   }
   decision_.manoeuvre =
-      nav::cruise(nav::steer(course_ - view.pose.heading, params_.wheels.max_speed), params_);
+      planning::cruise(planning::steer(course_ - view.pose.heading, params_.wheels.max_speed), params_);
 }
 
-void Walker::look(const nav::View& view) {
-  const Length ahead = min(view.patch->reach().probe, distance_);
-  if (!look_.step(view, course(view), ahead, params_, decision_.manoeuvre)) return;
+void Walker::look(const planning::View& view) {
+  const Length ahead = min(view.local_grid->reach().probe, distance_);
+  if (!scan_.step(view, course(view), ahead, params_, decision_.manoeuvre)) return;
   decision_.looked = true;
-  stall_.reset();
+  stuck_.reset();
   if (phase_ == Phase::look_ahead) {
-    enter(Phase::go, nav::Mode::going, nav::Why::target_free);
+    enter(Phase::go, planning::Mode::going, planning::Why::target_free);
   } else if (!leave(view)) {
-    enter(Phase::follow, nav::Mode::skirting, nav::Why::edge);
-    decision_.manoeuvre = nav::stop();
+    enter(Phase::follow, planning::Mode::skirting, planning::Why::edge);
+    decision_.manoeuvre = planning::stop();
     edge_.resume(view, walk_heading_);
   }
 }
 
-void Walker::begin_follow(const nav::View& view) {
+void Walker::begin_follow(const planning::View& view) {
   hit_at_ = view.pose.at;
   on_its_way_ = false;
   edge_.begin(hit(view), course_);
-  enter(Phase::follow, nav::Mode::searching, nav::Why::target_blocked);
-  decision_.manoeuvre = nav::stop();
+  enter(Phase::follow, planning::Mode::searching, planning::Why::target_blocked);
+  decision_.manoeuvre = planning::stop();
 }
 
-bool Walker::came_round(const nav::View& view) const {
+bool Walker::came_round(const planning::View& view) const {
   const Length length = Length::from_raw(saturate32(travel_um_ - mark_travel_um_));
   return size(turned_) > kTurn * 300 / 360 &&
          norm(view.pose.at - mark_.at) < min(300_mm, 100_mm + length / 100) &&
          magnitude(view.pose.heading - mark_.heading) < (60_deg).raw();
 }
 
-nav::Way Walker::way_off(const nav::View& view, Angle heading) const {
-  return nav::way(view, heading, min(free_to_leave(view), distance_), view.patch->reach().planning);
+planning::Way Walker::way_off(const planning::View& view, Angle heading) const {
+  return planning::way(view, heading, min(free_to_leave(view), distance_), view.local_grid->reach().planning);
 }
 
-bool Walker::leave(const nav::View& view) {
+bool Walker::leave(const planning::View& view) {
   const Angle heading = course(view);
-  const nav::Way found = way_off(view, heading);
-  if (found == nav::Way::blocked || (found == nav::Way::open && seen_free(view) < view.patch->reach().probe))
+  const planning::Way found = way_off(view, heading);
+  if (found == planning::Way::occupied ||
+      (found == planning::Way::unknown && seen_free(view) < view.local_grid->reach().probe))
     return false;
-  stall_.reset();
-  enter(Phase::go, nav::Mode::going, nav::Why::target_free);
+  stuck_.reset();
+  enter(Phase::go, planning::Mode::going, planning::Why::target_free);
   go(view);
   return true;
 }
 
-void Walker::follow(const nav::View& view) {
+void Walker::follow(const planning::View& view) {
   if (view.sighted && edge_.drives()) {
     if (!on_its_way_ && norm(view.pose.at - hit_at_) > 200_mm) {
       on_its_way_ = true;
@@ -141,43 +143,45 @@ void Walker::follow(const nav::View& view) {
       turned_ = 0;
     }
     if (on_its_way_ && can_tell_unreachable() && came_round(view)) {
-      finish(nav::Mode::unreachable, nav::Why::came_round, nav::Outcome::unreachable);
+      finish(planning::Mode::unreachable, planning::Why::came_round, planning::Outcome::unreachable);
       return;
     }
     if (may_leave(view)) {
       if (leave(view)) return;
-      if (travel_um_ - looked_um_ > Length{50_mm}.raw() && way_off(view, course(view)) == nav::Way::open) {
+      if (travel_um_ - looked_um_ > Length{50_mm}.raw() &&
+          way_off(view, course(view)) == planning::Way::unknown) {
         looked_um_ = travel_um_;
         walk_heading_ = view.pose.heading;
-        look_.begin(decision_.manoeuvre);
-        enter(Phase::look_away, nav::Mode::looking, nav::Why::unknown_ahead);
+        scan_.begin(decision_.manoeuvre);
+        enter(Phase::look_away, planning::Mode::looking, planning::Why::unknown_ahead);
         return;
       }
     }
     // Twice round something that is not what it hit.
     if (on_its_way_ && size(turned_) > 2 * kTurn) {
       begin(view);
-      enter(Phase::go, nav::Mode::going, nav::Why::wall_lost);
+      enter(Phase::go, planning::Mode::going, planning::Why::wall_lost);
       return;
     }
   }
-  if (!edge_.step(view, decision_)) finish(nav::Mode::gave_up, nav::Why::no_exit, nav::Outcome::gave_up);
+  if (!edge_.step(view, decision_))
+    finish(planning::Mode::gave_up, planning::Why::no_exit, planning::Outcome::gave_up);
 }
 
-Length Walker::seen_free(const nav::View& view) const {
+Length Walker::seen_free(const planning::View& view) const {
   const Angle target = bearing(to_goal_);
   Length free;
   for (int i = 0; i < hal::kBeams; ++i) {
-    const ranges::Echo& echo = view.sight.beam[i];
-    if (!ranges::usable(echo.validity)) continue;
+    const perception::Echo& echo = view.moving_scan.beam[i];
+    if (!perception::usable(echo.validity)) continue;
     const Angle axis = view.pose.heading + beam_axis(params_.rangefinders.side_angle, i);
     if (magnitude(axis - target) > (6_deg).raw()) continue;
-    free = max(free, echo.distance - view.patch->reach().planning);
+    free = max(free, echo.distance - view.local_grid->reach().planning);
   }
   return free;
 }
 
-void Walker::enter(Phase phase, nav::Mode mode, nav::Why why) {
+void Walker::enter(Phase phase, planning::Mode mode, planning::Why why) {
   phase_ = phase;
   tell(mode, why);
 }

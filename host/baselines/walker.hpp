@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
-#include "firmware/nav/goal_planner.hpp"
-#include "firmware/nav/look.hpp"
-#include "firmware/nav/stall.hpp"
-#include "firmware/nav/ways.hpp"
+#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "firmware/planning/boundary/scan_behaviour.hpp"
+#include "firmware/planning/boundary/stuck_detector.hpp"
+#include "firmware/planning/goal_planner.hpp"
 #include "host/baselines/edge_walk.hpp"
 
 namespace whisker::baselines {
@@ -15,7 +15,7 @@ namespace whisker::baselines {
 /// Ends in *reached* within 7/8 of the goal's tolerance, in *gave up* after kLongest driven or without a way
 /// anywhere, and, if the algorithm can tell, in *unreachable*: back where it hit the boundary after a full
 /// turn.
-class Walker : public nav::GoalPlanner {
+class Walker : public planning::GoalPlanner {
  public:
   static constexpr Length kLongest = 400_m;
 
@@ -25,14 +25,14 @@ class Walker : public nav::GoalPlanner {
   ~Walker() = default;
 
   /// From here, to the goal, as if newly set.
-  virtual void begin(const nav::View& view) = 0;
+  virtual void begin(const planning::View& view) = 0;
   /// Where to go in the open.
-  virtual Angle course(const nav::View& view) const = 0;
+  virtual Angle course(const planning::View& view) const = 0;
   /// A boundary is hit: the side that it will be on.
-  virtual nav::Side hit(const nav::View& view) = 0;
+  virtual planning::Side hit(const planning::View& view) = 0;
   /// Once per reading while following. The walker leaves if this is true and the course is free so far.
-  virtual bool may_leave(const nav::View& view) = 0;
-  virtual Length free_to_leave(const nav::View& view) const { return view.patch->reach().probe; }
+  virtual bool may_leave(const planning::View& view) = 0;
+  virtual Length free_to_leave(const planning::View& view) const { return view.local_grid->reach().probe; }
   virtual bool can_tell_unreachable() const = 0;
 
   const Params& params() const { return params_; }
@@ -41,29 +41,29 @@ class Walker : public nav::GoalPlanner {
   Length distance() const { return distance_; }  ///< to the goal
 
   /// How far a beam that points within 6 degrees of the goal sees a body free to go; zero without one.
-  Length seen_free(const nav::View& view) const;
+  Length seen_free(const planning::View& view) const;
 
  private:
   enum class Phase : std::uint8_t { halt, survey, go, look_ahead, follow, look_away };
 
-  void start(const nav::View& view) noexcept final;
-  void advance(const nav::View& view) noexcept final;
-  void account(const nav::View& view);
-  void act(const nav::View& view);
-  void survey(const nav::View& view);
-  void go(const nav::View& view);
-  void look(const nav::View& view);
-  void begin_follow(const nav::View& view);
-  void follow(const nav::View& view);
-  bool leave(const nav::View& view);
-  nav::Way way_off(const nav::View& view, Angle heading) const;
-  bool came_round(const nav::View& view) const;
-  void enter(Phase phase, nav::Mode mode, nav::Why why);
+  void start(const planning::View& view) noexcept final;
+  void advance(const planning::View& view) noexcept final;
+  void account(const planning::View& view);
+  void act(const planning::View& view);
+  void survey(const planning::View& view);
+  void go(const planning::View& view);
+  void look(const planning::View& view);
+  void begin_follow(const planning::View& view);
+  void follow(const planning::View& view);
+  bool leave(const planning::View& view);
+  planning::Way way_off(const planning::View& view, Angle heading) const;
+  bool came_round(const planning::View& view) const;
+  void enter(Phase phase, planning::Mode mode, planning::Why why);
 
   const Params& params_;
   EdgeWalk edge_;
-  nav::Look look_;
-  nav::Stall stall_;
+  planning::ScanBehaviour scan_;
+  planning::StuckDetector stuck_;
   Phase phase_ = Phase::survey;
 
   Pose last_;

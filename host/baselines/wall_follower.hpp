@@ -15,10 +15,10 @@ class WallFollower final : public Walker {
   explicit WallFollower(const Params& params) noexcept : Walker(params) {}
 
  private:
-  void begin(const nav::View&) override {}
-  Angle course(const nav::View&) const override { return bearing(to_goal()); }
-  nav::Side hit(const nav::View&) override { return nav::Side::left; }
-  bool may_leave(const nav::View& view) override { return seen_free(view) >= min(kSeen, distance()); }
+  void begin(const planning::View&) override {}
+  Angle course(const planning::View&) const override { return bearing(to_goal()); }
+  planning::Side hit(const planning::View&) override { return planning::Side::left; }
+  bool may_leave(const planning::View& view) override { return seen_free(view) >= min(kSeen, distance()); }
   bool can_tell_unreachable() const override { return false; }
 };
 

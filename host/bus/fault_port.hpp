@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <deque>
 
-#include "hal/can_queue.hpp"
+#include "hal/ports/can_queue.hpp"
 #include "host/bus/meddler.hpp"
 
 namespace whisker::bus {

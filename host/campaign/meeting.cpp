@@ -57,7 +57,7 @@ Meeting meet(const Scenario& scenario, PlannerKind planner) {
     sighting.add(r);
     before = now;
     now = std::fabs(r.v_left_mps + r.v_right_mps) / 2;
-    m.said = m.said || r.why == nav::Why::something_moves;
+    m.said = m.said || r.why == planning::Why::something_moves;
   };
   const RunResult result = run(scenario, options);
   m.verdict = result.verdict;

@@ -20,7 +20,7 @@ struct Meeting {
   double speed_mps = 0;  ///< of the body's centre in the tick that ended in a contact
   double shown_s = 0;    ///< until the contact, a beam has shown some part of the thing for so long
   double near_s = 0;     ///< the same of its nearest point, to 3 cm
-  bool said = false;     ///< at some tick the reason was nav::Why::something_moves
+  bool said = false;     ///< at some tick the reason was planning::Why::something_moves
 };
 
 /// Drives a scenario with one mover and nothing else; deterministic.

@@ -14,25 +14,25 @@ Status status_of(const link::Answer& a) {
   s.command = a.command;
   s.pose = {{Length::from_raw(a.pose.x), Length::from_raw(a.pose.y)}, Angle::from_raw(a.pose.heading)};
   s.health.fault = static_cast<Fault>(a.fault);
-  nav::Decision& d = s.decision;
-  d.manoeuvre.kind = static_cast<nav::Kind>(a.manoeuvre);
-  d.mode = static_cast<nav::Mode>(a.mode);
-  d.why = static_cast<nav::Why>(a.why);
-  d.outcome = static_cast<nav::Outcome>(a.outcome);
+  planning::Decision& d = s.decision;
+  d.manoeuvre.kind = static_cast<planning::ManoeuvreKind>(a.manoeuvre);
+  d.mode = static_cast<planning::Mode>(a.mode);
+  d.why = static_cast<planning::Why>(a.why);
+  d.outcome = static_cast<planning::Outcome>(a.outcome);
   d.danger_count = a.danger_count;
   d.looked = a.looked != 0;
   d.inputs = {Q7::from_raw(a.distance), Q7::from_raw(a.bias)};
   d.response = {Q14::from_raw(a.turn), Q14::from_raw(a.step), {a.cell_distance, a.cell_bias}};
   for (int i = 0; i < hal::kBeams; ++i) {
-    s.echoes.beam[i] = {Length::from_raw(a.echo[i]), static_cast<ranges::Validity>(a.validity[i])};
+    s.echoes.beam[i] = {Length::from_raw(a.echo[i]), static_cast<perception::Validity>(a.validity[i])};
   }
   return s;
 }
 
 /// Values from another program that are used as indices.
 bool sound(const link::Answer& a) {
-  return a.mode < nav::kModes && a.why < nav::kWhys &&
-         a.outcome <= static_cast<std::uint8_t>(nav::Outcome::gave_up) && a.fault < kFaults;
+  return a.mode < planning::kModes && a.why < planning::kWhys &&
+         a.outcome <= static_cast<std::uint8_t>(planning::Outcome::gave_up) && a.fault < kFaults;
 }
 
 class ChipPilot final : public Pilot {

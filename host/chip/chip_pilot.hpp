@@ -14,8 +14,8 @@ class NoRoom : public std::runtime_error {
 };
 
 /// The core at the other end of a command's standard input and output, for example an image in an emulator:
-/// the simulator waits for it at every tick. The command must speak hal/link/message.hpp. Throws ChipError,
-/// NoRoom and NoSuchPlanner.
+/// the simulator waits for it at every tick. The command must speak firmware/apps/pil_link/message.hpp.
+/// Throws ChipError, NoRoom and NoSuchPlanner.
 MakePilot chip_pilot(const std::string& command);
 
 }  // namespace whisker::chip

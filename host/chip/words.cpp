@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hal/link/params.hpp"
+#include "firmware/apps/pil_link/params.hpp"
 
 namespace whisker::chip {
 namespace {
@@ -30,7 +30,7 @@ void append_begin(Bytes& to, PlannerKind planner, const Pose& pose) {
   append(to, link::Name::begin, link::Begin{on_chip(planner), bytes, stand(pose)});
 }
 
-void append_goal(Bytes& to, const nav::Goal& goal) {
+void append_goal(Bytes& to, const planning::Goal& goal) {
   append(to, link::Name::goal, link::Target{goal.at.x.raw(), goal.at.y.raw(), goal.tolerance.raw()});
 }
 

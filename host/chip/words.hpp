@@ -1,13 +1,14 @@
-/// Messages to a robot at the other end of a byte stream; hal/link/message.hpp has their meaning.
+/// Messages to a robot at the other end of a byte stream; firmware/apps/pil_link/message.hpp has their
+/// meaning.
 #pragma once
 
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
 
+#include "firmware/apps/pil_link/bytes.hpp"
+#include "firmware/apps/pil_link/message.hpp"
 #include "firmware/robot.hpp"
-#include "hal/link/bytes.hpp"
-#include "hal/link/message.hpp"
 #include "host/run/planners.hpp"
 #include "host/sim/plant.hpp"
 
@@ -33,7 +34,7 @@ class NoSuchPlanner : public std::invalid_argument {
 void append_params(Bytes& to, const Params& params);
 /// Throws NoSuchPlanner; nothing is appended then.
 void append_begin(Bytes& to, PlannerKind planner, const Pose& pose);
-void append_goal(Bytes& to, const nav::Goal& goal);
+void append_goal(Bytes& to, const planning::Goal& goal);
 void append_place(Bytes& to, const Pose& pose);
 
 /// What the plant's sensors say at this tick.

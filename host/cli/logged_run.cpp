@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hal/link/command_hash.hpp"
+#include "firmware/apps/pil_link/command_hash.hpp"
 #include "host/run/spec.hpp"
 #include "host/run/told.hpp"
 
@@ -58,7 +58,7 @@ RunResult LoggedRun::result() const {
     result.detail = name(fault_);
   } else if (const auto verdict = verdict_of(outcome_)) {
     result.verdict = *verdict;
-    result.detail = nav::name(records_.back().why);
+    result.detail = planning::name(records_.back().why);
   } else {
     result.detail = "log_ends";
   }

@@ -31,7 +31,7 @@ class LoggedRun {
   Scenario scenario_;
   std::vector<TickRecord> records_;
   Fault fault_ = Fault::none;
-  nav::Outcome outcome_ = nav::Outcome::none;
+  planning::Outcome outcome_ = planning::Outcome::none;
   std::uint32_t first_tick_ = 0;
   hal::EncoderCounts counts_{};
 };

@@ -44,9 +44,9 @@ class Show {
       run_.begin(mission, params);
       recording_.emplace(params);
     };
-    replay.stepped = [this](const can::InputSet& set, const Status& status, const ground::Patch* patch,
-                            const ShownGuide* guide) {
-      recording_->add({run_.step(set, status, guide), status.health, patch, guide});
+    replay.stepped = [this](const can::InputSet& set, const Status& status,
+                            const perception::LocalGrid* local_grid, const ShownGuide* guide) {
+      recording_->add({run_.step(set, status, guide), status.health, local_grid, guide});
     };
   }
 

@@ -1,5 +1,6 @@
 // Runs an AVR image in simavr, with this process's standard input and output at the other side of the three
-// registers of hal/mcu/simavr/board.cpp. Exit status: the image's, 124 after too many cycles, 2 for usage.
+// registers of hal/emulated/simavr/board.cpp. Exit status: the image's, 124 after too many cycles, 2 for
+// usage.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "firmware/apps/can/base.hpp"
 #include "firmware/can/param_server.hpp"
-#include "firmware/motion/odometry.hpp"
-#include "hal/can_remote/base.hpp"
-#include "hal/sim/sim_board.hpp"
+#include "firmware/localization/odometry.hpp"
 #include "host/hil/resend.hpp"
 #include "host/hil/words.hpp"
 #include "host/run/spec.hpp"
+#include "host/sim/sim_board.hpp"
 
 namespace whisker::hil {
 namespace {
@@ -97,7 +97,7 @@ class BusPilot final : public Pilot {
   /// have gone further than in one period.
   void reckon() {
     hal::EncoderCounts counts{};
-    motion::CountStep step;
+    localization::CountStep step;
     if (board_.read(counts)) odometry_.update(counts, kLongestPause, step);
   }
 
@@ -274,7 +274,7 @@ class BusPilot final : public Pilot {
   hal::SimBoard board_;
   can::BaseNode node_;
   can_remote::Base base_;
-  motion::Odometry odometry_;
+  localization::Odometry odometry_;
   Status status_;
   std::string said_;
   const char* awaited_ = "";

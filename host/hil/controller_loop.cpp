@@ -1,6 +1,6 @@
 #include "host/hil/controller_loop.hpp"
 
-#include "hal/can_remote/controller.hpp"
+#include "firmware/apps/can/controller.hpp"
 #include "host/hil/planners.hpp"
 #include "host/hil/wall_clock.hpp"
 #include "host/hil/words.hpp"

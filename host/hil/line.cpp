@@ -1,8 +1,8 @@
 #include "host/hil/line.hpp"
 
-#include "hal/slcan/slcan.hpp"
-#include "hal/socketcan/socket_can.hpp"
-#include "hal/tty/tty_line.hpp"
+#include "hal/ports/slcan/slcan.hpp"
+#include "hal/ports/socketcan/socket_can.hpp"
+#include "hal/ports/tty/tty_line.hpp"
 
 namespace whisker::hil {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "hal/can_remote/pilot.hpp"
+#include "firmware/apps/can/pilot.hpp"
 #include "host/run/planners.hpp"
 
 namespace whisker::hil {
@@ -11,7 +11,7 @@ namespace whisker::hil {
 class HostPlanners final : public can_remote::PlannerMaker {
  public:
   explicit HostPlanners(PlannerKind kind) : kind_(kind) {}
-  nav::Planner& make(const Params& params) noexcept override {
+  planning::Planner& make(const Params& params) noexcept override {
     planner_ = make_seen_planner(kind_, params);
     return *planner_.planner;
   }

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "firmware/apps/can/pilot.hpp"
+#include "firmware/apps/pil_link/command_hash.hpp"
 #include "firmware/can/heads.hpp"
 #include "firmware/can/mission.hpp"
 #include "firmware/can/param_server.hpp"
-#include "hal/can_remote/pilot.hpp"
-#include "hal/link/command_hash.hpp"
 #include "host/hil/candump.hpp"
 #include "host/hil/planners.hpp"
 #include "host/run/shown_planner.hpp"
@@ -24,10 +24,10 @@ using can::Kind;
 class ShownPlanners final : public can_remote::PlannerMaker {
  public:
   explicit ShownPlanners(PlannerKind kind) : planners_(kind) {}
-  nav::Planner& make(const Params& params) noexcept override {
+  planning::Planner& make(const Params& params) noexcept override {
     return shown_.emplace(planners_.make(params));
   }
-  const ground::Patch* patch() const { return shown_ ? shown_->patch() : nullptr; }
+  const perception::LocalGrid* local_grid() const { return shown_ ? shown_->local_grid() : nullptr; }
   const ShownGuide* guide() const { return planners_.guide(); }
 
  private:
@@ -175,7 +175,7 @@ class Replay {
     tick16_ = static_cast<std::uint16_t>(set.tick);
     ++result_.steps;
     hash_.add(status_.command);
-    if (options_.stepped) options_.stepped(set, status_, planners_.patch(), planners_.guide());
+    if (options_.stepped) options_.stepped(set, status_, planners_.local_grid(), planners_.guide());
   }
 
   /// Answers that never reached the log leave a gap in the counters: the core made those steps all the same.
@@ -215,8 +215,8 @@ class Replay {
     now.tick = recorded.tick;
     if (can::bits_of(can::encode(now, 0, 0)) != can::bits_of(can::encode(recorded, 0, 0))) {
       differ(fmt::format("tick {}: recorded {} ({}), the core says {} ({})", recorded.tick,
-                         nav::name(recorded.state), nav::name(recorded.why), nav::name(now.state),
-                         nav::name(now.why)));
+                         planning::name(recorded.state), planning::name(recorded.why),
+                         planning::name(now.state), planning::name(now.why)));
     }
   }
 

@@ -19,8 +19,8 @@ struct ReplayOptions {
   /// Called when the robot is put to a mission's start, and after each of its steps with the ground that the
   /// planner was shown and its guide, or null. The arguments are valid during the call only.
   std::function<void(const can::Mission&, const Params&)> begins = nullptr;
-  std::function<void(const can::InputSet&, const Status&, const ground::Patch*, const ShownGuide*)> stepped =
-      nullptr;
+  std::function<void(const can::InputSet&, const Status&, const perception::LocalGrid*, const ShownGuide*)>
+      stepped = nullptr;
 };
 
 struct ReplayResult {

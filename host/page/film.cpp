@@ -42,17 +42,17 @@ void Frames::append(const Frames& more, std::size_t from_tick) {
 
 Film::Film(const Params& params) : params_(params) {}
 
-Film::Picture Film::picture(Vec body, const ground::Patch& patch) const {
+Film::Picture Film::picture(Vec body, const perception::LocalGrid& local_grid) const {
   Picture now{};
-  for_each_clear_cell(patch, params_, body, [&now](std::int64_t x, std::int64_t y) {
+  for_each_clear_cell(local_grid, params_, body, [&now](std::int64_t x, std::int64_t y) {
     const std::size_t column = wrapped(x);
     now[2 * wrapped(y) + column / 32] |= std::uint32_t{1} << (column % 32);
   });
   return now;
 }
 
-void Film::add(std::size_t tick, Vec body, const ground::Patch& patch, Frames& frames) {
-  const Picture now = picture(body, patch);
+void Film::add(std::size_t tick, Vec body, const perception::LocalGrid& local_grid, Frames& frames) {
+  const Picture now = picture(body, local_grid);
   frames.add(tick, now.data(), last_.data(), now.size());
   last_ = now;
 }

@@ -1,4 +1,4 @@
-/// The clearance patch over time, as what changed in it.
+/// The local grid over time, as what changed in it.
 #pragma once
 
 #include <array>
@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "firmware/core/trig.hpp"
-#include "firmware/ground/patch.hpp"
+#include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
+#include "firmware/perception/local_grid.hpp"
 
 namespace whisker::page {
 
@@ -37,11 +37,11 @@ class Film {
   explicit Film(const Params& params);
 
   /// Appends the picture of this tick, as what changed since the last call. Pictures must come in order.
-  void add(std::size_t tick, Vec body, const ground::Patch& patch, Frames& frames);
+  void add(std::size_t tick, Vec body, const perception::LocalGrid& local_grid, Frames& frames);
 
  private:
   using Picture = std::array<std::uint32_t, kSide * 2>;
-  Picture picture(Vec body, const ground::Patch& patch) const;
+  Picture picture(Vec body, const perception::LocalGrid& local_grid) const;
 
   Params params_;
   Picture last_{};

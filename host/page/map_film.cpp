@@ -27,7 +27,7 @@ std::vector<std::uint32_t> words_of(const MapPicture& picture) {
       if ((state & 1U) != 0) set(1, x, y);
     }
   }
-  for (const map::Place p : picture.way) set(2, p.x, p.y);
+  for (const planning::Cell p : picture.way) set(2, p.x, p.y);
   return all;
 }
 

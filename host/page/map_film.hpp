@@ -20,10 +20,10 @@ struct MapFrames {
   void append(const MapFrames& more, std::size_t from_tick);
 };
 
-/// A picture is three bits a cell, in planes one after the other: the two of map::State, the upper one first,
-/// and whether the plan's way goes there. A plane is the window's rows of words of 32 bits. Cell (x, y) of
-/// the world is bit x mod 32 of word x / 32 mod words of row y mod rows. A frame says which words changed
-/// since the frame before, by exclusive or.
+/// A picture is three bits a cell, in planes one after the other: the two of planning::CellState, the upper
+/// one first, and whether the plan's way goes there. A plane is the window's rows of words of 32 bits. Cell
+/// (x, y) of the world is bit x mod 32 of word x / 32 mod words of row y mod rows. A frame says which words
+/// changed since the frame before, by exclusive or.
 class MapFilm {
  public:
   static constexpr std::size_t kPlanes = 3;

@@ -40,8 +40,8 @@ void Ticks::append(const Ticks& more, std::size_t index, std::size_t first) {
 void Recording::add(const Moment& moment) {
   const TickRecord& r = moment.record;
   const bool kept = count_++ % every_ == 0;
-  if (moment.patch != nullptr && kept && kept_ % kept_a_frame_ == 0) {
-    film_.add(kept_, {fixed(r.est_x_m), fixed(r.est_y_m)}, *moment.patch, ticks_.frames);
+  if (moment.local_grid != nullptr && kept && kept_ % kept_a_frame_ == 0) {
+    film_.add(kept_, {fixed(r.est_x_m), fixed(r.est_y_m)}, *moment.local_grid, ticks_.frames);
   }
   if (map_watch_.look(moment.guide)) map_film_.add(kept_, *map_watch_.last(), ticks_.map);
   if (kept) {

@@ -22,7 +22,7 @@ enum class Detail {
 struct Ticks {
   std::vector<TickRecord> records;
   std::vector<Health> health;  ///< one for each record
-  Frames frames;  ///< of the clearance patch, one every 50 ms (coarse: 1 s) where there is a patch
+  Frames frames;  ///< of the local grid, one every 50 ms (coarse: 1 s) where there is a local grid
   MapFrames map;  ///< of the map, where there is one: see MapWatch
 
   /// The ticks of `more` from the one with this index among them; its first is the run's tick `first`.

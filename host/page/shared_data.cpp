@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "firmware/health.hpp"
-#include "firmware/nav/state.hpp"
+#include "firmware/planning/state.hpp"
 #include "host/page/json.hpp"
 #include "host/report/palette.hpp"
 #include "host/run/guidance.hpp"
@@ -64,7 +64,7 @@ Json controller_data(const Controller& c) {
 template <class T>
 Json names(int count) {
   Json list = Json::array();
-  for (int i = 0; i < count; ++i) list.push_back(nav::name(static_cast<T>(i)));
+  for (int i = 0; i < count; ++i) list.push_back(planning::name(static_cast<T>(i)));
   return list;
 }
 
@@ -78,8 +78,8 @@ Json shared_data(const Controller& controller) {
   Json doings = Json::array();
   for (const report::Look& look : report::kLooks)
     doings.push_back({{"name", look.name}, {"label", look.label}});
-  return {{"modes", names<nav::Mode>(nav::kModes)},
-          {"whys", names<nav::Why>(nav::kWhys)},
+  return {{"modes", names<planning::Mode>(planning::kModes)},
+          {"whys", names<planning::Why>(planning::kWhys)},
           {"faults", faults},
           {"guides", guides},
           {"doings", doings},

@@ -144,13 +144,13 @@ WHISKER_EXPORT(way) int way(int side, int from) {
   return answer();
 }
 
-/// The clear cells' places, in cells of the world; nothing without a patch.
+/// The clear cells' places, in cells of the world; nothing without a local grid.
 WHISKER_EXPORT(clear_cells) int clear_cells(int side) {
   const Drive& drive = *drives[side];
   exchanged.clear();
-  const ground::Patch* patch = drive.trip().patch();
-  if (patch == nullptr) return 0;
-  for_each_clear_cell(*patch, drive.scenario().robot, drive.trip().status().pose.at,
+  const perception::LocalGrid* local_grid = drive.trip().local_grid();
+  if (local_grid == nullptr) return 0;
+  for_each_clear_cell(*local_grid, drive.scenario().robot, drive.trip().status().pose.at,
                       [](std::int64_t x, std::int64_t y) {
                         exchanged.insert(exchanged.end(), {static_cast<double>(x), static_cast<double>(y)});
                       });
@@ -165,8 +165,8 @@ WHISKER_EXPORT(map) int map_cells(int side) {
   if (!picture) return 0;
   exchanged = {static_cast<double>(picture->columns), static_cast<double>(picture->rows), picture->cell_m,
                static_cast<double>(picture->corner.x), static_cast<double>(picture->corner.y)};
-  for (const map::State state : picture->cells) exchanged.push_back(static_cast<double>(state));
-  for (const map::Place p : picture->way)
+  for (const planning::CellState state : picture->cells) exchanged.push_back(static_cast<double>(state));
+  for (const planning::Cell p : picture->way)
     exchanged.insert(exchanged.end(), {static_cast<double>(p.x), static_cast<double>(p.y)});
   return answer();
 }
@@ -240,8 +240,8 @@ WHISKER_EXPORT(sample_table) int sample_table() {
 /// its end.
 WHISKER_EXPORT(word) const char* word(int which, int i) {
   switch (which) {
-    case 0: return i < nav::kModes ? nav::name(static_cast<nav::Mode>(i)) : nullptr;
-    case 1: return i < nav::kWhys ? nav::name(static_cast<nav::Why>(i)) : nullptr;
+    case 0: return i < planning::kModes ? planning::name(static_cast<planning::Mode>(i)) : nullptr;
+    case 1: return i < planning::kWhys ? planning::name(static_cast<planning::Why>(i)) : nullptr;
     case 2: return i < kFaults ? name(static_cast<Fault>(i)) : nullptr;
     case 3: return i < static_cast<int>(std::size(worlds::kKinds)) ? name(worlds::kKinds[i]) : nullptr;
     case 4: return i < kGuidances ? name(static_cast<Guidance>(i)) : nullptr;

@@ -102,7 +102,7 @@ class Section {
     row("drive, 0.3 m/s left, -0.3 m/s right, Tick 1",
         can::WheelCommand{can::DriveMode::drive, {3000, -3000}, 1}, kController);
     can::NavStatus status;
-    status.outcome = nav::Outcome::running;
+    status.outcome = planning::Outcome::running;
     status.tick = 1;
     row("running, Tick 1", status, kController);
   }

@@ -3,32 +3,32 @@
 namespace whisker::report {
 namespace {
 
-Doing doing_of_step(nav::Why why) noexcept {
+Doing doing_of_step(planning::Why why) noexcept {
   switch (why) {
-    case nav::Why::table: return Doing::table;
-    case nav::Why::narrow: return Doing::probing;
-    case nav::Why::target_blocked:
-    case nav::Why::exit_left:
-    case nav::Why::exit_right:
-    case nav::Why::edge:
-    case nav::Why::opening:
-    case nav::Why::way_back:
-    case nav::Why::same_side: return Doing::danger;
-    case nav::Why::none:
-    case nav::Why::goal_set:
-    case nav::Why::target_free:
-    case nav::Why::blind:
-    case nav::Why::at_goal:
-    case nav::Why::no_exit:
-    case nav::Why::step_budget:
-    case nav::Why::unknown_ahead:
-    case nav::Why::came_round:
-    case nav::Why::something_moves:
-    case nav::Why::wall_lost:
-    case nav::Why::length_budget:
-    case nav::Why::cancelled:
-    case nav::Why::goal_out_of_range:
-    case nav::Why::fault: return Doing::free;
+    case planning::Why::table: return Doing::table;
+    case planning::Why::narrow: return Doing::probing;
+    case planning::Why::target_blocked:
+    case planning::Why::exit_left:
+    case planning::Why::exit_right:
+    case planning::Why::edge:
+    case planning::Why::opening:
+    case planning::Why::way_back:
+    case planning::Why::same_side: return Doing::danger;
+    case planning::Why::none:
+    case planning::Why::goal_set:
+    case planning::Why::target_free:
+    case planning::Why::blind:
+    case planning::Why::at_goal:
+    case planning::Why::no_exit:
+    case planning::Why::step_budget:
+    case planning::Why::unknown_ahead:
+    case planning::Why::came_round:
+    case planning::Why::something_moves:
+    case planning::Why::wall_lost:
+    case planning::Why::length_budget:
+    case planning::Why::cancelled:
+    case planning::Why::goal_out_of_range:
+    case planning::Why::fault: return Doing::free;
   }
   return Doing::free;
 }
@@ -38,20 +38,20 @@ Doing doing_of_step(nav::Why why) noexcept {
 Doing doing(const TickRecord& record) noexcept {
   if (record.danger_count > 0) return Doing::danger;
   switch (record.mode) {
-    case nav::Mode::steering: return Doing::table;
-    case nav::Mode::probing: return Doing::probing;
-    case nav::Mode::searching:
-    case nav::Mode::skirting: return Doing::danger;
-    case nav::Mode::going:
-    case nav::Mode::stepping: return doing_of_step(record.why);
-    case nav::Mode::idle:
-    case nav::Mode::facing:
-    case nav::Mode::looking:
-    case nav::Mode::surveying:
-    case nav::Mode::unreachable:
-    case nav::Mode::arrived:
-    case nav::Mode::gave_up:
-    case nav::Mode::stopped: return Doing::free;
+    case planning::Mode::steering: return Doing::table;
+    case planning::Mode::probing: return Doing::probing;
+    case planning::Mode::searching:
+    case planning::Mode::skirting: return Doing::danger;
+    case planning::Mode::going:
+    case planning::Mode::stepping: return doing_of_step(record.why);
+    case planning::Mode::idle:
+    case planning::Mode::facing:
+    case planning::Mode::looking:
+    case planning::Mode::surveying:
+    case planning::Mode::unreachable:
+    case planning::Mode::arrived:
+    case planning::Mode::gave_up:
+    case planning::Mode::stopped: return Doing::free;
   }
   return Doing::free;
 }

@@ -10,27 +10,27 @@ namespace {
 bool leaves(const TickRecord& r) {
   if (doing(r) == Doing::danger) return false;
   switch (r.mode) {
-    case nav::Mode::facing:
-    case nav::Mode::steering:
-    case nav::Mode::probing:
-    case nav::Mode::stepping:
-    case nav::Mode::going:
-    case nav::Mode::arrived:
-    case nav::Mode::unreachable: return true;
-    case nav::Mode::idle:
-    case nav::Mode::looking:
-    case nav::Mode::searching:
-    case nav::Mode::skirting:
-    case nav::Mode::surveying:
-    case nav::Mode::gave_up:
-    case nav::Mode::stopped: return false;
+    case planning::Mode::facing:
+    case planning::Mode::steering:
+    case planning::Mode::probing:
+    case planning::Mode::stepping:
+    case planning::Mode::going:
+    case planning::Mode::arrived:
+    case planning::Mode::unreachable: return true;
+    case planning::Mode::idle:
+    case planning::Mode::looking:
+    case planning::Mode::searching:
+    case planning::Mode::skirting:
+    case planning::Mode::surveying:
+    case planning::Mode::gave_up:
+    case planning::Mode::stopped: return false;
   }
   return false;
 }
 
 Encounter::End end_of(const TickRecord& r) {
-  if (r.mode == nav::Mode::unreachable) return Encounter::End::unreachable;
-  return r.why == nav::Why::wall_lost ? Encounter::End::wall_lost : Encounter::End::left;
+  if (r.mode == planning::Mode::unreachable) return Encounter::End::unreachable;
+  return r.why == planning::Why::wall_lost ? Encounter::End::wall_lost : Encounter::End::left;
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void EncounterFinder::add(const TickRecord& r) {
     found_.back().left = number;
     found_.back().end = end_of(r);
     inside_ = false;
-  } else if (inside_ && r.why == nav::Why::came_round && !found_.back().turned) {
+  } else if (inside_ && r.why == planning::Why::came_round && !found_.back().turned) {
     found_.back().turned = number;
   }
 }

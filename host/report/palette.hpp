@@ -2,7 +2,7 @@
 /// in lightness for grey print, and in width or dashes.
 #pragma once
 
-#include "firmware/map/map.hpp"
+#include "firmware/planning/global/grid_map.hpp"
 #include "host/report/track.hpp"
 
 namespace whisker::report {
@@ -25,15 +25,15 @@ constexpr Look kLooks[kDoings] = {
 
 /// A planner's map: over the obstacles, under the path.
 struct MapLook {
-  map::State state;
+  planning::CellState state;
   const char* name;   ///< class attribute in the SVG
   const char* label;  ///< in the legend
   const char* fill;   ///< attributes
 };
 constexpr MapLook kMapLooks[] = {
-    {map::State::free, "map-free", "map: seen free", R"(fill="#58a879" fill-opacity="0.16")"},
-    {map::State::suspect, "map-suspect", "map: suspect", R"(fill="#b98a1f" fill-opacity="0.3")"},
-    {map::State::occupied, "map-occupied", "map: occupied", R"(fill="#6a4c93" fill-opacity="0.45")"},
+    {planning::CellState::free, "map-free", "map: seen free", R"(fill="#58a879" fill-opacity="0.16")"},
+    {planning::CellState::suspect, "map-suspect", "map: suspect", R"(fill="#b98a1f" fill-opacity="0.3")"},
+    {planning::CellState::occupied, "map-occupied", "map: occupied", R"(fill="#6a4c93" fill-opacity="0.45")"},
 };
 constexpr const char* kMapColour = "#6a4c93";
 constexpr const char* kMapDots = R"(fill="none" stroke="#6a4c93" stroke-linecap="round")";

@@ -11,7 +11,7 @@
 namespace whisker::report {
 namespace {
 
-using map::State;
+using planning::CellState;
 using sim::Vec2;
 
 constexpr double kRing = 8;     // px
@@ -27,7 +27,7 @@ Vec2 truly(const TickRecord& r, Vec2 believed) {
 }
 
 /// Cells of one state as few boxes: runs of a row, as high as the same run goes on.
-PathData boxes(const MapPicture& map, State state) {
+PathData boxes(const MapPicture& map, CellState state) {
   std::vector<bool> taken(map.cells.size());
   const auto index = [&](std::int32_t x, std::int32_t y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(map.columns) + static_cast<std::size_t>(x);
@@ -79,7 +79,7 @@ void draw_map(Svg& svg, const View& view, const MapPicture& map, const TickRecor
   svg.path(window, fmt::format(R"(class="window" fill="none" stroke="{}" stroke-width="{:.3g}")", kMapColour,
                                0.8 / cell));
   PathData way;
-  for (const map::Place p : map.way) way.dot({p.x + 0.5, p.y + 0.5});
+  for (const planning::Cell p : map.way) way.dot({p.x + 0.5, p.y + 0.5});
   svg.path(way, fmt::format(R"(class="plan" {} stroke-width="{:.3g}")", kMapDots, 2.4 / cell));
   svg.close();
 }

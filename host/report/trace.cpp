@@ -59,7 +59,10 @@ void add_row(std::string& out, const RangefinderParams& sensor, const TickRecord
   Row row(out);
   row.number(r.t_s, 3).number(r.x_m, 6).number(r.y_m, 6).number(r.heading_rad, 6);
   for (const hal::RangeReading& reading : r.ranges.beam) row.range(reading, sensor);
-  row.number(r.v_left_mps, 5).number(r.v_right_mps, 5).word(nav::name(r.mode)).word(nav::name(r.why));
+  row.number(r.v_left_mps, 5)
+      .number(r.v_right_mps, 5)
+      .word(planning::name(r.mode))
+      .word(planning::name(r.why));
   row.count(r.danger_count).count(r.looked ? 1 : 0);
   const auto inner = [&](double x, int decimals) { r.inside ? row.number(x, decimals) : row.word(""); };
   inner(r.d_q7 / 128.0, 4);

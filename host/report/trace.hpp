@@ -6,7 +6,7 @@
 /// - left_m, front_m, right_m: measured ranges, m, 4 decimals; a clear one is the maximum range,
 ///   a too_near one the minimum range, a lost one an empty field
 /// - v_left_mps, v_right_mps: true rim speeds, m/s, 5 decimals
-/// - state, why: a word each, of nav::Mode and nav::Why
+/// - state, why: a word each, of planning::Mode and planning::Why
 /// - t: the danger counter
 /// - looked: 1 if a decision was taken from a look at this tick, else 0
 /// - d, r: fuzzy inputs last used, 4 decimals

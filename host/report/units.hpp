@@ -1,8 +1,8 @@
 /// The core's quantities as numbers for pictures and files.
 #pragma once
 
-#include "firmware/core/angle.hpp"
-#include "firmware/core/units.hpp"
+#include "firmware/math/angle.hpp"
+#include "firmware/math/units.hpp"
 
 namespace whisker::report {
 

@@ -2,19 +2,20 @@
 
 #include <cstdint>
 
-#include "firmware/core/trig.hpp"
-#include "firmware/ground/patch.hpp"
+#include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
+#include "firmware/perception/local_grid.hpp"
 
 namespace whisker {
 
-/// Cells from the body's own in x and in y: the patch's window lies within.
+/// Cells from the body's own in x and in y: the local grid's window lies within.
 constexpr std::int64_t kPatchReach = 20;
 
 /// Calls use(x, y) for every clear cell, row by row upwards. A cell is a place of the world: the body's own
 /// is floor(estimate / cell) in x and in y.
 template <class F>
-void for_each_clear_cell(const ground::Patch& patch, const Params& params, Vec body, const F& use) {
+void for_each_clear_cell(const perception::LocalGrid& local_grid, const Params& params, Vec body,
+                         const F& use) {
   const std::int64_t size = patch_cell(params).raw();
   const auto cell_of = [size](Length x) {
     return x.raw() >= 0 ? x.raw() / size : -((size - 1 - x.raw()) / size);
@@ -25,7 +26,7 @@ void for_each_clear_cell(const ground::Patch& patch, const Params& params, Vec b
   const std::int64_t middle_x = cell_of(body.x), middle_y = cell_of(body.y);
   for (std::int64_t y = middle_y - kPatchReach; y <= middle_y + kPatchReach; ++y) {
     for (std::int64_t x = middle_x - kPatchReach; x <= middle_x + kPatchReach; ++x) {
-      if (patch.is_clear({centre(x), centre(y)})) use(x, y);
+      if (local_grid.is_clear({centre(x), centre(y)})) use(x, y);
     }
   }
 }

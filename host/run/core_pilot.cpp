@@ -2,23 +2,23 @@
 
 #include <utility>
 
-#include "firmware/nav/map_planner.hpp"
-#include "firmware/nav/skirt.hpp"
-#include "firmware/nav/thesis.hpp"
+#include "firmware/planning/boundary/boundary_planner.hpp"
+#include "firmware/planning/global/map_planner.hpp"
+#include "firmware/planning/thesis/thesis_planner.hpp"
 #include "host/run/spec.hpp"
 
 namespace whisker {
 namespace {
 
-/// As nav::TableMap, with a guide that can be watched.
+/// As planning::TableMap, with a guide that can be watched.
 template <int kBytes>
 struct ShownMap {
   ShownMap(const Params& params, const fuzzy::Engine::Table& table)
       : law(table), map(params), guide(map.guide), planner(params, law, &guide) {}
-  nav::TableBend law;
-  nav::MapOf<kBytes> map;
+  planning::TableDeflection law;
+  planning::MapOf<kBytes> map;
   ShownGuide guide;
-  nav::SkirtPlanner planner;
+  planning::BoundaryPlanner planner;
 };
 
 }  // namespace
@@ -32,25 +32,25 @@ CorePilot::CorePilot(const Scenario& scenario, SeenPlanner planner, sim::Plant& 
   robot_.set_goal(fixed_goal(scenario.goal));
 }
 
-nav::Goal fixed_goal(const Goal& goal) {
+planning::Goal fixed_goal(const Goal& goal) {
   return {fixed_pose({goal.at, 0}).at, fixed_pose({{goal.tolerance_m, 0}, 0}).at.x};
 }
 
 SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table) {
   if (kind == PlannerKind::skirt) {
-    const auto skirt = std::make_shared<nav::TableSkirt>(params, table);
+    const auto skirt = std::make_shared<planning::TableBoundaryPlanner>(params, table);
     return {{skirt, &skirt->planner}};
   }
-  if (kind == PlannerKind::thesis) return {std::make_shared<nav::ThesisPlanner>(params, table)};
-  return nav::with_map_of<SeenPlanner>(map_bytes(kind), [&](auto bytes) -> SeenPlanner {
+  if (kind == PlannerKind::thesis) return {std::make_shared<planning::ThesisPlanner>(params, table)};
+  return planning::with_map_of<SeenPlanner>(map_bytes(kind), [&](auto bytes) -> SeenPlanner {
     const auto map = std::make_shared<ShownMap<bytes.kValue>>(params, table);
     return {{map, &map->planner}, &map->guide};
   });
 }
 
-std::optional<map::Shape> map_shape(PlannerKind kind) {
-  return nav::with_map_of<std::optional<map::Shape>>(map_bytes(kind),
-                                                     [](auto bytes) { return nav::kMapShape<bytes.kValue>; });
+std::optional<planning::GridShape> map_shape(PlannerKind kind) {
+  return planning::with_map_of<std::optional<planning::GridShape>>(
+      map_bytes(kind), [](auto bytes) { return planning::kMapShape<bytes.kValue>; });
 }
 
 }  // namespace whisker

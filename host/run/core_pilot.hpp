@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "firmware/map/grid.hpp"
-#include "hal/sim/sim_board.hpp"
+#include "firmware/planning/global/grid.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/shown_planner.hpp"
+#include "host/sim/sim_board.hpp"
 
 namespace whisker {
 
@@ -15,10 +15,10 @@ class CorePilot final : public Pilot {
   /// Scenario and plant must outlive it; the planner was made with the scenario's robot.
   CorePilot(const Scenario& scenario, SeenPlanner planner, sim::Plant& plant);
   const Status& tick(Time now) override { return robot_.tick(now); }
-  const ground::Patch* patch() const override { return shown_.patch(); }
+  const perception::LocalGrid* local_grid() const override { return shown_.local_grid(); }
   const ShownGuide* guide() const override { return planner_.guide; }
   /// Another one, while it drives or after it has ended.
-  void set_goal(const nav::Goal& goal) { robot_.set_goal(goal); }
+  void set_goal(const planning::Goal& goal) { robot_.set_goal(goal); }
 
  private:
   hal::SimBoard board_;
@@ -32,6 +32,6 @@ class CorePilot final : public Pilot {
 SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table);
 
 /// Of the map that a planner of this kind has, for the reference body; none without a map.
-std::optional<map::Shape> map_shape(PlannerKind kind);
+std::optional<planning::GridShape> map_shape(PlannerKind kind);
 
 }  // namespace whisker

@@ -7,23 +7,24 @@ namespace {
 
 constexpr std::int32_t kEveryMs = 100;
 
-std::vector<map::Place> way_of(const ShownGuide& guide) {
-  const map::Map& map = guide.inside().map();
-  const map::Flood& flood = guide.inside().flood();
-  const map::Place goal = map.place(guide.goal());
-  std::vector<map::Place> way;
-  map::Place p = map.place(guide.body());
-  if (flood.phase(map, p) < 0) return way;
+std::vector<planning::Cell> way_of(const ShownGuide& guide) {
+  const planning::GridMap& map = guide.inside().map();
+  const planning::Wavefront& wavefront = guide.inside().wavefront();
+  const planning::Cell goal = map.place(guide.goal());
+  std::vector<planning::Cell> way;
+  planning::Cell p = map.place(guide.body());
+  if (wavefront.phase(map, p) < 0) return way;
   const auto cells =
       static_cast<std::size_t>(map.shape().columns()) * static_cast<std::size_t>(map.shape().rows);
-  for (map::Place next; way.size() < cells && flood.next(map, p, goal, next); p = next) way.push_back(next);
+  for (planning::Cell next; way.size() < cells && wavefront.next(map, p, goal, next); p = next)
+    way.push_back(next);
   return way;
 }
 
 }  // namespace
 
 MapPicture picture_of(const ShownGuide& guide) {
-  const map::Map& map = guide.inside().map();
+  const planning::GridMap& map = guide.inside().map();
   MapPicture picture;
   picture.corner = map.corner();
   picture.columns = map.shape().columns();

@@ -6,21 +6,22 @@
 #include <optional>
 #include <vector>
 
-#include "firmware/map/map.hpp"
+#include "firmware/planning/global/grid_map.hpp"
 #include "host/run/shown_guide.hpp"
 
 namespace whisker {
 
 /// The window's cells at one moment, in the estimate's world.
 struct MapPicture {
-  map::Place corner;  ///< the first cell, in cells of the world: it begins at corner times cell_m
+  planning::Cell corner;  ///< the first cell, in cells of the world: it begins at corner times cell_m
   std::int32_t columns = 0;
   std::int32_t rows = 0;
   double cell_m = 0;
-  std::vector<map::State> cells;  ///< row after row, upwards
-  std::vector<map::Place> way;  ///< the plan's, from the body to the goal or the border; cells of the window
+  std::vector<planning::CellState> cells;  ///< row after row, upwards
+  std::vector<planning::Cell>
+      way;  ///< the plan's, from the body to the goal or the border; cells of the window
 
-  map::State at(std::int32_t x, std::int32_t y) const {
+  planning::CellState at(std::int32_t x, std::int32_t y) const {
     return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
                  static_cast<std::size_t>(x)];
   }

@@ -18,7 +18,7 @@ class Pilot {
   /// One control tick: takes what the plant's sensors say now, and commands its wheels.
   virtual const Status& tick(Time now) = 0;
   /// What the planner was shown last; null before its first step, and on a chip.
-  virtual const ground::Patch* patch() const { return nullptr; }
+  virtual const perception::LocalGrid* local_grid() const { return nullptr; }
   /// Likewise what the planner's map tells it; null without a map, too.
   virtual const ShownGuide* guide() const { return nullptr; }
   /// The status has all that the core knows; false: only what a bus carries.
@@ -36,6 +36,6 @@ using MakePilot = std::function<std::unique_ptr<Pilot>(const Scenario&, PlannerK
 std::unique_ptr<Pilot> core_pilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant);
 
 /// The scenario's goal in the core's units.
-nav::Goal fixed_goal(const Goal& goal);
+planning::Goal fixed_goal(const Goal& goal);
 
 }  // namespace whisker

@@ -11,8 +11,8 @@ namespace {
 
 /// The planner and the law that bends its course live and die together.
 template <class Bend>
-std::shared_ptr<nav::Planner> bent_skirt(const Params& params) {
-  const auto skirt = std::make_shared<baselines::BentSkirt<Bend>>(params);
+std::shared_ptr<planning::Planner> bent_skirt(const Params& params) {
+  const auto skirt = std::make_shared<baselines::DeflectedBoundaryPlanner<Bend>>(params);
   return {skirt, &skirt->planner};
 }
 
@@ -30,13 +30,13 @@ SeenPlanner make_seen_planner(PlannerKind kind, const Params& params) {
     case PlannerKind::bug2: return {std::make_shared<baselines::Bug2>(params)};
     case PlannerKind::distbug: return {std::make_shared<baselines::DistBug>(params)};
     case PlannerKind::wall_follower: return {std::make_shared<baselines::WallFollower>(params)};
-    case PlannerKind::fan: return {bent_skirt<baselines::FanBend>(params)};
-    case PlannerKind::repulsion: return {bent_skirt<baselines::RepulsionBend>(params)};
+    case PlannerKind::fan: return {bent_skirt<baselines::NoDeflection>(params)};
+    case PlannerKind::repulsion: return {bent_skirt<baselines::RepulsionDeflection>(params)};
   }
   return {};
 }
 
-std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params) {
+std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params) {
   return make_seen_planner(kind, params).planner;
 }
 

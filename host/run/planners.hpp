@@ -5,9 +5,9 @@
 #include <optional>
 #include <string_view>
 
-#include "firmware/nav/default_planner.hpp"
-#include "firmware/nav/planner.hpp"
 #include "firmware/params.hpp"
+#include "firmware/planning/default_planner.hpp"
+#include "firmware/planning/planner.hpp"
 #include "host/run/shown_guide.hpp"
 
 namespace whisker {
@@ -43,25 +43,25 @@ constexpr int map_bytes(PlannerKind kind) {
   }
 }
 
-/// Of those who choose none: see firmware/nav/default_planner.hpp.
+/// Of those who choose none: see firmware/planning/default_planner.hpp.
 constexpr PlannerKind default_planner() {
   for (const PlannerKind kind : kPlanners) {
-    if (map_bytes(kind) == nav::kDefaultMapBytes) return kind;
+    if (map_bytes(kind) == planning::kDefaultMapBytes) return kind;
   }
   return PlannerKind::skirt;
 }
 constexpr PlannerKind kDefaultPlanner = default_planner();
-static_assert(map_bytes(kDefaultPlanner) == nav::kDefaultMapBytes);
+static_assert(map_bytes(kDefaultPlanner) == planning::kDefaultMapBytes);
 
 /// A planner, and the guide in it.
 struct SeenPlanner {
-  std::shared_ptr<nav::Planner> planner;
+  std::shared_ptr<planning::Planner> planner;
   const ShownGuide* guide = nullptr;  ///< null without a map; lives as long as the planner
 };
 
 /// With the default response table. The parameters must outlive the planner.
 SeenPlanner make_seen_planner(PlannerKind kind, const Params& params);
-std::shared_ptr<nav::Planner> make_planner(PlannerKind kind, const Params& params);
+std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params);
 
 /// One to compare with, for hosts only.
 constexpr bool is_baseline(PlannerKind kind) { return kind >= PlannerKind::bug2; }

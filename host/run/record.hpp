@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "firmware/fuzzy/variables.hpp"
-#include "firmware/nav/state.hpp"
-#include "hal/wire.hpp"
+#include "firmware/planning/state.hpp"
+#include "hal/types.hpp"
 #include "host/run/guidance.hpp"
 #include "host/run/verdict.hpp"
 
@@ -19,8 +19,8 @@ struct TickRecord {
   double x_m = 0, y_m = 0, heading_rad = 0;  ///< true pose
   hal::RangeReadings ranges{};               ///< as measured, by hal::Beam
   double v_left_mps = 0, v_right_mps = 0;    ///< true wheel speeds
-  nav::Mode mode = nav::Mode::idle;
-  nav::Why why = nav::Why::none;
+  planning::Mode mode = planning::Mode::idle;
+  planning::Why why = planning::Why::none;
   std::uint8_t danger_count = 0;                         ///< the thesis's t
   bool looked = false;                                   ///< a decision was taken from a look at this tick
   std::int16_t d_q7 = 0, r_q7 = 0;                       ///< fuzzy inputs last used, 1/128

@@ -19,7 +19,7 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
     const TickRecord r = trip.record();
     if (options.records != nullptr) options.records->push_back(r);
     if (options.observe) options.observe(r);
-    if (options.watch) options.watch({r, trip.status().health, pilot->patch(), pilot->guide()});
+    if (options.watch) options.watch({r, trip.status().health, pilot->local_grid(), pilot->guide()});
   };
   while (!trip.verdict()) {
     trip.decide();

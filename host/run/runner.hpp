@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "firmware/ground/patch.hpp"
 #include "firmware/health.hpp"
+#include "firmware/perception/local_grid.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/planners.hpp"
 #include "host/run/record.hpp"
@@ -19,7 +19,7 @@ namespace whisker {
 struct Moment {
   const TickRecord& record;
   const Health& health;
-  const ground::Patch* patch;  ///< the pilot's
+  const perception::LocalGrid* local_grid;  ///< the pilot's
   const ShownGuide* guide = nullptr;
 };
 

@@ -1,16 +1,16 @@
 #pragma once
 
-#include "firmware/nav/map_guide.hpp"
+#include "firmware/planning/global/wavefront_planner.hpp"
 #include "host/run/guidance.hpp"
 
 namespace whisker {
 
 /// Passes everything on to a map's guide, and remembers what it said. It must outlive this.
-class ShownGuide final : public nav::Guide {
+class ShownGuide final : public planning::GlobalPlanner {
  public:
-  explicit ShownGuide(nav::MapGuide& guide) : guide_(guide) {}
+  explicit ShownGuide(planning::WavefrontPlanner& guide) : guide_(guide) {}
 
-  void start(const nav::View& view, const nav::Goal& goal) noexcept override {
+  void start(const planning::View& view, const planning::Goal& goal) noexcept override {
     said_ = Guidance::none;
     goal_ = goal.at;
     body_ = view.pose.at;
@@ -20,17 +20,17 @@ class ShownGuide final : public nav::Guide {
     goal_ = at;
     guide_.move_goal(at);
   }
-  void observe(const nav::View& view) noexcept override {
+  void observe(const planning::View& view) noexcept override {
     body_ = view.pose.at;
     guide_.observe(view);
   }
-  Advice advise(const nav::View& view, Length distance, Vec& place) noexcept override {
+  Advice advise(const planning::View& view, Length distance, Vec& place) noexcept override {
     const Advice advice = guide_.advise(view, distance, place);
     way_ = view.pose.at + place;
     said_ = guidance(advice);
     return advice;
   }
-  bool refuse(const nav::View& view) noexcept override {
+  bool refuse(const planning::View& view) noexcept override {
     const bool goes_on = guide_.refuse(view);
     said_ = goes_on ? Guidance::wait : Guidance::none;
     return goes_on;
@@ -44,7 +44,7 @@ class ShownGuide final : public nav::Guide {
   Vec way() const { return way_; }
   Vec body() const { return body_; }
   Vec goal() const { return goal_; }
-  const nav::MapGuide& inside() const { return guide_; }
+  const planning::WavefrontPlanner& inside() const { return guide_; }
 
  private:
   Guidance guidance(Advice advice) const {
@@ -56,7 +56,7 @@ class ShownGuide final : public nav::Guide {
     return Guidance::unknown;
   }
 
-  nav::MapGuide& guide_;
+  planning::WavefrontPlanner& guide_;
   Guidance said_ = Guidance::none;
   Vec way_;
   Vec body_;

@@ -1,26 +1,26 @@
 #pragma once
 
-#include "firmware/nav/planner.hpp"
+#include "firmware/planning/planner.hpp"
 
 namespace whisker {
 
 /// Passes everything on, and remembers which ground it was shown. The planner must outlive it.
-class ShownPlanner final : public nav::Planner {
+class ShownPlanner final : public planning::Planner {
  public:
-  explicit ShownPlanner(nav::Planner& planner) : planner_(planner) {}
-  void set_goal(const nav::Goal& goal) noexcept override { planner_.set_goal(goal); }
+  explicit ShownPlanner(planning::Planner& planner) : planner_(planner) {}
+  void set_goal(const planning::Goal& goal) noexcept override { planner_.set_goal(goal); }
   void move_goal(Vec at) noexcept override { planner_.move_goal(at); }
   void cancel() noexcept override { planner_.cancel(); }
-  nav::Decision step(const nav::View& view) noexcept override {
-    patch_ = view.patch;
+  planning::Decision step(const planning::View& view) noexcept override {
+    local_grid_ = view.local_grid;
     return planner_.step(view);
   }
   /// Null before the first step.
-  const ground::Patch* patch() const { return patch_; }
+  const perception::LocalGrid* local_grid() const { return local_grid_; }
 
  private:
-  nav::Planner& planner_;
-  const ground::Patch* patch_ = nullptr;
+  planning::Planner& planner_;
+  const perception::LocalGrid* local_grid_ = nullptr;
 };
 
 }  // namespace whisker

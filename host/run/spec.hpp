@@ -1,7 +1,7 @@
 /// Between the core's units and the simulator's.
 #pragma once
 
-#include "firmware/core/trig.hpp"
+#include "firmware/math/trig.hpp"
 #include "host/scenario/scenario.hpp"
 #include "host/sim/spec.hpp"
 

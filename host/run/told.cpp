@@ -31,13 +31,13 @@ TickRecord told(const Status& status, const ShownGuide* guide, const hal::RangeR
   return r;
 }
 
-std::optional<Verdict> verdict_of(nav::Outcome outcome) {
+std::optional<Verdict> verdict_of(planning::Outcome outcome) {
   switch (outcome) {
-    case nav::Outcome::reached: return Verdict::reached;
-    case nav::Outcome::unreachable: return Verdict::unreachable;
-    case nav::Outcome::gave_up: return Verdict::gave_up;
-    case nav::Outcome::none:
-    case nav::Outcome::running: break;
+    case planning::Outcome::reached: return Verdict::reached;
+    case planning::Outcome::unreachable: return Verdict::unreachable;
+    case planning::Outcome::gave_up: return Verdict::gave_up;
+    case planning::Outcome::none:
+    case planning::Outcome::running: break;
   }
   return std::nullopt;
 }

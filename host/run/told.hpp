@@ -13,6 +13,6 @@ namespace whisker {
 TickRecord told(const Status& status, const ShownGuide* guide, const hal::RangeReadings& ranges, double t_s);
 
 /// None: it is on its way, or has no goal.
-std::optional<Verdict> verdict_of(nav::Outcome outcome);
+std::optional<Verdict> verdict_of(planning::Outcome outcome);
 
 }  // namespace whisker

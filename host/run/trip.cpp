@@ -18,7 +18,7 @@ std::optional<Verdict> verdict_of(const Status& status, const Pilot& pilot) {
 const char* detail_of(Verdict verdict, const Status& status, const Pilot& pilot) {
   if (verdict == Verdict::off_goal) return "at_goal_by_its_estimate";
   if (verdict == Verdict::fault && status.health.fault == Fault::none) return pilot.trouble();
-  return verdict == Verdict::fault ? name(status.health.fault) : nav::name(status.decision.why);
+  return verdict == Verdict::fault ? name(status.health.fault) : planning::name(status.decision.why);
 }
 
 double length(sim::Vec2 v) { return std::sqrt(sim::dot(v, v)); }
@@ -64,7 +64,7 @@ void Trip::move() {
   plant_->advance();
   if (!plant_->in_contact()) return;
   verdict_ = Verdict::contact;
-  detail_ = nav::name(status_->decision.mode);
+  detail_ = planning::name(status_->decision.mode);
   ranges_ = plant_->ranges();
   t_s_ = static_cast<double>(ticks_ * period_ms_) / 1000.0;
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "hal/link/command_hash.hpp"
+#include "firmware/apps/pil_link/command_hash.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/record.hpp"
 #include "host/scenario/scenario.hpp"
@@ -30,7 +30,7 @@ class Trip {
   std::uint64_t ticks() const { return ticks_; }  ///< decided so far
   double time() const { return t_s_; }            ///< of the last of them, or of the contact's record
   const Status& status() const { return *status_; }
-  const ground::Patch* patch() const { return pilot_->patch(); }
+  const perception::LocalGrid* local_grid() const { return pilot_->local_grid(); }
   const ShownGuide* guide() const { return pilot_->guide(); }
   double distance_left() const;  ///< true, to the goal's middle
   /// The same from where the robot believes to be; none: that is not known.

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "hal/wire.hpp"
+#include "hal/types.hpp"
 #include "host/sim/encoders.hpp"
 #include "host/sim/geometry.hpp"
 #include "host/sim/motion.hpp"

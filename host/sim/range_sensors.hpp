@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "hal/wire.hpp"
+#include "hal/types.hpp"
 #include "host/sim/geometry.hpp"
 #include "host/sim/random.hpp"
 #include "host/sim/spec.hpp"

@@ -4,7 +4,7 @@
 
 namespace whisker::worlds {
 
-/// SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, 2014).
+/// SplitMix64 (Steele, Lea, Wavefront: Fast Splittable Pseudorandom Number Generators, 2014).
 /// The same numbers on every machine, which <random>'s distributions do not promise.
 class Random {
  public:

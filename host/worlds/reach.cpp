@@ -105,7 +105,7 @@ class Clearance {
   std::vector<Bucket> buckets_;
 };
 
-/// Grid points with `from` among them, so that the flood begins exactly there.
+/// Grid points with `from` among them, so that the wavefront begins exactly there.
 class Grid {
  public:
   Grid(const World& world, Vec2 from, Vec2 to, double radius)
@@ -122,7 +122,7 @@ class Grid {
   /// Visits every point reachable from `from` by steps to the 8 neighbours that `passable(gap,
   /// gap of the neighbour, length)` allows; ends as soon as `arrived(point, gap)` says so.
   template <class P, class A>
-  bool flood(P&& passable, A&& arrived) {
+  bool wavefront(P&& passable, A&& arrived) {
     std::vector<std::uint8_t> seen(gaps_.size(), 0);
     std::vector<int> front{below_ * width_ + left_};
     seen[static_cast<std::size_t>(front[0])] = 1;
@@ -177,7 +177,7 @@ bool path_proven(const World& world, Vec2 from, Vec2 to, double radius_m) {
   const auto proven = [&](double a, double b, double length) { return a + b - length >= 2 * radius_m; };
   const double gap_to = grid.gap_at(to);
   if (grid.gap_at(from) < radius_m || gap_to < radius_m) return false;
-  return grid.flood(proven, [&](Vec2 p, double gap) {
+  return grid.wavefront(proven, [&](Vec2 p, double gap) {
     const double last = distance(p, to);
     return last <= kCell && proven(gap, gap_to, last);
   });
@@ -188,8 +188,8 @@ bool path_ruled_out(const World& world, Vec2 from, Vec2 to, double tolerance_m, 
   if (grid.gap_at(from) < radius_m) return true;
   // Every point of a path has a grid point this near, and that one's clearance is less by no more.
   constexpr double kNearest = kCell * kDiagonal / 2;
-  return !grid.flood([&](double, double b, double) { return b >= radius_m - kNearest; },
-                     [&](Vec2 p, double) { return distance(p, to) <= tolerance_m + kNearest; });
+  return !grid.wavefront([&](double, double b, double) { return b >= radius_m - kNearest; },
+                         [&](Vec2 p, double) { return distance(p, to) <= tolerance_m + kNearest; });
 }
 
 }  // namespace whisker::worlds

@@ -1,4 +1,4 @@
-/// Whether a round body can get from one point to another, by a flood over a grid of 2 cm.
+/// Whether a round body can get from one point to another, by a wavefront over a grid of 2 cm.
 ///
 /// Between the two functions lies a band of radii about which neither says yes:
 /// a path for radius r + 0.029 m makes path_proven(r) true; no path for r - 0.029 m, even to

@@ -5,28 +5,28 @@
 namespace whisker::baselines {
 namespace {
 
-ranges::Echoes seen(int left_mm, int front_mm, int right_mm) {
-  ranges::Echoes e;
+perception::Echoes seen(int left_mm, int front_mm, int right_mm) {
+  perception::Echoes e;
   const int mm[] = {left_mm, front_mm, right_mm};
-  for (int i = 0; i < hal::kBeams; ++i) e.beam[i] = {millimetres(mm[i]), ranges::Validity::ok};
+  for (int i = 0; i < hal::kBeams; ++i) e.beam[i] = {millimetres(mm[i]), perception::Validity::ok};
   return e;
 }
 
 double degrees(int left_mm, int front_mm, int right_mm) {
-  RepulsionBend law;
-  nav::Decision decision;
+  RepulsionDeflection law;
+  planning::Decision decision;
   return law.bend(seen(left_mm, front_mm, right_mm), Params{}, decision).wrapped() * (360 / 4294967296.0);
 }
 
-TEST(RepulsionBend, IsStraightWhereNothingIsNear) { EXPECT_EQ(degrees(2000, 2000, 2000), 0); }
+TEST(RepulsionDeflection, IsStraightWhereNothingIsNear) { EXPECT_EQ(degrees(2000, 2000, 2000), 0); }
 
-TEST(RepulsionBend, TurnsAwayFromTheNearerSideAndTheMoreTheNearer) {
+TEST(RepulsionDeflection, TurnsAwayFromTheNearerSideAndTheMoreTheNearer) {
   EXPECT_GT(degrees(2000, 2000, 400), 0);
   EXPECT_GT(degrees(2000, 2000, 200), degrees(2000, 2000, 400));
   EXPECT_LT(degrees(400, 2000, 2000), 0);
 }
 
-TEST(RepulsionBend, IsTheMirrorOfItself) {
+TEST(RepulsionDeflection, IsTheMirrorOfItself) {
   for (int left = 100; left <= 2000; left += 190) {
     for (int right = left + 50; right <= 2000; right += 230) {
       for (int front = 100; front <= 2000; front += 475) {
@@ -36,15 +36,15 @@ TEST(RepulsionBend, IsTheMirrorOfItself) {
   }
 }
 
-TEST(RepulsionBend, PassesWhatIsAheadOnTheWiderSideAndIsBounded) {
+TEST(RepulsionDeflection, PassesWhatIsAheadOnTheWiderSideAndIsBounded) {
   EXPECT_GT(degrees(1500, 300, 1200), 0);
   EXPECT_LT(degrees(1200, 300, 1500), 0);
   EXPECT_NEAR(degrees(2000, 0, 0), 45, 1e-6);
 }
 
-TEST(FanBend, NeverBends) {
-  FanBend law;
-  nav::Decision decision;
+TEST(NoDeflection, NeverBends) {
+  NoDeflection law;
+  planning::Decision decision;
   EXPECT_EQ(law.bend(seen(100, 100, 300), Params{}, decision), Angle{});
 }
 

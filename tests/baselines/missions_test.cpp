@@ -105,7 +105,7 @@ TEST(Bug2, LeavesTheMLineOnlyRoundTheObstacleAndToTheLeft) {
   const Drive d = drive(three_metres(kDisc), PlannerKind::bug2);
   ASSERT_EQ(d.result.verdict, Verdict::reached);
   for (const TickRecord& r : d.records) {
-    if (r.mode == nav::Mode::going && (r.x_m < 0.9 || r.x_m > 2.5)) {
+    if (r.mode == planning::Mode::going && (r.x_m < 0.9 || r.x_m > 2.5)) {
       EXPECT_NEAR(r.y_m, 0, 0.05) << r.t_s;
     }
   }
@@ -120,7 +120,8 @@ TEST(Bug2, LeavesAtTheMLineAndNotAtTheFirstFreeViewOfTheGoal) {
   ASSERT_EQ(d.result.verdict, Verdict::reached);
   double leaves_at_y_m = 1;
   for (std::size_t i = 1; i < d.records.size(); ++i) {
-    const bool left = d.records[i - 1].mode != nav::Mode::going && d.records[i].mode == nav::Mode::going;
+    const bool left =
+        d.records[i - 1].mode != planning::Mode::going && d.records[i].mode == planning::Mode::going;
     if (left && d.records[i].x_m > 1.2) leaves_at_y_m = d.records[i].y_m;
   }
   EXPECT_NEAR(leaves_at_y_m, 0, 0.06);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "hal/mcu/stm32f405/bx_can.hpp"
+#include "hal/boards/stm32f405/bx_can.hpp"
 #include "tests/boards/chip_fixture.hpp"
 
 namespace whisker::hal::stm32f405 {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hal/mcu/stm32f405/clock.hpp"
-#include "hal/mcu/stm32f405/reg/bases.hpp"
+#include "hal/boards/stm32f405/clock.hpp"
+#include "hal/boards/stm32f405/reg/bases.hpp"
 #include "tests/boards/models/adc_model.hpp"
 #include "tests/boards/models/can_model.hpp"
 #include "tests/boards/models/clock_models.hpp"

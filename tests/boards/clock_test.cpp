@@ -1,13 +1,13 @@
-#include "hal/mcu/stm32f405/clock.hpp"
+#include "hal/boards/stm32f405/clock.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 
-#include "hal/mcu/stm32f405/patience.hpp"
-#include "hal/mcu/stm32f405/ticker.hpp"
-#include "hal/mcu/stm32f405/watchdog.hpp"
+#include "hal/boards/stm32f405/patience.hpp"
+#include "hal/boards/stm32f405/ticker.hpp"
+#include "hal/boards/stm32f405/watchdog.hpp"
 #include "tests/boards/chip_fixture.hpp"
 
 namespace whisker::hal::stm32f405 {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <deque>
 
-#include "hal/mcu/common/analogue_ir.hpp"
-#include "hal/mcu/common/governor.hpp"
-#include "hal/mcu/common/nearer.hpp"
-#include "hal/mcu/common/shared.hpp"
+#include "hal/boards/common/analogue_ir.hpp"
+#include "hal/boards/common/governor.hpp"
+#include "hal/boards/common/nearer.hpp"
+#include "hal/boards/common/shared.hpp"
 #include "host/sim/random.hpp"
 
 namespace whisker::hal::mcu {

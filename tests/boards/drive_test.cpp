@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "hal/mcu/common/governed_wheels.hpp"
-#include "hal/mcu/stm32f405/encoders.hpp"
-#include "hal/mcu/stm32f405/motors.hpp"
-#include "hal/mcu/stm32f405/pins.hpp"
-#include "hal/mcu/stm32f405/usart.hpp"
+#include "hal/boards/common/governed_wheels.hpp"
+#include "hal/boards/stm32f405/encoders.hpp"
+#include "hal/boards/stm32f405/motors.hpp"
+#include "hal/boards/stm32f405/pins.hpp"
+#include "hal/boards/stm32f405/usart.hpp"
 #include "tests/boards/chip_fixture.hpp"
 
 namespace whisker::hal::stm32f405 {

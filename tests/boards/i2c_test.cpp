@@ -1,4 +1,4 @@
-#include "hal/mcu/stm32f405/i2c.hpp"
+#include "hal/boards/stm32f405/i2c.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "hal/mcu/stm32f405/pins.hpp"
+#include "hal/boards/stm32f405/pins.hpp"
 #include "tests/boards/chip_fixture.hpp"
 
 namespace whisker::hal::stm32f405 {

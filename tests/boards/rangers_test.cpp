@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "hal/mcu/common/analogue_rangers.hpp"
-#include "hal/mcu/stm32f405/adc.hpp"
-#include "hal/mcu/stm32f405/i2c_rangers.hpp"
-#include "hal/mcu/stm32f405/pins.hpp"
-#include "hal/mcu/stm32f405/vl53l0x.hpp"
+#include "hal/boards/common/analogue_rangers.hpp"
+#include "hal/boards/stm32f405/adc.hpp"
+#include "hal/boards/stm32f405/i2c_rangers.hpp"
+#include "hal/boards/stm32f405/pins.hpp"
+#include "hal/boards/stm32f405/vl53l0x.hpp"
 #include "tests/boards/chip_fixture.hpp"
 #include "tests/boards/models/vl53l0x_model.hpp"
 

@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-REG = "hal/mcu/stm32f405/reg"
+REG = "hal/boards/stm32f405/reg"
 FACTS = "tests/boards/stm32f405_registers.csv"
 
 CONSTANT = re.compile(

@@ -35,7 +35,7 @@ def main(root):
             body = text.replace("}  // namespace", extra + "}  // namespace")
             if not registers.check({path: body}, facts)[0]:
                 problems.append(f"{path}: {extra.strip()} went unseen")
-    drivers = pathlib.Path(root, "hal/mcu/stm32f405")
+    drivers = pathlib.Path(root, "hal/boards/stm32f405")
     for path in sorted(drivers.glob("*.[ch]pp")):
         for number in re.findall(r"0x[0-9A-Fa-f']{8,}", path.read_text()):
             if int(number.replace("'", ""), 16) >= 0x20000000:

@@ -1,14 +1,14 @@
-#include "hal/mcu/stm32f405/robot_board.hpp"
+#include "hal/boards/stm32f405/robot_board.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "firmware/nav/skirt.hpp"
-#include "hal/mcu/common/counts.hpp"
-#include "hal/mcu/stm32f405/pins.hpp"
-#include "hal/mcu/stm32f405/robot_params.hpp"
-#include "hal/mcu/stm32f405/vl53l0x.hpp"
+#include "firmware/planning/boundary/boundary_planner.hpp"
+#include "hal/boards/common/counts.hpp"
+#include "hal/boards/stm32f405/pins.hpp"
+#include "hal/boards/stm32f405/robot_params.hpp"
+#include "hal/boards/stm32f405/vl53l0x.hpp"
 #include "host/sim/plant.hpp"
 #include "tests/boards/chip_fixture.hpp"
 #include "tests/boards/models/vl53l0x_model.hpp"
@@ -53,7 +53,7 @@ class RobotBoardTest : public ::testing::Test, public ModelChip {
 
   model::Vl53l0xModel sensor[kBeams];
   RobotBoard board{kVl53l0x, kMotorParams, kMotorParams};
-  nav::TableSkirt planner{kRobotParams, fuzzy::kDefaultTable};
+  planning::TableBoundaryPlanner planner{kRobotParams, fuzzy::kDefaultTable};
   Robot robot{board.rangefinders(), board.drive(), planner.planner, kRobotParams};
 
   sim::Segment wall{{0.8, -3.0}, {0.8, 3.0}};
@@ -100,7 +100,7 @@ class RobotBoardTest : public ::testing::Test, public ModelChip {
 
 TEST_F(RobotBoardTest, DrivesToItsGoalThroughTheChipsRegisters) {
   go(500_mm);
-  EXPECT_TRUE(run(30, [this] { return robot.status().decision.outcome == nav::Outcome::reached; }));
+  EXPECT_TRUE(run(30, [this] { return robot.status().decision.outcome == planning::Outcome::reached; }));
   EXPECT_FALSE(plant.in_contact());
   EXPECT_NEAR(plant.pose().at.x, 0.5, 0.06);
   EXPECT_NEAR(plant.pose().at.y, 0, 0.03);
@@ -111,7 +111,8 @@ TEST_F(RobotBoardTest, DrivesToItsGoalThroughTheChipsRegisters) {
 
 TEST_F(RobotBoardTest, AGoalBehindAWallEndsWithoutAContact) {
   go(790_mm);
-  run(10, [this] { return robot.status().decision.outcome != nav::Outcome::running && plant.time() > 1; });
+  run(10,
+      [this] { return robot.status().decision.outcome != planning::Outcome::running && plant.time() > 1; });
   EXPECT_FALSE(plant.in_contact());
   EXPECT_GT(plant.pose().at.x, 0.3);
 }

@@ -57,7 +57,7 @@ class Budget(unittest.TestCase):
         self.assertEqual(self.broken(missed, {"a": 56}), 0)
 
     def test_every_bar_says_why_it_is_missed(self):
-        for bar in json.loads((ROOT / "budget/bars.json").read_text()):
+        for bar in json.loads((ROOT / "tests/budget/bars.json").read_text()):
             self.assertTrue(bar["holds"] or bar["why"], bar)
 
     def test_the_pages_show_the_tables_of_the_baseline(self):

@@ -6,20 +6,20 @@ import sys
 
 from sources import finish, sources
 
-# The stages of firmware/, lowest first: a stage includes itself and those before it.
-STAGES = ("version", "core", "health", "params", "ranges", "ground", "fuzzy", "map", "nav", "motion", "mapper", "robot", "can")
+# The folders of firmware/, lowest first: each includes itself and those before it. From localization to control they are the
+# stages of a tick, in its order.
+STAGES = ("version", "math", "health", "params", "fuzzy", "localization", "perception", "planning", "safety", "control",
+          "robot", "can", "apps")
 
-# What a stage may include of hal/; a stage that is not named here includes none of it.
+# What a folder may include of hal/; one that is not named here includes none of it.
 HAL_OF_STAGE = {
-    "ranges": {"hal/wire.hpp"},
-    "motion": {"hal/wire.hpp"},
-    "mapper": {"hal/wire.hpp"},
-    "can": {"hal/wire.hpp", "hal/can_port.hpp"},
-    "robot": {"hal/wire.hpp", "hal/rangefinders.hpp", "hal/drive.hpp"},
+    "localization": {"hal/types.hpp"},
+    "perception": {"hal/types.hpp"},
+    "safety": {"hal/types.hpp"},
+    "control": {"hal/types.hpp", "hal/drive.hpp"},
+    "can": {"hal/types.hpp", "hal/can_port.hpp"},
+    "robot": {"hal/types.hpp", "hal/rangefinders.hpp", "hal/drive.hpp"},
 }
-
-# (from, to): stages that may include a higher one all the same.
-EXCEPTIONS = set()
 
 FREESTANDING = {"stdint.h", "stddef.h"}
 
@@ -49,30 +49,43 @@ def firmware_error(path, quoted, system):
     target = stage_of(quoted)
     if target is None:
         return "unknown stage"
-    if STAGES.index(target) > STAGES.index(stage) and (stage, target) not in EXCEPTIONS:
+    if STAGES.index(target) > STAGES.index(stage):
         return f"{target} is above {stage}"
     return None
 
 
+CONTRACT = r"hal/[^/]+"
+
+# What a folder of hal/ may include beside the contracts and itself.
+HAL_FOLDERS = {
+    "runtime": r"hal/runtime/.+",
+    "ports": r"hal/ports/[^/]+",
+    "boards": r"hal/(boards/common|runtime|ports)/[^/]+|firmware/(?!apps/).+",
+    "emulated": r"hal/(emulated/common|runtime)/[^/]+",
+}
+
+
 def hal_error(path, quoted, system):
-    backend = path.split("/")[1] if path.count("/") > 1 else None
-    if backend is None:
+    parts = path.split("/")
+    if len(parts) == 2:
         if system is not None:
             return None if system in FREESTANDING else "a contract has only <stdint.h> and <stddef.h>"
-        return None if re.fullmatch(r"hal/[^/]+", quoted) else "a contract includes other contracts only"
-    if system is not None or re.fullmatch(rf"hal/({backend}/.+|[^/]+)", quoted):
+        known = re.fullmatch(rf"{CONTRACT}|firmware/math/.+", quoted)
+        return None if known else "a contract includes other contracts and firmware/math/ only"
+    if parts[1] not in HAL_FOLDERS:
+        return f"unknown folder of hal/: one of {', '.join(HAL_FOLDERS)}"
+    own = "/".join(parts[:3]) if len(parts) > 3 else "/".join(parts[:2])
+    if system is not None or re.fullmatch(rf"{CONTRACT}|{own}/.+|{HAL_FOLDERS[parts[1]]}", quoted):
         return None
-    if quoted.startswith(("firmware/", "host/sim/")):
-        return None
-    return "a backend includes firmware/, the contracts, itself and host/sim/"
+    return "a backend includes the contracts, itself and what its kind shares; boards also firmware/ below apps/"
 
 
-def image_error(quoted, system):
+def app_error(quoted, system):
     if system is not None:
-        return None if system in FREESTANDING else "an image has only <stdint.h> and <stddef.h>"
-    if quoted.startswith(("firmware/", "images/", "hal/can_remote/", "hal/link/", "hal/slcan/")) or re.fullmatch(r"hal/[^/]+", quoted):
+        return None if system in FREESTANDING else "a program for a chip has only <stdint.h> and <stddef.h>"
+    if re.fullmatch(rf"{CONTRACT}|firmware/.+|hal/ports/slcan/.+|hal/boards/.+", quoted):
         return None
-    return "an image includes firmware/, the contracts, hal/can_remote/, hal/link/, hal/slcan/ and images/: the board is linked"
+    return "a program for a chip includes firmware/, the contracts, hal/ports/slcan/ and its board"
 
 
 def errors(path, text, exists):
@@ -90,12 +103,12 @@ def errors(path, text, exists):
             error = "quotes are for files of the project, written from its root"
         elif quoted is not None and quoted.startswith("tests/") and not path.startswith("tests/"):
             error = "only tests include tests/"
+        elif path.startswith("firmware/apps/"):
+            error = app_error(quoted, system)
         elif path.startswith("firmware/"):
             error = firmware_error(path, quoted, system)
         elif path.startswith("hal/"):
             error = hal_error(path, quoted, system)
-        elif path.startswith("images/"):
-            error = image_error(quoted, system)
         if error:
             found.append((text.count("\n", 0, match.start()) + 1, f"{match.group().strip()}: {error}"))
     return found

@@ -11,7 +11,7 @@ MEDIAN, LONGEST = 100, 400
 
 def main(root):
     problems, checked = [], 0
-    for folder in ("firmware", "hal", "host", "images"):
+    for folder in ("firmware", "hal", "host"):
         lengths = {path: len(pathlib.Path(root, path).read_text().splitlines()) for path in sources(root, (folder,))}
         if not lengths:
             continue

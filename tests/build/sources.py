@@ -2,7 +2,7 @@
 
 import pathlib
 
-FOLDERS = ("firmware", "hal", "host", "images", "tests")
+FOLDERS = ("firmware", "hal", "host", "tests")
 SUFFIXES = (".hpp", ".cpp")
 
 

@@ -4,7 +4,7 @@
 #include <deque>
 #include <functional>
 
-#include "hal/can_remote/controller.hpp"
+#include "firmware/apps/can/controller.hpp"
 #include "host/bus/memory_bus.hpp"
 #include "host/hil/bus_pilot.hpp"
 #include "host/hil/planners.hpp"

@@ -789,7 +789,7 @@ TEST_F(ControllerAlone, RefusesAStartOrAGoalThatIsTooFarOutByName) {
   peer_.greet(kPeerBoot);
   pass(2);
   const Length beyond = kPlaceLimit + micrometres(1);
-  const nav::Goal goal{{1_m, 0_m}, 100_mm};
+  const planning::Goal goal{{1_m, 0_m}, 100_mm};
   const Mission missions[] = {{{{beyond, 0_m}, {}}, goal},
                               {{{0_m, -beyond}, {}}, goal},
                               {{}, {{-beyond, 0_m}, 100_mm}},

@@ -5,10 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "firmware/nav/goal_planner.hpp"
-#include "hal/can_remote/base.hpp"
-#include "hal/can_remote/controller.hpp"
-#include "hal/sim/sim_board.hpp"
+#include "firmware/apps/can/base.hpp"
+#include "firmware/apps/can/controller.hpp"
+#include "firmware/planning/goal_planner.hpp"
 #include "host/bus/fault_port.hpp"
 #include "host/bus/memory_bus.hpp"
 #include "host/run/runner.hpp"
@@ -16,6 +15,7 @@
 #include "host/run/spec.hpp"
 #include "host/scenario/load.hpp"
 #include "host/scenario/robot.hpp"
+#include "host/sim/sim_board.hpp"
 #include "tests/can/party.hpp"
 
 namespace whisker::test {
@@ -35,17 +35,17 @@ inline Scenario open_ground() {
 }
 
 /// Straight ahead at full speed, whatever is there.
-class Straight final : public nav::GoalPlanner {
+class Straight final : public planning::GoalPlanner {
  private:
-  void start(const nav::View& view) noexcept override {
-    decision_.manoeuvre = {nav::Kind::drive, view.pose.heading, 100_m};
+  void start(const planning::View& view) noexcept override {
+    decision_.manoeuvre = {planning::ManoeuvreKind::drive, view.pose.heading, 100_m};
   }
-  void advance(const nav::View&) noexcept override {}
+  void advance(const planning::View&) noexcept override {}
 };
 
 class StraightMaker final : public can_remote::PlannerMaker {
  public:
-  nav::Planner& make(const Params&) noexcept override {
+  planning::Planner& make(const Params&) noexcept override {
     planner_ = std::make_unique<Straight>();
     return *planner_;
   }

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "firmware/core/fixed.hpp"
+#include "firmware/math/fixed.hpp"
 
 namespace whisker::fuzzy {
 namespace {

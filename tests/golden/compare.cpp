@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "hal/link/params.hpp"
+#include "firmware/apps/pil_link/params.hpp"
 
 namespace whisker::golden {
 namespace {

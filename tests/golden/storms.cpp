@@ -2,9 +2,9 @@
 
 #include "host/chip/words.hpp"
 #include "host/run/planners.hpp"
-#include "tests/core/properties/random_params.hpp"
-#include "tests/core/properties/storm_board.hpp"
 #include "tests/golden/stream.hpp"
+#include "tests/robot/properties/random_params.hpp"
+#include "tests/robot/properties/storm_board.hpp"
 
 namespace whisker::golden {
 namespace {
@@ -46,7 +46,7 @@ class Oracle final : public hal::Rangefinders, public hal::Drive {
 
 Length any_length(Bits& bits) { return Length::from_raw(static_cast<std::int32_t>(bits.next())); }
 
-nav::Goal random_goal(Bits& bits) {
+planning::Goal random_goal(Bits& bits) {
   if (bits.one_in(10)) return {{any_length(bits), any_length(bits)}, any_length(bits)};
   const auto near = [&] { return millimetres(bits.whole(-4000, 4000)); };
   return {{near(), near()}, millimetres(bits.whole(0, 300))};
@@ -61,7 +61,7 @@ Time next_tick(Time now, const Params& params, Bits& bits) {
 /// What a user does, now and then; told to the robot and written down.
 void interfere(Robot& robot, Bits& bits, chip::Bytes& to) {
   const auto set_goal = [&] {
-    const nav::Goal goal = random_goal(bits);
+    const planning::Goal goal = random_goal(bits);
     robot.set_goal(goal);
     chip::append_goal(to, goal);
   };
@@ -97,7 +97,7 @@ Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
   chip::append_params(to, params);
   chip::append_begin(to, kind, Pose{});
   robot.place(Pose{});
-  const nav::Goal goal = random_goal(bits);
+  const planning::Goal goal = random_goal(bits);
   robot.set_goal(goal);
   chip::append_goal(to, goal);
   Time now = Time::from_raw(static_cast<std::uint32_t>(bits.next()));

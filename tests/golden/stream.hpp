@@ -27,7 +27,7 @@ std::vector<Stream> storms();
 Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks);
 /// The beginnings of some of them, for targets whose emulator is slow.
 std::vector<Stream> excerpts();
-/// For the small core, which has no skirt planner and no map: drives with the thesis planner.
+/// For the small core, which has no boundary planner and no map: drives with the thesis planner.
 /// Even ticks and sound wheels, which the small core takes for granted.
 std::vector<Stream> thesis_only();
 

@@ -23,12 +23,13 @@ Length centre(std::int64_t cell, const Params& params) {
   return Length::from_raw(static_cast<std::int32_t>(cell * um + um / 2));
 }
 
-/// Every clear cell of a window that is larger than the patch.
-Cells clear_cells(const ground::Patch& patch, const Params& params, std::int64_t x, std::int64_t y) {
+/// Every clear cell of a window that is larger than the local grid.
+Cells clear_cells(const perception::LocalGrid& local_grid, const Params& params, std::int64_t x,
+                  std::int64_t y) {
   Cells cells;
   for (std::int64_t j = y - 40; j <= y + 40; ++j) {
     for (std::int64_t i = x - 40; i <= x + 40; ++i) {
-      if (patch.is_clear({centre(i, params), centre(j, params)})) cells.emplace(i, j);
+      if (local_grid.is_clear({centre(i, params), centre(j, params)})) cells.emplace(i, j);
     }
   }
   return cells;
@@ -52,11 +53,11 @@ TEST(Film, ShowsTheCellsThatThePatchHas) {
   std::size_t tick = 0, change = 0, pictures = 0;
   RunOptions options;
   options.watch = [&](const Moment& moment) {
-    if (moment.patch == nullptr || tick++ % 40 != 0) return;
+    if (moment.local_grid == nullptr || tick++ % 40 != 0) return;
     const TickRecord& r = moment.record;
     const Vec at{Length::from_raw(static_cast<std::int32_t>(std::lround(r.est_x_m * 1e6))),
                  Length::from_raw(static_cast<std::int32_t>(std::lround(r.est_y_m * 1e6)))};
-    film.add(tick - 1, at, *moment.patch, frames);
+    film.add(tick - 1, at, *moment.local_grid, frames);
     for (; change < frames.words.size(); ++change) {
       picture[static_cast<std::size_t>(frames.words[change])] ^=
           static_cast<std::uint32_t>(frames.bits[change]);
@@ -70,7 +71,7 @@ TEST(Film, ShowsTheCellsThatThePatchHas) {
         if ((picture[2 * row + column / 32] >> (column % 32) & 1U) != 0) shown.emplace(i, j);
       }
     }
-    ASSERT_EQ(shown, clear_cells(*moment.patch, scenario.robot, x, y)) << "tick " << tick - 1;
+    ASSERT_EQ(shown, clear_cells(*moment.local_grid, scenario.robot, x, y)) << "tick " << tick - 1;
     ++pictures;
   };
   run(scenario, options);

@@ -43,7 +43,8 @@ class Reader {
 
 void expect_same(const Reader& reader, const MapPicture& picture) {
   std::vector<bool> way(picture.cells.size());
-  for (const map::Place p : picture.way) way[static_cast<std::size_t>(p.y * picture.columns + p.x)] = true;
+  for (const planning::Cell p : picture.way)
+    way[static_cast<std::size_t>(p.y * picture.columns + p.x)] = true;
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.columns; ++x) {
       const int state = (reader.bit(0, x, y) ? 2 : 0) + (reader.bit(1, x, y) ? 1 : 0);

@@ -74,8 +74,8 @@ TEST(Page, HoldsTheRunWhateverItsNameIs) {
   EXPECT_EQ(data["runs"][0]["seed"], 77);
   EXPECT_EQ(data["runs"][0]["result"]["ticks"], result.ticks);
   EXPECT_EQ(data["runs"][0]["columns"][0], nlohmann::json({"t_s", 2, 1000, result.ticks}));
-  EXPECT_EQ(data["shared"]["modes"].size(), static_cast<std::size_t>(nav::kModes));
-  EXPECT_EQ(data["shared"]["whys"].size(), static_cast<std::size_t>(nav::kWhys));
+  EXPECT_EQ(data["shared"]["modes"].size(), static_cast<std::size_t>(planning::kModes));
+  EXPECT_EQ(data["shared"]["whys"].size(), static_cast<std::size_t>(planning::kWhys));
   EXPECT_EQ(content(page, "columns-0"), run.columns);
   EXPECT_FALSE(data.contains("campaign"));
 }

@@ -9,8 +9,8 @@
 namespace whisker::report {
 namespace {
 
-using nav::Mode;
-using nav::Why;
+using planning::Mode;
+using planning::Why;
 
 struct Doings {
   Mode mode;

@@ -21,8 +21,8 @@ Element drawn(const Scenario& scenario, const std::vector<TickRecord>& records) 
 }
 
 TEST(RunEdges, marks_and_numbers_where_edges_were_met_and_left) {
-  using nav::Mode;
-  using nav::Why;
+  using planning::Mode;
+  using planning::Why;
   Scenario scenario;
   scenario.goal.at = {8, 0};
   const auto records = testing::follow(scenario, {{{1, 0}},
@@ -47,7 +47,7 @@ TEST(RunEdges, lists_the_first_eight_edges_and_counts_the_others) {
   std::vector<testing::Leg> legs;
   for (int i = 0; i < 21; ++i) {
     const double x = i;
-    legs.push_back({{x, 0.5}, nav::Mode::skirting, nav::Why::edge});
+    legs.push_back({{x, 0.5}, planning::Mode::skirting, planning::Why::edge});
     legs.push_back({{x + 0.5, 0}});
   }
   const auto records = testing::follow(scenario, legs);

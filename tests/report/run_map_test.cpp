@@ -16,7 +16,7 @@
 namespace whisker::report {
 namespace {
 
-using map::State;
+using planning::CellState;
 using ::testing::Contains;
 using testing::Element;
 using ::testing::IsSupersetOf;
@@ -29,7 +29,7 @@ MapPicture random_map(unsigned seed) {
   picture.rows = 20;
   picture.cell_m = 0.1;
   picture.cells.resize(32 * 20);
-  for (State& state : picture.cells) state = static_cast<State>(random() % 4);
+  for (CellState& state : picture.cells) state = static_cast<CellState>(random() % 4);
   picture.way = {{4, 4}, {5, 5}, {6, 5}};
   return picture;
 }
@@ -73,7 +73,7 @@ TEST(RunMap, covers_each_cell_with_its_own_colour_once) {
 
 TEST(RunMap, takes_one_box_for_what_is_one) {
   MapPicture map = random_map(3);
-  for (State& state : map.cells) state = State::free;
+  for (CellState& state : map.cells) state = CellState::free;
   const Element root = drawn(garden_run(), &map);
   EXPECT_EQ(root.by_class("map-free").at(0)->attributes.at("d"), "M0 0h32v20h-32z");
   EXPECT_TRUE(root.by_class("map-occupied").empty());

@@ -60,8 +60,8 @@ std::vector<TickRecord> ten_restless_minutes() {
     r.x_m = x;
     r.y_m = y;
     r.heading_rad = heading;
-    r.mode = nav::Mode::stepping;
-    r.why = static_cast<nav::Why>((i / 50) % nav::kWhys);
+    r.mode = planning::Mode::stepping;
+    r.why = static_cast<planning::Why>((i / 50) % planning::kWhys);
     r.looked = true;
   }
   return records;
@@ -124,7 +124,8 @@ TEST(RunSvg, has_a_key_for_each_class_and_a_line_for_each_driven_one) {
 
 TEST(RunSvg, counts_the_share_of_each_class_in_the_legend) {
   Scenario scenario;
-  const auto records = testing::follow(scenario, {{{1, 0}}, {{4, 0}, nav::Mode::stepping, nav::Why::table}});
+  const auto records =
+      testing::follow(scenario, {{{1, 0}}, {{4, 0}, planning::Mode::stepping, planning::Why::table}});
   const Drawn drawn = draw(scenario, records, result_of(Verdict::reached, scenario, records));
   std::vector<std::string> words;
   for (const Element* text : drawn.root.by_class("legend").at(0)->by_name("text"))

@@ -47,9 +47,9 @@ class Walker {
     const int turn_ticks = static_cast<int>(std::ceil(std::fabs(turn) / (2 * kPeriod)));
     for (int i = 0; i < turn_ticks; ++i) {
       pose_.heading += turn / turn_ticks;
-      tick(nav::Mode::facing, leg, 0, turn > 0 ? 0.14 : -0.14);
+      tick(planning::Mode::facing, leg, 0, turn > 0 ? 0.14 : -0.14);
     }
-    tick(nav::Mode::looking, leg, 0, 0);
+    tick(planning::Mode::looking, leg, 0, 0);
     records_.back().looked = true;
     const double length = std::hypot(way.x, way.y);
     const int ticks = static_cast<int>(std::ceil(length / (0.25 * kPeriod)));
@@ -61,7 +61,7 @@ class Walker {
   std::vector<TickRecord> take() { return std::move(records_); }
 
  private:
-  void tick(nav::Mode mode, const Leg& leg, double speed, double turning) {
+  void tick(planning::Mode mode, const Leg& leg, double speed, double turning) {
     const double side = report::radians(scenario_.robot.rangefinders.side_angle);
     TickRecord r;
     r.t_s = kPeriod * static_cast<double>(records_.size() + 1);
@@ -127,8 +127,8 @@ Scenario garden() {
 }
 
 std::vector<TickRecord> garden_run(const Scenario& scenario) {
-  using nav::Mode;
-  using nav::Why;
+  using planning::Mode;
+  using planning::Why;
   return follow(scenario, {
                               {{0.55, 0.55}},
                               {{0.75, 0.42}, Mode::stepping, Why::table},

@@ -10,8 +10,8 @@ namespace whisker::testing {
 
 struct Leg {
   sim::Vec2 to;
-  nav::Mode mode = nav::Mode::stepping;
-  nav::Why why = nav::Why::target_free;
+  planning::Mode mode = planning::Mode::stepping;
+  planning::Why why = planning::Why::target_free;
   int danger_count = 0;
 };
 

@@ -51,8 +51,8 @@ TEST(Trace, writes_a_record_in_every_detail) {
   r.ranges.beam[hal::kRight] = {0, hal::RangeStatus::too_near, 0, 0};
   r.v_left_mps = 0.25;
   r.v_right_mps = -0.123456;
-  r.mode = nav::Mode::skirting;
-  r.why = nav::Why::same_side;
+  r.mode = planning::Mode::skirting;
+  r.why = planning::Why::same_side;
   r.danger_count = 7;
   r.looked = true;
   r.d_q7 = 129;
@@ -95,15 +95,15 @@ TEST(Trace, writes_the_reference_robots_clear_and_too_near) {
 }
 
 TEST(Trace, names_every_state_and_reason) {
-  for (int m = 0; m < nav::kModes; ++m) {
+  for (int m = 0; m < planning::kModes; ++m) {
     TickRecord r;
-    r.mode = static_cast<nav::Mode>(m);
-    EXPECT_EQ(row_of(r)[9], nav::name(r.mode));
+    r.mode = static_cast<planning::Mode>(m);
+    EXPECT_EQ(row_of(r)[9], planning::name(r.mode));
   }
-  for (int w = 0; w < nav::kWhys; ++w) {
+  for (int w = 0; w < planning::kWhys; ++w) {
     TickRecord r;
-    r.why = static_cast<nav::Why>(w);
-    EXPECT_EQ(row_of(r)[10], nav::name(r.why));
+    r.why = static_cast<planning::Why>(w);
+    EXPECT_EQ(row_of(r)[10], planning::name(r.why));
   }
 }
 

@@ -13,8 +13,8 @@
 namespace whisker::report {
 namespace {
 
-using nav::Mode;
-using nav::Why;
+using planning::Mode;
+using planning::Why;
 using sim::Vec2;
 
 TickRecord tick(Mode mode, Why why, int danger = 0) {
@@ -40,11 +40,11 @@ TEST(Doing, of_a_step_follows_its_reason) {
   EXPECT_EQ(doing(tick(Mode::stepping, Why::table)), Doing::table);
   EXPECT_EQ(doing(tick(Mode::stepping, Why::narrow)), Doing::probing);
   for (const Why why : {Why::target_blocked, Why::exit_left, Why::exit_right, Why::same_side})
-    EXPECT_EQ(doing(tick(Mode::stepping, why)), Doing::danger) << nav::name(why);
+    EXPECT_EQ(doing(tick(Mode::stepping, why)), Doing::danger) << planning::name(why);
 }
 
 TEST(Doing, outside_a_step_follows_the_mode_whatever_the_reason) {
-  for (int w = 0; w < nav::kWhys; ++w) {
+  for (int w = 0; w < planning::kWhys; ++w) {
     const Why why = static_cast<Why>(w);
     EXPECT_EQ(doing(tick(Mode::steering, why)), Doing::table);
     EXPECT_EQ(doing(tick(Mode::probing, why)), Doing::probing);
@@ -55,8 +55,8 @@ TEST(Doing, outside_a_step_follows_the_mode_whatever_the_reason) {
 }
 
 TEST(Doing, is_danger_whenever_the_danger_counter_runs) {
-  for (int m = 0; m < nav::kModes; ++m)
-    for (int w = 0; w < nav::kWhys; ++w)
+  for (int m = 0; m < planning::kModes; ++m)
+    for (int w = 0; w < planning::kWhys; ++w)
       EXPECT_EQ(doing(tick(static_cast<Mode>(m), static_cast<Why>(w), 1)), Doing::danger);
 }
 

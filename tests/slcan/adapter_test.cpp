@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "hal/slcan/slcan.hpp"
+#include "hal/ports/slcan/slcan.hpp"
 #include "tests/bus/frames.hpp"
 #include "tests/slcan/pipe.hpp"
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/slcan/slcan.hpp"
+#include "hal/ports/slcan/slcan.hpp"
 #include "tests/bus/frames.hpp"
 #include "tests/slcan/pipe.hpp"
 

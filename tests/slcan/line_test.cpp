@@ -1,11 +1,11 @@
-#include "hal/slcan/line.hpp"
+#include "hal/ports/slcan/line.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <string>
 
-#include "hal/can_queue.hpp"
+#include "hal/ports/can_queue.hpp"
 #include "tests/bus/frames.hpp"
 
 namespace whisker::hal::slcan {

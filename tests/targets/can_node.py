@@ -21,7 +21,7 @@ LONG_PATIENCE_S = 800
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
 NODES = (("can-node", "skirt"), ("can-node-stm32f103", "map"))
 PRESET = "cortex-m3"
-PAINT = 0xC0DEC0DE  # hal/mcu/common/stack.hpp
+PAINT = 0xC0DEC0DE  # hal/runtime/stack.hpp
 
 
 def hash_of(command, patience_s):
@@ -72,7 +72,7 @@ class Chip:
         return path.read_bytes()
 
     def deepest_stack(self):
-        """As hal/mcu/common/stack.hpp has it."""
+        """As hal/runtime/stack.hpp has it."""
         symbols = symbols_of(self.image)
         bottom, top = symbols["__stack_bottom"], symbols["__stack_top"]
         words = struct.unpack(f"<{(top - bottom) // 4}I", self.memory(bottom, top - bottom))

@@ -24,7 +24,7 @@ def main(root):
     sys.path.insert(0, str(pathlib.Path(root, "scripts")))
     import chips
 
-    runs = {"desktop": [chips.BUILD / "host/images/every-input-table"]}
+    runs = {"desktop": [chips.BUILD / "host/firmware/apps/every-input-table"]}
     for name in PACKED:
         target = chips.TARGETS[name]
         for build in target.builds:

@@ -1,4 +1,4 @@
-#include "hal/tty/tty_line.hpp"
+#include "hal/ports/tty/tty_line.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

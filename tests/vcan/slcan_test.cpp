@@ -1,6 +1,6 @@
 // Linux's own SLCAN driver as the other end: our port looks like a USB-CAN adapter to it. slcand makes its
 // interface in the first network namespace only, so a machine of one's own is needed: a micro-VM is one.
-#include "hal/slcan/slcan.hpp"
+#include "hal/ports/slcan/slcan.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

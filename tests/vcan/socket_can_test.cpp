@@ -1,4 +1,4 @@
-#include "hal/socketcan/socket_can.hpp"
+#include "hal/ports/socketcan/socket_can.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // A robot on an emulated chip, alone in an empty world: its wheels do at once what they are told.
-#include "firmware/nav/skirt.hpp"
+#include "firmware/planning/boundary/boundary_planner.hpp"
 #include "firmware/robot.hpp"
 #include "hal/board.hpp"
 
@@ -35,7 +35,7 @@ int main() {
   static constexpr Params params;
   static EmptyWorld sensors;
   static PerfectWheels wheels;
-  static nav::TableSkirt skirt{params, fuzzy::kDefaultTable};
+  static planning::TableBoundaryPlanner skirt{params, fuzzy::kDefaultTable};
   static Robot robot{sensors, wheels, skirt.planner, params};
   hal::Console& console = hal::board().console;
 
@@ -44,15 +44,15 @@ int main() {
   const char* said = "";
   for (uint32_t now = 0; now < 60000; now += 10) {
     const Status& status = robot.tick(Time::from_raw(now));
-    const char* why = nav::name(status.decision.why);
+    const char* why = planning::name(status.decision.why);
     if (why != said) {
-      console.print(nav::name(status.decision.mode));
+      console.print(planning::name(status.decision.mode));
       console.print(": ");
       console.print(why);
       console.print("\n");
       said = why;
     }
-    if (status.decision.outcome == nav::Outcome::reached) return 0;
+    if (status.decision.outcome == planning::Outcome::reached) return 0;
   }
   return 1;
 }

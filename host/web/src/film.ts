@@ -102,7 +102,7 @@ export class MapFilm extends Pictures {
     return [this.x[this.shown], this.y[this.shown]];
   }
 
-  /** As map::State numbers it, of a cell of the world within the window. */
+  /** As planning::CellState numbers it, of a cell of the world within the window. */
   state(x: number, y: number): number {
     return 2 * this.bit(0, x, y) + this.bit(1, x, y);
   }

@@ -9,13 +9,13 @@ export interface MapSeen {
   seek(tick: number): number;
   /** First cell of its window, in cells of the world. */
   readonly corner: [x: number, y: number];
-  /** As map::State numbers it, of a cell of the world within the window. */
+  /** As planning::CellState numbers it, of a cell of the world within the window. */
   state(x: number, y: number): number;
   /** The plan's way goes there. */
   onWay(x: number, y: number): boolean;
 }
 
-/** By map::State; what is unknown has none. */
+/** By planning::CellState; what is unknown has none. */
 const COLOURS: (Colour | null)[] = [null, 'map-free', 'map-suspect', 'map-occupied'];
 
 export class MapScenery {

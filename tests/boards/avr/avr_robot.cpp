@@ -3,10 +3,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "hal/mcu/atmega328p/pins.hpp"
-#include "hal/mcu/atmega328p/robot_params.hpp"
-#include "hal/mcu/common/analogue_ir.hpp"
-#include "hal/mcu/common/counts.hpp"
+#include "hal/boards/atmega1284p/pins.hpp"
+#include "hal/boards/atmega1284p/robot_params.hpp"
+#include "hal/boards/common/analogue_ir.hpp"
+#include "hal/boards/common/counts.hpp"
 #include "host/sim/cone.hpp"
 #include "host/sim/elementary.hpp"
 
@@ -19,7 +19,7 @@ extern "C" {
 #include <simavr/sim_io.h>
 }
 
-namespace whisker::hal::atmega328p {
+namespace whisker::hal::atmega1284p {
 namespace {
 
 constexpr int kCyclesPerSlice = 1600;  // 0.1 ms: an edge of each wheel at most
@@ -221,10 +221,10 @@ void AvrRobot::run(double seconds) {
 }
 
 Fault AvrRobot::fault() const { return static_cast<Fault>(avr_->data[reg::kGPIOR1.address] & 0x0F); }
-nav::Outcome AvrRobot::outcome() const {
-  return static_cast<nav::Outcome>(avr_->data[reg::kGPIOR1.address] >> 4);
+planning::Outcome AvrRobot::outcome() const {
+  return static_cast<planning::Outcome>(avr_->data[reg::kGPIOR1.address] >> 4);
 }
 int AvrRobot::troubles() const { return avr_->data[reg::kGPIOR2.address]; }
 int AvrRobot::deepest_stack() const { return avr_->ramend - lowest_stack_; }
 
-}  // namespace whisker::hal::atmega328p
+}  // namespace whisker::hal::atmega1284p

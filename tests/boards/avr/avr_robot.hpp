@@ -5,12 +5,12 @@
 #include <string>
 
 #include "firmware/health.hpp"
-#include "firmware/nav/planner.hpp"
+#include "firmware/planning/planner.hpp"
 #include "host/sim/plant.hpp"
 
 struct avr_t;
 
-namespace whisker::hal::atmega328p {
+namespace whisker::hal::atmega1284p {
 
 /// The image of the ATmega328P's robot in a cycle-exact emulator, in a simulated world: pulse widths turn its
 /// wheels, its encoders' edges, the echoes of its shots and its infrared voltages come from where it stands.
@@ -34,7 +34,7 @@ class AvrRobot {
 
   /// What the image shows.
   Fault fault() const;
-  nav::Outcome outcome() const;
+  planning::Outcome outcome() const;
   int troubles() const;
   double duty(int wheel) const;  ///< -1..1 as the pins say
   const sim::Plant& plant() const { return plant_; }
@@ -82,4 +82,4 @@ class AvrRobot {
   bool crashed_ = false;
 };
 
-}  // namespace whisker::hal::atmega328p
+}  // namespace whisker::hal::atmega1284p

@@ -2,11 +2,11 @@
 
 #include <cstdio>
 
-#include "hal/mcu/atmega328p/robot_params.hpp"
+#include "hal/boards/atmega1284p/robot_params.hpp"
 #include "host/sim/elementary.hpp"
 #include "tests/boards/avr/avr_robot.hpp"
 
-namespace whisker::hal::atmega328p {
+namespace whisker::hal::atmega1284p {
 namespace {
 
 constexpr double kCyclesPerPeriod = 0.020 * 16e6;
@@ -35,7 +35,7 @@ class AvrLoopTest : public ::testing::Test {
 };
 
 TEST_F(AvrLoopTest, ReachesItsGoalInAnEmptyField) {
-  EXPECT_TRUE(robot.run_until(60, [this] { return robot.outcome() == nav::Outcome::reached; }));
+  EXPECT_TRUE(robot.run_until(60, [this] { return robot.outcome() == planning::Outcome::reached; }));
   EXPECT_NEAR(robot.plant().pose().at.x, 1.5, 0.12);
   EXPECT_NEAR(robot.plant().pose().at.y, 0.0, 0.12);
   EXPECT_EQ(robot.fault(), Fault::none);
@@ -46,7 +46,7 @@ TEST_F(AvrLoopTest, ReachesItsGoalInAnEmptyField) {
 
 TEST_F(AvrLoopTest, GoesRoundADiscInItsWay) {
   disc = {{0.75, 0.02}, 0.12};
-  EXPECT_TRUE(robot.run_until(120, [this] { return robot.outcome() == nav::Outcome::reached; }));
+  EXPECT_TRUE(robot.run_until(120, [this] { return robot.outcome() == planning::Outcome::reached; }));
   EXPECT_EQ(robot.fault(), Fault::none);
   EXPECT_EQ(robot.troubles(), 0);
 }
@@ -64,7 +64,7 @@ TEST_F(AvrLoopTest, PennedInItHoldsItsPeriodAndTouchesNothing) {
   world.disc_count = kPosts;
   robot.run(20);
   EXPECT_EQ(robot.fault(), Fault::none);
-  EXPECT_NE(robot.outcome(), nav::Outcome::reached);
+  EXPECT_NE(robot.outcome(), planning::Outcome::reached);
 }
 
 TEST_F(AvrLoopTest, ASonarThatDiesStopsItWithAName) {
@@ -101,4 +101,4 @@ TEST_F(AvrLoopTest, InfraredSeesWhatTheSonarsDoNot) {
 TEST(AvrParamsTest, AreOnesThatTheCoreAccepts) { EXPECT_EQ(check(kRobotParams), ParamFault::none); }
 
 }  // namespace
-}  // namespace whisker::hal::atmega328p
+}  // namespace whisker::hal::atmega1284p

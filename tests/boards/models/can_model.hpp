@@ -3,8 +3,8 @@
 #include <deque>
 #include <vector>
 
+#include "hal/boards/stm32f405/reg/can.hpp"
 #include "hal/can_port.hpp"
-#include "hal/mcu/stm32f405/reg/can.hpp"
 #include "tests/boards/models/chip.hpp"
 
 namespace whisker::hal::stm32f405::model {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <map>
 
-#include "hal/mcu/stm32f405/io.hpp"
+#include "hal/boards/stm32f405/io.hpp"
 
 namespace whisker::hal::stm32f405::model {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hal/mcu/stm32f405/reg/flash.hpp"
-#include "hal/mcu/stm32f405/reg/rcc.hpp"
+#include "hal/boards/stm32f405/reg/flash.hpp"
+#include "hal/boards/stm32f405/reg/rcc.hpp"
 #include "tests/boards/models/chip.hpp"
 
 namespace whisker::hal::stm32f405::model {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "hal/mcu/stm32f405/reg/gpio.hpp"
+#include "hal/boards/stm32f405/reg/gpio.hpp"
 #include "tests/boards/models/chip.hpp"
 
 namespace whisker::hal::stm32f405::model {

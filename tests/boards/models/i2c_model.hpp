@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hal/mcu/stm32f405/reg/i2c.hpp"
+#include "hal/boards/stm32f405/reg/i2c.hpp"
 #include "tests/boards/models/chip.hpp"
 
 namespace whisker::hal::stm32f405::model {

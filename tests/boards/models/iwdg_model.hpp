@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/mcu/stm32f405/reg/iwdg.hpp"
+#include "hal/boards/stm32f405/reg/iwdg.hpp"
 #include "tests/boards/models/chip.hpp"
 
 namespace whisker::hal::stm32f405::model {

@@ -3,7 +3,7 @@
 #include <deque>
 #include <string>
 
-#include "hal/mcu/stm32f405/reg/usart.hpp"
+#include "hal/boards/stm32f405/reg/usart.hpp"
 #include "tests/boards/models/chip.hpp"
 
 namespace whisker::hal::stm32f405::model {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "hal/mcu/stm32f405/vl53l0x.hpp"
+#include "hal/boards/stm32f405/vl53l0x.hpp"
 #include "tests/boards/models/i2c_model.hpp"
 
 namespace whisker::hal::stm32f405::model {

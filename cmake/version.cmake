@@ -1,6 +1,0 @@
-# whisker_version: what firmware/version.hpp says.
-file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/../firmware/version.hpp whisker_version
-  REGEX "^#define WHISKER_VERSION_(MAJOR|MINOR|PATCH) [0-9]+$")
-list(TRANSFORM whisker_version REPLACE "^.* " "")
-list(JOIN whisker_version "." whisker_version)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/../firmware/version.hpp)

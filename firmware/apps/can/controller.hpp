@@ -1,0 +1,45 @@
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/apps/can/pilot.hpp"
+#include "firmware/can/controller_node.hpp"
+
+namespace whisker::can_remote {
+
+/// A whole controller: the core as a node of the bus.
+///
+///   Controller controller{port, {1, boot, version}, planners};
+///   for (;;) controller.poll(clock.now_ms());
+class Controller {
+ public:
+  Controller(hal::CanPort& port, const can::Identity& identity, PlannerMaker& planners) noexcept
+      : node_(port, identity), pilot_(planners) {}
+
+  /// Call it every millisecond. True: the core made a step; status() is new.
+  bool poll(uint32_t now_ms) noexcept {
+    node_.poll(now_ms);
+    can::Order order = can::Order::cancel;
+    can::Mission mission;
+    if (node_.take_order(order, mission)) pilot_.obey(order, mission, node_.params());
+    can::InputSet set;
+    if (!pilot_.ready() || !node_.take_set(set)) return false;
+    status_ = pilot_.step(set, node_.braked());
+    node_.answer(status_.command, nav_status(status_));
+    const bool failed = status_.health.fault != Fault::none;
+    node_.report(failed ? uint16_t{can::Error::core_fault} : uint16_t{0},
+                 static_cast<uint8_t>(status_.health.fault));
+    return true;
+  }
+
+  const Status& status() const noexcept { return status_; }
+  const can::ControllerNode& node() const noexcept { return node_; }
+  can::ControllerNode& node() noexcept { return node_; }
+
+ private:
+  can::ControllerNode node_;
+  Pilot pilot_;
+  Status status_;
+};
+
+}  // namespace whisker::can_remote

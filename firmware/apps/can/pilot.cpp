@@ -1,0 +1,42 @@
+#include "firmware/apps/can/pilot.hpp"
+
+namespace whisker::can_remote {
+
+void Pilot::obey(can::Order order, const can::Mission& mission, const Params& params) noexcept {
+  switch (order) {
+    case can::Order::start:
+      params_ = params;
+      board_ = RemoteBoard{};
+      robot_ = &room_.make<Robot>(board_, board_, planners_.make(params_), params_);
+      robot_->place(mission.start);
+      robot_->set_goal(mission.goal);
+      break;
+    case can::Order::cancel:
+      if (ready()) robot_->cancel();
+      break;
+    case can::Order::resume:
+      if (!ready()) break;
+      robot_->reset();
+      robot_->set_goal(mission.goal);
+      break;
+  }
+}
+
+const Status& Pilot::step(const can::InputSet& set, bool braked) noexcept {
+  board_.hear(set, braked);
+  if (braked) robot_->braked_elsewhere();
+  return robot_->tick(Time::from_raw(set.tick * set.period_ms));
+}
+
+can::NavStatus nav_status(const Status& s) noexcept {
+  can::NavStatus n;
+  n.outcome = s.decision.outcome;
+  n.state = s.decision.mode;
+  n.looked = s.decision.looked ? 1 : 0;
+  n.why = s.decision.why;
+  n.danger = s.decision.danger_count;
+  n.fault = static_cast<uint8_t>(s.health.fault);
+  return n;
+}
+
+}  // namespace whisker::can_remote

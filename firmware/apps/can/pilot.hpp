@@ -1,0 +1,47 @@
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/apps/can/remote_board.hpp"
+#include "firmware/apps/static_storage.hpp"
+#include "firmware/can/input_set.hpp"
+#include "firmware/can/mission.hpp"
+#include "firmware/robot.hpp"
+
+namespace whisker::can_remote {
+
+/// Where planners come from.
+class PlannerMaker {
+ public:
+  /// A planner as new. The parameters and the planner live until the next call.
+  virtual planning::Planner& make(const Params& params) noexcept = 0;
+
+ protected:
+  ~PlannerMaker() = default;
+};
+
+/// A robot that is made anew for every mission, and steps on input sets.
+class Pilot {
+ public:
+  explicit Pilot(PlannerMaker& planners) noexcept : planners_(planners) {}
+  Pilot(const Pilot&) = delete;
+  Pilot& operator=(const Pilot&) = delete;
+
+  /// start: with these parameters, from the mission's place. Otherwise the robot must be there: see ready().
+  void obey(can::Order order, const can::Mission& mission, const Params& params) noexcept;
+  bool ready() const noexcept { return robot_ != nullptr; }
+  /// One control tick, at the time of the set's tick. Only when ready().
+  const Status& step(const can::InputSet& set, bool braked) noexcept;
+
+ private:
+  PlannerMaker& planners_;
+  RemoteBoard board_;
+  Params params_;
+  Robot* robot_ = nullptr;
+  hal::Room<sizeof(Robot)> room_;
+};
+
+/// What the bus says of a tick; its tick is the node's business.
+can::NavStatus nav_status(const Status& status) noexcept;
+
+}  // namespace whisker::can_remote

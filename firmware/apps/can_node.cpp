@@ -1,0 +1,42 @@
+// The controller of a robot as a node of a CAN bus, behind the board's UART: it looks like an SLCAN adapter.
+#include "firmware/apps/can/controller.hpp"
+#include "firmware/apps/planner.hpp"
+#include "firmware/version.hpp"
+#include "hal/board.hpp"
+#include "hal/ports/slcan/slcan.hpp"
+
+using namespace whisker;
+
+namespace {
+
+hal::Room<sizeof(images::Planner)> room_for_planner;
+hal::Room<sizeof(hal::slcan::Slcan)> room_for_port;
+hal::Room<sizeof(can_remote::Controller)> room_for_controller;
+
+struct Planners final : can_remote::PlannerMaker {
+  planning::Planner& make(const Params& params) noexcept override {
+    return room_for_planner.make<images::Planner>(params, fuzzy::kDefaultTable).planner;
+  }
+};
+
+Planners planners;
+
+/// Nothing else on the board differs from one start to the next than the instant at which the other end
+/// speaks.
+uint16_t boot_number(const hal::Board& board) noexcept {
+  uint8_t byte = 0;
+  while (board.line->take(&byte, 1) == 0) {
+  }
+  const uint32_t instant = board.meter.stamp();
+  return static_cast<uint16_t>(instant ^ instant >> 16);
+}
+
+}  // namespace
+
+int main() {
+  const hal::Board& board = hal::board();
+  const can::Identity identity{1, boot_number(board), kVersionNumber};
+  auto& port = room_for_port.make<hal::slcan::Slcan>(*board.line, hal::slcan::Role::adapter);
+  auto& controller = room_for_controller.make<can_remote::Controller>(port, identity, planners);
+  for (;;) controller.poll(board.clock.now_ms());
+}

@@ -1,0 +1,78 @@
+// What a frame of the CAN protocol costs, of every message and with any content: a line for writing and one
+// for reading, with the least, the mean and the most work.
+#include "firmware/apps/work.hpp"
+#include "firmware/can/messages.hpp"
+
+using namespace whisker;
+
+namespace {
+
+constexpr int kContents = 200;  // of each message
+
+images::Work writing;
+images::Work reading;
+
+template <class M>
+[[gnu::noinline]] void write(const M& message, hal::CanFrame& frame) noexcept {
+  frame = can::encode(message, 9, 7);
+}
+
+/// As a node does: CRC, counter, values.
+template <class M>
+[[gnu::noinline]] bool read(const hal::CanFrame& frame, can::AliveReceiver& alive, M& message) noexcept {
+  uint8_t lost = 0;
+  return frame.data[0] == can::crc_of(frame.id, frame.data, frame.size) &&
+         alive.judge(can::counter_of(frame), lost) == can::Arrival::in_turn && can::decode(frame, message);
+}
+
+template <class F>
+uint32_t spent(const F& call) noexcept {
+  hal::Meter& meter = hal::board().meter;
+  const uint32_t from = meter.stamp();
+  call();
+  return meter.between(from, meter.stamp());
+}
+
+uint32_t random() noexcept {
+  static uint32_t state = 1;
+  return state = state * 1664525 + 1013904223;
+}
+
+/// Nothing, everything, then anything.
+uint64_t content(int i) noexcept {
+  return i < 2 ? uint64_t{0} - static_cast<uint64_t>(i) : uint64_t{random()} << 32 | random() >> 16;
+}
+
+template <class M>
+void measure() noexcept {
+  constexpr const can::Message& kMessage = can::message_of(M::kKind);
+  can::AliveReceiver alive;
+  for (int i = 0; i < kContents; ++i) {
+    constexpr uint64_t kHead = 0xFFFF;
+    const auto counter = static_cast<uint8_t>(i % can::kAliveModulus);
+    hal::CanFrame frame =
+        can::sealed(content(i) & ~kHead, can::id_of(kMessage.function, 9), kMessage.size, counter);
+    M message;
+    reading.add(spent([&] { read(frame, alive, message); }));
+    writing.add(spent([&] { write(message, frame); }));
+  }
+}
+
+template <class... M>
+void measure_all() noexcept {
+  (measure<M>(), ...);
+}
+
+}  // namespace
+
+int main() {
+  using can::Kind;
+  measure_all<can::EStop, can::Sync, can::FaultReport, can::MissionOrder, can::MissionValue,
+              can::MissionReply, can::WheelCommand, can::WheelState, can::Range<Kind::range_left>,
+              can::Range<Kind::range_front>, can::Range<Kind::range_right>, can::NavStatus, can::ParamRequest,
+              can::ParamReply, can::Heartbeat, can::Info, can::InfoRequest, can::Diagnostics>();
+  const uint32_t own = hal::overhead(hal::board().meter);
+  images::print_work("write", writing, own);
+  images::print_work("read", reading, own);
+  return 0;
+}

@@ -1,0 +1,9 @@
+// A robot whose sensors and wheels are played by a companion at the other end of a serial line.
+#include "firmware/apps/pil_link/session.hpp"
+#include "hal/board.hpp"
+
+int main() {
+  const whisker::hal::Board& board = whisker::hal::board();
+  static whisker::link::Session session;
+  return session.run(board.serial, board.meter);
+}

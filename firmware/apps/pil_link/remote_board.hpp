@@ -1,0 +1,28 @@
+#pragma once
+
+#include "firmware/apps/pil_link/message.hpp"
+#include "hal/drive.hpp"
+#include "hal/rangefinders.hpp"
+
+namespace whisker::link {
+
+/// Sensors and wheels that a companion plays: every call answers what its last message said.
+class RemoteBoard final : public hal::Rangefinders, public hal::Drive {
+ public:
+  void hear(const Tick& tick) noexcept { tick_ = tick; }
+
+  bool read(hal::RangeReadings& out) noexcept override {
+    if (tick_.ranges_given != 0) out = tick_.ranges;
+    return tick_.ranges_given != 0;
+  }
+  bool read(hal::EncoderCounts& out) noexcept override {
+    if (tick_.counts_given != 0) out = tick_.counts;
+    return tick_.counts_given != 0;
+  }
+  bool command(hal::WheelSpeeds) noexcept override { return tick_.accepts != 0; }
+
+ private:
+  Tick tick_;
+};
+
+}  // namespace whisker::link

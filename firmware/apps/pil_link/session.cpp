@@ -1,0 +1,174 @@
+#include "firmware/apps/pil_link/session.hpp"
+
+namespace whisker::link {
+namespace {
+
+constexpr uint8_t kEngine =
+#ifdef WHISKER_ENGINE_CLOSED
+    1;
+#else
+    0;
+#endif
+
+Pose pose(const Stand& s) noexcept {
+  return {{Length::from_raw(s.x), Length::from_raw(s.y)}, Angle::from_raw(s.heading)};
+}
+
+uint32_t failures(const Health& h) noexcept {
+  return h.range_refused + h.range_invalid + h.range_stale + h.range_stuck + h.range_out_of_range +
+         h.drive_refused + h.encoder_refused + h.encoder_jumps + h.wheel_stalls + h.unsteady_looks +
+         h.no_progress + h.pose_out_of_range + h.wheel_runaways + h.late_ticks + h.clock_jumps;
+}
+
+Answer answer_of(const Status& status) noexcept {
+  const planning::Decision& d = status.decision;
+  Answer a;
+  a.command = status.command;
+  a.mode = static_cast<uint8_t>(d.mode);
+  a.why = static_cast<uint8_t>(d.why);
+  a.outcome = static_cast<uint8_t>(d.outcome);
+  a.fault = static_cast<uint8_t>(status.health.fault);
+  a.danger_count = d.danger_count;
+  a.looked = d.looked ? 1 : 0;
+  a.manoeuvre = static_cast<uint8_t>(d.manoeuvre.kind);
+  a.distance = d.inputs.distance.raw();
+  a.bias = d.inputs.bias.raw();
+  a.turn = d.response.turn.raw();
+  a.step = d.response.step.raw();
+  a.cell_distance = d.response.cell.distance;
+  a.cell_bias = d.response.cell.bias;
+  a.pose = {status.pose.at.x.raw(), status.pose.at.y.raw(), status.pose.heading.raw()};
+  for (int i = 0; i < hal::kBeams; ++i) {
+    a.validity[i] = static_cast<uint8_t>(status.echoes.beam[i].validity);
+    a.echo[i] = status.echoes.beam[i].distance.raw();
+  }
+  a.failures = failures(status.health);
+  return a;
+}
+
+}  // namespace
+
+template <class M>
+bool Session::hear(M& message) noexcept {
+  static_assert(size_of<M>() <= sizeof buffer_);
+  if (!hear(size_of<M>())) return false;
+  message = decode<M>(buffer_);
+  return true;
+}
+
+template <class M>
+bool Session::say(const M& message) noexcept {
+  static_assert(size_of<M>() <= sizeof buffer_);
+  encode(message, buffer_);
+  return stream_->write(buffer_, size_of<M>());
+}
+
+int Session::run(hal::ByteStream& stream, hal::Meter& meter) noexcept {
+  stream_ = &stream;
+  meter_ = &meter;
+  overhead_ = hal::overhead(meter);
+  my_ = &room_for_affairs_.make<Affairs>();
+  while (!ended_) {
+    uint8_t name = 0;
+    if (!stream_->read(&name, 1) || !obey(static_cast<Name>(name))) return 1;
+  }
+  return 0;
+}
+
+bool Session::obey(Name name) noexcept {
+  switch (name) {
+    case Name::hello: return say(Greeting{kVersion, kEngine, planning::kRoomForMap});
+    case Name::params: {
+      if (!hear(params_size())) return false;
+      ParamDecoder decoder{buffer_};
+      for_each_param(my_->params, decoder);
+      robot_ = nullptr;
+      return true;
+    }
+    case Name::begin: {
+      Begin what;
+      return hear(what) && begin(what);
+    }
+    case Name::goal: {
+      Target what;
+      if (!hear(what) || robot_ == nullptr) return false;
+      robot_->set_goal(
+          {{Length::from_raw(what.x), Length::from_raw(what.y)}, Length::from_raw(what.tolerance)});
+      return true;
+    }
+    case Name::place: {
+      Stand what;
+      if (!hear(what) || robot_ == nullptr) return false;
+      robot_->place(pose(what));
+      return true;
+    }
+    case Name::cancel:
+      if (robot_ != nullptr) robot_->cancel();
+      return robot_ != nullptr;
+    case Name::reset:
+      if (robot_ != nullptr) robot_->reset();
+      return robot_ != nullptr;
+    case Name::tick: {
+      Tick what;
+      return hear(what) && tick(what);
+    }
+    case Name::fuzzy: {
+      Probe what;
+      return hear(what) && probe(what);
+    }
+    case Name::end: ended_ = true; return say(Total{ticks_, my_->hash.value(), meter_->deepest_stack()});
+  }
+  return false;
+}
+
+planning::Planner* Session::make_map(uint16_t bytes) noexcept {
+  return planning::with_map_of<planning::Planner*>(bytes, [this](auto size) -> planning::Planner* {
+    if constexpr (size.kValue <= planning::kRoomForMap) {
+      return &room_for_planner_
+                  .make<planning::TableMapPlanner<size.kValue>>(my_->params, fuzzy::kDefaultTable)
+                  .planner;
+    }
+    return nullptr;
+  });
+}
+
+bool Session::begin(const Begin& what) noexcept {
+  planning::Planner* planner = nullptr;
+  switch (what.planner) {
+    case Planner::skirt:
+      planner =
+          &room_for_planner_.make<planning::TableBoundaryPlanner>(my_->params, fuzzy::kDefaultTable).planner;
+      break;
+    case Planner::thesis:
+      planner = &room_for_planner_.make<planning::ThesisPlanner>(my_->params, fuzzy::kDefaultTable);
+      break;
+    case Planner::map: planner = make_map(what.map_bytes); break;
+  }
+  if (planner == nullptr) return false;
+  robot_ = &room_for_robot_.make<Robot>(my_->board, my_->board, *planner, my_->params);
+  robot_->place(pose(what.stand));
+  return true;
+}
+
+bool Session::tick(const Tick& what) noexcept {
+  if (robot_ == nullptr) return false;
+  my_->board.hear(what);
+  const uint32_t before = meter_->stamp();
+  const Status& status = robot_->tick(Time::from_raw(what.now_ms));
+  const uint32_t after = meter_->stamp();
+  ++ticks_;
+  my_->hash.add(status.command);
+  Answer answer = answer_of(status);
+  answer.work = meter_->between(before, after) - overhead_;
+  return say(answer);
+}
+
+bool Session::probe(const Probe& what) noexcept {
+  const fuzzy::Engine engine{fuzzy::kDefaultTable};
+  const fuzzy::Response r = engine({Q7::from_raw(what.distance), Q7::from_raw(what.bias)});
+  my_->hash.add(r.turn.raw());
+  my_->hash.add(r.step.raw());
+  return say(Reaction{r.turn.raw(), r.step.raw(), r.cell.distance, r.cell.bias});
+}
+
+}  // namespace whisker::link

@@ -1,0 +1,67 @@
+/// A robot whose companion plays its sensors and its wheels; firmware/apps/pil_link/message.hpp has the
+/// words.
+#pragma once
+
+#include "firmware/apps/pil_link/bytes.hpp"
+#include "firmware/apps/pil_link/command_hash.hpp"
+#include "firmware/apps/pil_link/message.hpp"
+#include "firmware/apps/pil_link/params.hpp"
+#include "firmware/apps/pil_link/remote_board.hpp"
+#include "firmware/apps/static_storage.hpp"
+#include "firmware/planning/default_planner.hpp"
+#include "firmware/planning/thesis/thesis_planner.hpp"
+#include "firmware/robot.hpp"
+#include "hal/byte_stream.hpp"
+#include "hal/meter.hpp"
+
+namespace whisker::link {
+
+/// What the largest planner takes.
+template <int kMapBytes>
+constexpr size_t kPlannerSize = sizeof(planning::TableMapPlanner<kMapBytes>);
+template <>
+inline constexpr size_t kPlannerSize<0> = sizeof(planning::TableBoundaryPlanner) >
+                                                  sizeof(planning::ThesisPlanner)
+                                              ? sizeof(planning::TableBoundaryPlanner)
+                                              : sizeof(planning::ThesisPlanner);
+
+class Session {
+ public:
+  constexpr Session() noexcept = default;
+  Session(const Session&) = delete;
+
+  /// Answers until the companion ends it. 0: it did; 1: the stream ended without it, or made no sense. Once.
+  int run(hal::ByteStream& stream, hal::Meter& meter) noexcept;
+
+ private:
+  struct Affairs {
+    RemoteBoard board;
+    Params params;
+    CommandHash hash;
+  };
+
+  bool obey(Name name) noexcept;
+  bool begin(const Begin& what) noexcept;
+  planning::Planner* make_map(uint16_t bytes) noexcept;
+  bool tick(const Tick& what) noexcept;
+  bool probe(const Probe& what) noexcept;
+  bool hear(size_t count) noexcept { return stream_->read(buffer_, count); }
+  template <class M>
+  bool hear(M& message) noexcept;
+  template <class M>
+  bool say(const M& message) noexcept;
+
+  hal::ByteStream* stream_ = nullptr;
+  hal::Meter* meter_ = nullptr;
+  uint32_t overhead_ = 0;
+  Affairs* my_ = nullptr;
+  Robot* robot_ = nullptr;
+  hal::Room<sizeof(Affairs)> room_for_affairs_;
+  hal::Room<kPlannerSize<planning::kRoomForMap>> room_for_planner_;
+  hal::Room<sizeof(Robot)> room_for_robot_;
+  uint32_t ticks_ = 0;
+  bool ended_ = false;
+  uint8_t buffer_[params_size()] = {};
+};
+
+}  // namespace whisker::link

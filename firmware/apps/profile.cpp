@@ -1,0 +1,76 @@
+// Like replay, but an answer's work is that of one part of the core alone: the local grid, what the
+// map's beams mark, or the wavefront upon it. The linker puts the functions below between the part and who
+// calls it (--wrap).
+#include "firmware/apps/pil_link/session.hpp"
+#include "firmware/perception/local_grid.hpp"
+#include "firmware/planning/global/wavefront.hpp"
+#include "hal/board.hpp"
+
+namespace {
+
+/// What passed while the part ran, instead of the time.
+class PartMeter final : public whisker::hal::Meter {
+ public:
+  uint32_t stamp() noexcept override { return 0; }
+  uint32_t between(uint32_t, uint32_t) noexcept override {
+    const uint32_t passed = passed_;
+    passed_ = 0;
+    return passed;
+  }
+  uint32_t deepest_stack() noexcept override { return board().deepest_stack(); }
+
+  static whisker::hal::Meter& board() noexcept { return whisker::hal::board().meter; }
+  void add(uint32_t from) noexcept { passed_ += board().between(from, board().stamp()); }
+
+ private:
+  uint32_t passed_ = 0;
+};
+
+PartMeter meter;
+
+/// Of the part, from here to the end of the block.
+class Run {
+ public:
+  Run() noexcept : from_(PartMeter::board().stamp()) {}
+  ~Run() { meter.add(from_); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+ private:
+  uint32_t from_;
+};
+
+}  // namespace
+
+#define WHISKER_MEASURED(function, Result, parameters, arguments) \
+  extern "C" Result __real_##function parameters noexcept;        \
+  extern "C" Result __wrap_##function parameters noexcept {       \
+    const Run run;                                                \
+    return __real_##function arguments;                           \
+  }
+
+using namespace whisker;
+using perception::LocalGrid;
+using planning::GridMap;
+using planning::Wavefront;
+
+#if defined(WHISKER_PROFILE_PATCH)
+WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid4markERKNS0_15ConeObservationEPKNS0_18EarlierObservationE, void,
+                 (LocalGrid * local_grid, const perception::ConeObservation& observation,
+                  const perception::EarlierObservation* before),
+                 (local_grid, observation, before))
+WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid7move_toERKNS_4PoseE, void,
+                 (LocalGrid * local_grid, const Pose& pose), (local_grid, pose))
+#elif defined(WHISKER_PROFILE_MARKS)
+WHISKER_MEASURED(_ZN7whisker8planning7GridMap4markERKNS_10perception15ConeObservationEb, void,
+                 (Map * map, const perception::ConeObservation& observation, bool hold),
+                 (map, observation, hold))
+#elif defined(WHISKER_PROFILE_FLOOD)
+WHISKER_MEASURED(_ZN7whisker8planning9Wavefront3runERNS0_7GridMapEl, bool,
+                 (Wavefront * wavefront, Map& map, int32_t words), (wavefront, map, words))
+#endif
+
+int main() {
+  static link::Session session;
+  return session.run(hal::board().host, meter);
+}

@@ -1,0 +1,21 @@
+// The reference robot on an STM32F405: drives 2 m ahead and stands.
+#include "firmware/planning/default_planner.hpp"
+#include "hal/boards/stm32f405/robot_board.hpp"
+#include "hal/boards/stm32f405/robot_params.hpp"
+#include "hal/boards/stm32f405/vl53l0x.hpp"
+
+int main() {
+  using namespace whisker;
+  using namespace whisker::hal::stm32f405;
+  static RobotBoard board(kVl53l0x, kMotorParams, kMotorParams);
+  static planning::DefaultPlanner planner(kRobotParams, fuzzy::kDefaultTable);
+  static Robot robot(board.rangefinders(), board.drive(), planner.planner, kRobotParams);
+
+  board.start();
+  robot.place({});
+  robot.set_goal({{2_m, 0_m}, 100_mm});
+  for (;;) {
+    board.poll(robot.status());
+    if (board.due(static_cast<uint32_t>(kRobotParams.safety.period.raw()))) robot.tick(board.now());
+  }
+}

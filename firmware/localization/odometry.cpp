@@ -1,0 +1,78 @@
+#include "firmware/localization/odometry.hpp"
+
+namespace whisker::localization {
+namespace {
+
+/// The shorter way from one count to the other on the counter's circle.
+int32_t moved(uint32_t from, uint32_t to) noexcept {
+  const uint32_t forward = (to - from) % hal::kEncoderModulus;
+  const int32_t steps = static_cast<int32_t>(forward);
+  return forward < hal::kEncoderModulus / 2 ? steps : steps - static_cast<int32_t>(hal::kEncoderModulus);
+}
+
+}  // namespace
+
+void Odometry::configure(const Params& params) noexcept {
+  um_per_count_ = divide_rounded(INT64_C(1000000) << 16, params.wheels.counts_per_metre);
+  // One count turns the body by its travel over the track, in radians.
+  constexpr int64_t kTurnPerRadianQ30 = 170891319;
+  const int64_t radians_q36 = divide_rounded(um_per_count_ << 20, params.body.track.raw());
+  turn_per_count_ = static_cast<uint64_t>(scale_down<18>(radians_q36 * kTurnPerRadianQ30));
+
+#ifdef WHISKER_SMALL  // one bound for all gaps
+  const Length furthest = params.wheels.max_speed * 2 * longest_gap(params);
+  counts_per_ms_ =
+      2 + static_cast<uint32_t>(multiply_divide(furthest.raw(), params.wheels.counts_per_metre, 1000000));
+#else
+  period_ = params.safety.period;
+  const int32_t um_per_s = params.wheels.max_speed.raw() / 1000 * 512;
+  counts_per_ms_ = static_cast<uint32_t>(multiply_divide(um_per_s, params.wheels.counts_per_metre, 1000000));
+#endif
+}
+
+void Odometry::place(const Pose& pose) noexcept {
+  x_ = int64_t{pose.at.x.raw()} * 65536;
+  y_ = int64_t{pose.at.y.raw()} * 65536;
+  start_heading_ = pose.heading;
+  heading_ = pose.heading;
+  difference_ = 0;
+  has_last_ = false;
+}
+
+bool Odometry::update(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept {
+  step = {};
+  if (has_last_) step = {moved(last_.left, counts.left), moved(last_.right, counts.right)};
+  last_ = counts;
+  has_last_ = true;
+#ifdef WHISKER_SMALL
+  static_cast<void>(since);
+  const uint32_t most = counts_per_ms_;
+#else
+  // So many counts fit into 32 bits.
+  const Duration over = min(since + period_, milliseconds(2000));
+  const uint32_t most = 2 + static_cast<uint32_t>(over.raw()) * counts_per_ms_ / 256;
+#endif
+  if (magnitude(step.left) > most || magnitude(step.right) > most) return false;
+
+  difference_ += step.right - step.left;
+  const uint64_t turned = magnitude(difference_) * turn_per_count_;
+  const Angle size = Angle::from_raw(static_cast<uint32_t>(turned >> 16));
+  const Angle before = heading_;
+  heading_ = start_heading_ + (difference_ < 0 ? -size : size);
+
+  const Angle change = heading_ - before;
+  const Angle middle = before + scaled(change, Q15::ratio(1, 2));
+  const int64_t both = (step.left + step.right) * um_per_count_;
+  const int64_t distance_q10 = scale_down<7>(both);
+  x_ += scale_down<24>(distance_q10 * cos(middle).raw());
+  y_ += scale_down<24>(distance_q10 * sin(middle).raw());
+  return true;
+}
+
+Pose Odometry::pose() const noexcept {
+  return {
+      {Length::from_raw(saturate32(scale_down<16>(x_))), Length::from_raw(saturate32(scale_down<16>(y_)))},
+      heading_};
+}
+
+}  // namespace whisker::localization

@@ -1,0 +1,48 @@
+/// Where the body is, from the wheels' counts alone.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/math/trig.hpp"
+#include "firmware/math/units.hpp"
+#include "firmware/params.hpp"
+#include "hal/types.hpp"
+
+namespace whisker::localization {
+
+/// Counts moved since the update before, per wheel.
+struct CountStep {
+  int32_t left = 0;
+  int32_t right = 0;
+};
+
+/// Dead reckoning of a differential drive. The heading follows from the difference of all counts ever
+/// seen, so it gathers no rounding error; the position is summed in units of 2^-16 um.
+class Odometry {
+ public:
+  /// Rounds the rim travel per count to 2^-17 um and the turn per count to 1e-8 of itself.
+  void configure(const Params& params) noexcept;
+  /// Puts the body at a pose; the next counts are the new zero.
+  void place(const Pose& pose) noexcept;
+  /// Takes both counters, modulo 2^24, `since` the update before. False: a wheel moved further than at twice
+  /// its full speed over that time and a period; the step is left out of the pose and the new counts are the
+  /// new zero.
+  bool update(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept;
+
+  Pose pose() const noexcept;
+
+ private:
+  int64_t x_ = 0;  // 2^-16 um
+  int64_t y_ = 0;
+  Angle start_heading_;
+  Angle heading_;
+  int64_t difference_ = 0;       // right minus left, counts since place()
+  int64_t um_per_count_ = 0;     // 2^-16 um
+  uint64_t turn_per_count_ = 0;  // 2^-48 turn
+  Duration period_;
+  uint32_t counts_per_ms_ = 0;  // at twice the full speed, 2^-8 count
+  hal::EncoderCounts last_{};
+  bool has_last_ = false;
+};
+
+}  // namespace whisker::localization

@@ -1,0 +1,28 @@
+/// Where a robot may be, and its goals.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/math/trig.hpp"
+#include "firmware/math/units.hpp"
+
+namespace whisker {
+
+/// Of goals and placements, along each axis from the origin.
+constexpr Length kPlaceLimit = millimetres(1000000);
+/// Of the body, which may have to go around something. The difference of two such coordinates fits a Length;
+/// a distance above 2,147 m counts as that much.
+constexpr Length kBodyLimit = millimetres(1050000);
+
+/// farthest >= 0.
+constexpr bool within(Length x, Length farthest) noexcept {
+  const uint32_t limit = static_cast<uint32_t>(farthest.raw());
+  return static_cast<uint32_t>(x.raw()) + limit <= 2 * limit;
+}
+constexpr bool within(Vec at, Length farthest) noexcept {
+  return within(at.x, farthest) && within(at.y, farthest);
+}
+static_assert(within(-kPlaceLimit, kPlaceLimit) && !within(kPlaceLimit + micrometres(1), kPlaceLimit));
+static_assert(!within(Length::from_raw(INT32_MIN), kPlaceLimit));
+
+}  // namespace whisker

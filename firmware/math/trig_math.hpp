@@ -1,0 +1,165 @@
+/// The functions of trig.hpp: their formulas, and the choice between the compiler and trig.cpp.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "firmware/math/trig.hpp"
+
+namespace whisker {
+namespace at_run_time {
+Q30 sin(Angle a) noexcept;
+Angle atan2(int32_t y, int32_t x) noexcept;
+uint32_t square_root(uint64_t x) noexcept;
+uint32_t square_root_32(uint32_t x) noexcept;
+Length norm(Vec v) noexcept;
+bool farther(Vec v, Length length) noexcept;
+Vec polar(Angle direction, Length length) noexcept;
+Length along(Vec v, Angle direction) noexcept;
+}  // namespace at_run_time
+
+namespace formula {
+
+// Minimax fits (Remez exchange) of sin(x pi / 2), unit 2^-30, and of atan(x), unit 2^-32 turn.
+constexpr int32_t kSine[] = {1686629674, -693597876, 85564854, -5016767, 161942};
+constexpr int32_t kArcTangent[] = {683565198, -227850059, 136616721, -96801258, 71767194,
+                                   -49455063, 27193166,   -9844330,  1679347};
+
+/// c[0] x + c[1] x^3 + ... for x in [0, 1] as Q30, in the unit of the coefficients.
+template <size_t kTerms>
+constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noexcept {
+  const int64_t x = x_q30;
+  const int64_t square = scale_down<30>(x * x);
+  int32_t sum = c[kTerms - 1];
+  for (size_t i = kTerms - 1; i-- > 0;) sum = static_cast<int32_t>(c[i] + scale_down<30>(sum * square));
+  return static_cast<int32_t>(scale_down<30>(sum * x));
+}
+
+[[gnu::always_inline]] constexpr Q30 sin(Angle a) noexcept {
+  const uint32_t half = UINT32_C(1) << 31;
+  const uint32_t quarter = UINT32_C(1) << 30;
+  const bool negative = a.raw() > half;
+  uint32_t first_half = negative ? 0U - a.raw() : a.raw();
+  if (first_half > quarter) first_half = half - first_half;
+  const int32_t s = odd_polynomial(kSine, static_cast<int32_t>(first_half));
+  const int32_t capped = s > Q30::kOne ? Q30::kOne : s;
+  return Q30::from_raw(negative ? -capped : capped);
+}
+
+[[gnu::always_inline]] constexpr Angle atan2(int32_t y, int32_t x) noexcept {
+  const uint32_t ax = magnitude(x);
+  const uint32_t ay = magnitude(y);
+  if (ax == 0 && ay == 0) return Angle{};
+  const uint32_t low = ax < ay ? ax : ay;
+  const uint32_t high = ax < ay ? ay : ax;
+  const uint64_t ratio = ((uint64_t{low} << 30) + high / 2) / high;
+  uint32_t turn = static_cast<uint32_t>(odd_polynomial(kArcTangent, static_cast<int32_t>(ratio)));
+  if (ax < ay) turn = (UINT32_C(1) << 30) - turn;
+  if (x < 0) turn = (UINT32_C(1) << 31) - turn;
+  return Angle::from_raw(y < 0 ? 0U - turn : turn);
+}
+
+[[gnu::always_inline]] constexpr uint32_t square_root_32(uint32_t x) noexcept {
+  uint32_t bit = UINT32_C(1) << 15;
+  while (bit * bit > x) bit >>= 1;
+  uint32_t root = 0;
+  for (; bit != 0; bit >>= 1) {
+    const uint32_t larger = root | bit;
+    if (larger * larger <= x) root = larger;
+  }
+  return root;
+}
+
+#ifdef WHISKER_SMALL  // slower, in a third of the flash
+[[gnu::always_inline]] constexpr uint32_t square_root(uint64_t x) noexcept {
+  uint32_t root = 0;
+  for (uint32_t bit = UINT32_C(1) << 31; bit != 0; bit >>= 1) {
+    const uint64_t larger = root | bit;
+    if (larger * larger <= x) root = static_cast<uint32_t>(larger);
+  }
+  return root;
+}
+#else
+[[gnu::always_inline]] constexpr uint32_t square_root(uint64_t x) noexcept {
+  if (x <= UINT32_MAX) return whisker::square_root_32(static_cast<uint32_t>(x));
+  uint64_t rest = x;
+  uint64_t root = 0;
+  uint64_t bit = UINT64_C(1) << 62;
+  while (bit > x) bit >>= 2;
+  while (bit != 0) {
+    if (rest >= root + bit) {
+      rest -= root + bit;
+      root = (root >> 1) + bit;
+    } else {
+      root >>= 1;
+    }
+    bit >>= 2;
+  }
+  return static_cast<uint32_t>(root);
+}
+#endif
+
+constexpr uint64_t squared(Vec v) noexcept {
+  const uint64_t x = magnitude(v.x.raw());
+  const uint64_t y = magnitude(v.y.raw());
+  return x * x + y * y;
+}
+
+[[gnu::always_inline]] constexpr Length norm(const Vec& v) noexcept {
+  const uint32_t root = whisker::square_root(squared(v));
+  return Length::from_raw(root > INT32_MAX ? INT32_MAX : static_cast<int32_t>(root));
+}
+
+[[gnu::always_inline]] constexpr bool farther(const Vec& v, Length length) noexcept {
+  const uint64_t beyond = uint64_t{magnitude(length.raw())} + 1;
+  return length < Length{} || squared(v) >= beyond * beyond;
+}
+
+[[gnu::always_inline]] constexpr Vec polar(Angle direction, Length length) noexcept {
+  return {length * whisker::cos(direction), length * whisker::sin(direction)};
+}
+
+[[gnu::always_inline]] constexpr Length along(const Vec& v, Angle direction) noexcept {
+  const int64_t x = scale_down<4>(int64_t{v.x.raw()} * whisker::cos(direction).raw());
+  const int64_t y = scale_down<4>(int64_t{v.y.raw()} * whisker::sin(direction).raw());
+  return Length::from_raw(saturate32(scale_down<26>(x + y)));
+}
+
+}  // namespace formula
+
+[[gnu::always_inline]] constexpr Q30 sin(Angle a) noexcept {
+  if (__builtin_is_constant_evaluated()) return formula::sin(a);
+  return at_run_time::sin(a);
+}
+constexpr Q30 cos(Angle a) noexcept { return sin(Angle::turns(1, 4) - a); }
+[[gnu::always_inline]] constexpr Angle atan2(int32_t y, int32_t x) noexcept {
+  if (__builtin_is_constant_evaluated()) return formula::atan2(y, x);
+  return at_run_time::atan2(y, x);
+}
+constexpr Angle bearing(const Vec& v) noexcept { return atan2(v.y.raw(), v.x.raw()); }
+[[gnu::always_inline]] constexpr uint32_t square_root(uint64_t x) noexcept {
+  if (__builtin_is_constant_evaluated()) return formula::square_root(x);
+  return at_run_time::square_root(x);
+}
+[[gnu::always_inline]] constexpr uint32_t square_root_32(uint32_t x) noexcept {
+  if (__builtin_is_constant_evaluated()) return formula::square_root_32(x);
+  return at_run_time::square_root_32(x);
+}
+[[gnu::always_inline]] constexpr Length norm(const Vec& v) noexcept {
+  if (__builtin_is_constant_evaluated()) return formula::norm(v);
+  return at_run_time::norm(v);
+}
+[[gnu::always_inline]] constexpr bool farther(const Vec& v, Length length) noexcept {
+  if (__builtin_is_constant_evaluated()) return formula::farther(v, length);
+  return at_run_time::farther(v, length);
+}
+[[gnu::always_inline]] constexpr Vec polar(Angle direction, Length length) noexcept {
+  if (__builtin_is_constant_evaluated()) return formula::polar(direction, length);
+  return at_run_time::polar(direction, length);
+}
+[[gnu::always_inline]] constexpr Length along(const Vec& v, Angle direction) noexcept {
+  if (__builtin_is_constant_evaluated()) return formula::along(v, direction);
+  return at_run_time::along(v, direction);
+}
+
+}  // namespace whisker

@@ -1,0 +1,150 @@
+/// Quantities as types: a length cannot become a speed, and every sum saturates.
+///
+/// | type | raw unit | range |
+/// |---|---|---|
+/// | Length | 1 um | +-2147 m |
+/// | Speed | 1 um/s | +-2147 m/s |
+/// | Acceleration | 1 um/s^2 | +-2147 m/s^2 |
+/// | AngularRate | 1 urad/s | +-2147 rad/s |
+/// | Duration | 1 ms | +-24.8 days |
+/// | Time | 1 ms, wraps after 49.7 days | - |
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/math/fixed.hpp"
+
+namespace whisker {
+
+template <class Tag>
+class Unit {
+ public:
+  constexpr Unit() noexcept = default;
+  static constexpr Unit from_raw(int32_t raw) noexcept {
+    Unit u;
+    u.raw_ = raw;
+    return u;
+  }
+  constexpr int32_t raw() const noexcept { return raw_; }
+
+  friend constexpr bool operator==(Unit a, Unit b) noexcept { return a.raw_ == b.raw_; }
+  friend constexpr bool operator!=(Unit a, Unit b) noexcept { return a.raw_ != b.raw_; }
+  friend constexpr bool operator<(Unit a, Unit b) noexcept { return a.raw_ < b.raw_; }
+  friend constexpr bool operator>(Unit a, Unit b) noexcept { return a.raw_ > b.raw_; }
+  friend constexpr bool operator<=(Unit a, Unit b) noexcept { return a.raw_ <= b.raw_; }
+  friend constexpr bool operator>=(Unit a, Unit b) noexcept { return a.raw_ >= b.raw_; }
+  friend constexpr Unit operator-(Unit a) noexcept { return from_raw(saturating_negate(a.raw_)); }
+  friend constexpr Unit operator+(Unit a, Unit b) noexcept {
+    return from_raw(saturating_add(a.raw_, b.raw_));
+  }
+  friend constexpr Unit operator-(Unit a, Unit b) noexcept {
+    return from_raw(saturating_subtract(a.raw_, b.raw_));
+  }
+  friend constexpr Unit operator*(Unit a, int32_t k) noexcept {
+    return from_raw(saturate32(int64_t{a.raw_} * k));
+  }
+  /// Scaled by a fixed-point factor, rounded to nearest.
+  template <int kFraction, class Rep>
+  friend constexpr Unit operator*(Unit a, Fixed<kFraction, Rep> k) noexcept {
+    return from_raw(saturate32(scale_down<kFraction>(int64_t{a.raw_} * k.raw())));
+  }
+  friend constexpr Unit operator/(Unit a, int32_t k) noexcept {
+    return from_raw(saturate32(divide_rounded(a.raw_, k)));
+  }
+  constexpr Unit& operator+=(Unit b) noexcept { return *this = *this + b; }
+  constexpr Unit& operator-=(Unit b) noexcept { return *this = *this - b; }
+
+ private:
+  int32_t raw_ = 0;
+};
+
+using Length = Unit<struct LengthTag>;
+using Speed = Unit<struct SpeedTag>;
+using Acceleration = Unit<struct AccelerationTag>;
+using AngularRate = Unit<struct AngularRateTag>;
+using Duration = Unit<struct DurationTag>;
+
+// In parentheses: Arduino and some vendors' headers have macros abs(), min() and max().
+template <class Tag>
+constexpr Unit<Tag>(abs)(Unit<Tag> a) noexcept {
+  return a.raw() < 0 ? -a : a;
+}
+template <class Tag>
+constexpr Unit<Tag>(min)(Unit<Tag> a, Unit<Tag> b) noexcept {
+  return b < a ? b : a;
+}
+template <class Tag>
+constexpr Unit<Tag>(max)(Unit<Tag> a, Unit<Tag> b) noexcept {
+  return a < b ? b : a;
+}
+/// x within [-limit, limit]. limit >= 0.
+template <class Tag>
+constexpr Unit<Tag> limit(Unit<Tag> x, Unit<Tag> limit) noexcept {
+  return (max)(-limit, (min)(x, limit));
+}
+
+/// An instant on a millisecond counter that wraps; compare instants only by their difference.
+class Time {
+ public:
+  constexpr Time() noexcept = default;
+  static constexpr Time from_raw(uint32_t ms) noexcept {
+    Time t;
+    t.ms_ = ms;
+    return t;
+  }
+  constexpr uint32_t raw() const noexcept { return ms_; }
+  /// Right for instants less than 24.8 days apart.
+  friend constexpr Duration operator-(Time a, Time b) noexcept {
+    const uint32_t d = a.ms_ - b.ms_;
+    return Duration::from_raw(d <= INT32_MAX ? static_cast<int32_t>(d) : -static_cast<int32_t>(~d) - 1);
+  }
+  friend constexpr Time operator+(Time a, Duration d) noexcept {
+    return from_raw(a.ms_ + static_cast<uint32_t>(d.raw()));
+  }
+  friend constexpr Time operator-(Time a, Duration d) noexcept {
+    return from_raw(a.ms_ - static_cast<uint32_t>(d.raw()));
+  }
+
+ private:
+  uint32_t ms_ = 0;
+};
+
+constexpr Length micrometres(int32_t um) noexcept { return Length::from_raw(um); }
+constexpr Length millimetres(int32_t mm) noexcept { return Length::from_raw(1000) * mm; }
+constexpr Duration milliseconds(int32_t ms) noexcept { return Duration::from_raw(ms); }
+
+namespace literals {
+constexpr Length operator""_mm(unsigned long long x) noexcept { return millimetres(static_cast<int32_t>(x)); }
+constexpr Length operator""_m(unsigned long long x) noexcept {
+  return millimetres(1000) * static_cast<int32_t>(x);
+}
+constexpr Speed operator""_mm_per_s(unsigned long long x) noexcept {
+  return Speed::from_raw(1000) * static_cast<int32_t>(x);
+}
+constexpr Acceleration operator""_mm_per_s2(unsigned long long x) noexcept {
+  return Acceleration::from_raw(1000) * static_cast<int32_t>(x);
+}
+constexpr AngularRate operator""_mrad_per_s(unsigned long long x) noexcept {
+  return AngularRate::from_raw(1000) * static_cast<int32_t>(x);
+}
+constexpr Duration operator""_ms(unsigned long long x) noexcept {
+  return milliseconds(static_cast<int32_t>(x));
+}
+}  // namespace literals
+
+/// How far something at this speed comes in this time.
+constexpr Length operator*(Speed v, Duration t) noexcept {
+  return Length::from_raw(saturate32(divide_rounded(int64_t{v.raw()} * t.raw(), 1000)));
+}
+constexpr Speed operator*(Acceleration a, Duration t) noexcept {
+  return Speed::from_raw(saturate32(divide_rounded(int64_t{a.raw()} * t.raw(), 1000)));
+}
+/// The speed of a point at this distance from the axis.
+constexpr Speed operator*(AngularRate w, Length radius) noexcept {
+  return Speed::from_raw(saturate32(divide_rounded(int64_t{w.raw()} * radius.raw(), 1000000)));
+}
+
+static_assert((Time::from_raw(5) - Time::from_raw(0xFFFFFFFBU)).raw() == 10);
+static_assert((Time::from_raw(0xFFFFFFFBU) - Time::from_raw(5)).raw() == -10);
+
+}  // namespace whisker

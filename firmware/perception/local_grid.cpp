@@ -1,0 +1,254 @@
+#include "firmware/perception/local_grid.hpp"
+
+namespace whisker::perception {
+namespace {
+
+static_assert(kUnitsPerCell == 256, "kCellCover counts in 256ths of a cell");
+
+constexpr Length kReadingRounding = 1_mm;
+constexpr Angle kSuspectHalf = 6_deg;
+constexpr Length kTestedTravel = 4_mm;
+constexpr int32_t kAhead = 3;  // cells
+constexpr Duration kDoubt = 1000_ms;
+constexpr int64_t kNear = INT32_C(1) << 30;
+
+// From any apex that is nearby.
+constexpr int32_t kWholeWindow = 5 * kCells * kUnitsPerCell;
+
+constexpr int32_t within(int64_t x, int32_t limit) noexcept {
+  return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
+}
+
+/// From the measurement of what moves to the body's rest: two more readings, latency, a gap, lag, braking.
+Duration time_to_stop(const Params& p) noexcept {
+  const int32_t braking = multiply_divide(p.wheels.max_speed.raw(), 1000, p.wheels.max_acceleration.raw());
+  return p.rangefinders.latency + milliseconds(2000 / p.rangefinders.rate_hz) + longest_gap(p) +
+         p.wheels.motor_lag + milliseconds(braking);
+}
+
+/// Not cut off at the outermost point.
+constexpr bool nearby(int32_t x) noexcept { return x > -kOutermost && x < kOutermost; }
+
+}  // namespace
+
+int32_t LocalGrid::units(int64_t um, int32_t most) const noexcept {
+  const int64_t n = um * kUnitsPerCell;
+  // Most are near: a division of 32 bits is quicker.
+  if (n < kNear && n > -kNear) return within(floor_div(static_cast<int32_t>(n), cell_um_), most);
+  return within(floor_div<int64_t>(n, cell_um_), most);
+}
+
+int32_t LocalGrid::units(Length l) const noexcept { return units(l.raw(), kLongest); }
+
+void LocalGrid::configure(const Params& params) noexcept {
+  cell_um_ = patch_cell(params).raw();
+  offset_ = params.rangefinders.offset;
+  half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
+  footprint_ = units(params.body.radius);
+  const int32_t blind = units(blind_reach(params)) + kUnitsPerCell;
+  placed_free_ =
+      blind_reach(params) > params.body.radius - cell_cover(params) ? blind + kCellCover : footprint_;
+  reach_ = whisker::reach(params);
+  ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
+  age_travel_ = params.skirt.age_travel;
+  age_turn_ = params.skirt.age_turn.raw();
+  approach_ = params.skirt.mover_speed * time_to_stop(params);
+}
+
+LocalGrid::Point LocalGrid::local(Vec at) const noexcept {
+  const auto from_corner = [this](Length x, int32_t corner) {
+    return units(int64_t{x.raw()} - int64_t{corner} * cell_um_, kOutermost);
+  };
+  return {from_corner(at.x, column_), from_corner(at.y, row_)};
+}
+
+void LocalGrid::drop_rows(int first, int count) noexcept {
+  for (int row = first; row < first + count; ++row) {
+    const int s = slot(row);
+    young_[s] = old_[s] = suspect_[s] = tested_[s] = 0;
+  }
+}
+
+void LocalGrid::drop_columns(Row window) noexcept {
+  const Row keep = ~to_torus(window);
+  for (int s = 0; s < kCells; ++s) {
+    young_[s] &= keep;
+    old_[s] &= keep;
+    suspect_[s] &= keep;
+    tested_[s] &= keep;
+  }
+}
+
+void LocalGrid::forget(const Pose& pose) noexcept {
+  drop_rows(0, kCells);
+  last_ = pose;
+  travel_ = Length{};
+  turned_ = 0;
+  doubting_ = false;
+  move_to(pose);
+}
+
+void LocalGrid::reset(const Pose& pose) noexcept {
+  forget(pose);
+  clear_around(pose.at, placed_free_);
+}
+
+void LocalGrid::move_to(const Pose& pose) noexcept {
+  // The body stands behind the middle of the window: the beams look ahead.
+  const Vec middle = pose.at + polar(pose.heading, Length::from_raw(cell_um_ * kAhead));
+  const auto corner = [this](Length x) {
+    return static_cast<int32_t>(floor_div<int64_t>(int64_t{x.raw()} + cell_um_ / 2, cell_um_)) - kCells / 2;
+  };
+  const int32_t right = corner(middle.x) - column_;
+  const int32_t up = corner(middle.y) - row_;
+  if (right >= kCells || right <= -kCells || up >= kCells || up <= -kCells) {
+    column_ += right;
+    row_ += up;
+    drop_rows(0, kCells);
+  } else {
+    column_ += right;
+    row_ += up;
+    const int rows = static_cast<int>(up);
+    const int cols = static_cast<int>(right);
+    if (rows > 0) drop_rows(kCells - rows, rows);
+    if (rows < 0) drop_rows(0, -rows);
+    if (cols > 0) drop_columns(columns_between(kCells - cols, kCells - 1));
+    if (cols < 0) drop_columns(columns_between(0, -cols - 1));
+  }
+  if (farther(pose.at - tested_at_, kTestedTravel)) {
+    for (Row& row : tested_) row = 0;
+    tested_at_ = pose.at;
+  }
+  age(pose);
+  clear_around(pose.at, footprint_);
+}
+
+void LocalGrid::age(const Pose& pose) noexcept {
+  travel_ += norm(pose.at - last_.at);
+  const uint32_t turn = magnitude(pose.heading - last_.heading);
+  turned_ = turn > UINT32_MAX - turned_ ? UINT32_MAX : turned_ + turn;
+  last_ = pose;
+  if (travel_ >= age_travel_ || turned_ >= age_turn_) {
+    for (int s = 0; s < kCells; ++s) {
+      old_[s] = young_[s];
+      young_[s] = 0;
+    }
+    travel_ = Length{};
+    turned_ = 0;
+  }
+  renew_around(pose.at);
+}
+
+void LocalGrid::renew_around(Vec at) noexcept {
+  const Point centre = local(at);
+  const Row box = to_torus(Span{centre.x - ring_, centre.x + ring_}.columns());
+  for (Rows rows(centre.y, ring_); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    if ((box & old_[s] & ~young_[s]) == 0) continue;
+    Span span;
+    span.within_disc(centre.x, rows.offset(centre.y), ring_);
+    young_[s] |= old_[s] & to_torus(span.columns());
+  }
+}
+
+void LocalGrid::clear_around(Vec at, int32_t reach) noexcept {
+  const Point centre = local(at);
+  const Row box = to_torus(Span{centre.x - reach, centre.x + reach}.columns());
+  for (Rows rows(centre.y, reach); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    if ((box & (~young_[s] | suspect_[s])) == 0) continue;
+    Span span;
+    span.inside_disc(centre.x, rows.offset(centre.y), reach);
+    const Row mask = to_torus(span.columns());
+    young_[s] |= mask;
+    suspect_[s] &= ~mask;
+  }
+}
+
+void LocalGrid::mark(const ConeObservation& observation, const EarlierObservation* before) noexcept {
+  const Angle axis = observation.from.heading + observation.axis;
+  const Vec from = observation.from.at + polar(axis, offset_);
+  const Point apex = local(from);
+  if (!nearby(apex.x) || !nearby(apex.y)) return;
+  const Angle axis_before = before == nullptr ? axis : before->from.heading + observation.axis;
+  const Vec from_before = before == nullptr ? from : before->from.at + polar(axis_before, offset_);
+  const Point apex_before = local(from_before);
+  if (!nearby(apex_before.x) || !nearby(apex_before.y)) return;
+  if (observation.taken - doubted_ > kDoubt) doubting_ = false;
+  const Length room = doubting_ && observation.hit ? approach_ : Length{};
+  const int32_t free = units(observation.free - room - kReadingRounding);
+  const int32_t free_before = before == nullptr ? free : units(before->free - room - kReadingRounding);
+  const int32_t echo = units(observation.free) + kUnitsPerCell;
+  const Wedge cone(axis, half_cone_);
+  const bool moved =
+      from.x != from_before.x || from.y != from_before.y || axis != axis_before || free_before < free;
+  const Wedge cone_before = moved ? Wedge(axis_before, half_cone_) : cone;
+  const bool wide = observation.hit && half_cone_.raw() > kSuspectHalf.raw();
+  const Wedge core = wide ? Wedge(axis, kSuspectHalf) : cone;
+  const int32_t reach = observation.aimed ? kWholeWindow : observation.hit ? echo : free;
+  for (Rows rows = cone.rows(apex.y, reach); rows.more(); rows.next()) {
+    const int32_t dy = rows.offset(apex.y);
+    Span inside = Span::around(apex.x, reach);
+    cone.hold(inside, apex.x, dy);
+    const int s = slot(rows.row());
+    const Row covered = to_torus(inside.columns());
+    if ((covered & (~young_[s] | suspect_[s] | tested_[s])) == 0) continue;
+    Span empty = inside;
+    empty.inside_disc(apex.x, dy, free);
+    if (moved) {
+      const int32_t dy_before = rows.offset(apex_before.y);
+      cone_before.hold(empty, apex_before.x, dy_before);
+      empty.inside_disc(apex_before.x, dy_before, free_before);
+    }
+    const Row clear = to_torus(empty.columns());
+    young_[s] |= clear;
+    suspect_[s] &= ~clear;
+    tested_[s] &= ~clear;
+    const Row unproved = covered & ~(young_[s] | old_[s]);
+    if (observation.aimed) tested_[s] |= unproved;
+    if (observation.hit && unproved != 0) {
+      Span near = inside;
+      core.clip(near, apex.x, dy, 0);
+      near.within_disc(apex.x, dy, echo);
+      suspect_[s] |= to_torus(near.columns()) & unproved;
+    }
+  }
+}
+
+void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexcept {
+  doubting_ = true;
+  doubted_ = observation.taken;
+  const Angle axis = observation.from.heading + observation.axis;
+  const Point apex = local(observation.from.at + polar(axis, offset_));
+  const Point body = local(last_.at);
+  if (!nearby(apex.x) || !nearby(apex.y)) return;
+  const int32_t approach = units(approach_) + kCellCover;
+  const int32_t nearest = units(observation.free) - approach;
+  const int32_t echo_ends = units(farthest) + kUnitsPerCell;
+  const int32_t beyond = units(farthest + approach_) + kUnitsPerCell;
+  const Wedge cone(axis, half_cone_);
+  // What is seen in the cone may reach beyond its edges, and be nearer there; behind the apex it is not.
+  const HalfPlane ahead = HalfPlane::facing(axis);
+  for (int row = 0; row < kCells; ++row) {
+    const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
+    Span around;
+    cone.clip(around, apex.x, dy, -approach);
+    ahead.clip(around, apex.x, dy, 0);
+    around.within_disc(apex.x, dy, beyond);
+    Span nearer;
+    nearer.within_disc(apex.x, dy, nearest);
+    Span under;
+    under.inside_disc(body.x, row * kUnitsPerCell + kHalfCell - body.y, footprint_);
+    const Row taken = to_torus(around.columns() & ~nearer.columns() & ~under.columns());
+    Span echo;
+    cone.clip(echo, apex.x, dy, 0);
+    echo.within_disc(apex.x, dy, echo_ends);
+    const int s = slot(row);
+    young_[s] &= ~taken;
+    old_[s] &= ~taken;
+    suspect_[s] = (suspect_[s] & ~taken) | (taken & to_torus(echo.columns()));
+    tested_[s] &= ~taken;
+  }
+}
+
+}  // namespace whisker::perception

@@ -1,0 +1,92 @@
+#include "firmware/perception/local_grid.hpp"
+
+namespace whisker::perception {
+namespace {
+
+// To pass a corner d abeam brings the body nearer to it by x^2 / 2d after it lay x ahead (docs/ground.md).
+constexpr int32_t kAbeam = 80;
+constexpr int32_t kWindow = kCells * kUnitsPerCell;
+
+}  // namespace
+
+Length LocalGrid::length_of(int32_t units) const noexcept {
+  return Length::from_raw(multiply_divide(units, cell_um_, kUnitsPerCell));
+}
+
+bool LocalGrid::in_window(Point p, int32_t reach) noexcept {
+  return p.x >= reach && p.y >= reach && p.x <= kWindow - reach && p.y <= kWindow - reach;
+}
+
+Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length radius,
+                           int32_t enough) const noexcept {
+  Obstacles found;
+  const Point start = local(from);
+  const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
+  const Row box = stadium.box();
+  int32_t nearest = INT32_MAX;
+  for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    Row blocked = box & to_window(~(young_[s] | old_[s]));
+    if (blocked == 0) continue;
+    blocked &= stadium.columns(rows.row());
+    const Row solid = blocked & to_window(suspect_[s] | tested_[s]);
+    found.suspect += bits(solid);
+    if (found.suspect >= enough) break;
+    const int32_t dy = rows.offset(start.y);
+    int32_t dx = kHalfCell - start.x;
+    for (Row open = blocked & ~solid; open != 0; open >>= 1, dx += kUnitsPerCell) {
+      if ((open & 1U) == 0) continue;
+      ++found.unknown;
+      const int32_t squared = dx * dx + dy * dy;
+      if (squared < nearest) {
+        nearest = squared;
+        found.nearest_unknown = {length_of(dx), length_of(dy)};
+      }
+    }
+  }
+  return found;
+}
+
+bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept {
+  if (step < kShortestStep) return false;
+  const Point here = local(from);
+  const Point there = local(from + polar(heading, step));
+  const int32_t reach = units(radius);
+  const int32_t half = units(step / 2);
+  // What lies beyond the window is not known.
+  if (!in_window(there, reach + kHalfSquare)) return true;
+  const HalfPlane ahead = HalfPlane::facing(heading);
+  const Row box = Span::around(there.x, reach).columns();
+  for (Rows rows(there.y, reach + kHalfSquare); rows.more(); rows.next()) {
+    const Row unclear = box & to_window(~clear_row(rows.row()));
+    if (unclear == 0) continue;
+    Span span;
+    span.touched_by_disc(there.x, rows.offset(there.y), reach);
+    ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
+    if ((span.columns() & unclear) != 0) return true;
+  }
+  return false;
+}
+
+bool LocalGrid::all_clear(Vec centre, Length radius) const noexcept {
+  const Point at = local(centre);
+  const int32_t reach = units(radius);
+  if (!in_window(at, reach + kHalfSquare)) return false;
+  const Row box = Span::around(at.x, reach).columns();
+  for (Rows rows(at.y, reach + kHalfSquare); rows.more(); rows.next()) {
+    const Row unclear = box & to_window(~clear_row(rows.row()));
+    if (unclear == 0) continue;
+    Span span;
+    span.touched_by_disc(at.x, rows.offset(at.y), reach);
+    if ((span.columns() & unclear) != 0) return false;
+  }
+  return true;
+}
+
+bool LocalGrid::is_clear(Vec at) const noexcept {
+  const Point p = local(at);
+  if (p.x < 0 || p.y < 0 || p.x >= kWindow || p.y >= kWindow) return false;
+  return (to_window(clear_row(static_cast<int>(p.y / kUnitsPerCell))) >> (p.x / kUnitsPerCell) & 1U) != 0;
+}
+
+}  // namespace whisker::perception

@@ -1,0 +1,128 @@
+#include "firmware/perception/motion_detector.hpp"
+
+namespace whisker::perception {
+namespace {
+
+constexpr int32_t kUm = 125;  // in 1/8 mm
+constexpr Length kFarthest = 2_m;
+// Of the estimated pose over the ways that the scans span, and of a reading's rounding.
+constexpr Length kSlack = 3_mm;
+constexpr Angle kWidening = Angle::turns(5, 3600);
+// Three readings of a wall at rest are not all this much too near.
+constexpr Length kNoise = 30_mm;
+constexpr Length kStep = 60_mm;
+constexpr Angle kTurn = Angle::turns(75, 3600);
+constexpr Duration kWhile = 250_ms;
+// Nearer to a sector's rim than this, three directions in 2^-14 do not decide.
+constexpr Length kHair = micrometres(500);
+
+}  // namespace
+
+void MotionDetector::configure(const Params& params) noexcept {
+  side_ = params.rangefinders.side_angle;
+  half_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
+  offset_ = params.rangefinders.offset;
+  edge_ = facing(half_);
+  for (int i = 0; i < kBeams; ++i) beam_[i] = facing(beam_axis(side_, i));
+}
+
+void MotionDetector::add(const Pose& from, Time taken, const Length (&free)[kBeams]) noexcept {
+  if (count_ > 0) {
+    const Scan& last = scan_[newest_];
+    if (!farther(from.at - last.at, kStep - micrometres(1)) &&
+        magnitude(from.heading - last.heading) < kTurn.raw() && taken - newest_taken_ < kWhile) {
+      return;
+    }
+  }
+  newest_ = static_cast<int8_t>((newest_ + 1) % kKept);
+  if (count_ < kKept) ++count_;
+  newest_taken_ = taken;
+  Scan& scan = scan_[newest_];
+  scan.at = from.at;
+  scan.heading = from.heading;
+  scan.facing = facing(from.heading);
+  for (int i = 0; i < kBeams; ++i) {
+    scan.free[i] = static_cast<uint16_t>(min(free[i], kFarthest).raw() / kUm);
+  }
+}
+
+MotionDetector::Facing MotionDetector::facing(Angle direction) noexcept {
+  const auto q14 = [](Q30 x) { return static_cast<int16_t>(scale_down<16>(int64_t{x.raw()})); };
+  return {q14(cos(direction)), q14(sin(direction))};
+}
+
+Vec MotionDetector::seen(Vec v, Facing facing) noexcept {
+  const auto sum = [](int64_t a, int64_t b) {
+    return Length::from_raw(static_cast<int32_t>((a + b) / (1 << 14)));
+  };
+  const int64_t x = v.x.raw();
+  const int64_t y = v.y.raw();
+  return {sum(x * facing.cos, y * facing.sin), sum(y * facing.cos, -x * facing.sin)};
+}
+
+bool MotionDetector::holds(const Scan& scan, int beam, Vec way) const noexcept {
+  const Length reach = norm(way);
+  const Angle off = bearing(way) - scan.heading - beam_axis(side_, beam);
+  const Length forward = reach * cos(off) - offset_;
+  const Length aside = abs(reach * sin(off));
+  // Across the nearer edge; behind the apex, that is never inside.
+  if (forward * sin(half_) - aside * cos(half_) < kSlack) return false;
+  return (norm({forward, aside}) + kSlack).raw() / kUm <= scan.free[beam];
+}
+
+MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexcept {
+  Mask holding = 0;
+  for (int n = 0; n < count_ && among >> (n * kBeams) != 0; ++n) {
+    const Scan& scan = scan_[n];
+    const Vec way = point - scan.at;
+    uint16_t free = 0;
+    for (const uint16_t f : scan.free) free = f > free ? f : free;
+    if (farther(way, min(kFarthest, offset_ + Length::from_raw(free * kUm)))) continue;
+    const Vec ahead = seen(way, scan.facing);
+    for (int i = 0; i < kBeams; ++i) {
+      const Mask bit = Mask{1} << (n * kBeams + i);
+      if ((among & bit) == 0) continue;
+      const Vec at = seen(ahead, beam_[i]);
+      const Vec from_apex{at.x - offset_, abs(at.y)};
+      const Length inwards = -seen(from_apex, edge_).y;
+      const Length rim = Length::from_raw(scan.free[i] * kUm) - kSlack;
+      if (inwards < kSlack - kHair || farther(from_apex, rim + kHair)) continue;
+      const bool well_inside = inwards >= kSlack + kHair && !farther(from_apex, rim - kHair);
+      if (well_inside || holds(scan, i, way)) holding |= bit;
+    }
+  }
+  return holding;
+}
+
+bool MotionDetector::contradicts(const Pose& from, int beam, Length nearest, Length farthest,
+                                 const LocalGrid& local_grid) const noexcept {
+  if (farthest > kReach || nearest <= Length{}) return false;
+  const Angle axis = from.heading + beam_axis(side_, beam);
+  const Vec apex = from.at + polar(axis, offset_);
+  const Angle half = half_ + kWidening;
+  const Angle step = Angle::from_raw(half.raw() / (kSectors / 2));
+  const Length far = farthest + kNoise;
+  // Cells are coarse: what stands in one takes the ground before it, too.
+  const Length beyond = farthest + kNoise / 3;
+  const Length middle = (nearest + beyond) / 2;
+  const Length radius = (beyond - nearest) / 2 + arc(step, far) / 2 + kSlack;
+  // Of those sectors, the ones that hold the whole ray across the arc.
+  const auto across = [&](Angle direction, Mask among) {
+    if (among == 0) return Mask{0};
+    const Q30 x = cos(direction);
+    const Q30 y = sin(direction);
+    const Mask behind = holding(apex + Vec{far * x, far * y}, among);
+    return behind == 0 ? Mask{0} : holding(apex + Vec{nearest * x, nearest * y}, behind);
+  };
+  for (int n = 0; n < kSectors; ++n) {
+    // What stands there mostly stands in the middle of the cone.
+    const int k = (n + kSectors / 2) % kSectors;
+    const Angle right = axis - half + step * k;
+    const Angle centre = right + step - Angle::from_raw(step.raw() / 2);
+    if (local_grid.all_clear(apex + polar(centre, middle), radius)) continue;
+    if (across(right + step, across(right, ~Mask{0})) == 0) return false;
+  }
+  return true;
+}
+
+}  // namespace whisker::perception

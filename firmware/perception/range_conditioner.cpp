@@ -1,0 +1,180 @@
+#include "firmware/perception/range_conditioner.hpp"
+
+namespace whisker::perception {
+namespace {
+
+constexpr Length distance_of(Validity v, uint16_t mm, Length max_range) noexcept {
+  if (v == Validity::ok) return millimetres(mm);
+  return v == Validity::clear ? max_range : Length{};
+}
+
+constexpr Validity validity_of(Length d, Length max_range) noexcept {
+  if (d == Length{}) return Validity::too_near;
+  return d == max_range ? Validity::clear : Validity::ok;
+}
+
+}  // namespace
+
+void BeamConditioner::reset(Time now) noexcept {
+  *this = BeamConditioner{};
+  last_new_ = now;
+  last_usable_ = now;
+}
+
+bool BeamConditioner::is_stuck(const hal::RangeReading& reading, Angle heading, Angle stuck_turn) noexcept {
+  if (reading.status != hal::RangeStatus::ok) {
+    repeating_ = false;
+    return false;
+  }
+  if (!repeating_ || reading.mm != repeated_mm_) {
+    repeating_ = true;
+    repeated_mm_ = reading.mm;
+    repeated_since_ = heading;
+    return false;
+  }
+  // A cone shows the nearest point of one thing at one distance over its own width, and a pocket can hold a
+  // second thing just as far; only a dead sensor repeats the millimetre over half a turn.
+  return magnitude(heading - repeated_since_) >= stuck_turn.raw();
+}
+
+Validity BeamConditioner::classify(const hal::RangeReading& reading, Angle heading, const Params& params,
+                                   Health& health) noexcept {
+  if (is_stuck(reading, heading, params.conditioning.stuck_turn)) {
+    count(health.range_stuck);
+    return Validity::stuck;
+  }
+  switch (reading.status) {
+    case hal::RangeStatus::ok:
+      if (millimetres(reading.mm) > params.rangefinders.max_range) {
+        count(health.range_out_of_range);
+        return Validity::invalid;
+      }
+      if (millimetres(reading.mm) < params.rangefinders.min_range) {
+        count(health.range_out_of_range);
+        return Validity::too_near;
+      }
+      return reading.mm == 0 ? Validity::too_near : Validity::ok;
+    case hal::RangeStatus::clear: return Validity::clear;
+    case hal::RangeStatus::too_near: return Validity::too_near;
+    case hal::RangeStatus::invalid:
+    case hal::RangeStatus::stale: break;
+  }
+  // Here, too, ends a status outside the enumeration: a damaged reading.
+  count(health.range_invalid);
+  return Validity::invalid;
+}
+
+void BeamConditioner::age(Time now, const Params& params, Health& health) noexcept {
+  if (now - last_new_ <= params.conditioning.stale_after) return;
+  if (latest_.validity != Validity::stale) count(health.range_stale);
+  latest_ = {Length{}, Validity::stale};
+}
+
+void BeamConditioner::miss(Time now, const Params& params, Health& health) noexcept {
+  fresh_ = false;
+  age(now, params, health);
+}
+
+void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle heading, const Params& params,
+                             Health& health) noexcept {
+  fresh_ = false;
+  const bool seen = reading.sequence == sequence_;
+  // Of a reading that is so old or older, nobody knows where the body was then.
+  const bool nothing = reading.status == hal::RangeStatus::stale || reading.age_ms == UINT8_MAX;
+  if (seen || nothing) {
+    age(now, params, health);
+    return;
+  }
+  sequence_ = reading.sequence;
+  last_new_ = now;
+  const Validity validity = classify(reading, heading, params, health);
+  latest_ = {distance_of(validity, reading.mm, params.rangefinders.max_range), validity};
+  if (!usable(validity)) return;
+
+  fresh_ = true;
+  last_usable_ = now;
+  newest_ = static_cast<int8_t>((newest_ + 1) % kHistory);
+  history_[newest_] = {latest_.distance, now - milliseconds(reading.age_ms)};
+  if (count_ < kHistory) ++count_;
+}
+
+RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
+  constexpr int kNear = 4;
+  constexpr int kTypical = 3;
+  RecentReadings s;
+  if (count_ < kNear) return s;
+  Length last[kNear];
+  for (int i = 0; i < kNear; ++i) last[i] = history_[(newest_ - i + kHistory) % kHistory].distance;
+  const Length low = min(last[0], last[1]);
+  const Length high = max(last[0], last[1]);
+  const Length median = max(low, min(high, last[kTypical - 1]));
+  const Length nearest = min(min(low, last[2]), last[3]);
+  const Length far = params.rangefinders.max_range;
+  s.fresh = fresh_;
+  s.taken = history_[newest_].taken;
+  s.oldest = history_[(newest_ - kNear + 1 + kHistory) % kHistory].taken;
+  s.farthest = max(high, last[kTypical - 1]);
+  s.measured = min(low, last[2]) > Length{} && s.farthest < far;
+  s.bend = abs(last[0] - last[1] * 2 + last[2]);
+  s.clear = last[0] == far;
+  s.near = {nearest, validity_of(nearest, far)};
+  s.typical = {median, validity_of(median, far)};
+  return s;
+}
+
+Echo BeamConditioner::look(Time since, const Params& params) const noexcept {
+  const int wanted = static_cast<int>(params.conditioning.reads);
+  if (count_ < wanted) return {};
+  Length sorted[kHistory];
+  for (int i = 0; i < wanted; ++i) {
+    const Measurement& m = history_[(newest_ - i + kHistory) % kHistory];
+    if (m.taken - since < Duration{}) return {};
+    int slot = i;
+    for (; slot > 0 && sorted[slot - 1] > m.distance; --slot) sorted[slot] = sorted[slot - 1];
+    sorted[slot] = m.distance;
+  }
+  Length agreed = sorted[(wanted - 1) / 2];
+  switch (params.conditioning.consensus) {
+    case Consensus::agreeing:
+      if (sorted[wanted - 1] - sorted[0] > params.conditioning.tolerance) return {};
+      agreed = sorted[0];
+      break;
+    case Consensus::median: break;
+  }
+  return {agreed, validity_of(agreed, params.rangefinders.max_range)};
+}
+
+void RangeConditioner::reset(Time now) noexcept {
+  for (BeamConditioner& b : beam_) b.reset(now);
+}
+
+void RangeConditioner::update(const hal::RangeReadings* readings, Time now, Angle heading,
+                              const Params& params, Health& health) noexcept {
+  for (int i = 0; i < hal::kBeams; ++i) {
+    if (readings != nullptr) {
+      beam_[i].update(readings->beam[i], now, heading, params, health);
+    } else {
+      beam_[i].miss(now, params, health);
+    }
+  }
+}
+
+Echoes RangeConditioner::look(Time since, const Params& params) const noexcept {
+  Echoes e;
+  for (int i = 0; i < hal::kBeams; ++i) e.beam[i] = beam_[i].look(since, params);
+  return e;
+}
+
+Echoes RangeConditioner::latest() const noexcept {
+  Echoes e;
+  for (int i = 0; i < hal::kBeams; ++i) e.beam[i] = beam_[i].latest();
+  return e;
+}
+
+Duration RangeConditioner::lost_for(Time now) const noexcept {
+  Duration longest;
+  for (const BeamConditioner& b : beam_) longest = max(longest, b.lost_for(now));
+  return longest;
+}
+
+}  // namespace whisker::perception

@@ -1,0 +1,171 @@
+#include "firmware/perception/raster.hpp"
+
+#include "firmware/math/trig.hpp"
+
+namespace whisker::perception {
+namespace {
+
+int32_t q14(Q30 x) noexcept { return static_cast<int32_t>(scale_down<16>(int64_t{x.raw()})); }
+
+int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
+
+/// Of the disc around x in a row that lies dy from its centre.
+Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
+  if (radius < 0 || dy > radius || dy < -radius) return {INT16_MAX, -INT16_MAX};
+  const int32_t half = static_cast<int32_t>(square_root_32(static_cast<uint32_t>(radius * radius - dy * dy)));
+  return {x - half, x + half};
+}
+
+/// Of the centres of the cells that this disc touches.
+Span touch(int32_t x, int32_t dy, int32_t radius) noexcept {
+  const int32_t off = absolute(dy) - kHalfSquare;
+  const Span span = chord(x, off < 0 ? 0 : off, radius);
+  return {span.low - kHalfSquare, span.high + kHalfSquare};
+}
+
+/// How far the corner of a cell lies from its centre in the direction of this normal.
+int32_t corner(int32_t nx, int32_t ny) noexcept {
+  return ceil_div((absolute(nx) + absolute(ny)) * kHalfCell, 1 << 14) + kRim;
+}
+
+}  // namespace
+
+int bits(Row row) noexcept {
+  int n = 0;
+  for (; row != 0; row &= row - 1) ++n;
+  return n;
+}
+
+void Span::within_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
+  const Span inside = chord(x, dy, radius);
+  cut_low(inside.low);
+  cut_high(inside.high);
+}
+
+void Span::inside_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
+  const Span span = chord(x, absolute(dy) + kHalfSquare, radius);
+  cut_low(span.low + kHalfSquare);
+  cut_high(span.high - kHalfSquare);
+}
+
+void Span::touched_by_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
+  const Span span = touch(x, dy, radius);
+  cut_low(span.low);
+  cut_high(span.high);
+}
+
+Row Span::columns() const noexcept {
+  constexpr int32_t kLastCentre = kCells * kUnitsPerCell - kHalfCell;
+  if (low > kLastCentre || high < kHalfCell) return 0;
+  const int32_t first = low < kHalfCell ? 0 : (low - kHalfCell + kUnitsPerCell - 1) / kUnitsPerCell;
+  const int32_t last = high > kLastCentre ? kCells - 1 : (high - kHalfCell) / kUnitsPerCell;
+  return columns_between(static_cast<int>(first), static_cast<int>(last));
+}
+
+Rows::Rows(int32_t low, int32_t high, int32_t reach) noexcept
+    : row_(static_cast<int>(ceil_div(low - reach - kHalfCell, kUnitsPerCell))),
+      last_(static_cast<int>(floor_div(high + reach - kHalfCell, kUnitsPerCell))) {
+  if (row_ < 0) row_ = 0;
+  if (last_ > kCells - 1) last_ = kCells - 1;
+}
+
+void HalfPlane::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
+  constexpr int32_t kOne = 1 << 14;
+  const int32_t rest = margin * kOne - ny * dy;
+  if (nx > 0) {
+    span.cut_low(x + ceil_div(rest, nx));
+  } else if (nx < 0) {
+    span.cut_high(x - ceil_div(rest, -nx));
+  } else if (rest > 0) {
+    span.high = span.low - 1;
+  }
+}
+
+HalfPlane HalfPlane::facing(Angle direction) noexcept { return {q14(cos(direction)), q14(sin(direction))}; }
+
+Wedge::Wedge(Angle axis, Angle half) noexcept
+    : left_{q14(sin(axis + half)), -q14(cos(axis + half))},
+      right_{-q14(sin(axis - half)), q14(cos(axis - half))},
+      left_corner_(corner(left_.nx, left_.ny)),
+      right_corner_(corner(right_.nx, right_.ny)) {}
+
+Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
+  // Of the points at this radius, the edges reach farthest up and down, but where straight up or down lies
+  // between them.
+  const int32_t left = scale_down<14>(left_.nx * radius);
+  const int32_t right = scale_down<14>(-right_.nx * radius);
+  const int32_t higher = left > right ? left : right;
+  const int32_t lower = left > right ? right : left;
+  const bool up = left_.ny >= 0 && right_.ny >= 0;
+  const bool down = left_.ny <= 0 && right_.ny <= 0;
+  return Rows(down        ? y - radius
+              : lower < 0 ? y + lower
+                          : y,
+              up           ? y + radius
+              : higher > 0 ? y + higher
+                           : y,
+              kRim);
+}
+
+void Wedge::hold(Span& span, int32_t x, int32_t dy) const noexcept {
+  left_.clip(span, x, dy, left_corner_);
+  right_.clip(span, x, dy, right_corner_);
+}
+
+void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
+  left_.clip(span, x, dy, margin);
+  right_.clip(span, x, dy, margin);
+}
+
+Stadium::Stadium(const Sweep& sweep) noexcept
+    : x_(sweep.x),
+      y_(sweep.y),
+      length_(sweep.length < kLongest ? sweep.length : kLongest),
+      radius_(sweep.radius),
+      abeam_(sweep.abeam),
+      ux_(q14(cos(sweep.heading))),
+      uy_(q14(sin(sweep.heading))) {
+  beside_ = radius_ + corner(ux_, uy_);
+  const int32_t skew = (ux_ < 0 ? -uy_ : uy_) - (uy_ < 0 ? -ux_ : ux_);
+  skew_ = scale_down<14>(skew * kHalfCell);
+  end_x_ = scale_down<14>(ux_ * length_);
+  end_y_ = scale_down<14>(uy_ * length_);
+}
+
+Rows Stadium::rows() const noexcept {
+  const int32_t reach = radius_ + kHalfSquare;
+  return end_y_ < 0 ? Rows(y_ + end_y_, y_, reach) : Rows(y_, y_ + end_y_, reach);
+}
+
+Row Stadium::box() const noexcept {
+  const int32_t reach = radius_ + kUnitsPerCell;
+  return end_x_ < 0 ? Span{x_ + end_x_ - reach, x_ + reach}.columns()
+                    : Span{x_ - reach, x_ + end_x_ + reach}.columns();
+}
+
+void Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
+  // Where the row crosses this long edge, if it does.
+  const int32_t from_y = dy - sign * scale_down<14>(ux_ * beside_);
+  if (uy_ == 0) return;
+  const int32_t half = uy_ / 2;
+  const int32_t t = (from_y * (1 << 14) + ((from_y < 0) == (uy_ < 0) ? half : -half)) / uy_;
+  if (t < sign * skew_ || t > length_ + sign * skew_) return;
+  const int32_t x = x_ - sign * scale_down<14>(uy_ * beside_) + scale_down<14>(ux_ * t);
+  if (x < span.low) span.low = x;
+  if (x > span.high) span.high = x;
+}
+
+Row Stadium::columns(int row) const noexcept {
+  const int32_t dy = row * kUnitsPerCell + kHalfCell - y_;
+  Span span = touch(x_, dy, radius_);
+  const Span end = touch(x_ + end_x_, dy - end_y_, radius_);
+  if (end.low < span.low) span.low = end.low;
+  if (end.high > span.high) span.high = end.high;
+  side(span, dy, 1);
+  side(span, dy, -1);
+  if (span.empty()) return 0;
+  HalfPlane{ux_, uy_}.clip(span, x_, dy, abeam_);
+  return span.empty() ? 0 : span.columns();
+}
+
+}  // namespace whisker::perception

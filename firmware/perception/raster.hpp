@@ -1,0 +1,137 @@
+/// Shapes against the rows of a grid window: which columns of a row have their centre in it, lie wholly in
+/// it, or touch it.
+///
+/// Coordinates are grid units from the window's corner (256 a cell).
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/math/angle.hpp"
+
+namespace whisker::perception {
+
+/// One bit a cell.
+using Row = uint32_t;
+
+constexpr int kCells = 32;  ///< a side of the window
+constexpr int32_t kUnitsPerCell = 256;
+constexpr int32_t kHalfCell = kUnitsPerCell / 2;
+/// What points and normals lose by rounding; a cell is judged by a square that is larger by it on every side.
+constexpr int32_t kRim = 3;
+constexpr int32_t kHalfSquare = kHalfCell + kRim;
+/// The longest length that shapes take: its square, and products with a normal, fit into 32 bits.
+constexpr int32_t kLongest = 4 * kCells * kUnitsPerCell - 1;
+/// Points lie at most this far from the window's corner in x and in y.
+constexpr int32_t kOutermost = 2 * kCells * kUnitsPerCell;
+
+/// d > 0.
+template <class T>
+constexpr T floor_div(T n, T d) noexcept {
+  return n >= 0 ? n / d : -((-n + d - 1) / d);
+}
+constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return n > 0 ? (n + d - 1) / d : n / d; }
+
+/// The columns first..last of the window, both within 0..31.
+constexpr Row columns_between(int first, int last) noexcept {
+  return first > last ? 0U : (UINT32_MAX >> (kCells - 1 - (last - first))) << first;
+}
+
+int bits(Row row) noexcept;
+
+/// An interval of x.
+struct Span {
+  int32_t low = -kUnitsPerCell;
+  int32_t high = (kCells + 1) * kUnitsPerCell;
+
+  /// As far as a disc touches cells in any row.
+  static Span around(int32_t x, int32_t radius) noexcept {
+    return {x - radius - kHalfSquare, x + radius + kHalfSquare};
+  }
+  bool empty() const noexcept { return low > high; }
+  /// Cells whose centres lie in this disc; those that it holds wholly; those that it touches.
+  void within_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
+  void inside_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
+  void touched_by_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
+  void cut_low(int32_t x) noexcept {
+    if (x > low) low = x;
+  }
+  void cut_high(int32_t x) noexcept {
+    if (x < high) high = x;
+  }
+  Row columns() const noexcept;
+};
+
+/// The window's rows whose centres lie within `reach` of y.
+class Rows {
+ public:
+  Rows(int32_t y, int32_t reach) noexcept : Rows(y, y, reach) {}
+  Rows(int32_t low, int32_t high, int32_t reach) noexcept;
+  bool more() const noexcept { return row_ <= last_; }
+  void next() noexcept { ++row_; }
+  int row() const noexcept { return row_; }
+  /// Of the row's centre from y.
+  int32_t offset(int32_t y) const noexcept { return row_ * kUnitsPerCell + kHalfCell - y; }
+
+ private:
+  int row_;
+  int last_;
+};
+
+/// A half plane nx x + ny y >= margin; the normal in 2^-14.
+struct HalfPlane {
+  /// Ahead of its boundary, seen in this direction.
+  static HalfPlane facing(Angle direction) noexcept;
+  int32_t nx;
+  int32_t ny;
+  /// dy from the boundary's origin, whose x is given.
+  void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
+};
+
+/// The points between two directions. half < 90 degrees.
+class Wedge {
+ public:
+  Wedge(Angle axis, Angle half) noexcept;
+  /// All rows with points of the wedge at most this far from its apex.
+  Rows rows(int32_t y, int32_t radius) const noexcept;
+  /// Leaves the cells of the row that lie wholly inside.
+  void hold(Span& span, int32_t x, int32_t dy) const noexcept;
+  /// Leaves the part of the row that is at least `margin` inside both edges.
+  void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
+
+ private:
+  HalfPlane left_;
+  HalfPlane right_;
+  int32_t left_corner_;  // how far a cell's corner lies from its centre across this edge
+  int32_t right_corner_;
+};
+
+/// A straight way of a disc.
+struct Sweep {
+  int32_t x = 0;  ///< of its beginning
+  int32_t y = 0;
+  Angle heading;
+  int32_t length = 0;
+  int32_t radius = 0;
+  int32_t abeam = 0;  ///< what lies less than this ahead of the beginning is left out
+};
+
+/// The cells that a disc touches on a straight way.
+class Stadium {
+ public:
+  explicit Stadium(const Sweep& sweep) noexcept;
+  Rows rows() const noexcept;
+  Row columns(int row) const noexcept;
+  /// The columns of all rows.
+  Row box() const noexcept;
+
+ private:
+  void side(Span& span, int32_t dy, int32_t sign) const noexcept;
+  int32_t x_, y_;
+  int32_t end_x_, end_y_;  // from the beginning
+  int32_t length_, radius_, abeam_;
+  int32_t beside_;   // from the way to its edge: the centres of cells that just touch it
+  int32_t skew_;     // how far on, along the way, that edge begins on the left; as far behind on the right
+  int32_t ux_, uy_;  // direction, 2^-14
+};
+
+}  // namespace whisker::perception

@@ -1,0 +1,89 @@
+#include "firmware/planning/boundary/course.hpp"
+
+#include "firmware/fuzzy/scale.hpp"
+#include "firmware/planning/boundary/candidate_headings.hpp"
+
+namespace whisker::planning {
+namespace {
+
+constexpr Angle kStep = Angle::turns(1, kCandidateHeadings);
+constexpr int32_t kSteps = 10;  // to 75 degrees
+constexpr Angle kFineStep = Angle::turns(1, 3 * kCandidateHeadings);
+constexpr int32_t kNearlyFree = 5;  // cells; a gap as wide as the body is free between two of the steps
+constexpr uint32_t kStraight = (1_deg).raw();
+// What stands there may begin to move: where there is room, more of it is left on a course that is not far
+// off.
+constexpr Length kRoom = 30_mm;
+constexpr int32_t kRoomSteps = 6;  // to 45 degrees
+
+}  // namespace
+
+Angle TableDeflection::bend(const perception::Echoes& sight, const Params& params,
+                            Decision& decision) noexcept {
+  decision.inputs = fuzzy::scale(sight.beam[hal::kLeft].distance, sight.beam[hal::kFront].distance,
+                                 sight.beam[hal::kRight].distance, params.rangefinders.max_range,
+                                 params.thesis.distance_source);
+  decision.response = engine_(decision.inputs);
+  return scaled(params.thesis.base_turn, decision.response.turn);
+}
+
+/// Bends quickly and straightens slowly, so that the course does not swing about what it passes.
+void Course::bend_towards(Angle wanted) noexcept {
+  const int64_t change = int64_t{wanted.wrapped()} - bend_;
+  const bool grows = magnitude(wanted.wrapped()) > magnitude(bend_);
+  bend_ += static_cast<int32_t>(grows ? change * 3 / 10 : change * 3 / 50);
+}
+
+bool Course::choose(const View& view, const Vec& to_goal, HeadingDeflection& law, const Params& params,
+                    Side& wall, Decision& decision) noexcept {
+  const Length distance = norm(to_goal);
+  const Angle target = bearing(to_goal);
+  const Angle bend = law.bend(view.moving_scan, params, decision);
+  bend_towards(view.moving_scan.beam[hal::kFront].distance >= distance ? Angle{} : bend);
+
+  const Reach& reach = view.local_grid->reach();
+  const Length length = min(reach.probe, distance);
+  int32_t least = kNearlyFree + 1;
+  Angle nearly;
+  Side aside = wall;
+  const auto in_the_way = [&](Angle heading, Length beside) {
+    heading_ = heading;
+    return view.local_grid->along(view.pose.at, heading, length, beside, kNearlyFree + 1).suspect;
+  };
+  const auto found = [&](Length beside, int32_t steps) {
+    const auto passable = [&](Angle heading, Side then) {
+      const int32_t cells = in_the_way(heading, beside);
+      if (cells == 0) {
+        wall = then;
+      } else if (cells < least) {
+        least = cells;
+        nearly = heading;
+        aside = then;
+      }
+      return cells == 0;
+    };
+    least = kNearlyFree + 1;
+    decision.why = magnitude(bend_) > kStraight ? Why::table : Why::target_free;
+    if (passable(target + Angle::from_raw(static_cast<uint32_t>(bend_)), wall)) return true;
+    decision.why = Why::narrow;
+    if (passable(target, wall)) return true;
+    for (int32_t i = 1; i <= steps; ++i) {
+      const Angle off = kStep * (i * sign(wall));
+      if (passable(target - off, wall) || passable(target + off, opposite(wall))) return true;
+    }
+    return false;
+  };
+  if (found(reach.planning + for_body(params, kRoom), kRoomSteps) || found(reach.planning, kSteps))
+    return true;
+  if (least > kNearlyFree) return false;
+  for (int32_t i = 1; i <= 2; ++i) {
+    const Angle off = kFineStep * i;
+    if (in_the_way(nearly - off, reach.planning) == 0 || in_the_way(nearly + off, reach.planning) == 0) {
+      wall = aside;
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace whisker::planning

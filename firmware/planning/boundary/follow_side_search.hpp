@@ -1,0 +1,48 @@
+/// The thesis's exits on both sides of what blocks the target direction: one sweep to each side, and
+/// the smaller turn wins.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "firmware/planning/boundary/side.hpp"
+#include "firmware/planning/steering.hpp"
+
+namespace whisker::planning {
+
+class FollowSideSearch {
+ public:
+  /// `blocked` is the target direction.
+  void begin(Angle blocked, Side first) noexcept;
+  /// Only that side counts.
+  void begin_on(Angle blocked, Side only) noexcept;
+
+  /// Turns and judges; the body must stand. True: over.
+  bool step(const View& view, Twist& twist) noexcept;
+
+  /// After the search: whether there is an exit, its side and its heading.
+  bool found() const noexcept { return exit_[0].free || exit_[1].free; }
+  Side side() const noexcept { return best_; }
+  Angle heading() const noexcept { return exit(best_).heading; }
+
+ private:
+  struct Exit {
+    bool free = false;
+    bool swept = false;
+    Angle heading;     // of the first free way
+    int32_t turn = 0;  // to it, degrees
+    int32_t view = 0;  // to the first far view, degrees; 0: none
+  };
+  Exit& exit(Side s) noexcept { return exit_[s == Side::left ? 1 : 0]; }
+  const Exit& exit(Side s) const noexcept { return exit_[s == Side::left ? 1 : 0]; }
+  static int32_t cost(const Exit& e) noexcept;
+  void judge(const View& view, int32_t swept) noexcept;
+
+  Exit exit_[2];
+  Angle blocked_;
+  Side now_ = Side::left;
+  Side best_ = Side::left;
+  int32_t candidate_ = 1;
+};
+
+}  // namespace whisker::planning

@@ -1,0 +1,47 @@
+#include "firmware/planning/boundary/loop_detector.hpp"
+
+namespace whisker::planning {
+
+using namespace literals;
+
+namespace {
+
+constexpr int64_t kDrift = 50;  // odometry is off by at most 1 / 50 of the way
+constexpr int32_t kMostLaps = 3;
+constexpr uint64_t kDegree = (1_deg).raw();
+
+}  // namespace
+
+void LoopDetector::begin(Vec at, const Params& params) noexcept {
+  *this = LoopDetector{};
+  at_ = at;
+  scale_ = for_body(params, 100_mm);
+}
+
+void LoopDetector::move(const Pose& pose, Length travel, Angle turn) noexcept {
+  travel_um_ += travel.raw();
+  turned_ += turn.wrapped();
+  farthest_ = max(farthest_, norm(pose.at - at_));
+  if (farthest_ > scale_ * 3) left_ = true;
+}
+
+bool LoopDetector::closed(const Pose& pose) const noexcept {
+  if (!left_ || magnitude(turned_) < 300 * kDegree) return false;
+  const Length near = min(scale_ * 7 / 2, scale_ * 3 / 2 + Length::from_raw(saturate32(travel_um_ / kDrift)));
+  return norm(pose.at - at_) < near && magnitude(pose.heading - heading_) < (90_deg).raw();
+}
+
+bool LoopDetector::may_part(Vec from, Vec to, Side wall) const noexcept {
+  const bool within = turned_ * sign(wall) < 0;
+  return norm((within ? from : to) - at_) <= farthest_;
+}
+
+bool LoopDetector::strays(const Pose& pose) noexcept {
+  if (magnitude(turned_) < 360 * kDegree * static_cast<uint64_t>(laps_ + 1)) return false;
+  const bool again = laps_ == kMostLaps || (laps_ > 0 && norm(pose.at - lap_at_) < scale_ * 7 / 2);
+  lap_at_ = pose.at;
+  ++laps_;
+  return again;
+}
+
+}  // namespace whisker::planning

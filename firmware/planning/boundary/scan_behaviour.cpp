@@ -1,0 +1,41 @@
+#include "firmware/planning/boundary/scan_behaviour.hpp"
+
+#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "firmware/planning/steering.hpp"
+
+namespace whisker::planning {
+
+namespace {
+
+constexpr Angle kAimed = 5_deg;
+
+}  // namespace
+
+void ScanBehaviour::begin(Manoeuvre& manoeuvre) noexcept {
+  in_vain_ = false;
+  aimed_for_ = Duration{};
+  halt(manoeuvre);
+}
+
+void ScanBehaviour::halt(Manoeuvre& manoeuvre) noexcept {
+  halting_ = true;
+  manoeuvre = stop();
+}
+
+bool ScanBehaviour::step(const View& view, Angle heading, Length length, const Params& params,
+                         Manoeuvre& manoeuvre) noexcept {
+  Angle turn;
+  if (!turn_to_unseen(view, heading, length, view.pose.heading, params, turn)) return true;
+  if (magnitude(turn) <= nearest_facing(kAimed, params).raw()) aimed_for_ += view.elapsed;
+  in_vain_ = aimed_for_ > params.safety.stalled_after;
+  if (in_vain_) return true;
+  if (magnitude(turn) > (1_deg).raw()) {
+    halting_ = false;
+    manoeuvre = cruise(face(turn), params);
+  } else if (!halting_) {
+    halt(manoeuvre);
+  }
+  return false;
+}
+
+}  // namespace whisker::planning

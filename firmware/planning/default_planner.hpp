@@ -1,0 +1,31 @@
+/// The planner of those who choose none.
+#pragma once
+
+#include "firmware/planning/global/map_planner.hpp"
+
+namespace whisker::planning {
+
+/// Bytes of the largest map that the target has room for beside all else; 0: none. A build may say it.
+#ifdef WHISKER_MAP_BYTES
+constexpr int kRoomForMap = WHISKER_MAP_BYTES;
+#else
+constexpr int kRoomForMap = 16384;
+#endif
+
+/// Of how many bytes the map of the default planner is, where there is room for it; 0: it has none, and is
+/// the boundary planner.
+constexpr int kDefaultMapBytes = 0;
+
+/// The planner with a map of so many bytes, or without.
+template <int kMapBytes>
+struct PlannerWithMap {
+  using Type = TableMapPlanner<kMapBytes>;
+};
+template <>
+struct PlannerWithMap<0> {
+  using Type = TableBoundaryPlanner;
+};
+
+using DefaultPlanner = PlannerWithMap<kRoomForMap >= kDefaultMapBytes ? kDefaultMapBytes : 0>::Type;
+
+}  // namespace whisker::planning

@@ -1,0 +1,57 @@
+/// The cells of the map and of the plan upon them: bit planes, one row some words.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/math/units.hpp"
+
+namespace whisker::planning {
+
+using GridWord = uint32_t;
+constexpr int kWordBits = 32;
+constexpr int kMostWords = 6;
+
+/// Beside a blocked cell narrower than this there is no room for the middle of a body with a radius of 90 mm.
+constexpr Length kRoom = millimetres(75);
+
+/// A window of words x 32 columns and so many rows.
+struct GridShape {
+  int16_t words = 0;
+  int16_t rows = 0;
+  Length cell{};  ///< a cell's side, for the reference body
+
+  constexpr int32_t columns() const noexcept { return words * kWordBits; }
+  constexpr int32_t size() const noexcept { return int32_t{words} * rows; }
+  /// Cells are narrower than the room that the body needs.
+  constexpr bool fine() const noexcept { return cell < kRoom; }
+};
+
+/// Two bits say what is known of a cell, two hold its level in the plan.
+constexpr int kGridPlanes = 4;
+
+/// A cell by its column and row, of the world or of the window.
+struct Cell {
+  int32_t x = 0;
+  int32_t y = 0;
+  friend constexpr Cell operator+(Cell a, Cell b) noexcept { return {a.x + b.x, a.y + b.y}; }
+  friend constexpr Cell operator-(Cell a, Cell b) noexcept { return {a.x - b.x, a.y - b.y}; }
+  friend constexpr bool operator==(Cell a, Cell b) noexcept { return a.x == b.x && a.y == b.y; }
+  friend constexpr bool operator!=(Cell a, Cell b) noexcept { return !(a == b); }
+};
+
+/// The columns first..last as bits of the word `w`; both may lie outside the window.
+constexpr GridWord columns(int32_t first, int32_t last, int w) noexcept {
+  const int32_t low = first - w * kWordBits;
+  const int32_t high = last - w * kWordBits;
+  if (low >= kWordBits || high < 0 || low > high) return 0;
+  const GridWord from = low <= 0 ? ~GridWord{0} : ~GridWord{0} << low;
+  const GridWord to = high >= kWordBits - 1 ? ~GridWord{0} : ~(~GridWord{0} << (high + 1));
+  return from & to;
+}
+
+/// What lies beside the cells of the middle one of three words.
+constexpr GridWord beside(GridWord left, GridWord middle, GridWord right) noexcept {
+  return middle << 1 | left >> (kWordBits - 1) | middle >> 1 | right << (kWordBits - 1);
+}
+
+}  // namespace whisker::planning

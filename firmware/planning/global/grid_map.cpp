@@ -1,0 +1,264 @@
+#include "firmware/planning/global/grid_map.hpp"
+
+namespace whisker::planning {
+namespace {
+
+using perception::floor_div;
+using perception::kHalfCell;
+using perception::kUnitsPerCell;
+
+constexpr int32_t kInside =
+    perception::kUnitsPerCell * 23 / 32;  // a disc so large around its middle covers a cell
+constexpr Length kFar = 2_m;              // for the reference body
+constexpr Length kSure = 160_mm;          // across: all that an echo can have come from is one thing
+constexpr Angle kSuspectHalf = 6_deg;
+constexpr int32_t kNearBorder = 9;            // a ninth of the window
+constexpr int32_t kBias = 10, kBiasPart = 3;  // the body lies at most 3/10 of the window off its middle
+
+struct Columns {
+  int32_t first;
+  int32_t last;
+};
+
+/// The columns whose middles lie within the span.
+Columns within(const perception::Span& span) noexcept {
+  return {perception::ceil_div(span.low - kHalfCell, kUnitsPerCell),
+          floor_div(span.high - kHalfCell, kUnitsPerCell)};
+}
+
+int32_t clamped(int32_t x, int32_t most) noexcept { return x > most ? most : x < -most ? -most : x; }
+
+}  // namespace
+
+/// The cells that an echo may have come from.
+struct GridMap::Box {
+  Cell low{INT16_MAX, INT16_MAX};
+  Cell high{-1, -1};
+  void add(int32_t x, int32_t y) noexcept {
+    if (x < low.x) low.x = x;
+    if (x > high.x) high.x = x;
+    if (y < low.y) low.y = y;
+    if (y > high.y) high.y = y;
+  }
+};
+
+int32_t GridMap::units(Length l) const noexcept {
+  return saturate32(floor_div<int64_t>(int64_t{l.raw()} * kUnitsPerCell, cell_um_));
+}
+
+void GridMap::configure(const Params& params) noexcept {
+  cell_um_ = for_body(params, shape_.cell).raw();
+  offset_ = params.rangefinders.offset;
+  half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
+  far_ = units(for_body(params, kFar));
+}
+
+Cell GridMap::place(Vec at) const noexcept {
+  return Cell{static_cast<int32_t>(floor_div<int64_t>(at.x.raw(), cell_um_)),
+              static_cast<int32_t>(floor_div<int64_t>(at.y.raw(), cell_um_))} -
+         corner_;
+}
+
+Vec GridMap::middle(Cell p) const noexcept {
+  const auto at = [this](int32_t n) {
+    return Length::from_raw(saturate32(int64_t{n} * cell_um_ + cell_um_ / 2));
+  };
+  const Cell world = p + corner_;
+  return {at(world.x), at(world.y)};
+}
+
+Cell GridMap::corner_for(Vec body, Vec goal) const noexcept {
+  const Cell at = place(body) + corner_;
+  const Cell to = place(goal) + corner_ - at;
+  const int32_t columns = shape_.columns();
+  const int32_t rows = shape_.rows;
+  return {at.x + clamped(to.x / 2, columns * kBiasPart / kBias) - columns / 2,
+          at.y + clamped(to.y / 2, rows * kBiasPart / kBias) - rows / 2};
+}
+
+void GridMap::reset(Vec body, Vec goal) noexcept {
+  for (int32_t i = 0; i < kGridPlanes * shape_.size(); ++i) planes_[i] = 0;
+  corner_ = corner_for(body, goal);
+}
+
+bool GridMap::follow(Vec body, Vec goal) noexcept {
+  const Cell p = place(body);
+  const int32_t x = shape_.columns() / kNearBorder;
+  const int32_t y = shape_.rows / kNearBorder;
+  if (p.x >= x && p.y >= y && p.x < shape_.columns() - x && p.y < shape_.rows - y) return false;
+  const Cell step = corner_for(body, goal) - corner_;
+  if (step == Cell{}) return false;
+  move_by(step);
+  return true;
+}
+
+void GridMap::move_by(Cell step) noexcept {
+  const int32_t words = shape_.words;
+  corner_ = corner_ + step;
+  const int32_t skip = floor_div<int32_t>(step.x, kWordBits);
+  const int32_t shift = step.x - skip * kWordBits;
+  GridWord* const kept[] = {blocking(), sure()};
+  for (GridWord* const cells : kept) {
+    for (int32_t i = 0; i < shape_.rows; ++i) {
+      const int32_t row = step.y >= 0 ? i : shape_.rows - 1 - i;
+      const int32_t from = row + step.y;
+      for (int32_t j = 0; j < words; ++j) {
+        const int32_t w = step.x >= 0 ? j : words - 1 - j;
+        const auto old = [&](int32_t n) {
+          return from < 0 || from >= shape_.rows || n < 0 || n >= words ? GridWord{0}
+                                                                        : cells[from * words + n];
+        };
+        const GridWord low = old(w + skip) >> shift;
+        const GridWord high = shift == 0 ? 0 : old(w + skip + 1) << (kWordBits - shift);
+        cells[row * words + w] = low | high;
+      }
+    }
+  }
+}
+
+CellState GridMap::at(Cell p) const noexcept {
+  const int32_t i = p.y * shape_.words + p.x / kWordBits;
+  const int32_t bit = p.x % kWordBits;
+  return static_cast<CellState>(((blocking()[i] >> bit) & 1U) * 2 + ((sure()[i] >> bit) & 1U));
+}
+
+void GridMap::set(Cell p, CellState state) noexcept {
+  if (!holds(p)) return;
+  const int32_t i = p.y * shape_.words + p.x / kWordBits;
+  const GridWord bit = GridWord{1} << (p.x % kWordBits);
+  const int n = static_cast<int>(state);
+  blocking()[i] = (n & 2) != 0 ? blocking()[i] | bit : blocking()[i] & ~bit;
+  sure()[i] = (n & 1) != 0 ? sure()[i] | bit : sure()[i] & ~bit;
+}
+
+void GridMap::doubt_all() noexcept {
+  for (int32_t i = 0; i < shape_.size(); ++i) {
+    sure()[i] &= ~blocking()[i];
+    blocking()[i] = 0;
+  }
+}
+
+void GridMap::free(const perception::LocalGrid& local_grid, Vec body) noexcept {
+  const Length radius = Length::from_raw(cell_um_ / 5 * 3);
+  const int32_t reach = local_grid.half_window().raw() / cell_um_;
+  const Cell at = place(body);
+  for (int32_t y = at.y - reach; y <= at.y + reach; ++y) {
+    for (int32_t x = at.x - reach; x <= at.x + reach; ++x) {
+      if (local_grid.all_clear(middle({x, y}), radius)) set({x, y}, CellState::free);
+    }
+  }
+}
+
+GridWord GridMap::cramped(int32_t row, int w) const noexcept {
+  if (!shape_.fine()) return 0;
+  const int32_t words = shape_.words;
+  const int32_t i = row * words + w;
+  const GridWord* const here = blocking() + i;
+  GridWord near = beside(w > 0 ? here[-1] : 0, *here, w < words - 1 ? here[1] : 0);
+  if (row > 0) near |= here[-words];
+  if (row < shape_.rows - 1) near |= here[words];
+  return near & ~*here & ~sure()[i];
+}
+
+/// The cells that have a level, all that lie beside them, and the window's rim, where a plan may come in: no
+/// other is of any account to the plan so far. What opens in a fine map makes room beside it: one cell more.
+GridWord GridMap::touched(int32_t row, int w) const noexcept {
+  const int32_t words = shape_.words;
+  const int32_t reach = shape_.fine() ? 2 : 1;
+  if (row < reach || row >= shape_.rows - reach) return ~GridWord{0};
+  GridWord near = 0;
+  for (int32_t i = (row - reach) * words + w; i <= (row + reach) * words + w; i += words) {
+    const auto levels = [this](int32_t at) { return level_high()[at] | level_low()[at]; };
+    const GridWord left = w == 0 ? ~GridWord{0} : levels(i - 1);
+    const GridWord here = levels(i);
+    const GridWord right = w == words - 1 ? ~GridWord{0} : levels(i + 1);
+    near |= here;
+    for (int32_t n = 1; n <= reach; ++n) {
+      near |= here << n | here >> n | left >> (kWordBits - n) | right << (kWordBits - n);
+    }
+  }
+  return near;
+}
+
+void GridMap::mark(const perception::ConeObservation& observation, bool hold) noexcept {
+  const Angle axis = observation.from.heading + observation.axis;
+  const Vec from = observation.from.at + polar(axis, offset_);
+  const auto from_corner = [this](Length x, int32_t corner) {
+    return saturate32(
+        floor_div<int64_t>((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
+  };
+  const int32_t x = from_corner(from.x, corner_.x);
+  const int32_t y = from_corner(from.y, corner_.y);
+  if (!holds({floor_div(x, kUnitsPerCell), floor_div(y, kUnitsPerCell)})) return;
+  const int32_t distance = units(observation.free);
+  const int32_t seen = distance < far_ ? distance : far_;
+  const bool echo = observation.hit && distance < far_;
+  const perception::Wedge cone(axis, half_cone_);
+  const perception::Wedge core(axis, kSuspectHalf);
+  const int32_t reach = echo ? distance + kHalfCell : seen - kInside;
+  if (reach < 0) return;
+  int32_t first = perception::ceil_div(y - reach - kHalfCell, kUnitsPerCell);
+  int32_t last = floor_div(y + reach - kHalfCell, kUnitsPerCell);
+  if (first < 0) first = 0;
+  if (last > shape_.rows - 1) last = shape_.rows - 1;
+  Box box;
+  const auto arc = [&](const perception::Wedge& wedge, int32_t row, auto&& each) {
+    const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
+    perception::Span outer{x - reach, x + reach};
+    wedge.clip(outer, x, dy, 0);
+    outer.within_disc(x, dy, distance + kHalfCell);
+    if (outer.empty()) return;
+    perception::Span inner{x - reach, x + reach};
+    inner.within_disc(x, dy, distance - kHalfCell);
+    const Columns all = within(outer);
+    const Columns nearer = inner.empty() ? Columns{INT16_MAX, -INT16_MAX} : within(inner);
+    for (int w = 0; w < shape_.words; ++w) {
+      const int32_t i = row * shape_.words + w;
+      const GridWord freed = sure()[i] & ~blocking()[i];
+      const GridWord cells =
+          columns(all.first, all.last, w) & ~columns(nearer.first, nearer.last, w) & ~freed;
+      if (cells != 0) each(i, w, cells);
+    }
+  };
+  for (int32_t row = first; row <= last; ++row) {
+    const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
+    perception::Span empty{x - reach, x + reach};
+    cone.clip(empty, x, dy, kInside);
+    empty.within_disc(x, dy, seen - kInside);
+    if (empty.empty()) continue;
+    const Columns c = within(empty);
+    for (int w = 0; w < shape_.words; ++w) {
+      const int32_t i = row * shape_.words + w;
+      GridWord cells = columns(c.first, c.last, w);
+      if (hold) {
+        const GridWord closed = cells & (blocking()[i] | cramped(row, w));
+        if (closed != 0) cells &= ~(closed & touched(row, w));
+      }
+      sure()[i] |= cells;
+      blocking()[i] &= ~cells;
+    }
+  }
+  if (!echo) return;
+  for (int32_t row = first; row <= last; ++row) {
+    arc(cone, row, [&](int32_t, int w, GridWord cells) {
+      int32_t column = w * kWordBits;
+      for (; cells != 0; cells >>= 1, ++column) {
+        if ((cells & 1U) != 0) box.add(column, row);
+      }
+    });
+  }
+  const Cell wide = box.high - box.low;
+  const int32_t most = units(kSure) * kUnitsPerCell;
+  const bool narrow = box.high.x >= box.low.x && wide.x < kWordBits && wide.y < kWordBits &&
+                      (wide.x * wide.x + wide.y * wide.y) * kUnitsPerCell * kUnitsPerCell <=
+                          most / kUnitsPerCell * (most / kUnitsPerCell);
+  for (int32_t row = first; row <= last; ++row) {
+    arc(narrow ? cone : core, row, [&](int32_t i, int, GridWord cells) {
+      const GridWord news = narrow ? cells : cells & ~blocking()[i];
+      blocking()[i] |= news;
+      sure()[i] = narrow ? sure()[i] | news : sure()[i] & ~news;
+    });
+  }
+}
+
+}  // namespace whisker::planning

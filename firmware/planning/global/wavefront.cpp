@@ -1,0 +1,358 @@
+#include "firmware/planning/global/wavefront.hpp"
+
+namespace whisker::planning {
+namespace {
+
+constexpr int32_t kBeyond = 6;   // levels past the body's, for the cells around it
+constexpr int32_t kDetour = 20;  // levels: what a way around outside the window costs more
+
+int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
+
+/// Half the width of the row that lies dy from the goal within so many levels of it; negative: none.
+int32_t half_width(int32_t level, int32_t dy) noexcept {
+  const int32_t rest = level + level / 2 - absolute(dy);
+  if (absolute(dy) > level) return -1;
+  return rest < level ? rest : level;
+}
+
+int32_t gap(int32_t x, int32_t size) noexcept { return x < 0 ? -x : x >= size ? x - size + 1 : 0; }
+
+}  // namespace
+
+int32_t cell_distance(Cell d) noexcept {
+  const int32_t x = absolute(d.x);
+  const int32_t y = absolute(d.y);
+  const int32_t longer = x > y ? x : y;
+  const int32_t both = (2 * (x + y) + 2) / 3;
+  return longer > both ? longer : both;
+}
+
+int32_t Wavefront::farthest(const GridMap& map) const noexcept {
+  const int32_t columns = map.shape().columns() - 1;
+  const int32_t rows = map.shape().rows - 1;
+  const Cell& g = task_.goal;
+  const int32_t x = absolute(g.x) > absolute(columns - g.x) ? g.x : columns - g.x;
+  const int32_t y = absolute(g.y) > absolute(rows - g.y) ? g.y : rows - g.y;
+  return cell_distance({x, y}) + detour_;
+}
+
+void Wavefront::begin(GridMap& map, const Task& task) noexcept {
+  *this = Wavefront{};
+  task_ = task;
+  over_ = false;
+  for (int32_t i = 0; i < 2 * map.shape().size(); ++i) map.level_high()[i] = 0;
+  if (map.holds(task.goal)) {
+    const int32_t i = task.goal.y * map.shape().words + task.goal.x / kWordBits;
+    map.level_low()[i] |= GridWord{1} << (task.goal.x % kWordBits);
+    low_ = high_ = task.goal.y;
+    if (task.goal == task.body) reached_ = 0;
+    level_ = 1;
+  } else {
+    entry_ = Entry::facing_border;
+    level_ = cell_distance({gap(task.goal.x, map.shape().columns()), gap(task.goal.y, map.shape().rows)});
+  }
+  begin_level(map);
+}
+
+void Wavefront::begin_level(const GridMap& map) noexcept {
+  new_low_ = INT16_MAX;
+  new_high_ = -1;
+  row_ = low_ - 1;
+  last_ = high_ + 1;
+  if (high_ < 0) {
+    row_ = INT16_MAX;
+    last_ = -1;
+  }
+  if (entry_ != Entry::goal) {
+    const int32_t l = level_ - detour_;
+    if (task_.goal.y - l < row_) row_ = task_.goal.y - l;
+    if (task_.goal.y + l > last_) last_ = task_.goal.y + l;
+  }
+  if (row_ < 0) row_ = 0;
+  if (last_ > map.shape().rows - 1) last_ = map.shape().rows - 1;
+}
+
+bool Wavefront::end_level(GridMap& map) noexcept {
+  low_ = new_low_;
+  high_ = new_high_;
+  const bool pending = entry_ != Entry::goal && level_ < farthest(map);
+  if (reached_ < 0 && phase(map, task_.body) == level_ % 3) reached_ = level_;
+  if (reached_ >= 0 && level_ >= reached_ + kBeyond) return true;
+  if (level_ >= task_.most) return true;
+  if (high_ < 0 && !pending) {
+    if (reached_ >= 0 || entry_ == Entry::any_border || !reaches_border(map)) return true;
+    // Perhaps there is a way around outside.
+    entry_ = Entry::any_border;
+    const int32_t inside =
+        cell_distance({gap(task_.goal.x, map.shape().columns()), gap(task_.goal.y, map.shape().rows)});
+    detour_ = level_ - inside > kDetour ? level_ - inside : kDetour;
+    level_ = inside + detour_ - 1;
+  }
+  ++level_;
+  begin_level(map);
+  return false;
+}
+
+bool Wavefront::reaches_border(const GridMap& map) const noexcept {
+  const int words = map.shape().words;
+  const int32_t rows = map.shape().rows;
+  const auto labelled = [&](int32_t row, int w) {
+    return map.level_high()[row * words + w] | map.level_low()[row * words + w];
+  };
+  GridWord any = 0;
+  for (int w = 0; w < words; ++w) any |= labelled(0, w) | labelled(rows - 1, w);
+  for (int32_t row = 0; row < rows; ++row) {
+    any |= labelled(row, 0) & 1U;
+    any |= labelled(row, words - 1) >> (kWordBits - 1);
+  }
+  return any != 0;
+}
+
+GridWord Wavefront::passable(const GridMap& map, int32_t row, int w) const noexcept {
+  const int32_t i = row * map.shape().words + w;
+  const GridWord solid =
+      task_.strict ? map.blocking()[i] | map.cramped(row, w) : map.blocking()[i] & map.sure()[i];
+  if (row == task_.body.y) return ~solid | columns(task_.body.x, task_.body.x, w);
+  return ~solid;
+}
+
+/// The row that is being spread to, and those above and below. Each is read once a level: what a level adds
+/// is of another phase than what it comes from.
+class Wavefront::Rows {
+ public:
+  Rows(Wavefront& wavefront, GridMap& map) noexcept
+      : wavefront_(wavefront),
+        map_(map),
+        shape_(map.shape()),
+        blocking_(map.blocking()),
+        sure_(map.sure()),
+        high_(map.level_high()),
+        low_(map.level_low()),
+        any_state_(wavefront.task_.strict ? ~GridWord{0} : 0),
+        cramps_(wavefront.task_.strict && map.shape().fine()),
+        body_inside_(map.holds(wavefront.task_.body)) {
+    begin_level();
+  }
+  Rows(const Rows&) = delete;
+  Rows& operator=(const Rows&) = delete;
+
+  void begin_level() noexcept;
+  /// The next row of the level, or any as the first.
+  void spread(int32_t row) noexcept;
+
+ private:
+  /// A row's words, with none on either side.
+  struct Row {
+    GridWord front[kMostWords + 2] = {};  ///< of the level before
+    GridWord open[kMostWords + 2] = {};   ///< does not block
+    GridWord fresh[kMostWords + 2] = {};  ///< the same, without a level
+    GridWord any = 0;                     ///< of the front
+  };
+
+  void read(int32_t row, Row& to) const noexcept;
+  // Out of line, so that read() keeps its words in registers: most maps have no cramped cells.
+  [[gnu::noinline]] void cramp(int32_t row, Row& to) const noexcept;
+  void move_on(int32_t row) noexcept;
+  GridWord entering(int32_t row, int w) const noexcept;
+
+  Wavefront& wavefront_;
+  const GridMap& map_;
+  const GridShape& shape_;
+  const GridWord* const blocking_;
+  const GridWord* const sure_;
+  GridWord* const high_;
+  GridWord* const low_;
+  const GridWord any_state_;  // suspects block, too
+  const bool cramps_;         // cramped cells, too
+  const bool body_inside_;
+  Row row_[3];
+  Row* above_ = &row_[0];
+  Row* here_ = &row_[1];
+  Row* below_ = &row_[2];
+  // Of the level:
+  bool first_ = true;  // no row was read
+  bool diagonal_ = false;
+  bool enters_ = false;  // over a side:
+  bool top_ = false;
+  bool bottom_ = false;
+  GridWord left_ = 0;
+  GridWord right_ = 0;
+  GridWord not_high_ = 0;  // the planes' bits where the level before is not
+  GridWord not_low_ = 0;
+  GridWord in_high_ = 0;  // where this one is
+  GridWord in_low_ = 0;
+};
+
+void Wavefront::Rows::begin_level() noexcept {
+  const auto all = [](bool set) { return set ? ~GridWord{0} : GridWord{0}; };
+  const int phase = wavefront_.level_ % 3;
+  first_ = true;
+  diagonal_ = wavefront_.level_ % 2 == 0;
+  enters_ = wavefront_.entry_ != Entry::goal;
+  const bool any = wavefront_.entry_ == Entry::any_border;
+  const Cell& goal = wavefront_.task_.goal;
+  top_ = any || goal.y < 0;
+  bottom_ = any || goal.y >= shape_.rows;
+  left_ = any || goal.x < 0 ? 1U : 0;
+  right_ = any || goal.x >= shape_.columns() ? GridWord{1} << (kWordBits - 1) : 0;
+  in_high_ = all(phase != 0);
+  in_low_ = all(phase != 1);
+  not_high_ = all(phase == 1);
+  not_low_ = all(phase == 2);
+}
+
+void Wavefront::Rows::read(int32_t row, Row& to) const noexcept {
+  to.any = 0;
+  if (row < 0 || row >= shape_.rows) {
+    for (int w = 1; w <= shape_.words; ++w) to.front[w] = to.open[w] = to.fresh[w] = 0;
+    return;
+  }
+  const int words = shape_.words;
+  const int32_t first = row * words;
+  const GridWord* const blocking = blocking_ + first;
+  const GridWord* const sure = sure_ + first;
+  const GridWord* const high = high_ + first;
+  const GridWord* const low = low_ + first;
+  const GridWord not_high = not_high_;
+  const GridWord not_low = not_low_;
+  const GridWord any_state = any_state_;
+  GridWord any = 0;
+  for (int w = 0; w < words; ++w) {
+    const GridWord h = high[w];
+    const GridWord l = low[w];
+    const GridWord front = (h ^ not_high) & (l ^ not_low);
+    const GridWord open = ~(blocking[w] & (sure[w] | any_state));
+    any |= front;
+    to.front[w + 1] = front;
+    to.open[w + 1] = open;
+    to.fresh[w + 1] = open & ~(h | l);
+  }
+  to.any = any;
+  if (cramps_) cramp(row, to);
+  const Cell& body = wavefront_.task_.body;
+  if (row != body.y || !body_inside_) return;
+  const int w = static_cast<int>(body.x / kWordBits);
+  const GridWord bit = GridWord{1} << (body.x % kWordBits);
+  to.open[w + 1] |= bit;
+  to.fresh[w + 1] |= bit & ~(high[w] | low[w]);
+}
+
+void Wavefront::Rows::cramp(int32_t row, Row& to) const noexcept {
+  for (int w = 0; w < shape_.words; ++w) {
+    const GridWord cramped = map_.cramped(row, w);
+    to.open[w + 1] &= ~cramped;
+    to.fresh[w + 1] &= ~cramped;
+  }
+}
+
+void Wavefront::Rows::move_on(int32_t row) noexcept {
+  if (first_) {
+    read(row - 1, *above_);
+    read(row, *here_);
+    first_ = false;
+  } else {
+    Row* const oldest = above_;
+    above_ = here_;
+    here_ = below_;
+    below_ = oldest;
+  }
+  read(row + 1, *below_);
+}
+
+GridWord Wavefront::Rows::entering(int32_t row, int w) const noexcept {
+  const Cell& goal = wavefront_.task_.goal;
+  GridWord border = w == 0 ? left_ : 0;
+  if (w == shape_.words - 1) border |= right_;
+  if ((row == 0 && top_) || (row == shape_.rows - 1 && bottom_)) border = ~GridWord{0};
+  if (border == 0) return 0;
+  const int32_t half = half_width(wavefront_.level_ - wavefront_.detour_, row - goal.y);
+  return border & columns(goal.x - half, goal.x + half, w);
+}
+
+void Wavefront::Rows::spread(int32_t row) noexcept {
+  move_on(row);
+  const Row& above = *above_;
+  const Row& here = *here_;
+  const Row& below = *below_;
+  if ((above.any | here.any | below.any) == 0 && !enters_) return;
+  const int words = shape_.words;
+  for (int w = 1; w <= words; ++w) {
+    const GridWord fresh = here.fresh[w];
+    if (fresh == 0) continue;
+    GridWord news =
+        beside(here.front[w - 1], here.front[w], here.front[w + 1]) | above.front[w] | below.front[w];
+    if (diagonal_) {
+      // Not across the corner of something that blocks: over the open cells of both rows.
+      const GridWord* const open = here.open + w;
+      const GridWord* const a = above.front + w;
+      const GridWord* const b = below.front + w;
+      news |= beside(a[-1] & open[-1], a[0] & open[0], a[1] & open[1]) & above.open[w];
+      news |= beside(b[-1] & open[-1], b[0] & open[0], b[1] & open[1]) & below.open[w];
+    }
+    if (enters_) news |= entering(row, w - 1);
+    news &= fresh;
+    if (news == 0) continue;
+    if (row < wavefront_.new_low_) wavefront_.new_low_ = row;
+    wavefront_.new_high_ = row;
+    const int32_t i = row * words + w - 1;
+    high_[i] |= news & in_high_;
+    low_[i] |= news & in_low_;
+  }
+}
+
+bool Wavefront::run(GridMap& map, int32_t words) noexcept {
+  Rows rows(*this, map);
+  while (!over_ && words > 0) {
+    if (row_ <= last_) {
+      rows.spread(row_++);
+      words -= map.shape().words;
+    } else {
+      over_ = end_level(map);
+      rows.begin_level();
+      --words;
+    }
+  }
+  return over_;
+}
+
+bool Wavefront::blocked(const GridMap& map, Cell p) const noexcept {
+  if (!map.holds(p)) return false;
+  return (passable(map, p.y, static_cast<int>(p.x / kWordBits)) >> (p.x % kWordBits) & 1U) == 0;
+}
+
+int Wavefront::phase(const GridMap& map, Cell p) const noexcept {
+  if (!map.holds(p)) return -1;
+  const int32_t i = p.y * map.shape().words + p.x / kWordBits;
+  const int32_t bit = p.x % kWordBits;
+  const GridWord code = (map.level_high()[i] >> bit & 1U) * 2 + (map.level_low()[i] >> bit & 1U);
+  return static_cast<int>(code) - 1;
+}
+
+bool Wavefront::next(const GridMap& map, Cell p, Cell aim, Cell& on) const noexcept {
+  const int here = phase(map, p);
+  if (here < 0) return false;
+  const int nearer = (here + 2) % 3;
+  int64_t best = INT64_MAX;
+  for (int32_t dy = -1; dy <= 1; ++dy) {
+    for (int32_t dx = -1; dx <= 1; ++dx) {
+      const Cell q = p + Cell{dx, dy};
+      if (phase(map, q) != nearer) continue;
+      if (dx != 0 && dy != 0) {
+        // Two levels on is the same, modulo 3: but then what lies beside both is one level on.
+        const int a = phase(map, p + Cell{dx, 0});
+        const int b = phase(map, p + Cell{0, dy});
+        const auto near = [&](int n) { return n == here || n == nearer; };
+        if (!near(a) || !near(b)) continue;
+      }
+      const Cell rest = aim - q;
+      const int64_t far = int64_t{rest.x} * rest.x + int64_t{rest.y} * rest.y;
+      if (far < best) {
+        best = far;
+        on = q;
+      }
+    }
+  }
+  return best != INT64_MAX;
+}
+
+}  // namespace whisker::planning

@@ -1,0 +1,240 @@
+#include "firmware/planning/global/wavefront_planner.hpp"
+
+#ifndef WHISKER_SMALL
+
+#include "firmware/planning/global/raytrace.hpp"
+
+namespace whisker::planning {
+namespace {
+
+constexpr int32_t kRowsATick = 800;
+constexpr int32_t kEvery = 16;
+constexpr Length kDearer = 2500_mm;  // what the way around what is only suspected may cost more
+constexpr Length kHorizon = 3000_mm;
+constexpr Length kAhead = 600_mm;
+constexpr Length kSlack = 100_mm;
+constexpr Length kKept = 100_mm;
+constexpr Length kReached = 250_mm;
+constexpr Length kNoProgress = 20_m;  // of the first spell; half as much of each later one
+constexpr Length kProgress = 150_mm;
+constexpr Length kBarred = 200_mm;
+constexpr Length kBarrier = 120_mm;
+constexpr Length kBarrierLife = 6000_mm;
+constexpr int8_t kCredits = 1;
+constexpr int32_t kRefusals = 12;
+constexpr int8_t kMostSpells = 16;
+constexpr int32_t kNoWay = INT32_MAX / 2;  // levels
+
+}  // namespace
+
+void WavefrontPlanner::start(const View& view, const Goal& goal) noexcept {
+  goal_ = goal;
+  map_.configure(params_);
+  map_.reset(view.pose.at, goal.at);
+  stage_ = Stage::idle;
+  has_way_ = no_way_ = waits_ = false;
+  credits_ = kCredits;
+  active_ = true;
+  refusals_ = spells_ = 0;
+  best_.reset();
+  last_ = view.pose.at;
+  travel_mm_ = travel_rest_um_ = improved_mm_ = 0;
+  for (Barrier& b : barrier_) b = {};
+}
+
+void WavefrontPlanner::move_goal(Vec at) noexcept {
+  if (way_ == goal_.at) way_ = at;
+  goal_.at = at;
+  best_.follow(at);
+}
+
+void WavefrontPlanner::observe(const View& view) noexcept {
+  travel_rest_um_ += norm(view.pose.at - last_).raw();
+  travel_mm_ += travel_rest_um_ / 1000;
+  travel_rest_um_ %= 1000;
+  last_ = view.pose.at;
+  const Length distance = norm(goal_.at - view.pose.at);
+  if (distance < best_.distance() - reference(kProgress)) {
+    best_.set(view.pose.at, distance);
+    improved_mm_ = travel_mm_;
+    refusals_ = 0;
+    active_ = true;
+  }
+  const bool hold = stage_ != Stage::idle;
+  for (int i = 0; i < hal::kBeams; ++i) {
+    if ((view.proved >> i & 1U) != 0) map_.mark(view.observations[i], hold);
+  }
+  const Cell body = map_.place(view.pose.at);
+  if (!hold) map_.set(body, CellState::free);
+  plan(view);
+}
+
+void WavefrontPlanner::raise_barriers() noexcept {
+  const int32_t reach = reference(kBarrier).raw() / map_.cell().raw() + 1;
+  for (const Barrier& b : barrier_) {
+    if (b.until_mm <= travel_mm_) continue;
+    const Cell centre = map_.place(b.at);
+    for (int32_t dy = -reach; dy <= reach; ++dy) {
+      for (int32_t dx = -reach; dx <= reach; ++dx) {
+        const Cell p = centre + Cell{dx, dy};
+        if (!farther(map_.middle(p) - b.at, reference(kBarrier))) map_.set(p, CellState::occupied);
+      }
+    }
+  }
+}
+
+void WavefrontPlanner::begin(Stage stage, const View& view) noexcept {
+  stage_ = stage;
+  Wavefront::Task task;
+  task.body = map_.place(view.pose.at);
+  task.goal = map_.place(goal_.at);
+  task.strict = stage != Stage::passing;
+  wavefront_.begin(map_, task);
+}
+
+void WavefrontPlanner::plan(const View& view) noexcept {
+  ++ticks_;
+  if (stage_ == Stage::idle) {
+    if (ticks_ < kEvery && !waits_) return;
+    ticks_ = 0;
+    map_.follow(view.pose.at, goal_.at);
+    map_.free(*view.local_grid, view.pose.at);
+    raise_barriers();
+    begin(Stage::strict, view);
+    return;
+  }
+  if (!wavefront_.run(map_, kRowsATick * map_.shape().words)) return;
+  const int32_t dearer = reference(kDearer).raw() / map_.cell().raw();
+  switch (stage_) {
+    case Stage::idle: break;
+    case Stage::strict:
+      strict_ = wavefront_.reached() ? wavefront_.level() : kNoWay;
+      if (strict_ - cell_distance(map_.place(goal_.at) - map_.place(view.pose.at)) <= dearer) break;
+      begin(Stage::passing, view);
+      return;
+    case Stage::passing:
+      if (!wavefront_.reached()) {
+        has_way_ = false;
+        no_way_ = true;
+        stage_ = Stage::idle;
+        waits_ = false;
+        return;
+      }
+      if (strict_ - wavefront_.level() > dearer) break;
+      begin(Stage::again, view);
+      return;
+    case Stage::again: break;
+  }
+  finish(view);
+  stage_ = Stage::idle;
+  waits_ = false;
+}
+
+bool WavefrontPlanner::sees(Vec from, Vec to) const noexcept {
+  return raytrace(map_, from, to, [this](Cell p) { return !wavefront_.blocked(map_, p); });
+}
+
+/// What the straight way there costs more than the best one; all there is, where something blocks it.
+Length WavefrontPlanner::dearer(Vec from, Vec to) const noexcept {
+  constexpr Length kBlocked = Length::from_raw(INT32_MAX);
+  int32_t levels = 0;
+  int before = wavefront_.phase(map_, map_.place(from));
+  if (before < 0) return kBlocked;
+  bool leaves = false;
+  const bool open = raytrace(map_, from, to, [&](Cell p) {
+    const int now = wavefront_.phase(map_, p);
+    if (now < 0) {
+      // A line that leaves the window does not come back, and may be of any length.
+      leaves = !map_.holds(p);
+      return false;
+    }
+    levels += (now - before + 4) % 3 - 1;
+    before = now;
+    return true;
+  });
+  return open || leaves ? map_.cell() * levels + norm(to - from) : kBlocked;
+}
+
+bool WavefrontPlanner::straight(const View& view) const noexcept {
+  const Vec to_goal = goal_.at - view.pose.at;
+  const Vec ahead = polar(bearing(to_goal), min(norm(to_goal), reference(kAhead)));
+  return dearer(view.pose.at, view.pose.at + ahead) <= reference(kSlack);
+}
+
+void WavefrontPlanner::finish(const View& view) noexcept {
+  const bool had_way = has_way_;
+  has_way_ = true;
+  no_way_ = false;
+  if (straight(view)) {
+    way_ = goal_.at;
+    return;
+  }
+  if (had_way && farther(way_ - view.pose.at, reference(kReached)) &&
+      dearer(view.pose.at, way_) <= reference(kKept)) {
+    return;
+  }
+  const Cell goal = map_.place(goal_.at);
+  Cell p = map_.place(view.pose.at);
+  if (wavefront_.phase(map_, p) < 0) {
+    has_way_ = false;
+    return;
+  }
+  const int32_t most = reference(kHorizon).raw() / map_.cell().raw();
+  Cell on = p;
+  bool first = true;
+  for (int32_t i = 0; i < most && wavefront_.next(map_, p, goal, on); ++i) {
+    p = on;
+    const Vec at = p == goal ? goal_.at : map_.middle(p);
+    if (first || sees(view.pose.at, at)) way_ = at;
+    first = false;
+  }
+  if (first) way_ = goal_.at;
+}
+
+GlobalPlanner::Advice WavefrontPlanner::advise(const View& view, Length, Vec& place) noexcept {
+  if (active_ && travel_mm_ - improved_mm_ > mm(kNoProgress) >> spells_) hand_over();
+  if (!active_) return Advice::none;
+  if (waits_) return Advice::wait;
+  if (!has_way_) return Advice::none;
+  place = way_ - view.pose.at;
+  return Advice::place;
+}
+
+void WavefrontPlanner::hand_over() noexcept {
+  active_ = false;
+  if (spells_ < kMostSpells) ++spells_;
+}
+
+void WavefrontPlanner::bar(Vec at) noexcept {
+  newest_ = static_cast<int8_t>((newest_ + 1) % kBarriers);
+  barrier_[newest_] = {at, travel_mm_ + mm(kBarrierLife)};
+}
+
+bool WavefrontPlanner::doubt() noexcept {
+  if (knows_no_way()) return false;
+  --credits_;
+  map_.doubt_all();
+  for (Barrier& b : barrier_) b = {};
+  stage_ = Stage::idle;
+  has_way_ = false;
+  waits_ = active_ = true;
+  refusals_ = 0;
+  improved_mm_ = travel_mm_;
+  return true;
+}
+
+bool WavefrontPlanner::refuse(const View& view) noexcept {
+  if (!active_) return false;
+  if (++refusals_ > kRefusals) {
+    hand_over();
+    return false;
+  }
+  bar(view.pose.at + polar(bearing(way_ - view.pose.at), reference(kBarred)));
+  stage_ = Stage::idle;
+  waits_ = true;
+  return true;
+}
+
+}  // namespace whisker::planning
+
+#endif

@@ -1,0 +1,77 @@
+/// The way by the map: plans all the time, a little each tick, and says where to drive next.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/params.hpp"
+#include "firmware/planning/closest_approach.hpp"
+#include "firmware/planning/global/global_planner.hpp"
+#include "firmware/planning/global/grid_map.hpp"
+#include "firmware/planning/global/wavefront.hpp"
+
+namespace whisker::planning {
+
+class WavefrontPlanner final : public GlobalPlanner {
+ public:
+  /// As GridMap. The parameters must outlive it, too.
+  WavefrontPlanner(const Params& params, const GridShape& shape, GridWord* storage) noexcept
+      : params_(params), map_(shape, storage) {}
+
+  void start(const View& view, const Goal& goal) noexcept override;
+  void move_goal(Vec at) noexcept override;
+  void observe(const View& view) noexcept override;
+  Advice advise(const View& view, Length distance, Vec& place) noexcept override;
+  bool refuse(const View& view) noexcept override;
+  bool knows_no_way() const noexcept override { return no_way_ || credits_ == 0; }
+  bool doubt() noexcept override;
+
+  const GridMap& map() const noexcept { return map_; }
+  const Wavefront& wavefront() const noexcept { return wavefront_; }
+  /// No plan is under way: wavefront() is whole, and the last one.
+  bool planned() const noexcept { return stage_ == Stage::idle && !waits_; }
+
+ private:
+  enum class Stage : uint8_t { idle, strict, passing, again };
+  struct Barrier {
+    Vec at;
+    int32_t until_mm = 0;
+  };
+
+  void begin(Stage stage, const View& view) noexcept;
+  void plan(const View& view) noexcept;
+  void finish(const View& view) noexcept;
+  Length dearer(Vec from, Vec to) const noexcept;
+  bool straight(const View& view) const noexcept;
+  bool sees(Vec from, Vec to) const noexcept;
+  void raise_barriers() noexcept;
+  void hand_over() noexcept;
+  void bar(Vec at) noexcept;
+  Length reference(Length l) const noexcept { return for_body(params_, l); }
+  int32_t mm(Length l) const noexcept { return reference(l).raw() / 1000; }
+
+  const Params& params_;
+  GridMap map_;
+  Wavefront wavefront_;
+  Goal goal_;
+  Stage stage_ = Stage::idle;
+  Vec way_;  // the place to drive to
+  bool has_way_ = false;
+  bool no_way_ = false;  // by the last plan
+  bool waits_ = false;   // for the next plan
+  bool active_ = true;
+  int8_t refusals_ = 0;
+  int8_t credits_ = 0;
+  int8_t spells_ = 0;   // of the map that are over
+  int32_t strict_ = 0;  // levels to the body if suspects block
+  int32_t ticks_ = 0;   // since a plan was begun
+  ClosestApproach best_;
+  int32_t improved_mm_ = 0;  // travel at which that was
+  Vec last_;
+  int32_t travel_mm_ = 0;
+  int32_t travel_rest_um_ = 0;
+  static constexpr int kBarriers = 4;
+  Barrier barrier_[kBarriers];
+  int8_t newest_ = 0;
+};
+
+}  // namespace whisker::planning

@@ -1,0 +1,36 @@
+#include "firmware/planning/goal_planner.hpp"
+
+namespace whisker::planning {
+
+const Decision& GoalPlanner::answer(const View& view) noexcept {
+  decision_.manoeuvre = {};
+  decision_.looked = false;
+  const Request request = request_;
+  request_ = Request::none;
+  switch (request) {
+    case Request::none:
+      if (decision_.outcome == Outcome::running) advance(view);
+      break;
+    case Request::goal:
+      decision_ = Decision{};
+      decision_.outcome = Outcome::running;
+      start(view);
+      break;
+    case Request::cancel: finish(Mode::idle, Why::cancelled, Outcome::none); break;
+  }
+  return decision_;
+}
+
+void GoalPlanner::tell(Mode mode, Why why) noexcept {
+  decision_.mode = mode;
+  decision_.why = why;
+}
+
+void GoalPlanner::finish(Mode mode, Why why, Outcome outcome) noexcept {
+  tell(mode, why);
+  decision_.outcome = outcome;
+  decision_.danger_count = 0;
+  decision_.manoeuvre = stop();
+}
+
+}  // namespace whisker::planning

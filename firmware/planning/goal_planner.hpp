@@ -1,0 +1,58 @@
+/// What all planners do alike: they take commands, and they end.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/planning/planner.hpp"
+
+namespace whisker::planning {
+
+/// Answers a command at the next step(), and calls advance() at every other one while the outcome is open.
+class GoalPlanner : public Planner {
+ public:
+  // Inline, so that planners outside the core may derive from it with run-time type information, which the
+  // core is built without.
+  // The goal that it is on its way to changes nothing.
+  void set_goal(const Goal& goal) noexcept final {
+#ifdef WHISKER_SMALL
+    const bool same = false;
+#else
+    const bool same = goal == goal_;
+#endif
+    goal_ = goal;
+    if (!same || request_ != Request::none || decision_.outcome != Outcome::running) request_ = Request::goal;
+  }
+  void move_goal(Vec at) noexcept final {
+    goal_.at = at;
+    follow_goal();
+  }
+  void cancel() noexcept final { request_ = Request::cancel; }
+  Decision step(const View& view) noexcept final { return answer(view); }
+
+ protected:
+  ~GoalPlanner() = default;
+
+  /// A new goal; the decision is as new.
+  virtual void start(const View& view) noexcept = 0;
+  /// A tick on the way to it.
+  virtual void advance(const View& view) noexcept = 0;
+
+  /// The goal has moved a bit; what is measured from it is measured anew.
+  virtual void follow_goal() noexcept {}
+
+  /// A place counts as the goal only well inside the tolerance: the estimate has its own error.
+  bool is_goal(Length distance) const noexcept { return distance <= goal_.tolerance - goal_.tolerance / 8; }
+  void tell(Mode mode, Why why) noexcept;
+  /// Comes to rest until there is a new goal.
+  void finish(Mode mode, Why why, Outcome outcome) noexcept;
+
+  Goal goal_;
+  Decision decision_;
+
+ private:
+  enum class Request : uint8_t { none, goal, cancel };
+  const Decision& answer(const View& view) noexcept;
+  Request request_ = Request::none;
+};
+
+}  // namespace whisker::planning

@@ -1,0 +1,54 @@
+#include "firmware/planning/steering.hpp"
+
+namespace whisker::planning {
+namespace {
+
+constexpr Angle kFacing = 3_deg;
+constexpr int32_t kFaceGain = 5;
+constexpr int32_t kSteerGain = 6;
+constexpr int64_t kMicroradians = 6283185;  // a turn
+
+}  // namespace
+
+Angle nearest_facing(Angle wanted, const Params& params) noexcept {
+  const Angle count = angle_of(millimetres(1000) / params.wheels.counts_per_metre, params.body.track);
+  const uint32_t told = count.raw() / 8 * 9;
+  return told > wanted.raw() ? Angle::from_raw(told) : wanted;
+}
+
+AngularRate rate_towards(Angle error, int32_t gain) noexcept {
+  const int64_t microradians = scale_down<32>(error.wrapped() * kMicroradians);
+  return limit(AngularRate::from_raw(saturate32(microradians * gain)), kFastestTurn);
+}
+
+Twist face(Angle error) noexcept { return {Speed{}, rate_towards(error, kFaceGain)}; }
+
+Twist steer(Angle error, Speed top) noexcept {
+  const int64_t off = scale_down<32>(magnitude(error) * kMicroradians);
+  const int64_t part = 1000000 - off * 6 / 5;
+  const Speed forward = part <= 0 ? Speed{} : top * Q15::ratio(static_cast<int32_t>(part), 1000000);
+  return {forward, rate_towards(error, kSteerGain)};
+}
+
+void limit_turning(Manoeuvre& m, const Params& params) noexcept {
+  const Speed most = params.wheels.max_turn_rate * (params.body.track / 2);
+  const Speed turning = abs(m.turning);
+  if (turning <= most) return;
+  m.forward = Speed::from_raw(multiply_divide(m.forward.raw(), most.raw(), turning.raw()));
+  m.turning = limit(m.turning, most);
+}
+
+Manoeuvre cruise(Twist twist, const Params& params) noexcept {
+  Manoeuvre m;
+  m.kind = ManoeuvreKind::cruise;
+  m.forward = twist.forward;
+  m.turning = twist.turning * (params.body.track / 2);
+  return m;
+}
+
+bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept {
+  manoeuvre = cruise(face(error), params);
+  return magnitude(error) < nearest_facing(kFacing, params).raw();
+}
+
+}  // namespace whisker::planning

@@ -1,0 +1,212 @@
+#include "firmware/planning/thesis/thesis_planner.hpp"
+
+#include "firmware/fuzzy/scale.hpp"
+
+namespace whisker::planning {
+namespace {
+
+/// How far an exit search turns to each side; both together leave out what lies behind.
+constexpr uint32_t kSearchLimit = (150_deg).raw();
+
+}  // namespace
+
+ThesisPlanner::ThesisPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept
+    : params_(params), engine_(table) {
+  probe_.configure(params);
+  surroundings_.configure(params);
+}
+
+void ThesisPlanner::start(const View&) noexcept {
+  phase_ = Phase::at_position;
+  steps_ = 0;
+  tell(Mode::facing, Why::goal_set);
+  decision_.manoeuvre = stop();
+}
+
+void ThesisPlanner::advance(const View& view) noexcept {
+  if (!view.settled) return;
+  switch (phase_) {
+    case Phase::at_position:
+    case Phase::move: arrive_at_position(view); break;
+    case Phase::face:
+      if (sees(view)) choose(view);
+      break;
+    case Phase::probe:
+      if (sees(view)) probe(view);
+      break;
+    case Phase::search_left:
+    case Phase::search_right:
+      if (sees(view)) search(view);
+      break;
+  }
+}
+
+bool ThesisPlanner::sees(const View& view) noexcept {
+  decision_.looked = perception::usable(view.static_scan);
+  if (!decision_.looked && decision_.mode == Mode::facing) decision_.mode = Mode::looking;
+  if (decision_.looked) surroundings_.add(view.static_scan, view.pose.heading);
+  return decision_.looked;
+}
+
+bool ThesisPlanner::step_is_free(const View& view) const noexcept {
+  return probe_.free(view.static_scan, planned_) && surroundings_.allow(view.pose.heading, planned_);
+}
+
+void ThesisPlanner::arrive_at_position(const View& view) noexcept {
+  const Vec to_goal = goal_.at - view.pose.at;
+  if (is_goal(norm(to_goal))) {
+    end(Mode::arrived, Why::at_goal, Outcome::reached);
+    return;
+  }
+  if (steps_ >= params_.thesis.max_steps) {
+    end(Mode::gave_up, Why::step_budget, Outcome::gave_up);
+    return;
+  }
+  ++steps_;
+  surroundings_.forget();
+  target_ = bearing(to_goal);
+  phase_ = Phase::face;
+  decision_.mode = Mode::facing;
+  turn_to(target_);
+}
+
+void ThesisPlanner::choose(const View& view) noexcept {
+  const Length distance = norm(goal_.at - view.pose.at);
+  const Length reach = params_.body.radius + params_.body.margin;
+  const bool target_free = probe_.free(view.static_scan, min(params_.thesis.danger_range - reach, distance));
+  if (target_free) {
+    steer(view, distance);
+  } else {
+    follow_danger(view);
+  }
+}
+
+void ThesisPlanner::steer(const View& view, Length distance) noexcept {
+  const perception::Echo* const beam = view.static_scan.beam;
+  const Length left = beam[hal::kLeft].distance;
+  const Length front = beam[hal::kFront].distance;
+  const Length right = beam[hal::kRight].distance;
+  decision_.danger_count = 0;
+  decision_.inputs =
+      fuzzy::scale(left, front, right, params_.rangefinders.max_range, params_.thesis.distance_source);
+  decision_.response = engine_(decision_.inputs);
+  planned_ = min(params_.thesis.base_step * decision_.response.step, distance);
+
+  const Angle turn = front >= distance ? Angle{} : scaled(params_.thesis.base_turn, decision_.response.turn);
+  base_ = target_ + turn;
+  deflections_ = 0;
+  // Deflect the way the table leans; where it does not, to the side with more room.
+  const int32_t lean = turn.wrapped();
+  if (lean != 0) {
+    side_ = lean > 0 ? 1 : -1;
+  } else if (left != right) {
+    side_ = left > right ? 1 : -1;
+  }
+  if (lean == 0) {
+    decision_.why = Why::target_free;
+    probe(view);
+    return;
+  }
+  decision_.mode = Mode::steering;
+  decision_.why = Why::table;
+  phase_ = Phase::probe;
+  turn_to(base_);
+}
+
+void ThesisPlanner::follow_danger(const View& view) noexcept {
+  base_ = target_;
+  planned_ = params_.thesis.small_step;
+  if (decision_.danger_count == 0) {
+    decision_.danger_count = 1;
+    decision_.mode = Mode::searching;
+    decision_.why = Why::target_blocked;
+    exit_left_ = 0;
+    deflections_ = 0;
+    side_ = 1;
+    deflect(Phase::search_left);
+    return;
+  }
+  if (decision_.danger_count != UINT8_MAX) ++decision_.danger_count;
+  decision_.why = Why::same_side;
+  deflections_ = 0;
+  probe(view);
+}
+
+void ThesisPlanner::probe(const View& view) noexcept {
+  if (step_is_free(view)) {
+    drive(planned_);
+    return;
+  }
+  if (static_cast<uint64_t>(deflections_ + 1) * params_.thesis.delta.raw() >= (UINT64_C(1) << 32)) {
+    end(Mode::gave_up, Why::no_exit, Outcome::gave_up);
+    return;
+  }
+  decision_.mode = Mode::probing;
+  if (decision_.danger_count == 0) decision_.why = Why::narrow;
+  deflect(Phase::probe);
+}
+
+void ThesisPlanner::search(const View& view) noexcept {
+  const bool left = phase_ == Phase::search_left;
+  if (step_is_free(view)) {
+    if (!left) {
+      take_exit(-1, Why::exit_right);
+      return;
+    }
+    exit_left_ = deflections_;
+  }
+  // The right side is worth a look only below the turn that the left side needs.
+  const uint64_t limit = left || exit_left_ == 0
+                             ? uint64_t{kSearchLimit}
+                             : static_cast<uint64_t>(exit_left_ - 1) * params_.thesis.delta.raw();
+  const uint64_t next = static_cast<uint64_t>(deflections_ + 1) * params_.thesis.delta.raw();
+  if ((!left || exit_left_ == 0) && next <= limit) {
+    deflect(phase_);
+    return;
+  }
+  if (left && exit_left_ != 1) {
+    deflections_ = 0;
+    side_ = -1;
+    deflect(Phase::search_right);
+    return;
+  }
+  if (exit_left_ == 0) {
+    end(Mode::gave_up, Why::no_exit, Outcome::gave_up);
+    return;
+  }
+  deflections_ = exit_left_;
+  take_exit(1, Why::exit_left);
+}
+
+void ThesisPlanner::take_exit(int32_t side, Why why) noexcept {
+  side_ = side;
+  decision_.why = why;
+  phase_ = Phase::probe;
+  turn_to(base_ + deflection());
+}
+
+Angle ThesisPlanner::deflection() const noexcept { return params_.thesis.delta * (deflections_ * side_); }
+
+void ThesisPlanner::deflect(Phase phase) noexcept {
+  phase_ = phase;
+  ++deflections_;
+  turn_to(base_ + deflection());
+}
+
+void ThesisPlanner::turn_to(Angle heading) noexcept {
+  decision_.manoeuvre = {ManoeuvreKind::turn, heading, Length{}};
+}
+
+void ThesisPlanner::drive(Length length) noexcept {
+  phase_ = Phase::move;
+  decision_.mode = decision_.danger_count == 0 ? Mode::stepping : Mode::skirting;
+  decision_.manoeuvre = {ManoeuvreKind::drive, base_ + deflection(), length};
+}
+
+/// The body stands already.
+void ThesisPlanner::end(Mode mode, Why why, Outcome outcome) noexcept {
+  finish(mode, why, outcome);
+  decision_.manoeuvre = {};
+}
+
+}  // namespace whisker::planning

@@ -1,0 +1,69 @@
+/// The thesis's planner: fuzzy steering in free space, probing before every step, and deadlock
+/// prevention by walking along the edge of what blocks the target.
+///
+///   idle -> facing -> looking -> steering -> probing -> stepping -> facing ...        (t = 0)
+///                        |                      ^
+///                        +-> searching ---------+---> skirting -> facing ...          (t > 0)
+///
+/// Source: "Simulation Implementation of Path Planning Algorithm Based on Fuzzy Control"; docs/navigation.md
+/// says what is the thesis's and what had to be reconstructed. It is the baseline: it can touch what
+/// no beam sees, and it can walk into the same trap for ever until its budget ends.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/params.hpp"
+#include "firmware/planning/goal_planner.hpp"
+#include "firmware/planning/thesis/step_probe.hpp"
+#include "firmware/planning/thesis/surroundings.hpp"
+
+namespace whisker::planning {
+
+class ThesisPlanner final : public GoalPlanner {
+ public:
+  /// The table and the parameters must outlive the planner; the parameters must pass check().
+  ThesisPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept;
+
+ private:
+  enum class Phase : uint8_t {
+    at_position,  // standing at a new position: check the goal, then face it
+    face,         // turning to the target, then looking along it
+    probe,        // turning to a candidate heading, then looking along it
+    search_left,  // exit search: turning away to one side by delta
+    search_right,
+    move,  // driving the step
+  };
+
+  void start(const View& view) noexcept override;
+  void advance(const View& view) noexcept override;
+  bool step_is_free(const View& view) const noexcept;
+  bool sees(const View& view) noexcept;
+  void arrive_at_position(const View& view) noexcept;
+  void choose(const View& view) noexcept;
+  void steer(const View& view, Length distance) noexcept;
+  void follow_danger(const View& view) noexcept;
+  void probe(const View& view) noexcept;
+  void search(const View& view) noexcept;
+  void take_exit(int32_t side, Why why) noexcept;
+  void deflect(Phase phase) noexcept;
+  void turn_to(Angle heading) noexcept;
+  void drive(Length length) noexcept;
+  void end(Mode mode, Why why, Outcome outcome) noexcept;
+  Angle deflection() const noexcept;
+
+  const Params& params_;
+  fuzzy::Engine engine_;
+  StepProbe probe_;
+  Surroundings surroundings_;  // of this position
+
+  Phase phase_ = Phase::at_position;
+  Angle target_;             // direction of the goal from this position
+  Angle base_;               // heading from which the deflection counts
+  Length planned_;           // step
+  int32_t side_ = 1;         // of the deflection: +1 left, -1 right
+  int32_t deflections_ = 0;  // by delta, from base_
+  int32_t exit_left_ = 0;    // deflections of the exit found on the left; 0: none
+  int32_t steps_ = 0;
+};
+
+}  // namespace whisker::planning

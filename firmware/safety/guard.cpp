@@ -1,0 +1,74 @@
+#include "firmware/safety/guard.hpp"
+
+namespace whisker::safety {
+namespace {
+
+constexpr Length kSample = 20_mm;
+
+/// How far a wheel still rolls: through its lag, at the new command until the next tick, and braking.
+struct Brake {
+  Length left;
+  Length right;
+};
+
+Speed faster(WheelPair w) noexcept { return max(abs(w.left), abs(w.right)); }
+
+Brake brake(WheelPair command, const WheelState& wheels, const Params& params) noexcept {
+  const Duration hold = longest_gap(params);
+  const int64_t a = params.wheels.max_acceleration.raw();
+  const int64_t fastest = faster(command).raw();
+  const auto rolls = [&](Speed commanded, Speed rolling) {
+    // Braked in proportion, each wheel covers half its speed times the time of the faster one.
+    const Length braking = Length::from_raw(saturate32(divide_rounded(commanded.raw() * fastest, 2 * a)));
+    return rolling * params.wheels.motor_lag + commanded * hold + braking;
+  };
+  return {rolls(command.left, wheels.rolling.left), rolls(command.right, wheels.rolling.right)};
+}
+
+/// How near its arc may come to what is not clear.
+struct Arc {
+  WheelPair command;
+  Length reach;
+};
+
+bool free(const Arc& arc, const Pose& pose, const WheelState& wheels, const perception::LocalGrid& local_grid,
+          const Params& params) noexcept {
+  const WheelPair command = arc.command;
+  const Brake way = brake(command, wheels, params);
+  const bool crawls = command.left + command.right != Speed{};
+  const Length rolled = (way.left + way.right) / 2;
+  constexpr Length kShortest = perception::LocalGrid::kShortestStep;
+  const Length length =
+      crawls && abs(rolled) < kShortest ? (rolled < Length{} ? -kShortest : kShortest) : rolled;
+  const Angle backwards = length < Length{} ? 180_deg : Angle{};
+  const Angle turn = angle_of(way.right - way.left, params.body.track);
+  const int32_t samples = 1 + abs(length).raw() / kSample.raw();
+  for (int32_t i = 1; i <= samples; ++i) {
+    const Angle chord =
+        Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
+    const Length far = Length::from_raw(multiply_divide(length.raw(), i, samples));
+    if (local_grid.approaches(pose.at, pose.heading + chord + backwards, abs(far), arc.reach)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Grant guard(const planning::Manoeuvre& cruise, const Pose& pose, const WheelState& wheels,
+            const perception::LocalGrid& local_grid, Duration elapsed, const Params& params) noexcept {
+  constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2), Q14::ratio(3, 10),
+                              Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
+  const Speed change = params.wheels.max_acceleration * elapsed;
+  const Length reach =
+      cruise.retraces ? params.body.radius - params.body.radius / 22 : local_grid.reach().guard;
+  for (const Q14 factor : kFactors) {
+    const WheelPair want =
+        inverse_kinematics(cruise.forward * factor, cruise.turning, params.wheels.max_speed);
+    if (free({slew(wheels.commanded, want, change), reach}, pose, wheels, local_grid, params)) {
+      return {cruise.forward * factor, cruise.turning, factor};
+    }
+  }
+  return {Speed{}, Speed{}, Q14{}};
+}
+
+}  // namespace whisker::safety

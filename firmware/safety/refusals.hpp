@@ -1,0 +1,31 @@
+/// How often a part of the board may refuse.
+#pragma once
+
+#include <stdint.h>
+
+namespace whisker::safety {
+
+/// Counts refusals that come close to one another. One that comes now and then is forgotten; those that keep
+/// a robot from getting on are not, be they in a row or every second time.
+class Refusals {
+ public:
+  void reset() noexcept { *this = Refusals{}; }
+  /// True: there are too many.
+  bool refuse(int32_t most) noexcept {
+    accepted_ = 0;
+    return ++count_ >= most;
+  }
+  /// After ten in a row the count begins anew.
+  void accept() noexcept {
+    if (accepted_ < kForgiven && ++accepted_ == kForgiven) count_ = 0;
+  }
+  /// The last call was refused.
+  bool refused() const noexcept { return accepted_ == 0 && count_ > 0; }
+
+ private:
+  static constexpr int8_t kForgiven = 10;
+  int32_t count_ = 0;
+  int8_t accepted_ = 0;  // in a row
+};
+
+}  // namespace whisker::safety

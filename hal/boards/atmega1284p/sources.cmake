@@ -1,0 +1,11 @@
+set(whisker_atmega1284p_sources
+  ${CMAKE_CURRENT_LIST_DIR}/../common/analogue_ir.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/../common/governor.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/../common/nearer.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/adc.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/encoders.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/motors.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/robot_board.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/sonar.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ticker.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/watchdog.cpp)

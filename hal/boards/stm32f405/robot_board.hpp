@@ -1,0 +1,65 @@
+#pragma once
+
+#include "hal/boards/common/analogue_rangers.hpp"
+#include "hal/boards/common/governed_wheels.hpp"
+#include "hal/boards/common/nearer.hpp"
+#include "hal/boards/stm32f405/adc.hpp"
+#include "hal/boards/stm32f405/bx_can.hpp"
+#include "hal/boards/stm32f405/encoders.hpp"
+#include "hal/boards/stm32f405/i2c_rangers.hpp"
+#include "hal/boards/stm32f405/motors.hpp"
+#include "hal/boards/stm32f405/reporter.hpp"
+#include "hal/boards/stm32f405/ticker.hpp"
+#include "hal/boards/stm32f405/usart.hpp"
+#include "hal/boards/stm32f405/watchdog.hpp"
+
+namespace whisker::hal::stm32f405 {
+
+/// Every driver of the board, in working order or with its trouble counted.
+///
+///   board.start();
+///   for (;;) { board.poll(robot.status()); if (board.due()) robot.tick(...); }
+class RobotBoard {
+ public:
+  static constexpr uint32_t kConsoleBaud = 115200;
+  static constexpr uint32_t kCanBitrate = 500000;
+  static constexpr uint16_t kWatchdogMs = 200;
+
+  RobotBoard(const RangerKind& kind, const mcu::MotorParams& left, const mcu::MotorParams& right) noexcept;
+
+  /// Once. Each wait in it is bounded: 100 ms in all with everything dead.
+  void start() noexcept;
+  /// Between two ticks, as often as there is time: sensors, CAN, console.
+  void poll(const Status& status) noexcept;
+  /// True once a period: the time for a tick, and the watchdog is fed.
+  bool due(uint32_t period_ms) noexcept;
+  Time now() noexcept { return Time::from_raw(ticker_.now_ms()); }
+
+  Rangefinders& rangefinders() noexcept { return beams_; }
+  Drive& drive() noexcept { return wheels_; }
+  CanPort& can() noexcept { return can_; }
+  Usart& console() noexcept { return console_; }
+  const Troubles& troubles() const noexcept { return troubles_; }
+
+  void on_console_interrupt() noexcept { console_.on_interrupt(); }
+  void on_can_interrupt() noexcept { can_.on_receive_interrupt(); }
+
+ private:
+  Troubles troubles_;
+  Ticker ticker_;
+  Usart console_;
+  I2c bus_;
+  I2cRangers tof_;
+  Adc adc_;
+  mcu::AnalogueRangers<Adc> infrared_;
+  mcu::Nearer beams_;
+  Motors motors_;
+  Encoders encoders_;
+  mcu::GovernedWheels<Motors, Encoders> wheels_;
+  BxCan can_;
+  Watchdog watchdog_;
+  Reporter reporter_;
+  Schedule schedule_;
+};
+
+}  // namespace whisker::hal::stm32f405

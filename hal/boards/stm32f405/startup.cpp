@@ -1,0 +1,58 @@
+// Vector table and reset. Sections and symbols are those of hal/runtime/cortex_m/sections.ld.
+#include "hal/boards/stm32f405/interrupts.hpp"
+
+int main();
+
+extern "C" {
+
+extern uint32_t __data_load[];
+extern uint32_t __data_start[];
+extern uint32_t __data_end[];
+extern uint32_t __bss_start[];
+extern uint32_t __bss_end[];
+extern uint32_t __stack_top[];
+
+[[noreturn]] void reset() noexcept;
+void usart2_interrupt() noexcept;
+void can1_receive_interrupt() noexcept;
+}
+
+namespace {
+
+using Handler = void (*)();
+using whisker::hal::stm32f405::Interrupt;
+
+/// Nothing here expects a fault or another interrupt: the watchdog, which is no longer fed, resets the chip.
+[[noreturn]] void stand_still() noexcept {
+  for (;;) {
+  }
+}
+
+struct Vectors {
+  uint32_t* stack;
+  Handler exception[15];
+  Handler interrupt[whisker::hal::stm32f405::kInterrupts];
+};
+
+constexpr Vectors vectors() noexcept {
+  Vectors v{};
+  v.stack = __stack_top;
+  for (Handler& handler : v.exception) handler = stand_still;
+  for (Handler& handler : v.interrupt) handler = stand_still;
+  v.exception[0] = reset;
+  v.interrupt[static_cast<int>(Interrupt::usart2)] = usart2_interrupt;
+  v.interrupt[static_cast<int>(Interrupt::can1_receive0)] = can1_receive_interrupt;
+  return v;
+}
+
+[[gnu::used, gnu::section(".vectors")]] constexpr Vectors kVectors = vectors();
+
+}  // namespace
+
+void reset() noexcept {
+  const uint32_t* from = __data_load;
+  for (volatile uint32_t* to = __data_start; to < __data_end; ++to) *to = *from++;
+  for (volatile uint32_t* to = __bss_start; to < __bss_end; ++to) *to = 0;
+  main();
+  stand_still();
+}

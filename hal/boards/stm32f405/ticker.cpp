@@ -1,0 +1,36 @@
+#include "hal/boards/stm32f405/ticker.hpp"
+
+#include "hal/boards/stm32f405/reg/bases.hpp"
+#include "hal/boards/stm32f405/reg/tim.hpp"
+
+namespace whisker::hal::stm32f405 {
+
+void Ticker::start(const Clocks& clocks) noexcept {
+  store(base::kTim2, tim::kPsc, clocks.timer2_hz / 1000000 - 1);
+  store(base::kTim2, tim::kArr, UINT32_MAX);
+  // The prescaler counts only from the next update on.
+  store(base::kTim2, tim::kEgr, bits(tim::kUg, 1));
+  set(base::kTim2, tim::kCen, 1);
+  last_us_ = now_us();
+}
+
+uint32_t Ticker::now_us() const noexcept { return load(base::kTim2, tim::kCnt); }
+
+uint32_t Ticker::now_ms() noexcept {
+  const uint32_t now = now_us();
+  rest_us_ += now - last_us_;
+  last_us_ = now;
+  ms_ += rest_us_ / 1000;
+  rest_us_ %= 1000;
+  return ms_;
+}
+
+bool Schedule::due(uint32_t now_ms, uint32_t period_ms) noexcept {
+  const uint32_t periods = (now_ms - last_) / period_ms;
+  if (periods == 0) return false;
+  missed_ += periods - 1;
+  last_ += periods * period_ms;
+  return true;
+}
+
+}  // namespace whisker::hal::stm32f405

@@ -1,0 +1,1 @@
+target_sources(whisker_board PRIVATE ${emulated}/wasm/board.cpp)

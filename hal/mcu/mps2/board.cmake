@@ -1,8 +1,0 @@
-include(cortex_m/cortex_m.cmake)
-target_sources(whisker_board PRIVATE mps2/board.cpp)
-if(WHISKER_CPU STREQUAL cortex-m33)
-  target_compile_definitions(whisker_board PRIVATE WHISKER_MPS2_SECURE)
-  whisker_linker_script(hal/mcu/mps2/mps2_secure.ld)
-else()
-  whisker_linker_script(hal/mcu/mps2/mps2.ld)
-endif()

@@ -1,1 +1,0 @@
-target_sources(whisker_board PRIVATE simavr/board.cpp)

@@ -1,9 +1,0 @@
-// A robot whose sensors and wheels are played by a companion at the other end of a serial line.
-#include "hal/board.hpp"
-#include "hal/link/session.hpp"
-
-int main() {
-  const whisker::hal::Board& board = whisker::hal::board();
-  static whisker::link::Session session;
-  return session.run(board.serial, board.meter);
-}

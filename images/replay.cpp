@@ -1,9 +1,0 @@
-// A robot whose sensors and wheels are played by a companion through the emulator's own input and output.
-#include "hal/board.hpp"
-#include "hal/link/session.hpp"
-
-int main() {
-  const whisker::hal::Board& board = whisker::hal::board();
-  static whisker::link::Session session;
-  return session.run(board.host, board.meter);
-}

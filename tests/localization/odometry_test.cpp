@@ -1,0 +1,151 @@
+#include "firmware/localization/odometry.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace whisker::localization {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::uint32_t kMask = hal::kEncoderModulus - 1;
+constexpr Duration kSince = milliseconds(90);  // with a period of 10 ms, 100 ms of twice the full speed
+
+struct Drift {
+  double position_m;
+  double heading_rad;
+  double path_m;
+};
+
+// The same counts through the core and through doubles: what differs is the core's rounding alone.
+Drift drift_over(double path_m, int counts_per_metre, Length track, std::uint64_t seed) {
+  Params params;
+  params.wheels.counts_per_metre = counts_per_metre;
+  params.body.track = track;
+  Odometry odometry;
+  odometry.configure(params);
+  odometry.place({});
+  double x = 0, y = 0, heading = 0, path = 0;
+  std::uint32_t left = 0xFFFFF0, right = 5;
+  CountStep step;
+  odometry.update({left, right}, kSince, step);
+  std::uint64_t state = seed;
+  int dl = 15, dr = 15;
+  for (int tick = 0; path < path_m; ++tick) {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    if (tick % 40 == 0) {
+      dl = static_cast<int>((state >> 33) % 19) - 2;
+      dr = static_cast<int>((state >> 43) % 19) - 2;
+    }
+    left = (left + static_cast<std::uint32_t>(dl)) & kMask;
+    right = (right + static_cast<std::uint32_t>(dr)) & kMask;
+    EXPECT_TRUE(odometry.update({left, right}, kSince, step));
+    const double sl = static_cast<double>(dl) / counts_per_metre;
+    const double sr = static_cast<double>(dr) / counts_per_metre;
+    const double turn = (sr - sl) / (track.raw() * 1e-6);
+    x += (sl + sr) / 2 * std::cos(heading + turn / 2);
+    y += (sl + sr) / 2 * std::sin(heading + turn / 2);
+    heading += turn;
+    path += std::abs(sl + sr) / 2;
+  }
+  const Pose pose = odometry.pose();
+  const double error = std::remainder(pose.heading.wrapped() * (kPi / 2147483648.0) - heading, 2 * kPi);
+  return {std::hypot(pose.at.x.raw() * 1e-6 - x, pose.at.y.raw() * 1e-6 - y), std::abs(error), path};
+}
+
+TEST(Odometry, DriftsLessThanAMillimetreInAKilometre) {
+  for (const int counts : {5000, 4321, 1237}) {
+    for (const Length track : {millimetres(140), micrometres(123457)}) {
+      for (const std::uint64_t seed : {1U, 2U}) {
+        const Drift d = drift_over(1000.0, counts, track, seed);
+        std::printf("%d counts/m, track %d um, seed %llu: %.4f mm and %.2g rad after %.0f m\n", counts,
+                    track.raw(), static_cast<unsigned long long>(seed), d.position_m * 1000, d.heading_rad,
+                    d.path_m);
+        EXPECT_LT(d.position_m, 1e-3);
+        EXPECT_LT(d.heading_rad, 1e-4);
+      }
+    }
+  }
+}
+
+TEST(Odometry, TheFirstCountsAreTheZeroWhateverTheyAre) {
+  Odometry odometry;
+  odometry.configure(Params{});
+  odometry.place({{millimetres(5), millimetres(7)}, Angle::turns(1, 8)});
+  CountStep step;
+  EXPECT_TRUE(odometry.update({123456, 7654321}, kSince, step));
+  EXPECT_EQ(odometry.pose().at.x, millimetres(5));
+  EXPECT_EQ(odometry.pose().at.y, millimetres(7));
+  EXPECT_EQ(odometry.pose().heading, Angle::turns(1, 8));
+}
+
+TEST(Odometry, CountsWrapInBothDirections) {
+  Odometry odometry;
+  odometry.configure(Params{});
+  odometry.place({});
+  CountStep step;
+  odometry.update({kMask, 0}, kSince, step);
+  EXPECT_TRUE(odometry.update({4, 5}, kSince, step));
+  EXPECT_EQ(step.left, 5);
+  EXPECT_EQ(step.right, 5);
+  EXPECT_EQ(odometry.pose().at.x, millimetres(1));
+  EXPECT_TRUE(odometry.update({kMask, 0}, kSince, step));
+  EXPECT_EQ(step.left, -5);
+  EXPECT_EQ(odometry.pose().at.x, Length{});
+}
+
+TEST(Odometry, MirroredCountsGiveTheMirroredPoseToTheLastBit) {
+  Odometry odometry;
+  Odometry mirrored;
+  odometry.configure(Params{});
+  mirrored.configure(Params{});
+  const Angle heading = Angle::turns(33, 360);
+  odometry.place({{millimetres(1000), millimetres(50)}, heading});
+  mirrored.place({{millimetres(1000), millimetres(-50)}, -heading});
+  std::uint32_t left = 0, right = 0;
+  CountStep step;
+  for (std::uint32_t tick = 0; tick < 2000; ++tick) {
+    ASSERT_TRUE(odometry.update({left, right}, kSince, step));
+    ASSERT_TRUE(mirrored.update({right, left}, kSince, step));
+    ASSERT_EQ(mirrored.pose().heading, -odometry.pose().heading) << tick;
+    ASSERT_EQ(mirrored.pose().at.x, odometry.pose().at.x) << tick;
+    ASSERT_EQ(mirrored.pose().at.y, -odometry.pose().at.y) << tick;
+    left = (left + tick * 7 % 11) & kMask;
+    right = (right + tick * 5 % 13) & kMask;
+  }
+}
+
+TEST(Odometry, RefusesAJumpThatNoWheelCanMakeAndGoesOnFromThere) {
+  Odometry odometry;
+  odometry.configure(Params{});
+  odometry.place({});
+  CountStep step;
+  odometry.update({0, 0}, kSince, step);
+  EXPECT_TRUE(
+      odometry.update({302, 302}, kSince, step));  // twice 0.3 m/s for 0.1 s is 300 counts, and 2 to spare
+  const Pose before = odometry.pose();
+  EXPECT_FALSE(odometry.update({605, 302}, kSince, step));
+  EXPECT_FALSE(odometry.update({302, 605}, kSince, step));
+  EXPECT_EQ(odometry.pose().at.x, before.at.x);
+  EXPECT_FALSE(odometry.update({302 + 8000000, 605}, kSince, step));
+  EXPECT_TRUE(odometry.update({302 + 8000001, 606}, kSince, step));
+  EXPECT_EQ(odometry.pose().at.x, before.at.x + micrometres(200));
+}
+
+TEST(Odometry, WhatIsAJumpGoesByTheTimeSinceTheLastCounts) {
+  for (const auto& [since_ms, most] : {std::pair{1, 35U}, {10, 62U}, {30, 122U}, {600, 1832U}}) {
+    Odometry odometry;
+    odometry.configure(Params{});
+    odometry.place({});
+    CountStep step;
+    odometry.update({0, 0}, milliseconds(since_ms), step);
+    EXPECT_TRUE(odometry.update({most, 0}, milliseconds(since_ms), step)) << since_ms;
+    EXPECT_FALSE(odometry.update({most + most + 1, 0}, milliseconds(since_ms), step)) << since_ms;
+  }
+}
+
+}  // namespace
+}  // namespace whisker::localization

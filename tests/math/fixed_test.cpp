@@ -1,0 +1,101 @@
+#include "firmware/math/fixed.hpp"
+
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+#include "firmware/math/angle.hpp"
+#include "firmware/math/units.hpp"
+
+namespace whisker {
+namespace {
+
+using namespace literals;
+
+TEST(Fixed, RoundsEveryQ15ProductToNearestTiesAwayFromZero) {
+  for (std::int32_t a = INT16_MIN; a <= INT16_MAX; a += 7) {
+    for (std::int32_t b = INT16_MIN; b <= INT16_MAX; b += 251) {
+      const std::int32_t product = a * b;
+      const std::int32_t size = product < 0 ? -product : product;
+      std::int32_t expected = (size + 16384) / 32768;
+      if (product < 0) expected = -expected;
+      if (expected > INT16_MAX) expected = INT16_MAX;
+      const Q15 got =
+          Q15::from_raw(static_cast<std::int16_t>(a)) * Q15::from_raw(static_cast<std::int16_t>(b));
+      ASSERT_EQ(got.raw(), expected) << a << " * " << b;
+    }
+  }
+}
+
+TEST(Fixed, ScaleDownIsOddAndTiesGoAwayFromZero) {
+  for (std::int32_t x = -4000; x <= 4000; ++x) {
+    ASSERT_EQ(scale_down<4>(-x), -scale_down<4>(x)) << x;
+    ASSERT_EQ(scale_down<4>(std::int64_t{x}), scale_down<4>(x)) << x;
+    ASSERT_LE(magnitude(std::int64_t{scale_down<4>(x)} * 16 - x), 8U) << x;
+  }
+  EXPECT_EQ(scale_down<4>(8), 1);
+  EXPECT_EQ(scale_down<4>(-8), -1);
+  EXPECT_EQ(scale_down<4>(7), 0);
+}
+
+TEST(Fixed, RatioRoundsAndSaturates) {
+  EXPECT_EQ(Q14::ratio(1, 3).raw(), 5461);
+  EXPECT_EQ(Q14::ratio(-1, 3).raw(), -5461);
+  EXPECT_EQ(Q14::ratio(2, 1).raw(), INT16_MAX);
+  EXPECT_EQ(Q14::ratio(-2, 1).raw(), INT16_MIN);
+  EXPECT_EQ((-Q14::from_raw(INT16_MIN)).raw(), INT16_MAX);
+  EXPECT_EQ((Q7::from_raw(30000) + Q7::from_raw(30000)).raw(), INT16_MAX);
+  EXPECT_EQ((Q7::from_raw(-30000) - Q7::from_raw(30000)).raw(), INT16_MIN);
+}
+
+TEST(Fixed, SumsSaturateAtBothEnds) {
+  EXPECT_EQ(saturating_add(INT32_MAX, 1), INT32_MAX);
+  EXPECT_EQ(saturating_add(INT32_MIN, -1), INT32_MIN);
+  EXPECT_EQ(saturating_subtract(INT32_MIN, 1), INT32_MIN);
+  EXPECT_EQ(saturating_subtract(INT32_MAX, -1), INT32_MAX);
+  EXPECT_EQ(saturating_subtract(0, INT32_MIN), INT32_MAX);
+  EXPECT_EQ(saturating_negate(INT32_MIN), INT32_MAX);
+  EXPECT_EQ(saturate32(INT64_MIN), INT32_MIN);
+  EXPECT_EQ(saturate16(40000), INT16_MAX);
+  EXPECT_EQ(saturate16(-40000), INT16_MIN);
+  EXPECT_EQ(magnitude(INT32_MIN), 2147483648U);
+  EXPECT_EQ(magnitude(INT64_MIN), 9223372036854775808U);
+}
+
+TEST(Units, ProductsHaveTheRightUnitAndSaturate) {
+  EXPECT_EQ((300_mm_per_s * 10_ms).raw(), 3000);
+  EXPECT_EQ((1000_mm_per_s2 * 10_ms).raw(), 10000);
+  EXPECT_EQ((3000_mrad_per_s * 70_mm), 210_mm_per_s);
+  EXPECT_EQ((200_mm * Q14::ratio(17, 10)).raw(), 340002);
+  EXPECT_EQ((2000_m * 2).raw(), INT32_MAX);
+  EXPECT_EQ((-(2000_m) * 2).raw(), INT32_MIN);
+  EXPECT_EQ(5_mm / 2, micrometres(2500));
+  EXPECT_EQ(limit(5_mm, 3_mm), 3_mm);
+  EXPECT_EQ(limit(-(5_mm), 3_mm), -(3_mm));
+  EXPECT_EQ(abs(Length::from_raw(INT32_MIN)).raw(), INT32_MAX);
+}
+
+TEST(Units, TimeWrapsAndDifferencesSurviveIt) {
+  for (const std::uint32_t start : {0U, 5U, 0x7FFFFFFFU, 0x80000000U, 0xFFFFFFFBU}) {
+    for (const std::int32_t gap : {0, 1, 10, -1, -10, INT32_MAX, INT32_MIN}) {
+      const Time a = Time::from_raw(start);
+      EXPECT_EQ(((a + milliseconds(gap)) - a).raw(), gap) << start;
+    }
+  }
+  EXPECT_EQ((Time::from_raw(3) - 5_ms).raw(), 0xFFFFFFFEU);
+}
+
+TEST(Angles, WrapAndScale) {
+  EXPECT_EQ((90_deg).raw(), 0x40000000U);
+  EXPECT_EQ(270_deg + 180_deg, 90_deg);
+  EXPECT_EQ(magnitude(350_deg), (10_deg).raw());
+  EXPECT_EQ(magnitude(180_deg), 0x80000000U);
+  EXPECT_EQ((10_deg * -3), -(30_deg));
+  EXPECT_EQ(scaled(30_deg, Q14::ratio(-3, 2)).wrapped(), -(45_deg).wrapped());
+  EXPECT_EQ(arc(180_deg - Angle::from_raw(1), 70_mm), micrometres(219911));
+  EXPECT_EQ(arc(-(90_deg), 70_mm), micrometres(-109956));
+  EXPECT_EQ(Angle::turns(-1, 4), 270_deg);
+}
+
+}  // namespace
+}  // namespace whisker

@@ -1,0 +1,109 @@
+// The decisions of whole runs, compared with committed ones. An intended change of behaviour commits the new
+// files: run this program once with WHISKER_UPDATE_GOLDEN=1 in the environment, and read the diff
+// (docs/building.md).
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include "host/report/result.hpp"
+#include "host/run/runner.hpp"
+#include "host/scenario/load.hpp"
+#include "host/worlds/generate.hpp"
+#include "host/worlds/meeting.hpp"
+
+namespace whisker {
+namespace {
+
+#ifdef WHISKER_ENGINE_CLOSED
+constexpr const char* kEngine = "closed";
+#else
+constexpr const char* kEngine = "table";
+#endif
+
+const std::filesystem::path kSource = WHISKER_SOURCE_DIR;
+
+struct Case {
+  std::string name;
+  Scenario scenario;
+};
+
+/// The thesis planner decides when it has looked; the boundary planner's ticks count where state or reason
+/// change, and every second.
+bool tells(PlannerKind planner, const TickRecord& before, const TickRecord& r, std::size_t tick) {
+  if (planner == PlannerKind::thesis) return r.looked;
+  return r.mode != before.mode || r.why != before.why || tick % 100 == 0;
+}
+
+std::string decisions(const Scenario& scenario, PlannerKind planner) {
+  std::vector<TickRecord> records;
+  RunOptions options;
+  options.planner = planner;
+  options.records = &records;
+  const RunResult result = run(scenario, options);
+  std::string text =
+      fmt::format("# {} {} ticks {} hash {:016x}\nt_s,x_m,y_m,heading_rad,state,why,t,d,r,sa,sd\n",
+                  report::outcome(result.verdict), result.detail, result.ticks, result.hash);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const TickRecord& r = records[i];
+    if (!tells(planner, records[i > 0 ? i - 1 : 0], r, i)) continue;
+    text += fmt::format("{:.2f},{:.4f},{:.4f},{:.4f},{},{},{},{},{},{},{}\n", r.t_s, r.x_m, r.y_m,
+                        r.heading_rad, planning::name(r.mode), planning::name(r.why), r.danger_count, r.d_q7,
+                        r.r_q7, r.sa_q14, r.sd_q14);
+  }
+  return text;
+}
+
+Scenario shipped(const std::string& name) {
+  return load_scenario(kSource / "host/worlds/scenarios" / (name + ".toml"));
+}
+
+Case generated(worlds::Kind kind) {
+  worlds::Options options;
+  options.seed = 1;
+  options.noise = kind == worlds::Kind::discs;
+  Scenario s = worlds::generate(kind, options);
+  s.time_limit_s = 60;
+  return {fmt::format("{}_1", worlds::name(kind)), s};
+}
+
+void compare(const Scenario& scenario, PlannerKind planner, const std::string& file) {
+  const bool update = std::getenv("WHISKER_UPDATE_GOLDEN") != nullptr;
+  const std::filesystem::path path = kSource / "tests/missions/golden" / kEngine / (file + ".csv");
+  const std::string now = decisions(scenario, planner);
+  if (update) std::ofstream(path) << now;
+  std::ifstream stream(path);
+  std::stringstream committed;
+  committed << stream.rdbuf();
+  EXPECT_EQ(now, committed.str()) << file;
+  EXPECT_FALSE(update) << "written anew; run again without WHISKER_UPDATE_GOLDEN";
+}
+
+TEST(Golden, EveryDecisionOfTheThesisPlannerIsTheCommittedOne) {
+  for (const char* name : {"two_discs", "figure8_u_trap", "figure9_discs", "figure10_discs"}) {
+    compare(shipped(name), PlannerKind::thesis, name);
+  }
+  for (const worlds::Kind kind :
+       {worlds::Kind::discs, worlds::Kind::poles, worlds::Kind::u_trap, worlds::Kind::spiral,
+        worlds::Kind::maze, worlds::Kind::rooms, worlds::Kind::enclosed}) {
+    const Case c = generated(kind);
+    compare(c.scenario, PlannerKind::thesis, c.name);
+  }
+}
+
+TEST(Golden, EveryDecisionOfTheSkirtPlannerIsTheCommittedOne) {
+  const Case cases[] = {{"figure8_u_trap", shipped("figure8_u_trap")},
+                        generated(worlds::Kind::discs),
+                        generated(worlds::Kind::rooms),
+                        {"crossing_1", worlds::meeting(worlds::Course::crossing, 0.1, 1)}};
+  for (const Case& c : cases) compare(c.scenario, PlannerKind::skirt, "skirt_" + c.name);
+}
+
+}  // namespace
+}  // namespace whisker

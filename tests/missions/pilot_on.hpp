@@ -1,0 +1,34 @@
+/// The core on a board of the test's own.
+#pragma once
+
+#include <memory>
+
+#include "firmware/robot.hpp"
+#include "host/run/pilot.hpp"
+#include "host/run/spec.hpp"
+
+namespace whisker::test {
+
+/// `Board`: a class that is made with a plant, and has its sensors and its wheels.
+template <class Board>
+class PilotOn : public Pilot {
+ public:
+  PilotOn(const Scenario& scenario, PlannerKind kind, sim::Plant& plant)
+      : board_(plant),
+        planner_(make_planner(kind, scenario.robot)),
+        robot_(board_, board_, *planner_, scenario.robot) {
+    robot_.place(fixed_pose(scenario.start));
+    robot_.set_goal(fixed_goal(scenario.goal));
+  }
+  const Status& tick(Time now) override { return robot_.tick(now); }
+
+ protected:
+  Robot& robot() { return robot_; }
+
+ private:
+  Board board_;
+  std::shared_ptr<planning::Planner> planner_;
+  Robot robot_;
+};
+
+}  // namespace whisker::test

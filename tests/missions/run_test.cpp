@@ -1,0 +1,182 @@
+#include "host/run/runner.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "host/scenario/load.hpp"
+#include "host/worlds/generate.hpp"
+#include "tests/effort.hpp"
+#include "tests/missions/judge.hpp"
+
+namespace whisker {
+namespace {
+
+const std::filesystem::path kScenarios = std::filesystem::path(WHISKER_SOURCE_DIR) / "host/worlds/scenarios";
+
+struct Drive {
+  RunResult result;
+  std::vector<TickRecord> records;
+  std::string complaint;
+};
+
+Drive drive(const Scenario& scenario, PlannerKind planner = PlannerKind::skirt) {
+  Drive d;
+  RunOptions options;
+  options.planner = planner;
+  options.records = &d.records;
+  d.result = run(scenario, options);
+  d.complaint = test::judge(scenario, d.records, d.result).complaint;
+  return d;
+}
+
+Scenario small_world(const std::string& obstacles) {
+  return parse_scenario(R"(
+    name = "small"
+    time_limit_s = 120.0
+    [start]
+    x_m = 0.0
+    y_m = 0.0
+    [goal]
+    x_m = 2.0
+    y_m = 0.0
+)" + obstacles,
+                        "small.toml");
+}
+
+TEST(Run, AnEmptyWorldIsCrossedStraight) {
+  const Drive d = drive(small_world(""));
+  EXPECT_EQ(d.result.verdict, Verdict::reached);
+  EXPECT_EQ(d.complaint, "");
+  EXPECT_NEAR(d.result.path_m, 2.0, 0.1);
+  EXPECT_LT(d.result.final_distance_m, 0.1);
+  EXPECT_EQ(d.records.size(), d.result.ticks);
+}
+
+TEST(Run, TheTimeLimitIsGaveUpAndSaysSo) {
+  Scenario s = small_world("");
+  s.time_limit_s = 1.0;
+  const Drive d = drive(s);
+  EXPECT_EQ(d.result.verdict, Verdict::gave_up);
+  EXPECT_EQ(d.result.detail, "time_limit");
+  EXPECT_EQ(d.result.ticks, 101U);
+}
+
+TEST(Run, AWallWithoutEndMakesTheThesisPlannerGiveUp) {
+  Scenario s = small_world("[[wall]]\npoints = [[1.0, -9.0], [1.0, 9.0]]\n");
+  s.robot.thesis.max_steps = 60;
+  s.time_limit_s = 600;
+  const Drive d = drive(s, PlannerKind::thesis);
+  EXPECT_EQ(d.result.verdict, Verdict::gave_up);
+  EXPECT_EQ(d.result.detail, "step_budget");
+  EXPECT_EQ(d.complaint, "");
+}
+
+TEST(Run, TheLengthBudgetIsTheRobots) {
+  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::map}) {
+    Scenario s = small_world("");
+    s.robot.skirt.length_budget = 1_m;
+    const Drive d = drive(s, planner);
+    EXPECT_EQ(d.result.verdict, Verdict::gave_up);
+    EXPECT_EQ(d.result.detail, "length_budget");
+    EXPECT_NEAR(d.result.path_m, 1.0, 0.05);
+    EXPECT_EQ(d.complaint, "");
+  }
+}
+
+TEST(Run, AClosedRoomGivesNoExitOrABudget) {
+  Scenario s = small_world("[[polygon]]\npoints = [[1.7, -0.3], [2.3, -0.3], [2.3, 0.3], [1.7, 0.3]]\n");
+  s.robot.thesis.max_steps = 60;
+  s.time_limit_s = 600;
+  const Drive d = drive(s, PlannerKind::thesis);
+  EXPECT_EQ(d.result.verdict, Verdict::gave_up);
+  EXPECT_EQ(d.complaint, "");
+}
+
+TEST(Run, AFlankThatNoBeamSeesIsTouchedAndReported) {
+  // A pole beside the way, behind the cones when the step begins.
+  const Drive d =
+      drive(small_world("[[disc]]\ncenter = [0.06, 0.105]\nradius_m = 0.02\n"), PlannerKind::thesis);
+  EXPECT_EQ(d.result.verdict, Verdict::contact);
+  EXPECT_EQ(d.complaint, "");
+  EXPECT_LE(d.result.min_clearance_m, 1e-9);
+  EXPECT_EQ(d.records.size(), d.result.ticks + 1);
+}
+
+TEST(Run, ASensorThatFailsForGoodIsAFault) {
+  Scenario s = small_world("");
+  s.noise.range_dropout = 1.0;
+  const Drive d = drive(s);
+  EXPECT_EQ(d.result.verdict, Verdict::fault);
+  EXPECT_EQ(d.result.detail, "range_lost");
+  EXPECT_LT(d.result.time_s, 1.5);
+}
+
+TEST(Run, DropoutsAndFalseClearsCostTimeAndNothingElse) {
+  Scenario s = parse_scenario(R"(
+    name = "noisy"
+    [start]
+    x_m = 0.0
+    y_m = 0.0
+    [goal]
+    x_m = 3.0
+    y_m = 0.0
+    [[disc]]
+    center = [1.5, 0.1]
+    radius_m = 0.4
+    [noise]
+    range_sigma_m = 0.01
+    range_dropout = 0.1
+    range_false_clear = 0.05
+)",
+                              "noisy.toml");
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    s.seed = seed;
+    const Drive d = drive(s);
+    EXPECT_EQ(d.result.verdict, Verdict::reached) << "seed " << seed;
+    EXPECT_EQ(d.complaint, "") << "seed " << seed;
+  }
+}
+
+TEST(Run, TheSeedOfTheNoiseDecidesAndOptionsOverrideIt) {
+  Scenario s = load_scenario(kScenarios / "two_discs.toml");
+  s.noise.range_sigma_m = 0.01;
+  RunOptions other;
+  other.seed = s.seed + 1;
+  EXPECT_EQ(run(s).hash, run(s).hash);
+  EXPECT_NE(run(s).hash, run(s, other).hash);
+  s.seed += 1;
+  EXPECT_EQ(run(s).hash, run(s, other).hash);
+}
+
+// Whatever becomes of the mission, the judge must find nothing that the verdict hides.
+TEST(Run, NothingEscapesTheJudgeInRandomWorlds) {
+  int verdicts[6] = {};
+  for (const auto kind :
+       {worlds::Kind::discs, worlds::Kind::poles, worlds::Kind::u_trap, worlds::Kind::spiral,
+        worlds::Kind::maze, worlds::Kind::rooms, worlds::Kind::enclosed}) {
+    for (std::uint64_t seed = 1; seed <= test::effort(12); ++seed) {
+      worlds::Options options;
+      options.seed = seed;
+      options.noise = seed % 3 == 0;
+      Scenario s = worlds::generate(kind, options);
+      s.time_limit_s = 400;
+      const Drive d = drive(s);
+      EXPECT_EQ(d.complaint, "") << s.name;
+      ++verdicts[static_cast<int>(d.result.verdict)];
+    }
+  }
+  const auto of = [&](Verdict verdict) { return verdicts[static_cast<int>(verdict)]; };
+  std::printf("84 worlds, seeds 1-12: %d reached, %d off the goal, %d gave up, %d contacts, %d faults\n",
+              of(Verdict::reached), of(Verdict::off_goal), of(Verdict::gave_up), of(Verdict::contact),
+              of(Verdict::fault));
+  EXPECT_GT(of(Verdict::reached), 10);
+  EXPECT_EQ(of(Verdict::fault), 0);
+}
+
+}  // namespace
+}  // namespace whisker

@@ -1,0 +1,71 @@
+// What a tick costs: rows of the grid that are clipped, counted by the linker's --wrap (see CMakeLists.txt).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "firmware/perception/raster.hpp"
+#include "host/worlds/generate.hpp"
+#include "tests/perception/rig.hpp"
+
+namespace {
+int g_rows = 0;
+}
+
+// The wrapped functions by their mangled names; each is called once a row.
+extern "C" {
+whisker::perception::Row __real__ZNK7whisker10perception4Span7columnsEv(const whisker::perception::Span*);
+whisker::perception::Row __wrap__ZNK7whisker10perception4Span7columnsEv(const whisker::perception::Span* span) {
+  ++g_rows;
+  return __real__ZNK7whisker10perception4Span7columnsEv(span);
+}
+whisker::perception::Row __real__ZNK7whisker10perception7Stadium7columnsEi(const whisker::perception::Stadium*,
+                                                                      int);
+whisker::perception::Row __wrap__ZNK7whisker10perception7Stadium7columnsEi(
+    const whisker::perception::Stadium* stadium, int row) {
+  ++g_rows;
+  return __real__ZNK7whisker10perception7Stadium7columnsEi(stadium, row);
+}
+}
+
+namespace whisker::test {
+namespace {
+
+struct Cost {
+  int worst = 0;
+  double sum = 0;
+  int ticks = 0;
+  void add(int rows) {
+    worst = std::max(worst, rows);
+    sum += rows;
+    ++ticks;
+  }
+  double mean() const { return sum / ticks; }
+};
+
+TEST(Cost, OfATickIsBounded) {
+  Cost plain;
+  Cost sensing;
+  for (const worlds::Kind kind : {worlds::Kind::discs, worlds::Kind::maze, worlds::Kind::rooms}) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      worlds::Options options;
+      options.seed = 70 + seed;
+      Rig rig(worlds::generate(kind, options));
+      while (rig.plant().time() < 60) {
+        g_rows = 0;
+        if (!rig.step()) break;
+        (rig.view().sighted ? sensing : plain).add(g_rows);
+      }
+    }
+  }
+  std::printf("rows a tick: %.0f mean, %d worst; with new readings %.0f mean, %d worst\n", plain.mean(),
+              plain.worst, sensing.mean(), sensing.worst);
+  EXPECT_GT(plain.ticks, 10000);
+  EXPECT_GT(sensing.mean(), 3 * 2 * 10);
+  // The planner's widest search: 144 headings of a stadium of 15 rows in one tick.
+  EXPECT_LE(plain.worst, 3000);
+  EXPECT_LE(sensing.worst, 3000);
+}
+
+}  // namespace
+}  // namespace whisker::test

@@ -1,0 +1,317 @@
+#include "firmware/perception/local_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <utility>
+
+#include "host/run/spec.hpp"
+#include "host/worlds/random.hpp"
+#include "tests/effort.hpp"
+#include "tests/perception/cells.hpp"
+
+namespace whisker::test {
+namespace {
+
+using worlds::Random;
+
+constexpr int kAround = 24;  // cells, farther than the window reaches
+constexpr double kCell = 0.02;
+
+double metres(Length l) { return l.raw() * 1e-6; }
+using Cell = std::pair<int, int>;
+
+Vec centre(Cell cell) { return {millimetres(20 * cell.first + 10), millimetres(20 * cell.second + 10)}; }
+Cell cell_of(Vec at) {
+  return {static_cast<int>(std::floor(metres(at.x) / kCell)),
+          static_cast<int>(std::floor(metres(at.y) / kCell))};
+}
+
+std::set<Cell> clear_around(const perception::LocalGrid& local_grid, Vec at) {
+  std::set<Cell> clear;
+  const Cell here = cell_of(at);
+  for (int y = here.second - kAround; y <= here.second + kAround; ++y) {
+    for (int x = here.first - kAround; x <= here.first + kAround; ++x) {
+      if (local_grid.is_clear(centre({x, y}))) clear.insert({x, y});
+    }
+  }
+  return clear;
+}
+
+perception::ConeObservation observation(Pose from, Angle axis, Length free, bool hit = true) {
+  perception::ConeObservation p;
+  p.from = from;
+  p.axis = axis;
+  p.free = free;
+  p.hit = hit;
+  return p;
+}
+
+double distance(Cell cell, Vec at) {
+  const Vec c = centre(cell);
+  return std::hypot(metres(c.x) - metres(at.x), metres(c.y) - metres(at.y));
+}
+
+/// From the farthest corner of the cell, and from its nearest point.
+double farthest(Cell cell, Vec at) {
+  const Vec c = centre(cell);
+  return std::hypot(std::fabs(metres(c.x) - metres(at.x)) + kCell / 2,
+                    std::fabs(metres(c.y) - metres(at.y)) + kCell / 2);
+}
+double nearest(Cell cell, double x, double y) {
+  const Vec c = centre(cell);
+  return std::hypot(std::fmax(std::fabs(metres(c.x) - x) - kCell / 2, 0),
+                    std::fmax(std::fabs(metres(c.y) - y) - kCell / 2, 0));
+}
+
+TEST(LocalGrid, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
+  for (std::uint64_t seed = 1; seed <= test::effort(300); ++seed) {
+    Random random(seed);
+    const Pose pose{{Length::from_raw(random.index(2000000000) - 1000000000),
+                     Length::from_raw(random.index(2000000000) - 1000000000)},
+                    Angle::from_raw(static_cast<std::uint32_t>(random.bits()))};
+    const Params params;
+    perception::LocalGrid local_grid;
+    local_grid.configure(params);
+    local_grid.reset(pose);
+    const std::set<Cell> clear = clear_around(local_grid, pose.at);
+    EXPECT_GT(clear.size(), 40U);
+    // Each wholly under the body.
+    for (const Cell& cell : clear) ASSERT_LE(farthest(cell, pose.at), 0.09);
+  }
+}
+
+// The rows and columns that the window leaves are forgotten, those that it keeps are kept, and no bit comes
+// in at the other end of the torus.
+TEST(LocalGrid, AMovingWindowNeitherLeaksNorLoses) {
+  for (std::uint64_t seed = 1; seed <= test::effort(300); ++seed) {
+    Random random(seed);
+    Params params;
+    params.skirt.age_travel = 1000_m;
+    params.skirt.age_turn = 359_deg;
+    perception::LocalGrid local_grid;
+    local_grid.configure(params);
+    Pose pose{{millimetres(random.index(4000) - 2000), millimetres(random.index(4000) - 2000)},
+              Angle::turns(random.index(8), 8)};
+    local_grid.reset(pose);
+    std::set<Cell> before = clear_around(local_grid, pose.at);
+    for (int step = 0; step < 30; ++step) {
+      const int reach = random.chance(0.1) ? 1500 : 60;
+      pose.at = pose.at + Vec{millimetres(random.index(2 * reach + 1) - reach),
+                              millimetres(random.index(2 * reach + 1) - reach)};
+      local_grid.move_to(pose);
+      const std::set<Cell> moved = clear_around(local_grid, pose.at);
+      for (const Cell& cell : moved) {
+        ASSERT_TRUE(before.count(cell) == 1 || distance(cell, pose.at) < 0.09)
+            << "seed " << seed << " step " << step << ": a leak at " << cell.first << ' ' << cell.second;
+      }
+      for (const Cell& cell : before) {
+        const bool near = std::fabs(metres(centre(cell).x) - metres(pose.at.x)) < 0.25 &&
+                          std::fabs(metres(centre(cell).y) - metres(pose.at.y)) < 0.25;
+        ASSERT_TRUE(!near || moved.count(cell) == 1) << "seed " << seed << " step " << step << ": lost";
+      }
+      local_grid.mark(
+          observation(pose, Angle::from_raw(static_cast<std::uint32_t>(random.bits())), 2_m, false));
+      before = clear_around(local_grid, pose.at);
+    }
+  }
+}
+
+/// A local grid with random clear ground around a body at rest.
+perception::LocalGrid draw_patch(Random& random, const Pose& pose) {
+  perception::LocalGrid local_grid;
+  local_grid.configure(Params{});
+  local_grid.reset(pose);
+  const int looks = random.index(30);
+  for (int i = 0; i < looks; ++i) {
+    local_grid.mark(observation(pose, Angle::from_raw(static_cast<std::uint32_t>(random.bits())),
+                                millimetres(100 + random.index(300))));
+  }
+  return local_grid;
+}
+
+Pose draw_pose(Random& random) {
+  return {{Length::from_raw(random.index(1000000)), Length::from_raw(random.index(1000000))},
+          random.chance(0.3) ? Angle::turns(random.index(8), 8)
+                             : Angle::from_raw(static_cast<std::uint32_t>(random.bits()))};
+}
+
+bool nothing(const perception::Obstacles& found) { return found.unknown == 0 && found.suspect == 0; }
+
+TEST(LocalGrid, AlongCountsWhatIsNotClearOnTheWay) {
+  constexpr int kSamples = 150;
+  constexpr double kRounding = 0.0006;
+  constexpr double kAbeam = 80 * kCell / 256;
+  int blocked = 0;
+  for (std::uint64_t seed = 1; seed <= test::effort(3000); ++seed) {
+    Random random(seed);
+    const Pose pose = draw_pose(random);
+    const perception::LocalGrid local_grid = draw_patch(random, pose);
+    const Length length = millimetres(random.index(150));
+    const Length radius = millimetres(20 + random.index(90));
+    const perception::Obstacles found = local_grid.along(pose.at, pose.heading, length, radius);
+    const double heading = radians(pose.heading);
+    int surely = 0;
+    int perhaps = 0;
+    const Cell here = cell_of(pose.at);
+    for (int y = here.second - 13; y <= here.second + 13; ++y) {
+      for (int x = here.first - 13; x <= here.first + 13; ++x) {
+        if (local_grid.is_clear(centre({x, y}))) continue;
+        const double dx = metres(centre({x, y}).x) - metres(pose.at.x);
+        const double dy = metres(centre({x, y}).y) - metres(pose.at.y);
+        const double ahead = dx * std::cos(heading) + dy * std::sin(heading);
+        double off = 1;
+        for (int i = 0; i <= kSamples; ++i) {
+          const double on = metres(length) * i / kSamples;
+          off = std::fmin(off, nearest({x, y}, metres(pose.at.x) + on * std::cos(heading),
+                                       metres(pose.at.y) + on * std::sin(heading)));
+        }
+        const double by = std::fmin(metres(radius) - off, ahead - kAbeam);
+        if (by > kRounding) ++surely;
+        if (by > -kRounding) ++perhaps;
+      }
+    }
+    ASSERT_GE(found.unknown + found.suspect, surely) << "seed " << seed;
+    ASSERT_LE(found.unknown + found.suspect, perhaps) << "seed " << seed;
+    if (found.unknown > 0) {
+      ASSERT_FALSE(local_grid.is_clear(pose.at + found.nearest_unknown)) << "seed " << seed;
+    }
+    blocked += nothing(found) ? 0 : 1;
+  }
+  EXPECT_GT(blocked, 300);
+  EXPECT_LT(blocked, 2900);
+}
+
+TEST(LocalGrid, ApproachesTellsWhatComesNearer) {
+  constexpr double kRounding = 0.0005;
+  int vetoed = 0;
+  for (std::uint64_t seed = 1; seed <= test::effort(3000); ++seed) {
+    Random random(seed);
+    const Pose pose = draw_pose(random);
+    const perception::LocalGrid local_grid = draw_patch(random, pose);
+    const Length step = micrometres(100 + random.index(60000));
+    const Length radius = millimetres(50 + random.index(60));
+    const double heading = radians(pose.heading);
+    const double ahead = std::fmax(80 * kCell / 256, metres(step) / 2);
+    bool surely = false;
+    bool perhaps = false;
+    const Cell here = cell_of(pose.at);
+    for (int y = here.second - 13; y <= here.second + 13; ++y) {
+      for (int x = here.first - 13; x <= here.first + 13; ++x) {
+        if (local_grid.is_clear(centre({x, y}))) continue;
+        const double dx = metres(centre({x, y}).x) - metres(pose.at.x);
+        const double dy = metres(centre({x, y}).y) - metres(pose.at.y);
+        const double off = nearest({x, y}, metres(pose.at.x) + metres(step) * std::cos(heading),
+                                   metres(pose.at.y) + metres(step) * std::sin(heading));
+        const double by =
+            std::fmin(metres(radius) - off, dx * std::cos(heading) + dy * std::sin(heading) - ahead);
+        surely = surely || by > kRounding;
+        perhaps = perhaps || by > -kRounding;
+      }
+    }
+    const bool answer = local_grid.approaches(pose.at, pose.heading, step, radius);
+    ASSERT_TRUE(!surely || answer) << "seed " << seed;
+    ASSERT_TRUE(perhaps || !answer) << "seed " << seed;
+    vetoed += answer ? 1 : 0;
+  }
+  EXPECT_GT(vetoed, 300);
+  EXPECT_LT(vetoed, 2900);
+}
+
+// Seen once, then left behind or turned away from.
+TEST(LocalGrid, AClearCellLivesForOneToTwoSpans) {
+  const Params params;
+  const Length span = params.skirt.age_travel;
+  perception::LocalGrid local_grid;
+  local_grid.configure(params);
+  Pose pose;
+  local_grid.reset(pose);
+  local_grid.mark(observation(pose, Angle{}, 2_m, false));
+  const Vec seen{200_mm, 0_mm};
+  ASSERT_TRUE(local_grid.is_clear(seen));
+  // To and fro, where the body's margin never comes near the cell.
+  Length travel{};
+  while (travel < span) {
+    pose.at.y = pose.at.y == 0_mm ? 10_mm : 0_mm;
+    local_grid.move_to(pose);
+    travel += 10_mm;
+    ASSERT_TRUE(local_grid.is_clear(seen)) << metres(travel);
+  }
+  while (travel < span * 2) {
+    pose.at.y = pose.at.y == 0_mm ? 10_mm : 0_mm;
+    local_grid.move_to(pose);
+    travel += 10_mm;
+  }
+  EXPECT_FALSE(local_grid.is_clear(seen));
+  EXPECT_TRUE(local_grid.is_clear(pose.at));
+}
+
+TEST(LocalGrid, TurningAgesToo) {
+  perception::LocalGrid local_grid;
+  local_grid.configure(Params{});
+  Pose pose;
+  local_grid.reset(pose);
+  local_grid.mark(observation(pose, Angle{}, 2_m, false));
+  const Vec seen{200_mm, 0_mm};
+  for (int i = 0; i < 33; ++i) {
+    pose.heading += 10_deg;
+    local_grid.move_to(pose);
+    ASSERT_TRUE(local_grid.is_clear(seen));
+  }
+  for (int i = 0; i < 40; ++i) {
+    pose.heading += 10_deg;
+    local_grid.move_to(pose);
+  }
+  EXPECT_FALSE(local_grid.is_clear(seen));
+}
+
+// The ground beside the way that the body has come stays clear for at least a span after it passed.
+TEST(LocalGrid, TheWayBackStaysOpen) {
+  const Params params;
+  perception::LocalGrid local_grid;
+  local_grid.configure(params);
+  Pose pose;
+  local_grid.reset(pose);
+  for (int i = 0; i < 24; ++i) local_grid.mark(observation(pose, 15_deg * i, 2_m, false));
+  const Length reach = local_grid.reach().planning;
+  while (pose.at.x < 5_m) {
+    pose.at.x += 5_mm;
+    local_grid.move_to(pose);
+    for (int i = -4; i <= 4; ++i) local_grid.mark(observation(pose, 15_deg * i, 2_m, false));
+    if (pose.at.x > 300_mm) {
+      ASSERT_TRUE(nothing(local_grid.along(pose.at, 180_deg, 100_mm, reach))) << metres(pose.at.x);
+    }
+  }
+}
+
+TEST(LocalGrid, DoubtTakesBackWhatMayBeReachedAndSparesTheBody) {
+  const Params params;
+  perception::LocalGrid local_grid;
+  local_grid.configure(params);
+  const Pose pose;
+  local_grid.reset(pose);
+  const std::set<Cell> under = clear_around(local_grid, pose.at);
+  for (int i = 0; i < 24; ++i) local_grid.mark(observation(pose, 15_deg * i, 2_m, false));
+  perception::ConeObservation p = observation(pose, Angle{}, 200_mm);
+  local_grid.doubt(p, 210_mm);
+  EXPECT_TRUE(local_grid.doubting());
+  for (const Cell& cell : under) EXPECT_TRUE(local_grid.is_clear(centre(cell)));
+  // Lag 50 ms, braking 300 ms, latency 20 ms, two readings 40 ms, a tick 10 ms: 0.42 s at 0.3 m/s.
+  for (int mm = 200 - 126 + 25; mm < 290; mm += 5)
+    EXPECT_FALSE(local_grid.is_clear({millimetres(mm), 0_mm})) << mm;
+  EXPECT_TRUE(local_grid.is_clear({-200_mm, 0_mm}));
+  EXPECT_TRUE(local_grid.is_clear({0_mm, 220_mm}));
+  // For a second no echo clears that near; afterwards it does.
+  p.taken = Time::from_raw(900);
+  local_grid.mark(p);
+  EXPECT_FALSE(local_grid.is_clear({150_mm, 0_mm}));
+  p.taken = Time::from_raw(1100);
+  local_grid.mark(p);
+  EXPECT_TRUE(local_grid.is_clear({150_mm, 0_mm}));
+  EXPECT_FALSE(local_grid.doubting());
+}
+
+}  // namespace
+}  // namespace whisker::test

@@ -1,0 +1,267 @@
+#include "firmware/perception/range_conditioner.hpp"
+
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+namespace whisker::perception {
+namespace {
+
+using hal::RangeStatus;
+
+class BeamTest : public testing::Test {
+ protected:
+  /// One reading every 20 ms, measured 20 ms before.
+  void see(RangeStatus status, std::uint16_t mm, Angle heading = {}) {
+    now_ = now_ + milliseconds(20);
+    sequence_ = static_cast<std::uint8_t>((sequence_ + 1) % 16);
+    beam_.update({mm, status, 20, sequence_}, now_, heading, params_, health_);
+  }
+  void see(std::uint16_t mm) { see(RangeStatus::ok, mm); }
+  void repeat_old_reading(int ticks, std::uint16_t mm) {
+    for (int i = 0; i < ticks; ++i) {
+      now_ = now_ + milliseconds(10);
+      beam_.update({mm, RangeStatus::ok, 20, sequence_}, now_, {}, params_, health_);
+    }
+  }
+  Echo look(Time since = Time::from_raw(0)) const { return beam_.look(since, params_); }
+
+  Params params_;
+  Health health_;
+  BeamConditioner beam_;
+  Time now_;
+  std::uint8_t sequence_ = 7;
+};
+
+TEST_F(BeamTest, IsPendingUntilEnoughReadingsAgree) {
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(500);
+  see(510);
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(505);
+  EXPECT_EQ(look().validity, Validity::ok);
+  EXPECT_EQ(look().distance, 500_mm);
+}
+
+TEST_F(BeamTest, TakesTheNearestOfAgreeingReadingsAndWaitsWhileTheyDisagree) {
+  see(500);
+  see(500);
+  see(561);
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(560);
+  see(621);
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(620);
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(561);
+  EXPECT_EQ(look().distance, 561_mm);  // 60 mm apart: they still agree
+}
+
+TEST_F(BeamTest, OneFalseClearNeitherWinsNorVotes) {
+  see(500);
+  see(500);
+  see(RangeStatus::clear, 0);
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(500);
+  see(500);
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(500);
+  EXPECT_EQ(look().distance, 500_mm);
+}
+
+TEST_F(BeamTest, ALostReadingIsSkippedAndNeverFar) {
+  see(500);
+  see(RangeStatus::invalid, 60000);
+  EXPECT_EQ(beam_.latest().validity, Validity::invalid);
+  EXPECT_EQ(beam_.latest().distance, Length{});
+  see(500);
+  see(RangeStatus::invalid, 0);
+  see(500);
+  EXPECT_EQ(look().distance, 500_mm);
+  EXPECT_EQ(health_.range_invalid, 2U);
+}
+
+TEST_F(BeamTest, AnUnknownStatusIsALostReading) {
+  see(static_cast<RangeStatus>(77), 500);
+  EXPECT_EQ(beam_.latest().validity, Validity::invalid);
+  EXPECT_EQ(health_.range_invalid, 1U);
+}
+
+TEST_F(BeamTest, OutsideTheSensorsRangeIsLostAboveAndTooNearBelow) {
+  see(2001);
+  EXPECT_EQ(beam_.latest().validity, Validity::invalid);
+  see(2000);
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  see(20);
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  see(19);
+  EXPECT_EQ(beam_.latest().validity, Validity::too_near);
+  EXPECT_EQ(beam_.latest().distance, Length{});
+  EXPECT_EQ(health_.range_out_of_range, 2U);
+}
+
+TEST_F(BeamTest, ZeroMillimetresIsTooNearWhereTheMinimumAllowsZero) {
+  params_.rangefinders.min_range = Length{};
+  see(0);
+  EXPECT_EQ(beam_.latest().validity, Validity::too_near);
+}
+
+TEST_F(BeamTest, ClearCountsAsTheMaximumRange) {
+  for (int i = 0; i < 3; ++i) see(RangeStatus::clear, 0);
+  EXPECT_EQ(look().validity, Validity::clear);
+  EXPECT_EQ(look().distance, 2000_mm);
+}
+
+TEST_F(BeamTest, AThingExactlyAtTheMaximumRangeCountsAsClear) {
+  for (int i = 0; i < 3; ++i) see(2000);
+  EXPECT_EQ(look().validity, Validity::clear);
+  EXPECT_EQ(look().distance, 2_m);
+}
+
+TEST_F(BeamTest, TooNearWinsOverClear) {
+  params_.conditioning.tolerance = 1_m;
+  for (int i = 0; i < 3; ++i) see(RangeStatus::too_near, 0);
+  EXPECT_EQ(look().validity, Validity::too_near);
+  EXPECT_EQ(look().distance, Length{});
+}
+
+TEST_F(BeamTest, OnlyReadingsTakenSinceTheBodyStoodCount) {
+  for (int i = 0; i < 5; ++i) see(500);
+  const Time since = now_;
+  EXPECT_EQ(look(since).validity, Validity::pending);
+  see(400);  // measured at `since`
+  see(400);
+  EXPECT_EQ(look(since).validity, Validity::pending);
+  see(400);
+  EXPECT_EQ(look(since).distance, 400_mm);
+}
+
+TEST_F(BeamTest, AReadingCountsFromWhenItWasMeasuredNotFromWhenItCame) {
+  for (int i = 0; i < 3; ++i) see(500);
+  const Time first_measured = Time::from_raw(0);
+  EXPECT_EQ(look(first_measured).validity, Validity::ok);
+  EXPECT_EQ(look(first_measured + milliseconds(1)).validity, Validity::pending);
+}
+
+TEST_F(BeamTest, FromAResetOnItIsPendingAndNotYetLost) {
+  for (int i = 0; i < 3; ++i) see(500);
+  now_ = now_ + milliseconds(5000);
+  beam_.reset(now_);
+  EXPECT_EQ(look().validity, Validity::pending);
+  EXPECT_EQ(beam_.lost_for(now_), 0_ms);
+  beam_.miss(now_ + milliseconds(100), params_, health_);
+  EXPECT_EQ(beam_.latest().validity, Validity::pending);
+  EXPECT_EQ(beam_.lost_for(now_ + milliseconds(100)), 100_ms);
+  beam_.miss(now_ + milliseconds(101), params_, health_);
+  EXPECT_EQ(beam_.latest().validity, Validity::stale);
+}
+
+TEST_F(BeamTest, TheSameSequenceIsTheSameReading) {
+  see(500);
+  repeat_old_reading(5, 500);
+  EXPECT_EQ(look().validity, Validity::pending);
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+}
+
+TEST_F(BeamTest, WithoutNewReadingsItGoesStaleOnceAndRecovers) {
+  beam_.reset(now_);
+  see(500);
+  repeat_old_reading(10, 500);
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);  // 100 ms
+  repeat_old_reading(1, 500);
+  EXPECT_EQ(beam_.latest().validity, Validity::stale);
+  repeat_old_reading(9, 500);
+  EXPECT_EQ(health_.range_stale, 1U);
+  EXPECT_EQ(beam_.lost_for(now_), 200_ms);
+  see(500);
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  EXPECT_EQ(beam_.lost_for(now_), Duration{});
+}
+
+TEST_F(BeamTest, AStaleStatusOrAnAbsentReadingOnlyAges) {
+  beam_.reset(now_);
+  see(500);
+  for (int i = 0; i < 6; ++i) see(RangeStatus::stale, 0);
+  EXPECT_EQ(beam_.latest().validity, Validity::stale);
+  see(500);
+  now_ = now_ + milliseconds(101);
+  beam_.miss(now_, params_, health_);
+  EXPECT_EQ(beam_.latest().validity, Validity::stale);
+  EXPECT_EQ(health_.range_stale, 2U);
+}
+
+TEST_F(BeamTest, TheSameMillimetreOverMostOfHalfATurnIsStuck) {
+  for (int deg = 0; deg < 150; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  see(RangeStatus::ok, 700, Angle::turns(150, 360));
+  EXPECT_EQ(beam_.latest().validity, Validity::stuck);
+  EXPECT_EQ(health_.range_stuck, 1U);
+  see(RangeStatus::ok, 701, Angle::turns(153, 360));
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+}
+
+TEST_F(BeamTest, IsStuckByTheTurnSinceTheFirstRepetitionWhicheverWayTheBodyLooked) {
+  for (int deg = 100; deg < 250; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  see(RangeStatus::ok, 700, Angle::turns(250, 360));
+  EXPECT_EQ(beam_.latest().validity, Validity::stuck);
+}
+
+TEST_F(BeamTest, AClearReadingInBetweenIsNoStuckSensor) {
+  for (int deg = 0; deg < 100; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
+  see(RangeStatus::clear, 0, Angle::turns(100, 360));
+  for (int deg = 103; deg < 200; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  EXPECT_EQ(health_.range_stuck, 0U);
+}
+
+TEST_F(BeamTest, TwoThingsEquallyFarAreNotAStuckSensor) {
+  for (int deg = 0; deg < 120; deg += 3) see(RangeStatus::ok, 167, Angle::turns(deg, 360));
+  EXPECT_EQ(health_.range_stuck, 0U);
+}
+
+TEST_F(BeamTest, DrivingAlongAWallIsNotStuck) {
+  for (int i = 0; i < 200; ++i) see(700);
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  EXPECT_EQ(health_.range_stuck, 0U);
+}
+
+TEST_F(BeamTest, TheMedianOutvotesTheMinority) {
+  params_.conditioning.consensus = Consensus::median;
+  params_.conditioning.reads = 5;
+  see(500);
+  see(RangeStatus::clear, 0);
+  see(510);
+  see(RangeStatus::clear, 0);
+  EXPECT_EQ(look().validity, Validity::pending);
+  see(505);
+  EXPECT_EQ(look().distance, 510_mm);
+  params_.conditioning.reads = 4;  // an even count takes the nearer of the two in the middle
+  EXPECT_EQ(look().distance, 510_mm);
+}
+
+TEST(RangeConditioner, IsAsLostAsItsWorstBeam) {
+  Params params;
+  Health health;
+  RangeConditioner conditioner;
+  conditioner.reset(Time::from_raw(0));
+  hal::RangeReadings readings{};
+  for (std::uint8_t i = 0; i < 12; ++i) {
+    for (int b = 0; b < hal::kBeams; ++b) {
+      const bool dead = b == hal::kRight;
+      readings.beam[b] = {300, dead ? RangeStatus::invalid : RangeStatus::ok, 20,
+                          static_cast<std::uint8_t>(i % 16)};
+    }
+    conditioner.update(&readings, Time::from_raw(20U * (i + 1U)), {}, params, health);
+  }
+  const Echoes look = conditioner.look(Time::from_raw(0), params);
+  EXPECT_EQ(look.beam[hal::kLeft].distance, 300_mm);
+  EXPECT_EQ(look.beam[hal::kRight].validity, Validity::pending);
+  EXPECT_FALSE(usable(look));
+  EXPECT_EQ(conditioner.lost_for(Time::from_raw(240)), 240_ms);
+  conditioner.update(nullptr, Time::from_raw(500), {}, params, health);
+  EXPECT_EQ(conditioner.latest().beam[hal::kLeft].validity, Validity::stale);
+}
+
+}  // namespace
+}  // namespace whisker::perception

@@ -1,0 +1,185 @@
+#include "firmware/planning/boundary/heading_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "tests/planning/ground.hpp"
+
+namespace whisker::planning {
+namespace {
+
+using test::Ground;
+using test::in_degrees;
+
+constexpr int kPatience = 20;  // steps; each judges a whole turn at most
+
+/// A heading search of a body that came straight along its heading, 0.
+HeadingSearch come() {
+  HeadingSearch feeler;
+  feeler.reset({-(400_mm), 0_mm}, Params{});
+  for (int mm = -400; mm <= 0; mm += 5) feeler.move({millimetres(mm), 0_mm});
+  return feeler;
+}
+
+struct Felt {
+  HeadingSearch::Found found = HeadingSearch::Found::nothing;
+  HeadingSearch::Heading way;
+};
+
+Felt feel(HeadingSearch& feeler, const Ground& ground, Side wall) {
+  feeler.begin_at_wall({}, Pose{}, wall);
+  Felt felt;
+  for (int i = 0; i < kPatience && felt.found == HeadingSearch::Found::nothing; ++i) {
+    felt.found = feeler.step(ground.view(), ground.params(), felt.way);
+  }
+  return felt;
+}
+
+Way judged(const Ground& g, const HeadingSearch::Heading& h) {
+  return way(g.view(), h.angle, h.length, g.local_grid().reach().planning);
+}
+
+TEST(HeadingSearch, FindsTheFirstWayFromTheWallsSide) {
+  Ground g;
+  g.free(0, 360);
+  for (const Side wall : {Side::left, Side::right}) {
+    HeadingSearch feeler = come();
+    const Felt felt = feel(feeler, g, wall);
+    EXPECT_EQ(felt.found, HeadingSearch::Found::free);
+    const double to_wall = in_degrees(felt.way.angle) * sign(wall);
+    EXPECT_GT(to_wall, 75) << "all is free: it turns to where the wall was";
+    EXPECT_LT(to_wall, 136) << "but not back";
+  }
+}
+
+TEST(HeadingSearch, TurnsAwayFromTheWallUntilAWayIsFree) {
+  Ground left;
+  left.free(-180, -30).echo(-30, 180, 150_mm);
+  HeadingSearch feeler = come();
+  const Felt felt = feel(feeler, left, Side::left);
+  ASSERT_EQ(felt.found, HeadingSearch::Found::free);
+  EXPECT_EQ(judged(left, felt.way), Way::free);
+  EXPECT_LT(in_degrees(felt.way.angle), -30);
+  EXPECT_GT(in_degrees(felt.way.angle), -110) << "the first one";
+
+  Ground right;
+  right.free(30, 180).echo(-180, 30, 150_mm);
+  HeadingSearch mirrored = come();
+  const Felt other = feel(mirrored, right, Side::right);
+  ASSERT_EQ(other.found, HeadingSearch::Found::free);
+  EXPECT_NEAR(in_degrees(other.way.angle), -in_degrees(felt.way.angle), 7.6);
+}
+
+TEST(HeadingSearch, WantsToSeeWhatIsOpen) {
+  Ground g;
+  g.echo(-30, 180, 150_mm);
+  HeadingSearch feeler = come();
+  const Felt felt = feel(feeler, g, Side::left);
+  ASSERT_EQ(felt.found, HeadingSearch::Found::unseen);
+  EXPECT_EQ(judged(g, felt.way), Way::unknown);
+}
+
+TEST(HeadingSearch, TakesAShorterWayWhereNoneIsLong) {
+  Ground g;
+  g.free(0, 360, 230_mm).echo(0, 360, 230_mm);
+  HeadingSearch feeler = come();
+  const Felt felt = feel(feeler, g, Side::left);
+  ASSERT_EQ(felt.found, HeadingSearch::Found::free);
+  EXPECT_LT(felt.way.length, g.local_grid().reach().probe);
+  EXPECT_EQ(judged(g, felt.way), Way::free);
+}
+
+TEST(HeadingSearch, RetreatsFromWhereNoWayIs) {
+  Ground g;
+  g.echo(0, 360, 112_mm);
+  HeadingSearch feeler = come();
+  ASSERT_EQ(feel(feeler, g, Side::left).found, HeadingSearch::Found::none);
+
+  View view = g.view();
+  Manoeuvre m;
+  ASSERT_EQ(feeler.retreat(view, false, g.params(), m), HeadingSearch::Retreat::under_way);
+  EXPECT_EQ(m.kind, ManoeuvreKind::cruise);
+  EXPECT_EQ(m.forward, Speed{}) << "it turns round first";
+  view.pose.heading = 180_deg;
+  ASSERT_EQ(feeler.retreat(view, false, g.params(), m), HeadingSearch::Retreat::under_way);
+  EXPECT_GT(m.forward, Speed{});
+  EXPECT_NEAR(m.turning.raw() * 1e-6, 0, 1e-3);
+  int mm = 0;
+  while (mm < 400 && feeler.retreat(view, false, g.params(), m) == HeadingSearch::Retreat::under_way) {
+    view.pose.at.x = -millimetres(++mm);
+  }
+  EXPECT_GE(mm, 60);
+  EXPECT_LE(mm, 130);
+}
+
+TEST(HeadingSearch, IsLostWhenItIsStuckInOnePlaceAgainAndAgain) {
+  Ground g;
+  g.echo(0, 360, 112_mm);
+  HeadingSearch feeler = come();
+  const auto stuck = [&] {
+    feel(feeler, g, Side::left);
+    Manoeuvre m;
+    return feeler.retreat(g.view(), true, g.params(), m);
+  };
+  int times = 1;
+  while (times < 100 && stuck() == HeadingSearch::Retreat::stuck) ++times;
+  EXPECT_GT(times, 2);
+  EXPECT_LT(times, 20);
+
+  HeadingSearch moving = come();
+  for (int n = 0; n < 100; ++n) {
+    feel(moving, g, Side::left);
+    Manoeuvre m;
+    ASSERT_EQ(moving.retreat(g.view(), true, g.params(), m), HeadingSearch::Retreat::stuck);
+    moving.move({millimetres(200 + 50 * (n % 5)), 0_mm});
+  }
+}
+
+TEST(HeadingSearch, GoesOnWithTheNextWayWhereTheShieldRefusesOne) {
+  Ground g;
+  g.free(0, 360);
+  HeadingSearch feeler = come();
+  Felt felt = feel(feeler, g, Side::left);
+  for (int n = 0; n < 10; ++n) {
+    ASSERT_EQ(felt.found, HeadingSearch::Found::free);
+    const double before = in_degrees(felt.way.angle);
+    feeler.refuse();
+    felt.found = feeler.step(g.view(), g.params(), felt.way);
+    EXPECT_NEAR(in_degrees(felt.way.angle), before - 7.5, 0.1) << "away from the wall";
+  }
+}
+
+TEST(HeadingSearch, ARetreatThatLeadsNowhereCountsToo) {
+  Ground g;
+  g.echo(0, 360, 112_mm);
+  HeadingSearch feeler;
+  feeler.reset({}, g.params());
+  HeadingSearch::Retreat end = HeadingSearch::Retreat::there;
+  int times = 0;
+  for (; times < 100 && end != HeadingSearch::Retreat::lost; ++times) {
+    ASSERT_EQ(feel(feeler, g, Side::left).found, HeadingSearch::Found::none);
+    Manoeuvre m;
+    do end = feeler.retreat(g.view(), false, g.params(), m);
+    while (end == HeadingSearch::Retreat::under_way);
+    ASSERT_NE(end, HeadingSearch::Retreat::stuck);
+  }
+  EXPECT_GT(times, 2);
+  EXPECT_LT(times, 20);
+}
+
+TEST(HeadingSearch, NoticesAnOpeningInTheWallBesideIt) {
+  const HeadingSearch feeler = come();
+  Ground closed;
+  closed.free(-100, 40).echo(40, 140, 140_mm);
+  EXPECT_FALSE(feeler.opening(closed.view(), Side::left, closed.params()));
+  Ground door;
+  door.free(-100, 140);
+  EXPECT_TRUE(feeler.opening(door.view(), Side::left, door.params()));
+  EXPECT_FALSE(feeler.opening(closed.view(), Side::left, closed.params()));
+  Ground mirrored;
+  mirrored.free(-140, 100);
+  EXPECT_TRUE(feeler.opening(mirrored.view(), Side::right, mirrored.params()));
+}
+
+}  // namespace
+}  // namespace whisker::planning

@@ -1,0 +1,136 @@
+#include "firmware/planning/boundary/loop_detector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/planning/ground.hpp"
+
+namespace whisker::planning {
+namespace {
+
+using test::degrees;
+
+/// A body that drives round, counter-clockwise; its place on the circle is the heading's.
+class Round {
+ public:
+  Round(LoopDetector& circuit, Length radius) : loop_(circuit), radius_(radius) { place(); }
+
+  void begin() {
+    loop_.begin(pose_.at, Params{});
+    loop_.head(pose_.heading);
+  }
+  /// One degree further; the circle's centre may drift.
+  void drive(Vec drift = {}) {
+    const Pose before = pose_;
+    centre_ = centre_ + drift;
+    ++deg_;
+    place();
+    loop_.move(pose_, norm(pose_.at - before.at), pose_.heading - before.heading);
+  }
+  void jump(Vec by) {
+    centre_ = centre_ + by;
+    place();
+  }
+  const Pose& pose() const { return pose_; }
+
+ private:
+  void place() { pose_ = {centre_ + polar(degrees(deg_) - 90_deg, radius_), degrees(deg_)}; }
+  LoopDetector& loop_;
+  Length radius_;
+  Vec centre_;
+  int deg_ = 0;
+  Pose pose_;
+};
+
+TEST(LoopDetector, ClosesWhereItBeganAfterAWholeTurn) {
+  for (const Length radius : {300_mm, 1_m, 3_m}) {
+    LoopDetector circuit;
+    Round round(circuit, radius);
+    round.begin();
+    int closed = 0;
+    for (int deg = 1; deg <= 380 && closed == 0; ++deg) {
+      round.drive();
+      if (circuit.closed(round.pose())) closed = deg;
+    }
+    EXPECT_GE(closed, 300);
+    EXPECT_LE(closed, 360);
+  }
+}
+
+TEST(LoopDetector, DoesNotCloseOnTheSpot) {
+  LoopDetector circuit;
+  Round round(circuit, 20_mm);
+  round.begin();
+  for (int deg = 1; deg <= 1000; ++deg) {
+    round.drive();
+    EXPECT_FALSE(circuit.closed(round.pose())) << deg;
+  }
+}
+
+TEST(LoopDetector, DoesNotCloseTheOtherWayRound) {
+  LoopDetector circuit;
+  Round round(circuit, 500_mm);
+  round.begin();
+  circuit.head(round.pose().heading + 180_deg);
+  for (int deg = 1; deg <= 720; ++deg) {
+    round.drive();
+    EXPECT_FALSE(circuit.closed(round.pose())) << deg;
+  }
+}
+
+TEST(LoopDetector, DoesNotCloseWithoutAWholeTurn) {
+  LoopDetector circuit;
+  const Pose here;
+  circuit.begin(here.at, Params{});
+  circuit.head(here.heading);
+  circuit.move({{1_m, 0_mm}, {}}, 1_m, {});
+  circuit.move(here, 1_m, {});
+  EXPECT_FALSE(circuit.closed(here));
+}
+
+// It was met elsewhere: this is another obstacle.
+TEST(LoopDetector, StraysRoundSomethingElse) {
+  LoopDetector circuit;
+  Round round(circuit, 500_mm);
+  round.begin();
+  round.jump({3_m, 0_mm});
+  int strays = 0;
+  for (int deg = 1; deg <= 1000 && strays == 0; ++deg) {
+    round.drive();
+    EXPECT_FALSE(circuit.closed(round.pose()));
+    if (circuit.strays(round.pose())) strays = deg;
+  }
+  EXPECT_NEAR(strays, 720, 2) << "two laps that end in one place";
+}
+
+TEST(LoopDetector, DoesNotStrayWhileItGetsOn) {
+  LoopDetector circuit;
+  Round round(circuit, 500_mm);
+  round.begin();
+  int strays = 0;
+  for (int deg = 1; deg <= 2000 && strays == 0; ++deg) {
+    round.drive({2_mm, 0_mm});
+    if (circuit.strays(round.pose())) strays = deg;
+  }
+  EXPECT_NEAR(strays, 1440, 2) << "so many laps are none of a spiral";
+}
+
+// Counter-clockwise: with the wall on the left it lies within, with the wall on the right all around.
+TEST(LoopDetector, PartsOnlyWhatLiesOnItsTwoSides) {
+  LoopDetector circuit;
+  Round round(circuit, 1_m);
+  round.begin();
+  for (int deg = 1; deg <= 360; ++deg) round.drive();
+  const Vec inside{200_mm, 300_mm};
+  const Vec outside{5_m, 0_mm};
+  EXPECT_TRUE(circuit.may_part(outside, inside, Side::left));
+  EXPECT_FALSE(circuit.may_part(inside, outside, Side::left)) << "round an obstacle that the goal is not in";
+  EXPECT_FALSE(circuit.may_part(outside, outside, Side::left));
+  EXPECT_TRUE(circuit.may_part(inside, outside, Side::right));
+  EXPECT_FALSE(circuit.may_part(outside, inside, Side::right)) << "it did come in";
+  EXPECT_FALSE(circuit.may_part(outside, outside, Side::right));
+}
+
+}  // namespace
+}  // namespace whisker::planning

@@ -1,0 +1,102 @@
+#include "firmware/planning/boundary/scan_behaviour.hpp"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "tests/planning/ground.hpp"
+
+namespace whisker::planning {
+namespace {
+
+using test::Ground;
+
+/// What a beam in this direction shows.
+struct Shown {
+  Length reach;
+  bool hit;
+};
+using World = std::function<Shown(Angle)>;
+
+/// A body that turns on the spot as it is told, at once, and marks what its beams show.
+struct Turner {
+  Ground ground;
+  Angle heading;
+  int ticks = 0;
+  int stops = 0;
+
+  /// True if the look came to an end.
+  bool look(Angle along, const World& world) {
+    ScanBehaviour look;
+    Manoeuvre m;
+    look.begin(m);
+    const Params& params = ground.params();
+    for (; ticks < 1000; ++ticks) {
+      if (m.kind == ManoeuvreKind::stop) ++stops;
+      const bool turns = m.kind == ManoeuvreKind::cruise;
+      EXPECT_EQ(m.forward, Speed{}) << "a look does not drive";
+      if (turns) heading += angle_of(m.turning * params.safety.period, params.body.track / 2);
+      for (int beam = 0; beam < hal::kBeams; ++beam) {
+        const Angle axis = heading + beam_axis(params.rangefinders.side_angle, beam);
+        const Shown shown = world(axis);
+        ground.mark(axis, shown.reach, shown.hit, !turns);
+      }
+      m.kind = turns ? ManoeuvreKind::cruise : ManoeuvreKind::keep;
+      if (look.step(ground.view(heading), along, ground.local_grid().reach().probe, params, m)) return true;
+    }
+    return false;
+  }
+  Way judged(Angle along) const {
+    const Reach& reach = ground.local_grid().reach();
+    return way(ground.view(), along, reach.probe, reach.planning);
+  }
+};
+
+TEST(ScanBehaviour, EndsWhenTheWayIsFree) {
+  for (int i = 0; i < kCandidateHeadings; ++i) {
+    Turner t;
+    const Angle along = Angle::turns(i, kCandidateHeadings);
+    ASSERT_TRUE(t.look(along, [](Angle) { return Shown{500_mm, false}; })) << i;
+    EXPECT_EQ(t.judged(along), Way::free) << i;
+    EXPECT_LT(t.ticks, 600) << i;
+  }
+}
+
+TEST(ScanBehaviour, EndsWhenSomethingIsInTheWay) {
+  const auto pole = [](Angle axis) {
+    const bool hit = magnitude(axis - 120_deg) < (12_deg).raw();
+    return hit ? Shown{150_mm, true} : Shown{500_mm, false};
+  };
+  Turner t;
+  ASSERT_TRUE(t.look(120_deg, pole));
+  EXPECT_EQ(t.judged(120_deg), Way::occupied);
+}
+
+TEST(ScanBehaviour, EndsWhereNoBeamProvesAnything) {
+  Turner t;
+  ASSERT_TRUE(t.look(-(60_deg), [](Angle) { return Shown{100_mm, false}; }));
+  EXPECT_EQ(t.judged(-(60_deg)), Way::occupied);
+  EXPECT_LT(t.ticks, 300);
+}
+
+TEST(ScanBehaviour, StopsBeforeItTurnsAndAsksForNothingMoreWhileItStands) {
+  Ground g;
+  ScanBehaviour look;
+  Manoeuvre m;
+  look.begin(m);
+  EXPECT_EQ(m.kind, ManoeuvreKind::stop);
+  Angle turn;
+  ASSERT_TRUE(turn_to_unseen(g.view(), 0_deg, 150_mm, 0_deg, g.params(), turn));
+  const View aimed = g.view(turn);
+  m = {};
+  EXPECT_FALSE(look.step(aimed, 0_deg, 150_mm, g.params(), m));
+  EXPECT_EQ(m.kind, ManoeuvreKind::keep);
+  EXPECT_FALSE(look.step(g.view(turn + 90_deg), 0_deg, 150_mm, g.params(), m));
+  EXPECT_EQ(m.kind, ManoeuvreKind::cruise);
+  EXPECT_FALSE(look.step(aimed, 0_deg, 150_mm, g.params(), m));
+  EXPECT_EQ(m.kind, ManoeuvreKind::stop) << "it arrived: to be proved, a look stands";
+}
+
+}  // namespace
+}  // namespace whisker::planning

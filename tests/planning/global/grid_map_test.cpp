@@ -1,0 +1,205 @@
+// The map's window and what beams put into it.
+#include "firmware/planning/global/grid_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "tests/effort.hpp"
+#include "tests/planning/global/room.hpp"
+
+namespace whisker::planning {
+namespace {
+
+constexpr GridShape kShape{2, 57, 100_mm};
+constexpr Vec kFrom{50_mm, 50_mm};  // the middle of a cell
+
+perception::ConeObservation observation(Vec at, Angle axis, Length free, bool hit) {
+  perception::ConeObservation p;
+  p.from = {at, axis};
+  p.free = free;
+  p.hit = hit;
+  return p;
+}
+
+TEST(GridMap, HoldsBodyAndGoalIfBothFit) {
+  const Vec body{1_m, 2_m};
+  const Vec goal{3_m, Length{} - 1_m};
+  test::Room room(kShape, body, goal);
+  EXPECT_TRUE(room.map.holds(room.map.place(body)));
+  EXPECT_TRUE(room.map.holds(room.map.place(goal)));
+}
+
+TEST(GridMap, LeansTowardsAFarGoal) {
+  test::Room room(kShape, {}, {20_m, Length{}});
+  const Cell body = room.map.place({});
+  EXPECT_GE(body.x, kShape.columns() / 6);
+  EXPECT_LT(body.x, kShape.columns() / 3);
+  EXPECT_NEAR(body.y, kShape.rows / 2, 1);
+}
+
+TEST(GridMap, APlaceIsTheOneWhoseMiddleItIs) {
+  test::Room room(kShape, {5_m, Length{} - 3_m}, {});
+  for (int y = 0; y < kShape.rows; ++y) {
+    for (int x = 0; x < kShape.columns(); ++x)
+      EXPECT_EQ(room.map.place(room.map.middle({x, y})), (Cell{x, y}));
+  }
+}
+
+TEST(GridMap, KeepsWhatTheMovedWindowStillHolds) {
+  std::mt19937 random(11);
+  std::uniform_int_distribution<int> draw(-70, 70);
+  for (std::size_t i = 0; i < test::effort(60); ++i) {
+    test::Room room(kShape);
+    room.scatter(random, 0.3);
+    for (int y = 5; y < 9; ++y) room.map.set({40, y}, CellState::free);
+    std::vector<CellState> before;
+    const auto all = [&](auto&& each) {
+      for (int y = 0; y < kShape.rows; ++y) {
+        for (int x = 0; x < kShape.columns(); ++x) each(Cell{x, y});
+      }
+    };
+    all([&](Cell p) { before.push_back(room.map.at(p)); });
+    const Cell corner = room.map.corner();
+    const Vec body = room.map.middle({draw(random), draw(random)});
+    const bool moved = room.map.follow(body, body);
+    const Cell step = room.map.corner() - corner;
+    EXPECT_EQ(moved, step != Cell{});
+    ASSERT_TRUE(room.map.holds(room.map.place(body)));
+    all([&](Cell p) {
+      const Cell old = p + step;
+      const bool held = old.x >= 0 && old.y >= 0 && old.x < kShape.columns() && old.y < kShape.rows;
+      const auto index = static_cast<std::size_t>(old.y * kShape.columns() + old.x);
+      EXPECT_EQ(room.map.at(p), held ? before[index] : CellState::unknown);
+    });
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(GridMap, StandsStillWhileTheBodyIsWellInside) {
+  test::Room room(kShape);
+  EXPECT_FALSE(room.map.follow({1_m, 1_m}, {2_m, 2_m}));
+  EXPECT_TRUE(room.map.follow({3_m, Length{}}, {4_m, Length{}}));
+}
+
+TEST(GridMap, ABeamThatSeesNothingFreesTheCellsWithinIt) {
+  test::Room room(kShape);
+  room.map.mark(observation(kFrom, Angle{}, 2_m, false), false);
+  EXPECT_EQ(room.map.at(room.map.place({1_m, Length{}})), CellState::free);
+  EXPECT_EQ(room.map.at(room.map.place({1800_mm, 50_mm})), CellState::free);
+  EXPECT_EQ(room.map.at(room.map.place({2100_mm, Length{}})), CellState::unknown);
+  EXPECT_EQ(room.map.at(room.map.place({1_m, 500_mm})), CellState::unknown);
+  EXPECT_EQ(room.map.at(room.map.place({Length{} - 1_m, Length{}})), CellState::unknown);
+}
+
+TEST(GridMap, ANearEchoIsSureAndAFarOneIsNot) {
+  test::Room near(kShape);
+  near.map.mark(observation(kFrom, Angle{}, 200_mm, true), false);
+  EXPECT_EQ(near.map.at(near.map.place({250_mm, 50_mm})), CellState::occupied);
+  test::Room far(kShape);
+  far.map.mark(observation(kFrom, Angle{}, 900_mm, true), false);
+  EXPECT_EQ(far.map.at(far.map.place({950_mm, 50_mm})), CellState::suspect);
+  EXPECT_EQ(far.map.at(far.map.place({550_mm, 50_mm})), CellState::free);
+}
+
+TEST(GridMap, WhatThePatchShowsIsFreeAsFarAsItShowsIt) {
+  test::Room room(kShape);
+  perception::LocalGrid local_grid;
+  local_grid.configure(room.params);
+  local_grid.reset({kFrom, {}});
+  const auto cell = [&](int32_t x_mm) { return room.map.place({millimetres(x_mm), 50_mm}); };
+  for (const int32_t x : {50, 150, 250, 350}) room.map.set(cell(x), CellState::occupied);
+  room.map.free(local_grid, kFrom);
+  EXPECT_EQ(room.map.at(cell(50)), CellState::free);
+  EXPECT_EQ(room.map.at(cell(150)), CellState::occupied);
+  // The body drives on: its footprints show together what none of them does.
+  for (int32_t x = 50; x <= 200; x += 10) local_grid.move_to({{millimetres(x), 50_mm}, {}});
+  room.map.free(local_grid, {200_mm, 50_mm});
+  EXPECT_EQ(room.map.at(cell(150)), CellState::free);
+  EXPECT_EQ(room.map.at(cell(250)), CellState::occupied);
+  EXPECT_EQ(room.map.at(cell(350)), CellState::occupied);
+}
+
+TEST(GridMap, WhatIsSeenEmptyIsFreeWhateverItWas) {
+  test::Room room(kShape);
+  const Cell p = room.map.place({1_m, Length{}});
+  room.map.set(p, CellState::occupied);
+  room.map.mark(observation({}, Angle{}, 2_m, false), false);
+  EXPECT_EQ(room.map.at(p), CellState::free);
+}
+
+TEST(GridMap, WhatAPlanHasComeToStaysBlockedUntilItIsMade) {
+  for (const GridShape& shape : {kShape, GridShape{6, 57, 50_mm}}) {
+    const int reach = shape.fine() ? 2 : 1;
+    for (int dy = -3; dy <= 3; ++dy) {
+      for (int dx = -3; dx <= 3; ++dx) {
+        test::Room room(shape);
+        const Cell p = room.map.place({1_m, Length{}});
+        room.map.set(p, CellState::occupied);
+        const Cell level = p + Cell{dx, dy};
+        GridWord* const plane = dx == dy ? room.map.level_low() : room.map.level_high();
+        plane[level.y * shape.words + level.x / kWordBits] = GridWord{1} << (level.x % kWordBits);
+        room.map.mark(observation({}, Angle{}, 2_m, false), true);
+        const bool beside = std::abs(dx) <= reach && std::abs(dy) <= reach;
+        EXPECT_EQ(room.map.at(p), beside ? CellState::occupied : CellState::free) << dx << ", " << dy;
+        room.map.mark(observation({}, Angle{}, 2_m, false), false);
+        EXPECT_EQ(room.map.at(p), CellState::free) << dx << ", " << dy;
+      }
+    }
+  }
+}
+
+TEST(GridMap, UnseenCellsBesideWhatBlocksAreCrampedWhereCellsAreFine) {
+  std::mt19937 random(7);
+  for (const GridShape& shape :
+       {GridShape{3, 40, 50_mm}, GridShape{1, 40, micrometres(66700)}, GridShape{3, 40, 80_mm}}) {
+    test::Room room(shape);
+    room.scatter(random, 0.2);
+    for (int y = 10; y < 20; ++y) {
+      for (int x = 20; x < shape.columns(); ++x) {
+        if ((x + y) % 3 == 0) room.map.set({x, y}, CellState::free);
+      }
+    }
+    int cramped = 0;
+    for (int y = 0; y < shape.rows; ++y) {
+      for (int x = 0; x < shape.columns(); ++x) {
+        const bool due = test::cramped(room.map, {x, y});
+        ASSERT_EQ(room.map.cramped(y, x / kWordBits) >> (x % kWordBits) & 1U, due ? 1U : 0U)
+            << x << ", " << y;
+        cramped += due;
+      }
+    }
+    EXPECT_EQ(cramped > 100, shape.fine());
+  }
+}
+
+TEST(GridMap, AnEchoDoesNotTakeBackWhatWasSeenEmpty) {
+  test::Room room(kShape);
+  room.map.mark(observation({}, Angle{}, 2_m, false), false);
+  room.map.mark(observation({}, Angle{}, 700_mm, true), false);
+  const Cell p = room.map.place({700_mm, 10_mm});
+  EXPECT_EQ(room.map.at(p), CellState::free);
+}
+
+TEST(GridMap, DoubtsWhatBlocksAndKeepsWhatIsFree) {
+  test::Room room(kShape);
+  room.map.set({3, 4}, CellState::occupied);
+  room.map.set({4, 4}, CellState::suspect);
+  room.map.set({5, 4}, CellState::free);
+  room.map.doubt_all();
+  EXPECT_EQ(room.map.at({3, 4}), CellState::unknown);
+  EXPECT_EQ(room.map.at({4, 4}), CellState::unknown);
+  EXPECT_EQ(room.map.at({5, 4}), CellState::free);
+}
+
+TEST(GridMap, MarksNothingFromOutsideItsWindow) {
+  test::Room room(kShape);
+  const std::vector<GridWord> before = room.storage;
+  room.map.mark(observation({50_m, 50_m}, Angle{}, 2_m, true), false);
+  EXPECT_EQ(room.storage, before);
+}
+
+}  // namespace
+}  // namespace whisker::planning

@@ -1,0 +1,47 @@
+/// A map with room for its cells, and random ones.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "firmware/params.hpp"
+#include "firmware/planning/global/grid_map.hpp"
+
+namespace whisker::test {
+
+struct Room {
+  explicit Room(const planning::GridShape& shape, Vec body = {}, Vec goal = {})
+      : storage(static_cast<std::size_t>(planning::kGridPlanes * shape.size())), map(shape, storage.data()) {
+    map.configure(params);
+    map.reset(body, goal);
+  }
+  /// Every cell blocks with this chance, half of those for sure.
+  void scatter(std::mt19937& random, double chance) {
+    std::uniform_real_distribution<double> draw(0, 1);
+    for (int y = 0; y < map.shape().rows; ++y) {
+      for (int x = 0; x < map.shape().columns(); ++x) {
+        const double d = draw(random);
+        if (d < chance)
+          map.set({x, y}, d < chance / 2 ? planning::CellState::occupied : planning::CellState::suspect);
+      }
+    }
+  }
+
+  Params params;
+  std::vector<planning::GridWord> storage;
+  planning::GridMap map;
+};
+
+/// Cell by cell: in a fine map, an unseen one beside what blocks.
+inline bool cramped(const planning::GridMap& map, planning::Cell p) {
+  if (map.shape().cell >= millimetres(75) || map.at(p) != planning::CellState::unknown) return false;
+  for (const planning::Cell d :
+       {planning::Cell{1, 0}, planning::Cell{-1, 0}, planning::Cell{0, 1}, planning::Cell{0, -1}}) {
+    const planning::Cell q = p + d;
+    if (map.holds(q) && map.at(q) >= planning::CellState::suspect) return true;
+  }
+  return false;
+}
+
+}  // namespace whisker::test

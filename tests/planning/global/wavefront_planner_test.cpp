@@ -1,0 +1,141 @@
+// What the guide says where the plan does not help: every spell of the map is bounded, and so is every wait.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "firmware/planning/global/map_planner.hpp"
+#include "tests/planning/ground.hpp"
+
+namespace whisker::planning {
+namespace {
+
+constexpr Vec kGoal{3_m, Length{}};
+constexpr int32_t kStep_mm = 5;
+
+/// A guide in the open, and a body that somebody else drives.
+class Guided : public testing::Test {
+ protected:
+  Guided() {
+    local_grid_.configure(params_);
+    local_grid_.reset({});
+    view_.local_grid = &local_grid_;
+    view_.observations = proofs_.data();
+    map_.guide.start(view_, {kGoal, 100_mm});
+  }
+
+  void stay(int ticks) {
+    for (int i = 0; i < ticks; ++i) map_.guide.observe(view_);
+  }
+  GlobalPlanner::Advice advice() {
+    Vec place;
+    return map_.guide.advise(view_, norm(kGoal - view_.pose.at), place);
+  }
+  void go_to(Vec at) {
+    view_.pose.at = at;
+    local_grid_.move_to(view_.pose);
+    map_.guide.observe(view_);
+  }
+  /// To and fro without getting nearer, until there is no more advice. Returns the way, mm.
+  int32_t dither(int32_t most_mm) {
+    const Vec from = view_.pose.at;
+    for (int32_t way = 0; way < most_mm; way += kStep_mm) {
+      const int32_t n = way / kStep_mm % 2;
+      go_to(from - Vec{millimetres(n == 0 ? kStep_mm : 0), Length{}});
+      if (advice() == GlobalPlanner::Advice::none) return way;
+    }
+    return most_mm;
+  }
+
+  Params params_;
+  perception::LocalGrid local_grid_;
+  std::array<perception::ConeObservation, hal::kBeams> proofs_{};
+  View view_;
+  MapOf<2048> map_{params_};
+};
+
+TEST_F(Guided, AdvisesOnceItHasPlanned) {
+  EXPECT_EQ(advice(), GlobalPlanner::Advice::none);
+  stay(40);
+  EXPECT_EQ(advice(), GlobalPlanner::Advice::place);
+}
+
+TEST_F(Guided, EachSpellWithoutProgressIsHalfAsLongAsTheOneBefore) {
+  stay(40);
+  int32_t all = 0;
+  Length x{};
+  for (const int32_t spell : {20000, 10000, 5000, 2500, 1250}) {
+    const int32_t way = dither(30000);
+    EXPECT_NEAR(way, spell, 2 * kStep_mm);
+    all += way;
+    EXPECT_EQ(dither(1000), 0) << "it came back without progress";
+    x += 200_mm;
+    go_to({x, Length{}});
+    stay(40);
+    EXPECT_EQ(advice(), GlobalPlanner::Advice::place) << "nearer than ever, and no advice";
+  }
+  EXPECT_LT(all, 40000);
+}
+
+TEST_F(Guided, TwelveRefusalsAreTakenAndEachWaitIsShort) {
+  stay(40);
+  for (int i = 0; i < 12; ++i) {
+    // Elsewhere: bars on all sides would leave no way at all.
+    go_to({millimetres(-300 * i), Length{}});
+    stay(40);
+    ASSERT_EQ(advice(), GlobalPlanner::Advice::place);
+    ASSERT_TRUE(map_.guide.refuse(view_));
+    ASSERT_EQ(advice(), GlobalPlanner::Advice::wait);
+    int ticks = 0;
+    while (advice() == GlobalPlanner::Advice::wait && ticks < 100) {
+      stay(1);
+      ++ticks;
+    }
+    EXPECT_LT(ticks, 40);
+  }
+  EXPECT_FALSE(map_.guide.refuse(view_));
+  EXPECT_EQ(advice(), GlobalPlanner::Advice::none);
+}
+
+TEST_F(Guided, ARefusedWayIsBarred) {
+  stay(40);
+  ASSERT_TRUE(map_.guide.refuse(view_));
+  stay(40);
+  EXPECT_EQ(map_.guide.map().at(map_.guide.map().place({200_mm, Length{}})), planning::CellState::occupied);
+  EXPECT_EQ(advice(), GlobalPlanner::Advice::place);
+}
+
+TEST_F(Guided, DoubtsOnceAndForgetsWhatBlocked) {
+  for (int i = 0; i < hal::kBeams; ++i) {
+    proofs_[static_cast<std::size_t>(i)] = {
+        {{}, Angle{}}, beam_axis(params_.rangefinders.side_angle, i), 250_mm, true};
+  }
+  view_.proved = 7;
+  stay(1);
+  view_.proved = 0;
+  const planning::GridMap& map = map_.guide.map();
+  const planning::Cell wall = map.place({250_mm, 50_mm});
+  ASSERT_EQ(map.at(wall), planning::CellState::occupied);
+  EXPECT_FALSE(map_.guide.knows_no_way());
+  EXPECT_TRUE(map_.guide.doubt());
+  EXPECT_EQ(map.at(wall), planning::CellState::unknown);
+  EXPECT_TRUE(map_.guide.knows_no_way());
+  EXPECT_FALSE(map_.guide.doubt());
+}
+
+TEST_F(Guided, KnowsThatThereIsNoWayOutOfARing) {
+  // Beams all round, near enough for echoes to be sure.
+  view_.proved = 1;
+  for (int deg = 0; deg < 360; deg += 5) {
+    proofs_[0] = {{{}, test::degrees(deg)}, Angle{}, 250_mm, true};
+    stay(1);
+  }
+  view_.proved = 0;
+  stay(120);
+  EXPECT_TRUE(map_.guide.knows_no_way());
+  EXPECT_EQ(advice(), GlobalPlanner::Advice::none);
+  EXPECT_FALSE(map_.guide.doubt()) << "it agrees: there is nothing to doubt";
+}
+
+}  // namespace
+}  // namespace whisker::planning

@@ -1,0 +1,140 @@
+#include "firmware/planning/goal_planner.hpp"
+
+#include <gtest/gtest.h>
+
+namespace whisker::planning {
+namespace {
+
+/// Notes what it is asked for, and does as it is told.
+class Recorder final : public GoalPlanner {
+ public:
+  int starts = 0;
+  int advances = 0;
+  bool ends = false;
+  Length goal_x() const { return goal_.at.x; }
+  bool there(Length distance) const { return is_goal(distance); }
+
+ private:
+  void start(const View&) noexcept override {
+    ++starts;
+    tell(Mode::surveying, Why::goal_set);
+  }
+  void advance(const View&) noexcept override {
+    ++advances;
+    decision_.danger_count = 3;
+    decision_.looked = true;
+    decision_.manoeuvre.kind = ManoeuvreKind::cruise;
+    tell(Mode::going, Why::target_free);
+    if (ends) finish(Mode::arrived, Why::at_goal, Outcome::reached);
+  }
+};
+
+using namespace literals;
+
+Goal at(int x_mm) { return {{millimetres(x_mm), {}}, 80_mm}; }
+
+TEST(GoalPlanner, RestsWithoutAGoal) {
+  Recorder p;
+  for (int i = 0; i < 3; ++i) {
+    const Decision d = p.step({});
+    EXPECT_EQ(d.mode, Mode::idle);
+    EXPECT_EQ(d.outcome, Outcome::none);
+    EXPECT_EQ(d.manoeuvre.kind, ManoeuvreKind::keep);
+  }
+  EXPECT_EQ(p.starts + p.advances, 0);
+}
+
+TEST(GoalPlanner, StartsAtTheNextStepAndThenAdvances) {
+  Recorder p;
+  p.set_goal(at(1000));
+  EXPECT_EQ(p.starts, 0);
+  const Decision first = p.step({});
+  EXPECT_EQ(p.starts, 1);
+  EXPECT_EQ(p.advances, 0);
+  EXPECT_EQ(first.outcome, Outcome::running);
+  EXPECT_EQ(first.why, Why::goal_set);
+  for (int i = 1; i <= 5; ++i) {
+    p.step({});
+    EXPECT_EQ(p.advances, i);
+  }
+  EXPECT_EQ(p.starts, 1);
+}
+
+TEST(GoalPlanner, TheLatestCommandCounts) {
+  Recorder p;
+  p.set_goal(at(1000));
+  p.set_goal(at(2000));
+  p.step({});
+  EXPECT_EQ(p.starts, 1);
+  EXPECT_EQ(p.goal_x(), 2_m);
+
+  p.set_goal(at(3000));
+  p.cancel();
+  EXPECT_EQ(p.step({}).why, Why::cancelled);
+  EXPECT_EQ(p.starts, 1);
+
+  p.cancel();
+  p.set_goal(at(4000));
+  EXPECT_EQ(p.step({}).outcome, Outcome::running);
+  EXPECT_EQ(p.starts, 2);
+}
+
+TEST(GoalPlanner, AnotherGoalBeginsAnew) {
+  Recorder p;
+  p.set_goal(at(1000));
+  p.step({});
+  EXPECT_EQ(p.step({}).danger_count, 3);
+  p.set_goal(at(2000));
+  const Decision d = p.step({});
+  EXPECT_EQ(p.starts, 2);
+  EXPECT_EQ(d.danger_count, 0);
+  EXPECT_EQ(d.why, Why::goal_set);
+}
+
+TEST(GoalPlanner, CancelStopsForGood) {
+  Recorder p;
+  p.set_goal(at(1000));
+  p.step({});
+  p.step({});
+  p.cancel();
+  const Decision d = p.step({});
+  EXPECT_EQ(d.manoeuvre.kind, ManoeuvreKind::stop);
+  EXPECT_EQ(d.mode, Mode::idle);
+  EXPECT_EQ(d.why, Why::cancelled);
+  EXPECT_EQ(d.outcome, Outcome::none);
+  EXPECT_EQ(d.danger_count, 0);
+  const int before = p.advances;
+  const Decision later = p.step({});
+  EXPECT_EQ(later.manoeuvre.kind, ManoeuvreKind::keep) << "once is enough";
+  EXPECT_EQ(later.why, Why::cancelled);
+  EXPECT_EQ(p.advances, before);
+}
+
+TEST(GoalPlanner, StandsAfterTheEndUntilThereIsANewGoal) {
+  Recorder p;
+  p.set_goal(at(1000));
+  p.step({});
+  p.ends = true;
+  EXPECT_EQ(p.step({}).manoeuvre.kind, ManoeuvreKind::stop);
+  const int before = p.advances;
+  for (int i = 0; i < 3; ++i) {
+    const Decision d = p.step({});
+    EXPECT_EQ(d.outcome, Outcome::reached);
+    EXPECT_EQ(d.why, Why::at_goal);
+    EXPECT_EQ(d.manoeuvre.kind, ManoeuvreKind::keep);
+    EXPECT_FALSE(d.looked) << "of this tick alone";
+  }
+  EXPECT_EQ(p.advances, before);
+  p.set_goal(at(2000));
+  EXPECT_EQ(p.step({}).outcome, Outcome::running);
+}
+
+TEST(GoalPlanner, APlaceWellInsideTheToleranceIsTheGoal) {
+  Recorder p;
+  p.set_goal(at(1000));
+  EXPECT_TRUE(p.there(70_mm));
+  EXPECT_FALSE(p.there(71_mm));
+}
+
+}  // namespace
+}  // namespace whisker::planning

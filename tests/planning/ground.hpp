@@ -1,0 +1,79 @@
+/// A local grid by hand: what a body proved by turning once on the spot, sector by sector.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/params.hpp"
+#include "firmware/perception/local_grid.hpp"
+#include "firmware/planning/planner.hpp"
+
+namespace whisker::test {
+
+constexpr Angle degrees(int deg) { return Angle::turns(deg, 360); }
+constexpr double in_degrees(Angle a) { return a.wrapped() * 360.0 / 4294967296.0; }
+
+/// What three beams show; 2000 mm is nothing.
+inline perception::Echoes echoes(int left_mm, int front_mm, int right_mm) {
+  perception::Echoes e;
+  const int mm[] = {left_mm, front_mm, right_mm};
+  for (int i = 0; i < hal::kBeams; ++i) {
+    e.beam[i] = {millimetres(mm[i]), mm[i] == 2000 ? perception::Validity::clear : perception::Validity::ok};
+  }
+  return e;
+}
+
+class Ground {
+ public:
+  explicit Ground(const Pose& pose = {}) : pose_(pose) {
+    local_grid_.configure(params_);
+    local_grid_.reset(pose);
+  }
+
+  /// Between these directions nothing is nearer than this.
+  Ground& free(int from_deg, int to_deg, Length reach = 500_mm) {
+    return see(from_deg, to_deg, reach, false);
+  }
+  /// Between these directions something stands at this distance.
+  Ground& echo(int from_deg, int to_deg, Length at) { return see(from_deg, to_deg, at, true); }
+  /// A look in this direction proves no more than this, and sees nothing.
+  Ground& look_in_vain(int deg, Length reach) {
+    mark(degrees(deg), reach, false, true);
+    return *this;
+  }
+  void mark(Angle direction, Length reach, bool hit, bool aimed) {
+    perception::ConeObservation observation;
+    observation.from = {pose_.at, direction};
+    observation.free = reach;
+    observation.hit = hit;
+    observation.aimed = aimed;
+    local_grid_.mark(observation);
+  }
+
+  /// Of the body where it is, heading there, with nothing before its beams.
+  planning::View view(Angle heading = {}) const {
+    planning::View v;
+    v.pose = {pose_.at, heading};
+    v.static_scan = v.moving_scan = echoes(2000, 2000, 2000);
+    v.sighted = true;
+    v.local_grid = &local_grid_;
+    v.granted = Q14::ratio(1, 1);
+    return v;
+  }
+  const perception::LocalGrid& local_grid() const { return local_grid_; }
+  const Params& params() const { return params_; }
+
+ private:
+  Ground& see(int from_deg, int to_deg, Length reach, bool hit) {
+    // A cone proves no cell at its very edge: sectors side by side overlap, and an echo marks the middle of
+    // its cone only.
+    const int rim = hit || to_deg - from_deg >= 360 ? 0 : 6;
+    for (int deg = from_deg + rim; deg <= to_deg - rim; ++deg) mark(degrees(deg), reach, hit, false);
+    return *this;
+  }
+
+  const Params params_;
+  const Pose pose_;
+  perception::LocalGrid local_grid_;
+};
+
+}  // namespace whisker::test

@@ -1,0 +1,51 @@
+#include "tests/robot/properties/random_params.hpp"
+
+#include <cstdint>
+
+namespace whisker::test {
+namespace {
+
+/// Gives each field in turn a new value, and takes it back where the whole set would not pass.
+struct Draw {
+  Params& whole;
+  Bits& bits;
+
+  template <class T>
+  void draw(T& field, std::int64_t low, std::int64_t high, T (*make)(std::int64_t)) {
+    const T old = field;
+    switch (bits.whole(0, 4)) {
+      case 0: return;
+      case 1: field = make(low); break;
+      case 2: field = make(high); break;
+      default: field = make(bits.between(low, high)); break;
+    }
+    if (check(whole) != ParamFault::none) field = old;
+  }
+  template <class Tag>
+  void number(const char*, Unit<Tag>& x, Unit<Tag> low, Unit<Tag> high) {
+    draw<Unit<Tag>>(x, low.raw(), high.raw(),
+                    [](std::int64_t v) { return Unit<Tag>::from_raw(static_cast<std::int32_t>(v)); });
+  }
+  void number(const char*, Angle& x, Angle low, Angle high) {
+    draw<Angle>(x, low.raw(), high.raw(),
+                [](std::int64_t v) { return Angle::from_raw(static_cast<std::uint32_t>(v)); });
+  }
+  void count(const char*, std::int32_t& x, std::int32_t low, std::int32_t high) {
+    draw<std::int32_t>(x, low, high, [](std::int64_t v) { return static_cast<std::int32_t>(v); });
+  }
+  template <class E>
+  void choice(const char*, E& x, const char* const*, int names) {
+    draw<E>(x, 0, names - 1, [](std::int64_t v) { return static_cast<E>(v); });
+  }
+};
+
+}  // namespace
+
+Params random_params(Bits& bits) {
+  Params params;
+  // What one field's value forbids another may become possible once a third has moved.
+  for (int pass = 0; pass < 3; ++pass) for_each_param(params, Draw{params, bits});
+  return params;
+}
+
+}  // namespace whisker::test

@@ -1,0 +1,48 @@
+# The libraries that other projects link.
+include(GNUInstallDirs)
+
+# whisker_export(TARGET NAME): TARGET is whisker::NAME, here and where it is installed. As a part of another project it
+# is built only if something links it, and nothing is installed.
+function(whisker_export TARGET NAME)
+  add_library(whisker::${NAME} ALIAS ${TARGET})
+  target_compile_features(${TARGET} PUBLIC cxx_std_17)
+  target_include_directories(${TARGET} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/whisker>)
+  set_target_properties(${TARGET} PROPERTIES EXPORT_NAME ${NAME})
+  if(whisker_top_level)
+    install(TARGETS ${TARGET} EXPORT whisker ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  else()
+    set_target_properties(${TARGET} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+  endif()
+endfunction()
+
+# whisker_export_port(TARGET NAME FOLDER): a folder that is a library of its own. Boards take what they link.
+function(whisker_export_port TARGET NAME FOLDER)
+  if(DEFINED WHISKER_BOARD)
+    add_library(whisker::${NAME} ALIAS ${TARGET})
+    set_target_properties(${TARGET} PROPERTIES EXCLUDE_FROM_ALL TRUE)
+    return()
+  endif()
+  whisker_export(${TARGET} ${NAME})
+  if(whisker_top_level)
+    whisker_install_headers(${FOLDER})
+  endif()
+endfunction()
+
+# whisker_install_headers(FOLDER): they keep their folders below include/whisker.
+function(whisker_install_headers FOLDER)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/whisker/${FOLDER}
+    FILES_MATCHING PATTERN "*.hpp")
+endfunction()
+
+# whisker_install_package(): what find_package(whisker) reads.
+function(whisker_install_package)
+  include(CMakePackageConfigHelpers)
+  set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/whisker)
+  install(EXPORT whisker NAMESPACE whisker:: FILE whiskerTargets.cmake DESTINATION ${folder})
+  configure_package_config_file(${PROJECT_SOURCE_DIR}/toolchain/package/whiskerConfig.cmake.in
+    ${PROJECT_BINARY_DIR}/whiskerConfig.cmake INSTALL_DESTINATION ${folder})
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/whiskerConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/whiskerConfig.cmake ${PROJECT_BINARY_DIR}/whiskerConfigVersion.cmake
+    DESTINATION ${folder})
+endfunction()
