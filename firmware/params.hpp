@@ -239,14 +239,6 @@ constexpr Length for_body(const Params& p, Length reference) noexcept {
 /// static_assert. All faults: for_each_relation in params/relations.hpp.
 constexpr ParamFault check(const Params& params) noexcept;
 
-/// WHISKER_SMALL builds the core for a chip with 32 KB of flash and 2 KB of RAM: it remembers no ground (see
-/// mapper.hpp), and takes parameters for good that a test must have given to check().
-#ifdef WHISKER_SMALL
-constexpr bool kParamsAreTrusted = true;
-#else
-constexpr bool kParamsAreTrusted = false;
-#endif
-
 }  // namespace whisker
 
 // The definitions of what is constexpr above.

@@ -1,78 +1,45 @@
 #include "firmware/robot.hpp"
 
-#include "firmware/planning/steering.hpp"
-
 namespace whisker {
-namespace {
-
-#ifndef WHISKER_SMALL
-// What the wheels still do from before a reset is no one's command.
-constexpr Duration kUnwatched = 500_ms;
-constexpr Length kPlace = 30_mm;  // for the reference body
-// In one place it may wait this many times stalled_after, turn around this often, and cross it this often.
-constexpr int32_t kWaits = 60;
-constexpr int32_t kTurns = 30;
-constexpr int32_t kSteps = 30;
-
-/// Braking from full speed, until the wheels have followed.
-Duration braking_time(const Params& p) noexcept {
-  return milliseconds(multiply_divide(p.wheels.max_speed.raw(), 1000, p.wheels.max_acceleration.raw())) +
-         p.wheels.motor_lag * 4;
-}
-
-Duration ms_at(Length way, int32_t times, Speed speed) noexcept {
-  return milliseconds(multiply_divide(way.raw(), 1000 * times, speed.raw()));
-}
-
-/// What is done in one place takes less than this.
-Duration longest_stay(const Params& p) noexcept {
-  constexpr int32_t kMicroradians = 6283185;  // a turn
-  const AngularRate rate = min(p.wheels.max_turn_rate, planning::kFastestTurn);
-  const Duration turn = max(milliseconds(multiply_divide(kMicroradians, 1000, rate.raw())),
-                            ms_at(p.body.track * 22 / 7, 1, p.wheels.max_speed));
-  return p.safety.stalled_after * kWaits + turn * kTurns +
-         ms_at(for_body(p, kPlace), kSteps, p.wheels.max_speed);
-}
-#endif
-
-}  // namespace
 
 Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
              const Params& params) noexcept
-    : rangefinders_(rangefinders), drive_(drive), planner_(planner), params_(params) {
-  if (!kParamsAreTrusted && check(params) != ParamFault::none) {
-    fail(Fault::invalid_params);
+    : rangefinders_(rangefinders),
+      planner_(planner),
+      params_(params),
+      supervisor_(params, status_.health),
+      wheels_(drive) {
+  if (check(params) != ParamFault::none) {
+    supervisor_.fail(Fault::invalid_params);
+    show_fault();
     return;
   }
   odometry_.configure(params);
   perception_.configure(params);
-#ifndef WHISKER_SMALL
-  wheel_watch_.configure(params);
-  longest_stay_ = longest_stay(params);
-#endif
+  supervisor_.configure();
 }
 
 bool Robot::place(const Pose& pose) noexcept {
-  if (kCorrects && !within(pose.at, kPlaceLimit)) {
-    leave_region();
+  if (!within(pose.at, kPlaceLimit)) {
+    supervisor_.fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
+    show_fault();
     return false;
   }
-  if (!started_ || faulted() || !has_goal_) {
+  if (started_ && !supervisor_.faulted() && has_goal_) {
+    correct(pose);
+  } else {
     put_down(pose);
-    return true;
   }
-  if constexpr (kCorrects) correct(pose);
-  return kCorrects;
+  return true;
 }
 
 void Robot::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
   status_.pose = pose;
   perception_.place(pose);
-  if constexpr (kCorrects) {
-    frame_.tie(pose, pose);
-    if (has_goal_) aim_again();
-  }
+  guard_.reset();
+  frame_.tie(pose, pose);
+  if (has_goal_) aim_again();
 }
 
 void Robot::correct(const Pose& pose) noexcept {
@@ -82,7 +49,6 @@ void Robot::correct(const Pose& pose) noexcept {
   aim_again();
 }
 
-#ifndef WHISKER_SMALL
 void Robot::aim_again() noexcept {
   Vec at;
   has_goal_ = frame_.aim_again(at);
@@ -93,7 +59,6 @@ void Robot::aim_again() noexcept {
     planner_.cancel();
   }
 }
-#endif
 
 bool Robot::set_goal(const planning::Goal& goal) noexcept {
   planning::Goal inside = goal;
@@ -114,233 +79,134 @@ void Robot::cancel() noexcept {
 
 void Robot::reset() noexcept {
   if (status_.health.fault == Fault::invalid_params) return;
-  status_.health.fault = Fault::none;
+  supervisor_.reset();
   started_ = false;
-  drive_refusals_.reset();
-  encoder_refusals_.reset();
   was_settled_ = false;
-#ifndef WHISKER_SMALL
   // The next counts may tell of the whole way to rest.
-  since_counts_ += braking_time(params_);
-  wheel_watch_.reset();
-  unwatched_ = kUnwatched;
-#endif
-  perception_.forget(body());
-  motion_controller_.begin({planning::ManoeuvreKind::stop, {}, {}}, body());
+  since_counts_ += safety::braking_time(params_);
+  perception_.forget(odometry_.pose());
+  guard_.reset();
+  motion_.begin(planning::stop(), odometry_.pose());
   cancel();
 }
 
 const Status& Robot::tick(Time now) noexcept {
-  if (status_.health.fault == Fault::invalid_params) {
-    status_.command = {};
-    if (!drive_.command(status_.command)) count(status_.health.drive_refused);
-    return status_;
-  }
-  check_clock(now);
-  sense(now);
-  localization::CountStep counts;
-  const bool measured = measure(counts);
-  if (motion_controller_.settled() && !was_settled_) settled_since_ = now;
-  was_settled_ = motion_controller_.settled();
-  navigate();
-  drive(measured ? &counts : nullptr);
+  planning::View view;
+  const bool counted = localize(now, view);
+  perceive(view);
+  plan(view);
+  actuate(guard(view, !counted));
   return status_;
 }
 
-#ifdef WHISKER_SMALL
-// No movement is judged for how long it holds, so the wheels' speeds may go by the nominal period.
-void Robot::check_clock(Time now) noexcept {
-  const Duration gap = now - last_tick_;
-  last_tick_ = now;
-  if (!started_) {
-    started_ = true;
-    conditioner_.reset(now);
-    settled_since_ = now;
-  } else if (gap <= Duration{} || gap > longest_gap(params_)) {
-    count(status_.health.clock_jumps);
-    fail(Fault::clock_jump);
-  } else if (gap.raw() - params_.safety.period.raw() > params_.safety.period.raw() >> 2) {
-    count(status_.health.late_ticks);
-  }
+bool Robot::localize(Time now, planning::View& view) noexcept {
+  if (status_.health.fault == Fault::invalid_params) return false;
+  take_time(now);
+  const bool counted = take_counts();
+  if (motion_.settled() && !was_settled_) settled_since_ = now;
+  was_settled_ = motion_.settled();
+  const WheelPair rolling = wheels_.state().rolling;
+  view.pose = odometry_.pose();
+  view.elapsed = elapsed_;
+  view.settled = was_settled_;
+  view.cut = motion_.cut();
+  view.forward = (rolling.left + rolling.right) / 2;
+  view.turning = (rolling.right - rolling.left) / 2;
+  view.granted = guard_.granted();
+  return counted;
 }
-#else
-void Robot::check_clock(Time now) noexcept {
+
+void Robot::take_time(Time now) noexcept {
+  Duration gap = params_.safety.period;
   if (!started_) {
     started_ = true;
-    conditioner_.reset(now);
+    perception_.start(now);
     settled_since_ = now;
-    pass(params_.safety.period);
   } else {
-    const Duration gap = now - last_tick_;
-    const bool longer = gap > longest_gap(params_);
-    const bool braked = braked_elsewhere_ && gap <= params_.safety.lost_after;
-    if (longer && braked) perception_.lose_history();
-    if (gap <= Duration{} || (longer && !braked)) {
-      count(status_.health.clock_jumps);
-      fail(Fault::clock_jump);
-    } else if (gap > params_.safety.period + params_.safety.period / 4) {
-      count(status_.health.late_ticks);
-    }
-    pass(gap > Duration{} ? gap : params_.safety.period);
+    const Duration passed = now - last_tick_;
+    const bool longer = passed > longest_gap(params_);
+    const bool excused = braked_elsewhere_ && passed <= params_.safety.lost_after;
+    if (longer && excused) perception_.lose_history();
+    supervisor_.check_gap(passed, excused);
+    if (passed > Duration{}) gap = passed;
   }
+  elapsed_ = min(gap, longest_gap(params_));
+  since_counts_ += gap;
+  supervisor_.expect_wheels(wheels_.state().rolling, elapsed_, gap);
   last_tick_ = now;
   braked_elsewhere_ = false;
 }
 
-void Robot::pass(Duration gap) noexcept {
-  elapsed_ = min(gap, longest_gap(params_));
-  since_counts_ += gap;
-  if (unwatched_ > Duration{}) {
-    unwatched_ -= gap;
-  } else {
-    wheel_watch_.expect(motion_controller_.wheels().rolling, elapsed_);
-  }
-}
-#endif
-
-void Robot::sense(Time now) noexcept {
-  hal::RangeReadings readings{};
-  const bool read = rangefinders_.read(readings);
-  if (!read) count(status_.health.range_refused);
-  conditioner_.update(read ? &readings : nullptr, now, odometry_.pose().heading, params_, status_.health);
-  status_.echoes = conditioner_.latest();
-  const Duration lost = conditioner_.lost_for(now);
-  beams_fresh_ = lost <= params_.conditioning.stale_after;
-  if (lost > params_.safety.lost_after) fail(Fault::range_lost);
-}
-
-bool Robot::measure(localization::CountStep& step) noexcept {
+bool Robot::take_counts() noexcept {
   hal::EncoderCounts counts{};
-  if (!drive_.read(counts)) {
-    count(status_.health.encoder_refused);
-    if (encoder_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::drive_refused);
-    return false;
-  }
-  encoder_refusals_.accept();
-  const bool sound = odometry_.update(counts, since_counts(), step);
+  const bool read = wheels_.read(counts);
+  supervisor_.check_counts(read);
+  if (!read) return false;
+  const bool sound = odometry_.update(counts, since_counts_, step_);
   since_counts_ = Duration{};
   if (!sound) {
-    count(status_.health.encoder_jumps);
-    fail(Fault::encoder_jump);
+    supervisor_.fail(Fault::encoder_jump, status_.health.encoder_jumps);
     return false;
   }
   const Pose inside = odometry_.pose();
   status_.pose = frame_.outward(inside);
-#ifndef WHISKER_SMALL
-  if (!faulted() && !(within(status_.pose.at, kBodyLimit) && within(inside.at, kBodyLimit))) leave_region();
-#endif
-  watch_wheels(step);
+  const bool within_region = within(status_.pose.at, kBodyLimit) && within(inside.at, kBodyLimit);
+  if (!supervisor_.faulted() && !within_region) {
+    supervisor_.fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
+  }
+  supervisor_.check_wheels(step_);
   return true;
 }
 
-void Robot::leave_region() noexcept {
-  count(status_.health.pose_out_of_range);
-  fail(Fault::pose_out_of_range);
+void Robot::perceive(planning::View& view) noexcept {
+  if (status_.health.fault == Fault::invalid_params) return;
+  hal::RangeReadings readings{};
+  const bool read = rangefinders_.read(readings);
+  perception_.sense(read ? &readings : nullptr, last_tick_, view.pose.heading, params_, status_.health);
+  status_.echoes = perception_.latest();
+  supervisor_.check_ranges(perception_.lost_for(last_tick_));
+  if (supervisor_.faulted()) return;
+  perception_.observe({view.pose, last_tick_, view.settled, settled_since_}, params_, view);
 }
 
-void Robot::navigate() noexcept {
-  if (faulted()) return;
-  const bool settled = motion_controller_.settled();
-  planning::View view;
-  view.pose = body();
-  view.elapsed = elapsed();
-  view.settled = settled;
-  if (settled) view.static_scan = conditioner_.look(settled_since_, params_);
-  const WheelPair rolling = motion_controller_.wheels().rolling;
-  view.forward = (rolling.left + rolling.right) / 2;
-  view.turning = (rolling.right - rolling.left) / 2;
-  perception::Perception::ConeObservations observations{};
-  perception_.observe({view.pose, last_tick_, settled, settled_since_}, conditioner_, params_, observations,
-                      view);
-  status_.decision = planner_.step(view);
-  has_goal_ = status_.decision.outcome == planning::Outcome::running;
+void Robot::plan(const planning::View& view) noexcept {
+  if (supervisor_.faulted()) return;
+  planning::Decision& decision = status_.decision;
+  decision = planner_.step(view);
+  const bool running = decision.outcome == planning::Outcome::running;
+  has_goal_ = running;
   if (goal_refused_) {
-    status_.decision.outcome = planning::Outcome::gave_up;
-    status_.decision.mode = planning::Mode::gave_up;
-    status_.decision.why = planning::Why::goal_out_of_range;
+    decision.outcome = planning::Outcome::gave_up;
+    decision.mode = planning::Mode::gave_up;
+    decision.why = planning::Why::goal_out_of_range;
   }
-#ifndef WHISKER_SMALL
-  limit_turning(status_.decision.manoeuvre, params_);
-#endif
-  perception_.guard(status_.decision.manoeuvre, view.pose, motion_controller_.wheels(), elapsed(), params_);
-  motion_controller_.begin(status_.decision.manoeuvre, view.pose);
-  if (!beams_fresh_ && status_.decision.outcome == planning::Outcome::running) {
+  motion_.begin(decision.manoeuvre, view.pose);
+  const bool waits = view.settled && running && decision.manoeuvre.kind == planning::ManoeuvreKind::keep;
+  supervisor_.check_look(waits, last_tick_ - settled_since_);
+  supervisor_.check_place(view.pose.at, running, elapsed_);
+}
+
+WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {
+  if (status_.health.fault == Fault::invalid_params) return {};
+  const bool fresh = perception_.lost_for(last_tick_) <= params_.conditioning.stale_after;
+  if (!fresh && !supervisor_.faulted() && status_.decision.outcome == planning::Outcome::running) {
     status_.decision.why = planning::Why::blind;
   }
-  watch_look(settled);
-  watch_place();
+  const bool stands = paused || !fresh || supervisor_.faulted() || supervisor_.refused();
+  const planning::VelocityRequest request =
+      stands ? planning::VelocityRequest{} : motion_.request(view.pose, elapsed_, guard_.held_for(), params_);
+  const WheelPair speeds =
+      guard_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
+  const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
+  motion_.settle(paused ? nullptr : &step_, commanded, elapsed_, params_);
+  supervisor_.check_motion(motion_);
+  return speeds;
 }
 
-void Robot::watch_look(bool settled) noexcept {
-  const bool waits = settled && status_.decision.outcome == planning::Outcome::running &&
-                     status_.decision.manoeuvre.kind == planning::ManoeuvreKind::keep;
-  // Each reading that a look needs may take `lost_after` before the beam is lost, and one is under way.
-  const Duration longest = params_.safety.lost_after * (params_.conditioning.reads + 1);
-  if (waits && last_tick_ - settled_since_ > longest) {
-    count(status_.health.unsteady_looks);
-    fail(Fault::range_unsteady);
-  }
-}
-
-void Robot::watch_driver() noexcept {
-  if (faulted()) return;
-  if (motion_controller_.stalled_for() > params_.safety.stalled_after) {
-    count(status_.health.wheel_stalls);
-    fail(Fault::wheels_stalled);
-  } else if (motion_controller_.waiting_for() > params_.safety.stalled_after) {
-    count(status_.health.no_progress);
-    fail(Fault::no_progress);
-  }
-}
-
-void Robot::watch_wheels(const localization::CountStep& counts) noexcept {
-#ifdef WHISKER_SMALL
-  static_cast<void>(counts);
-#else
-  if (faulted() || unwatched_ > Duration{}) return;
-  switch (wheel_watch_.judge(counts)) {
-    case safety::WheelWatch::Finding::none: break;
-    case safety::WheelWatch::Finding::stalled:
-      count(status_.health.wheel_stalls);
-      fail(Fault::wheels_stalled);
-      break;
-    case safety::WheelWatch::Finding::runaway:
-      count(status_.health.wheel_runaways);
-      fail(Fault::wheel_runaway);
-      break;
-  }
-#endif
-}
-
-/// Whatever a planner waits for or tries, it does not try it for ever in one place.
-void Robot::watch_place() noexcept {
-#ifndef WHISKER_SMALL
-  const bool leaves = farther(body().at - place_, for_body(params_, kPlace));
-  if (leaves || status_.decision.outcome != planning::Outcome::running) {
-    place_ = body().at;
-    at_place_for_ = Duration{};
-    return;
-  }
-  at_place_for_ += elapsed_;
-  if (at_place_for_ <= longest_stay_) return;
-  count(status_.health.no_progress);
-  fail(Fault::no_progress);
-#endif
-}
-
-void Robot::drive(const localization::CountStep* counts) noexcept {
-  const bool paused = faulted() || !beams_fresh_ || drive_refusals_.refused() || counts == nullptr;
-  const WheelPair speeds = motion_controller_.step(body(), counts, paused, elapsed(), params_);
-  watch_driver();
-  status_.command = control::to_wire(speeds);
-  if (drive_.command(status_.command)) {
-    drive_refusals_.accept();
-    return;
-  }
-  count(status_.health.drive_refused);
-  motion_controller_.halt();
-  status_.command = {};
-  if (drive_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::drive_refused);
+void Robot::actuate(WheelPair speeds) noexcept {
+  supervisor_.check_command(wheels_.command(speeds, elapsed_, params_));
+  status_.command = wheels_.sent();
+  if (supervisor_.faulted()) show_fault();
 }
 
 void Robot::show_fault() noexcept {
@@ -348,12 +214,6 @@ void Robot::show_fault() noexcept {
   status_.decision.mode = planning::Mode::stopped;
   status_.decision.why = planning::Why::fault;
   status_.decision.looked = false;
-}
-
-void Robot::fail(Fault fault) noexcept {
-  if (faulted()) return;
-  status_.health.fault = fault;
-  show_fault();
 }
 
 }  // namespace whisker

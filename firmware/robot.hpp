@@ -1,9 +1,7 @@
-/// The whole core: ranges -> nav (with its fuzzy table) -> motion -> wheels, once a tick.
+/// The whole core, once a tick: localize -> perceive -> plan -> guard -> actuate.
 #pragma once
 
-#include <stdint.h>
-
-#include "firmware/control/motion_controller.hpp"
+#include "firmware/control/wheel_drive.hpp"
 #include "firmware/health.hpp"
 #include "firmware/localization/frame.hpp"
 #include "firmware/localization/odometry.hpp"
@@ -11,10 +9,10 @@
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
 #include "firmware/perception/perception.hpp"
-#include "firmware/perception/range_conditioner.hpp"
+#include "firmware/planning/motion_controller.hpp"
 #include "firmware/planning/planner.hpp"
-#include "firmware/safety/refusals.hpp"
-#include "firmware/safety/wheel_watch.hpp"
+#include "firmware/safety/guard.hpp"
+#include "firmware/safety/supervisor.hpp"
 #include "hal/drive.hpp"
 #include "hal/rangefinders.hpp"
 
@@ -53,8 +51,7 @@ class Robot {
   /// is, what the wheels are doing goes on, and the goal lies elsewhere from then on. Who carries the robot
   /// away must cancel() before.
   ///
-  /// False: nothing was changed. Beyond kPlaceLimit that is a fault, too. A core built with WHISKER_SMALL
-  /// takes no corrections.
+  /// False: nothing was changed: it lies beyond kPlaceLimit, which is a fault.
   bool place(const Pose& pose) noexcept;
   /// Accepted in any state; one given while a fault stands is dropped by reset(). False: it lies beyond
   /// kPlaceLimit, or corrections have moved it there. It is refused with Why::goal_out_of_range, and the
@@ -76,72 +73,43 @@ class Robot {
   const Status& status() const noexcept { return status_; }
 
  private:
-#ifdef WHISKER_SMALL
-  using Frame = localization::OneFrame;
-  static constexpr bool kCorrects = false;
-#else
-  using Frame = localization::Frame;
-  static constexpr bool kCorrects = true;
-#endif
+  // The five stages of a tick, in this order; each is visited once. The view is what is known so far.
+  bool localize(Time now, planning::View& view) noexcept;
+  void perceive(planning::View& view) noexcept;
+  void plan(const planning::View& view) noexcept;
+  WheelPair guard(const planning::View& view, bool paused) noexcept;
+  void actuate(WheelPair speeds) noexcept;
 
-  void check_clock(Time now) noexcept;
-  void pass(Duration gap) noexcept;
-  void sense(Time now) noexcept;
-  bool measure(localization::CountStep& step) noexcept;
+  void take_time(Time now) noexcept;
+  bool take_counts() noexcept;
   void put_down(const Pose& pose) noexcept;
   void correct(const Pose& pose) noexcept;
   void aim_again() noexcept;
-  void leave_region() noexcept;
-  /// By the odometry.
-  Pose body() const noexcept { return kCorrects ? odometry_.pose() : status_.pose; }
-  void navigate() noexcept;
-  void watch_look(bool settled) noexcept;
-  void drive(const localization::CountStep* counts) noexcept;
-  void watch_driver() noexcept;
-  void watch_wheels(const localization::CountStep& counts) noexcept;
-  void watch_place() noexcept;
   void show_fault() noexcept;
-  void fail(Fault fault) noexcept;
-  bool faulted() const noexcept { return status_.health.fault != Fault::none; }
 
   hal::Rangefinders& rangefinders_;
-  hal::Drive& drive_;
   planning::Planner& planner_;
   const Params& params_;
 
-  perception::RangeConditioner conditioner_;
-  localization::Odometry odometry_;
-  Frame frame_;
-  control::MotionController motion_controller_;
-  perception::Perception perception_;
   Status status_;
+  localization::Odometry odometry_;
+  localization::Frame frame_;
+  perception::Perception perception_;
+  planning::MotionController motion_;
+  safety::Guard guard_;
+  safety::Supervisor supervisor_;
+  control::WheelDrive wheels_;
 
+  localization::CountStep step_;  // of this tick
   Time last_tick_;
   Time settled_since_;
+  Duration elapsed_;       // since the tick before, at most the longest gap
+  Duration since_counts_;  // since the counts were last read
   bool started_ = false;
   bool has_goal_ = false;  // under way
   bool goal_refused_ = false;
   bool was_settled_ = false;
-  bool beams_fresh_ = false;
   bool braked_elsewhere_ = false;
-#ifdef WHISKER_SMALL
-  Duration elapsed() const noexcept { return params_.safety.period; }
-  Duration since_counts() const noexcept { return longest_gap(params_); }
-#else
-  Duration elapsed() const noexcept { return elapsed_; }
-  Duration since_counts() const noexcept { return since_counts_; }
-#endif
-  Duration elapsed_;       // since the tick before, at most the longest gap
-  Duration since_counts_;  // since the counts were last read
-  safety::Refusals drive_refusals_;
-  safety::Refusals encoder_refusals_;
-#ifndef WHISKER_SMALL
-  safety::WheelWatch wheel_watch_;
-  Duration unwatched_;  // until the wheels' watch begins
-  Vec place_;           // that it has not left
-  Duration at_place_for_;
-  Duration longest_stay_;
-#endif
 };
 
 }  // namespace whisker

@@ -61,7 +61,7 @@ TARGETS = {
 
 
 # Boards with a whole robot as their program: preset -> prefix of its tools.
-ROBOTS = {"stm32f405": "arm-none-eabi-", "atmega328p": "avr-"}
+ROBOTS = {"stm32f405": "arm-none-eabi-"}
 
 
 def builds():

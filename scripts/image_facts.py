@@ -15,19 +15,20 @@ RAM_OF_AVR = (*RAM, ".rodata")
 # Where a call through a table may lead; what calls by one that is not here is an error.
 INDIRECT = (
     (
-        r"Robot(8navigate|8set_goal|6cancel|5reset|9aim_again|7correct|8put_down|5place)E",
-        r"3nav11GoalPlanner(4stepE|8set_goalE|9move_goalE|6cancelE)",
+        r"Robot(4plan|8set_goal|6cancel|5reset|9aim_again|7correct|8put_down|5place|4tick)E",
+        r"8planning11GoalPlanner(4stepE|8set_goalE|9move_goalE|6cancelE)",
     ),
-    (r"3nav11GoalPlanner6answerE", r"3nav(12SkirtPlanner|13ThesisPlanner)(5startE|7advanceE)"),
-    (r"3nav11GoalPlanner9move_goalE", r"3nav(11GoalPlanner|12SkirtPlanner)11follow_goalE"),
-    (r"3nav6Course", r"N7whisker3nav9TableBend4bendE"),
+    (r"8planning11GoalPlanner6answerE", r"8planning(15BoundaryPlanner|13ThesisPlanner)(5startE|7advanceE)"),
+    (r"8planning11GoalPlanner9move_goalE", r"8planning(11GoalPlanner|15BoundaryPlanner)11follow_goalE"),
+    (r"8planning6Course", r"8planning15TableDeflection4bendE"),
     # Reads that do nothing are one function.
-    (r"Robot(5senseE|7measureE)", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
-    (r"Robot(5driveE|4tickE)", r"7commandE"),
+    (r"Robot(8perceive|4tick|11take_counts|8localize)E", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
+    (r"10WheelDrive4readE", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
+    (r"10WheelDrive7commandE|Robot(7actuate|4tick)E", r"7commandE.*11WheelSpeedsE"),
 )  # fmt: skip
-NO_GUIDE = ((r"N7whisker3nav12SkirtPlanner", None),)
-# Of the skirt planner with a map.
-GUIDE = ((r"N7whisker3nav12SkirtPlanner", r"N7whisker3nav8MapGuide(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|MapGuide12knows_no_way"),)
+NO_GUIDE = ((r"N7whisker8planning15BoundaryPlanner", None),)
+# Of the boundary planner with a map.
+GUIDE = ((r"N7whisker8planning15BoundaryPlanner", r"N7whisker8planning16WavefrontPlanner(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|WavefrontPlanner12knows_no_way"),)
 # Of the controller on a bus: node, port and line.
 NODE = (
     (r"3can4Node10understandE", r"ControllerNode4hearE"),
@@ -141,8 +142,9 @@ class CallGraph:
 
 def graph_of(build, folders, image, indirect):
     folder = chips.BUILD / build
-    files = [path for name in folders for path in (folder / name).rglob("*.ci")]
-    files += (folder / "firmware/apps").rglob(f"{image}.dir/**/*.ci")
+    programs = folder / "firmware/apps/CMakeFiles"
+    files = [path for name in folders for path in (folder / name).rglob("*.ci") if programs not in path.parents]
+    files += programs.glob(f"{image}.dir/**/*.ci")
     return CallGraph(files, HELPER_BYTES.get(build, OTHER_HELPER_BYTES), indirect)
 
 

@@ -20,8 +20,8 @@ struct NoWheels final : hal::Drive {
 constexpr Params kParams;
 NoSensors sensors;
 NoWheels wheels;
-hal::Room<sizeof(images::Planner)> room_for_planner;
-hal::Room<sizeof(Robot)> room_for_robot;
+StaticStorage<sizeof(images::Planner)> room_for_planner;
+StaticStorage<sizeof(Robot)> room_for_robot;
 
 }  // namespace
 

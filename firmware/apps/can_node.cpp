@@ -9,9 +9,9 @@ using namespace whisker;
 
 namespace {
 
-hal::Room<sizeof(images::Planner)> room_for_planner;
-hal::Room<sizeof(hal::slcan::Slcan)> room_for_port;
-hal::Room<sizeof(can_remote::Controller)> room_for_controller;
+StaticStorage<sizeof(images::Planner)> room_for_planner;
+StaticStorage<sizeof(hal::slcan::Slcan)> room_for_port;
+StaticStorage<sizeof(can_remote::Controller)> room_for_controller;
 
 struct Planners final : can_remote::PlannerMaker {
   planning::Planner& make(const Params& params) noexcept override {

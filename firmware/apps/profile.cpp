@@ -55,7 +55,8 @@ using planning::GridMap;
 using planning::Wavefront;
 
 #if defined(WHISKER_PROFILE_PATCH)
-WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid4markERKNS0_15ConeObservationEPKNS0_18EarlierObservationE, void,
+WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid4markERKNS0_15ConeObservationEPKNS0_18EarlierObservationE,
+                 void,
                  (LocalGrid * local_grid, const perception::ConeObservation& observation,
                   const perception::EarlierObservation* before),
                  (local_grid, observation, before))
@@ -63,11 +64,11 @@ WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid7move_toERKNS_4PoseE, void,
                  (LocalGrid * local_grid, const Pose& pose), (local_grid, pose))
 #elif defined(WHISKER_PROFILE_MARKS)
 WHISKER_MEASURED(_ZN7whisker8planning7GridMap4markERKNS_10perception15ConeObservationEb, void,
-                 (Map * map, const perception::ConeObservation& observation, bool hold),
+                 (GridMap * map, const perception::ConeObservation& observation, bool hold),
                  (map, observation, hold))
 #elif defined(WHISKER_PROFILE_FLOOD)
 WHISKER_MEASURED(_ZN7whisker8planning9Wavefront3runERNS0_7GridMapEl, bool,
-                 (Wavefront * wavefront, Map& map, int32_t words), (wavefront, map, words))
+                 (Wavefront * wavefront, GridMap& map, int32_t words), (wavefront, map, words))
 #endif
 
 int main() {

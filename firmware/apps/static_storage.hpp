@@ -3,32 +3,32 @@
 #include <stddef.h>
 #include <stdint.h>
 
-namespace whisker::hal {
+namespace whisker {
 
-struct RoomAddress {
+struct StorageAddress {
   void* at;
 };
 
-}  // namespace whisker::hal
+}  // namespace whisker
 
 /// Some freestanding compilers have no <new>.
-inline void* operator new(size_t, whisker::hal::RoomAddress room) noexcept { return room.at; }
+inline void* operator new(size_t, whisker::StorageAddress room) noexcept { return room.at; }
 
-namespace whisker::hal {
+namespace whisker {
 
 /// Room for one object that is made while the program runs. Itself all zero and without a constructor that
 /// runs: it needs no flash, no guard, and no code before main. Nothing is ever destroyed.
 template <size_t kSize>
-class Room {
+class StaticStorage {
  public:
   template <class T, class... Arguments>
   T& make(Arguments&&... arguments) noexcept {
     static_assert(sizeof(T) <= kSize && alignof(T) <= 8);
-    return *new (RoomAddress{bytes_}) T(static_cast<Arguments&&>(arguments)...);
+    return *new (StorageAddress{bytes_}) T(static_cast<Arguments&&>(arguments)...);
   }
 
  private:
   alignas(8) uint8_t bytes_[kSize] = {};
 };
 
-}  // namespace whisker::hal
+}  // namespace whisker

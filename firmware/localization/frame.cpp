@@ -1,7 +1,5 @@
 #include "firmware/localization/frame.hpp"
 
-#ifndef WHISKER_SMALL
-
 namespace whisker::localization {
 namespace {
 
@@ -33,5 +31,3 @@ bool Frame::aim(Vec goal, Vec& inside) noexcept {
 }
 
 }  // namespace whisker::localization
-
-#endif

@@ -29,16 +29,4 @@ class Frame {
   Q30 sin_;
 };
 
-/// For a chip with no room for the other one: the odometry's frame is the user's, and nobody watches how far
-/// out they are.
-class OneFrame {
- public:
-  static void tie(const Pose&, const Pose&) noexcept {}
-  static Pose outward(const Pose& inside) noexcept { return inside; }
-  static bool aim(Vec goal, Vec& inside) noexcept {
-    inside = goal;
-    return true;
-  }
-};
-
 }  // namespace whisker::localization

@@ -19,15 +19,9 @@ void Odometry::configure(const Params& params) noexcept {
   const int64_t radians_q36 = divide_rounded(um_per_count_ << 20, params.body.track.raw());
   turn_per_count_ = static_cast<uint64_t>(scale_down<18>(radians_q36 * kTurnPerRadianQ30));
 
-#ifdef WHISKER_SMALL  // one bound for all gaps
-  const Length furthest = params.wheels.max_speed * 2 * longest_gap(params);
-  counts_per_ms_ =
-      2 + static_cast<uint32_t>(multiply_divide(furthest.raw(), params.wheels.counts_per_metre, 1000000));
-#else
   period_ = params.safety.period;
   const int32_t um_per_s = params.wheels.max_speed.raw() / 1000 * 512;
   counts_per_ms_ = static_cast<uint32_t>(multiply_divide(um_per_s, params.wheels.counts_per_metre, 1000000));
-#endif
 }
 
 void Odometry::place(const Pose& pose) noexcept {
@@ -44,14 +38,9 @@ bool Odometry::update(const hal::EncoderCounts& counts, Duration since, CountSte
   if (has_last_) step = {moved(last_.left, counts.left), moved(last_.right, counts.right)};
   last_ = counts;
   has_last_ = true;
-#ifdef WHISKER_SMALL
-  static_cast<void>(since);
-  const uint32_t most = counts_per_ms_;
-#else
   // So many counts fit into 32 bits.
   const Duration over = min(since + period_, milliseconds(2000));
   const uint32_t most = 2 + static_cast<uint32_t>(over.raw()) * counts_per_ms_ / 256;
-#endif
   if (magnitude(step.left) > most || magnitude(step.right) > most) return false;
 
   difference_ += step.right - step.left;

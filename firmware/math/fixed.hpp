@@ -60,15 +60,11 @@ constexpr int64_t scale_down_by(int64_t x, int bits) noexcept {
 template <int kBits>
 constexpr int64_t scale_down(int64_t x) noexcept {
   static_assert(kBits > 0 && kBits < 62);
-#ifdef WHISKER_SMALL  // one copy serves all
-  return scale_down_by(x, kBits);
-#else
   // Not x +- a half: where only the lowest half of such a sum's constant is known, clang 14 for AVR loses the
   // carry.
   const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
   const int64_t quotient = static_cast<int64_t>((size + (UINT64_C(1) << (kBits - 1))) >> kBits);
   return x < 0 ? -quotient : quotient;
-#endif
 }
 
 template <int kBits>

@@ -70,16 +70,6 @@ constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noex
   return root;
 }
 
-#ifdef WHISKER_SMALL  // slower, in a third of the flash
-[[gnu::always_inline]] constexpr uint32_t square_root(uint64_t x) noexcept {
-  uint32_t root = 0;
-  for (uint32_t bit = UINT32_C(1) << 31; bit != 0; bit >>= 1) {
-    const uint64_t larger = root | bit;
-    if (larger * larger <= x) root = static_cast<uint32_t>(larger);
-  }
-  return root;
-}
-#else
 [[gnu::always_inline]] constexpr uint32_t square_root(uint64_t x) noexcept {
   if (x <= UINT32_MAX) return whisker::square_root_32(static_cast<uint32_t>(x));
   uint64_t rest = x;
@@ -97,7 +87,6 @@ constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noex
   }
   return static_cast<uint32_t>(root);
 }
-#endif
 
 constexpr uint64_t squared(Vec v) noexcept {
   const uint64_t x = magnitude(v.x.raw());

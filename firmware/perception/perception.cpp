@@ -1,32 +1,35 @@
 #include "firmware/perception/perception.hpp"
 
-#ifndef WHISKER_SMALL
-
 namespace whisker::perception {
 
-void LocalPerception::configure(const Params& params) noexcept {
+void Perception::configure(const Params& params) noexcept {
   local_grid_.configure(params);
   motion_.configure(params);
   const Duration reach = params.rangefinders.latency + milliseconds(1000 / params.rangefinders.rate_hz);
   history_.configure(reach / (localization::PoseHistory::kKept - 2));
 }
 
-void LocalPerception::place(const Pose& pose) noexcept {
+void Perception::place(const Pose& pose) noexcept {
   forget(pose);
   local_grid_.reset(pose);
 }
 
-void LocalPerception::forget(const Pose& pose) noexcept {
+void Perception::forget(const Pose& pose) noexcept {
   history_.reset();
   local_grid_.forget(pose);
   motion_.reset();
   seen_ = 0;
-  granted_ = Q14{};
   for (RangeScatter& scatter : scatter_) scatter = {};
 }
 
-void LocalPerception::observe(const Standing& body, const RangeConditioner& conditioner, const Params& params,
-                              ConeObservations& observations, planning::View& view) noexcept {
+void Perception::sense(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
+                       Health& health) noexcept {
+  if (readings == nullptr) count(health.range_refused);
+  conditioner_.update(readings, now, heading, params, health);
+}
+
+void Perception::observe(const Standing& body, const Params& params, Percept& out) noexcept {
+  if (body.settled) out.static_scan = conditioner_.look(body.settled_since, params);
   history_.add(body.pose, body.now);
   local_grid_.move_to(body.pose);
   Length free[hal::kBeams];
@@ -34,11 +37,11 @@ void LocalPerception::observe(const Standing& body, const RangeConditioner& cond
   const Length proving = proving_range(params.rangefinders);
   int seen = 0;
   for (int i = 0; i < hal::kBeams; ++i) {
-    const RecentReadings sight = conditioner.sight(i, params);
-    view.moving_scan.beam[i] = sight.typical;
+    const RecentReadings sight = conditioner_.sight(i, params);
+    out.moving_scan.beam[i] = sight.typical;
     if (!sight.fresh) continue;
-    view.sighted = true;
-    ConeObservation& observation = observations[i];
+    out.sighted = true;
+    ConeObservation& observation = out.observations[i];
     if (!history_.at(sight.taken, observation.from)) continue;
     observation.axis = beam_axis(params.rangefinders.side_angle, i);
     scatter_[i].add(sight);
@@ -60,28 +63,15 @@ void LocalPerception::observe(const Standing& body, const RangeConditioner& cond
     }
     last_[i] = {observation.from, observation.free};
     seen_ |= bit;
-    view.proved = static_cast<uint8_t>(view.proved | bit);
+    out.observed = static_cast<uint8_t>(out.observed | bit);
     ++seen;
   }
   // After all marks: another beam may see ground as empty into which something is about to move.
   for (int i = 0; i < hal::kBeams; ++i) {
-    if (moved[i] > Length{}) local_grid_.doubt(observations[i], moved[i]);
+    if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
   }
-  if (seen == hal::kBeams) motion_.add(observations[0].from, observations[0].taken, free);
-  view.observations = observations;
-  view.local_grid = &local_grid_;
-  view.granted = granted_;
-}
-
-void LocalPerception::guard(planning::Manoeuvre& manoeuvre, const Pose& pose, const WheelState& wheels,
-                            Duration elapsed, const Params& params) noexcept {
-  if (manoeuvre.kind != planning::ManoeuvreKind::cruise) return;
-  const safety::Grant grant = safety::guard(manoeuvre, pose, wheels, local_grid_, elapsed, params);
-  manoeuvre.forward = grant.forward;
-  manoeuvre.turning = grant.turning;
-  granted_ = grant.factor;
+  if (seen == hal::kBeams) motion_.add(out.observations[0].from, out.observations[0].taken, free);
+  out.local_grid = &local_grid_;
 }
 
 }  // namespace whisker::perception
-
-#endif

@@ -14,11 +14,7 @@ class GoalPlanner : public Planner {
   // core is built without.
   // The goal that it is on its way to changes nothing.
   void set_goal(const Goal& goal) noexcept final {
-#ifdef WHISKER_SMALL
-    const bool same = false;
-#else
     const bool same = goal == goal_;
-#endif
     goal_ = goal;
     if (!same || request_ != Request::none || decision_.outcome != Outcome::running) request_ = Request::goal;
   }

@@ -1,4 +1,4 @@
-/// What navigation asks of motion: one of these at a time.
+/// What a planner asks for, one manoeuvre at a time, and the velocities that follow from it.
 #pragma once
 
 #include <stdint.h>
@@ -13,7 +13,7 @@ enum class ManoeuvreKind : uint8_t {
   stop,    ///< come to rest as fast as the acceleration limit allows, and stand
   turn,    ///< turn on the spot to `heading`, the shorter way
   drive,   ///< drive `length` straight along `heading`, and stand
-  cruise,  ///< run at these speeds until told otherwise, as far as the guard lets it
+  cruise,  ///< run at these speeds until told otherwise
 };
 
 struct Manoeuvre {
@@ -22,10 +22,15 @@ struct Manoeuvre {
   Length length{};
   Speed forward{};  ///< of a cruise
   Speed turning{};  ///< of a cruise: the rims' speed of turning, counter-clockwise positive
-  /// Of a cruise: back over ground that the body has just stood on.
-  bool retraces = false;
 };
 
-constexpr Manoeuvre stop() noexcept { return {ManoeuvreKind::stop, {}, {}, {}, {}, false}; }
+constexpr Manoeuvre stop() noexcept { return {ManoeuvreKind::stop, {}, {}, {}, {}}; }
+
+/// The velocities of one tick that a manoeuvre asks for. The guard decides what is granted of them.
+struct VelocityRequest {
+  Speed forward{};
+  Speed turning{};     ///< of the rims, counter-clockwise positive
+  bool moves = false;  ///< false: stand, or brake until the body stands
+};
 
 }  // namespace whisker::planning

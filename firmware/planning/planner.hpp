@@ -5,8 +5,7 @@
 
 #include "firmware/fuzzy/engine.hpp"
 #include "firmware/math/trig.hpp"
-#include "firmware/perception/echo.hpp"
-#include "firmware/perception/local_grid.hpp"
+#include "firmware/perception/percept.hpp"
 #include "firmware/planning/manoeuvre.hpp"
 #include "firmware/planning/state.hpp"
 
@@ -21,23 +20,14 @@ struct Goal {
 };
 
 /// What a planner sees at a tick.
-struct View {
+struct View : perception::Percept {
   Pose pose{};          ///< the body's own estimate
   bool settled = true;  ///< the last manoeuvre is over and the body stands
-  perception::Echoes
-      static_scan{};  ///< consensus of the readings taken since the body stood; pending until then
-  perception::Echoes
-      moving_scan{};     ///< the same while it moves: the median of the last few readings of each beam
-  bool sighted = false;  ///< a reading came at this tick
-  const perception::LocalGrid* local_grid = nullptr;  ///< what is proved free nearby
-  Speed forward{};                                    ///< of the body, by its wheels
-  Speed turning{};                                    ///< of the rims, counter-clockwise positive
-  Q14 granted{};       ///< part of the last cruise's forward speed that the guard let through
-  Duration elapsed{};  ///< since the tick before
-#ifndef WHISKER_SMALL
-  const perception::ConeObservation* observations = nullptr;  ///< of the beams, taken in at this tick
-  uint8_t proved = 0;                                         ///< a bit for each beam that has one
-#endif
+  bool cut = false;     ///< the last manoeuvre was a drive, and the guard ended it before its length
+  Speed forward{};      ///< of the body, by its wheels
+  Speed turning{};      ///< of the rims, counter-clockwise positive
+  Q14 granted{};        ///< part of the last forward speed asked for that the guard let through
+  Duration elapsed{};   ///< since the tick before
 };
 
 enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };

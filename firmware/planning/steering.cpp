@@ -30,14 +30,6 @@ Twist steer(Angle error, Speed top) noexcept {
   return {forward, rate_towards(error, kSteerGain)};
 }
 
-void limit_turning(Manoeuvre& m, const Params& params) noexcept {
-  const Speed most = params.wheels.max_turn_rate * (params.body.track / 2);
-  const Speed turning = abs(m.turning);
-  if (turning <= most) return;
-  m.forward = Speed::from_raw(multiply_divide(m.forward.raw(), most.raw(), turning.raw()));
-  m.turning = limit(m.turning, most);
-}
-
 Manoeuvre cruise(Twist twist, const Params& params) noexcept {
   Manoeuvre m;
   m.kind = ManoeuvreKind::cruise;

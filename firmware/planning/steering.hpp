@@ -31,9 +31,6 @@ Twist face(Angle error) noexcept;
 /// 1 / 1.2 rad.
 Twist steer(Angle error, Speed top) noexcept;
 
-/// A cruise that turns faster than the wheels' limit is slowed down as a whole: its path stays.
-void limit_turning(Manoeuvre& manoeuvre, const Params& params) noexcept;
-
 /// A cruise at this twist.
 Manoeuvre cruise(Twist twist, const Params& params) noexcept;
 

@@ -4,6 +4,7 @@ namespace whisker::safety {
 namespace {
 
 constexpr Length kSample = 20_mm;
+constexpr Duration kCounted = 60000_ms;  // held for longer is not told apart
 
 /// How far a wheel still rolls: through its lag, at the new command until the next tick, and braking.
 struct Brake {
@@ -25,15 +26,8 @@ Brake brake(WheelPair command, const WheelState& wheels, const Params& params) n
   return {rolls(command.left, wheels.rolling.left), rolls(command.right, wheels.rolling.right)};
 }
 
-/// How near its arc may come to what is not clear.
-struct Arc {
-  WheelPair command;
-  Length reach;
-};
-
-bool free(const Arc& arc, const Pose& pose, const WheelState& wheels, const perception::LocalGrid& local_grid,
-          const Params& params) noexcept {
-  const WheelPair command = arc.command;
+bool free(const WheelPair& command, const Pose& pose, const WheelState& wheels,
+          const perception::LocalGrid& grid, const Params& params) noexcept {
   const Brake way = brake(command, wheels, params);
   const bool crawls = command.left + command.right != Speed{};
   const Length rolled = (way.left + way.right) / 2;
@@ -47,28 +41,36 @@ bool free(const Arc& arc, const Pose& pose, const WheelState& wheels, const perc
     const Angle chord =
         Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
     const Length far = Length::from_raw(multiply_divide(length.raw(), i, samples));
-    if (local_grid.approaches(pose.at, pose.heading + chord + backwards, abs(far), arc.reach)) return false;
+    if (grid.approaches(pose.at, pose.heading + chord + backwards, abs(far), grid.reach().guard))
+      return false;
   }
   return true;
 }
 
 }  // namespace
 
-Grant guard(const planning::Manoeuvre& cruise, const Pose& pose, const WheelState& wheels,
-            const perception::LocalGrid& local_grid, Duration elapsed, const Params& params) noexcept {
+WheelPair Guard::step(const planning::VelocityRequest& request, const Pose& pose, const WheelState& wheels,
+                      const perception::LocalGrid& grid, Duration elapsed, const Params& params) noexcept {
   constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2), Q14::ratio(3, 10),
                               Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
   const Speed change = params.wheels.max_acceleration * elapsed;
-  const Length reach =
-      cruise.retraces ? params.body.radius - params.body.radius / 22 : local_grid.reach().guard;
+  if (!request.moves) {
+    held_for_ = Duration{};
+    return slew(wheels.commanded, {}, change);
+  }
   for (const Q14 factor : kFactors) {
     const WheelPair want =
-        inverse_kinematics(cruise.forward * factor, cruise.turning, params.wheels.max_speed);
-    if (free({slew(wheels.commanded, want, change), reach}, pose, wheels, local_grid, params)) {
-      return {cruise.forward * factor, cruise.turning, factor};
-    }
+        inverse_kinematics(request.forward * factor, request.turning, params.wheels.max_speed);
+    const WheelPair command = slew(wheels.commanded, want, change);
+    if (!free(command, pose, wheels, grid, params)) continue;
+    granted_ = factor;
+    const bool held = factor == Q14{} && request.forward != Speed{};
+    held_for_ = held ? min(held_for_ + elapsed, kCounted) : Duration{};
+    return command;
   }
-  return {Speed{}, Speed{}, Q14{}};
+  granted_ = Q14{};
+  held_for_ = min(held_for_ + elapsed, kCounted);
+  return slew(wheels.commanded, {}, change);
 }
 
 }  // namespace whisker::safety

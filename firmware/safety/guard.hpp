@@ -1,4 +1,4 @@
-/// Lets through only what ends in a stop on clear ground.
+/// Lets through only wheel speeds that end in a stop on clear ground.
 #pragma once
 
 #include "firmware/math/trig.hpp"
@@ -10,23 +10,29 @@
 
 namespace whisker::safety {
 
-struct Grant {
-  Speed forward;
-  Speed turning;
-  Q14 factor;  ///< of the forward speed that was asked for; zero where the guard only brakes
-};
+/// The last stage before the wheels: nothing else decides how fast they turn.
+///
+/// It tries a few fractions of the forward speed that is asked for, beside the rims' speed of turning, and
+/// grants the largest whose braking arc, after the longest gap that may pass before the next tick, brings the
+/// disc of Reach::guard no nearer to a cell that is not clear. If there is none, both wheels brake in
+/// proportion, along the arc that was found free a tick before.
+class Guard {
+ public:
+  void reset() noexcept { *this = Guard{}; }
 
-/// The forward speed of a cruise that may be commanded this tick beside its rim speed of turning: the largest
-/// of a few fractions of it whose braking arc, after the longest gap that may pass before the next tick,
-/// brings the disc of Reach::guard nowhere nearer to a cell that is not clear. If there is none, both wheels
-/// brake in proportion, along the arc that was found free a tick before.
-///
-/// `elapsed` since the last tick: what the wheels' speeds may change by now.
-///
-/// Retracing asks for half of what the cells' size and the margin add to the body's radius. What is not clear
-/// beside a way that was just driven was no nearer then, and the way back must not end at what was only
-/// passed.
-Grant guard(const planning::Manoeuvre& cruise, const Pose& pose, const WheelState& wheels,
-            const perception::LocalGrid& local_grid, Duration elapsed, const Params& params) noexcept;
+  /// Once a tick: the wheel speeds to command. They were judged as they are, with the acceleration limit over
+  /// `elapsed`, the time since the last tick.
+  WheelPair step(const planning::VelocityRequest& request, const Pose& pose, const WheelState& wheels,
+                 const perception::LocalGrid& grid, Duration elapsed, const Params& params) noexcept;
+
+  /// Part of the last forward speed asked for that was granted; zero where it only brakes.
+  Q14 granted() const noexcept { return granted_; }
+  /// For how long it has granted nothing of a request to drive.
+  Duration held_for() const noexcept { return held_for_; }
+
+ private:
+  Q14 granted_;
+  Duration held_for_;
+};
 
 }  // namespace whisker::safety

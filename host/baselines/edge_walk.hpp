@@ -8,9 +8,9 @@
 #include <cstdint>
 
 #include "firmware/planning/boundary/heading_search.hpp"
-#include "firmware/planning/boundary/scan_behaviour.hpp"
 #include "firmware/planning/boundary/side.hpp"
 #include "firmware/planning/boundary/stuck_detector.hpp"
+#include "firmware/planning/scan_behaviour.hpp"
 
 namespace whisker::baselines {
 

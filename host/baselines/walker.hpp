@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
-#include "firmware/planning/boundary/candidate_headings.hpp"
-#include "firmware/planning/boundary/scan_behaviour.hpp"
 #include "firmware/planning/boundary/stuck_detector.hpp"
+#include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/goal_planner.hpp"
+#include "firmware/planning/scan_behaviour.hpp"
 #include "host/baselines/edge_walk.hpp"
 
 namespace whisker::baselines {

@@ -9,14 +9,14 @@ import re
 import sys
 
 from compile import compile_all
-from sources import finish, sources
+from sources import core_sources, finish
 from symbols import forbidden
 
 COMMON = ["-std=c++17", "-fno-exceptions", "-fno-rtti", "-c"]
 TARGETS = {
     "arm": ["-mcpu=cortex-m0plus", "-mthumb", "-Os", "-ffreestanding"],
     # With the compiler's own headers: the stdint.h of avr-libc, where that is installed, hides limits from C++.
-    "avr": ["--target=avr", "-mmcu=atmega328p", "-Os", "-ffreestanding", "-nostdlibinc"],
+    "avr": ["--target=avr", "-mmcu=atmega1284p", "-Os", "-ffreestanding", "-nostdlibinc"],
     # With g++ for x86 a floating-point operation is then an error, also one that an optimiser would fold away.
     "no-float": ["-mgeneral-regs-only", "-O0"],
 }
@@ -69,7 +69,7 @@ def main(argv):
     parser.add_argument("--flags", nargs=argparse.REMAINDER, default=[])
     args = parser.parse_args(argv)
 
-    files = sources(args.root, ("firmware",), (".cpp",))
+    files = core_sources(args.root)
     problems, objects = compile_core(args.target, args.root, args.work, args.compiler, args.flags, files)
     if args.nm:
         for engine, outs in objects.items():

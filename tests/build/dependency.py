@@ -76,9 +76,10 @@ class Other:
 
     @staticmethod
     def headers_have_libraries(prefix):
-        """Below hal/, the contracts are headers alone; each folder is a library."""
+        """Below hal/, the contracts are headers alone; each port is a library, and so is what programs share."""
         targets = "".join(file.read_text() for file in prefix.rglob("whiskerTargets.cmake"))
-        wanted = {"core", "can", *(path.name for path in (prefix / "include/whisker/hal").iterdir() if path.is_dir())}
+        installed = prefix / "include/whisker"
+        wanted = {"core", "can", "link", "can_remote", *(path.name for path in (installed / "hal/ports").iterdir() if path.is_dir())}
         missing = [name for name in sorted(wanted) if f"add_library(whisker::{name} " not in targets]
         if missing:
             raise Failure(f"headers are installed, libraries are not: {', '.join(missing)}")

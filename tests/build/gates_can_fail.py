@@ -16,7 +16,7 @@ import include_direction
 import lengths
 import node_versions
 import old_cmake
-import readme_compiles
+import example_compiles
 import readme_layout
 import vendor_macros
 import version
@@ -195,16 +195,16 @@ class AbsolutePaths(unittest.TestCase):
             self.assertEqual(absolute_paths.errors(text), [], text)
 
 
-class ReadmeCompiles(unittest.TestCase):
+class ExampleCompiles(unittest.TestCase):
     def status(self, line):
         files = {
-            "README.md": f"<!-- compile:begin -->\n```\n{line}\n```\n<!-- compile:end -->\n",
+            "docs/firmware.md": f"<!-- compile:begin -->\n```\n{line}\n```\n<!-- compile:end -->\n",
             "docs/example/main.cpp": '#include "firmware/a/a.hpp"\n',
             "firmware/a.cpp": "int a;\n",
             "firmware/a/b.cpp": "int b;\n",
             "firmware/a/a.hpp": "",
         }
-        return run(readme_compiles.main, files, CXX)[0]
+        return run(example_compiles.main, files, CXX)[0]
 
     def test_accepts_a_line_that_compiles_all(self):
         self.assertEqual(self.status("g++ -I. -c docs/example/main.cpp firmware/*.cpp firmware/*/*.cpp"), 0)

@@ -1,4 +1,4 @@
-"""README.md's Layout names every folder of firmware/, hal/ and host/, and none that is not there. usage: readme_layout.py ROOT"""
+"""README.md's Layout names every folder of firmware/, hal/ and host/, and none that is not there; folders below those may be named, too. usage: readme_layout.py ROOT"""
 
 import pathlib
 import re
@@ -13,9 +13,12 @@ def problems(root, text):
     for part in PARTS:
         row = re.search(rf"^\| `{part}/` \|(.*)\|$", text, re.MULTILINE)
         named = set(re.findall(r"`(\w+)/`", row[1])) if row else set()
+        below = {path.name for path in pathlib.Path(root, part).rglob("*") if path.is_dir()}
         there = {path.name for path in pathlib.Path(root, part).iterdir() if path.is_dir()}
-        for name in sorted(there ^ named):
-            yield f"README.md: {part}/{name}/ is {'not named' if name in there else 'named and not there'}"
+        for name in sorted(there - named):
+            yield f"README.md: {part}/{name}/ is not named"
+        for name in sorted(named - below):
+            yield f"README.md: {part}/{name}/ is named and not there"
 
 
 def main(root):

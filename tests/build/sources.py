@@ -18,6 +18,11 @@ def sources(root, folders=FOLDERS, suffixes=SUFFIXES):
     return sorted(found)
 
 
+def core_sources(root, suffix=".cpp"):
+    """Those of the core: what a chip's program includes or links, but no program."""
+    return [path for path in sources(root, ("firmware",), (suffix,)) if path.parts[1] != "apps"]
+
+
 def finish(name, checked, problems):
     """Prints the verdict and returns the exit status. Checking nothing is a failure."""
     for problem in problems:

@@ -10,12 +10,12 @@ import shlex
 import sys
 
 from compile import compile_all
-from sources import finish, sources
+from sources import core_sources, finish, sources
 
 MODES = ("c++17", "gnu++17", "c++20", "gnu++20")
 MACROS = pathlib.Path(__file__).parent / "fixtures/arduino_macros.hpp"
 # Ports for Linux, and boards that bring their own registers.
-HOSTED = re.compile(r"hal/(sim|socketcan|stdio|tty|mcu)/")
+HOSTED = re.compile(r"hal/(ports/(socketcan|stdio|tty)|boards|emulated|runtime)/")
 OPTIONS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fno-exceptions", "-fno-rtti", "-ffreestanding", "-fsyntax-only")
 
 
@@ -32,7 +32,7 @@ def main(root, *compilers):
     text = f'#include "{MACROS}"\n' + "".join(f'#include "{header}"\n' for header in headers)
     jobs = [(f"{c}, {mode}", [*command(root, c, mode), "-"], text) for c in compilers for mode in MODES]
     for mode in ("gnu++17", "gnu++20"):
-        for source in sources(root, ("firmware",), (".cpp",)):
+        for source in core_sources(root):
             jobs.append((f"{source}, {mode}", [*command(root, compilers[0], mode), f"{root}/{source}"], None))
     problems = [f"{name}:\n{output}" for name, output in compile_all(jobs) if output]
     return finish(f"{len(headers)} headers after vendors' macros", len(jobs) if headers else 0, problems)

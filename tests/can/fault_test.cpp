@@ -37,6 +37,8 @@ Fault fault(FaultKind kind, std::uint32_t ticks, std::uint32_t id = 0) {
   return f;
 }
 
+constexpr std::uint32_t kUntilItCruises = 700;
+
 /// Ticks from the first one with the fault to the first that does not follow the controller; UINT32_MAX:
 /// none.
 std::uint32_t latency(const Rig& rig) {
@@ -81,7 +83,7 @@ void expect_stop_and_resume(Rig& rig, const Expected& expected, std::uint32_t fa
   EXPECT_EQ(rig.now().base, NodeState::safe_stop) << "latched until a new order";
   EXPECT_EQ(rig.now().speeds.left, 0);
   rig.give(can::Order::resume);
-  rig.drive(200);
+  rig.drive(kUntilItCruises);
   EXPECT_EQ(rig.now().base, NodeState::running);
   EXPECT_EQ(rig.now().controller, NodeState::running);
   EXPECT_GT(rig.now().speeds.left, 2000);
@@ -291,7 +293,7 @@ TEST(Faults, AnEStopStopsAtOnceAndLatches) {
   EXPECT_EQ(rig.now().base, NodeState::ready);
   EXPECT_EQ(rig.now().controller, NodeState::ready);
   rig.give(can::Order::resume);
-  rig.drive(200);
+  rig.drive(kUntilItCruises);
   EXPECT_EQ(rig.now().base, NodeState::running);
   EXPECT_GT(rig.now().speeds.left, 2000);
 }

@@ -34,13 +34,28 @@ inline Scenario open_ground() {
                         "open.toml");
 }
 
-/// Straight ahead at full speed, whatever is there.
+/// Looks to both sides, for the guard to see what lies beside its way, and goes straight ahead at full
+/// speed.
 class Straight final : public planning::GoalPlanner {
  private:
   void start(const planning::View& view) noexcept override {
-    decision_.manoeuvre = {planning::ManoeuvreKind::drive, view.pose.heading, 100_m};
+    turns_ = 0;
+    heading_ = view.pose.heading;
+    next();
   }
-  void advance(const planning::View&) noexcept override {}
+  void advance(const planning::View& view) noexcept override {
+    if (view.settled) next();
+  }
+  void next() noexcept {
+    constexpr Angle kTurns[] = {50_deg, -50_deg, 0_deg};
+    if (turns_ < 3) {
+      decision_.manoeuvre = {planning::ManoeuvreKind::turn, heading_ + kTurns[turns_++], {}};
+    } else {
+      decision_.manoeuvre = {planning::ManoeuvreKind::drive, heading_, 100_m};
+    }
+  }
+  Angle heading_;
+  int turns_ = 0;
 };
 
 class StraightMaker final : public can_remote::PlannerMaker {
@@ -60,7 +75,7 @@ inline void repair(hal::CanFrame& frame) {
 
 class Rig {
  public:
-  static constexpr std::uint32_t kFault = 300;  ///< the tick from which faults of the tests hold: it cruises
+  static constexpr std::uint32_t kFault = 800;  ///< the tick from which faults of the tests hold: it cruises
 
   Rig(const Scenario& scenario, bus::Schedule at_base, bus::Schedule at_controller, std::uint64_t seed = 1,
       can_remote::PlannerMaker* planners = nullptr)

@@ -97,10 +97,19 @@ TEST(Run, AClosedRoomGivesNoExitOrABudget) {
   EXPECT_EQ(d.complaint, "");
 }
 
-TEST(Run, AFlankThatNoBeamSeesIsTouchedAndReported) {
+TEST(Run, AFlankThatNoBeamSeesIsNotTouched) {
   // A pole beside the way, behind the cones when the step begins.
   const Drive d =
       drive(small_world("[[disc]]\ncenter = [0.06, 0.105]\nradius_m = 0.02\n"), PlannerKind::thesis);
+  EXPECT_EQ(d.result.verdict, Verdict::reached);
+  EXPECT_GT(d.result.min_clearance_m, 0.0);
+}
+
+TEST(Run, AContactIsReported) {
+  // Sensors that never see anything.
+  Scenario s = small_world("[[disc]]\ncenter = [0.5, 0.0]\nradius_m = 0.1\n");
+  s.noise.range_false_clear = 1.0;
+  const Drive d = drive(s);
   EXPECT_EQ(d.result.verdict, Verdict::contact);
   EXPECT_EQ(d.complaint, "");
   EXPECT_LE(d.result.min_clearance_m, 1e-9);

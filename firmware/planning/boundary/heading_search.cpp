@@ -1,6 +1,6 @@
 #include "firmware/planning/boundary/heading_search.hpp"
 
-#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/steering.hpp"
 
 namespace whisker::planning {
@@ -84,7 +84,6 @@ HeadingSearch::Retreat HeadingSearch::retreat(const View& view, bool stalled, co
     return there ? Retreat::there : Retreat::stuck;
   }
   manoeuvre = cruise(steer(bearing(rest) - view.pose.heading, params.wheels.max_speed / 4), params);
-  manoeuvre.retraces = true;
   return Retreat::under_way;
 }
 

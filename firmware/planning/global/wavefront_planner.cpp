@@ -1,7 +1,5 @@
 #include "firmware/planning/global/wavefront_planner.hpp"
 
-#ifndef WHISKER_SMALL
-
 #include "firmware/planning/global/raytrace.hpp"
 
 namespace whisker::planning {
@@ -62,7 +60,7 @@ void WavefrontPlanner::observe(const View& view) noexcept {
   }
   const bool hold = stage_ != Stage::idle;
   for (int i = 0; i < hal::kBeams; ++i) {
-    if ((view.proved >> i & 1U) != 0) map_.mark(view.observations[i], hold);
+    if ((view.observed >> i & 1U) != 0) map_.mark(view.observations[i], hold);
   }
   const Cell body = map_.place(view.pose.at);
   if (!hold) map_.set(body, CellState::free);
@@ -236,5 +234,3 @@ bool WavefrontPlanner::refuse(const View& view) noexcept {
 }
 
 }  // namespace whisker::planning
-
-#endif

@@ -8,6 +8,9 @@ namespace {
 /// How far an exit search turns to each side; both together leave out what lies behind.
 constexpr uint32_t kSearchLimit = (150_deg).raw();
 
+/// The body has moved on by this.
+constexpr Length kMoved = 10_mm;
+
 }  // namespace
 
 ThesisPlanner::ThesisPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept
@@ -24,10 +27,16 @@ void ThesisPlanner::start(const View&) noexcept {
 }
 
 void ThesisPlanner::advance(const View& view) noexcept {
+  if (phase_ == Phase::scan) {
+    scan(view);
+    return;
+  }
   if (!view.settled) return;
   switch (phase_) {
-    case Phase::at_position:
-    case Phase::move: arrive_at_position(view); break;
+    case Phase::at_position: arrive_at_position(view); break;
+    case Phase::move: end_step(view); break;
+    case Phase::scan: break;
+    case Phase::face_again: drive(rest_of_step(view)); break;
     case Phase::face:
       if (sees(view)) choose(view);
       break;
@@ -39,6 +48,37 @@ void ThesisPlanner::advance(const View& view) noexcept {
       if (sees(view)) search(view);
       break;
   }
+}
+
+/// The guard cuts a step where it would come beside what no beam has seen: a scan may show it. What is cut
+/// again at the same place is taken for blocked.
+void ThesisPlanner::end_step(const View& view) noexcept {
+  if (!view.cut) {
+    arrive_at_position(view);
+    return;
+  }
+  if (!scanned_ || norm(view.pose.at - scanned_at_) > kMoved) {
+    scanned_ = true;
+    scanned_at_ = view.pose.at;
+    phase_ = Phase::scan;
+    tell(Mode::looking, Why::unknown_ahead);
+    scan_.begin(decision_.manoeuvre);
+    return;
+  }
+  scanned_ = false;
+  if (planned_ - rest_of_step(view) > kMoved) {
+    arrive_at_position(view);
+  } else {
+    deflect_or_end();
+  }
+}
+
+void ThesisPlanner::scan(const View& view) noexcept {
+  const Length length = min(rest_of_step(view), view.local_grid->reach().probe);
+  const Angle heading = base_ + deflection();
+  if (!scan_.step(view, heading, length, params_, decision_.manoeuvre)) return;
+  phase_ = Phase::face_again;
+  turn_to(heading);
 }
 
 bool ThesisPlanner::sees(const View& view) noexcept {
@@ -134,9 +174,15 @@ void ThesisPlanner::follow_danger(const View& view) noexcept {
 
 void ThesisPlanner::probe(const View& view) noexcept {
   if (step_is_free(view)) {
+    left_ = view.pose.at;
+    scanned_ = false;
     drive(planned_);
     return;
   }
+  deflect_or_end();
+}
+
+void ThesisPlanner::deflect_or_end() noexcept {
   if (static_cast<uint64_t>(deflections_ + 1) * params_.thesis.delta.raw() >= (UINT64_C(1) << 32)) {
     end(Mode::gave_up, Why::no_exit, Outcome::gave_up);
     return;
@@ -201,6 +247,10 @@ void ThesisPlanner::drive(Length length) noexcept {
   phase_ = Phase::move;
   decision_.mode = decision_.danger_count == 0 ? Mode::stepping : Mode::skirting;
   decision_.manoeuvre = {ManoeuvreKind::drive, base_ + deflection(), length};
+}
+
+Length ThesisPlanner::rest_of_step(const View& view) const noexcept {
+  return planned_ - along(view.pose.at - left_, base_ + deflection());
 }
 
 /// The body stands already.

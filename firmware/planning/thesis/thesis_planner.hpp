@@ -14,6 +14,7 @@
 
 #include "firmware/params.hpp"
 #include "firmware/planning/goal_planner.hpp"
+#include "firmware/planning/scan_behaviour.hpp"
 #include "firmware/planning/thesis/step_probe.hpp"
 #include "firmware/planning/thesis/surroundings.hpp"
 
@@ -31,7 +32,9 @@ class ThesisPlanner final : public GoalPlanner {
     probe,        // turning to a candidate heading, then looking along it
     search_left,  // exit search: turning away to one side by delta
     search_right,
-    move,  // driving the step
+    move,        // driving the step
+    scan,        // the guard cut the step: turning beams onto what was not seen in its way
+    face_again,  // back to the heading of the step
   };
 
   void start(const View& view) noexcept override;
@@ -39,6 +42,8 @@ class ThesisPlanner final : public GoalPlanner {
   bool step_is_free(const View& view) const noexcept;
   bool sees(const View& view) noexcept;
   void arrive_at_position(const View& view) noexcept;
+  void end_step(const View& view) noexcept;
+  void scan(const View& view) noexcept;
   void choose(const View& view) noexcept;
   void steer(const View& view, Length distance) noexcept;
   void follow_danger(const View& view) noexcept;
@@ -46,8 +51,10 @@ class ThesisPlanner final : public GoalPlanner {
   void search(const View& view) noexcept;
   void take_exit(int32_t side, Why why) noexcept;
   void deflect(Phase phase) noexcept;
+  void deflect_or_end() noexcept;
   void turn_to(Angle heading) noexcept;
   void drive(Length length) noexcept;
+  Length rest_of_step(const View& view) const noexcept;
   void end(Mode mode, Why why, Outcome outcome) noexcept;
   Angle deflection() const noexcept;
 
@@ -57,9 +64,13 @@ class ThesisPlanner final : public GoalPlanner {
   Surroundings surroundings_;  // of this position
 
   Phase phase_ = Phase::at_position;
-  Angle target_;             // direction of the goal from this position
-  Angle base_;               // heading from which the deflection counts
-  Length planned_;           // step
+  Angle target_;    // direction of the goal from this position
+  Angle base_;      // heading from which the deflection counts
+  Length planned_;  // step
+  Vec left_;        // the place from which it is driven
+  ScanBehaviour scan_;
+  bool scanned_ = false;  // in the way of the step, from scanned_at_
+  Vec scanned_at_;
   int32_t side_ = 1;         // of the deflection: +1 left, -1 right
   int32_t deflections_ = 0;  // by delta, from base_
   int32_t exit_left_ = 0;    // deflections of the exit found on the left; 0: none

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "firmware/planning/candidate_headings.hpp"
 #include "tests/planning/ground.hpp"
 
 namespace whisker::planning {

@@ -18,18 +18,16 @@ int g_cells = 0;
 
 // The wrapped functions by their mangled names; the guide calls one of them for each cell of a line.
 extern "C" {
-int __real__ZNK7whisker8planning9Wavefront5phaseERKNS0_7GridMapENS0_4CellE(const whisker::planning::Wavefront*,
-                                                               const whisker::planning::GridMap&,
-                                                               whisker::planning::Cell);
-int __wrap__ZNK7whisker8planning9Wavefront5phaseERKNS0_7GridMapENS0_4CellE(const whisker::planning::Wavefront* wavefront,
-                                                               const whisker::planning::GridMap& map,
-                                                               whisker::planning::Cell p) {
+int __real__ZNK7whisker8planning9Wavefront5phaseERKNS0_7GridMapENS0_4CellE(
+    const whisker::planning::Wavefront*, const whisker::planning::GridMap&, whisker::planning::Cell);
+int __wrap__ZNK7whisker8planning9Wavefront5phaseERKNS0_7GridMapENS0_4CellE(
+    const whisker::planning::Wavefront* wavefront, const whisker::planning::GridMap& map,
+    whisker::planning::Cell p) {
   ++g_cells;
   return __real__ZNK7whisker8planning9Wavefront5phaseERKNS0_7GridMapENS0_4CellE(wavefront, map, p);
 }
-bool __real__ZNK7whisker8planning9Wavefront7blockedERKNS0_7GridMapENS0_4CellE(const whisker::planning::Wavefront*,
-                                                                  const whisker::planning::GridMap&,
-                                                                  whisker::planning::Cell);
+bool __real__ZNK7whisker8planning9Wavefront7blockedERKNS0_7GridMapENS0_4CellE(
+    const whisker::planning::Wavefront*, const whisker::planning::GridMap&, whisker::planning::Cell);
 bool __wrap__ZNK7whisker8planning9Wavefront7blockedERKNS0_7GridMapENS0_4CellE(
     const whisker::planning::Wavefront* wavefront, const whisker::planning::GridMap& map,
     whisker::planning::Cell p) {
@@ -53,11 +51,9 @@ template <int kBytes>
 Cost cost_of(Vec from, Vec to) {
   Params params;
   perception::LocalGrid local_grid;
-  std::array<perception::ConeObservation, hal::kBeams> observations{};
   local_grid.configure(params);
   View view;
   view.local_grid = &local_grid;
-  view.observations = observations.data();
   auto map = std::make_unique<MapOf<kBytes>>(params);
   Cost cost;
   std::mt19937 random(1);
@@ -73,17 +69,16 @@ Cost cost_of(Vec from, Vec to) {
       view.pose.at = view.pose.at + Vec{millimetres(draw(-100, 100)), millimetres(draw(-100, 100))};
       view.pose.heading = test::degrees(draw(0, 359));
       local_grid.move_to(view.pose);
-      view.proved = 7;
+      view.observed = 7;
       for (int i = 0; i < hal::kBeams; ++i) {
         const Angle axis = beam_axis(params.rangefinders.side_angle, i);
         const bool hit = draw(0, 2) == 0;
-        observations[static_cast<std::size_t>(i)] = {view.pose, axis,
-                                                     hit ? millimetres(draw(200, 1500)) : 2_m, hit};
+        view.observations[i] = {view.pose, axis, hit ? millimetres(draw(200, 1500)) : 2_m, hit};
       }
     }
     g_cells = 0;
     map->guide.observe(view);
-    view.proved = 0;
+    view.observed = 0;
     cost.worst = std::max(cost.worst, g_cells);
     Vec place;
     const GlobalPlanner::Advice advice = map->guide.advise(view, norm(to - view.pose.at), place);

@@ -20,7 +20,6 @@ class Guided : public testing::Test {
     local_grid_.configure(params_);
     local_grid_.reset({});
     view_.local_grid = &local_grid_;
-    view_.observations = proofs_.data();
     map_.guide.start(view_, {kGoal, 100_mm});
   }
 
@@ -49,7 +48,6 @@ class Guided : public testing::Test {
 
   Params params_;
   perception::LocalGrid local_grid_;
-  std::array<perception::ConeObservation, hal::kBeams> proofs_{};
   View view_;
   MapOf<2048> map_{params_};
 };
@@ -107,12 +105,11 @@ TEST_F(Guided, ARefusedWayIsBarred) {
 
 TEST_F(Guided, DoubtsOnceAndForgetsWhatBlocked) {
   for (int i = 0; i < hal::kBeams; ++i) {
-    proofs_[static_cast<std::size_t>(i)] = {
-        {{}, Angle{}}, beam_axis(params_.rangefinders.side_angle, i), 250_mm, true};
+    view_.observations[i] = {{{}, Angle{}}, beam_axis(params_.rangefinders.side_angle, i), 250_mm, true};
   }
-  view_.proved = 7;
+  view_.observed = 7;
   stay(1);
-  view_.proved = 0;
+  view_.observed = 0;
   const planning::GridMap& map = map_.guide.map();
   const planning::Cell wall = map.place({250_mm, 50_mm});
   ASSERT_EQ(map.at(wall), planning::CellState::occupied);
@@ -125,12 +122,12 @@ TEST_F(Guided, DoubtsOnceAndForgetsWhatBlocked) {
 
 TEST_F(Guided, KnowsThatThereIsNoWayOutOfARing) {
   // Beams all round, near enough for echoes to be sure.
-  view_.proved = 1;
+  view_.observed = 1;
   for (int deg = 0; deg < 360; deg += 5) {
-    proofs_[0] = {{{}, test::degrees(deg)}, Angle{}, 250_mm, true};
+    view_.observations[0] = {{{}, test::degrees(deg)}, Angle{}, 250_mm, true};
     stay(1);
   }
-  view_.proved = 0;
+  view_.observed = 0;
   stay(120);
   EXPECT_TRUE(map_.guide.knows_no_way());
   EXPECT_EQ(advice(), GlobalPlanner::Advice::none);

@@ -26,6 +26,14 @@ Echoes echoes(int left_mm, int front_mm, int right_mm) {
 const Echoes kOpen = echoes(2000, 2000, 2000);
 const Echoes kWall = echoes(2000, 200, 2000);
 
+View view_of(const Pose& pose, bool settled, const Echoes& scan) {
+  View view;
+  view.pose = pose;
+  view.settled = settled;
+  view.static_scan = scan;
+  return view;
+}
+
 std::int32_t degrees(Angle a) {
   return static_cast<std::int32_t>(divide_rounded(std::int64_t{a.wrapped()} * 360, std::int64_t{1} << 32));
 }
@@ -41,7 +49,7 @@ class Puppet {
   Decision next(const RecentReadings& sight) {
     Decision d;
     for (int i = 0; i < 5; ++i) {
-      d = planner_.step({pose, true, sight(degrees(pose.heading))});
+      d = planner_.step(view_of(pose, true, sight(degrees(pose.heading))));
       looks += d.looked ? 1 : 0;
       if (d.manoeuvre.kind != ManoeuvreKind::keep || d.outcome != Outcome::running) break;
     }
@@ -78,7 +86,7 @@ Puppet with_goal(int x_mm, int y_mm, const Params& params = Params{}) {
 
 TEST(Thesis, RestsWithoutAGoal) {
   Puppet p;
-  const Decision d = p.planner().step({});
+  const Decision d = p.planner().step(View{});
   EXPECT_EQ(d.mode, Mode::idle);
   EXPECT_EQ(d.outcome, Outcome::none);
   EXPECT_EQ(d.manoeuvre.kind, ManoeuvreKind::keep);
@@ -259,7 +267,7 @@ TEST(Thesis, ANewGoalStartsAfreshFromAnyState) {
   Puppet p = with_goal(3000, 0);
   p.next_drive([](int deg) { return deg >= 30 ? kOpen : kWall; });
   p.planner().set_goal({{-(1000_mm), 0_mm}, 100_mm});
-  const Decision d = p.planner().step({p.pose, false, {}});
+  const Decision d = p.planner().step(view_of(p.pose, false, {}));
   EXPECT_EQ(d.manoeuvre.kind, ManoeuvreKind::stop);
   EXPECT_EQ(d.why, Why::goal_set);
   EXPECT_EQ(d.danger_count, 0);
@@ -270,12 +278,12 @@ TEST(Thesis, CancelRestsAtOnce) {
   Puppet p = with_goal(3000, 0);
   p.next_drive([](int) { return kOpen; });
   p.planner().cancel();
-  const Decision d = p.planner().step({p.pose, false, {}});
+  const Decision d = p.planner().step(view_of(p.pose, false, {}));
   EXPECT_EQ(d.manoeuvre.kind, ManoeuvreKind::stop);
   EXPECT_EQ(d.mode, Mode::idle);
   EXPECT_EQ(d.why, Why::cancelled);
   EXPECT_EQ(d.outcome, Outcome::none);
-  EXPECT_EQ(p.planner().step({p.pose, true, kOpen}).manoeuvre.kind, ManoeuvreKind::keep);
+  EXPECT_EQ(p.planner().step(view_of(p.pose, true, kOpen)).manoeuvre.kind, ManoeuvreKind::keep);
 }
 
 TEST(Thesis, TheMeanOfThreeIsSelectable) {

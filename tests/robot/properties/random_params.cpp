@@ -48,4 +48,26 @@ Params random_params(Bits& bits) {
   return params;
 }
 
+Params robot_like_the_reference(Bits& bits) {
+  Params p;
+  do {
+    p = Params{};
+    const auto scale = static_cast<std::int32_t>(bits.whole(50, 300));  // per cent
+    const auto scaled = [&](Length l) { return Length::from_raw(multiply_divide(l.raw(), scale, 100)); };
+    p.body.radius = scaled(p.body.radius);
+    p.body.track = scaled(p.body.track);
+    p.body.margin = scaled(p.body.margin);
+    p.wheels.counts_per_metre = static_cast<std::int32_t>(bits.whole(5000, 100000));
+    p.wheels.max_speed = Speed::from_raw(static_cast<std::int32_t>(bits.whole(100, 600)) * 1000);
+    p.wheels.max_acceleration =
+        Acceleration::from_raw(static_cast<std::int32_t>(bits.whole(300, 2000)) * 1000);
+    p.wheels.motor_lag = milliseconds(static_cast<std::int32_t>(bits.whole(0, 120)));
+    p.rangefinders.rate_hz = static_cast<std::int32_t>(bits.whole(20, 80));
+    p.rangefinders.latency = milliseconds(static_cast<std::int32_t>(bits.whole(0, 60)));
+    p.safety.period = milliseconds(static_cast<std::int32_t>(bits.whole(5, 20)));
+    p.thesis.base_step = scaled(millimetres(static_cast<std::int32_t>(bits.whole(100, 400))));
+  } while (check(p) != ParamFault::none);
+  return p;
+}
+
 }  // namespace whisker::test

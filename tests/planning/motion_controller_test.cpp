@@ -1,4 +1,4 @@
-#include "firmware/control/motion_controller.hpp"
+#include "firmware/planning/motion_controller.hpp"
 
 #include <cmath>
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-namespace whisker::control {
-namespace {
+#include "firmware/localization/odometry.hpp"
+#include "firmware/math/wheel_kinematics.hpp"
 
-using planning::Manoeuvre;
-using planning::ManoeuvreKind;
+namespace whisker::planning {
+namespace {
 
 /// Wheels with a first-order lag and encoders, enough to close the loop around the controller.
 class Loop {
@@ -30,8 +30,13 @@ class Loop {
     };
     odometry_.update({count(way_[0]), count(way_[1])}, params_.safety.period, step);
     const WheelPair before = speeds_;
-    speeds_ = controller_.step(odometry_.pose(), &step, paused, params_.safety.period, params_);
-    const Speed most = params_.wheels.max_acceleration * params_.safety.period;
+    const Duration period = params_.safety.period;
+    const Speed most = params_.wheels.max_acceleration * period;
+    const VelocityRequest r =
+        paused ? VelocityRequest{} : controller_.request(odometry_.pose(), period, held_for_, params_);
+    const Speed fastest = params_.wheels.max_speed;
+    speeds_ = slew(speeds_, inverse_kinematics(r.forward, r.turning, fastest), most);
+    controller_.settle(&step, speeds_.left != Speed{} || speeds_.right != Speed{}, period, params_);
     EXPECT_LE(abs(speeds_.left - before.left), most);
     EXPECT_LE(abs(speeds_.right - before.right), most);
     EXPECT_LE(abs(speeds_.left), params_.wheels.max_speed);
@@ -51,6 +56,7 @@ class Loop {
     return ticks;
   }
   void block() { blocked_ = true; }
+  void hold(Duration held_for) { held_for_ = held_for; }
   Pose pose() const { return odometry_.pose(); }
   const MotionController& controller() const { return controller_; }
   WheelPair speeds() const { return speeds_; }
@@ -60,6 +66,7 @@ class Loop {
   localization::Odometry odometry_;
   MotionController controller_;
   WheelPair speeds_;
+  Duration held_for_;
   double way_[2] = {0, 0};
   double v_[2] = {0, 0};
   bool blocked_ = false;
@@ -139,6 +146,24 @@ TEST(MotionController, KeepChangesNothing) {
   EXPECT_NEAR(loop.pose().at.x.raw() * 1e-3, 300, 2.5);
 }
 
+TEST(MotionController, ADriveThatTheGuardHoldsIsCut) {
+  const Params params;
+  Loop loop(params);
+  loop.begin({ManoeuvreKind::drive, {}, 300_mm});
+  loop.hold(200_ms);
+  for (int i = 0; i < 20; ++i) loop.tick(false);
+  EXPECT_FALSE(loop.controller().cut());
+  EXPECT_GT(loop.speeds().left, Speed{});
+  loop.hold(201_ms);
+  loop.run();
+  EXPECT_TRUE(loop.controller().cut());
+  EXPECT_LT(loop.pose().at.x, 100_mm);
+  loop.begin({ManoeuvreKind::turn, 90_deg, {}});
+  EXPECT_FALSE(loop.controller().cut());
+  loop.run();
+  EXPECT_NEAR(degrees(loop.pose().heading), 90, 1.1) << "a turn is not cut";
+}
+
 TEST(MotionController, TellsForHowLongNothingMoved) {
   const Params params;
   Loop loop(params);
@@ -149,4 +174,4 @@ TEST(MotionController, TellsForHowLongNothingMoved) {
 }
 
 }  // namespace
-}  // namespace whisker::control
+}  // namespace whisker::planning

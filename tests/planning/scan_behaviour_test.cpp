@@ -1,10 +1,10 @@
-#include "firmware/planning/boundary/scan_behaviour.hpp"
+#include "firmware/planning/scan_behaviour.hpp"
 
 #include <functional>
 
 #include <gtest/gtest.h>
 
-#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "firmware/planning/candidate_headings.hpp"
 #include "tests/planning/ground.hpp"
 
 namespace whisker::planning {

@@ -1,5 +1,5 @@
-"""The README's line compiles its example: pasted into sh and into a makefile. The example also compiles in GNU's dialect
-and with clang, so that check() holds there while it compiles. usage: readme_compiles.py ROOT CXX [CLANG]"""
+"""The line of docs/firmware.md compiles its example: pasted into sh and into a makefile. The example also compiles in GNU's dialect
+and with clang, so that check() holds there while it compiles. usage: example_compiles.py ROOT CXX [CLANG]"""
 
 import os
 import pathlib
@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 from compile import compile_all
-from sources import finish, sources
+from sources import core_sources, finish
 
 SHIM = '#!/bin/sh\nprintf "%s\\n" "$@"\n'
 
@@ -30,9 +30,9 @@ def arguments(command, folder, path):
 
 def main(root, *compilers):
     root = pathlib.Path(root).resolve()
-    line = line_of((root / "README.md").read_text())
+    line = line_of((root / "docs/firmware.md").read_text())
     if line is None:
-        return finish("the README's line", 1, ["README.md: no one line between the marks compile:begin and compile:end"])
+        return finish("the line of docs/firmware.md", 1, ["docs/firmware.md: no one line between the marks compile:begin and compile:end"])
     problems = []
     with tempfile.TemporaryDirectory() as work:
         for name in ("docs", "firmware", "hal"):
@@ -47,7 +47,7 @@ def main(root, *compilers):
         if in_sh != in_make:
             problems.append(f"make gives the compiler other arguments than sh: {in_make} and {in_sh}")
         files = [argument for argument in in_sh if argument.endswith(".cpp")]
-        wanted = ["docs/example/main.cpp", *map(str, sources(root, ("firmware",), (".cpp",)))]
+        wanted = ["docs/example/main.cpp", *map(str, core_sources(root))]
         if sorted(files) != sorted(wanted):
             problems.append(f"sources that differ: {sorted(set(files) ^ set(wanted))}")
         options = [argument.replace("-I.", f"-I{work}") for argument in in_sh if not argument.endswith(".cpp")]
@@ -58,7 +58,7 @@ def main(root, *compilers):
                 command = [compiler, f"-std={standard}", f"-I{root}", "-fsyntax-only", str(root / wanted[0])]
                 jobs.append((f"{compiler} {standard}", command, None))
         problems += [f"{name}:\n{output}" for name, output in compile_all(jobs) if output]
-    return finish("the README's line", len(jobs), problems)
+    return finish("the line of docs/firmware.md", len(jobs), problems)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
-#include "firmware/planning/boundary/scan_behaviour.hpp"
+#include "firmware/planning/scan_behaviour.hpp"
 
-#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/steering.hpp"
 
 namespace whisker::planning {

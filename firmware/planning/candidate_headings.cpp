@@ -1,4 +1,4 @@
-#include "firmware/planning/boundary/candidate_headings.hpp"
+#include "firmware/planning/candidate_headings.hpp"
 
 namespace whisker::planning {
 

@@ -1,0 +1,34 @@
+#include "firmware/control/wheel_drive.hpp"
+
+namespace whisker::control {
+namespace {
+
+/// One tick of a first-order lag, by the trapezoid rule; a lag shorter than half a tick is none.
+Speed follow(Speed rolling, Speed commanded, Duration elapsed, const Params& params) noexcept {
+  const int32_t tick = elapsed.raw();
+  const int32_t whole = 2 * params.wheels.motor_lag.raw() + tick;
+  if (whole <= 0) return commanded;
+  const int32_t part = 2 * tick < whole ? 2 * tick : whole;
+  return rolling + Speed::from_raw(multiply_divide((commanded - rolling).raw(), part, whole));
+}
+
+}  // namespace
+
+bool WheelDrive::command(WheelPair speeds, Duration elapsed, const Params& params) noexcept {
+  commanded_ = speeds;
+  rolling_ = {follow(rolling_.left, speeds.left, elapsed, params),
+              follow(rolling_.right, speeds.right, elapsed, params)};
+  sent_ = to_wire(speeds);
+  if (drive_.command(sent_)) return true;
+  commanded_ = {};
+  sent_ = {};
+  return false;
+}
+
+hal::WheelSpeeds to_wire(WheelPair speeds) noexcept {
+  constexpr int32_t kUmPerS = 100;
+  return {saturate16(static_cast<int32_t>(divide_rounded(speeds.left.raw(), kUmPerS))),
+          saturate16(static_cast<int32_t>(divide_rounded(speeds.right.raw(), kUmPerS)))};
+}
+
+}  // namespace whisker::control

@@ -1,0 +1,20 @@
+/// What the robot perceives at a tick.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/perception/echo.hpp"
+#include "firmware/perception/local_grid.hpp"
+
+namespace whisker::perception {
+
+struct Percept {
+  Echoes static_scan{};  ///< consensus of the readings taken since the body stood; pending until then
+  Echoes moving_scan{};  ///< the same while it moves: the median of the last few readings of each beam
+  bool sighted = false;  ///< a reading came at this tick
+  const LocalGrid* local_grid = nullptr;        ///< what is proved free nearby
+  ConeObservation observations[hal::kBeams]{};  ///< of the beams, taken in at this tick
+  uint8_t observed = 0;                         ///< a bit for each beam that has one
+};
+
+}  // namespace whisker::perception

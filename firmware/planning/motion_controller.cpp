@@ -1,0 +1,124 @@
+#include "firmware/planning/motion_controller.hpp"
+
+namespace whisker::planning {
+namespace {
+
+constexpr int32_t kStillPeriods = 3;
+/// Held for as many periods, or readings, a drive is cut: what the guard waits for would have been seen.
+constexpr int32_t kHeldPeriods = 20;
+constexpr int32_t kHeldReadings = 4;
+
+/// The highest speed from which `rest` is enough to stop: v with v^2 / 2a + v * settle = rest.
+Speed approach_speed(Length rest, const Params& params) noexcept {
+  if (rest <= Length{}) return Speed{};
+  const int64_t a = params.wheels.max_acceleration.raw();
+  const int64_t lead = (params.wheels.max_acceleration * params.motion.settle).raw();
+  const uint32_t root = square_root(static_cast<uint64_t>(lead * lead + 2 * a * rest.raw()));
+  return Speed::from_raw(saturate32(static_cast<int64_t>(root) - lead));
+}
+
+Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noexcept {
+  const Speed v = min(approach_speed(abs(rest), params), limit_speed);
+  return rest < Length{} ? -v : v;
+}
+
+Speed fastest_turning(const Params& params) noexcept {
+  return params.wheels.max_turn_rate * (params.body.track / 2);
+}
+
+Duration longest_hold(const Params& params) noexcept {
+  return max(params.safety.period * kHeldPeriods,
+             milliseconds(1000 / params.rangefinders.rate_hz) * kHeldReadings);
+}
+
+void count_while(bool condition, Duration elapsed, Duration& time) noexcept {
+  // It would wrap after 24 days: by then a fault has stopped the robot.
+  const uint32_t longer = static_cast<uint32_t>(time.raw()) + static_cast<uint32_t>(elapsed.raw());
+  time = Duration::from_raw(condition ? static_cast<int32_t>(longer) : 0);
+}
+
+}  // namespace
+
+void MotionController::begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept {
+  if (manoeuvre.kind == ManoeuvreKind::keep) return;
+  const bool cruises_on = manoeuvre.kind == ManoeuvreKind::cruise && current_.kind == ManoeuvreKind::cruise;
+  current_ = manoeuvre;
+  if (cruises_on) return;
+  origin_ = pose.at;
+  finished_ = manoeuvre.kind == ManoeuvreKind::stop;
+  cut_ = settled_ = false;
+  still_for_ = stalled_for_ = waiting_for_ = Duration{};
+  nearest_ = Length::from_raw(INT32_MAX);
+}
+
+void MotionController::approach(Length rest, Duration elapsed) noexcept {
+  count_while(rest >= nearest_, elapsed, waiting_for_);
+  nearest_ = min(nearest_, rest);
+}
+
+VelocityRequest MotionController::request(const Pose& pose, Duration elapsed, Duration held_for,
+                                          const Params& params) noexcept {
+  if (finished_) return {};
+  const Angle error = current_.heading - pose.heading;
+  switch (current_.kind) {
+    case ManoeuvreKind::keep:
+    case ManoeuvreKind::stop: break;
+    case ManoeuvreKind::turn: return turn(error, elapsed, params);
+    case ManoeuvreKind::drive:
+      if (held_for <= longest_hold(params)) return drive(pose, error, elapsed, params);
+      finished_ = cut_ = true;
+      break;
+    case ManoeuvreKind::cruise: return cruise(params);
+  }
+  return {};
+}
+
+/// One that turns faster than the limit is slowed down as a whole: its path stays.
+VelocityRequest MotionController::cruise(const Params& params) const noexcept {
+  const Speed most = fastest_turning(params);
+  const Speed turning = abs(current_.turning);
+  if (turning <= most) return {current_.forward, current_.turning, true};
+  return {Speed::from_raw(multiply_divide(current_.forward.raw(), most.raw(), turning.raw())),
+          limit(current_.turning, most), true};
+}
+
+VelocityRequest MotionController::turn(Angle error, Duration elapsed, const Params& params) noexcept {
+  if (magnitude(error) <= params.motion.turn_tolerance.raw()) {
+    finished_ = true;
+    return {};
+  }
+  const Length way = arc(error, params.body.track / 2);
+  approach(abs(way), elapsed);
+  return {Speed{}, signed_approach(way, min(params.wheels.max_speed, fastest_turning(params)), params), true};
+}
+
+VelocityRequest MotionController::drive(const Pose& pose, Angle error, Duration elapsed,
+                                        const Params& params) noexcept {
+  const Length rest = current_.length - along(pose.at - origin_, current_.heading);
+  if (rest <= params.motion.drive_tolerance) {
+    finished_ = true;
+    return {};
+  }
+  approach(rest, elapsed);
+  const Speed forward = min(approach_speed(rest, params), params.wheels.max_speed);
+  const Speed fastest = min(params.wheels.max_speed, fastest_turning(params));
+  const Speed correction = signed_approach(arc(error, params.body.track / 2), fastest, params);
+  // Half the forward speed at most, so that the correction bends the path and never reverses a wheel.
+  return {forward, limit(correction, forward / 2), true};
+}
+
+void MotionController::settle(const localization::CountStep* counts, bool commanded, Duration elapsed,
+                              const Params& params) noexcept {
+  if (counts == nullptr) {
+    still_for_ = Duration{};
+    settled_ = false;
+    return;
+  }
+  const bool still = counts->left == 0 && counts->right == 0;
+  count_while(still && !commanded, elapsed, still_for_);
+  count_while(still && commanded, elapsed, stalled_for_);
+  settled_ = finished_ && still_for_ >= params.safety.period * kStillPeriods;
+  if (finished_) count_while(!commanded && !settled_, elapsed, waiting_for_);
+}
+
+}  // namespace whisker::planning

@@ -1,0 +1,131 @@
+#include "firmware/safety/supervisor.hpp"
+
+#include "firmware/planning/steering.hpp"
+
+namespace whisker::safety {
+namespace {
+
+// What the wheels still do from before a reset is no one's command.
+constexpr Duration kUnwatched = 500_ms;
+constexpr Length kPlace = 30_mm;  // for the reference body
+// In one place it may wait this many times stalled_after, turn around this often, and cross it this often.
+constexpr int32_t kWaits = 60;
+constexpr int32_t kTurns = 30;
+constexpr int32_t kSteps = 30;
+
+Duration ms_at(Length way, int32_t times, Speed speed) noexcept {
+  return milliseconds(multiply_divide(way.raw(), 1000 * times, speed.raw()));
+}
+
+/// What is done in one place takes less than this.
+Duration longest_stay(const Params& p) noexcept {
+  constexpr int32_t kMicroradians = 6283185;  // a turn
+  const AngularRate rate = min(p.wheels.max_turn_rate, planning::kFastestTurn);
+  const Duration turn = max(milliseconds(multiply_divide(kMicroradians, 1000, rate.raw())),
+                            ms_at(p.body.track * 22 / 7, 1, p.wheels.max_speed));
+  return p.safety.stalled_after * kWaits + turn * kTurns +
+         ms_at(for_body(p, kPlace), kSteps, p.wheels.max_speed);
+}
+
+}  // namespace
+
+Duration braking_time(const Params& p) noexcept {
+  return milliseconds(multiply_divide(p.wheels.max_speed.raw(), 1000, p.wheels.max_acceleration.raw())) +
+         p.wheels.motor_lag * 4;
+}
+
+void Supervisor::configure() noexcept {
+  wheel_watch_.configure(params_);
+  longest_stay_ = longest_stay(params_);
+}
+
+void Supervisor::reset() noexcept {
+  health_.fault = Fault::none;
+  drive_refusals_.reset();
+  encoder_refusals_.reset();
+  wheel_watch_.reset();
+  unwatched_ = kUnwatched;
+}
+
+void Supervisor::fail(Fault fault) noexcept {
+  if (!faulted()) health_.fault = fault;
+}
+
+void Supervisor::fail(Fault fault, uint32_t& counter) noexcept {
+  count(counter);
+  fail(fault);
+}
+
+void Supervisor::check_gap(Duration gap, bool excused) noexcept {
+  if (gap <= Duration{} || (gap > longest_gap(params_) && !excused)) {
+    fail(Fault::clock_jump, health_.clock_jumps);
+  } else if (gap > params_.safety.period + params_.safety.period / 4) {
+    count(health_.late_ticks);
+  }
+}
+
+void Supervisor::check_counts(bool read) noexcept {
+  if (read) {
+    encoder_refusals_.accept();
+    return;
+  }
+  count(health_.encoder_refused);
+  if (encoder_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::drive_refused);
+}
+
+void Supervisor::expect_wheels(WheelPair speeds, Duration elapsed, Duration gap) noexcept {
+  if (unwatched_ > Duration{}) {
+    unwatched_ -= gap;
+  } else {
+    wheel_watch_.expect(speeds, elapsed);
+  }
+}
+
+void Supervisor::check_wheels(const localization::CountStep& step) noexcept {
+  if (faulted() || unwatched_ > Duration{}) return;
+  switch (wheel_watch_.judge(step)) {
+    case WheelWatch::Finding::none: break;
+    case WheelWatch::Finding::stalled: fail(Fault::wheels_stalled, health_.wheel_stalls); break;
+    case WheelWatch::Finding::runaway: fail(Fault::wheel_runaway, health_.wheel_runaways); break;
+  }
+}
+
+void Supervisor::check_ranges(Duration lost) noexcept {
+  if (lost > params_.safety.lost_after) fail(Fault::range_lost);
+}
+
+void Supervisor::check_look(bool waits, Duration stood) noexcept {
+  // Each reading that a look needs may take `lost_after` before the beam is lost, and one is under way.
+  const Duration longest = params_.safety.lost_after * (params_.conditioning.reads + 1);
+  if (waits && stood > longest) fail(Fault::range_unsteady, health_.unsteady_looks);
+}
+
+void Supervisor::check_place(Vec at, bool running, Duration elapsed) noexcept {
+  if (!running || farther(at - place_, for_body(params_, kPlace))) {
+    place_ = at;
+    at_place_for_ = Duration{};
+    return;
+  }
+  at_place_for_ += elapsed;
+  if (at_place_for_ > longest_stay_) fail(Fault::no_progress, health_.no_progress);
+}
+
+void Supervisor::check_motion(const planning::MotionController& motion) noexcept {
+  if (faulted()) return;
+  if (motion.stalled_for() > params_.safety.stalled_after) {
+    fail(Fault::wheels_stalled, health_.wheel_stalls);
+  } else if (motion.waiting_for() > params_.safety.stalled_after) {
+    fail(Fault::no_progress, health_.no_progress);
+  }
+}
+
+void Supervisor::check_command(bool taken) noexcept {
+  if (taken) {
+    drive_refusals_.accept();
+    return;
+  }
+  count(health_.drive_refused);
+  if (drive_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::drive_refused);
+}
+
+}  // namespace whisker::safety

@@ -1,0 +1,62 @@
+#include "firmware/safety/supervisor.hpp"
+
+#include <gtest/gtest.h>
+
+namespace whisker::safety {
+namespace {
+
+/// Seconds that a running robot may stay in one place before that is a fault.
+int longest_stay_s(const Params& params) {
+  Health health;
+  Supervisor supervisor(params, health);
+  supervisor.configure();
+  int seconds = 0;
+  while (!supervisor.faulted() && seconds < 1000000) {
+    supervisor.check_place({}, true, 1000_ms);
+    ++seconds;
+  }
+  EXPECT_EQ(health.fault, Fault::no_progress);
+  EXPECT_EQ(health.no_progress, 1U);
+  return seconds;
+}
+
+TEST(Supervisor, OnePlaceIsLeftInMinutes) {
+  EXPECT_GT(longest_stay_s({}), 60);
+  EXPECT_LT(longest_stay_s({}), 600);
+}
+
+// Wheels of 0.02 m/s, 2 m apart: a turn takes 314 s.
+TEST(Supervisor, SlowWheelsFarApartHaveTheTimeToTurn) {
+  Params params;
+  params.body.track = 2_m;
+  params.body.radius = 1_m;
+  params.wheels.max_speed = 20_mm_per_s;
+  EXPECT_GT(longest_stay_s(params), 20 * 314);
+}
+
+TEST(Supervisor, WhoLeavesThePlaceOrRestsIsNotCounted) {
+  Health health;
+  const Params params;
+  Supervisor supervisor(params, health);
+  supervisor.configure();
+  for (int s = 0; s < 10000; ++s) supervisor.check_place({}, false, 1000_ms);
+  for (int s = 0; s < 10000; ++s)
+    supervisor.check_place({millimetres(s % 100 < 50 ? 0 : 40), {}}, true, 1000_ms);
+  EXPECT_FALSE(supervisor.faulted());
+}
+
+TEST(Supervisor, TheFirstFaultStays) {
+  Health health;
+  const Params params;
+  Supervisor supervisor(params, health);
+  supervisor.configure();
+  supervisor.check_ranges(params.safety.lost_after + 1_ms);
+  supervisor.check_gap({}, false);
+  EXPECT_EQ(health.fault, Fault::range_lost);
+  EXPECT_EQ(health.clock_jumps, 1U) << "counted all the same";
+  supervisor.reset();
+  EXPECT_FALSE(supervisor.faulted());
+}
+
+}  // namespace
+}  // namespace whisker::safety
