@@ -73,7 +73,8 @@ CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
   for (const PlannerKind k : kPlanners) {
     if (map_bytes(k) != 0 && k != PlannerKind::map) continue;
     std::string& list = is_baseline(k) ? baselines : names;
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", name(k));
+    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", name(k),
+                        k == PlannerKind::skirt ? " (or boundary)" : "");
   }
   CLI::Option* const option =
       app.add_option_function<std::string>(

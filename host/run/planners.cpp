@@ -59,6 +59,7 @@ const char* name(PlannerKind kind) {
 }
 
 std::optional<PlannerKind> planner_named(std::string_view text) {
+  if (text == "boundary") return PlannerKind::skirt;
   for (const PlannerKind kind : kPlanners) {
     if (text == name(kind)) return kind;
   }

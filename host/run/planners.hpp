@@ -68,6 +68,7 @@ constexpr bool is_baseline(PlannerKind kind) { return kind >= PlannerKind::bug2;
 
 /// As on the command line: "skirt".
 const char* name(PlannerKind kind);
+/// "boundary" is another name for "skirt".
 std::optional<PlannerKind> planner_named(std::string_view name);
 
 }  // namespace whisker

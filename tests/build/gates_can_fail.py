@@ -18,6 +18,7 @@ import node_versions
 import old_cmake
 import example_compiles
 import readme_layout
+import stages
 import vendor_macros
 import version
 
@@ -217,6 +218,23 @@ class ExampleCompiles(unittest.TestCase):
             "two\nlines",
         ):
             self.assertEqual(self.status(line), 1, line)
+
+
+class Stages(unittest.TestCase):
+    def status(self, text):
+        files = {
+            "scripts/stages.sh": text,
+            "CMakePresets.json": json.dumps({"configurePresets": [{"name": "host"}]}),
+            "tests/a/CMakeLists.txt": "whisker_test(whisker_a_tests\n  SOURCES a.cpp)\n",
+        }
+        return run(stages.main, files)[0]
+
+    def test_accepts_what_is_there(self):
+        self.assertEqual(self.status("stage_x() {\n  build_and_test_core host '^(a|a)$' whisker_a_tests\n}\n"), 0)
+
+    def test_refuses_what_is_not(self):
+        for text in ("  build_and_test_core host '^(a|b)$' whisker_a_tests\n", "  build_and_test guest\n", "  x whisker_b_tests\n"):
+            self.assertEqual(self.status(text), 1, text)
 
 
 class NodeVersions(unittest.TestCase):

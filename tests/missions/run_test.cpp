@@ -97,6 +97,12 @@ TEST(Run, AClosedRoomGivesNoExitOrABudget) {
   EXPECT_EQ(d.complaint, "");
 }
 
+TEST(Planners, AreFoundByTheirNames) {
+  for (const PlannerKind kind : kPlanners) EXPECT_EQ(planner_named(name(kind)), kind) << name(kind);
+  EXPECT_EQ(planner_named("boundary"), PlannerKind::skirt);
+  EXPECT_EQ(planner_named("Boundary"), std::nullopt);
+}
+
 TEST(Run, AFlankThatNoBeamSeesIsNotTouched) {
   // A pole beside the way, behind the cones when the step begins.
   const Drive d =
