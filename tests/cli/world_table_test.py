@@ -127,7 +127,7 @@ class Help(Case):
     def test_names_every_planner_and_which_are_baselines(self):
         for command in ("run", "campaign"):
             text = " ".join(whisker.whisker(command, "--help").stdout.split())
-            self.assertIn(f"Planner: {', '.join(PLANNERS[:2])}, map; baselines: {', '.join(PLANNERS[2:])}", text)
+            self.assertIn(f"Planner: {PLANNERS[0]} (or boundary), {PLANNERS[1]}, map; baselines: {', '.join(PLANNERS[2:])}", text)
 
     def test_version_is_one_line(self):
         done = whisker.whisker("--version")
