@@ -91,6 +91,10 @@ void Robot::reset() noexcept {
 }
 
 const Status& Robot::tick(Time now) noexcept {
+  if (status_.health.fault == Fault::invalid_params) {
+    actuate({});
+    return status_;
+  }
   planning::View view;
   const bool counted = localize(now, view);
   perceive(view);
@@ -100,7 +104,6 @@ const Status& Robot::tick(Time now) noexcept {
 }
 
 bool Robot::localize(Time now, planning::View& view) noexcept {
-  if (status_.health.fault == Fault::invalid_params) return false;
   take_time(now);
   const bool counted = take_counts();
   if (motion_.settled() && !was_settled_) settled_since_ = now;
@@ -159,7 +162,6 @@ bool Robot::take_counts() noexcept {
 }
 
 void Robot::perceive(planning::View& view) noexcept {
-  if (status_.health.fault == Fault::invalid_params) return;
   hal::RangeReadings readings{};
   const bool read = rangefinders_.read(readings);
   perception_.sense(read ? &readings : nullptr, last_tick_, view.pose.heading, params_, status_.health);
@@ -187,7 +189,6 @@ void Robot::plan(const planning::View& view) noexcept {
 }
 
 WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {
-  if (status_.health.fault == Fault::invalid_params) return {};
   const bool fresh = perception_.lost_for(last_tick_) <= params_.conditioning.stale_after;
   if (!fresh && !supervisor_.faulted() && status_.decision.outcome == planning::Outcome::running) {
     status_.decision.why = planning::Why::blind;

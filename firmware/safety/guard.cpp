@@ -58,19 +58,19 @@ WheelPair Guard::step(const planning::VelocityRequest& request, const Pose& pose
     held_for_ = Duration{};
     return slew(wheels.commanded, {}, change);
   }
+  granted_ = Q14{};
+  WheelPair command = slew(wheels.commanded, {}, change);
   for (const Q14 factor : kFactors) {
     const WheelPair want =
         inverse_kinematics(request.forward * factor, request.turning, params.wheels.max_speed);
-    const WheelPair command = slew(wheels.commanded, want, change);
-    if (!free(command, pose, wheels, grid, params)) continue;
+    const WheelPair next = slew(wheels.commanded, want, change);
+    if (!free(next, pose, wheels, grid, params)) continue;
     granted_ = factor;
-    const bool held = factor == Q14{} && request.forward != Speed{};
-    held_for_ = held ? min(held_for_ + elapsed, kCounted) : Duration{};
-    return command;
+    command = next;
+    break;
   }
-  granted_ = Q14{};
-  held_for_ = min(held_for_ + elapsed, kCounted);
-  return slew(wheels.commanded, {}, change);
+  held_for_ = granted_ == Q14{} ? min(held_for_ + elapsed, kCounted) : Duration{};
+  return command;
 }
 
 }  // namespace whisker::safety

@@ -15,7 +15,6 @@ STAGES = ("version", "math", "health", "params", "fuzzy", "localization", "perce
 HAL_OF_STAGE = {
     "localization": {"hal/types.hpp"},
     "perception": {"hal/types.hpp"},
-    "safety": {"hal/types.hpp"},
     "control": {"hal/types.hpp", "hal/drive.hpp"},
     "can": {"hal/types.hpp", "hal/can_port.hpp"},
     "robot": {"hal/types.hpp", "hal/rangefinders.hpp", "hal/drive.hpp"},

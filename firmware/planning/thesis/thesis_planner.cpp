@@ -27,15 +27,11 @@ void ThesisPlanner::start(const View&) noexcept {
 }
 
 void ThesisPlanner::advance(const View& view) noexcept {
-  if (phase_ == Phase::scan) {
-    scan(view);
-    return;
-  }
-  if (!view.settled) return;
+  if (!view.settled && phase_ != Phase::scan) return;
   switch (phase_) {
     case Phase::at_position: arrive_at_position(view); break;
     case Phase::move: end_step(view); break;
-    case Phase::scan: break;
+    case Phase::scan: scan(view); break;
     case Phase::face_again: drive(rest_of_step(view)); break;
     case Phase::face:
       if (sees(view)) choose(view);
