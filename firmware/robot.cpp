@@ -110,6 +110,7 @@ bool Robot::localize(Time now, planning::View& view) noexcept {
   was_settled_ = motion_.settled();
   const WheelPair rolling = wheels_.state().rolling;
   view.pose = odometry_.pose();
+  view.travelled_um = odometry_.travelled_um();
   view.elapsed = elapsed_;
   view.settled = was_settled_;
   view.cut = motion_.cut();

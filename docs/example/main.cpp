@@ -1,5 +1,5 @@
 // A whole firmware around the core: three drivers, the parameters of the robot, and a loop.
-#include "firmware/planning/boundary/boundary_planner.hpp"
+#include "firmware/planning/boundary/table_boundary_planner.hpp"
 #include "firmware/robot.hpp"
 #include "hal/clock.hpp"
 

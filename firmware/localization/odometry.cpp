@@ -47,6 +47,7 @@ bool Odometry::update(const hal::EncoderCounts& counts, Duration since, CountSte
   const uint64_t turned = magnitude(difference_) * turn_per_count_;
   const Angle size = Angle::from_raw(static_cast<uint32_t>(turned >> 16));
   const Angle before = heading_;
+  const Vec from = pose().at;
   heading_ = start_heading_ + (difference_ < 0 ? -size : size);
 
   const Angle change = heading_ - before;
@@ -55,6 +56,7 @@ bool Odometry::update(const hal::EncoderCounts& counts, Duration since, CountSte
   const int64_t distance_q10 = scale_down<7>(both);
   x_ += scale_down<24>(distance_q10 * cos(middle).raw());
   y_ += scale_down<24>(distance_q10 * sin(middle).raw());
+  travelled_um_ += norm(pose().at - from).raw();
   return true;
 }
 

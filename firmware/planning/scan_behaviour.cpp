@@ -11,7 +11,9 @@ constexpr Angle kAimed = 5_deg;
 
 }  // namespace
 
-void ScanBehaviour::begin(Manoeuvre& manoeuvre) noexcept {
+void ScanBehaviour::begin(Angle heading, Length length, Manoeuvre& manoeuvre) noexcept {
+  heading_ = heading;
+  length_ = length;
   in_vain_ = false;
   aimed_for_ = Duration{};
   halt(manoeuvre);
@@ -22,10 +24,9 @@ void ScanBehaviour::halt(Manoeuvre& manoeuvre) noexcept {
   manoeuvre = stop();
 }
 
-bool ScanBehaviour::step(const View& view, Angle heading, Length length, const Params& params,
-                         Manoeuvre& manoeuvre) noexcept {
+bool ScanBehaviour::step(const View& view, const Params& params, Manoeuvre& manoeuvre) noexcept {
   Angle turn;
-  if (!turn_to_unseen(view, heading, length, view.pose.heading, params, turn)) return true;
+  if (!turn_to_unseen(view, heading_, length_, view.pose.heading, params, turn)) return true;
   if (magnitude(turn) <= nearest_facing(kAimed, params).raw()) aimed_for_ += view.elapsed;
   in_vain_ = aimed_for_ > params.safety.stalled_after;
   if (in_vain_) return true;

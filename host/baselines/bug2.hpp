@@ -2,7 +2,7 @@
 /// moving amidst unknown obstacles of arbitrary shape", Algorithmica 2, 1987.
 #pragma once
 
-#include "host/baselines/walker.hpp"
+#include "host/baselines/leave_rule.hpp"
 
 namespace whisker::baselines {
 
@@ -13,21 +13,22 @@ namespace whisker::baselines {
 ///
 /// A body is no point: it meets the m-line where its centre crosses it or comes within 30 mm, and nearer is
 /// nearer by 30 mm. A boundary that it loses begins a new m-line.
-class Bug2 final : public Walker {
+class Bug2 final : public LeaveRule {
  public:
-  explicit Bug2(const Params& params) noexcept : Walker(params) {}
+  /// The parameters must outlive it.
+  explicit Bug2(const Params& params) noexcept : params_(params) {}
+
+  void begin(const planning::View& view, const planning::Target& target) override;
+  Angle course(const planning::View& view, const planning::Target& target) const override;
+  planning::Side hit(const planning::View& view, const planning::Target& target) override;
+  bool may_leave(const planning::View& view, const planning::Target& target) override;
+  Length free_to_leave(const planning::View&) const override { return for_body(params_, 60_mm); }
 
  private:
-  void begin(const planning::View& view) override;
-  Angle course(const planning::View& view) const override;
-  planning::Side hit(const planning::View& view) override;
-  bool may_leave(const planning::View& view) override;
-  Length free_to_leave(const planning::View&) const override { return for_body(params(), 60_mm); }
-  bool can_tell_unreachable() const override { return true; }
-
   /// How far the body is along the m-line and to the left of it.
   Vec on_line(const planning::View& view) const;
 
+  const Params& params_;
   Vec from_;
   Angle line_;  ///< direction
   Length length_;

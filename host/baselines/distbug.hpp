@@ -2,7 +2,7 @@
 /// Transactions on Robotics and Automation 13 (6), 1997.
 #pragma once
 
-#include "host/baselines/walker.hpp"
+#include "host/baselines/leave_rule.hpp"
 
 namespace whisker::baselines {
 
@@ -12,17 +12,18 @@ namespace whisker::baselines {
 ///
 /// F is what a beam within 6 degrees of the goal's direction sees, less the body, or what the local grid
 /// proves. d_min is kept over the boundaries: the paper's rule gives the same where F is exact.
-class DistBug final : public Walker {
+class DistBug final : public LeaveRule {
  public:
-  explicit DistBug(const Params& params) noexcept : Walker(params) {}
+  /// The parameters must outlive it.
+  explicit DistBug(const Params& params) noexcept : params_(params) {}
+
+  void begin(const planning::View& view, const planning::Target& target) override;
+  Angle course(const planning::View& view, const planning::Target& target) const override;
+  planning::Side hit(const planning::View& view, const planning::Target& target) override;
+  bool may_leave(const planning::View& view, const planning::Target& target) override;
 
  private:
-  void begin(const planning::View& view) override;
-  Angle course(const planning::View& view) const override;
-  planning::Side hit(const planning::View& view) override;
-  bool may_leave(const planning::View& view) override;
-  bool can_tell_unreachable() const override { return true; }
-
+  const Params& params_;
   Length least_;  ///< d_min
 };
 

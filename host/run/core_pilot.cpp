@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "firmware/planning/boundary/boundary_planner.hpp"
+#include "firmware/planning/boundary/table_boundary_planner.hpp"
 #include "firmware/planning/global/map_planner.hpp"
 #include "firmware/planning/thesis/thesis_planner.hpp"
 #include "host/run/spec.hpp"

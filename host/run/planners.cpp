@@ -2,6 +2,7 @@
 
 #include "host/baselines/bends.hpp"
 #include "host/baselines/bug2.hpp"
+#include "host/baselines/bug_planner.hpp"
 #include "host/baselines/distbug.hpp"
 #include "host/baselines/wall_follower.hpp"
 #include "host/run/core_pilot.hpp"
@@ -9,11 +10,11 @@
 namespace whisker {
 namespace {
 
-/// The planner and the law that bends its course live and die together.
-template <class Bend>
-std::shared_ptr<planning::Planner> bent_skirt(const Params& params) {
-  const auto skirt = std::make_shared<baselines::DeflectedBoundaryPlanner<Bend>>(params);
-  return {skirt, &skirt->planner};
+/// A planner that lives and dies together with the rule or the law that is its member.
+template <class Whole>
+std::shared_ptr<planning::Planner> planner_of(const Params& params) {
+  const auto whole = std::make_shared<Whole>(params);
+  return {whole, &whole->planner};
 }
 
 }  // namespace
@@ -27,11 +28,14 @@ SeenPlanner make_seen_planner(PlannerKind kind, const Params& params) {
     case PlannerKind::map_4096:
     case PlannerKind::map_8192:
     case PlannerKind::map_16384: return make_core_planner(kind, params, fuzzy::kDefaultTable);
-    case PlannerKind::bug2: return {std::make_shared<baselines::Bug2>(params)};
-    case PlannerKind::distbug: return {std::make_shared<baselines::DistBug>(params)};
-    case PlannerKind::wall_follower: return {std::make_shared<baselines::WallFollower>(params)};
-    case PlannerKind::fan: return {bent_skirt<baselines::NoDeflection>(params)};
-    case PlannerKind::repulsion: return {bent_skirt<baselines::RepulsionDeflection>(params)};
+    case PlannerKind::bug2: return {planner_of<baselines::RuledPlanner<baselines::Bug2>>(params)};
+    case PlannerKind::distbug: return {planner_of<baselines::RuledPlanner<baselines::DistBug>>(params)};
+    case PlannerKind::wall_follower:
+      return {planner_of<baselines::RuledPlanner<baselines::WallFollower>>(params)};
+    case PlannerKind::fan:
+      return {planner_of<baselines::DeflectedBoundaryPlanner<baselines::NoDeflection>>(params)};
+    case PlannerKind::repulsion:
+      return {planner_of<baselines::DeflectedBoundaryPlanner<baselines::RepulsionDeflection>>(params)};
   }
   return {};
 }

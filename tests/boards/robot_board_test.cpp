@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "firmware/planning/boundary/boundary_planner.hpp"
+#include "firmware/planning/boundary/table_boundary_planner.hpp"
 #include "hal/boards/common/counts.hpp"
 #include "hal/boards/stm32f405/pins.hpp"
 #include "hal/boards/stm32f405/robot_params.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "firmware/planning/boundary/boundary_planner.hpp"
+#include "firmware/planning/boundary/table_boundary_planner.hpp"
 #include "firmware/robot.hpp"
 #include "host/run/runner.hpp"
 #include "host/run/sim_world.hpp"

@@ -30,7 +30,7 @@ struct Turner {
   bool look(Angle along, const World& world) {
     ScanBehaviour look;
     Manoeuvre m;
-    look.begin(m);
+    look.begin(along, ground.local_grid().reach().probe, m);
     const Params& params = ground.params();
     for (; ticks < 1000; ++ticks) {
       if (m.kind == ManoeuvreKind::stop) ++stops;
@@ -43,7 +43,7 @@ struct Turner {
         ground.mark(axis, shown.reach, shown.hit, !turns);
       }
       m.kind = turns ? ManoeuvreKind::cruise : ManoeuvreKind::keep;
-      if (look.step(ground.view(heading), along, ground.local_grid().reach().probe, params, m)) return true;
+      if (look.step(ground.view(heading), params, m)) return true;
     }
     return false;
   }
@@ -84,17 +84,17 @@ TEST(ScanBehaviour, StopsBeforeItTurnsAndAsksForNothingMoreWhileItStands) {
   Ground g;
   ScanBehaviour look;
   Manoeuvre m;
-  look.begin(m);
+  look.begin(0_deg, 150_mm, m);
   EXPECT_EQ(m.kind, ManoeuvreKind::stop);
   Angle turn;
   ASSERT_TRUE(turn_to_unseen(g.view(), 0_deg, 150_mm, 0_deg, g.params(), turn));
   const View aimed = g.view(turn);
   m = {};
-  EXPECT_FALSE(look.step(aimed, 0_deg, 150_mm, g.params(), m));
+  EXPECT_FALSE(look.step(aimed, g.params(), m));
   EXPECT_EQ(m.kind, ManoeuvreKind::keep);
-  EXPECT_FALSE(look.step(g.view(turn + 90_deg), 0_deg, 150_mm, g.params(), m));
+  EXPECT_FALSE(look.step(g.view(turn + 90_deg), g.params(), m));
   EXPECT_EQ(m.kind, ManoeuvreKind::cruise);
-  EXPECT_FALSE(look.step(aimed, 0_deg, 150_mm, g.params(), m));
+  EXPECT_FALSE(look.step(aimed, g.params(), m));
   EXPECT_EQ(m.kind, ManoeuvreKind::stop) << "it arrived: to be proved, a look stands";
 }
 

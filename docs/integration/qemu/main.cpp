@@ -1,5 +1,5 @@
 // A robot on an emulated chip, alone in an empty world: its wheels do at once what they are told.
-#include "firmware/planning/boundary/boundary_planner.hpp"
+#include "firmware/planning/boundary/table_boundary_planner.hpp"
 #include "firmware/robot.hpp"
 #include "hal/board.hpp"
 

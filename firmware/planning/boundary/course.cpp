@@ -1,6 +1,5 @@
 #include "firmware/planning/boundary/course.hpp"
 
-#include "firmware/fuzzy/scale.hpp"
 #include "firmware/planning/candidate_headings.hpp"
 
 namespace whisker::planning {
@@ -17,15 +16,6 @@ constexpr Length kRoom = 30_mm;
 constexpr int32_t kRoomSteps = 6;  // to 45 degrees
 
 }  // namespace
-
-Angle TableDeflection::bend(const perception::Echoes& sight, const Params& params,
-                            Decision& decision) noexcept {
-  decision.inputs = fuzzy::scale(sight.beam[hal::kLeft].distance, sight.beam[hal::kFront].distance,
-                                 sight.beam[hal::kRight].distance, params.rangefinders.max_range,
-                                 params.thesis.distance_source);
-  decision.response = engine_(decision.inputs);
-  return scaled(params.thesis.base_turn, decision.response.turn);
-}
 
 /// Bends quickly and straightens slowly, so that the course does not swing about what it passes.
 void Course::bend_towards(Angle wanted) noexcept {

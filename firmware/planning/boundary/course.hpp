@@ -1,7 +1,6 @@
 /// The heading towards the goal: the response table's, or the first one beside it that is not blocked.
 #pragma once
 
-#include "firmware/fuzzy/engine.hpp"
 #include "firmware/params.hpp"
 #include "firmware/planning/boundary/side.hpp"
 #include "firmware/planning/planner.hpp"
@@ -17,16 +16,6 @@ class HeadingDeflection {
 
  protected:
   ~HeadingDeflection() = default;
-};
-
-/// The thesis's: SA x base angle, by the response table.
-class TableDeflection final : public HeadingDeflection {
- public:
-  explicit TableDeflection(const fuzzy::Engine::Table& table) noexcept : engine_(table) {}
-  Angle bend(const perception::Echoes& sight, const Params& params, Decision& decision) noexcept override;
-
- private:
-  fuzzy::Engine engine_;
 };
 
 class Course {

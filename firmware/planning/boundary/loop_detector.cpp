@@ -12,23 +12,27 @@ constexpr uint64_t kDegree = (1_deg).raw();
 
 }  // namespace
 
-void LoopDetector::begin(Vec at, const Params& params) noexcept {
+void LoopDetector::begin(const View& view, const Params& params) noexcept {
   *this = LoopDetector{};
-  at_ = at;
+  at_ = view.pose.at;
+  last_ = view.pose.heading;
+  began_um_ = view.travelled_um;
   scale_ = for_body(params, 100_mm);
 }
 
-void LoopDetector::move(const Pose& pose, Length travel, Angle turn) noexcept {
-  travel_um_ += travel.raw();
-  turned_ += turn.wrapped();
-  farthest_ = max(farthest_, norm(pose.at - at_));
+void LoopDetector::move(const View& view) noexcept {
+  turned_ += (view.pose.heading - last_).wrapped();
+  last_ = view.pose.heading;
+  farthest_ = max(farthest_, norm(view.pose.at - at_));
   if (farthest_ > scale_ * 3) left_ = true;
 }
 
-bool LoopDetector::closed(const Pose& pose) const noexcept {
+bool LoopDetector::closed(const View& view) const noexcept {
   if (!left_ || magnitude(turned_) < 300 * kDegree) return false;
-  const Length near = min(scale_ * 7 / 2, scale_ * 3 / 2 + Length::from_raw(saturate32(travel_um_ / kDrift)));
-  return norm(pose.at - at_) < near && magnitude(pose.heading - heading_) < (90_deg).raw();
+  const Length near =
+      min(scale_ * 7 / 2,
+          scale_ * 3 / 2 + Length::from_raw(saturate32((view.travelled_um - began_um_) / kDrift)));
+  return norm(view.pose.at - at_) < near && magnitude(view.pose.heading - heading_) < (90_deg).raw();
 }
 
 bool LoopDetector::may_part(Vec from, Vec to, Side wall) const noexcept {
@@ -36,10 +40,10 @@ bool LoopDetector::may_part(Vec from, Vec to, Side wall) const noexcept {
   return norm((within ? from : to) - at_) <= farthest_;
 }
 
-bool LoopDetector::strays(const Pose& pose) noexcept {
+bool LoopDetector::strays(const View& view) noexcept {
   if (magnitude(turned_) < 360 * kDegree * static_cast<uint64_t>(laps_ + 1)) return false;
-  const bool again = laps_ == kMostLaps || (laps_ > 0 && norm(pose.at - lap_at_) < scale_ * 7 / 2);
-  lap_at_ = pose.at;
+  const bool again = laps_ == kMostLaps || (laps_ > 0 && norm(view.pose.at - lap_at_) < scale_ * 7 / 2);
+  lap_at_ = view.pose.at;
   ++laps_;
   return again;
 }

@@ -1,4 +1,4 @@
-/// What the body has done since it met an obstacle: whether it has come round it.
+/// Whether the body has come round the obstacle that it follows.
 #pragma once
 
 #include <stdint.h>
@@ -6,36 +6,40 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
 #include "firmware/planning/boundary/side.hpp"
+#include "firmware/planning/planner.hpp"
 
 namespace whisker::planning {
 
 class LoopDetector {
  public:
-  /// The obstacle is met here; the edge is followed from this heading on.
-  void begin(Vec at, const Params& params) noexcept;
+  /// The obstacle is met here;
+  void begin(const View& view, const Params& params) noexcept;
+  /// its edge is followed from this heading on.
   void head(Angle heading) noexcept { heading_ = heading; }
   /// Once a tick.
-  void move(const Pose& pose, Length travel, Angle turn) noexcept;
+  void move(const View& view) noexcept;
 
-  /// Back where it began, the same way, after a whole turn: nothing in between was a way.
-  bool closed(const Pose& pose) const noexcept;
-  /// Whether what was gone round, with the wall on this side, can be between `from` and `to`: it has `to` in
-  /// its middle, or, seen from within, `from`. Places are told apart by how far the circuit reached.
+  /// Back where it began, with the same heading, after a whole turn: nothing in between was a way.
+  bool closed(const View& view) const noexcept;
+  /// Whether the followed boundary, with the wall on this side, can separate `from` from `to`: `to` lies
+  /// within the loop, or, if the wall is all around, `from` does. Within is what is no farther from the
+  /// beginning than the loop reached.
   bool may_part(Vec from, Vec to, Side wall) const noexcept;
-  /// Round and round without ever coming by the beginning: this is not what was met. Two laps that end in one
-  /// place, or four. Ask once a tick.
-  bool strays(const Pose& pose) noexcept;
+  /// Whole turns that never pass the beginning: this is another obstacle. True after two laps that end in one
+  /// place, or after four. Ask once a tick.
+  bool strays(const View& view) noexcept;
 
  private:
   Vec at_;
   Length scale_;  // what 100 mm are to the reference body
   Angle heading_;
-  bool left_ = false;      // has been away from the beginning
-  Length farthest_;        // from the beginning
-  int64_t travel_um_ = 0;  // since the beginning
-  int64_t turned_ = 0;     // 2^-32 turn, counter-clockwise positive
-  int32_t laps_ = 0;       // whole turns so far
-  Vec lap_at_;             // where the last of them ended
+  bool left_ = false;     // has been away from the beginning
+  Length farthest_;       // from the beginning
+  int64_t began_um_ = 0;  // View::travelled_um at the beginning
+  Angle last_;            // the heading of the tick before
+  int64_t turned_ = 0;    // 2^-32 turn, counter-clockwise positive
+  int32_t laps_ = 0;      // whole turns so far
+  Vec lap_at_;            // where the last of them ended
 };
 
 }  // namespace whisker::planning

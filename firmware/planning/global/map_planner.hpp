@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "firmware/planning/boundary/boundary_planner.hpp"
+#include "firmware/planning/boundary/table_boundary_planner.hpp"
 #include "firmware/planning/global/wavefront_planner.hpp"
 
 namespace whisker::planning {

@@ -35,8 +35,8 @@ void WavefrontPlanner::start(const View& view, const Goal& goal) noexcept {
   active_ = true;
   refusals_ = spells_ = 0;
   best_.reset();
-  last_ = view.pose.at;
-  travel_mm_ = travel_rest_um_ = improved_mm_ = 0;
+  started_um_ = view.travelled_um;
+  travel_mm_ = improved_mm_ = 0;
   for (Barrier& b : barrier_) b = {};
 }
 
@@ -47,10 +47,7 @@ void WavefrontPlanner::move_goal(Vec at) noexcept {
 }
 
 void WavefrontPlanner::observe(const View& view) noexcept {
-  travel_rest_um_ += norm(view.pose.at - last_).raw();
-  travel_mm_ += travel_rest_um_ / 1000;
-  travel_rest_um_ %= 1000;
-  last_ = view.pose.at;
+  travel_mm_ = static_cast<int32_t>((view.travelled_um - started_um_) / 1000);
   const Length distance = norm(goal_.at - view.pose.at);
   if (distance < best_.distance() - reference(kProgress)) {
     best_.set(view.pose.at, distance);

@@ -58,7 +58,8 @@ void ThesisPlanner::end_step(const View& view) noexcept {
     scanned_at_ = view.pose.at;
     phase_ = Phase::scan;
     tell(Mode::looking, Why::unknown_ahead);
-    scan_.begin(decision_.manoeuvre);
+    scan_.begin(base_ + deflection(), min(rest_of_step(view), view.local_grid->reach().probe),
+                decision_.manoeuvre);
     return;
   }
   scanned_ = false;
@@ -70,11 +71,9 @@ void ThesisPlanner::end_step(const View& view) noexcept {
 }
 
 void ThesisPlanner::scan(const View& view) noexcept {
-  const Length length = min(rest_of_step(view), view.local_grid->reach().probe);
-  const Angle heading = base_ + deflection();
-  if (!scan_.step(view, heading, length, params_, decision_.manoeuvre)) return;
+  if (!scan_.step(view, params_, decision_.manoeuvre)) return;
   phase_ = Phase::face_again;
-  turn_to(heading);
+  turn_to(base_ + deflection());
 }
 
 bool ThesisPlanner::sees(const View& view) noexcept {

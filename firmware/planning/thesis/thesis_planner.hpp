@@ -6,12 +6,13 @@
 ///                        +-> searching ---------+---> skirting -> facing ...          (t > 0)
 ///
 /// Source: "Simulation Implementation of Path Planning Algorithm Based on Fuzzy Control"; docs/navigation.md
-/// says what is the thesis's and what had to be reconstructed. It is the baseline: it can touch what
-/// no beam sees, and it can walk into the same trap for ever until its budget ends.
+/// says what is the thesis's and what had to be reconstructed. It is the baseline: it can walk into
+/// the same trap again and again until its budget ends.
 #pragma once
 
 #include <stdint.h>
 
+#include "firmware/fuzzy/engine.hpp"
 #include "firmware/params.hpp"
 #include "firmware/planning/goal_planner.hpp"
 #include "firmware/planning/scan_behaviour.hpp"

@@ -1,4 +1,4 @@
-#include "firmware/planning/boundary/course.hpp"
+#include "firmware/planning/boundary/table_boundary_planner.hpp"
 
 #include <gtest/gtest.h>
 

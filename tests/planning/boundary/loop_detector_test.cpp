@@ -17,30 +17,31 @@ class Round {
   Round(LoopDetector& circuit, Length radius) : loop_(circuit), radius_(radius) { place(); }
 
   void begin() {
-    loop_.begin(pose_.at, Params{});
-    loop_.head(pose_.heading);
+    loop_.begin(view_, Params{});
+    loop_.head(view_.pose.heading);
   }
   /// One degree further; the circle's centre may drift.
   void drive(Vec drift = {}) {
-    const Pose before = pose_;
+    const Vec before = view_.pose.at;
     centre_ = centre_ + drift;
     ++deg_;
     place();
-    loop_.move(pose_, norm(pose_.at - before.at), pose_.heading - before.heading);
+    view_.travelled_um += norm(view_.pose.at - before).raw();
+    loop_.move(view_);
   }
   void jump(Vec by) {
     centre_ = centre_ + by;
     place();
   }
-  const Pose& pose() const { return pose_; }
+  const View& view() const { return view_; }
 
  private:
-  void place() { pose_ = {centre_ + polar(degrees(deg_) - 90_deg, radius_), degrees(deg_)}; }
+  void place() { view_.pose = {centre_ + polar(degrees(deg_) - 90_deg, radius_), degrees(deg_)}; }
   LoopDetector& loop_;
   Length radius_;
   Vec centre_;
   int deg_ = 0;
-  Pose pose_;
+  View view_;
 };
 
 TEST(LoopDetector, ClosesWhereItBeganAfterAWholeTurn) {
@@ -51,7 +52,7 @@ TEST(LoopDetector, ClosesWhereItBeganAfterAWholeTurn) {
     int closed = 0;
     for (int deg = 1; deg <= 380 && closed == 0; ++deg) {
       round.drive();
-      if (circuit.closed(round.pose())) closed = deg;
+      if (circuit.closed(round.view())) closed = deg;
     }
     EXPECT_GE(closed, 300);
     EXPECT_LE(closed, 360);
@@ -64,7 +65,7 @@ TEST(LoopDetector, DoesNotCloseOnTheSpot) {
   round.begin();
   for (int deg = 1; deg <= 1000; ++deg) {
     round.drive();
-    EXPECT_FALSE(circuit.closed(round.pose())) << deg;
+    EXPECT_FALSE(circuit.closed(round.view())) << deg;
   }
 }
 
@@ -72,21 +73,25 @@ TEST(LoopDetector, DoesNotCloseTheOtherWayRound) {
   LoopDetector circuit;
   Round round(circuit, 500_mm);
   round.begin();
-  circuit.head(round.pose().heading + 180_deg);
+  circuit.head(round.view().pose.heading + 180_deg);
   for (int deg = 1; deg <= 720; ++deg) {
     round.drive();
-    EXPECT_FALSE(circuit.closed(round.pose())) << deg;
+    EXPECT_FALSE(circuit.closed(round.view())) << deg;
   }
 }
 
 TEST(LoopDetector, DoesNotCloseWithoutAWholeTurn) {
   LoopDetector circuit;
-  const Pose here;
-  circuit.begin(here.at, Params{});
+  View view;
+  const Pose here = view.pose;
+  circuit.begin(view, Params{});
   circuit.head(here.heading);
-  circuit.move({{1_m, 0_mm}, {}}, 1_m, {});
-  circuit.move(here, 1_m, {});
-  EXPECT_FALSE(circuit.closed(here));
+  for (const Pose& at : {Pose{{1_m, 0_mm}, {}}, here}) {
+    view.pose = at;
+    view.travelled_um += 1000000;
+    circuit.move(view);
+  }
+  EXPECT_FALSE(circuit.closed(view));
 }
 
 // It was met elsewhere: this is another obstacle.
@@ -98,8 +103,8 @@ TEST(LoopDetector, StraysRoundSomethingElse) {
   int strays = 0;
   for (int deg = 1; deg <= 1000 && strays == 0; ++deg) {
     round.drive();
-    EXPECT_FALSE(circuit.closed(round.pose()));
-    if (circuit.strays(round.pose())) strays = deg;
+    EXPECT_FALSE(circuit.closed(round.view()));
+    if (circuit.strays(round.view())) strays = deg;
   }
   EXPECT_NEAR(strays, 720, 2) << "two laps that end in one place";
 }
@@ -111,7 +116,7 @@ TEST(LoopDetector, DoesNotStrayWhileItGetsOn) {
   int strays = 0;
   for (int deg = 1; deg <= 2000 && strays == 0; ++deg) {
     round.drive({2_mm, 0_mm});
-    if (circuit.strays(round.pose())) strays = deg;
+    if (circuit.strays(round.view())) strays = deg;
   }
   EXPECT_NEAR(strays, 1440, 2) << "so many laps are none of a spiral";
 }

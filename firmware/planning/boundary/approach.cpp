@@ -1,0 +1,118 @@
+#include "firmware/planning/boundary/approach.hpp"
+
+#include "firmware/planning/candidate_headings.hpp"
+#include "firmware/planning/steering.hpp"
+
+namespace whisker::planning {
+namespace {
+
+constexpr int32_t kCheapTurn = static_cast<int32_t>((25_deg).raw());
+constexpr Q14 kHindered = Q14::ratio(9, 10);
+constexpr Q14 kAll = Q14::ratio(1, 1);
+
+Angle limited(Angle turn, int32_t most) noexcept {
+  const int32_t wrapped = turn.wrapped();
+  return Angle::from_raw(static_cast<uint32_t>(wrapped > most ? most : wrapped < -most ? -most : wrapped));
+}
+
+}  // namespace
+
+void Approach::start(const View& view, const Goal& goal) noexcept {
+  closest_.reset();
+  guided_ = false;
+  begin();
+  if (guide_ != nullptr) guide_->start(view, goal);
+}
+
+void Approach::move_goal(Vec at) noexcept {
+  closest_.follow(at);
+  if (guide_ != nullptr) guide_->move_goal(at);
+}
+
+void Approach::observe(const View& view) noexcept {
+  if (guide_ != nullptr) guide_->observe(view);
+}
+
+void Approach::begin() noexcept {
+  phase_ = Phase::drive;
+  course_.reset();
+  stuck_.reset();
+}
+
+bool Approach::step(const View& view, const Target& target, Side& wall, Decision& decision) noexcept {
+  switch (phase_) {
+    case Phase::drive: return drive(view, target, wall, decision);
+    case Phase::scan: return scan(view, decision);
+    case Phase::brake:
+      if (view.settled) on(Event::settled, decision);
+      break;
+  }
+  return true;
+}
+
+void Approach::on(Event event, Decision& decision) noexcept {
+  change(kTransitions, event, phase_, decision);
+  if (event != Event::settled && event != Event::in_vain) progress_.pause();
+  stuck_.reset();
+}
+
+bool Approach::drive(const View& view, const Target& target, Side& wall, Decision& decision) noexcept {
+  if (target.distance < closest()) measure_anew(view, target.distance);
+  Vec to = target.to;
+  if (guide_ != nullptr && advised(view, target.distance, to, decision)) return true;
+  if (view.sighted && !course_.choose(view, to, law_, params_, wall, decision)) {
+    if (guided_ && guide_->refuse(view)) {
+      course_.reset();
+      on(Event::refused, decision);
+      decision.manoeuvre = stop();
+      return true;
+    }
+    if (guided_) measure_anew(view, target.distance);
+    guided_ = false;
+    return false;
+  }
+  Angle heading = course_.heading();
+  const Length length = min(view.local_grid->reach().probe, norm(to));
+  if (stuck_.stalled(view, patience(params_), params_)) {
+    on(Event::unknown, decision);
+    scan_.begin(heading, length, decision.manoeuvre);
+    return true;
+  }
+  // Held back by something unseen: a small turn may already show it.
+  Angle aside;
+  if (view.granted < kHindered && turn_to_unseen(view, heading, length, heading, params_, aside)) {
+    heading += limited(aside, kCheapTurn);
+  }
+  decision.manoeuvre = cruise(steer(heading - view.pose.heading, params_.wheels.max_speed), params_);
+  return true;
+}
+
+bool Approach::advised(const View& view, Length distance, Vec& to, Decision& decision) noexcept {
+  const GlobalPlanner::Advice advice = guide_->advise(view, distance, to);
+  // It may have led away from the goal: what comes now is measured anew.
+  if (guided_ && advice == GlobalPlanner::Advice::none) measure_anew(view, distance);
+  guided_ = advice != GlobalPlanner::Advice::none;
+  if (advice != GlobalPlanner::Advice::wait) return false;
+  decision.manoeuvre = stop();
+  stuck_.reset();
+  return true;
+}
+
+bool Approach::scan(const View& view, Decision& decision) noexcept {
+  if (!scan_.step(view, params_, decision.manoeuvre)) return true;
+  decision.looked = true;
+  const bool shown = !scan_.in_vain();
+  on(shown ? Event::scanned : Event::in_vain, decision);
+  return shown;
+}
+
+bool Approach::yields(const View& view, const Decision& decision) const noexcept {
+  switch (phase_) {
+    case Phase::drive: return view.granted < kAll || decision.why == Why::narrow;
+    case Phase::scan: return true;
+    case Phase::brake: break;
+  }
+  return view.granted < kAll;
+}
+
+}  // namespace whisker::planning

@@ -1,0 +1,84 @@
+/// The way to the goal in free space: by the response table, or where a global planner says.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/params.hpp"
+#include "firmware/planning/boundary/course.hpp"
+#include "firmware/planning/boundary/progress_checker.hpp"
+#include "firmware/planning/boundary/side.hpp"
+#include "firmware/planning/boundary/stuck_detector.hpp"
+#include "firmware/planning/boundary/target.hpp"
+#include "firmware/planning/closest_approach.hpp"
+#include "firmware/planning/global/global_planner.hpp"
+#include "firmware/planning/scan_behaviour.hpp"
+#include "firmware/planning/transition.hpp"
+
+namespace whisker::planning {
+
+class Approach {
+ public:
+  enum class Phase : uint8_t {
+    drive,  ///< towards the goal
+    scan,   ///< turns a beam onto what is unknown in the way
+    brake,  ///< comes to rest: the global planner plans anew
+  };
+  enum class Event : uint8_t { unknown, scanned, in_vain, refused, settled };
+
+  static constexpr Transition<Phase, Event> kTransitions[] = {
+      {Phase::drive, Event::unknown, Phase::scan, Mode::looking, Why::unknown_ahead},
+      {Phase::scan, Event::scanned, Phase::drive, Mode::going},
+      {Phase::scan, Event::in_vain, Phase::drive},
+      {Phase::drive, Event::refused, Phase::brake},
+      {Phase::brake, Event::settled, Phase::drive},
+  };
+
+  /// The references must outlive it, and so must the guide, if there is one.
+  Approach(const Params& params, HeadingDeflection& law, GlobalPlanner* guide,
+           ProgressChecker& progress) noexcept
+      : params_(params), law_(law), guide_(guide), progress_(progress) {}
+
+  /// A new goal is set.
+  void start(const View& view, const Goal& goal) noexcept;
+  /// The goal lies there by now.
+  void move_goal(Vec at) noexcept;
+  /// Once a tick, also while a boundary is followed.
+  void observe(const View& view) noexcept;
+
+  /// Straight at the goal again.
+  void begin() noexcept;
+  /// Once a tick after that: manoeuvre, mode and reason. False: the way is blocked. `wall` is the side that
+  /// an obstacle was last on, and is kept up to date.
+  bool step(const View& view, const Target& target, Side& wall, Decision& decision) noexcept;
+
+  /// From here on, progress is what comes nearer than this.
+  void measure_anew(const View& view, Length distance) noexcept { closest_.set(view.pose.at, distance); }
+  /// The least distance to the goal while no boundary was followed.
+  Length closest() const noexcept { return closest_.distance(); }
+
+  /// As GlobalPlanner; false without one.
+  bool knows_no_way() const noexcept { return guide_ != nullptr && guide_->knows_no_way(); }
+  bool doubt() noexcept { return guide_ != nullptr && guide_->doubt(); }
+
+  /// What the body does now is due to what the guard holds back.
+  bool yields(const View& view, const Decision& decision) const noexcept;
+
+ private:
+  void on(Event event, Decision& decision) noexcept;
+  bool drive(const View& view, const Target& target, Side& wall, Decision& decision) noexcept;
+  bool scan(const View& view, Decision& decision) noexcept;
+  bool advised(const View& view, Length distance, Vec& to, Decision& decision) noexcept;
+
+  const Params& params_;
+  HeadingDeflection& law_;
+  GlobalPlanner* guide_;
+  ProgressChecker& progress_;
+  Phase phase_ = Phase::drive;
+  bool guided_ = false;  // drives where the guide says
+  ClosestApproach closest_;
+  Course course_;
+  ScanBehaviour scan_;
+  StuckDetector stuck_;
+};
+
+}  // namespace whisker::planning

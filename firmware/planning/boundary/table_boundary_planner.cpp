@@ -1,0 +1,16 @@
+#include "firmware/planning/boundary/table_boundary_planner.hpp"
+
+#include "firmware/fuzzy/scale.hpp"
+
+namespace whisker::planning {
+
+Angle TableDeflection::bend(const perception::Echoes& sight, const Params& params,
+                            Decision& decision) noexcept {
+  decision.inputs = fuzzy::scale(sight.beam[hal::kLeft].distance, sight.beam[hal::kFront].distance,
+                                 sight.beam[hal::kRight].distance, params.rangefinders.max_range,
+                                 params.thesis.distance_source);
+  decision.response = engine_(decision.inputs);
+  return scaled(params.thesis.base_turn, decision.response.turn);
+}
+
+}  // namespace whisker::planning

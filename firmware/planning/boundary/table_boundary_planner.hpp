@@ -1,0 +1,29 @@
+/// The thesis's response table as the law that deflects the boundary planner's course.
+#pragma once
+
+#include "firmware/fuzzy/engine.hpp"
+#include "firmware/planning/boundary/boundary_planner.hpp"
+#include "firmware/planning/boundary/course.hpp"
+
+namespace whisker::planning {
+
+/// SA x base angle, by the response table.
+class TableDeflection final : public HeadingDeflection {
+ public:
+  explicit TableDeflection(const fuzzy::Engine::Table& table) noexcept : engine_(table) {}
+  Angle bend(const perception::Echoes& sight, const Params& params, Decision& decision) noexcept override;
+
+ private:
+  fuzzy::Engine engine_;
+};
+
+/// The boundary planner as it is meant.
+struct TableBoundaryPlanner {
+  /// Both references must outlive it.
+  TableBoundaryPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept
+      : law(table), planner(params, law) {}
+  TableDeflection law;
+  BoundaryPlanner planner;
+};
+
+}  // namespace whisker::planning
