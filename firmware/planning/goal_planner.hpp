@@ -1,4 +1,4 @@
-/// What all planners do alike: they take commands, and they end.
+/// The base of all planners: it takes commands and ends missions.
 #pragma once
 
 #include <stdint.h>
@@ -12,7 +12,7 @@ class GoalPlanner : public Planner {
  public:
   // Inline, so that planners outside the core may derive from it with run-time type information, which the
   // core is built without.
-  // The goal that it is on its way to changes nothing.
+  // The same goal once more changes nothing.
   void set_goal(const Goal& goal) noexcept final {
     const bool same = goal == goal_;
     goal_ = goal;
@@ -28,12 +28,12 @@ class GoalPlanner : public Planner {
  protected:
   ~GoalPlanner() = default;
 
-  /// A new goal; the decision is as new.
+  /// A new goal is set; the decision is reset.
   virtual void start(const View& view) noexcept = 0;
   /// A tick on the way to it.
   virtual void advance(const View& view) noexcept = 0;
 
-  /// The goal has moved a bit; what is measured from it is measured anew.
+  /// The goal was moved; what is measured from it is measured anew.
   virtual void follow_goal() noexcept {}
 
   /// A place counts as the goal only well inside the tolerance: the estimate has its own error.

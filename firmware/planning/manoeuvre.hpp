@@ -1,4 +1,4 @@
-/// What a planner asks for, one manoeuvre at a time, and the velocities that follow from it.
+/// The manoeuvres that a planner asks for, and the velocities that follow from them.
 #pragma once
 
 #include <stdint.h>

@@ -1,4 +1,4 @@
-/// The seam between what the robot knows and what it does next.
+/// The planner's interface: what it sees at a tick, and what it decides.
 #pragma once
 
 #include <stdint.h>
@@ -33,14 +33,14 @@ struct View : perception::Percept {
 
 enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };
 
-/// What it wants, and why.
+/// What the planner asks for, and why.
 struct Decision {
   Manoeuvre manoeuvre;  ///< ManoeuvreKind::keep: go on
   Mode mode = Mode::idle;
   Why why = Why::none;
   Outcome outcome = Outcome::none;
   uint8_t danger_count = 0;  ///< the thesis's t: positions since the target direction was last free
-  bool looked = false;       ///< this tick's decision used the look
+  bool looked = false;       ///< this tick's decision used a static scan
   fuzzy::Inputs inputs;      ///< of the response table, as last used
   fuzzy::Response response;
 };
@@ -50,7 +50,7 @@ struct Decision {
 class Planner {
  public:
   virtual void set_goal(const Goal& goal) noexcept = 0;
-  /// The goal lies there by now, as the pose was corrected; the way to it goes on.
+  /// The pose was corrected: the goal lies at `at` now. The mission goes on.
   virtual void move_goal(Vec at) noexcept = 0;
   virtual void cancel() noexcept = 0;
   virtual Decision step(const View& view) noexcept = 0;

@@ -1,4 +1,4 @@
-/// From the heading that is wanted to a speed and a turn rate.
+/// From a wanted heading to a speed and a turn rate.
 #pragma once
 
 #include "firmware/math/angle.hpp"
@@ -16,9 +16,8 @@ struct Twist {
 /// The turn rate at which the readings still follow.
 constexpr AngularRate kFastestTurn = 2500_mrad_per_s;
 
-/// `wanted`, or what the encoders can tell, if that is more: a little more than the turn that one count
-/// makes, as both wheels may count at once. A body that tries to face anything more nearly may swing about it
-/// for ever.
+/// The smallest heading error that the body can hold: `wanted`, or a little more than the turn that one
+/// encoder count makes, if that is larger. A body that tries to do better may swing for ever.
 Angle nearest_facing(Angle wanted, const Params& params) noexcept;
 
 /// gain x error, at most kFastestTurn.
@@ -34,7 +33,7 @@ Twist steer(Angle error, Speed top) noexcept;
 /// A cruise at this twist.
 Manoeuvre cruise(Twist twist, const Params& params) noexcept;
 
-/// Faces what is off by the error. True within 3 degrees of it, see nearest_facing.
+/// Turns by the error on the spot. True when it is below 3 degrees, see nearest_facing.
 bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept;
 
 }  // namespace whisker::planning

@@ -1,6 +1,5 @@
 #include "host/baselines/bug_planner.hpp"
 
-#include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/steering.hpp"
 
 namespace whisker::baselines {
@@ -103,7 +102,6 @@ void BugPlanner::look(const View& view) {
 }
 
 void BugPlanner::begin_follow(const View& view) {
-  on_its_way_ = false;
   wall_ = rule_.hit(view, target_);
   loop_.begin(view, params_);
   enter(Phase::follow, Mode::searching, Why::target_blocked);
@@ -134,15 +132,9 @@ bool BugPlanner::looks_away(const View& view) {
 }
 
 bool BugPlanner::loop_ends(const View& view) {
-  if (!on_its_way_) {
-    on_its_way_ = true;
-    loop_.head(view.pose.heading);
-  }
-  if (rule_.remembers_hit() && loop_.closed(view)) {
-    finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
-    return true;
-  }
-  return false;
+  if (!rule_.remembers_hit() || !loop_.closed(view)) return false;
+  finish(Mode::unreachable, Why::came_round, Outcome::unreachable);
+  return true;
 }
 
 void BugPlanner::follow(const View& view) {

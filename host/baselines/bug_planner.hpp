@@ -9,6 +9,7 @@
 #include "firmware/planning/boundary/progress_checker.hpp"
 #include "firmware/planning/boundary/stuck_detector.hpp"
 #include "firmware/planning/boundary/survey.hpp"
+#include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/goal_planner.hpp"
 #include "firmware/planning/scan_behaviour.hpp"
 #include "host/baselines/leave_rule.hpp"
@@ -57,7 +58,6 @@ class BugPlanner final : public planning::GoalPlanner {
   planning::Target target_;
   Phase phase_ = Phase::survey;
   planning::Side wall_ = planning::Side::left;
-  bool on_its_way_ = false;  ///< along the boundary: the loop counts from there
   std::int32_t looked_mm_ = 0;
   Angle course_;
   Angle follow_heading_;  ///< before a look away from the wall

@@ -1,6 +1,6 @@
 #include "host/run/planners.hpp"
 
-#include "host/baselines/bends.hpp"
+#include "host/baselines/deflection_laws.hpp"
 #include "host/baselines/bug2.hpp"
 #include "host/baselines/bug_planner.hpp"
 #include "host/baselines/distbug.hpp"

@@ -128,7 +128,6 @@ void BoundaryPlanner::choose_side(const View& view) noexcept {
     return;
   }
   wall_ = opposite(side_search_.side());
-  loop_.head(side_search_.heading());
   follower_.begin_along(side_search_.heading(), wall_);
   on(Event::exit);
   decision_.why = wall_ == Side::right ? Why::exit_left : Why::exit_right;
@@ -202,7 +201,6 @@ void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
   wall_ = opposite(wall_);
   const Angle back = view.pose.heading + 180_deg;
   loop_.begin(view, params_);
-  loop_.head(back);
   follower_.begin_at_wall(view, back, wall_, decision_);
   on(Event::closed);
 }

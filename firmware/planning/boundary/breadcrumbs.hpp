@@ -1,4 +1,4 @@
-/// The last places of the body: the way back.
+/// The last places that the body passed: the way back.
 #pragma once
 
 #include <stdint.h>

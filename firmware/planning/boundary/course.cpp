@@ -28,7 +28,7 @@ bool Course::choose(const View& view, const Vec& to_goal, HeadingDeflection& law
                     Side& wall, Decision& decision) noexcept {
   const Length distance = norm(to_goal);
   const Angle target = bearing(to_goal);
-  const Angle bend = law.bend(view.moving_scan, params, decision);
+  const Angle bend = law.deflect(view.moving_scan, params, decision);
   bend_towards(view.moving_scan.beam[hal::kFront].distance >= distance ? Angle{} : bend);
 
   const Reach& reach = view.local_grid->reach();

@@ -1,4 +1,4 @@
-/// The heading towards the goal: the response table's, or the first one beside it that is not blocked.
+/// The heading towards the goal: the response table's, or the first candidate beside it that is not occupied.
 #pragma once
 
 #include "firmware/params.hpp"
@@ -7,12 +7,12 @@
 
 namespace whisker::planning {
 
-/// How far free space bends the course away from the goal's direction.
+/// How far the course is deflected from the goal's direction in free space.
 class HeadingDeflection {
  public:
-  /// From what the beams see with nothing but the goal beyond; counter-clockwise positive. Notes what it used
-  /// in the decision.
-  virtual Angle bend(const perception::Echoes& sight, const Params& params, Decision& decision) noexcept = 0;
+  /// From the moving scan; counter-clockwise positive. Writes what it used into the decision.
+  virtual Angle deflect(const perception::Echoes& sight, const Params& params,
+                        Decision& decision) noexcept = 0;
 
  protected:
   ~HeadingDeflection() = default;
@@ -23,8 +23,8 @@ class Course {
   /// Straight at the goal again.
   void reset() noexcept { bend_ = 0; }
 
-  /// Once per sensor update. False: every heading within 75 degrees of the goal's is blocked.
-  /// `wall` is the side that it last had an obstacle on; it turns away from it first, and updates it.
+  /// Once per sensor update. False: every heading within 75 degrees of the goal's is occupied.
+  /// `wall` is the side of the last obstacle: headings away from it come first. It is updated.
   bool choose(const View& view, const Vec& to_goal, HeadingDeflection& law, const Params& params, Side& wall,
               Decision& decision) noexcept;
   Angle heading() const noexcept { return heading_; }

@@ -7,7 +7,7 @@ namespace whisker::planning {
 namespace {
 
 // All lengths are the reference body's.
-constexpr Length kTrail = 40_mm;
+constexpr Length kApart = 40_mm;
 constexpr Angle kSwing = 110_deg;
 constexpr Angle kNotBack = 45_deg;
 constexpr Length kShortWay = 60_mm;
@@ -19,7 +19,7 @@ constexpr int32_t kOpeningCells = 6;
 }  // namespace
 
 void HeadingSearch::reset(Vec at, const Params& params) noexcept {
-  breadcrumbs_.reset(at, for_body(params, kTrail));
+  breadcrumbs_.reset(at, for_body(params, kApart));
   retreats_ = 0;
 }
 

@@ -1,4 +1,5 @@
-/// The way on at an edge: the first free heading from the wall's side; without one, back along the trail.
+/// The next heading along a boundary: the first free one from the wall's side, or else back along the
+/// breadcrumbs.
 #pragma once
 
 #include <stdint.h>
@@ -14,19 +15,19 @@ class HeadingSearch {
  public:
   enum class Found : uint8_t {
     nothing,  ///< ask again at the next tick
-    unseen,   ///< nothing known is in this way: look along it, and ask again
-    free,     ///< this way is free
-    none,     ///< no way is: retreat
+    unseen,   ///< this heading is unknown: scan along it, and ask again
+    free,     ///< this heading is free
+    none,     ///< no heading is free: retreat
   };
   enum class Retreat : uint8_t {
     under_way,
-    there,  ///< a bit back: feel or follow again
-    stuck,  ///< that way is not free, either: feel again
+    there,  ///< a bit back: follow again
+    stuck,  ///< that way is not free, either: search again
     lost,   ///< too many retreats since the body last got on
   };
   struct Heading {
     Angle angle;
-    Length length;  ///< of the way that it felt for
+    Length length;  ///< of the way that was judged
   };
 
   /// Forgets the way here.
@@ -34,21 +35,20 @@ class HeadingSearch {
   /// Once a tick.
   void move(Vec at) noexcept;
 
-  /// From this heading on, away from the wall. The body must stand at `pose` while it feels.
+  /// From this heading on, away from the wall. The body must stand at `pose` during the search.
   void begin(Angle first, const Pose& pose, Side wall) noexcept;
-  /// From the wall's side of `ahead`, but not from beyond the wall: where the body came to `pose` from lies
-  /// there.
+  /// From the wall's side of `ahead`, but not beyond the way back: that is where the body came from.
   void begin_at_wall(Angle ahead, const Pose& pose, Side wall) noexcept;
-  /// For ways of the full length, then for short ones, then for narrow ones; back along the trail only after
-  /// all of them, unless that is where it was to go.
+  /// Judges ways of the full length, then short ones, then narrow ones. The way back comes after all of them,
+  /// unless the search began there.
   Found step(const View& view, const Params& params, Heading& found) noexcept;
-  /// The guard lets nothing through where the last way was found: go on with the next one.
+  /// The guard grants nothing along the last heading: go on with the next one.
   void refuse() noexcept { ++candidate_; }
 
-  /// Once a tick after `none`; `stalled`: the body does not get on.
+  /// Once a tick after `none`; `stalled`: the body does not move.
   Retreat retreat(const View& view, bool stalled, const Params& params, Manoeuvre& manoeuvre) noexcept;
 
-  /// On the wall's side something is nearly clear: a door, or the end of the wall.
+  /// A way on the wall's side is nearly clear: a door, or the end of the wall.
   bool opening(const View& view, Side wall, const Params& params) const noexcept;
 
  private:

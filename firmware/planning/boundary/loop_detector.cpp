@@ -27,7 +27,11 @@ void LoopDetector::move(const View& view) noexcept {
   if (farthest_ > scale_ * 3) left_ = true;
 }
 
-bool LoopDetector::closed(const View& view) const noexcept {
+bool LoopDetector::closed(const View& view) noexcept {
+  if (!follows_) {
+    follows_ = true;
+    heading_ = view.pose.heading;
+  }
   if (!left_ || magnitude(turned_) < 300 * kDegree) return false;
   const Length near =
       min(scale_ * 7 / 2,

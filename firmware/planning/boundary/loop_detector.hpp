@@ -12,15 +12,14 @@ namespace whisker::planning {
 
 class LoopDetector {
  public:
-  /// The obstacle is met here;
+  /// The obstacle is met here.
   void begin(const View& view, const Params& params) noexcept;
-  /// its edge is followed from this heading on.
-  void head(Angle heading) noexcept { heading_ = heading; }
   /// Once a tick.
   void move(const View& view) noexcept;
 
-  /// Back where it began, with the same heading, after a whole turn: nothing in between was a way.
-  bool closed(const View& view) const noexcept;
+  /// Back where it began, with the heading that closed() was first asked at, after a whole turn: nothing in
+  /// between was a way. Ask while the edge is followed.
+  bool closed(const View& view) noexcept;
   /// Whether the followed boundary, with the wall on this side, can separate `from` from `to`: `to` lies
   /// within the loop, or, if the wall is all around, `from` does. Within is what is no farther from the
   /// beginning than the loop reached.
@@ -33,6 +32,7 @@ class LoopDetector {
   Vec at_;
   Length scale_;  // what 100 mm are to the reference body
   Angle heading_;
+  bool follows_ = false;  // from heading_ on
   bool left_ = false;     // has been away from the beginning
   Length farthest_;       // from the beginning
   int64_t began_um_ = 0;  // View::travelled_um at the beginning

@@ -1,3 +1,4 @@
+/// The side of the body on which an obstacle lies.
 #pragma once
 
 #include <stdint.h>

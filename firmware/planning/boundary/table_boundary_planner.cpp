@@ -4,8 +4,8 @@
 
 namespace whisker::planning {
 
-Angle TableDeflection::bend(const perception::Echoes& sight, const Params& params,
-                            Decision& decision) noexcept {
+Angle TableDeflection::deflect(const perception::Echoes& sight, const Params& params,
+                               Decision& decision) noexcept {
   decision.inputs = fuzzy::scale(sight.beam[hal::kLeft].distance, sight.beam[hal::kFront].distance,
                                  sight.beam[hal::kRight].distance, params.rangefinders.max_range,
                                  params.thesis.distance_source);

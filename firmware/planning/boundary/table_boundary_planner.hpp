@@ -11,7 +11,7 @@ namespace whisker::planning {
 class TableDeflection final : public HeadingDeflection {
  public:
   explicit TableDeflection(const fuzzy::Engine::Table& table) noexcept : engine_(table) {}
-  Angle bend(const perception::Echoes& sight, const Params& params, Decision& decision) noexcept override;
+  Angle deflect(const perception::Echoes& sight, const Params& params, Decision& decision) noexcept override;
 
  private:
   fuzzy::Engine engine_;

@@ -1,3 +1,4 @@
+/// The goal as seen from the body.
 #pragma once
 
 #include "firmware/math/trig.hpp"

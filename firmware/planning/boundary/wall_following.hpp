@@ -1,4 +1,4 @@
-/// Along an obstacle's edge.
+/// Wall following by the side beam.
 #pragma once
 
 #include "firmware/params.hpp"

@@ -15,7 +15,7 @@ using test::in_degrees;
 class Bends final : public HeadingDeflection {
  public:
   explicit Bends(Angle by) : by_(by) {}
-  Angle bend(const perception::Echoes&, const Params&, Decision&) noexcept override { return by_; }
+  Angle deflect(const perception::Echoes&, const Params&, Decision&) noexcept override { return by_; }
 
  private:
   Angle by_;
@@ -195,10 +195,10 @@ TEST(Course, ReachesAGoalThatStandsBeforeAWall) {
 TEST(TableDeflection, TurnsAwayFromTheNearerSide) {
   TableDeflection law(fuzzy::kDefaultTable);
   Decision decision;
-  const Angle right = law.bend(echoes(300, 600, 2000), Params{}, decision);
+  const Angle right = law.deflect(echoes(300, 600, 2000), Params{}, decision);
   EXPECT_LT(in_degrees(right), -1);
   EXPECT_EQ(scaled(Params{}.thesis.base_turn, decision.response.turn), right);
-  EXPECT_EQ(law.bend(echoes(2000, 600, 300), Params{}, decision), -right);
+  EXPECT_EQ(law.deflect(echoes(2000, 600, 300), Params{}, decision), -right);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ using test::Ground;
 
 class Straight final : public HeadingDeflection {
  public:
-  Angle bend(const perception::Echoes&, const Params&, Decision&) noexcept override { return {}; }
+  Angle deflect(const perception::Echoes&, const Params&, Decision&) noexcept override { return {}; }
 };
 
 struct End {

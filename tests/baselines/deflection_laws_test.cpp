@@ -1,4 +1,4 @@
-#include "host/baselines/bends.hpp"
+#include "host/baselines/deflection_laws.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ perception::Echoes seen(int left_mm, int front_mm, int right_mm) {
 double degrees(int left_mm, int front_mm, int right_mm) {
   RepulsionDeflection law;
   planning::Decision decision;
-  return law.bend(seen(left_mm, front_mm, right_mm), Params{}, decision).wrapped() * (360 / 4294967296.0);
+  return law.deflect(seen(left_mm, front_mm, right_mm), Params{}, decision).wrapped() * (360 / 4294967296.0);
 }
 
 TEST(RepulsionDeflection, IsStraightWhereNothingIsNear) { EXPECT_EQ(degrees(2000, 2000, 2000), 0); }
@@ -45,7 +45,7 @@ TEST(RepulsionDeflection, PassesWhatIsAheadOnTheWiderSideAndIsBounded) {
 TEST(NoDeflection, NeverBends) {
   NoDeflection law;
   planning::Decision decision;
-  EXPECT_EQ(law.bend(seen(100, 100, 300), Params{}, decision), Angle{});
+  EXPECT_EQ(law.deflect(seen(100, 100, 300), Params{}, decision), Angle{});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "host/baselines/bends.hpp"
+#include "host/baselines/deflection_laws.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,8 @@ double push(Length range) {
 
 }  // namespace
 
-Angle RepulsionDeflection::bend(const perception::Echoes& sight, const Params&,
-                                planning::Decision&) noexcept {
+Angle RepulsionDeflection::deflect(const perception::Echoes& sight, const Params&,
+                                   planning::Decision&) noexcept {
   const Length left = sight.beam[hal::kLeft].distance;
   const Length right = sight.beam[hal::kRight].distance;
   const double sides = push(right) - push(left);

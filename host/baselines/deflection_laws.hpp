@@ -1,16 +1,18 @@
-/// Laws for the boundary planner's course without the response table: all else is the boundary planner, so
-/// the difference is what the table is worth.
+/// Deflection laws without the response table. All else is the boundary planner, so the difference shows what
+/// the table is worth.
 #pragma once
 
 #include "firmware/planning/boundary/boundary_planner.hpp"
 
 namespace whisker::baselines {
 
-/// No bend: what is left is the planner's fan of headings beside the goal's direction, the first that the
-/// local grid does not block (7.5 degree steps to 75).
+/// No deflection: the course is the first candidate heading beside the goal's direction that the local grid
+/// does not block (steps of 7.5 degrees to 75).
 class NoDeflection final : public planning::HeadingDeflection {
  public:
-  Angle bend(const perception::Echoes&, const Params&, planning::Decision&) noexcept override { return {}; }
+  Angle deflect(const perception::Echoes&, const Params&, planning::Decision&) noexcept override {
+    return {};
+  }
 };
 
 /// Repulsion, each beam's growing with 1 / range - 1 / kInfluence below kInfluence. A side beam pushes to the
@@ -23,8 +25,8 @@ class RepulsionDeflection final : public planning::HeadingDeflection {
   static constexpr double kSideGain_rad = 0.05;   ///< per 1/m
   static constexpr double kFrontGain_rad = 0.20;  ///< per 1/m
 
-  Angle bend(const perception::Echoes& sight, const Params& params,
-             planning::Decision& decision) noexcept override;
+  Angle deflect(const perception::Echoes& sight, const Params& params,
+                planning::Decision& decision) noexcept override;
 };
 
 /// A boundary planner with one of these laws.
