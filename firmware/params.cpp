@@ -1,6 +1,7 @@
 #include "firmware/params.hpp"
 
 namespace whisker {
+
 namespace {
 struct OfThisSource;
 }
@@ -14,6 +15,10 @@ Reach reach(const Params& p) noexcept { return formula::reach(p); }
 ParamFault check(const Params& p) noexcept { return formula::check<OfThisSource>(p); }
 
 }  // namespace at_run_time
+
+Length for_body(const Params& p, Length reference) noexcept {
+  return Length::from_raw(multiply_divide(reference.raw(), p.body.radius.raw(), 90000));
+}
 
 const char* name(ParamFault fault) noexcept {
   switch (fault) {

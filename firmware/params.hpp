@@ -231,9 +231,7 @@ constexpr Duration longest_gap(const Params& p) noexcept {
   return p.safety.period + 50_ms;
 }
 /// A distance that suits the reference body of 90 mm, for this one.
-constexpr Length for_body(const Params& p, Length reference) noexcept {
-  return Length::from_raw(multiply_divide(reference.raw(), p.body.radius.raw(), 90000));
-}
+Length for_body(const Params& p, Length reference) noexcept;
 
 /// The first fault found; ParamFault::none for a set that the core accepts. It may be asked in a
 /// static_assert. All faults: for_each_relation in params/relations.hpp.

@@ -20,15 +20,15 @@ INDIRECT = (
     ),
     (r"8planning11GoalPlanner6answerE", r"8planning(15BoundaryPlanner|13ThesisPlanner)(5startE|7advanceE)"),
     (r"8planning11GoalPlanner9move_goalE", r"8planning(11GoalPlanner|15BoundaryPlanner)11follow_goalE"),
-    (r"8planning6Course", r"8planning15TableDeflection4bendE"),
+    (r"8planning6Course", r"8planning15TableDeflection7deflectE"),
     # Reads that do nothing are one function.
     (r"Robot(8perceive|4tick|11take_counts|8localize)E", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
     (r"10WheelDrive4readE", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
     (r"10WheelDrive7commandE|Robot(7actuate|4tick)E", r"7commandE.*11WheelSpeedsE"),
 )  # fmt: skip
-NO_GUIDE = ((r"N7whisker8planning15BoundaryPlanner", None),)
+NO_GUIDE = ((r"N7whisker8planning(15BoundaryPlanner|8Approach)", None),)
 # Of the boundary planner with a map.
-GUIDE = ((r"N7whisker8planning15BoundaryPlanner", r"N7whisker8planning16WavefrontPlanner(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|WavefrontPlanner12knows_no_way"),)
+GUIDE = ((r"N7whisker8planning(15BoundaryPlanner|8Approach)", r"N7whisker8planning16WavefrontPlanner(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|WavefrontPlanner12knows_no_way"),)
 # Of the controller on a bus: node, port and line.
 NODE = (
     (r"3can4Node10understandE", r"ControllerNode4hearE"),

@@ -56,7 +56,7 @@ bool Odometry::update(const hal::EncoderCounts& counts, Duration since, CountSte
   const int64_t distance_q10 = scale_down<7>(both);
   x_ += scale_down<24>(distance_q10 * cos(middle).raw());
   y_ += scale_down<24>(distance_q10 * sin(middle).raw());
-  travelled_um_ += norm(pose().at - from).raw();
+  travelled_um_ += static_cast<uint32_t>(norm(pose().at - from).raw());
   return true;
 }
 

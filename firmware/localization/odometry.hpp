@@ -30,13 +30,13 @@ class Odometry {
   bool update(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept;
 
   Pose pose() const noexcept;
-  /// The length of the way so far, um; no placing changes it.
-  int64_t travelled_um() const noexcept { return travelled_um_; }
+  /// The length of the way so far, um modulo 2^32; place() does not change it.
+  uint32_t travelled_um() const noexcept { return travelled_um_; }
 
  private:
   int64_t x_ = 0;  // 2^-16 um
   int64_t y_ = 0;
-  int64_t travelled_um_ = 0;
+  uint32_t travelled_um_ = 0;
   Angle start_heading_;
   Angle heading_;
   int64_t difference_ = 0;       // right minus left, counts since place()

@@ -21,14 +21,14 @@ struct Goal {
 
 /// What a planner sees at a tick.
 struct View : perception::Percept {
-  Pose pose{};               ///< the body's own estimate
-  int64_t travelled_um = 0;  ///< the length of its way so far, um
-  bool settled = true;       ///< the last manoeuvre is over and the body stands
-  bool cut = false;          ///< the last manoeuvre was a drive, and the guard ended it before its length
-  Speed forward{};           ///< of the body, by its wheels
-  Speed turning{};           ///< of the rims, counter-clockwise positive
-  Q14 granted{};             ///< part of the last forward speed asked for that the guard let through
-  Duration elapsed{};        ///< since the tick before
+  Pose pose{};                ///< the body's own estimate
+  uint32_t travelled_um = 0;  ///< the length of its way so far, um modulo 2^32
+  bool settled = true;        ///< the last manoeuvre is over and the body stands
+  bool cut = false;           ///< the last manoeuvre was a drive, and the guard ended it before its length
+  Speed forward{};            ///< of the body, by its wheels
+  Speed turning{};            ///< of the rims, counter-clockwise positive
+  Q14 granted{};              ///< part of the last forward speed asked for that the guard let through
+  Duration elapsed{};         ///< since the tick before
 };
 
 enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };

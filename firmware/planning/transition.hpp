@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "firmware/planning/planner.hpp"
 
@@ -18,17 +19,17 @@ struct Transition {
   Why why = Why::none;     ///< none: as before
 };
 
+/// The next phase, by rows of five bytes each: the members of a Transition. One function serves all machines.
+uint8_t next_phase(const uint8_t* rows, size_t count, uint8_t phase, uint8_t event,
+                   Decision& decision) noexcept;
+
 /// Follows the arrow of `event` from `phase`. Where the table has none, the phase stays.
 template <class Phase, class Event, size_t kRows>
 void change(const Transition<Phase, Event> (&table)[kRows], Event event, Phase& phase,
             Decision& decision) noexcept {
-  for (const Transition<Phase, Event>& row : table) {
-    if (row.from != phase || row.on != event) continue;
-    phase = row.to;
-    if (row.mode != Mode::idle) decision.mode = row.mode;
-    if (row.why != Why::none) decision.why = row.why;
-    return;
-  }
+  static_assert(sizeof(table[0]) == 5, "members of one byte each");
+  phase = static_cast<Phase>(next_phase(reinterpret_cast<const uint8_t*>(table), kRows,
+                                        static_cast<uint8_t>(phase), static_cast<uint8_t>(event), decision));
 }
 
 }  // namespace whisker::planning

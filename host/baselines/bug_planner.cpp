@@ -12,9 +12,9 @@ using planning::Why;
 
 void BugPlanner::start(const View& view) noexcept {
   target_ = {goal_, view};
-  progress_.start(view);
+  behaviours_.progress.start(view);
   follower_.reset(view);
-  loop_.begin(view, params_);
+  loop_.begin(view, behaviours_.params);
   survey_.reset();
   looked_mm_ = 0;
   rule_.begin(view, target_);
@@ -24,14 +24,14 @@ void BugPlanner::start(const View& view) noexcept {
 
 void BugPlanner::advance(const View& view) noexcept {
   target_ = {goal_, view};
-  progress_.move(view, params_);
+  behaviours_.progress.move(view, behaviours_.params);
   follower_.move(view);
   loop_.move(view);
   act(view);
 }
 
 void BugPlanner::act(const View& view) {
-  const Why exhausted = progress_.exhausted(kLongest);
+  const Why exhausted = behaviours_.progress.exhausted(kLongest);
   if (exhausted != Why::none) {
     finish(Mode::gave_up, exhausted, Outcome::gave_up);
     return;
@@ -43,7 +43,7 @@ void BugPlanner::act(const View& view) {
   }
   switch (phase_) {
     case Phase::survey:
-      if (survey_.step(view, target_.direction(), params_, decision_.manoeuvre))
+      if (survey_.step(view, target_.direction(), behaviours_.params, decision_.manoeuvre))
         enter(Phase::go, Mode::going, Why::target_free);
       break;
     case Phase::go: go(view); break;
@@ -73,28 +73,27 @@ void BugPlanner::go(const View& view) {
       return;
     }
   }
-  if (stalled(view)) {
+  if (behaviours_.stalled(view)) {
     scan(view, Phase::look_ahead);
     return;
   }
-  decision_.manoeuvre =
-      planning::cruise(planning::steer(course_ - view.pose.heading, params_.wheels.max_speed), params_);
+  decision_.manoeuvre = behaviours_.drive(view, course_);
 }
 
 void BugPlanner::scan(const View& view, Phase phase) {
   const Length ahead = min(view.local_grid->reach().probe, target_.distance);
   enter(phase, Mode::looking, Why::unknown_ahead);
-  scan_.begin(rule_.course(view, target_), ahead, decision_.manoeuvre);
+  behaviours_.scan.begin(rule_.course(view, target_), ahead, decision_.manoeuvre);
 }
 
 void BugPlanner::look(const View& view) {
-  if (!scan_.step(view, params_, decision_.manoeuvre)) return;
+  if (!behaviours_.scan.step(view, behaviours_.params, decision_.manoeuvre)) return;
   decision_.looked = true;
   if (phase_ == Phase::look_away) {
     if (leave(view)) return;
     enter(Phase::follow, Mode::skirting, Why::edge);
     follower_.begin_at_wall(view, follow_heading_, wall_, decision_);
-  } else if (scan_.in_vain()) {
+  } else if (behaviours_.scan.in_vain()) {
     begin_follow(view);
   } else {
     enter(Phase::go, Mode::going, Why::target_free);
@@ -103,7 +102,7 @@ void BugPlanner::look(const View& view) {
 
 void BugPlanner::begin_follow(const View& view) {
   wall_ = rule_.hit(view, target_);
-  loop_.begin(view, params_);
+  loop_.begin(view, behaviours_.params);
   enter(Phase::follow, Mode::searching, Why::target_blocked);
   follower_.begin_beside(view, course_, wall_, decision_);
 }
@@ -116,7 +115,7 @@ Way BugPlanner::way_off(const View& view) const {
 bool BugPlanner::leave(const View& view) {
   const Way found = way_off(view);
   if (found == Way::occupied) return false;
-  if (found == Way::unknown && seen_free(view, target_, params_) < view.local_grid->reach().probe)
+  if (found == Way::unknown && seen_free(view, target_, behaviours_.params) < view.local_grid->reach().probe)
     return false;
   enter(Phase::go, Mode::going, Why::target_free);
   go(view);
@@ -124,8 +123,8 @@ bool BugPlanner::leave(const View& view) {
 }
 
 bool BugPlanner::looks_away(const View& view) {
-  if (progress_.travel_mm() - looked_mm_ <= 50 || way_off(view) != Way::unknown) return false;
-  looked_mm_ = progress_.travel_mm();
+  if (behaviours_.progress.travel_mm() - looked_mm_ <= 50 || way_off(view) != Way::unknown) return false;
+  looked_mm_ = behaviours_.progress.travel_mm();
   follow_heading_ = view.pose.heading;
   scan(view, Phase::look_away);
   return true;
@@ -152,8 +151,8 @@ void BugPlanner::follow(const View& view) {
 
 void BugPlanner::enter(Phase phase, Mode mode, Why why) {
   phase_ = phase;
-  progress_.pause();
-  stuck_.reset();
+  behaviours_.progress.pause();
+  behaviours_.stuck.reset();
   tell(mode, why);
 }
 

@@ -4,14 +4,12 @@
 
 #include <cstdint>
 
+#include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/boundary_follower.hpp"
 #include "firmware/planning/boundary/loop_detector.hpp"
-#include "firmware/planning/boundary/progress_checker.hpp"
-#include "firmware/planning/boundary/stuck_detector.hpp"
 #include "firmware/planning/boundary/survey.hpp"
 #include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/goal_planner.hpp"
-#include "firmware/planning/scan_behaviour.hpp"
 #include "host/baselines/leave_rule.hpp"
 
 namespace whisker::baselines {
@@ -24,7 +22,7 @@ class BugPlanner final : public planning::GoalPlanner {
 
   /// Both references must outlive the planner.
   BugPlanner(const Params& params, LeaveRule& rule) noexcept
-      : params_(params), rule_(rule), follower_(params, progress_) {}
+      : rule_(rule), behaviours_(params), follower_(behaviours_) {}
 
  private:
   enum class Phase : std::uint8_t { survey, go, look_ahead, follow, look_away, arrive };
@@ -43,18 +41,12 @@ class BugPlanner final : public planning::GoalPlanner {
   planning::Way way_off(const planning::View& view) const;
   void scan(const planning::View& view, Phase phase);
   void enter(Phase phase, planning::Mode mode, planning::Why why);
-  bool stalled(const planning::View& view) {
-    return stuck_.stalled(view, planning::patience(params_), params_);
-  }
 
-  const Params& params_;
   LeaveRule& rule_;
-  planning::ProgressChecker progress_;
+  planning::Behaviours behaviours_;
   planning::BoundaryFollower follower_;
   planning::LoopDetector loop_;
   planning::Survey survey_;
-  planning::ScanBehaviour scan_;
-  planning::StuckDetector stuck_;
   planning::Target target_;
   Phase phase_ = Phase::survey;
   planning::Side wall_ = planning::Side::left;

@@ -36,31 +36,32 @@ void Approach::observe(const View& view) noexcept {
 void Approach::begin() noexcept {
   phase_ = Phase::drive;
   course_.reset();
-  stuck_.reset();
+  behaviours_.stuck.reset();
 }
 
 bool Approach::step(const View& view, const Target& target, Side& wall, Decision& decision) noexcept {
   switch (phase_) {
     case Phase::drive: return drive(view, target, wall, decision);
     case Phase::scan: return scan(view, decision);
-    case Phase::brake:
-      if (view.settled) on(Event::settled, decision);
-      break;
+    case Phase::brake: return brake(view, decision);
   }
   return true;
 }
 
+bool Approach::brake(const View& view, Decision& decision) noexcept {
+  if (view.settled) on(Event::settled, decision);
+  return true;
+}
+
 void Approach::on(Event event, Decision& decision) noexcept {
-  change(kTransitions, event, phase_, decision);
-  if (event != Event::settled && event != Event::in_vain) progress_.pause();
-  stuck_.reset();
+  behaviours_.change(kTransitions, event, phase_, decision);
 }
 
 bool Approach::drive(const View& view, const Target& target, Side& wall, Decision& decision) noexcept {
   if (target.distance < closest()) measure_anew(view, target.distance);
   Vec to = target.to;
   if (guide_ != nullptr && advised(view, target.distance, to, decision)) return true;
-  if (view.sighted && !course_.choose(view, to, law_, params_, wall, decision)) {
+  if (view.sighted && !course_.choose(view, to, law_, behaviours_.params, wall, decision)) {
     if (guided_ && guide_->refuse(view)) {
       course_.reset();
       on(Event::refused, decision);
@@ -73,17 +74,17 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
   }
   Angle heading = course_.heading();
   const Length length = min(view.local_grid->reach().probe, norm(to));
-  if (stuck_.stalled(view, patience(params_), params_)) {
+  if (behaviours_.stalled(view)) {
     on(Event::unknown, decision);
-    scan_.begin(heading, length, decision.manoeuvre);
+    behaviours_.scan.begin(heading, length, decision.manoeuvre);
     return true;
   }
   // Held back by something unseen: a small turn may already show it.
   Angle aside;
-  if (view.granted < kHindered && turn_to_unseen(view, heading, length, heading, params_, aside)) {
+  if (view.granted < kHindered && turn_to_unseen(view, heading, length, heading, behaviours_.params, aside)) {
     heading += limited(aside, kCheapTurn);
   }
-  decision.manoeuvre = cruise(steer(heading - view.pose.heading, params_.wheels.max_speed), params_);
+  decision.manoeuvre = behaviours_.drive(view, heading);
   return true;
 }
 
@@ -94,16 +95,16 @@ bool Approach::advised(const View& view, Length distance, Vec& to, Decision& dec
   guided_ = advice != GlobalPlanner::Advice::none;
   if (advice != GlobalPlanner::Advice::wait) return false;
   decision.manoeuvre = stop();
-  stuck_.reset();
+  behaviours_.stuck.reset();
   return true;
 }
 
 bool Approach::scan(const View& view, Decision& decision) noexcept {
-  if (!scan_.step(view, params_, decision.manoeuvre)) return true;
+  if (!behaviours_.scan.step(view, behaviours_.params, decision.manoeuvre)) return true;
   decision.looked = true;
-  const bool shown = !scan_.in_vain();
-  on(shown ? Event::scanned : Event::in_vain, decision);
-  return shown;
+  if (behaviours_.scan.in_vain()) return false;
+  on(Event::scanned, decision);
+  return true;
 }
 
 bool Approach::yields(const View& view, const Decision& decision) const noexcept {

@@ -3,15 +3,12 @@
 
 #include <stdint.h>
 
-#include "firmware/params.hpp"
+#include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/course.hpp"
-#include "firmware/planning/boundary/progress_checker.hpp"
 #include "firmware/planning/boundary/side.hpp"
-#include "firmware/planning/boundary/stuck_detector.hpp"
 #include "firmware/planning/boundary/target.hpp"
 #include "firmware/planning/closest_approach.hpp"
 #include "firmware/planning/global/global_planner.hpp"
-#include "firmware/planning/scan_behaviour.hpp"
 #include "firmware/planning/transition.hpp"
 
 namespace whisker::planning {
@@ -23,20 +20,18 @@ class Approach {
     scan,   ///< turns a beam onto what is unknown in the way
     brake,  ///< comes to rest: the global planner plans anew
   };
-  enum class Event : uint8_t { unknown, scanned, in_vain, refused, settled };
+  enum class Event : uint8_t { unknown, scanned, refused, settled };
 
   static constexpr Transition<Phase, Event> kTransitions[] = {
       {Phase::drive, Event::unknown, Phase::scan, Mode::looking, Why::unknown_ahead},
       {Phase::scan, Event::scanned, Phase::drive, Mode::going},
-      {Phase::scan, Event::in_vain, Phase::drive},
       {Phase::drive, Event::refused, Phase::brake},
       {Phase::brake, Event::settled, Phase::drive},
   };
 
   /// The references must outlive it, and so must the guide, if there is one.
-  Approach(const Params& params, HeadingDeflection& law, GlobalPlanner* guide,
-           ProgressChecker& progress) noexcept
-      : params_(params), law_(law), guide_(guide), progress_(progress) {}
+  Approach(HeadingDeflection& law, GlobalPlanner* guide, Behaviours& behaviours) noexcept
+      : law_(law), guide_(guide), behaviours_(behaviours) {}
 
   /// A new goal is set.
   void start(const View& view, const Goal& goal) noexcept;
@@ -67,18 +62,16 @@ class Approach {
   void on(Event event, Decision& decision) noexcept;
   bool drive(const View& view, const Target& target, Side& wall, Decision& decision) noexcept;
   bool scan(const View& view, Decision& decision) noexcept;
+  bool brake(const View& view, Decision& decision) noexcept;
   bool advised(const View& view, Length distance, Vec& to, Decision& decision) noexcept;
 
-  const Params& params_;
   HeadingDeflection& law_;
   GlobalPlanner* guide_;
-  ProgressChecker& progress_;
+  Behaviours& behaviours_;
   Phase phase_ = Phase::drive;
   bool guided_ = false;  // drives where the guide says
   ClosestApproach closest_;
   Course course_;
-  ScanBehaviour scan_;
-  StuckDetector stuck_;
 };
 
 }  // namespace whisker::planning

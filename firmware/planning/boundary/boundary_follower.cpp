@@ -34,7 +34,7 @@ void BoundaryFollower::begin_at_wall(const View& view, Angle ahead, Side wall, D
 void BoundaryFollower::start(Phase phase, Side wall) noexcept {
   phase_ = phase;
   wall_ = wall;
-  stuck_.reset();
+  behaviours_.stuck.reset();
 }
 
 bool BoundaryFollower::step(const View& view, Decision& decision) noexcept {
@@ -64,20 +64,18 @@ bool BoundaryFollower::yields(const View& view) const noexcept {
 }
 
 void BoundaryFollower::on(Event event, Decision& decision) noexcept {
-  change(kTransitions, event, phase_, decision);
-  if (event != Event::settled) progress_.pause();
-  stuck_.reset();
+  behaviours_.change(kTransitions, event, phase_, decision);
   if (phase_ == Phase::brake) decision.manoeuvre = stop();
 }
 
 void BoundaryFollower::search(const View& view, Decision& decision) noexcept {
   decision.mode = Mode::searching;
   HeadingSearch::Heading found;
-  switch (search_.step(view, params_, found)) {
+  switch (search_.step(view, behaviours_.params, found)) {
     case HeadingSearch::Found::nothing: break;
     case HeadingSearch::Found::unseen:
       on(Event::unknown, decision);
-      scan_.begin(found.angle, found.length, decision.manoeuvre);
+      behaviours_.scan.begin(found.angle, found.length, decision.manoeuvre);
       break;
     case HeadingSearch::Found::free:
       heading_ = found.angle;
@@ -89,16 +87,16 @@ void BoundaryFollower::search(const View& view, Decision& decision) noexcept {
 }
 
 void BoundaryFollower::scan(const View& view, Decision& decision) noexcept {
-  if (!scan_.step(view, params_, decision.manoeuvre)) return;
+  if (!behaviours_.scan.step(view, behaviours_.params, decision.manoeuvre)) return;
   decision.looked = true;
-  if (scan_.in_vain()) search_.refuse();
+  if (behaviours_.scan.in_vain()) search_.refuse();
   on(Event::scanned, decision);
 }
 
 void BoundaryFollower::turn(const View& view, Decision& decision) noexcept {
-  if (!turn_by(heading_ - view.pose.heading, params_, decision.manoeuvre)) return;
-  commit_mm_ = progress_.travel_mm() + mm(kCommit);
-  opening_mm_ = progress_.travel_mm();
+  if (!turn_by(heading_ - view.pose.heading, behaviours_.params, decision.manoeuvre)) return;
+  commit_mm_ = travel_mm() + behaviours_.mm(kCommit);
+  opening_mm_ = travel_mm();
   on(Event::facing, decision);
 }
 
@@ -108,26 +106,26 @@ void BoundaryFollower::follow(const View& view, Decision& decision) noexcept {
     on(Event::opening, decision);
     return;
   }
-  if (stalled(view)) {
+  if (behaviours_.stalled(view)) {
     search_on(view, decision);
     return;
   }
-  if (progress_.travel_mm() < commit_mm_) {
-    decision.manoeuvre = cruise(steer(heading_ - view.pose.heading, params_.wheels.max_speed), params_);
+  if (travel_mm() < commit_mm_) {
+    decision.manoeuvre = behaviours_.drive(view, heading_);
     return;
   }
   decision.why = Why::edge;
-  decision.manoeuvre = cruise(along_edge(view.moving_scan, wall_, params_), params_);
+  decision.manoeuvre = cruise(along_edge(view.moving_scan, wall_, behaviours_.params), behaviours_.params);
 }
 
 bool BoundaryFollower::opening(const View& view) noexcept {
-  if (progress_.travel_mm() - opening_mm_ <= mm(kOpeningEvery)) return false;
-  opening_mm_ = progress_.travel_mm();
-  return search_.opening(view, wall_, params_);
+  if (travel_mm() - opening_mm_ <= behaviours_.mm(kOpeningEvery)) return false;
+  opening_mm_ = travel_mm();
+  return search_.opening(view, wall_, behaviours_.params);
 }
 
 void BoundaryFollower::search_on(const View& view, Decision& decision) noexcept {
-  const bool refused = searched_ && commit_mm_ - progress_.travel_mm() >= mm(kCommit - kRefused);
+  const bool refused = searched_ && commit_mm_ - travel_mm() >= behaviours_.mm(kCommit - kRefused);
   if (!refused)
     refusals_ = 0;
   else if (refusals_ < kRefusals)
@@ -142,10 +140,10 @@ void BoundaryFollower::search_on(const View& view, Decision& decision) noexcept 
 }
 
 bool BoundaryFollower::retreat(const View& view, Decision& decision) noexcept {
-  switch (search_.retreat(view, stalled(view), params_, decision.manoeuvre)) {
+  switch (search_.retreat(view, behaviours_.stalled(view), behaviours_.params, decision.manoeuvre)) {
     case HeadingSearch::Retreat::under_way: break;
     case HeadingSearch::Retreat::there:
-      opening_mm_ = progress_.travel_mm();
+      opening_mm_ = travel_mm();
       on(Event::back, decision);
       break;
     case HeadingSearch::Retreat::stuck:

@@ -3,12 +3,9 @@
 
 #include <stdint.h>
 
-#include "firmware/params.hpp"
+#include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/heading_search.hpp"
-#include "firmware/planning/boundary/progress_checker.hpp"
 #include "firmware/planning/boundary/side.hpp"
-#include "firmware/planning/boundary/stuck_detector.hpp"
-#include "firmware/planning/scan_behaviour.hpp"
 #include "firmware/planning/transition.hpp"
 
 namespace whisker::planning {
@@ -41,12 +38,11 @@ class BoundaryFollower {
       {Phase::retreat, Event::stuck, Phase::brake},
   };
 
-  /// Both references must outlive it.
-  BoundaryFollower(const Params& params, ProgressChecker& progress) noexcept
-      : params_(params), progress_(progress) {}
+  /// The behaviours must outlive it.
+  explicit BoundaryFollower(Behaviours& behaviours) noexcept : behaviours_(behaviours) {}
 
   /// Forgets the way here.
-  void reset(const View& view) noexcept { search_.reset(view.pose.at, params_); }
+  void reset(const View& view) noexcept { search_.reset(view.pose.at, behaviours_.params); }
   /// Once a tick, also while no boundary is followed.
   void move(const View& view) noexcept { search_.move(view.pose.at); }
 
@@ -76,18 +72,14 @@ class BoundaryFollower {
   void search_on(const View& view, Decision& decision) noexcept;
   bool retreat(const View& view, Decision& decision) noexcept;
   bool opening(const View& view) noexcept;
-  bool stalled(const View& view) noexcept { return stuck_.stalled(view, patience(params_), params_); }
-  int32_t mm(Length reference) const noexcept { return for_body(params_, reference).raw() / 1000; }
+  int32_t travel_mm() const noexcept { return behaviours_.progress.travel_mm(); }
 
-  const Params& params_;
-  ProgressChecker& progress_;
+  Behaviours& behaviours_;
   Phase phase_ = Phase::follow;
   Side wall_ = Side::left;
   bool searched_ = false;  // the heading chosen is the search's
   int8_t refusals_ = 0;    // in a row, from one place
   HeadingSearch search_;
-  ScanBehaviour scan_;
-  StuckDetector stuck_;
   Angle heading_;           // the one chosen
   int32_t commit_mm_ = 0;   // travel until which it is kept
   int32_t opening_mm_ = 0;  // travel at which an opening was last looked for

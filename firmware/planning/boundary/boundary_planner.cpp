@@ -17,12 +17,12 @@ static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::
 
 void BoundaryPlanner::start(const View& view) noexcept {
   began_ = view.pose.at;
-  progress_.start(view);
+  behaviours_.progress.start(view);
   approach_.start(view, goal_);
   follower_.reset(view);
   survey_.reset();
-  loop_.begin(view, params_);
-  left_edge_mm_ = -mm(kKeepSide);
+  loop_.begin(view, behaviours_.params);
+  left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
   phase_ = Phase::survey;
   tell(Mode::surveying, Why::goal_set);
@@ -32,7 +32,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
 void BoundaryPlanner::advance(const View& view) noexcept {
   if (decision_.why == Why::something_moves) decision_.why = otherwise_;
   target_ = {goal_, view};
-  progress_.move(view, params_);
+  behaviours_.progress.move(view, behaviours_.params);
   loop_.move(view);
   follower_.move(view);
   approach_.observe(view);
@@ -57,7 +57,7 @@ bool BoundaryPlanner::gives_way(const View& view) const noexcept {
 }
 
 void BoundaryPlanner::act(const View& view) noexcept {
-  const Why exhausted = progress_.exhausted(params_.skirt.length_budget);
+  const Why exhausted = behaviours_.progress.exhausted(behaviours_.params.skirt.length_budget);
   if (exhausted != Why::none) {
     phase_ = Phase::over;
     finish(Mode::gave_up, exhausted, Outcome::gave_up);
@@ -71,16 +71,15 @@ void BoundaryPlanner::act(const View& view) noexcept {
     case Phase::survey: survey(view); break;
     case Phase::approach: approach(view); break;
     case Phase::choose_side: choose_side(view); break;
-    case Phase::boundary: boundary(view); break;
+    case Phase::boundary:
+      if (boundary(view)) approach(view);
+      break;
     case Phase::arrive: arrive(view); break;
     case Phase::over: break;
   }
 }
 
-void BoundaryPlanner::on(Event event) noexcept {
-  change(kTransitions, event, phase_, decision_);
-  if (event != Event::slid_off) progress_.pause();
-}
+void BoundaryPlanner::on(Event event) noexcept { behaviours_.change(kTransitions, event, phase_, decision_); }
 
 void BoundaryPlanner::end(Event event, Outcome outcome) noexcept {
   on(event);
@@ -92,13 +91,12 @@ void BoundaryPlanner::arrive(const View& view) noexcept {
   if (is_goal(target_.distance)) {
     end(Event::settled, Outcome::reached);
   } else {
-    on(Event::slid_off);
-    approach_.begin();
+    begin_approach(Event::slid_off);
   }
 }
 
 void BoundaryPlanner::survey(const View& view) noexcept {
-  if (survey_.step(view, target_.direction(), params_, decision_.manoeuvre)) on(Event::surveyed);
+  if (survey_.step(view, target_.direction(), behaviours_.params, decision_.manoeuvre)) on(Event::surveyed);
 }
 
 void BoundaryPlanner::approach(const View& view) noexcept {
@@ -107,9 +105,9 @@ void BoundaryPlanner::approach(const View& view) noexcept {
 
 void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
-  loop_.begin(view, params_);
+  loop_.begin(view, behaviours_.params);
   other_way_ = false;
-  if (progress_.travel_mm() - left_edge_mm_ < mm(kKeepSide)) {
+  if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
     side_search_.begin(target, (view.pose.heading - target).wrapped() > 0 ? Side::left : Side::right);
@@ -120,7 +118,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
 void BoundaryPlanner::choose_side(const View& view) noexcept {
   Twist twist;
   const bool over = side_search_.step(view, twist);
-  decision_.manoeuvre = cruise(twist, params_);
+  decision_.manoeuvre = cruise(twist, behaviours_.params);
   if (!over) return;
   if (!side_search_.found()) {
     on(Event::no_exit);
@@ -133,29 +131,33 @@ void BoundaryPlanner::choose_side(const View& view) noexcept {
   decision_.why = wall_ == Side::right ? Why::exit_left : Why::exit_right;
 }
 
-void BoundaryPlanner::boundary(const View& view) noexcept {
+bool BoundaryPlanner::boundary(const View& view) noexcept {
   if (follower_.follows() && view.sighted) {
     if (loop_.closed(view)) {
       go_the_other_way(view);
-      return;
+      return false;
     }
     if (loop_.strays(view)) {
       escape(view);
-      return;
+      return false;
     }
     if (may_leave(view)) {
-      left_edge_mm_ = progress_.travel_mm();
-      approach_.begin();
-      on(Event::nearer);
-      approach(view);
-      return;
+      left_edge_mm_ = behaviours_.progress.travel_mm();
+      begin_approach(Event::nearer);
+      return true;
     }
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
+  return false;
+}
+
+void BoundaryPlanner::begin_approach(Event event) noexcept {
+  approach_.begin();
+  on(event);
 }
 
 bool BoundaryPlanner::may_leave(const View& view) const noexcept {
-  if (target_.distance >= approach_.closest() - for_body(params_, kNearer)) return false;
+  if (target_.distance >= approach_.closest() - for_body(behaviours_.params, kNearer)) return false;
   const Angle target = target_.direction();
   const Reach& reach = view.local_grid->reach();
   const Way found = way(view, target, min(reach.probe, target_.distance), reach.planning);
@@ -170,10 +172,9 @@ void BoundaryPlanner::escape(const View& view) noexcept {
     return;
   }
   approach_.measure_anew(view, target_.distance);
-  approach_.begin();
   wall_ = opposite(wall_);
-  left_edge_mm_ = progress_.travel_mm() + mm(kOtherSide);
-  on(Event::wall_lost);
+  left_edge_mm_ = behaviours_.progress.travel_mm() + behaviours_.mm(kOtherSide);
+  begin_approach(Event::wall_lost);
 }
 
 void BoundaryPlanner::give_up_goal(const View& view) noexcept {
@@ -182,9 +183,8 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
     return;
   }
   approach_.measure_anew(view, target_.distance);
-  approach_.begin();
   escapes_ = 0;
-  on(Event::doubted);
+  begin_approach(Event::doubted);
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
@@ -200,7 +200,7 @@ void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
   other_way_ = true;
   wall_ = opposite(wall_);
   const Angle back = view.pose.heading + 180_deg;
-  loop_.begin(view, params_);
+  loop_.begin(view, behaviours_.params);
   follower_.begin_at_wall(view, back, wall_, decision_);
   on(Event::closed);
 }

@@ -6,10 +6,10 @@
 
 #include "firmware/params.hpp"
 #include "firmware/planning/boundary/approach.hpp"
+#include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/boundary_follower.hpp"
 #include "firmware/planning/boundary/follow_side_search.hpp"
 #include "firmware/planning/boundary/loop_detector.hpp"
-#include "firmware/planning/boundary/progress_checker.hpp"
 #include "firmware/planning/boundary/survey.hpp"
 #include "firmware/planning/boundary/target.hpp"
 #include "firmware/planning/goal_planner.hpp"
@@ -69,7 +69,7 @@ class BoundaryPlanner final : public GoalPlanner {
 
   /// What is given must outlive the planner. A guide, if there is one, says where to drive in free space.
   BoundaryPlanner(const Params& params, HeadingDeflection& law, GlobalPlanner* guide = nullptr) noexcept
-      : params_(params), approach_(params, law, guide, progress_), follower_(params, progress_) {}
+      : behaviours_(params), approach_(law, guide, behaviours_), follower_(behaviours_) {}
 
  private:
   void start(const View& view) noexcept override;
@@ -84,18 +84,18 @@ class BoundaryPlanner final : public GoalPlanner {
   void survey(const View& view) noexcept;
   void approach(const View& view) noexcept;
   void choose_side(const View& view) noexcept;
-  void boundary(const View& view) noexcept;
+  /// True: it leaves the boundary.
+  bool boundary(const View& view) noexcept;
   void arrive(const View& view) noexcept;
 
+  void begin_approach(Event event) noexcept;
   void begin_side_search(const View& view) noexcept;
   bool may_leave(const View& view) const noexcept;
   void go_the_other_way(const View& view) noexcept;
   void escape(const View& view) noexcept;
   void give_up_goal(const View& view) noexcept;
-  int32_t mm(Length reference) const noexcept { return for_body(params_, reference).raw() / 1000; }
 
-  const Params& params_;
-  ProgressChecker progress_;
+  Behaviours behaviours_;
   Approach approach_;
   BoundaryFollower follower_;
   Survey survey_;

@@ -6,7 +6,7 @@ using namespace literals;
 
 namespace {
 
-constexpr int64_t kDrift = 50;  // odometry is off by at most 1 / 50 of the way
+constexpr uint32_t kDrift = 50;  // odometry is off by at most 1 / 50 of the way
 constexpr int32_t kMostLaps = 3;
 constexpr uint64_t kDegree = (1_deg).raw();
 
@@ -35,7 +35,7 @@ bool LoopDetector::closed(const View& view) noexcept {
   if (!left_ || magnitude(turned_) < 300 * kDegree) return false;
   const Length near =
       min(scale_ * 7 / 2,
-          scale_ * 3 / 2 + Length::from_raw(saturate32((view.travelled_um - began_um_) / kDrift)));
+          scale_ * 3 / 2 + Length::from_raw(static_cast<int32_t>((view.travelled_um - began_um_) / kDrift)));
   return norm(view.pose.at - at_) < near && magnitude(view.pose.heading - heading_) < (90_deg).raw();
 }
 

@@ -32,14 +32,14 @@ class LoopDetector {
   Vec at_;
   Length scale_;  // what 100 mm are to the reference body
   Angle heading_;
-  bool follows_ = false;  // from heading_ on
-  bool left_ = false;     // has been away from the beginning
-  Length farthest_;       // from the beginning
-  int64_t began_um_ = 0;  // View::travelled_um at the beginning
-  Angle last_;            // the heading of the tick before
-  int64_t turned_ = 0;    // 2^-32 turn, counter-clockwise positive
-  int32_t laps_ = 0;      // whole turns so far
-  Vec lap_at_;            // where the last of them ended
+  bool follows_ = false;   // from heading_ on
+  bool left_ = false;      // has been away from the beginning
+  Length farthest_;        // from the beginning
+  uint32_t began_um_ = 0;  // View::travelled_um at the beginning
+  Angle last_;             // the heading of the tick before
+  int64_t turned_ = 0;     // 2^-32 turn, counter-clockwise positive
+  int32_t laps_ = 0;       // whole turns so far
+  Vec lap_at_;             // where the last of them ended
 };
 
 }  // namespace whisker::planning

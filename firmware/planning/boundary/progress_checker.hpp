@@ -24,7 +24,7 @@ class ProgressChecker {
   Why exhausted(Length budget) const noexcept;
 
  private:
-  int64_t started_um_ = 0;
+  uint32_t started_um_ = 0;  // View::travelled_um then
   int32_t travel_mm_ = 0;
   int32_t paused_mm_ = 0;  // travel at which the body last got on
   int16_t pauses_ = 0;     // since then

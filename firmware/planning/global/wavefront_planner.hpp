@@ -66,7 +66,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   int32_t ticks_ = 0;   // since a plan was begun
   ClosestApproach best_;
   int32_t improved_mm_ = 0;  // travel at which that was
-  int64_t started_um_ = 0;  // View::travelled_um then
+  uint32_t started_um_ = 0;  // View::travelled_um then
   int32_t travel_mm_ = 0;
   static constexpr int kBarriers = 4;
   Barrier barrier_[kBarriers];

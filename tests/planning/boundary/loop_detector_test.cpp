@@ -26,7 +26,7 @@ class Round {
     centre_ = centre_ + drift;
     ++deg_;
     place();
-    view_.travelled_um += norm(view_.pose.at - before).raw();
+    view_.travelled_um += static_cast<uint32_t>(norm(view_.pose.at - before).raw());
     loop_.move(view_);
   }
   void jump(Vec by) {

@@ -58,7 +58,6 @@ const char* name(Approach::Event event) {
   switch (event) {
     case Approach::Event::unknown: return "the guard holds it before unknown ground";
     case Approach::Event::scanned: return "scanned";
-    case Approach::Event::in_vain: return "scanned in vain, blocked";
     case Approach::Event::refused: return "the advised way is blocked";
     case Approach::Event::settled: return "at rest";
   }

@@ -68,7 +68,7 @@ Cost cost_of(Vec from, Vec to) {
     if (since > 100 && since % 20 == 0) {
       const Vec way{millimetres(draw(-100, 100)), millimetres(draw(-100, 100))};
       view.pose.at = view.pose.at + way;
-      view.travelled_um += norm(way).raw();
+      view.travelled_um += static_cast<uint32_t>(norm(way).raw());
       view.pose.heading = test::degrees(draw(0, 359));
       local_grid.move_to(view.pose);
       view.observed = 7;

@@ -31,7 +31,7 @@ class Guided : public testing::Test {
     return map_.guide.advise(view_, norm(kGoal - view_.pose.at), place);
   }
   void go_to(Vec at) {
-    view_.travelled_um += norm(at - view_.pose.at).raw();
+    view_.travelled_um += static_cast<uint32_t>(norm(at - view_.pose.at).raw());
     view_.pose.at = at;
     local_grid_.move_to(view_.pose);
     map_.guide.observe(view_);

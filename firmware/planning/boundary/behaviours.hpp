@@ -1,0 +1,40 @@
+/// What the boundary planner's state machines share: one of them drives at a time.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/params.hpp"
+#include "firmware/planning/boundary/progress_checker.hpp"
+#include "firmware/planning/boundary/stuck_detector.hpp"
+#include "firmware/planning/scan_behaviour.hpp"
+#include "firmware/planning/steering.hpp"
+#include "firmware/planning/transition.hpp"
+
+namespace whisker::planning {
+
+struct Behaviours {
+  /// The parameters must outlive it.
+  explicit Behaviours(const Params& p) noexcept : params(p) {}
+
+  /// Once a tick while the body is to drive: whether the guard holds it.
+  bool stalled(const View& view) noexcept;
+  /// A reference body's length for this one, in millimetres.
+  int32_t mm(Length reference) const noexcept;
+  /// Drives towards this heading.
+  Manoeuvre drive(const View& view, Angle heading) const noexcept;
+  /// Follows an arrow of a machine's table. It counts as an attempt, and the patience is new.
+  template <class Phase, class Event, size_t kRows>
+  void change(const Transition<Phase, Event> (&table)[kRows], Event event, Phase& phase,
+              Decision& decision) noexcept {
+    progress.pause();
+    stuck.reset();
+    planning::change(table, event, phase, decision);
+  }
+
+  const Params& params;
+  ProgressChecker progress;
+  ScanBehaviour scan;
+  StuckDetector stuck;
+};
+
+}  // namespace whisker::planning
