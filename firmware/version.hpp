@@ -7,9 +7,7 @@
 #define WHISKER_VERSION_MINOR 2
 #define WHISKER_VERSION_PATCH 0
 
-/// major << 16
-/// minor << 8
-/// patch: for comparisons, also by the preprocessor.
+/// major << 16 | minor << 8 | patch: for comparisons, also by the preprocessor.
 #define WHISKER_VERSION_NUMBER \
   (WHISKER_VERSION_MAJOR * 65536 + WHISKER_VERSION_MINOR * 256 + WHISKER_VERSION_PATCH)
 

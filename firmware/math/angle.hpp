@@ -17,9 +17,7 @@ class Angle {
     a.raw_ = raw;
     return a;
   }
-  /// numerator / denominator of a turn, rounded to nearest.
-  /// numerator
-  /// < 2^30, 0 < denominator.
+  /// numerator / denominator of a turn, rounded to nearest. |numerator| < 2^30, 0 < denominator.
   static constexpr Angle turns(int32_t numerator, int32_t denominator) noexcept {
     return from_raw(static_cast<uint32_t>(
         static_cast<uint64_t>(divide_rounded(int64_t{numerator} * (INT64_C(1) << 32), denominator))));
@@ -55,9 +53,7 @@ constexpr Angle scaled(Angle a, Fixed<kFraction, Rep> k) noexcept {
   return Angle::from_raw(static_cast<uint32_t>(static_cast<uint64_t>(product)));
 }
 
-/// The arc length of a point at this radius; the angle is taken in [-1/2, 1/2) turn.
-/// radius
-/// <= 600 m.
+/// The arc length of a point at this radius; the angle is taken in [-1/2, 1/2) turn. |radius| <= 600 m.
 constexpr Length arc(Angle a, Length radius) noexcept {
   constexpr int64_t kTwoPiQ28 = 1686629713;
   const int64_t circumference = scale_down<28>(radius.raw() * kTwoPiQ28);

@@ -38,7 +38,7 @@ class ShownGuide final : public planning::GlobalPlanner {
   bool knows_no_way() const noexcept override { return guide_.knows_no_way(); }
   bool doubt() noexcept override { return guide_.doubt(); }
 
-  /// Its last advice. It is asked in free space only, and the advice ends when it was refused for good.
+  /// Its last advice. It is asked in free space only, and the advice ends with its final refusal.
   Guidance said() const { return said_; }
   /// The way point, in the frame of the estimate; only if has_place().
   Vec way() const { return way_; }
