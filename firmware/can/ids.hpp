@@ -1,5 +1,5 @@
-/// Identifiers: function << 4
-/// node of the sender. A lower identifier wins arbitration, so the function is the priority.
+/// Identifiers: function << 4 | node of the sender. A lower identifier wins arbitration, so the function is
+/// the priority.
 #pragma once
 
 #include <stdint.h>
