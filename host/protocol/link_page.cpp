@@ -52,7 +52,7 @@ The sequence of a run: H, and the version must be {version}; P, or else the defa
 G; then T every period, until outcome in Answer is 2, 3 or 4, or fault is not 0; E.
 
 P deletes the robot, so B must follow. Inconsistent parameters create a robot with the fault invalid_params (1).
-R clears a fault of the core; then the goal must be set again. L places the robot at another pose. A planner
+R clears a fault of the core; then the goal must be set again. L sets the pose of the robot. A planner
 that does not fit into memory, or a map_bytes that is not a map size (1024, 2048, 4096, 8192, 16384), ends the program.
 
 Axes, beams, wheels, counts and measurements are defined in [protocol.md](protocol.md#axes), with two differences: the
