@@ -46,10 +46,10 @@ class Robot {
 
   /// Sets the pose of the robot.
   ///
-  /// Without an active goal, the robot was put down there: it clears the local grid, and counts the wheels
-  /// from their next counts. With an active goal, the pose estimate is corrected: the local grid stays around
-  /// the body, the current movement continues, and the goal moves relative to the body. Call cancel() before
-  /// you carry the robot.
+  /// Without an active goal, the robot was put down there: it resets the local grid to unknown, and the next
+  /// encoder counts are the new zero. With an active goal, the pose estimate is corrected: the local grid
+  /// stays around the body, the current movement continues, and the goal moves relative to the body. Call
+  /// cancel() before you carry the robot.
   ///
   /// False: the pose lies beyond kPlaceLimit, which is a fault; nothing else changed.
   bool place(const Pose& pose) noexcept;
@@ -58,9 +58,9 @@ class Robot {
   /// current mission ends.
   bool set_goal(const planning::Goal& goal) noexcept;
   void cancel() noexcept;
-  /// Clears the fault, all readings, and all ground except that under the body. The pose continues from the
-  /// estimate, which a fault may have made less accurate. The goal must be set again. Parameters that check()
-  /// refused at construction stay refused.
+  /// Ends the fault, drops all readings, and resets all ground except that under the body to unknown. The
+  /// pose continues from the estimate, which a fault may have made less accurate. The goal must be set again.
+  /// Parameters that check() refused at construction stay refused.
   void reset() noexcept;
 
   /// Something else has braked the wheels since the last tick, for example a bus that lost messages: the next

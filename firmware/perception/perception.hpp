@@ -33,7 +33,7 @@ class Perception {
   void start(Time now) noexcept { conditioner_.reset(now); }
   /// The body was put down here: only the ground that must be free around it is clear.
   void place(const Pose& pose) noexcept;
-  /// Clears all ground except that under the body, because the pose may be wrong.
+  /// Resets all cells except those under the body to unknown, because the pose may be wrong.
   void forget(const Pose& pose) noexcept;
   /// The body moves untracked between the last tick and the next one.
   void lose_history() noexcept { history_.reset(); }

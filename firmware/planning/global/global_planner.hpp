@@ -22,9 +22,10 @@ class GlobalPlanner {
   virtual Advice advise(const View& view, Length distance, Vec& place) noexcept = 0;
   /// All headings in that direction are blocked. False: there is no better advice.
   virtual bool refuse(const View& view) noexcept = 0;
-  /// It knows no path, or has already cleared its blocked cells.
+  /// It knows no path, or has already reset its blocked cells to unknown.
   virtual bool knows_no_way() const noexcept = 0;
-  /// Boundary following found no path either. True: blocked cells were cleared, and there is advice again.
+  /// Boundary following found no path either. True: it reset its blocked cells to unknown and has advice
+  /// again.
   virtual bool doubt() noexcept = 0;
 
  protected:

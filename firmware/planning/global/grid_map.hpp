@@ -27,7 +27,7 @@ class GridMap {
   GridMap(const GridShape& shape, GridWord* storage) noexcept : shape_(shape), planes_(storage) {}
 
   void configure(const Params& params) noexcept;
-  /// Clears the map; the window contains the body and is shifted towards the goal.
+  /// Resets the map to unknown; the window contains the body and is shifted towards the goal.
   void reset(Vec body, Vec goal) noexcept;
   /// Moves the window if the body comes near its border. True: it moved.
   bool follow(Vec body, Vec goal) noexcept;
