@@ -1,5 +1,5 @@
-/// Every number that a user may change, in one struct: unit in the type, default beside it,
-/// key and range in for_each_param, relations in check().
+/// All parameters in one struct: the unit is in the type, the default beside it, key and range are in
+/// for_each_param, relations in check().
 #pragma once
 
 #include <stdint.h>
@@ -14,7 +14,7 @@ using namespace literals;
 struct BodyParams {
   Length radius = 90_mm;  ///< of the smallest disc that covers the robot
   Length margin = 30_mm;  ///< kept free around the body when a step is planned
-  Length track = 140_mm;  ///< between the wheels' contact points
+  Length track = 140_mm;  ///< distance between the wheels' contact points
 };
 
 struct WheelParams {
@@ -26,21 +26,21 @@ struct WheelParams {
 };
 
 struct RangefinderParams {
-  Angle side_angle = 30_deg;  ///< left beam's axis from straight ahead; right mirrored
+  Angle side_angle = 30_deg;  ///< axis of the left beam from straight ahead; the right beam is mirrored
   Angle cone = 25_deg;        ///< full width
   Length min_range = 20_mm;
-  Length max_range = 2000_mm;  ///< also what a clear reading counts as
-  Length offset = 0_mm;        ///< of the apexes, along each beam's axis from the centre
+  Length max_range = 2000_mm;  ///< also the distance that a clear reading stands for
+  Length offset = 0_mm;        ///< of each apex from the centre, along the axis of its beam
   int32_t rate_hz = 50;
   Duration latency = 20_ms;  ///< from the measurement to its arrival
-  Length clear_range;        ///< no reading proves ground free beyond; zero: max_range (hal/rangefinders.hpp)
+  Length clear_range;        ///< readings mark no ground beyond it as free; zero: max_range
 };
 
-/// Of beam 0, 1, 2 (left, front, right), from straight ahead.
+/// Axis of beam 0, 1, 2 (left, front, right) from straight ahead.
 constexpr Angle beam_axis(Angle side_angle, int beam) noexcept { return side_angle * (1 - beam); }
 
-/// How several readings become one. As wide as every parameter: clang 14 for AVR misreads a number that
-/// crosses the 64th byte of its struct, and four-byte fields alone never do.
+/// How several readings become one. The enumeration has four bytes like every parameter: clang 14 for AVR
+/// misreads a 16-bit half that crosses the 64th byte of its struct, and four-byte fields never do.
 enum class Consensus : int32_t {
   agreeing,  ///< the last `reads` readings lie within `tolerance`: their minimum
   median,    ///< the median of the last `reads` readings
@@ -54,7 +54,7 @@ struct ConditioningParams {
   Angle stuck_turn = 150_deg;     ///< the same millimetre over this turn: stuck
 };
 
-/// Which distance is D: the thesis says both.
+/// Which distance is D; the thesis states both.
 enum class DistanceSource : int32_t {
   front,  ///< the main sensor (section 1.2)
   mean,   ///< the mean of the three (section 1.1)
@@ -67,18 +67,18 @@ struct ThesisParams {
   Length small_step = 100_mm;
   Angle delta = 10_deg;          ///< deflection between two probes
   Length danger_range = 300_mm;  ///< the target direction is blocked below this
-  int32_t max_steps = 4000;      ///< positions visited before it gives up
+  int32_t max_steps = 4000;      ///< visited positions, after which it gives up
 };
 
 struct SkirtParams {
-  Length cell;                       ///< of the local grid; zero: see patch_cell
-  Length shield_margin = 4_mm;       ///< kept clear around the body at every tick
-  Length probe;                      ///< length of a way that is judged; zero: see Reach
-  Length planning_margin = 6_mm;     ///< the same on a heading that is chosen; more than the guard's
-  Length age_travel = 500_mm;        ///< clear ground is forgotten after one to two of these ways
-  Angle age_turn = 340_deg;          ///< or of these turns, whichever comes first
-  Speed mover_speed = 300_mm_per_s;  ///< of things that move and are given room; 0: nothing moves
-  Length length_budget = 400_m;      ///< of way, after which it gives up; of the map planner, too
+  Length cell;                       ///< side of a cell of the local grid; zero: see patch_cell
+  Length shield_margin = 4_mm;       ///< clearance around the body that the guard keeps at every tick
+  Length probe;                      ///< length of the path that is checked ahead; zero: see Reach
+  Length planning_margin = 6_mm;     ///< clearance for a chosen heading; more than the guard's
+  Length age_travel = 500_mm;        ///< clear cells expire after one to two of these distances
+  Angle age_turn = 340_deg;          ///< or after one to two of these turns, whichever comes first
+  Speed mover_speed = 300_mm_per_s;  ///< assumed speed of moving objects; 0: nothing moves
+  Length length_budget = 400_m;      ///< travel after which it gives up; also for the map planner
 };
 
 struct MotionParams {
@@ -89,10 +89,10 @@ struct MotionParams {
 
 struct SafetyParams {
   Duration period = 10_ms;           ///< of tick(): the control period
-  Duration max_gap;                  ///< between two ticks; zero: see longest_gap
-  Duration lost_after = 1000_ms;     ///< a beam lost for this long stops the robot for good
+  Duration max_gap;                  ///< longest gap between two ticks; zero: see longest_gap
+  Duration lost_after = 1000_ms;     ///< a beam lost for this long is a fault
   Duration stalled_after = 2000_ms;  ///< wheels without counts, or a manoeuvre without progress: a fault
-  int32_t max_refusals = 5;          ///< of the drive, in a row
+  int32_t max_refusals = 5;          ///< of the drive, close to one another
 };
 
 struct Params {
@@ -106,7 +106,7 @@ struct Params {
   SafetyParams safety;
 };
 
-/// The relations between parameters; each names what must hold.
+/// The relations between parameters; each comment is what must hold.
 enum class ParamFault : uint8_t {
   none,
   out_of_range,               ///< a value lies outside its own range
@@ -115,29 +115,28 @@ enum class ParamFault : uint8_t {
   cones_apart_from_front,     ///< side_angle + cone / 2 <= 90 degrees
   danger_inside_body,         ///< danger_range > radius + margin
   steps_reversed,             ///< small_step <= base_step
-  stop_longer_than_range,     ///< what the body needs to stop from full speed <= max_range / 4
+  stop_longer_than_range,     ///< stopping distance from full speed <= max_range / 4
   stale_before_next_reading,  ///< stale_after > 1 / rate + latency
   lost_before_stale,          ///< lost_after >= stale_after
-  tolerance_below_encoder,    ///< drive_tolerance and the rim's way at turn_tolerance >= one count
+  tolerance_below_encoder,    ///< drive_tolerance and the rim distance of turn_tolerance >= one count
   gap_below_period,           ///< max_gap, unless zero, >= 2 period
-  stuck_within_cone,          ///< stuck_turn > cone: within it a real thing keeps its distance
-  cone_too_wide,              ///< cone <= 60 degrees: the same millimetre all round is no stuck sensor
+  stuck_within_cone,          ///< stuck_turn > cone: within its cone, a real object keeps its distance
+  cone_too_wide,              ///< cone <= 60 degrees, so that a healthy sensor never looks stuck
   tolerance_above_step,       ///< drive_tolerance < small_step, turn_tolerance < delta
-  tolerance_below_wire,       ///< the rim's way at turn_tolerance >= 0.1 mm/s x settle
-  stalled_before_count,       ///< stalled_after >= what the slowest count and the slowest stop take
+  tolerance_below_wire,       ///< the rim distance of turn_tolerance >= 0.1 mm/s x settle
+  stalled_before_count,       ///< stalled_after >= the time of the slowest count and the slowest stop
   settle_below_lag,           ///< settle >= motor_lag + period
   cone_too_narrow,            ///< blind_reach + cell <= 7/4 radius
   patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
   planning_below_shield,      ///< planning_margin >= shield_margin
-  step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no response is a longer step
+  step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
 };
 constexpr int kParamFaults = 22;
 
 const char* name(ParamFault fault) noexcept;
 
-/// Calls f.number(key, field, min, max), f.count(key, field, min, max) or
-/// f.choice(key, field, names, count) for every parameter. The key's suffix is the unit that
-/// hosts use: m, mps, mps2, radps, deg, s, hz.
+/// Calls f.number(key, field, min, max), f.count(key, field, min, max) or f.choice(key, field, names, count)
+/// for every parameter. The suffix of the key is the unit on the host: m, mps, mps2, radps, deg, s, hz.
 template <class P, class F>
 constexpr void for_each_param(P& p, F&& f) {
   constexpr const char* kConsensus[] = {"agreeing", "median"};
@@ -193,51 +192,50 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("wheels_stalled_after_s", p.safety.stalled_after, 200_ms, 10000_ms);
   f.count("max_drive_refusals", p.safety.max_refusals, 1, 1000);
 
-  // On the CAN bus a parameter is its place in this list: new ones go to the end.
+  // The index of a parameter on the CAN bus is its place in this list: append new ones.
   f.number("range_clear_m", p.rangefinders.clear_range, 0_mm, 60_m);
   f.number("length_budget_m", p.skirt.length_budget, 1_m, 2000_m);
 }
 
-/// As far as readings prove ground free.
+/// The distance up to which readings mark ground as free.
 constexpr Length proving_range(const RangefinderParams& r) noexcept {
   return r.clear_range == Length{} ? r.max_range : min(r.clear_range, r.max_range);
 }
-/// The local grid's cell. Unless given: 2/9 of the radius, or less, to half of that, where a narrow cone
-/// or sensors far from the centre could otherwise not prove the ground at the body's rim.
+/// Side of a cell of the local grid. By default 2/9 of the radius, or less, down to half of that, where a
+/// narrow cone or sensors far from the centre could otherwise not clear the ground at the rim of the body.
 constexpr Length patch_cell(const Params& params) noexcept;
-/// A disc of so many 256ths of a cell around its centre covers the cell: 0.7072, and a little for rounding.
+/// A disc of this radius around the centre covers the cell, in 1/256 of a cell: 0.7072, rounded up.
 constexpr int32_t kCellCover = 184;
-/// Ways are judged within so many cells of the local grid's centre.
+/// Paths are checked within this number of cells from the centre of the local grid.
 constexpr int32_t kHalfWindow = 15;
 /// The radius of that disc.
 constexpr Length cell_cover(const Params& params) noexcept;
-/// As far as this from the centre no beam can prove a cell from where the body stands: its cone is too narrow
-/// there. Where that is more than the body covers, the ring between must be free when the robot is placed.
+/// Within this distance from the centre, no beam can clear a cell while the body stands, because its cone is
+/// too narrow there. If this exceeds the body, the ring between must be free when the robot is placed.
 constexpr Length blind_reach(const Params& params) noexcept;
-/// How far ways are judged, and beside them.
+/// How far the path is checked, ahead and beside.
 struct Reach {
-  Length guard;     ///< from the body's centre: cells that come nearer must be clear at every tick
-  Length planning;  ///< the same on a heading that is chosen
-  Length probe;     ///< length of a way; unless given, 5/3 of the radius, or as far as the local grid reaches
+  Length guard;     ///< distance from the centre of the body within which cells must be clear at every tick
+  Length planning;  ///< the same for a chosen heading
+  Length probe;  ///< length of the checked path; by default 5/3 of the radius, or the reach of the local grid
 };
-/// Takes a sine and divisions: perception::LocalGrid keeps it.
+/// Computes a sine and divisions, so perception::LocalGrid stores the result.
 constexpr Reach reach(const Params& params) noexcept;
-/// The longest time between two ticks that is accepted, and for which every movement is judged: the body must
-/// be able to stop although the next tick comes that late. Unless given: 50 ms more than the period, so that
-/// a bus that is silent for 40 ms is outlived. A longer gap is
-/// Fault::clock_jump.
+/// The longest accepted time between two ticks; a longer gap is Fault::clock_jump. The guard assumes it for
+/// every movement: the body must be able to stop even if the next tick comes that late. By default 50 ms more
+/// than the period, so that the robot survives 40 ms of bus silence.
 constexpr Duration longest_gap(const Params& p) noexcept {
   if (p.safety.max_gap != Duration{}) return p.safety.max_gap;
   return p.safety.period + 50_ms;
 }
-/// A distance that suits the reference body of 90 mm, for this one.
+/// Scales a distance for the reference body of 90 mm to this body.
 Length for_body(const Params& p, Length reference) noexcept;
 
-/// The first fault found; ParamFault::none for a set that the core accepts. It may be asked in a
-/// static_assert. All faults: for_each_relation in params/relations.hpp.
+/// The first violated relation; ParamFault::none for a valid set. Usable in a static_assert. For all
+/// violations, see for_each_relation in params/relations.hpp.
 constexpr ParamFault check(const Params& params) noexcept;
 
 }  // namespace whisker
 
-// The definitions of what is constexpr above.
+// Definitions of the constexpr functions above.
 #include "firmware/params/relations.hpp"

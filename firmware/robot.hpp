@@ -1,4 +1,4 @@
-/// The whole core, once a tick: localize -> perceive -> plan -> guard -> actuate.
+/// The complete core. Each tick: localize -> perceive -> plan -> guard -> actuate.
 #pragma once
 
 #include "firmware/control/wheel_drive.hpp"
@@ -18,62 +18,62 @@
 
 namespace whisker {
 
-/// What happened in the last tick.
+/// The result of the last tick.
 struct Status {
   planning::Decision decision;
   Pose pose;                   ///< estimated
-  perception::Echoes echoes;   ///< the latest reading of each beam by itself
-  hal::WheelSpeeds command{};  ///< as given to the drive
+  perception::Echoes echoes;   ///< the latest single reading of each beam
+  hal::WheelSpeeds command{};  ///< as sent to the drive
   Health health;
 };
 
-/// One robot. Allocates nothing, waits for nothing; a tick's work is bounded.
+/// One robot. It never allocates or waits, and the work of a tick is bounded.
 ///
 ///   Robot robot{rangefinders, drive, planner, params};
 ///   robot.place({{0_m, 0_m}, 0_deg});
 ///   robot.set_goal({{4_m, 1_m}, 100_mm});
 ///   every 10 ms:  robot.tick(Time::from_raw(clock.now_ms()));
 ///
-/// A failure ends in the safe state: both wheels slow down at the acceleration limit to zero, stay
-/// there, and status().health.fault names the cause until reset(). All references must outlive the robot,
-/// and the parameters must not change while it lives.
+/// A failure leads to the safe state: both wheels ramp down to zero at the acceleration limit and stand, and
+/// status().health.fault names the cause until reset(). All references must outlive the robot, and the
+/// parameters must not change while it lives.
 ///
-/// Places are those of its user, and lie at most kPlaceLimit out (core/region.hpp).
+/// Poses and goals are in the user's frame and lie within kPlaceLimit (math/region.hpp).
 class Robot {
  public:
   Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
         const Params& params) noexcept;
 
-  /// Tells the robot where it is.
+  /// Sets the pose of the robot.
   ///
-  /// Without a goal under way it is put down there: it forgets all ground, and takes the wheels' next counts
-  /// as zero. With one, its estimate is corrected: what it knows of the ground stays around the body as it
-  /// is, what the wheels are doing goes on, and the goal lies elsewhere from then on. Who carries the robot
-  /// away must cancel() before.
+  /// Without an active goal, the robot was put down there: it resets the local grid to unknown, and the next
+  /// encoder counts are the new zero. With an active goal, the pose estimate is corrected: the local grid
+  /// stays around the body, the current movement continues, and the goal moves relative to the body. Call
+  /// cancel() before you carry the robot.
   ///
-  /// False: nothing was changed: it lies beyond kPlaceLimit, which is a fault.
+  /// False: the pose lies beyond kPlaceLimit, which is a fault; nothing else changed.
   bool place(const Pose& pose) noexcept;
-  /// Accepted in any state; one given while a fault stands is dropped by reset(). False: it lies beyond
-  /// kPlaceLimit, or corrections have moved it there. It is refused with Why::goal_out_of_range, and the
-  /// mission under way ends.
+  /// Accepted in any state; reset() drops a goal that was set during a fault. False: the goal lies beyond
+  /// kPlaceLimit, or corrections have moved it there. It is then refused with Why::goal_out_of_range, and the
+  /// current mission ends.
   bool set_goal(const planning::Goal& goal) noexcept;
   void cancel() noexcept;
-  /// Clears the fault and forgets all readings and all ground but that under the body: the pose goes on from
-  /// the estimate, which a fault may have cost some distance. The goal must be set again. Parameters that
-  /// check() refused at construction stay refused.
+  /// Ends the fault, drops all readings, and resets all ground except that under the body to unknown. The
+  /// pose continues from the estimate, which a fault may have made less accurate. The goal must be set again.
+  /// Parameters that check() refused at construction stay refused.
   void reset() noexcept;
 
-  /// Something else has braked the wheels since the last tick, as a bus does that misses messages: the next
+  /// Something else has braked the wheels since the last tick, for example a bus that lost messages: the next
   /// gap may be as long as safety.lost_after.
   void braked_elsewhere() noexcept { braked_elsewhere_ = true; }
 
-  /// One control tick. `now` is the time of this tick, about params.safety.period after the last, and at most
-  /// longest_gap(params): each command is judged to hold for that long.
+  /// One control tick. `now` is about params.safety.period after the last tick and at most
+  /// longest_gap(params), because the guard assumes that each command holds for that long.
   const Status& tick(Time now) noexcept;
   const Status& status() const noexcept { return status_; }
 
  private:
-  // The five stages of a tick, in this order; each is visited once. The view is what is known so far.
+  // The five stages of a tick, in this order. The view collects their results.
   bool localize(Time now, planning::View& view) noexcept;
   void perceive(planning::View& view) noexcept;
   void plan(const planning::View& view) noexcept;
@@ -103,10 +103,10 @@ class Robot {
   localization::CountStep step_;  // of this tick
   Time last_tick_;
   Time settled_since_;
-  Duration elapsed_;       // since the tick before, at most the longest gap
+  Duration elapsed_;       // since the last tick, at most the longest gap
   Duration since_counts_;  // since the counts were last read
   bool started_ = false;
-  bool has_goal_ = false;  // under way
+  bool has_goal_ = false;  // a mission is active
   bool goal_refused_ = false;
   bool was_settled_ = false;
   bool braked_elsewhere_ = false;

@@ -1,5 +1,4 @@
-/// The version of Whisker, by the rules of semver.org. It is said here and nowhere else: CMake reads these
-/// lines.
+/// The version of Whisker, by the rules of semver.org. This is its only place: CMake reads these lines.
 #pragma once
 
 #include <stdint.h>
@@ -8,7 +7,7 @@
 #define WHISKER_VERSION_MINOR 2
 #define WHISKER_VERSION_PATCH 0
 
-/// major << 16 | minor << 8 | local grid: for comparisons, also by the preprocessor.
+/// major << 16 | minor << 8 | patch: for comparisons, also by the preprocessor.
 #define WHISKER_VERSION_NUMBER \
   (WHISKER_VERSION_MAJOR * 65536 + WHISKER_VERSION_MINOR * 256 + WHISKER_VERSION_PATCH)
 

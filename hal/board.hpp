@@ -1,4 +1,4 @@
-/// What every board gives to a program. One board is linked; its folder has the rest.
+/// Interface of a board. A program links one board; the board's folder implements it.
 #pragma once
 
 #include "hal/byte_line.hpp"
@@ -12,16 +12,17 @@ namespace whisker::hal {
 struct Board {
   Clock& clock;
   Console& console;    ///< on the UART
-  ByteStream& serial;  ///< the same UART, for a companion instead of a person
-  ByteLine* line;      ///< the same UART again, without waiting; null where it can only be waited for
-  ByteStream& host;    ///< to the emulator's own input and output: many times faster than the UART
+  ByteStream& serial;  ///< the same UART, for a companion program
+  ByteLine* line;      ///< the same UART, non-blocking; null if it only supports blocking access
+  ByteStream& host;    ///< standard input and output of the emulator: many times faster than the UART
   Meter& meter;
 };
 
-/// The board, ready: the same one at every call. The one that is linked defines it, and leave().
+/// The initialized board; every call returns the same one. The linked board defines this function and
+/// leave().
 const Board& board() noexcept;
 
-/// Ends the emulator with this status. On hardware without one: stands still.
+/// Ends the emulator with this status. On hardware, it never returns.
 [[noreturn]] void leave(int status) noexcept;
 
 }  // namespace whisker::hal

@@ -5,15 +5,15 @@
 
 namespace whisker::hal {
 
-/// Bytes to and from another machine, in order. No call waits.
+/// An ordered byte channel to another machine. No call blocks.
 class ByteLine {
  public:
-  /// Up to `room` of the bytes that have come. Returns how many; 0: none now.
+  /// Copies up to `room` received bytes. Returns their number; 0: none now.
   virtual size_t take(uint8_t* to, size_t room) noexcept = 0;
-  /// Hands over up to `count` bytes. Returns how many were taken; 0: no room now.
+  /// Sends up to `count` bytes. Returns the number accepted; 0: no room now.
   virtual size_t offer(const uint8_t* from, size_t count) noexcept = 0;
-  /// Whether there is another end, as far as the line can tell. False at least once after each loss of it,
-  /// with which all that was under way is lost. May look for it again.
+  /// Whether the other end is connected, as far as the line can tell. False at least once after each
+  /// disconnection, which discards all bytes in transit. May try to reconnect.
   virtual bool ready() noexcept = 0;
 
  protected:

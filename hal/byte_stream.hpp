@@ -5,13 +5,13 @@
 
 namespace whisker::hal {
 
-/// Bytes to and from a companion computer, in order and without loss. Not for the control loop of a real
-/// robot: both calls wait.
+/// An ordered and lossless byte channel to a companion computer. Not for the control loop of a real robot,
+/// because both calls block.
 class ByteStream {
  public:
-  /// Waits until all have come. False: the stream has ended or failed, and stays so.
+  /// Blocks until all bytes have arrived. False: the stream has ended or failed permanently.
   virtual bool read(uint8_t* to, size_t count) noexcept = 0;
-  /// Waits until all are taken. False: the stream has failed, and stays so.
+  /// Blocks until all bytes are accepted. False: the stream has failed permanently.
   virtual bool write(const uint8_t* from, size_t count) noexcept = 0;
 
  protected:

@@ -4,10 +4,10 @@
 
 namespace whisker::hal {
 
-/// A millisecond counter for the main loop. The core itself takes time as an argument.
+/// A millisecond counter for the main loop. The core receives time as an argument.
 class Clock {
  public:
-  /// Milliseconds since any fixed instant, modulo 2^32, monotonic. Never blocks, cannot fail.
+  /// Milliseconds since any fixed instant, modulo 2^32, monotonic. Never blocks, never fails.
   virtual uint32_t now_ms() noexcept = 0;
 
  protected:

@@ -2,10 +2,10 @@
 
 namespace whisker::hal {
 
-/// Text for a person.
+/// Text output for people.
 class Console {
  public:
-  /// Waits until the text is taken.
+  /// Blocks until the text is accepted.
   virtual void print(const char* text) noexcept = 0;
 
  protected:

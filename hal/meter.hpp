@@ -4,23 +4,22 @@
 
 namespace whisker::hal {
 
-/// What code costs on this target. A target that cannot tell answers 0.
+/// Measures the cost of code on this target. A target that cannot measure returns 0.
 class Meter {
  public:
-  /// The instant, in a unit of its own. Always takes the same path.
+  /// The current time stamp, in a unit of its own. Always executes the same path.
   virtual uint32_t stamp() noexcept = 0;
-  /// The work from one stamp to a later one: instructions in an emulator that counts them (ARM, RISC-V),
-  /// cycles where they are exact (AVR). The most that can be told apart is the board's affair, at least
-  /// 600,000.
+  /// The work between two stamps: instructions in an emulator that counts them (ARM, RISC-V), cycles where
+  /// they are exact (AVR). The largest measurable difference depends on the board and is at least 600,000.
   virtual uint32_t between(uint32_t from, uint32_t to) noexcept = 0;
-  /// The deepest stack since the start, bytes.
+  /// The deepest stack since the start, in bytes.
   virtual uint32_t deepest_stack() noexcept = 0;
 
  protected:
   ~Meter() = default;
 };
 
-/// What two stamps with nothing between them are apart.
+/// The difference of two consecutive stamps.
 inline uint32_t overhead(Meter& meter) noexcept {
   const uint32_t from = meter.stamp();
   const uint32_t to = meter.stamp();

@@ -4,20 +4,19 @@
 
 namespace whisker::hal {
 
-/// The three rangefinders. The core calls read() once a control tick.
+/// The three rangefinders. The core calls read() once per control tick.
 ///
-/// What a reading claims: nothing that the robot must avoid lies in the beam's cone nearer than its distance,
-/// or than RangefinderParams::clear_range if that is less. `clear` claims it for the maximum range. So
-/// clear_range is the distance to which the sensor sees every kind of thing that there is, at every slant: a
-/// sensor that gets no light or sound back cannot tell open ground from what is black, soft or slanted. Such
-/// a driver says `clear` all the same, or the robot would be blind in the open; what that is worth its board
-/// states. A sensor that knows that it failed says `invalid`.
+/// A reading is a promise: no obstacle in the cone of the beam is nearer than its distance, or than
+/// RangefinderParams::clear_range if that is less. `clear` promises it for the maximum range. So clear_range
+/// is the distance up to which the sensor detects every kind of obstacle at every angle. A sensor that
+/// receives no light or sound cannot distinguish open ground from a black, soft or slanted obstacle. Its
+/// driver still reports `clear`, because otherwise the robot could not drive in the open; clear_range of the
+/// board limits that promise. A sensor that detects its own failure reports `invalid`.
 class Rangefinders {
  public:
-  /// Copies the latest measurement of each sensor. Never blocks, and never waits for a measurement.
-  /// False: the sensors could not be asked at all; `out` is untouched, and the core counts it
-  /// and treats every beam as lost. One dead sensor is no reason for false: give it
-  /// RangeStatus::invalid or stale.
+  /// Copies the latest measurement of each sensor. Never blocks, and never waits for a measurement. False: no
+  /// sensor could be read; `out` is unchanged, and the core counts it and treats every beam as lost. For a
+  /// single failed sensor, return true and report RangeStatus::invalid or stale.
   virtual bool read(RangeReadings& out) noexcept = 0;
 
  protected:

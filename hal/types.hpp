@@ -1,5 +1,5 @@
-/// The values that cross the hardware boundary. They are integers of the width that a bus
-/// carries, so that a robot behind a bus gets exactly the bits that a robot on a board gets.
+/// The values at the hardware boundary. They are integers with the width used on a bus, so that a robot
+/// behind a bus gets exactly the same bits as a robot on a board.
 #pragma once
 
 #include <stdint.h>
@@ -8,19 +8,18 @@ namespace whisker::hal {
 
 enum class RangeStatus : uint8_t {
   ok,        ///< mm is a distance
-  clear,     ///< healthy, and nothing came back from within the maximum range; mm is not used
-  too_near,  ///< something nearer than the minimum range; mm is not used
+  clear,     ///< the sensor works, and no echo returned from within the maximum range; mm is not used
+  too_near,  ///< an object nearer than the minimum range; mm is not used
   invalid,   ///< the reading is lost; mm is not used
   stale,     ///< the sensor has no new reading; mm is not used
 };
 
-/// One rangefinder's latest measurement.
+/// The latest measurement of one rangefinder.
 struct RangeReading {
-  uint16_t mm;  ///< distance from the sensor's apex, mm; 0..65533
+  uint16_t mm;  ///< distance from the apex of the sensor in mm; 0..65533
   RangeStatus status;
-  uint8_t age_ms;    ///< time since the distance was true, ms: what the measurement took is a part of it.
-                     ///< 255 means 255 or more: the core takes such a reading for none
-  uint8_t sequence;  ///< goes up by one with every new measurement, modulo 16
+  uint8_t age_ms;    ///< since the distance was true, including the measurement; 255: that or more, ignored
+  uint8_t sequence;  ///< increases by one with every new measurement, modulo 16
 };
 
 constexpr int kBeams = 3;

@@ -1,12 +1,12 @@
-// A whole firmware around the core: three drivers, the parameters of the robot, and a loop.
+// A complete firmware around the core: three drivers, the parameters of the robot, and a loop.
 #include "firmware/planning/boundary/table_boundary_planner.hpp"
 #include "firmware/robot.hpp"
 #include "hal/clock.hpp"
 
 using namespace whisker;
 
-// Yours: three classes over your own drivers, whose headers in hal/ state what each must promise; a way to
-// print a line, and a lamp.
+// You implement these: three classes over your own drivers (the headers in hal/ state the requirements), a
+// function that prints a line, and a lamp.
 struct Sonar final : hal::Rangefinders {
   bool read(hal::RangeReadings& out) noexcept override;
 };
@@ -20,7 +20,7 @@ struct Timer final : hal::Clock {
 void print(const char* words);
 void set_lamp(bool on);
 
-// Your robot is not ours: change what differs. Everything has a unit, and check() knows what fits together.
+// Set the parameters that differ from the reference robot. check() tests whether they fit together.
 constexpr Params my_robot() {
   Params p;
   p.body.radius = 75_mm;
@@ -48,7 +48,7 @@ int main() {
     const Status& status = robot.tick(Time::from_raw(next));
     const Fault fault = status.health.fault;
     if (fault != Fault::none) {
-      // The wheels are told to stop until robot.reset(): yours is to say why, and to call somebody.
+      // The core stops the wheels until robot.reset(). Report the fault and call an operator.
       if (fault != told) print(fault == Fault::invalid_params ? name(check(params)) : name(fault));
       set_lamp(next / 500 % 2 == 0);
     }

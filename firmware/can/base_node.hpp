@@ -10,41 +10,40 @@ namespace whisker::can {
 
 enum class OrderState : uint8_t {
   none,
-  waiting,  ///< not answered yet: sent again and again
+  waiting,  ///< not answered yet: repeated
   accepted,
-  refused,  ///< or pointless: see for_good()
+  refused,  ///< or has no effect: see for_good()
 };
 
-/// The party with the sensors and the wheels, which also gives the missions. Allocates nothing, waits for
-/// nothing.
+/// The node with the sensors and the wheels, which also sends the missions. It never allocates or waits.
 ///
 ///   every millisecond:  node.poll(now);
 ///   every period:       wheels(node.control());  node.send_set(...);
 class BaseNode final : public Node {
  public:
-  /// ramp: the change of a wheel's speed in one period with which it brakes, 0.1 mm/s; more than 0.
+  /// ramp: change of a wheel's speed per period while it brakes, in 0.1 mm/s; above 0.
   BaseNode(hal::CanPort& port, const Identity& identity, int16_t ramp) noexcept;
 
   void poll(uint32_t now_ms) noexcept;
-  /// Sends what was measured at a tick. In lockstep the same tick may be sent again. False: the port did not
-  /// take all of it.
+  /// Sends the measurements of a tick. In lockstep, the same tick may be sent again. False: the port did not
+  /// accept all of it.
   bool send_set(const InputSet& set, Pace pace) noexcept;
-  /// Once a period: the speeds that the wheels shall have now. While the robot does not run they go down to
-  /// zero by the ramp.
+  /// Call once per period: the speeds that the wheels must have now. While the robot does not run, they ramp
+  /// down to zero.
   hal::WheelSpeeds control() noexcept;
 
-  /// Command and status for this tick have come.
+  /// Command and status for this tick have arrived.
   bool answered(uint32_t tick) const noexcept;
   const WheelCommand& command() const noexcept { return command_; }
   const NavStatus& status() const noexcept { return status_; }
 
-  /// Gives an order, and gives it again until it is answered. It ends this node's safe stop; the wheels must
-  /// be at rest for that. The robot runs once a start or resume is accepted.
+  /// Sends an order and repeats it until it is answered. It ends the safe stop of this node, so the wheels
+  /// must be at rest. The robot runs once a start or resume is accepted.
   void give(Order order, const Mission& mission, Pace pace) noexcept;
   OrderState order_state() const noexcept { return order_state_; }
 
   void request(const ParamRequest& request) noexcept;
-  /// The answer to the last request is there.
+  /// The answer to the last request has arrived.
   bool replied(ParamReply& reply) const noexcept;
 
  private:
@@ -64,7 +63,7 @@ class BaseNode final : public Node {
   uint32_t tick_ = 0;
   uint32_t command_seen_ = 0;
   uint8_t period_ms_ = 10;
-  bool commanded_ = false;  // a command for this mission has come
+  bool commanded_ = false;  // a command for this mission has arrived
   bool status_come_ = false;
 
   MissionValues values_;

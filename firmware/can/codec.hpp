@@ -1,4 +1,4 @@
-/// Values to frames and back, by the table in signals.hpp.
+/// Converts values to frames and back, by the table in signals.hpp.
 #pragma once
 
 #include <stdint.h>
@@ -9,7 +9,7 @@
 
 namespace whisker::can {
 
-/// Inlined with a signal of the table, each of these leaves a shift and a mask.
+/// With a signal of the table, each of these inlines to a shift and a mask.
 class Packer {
  public:
   template <class T>
@@ -41,7 +41,7 @@ class Unpacker {
   bool sound_ = true;
 };
 
-/// The bits of a frame's data, byte 0 lowest.
+/// The data bits of a frame, byte 0 lowest.
 inline uint64_t bits_of(const hal::CanFrame& frame) noexcept {
   uint32_t low = 0, high = 0;
   for (int i = 3; i >= 0; --i) {
@@ -51,7 +51,7 @@ inline uint64_t bits_of(const hal::CanFrame& frame) noexcept {
   return static_cast<uint64_t>(high) << 32 | low;
 }
 
-/// A frame with this content, protected.
+/// A frame with this content and its protection.
 hal::CanFrame sealed(uint64_t bits, uint32_t id, uint8_t size, uint8_t counter) noexcept;
 
 template <class M>
@@ -62,7 +62,7 @@ hal::CanFrame encode(const M& m, uint8_t node, uint8_t counter) noexcept {
   return sealed(packer.bits(), id_of(kMessage.function, node), kMessage.size, counter);
 }
 
-/// The CRC must have been checked. False: a value is out of its range.
+/// The caller must have checked the CRC. False: a value is out of range.
 template <class M>
 bool decode(const hal::CanFrame& frame, M& m) noexcept {
   Unpacker unpacker{bits_of(frame)};

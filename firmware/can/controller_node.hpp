@@ -9,8 +9,8 @@
 
 namespace whisker::can {
 
-/// The party that decides. It steps on complete input sets only, and names the set in its answer. Allocates
-/// nothing, waits for nothing.
+/// The node that decides. It steps on complete input sets only, and its answer carries their tick. It never
+/// allocates or waits.
 ///
 ///   every millisecond:  node.poll(now);
 ///                       if (node.take_order(...)) ...;
@@ -21,23 +21,23 @@ class ControllerNode final : public Node {
 
   void poll(uint32_t now_ms) noexcept;
 
-  /// An order was accepted since the last call. For a cancel, `mission` has no meaning.
+  /// An order was accepted since the last call. `mission` is unused for a cancel.
   bool take_order(Order& order, Mission& mission) noexcept;
-  /// The next complete input set, while the robot runs: once each, and never an older one.
+  /// The next complete input set while the robot runs: each once, and never an older one.
   bool take_set(InputSet& set) noexcept;
-  /// Since the last answer the wheels were told to brake: whoever plans their speeds must begin at zero.
+  /// The wheels were commanded to brake since the last answer: planned speeds must start at zero.
   bool braked() const noexcept { return braked_; }
-  /// The answer to the set that was taken last. In lockstep it is kept, and sent again when asked.
+  /// The answer to the last set. In lockstep it is stored and sent again on request.
   void answer(hal::WheelSpeeds speeds, const NavStatus& status) noexcept;
 
-  /// Parameters that a commit has found good.
+  /// Parameters accepted by a commit.
   const Params& params() const noexcept { return committed_; }
 
  private:
   Heard hear(Kind kind, const hal::CanFrame& frame) noexcept override;
   void forget_peer() noexcept override;
   bool at_rest() const noexcept override { return true; }
-  /// Before its first step the robot has not moved, and it is not known whether it shall go in lockstep.
+  /// Before its first step the robot has not moved, and the sync mode is unknown.
   bool timed() const noexcept override { return !lockstep() && stepped_; }
   template <Kind kKind>
   bool hear_range(int beam, const hal::CanFrame& frame) noexcept;
@@ -51,8 +51,8 @@ class ControllerNode final : public Node {
   void repeat_answer() noexcept;
 
   InputSets sets_;
-  uint32_t tick_ = 0;     // of the last set taken
-  bool stepped_ = false;  // there is one, in this mission
+  uint32_t tick_ = 0;     // of the last set
+  bool stepped_ = false;  // a set was taken in this mission
   bool answered_ = false;
   bool asked_again_ = false;
   WheelCommand command_;
@@ -69,7 +69,7 @@ class ControllerNode final : public Node {
   Mission mission_;
   Order order_ = Order::cancel;
   uint8_t number_ = 0;
-  bool numbered_ = false;  // number_ is of an accepted order
+  bool numbered_ = false;  // number_ belongs to an accepted order
   bool has_mission_ = false;
   bool order_taken_ = true;
 

@@ -1,7 +1,8 @@
 /// End-to-end protection of a frame: AUTOSAR E2E Profile 1, with the frame's identifier as data id.
 ///
-/// Byte 0 is a CRC-8 (polynomial 0x1D, begun with 0, not inverted) over the data id, low byte first, and all
-/// bytes after itself. The low half of byte 1 is an alive counter: 0 to 14, one more with every frame of this
+/// Byte 0 is a CRC-8 (polynomial 0x1D, initial value 0, not inverted) over the data id, low byte first, and
+/// all following bytes. The low half of byte 1 is an alive counter: 0 to 14, one more with every frame of
+/// this identifier, then 0 again.
 /// identifier, then 0 again.
 #pragma once
 
@@ -12,7 +13,7 @@
 namespace whisker::can {
 
 constexpr uint8_t kAliveModulus = 15;
-/// So many frames in a row may be lost and the next one is still taken for their successor.
+/// Number of frames in a row that may be lost before a frame counts as out of sequence.
 constexpr uint8_t kMostLost = 7;
 
 namespace crc8 {
@@ -41,7 +42,7 @@ constexpr uint8_t add(uint8_t crc, uint8_t byte) noexcept {
 
 }  // namespace crc8
 
-/// Of bytes 1 to size - 1.
+/// CRC of bytes 1 to size - 1.
 constexpr uint8_t crc_of(uint32_t id, const uint8_t* data, uint8_t size) noexcept {
   uint8_t crc = crc8::add(0, static_cast<uint8_t>(id));
   crc = crc8::add(crc, static_cast<uint8_t>(id >> 8));
@@ -65,16 +66,16 @@ class AliveSender {
 };
 
 enum class Arrival : uint8_t {
-  in_turn,   ///< the next one, or some before it were lost
+  in_turn,   ///< the next one, possibly after lost frames
   repeated,  ///< the same counter again
-  astray,    ///< too far from the one before, or no counter at all
+  astray,    ///< too far from the last one, or no valid counter
 };
 
-/// Judges the counters of one identifier. The first frame after forget() is always in turn; one that went
-/// astray is not, but the next is judged by it.
+/// Checks the counters of one identifier. The first frame after forget() is always in sequence. A frame out
+/// of sequence is rejected, but the next one is compared with it.
 class AliveReceiver {
  public:
-  /// lost: frames that must have been lost before this one; 0 unless in turn.
+  /// lost: number of frames lost before this one; 0 unless it is in sequence.
   constexpr Arrival judge(uint8_t counter, uint8_t& lost) noexcept {
     lost = 0;
     if (counter >= kAliveModulus) return Arrival::astray;

@@ -1,4 +1,4 @@
-/// What a receiver must know of a message before it looks inside: the table's numbers without its words.
+/// Headers: what a receiver needs of a message before it decodes the signals, without texts.
 #pragma once
 
 #include <stdint.h>
@@ -18,7 +18,7 @@ struct Heads {
   static constexpr uint8_t kNone = 0xFF;
   static constexpr int kFunctions = 0x74;
   Head of[kKinds];
-  uint8_t kind[kFunctions];  ///< by function; kNone: no message has it
+  uint8_t kind[kFunctions];  ///< by function; kNone: unused
 };
 
 constexpr Heads heads() noexcept {
@@ -34,7 +34,7 @@ constexpr Heads heads() noexcept {
 
 inline constexpr Heads kHeads = heads();
 
-/// False: no message of this protocol.
+/// False: not a message of this protocol.
 constexpr bool kind_of(uint32_t id, Kind& kind) noexcept {
   const uint32_t function = id >> 4;
   if (function >= Heads::kFunctions || kHeads.kind[function] == Heads::kNone) return false;

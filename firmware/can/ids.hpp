@@ -1,12 +1,12 @@
-/// Identifiers: function << 4 | node of the sender. A lower one wins the bus, so the function is the
-/// priority.
+/// Identifiers: function << 4 | node of the sender. A lower identifier wins arbitration, so the function is
+/// the priority.
 #pragma once
 
 #include <stdint.h>
 
 namespace whisker::can {
 
-/// The two parties of a robot.
+/// The two nodes of a robot.
 enum class Party : uint8_t {
   controller,  ///< decides: nodes 1 to 7
   base,        ///< has the sensors and the wheels: node of its controller + 8

@@ -1,4 +1,4 @@
-/// All that the base measured at one tick.
+/// All measurements of the base at one tick.
 #pragma once
 
 #include <stdint.h>
@@ -15,18 +15,18 @@ struct InputSet {
   bool counts_valid = false;
 };
 
-/// Puts the frames of a tick together. Frames may come in any order; of each kind the latest counts.
+/// Assembles the frames of a tick. Frames may arrive in any order; the latest of each kind counts.
 class InputSets {
  public:
   /// The reading in the form of the HAL. False: status and distance contradict each other.
   static bool sound(hal::RangeReading& wire) noexcept;
-  /// The reading in the form of the wire.
+  /// The reading in the form of the frame.
   static hal::RangeReading to_wire(const hal::RangeReading& reading) noexcept;
 
   void hear(int beam, const hal::RangeReading& reading, uint16_t tick) noexcept;
   void hear(const WheelState& state) noexcept;
   void hear(const Sync& sync) noexcept;
-  /// All five frames of the last Sync's tick are there.
+  /// All five frames of the last Sync's tick have arrived.
   bool complete() const noexcept;
   /// Only when complete().
   InputSet set() const noexcept;

@@ -1,4 +1,4 @@
-/// The messages as values. each(m, f) calls f(signal, field) for a message's signals.
+/// The messages as structs. each(m, f) calls f(signal, field) for the signals of a message.
 #pragma once
 
 #include <stdint.h>
@@ -66,7 +66,7 @@ struct MissionOrder {
   }
 };
 
-/// Parts 1 to 6. A value's own range is checked where its part is known.
+/// Parts 1 to 6. The range of a value is checked where its part is known.
 struct MissionValue {
   static constexpr Kind kKind = Kind::mission;
   static constexpr const Signal& kHeading = kMission[6];
@@ -125,12 +125,13 @@ struct WheelState {
   }
 };
 
-/// Of one beam; the three messages differ in their identifiers alone.
+/// Reading of one beam; the three messages differ in their identifiers only.
 template <Kind kOf>
 struct Range {
   static constexpr Kind kKind = kOf;
   static constexpr uint16_t kClear = 65535, kNone = 65534;
-  hal::RangeReading reading{};  ///< reading.mm is the wire's distance: kClear and kNone stand for none
+  hal::RangeReading
+      reading{};  ///< reading.mm is the distance of the frame: kClear and kNone mean no distance
   uint16_t tick = 0;
 
   template <class M, class F>

@@ -1,4 +1,4 @@
-/// A mission as the bus carries it: six values, one frame each, and an order that they all must match.
+/// A mission on the bus: six values, one frame each, and an order with a digest of all six.
 #pragma once
 
 #include <stdint.h>
@@ -25,12 +25,12 @@ bool mission_of(const MissionValues& values, Mission& mission) noexcept;
 /// FNV-1a 32, folded to 16 bits.
 uint16_t digest_of(const MissionValues& values) noexcept;
 
-/// Gathers the parts of one mission after the other.
+/// Collects the parts of one mission at a time.
 class MissionParts {
  public:
-  /// A part of another mission begins anew.
+  /// A part of another mission restarts the collection.
   void hear(const MissionValue& part) noexcept;
-  /// All parts of this mission are there, and match.
+  /// All parts of this mission have arrived and match.
   bool complete(const MissionOrder& order) const noexcept;
   const MissionValues& values() const noexcept { return values_; }
   void forget() noexcept { seen_ = 0; }

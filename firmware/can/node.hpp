@@ -1,4 +1,4 @@
-/// What both parties do alike: frames checked and counted, the handshake, the heartbeat, the latches.
+/// The common part of both nodes: frame checks and counters, handshake, heartbeat, latches.
 ///
 ///            port on the bus        handshake matches        order
 ///   off_bus -----------------> waiting ------------> ready --------> running
@@ -6,8 +6,7 @@
 ///      | port off the bus         | peer lost          | new order     | time-out, peer stopped, bus-off
 ///      +-- any                    +-- any              +-- safe_stop <-+
 ///
-///   any -- a frame on an E-stop identifier --> e_stopped -- a valid clear, wheels at rest --> what else
-///   holds
+///   any -- a frame on an E-stop identifier --> e_stopped -- a valid clear, wheels at rest --> other states
 #pragma once
 
 #include <stdint.h>
@@ -20,38 +19,37 @@
 
 namespace whisker::can {
 
-/// Frames that came, by what became of them: each counts once in the first eleven. Each counter stops at its
-/// maximum.
+/// Received-frame counters by result: each frame counts once in the first eleven. Counters saturate.
 struct BusHealth {
-  uint32_t accepted = 0;      ///< obeyed, or at least understood
-  uint32_t foreign = 0;       ///< other robots, other protocols: no error
-  uint32_t malformed = 0;     ///< remote, extended or of a wrong length; or the sender may not say that
+  uint32_t accepted = 0;      ///< executed or understood
+  uint32_t foreign = 0;       ///< other robots or protocols: no error
+  uint32_t malformed = 0;     ///< remote, extended or of wrong length, or not allowed for its sender
   uint32_t crc = 0;           ///< wrong CRC
-  uint32_t repeated = 0;      ///< the counter of the frame before
+  uint32_t repeated = 0;      ///< the same counter as the last frame
   uint32_t astray = 0;        ///< the counter jumped
   uint32_t out_of_range = 0;  ///< a value outside its range
   uint32_t unmatched = 0;     ///< before the handshake
-  uint32_t duplicates = 0;    ///< sent by somebody else with this node's number
+  uint32_t duplicates = 0;    ///< sent by another node with this node's number
   uint32_t e_stops = 0;       ///< on an E-stop identifier
-  uint32_t unknown = 0;       ///< of the other party, and this one has no use for such a message
+  uint32_t unknown = 0;       ///< of the other node, but a message that this one does not handle
 
-  uint32_t stale = 0;    ///< of the accepted: answers to a set of long ago, sets of another mission
-  uint32_t lost = 0;     ///< never came, by the counters of those that did
+  uint32_t stale = 0;    ///< of the accepted: answers to old sets, sets of another mission
+  uint32_t lost = 0;     ///< missing according to the counters
   uint32_t skipped = 0;  ///< ticks without a complete input set
   uint32_t stops = 0;    ///< safe stops
 };
 
 struct Identity {
   uint8_t robot;     ///< 1..kRobots
-  uint16_t boot;     ///< another one at every start
-  uint32_t version;  ///< of the firmware: major << 16 | minor << 8 | local grid
+  uint16_t boot;     ///< a new number at every start
+  uint32_t version;  ///< of the firmware: major << 16 | minor << 8 | patch
 };
 
-/// What a party makes of a frame that is whole and in turn.
+/// Result of a node for a valid frame in sequence.
 enum class Heard : uint8_t {
   understood,
-  out_of_range,  ///< a value is
-  unknown,       ///< the party has no use for such a message
+  out_of_range,  ///< a value is out of range
+  unknown,       ///< the node does not handle this message
 };
 
 class Node {
@@ -61,10 +59,10 @@ class Node {
 
   NodeState state() const noexcept;
   uint16_t errors() const noexcept;
-  /// The errors among its own and the other party's that no order ends: that party must start anew.
+  /// Errors of this or the other node that no order ends: that node must restart.
   uint16_t for_good() const noexcept;
   const BusHealth& health() const noexcept { return health_; }
-  /// The other party lives, and speaks this protocol with this table.
+  /// The other node is alive, with the same protocol and table.
   bool matched() const noexcept { return matched_; }
   const Heartbeat& peer() const noexcept { return peer_; }  ///< its last heartbeat
   bool peer_heard() const noexcept { return peer_heard_; }
@@ -74,26 +72,27 @@ class Node {
 
   /// Error bits that only the owner knows: core_fault, drive_refused, sensors_refused.
   void report(uint16_t bits, uint8_t core_fault) noexcept;
-  /// Sends an E-stop to this robot, and obeys it.
+  /// Sends an E-stop to this robot and executes it.
   void press_e_stop() noexcept;
 
  protected:
   Node(hal::CanPort& port, Party party, const Identity& identity) noexcept;
   ~Node() = default;
 
-  // Not pure: that would ask for a run-time library.
-  /// A frame of the other party that is whole and in turn, after the handshake.
+  // Not pure, because that requires a run-time library.
+  /// Handles a valid frame of the other node in sequence, after the handshake.
   virtual Heard hear(Kind, const hal::CanFrame&) noexcept { return Heard::unknown; }
   static constexpr Heard in_range(bool is) noexcept { return is ? Heard::understood : Heard::out_of_range; }
-  /// The other party has started anew: nothing that it said before counts.
+  /// The other node has restarted: its earlier messages are void.
   virtual void forget_peer() noexcept {}
   virtual bool at_rest() const noexcept { return true; }
-  /// Lateness counts now.
+  /// Time-outs are active.
   virtual bool timed() const noexcept { return !lockstep(); }
 
-  /// Hears what came, and sees what did not. The party looks after its own time-outs next, then publishes.
+  /// Processes received frames and time-outs of the other node. The derived node then checks its own
+  /// time-outs and publishes.
   void listen(uint32_t now_ms) noexcept;
-  /// Heartbeat, Info, Fault and Diagnostics, as they are due.
+  /// Sends Heartbeat, Info, Fault and Diagnostics when they are due.
   void publish() noexcept;
   template <class M>
   bool send(const M& m, uint8_t life_ms = kEventLife_ms) noexcept {
@@ -107,17 +106,17 @@ class Node {
   static bool read(const hal::CanFrame& frame, M& m) noexcept {
     return decode(frame, m);
   }
-  /// Lets the port move what was sent just now.
+  /// Lets the port send queued frames.
   void flush() noexcept { port_.poll(now_); }
-  /// Latches a safe stop if the robot is running. Lateness does so only while timed().
+  /// Latches a safe stop if the robot is running. Time-outs do so only while timed().
   void stop(uint16_t error) noexcept;
-  /// A new order ends a safe stop. False: an E-stop stands, or there is no handshake.
+  /// A new order ends a safe stop. False: an E-stop is active, or the handshake is missing.
   bool run() noexcept;
   void rest() noexcept { running_ = false; }
-  /// Ends a safe stop without driving. Some causes stay for good.
+  /// Ends a safe stop without driving. Some causes are permanent.
   void release() noexcept;
   bool running() const noexcept { return state() == NodeState::running; }
-  bool ordered() const noexcept { return running_; }  ///< as running(), though the bus may be down
+  bool ordered() const noexcept { return running_; }  ///< as running(), even if the bus is down
   void set_pace(Pace pace) noexcept { pace_ = pace; }
   BusHealth& tally() noexcept { return health_; }
 

@@ -1,7 +1,7 @@
-/// The protocol's one table: every message and every signal in it. The codec works from it at compile time;
+/// The table of the protocol: every message and its signals. The codec uses it at compile time;
 /// whisker.dbc and docs/protocol.md are generated from it.
 ///
-/// All signals are little-endian: bit n is bit n % 8 of byte n / 8, and a signal begins with its lowest bit.
+/// All signals are little-endian: bit n is bit n % 8 of byte n / 8, and a signal starts with its lowest bit.
 /// Every message also has Crc (bits 0 to 7) and Counter (bits 8 to 11), see e2e.hpp.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace whisker::can {
 
 constexpr uint8_t kProtocol = 1;
 
-constexpr int8_t kAlways = -1;       ///< Signal::part of one that is in every frame
-constexpr int8_t kMultiplexor = -2;  ///< of the one that says which part a frame is
+constexpr int8_t kAlways = -1;       ///< Signal::part of a signal in every frame
+constexpr int8_t kMultiplexor = -2;  ///< Signal::part of the signal that selects the part
 
 using Word = const char* (*)(int64_t raw) noexcept;
 
@@ -25,7 +25,7 @@ struct Signal {
   uint8_t start = 0;       ///< lowest bit
   uint8_t length = 0;      ///< 1..32 bits
   bool is_signed = false;  ///< two's complement
-  int64_t min = 0;         ///< raw; a frame with a value outside [min, max] is not obeyed
+  int64_t min = 0;         ///< raw; a frame with a value outside [min, max] is ignored
   int64_t max = 0;
   const char* factor = nullptr;  ///< physical value = raw x factor
   const char* unit = nullptr;
@@ -55,27 +55,27 @@ inline constexpr Signal kEStop[] = {
 };
 
 inline constexpr Signal kSync[] = {
-  {"Mode",     12,  4, false, 0, 1,       "1",     "",  "whose clock drives the ticks", kAlways, sync_word},
-  {"Tick",     16, 32, false, 0, kMost32, "1",     "",  "ends the input set of this tick"},
+  {"Mode",     12,  4, false, 0, 1,       "1",     "",  "the clock that drives the ticks", kAlways, sync_word},
+  {"Tick",     16, 32, false, 0, kMost32, "1",     "",  "the tick of this input set"},
   {"Period",   48,  8, false, 1, kMost8,  "0.001", "s", "control period"},
   {"Mission",  56,  8, false, 0, kMost8,  "1",     "",  "the mission that this tick belongs to"},
 };
 
 inline constexpr Signal kFault[] = {
-  {"Severity", 12,  4, false, 0, 3,       "1", "", "what the sender did about it", kAlways, severity_word},
-  {"Code",     16, 16, false, 0, kMost16, "1", "", "the error bits that stand, as in Heartbeat"},
+  {"Severity", 12,  4, false, 0, 3,       "1", "", "reaction of the sender", kAlways, severity_word},
+  {"Code",     16, 16, false, 0, kMost16, "1", "", "active error bits, as in Heartbeat"},
   {"Detail",   32,  8, false, 0, kMost8,  "1", "", "fault of the core", kAlways, fault_word},
-  {"Count",    40, 16, false, 0, kMost16, "1", "", "safe stops since the start; stays at its maximum"},
+  {"Count",    40, 16, false, 0, kMost16, "1", "", "safe stops since the start; saturates"},
 };
 
 constexpr int32_t kPlaceLimitUm = kPlaceLimit.raw();
 
 inline constexpr Signal kMission[] = {
   {"Part",          12,  4, false, 0, 6,                 "1",                           "",    "one frame each", kMultiplexor, mission_part_word},
-  {"Mission",       16,  8, false, 0, kMost8,            "1",                           "",    "number, another one for every order"},
-  {"Order",         24,  8, false, 0, 2,                 "1",                           "",    "obeyed once all other parts are there", 0, order_word},
+  {"Mission",       16,  8, false, 0, kMost8,            "1",                           "",    "number, a new one for every order"},
+  {"Order",         24,  8, false, 0, 2,                 "1",                           "",    "executed once all other parts are received", 0, order_word},
   {"Digest",        32, 16, false, 0, kMost16,           "1",                           "",    "over the values of parts 1 to 6", 0},
-  {"StartX",        24, 32, true,  -kPlaceLimitUm, kPlaceLimitUm, "0.000001",                    "m",   "where the robot stands", 1},
+  {"StartX",        24, 32, true,  -kPlaceLimitUm, kPlaceLimitUm, "0.000001",                    "m",   "start pose of the robot", 1},
   {"StartY",        24, 32, true,  -kPlaceLimitUm, kPlaceLimitUm, "0.000001",                    "m",   "", 2},
   {"StartHeading",  24, 32, false, 0, kMost32,           "8.381903171539306640625E-08", "deg", "counter-clockwise from x", 3},
   {"GoalX",         24, 32, true,  -kPlaceLimitUm, kPlaceLimitUm, "0.000001",                    "m",   "", 4},
@@ -84,37 +84,37 @@ inline constexpr Signal kMission[] = {
 };
 
 inline constexpr Signal kMissionReply[] = {
-  {"Status",  12,  4, false, 0, 4,       "1", "", "what became of the order", kAlways, mission_status_word},
+  {"Status",  12,  4, false, 0, 4,       "1", "", "result of the order", kAlways, mission_status_word},
   {"Mission", 16,  8, false, 0, kMost8,  "1", "", "of the order"},
 };
 
 inline constexpr Signal kWheelCommand[] = {
-  {"Mode",  12,  4, false, 0, 1,           "1",      "",    "stop: brake to a stand, whatever the speeds say", kAlways, drive_word},
+  {"Mode",  12,  4, false, 0, 1,           "1",      "",    "stop: brake to standstill, whatever the speeds", kAlways, drive_word},
   {"Left",  16, 16, true,  -32767, 32767,  "0.0001", "m/s", "rim speed, forward positive"},
   {"Right", 32, 16, true,  -32767, 32767,  "0.0001", "m/s", ""},
-  {"Tick",  48, 16, false, 0, kMost16,     "1",      "",    "of the input set that this answers, modulo 2^16"},
+  {"Tick",  48, 16, false, 0, kMost16,     "1",      "",    "of the answered input set, modulo 2^16"},
 };
 
 inline constexpr Signal kWheelState[] = {
-  {"Valid", 12,  1, false, 0, 1,       "1", "", "0: the encoders gave no counts"},
+  {"Valid", 12,  1, false, 0, 1,       "1", "", "0: the encoders returned no counts"},
   {"Tick",  13,  3, false, 0, 7,       "1", "", "modulo 8"},
   {"Left",  16, 24, false, 0, kMost24, "1", "", "encoder counts, modulo 2^24, forward positive"},
   {"Right", 40, 24, false, 0, kMost24, "1", "", ""},
 };
 
 inline constexpr Signal kRange[] = {
-  {"Status",   12,  4, false, 0, 4,       "1",     "",  "what the reading says", kAlways, range_word},
+  {"Status",   12,  4, false, 0, 4,       "1",     "",  "status of the reading", kAlways, range_word},
   {"Distance", 16, 16, false, 0, kMost16, "0.001", "m", "65535: clear; 65534: no distance"},
-  {"Age",      32,  8, false, 0, kMost8,  "0.001", "s", "since the distance was true; 0.255: that or more"},
-  {"Sequence", 40,  4, false, 0, kMost4,  "1",     "",  "one more with every new measurement"},
+  {"Age",      32,  8, false, 0, kMost8,  "0.001", "s", "since the distance was true; 0.255 means that or more"},
+  {"Sequence", 40,  4, false, 0, kMost4,  "1",     "",  "increases with every new measurement"},
   {"Tick",     48, 16, false, 0, kMost16, "1",     "",  "modulo 2^16"},
 };
 
 inline constexpr Signal kNavStatus[] = {
   {"Outcome", 12,  4, false, 0, 4,             "1", "", "of the mission", kAlways, outcome_word},
-  {"State",   16,  5, false, 0, planning::kModes - 1, "1", "", "what it does", kAlways, state_word},
-  {"Looked",  21,  1, false, 0, 1,             "1", "", "a decision was taken from a look at this tick"},
-  {"Why",     24,  8, false, 0, planning::kWhys - 1, "1", "", "why it does that", kAlways, why_word},
+  {"State",   16,  5, false, 0, planning::kModes - 1, "1", "", "state of the planner", kAlways, state_word},
+  {"Looked",  21,  1, false, 0, 1,             "1", "", "this tick's decision used a static scan"},
+  {"Why",     24,  8, false, 0, planning::kWhys - 1, "1", "", "reason of the state", kAlways, why_word},
   {"Danger",  32,  8, false, 0, kMost8,        "1", "", "positions since the target direction was last free"},
   {"Fault",   40,  8, false, 0, kMost8,        "1", "", "of the core", kAlways, fault_word},
   {"Tick",    48, 16, false, 0, kMost16,       "1", "", "modulo 2^16"},
@@ -127,15 +127,15 @@ inline constexpr Signal kParamRequest[] = {
 };
 
 inline constexpr Signal kParamReply[] = {
-  {"Status", 12,  4, false, 0, 4,       "1", "", "what became of the request", kAlways, param_status_word},
+  {"Status", 12,  4, false, 0, 4,       "1", "", "result of the request", kAlways, param_status_word},
   {"Index",  16,  8, false, 0, kMost8,  "1", "", "of the request"},
-  {"Value",  24, 32, false, 0, kMost32, "1", "", "as it is now; after commit: the parameter fault, or 0"},
+  {"Value",  24, 32, false, 0, kMost32, "1", "", "current value; after commit: the parameter fault, or 0"},
 };
 
 inline constexpr Signal kHeartbeat[] = {
   {"State",    12,  4, false, 0, 5,       "1", "",  "of the node", kAlways, node_state_word},
-  {"Errors",   16, 16, false, 0, kMost16, "1", "",  "a bit for each, see Errors"},
-  {"Boot",     32, 16, false, 0, kMost16, "1", "",  "another one at every start"},
+  {"Errors",   16, 16, false, 0, kMost16, "1", "",  "one bit per error, see Errors"},
+  {"Boot",     32, 16, false, 0, kMost16, "1", "",  "a new number at every start"},
   {"Protocol", 48,  8, false, 0, kMost8,  "1", "",  "version of this protocol"},
   {"Uptime",   56,  8, false, 0, kMost8,  "1", "s", "modulo 256"},
 };
@@ -144,7 +144,7 @@ inline constexpr Signal kInfo[] = {
   {"Part",      12,  4, false, 0, 1,       "1", "", "one frame each", kMultiplexor, info_part_word},
   {"Boot",      16, 16, false, 0, kMost16, "1", "", "as in Heartbeat"},
   {"TableHash", 32, 32, false, 0, kMost32, "1", "", "of this table", 0},
-  {"Version",   32, 24, false, 0, kMost24, "1", "", "of the firmware: major, minor, patch, a byte each", 1},
+  {"Version",   32, 24, false, 0, kMost24, "1", "", "of the firmware: major, minor, patch, one byte each", 1},
 };
 
 inline constexpr Signal kInfoRequest[] = {
@@ -159,10 +159,10 @@ inline constexpr Signal kDiagnostics[] = {
   {"Malformed",  16, 16, false, 0, kMost16, "1", "", "wrong length, remote, extended", 1},
   {"OutOfRange", 32, 16, false, 0, kMost16, "1", "", "frames with a value out of range", 1},
   {"Astray",     48, 16, false, 0, kMost16, "1", "", "frames whose counter jumped", 1},
-  {"BusOffs",    16, 16, false, 0, kMost16, "1", "", "times that it left the bus", 2},
-  {"Refused",    32, 16, false, 0, kMost16, "1", "", "frames that the port did not take", 2},
-  {"Expired",    48, 16, false, 0, kMost16, "1", "", "frames that did not get onto the bus in time", 2},
-  {"Overrun",    16, 16, false, 0, kMost16, "1", "", "times that received frames were lost in the node", 3},
+  {"BusOffs",    16, 16, false, 0, kMost16, "1", "", "number of bus-off events", 2},
+  {"Refused",    32, 16, false, 0, kMost16, "1", "", "frames that the port refused", 2},
+  {"Expired",    48, 16, false, 0, kMost16, "1", "", "frames that were not sent in time", 2},
+  {"Overrun",    16, 16, false, 0, kMost16, "1", "", "number of receive overruns in the node", 3},
   {"Skipped",    32, 16, false, 0, kMost16, "1", "", "ticks without a complete input set", 3},
   {"Stops",      48, 16, false, 0, kMost16, "1", "", "safe stops", 3},
 };
@@ -210,21 +210,21 @@ constexpr Message message(const char* name, uint8_t function, uint8_t size, bool
 inline constexpr Message kMessages[kKinds] = {
   message("EStop",        0x01, 2, true,  true,  0,   "any data frame with this identifier stops, valid or not; node 0 stops all robots", kEStop),
   message("Sync",         0x08, 8, false, true,  10,  "last frame of an input set", kSync),
-  message("Fault",        0x09, 7, true,  true,  1000, "when an error bit changes, and once a second while one stands", kFault),
-  message("Mission",      0x0A, 7, false, true,  0,   "an order, repeated until it is answered", kMission),
+  message("Fault",        0x09, 7, true,  true,  1000, "when an error bit changes, and once a second while one is active", kFault),
+  message("Mission",      0x0A, 7, false, true,  0,   "an order, repeated until answered", kMission),
   message("MissionReply", 0x0B, 3, true,  false, 0,   "answer to an order", kMissionReply),
   message("WheelCommand", 0x10, 8, true,  false, 10,  "answer to an input set, or stop", kWheelCommand),
   message("WheelState",   0x11, 8, false, true,  10,  "encoders", kWheelState),
   message("RangeLeft",    0x12, 8, false, true,  10,  "left rangefinder", kRange),
   message("RangeFront",   0x13, 8, false, true,  10,  "middle rangefinder", kRange),
   message("RangeRight",   0x14, 8, false, true,  10,  "right rangefinder", kRange),
-  message("NavStatus",    0x15, 8, true,  false, 10,  "what the navigation does and why", kNavStatus),
-  message("ParamRequest", 0x16, 7, false, true,  0,   "asks for a parameter or changes one", kParamRequest),
+  message("NavStatus",    0x15, 8, true,  false, 10,  "state of the navigation and its reason", kNavStatus),
+  message("ParamRequest", 0x16, 7, false, true,  0,   "reads or changes a parameter", kParamRequest),
   message("ParamReply",   0x17, 7, true,  false, 0,   "answer to a ParamRequest", kParamReply),
-  message("Heartbeat",    0x70, 8, true,  true,  100, "the node lives, and how it is", kHeartbeat),
-  message("Info",         0x71, 8, true,  true,  0,   "at the start, and when asked for", kInfo),
-  message("InfoRequest",  0x72, 2, true,  true,  0,   "asks the other party for its Info", kInfoRequest),
-  message("Diagnostics",  0x73, 8, true,  true,  500, "counters; each stays at its maximum", kDiagnostics),
+  message("Heartbeat",    0x70, 8, true,  true,  100, "the node is alive, and its state", kHeartbeat),
+  message("Info",         0x71, 8, true,  true,  0,   "at the start, and on request", kInfo),
+  message("InfoRequest",  0x72, 2, true,  true,  0,   "requests the Info of the other node", kInfoRequest),
+  message("Diagnostics",  0x73, 8, true,  true,  500, "counters; each saturates", kDiagnostics),
 };
 // clang-format on
 

@@ -24,7 +24,7 @@ class TableHash {
   uint32_t value_ = UINT32_C(0x811C9DC5);
 };
 
-/// Of all that decides what a frame means: two nodes with the same hash understand each other.
+/// Hash of everything that defines the meaning of a frame: nodes with the same hash are compatible.
 constexpr uint32_t table_hash() noexcept {
   TableHash hash;
   hash.add(int64_t{kProtocol});

@@ -1,4 +1,4 @@
-/// The values that have names.
+/// Enumerations of the protocol and their names.
 #pragma once
 
 #include <stdint.h>
@@ -12,8 +12,8 @@ namespace whisker::can {
 constexpr uint8_t kStopCommand = 0, kClearCommand = 10;
 
 enum class Pace : uint8_t {
-  real_time,  ///< a tick is due when its time has come
-  lockstep,   ///< the base waits for the answer to each tick; no time-out applies to the ticks
+  real_time,  ///< ticks follow the clock
+  lockstep,   ///< the base waits for the answer to each tick; no time-out applies to ticks
 };
 
 enum class Severity : uint8_t { none, holding, stopped, latched };
@@ -23,16 +23,16 @@ constexpr int kMissionValues = 6;
 
 enum class Order : uint8_t {
   start,   ///< place the robot and drive to the goal
-  cancel,  ///< stop, and forget the goal
-  resume,  ///< drive to the goal from where the robot believes to be; ends a safe stop
+  cancel,  ///< stop, and clear the goal
+  resume,  ///< drive to the goal from the estimated pose; ends a safe stop
 };
 
 enum class MissionStatus : uint8_t {
   accepted,
   incomplete,    ///< parts are missing, or do not match the digest: send all again
-  refused,       ///< E-stop, no handshake, or parameters that do not go together
+  refused,       ///< E-stop, no handshake, or inconsistent parameters
   unknown,       ///< resume without a mission
-  out_of_range,  ///< start or goal lies farther out than a robot takes them, or a value makes no sense
+  out_of_range,  ///< start or goal lies beyond the limit, or a value is invalid
 };
 
 enum class DriveMode : uint8_t { stop, drive };
@@ -44,12 +44,12 @@ enum class ParamStatus : uint8_t {
   no_such,       ///< no parameter has this index
   out_of_range,  ///< nothing was changed
   busy,          ///< a mission runs: nothing was changed
-  inconsistent,  ///< commit: the parameters do not go together
+  inconsistent,  ///< commit: the parameters are inconsistent
 };
 
 enum class NodeState : uint8_t {
-  off_bus,    ///< its port is not on the bus
-  waiting,    ///< no other party, or none that speaks this protocol
+  off_bus,    ///< the port is not on the bus
+  waiting,    ///< no other node, or none with this protocol
   ready,      ///< the handshake matched
   running,    ///< commands drive the wheels
   safe_stop,  ///< latched: wheels brake and stand until a new order
@@ -58,27 +58,27 @@ enum class NodeState : uint8_t {
 
 enum class InfoPart : uint8_t { table_hash, version };
 
-/// Bits of Heartbeat's Errors. The first group latches a safe stop.
+/// Bits of Errors in Heartbeat. The first group latches a safe stop.
 struct Error {
   enum Bit : uint16_t {
     command_late = 1 << 0,     ///< base: no valid command for too long
     odometry_late = 1 << 1,    ///< controller: no valid counts for too long
     range_late = 1 << 2,       ///< controller: no valid range of a beam for too long
-    peer_lost = 1 << 3,        ///< no heartbeat of the other party for too long
+    peer_lost = 1 << 3,        ///< no heartbeat of the other node for too long
     bus_off = 1 << 4,          ///< the port left the bus
-    bus_off_latched = 1 << 5,  ///< it did so too often: it stays away until the node starts anew
-    peer_restarted = 1 << 6,   ///< the other party has another boot number
-    peer_stopped = 1 << 7,     ///< the other party is in a safe stop
-    duplicate_node = 1 << 8,   ///< somebody else sends with this node's number
+    bus_off_latched = 1 << 5,  ///< too many bus-offs: it stays off until the node restarts
+    peer_restarted = 1 << 6,   ///< the other node has a new boot number
+    peer_stopped = 1 << 7,     ///< the other node is in a safe stop
+    duplicate_node = 1 << 8,   ///< another node sends with this node's number
     e_stop = 1 << 9,
-    wrong_version = 1 << 10,    ///< the other party speaks another protocol or another table
+    wrong_version = 1 << 10,    ///< the other node has another protocol or table
     core_fault = 1 << 11,       ///< see NavStatus
-    drive_refused = 1 << 12,    ///< base: the drive stage did not take a command
-    sensors_refused = 1 << 13,  ///< base: the rangefinders could not be asked
+    drive_refused = 1 << 12,    ///< base: the drive refused a command
+    sensors_refused = 1 << 13,  ///< base: the rangefinders did not answer
   };
 };
 
-// The names of raw values; nullptr for a value that has none.
+// The names of raw values; nullptr for a value without a name.
 const char* stop_word(int64_t raw) noexcept;
 const char* sync_word(int64_t raw) noexcept;
 const char* severity_word(int64_t raw) noexcept;
@@ -96,7 +96,7 @@ const char* param_status_word(int64_t raw) noexcept;
 const char* node_state_word(int64_t raw) noexcept;
 const char* info_part_word(int64_t raw) noexcept;
 const char* diagnostics_part_word(int64_t raw) noexcept;
-/// Of bit 0 to 15 of Errors.
+/// Name of bit 0 to 15 of Errors.
 const char* error_word(int64_t bit) noexcept;
 
 }  // namespace whisker::can

@@ -1,4 +1,4 @@
-/// The only way to the wheels.
+/// The only access to the wheels.
 #pragma once
 
 #include "firmware/math/units.hpp"
@@ -8,20 +8,20 @@
 
 namespace whisker::control {
 
-/// Holds the drive, and knows what its wheels do: as commanded last, and as they turn by now behind their
-/// motors' lag.
+/// Holds the drive and the state of its wheels: the last command, and the estimated speed behind the motor
+/// lag.
 class WheelDrive {
  public:
   /// The drive must outlive it.
   explicit WheelDrive(hal::Drive& drive) noexcept : drive_(drive) {}
 
   bool read(hal::EncoderCounts& counts) noexcept { return drive_.read(counts); }
-  /// Commands these speeds, `elapsed` since the last ones. False: the drive refused; the wheels count as
-  /// commanded to stand.
+  /// Commands these speeds; `elapsed` is the time since the last command. False: the drive refused, and the
+  /// wheels count as commanded to stand.
   bool command(WheelPair speeds, Duration elapsed, const Params& params) noexcept;
 
   WheelState state() const noexcept { return {commanded_, rolling_}; }
-  /// As given to the drive; zero where it refused.
+  /// As sent to the drive; zero if it refused.
   hal::WheelSpeeds sent() const noexcept { return sent_; }
 
  private:
@@ -31,7 +31,7 @@ class WheelDrive {
   hal::WheelSpeeds sent_{};
 };
 
-/// To the wire's 0.1 mm/s, to nearest; saturates.
+/// Converts to the HAL's unit of 0.1 mm/s, rounded to nearest; saturates.
 hal::WheelSpeeds to_wire(WheelPair speeds) noexcept;
 
 }  // namespace whisker::control

@@ -1,4 +1,4 @@
-/// The look-up engine: a table of nodes, and straight lines between them.
+/// The look-up engine: bilinear interpolation in a table of nodes.
 #pragma once
 
 #include "firmware/fuzzy/packed_bilinear.hpp"
@@ -6,10 +6,11 @@
 
 namespace whisker::fuzzy {
 
-/// Nodes lie 2^kDistanceShift apart in D and 2^kBiasShift apart in R (raw Q7), from outer centre to
-/// outer centre; an input outside them counts as the nearest one. The four weights of a look-up sum to
-/// a power of two, and results are rounded to nearest, ties of turn toward zero, ties of step up: they stay
-/// within their cell's four nodes, and a table mirrored in R (turn negated, step kept) mirrors them exactly.
+/// Nodes are 2^kDistanceShift apart in D and 2^kBiasShift apart in R (raw Q7), from outer centre to outer
+/// centre; inputs outside are limited to that range. The four weights of a look-up sum to a power of two, and
+/// results are rounded to nearest, ties of turn toward zero, ties of step up. So results stay within the
+/// values of the cell's four nodes, and a table mirrored in R (turn negated, step kept) gives exactly
+/// mirrored results.
 template <int kDistanceShift, int kBiasShift>
 class BilinearGrid {
  public:
@@ -29,7 +30,7 @@ class BilinearGrid {
     Node node[kDistanceNodes][kBiasNodes];
   };
 
-  /// The table must outlive the engine; its changes take effect at once.
+  /// The table must outlive the engine. A change of the table takes effect in the next response.
   explicit constexpr BilinearGrid(const Table& table) noexcept : table_(&table) {}
   BilinearGrid(const Table&&) = delete;
 
@@ -49,7 +50,7 @@ class BilinearGrid {
     const int32_t w0 = kWhole - w1 - w2 - w3;
     const int32_t turn = w0 * near[0].turn + w1 * near[1].turn + w2 * far[0].turn + w3 * far[1].turn;
     const int32_t step = w0 * near[0].step + w1 * near[1].step + w2 * far[0].step + w3 * far[1].step;
-    // A mirrored turn sums to the opposite, a mirrored step to the same: only turn's ties must heed the sign.
+    // A mirrored turn has the opposite sum, a mirrored step the same sum, so only turn rounds by sign.
     const uint32_t turn_up = static_cast<uint32_t>(turn + (kWhole / 2 - 1));
     const uint32_t step_up = static_cast<uint32_t>(step + kWhole / 2);
     return {quotient(turn_up + (turn_up >> 31)),
@@ -66,7 +67,7 @@ class BilinearGrid {
     uint32_t offset;
   };
 
-  /// A node belongs to the cell below it, so that the last one has a cell; node 0 belongs to cell 0.
+  /// A node belongs to the cell below it, so that the last node has a cell; node 0 belongs to cell 0.
   template <int kShift, int16_t kLow, int16_t kSpan>
   [[gnu::always_inline]] static Place place(int16_t input) noexcept {
     const int32_t above_low = int32_t{input} - kLow;
@@ -77,7 +78,8 @@ class BilinearGrid {
     return {cell, x - (cell << kShift)};
   }
 
-  /// floor(sum / kWhole) of a sum in two's complement; its sixteen bits are cut out, no sign is shifted.
+  /// floor(sum / kWhole) of a sum in two's complement. It extracts the sixteen bits, so no signed value is
+  /// shifted.
   [[gnu::always_inline]] static Q14 quotient(uint32_t sum) noexcept {
     const int32_t bits = static_cast<uint16_t>(sum >> kWholeBits);
     return Q14::from_raw(static_cast<int16_t>(bits <= INT16_MAX ? bits : bits - INT32_C(0x10000)));

@@ -1,16 +1,16 @@
-/// The closed-form engine: exact inference on the bare rule base, 100 bytes.
+/// The closed-form engine: exact inference on the rule base itself, 100 bytes.
 #pragma once
 
 #include "firmware/fuzzy/variables.hpp"
 
 namespace whisker::fuzzy {
 
-/// Gives what Exact gives, bit for bit, for any rule base, at the price of two divisions.
+/// Gives the results of Exact, bit for bit, for any rule base, at the cost of two divisions.
 class ClosedForm {
  public:
   using Table = RuleBase;
 
-  /// The table must outlive the engine; its changes take effect at once.
+  /// The table must outlive the engine. A change of the table takes effect in the next response.
   explicit constexpr ClosedForm(const Table& table) noexcept : table_(&table) {}
   ClosedForm(const Table&&) = delete;
 

@@ -1,4 +1,4 @@
-/// The fuzzy engine that the core is built with, and its default table: constant data, in flash.
+/// The fuzzy engine selected by the build, and its default table: constant data in flash.
 #pragma once
 
 #ifdef WHISKER_ENGINE_ANY

@@ -1,13 +1,13 @@
-/// The meaning of a rule base, in integers and without an approximation but the last rounding:
-/// a rule's strength is w = min(muD, muR), and an output is sum(w * centre) / sum(w) over the 25 rules,
-/// to the nearest raw unit, ties away from zero. Engines are measured against it; tables are made with it.
+/// Exact inference in integers; only the last step rounds. The strength of a rule is w = min(muD, muR), and
+/// an output is sum(w * centre) / sum(w) over the 25 rules, rounded to the nearest raw unit, ties away from
+/// zero. It is the reference for the engines and generates the tables.
 #pragma once
 
 #include "firmware/fuzzy/variables.hpp"
 
 namespace whisker::fuzzy {
 
-/// How true term `i` is of x: 1 at its own centre, 0 at its neighbours', straight between; shoulders outside.
+/// Membership of x in term `i`: 1 at its own centre, 0 at its neighbours', linear between; shoulders outside.
 constexpr int32_t membership(const int16_t (&centres)[kTerms], int i, int32_t x) noexcept {
   const int32_t own = centres[i];
   if (x == own) return kFull;

@@ -5,7 +5,7 @@
 
 namespace whisker::fuzzy {
 
-/// Every node gets the exact answer at its place.
+/// Every node gets the exact answer for its inputs.
 template <class Grid>
 constexpr void generate(const RuleBase& rules, typename Grid::Table& out) noexcept {
   const Exact exact{rules};

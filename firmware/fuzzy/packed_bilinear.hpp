@@ -1,5 +1,5 @@
 /// The look-up in ARM's packed 16-bit arithmetic (Cortex-M4, M7, M33): both inputs, and both weights of a
-/// row, in one register each. 40 instructions on a Cortex-M4; bit for bit what BilinearGrid says elsewhere.
+/// row, share one register. 40 instructions on a Cortex-M4; the results equal BilinearGrid's, bit for bit.
 #pragma once
 
 #if defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32)
@@ -11,7 +11,7 @@
 
 namespace whisker::fuzzy::packed {
 
-/// Two of 16 bits: D's below, R's above.
+/// Two values of 16 bits: D in the lower half, R in the upper half.
 using Pair = uint32_t;
 
 constexpr Pair pair(int32_t distance, int32_t bias) noexcept {
@@ -37,8 +37,8 @@ template <int kShift>
   return out;
 }
 
-/// `nodes` are BilinearGrid's, 2^kShift apart in either input, kRowNodes a row, of four bytes each: turn and
-/// step. They are aligned to four bytes.
+/// `nodes` are those of BilinearGrid, 2^kShift apart in either input, kRowNodes per row, with four bytes each
+/// (turn and step), aligned to four bytes.
 template <int kShift, int kRowNodes>
 Response look_up(const void* nodes, Inputs in) noexcept {
   constexpr int32_t kTop = 0x7FFF;
@@ -50,12 +50,12 @@ Response look_up(const void* nodes, Inputs in) noexcept {
 
   int16x2_t inputs;
   __builtin_memcpy(&inputs, &in, sizeof inputs);
-  // Saturated above; then, with its sign for a bit like the others, below: the way from the lowest centre.
+  // Limited from above by saturation, then from below by its sign bit: the offset from the lowest centre.
   const Pair from_zero = static_cast<Pair>(__qadd16(inputs, kToTop)) ^ pair(0x8000, 0x8000);
   const Pair x = __uqsub16(from_zero, pair(0xFFFF - kDistanceSpan, 0xFFFF - kBiasSpan));
   const Pair cells = (__uqsub16(x, pair(1, 1)) >> kShift) & pair(kCell, kCell);
   Pair offsets = x - (cells << kShift);
-  // Or compilers work them out twice.
+  // Otherwise compilers compute them twice.
   asm("" : "+r"(offsets));
 
   const auto* node =

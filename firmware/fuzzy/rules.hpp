@@ -5,7 +5,7 @@
 
 namespace whisker::fuzzy {
 
-/// The output terms, under the names that the source gives them.
+/// The output terms, under their names in the source.
 namespace turn_terms {
 constexpr Q14 TRVB = Q14::ratio(-3, 2);  ///< turn right, very big
 constexpr Q14 TRB = Q14::ratio(-3, 4);
@@ -46,7 +46,7 @@ constexpr RuleBase default_rules() noexcept {
 
 inline constexpr RuleBase kRules = default_rules();
 
-/// SA of a mirrored world is the mirrored SA; in particular SA is 0 where R is centred.
+/// SA of a mirrored world is the mirrored SA, so SA is 0 if R is centred.
 constexpr bool antisymmetric(const Q14 (&picture)[kTerms][kTerms]) noexcept {
   for (int d = 0; d < kTerms; ++d)
     for (int r = 0; r < kTerms; ++r)

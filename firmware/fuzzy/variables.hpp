@@ -1,4 +1,4 @@
-/// The variables of the fuzzy stage, their terms and the shapes that every engine shares.
+/// The variables of the fuzzy controller, their terms, and the types that all engines share.
 ///
 /// | | meaning | range | raw unit |
 /// |---|---|---|---|
@@ -7,7 +7,7 @@
 /// | SA | turn factor; positive: turn left | [-1.5, 1.5] | 1/16384 |
 /// | SD | step factor | [0, 2) | 1/16384 |
 ///
-/// docs/fuzzy.md says which figures are the source's and which are a reconstruction.
+/// docs/fuzzy.md separates the source's figures from reconstructed ones.
 #pragma once
 
 #include <stdint.h>
@@ -21,7 +21,7 @@ struct alignas(int) Inputs {
   Q7 bias;      ///< R
 };
 
-/// Where in its table an engine looked: the lower corner of the cell, counted from the smallest D and R.
+/// Cell of the table that the engine used: its lower corner, counted from the smallest D and R.
 struct Cell {
   uint8_t distance;
   uint8_t bias;
@@ -35,11 +35,11 @@ struct Response {
 
 constexpr int kTerms = 5;
 
-/// Where each term of D (VS S M B VB) and of R (RVB RB CE LB LVB) is fully true; raw Q7.
+/// Centre of each term of D (VS S M B VB) and of R (RVB RB CE LB LVB); raw Q7.
 constexpr int16_t kDistanceCentres[kTerms] = {128, 384, 640, 896, 1152};
 constexpr int16_t kBiasCentres[kTerms] = {-896, -512, 0, 512, 896};
 
-/// Outside its outer centres an input changes nothing: the outer terms are shoulders.
+/// Beyond its outer centres an input has no further effect: the outer terms are shoulders.
 constexpr int16_t kDistanceLow = kDistanceCentres[0];
 constexpr int16_t kDistanceHigh = kDistanceCentres[kTerms - 1];
 constexpr int16_t kBiasLow = kBiasCentres[0];
@@ -57,7 +57,7 @@ constexpr bool gaps_divide_full(const int16_t (&centres)[kTerms]) noexcept {
 }
 static_assert(gaps_divide_full(kDistanceCentres) && gaps_divide_full(kBiasCentres));
 
-/// What each of the 25 rules answers, by the terms of D and R. Any values are allowed.
+/// The outputs of the 25 rules, by the terms of D and R. Any values are allowed.
 struct RuleBase {
   Q14 turn[kTerms][kTerms];
   Q14 step[kTerms][kTerms];

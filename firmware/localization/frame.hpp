@@ -1,4 +1,4 @@
-/// From where the wheels' counts put the body to where its user does.
+/// Transform between the odometry frame and the user's frame.
 #pragma once
 
 #include "firmware/math/region.hpp"
@@ -6,18 +6,18 @@
 
 namespace whisker::localization {
 
-/// The robot's own places (ground, map) are the odometry's, which never jump. A correction of the pose moves
-/// this frame, so that they stay where they are around the body; the user's goal then lies elsewhere among
-/// them.
+/// Local grid and map use the odometry frame, which never jumps. A correction of the pose changes this
+/// transform, so they stay in place around the body, and the user's goal moves in the odometry frame.
 class Frame {
  public:
-  /// The body is `inside` by the odometry, and `outside` by its user. Between the ties nothing adds up.
+  /// The body is at `inside` in the odometry frame and at `outside` in the user's frame. Errors do not
+  /// accumulate between calls.
   void tie(const Pose& inside, const Pose& outside) noexcept;
   Pose outward(const Pose& inside) const noexcept;
-  /// Where that goal of the user's lies by the odometry; off by at most 20 um at 1,000 m from the last tie.
-  /// False: it is out of range.
+  /// The user's goal in the odometry frame; error at most 20 um at 1,000 m from the last tie. False: it is
+  /// out of range.
   bool aim(Vec goal, Vec& inside) noexcept;
-  /// The same of the goal before, after another tie.
+  /// The same for the current goal after another tie.
   bool aim_again(Vec& inside) noexcept { return aim(goal_, inside); }
 
  private:

@@ -1,4 +1,4 @@
-/// Where the body is, from the wheels' counts alone.
+/// Dead reckoning from the encoder counts.
 #pragma once
 
 #include <stdint.h>
@@ -10,23 +10,23 @@
 
 namespace whisker::localization {
 
-/// Counts moved since the update before, per wheel.
+/// Counts since the last update, per wheel.
 struct CountStep {
   int32_t left = 0;
   int32_t right = 0;
 };
 
-/// Dead reckoning of a differential drive. The heading follows from the difference of all counts ever
-/// seen, so it gathers no rounding error; the position is summed in units of 2^-16 um.
+/// Dead reckoning of a differential drive. The heading is computed from the difference of the total counts,
+/// so it accumulates no rounding error; the position is summed in units of 2^-16 um.
 class Odometry {
  public:
-  /// Rounds the rim travel per count to 2^-17 um and the turn per count to 1e-8 of itself.
+  /// Rounds the rim travel per count to 2^-17 um and the turn per count to a relative 1e-8.
   void configure(const Params& params) noexcept;
-  /// Puts the body at a pose; the next counts are the new zero.
+  /// Sets the pose; the next counts are the new zero.
   void place(const Pose& pose) noexcept;
-  /// Takes both counters, modulo 2^24, `since` the update before. False: a wheel moved further than at twice
-  /// its full speed over that time and a period; the step is left out of the pose and the new counts are the
-  /// new zero.
+  /// Takes in both counters, modulo 2^24, `since` the last update. False: a wheel moved further than at twice
+  /// its full speed over that time plus one period; the pose then ignores the step, and the new counts are
+  /// the new zero.
   bool update(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept;
 
   Pose pose() const noexcept;

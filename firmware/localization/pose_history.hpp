@@ -1,4 +1,4 @@
-/// Where the body was a moment ago, for readings that tell of then.
+/// Recent poses of the body, for readings with latency.
 #pragma once
 
 #include <stdint.h>
@@ -12,12 +12,12 @@ class PoseHistory {
  public:
   static constexpr int kKept = 16;
 
-  /// Keeps instants at least this far apart, so that together they reach back (kKept - 1) times as far.
+  /// Keeps instants at least this far apart, so the history covers (kKept - 1) times that.
   void configure(Duration spacing) noexcept { spacing_ = spacing; }
   void reset() noexcept { count_ = 0; }
   void add(const Pose& pose, Time now) noexcept;
 
-  /// The pose at `then`, between the kept ones in a straight line. False: before the oldest one.
+  /// The pose at `then`, interpolated linearly. False: `then` is before the oldest instant.
   bool at(Time then, Pose& out) const noexcept;
 
  private:

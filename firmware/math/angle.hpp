@@ -1,4 +1,4 @@
-/// Angles as binary fractions of a turn: they wrap by themselves and never lose a bit.
+/// Angles as binary fractions of a turn: they wrap without loss of precision.
 #pragma once
 
 #include <stdint.h>
@@ -8,7 +8,7 @@
 
 namespace whisker {
 
-/// An angle; raw unit 2^-32 turn, counter-clockwise positive. Sums wrap, on purpose.
+/// An angle; raw unit 2^-32 turn, counter-clockwise positive. Sums wrap intentionally.
 class Angle {
  public:
   constexpr Angle() noexcept = default;
@@ -17,7 +17,7 @@ class Angle {
     a.raw_ = raw;
     return a;
   }
-  /// numerator / denominator of a turn, to nearest. |numerator| < 2^30, 0 < denominator.
+  /// numerator / denominator of a turn, rounded to nearest. |numerator| < 2^30, 0 < denominator.
   static constexpr Angle turns(int32_t numerator, int32_t denominator) noexcept {
     return from_raw(static_cast<uint32_t>(
         static_cast<uint64_t>(divide_rounded(int64_t{numerator} * (INT64_C(1) << 32), denominator))));
@@ -43,25 +43,24 @@ class Angle {
   uint32_t raw_ = 0;
 };
 
-/// The size of the smaller turn between the angle and zero, unit 2^-32 turn, at most 2^31.
+/// The absolute value of the smaller turn between the angle and zero, unit 2^-32 turn, at most 2^31.
 constexpr uint32_t magnitude(Angle a) noexcept { return magnitude(a.wrapped()); }
 
-/// The wrapped angle scaled by a factor, to nearest; the product must stay within half a turn.
+/// The wrapped angle times a factor, rounded to nearest; the product must stay within half a turn.
 template <int kFraction, class Rep>
 constexpr Angle scaled(Angle a, Fixed<kFraction, Rep> k) noexcept {
   const int64_t product = scale_down<kFraction>(int64_t{a.wrapped()} * k.raw());
   return Angle::from_raw(static_cast<uint32_t>(static_cast<uint64_t>(product)));
 }
 
-/// The length of the arc that a point at this radius describes; the angle is taken in [-1/2, 1/2) turn.
-/// |radius| <= 600 m.
+/// The arc length of a point at this radius; the angle is taken in [-1/2, 1/2) turn. |radius| <= 600 m.
 constexpr Length arc(Angle a, Length radius) noexcept {
   constexpr int64_t kTwoPiQ28 = 1686629713;
   const int64_t circumference = scale_down<28>(radius.raw() * kTwoPiQ28);
   return Length::from_raw(saturate32(scale_down<32>(a.wrapped() * circumference)));
 }
 
-/// The angle over which an arc of this length bends at this radius, modulo a turn. radius > 0.
+/// The angle of an arc of this length at this radius, modulo a turn. radius > 0.
 constexpr Angle angle_of(Length arc, Length radius) noexcept {
   constexpr int64_t kRadianQ0 = 683565276;  // 2^32 / 2 pi
   const int64_t raw = divide_rounded(arc.raw() * kRadianQ0, radius.raw());

@@ -1,7 +1,7 @@
-/// Integer arithmetic with stated rounding and overflow.
+/// Integer arithmetic with defined rounding and overflow.
 ///
-/// Rounding is always to nearest, ties away from zero, so that every function here is odd:
-/// f(-x) == -f(x). Overflow saturates. No signed value is ever shifted.
+/// Rounding is to nearest, ties away from zero, so every function here is odd: f(-x) == -f(x). Overflow
+/// saturates. No signed value is shifted.
 #pragma once
 
 #include <stdint.h>
@@ -44,7 +44,7 @@ constexpr uint64_t magnitude(int64_t x) noexcept {
   const int64_t sum = n < 0 ? n - d / 2 : n + d / 2;
   const int32_t small_sum = saturate32(sum);
   const int32_t small_d = saturate32(d);
-  // Most chips divide 32 bits much faster.
+  // 32-bit division is much faster on most chips.
   if (small_sum == sum && small_d == d && sum != INT32_MIN) return small_sum / small_d;
   return sum / d;
 }
@@ -60,8 +60,8 @@ constexpr int64_t scale_down_by(int64_t x, int bits) noexcept {
 template <int kBits>
 constexpr int64_t scale_down(int64_t x) noexcept {
   static_assert(kBits > 0 && kBits < 62);
-  // Not x +- a half: where only the lowest half of such a sum's constant is known, clang 14 for AVR loses the
-  // carry.
+  // Not x +- a half: clang 14 for AVR loses the carry of a sum with a constant of which only the lowest half
+  // is known.
   const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
   const int64_t quotient = static_cast<int64_t>((size + (UINT64_C(1) << (kBits - 1))) >> kBits);
   return x < 0 ? -quotient : quotient;

@@ -1,4 +1,4 @@
-/// Where a robot may be, and its goals.
+/// The region in which robots and goals may be.
 #pragma once
 
 #include <stdint.h>
@@ -8,10 +8,10 @@
 
 namespace whisker {
 
-/// Of goals and placements, along each axis from the origin.
+/// Limit of goals and placements, along each axis from the origin.
 constexpr Length kPlaceLimit = millimetres(1000000);
-/// Of the body, which may have to go around something. The difference of two such coordinates fits a Length;
-/// a distance above 2,147 m counts as that much.
+/// Limit of the body, which may have to drive around an obstacle. The difference of two such coordinates fits
+/// a Length; a distance above 2,147 m saturates.
 constexpr Length kBodyLimit = millimetres(1050000);
 
 /// farthest >= 0.

@@ -1,8 +1,8 @@
-/// Trigonometry and roots in integers. Errors are the largest over the whole domain, measured and
-/// asserted by tests/core.
+/// Trigonometry and roots in integers. The errors are maxima over the whole domain, measured and asserted by
+/// tests/math.
 ///
-/// All of it works in constant expressions. At run time each function is one of trig.cpp, so that a target
-/// holds it once.
+/// All functions work in constant expressions. At run time they call trig.cpp, so that a target contains each
+/// function once.
 #pragma once
 
 #include <stdint.h>
@@ -14,12 +14,12 @@
 
 namespace whisker {
 
-/// Sine. Off by at most 6e-9. Exact at multiples of a quarter turn; sin(-a) == -sin(a).
+/// Sine. Error at most 6e-9. Exact at multiples of a quarter turn; sin(-a) == -sin(a).
 constexpr Q30 sin(Angle a) noexcept;
 constexpr Q30 cos(Angle a) noexcept;
 
-/// The direction of (x, y), whatever their common unit; 0 for (0, 0). Off by at most 1.2e-8 rad.
-/// Exact on the axes; atan2(-y, x) == -atan2(y, x).
+/// The direction of (x, y), whatever their common unit; 0 for (0, 0). Error at most 1.2e-8 rad. Exact on the
+/// axes; atan2(-y, x) == -atan2(y, x).
 constexpr Angle atan2(int32_t y, int32_t x) noexcept;
 constexpr Angle bearing(const Vec& v) noexcept;
 
@@ -27,16 +27,16 @@ constexpr Angle bearing(const Vec& v) noexcept;
 constexpr uint32_t square_root(uint64_t x) noexcept;
 constexpr uint32_t square_root_32(uint32_t x) noexcept;
 
-/// Rounded down; saturates. Off by less than 1 um.
+/// Rounded down; saturates. Error below 1 um.
 constexpr Length norm(const Vec& v) noexcept;
 
-/// norm(v) > length, without the root. Nothing is nearer than a negative length.
+/// norm(v) > length, without the root. True for every negative length.
 constexpr bool farther(const Vec& v, Length length) noexcept;
 
-/// The displacement of this length in this direction; each coordinate to nearest.
+/// The displacement of this length in this direction; each coordinate rounded to nearest.
 constexpr Vec polar(Angle direction, Length length) noexcept;
 
-/// How far v reaches in this direction.
+/// The component of v in this direction.
 constexpr Length along(const Vec& v, Angle direction) noexcept;
 
 }  // namespace whisker

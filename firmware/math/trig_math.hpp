@@ -1,4 +1,4 @@
-/// The functions of trig.hpp: their formulas, and the choice between the compiler and trig.cpp.
+/// Formulas of trig.hpp, and the choice between compile time and trig.cpp.
 #pragma once
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/// Quantities as types: a length cannot become a speed, and every sum saturates.
+/// Quantities as types: a length does not convert to a speed, and every sum saturates.
 ///
 /// | type | raw unit | range |
 /// |---|---|---|
@@ -43,7 +43,7 @@ class Unit {
   friend constexpr Unit operator*(Unit a, int32_t k) noexcept {
     return from_raw(saturate32(int64_t{a.raw_} * k));
   }
-  /// Scaled by a fixed-point factor, rounded to nearest.
+  /// Times a fixed-point factor, rounded to nearest.
   template <int kFraction, class Rep>
   friend constexpr Unit operator*(Unit a, Fixed<kFraction, Rep> k) noexcept {
     return from_raw(saturate32(scale_down<kFraction>(int64_t{a.raw_} * k.raw())));
@@ -64,7 +64,7 @@ using Acceleration = Unit<struct AccelerationTag>;
 using AngularRate = Unit<struct AngularRateTag>;
 using Duration = Unit<struct DurationTag>;
 
-// In parentheses: Arduino and some vendors' headers have macros abs(), min() and max().
+// Parentheses, because Arduino and some vendors' headers define macros abs(), min() and max().
 template <class Tag>
 constexpr Unit<Tag>(abs)(Unit<Tag> a) noexcept {
   return a.raw() < 0 ? -a : a;
@@ -77,13 +77,13 @@ template <class Tag>
 constexpr Unit<Tag>(max)(Unit<Tag> a, Unit<Tag> b) noexcept {
   return a < b ? b : a;
 }
-/// x within [-limit, limit]. limit >= 0.
+/// x limited to [-limit, limit]. limit >= 0.
 template <class Tag>
 constexpr Unit<Tag> limit(Unit<Tag> x, Unit<Tag> limit) noexcept {
   return (max)(-limit, (min)(x, limit));
 }
 
-/// An instant on a millisecond counter that wraps; compare instants only by their difference.
+/// An instant on a millisecond counter that wraps; compare instants by their difference only.
 class Time {
  public:
   constexpr Time() noexcept = default;
@@ -93,7 +93,7 @@ class Time {
     return t;
   }
   constexpr uint32_t raw() const noexcept { return ms_; }
-  /// Right for instants less than 24.8 days apart.
+  /// Valid for instants less than 24.8 days apart.
   friend constexpr Duration operator-(Time a, Time b) noexcept {
     const uint32_t d = a.ms_ - b.ms_;
     return Duration::from_raw(d <= INT32_MAX ? static_cast<int32_t>(d) : -static_cast<int32_t>(~d) - 1);
@@ -132,7 +132,7 @@ constexpr Duration operator""_ms(unsigned long long x) noexcept {
 }
 }  // namespace literals
 
-/// How far something at this speed comes in this time.
+/// The distance covered at this speed in this time.
 constexpr Length operator*(Speed v, Duration t) noexcept {
   return Length::from_raw(saturate32(divide_rounded(int64_t{v.raw()} * t.raw(), 1000)));
 }

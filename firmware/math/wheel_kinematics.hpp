@@ -1,4 +1,4 @@
-/// From a twist to two wheels, within what the wheels can do.
+/// Inverse kinematics: from a twist to two wheel speeds within the limits of the wheels.
 #pragma once
 
 #include "firmware/math/units.hpp"
@@ -10,18 +10,18 @@ struct WheelPair {
   Speed right;
 };
 
-/// What the wheels do: as commanded last, and as they turn by now behind their motors' lag.
+/// State of the wheels: the last command, and the estimated speed behind the motor lag.
 struct WheelState {
   WheelPair commanded;
   WheelPair rolling;
 };
 
-/// Wheel speeds for a forward speed and a rim speed of turning (counter-clockwise positive). Where a
-/// wheel would pass `max`, both shrink in proportion: the path keeps its curvature and only the pace drops.
+/// Wheel speeds for a forward speed and a rim speed of turning (counter-clockwise positive). If a wheel would
+/// exceed `max`, both scale down in proportion, so that the path keeps its curvature.
 WheelPair inverse_kinematics(Speed forward, Speed turning, Speed max) noexcept;
 
-/// One control tick from `now` towards `want`: both wheels cover the same fraction of their way, and
-/// none changes by more than `max_change`, so that the curvature passes smoothly from one to the other.
+/// One control tick from `now` towards `want`: both wheels change by the same fraction of their difference,
+/// and neither by more than `max_change`, so that the curvature changes smoothly.
 WheelPair slew(const WheelPair& now, const WheelPair& want, Speed max_change) noexcept;
 
 }  // namespace whisker

@@ -1,5 +1,5 @@
-/// What follows from the parameters: the local grid's cell, and how far the beams and the local grid reach.
-/// At run time each function is one of params.cpp.
+/// Values derived from the parameters: the cell of the local grid, and the reach of the beams and the local
+/// grid. At run time these functions call params.cpp.
 #pragma once
 
 #include <stdint.h>

@@ -1,6 +1,6 @@
-/// What must hold between parameters. A new relation is a word in ParamFault, its line in for_each_relation
-/// (with a function of its own where it takes more than a line), its name in params.cpp and its sentence for
-/// users in host/scenario/params_text.cpp.
+/// Relations between parameters. A new relation needs an entry in ParamFault, a line in for_each_relation
+/// (with its own function if it takes more than a line), a name in params.cpp and a sentence for users in
+/// host/scenario/params_text.cpp.
 #pragma once
 
 #include <stdint.h>
@@ -12,11 +12,12 @@
 namespace whisker {
 namespace relations {
 
-// Walls at right angles, a body's radius away: 15 degrees beyond the cone's rim, each is farther by 3.5 %.
+// Walls at right angles, one body radius away: 15 degrees beyond the rim of the cone, each is farther by 3.5
+// %.
 constexpr Angle kWidestCone = 60_deg;
-constexpr Speed kWireSpeed = Speed::from_raw(100);  // the smallest that hal::WheelSpeeds can say
+constexpr Speed kWireSpeed = Speed::from_raw(100);  // the smallest speed that hal::WheelSpeeds can represent
 
-/// Scope: void, or a type of one source only, whose copy then is that source's own and smaller.
+/// Scope: void, or a type local to one source, which then gets its own, smaller copy.
 template <class Scope>
 struct Ranges {
   bool hold = true;
@@ -43,16 +44,16 @@ constexpr bool in_range(const Params& p) noexcept {
   return ranges.hold;
 }
 
-/// v^2 / 2a + v (lag + longest gap): how far full speed carries the body after the order to stop.
+/// v^2 / 2a + v (lag + longest gap): the stopping distance from full speed.
 [[gnu::always_inline]] constexpr Length stopping_distance(const Params& p) noexcept {
   const int64_t v = p.wheels.max_speed.raw();
   const int64_t braking = divide_rounded(v * v, 2 * int64_t{p.wheels.max_acceleration.raw()});
   return Length::from_raw(saturate32(braking)) + p.wheels.max_speed * (p.wheels.motor_lag + longest_gap(p));
 }
 
-/// Twice what passes from the order to move to the first count, and from one count to the next, be it at the
-/// turn's top speed or near a manoeuvre's end at a tolerance (at least one count) per `settle`; and what the
-/// motor's lag needs to bring full speed below one count, with the ticks in which counts must stand still.
+/// Twice the time from a command to the first count, and from one count to the next, both at the top speed of
+/// a turn and near the end of a manoeuvre at a tolerance (at least one count) per `settle`; plus the time in
+/// which the motor lag brings full speed below one count, with the ticks in which counts must stand still.
 [[gnu::always_inline]] constexpr Duration slowest_count(const Params& p, Length count) noexcept {
   const int64_t square_ms2 = int64_t{count.raw()} * 2 * 1000000 / p.wheels.max_acceleration.raw();
   const uint32_t starting_ms = square_root(static_cast<uint64_t>(square_ms2));
@@ -70,8 +71,8 @@ constexpr bool in_range(const Params& p) noexcept {
 
 }  // namespace relations
 
-/// Calls visit(ParamFault, holds) for one relation after another, as long as it returns true. Every relation
-/// needs values within their own ranges: where out_of_range does not hold, it is the only one.
+/// Calls visit(ParamFault, holds) for each relation while it returns true. Every relation needs values within
+/// their own ranges: if out_of_range does not hold, it is the only one visited.
 template <class Scope = void, class Visit>
 [[gnu::always_inline]] constexpr void for_each_relation(const Params& p, Visit&& visit) noexcept {
   using F = ParamFault;

@@ -1,4 +1,4 @@
-/// A conditioned reading: a distance that knows whether it may be believed.
+/// A conditioned reading: a distance with its validity.
 #pragma once
 
 #include <stdint.h>
@@ -13,16 +13,16 @@ enum class Validity : uint8_t {
   clear,     ///< nothing within the maximum range; distance is the maximum range
   too_near,  ///< nearer than the minimum range; distance is zero
   pending,   ///< too few readings yet, or they disagree
-  invalid,   ///< the sensor says that the reading is lost, or it was out of range
+  invalid,   ///< the sensor reports a lost reading, or the value was out of range
   stale,     ///< no new reading for too long
-  stuck,     ///< the same value whatever the body does
+  stuck,     ///< the same value although the body turned
 };
 
-/// True where the distance is a fact about the world; everything else proves nothing.
+/// True if the distance is valid; no other validity says anything about the world.
 constexpr bool usable(Validity v) noexcept { return v <= Validity::too_near; }
 
 struct Echo {
-  Length distance;  ///< from the sensor's apex; zero unless usable
+  Length distance;  ///< from the apex of the sensor; zero unless usable
   Validity validity = Validity::pending;
 };
 

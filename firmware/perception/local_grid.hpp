@@ -1,4 +1,4 @@
-/// What the beams have proved about the ground near the body: a rolling grid of cells.
+/// The local grid: which ground near the body is clear.
 #pragma once
 
 #include <stdint.h>
@@ -9,75 +9,74 @@
 
 namespace whisker::perception {
 
-/// One beam's evidence: nothing lies within its cone nearer than `free` to the apex.
+/// Observation of one beam: nothing within its cone is nearer to the apex than `free`.
 struct ConeObservation {
-  Pose from;           ///< the body's, at the time of the measurement
-  Angle axis;          ///< of the beam, from straight ahead
-  Length free;         ///< proved empty
-  bool hit = false;    ///< something lies at `free`
-  bool aimed = false;  ///< from a look: what this beam covers and does not clear, no look from here will
+  Pose from;           ///< pose of the body at the time of the measurement
+  Angle axis;          ///< direction of the beam from straight ahead
+  Length free;         ///< free distance
+  bool hit = false;    ///< an object lies at `free`
+  bool aimed = false;  ///< from a static scan: cells that the beam covers and does not clear become tested
   Time taken{};
 };
 
-/// What a beam had shown empty one reading before, and from where.
+/// The free distance of the beam's last reading, and the pose at that time.
 struct EarlierObservation {
   Pose from;
   Length free;
 };
 
-/// Cells that lie in the way.
+/// Cells in a path that are not clear.
 struct Obstacles {
-  int32_t unknown = 0;  ///< never cleared, and nothing more is known
-  int32_t suspect = 0;  ///< near an echo, or looked at from here in vain
-  Vec nearest_unknown;  ///< where the nearest unknown one is, from the body
+  int32_t unknown = 0;  ///< never cleared, and nothing else is known
+  int32_t suspect = 0;  ///< near an echo, or a static scan did not clear it
+  Vec nearest_unknown;  ///< the nearest unknown cell, from the body
 };
 
-/// The local grid: 32 x 32 world-aligned cells around the body, in three states and an age.
+/// A rolling grid of 32 x 32 cells around the body, aligned with the world. Each cell has one of four states,
+/// and clear cells have an age.
 ///
-/// Clear cells age: each lives for one to two spans of travel or turning after it was last seen, or after the
-/// body last went by it, so that the way back stays open.
-///
-/// A cell is *clear* only if it lies inside an empty beam sector as a whole, so that with a sensor that
-/// reports the nearest thing in its cone clear ground is free ground.
+/// A cell is clear only if it lies completely inside an empty beam sector. So clear ground is free ground if
+/// the sensor reports the nearest object in its cone. Clear cells expire one to two spans of travel or
+/// turning after they were last seen, or after the body last passed them, so that the way back stays open.
 class LocalGrid {
  public:
-  /// Rounding decides what a shorter step comes nearer to.
+  /// Shorter steps are below the resolution of the grid.
   static constexpr Length kShortestStep = micrometres(100);
 
   void configure(const Params& params) noexcept;
-  /// Nothing is known but the ground under the body, and the ring that no beam can prove from there (see
-  /// blind_reach), which must be free.
+  /// Clears the ground under the body and the ring that no beam can clear from there (see blind_reach), which
+  /// must be free; all else becomes unknown.
   void reset(const Pose& pose) noexcept;
   /// The same without the ring.
   void forget(const Pose& pose) noexcept;
-  /// The body is here now: moves the window along, ages the cells, clears the footprint.
+  /// Moves the window with the body, ages the cells, clears the footprint.
   void move_to(const Pose& pose) noexcept;
-  /// Clears the cells that both readings show empty, each from its own pose: one that wrongly says that
-  /// nothing is there clears nothing. Without an earlier one, what the proof alone shows.
+  /// Clears the cells that both observations show empty, each from its own pose, so that a single false clear
+  /// reading clears nothing. Without an earlier observation, only `observation` decides.
   void mark(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
-  /// What this beam sees between `proof.free` and `farthest` has moved there: takes back what was clear
-  /// around it, as far as it may come while the body stops, but for the ground under the body. For a second,
-  /// mark() clears nothing that near to an echo.
+  /// An object in this beam between `observation.free` and `farthest` has moved there. Resets the cells that
+  /// it can reach while the body stops, except those under the body. For a second, mark() clears no cell that
+  /// near to an echo.
   void doubt(const ConeObservation& observation, Length farthest) noexcept;
-  /// Something moved a moment ago.
+  /// Something moved during the last second.
   bool doubting() const noexcept { return doubting_; }
-  /// As far as the parameters want ways to be judged.
+  /// Lengths for which paths are checked.
   const Reach& reach() const noexcept { return reach_; }
 
-  /// The cells that come within `radius` of the way and whose centres lie ahead of its beginning: a body that
-  /// stands near something may move off along it or away from it.
-  /// It stops at the row in which so many suspect ones are reached: what else lies there is not counted.
+  /// Cells within `radius` of the path whose centres lie ahead of its start, so that a body near an obstacle
+  /// may drive along it or away from it. Stops at the row in which the limit of suspect cells is reached;
+  /// later rows are not counted.
   Obstacles along(const Vec& from, Angle heading, Length length, Length radius,
                   int32_t enough = INT32_MAX) const noexcept;
-  /// True if a step of this length brings the body nearer to a cell that is not clear and then within
-  /// `radius` of it. Cells abeam do not count: to pass them brings it nearer by less than the guard's
+  /// True if a step of this length brings the body nearer to a cell that is not clear, and then within
+  /// `radius` of it. Cells abeam are ignored: passing them reduces the distance by less than the guard's
   /// margin. False below kShortestStep.
   bool approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
-  /// No further than this from the body, along each axis, anything is known.
+  /// The grid covers at most this distance from the body along each axis.
   Length half_window() const noexcept { return Length::from_raw(cell_um_ * (kCells / 2)); }
-  /// The state of one cell, for those who want to see the local grid; false outside the window.
+  /// The state of one cell, for display; false outside the window.
   bool is_clear(Vec at) const noexcept;
-  /// True if all cells that this disc touches are clear, none of them outside the window.
+  /// True if all cells that this disc touches are inside the window and clear.
   bool all_clear(Vec centre, Length radius) const noexcept;
 
  private:
@@ -105,11 +104,11 @@ class LocalGrid {
   void renew_around(Vec at) noexcept;
   void clear_around(Vec at, int32_t reach) noexcept;
 
-  Row young_[kCells] = {};    // cleared since the last ageing
+  Row young_[kCells] = {};    // cleared since the last ageing step
   Row old_[kCells] = {};      // cleared before it
   Row suspect_[kCells] = {};  // near an echo
-  Row tested_[kCells] = {};   // covered by a look from here and not cleared
-  int32_t column_ = 0;        // of the window's corner, in cells of the world
+  Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
+  int32_t column_ = 0;        // of the window's corner, in world cells
   int32_t row_ = 0;
   Pose last_;
   Vec tested_at_;
@@ -122,11 +121,11 @@ class LocalGrid {
   Length age_travel_;
   uint32_t age_turn_ = 0;
   Reach reach_;
-  Length approach_;  // of something that moves, while the body stops
+  Length approach_;  // travel of a moving object while the body stops
   int32_t cell_um_ = 20000;
   int32_t footprint_ = 0;    // grid units
-  int32_t placed_free_ = 0;  // taken for free where the body is placed; grid units
-  int32_t ring_ = 0;         // the same: of what lies beside the body's way
+  int32_t placed_free_ = 0;  // assumed free when the body is placed; grid units
+  int32_t ring_ = 0;         // the same: ring beside the body's path
 };
 
 }  // namespace whisker::perception

@@ -1,4 +1,4 @@
-/// What the beams saw a moment ago, to tell what moves from what was there before.
+/// Detects moving objects by comparison with recent scans.
 #pragma once
 
 #include <stdint.h>
@@ -12,13 +12,13 @@ namespace whisker::perception {
 
 /// The last few scans, each a pose and an empty sector per beam.
 ///
-/// In a world at rest, whatever a beam sees was there before: so where its echo lies wholly in ground that
-/// earlier sectors showed empty, something has moved. The sectors are shrunk and the echo's place widened by
-/// what the estimated pose may be wrong, so that a world at rest never contradicts.
+/// In a static world, an object that a beam sees was there before. So if an echo lies completely in ground
+/// that earlier sectors showed empty, something has moved. The sectors are reduced and the place of the echo
+/// is widened by the possible error of the pose estimate, so that a static world causes no detection.
 class MotionDetector {
  public:
   static constexpr int kBeams = 3;
-  /// Nothing farther away than this is judged.
+  /// Echoes farther away are ignored.
   static constexpr Length kReach = Length::from_raw(700000);
 
   void configure(const Params& params) noexcept;
@@ -27,8 +27,8 @@ class MotionDetector {
     newest_ = kKept - 1;
   }
 
-  /// All beams at one time: nothing lies nearer than free[i]. Kept if the body has moved or turned since the
-  /// last one that was kept, or after a while.
+  /// All beams at one time: nothing lies nearer than free[i]. The scan is kept if the body has moved or
+  /// turned since the last kept one, or after some time.
   void add(const Pose& from, Time taken, const Length (&free)[kBeams]) noexcept;
 
   /// True if no point of the beam's cone between these two distances could have been occupied before: each
@@ -39,25 +39,25 @@ class MotionDetector {
  private:
   static constexpr int kKept = 10;
   static constexpr int kSectors = 8;
-  using Mask = uint32_t;  // a bit per kept sector
+  using Mask = uint32_t;  // one bit per kept sector
   static_assert(kKept * kBeams <= 32);
-  /// A direction's cosine and sine, 2^-14.
+  /// Cosine and sine of a direction, 2^-14.
   struct Facing {
     int16_t cos = 0;
     int16_t sin = 0;
   };
   static Facing facing(Angle direction) noexcept;
-  /// What lies at v, seen in this direction; off by up to 90 um at 2 m.
+  /// The vector v in the frame of this direction; error up to 90 um at 2 m.
   static Vec seen(Vec v, Facing facing) noexcept;
   struct Scan {
     Vec at;
     Angle heading;
-    Facing facing;               // the same
+    Facing facing;               // the same direction
     uint16_t free[kBeams] = {};  // 1/8 mm
   };
-  /// The kept sectors that hold this point.
+  /// The kept sectors that contain this point.
   Mask holding(Vec point, Mask among) const noexcept;
-  /// The same of one sector and the way from its scan to the point, to the micrometre.
+  /// The same for one sector, given the vector from its scan to the point; exact to the micrometre.
   bool holds(const Scan& scan, int beam, Vec way) const noexcept;
 
   Scan scan_[kKept];

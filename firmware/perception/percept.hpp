@@ -11,10 +11,10 @@ namespace whisker::perception {
 struct Percept {
   Echoes static_scan{};  ///< consensus of the readings taken since the body stood; pending until then
   Echoes moving_scan{};  ///< the same while it moves: the median of the last few readings of each beam
-  bool sighted = false;  ///< a reading came at this tick
-  const LocalGrid* local_grid = nullptr;        ///< what is proved free nearby
-  ConeObservation observations[hal::kBeams]{};  ///< of the beams, taken in at this tick
-  uint8_t observed = 0;                         ///< a bit for each beam that has one
+  bool sighted = false;  ///< a reading arrived at this tick
+  const LocalGrid* local_grid = nullptr;        ///< clear ground nearby
+  ConeObservation observations[hal::kBeams]{};  ///< one per beam, taken in at this tick
+  uint8_t observed = 0;                         ///< one bit per beam that has one
 };
 
 }  // namespace whisker::perception

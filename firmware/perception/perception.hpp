@@ -1,4 +1,4 @@
-/// From range readings to what is known of the surroundings.
+/// From range readings to knowledge of the surroundings.
 #pragma once
 
 #include <stdint.h>
@@ -17,7 +17,7 @@
 
 namespace whisker::perception {
 
-/// Where the body is at a tick, and whether and since when it stands.
+/// The pose of the body at a tick, and since when it stands.
 struct Standing {
   Pose pose;
   Time now;
@@ -25,28 +25,28 @@ struct Standing {
   Time settled_since;
 };
 
-/// The second stage: conditions the readings, and marks the local grid with them.
+/// The second stage: conditions the readings and updates the local grid.
 class Perception {
  public:
   void configure(const Params& params) noexcept;
-  /// No reading has come yet; from `now` on, they may be waited for.
+  /// No reading has arrived yet; the wait for readings starts at `now`.
   void start(Time now) noexcept { conditioner_.reset(now); }
-  /// The body was put down here: the grid knows nothing but what must be free around it.
+  /// The body was put down here: only the ground that must be free around it is clear.
   void place(const Pose& pose) noexcept;
-  /// Nothing is known but the ground under the body: it may not be where it was thought to be.
+  /// Resets all cells except those under the body to unknown, because the pose may be wrong.
   void forget(const Pose& pose) noexcept;
-  /// Between the last tick and the next one the body moved in a way that nobody followed.
+  /// The body moves untracked between the last tick and the next one.
   void lose_history() noexcept { history_.reset(); }
 
-  /// Takes the readings of a tick. readings == nullptr: the HAL refused.
+  /// Takes in the readings of a tick. readings == nullptr: the HAL refused.
   void sense(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
              Health& health) noexcept;
-  /// Marks what the beams show, once a tick after sense(), and says what is known.
+  /// Updates the grid and returns the percept; call once per tick after sense().
   void observe(const Standing& body, const Params& params, Percept& out) noexcept;
 
-  /// The latest reading of each beam by itself.
+  /// The latest single reading of each beam.
   Echoes latest() const noexcept { return conditioner_.latest(); }
-  /// The longest time for which some beam has had no usable reading.
+  /// The longest time for which a beam has had no usable reading.
   Duration lost_for(Time now) const noexcept { return conditioner_.lost_for(now); }
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
@@ -56,8 +56,8 @@ class Perception {
   LocalGrid local_grid_;
   MotionDetector motion_;
   RangeScatter scatter_[hal::kBeams];
-  EarlierObservation last_[hal::kBeams];  // reading of each beam, if it is
-  uint8_t seen_ = 0;                      // a bit for each beam that has one
+  EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
+  uint8_t seen_ = 0;                      // one bit per beam that has one
 };
 
 }  // namespace whisker::perception

@@ -1,4 +1,4 @@
-/// From raw readings to echoes: one sensor's history, its age, and its health.
+/// From raw readings to echoes: history, age and health of each sensor.
 #pragma once
 
 #include <stdint.h>
@@ -12,41 +12,42 @@
 
 namespace whisker::perception {
 
-/// What a moving beam tells.
+/// Readings of a beam while the body moves.
 struct RecentReadings {
-  bool fresh = false;     ///< a usable measurement came at this tick
-  Time taken;             ///< when the newest one was
-  Time oldest;            ///< when the oldest of those behind `near` was
-  Echo near;              ///< the nearest of the last four: no single reading can make it far
-  bool clear = false;     ///< the newest one says that nothing is there
+  bool fresh = false;     ///< a usable measurement arrived at this tick
+  Time taken;             ///< time of the newest measurement
+  Time oldest;            ///< time of the oldest measurement behind `near`
+  Echo near;              ///< the nearest of the last four: a single reading cannot make it far
+  bool clear = false;     ///< the newest measurement is clear
   Echo typical;           ///< the median of the last three
-  Length farthest;        ///< of the last three: no single reading can make it near
-  bool measured = false;  ///< the last three are all distances of something
-  Length bend;            ///< if so, how far the second of them lies off the line through the others, twice
+  Length farthest;        ///< the farthest of the last three: a single reading cannot make it near
+  bool measured = false;  ///< the last three are all distances
+  Length bend;  ///< second difference: if measured, twice the distance of the second one from the line
+                ///< through the others
 };
 
-/// One beam. Keeps the last usable measurements; a lost one is counted and never stored, so that it
-/// can neither stand for "far" nor vote.
+/// One beam. Keeps the last usable measurements. A lost one is counted and never stored, so that it neither
+/// means "far" nor takes part in the consensus.
 class BeamConditioner {
  public:
   static constexpr int kHistory = 5;  ///< the largest ConditioningParams::reads
 
-  /// Takes the reading that the HAL shows at this tick; one already seen (same sequence) only ages.
-  /// heading: the body's, to tell a stuck sensor from a quiet world.
+  /// Takes in the reading that the HAL returns at this tick; a known one (same sequence) only ages. The
+  /// heading of the body tells a stuck sensor from a static world.
   void update(const hal::RangeReading& reading, Time now, Angle heading, const Params& params,
               Health& health) noexcept;
-  /// The HAL had nothing to show.
+  /// The HAL returned nothing.
   void miss(Time now, const Params& params, Health& health) noexcept;
 
   /// The consensus of the measurements taken at or after `since`.
   Echo look(Time since, const Params& params) const noexcept;
   /// Pending until there are enough measurements.
   RecentReadings sight(const Params& params) const noexcept;
-  /// The latest measurement by itself, fit for watching, not for planning.
+  /// The latest single measurement, for display, not for planning.
   Echo latest() const noexcept { return latest_; }
-  /// How long ago the last usable measurement arrived.
+  /// Time since the last usable measurement arrived.
   Duration lost_for(Time now) const noexcept { return now - last_usable_; }
-  /// Forgets everything; the beam is pending and, from `now`, not yet lost.
+  /// Clears the history; the beam is pending and, from `now`, not yet lost.
   void reset(Time now) noexcept;
 
  private:
@@ -81,7 +82,7 @@ class RangeConditioner {
   Echoes look(Time since, const Params& params) const noexcept;
   RecentReadings sight(int beam, const Params& params) const noexcept { return beam_[beam].sight(params); }
   Echoes latest() const noexcept;
-  /// The longest time for which some beam has had no usable measurement.
+  /// The longest time for which a beam has had no usable measurement.
   Duration lost_for(Time now) const noexcept;
 
  private:

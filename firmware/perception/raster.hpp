@@ -1,7 +1,7 @@
-/// Shapes against the rows of a grid window: which columns of a row have their centre in it, lie wholly in
-/// it, or touch it.
+/// Rasterizes shapes on the rows of a grid window: columns whose centre is inside the shape, that lie
+/// completely inside it, or that touch it.
 ///
-/// Coordinates are grid units from the window's corner (256 a cell).
+/// Coordinates are grid units from the corner of the window (256 per cell).
 #pragma once
 
 #include <stdint.h>
@@ -10,18 +10,19 @@
 
 namespace whisker::perception {
 
-/// One bit a cell.
+/// One bit per cell.
 using Row = uint32_t;
 
-constexpr int kCells = 32;  ///< a side of the window
+constexpr int kCells = 32;  ///< cells along a side of the window
 constexpr int32_t kUnitsPerCell = 256;
 constexpr int32_t kHalfCell = kUnitsPerCell / 2;
-/// What points and normals lose by rounding; a cell is judged by a square that is larger by it on every side.
+/// Rounding budget of points and normals; a cell is tested with a square that is larger by this on every
+/// side.
 constexpr int32_t kRim = 3;
 constexpr int32_t kHalfSquare = kHalfCell + kRim;
-/// The longest length that shapes take: its square, and products with a normal, fit into 32 bits.
+/// The longest length of a shape: its square, and products with a normal, fit into 32 bits.
 constexpr int32_t kLongest = 4 * kCells * kUnitsPerCell - 1;
-/// Points lie at most this far from the window's corner in x and in y.
+/// Points lie at most this far from the corner of the window in x and in y.
 constexpr int32_t kOutermost = 2 * kCells * kUnitsPerCell;
 
 /// d > 0.
@@ -43,12 +44,12 @@ struct Span {
   int32_t low = -kUnitsPerCell;
   int32_t high = (kCells + 1) * kUnitsPerCell;
 
-  /// As far as a disc touches cells in any row.
+  /// Largest extent over the rows in which a disc touches cells.
   static Span around(int32_t x, int32_t radius) noexcept {
     return {x - radius - kHalfSquare, x + radius + kHalfSquare};
   }
   bool empty() const noexcept { return low > high; }
-  /// Cells whose centres lie in this disc; those that it holds wholly; those that it touches.
+  /// Cells whose centres lie in this disc; cells completely inside it; cells that it touches.
   void within_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
   void inside_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
   void touched_by_disc(int32_t x, int32_t dy, int32_t radius) noexcept;
@@ -61,7 +62,7 @@ struct Span {
   Row columns() const noexcept;
 };
 
-/// The window's rows whose centres lie within `reach` of y.
+/// The rows of the window whose centres lie within `reach` of y.
 class Rows {
  public:
   Rows(int32_t y, int32_t reach) noexcept : Rows(y, y, reach) {}
@@ -69,7 +70,7 @@ class Rows {
   bool more() const noexcept { return row_ <= last_; }
   void next() noexcept { ++row_; }
   int row() const noexcept { return row_; }
-  /// Of the row's centre from y.
+  /// Offset of the row's centre from y.
   int32_t offset(int32_t y) const noexcept { return row_ * kUnitsPerCell + kHalfCell - y; }
 
  private:
@@ -79,11 +80,11 @@ class Rows {
 
 /// A half plane nx x + ny y >= margin; the normal in 2^-14.
 struct HalfPlane {
-  /// Ahead of its boundary, seen in this direction.
+  /// The half plane ahead of a boundary that faces this direction.
   static HalfPlane facing(Angle direction) noexcept;
   int32_t nx;
   int32_t ny;
-  /// dy from the boundary's origin, whose x is given.
+  /// dy from the origin of the boundary, whose x is given.
   void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
 };
 
@@ -91,46 +92,47 @@ struct HalfPlane {
 class Wedge {
  public:
   Wedge(Angle axis, Angle half) noexcept;
-  /// All rows with points of the wedge at most this far from its apex.
+  /// The rows with points of the wedge at most this far from its apex.
   Rows rows(int32_t y, int32_t radius) const noexcept;
-  /// Leaves the cells of the row that lie wholly inside.
+  /// Keeps the cells of the row that lie completely inside.
   void hold(Span& span, int32_t x, int32_t dy) const noexcept;
-  /// Leaves the part of the row that is at least `margin` inside both edges.
+  /// Keeps the part of the row that is at least `margin` inside both edges.
   void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
 
  private:
   HalfPlane left_;
   HalfPlane right_;
-  int32_t left_corner_;  // how far a cell's corner lies from its centre across this edge
+  int32_t left_corner_;  // distance of a cell's corner from its centre across this edge
   int32_t right_corner_;
 };
 
-/// A straight way of a disc.
+/// A straight path of a disc.
 struct Sweep {
-  int32_t x = 0;  ///< of its beginning
+  int32_t x = 0;  ///< of its start
   int32_t y = 0;
   Angle heading;
   int32_t length = 0;
   int32_t radius = 0;
-  int32_t abeam = 0;  ///< what lies less than this ahead of the beginning is left out
+  int32_t abeam = 0;  ///< cells less than this ahead of the start are excluded
 };
 
-/// The cells that a disc touches on a straight way.
+/// The cells that a disc touches on a straight path.
 class Stadium {
  public:
   explicit Stadium(const Sweep& sweep) noexcept;
   Rows rows() const noexcept;
   Row columns(int row) const noexcept;
-  /// The columns of all rows.
+  /// The union of the columns over all rows.
   Row box() const noexcept;
 
  private:
   void side(Span& span, int32_t dy, int32_t sign) const noexcept;
   int32_t x_, y_;
-  int32_t end_x_, end_y_;  // from the beginning
+  int32_t end_x_, end_y_;  // from the start
   int32_t length_, radius_, abeam_;
-  int32_t beside_;   // from the way to its edge: the centres of cells that just touch it
-  int32_t skew_;     // how far on, along the way, that edge begins on the left; as far behind on the right
+  int32_t beside_;  // distance from the path to its edge: centres of cells that just touch it
+  int32_t
+      skew_;  // offset along the path at which that edge begins on the left; the negative offset on the right
   int32_t ux_, uy_;  // direction, 2^-14
 };
 

@@ -1,12 +1,12 @@
-/// How often a part of the board may refuse.
+/// Counts refusals of a part of the board.
 #pragma once
 
 #include <stdint.h>
 
 namespace whisker::safety {
 
-/// Counts refusals that come close to one another. One that comes now and then is forgotten; those that keep
-/// a robot from getting on are not, be they in a row or every second time.
+/// Counts refusals that are close to one another. It tolerates an occasional refusal, but not refusals that
+/// block a robot, whether in a row or every second time.
 class Refusals {
  public:
   void reset() noexcept { *this = Refusals{}; }
@@ -15,7 +15,7 @@ class Refusals {
     accepted_ = 0;
     return ++count_ >= most;
   }
-  /// After ten in a row the count begins anew.
+  /// Ten accepted calls in a row restart the count.
   void accept() noexcept {
     if (accepted_ < kForgiven && ++accepted_ == kForgiven) count_ = 0;
   }

@@ -1,4 +1,4 @@
-/// Finds what has failed, counts it, and names it.
+/// Detects, counts and names failures.
 #pragma once
 
 #include <stdint.h>
@@ -15,35 +15,35 @@
 
 namespace whisker::safety {
 
-/// Each call judges one thing at a tick. The first failure stays in Health::fault until reset(); while one
-/// stands, the robot brakes and stays.
+/// Each function checks one condition per tick. The first failure stays in Health::fault until reset(); while
+/// a fault is set, the robot brakes and stands.
 class Supervisor {
  public:
   /// Both must outlive it.
   Supervisor(const Params& params, Health& health) noexcept : params_(params), health_(health) {}
   void configure() noexcept;
-  /// Clears the fault. The wheels may still do what they were told before it.
+  /// Clears the fault. The wheels may still execute the last command before it.
   void reset() noexcept;
 
   bool faulted() const noexcept { return health_.fault != Fault::none; }
   void fail(Fault fault, uint32_t& counter) noexcept;
   void fail(Fault fault) noexcept;
 
-  /// The time since the tick before. `excused`: something else braked the wheels meanwhile.
+  /// The time since the last tick. `excused`: something else has braked the wheels meanwhile.
   void check_gap(Duration gap, bool excused) noexcept;
-  /// Whether the drive gave counts.
+  /// Whether the drive returned counts.
   void check_counts(bool read) noexcept;
-  /// The wheels have turned at these speeds for `elapsed`, of the gap since the tick before.
+  /// The wheels have turned at these speeds for `elapsed` out of `gap`, the time since the last tick.
   void expect_wheels(WheelPair speeds, Duration elapsed, Duration gap) noexcept;
   void check_wheels(const localization::CountStep& step) noexcept;
-  /// For how long a beam has had no usable reading.
+  /// How long a beam has had no usable reading.
   void check_ranges(Duration lost) noexcept;
-  /// A look that waits: for how long the body has stood.
+  /// How long the body has stood for a static scan that waits.
   void check_look(bool waits, Duration stood) noexcept;
-  /// Whatever a planner waits for or tries, it does not try it for ever in one place.
+  /// Whatever a planner waits for or tries, it must not do it for ever in one place.
   void check_place(Vec at, bool running, Duration elapsed) noexcept;
   void check_motion(const planning::MotionController& motion) noexcept;
-  /// Whether the drive took the command.
+  /// Whether the drive accepted the command.
   void check_command(bool taken) noexcept;
   /// The drive refused the last command.
   bool refused() const noexcept { return drive_refusals_.refused(); }
@@ -54,13 +54,13 @@ class Supervisor {
   Refusals drive_refusals_;
   Refusals encoder_refusals_;
   WheelWatch wheel_watch_;
-  Duration unwatched_;  // until the wheels' watch begins
-  Vec place_;           // that it has not left
+  Duration unwatched_;  // time until the wheel watch starts
+  Vec place_;           // the place that the body has not left
   Duration at_place_for_;
   Duration longest_stay_;
 };
 
-/// Braking from full speed, until the wheels have followed.
+/// Time to brake from full speed, including the motor lag.
 Duration braking_time(const Params& params) noexcept;
 
 }  // namespace whisker::safety

@@ -1,16 +1,16 @@
-/// The queues between a CanPort's callers and its bus, and the rules of the contract that need no bus.
+/// The queues between the callers of a CanPort and its bus, and the rules of the interface that need no bus.
 #pragma once
 
 #include "hal/can_port.hpp"
 
 namespace whisker::hal {
 
-/// Stops at the maximum.
+/// Saturates.
 inline void count(uint32_t& counter, uint32_t times = 1) noexcept {
   counter = counter > UINT32_MAX - times ? UINT32_MAX : counter + times;
 }
 
-/// Whether now_ms is at or after then_ms, for times up to 2^31 ms apart.
+/// Whether now_ms is at or after then_ms; valid for times up to 2^31 ms apart.
 inline bool reached(uint32_t now_ms, uint32_t then_ms) noexcept { return now_ms - then_ms <= INT32_MAX; }
 
 inline bool well_formed(const CanFrame& frame) noexcept {
@@ -19,7 +19,7 @@ inline bool well_formed(const CanFrame& frame) noexcept {
   return frame.size <= sizeof frame.data && frame.id <= (frame.extended ? kExtendedIds : kBaseIds);
 }
 
-/// Frames that wait for the bus, in the order of send(), each until its end.
+/// Frames that wait for the bus, in the order of send(), until they expire.
 class CanOutbox {
  public:
   struct Waiting {
@@ -27,7 +27,7 @@ class CanOutbox {
     uint32_t until_ms;
   };
 
-  /// CanPort::send(). on_bus: whether the port takes part in the bus.
+  /// CanPort::send(). on_bus: whether the port is on the bus.
   bool put(const CanFrame& frame, uint8_t lifetime_ms, bool on_bus, CanCounts& counts) noexcept {
     const bool fits =
         waiting_ < CanPort::kSendDepth && lifetime_ms > 0 && lifetime_ms <= CanPort::kLongestLife;
@@ -39,7 +39,7 @@ class CanOutbox {
     ++waiting_;
     return true;
   }
-  /// Drops what is too old, and returns how many those are.
+  /// Drops expired frames and returns their number.
   uint8_t expire(uint32_t now_ms, CanCounts& counts) noexcept {
     now_ms_ = now_ms;
     uint8_t dropped = 0;
@@ -51,13 +51,13 @@ class CanOutbox {
     count(counts.expired, waiting_);
     waiting_ = 0;
   }
-  /// Null: none waits.
+  /// Null: the queue is empty.
   const Waiting* first() const noexcept { return at(0); }
-  /// The frame behind so many others; null: so many do not wait.
+  /// The frame at this position; null: beyond the end of the queue.
   const Waiting* at(uint8_t behind) const noexcept {
     return behind < waiting_ ? &queue_[(first_ + behind) % CanPort::kSendDepth] : nullptr;
   }
-  /// Only while there is a first().
+  /// Only if first() is not null.
   void pop() noexcept {
     first_ = static_cast<uint8_t>((first_ + 1) % CanPort::kSendDepth);
     --waiting_;
@@ -75,7 +75,7 @@ class CanInbox {
  public:
   bool full() const noexcept { return waiting_ == CanPort::kReceiveDepth; }
   uint8_t room() const noexcept { return static_cast<uint8_t>(CanPort::kReceiveDepth - waiting_); }
-  /// A frame for which there is no room is lost, and counted.
+  /// A frame without room is dropped and counted.
   void push(const CanFrame& frame, CanCounts& counts) noexcept {
     if (full()) {
       count(counts.overrun);

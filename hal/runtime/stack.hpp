@@ -1,9 +1,9 @@
-/// How deep the stack has been: the start-up paints it, and what is no longer paint was used.
+/// Stack depth: the start-up code paints the stack, and overwritten paint was used.
 #pragma once
 
 #include <stdint.h>
 
-/// Of the linker script.
+/// Defined by the linker script.
 extern "C" uint32_t __stack_bottom[];
 extern "C" uint32_t __stack_top[];
 
@@ -11,7 +11,7 @@ namespace whisker::hal::mcu {
 
 constexpr uint32_t kPaint = 0xC0DEC0DEU;
 
-/// From a function that is called with an empty stack.
+/// Call it from a function that starts with an empty stack.
 inline void paint_stack(uint32_t* upto) noexcept {
   for (volatile uint32_t* p = __stack_bottom; p < upto; ++p) *p = kPaint;
 }

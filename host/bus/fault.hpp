@@ -11,24 +11,24 @@
 namespace whisker::bus {
 
 enum class FaultKind : std::uint8_t {
-  // Of frames: each that is hit.
-  loss,           ///< does not arrive; and neither do the `length` - 1 after it
-  delay,          ///< arrives `ticks` later, and up to `jitter` more: later ones may overtake it
+  // Faults of frames: each matching frame is affected.
+  loss,           ///< does not arrive, nor do the `length` - 1 frames after it
+  delay,          ///< arrives `ticks` later, plus up to `jitter`: later frames may overtake it
   duplicate,      ///< arrives twice
   reorder,        ///< arrives after the next one
-  corrupt,        ///< one bit of its data is wrong
-  forge,          ///< one bit of its data is wrong, and its check value is right again: see Repair
-  freeze,         ///< has the data of the first one with its identifier that was hit: a stuck counter
+  corrupt,        ///< one bit of its data is inverted
+  forge,          ///< one bit of its data is inverted, and its check value corrected: see Repair
+  freeze,         ///< has the data of the first affected frame with its identifier: a stuck counter
   wrong_size,     ///< has another size
   make_remote,    ///< is a remote frame
   make_extended,  ///< has the extended format, with the same identifier
   masquerade,     ///< has identifier `id`
-  // Of the port, for as long as they last.
-  babble,   ///< somebody sends `length` frames a tick with identifier `id`, and none that it outbids leaves
-  bus_off,  ///< the controller goes bus-off, again and again while it lasts; restart() ends it after that
+  // Faults of the port, while they last.
+  babble,   ///< a node sends `length` frames per tick with identifier `id`; lower priorities are blocked
+  bus_off,  ///< the CAN controller goes bus-off repeatedly while this lasts; restart() ends it afterwards
   passive,  ///< the controller is error-passive
-  down,     ///< the interface is down, and comes back by itself
-  full,     ///< the driver has no room: what is sent waits until it is too old
+  down,     ///< the interface is down, and returns by itself
+  full,     ///< the driver has no room: sent frames wait until they expire
   overrun   ///< only the first `length` frames of a tick are received
 };
 constexpr std::size_t kFaultKinds = static_cast<std::size_t>(FaultKind::overrun) + 1;
@@ -36,8 +36,8 @@ constexpr bool of_port(FaultKind kind) noexcept { return kind >= FaultKind::babb
 
 enum class Direction : std::uint8_t { out, in, both };
 
-/// One line of a schedule: it hits each frame that matches, or for a fault of the port each tick, with
-/// `chance`.
+/// One line of a schedule: it affects each matching frame, or for a fault of the port each tick, with
+/// probability `chance`.
 struct Fault {
   FaultKind kind;
   std::uint32_t from_tick = 0;
@@ -54,7 +54,7 @@ struct Fault {
 
 using Schedule = std::vector<Fault>;
 
-/// Times that each kind acted, by its number: frames that were hit, lost or added; entries into bus_off and
+/// Number of occurrences of each kind, by its index: affected, lost or added frames; entries into bus_off and
 /// down; passive ticks.
 using Tally = std::array<std::uint32_t, kFaultKinds>;
 
@@ -62,7 +62,7 @@ inline std::uint32_t& of(Tally& tally, FaultKind kind) noexcept {
   return tally[static_cast<std::size_t>(kind)];
 }
 
-/// Makes a frame's check value right for its data.
+/// Corrects the check value of a frame for its data.
 using Repair = std::function<void(hal::CanFrame&)>;
 
 }  // namespace whisker::bus

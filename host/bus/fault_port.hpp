@@ -8,18 +8,18 @@
 
 namespace whisker::bus {
 
-/// A CanPort on a bad bus: passes on what another port does, with the faults of a schedule. The same seed,
+/// A CanPort on a faulty bus: forwards to another port, with the faults of a schedule. The same seed,
 /// schedule and calls give the same faults.
 ///
-/// counts() is what the owner of a real port would see: `sent` is what left towards the bus, lost later or
-/// not; what the inner port counts besides is added.
+/// counts() returns what the owner of a real port would see: `sent` counts frames that left towards the bus,
+/// lost later or not; the other counters of the inner port are added.
 class FaultPort final : public hal::CanPort {
  public:
   FaultPort(hal::CanPort& inner, Schedule schedule, std::uint64_t seed, Repair repair = nullptr);
   FaultPort(const FaultPort&) = delete;
   FaultPort& operator=(const FaultPort&) = delete;
 
-  /// The control tick from now on, which the schedule goes by; 0 before the first call. Never goes back.
+  /// Sets the control tick for the schedule; 0 before the first call. Never decreases.
   void at_tick(std::uint32_t tick);
 
   bool send(const hal::CanFrame& frame, std::uint8_t lifetime_ms) noexcept override;
@@ -36,7 +36,7 @@ class FaultPort final : public hal::CanPort {
     std::uint8_t lifetime_ms;
     std::uint32_t due_tick;
   };
-  /// Frames on their way in one direction.
+  /// Frames in transit in one direction.
   struct Way {
     std::deque<Passing> late;
     std::deque<Passing> held;
@@ -64,7 +64,7 @@ class FaultPort final : public hal::CanPort {
   Way out_;
   Way in_;
   hal::CanCounts counts_;
-  hal::CanCounts inner_counts_;  // as they were added
+  hal::CanCounts inner_counts_;  // counters of the inner port that were added
 };
 
 }  // namespace whisker::bus

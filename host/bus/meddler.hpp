@@ -9,23 +9,23 @@
 
 namespace whisker::bus {
 
-/// What a schedule's faults of frames make of each frame, one after another in the schedule's order.
+/// Applies the frame faults of a schedule to each frame, in the order of the schedule.
 class Meddler {
  public:
   struct Outcome {
     hal::CanFrame frame;
     std::uint32_t copies;  ///< 0: lost
-    std::uint32_t ticks;   ///< late
-    bool held;             ///< until the next one has passed
+    std::uint32_t ticks;   ///< delay
+    bool held;             ///< until the next frame has passed
   };
 
   Meddler(Schedule schedule, std::uint64_t seed, Repair repair);
 
-  /// Draws which faults of the port hold in this tick.
+  /// Draws the active port faults of this tick.
   void at_tick(std::uint32_t tick);
   /// direction: out or in.
   Outcome meddle(const hal::CanFrame& frame, Direction direction);
-  /// The first fault of the port of this kind that holds now, in this direction or both; null if none does.
+  /// The first active port fault of this kind, in this direction or both; null if there is none.
   const Fault* active(FaultKind kind, Direction direction) const noexcept;
   hal::CanFrame babble(const Fault& fault);
 

@@ -7,14 +7,14 @@
 
 namespace whisker::bus {
 
-/// The frame with the smaller number wins the bus, as bit by bit on the wire: base identifiers first, then
-/// data before remote frames, and base before extended ones that begin alike.
+/// Arbitration order, as on the wire: the lower number wins. Base identifiers come first, then data before
+/// remote frames, and base before extended frames with the same prefix.
 std::uint32_t arbitration(const hal::CanFrame& frame) noexcept;
 
 class MemoryBus;
 
-/// A node of a MemoryBus. Errors do not happen on it: the state is `active` from the start, also after
-/// restart(). `sent` counts what reached the bus, be anyone there or not.
+/// A node of a MemoryBus. The bus has no errors: the state is `active` from the start, also after restart().
+/// `sent` counts the frames that reached the bus, with or without a receiver.
 class MemoryPort final : public hal::CanPort {
  public:
   explicit MemoryPort(MemoryBus& bus) noexcept : bus_(bus) {}
@@ -36,19 +36,19 @@ class MemoryPort final : public hal::CanPort {
   hal::CanCounts counts_;
 };
 
-/// A CAN bus in this process's memory. No thread and no clock: poll() of any port moves what waits at all
-/// ports, the frame with the highest priority first, to every port but its sender's. The same calls give the
-/// same frames in the same order.
+/// A CAN bus in the memory of this process, without threads or clock: poll() of any port moves the frames of
+/// all ports, the frame with the highest priority first, to every port except its sender. The same calls give
+/// the same frames in the same order.
 class MemoryBus {
  public:
   static constexpr std::uint32_t kUnlimited = UINT32_MAX;
 
-  /// frames_per_ms: what the wire carries in a millisecond of poll()'s time; 4 are about 500 kbit/s.
+  /// frames_per_ms: capacity of the wire per millisecond of poll() time; 4 is about 500 kbit/s.
   explicit MemoryBus(std::uint32_t frames_per_ms = kUnlimited) noexcept : frames_per_ms_(frames_per_ms) {}
   MemoryBus(const MemoryBus&) = delete;
   MemoryBus& operator=(const MemoryBus&) = delete;
 
-  /// A new node; lives as long as the bus. Of two with the same frame the older one wins.
+  /// A new node; lives as long as the bus. For equal frames, the older node wins.
   MemoryPort& attach();
 
  private:

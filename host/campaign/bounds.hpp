@@ -7,8 +7,7 @@
 
 namespace whisker::campaign {
 
-/// A figure and the bounds of its 95 % confidence interval; a bound that the sample is too small to
-/// give is absent.
+/// A figure and the bounds of its 95 % confidence interval; a bound is absent if the sample is too small.
 struct Estimate {
   double value = 0;
   std::optional<double> low, high;
@@ -21,12 +20,12 @@ Estimate share(std::uint64_t hits, std::uint64_t total);
 Estimate mean(const std::vector<double>& sample);
 
 /// The smallest value with at least the share p (0 < p < 1) of the sample at or below it. Bounds are order
-/// statistics whose ranks a binomial count leaves out with at most 2.5 % on each side (David and Nagaraja,
-/// Order Statistics, 2003, section 7.1): they hold whatever the distribution. Not empty.
+/// statistics whose ranks a binomial count excludes with at most 2.5 % on each side (David and Nagaraja,
+/// Order Statistics, 2003, section 7.1): they hold for every distribution. Not empty.
 Estimate quantile(std::vector<double> sample, double p);
 
-/// Sum of `amounts` to sum of `sizes`: the ratio estimator and its standard error (Cochran, Sampling
-/// Techniques, 1977, section 2.11); low bound at least 0. As many of both; the sizes' sum > 0.
+/// Ratio of the sum of `amounts` to the sum of `sizes`: the ratio estimator and its standard error (Cochran,
+/// Sampling Techniques, 1977, section 2.11); the lower bound is at least 0. Equal lengths; sum of sizes > 0.
 Estimate rate(const std::vector<double>& amounts, const std::vector<double>& sizes);
 
 }  // namespace whisker::campaign

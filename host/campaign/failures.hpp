@@ -8,12 +8,11 @@
 
 namespace whisker::campaign {
 
-/// The command that drives this mission again and draws it, for a shell to take as it is.
+/// A shell command that repeats this mission and draws it.
 std::string replay_command(const Row& row);
 
-/// A line for each mission that did not succeed, then for each that only believes to be there, with its
-/// replay_command; after `most` lines only their counts. Each line ends in a newline; empty if nothing was
-/// wrong.
+/// One line for each failed mission, then one for each that is off its goal, with its replay_command; after
+/// `most` lines only their counts. Each line ends in a newline; empty if there are none.
 std::string failure_lines(const std::vector<Row>& rows, std::size_t most = 20);
 
 }  // namespace whisker::campaign

@@ -1,4 +1,4 @@
-/// How smoothly a robot drives, counted from the true motion, tick by tick.
+/// Counts how smoothly a robot drives, from the true motion, tick by tick.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@ namespace whisker::campaign {
 
 class MotionCount {
  public:
-  static constexpr double kDriving_mps = 0.05;    ///< forward speed above it: the robot drives
-  static constexpr double kStanding_mps = 0.01;   ///< below it: it stands (or backs up)
+  static constexpr double kDriving_mps = 0.05;    ///< above this forward speed, the robot drives
+  static constexpr double kStanding_mps = 0.01;   ///< below it, the robot stands (or reverses)
   static constexpr double kTurning_radps = 0.20;  ///< a slower turn has no side
 
   /// track_m: between the wheels, > 0.
@@ -19,10 +19,10 @@ class MotionCount {
   void add(const TickRecord& record);
 
   double turned_rad() const { return turned_rad_; }  ///< sum of the absolute changes of heading
-  /// How often it stood and then drove on, after it had once set out.
+  /// How often it stopped and drove on, after its first start.
   std::uint64_t stops() const { return stops_; }
-  std::uint64_t flips() const { return flips_; }  ///< turns to the other side than the last turn's
-  std::uint64_t looks() const { return looks_; }  ///< spells of ticks with a decision from a look
+  std::uint64_t flips() const { return flips_; }  ///< turns to the other side than the last turn
+  std::uint64_t looks() const { return looks_; }  ///< sequences of ticks with a decision from a static scan
 
  private:
   enum class Pace { not_yet, driving, standing };

@@ -1,4 +1,4 @@
-/// A CSV file that grows row by row and is whole at any time.
+/// A CSV file that grows row by row and always holds complete rows.
 #pragma once
 
 #include <string>
@@ -8,15 +8,14 @@
 
 namespace whisker::campaign {
 
-/// Rows go, each in one write, into PATH.part beside the file; finish() gives it its name. So PATH is the old
-/// file or the whole new one, and what a killed process leaves in PATH.part is made of whole rows too.
-/// Two that write PATH at a time would mix their rows: the second one's constructor throws. A device or a
-/// pipe is written to directly, and so is standard output, "-". Errors throw std::runtime_error "cannot write
-/// PATH: REASON".
+/// Each row is written to PATH.part in one write; finish() renames it. So PATH is the old file or the
+/// complete new one, and the PATH.part of a killed process holds complete rows too. Two writers of one PATH
+/// would mix their rows, so the constructor of the second one throws. A device, a pipe, or standard output,
+/// "-", is written directly. Errors throw std::runtime_error "cannot write PATH: REASON".
 class RowFile {
  public:
   explicit RowFile(const std::string& path);  ///< writes the header
-  ~RowFile();                                 ///< without finish(): leaves no trace
+  ~RowFile();                                 ///< without finish(): removes PATH.part
   RowFile(const RowFile&) = delete;
   RowFile& operator=(const RowFile&) = delete;
 
@@ -30,7 +29,7 @@ class RowFile {
 
   std::string path_;
   std::string target_;
-  std::string part_;  ///< empty: written to directly, or finished
+  std::string part_;  ///< empty: written directly, or finished
   int fd_ = -1;
 };
 

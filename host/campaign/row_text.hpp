@@ -9,8 +9,9 @@
 namespace whisker::campaign {
 
 enum class RowFormat {
-  judged,    ///< today's
-  believed,  ///< before `off_goal`: `reached` is the robot's word, and at_goal tells whether it is true
+  judged,    ///< the current format
+  believed,  ///< the format without `off_goal`: `reached` is the robot's report, and at_goal says whether it
+             ///< is true
 };
 
 /// The header line, without its newline.
@@ -20,8 +21,8 @@ std::string_view row_header(RowFormat format);
 /// Without a newline. Texts must hold no control characters.
 std::string to_csv(const Row& row);
 
-/// Takes exactly what to_csv gives, or gave in that format; throws std::invalid_argument that names the first
-/// wrong column.
+/// Parses the output of to_csv in that format; throws std::invalid_argument that names the first wrong
+/// column.
 Row parse_row(std::string_view line, RowFormat format = RowFormat::judged);
 
 }  // namespace whisker::campaign

@@ -8,12 +8,11 @@
 
 namespace whisker::campaign {
 
-/// The trip of a body of kWayRadius with a scanner of the range of this robot's beams, see
-/// host/scanner/trip.hpp. Fills seed, verdict, path_m, shortest_m and planner ("scanner"): it has no other
-/// figures.
+/// The trip of a body of kWayRadius with the omniscient reference at the range of this robot's beams, see
+/// host/scanner/trip.hpp. Sets only seed, verdict, path_m, shortest_m and planner ("scanner").
 Row scan(const Scenario& scenario);
 
-/// As summary_words and summary_json, but only of the figures that these rows have.
+/// As summary_words and summary_json, but only with the figures of these rows.
 std::string scan_words(const Summary& summary);
 std::string scan_json(const Summary& summary);
 

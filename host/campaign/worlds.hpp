@@ -20,10 +20,10 @@ struct Generated {
   std::uint64_t first_seed = 1;
 };
 
-/// Mission i is file i modulo their number; its noise has the seed first_seed + i, or the file's own.
+/// Mission i is file i modulo their number; the seed of its noise is first_seed + i, or the file's own.
 struct Files {
   std::vector<std::string> names;
-  std::vector<Scenario> scenarios;  ///< as many
+  std::vector<Scenario> scenarios;  ///< the same number
   std::optional<std::uint64_t> first_seed;
 };
 
@@ -31,11 +31,11 @@ bool is_scenario_file(std::string_view name);  ///< it ends in .toml
 
 bool has_control_characters(std::string_view text);  ///< a row holds none
 
-/// The arguments of `whisker world` that make these worlds, without the seed: "discs --discs 20 --noise".
+/// The arguments of `whisker world` that generate these worlds, without the seed: "discs --discs 20 --noise".
 std::string arguments(worlds::Kind kind, const worlds::Options& options);
 
-/// Every *.toml of the folder in order of name. Throws InputError for a wrong one,
-/// std::invalid_argument if there is none or a name has control characters in it.
+/// Every *.toml of the folder in order of name. Throws InputError for an invalid one, std::invalid_argument
+/// if there is none or a name contains control characters.
 Files load_folder(const std::string& folder);
 
 struct Mission {

@@ -9,14 +9,14 @@
 
 namespace whisker::chip {
 
-/// The chip, or what runs it, did not answer as it must.
+/// The chip, or its emulator, gave no valid answer.
 class ChipError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A command of the shell with pipes to its standard input and output. It is given two
-/// seconds to end by itself when this object does.
+/// A shell command with pipes to its standard input and output. The destructor gives it two seconds to end by
+/// itself.
 class Process {
  public:
   /// Throws ChipError.

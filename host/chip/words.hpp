@@ -1,5 +1,4 @@
-/// Messages to a robot at the other end of a byte stream; firmware/apps/pil_link/message.hpp has their
-/// meaning.
+/// Messages to a robot behind a byte stream; firmware/apps/pil_link/message.hpp defines their meaning.
 #pragma once
 
 #include <cstdint>
@@ -25,19 +24,19 @@ void append(Bytes& to, link::Name name, const M& body) {
   link::encode(body, to.data() + to.size() - link::size_of<M>());
 }
 
-/// The protocol has no word for this planner: it is one for hosts only.
+/// The protocol does not support this planner, because only the host has it.
 class NoSuchPlanner : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
 void append_params(Bytes& to, const Params& params);
-/// Throws NoSuchPlanner; nothing is appended then.
+/// Throws NoSuchPlanner, and then appends nothing.
 void append_begin(Bytes& to, PlannerKind planner, const Pose& pose);
 void append_goal(Bytes& to, const planning::Goal& goal);
 void append_place(Bytes& to, const Pose& pose);
 
-/// What the plant's sensors say at this tick.
+/// Sensor data of the plant at this tick.
 link::Tick tick_of(const sim::Plant& plant, Time now);
 
 }  // namespace whisker::chip

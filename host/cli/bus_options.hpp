@@ -1,4 +1,4 @@
-/// The options of the commands that use a CAN bus.
+/// Options of the commands that use a CAN bus.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ struct BusChoice {
   double drop_percent = 0;  ///< of the frames in each direction
   bool real_time = false;
 
-  /// With a boot number of its own.
+  /// With a new boot number.
   can::Identity identity() const;
 };
 
 /// --can, --node, --record and --drop.
 CLI::Option* add_bus(CLI::App& app, BusChoice& choice);
 
-constexpr double kBitrate = 500000;  ///< of the bus whose load is told
+constexpr double kBitrate = 500000;  ///< bus for which the load is reported
 
 }  // namespace whisker::cli

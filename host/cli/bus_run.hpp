@@ -10,14 +10,14 @@
 
 namespace whisker::cli {
 
-/// Drives one scenario, as drive_one does, with the controller at the other end of the bus. Begins again when
-/// the controller does. view: who watches it, or null. Returns the exit status; that of an interruption is
-/// kInterrupted.
+/// Runs one scenario as drive_one does, with the controller at the other end of the bus. Starts again if the
+/// controller restarts. view: the live view, or null. Returns the exit status, kInterrupted after an
+/// interruption.
 int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
                  const BusChoice& bus, hil::Line& line, LiveView* view);
 
-/// The controller, until it is interrupted; it says on standard error what it does. Its pace is the plant's;
-/// `real_time` only makes it ready for that.
+/// Runs the controller until it is interrupted; it prints its actions on standard error. Its pace is that of
+/// the plant; `real_time` only prepares it for that.
 void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line);
 
 }  // namespace whisker::cli

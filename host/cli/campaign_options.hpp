@@ -19,7 +19,7 @@ struct CampaignOptions {
   worlds::Options world;
   PlannerKind planner = kDefaultPlanner;
   std::string robot;
-  int jobs = 0;  ///< 0: as many as there are cores
+  int jobs = 0;  ///< 0: one per core
   std::string shard;
   std::string csv;
   bool json = false;
@@ -30,7 +30,7 @@ struct CampaignOptions {
   std::string trace;
 };
 
-/// Which missions: first, then one after the other up to last, which is not among them.
+/// Range of missions: from first up to, but not including, last.
 struct Missions {
   std::variant<campaign::Generated, campaign::Files> worlds;
   PlannerKind planner = kDefaultPlanner;
@@ -39,12 +39,13 @@ struct Missions {
   std::uint64_t last = 0;
 };
 
-/// KIND|DIR, --count, --seed, --discs and --box; `each` says what the count counts. Returns the first.
+/// KIND|DIR, --count, --seed, --discs and --box; `each` is the text for what is counted. Returns the first
+/// option.
 CLI::Option* add_worlds(CLI::App& app, CampaignOptions& options, const std::string& each);
 /// --jobs.
 void add_jobs(CLI::App& app, CampaignOptions& options);
 
-/// Throws UsageError if the options do not fit each other, InputError for a wrong scenario file.
+/// Throws UsageError if the options do not fit together, InputError for an invalid scenario file.
 Missions missions(const CampaignOptions& options);
 
 /// The mission's scenario with the robot's parameters. Throws InputError if they do not fit.

@@ -8,8 +8,8 @@
 
 namespace whisker::cli {
 
-/// Drives the missions again to record them, the worst first and as many as a page has room for, and writes a
-/// page of all. rows[i] is mission first + i.
+/// Runs missions again to record them, the worst first and as many as a page holds, and writes a page of all.
+/// rows[i] is mission first + i.
 void write_campaign_page(const std::string& path, const Missions& missions,
                          const std::vector<campaign::Row>& rows);
 

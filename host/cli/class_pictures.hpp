@@ -4,7 +4,7 @@
 
 namespace whisker::cli {
 
-/// A drive of the boundary planner in each class of worlds, chosen for what it shows: docs/skirt-pictures.md.
+/// A run of the boundary planner in each class of worlds: docs/skirt-pictures.md.
 struct ClassPicture {
   const char* file;
   worlds::Kind kind;
@@ -24,9 +24,9 @@ constexpr ClassPicture kClassPictures[] = {
     {"skirt_enclosed.svg", worlds::Kind::enclosed, {1, {}, false, false}},
 };
 
-/// The map planner beside the boundary planner in one world of a class: the first one, seeds from 1, whose
-/// goal both reach and where the boundary planner's way, by the shortest, is longer than its median in the
-/// class; of `enclosed` the first one of which both say so.
+/// The map planner beside the boundary planner in one world of a class: the first one, with seeds from 1,
+/// whose goal both reach and in which the boundary planner's path ratio exceeds its median in the class; for
+/// `enclosed` the first one that both report as unreachable.
 struct MapPicturePair {
   const char* name;  ///< map_NAME.svg, map_NAME_skirt.svg
   worlds::Kind kind;

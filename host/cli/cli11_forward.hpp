@@ -1,4 +1,4 @@
-/// \file The names of CLI11 that this folder's headers take and give, without its 10,000 lines.
+/// \file Forward declarations of CLI11, whose header has 10,000 lines.
 #pragma once
 
 namespace CLI {

@@ -1,4 +1,4 @@
-/// One function a subcommand: it declares its options and, when chosen, runs and sets `status`.
+/// One function per subcommand: it declares its options and, if chosen, runs and sets `status`.
 #pragma once
 
 #include "host/cli/cli11_forward.hpp"

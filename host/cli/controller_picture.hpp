@@ -4,7 +4,7 @@
 
 namespace whisker::cli {
 
-/// The core's own rules and engine, as the pictures want them.
+/// The core's own rules and engine, for the pictures.
 report::FuzzyPicture controller_picture();
 
 }  // namespace whisker::cli

@@ -19,7 +19,7 @@ enum Exit : int {
   kInterrupted = 130,  ///< as a shell reports SIGINT
 };
 
-/// The user's words cannot be followed; what() is the one line that says why.
+/// Invalid usage; what() is the reason in one line.
 class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

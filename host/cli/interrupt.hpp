@@ -4,7 +4,7 @@
 
 namespace whisker::cli {
 
-/// While it lives, SIGINT and SIGTERM are only noted. At most one at a time.
+/// During its lifetime, SIGINT and SIGTERM are only recorded. At most one object at a time.
 class Interrupt {
  public:
   Interrupt();
@@ -12,7 +12,7 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  bool noted() const;  ///< one has come
+  bool noted() const;  ///< a signal was received
 
  private:
   struct sigaction old_int_ {};

@@ -1,4 +1,4 @@
-/// --view: a run on a bus, watched in a browser while it goes on.
+/// --view: shows a run on a bus in a browser while it goes on.
 #pragma once
 
 #include <memory>
@@ -11,22 +11,22 @@
 
 namespace whisker::cli {
 
-/// A feed and who serves it.
+/// A feed and its server.
 class LiveView {
  public:
-  /// Takes the port, but does not answer yet. Throws UsageError.
+  /// Binds the port, but does not answer yet. Throws UsageError.
   LiveView(const std::string& address, int port, bool stay);
-  /// Who listens is told the end, which takes some seconds at most.
+  /// Sends the end to all watchers, which takes some seconds at most.
   ~LiveView();
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;
 
   view::Feed& feed() { return feed_; }
-  /// Begins to answer, and says where. A process must not fork any more then.
+  /// Starts to answer, and prints the address. The process must not fork after this.
   void start();
-  /// In a process that was forked before: the port is the parent's alone.
+  /// In a process that was forked before: closes the port, which belongs to the parent.
   void abandon() { server_.abandon(); }
-  /// After the run: returns at the interruption, or at once where nobody asked to stay.
+  /// After the run: returns at an interruption, or at once without --view-stay.
   void stay(const Interrupt& interrupt) const;
 
  private:
@@ -43,7 +43,7 @@ struct ViewChoice {
   bool stay = false;
   const CLI::Option* option = nullptr;
 
-  /// Null where nobody asked for it. Throws UsageError.
+  /// Null without --view. Throws UsageError.
   std::unique_ptr<LiveView> open() const;
 };
 

@@ -11,19 +11,19 @@
 
 namespace whisker::cli {
 
-/// The last mission of a log, as a run. A log has neither the world nor the true place: the world is empty,
-/// and the core's own estimate stands for the truth. The wheels' speeds are those of their counts.
+/// The last mission of a log, as a run. A log contains neither the world nor the true pose: the world is
+/// empty, and the core's own estimate replaces the truth. Wheel speeds are computed from the counts.
 class LoggedRun {
  public:
   explicit LoggedRun(std::string name) : name_(std::move(name)) {}
 
   void begin(const can::Mission& mission, const Params& params);
-  /// The record of this step, until the next one.
+  /// The record of this step, valid until the next one.
   const TickRecord& step(const can::InputSet& set, const Status& status, const ShownGuide* guide);
 
   const Scenario& scenario() const { return scenario_; }
   const std::vector<TickRecord>& records() const { return records_; }
-  /// As far as the log goes; the verdict is the robot's own word, the distance left what it believes.
+  /// Up to the end of the log; verdict and remaining distance are the robot's own estimate.
   RunResult result() const;
 
  private:

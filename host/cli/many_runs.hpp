@@ -8,9 +8,9 @@
 
 namespace whisker::cli {
 
-/// Drives the missions on as many threads as `jobs` says (0: as there are cores), with a progress line.
-/// `take` gets each row in order, with the names of robot and world. `drive` may be called on several threads
-/// at once; it may throw campaign::Stopped once `stop` is true. False: interrupted before the end.
+/// Runs the missions on `jobs` threads (0: one per core), with a progress line. `take` receives each row in
+/// order, with the names of robot and world. `drive` may be called on several threads at once; it may throw
+/// campaign::Stopped once `stop` is true. False: interrupted before the end.
 bool drive_many(const Missions& missions, int jobs,
                 const std::function<campaign::Row(const Scenario&, const std::atomic<bool>& stop)>& drive,
                 const std::function<void(const campaign::Row&)>& take);

@@ -12,24 +12,23 @@ struct RunOutputs {
   std::string trace;  ///< file, "" for none
   std::string svg;    ///< file, "" for none
   std::string html;   ///< file, "" for none
-  bool json = false;  ///< on standard output, instead of words
+  bool json = false;  ///< on standard output, instead of text
   std::string robot_name = "reference";
-  std::string record = "";  ///< where the frames of a bus go, "" for nowhere
-  /// Set for a run on a bus: what it cost, as one JSON object, and as words for the progress line and the
-  /// end.
+  std::string record = "";  ///< output of the frames of a bus, "" for none
+  /// Set for a run on a bus: its figures, as one JSON object, and as text for the progress line and the end.
   std::function<std::string()> bus_json = nullptr;
   std::function<std::string()> bus_words = nullptr;
-  bool knows_planner = true;                              ///< false: whoever drives has not said which
-  std::function<void(const RunResult&)> ended = nullptr;  ///< gets the verdict first of all
+  bool knows_planner = true;                              ///< false: unknown
+  std::function<void(const RunResult&)> ended = nullptr;  ///< receives the verdict first
 
   bool on_bus() const { return bus_json != nullptr; }
 };
 
-/// What a page says of the run before its first tick.
+/// Data for a page before the first tick of the run.
 page::Setting setting(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs);
 
-/// Drives one scenario with a progress line, writes what is asked for and prints the result.
-/// Returns the exit status that tells the verdict.
+/// Runs one scenario with a progress line, writes the requested outputs and prints the result. Returns the
+/// exit status of the verdict.
 int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& outputs);
 
 }  // namespace whisker::cli

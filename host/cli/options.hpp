@@ -1,4 +1,4 @@
-/// Options that take what they mean and nothing else.
+/// Options with strict values.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace whisker::cli {
 
-/// "; did you mean 'known'?" if one of these is like the word, else nothing.
+/// "; did you mean 'known'?" if one of these is similar to the word, else empty.
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& known);
 
 /// Decimal digits only, at most `most`: no sign, no exponent, no 0x. For Option::transform.
@@ -24,13 +24,13 @@ CLI::Validator amount(double most);
 /// --wheel-scale-sigma S, for worlds with noise.
 CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, const std::string& help);
 
-/// A name; an empty one, such as an unset shell variable gives, is refused.
+/// A name; an empty one, for example from an unset shell variable, is refused.
 CLI::Option* add_name(CLI::App& app, const std::string& option, std::string& name, const std::string& help);
 
-/// A path, as add_name has it.
+/// A path, with the check of add_name.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help);
 
-/// --planner, by name; its default is what `kind` holds.
+/// --planner, by name; the default is the value of `kind`.
 CLI::Option* add_planner(CLI::App& app, PlannerKind& kind);
 
 /// A flag that takes no value.

@@ -1,4 +1,4 @@
-/// Where results go.
+/// Outputs of the commands.
 #pragma once
 
 #include <cstdio>
@@ -9,19 +9,19 @@
 
 namespace whisker::cli {
 
-/// Before any work is done: every named output ("" means none) must lie in a folder that exists, no two may
-/// be the same file, and none an input. Devices and pipes may be named twice. "-" is standard output: at most
-/// one output may be that, and none if it is taken, by the object of --json. Throws UsageError.
+/// Checks before any work starts: every named output ("" means none) must lie in an existing folder, no two
+/// may be the same file, and none an input. Devices and pipes may be named twice. "-" is standard output: at
+/// most one output may use it, and none if --json does. Throws UsageError.
 void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs = {},
                    bool standard_output_is_taken = false);
 
-/// Where words for people go: standard error if one of these outputs is standard output.
+/// Stream for text for people: standard error if one of these outputs is standard output.
 std::FILE* words_beside(std::initializer_list<std::string_view> outputs);
 
-/// When all is printed: throws std::runtime_error if standard output did not take all of it.
+/// Call at the end: throws std::runtime_error if standard output did not accept everything.
 void finish_standard_output();
 
-/// A line on the terminal that is written over and over; silent where standard error is no terminal.
+/// A terminal line that is overwritten; silent if standard error is not a terminal.
 class ProgressLine {
  public:
   ProgressLine();

@@ -1,4 +1,4 @@
-/// What a JSON object says of how it came about.
+/// Origin of a JSON object.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace whisker::cli {
 
-/// Of the objects that --json prints: grows when a key changes its meaning. New keys leave it.
+/// Version of the objects of --json: increases when a key changes its meaning, not for new keys.
 constexpr int kSchema = 1;
 
-/// What is not known becomes null.
+/// Unknown values become null.
 struct Provenance {
   std::optional<std::uint64_t> seed;
   std::optional<std::string> planner;
@@ -20,12 +20,12 @@ struct Provenance {
   std::optional<std::string> robot_digest;
 };
 
-/// 16 hex digits: FNV-1a 64 over each parameter's key and raw value. Equal for equal robots.
+/// 16 hex digits: FNV-1a 64 over the key and raw value of each parameter. Equal for equal robots.
 std::string robot_digest(const Params& params);
-/// The robot file; without one "reference" for the reference robot, else the scenario's file.
+/// The robot file; without one, "reference" for the reference robot, else the scenario file.
 std::string robot_name(const Params& params, const std::string& robot_file, const std::string& scenario_file);
 
-/// The JSON object with the keys schema, version, seed, planner, robot_name and robot_digest behind its own.
+/// The JSON object with the keys schema, version, seed, planner, robot_name and robot_digest appended.
 std::string with_provenance(const std::string& json_object, const Provenance& provenance);
 
 }  // namespace whisker::cli

@@ -1,4 +1,4 @@
-/// The options of the commands that drive one scenario.
+/// Options of the commands that run one scenario.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ struct ScenarioChoice {
   std::optional<std::uint64_t> seed;
   RunOutputs outputs;
 
-  /// Checks all outputs, these among them, then reads the files. Throws UsageError and InputError.
+  /// Checks all outputs, then reads the files. Throws UsageError and InputError.
   Scenario load(std::initializer_list<std::string> more_outputs = {}) const;
   RunOptions run_options() const;
-  /// scenario: what load() gave.
+  /// scenario: the result of load().
   RunOutputs run_outputs(const Scenario& scenario) const;
 };
 

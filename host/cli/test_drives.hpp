@@ -1,4 +1,4 @@
-/// A few drives that every fit robot ends at its goal.
+/// Test drives that every fit robot completes.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct TestDrive {
   RunResult result;
 };
 
-/// Without noise, in worlds in proportion to the body. The parameters must pass check().
+/// Without noise, in worlds that scale with the body. The parameters must pass check().
 std::vector<TestDrive> test_drives(const Params& params, PlannerKind planner);
 
 }  // namespace whisker::cli

@@ -4,8 +4,8 @@
 
 namespace whisker::cli {
 
-/// "0.1.0 (1b98848)": the project's version and the commit that was built, "-dirty" behind it where files
-/// differ from that; "unknown" where the sources are no git repository.
+/// "0.1.0 (1b98848)": the version and the built commit, with "-dirty" if files differ from it; "unknown" if
+/// the sources are not in a git repository.
 std::string version();
 
 }  // namespace whisker::cli

@@ -12,17 +12,17 @@
 
 namespace whisker::hil {
 
-/// The controller has started anew and forgotten the mission: the run must begin again.
+/// The controller has restarted and lost the mission: the run must start again.
 class ControllerRestarted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The handshake holds, and yet a request stays without an answer: what() names the request.
+/// The handshake holds, but a request has no answer: what() names the request.
 class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whoever waits was told to stop.
+/// The waiting caller was told to stop.
 class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -30,16 +30,16 @@ class Interrupted : public std::runtime_error {
 struct BusOptions {
   can::Identity identity{1, 1, 0};
   can::Pace pace = can::Pace::lockstep;
-  std::uint32_t resend_ms = 20;       ///< lockstep: the shortest wait before a set is sent again, see Resend
-  std::uint32_t patience_ms = 30000;  ///< for the answer to one request, while the handshake holds
-  std::function<void(const std::string&)> say;  ///< gets what it waits for, once each; "": it drives
-  std::function<std::string()> bus_waits_for;   ///< what keeps the port from the bus, if it is known
+  std::uint32_t resend_ms = 20;       ///< lockstep: the shortest wait before a set is repeated, see Resend
+  std::uint32_t patience_ms = 30000;  ///< for the answer to one request while the handshake holds
+  std::function<void(const std::string&)> say;  ///< receives what it waits for, once each; "": it drives
+  std::function<std::string()> bus_waits_for;   ///< what keeps the port off the bus, if known
   std::function<bool()> interrupted;            ///< true: give up
 };
 
-/// The controller at the other end of a bus drives the simulated robot; this side is the base. Port, clock
-/// and figures must outlive it. The first tick waits for a controller, as long as it takes, hands over the
-/// robot's parameters and gives the mission. Its ticks throw ControllerRestarted, NoAnswer and Interrupted.
+/// The base: the controller at the other end of a bus drives the simulated robot. Port, clock and figures
+/// must outlive it. The first tick waits for a controller without limit, sends the parameters of the robot
+/// and starts the mission. Ticks throw ControllerRestarted, NoAnswer and Interrupted.
 MakePilot bus_pilot(hal::CanPort& port, Clock& clock, const BusOptions& options, Figures& figures);
 
 }  // namespace whisker::hil

@@ -1,4 +1,4 @@
-/// Logs as `candump -L` writes them: (seconds.micros) interface ID#DATA, a line a frame.
+/// Logs in the format of `candump -L`: (seconds.micros) interface ID#DATA, one line per frame.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct LogFrame {
 
 /// Without a newline.
 std::string log_line(const LogFrame& entry);
-/// std::nullopt: no line of a log. Error frames and CAN FD frames are none.
+/// std::nullopt: not a line of a log. Error frames and CAN FD frames are not accepted.
 std::optional<LogFrame> parse_log_line(std::string_view line);
 
 }  // namespace whisker::hil

@@ -12,11 +12,12 @@ namespace whisker::hil {
 struct ControllerOptions {
   can::Identity identity{1, 1, 0};
   PlannerKind planner = kDefaultPlanner;
-  std::function<void(const std::string&)> say;  ///< gets what the controller does or waits for, once each
+  std::function<void(const std::string&)> say;  ///< receives what the controller does or waits for, once each
   std::function<bool()> interrupted;            ///< true: end
 };
 
-/// The firmware core as a node of the bus, until it is interrupted. port: the line's own, or one around it.
+/// Runs the firmware core as a node of the bus until it is interrupted. port: that of the line, or a wrapper
+/// around it.
 void control(hal::CanPort& port, Line& line, const ControllerOptions& options);
 
 }  // namespace whisker::hil

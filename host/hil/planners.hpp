@@ -15,7 +15,7 @@ class HostPlanners final : public can_remote::PlannerMaker {
     planner_ = make_seen_planner(kind_, params);
     return *planner_.planner;
   }
-  /// Of the planner made last; null without a map.
+  /// Global planner of the planner made last; null without a map.
   const ShownGuide* guide() const { return planner_.guide; }
 
  private:

@@ -4,8 +4,8 @@
 
 namespace whisker::hil {
 
-/// Lets this thread run before all ordinary ones, as a tick each period needs. Threads and processes that it
-/// starts later are ordinary. Returns what forbids it; empty: nothing did.
+/// Gives this thread real-time priority, which a tick in every period needs. Threads and processes that it
+/// starts later have normal priority. Returns the error if it is not permitted; empty: no error.
 std::string take_precedence();
 
 }  // namespace whisker::hil

@@ -7,10 +7,10 @@
 
 namespace whisker::hil {
 
-/// Writes frames into a log as they come, whole lines only, so that a run that ends badly leaves its log.
+/// Writes received frames to a log, complete lines only, so that a failed run leaves a usable log.
 class Recorder {
  public:
-  /// file: "" for none, "-" for standard output. interface: the name that the log gives the bus. Throws
+  /// file: "" for none, "-" for standard output. interface: name of the bus in the log. Throws
   /// std::runtime_error.
   Recorder(const std::string& file, const std::string& interface);
   ~Recorder();
@@ -18,7 +18,7 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   void write(const hal::CanFrame& frame);
-  /// Throws std::runtime_error if not all could be written.
+  /// Throws std::runtime_error if not everything could be written.
   void close();
 
  private:

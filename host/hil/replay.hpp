@@ -16,8 +16,9 @@ namespace whisker::hil {
 struct ReplayOptions {
   int robot = 0;  ///< 1..7; 0: the first one in the log
   PlannerKind planner = kDefaultPlanner;
-  /// Called when the robot is put to a mission's start, and after each of its steps with the ground that the
-  /// planner was shown and its guide, or null. The arguments are valid during the call only.
+  /// Called when the robot is placed at the start of a mission, and after each of its steps with the local
+  /// grid passed to the planner and its global planner, or null. The arguments are valid during the call
+  /// only.
   std::function<void(const can::Mission&, const Params&)> begins = nullptr;
   std::function<void(const can::InputSet&, const Status&, const perception::LocalGrid*, const ShownGuide*)>
       stepped = nullptr;
@@ -25,22 +26,22 @@ struct ReplayOptions {
 
 struct ReplayResult {
   int robot = 0;              ///< 0: the log has no robot
-  std::uint64_t frames = 0;   ///< of this robot, whole
+  std::uint64_t frames = 0;   ///< valid frames of this robot
   std::uint64_t damaged = 0;  ///< of this robot, with a wrong length or CRC
   std::uint64_t missions = 0;
   std::uint64_t steps = 0;     ///< of the core
-  std::uint64_t compared = 0;  ///< commands and states that the log has too
-  std::uint64_t unknown = 0;   ///< answers to sets that the log does not have whole
+  std::uint64_t compared = 0;  ///< commands and states that the log contains
+  std::uint64_t unknown = 0;   ///< answers to sets that are incomplete in the log
   std::uint64_t missing = 0;   ///< steps whose answers are not in the log
   std::uint64_t hash = 0;      ///< FNV-1a 64 over the wheel commands of all steps
-  std::string difference;      ///< the first one, with its line; "" for none
+  std::string difference;      ///< the first one, with its line; "": none
   std::uint64_t cut =
-      0;  ///< number of the last line if that is only the beginning of one; left out. 0: whole
+      0;  ///< number of the last line if it is truncated and therefore ignored. 0: it is complete
 };
 
-/// Feeds the recorded inputs to the core and compares what it says with what was recorded. Throws
-/// std::runtime_error "line N: ..." for a line that is none of a candump log; only the last one may be cut
-/// off, as a recorder that is ended leaves it.
+/// Feeds the recorded inputs to the core and compares its outputs with the recorded ones. Throws
+/// std::runtime_error "line N: ..." for a line that is not from a candump log; only the last line may be
+/// truncated, as a terminated recorder leaves it.
 ReplayResult replay(std::istream& log, const ReplayOptions& options);
 
 }  // namespace whisker::hil

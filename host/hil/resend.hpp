@@ -5,15 +5,15 @@
 
 namespace whisker::hil {
 
-/// When a set without an answer is sent again: after kSpare times what answers take as a rule, and each time
-/// that it is sent again the wait doubles. It stays doubled until a set that was sent once is answered, as
-/// nobody knows which of its copies an answer is for.
+/// Decides when a set without an answer is repeated: after kSpare times the usual answer time, and the wait
+/// doubles with each repetition. It stays doubled until a set that was sent once is answered, because the
+/// answer to a repeated set cannot be assigned to one of its copies.
 class Resend {
  public:
   static constexpr std::uint64_t kSpare = 3;
   static constexpr std::uint64_t kMost_us = 640000;
 
-  /// least_us: the wait at the beginning and the shortest one; at most kMost_us.
+  /// least_us: the initial and shortest wait; at most kMost_us.
   explicit Resend(std::uint64_t least_us) : least_us_(least_us), wait_us_(least_us) {}
 
   void sent(std::uint64_t now_us) {
@@ -38,7 +38,7 @@ class Resend {
  private:
   const std::uint64_t least_us_;
   std::uint64_t wait_us_;
-  std::uint64_t usual_us_ = 0;  // of the answers to sets that were sent once, smoothed
+  std::uint64_t usual_us_ = 0;  // answer time of sets that were sent once, smoothed
   std::uint64_t first_us_ = 0;
   std::uint64_t last_us_ = 0;
   int copies_ = 0;

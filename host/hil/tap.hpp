@@ -7,14 +7,14 @@
 
 namespace whisker::hil {
 
-/// Bits that a frame takes on the bus at most: with every stuff bit that its length allows, and the gap.
+/// Upper bound of the bits of a frame on the bus, with all possible stuff bits and the gap.
 constexpr std::uint32_t bits_on_bus(const hal::CanFrame& frame) {
   const std::uint32_t data = frame.remote ? 0U : 8U * frame.size;
   const std::uint32_t stuffed = (frame.extended ? 54U : 34U) + data;
   return stuffed + (stuffed - 1) / 4 + 13;
 }
 
-/// Listens in on a port: every frame that it takes or gives, in this order.
+/// Observes a port: every frame that it sends or receives, in this order.
 class Tap final : public hal::CanPort {
  public:
   using Listener = std::function<void(const hal::CanFrame&)>;

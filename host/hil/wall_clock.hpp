@@ -6,7 +6,7 @@
 
 namespace whisker::hil {
 
-/// This computer's time. Waiting ends early when the descriptor is readable; descriptor() may give -1.
+/// Time of this computer. Waiting ends early when the descriptor is readable; descriptor() may return -1.
 class WallClock final : public Clock {
  public:
   explicit WallClock(std::function<int()> descriptor) : descriptor_(std::move(descriptor)) {}

@@ -1,4 +1,4 @@
-/// Numbers in columns, as bytes that deflate well and that a page can read back exactly.
+/// Columns of numbers as bytes that deflate well and that a page can read back exactly.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace whisker::page {
 
-/// How a column is written: as its values, their differences, or the differences of those.
+/// The encoding of a column: its values, their differences, or their second differences.
 enum class Order { values = 0, differences = 1, second_differences = 2 };
 
 struct Column {
@@ -19,10 +19,11 @@ struct Column {
 };
 
 /// One column after the other; each integer in zigzag LEB128: 0, -1, 1, -2 become 0, 1, 2, 3, and seven bits
-/// a byte follow, the lowest first, the eighth set where more come. Before the first value lie zeros.
+/// per byte follow, the lowest first, with the eighth bit set if more follow. Values before the first one are
+/// zero.
 class Columns {
  public:
-  /// Magnitudes up to 2^50, which a page's numbers hold exactly even in second differences.
+  /// Magnitudes up to 2^50, which numbers of JavaScript hold exactly even in second differences.
   void add(const std::string& name, Order order, std::int64_t per_unit,
            const std::vector<std::int64_t>& values);
 

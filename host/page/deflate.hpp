@@ -5,7 +5,7 @@
 
 namespace whisker::page {
 
-/// As browsers' DecompressionStream("deflate") takes it: zlib format, RFC 1950.
+/// For DecompressionStream("deflate") of browsers: zlib format, RFC 1950.
 std::string deflated(std::string_view bytes);
 
 }  // namespace whisker::page

@@ -1,4 +1,4 @@
-/// The local grid over time, as what changed in it.
+/// The local grid over time, stored as changes.
 #pragma once
 
 #include <array>
@@ -12,31 +12,31 @@
 
 namespace whisker::page {
 
-/// Pictures as what changed from each to the next.
+/// Pictures as the changes from each to the next.
 struct Frames {
-  /// A picture each: its tick, and how many words changed.
+  /// Per picture: its tick, and the number of changed words.
   std::vector<std::int64_t> ticks, changes;
-  /// A change each: which word of the picture, and the bits to turn over.
+  /// Per change: the index of the word, and the bits to invert.
   std::vector<std::int64_t> words, bits;
 
   /// The next picture; both have `count` words.
   void add(std::size_t tick, const std::uint32_t* now, const std::uint32_t* last, std::size_t count);
-  /// How many pictures come before this tick.
+  /// Number of pictures before this tick.
   std::ptrdiff_t before(std::size_t tick) const;
   /// The pictures of `more` from this tick on.
   void append(const Frames& more, std::size_t from_tick);
 };
 
 /// A picture is the set of clear cells, see for_each_clear_cell. Cell (x, y) of the world is bit x mod 64 of
-/// row y mod 64; a row is two words of 32 bits, the low one first. A frame says which words changed since the
-/// frame before, by exclusive or.
+/// row y mod 64; a row is two words of 32 bits, the low one first. A frame contains the words that changed
+/// since the last frame, as exclusive or.
 class Film {
  public:
   static constexpr std::size_t kSide = 64;
 
   explicit Film(const Params& params);
 
-  /// Appends the picture of this tick, as what changed since the last call. Pictures must come in order.
+  /// Appends the picture of this tick as changes since the last call. Pictures must come in order.
   void add(std::size_t tick, Vec body, const perception::LocalGrid& local_grid, Frames& frames);
 
  private:

@@ -10,7 +10,7 @@ namespace whisker::page {
 
 using Json = nlohmann::ordered_json;
 
-/// What all runs of a page have in common: names of states and reasons, colours, the response table.
+/// Data shared by all runs of a page: names of states and reasons, colours, the response table.
 Json shared_data(const Controller& controller);
 
 /// A run before its first tick: world, robot and noise.
@@ -25,7 +25,7 @@ struct Packed {
 };
 Packed packed(const Ticks& ticks, Detail detail = Detail::full);
 
-/// Plain ASCII on one line, whatever is in it.
+/// Plain ASCII on one line for any content.
 std::string text_of(const Json& json);
 
 Json campaign_data(const std::vector<campaign::Row>& rows);

@@ -1,5 +1,4 @@
-/// Runs and campaigns as one file for a browser: page, data and everything in it. docs/replay.md has the
-/// format.
+/// Runs and campaigns as one self-contained file for a browser. docs/replay.md describes the format.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@ namespace whisker::page {
 /// What is known of a run before its first tick.
 struct Setting {
   const Scenario& scenario;
-  std::optional<PlannerKind> planner;  ///< none: whoever drives has not said which
+  std::optional<PlannerKind> planner;  ///< none: unknown
   std::uint64_t seed;                  ///< of the noise
   bool inside = true;                  ///< as TickRecord::inside of all its ticks
 };
@@ -29,17 +28,17 @@ struct StoredRun {
   std::string columns;  ///< base64 of the deflated columns
 };
 
-/// All ticks up to the verdict, as they were recorded.
+/// All recorded ticks up to the verdict.
 StoredRun stored(const Setting& setting, const Ticks& ticks, const RunResult& result,
                  Detail detail = Detail::full);
 
-/// The response table that steers, as the page draws it.
+/// The active response table, for the page.
 using Controller = report::FuzzyPicture;
 
 std::string run_page(const StoredRun& run, const Controller& controller);
 
-/// The page without a run: it watches one that goes on, of which its own server tells at this address. The
-/// only page that may ask a server.
+/// The page without a run: it follows a running one through the events at this address of its own server.
+/// Only this page may contact a server.
 std::string live_page(const std::string& events, const Controller& controller);
 
 /// A mission of the campaign that the page can replay.
@@ -52,9 +51,9 @@ struct Replay {
 std::string campaign_page(const std::vector<campaign::Row>& rows, const std::vector<Replay>& replays,
                           const Controller& controller);
 
-/// Indices of the rows most worth a look, at most `most`: contacts, faults, other failures, those farthest
-/// off a goal that they believe to have reached, then the longest ways compared with the shortest; equals in
-/// the order of the rows.
+/// Indices of the most interesting rows, at most `most`: contacts, faults, other failures, those farthest off
+/// a goal that they report as reached, then the longest paths relative to the shortest; equal ones in the
+/// order of the rows.
 std::vector<std::size_t> worst(const std::vector<campaign::Row>& rows, std::size_t most);
 
 }  // namespace whisker::page

@@ -1,4 +1,4 @@
-/// The page without its data, as host/web builds it.
+/// The page without its data, built by host/web.
 #pragma once
 
 #include <string_view>
@@ -6,10 +6,10 @@
 
 namespace whisker::page {
 
-/// One after the other they are template.html.
+/// Joined, they are template.html.
 const std::vector<std::string_view>& template_parts();
 
-/// Where the data goes; it occurs once.
+/// The mark that the data replaces; it occurs once.
 constexpr std::string_view kDataMark = "<!--data-->";
 
 /// What the page may load: nothing.

@@ -1,4 +1,4 @@
-/// Those parts of a grown obstacle's rim on which the body fits.
+/// The parts of an inflated obstacle's rim on which the body fits.
 #pragma once
 
 #include <optional>
@@ -16,9 +16,9 @@ class FreeArcs {
   FreeArcs(const Grown& grown, std::size_t rim);
 
   bool empty() const { return arcs_.empty(); }
-  bool whole() const { return whole_; }  ///< all of the rim is free: one arc, whose ends are one point
+  bool whole() const { return whole_; }  ///< the whole rim is free: one arc with both ends at the same point
 
-  /// A place on an arc: the angle travelled since the arc's beginning by who goes around it this way.
+  /// A place on an arc: the angle travelled since the start of the arc in this direction.
   struct Place {
     int arc = 0;
     double offset_rad = 0;

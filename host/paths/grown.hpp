@@ -1,4 +1,4 @@
-/// The obstacles as the centre of a round body meets them: grown by the body's radius.
+/// The obstacles inflated by the radius of the body.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,20 @@ namespace whisker::paths {
 
 class Grown {
  public:
-  /// Points asked for must lie in the box that holds all obstacles and these two.
+  /// Queried points must lie in the box that contains all obstacles and these two.
   Grown(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m);
 
   double radius() const { return radius_; }
-  /// The grown discs, and one around each end of a segment; no two are the same.
+  /// The inflated discs, and one around each end of a segment; all different.
   const std::vector<sim::Disc>& rims() const { return rims_; }
   const std::vector<sim::Segment>& segments() const { return segments_; }
 
   /// The body fits here.
   bool free(sim::Vec2 point) const;
-  /// Between two free points: the body fits all along.
+  /// Between two free points: the body fits on the whole line.
   bool free(const sim::Segment& line) const;
 
-  /// Calls f(rim) and g(segment) for at least what lies within this disc, possibly several times.
+  /// Calls f(rim) and g(segment) for at least everything within this disc, possibly several times.
   template <class F, class G>
   void each_near(const sim::Disc& disc, F&& f, G&& g) const {
     const Cells cells = around(disc);

@@ -11,11 +11,11 @@
 namespace whisker::paths {
 
 /// A* over the tangents between rims. A node is a tangent at the place where it leaves its rim; from there
-/// the way goes along the tangent, or further around the rim to the next tangent. The tangents of a rim are
-/// found when a way first arrives there, and looked at for obstacles when a way would take them.
+/// the path follows the tangent, or continues around the rim to the next tangent. The tangents of a rim are
+/// computed when a path first arrives there, and checked for obstacles when a path would use them.
 class Search {
  public:
-  /// The grown obstacles must outlive the search; both points must be free.
+  /// The inflated obstacles must outlive the search; both points must be free.
   Search(const Grown& grown, sim::Vec2 from, sim::Vec2 to);
 
   std::optional<Way> shortest();
@@ -24,7 +24,7 @@ class Search {
   using Place = FreeArcs::Place;
   static constexpr int kStart = -1, kGoal = -2;
 
-  /// A rim with the side on which a way goes around it; kStart and kGoal for the two points.
+  /// A rim with the direction in which a path goes around it; kStart and kGoal for the two points.
   struct Stand {
     int rim = kStart;
     Side side = Side::left;
@@ -35,11 +35,11 @@ class Search {
     Tangent tangent;
     Stand to;
     Place to_place;
-    double way_m = 0;  ///< shortest known to where the tangent leaves
+    double way_m = 0;  ///< shortest known path to the start of the tangent
     bool known = false, done = false;
-    int before = -1;          ///< node that the way comes from
+    int before = -1;          ///< previous node of the path
     bool by_tangent = false;  ///< along that node's tangent, not only around the rim
-    double swept_rad = 0;     ///< around the stand's rim, last of all
+    double swept_rad = 0;     ///< angle around the stand's rim at the end
   };
   struct Entry {
     double estimate_m;

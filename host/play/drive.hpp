@@ -1,4 +1,4 @@
-/// One robot of the playground: it drives, and its world may change under way.
+/// One robot of the playground; its world may change during the run.
 #pragma once
 
 #include <memory>
@@ -14,30 +14,30 @@ namespace whisker::play {
 
 class Drive {
  public:
-  /// From the scenario's start; the planner is one of the core's own. The table must outlive it; its changes
-  /// take effect at once. Until the first change() its commands are those of run().
+  /// Starts at the scenario's start with one of the core's own planners. The table must outlive it; its
+  /// changes take effect at once. Until the first change(), its commands equal those of run().
   Drive(const Scenario& scenario, PlannerKind planner, const fuzzy::Engine::Table& table);
   Drive(const Drive&) = delete;
   Drive& operator=(const Drive&) = delete;
 
-  /// At most so many ticks; fewer when there is a verdict.
+  /// Runs up to this number of ticks; fewer if there is a verdict.
   void advance(int ticks);
-  /// Obstacles and goal are now this scenario's; start, noise, seed and time limit stay. Who has arrived or
-  /// given up sets out again.
+  /// Adopts obstacles and goal of this scenario; start, noise, seed and time limit stay. A robot that has
+  /// arrived or given up starts again.
   void change(const Scenario& scenario);
 
   const Trip& trip() const { return trip_; }
-  /// As MapWatch takes pictures of it; nothing without a map.
+  /// The pictures of MapWatch; none without a map.
   const std::optional<MapPicture>& map() const { return map_.last(); }
   const sim::Plant& plant() const { return plant_; }
   const Scenario& scenario() const { return scenario_; }
 
-  /// A place that the body passed, and what it did on the way to it.
+  /// A place on the path, and the class of the path up to it.
   struct Passed {
     sim::Vec2 at;
     report::Doing doing;
   };
-  /// The way so far: no two places in a row are nearer than 5 mm unless what it did changed.
+  /// The path so far: consecutive places are at least 5 mm apart unless the class changed.
   const std::vector<Passed>& way() const { return way_; }
 
  private:

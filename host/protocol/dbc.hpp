@@ -5,7 +5,7 @@
 
 namespace whisker::protocol {
 
-/// The messages of one robot (1..7) and of the E-stop for all, as a DBC file. Messages that both parties send
+/// The messages of one robot (1..7) and of the E-stop for all robots, as a DBC file. Messages of both nodes
 /// appear twice: HeartbeatController, HeartbeatBase.
 std::string dbc(std::uint8_t robot);
 

@@ -8,21 +8,21 @@
 
 namespace whisker::protocol {
 
-/// A message as one sender sends it.
+/// A message of one sender.
 struct Entry {
   const can::Message* message;
   std::uint32_t id;
   std::string name;    ///< unique in a robot
-  std::string sender;  ///< Controller, Base, or "" for anybody
+  std::string sender;  ///< Controller, Base, or "" for any sender
 };
 
-/// Of one robot, by identifier.
+/// The messages of one robot, by identifier.
 std::vector<Entry> entries_of(std::uint8_t robot);
 
-/// Crc and Counter, which every message has.
+/// Crc and Counter, which are in every message.
 extern const can::Signal kProtection[2];
 
-/// A raw value in the signal's unit, as short as it can be told.
+/// A raw value in the unit of the signal, as short as possible.
 std::string physical(const can::Signal& signal, std::int64_t raw);
 
 }  // namespace whisker::protocol

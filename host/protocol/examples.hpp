@@ -4,7 +4,7 @@
 
 namespace whisker::protocol {
 
-/// Frames of robot 1 as the codec writes them: a section of docs/protocol.md.
+/// Frames of robot 1 encoded by the codec: a section of docs/protocol.md.
 std::string examples();
 
 }  // namespace whisker::protocol

@@ -45,7 +45,7 @@ class Writer {
   }
 
   void errors() {
-    put("## Errors\n\nThe bits of Errors in Heartbeat, and of Code in Fault.\n\n| bit | name |\n|---|---|\n");
+    put("## Errors\n\nThe bits of Errors in Heartbeat and of Code in Fault.\n\n| bit | name |\n|---|---|\n");
     for (int bit = 0; bit < 16; ++bit) {
       if (const char* word = can::error_word(bit)) put("| {} | {} |\n", bit, word);
     }
@@ -57,7 +57,7 @@ class Writer {
   }
 
   void messages() {
-    put("\n## Messages\n\nIdentifiers of robot 1: from its controller, and from its base.\n\n"
+    put("\n## Messages\n\nThe identifiers are those of robot 1, sent by its controller and by its base.\n\n"
         "| message | function | controller | base | bytes | period | meaning "
         "|\n|---|---|---|---|---|---|---|\n");
     for (const can::Message& m : can::kMessages) {
@@ -105,7 +105,7 @@ class Writer {
   int index_ = 0;
 };
 
-/// What for_each_param calls.
+/// Visitor for for_each_param.
 class ParamRows {
  public:
   explicit ParamRows(Writer& writer) : writer_(writer) {}
@@ -144,7 +144,8 @@ void Writer::params() {
   const Params defaults;
   ParamRows rows(*this);
   for_each_param(defaults, rows);
-  put("\nThe relations, by the Value of an inconsistent commit.\n\n| number | what must hold |\n|---|---|\n");
+  put("\nRelations between parameters. Value of an inconsistent commit is the number.\n\n| number | relation "
+      "|\n|---|---|\n");
   for (int i = 0; i <= UINT8_MAX; ++i) {
     const std::string words = relation(static_cast<ParamFault>(i));
     if (!words.empty()) put("| {} | {} |\n", i, words);

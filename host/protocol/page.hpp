@@ -4,9 +4,9 @@
 
 namespace whisker::protocol {
 
-/// docs/protocol.md: every message with its signals, times, errors and parameters, for a reader.
+/// docs/protocol.md: every message with its signals, times, errors and parameters.
 std::string page();
-/// The companion's protocol on a byte stream for a reader: docs/link.md.
+/// docs/link.md: the companion's protocol on a byte stream.
 std::string link_page();
 
 }  // namespace whisker::protocol

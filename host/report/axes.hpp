@@ -1,4 +1,4 @@
-/// Equal axes in metres: one scale for both directions, a grid of round numbers, a scale bar.
+/// Axes with equal scales in metres: a grid of round numbers and a scale bar.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace whisker::report {
 
-/// A box that grows around what it is given; points that are not finite or beyond 100 km are ignored.
+/// Bounding box of added points; points that are not finite or beyond 100 km are ignored.
 class Box {
  public:
   void add(sim::Vec2 p, double radius = 0);
@@ -22,13 +22,13 @@ class Box {
   sim::Vec2 min_, max_;
 };
 
-/// False for a position that no picture can show.
+/// False for a position that cannot be drawn.
 bool drawable(sim::Vec2 p);
 
 /// The largest of 1, 2, 5 x 10^k that is at most `x`. x > 0.
 double round_step(double x);
 
-/// As many decimals as a multiple of this step needs, at most 6.
+/// Number of decimals that a multiple of this step needs, at most 6.
 int step_decimals(double step);
 
 /// All multiples of the step within [from, to].
@@ -47,11 +47,11 @@ struct View {
   Point page(sim::Vec2 p) const;
 };
 
-/// The box with a little air, at least a metre wide, no side shorter than a quarter of the other, as
-/// large as fits into max_width x max_height pixels.
+/// The box with a margin, at least one metre wide, no side shorter than a quarter of the other, as large as
+/// fits into max_width x max_height pixels.
 View fit(const Box& box, Point corner, double max_width, double max_height);
 
-/// Grid lines, for inside the clipped plot.
+/// Grid lines, for use inside the clipped plot.
 void draw_grid(Svg& svg, const View& view);
 
 /// Frame, numbers, "x / m" and "y / m", and a scale bar under the right end. Needs 50 px on the left, 44 px

@@ -7,11 +7,11 @@
 
 namespace whisker::report {
 
-/// A straight blend between five colours over [min, max]; values outside take the end colours.
+/// A linear blend between five colours over [min, max]; values outside get the end colours.
 class ColourScale {
  public:
-  /// Blue below, near white in the middle of the range, orange above. Blue is darker: grey print tells them
-  /// apart.
+  /// Blue below, near white in the middle of the range, orange above. Blue is darker, so the two differ in
+  /// grey print.
   static ColourScale diverging(double min, double max);
   /// Pale yellow to dark blue: darker is more.
   static ColourScale sequential(double min, double max);
@@ -35,8 +35,8 @@ class ColourScale {
   const Rgb* stops_;
 };
 
-/// A vertical bar from min at the bottom to max at the top, `ticks` numbers beside it. Needs 40 px to its
-/// right.
+/// A vertical bar from min at the bottom to max at the top, with `ticks` numbers beside it. Needs 40 px on
+/// its right.
 void draw_colour_bar(Svg& svg, Point corner, double width, double height, const ColourScale& scale,
                      int ticks);
 

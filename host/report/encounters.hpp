@@ -1,4 +1,4 @@
-/// Where the robot met an obstacle, and where it went for the goal again.
+/// Hit and leave points of a run.
 #pragma once
 
 #include <cstddef>
@@ -9,22 +9,22 @@
 
 namespace whisker::report {
 
-/// From the tick at which the way to the goal was found blocked to the tick at which the robot left the
-/// obstacle's edge. Records without a place that can be drawn are passed over.
+/// From the tick at which the path to the goal was blocked to the tick at which the robot left the boundary.
+/// Records without a drawable position are ignored.
 struct Encounter {
   enum class End {
-    none,         ///< the run ended at the edge
-    left,         ///< towards the goal, or it is there
-    wall_lost,    ///< went round something else than what it met
-    unreachable,  ///< came round: the verdict
+    none,         ///< the run ended at the boundary
+    left,         ///< towards the goal, or at the goal
+    wall_lost,    ///< the robot circled an obstacle that it did not hit
+    unreachable,  ///< loop completed: the verdict
   };
   const TickRecord* hit;
-  const TickRecord* turned = nullptr;  ///< where it came round the first time and went on the other way
+  const TickRecord* turned = nullptr;  ///< where it completed the first loop and reversed the direction
   const TickRecord* left = nullptr;    ///< null with End::none
   End end = End::none;
 };
 
-/// Finds them while the run goes on; a record goes by its number.
+/// Finds them during the run; a record is referred to by its number.
 class EncounterFinder {
  public:
   struct Found {

@@ -1,4 +1,4 @@
-/// The thesis's figures 2 to 7, drawn anew from the controller's data. Figures 8 to 10 are runs: run_svg.
+/// Figures 2 to 7 of the thesis, drawn from the controller's data. Figures 8 to 10 are runs: run_svg.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// What the pictures of the fuzzy controller show, as plain data: nothing here knows how it is computed.
+/// Data for the pictures of the fuzzy controller, independent of the engine.
 #pragma once
 
 #include <functional>
@@ -17,11 +17,11 @@ struct Variable {
   std::string meaning;  ///< "distance to the obstacles ahead"
   double min = 0;
   double max = 0;           ///< > min
-  std::vector<Term> terms;  ///< at least two, by rising centre
+  std::vector<Term> terms;  ///< at least two, by ascending centre
 };
 
 struct Rule {
-  std::string term;  ///< name of the output term; may be empty where a value was edited
+  std::string term;  ///< name of the output term; may be empty for an edited value
   double value = 0;
 };
 
@@ -32,10 +32,10 @@ struct FuzzyPicture {
   std::function<double(double d, double r)> sa_at;
   std::function<double(double d, double r)> sd_at;
   std::vector<double> d_nodes, r_nodes;  ///< borders of the engine's cells, ascending; may be empty
-  std::string source;  ///< what computed the surface, e.g. "bilinear table, 41 x 65"; may be empty
+  std::string source;                    ///< name of the engine, e.g. "bilinear table, 41 x 65"; may be empty
 };
 
-/// Throws std::invalid_argument with one line that names what is missing or does not fit.
+/// Throws std::invalid_argument with one line that names missing or inconsistent data.
 void check(const FuzzyPicture& picture);
 void check(const Variable& variable);
 

@@ -1,4 +1,4 @@
-/// Where the map of a planner leaves the way to the edges, and where it takes it again.
+/// Where the map planner falls back to boundary following, and where the map resumes.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ struct HandOver {
   bool to_edges;  ///< false: back to the map
 };
 
-/// One after the other, those to edges first. Before the map has led for the first time there is none.
+/// Alternating, fallbacks first. None before the map has led for the first time.
 std::vector<HandOver> hand_overs(const std::vector<TickRecord>& records);
 
 }  // namespace whisker::report

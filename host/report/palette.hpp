@@ -1,4 +1,4 @@
-/// The looks of what a run picture shows. The four path classes differ in hue for colour-blind eyes too,
+/// Colours and line styles of a run picture. The four path classes differ in hue, also for colour-blind eyes,
 /// in lightness for grey print, and in width or dashes.
 #pragma once
 
@@ -23,7 +23,7 @@ constexpr Look kLooks[kDoings] = {
     {"danger", "along an edge", "#b3261e", 3.6, "none"},
 };
 
-/// A planner's map: over the obstacles, under the path.
+/// A planner's map: above the obstacles, below the path.
 struct MapLook {
   planning::CellState state;
   const char* name;   ///< class attribute in the SVG
@@ -41,7 +41,7 @@ constexpr const char* kMapDots = R"(fill="none" stroke="#6a4c93" stroke-linecap=
 constexpr const char* kObstacle = R"(fill="#d3d3d0" stroke="#6f6f6c" stroke-width="0.8")";
 constexpr const char* kWall =
     R"(fill="none" stroke="#454543" stroke-width="2.4" stroke-linecap="round" stroke-linejoin="round")";
-/// Narrower than any path: the colour of the path stays in sight between dots that are close together.
+/// Narrower than any path, so that the colour of the path stays visible between close dots.
 constexpr const char* kLookDot = R"(fill="none" stroke="#111" stroke-width="2" stroke-linecap="round")";
 constexpr const char* kStraightWay =
     R"(fill="none" stroke="#8a8a86" stroke-width="1" stroke-dasharray="1 4")";

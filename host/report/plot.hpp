@@ -1,4 +1,4 @@
-/// A plot with two axes of their own scales, for the pictures of the fuzzy controller.
+/// A plot whose two axes have their own scales, for the pictures of the fuzzy controller.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct Plot {
   Point corner;  ///< top left, px
   double width = 0;
   double height = 0;
-  Range x, y;  ///< x with min above max goes to the left
+  Range x, y;  ///< x with min above max increases to the left
 
   Point page(double px, double py) const {
     return {corner.x + (px - x.min) / (x.max - x.min) * width,

@@ -10,9 +10,9 @@ namespace whisker::report {
 /// reached | off_goal | unreachable | gave_up | contact | fault
 const char* outcome(Verdict verdict) noexcept;
 
-/// One JSON object on one line, without a newline at the end. Lengths and times are rounded to 1e-6. A
-/// number that is not finite (the clearance in an empty world) or not known becomes null. bus: a JSON object
-/// that becomes the key "bus"; "" for none.
+/// One JSON object on one line, without a final newline. Lengths and times are rounded to 1e-6. A number that
+/// is not finite (the clearance in an empty world) or unknown becomes null. bus: a JSON object for the key
+/// "bus"; "" for none.
 std::string result_json(const RunResult& result, const std::string& bus = "");
 
 /// "reached in 48.2 s, 12.31 m, min clearance 0.031 m", "believes it is there; is 5.83 m off, after 48.2 s,

@@ -1,4 +1,4 @@
-/// Marks where the robot met an obstacle's edge and where it left it, in pictures and their legend.
+/// Marks hit and leave points in pictures and their legend.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ void draw_turned(Svg& svg, Point at);
 void draw_left(Svg& svg, Point at);
 void draw_wall_lost(Svg& svg, Point at);
 
-/// All marks, hits and leaves with the number of their encounter, from 1. Where it found the goal unreachable
-/// stands the robot itself.
+/// All marks: hit and leave points with the number of their encounter, from 1. If the robot found the goal
+/// unreachable, the robot itself is the mark.
 void draw_encounters(Svg& svg, const View& view, const std::vector<Encounter>& all);
 
 }  // namespace whisker::report

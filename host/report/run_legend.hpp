@@ -1,5 +1,5 @@
-/// The legend of a run picture: the path's classes with their share, the edges met, then the marks that
-/// occur.
+/// The legend of a run picture: the classes of the path with their share, the followed boundaries, then the
+/// marks used.
 #pragma once
 
 #include <vector>
@@ -27,9 +27,9 @@ struct LegendContent {
   bool movers = false;
 };
 
-constexpr double kLegendWidth = 270;  ///< px, of one column
+constexpr double kLegendWidth = 270;  ///< px, width of one column
 
-/// Draws from the corner down; with `columns` 2 the marks stand to the right of the classes. Returns its
+/// Draws downwards from the corner; with 2 `columns` the marks are to the right of the classes. Returns the
 /// height.
 double draw_legend(Svg& svg, Point corner, int columns, const LegendContent& content);
 

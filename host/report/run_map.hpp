@@ -1,4 +1,4 @@
-/// The map of a planner in a run picture: its cells, its plan, and where it led.
+/// The map of a planner in a run picture: cells, plan and way points.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace whisker::report {
 
-/// Cells, window and the plan's way, as the robot at this record believes them to lie.
+/// Cells, window and planned path, in the frame of the estimate at this record.
 void draw_map(Svg& svg, const View& view, const MapPicture& map, const TickRecord& believer);
 
-/// The places that the map led to, each once.
+/// The way points, each once.
 void draw_way_points(Svg& svg, const View& view, const std::vector<TickRecord>& records);
 
-/// A ring where the map handed over to the edges, and one where it took over again.
+/// A ring where boundary following took over, and one where the map resumed.
 void draw_hand_overs(Svg& svg, const View& view, const std::vector<HandOver>& all);
 
 void draw_to_edges(Svg& svg, Point at);

@@ -1,4 +1,4 @@
-/// SVG text, piece by piece. Page units are pixels, y down. Equal input gives equal bytes.
+/// Writes SVG. Page units are pixels, y down. Equal input gives equal bytes.
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ struct Point {
 /// characters that XML forbids become U+FFFD.
 std::string escape(std::string_view text);
 
-/// At most `characters` characters of UTF-8 text; a longer one ends in an ellipsis.
+/// At most `characters` characters of UTF-8 text; a longer text ends in an ellipsis.
 std::string shortened(std::string_view text, std::size_t characters);
 
-/// A coordinate: two decimals at most, no trailing zeros, never "-0". Not finite gives 0; the rest is kept
-/// within +-1e6.
+/// A coordinate: at most two decimals, no trailing zeros, never "-0". Values that are not finite become 0;
+/// others are limited to +-1e6.
 std::string number(double x);
 
 /// A value with fixed decimals for people to read, never "-0.0".
@@ -29,7 +29,7 @@ class PathData {
  public:
   PathData& move(Point p) { return add('M', p); }
   PathData& line(Point p) { return add('L', p); }
-  PathData& dot(Point p);  ///< a stroke of no length: visible with round caps
+  PathData& dot(Point p);  ///< a stroke of length 0: visible with round caps
   PathData& close();
   PathData& box(Point corner, double width, double height);
   bool empty() const { return text_.empty(); }
@@ -55,7 +55,7 @@ class Svg {
   Svg& text(Point at, std::string_view text, std::string_view attributes);
   /// Centred on the place, read from below.
   Svg& text_upwards(Point at, std::string_view text);
-  /// A group whose content is cut off outside the rectangle; closed by close(). `id` is unique in the file.
+  /// A group that is clipped to the rectangle; closed by close(). `id` is unique in the file.
   Svg& open_clipped(std::string_view id, Point corner, double width, double height);
 
   /// The whole file.

@@ -7,7 +7,7 @@
 
 namespace whisker::report {
 
-/// SA and SD over R (across) and D (up), each rule's term and value at its centre, a colour bar each.
+/// SA and SD over R (across) and D (up), with each rule's term and value at its centre and a colour bar each.
 /// Throws as check() does.
 std::string table_svg(const FuzzyPicture& picture);
 

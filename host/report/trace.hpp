@@ -6,19 +6,19 @@
 /// - left_m, front_m, right_m: measured ranges, m, 4 decimals; a clear one is the maximum range,
 ///   a too_near one the minimum range, a lost one an empty field
 /// - v_left_mps, v_right_mps: true rim speeds, m/s, 5 decimals
-/// - state, why: a word each, of planning::Mode and planning::Why
+/// - state, why: names of planning::Mode and planning::Why
 /// - t: the danger counter
-/// - looked: 1 if a decision was taken from a look at this tick, else 0
+/// - looked: 1 if this tick's decision used a static scan, else 0
 /// - d, r: fuzzy inputs last used, 4 decimals
 /// - sa, sd: fuzzy outputs last used, 5 decimals
 /// - cmd_left_mps, cmd_right_mps: commanded rim speeds, m/s, 5 decimals
 /// - est_x_m, est_y_m, est_heading_rad: the core's own estimate, m, m, rad, 6 decimals
 ///
-/// - guide: what the map of the planner says, a word of Guidance
-/// - way_x_m, way_y_m: the place that it leads to, in the estimate's world, 6 decimals
+/// - guide: the advice of the planner's map, a name of Guidance
+/// - way_x_m, way_y_m: the way point, in the frame of the estimate, 6 decimals
 ///
-/// d, r, sa, sd and the estimate are empty fields where a bus lies between: it does not carry them. The last
-/// three are empty for planners without a map and on a chip, too, and the place is where the guide has none.
+/// d, r, sa, sd and the estimate are empty on a bus, which does not carry them. The last three columns are
+/// empty for planners without a map and on a chip, too; the way point is empty if the guide has none.
 #pragma once
 
 #include <string>
@@ -35,7 +35,7 @@ extern const char* const kTraceHeader;
 /// The whole file. Lines end in a single newline.
 std::string trace_csv(const Scenario& scenario, const std::vector<TickRecord>& records);
 
-/// trace_csv into a file, as write_file does it.
+/// trace_csv into a file, as write_file.
 void write_trace(const std::string& path, const Scenario& scenario, const std::vector<TickRecord>& records);
 
 }  // namespace whisker::report

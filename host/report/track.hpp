@@ -1,4 +1,4 @@
-/// What the robot did along its path, in the few classes that a picture can tell apart.
+/// Classes of what the robot did along its path, for pictures.
 #pragma once
 
 #include <array>
@@ -10,24 +10,24 @@
 namespace whisker::report {
 
 enum class Doing {
-  free,     ///< driving where the target lies
+  free,     ///< driving towards the target
   table,    ///< steered by the response table
   probing,  ///< deflected because the planned step was not free
-  danger,   ///< danger area: searching an exit or skirting an edge
+  danger,   ///< danger area: follow-side search or boundary following
 };
 constexpr int kDoings = 4;
 
 /// The class of one tick. A danger counter above 0 is always `danger`; standing modes count as `free`.
 Doing doing(const TickRecord& record) noexcept;
 
-/// What a reader wants counted.
+/// Counts for the reader.
 struct TrackSummary {
   std::array<double, kDoings> metres{};  ///< driven, by Doing
   double total_m = 0;
-  int danger_entries = 0;  ///< times that the danger counter left 0
+  int danger_entries = 0;  ///< number of times that the danger counter left 0
   int longest_danger = 0;  ///< largest danger counter
-  int looks = 0;           ///< ticks at which a decision was taken from a look
-  int without_place = 0;   ///< records whose position cannot be drawn: left out everywhere
+  int looks = 0;           ///< ticks whose decision used a static scan
+  int without_place = 0;   ///< records without a drawable position: omitted everywhere
 };
 TrackSummary summarise(const std::vector<TickRecord>& records);
 
@@ -37,14 +37,14 @@ struct Piece {
   std::vector<sim::Vec2> points;
 };
 
-/// The path as pieces that join end to start, every point dropped that lies within `tolerance_m` of what is
-/// drawn without it. Doubles the tolerance until at most `max_points` remain, if the number of pieces allows.
+/// The path as pieces that join end to start. Points within `tolerance_m` of the drawn line are dropped.
+/// Doubles the tolerance until at most `max_points` remain, if the number of pieces allows it.
 std::vector<Piece> pieces(const std::vector<TickRecord>& records, double tolerance_m, std::size_t max_points);
 
 /// Ramer-Douglas-Peucker: keeps both ends; every dropped point lies within the tolerance of the kept line.
 std::vector<sim::Vec2> simplified(const std::vector<sim::Vec2>& points, double tolerance_m);
 
-/// Where a mover is: it starts at its centre toward the end of its path, then there and back.
+/// Position of a mover: it starts at its centre towards the end of its path, then goes back and forth.
 sim::Vec2 mover_position(const std::vector<sim::Vec2>& path, sim::Vec2 center, double driven_m);
 
 }  // namespace whisker::report

@@ -8,10 +8,10 @@
 
 namespace whisker {
 
-/// Cells from the body's own in x and in y: the local grid's window lies within.
+/// The local grid lies within this number of cells from the body's own cell in x and in y.
 constexpr std::int64_t kPatchReach = 20;
 
-/// Calls use(x, y) for every clear cell, row by row upwards. A cell is a place of the world: the body's own
+/// Calls use(x, y) for every clear cell, row by row upwards. Cells are indexed in the world: the body's own
 /// is floor(estimate / cell) in x and in y.
 template <class F>
 void for_each_clear_cell(const perception::LocalGrid& local_grid, const Params& params, Vec body,

@@ -9,15 +9,15 @@
 
 namespace whisker {
 
-/// The core in this process, with any planner.
+/// Drives with the core in this process and any planner.
 class CorePilot final : public Pilot {
  public:
-  /// Scenario and plant must outlive it; the planner was made with the scenario's robot.
+  /// Scenario and plant must outlive it; the planner must be made with the scenario's robot.
   CorePilot(const Scenario& scenario, SeenPlanner planner, sim::Plant& plant);
   const Status& tick(Time now) override { return robot_.tick(now); }
   const perception::LocalGrid* local_grid() const override { return shown_.local_grid(); }
   const ShownGuide* guide() const override { return planner_.guide; }
-  /// Another one, while it drives or after it has ended.
+  /// Sets a new goal, during a mission or after it has ended.
   void set_goal(const planning::Goal& goal) { robot_.set_goal(goal); }
 
  private:
@@ -27,11 +27,11 @@ class CorePilot final : public Pilot {
   Robot robot_;
 };
 
-/// The core's own planners, skirt, thesis and map, with this response table; no planner for the others.
+/// The planners of the core (boundary, thesis and map) with this response table; null for other kinds.
 /// Parameters and table must outlive the planner.
 SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table);
 
-/// Of the map that a planner of this kind has, for the reference body; none without a map.
+/// Shape of the map of this planner, for the reference body; none without a map.
 std::optional<planning::GridShape> map_shape(PlannerKind kind);
 
 }  // namespace whisker

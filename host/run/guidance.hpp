@@ -4,13 +4,13 @@
 
 namespace whisker {
 
-/// What the guide of a planner with a map says at a tick.
+/// Advice of the global planner at a tick.
 enum class Guidance : std::uint8_t {
-  unknown,  ///< nobody knows, or there is no guide
-  none,     ///< along edges, or it has nothing to say
-  goal,     ///< straight at the goal
-  place,    ///< to a place on the way
-  wait,     ///< stand: the way is being thought over
+  unknown,  ///< unknown, or there is no global planner
+  none,     ///< boundary following, or no advice
+  goal,     ///< straight to the goal
+  place,    ///< to a way point
+  wait,     ///< stand: planning in progress
 };
 constexpr int kGuidances = 5;
 
@@ -26,10 +26,10 @@ constexpr const char* name(Guidance guidance) {
   return "?";
 }
 
-/// It says where to go, or is about to.
+/// It leads, or is about to.
 constexpr bool guides(Guidance guidance) { return guidance > Guidance::none; }
 
-/// It has a place to go to.
+/// It has a way point.
 constexpr bool has_place(Guidance guidance) {
   return guidance == Guidance::goal || guidance == Guidance::place;
 }

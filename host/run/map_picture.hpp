@@ -1,4 +1,4 @@
-/// The map of a planner as pictures want it.
+/// The map of a planner, for pictures.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,14 @@
 
 namespace whisker {
 
-/// The window's cells at one moment, in the estimate's world.
+/// The cells of the window at one time, in the frame of the estimate.
 struct MapPicture {
-  planning::Cell corner;  ///< the first cell, in cells of the world: it begins at corner times cell_m
+  planning::Cell corner;  ///< the first cell, in world cells: it starts at corner times cell_m
   std::int32_t columns = 0;
   std::int32_t rows = 0;
   double cell_m = 0;
-  std::vector<planning::CellState> cells;  ///< row after row, upwards
-  std::vector<planning::Cell>
-      way;  ///< the plan's, from the body to the goal or the border; cells of the window
+  std::vector<planning::CellState> cells;  ///< row by row, upwards
+  std::vector<planning::Cell> way;  ///< planned path from the body to the goal or the border; window cells
 
   planning::CellState at(std::int32_t x, std::int32_t y) const {
     return cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
@@ -27,17 +26,17 @@ struct MapPicture {
   }
 };
 
-/// While no plan is under way: the plan's way would not be whole.
+/// Only while no plan is in progress, because the path would be incomplete.
 MapPicture picture_of(const ShownGuide& guide);
 
-/// Takes pictures of the map of a run, one every 100 ms, or a little later while a plan is under way.
+/// Takes pictures of a run's map every 100 ms, or a little later while a plan is in progress.
 class MapWatch {
  public:
   explicit MapWatch(const Params& params);
 
-  /// Once a tick; null: there is no map. True: there is a new picture.
+  /// Call once per tick; null: there is no map. True: there is a new picture.
   bool look(const ShownGuide* guide);
-  /// Nothing before the first one.
+  /// None before the first picture.
   const std::optional<MapPicture>& last() const { return last_; }
 
  private:

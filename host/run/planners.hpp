@@ -15,7 +15,7 @@ namespace whisker {
 enum class PlannerKind {
   skirt,
   thesis,
-  map,  ///< of 2048 bytes
+  map,  ///< 2048 bytes
   map_1024,
   map_4096,
   map_8192,
@@ -31,7 +31,7 @@ constexpr PlannerKind kPlanners[] = {
     PlannerKind::map_4096, PlannerKind::map_8192,      PlannerKind::map_16384, PlannerKind::bug2,
     PlannerKind::distbug,  PlannerKind::wall_follower, PlannerKind::fan,       PlannerKind::repulsion};
 
-/// How many bytes its map has; 0: it has none.
+/// Size of its map in bytes; 0: it has none.
 constexpr int map_bytes(PlannerKind kind) {
   switch (kind) {
     case PlannerKind::map: return 2048;
@@ -43,7 +43,7 @@ constexpr int map_bytes(PlannerKind kind) {
   }
 }
 
-/// Of those who choose none: see firmware/planning/default_planner.hpp.
+/// The default planner: see firmware/planning/default_planner.hpp.
 constexpr PlannerKind default_planner() {
   for (const PlannerKind kind : kPlanners) {
     if (map_bytes(kind) == planning::kDefaultMapBytes) return kind;
@@ -53,7 +53,7 @@ constexpr PlannerKind default_planner() {
 constexpr PlannerKind kDefaultPlanner = default_planner();
 static_assert(map_bytes(kDefaultPlanner) == planning::kDefaultMapBytes);
 
-/// A planner, and the guide in it.
+/// A planner and the global planner in it.
 struct SeenPlanner {
   std::shared_ptr<planning::Planner> planner;
   const ShownGuide* guide = nullptr;  ///< null without a map; lives as long as the planner
@@ -63,7 +63,7 @@ struct SeenPlanner {
 SeenPlanner make_seen_planner(PlannerKind kind, const Params& params);
 std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params);
 
-/// One to compare with, for hosts only.
+/// A planner for comparison, on the host only.
 constexpr bool is_baseline(PlannerKind kind) { return kind >= PlannerKind::bug2; }
 
 /// As on the command line: "skirt".

@@ -1,4 +1,4 @@
-/// What a run leaves behind: one record per control tick, and the verdict.
+/// The result of a run: one record per control tick, and the verdict.
 #pragma once
 
 #include <cstdint>
@@ -22,32 +22,32 @@ struct TickRecord {
   planning::Mode mode = planning::Mode::idle;
   planning::Why why = planning::Why::none;
   std::uint8_t danger_count = 0;                         ///< the thesis's t
-  bool looked = false;                                   ///< a decision was taken from a look at this tick
+  bool looked = false;                                   ///< this tick's decision used a static scan
   std::int16_t d_q7 = 0, r_q7 = 0;                       ///< fuzzy inputs last used, 1/128
   std::int16_t sa_q14 = 0, sd_q14 = 0;                   ///< fuzzy outputs last used, 1/16384
   fuzzy::Cell cell{};                                    ///< of the response table, last used
   hal::WheelSpeeds command{};                            ///< 0.1 mm/s
   double est_x_m = 0, est_y_m = 0, est_heading_rad = 0;  ///< the core's own estimate
-  bool inside = true;  ///< false: the core is far away and does not tell the fuzzy values and its estimate
+  bool inside = true;  ///< false: the core is remote and its fuzzy values and estimate are unknown
   Guidance guide = Guidance::unknown;
-  double way_x_m = 0, way_y_m = 0;  ///< where the guide leads to, in the estimate's world; 0 without a place
+  double way_x_m = 0, way_y_m = 0;  ///< way point, in the frame of the estimate; 0 without one
 };
 
-/// Stands for the clearance in an empty world, m: no scenario is larger.
+/// The clearance in an empty world, m: no scenario is larger.
 constexpr double kEmptyWorldClearance = 1000.0;
 
 struct RunResult {
   Verdict verdict = Verdict::gave_up;
-  std::string detail;  ///< a few words: which fault, which limit
+  std::string detail;  ///< a short explanation: which fault, which limit
   double time_s = 0;
-  double path_m = 0;            ///< true length driven by the body's centre
-  double final_distance_m = 0;  ///< true distance from the goal; not finite: nobody knows it
-  /// Between the goal and the place where the robot believes to be; none: it has not said.
+  double path_m = 0;            ///< true distance driven by the centre of the body
+  double final_distance_m = 0;  ///< true distance from the goal; not finite: unknown
+  /// Distance between the goal and the estimated position; none: unknown.
   std::optional<double> believed_distance_m;
   double min_clearance_m =
       0;  ///< smallest true gap between body and obstacle; <= 0 at a contact; 1000 in an empty world
   std::uint64_t ticks = 0;
-  std::uint64_t hash = 0;  ///< FNV-1a 64 over every tick's wheel command
+  std::uint64_t hash = 0;  ///< FNV-1a 64 over the wheel commands of all ticks
 };
 
 }  // namespace whisker

@@ -15,27 +15,27 @@
 
 namespace whisker {
 
-/// All that can be seen of one tick; valid during the call only.
+/// Everything observable at one tick; valid during the call only.
 struct Moment {
   const TickRecord& record;
   const Health& health;
-  const perception::LocalGrid* local_grid;  ///< the pilot's
+  const perception::LocalGrid* local_grid;  ///< passed to the planner
   const ShownGuide* guide = nullptr;
 };
 
 struct RunOptions {
   PlannerKind planner = kDefaultPlanner;
-  std::optional<std::uint64_t> seed;               ///< of the noise, instead of the scenario's
-  std::vector<TickRecord>* records = nullptr;      ///< gets one record a tick, and one more at a contact
-  std::function<void(const TickRecord&)> observe;  ///< called with each of these records as it arises
-  std::function<void(const Moment&)> watch;        ///< the same, with what only a picture of the inside needs
-  /// Called about once a simulated second with the simulated time and the distance left.
+  std::optional<std::uint64_t> seed;           ///< of the noise; overrides that of the scenario
+  std::vector<TickRecord>* records = nullptr;  ///< receives one record per tick, and one more at a contact
+  std::function<void(const TickRecord&)> observe;  ///< called with each new record
+  std::function<void(const Moment&)> watch;        ///< the same, with the internal state for pictures
+  /// Called about once per simulated second with the simulated time and the remaining distance.
   std::function<void(double time_s, double distance_m)> progress;
-  MakePilot pilot = core_pilot;  ///< what drives
+  MakePilot pilot = core_pilot;  ///< creates the pilot that drives
 };
 
-/// Deterministic: the same scenario and seed give the same hash on every machine.
-/// The scenario must be one that the loader accepts.
+/// Deterministic: the same scenario and seed give the same hash on every machine. The loader must accept the
+/// scenario.
 RunResult run(const Scenario& scenario, const RunOptions& options = {});
 
 }  // namespace whisker

@@ -5,7 +5,7 @@
 
 namespace whisker {
 
-/// Passes everything on to a map's guide, and remembers what it said. It must outlive this.
+/// Forwards all calls to a global planner, and records its advice. It must outlive this object.
 class ShownGuide final : public planning::GlobalPlanner {
  public:
   explicit ShownGuide(planning::WavefrontPlanner& guide) : guide_(guide) {}
@@ -38,9 +38,9 @@ class ShownGuide final : public planning::GlobalPlanner {
   bool knows_no_way() const noexcept override { return guide_.knows_no_way(); }
   bool doubt() noexcept override { return guide_.doubt(); }
 
-  /// The last it said: it is asked in free space only, and no longer holds from when it was refused for good.
+  /// Its last advice. It is asked in free space only, and the advice ends with its final refusal.
   Guidance said() const { return said_; }
-  /// The place to go to, in the estimate's world; where has_place().
+  /// The way point, in the frame of the estimate; only if has_place().
   Vec way() const { return way_; }
   Vec body() const { return body_; }
   Vec goal() const { return goal_; }

@@ -4,7 +4,7 @@
 
 namespace whisker {
 
-/// Passes everything on, and remembers which ground it was shown. The planner must outlive it.
+/// Forwards all calls to a planner, and records the local grid passed to it. The planner must outlive it.
 class ShownPlanner final : public planning::Planner {
  public:
   explicit ShownPlanner(planning::Planner& planner) : planner_(planner) {}

@@ -8,7 +8,7 @@
 
 namespace whisker {
 
-/// A scenario's obstacles, owned, in the simulator's form. Not copyable: the view points into it.
+/// Owns the obstacles of a scenario in the simulator's form. Not copyable, because the view points into it.
 class SimWorld {
  public:
   explicit SimWorld(const Scenario& scenario);

@@ -1,4 +1,4 @@
-/// Between the core's units and the simulator's.
+/// Conversion between the units of the core and the simulator.
 #pragma once
 
 #include "firmware/math/trig.hpp"

@@ -1,4 +1,4 @@
-/// What the core tells at a tick, in a record's terms.
+/// Converts the core's output at a tick into a record.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace whisker {
 
-/// All but the true pose and the true speeds. `guide`: null for a planner without a map.
+/// Everything except the true pose and the true speeds. `guide`: null for a planner without a map.
 TickRecord told(const Status& status, const ShownGuide* guide, const hal::RangeReadings& ranges, double t_s);
 
-/// None: it is on its way, or has no goal.
+/// None: the mission is running, or there is no goal.
 std::optional<Verdict> verdict_of(planning::Outcome outcome);
 
 }  // namespace whisker

@@ -1,4 +1,4 @@
-/// One run, a tick at a time.
+/// One run, one tick at a time.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +12,32 @@
 
 namespace whisker {
 
-/// decide(), move(), decide(), move(), ... until one of them ends it. All references must outlive it; the
-/// plant stands at the scenario's start, and the pilot drives it.
+/// Call decide(), move(), decide(), move(), ... until one of them ends the run. All references must outlive
+/// it; the plant stands at the scenario's start, and the pilot drives it.
 class Trip {
  public:
   Trip(const Scenario& scenario, sim::Plant& plant, Pilot& pilot);
 
-  /// The pilot's tick. Ends with a verdict of the pilot's, judged by the true place, or when no time is left
-  /// for another tick.
+  /// The tick of the pilot. Ends with a verdict of the pilot, judged by the true position, or if no time is
+  /// left for another tick.
   void decide();
-  /// The plant's period after it. Ends with a contact.
+  /// The period of the plant after it. Ends with a contact.
   void move();
-  /// After a verdict of the pilot's: it has got another task. A contact and a fault are for good.
+  /// Continues after a verdict of the pilot, with another goal. A contact and a fault are final.
   void resume();
 
   const std::optional<Verdict>& verdict() const { return verdict_; }
   std::uint64_t ticks() const { return ticks_; }  ///< decided so far
-  double time() const { return t_s_; }            ///< of the last of them, or of the contact's record
+  double time() const { return t_s_; }            ///< of the last tick, or of the contact record
   const Status& status() const { return *status_; }
   const perception::LocalGrid* local_grid() const { return pilot_->local_grid(); }
   const ShownGuide* guide() const { return pilot_->guide(); }
-  double distance_left() const;  ///< true, to the goal's middle
-  /// The same from where the robot believes to be; none: that is not known.
+  double distance_left() const;  ///< true, to the centre of the goal
+  /// The same from the estimated position; none: unknown.
   std::optional<double> believed_distance() const;
   /// Of the last tick, or of the contact.
   TickRecord record() const;
-  /// So far; the verdict and its detail count only once there is one.
+  /// So far; verdict and detail are valid only after the end.
   RunResult result() const;
 
  private:

@@ -4,8 +4,8 @@
 
 namespace whisker::scanner {
 
-/// Adds what a scanner at this point sees all round: whatever lies within the range and behind nothing else,
-/// by rays a quarter of a degree apart (9 mm at 2 m).
+/// Adds what an all-round sensor sees at this point: everything in range that is not hidden, by rays a
+/// quarter of a degree apart (9 mm at 2 m).
 void look(const std::vector<sim::Segment>& outlines, sim::Vec2 from, double range_m, Seen& seen);
 
 }  // namespace whisker::scanner

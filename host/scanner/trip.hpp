@@ -1,8 +1,8 @@
-/// A yardstick for planners: what a robot would drive that sees all round and forgets nothing.
+/// The omniscient reference for planners: the path of a robot with all-round view and perfect memory.
 ///
-/// A disc-shaped body with a scanner at its centre takes the shortest way to the goal through what it has
-/// seen free or has not seen yet, looks all round every 50 mm, and takes another way as soon as something new
-/// is in this one. It has neither dynamics nor margins.
+/// A disc-shaped body with a sensor at its centre follows the shortest path to the goal through ground that
+/// it has seen free or has not seen yet. It scans all round every 50 mm, and changes its path as soon as
+/// something new blocks it. It has neither dynamics nor margins.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@
 namespace whisker::scanner {
 
 struct Trip {
-  bool reached = false;  ///< false: what it saw leaves no way to the goal
+  bool reached = false;  ///< false: what it saw leaves no path to the goal
   double driven_m = 0;
-  /// The shortest way through all of the same outlines, none without one. No trip that reaches the goal is
-  /// shorter but for 1 part in 1000: the body is held against the world every 10 mm.
+  /// The shortest path through all of the same outlines, none if it does not exist. A trip that reaches the
+  /// goal is at most 1 part in 1000 shorter, because the body is checked against the world every 10 mm.
   std::optional<double> shortest_m;
 };
 
-/// Movers are ignored. Both points must lie outside solids. radius_m and range_m > 0.
-/// Throws std::runtime_error after 100,000 ways without an end.
+/// Movers are ignored. Both points must lie outside solids. radius_m and range_m > 0. Throws
+/// std::runtime_error after 100,000 paths without an end.
 Trip drive(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m, double range_m);
 
 }  // namespace whisker::scanner

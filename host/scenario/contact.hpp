@@ -8,14 +8,14 @@ namespace whisker {
 
 struct Nearest {
   double distance_m = 0;  ///< from the point; negative inside a solid or beyond the bounds
-  std::string what;       ///< "disc 2", "polygon 1", "wall 1", "mover 1", "the bounds"; empty: nothing at all
+  std::string what;       ///< "disc 2", "polygon 1", "wall 1", "mover 1", "the bounds"; empty: nothing
 };
 
-/// What is nearest to a point at time 0. Infinitely far if the world is empty.
+/// The obstacle nearest to a point at time 0. Infinitely far if the world is empty.
 Nearest nearest_obstacle(const Scenario& scenario, sim::Vec2 point);
 
-/// Says in words why the robot cannot begin at the start (it touches something there),
-/// empty if it can. Ask again whenever the body's radius changes.
+/// The reason why the robot cannot start at the start (it touches something there), empty if it can. Call it
+/// again whenever the body radius changes.
 std::string start_fault(const Scenario& scenario);
 
 }  // namespace whisker

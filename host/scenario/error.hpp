@@ -9,8 +9,8 @@
 
 namespace whisker {
 
-/// Bad input from a user. what() is one line, `FILE:LINE:COLUMN: what is wrong`;
-/// a fault of a file as a whole (missing, unreadable) is reported at 1:1.
+/// Invalid input from a user. what() is one line, `FILE:LINE:COLUMN: what is wrong`; an error of the whole
+/// file (missing, unreadable) is reported at 1:1.
 class InputError : public std::runtime_error {
  public:
   /// Lines and columns count from 1; control characters in the texts become '?'.
@@ -23,7 +23,7 @@ class InputError : public std::runtime_error {
   std::size_t column_;
 };
 
-/// Several at once; what() is the first.
+/// Several errors; what() is the first.
 class InputErrors : public InputError {
  public:
   /// errors: at least one.

@@ -1,5 +1,4 @@
-/// What the numbers and shapes of a scenario may be, whoever hands one over: a file, or the playground's
-/// page.
+/// Limits of the numbers and shapes of a scenario from any source: a file, or the playground.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +8,7 @@
 
 namespace whisker {
 
-/// What a number may be.
+/// Range of a number.
 struct Limits {
   double low;
   double high;
@@ -37,8 +36,8 @@ bool is_within(sim::Vec2 p, const Bounds& bounds);
 /// No point is the same as the one before it.
 bool all_differ(const std::vector<sim::Vec2>& points);
 bool has_area(const std::vector<sim::Vec2>& polygon);
-/// How far the mover is off its path, m, and whether that is more than rounding a coordinate by hand may
-/// cost.
+/// Distance of the mover from its path, m, and whether it is more than the error of a coordinate rounded by
+/// hand.
 double off_path(const Mover& mover);
 bool is_on_path(const Mover& mover);
 

@@ -12,7 +12,7 @@ struct NearThing {
   std::size_t number;  ///< counted from 1 among its kind; 0 for the bounds
 };
 
-/// What is nearest to a point at time 0. Infinitely far if the world is empty.
+/// The obstacle nearest to a point at time 0. Infinitely far if the world is empty.
 NearThing near_thing(const Scenario& scenario, sim::Vec2 point);
 
 /// The robot does not touch anything at its start.

@@ -5,8 +5,8 @@
 
 namespace whisker {
 
-/// Throws InputError where a TOML text nests deeper than any file of ours: toml++ calls itself once a level,
-/// and would run out of stack. Whatever else is wrong is left to toml++.
+/// Throws InputError if a TOML text is nested deeper than any valid file, because toml++ recurses once per
+/// level and would run out of stack. toml++ reports all other errors.
 void check_nesting(std::string_view text, const std::string& file);
 
 }  // namespace whisker

@@ -1,4 +1,4 @@
-/// The parameters as a list of numbers: what treats all of them alike.
+/// The parameters as a list of numbers, for code that treats all of them alike.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace whisker {
 struct ParamEntry {
   const char* key;
   std::int64_t raw;
-  std::int64_t low;  ///< its own range
+  std::int64_t low;  ///< range of the parameter
   std::int64_t high;
   ParamUnit unit;            ///< symbol "" for a count or a choice
-  const char* word;          ///< of a choice; else null
+  const char* word;          ///< of a choice; otherwise null
   const char* type;          ///< "Length"; "int32_t" for a count, "" for a choice
   std::string text() const;  ///< as in a file
   std::string text_of(std::int64_t other) const;
@@ -25,7 +25,7 @@ struct ParamEntry {
 /// In the order of for_each_param.
 std::vector<ParamEntry> param_list(const Params& params);
 
-/// Sets the parameter with this place in the list; raw must lie within its range.
+/// Sets the parameter at this index of the list; raw must lie within its range.
 void set_param(Params& params, std::size_t place, std::int64_t raw);
 
 }  // namespace whisker

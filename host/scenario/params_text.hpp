@@ -1,4 +1,4 @@
-/// The robot's parameters as text: in files, in messages and in the manual.
+/// The parameters of the robot as text: in files, in messages and in the manual.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ constexpr ParamUnit unit_of(const Angle&) { return {"deg", 4294967296.0, 360}; }
 
 /// To nearest. |si| <= 1e9.
 std::int64_t to_raw(double si, ParamUnit unit);
-/// The shortest decimal that to_raw() takes back to the same raw value.
+/// The shortest decimal that to_raw() converts back to the same raw value.
 std::string si_text(std::int64_t raw, ParamUnit unit);
 
 /// The keys of a [robot] table, in the order of for_each_param.
@@ -38,7 +38,7 @@ std::string robot_toml(const Params& params);
 /// The table of docs/scenario.md: key, unit, default and range of every parameter.
 std::string params_markdown();
 
-/// What must hold, in words; empty for ParamFault::none.
+/// The relation in words; empty for ParamFault::none.
 const char* relation(ParamFault fault);
 
 }  // namespace whisker

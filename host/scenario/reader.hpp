@@ -1,4 +1,4 @@
-/// Strict reading of one TOML table: every fault is an InputError at its own place in the file.
+/// Strict reader of one TOML table: every error is an InputError with its position in the file.
 #pragma once
 
 #include <cstdint>
@@ -35,14 +35,14 @@ class TableReader {
   /// One line of text.
   std::string text(std::string_view key) const;
   sim::Vec2 point(std::string_view key) const;
-  /// At least `fewest` points, no two neighbours the same.
+  /// At least `fewest` points; neighbouring points differ.
   std::vector<sim::Vec2> points(std::string_view key, std::size_t fewest, std::size_t most) const;
 
   TableReader table(std::string_view key, const std::vector<std::string_view>& known) const;
   /// One reader for each [[key]]; none if the key is missing.
   std::vector<TableReader> tables(std::string_view key, const std::vector<std::string_view>& known) const;
 
-  /// An error at the table's, or at the key's value's, position.
+  /// An error at the position of the table, or of the key's value.
   InputError error(std::string_view what) const;
   InputError error_at(std::string_view key, std::string_view what) const;
   /// The line of the key's value.

@@ -7,15 +7,15 @@
 
 namespace whisker {
 
-/// One robot may be told in two tables: a file's top level and its [robot].
+/// A robot may be defined in two tables: the top level of a file and its [robot].
 using RobotTables = std::vector<TableReader>;
 
-/// Sets the parameters that the tables name, each within its range; relations are not checked. Keys of a
-/// table that are no parameters are left alone. Throws InputErrors: every value that is wrong.
+/// Sets the parameters in the tables, each within its range; relations are not checked. Ignores keys that are
+/// not parameters. Throws InputErrors with every wrong value.
 void read_robot(const RobotTables& tables, Params& params);
 
-/// Throws InputErrors if the set as a whole is not one that the core accepts: every relation that does not
-/// hold, each at a key that it is about, with all of their values and what would mend it.
+/// Throws InputErrors if the core refuses the set as a whole: every violated relation, each at one of its
+/// keys, with all of their values and the changes that would satisfy it.
 void check_robot(const RobotTables& tables, const Params& params);
 
 }  // namespace whisker

@@ -1,4 +1,4 @@
-/// What a scenario file says, in SI units. docs/scenario.md describes the file.
+/// Contents of a scenario file in SI units. docs/scenario.md describes the file.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ struct Bounds {
   sim::Vec2 max;
 };
 
-/// A disc that moves along a polyline at constant speed, there and back for ever.
+/// A disc that moves along a polyline and back at constant speed.
 struct Mover {
-  sim::Vec2 center;  ///< where it is at time 0; a point of the path
+  sim::Vec2 center;  ///< its position at time 0; a point of the path
   double radius_m = 0;
   std::vector<sim::Vec2> path;
   double speed_mps = 0;
@@ -31,19 +31,19 @@ struct Mover {
 
 struct Noise {
   double range_sigma_m = 0;
-  double range_dropout = 0;      ///< probability that a reading is lost and says so
-  double range_false_clear = 0;  ///< probability that a reading wrongly says that nothing is there
-  double wheel_scale_sigma = 0;  ///< relative error of each wheel's encoder, drawn once a run
+  double range_dropout = 0;      ///< probability that a reading is lost
+  double range_false_clear = 0;  ///< probability that a reading is wrongly clear
+  double wheel_scale_sigma = 0;  ///< relative error of each wheel's encoder, drawn once per run
   double heading_drift_deg_per_sqrt_m = 0;
 };
 
 struct Scenario {
   std::string name;
-  std::uint64_t seed = 1;  ///< of the noise
+  std::uint64_t seed = 1;  ///< seed of the noise
   double time_limit_s = 600;
-  sim::Pose start;  ///< heading towards the goal unless the file gives one
+  sim::Pose start;  ///< heading towards the goal unless the file contains one
   Goal goal;
-  std::optional<Bounds> bounds;  ///< the free world lies inside
+  std::optional<Bounds> bounds;  ///< a solid outer wall
   std::vector<sim::Disc> discs;
   std::vector<std::vector<sim::Vec2>> polygons;  ///< solid
   std::vector<std::vector<sim::Vec2>> walls;     ///< polylines of zero thickness

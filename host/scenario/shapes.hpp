@@ -22,7 +22,7 @@ bool intersect(const sim::Segment& a, const sim::Segment& b);
 sim::Segment edge(const std::vector<sim::Vec2>& polygon, std::size_t i);
 /// Positive for counter-clockwise order, m^2.
 double signed_area(const std::vector<sim::Vec2>& polygon);
-/// Even-odd rule; a point of the outline may count as either.
+/// Even-odd rule; the result for a point of the outline is undefined.
 bool inside(sim::Vec2 p, const std::vector<sim::Vec2>& polygon);
 /// Two edges that pass through each other, each with an end on either side; the lower index first.
 std::optional<std::pair<std::size_t, std::size_t>> passing_edges(const std::vector<sim::Vec2>& polygon);

@@ -7,14 +7,14 @@
 
 namespace whisker {
 
-/// The shortest decimal that reads back as the same double, with a point or an exponent so
-/// that TOML takes it for a float.
+/// The shortest decimal that reads back as the same double, with a point or an exponent so that TOML parses
+/// it as a float.
 std::string toml_number(double x);
 
 /// Quoted and escaped as a TOML basic string.
 std::string toml_string(std::string_view text);
 
-/// The known word that a misspelt one resembles most; empty if none is close.
+/// The known word most similar to a misspelt one; empty if none is close.
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& known);
 
 /// "a, b or c".

@@ -1,4 +1,4 @@
-/// Which relations between a robot's parameters do not hold, and what would mend each.
+/// Violated relations between a robot's parameters, and changes that would satisfy each.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ namespace whisker {
 
 struct Violation {
   ParamFault fault;
-  std::vector<std::size_t> keys;  ///< places in param_list() of the parameters that it is about
-  std::vector<std::string> fits;  ///< "body_radius_m >= 0.07": each alone would do, all others as they are
+  std::vector<std::size_t> keys;  ///< indices in param_list() of the parameters in the relation
+  std::vector<std::string> fits;  ///< "body_radius_m >= 0.07": one such change is sufficient
 };
 
 /// All of them, in the order of check(). Every value must lie within its own range.

@@ -6,7 +6,7 @@
 
 namespace whisker {
 
-/// The obstacles of a scenario as the simulator wants them: round ones and straight edges.
+/// The obstacles of a scenario in the form of the simulator: discs and straight edges.
 struct World {
   std::vector<sim::Disc> discs;
   std::vector<sim::Segment> segments;  ///< of the polygons, then the walls, then the bounds

@@ -7,10 +7,10 @@
 
 namespace whisker::sim {
 
-/// From a point to the disc's rim, metres; negative inside.
+/// From a point to the rim of the disc, m; negative inside.
 double signed_distance(Vec2 p, const Disc& disc);
 
-/// From a point to the nearest point of a closed segment, metres; a segment may be a single point.
+/// From a point to the nearest point of a closed segment, m; a segment may be a single point.
 double distance(Vec2 p, const Segment& segment);
 
 /// The square of distance(p, segment).
@@ -25,8 +25,8 @@ inline double squared_distance(Vec2 p, const Segment& s) {
   return c * c / length2;
 }
 
-/// Whether the point lies inside the closed polygon, by the even-odd rule; the last point joins the
-/// first. For a point on an edge either answer may come: use distance() there.
+/// Whether the point lies inside the closed polygon, by the even-odd rule; the last point joins the first.
+/// The result for a point on an edge is undefined: use distance() there.
 bool contains(const Vec2* points, size_t count, Vec2 p);
 
 }  // namespace whisker::sim

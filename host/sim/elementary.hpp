@@ -1,5 +1,5 @@
-/// The few elementary functions that the simulator needs, written out so that every compiler and
-/// WebAssembly give the same bits; tests/sim/elementary_test.cpp asserts the error bounds given here.
+/// The elementary functions of the simulator, implemented here so that every compiler and WebAssembly give
+/// the same bits. tests/sim/elementary_test.cpp asserts the stated error bounds.
 #pragma once
 
 #include <stdint.h>

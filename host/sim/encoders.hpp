@@ -1,4 +1,4 @@
-/// What the wheel encoders tell: the distance rolled, with their own errors.
+/// The wheel encoders: the distance rolled, with their own errors.
 #pragma once
 
 #include <stdint.h>
@@ -9,15 +9,14 @@
 
 namespace whisker::sim {
 
-/// counts = floor((distance + drift) * counts_per_m * (1 + scale error)) modulo 2^24, wheel by wheel. The
-/// scale errors are drawn once. The drift is a random walk, opposite on the two wheels: the heading that
-/// odometry computes gains an error of standard deviation drift * sqrt(path), while the body itself is not
-/// moved.
+/// counts = floor((distance + drift) * counts_per_m * (1 + scale error)) modulo 2^24 for each wheel. The
+/// scale errors are drawn once. The drift is a random walk, opposite on the two wheels: the odometry heading
+/// gains an error of standard deviation drift * sqrt(path), while the body itself does not move.
 class Encoders {
  public:
   Encoders(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed);
 
-  /// The wheels rolled this far, m, while the body's centre travelled `path`, m (not negative).
+  /// The wheels rolled this far, m, while the centre of the body travelled `path`, m (not negative).
   void roll(double left, double right, double path);
   hal::EncoderCounts counts() const;
 

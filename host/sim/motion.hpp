@@ -1,4 +1,4 @@
-/// The body's motion over one short step, and the exact moment of a contact in it.
+/// Motion of the body over one short step, and the exact time of a contact in it.
 #pragma once
 
 #include "host/sim/geometry.hpp"
@@ -17,21 +17,21 @@ struct Arc {
 Pose along(const Arc& arc, double fraction);
 
 constexpr double kContactGap =
-    1e-9;  ///< m: a larger gap is no contact, a gap of 0 is one, between them either
-constexpr double kClearanceSlack = 1e-4;  ///< m: how far the smallest gap reported may exceed the true one
+    1e-9;  ///< m: a larger gap is no contact, a gap of 0 is a contact, between them either
+constexpr double kClearanceSlack = 1e-4;  ///< m: by which the reported smallest gap may exceed the true one
 
 struct Sweep {
-  double fraction = 1;  ///< of the arc that is free: 1 without a contact
+  double fraction = 1;  ///< free fraction of the arc: 1 without a contact
   bool contact = false;
   double clearance = 0;        ///< m, at the end of the free part
   double least_clearance = 0;  ///< m, on the free part, or least_before if that is smaller
 };
 
-/// Follows the arc from time t for `duration`, s, until the body touches something. The gap cannot change
-/// faster than the centre moves plus the fastest mover's speed; so a part of the arc is skipped only when the
-/// gaps at its two ends prove that it holds no contact and no gap below the smallest by more than
-/// kClearanceSlack. The free part ends within kContactGap (gap and path) of the contact.
-/// clearance_before: at the start, m, > kContactGap. least_before: the smallest so far, <= clearance_before.
+/// Follows the arc from time t for `duration`, s, until the body touches something. The gap changes at most
+/// as fast as the centre moves plus the speed of the fastest mover. So a part of the arc is skipped only if
+/// the gaps at its two ends prove that it contains no contact and no gap below the smallest by more than
+/// kClearanceSlack. The free part ends within kContactGap (gap and path) of the contact. clearance_before: at
+/// the start, m, > kContactGap. least_before: the smallest so far, <= clearance_before.
 Sweep sweep(const WorldView& world, const Arc& arc, double t, double duration, double body_radius,
             double clearance_before, double least_before);
 

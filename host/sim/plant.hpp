@@ -1,5 +1,5 @@
 /// The simulated robot in its world: wheels, body, contact, encoders and rangefinders, one control period at
-/// a time. docs/simulator.md gives the models and what is exact.
+/// a time. docs/simulator.md describes the models and their exactness.
 #pragma once
 
 #include <stdint.h>
@@ -17,15 +17,15 @@ namespace whisker::sim {
 
 class Plant {
  public:
-  /// The robot stands still at `start`; its sensors take their first measurement, at time 0. The world is
-  /// kept by reference: it must outlive the plant, and its owner may change it between two calls.
+  /// The robot stands still at `start`; its sensors take their first measurement at time 0. The world is kept
+  /// by reference: it must outlive the plant, and its owner may change it between two calls.
   Plant(const WorldView& world, const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed, Pose start);
   Plant(const WorldView&&, const RobotSpec&, const NoiseSpec&, uint64_t, Pose) = delete;
 
-  /// The wheels' target from now on.
+  /// Sets the target of the wheels.
   void command(hal::WheelSpeeds speeds);
-  /// One control period. After a contact the body stays where it touched, wheels at rest; time and the
-  /// sensors go on.
+  /// Simulates one control period. After a contact, the body stays there with its wheels at rest; time and
+  /// sensors continue.
   void advance();
 
   hal::RangeReadings ranges() const { return sensors_.read(now_us_); }
@@ -48,7 +48,7 @@ class Plant {
  private:
   double gap_now();
   double farthest_travel() const;
-  void sense(const Arc& arc, double free_fraction);  // what falls due during the step that just ran
+  void sense(const Arc& arc, double free_fraction);  // measurements that are due during the last step
   void touch(double time);
 
   const WorldView* world_;

@@ -6,7 +6,7 @@
 
 namespace whisker::sim {
 
-/// One independent stream of random numbers; the same (seed, stream) gives the same numbers for ever.
+/// An independent stream of random numbers; the same (seed, stream) always gives the same numbers.
 class Random {
  public:
   struct State {
@@ -20,7 +20,7 @@ class Random {
   uint64_t next();
   /// [0, 1), a multiple of 2^-53.
   double uniform();
-  /// Mean 0, standard deviation 1, at most 8.6 in size; always two numbers of the stream.
+  /// Mean 0, standard deviation 1, absolute value at most 8.6; always consumes two numbers of the stream.
   double normal();
 
  private:

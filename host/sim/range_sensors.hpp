@@ -1,4 +1,4 @@
-/// The three rangefinders: when they measure, what they see, how it goes wrong, and when it arrives.
+/// The three rangefinders: measurement times, ranges, faults and latency.
 #pragma once
 
 #include <stdint.h>
@@ -11,19 +11,20 @@
 
 namespace whisker::sim {
 
-/// Measurement k is taken by all three at k / rate (to the nearest microsecond) and arrives `latency` later.
+/// All three take measurement k at k / rate (to the nearest microsecond); it arrives `latency` later.
 ///
-/// In this order: lost with the dropout's probability (invalid); wrongly clear with the false clear's; clear
-/// if the cone holds nothing nearer than max_range; else the distance plus noise, which may make it clear or
-/// too_near; rounded to the nearest millimetre. Each measurement draws the same count of random numbers
-/// whatever the outcome. Before the first arrival: stale, age 255, sequence 15.
+/// The first condition that holds decides: lost with the dropout probability (invalid); wrongly clear with
+/// the false-clear probability; clear if the cone contains nothing nearer than max_range; else the distance
+/// plus noise, which may make it clear or too_near, rounded to the nearest millimetre. Each measurement draws
+/// the same count of random numbers, whatever the outcome. Before the first arrival: stale, age 255, sequence
+/// 15.
 class RangeSensors {
  public:
   RangeSensors(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed);
 
-  /// When the next measurement is due, microseconds from the start.
+  /// Time of the next measurement, microseconds from the start.
   int64_t due_us() const { return due_us_; }
-  /// Takes the measurement that is due, from this pose at due_us().
+  /// Takes the measurement that is due at due_us(), from this pose.
   void measure(const WorldView& world, const Pose& pose);
   /// The newest measurement that has arrived at this time, microseconds; not before the last measure().
   hal::RangeReadings read(int64_t now_us) const;

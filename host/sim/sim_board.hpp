@@ -6,7 +6,7 @@
 
 namespace whisker::hal {
 
-/// The simulated robot as a board. Never refuses; tests wrap it to make it do so.
+/// The simulated robot as a board. It never refuses; tests wrap it to add refusals.
 class SimBoard final : public Rangefinders, public Drive {
  public:
   explicit SimBoard(sim::Plant& plant) noexcept : plant_(plant) {}

@@ -9,16 +9,17 @@ namespace whisker::sim {
 struct RobotSpec {
   double radius = 0.09;           ///< m, of the disc body
   double track = 0.14;            ///< m, between the wheels; > 0
-  double max_speed = 0.3;         ///< m/s; a faster command is cut to it
+  double max_speed = 0.3;         ///< m/s; a faster command is limited to it
   double max_acceleration = 1.0;  ///< m/s^2, of each wheel; > 0
   double motor_lag = 0.05;        ///< s, time constant from command to wheel speed; 0 for none
   double counts_per_m = 5000;     ///< encoder counts
 
-  double side_angle = kPi / 6;          ///< rad, of the left beam's axis from straight ahead; right mirrored
+  double side_angle =
+      kPi / 6;  ///< rad, axis of the left beam from straight ahead; the right beam is mirrored
   double cone_half_width = kPi / 14.4;  ///< rad; 0 < half width < pi/2
   double min_range = 0.02;              ///< m; nearer is too_near
   double max_range = 2.0;               ///< m; farther is clear; at most 65.5
-  double offset = 0;                    ///< m, of the apexes from the centre, along each beam's axis
+  double offset = 0;                    ///< m, of the apexes from the centre, along the axis of each beam
   double rate_hz = 50;                  ///< measurements a second; > 0
   double latency_s = 0.02;              ///< from a measurement to its arrival; rate * latency <= 30
 
@@ -28,14 +29,14 @@ struct RobotSpec {
 /// All zero: no noise.
 struct NoiseSpec {
   double range_sigma_m = 0;      ///< standard deviation of a distance
-  double range_dropout = 0;      ///< probability that a reading is lost and says so
-  double range_false_clear = 0;  ///< probability that a reading wrongly says that nothing is there
-  double wheel_scale_sigma = 0;  ///< relative error of each wheel's encoder, drawn once a run
+  double range_dropout = 0;      ///< probability that a reading is lost
+  double range_false_clear = 0;  ///< probability that a reading is wrongly clear
+  double wheel_scale_sigma = 0;  ///< relative error of each wheel's encoder, drawn once per run
   double heading_drift_rad_per_sqrt_m =
-      0;  ///< error of the odometry's heading after 1 m; grows with the root
+      0;  ///< error of the odometry heading after 1 m; grows with the square root
 };
 
-/// The same robot as the core's parameters describe.
+/// The robot that the core's parameters describe.
 RobotSpec robot_spec(const Params& params);
 
 }  // namespace whisker::sim

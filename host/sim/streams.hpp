@@ -1,5 +1,5 @@
-/// Which stream of random numbers feeds which source of noise. A source that is off changes no other's
-/// numbers.
+/// The random number stream of each source of noise. Switching a source off does not change the numbers of
+/// the others.
 #pragma once
 
 #include <stdint.h>

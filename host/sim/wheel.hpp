@@ -9,8 +9,7 @@ struct WheelStep {
 };
 
 /// dv/dt = (target - v) / lag, limited to +-max_acceleration; solved in closed form over one fixed step, so
-/// that the step's length does not change the result. The speed never leaves the interval from v to the
-/// target.
+/// that the step length does not change the result. The speed stays between v and the target.
 class WheelModel {
  public:
   /// lag_s >= 0, max_acceleration > 0 (m/s^2), step_s > 0.

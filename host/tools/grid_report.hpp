@@ -1,4 +1,4 @@
-/// What every grid of the look-up costs and how far it is off exact inference.
+/// Memory of every grid of the look-up, and its error against exact inference.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace whisker::tools {
 
-/// Markdown table rows, one grid a row, and the closed form; errors are the largest of all inputs.
+/// Markdown table rows, one per grid, and the closed form; errors are maxima over all inputs.
 std::string grid_report(const fuzzy::RuleBase& rules);
 
 }  // namespace whisker::tools

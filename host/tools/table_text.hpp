@@ -1,4 +1,4 @@
-/// firmware/fuzzy/response_table.hpp as text: the look-up table of a rule base, one row of D a line.
+/// firmware/fuzzy/response_table.hpp as text: the look-up table of a rule base, one line per row of D.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// One connection: a request, what it is answered, and the end. It has a time for each.
+/// One connection: request, answer, end, with a time limit for each.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ namespace whisker::view {
 
 using Clock = std::chrono::steady_clock;
 
-/// Bytes to send, of any number of clients.
+/// Bytes to send to any number of clients.
 using Bytes = std::shared_ptr<const std::string>;
 
 class Client {
@@ -27,15 +27,15 @@ class Client {
   bool gone() const { return state_ == State::gone; }
   bool watches() const { return state_ == State::watching; }
 
-  /// Moves what can be moved. A request is handed over once.
+  /// Transfers what is possible without blocking. Returns a request once.
   std::optional<Asked> move(Clock::time_point now);
-  /// Sends this and hangs up.
+  /// Sends this and closes.
   void answer(Bytes bytes, Clock::time_point now);
-  /// Sends this, and from then on what the feed tells, until it is over.
+  /// Sends this, and then the news of the feed until it ends.
   void watch(Bytes head, Place place, Clock::time_point now);
-  /// True: it would take the feed's next news.
+  /// True: ready for the next news of the feed.
   bool listens(Clock::time_point now) const;
-  /// Takes what has come, or ends with the feed. True: that took some work.
+  /// Accepts news, or ends with the feed. True: this took some work.
   bool tell(const Feed& feed, Clock::time_point now);
 
  private:
@@ -43,7 +43,7 @@ class Client {
     asking,
     answering,
     watching,
-    leaving,  ///< has been told all: only what it still sends is waited out, lest that cut the answer off
+    leaving,  ///< everything is sent; waits for the remaining input, so that the answer is not cut off
     gone,
   };
 
@@ -59,10 +59,10 @@ class Client {
   Head head_;
   Bytes out_;
   std::size_t sent_ = 0;
-  Clock::time_point until_;    ///< this state, or these bytes, must have ended
-  Clock::time_point stalled_;  ///< it must have taken something
-  Clock::time_point next_;     ///< the next news
-  Clock::time_point quiet_;    ///< a word, so that one who is gone is noticed
+  Clock::time_point until_;    ///< deadline of this state or of these bytes
+  Clock::time_point stalled_;  ///< deadline for the client to read something
+  Clock::time_point next_;     ///< time of the next news
+  Clock::time_point quiet_;    ///< time of a keep-alive message, which detects a closed connection
   Place place_;
 };
 

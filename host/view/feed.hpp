@@ -1,4 +1,4 @@
-/// A run that goes on, told to any number of watchers.
+/// A running run, published to any number of watchers.
 #pragma once
 
 #include <cstddef>
@@ -15,31 +15,31 @@
 
 namespace whisker::view {
 
-/// How far a watcher has come. As new, it is told everything.
+/// Position of a watcher. A new one receives everything.
 struct Place {
-  std::string run;          ///< the run's name, another one each time that a run begins
+  std::string run;          ///< the run's name, a new one whenever a run begins
   std::size_t next = 0;     ///< tick
-  std::uint64_t notes = 0;  ///< what else has been told
+  std::uint64_t notes = 0;  ///< number of other events received
 };
 
-/// One thread drives and tells; others listen, each at its own pace. What has been told is kept once, whoever
-/// listens. A call of the driver's takes a short time that does not depend on them.
+/// One thread drives and publishes; others read, each at its own pace. Published data is stored once for all
+/// readers. The calls of the driving thread take a short time that does not depend on the readers.
 class Feed {
  public:
-  /// A run begins, or begins anew: nothing of the one before it is left. Before everything else.
+  /// A run begins, or begins again: data of the one before is discarded. Call it first.
   void begin(const page::Setting& setting);
   /// For RunOptions::watch.
   void add(const Moment& moment);
-  /// What the run waits for, for a person; "" for nothing.
+  /// What the run waits for, for people; "" for nothing.
   void say(const std::string& words);
   void end(const RunResult& result);
-  /// Nothing more will come, whatever the run was about to do.
+  /// No more data follows.
   void close();
 
-  /// What has come since this place, as one JSON object, and moves the place behind it; none if nothing has.
-  /// Of more than some thousand ticks the next news has the rest. docs/replay.md has the format.
+  /// The news since this position as one JSON object; advances the position. None if there is nothing new.
+  /// Beyond some thousand ticks, the next call returns the rest. docs/replay.md describes the format.
   std::optional<std::string> news(Place& place) const;
-  /// All is told, and nothing more will come.
+  /// Everything was read, and no more data follows.
   bool over(const Place& place) const;
 
  private:
@@ -48,14 +48,14 @@ class Feed {
   mutable std::mutex mutex_;
   std::string run_;
   std::string setting_;
-  std::optional<page::Recording> last_;                    // less than a whole one
-  std::vector<std::shared_ptr<const page::Ticks>> whole_;  // never change
+  std::optional<page::Recording> last_;                    // less than a complete one
+  std::vector<std::shared_ptr<const page::Ticks>> whole_;  // immutable
   std::size_t count_ = 0;                                  // ticks
   report::EncounterFinder edges_;
   std::string words_;
   std::string result_;  // "" before the end
   bool closed_ = false;
-  std::uint64_t notes_ = 0;  // grows with what is no tick
+  std::uint64_t notes_ = 0;  // counts events that are not ticks
 };
 
 }  // namespace whisker::view

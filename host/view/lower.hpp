@@ -7,7 +7,7 @@
 
 namespace whisker::view {
 
-/// Names of hosts and headers are the same in capitals.
+/// Names of hosts and headers are case-insensitive.
 inline std::string lower(std::string_view text) {
   std::string all(text);
   std::transform(all.begin(), all.end(), all.begin(),

@@ -1,5 +1,5 @@
-/// By which names a server may be asked. A site that lets its own name point to this computer could else read
-/// the run in a visitor's browser.
+/// The names under which a server answers. Otherwise a site whose name points to this computer could read the
+/// run in a visitor's browser.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@ namespace whisker::view {
 
 class Names {
  public:
-  /// Of the server on this address, which is a number or a name, and port.
+  /// For a server at this address (numeric or a name) and port.
   Names(const std::string& address, int port);
 
-  /// The value of the header Host. This computer's own names, and the address; on an address that others
-  /// reach, every number too: no site can make a number its name.
+  /// Checks the value of the header Host: this computer's own names, and the address. On an address that
+  /// others can reach, any numeric address is accepted too, because no site can use one as its name.
   bool knows(std::string_view host) const;
-  /// A page of this server's own asks: the value of the header Origin against that of Host.
+  /// A page of this server sent the request: compares the header Origin with Host.
   static bool same(std::string_view origin, std::string_view host);
 
   /// Where to open the page.

@@ -1,4 +1,4 @@
-/// What a browser asks: the head of an HTTP/1 request, with GET and nothing else.
+/// Parser of a browser's request: the header of HTTP/1, GET only.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace whisker::view {
 
-/// A longer head is refused.
+/// A longer header is refused.
 constexpr std::size_t kMostHead = std::size_t{16} << 10;
 
 struct Request {
@@ -18,17 +18,17 @@ struct Request {
   std::string last_event_id;  ///< "" for none
 };
 
-/// What came of reading a head.
+/// Result of parsing a header.
 struct Asked {
-  int status = 200;   ///< anything else: the status to refuse it with
-  std::string fault;  ///< why, in plain words
+  int status = 200;   ///< any other value: the status of the refusal
+  std::string fault;  ///< reason in plain words
   Request request{};
 };
 
-/// Collects the bytes of one head, as they come.
+/// Collects the bytes of one header.
 class Head {
  public:
-  /// None: more bytes are needed. What follows the head is left out.
+  /// None: more bytes are needed. Ignores everything after the header.
   std::optional<Asked> add(std::string_view bytes);
   bool empty() const { return text_.empty(); }
 

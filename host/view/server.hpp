@@ -10,38 +10,39 @@
 
 namespace whisker::view {
 
-/// The address cannot be served; what() is the one line that says why.
+/// The address is not available; what() is the reason in one line.
 struct ServerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-constexpr const char* kEvents = "events";  ///< their path, from that of the page
+constexpr const char* kEvents = "events";  ///< their path, relative to the page
 
-/// GET /: the page. GET /events: server-sent events, each what Feed::news says, and under the id by which a
-/// browser goes on after a break. At most kMostWatchers listen at once; the next one is refused with 503.
+/// GET /: the page. GET /events: server-sent events with the output of Feed::news, and an id from which a
+/// browser continues after a break. At most kMostWatchers listen at once; the next one is refused with 503.
 ///
-/// It runs in the process that drives, so nobody can make it grow or keep it busy: one thread serves all; a
-/// request has two seconds and 16 kB; one that takes nothing for two seconds, or an answer for ten, is let
-/// go; the oldest of 128 that only ask makes room for the next. It answers to its own names only (Names).
+/// The server runs in the process that drives, so it limits the memory and time of its clients: one thread
+/// serves all; a request has two seconds and 16 kB; a client that reads nothing for two seconds, or needs ten
+/// for an answer, is disconnected; of 128 connections, the oldest that is not a watcher makes room for the
+/// next. It answers only under its own names (Names).
 class Server {
  public:
   static constexpr int kMostWatchers = 24;
 
-  /// Takes the port; 0: any that is free. The feed must outlive it. Throws ServerError.
+  /// Binds the port; 0: any free one. The feed must outlive it. Throws ServerError.
   Server(const std::string& address, int port, const Feed& feed, const std::string& page);
-  /// Lets everybody go.
+  /// Disconnects all clients.
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
   int port() const;
-  /// Where the page is.
+  /// Address of the page.
   const std::string& url() const;
-  /// Once: begins to answer, in a thread of its own.
+  /// Call once: starts to answer in its own thread.
   void start();
-  /// In a process that was forked before start(): the port is the parent's alone.
+  /// In a process that was forked before start(): closes the port, which belongs to the parent.
   void abandon();
-  /// Waits until whoever listens has been told all, but no longer than this.
+  /// Waits until all watchers have received everything, up to this time.
   void wait_for_watchers(std::chrono::milliseconds most) const;
 
  private:

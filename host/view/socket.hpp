@@ -1,4 +1,4 @@
-/// Sockets that wait for nobody and that no program started later inherits.
+/// Non-blocking sockets that are not inherited by other programs.
 #pragma once
 
 #include <cstddef>
@@ -26,25 +26,25 @@ class Socket {
   int descriptor_ = -1;
 };
 
-/// What a call moved: 0 bytes for "not now".
+/// Result of a call: 0 bytes for "not now".
 struct Moved {
-  bool ended = false;  ///< the other end is gone, or has said its last word
+  bool ended = false;  ///< the other end is closed, or has sent its last byte
   std::size_t bytes = 0;
 };
 
 Moved receive(const Socket& from, char* bytes, std::size_t most);
 Moved send(const Socket& to, std::string_view bytes);
-/// The other end reads the end of what was sent; it may go on sending.
+/// Ends the sent data; the other end may continue to send.
 void end_sending(const Socket& socket);
 
-/// Port 0: any that is free. Throws ServerError.
+/// Port 0: any free one. Throws ServerError.
 Socket listen_on(const std::string& address, int port);
 int port_of(const Socket& listening);
 
 enum class Accepted { one, none, no_descriptor };
 Accepted accept_one(const Socket& listening, Socket& client);
 
-/// Wakes one who polls.
+/// Wakes a poll().
 class Bell {
  public:
   /// Throws ServerError.

@@ -1,4 +1,4 @@
-/// One draw of each kind of world; whether it keeps the kind's promise is the caller's question.
+/// Draws one world of each kind; the caller checks whether it has the properties of the kind.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace whisker::worlds {
 
-/// Files carry whole 0.1 mm.
+/// Files have a resolution of 0.1 mm.
 double tidy(double metres);
 sim::Vec2 tidy(sim::Vec2 p);
 

@@ -12,18 +12,18 @@ namespace whisker::worlds {
 enum class Kind {
   discs,     ///< 30 discs of radius 0.15..0.8 m between (0, 0) and (8, 8)
   poles,     ///< 12 such discs and 100 poles of radius 1..3 cm
-  u_trap,    ///< a U open towards the start, the goal behind it; one start in three lies inside
+  u_trap,    ///< a U open towards the start, with the goal behind it; one start in three lies inside
   spiral,    ///< a square spiral, nested U's that open to opposite sides, or a G with lips
   maze,      ///< 5..8 cells a side, up to 30 % of the walls removed
   rooms,     ///< 3 x 3 rooms with doors of 0.3..0.6 m, and 4 discs
-  enclosed,  ///< no way: a fence around start or goal, or the goal inside a disc
+  enclosed,  ///< no path: a fence around start or goal, or the goal inside a disc
 };
 constexpr Kind kKinds[] = {Kind::discs, Kind::poles, Kind::u_trap,  Kind::spiral,
                            Kind::maze,  Kind::rooms, Kind::enclosed};
 
 struct Options {
   std::uint64_t seed = 1;  ///< below 2^63
-  /// How many discs; kinds without discs (u_trap, spiral, maze) refuse it. At most 200.
+  /// Number of discs; kinds without discs (u_trap, spiral, maze) refuse it. At most 200.
   std::optional<int> discs;
   bool box = false;    ///< discs, poles and enclosed: a closed box around, and radii of at most 0.6 m
   bool noise = false;  ///< the reference robot's sensor and odometry noise
@@ -31,13 +31,14 @@ struct Options {
   std::optional<double> wheel_scale_sigma = std::nullopt;
 };
 
-constexpr double kPassableRadius = 0.125;  ///< m; every kind but enclosed has a path for such a body
-constexpr double kShutRadius = 0.085;      ///< m; an enclosed goal is out of reach even for this one
-constexpr double kKeptFree = 0.25;         ///< m from start and goal to the surface of any random disc
-constexpr double kTimeLimit = 1800;        ///< s
+constexpr double kPassableRadius =
+    0.125;                             ///< m; in every kind except enclosed, a body of this radius has a path
+constexpr double kShutRadius = 0.085;  ///< m; an enclosed goal is out of reach even for a body of this radius
+constexpr double kKeptFree = 0.25;     ///< m from start and goal to the surface of any random disc
+constexpr double kTimeLimit = 1800;    ///< s
 
-/// Throws std::invalid_argument for options that the kind does not take,
-/// std::runtime_error if 1000 draws gave no world that keeps the kind's promise.
+/// Throws std::invalid_argument for options that the kind does not have, and std::runtime_error if 1000 draws
+/// give no world with the properties of the kind.
 Scenario generate(Kind kind, const Options& options);
 
 /// As on the command line: "u-trap".

@@ -6,8 +6,7 @@
 
 namespace whisker::worlds {
 
-/// The first of 1000 draws that keeps the kind's promise, still without a name. The options must be such as
-/// the kind takes.
+/// The first of 1000 draws with the properties of the kind, without a name. The kind must have the options.
 std::optional<Scenario> first_kept(Kind kind, const Options& options);
 constexpr int kMostDraws = 1000;
 

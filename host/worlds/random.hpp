@@ -4,8 +4,8 @@
 
 namespace whisker::worlds {
 
-/// SplitMix64 (Steele, Lea, Wavefront: Fast Splittable Pseudorandom Number Generators, 2014).
-/// The same numbers on every machine, which <random>'s distributions do not promise.
+/// SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, 2014). It gives the same
+/// numbers on every machine, which the distributions of <random> do not guarantee.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t seed) noexcept : state_(seed) {}

@@ -1,10 +1,10 @@
-/// Whether a round body can get from one point to another, by a wavefront over a grid of 2 cm.
+/// Whether a round body can get from one point to another, by a flood fill of a grid of 2 cm.
 ///
-/// Between the two functions lies a band of radii about which neither says yes:
-/// a path for radius r + 0.029 m makes path_proven(r) true; no path for r - 0.029 m, even to
-/// within tolerance + 0.015 m, makes path_ruled_out(r) true. Movers are ignored. Solids count by their
-/// outlines, so both points must lie outside polygons. Bodies of 0.05 m and more; throws std::length_error
-/// for a world of more than 4 million cells (40 m x 40 m).
+/// Between the two functions lies a band of radii for which both return false: a path for radius r + 0.029 m
+/// makes path_proven(r) true; if there is no path for r - 0.029 m, even to within tolerance + 0.015 m,
+/// path_ruled_out(r) is true. Movers are ignored. Solids count by their outlines, so both points must lie
+/// outside polygons. For bodies of 0.05 m and more; throws std::length_error for a world of more than 4
+/// million cells (40 m x 40 m).
 #pragma once
 
 #include "host/scenario/world.hpp"

@@ -1,4 +1,4 @@
-// A robot on an emulated chip, alone in an empty world: its wheels do at once what they are told.
+// A robot on an emulated chip in an empty world; its wheels follow every command at once.
 #include "firmware/planning/boundary/table_boundary_planner.hpp"
 #include "firmware/robot.hpp"
 #include "hal/board.hpp"

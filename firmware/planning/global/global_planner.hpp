@@ -1,4 +1,4 @@
-/// One who knows more of the way than what lies next to the body.
+/// Interface of a global planner, which knows more than the local grid.
 #pragma once
 
 #include "firmware/planning/planner.hpp"
@@ -8,23 +8,24 @@ namespace whisker::planning {
 class GlobalPlanner {
  public:
   enum class Advice : uint8_t {
-    none,   ///< straight at the goal, and along edges
-    place,  ///< to a place on the way
-    wait,   ///< stand: the way is being thought over
+    none,   ///< drive straight to the goal, and follow boundaries
+    place,  ///< drive to a way point
+    wait,   ///< stand: planning in progress
   };
 
   virtual void start(const View& view, const Goal& goal) noexcept = 0;
-  /// The goal lies there by now.
+  /// The goal has moved to `at`.
   virtual void move_goal(Vec at) noexcept = 0;
-  /// Once a tick, whatever the body does.
+  /// Call once per tick, whatever the body does.
   virtual void observe(const View& view) noexcept = 0;
-  /// Where to drive in free space: to `place`, from the body. `distance` is the goal's.
+  /// Where to drive in free space, from the body: to `place`. `distance` is that of the goal.
   virtual Advice advise(const View& view, Length distance, Vec& place) noexcept = 0;
-  /// Every heading that leads about there is blocked. False: there is no better advice.
+  /// All headings in that direction are blocked. False: there is no better advice.
   virtual bool refuse(const View& view) noexcept = 0;
-  /// It knows of no way at all, or has doubted what it knew already.
+  /// It knows no path, or has already reset its blocked cells to unknown.
   virtual bool knows_no_way() const noexcept = 0;
-  /// Along edges there was no way either. True: it doubts what it knew, and there is advice again.
+  /// Boundary following found no path either. True: it reset its blocked cells to unknown and has advice
+  /// again.
   virtual bool doubt() noexcept = 0;
 
  protected:

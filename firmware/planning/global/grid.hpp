@@ -1,4 +1,4 @@
-/// The cells of the map and of the plan upon them: bit planes, one row some words.
+/// Cells of the map and of the plan: bit planes with a few words per row.
 #pragma once
 
 #include <stdint.h>
@@ -11,14 +11,15 @@ using GridWord = uint32_t;
 constexpr int kWordBits = 32;
 constexpr int kMostWords = 6;
 
-/// Beside a blocked cell narrower than this there is no room for the middle of a body with a radius of 90 mm.
+/// Beside a blocked cell narrower than this, there is no room for the centre of a body with a radius of 90
+/// mm.
 constexpr Length kRoom = millimetres(75);
 
-/// A window of words x 32 columns and so many rows.
+/// A window of words x 32 columns and this number of rows.
 struct GridShape {
   int16_t words = 0;
   int16_t rows = 0;
-  Length cell{};  ///< a cell's side, for the reference body
+  Length cell{};  ///< side of a cell, for the reference body
 
   constexpr int32_t columns() const noexcept { return words * kWordBits; }
   constexpr int32_t size() const noexcept { return int32_t{words} * rows; }
@@ -26,10 +27,10 @@ struct GridShape {
   constexpr bool fine() const noexcept { return cell < kRoom; }
 };
 
-/// Two bits say what is known of a cell, two hold its level in the plan.
+/// Two bits hold the state of a cell, two its level in the plan.
 constexpr int kGridPlanes = 4;
 
-/// A cell by its column and row, of the world or of the window.
+/// A cell by column and row, in the world or in the window.
 struct Cell {
   int32_t x = 0;
   int32_t y = 0;
@@ -49,7 +50,7 @@ constexpr GridWord columns(int32_t first, int32_t last, int w) noexcept {
   return from & to;
 }
 
-/// What lies beside the cells of the middle one of three words.
+/// Neighbours of the cells of the middle one of three words.
 constexpr GridWord beside(GridWord left, GridWord middle, GridWord right) noexcept {
   return middle << 1 | left >> (kWordBits - 1) | middle >> 1 | right << (kWordBits - 1);
 }

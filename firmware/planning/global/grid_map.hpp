@@ -1,4 +1,4 @@
-/// A coarse map of where the body has been: a rolling window of cells.
+/// A coarse map of what the beams have seen: a rolling window of cells.
 #pragma once
 
 #include <stddef.h>
@@ -11,46 +11,47 @@
 
 namespace whisker::planning {
 
-/// What is known of a cell. The bits are those of the planes: what is at least `suspect` has the upper one.
+/// State of a cell, as the bits of the planes: `suspect` and `occupied` have the upper one.
 enum class CellState : uint8_t {
   unknown,
-  free,      ///< a beam saw it empty as a whole
-  suspect,   ///< somewhere on an echo's arc
-  occupied,  ///< an echo can have come from nowhere else
+  free,      ///< a beam saw it completely empty
+  suspect,   ///< somewhere on the arc of an echo
+  occupied,  ///< the echo must have come from here
 };
 
-/// Cells are aligned with the world. The map guides and proves nothing: only perception::LocalGrid says where
-/// the body may be.
+/// Cells are aligned with the world. The map guides the robot but proves nothing: only perception::LocalGrid
+/// decides where the body may be.
 class GridMap {
  public:
-  /// `storage`: kPlanes x shape.size() words, which must outlive the map. The last two planes are the plan's.
+  /// `storage`: kPlanes x shape.size() words, which must outlive the map. The plan uses the last two planes.
   GridMap(const GridShape& shape, GridWord* storage) noexcept : shape_(shape), planes_(storage) {}
 
   void configure(const Params& params) noexcept;
-  /// Nothing is known; the window lies around the body, nearer to the goal.
+  /// Resets the map to unknown; the window contains the body and is shifted towards the goal.
   void reset(Vec body, Vec goal) noexcept;
-  /// Moves the window on where the body comes near its border. True: it moved.
+  /// Moves the window if the body comes near its border. True: it moved.
   bool follow(Vec body, Vec goal) noexcept;
-  /// What one beam shows. `hold`: a plan is being made, and what blocks where it has come to stays so.
+  /// Adds the observation of one beam. `hold`: a plan is in progress, and blocked cells that it has reached
+  /// stay blocked.
   void mark(const perception::ConeObservation& observation, bool hold) noexcept;
-  /// What is free by the local grid as good as a whole: beams show it together that do not singly. Not while
-  /// a plan is being made.
+  /// Copies mostly clear cells from the local grid, because several beams together clear cells that none
+  /// clears alone. Not while a plan is in progress.
   void free(const perception::LocalGrid& local_grid, Vec body) noexcept;
   void set(Cell p, CellState state) noexcept;
   CellState at(Cell p) const noexcept;
-  /// Of everything that is no free ground, nothing is known.
+  /// Resets every cell that is not free to unknown.
   void doubt_all() noexcept;
 
   const GridShape& shape() const noexcept { return shape_; }
   Length cell() const noexcept { return Length::from_raw(cell_um_); }
-  /// The window's cell at this place of the world; it may lie outside.
+  /// The window's cell at this place of the world; it may be outside.
   Cell place(Vec at) const noexcept;
   bool holds(Cell p) const noexcept {
     return p.x >= 0 && p.y >= 0 && p.x < shape_.columns() && p.y < shape_.rows;
   }
-  /// The middle of a cell.
+  /// The centre of a cell.
   Vec middle(Cell p) const noexcept;
-  /// From the world's origin to the window's first cell.
+  /// Offset of the window's first cell from the origin of the world.
   Cell corner() const noexcept { return corner_; }
 
   /// The planes, row by row.
@@ -59,8 +60,8 @@ class GridMap {
   GridWord* level_high() const noexcept { return plane(2); }
   GridWord* level_low() const noexcept { return plane(3); }
 
-  /// Unseen cells beside what blocks, of the four neighbours: there is no room for the body. None where cells
-  /// are as wide as that takes.
+  /// Unknown cells that are four-neighbours of a blocked cell: there is no room for the body. None if cells
+  /// are wide enough.
   GridWord cramped(int32_t row, int w) const noexcept;
 
  private:
@@ -77,7 +78,7 @@ class GridMap {
   int32_t cell_um_ = 100000;
   Length offset_;
   Angle half_cone_;
-  int32_t far_ = 0;  // grid units; farther away nothing is marked
+  int32_t far_ = 0;  // grid units; echoes farther away are ignored
 };
 
 }  // namespace whisker::planning

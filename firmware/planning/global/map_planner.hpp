@@ -1,4 +1,4 @@
-/// The boundary planner with a map that guides it.
+/// The boundary planner with a map as global planner.
 #pragma once
 
 #include <stdint.h>
@@ -8,7 +8,7 @@
 
 namespace whisker::planning {
 
-/// What a map of so many bytes holds: cells, plan and bookkeeping.
+/// Memory of a map of this size: cells, plan and bookkeeping.
 template <int kBytes>
 constexpr GridShape kMapShape{};
 template <>
@@ -22,13 +22,13 @@ inline constexpr GridShape kMapShape<8192>{4, 124, micrometres(66700)};
 template <>
 inline constexpr GridShape kMapShape<16384>{6, 168, 50_mm};
 
-/// A size of map that is known when it is compiled.
+/// A map size known at compile time.
 template <int kBytes>
 struct MapBytes {
   static constexpr int kValue = kBytes;
 };
 
-/// What `make` makes of MapBytes<bytes>; nothing where there is no such map.
+/// Returns make(MapBytes<bytes>), or nothing if there is no such map.
 template <class Made, class Make>
 Made with_map_of(int32_t bytes, const Make& make) {
   switch (bytes) {
@@ -41,7 +41,7 @@ Made with_map_of(int32_t bytes, const Make& make) {
   }
 }
 
-/// A guide with room for its map.
+/// A global planner with storage for its map.
 template <int kBytes>
 class MapOf {
  public:
@@ -57,7 +57,7 @@ static_assert(sizeof(MapOf<4096>) <= 4096);
 static_assert(sizeof(MapOf<8192>) <= 8192);
 static_assert(sizeof(MapOf<16384>) <= 16384);
 
-/// The planner as it is meant: its course bends by the response table.
+/// The complete planner; the response table deflects its heading.
 template <int kBytes>
 struct TableMapPlanner {
   /// Both references must outlive it.

@@ -1,12 +1,12 @@
-/// Straight lines over the map's cells.
+/// Straight lines over the cells of the map.
 #pragma once
 
 #include "firmware/planning/global/grid_map.hpp"
 
 namespace whisker::planning {
 
-/// Calls `visit(place)` for every cell that the line crosses after the one that it begins in, each a
-/// four-neighbour of the one before. Stops and returns false once that returns false.
+/// Calls `visit(place)` for every cell that the line crosses after its first one, each a four-neighbour of
+/// the one before. Stops and returns false once `visit` returns false.
 template <class Visit>
 bool raytrace(const GridMap& map, Vec from, Vec to, Visit&& visit) noexcept {
   Cell p = map.place(from);
@@ -21,7 +21,7 @@ bool raytrace(const GridMap& map, Vec from, Vec to, Visit&& visit) noexcept {
     } else if (p.y == end.y) {
       p.x += step_x;
     } else {
-      // The cell's far corner lies left of the line or right of it: the line leaves over the other side.
+      // The line leaves the cell on the left or right of its far corner, and crosses the other side.
       const Vec middle = map.middle(p);
       const int64_t half = map.cell().raw() / 2;
       const int64_t cx = middle.x.raw() + step_x * half - from.x.raw();

@@ -1,4 +1,4 @@
-/// The way by the map: plans all the time, a little each tick, and says where to drive next.
+/// Global planner on the grid map: it plans a little in each tick and returns the next way point.
 #pragma once
 
 #include <stdint.h>
@@ -13,7 +13,7 @@ namespace whisker::planning {
 
 class WavefrontPlanner final : public GlobalPlanner {
  public:
-  /// As GridMap. The parameters must outlive it, too.
+  /// As GridMap. The parameters must outlive it as well.
   WavefrontPlanner(const Params& params, const GridShape& shape, GridWord* storage) noexcept
       : params_(params), map_(shape, storage) {}
 
@@ -27,7 +27,7 @@ class WavefrontPlanner final : public GlobalPlanner {
 
   const GridMap& map() const noexcept { return map_; }
   const Wavefront& wavefront() const noexcept { return wavefront_; }
-  /// No plan is under way: wavefront() is whole, and the last one.
+  /// No plan is in progress: wavefront() is complete.
   bool planned() const noexcept { return stage_ == Stage::idle && !waits_; }
 
  private:
@@ -54,19 +54,19 @@ class WavefrontPlanner final : public GlobalPlanner {
   Wavefront wavefront_;
   Goal goal_;
   Stage stage_ = Stage::idle;
-  Vec way_;  // the place to drive to
+  Vec way_;  // the way point
   bool has_way_ = false;
-  bool no_way_ = false;  // by the last plan
+  bool no_way_ = false;  // result of the last plan
   bool waits_ = false;   // for the next plan
   bool active_ = true;
   int8_t refusals_ = 0;
   int8_t credits_ = 0;
-  int8_t spells_ = 0;   // of the map that are over
-  int32_t strict_ = 0;  // levels to the body if suspects block
-  int32_t ticks_ = 0;   // since a plan was begun
+  int8_t spells_ = 0;   // finished attempts with the map
+  int32_t strict_ = 0;  // levels to the body if suspect cells block
+  int32_t ticks_ = 0;   // since the current plan started
   ClosestApproach best_;
-  int32_t improved_mm_ = 0;  // travel at which that was
-  uint32_t started_um_ = 0;  // View::travelled_um then
+  int32_t improved_mm_ = 0;  // travel at the last improvement
+  uint32_t started_um_ = 0;  // View::travelled_um at the start
   int32_t travel_mm_ = 0;
   static constexpr int kBarriers = 4;
   Barrier barrier_[kBarriers];

@@ -5,8 +5,8 @@
 
 namespace whisker::planning {
 
-/// True if a point lies nearer than `reach` to the straight way from the origin to (step, 0). By squares: a
-/// root would take the small chips longer than all the rest.
+/// True if a point lies nearer than `reach` to the straight path from the origin to (step, 0). It compares
+/// squares, because a root is the most expensive part on small chips.
 inline bool near_way(Vec point, Length step, Length reach) noexcept {
   const Length beside = point.x < Length{} ? point.x : (max)(point.x - step, Length{});
   const int64_t x = beside.raw();

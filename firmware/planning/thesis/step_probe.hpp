@@ -1,4 +1,4 @@
-/// Whether three beams leave room for a straight step.
+/// Tests whether the echoes of three beams leave room for a straight step.
 #pragma once
 
 #include "firmware/math/trig.hpp"
@@ -8,24 +8,24 @@
 
 namespace whisker::planning {
 
-/// The swept area of a straight step is a stadium: all points within radius + margin of the way. An echo
-/// says that something lies somewhere on an arc as wide as the cone; the step is free only if the arc's
-/// point nearest to the way keeps out of the stadium, for every beam. A beam that is not usable is an
-/// obstacle at the apex. What no cone covers (the flanks beyond side_angle + cone / 2, and gaps between
-/// the cones) stays unproved; that is this rule's limit.
+/// The swept area of a straight step is a stadium: all points within radius + margin of the path. An echo
+/// means that something lies somewhere on an arc as wide as the cone. The step is free only if, for every
+/// beam, the point of the arc nearest to the path is outside the stadium. An unusable beam counts as an
+/// obstacle at the apex. The test does not cover ground outside the cones: the flanks beyond side_angle +
+/// cone / 2, and gaps between the cones.
 class StepProbe {
  public:
   void configure(const Params& params) noexcept;
 
-  /// True if the body can drive `step` straight ahead of where it stood when it looked.
+  /// True if the body can drive `step` straight ahead from the place of the scan.
   bool free(const perception::Echoes& look, Length step) const noexcept;
 
  private:
   Length reach_;        // radius + margin
-  Length side_apex_x_;  // of the side sensors' apexes, ahead
+  Length side_apex_x_;  // of the side sensors, ahead
   Length side_apex_y_;  // and to their own side
   Length front_apex_;
-  Q30 inner_cos_;  // of the side cones' edge that is nearest to straight ahead
+  Q30 inner_cos_;  // of the edge of the side cones nearest to straight ahead
   Q30 inner_sin_;
 };
 

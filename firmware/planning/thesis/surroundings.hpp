@@ -1,4 +1,4 @@
-/// What the looks from one standing place have proved, all around.
+/// Free distances in all directions, from the static scans at one position.
 #pragma once
 
 #include <stdint.h>
@@ -10,8 +10,8 @@
 
 namespace whisker::planning {
 
-/// A ring of sectors. An echo at distance d proves that nothing in its cone is nearer than d; a sector that
-/// several cones cover keeps the largest such distance. Forgotten when the body moves away.
+/// A ring of sectors. An echo at distance d means that nothing in its cone is nearer than d. A sector covered
+/// by several cones keeps the largest such distance. The ring is cleared when the body drives on.
 class Surroundings {
  public:
   static constexpr int kSectors = 72;
@@ -19,19 +19,19 @@ class Surroundings {
   void configure(const Params& params) noexcept;
   void forget() noexcept;
 
-  /// Adds a look taken with the body at this heading. Beams that are not usable add nothing.
+  /// Adds a static scan at this heading of the body. Unusable beams add nothing.
   void add(const perception::Echoes& look, Angle heading) noexcept;
 
-  /// False if some sector ahead of the flanks does not keep the way of this length along `heading` free by
-  /// radius + margin on both sides. Sectors without proof, and those behind, do not object.
+  /// False if a sector ahead of the flanks does not keep the path of this length along `heading` free by
+  /// radius + margin on both sides. Unknown sectors and those behind are ignored.
   bool allow(Angle heading, Length step) const noexcept;
 
  private:
   static constexpr uint16_t kUnknown = 0;
-  Length reach_;       // radius + margin
-  Angle side_;         // of the left beam's axis
-  uint32_t half_ = 0;  // of the cone as seen from the body's centre, beyond its rim; 2^-32 turn
-  Length ahead_;       // by which an echo is farther from the centre than from the apex, at least
+  Length reach_;                     // radius + margin
+  Angle side_;                       // of the left beam's axis
+  uint32_t half_ = 0;                // of the cone as seen from the body's centre, at its rim; 2^-32 turn
+  Length ahead_;                     // minimum by which an echo is farther from the centre than from the apex
   uint16_t free_mm_[kSectors] = {};  // from the body's centre; rounded down
 };
 

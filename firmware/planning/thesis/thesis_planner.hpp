@@ -1,13 +1,13 @@
-/// The thesis's planner: fuzzy steering in free space, probing before every step, and deadlock
-/// prevention by walking along the edge of what blocks the target.
+/// The planner of the thesis: fuzzy steering in free space, a probe before every step, and deadlock
+/// prevention by following the boundary of what blocks the target.
 ///
 ///   idle -> facing -> looking -> steering -> probing -> stepping -> facing ...        (t = 0)
 ///                        |                      ^
 ///                        +-> searching ---------+---> skirting -> facing ...          (t > 0)
 ///
 /// Source: "Simulation Implementation of Path Planning Algorithm Based on Fuzzy Control"; docs/navigation.md
-/// says what is the thesis's and what had to be reconstructed. It is the baseline: it can walk into
-/// the same trap again and again until its budget ends.
+/// separates the thesis from reconstructions. It is the baseline: it can enter the same trap again until its
+/// budget ends.
 #pragma once
 
 #include <stdint.h>
@@ -28,13 +28,13 @@ class ThesisPlanner final : public GoalPlanner {
 
  private:
   enum class Phase : uint8_t {
-    at_position,  // standing at a new position: check the goal, then face it
-    face,         // turning to the target, then looking along it
-    probe,        // turning to a candidate heading, then looking along it
-    search_left,  // exit search: turning away to one side by delta
+    at_position,  // at a new position: check the goal, then face it
+    face,         // turning to the target, then scanning along it
+    probe,        // turning to a candidate heading, then scanning along it
+    search_left,  // follow-side search: turning away to one side by delta
     search_right,
     move,        // driving the step
-    scan,        // the guard cut the step: turning beams onto what was not seen in its way
+    scan,        // the guard cut the step: turning beams onto unseen cells of its path
     face_again,  // back to the heading of the step
   };
 
@@ -62,19 +62,19 @@ class ThesisPlanner final : public GoalPlanner {
   const Params& params_;
   fuzzy::Engine engine_;
   StepProbe probe_;
-  Surroundings surroundings_;  // of this position
+  Surroundings surroundings_;  // at this position
 
   Phase phase_ = Phase::at_position;
   Angle target_;    // direction of the goal from this position
   Angle base_;      // heading from which the deflection counts
   Length planned_;  // step
-  Vec left_;        // the place from which it is driven
+  Vec left_;        // start of the step
   ScanBehaviour scan_;
-  bool scanned_ = false;  // in the way of the step, from scanned_at_
+  bool scanned_ = false;  // the path of the step, from scanned_at_
   Vec scanned_at_;
   int32_t side_ = 1;         // of the deflection: +1 left, -1 right
   int32_t deflections_ = 0;  // by delta, from base_
-  int32_t exit_left_ = 0;    // deflections of the exit found on the left; 0: none
+  int32_t exit_left_ = 0;    // deflections of the free heading found on the left; 0: none
   int32_t steps_ = 0;
 };
 

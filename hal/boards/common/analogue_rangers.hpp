@@ -5,12 +5,12 @@
 
 namespace whisker::hal::mcu {
 
-/// Three analogue infrared sensors on a converter. `Converter`: a class with
-/// bool convert(uint8_t channel, int16_t& mv), which waits for a bounded time and counts its own failures.
+/// Three analogue infrared sensors on an ADC. `Converter`: a class with bool convert(uint8_t channel,
+/// int16_t& mv), which waits for a bounded time and counts its own failures.
 template <class Converter>
 class AnalogueRangers final : public Rangefinders {
  public:
-  /// All must outlive it. period_ms: of the sensors' own measurements. channel: left, front, right.
+  /// All must outlive it. period_ms: period of the sensors' measurements. channel: left, front, right.
   AnalogueRangers(const IrCurve& curve, uint8_t period_ms, const uint8_t (&channel)[kBeams],
                   Converter& converter) noexcept
       : curve_(curve), channel_(channel), converter_(converter), period_ms_(period_ms) {
@@ -19,7 +19,7 @@ class AnalogueRangers final : public Rangefinders {
 
   void start(uint32_t now_ms) noexcept { converted_ms_ = now_ms; }
 
-  /// Once a period, converts all three.
+  /// Converts all three once per period.
   void poll(uint32_t now_ms) noexcept {
     now_ms_ = now_ms;
     if (now_ms - converted_ms_ < period_ms_) return;
@@ -34,7 +34,7 @@ class AnalogueRangers final : public Rangefinders {
   }
 
   bool read(RangeReadings& out) noexcept override {
-    // The voltage shows the sensor's last measurement, so it may be up to one of its periods older.
+    // The voltage holds the last measurement of the sensor, so it may be up to one sensor period older.
     const uint32_t age = now_ms_ - converted_ms_ + period_ms_;
     for (uint8_t i = 0; i < kBeams; ++i) {
       out.beam[i] = reading_[i];

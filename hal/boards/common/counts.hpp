@@ -1,4 +1,4 @@
-/// Encoder counts modulo 2^24 from and to counters of 16 bits.
+/// Conversion between encoder counts modulo 2^24 and 16-bit counters.
 #pragma once
 
 #include <stdint.h>
@@ -7,13 +7,13 @@
 
 namespace whisker::hal::mcu {
 
-/// From one reading to the next, forward positive. Right for less than 32768 counts.
+/// Counts between two readings, forward positive. Valid for less than 32768 counts.
 constexpr int16_t counts_between(uint32_t before, uint32_t after) noexcept {
   const uint16_t step = static_cast<uint16_t>(after - before);
   return static_cast<int16_t>(step <= INT16_MAX ? step : int32_t{step} - INT32_C(0x10000));
 }
 
-/// A total, taken on to what its 16-bit counter shows now; right for less than 32768 counts.
+/// Continues a total with the new value of its 16-bit counter; valid for less than 32768 counts.
 constexpr uint32_t follow_counter(uint32_t total, uint16_t counter) noexcept {
   const int16_t step = counts_between(total, counter);
   return (total + static_cast<uint32_t>(int32_t{step})) % hal::kEncoderModulus;

@@ -7,9 +7,9 @@
 
 namespace whisker::hal::mcu {
 
-/// A drive of motors and encoders, with a governor for each wheel. Never refuses a command.
-/// `Motors`: a class with drive(int16_t left, int16_t right), duties +-32767. `Encoders`: a class with
-/// bool read(EncoderCounts&).
+/// A drive of motors and encoders with a speed controller per wheel. It never refuses a command. `Motors`: a
+/// class with drive(int16_t left, int16_t right), duties +-32767. `Encoders`: a class with bool
+/// read(EncoderCounts&).
 template <class Motors, class Encoders>
 class GovernedWheels final : public Drive {
  public:
@@ -22,7 +22,7 @@ class GovernedWheels final : public Drive {
     const uint32_t now = clock_.now_ms();
     const uint32_t elapsed = now - governed_ms_;
     const uint8_t ms = static_cast<uint8_t>(elapsed > UINT8_MAX ? UINT8_MAX : elapsed);
-    // Without fresh counts the wheels are taken to have done what they should: no lag is added.
+    // Without new counts, the wheels count as having followed, so no lag is added.
     EncoderCounts counts = governed_;
     const bool fresh = encoders_.read(counts);
     motors_.drive(left_.step(speeds.left, counts_between(governed_.left, counts.left), fresh ? ms : 0),

@@ -4,10 +4,10 @@
 
 namespace whisker::hal::mcu {
 
-/// Two sets of rangefinders that look the same ways: a beam shows the nearer of its two sensors.
+/// Two sets of rangefinders that look in the same directions: a beam returns the nearer of its two sensors.
 ///
-/// The first set leads: it says when there is a new measurement, and a beam that it has lost is lost. The
-/// second can only bring things nearer, so its failure costs its warning and nothing else.
+/// The first set is primary: it decides when there is a new measurement and whether a beam is lost. The
+/// second set can only shorten distances, so its failure loses only its warnings.
 class Nearer final : public hal::Rangefinders {
  public:
   /// Both must outlive it.

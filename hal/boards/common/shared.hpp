@@ -1,24 +1,24 @@
-/// The one way in which an interrupt shares data with the loop: exactly one of the two writes, the other
-/// only reads, and what tells the reader that data is there is a single byte, written last.
+/// The only way in which an interrupt shares data with the main loop: exactly one of the two writes, the
+/// other only reads, and a single byte, written last, tells the reader that data is present.
 ///
-/// A byte is read and written whole on every chip, so no interrupt is ever held off, on 8 bits as on 32.
-/// The loop runs on one core; an interrupt runs to its end before the loop goes on.
+/// Reads and writes of a byte are atomic on every chip, with 8 or 32 bits, so no interrupt is ever disabled.
+/// The loop runs on one core; an interrupt completes before the loop continues.
 #pragma once
 
 #include <stdint.h>
 
 namespace whisker::hal::mcu {
 
-/// Keeps the compiler from moving memory accesses across.
+/// Compiler barrier for memory accesses.
 inline void compiler_barrier() noexcept { asm volatile("" ::: "memory"); }
 
-/// A queue from one side to the other.
+/// A queue with one writer and one reader.
 template <class T, uint8_t kSize>
 class Ring {
   static_assert(kSize >= 2 && kSize <= 128 && (kSize & (kSize - 1)) == 0, "a power of two, 2..128");
 
  public:
-  /// The writer's. False: full; nothing was kept.
+  /// For the writer. False: full; nothing was stored.
   bool push(const T& value) noexcept {
     const uint8_t head = head_;
     if (static_cast<uint8_t>(head - tail_) == kSize) return false;
@@ -27,7 +27,7 @@ class Ring {
     head_ = static_cast<uint8_t>(head + 1);
     return true;
   }
-  /// The reader's. False: empty; `out` is untouched.
+  /// For the reader. False: empty; `out` is unchanged.
   bool pop(T& out) noexcept {
     const uint8_t tail = tail_;
     if (head_ == tail) return false;
@@ -44,17 +44,17 @@ class Ring {
   volatile uint8_t tail_ = 0;
 };
 
-/// The newest value of something that an interrupt keeps, read whole by the loop.
+/// The newest value from an interrupt; the loop reads it consistently.
 template <class T>
 class Latest {
  public:
-  /// The interrupt's.
+  /// For the interrupt.
   void publish(const T& value) noexcept {
     value_ = value;
     compiler_barrier();
     stamp_ = static_cast<uint8_t>(stamp_ + 1);
   }
-  /// The loop's. False: it was published anew during each of the tries; `out` is untouched.
+  /// For the loop. False: a new value was published during each of the tries; `out` is unchanged.
   bool read(T& out) const noexcept {
     for (uint8_t tries = 0; tries < kTries; ++tries) {
       const uint8_t before = stamp_;
@@ -77,12 +77,12 @@ class Latest {
   volatile uint8_t stamp_ = 0;
 };
 
-/// Events that an interrupt counts and the loop collects, at least once in 255 events.
+/// Events that an interrupt counts. The loop must collect them before 255 have occurred.
 class Events {
  public:
-  /// The interrupt's.
+  /// For the interrupt.
   void happened() noexcept { count_ = static_cast<uint8_t>(count_ + 1); }
-  /// The loop's: how many since the last call.
+  /// For the loop: number of events since the last call.
   uint8_t collect() noexcept {
     const uint8_t now = count_;
     const uint8_t fresh = static_cast<uint8_t>(now - seen_);

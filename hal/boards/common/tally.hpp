@@ -4,7 +4,7 @@
 
 namespace whisker::hal::mcu {
 
-/// How often each of a board's troubles happened; the counters stop at their maximum. The loop's only:
+/// Number of occurrences of each failure of a board; the counters saturate. For the main loop only:
 /// interrupts count with Events. `Trouble`: an enumeration from 0 to kCount - 1.
 template <class Trouble, uint8_t kCount>
 class Tally {

@@ -6,16 +6,16 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// CAN1. Frames come in by interrupt and wait in a ring; the controller's three mailboxes are filled by
-/// poll(), in the order of send(), and it repeats a frame by itself until that has left or is too old.
+/// CAN1. An interrupt stores received frames in a ring. poll() fills the three mailboxes of the CAN
+/// controller in the order of send(). The controller repeats a frame until it is sent or expires.
 class BxCan final : public hal::CanPort {
  public:
-  static constexpr uint32_t kHearUs = 2000;     ///< for the controller to answer a change of mode
-  static constexpr uint32_t kJoinMs = 100;      ///< for the bus to be idle long enough; then `off`
-  static constexpr uint8_t kQuantaPerBit = 14;  ///< sampled after 12 of them, 86 %
+  static constexpr uint32_t kHearUs = 2000;     ///< wait for the controller to change its mode
+  static constexpr uint32_t kJoinMs = 100;      ///< wait for an idle bus; then `off`
+  static constexpr uint8_t kQuantaPerBit = 14;  ///< sample point after 12 of them, 86 %
 
-  /// bitrate: must divide apb1_hz by a multiple of kQuantaPerBit, or of 16: 500000 does at 42 and 16 MHz.
-  /// Everything is received; who does not want a frame ignores it.
+  /// bitrate: must divide apb1_hz by a multiple of kQuantaPerBit, or of 16: 500000 does at 42 and 16 MHz. All
+  /// frames are received, without a filter.
   void start(uint32_t bitrate, const Clocks& clocks) noexcept;
 
   bool send(const hal::CanFrame& frame, uint8_t lifetime_ms) noexcept override;
@@ -25,13 +25,13 @@ class BxCan final : public hal::CanPort {
   hal::CanState state() const noexcept override { return state_; }
   const hal::CanCounts& counts() const noexcept override { return counts_; }
 
-  /// The interrupt of receive FIFO 0.
+  /// Interrupt handler of receive FIFO 0.
   void on_receive_interrupt() noexcept;
 
  private:
   struct Mailbox {
     bool busy = false;
-    bool given_up = false;  // asked to drop its frame
+    bool given_up = false;  // abort of its frame requested
     uint32_t until_ms = 0;
   };
   bool initialise(uint32_t apb1_hz) noexcept;

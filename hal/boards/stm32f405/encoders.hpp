@@ -10,8 +10,7 @@ namespace whisker::hal::stm32f405 {
 class Encoders {
  public:
   void start() noexcept;
-  /// Counts since start(). Call it at least once in 32767 counts of a wheel.
-  /// Always true.
+  /// Counts since start(). Call it at least once per 32767 counts of a wheel. Always returns true.
   bool read(hal::EncoderCounts& out) noexcept;
 
  private:

@@ -7,9 +7,9 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// I2C1 as the only master, 400 kHz. A transfer blocks until it is done, for kTransferUs at least and about
-/// four times as long at most; whatever goes wrong is counted under its name, and the bus is free afterwards
-/// unless somebody goes on holding it.
+/// I2C1 as the only master, 400 kHz. A transfer blocks for at least kTransferUs and at most about four times
+/// as long. Every failure is counted by name. Afterwards the bus is free, unless another device still holds
+/// it.
 class I2c {
  public:
   static constexpr uint32_t kTransferUs = 1000;
@@ -17,13 +17,13 @@ class I2c {
 
   void start(const Clocks& clocks, Troubles& troubles) noexcept;
 
-  /// Writes `out`, then reads `in`, to and from a 7-bit address; either may be empty.
-  /// False: counted; `in` holds nothing of use.
+  /// Writes `out`, then reads `in`, to and from a 7-bit address; either may be empty. False: the failure was
+  /// counted; `in` is invalid.
   bool transfer(uint8_t address, const uint8_t* out, uint8_t out_size, uint8_t* in, uint8_t in_size) noexcept;
 
-  /// One byte to a register.
+  /// Writes one byte to a register.
   bool write(uint8_t address, uint8_t reg, uint8_t byte) noexcept;
-  /// From a register and those that follow it.
+  /// Reads from a register and those that follow it.
   bool read(uint8_t address, uint8_t reg, uint8_t* in, uint8_t in_size) noexcept;
 
  private:

@@ -1,5 +1,5 @@
-/// Access to the chip's registers: every driver goes through load() and store(), and names registers and
-/// bits only by the constants of reg/, each of which a test compares with the table of the chip's facts.
+/// Access to the registers of the chip. Every driver uses load() and store(), and names registers and bits by
+/// the constants of reg/. A test compares each constant with the table of the chip's facts.
 #pragma once
 
 #include <stdint.h>
@@ -8,7 +8,7 @@ namespace whisker::hal::stm32f405 {
 
 using Address = uint32_t;
 
-/// A register of a peripheral, from its base address.
+/// A register, by its offset from the base address of the peripheral.
 struct Register {
   uint16_t offset;
 };
@@ -20,7 +20,7 @@ struct Field {
   uint8_t width;
 };
 
-/// The same bits for each of several pins: pin n's begin at (n - first) * width.
+/// The same bits for each of several pins: those of pin n start at (n - first) * width.
 struct PinField {
   uint16_t offset;
   uint8_t width;
@@ -28,7 +28,7 @@ struct PinField {
 };
 
 #ifdef WHISKER_REGISTER_MODELS
-/// Given by the models of the peripherals.
+/// On the host, the models of the peripherals define these.
 uint32_t load(Address address) noexcept;
 void store(Address address, uint32_t value) noexcept;
 #else
@@ -52,7 +52,7 @@ constexpr Field of_pin(PinField f, uint8_t pin) noexcept {
 
 inline uint32_t get(Address base, Field f) noexcept { return value(f, load(base + f.offset)); }
 inline bool is_set(Address base, Field f) noexcept { return get(base, f) != 0; }
-/// Leaves the register's other bits.
+/// Keeps the other bits of the register.
 inline void set(Address base, Field f, uint32_t v) noexcept {
   store(base + f.offset, (load(base + f.offset) & ~mask(f)) | bits(f, v));
 }

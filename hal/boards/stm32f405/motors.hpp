@@ -6,12 +6,12 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// Both motors' drivers: a pulse width from TIM1 and two direction inputs each.
+/// Drivers of both motors: a pulse width from TIM1 and two direction inputs each.
 class Motors {
  public:
   static constexpr uint32_t kPwmHz = 20000;
 
-  /// Wheels at rest: no pulses, both direction inputs low.
+  /// Stops the wheels: no pulses, both direction inputs low.
   void start(const Clocks& clocks) noexcept;
   /// +-32767 is full duty, forward positive. 0 brakes: both direction inputs low.
   void drive(int16_t left, int16_t right) noexcept;

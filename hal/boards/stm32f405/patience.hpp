@@ -1,4 +1,4 @@
-/// Every wait on a register is bounded by a count of polls: no timer has to run for it to end.
+/// Every wait on a register is bounded by a count of polls, so no timer has to run for it to end.
 #pragma once
 
 #include <stdint.h>
@@ -7,11 +7,11 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// So many polls of a register, shared by all waits of one piece of work.
+/// A number of polls of a register, shared by all waits of one operation.
 class Patience {
  public:
   /// A poll takes at least this many core cycles: a load over the bus, a test and a branch. So a wait lasts
-  /// at least as long as asked for, and at most about four times as long.
+  /// at least as long as requested, and at most about four times as long.
   static constexpr uint32_t kCyclesPerPoll = 8;
 
   explicit constexpr Patience(uint32_t polls) noexcept : left_(polls) {}
@@ -19,7 +19,7 @@ class Patience {
     return Patience(us * (core_hz / 1000000) / kCyclesPerPoll + 1);
   }
 
-  /// False: out of it.
+  /// False: no polls left.
   bool spend() noexcept {
     if (left_ == 0) return false;
     --left_;

@@ -6,14 +6,14 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// Tells a person on the console how the robot does, one line at a time and without ever waiting:
+/// Reports the state of the robot on the console, one line at a time, without blocking:
 ///
 /// ```
 /// t 12340 running skirting fault none
 /// i2c_timeout 7
 /// can not_started 1
 /// ```
-/// The first line every second, then each trouble that has happened.
+/// The first line appears every second, followed by each failure that has occurred.
 class Reporter {
  public:
   static constexpr uint32_t kPeriodMs = 1000;
@@ -22,7 +22,7 @@ class Reporter {
   Reporter(Usart& usart, Troubles& troubles, const CanPort& can) noexcept
       : usart_(usart), troubles_(troubles), can_(can) {}
 
-  /// Sends what there is room for now.
+  /// Sends as much as there is room for.
   void poll(uint32_t now_ms, const Status& status) noexcept;
 
  private:
@@ -38,7 +38,7 @@ class Reporter {
   char line_[kLongest] = {};
   uint8_t size_ = 0;
   uint8_t sent_ = 0;
-  uint8_t next_ = 0;  // which line of the report
+  uint8_t next_ = 0;  // line of the report
   uint32_t began_ms_ = 0;
 };
 

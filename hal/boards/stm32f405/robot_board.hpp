@@ -15,7 +15,7 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// Every driver of the board, in working order or with its trouble counted.
+/// All drivers of the board; a failed one counts its failures.
 ///
 ///   board.start();
 ///   for (;;) { board.poll(robot.status()); if (board.due()) robot.tick(...); }
@@ -27,11 +27,11 @@ class RobotBoard {
 
   RobotBoard(const RangerKind& kind, const mcu::MotorParams& left, const mcu::MotorParams& right) noexcept;
 
-  /// Once. Each wait in it is bounded: 100 ms in all with everything dead.
+  /// Call once. Every wait in it is bounded: 100 ms in total if no device answers.
   void start() noexcept;
-  /// Between two ticks, as often as there is time: sensors, CAN, console.
+  /// Call between two ticks, as often as possible: serves sensors, CAN, console.
   void poll(const Status& status) noexcept;
-  /// True once a period: the time for a tick, and the watchdog is fed.
+  /// True once per period: time for a tick. Also feeds the watchdog.
   bool due(uint32_t period_ms) noexcept;
   Time now() noexcept { return Time::from_raw(ticker_.now_ms()); }
 

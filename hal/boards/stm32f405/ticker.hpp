@@ -7,14 +7,14 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// Time from TIM2, a 32-bit count of microseconds that the hardware keeps; no interrupt is needed.
+/// Time from TIM2, a 32-bit hardware counter of microseconds; it needs no interrupt.
 class Ticker final : public hal::Clock {
  public:
   void start(const Clocks& clocks) noexcept;
 
   /// Wraps after 71 minutes.
   uint32_t now_us() const noexcept;
-  /// Must be called once in 71 minutes at least.
+  /// Must be called at least once in 71 minutes.
   uint32_t now_ms() noexcept override;
 
  private:
@@ -23,11 +23,11 @@ class Ticker final : public hal::Clock {
   uint32_t ms_ = 0;
 };
 
-/// Says when the next control tick is due, on a fixed grid of periods.
+/// Signals when the next control tick is due, on a fixed grid of periods.
 class Schedule {
  public:
   void begin(uint32_t now_ms) noexcept { last_ = now_ms; }
-  /// True once a period. Late by whole periods: those are left out, and missed() counts them.
+  /// True once per period. After a delay of whole periods, those are skipped; missed() counts them.
   bool due(uint32_t now_ms, uint32_t period_ms) noexcept;
   uint32_t missed() const noexcept { return missed_; }
 

@@ -1,4 +1,4 @@
-/// What goes wrong on this board: each cause has a name and a counter.
+/// Failures of this board: each cause has a name and a counter.
 #pragma once
 
 #include "hal/boards/common/tally.hpp"
@@ -6,18 +6,18 @@
 namespace whisker::hal::stm32f405 {
 
 enum class Trouble : uint8_t {
-  crystal_not_ready,     ///< the crystal did not start: runs on the internal oscillator
-  pll_not_locked,        ///< runs at 16 MHz
+  crystal_not_ready,     ///< the crystal did not start; the internal oscillator is used
+  pll_not_locked,        ///< the clock stays at 16 MHz
   clock_not_switched,    ///< the core stayed on the internal oscillator
-  watchdog_not_ready,    ///< it did not take its period in time; it may run with its default
-  usart_receive_lost,    ///< bytes came faster than they were taken, or damaged
-  i2c_nack,              ///< nobody answered to the address, or a byte was refused
-  i2c_bus_stuck,         ///< somebody held the bus: the clock was toggled to free it
-  i2c_arbitration_lost,  ///< another master, or a line that does not rise
-  i2c_bus_error,         ///< a start or stop in the middle of a byte
+  watchdog_not_ready,    ///< it did not accept its period in time; it may run with its default
+  usart_receive_lost,    ///< bytes arrived faster than they were read, or damaged
+  i2c_nack,              ///< no device answered to the address, or a byte was refused
+  i2c_bus_stuck,         ///< a device held the bus; the clock was toggled to free it
+  i2c_arbitration_lost,  ///< another master, or a line that stays low
+  i2c_bus_error,         ///< a start or stop condition within a byte
   i2c_timeout,           ///< the transfer did not end in time
-  ranger_not_started,    ///< a rangefinder did not answer as its kind does
-  ranger_silent,         ///< a rangefinder stopped measuring: reset
+  ranger_not_started,    ///< a rangefinder did not give the answer of its kind
+  ranger_silent,         ///< a rangefinder stopped measuring and was reset
   adc_no_conversion,     ///< a conversion did not end in time
 };
 constexpr uint8_t kTroubles = 13;

@@ -7,8 +7,8 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// USART2: 8 data bits, no parity, 1 stop bit. Nothing waits for the line: bytes come in by
-/// interrupt and stay in a ring, and go out one at a time when there is room.
+/// USART2: 8 data bits, no parity, 1 stop bit. No call blocks: an interrupt stores received bytes in a ring,
+/// and bytes are sent one at a time when there is room.
 class Usart {
  public:
   static constexpr uint8_t kReceiveDepth = 64;
@@ -16,12 +16,12 @@ class Usart {
   /// baud: up to apb1_hz / 16.
   void start(uint32_t baud, const Clocks& clocks) noexcept;
 
-  /// False: the line has no room for it now.
+  /// False: no room now.
   bool offer(uint8_t byte) noexcept;
-  /// False: nothing has come. Counts what was lost since the last call.
+  /// False: nothing received. Counts bytes lost since the last call.
   bool receive(uint8_t& byte, Troubles& troubles) noexcept;
 
-  /// The USART's interrupt.
+  /// Interrupt handler of the USART.
   void on_interrupt() noexcept;
 
  private:

@@ -6,11 +6,11 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// The independent watchdog: resets the chip unless fed in time. Once started nothing stops it.
+/// The independent watchdog: resets the chip unless fed in time. Once started it cannot be stopped.
 class Watchdog {
  public:
-  /// timeout_ms: 1..4095; its oscillator is good to about +-50 %. Bounded by about 40 ms.
-  /// False: it did not take the time-out; it runs, perhaps with its default of 512 ms.
+  /// timeout_ms: 1..4095; its oscillator has an error of about +-50 %. Waits at most about 40 ms. False: it
+  /// did not accept the time-out; it runs, possibly with its default of 512 ms.
   bool start(uint16_t timeout_ms, const Clocks& clocks, Troubles& troubles) noexcept;
   void feed() noexcept;
 };

@@ -5,8 +5,8 @@
 
 namespace whisker::hal::mcu {
 
-/// Instructions, in QEMU with `-icount shift=10`, where each takes 1024 ns of the counter's time. On hardware
-/// it gives time, at that scale. `Counter`: as for Milliseconds, with constexpr uint32_t kHertz.
+/// Counts instructions in QEMU with `-icount shift=10`, where each takes 1024 ns of the counter's time. On
+/// hardware it measures time at that scale. `Counter`: as for Milliseconds, with constexpr uint32_t kHertz.
 template <class Counter>
 class CounterMeter final : public Meter {
  public:

@@ -6,8 +6,8 @@
 
 namespace whisker::hal::mcu {
 
-/// Milliseconds from a 32-bit counter that runs upward. To be asked at least once before the counter wraps.
-/// `Counter`: a class with static uint32_t now() and constexpr uint32_t kPerMillisecond.
+/// Milliseconds from a 32-bit up-counter. Must be read at least once before the counter wraps. `Counter`: a
+/// class with static uint32_t now() and constexpr uint32_t kPerMillisecond.
 template <class Counter>
 class Milliseconds final : public Clock {
  public:

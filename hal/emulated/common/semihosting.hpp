@@ -1,15 +1,15 @@
-/// The emulator's (or a debug probe's) services: ARM semihosting, also on RISC-V.
-/// Source: "Semihosting for AArch32 and AArch64", Arm, and the RISC-V semihosting specification.
+/// Services of the emulator or a debug probe: ARM semihosting, also on RISC-V. Source: "Semihosting for
+/// AArch32 and AArch64", Arm, and the RISC-V semihosting specification.
 #pragma once
 
 #include "hal/byte_stream.hpp"
 
 namespace whisker::hal::mcu {
 
-/// One call. Without a debugger that answers, it does not return.
+/// One semihosting call. Without a debugger, it does not return.
 uintptr_t semihost(uintptr_t operation, const void* argument) noexcept;
 
-/// Standard input and output of the emulator's process.
+/// Standard input and output of the emulator process.
 class SemihostStream final : public ByteStream {
  public:
   bool read(uint8_t* to, size_t count) noexcept override;

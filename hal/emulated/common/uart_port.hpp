@@ -6,9 +6,9 @@
 
 namespace whisker::hal::mcu {
 
-/// A UART as a byte stream, as a line and as a console; polled: what comes while nobody looks is lost, unless
-/// the UART itself holds it. `Uart`: a class with static bool can_read(), uint8_t get(), bool can_write(),
-/// void put(uint8_t).
+/// A UART as byte stream, line and console. It is polled: bytes that arrive between polls are lost, unless
+/// the UART buffers them. `Uart`: a class with static bool can_read(), uint8_t get(), bool can_write(), void
+/// put(uint8_t).
 template <class Uart>
 class UartPort final : public ByteStream, public ByteLine, public Console {
  public:

@@ -4,8 +4,7 @@
 
 namespace whisker::hal::mcu {
 
-/// TIMER0 of the nRF51, free running: the one of 32 bits. Source: nRF51 Series Reference Manual 3.0,
-/// chapter 18.
+/// TIMER0 of the nRF51, free-running, 32 bits. Source: nRF51 Series Reference Manual 3.0, chapter 18.
 struct NrfTimer {
   static constexpr uint32_t kHertz = 16000000;
   static constexpr uint32_t kPerMillisecond = kHertz / 1000;

@@ -27,7 +27,7 @@ struct NrfUart {
   }
 
  private:
-  /// The first byte has no other to wait for.
+  /// The first byte does not wait for a previous one.
   static bool& sending() noexcept {
     static bool value = false;
     return value;

@@ -4,7 +4,7 @@
 
 namespace whisker::hal::mcu {
 
-/// The APB timer of Arm's Cortex-M system design kit, free running. Source: DDI 0479, "APB timer".
+/// The APB timer of Arm's Cortex-M system design kit, free-running. Source: DDI 0479, "APB timer".
 template <uintptr_t kBase, uint32_t kFrequency>
 struct CmsdkTimer {
   static constexpr uint32_t kHertz = kFrequency;

@@ -8,7 +8,7 @@ namespace whisker::hal::mcu {
 template <uintptr_t kBase>
 struct CmsdkUart {
   static void start() noexcept {
-    reg(kBaudDivider) = 16;  // the least; the emulator does not wait
+    reg(kBaudDivider) = 16;  // the minimum; the emulator does not wait
     reg(kControl) = kTransmit | kReceive;
   }
   static bool can_read() noexcept { return (reg(kState) & kFullReceive) != 0; }

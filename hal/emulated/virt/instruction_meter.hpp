@@ -5,7 +5,7 @@
 
 namespace whisker::hal::mcu {
 
-/// Instructions retired, as the hart counts them.
+/// Instructions retired, as counted by the hart.
 class InstructionMeter final : public Meter {
  public:
   uint32_t stamp() noexcept override {

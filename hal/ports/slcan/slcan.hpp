@@ -8,26 +8,26 @@ namespace whisker::hal::slcan {
 
 enum class Role : uint8_t {
   adapter,  ///< answers the commands of a computer, as a USB-CAN adapter does; open from the start
-  host,     ///< gives those commands to an adapter, and to nodes that pretend to be one
+  host,     ///< sends those commands to an adapter, or to a node that acts as one
 };
 
-/// Each stops at its maximum.
+/// Counters saturate.
 struct LineCounts {
-  uint32_t bad_lines = 0;     ///< neither a frame nor a command or an answer: cut, too long, or mutilated
-  uint32_t refusals = 0;      ///< host: times the adapter answered with BELL
-  uint32_t lost_answers = 0;  ///< adapter: answers for which there was no room
+  uint32_t bad_lines = 0;     ///< neither a frame nor a command or an answer: truncated, too long, or damaged
+  uint32_t refusals = 0;      ///< host: number of times that the adapter answered with BELL
+  uint32_t lost_answers = 0;  ///< adapter: answers without room
 };
 
-/// CAN frames as lines of text over a serial line. No heap; bytes wait in the line while the queue of
-/// received frames is full. `sent` counts the lines that the ByteLine took.
+/// CAN frames as lines of text over a serial line. No heap; bytes stay in the line while the queue of
+/// received frames is full. `sent` counts the lines that the ByteLine accepted.
 ///
-/// The state is `starting` while the line has no other end, and until the channel is open. A host opens it by
-/// itself as soon as there is another end; an adapter that refuses makes it `off`, one that stays silent
-/// counts as open, as some never answer. An adapter's channel is closed and opened by the other end.
+/// The state is `starting` until the other end is connected and the channel is open. A host opens the channel
+/// by itself. If the adapter refuses, the state becomes `off`; an adapter that stays silent counts as open,
+/// because some never answer. The channel of an adapter is opened and closed by the other end.
 class Slcan final : public CanPort {
  public:
-  static constexpr uint32_t kSettleMs = 20;   ///< for what an adapter says to what it was told before
-  static constexpr uint32_t kAnswerMs = 100;  ///< for an adapter's answer to a command
+  static constexpr uint32_t kSettleMs = 20;   ///< wait for answers of the adapter to earlier commands
+  static constexpr uint32_t kAnswerMs = 100;  ///< wait for the adapter's answer to a command
   static constexpr char k500kbit = '6';  ///< LAWICEL's numbers: 0 is 10 kbit/s, 4 125, 5 250, 6 500, 8 1000
 
   Slcan(ByteLine& line, Role role, char speed = k500kbit) noexcept
@@ -76,7 +76,7 @@ class Slcan final : public CanPort {
   uint8_t in_size_ = 0;
   bool skip_ = false;  // to the end of a line that is too long
 
-  uint8_t out_[kLongestLine + 1] = {};  // the line that is being sent
+  uint8_t out_[kLongestLine + 1] = {};  // the line in transmission
   uint8_t out_size_ = 0;
   uint8_t out_done_ = 0;
   bool out_is_frame_ = false;

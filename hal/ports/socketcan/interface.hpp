@@ -4,11 +4,11 @@
 
 namespace whisker::hal::socketcan {
 
-/// What the kernel says of a network interface at this moment.
+/// Current state of a network interface in the kernel.
 struct Interface {
-  int index = 0;         ///< 0: there is none of this name
-  bool up = false;       ///< set up by somebody
-  bool running = false;  ///< has a carrier: a CAN controller that is bus-off has none
+  int index = 0;         ///< 0: there is no interface of this name
+  bool up = false;       ///< administratively up
+  bool running = false;  ///< has a carrier; a CAN controller in bus-off has none
 };
 
 /// socket: any open one. name: shorter than IFNAMSIZ.

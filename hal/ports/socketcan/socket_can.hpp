@@ -6,7 +6,7 @@
 
 #include "hal/ports/can_queue.hpp"
 
-// Linux's.
+// Declared by Linux.
 struct can_frame;
 struct msghdr;
 
@@ -16,29 +16,29 @@ struct SocketCanError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Frames that are received: those whose identifier has the bits of `id` where `mask` is 1. Data frames only,
-/// of this format only.
+/// Filter of received frames: the identifier must match `id` in the bits where `mask` is 1. Data frames of
+/// this format only.
 struct Accept {
   uint32_t id;
   uint32_t mask;
   bool extended;
 };
 
-/// A CAN interface of Linux, by a raw socket. Nothing waits.
+/// A CAN interface of Linux through a raw socket. No call blocks.
 ///
-/// The interface need not be there: while it is missing, down, or without a carrier, the state is `starting`,
-/// and poll() joins by itself as soon as it can, also after the interface was deleted and made anew. What
-/// waited to be sent or received when it went is dropped. After bus-off the kernel restarts a controller, if
-/// it was set up with `restart-ms`, or who may `ip link set`; the port is `starting` from restart() until
-/// then. The error state is known from the first change on. sent: the kernel took it; a frame that waits in
-/// the kernel cannot be taken back, so those are kept few. overrun: also frames that the controller or the
-/// kernel lost. outbid, unheard: by the last error frame before.
+/// The interface may be missing, down, or without a carrier. The state is then `starting`, and poll() joins
+/// as soon as it can, also after the interface was deleted and created again. Frames in the queues at that
+/// time are dropped. After bus-off, the kernel restarts the controller if it was set up with `restart-ms`, or
+/// an administrator does with `ip link set`; from restart() until then the state is `starting`. The error
+/// state is known from its first change on. sent: the kernel accepted the frame. A frame in the kernel cannot
+/// be withdrawn, so only few are handed over at a time. overrun includes frames that the controller or the
+/// kernel lost. outbid, unheard: according to the last error frame.
 class SocketCan final : public CanPort {
  public:
   static constexpr uint32_t kBlameMs = 100;
-  static constexpr uint32_t kLookMs = 20;  ///< between two looks at an interface that is waited for
+  static constexpr uint32_t kLookMs = 20;  ///< period of checks for a missing interface
 
-  /// accept: empty means everything. Throws SocketCanError if the kernel has no CAN or the name is none.
+  /// accept: empty accepts all frames. Throws SocketCanError if the kernel has no CAN or the name is invalid.
   explicit SocketCan(std::string interface, std::vector<Accept> accept = {});
   ~SocketCan();
   SocketCan(const SocketCan&) = delete;
@@ -51,9 +51,9 @@ class SocketCan final : public CanPort {
   CanState state() const noexcept override { return state_; }
   const CanCounts& counts() const noexcept override { return counts_; }
 
-  /// For a person: what keeps the port from the bus; empty while it takes part.
+  /// For people: what keeps the port off the bus; empty while it is on the bus.
   std::string waits_for() const;
-  /// Becomes readable when poll() has something to receive. Changes only in poll().
+  /// Becomes readable when poll() has something to receive. Changes in poll() only.
   int descriptor() const noexcept { return socket_; }
 
  private:
@@ -73,7 +73,7 @@ class SocketCan final : public CanPort {
   std::string name_;
   std::vector<Accept> accept_;
   int socket_ = -1;
-  int bound_ = 0;  // the interface's index
+  int bound_ = 0;  // index of the interface
   CanState state_ = CanState::starting;
   Wait wait_ = Wait::interface;
   Trouble trouble_ = Trouble::none;

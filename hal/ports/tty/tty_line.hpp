@@ -12,14 +12,14 @@ struct TtyError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A serial device, a pseudo terminal, or a Unix socket that somebody listens on, by its path. It need not be
-/// there: ready() looks for it again and again, also after it was lost.
+/// A serial device, a pseudo terminal, or a Unix socket with a listener, by its path. It may be missing:
+/// ready() tries to open it again, also after it was lost.
 class TtyLine final : public ByteLine {
  public:
   static constexpr int kBaud = 115200;
 
-  /// baud: of a serial device, 8 data bits, no parity; 9600 to 4000000, the usual ones only. Throws TtyError
-  /// if it is none, or something else is at `path`.
+  /// baud: of a serial device, 8 data bits, no parity; standard rates from 9600 to 4000000. Throws TtyError
+  /// for another rate, or if `path` is something else.
   explicit TtyLine(std::string path, int baud = kBaud);
   ~TtyLine();
   TtyLine(const TtyLine&) = delete;
@@ -29,10 +29,10 @@ class TtyLine final : public ByteLine {
   size_t offer(const uint8_t* from, size_t count) noexcept override;
   bool ready() noexcept override;
 
-  /// For a person: what is in the way; empty while there is another end.
+  /// For people: what is missing; empty while the other end is connected.
   std::string waits_for() const;
-  /// Becomes readable when more can be taken, once take() has returned 0; -1 while there is no other end.
-  /// Changes only in ready(), take() and offer().
+  /// Becomes readable when take() can continue after it returned 0; -1 while the other end is not connected.
+  /// Changes in ready(), take() and offer() only.
   int descriptor() const noexcept { return file_; }
 
  private:

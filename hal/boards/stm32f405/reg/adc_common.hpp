@@ -1,4 +1,4 @@
-/// What the converters share.
+/// Registers shared by the ADCs.
 #pragma once
 
 #include "hal/boards/stm32f405/io.hpp"

@@ -1,4 +1,4 @@
-/// Where the peripherals are.
+/// Base addresses of the peripherals.
 #pragma once
 
 #include "hal/boards/stm32f405/io.hpp"

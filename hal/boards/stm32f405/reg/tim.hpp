@@ -1,4 +1,4 @@
-/// Timers: what the advanced, the 32-bit and the 16-bit ones share, and TIM1's outputs.
+/// Timers: common registers of the advanced, the 32-bit and the 16-bit timers, and the outputs of TIM1.
 #pragma once
 
 #include "hal/boards/stm32f405/io.hpp"
