@@ -1,6 +1,7 @@
 /// The boundary planner with a map that guides it.
 #pragma once
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "firmware/planning/boundary/boundary_planner.hpp"
@@ -8,54 +9,52 @@
 
 namespace whisker::planning {
 
-/// What a map of so many bytes holds: cells, plan and bookkeeping.
-template <int kBytes>
-constexpr GridShape kMapShape{};
-template <>
-inline constexpr GridShape kMapShape<1024>{1, 48, 125_mm};
-template <>
-inline constexpr GridShape kMapShape<2048>{2, 56, 100_mm};
-template <>
-inline constexpr GridShape kMapShape<4096>{3, 80, 80_mm};
-template <>
-inline constexpr GridShape kMapShape<8192>{4, 124, micrometres(66700)};
-template <>
-inline constexpr GridShape kMapShape<16384>{6, 168, 50_mm};
+struct MapSize {
+  int32_t bytes;    ///< of cells, plan and bookkeeping
+  GridShape shape;  ///< what they hold
+};
+inline constexpr MapSize kMapSizes[] = {{1024, {1, 48, 125_mm}},
+                                        {2048, {2, 56, 100_mm}},
+                                        {4096, {3, 80, 80_mm}},
+                                        {8192, {4, 124, micrometres(66700)}},
+                                        {16384, {6, 168, 50_mm}}};
+/// Where nobody chooses.
+constexpr int32_t kUsualMapBytes = 2048;
+
+/// The shape of a map of so many bytes; one without cells where there is no such map.
+constexpr GridShape map_shape(int32_t bytes) noexcept {
+  for (const MapSize& size : kMapSizes) {
+    if (size.bytes == bytes) return size.shape;
+  }
+  return {};
+}
 
 /// A size of map that is known when it is compiled.
-template <int kBytes>
+template <int32_t kOfBytes>
 struct MapBytes {
-  static constexpr int kValue = kBytes;
+  static constexpr int32_t kBytes = kOfBytes;
 };
 
-/// What `make` makes of MapBytes<bytes>; nothing where there is no such map.
-template <class Made, class Make>
-Made with_map_of(int32_t bytes, const Make& make) {
-  switch (bytes) {
-    case 1024: return make(MapBytes<1024>());
-    case 2048: return make(MapBytes<2048>());
-    case 4096: return make(MapBytes<4096>());
-    case 8192: return make(MapBytes<8192>());
-    case 16384: return make(MapBytes<16384>());
-    default: return Made();
-  }
+/// Calls visit(MapBytes) for each size.
+template <size_t kAt = 0, class Visit>
+constexpr void for_each_map(Visit&& visit) noexcept {
+  visit(MapBytes<kMapSizes[kAt].bytes>{});
+  if constexpr (kAt + 1 < sizeof kMapSizes / sizeof *kMapSizes) for_each_map<kAt + 1>(visit);
 }
 
 /// A guide with room for its map.
 template <int kBytes>
 class MapOf {
  public:
-  explicit MapOf(const Params& params) noexcept : guide(params, kMapShape<kBytes>, storage_) {}
+  explicit MapOf(const Params& params) noexcept : guide(params, map_shape(kBytes), storage_) {
+    static_assert(sizeof(MapOf) <= size_t{kBytes});
+  }
   WavefrontPlanner guide;
 
  private:
-  GridWord storage_[kGridPlanes * kMapShape<kBytes>.size()];
+  static constexpr size_t kWords = static_cast<size_t>(kGridPlanes * map_shape(kBytes).size());
+  GridWord storage_[kWords];
 };
-static_assert(sizeof(MapOf<1024>) <= 1024);
-static_assert(sizeof(MapOf<2048>) <= 2048);
-static_assert(sizeof(MapOf<4096>) <= 4096);
-static_assert(sizeof(MapOf<8192>) <= 8192);
-static_assert(sizeof(MapOf<16384>) <= 16384);
 
 /// The planner as it is meant: its course bends by the response table.
 template <int kBytes>
