@@ -20,7 +20,7 @@ MissionValues values_of(const Mission& m) noexcept {
 bool mission_of(const MissionValues& values, Mission& m) noexcept {
   constexpr int kHeading = 2;
   for (int i = 0; i < kMissionValues; ++i) {
-    const Signal& s = kMission[4 + i];
+    const Signal& s = MissionOrder::kMore[i];
     if (i != kHeading && (signed_of(values.of[i]) < s.min || signed_of(values.of[i]) > s.max)) return false;
   }
   const auto length = [&](int i) { return Length::from_raw(signed_of(values.of[i])); };

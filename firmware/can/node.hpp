@@ -13,9 +13,9 @@
 #include <stdint.h>
 
 #include "firmware/can/bus_guard.hpp"
+#include "firmware/can/codec.hpp"
 #include "firmware/can/heads.hpp"
 #include "firmware/can/limits.hpp"
-#include "firmware/can/messages.hpp"
 #include "firmware/health.hpp"
 
 namespace whisker::can {
@@ -85,6 +85,14 @@ class Node {
   /// A frame of the other party that is whole and in turn, after the handshake.
   virtual Heard hear(Kind, const hal::CanFrame&) noexcept { return Heard::unknown; }
   static constexpr Heard in_range(bool is) noexcept { return is ? Heard::understood : Heard::out_of_range; }
+  /// Gives the frame's message to `use`, unless a value is out of its range.
+  template <class M, class Use>
+  static Heard read(const hal::CanFrame& frame, const Use& use) noexcept {
+    M message;
+    if (!decode(frame, message)) return Heard::out_of_range;
+    use(message);
+    return Heard::understood;
+  }
   /// The other party has started anew: nothing that it said before counts.
   virtual void forget_peer() noexcept {}
   virtual bool at_rest() const noexcept { return true; }
@@ -102,10 +110,6 @@ class Node {
     if (port_.send(encode(m, node_, alive.next()), life_ms)) return true;
     alive = before;
     return false;
-  }
-  template <class M>
-  static bool read(const hal::CanFrame& frame, M& m) noexcept {
-    return decode(frame, m);
   }
   /// Lets the port move what was sent just now.
   void flush() noexcept { port_.poll(now_); }
@@ -128,8 +132,8 @@ class Node {
   bool is_sound(Kind kind, const hal::CanFrame& frame) noexcept;
   void understand(Kind kind, const hal::CanFrame& frame) noexcept;
   void settle(Heard heard) noexcept;
-  bool hear_heartbeat(const hal::CanFrame& frame) noexcept;
-  bool hear_info(const hal::CanFrame& frame) noexcept;
+  void hear_heartbeat(const Heartbeat& beat) noexcept;
+  void hear_info(const Info& info) noexcept;
   void match() noexcept;
   void lose_peer() noexcept;
   void publish_info() noexcept;

@@ -85,11 +85,7 @@ class Replay {
         return with<can::WheelCommand>(frame, [&](const auto& m) { compare(m, can::counter_of(frame)); });
       case Kind::nav_status: return with<can::NavStatus>(frame, [&](const auto& m) { compare(m); });
       case Kind::heartbeat: return with<can::Heartbeat>(frame, [&](const auto& m) { watch(frame.id, m); });
-      case Kind::e_stop:
-      case Kind::fault:
-      case Kind::info:
-      case Kind::info_request:
-      case Kind::diagnostics: break;
+      default: break;
     }
   }
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "firmware/can/heads.hpp"
-#include "firmware/can/messages.hpp"
 #include "firmware/can/table_hash.hpp"
 
 namespace whisker::can {
