@@ -8,6 +8,7 @@
 
 #include "firmware/apps/can/pilot.hpp"
 #include "firmware/apps/pil_link/command_hash.hpp"
+#include "firmware/can/codec.hpp"
 #include "firmware/can/heads.hpp"
 #include "firmware/can/mission.hpp"
 #include "firmware/can/param_server.hpp"

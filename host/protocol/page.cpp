@@ -147,7 +147,7 @@ void Writer::params() {
   for_each_param(defaults, rows);
   put("\nThe relations, by the Value of an inconsistent commit.\n\n| number | what must hold |\n|---|---|\n");
   for (int i = 0; i <= UINT8_MAX; ++i) {
-    const std::string words = relation(static_cast<ParamFault>(i));
+    const std::string words = relation(static_cast<ParamFault>(i)).words;
     if (!words.empty()) put("| {} | {} |\n", i, words);
   }
 }

@@ -28,7 +28,7 @@ OPTIONS = {
     ),
     ("replay",): ("LOG", "--node", "--planner", "--map-bytes", "--json"),
     ("dbc",): ("--robot",),
-    ("protocol",): (),
+    ("protocol",): ("--link", "--parameters"),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
     ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--contacts"),
