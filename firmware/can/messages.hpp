@@ -62,7 +62,7 @@ struct Sync {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Mode", 12, 4, false, 0, 1, "1", "", "whose clock drives the ticks", kAlways, word<kPaceWords>}, m.pace);
+    f({"Mode", 12, 4, false, 0, 1, "1", "", "whose clock drives the ticks", kAlways, word_in<kPaceWords>}, m.pace);
     f({"Tick", 16, 32, false, 0, kMost32, "1", "", "ends the input set of this tick"}, m.tick);
     f({"Period", 48, 8, false, 1, kMost8, "0.001", "s", "control period"}, m.period_ms);
     f({"Mission", 56, 8, false, 0, kMost8, "1", "", "the mission that this tick belongs to"}, m.mission);
@@ -78,7 +78,7 @@ struct FaultReport {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Severity", 12, 4, false, 0, 3, "1", "", "what the sender did about it", kAlways, word<kSeverityWords>}, m.severity);
+    f({"Severity", 12, 4, false, 0, 3, "1", "", "what the sender did about it", kAlways, word_in<kSeverityWords>}, m.severity);
     f({"Code", 16, 16, false, 0, kMost16, "1", "", "the error bits that stand, as in Heartbeat"}, m.errors);
     f({"Detail", 32, 8, false, 0, kMost8, "1", "", "fault of the core", kAlways, word_of<Fault, kFaults>}, m.core_fault);
     f({"Count", 40, 16, false, 0, kMost16, "1", "", "safe stops since the start; stays at its maximum"}, m.stops);
@@ -86,7 +86,7 @@ struct FaultReport {
 };
 
 constexpr int32_t kPlaceLimitUm = kPlaceLimit.raw();
-inline constexpr Signal kMissionPart = {"Part", 12, 4, false, 0, 6, "1", "", "one frame each", kMultiplexor, word<kMissionPartWords>};
+inline constexpr Signal kMissionPart = {"Part", 12, 4, false, 0, 6, "1", "", "one frame each", kMultiplexor, word_in<kMissionPartWords>};
 inline constexpr Signal kMissionNumber = {"Mission", 16, 8, false, 0, kMost8, "1", "", "number, another one for every order"};
 
 /// Part 0.
@@ -109,7 +109,7 @@ struct MissionOrder {
   static constexpr void each(M& m, F& f) noexcept {
     f(kMissionPart, m.part);
     f(kMissionNumber, m.mission);
-    f({"Order", 24, 8, false, 0, 2, "1", "", "obeyed once all other parts are there", 0, word<kOrderWords>}, m.order);
+    f({"Order", 24, 8, false, 0, 2, "1", "", "obeyed once all other parts are there", 0, word_in<kOrderWords>}, m.order);
     f({"Digest", 32, 16, false, 0, kMost16, "1", "", "over the values of parts 1 to 6", 0}, m.digest);
   }
 };
@@ -136,7 +136,7 @@ struct MissionReply {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Status", 12, 4, false, 0, 4, "1", "", "what became of the order", kAlways, word<kMissionStatusWords>}, m.status);
+    f({"Status", 12, 4, false, 0, 4, "1", "", "what became of the order", kAlways, word_in<kMissionStatusWords>}, m.status);
     f({"Mission", 16, 8, false, 0, kMost8, "1", "", "of the order"}, m.mission);
   }
 };
@@ -149,7 +149,7 @@ struct WheelCommand {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Mode", 12, 4, false, 0, 1, "1", "", "stop: brake to a stand, whatever the speeds say", kAlways, word<kDriveWords>}, m.mode);
+    f({"Mode", 12, 4, false, 0, 1, "1", "", "stop: brake to a stand, whatever the speeds say", kAlways, word_in<kDriveWords>}, m.mode);
     f({"Left", 16, 16, true, -32767, 32767, "0.0001", "m/s", "rim speed, forward positive"}, m.speeds.left);
     f({"Right", 32, 16, true, -32767, 32767, "0.0001", "m/s", ""}, m.speeds.right);
     f({"Tick", 48, 16, false, 0, kMost16, "1", "", "of the input set that this answers, modulo 2^16"}, m.tick);
@@ -182,7 +182,7 @@ struct Range {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Status", 12, 4, false, 0, 4, "1", "", "what the reading says", kAlways, word<kRangeWords>}, m.reading.status);
+    f({"Status", 12, 4, false, 0, 4, "1", "", "what the reading says", kAlways, word_in<kRangeWords>}, m.reading.status);
     f({"Distance", 16, 16, false, 0, kMost16, "0.001", "m", "65535: clear; 65534: no distance"}, m.reading.mm);
     f({"Age", 32, 8, false, 0, kMost8, "0.001", "s", "since the distance was true; 0.255: that or more"}, m.reading.age_ms);
     f({"Sequence", 40, 4, false, 0, kMost4, "1", "", "one more with every new measurement"}, m.reading.sequence);
@@ -202,7 +202,7 @@ struct NavStatus {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Outcome", 12, 4, false, 0, 4, "1", "", "of the mission", kAlways, word<kOutcomeWords>}, m.outcome);
+    f({"Outcome", 12, 4, false, 0, 4, "1", "", "of the mission", kAlways, word_in<kOutcomeWords>}, m.outcome);
     f({"State", 16, 5, false, 0, planning::kModes - 1, "1", "", "what it does", kAlways, word_of<planning::Mode, planning::kModes>}, m.state);
     f({"Looked", 21, 1, false, 0, 1, "1", "", "a decision was taken from a look at this tick"}, m.looked);
     f({"Why", 24, 8, false, 0, planning::kWhys - 1, "1", "", "why it does that", kAlways, word_of<planning::Why, planning::kWhys>}, m.why);
@@ -220,7 +220,7 @@ struct ParamRequest {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Action", 12, 4, false, 0, 2, "1", "", "a change takes effect with commit", kAlways, word<kParamActionWords>}, m.action);
+    f({"Action", 12, 4, false, 0, 2, "1", "", "a change takes effect with commit", kAlways, word_in<kParamActionWords>}, m.action);
     f({"Index", 16, 8, false, 0, kMost8, "1", "", "of the parameter, see the list of parameters"}, m.index);
     f({"Value", 24, 32, false, 0, kMost32, "1", "", "raw, two's complement"}, m.value);
   }
@@ -234,7 +234,7 @@ struct ParamReply {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Status", 12, 4, false, 0, 4, "1", "", "what became of the request", kAlways, word<kParamStatusWords>}, m.status);
+    f({"Status", 12, 4, false, 0, 4, "1", "", "what became of the request", kAlways, word_in<kParamStatusWords>}, m.status);
     f({"Index", 16, 8, false, 0, kMost8, "1", "", "of the request"}, m.index);
     f({"Value", 24, 32, false, 0, kMost32, "1", "", "as it is now; after commit: the parameter fault, or 0"}, m.value);
   }
@@ -250,7 +250,7 @@ struct Heartbeat {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"State", 12, 4, false, 0, 5, "1", "", "of the node", kAlways, word<kNodeStateWords>}, m.state);
+    f({"State", 12, 4, false, 0, 5, "1", "", "of the node", kAlways, word_in<kNodeStateWords>}, m.state);
     f({"Errors", 16, 16, false, 0, kMost16, "1", "", "a bit for each, see Errors"}, m.errors);
     f({"Boot", 32, 16, false, 0, kMost16, "1", "", "another one at every start"}, m.boot);
     f({"Protocol", 48, 8, false, 0, kMost8, "1", "", "version of this protocol"}, m.protocol);
@@ -269,7 +269,7 @@ struct Info {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Part", 12, 4, false, 0, 1, "1", "", "one frame each", kMultiplexor, word<kInfoPartWords>}, m.part);
+    f({"Part", 12, 4, false, 0, 1, "1", "", "one frame each", kMultiplexor, word_in<kInfoPartWords>}, m.part);
     f({"Boot", 16, 16, false, 0, kMost16, "1", "", "as in Heartbeat"}, m.boot);
     f({"TableHash", 32, 32, false, 0, kMost32, "1", "", "of this table", 0}, m.value);
   }
@@ -303,7 +303,7 @@ struct Diagnostics {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Part", 12, 4, false, 0, 3, "1", "", "in turn", kMultiplexor, word<kDiagnosticsPartWords>}, m.part);
+    f({"Part", 12, 4, false, 0, 3, "1", "", "in turn", kMultiplexor, word_in<kDiagnosticsPartWords>}, m.part);
     f({"CrcErrors", 16, 16, false, 0, kMost16, "1", "", "frames with a wrong CRC", 0}, m.value[0]);
     f({"Lost", 32, 16, false, 0, kMost16, "1", "", "frames missed by their counters", 0}, m.value[1]);
     f({"Repeated", 48, 16, false, 0, kMost16, "1", "", "frames with the counter of the one before", 0}, m.value[2]);

@@ -104,7 +104,7 @@ inline constexpr const char* kDiagnosticsPartWords[] = {"content", "format", "se
 
 /// The word of a raw value; nullptr for a value that has none.
 template <const auto& kWords>
-const char* word(int64_t raw) noexcept {
+const char* word_in(int64_t raw) noexcept {
   return raw >= 0 && raw < int64_t{sizeof kWords / sizeof *kWords} ? kWords[raw] : nullptr;
 }
 /// Of an enumeration whose words its own name() has.

@@ -48,7 +48,7 @@ class Writer {
   void errors() {
     put("## Errors\n\nThe bits of Errors in Heartbeat, and of Code in Fault.\n\n| bit | name |\n|---|---|\n");
     for (int bit = 0; bit < 16; ++bit) {
-      if (const char* word = can::word<can::kErrorWords>(bit)) put("| {} | {} |\n", bit, word);
+      if (const char* word = can::word_in<can::kErrorWords>(bit)) put("| {} | {} |\n", bit, word);
     }
   }
 

@@ -3,11 +3,7 @@
 
 #include <stdint.h>
 
-// A board with other wiring names its own file instead: docs/adding.md.
-#ifndef WHISKER_WIRING
-#define WHISKER_WIRING "hal/boards/stm32f405/wiring.hpp"
-#endif
-#include WHISKER_WIRING
+#include "hal/boards/stm32f405/wiring.hpp"
 
 namespace whisker::hal::stm32f405 {
 

@@ -4,6 +4,10 @@
 #include "hal/boards/stm32f405/pin.hpp"
 #include "hal/boards/stm32f405/reg/bases.hpp"
 
+// Another board's own wiring is included before, and defines this: docs/adding.md.
+#ifndef WHISKER_WIRING
+#define WHISKER_WIRING
+
 namespace whisker::hal::stm32f405::wiring {
 
 inline constexpr Pin kPwmLeft = {base::kGpioA, 8};  ///< TIM1, channel 1
@@ -28,3 +32,5 @@ inline constexpr Pin kCanIn = {base::kGpioA, 11};  ///< CAN1
 inline constexpr Pin kCanOut = {base::kGpioA, 12};
 
 }  // namespace whisker::hal::stm32f405::wiring
+
+#endif
