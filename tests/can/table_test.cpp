@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/can/e2e.hpp"
 #include "firmware/can/heads.hpp"
 #include "firmware/can/table_hash.hpp"
 
