@@ -106,33 +106,8 @@ struct Params {
   SafetyParams safety;
 };
 
-/// The relations between parameters; each comment is what must hold.
-enum class ParamFault : uint8_t {
-  none,
-  out_of_range,               ///< a value lies outside its own range
-  track_wider_than_body,      ///< track <= 2 radius
-  ranges_reversed,            ///< min_range < max_range
-  cones_apart_from_front,     ///< side_angle + cone / 2 <= 90 degrees
-  danger_inside_body,         ///< danger_range > radius + margin
-  steps_reversed,             ///< small_step <= base_step
-  stop_longer_than_range,     ///< stopping distance from full speed <= max_range / 4
-  stale_before_next_reading,  ///< stale_after > 1 / rate + latency
-  lost_before_stale,          ///< lost_after >= stale_after
-  tolerance_below_encoder,    ///< drive_tolerance and the rim distance of turn_tolerance >= one count
-  gap_below_period,           ///< max_gap, unless zero, >= 2 period
-  stuck_within_cone,          ///< stuck_turn > cone: within its cone, a real object keeps its distance
-  cone_too_wide,              ///< cone <= 60 degrees, so that a healthy sensor never looks stuck
-  tolerance_above_step,       ///< drive_tolerance < small_step, turn_tolerance < delta
-  tolerance_below_wire,       ///< the rim distance of turn_tolerance >= 0.1 mm/s x settle
-  stalled_before_count,       ///< stalled_after >= the time of the slowest count and the slowest stop
-  settle_below_lag,           ///< settle >= motor_lag + period
-  cone_too_narrow,            ///< blind_reach + cell <= 7/4 radius
-  patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
-  planning_below_shield,      ///< planning_margin >= shield_margin
-  step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
-};
-constexpr int kParamFaults = 22;
-
+/// The violated relation between parameters; firmware/params/relations.hpp lists all relations.
+enum class ParamFault : uint8_t;
 const char* name(ParamFault fault) noexcept;
 
 /// Calls f.number(key, field, min, max), f.count(key, field, min, max) or f.choice(key, field, names, count)

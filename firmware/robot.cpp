@@ -51,24 +51,19 @@ void Robot::correct(const Pose& pose) noexcept {
 
 void Robot::aim_again() noexcept {
   Vec at;
-  has_goal_ = frame_.aim_again(at);
-  goal_refused_ = !has_goal_;
-  if (has_goal_) {
-    planner_.move_goal(at);
-  } else {
-    planner_.cancel();
-  }
+  if (aimed(frame_.aim_again(at))) planner_.move_goal(at);
+}
+
+bool Robot::aimed(bool in_range) noexcept {
+  has_goal_ = in_range;
+  goal_refused_ = !in_range;
+  if (!in_range) planner_.cancel();
+  return in_range;
 }
 
 bool Robot::set_goal(const planning::Goal& goal) noexcept {
   planning::Goal inside = goal;
-  has_goal_ = frame_.aim(goal.at, inside.at);
-  goal_refused_ = !has_goal_;
-  if (has_goal_) {
-    planner_.set_goal(inside);
-  } else {
-    planner_.cancel();
-  }
+  if (aimed(frame_.aim(goal.at, inside.at))) planner_.set_goal(inside);
   return has_goal_;
 }
 

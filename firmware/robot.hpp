@@ -85,6 +85,8 @@ class Robot {
   void put_down(const Pose& pose) noexcept;
   void correct(const Pose& pose) noexcept;
   void aim_again() noexcept;
+  /// Notes whether the goal is within range; without one the planner has nothing to do.
+  bool aimed(bool in_range) noexcept;
   void show_fault() noexcept;
 
   hal::Rangefinders& rangefinders_;

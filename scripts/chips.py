@@ -1,5 +1,6 @@
-"""The targets: how each image is run, and what it may be held to. Used by scripts/chip, golden and budget."""
+"""The targets: what the files of toolchain/ say of themselves. Used by scripts/chip, golden and budget."""
 
+import json
 import pathlib
 import re
 
@@ -12,20 +13,33 @@ SECONDS = "600"
 
 # One instruction is 2^shift ns of the emulator's time.
 QEMU = "-display none -monitor none -semihosting-config enable=on,target=native"
-ARM = "qemu-system-arm -M {} -icount shift=10 " + QEMU
-RISCV = "qemu-system-riscv32 -M virt -bios none -icount shift=0 " + QEMU
-AVR = str(BUILD / "host/whisker_avr")
-NODE = "node " + str(ROOT / "hal/emulated/wasm/run.mjs")
+EMULATORS = {
+    "qemu-arm": "qemu-system-arm -M {} -icount shift=10 " + QEMU,
+    "qemu-riscv": "qemu-system-riscv32 -M {} -bios none -icount shift=0 " + QEMU,
+    "simavr": str(BUILD / "host/whisker_avr"),
+    "node": "node " + str(ROOT / "hal/emulated/wasm/run.mjs"),
+}
 
 
 class Target:
-    def __init__(self, name, emulator, suffix=".elf", compilers=("gcc",), recording="full", counts="instructions"):
-        self.name = name
-        self.emulator = emulator
-        self.suffix = suffix
-        self.builds = [name + ("" if c == "gcc" else "-clang") for c in compilers]
-        self.recording = recording  # which of the golden recordings it is fast enough for
-        self.counts = counts  # what its meter gives, or None
+    """A file of toolchain/ that names a board: what it sets as WHISKER_TITLE, WHISKER_RUNS_ON and so on."""
+
+    def __init__(self, path):
+        text = path.read_text()
+        facts = dict(re.findall(r'^set\(WHISKER_(\w+) "?([^")]*)"?\)', text, re.MULTILINE))
+        self.name = path.stem
+        self.title, self.board = facts.get("TITLE"), facts.get("BOARD")
+        emulator, _, self.machine = facts.get("RUNS_ON", "").partition(" ")
+        self.emulator = EMULATORS.get(emulator, "").format(self.machine)
+        self.runs_on = f"QEMU `{self.machine}`" if self.machine else {"node": "Node.js"}.get(emulator, emulator)
+        self.compilers = facts.get("COMPILERS", "").split()
+        self.builds = [self.name, *(f"{self.name}-{c}" for c in self.compilers[1:])]
+        self.recording = facts.get("RECORDING", "full")  # which of the golden recordings it is fast enough for
+        self.counts = facts.get("COUNTS")
+        self.in_budget = "BUDGET" in facts  # scripts/budget weighs and counts it
+        self.is_robot = (ROOT / "hal/boards" / str(self.board)).is_dir()
+        self.suffix = ".wasm" if ".wasm" in text else ".elf"
+        self.tools = "riscv64-unknown-elf-" if "riscv" in text else "arm-none-eabi-"
 
     def command(self, image, serial=False):
         """serial: standard input and output are the board's UART instead of its fast way to the host."""
@@ -44,24 +58,10 @@ class Target:
         return [*emulator.split(), "-serial", serial, "-kernel", str(image)]
 
 
-BOTH = ("gcc", "clang")
-TARGETS = {
-    t.name: t
-    for t in (
-        Target("cortex-m0plus", ARM.format("microbit"), compilers=BOTH),
-        Target("cortex-m3", ARM.format("mps2-an385"), compilers=BOTH),
-        Target("cortex-m4", ARM.format("mps2-an386"), compilers=BOTH),
-        Target("cortex-m7", ARM.format("mps2-an500"), compilers=BOTH),
-        Target("cortex-m33", ARM.format("mps2-an505"), compilers=BOTH),
-        Target("rv32imac", RISCV, compilers=BOTH),
-        Target("atmega1284p", AVR, recording="short", counts="cycles"),
-        Target("wasm32", NODE, suffix=".wasm", counts=None),
-    )
-}
-
-
-# Boards with a whole robot as their program: preset -> prefix of its tools.
-ROBOTS = {"stm32f405": "arm-none-eabi-"}
+ALL = [t for t in map(Target, sorted(ROOT.glob("toolchain/*.cmake"))) if t.title]
+TARGETS = {t.name: t for t in ALL if not t.is_robot}
+# Boards with a whole robot as their program.
+ROBOTS = {t.name: t for t in ALL if t.is_robot}
 
 
 def builds():
@@ -71,3 +71,48 @@ def builds():
 
 def image(build, target, program):
     return BUILD / build / "firmware/apps" / (program + target.suffix)
+
+
+def presets():
+    """toolchain/presets.json."""
+
+    def preset(name, inherits, title):
+        file = next(t.name for t in ALL if name in t.builds)
+        return {
+            "name": name,
+            "displayName": title,
+            "inherits": inherits,
+            "toolchainFile": f"${{sourceDir}}/toolchain/{file}.cmake",
+        }
+
+    plain = {"CMAKE_BUILD_TYPE": "Release", "WHISKER_HOST": "OFF", "WHISKER_TESTS": "OFF", "WHISKER_IMAGES": "ON"}
+    hidden = [
+        {"name": "base", "hidden": True, "generator": "Ninja", "binaryDir": "${sourceDir}/build/${presetName}"},
+        {"name": "chip", "hidden": True, "inherits": "base", "cacheVariables": plain},
+        {"name": "chip-clang", "hidden": True, "inherits": "chip", "cacheVariables": {"WHISKER_CLANG": "ON"}},
+    ]
+    named = []
+    for target in ALL:
+        on = f"{target.title} ({target.runs_on.replace('`', '')})"
+        named.append(preset(target.name, "chip", on))
+        named += [preset(b, "chip-clang", on + ", clang 14") for b in target.builds[1:]]
+    builds = [{"name": p["name"], "configurePreset": p["name"]} for p in named]
+    whole = {"version": 6, "configurePresets": hidden + named, "buildPresets": builds}
+    return json.dumps(whole, indent=2) + "\n"
+
+
+def table():
+    """The table of docs/targets.md."""
+    rows = ["| preset | chip | compilers | runs on | instructions |", "|---|---|---|---|---|"]
+    for t in TARGETS.values():
+        rows.append(f"| `{t.name}` | {t.title} | {', '.join(t.compilers)} | {t.runs_on} | {t.counts} |")
+    return "\n".join(rows) + "\n"
+
+
+def documents():
+    """(file, what it must hold) of all that follows from toolchain/."""
+    yield ROOT / "toolchain/presets.json", presets()
+    page = ROOT / "docs/targets.md"
+    marks = "<!-- targets:begin -->\n", "<!-- targets:end -->\n"
+    before, _, rest = page.read_text().partition(marks[0])
+    yield page, before + marks[0] + table() + marks[1] + rest.partition(marks[1])[2]

@@ -15,7 +15,7 @@ RAM_OF_AVR = (*RAM, ".rodata")
 # Where a call through a table may lead; what calls by one that is not here is an error.
 INDIRECT = (
     (
-        r"Robot(4plan|8set_goal|6cancel|5reset|9aim_again|7correct|8put_down|5place|4tick)E",
+        r"Robot(4plan|8set_goal|6cancel|5reset|5aimed|9aim_again|7correct|8put_down|5place|4tick)E",
         r"8planning11GoalPlanner(4stepE|8set_goalE|9move_goalE|6cancelE)",
     ),
     (r"8planning11GoalPlanner6answerE", r"8planning(15BoundaryPlanner|13ThesisPlanner)(5startE|7advanceE)"),

@@ -1,4 +1,9 @@
 # The AVR with room for the whole core but the map: 128 KB of flash and 16 KB of RAM.
+set(WHISKER_TITLE "AVR ATmega1284P")
+set(WHISKER_RUNS_ON "simavr")
+set(WHISKER_COMPILERS "clang")
+set(WHISKER_COUNTS "cycles")
+set(WHISKER_RECORDING short)
 set(WHISKER_CPU atmega1284p)
 set(WHISKER_BOARD simavr)
 set(WHISKER_MAP_BYTES 0)

@@ -1,4 +1,9 @@
 # 16 KB of RAM, as on the board.
+set(WHISKER_TITLE "Arm Cortex-M0+")
+set(WHISKER_RUNS_ON "qemu-arm microbit")
+set(WHISKER_COMPILERS "gcc clang")
+set(WHISKER_COUNTS "timer")
+set(WHISKER_BUDGET ON)
 set(WHISKER_CPU cortex-m0plus)
 set(WHISKER_BOARD microbit)
 set(WHISKER_MAP_BYTES 8192)

@@ -1,3 +1,8 @@
+set(WHISKER_TITLE "Arm Cortex-M3")
+set(WHISKER_RUNS_ON "qemu-arm mps2-an385")
+set(WHISKER_COMPILERS "gcc clang")
+set(WHISKER_COUNTS "timer")
+set(WHISKER_BUDGET ON)
 set(WHISKER_CPU cortex-m3)
 set(WHISKER_BOARD mps2)
 include(${CMAKE_CURRENT_LIST_DIR}/cortex_m.cmake)

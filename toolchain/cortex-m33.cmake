@@ -1,3 +1,8 @@
+set(WHISKER_TITLE "Arm Cortex-M33")
+set(WHISKER_RUNS_ON "qemu-arm mps2-an505")
+set(WHISKER_COMPILERS "gcc clang")
+set(WHISKER_COUNTS "timer")
 set(WHISKER_CPU cortex-m33)
 set(WHISKER_BOARD mps2)
+set(WHISKER_MEMORIES hal/emulated/mps2/mps2_secure.ld)
 include(${CMAKE_CURRENT_LIST_DIR}/cortex_m.cmake)

@@ -1,3 +1,7 @@
+set(WHISKER_TITLE "Arm Cortex-M7")
+set(WHISKER_RUNS_ON "qemu-arm mps2-an500")
+set(WHISKER_COMPILERS "gcc clang")
+set(WHISKER_COUNTS "timer")
 set(WHISKER_CPU cortex-m7)
 set(WHISKER_BOARD mps2)
 include(${CMAKE_CURRENT_LIST_DIR}/cortex_m.cmake)

@@ -1,5 +1,10 @@
 # RISC-V, 32 bits, with multiplication, atomics and compressed instructions. Debian: gcc-riscv64-unknown-elf, or
 # clang-14 beside it.
+set(WHISKER_TITLE "RISC-V RV32IMAC")
+set(WHISKER_RUNS_ON "qemu-riscv virt")
+set(WHISKER_COMPILERS "gcc clang")
+set(WHISKER_COUNTS "minstret")
+set(WHISKER_BUDGET ON)
 set(WHISKER_CPU rv32imac)
 set(WHISKER_BOARD virt)
 set(CMAKE_SYSTEM_PROCESSOR riscv32)

@@ -1,3 +1,7 @@
+set(WHISKER_TITLE "STM32F405 robot")
+set(WHISKER_RUNS_ON "qemu-arm netduinoplus2")
+set(WHISKER_COMPILERS "gcc")
+set(WHISKER_COUNTS "-")
 set(WHISKER_CPU cortex-m4)
 set(WHISKER_BOARD stm32f405)
 include(${CMAKE_CURRENT_LIST_DIR}/cortex_m.cmake)

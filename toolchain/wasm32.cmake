@@ -1,4 +1,8 @@
 # WebAssembly without a system interface. Debian: clang-14 and lld-14.
+set(WHISKER_TITLE "WebAssembly")
+set(WHISKER_RUNS_ON "node")
+set(WHISKER_COMPILERS "clang")
+set(WHISKER_COUNTS "-")
 set(WHISKER_CPU wasm32)
 set(WHISKER_BOARD wasm)
 set(CMAKE_SYSTEM_NAME Generic)

@@ -1,7 +1,7 @@
 // What a frame of the CAN protocol costs, of every message and with any content: a line for writing and one
 // for reading, with the least, the mean and the most work.
+#include "firmware/can/codec.hpp"
 #include "firmware/apps/work.hpp"
-#include "firmware/can/messages.hpp"
 
 using namespace whisker;
 
@@ -44,7 +44,7 @@ uint64_t content(int i) noexcept {
 }
 
 template <class M>
-void measure() noexcept {
+void measure(const M&) noexcept {
   constexpr const can::Message& kMessage = can::message_of(M::kKind);
   can::AliveReceiver alive;
   for (int i = 0; i < kContents; ++i) {
@@ -58,19 +58,11 @@ void measure() noexcept {
   }
 }
 
-template <class... M>
-void measure_all() noexcept {
-  (measure<M>(), ...);
-}
-
 }  // namespace
 
 int main() {
-  using can::Kind;
-  measure_all<can::EStop, can::Sync, can::FaultReport, can::MissionOrder, can::MissionValue,
-              can::MissionReply, can::WheelCommand, can::WheelState, can::Range<Kind::range_left>,
-              can::Range<Kind::range_front>, can::Range<Kind::range_right>, can::NavStatus, can::ParamRequest,
-              can::ParamReply, can::Heartbeat, can::Info, can::InfoRequest, can::Diagnostics>();
+  can::for_each_message([](const can::Message&, const auto& message) { measure(message); });
+  measure(can::MissionValue{});
   const uint32_t own = hal::overhead(hal::board().meter);
   images::print_work("write", writing, own);
   images::print_work("read", reading, own);

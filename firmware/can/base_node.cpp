@@ -97,61 +97,35 @@ bool BaseNode::replied(ParamReply& reply) const noexcept {
 
 Heard BaseNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
   switch (kind) {
-    case Kind::wheel_command: return in_range(hear_command(frame));
-    case Kind::mission_reply: return in_range(hear_reply(frame));
-    case Kind::nav_status: return in_range(hear_status(frame));
-    case Kind::param_reply: return in_range(hear_param(frame));
-    case Kind::e_stop:
-    case Kind::sync:
-    case Kind::fault:
-    case Kind::mission:
-    case Kind::wheel_state:
-    case Kind::range_left:
-    case Kind::range_front:
-    case Kind::range_right:
-    case Kind::param_request:
-    case Kind::heartbeat:
-    case Kind::info:
-    case Kind::info_request:
-    case Kind::diagnostics: break;  // no frames of a controller, or the node's own business
+    case Kind::wheel_command: return read<WheelCommand>(frame, [this](const auto& m) { hear_command(m); });
+    case Kind::mission_reply: return read<MissionReply>(frame, [this](const auto& m) { hear_reply(m); });
+    case Kind::nav_status:
+      return read<NavStatus>(frame, [this](const auto& m) {
+        status_ = m;
+        status_come_ = true;
+      });
+    case Kind::param_reply:
+      return read<ParamReply>(frame, [this](const auto& m) {
+        reply_ = m;
+        replied_ = true;
+      });
+    default: return Heard::unknown;
   }
-  return Heard::unknown;
 }
 
-bool BaseNode::hear_status(const hal::CanFrame& frame) noexcept {
-  NavStatus status;
-  if (!read(frame, status)) return false;
-  status_ = status;
-  status_come_ = true;
-  return true;
-}
-
-bool BaseNode::hear_param(const hal::CanFrame& frame) noexcept {
-  ParamReply reply;
-  if (!read(frame, reply)) return false;
-  reply_ = reply;
-  replied_ = true;
-  return true;
-}
-
-bool BaseNode::hear_command(const hal::CanFrame& frame) noexcept {
-  WheelCommand command;
-  if (!read(frame, command)) return false;
+void BaseNode::hear_command(const WheelCommand& command) noexcept {
   const auto behind = static_cast<uint16_t>(tick_ - command.tick);
   if (command.mode == DriveMode::drive && behind * period_ms_ > (lockstep() ? 0U : kCommandOld_ms)) {
     count(tally().stale);
-    return true;
+    return;
   }
   command_ = command;
   commanded_ = true;
   command_seen_ = now_ms();
-  return true;
 }
 
-bool BaseNode::hear_reply(const hal::CanFrame& frame) noexcept {
-  MissionReply reply;
-  if (!read(frame, reply)) return false;
-  if (reply.mission != mission_ || order_state_ != OrderState::waiting) return true;
+void BaseNode::hear_reply(const MissionReply& reply) noexcept {
+  if (reply.mission != mission_ || order_state_ != OrderState::waiting) return;
   switch (reply.status) {
     case MissionStatus::accepted:
       order_state_ = OrderState::accepted;
@@ -164,7 +138,6 @@ bool BaseNode::hear_reply(const hal::CanFrame& frame) noexcept {
     case MissionStatus::out_of_range:
     case MissionStatus::unknown: order_state_ = OrderState::refused; break;
   }
-  return true;
 }
 
 void BaseNode::forget_peer() noexcept {

@@ -50,10 +50,8 @@ class BaseNode final : public Node {
   Heard hear(Kind kind, const hal::CanFrame& frame) noexcept override;
   void forget_peer() noexcept override;
   bool at_rest() const noexcept override { return speeds_.left == 0 && speeds_.right == 0; }
-  bool hear_command(const hal::CanFrame& frame) noexcept;
-  bool hear_reply(const hal::CanFrame& frame) noexcept;
-  bool hear_status(const hal::CanFrame& frame) noexcept;
-  bool hear_param(const hal::CanFrame& frame) noexcept;
+  void hear_command(const WheelCommand& command) noexcept;
+  void hear_reply(const MissionReply& reply) noexcept;
   void send_order() noexcept;
 
   const int16_t ramp_;

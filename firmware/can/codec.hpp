@@ -1,11 +1,11 @@
-/// Converts values to frames and back, by the table in signals.hpp.
+/// Converts values to frames and back, by the table in messages.hpp.
 #pragma once
 
 #include <stdint.h>
 
 #include "firmware/can/e2e.hpp"
 #include "firmware/can/ids.hpp"
-#include "firmware/can/signals.hpp"
+#include "firmware/can/table.hpp"
 
 namespace whisker::can {
 

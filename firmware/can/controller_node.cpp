@@ -76,63 +76,47 @@ Heard ControllerNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
     case Kind::range_left: return in_range(hear_range<Kind::range_left>(hal::kLeft, frame));
     case Kind::range_front: return in_range(hear_range<Kind::range_front>(hal::kFront, frame));
     case Kind::range_right: return in_range(hear_range<Kind::range_right>(hal::kRight, frame));
-    case Kind::wheel_state: return in_range(hear_wheels(frame));
-    case Kind::sync: return in_range(hear_sync(frame));
+    case Kind::wheel_state: return read<WheelState>(frame, [this](const auto& m) { hear_wheels(m); });
+    case Kind::sync: return read<Sync>(frame, [this](const auto& m) { hear_sync(m); });
     case Kind::mission: return in_range(hear_mission(frame));
-    case Kind::param_request: return in_range(hear_param(frame));
-    case Kind::e_stop:
-    case Kind::fault:
-    case Kind::mission_reply:
-    case Kind::wheel_command:
-    case Kind::nav_status:
-    case Kind::param_reply:
-    case Kind::heartbeat:
-    case Kind::info:
-    case Kind::info_request:
-    case Kind::diagnostics: break;  // no frames of a base, or the node's own business
+    case Kind::param_request: return read<ParamRequest>(frame, [this](const auto& m) { hear_param(m); });
+    default: return Heard::unknown;
   }
-  return Heard::unknown;
 }
 
 template <Kind kKind>
 bool ControllerNode::hear_range(int beam, const hal::CanFrame& frame) noexcept {
   Range<kKind> range;
-  if (!read(frame, range) || !InputSets::sound(range.reading)) return false;
+  if (!decode(frame, range) || !InputSets::sound(range.reading)) return false;
   sets_.hear(beam, range.reading, range.tick);
   beam_seen_[beam] = now_ms();
   return true;
 }
 
-bool ControllerNode::hear_wheels(const hal::CanFrame& frame) noexcept {
-  WheelState state;
-  if (!read(frame, state)) return false;
+void ControllerNode::hear_wheels(const WheelState& state) noexcept {
   sets_.hear(state);
   if (state.valid != 0) wheels_seen_ = now_ms();
-  return true;
 }
 
-bool ControllerNode::hear_sync(const hal::CanFrame& frame) noexcept {
-  Sync sync;
-  if (!read(frame, sync)) return false;
+void ControllerNode::hear_sync(const Sync& sync) noexcept {
   if (!numbered_ || sync.mission != number_) {
     count(tally().stale);
-    return true;
+    return;
   }
   set_pace(sync.pace);
   sets_.hear(sync);
   asked_again_ = lockstep() && answered_ && sync.tick == tick_;
-  return true;
 }
 
 bool ControllerNode::hear_mission(const hal::CanFrame& frame) noexcept {
   MissionValue part;
-  if (!read(frame, part)) return false;
+  if (!decode(frame, part)) return false;
   if (part.part != MissionPart::order) {
     parts_.hear(part);
     return true;
   }
   MissionOrder order;
-  if (!read(frame, order)) return false;
+  if (!decode(frame, order)) return false;
   send(MissionReply{obey(order), order.mission});
   return true;
 }
@@ -167,13 +151,10 @@ MissionStatus ControllerNode::obey(const MissionOrder& order) noexcept {
   return MissionStatus::accepted;
 }
 
-bool ControllerNode::hear_param(const hal::CanFrame& frame) noexcept {
-  ParamRequest request;
-  if (!read(frame, request)) return false;
+void ControllerNode::hear_param(const ParamRequest& request) noexcept {
   bool committed = false;
   send(server_.answer(request, ordered(), committed));
   if (committed) committed_ = server_.staged();
-  return true;
 }
 
 void ControllerNode::forget_peer() noexcept {

@@ -41,10 +41,10 @@ class ControllerNode final : public Node {
   bool timed() const noexcept override { return !lockstep() && stepped_; }
   template <Kind kKind>
   bool hear_range(int beam, const hal::CanFrame& frame) noexcept;
-  bool hear_wheels(const hal::CanFrame& frame) noexcept;
-  bool hear_sync(const hal::CanFrame& frame) noexcept;
+  void hear_wheels(const WheelState& state) noexcept;
+  void hear_sync(const Sync& sync) noexcept;
   bool hear_mission(const hal::CanFrame& frame) noexcept;
-  bool hear_param(const hal::CanFrame& frame) noexcept;
+  void hear_param(const ParamRequest& request) noexcept;
   MissionStatus obey(const MissionOrder& order) noexcept;
   void watch() noexcept;
   void brake() noexcept;

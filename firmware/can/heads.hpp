@@ -4,7 +4,7 @@
 #include <stdint.h>
 
 #include "firmware/can/ids.hpp"
-#include "firmware/can/signals.hpp"
+#include "firmware/can/table.hpp"
 
 namespace whisker::can {
 

@@ -5,10 +5,6 @@ namespace {
 
 constexpr uint8_t kAllSeen = (1 << kMissionValues) - 1;
 
-int32_t signed_of(uint32_t raw) noexcept {
-  return raw <= INT32_MAX ? static_cast<int32_t>(raw) : -static_cast<int32_t>(~raw) - 1;
-}
-
 }  // namespace
 
 MissionValues values_of(const Mission& m) noexcept {
@@ -20,10 +16,10 @@ MissionValues values_of(const Mission& m) noexcept {
 bool mission_of(const MissionValues& values, Mission& m) noexcept {
   constexpr int kHeading = 2;
   for (int i = 0; i < kMissionValues; ++i) {
-    const Signal& s = kMission[4 + i];
-    if (i != kHeading && (signed_of(values.of[i]) < s.min || signed_of(values.of[i]) > s.max)) return false;
+    const Signal& s = MissionOrder::kMore[i];
+    if (i != kHeading && (as_signed(values.of[i]) < s.min || as_signed(values.of[i]) > s.max)) return false;
   }
-  const auto length = [&](int i) { return Length::from_raw(signed_of(values.of[i])); };
+  const auto length = [&](int i) { return Length::from_raw(as_signed(values.of[i])); };
   m.start = {{length(0), length(1)}, Angle::from_raw(values.of[kHeading])};
   m.goal = {{length(3), length(4)}, length(5)};
   return true;

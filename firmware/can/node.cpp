@@ -154,29 +154,19 @@ void Node::understand(Kind kind, const hal::CanFrame& frame) noexcept {
   for (; lost > 0; --lost) count(health_.lost);
   Heard heard = Heard::understood;
   switch (kind) {
-    case Kind::heartbeat: heard = in_range(hear_heartbeat(frame)); break;
-    case Kind::info: heard = in_range(hear_info(frame)); break;
+    case Kind::heartbeat:
+      heard = read<Heartbeat>(frame, [this](const Heartbeat& m) { hear_heartbeat(m); });
+      break;
+    case Kind::info: heard = read<Info>(frame, [this](const Info& m) { hear_info(m); }); break;
     case Kind::info_request: announce_ = true; break;
     case Kind::diagnostics:
     case Kind::fault: break;  // for people and tools
-    case Kind::e_stop:
-    case Kind::sync:
-    case Kind::mission:
-    case Kind::mission_reply:
-    case Kind::wheel_command:
-    case Kind::wheel_state:
-    case Kind::range_left:
-    case Kind::range_front:
-    case Kind::range_right:
-    case Kind::nav_status:
-    case Kind::param_request:
-    case Kind::param_reply:
+    default:
       if (!matched_) {
         count(health_.unmatched);
         return;
       }
       heard = hear(kind, frame);
-      break;
   }
   settle(heard);
 }
@@ -189,9 +179,7 @@ void Node::settle(Heard heard) noexcept {
   }
 }
 
-bool Node::hear_heartbeat(const hal::CanFrame& frame) noexcept {
-  Heartbeat beat;
-  if (!read(frame, beat)) return false;
+void Node::hear_heartbeat(const Heartbeat& beat) noexcept {
   if (peer_known_ && beat.boot != peer_.boot) {
     count(peer_restarts_);
     stop(Error::peer_restarted);
@@ -207,17 +195,13 @@ bool Node::hear_heartbeat(const hal::CanFrame& frame) noexcept {
   match();
   if (!hash_known_) send(InfoRequest{});
   if (beat.state == NodeState::safe_stop || beat.state == NodeState::e_stopped) stop(Error::peer_stopped);
-  return true;
 }
 
-bool Node::hear_info(const hal::CanFrame& frame) noexcept {
-  Info info;
-  if (!read(frame, info)) return false;
-  if (info.part != InfoPart::table_hash || !peer_known_ || info.boot != peer_.boot) return true;
+void Node::hear_info(const Info& info) noexcept {
+  if (info.part != InfoPart::table_hash || !peer_known_ || info.boot != peer_.boot) return;
   hash_known_ = true;
   hash_right_ = info.value == kTableHash;
   match();
-  return true;
 }
 
 void Node::match() noexcept {

@@ -12,9 +12,9 @@
 #include <stdint.h>
 
 #include "firmware/can/bus_guard.hpp"
+#include "firmware/can/codec.hpp"
 #include "firmware/can/heads.hpp"
 #include "firmware/can/limits.hpp"
-#include "firmware/can/messages.hpp"
 #include "firmware/health.hpp"
 
 namespace whisker::can {
@@ -83,6 +83,14 @@ class Node {
   /// Handles a valid frame of the other node in sequence, after the handshake.
   virtual Heard hear(Kind, const hal::CanFrame&) noexcept { return Heard::unknown; }
   static constexpr Heard in_range(bool is) noexcept { return is ? Heard::understood : Heard::out_of_range; }
+  /// Decodes the message of the frame and passes it to `use`, unless a value is out of range.
+  template <class M, class Use>
+  static Heard read(const hal::CanFrame& frame, const Use& use) noexcept {
+    M message;
+    if (!decode(frame, message)) return Heard::out_of_range;
+    use(message);
+    return Heard::understood;
+  }
   /// The other node has restarted: its earlier messages are void.
   virtual void forget_peer() noexcept {}
   virtual bool at_rest() const noexcept { return true; }
@@ -101,10 +109,6 @@ class Node {
     if (port_.send(encode(m, node_, alive.next()), life_ms)) return true;
     alive = before;
     return false;
-  }
-  template <class M>
-  static bool read(const hal::CanFrame& frame, M& m) noexcept {
-    return decode(frame, m);
   }
   /// Lets the port send queued frames.
   void flush() noexcept { port_.poll(now_); }
@@ -127,8 +131,8 @@ class Node {
   bool is_sound(Kind kind, const hal::CanFrame& frame) noexcept;
   void understand(Kind kind, const hal::CanFrame& frame) noexcept;
   void settle(Heard heard) noexcept;
-  bool hear_heartbeat(const hal::CanFrame& frame) noexcept;
-  bool hear_info(const hal::CanFrame& frame) noexcept;
+  void hear_heartbeat(const Heartbeat& beat) noexcept;
+  void hear_info(const Info& info) noexcept;
   void match() noexcept;
   void lose_peer() noexcept;
   void publish_info() noexcept;

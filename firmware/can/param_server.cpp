@@ -37,14 +37,14 @@ class Writer {
   Writer(uint8_t index, uint32_t raw) noexcept : index_(index), raw_(raw) {}
   template <class Tag>
   void number(const char*, Unit<Tag>& field, Unit<Tag> low, Unit<Tag> high) noexcept {
-    const auto value = Unit<Tag>::from_raw(as_signed());
+    const auto value = Unit<Tag>::from_raw(as_signed(raw_));
     if (mine() && fits(low <= value && value <= high)) field = value;
   }
   void number(const char*, Angle& field, Angle low, Angle high) noexcept {
     if (mine() && fits(low.raw() <= raw_ && raw_ <= high.raw())) field = Angle::from_raw(raw_);
   }
   void count(const char*, int32_t& field, int32_t low, int32_t high) noexcept {
-    if (mine() && fits(low <= as_signed() && as_signed() <= high)) field = as_signed();
+    if (mine() && fits(low <= as_signed(raw_) && as_signed(raw_) <= high)) field = as_signed(raw_);
   }
   template <class E>
   void choice(const char*, E& field, const char* const*, int names) noexcept {
@@ -57,9 +57,6 @@ class Writer {
   bool fits(bool does) noexcept {
     status_ = does ? ParamStatus::ok : ParamStatus::out_of_range;
     return does;
-  }
-  int32_t as_signed() const noexcept {
-    return raw_ <= INT32_MAX ? static_cast<int32_t>(raw_) : -static_cast<int32_t>(~raw_) - 1;
   }
   const int index_;
   const uint32_t raw_;

@@ -2,7 +2,7 @@
 
 #include <stdint.h>
 
-#include "firmware/can/signals.hpp"
+#include "firmware/can/table.hpp"
 
 namespace whisker::can {
 

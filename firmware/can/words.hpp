@@ -15,10 +15,14 @@ enum class Pace : uint8_t {
   real_time,  ///< ticks follow the clock
   lockstep,   ///< the base waits for the answer to each tick; no time-out applies to ticks
 };
+inline constexpr const char* kPaceWords[] = {"real_time", "lockstep"};
 
 enum class Severity : uint8_t { none, holding, stopped, latched };
+inline constexpr const char* kSeverityWords[] = {"none", "holding", "stopped", "latched"};
 
 enum class MissionPart : uint8_t { order, start_x, start_y, start_heading, goal_x, goal_y, goal_tolerance };
+inline constexpr const char* kMissionPartWords[] = {"order",  "start_x", "start_y",       "start_heading",
+                                                    "goal_x", "goal_y",  "goal_tolerance"};
 constexpr int kMissionValues = 6;
 
 enum class Order : uint8_t {
@@ -26,6 +30,7 @@ enum class Order : uint8_t {
   cancel,  ///< stop, and clear the goal
   resume,  ///< drive to the goal from the estimated pose; ends a safe stop
 };
+inline constexpr const char* kOrderWords[] = {"start", "cancel", "resume"};
 
 enum class MissionStatus : uint8_t {
   accepted,
@@ -34,10 +39,14 @@ enum class MissionStatus : uint8_t {
   unknown,       ///< resume without a mission
   out_of_range,  ///< start or goal lies beyond the limit, or a value is invalid
 };
+inline constexpr const char* kMissionStatusWords[] = {"accepted", "incomplete", "refused", "unknown",
+                                                      "out_of_range"};
 
 enum class DriveMode : uint8_t { stop, drive };
+inline constexpr const char* kDriveWords[] = {"stop", "drive"};
 
 enum class ParamAction : uint8_t { read, write, commit };
+inline constexpr const char* kParamActionWords[] = {"read", "write", "commit"};
 
 enum class ParamStatus : uint8_t {
   ok,
@@ -46,6 +55,7 @@ enum class ParamStatus : uint8_t {
   busy,          ///< a mission runs: nothing was changed
   inconsistent,  ///< commit: the parameters are inconsistent
 };
+inline constexpr const char* kParamStatusWords[] = {"ok", "no_such", "out_of_range", "busy", "inconsistent"};
 
 enum class NodeState : uint8_t {
   off_bus,    ///< the port is not on the bus
@@ -55,8 +65,11 @@ enum class NodeState : uint8_t {
   safe_stop,  ///< latched: wheels brake and stand until a new order
   e_stopped,  ///< latched: until a valid clear
 };
+inline constexpr const char* kNodeStateWords[] = {"off_bus", "waiting",   "ready",
+                                                  "running", "safe_stop", "e_stopped"};
 
 enum class InfoPart : uint8_t { table_hash, version };
+inline constexpr const char* kInfoPartWords[] = {"table_hash", "version"};
 
 /// Bits of Errors in Heartbeat. The first group latches a safe stop.
 struct Error {
@@ -78,25 +91,29 @@ struct Error {
   };
 };
 
-// The names of raw values; nullptr for a value without a name.
-const char* stop_word(int64_t raw) noexcept;
-const char* sync_word(int64_t raw) noexcept;
-const char* severity_word(int64_t raw) noexcept;
-const char* fault_word(int64_t raw) noexcept;
-const char* mission_part_word(int64_t raw) noexcept;
-const char* order_word(int64_t raw) noexcept;
-const char* mission_status_word(int64_t raw) noexcept;
-const char* drive_word(int64_t raw) noexcept;
-const char* range_word(int64_t raw) noexcept;
-const char* outcome_word(int64_t raw) noexcept;
-const char* state_word(int64_t raw) noexcept;
-const char* why_word(int64_t raw) noexcept;
-const char* param_action_word(int64_t raw) noexcept;
-const char* param_status_word(int64_t raw) noexcept;
-const char* node_state_word(int64_t raw) noexcept;
-const char* info_part_word(int64_t raw) noexcept;
-const char* diagnostics_part_word(int64_t raw) noexcept;
-/// Name of bit 0 to 15 of Errors.
-const char* error_word(int64_t bit) noexcept;
+/// The names of the bits of Errors, from bit 0.
+inline constexpr const char* kErrorWords[] = {
+    "command_late",    "odometry_late",  "range_late",    "peer_lost",      "bus_off",
+    "bus_off_latched", "peer_restarted", "peer_stopped",  "duplicate_node", "e_stop",
+    "wrong_version",   "core_fault",     "drive_refused", "sensors_refused"};
+
+// Names of values whose types belong to the hardware interface or to the planner.
+inline constexpr const char* kRangeWords[] = {"ok", "clear", "too_near", "invalid", "stale"};
+inline constexpr const char* kOutcomeWords[] = {"none", "running", "reached", "unreachable", "gave_up"};
+inline constexpr const char* kDiagnosticsPartWords[] = {"content", "format", "sending", "receiving"};
+
+/// The name of a raw value; nullptr for a value without a name.
+template <const auto& kWords>
+const char* word_in(int64_t raw) noexcept {
+  return raw >= 0 && raw < int64_t{sizeof kWords / sizeof *kWords} ? kWords[raw] : nullptr;
+}
+/// The name of a raw value of an enumeration with its own name().
+template <class E, int kCount>
+const char* word_of(int64_t raw) noexcept {
+  return raw >= 0 && raw < kCount ? name(static_cast<E>(raw)) : nullptr;
+}
+inline const char* stop_word(int64_t raw) noexcept {
+  return raw == kStopCommand ? "stop" : raw == kClearCommand ? "clear" : nullptr;
+}
 
 }  // namespace whisker::can

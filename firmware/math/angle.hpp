@@ -24,9 +24,7 @@ class Angle {
   }
   constexpr uint32_t raw() const noexcept { return raw_; }
   /// The same angle in [-half a turn, half a turn), unit 2^-32 turn.
-  constexpr int32_t wrapped() const noexcept {
-    return raw_ <= INT32_MAX ? static_cast<int32_t>(raw_) : -static_cast<int32_t>(~raw_) - 1;
-  }
+  constexpr int32_t wrapped() const noexcept { return as_signed(raw_); }
 
   friend constexpr bool operator==(Angle a, Angle b) noexcept { return a.raw_ == b.raw_; }
   friend constexpr bool operator!=(Angle a, Angle b) noexcept { return a.raw_ != b.raw_; }

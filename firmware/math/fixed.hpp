@@ -31,6 +31,11 @@ constexpr int32_t saturating_subtract(int32_t a, int32_t b) noexcept {
 /// -x, with -INT32_MIN == INT32_MAX.
 constexpr int32_t saturating_negate(int32_t x) noexcept { return x == INT32_MIN ? INT32_MAX : -x; }
 
+/// The number whose two's complement this is.
+constexpr int32_t as_signed(uint32_t raw) noexcept {
+  return raw <= INT32_MAX ? static_cast<int32_t>(raw) : -static_cast<int32_t>(~raw) - 1;
+}
+
 constexpr uint32_t magnitude(int32_t x) noexcept {
   return x < 0 ? 0U - static_cast<uint32_t>(x) : static_cast<uint32_t>(x);
 }
@@ -127,6 +132,9 @@ using Q7 = Fixed<7, int16_t>;    ///< the fuzzy inputs D and R; resolution 1/128
 using Q14 = Fixed<14, int16_t>;  ///< the fuzzy outputs SA and SD; [-2, 2)
 using Q15 = Fixed<15, int16_t>;  ///< [-1, 1)
 using Q30 = Fixed<30, int32_t>;  ///< sines and cosines; [-2, 2)
+
+/// In 2^-14, to nearest.
+constexpr int16_t q14(Q30 x) noexcept { return static_cast<int16_t>(scale_down<16>(int64_t{x.raw()})); }
 
 static_assert((Q15::from_raw(INT16_MIN) * Q15::from_raw(INT16_MIN)).raw() == INT16_MAX);
 static_assert(scale_down_by(24, 4) == 2 && scale_down_by(-24, 4) == -2 && scale_down_by(23, 4) == 1);

@@ -95,8 +95,7 @@ class Time {
   constexpr uint32_t raw() const noexcept { return ms_; }
   /// Valid for instants less than 24.8 days apart.
   friend constexpr Duration operator-(Time a, Time b) noexcept {
-    const uint32_t d = a.ms_ - b.ms_;
-    return Duration::from_raw(d <= INT32_MAX ? static_cast<int32_t>(d) : -static_cast<int32_t>(~d) - 1);
+    return Duration::from_raw(as_signed(a.ms_ - b.ms_));
   }
   friend constexpr Time operator+(Time a, Duration d) noexcept {
     return from_raw(a.ms_ + static_cast<uint32_t>(d.raw()));

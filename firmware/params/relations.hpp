@@ -1,6 +1,5 @@
-/// Relations between parameters. A new relation needs an entry in ParamFault, a line in for_each_relation
-/// (with its own function if it takes more than a line), a name in params.cpp and a sentence for users in
-/// host/scenario/params_text.cpp.
+/// Relations between parameters. A new relation needs an entry in ParamFault, its name and its sentence in
+/// relation(), and a line in for_each_relation (with its own function if it takes more than a line).
 #pragma once
 
 #include <stdint.h>
@@ -10,10 +9,119 @@
 #include "firmware/params/reach.hpp"
 
 namespace whisker {
+
+/// The relations between parameters; each comment is what must hold.
+enum class ParamFault : uint8_t {
+  none,
+  out_of_range,               ///< a value lies outside its own range
+  track_wider_than_body,      ///< track <= 2 radius
+  ranges_reversed,            ///< min_range < max_range
+  cones_apart_from_front,     ///< side_angle + cone / 2 <= 90 degrees
+  danger_inside_body,         ///< danger_range > radius + margin
+  steps_reversed,             ///< small_step <= base_step
+  stop_longer_than_range,     ///< stopping distance from full speed <= max_range / 4
+  stale_before_next_reading,  ///< stale_after > 1 / rate + latency
+  lost_before_stale,          ///< lost_after >= stale_after
+  tolerance_below_encoder,    ///< drive_tolerance and the rim distance of turn_tolerance >= one count
+  gap_below_period,           ///< max_gap, unless zero, >= 2 period
+  stuck_within_cone,          ///< stuck_turn > cone: within its cone, a real object keeps its distance
+  cone_too_wide,              ///< cone <= 60 degrees, so that a healthy sensor never looks stuck
+  tolerance_above_step,       ///< drive_tolerance < small_step, turn_tolerance < delta
+  tolerance_below_wire,       ///< the rim distance of turn_tolerance >= 0.1 mm/s x settle
+  stalled_before_count,       ///< stalled_after >= the time of the slowest count and the slowest stop
+  settle_below_lag,           ///< settle >= motor_lag + period
+  cone_too_narrow,            ///< blind_reach + cell <= 7/4 radius
+  patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
+  planning_below_shield,      ///< planning_margin >= shield_margin
+  step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
+};
+
+struct Relation {
+  const char* name;
+  const char* words;  ///< the relation as a sentence for users; empty for ParamFault::none
+};
+constexpr Relation relation(ParamFault fault) noexcept {
+  using F = ParamFault;
+  switch (fault) {
+    case F::none: return {"none", ""};
+    case F::out_of_range: return {"out_of_range", "a parameter lies outside its own range"};
+    case F::track_wider_than_body:
+      return {"track_wider_than_body",
+              "the wheels must lie within the body: wheel_track_m <= 2 body_radius_m"};
+    case F::ranges_reversed: return {"ranges_reversed", "range_min_m must be less than range_max_m"};
+    case F::cones_apart_from_front:
+      return {"cones_apart_from_front",
+              "the side beams must look ahead: range_side_angle_deg + range_cone_deg / 2 <= 90"};
+    case F::danger_inside_body:
+      return {"danger_inside_body",
+              "thesis_danger_range_m must be greater than body_radius_m + body_margin_m"};
+    case F::steps_reversed:
+      return {"steps_reversed", "thesis_small_step_m must not be greater than thesis_base_step_m"};
+    case F::stop_longer_than_range:
+      return {"stop_longer_than_range",
+              "the way to stop from wheel_speed_max_mps (braking at wheel_acceleration_max_mps2, motor_lag_s "
+              "and the longest gap between two ticks: max_tick_gap_s, or at 0 what control_period_s makes "
+              "it) must not be longer than range_max_m / 4"};
+    case F::stale_before_next_reading:
+      return {"stale_before_next_reading",
+              "stale_after_s must be greater than 1 / range_rate_hz + range_latency_s"};
+    case F::lost_before_stale:
+      return {"lost_before_stale", "lost_after_s must not be less than stale_after_s"};
+    case F::tolerance_below_encoder:
+      return {"tolerance_below_encoder",
+              "drive_tolerance_m, and the rim's way over turn_tolerance_deg (at wheel_track_m / 2), must not "
+              "be less than 1 / encoder_counts_per_m"};
+    case F::gap_below_period:
+      return {"gap_below_period", "max_tick_gap_s must be at least 2 control_period_s, or 0"};
+    case F::stuck_within_cone:
+      return {"stuck_within_cone", "stuck_turn_deg must be greater than range_cone_deg"};
+    case F::cone_too_wide: return {"cone_too_wide", "range_cone_deg must not be greater than 60"};
+    case F::tolerance_above_step:
+      return {"tolerance_above_step",
+              "drive_tolerance_m must be less than thesis_small_step_m, and turn_tolerance_deg less than "
+              "thesis_delta_deg"};
+    case F::tolerance_below_wire:
+      return {"tolerance_below_wire",
+              "the rim's way over turn_tolerance_deg (at wheel_track_m / 2) must not be less than 0.0001 m/s "
+              "x motion_settle_s"};
+    case F::stalled_before_count:
+      return {"stalled_before_count",
+              "wheels_stalled_after_s must not be less than 16 motor_lag_s + 6 control_period_s + 2 "
+              "motion_settle_s + twice the time to accelerate over 1 / encoder_counts_per_m and to turn by "
+              "as much at full turn rate"};
+    case F::settle_below_lag:
+      return {"settle_below_lag", "motion_settle_s must not be less than motor_lag_s + control_period_s"};
+    case F::cone_too_narrow:
+      return {
+          "cone_too_narrow",
+          "the beams must be able to prove the ground near the body: range_offset_m + 0.72 cell / "
+          "sin(range_cone_deg / 2) + cell <= 7/4 body_radius_m, with skirt_cell_m, or at 0 a suitable cell"};
+    case F::patch_too_small:
+      return {"patch_too_small",
+              "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
+              "skirt_probe_m, with skirt_cell_m, or at 0 a suitable cell, and skirt_probe_m must not be less "
+              "than body_radius_m / 2"};
+    case F::planning_below_shield:
+      return {"planning_below_shield", "skirt_planning_margin_m must not be less than skirt_shield_margin_m"};
+    case F::step_beyond_range:
+      return {"step_beyond_range",
+              "range_clear_m and range_max_m must not be less than 2 thesis_base_step_m + body_radius_m + "
+              "body_margin_m"};
+  }
+  return {"?", ""};
+}
+
+constexpr int count_param_faults() noexcept {
+  int count = 0;
+  while (relation(static_cast<ParamFault>(count)).name[0] != '?') ++count;
+  return count;
+}
+constexpr int kParamFaults = count_param_faults();
+
 namespace relations {
 
-// Walls at right angles, one body radius away: 15 degrees beyond the rim of the cone, each is farther by 3.5
-// %.
+// Walls at right angles, one body radius away: 15 degrees beyond the rim of the cone, each is 3.5 %
+// farther.
 constexpr Angle kWidestCone = 60_deg;
 constexpr Speed kWireSpeed = Speed::from_raw(100);  // the smallest speed that hal::WheelSpeeds can represent
 

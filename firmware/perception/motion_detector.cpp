@@ -47,7 +47,6 @@ void MotionDetector::add(const Pose& from, Time taken, const Length (&free)[kBea
 }
 
 MotionDetector::Facing MotionDetector::facing(Angle direction) noexcept {
-  const auto q14 = [](Q30 x) { return static_cast<int16_t>(scale_down<16>(int64_t{x.raw()})); };
   return {q14(cos(direction)), q14(sin(direction))};
 }
 

@@ -5,8 +5,6 @@
 namespace whisker::perception {
 namespace {
 
-int32_t q14(Q30 x) noexcept { return static_cast<int32_t>(scale_down<16>(int64_t{x.raw()})); }
-
 int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
 
 /// Of the disc around x in a row that lies dy from its centre.

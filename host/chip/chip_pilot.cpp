@@ -42,9 +42,9 @@ class ChipPilot final : public Pilot {
     say([](Bytes& to) { append(to, link::Name::hello); });
     const auto greeting = hear<link::Greeting>();
     if (greeting.version != link::kVersion) throw ChipError(command + ": speaks another version");
-    if (map_bytes(planner) > greeting.most_map_bytes) {
+    if (planner.map_bytes > greeting.most_map_bytes) {
       throw NoRoom(command + ": has room for " + std::to_string(greeting.most_map_bytes) +
-                   " bytes of map, not " + std::to_string(map_bytes(planner)));
+                   " bytes of map, not " + std::to_string(planner.map_bytes));
     }
     say([&](Bytes& to) {
       append_params(to, scenario.robot);

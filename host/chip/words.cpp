@@ -9,13 +9,6 @@ namespace {
 
 link::Stand stand(const Pose& pose) { return {pose.at.x.raw(), pose.at.y.raw(), pose.heading.raw()}; }
 
-link::Planner on_chip(PlannerKind planner) {
-  if (map_bytes(planner) != 0) return link::Planner::map;
-  if (planner == PlannerKind::thesis) return link::Planner::thesis;
-  if (planner == PlannerKind::skirt) return link::Planner::skirt;
-  throw NoSuchPlanner(std::string(name(planner)) + ": no chip has this planner");
-}
-
 }  // namespace
 
 void append_params(Bytes& to, const Params& params) {
@@ -26,8 +19,10 @@ void append_params(Bytes& to, const Params& params) {
 }
 
 void append_begin(Bytes& to, PlannerKind planner, const Pose& pose) {
-  const auto bytes = static_cast<std::uint16_t>(map_bytes(planner));
-  append(to, link::Name::begin, link::Begin{on_chip(planner), bytes, stand(pose)});
+  if (is_baseline(planner)) throw NoSuchPlanner(name(planner) + ": no chip has this planner");
+  const auto number = static_cast<std::uint8_t>(planner.number);
+  const auto bytes = static_cast<std::uint16_t>(planner.map_bytes);
+  append(to, link::Name::begin, link::Begin{number, bytes, stand(pose)});
 }
 
 void append_goal(Bytes& to, const planning::Goal& goal) {

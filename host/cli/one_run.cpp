@@ -37,7 +37,7 @@ RunResult with_progress(const Scenario& scenario, RunOptions& options, const Run
 report::RunPicture picture(const MapWatch& map, PlannerKind planner) {
   report::RunPicture picture;
   if (!map.last()) return picture;
-  picture.subtitle = fmt::format("map planner, {} bytes", map_bytes(planner));
+  picture.subtitle = fmt::format("map planner, {} bytes", planner.map_bytes);
   picture.map = &*map.last();
   return picture;
 }

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "host/scenario/text.hpp"
@@ -60,52 +60,46 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
 
 namespace {
 
-std::vector<std::string_view> planner_names() {
+PlannerKind planner_of(const std::string& text) {
+  if (const auto named = planner_named(text)) return *named;
   std::vector<std::string_view> names;
-  for (const PlannerKind kind : kPlanners) names.emplace_back(name(kind));
-  return names;
+  for (const PlannerKind kind : planners()) names.emplace_back(name(kind));
+  throw CLI::ValidationError("--planner", fmt::format("no planner '{}'{}", text, did_you_mean(text, names)));
+}
+
+PlannerKind with_map_of(PlannerKind kind, const std::string& bytes) {
+  if (kind.map_bytes == 0) {
+    throw CLI::ValidationError("--map-bytes", fmt::format("planner {} has no map", name(kind)));
+  }
+  for (const PlannerKind k : planners()) {
+    if (k.number == kind.number && bytes == fmt::format("{}", k.map_bytes)) return k;
+  }
+  throw CLI::ValidationError("--map-bytes", fmt::format("no map of '{}' bytes", bytes));
 }
 
 }  // namespace
 
 CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
   std::string names, baselines;
-  for (const PlannerKind k : kPlanners) {
-    if (map_bytes(k) != 0 && k != PlannerKind::map) continue;
+  for (const PlannerKind k : planners()) {
+    if (k.map_bytes != 0 && k.map_bytes != planning::kUsualMapBytes) continue;
     std::string& list = is_baseline(k) ? baselines : names;
-    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", name(k),
-                        k == PlannerKind::skirt ? " (or boundary)" : "");
+    list += (list.empty() ? "" : ", ") + name(k);
+    if (!alias(k).empty()) list += fmt::format(" (or {})", alias(k));
   }
+  std::vector<std::int32_t> sizes;
+  for (const planning::MapSize& size : planning::kMapSizes) sizes.push_back(size.bytes);
   CLI::Option* const option =
       app.add_option_function<std::string>(
-             "--planner",
-             [&kind](const std::string& text) {
-               const auto named = planner_named(text);
-               if (!named) {
-                 throw CLI::ValidationError("--planner", fmt::format("no planner '{}'{}", text,
-                                                                     did_you_mean(text, planner_names())));
-               }
-               kind = *named;
-             },
+             "--planner", [&kind](const std::string& text) { kind = planner_of(text); },
              fmt::format("Planner: {};\nbaselines: {}", names, baselines))
           ->default_str(name(kind))
           ->type_name("NAME");
   // After --planner: CLI11 calls back in the order in which options were added.
   app.add_option_function<std::string>(
-         "--map-bytes",
-         [&kind](const std::string& text) {
-           if (map_bytes(kind) == 0) {
-             throw CLI::ValidationError("--map-bytes", fmt::format("planner {} has no map", name(kind)));
-           }
-           for (const PlannerKind k : kPlanners) {
-             if (map_bytes(k) == 0 || text != fmt::format("{}", map_bytes(k))) continue;
-             kind = k;
-             return;
-           }
-           throw CLI::ValidationError("--map-bytes", fmt::format("no map of '{}' bytes", text));
-         },
-         "Of planner map: 1024, 2048, 4096, 8192 or 16384")
-      ->default_str("2048")
+         "--map-bytes", [&kind](const std::string& text) { kind = with_map_of(kind, text); },
+         fmt::format("Of planner map: {}", fmt::join(sizes, ", ")))
+      ->default_str(fmt::format("{}", planning::kUsualMapBytes))
       ->type_name("N");
   return option;
 }

@@ -8,6 +8,7 @@
 
 #include "firmware/apps/can/pilot.hpp"
 #include "firmware/apps/pil_link/command_hash.hpp"
+#include "firmware/can/codec.hpp"
 #include "firmware/can/heads.hpp"
 #include "firmware/can/mission.hpp"
 #include "firmware/can/param_server.hpp"
@@ -85,11 +86,7 @@ class Replay {
         return with<can::WheelCommand>(frame, [&](const auto& m) { compare(m, can::counter_of(frame)); });
       case Kind::nav_status: return with<can::NavStatus>(frame, [&](const auto& m) { compare(m); });
       case Kind::heartbeat: return with<can::Heartbeat>(frame, [&](const auto& m) { watch(frame.id, m); });
-      case Kind::e_stop:
-      case Kind::fault:
-      case Kind::info:
-      case Kind::info_request:
-      case Kind::diagnostics: break;
+      default: break;
     }
   }
 

@@ -8,7 +8,7 @@ std::string words_of(std::uint16_t errors) {
   std::string words;
   for (int bit = 0; bit < 16; ++bit) {
     if ((errors >> bit & 1) == 0) continue;
-    const char* const word = can::error_word(bit);
+    const char* const word = can::word_in<can::kErrorWords>(bit);
     words += (words.empty() ? "" : ", ") + std::string(word != nullptr ? word : "unknown");
   }
   return words;

@@ -72,12 +72,13 @@ Json noise_data(const Noise& n) {
 }
 
 Json map_data(const Setting& s) {
-  const auto shape = s.planner ? map_shape(*s.planner) : std::nullopt;
-  if (!shape) return nullptr;
-  return {{"bytes", map_bytes(*s.planner)},
-          {"columns", shape->columns()},
-          {"rows", shape->rows},
-          {"cell", metres(for_body(s.scenario.robot, shape->cell))}};
+  const std::int32_t bytes = s.planner ? s.planner->map_bytes : 0;
+  if (bytes == 0) return nullptr;
+  const planning::GridShape shape = planning::map_shape(bytes);
+  return {{"bytes", bytes},
+          {"columns", shape.columns()},
+          {"rows", shape.rows},
+          {"cell", metres(for_body(s.scenario.robot, shape.cell))}};
 }
 
 const char* end_name(report::Encounter::End end) {

@@ -18,6 +18,7 @@ Drive::Drive(const Scenario& scenario, PlannerKind planner, const fuzzy::Engine:
       pilot_(scenario_, make_core_planner(planner, scenario_.robot, table), plant_),
       trip_(scenario_, plant_, pilot_),
       map_(scenario_.robot),
+      map_bytes_(planner.map_bytes),
       way_{{scenario_.start.at, report::Doing::free}} {
   trip_.decide();
   map_.look(trip_.guide());

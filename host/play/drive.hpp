@@ -29,6 +29,7 @@ class Drive {
   const Trip& trip() const { return trip_; }
   /// The pictures of MapWatch; none without a map.
   const std::optional<MapPicture>& map() const { return map_.last(); }
+  std::int32_t map_bytes() const { return map_bytes_; }
   const sim::Plant& plant() const { return plant_; }
   const Scenario& scenario() const { return scenario_; }
 
@@ -50,6 +51,7 @@ class Drive {
   CorePilot pilot_;
   Trip trip_;
   MapWatch map_;
+  std::int32_t map_bytes_;
   std::vector<Passed> way_;
 };
 

@@ -21,7 +21,6 @@ namespace whisker::play {
 namespace {
 
 constexpr int kSides = 2;
-constexpr PlannerKind kOffered[] = {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map};
 
 std::vector<double> exchanged;
 fuzzy::RuleBase rules = fuzzy::kRules;
@@ -31,6 +30,25 @@ std::unique_ptr<Drive> drives[kSides];
 double value(Q14 x) { return x.raw() / 16384.0; }
 double metres(Length x) { return x.raw() / 1e6; }
 double half_turns(Angle x) { return x.wrapped() / 2147483648.0; }
+
+/// The core's planner with this number; the usual size of map, if it has one.
+PlannerKind offered(int number) {
+  PlannerKind kind;
+  planning::for_each_planner([&](const planning::PlannerInfo& info, auto type) {
+    const bool usual = type.kMapBytes == 0 || type.kMapBytes == planning::kUsualMapBytes;
+    if (info.number == number && usual) kind = {number, type.kMapBytes};
+  });
+  return kind;
+}
+
+/// Its name, or what there is to say about it; null where no planner has this number.
+const char* planner_word(int number, const char* planning::PlannerInfo::*word) {
+  const char* found = nullptr;
+  planning::for_each_planner([&](const planning::PlannerInfo& info, auto) {
+    if (info.number == number) found = info.*word;
+  });
+  return found;
+}
 
 int answer() { return static_cast<int>(exchanged.size()); }
 
@@ -66,11 +84,11 @@ WHISKER_EXPORT(judge) int judge() {
   return start_is_free(*scenario) ? 0 : 2;
 }
 
-/// The robot on this side starts anew in the scenario in the list; planner: 0 skirt, 1 thesis, 2 map.
+/// The robot on this side starts anew in the scenario in the list; planner: its number, see word().
 WHISKER_EXPORT(begin) int begin(int side, int planner) {
   const std::optional<Scenario> scenario = scenario_of(exchanged);
   if (!scenario) return 0;
-  drives[side] = std::make_unique<Drive>(*scenario, kOffered[planner], table);
+  drives[side] = std::make_unique<Drive>(*scenario, offered(planner), table);
   return 1;
 }
 
@@ -157,6 +175,9 @@ WHISKER_EXPORT(clear_cells) int clear_cells(int side) {
   return answer();
 }
 
+/// Of the map of the planner on this side; 0 without a map.
+WHISKER_EXPORT(map_bytes) int map_bytes(int side) { return drives[side]->map_bytes(); }
+
 /// Columns, rows, side of a cell, first cell of the window, the state of each cell row by row, and the places
 /// of the plan's way; nothing without a map.
 WHISKER_EXPORT(map) int map_cells(int side) {
@@ -236,8 +257,8 @@ WHISKER_EXPORT(sample_table) int sample_table() {
   return answer();
 }
 
-/// Word number i of a list: 0 states, 1 reasons, 2 faults, 3 kinds of worlds, 4 what a map says. Null beyond
-/// its end.
+/// Word number i of a list: 0 states, 1 reasons, 2 faults, 3 kinds of worlds, 4 what a map says, 5 planners,
+/// 6 what there is to say about each. Null beyond its end.
 WHISKER_EXPORT(word) const char* word(int which, int i) {
   switch (which) {
     case 0: return i < planning::kModes ? planning::name(static_cast<planning::Mode>(i)) : nullptr;
@@ -245,6 +266,8 @@ WHISKER_EXPORT(word) const char* word(int which, int i) {
     case 2: return i < kFaults ? name(static_cast<Fault>(i)) : nullptr;
     case 3: return i < static_cast<int>(std::size(worlds::kKinds)) ? name(worlds::kKinds[i]) : nullptr;
     case 4: return i < kGuidances ? name(static_cast<Guidance>(i)) : nullptr;
+    case 5: return planner_word(i, &planning::PlannerInfo::name);
+    case 6: return planner_word(i, &planning::PlannerInfo::about);
     default: return nullptr;
   }
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/can/signals.hpp"
+#include "firmware/can/table.hpp"
 
 namespace whisker::protocol {
 

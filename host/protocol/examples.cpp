@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware/can/codec.hpp"
 #include "firmware/can/mission.hpp"
 #include "firmware/can/table_hash.hpp"
 

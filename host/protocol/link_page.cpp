@@ -1,12 +1,14 @@
 #include <iterator>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "firmware/apps/pil_link/bytes.hpp"
 #include "firmware/apps/pil_link/message.hpp"
 #include "firmware/apps/pil_link/params.hpp"
+#include "firmware/planning/planners.hpp"
 #include "host/protocol/page.hpp"
 
 namespace whisker::protocol {
@@ -53,7 +55,7 @@ G; then T every period, until outcome in Answer is 2, 3 or 4, or fault is not 0;
 
 P deletes the robot, so B must follow. Inconsistent parameters create a robot with the fault invalid_params (1).
 R clears a fault of the core; then the goal must be set again. L sets the pose of the robot. A planner
-that does not fit into memory, or a map_bytes that is not a map size (1024, 2048, 4096, 8192, 16384), ends the program.
+that does not fit into memory, or a map_bytes that is not a map size ({map_sizes}), ends the program.
 
 Axes, beams, wheels, counts and measurements are defined in [protocol.md](protocol.md#axes), with two differences: the
 distance of a reading that is not ok is ignored, whatever its value; and now_ms increases by control_period_s from any initial value, modulo 2^32.
@@ -106,7 +108,7 @@ class Rows {
 };
 
 template <class M>
-std::string body(const char* name, const char* about) {
+std::string body(const char* name, const std::string& about) {
   Rows rows;
   const M message{};
   M::each(message, rows);
@@ -114,16 +116,28 @@ std::string body(const char* name, const char* about) {
                      link::size_of<M>(), about, rows.text);
 }
 
+std::string planner_numbers() {
+  std::vector<std::string> words;
+  planning::for_each_planner([&](const planning::PlannerInfo& info, auto) {
+    if (info.number == words.size()) words.push_back(fmt::format("{} {}", info.number, info.name));
+  });
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
 }  // namespace
 
 std::string link_page() {
+  std::vector<std::int32_t> sizes;
+  for (const planning::MapSize& size : planning::kMapSizes) sizes.push_back(size.bytes);
   std::string out =
-      fmt::format(kWords, fmt::arg("params", link::params_size()), fmt::arg("version", link::kVersion));
+      fmt::format(kWords, fmt::arg("params", link::params_size()), fmt::arg("version", link::kVersion),
+                  fmt::arg("map_sizes", fmt::join(sizes, ", ")));
   out += "## Bodies\n\nLengths are in um, headings in 2^-32 turn.\n\n";
   out += body<link::Greeting>("Greeting",
                               ". engine: 0 look-up, 1 closed form; most_map_bytes: size of the largest "
                               "map that fits, 0: none.");
-  out += body<link::Begin>("Begin", ". planner: 0 skirt, 1 thesis, 2 map; map_bytes is 0 except for map.");
+  out += body<link::Begin>(
+      "Begin", ". planner: " + planner_numbers() + "; map_bytes is 0 for a planner without a map.");
   out += body<link::Target>("Target", ": the goal is reached within tolerance.");
   out += body<link::Stand>("Stand", ".");
   out += body<link::Tick>(

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware/can/e2e.hpp"
 #include "firmware/can/ids.hpp"
 #include "firmware/can/limits.hpp"
 #include "firmware/can/param_server.hpp"
@@ -47,7 +48,7 @@ class Writer {
   void errors() {
     put("## Errors\n\nThe bits of Errors in Heartbeat and of Code in Fault.\n\n| bit | name |\n|---|---|\n");
     for (int bit = 0; bit < 16; ++bit) {
-      if (const char* word = can::error_word(bit)) put("| {} | {} |\n", bit, word);
+      if (const char* word = can::word_in<can::kErrorWords>(bit)) put("| {} | {} |\n", bit, word);
     }
   }
 
@@ -147,7 +148,7 @@ void Writer::params() {
   put("\nRelations between parameters. Value of an inconsistent commit is the number.\n\n| number | relation "
       "|\n|---|---|\n");
   for (int i = 0; i <= UINT8_MAX; ++i) {
-    const std::string words = relation(static_cast<ParamFault>(i));
+    const std::string words = relation(static_cast<ParamFault>(i)).words;
     if (!words.empty()) put("| {} | {} |\n", i, words);
   }
 }

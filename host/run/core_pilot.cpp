@@ -2,9 +2,6 @@
 
 #include <utility>
 
-#include "firmware/planning/boundary/table_boundary_planner.hpp"
-#include "firmware/planning/global/map_planner.hpp"
-#include "firmware/planning/thesis/thesis_planner.hpp"
 #include "host/run/spec.hpp"
 
 namespace whisker {
@@ -37,20 +34,15 @@ planning::Goal fixed_goal(const Goal& goal) {
 }
 
 SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table) {
-  if (kind == PlannerKind::skirt) {
-    const auto skirt = std::make_shared<planning::TableBoundaryPlanner>(params, table);
-    return {{skirt, &skirt->planner}};
-  }
-  if (kind == PlannerKind::thesis) return {std::make_shared<planning::ThesisPlanner>(params, table)};
-  return planning::with_map_of<SeenPlanner>(map_bytes(kind), [&](auto bytes) -> SeenPlanner {
-    const auto map = std::make_shared<ShownMap<bytes.kValue>>(params, table);
-    return {{map, &map->planner}, &map->guide};
+  return planning::with_planner<SeenPlanner>(kind.number, kind.map_bytes, [&](auto type) -> SeenPlanner {
+    if constexpr (type.kMapBytes != 0) {
+      const auto map = std::make_shared<ShownMap<type.kMapBytes>>(params, table);
+      return {{map, &map->planner}, &map->guide};
+    } else {
+      const auto made = std::make_shared<typename decltype(type)::Type>(params, table);
+      return {{made, &planning::planner_in(*made)}};
+    }
   });
-}
-
-std::optional<planning::GridShape> map_shape(PlannerKind kind) {
-  return planning::with_map_of<std::optional<planning::GridShape>>(
-      map_bytes(kind), [](auto bytes) { return planning::kMapShape<bytes.kValue>; });
 }
 
 }  // namespace whisker

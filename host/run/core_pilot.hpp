@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-
-#include "firmware/planning/global/grid.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/shown_planner.hpp"
 #include "host/sim/sim_board.hpp"
@@ -27,11 +24,8 @@ class CorePilot final : public Pilot {
   Robot robot_;
 };
 
-/// The planners of the core (boundary, thesis and map) with this response table; null for other kinds.
+/// One of the core's planners with this response table; null for a baseline.
 /// Parameters and table must outlive the planner.
 SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table);
-
-/// Shape of the map of this planner, for the reference body; none without a map.
-std::optional<planning::GridShape> map_shape(PlannerKind kind);
 
 }  // namespace whisker

@@ -1,8 +1,10 @@
 #include "host/run/planners.hpp"
 
-#include "host/baselines/deflection_laws.hpp"
+#include <algorithm>
+
 #include "host/baselines/bug2.hpp"
 #include "host/baselines/bug_planner.hpp"
+#include "host/baselines/deflection_laws.hpp"
 #include "host/baselines/distbug.hpp"
 #include "host/baselines/wall_follower.hpp"
 #include "host/run/core_pilot.hpp"
@@ -10,62 +12,79 @@
 namespace whisker {
 namespace {
 
+using Made = std::shared_ptr<planning::Planner>;
+
 /// A planner that lives and dies together with the rule or the law that is its member.
 template <class Whole>
-std::shared_ptr<planning::Planner> planner_of(const Params& params) {
+Made made(const Params& params) {
   const auto whole = std::make_shared<Whole>(params);
   return {whole, &whole->planner};
+}
+
+struct Baseline {
+  const char* name;
+  Made (*make)(const Params& params);
+};
+constexpr Baseline kBaselines[] = {
+    {"bug2", made<baselines::RuledPlanner<baselines::Bug2>>},
+    {"distbug", made<baselines::RuledPlanner<baselines::DistBug>>},
+    {"wall-follower", made<baselines::RuledPlanner<baselines::WallFollower>>},
+    {"fan", made<baselines::DeflectedBoundaryPlanner<baselines::NoDeflection>>},
+    {"repulsion", made<baselines::DeflectedBoundaryPlanner<baselines::RepulsionDeflection>>},
+};
+
+struct Entry {
+  PlannerKind kind;
+  std::string name;
+  std::string_view alias;
+  Made (*make)(const Params& params) = nullptr;  ///< of a baseline
+};
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = [] {
+    std::vector<Entry> list;
+    planning::for_each_planner([&](const planning::PlannerInfo& info, auto type) {
+      const bool usual = type.kMapBytes == 0 || type.kMapBytes == planning::kUsualMapBytes;
+      const std::string size = usual ? "" : "-" + std::to_string(type.kMapBytes);
+      const char* const alias = info.alias == nullptr ? "" : info.alias;
+      list.push_back({{info.number, type.kMapBytes}, info.name + size, alias});
+    });
+    int number = list.back().kind.number;
+    for (const Baseline& b : kBaselines) list.push_back({{++number}, b.name, "", b.make});
+    return list;
+  }();
+  return all;
+}
+
+const Entry& entry(PlannerKind kind) {
+  const auto& all = entries();
+  return *std::find_if(all.begin(), all.end(), [&](const Entry& e) { return e.kind == kind; });
 }
 
 }  // namespace
 
 SeenPlanner make_seen_planner(PlannerKind kind, const Params& params) {
-  switch (kind) {
-    case PlannerKind::skirt:
-    case PlannerKind::thesis:
-    case PlannerKind::map:
-    case PlannerKind::map_1024:
-    case PlannerKind::map_4096:
-    case PlannerKind::map_8192:
-    case PlannerKind::map_16384: return make_core_planner(kind, params, fuzzy::kDefaultTable);
-    case PlannerKind::bug2: return {planner_of<baselines::RuledPlanner<baselines::Bug2>>(params)};
-    case PlannerKind::distbug: return {planner_of<baselines::RuledPlanner<baselines::DistBug>>(params)};
-    case PlannerKind::wall_follower:
-      return {planner_of<baselines::RuledPlanner<baselines::WallFollower>>(params)};
-    case PlannerKind::fan:
-      return {planner_of<baselines::DeflectedBoundaryPlanner<baselines::NoDeflection>>(params)};
-    case PlannerKind::repulsion:
-      return {planner_of<baselines::DeflectedBoundaryPlanner<baselines::RepulsionDeflection>>(params)};
-  }
-  return {};
+  if (is_baseline(kind)) return {entry(kind).make(params)};
+  return make_core_planner(kind, params, fuzzy::kDefaultTable);
 }
 
 std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params) {
   return make_seen_planner(kind, params).planner;
 }
 
-const char* name(PlannerKind kind) {
-  switch (kind) {
-    case PlannerKind::skirt: return "skirt";
-    case PlannerKind::thesis: return "thesis";
-    case PlannerKind::map: return "map";
-    case PlannerKind::map_1024: return "map-1024";
-    case PlannerKind::map_4096: return "map-4096";
-    case PlannerKind::map_8192: return "map-8192";
-    case PlannerKind::map_16384: return "map-16384";
-    case PlannerKind::bug2: return "bug2";
-    case PlannerKind::distbug: return "distbug";
-    case PlannerKind::wall_follower: return "wall-follower";
-    case PlannerKind::fan: return "fan";
-    case PlannerKind::repulsion: return "repulsion";
-  }
-  return "?";
+std::vector<PlannerKind> planners() {
+  std::vector<PlannerKind> kinds;
+  for (const Entry& e : entries()) kinds.push_back(e.kind);
+  return kinds;
 }
 
+bool is_baseline(PlannerKind kind) { return entry(kind).make != nullptr; }
+const std::string& name(PlannerKind kind) { return entry(kind).name; }
+std::string_view alias(PlannerKind kind) { return entry(kind).alias; }
+
 std::optional<PlannerKind> planner_named(std::string_view text) {
-  if (text == "boundary") return PlannerKind::skirt;
-  for (const PlannerKind kind : kPlanners) {
-    if (text == name(kind)) return kind;
+  for (const Entry& e : entries()) {
+    if (text == e.name || (!e.alias.empty() && text == e.alias)) return e.kind;
   }
   return std::nullopt;
 }

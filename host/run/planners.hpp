@@ -1,57 +1,45 @@
-/// The planners by name.
+/// The planners by name: those of the core (firmware/planning/planners.hpp), and baselines for hosts only.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "firmware/params.hpp"
 #include "firmware/planning/default_planner.hpp"
-#include "firmware/planning/planner.hpp"
+#include "firmware/planning/planners.hpp"
 #include "host/run/shown_guide.hpp"
 
 namespace whisker {
 
-enum class PlannerKind {
-  skirt,
-  thesis,
-  map,  ///< 2048 bytes
-  map_1024,
-  map_4096,
-  map_8192,
-  map_16384,
-  bug2,
-  distbug,
-  wall_follower,
-  fan,
-  repulsion
-};
-constexpr PlannerKind kPlanners[] = {
-    PlannerKind::skirt,    PlannerKind::thesis,        PlannerKind::map,       PlannerKind::map_1024,
-    PlannerKind::map_4096, PlannerKind::map_8192,      PlannerKind::map_16384, PlannerKind::bug2,
-    PlannerKind::distbug,  PlannerKind::wall_follower, PlannerKind::fan,       PlannerKind::repulsion};
+struct PlannerKind {
+  int number = 0;  ///< in the core's list; the baselines follow it
+  std::int32_t map_bytes = 0;
 
-/// Size of its map in bytes; 0: it has none.
-constexpr int map_bytes(PlannerKind kind) {
-  switch (kind) {
-    case PlannerKind::map: return 2048;
-    case PlannerKind::map_1024: return 1024;
-    case PlannerKind::map_4096: return 4096;
-    case PlannerKind::map_8192: return 8192;
-    case PlannerKind::map_16384: return 16384;
-    default: return 0;
+  static const PlannerKind skirt, thesis, map;
+  friend constexpr bool operator==(PlannerKind a, PlannerKind b) {
+    return a.number == b.number && a.map_bytes == b.map_bytes;
   }
+  friend constexpr bool operator!=(PlannerKind a, PlannerKind b) { return !(a == b); }
+};
+
+/// The core's planner of this name; its map, if it has one, has so many bytes.
+constexpr PlannerKind core_planner(std::string_view name, std::int32_t map_bytes = 0) {
+  PlannerKind found{-1, 0};
+  planning::for_each_planner([&](const planning::PlannerInfo& info, auto type) {
+    if (info.name == name && type.kMapBytes == map_bytes) found = {info.number, type.kMapBytes};
+  });
+  return found;
 }
+inline constexpr PlannerKind PlannerKind::skirt = core_planner("skirt");
+inline constexpr PlannerKind PlannerKind::thesis = core_planner("thesis");
+inline constexpr PlannerKind PlannerKind::map = core_planner("map", planning::kUsualMapBytes);
 
 /// The default planner: see firmware/planning/default_planner.hpp.
-constexpr PlannerKind default_planner() {
-  for (const PlannerKind kind : kPlanners) {
-    if (map_bytes(kind) == planning::kDefaultMapBytes) return kind;
-  }
-  return PlannerKind::skirt;
-}
-constexpr PlannerKind kDefaultPlanner = default_planner();
-static_assert(map_bytes(kDefaultPlanner) == planning::kDefaultMapBytes);
+constexpr PlannerKind kDefaultPlanner =
+    planning::kDefaultMapBytes == 0 ? PlannerKind::skirt : core_planner("map", planning::kDefaultMapBytes);
 
 /// A planner and the global planner in it.
 struct SeenPlanner {
@@ -63,12 +51,15 @@ struct SeenPlanner {
 SeenPlanner make_seen_planner(PlannerKind kind, const Params& params);
 std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params);
 
+/// All planners, those of the core first.
+std::vector<PlannerKind> planners();
 /// A planner for comparison, on the host only.
-constexpr bool is_baseline(PlannerKind kind) { return kind >= PlannerKind::bug2; }
-
-/// As on the command line: "skirt".
-const char* name(PlannerKind kind);
-/// "boundary" is another name for "skirt".
+bool is_baseline(PlannerKind kind);
+/// As on the command line: "skirt", "map", and "map-1024" for another size of map.
+const std::string& name(PlannerKind kind);
+/// Another accepted name; empty: none.
+std::string_view alias(PlannerKind kind);
+/// Finds a planner by its name or its alias.
 std::optional<PlannerKind> planner_named(std::string_view name);
 
 }  // namespace whisker

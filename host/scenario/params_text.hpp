@@ -38,7 +38,4 @@ std::string robot_toml(const Params& params);
 /// The table of docs/scenario.md: key, unit, default and range of every parameter.
 std::string params_markdown();
 
-/// The relation in words; empty for ParamFault::none.
-const char* relation(ParamFault fault);
-
 }  // namespace whisker

@@ -90,8 +90,8 @@ InputError error_of(const RobotTables& tables, const std::vector<ParamEntry>& li
                     table == nullptr ? "not in this file" : fmt::format("line {}", table->line_of(e.key)));
   }
   for (const std::string& fit : v.fits) mends += (mends.empty() ? "" : " or ") + fit;
-  const std::string what =
-      fmt::format("{}: {}{}", values, relation(v.fault), mends.empty() ? "" : "; it would fit with " + mends);
+  const std::string what = fmt::format("{}: {}{}", values, relation(v.fault).words,
+                                       mends.empty() ? "" : "; it would fit with " + mends);
   return where == nullptr ? tables.front().error(what) : where->error_at(at, what);
 }
 

@@ -116,7 +116,7 @@ std::vector<Violation> violations(const Params& params) {
   const std::vector<ParamEntry> list = param_list(params);
   std::vector<Violation> all;
   for_each_relation(params, [&](ParamFault fault, bool holds) {
-    if (!holds) all.push_back({fault, keys_in(relation(fault), list), {}});
+    if (!holds) all.push_back({fault, keys_in(relation(fault).words, list), {}});
     return true;
   });
   for (Violation& v : all) {

@@ -14,8 +14,12 @@
 namespace whisker {
 namespace {
 
-constexpr PlannerKind kAll[] = {PlannerKind::bug2, PlannerKind::distbug, PlannerKind::wall_follower,
-                                PlannerKind::fan, PlannerKind::repulsion};
+const PlannerKind kBug2 = *planner_named("bug2");
+const PlannerKind kDistBug = *planner_named("distbug");
+const PlannerKind kWallFollower = *planner_named("wall-follower");
+const PlannerKind kFan = *planner_named("fan");
+const PlannerKind kRepulsion = *planner_named("repulsion");
+const PlannerKind kAll[] = {kBug2, kDistBug, kWallFollower, kFan, kRepulsion};
 
 struct Drive {
   RunResult result;
@@ -102,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(Each, Baseline, testing::ValuesIn(kAll), [](const auto&
 });
 
 TEST(Bug2, LeavesTheMLineOnlyRoundTheObstacleAndToTheLeft) {
-  const Drive d = drive(three_metres(kDisc), PlannerKind::bug2);
+  const Drive d = drive(three_metres(kDisc), kBug2);
   ASSERT_EQ(d.result.verdict, Verdict::reached);
   for (const TickRecord& r : d.records) {
     if (r.mode == planning::Mode::going && (r.x_m < 0.9 || r.x_m > 2.5)) {
@@ -116,7 +120,7 @@ TEST(Bug2, LeavesTheMLineOnlyRoundTheObstacleAndToTheLeft) {
 TEST(Bug2, LeavesAtTheMLineAndNotAtTheFirstFreeViewOfTheGoal) {
   // Beyond the wall's end the goal is in view at once; the m-line is not.
   const Scenario s = three_metres("[[wall]]\npoints = [[1.2, -1.5], [1.2, 0.8]]\n");
-  const Drive d = drive(s, PlannerKind::bug2);
+  const Drive d = drive(s, kBug2);
   ASSERT_EQ(d.result.verdict, Verdict::reached);
   double leaves_at_y_m = 1;
   for (std::size_t i = 1; i < d.records.size(); ++i) {
@@ -129,28 +133,27 @@ TEST(Bug2, LeavesAtTheMLineAndNotAtTheFirstFreeViewOfTheGoal) {
 
 TEST(DistBug, LeavesAsSoonAsTheGoalIsFreeAndNearer) {
   const Scenario s = three_metres("[[wall]]\npoints = [[1.1, -1.5], [1.3, 0.8]]\n");
-  const Drive dist = drive(s, PlannerKind::distbug);
-  const Drive bug2 = drive(s, PlannerKind::bug2);
+  const Drive dist = drive(s, kDistBug);
+  const Drive bug2 = drive(s, kBug2);
   ASSERT_EQ(dist.result.verdict, Verdict::reached);
   EXPECT_LT(dist.result.path_m, bug2.result.path_m - 0.2);
 }
 
 TEST(DistBug, TurnsToTheSideThatSeesFarther) {
   const std::string shelf = "[[wall]]\npoints = [[1.3, 0.9], [1.1, -0.9], [0.3, -0.9]]\n";
-  EXPECT_LT(sides(drive(three_metres(shelf), PlannerKind::distbug)).right_m, 0.1);
-  EXPECT_GT(sides(drive(three_metres(shelf), PlannerKind::distbug)).left_m, 0.9);
+  EXPECT_LT(sides(drive(three_metres(shelf), kDistBug)).right_m, 0.1);
+  EXPECT_GT(sides(drive(three_metres(shelf), kDistBug)).left_m, 0.9);
 }
 
 TEST(WallFollower, KeepsItsLeftHandOnTheWall) {
-  const Drive d = drive(three_metres(kDisc), PlannerKind::wall_follower);
+  const Drive d = drive(three_metres(kDisc), kWallFollower);
   ASSERT_EQ(d.result.verdict, Verdict::reached);
   EXPECT_LT(sides(d).right_m, -0.4);
   EXPECT_LT(sides(d).left_m, 0.1);
 }
 
 TEST(Unreachable, IsToldByThoseWhoRememberWhereTheyHit) {
-  for (const PlannerKind kind :
-       {PlannerKind::bug2, PlannerKind::distbug, PlannerKind::fan, PlannerKind::repulsion}) {
+  for (const PlannerKind kind : {kBug2, kDistBug, kFan, kRepulsion}) {
     for (const std::string& around : {kFence, kPen}) {
       const RunResult r = drive(three_metres(around), kind).result;
       EXPECT_EQ(r.verdict, Verdict::unreachable) << name(kind) << around;
@@ -162,7 +165,7 @@ TEST(Unreachable, IsToldByThoseWhoRememberWhereTheyHit) {
 TEST(Unreachable, IsNotToldByTheWallFollowerWhichGivesUpWithinItsLength) {
   Scenario s = three_metres(kPen);
   s.time_limit_s = 20000;
-  const RunResult r = drive(s, PlannerKind::wall_follower).result;
+  const RunResult r = drive(s, kWallFollower).result;
   EXPECT_EQ(r.verdict, Verdict::gave_up);
   EXPECT_EQ(r.detail, "length_budget");
   EXPECT_NEAR(r.path_m, 400, 8);

@@ -7,57 +7,27 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "firmware/can/messages.hpp"
+#include "firmware/can/codec.hpp"
 #include "firmware/can/mission.hpp"
 #include "host/hil/candump.hpp"
 
 namespace whisker::can {
 namespace {
 
-/// Takes note of the signals that a message's each() visits.
-struct Visitor {
-  std::vector<const Signal*> seen;
-  template <class T>
-  void operator()(const Signal& s, const T&) {
-    seen.push_back(&s);
-  }
-};
-
-template <class M>
-void expect_all_signals(const M& m) {
-  const Message& message = message_of(M::kKind);
-  Visitor v;
-  M::each(m, v);
-  ASSERT_EQ(v.seen.size(), message.count) << message.name;
-  for (int i = 0; i < message.count; ++i) EXPECT_EQ(v.seen[static_cast<std::size_t>(i)], &message.signals[i]);
-}
-
-TEST(Codec, EachMessageHasAllItsSignals) {
-  expect_all_signals(EStop{});
-  expect_all_signals(Sync{});
-  expect_all_signals(FaultReport{});
-  expect_all_signals(MissionReply{});
-  expect_all_signals(WheelCommand{});
-  expect_all_signals(WheelState{});
-  expect_all_signals(Range<Kind::range_left>{});
-  expect_all_signals(NavStatus{});
-  expect_all_signals(ParamRequest{});
-  expect_all_signals(ParamReply{});
-  expect_all_signals(Heartbeat{});
-}
+const Signal& signal(Kind kind, int i) { return message_of(kind).signals[i]; }
 
 TEST(Codec, SharedPartsLieAtOnePlace) {
   for (int i = 4; i < 10; ++i) {
-    EXPECT_EQ(kMission[i].start, MissionValue::kHeading.start);
-    EXPECT_EQ(kMission[i].length, MissionValue::kHeading.length);
-    EXPECT_EQ(kMission[i].part, i - 3);
+    EXPECT_EQ(signal(Kind::mission, i).start, signal(Kind::mission, 6).start);
+    EXPECT_EQ(signal(Kind::mission, i).length, signal(Kind::mission, 6).length);
+    EXPECT_EQ(signal(Kind::mission, i).part, i - 3);
   }
   for (int i = 1; i < 13; ++i) {
-    EXPECT_EQ(kDiagnostics[i].start, kDiagnostics[1 + (i - 1) % 3].start);
-    EXPECT_EQ(kDiagnostics[i].length, 16);
-    EXPECT_EQ(kDiagnostics[i].part, (i - 1) / 3);
+    EXPECT_EQ(signal(Kind::diagnostics, i).start, signal(Kind::diagnostics, 1 + (i - 1) % 3).start);
+    EXPECT_EQ(signal(Kind::diagnostics, i).length, 16);
+    EXPECT_EQ(signal(Kind::diagnostics, i).part, (i - 1) / 3);
   }
-  EXPECT_EQ(kInfo[2].start, kInfo[3].start);
+  EXPECT_EQ(signal(Kind::info, 2).start, signal(Kind::info, 3).start);
 }
 
 /// Bit by bit, from the table's words alone.
@@ -76,8 +46,10 @@ RC_GTEST_PROP(Codec, AWheelCommandComesBack, (std::int16_t left, std::int16_t ri
   const hal::CanFrame frame = encode(in, 3, 11);
   RC_ASSERT(frame.id == 0x103U && frame.size == 8 && !frame.extended && !frame.remote);
   RC_ASSERT(frame.data[0] == crc_of(frame.id, frame.data, frame.size) && counter_of(frame) == 11);
-  RC_ASSERT(slow_raw(frame, kWheelCommand[1]) == left && slow_raw(frame, kWheelCommand[2]) == right);
-  RC_ASSERT(slow_raw(frame, kWheelCommand[3]) == tick && slow_raw(frame, kWheelCommand[0]) == 1);
+  RC_ASSERT(slow_raw(frame, signal(Kind::wheel_command, 1)) == left &&
+            slow_raw(frame, signal(Kind::wheel_command, 2)) == right);
+  RC_ASSERT(slow_raw(frame, signal(Kind::wheel_command, 3)) == tick &&
+            slow_raw(frame, signal(Kind::wheel_command, 0)) == 1);
   WheelCommand out;
   RC_ASSERT(decode(frame, out));
   RC_ASSERT(out.speeds.left == left && out.speeds.right == right && out.tick == tick && out.mode == in.mode);
@@ -100,14 +72,13 @@ RC_GTEST_PROP(Codec, AnyContentIsJudgedByTheTable, (std::vector<std::uint8_t> by
   hal::CanFrame frame{};
   frame.size = 8;
   for (std::size_t i = 0; i < 8 && i < bytes.size(); ++i) frame.data[i] = bytes[i];
-  agrees_with_the_table<EStop>(frame);
-  agrees_with_the_table<Sync>(frame);
-  agrees_with_the_table<WheelCommand>(frame);
-  agrees_with_the_table<WheelState>(frame);
-  agrees_with_the_table<Range<Kind::range_right>>(frame);
-  agrees_with_the_table<NavStatus>(frame);
-  agrees_with_the_table<Heartbeat>(frame);
-  agrees_with_the_table<ParamReply>(frame);
+  for_each_message([&](const Message&, auto message) {
+    using M = decltype(message);
+    // The signals of a message with parts are not all in one frame, and nobody reads what is reserved.
+    constexpr bool kWhole = M::kKind != Kind::mission && M::kKind != Kind::info &&
+                            M::kKind != Kind::info_request && M::kKind != Kind::diagnostics;
+    if constexpr (kWhole) agrees_with_the_table<M>(frame);
+  });
 }
 
 RC_GTEST_PROP(Codec, OneFlippedByteNeverPassesTheCrc,

@@ -4,7 +4,7 @@
 #include <deque>
 #include <functional>
 
-#include "firmware/can/messages.hpp"
+#include "firmware/can/codec.hpp"
 #include "firmware/can/table_hash.hpp"
 #include "host/bus/memory_bus.hpp"
 

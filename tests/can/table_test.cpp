@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/can/e2e.hpp"
 #include "firmware/can/heads.hpp"
-#include "firmware/can/messages.hpp"
 #include "firmware/can/table_hash.hpp"
 
 namespace whisker::can {

@@ -13,7 +13,7 @@ import subprocess
 import time
 
 import whisker
-from whisker import HERE, ORIGIN, PLANNERS, SCENARIOS, STATUS, Case, with_time_limit
+from whisker import HERE, ORIGIN, SCENARIOS, STATUS, Case, with_time_limit
 
 COUNT = 12
 KIND = ("discs", "--discs", 10)
@@ -75,7 +75,7 @@ class Campaigns(Case):
             self.assertEqual((row["shortest_m"], row["ratio"]), ("", ""))
 
     def test_the_planner_may_be_chosen(self):
-        for planner in (*PLANNERS, "map", "map-16384"):
+        for planner in (*sum(whisker.planners(), []), "map-16384"):
             rows = rows_of(self.rows(*KIND, "--count", 2, "--seed", 2, "--planner", planner))
             self.assertEqual({row["planner"] for row in rows}, {planner})
             world = self.file("w.toml", whisker.whisker("world", *KIND, "--seed", 3).stdout)

@@ -11,7 +11,6 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 SCENARIOS = HERE / "scenarios"
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
-PLANNERS = ("skirt", "thesis", "bug2", "distbug", "wall-follower", "fan", "repulsion")
 # What every object says of how it came about.
 ORIGIN = ("schema", "version", "seed", "planner", "robot_name", "robot_digest")
 STATUS = {"reached": 0, "unreachable": 3, "gave_up": 4, "contact": 5, "fault": 6, "off_goal": 7}
@@ -30,6 +29,13 @@ def whisker(*arguments, **options):
         check=False,
         **options,
     )
+
+
+def planners():
+    """The names of the core's planners and of the baselines, as the help lists them."""
+    text = " ".join(whisker("run", "--help").stdout.split())
+    core, baselines = re.search(r"Planner: (.+?); baselines: ([-a-z0-9]+(?:, [-a-z0-9]+)*)", text).groups()
+    return re.sub(r" \(or \S+\)", "", core).split(", "), baselines.split(", ")
 
 
 def with_time_limit(text, seconds):

@@ -10,7 +10,7 @@ namespace whisker::golden {
 namespace {
 
 /// Of those that the smallest target of the whole recording has room for.
-constexpr PlannerKind kLargestMapOfAll = PlannerKind::map_8192;
+constexpr PlannerKind kLargestMapOfAll = core_planner("map", 8192);
 
 /// Drives with the core in this process, and writes down what it is told.
 class RecordingPilot final : public Pilot {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/control/wheel_drive.hpp"
+
 namespace whisker {
 namespace {
 

@@ -97,8 +97,9 @@ TEST_P(Placement, ACorrectionEachSecondStillArrivesAndTouchesNothing) {
     without.add(s, drive(s, GetParam(), {}));
     with.add(s, drive(s, GetParam(), roughly(n)));
   }
-  std::printf("%s, %d missions: reached %d, with corrections %d; contacts %d and %d\n", name(GetParam()),
-              static_cast<int>(missions), without.reached, with.reached, without.contacts, with.contacts);
+  std::printf("%s, %d missions: reached %d, with corrections %d; contacts %d and %d\n",
+              name(GetParam()).c_str(), static_cast<int>(missions), without.reached, with.reached,
+              without.contacts, with.contacts);
   const bool gives_up = GetParam() == PlannerKind::thesis;
   EXPECT_GE(with.reached, without.reached - (gives_up ? 3 : 0));
   EXPECT_LE(with.contacts, without.contacts);

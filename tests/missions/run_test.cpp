@@ -98,7 +98,7 @@ TEST(Run, AClosedRoomGivesNoExitOrABudget) {
 }
 
 TEST(Planners, AreFoundByTheirNames) {
-  for (const PlannerKind kind : kPlanners) EXPECT_EQ(planner_named(name(kind)), kind) << name(kind);
+  for (const PlannerKind kind : planners()) EXPECT_EQ(planner_named(name(kind)), kind) << name(kind);
   EXPECT_EQ(planner_named("boundary"), PlannerKind::skirt);
   EXPECT_EQ(planner_named("Boundary"), std::nullopt);
 }

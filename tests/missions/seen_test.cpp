@@ -125,7 +125,7 @@ TEST(MapPicture, HasTheCellsAndThePlansWay) {
 }
 
 TEST(MapWatch, TakesAPictureEveryTenthOfASecondOrWhenThePlanIsMade) {
-  for (const PlannerKind planner : {PlannerKind::map, PlannerKind::map_16384}) {
+  for (const PlannerKind planner : {PlannerKind::map, core_planner("map", 16384)}) {
     const Scenario scenario = rooms(2, 40);
     RunOptions options = with_map();
     options.planner = planner;
@@ -144,16 +144,16 @@ TEST(MapWatch, TakesAPictureEveryTenthOfASecondOrWhenThePlanIsMade) {
   }
 }
 
-TEST(MapShape, IsThatOfThePlanner) {
-  for (const PlannerKind kind : kPlanners) {
-    const auto shape = map_shape(kind);
-    EXPECT_EQ(shape.has_value(), map_bytes(kind) > 0) << name(kind);
-    if (!shape) continue;
+TEST(Planner, HasAMapOfTheSizeThatItsKindSays) {
+  for (const PlannerKind kind : planners()) {
     const Params params;
     const SeenPlanner made = make_seen_planner(kind, params);
-    ASSERT_NE(made.guide, nullptr);
-    EXPECT_EQ(made.guide->inside().map().shape().rows, shape->rows);
-    EXPECT_EQ(made.guide->inside().map().shape().words, shape->words);
+    ASSERT_NE(made.planner, nullptr) << name(kind);
+    ASSERT_EQ(made.guide != nullptr, kind.map_bytes > 0) << name(kind);
+    if (made.guide == nullptr) continue;
+    const planning::GridShape shape = planning::map_shape(kind.map_bytes);
+    EXPECT_EQ(made.guide->inside().map().shape().rows, shape.rows);
+    EXPECT_EQ(made.guide->inside().map().shape().words, shape.words);
   }
 }
 

@@ -66,7 +66,7 @@ Scenario far() {
 
 RunOptions smallest() {
   RunOptions options;
-  options.planner = PlannerKind::map_1024;
+  options.planner = core_planner("map", 1024);
   return options;
 }
 

@@ -135,7 +135,7 @@ TEST(Page, SaysHowLargeTheMapIs) {
   EXPECT_TRUE(map_of(PlannerKind::skirt).is_null());
   EXPECT_TRUE(map_of(std::nullopt).is_null());
   const nlohmann::json expected = {{"bytes", 1024}, {"columns", 32}, {"rows", 48}, {"cell", 0.125}};
-  EXPECT_EQ(map_of(PlannerKind::map_1024), expected);
+  EXPECT_EQ(map_of(core_planner("map", 1024)), expected);
 }
 
 TEST(Recording, ChangesNothingAboutTheRun) {

@@ -42,16 +42,15 @@ TEST(ChipPilot, RefusesAMapThatTheChipHasNoRoomFor) {
   // It has read what it is greeted with before it ends: else the host may find it gone.
   const std::string chip = "head -c 1 >/dev/null; printf '\\002\\000\\000\\010'";
   EXPECT_EQ(complaint(chip, PlannerKind::map), chip + ": the chip has ended") << "2048 bytes are room enough";
-  EXPECT_EQ(complaint(chip, PlannerKind::map_4096),
+  EXPECT_EQ(complaint(chip, core_planner("map", 4096)),
             "no room: " + chip + ": has room for 2048 bytes of map, not 4096");
 }
 
 TEST(ChipPilot, RefusesAPlannerThatNoChipHas) {
   const std::string chip = "head -c 1 >/dev/null; printf '\\002\\000\\000\\010'; cat >/dev/null";
-  for (const PlannerKind kind : kPlanners) {
+  for (const PlannerKind kind : planners()) {
     if (!is_baseline(kind)) continue;
-    EXPECT_EQ(complaint(chip, kind),
-              std::string("no such planner: ") + name(kind) + ": no chip has this planner");
+    EXPECT_EQ(complaint(chip, kind), "no such planner: " + name(kind) + ": no chip has this planner");
   }
 }
 
@@ -62,7 +61,7 @@ TEST(ChipPilot, RefusesAnswersThatMakeNoSense) {
 TEST(ChipPilot, DrivesAsTheCoreInThisProcess) {
   const Scenario scenario =
       load_scenario(std::string(WHISKER_SOURCE_DIR) + "/host/worlds/scenarios/two_discs.toml");
-  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map_1024}) {
+  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis, core_planner("map", 1024)}) {
     RunOptions options;
     options.planner = planner;
     const RunResult here = run(scenario, options);

@@ -89,7 +89,7 @@ TEST(Violations, NameTheirKeysAndWhatIsSaidToFitDoes) {
             apply_robot_file(changed, file.path());
           } catch (const InputErrors& errors) {
             for (const InputError& e : errors.all())
-              EXPECT_THAT(e.what(), testing::Not(HasSubstr(relation(v.fault))));
+              EXPECT_THAT(e.what(), testing::Not(HasSubstr(relation(v.fault).words)));
           }
           ++mended;
         }
@@ -198,7 +198,7 @@ TEST(ParamText, RoundsToTheNearestRawUnit) {
 
 TEST(Relation, IsSaidInWordsForEveryFault) {
   for (int i = 1; i < kParamFaults; ++i) {
-    EXPECT_STRNE(relation(static_cast<ParamFault>(i)), "") << i;
+    EXPECT_STRNE(relation(static_cast<ParamFault>(i)).words, "") << i;
   }
 }
 

@@ -69,11 +69,9 @@ struct Stand {
   }
 };
 
-enum class Planner : uint8_t { skirt, thesis, map };
-
 struct Begin {
-  Planner planner = Planner::skirt;
-  uint16_t map_bytes = 0;  ///< of Planner::map, see planning::kMapShape
+  uint8_t planner = 0;     ///< its number, see planning::for_each_planner
+  uint16_t map_bytes = 0;  ///< of its map, see planning::kMapSizes; 0 for a planner without one
   Stand stand;
 
   template <class M, class F>

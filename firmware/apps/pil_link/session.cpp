@@ -121,29 +121,15 @@ bool Session::obey(Name name) noexcept {
   return false;
 }
 
-planning::Planner* Session::make_map(uint16_t bytes) noexcept {
-  return planning::with_map_of<planning::Planner*>(bytes, [this](auto size) -> planning::Planner* {
-    if constexpr (size.kValue <= planning::kRoomForMap) {
-      return &room_for_planner_
-                  .make<planning::TableMapPlanner<size.kValue>>(my_->params, fuzzy::kDefaultTable)
-                  .planner;
+bool Session::begin(const Begin& what) noexcept {
+  const auto make = [this](auto type) -> planning::Planner* {
+    if constexpr (type.kMapBytes <= planning::kRoomForMap) {
+      using Type = typename decltype(type)::Type;
+      return &planning::planner_in(room_for_planner_.make<Type>(my_->params, fuzzy::kDefaultTable));
     }
     return nullptr;
-  });
-}
-
-bool Session::begin(const Begin& what) noexcept {
-  planning::Planner* planner = nullptr;
-  switch (what.planner) {
-    case Planner::skirt:
-      planner =
-          &room_for_planner_.make<planning::TableBoundaryPlanner>(my_->params, fuzzy::kDefaultTable).planner;
-      break;
-    case Planner::thesis:
-      planner = &room_for_planner_.make<planning::ThesisPlanner>(my_->params, fuzzy::kDefaultTable);
-      break;
-    case Planner::map: planner = make_map(what.map_bytes); break;
-  }
+  };
+  const auto planner = planning::with_planner<planning::Planner*>(what.planner, what.map_bytes, make);
   if (planner == nullptr) return false;
   robot_ = &room_for_robot_.make<Robot>(my_->board, my_->board, *planner, my_->params);
   robot_->place(pose(what.stand));

@@ -9,21 +9,12 @@
 #include "firmware/apps/pil_link/remote_board.hpp"
 #include "firmware/apps/static_storage.hpp"
 #include "firmware/planning/default_planner.hpp"
-#include "firmware/planning/thesis/thesis_planner.hpp"
+#include "firmware/planning/planners.hpp"
 #include "firmware/robot.hpp"
 #include "hal/byte_stream.hpp"
 #include "hal/meter.hpp"
 
 namespace whisker::link {
-
-/// What the largest planner takes.
-template <int kMapBytes>
-constexpr size_t kPlannerSize = sizeof(planning::TableMapPlanner<kMapBytes>);
-template <>
-inline constexpr size_t kPlannerSize<0> = sizeof(planning::TableBoundaryPlanner) >
-                                                  sizeof(planning::ThesisPlanner)
-                                              ? sizeof(planning::TableBoundaryPlanner)
-                                              : sizeof(planning::ThesisPlanner);
 
 class Session {
  public:
@@ -42,7 +33,6 @@ class Session {
 
   bool obey(Name name) noexcept;
   bool begin(const Begin& what) noexcept;
-  planning::Planner* make_map(uint16_t bytes) noexcept;
   bool tick(const Tick& what) noexcept;
   bool probe(const Probe& what) noexcept;
   bool hear(size_t count) noexcept { return stream_->read(buffer_, count); }
@@ -57,7 +47,7 @@ class Session {
   Affairs* my_ = nullptr;
   Robot* robot_ = nullptr;
   StaticStorage<sizeof(Affairs)> room_for_affairs_;
-  StaticStorage<kPlannerSize<planning::kRoomForMap>> room_for_planner_;
+  StaticStorage<planning::largest_planner(planning::kRoomForMap)> room_for_planner_;
   StaticStorage<sizeof(Robot)> room_for_robot_;
   uint32_t ticks_ = 0;
   bool ended_ = false;

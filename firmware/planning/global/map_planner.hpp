@@ -1,6 +1,7 @@
 /// The boundary planner with a map as global planner.
 #pragma once
 
+#include <stddef.h>
 #include <stdint.h>
 
 #include "firmware/planning/boundary/table_boundary_planner.hpp"
@@ -8,54 +9,52 @@
 
 namespace whisker::planning {
 
-/// Memory of a map of this size: cells, plan and bookkeeping.
-template <int kBytes>
-constexpr GridShape kMapShape{};
-template <>
-inline constexpr GridShape kMapShape<1024>{1, 48, 125_mm};
-template <>
-inline constexpr GridShape kMapShape<2048>{2, 56, 100_mm};
-template <>
-inline constexpr GridShape kMapShape<4096>{3, 80, 80_mm};
-template <>
-inline constexpr GridShape kMapShape<8192>{4, 124, micrometres(66700)};
-template <>
-inline constexpr GridShape kMapShape<16384>{6, 168, 50_mm};
+struct MapSize {
+  int32_t bytes;    ///< memory for cells, plan and bookkeeping
+  GridShape shape;  ///< the grid that fits into it
+};
+inline constexpr MapSize kMapSizes[] = {{1024, {1, 48, 125_mm}},
+                                        {2048, {2, 56, 100_mm}},
+                                        {4096, {3, 80, 80_mm}},
+                                        {8192, {4, 124, micrometres(66700)}},
+                                        {16384, {6, 168, 50_mm}}};
+/// Size of the map if none is chosen.
+constexpr int32_t kUsualMapBytes = 2048;
+
+/// Shape of a map of this size; without cells if there is no such map.
+constexpr GridShape map_shape(int32_t bytes) noexcept {
+  for (const MapSize& size : kMapSizes) {
+    if (size.bytes == bytes) return size.shape;
+  }
+  return {};
+}
 
 /// A map size known at compile time.
-template <int kBytes>
+template <int32_t kOfBytes>
 struct MapBytes {
-  static constexpr int kValue = kBytes;
+  static constexpr int32_t kBytes = kOfBytes;
 };
 
-/// Returns make(MapBytes<bytes>), or nothing if there is no such map.
-template <class Made, class Make>
-Made with_map_of(int32_t bytes, const Make& make) {
-  switch (bytes) {
-    case 1024: return make(MapBytes<1024>());
-    case 2048: return make(MapBytes<2048>());
-    case 4096: return make(MapBytes<4096>());
-    case 8192: return make(MapBytes<8192>());
-    case 16384: return make(MapBytes<16384>());
-    default: return Made();
-  }
+/// Calls visit(MapBytes) for each size.
+template <size_t kAt = 0, class Visit>
+constexpr void for_each_map(Visit&& visit) noexcept {
+  visit(MapBytes<kMapSizes[kAt].bytes>{});
+  if constexpr (kAt + 1 < sizeof kMapSizes / sizeof *kMapSizes) for_each_map<kAt + 1>(visit);
 }
 
 /// A global planner with storage for its map.
 template <int kBytes>
 class MapOf {
  public:
-  explicit MapOf(const Params& params) noexcept : guide(params, kMapShape<kBytes>, storage_) {}
+  explicit MapOf(const Params& params) noexcept : guide(params, map_shape(kBytes), storage_) {
+    static_assert(sizeof(MapOf) <= size_t{kBytes});
+  }
   WavefrontPlanner guide;
 
  private:
-  GridWord storage_[kGridPlanes * kMapShape<kBytes>.size()];
+  static constexpr size_t kWords = static_cast<size_t>(kGridPlanes * map_shape(kBytes).size());
+  GridWord storage_[kWords];
 };
-static_assert(sizeof(MapOf<1024>) <= 1024);
-static_assert(sizeof(MapOf<2048>) <= 2048);
-static_assert(sizeof(MapOf<4096>) <= 4096);
-static_assert(sizeof(MapOf<8192>) <= 8192);
-static_assert(sizeof(MapOf<16384>) <= 16384);
 
 /// The complete planner; the response table deflects its heading.
 template <int kBytes>

@@ -1,6 +1,2 @@
-include(${boards}/stm32f405/sources.cmake)
-target_sources(whisker_board PRIVATE
-  ${whisker_stm32f405_sources}
-  cortex_m/aeabi_memory.cpp
-  ${boards}/stm32f405/startup.cpp)
+include(${CMAKE_CURRENT_LIST_DIR}/drivers.cmake)
 whisker_linker_script(hal/boards/stm32f405/stm32f405.ld)

@@ -92,7 +92,7 @@ Cost cost_of(Vec from, Vec to) {
 template <int kBytes>
 void expect_bounded() {
   SCOPED_TRACE(kBytes);
-  constexpr planning::GridShape kShape = kMapShape<kBytes>;
+  constexpr planning::GridShape kShape = map_shape(kBytes);
   const int steps = kRange.raw() / kShape.cell.raw();
   // A line to each of the places within the horizon, and two through the window.
   const int bound = steps * 2 * steps + 2 * (kShape.columns() + kShape.rows);

@@ -29,21 +29,9 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   say('clock', `${time.toFixed(1)} s, ${metres(way, 1)}`);
 }
 
-const PROGRESS = {
-  skirt:
-    'Where the way is blocked it follows the edge, and leaves it only where it is nearer to the goal than ever before. ' +
-    'So each edge brings it nearer, and no dead end can hold it; all the way round without such a place means that there is no way.',
-  thesis:
-    'It may: it leaves an edge as soon as the goal comes into sight, nearer or not, and can walk into the same trap for ever. ' +
-    'The skirt planner is what mends that.',
-  map:
-    'Its map of what the beams have seen, 2048 bytes in all, leads as long as that brings it nearer to the goal. ' +
-    'Where it does not, it follows the edges by the rule of the skirt planner, and the map leads again where the goal is nearer than ever before.',
-};
-
 /** Of the robot that the panels look at. */
 export function showProgress(run: LiveRun, several: boolean): void {
-  setText('progress', PROGRESS[run.planner]);
+  setText('progress', run.about);
   setText('to-goal', metres(run.distance));
   setText('nearest', metres(run.nearest));
   for (const whose of document.querySelectorAll('.whose')) {

@@ -1,8 +1,7 @@
 /** Which world, who drives, how fast; and the keys. */
-import {element, setText} from '../dom.ts';
+import {element, make, setText} from '../dom.ts';
 import {ending} from '../words.ts';
 import type {Playground} from './playground.ts';
-import {WHO, type Who} from './share.ts';
 import type {Stage} from './stage.ts';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8, 16, 32, 64];
@@ -31,9 +30,9 @@ export class Controls {
     this.seed.addEventListener('change', () => this.world(play.state.kind, Number(this.seed.value)));
     element('next-seed').addEventListener('click', () => this.world(play.state.kind, play.state.seed + 1));
     element('original').addEventListener('click', () => this.world(play.state.kind, play.state.seed));
-    for (const who of Object.keys(WHO) as Who[]) {
-      element(`who-${who}`).addEventListener('click', () => this.who(who));
-    }
+    element('who').replaceChildren(
+      ...Object.entries(play.teams).map(([who, team]) => this.whoButton(who, team)),
+    );
     this.speed.replaceChildren(...SPEEDS.map((s) => new Option(`${s}×`, String(s))));
     this.speed.value = String(play.speed);
     this.speed.addEventListener('change', () => (play.speed = Number(this.speed.value)));
@@ -52,7 +51,7 @@ export class Controls {
     const {kind, seed, who, own} = play.state;
     this.kind.value = kind;
     if (document.activeElement !== this.seed) this.seed.value = String(seed);
-    for (const name of Object.keys(WHO) as Who[]) {
+    for (const name of Object.keys(play.teams)) {
       element(`who-${name}`).setAttribute('aria-pressed', String(name === who));
     }
     const noMap = play.runs.every((run) => run.map === null);
@@ -78,9 +77,17 @@ export class Controls {
     this.seed.value = String(play.state.seed);
   }
 
-  private who(who: Who): void {
-    this.play.setWho(who);
-    this.stage.fit();
+  /** "Skirt planner", "Skirt and map". */
+  private whoButton(who: string, team: readonly string[]): HTMLElement {
+    const words = team.length > 1 ? team.join(' and ') : `${who} planner`;
+    const button = make('button', '', words[0].toUpperCase() + words.slice(1));
+    button.id = `who-${who}`;
+    button.setAttribute('type', 'button');
+    button.addEventListener('click', () => {
+      this.play.setWho(who);
+      this.stage.fit();
+    });
+    return button;
   }
 
   private toggle(): void {

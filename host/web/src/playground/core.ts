@@ -15,6 +15,7 @@ interface Exports {
   result(side: number): number;
   way(side: number, from: number): number;
   clear_cells(side: number): number;
+  map_bytes(side: number): number;
   map(side: number): number;
   robot(): number;
   get_rules(): number;
@@ -32,9 +33,6 @@ const COLUMNS = [
   'guide', 'way_x_m', 'way_y_m',
   'left_m', 'left_status', 'front_m', 'front_status', 'right_m', 'right_status',
 ] as const; // prettier-ignore
-
-export const PLANNERS = ['skirt', 'thesis', 'map'] as const;
-export type Planner = (typeof PLANNERS)[number];
 
 export const OUTCOMES = ['reached', 'off_goal', 'unreachable', 'gave_up', 'contact', 'fault'] as const;
 
@@ -68,7 +66,7 @@ export const RULE_FAULTS = {
   stepsLongerNear: 16,
 } as const;
 
-const WORDS = {modes: 0, whys: 1, faults: 2, kinds: 3, guides: 4} as const;
+const WORDS = {modes: 0, whys: 1, faults: 2, kinds: 3, guides: 4, planners: 5, abouts: 6} as const;
 
 export class Core {
   readonly words: Record<keyof typeof WORDS, string[]>;
@@ -104,9 +102,9 @@ export class Core {
     return (['good', 'none', 'touches'] as const)[this.wasm.judge()];
   }
 
-  begin(side: number, planner: Planner, situation: Situation): void {
+  begin(side: number, planner: string, situation: Situation): void {
     this.write(flat(situation));
-    if (!this.wasm.begin(side, PLANNERS.indexOf(planner))) throw new Error('this world is none');
+    if (!this.wasm.begin(side, this.words.planners.indexOf(planner))) throw new Error('this world is none');
   }
 
   /** Obstacles and goal, while the robot drives. */
@@ -146,6 +144,11 @@ export class Core {
 
   clearCells(side: number): Float64Array {
     return this.read(this.wasm.clear_cells(side));
+  }
+
+  /** 0: its planner has no map. */
+  mapBytes(side: number): number {
+    return this.wasm.map_bytes(side);
   }
 
   /** Columns, rows, side of a cell, corner, states, and places of the plan's way; empty without a map. */

@@ -1,6 +1,6 @@
 /** A robot under way: what the replay page's parts want to know of a run, of which only now is known. */
 import {rangeOf, type Controller, type Seen} from '../data.ts';
-import type {Core, Planner, Result} from './core.ts';
+import type {Core, Result} from './core.ts';
 import {LiveMap} from './live_map.ts';
 import type {Situation} from './situation.ts';
 import type {Ended} from '../words.ts';
@@ -29,15 +29,22 @@ export class LiveRun implements Seen {
   constructor(
     private readonly core: Core,
     private readonly side: number,
-    readonly planner: Planner,
+    readonly planner: string,
     situation: Situation,
     readonly shared: {readonly controller: Controller},
   ) {
     core.begin(side, planner, situation);
     this.info = {world: situation.world, robot: core.robot, inside: true};
-    this.map = planner === 'map' ? new LiveMap() : null;
+    const bytes = core.mapBytes(side);
+    this.map = bytes > 0 ? new LiveMap(bytes) : null;
     this.result = core.result(side);
     this.refresh();
+  }
+
+  /** Why its planner does not get stuck, or when it does. */
+  get about(): string {
+    const {planners, abouts} = this.core.words;
+    return abouts[planners.indexOf(this.planner)];
   }
 
   get offGoal(): boolean {

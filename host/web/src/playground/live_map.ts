@@ -2,21 +2,22 @@
 import type {MapInfo} from '../film.ts';
 import type {MapSeen} from '../map_scenery.ts';
 
-/** Of the one that the page offers. */
-export const MAP_BYTES = 2048;
-
 export class LiveMap implements MapSeen {
-  info: MapInfo = {bytes: MAP_BYTES, columns: 0, rows: 0, cell: 1};
+  info: MapInfo;
   corner: [x: number, y: number] = [0, 0];
   private states: Float64Array = new Float64Array();
   private way = new Set<number>();
   /** Pictures so far. */
   private count = 0;
 
+  constructor(private readonly bytes: number) {
+    this.info = {bytes, columns: 0, rows: 0, cell: 1};
+  }
+
   /** A new picture, or the last one again. */
   show(told: Float64Array): void {
     const [columns, rows, cell, x, y] = told;
-    this.info = {bytes: MAP_BYTES, columns, rows, cell};
+    this.info = {bytes: this.bytes, columns, rows, cell};
     this.corner = [x, y];
     this.states = told.subarray(5, 5 + columns * rows);
     this.way.clear();

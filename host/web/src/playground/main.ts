@@ -37,7 +37,7 @@ async function module(): Promise<Uint8Array> {
 async function open(): Promise<void> {
   const theme = new Theme();
   const core = await Core.load(await module());
-  const first = await stateOf(location.hash, core.words.kinds, FIRST);
+  const first = await stateOf(location.hash, core.words, FIRST);
   const answers = answersOf(core.rules());
   const controller = controllerOf(core, answers);
   let play: Playground;
@@ -107,7 +107,7 @@ async function open(): Promise<void> {
     request();
   });
   addEventListener('hashchange', async () => {
-    const {state, fault} = await stateOf(location.hash, core.words.kinds, FIRST);
+    const {state, fault} = await stateOf(location.hash, core.words, FIRST);
     sayLinkFault(fault);
     if (fault) return;
     if (!play.restore(state)) {

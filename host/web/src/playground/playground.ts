@@ -2,10 +2,10 @@
 import {Camera} from '../camera.ts';
 import type {World} from '../data.ts';
 import {sceneBoxOf} from '../scene_box.ts';
-import type {Core, Planner} from './core.ts';
+import type {Core} from './core.ts';
 import type {Controller} from '../data.ts';
 import {LiveRun} from './live.ts';
-import {WHO, type State} from './share.ts';
+import {teamsOf, type State, type Teams} from './share.ts';
 import type {Situation} from './situation.ts';
 import {distanceTo, moved, sized, withNew, without, type NewKind, type Thing} from './things.ts';
 
@@ -42,8 +42,11 @@ export class Playground {
     this.listeners.push(listener);
   }
 
-  get planners(): readonly Planner[] {
-    return WHO[this.state.who];
+  get teams(): Teams {
+    return teamsOf(this.core.words.planners);
+  }
+  get planners(): readonly string[] {
+    return this.teams[this.state.who];
   }
   get over(): boolean {
     return this.runs.every((run) => run.over);

@@ -1,26 +1,19 @@
 /** The whole state of the page in its address. */
 import {bytesOfBase64, inflatedUpTo} from '../columns.ts';
 import {flat, situationOf, type Situation} from './situation.ts';
-import type {Planner} from './core.ts';
 
-/** Alone, or two side by side. */
-export const WHO = {
-  skirt: ['skirt'],
-  thesis: ['thesis'],
-  map: ['map'],
-  both: ['skirt', 'thesis'],
-  'skirt-map': ['skirt', 'map'],
-} as const satisfies Record<string, readonly Planner[]>;
-export type Who = keyof typeof WHO;
-
-export function isWho(text: string): text is Who {
-  return Object.hasOwn(WHO, text);
+/** By name: each planner alone, and some two side by side. */
+export type Teams = Record<string, readonly string[]>;
+export function teamsOf(planners: string[]): Teams {
+  const alone = Object.fromEntries(planners.map((planner) => [planner, [planner]]));
+  return {...alone, both: ['skirt', 'thesis'], 'skirt-map': ['skirt', 'map']};
 }
 
 export interface State {
   kind: string;
   seed: number;
-  who: Who;
+  /** A name of Teams. */
+  who: string;
   /** What the visitor made of the world; null while it is the generator's. */
   own: Situation | null;
   /** As in Situation. */
@@ -86,8 +79,10 @@ async function ownOf(text: string): Promise<Situation> {
   }
 }
 
+type Words = {kinds: string[]; planners: string[]};
+
 /** Throws LinkError. */
-async function readLink(hash: string, kinds: string[], otherwise: State): Promise<State> {
+async function readLink(hash: string, {kinds, planners}: Words, otherwise: State): Promise<State> {
   const params = new URLSearchParams(hash.replace(/^#/, ''));
   const take = <T>(name: string, of: (text: string) => T, missing: T): T => {
     const text = params.get(name);
@@ -112,7 +107,7 @@ async function readLink(hash: string, kinds: string[], otherwise: State): Promis
     ),
     who: take(
       'planner',
-      (text) => demand(isWho(text), text as Who, 'its planner is unknown to this page'),
+      (text) => demand(Object.hasOwn(teamsOf(planners), text), text, 'its planner is unknown to this page'),
       otherwise.who,
     ),
     noise: take('noise', noiseOf, [0, 0, 0, 0, 0]),
@@ -128,9 +123,9 @@ export interface Read {
 }
 
 /** What the address does not say is as in `otherwise`, and so is all of it where something in it is wrong. */
-export async function stateOf(hash: string, kinds: string[], otherwise: State): Promise<Read> {
+export async function stateOf(hash: string, words: Words, otherwise: State): Promise<Read> {
   try {
-    return {state: await readLink(hash, kinds, otherwise), fault: ''};
+    return {state: await readLink(hash, words, otherwise), fault: ''};
   } catch (error) {
     if (!(error instanceof LinkError)) throw error;
     return {state: otherwise, fault: error.message};

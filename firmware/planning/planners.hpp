@@ -1,0 +1,85 @@
+/// The planners of the core, in one list. The command line, campaigns, the bus, the companion's link, the
+/// playground and their documents take them from here. docs/adding.md shows how to add one.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "firmware/planning/boundary/table_boundary_planner.hpp"
+#include "firmware/planning/global/map_planner.hpp"
+#include "firmware/planning/thesis/thesis_planner.hpp"
+
+namespace whisker::planning {
+
+struct PlannerInfo {
+  uint8_t number;     ///< on the companion's link
+  const char* name;   ///< on the command line, in traces and on pages
+  const char* alias;  ///< another name that is understood; nullptr: none
+  const char* about;  ///< why it does not get stuck, or when it does: shown by the playground
+};
+
+/// `Made` is made from parameters and response table, which must outlive it.
+template <class Made>
+struct PlannerType {
+  using Type = Made;
+  static constexpr int32_t kMapBytes = 0;  ///< of its map; 0: it has none
+};
+template <int kBytes>
+struct PlannerType<TableMapPlanner<kBytes>> {
+  using Type = TableMapPlanner<kBytes>;
+  static constexpr int32_t kMapBytes = kBytes;
+};
+
+/// Calls visit(PlannerInfo, PlannerType): for a planner with a map, once for each size of map.
+template <class Visit>
+constexpr void for_each_planner(Visit&& visit) noexcept {
+  visit(
+      PlannerInfo{
+          0, "skirt", "boundary",
+          "Where the way is blocked it follows the edge, and leaves it only where it is nearer to the "
+          "goal than ever before. So each edge brings it nearer, and no dead end can hold it; all the "
+          "way round without such a place means that there is no way."},
+      PlannerType<TableBoundaryPlanner>{});
+  visit(
+      PlannerInfo{
+          1, "thesis", nullptr,
+          "It may: it leaves an edge as soon as the goal comes into sight, nearer or not, and can walk "
+          "into the same trap for ever. The skirt planner is what mends that."},
+      PlannerType<ThesisPlanner>{});
+  constexpr PlannerInfo kMap{
+      2, "map", nullptr,
+      "Its map of what the beams have seen leads as long as that brings it nearer to the goal. Where it does "
+      "not, it follows the edges by the rule of the skirt planner, and the map leads again where the goal is "
+      "nearer than ever before."};
+  for_each_map([&](auto map) { visit(kMap, PlannerType<TableMapPlanner<map.kBytes>>{}); });
+}
+
+/// make(PlannerType) of the planner with this number, with a map of so many bytes where it has one; R() where
+/// there is no such planner.
+template <class R, class Make>
+constexpr R with_planner(int number, int32_t map_bytes, const Make& make) noexcept {
+  R made{};
+  for_each_planner([&](const PlannerInfo& info, auto type) {
+    if (info.number == number && (type.kMapBytes == 0 || type.kMapBytes == map_bytes)) made = make(type);
+  });
+  return made;
+}
+
+/// The room that the largest planner takes whose map has at most so many bytes.
+constexpr size_t largest_planner(int32_t most_map_bytes) noexcept {
+  size_t most = 0;
+  for_each_planner([&](const PlannerInfo&, auto type) {
+    constexpr size_t kSize = sizeof(typename decltype(type)::Type);
+    if (type.kMapBytes <= most_map_bytes && kSize > most) most = kSize;
+  });
+  return most;
+}
+
+/// The planner in what PlannerType::Type made: itself, or its member.
+inline Planner& planner_in(Planner& made) noexcept { return made; }
+template <class Made>
+auto planner_in(Made& made) noexcept -> decltype((made.planner)) {
+  return made.planner;
+}
+
+}  // namespace whisker::planning

@@ -1,0 +1,105 @@
+"""docs/adding.md's examples of a planner, a message and a parameter, made in a copy of the tree, build and work.
+
+usage: adding.py ROOT WORK_FOLDER CMAKE GENERATOR CXX
+"""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+from sources import finish
+
+PARTS = ("firmware", "hal", "host", "toolchain", "CMakeLists.txt")
+WORLD = """time_limit_s = 120.0
+[start]
+x_m = 0.0
+y_m = 0.0
+[goal]
+x_m = 1.0
+y_m = 0.0
+[robot]
+motion_patience_s = 0.25
+"""
+
+
+class Failure(Exception):
+    pass
+
+
+def run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise Failure(f"exit status {done.returncode}: {' '.join(map(str, command))}\n{done.stdout[-3000:]}{done.stderr}")
+    return done.stdout
+
+
+def with_lines(text, diff, file):
+    """A line of the diff that begins with a blank is the next one in the text that is like it; one with a plus follows it."""
+    lines, at = text.splitlines(), -1
+    for line in diff.splitlines():
+        mark, rest = line[:1], line[1:]
+        if mark == "+":
+            at += 1
+            lines.insert(at, rest)
+        else:
+            found = [i for i in range(at + 1, len(lines)) if lines[i].strip() == rest.strip()]
+            if not found:
+                raise Failure(f"docs/adding.md: {file} has no line '{rest.strip()}'")
+            at = found[0]
+    return "\n".join(lines) + "\n"
+
+
+def apply(page, tree):
+    """The files that were written or changed."""
+    touched = set()
+    for new, file, text in re.findall(r"^(New,|In) `([^`]+)`[^\n]*:\n```\w+\n(.*?)^```", page, re.MULTILINE | re.DOTALL):
+        path = tree / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text if new == "New," else with_lines(path.read_text(), text, file))
+        touched.add(file)
+    return touched
+
+
+def check(whisker, folder):
+    world = folder / "world.toml"
+    world.write_text(WORLD)
+    told = json.loads(run(whisker, "run", world, "--planner", "beeline", "--json"))
+    yield "the planner arrives", (told["outcome"], told["planner"]) == ("reached", "beeline")
+    bus = json.loads(run(whisker, "hil", world, "--planner", "beeline", "--json"))
+    yield "the planner drives alike on the bus", bus["hash"] == told["hash"]
+    yield "the help names the planner", "beeline" in run(whisker, "run", "--help")
+    yield "the link's page numbers the planner", "3 beeline" in run(whisker, "protocol", "--link")
+    page = run(whisker, "protocol")
+    yield "the protocol has the messages", "### Ping" in page and "| Pong | 0x19 |" in page
+    yield "the DBC file has the messages", re.search(r"BO_ \d+ Ping: 4 Base1", run(whisker, "dbc"))
+    yield "the protocol has the parameter", "| 44 | motion_patience_s | ms | 500 | 0..5000 |" in page
+    yield "the manual's table has it", "| `motion_patience_s` | s | 0.5 | 0 to 5 |" in run(whisker, "protocol", "--parameters")
+
+
+def main(root, work, cmake, generator, compiler):
+    root, work = pathlib.Path(root), pathlib.Path(work)
+    tree, build = work / "tree", work / "build"
+    shutil.rmtree(tree, ignore_errors=True)
+    tree.mkdir(parents=True)
+    for part in PARTS:
+        if (root / part).is_dir():
+            shutil.copytree(root / part, tree / part, ignore=shutil.ignore_patterns("node_modules", "web"))
+        else:
+            shutil.copy2(root / part, tree / part)
+    try:
+        touched = apply((root / "docs/adding.md").read_text(), tree)
+        options = ["-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DWHISKER_TESTS=OFF", "-DCMAKE_UNITY_BUILD=ON"]
+        run(cmake, "-S", tree, "-B", build, "-G", generator, f"-DCMAKE_CXX_COMPILER={compiler}", *options)
+        run(cmake, "--build", build, "-j", os.cpu_count(), "--target", "whisker")
+        problems = [f"not so: {what}" for what, holds in check(build / "whisker", work) if not holds]
+    except Failure as failure:
+        touched, problems = (), [str(failure)]
+    return finish("additions", len(touched) or 1, problems)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
