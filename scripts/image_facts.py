@@ -31,10 +31,10 @@ NO_GUIDE = ((r"N7whisker8planning(15BoundaryPlanner|8Approach)", None),)
 GUIDE = ((r"N7whisker8planning(15BoundaryPlanner|8Approach)", r"N7whisker8planning16WavefrontPlanner(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|WavefrontPlanner12knows_no_way"),)
 # Of the controller on a bus: node, port and line.
 NODE = (
-    (r"3can4Node10understandE", r"ControllerNode4hearE"),
-    (r"3can(4Node|14ControllerNode|8BusGuard)", r"ControllerNode(11forget_peerE|7at_restE|5timedE)|5slcan5Slcan(4sendE|7receiveE|4pollE|7restartE|5stateE|6countsE)"),
+    (r"3can4Node10understandE", r"ControllerNode8on_frameE"),
+    (r"3can(4Node|14ControllerNode|8BusGuard)", r"ControllerNode(10reset_peerE|7at_restE|5timedE)|5slcan5Slcan(4sendE|7receiveE|4pollE|7restartE|5stateE|6countsE)"),
     (r"5slcan5Slcan", r"8UartPort.*(4takeE|5offerE|5readyE)"),
-    (r"5Pilot4obeyE", r"8Planners4makeE"),
+    (r"11RemoteRobot7executeE", r"8Planners4makeE"),
     (r"^main$", r"12Milliseconds.*6now_msE|8UartPort.*4takeE|12CounterMeter.*5stampE"),
 )  # fmt: skip
 

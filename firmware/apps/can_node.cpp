@@ -11,9 +11,9 @@ namespace {
 
 StaticStorage<sizeof(images::Planner)> room_for_planner;
 StaticStorage<sizeof(hal::slcan::Slcan)> room_for_port;
-StaticStorage<sizeof(can_remote::Controller)> room_for_controller;
+StaticStorage<sizeof(can_app::Controller)> room_for_controller;
 
-struct Planners final : can_remote::PlannerMaker {
+struct Planners final : can_app::PlannerMaker {
   planning::Planner& make(const Params& params) noexcept override {
     return room_for_planner.make<images::Planner>(params, fuzzy::kDefaultTable).planner;
   }
@@ -37,6 +37,6 @@ int main() {
   const hal::Board& board = hal::board();
   const can::Identity identity{1, boot_number(board), kVersionNumber};
   auto& port = room_for_port.make<hal::slcan::Slcan>(*board.line, hal::slcan::Role::adapter);
-  auto& controller = room_for_controller.make<can_remote::Controller>(port, identity, planners);
+  auto& controller = room_for_controller.make<can_app::Controller>(port, identity, planners);
   for (;;) controller.poll(board.clock.now_ms());
 }

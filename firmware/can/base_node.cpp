@@ -23,26 +23,28 @@ void BaseNode::poll(uint32_t now) noexcept {
   listen(now);
   if (ordered() && now - command_seen_ > kCommandLate_ms) stop(Error::command_late);
   publish();
-  if (order_state_ == OrderState::waiting && for_good() != 0) order_state_ = OrderState::refused;
+  if (order_state_ == OrderState::waiting && permanent_errors() != 0) order_state_ = OrderState::refused;
   if (order_state_ != OrderState::waiting || !matched() || !at_rest()) return;
   if (order_due_ || now - ordered_at_ >= kOrderRepeat_ms) send_order();
 }
 
-bool BaseNode::send_set(const InputSet& set, Pace pace) noexcept {
-  set_pace(pace);
+bool BaseNode::send_set(const InputSet& set, SyncMode sync_mode) noexcept {
+  set_sync_mode(sync_mode);
   tick_ = set.tick;
   period_ms_ = set.period_ms;
   const auto tick16 = static_cast<uint16_t>(set.tick);
   const hal::RangeReading* beam = set.ranges.beam;
-  bool taken = send(Range<Kind::range_left>{InputSets::to_wire(beam[hal::kLeft]), tick16}, kLife_ms);
-  taken = send(Range<Kind::range_front>{InputSets::to_wire(beam[hal::kFront]), tick16}, kLife_ms) && taken;
-  taken = send(Range<Kind::range_right>{InputSets::to_wire(beam[hal::kRight]), tick16}, kLife_ms) && taken;
+  bool taken = send(Range<MessageKind::range_left>{InputSets::to_wire(beam[hal::kLeft]), tick16}, kLife_ms);
+  taken =
+      send(Range<MessageKind::range_front>{InputSets::to_wire(beam[hal::kFront]), tick16}, kLife_ms) && taken;
+  taken =
+      send(Range<MessageKind::range_right>{InputSets::to_wire(beam[hal::kRight]), tick16}, kLife_ms) && taken;
   WheelState wheels;
   wheels.valid = set.counts_valid ? 1 : 0;
   wheels.tick = static_cast<uint8_t>(set.tick % WheelState::kTickModulus);
   wheels.counts = set.counts;
   taken = send(wheels, kLife_ms) && taken;
-  taken = send(Sync{pace, set.tick, set.period_ms, mission_}, kLife_ms) && taken;
+  taken = send(Sync{sync_mode, set.tick, set.period_ms, mission_}, kLife_ms) && taken;
   flush();
   return taken;
 }
@@ -62,8 +64,8 @@ bool BaseNode::answered(uint32_t tick) const noexcept {
          status_.tick == tick16;
 }
 
-void BaseNode::give(Order order, const Mission& mission, Pace pace) noexcept {
-  set_pace(pace);
+void BaseNode::give(Order order, const Mission& mission, SyncMode sync_mode) noexcept {
+  set_sync_mode(sync_mode);
   order_ = order;
   values_ = values_of(mission);
   mission_ = static_cast<uint8_t>(mission_ + 1);
@@ -95,25 +97,26 @@ bool BaseNode::replied(ParamReply& reply) const noexcept {
   return replied_;
 }
 
-Heard BaseNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
+FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept {
   switch (kind) {
-    case Kind::wheel_command: return read<WheelCommand>(frame, [this](const auto& m) { hear_command(m); });
-    case Kind::mission_reply: return read<MissionReply>(frame, [this](const auto& m) { hear_reply(m); });
-    case Kind::nav_status:
+    case MessageKind::wheel_command:
+      return read<WheelCommand>(frame, [this](const auto& m) { on_command(m); });
+    case MessageKind::mission_reply: return read<MissionReply>(frame, [this](const auto& m) { on_reply(m); });
+    case MessageKind::nav_status:
       return read<NavStatus>(frame, [this](const auto& m) {
         status_ = m;
         status_come_ = true;
       });
-    case Kind::param_reply:
+    case MessageKind::param_reply:
       return read<ParamReply>(frame, [this](const auto& m) {
         reply_ = m;
         replied_ = true;
       });
-    default: return Heard::unknown;
+    default: return FrameResult::unknown;
   }
 }
 
-void BaseNode::hear_command(const WheelCommand& command) noexcept {
+void BaseNode::on_command(const WheelCommand& command) noexcept {
   const auto behind = static_cast<uint16_t>(tick_ - command.tick);
   if (command.mode == DriveMode::drive && behind * period_ms_ > (lockstep() ? 0U : kCommandOld_ms)) {
     count(tally().stale);
@@ -124,7 +127,7 @@ void BaseNode::hear_command(const WheelCommand& command) noexcept {
   command_seen_ = now_ms();
 }
 
-void BaseNode::hear_reply(const MissionReply& reply) noexcept {
+void BaseNode::on_reply(const MissionReply& reply) noexcept {
   if (reply.mission != mission_ || order_state_ != OrderState::waiting) return;
   switch (reply.status) {
     case MissionStatus::accepted:
@@ -140,7 +143,7 @@ void BaseNode::hear_reply(const MissionReply& reply) noexcept {
   }
 }
 
-void BaseNode::forget_peer() noexcept {
+void BaseNode::reset_peer() noexcept {
   commanded_ = false;
   status_come_ = false;
   replied_ = false;

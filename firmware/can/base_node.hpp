@@ -12,7 +12,7 @@ enum class OrderState : uint8_t {
   none,
   waiting,  ///< not answered yet: repeated
   accepted,
-  refused,  ///< or has no effect: see for_good()
+  refused,  ///< or has no effect: see permanent_errors()
 };
 
 /// The node with the sensors and the wheels, which also sends the missions. It never allocates or waits.
@@ -27,7 +27,7 @@ class BaseNode final : public Node {
   void poll(uint32_t now_ms) noexcept;
   /// Sends the measurements of a tick. In lockstep, the same tick may be sent again. False: the port did not
   /// accept all of it.
-  bool send_set(const InputSet& set, Pace pace) noexcept;
+  bool send_set(const InputSet& set, SyncMode sync_mode) noexcept;
   /// Call once per period: the speeds that the wheels must have now. While the robot does not run, they ramp
   /// down to zero.
   hal::WheelSpeeds control() noexcept;
@@ -39,7 +39,7 @@ class BaseNode final : public Node {
 
   /// Sends an order and repeats it until it is answered. It ends the safe stop of this node, so the wheels
   /// must be at rest. The robot runs once a start or resume is accepted.
-  void give(Order order, const Mission& mission, Pace pace) noexcept;
+  void give(Order order, const Mission& mission, SyncMode sync_mode) noexcept;
   OrderState order_state() const noexcept { return order_state_; }
 
   void request(const ParamRequest& request) noexcept;
@@ -47,11 +47,11 @@ class BaseNode final : public Node {
   bool replied(ParamReply& reply) const noexcept;
 
  private:
-  Heard hear(Kind kind, const hal::CanFrame& frame) noexcept override;
-  void forget_peer() noexcept override;
+  FrameResult on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept override;
+  void reset_peer() noexcept override;
   bool at_rest() const noexcept override { return speeds_.left == 0 && speeds_.right == 0; }
-  void hear_command(const WheelCommand& command) noexcept;
-  void hear_reply(const MissionReply& reply) noexcept;
+  void on_command(const WheelCommand& command) noexcept;
+  void on_reply(const MissionReply& reply) noexcept;
   void send_order() noexcept;
 
   const int16_t ramp_;

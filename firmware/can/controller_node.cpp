@@ -71,57 +71,57 @@ void ControllerNode::answer(hal::WheelSpeeds speeds, const NavStatus& status) no
   flush();
 }
 
-Heard ControllerNode::hear(Kind kind, const hal::CanFrame& frame) noexcept {
+FrameResult ControllerNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept {
   switch (kind) {
-    case Kind::range_left: return in_range(hear_range<Kind::range_left>(hal::kLeft, frame));
-    case Kind::range_front: return in_range(hear_range<Kind::range_front>(hal::kFront, frame));
-    case Kind::range_right: return in_range(hear_range<Kind::range_right>(hal::kRight, frame));
-    case Kind::wheel_state: return read<WheelState>(frame, [this](const auto& m) { hear_wheels(m); });
-    case Kind::sync: return read<Sync>(frame, [this](const auto& m) { hear_sync(m); });
-    case Kind::mission: return in_range(hear_mission(frame));
-    case Kind::param_request: return read<ParamRequest>(frame, [this](const auto& m) { hear_param(m); });
-    default: return Heard::unknown;
+    case MessageKind::range_left: return in_range(on_range<MessageKind::range_left>(hal::kLeft, frame));
+    case MessageKind::range_front: return in_range(on_range<MessageKind::range_front>(hal::kFront, frame));
+    case MessageKind::range_right: return in_range(on_range<MessageKind::range_right>(hal::kRight, frame));
+    case MessageKind::wheel_state: return read<WheelState>(frame, [this](const auto& m) { on_wheels(m); });
+    case MessageKind::sync: return read<Sync>(frame, [this](const auto& m) { on_sync(m); });
+    case MessageKind::mission: return in_range(on_mission(frame));
+    case MessageKind::param_request: return read<ParamRequest>(frame, [this](const auto& m) { on_param(m); });
+    default: return FrameResult::unknown;
   }
 }
 
-template <Kind kKind>
-bool ControllerNode::hear_range(int beam, const hal::CanFrame& frame) noexcept {
+template <MessageKind kKind>
+bool ControllerNode::on_range(int beam, const hal::CanFrame& frame) noexcept {
   Range<kKind> range;
   if (!decode(frame, range) || !InputSets::sound(range.reading)) return false;
-  sets_.hear(beam, range.reading, range.tick);
+  sets_.on_frame(beam, range.reading, range.tick);
   beam_seen_[beam] = now_ms();
   return true;
 }
 
-void ControllerNode::hear_wheels(const WheelState& state) noexcept {
-  sets_.hear(state);
+void ControllerNode::on_wheels(const WheelState& state) noexcept {
+  sets_.on_frame(state);
   if (state.valid != 0) wheels_seen_ = now_ms();
 }
 
-void ControllerNode::hear_sync(const Sync& sync) noexcept {
+void ControllerNode::on_sync(const Sync& sync) noexcept {
   if (!numbered_ || sync.mission != number_) {
     count(tally().stale);
     return;
   }
-  set_pace(sync.pace);
-  sets_.hear(sync);
+  set_sync_mode(sync.sync_mode);
+  sets_.on_frame(sync);
   asked_again_ = lockstep() && answered_ && sync.tick == tick_;
 }
 
-bool ControllerNode::hear_mission(const hal::CanFrame& frame) noexcept {
+bool ControllerNode::on_mission(const hal::CanFrame& frame) noexcept {
   MissionValue part;
   if (!decode(frame, part)) return false;
   if (part.part != MissionPart::order) {
-    parts_.hear(part);
+    parts_.on_frame(part);
     return true;
   }
   MissionOrder order;
   if (!decode(frame, order)) return false;
-  send(MissionReply{obey(order), order.mission});
+  send(MissionReply{execute(order), order.mission});
   return true;
 }
 
-MissionStatus ControllerNode::obey(const MissionOrder& order) noexcept {
+MissionStatus ControllerNode::execute(const MissionOrder& order) noexcept {
   if (!parts_.complete(order)) return MissionStatus::incomplete;
   if (numbered_ && order.mission == number_) return MissionStatus::accepted;
   Mission mission;
@@ -131,7 +131,7 @@ MissionStatus ControllerNode::obey(const MissionOrder& order) noexcept {
     rest();
     has_mission_ = false;
   } else {
-    set_pace(Pace::real_time);
+    set_sync_mode(SyncMode::real_time);
     if (!run()) return MissionStatus::refused;
     has_mission_ = true;
   }
@@ -151,13 +151,13 @@ MissionStatus ControllerNode::obey(const MissionOrder& order) noexcept {
   return MissionStatus::accepted;
 }
 
-void ControllerNode::hear_param(const ParamRequest& request) noexcept {
+void ControllerNode::on_param(const ParamRequest& request) noexcept {
   bool committed = false;
   send(server_.answer(request, ordered(), committed));
   if (committed) committed_ = server_.staged();
 }
 
-void ControllerNode::forget_peer() noexcept {
+void ControllerNode::reset_peer() noexcept {
   sets_.forget();
   parts_.forget();
   numbered_ = false;
@@ -166,7 +166,7 @@ void ControllerNode::forget_peer() noexcept {
   stepped_ = false;
   answered_ = false;
   asked_again_ = false;
-  set_pace(Pace::real_time);
+  set_sync_mode(SyncMode::real_time);
 }
 
 }  // namespace whisker::can

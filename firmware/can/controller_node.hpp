@@ -34,18 +34,18 @@ class ControllerNode final : public Node {
   const Params& params() const noexcept { return committed_; }
 
  private:
-  Heard hear(Kind kind, const hal::CanFrame& frame) noexcept override;
-  void forget_peer() noexcept override;
+  FrameResult on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept override;
+  void reset_peer() noexcept override;
   bool at_rest() const noexcept override { return true; }
   /// Before its first step the robot has not moved, and the sync mode is unknown.
   bool timed() const noexcept override { return !lockstep() && stepped_; }
-  template <Kind kKind>
-  bool hear_range(int beam, const hal::CanFrame& frame) noexcept;
-  void hear_wheels(const WheelState& state) noexcept;
-  void hear_sync(const Sync& sync) noexcept;
-  bool hear_mission(const hal::CanFrame& frame) noexcept;
-  void hear_param(const ParamRequest& request) noexcept;
-  MissionStatus obey(const MissionOrder& order) noexcept;
+  template <MessageKind kKind>
+  bool on_range(int beam, const hal::CanFrame& frame) noexcept;
+  void on_wheels(const WheelState& state) noexcept;
+  void on_sync(const Sync& sync) noexcept;
+  bool on_mission(const hal::CanFrame& frame) noexcept;
+  void on_param(const ParamRequest& request) noexcept;
+  MissionStatus execute(const MissionOrder& order) noexcept;
   void watch() noexcept;
   void brake() noexcept;
   void repeat_answer() noexcept;

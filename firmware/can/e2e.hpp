@@ -66,9 +66,9 @@ class AliveSender {
 };
 
 enum class Arrival : uint8_t {
-  in_turn,   ///< the next one, possibly after lost frames
-  repeated,  ///< the same counter again
-  astray,    ///< too far from the last one, or no valid counter
+  in_turn,          ///< the next one, possibly after lost frames
+  repeated,         ///< the same counter again
+  out_of_sequence,  ///< too far from the last one, or no valid counter
 };
 
 /// Checks the counters of one identifier. The first frame after forget() is always in sequence. A frame out
@@ -78,14 +78,14 @@ class AliveReceiver {
   /// lost: number of frames lost before this one; 0 unless it is in sequence.
   constexpr Arrival judge(uint8_t counter, uint8_t& lost) noexcept {
     lost = 0;
-    if (counter >= kAliveModulus) return Arrival::astray;
+    if (counter >= kAliveModulus) return Arrival::out_of_sequence;
     const bool knew = known_;
     const int ahead = (counter + kAliveModulus - last_) % kAliveModulus;
     if (knew && ahead == 0) return Arrival::repeated;
     known_ = true;
     last_ = counter;
     if (!knew) return Arrival::in_turn;
-    if (ahead > kMostLost + 1) return Arrival::astray;
+    if (ahead > kMostLost + 1) return Arrival::out_of_sequence;
     lost = static_cast<uint8_t>(ahead - 1);
     return Arrival::in_turn;
   }

@@ -6,7 +6,7 @@ namespace {
 constexpr uint8_t kWheels = 1 << hal::kBeams;
 constexpr uint8_t kSynced = kWheels << 1;
 constexpr uint8_t kAll = (kSynced << 1) - 1;
-using Any = Range<Kind::range_left>;
+using Any = Range<MessageKind::range_left>;
 
 }  // namespace
 
@@ -40,18 +40,18 @@ hal::RangeReading InputSets::to_wire(const hal::RangeReading& reading) noexcept 
   return wire;
 }
 
-void InputSets::hear(int beam, const hal::RangeReading& reading, uint16_t tick) noexcept {
+void InputSets::on_frame(int beam, const hal::RangeReading& reading, uint16_t tick) noexcept {
   ranges_.beam[beam] = reading;
   range_tick_[beam] = tick;
   seen_ = static_cast<uint8_t>(seen_ | 1 << beam);
 }
 
-void InputSets::hear(const WheelState& state) noexcept {
+void InputSets::on_frame(const WheelState& state) noexcept {
   wheels_ = state;
   seen_ |= kWheels;
 }
 
-void InputSets::hear(const Sync& sync) noexcept {
+void InputSets::on_frame(const Sync& sync) noexcept {
   sync_ = sync;
   seen_ |= kSynced;
 }

@@ -23,9 +23,9 @@ class InputSets {
   /// The reading in the form of the frame.
   static hal::RangeReading to_wire(const hal::RangeReading& reading) noexcept;
 
-  void hear(int beam, const hal::RangeReading& reading, uint16_t tick) noexcept;
-  void hear(const WheelState& state) noexcept;
-  void hear(const Sync& sync) noexcept;
+  void on_frame(int beam, const hal::RangeReading& reading, uint16_t tick) noexcept;
+  void on_frame(const WheelState& state) noexcept;
+  void on_frame(const Sync& sync) noexcept;
   /// All five frames of the last Sync's tick have arrived.
   bool complete() const noexcept;
   /// Only when complete().

@@ -17,7 +17,7 @@ namespace whisker::can {
 constexpr uint8_t kProtocol = 1;
 
 /// In the order of for_each_message.
-enum class Kind : uint8_t {
+enum class MessageKind : uint8_t {
   e_stop,
   sync,
   fault,
@@ -44,7 +44,7 @@ enum class Kind : uint8_t {
 // {name, start, length, signed, min, max, factor, unit, about, part, word}
 
 struct EStop {
-  static constexpr Kind kKind = Kind::e_stop;
+  static constexpr MessageKind kKind = MessageKind::e_stop;
   uint8_t command = kStopCommand;
 
   template <class M, class F>
@@ -54,15 +54,15 @@ struct EStop {
 };
 
 struct Sync {
-  static constexpr Kind kKind = Kind::sync;
-  Pace pace = Pace::real_time;
+  static constexpr MessageKind kKind = MessageKind::sync;
+  SyncMode sync_mode = SyncMode::real_time;
   uint32_t tick = 0;
   uint8_t period_ms = 10;
   uint8_t mission = 0;
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Mode", 12, 4, false, 0, 1, "1", "", "the clock that drives the ticks", kAlways, word_in<kPaceWords>}, m.pace);
+    f({"Mode", 12, 4, false, 0, 1, "1", "", "the clock that drives the ticks", kAlways, word_in<kPaceWords>}, m.sync_mode);
     f({"Tick", 16, 32, false, 0, kMost32, "1", "", "the tick of this input set"}, m.tick);
     f({"Period", 48, 8, false, 1, kMost8, "0.001", "s", "control period"}, m.period_ms);
     f({"Mission", 56, 8, false, 0, kMost8, "1", "", "the mission that this tick belongs to"}, m.mission);
@@ -70,7 +70,7 @@ struct Sync {
 };
 
 struct FaultReport {
-  static constexpr Kind kKind = Kind::fault;
+  static constexpr MessageKind kKind = MessageKind::fault;
   Severity severity = Severity::none;
   uint16_t errors = 0;
   uint8_t core_fault = 0;
@@ -91,7 +91,7 @@ inline constexpr Signal kMissionNumber = {"Mission", 16, 8, false, 0, kMost8, "1
 
 /// Part 0.
 struct MissionOrder {
-  static constexpr Kind kKind = Kind::mission;
+  static constexpr MessageKind kKind = MessageKind::mission;
   static constexpr Signal kMore[] = {
     {"StartX", 24, 32, true, -kPlaceLimitUm, kPlaceLimitUm, "0.000001", "m", "start pose of the robot", 1},
     {"StartY", 24, 32, true, -kPlaceLimitUm, kPlaceLimitUm, "0.000001", "m", "", 2},
@@ -117,7 +117,7 @@ struct MissionOrder {
 /// Parts 1 to 6. All values lie at the same bits as the heading. The range of a value is checked where its
 /// part is known.
 struct MissionValue {
-  static constexpr Kind kKind = Kind::mission;
+  static constexpr MessageKind kKind = MessageKind::mission;
   MissionPart part = MissionPart::start_x;
   uint8_t mission = 0;
   uint32_t value = 0;  ///< raw, two's complement
@@ -131,7 +131,7 @@ struct MissionValue {
 };
 
 struct MissionReply {
-  static constexpr Kind kKind = Kind::mission_reply;
+  static constexpr MessageKind kKind = MessageKind::mission_reply;
   MissionStatus status = MissionStatus::accepted;
   uint8_t mission = 0;
 
@@ -143,7 +143,7 @@ struct MissionReply {
 };
 
 struct WheelCommand {
-  static constexpr Kind kKind = Kind::wheel_command;
+  static constexpr MessageKind kKind = MessageKind::wheel_command;
   DriveMode mode = DriveMode::stop;
   hal::WheelSpeeds speeds{};
   uint16_t tick = 0;
@@ -158,7 +158,7 @@ struct WheelCommand {
 };
 
 struct WheelState {
-  static constexpr Kind kKind = Kind::wheel_state;
+  static constexpr MessageKind kKind = MessageKind::wheel_state;
   static constexpr uint8_t kTickModulus = 8;
   uint8_t valid = 1;
   uint8_t tick = 0;
@@ -174,9 +174,9 @@ struct WheelState {
 };
 
 /// Reading of one beam; the three messages differ in their identifiers only.
-template <Kind kOf>
+template <MessageKind kOf>
 struct Range {
-  static constexpr Kind kKind = kOf;
+  static constexpr MessageKind kKind = kOf;
   static constexpr uint16_t kClear = 65535, kNone = 65534;
   hal::RangeReading
       reading{};  ///< reading.mm is the distance of the frame: kClear and kNone mean no distance
@@ -193,7 +193,7 @@ struct Range {
 };
 
 struct NavStatus {
-  static constexpr Kind kKind = Kind::nav_status;
+  static constexpr MessageKind kKind = MessageKind::nav_status;
   planning::Outcome outcome = planning::Outcome::none;
   planning::Mode state = planning::Mode::idle;
   uint8_t looked = 0;
@@ -215,7 +215,7 @@ struct NavStatus {
 };
 
 struct ParamRequest {
-  static constexpr Kind kKind = Kind::param_request;
+  static constexpr MessageKind kKind = MessageKind::param_request;
   ParamAction action = ParamAction::read;
   uint8_t index = 0;
   uint32_t value = 0;
@@ -229,7 +229,7 @@ struct ParamRequest {
 };
 
 struct ParamReply {
-  static constexpr Kind kKind = Kind::param_reply;
+  static constexpr MessageKind kKind = MessageKind::param_reply;
   ParamStatus status = ParamStatus::ok;
   uint8_t index = 0;
   uint32_t value = 0;
@@ -243,7 +243,7 @@ struct ParamReply {
 };
 
 struct Heartbeat {
-  static constexpr Kind kKind = Kind::heartbeat;
+  static constexpr MessageKind kKind = MessageKind::heartbeat;
   NodeState state = NodeState::waiting;
   uint16_t errors = 0;
   uint16_t boot = 0;
@@ -261,7 +261,7 @@ struct Heartbeat {
 };
 
 struct Info {
-  static constexpr Kind kKind = Kind::info;
+  static constexpr MessageKind kKind = MessageKind::info;
   static constexpr Signal kMore[] = {
     {"Version", 32, 24, false, 0, kMost24, "1", "", "of the firmware: major, minor, patch, one byte each", 1},
   };
@@ -278,7 +278,7 @@ struct Info {
 };
 
 struct InfoRequest {
-  static constexpr Kind kKind = Kind::info_request;
+  static constexpr MessageKind kKind = MessageKind::info_request;
   static constexpr Signal kMore[] = {
     {"Reserved", 12, 4, false, 0, kMost4, "1", "", "not used"},
   };
@@ -288,7 +288,7 @@ struct InfoRequest {
 };
 
 struct Diagnostics {
-  static constexpr Kind kKind = Kind::diagnostics;
+  static constexpr MessageKind kKind = MessageKind::diagnostics;
   static constexpr Signal kMore[] = {
     {"Malformed", 16, 16, false, 0, kMost16, "1", "", "wrong length, remote, extended", 1},
     {"OutOfRange", 32, 16, false, 0, kMost16, "1", "", "frames with a value out of range", 1},
@@ -312,7 +312,7 @@ struct Diagnostics {
   }
 };
 
-/// Calls visit(row, message) for each message, in the order of Kind.
+/// Calls visit(row, message) for each message, in the order of MessageKind.
 template <class F>
 constexpr void for_each_message(F&& visit) noexcept {
   // name, function, size, from controller, from base, cycle in ms, about
@@ -323,9 +323,9 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"MissionReply", 0x0B, 3, true, false, 0, "answer to an order"}, MissionReply{});
   visit(Message{"WheelCommand", 0x10, 8, true, false, 10, "answer to an input set, or stop"}, WheelCommand{});
   visit(Message{"WheelState", 0x11, 8, false, true, 10, "encoders"}, WheelState{});
-  visit(Message{"RangeLeft", 0x12, 8, false, true, 10, "left rangefinder"}, Range<Kind::range_left>{});
-  visit(Message{"RangeFront", 0x13, 8, false, true, 10, "middle rangefinder"}, Range<Kind::range_front>{});
-  visit(Message{"RangeRight", 0x14, 8, false, true, 10, "right rangefinder"}, Range<Kind::range_right>{});
+  visit(Message{"RangeLeft", 0x12, 8, false, true, 10, "left rangefinder"}, Range<MessageKind::range_left>{});
+  visit(Message{"RangeFront", 0x13, 8, false, true, 10, "middle rangefinder"}, Range<MessageKind::range_front>{});
+  visit(Message{"RangeRight", 0x14, 8, false, true, 10, "right rangefinder"}, Range<MessageKind::range_right>{});
   visit(Message{"NavStatus", 0x15, 8, true, false, 10, "state of the navigation and its reason"}, NavStatus{});
   visit(Message{"ParamRequest", 0x16, 7, false, true, 0, "reads or changes a parameter"}, ParamRequest{});
   visit(Message{"ParamReply", 0x17, 7, true, false, 0, "answer to a ParamRequest"}, ParamReply{});

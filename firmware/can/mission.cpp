@@ -33,7 +33,7 @@ uint16_t digest_of(const MissionValues& values) noexcept {
   return static_cast<uint16_t>(hash ^ hash >> 16);
 }
 
-void MissionParts::hear(const MissionValue& part) noexcept {
+void MissionParts::on_frame(const MissionValue& part) noexcept {
   if (part.mission != mission_) seen_ = 0;
   mission_ = part.mission;
   const int i = static_cast<int>(part.part) - 1;

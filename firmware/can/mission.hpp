@@ -29,7 +29,7 @@ uint16_t digest_of(const MissionValues& values) noexcept;
 class MissionParts {
  public:
   /// A part of another mission restarts the collection.
-  void hear(const MissionValue& part) noexcept;
+  void on_frame(const MissionValue& part) noexcept;
   /// All parts of this mission have arrived and match.
   bool complete(const MissionOrder& order) const noexcept;
   const MissionValues& values() const noexcept { return values_; }

@@ -39,7 +39,7 @@ uint16_t Node::errors() const noexcept {
   return bits;
 }
 
-uint16_t Node::for_good() const noexcept {
+uint16_t Node::permanent_errors() const noexcept {
   return static_cast<uint16_t>((errors() | (peer_heard_ ? peer_.errors : 0)) & kForGood);
 }
 
@@ -95,7 +95,7 @@ void Node::listen(uint32_t now_ms) noexcept {
 bool Node::is_for_us(uint8_t node) const noexcept { return node == 0 || node == node_ || node == peer_node_; }
 
 void Node::receive(const hal::CanFrame& frame) noexcept {
-  Kind kind = Kind::e_stop;
+  MessageKind kind = MessageKind::e_stop;
   const auto node = static_cast<uint8_t>(frame.id & 0x0F);
   if (frame.id > 0x7FF || !is_for_us(node)) {
     count(health_.foreign);
@@ -103,7 +103,7 @@ void Node::receive(const hal::CanFrame& frame) noexcept {
     count(node == peer_node_ ? health_.unknown : health_.foreign);
   } else if (frame.extended || frame.remote) {
     count(health_.malformed);
-  } else if (kind == Kind::e_stop) {
+  } else if (kind == MessageKind::e_stop) {
     receive_e_stop(frame);
   } else if (is_sound(kind, frame)) {
     if (node == node_) {
@@ -120,7 +120,7 @@ void Node::receive(const hal::CanFrame& frame) noexcept {
 void Node::receive_e_stop(const hal::CanFrame& frame) noexcept {
   count(health_.e_stops);
   EStop what;
-  const bool whole = frame.size == head_of(Kind::e_stop).size &&
+  const bool whole = frame.size == head_of(MessageKind::e_stop).size &&
                      frame.data[0] == crc_of(frame.id, frame.data, frame.size) && decode(frame, what);
   if (whole && what.command == kClearCommand) {
     if (at_rest()) e_stopped_ = false;
@@ -131,7 +131,7 @@ void Node::receive_e_stop(const hal::CanFrame& frame) noexcept {
   running_ = false;
 }
 
-bool Node::is_sound(Kind kind, const hal::CanFrame& frame) noexcept {
+bool Node::is_sound(MessageKind kind, const hal::CanFrame& frame) noexcept {
   const bool own = (frame.id & 0x0F) == node_;
   if (frame.size != head_of(kind).size || !may_send(own ? party_ : other(party_), kind)) {
     count(health_.malformed);
@@ -144,48 +144,48 @@ bool Node::is_sound(Kind kind, const hal::CanFrame& frame) noexcept {
   return true;
 }
 
-void Node::understand(Kind kind, const hal::CanFrame& frame) noexcept {
+void Node::understand(MessageKind kind, const hal::CanFrame& frame) noexcept {
   uint8_t lost = 0;
   switch (heard_[static_cast<uint8_t>(kind)].judge(counter_of(frame), lost)) {
     case Arrival::repeated: count(health_.repeated); return;
-    case Arrival::astray: count(health_.astray); return;
+    case Arrival::out_of_sequence: count(health_.out_of_sequence); return;
     case Arrival::in_turn: break;
   }
   for (; lost > 0; --lost) count(health_.lost);
-  Heard heard = Heard::understood;
+  FrameResult heard = FrameResult::understood;
   switch (kind) {
-    case Kind::heartbeat:
-      heard = read<Heartbeat>(frame, [this](const Heartbeat& m) { hear_heartbeat(m); });
+    case MessageKind::heartbeat:
+      heard = read<Heartbeat>(frame, [this](const Heartbeat& m) { on_heartbeat(m); });
       break;
-    case Kind::info: heard = read<Info>(frame, [this](const Info& m) { hear_info(m); }); break;
-    case Kind::info_request: announce_ = true; break;
-    case Kind::diagnostics:
-    case Kind::fault: break;  // for people and tools
+    case MessageKind::info: heard = read<Info>(frame, [this](const Info& m) { on_info(m); }); break;
+    case MessageKind::info_request: announce_ = true; break;
+    case MessageKind::diagnostics:
+    case MessageKind::fault: break;  // for people and tools
     default:
       if (!matched_) {
         count(health_.unmatched);
         return;
       }
-      heard = hear(kind, frame);
+      heard = on_frame(kind, frame);
   }
   settle(heard);
 }
 
-void Node::settle(Heard heard) noexcept {
+void Node::settle(FrameResult heard) noexcept {
   switch (heard) {
-    case Heard::understood: count(health_.accepted); break;
-    case Heard::out_of_range: count(health_.out_of_range); break;
-    case Heard::unknown: count(health_.unknown); break;
+    case FrameResult::understood: count(health_.accepted); break;
+    case FrameResult::out_of_range: count(health_.out_of_range); break;
+    case FrameResult::unknown: count(health_.unknown); break;
   }
 }
 
-void Node::hear_heartbeat(const Heartbeat& beat) noexcept {
+void Node::on_heartbeat(const Heartbeat& beat) noexcept {
   if (peer_known_ && beat.boot != peer_.boot) {
     count(peer_restarts_);
     stop(Error::peer_restarted);
     lose_peer();
     hash_known_ = false;
-    forget_peer();
+    reset_peer();
   }
   if (!peer_heard_) announce_ = true;
   peer_known_ = true;
@@ -197,7 +197,7 @@ void Node::hear_heartbeat(const Heartbeat& beat) noexcept {
   if (beat.state == NodeState::safe_stop || beat.state == NodeState::e_stopped) stop(Error::peer_stopped);
 }
 
-void Node::hear_info(const Info& info) noexcept {
+void Node::on_info(const Info& info) noexcept {
   if (info.part != InfoPart::table_hash || !peer_known_ || info.boot != peer_.boot) return;
   hash_known_ = true;
   hash_right_ = info.value == kTableHash;
@@ -261,7 +261,7 @@ void Node::publish_diagnostics() noexcept {
   const hal::CanCounts& port = port_.counts();
   const BusHealth& h = health_;
   const uint32_t values[4][3] = {{h.crc, h.lost, h.repeated},
-                                 {h.malformed, h.out_of_range, h.astray},
+                                 {h.malformed, h.out_of_range, h.out_of_sequence},
                                  {guard_.bus_offs(), port.refused, port.expired},
                                  {port.overrun, h.skipped, h.stops}};
   Diagnostics what;

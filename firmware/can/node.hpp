@@ -13,7 +13,7 @@
 
 #include "firmware/can/bus_guard.hpp"
 #include "firmware/can/codec.hpp"
-#include "firmware/can/heads.hpp"
+#include "firmware/can/headers.hpp"
 #include "firmware/can/limits.hpp"
 #include "firmware/health.hpp"
 
@@ -21,17 +21,17 @@ namespace whisker::can {
 
 /// Received-frame counters by result: each frame counts once in the first eleven. Counters saturate.
 struct BusHealth {
-  uint32_t accepted = 0;      ///< executed or understood
-  uint32_t foreign = 0;       ///< other robots or protocols: no error
-  uint32_t malformed = 0;     ///< remote, extended or of wrong length, or not allowed for its sender
-  uint32_t crc = 0;           ///< wrong CRC
-  uint32_t repeated = 0;      ///< the same counter as the last frame
-  uint32_t astray = 0;        ///< the counter jumped
-  uint32_t out_of_range = 0;  ///< a value outside its range
-  uint32_t unmatched = 0;     ///< before the handshake
-  uint32_t duplicates = 0;    ///< sent by another node with this node's number
-  uint32_t e_stops = 0;       ///< on an E-stop identifier
-  uint32_t unknown = 0;       ///< of the other node, but a message that this one does not handle
+  uint32_t accepted = 0;         ///< executed or understood
+  uint32_t foreign = 0;          ///< other robots or protocols: no error
+  uint32_t malformed = 0;        ///< remote, extended or of wrong length, or not allowed for its sender
+  uint32_t crc = 0;              ///< wrong CRC
+  uint32_t repeated = 0;         ///< the same counter as the last frame
+  uint32_t out_of_sequence = 0;  ///< the counter jumped
+  uint32_t out_of_range = 0;     ///< a value outside its range
+  uint32_t unmatched = 0;        ///< before the handshake
+  uint32_t duplicates = 0;       ///< sent by another node with this node's number
+  uint32_t e_stops = 0;          ///< on an E-stop identifier
+  uint32_t unknown = 0;          ///< of the other node, but a message that this one does not handle
 
   uint32_t stale = 0;    ///< of the accepted: answers to old sets, sets of another mission
   uint32_t lost = 0;     ///< missing according to the counters
@@ -46,7 +46,7 @@ struct Identity {
 };
 
 /// Result of a node for a valid frame in sequence.
-enum class Heard : uint8_t {
+enum class FrameResult : uint8_t {
   understood,
   out_of_range,  ///< a value is out of range
   unknown,       ///< the node does not handle this message
@@ -60,14 +60,14 @@ class Node {
   NodeState state() const noexcept;
   uint16_t errors() const noexcept;
   /// Errors of this or the other node that no order ends: that node must restart.
-  uint16_t for_good() const noexcept;
+  uint16_t permanent_errors() const noexcept;
   const BusHealth& health() const noexcept { return health_; }
   /// The other node is alive, with the same protocol and table.
   bool matched() const noexcept { return matched_; }
   const Heartbeat& peer() const noexcept { return peer_; }  ///< its last heartbeat
   bool peer_heard() const noexcept { return peer_heard_; }
   uint32_t peer_restarts() const noexcept { return peer_restarts_; }
-  bool lockstep() const noexcept { return pace_ == Pace::lockstep; }
+  bool lockstep() const noexcept { return sync_mode_ == SyncMode::lockstep; }
   uint32_t now_ms() const noexcept { return now_; }
 
   /// Error bits that only the owner knows: core_fault, drive_refused, sensors_refused.
@@ -81,18 +81,20 @@ class Node {
 
   // Not pure, because that requires a run-time library.
   /// Handles a valid frame of the other node in sequence, after the handshake.
-  virtual Heard hear(Kind, const hal::CanFrame&) noexcept { return Heard::unknown; }
-  static constexpr Heard in_range(bool is) noexcept { return is ? Heard::understood : Heard::out_of_range; }
+  virtual FrameResult on_frame(MessageKind, const hal::CanFrame&) noexcept { return FrameResult::unknown; }
+  static constexpr FrameResult in_range(bool is) noexcept {
+    return is ? FrameResult::understood : FrameResult::out_of_range;
+  }
   /// Decodes the message of the frame and passes it to `use`, unless a value is out of range.
   template <class M, class Use>
-  static Heard read(const hal::CanFrame& frame, const Use& use) noexcept {
+  static FrameResult read(const hal::CanFrame& frame, const Use& use) noexcept {
     M message;
-    if (!decode(frame, message)) return Heard::out_of_range;
+    if (!decode(frame, message)) return FrameResult::out_of_range;
     use(message);
-    return Heard::understood;
+    return FrameResult::understood;
   }
   /// The other node has restarted: its earlier messages are void.
-  virtual void forget_peer() noexcept {}
+  virtual void reset_peer() noexcept {}
   virtual bool at_rest() const noexcept { return true; }
   /// Time-outs are active.
   virtual bool timed() const noexcept { return !lockstep(); }
@@ -121,18 +123,18 @@ class Node {
   void release() noexcept;
   bool running() const noexcept { return state() == NodeState::running; }
   bool ordered() const noexcept { return running_; }  ///< as running(), even if the bus is down
-  void set_pace(Pace pace) noexcept { pace_ = pace; }
+  void set_sync_mode(SyncMode sync_mode) noexcept { sync_mode_ = sync_mode; }
   BusHealth& tally() noexcept { return health_; }
 
  private:
   void receive(const hal::CanFrame& frame) noexcept;
   void receive_e_stop(const hal::CanFrame& frame) noexcept;
   bool is_for_us(uint8_t node) const noexcept;
-  bool is_sound(Kind kind, const hal::CanFrame& frame) noexcept;
-  void understand(Kind kind, const hal::CanFrame& frame) noexcept;
-  void settle(Heard heard) noexcept;
-  void hear_heartbeat(const Heartbeat& beat) noexcept;
-  void hear_info(const Info& info) noexcept;
+  bool is_sound(MessageKind kind, const hal::CanFrame& frame) noexcept;
+  void understand(MessageKind kind, const hal::CanFrame& frame) noexcept;
+  void settle(FrameResult heard) noexcept;
+  void on_heartbeat(const Heartbeat& beat) noexcept;
+  void on_info(const Info& info) noexcept;
   void match() noexcept;
   void lose_peer() noexcept;
   void publish_info() noexcept;
@@ -158,7 +160,7 @@ class Node {
   bool hash_right_ = false;
   bool matched_ = false;
 
-  Pace pace_ = Pace::real_time;
+  SyncMode sync_mode_ = SyncMode::real_time;
   bool running_ = false;
   bool e_stopped_ = false;
   uint16_t latched_ = 0;

@@ -3,14 +3,14 @@
 
 #include <stdint.h>
 
-#include "firmware/can/words.hpp"
+#include "firmware/can/value_names.hpp"
 
 namespace whisker::can {
 
 constexpr int8_t kAlways = -1;       ///< Signal::part of a signal in every frame
 constexpr int8_t kMultiplexor = -2;  ///< Signal::part of the signal that selects the part
 
-using Word = const char* (*)(int64_t raw) noexcept;
+using ValueName = const char* (*)(int64_t raw) noexcept;
 
 struct Signal {
   const char* name = nullptr;
@@ -23,7 +23,7 @@ struct Signal {
   const char* unit = nullptr;
   const char* about = nullptr;
   int8_t part = kAlways;
-  Word word = nullptr;  ///< names of the values
+  ValueName word = nullptr;  ///< names of the values
 };
 
 struct Message {

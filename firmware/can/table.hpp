@@ -93,9 +93,11 @@ constexpr Messages messages() noexcept {
 }
 
 inline constexpr Messages kTable = messages();
-static_assert(kTable.in_order, "the table has the order of Kind");
+static_assert(kTable.in_order, "the table has the order of MessageKind");
 inline constexpr const Message (&kMessages)[kKinds] = kTable.of;
 
-constexpr const Message& message_of(Kind kind) noexcept { return kMessages[static_cast<uint8_t>(kind)]; }
+constexpr const Message& message_of(MessageKind kind) noexcept {
+  return kMessages[static_cast<uint8_t>(kind)];
+}
 
 }  // namespace whisker::can

@@ -21,13 +21,13 @@ const Decision& GoalPlanner::answer(const View& view) noexcept {
   return decision_;
 }
 
-void GoalPlanner::tell(Mode mode, Why why) noexcept {
+void GoalPlanner::report(Mode mode, Why why) noexcept {
   decision_.mode = mode;
   decision_.why = why;
 }
 
 void GoalPlanner::finish(Mode mode, Why why, Outcome outcome) noexcept {
-  tell(mode, why);
+  report(mode, why);
   decision_.outcome = outcome;
   decision_.danger_count = 0;
   decision_.manoeuvre = stop();

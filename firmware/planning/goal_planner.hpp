@@ -38,7 +38,7 @@ class GoalPlanner : public Planner {
 
   /// A place counts as the goal only well inside the tolerance: the estimate has its own error.
   bool is_goal(Length distance) const noexcept { return distance <= goal_.tolerance - goal_.tolerance / 8; }
-  void tell(Mode mode, Why why) noexcept;
+  void report(Mode mode, Why why) noexcept;
   /// Comes to rest until there is a new goal.
   void finish(Mode mode, Why why, Outcome outcome) noexcept;
 

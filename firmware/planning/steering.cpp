@@ -12,8 +12,8 @@ constexpr int64_t kMicroradians = 6283185;  // a turn
 
 Angle nearest_facing(Angle wanted, const Params& params) noexcept {
   const Angle count = angle_of(millimetres(1000) / params.wheels.counts_per_metre, params.body.track);
-  const uint32_t told = count.raw() / 8 * 9;
-  return told > wanted.raw() ? Angle::from_raw(told) : wanted;
+  const uint32_t resolution = count.raw() / 8 * 9;
+  return resolution > wanted.raw() ? Angle::from_raw(resolution) : wanted;
 }
 
 AngularRate rate_towards(Angle error, int32_t gain) noexcept {

@@ -153,7 +153,7 @@ void BugPlanner::enter(Phase phase, Mode mode, Why why) {
   phase_ = phase;
   behaviours_.progress.pause();
   behaviours_.stuck.reset();
-  tell(mode, why);
+  report(mode, why);
 }
 
 }  // namespace whisker::baselines

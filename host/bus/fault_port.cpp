@@ -16,11 +16,11 @@ bool takes_part(CanState state) noexcept { return state == CanState::active || s
 }  // namespace
 
 FaultPort::FaultPort(hal::CanPort& inner, Schedule schedule, std::uint64_t seed, Repair repair)
-    : inner_(inner), meddler_(std::move(schedule), seed, std::move(repair)), inner_counts_(inner.counts()) {}
+    : inner_(inner), injector_(std::move(schedule), seed, std::move(repair)), inner_counts_(inner.counts()) {}
 
 const Fault* FaultPort::active(FaultKind kind) const noexcept {
-  const Fault* fault = meddler_.active(kind, Direction::in);
-  return fault != nullptr ? fault : meddler_.active(kind, Direction::out);
+  const Fault* fault = injector_.active(kind, Direction::in);
+  return fault != nullptr ? fault : injector_.active(kind, Direction::out);
 }
 
 CanState FaultPort::state() const noexcept {
@@ -33,31 +33,31 @@ CanState FaultPort::state() const noexcept {
 bool FaultPort::on_bus() const noexcept { return takes_part(state()); }
 
 void FaultPort::at_tick(std::uint32_t tick) {
-  meddler_.at_tick(tick);
+  injector_.at_tick(tick);
   received_in_tick_ = 0;
-  if (active(FaultKind::passive) != nullptr) ++of(meddler_.tally, FaultKind::passive);
+  if (active(FaultKind::passive) != nullptr) ++of(injector_.tally, FaultKind::passive);
   release_late(out_);
   release_late(in_);
-  if (const Fault* babble = meddler_.active(FaultKind::babble, Direction::in); babble != nullptr) {
+  if (const Fault* babble = injector_.active(FaultKind::babble, Direction::in); babble != nullptr) {
     for (std::uint32_t i = 0; i < babble->length; ++i)
-      in_.ready.push_back({meddler_.babble(*babble), 0, tick});
+      in_.ready.push_back({injector_.babble(*babble), 0, tick});
   }
-  const Fault* babble = meddler_.active(FaultKind::babble, Direction::out);
+  const Fault* babble = injector_.active(FaultKind::babble, Direction::out);
   if (babble == nullptr || babble->direction != Direction::out) return;
   for (std::uint32_t i = 0; i < babble->length; ++i) {
-    out_.ready.push_back({meddler_.babble(*babble), kLongestLife, tick});
+    out_.ready.push_back({injector_.babble(*babble), kLongestLife, tick});
   }
 }
 
 void FaultPort::release_late(Way& way) {
-  const auto due = [this](const Passing& p) { return p.due_tick <= meddler_.tick(); };
+  const auto due = [this](const Passing& p) { return p.due_tick <= injector_.tick(); };
   std::copy_if(way.late.begin(), way.late.end(), std::back_inserter(way.ready), due);
   way.late.erase(std::remove_if(way.late.begin(), way.late.end(), due), way.late.end());
 }
 
 void FaultPort::pass(Way& way, const CanFrame& frame, std::uint8_t lifetime_ms, Direction direction) {
-  const Meddler::Outcome outcome = meddler_.meddle(frame, direction);
-  const Passing passing{outcome.frame, lifetime_ms, meddler_.tick() + outcome.ticks};
+  const FaultInjector::Outcome outcome = injector_.meddle(frame, direction);
+  const Passing passing{outcome.frame, lifetime_ms, injector_.tick() + outcome.ticks};
   // One that waits for the next must not wait for ever because the next one waits too.
   const bool hold = outcome.held && way.held.empty();
   std::deque<Passing>& to = hold ? way.held : outcome.ticks > 0 ? way.late : way.ready;
@@ -75,19 +75,19 @@ void FaultPort::see_state() {
   if (goes_off) {
     is_off_ = true;
     hal::count(counts_.bus_offs);
-    ++of(meddler_.tally, FaultKind::bus_off);
+    ++of(injector_.tally, FaultKind::bus_off);
   }
-  if (goes_down) ++of(meddler_.tally, FaultKind::down);
+  if (goes_down) ++of(injector_.tally, FaultKind::down);
   if (goes_off || goes_down) outbox_.drop_all(counts_);
 }
 
 void FaultPort::see_incoming() {
-  const Fault* overrun = meddler_.active(FaultKind::overrun, Direction::in);
+  const Fault* overrun = injector_.active(FaultKind::overrun, Direction::in);
   for (CanFrame frame{}; inner_.receive(frame);) {
     if (!on_bus()) continue;
     if (overrun != nullptr && ++received_in_tick_ > overrun->length) {
       hal::count(counts_.overrun);
-      ++of(meddler_.tally, FaultKind::overrun);
+      ++of(injector_.tally, FaultKind::overrun);
       continue;
     }
     pass(in_, frame, 0, Direction::in);
@@ -99,7 +99,7 @@ void FaultPort::see_incoming() {
 }
 
 bool FaultPort::outbid(const CanFrame& frame) const noexcept {
-  const Fault* babble = meddler_.active(FaultKind::babble, Direction::in);
+  const Fault* babble = injector_.active(FaultKind::babble, Direction::in);
   if (babble == nullptr) return false;
   return arbitration({babble->id, babble->id > 0x7FF, false, 8, {}}) < arbitration(frame);
 }
@@ -107,10 +107,10 @@ bool FaultPort::outbid(const CanFrame& frame) const noexcept {
 void FaultPort::see_outgoing(std::uint32_t now_ms) {
   const hal::CanOutbox::Waiting* next = outbox_.first();
   const bool is_outbid = next != nullptr && outbid(next->frame);
-  const bool is_full = meddler_.active(FaultKind::full, Direction::out) != nullptr;
+  const bool is_full = injector_.active(FaultKind::full, Direction::out) != nullptr;
   const std::uint8_t expired = outbox_.expire(now_ms, counts_);
   if (is_outbid) hal::count(counts_.outbid, expired);
-  if (is_full) of(meddler_.tally, FaultKind::full) += expired;
+  if (is_full) of(injector_.tally, FaultKind::full) += expired;
   if (!on_bus() || is_full) return;
   for (next = outbox_.first(); next != nullptr && !outbid(next->frame); next = outbox_.first()) {
     const auto left_ms = static_cast<std::uint8_t>(next->until_ms - now_ms);

@@ -4,7 +4,7 @@
 #include <deque>
 
 #include "hal/ports/can_queue.hpp"
-#include "host/bus/meddler.hpp"
+#include "host/bus/fault_injector.hpp"
 
 namespace whisker::bus {
 
@@ -28,7 +28,7 @@ class FaultPort final : public hal::CanPort {
   void restart() noexcept override;
   hal::CanState state() const noexcept override;
   const hal::CanCounts& counts() const noexcept override { return counts_; }
-  const Tally& tally() const noexcept { return meddler_.tally; }
+  const Tally& tally() const noexcept { return injector_.tally; }
 
  private:
   struct Passing {
@@ -54,7 +54,7 @@ class FaultPort final : public hal::CanPort {
   void add_counts() noexcept;
 
   hal::CanPort& inner_;
-  Meddler meddler_;
+  FaultInjector injector_;
   bool is_off_ = false;
   bool is_down_ = false;
   bool is_restarting_ = false;

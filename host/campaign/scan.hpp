@@ -8,8 +8,8 @@
 
 namespace whisker::campaign {
 
-/// The trip of a body of kWayRadius with the omniscient reference at the range of this robot's beams, see
-/// host/scanner/trip.hpp. Sets only seed, verdict, path_m, shortest_m and planner ("scanner").
+/// The reference of a body of kWayRadius with the omniscient reference at the range of this robot's beams,
+/// see host/scanner/reference_path.hpp. Sets only seed, verdict, path_m, shortest_m and planner ("scanner").
 Row scan(const Scenario& scenario);
 
 /// As summary_words and summary_json, but only with the figures of these rows.

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "host/chip/messages.hpp"
 #include "host/chip/process.hpp"
-#include "host/chip/words.hpp"
 #include "host/run/spec.hpp"
 
 namespace whisker::chip {

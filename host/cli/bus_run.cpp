@@ -55,7 +55,7 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   hil::WallClock clock([&line] { return line.descriptor(); });
   hil::BusOptions how;
   how.identity = bus.identity();
-  how.pace = bus.real_time ? can::Pace::real_time : can::Pace::lockstep;
+  how.sync_mode = bus.real_time ? can::SyncMode::real_time : can::SyncMode::lockstep;
   how.say = [view, speak = speaker("plant", bus)](const std::string& words) {
     if (!words.empty()) speak(words);
     if (view != nullptr) view->feed().say(words);

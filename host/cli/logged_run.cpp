@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "firmware/apps/pil_link/command_hash.hpp"
+#include "host/run/make_record.hpp"
 #include "host/run/spec.hpp"
-#include "host/run/told.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -30,10 +30,11 @@ void LoggedRun::begin(const can::Mission& mission, const Params& params) {
   records_.clear();
 }
 
-const TickRecord& LoggedRun::step(const can::InputSet& set, const Status& status, const ShownGuide* guide) {
+const TickRecord& LoggedRun::step(const can::InputSet& set, const Status& status,
+                                  const RecordingGuide* guide) {
   if (records_.empty()) first_tick_ = set.tick;
   const double period_s = set.period_ms * 1e-3;
-  TickRecord r = told(status, guide, set.ranges, (set.tick - first_tick_) * period_s);
+  TickRecord r = make_record(status, guide, set.ranges, (set.tick - first_tick_) * period_s);
   r.x_m = r.est_x_m;
   r.y_m = r.est_y_m;
   r.heading_rad = r.est_heading_rad;

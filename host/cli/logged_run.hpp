@@ -19,7 +19,7 @@ class LoggedRun {
 
   void begin(const can::Mission& mission, const Params& params);
   /// The record of this step, valid until the next one.
-  const TickRecord& step(const can::InputSet& set, const Status& status, const ShownGuide* guide);
+  const TickRecord& step(const can::InputSet& set, const Status& status, const RecordingGuide* guide);
 
   const Scenario& scenario() const { return scenario_; }
   const std::vector<TickRecord>& records() const { return records_; }

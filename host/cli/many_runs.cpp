@@ -20,9 +20,9 @@ std::string progress(std::uint64_t done, std::uint64_t all, double elapsed_s) {
   std::string text =
       fmt::format("[{}{}] {} of {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), done, all);
   if (done == 0 || elapsed_s <= 0) return text;
-  const double pace = static_cast<double>(done) / elapsed_s;
-  const auto left_s = static_cast<std::uint64_t>(static_cast<double>(all - done) / pace + 0.5);
-  return text + fmt::format(", {:.1f} a second, {}:{:02} to go", pace, left_s / 60, left_s % 60);
+  const double rate = static_cast<double>(done) / elapsed_s;
+  const auto left_s = static_cast<std::uint64_t>(static_cast<double>(all - done) / rate + 0.5);
+  return text + fmt::format(", {:.1f} a second, {}:{:02} to go", rate, left_s / 60, left_s % 60);
 }
 
 int threads(int jobs) {

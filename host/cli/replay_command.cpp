@@ -45,7 +45,7 @@ class Show {
       recording_.emplace(params);
     };
     replay.stepped = [this](const can::InputSet& set, const Status& status,
-                            const perception::LocalGrid* local_grid, const ShownGuide* guide) {
+                            const perception::LocalGrid* local_grid, const RecordingGuide* guide) {
       recording_->add({run_.step(set, status, guide), status.health, local_grid, guide});
     };
   }

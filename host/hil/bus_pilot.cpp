@@ -5,8 +5,8 @@
 #include "firmware/apps/can/base.hpp"
 #include "firmware/can/param_server.hpp"
 #include "firmware/localization/odometry.hpp"
+#include "host/hil/error_names.hpp"
 #include "host/hil/resend.hpp"
-#include "host/hil/words.hpp"
 #include "host/run/spec.hpp"
 #include "host/sim/sim_board.hpp"
 
@@ -56,7 +56,7 @@ class BusPilot final : public Pilot {
   }
 
   ~BusPilot() override {
-    node_.give(can::Order::cancel, mission_, options_.pace);
+    node_.give(can::Order::cancel, mission_, options_.sync_mode);
     for (int i = 0; i < 100 && node_.order_state() == can::OrderState::waiting; ++i) nap();
     figures_.health = node_.health();
   }
@@ -82,7 +82,7 @@ class BusPilot final : public Pilot {
 
   const char* trouble() const override {
     if (node_.state() == can::NodeState::e_stopped) return "e_stop";
-    if (const std::uint16_t bits = node_.for_good(); bits != 0) {
+    if (const std::uint16_t bits = node_.permanent_errors(); bits != 0) {
       return (bits & can::Error::duplicate_node) != 0 ? "duplicate_node" : "bus_off_latched";
     }
     return lockstep() && node_.state() == can::NodeState::safe_stop ? "safe_stop" : nullptr;
@@ -90,7 +90,7 @@ class BusPilot final : public Pilot {
 
  private:
   static constexpr Duration kLongestPause = milliseconds(1000);
-  bool lockstep() const { return options_.pace == can::Pace::lockstep; }
+  bool lockstep() const { return options_.sync_mode == can::SyncMode::lockstep; }
   bool node_running() const { return node_.state() == can::NodeState::running; }
 
   /// The bus does not carry the core's estimate, but all that it follows from. After a pause, the wheels may
@@ -129,7 +129,7 @@ class BusPilot final : public Pilot {
 
   void check() {
     if (options_.interrupted && options_.interrupted()) throw Interrupted("interrupted");
-    if (node_.for_good() != 0) throw Hopeless();
+    if (node_.permanent_errors() != 0) throw Hopeless();
     if (begun_ && node_.peer_restarts() != restarts_) throw ControllerRestarted("the controller restarted");
     explain();
   }
@@ -144,7 +144,7 @@ class BusPilot final : public Pilot {
         return (node_.errors() & can::Error::wrong_version) != 0 ? "the controller speaks another protocol"
                                                                  : "waits for the controller";
       case can::NodeState::e_stopped: return "E-stop";
-      case can::NodeState::safe_stop: return "safe stop: " + words_of(node_.errors());
+      case can::NodeState::safe_stop: return "safe stop: " + error_names(node_.errors());
       case can::NodeState::ready:
       case can::NodeState::running: break;
     }
@@ -171,7 +171,7 @@ class BusPilot final : public Pilot {
   void give(can::Order order) {
     ask_for("MissionReply that accepts");
     do {
-      node_.give(order, mission_, options_.pace);
+      node_.give(order, mission_, options_.sync_mode);
       while (node_.order_state() == can::OrderState::waiting) {
         watchful_nap();
         watch_patience();
@@ -203,7 +203,7 @@ class BusPilot final : public Pilot {
 
   Status in_lockstep(std::uint32_t tick) {
     const std::uint64_t sent_us = clock_.now_us();
-    base_.publish(can::Pace::lockstep);
+    base_.publish(can::SyncMode::lockstep);
     resend_.sent(sent_us);
     ask_for("WheelCommand and NavStatus");
     while (node_running() || node_.state() == can::NodeState::waiting ||
@@ -221,7 +221,7 @@ class BusPilot final : public Pilot {
       check();
       watch_patience();
       if (!node_running() || node_.answered(tick) || !resend_.due(now_us)) continue;
-      base_.publish(can::Pace::lockstep);
+      base_.publish(can::SyncMode::lockstep);
       ++figures_.resent;
       resend_.sent_again(now_us);
     }
@@ -236,7 +236,7 @@ class BusPilot final : public Pilot {
       due_us_ = whole_ms(sent_us);
     }
     due_us_ += period_us_;
-    base_.publish(can::Pace::real_time);
+    base_.publish(can::SyncMode::real_time);
     node_.poll(clock_.now_ms());
     bool answered = false;
     while (clock_.now_us() < due_us_) {
@@ -260,7 +260,7 @@ class BusPilot final : public Pilot {
     resuming_ = false;
     const bool stopped = node_.state() == can::NodeState::safe_stop || node_.state() == can::NodeState::ready;
     if (!stopped || !node_.matched()) return;
-    node_.give(can::Order::resume, mission_, options_.pace);
+    node_.give(can::Order::resume, mission_, options_.sync_mode);
     resuming_ = true;
   }
 
@@ -273,7 +273,7 @@ class BusPilot final : public Pilot {
   Resend resend_;
   hal::SimBoard board_;
   can::BaseNode node_;
-  can_remote::Base base_;
+  can_app::Base base_;
   localization::Odometry odometry_;
   Status status_;
   std::string said_;

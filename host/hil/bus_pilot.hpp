@@ -29,7 +29,7 @@ class Interrupted : public std::runtime_error {
 
 struct BusOptions {
   can::Identity identity{1, 1, 0};
-  can::Pace pace = can::Pace::lockstep;
+  can::SyncMode sync_mode = can::SyncMode::lockstep;
   std::uint32_t resend_ms = 20;       ///< lockstep: the shortest wait before a set is repeated, see Resend
   std::uint32_t patience_ms = 30000;  ///< for the answer to one request while the handshake holds
   std::function<void(const std::string&)> say;  ///< receives what it waits for, once each; "": it drives

@@ -1,9 +1,9 @@
 #include "host/hil/controller_loop.hpp"
 
 #include "firmware/apps/can/controller.hpp"
+#include "host/hil/error_names.hpp"
 #include "host/hil/planners.hpp"
 #include "host/hil/wall_clock.hpp"
-#include "host/hil/words.hpp"
 
 namespace whisker::hil {
 namespace {
@@ -19,7 +19,7 @@ std::string words_for(const can::Node& node, const Line& line) {
                                                               : "waits for the base";
     case can::NodeState::ready: return "waits for a mission";
     case can::NodeState::running: return "drives";
-    case can::NodeState::safe_stop: return "safe stop: " + words_of(node.errors());
+    case can::NodeState::safe_stop: return "safe stop: " + error_names(node.errors());
     case can::NodeState::e_stopped: return "E-stop";
   }
   return "";
@@ -29,7 +29,7 @@ std::string words_for(const can::Node& node, const Line& line) {
 
 void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
   HostPlanners planners(options.planner);
-  const auto controller = std::make_unique<can_remote::Controller>(port, options.identity, planners);
+  const auto controller = std::make_unique<can_app::Controller>(port, options.identity, planners);
   WallClock clock([&line] { return line.descriptor(); });
   std::string said;
   while (!options.interrupted()) {

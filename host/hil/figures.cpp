@@ -32,7 +32,7 @@ std::string figures_json(const Figures& f, double bitrate) {
   json["load_percent"] = rounded(load_percent(f, bitrate));
   json["ticks_per_s"] = f.wall_s > 0 ? rounded(static_cast<double>(f.sets) / f.wall_s) : 0.0;
   json["lost"] = f.health.lost;
-  json["refused"] = f.health.crc + f.health.malformed + f.health.repeated + f.health.astray +
+  json["refused"] = f.health.crc + f.health.malformed + f.health.repeated + f.health.out_of_sequence +
                     f.health.out_of_range + f.health.stale;
   json["safe_stops"] = f.health.stops;
   json["resumed"] = f.resumed;

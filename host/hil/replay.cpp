@@ -6,34 +6,34 @@
 
 #include <fmt/format.h>
 
-#include "firmware/apps/can/pilot.hpp"
+#include "firmware/apps/can/remote_robot.hpp"
 #include "firmware/apps/pil_link/command_hash.hpp"
 #include "firmware/can/codec.hpp"
-#include "firmware/can/heads.hpp"
+#include "firmware/can/headers.hpp"
 #include "firmware/can/mission.hpp"
 #include "firmware/can/param_server.hpp"
 #include "host/hil/candump.hpp"
 #include "host/hil/planners.hpp"
-#include "host/run/shown_planner.hpp"
+#include "host/run/recording_planner.hpp"
 
 namespace whisker::hil {
 namespace {
 
-using can::Kind;
+using can::MessageKind;
 
 /// Planners of one kind that can be watched.
-class ShownPlanners final : public can_remote::PlannerMaker {
+class RecordingPlanners final : public can_app::PlannerMaker {
  public:
-  explicit ShownPlanners(PlannerKind kind) : planners_(kind) {}
+  explicit RecordingPlanners(PlannerKind kind) : planners_(kind) {}
   planning::Planner& make(const Params& params) noexcept override {
     return shown_.emplace(planners_.make(params));
   }
   const perception::LocalGrid* local_grid() const { return shown_ ? shown_->local_grid() : nullptr; }
-  const ShownGuide* guide() const { return planners_.guide(); }
+  const RecordingGuide* guide() const { return planners_.guide(); }
 
  private:
   HostPlanners planners_;
-  std::optional<ShownPlanner> shown_;
+  std::optional<RecordingPlanner> shown_;
 };
 
 class Replay {
@@ -41,14 +41,15 @@ class Replay {
   explicit Replay(const ReplayOptions& options)
       : options_(options),
         planners_(options.planner),
-        pilot_(std::make_unique<can_remote::Pilot>(planners_)) {
+        pilot_(std::make_unique<can_app::RemoteRobot>(planners_)) {
     result_.robot = options.robot;
   }
 
-  void hear(const hal::CanFrame& frame, std::uint64_t line) {
+  void on_frame(const hal::CanFrame& frame, std::uint64_t line) {
     line_ = line;
-    Kind kind = Kind::e_stop;
-    if (frame.extended || frame.remote || !can::kind_of(frame.id, kind) || kind == Kind::e_stop) return;
+    MessageKind kind = MessageKind::e_stop;
+    if (frame.extended || frame.remote || !can::kind_of(frame.id, kind) || kind == MessageKind::e_stop)
+      return;
     const auto node = static_cast<std::uint8_t>(frame.id & 0x0F);
     const can::Party party = node >= can::kBaseOffset ? can::Party::base : can::Party::controller;
     const int robot = party == can::Party::base ? node - can::kBaseOffset : node;
@@ -58,7 +59,7 @@ class Replay {
     if (result_.robot == 0 && whole) result_.robot = robot;
     if (robot != result_.robot) return;
     ++(whole ? result_.frames : result_.damaged);
-    if (whole) obey(kind, frame);
+    if (whole) execute(kind, frame);
   }
 
   ReplayResult result() const {
@@ -70,22 +71,26 @@ class Replay {
  private:
   static constexpr std::size_t kKept = 256;  // complete sets: more than any command is late
 
-  void obey(Kind kind, const hal::CanFrame& frame) {
+  void execute(MessageKind kind, const hal::CanFrame& frame) {
     switch (kind) {
-      case Kind::range_left: return hear_range<Kind::range_left>(hal::kLeft, frame);
-      case Kind::range_front: return hear_range<Kind::range_front>(hal::kFront, frame);
-      case Kind::range_right: return hear_range<Kind::range_right>(hal::kRight, frame);
-      case Kind::wheel_state:
-        return with<can::WheelState>(frame, [&](const auto& m) { sets_.hear(m), keep(); });
-      case Kind::sync: return with<can::Sync>(frame, [&](const auto& m) { sets_.hear(m), keep(); });
-      case Kind::mission: return hear_mission(frame);
-      case Kind::mission_reply: return with<can::MissionReply>(frame, [&](const auto& m) { accept(m); });
-      case Kind::param_request: return with<can::ParamRequest>(frame, [&](const auto& m) { request_ = m; });
-      case Kind::param_reply: return with<can::ParamReply>(frame, [&](const auto& m) { settle(m); });
-      case Kind::wheel_command:
+      case MessageKind::range_left: return on_range<MessageKind::range_left>(hal::kLeft, frame);
+      case MessageKind::range_front: return on_range<MessageKind::range_front>(hal::kFront, frame);
+      case MessageKind::range_right: return on_range<MessageKind::range_right>(hal::kRight, frame);
+      case MessageKind::wheel_state:
+        return with<can::WheelState>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
+      case MessageKind::sync:
+        return with<can::Sync>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
+      case MessageKind::mission: return on_mission(frame);
+      case MessageKind::mission_reply:
+        return with<can::MissionReply>(frame, [&](const auto& m) { accept(m); });
+      case MessageKind::param_request:
+        return with<can::ParamRequest>(frame, [&](const auto& m) { request_ = m; });
+      case MessageKind::param_reply: return with<can::ParamReply>(frame, [&](const auto& m) { settle(m); });
+      case MessageKind::wheel_command:
         return with<can::WheelCommand>(frame, [&](const auto& m) { compare(m, can::counter_of(frame)); });
-      case Kind::nav_status: return with<can::NavStatus>(frame, [&](const auto& m) { compare(m); });
-      case Kind::heartbeat: return with<can::Heartbeat>(frame, [&](const auto& m) { watch(frame.id, m); });
+      case MessageKind::nav_status: return with<can::NavStatus>(frame, [&](const auto& m) { compare(m); });
+      case MessageKind::heartbeat:
+        return with<can::Heartbeat>(frame, [&](const auto& m) { watch(frame.id, m); });
       default: break;
     }
   }
@@ -96,10 +101,10 @@ class Replay {
     if (can::decode(frame, m)) use(m);
   }
 
-  template <Kind kKind>
-  void hear_range(int beam, const hal::CanFrame& frame) {
+  template <MessageKind kKind>
+  void on_range(int beam, const hal::CanFrame& frame) {
     with<can::Range<kKind>>(frame, [&](auto m) {
-      if (can::InputSets::sound(m.reading)) sets_.hear(beam, m.reading, m.tick), keep();
+      if (can::InputSets::sound(m.reading)) sets_.on_frame(beam, m.reading, m.tick), keep();
     });
   }
 
@@ -109,10 +114,10 @@ class Replay {
     kept_[set.tick % kKept] = set;
   }
 
-  void hear_mission(const hal::CanFrame& frame) {
+  void on_mission(const hal::CanFrame& frame) {
     can::MissionValue part;
     if (!can::decode(frame, part)) return;
-    if (part.part != can::MissionPart::order) return parts_.hear(part);
+    if (part.part != can::MissionPart::order) return parts_.on_frame(part);
     with<can::MissionOrder>(frame, [&](const auto& m) { order_ = m; });
   }
 
@@ -124,7 +129,7 @@ class Replay {
       return;
     }
     accepted_ = reply.mission;
-    pilot_->obey(order_->order, mission, params_);
+    pilot_->execute(order_->order, mission, params_);
     if (order_->order == can::Order::start) {
       ++result_.missions;
       if (options_.begins) options_.begins(mission, params_);
@@ -208,7 +213,7 @@ class Replay {
   void compare(const can::NavStatus& recorded) {
     if (!reach(recorded.tick)) return;
     ++result_.compared;
-    can::NavStatus now = can_remote::nav_status(status_);
+    can::NavStatus now = can_app::nav_status(status_);
     now.tick = recorded.tick;
     if (can::bits_of(can::encode(now, 0, 0)) != can::bits_of(can::encode(recorded, 0, 0))) {
       differ(fmt::format("tick {}: recorded {} ({}), the core says {} ({})", recorded.tick,
@@ -222,8 +227,8 @@ class Replay {
   }
 
   const ReplayOptions& options_;
-  ShownPlanners planners_;
-  std::unique_ptr<can_remote::Pilot> pilot_;
+  RecordingPlanners planners_;
+  std::unique_ptr<can_app::RemoteRobot> pilot_;
   ReplayResult result_;
   link::CommandHash hash_;
   std::uint64_t line_ = 0;
@@ -254,7 +259,7 @@ ReplayResult replay(std::istream& log, const ReplayOptions& options) {
   for (std::uint64_t number = 1; std::getline(log, line); ++number) {
     if (line.empty()) continue;
     if (const auto entry = parse_log_line(line)) {
-      replay.hear(entry->frame, number);
+      replay.on_frame(entry->frame, number);
       continue;
     }
     const bool unfinished = log.eof() && line.front() == '(';

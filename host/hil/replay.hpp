@@ -20,7 +20,8 @@ struct ReplayOptions {
   /// grid passed to the planner and its global planner, or null. The arguments are valid during the call
   /// only.
   std::function<void(const can::Mission&, const Params&)> begins = nullptr;
-  std::function<void(const can::InputSet&, const Status&, const perception::LocalGrid*, const ShownGuide*)>
+  std::function<void(const can::InputSet&, const Status&, const perception::LocalGrid*,
+                     const RecordingGuide*)>
       stepped = nullptr;
 };
 

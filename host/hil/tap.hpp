@@ -22,12 +22,12 @@ class Tap final : public hal::CanPort {
 
   bool send(const hal::CanFrame& frame, std::uint8_t lifetime_ms) noexcept override {
     if (!port_.send(frame, lifetime_ms)) return false;
-    hear(frame);
+    on_frame(frame);
     return true;
   }
   bool receive(hal::CanFrame& out) noexcept override {
     if (!port_.receive(out)) return false;
-    hear(out);
+    on_frame(out);
     return true;
   }
   void poll(std::uint32_t now_ms) noexcept override { port_.poll(now_ms); }
@@ -36,7 +36,7 @@ class Tap final : public hal::CanPort {
   const hal::CanCounts& counts() const noexcept override { return port_.counts(); }
 
  private:
-  void hear(const hal::CanFrame& frame) noexcept { listener_(frame); }
+  void on_frame(const hal::CanFrame& frame) noexcept { listener_(frame); }
 
   hal::CanPort& port_;
   Listener listener_;

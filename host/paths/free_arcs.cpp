@@ -44,7 +44,7 @@ class Crossings {
     add(between * along - aside);
   }
 
-  /// With the straight sides of the segment grown by the radius.
+  /// With the straight sides of the segment inflated by the radius.
   void with(const sim::Segment& segment, double radius) {
     const Vec2 way = segment.b - segment.a;
     const double length = std::sqrt(sim::dot(way, way));
@@ -80,11 +80,11 @@ class Crossings {
 
 }  // namespace
 
-FreeArcs::FreeArcs(const Grown& grown, std::size_t index) {
-  const sim::Disc& rim = grown.rims()[index];
+FreeArcs::FreeArcs(const Inflated& inflated, std::size_t index) {
+  const sim::Disc& rim = inflated.rims()[index];
   Crossings crossings(rim);
   std::vector<int> rims, segments;
-  grown.each_near(
+  inflated.each_near(
       rim, [&](int i) { rims.push_back(i); }, [&](int i) { segments.push_back(i); });
   const auto once = [](std::vector<int>& v) {
     std::sort(v.begin(), v.end());
@@ -93,10 +93,10 @@ FreeArcs::FreeArcs(const Grown& grown, std::size_t index) {
   once(rims);
   once(segments);
   for (const int i : rims) {
-    if (static_cast<std::size_t>(i) != index) crossings.with(grown.rims()[static_cast<std::size_t>(i)]);
+    if (static_cast<std::size_t>(i) != index) crossings.with(inflated.rims()[static_cast<std::size_t>(i)]);
   }
   for (const int i : segments) {
-    crossings.with(grown.segments()[static_cast<std::size_t>(i)], grown.radius());
+    crossings.with(inflated.segments()[static_cast<std::size_t>(i)], inflated.radius());
   }
 
   std::vector<double> cuts = crossings.sorted();
@@ -104,7 +104,7 @@ FreeArcs::FreeArcs(const Grown& grown, std::size_t index) {
   bool all = true;
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const double next = i + 1 < cuts.size() ? cuts[i + 1] : cuts.front() + kFullTurn;
-    if (!grown.free(at(rim, (cuts[i] + next) / 2))) {
+    if (!inflated.free(at(rim, (cuts[i] + next) / 2))) {
       all = false;
     } else if (!arcs_.empty() && arcs_.back().from + arcs_.back().length >= cuts[i]) {
       arcs_.back().length = next - arcs_.back().from;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/paths/grown.hpp"
+#include "host/paths/inflated.hpp"
 #include "host/paths/tangent.hpp"
 
 namespace whisker::paths {
@@ -13,7 +13,7 @@ constexpr double kFullTurn = 0x1.921fb54442d18p+2;
 
 class FreeArcs {
  public:
-  FreeArcs(const Grown& grown, std::size_t rim);
+  FreeArcs(const Inflated& inflated, std::size_t rim);
 
   bool empty() const { return arcs_.empty(); }
   bool whole() const { return whole_; }  ///< the whole rim is free: one arc with both ends at the same point

@@ -21,9 +21,9 @@ double touch_angle(double normal_angle, Side side) {
 
 }  // namespace
 
-Search::Search(const Grown& grown, Vec2 from, Vec2 to)
-    : grown_(grown), start_{from, 0}, goal_{to, 0}, ranges_(2 * grown.rims().size()) {
-  for (std::size_t i = 0; i < grown.rims().size(); ++i) arcs_.emplace_back(grown, i);
+Search::Search(const Inflated& inflated, Vec2 from, Vec2 to)
+    : inflated_(inflated), start_{from, 0}, goal_{to, 0}, ranges_(2 * inflated.rims().size()) {
+  for (std::size_t i = 0; i < inflated.rims().size(); ++i) arcs_.emplace_back(inflated, i);
 }
 
 std::optional<Way> Search::shortest() {
@@ -36,7 +36,7 @@ std::optional<Way> Search::shortest() {
     node(here).done = true;
     if (node(here).stand.rim == kGoal) return way_to(here);
     if (node(here).stand.rim != kStart) go_around(here);
-    if (grown_.free(node(here).tangent.line)) arrive(here);
+    if (inflated_.free(node(here).tangent.line)) arrive(here);
   }
   return std::nullopt;
 }
@@ -44,7 +44,7 @@ std::optional<Way> Search::shortest() {
 const sim::Disc& Search::disc(Stand stand) const {
   if (stand.rim == kStart) return start_;
   if (stand.rim == kGoal) return goal_;
-  return grown_.rims()[static_cast<std::size_t>(stand.rim)];
+  return inflated_.rims()[static_cast<std::size_t>(stand.rim)];
 }
 
 Search::Range Search::tangents_from(Stand from) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host/paths/free_arcs.hpp"
-#include "host/paths/grown.hpp"
+#include "host/paths/inflated.hpp"
 #include "host/paths/shortest.hpp"
 
 namespace whisker::paths {
@@ -16,7 +16,7 @@ namespace whisker::paths {
 class Search {
  public:
   /// The inflated obstacles must outlive the search; both points must be free.
-  Search(const Grown& grown, sim::Vec2 from, sim::Vec2 to);
+  Search(const Inflated& inflated, sim::Vec2 from, sim::Vec2 to);
 
   std::optional<Way> shortest();
 
@@ -60,7 +60,7 @@ class Search {
   void reach(int node, double way_m, int before, bool by_tangent, double swept_rad);
   Way way_to(int last);
 
-  const Grown& grown_;
+  const Inflated& inflated_;
   sim::Disc start_, goal_;
   std::vector<FreeArcs> arcs_;
   std::vector<Node> nodes_;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "host/paths/grown.hpp"
+#include "host/paths/inflated.hpp"
 #include "host/paths/search.hpp"
 #include "host/scenario/shapes.hpp"
 
@@ -13,10 +13,10 @@ double length_m(const Leg& leg) {
 }
 
 std::optional<Way> shortest_way(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m) {
-  const Grown grown(world, from, to, radius_m);
-  if (!grown.free(from) || !grown.free(to)) return std::nullopt;
+  const Inflated inflated(world, from, to, radius_m);
+  if (!inflated.free(from) || !inflated.free(to)) return std::nullopt;
   if (from.x == to.x && from.y == to.y) return Way{};
-  return Search(grown, from, to).shortest();
+  return Search(inflated, from, to).shortest();
 }
 
 std::optional<double> shortest_path(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m) {

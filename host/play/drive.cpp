@@ -16,19 +16,19 @@ Drive::Drive(const Scenario& scenario, PlannerKind planner, const fuzzy::Engine:
       plant_(view_, sim::robot_spec(scenario_.robot), noise_spec(scenario_.noise), scenario_.seed,
              scenario_.start),
       pilot_(scenario_, make_core_planner(planner, scenario_.robot, table), plant_),
-      trip_(scenario_, plant_, pilot_),
+      run_(scenario_, plant_, pilot_),
       map_(scenario_.robot),
       map_bytes_(planner.map_bytes),
       way_{{scenario_.start.at, report::Doing::free}} {
-  trip_.decide();
-  map_.look(trip_.guide());
+  run_.decide();
+  map_.look(run_.guide());
 }
 
 void Drive::advance(int ticks) {
-  for (; ticks > 0 && !trip_.verdict(); --ticks) {
-    trip_.move();
-    if (!trip_.verdict()) trip_.decide();
-    map_.look(trip_.guide());
+  for (; ticks > 0 && !run_.verdict(); --ticks) {
+    run_.move();
+    if (!run_.verdict()) run_.decide();
+    map_.look(run_.guide());
     note();
   }
 }
@@ -45,13 +45,13 @@ void Drive::change(const Scenario& scenario) {
   scenario_.movers = scenario.movers;
   world_ = std::make_unique<SimWorld>(scenario_);
   view_ = world_->view();
-  if (!new_goal && !trip_.verdict()) return;
+  if (!new_goal && !run_.verdict()) return;
   pilot_.set_goal(fixed_goal(scenario_.goal));
-  trip_.resume();
+  run_.resume();
 }
 
 void Drive::note() {
-  const TickRecord r = trip_.record();
+  const TickRecord r = run_.record();
   const sim::Vec2 at{r.x_m, r.y_m};
   const sim::Vec2 step = at - way_.back().at;
   const double square = sim::dot(step, step);

@@ -7,8 +7,8 @@
 #include "host/report/track.hpp"
 #include "host/run/core_pilot.hpp"
 #include "host/run/map_picture.hpp"
+#include "host/run/mission_run.hpp"
 #include "host/run/sim_world.hpp"
-#include "host/run/trip.hpp"
 
 namespace whisker::play {
 
@@ -26,7 +26,7 @@ class Drive {
   /// arrived or given up starts again.
   void change(const Scenario& scenario);
 
-  const Trip& trip() const { return trip_; }
+  const MissionRun& mission() const { return run_; }
   /// The pictures of MapWatch; none without a map.
   const std::optional<MapPicture>& map() const { return map_.last(); }
   std::int32_t map_bytes() const { return map_bytes_; }
@@ -49,7 +49,7 @@ class Drive {
   sim::WorldView view_;
   sim::Plant plant_;
   CorePilot pilot_;
-  Trip trip_;
+  MissionRun run_;
   MapWatch map_;
   std::int32_t map_bytes_;
   std::vector<Passed> way_;

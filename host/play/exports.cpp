@@ -103,8 +103,8 @@ WHISKER_EXPORT(advance) void advance(int side, int ticks) { drives[side]->advanc
 
 /// The columns of the trace, in the order of core.ts.
 WHISKER_EXPORT(record) int record(int side) {
-  const Trip& trip = drives[side]->trip();
-  const TickRecord r = trip.record();
+  const MissionRun& mission = drives[side]->mission();
+  const TickRecord r = mission.record();
   exchanged = {r.t_s,
                r.x_m,
                r.y_m,
@@ -124,7 +124,7 @@ WHISKER_EXPORT(record) int record(int side) {
                r.sd_q14 / 16384.0,
                static_cast<double>(r.cell.distance),
                static_cast<double>(r.cell.bias),
-               static_cast<double>(trip.status().health.fault),
+               static_cast<double>(mission.status().health.fault),
                static_cast<double>(r.guide),
                r.way_x_m,
                r.way_y_m};
@@ -138,9 +138,9 @@ WHISKER_EXPORT(record) int record(int side) {
 /// Verdict or -1, time, way, distance from the goal, true and believed, clearance, ticks, and the hash in
 /// four parts of 16 bits, the highest first.
 WHISKER_EXPORT(result) int result(int side) {
-  const Trip& trip = drives[side]->trip();
-  const RunResult r = trip.result();
-  exchanged = {trip.verdict() ? static_cast<double>(*trip.verdict()) : -1.0,
+  const MissionRun& mission = drives[side]->mission();
+  const RunResult r = mission.result();
+  exchanged = {mission.verdict() ? static_cast<double>(*mission.verdict()) : -1.0,
                r.time_s,
                r.path_m,
                r.final_distance_m,
@@ -166,9 +166,9 @@ WHISKER_EXPORT(way) int way(int side, int from) {
 WHISKER_EXPORT(clear_cells) int clear_cells(int side) {
   const Drive& drive = *drives[side];
   exchanged.clear();
-  const perception::LocalGrid* local_grid = drive.trip().local_grid();
+  const perception::LocalGrid* local_grid = drive.mission().local_grid();
   if (local_grid == nullptr) return 0;
-  for_each_clear_cell(*local_grid, drive.scenario().robot, drive.trip().status().pose.at,
+  for_each_clear_cell(*local_grid, drive.scenario().robot, drive.mission().status().pose.at,
                       [](std::int64_t x, std::int64_t y) {
                         exchanged.insert(exchanged.end(), {static_cast<double>(x), static_cast<double>(y)});
                       });

@@ -17,7 +17,7 @@ const can::Signal kProtection[2] = {
 
 std::vector<Entry> entries_of(std::uint8_t robot) {
   std::vector<Entry> out;
-  const can::Message& e_stop = can::message_of(can::Kind::e_stop);
+  const can::Message& e_stop = can::message_of(can::MessageKind::e_stop);
   out.push_back({&e_stop, can::id_of(e_stop.function, 0), "EStopAll", ""});
   for (const can::Message& m : can::kMessages) {
     const bool both = m.from_controller && m.from_base;

@@ -92,14 +92,14 @@ class Section {
   }
 
   void ticks() {
-    using can::Kind;
+    using can::MessageKind;
     using hal::RangeStatus;
-    using Left = can::Range<Kind::range_left>;
+    using Left = can::Range<MessageKind::range_left>;
     row("clear, Age 0.02 s, Sequence 1, Tick 1", Left{{Left::kClear, RangeStatus::clear, 20, 1}, 1}, kBase);
-    row("ok, 1.234 m", can::Range<Kind::range_front>{{1234, RangeStatus::ok, 20, 1}, 1}, kBase);
-    row("stale", can::Range<Kind::range_right>{{Left::kNone, RangeStatus::stale, 255, 0}, 1}, kBase);
+    row("ok, 1.234 m", can::Range<MessageKind::range_front>{{1234, RangeStatus::ok, 20, 1}, 1}, kBase);
+    row("stale", can::Range<MessageKind::range_right>{{Left::kNone, RangeStatus::stale, 255, 0}, 1}, kBase);
     row("100 left, -1 right", can::WheelState{1, 1, {100, hal::kEncoderModulus - 1}}, kBase);
-    row("lockstep, Tick 1, Period 10 ms, Mission 1", can::Sync{can::Pace::lockstep, 1, 10, 1}, kBase);
+    row("lockstep, Tick 1, Period 10 ms, Mission 1", can::Sync{can::SyncMode::lockstep, 1, 10, 1}, kBase);
     row("drive, 0.3 m/s left, -0.3 m/s right, Tick 1",
         can::WheelCommand{can::DriveMode::drive, {3000, -3000}, 1}, kController);
     can::NavStatus status;

@@ -9,18 +9,18 @@ namespace {
 
 /// As planning::TableMap, with a guide that can be watched.
 template <int kBytes>
-struct ShownMap {
-  ShownMap(const Params& params, const fuzzy::Engine::Table& table)
+struct RecordingMap {
+  RecordingMap(const Params& params, const fuzzy::Engine::Table& table)
       : law(table), map(params), guide(map.guide), planner(params, law, &guide) {}
   planning::TableDeflection law;
   planning::MapOf<kBytes> map;
-  ShownGuide guide;
+  RecordingGuide guide;
   planning::BoundaryPlanner planner;
 };
 
 }  // namespace
 
-CorePilot::CorePilot(const Scenario& scenario, SeenPlanner planner, sim::Plant& plant)
+CorePilot::CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Plant& plant)
     : board_(plant),
       planner_(std::move(planner)),
       shown_(*planner_.planner),
@@ -33,16 +33,17 @@ planning::Goal fixed_goal(const Goal& goal) {
   return {fixed_pose({goal.at, 0}).at, fixed_pose({{goal.tolerance_m, 0}, 0}).at.x};
 }
 
-SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table) {
-  return planning::with_planner<SeenPlanner>(kind.number, kind.map_bytes, [&](auto type) -> SeenPlanner {
-    if constexpr (type.kMapBytes != 0) {
-      const auto map = std::make_shared<ShownMap<type.kMapBytes>>(params, table);
-      return {{map, &map->planner}, &map->guide};
-    } else {
-      const auto made = std::make_shared<typename decltype(type)::Type>(params, table);
-      return {{made, &planning::planner_in(*made)}};
-    }
-  });
+RecordedPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table) {
+  return planning::with_planner<RecordedPlanner>(
+      kind.number, kind.map_bytes, [&](auto type) -> RecordedPlanner {
+        if constexpr (type.kMapBytes != 0) {
+          const auto map = std::make_shared<RecordingMap<type.kMapBytes>>(params, table);
+          return {{map, &map->planner}, &map->guide};
+        } else {
+          const auto made = std::make_shared<typename decltype(type)::Type>(params, table);
+          return {{made, &planning::planner_in(*made)}};
+        }
+      });
 }
 
 }  // namespace whisker

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/run/pilot.hpp"
-#include "host/run/shown_planner.hpp"
+#include "host/run/recording_planner.hpp"
 #include "host/sim/sim_board.hpp"
 
 namespace whisker {
@@ -10,22 +10,22 @@ namespace whisker {
 class CorePilot final : public Pilot {
  public:
   /// Scenario and plant must outlive it; the planner must be made with the scenario's robot.
-  CorePilot(const Scenario& scenario, SeenPlanner planner, sim::Plant& plant);
+  CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Plant& plant);
   const Status& tick(Time now) override { return robot_.tick(now); }
   const perception::LocalGrid* local_grid() const override { return shown_.local_grid(); }
-  const ShownGuide* guide() const override { return planner_.guide; }
+  const RecordingGuide* guide() const override { return planner_.guide; }
   /// Sets a new goal, during a mission or after it has ended.
   void set_goal(const planning::Goal& goal) { robot_.set_goal(goal); }
 
  private:
   hal::SimBoard board_;
-  SeenPlanner planner_;
-  ShownPlanner shown_;
+  RecordedPlanner planner_;
+  RecordingPlanner shown_;
   Robot robot_;
 };
 
 /// One of the core's planners with this response table; null for a baseline.
 /// Parameters and table must outlive the planner.
-SeenPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table);
+RecordedPlanner make_core_planner(PlannerKind kind, const Params& params, const fuzzy::Engine::Table& table);
 
 }  // namespace whisker

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int32_t kEveryMs = 100;
 
-std::vector<planning::Cell> way_of(const ShownGuide& guide) {
+std::vector<planning::Cell> way_of(const RecordingGuide& guide) {
   const planning::GridMap& map = guide.inside().map();
   const planning::Wavefront& wavefront = guide.inside().wavefront();
   const planning::Cell goal = map.place(guide.goal());
@@ -23,7 +23,7 @@ std::vector<planning::Cell> way_of(const ShownGuide& guide) {
 
 }  // namespace
 
-MapPicture picture_of(const ShownGuide& guide) {
+MapPicture picture_of(const RecordingGuide& guide) {
   const planning::GridMap& map = guide.inside().map();
   MapPicture picture;
   picture.corner = map.corner();
@@ -40,7 +40,7 @@ MapPicture picture_of(const ShownGuide& guide) {
 MapWatch::MapWatch(const Params& params)
     : every_(std::max(1, kEveryMs / params.safety.period.raw())), since_(every_) {}
 
-bool MapWatch::look(const ShownGuide* guide) {
+bool MapWatch::look(const RecordingGuide* guide) {
   ++since_;
   if (guide == nullptr || since_ < every_ || !guide->inside().planned()) return false;
   since_ = 0;

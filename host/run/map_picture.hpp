@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "firmware/planning/global/grid_map.hpp"
-#include "host/run/shown_guide.hpp"
+#include "host/run/recording_guide.hpp"
 
 namespace whisker {
 
@@ -27,7 +27,7 @@ struct MapPicture {
 };
 
 /// Only while no plan is in progress, because the path would be incomplete.
-MapPicture picture_of(const ShownGuide& guide);
+MapPicture picture_of(const RecordingGuide& guide);
 
 /// Takes pictures of a run's map every 100 ms, or a little later while a plan is in progress.
 class MapWatch {
@@ -35,7 +35,7 @@ class MapWatch {
   explicit MapWatch(const Params& params);
 
   /// Call once per tick; null: there is no map. True: there is a new picture.
-  bool look(const ShownGuide* guide);
+  bool look(const RecordingGuide* guide);
   /// None before the first picture.
   const std::optional<MapPicture>& last() const { return last_; }
 

@@ -3,7 +3,7 @@
 namespace whisker {
 
 std::unique_ptr<Pilot> core_pilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant) {
-  return std::make_unique<CorePilot>(scenario, make_seen_planner(planner, scenario.robot), plant);
+  return std::make_unique<CorePilot>(scenario, make_recorded_planner(planner, scenario.robot), plant);
 }
 
 }  // namespace whisker

@@ -20,7 +20,7 @@ class Pilot {
   /// The local grid last passed to the planner; null before its first step, and on a chip.
   virtual const perception::LocalGrid* local_grid() const { return nullptr; }
   /// The advice of the planner's global planner; null without a map, too.
-  virtual const ShownGuide* guide() const { return nullptr; }
+  virtual const RecordingGuide* guide() const { return nullptr; }
   /// True if the status contains everything that the core knows; false: only what a bus carries.
   virtual bool sees_inside() const { return true; }
   /// The estimated pose, for a pilot without access to the core; none: unknown.

@@ -63,13 +63,13 @@ const Entry& entry(PlannerKind kind) {
 
 }  // namespace
 
-SeenPlanner make_seen_planner(PlannerKind kind, const Params& params) {
+RecordedPlanner make_recorded_planner(PlannerKind kind, const Params& params) {
   if (is_baseline(kind)) return {entry(kind).make(params)};
   return make_core_planner(kind, params, fuzzy::kDefaultTable);
 }
 
 std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params) {
-  return make_seen_planner(kind, params).planner;
+  return make_recorded_planner(kind, params).planner;
 }
 
 std::vector<PlannerKind> planners() {

@@ -10,7 +10,7 @@
 #include "firmware/params.hpp"
 #include "firmware/planning/default_planner.hpp"
 #include "firmware/planning/planners.hpp"
-#include "host/run/shown_guide.hpp"
+#include "host/run/recording_guide.hpp"
 
 namespace whisker {
 
@@ -42,13 +42,13 @@ constexpr PlannerKind kDefaultPlanner =
     planning::kDefaultMapBytes == 0 ? PlannerKind::skirt : core_planner("map", planning::kDefaultMapBytes);
 
 /// A planner and the global planner in it.
-struct SeenPlanner {
+struct RecordedPlanner {
   std::shared_ptr<planning::Planner> planner;
-  const ShownGuide* guide = nullptr;  ///< null without a map; lives as long as the planner
+  const RecordingGuide* guide = nullptr;  ///< null without a map; lives as long as the planner
 };
 
 /// With the default response table. The parameters must outlive the planner.
-SeenPlanner make_seen_planner(PlannerKind kind, const Params& params);
+RecordedPlanner make_recorded_planner(PlannerKind kind, const Params& params);
 std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params);
 
 /// All planners, those of the core first.

@@ -1,8 +1,8 @@
 #include "host/run/runner.hpp"
 
+#include "host/run/mission_run.hpp"
 #include "host/run/sim_world.hpp"
 #include "host/run/spec.hpp"
-#include "host/run/trip.hpp"
 
 namespace whisker {
 
@@ -11,27 +11,27 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
   sim::Plant plant(world.view(), sim::robot_spec(scenario.robot), noise_spec(scenario.noise),
                    options.seed.value_or(scenario.seed), scenario.start);
   const std::unique_ptr<Pilot> pilot = options.pilot(scenario, options.planner, plant);
-  Trip trip(scenario, plant, *pilot);
+  MissionRun mission(scenario, plant, *pilot);
 
   const auto ticks_a_second = 1000 / static_cast<std::uint64_t>(scenario.robot.safety.period.raw());
   const auto record = [&] {
     if (options.records == nullptr && !options.observe && !options.watch) return;
-    const TickRecord r = trip.record();
+    const TickRecord r = mission.record();
     if (options.records != nullptr) options.records->push_back(r);
     if (options.observe) options.observe(r);
-    if (options.watch) options.watch({r, trip.status().health, pilot->local_grid(), pilot->guide()});
+    if (options.watch) options.watch({r, mission.status().health, pilot->local_grid(), pilot->guide()});
   };
-  while (!trip.verdict()) {
-    trip.decide();
+  while (!mission.verdict()) {
+    mission.decide();
     record();
-    if (trip.verdict()) break;
-    const double t_s = trip.time();
-    trip.move();
-    if (trip.verdict()) record();
-    if (options.progress && (trip.ticks() - 1) % ticks_a_second == 0)
-      options.progress(t_s, trip.distance_left());
+    if (mission.verdict()) break;
+    const double t_s = mission.time();
+    mission.move();
+    if (mission.verdict()) record();
+    if (options.progress && (mission.ticks() - 1) % ticks_a_second == 0)
+      options.progress(t_s, mission.distance_left());
   }
-  return trip.result();
+  return mission.result();
 }
 
 }  // namespace whisker

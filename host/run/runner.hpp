@@ -20,7 +20,7 @@ struct Moment {
   const TickRecord& record;
   const Health& health;
   const perception::LocalGrid* local_grid;  ///< passed to the planner
-  const ShownGuide* guide = nullptr;
+  const RecordingGuide* guide = nullptr;
 };
 
 struct RunOptions {

@@ -15,7 +15,7 @@ constexpr seconds kToAsk{2};
 constexpr seconds kToTake{10};  // an answer, or an event
 constexpr seconds kStalled{2};
 constexpr seconds kToLeave{1};
-constexpr milliseconds kPace{50};  // between two events
+constexpr milliseconds kSyncMode{50};  // between two events
 constexpr seconds kQuiet{2};
 
 std::string id_of(const Place& place) { return fmt::format("{}/{}", place.run, place.next); }
@@ -86,12 +86,12 @@ bool Client::listens(Clock::time_point now) const {
   return state_ == State::watching && !out_ && now >= next_;
 }
 
-bool Client::tell(const Feed& feed, Clock::time_point now) {
+bool Client::publish(const Feed& feed, Clock::time_point now) {
   if (feed.over(place_)) {
     leave(now);
     return false;
   }
-  next_ = now + kPace;
+  next_ = now + kSyncMode;
   const auto news = feed.news(place_);
   if (news) {
     put(std::make_shared<std::string>(fmt::format("id: {}\ndata: {}\n\n", id_of(place_), *news)), now);

@@ -36,7 +36,7 @@ class Client {
   /// True: ready for the next news of the feed.
   bool listens(Clock::time_point now) const;
   /// Accepts news, or ends with the feed. True: this took some work.
-  bool tell(const Feed& feed, Clock::time_point now);
+  bool publish(const Feed& feed, Clock::time_point now);
 
  private:
   enum class State {

@@ -15,7 +15,7 @@ namespace {
 // So many ticks at most are copied while the driver may have to wait.
 constexpr std::size_t kWhole = 256;
 
-// So many of those are told at a time: a long run takes no one's memory or time at once.
+// So many of those are reported at a time: a long run takes no one's memory or time at once.
 constexpr std::size_t kMostParts = 16;
 
 using page::Json;
@@ -82,13 +82,13 @@ void Feed::close() {
   ++notes_;
 }
 
-bool Feed::told(const Place& place) const {
+bool Feed::reported(const Place& place) const {
   return place.run == run_ && place.next == count_ && place.notes == notes_;
 }
 
 bool Feed::over(const Place& place) const {
   const std::scoped_lock lock(mutex_);
-  return closed_ && told(place);
+  return closed_ && reported(place);
 }
 
 std::optional<std::string> Feed::news(Place& place) const {
@@ -100,7 +100,7 @@ std::optional<std::string> Feed::news(Place& place) const {
   std::size_t from = 0;
   {
     const std::scoped_lock lock(mutex_);
-    if (run_.empty() || told(place)) return std::nullopt;
+    if (run_.empty() || reported(place)) return std::nullopt;
     if (place.run != run_ || place.next > count_) {
       setting = setting_;
       place.next = 0;

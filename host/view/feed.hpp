@@ -22,8 +22,8 @@ struct Place {
   std::uint64_t notes = 0;  ///< number of other events received
 };
 
-/// One thread drives and publishes; others read, each at its own pace. Published data is stored once for all
-/// readers. The calls of the driving thread take a short time that does not depend on the readers.
+/// One thread drives and publishes; others read, each at its own sync_mode. Published data is stored once for
+/// all readers. The calls of the driving thread take a short time that does not depend on the readers.
 class Feed {
  public:
   /// A run begins, or begins again: data of the one before is discarded. Call it first.
@@ -43,7 +43,7 @@ class Feed {
   bool over(const Place& place) const;
 
  private:
-  bool told(const Place& place) const;
+  bool reported(const Place& place) const;
 
   mutable std::mutex mutex_;
   std::string run_;

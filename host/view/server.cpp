@@ -78,10 +78,10 @@ struct Server::Inside {
   std::atomic<bool> stopping{false};
   std::vector<Client> clients{};
   Clock::time_point accepts{};
-  std::size_t first{0};  // of those who are told
+  std::size_t first{0};  // of the clients that publish() serves
 
-  Inside(const std::string& address, int wanted, const Feed& told, const std::string& text)
-      : feed(told),
+  Inside(const std::string& address, int wanted, const Feed& source, const std::string& text)
+      : feed(source),
         listening(listen_on(address, wanted)),
         port(port_of(listening)),
         names(address, port),
@@ -92,7 +92,7 @@ struct Server::Inside {
   void accept(Clock::time_point now);
   void make_room();
   void serve(Client& client, const Asked& asked, Clock::time_point now);
-  void tell();
+  void publish();
   void count();
 };
 
@@ -104,7 +104,7 @@ void Server::Inside::run() {
       if (const auto asked = client.move(now)) serve(client, *asked, now);
     }
     accept(now);
-    tell();
+    publish();
     clients.erase(std::remove_if(clients.begin(), clients.end(), [](const Client& c) { return c.gone(); }),
                   clients.end());
     count();
@@ -167,12 +167,12 @@ void Server::Inside::serve(Client& client, const Asked& asked, Clock::time_point
 }
 
 /// Whoever is not reached this time is the first next time.
-void Server::Inside::tell() {
+void Server::Inside::publish() {
   const auto until = Clock::now() + kWork;
   for (std::size_t i = 0; i < clients.size(); ++i) {
     Client& client = clients[(first + i) % clients.size()];
     const auto now = Clock::now();
-    if (!client.listens(now) || !client.tell(feed, now) || Clock::now() < until) continue;
+    if (!client.listens(now) || !client.publish(feed, now) || Clock::now() < until) continue;
     first += i + 1;
     return;
   }

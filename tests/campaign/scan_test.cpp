@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/campaign/mission.hpp"
-#include "host/scanner/trip.hpp"
+#include "host/scanner/reference_path.hpp"
 #include "host/worlds/generate.hpp"
 
 namespace whisker::campaign {
@@ -28,12 +28,12 @@ TEST(Scan, TheRowTellsOfTheTripOfThisRobotsRange) {
   for (const Length range : {2_m, 500_mm}) {
     s.robot.rangefinders.max_range = range;
     const Row row = scan(s);
-    const scanner::Trip trip =
+    const scanner::ReferencePath reference =
         scanner::drive(make_world(s), s.start.at, s.goal.at, kWayRadius, range.raw() * 1e-6);
     EXPECT_EQ(row.verdict, Verdict::reached);
     EXPECT_EQ(row.seed, 3U);
-    EXPECT_NEAR(row.path_m, trip.driven_m, 6e-7);
-    EXPECT_NEAR(row.shortest_m.value_or(0), trip.shortest_m.value_or(1), 6e-7);
+    EXPECT_NEAR(row.path_m, reference.driven_m, 6e-7);
+    EXPECT_NEAR(row.shortest_m.value_or(0), reference.shortest_m.value_or(1), 6e-7);
   }
 }
 

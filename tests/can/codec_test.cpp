@@ -14,20 +14,21 @@
 namespace whisker::can {
 namespace {
 
-const Signal& signal(Kind kind, int i) { return message_of(kind).signals[i]; }
+const Signal& signal(MessageKind kind, int i) { return message_of(kind).signals[i]; }
 
 TEST(Codec, SharedPartsLieAtOnePlace) {
   for (int i = 4; i < 10; ++i) {
-    EXPECT_EQ(signal(Kind::mission, i).start, signal(Kind::mission, 6).start);
-    EXPECT_EQ(signal(Kind::mission, i).length, signal(Kind::mission, 6).length);
-    EXPECT_EQ(signal(Kind::mission, i).part, i - 3);
+    EXPECT_EQ(signal(MessageKind::mission, i).start, signal(MessageKind::mission, 6).start);
+    EXPECT_EQ(signal(MessageKind::mission, i).length, signal(MessageKind::mission, 6).length);
+    EXPECT_EQ(signal(MessageKind::mission, i).part, i - 3);
   }
   for (int i = 1; i < 13; ++i) {
-    EXPECT_EQ(signal(Kind::diagnostics, i).start, signal(Kind::diagnostics, 1 + (i - 1) % 3).start);
-    EXPECT_EQ(signal(Kind::diagnostics, i).length, 16);
-    EXPECT_EQ(signal(Kind::diagnostics, i).part, (i - 1) / 3);
+    EXPECT_EQ(signal(MessageKind::diagnostics, i).start,
+              signal(MessageKind::diagnostics, 1 + (i - 1) % 3).start);
+    EXPECT_EQ(signal(MessageKind::diagnostics, i).length, 16);
+    EXPECT_EQ(signal(MessageKind::diagnostics, i).part, (i - 1) / 3);
   }
-  EXPECT_EQ(signal(Kind::info, 2).start, signal(Kind::info, 3).start);
+  EXPECT_EQ(signal(MessageKind::info, 2).start, signal(MessageKind::info, 3).start);
 }
 
 /// Bit by bit, from the table's words alone.
@@ -46,10 +47,10 @@ RC_GTEST_PROP(Codec, AWheelCommandComesBack, (std::int16_t left, std::int16_t ri
   const hal::CanFrame frame = encode(in, 3, 11);
   RC_ASSERT(frame.id == 0x103U && frame.size == 8 && !frame.extended && !frame.remote);
   RC_ASSERT(frame.data[0] == crc_of(frame.id, frame.data, frame.size) && counter_of(frame) == 11);
-  RC_ASSERT(slow_raw(frame, signal(Kind::wheel_command, 1)) == left &&
-            slow_raw(frame, signal(Kind::wheel_command, 2)) == right);
-  RC_ASSERT(slow_raw(frame, signal(Kind::wheel_command, 3)) == tick &&
-            slow_raw(frame, signal(Kind::wheel_command, 0)) == 1);
+  RC_ASSERT(slow_raw(frame, signal(MessageKind::wheel_command, 1)) == left &&
+            slow_raw(frame, signal(MessageKind::wheel_command, 2)) == right);
+  RC_ASSERT(slow_raw(frame, signal(MessageKind::wheel_command, 3)) == tick &&
+            slow_raw(frame, signal(MessageKind::wheel_command, 0)) == 1);
   WheelCommand out;
   RC_ASSERT(decode(frame, out));
   RC_ASSERT(out.speeds.left == left && out.speeds.right == right && out.tick == tick && out.mode == in.mode);
@@ -75,8 +76,8 @@ RC_GTEST_PROP(Codec, AnyContentIsJudgedByTheTable, (std::vector<std::uint8_t> by
   for_each_message([&](const Message&, auto message) {
     using M = decltype(message);
     // The signals of a message with parts are not all in one frame, and nobody reads what is reserved.
-    constexpr bool kWhole = M::kKind != Kind::mission && M::kKind != Kind::info &&
-                            M::kKind != Kind::info_request && M::kKind != Kind::diagnostics;
+    constexpr bool kWhole = M::kKind != MessageKind::mission && M::kKind != MessageKind::info &&
+                            M::kKind != MessageKind::info_request && M::kKind != MessageKind::diagnostics;
     if constexpr (kWhole) agrees_with_the_table<M>(frame);
   });
 }
@@ -110,7 +111,7 @@ RC_GTEST_PROP(Mission, ComesBackInParts,
     RC_ASSERT(!parts.complete(order));
     MissionValue part;
     RC_ASSERT(decode(encode(MissionValue{static_cast<MissionPart>(i + 1), 9, values.of[i]}, 9, 0), part));
-    parts.hear(part);
+    parts.on_frame(part);
   }
   RC_ASSERT(parts.complete(order));
   Mission out;
@@ -139,9 +140,9 @@ TEST(Mission, ValuesOutOfRangeAreRefused) {
 /// Frames that other tools decode: tests/can/golden_frames.txt has their bytes and their physical values.
 std::vector<hal::CanFrame> golden_frames() {
   WheelState wheels{1, 5, {0x123456, 0xFFFFFE}};
-  Range<Kind::range_left> left{{1234, hal::RangeStatus::ok, 20, 7}, 0xBEEF};
-  Range<Kind::range_front> front{{65535, hal::RangeStatus::clear, 0, 15}, 0};
-  Range<Kind::range_right> right{{65534, hal::RangeStatus::stale, 255, 0}, 1};
+  Range<MessageKind::range_left> left{{1234, hal::RangeStatus::ok, 20, 7}, 0xBEEF};
+  Range<MessageKind::range_front> front{{65535, hal::RangeStatus::clear, 0, 15}, 0};
+  Range<MessageKind::range_right> right{{65534, hal::RangeStatus::stale, 255, 0}, 1};
   Heartbeat beat;
   beat.state = NodeState::safe_stop;
   beat.errors = Error::command_late | Error::bus_off;
@@ -151,7 +152,7 @@ std::vector<hal::CanFrame> golden_frames() {
       encode(EStop{}, 0, 0),
       encode(EStop{kClearCommand}, 0, 0),
       encode(EStop{kClearCommand}, 1, 1),
-      encode(Sync{Pace::lockstep, 123456789, 10, 42}, 9, 2),
+      encode(Sync{SyncMode::lockstep, 123456789, 10, 42}, 9, 2),
       encode(FaultReport{Severity::latched, Error::e_stop, 3, 4}, 1, 3),
       encode(MissionOrder{MissionPart::order, 2, Order::resume, 0xCAFE}, 9, 4),
       encode(MissionValue{MissionPart::start_heading, 2, 0x40000000}, 9, 5),

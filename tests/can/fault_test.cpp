@@ -11,7 +11,7 @@ using bus::Direction;
 using bus::Fault;
 using bus::FaultKind;
 using can::Error;
-using can::Kind;
+using can::MessageKind;
 using can::NodeState;
 using test::Rig;
 
@@ -19,8 +19,8 @@ constexpr std::uint32_t kFrom = Rig::kFault;
 constexpr std::uint32_t kExact = 0x7FF;
 constexpr std::uint32_t kLong = 60;  // ticks: longer than every time-out
 
-std::uint32_t from_controller(Kind kind) { return can::id_of(can::message_of(kind).function, 1); }
-std::uint32_t from_base(Kind kind) { return can::id_of(can::message_of(kind).function, 9); }
+std::uint32_t from_controller(MessageKind kind) { return can::id_of(can::message_of(kind).function, 1); }
+std::uint32_t from_base(MessageKind kind) { return can::id_of(can::message_of(kind).function, 9); }
 
 /// A fault that holds for some ticks, of frames with one identifier, or of all or of the port with 0.
 Fault fault(FaultKind kind, std::uint32_t ticks, std::uint32_t id = 0) {
@@ -104,7 +104,7 @@ void expect_no_latch(Rig& rig, std::uint32_t fault_ticks) {
 }
 
 TEST(Faults, LosingOneCommandChangesNothing) {
-  Rig rig(test::open_ground(), {}, {fault(FaultKind::loss, 1, from_controller(Kind::wheel_command))});
+  Rig rig(test::open_ground(), {}, {fault(FaultKind::loss, 1, from_controller(MessageKind::wheel_command))});
   expect_no_latch(rig, 1);
   EXPECT_EQ(rig.base().health().lost, 1U);
   EXPECT_EQ(latency(rig), UINT32_MAX);
@@ -117,12 +117,14 @@ TEST(Faults, FortyMillisecondsWithoutAnythingAreOutlived) {
 }
 
 TEST(Faults, LosingAllCommandsStops) {
-  Rig rig(test::open_ground(), {}, {fault(FaultKind::loss, kLong, from_controller(Kind::wheel_command))});
+  Rig rig(test::open_ground(), {},
+          {fault(FaultKind::loss, kLong, from_controller(MessageKind::wheel_command))});
   expect_stop_and_resume(rig, {6, Error::command_late, Error::peer_stopped}, kLong);
 }
 
 TEST(Faults, LosingOneBeamBrakesAndGoesOn) {
-  for (const Kind kind : {Kind::range_left, Kind::range_front, Kind::range_right}) {
+  for (const MessageKind kind :
+       {MessageKind::range_left, MessageKind::range_front, MessageKind::range_right}) {
     Rig rig(test::open_ground(), {fault(FaultKind::loss, 7, from_base(kind))}, {});
     expect_no_latch(rig, 7);
     EXPECT_LE(latency(rig), 4U);
@@ -130,29 +132,29 @@ TEST(Faults, LosingOneBeamBrakesAndGoesOn) {
 }
 
 TEST(Faults, LosingOneBeamForLongStops) {
-  Rig rig(test::open_ground(), {fault(FaultKind::loss, kLong, from_base(Kind::range_front))}, {});
+  Rig rig(test::open_ground(), {fault(FaultKind::loss, kLong, from_base(MessageKind::range_front))}, {});
   expect_stop_and_resume(rig, {4, Error::peer_stopped, Error::range_late}, kLong);
 }
 
 TEST(Faults, LosingTheCountsStops) {
-  Rig rig(test::open_ground(), {fault(FaultKind::loss, kLong, from_base(Kind::wheel_state))}, {});
+  Rig rig(test::open_ground(), {fault(FaultKind::loss, kLong, from_base(MessageKind::wheel_state))}, {});
   expect_stop_and_resume(rig, {6, 0, Error::odometry_late}, kLong);
 }
 
 TEST(Faults, LosingTheSyncStops) {
-  Rig rig(test::open_ground(), {fault(FaultKind::loss, kLong, from_base(Kind::sync))}, {});
+  Rig rig(test::open_ground(), {fault(FaultKind::loss, kLong, from_base(MessageKind::sync))}, {});
   expect_stop_and_resume(rig, {6, Error::command_late, 0}, kLong);
 }
 
 TEST(Faults, LosingTheHeartbeatsOfEitherStops) {
-  Rig rig(test::open_ground(), {}, {fault(FaultKind::loss, 100, from_controller(Kind::heartbeat))});
+  Rig rig(test::open_ground(), {}, {fault(FaultKind::loss, 100, from_controller(MessageKind::heartbeat))});
   expect_stop_and_resume(rig, {31, Error::peer_lost, 0}, 100);
-  Rig other(test::open_ground(), {fault(FaultKind::loss, 100, from_base(Kind::heartbeat))}, {});
+  Rig other(test::open_ground(), {fault(FaultKind::loss, 100, from_base(MessageKind::heartbeat))}, {});
   expect_stop_and_resume(other, {31, 0, Error::peer_lost}, 100);
 }
 
 TEST(Faults, DelayedCommandsAreTooOld) {
-  Fault f = fault(FaultKind::delay, kLong, from_controller(Kind::wheel_command));
+  Fault f = fault(FaultKind::delay, kLong, from_controller(MessageKind::wheel_command));
   f.ticks = 7;
   Rig rig(test::open_ground(), {}, {f});
   expect_stop_and_resume(rig, {6, Error::command_late, 0}, kLong);
@@ -179,40 +181,42 @@ TEST(Faults, FramesInAnotherOrderWithinASetChangeNothing) {
 }
 
 TEST(Faults, CorruptCommandsStop) {
-  Rig rig(test::open_ground(), {}, {fault(FaultKind::corrupt, kLong, from_controller(Kind::wheel_command))});
+  Rig rig(test::open_ground(), {},
+          {fault(FaultKind::corrupt, kLong, from_controller(MessageKind::wheel_command))});
   expect_stop_and_resume(rig, {6, Error::command_late, 0}, kLong);
   EXPECT_GE(rig.base().health().crc, 20U);
 }
 
 TEST(Faults, CorruptCountsStop) {
-  Rig rig(test::open_ground(), {fault(FaultKind::corrupt, kLong, from_base(Kind::wheel_state))}, {});
+  Rig rig(test::open_ground(), {fault(FaultKind::corrupt, kLong, from_base(MessageKind::wheel_state))}, {});
   expect_stop_and_resume(rig, {6, 0, Error::odometry_late}, kLong);
   EXPECT_GE(rig.controller().health().crc, 20U);
 }
 
 TEST(Faults, CommandsOfAnotherShapeStop) {
   for (const FaultKind kind : {FaultKind::wrong_size, FaultKind::make_remote, FaultKind::make_extended}) {
-    Rig rig(test::open_ground(), {}, {fault(kind, kLong, from_controller(Kind::wheel_command))});
+    Rig rig(test::open_ground(), {}, {fault(kind, kLong, from_controller(MessageKind::wheel_command))});
     expect_stop_and_resume(rig, {6, Error::command_late, 0}, kLong);
     EXPECT_GE(rig.base().health().malformed, 6U);
   }
 }
 
 TEST(Faults, AStuckSenderStops) {
-  Rig rig(test::open_ground(), {}, {fault(FaultKind::freeze, kLong, from_controller(Kind::wheel_command))});
+  Rig rig(test::open_ground(), {},
+          {fault(FaultKind::freeze, kLong, from_controller(MessageKind::wheel_command))});
   expect_stop_and_resume(rig, {7, Error::command_late, 0}, kLong);
   EXPECT_GE(rig.base().health().repeated, 5U);
 }
 
 TEST(Faults, AStuckSensorFrameStops) {
-  Rig rig(test::open_ground(), {fault(FaultKind::freeze, kLong, from_base(Kind::range_left))}, {});
+  Rig rig(test::open_ground(), {fault(FaultKind::freeze, kLong, from_base(MessageKind::range_left))}, {});
   expect_stop_and_resume(rig, {5, 0, Error::range_late}, kLong);
   EXPECT_GE(rig.controller().health().repeated, 5U);
 }
 
 TEST(Faults, AMasqueradeIsNoCommand) {
-  Fault f = fault(FaultKind::masquerade, kLong, from_controller(Kind::nav_status));
-  f.id = from_controller(Kind::wheel_command);
+  Fault f = fault(FaultKind::masquerade, kLong, from_controller(MessageKind::nav_status));
+  f.id = from_controller(MessageKind::wheel_command);
   Rig rig(test::open_ground(), {}, {f});
   expect_no_latch(rig, kLong);
   EXPECT_GE(rig.base().health().crc, kLong - 1);

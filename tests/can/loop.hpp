@@ -102,11 +102,11 @@ struct LoopResult {
 
 /// A run over the bus. others: who else is on it, polled with the controller.
 inline LoopResult drive_over_bus(
-    const Scenario& scenario, PlannerKind kind, can::Pace pace, hal::CanPort& base_port,
+    const Scenario& scenario, PlannerKind kind, can::SyncMode sync_mode, hal::CanPort& base_port,
     hal::CanPort& controller_port, const Slowness& slowness = {},
     const std::function<void(std::uint32_t now_ms)>& others = [](std::uint32_t) {}) {
   hil::HostPlanners planners(kind);
-  can_remote::Controller controller(controller_port, {1, 77, 0}, planners);
+  can_app::Controller controller(controller_port, {1, 77, 0}, planners);
   SharedTime time(
       [&](std::uint32_t now_ms) {
         controller.poll(now_ms);
@@ -115,7 +115,7 @@ inline LoopResult drive_over_bus(
       slowness);
   LoopResult out;
   hil::BusOptions bus;
-  bus.pace = pace;
+  bus.sync_mode = sync_mode;
   bus.resend_ms = 3;
   RunOptions options;
   options.pilot = hil::bus_pilot(base_port, time, bus, out.figures);

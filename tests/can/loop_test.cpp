@@ -23,8 +23,8 @@ Scenario scenario_of(worlds::Kind kind) {
 TEST_P(EveryWorld, TheTrajectoryOverTheBusIsTheOneInProcess) {
   const Scenario scenario = scenario_of(GetParam());
   bus::MemoryBus wire;
-  const auto over_bus =
-      test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, wire.attach(), wire.attach());
+  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep,
+                                             wire.attach(), wire.attach());
   const RunResult direct = run(scenario);
   EXPECT_EQ(over_bus.result.hash, direct.hash);
   EXPECT_EQ(over_bus.result.ticks, direct.ticks);
@@ -38,7 +38,7 @@ TEST_P(EveryWorld, TheTrajectoryIsTheSameWithTwoPercentOfTheFramesDropped) {
   bus::MemoryBus wire;
   test::LossyPort base(wire.attach(), 1), controller(wire.attach(), 2);
   const auto over_bus =
-      test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, base, controller);
+      test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep, base, controller);
   const RunResult direct = run(scenario);
   EXPECT_EQ(over_bus.result.hash, direct.hash);
   EXPECT_EQ(over_bus.result.ticks, direct.ticks);
@@ -50,8 +50,8 @@ TEST_P(EveryWorld, TheTrajectoryIsTheSameWithTwoPercentOfTheFramesDropped) {
 TEST_P(EveryWorld, InRealTimeWithoutAMissToo) {
   const Scenario scenario = scenario_of(GetParam());
   bus::MemoryBus wire;
-  const auto over_bus =
-      test::drive_over_bus(scenario, PlannerKind::thesis, can::Pace::real_time, wire.attach(), wire.attach());
+  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::thesis, can::SyncMode::real_time,
+                                             wire.attach(), wire.attach());
   RunOptions options;
   options.planner = PlannerKind::thesis;
   const RunResult direct = run(scenario, options);
@@ -64,8 +64,8 @@ TEST(Lockstep, ABaseThatLosesSightOfTheControllerDrivesTheSame) {
   bus::MemoryBus wire;
   test::Slowness slow;
   slow.base_stalls = 37;
-  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, wire.attach(),
-                                             wire.attach(), slow);
+  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep,
+                                             wire.attach(), wire.attach(), slow);
   EXPECT_EQ(over_bus.result.hash, run(scenario).hash);
   EXPECT_EQ(over_bus.figures.health.stops, 0U);
   EXPECT_GT(*std::max_element(over_bus.figures.round_trip_us.begin(), over_bus.figures.round_trip_us.end()),
@@ -77,8 +77,8 @@ TEST(Lockstep, ASlowControllerGetsFewSetsTwice) {
   bus::MemoryBus wire;
   test::Slowness slow;
   slow.controller = 25;
-  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, wire.attach(),
-                                             wire.attach(), slow);
+  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep,
+                                             wire.attach(), wire.attach(), slow);
   EXPECT_EQ(over_bus.result.hash, run(scenario).hash);
   EXPECT_LE(over_bus.figures.resent, 10U);
   EXPECT_GT(over_bus.figures.sets, 1000U);
@@ -91,33 +91,33 @@ TEST(Lockstep, HeartbeatsThatComeTooLateStopNothing) {
     bus::MemoryBus wire;
     test::StutteringPort base(wire.attach(), every_ms), controller(wire.attach(), every_ms);
     const auto over_bus =
-        test::drive_over_bus(scenario, PlannerKind::skirt, can::Pace::lockstep, base, controller);
+        test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep, base, controller);
     EXPECT_EQ(over_bus.result.hash, run(scenario).hash) << every_ms;
     EXPECT_EQ(over_bus.figures.health.stops, 0U) << every_ms;
     EXPECT_GE(over_bus.figures.round_trip_us.back(), 1000 * every_ms / 2) << every_ms;
   }
 }
 
-class Twins : public testing::TestWithParam<std::tuple<can::Pace, std::uint32_t>> {};
+class Twins : public testing::TestWithParam<std::tuple<can::SyncMode, std::uint32_t>> {};
 
 TEST_P(Twins, OfTheControllerEndTheRunWithAFault) {
-  const auto [pace, from_ms] = GetParam();
+  const auto [sync_mode, from_ms] = GetParam();
   bus::MemoryBus wire;
   bus::MemoryPort &base = wire.attach(), &controller = wire.attach();
   hil::HostPlanners planners(PlannerKind::skirt);
-  can_remote::Controller twin(wire.attach(), {1, 88, 0}, planners);
+  can_app::Controller twin(wire.attach(), {1, 88, 0}, planners);
   const auto twins_turn = [&twin, from = from_ms](std::uint32_t now_ms) {
     if (now_ms >= from) twin.poll(now_ms);
   };
-  const auto over_bus = test::drive_over_bus(scenario_of(worlds::Kind::discs), PlannerKind::skirt, pace, base,
-                                             controller, {}, twins_turn);
+  const auto over_bus = test::drive_over_bus(scenario_of(worlds::Kind::discs), PlannerKind::skirt, sync_mode,
+                                             base, controller, {}, twins_turn);
   EXPECT_EQ(over_bus.result.verdict, Verdict::fault);
   EXPECT_EQ(over_bus.result.detail, "duplicate_node");
   EXPECT_EQ(over_bus.result.ticks > 10, from_ms > 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Now, Twins,
-                         testing::Combine(testing::Values(can::Pace::lockstep, can::Pace::real_time),
+                         testing::Combine(testing::Values(can::SyncMode::lockstep, can::SyncMode::real_time),
                                           testing::Values(0U, 1500U)));
 
 INSTANTIATE_TEST_SUITE_P(Worlds, EveryWorld, testing::ValuesIn(worlds::kKinds));

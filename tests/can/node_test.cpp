@@ -44,7 +44,7 @@ class BaseAlone : public testing::Test {
     base_.poll(now_);
     if (now_ % 10 != 0) return;
     speeds_ = base_.control();
-    base_.send_set({++tick_, 10, {}, {}, true}, Pace::real_time);
+    base_.send_set({++tick_, 10, {}, {}, true}, SyncMode::real_time);
     if (answers_)
       peer_.say(WheelCommand{DriveMode::drive, {speed_, speed_}, static_cast<std::uint16_t>(tick_)});
   }
@@ -58,7 +58,7 @@ class BaseAlone : public testing::Test {
   }
   void start() {
     shake_hands();
-    base_.give(Order::start, {{}, {{}, 100_mm}}, Pace::real_time);
+    base_.give(Order::start, {{}, {{}, 100_mm}}, SyncMode::real_time);
     pass();
     pass();
     MissionOrder order;
@@ -230,7 +230,7 @@ TEST_F(BaseAlone, AnOrderEndsASafeStop) {
   start();
   answers_ = false;
   until_stopped();
-  base_.give(Order::resume, {{}, {{}, 100_mm}}, Pace::real_time);
+  base_.give(Order::resume, {{}, {{}, 100_mm}}, SyncMode::real_time);
   peer_.forget();
   const int ms = until([&] { return peer_.heard<MissionOrder>() > 0; });
   EXPECT_GE(ms, 190) << "not before the wheels stand";
@@ -337,16 +337,16 @@ TEST_F(BaseAlone, EveryMessageOfAControllerIsUnderstoodByItsNameAndNoOther) {
   answers_ = beats_ = false;
   ParamReply none;
   for (int k = 0; k < kKinds; ++k) {
-    const auto kind = static_cast<Kind>(k);
+    const auto kind = static_cast<MessageKind>(k);
     // Heartbeat and Info are the handshake's; another boot number in them would end it.
-    if (kind == Kind::e_stop || kind == Kind::heartbeat || kind == Kind::info) continue;
+    if (kind == MessageKind::e_stop || kind == MessageKind::heartbeat || kind == MessageKind::info) continue;
     const Message& m = message_of(kind);
     const BusHealth was = base_.health();
     peer_.send(sealed(0, id_of(m.function, 1), m.size, 7));
     pass(2);
     EXPECT_EQ(base_.health().accepted, was.accepted + (m.from_controller ? 1 : 0)) << m.name;
     EXPECT_EQ(base_.health().malformed, was.malformed + (m.from_controller ? 0 : 1)) << m.name;
-    EXPECT_EQ(base_.replied(none), k >= static_cast<int>(Kind::param_reply)) << m.name;
+    EXPECT_EQ(base_.replied(none), k >= static_cast<int>(MessageKind::param_reply)) << m.name;
   }
 }
 
@@ -357,7 +357,7 @@ TEST_F(BaseAlone, AMessageThatNobodyKnowsIsCountedAndNeverTakenForAnother) {
   const BusHealth was = base_.health();
   std::uint32_t unknown = 0;
   for (std::uint8_t function = 1; function < 0x80; ++function) {
-    Kind kind = Kind::e_stop;
+    MessageKind kind = MessageKind::e_stop;
     if (kind_of(id_of(function, 1), kind)) continue;
     peer_.send(sealed(0, id_of(function, 1), 8, 0));
     if (++unknown % 8 == 0) pass();
@@ -393,7 +393,7 @@ TEST_F(BaseAlone, RepeatedAndStrayCountersAreCountedAndNeverObeyed) {
   EXPECT_EQ(base_.command().speeds.left, 1);
   peer_.send(with(kMostLost + 2, 3));
   pass();
-  EXPECT_EQ(base_.health().astray, was.astray + 1);
+  EXPECT_EQ(base_.health().out_of_sequence, was.out_of_sequence + 1);
   EXPECT_EQ(base_.command().speeds.left, 1);
   peer_.send(with(kMostLost + 3, 4));
   pass();
@@ -429,7 +429,7 @@ TEST_F(BaseAlone, SomebodyElseWithItsNumberStopsForGood) {
   EXPECT_EQ(base_.health().duplicates, 1U);
   EXPECT_NE(base_.errors() & Error::duplicate_node, 0);
   expect_braking();
-  base_.give(Order::start, {{}, {{}, 100_mm}}, Pace::real_time);
+  base_.give(Order::start, {{}, {{}, 100_mm}}, SyncMode::real_time);
   pass(200);
   EXPECT_EQ(base_.state(), NodeState::safe_stop);
 }
@@ -444,10 +444,10 @@ TEST_F(BaseAlone, AnOrderToAControllerWithATwinIsRefusedAtOnce) {
     beat.errors = error;
     peer_.say(beat);
     pass();
-    EXPECT_EQ(base_.for_good(), error);
+    EXPECT_EQ(base_.permanent_errors(), error);
     expect_braking();
     peer_.forget();
-    base_.give(Order::resume, {{}, {{}, 100_mm}}, Pace::real_time);
+    base_.give(Order::resume, {{}, {{}, 100_mm}}, SyncMode::real_time);
     pass(200);
     EXPECT_EQ(base_.order_state(), OrderState::refused);
     EXPECT_EQ(peer_.heard<MissionOrder>(), 0);
@@ -455,7 +455,7 @@ TEST_F(BaseAlone, AnOrderToAControllerWithATwinIsRefusedAtOnce) {
     beat.state = NodeState::ready;
     peer_.say(beat);
     pass(2);
-    EXPECT_EQ(base_.for_good(), 0);
+    EXPECT_EQ(base_.permanent_errors(), 0);
   }
 }
 
@@ -488,14 +488,14 @@ TEST_F(BaseAlone, DiagnosticsTellTheCounters) {
   peer_.send(bad);
   peer_.forget();
   pass(2100);
-  bool told = false;
+  bool reported = false;
   for (const hal::CanFrame& f : peer_.frames()) {
     Diagnostics d;
-    if (f.id >> 4 == message_of(Kind::diagnostics).function && decode(f, d) && d.part == 0) {
-      told = d.value[0] == 1;
+    if (f.id >> 4 == message_of(MessageKind::diagnostics).function && decode(f, d) && d.part == 0) {
+      reported = d.value[0] == 1;
     }
   }
-  EXPECT_TRUE(told);
+  EXPECT_TRUE(reported);
 }
 
 /// A controller that gets its sets from a base that the test plays.
@@ -507,7 +507,7 @@ class ControllerAlone : public testing::Test {
   std::uint32_t now_ = 1000;
   std::uint32_t tick_ = 100;
   std::uint8_t mission_ = 7;
-  Pace pace_ = Pace::real_time;
+  SyncMode sync_mode_ = SyncMode::real_time;
   bool beats_ = true;
   bool sends_[5] = {true, true, true, true, true};  // ranges, wheels, sync
   int steps_ = 0;
@@ -520,11 +520,11 @@ class ControllerAlone : public testing::Test {
   void send_set(std::uint32_t tick) {
     const auto tick16 = static_cast<std::uint16_t>(tick);
     const hal::RangeReading reading{500, hal::RangeStatus::ok, 10, 1};
-    if (sends_[0]) peer_.say(Range<Kind::range_left>{reading, tick16});
-    if (sends_[1]) peer_.say(Range<Kind::range_front>{reading, tick16});
-    if (sends_[2]) peer_.say(Range<Kind::range_right>{reading, tick16});
+    if (sends_[0]) peer_.say(Range<MessageKind::range_left>{reading, tick16});
+    if (sends_[1]) peer_.say(Range<MessageKind::range_front>{reading, tick16});
+    if (sends_[2]) peer_.say(Range<MessageKind::range_right>{reading, tick16});
     if (sends_[3]) peer_.say(WheelState{1, static_cast<std::uint8_t>(tick % 8), {tick, tick}});
-    if (sends_[4]) peer_.say(Sync{pace_, tick, 10, mission_});
+    if (sends_[4]) peer_.say(Sync{sync_mode_, tick, 10, mission_});
   }
   void pass() {
     ++now_;
@@ -701,7 +701,7 @@ TEST_F(ControllerAlone, OlderSetsAreNeverSteppedOn) {
 }
 
 TEST_F(ControllerAlone, InLockstepTheSameSetGetsTheSameAnswer) {
-  pace_ = Pace::lockstep;
+  sync_mode_ = SyncMode::lockstep;
   start();
   const int before = steps_;
   peer_.forget();
@@ -721,7 +721,7 @@ TEST_F(ControllerAlone, InLockstepTheSameSetGetsTheSameAnswer) {
 }
 
 TEST_F(ControllerAlone, InLockstepItWaitsForEver) {
-  pace_ = Pace::lockstep;
+  sync_mode_ = SyncMode::lockstep;
   start();
   for (bool& sends : sends_) sends = false;
   beats_ = false;

@@ -58,7 +58,7 @@ class Straight final : public planning::GoalPlanner {
   int turns_ = 0;
 };
 
-class StraightMaker final : public can_remote::PlannerMaker {
+class StraightMaker final : public can_app::PlannerMaker {
  public:
   planning::Planner& make(const Params&) noexcept override {
     planner_ = std::make_unique<Straight>();
@@ -78,7 +78,7 @@ class Rig {
   static constexpr std::uint32_t kFault = 800;  ///< the tick from which faults of the tests hold: it cruises
 
   Rig(const Scenario& scenario, bus::Schedule at_base, bus::Schedule at_controller, std::uint64_t seed = 1,
-      can_remote::PlannerMaker* planners = nullptr)
+      can_app::PlannerMaker* planners = nullptr)
       : scenario_(scenario),
         world_(scenario_),
         plant_(world_.view(), sim::robot_spec(scenario_.robot), noise_spec(scenario_.noise), scenario_.seed,
@@ -88,14 +88,14 @@ class Rig {
         controller_port_(wire_.attach(), std::move(at_controller), seed + 1, repair),
         node_(base_port_, {1, 11, 0}, 100),
         base_(node_, board_, board_),
-        controller_(std::make_unique<can_remote::Controller>(controller_port_, can::Identity{1, 22, 0},
-                                                             planners != nullptr ? *planners : straight_)),
+        controller_(std::make_unique<can_app::Controller>(controller_port_, can::Identity{1, 22, 0},
+                                                          planners != nullptr ? *planners : straight_)),
         third(wire_, 3) {
     third.poll(0);
   }
 
   void give(can::Order order) {
-    node_.give(order, {fixed_pose(scenario_.start), fixed_goal(scenario_.goal)}, can::Pace::real_time);
+    node_.give(order, {fixed_pose(scenario_.start), fixed_goal(scenario_.goal)}, can::SyncMode::real_time);
   }
   void drive(std::uint32_t ticks) {
     for (std::uint32_t i = 0; i < ticks; ++i) tick();
@@ -122,7 +122,7 @@ class Rig {
     base_port_.at_tick(tick_);
     controller_port_.at_tick(tick_);
     base_.measure(tick_, 10);
-    base_.publish(can::Pace::real_time);
+    base_.publish(can::SyncMode::real_time);
     for (int ms = 0; ms < 10; ++ms) {
       ++now_ms_;
       node_.poll(now_ms_);
@@ -145,8 +145,8 @@ class Rig {
   bus::FaultPort controller_port_;
   StraightMaker straight_;
   can::BaseNode node_;
-  can_remote::Base base_;
-  std::unique_ptr<can_remote::Controller> controller_;
+  can_app::Base base_;
+  std::unique_ptr<can_app::Controller> controller_;
   std::vector<Seen> seen_;
   std::uint32_t tick_ = 0;
   std::uint32_t now_ms_ = 0;

@@ -21,7 +21,7 @@ Scenario short_way() {
 /// A controller that greets, lives, and answers these requests alone: orders with this status.
 class Taciturn {
  public:
-  Taciturn(bus::MemoryBus& wire, std::set<can::Kind> answers, can::MissionStatus status)
+  Taciturn(bus::MemoryBus& wire, std::set<can::MessageKind> answers, can::MissionStatus status)
       : party_(wire, 1), answers_(std::move(answers)), status_(status) {}
 
   void poll(std::uint32_t now_ms) {
@@ -35,27 +35,27 @@ class Taciturn {
  private:
   static constexpr std::uint16_t kBoot = 7;
 
-  bool answers(can::Kind kind, const hal::CanFrame& frame) const {
+  bool answers(can::MessageKind kind, const hal::CanFrame& frame) const {
     return answers_.count(kind) != 0 && frame.id >> 4 == can::message_of(kind).function;
   }
   void answer(const hal::CanFrame& frame) {
     can::ParamRequest request;
     can::MissionOrder order;
-    if (answers(can::Kind::param_request, frame) && can::decode(frame, request)) {
+    if (answers(can::MessageKind::param_request, frame) && can::decode(frame, request)) {
       party_.say(can::ParamReply{can::ParamStatus::ok, request.index, request.value});
-    } else if (answers(can::Kind::mission, frame) && can::decode(frame, order) &&
+    } else if (answers(can::MessageKind::mission, frame) && can::decode(frame, order) &&
                order.part == can::MissionPart::order) {
       party_.say(can::MissionReply{status_, order.mission});
     }
   }
 
   test::Party party_;
-  const std::set<can::Kind> answers_;
+  const std::set<can::MessageKind> answers_;
   const can::MissionStatus status_;
 };
 
 /// What the plant says when it gives up, and the seconds that it waited.
-std::pair<std::string, double> given_up(const std::set<can::Kind>& answers, can::Pace pace,
+std::pair<std::string, double> given_up(const std::set<can::MessageKind>& answers, can::SyncMode sync_mode,
                                         can::MissionStatus status = can::MissionStatus::accepted) {
   bus::MemoryBus wire;
   hal::CanPort& port = wire.attach();
@@ -63,7 +63,7 @@ std::pair<std::string, double> given_up(const std::set<can::Kind>& answers, can:
   test::SharedTime time([&](std::uint32_t now_ms) { controller.poll(now_ms); });
   hil::Figures figures;
   hil::BusOptions bus;
-  bus.pace = pace;
+  bus.sync_mode = sync_mode;
   bus.patience_ms = 2000;
   RunOptions options;
   options.pilot = hil::bus_pilot(port, time, bus, figures);
@@ -77,20 +77,21 @@ std::pair<std::string, double> given_up(const std::set<can::Kind>& answers, can:
 }
 
 TEST(Silence, ThePlantNamesTheRequestThatStaysWithoutAnAnswer) {
-  using can::Kind;
-  for (const can::Pace pace : {can::Pace::lockstep, can::Pace::real_time}) {
-    const auto [param, waited_s] = given_up({}, pace);
+  using can::MessageKind;
+  for (const can::SyncMode sync_mode : {can::SyncMode::lockstep, can::SyncMode::real_time}) {
+    const auto [param, waited_s] = given_up({}, sync_mode);
     EXPECT_EQ(param, "the controller sends no ParamReply for 2000 ms");
     EXPECT_LT(waited_s, 3);
-    const auto [mission, mission_s] = given_up({Kind::param_request}, pace);
+    const auto [mission, mission_s] = given_up({MessageKind::param_request}, sync_mode);
     EXPECT_EQ(mission, "the controller sends no MissionReply that accepts for 2000 ms");
     EXPECT_LT(mission_s, 4);
     const auto [refusal, refusal_s] =
-        given_up({Kind::param_request, Kind::mission}, pace, can::MissionStatus::refused);
+        given_up({MessageKind::param_request, MessageKind::mission}, sync_mode, can::MissionStatus::refused);
     EXPECT_EQ(refusal, mission);
     EXPECT_LT(refusal_s, 4);
   }
-  const auto [set, set_s] = given_up({Kind::param_request, Kind::mission}, can::Pace::lockstep);
+  const auto [set, set_s] =
+      given_up({MessageKind::param_request, MessageKind::mission}, can::SyncMode::lockstep);
   EXPECT_EQ(set, "the controller sends no WheelCommand and NavStatus for 2000 ms");
   EXPECT_LT(set_s, 5);
 }

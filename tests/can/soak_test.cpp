@@ -38,7 +38,7 @@ bus::Schedule random_faults(std::uint64_t seed, std::uint32_t ticks) {
 }
 
 void expect_accounts(const can::BusHealth& h, const hal::CanCounts& port, const char* who) {
-  EXPECT_EQ(h.accepted + h.foreign + h.malformed + h.crc + h.repeated + h.astray + h.out_of_range +
+  EXPECT_EQ(h.accepted + h.foreign + h.malformed + h.crc + h.repeated + h.out_of_sequence + h.out_of_range +
                 h.unmatched + h.duplicates + h.e_stops + h.unknown,
             port.received)
       << who;

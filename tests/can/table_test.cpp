@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware/can/e2e.hpp"
-#include "firmware/can/heads.hpp"
+#include "firmware/can/headers.hpp"
 #include "firmware/can/table_hash.hpp"
 
 namespace whisker::can {
@@ -34,14 +34,14 @@ TEST(Table, EveryIdentifierIsOneSendersOwn) {
 
 TEST(Table, KindsAreItsRows) {
   for (int i = 0; i < kKinds; ++i) {
-    Kind kind = Kind::e_stop;
+    MessageKind kind = MessageKind::e_stop;
     ASSERT_TRUE(kind_of(id_of(kMessages[i].function, 9), kind));
     EXPECT_EQ(static_cast<int>(kind), i);
     EXPECT_EQ(head_of(kind).size, kMessages[i].size);
   }
-  EXPECT_STREQ(message_of(Kind::diagnostics).name, "Diagnostics");
-  EXPECT_STREQ(message_of(Kind::nav_status).name, "NavStatus");
-  Kind kind = Kind::e_stop;
+  EXPECT_STREQ(message_of(MessageKind::diagnostics).name, "Diagnostics");
+  EXPECT_STREQ(message_of(MessageKind::nav_status).name, "NavStatus");
+  MessageKind kind = MessageKind::e_stop;
   EXPECT_FALSE(kind_of(id_of(0x02, 1), kind));
   EXPECT_FALSE(kind_of(0x7FF, kind));
 }

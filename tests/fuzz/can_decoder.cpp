@@ -27,7 +27,7 @@ void try_as(whisker::hal::CanFrame frame) {
   M second;
   if (!decode(again, second)) std::abort();
   if (((bits_of(frame) ^ bits_of(again)) & carried & ~UINT64_C(0xFFF)) != 0 && message.count > 0 &&
-      M::kKind != Kind::mission && M::kKind != Kind::info_request) {
+      M::kKind != MessageKind::mission && M::kKind != MessageKind::info_request) {
     std::abort();
   }
 }

@@ -33,8 +33,8 @@ class Bytes {
 };
 
 std::uint32_t accounted(const BusHealth& h) {
-  return h.accepted + h.foreign + h.malformed + h.crc + h.repeated + h.astray + h.out_of_range + h.unmatched +
-         h.duplicates + h.e_stops;
+  return h.accepted + h.foreign + h.malformed + h.crc + h.repeated + h.out_of_sequence + h.out_of_range +
+         h.unmatched + h.duplicates + h.e_stops;
 }
 
 class Bench {
@@ -44,7 +44,7 @@ class Bench {
     if (what < 64) {
       pass(what);
     } else if (what < 80) {
-      base_.give(static_cast<Order>(what % 3), {{}, {{}, 1_m}}, static_cast<Pace>(what & 1));
+      base_.give(static_cast<Order>(what % 3), {{}, {{}, 1_m}}, static_cast<SyncMode>(what & 1));
     } else if (what < 88) {
       greet(what);
     } else {
@@ -62,12 +62,12 @@ class Bench {
     const std::uint8_t node = (what & 1) != 0 ? 1 : 9;
     Heartbeat beat;
     beat.boot = what >> 1;
-    inject(encode(beat, node, next(Kind::heartbeat)));
-    inject(encode(Info{InfoPart::table_hash, beat.boot, kTableHash}, node, next(Kind::info)));
+    inject(encode(beat, node, next(MessageKind::heartbeat)));
+    inject(encode(Info{InfoPart::table_hash, beat.boot, kTableHash}, node, next(MessageKind::info)));
   }
   void send(std::uint8_t what, Bytes& bytes) {
     hal::CanFrame frame{};
-    const auto kind = static_cast<Kind>(bytes.next() % kKinds);
+    const auto kind = static_cast<MessageKind>(bytes.next() % kKinds);
     frame.id = id_of(message_of(kind).function, what & 0x0F);
     frame.size = message_of(kind).size;
     frame.extended = what > 250;
@@ -81,7 +81,7 @@ class Bench {
     }
     inject(frame);
   }
-  std::uint8_t next(Kind kind) { return alive_[static_cast<int>(kind)].next(); }
+  std::uint8_t next(MessageKind kind) { return alive_[static_cast<int>(kind)].next(); }
   void inject(const hal::CanFrame& frame) {
     third_.send(frame, 100);
     pass(1);
@@ -97,7 +97,8 @@ class Bench {
       if (controller_.take_set(set)) controller_.answer({1000, -1000}, {});
       base_.poll(now_);
       if (now_ % 10 != 0) continue;
-      base_.send_set({++tick_, 10, {}, {}, true}, base_.lockstep() ? Pace::lockstep : Pace::real_time);
+      base_.send_set({++tick_, 10, {}, {}, true},
+                     base_.lockstep() ? SyncMode::lockstep : SyncMode::real_time);
       const hal::WheelSpeeds before = speeds_;
       speeds_ = base_.control();
       const bool slower = std::abs(speeds_.left) <= std::max(std::abs(before.left) - 100, 0) ||

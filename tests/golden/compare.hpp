@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/chip/words.hpp"
+#include "host/chip/messages.hpp"
 
 namespace whisker::golden {
 

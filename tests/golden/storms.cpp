@@ -1,6 +1,6 @@
 #include <fmt/core.h>
 
-#include "host/chip/words.hpp"
+#include "host/chip/messages.hpp"
 #include "host/run/planners.hpp"
 #include "tests/golden/stream.hpp"
 #include "tests/robot/properties/random_params.hpp"
@@ -23,24 +23,24 @@ class Oracle final : public hal::Rangefinders, public hal::Drive {
     tick.counts_given = board_.read(tick.counts) ? 1 : 0;
     if (tick.ranges_given == 0) tick.ranges = {};
     if (tick.counts_given == 0) tick.counts = {};
-    told_ = tick;
+    input_ = tick;
     return tick;
   }
   bool accepted() const { return accepted_; }
 
   bool read(hal::RangeReadings& out) noexcept override {
-    if (told_.ranges_given != 0) out = told_.ranges;
-    return told_.ranges_given != 0;
+    if (input_.ranges_given != 0) out = input_.ranges;
+    return input_.ranges_given != 0;
   }
   bool read(hal::EncoderCounts& out) noexcept override {
-    if (told_.counts_given != 0) out = told_.counts;
-    return told_.counts_given != 0;
+    if (input_.counts_given != 0) out = input_.counts;
+    return input_.counts_given != 0;
   }
   bool command(hal::WheelSpeeds speeds) noexcept override { return accepted_ = board_.command(speeds); }
 
  private:
   test::StormBoard& board_;
-  link::Tick told_;
+  link::Tick input_;
   bool accepted_ = true;
 };
 

@@ -10,7 +10,7 @@
 #include "firmware/planning/planner.hpp"
 #include "firmware/robot.hpp"
 #include "host/run/planners.hpp"
-#include "host/run/shown_planner.hpp"
+#include "host/run/recording_planner.hpp"
 #include "host/run/sim_world.hpp"
 #include "host/scenario/scenario.hpp"
 #include "host/sim/plant.hpp"
@@ -76,7 +76,7 @@ class Bench {
   sim::Plant plant_;
   FaultyBoard board_;
   std::shared_ptr<planning::Planner> planner_;
-  ShownPlanner seen_;
+  RecordingPlanner seen_;
   Robot robot_;
   std::uint32_t now_ms_ = 0;
 };

@@ -16,42 +16,42 @@ namespace {
 constexpr PlannerKind kAll[] = {PlannerKind::skirt, PlannerKind::map, PlannerKind::thesis};
 
 /// Where the robot is told to be, each second.
-using Told = std::function<Pose(const sim::Pose& truth, const Pose& believed)>;
+using PlacedAt = std::function<Pose(const sim::Pose& truth, const Pose& believed)>;
 
 class PlacedPilot final : public test::PilotOn<hal::SimBoard> {
  public:
-  PlacedPilot(const Scenario& scenario, PlannerKind kind, sim::Plant& plant, Told told)
-      : PilotOn(scenario, kind, plant), plant_(plant), told_(std::move(told)) {}
+  PlacedPilot(const Scenario& scenario, PlannerKind kind, sim::Plant& plant, PlacedAt placed)
+      : PilotOn(scenario, kind, plant), plant_(plant), placed_(std::move(placed)) {}
   const Status& tick(Time now) override {
-    if (told_ && now.raw() % 1000 == 500) {
-      EXPECT_TRUE(robot().place(told_(plant_.pose(), robot().status().pose)));
+    if (placed_ && now.raw() % 1000 == 500) {
+      EXPECT_TRUE(robot().place(placed_(plant_.pose(), robot().status().pose)));
     }
     return PilotOn::tick(now);
   }
 
  private:
   sim::Plant& plant_;
-  Told told_;
+  PlacedAt placed_;
 };
 
-RunResult drive(const Scenario& scenario, PlannerKind planner, const Told& told) {
+RunResult drive(const Scenario& scenario, PlannerKind planner, const PlacedAt& placed) {
   RunOptions options;
   options.planner = planner;
   options.pilot = [&](const Scenario& s, PlannerKind kind, sim::Plant& plant) {
-    return std::make_unique<PlacedPilot>(s, kind, plant, told);
+    return std::make_unique<PlacedPilot>(s, kind, plant, placed);
   };
   return run(scenario, options);
 }
 
 /// The truth, off by up to 3 cm and 1 degree.
-Told roughly(std::uint64_t seed) {
+PlacedAt roughly(std::uint64_t seed) {
   return [random = std::mt19937_64(seed)](const sim::Pose& truth, const Pose&) mutable {
     std::uniform_real_distribution<double> draw(-1, 1);
-    sim::Pose told = truth;
-    told.at.x += 0.03 * draw(random);
-    told.at.y += 0.03 * draw(random);
-    told.heading += 0.0175 * draw(random);
-    return fixed_pose(told);
+    sim::Pose placed = truth;
+    placed.at.x += 0.03 * draw(random);
+    placed.at.y += 0.03 * draw(random);
+    placed.heading += 0.0175 * draw(random);
+    return fixed_pose(placed);
   };
 }
 
@@ -80,7 +80,7 @@ struct Tally {
 class Placement : public testing::TestWithParam<PlannerKind> {};
 
 TEST_P(Placement, OfTheSamePoseEachSecondChangesNothing) {
-  const Told same = [](const sim::Pose&, const Pose& believed) { return believed; };
+  const PlacedAt same = [](const sim::Pose&, const Pose& believed) { return believed; };
   for (std::uint64_t n = 1; n <= test::effort(6); ++n) {
     Scenario s = world(n, GetParam());
     s.time_limit_s = 200;

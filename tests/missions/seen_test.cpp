@@ -36,17 +36,17 @@ RunOptions with_map() {
   return options;
 }
 
-TEST(ShownGuide, ChangesNothing) {
+TEST(RecordingGuide, ChangesNothing) {
   const Scenario scenario = rooms(4, 60);
   RunOptions plain;
   plain.pilot = [](const Scenario& s, PlannerKind, sim::Plant& plant) {
     const auto map = std::make_shared<planning::TableMapPlanner<2048>>(s.robot, fuzzy::kDefaultTable);
-    return std::make_unique<CorePilot>(s, SeenPlanner{{map, &map->planner}}, plant);
+    return std::make_unique<CorePilot>(s, RecordedPlanner{{map, &map->planner}}, plant);
   };
   EXPECT_EQ(run(scenario, with_map()).hash, run(scenario, plain).hash);
 }
 
-TEST(ShownGuide, TellsAtEachTickWhatLeads) {
+TEST(RecordingGuide, TellsAtEachTickWhatLeads) {
   int places = 0, goals = 0;
   for (const Scenario& scenario : {rooms(4, 60), open_field()}) {
     RunOptions options = with_map();
@@ -76,7 +76,7 @@ TEST(ShownGuide, TellsAtEachTickWhatLeads) {
   EXPECT_GT(goals, 50);
 }
 
-TEST(ShownGuide, IsNotThereWithoutAMap) {
+TEST(RecordingGuide, IsNotThereWithoutAMap) {
   RunOptions options;
   options.planner = PlannerKind::skirt;
   std::vector<TickRecord> records;
@@ -147,7 +147,7 @@ TEST(MapWatch, TakesAPictureEveryTenthOfASecondOrWhenThePlanIsMade) {
 TEST(Planner, HasAMapOfTheSizeThatItsKindSays) {
   for (const PlannerKind kind : planners()) {
     const Params params;
-    const SeenPlanner made = make_seen_planner(kind, params);
+    const RecordedPlanner made = make_recorded_planner(kind, params);
     ASSERT_NE(made.planner, nullptr) << name(kind);
     ASSERT_EQ(made.guide != nullptr, kind.map_bytes > 0) << name(kind);
     if (made.guide == nullptr) continue;

@@ -23,7 +23,7 @@ TEST(ClosedForm, NothingInTheWay) {
   EXPECT_EQ(shortest({}, {1, 2}, {1, 2}, 0.1), 0);
   World world;
   world.discs = {{{0, 0.5}, 0.4}};
-  EXPECT_DOUBLE_EQ(shortest(world, {-1, 0}, {1, 0}, 0.1), 2) << "the line touches the grown disc";
+  EXPECT_DOUBLE_EQ(shortest(world, {-1, 0}, {1, 0}, 0.1), 2) << "the line touches the inflated disc";
 }
 
 TEST(ClosedForm, AroundADisc) {
@@ -31,11 +31,11 @@ TEST(ClosedForm, AroundADisc) {
     for (const double off : {0.0, 0.03, -0.2}) {
       World world;
       world.discs = {{{0, off}, 0.5}};
-      const double grown = 0.5 + radius;
+      const double inflated = 0.5 + radius;
       const double d = std::hypot(2, off);
       // The way takes the side on which less of the disc lies.
-      const double up = 2 * std::acos(grown / d) + 2 * std::atan2(std::fabs(off), 2);
-      const double expected = 2 * std::sqrt(d * d - grown * grown) + grown * (kPi - up);
+      const double up = 2 * std::acos(inflated / d) + 2 * std::atan2(std::fabs(off), 2);
+      const double expected = 2 * std::sqrt(d * d - inflated * inflated) + inflated * (kPi - up);
       EXPECT_NEAR(shortest(world, {-2, 0}, {2, 0}, radius), expected, kExact) << radius << " " << off;
     }
   }

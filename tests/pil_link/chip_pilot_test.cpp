@@ -4,8 +4,8 @@
 #include <string>
 
 #include "host/chip/chip_pilot.hpp"
+#include "host/chip/messages.hpp"
 #include "host/chip/process.hpp"
-#include "host/chip/words.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/load.hpp"
 

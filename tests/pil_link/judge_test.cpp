@@ -10,7 +10,7 @@ namespace whisker::golden {
 namespace {
 
 struct Recorded {
-  chip::Bytes told;
+  chip::Bytes sent;
   std::string index = "1 walk\n";
   chip::Bytes answers;
 };
@@ -18,10 +18,10 @@ struct Recorded {
 /// Three ticks and a probe, with made-up answers.
 Recorded recorded() {
   Recorded r;
-  chip::append(r.told, link::Name::hello);
-  for (int i = 0; i < 3; ++i) chip::append(r.told, link::Name::tick, link::Tick{});
-  chip::append(r.told, link::Name::fuzzy, link::Probe{});
-  chip::append(r.told, link::Name::end);
+  chip::append(r.sent, link::Name::hello);
+  for (int i = 0; i < 3; ++i) chip::append(r.sent, link::Name::tick, link::Tick{});
+  chip::append(r.sent, link::Name::fuzzy, link::Probe{});
+  chip::append(r.sent, link::Name::end);
   const auto answer = [&](const auto& message) {
     using M = std::decay_t<decltype(message)>;
     r.answers.resize(r.answers.size() + link::size_of<M>());
@@ -40,7 +40,7 @@ Recorded recorded() {
 
 TEST(Judge, CountsCostsAndAcceptsEqualAnswers) {
   const Recorded r = recorded();
-  const Judgement j = judge(r.told, r.index, r.answers, r.answers);
+  const Judgement j = judge(r.sent, r.index, r.answers, r.answers);
   EXPECT_EQ(j.difference, "");
   EXPECT_EQ(j.total.hash, 99U);
   ASSERT_EQ(j.costs.size(), 1U);
@@ -55,7 +55,7 @@ TEST(Judge, NamesStreamTickAndField) {
   chip::Bytes wrong = r.answers;
   const std::size_t second = link::size_of<link::Greeting>() + link::size_of<link::Answer>();
   wrong[second + 4] = 7;  // after the two speeds
-  EXPECT_EQ(judge(r.told, r.index, r.answers, wrong).difference, "walk, tick 1: mode is 7, not 0");
+  EXPECT_EQ(judge(r.sent, r.index, r.answers, wrong).difference, "walk, tick 1: mode is 7, not 0");
 }
 
 TEST(Judge, SeesEveryBitButWorkStackAndRoom) {
@@ -64,7 +64,7 @@ TEST(Judge, SeesEveryBitButWorkStackAndRoom) {
   for (std::size_t bit = 0; bit < 8 * r.answers.size(); ++bit) {
     chip::Bytes wrong = r.answers;
     wrong[bit / 8] = static_cast<std::uint8_t>(wrong[bit / 8] ^ 1U << bit % 8);
-    ignored += judge(r.told, r.index, r.answers, wrong).difference.empty();
+    ignored += judge(r.sent, r.index, r.answers, wrong).difference.empty();
   }
   EXPECT_EQ(ignored, 4U * 32U + 16U) << "three ticks' work, one stack, one room for maps";
 }
@@ -73,7 +73,7 @@ TEST(Judge, MissesNothingThatIsMissing) {
   const Recorded r = recorded();
   for (std::size_t size = 0; size < r.answers.size(); ++size) {
     const chip::Bytes shorter(r.answers.begin(), r.answers.begin() + static_cast<std::ptrdiff_t>(size));
-    EXPECT_NE(judge(r.told, r.index, r.answers, shorter).difference, "") << size;
+    EXPECT_NE(judge(r.sent, r.index, r.answers, shorter).difference, "") << size;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "firmware/apps/pil_link/session.hpp"
-#include "host/chip/words.hpp"
+#include "host/chip/messages.hpp"
 
 namespace whisker::link {
 namespace {
@@ -52,7 +52,7 @@ Outcome outcome(const chip::Bytes& input) {
   return {status, script.output};
 }
 
-chip::Bytes told(std::initializer_list<Name> names) {
+chip::Bytes sent(std::initializer_list<Name> names) {
   chip::Bytes bytes;
   for (const Name name : names) chip::append(bytes, name);
   return bytes;
@@ -97,7 +97,7 @@ TEST(Message, EveryParameterComesBack) {
 }
 
 TEST(Session, EndsWhenToldAndReportsTheStack) {
-  const Outcome o = outcome(told({Name::hello, Name::end}));
+  const Outcome o = outcome(sent({Name::hello, Name::end}));
   EXPECT_EQ(o.status, 0);
   ASSERT_EQ(o.output.size(), size_of<Greeting>() + size_of<Total>());
   EXPECT_EQ(decode<Greeting>(o.output.data()).version, kVersion);
@@ -109,7 +109,7 @@ TEST(Session, EndsWhenToldAndReportsTheStack) {
 
 TEST(Session, EndsWithAnErrorOnEverythingElse) {
   EXPECT_EQ(outcome({}).status, 1);
-  EXPECT_EQ(outcome(told({Name::hello})).status, 1) << "the stream ends";
+  EXPECT_EQ(outcome(sent({Name::hello})).status, 1) << "the stream ends";
   for (int byte = 0; byte < 256; ++byte) {
     chip::Bytes one{static_cast<std::uint8_t>(byte)};
     one.resize(400);

@@ -17,14 +17,14 @@ class Recorder final : public GoalPlanner {
  private:
   void start(const View&) noexcept override {
     ++starts;
-    tell(Mode::surveying, Why::goal_set);
+    report(Mode::surveying, Why::goal_set);
   }
   void advance(const View&) noexcept override {
     ++advances;
     decision_.danger_count = 3;
     decision_.looked = true;
     decision_.manoeuvre.kind = ManoeuvreKind::cruise;
-    tell(Mode::going, Why::target_free);
+    report(Mode::going, Why::target_free);
     if (ends) finish(Mode::arrived, Why::at_goal, Outcome::reached);
   }
 };

@@ -23,8 +23,8 @@ TEST(Drive, IsTheRunHoweverItsTicksAreCut) {
   const RunResult expected = run(scenario);
   for (const int ticks : {1, 7, kMost}) {
     Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
-    while (!drive.trip().verdict()) drive.advance(ticks);
-    const RunResult result = drive.trip().result();
+    while (!drive.mission().verdict()) drive.advance(ticks);
+    const RunResult result = drive.mission().result();
     EXPECT_EQ(result.hash, expected.hash) << ticks;
     EXPECT_EQ(result.verdict, expected.verdict);
     EXPECT_EQ(result.ticks, expected.ticks);
@@ -37,11 +37,11 @@ TEST(Drive, IsTheRunHoweverItsTicksAreCut) {
 TEST(Drive, AChangeToTheSameWorldChangesNothing) {
   const Scenario scenario = u_trap();
   Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
-  while (!drive.trip().verdict()) {
+  while (!drive.mission().verdict()) {
     drive.advance(50);
-    if (!drive.trip().verdict()) drive.change(scenario);
+    if (!drive.mission().verdict()) drive.change(scenario);
   }
-  EXPECT_EQ(drive.trip().result().hash, run(scenario).hash);
+  EXPECT_EQ(drive.mission().result().hash, run(scenario).hash);
 }
 
 TEST(Drive, ReachesAGoalThatMovesAgainAndAgain) {
@@ -52,8 +52,8 @@ TEST(Drive, ReachesAGoalThatMovesAgainAndAgain) {
     scenario.goal.at = goal;
     drive.change(scenario);
     drive.advance(kMost);
-    ASSERT_EQ(drive.trip().verdict(), Verdict::reached);
-    EXPECT_LT(drive.trip().distance_left(), scenario.goal.tolerance_m);
+    ASSERT_EQ(drive.mission().verdict(), Verdict::reached);
+    EXPECT_LT(drive.mission().distance_left(), scenario.goal.tolerance_m);
   }
 }
 
@@ -63,12 +63,12 @@ TEST(Drive, WhoOnlyBelievesToBeThereIsOffTheGoalAndSetsOutAgainForAnother) {
   scenario.noise.wheel_scale_sigma = 0.02;
   Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
   drive.advance(kMost);
-  ASSERT_EQ(drive.trip().verdict(), Verdict::off_goal);
+  ASSERT_EQ(drive.mission().verdict(), Verdict::off_goal);
   scenario.goal.at = {0, 0};
   drive.change(scenario);
-  EXPECT_FALSE(drive.trip().verdict());
+  EXPECT_FALSE(drive.mission().verdict());
   drive.advance(kMost);
-  EXPECT_TRUE(says_reached(drive.trip().verdict().value()));
+  EXPECT_TRUE(says_reached(drive.mission().verdict().value()));
 }
 
 TEST(Drive, AContactIsForGood) {
@@ -80,10 +80,10 @@ TEST(Drive, AContactIsForGood) {
   struck.discs = {{drive.plant().pose().at, 0.2}};
   drive.change(struck);
   drive.advance(1);
-  ASSERT_EQ(drive.trip().verdict(), Verdict::contact);
+  ASSERT_EQ(drive.mission().verdict(), Verdict::contact);
   drive.change(scenario);
   drive.advance(10);
-  EXPECT_EQ(drive.trip().verdict(), Verdict::contact);
+  EXPECT_EQ(drive.mission().verdict(), Verdict::contact);
 }
 
 TEST(Drive, ItsWayEndsWhereItIs) {

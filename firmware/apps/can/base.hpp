@@ -6,12 +6,12 @@
 #include "hal/drive.hpp"
 #include "hal/rangefinders.hpp"
 
-namespace whisker::can_remote {
+namespace whisker::can_app {
 
 /// Sensors and wheels as a node of the bus.
 ///
 ///   every millisecond:  base.node().poll(now);
-///   every period:       base.drive();  base.measure(tick++, period);  base.publish(Pace::real_time);
+///   every period:       base.drive();  base.measure(tick++, period);  base.publish(SyncMode::real_time);
 class Base {
  public:
   Base(can::BaseNode& node, hal::Rangefinders& rangefinders, hal::Drive& drive) noexcept
@@ -27,20 +27,20 @@ class Base {
       if (!asked) reading.status = hal::RangeStatus::invalid;
     }
     set_.counts_valid = drive_.read(set_.counts);
-    tell(can::Error::sensors_refused, !asked);
+    report(can::Error::sensors_refused, !asked);
   }
   /// Sends the set; in lockstep as often as it takes.
-  bool publish(can::Pace pace) noexcept { return node_.send_set(set_, pace); }
+  bool publish(can::SyncMode sync_mode) noexcept { return node_.send_set(set_, sync_mode); }
   /// Gives the wheels the speeds that they shall have until the next call.
   hal::WheelSpeeds drive() noexcept {
     const hal::WheelSpeeds speeds = node_.control();
-    tell(can::Error::drive_refused, !drive_.command(speeds));
+    report(can::Error::drive_refused, !drive_.command(speeds));
     return speeds;
   }
   can::BaseNode& node() noexcept { return node_; }
 
  private:
-  void tell(uint16_t bit, bool on) noexcept {
+  void report(uint16_t bit, bool on) noexcept {
     trouble_ = static_cast<uint16_t>(on ? trouble_ | bit : trouble_ & ~bit);
     node_.report(trouble_, 0);
   }
@@ -52,4 +52,4 @@ class Base {
   uint16_t trouble_ = 0;
 };
 
-}  // namespace whisker::can_remote
+}  // namespace whisker::can_app

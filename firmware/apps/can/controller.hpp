@@ -2,10 +2,10 @@
 
 #include <stdint.h>
 
-#include "firmware/apps/can/pilot.hpp"
+#include "firmware/apps/can/remote_robot.hpp"
 #include "firmware/can/controller_node.hpp"
 
-namespace whisker::can_remote {
+namespace whisker::can_app {
 
 /// A whole controller: the core as a node of the bus.
 ///
@@ -21,7 +21,7 @@ class Controller {
     node_.poll(now_ms);
     can::Order order = can::Order::cancel;
     can::Mission mission;
-    if (node_.take_order(order, mission)) pilot_.obey(order, mission, node_.params());
+    if (node_.take_order(order, mission)) pilot_.execute(order, mission, node_.params());
     can::InputSet set;
     if (!pilot_.ready() || !node_.take_set(set)) return false;
     status_ = pilot_.step(set, node_.braked());
@@ -38,8 +38,8 @@ class Controller {
 
  private:
   can::ControllerNode node_;
-  Pilot pilot_;
+  RemoteRobot pilot_;
   Status status_;
 };
 
-}  // namespace whisker::can_remote
+}  // namespace whisker::can_app

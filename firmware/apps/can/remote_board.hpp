@@ -4,14 +4,14 @@
 #include "hal/drive.hpp"
 #include "hal/rangefinders.hpp"
 
-namespace whisker::can_remote {
+namespace whisker::can_app {
 
 /// Rangefinders and wheels at the other end of a bus: they say what the last input set said.
 class RemoteBoard final : public hal::Rangefinders, public hal::Drive {
  public:
   /// braked: the wheels were braked without the core's knowledge, so its next command is refused once, and it
   /// begins anew from a stand.
-  void hear(const can::InputSet& set, bool braked) noexcept {
+  void on_frame(const can::InputSet& set, bool braked) noexcept {
     set_ = set;
     braked_ = braked;
   }
@@ -31,4 +31,4 @@ class RemoteBoard final : public hal::Rangefinders, public hal::Drive {
   bool braked_ = false;
 };
 
-}  // namespace whisker::can_remote
+}  // namespace whisker::can_app

@@ -9,7 +9,7 @@ namespace whisker::link {
 /// Sensors and wheels that a companion plays: every call answers what its last message said.
 class RemoteBoard final : public hal::Rangefinders, public hal::Drive {
  public:
-  void hear(const Tick& tick) noexcept { tick_ = tick; }
+  void on_frame(const Tick& tick) noexcept { tick_ = tick; }
 
   bool read(hal::RangeReadings& out) noexcept override {
     if (tick_.ranges_given != 0) out = tick_.ranges;

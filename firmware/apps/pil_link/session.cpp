@@ -49,9 +49,9 @@ Answer answer_of(const Status& status) noexcept {
 }  // namespace
 
 template <class M>
-bool Session::hear(M& message) noexcept {
+bool Session::on_frame(M& message) noexcept {
   static_assert(size_of<M>() <= sizeof buffer_);
-  if (!hear(size_of<M>())) return false;
+  if (!on_frame(size_of<M>())) return false;
   message = decode<M>(buffer_);
   return true;
 }
@@ -70,16 +70,16 @@ int Session::run(hal::ByteStream& stream, hal::Meter& meter) noexcept {
   my_ = &room_for_affairs_.make<Affairs>();
   while (!ended_) {
     uint8_t name = 0;
-    if (!stream_->read(&name, 1) || !obey(static_cast<Name>(name))) return 1;
+    if (!stream_->read(&name, 1) || !execute(static_cast<Name>(name))) return 1;
   }
   return 0;
 }
 
-bool Session::obey(Name name) noexcept {
+bool Session::execute(Name name) noexcept {
   switch (name) {
     case Name::hello: return say(Greeting{kVersion, kEngine, planning::kRoomForMap});
     case Name::params: {
-      if (!hear(params_size())) return false;
+      if (!on_frame(params_size())) return false;
       ParamDecoder decoder{buffer_};
       for_each_param(my_->params, decoder);
       robot_ = nullptr;
@@ -87,18 +87,18 @@ bool Session::obey(Name name) noexcept {
     }
     case Name::begin: {
       Begin what;
-      return hear(what) && begin(what);
+      return on_frame(what) && begin(what);
     }
     case Name::goal: {
       Target what;
-      if (!hear(what) || robot_ == nullptr) return false;
+      if (!on_frame(what) || robot_ == nullptr) return false;
       robot_->set_goal(
           {{Length::from_raw(what.x), Length::from_raw(what.y)}, Length::from_raw(what.tolerance)});
       return true;
     }
     case Name::place: {
       Stand what;
-      if (!hear(what) || robot_ == nullptr) return false;
+      if (!on_frame(what) || robot_ == nullptr) return false;
       robot_->place(pose(what));
       return true;
     }
@@ -110,11 +110,11 @@ bool Session::obey(Name name) noexcept {
       return robot_ != nullptr;
     case Name::tick: {
       Tick what;
-      return hear(what) && tick(what);
+      return on_frame(what) && tick(what);
     }
     case Name::fuzzy: {
       Probe what;
-      return hear(what) && probe(what);
+      return on_frame(what) && probe(what);
     }
     case Name::end: ended_ = true; return say(Total{ticks_, my_->hash.value(), meter_->deepest_stack()});
   }
@@ -138,7 +138,7 @@ bool Session::begin(const Begin& what) noexcept {
 
 bool Session::tick(const Tick& what) noexcept {
   if (robot_ == nullptr) return false;
-  my_->board.hear(what);
+  my_->board.on_frame(what);
   const uint32_t before = meter_->stamp();
   const Status& status = robot_->tick(Time::from_raw(what.now_ms));
   const uint32_t after = meter_->stamp();

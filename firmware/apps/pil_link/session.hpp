@@ -31,13 +31,13 @@ class Session {
     CommandHash hash;
   };
 
-  bool obey(Name name) noexcept;
+  bool execute(Name name) noexcept;
   bool begin(const Begin& what) noexcept;
   bool tick(const Tick& what) noexcept;
   bool probe(const Probe& what) noexcept;
-  bool hear(size_t count) noexcept { return stream_->read(buffer_, count); }
+  bool on_frame(size_t count) noexcept { return stream_->read(buffer_, count); }
   template <class M>
-  bool hear(M& message) noexcept;
+  bool on_frame(M& message) noexcept;
   template <class M>
   bool say(const M& message) noexcept;
 

@@ -25,7 +25,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
   phase_ = Phase::survey;
-  tell(Mode::surveying, Why::goal_set);
+  report(Mode::surveying, Why::goal_set);
   advance(view);
 }
 

@@ -22,7 +22,7 @@ ThesisPlanner::ThesisPlanner(const Params& params, const fuzzy::Engine::Table& t
 void ThesisPlanner::start(const View&) noexcept {
   phase_ = Phase::at_position;
   steps_ = 0;
-  tell(Mode::facing, Why::goal_set);
+  report(Mode::facing, Why::goal_set);
   decision_.manoeuvre = stop();
 }
 
@@ -57,7 +57,7 @@ void ThesisPlanner::end_step(const View& view) noexcept {
     scanned_ = true;
     scanned_at_ = view.pose.at;
     phase_ = Phase::scan;
-    tell(Mode::looking, Why::unknown_ahead);
+    report(Mode::looking, Why::unknown_ahead);
     scan_.begin(base_ + deflection(), min(rest_of_step(view), view.local_grid->reach().probe),
                 decision_.manoeuvre);
     return;

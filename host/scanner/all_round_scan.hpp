@@ -1,11 +1,12 @@
 #pragma once
 
-#include "host/scanner/seen.hpp"
+#include "host/scanner/seen_outlines.hpp"
 
 namespace whisker::scanner {
 
 /// Adds what an all-round sensor sees at this point: everything in range that is not hidden, by rays a
 /// quarter of a degree apart (9 mm at 2 m).
-void look(const std::vector<sim::Segment>& outlines, sim::Vec2 from, double range_m, Seen& seen);
+void scan_all_round(const std::vector<sim::Segment>& outlines, sim::Vec2 from, double range_m,
+                    SeenOutlines& seen);
 
 }  // namespace whisker::scanner

@@ -6,6 +6,6 @@
 namespace whisker::hil {
 
 /// The names of the error bits that are set.
-std::string words_of(std::uint16_t errors);
+std::string error_names(std::uint16_t errors);
 
 }  // namespace whisker::hil

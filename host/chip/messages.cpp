@@ -1,4 +1,4 @@
-#include "host/chip/words.hpp"
+#include "host/chip/messages.hpp"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "host/scanner/look.hpp"
+#include "host/scanner/all_round_scan.hpp"
 
 #include <algorithm>
 #include <array>
@@ -78,7 +78,7 @@ class Scan {
     }
   }
 
-  void tell(Seen& seen) const {
+  void add_to(SeenOutlines& seen) const {
     for (const Target& t : targets_) {
       if (t.first > t.last) tell_slim(t, seen);
       for (int ray = t.first; ray <= t.last; ++ray) {
@@ -88,7 +88,7 @@ class Scan {
         // What ends between two rays is seen to its end.
         const double from = begin == t.first && in_range(t.to) ? 0 : hit(t, begin).share;
         const double to = ray == t.last && in_range(t.to + t.side) ? 1 : hit(t, ray).share;
-        tell(t, from, to, seen);
+        add_to(t, from, to, seen);
       }
     }
   }
@@ -110,16 +110,16 @@ class Scan {
   }
 
   /// Between two rays, or a line of sight itself.
-  void tell_slim(const Target& t, Seen& seen) const {
+  void tell_slim(const Target& t, SeenOutlines& seen) const {
     const Vec2 end = t.to + t.side;
     const bool begins_nearer = sim::dot(t.to, t.to) <= sim::dot(end, end);
     const Vec2 near = begins_nearer ? t.to : end;
     if (!in_range(near) || rays_[index(t.first)].away_m < sim::square_root(sim::dot(near, near))) return;
     const double share = begins_nearer ? 0 : 1;
-    tell(t, share, share, seen);
+    add_to(t, share, share, seen);
   }
 
-  static void tell(const Target& t, double from, double to, Seen& seen) {
+  static void add_to(const Target& t, double from, double to, SeenOutlines& seen) {
     seen.add(t.segment, t.reversed ? Span{1 - to, 1 - from} : Span{from, to});
   }
 
@@ -130,8 +130,9 @@ class Scan {
 
 }  // namespace
 
-void look(const std::vector<sim::Segment>& outlines, Vec2 from, double range_m, Seen& seen) {
-  Scan(outlines, from, range_m).tell(seen);
+void scan_all_round(const std::vector<sim::Segment>& outlines, Vec2 from, double range_m,
+                    SeenOutlines& seen) {
+  Scan(outlines, from, range_m).add_to(seen);
 }
 
 }  // namespace whisker::scanner

@@ -10,7 +10,7 @@
 namespace whisker::bus {
 
 /// Applies the frame faults of a schedule to each frame, in the order of the schedule.
-class Meddler {
+class FaultInjector {
  public:
   struct Outcome {
     hal::CanFrame frame;
@@ -19,7 +19,7 @@ class Meddler {
     bool held;             ///< until the next frame has passed
   };
 
-  Meddler(Schedule schedule, std::uint64_t seed, Repair repair);
+  FaultInjector(Schedule schedule, std::uint64_t seed, Repair repair);
 
   /// Draws the active port faults of this tick.
   void at_tick(std::uint32_t tick);

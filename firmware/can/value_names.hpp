@@ -11,7 +11,7 @@ namespace whisker::can {
 
 constexpr uint8_t kStopCommand = 0, kClearCommand = 10;
 
-enum class Pace : uint8_t {
+enum class SyncMode : uint8_t {
   real_time,  ///< ticks follow the clock
   lockstep,   ///< the base waits for the answer to each tick; no time-out applies to ticks
 };

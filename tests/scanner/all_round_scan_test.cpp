@@ -1,4 +1,4 @@
-#include "host/scanner/look.hpp"
+#include "host/scanner/all_round_scan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ constexpr double kRay = 2 * sim::kPi / 1440;  // rad between two rays
 
 World seen_from(const World& world, Vec2 at, double range = kRange) {
   const std::vector<sim::Segment> all = outlines(world);
-  Seen seen(all);
-  look(all, at, range, seen);
+  SeenOutlines seen(all);
+  scan_all_round(all, at, range, seen);
   return seen.known();
 }
 
@@ -125,9 +125,9 @@ TEST(Look, SeesTheEndOfAWallThatPointsAtIt) {
   EXPECT_EQ(known.segments[0].b.x, 1);
 }
 
-TEST(Seen, PutsTogetherWhatTwoLooksShow) {
+TEST(SeenOutlines, PutsTogetherWhatTwoLooksShow) {
   const std::vector<sim::Segment> wall = {{{0, 0}, {10, 0}}};
-  Seen seen(wall);
+  SeenOutlines seen(wall);
   seen.add(0, {0.5, 0.6});
   seen.add(0, {0.1, 0.2});
   EXPECT_EQ(seen.take_new().segments.size(), 2U);
@@ -142,9 +142,9 @@ TEST(Seen, PutsTogetherWhatTwoLooksShow) {
   EXPECT_DOUBLE_EQ(known.segments[0].b.x, 6);
 }
 
-TEST(Seen, KnowsWhatTheBodyMet) {
+TEST(SeenOutlines, KnowsWhatTheBodyMet) {
   const std::vector<sim::Segment> walls = {{{0.12, -1}, {0.12, 1}}, {{0.07, -1}, {0.07, 1}}};
-  Seen seen(walls);
+  SeenOutlines seen(walls);
   seen.add_near({0, 0}, 0.1);
   const World known = seen.known();
   ASSERT_EQ(known.segments.size(), 1U);

@@ -5,9 +5,9 @@
 namespace whisker {
 
 /// Forwards all calls to a planner, and records the local grid passed to it. The planner must outlive it.
-class ShownPlanner final : public planning::Planner {
+class RecordingPlanner final : public planning::Planner {
  public:
-  explicit ShownPlanner(planning::Planner& planner) : planner_(planner) {}
+  explicit RecordingPlanner(planning::Planner& planner) : planner_(planner) {}
   void set_goal(const planning::Goal& goal) noexcept override { planner_.set_goal(goal); }
   void move_goal(Vec at) noexcept override { planner_.move_goal(at); }
   void cancel() noexcept override { planner_.cancel(); }

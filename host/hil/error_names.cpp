@@ -1,10 +1,10 @@
-#include "host/hil/words.hpp"
+#include "host/hil/error_names.hpp"
 
-#include "firmware/can/words.hpp"
+#include "firmware/can/value_names.hpp"
 
 namespace whisker::hil {
 
-std::string words_of(std::uint16_t errors) {
+std::string error_names(std::uint16_t errors) {
   std::string words;
   for (int bit = 0; bit < 16; ++bit) {
     if ((errors >> bit & 1) == 0) continue;

@@ -1,4 +1,4 @@
-#include "host/scanner/trip.hpp"
+#include "host/scanner/reference_path.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/paths/shortest.hpp"
-#include "host/scanner/look.hpp"
+#include "host/scanner/all_round_scan.hpp"
 #include "host/sim/elementary.hpp"
 #include "host/sim/world.hpp"
 
@@ -53,7 +53,7 @@ class Drive {
  public:
   Drive(const World& outlines, Vec2 from, double radius_m, double range_m)
       : world_(outlines), radius_(radius_m), range_(range_m), seen_(outlines.segments), at_(from) {
-    look(world_.segments, at_, range_, seen_);
+    scan_all_round(world_.segments, at_, range_, seen_);
   }
 
   /// True: reached. False: what it saw leaves no way.
@@ -64,7 +64,7 @@ class Drive {
       if (!way) return false;
       if (follow(points(*way))) return true;
     }
-    throw std::runtime_error("the scanner's trip does not end");
+    throw std::runtime_error("the scanner's reference does not end");
   }
 
   double driven_m() const { return driven_m_; }
@@ -86,7 +86,7 @@ class Drive {
   }
 
   bool still_free(const std::vector<Point>& way, std::size_t next) {
-    look(world_.segments, at_, range_, seen_);
+    scan_all_round(world_.segments, at_, range_, seen_);
     const World found = seen_.take_new();
     return std::all_of(way.begin() + static_cast<std::ptrdiff_t>(next), way.end(),
                        [&](const Point& p) { return fits(found, p.at, radius_); });
@@ -94,14 +94,14 @@ class Drive {
 
   const World& world_;  // outlines alone
   double radius_, range_;
-  Seen seen_;
+  SeenOutlines seen_;
   Vec2 at_;
   double driven_m_ = 0;
 };
 
 }  // namespace
 
-Trip drive(const World& world, Vec2 from, Vec2 to, double radius_m, double range_m) {
+ReferencePath drive(const World& world, Vec2 from, Vec2 to, double radius_m, double range_m) {
   World outline;
   outline.segments = outlines(world);
   Drive drive(outline, from, radius_m, range_m);

@@ -8,10 +8,10 @@
 
 namespace whisker::paths {
 
-class Grown {
+class Inflated {
  public:
   /// Queried points must lie in the box that contains all obstacles and these two.
-  Grown(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m);
+  Inflated(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m);
 
   double radius() const { return radius_; }
   /// The inflated discs, and one around each end of a segment; all different.

@@ -1,8 +1,8 @@
-#include "firmware/apps/can/pilot.hpp"
+#include "firmware/apps/can/remote_robot.hpp"
 
-namespace whisker::can_remote {
+namespace whisker::can_app {
 
-void Pilot::obey(can::Order order, const can::Mission& mission, const Params& params) noexcept {
+void RemoteRobot::execute(can::Order order, const can::Mission& mission, const Params& params) noexcept {
   switch (order) {
     case can::Order::start:
       params_ = params;
@@ -22,8 +22,8 @@ void Pilot::obey(can::Order order, const can::Mission& mission, const Params& pa
   }
 }
 
-const Status& Pilot::step(const can::InputSet& set, bool braked) noexcept {
-  board_.hear(set, braked);
+const Status& RemoteRobot::step(const can::InputSet& set, bool braked) noexcept {
+  board_.on_frame(set, braked);
   if (braked) robot_->braked_elsewhere();
   return robot_->tick(Time::from_raw(set.tick * set.period_ms));
 }
@@ -39,4 +39,4 @@ can::NavStatus nav_status(const Status& s) noexcept {
   return n;
 }
 
-}  // namespace whisker::can_remote
+}  // namespace whisker::can_app

@@ -1,10 +1,11 @@
-#include "host/run/told.hpp"
+#include "host/run/make_record.hpp"
 
 #include "host/run/spec.hpp"
 
 namespace whisker {
 
-TickRecord told(const Status& status, const ShownGuide* guide, const hal::RangeReadings& ranges, double t_s) {
+TickRecord make_record(const Status& status, const RecordingGuide* guide, const hal::RangeReadings& ranges,
+                       double t_s) {
   TickRecord r;
   r.t_s = t_s;
   r.ranges = ranges;

@@ -11,16 +11,16 @@
 
 namespace whisker::scanner {
 
-struct Trip {
+struct ReferencePath {
   bool reached = false;  ///< false: what it saw leaves no path to the goal
   double driven_m = 0;
-  /// The shortest path through all of the same outlines, none if it does not exist. A trip that reaches the
-  /// goal is at most 1 part in 1000 shorter, because the body is checked against the world every 10 mm.
+  /// The shortest path through all of the same outlines, none if it does not exist. A reference that reaches
+  /// the goal is at most 1 part in 1000 shorter, because the body is checked against the world every 10 mm.
   std::optional<double> shortest_m;
 };
 
 /// Movers are ignored. Both points must lie outside solids. radius_m and range_m > 0. Throws
 /// std::runtime_error after 100,000 paths without an end.
-Trip drive(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m, double range_m);
+ReferencePath drive(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m, double range_m);
 
 }  // namespace whisker::scanner

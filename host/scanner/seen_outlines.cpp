@@ -1,4 +1,4 @@
-#include "host/scanner/seen.hpp"
+#include "host/scanner/seen_outlines.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -34,9 +34,10 @@ std::vector<sim::Segment> outlines(const World& world) {
   return outlines;
 }
 
-Seen::Seen(const std::vector<sim::Segment>& outlines) : outlines_(outlines), spans_(outlines.size()) {}
+SeenOutlines::SeenOutlines(const std::vector<sim::Segment>& outlines)
+    : outlines_(outlines), spans_(outlines.size()) {}
 
-void Seen::add(std::size_t segment, Span span) {
+void SeenOutlines::add(std::size_t segment, Span span) {
   const double length = distance(outlines_[segment].a, outlines_[segment].b);
   const double end = length > kEnd ? kEnd / length : 1;
   const double near = length > kResolution ? kResolution / length : 1;
@@ -54,7 +55,7 @@ void Seen::add(std::size_t segment, Span span) {
   new_.segments.push_back(piece(segment, span));
 }
 
-void Seen::add_near(Vec2 point, double distance_m) {
+void SeenOutlines::add_near(Vec2 point, double distance_m) {
   for (std::size_t i = 0; i < outlines_.size(); ++i) {
     const sim::Segment& s = outlines_[i];
     if (sim::distance(point, s) >= distance_m) continue;
@@ -64,7 +65,7 @@ void Seen::add_near(Vec2 point, double distance_m) {
   }
 }
 
-World Seen::known() const {
+World SeenOutlines::known() const {
   World known;
   for (std::size_t i = 0; i < spans_.size(); ++i) {
     for (const Span& span : spans_[i]) known.segments.push_back(piece(i, span));
@@ -72,9 +73,9 @@ World Seen::known() const {
   return known;
 }
 
-World Seen::take_new() { return std::exchange(new_, {}); }
+World SeenOutlines::take_new() { return std::exchange(new_, {}); }
 
-sim::Segment Seen::piece(std::size_t segment, Span span) const {
+sim::Segment SeenOutlines::piece(std::size_t segment, Span span) const {
   const sim::Segment& s = outlines_[segment];
   const auto at = [&](double share) { return share == 1 ? s.b : s.a + (s.b - s.a) * share; };
   return {at(span.from), at(span.to)};

@@ -14,9 +14,9 @@ namespace whisker {
 
 /// Call decide(), move(), decide(), move(), ... until one of them ends the run. All references must outlive
 /// it; the plant stands at the scenario's start, and the pilot drives it.
-class Trip {
+class MissionRun {
  public:
-  Trip(const Scenario& scenario, sim::Plant& plant, Pilot& pilot);
+  MissionRun(const Scenario& scenario, sim::Plant& plant, Pilot& pilot);
 
   /// The tick of the pilot. Ends with a verdict of the pilot, judged by the true position, or if no time is
   /// left for another tick.
@@ -31,7 +31,7 @@ class Trip {
   double time() const { return t_s_; }            ///< of the last tick, or of the contact record
   const Status& status() const { return *status_; }
   const perception::LocalGrid* local_grid() const { return pilot_->local_grid(); }
-  const ShownGuide* guide() const { return pilot_->guide(); }
+  const RecordingGuide* guide() const { return pilot_->guide(); }
   double distance_left() const;  ///< true, to the centre of the goal
   /// The same from the estimated position; none: unknown.
   std::optional<double> believed_distance() const;

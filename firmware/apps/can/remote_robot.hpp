@@ -8,7 +8,7 @@
 #include "firmware/can/mission.hpp"
 #include "firmware/robot.hpp"
 
-namespace whisker::can_remote {
+namespace whisker::can_app {
 
 /// Where planners come from.
 class PlannerMaker {
@@ -21,14 +21,14 @@ class PlannerMaker {
 };
 
 /// A robot that is made anew for every mission, and steps on input sets.
-class Pilot {
+class RemoteRobot {
  public:
-  explicit Pilot(PlannerMaker& planners) noexcept : planners_(planners) {}
-  Pilot(const Pilot&) = delete;
-  Pilot& operator=(const Pilot&) = delete;
+  explicit RemoteRobot(PlannerMaker& planners) noexcept : planners_(planners) {}
+  RemoteRobot(const RemoteRobot&) = delete;
+  RemoteRobot& operator=(const RemoteRobot&) = delete;
 
   /// start: with these parameters, from the mission's place. Otherwise the robot must be there: see ready().
-  void obey(can::Order order, const can::Mission& mission, const Params& params) noexcept;
+  void execute(can::Order order, const can::Mission& mission, const Params& params) noexcept;
   bool ready() const noexcept { return robot_ != nullptr; }
   /// One control tick, at the time of the set's tick. Only when ready().
   const Status& step(const can::InputSet& set, bool braked) noexcept;
@@ -44,4 +44,4 @@ class Pilot {
 /// What the bus says of a tick; its tick is the node's business.
 can::NavStatus nav_status(const Status& status) noexcept;
 
-}  // namespace whisker::can_remote
+}  // namespace whisker::can_app

@@ -17,13 +17,13 @@ struct Span {
   double from = 0, to = 0;
 };
 
-class Seen {
+class SeenOutlines {
  public:
   /// m: spans of one segment this close together are merged; no body fits between them.
   static constexpr double kResolution = 0.02;
 
   /// The outlines must outlive it.
-  explicit Seen(const std::vector<sim::Segment>& outlines);
+  explicit SeenOutlines(const std::vector<sim::Segment>& outlines);
 
   void add(std::size_t segment, Span span);
   /// The nearest point of each segment that is nearer to the point than this.

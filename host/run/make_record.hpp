@@ -5,12 +5,13 @@
 
 #include "firmware/robot.hpp"
 #include "host/run/record.hpp"
-#include "host/run/shown_guide.hpp"
+#include "host/run/recording_guide.hpp"
 
 namespace whisker {
 
 /// Everything except the true pose and the true speeds. `guide`: null for a planner without a map.
-TickRecord told(const Status& status, const ShownGuide* guide, const hal::RangeReadings& ranges, double t_s);
+TickRecord make_record(const Status& status, const RecordingGuide* guide, const hal::RangeReadings& ranges,
+                       double t_s);
 
 /// None: the mission is running, or there is no goal.
 std::optional<Verdict> verdict_of(planning::Outcome outcome);

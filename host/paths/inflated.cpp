@@ -1,4 +1,4 @@
-#include "host/paths/grown.hpp"
+#include "host/paths/inflated.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ bool cross(const sim::Segment& s, const sim::Segment& t) {
 
 }  // namespace
 
-Grown::Grown(const World& world, Vec2 from, Vec2 to, double radius_m)
+Inflated::Inflated(const World& world, Vec2 from, Vec2 to, double radius_m)
     : radius_(radius_m), segments_(world.segments), corner_(from) {
   for (const sim::Disc& d : world.discs) rims_.push_back({d.center, d.radius + radius_m});
   for (const sim::Segment& s : world.segments) {
@@ -56,7 +56,7 @@ Grown::Grown(const World& world, Vec2 from, Vec2 to, double radius_m)
   fill_grid();
 }
 
-void Grown::lay_grid(Vec2 from, Vec2 to) {
+void Inflated::lay_grid(Vec2 from, Vec2 to) {
   Vec2 high = from;
   const auto cover = [&](Vec2 p, double margin) {
     corner_ = {std::min(corner_.x, p.x - margin), std::min(corner_.y, p.y - margin)};
@@ -71,7 +71,7 @@ void Grown::lay_grid(Vec2 from, Vec2 to) {
   buckets_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
 }
 
-void Grown::fill_grid() {
+void Inflated::fill_grid() {
   const auto at = [&](int column, int row) -> Bucket& {
     return buckets_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                     static_cast<std::size_t>(column)];
@@ -100,19 +100,21 @@ void Grown::fill_grid() {
   }
 }
 
-int Grown::column(double x) const {
+int Inflated::column(double x) const {
   return std::clamp(static_cast<int>((x - corner_.x) / cell_), 0, columns_ - 1);
 }
 
-int Grown::row(double y) const { return std::clamp(static_cast<int>((y - corner_.y) / cell_), 0, rows_ - 1); }
+int Inflated::row(double y) const {
+  return std::clamp(static_cast<int>((y - corner_.y) / cell_), 0, rows_ - 1);
+}
 
-Grown::Cells Grown::around(const sim::Disc& disc) const {
+Inflated::Cells Inflated::around(const sim::Disc& disc) const {
   return {column(disc.center.x - disc.radius), column(disc.center.x + disc.radius),
           row(disc.center.y - disc.radius), row(disc.center.y + disc.radius)};
 }
 
 /// The cells of one column that the line with this margin around it may touch.
-Grown::Cells Grown::along(const sim::Segment& line, int column, double margin) const {
+Inflated::Cells Inflated::along(const sim::Segment& line, int column, double margin) const {
   const sim::Segment s = line.a.x <= line.b.x ? line : sim::Segment{line.b, line.a};
   const double left = corner_.x + column * cell_ - margin - kSlack;
   const double right = left + cell_ + 2 * (margin + kSlack);
@@ -126,7 +128,7 @@ Grown::Cells Grown::along(const sim::Segment& line, int column, double margin) c
   return {column, column, row(std::min(y1, y2) - margin - kSlack), row(std::max(y1, y2) + margin + kSlack)};
 }
 
-bool Grown::free(Vec2 point) const {
+bool Inflated::free(Vec2 point) const {
   const Bucket& here = bucket(column(point.x), row(point.y));
   for (const int i : here.rims) {
     const sim::Disc& rim = rims_[static_cast<std::size_t>(i)];
@@ -140,7 +142,7 @@ bool Grown::free(Vec2 point) const {
   });
 }
 
-bool Grown::crosses_any(const sim::Segment& line, const Bucket& bucket) const {
+bool Inflated::crosses_any(const sim::Segment& line, const Bucket& bucket) const {
   for (const int i : bucket.rims) {
     const sim::Disc& rim = rims_[static_cast<std::size_t>(i)];
     const double least = rim.radius - kSlack;
@@ -150,7 +152,7 @@ bool Grown::crosses_any(const sim::Segment& line, const Bucket& bucket) const {
                      [&](int i) { return cross(line, segments_[static_cast<std::size_t>(i)]); });
 }
 
-bool Grown::free(const sim::Segment& line) const {
+bool Inflated::free(const sim::Segment& line) const {
   const int first = column(std::min(line.a.x, line.b.x) - kSlack);
   const int last = column(std::max(line.a.x, line.b.x) + kSlack);
   for (int c = first; c <= last; ++c) {

@@ -14,16 +14,16 @@ struct Head {
   bool from_base;
 };
 
-struct Heads {
+struct Headers {
   static constexpr uint8_t kNone = 0xFF;
   static constexpr int kFunctions = 0x74;
   Head of[kKinds];
   uint8_t kind[kFunctions];  ///< by function; kNone: unused
 };
 
-constexpr Heads heads() noexcept {
-  Heads h{};
-  for (uint8_t& kind : h.kind) kind = Heads::kNone;
+constexpr Headers headers() noexcept {
+  Headers h{};
+  for (uint8_t& kind : h.kind) kind = Headers::kNone;
   for (uint8_t i = 0; i < kKinds; ++i) {
     const Message& m = kMessages[i];
     h.of[i] = {m.size, m.from_controller, m.from_base};
@@ -32,19 +32,19 @@ constexpr Heads heads() noexcept {
   return h;
 }
 
-inline constexpr Heads kHeads = heads();
+inline constexpr Headers kHeaders = headers();
 
 /// False: not a message of this protocol.
-constexpr bool kind_of(uint32_t id, Kind& kind) noexcept {
+constexpr bool kind_of(uint32_t id, MessageKind& kind) noexcept {
   const uint32_t function = id >> 4;
-  if (function >= Heads::kFunctions || kHeads.kind[function] == Heads::kNone) return false;
-  kind = static_cast<Kind>(kHeads.kind[function]);
+  if (function >= Headers::kFunctions || kHeaders.kind[function] == Headers::kNone) return false;
+  kind = static_cast<MessageKind>(kHeaders.kind[function]);
   return true;
 }
 
-constexpr const Head& head_of(Kind kind) noexcept { return kHeads.of[static_cast<uint8_t>(kind)]; }
+constexpr const Head& head_of(MessageKind kind) noexcept { return kHeaders.of[static_cast<uint8_t>(kind)]; }
 
-constexpr bool may_send(Party party, Kind kind) noexcept {
+constexpr bool may_send(Party party, MessageKind kind) noexcept {
   return party == Party::base ? head_of(kind).from_base : head_of(kind).from_controller;
 }
 

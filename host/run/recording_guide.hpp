@@ -6,9 +6,9 @@
 namespace whisker {
 
 /// Forwards all calls to a global planner, and records its advice. It must outlive this object.
-class ShownGuide final : public planning::GlobalPlanner {
+class RecordingGuide final : public planning::GlobalPlanner {
  public:
-  explicit ShownGuide(planning::WavefrontPlanner& guide) : guide_(guide) {}
+  explicit RecordingGuide(planning::WavefrontPlanner& guide) : guide_(guide) {}
 
   void start(const planning::View& view, const planning::Goal& goal) noexcept override {
     said_ = Guidance::none;

@@ -1,8 +1,8 @@
-#include "host/run/trip.hpp"
+#include "host/run/mission_run.hpp"
 
 #include <cmath>
 
-#include "host/run/told.hpp"
+#include "host/run/make_record.hpp"
 
 namespace whisker {
 namespace {
@@ -25,7 +25,7 @@ double length(sim::Vec2 v) { return std::sqrt(sim::dot(v, v)); }
 
 TickRecord record_of(const sim::Plant& plant, const Pilot& pilot, const Status& status,
                      const hal::RangeReadings& ranges, double t_s) {
-  TickRecord r = told(status, pilot.guide(), ranges, t_s);
+  TickRecord r = make_record(status, pilot.guide(), ranges, t_s);
   r.inside = pilot.sees_inside();
   r.x_m = plant.pose().at.x;
   r.y_m = plant.pose().at.y;
@@ -37,13 +37,13 @@ TickRecord record_of(const sim::Plant& plant, const Pilot& pilot, const Status& 
 
 }  // namespace
 
-Trip::Trip(const Scenario& scenario, sim::Plant& plant, Pilot& pilot)
+MissionRun::MissionRun(const Scenario& scenario, sim::Plant& plant, Pilot& pilot)
     : scenario_(&scenario),
       plant_(&plant),
       pilot_(&pilot),
       period_ms_(static_cast<std::uint64_t>(scenario.robot.safety.period.raw())) {}
 
-void Trip::decide() {
+void MissionRun::decide() {
   const std::uint64_t now_ms = ticks_ * period_ms_;
   t_s_ = static_cast<double>(now_ms) / 1000.0;
   ranges_ = plant_->ranges();
@@ -60,7 +60,7 @@ void Trip::decide() {
   }
 }
 
-void Trip::move() {
+void MissionRun::move() {
   plant_->advance();
   if (!plant_->in_contact()) return;
   verdict_ = Verdict::contact;
@@ -69,23 +69,23 @@ void Trip::move() {
   t_s_ = static_cast<double>(ticks_ * period_ms_) / 1000.0;
 }
 
-void Trip::resume() {
+void MissionRun::resume() {
   if (verdict_ == Verdict::contact || verdict_ == Verdict::fault) return;
   verdict_.reset();
   detail_ = "";
 }
 
-double Trip::distance_left() const { return length(scenario_->goal.at - plant_->pose().at); }
+double MissionRun::distance_left() const { return length(scenario_->goal.at - plant_->pose().at); }
 
-std::optional<double> Trip::believed_distance() const {
+std::optional<double> MissionRun::believed_distance() const {
   const auto pose = pilot_->sees_inside() ? std::optional(status_->pose) : pilot_->estimate();
   if (!pose) return std::nullopt;
   return length(scenario_->goal.at - sim::Vec2{pose->at.x.raw() * 1e-6, pose->at.y.raw() * 1e-6});
 }
 
-TickRecord Trip::record() const { return record_of(*plant_, *pilot_, *status_, ranges_, t_s_); }
+TickRecord MissionRun::record() const { return record_of(*plant_, *pilot_, *status_, ranges_, t_s_); }
 
-RunResult Trip::result() const {
+RunResult MissionRun::result() const {
   RunResult result;
   result.verdict = verdict_.value_or(result.verdict);
   result.detail = detail_;

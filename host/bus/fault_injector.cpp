@@ -1,4 +1,4 @@
-#include "host/bus/meddler.hpp"
+#include "host/bus/fault_injector.hpp"
 
 #include <utility>
 
@@ -11,16 +11,16 @@ bool towards(const Fault& fault, Direction direction) noexcept {
 
 }  // namespace
 
-Meddler::Meddler(Schedule schedule, std::uint64_t seed, Repair repair)
+FaultInjector::FaultInjector(Schedule schedule, std::uint64_t seed, Repair repair)
     : schedule_(std::move(schedule)), memory_(schedule_.size()), random_(seed), repair_(std::move(repair)) {
   at_tick(0);
 }
 
-bool Meddler::in_time(const Fault& fault) const noexcept {
+bool FaultInjector::in_time(const Fault& fault) const noexcept {
   return tick_ >= fault.from_tick && tick_ < fault.to_tick;
 }
 
-void Meddler::at_tick(std::uint32_t tick) {
+void FaultInjector::at_tick(std::uint32_t tick) {
   tick_ = tick;
   for (std::size_t i = 0; i < schedule_.size(); ++i) {
     const Fault& fault = schedule_[i];
@@ -29,7 +29,7 @@ void Meddler::at_tick(std::uint32_t tick) {
   }
 }
 
-const Fault* Meddler::active(FaultKind kind, Direction direction) const noexcept {
+const Fault* FaultInjector::active(FaultKind kind, Direction direction) const noexcept {
   for (std::size_t i = 0; i < schedule_.size(); ++i) {
     if (schedule_[i].kind == kind && memory_[i].holds && towards(schedule_[i], direction))
       return &schedule_[i];
@@ -37,7 +37,8 @@ const Fault* Meddler::active(FaultKind kind, Direction direction) const noexcept
   return nullptr;
 }
 
-bool Meddler::hits(const Fault& fault, Memory& memory, const hal::CanFrame& frame, Direction direction) {
+bool FaultInjector::hits(const Fault& fault, Memory& memory, const hal::CanFrame& frame,
+                         Direction direction) {
   if (!in_time(fault) || !towards(fault, direction)) return false;
   if ((frame.id & fault.match_mask) != (fault.match_id & fault.match_mask)) return false;
   if (memory.burst_left > 0) {
@@ -49,13 +50,13 @@ bool Meddler::hits(const Fault& fault, Memory& memory, const hal::CanFrame& fram
   return true;
 }
 
-void Meddler::flip_bit(hal::CanFrame& frame) {
+void FaultInjector::flip_bit(hal::CanFrame& frame) {
   const int bit = random_.index(8 * frame.size);
   frame.data[bit / 8] = static_cast<std::uint8_t>(frame.data[bit / 8] ^ (1U << (bit % 8)));
 }
 
 /// False: there was nothing to change.
-bool Meddler::change(const Fault& fault, Memory& memory, Outcome& outcome) {
+bool FaultInjector::change(const Fault& fault, Memory& memory, Outcome& outcome) {
   hal::CanFrame& frame = outcome.frame;
   const bool has_data = frame.size > 0 && !frame.remote;
   switch (fault.kind) {
@@ -91,7 +92,7 @@ bool Meddler::change(const Fault& fault, Memory& memory, Outcome& outcome) {
   }
 }
 
-Meddler::Outcome Meddler::meddle(const hal::CanFrame& frame, Direction direction) {
+FaultInjector::Outcome FaultInjector::meddle(const hal::CanFrame& frame, Direction direction) {
   Outcome outcome{frame, 1, 0, false};
   for (std::size_t i = 0; i < schedule_.size() && outcome.copies > 0; ++i) {
     const Fault& fault = schedule_[i];
@@ -101,7 +102,7 @@ Meddler::Outcome Meddler::meddle(const hal::CanFrame& frame, Direction direction
   return outcome;
 }
 
-hal::CanFrame Meddler::babble(const Fault& fault) {
+hal::CanFrame FaultInjector::babble(const Fault& fault) {
   ++of(tally, FaultKind::babble);
   hal::CanFrame frame{fault.id, fault.id > 0x7FF, false, 8, {}};
   for (std::uint8_t& byte : frame.data) byte = static_cast<std::uint8_t>(random_.bits());
