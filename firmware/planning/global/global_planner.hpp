@@ -23,7 +23,7 @@ class GlobalPlanner {
   virtual Advice advise(const View& view, Length distance, Vec& place) noexcept = 0;
   /// All headings in that direction are blocked. False: there is no better advice.
   virtual bool refuse(const View& view) noexcept = 0;
-  /// One closed loop is enough: it knows no path, or would have seen a gap.
+  /// One closed loop is enough: it knows no path, or this is its last try.
   virtual bool knows_no_way() const noexcept = 0;
   /// Boundary following found no path either. True: it reset its blocked cells to unknown and advises a last
   /// try, which ends nearer to the goal than ever or with `no_way`.

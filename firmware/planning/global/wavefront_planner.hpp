@@ -22,7 +22,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   void observe(const View& view) noexcept override;
   Advice advise(const View& view, Length distance, Vec& place) noexcept override;
   bool refuse(const View& view) noexcept override;
-  bool knows_no_way() const noexcept override { return no_way_ || last_try_ || map_.shape().fine(); }
+  bool knows_no_way() const noexcept override { return no_way_ || last_try_; }
   bool doubt() noexcept override;
 
   const GridMap& map() const noexcept { return map_; }

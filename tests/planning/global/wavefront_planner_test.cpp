@@ -186,13 +186,5 @@ TEST_F(Guided, ALastTryThatGetsNearerIsNone) {
   EXPECT_TRUE(map_.guide.doubt());
 }
 
-TEST(FineMap, IsContentWithOneLoop) {
-  const Params params;
-  EXPECT_FALSE(MapOf<2048>(params).guide.knows_no_way());
-  EXPECT_FALSE(MapOf<4096>(params).guide.knows_no_way());
-  EXPECT_TRUE(MapOf<8192>(params).guide.knows_no_way());
-  EXPECT_TRUE(MapOf<16384>(params).guide.knows_no_way());
-}
-
 }  // namespace
 }  // namespace whisker::planning
