@@ -12,9 +12,13 @@ constexpr int kRoomForMap = WHISKER_MAP_BYTES;
 constexpr int kRoomForMap = 16384;
 #endif
 
-/// Of how many bytes the map of the default planner is, where there is room for it; 0: it has none, and is
-/// the boundary planner.
-constexpr int kDefaultMapBytes = 0;
+/// Bytes of the map of the default planner; 0: it has none, and is the boundary planner. A build may say it.
+#ifdef WHISKER_DEFAULT_MAP_BYTES
+constexpr int kDefaultMapBytes = WHISKER_DEFAULT_MAP_BYTES;
+#else
+constexpr int kDefaultMapBytes = kRoomForMap >= 2048 ? 2048 : 0;
+#endif
+static_assert(kDefaultMapBytes <= kRoomForMap);
 
 /// The planner with a map of so many bytes, or without.
 template <int kMapBytes>
@@ -26,6 +30,6 @@ struct PlannerWithMap<0> {
   using Type = TableBoundaryPlanner;
 };
 
-using DefaultPlanner = PlannerWithMap<kRoomForMap >= kDefaultMapBytes ? kDefaultMapBytes : 0>::Type;
+using DefaultPlanner = PlannerWithMap<kDefaultMapBytes>::Type;
 
 }  // namespace whisker::planning

@@ -26,7 +26,7 @@ campaign::Files folder(const CampaignOptions& o) {
   std::error_code error;
   if (!std::filesystem::is_directory(o.worlds, error)) {
     std::vector<std::string_view> kinds;
-    for (const worlds::Kind kind : worlds::kKinds) kinds.emplace_back(name(kind));
+    for (const worlds::Kind kind : worlds::kAllKinds) kinds.emplace_back(name(kind));
     throw UsageError(fmt::format("{}: neither a kind of world nor a folder of scenario files{}", o.worlds,
                                  did_you_mean(o.worlds, kinds)));
   }

@@ -46,11 +46,13 @@ int execute(const WorldOptions& o) {
 void add_world(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("world", "Make a random scenario file");
   const auto o = std::make_shared<WorldOptions>();
-  cmd->add_option("KIND", o->kind, "discs, poles, u-trap, spiral, maze, rooms or enclosed")
+  cmd->add_option("KIND", o->kind,
+                  "discs, poles, u-trap, spiral, maze, rooms, enclosed,\nenclosed-at-wall, gap-at-wall or "
+                  "contest-maze")
       ->required()
       ->check([](const std::string& text) {
         std::vector<std::string_view> kinds;
-        for (const worlds::Kind kind : worlds::kKinds) kinds.emplace_back(name(kind));
+        for (const worlds::Kind kind : worlds::kAllKinds) kinds.emplace_back(name(kind));
         return worlds::kind_named(text) ? "" : fmt::format("no kind '{}'{}", text, did_you_mean(text, kinds));
       });
   cmd->add_option("--seed", o->world.seed, "The same seed gives the same world everywhere")

@@ -49,7 +49,8 @@ class RecordingGuide final : public planning::GlobalPlanner {
  private:
   Guidance guidance(Advice advice) const {
     switch (advice) {
-      case Advice::none: return Guidance::none;
+      case Advice::none:
+      case Advice::no_way: return Guidance::none;
       case Advice::place: return way_ == goal_ ? Guidance::goal : Guidance::place;
       case Advice::wait: return Guidance::wait;
     }

@@ -31,5 +31,8 @@ void draw_spiral(Scenario& scenario, Random& random);
 void draw_maze(Scenario& scenario, Random& random);
 void draw_rooms(Scenario& scenario, Random& random, const Options& options);
 void draw_enclosed(Scenario& scenario, Random& random, const Options& options);
+void draw_enclosed_at_wall(Scenario& scenario, Random& random, const Options& options);
+void draw_gap_at_wall(Scenario& scenario, Random& random, const Options& options);
+void draw_contest_maze(Scenario& scenario, Random& random);
 
 }  // namespace whisker::worlds

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "host/scenario/shapes.hpp"
@@ -30,6 +31,32 @@ std::vector<Vec2> fence(Random& random, Vec2 around) {
     points.push_back(tidy(around + direction(turn + 360.0 * i / sides) * corner));
   points.push_back(points.front());
   return points;
+}
+
+/// A fence that leaves the box.
+std::vector<Vec2> fence_across(Random& random, Vec2 around, const Bounds& box) {
+  for (;;) {
+    const std::vector<Vec2> points = fence(random, around);
+    for (const Vec2 p : points) {
+      if (p.x < box.min.x || p.y < box.min.y || p.x > box.max.x || p.y > box.max.y) return points;
+    }
+  }
+}
+
+/// Takes a piece out of one side of a closed wall. It may lie outside a box: then there is no way.
+void open_gap(std::vector<Vec2>& fence, Random& random) {
+  const std::size_t sides = fence.size() - 1;
+  const auto side = static_cast<std::size_t>(random.index(static_cast<int>(sides)));
+  const Vec2 a = fence[side];
+  const Vec2 b = fence[side + 1];
+  const double length = distance(a, b);
+  const double width = std::min(random.uniform(0.26, 0.6), length / 2);
+  constexpr double kPost = 0.01;  // of the side that is left at least, so that no two points are the same
+  const double begin = random.uniform(kPost, length - width - kPost);
+  std::vector<Vec2> open{tidy(a + (b - a) * ((begin + width) / length))};
+  for (std::size_t i = 1; i <= sides; ++i) open.push_back(fence[(side + i) % sides]);
+  open.push_back(tidy(a + (b - a) * (begin / length)));
+  fence = open;
 }
 
 sim::Disc disc_over(Random& random, Vec2 point) {
@@ -73,6 +100,17 @@ void draw_enclosed(Scenario& s, Random& random, const Options& o) {
   if (way == 0) s.walls.push_back(fence(random, s.goal.at));
   if (way == 1) s.walls.push_back(fence(random, s.start.at));
   if (way == 2) s.discs.push_back(disc_over(random, s.goal.at));
+}
+
+void draw_enclosed_at_wall(Scenario& s, Random& random, const Options& o) {
+  const int usual = random.chance(0.5) ? 15 : 30;
+  draw_field(s, random, o.discs.value_or(usual), true);
+  s.walls.push_back(fence_across(random, s.goal.at, *s.bounds));
+}
+
+void draw_gap_at_wall(Scenario& s, Random& random, const Options& o) {
+  draw_enclosed_at_wall(s, random, o);
+  open_gap(s.walls.back(), random);
 }
 
 }  // namespace whisker::worlds

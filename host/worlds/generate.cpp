@@ -13,8 +13,11 @@ namespace {
 
 constexpr int kMostDiscs = 200;
 
-bool has_discs(Kind kind) { return kind != Kind::u_trap && kind != Kind::spiral && kind != Kind::maze; }
-bool has_box(Kind kind) { return has_discs(kind) && kind != Kind::rooms; }
+bool has_discs(Kind kind) {
+  return kind != Kind::u_trap && kind != Kind::spiral && kind != Kind::maze && kind != Kind::contest_maze;
+}
+/// The others have it anyway, or none.
+bool may_have_box(Kind kind) { return kind == Kind::discs || kind == Kind::poles || kind == Kind::enclosed; }
 
 void check(Kind kind, const Options& o) {
   if (o.seed > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())) {
@@ -30,7 +33,7 @@ void check(Kind kind, const Options& o) {
       throw std::invalid_argument("the scale error of the wheels must be from 0 to 1");
     }
   }
-  if (o.box && !has_box(kind)) throw std::invalid_argument(fmt::format("{} has no box", name(kind)));
+  if (o.box && !may_have_box(kind)) throw std::invalid_argument(fmt::format("{} takes no box", name(kind)));
 }
 
 }  // namespace
@@ -40,7 +43,7 @@ Scenario generate(Kind kind, const Options& options) {
   std::optional<Scenario> kept = first_kept(kind, options);
   if (!kept) {
     throw std::runtime_error(fmt::format("{} draws gave no {} world with {}", kMostDraws, name(kind),
-                                         kind == Kind::enclosed ? "its goal shut in" : "a path to its goal"));
+                                         has_no_way(kind) ? "its goal shut in" : "a path to its goal"));
   }
   kept->name =
       fmt::format("{}{}{}{}, seed {}", name(kind), options.discs ? fmt::format(" {}", *options.discs) : "",

@@ -159,6 +159,19 @@ void draw_maze(Scenario& s, Random& random) {
   add_walls(s, walls, cell);
 }
 
+void draw_contest_maze(Scenario& s, Random& random) {
+  constexpr int kSide = 32;
+  constexpr double kCell = 0.54;
+  CellWalls walls(kSide);
+  carve(walls, random);
+  remove_some(walls, random, random.uniform(0, 0.3));
+  s.start.at = {0, 0};
+  s.goal.at = tidy(Vec2{kSide / 2 * kCell, kSide / 2 * kCell});
+  s.bounds =
+      Bounds{tidy(Vec2{-kCell / 2, -kCell / 2}), tidy(Vec2{(kSide - 0.5) * kCell, (kSide - 0.5) * kCell})};
+  add_walls(s, walls, kCell);
+}
+
 void draw_rooms(Scenario& s, Random& random, const Options& o) {
   s.start.at = place_in_room(random, 0, 0);
   s.goal.at = place_in_room(random, kRooms - 1, kRooms - 1);

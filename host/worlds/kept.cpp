@@ -18,13 +18,16 @@ void draw(Kind kind, Scenario& scenario, Random& random, const Options& options)
     case Kind::maze: return draw_maze(scenario, random);
     case Kind::rooms: return draw_rooms(scenario, random, options);
     case Kind::enclosed: return draw_enclosed(scenario, random, options);
+    case Kind::enclosed_at_wall: return draw_enclosed_at_wall(scenario, random, options);
+    case Kind::gap_at_wall: return draw_gap_at_wall(scenario, random, options);
+    case Kind::contest_maze: return draw_contest_maze(scenario, random);
   }
 }
 
 bool keeps_promise(Kind kind, const Scenario& s) {
   if (!start_is_free(s)) return false;
   const World world = make_world(s);
-  if (kind == Kind::enclosed) {
+  if (has_no_way(kind)) {
     return path_ruled_out(world, s.start.at, s.goal.at, s.goal.tolerance_m, kShutRadius);
   }
   return path_proven(world, s.start.at, s.goal.at, kPassableRadius);

@@ -11,12 +11,15 @@ const char* name(Kind kind) {
     case Kind::maze: return "maze";
     case Kind::rooms: return "rooms";
     case Kind::enclosed: return "enclosed";
+    case Kind::enclosed_at_wall: return "enclosed-at-wall";
+    case Kind::gap_at_wall: return "gap-at-wall";
+    case Kind::contest_maze: return "contest-maze";
   }
   return "?";
 }
 
 std::optional<Kind> kind_named(std::string_view text) {
-  for (const Kind kind : kKinds) {
+  for (const Kind kind : kAllKinds) {
     if (text == name(kind)) return kind;
   }
   return std::nullopt;

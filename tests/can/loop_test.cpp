@@ -23,8 +23,8 @@ Scenario scenario_of(worlds::Kind kind) {
 TEST_P(EveryWorld, TheTrajectoryOverTheBusIsTheOneInProcess) {
   const Scenario scenario = scenario_of(GetParam());
   bus::MemoryBus wire;
-  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep,
-                                             wire.attach(), wire.attach());
+  const auto over_bus =
+      test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep, wire.attach(), wire.attach());
   const RunResult direct = run(scenario);
   EXPECT_EQ(over_bus.result.hash, direct.hash);
   EXPECT_EQ(over_bus.result.ticks, direct.ticks);
@@ -38,7 +38,7 @@ TEST_P(EveryWorld, TheTrajectoryIsTheSameWithTwoPercentOfTheFramesDropped) {
   bus::MemoryBus wire;
   test::LossyPort base(wire.attach(), 1), controller(wire.attach(), 2);
   const auto over_bus =
-      test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep, base, controller);
+      test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep, base, controller);
   const RunResult direct = run(scenario);
   EXPECT_EQ(over_bus.result.hash, direct.hash);
   EXPECT_EQ(over_bus.result.ticks, direct.ticks);
@@ -64,7 +64,7 @@ TEST(Lockstep, ABaseThatLosesSightOfTheControllerDrivesTheSame) {
   bus::MemoryBus wire;
   test::Slowness slow;
   slow.base_stalls = 37;
-  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep,
+  const auto over_bus = test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep,
                                              wire.attach(), wire.attach(), slow);
   EXPECT_EQ(over_bus.result.hash, run(scenario).hash);
   EXPECT_EQ(over_bus.figures.health.stops, 0U);
@@ -77,7 +77,7 @@ TEST(Lockstep, ASlowControllerGetsFewSetsTwice) {
   bus::MemoryBus wire;
   test::Slowness slow;
   slow.controller = 25;
-  const auto over_bus = test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep,
+  const auto over_bus = test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep,
                                              wire.attach(), wire.attach(), slow);
   EXPECT_EQ(over_bus.result.hash, run(scenario).hash);
   EXPECT_LE(over_bus.figures.resent, 10U);
@@ -91,7 +91,7 @@ TEST(Lockstep, HeartbeatsThatComeTooLateStopNothing) {
     bus::MemoryBus wire;
     test::StutteringPort base(wire.attach(), every_ms), controller(wire.attach(), every_ms);
     const auto over_bus =
-        test::drive_over_bus(scenario, PlannerKind::skirt, can::SyncMode::lockstep, base, controller);
+        test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep, base, controller);
     EXPECT_EQ(over_bus.result.hash, run(scenario).hash) << every_ms;
     EXPECT_EQ(over_bus.figures.health.stops, 0U) << every_ms;
     EXPECT_GE(over_bus.figures.round_trip_us.back(), 1000 * every_ms / 2) << every_ms;
@@ -104,12 +104,12 @@ TEST_P(Twins, OfTheControllerEndTheRunWithAFault) {
   const auto [sync_mode, from_ms] = GetParam();
   bus::MemoryBus wire;
   bus::MemoryPort &base = wire.attach(), &controller = wire.attach();
-  hil::HostPlanners planners(PlannerKind::skirt);
+  hil::HostPlanners planners(kDefaultPlanner);
   can_app::Controller twin(wire.attach(), {1, 88, 0}, planners);
   const auto twins_turn = [&twin, from = from_ms](std::uint32_t now_ms) {
     if (now_ms >= from) twin.poll(now_ms);
   };
-  const auto over_bus = test::drive_over_bus(scenario_of(worlds::Kind::discs), PlannerKind::skirt, sync_mode,
+  const auto over_bus = test::drive_over_bus(scenario_of(worlds::Kind::discs), kDefaultPlanner, sync_mode,
                                              base, controller, {}, twins_turn);
   EXPECT_EQ(over_bus.result.verdict, Verdict::fault);
   EXPECT_EQ(over_bus.result.detail, "duplicate_node");

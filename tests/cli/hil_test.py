@@ -138,7 +138,7 @@ class Hil(OnABus):
         self.assertEqual((run["result"]["outcome"], run["result"]["hash"]), (result["outcome"].replace("off_goal", "reached"), result["hash"]))
         self.assertIsNone(run["result"]["final_distance_m"], "no log has the true place")
         self.assertAlmostEqual(run["result"]["believed_distance_m"], result["believed_distance_m"], places=4)
-        self.assertEqual((run["planner"], run["inside"]), ("skirt", True))
+        self.assertEqual((run["planner"], run["inside"]), ("map", True))
 
     def test_a_replay_shows_the_map_that_led(self):
         scenario, log = self.world("rooms", 4), self.folder / "run.log"

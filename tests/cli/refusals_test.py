@@ -39,7 +39,7 @@ class Refusals(Case):
     def test_maps_of_other_sizes_and_of_planners_without_one(self):
         for size in ("2000", "0", "-1", "2 KB", ""):
             self.refused("run", "a.toml", "--planner", "map", "--map-bytes", size, says="--map-bytes")
-        self.refused("run", "a.toml", "--map-bytes", "2048", says="skirt")
+        self.refused("run", "a.toml", "--planner", "skirt", "--map-bytes", "2048", says="skirt")
 
     def test_numbers_that_are_none(self):
         wrong = ("-1", "+1", "1e30", "1.5", "0x10", "", " 7", "7 ", "7x", "nan", "9223372036854775808", "9" * 40)

@@ -220,7 +220,7 @@ class Status(Scripts):
                 of_map = f"--planner map --map-bytes {size} --json"
                 self.assertEqual(
                     calls,
-                    [f"{words.format(3)} --json", f"{words.format(3)} {of_map}", f"{words.format(2)} --noise {of_map}"],
+                    [f"{words.format(3)} --planner skirt --json", f"{words.format(3)} {of_map}", f"{words.format(2)} --noise {of_map}"],
                 )
         self.assertEqual(rows[2048]["rooms"][4:], ["1.220 / 1.35", "1.90 / 5", "**5.00 / 4.99**", "**8.01 / 8**", "-"])
         self.assertEqual(rows[16384]["rooms"][4:6], ["1.220 / 1.25", "1.90 / 3.5"])

@@ -162,6 +162,7 @@ TEST(Recording, CoarseHasFiveTicksASecondAndTheLast) {
   const Scenario scenario = short_run();
   Recording full(scenario.robot), coarse(scenario.robot, Detail::coarse);
   RunOptions options;
+  options.planner = PlannerKind::skirt;
   options.watch = [&](const Moment& moment) {
     full.add(moment);
     coarse.add(moment);

@@ -19,7 +19,7 @@ SECONDS = 10  # of the drive, if it is not the whole
 PATIENCE_S = 300
 LONG_PATIENCE_S = 800
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
-NODES = (("can-node", "skirt"), ("can-node-stm32f103", "map"))
+NODES = (("can-node", "map"), ("can-node-stm32f103", "map"))
 PRESET = "cortex-m3"
 PAINT = 0xC0DEC0DE  # hal/runtime/stack.hpp
 

@@ -14,6 +14,7 @@ Scenario short_run() {
 RunResult drive(const Scenario& scenario, Feed& feed, const std::function<void(const Moment&)>& each) {
   feed.begin(setting(scenario));
   RunOptions options;
+  options.planner = *setting(scenario).planner;
   options.watch = [&](const Moment& moment) {
     feed.add(moment);
     if (each) each(moment);

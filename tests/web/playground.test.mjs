@@ -99,7 +99,7 @@ describe('the playground', () => {
     assert.match(await page.textContent('#hashes'), /equals the native run/);
     const world = folder.at('u.toml');
     whisker('world', 'u-trap', '--seed', 7, '--out', world);
-    const {hash} = JSON.parse(whisker('run', world, '--json'));
+    const {hash} = JSON.parse(whisker('run', world, '--planner', 'skirt', '--json'));
     assert.match(await page.textContent('#hashes'), new RegExp(hash));
     assert.deepEqual(complaints, []);
   });
@@ -127,7 +127,7 @@ describe('the playground', () => {
     assert.match(await page.textContent('#spoken'), /believes it is there; is/);
     const world = folder.at('off.toml');
     whisker('world', 'discs', '--seed', 11, '--noise', '--wheel-scale-sigma', 0.005, '--out', world);
-    const native = JSON.parse(whisker('run', world, '--json'));
+    const native = JSON.parse(whisker('run', world, '--planner', 'skirt', '--json'));
     assert.equal(native.outcome, 'off_goal');
     assert.ok(Math.abs(native.final_distance_m - distance) < 1e-6);
     assert.ok(Math.abs(native.believed_distance_m - believed) < 1e-6);
@@ -141,7 +141,7 @@ describe('the playground', () => {
     assert.equal(await play(page, 'play.touched'), false);
     await toTheEnd(page);
     const file = await download(page, '#save-scenario');
-    const {hash} = JSON.parse(whisker('run', file, '--json'));
+    const {hash} = JSON.parse(whisker('run', file, '--planner', 'skirt', '--json'));
     assert.match(await page.textContent('#hashes'), new RegExp(hash));
   });
 

@@ -77,7 +77,9 @@ export class Folder {
     whisker('world', ...world, '--out', scenario);
     return this.run(name, scenario, ...options);
   }
+  /** With the boundary planner, if the options name no other. */
   run(name, scenario, ...options) {
+    if (!options.includes('--planner')) options.push('--planner', 'skirt');
     const files = ['--html', this.at(`${name}.html`), '--trace', this.at(`${name}.csv`)];
     return JSON.parse(whisker('run', scenario, ...files, '--json', ...options));
   }
@@ -89,7 +91,8 @@ export class Folder {
     // A few at a time: their cost is that of their missions.
     const seedFrom = (first) => {
       assert.ok(first <= 300, 'no mission takes that long');
-      whisker('campaign', ...kind, '--seed', first, '--count', 20, '--csv', this.at(`${name}_all.csv`));
+      const all = ['--planner', 'skirt', '--csv', this.at(`${name}_all.csv`)];
+      whisker('campaign', ...kind, '--seed', first, '--count', 20, ...all);
       const mission = this.trace(`${name}_all`).find(({time_s}) => time_s > 601);
       return mission?.seed ?? seedFrom(first + 20);
     };

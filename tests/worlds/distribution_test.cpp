@@ -226,5 +226,44 @@ TEST(Enclosed, IsShutInEachOfTheThreeWays) {
   for (std::size_t n = 3; n <= 7; ++n) EXPECT_GT(sides[n], 8) << n;
 }
 
+/// Whether a point of the fence lies outside the box.
+bool crosses(const std::vector<Vec2>& fence, const Bounds& box) {
+  return std::any_of(fence.begin(), fence.end(), [&](Vec2 p) {
+    return p.x < box.min.x || p.y < box.min.y || p.x > box.max.x || p.y > box.max.y;
+  });
+}
+
+TEST(EnclosedAtWall, HasAFenceAroundTheGoalThatCrossesTheBox) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const Scenario s = generate(Kind::enclosed_at_wall, {seed, {}, false, false});
+    ASSERT_TRUE(s.bounds.has_value());
+    ASSERT_EQ(s.walls.size(), 1U);
+    const auto& fence = s.walls[0];
+    EXPECT_EQ(distance(fence.front(), fence.back()), 0);
+    EXPECT_TRUE(inside(s.goal.at, {fence.begin(), fence.end() - 1})) << seed;
+    EXPECT_TRUE(crosses(fence, *s.bounds)) << seed;
+  }
+}
+
+TEST(GapAtWall, LeavesOneGapInTheFence) {
+  Spread gap;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Scenario s = generate(Kind::gap_at_wall, {seed, {}, false, false});
+    ASSERT_TRUE(s.bounds.has_value());
+    ASSERT_EQ(s.walls.size(), 1U);
+    gap.add(distance(s.walls[0].front(), s.walls[0].back()));
+  }
+  gap.expect(0.26, 0.6, "gap");
+}
+
+TEST(ContestMaze, HasItsGoalInTheMiddleOf32By32Cells) {
+  const Scenario s = generate(Kind::contest_maze, {1, {}, false, false});
+  ASSERT_TRUE(s.bounds.has_value());
+  EXPECT_NEAR(s.bounds->max.x - s.bounds->min.x, 32 * 0.54, kRounding);
+  EXPECT_NEAR(s.bounds->max.y - s.bounds->min.y, 32 * 0.54, kRounding);
+  EXPECT_NEAR(s.goal.at.x, 16 * 0.54, kRounding);
+  EXPECT_NEAR(s.goal.at.y, 16 * 0.54, kRounding);
+}
+
 }  // namespace
 }  // namespace whisker::worlds

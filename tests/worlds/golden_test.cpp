@@ -37,6 +37,9 @@ const Golden kGolden[] = {
     {Kind::enclosed, {1, {}, false, false}, 0x62CDAE2FF45813FFU},
     {Kind::enclosed, {2, {}, false, false}, 0x8813E0211C140D1AU},
     {Kind::enclosed, {3, 30, true, false}, 0xA1573A8143AB0E4CU},
+    {Kind::enclosed_at_wall, {1, {}, false, false}, 0x6192938368EE69D1U},
+    {Kind::gap_at_wall, {1, {}, false, false}, 0x7A3E92F668C08F25U},
+    {Kind::contest_maze, {1, {}, false, false}, 0xEEB87C1BA4E26D6AU},
 };
 
 TEST(Golden, WorldsAreTheCommittedOnes) {

@@ -19,7 +19,7 @@ Angle limited(Angle turn, int32_t most) noexcept {
 
 void Approach::start(const View& view, const Goal& goal) noexcept {
   closest_.reset();
-  guided_ = false;
+  guided_ = refuted_ = false;
   begin();
   if (guide_ != nullptr) guide_->start(view, goal);
 }
@@ -60,7 +60,7 @@ void Approach::on(Event event, Decision& decision) noexcept {
 bool Approach::drive(const View& view, const Target& target, Side& wall, Decision& decision) noexcept {
   if (target.distance < closest()) measure_anew(view, target.distance);
   Vec to = target.to;
-  if (guide_ != nullptr && advised(view, target.distance, to, decision)) return true;
+  if (guide_ != nullptr && advised(view, target.distance, to, decision)) return !refuted_;
   if (view.sighted && !course_.choose(view, to, law_, behaviours_.params, wall, decision)) {
     if (guided_ && guide_->refuse(view)) {
       course_.reset();
@@ -93,6 +93,8 @@ bool Approach::advised(const View& view, Length distance, Vec& to, Decision& dec
   // It may have led away from the goal: what comes now is measured anew.
   if (guided_ && advice == GlobalPlanner::Advice::none) measure_anew(view, distance);
   guided_ = advice != GlobalPlanner::Advice::none;
+  refuted_ = advice == GlobalPlanner::Advice::no_way;
+  if (refuted_) return true;
   if (advice != GlobalPlanner::Advice::wait) return false;
   decision.manoeuvre = stop();
   behaviours_.stuck.reset();

@@ -55,6 +55,11 @@ class Approach {
   bool knows_no_way() const noexcept { return guide_ != nullptr && guide_->knows_no_way(); }
   bool doubt() noexcept { return guide_ != nullptr && guide_->doubt(); }
 
+  /// A global planner guides; without one, the turning of the body is the evidence for a closed loop.
+  bool has_guide() const noexcept { return guide_ != nullptr; }
+  /// The way is blocked because the global planner has found that there is none.
+  bool refuted() const noexcept { return refuted_; }
+
   /// What the body does now is due to what the guard holds back.
   bool yields(const View& view, const Decision& decision) const noexcept;
 
@@ -70,6 +75,7 @@ class Approach {
   Behaviours& behaviours_;
   Phase phase_ = Phase::drive;
   bool guided_ = false;  // drives where the guide says
+  bool refuted_ = false;
   ClosestApproach closest_;
   Course course_;
 };

@@ -100,7 +100,12 @@ void BoundaryPlanner::survey(const View& view) noexcept {
 }
 
 void BoundaryPlanner::approach(const View& view) noexcept {
-  if (!approach_.step(view, target_, wall_, decision_)) begin_side_search(view);
+  if (approach_.step(view, target_, wall_, decision_)) return;
+  if (approach_.refuted()) {
+    end(Event::refuted, Outcome::unreachable);
+  } else {
+    begin_side_search(view);
+  }
 }
 
 void BoundaryPlanner::begin_side_search(const View& view) noexcept {
@@ -133,11 +138,13 @@ void BoundaryPlanner::choose_side(const View& view) noexcept {
 
 bool BoundaryPlanner::boundary(const View& view) noexcept {
   if (follower_.follows() && view.sighted) {
-    if (loop_.closed(view)) {
+    const LoopDetector::Evidence evidence =
+        approach_.has_guide() ? LoopDetector::Evidence::place : LoopDetector::Evidence::turning;
+    if (loop_.closed(view, evidence)) {
       go_the_other_way(view);
       return false;
     }
-    if (loop_.strays(view)) {
+    if (loop_.strays(view, evidence)) {
       escape(view);
       return false;
     }

@@ -42,6 +42,7 @@ class BoundaryPlanner final : public GoalPlanner {
     wall_lost,  ///< round and round something else than what blocked the way
     doubted,    ///< the global planner doubts its map, and has a way again
     enclosed,   ///< the loop is closed both ways round
+    refuted,    ///< the last try of the global planner found no way either
     stuck,      ///< no way is free, not even the way back
     at_goal,
     slid_off,  ///< at rest, but beside the goal
@@ -58,6 +59,7 @@ class BoundaryPlanner final : public GoalPlanner {
       {Phase::boundary, Event::wall_lost, Phase::approach, Mode::going, Why::wall_lost},
       {Phase::boundary, Event::doubted, Phase::approach, Mode::going, Why::wall_lost},
       {Phase::boundary, Event::enclosed, Phase::over, Mode::unreachable, Why::came_round},
+      {Phase::approach, Event::refuted, Phase::over, Mode::unreachable, Why::came_round},
       {Phase::boundary, Event::stuck, Phase::over, Mode::gave_up, Why::no_exit},
       {Phase::survey, Event::at_goal, Phase::arrive},
       {Phase::approach, Event::at_goal, Phase::arrive},

@@ -27,12 +27,14 @@ void LoopDetector::move(const View& view) noexcept {
   if (farthest_ > scale_ * 3) left_ = true;
 }
 
-bool LoopDetector::closed(const View& view) noexcept {
+bool LoopDetector::closed(const View& view, Evidence evidence) noexcept {
   if (!follows_) {
     follows_ = true;
     heading_ = view.pose.heading;
   }
-  if (!left_ || magnitude(turned_) < 300 * kDegree) return false;
+  const bool turned = magnitude(turned_) >= 300 * kDegree;
+  const bool far = evidence == Evidence::place && farthest_ > scale_ * 15;
+  if (!left_ || !(turned || far)) return false;
   const Length near =
       min(scale_ * 7 / 2,
           scale_ * 3 / 2 + Length::from_raw(static_cast<int32_t>((view.travelled_um - began_um_) / kDrift)));
@@ -44,10 +46,15 @@ bool LoopDetector::may_part(Vec from, Vec to, Side wall) const noexcept {
   return norm((within ? from : to) - at_) <= farthest_;
 }
 
-bool LoopDetector::strays(const View& view) noexcept {
+bool LoopDetector::strays(const View& view, Evidence evidence) noexcept {
   if (magnitude(turned_) < 360 * kDegree * static_cast<uint64_t>(laps_ + 1)) return false;
-  const bool again = laps_ == kMostLaps || (laps_ > 0 && norm(view.pose.at - lap_at_) < scale_ * 7 / 2);
+  const bool by_place = evidence == Evidence::place;
+  const Length way = Length::from_raw(saturate32(int64_t{view.travelled_um - lap_um_}));
+  const bool same_place =
+      laps_ > 0 && norm(view.pose.at - lap_at_) < scale_ * 7 / 2 && (!by_place || way > scale_ * 10);
+  const bool again = same_place || (!by_place && laps_ == kMostLaps);
   lap_at_ = view.pose.at;
+  lap_um_ = view.travelled_um;
   ++laps_;
   return again;
 }

@@ -8,9 +8,10 @@ namespace whisker::planning {
 class GlobalPlanner {
  public:
   enum class Advice : uint8_t {
-    none,   ///< drive straight to the goal, and follow boundaries
-    place,  ///< drive to a way point
-    wait,   ///< stand: planning in progress
+    none,    ///< drive straight to the goal, and follow boundaries
+    place,   ///< drive to a way point
+    wait,    ///< stand: planning in progress
+    no_way,  ///< the loops were closed, and no path that the map left open was one: the goal is unreachable
   };
 
   virtual void start(const View& view, const Goal& goal) noexcept = 0;
@@ -22,10 +23,10 @@ class GlobalPlanner {
   virtual Advice advise(const View& view, Length distance, Vec& place) noexcept = 0;
   /// All headings in that direction are blocked. False: there is no better advice.
   virtual bool refuse(const View& view) noexcept = 0;
-  /// It knows no path, or has already reset its blocked cells to unknown.
+  /// One closed loop is enough: it knows no path, or this is its last try.
   virtual bool knows_no_way() const noexcept = 0;
-  /// Boundary following found no path either. True: it reset its blocked cells to unknown and has advice
-  /// again.
+  /// Boundary following found no path either. True: it reset its blocked cells to unknown and advises a last
+  /// try, which ends nearer to the goal than ever or with `no_way`.
   virtual bool doubt() noexcept = 0;
 
  protected:

@@ -34,6 +34,8 @@ class Wavefront {
   bool reached() const noexcept { return reached_ >= 0; }
   /// The level of the body.
   int32_t level() const noexcept { return reached_; }
+  /// The region around the goal is shut within the window: the path, if any, leads around outside.
+  bool outside() const noexcept { return entry_ == Entry::any_border; }
   /// Number of levels used, a measure of the cost.
   int32_t levels() const noexcept { return level_; }
 

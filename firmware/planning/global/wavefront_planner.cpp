@@ -14,11 +14,11 @@ constexpr Length kSlack = 100_mm;
 constexpr Length kKept = 100_mm;
 constexpr Length kReached = 250_mm;
 constexpr Length kNoProgress = 20_m;  // of the first spell; half as much of each later one
+constexpr Length kLastTry = 8_m;
 constexpr Length kProgress = 150_mm;
 constexpr Length kBarred = 200_mm;
 constexpr Length kBarrier = 120_mm;
 constexpr Length kBarrierLife = 6000_mm;
-constexpr int8_t kCredits = 1;
 constexpr int32_t kRefusals = 12;
 constexpr int8_t kMostSpells = 16;
 constexpr int32_t kNoWay = INT32_MAX / 2;  // levels
@@ -30,8 +30,7 @@ void WavefrontPlanner::start(const View& view, const Goal& goal) noexcept {
   map_.configure(params_);
   map_.reset(view.pose.at, goal.at);
   stage_ = Stage::idle;
-  has_way_ = no_way_ = waits_ = false;
-  credits_ = kCredits;
+  has_way_ = no_way_ = shut_ = last_try_ = waits_ = false;
   active_ = true;
   refusals_ = spells_ = 0;
   best_.reset();
@@ -54,6 +53,7 @@ void WavefrontPlanner::observe(const View& view) noexcept {
     improved_mm_ = travel_mm_;
     refusals_ = 0;
     active_ = true;
+    last_try_ = false;
   }
   const bool hold = stage_ != Stage::idle;
   for (int i = 0; i < hal::kBeams; ++i) {
@@ -104,13 +104,18 @@ void WavefrontPlanner::plan(const View& view) noexcept {
     case Stage::idle: break;
     case Stage::strict:
       strict_ = wavefront_.reached() ? wavefront_.level() : kNoWay;
-      if (strict_ - cell_distance(map_.place(goal_.at) - map_.place(view.pose.at)) <= dearer) break;
+      if (!wavefront_.outside() &&
+          strict_ - cell_distance(map_.place(goal_.at) - map_.place(view.pose.at)) <= dearer) {
+        shut_ = false;
+        break;
+      }
       begin(Stage::passing, view);
       return;
     case Stage::passing:
+      no_way_ = !wavefront_.reached();
+      shut_ = no_way_ || (wavefront_.outside() && map_.holds(map_.place(goal_.at)));
       if (!wavefront_.reached()) {
         has_way_ = false;
-        no_way_ = true;
         stage_ = Stage::idle;
         waits_ = false;
         return;
@@ -186,8 +191,15 @@ void WavefrontPlanner::finish(const View& view) noexcept {
   if (first) way_ = goal_.at;
 }
 
+/// Long enough without getting nearer to the goal.
+bool WavefrontPlanner::spent() const noexcept {
+  const int32_t in_vain = travel_mm_ - improved_mm_;
+  return in_vain > (last_try_ ? mm(kLastTry) : mm(kNoProgress) >> spells_);
+}
+
 GlobalPlanner::Advice WavefrontPlanner::advise(const View& view, Length, Vec& place) noexcept {
-  if (active_ && travel_mm_ - improved_mm_ > mm(kNoProgress) >> spells_) hand_over();
+  if (active_ && spent()) hand_over();
+  if (last_try_ && (shut_ || !active_)) return Advice::no_way;
   if (!active_) return Advice::none;
   if (waits_) return Advice::wait;
   if (!has_way_) return Advice::none;
@@ -206,8 +218,8 @@ void WavefrontPlanner::bar(Vec at) noexcept {
 }
 
 bool WavefrontPlanner::doubt() noexcept {
-  if (knows_no_way()) return false;
-  --credits_;
+  if (shut_ || last_try_) return false;
+  last_try_ = true;
   map_.doubt_all();
   for (Barrier& b : barrier_) b = {};
   stage_ = Stage::idle;
@@ -222,7 +234,7 @@ bool WavefrontPlanner::refuse(const View& view) noexcept {
   if (!active_) return false;
   if (++refusals_ > kRefusals) {
     hand_over();
-    return false;
+    return last_try_;
   }
   bar(view.pose.at + polar(bearing(way_ - view.pose.at), reference(kBarred)));
   stage_ = Stage::idle;

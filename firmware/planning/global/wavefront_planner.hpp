@@ -22,7 +22,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   void observe(const View& view) noexcept override;
   Advice advise(const View& view, Length distance, Vec& place) noexcept override;
   bool refuse(const View& view) noexcept override;
-  bool knows_no_way() const noexcept override { return no_way_ || credits_ == 0; }
+  bool knows_no_way() const noexcept override { return no_way_ || last_try_; }
   bool doubt() noexcept override;
 
   const GridMap& map() const noexcept { return map_; }
@@ -44,6 +44,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   bool straight(const View& view) const noexcept;
   bool sees(Vec from, Vec to) const noexcept;
   void raise_barriers() noexcept;
+  bool spent() const noexcept;
   void hand_over() noexcept;
   void bar(Vec at) noexcept;
   Length reference(Length l) const noexcept { return for_body(params_, l); }
@@ -56,11 +57,12 @@ class WavefrontPlanner final : public GlobalPlanner {
   Stage stage_ = Stage::idle;
   Vec way_;  // the way point
   bool has_way_ = false;
-  bool no_way_ = false;  // result of the last plan
-  bool waits_ = false;   // for the next plan
+  bool no_way_ = false;    // result of the last plan
+  bool shut_ = false;      // the same, except for a path around outside the window
+  bool last_try_ = false;  // loops were closed, and the body has not come nearer to the goal since
+  bool waits_ = false;     // for the next plan
   bool active_ = true;
   int8_t refusals_ = 0;
-  int8_t credits_ = 0;
   int8_t spells_ = 0;   // finished attempts with the map
   int32_t strict_ = 0;  // levels to the body if suspect cells block
   int32_t ticks_ = 0;   // since the current plan started

@@ -96,19 +96,57 @@ TEST(LoopDetector, DoesNotCloseWithoutAWholeTurn) {
   EXPECT_FALSE(circuit.closed(view));
 }
 
+/// Away and back with one heading. Returns whether that closes the loop.
+bool closes_without_a_turn(Length away, LoopDetector::Evidence evidence) {
+  LoopDetector circuit;
+  View view;
+  const Pose here = view.pose;
+  circuit.begin(view, Params{});
+  EXPECT_FALSE(circuit.closed(view, evidence));
+  for (const Pose& at : {Pose{{away, 0_mm}, {}}, here}) {
+    EXPECT_FALSE(circuit.closed(view, evidence));
+    view.pose = at;
+    view.travelled_um += 3000000;
+    circuit.move(view);
+  }
+  return circuit.closed(view, evidence);
+}
+
+TEST(LoopDetector, ClosesByPlaceFromFarAway) {
+  EXPECT_TRUE(closes_without_a_turn(2_m, LoopDetector::Evidence::place));
+  EXPECT_FALSE(closes_without_a_turn(1_m, LoopDetector::Evidence::place)) << "round a corner and back";
+  EXPECT_FALSE(closes_without_a_turn(2_m, LoopDetector::Evidence::turning));
+}
+
+TEST(LoopDetector, TurnsOnTheSpotAreNoLapsByPlace) {
+  for (const auto evidence : {LoopDetector::Evidence::place, LoopDetector::Evidence::turning}) {
+    LoopDetector circuit;
+    Round round(circuit, 20_mm);
+    round.begin();
+    bool strays = false;
+    for (int deg = 1; deg <= 2000; ++deg) {
+      round.drive();
+      strays |= circuit.strays(round.view(), evidence);
+    }
+    EXPECT_EQ(strays, evidence == LoopDetector::Evidence::turning);
+  }
+}
+
 // It was met elsewhere: this is another obstacle.
 TEST(LoopDetector, StraysRoundSomethingElse) {
-  LoopDetector circuit;
-  Round round(circuit, 500_mm);
-  round.begin();
-  round.jump({3_m, 0_mm});
-  int strays = 0;
-  for (int deg = 1; deg <= 1000 && strays == 0; ++deg) {
-    round.drive();
-    EXPECT_FALSE(circuit.closed(round.view()));
-    if (circuit.strays(round.view())) strays = deg;
+  for (const auto evidence : {LoopDetector::Evidence::place, LoopDetector::Evidence::turning}) {
+    LoopDetector circuit;
+    Round round(circuit, 500_mm);
+    round.begin();
+    round.jump({3_m, 0_mm});
+    int strays = 0;
+    for (int deg = 1; deg <= 1000 && strays == 0; ++deg) {
+      round.drive();
+      EXPECT_FALSE(circuit.closed(round.view()));
+      if (circuit.strays(round.view(), evidence)) strays = deg;
+    }
+    EXPECT_NEAR(strays, 720, 2) << "two laps that end in one place";
   }
-  EXPECT_NEAR(strays, 720, 2) << "two laps that end in one place";
 }
 
 TEST(LoopDetector, DoesNotStrayWhileItGetsOn) {

@@ -37,6 +37,7 @@ const char* name(BoundaryPlanner::Event event) {
     case BoundaryPlanner::Event::wall_lost: return "the loop is of another obstacle";
     case BoundaryPlanner::Event::doubted: return "the map is doubted";
     case BoundaryPlanner::Event::enclosed: return "the loop is closed both ways round";
+    case BoundaryPlanner::Event::refuted: return "the last try with the map found no way either";
     case BoundaryPlanner::Event::stuck: return "no way is left";
     case BoundaryPlanner::Event::at_goal: return "at the goal";
     case BoundaryPlanner::Event::slid_off: return "at rest beside the goal";

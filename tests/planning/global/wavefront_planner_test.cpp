@@ -135,5 +135,56 @@ TEST_F(Guided, KnowsThatThereIsNoWayOutOfARing) {
   EXPECT_FALSE(map_.guide.doubt()) << "it agrees: there is nothing to doubt";
 }
 
+TEST_F(Guided, ALastTryEndsAfterEightMetres) {
+  stay(40);
+  ASSERT_TRUE(map_.guide.doubt());
+  stay(40);
+  ASSERT_EQ(advice(), GlobalPlanner::Advice::place);
+  const Vec from = view_.pose.at;
+  int32_t way = 0;
+  for (; way < 30000 && advice() != GlobalPlanner::Advice::no_way; way += kStep_mm) {
+    go_to(from - Vec{millimetres(way / kStep_mm % 2 == 0 ? kStep_mm : 0), Length{}});
+  }
+  EXPECT_NEAR(way, 8000, 2 * kStep_mm);
+  stay(100);
+  EXPECT_EQ(advice(), GlobalPlanner::Advice::no_way);
+}
+
+TEST_F(Guided, ALastTryEndsWhereTheMapShowsAClosedRing) {
+  stay(40);
+  ASSERT_TRUE(map_.guide.doubt());
+  view_.observed = 1;
+  for (int deg = 0; deg < 360; deg += 5) {
+    view_.observations[0] = {{{}, test::degrees(deg)}, Angle{}, 250_mm, true};
+    stay(1);
+  }
+  view_.observed = 0;
+  stay(120);
+  EXPECT_EQ(advice(), GlobalPlanner::Advice::no_way);
+}
+
+TEST_F(Guided, ALastTryEndsWithTooManyRefusals) {
+  stay(40);
+  ASSERT_TRUE(map_.guide.doubt());
+  stay(40);
+  for (int i = 0; i < 13; ++i) {
+    go_to({millimetres(-300 * i), Length{}});
+    stay(40);
+    ASSERT_TRUE(map_.guide.refuse(view_)) << "the robot stands until the advice is there";
+  }
+  EXPECT_EQ(advice(), GlobalPlanner::Advice::no_way);
+}
+
+TEST_F(Guided, ALastTryThatGetsNearerIsNone) {
+  stay(40);
+  ASSERT_TRUE(map_.guide.doubt());
+  stay(40);
+  go_to({200_mm, Length{}});
+  EXPECT_FALSE(map_.guide.knows_no_way());
+  EXPECT_EQ(dither(30000), 20000) << "as before, and no verdict";
+  EXPECT_EQ(advice(), GlobalPlanner::Advice::none);
+  EXPECT_TRUE(map_.guide.doubt());
+}
+
 }  // namespace
 }  // namespace whisker::planning

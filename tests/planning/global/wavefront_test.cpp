@@ -223,6 +223,16 @@ TEST(Wavefront, GoesAroundOutsideTheWindowAtAPrice) {
   ASSERT_TRUE(wavefront.run(room.map, kWhole));
   ASSERT_TRUE(wavefront.reached());
   EXPECT_GT(wavefront.level(), 40 + 20);
+  EXPECT_TRUE(wavefront.outside());
+  room.map.set({30, 5}, CellState::free);
+  Wavefront inside;
+  inside.begin(room.map, task);
+  ASSERT_TRUE(inside.run(room.map, kWhole));
+  EXPECT_TRUE(inside.reached());
+  EXPECT_FALSE(inside.outside()) << "a gap within the window";
+  room.map.set({30, 5}, CellState::occupied);
+  wavefront.begin(room.map, task);
+  ASSERT_TRUE(wavefront.run(room.map, kWhole));
   Cell p = task.body;
   while (wavefront.next(room.map, p, task.goal, p)) {
   }

@@ -18,7 +18,7 @@ import {RulesPanel} from './rules_panel.ts';
 import {hashOf, stateOf, type State} from './share.ts';
 import {Stage} from './stage.ts';
 
-const FIRST: State = {kind: 'u-trap', seed: 7, who: 'both', own: null, noise: NO_NOISE, rules: null};
+const FIRST: State = {kind: 'u-trap', seed: 7, who: 'skirt-map', own: null, noise: NO_NOISE, rules: null};
 
 /** Milliseconds. */
 const PANELS_EVERY = 80;
