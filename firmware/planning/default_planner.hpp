@@ -16,7 +16,7 @@ constexpr int kRoomForMap = 16384;
 #ifdef WHISKER_DEFAULT_MAP_BYTES
 constexpr int kDefaultMapBytes = WHISKER_DEFAULT_MAP_BYTES;
 #else
-constexpr int kDefaultMapBytes = kRoomForMap >= 2048 ? 2048 : 0;
+constexpr int kDefaultMapBytes = kRoomForMap >= kUsualMapBytes ? kUsualMapBytes : 0;
 #endif
 static_assert(kDefaultMapBytes <= kRoomForMap);
 

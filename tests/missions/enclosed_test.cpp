@@ -9,7 +9,7 @@
 namespace whisker {
 namespace {
 
-constexpr PlannerKind kMaps[] = {PlannerKind::map, PlannerKind::map_16384};
+constexpr PlannerKind kMaps[] = {PlannerKind::map, core_planner("map", 16384)};
 
 RunResult drive(worlds::Kind kind, std::uint64_t seed, PlannerKind planner) {
   worlds::Options options;

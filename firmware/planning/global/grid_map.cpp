@@ -149,7 +149,7 @@ void GridMap::free(const perception::LocalGrid& local_grid, Vec body) noexcept {
   }
 }
 
-GridWord GridMap::cramped(int32_t row, int w) const noexcept {
+GridWord GridMap::too_narrow(int32_t row, int w) const noexcept {
   if (!shape_.fine()) return 0;
   const int32_t words = shape_.words;
   const int32_t i = row * words + w;
@@ -231,7 +231,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold) no
       const int32_t i = row * shape_.words + w;
       GridWord cells = columns(c.first, c.last, w);
       if (hold) {
-        const GridWord closed = cells & (blocking()[i] | cramped(row, w));
+        const GridWord closed = cells & (blocking()[i] | too_narrow(row, w));
         if (closed != 0) cells &= ~(closed & touched(row, w));
       }
       sure()[i] |= cells;

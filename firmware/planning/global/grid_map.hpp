@@ -62,7 +62,7 @@ class GridMap {
 
   /// Unknown cells that are four-neighbours of a blocked cell: there is no room for the body. None if cells
   /// are wide enough.
-  GridWord cramped(int32_t row, int w) const noexcept;
+  GridWord too_narrow(int32_t row, int w) const noexcept;
 
  private:
   struct Box;

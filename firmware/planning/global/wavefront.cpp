@@ -111,7 +111,7 @@ bool Wavefront::reaches_border(const GridMap& map) const noexcept {
 GridWord Wavefront::passable(const GridMap& map, int32_t row, int w) const noexcept {
   const int32_t i = row * map.shape().words + w;
   const GridWord solid =
-      task_.strict ? map.blocking()[i] | map.cramped(row, w) : map.blocking()[i] & map.sure()[i];
+      task_.strict ? map.blocking()[i] | map.too_narrow(row, w) : map.blocking()[i] & map.sure()[i];
   if (row == task_.body.y) return ~solid | columns(task_.body.x, task_.body.x, w);
   return ~solid;
 }
@@ -150,7 +150,7 @@ class Wavefront::Rows {
   };
 
   void read(int32_t row, Row& to) const noexcept;
-  // Out of line, so that read() keeps its words in registers: most maps have no cramped cells.
+  // Out of line, so that read() keeps its words in registers: most maps have no too_narrow cells.
   [[gnu::noinline]] void cramp(int32_t row, Row& to) const noexcept;
   void move_on(int32_t row) noexcept;
   GridWord entering(int32_t row, int w) const noexcept;
@@ -163,7 +163,7 @@ class Wavefront::Rows {
   GridWord* const high_;
   GridWord* const low_;
   const GridWord any_state_;  // suspects block, too
-  const bool cramps_;         // cramped cells, too
+  const bool cramps_;         // too_narrow cells, too
   const bool body_inside_;
   Row row_[3];
   Row* above_ = &row_[0];
@@ -239,9 +239,9 @@ void Wavefront::Rows::read(int32_t row, Row& to) const noexcept {
 
 void Wavefront::Rows::cramp(int32_t row, Row& to) const noexcept {
   for (int w = 0; w < shape_.words; ++w) {
-    const GridWord cramped = map_.cramped(row, w);
-    to.open[w + 1] &= ~cramped;
-    to.fresh[w + 1] &= ~cramped;
+    const GridWord too_narrow = map_.too_narrow(row, w);
+    to.open[w + 1] &= ~too_narrow;
+    to.fresh[w + 1] &= ~too_narrow;
   }
 }
 

@@ -13,14 +13,14 @@ constexpr Length kAhead = 600_mm;
 constexpr Length kSlack = 100_mm;
 constexpr Length kKept = 100_mm;
 constexpr Length kReached = 250_mm;
-constexpr Length kNoProgress = 20_m;  // of the first spell; half as much of each later one
+constexpr Length kNoProgress = 20_m;  // of the first attempt; half as much of each later one
 constexpr Length kLastTry = 8_m;
 constexpr Length kProgress = 150_mm;
 constexpr Length kBarred = 200_mm;
-constexpr Length kBarrier = 120_mm;
-constexpr Length kBarrierLife = 6000_mm;
+constexpr Length kObstacleRadius = 120_mm;
+constexpr Length kObstacleLife = 6000_mm;
 constexpr int32_t kRefusals = 12;
-constexpr int8_t kMostSpells = 16;
+constexpr int8_t kMostAttempts = 16;
 constexpr int32_t kNoWay = INT32_MAX / 2;  // levels
 
 }  // namespace
@@ -32,11 +32,11 @@ void WavefrontPlanner::start(const View& view, const Goal& goal) noexcept {
   stage_ = Stage::idle;
   has_way_ = no_way_ = shut_ = last_try_ = waits_ = false;
   active_ = true;
-  refusals_ = spells_ = 0;
+  refusals_ = attempts_ = 0;
   best_.reset();
   started_um_ = view.travelled_um;
   travel_mm_ = improved_mm_ = 0;
-  for (Barrier& b : barrier_) b = {};
+  for (VirtualObstacle& b : virtual_obstacles_) b = {};
 }
 
 void WavefrontPlanner::move_goal(Vec at) noexcept {
@@ -64,15 +64,15 @@ void WavefrontPlanner::observe(const View& view) noexcept {
   plan(view);
 }
 
-void WavefrontPlanner::raise_barriers() noexcept {
-  const int32_t reach = reference(kBarrier).raw() / map_.cell().raw() + 1;
-  for (const Barrier& b : barrier_) {
+void WavefrontPlanner::place_virtual_obstacles() noexcept {
+  const int32_t reach = reference(kObstacleRadius).raw() / map_.cell().raw() + 1;
+  for (const VirtualObstacle& b : virtual_obstacles_) {
     if (b.until_mm <= travel_mm_) continue;
     const Cell centre = map_.place(b.at);
     for (int32_t dy = -reach; dy <= reach; ++dy) {
       for (int32_t dx = -reach; dx <= reach; ++dx) {
         const Cell p = centre + Cell{dx, dy};
-        if (!farther(map_.middle(p) - b.at, reference(kBarrier))) map_.set(p, CellState::occupied);
+        if (!farther(map_.middle(p) - b.at, reference(kObstacleRadius))) map_.set(p, CellState::occupied);
       }
     }
   }
@@ -94,7 +94,7 @@ void WavefrontPlanner::plan(const View& view) noexcept {
     ticks_ = 0;
     map_.follow(view.pose.at, goal_.at);
     map_.free(*view.local_grid, view.pose.at);
-    raise_barriers();
+    place_virtual_obstacles();
     begin(Stage::strict, view);
     return;
   }
@@ -194,7 +194,7 @@ void WavefrontPlanner::finish(const View& view) noexcept {
 /// Long enough without getting nearer to the goal.
 bool WavefrontPlanner::spent() const noexcept {
   const int32_t in_vain = travel_mm_ - improved_mm_;
-  return in_vain > (last_try_ ? mm(kLastTry) : mm(kNoProgress) >> spells_);
+  return in_vain > (last_try_ ? mm(kLastTry) : mm(kNoProgress) >> attempts_);
 }
 
 GlobalPlanner::Advice WavefrontPlanner::advise(const View& view, Length, Vec& place) noexcept {
@@ -209,19 +209,19 @@ GlobalPlanner::Advice WavefrontPlanner::advise(const View& view, Length, Vec& pl
 
 void WavefrontPlanner::hand_over() noexcept {
   active_ = false;
-  if (spells_ < kMostSpells) ++spells_;
+  if (attempts_ < kMostAttempts) ++attempts_;
 }
 
 void WavefrontPlanner::bar(Vec at) noexcept {
-  newest_ = static_cast<int8_t>((newest_ + 1) % kBarriers);
-  barrier_[newest_] = {at, travel_mm_ + mm(kBarrierLife)};
+  newest_ = static_cast<int8_t>((newest_ + 1) % kVirtualObstacles);
+  virtual_obstacles_[newest_] = {at, travel_mm_ + mm(kObstacleLife)};
 }
 
 bool WavefrontPlanner::doubt() noexcept {
   if (shut_ || last_try_) return false;
   last_try_ = true;
   map_.doubt_all();
-  for (Barrier& b : barrier_) b = {};
+  for (VirtualObstacle& b : virtual_obstacles_) b = {};
   stage_ = Stage::idle;
   has_way_ = false;
   waits_ = active_ = true;

@@ -32,7 +32,7 @@ class WavefrontPlanner final : public GlobalPlanner {
 
  private:
   enum class Stage : uint8_t { idle, strict, passing, again };
-  struct Barrier {
+  struct VirtualObstacle {
     Vec at;
     int32_t until_mm = 0;
   };
@@ -43,7 +43,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   Length dearer(Vec from, Vec to) const noexcept;
   bool straight(const View& view) const noexcept;
   bool sees(Vec from, Vec to) const noexcept;
-  void raise_barriers() noexcept;
+  void place_virtual_obstacles() noexcept;
   bool spent() const noexcept;
   void hand_over() noexcept;
   void bar(Vec at) noexcept;
@@ -63,15 +63,15 @@ class WavefrontPlanner final : public GlobalPlanner {
   bool waits_ = false;     // for the next plan
   bool active_ = true;
   int8_t refusals_ = 0;
-  int8_t spells_ = 0;   // finished attempts with the map
-  int32_t strict_ = 0;  // levels to the body if suspect cells block
-  int32_t ticks_ = 0;   // since the current plan started
+  int8_t attempts_ = 0;  // finished attempts with the map
+  int32_t strict_ = 0;   // levels to the body if suspect cells block
+  int32_t ticks_ = 0;    // since the current plan started
   ClosestApproach best_;
   int32_t improved_mm_ = 0;  // travel at the last improvement
   uint32_t started_um_ = 0;  // View::travelled_um at the start
   int32_t travel_mm_ = 0;
-  static constexpr int kBarriers = 4;
-  Barrier barrier_[kBarriers];
+  static constexpr int kVirtualObstacles = 4;
+  VirtualObstacle virtual_obstacles_[kVirtualObstacles];
   int8_t newest_ = 0;
 };
 

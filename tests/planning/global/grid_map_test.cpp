@@ -162,16 +162,16 @@ TEST(GridMap, UnseenCellsBesideWhatBlocksAreCrampedWhereCellsAreFine) {
         if ((x + y) % 3 == 0) room.map.set({x, y}, CellState::free);
       }
     }
-    int cramped = 0;
+    int too_narrow = 0;
     for (int y = 0; y < shape.rows; ++y) {
       for (int x = 0; x < shape.columns(); ++x) {
-        const bool due = test::cramped(room.map, {x, y});
-        ASSERT_EQ(room.map.cramped(y, x / kWordBits) >> (x % kWordBits) & 1U, due ? 1U : 0U)
+        const bool due = test::too_narrow(room.map, {x, y});
+        ASSERT_EQ(room.map.too_narrow(y, x / kWordBits) >> (x % kWordBits) & 1U, due ? 1U : 0U)
             << x << ", " << y;
-        cramped += due;
+        too_narrow += due;
       }
     }
-    EXPECT_EQ(cramped > 100, shape.fine());
+    EXPECT_EQ(too_narrow > 100, shape.fine());
   }
 }
 

@@ -34,7 +34,7 @@ struct Room {
 };
 
 /// Cell by cell: in a fine map, an unseen one beside what blocks.
-inline bool cramped(const planning::GridMap& map, planning::Cell p) {
+inline bool too_narrow(const planning::GridMap& map, planning::Cell p) {
   if (map.shape().cell >= millimetres(75) || map.at(p) != planning::CellState::unknown) return false;
   for (const planning::Cell d :
        {planning::Cell{1, 0}, planning::Cell{-1, 0}, planning::Cell{0, 1}, planning::Cell{0, -1}}) {

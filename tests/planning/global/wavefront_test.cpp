@@ -37,7 +37,8 @@ class Oracle {
     if (!map_.holds(p)) return false;
     const CellState s = map_.at(p);
     if (p == task_.body) return true;
-    return s != CellState::occupied && !(task_.strict && (s == CellState::suspect || test::cramped(map_, p)));
+    return s != CellState::occupied &&
+           !(task_.strict && (s == CellState::suspect || test::too_narrow(map_, p)));
   }
   bool enters(Cell p, int l) const {
     const Cell g = task_.goal;
