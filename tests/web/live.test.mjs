@@ -47,7 +47,8 @@ describe('the live page', () => {
     folder.remove();
   });
   const start = (command, scenario, ...options) => {
-    const one = new Running(command, scenario, '--view', 0, '--json', ...options);
+    const planner = command === 'hil' ? ['--planner', 'skirt'] : [];
+    const one = new Running(command, scenario, '--view', 0, '--json', ...planner, ...options);
     all.push(one);
     return one;
   };
@@ -155,7 +156,7 @@ describe('the live page', () => {
   });
 
   test('of a planner that nobody names no rule is told', async () => {
-    whisker('hil', trap, '--html', folder.at('hil.html'));
+    whisker('hil', trap, '--planner', 'skirt', '--html', folder.at('hil.html'));
     const html = readFileSync(folder.at('hil.html'), 'utf8');
     writeFileSync(folder.at('nameless.html'), html.replace('"planner":"skirt"', '"planner":null'));
     const {page, complaints} = await openPage(browser, folder.url('nameless.html'));
