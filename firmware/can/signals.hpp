@@ -27,13 +27,13 @@ struct Signal {
 };
 
 struct Message {
-  const char* name;
-  uint8_t function;  ///< of the identifier
-  uint8_t size;      ///< bytes
-  bool from_controller;
-  bool from_base;
-  uint16_t cycle_ms;  ///< 0: on an event
-  const char* about;
+  const char* name = nullptr;
+  uint8_t function = 0;  ///< of the identifier
+  uint8_t size = 0;      ///< bytes
+  bool from_controller = false;
+  bool from_base = false;
+  uint16_t cycle_ms = 0;  ///< 0: on an event
+  const char* about = nullptr;
   const Signal* signals = nullptr;
   uint8_t count = 0;
 };
