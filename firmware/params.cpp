@@ -1,7 +1,6 @@
 #include "firmware/params.hpp"
 
 namespace whisker {
-
 namespace {
 struct OfThisSource;
 }

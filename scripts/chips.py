@@ -103,7 +103,7 @@ def presets():
 
 def table():
     """The table of docs/targets.md."""
-    rows = ["| preset | chip | compilers | runs on | instructions |", "|---|---|---|---|---|"]
+    rows = ["| preset | chip | compilers | runs on | instruction counter |", "|---|---|---|---|---|"]
     for t in TARGETS.values():
         rows.append(f"| `{t.name}` | {t.title} | {', '.join(t.compilers)} | {t.runs_on} | {t.counts} |")
     return "\n".join(rows) + "\n"

@@ -29,6 +29,9 @@ struct View : perception::Percept {
   Speed turning{};            ///< of the rims, counter-clockwise positive
   Q14 granted{};              ///< part of the last forward speed asked for that the guard let through
   Duration elapsed{};         ///< since the tick before
+
+  /// The guard let through only part of what was asked for.
+  constexpr bool held_back() const noexcept { return granted < Q14::ratio(1, 1); }
 };
 
 enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };

@@ -1,5 +1,5 @@
-/// The planners of the core, in one list. The command line, campaigns, the bus, the companion's link, the
-/// playground and their documents take them from here. docs/adding.md shows how to add one.
+/// The list of the core's planners, for the command line, campaigns, the bus, the companion link, the
+/// playground and their documents. docs/adding.md shows how to add one.
 #pragma once
 
 #include <stddef.h>
@@ -18,7 +18,7 @@ struct PlannerInfo {
   const char* about;  ///< why it does not get stuck, or when it does: shown by the playground
 };
 
-/// `Made` is made from parameters and response table, which must outlive it.
+/// The constructor of `Made` takes parameters and response table, which must outlive it.
 template <class Made>
 struct PlannerType {
   using Type = Made;
@@ -36,25 +36,23 @@ constexpr void for_each_planner(Visit&& visit) noexcept {
   visit(
       PlannerInfo{
           0, "skirt", "boundary",
-          "Where the way is blocked it follows the edge, and leaves it only where it is nearer to the "
-          "goal than ever before. So each edge brings it nearer, and no dead end can hold it; all the "
-          "way round without such a place means that there is no way."},
+          "Where the way is blocked, it follows the boundary of the obstacle, and leaves it only where it is "
+          "nearer to the goal than ever before. So each boundary brings it nearer, and no dead end can hold "
+          "it. A closed loop without such a place means that there is no way."},
       PlannerType<TableBoundaryPlanner>{});
-  visit(
-      PlannerInfo{
-          1, "thesis", nullptr,
-          "It may: it leaves an edge as soon as the goal comes into sight, nearer or not, and can walk "
-          "into the same trap for ever. The skirt planner is what mends that."},
-      PlannerType<ThesisPlanner>{});
+  visit(PlannerInfo{1, "thesis", nullptr,
+                    "It may get stuck: it leaves a boundary as soon as the goal comes into sight, nearer or "
+                    "not, and can enter the same trap again and again. The skirt planner does not."},
+        PlannerType<ThesisPlanner>{});
   constexpr PlannerInfo kMap{
       2, "map", nullptr,
-      "Its map of what the beams have seen leads as long as that brings it nearer to the goal. Where it does "
-      "not, it follows the edges by the rule of the skirt planner, and the map leads again where the goal is "
-      "nearer than ever before."};
+      "It follows a map of what the beams have seen as long as that brings it nearer to the goal. Where it "
+      "does not, it follows boundaries by the rule of the skirt planner, and the map again from where it is "
+      "nearer to the goal than ever before."};
   for_each_map([&](auto map) { visit(kMap, PlannerType<TableMapPlanner<map.kBytes>>{}); });
 }
 
-/// make(PlannerType) of the planner with this number, with a map of so many bytes where it has one; R() where
+/// Returns make(PlannerType) for the planner with this number, with a map of this size if it has one; R() if
 /// there is no such planner.
 template <class R, class Make>
 constexpr R with_planner(int number, int32_t map_bytes, const Make& make) noexcept {
@@ -65,7 +63,7 @@ constexpr R with_planner(int number, int32_t map_bytes, const Make& make) noexce
   return made;
 }
 
-/// The room that the largest planner takes whose map has at most so many bytes.
+/// Size of the largest planner whose map has at most this many bytes.
 constexpr size_t largest_planner(int32_t most_map_bytes) noexcept {
   size_t most = 0;
   for_each_planner([&](const PlannerInfo&, auto type) {
@@ -75,7 +73,7 @@ constexpr size_t largest_planner(int32_t most_map_bytes) noexcept {
   return most;
 }
 
-/// The planner in what PlannerType::Type made: itself, or its member.
+/// The planner in an object of PlannerType::Type: the object itself, or its member.
 inline Planner& planner_in(Planner& made) noexcept { return made; }
 template <class Made>
 auto planner_in(Made& made) noexcept -> decltype((made.planner)) {

@@ -151,8 +151,7 @@ void BugPlanner::follow(const View& view) {
 
 void BugPlanner::enter(Phase phase, Mode mode, Why why) {
   phase_ = phase;
-  behaviours_.progress.pause();
-  behaviours_.stuck.reset();
+  behaviours_.enter();
   report(mode, why);
 }
 

@@ -4,7 +4,7 @@
 
 namespace whisker {
 
-/// Forwards all calls to a planner, and records the local grid passed to it. The planner must outlive it.
+/// Forwards all calls to a planner, and records the view passed to it. The planner must outlive it.
 class RecordingPlanner final : public planning::Planner {
  public:
   explicit RecordingPlanner(planning::Planner& planner) : planner_(planner) {}
@@ -12,15 +12,17 @@ class RecordingPlanner final : public planning::Planner {
   void move_goal(Vec at) noexcept override { planner_.move_goal(at); }
   void cancel() noexcept override { planner_.cancel(); }
   planning::Decision step(const planning::View& view) noexcept override {
-    local_grid_ = view.local_grid;
+    view_ = view;
     return planner_.step(view);
   }
+  /// Of the last step.
+  const planning::View& view() const { return view_; }
   /// Null before the first step.
-  const perception::LocalGrid* local_grid() const { return local_grid_; }
+  const perception::LocalGrid* local_grid() const { return view_.local_grid; }
 
  private:
   planning::Planner& planner_;
-  const perception::LocalGrid* local_grid_ = nullptr;
+  planning::View view_;
 };
 
 }  // namespace whisker

@@ -8,9 +8,9 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 
+from commands import Failure, run
 from sources import finish
 
 PARTS = ("firmware", "hal", "host", "toolchain", "CMakeLists.txt")
@@ -24,17 +24,6 @@ y_m = 0.0
 [robot]
 motion_patience_s = 0.25
 """
-
-
-class Failure(Exception):
-    pass
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise Failure(f"exit status {done.returncode}: {' '.join(map(str, command))}\n{done.stdout[-3000:]}{done.stderr}")
-    return done.stdout
 
 
 def with_lines(text, diff, file):
@@ -67,17 +56,17 @@ def apply(page, tree):
 def check(whisker, folder):
     world = folder / "world.toml"
     world.write_text(WORLD)
-    told = json.loads(run(whisker, "run", world, "--planner", "beeline", "--json"))
-    yield "the planner arrives", (told["outcome"], told["planner"]) == ("reached", "beeline")
-    bus = json.loads(run(whisker, "hil", world, "--planner", "beeline", "--json"))
-    yield "the planner drives alike on the bus", bus["hash"] == told["hash"]
-    yield "the help names the planner", "beeline" in run(whisker, "run", "--help")
-    yield "the link's page numbers the planner", "3 beeline" in run(whisker, "protocol", "--link")
-    page = run(whisker, "protocol")
+    direct = json.loads(run(whisker, "run", world, "--planner", "beeline", "--json").stdout)
+    yield "the planner arrives", (direct["outcome"], direct["planner"]) == ("reached", "beeline")
+    bus = json.loads(run(whisker, "hil", world, "--planner", "beeline", "--json").stdout)
+    yield "the planner drives alike on the bus", bus["hash"] == direct["hash"]
+    yield "the help names the planner", "beeline" in run(whisker, "run", "--help").stdout
+    yield "the link's page numbers the planner", "3 beeline" in run(whisker, "protocol", "--link").stdout
+    page = run(whisker, "protocol").stdout
     yield "the protocol has the messages", "### Ping" in page and "| Pong | 0x19 |" in page
-    yield "the DBC file has the messages", re.search(r"BO_ \d+ Ping: 4 Base1", run(whisker, "dbc"))
+    yield "the DBC file has the messages", re.search(r"BO_ \d+ Ping: 4 Base1", run(whisker, "dbc").stdout)
     yield "the protocol has the parameter", "| 44 | motion_patience_s | ms | 500 | 0..5000 |" in page
-    yield "the manual's table has it", "| `motion_patience_s` | s | 0.5 | 0 to 5 |" in run(whisker, "protocol", "--parameters")
+    yield "the manual's table has it", "| `motion_patience_s` | s | 0.5 | 0 to 5 |" in run(whisker, "protocol", "--parameters").stdout
 
 
 def main(root, work, cmake, generator, compiler):

@@ -6,25 +6,14 @@ usage: dependency.py ROOT WORK_FOLDER CMAKE GENERATOR CXX
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 
+from commands import Failure, run
 from sources import finish
 from version import of_header
 
 # A warning that this project does not ask for and that any C++ has.
 STRANGE = "-Waggregate-return"
-
-
-class Failure(Exception):
-    pass
-
-
-def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise Failure(f"exit status {done.returncode}: {' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
-    return done.stdout + done.stderr
 
 
 def version(root):
@@ -43,10 +32,11 @@ class Other:
         run(self.cmake, "-S", source, "-B", self.work / build, *self.options, *options)
 
     def build(self, folder):
-        return run(self.cmake, "--build", self.work / folder)
+        done = run(self.cmake, "--build", self.work / folder)
+        return done.stdout + done.stderr
 
     def says_its_version(self, folder):
-        said = run(self.work / folder / "dependent").strip()
+        said = run(self.work / folder / "dependent").stdout.strip()
         if said != version(self.root):
             raise Failure(f"{folder}: the header says {said}")
 

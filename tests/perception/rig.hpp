@@ -8,31 +8,13 @@
 #include "firmware/perception/local_grid.hpp"
 #include "firmware/planning/planner.hpp"
 #include "firmware/robot.hpp"
+#include "host/run/recording_planner.hpp"
 #include "host/run/sim_world.hpp"
 #include "host/scenario/scenario.hpp"
 #include "host/sim/plant.hpp"
 #include "host/sim/sim_board.hpp"
 
 namespace whisker::test {
-
-/// Passes everything on, and keeps what the planner was shown.
-class Spy final : public planning::Planner {
- public:
-  explicit Spy(planning::Planner& planner) : planner_(planner) {}
-  void set_goal(const planning::Goal& goal) noexcept override { planner_.set_goal(goal); }
-  void move_goal(Vec at) noexcept override { planner_.move_goal(at); }
-  void cancel() noexcept override { planner_.cancel(); }
-  planning::Decision step(const planning::View& view) noexcept override {
-    view_ = view;
-    return planner_.step(view);
-  }
-  const planning::View& view() const { return view_; }
-  const perception::LocalGrid* local_grid() const { return view_.local_grid; }
-
- private:
-  planning::Planner& planner_;
-  planning::View view_;
-};
 
 class Rig {
  public:
@@ -44,8 +26,8 @@ class Rig {
   /// One tick of the robot and one period of the plant. False: the run is over, by contact or by verdict.
   bool step();
   const Status& status() const { return robot_.status(); }
-  const planning::View& view() const { return spy_.view(); }
-  const perception::LocalGrid* local_grid() const { return spy_.local_grid(); }
+  const planning::View& view() const { return recording_.view(); }
+  const perception::LocalGrid* local_grid() const { return recording_.local_grid(); }
   const sim::Plant& plant() const { return plant_; }
   const sim::WorldView& world() const { return world_.view(); }
 
@@ -55,7 +37,7 @@ class Rig {
   sim::Plant plant_;
   hal::SimBoard board_;
   std::shared_ptr<planning::Planner> own_;
-  Spy spy_;
+  RecordingPlanner recording_;
   Robot robot_;
   std::uint32_t now_ms_ = 0;
 };

@@ -8,7 +8,6 @@ namespace {
 
 constexpr int32_t kCheapTurn = static_cast<int32_t>((25_deg).raw());
 constexpr Q14 kHindered = Q14::ratio(9, 10);
-constexpr Q14 kAll = Q14::ratio(1, 1);
 
 Angle limited(Angle turn, int32_t most) noexcept {
   const int32_t wrapped = turn.wrapped();
@@ -111,11 +110,11 @@ bool Approach::scan(const View& view, Decision& decision) noexcept {
 
 bool Approach::yields(const View& view, const Decision& decision) const noexcept {
   switch (phase_) {
-    case Phase::drive: return view.granted < kAll || decision.why == Why::narrow;
+    case Phase::drive: return view.held_back() || decision.why == Why::narrow;
     case Phase::scan: return true;
     case Phase::brake: break;
   }
-  return view.granted < kAll;
+  return view.held_back();
 }
 
 }  // namespace whisker::planning

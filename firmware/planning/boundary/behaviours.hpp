@@ -22,12 +22,16 @@ struct Behaviours {
   int32_t mm(Length reference) const noexcept;
   /// Drives towards this heading.
   Manoeuvre drive(const View& view, Angle heading) const noexcept;
-  /// Follows an arrow of a machine's table. It counts as an attempt, and the patience is new.
+  /// A phase is entered: it counts as an attempt, and the patience is new.
+  void enter() noexcept {
+    progress.pause();
+    stuck.reset();
+  }
+  /// Follows an arrow of a machine's table into its next phase.
   template <class Phase, class Event, size_t kRows>
   void change(const Transition<Phase, Event> (&table)[kRows], Event event, Phase& phase,
               Decision& decision) noexcept {
-    progress.pause();
-    stuck.reset();
+    enter();
     planning::change(table, event, phase, decision);
   }
 

@@ -60,7 +60,7 @@ bool BoundaryFollower::yields(const View& view) const noexcept {
     case Phase::turn:
     case Phase::follow: break;
   }
-  return view.granted < Q14::ratio(1, 1);
+  return view.held_back();
 }
 
 void BoundaryFollower::on(Event event, Decision& decision) noexcept {
@@ -102,7 +102,7 @@ void BoundaryFollower::turn(const View& view, Decision& decision) noexcept {
 
 void BoundaryFollower::follow(const View& view, Decision& decision) noexcept {
   if (view.sighted && opening(view)) {
-    search_.begin_at_wall(view.pose.heading, view.pose, wall_);
+    search_from_wall(view);
     on(Event::opening, decision);
     return;
   }
@@ -116,6 +116,10 @@ void BoundaryFollower::follow(const View& view, Decision& decision) noexcept {
   }
   decision.why = Why::edge;
   decision.manoeuvre = cruise(along_edge(view.moving_scan, wall_, behaviours_.params), behaviours_.params);
+}
+
+void BoundaryFollower::search_from_wall(const View& view) noexcept {
+  search_.begin_at_wall(view.pose.heading, view.pose, wall_);
 }
 
 bool BoundaryFollower::opening(const View& view) noexcept {
@@ -132,7 +136,7 @@ void BoundaryFollower::search_on(const View& view, Decision& decision) noexcept 
     ++refusals_;
   // Turned to that heading, it may have seen more on the wall's side.
   if (refusals_ < kRefusals) {
-    search_.begin_at_wall(view.pose.heading, view.pose, wall_);
+    search_from_wall(view);
   } else {
     search_.refuse();
   }
@@ -147,7 +151,7 @@ bool BoundaryFollower::retreat(const View& view, Decision& decision) noexcept {
       on(Event::back, decision);
       break;
     case HeadingSearch::Retreat::stuck:
-      search_.begin_at_wall(view.pose.heading, view.pose, wall_);
+      search_from_wall(view);
       on(Event::stuck, decision);
       break;
     case HeadingSearch::Retreat::lost: return false;

@@ -69,6 +69,7 @@ class BoundaryFollower {
   void scan(const View& view, Decision& decision) noexcept;
   void turn(const View& view, Decision& decision) noexcept;
   void follow(const View& view, Decision& decision) noexcept;
+  void search_from_wall(const View& view) noexcept;
   void search_on(const View& view, Decision& decision) noexcept;
   bool retreat(const View& view, Decision& decision) noexcept;
   bool opening(const View& view) noexcept;

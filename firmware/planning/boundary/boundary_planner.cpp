@@ -51,7 +51,7 @@ bool BoundaryPlanner::gives_way(const View& view) const noexcept {
     case Phase::approach: return approach_.yields(view, decision_);
     case Phase::choose_side: return true;
     case Phase::boundary: return follower_.yields(view);
-    case Phase::arrive: return view.granted < Q14::ratio(1, 1);
+    case Phase::arrive: return view.held_back();
   }
   return false;
 }

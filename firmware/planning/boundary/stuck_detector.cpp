@@ -10,7 +10,7 @@ constexpr AngularRate kTurns = 300_mrad_per_s;
 bool StuckDetector::stalled(const View& view, Duration patience, const Params& params) noexcept {
   const Speed slow = params.wheels.max_speed / 15;
   const bool turns = abs(view.turning) > kTurns * (params.body.track / 2);
-  const bool held = !turns && view.granted < Q14::ratio(1, 1);
+  const bool held = !turns && view.held_back();
   slow_for_ = view.forward < slow ? slow_for_ + view.elapsed * (held ? 4 : 1) : Duration{};
   return slow_for_ >= patience;
 }

@@ -36,13 +36,23 @@ class Guided : public testing::Test {
     local_grid_.move_to(view_.pose);
     map_.guide.observe(view_);
   }
-  /// To and fro without getting nearer, until there is no more advice. Returns the way, mm.
-  int32_t dither(int32_t most_mm) {
+  /// Beams all round, near enough for echoes to be sure.
+  void see_ring() {
+    view_.observed = 1;
+    for (int deg = 0; deg < 360; deg += 5) {
+      view_.observations[0] = {{{}, test::degrees(deg)}, Angle{}, 250_mm, true};
+      stay(1);
+    }
+    view_.observed = 0;
+    stay(120);
+  }
+  /// To and fro without getting nearer, until this is the advice. Returns the way, mm.
+  int32_t dither(int32_t most_mm, GlobalPlanner::Advice until = GlobalPlanner::Advice::none) {
     const Vec from = view_.pose.at;
     for (int32_t way = 0; way < most_mm; way += kStep_mm) {
       const int32_t n = way / kStep_mm % 2;
       go_to(from - Vec{millimetres(n == 0 ? kStep_mm : 0), Length{}});
-      if (advice() == GlobalPlanner::Advice::none) return way;
+      if (advice() == until) return way;
     }
     return most_mm;
   }
@@ -122,14 +132,7 @@ TEST_F(Guided, DoubtsOnceAndForgetsWhatBlocked) {
 }
 
 TEST_F(Guided, KnowsThatThereIsNoWayOutOfARing) {
-  // Beams all round, near enough for echoes to be sure.
-  view_.observed = 1;
-  for (int deg = 0; deg < 360; deg += 5) {
-    view_.observations[0] = {{{}, test::degrees(deg)}, Angle{}, 250_mm, true};
-    stay(1);
-  }
-  view_.observed = 0;
-  stay(120);
+  see_ring();
   EXPECT_TRUE(map_.guide.knows_no_way());
   EXPECT_EQ(advice(), GlobalPlanner::Advice::none);
   EXPECT_FALSE(map_.guide.doubt()) << "it agrees: there is nothing to doubt";
@@ -140,12 +143,7 @@ TEST_F(Guided, ALastTryEndsAfterEightMetres) {
   ASSERT_TRUE(map_.guide.doubt());
   stay(40);
   ASSERT_EQ(advice(), GlobalPlanner::Advice::place);
-  const Vec from = view_.pose.at;
-  int32_t way = 0;
-  for (; way < 30000 && advice() != GlobalPlanner::Advice::no_way; way += kStep_mm) {
-    go_to(from - Vec{millimetres(way / kStep_mm % 2 == 0 ? kStep_mm : 0), Length{}});
-  }
-  EXPECT_NEAR(way, 8000, 2 * kStep_mm);
+  EXPECT_NEAR(dither(30000, GlobalPlanner::Advice::no_way), 8000, 2 * kStep_mm);
   stay(100);
   EXPECT_EQ(advice(), GlobalPlanner::Advice::no_way);
 }
@@ -153,13 +151,7 @@ TEST_F(Guided, ALastTryEndsAfterEightMetres) {
 TEST_F(Guided, ALastTryEndsWhereTheMapShowsAClosedRing) {
   stay(40);
   ASSERT_TRUE(map_.guide.doubt());
-  view_.observed = 1;
-  for (int deg = 0; deg < 360; deg += 5) {
-    view_.observations[0] = {{{}, test::degrees(deg)}, Angle{}, 250_mm, true};
-    stay(1);
-  }
-  view_.observed = 0;
-  stay(120);
+  see_ring();
   EXPECT_EQ(advice(), GlobalPlanner::Advice::no_way);
 }
 
