@@ -1,4 +1,4 @@
-"""Drives over vcan0 and prints what that cost as one JSON object. Used by scripts/bus-figures, under scripts/with-vcan.
+"""Drives over vcan0 and prints the measurements as one JSON object. scripts/bus-figures runs it under scripts/with-vcan.
 
 usage: bus_runs.py WHISKER SEED SECONDS
 """
@@ -15,13 +15,13 @@ INTERFACE = "vcan0"
 LOCKSTEP = ("u-trap", "discs", "maze")
 LONG = "spiral"  # its missions last longer than a minute
 STOPS = 5
-PATIENCE_S = 300  # with any one run
+PATIENCE_S = 300  # for each run
 
-# Straight ahead: it is at full speed when its controller dies.
+# Straight ahead: the robot is at full speed when its controller is killed.
 AHEAD = "time_limit_s = 10.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 200.0\ny_m = 0.0\n"
 FAST_MPS = 0.29
 
-# Of robot 1, see docs/protocol.md.
+# Identifiers of robot 1, see docs/protocol.md.
 COMMAND, COUNTS, HEARTBEAT = "101", "119", "709"
 DRIVE, SAFE_STOP = 1, 4
 FRAME = re.compile(r"\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#((?:[0-9A-F]{2})+)\n")
@@ -63,13 +63,13 @@ def real_time(folder, seed, seconds):
 
 
 def frames(log):
-    """(time in s, identifier, data) of all that the plant sent and received."""
+    """(time in s, identifier, data) of each frame that the plant sent or received."""
     for stamp, identifier, data in FRAME.findall(log.read_text("ascii")):
         yield float(stamp), identifier, bytes.fromhex(data)
 
 
 def command_of(identifier, data):
-    """Speed of the left wheel, if this is a command to drive."""
+    """Speed of the left wheel, if the frame is a drive command."""
     if identifier != COMMAND or data[1] >> 4 != DRIVE:
         return None
     return int.from_bytes(data[2:4], "little", signed=True) * 1e-4
@@ -84,7 +84,7 @@ def until_fast(log):
 
 
 def stop_of(log):
-    """The last command of a controller that died: how fast it was, and when the plant latched and stood after it."""
+    """Speed of the killed controller's last command, and the times from it to the latched stop and to standstill."""
     commanded_s = latched_s = stood_s = None
     speed, counts = 0, None
     for now_s, identifier, data in frames(log):

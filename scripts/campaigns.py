@@ -1,4 +1,4 @@
-"""What the scripts here share: the classes of worlds, and `whisker campaign` through them."""
+"""Shared by the scripts: the classes of worlds, and `whisker campaign` in them."""
 
 import json
 import os
@@ -33,7 +33,7 @@ def need_whisker():
 
 
 def summary(command, arguments, count, first_seed, *more):
-    """The summary that this command of whisker prints. Ends the program if it fails."""
+    """The summary that this whisker command prints. Exits if the command fails."""
     words = [command, *arguments.split(), "--count", str(count), "--seed", str(first_seed), *more]
     done = subprocess.run([WHISKER, *words, "--json"], stdout=subprocess.PIPE, check=False)
     if done.returncode != 0:
@@ -42,17 +42,17 @@ def summary(command, arguments, count, first_seed, *more):
 
 
 def campaign(arguments, count, first_seed, *more):
-    """Of `whisker campaign --json`; see docs/campaign.md."""
+    """The summary of `whisker campaign --json`; see docs/campaign.md."""
     return summary("campaign", arguments, count, first_seed, *more)
 
 
 def scan(arguments, count, first_seed):
-    """Of `whisker scanner --json`, in the same worlds; see docs/comparison.md."""
+    """The summary of `whisker scanner --json`, in the same worlds; see docs/comparison.md."""
     return summary("scanner", arguments, count, first_seed)
 
 
 def cell(estimate, scale=1, digits=0):
-    """"value (low-high)" with 95 % bounds; "?" for a bound that the sample is too small for."""
+    """"value (low-high)" with 95 % bounds; "?" for a bound if the sample is too small."""
     if estimate is None or estimate["value"] is None:
         return "-"
     text = ["?" if estimate[k] is None else f"{scale * estimate[k]:.{digits}f}" for k in ("value", "low", "high")]
@@ -60,7 +60,7 @@ def cell(estimate, scale=1, digits=0):
 
 
 def percent(estimate):
-    """With a decimal: one mission in a thousand must show."""
+    """With one decimal, so that one mission in a thousand is visible."""
     return cell(estimate, 100, 1)
 
 
@@ -69,12 +69,12 @@ def missions_of(summary, key):
 
 
 def faults(summary):
-    """Missions that ended in a fault."""
+    """Number of missions that ended in a fault."""
     return missions_of(summary, "fault")
 
 
 def off_goal(summary):
-    """Missions whose robot says that it is at the goal, and is not."""
+    """Number of missions in which the robot falsely reports that it is at the goal."""
     return missions_of(summary, "off_goal")
 
 
@@ -95,8 +95,8 @@ def heading(*cells):
 
 
 def place_in(page, name):
-    """The page before and after what stands between its marks <!-- NAME:begin --> and <!-- NAME:end -->, with the
-    marks. Ends the program if it has no such place."""
+    """The page's text before and after the section between <!-- NAME:begin --> and <!-- NAME:end -->, including the
+    marks. Exits if the page has no such section."""
     begin, end = f"<!-- {name}:begin -->\n", f"<!-- {name}:end -->\n"
     text = page.read_text()
     if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
@@ -105,7 +105,7 @@ def place_in(page, name):
 
 
 def put(page, name, text):
-    """Replaces what stands between the page's marks."""
+    """Replaces the text between the page's marks."""
     before, after = place_in(page, name)
     page.write_text(before + text + after)
 
@@ -117,14 +117,14 @@ def machine():
 
 
 def whole_number(text):
-    """A command-line argument that is a count or a seed; ValueError for others."""
+    """Parses a count or a seed; raises ValueError if it is neither."""
     if not (text.isascii() and text.isdecimal()):
         raise ValueError(text)
     return int(text)
 
 
 def whole_numbers(texts, usage):
-    """Command-line arguments that are counts and seeds. Ends the program with exit status 2 for others."""
+    """Parses counts and seeds. Exits with status 2 if an argument is neither."""
     try:
         return [whole_number(text) for text in texts]
     except ValueError:

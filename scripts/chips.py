@@ -1,4 +1,4 @@
-"""The targets: what the files of toolchain/ say of themselves. Used by scripts/chip, golden and budget."""
+"""The targets, as the files of toolchain/ declare them. Used by scripts/chip, golden and budget."""
 
 import json
 import pathlib
@@ -8,7 +8,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 ENGINES = ("table", "closed")
 
-# A runaway ends after this; only ever met by a broken image.
+# Time limit of a run; only a broken image reaches it.
 SECONDS = "600"
 
 # One instruction is 2^shift ns of the emulator's time.
@@ -22,7 +22,7 @@ EMULATORS = {
 
 
 class Target:
-    """A file of toolchain/ that names a board: what it sets as WHISKER_TITLE, WHISKER_RUNS_ON and so on."""
+    """A toolchain file that names a board, with its WHISKER_TITLE, WHISKER_RUNS_ON and so on."""
 
     def __init__(self, path):
         text = path.read_text()
@@ -42,30 +42,29 @@ class Target:
         self.tools = "riscv64-unknown-elf-" if "riscv" in text else "arm-none-eabi-"
 
     def command(self, image, serial=False):
-        """serial: standard input and output are the board's UART instead of its fast way to the host."""
-        # In the foreground: who ends the process group ends the emulator, too. QEMU that waits for input hears no
-        # SIGTERM.
+        """serial: standard input and output are the board's UART instead of its faster semihosting channel."""
+        # In the foreground, so that ending the process group also ends the emulator: QEMU ignores SIGTERM while it
+        # waits for input.
         parts = ["timeout", "--foreground", "--kill-after=5", SECONDS, *self.emulator.split()]
         if self.emulator.startswith("qemu"):
             parts += ["-serial", "stdio" if serial else "none", "-kernel"]
         return [*parts, str(image)]
 
     def command_in_time(self, image, serial):
-        """The emulator's clock is this computer's. serial: what QEMU shall take for the board's UART. Until it is
-        ended."""
-        # One thread: a chip that polls its UART would else hold the lock that the thread that brings its bytes needs.
+        """The command that runs in real time until terminated. serial: QEMU's device for the board's UART."""
+        # One thread: otherwise a chip that polls its UART holds the lock that the UART's input thread needs.
         emulator = re.sub(r"-icount \S+", "-accel tcg,thread=single", self.emulator)
         return [*emulator.split(), "-serial", serial, "-kernel", str(image)]
 
 
 ALL = [t for t in map(Target, sorted(ROOT.glob("toolchain/*.cmake"))) if t.title]
 TARGETS = {t.name: t for t in ALL if not t.is_robot}
-# Boards with a whole robot as their program.
+# Boards whose program is a complete robot.
 ROBOTS = {t.name: t for t in ALL if t.is_robot}
 
 
 def builds():
-    """(preset, target) of everything that runs in an emulator alone."""
+    """(preset, target) of each target that runs in an emulator."""
     return [(build, target) for target in TARGETS.values() for build in target.builds]
 
 
@@ -110,7 +109,7 @@ def table():
 
 
 def documents():
-    """(file, what it must hold) of all that follows from toolchain/."""
+    """(file, content) of each file generated from toolchain/."""
     yield ROOT / "toolchain/presets.json", presets()
     page = ROOT / "docs/targets.md"
     marks = "<!-- targets:begin -->\n", "<!-- targets:end -->\n"

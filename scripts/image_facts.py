@@ -1,4 +1,4 @@
-"""What compilers and linkers leave beside an image: sections by stage of the core, and the deepest chain of calls."""
+"""Reads the compilers' and linkers' reports on an image: section sizes by stage of the core, and the deepest call chain."""
 
 import collections
 import pathlib
@@ -9,10 +9,10 @@ import chips
 
 FLASH = (".text", ".rodata", ".data", ".progmem")
 RAM = (".data", ".bss")
-# AVR reads constants from RAM, whither its start-up copies them.
+# AVR's start-up copies constants to RAM.
 RAM_OF_AVR = (*RAM, ".rodata")
 
-# Where a call through a table may lead; what calls by one that is not here is an error.
+# The possible targets of each indirect call; an indirect call missing here is an error.
 INDIRECT = (
     (
         r"Robot(4plan|8set_goal|6cancel|5reset|5aimed|9aim_again|7correct|8put_down|5place|4tick)E",
@@ -21,15 +21,15 @@ INDIRECT = (
     (r"8planning11GoalPlanner6answerE", r"8planning(15BoundaryPlanner|13ThesisPlanner)(5startE|7advanceE)"),
     (r"8planning11GoalPlanner9move_goalE", r"8planning(11GoalPlanner|15BoundaryPlanner)11follow_goalE"),
     (r"8planning6Course", r"8planning15TableDeflection7deflectE"),
-    # Reads that do nothing are one function.
+    # The linker merges the empty read functions into one.
     (r"Robot(8perceive|4tick|11take_counts|8localize)E", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
     (r"10WheelDrive4readE", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
     (r"10WheelDrive7commandE|Robot(7actuate|4tick)E", r"7commandE.*11WheelSpeedsE"),
 )  # fmt: skip
 NO_GUIDE = ((r"N7whisker8planning(15BoundaryPlanner|8Approach)", None),)
-# Of the boundary planner with a map.
+# The boundary planner with a map.
 GUIDE = ((r"N7whisker8planning(15BoundaryPlanner|8Approach)", r"N7whisker8planning16WavefrontPlanner(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|WavefrontPlanner12knows_no_way"),)
-# Of the controller on a bus: node, port and line.
+# The controller on a bus: node, port and line.
 NODE = (
     (r"3can4Node10understandE", r"ControllerNode8on_frameE"),
     (r"3can(4Node|14ControllerNode|8BusGuard)", r"ControllerNode(10reset_peerE|7at_restE|5timedE)|5slcan5Slcan(4sendE|7receiveE|4pollE|7restartE|5stateE|6countsE)"),
@@ -38,13 +38,13 @@ NODE = (
     (r"^main$", r"12Milliseconds.*6now_msE|8UartPort.*4takeE|12CounterMeter.*5stampE"),
 )  # fmt: skip
 
-# What libgcc's helpers take, read in their code; they have no call graph.
+# Stack of libgcc's helpers, read from their code; they have no call graph.
 HELPER_BYTES = {"cortex-m0plus": 112}
 OTHER_HELPER_BYTES = 56
 
 
 def stages():
-    """Base name of each of the core's sources -> its stage."""
+    """Base name of each core source -> its stage."""
     found = {}
     for path in sorted((chips.ROOT / "firmware").rglob("*.cpp")):
         parts = path.relative_to(chips.ROOT / "firmware").parts
@@ -53,7 +53,7 @@ def stages():
 
 
 def sections(map_file):
-    """(input section, bytes, object) of everything that the linker placed and kept."""
+    """(input section, bytes, object) of each section that the linker kept."""
     text = pathlib.Path(map_file).read_text()
     text = text[text.index("Linker script and memory map") :].split("/DISCARD/")[0]
     pattern = r"^ (\.[\w.$*]+|COMMON)\s+0x([0-9a-f]+)\s+0x([0-9a-f]+) (\S+)$"
@@ -70,14 +70,14 @@ def sizes(image, prefix):
 
 
 def weigh(map_file, ram_sections=RAM):
-    """Bytes of flash and RAM by stage; what is not the core's is 'helpers' (libgcc) or 'rest'."""
+    """Bytes of flash and RAM by stage; code outside the core counts as 'helpers' (libgcc) or 'rest'."""
     known = stages()
     flash, ram = collections.Counter(), collections.Counter()
     for name, size, origin in sections(map_file):
         member = re.search(r"\((\w+\.cpp)\.obj\)$", origin)
         of_core = member and "whisker_core" in origin
         stage = known.get(member[1], "rest") if of_core else "helpers" if "libgcc" in origin else "rest"
-        # What headers of the core define lies in whichever object asked for it first.
+        # Functions defined in the core's headers lie in the first object that uses them.
         named = re.search(r"_ZNK?7whisker\d+(" + "|".join(set(known.values())) + r")\d", name)
         if stage == "rest" and named:
             stage = named[1]
@@ -89,7 +89,7 @@ def weigh(map_file, ram_sections=RAM):
 
 
 class CallGraph:
-    """Of the .ci files that -fcallgraph-info=su writes."""
+    """The call graph in the .ci files of -fcallgraph-info=su."""
 
     def __init__(self, files, helper_bytes, indirect):
         self.own, self.calls = {}, collections.defaultdict(set)
@@ -117,7 +117,7 @@ class CallGraph:
             yield from found
 
     def deepest(self, root):
-        """(bytes, chain of functions) of the deepest chain from the function of this name."""
+        """(bytes, functions) of the deepest call chain from the function of this name."""
         if root not in self.own:
             raise ValueError(f"{root}: not in the call graph")
         return self._deepest(root, {}, ())
@@ -128,7 +128,7 @@ class CallGraph:
         if function not in done:
             best = (0, ())
             for called in self.targets(function):
-                # A constructor's two names are one function.
+                # A constructor has two symbol names for one function.
                 called = called if called in self.own else re.sub(r"C1E", "C2E", called)
                 if called in self.own:
                     best = max(best, self._deepest(called, done, (*above, function)))
@@ -149,7 +149,7 @@ def graph_of(build, folders, image, indirect):
 
 
 def core_stack(build, image="bare-table", guide=NO_GUIDE):
-    """Worst case of Robot::tick, bytes, and its chain of calls."""
+    """(worst-case stack of Robot::tick in bytes, its call chain)"""
     return graph_of(build, ["firmware"], image, INDIRECT + guide).deepest("_ZN7whisker5Robot4tickENS_4TimeE")
 
 
@@ -159,6 +159,6 @@ def map_stack(build):
 
 
 def node_stack(build, image):
-    """Worst case of a whole controller on a bus from its start-up on, bytes, and its chain of calls. No interrupt is
-    enabled in it."""
+    """(worst-case stack of a complete controller on a bus, from start-up, in bytes, its call chain). It enables no
+    interrupt."""
     return graph_of(build, ["firmware", "hal"], image, INDIRECT + GUIDE + NODE).deepest("reset")

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # The stages of scripts/test: each is a function that runs under set -e with its output in a log.
 
-# Floors of firmware/'s coverage in per cent: raise them when the tests get better.
+# Minimum coverage of firmware/ in per cent; raise it when the tests improve.
 readonly line_floor=98
 readonly branch_floor=92
 
@@ -22,7 +22,7 @@ build() {
   cmake --build --preset "$1" -j "$jobs" -- --quiet
 }
 
-# The gates on the source tree are labelled build: they ask nothing of a compiler, so one stage runs them.
+# The gates on the source tree have the label build. They do not depend on the compiler, so one stage runs them.
 build_and_test() {
   build "$1"
   ctest --preset "$1" --no-tests=error -LE '^(build|targets|vcan|vm)$'
@@ -58,8 +58,8 @@ stage_cross() {
   ctest --preset host --no-tests=error -L '^cross$' -V
 }
 
-# vcan_tests LABELS [OPTION...]: under one with-vcan, since a micro-VM takes long to start. Each test gets a vcan0 that is
-# new, and makes and removes what else it needs. The list is that of one folder: an emulated processor takes seconds for all.
+# vcan_tests LABELS [OPTION...]: one with-vcan for all tests, because a micro-VM starts slowly. Each test gets a new vcan0,
+# and creates and removes its other interfaces. ctest reads one folder only: an emulated processor needs seconds to list all.
 vcan_tests() {
   local -r labels=$1 list=build/host/tests/vcan
   shift
@@ -76,7 +76,7 @@ vcan_tests() {
     done' bash "$list" "${names[@]}"
 }
 
-# On a bus of this kernel's where that is possible. What is labelled vm needs a whole machine, which the micro-VM is.
+# Uses a bus of this kernel if possible. Tests with the label vm need a complete machine, the micro-VM.
 stage_vcan() {
   build host
   if [[ $(scripts/with-vcan --which 2>&1) == "with-vcan: vm" ]]; then
@@ -89,13 +89,13 @@ stage_vcan() {
 
 stage_targets() {
   scripts/targets
-  # One after another: each uses all processors by itself.
+  # Sequentially: each uses all processors.
   ctest --preset host --no-tests=error -L '^targets$' -V -j 1
 }
 
 stage_clang() { build_and_test clang; }
 
-# build_and_test_core PRESET LABELS TARGET...: builds these programs alone, and runs the tests with these labels.
+# build_and_test_core PRESET LABELS TARGET...: builds only these programs, and runs the tests with these labels.
 build_and_test_core() {
   local preset=$1 labels=$2
   shift 2
@@ -105,17 +105,17 @@ build_and_test_core() {
   ctest --preset "$preset" --no-tests=error -L "$labels"
 }
 
-# What a chip runs, and the world it is tried in.
+# The code that chips run, and the simulator that tests it.
 readonly sanitized='robot|fuzzy|perception|planning|global|missions|bus|can|pil_link|slcan|sim'
 
 stage_asan() {
-  # A sixth of the cases, as of the random worlds (tests/effort.hpp).
+  # A sixth of the cases, as for the random worlds (tests/effort.hpp).
   RC_PARAMS="$RC_PARAMS max_success=85" build_and_test_core asan "^($sanitized)\$" \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_perception_tests whisker_planning_tests whisker_global_tests \
     whisker_run_tests whisker_bus_tests whisker_can_tests whisker_link_tests whisker_slcan_tests whisker_sim_tests
 }
 
-# The host's own tools take three times as long.
+# The host tools would take three times as long.
 stage_asan_host() {
   build asan
   ctest --preset asan --no-tests=error -LE "^(build|targets|vcan|vm|$sanitized)\$"
@@ -124,7 +124,7 @@ stage_asan_host() {
 stage_coverage() {
   build_and_test_core coverage '^(robot|fuzzy|perception|global|missions)$' \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_perception_tests whisker_global_tests whisker_run_tests
-  # Exceptions cannot leave the core, so the branches of a throw are no branches of its own.
+  # No exception can leave the core, so branches of a throw are excluded.
   gcovr -j "$jobs" --root . --filter firmware/ --exclude firmware/apps/ --exclude-throw-branches --json build/coverage/all.json \
     build/coverage
   {

@@ -1,4 +1,4 @@
-"""The kernel in a vmlinuz, unpacked: a machine that is emulated takes seconds for it. usage: vmlinux.py VMLINUZ OUT"""
+"""Unpacks the kernel of a vmlinuz, because an emulated machine needs seconds for that. usage: vmlinux.py VMLINUZ OUT"""
 
 import lzma
 import sys
