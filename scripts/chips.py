@@ -34,9 +34,9 @@ class Target:
         self.runs_on = f"QEMU `{self.machine}`" if self.machine else {"node": "Node.js"}.get(emulator, emulator)
         self.compilers = facts.get("COMPILERS", "").split()
         self.builds = [self.name, *(f"{self.name}-{c}" for c in self.compilers[1:])]
-        self.recording = facts.get("RECORDING", "full")  # which of the golden recordings it is fast enough for
+        self.recording = facts.get("RECORDING", "full")  # largest golden recording that is fast enough on it
         self.counts = facts.get("COUNTS")
-        self.in_budget = "BUDGET" in facts  # scripts/budget weighs and counts it
+        self.in_budget = "BUDGET" in facts  # scripts/budget measures it
         self.is_robot = (ROOT / "hal/boards" / str(self.board)).is_dir()
         self.suffix = ".wasm" if ".wasm" in text else ".elf"
         self.tools = "riscv64-unknown-elf-" if "riscv" in text else "arm-none-eabi-"

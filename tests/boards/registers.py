@@ -1,6 +1,6 @@
-"""Every address, register and bit that the drivers of the STM32F405 name is what the table of facts says.
+"""Every address, register and bit constant in the drivers of the STM32F405 matches the table of facts.
 
-usage: registers.py ROOT [--used-rows TABLE]    the second prints the rows of a larger table that are needed
+usage: registers.py ROOT [--used-rows TABLE]    --used-rows prints the rows of a larger table that are needed
 """
 
 import csv
@@ -32,7 +32,7 @@ class Facts:
 
 
 def constants(text):
-    """(kind, name, list of number lists, facts' names) for each constant; a ValueError for what is none."""
+    """(kind, name, list of number lists, fact names) for each constant; ValueError for any other line."""
     found = []
     body = text[NAMESPACE.search(text).end():text.rindex("}  // namespace")]
     rest = PLAIN.sub("", CONSTANT.sub("", body)).strip()
@@ -59,7 +59,7 @@ def series(names):
 
 
 def expected(kind, group, fact, peripheral):
-    """{key of the table: what it must say} for one constant of one peripheral."""
+    """{key of the table: expected value} for one constant of one peripheral."""
     if kind == "Address":
         return {("base", fact): group[0]}
     if kind == "Register":
@@ -80,7 +80,7 @@ def expected(kind, group, fact, peripheral):
 
 
 def check(headers, facts):
-    """(problems, keys that were used, constants checked)."""
+    """(problems, used keys, number of constants checked)."""
     problems, used, checked = [], set(), 0
     for path, text in headers.items():
         try:

@@ -1,4 +1,4 @@
-"""The gate on register constants passes on the tree, and fails on every number that is altered.
+"""The gate on register constants passes on the tree, and fails if any number is altered.
 
 usage: registers_test.py ROOT
 """

@@ -1,7 +1,7 @@
-"""The image for the STM32F405 boots in QEMU, keeps its period, and names what is missing there.
+"""The image for the STM32F405 boots in QEMU, keeps its period, and reports the peripherals that QEMU lacks.
 
 QEMU's netduinoplus2 has the chip's USART and timers; its clock unit, pins, I2C, CAN and watchdog are absent and its
-converter never ends. So every driver must come to the end of its patience, and the core must stop with a fault.
+converter never finishes. So every driver must time out, and the core must stop with a fault.
 
 usage: stm32f405_in_qemu.py IMAGE
 """
@@ -11,7 +11,7 @@ import subprocess
 import sys
 import threading
 
-# One instruction takes a nanosecond there and a timer's count 16: as at 16 MHz, with an instruction a cycle.
+# In QEMU an instruction takes 1 ns and a timer count 16 ns, the count of a 16 MHz clock.
 COMMAND = ["qemu-system-arm", "-M", "netduinoplus2", "-display", "none", "-monitor", "none", "-icount", "shift=0",
            "-serial", "null", "-serial", "stdio", "-kernel"]
 REPORTS = 4
@@ -21,7 +21,7 @@ EXPECTED = {
     "crystal_not_ready": (1, 1),
     "pll_not_locked": (1, 1),
     "can not_started": (1, 1),
-    # A rangefinder is woken about ten times a second: three share the bus, one at a time.
+    # Each rangefinder is started about ten times a second: the three take turns on the bus.
     "i2c_timeout": (60, 150),
     "ranger_not_started": (60, 150),
     # Three conversions every 48 ms.
@@ -30,7 +30,7 @@ EXPECTED = {
 
 
 def reports_of(image):
-    """The first lines that the image prints, one report after the other: a dictionary each."""
+    """The first reports that the image prints, one dictionary per report."""
     qemu = subprocess.Popen([*COMMAND, image], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
     deadline = threading.Timer(SECONDS, qemu.kill)
     deadline.start()
@@ -63,7 +63,7 @@ def problems_of(reports):
         elif not 1000 * (k + 1) <= int(first[1]) < 1000 * (k + 1) + 100:
             found.append(f"report {k} at {first[1]} ms")
         elif (first[2], first[4]) != ("stopped", "encoder_jump"):
-            # The encoders' timers run free there.
+            # In QEMU the encoders' timers run freely.
             found.append(f"the core has not stopped as it should: {report['first']}")
     last = {name: count for name, count in reports[-1].items() if name != "first"}
     for name in sorted(EXPECTED.keys() | last.keys()):

@@ -1,4 +1,4 @@
-"""No source names a place on somebody's machine. usage: absolute_paths.py ROOT"""
+"""No source contains a machine-specific path. usage: absolute_paths.py ROOT"""
 
 import pathlib
 import re
@@ -6,14 +6,14 @@ import sys
 
 from sources import FOLDERS, finish, sources
 
-# A literal that starts like a path of two parts or more.
+# A literal that starts like a path of at least two parts.
 PATH = re.compile(r"""["'<]/([A-Za-z0-9_.]+)/[^"'>\n]*["'>]""")
 
 PLACES = {"Users", "etc", "home", "media", "mnt", "opt", "root", "srv", "tmp", "usr", "var"}
 
 
 def errors(text, root="/"):
-    """(line, literal) of every path that begins where machines differ, or where this checkout does."""
+    """(line, literal) of every path that starts in a machine-specific folder or in this checkout."""
     places = PLACES | set(pathlib.Path(root).resolve().parts[1:2]) - set(FOLDERS)
     return [
         (text.count("\n", 0, match.start()) + 1, match.group())

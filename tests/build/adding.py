@@ -1,4 +1,4 @@
-"""docs/adding.md's examples of a planner, a message and a parameter, made in a copy of the tree, build and work.
+"""The planner, message and parameter of docs/adding.md, applied to a copy of the tree, build and work.
 
 usage: adding.py ROOT WORK_FOLDER CMAKE GENERATOR CXX
 """
@@ -27,7 +27,7 @@ motion_patience_s = 0.25
 
 
 def with_lines(text, diff, file):
-    """A line of the diff that begins with a blank is the next one in the text that is like it; one with a plus follows it."""
+    """Applies a diff: a line with a leading blank matches the next equal line of the text; a plus line is inserted after it."""
     lines, at = text.splitlines(), -1
     for line in diff.splitlines():
         mark, rest = line[:1], line[1:]
@@ -43,7 +43,7 @@ def with_lines(text, diff, file):
 
 
 def apply(page, tree):
-    """The files that were written or changed."""
+    """The files created or changed."""
     touched = set()
     for new, file, text in re.findall(r"^(New,|In) `([^`]+)`[^\n]*:\n```\w+\n(.*?)^```", page, re.MULTILINE | re.DOTALL):
         path = tree / file

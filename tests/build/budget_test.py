@@ -1,4 +1,4 @@
-"""scripts/budget refuses what grew, bars that broke, and a page that shows something else. usage: budget_test.py ROOT"""
+"""scripts/budget rejects larger figures, broken bars and pages with other figures. usage: budget_test.py ROOT"""
 
 import importlib.machinery
 import importlib.util

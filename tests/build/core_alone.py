@@ -1,4 +1,4 @@
-"""A program that adds Whisker as a subfolder gets the core, and no package is looked for.
+"""A program that adds Whisker as a subfolder gets the core, without a search for any package.
 
 usage: core_alone.py ROOT WORK_FOLDER CMAKE GENERATOR CXX
 """
@@ -17,7 +17,7 @@ LOOKS_OUTSIDE = {
 
 
 def lookups(root, trace):
-    """The commands of the project's own CMake files that look for something outside of it."""
+    """The commands of the project's CMake files that search for something outside the project."""
     found = []
     for line in pathlib.Path(trace).read_text().splitlines():
         call = json.loads(line)

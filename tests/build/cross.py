@@ -1,4 +1,4 @@
-"""The core compiles for a bare target, with either engine, and asks for nothing that the target has not.
+"""The core compiles for a bare target, with either engine, and needs no symbol that the target lacks.
 
 usage: cross.py arm|avr|no-float ROOT WORK_FOLDER COMPILER [--nm NM] [--flags FLAG...]
 """
@@ -15,19 +15,19 @@ from symbols import forbidden
 COMMON = ["-std=c++17", "-fno-exceptions", "-fno-rtti", "-c"]
 TARGETS = {
     "arm": ["-mcpu=cortex-m0plus", "-mthumb", "-Os", "-ffreestanding"],
-    # With the compiler's own headers: the stdint.h of avr-libc, where that is installed, hides limits from C++.
+    # With the compiler's own headers: the stdint.h of avr-libc, if installed, hides limits from C++.
     "avr": ["--target=avr", "-mmcu=atmega1284p", "-Os", "-ffreestanding", "-nostdlibinc"],
-    # With g++ for x86 a floating-point operation is then an error, also one that an optimiser would fold away.
+    # Makes g++ for x86 reject every floating-point operation, even one that the optimiser would fold.
     "no-float": ["-mgeneral-regs-only", "-O0"],
 }
 ENGINES = {"table": [], "closed": ["-DWHISKER_ENGINE_CLOSED=1"]}
-# A source that does not ask for the engine is the same code with either; engine.hpp refuses to be included then.
+# A source that does not depend on the engine is compiled once; engine.hpp then rejects its inclusion.
 ANY_ENGINE = ["-DWHISKER_ENGINE_ANY=1"]
 ASKS = "firmware/fuzzy/engine.hpp"
 
 
 def included(root, path, found):
-    """Adds to found what a source includes by its path below the root, and so on."""
+    """Adds to `found` the files that a source includes by path from the root, recursively."""
     if path in found or not pathlib.Path(root, path).is_file():
         return
     found.add(path)
@@ -36,14 +36,14 @@ def included(root, path, found):
 
 
 def engines_of(root, path):
-    """The engines with which a source is to be compiled, and what defines each."""
+    """The engines to compile a source with, and the definition of each."""
     found = set()
     included(root, str(path), found)
     return ENGINES if ASKS in found else {"any": ANY_ENGINE}
 
 
 def compile_core(target, root, work, compiler, flags, files):
-    """The messages of the files that do not compile, and the objects of those that do, by engine."""
+    """(messages of the files that do not compile, objects of the others by engine)."""
     jobs, objects = [], {}
     common = [compiler, *TARGETS[target], *COMMON, *flags, f"-I{root}"]
     for path in files:

@@ -1,4 +1,4 @@
-"""Another project can use Whisker: as a subfolder with warnings of its own, and installed, as C++20.
+"""Another project can use Whisker: as a subfolder with its own warnings, and installed, as C++20.
 
 usage: dependency.py ROOT WORK_FOLDER CMAKE GENERATOR CXX
 """
@@ -12,7 +12,7 @@ from commands import Failure, run
 from sources import finish
 from version import of_header
 
-# A warning that this project does not ask for and that any C++ has.
+# A warning that this project does not enable and that all C++ code triggers.
 STRANGE = "-Waggregate-return"
 
 
@@ -66,7 +66,7 @@ class Other:
 
     @staticmethod
     def headers_have_libraries(prefix):
-        """Below hal/, the contracts are headers alone; each port is a library, and so is what programs share."""
+        """Below hal/, the contracts are header-only; each port is a library, and so are the programs' shared sources."""
         targets = "".join(file.read_text() for file in prefix.rglob("whiskerTargets.cmake"))
         installed = prefix / "include/whisker"
         wanted = {"core", "can", "link", "can_remote", *(path.name for path in (installed / "hal/ports").iterdir() if path.is_dir())}

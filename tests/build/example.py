@@ -1,4 +1,4 @@
-"""docs/firmware.md shows docs/example/main.cpp, letter for letter. usage: example.py ROOT"""
+"""docs/firmware.md shows docs/example/main.cpp verbatim. usage: example.py ROOT"""
 
 import pathlib
 import sys

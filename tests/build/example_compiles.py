@@ -1,5 +1,5 @@
-"""The line of docs/firmware.md compiles its example: pasted into sh and into a makefile. The example also compiles in GNU's dialect
-and with clang, so that check() holds there while it compiles. usage: example_compiles.py ROOT CXX [CLANG]"""
+"""The command in docs/firmware.md compiles its example, both in sh and in a makefile. The example also compiles in GNU's
+dialect and with clang, so check() is a constant expression there. usage: example_compiles.py ROOT CXX [CLANG]"""
 
 import os
 import pathlib
@@ -22,7 +22,7 @@ def line_of(readme):
 
 
 def arguments(command, folder, path):
-    """What the compiler would get. path: where it is looked for first."""
+    """The compiler's arguments. path: the folder searched first for the compiler."""
     environment = {**os.environ, "PATH": f"{path}:{os.environ['PATH']}"}
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
     return done.stdout.splitlines() if done.returncode == 0 else [done.stderr]
@@ -51,7 +51,7 @@ def main(root, *compilers):
         if sorted(files) != sorted(wanted):
             problems.append(f"sources that differ: {sorted(set(files) ^ set(wanted))}")
         options = [argument.replace("-I.", f"-I{work}") for argument in in_sh if not argument.endswith(".cpp")]
-        # As the line does, but on every processor.
+        # The same as the command, but on all processors.
         jobs = [(name, [shlex.split(line)[0], *options, str(root / name), "-o", f"{work}/{i}.o"], None) for i, name in enumerate(files)]
         for compiler in compilers:
             for standard in ("c++17", "gnu++17"):

@@ -1,7 +1,7 @@
-"""scripts/fresh runs what the README says, refuses what it cannot do, and leaves nothing behind when it is interrupted.
+"""scripts/fresh runs the README's commands, rejects wrong options, and cleans up when it is interrupted.
 usage: fresh_test.py ROOT
 
-In place of debootstrap stands a script that makes a folder and waits; the rest needs the network and an hour.
+A stand-in for debootstrap makes a folder and waits, because the real one needs the network and an hour.
 """
 
 import os
@@ -78,7 +78,7 @@ class Fresh(unittest.TestCase):
         (tools / "debootstrap").chmod(0o755)
         environment = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "TMPDIR": str(work)}
         for number in (signal.SIGINT, signal.SIGTERM):
-            # Whoever started this test in the background made it deaf to an interrupt.
+            # A shell that starts this test in the background makes it ignore SIGINT.
             hears = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # noqa: E731
             command = [self.repository / "scripts/fresh"]
             run = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, preexec_fn=hears)

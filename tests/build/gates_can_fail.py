@@ -1,4 +1,4 @@
-"""Each gate refuses what it is there to refuse, and accepts its neighbour. usage: gates_can_fail.py CXX [ARM_CXX ARM_NM]"""
+"""Each gate rejects a violation, and accepts a similar valid input. usage: gates_can_fail.py CXX [ARM_CXX ARM_NM]"""
 
 import contextlib
 import io

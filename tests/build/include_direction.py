@@ -1,4 +1,4 @@
-"""Every #include goes down the layers. usage: include_direction.py ROOT"""
+"""Every #include names the same or a lower layer. usage: include_direction.py ROOT"""
 
 import pathlib
 import re
@@ -6,12 +6,12 @@ import sys
 
 from sources import finish, sources
 
-# The folders of firmware/, lowest first: each includes itself and those before it. From localization to control they are the
-# stages of a tick, in its order.
+# The folders of firmware/, lowest first: each may include itself and the folders before it. From localization to control
+# they are the stages of a tick, in order.
 STAGES = ("version", "math", "health", "params", "fuzzy", "localization", "perception", "planning", "safety", "control",
           "robot", "can", "apps")
 
-# What a folder may include of hal/; one that is not named here includes none of it.
+# The files of hal/ that a folder may include; an unlisted folder may include none.
 HAL_OF_STAGE = {
     "localization": {"hal/types.hpp"},
     "perception": {"hal/types.hpp"},
@@ -22,13 +22,13 @@ HAL_OF_STAGE = {
 
 FREESTANDING = {"stdint.h", "stddef.h"}
 
-# The compiler's own headers of instructions: (file, header).
+# The compiler's headers of intrinsics: (file, header).
 INSTRUCTIONS = {("firmware/fuzzy/packed_bilinear.hpp", "arm_acle.h")}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]*)"|<([^>]*)>|(\S+))', re.MULTILINE)
 
 
 def stage_of(path):
-    """The stage of a file of firmware/, or None for one that no stage is known for."""
+    """The stage of a file of firmware/, or None if no stage is known for it."""
     parts = pathlib.PurePosixPath(path).parts
     stage = parts[1].split(".")[0] if len(parts) > 1 else ""
     return stage if stage in STAGES else None
@@ -55,7 +55,7 @@ def firmware_error(path, quoted, system):
 
 CONTRACT = r"hal/[^/]+"
 
-# What a folder of hal/ may include beside the contracts and itself.
+# The files that a folder of hal/ may include besides the contracts and itself.
 HAL_FOLDERS = {
     "runtime": r"hal/runtime/.+",
     "ports": r"hal/ports/[^/]+",
@@ -88,7 +88,7 @@ def app_error(quoted, system):
 
 
 def errors(path, text, exists):
-    """(line, message) for every wrong #include of this file. exists(path) says what the tree has."""
+    """(line, message) for every wrong #include of this file. exists(path): whether the tree has the file."""
     found = []
     for match in INCLUDE.finditer(text):
         quoted, system, computed = match.groups()

@@ -1,4 +1,4 @@
-"""scripts/mutate finds what it says, and nothing in comments, texts and templates. usage: mutate_test.py ROOT"""
+"""scripts/mutate finds its kinds of mutants, and none in comments, strings and templates. usage: mutate_test.py ROOT"""
 
 import importlib.machinery
 import importlib.util

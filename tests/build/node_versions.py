@@ -1,6 +1,6 @@
 """Every locked npm package works with Debian 12's own Node.js and npm. usage: node_versions.py ROOT
 
-A machine with a newer Node.js does not notice, and scripts/test would fail on a bare one.
+On a machine with a newer Node.js, other tests do not detect this, but scripts/test fails on a bare Debian.
 """
 
 import json
@@ -17,7 +17,7 @@ COMPARATOR = re.compile(r"(>=|<=|>|<|=|\^|~>?)?\s*(\S*)$")
 
 
 def numbers(text):
-    """The numbers that a version states: none for "*", one for "18.x", at most three."""
+    """The numbers in a version: none for "*", one for "18.x", at most three."""
     if text == "":
         return ()
     found = VERSION.match(text)
@@ -36,12 +36,12 @@ def filled(stated):
 
 
 def after(stated, kept):
-    """The least version whose first `kept` numbers are larger than the stated ones."""
+    """The lowest version whose first `kept` numbers exceed the stated ones."""
     return filled((*stated[: kept - 1], stated[kept - 1] + 1))
 
 
 def caret_keeps(stated):
-    """How many numbers ^ leaves as they are: up to the first that is not 0."""
+    """How many leading numbers ^ keeps: up to and including the first that is not 0."""
     for place, number in enumerate(stated):
         if number:
             return place + 1
@@ -70,7 +70,7 @@ def comparator_holds(text, version):
 
 
 def satisfies(version, wanted):
-    """Whether the version is in a range as npm writes them: "^18.18.0 || 20.x || >=22 <24"."""
+    """Whether the version is in an npm range, for example "^18.18.0 || 20.x || >=22 <24"."""
     for alternative in wanted.split("||"):
         alternative = re.sub(r"(\S+)\s+-\s+(\S+)", r">=\1 <=\2", alternative.strip())
         alternative = re.sub(r"(>=|<=|>|<|=|\^|~>?)\s+", r"\1", alternative)
@@ -80,7 +80,7 @@ def satisfies(version, wanted):
 
 
 def errors(lock, text):
-    """What is wrong with this package-lock.json."""
+    """The problems of this package-lock.json."""
     packages = json.loads(text).get("packages")
     if not packages:
         return [f"{lock}: it lists no packages (npm's lock file version 2 or 3 does)"]

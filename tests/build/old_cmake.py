@@ -1,4 +1,4 @@
-"""What other projects read of the CMake files uses no command newer than the CMake that these files ask for.
+"""The CMake files that other projects read use no command newer than their cmake_minimum_required.
 
 usage: old_cmake.py ROOT WORK_FOLDER CMAKE GENERATOR CXX
 """
@@ -32,7 +32,7 @@ def calls(root, trace):
 
 
 def born(cmake, command):
-    """The version that brought this command, or None for one that was always there, or is the project's own."""
+    """The version that introduced this command; None for an older command or one of the project."""
     done = subprocess.run([cmake, "--help-command", command], capture_output=True, text=True, check=False)
     match = re.match(r"\S+\n-+\n\s*\.\. versionadded:: ([\d.]+)", done.stdout)
     return number(match[1]) if match else None

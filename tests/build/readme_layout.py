@@ -1,4 +1,4 @@
-"""README.md's Layout names every folder of firmware/, hal/ and host/, and none that is not there; folders below those may be named, too. usage: readme_layout.py ROOT"""
+"""README.md's Layout names every folder of firmware/, hal/ and host/, optionally deeper ones, and none that does not exist. usage: readme_layout.py ROOT"""
 
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""The project's C++ files, found by walking the folders, so that a new file is checked from its first build on."""
+"""Finds the project's C++ files in the folders, so that a new file is checked from its first build."""
 
 import pathlib
 
@@ -7,7 +7,7 @@ SUFFIXES = (".hpp", ".cpp")
 
 
 def sources(root, folders=FOLDERS, suffixes=SUFFIXES):
-    """Paths relative to root, sorted. Fixtures are wrong on purpose, and are left out."""
+    """Paths relative to root, sorted, without fixtures, which are wrong on purpose."""
     root = pathlib.Path(root)
     found = [
         path.relative_to(root)
@@ -19,12 +19,12 @@ def sources(root, folders=FOLDERS, suffixes=SUFFIXES):
 
 
 def core_sources(root, suffix=".cpp"):
-    """Those of the core: what a chip's program includes or links, but no program."""
+    """The files of the core: those that a chip's program includes or links, without the programs."""
     return [path for path in sources(root, ("firmware",), (suffix,)) if path.parts[1] != "apps"]
 
 
 def finish(name, checked, problems):
-    """Prints the verdict and returns the exit status. Checking nothing is a failure."""
+    """Prints the verdict and returns the exit status. An empty check is a failure."""
     for problem in problems:
         print(problem)
     if not checked:

@@ -1,4 +1,4 @@
-"""What scripts/stages.sh names is there: test programs, CTest labels and presets, also of the stages that are not run every time.
+"""The test programs, CTest labels and presets that scripts/stages.sh names exist, also those of the optional stages.
 
 usage: stages.py ROOT
 """
@@ -12,7 +12,7 @@ from sources import finish
 
 
 def defined(root):
-    """(test programs, labels): a label is the name of the folder whose CMakeLists.txt defines a program or gives it."""
+    """(test programs, labels): a label is the folder of the CMakeLists.txt that defines a program, or is set explicitly."""
     programs, labels = set(), set()
     for path in pathlib.Path(root, "tests").rglob("CMakeLists.txt"):
         text = path.read_text()

@@ -1,4 +1,4 @@
-"""What the core's ARM objects may contain and ask for: everything else is named as a problem."""
+"""The symbols that the core's ARM objects may define and need; every other symbol is a problem."""
 
 import re
 import subprocess

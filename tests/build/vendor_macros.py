@@ -1,5 +1,5 @@
-"""The headers for chips compile after Arduino's macros, and in each mode that other projects choose; so do the sources,
-without the macros, by the first compiler.
+"""The headers for chips compile after Arduino's macros, and in each language mode that other projects may choose. The
+first compiler also compiles the sources in these modes, without the macros.
 
 usage: vendor_macros.py ROOT COMPILER... Each may have options: "clang++-14 --target=avr".
 """
@@ -14,7 +14,7 @@ from sources import core_sources, finish, sources
 
 MODES = ("c++17", "gnu++17", "c++20", "gnu++20")
 MACROS = pathlib.Path(__file__).parent / "fixtures/arduino_macros.hpp"
-# Ports for Linux, and boards that bring their own registers.
+# Excluded: ports for Linux, and boards with their own register headers.
 HOSTED = re.compile(r"hal/(ports/(socketcan|stdio|tty)|boards|emulated|runtime)/")
 OPTIONS = ("-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fno-exceptions", "-fno-rtti", "-ffreestanding", "-fsyntax-only")
 

@@ -1,4 +1,4 @@
-"""The version is one: firmware/version.hpp, the newest release of CHANGELOG.md, and what CMake and the command say.
+"""firmware/version.hpp, the newest release of CHANGELOG.md, CMake and the command state the same version.
 
 usage: version.py ROOT CMAKE_VERSION [WHISKER]
 """
@@ -18,7 +18,7 @@ def of_header(text):
 
 
 def releases(changelog):
-    """The headings' versions, newest first."""
+    """The versions in the headings, newest first."""
     return re.findall(r"^## \[(\d+\.\d+\.\d+)\] - \d{4}-\d\d-\d\d$", changelog, re.MULTILINE)
 
 

@@ -1,4 +1,4 @@
-"""The committed forms of the protocol are the table's, and another reader understands them.
+"""The committed forms of the protocol match the message table, and an independent DBC reader decodes them.
 
 usage: dbc_test.py WHISKER ROOT
 """
@@ -14,7 +14,7 @@ import tempfile
 import unittest
 from contextlib import redirect_stderr, redirect_stdout
 
-SYSTEM_PYTHON = "/usr/bin/python3"  # Debian's packages are for this one
+SYSTEM_PYTHON = "/usr/bin/python3"  # finds Debian's Python packages
 
 
 def printed(*arguments):
@@ -53,7 +53,7 @@ class Canmatrix(unittest.TestCase):
             decoded = frame.decode(bytes.fromhex(data))
             for value in values:
                 signal, _, number = value.partition("=")
-                # The frame rounds to its own steps.
+                # The frame rounds to its resolution.
                 step = abs(decoded[signal].signal.factor)
                 self.assertLessEqual(abs(decoded[signal].phys_value - decimal.Decimal(number)), step / 2, line)
             self.assertEqual({s for s in decoded} - {"Crc"}, {v.partition("=")[0] for v in values}, line)

@@ -1,4 +1,4 @@
-"""`whisker campaign`: rows, summary, shards, interruption, and that each row is the run it says."""
+"""`whisker campaign`: rows, summary, shards, interruption, and that each row's command repeats its run."""
 
 import csv
 import io
@@ -178,7 +178,7 @@ class Summary(Campaigns):
 
 
 class Failures(Campaigns):
-    """A robot that is too wide for most doors, or has too little time, fails often enough."""
+    """The robot is too wide for most doors or has too little time, so that enough runs fail."""
 
     def replayed(self, line):
         seed, outcome, command = re.fullmatch(r"seed (\d+) (\w+) \([^)]*\): whisker (.+)", line).groups()

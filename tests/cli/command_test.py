@@ -21,7 +21,7 @@ def run(*arguments):
 
 
 def result(*arguments):
-    """The one object that --json prints, but for the name of the file that the robot is from."""
+    """The object that --json prints, without the name of the robot's file."""
     told = json.loads(run(*arguments, "--json").stdout)
     del told["robot_name"]
     return told
@@ -114,7 +114,7 @@ class Run(Case):
 
 
 class OnATerminal(Case):
-    """Progress goes to standard error, and only to a terminal. The run is endless: these tests end it."""
+    """Progress goes to standard error, and only to a terminal. The run never ends by itself; the tests end it."""
 
     def endless(self, stderr):
         text = with_time_limit((SCENARIOS / "no_time.toml").read_text(), 1e6)
@@ -124,7 +124,7 @@ class OnATerminal(Case):
         return subprocess.Popen([whisker.binary, "run", scene, "--planner", "thesis", "--json"], stdout=subprocess.PIPE, stderr=stderr)
 
     def first_words(self, fd, process, seconds):
-        """What arrives until a whole progress line is there, the process ends or the time is over."""
+        """The output up to the first complete progress line, the end of the process or the time-out."""
         seen, end = b"", time.monotonic() + seconds
         while time.monotonic() < end and not PROGRESS.search(seen) and process.poll() is None:
             if select.select([fd], [], [], 0.1)[0]:

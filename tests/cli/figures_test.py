@@ -1,4 +1,4 @@
-"""The committed figures are those that the command draws, and show what the docs say of them."""
+"""The committed figures equal those that the command draws, and show what the docs state."""
 
 import pathlib
 import re
@@ -36,7 +36,7 @@ class Figures(Case):
 
 
 class Drives(Case):
-    """One drive of the skirt planner in each class of worlds."""
+    """One drive of the boundary planner in each class of worlds."""
 
     def drives(self):
         drives = {path.stem: path for path in (ROOT / "docs/figures").glob("skirt_*.svg")}
@@ -44,7 +44,7 @@ class Drives(Case):
         return drives
 
     def distances(self, path):
-        """(at the hit, on leaving) of each edge in the legend."""
+        """(distance at the hit point, distance on leaving) of each boundary in the legend."""
         texts = [element.text for element in xml.etree.ElementTree.parse(path).iter() if element.tag.endswith("text")]
         return [tuple(texts[i + 1 : i + 3]) for i, text in enumerate(texts) if re.fullmatch(r"edge \d+", text)]
 
@@ -72,7 +72,7 @@ class Drives(Case):
 
 
 class Pairs(Case):
-    """The map planner beside the skirt planner, one world of each class."""
+    """The map planner compared with the boundary planner, one world of each class."""
 
     def test_show_both_in_one_world_with_the_map_of_one(self):
         folder = ROOT / "docs/figures"

@@ -1,4 +1,4 @@
-"""The committed moving picture is the one that scripts/film draws, and shows the drive from start to goal."""
+"""The committed animation equals the output of scripts/film, and shows the drive from start to goal."""
 
 import os
 import pathlib
@@ -35,7 +35,7 @@ class Film(Case):
         self.assertEqual(len({child.get("dur") for _, child in moving}), 1)
         for parent, child in moving:
             name, values = child.get("attributeName"), child.get("values").split(";")
-            # What begins hidden ends drawn, and everything else is drawn where it ends.
+            # Elements that start hidden end visible; all others are drawn in their final place.
             if name == "stroke-dashoffset":
                 self.assertEqual(values[-1], "0")
                 self.assertEqual(float(values[0]), float(parent.get("stroke-dasharray").split()[0]))

@@ -1,4 +1,4 @@
-"""`whisker hil`, `plant`, `controller` and `replay`, where no CAN is needed."""
+"""`whisker hil`, `plant`, `controller` and `replay`, as far as they need no CAN."""
 
 import csv
 import http.client
@@ -14,7 +14,7 @@ import time
 import whisker
 from whisker import KINDS, SCENARIOS, STATUS, Case, with_time_limit
 
-PRIVATE_TRACE = ("d", "r", "sa", "sd", "est_x_m", "est_y_m", "est_heading_rad", "guide", "way_x_m", "way_y_m")  # what the bus does not carry
+PRIVATE_TRACE = ("d", "r", "sa", "sd", "est_x_m", "est_y_m", "est_heading_rad", "guide", "way_x_m", "way_y_m")  # not on the bus
 
 
 class OnABus(Case):
@@ -49,13 +49,13 @@ class Hil(OnABus):
         self.assertEqual(both, self.json_of("run", SCENARIOS / "bad_wheels.toml"))
 
     def test_the_load_is_that_of_a_bus_in_real_time(self):
-        """Some 7 frames a period of 10 ms: a fifth of 500 kbit/s, however fast the frames passed in lockstep."""
+        """About 7 frames per period of 10 ms are a fifth of 500 kbit/s, regardless of the speed in lockstep."""
         scenario = self.world("discs", 5)
         load = self.json_of("hil", scenario)["bus"]["load_percent"]
         self.assertTrue(10 < load < 40, load)
         words = whisker.whisker("hil", scenario).stdout
         told = float(re.search(r"load of the bus in real time ([0-9.]+) %", words).group(1))
-        # Heartbeats go by the clock, however fast the lockstep is: two runs have not quite the same frames.
+        # Heartbeats follow the wall clock, not the lockstep: two runs differ by a few frames.
         self.assertAlmostEqual(told, load, delta=0.5)
 
     def test_a_log_that_ends_within_a_line_is_replayed_up_to_there(self):
@@ -128,7 +128,7 @@ class Hil(OnABus):
         for run, logged in zip(*rows):
             for true, estimate in (("x_m", "est_x_m"), ("y_m", "est_y_m"), ("heading_rad", "est_heading_rad")):
                 self.assertEqual(logged[true], run[estimate])
-            # A wheel's speed is a whole number of counts: 0.2 mm each, in 10 ms.
+            # A wheel's speed is a whole number of counts of 0.2 mm per 10 ms.
             for wheel in ("v_left_mps", "v_right_mps"):
                 self.assertAlmostEqual(float(logged[wheel]), float(run[wheel]), delta=0.03)
             for key in set(run) - {"x_m", "y_m", "heading_rad", "v_left_mps", "v_right_mps"}:
@@ -200,7 +200,7 @@ class Precedence(Case):
     AHEAD = "time_limit_s = 2.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 200.0\ny_m = 0.0\n"
 
     def policies(self, *prefix, options):
-        """Those that the plant was seen with, and what was said."""
+        """(scheduling policies observed of the plant, its error output)."""
         scenario = self.file("ahead.toml", self.AHEAD)
         hil = subprocess.Popen(
             [*prefix, whisker.binary, "hil", scenario, *options], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
@@ -216,7 +216,7 @@ class Precedence(Case):
         self.assertEqual(os.SCHED_FIFO in seen, self.WORDS not in said)
 
     def test_where_it_is_not_the_run_goes_on_and_says_so(self):
-        # Who is not root has no such right; root gives it up.
+        # Only root has this right; the test drops it.
         drop = ("setpriv", "--inh-caps=-sys_nice", "--bounding-set=-sys_nice") if os.geteuid() == 0 else ()
         seen, said = self.policies("prlimit", "--rtprio=0", *drop, options=["--realtime"])
         self.assertNotIn(os.SCHED_FIFO, seen)
@@ -282,7 +282,7 @@ class View(OnABus):
 
     def test_the_default_port_is_the_documented_one(self):
         done = whisker.whisker("hil", self.world("discs", 1), "--view")
-        # It may be another program's.
+        # Another program may use the port.
         self.assertIn("8765", done.stderr)
 
     def test_it_warns_where_others_can_watch(self):
@@ -343,7 +343,7 @@ class Refusals(Case):
 
 
 def crc(identifier, data):
-    """AUTOSAR E2E Profile 1, bit by bit."""
+    """The CRC of AUTOSAR E2E Profile 1, computed bit by bit."""
     value = 0
     for byte in (identifier & 0xFF, identifier >> 8, *data):
         value ^= byte

@@ -1,7 +1,7 @@
-"""Checks what a run left behind, from the scenario, the trace and the JSON result alone.
+"""Checks the trace and the JSON result of a run against its scenario, without the product's code.
 
 usage: judge.py SCENARIO TRACE RESULT.json [ROBOT.toml]
-ROBOT.toml: the file given to --robot. One line per complaint; exit status 0: none.
+ROBOT.toml: the file given to --robot. Prints one line per complaint; exit status 0 if there is none.
 """
 
 import itertools
@@ -11,11 +11,11 @@ import sys
 from judging import claims, motion, scenario, sensors, trace
 from judging.world import World
 
-SHOWN = 3  # complaints of one check; a fault in one row is often a fault in the next
+SHOWN = 3  # complaints per check; a fault in one row often repeats in the next
 
 
 def judge(scene, track, result):
-    """Lines of complaint; empty for a run that holds together."""
+    """The complaints; empty for a consistent run."""
     complaints = list(claims.check_shape(result))
     if complaints:
         return complaints

@@ -1,4 +1,4 @@
-"""The judge objects to every kind of wrong trace and wrong result, and says which."""
+"""The judge detects and names every kind of wrong trace and wrong result."""
 
 import copy
 import json
@@ -14,7 +14,7 @@ from judging import scenario, trace
 from whisker import HERE, SCENARIOS, Case, with_time_limit
 
 CONTACT, USUAL = "run_over", "two_discs_and_a_wall"
-LIMIT = 8  # s of simulated time: a few hundred rows are enough to spoil one
+LIMIT = 8  # s of simulated time: gives a few hundred rows
 
 
 def moving_row(track):
@@ -31,7 +31,7 @@ class JudgeComplains(Case):
 
     @classmethod
     def run_of(cls, folder, name):
-        """Scenario, trace and result of a short run; the files of the last one are kept as text."""
+        """Scenario, trace and result of a short run; caches the files of the last run as text."""
         scene, path = folder / f"{name}.toml", folder / f"{name}.csv"
         scene.write_text(with_time_limit((SCENARIOS / f"{name}.toml").read_text(), LIMIT))
         run = whisker.whisker("run", scene, "--trace", path, "--json")
@@ -44,14 +44,14 @@ class JudgeComplains(Case):
         self.assertEqual(self.runs[CONTACT][2]["outcome"], "contact")
 
     def object_to(self, expected, change, name=USUAL):
-        """`change` gets copies of scenario, trace and result, and spoils one of them."""
+        """`change` gets copies of scenario, trace and result, and corrupts one of them."""
         spoilt = copy.deepcopy(self.runs[name])
         change(*spoilt)
         complaints = judge(*spoilt)
         self.assertTrue(any(expected in line for line in complaints), f"no '{expected}' in {complaints}")
 
     def object_to_row(self, expected, **fields):
-        """The fields of one row, as functions of what they were."""
+        """Changes fields of one row by functions of their old values."""
 
         def change(_, track, __):
             i = moving_row(track)

@@ -1,4 +1,4 @@
-"""The judge has nothing to object to in whatever the command writes."""
+"""The judge accepts everything that the command writes."""
 
 import concurrent.futures
 import json
@@ -20,7 +20,7 @@ CERTAIN = {  # outcomes that no planner can change
 
 
 def judged(scenario, *options):
-    """Runs a scenario and the judge on it. Returns the result and what there is to object to."""
+    """Runs a scenario and the judge. Returns the result and the complaints."""
     trace, result = scenario.with_suffix(".csv"), scenario.with_suffix(".json")
     run = whisker.whisker("run", scenario, "--trace", trace, "--json", *options)
     result.write_text(run.stdout, encoding="utf-8")

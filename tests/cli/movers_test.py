@@ -1,4 +1,4 @@
-"""`whisker movers`: its table, and the scenarios of the contacts."""
+"""`whisker movers`: its table, and the scenarios that it writes of contacts."""
 
 import re
 

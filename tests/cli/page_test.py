@@ -1,4 +1,4 @@
-"""`--html`: one whole file, the same for the same run, and nothing else changed by it."""
+"""`--html`: one self-contained file, the same for the same run; the other output does not change."""
 
 import json
 import re
@@ -14,7 +14,7 @@ def data_of(page):
 
 
 def figures_of(text):
-    """An object of --json without what it says of how it came about, which the page says elsewhere."""
+    """An object of --json without its provenance, which the page shows elsewhere."""
     return {key: value for key, value in json.loads(text).items() if key not in ORIGIN}
 
 
@@ -37,7 +37,7 @@ class Page(Case):
         self.assertEqual(re.findall(r"""(?:src|href)\s*=\s*["'](?!#|data:)[^"']*""", page), [])
         self.assertEqual(re.findall(r"@import|url\((?!data:)", page), [])
         self.assertEqual(re.findall(r"\b(?:XMLHttpRequest|WebSocket)\b", page), [])
-        # A live page asks its server; a browser lets no other do so.
+        # Only a live page may connect to its server; the content security policy blocks every other page.
         policy = re.search(r'http-equiv="Content-Security-Policy" content="([^"]*)"', page)[1]
         self.assertIn("default-src 'none'", policy)
         self.assertNotIn("connect-src", policy)

@@ -1,4 +1,4 @@
-"""What cannot be done is refused in one line on standard error, before anything is written."""
+"""Every error is one line on standard error, before any file is written."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""`whisker robot check`: what it refuses, what it drives, and the header that it writes."""
+"""`whisker robot check`: the robots that it rejects, its test drives, and the header that it writes."""
 
 import json
 import pathlib
@@ -89,7 +89,7 @@ class Header(Case):
         )
 
     def test_every_parameter_has_its_field(self):
-        """Each one a little off its default, as far as that alone fits."""
+        """Each parameter slightly off its default, if the relations hold with that change alone."""
         keys = (ROOT / "docs/scenario.md").read_text().split("<!-- params:begin -->")[1].split("<!-- params:end -->")[0]
         rows = [[cell.strip() for cell in row.strip("|").split("|")] for row in keys.strip().splitlines()[2:]]
         wanted = []

@@ -1,4 +1,4 @@
-"""`whisker scanner`: its figures, in words and as JSON, and what it refuses."""
+"""`whisker scanner`: its figures, as text and as JSON, and its errors."""
 
 import json
 

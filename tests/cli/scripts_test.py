@@ -1,7 +1,7 @@
-"""scripts/bars, compare, measure and odometry: what they ask of `whisker campaign` and what they make of its summary;
-and what scripts/bus-figures makes of a log.
+"""scripts/bars, compare, measure and odometry: their calls of `whisker campaign` and the tables they make of its
+summaries; and the figures that scripts/bus-figures computes from a log.
 
-Behind WHISKER stands a stand-in that notes its arguments and prints one summary, made by the command once.
+WHISKER names a stand-in that records its arguments and prints one summary, which the real command made.
 """
 
 import importlib.machinery
@@ -44,7 +44,7 @@ class Scripts(Case):
         return done
 
     def rows(self, done):
-        """The cells of all lines of tables but their rulers."""
+        """The cells of all table rows except the separators."""
         lines = [line for line in done.stdout.splitlines() if line.startswith("| ")]
         return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 
@@ -154,7 +154,7 @@ class BusFigures(unittest.TestCase):
         with tempfile.TemporaryDirectory() as box:
             log = pathlib.Path(box, "run.log")
             log.write_text(
-                "(10.000000) vcan0 101#0010000000000000\n"  # to drive, with 0
+                "(10.000000) vcan0 101#0010000000000000\n"  # drive command, speed 0
                 "(10.055000) vcan0 709#0040000000000000\n"  # safe stop
                 "(11.000000) vcan0 709#0030000000000000\n"
                 "(12.000000) vcan0 101#0010B80BB80B0000\n"

@@ -1,4 +1,4 @@
-"""What goes to standard output, what an object says of its origin, and what is suggested for a slip."""
+"""The use of standard output, the provenance in JSON objects, and the suggestions after a misspelling."""
 
 import json
 import pathlib
@@ -18,7 +18,7 @@ def run(*arguments, **options):
 
 class StandardOutput(Case):
     def test_takes_each_output_alone(self):
-        """The same bytes as in a file, and words for people on standard error."""
+        """Standard output gets the same bytes as a file; messages go to standard error."""
         for option in ("--trace", "--svg", "--html"):
             path = self.folder / "file"
             run("run", NOTHING, option, path)
@@ -143,7 +143,7 @@ class Slips(Case):
 
 class Figures(Case):
     def test_are_drawn_wherever_the_command_is_called(self):
-        """The first of them; the whole takes its time, and another test has it."""
+        """Checks only the first run; another test checks all, because they take long."""
         process = subprocess.Popen([whisker.binary, "figures", "."], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         lines = []
         while len(lines) < 8 and (line := process.stdout.readline()):

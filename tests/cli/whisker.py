@@ -1,4 +1,4 @@
-"""Runs the whisker command. The programs here take its path as their first argument; the rest is unittest's."""
+"""Runs the whisker command. The test programs take its path as first argument and pass the others to unittest."""
 
 import os
 import pathlib
@@ -11,7 +11,7 @@ import unittest
 HERE = pathlib.Path(__file__).resolve().parent
 SCENARIOS = HERE / "scenarios"
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
-# What every object says of how it came about.
+# The provenance keys of every JSON object.
 ORIGIN = ("schema", "version", "seed", "planner", "robot_name", "robot_digest")
 STATUS = {"reached": 0, "unreachable": 3, "gave_up": 4, "contact": 5, "fault": 6, "off_goal": 7}
 
@@ -19,7 +19,7 @@ binary = ""
 
 
 def whisker(*arguments, **options):
-    """The finished process, its output as text."""
+    """Runs the command to its end; output as text."""
     return subprocess.run(
         [binary, *map(str, arguments)],
         stdin=subprocess.DEVNULL,
@@ -32,7 +32,7 @@ def whisker(*arguments, **options):
 
 
 def planners():
-    """The names of the core's planners and of the baselines, as the help lists them."""
+    """The names of the core's planners and of the baselines in the help text."""
     text = " ".join(whisker("run", "--help").stdout.split())
     core, baselines = re.search(r"Planner: (.+?); baselines: ([-a-z0-9]+(?:, [-a-z0-9]+)*)", text).groups()
     return re.sub(r" \(or \S+\)", "", core).split(", "), baselines.split(", ")
@@ -46,7 +46,7 @@ def with_time_limit(text, seconds):
 
 
 class Case(unittest.TestCase):
-    """Each test has an empty folder of its own, `self.folder`."""
+    """Gives each test an empty folder, `self.folder`."""
 
     def setUp(self):
         box = tempfile.TemporaryDirectory(prefix="whisker-cli-")
@@ -66,7 +66,7 @@ class Case(unittest.TestCase):
         }
 
     def refused(self, *arguments, status=2, says=""):
-        """One line on standard error says so, and no file is written or lost."""
+        """The command prints one line on standard error, and writes or removes no file."""
         before = self.contents()
         done = whisker(*arguments, cwd=self.folder)
         with self.subTest(arguments):
@@ -80,6 +80,6 @@ def main():
     global binary
     if len(sys.argv) < 2 or not os.access(sys.argv[1], os.X_OK):
         sys.exit(f"usage: {sys.argv[0]} WHISKER [unittest options]")
-    # `import whisker` in the test file names another module object than __main__ would.
+    # `import whisker` in the test file is a different module object from __main__.
     binary = str(pathlib.Path(sys.argv.pop(1)).resolve())
     unittest.main(module="__main__", verbosity=2)

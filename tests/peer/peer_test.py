@@ -1,5 +1,5 @@
-"""The plant of docs/integration/peer, which knows the documents alone, drives missions with this core: over SLCAN on a
-socket and on a pseudo terminal, and over the link's byte stream. All ways give the same commands.
+"""The plant of docs/integration/peer, written from the documents alone, drives missions with this core: over SLCAN on a
+socket and on a pseudo terminal, and over the link's byte stream. All three give the same commands.
 
 usage: peer_test.py ROOT WHISKER REPLAY
 """
@@ -15,7 +15,7 @@ import time
 import unittest
 
 PATIENCE_S = 240
-PAUSE_S = 0.25  # longer than a command may stay away
+PAUSE_S = 0.25  # longer than the command time-out
 
 OPEN = """
 name = "discs and walls"
@@ -58,7 +58,7 @@ points = [[0.5, 0.4], [0.9, 0.4], [0.9, -0.4], [0.5, -0.4]]
 
 
 def finished(process):
-    """(exit status, standard output, standard error); never waits for ever."""
+    """(exit status, standard output, standard error); has a time-out."""
     try:
         out, err = process.communicate(timeout=PATIENCE_S)
     except subprocess.TimeoutExpired:
@@ -164,7 +164,7 @@ class Peer(unittest.TestCase):
 
 class Documents(unittest.TestCase):
     def test_the_examples_are_what_the_codec_of_the_peer_makes_of_the_tables(self):
-        """Each example frame: its CRC holds, and its values, encoded again, are its bytes."""
+        """The CRC of each example frame is right, and encoding its values gives its bytes."""
         import document
         import frames
 
@@ -204,7 +204,7 @@ class Documents(unittest.TestCase):
 
 
 class Plant(unittest.TestCase):
-    """The simple world of the peer is right where it can be computed by hand."""
+    """The peer's world model matches values computed by hand."""
 
     def test_a_cone_sees_the_nearest_thing_in_it(self):
         import math

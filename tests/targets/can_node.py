@@ -1,6 +1,6 @@
-"""The core on an emulated chip, as a CAN node behind its UART, drives the simulated robot into a U-trap: the
-commands are those of the core in the simulator's process. With WHISKER_LONG in the environment it drives out again.
-The node in an STM32F103's memories drives by its map, and its stack stays within what scripts/budget computes.
+"""The core on an emulated chip, as a CAN node behind its UART, drives the simulated robot into a U-trap: the commands
+equal those of the core in the simulator's process. With WHISKER_LONG in the environment it also drives out again. The
+node with the memories of an STM32F103 drives with the map planner, and its stack stays within scripts/budget's bound.
 
 usage: can_node.py ROOT WHISKER
 """
@@ -15,7 +15,7 @@ import sys
 import tempfile
 import time
 
-SECONDS = 10  # of the drive, if it is not the whole
+SECONDS = 10  # of the drive, without WHISKER_LONG
 PATIENCE_S = 300
 LONG_PATIENCE_S = 800
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
@@ -38,7 +38,7 @@ def symbols_of(image):
 
 
 class Chip:
-    """The node in QEMU, until the end of the block."""
+    """Runs the node in QEMU until the end of the block."""
 
     def __init__(self, chips, node, folder):
         target = chips.TARGETS[PRESET]
@@ -72,7 +72,7 @@ class Chip:
         return path.read_bytes()
 
     def deepest_stack(self):
-        """As hal/runtime/stack.hpp has it."""
+        """The deepest stack, measured as in hal/runtime/stack.hpp."""
         symbols = symbols_of(self.image)
         bottom, top = symbols["__stack_bottom"], symbols["__stack_top"]
         words = struct.unpack(f"<{(top - bottom) // 4}I", self.memory(bottom, top - bottom))
@@ -80,7 +80,7 @@ class Chip:
 
 
 def drive(chips, whisker, folder, node, planner, patience_s):
-    """Whether the node drove as the core in this process, with no more stack than it may."""
+    """Whether the node's commands equal those of the core in this process, within the stack's bound."""
     import image_facts
 
     scenario = pathlib.Path(folder, "trap.toml")

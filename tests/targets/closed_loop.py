@@ -1,4 +1,4 @@
-"""The core on an emulated chip drives the simulated robot as the core in this process does: same rows, same verdict.
+"""The core on an emulated chip drives the simulated robot exactly as the core in this process: same rows, same verdict.
 
 usage: closed_loop.py ROOT WHISKER
 """
@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-# (what stands behind --chip, scenario, planner and what goes with it)
+# (argument of --chip, scenario, planner with its options)
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
 SHORT = "host/worlds/scenarios/two_discs.toml"
 DRIVES = (
@@ -25,7 +25,7 @@ DRIVES = (
     ("cortex-m0plus", SHORT, "map"),
     ("cortex-m3", TRAP, "map --map-bytes 16384"),
 )
-# What a chip has no room for, and what is said then.
+# Planners that a chip has no room for, and the error message.
 REFUSALS = (
     ("atmega1284p", "map", "has room for 0 bytes of map, not 2048"),
     ("cortex-m0plus", "map --map-bytes 16384", "has room for 8192 bytes of map, not 16384"),
@@ -41,7 +41,7 @@ def drive(whisker, scenario, planner, trace, chip=None):
 
 
 def told(line):
-    """A row of the trace without what a chip does not tell: guide, way_x_m, way_y_m."""
+    """A row of the trace without the columns that a chip does not send: guide, way_x_m, way_y_m."""
     return line.rsplit(",", 3)[0]
 
 
@@ -53,7 +53,7 @@ def first_difference(here, there):
 
 
 def judge(root, whisker, folder, number):
-    """What is wrong with this drive, or None; and its verdict."""
+    """(the problem of this drive or None, its verdict)."""
     chip, scenario, planner = DRIVES[number]
     trace, path = str(pathlib.Path(folder, f"{number}.csv")), str(pathlib.Path(root, scenario))
     try:
@@ -65,7 +65,7 @@ def judge(root, whisker, folder, number):
 
 
 def refuses(root, whisker, folder, chip, planner, words):
-    """None if that is all it says, and nothing is written."""
+    """None if the command prints only this message and writes no file."""
     trace = pathlib.Path(folder, "refused.csv")
     try:
         drive(whisker, str(pathlib.Path(root, SHORT)), planner, str(trace), f"{root}/scripts/chip {chip}")

@@ -1,4 +1,4 @@
-"""The look-up in packed arithmetic (Cortex-M4, M7, M33) answers every input as the desktop's does.
+"""The look-up in packed arithmetic (Cortex-M4, M7, M33) gives the desktop's answer for every input.
 
 usage: every_input.py ROOT
 """
@@ -13,7 +13,7 @@ PACKED = ("cortex-m4", "cortex-m7", "cortex-m33")
 
 
 def output(command):
-    # The desktop's console is its standard error.
+    # The desktop program's console is standard error.
     done = subprocess.run(
         command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
     )

@@ -1,5 +1,5 @@
-"""Every linked image is free of heap, floating point, guards, exceptions and libc, and of what clang 14 is known to
-compile wrong for AVR."""
+"""Every linked image is free of heap, floating point, guards, exceptions and libc, and of two known code generation
+faults of clang 14 for AVR."""
 
 import pathlib
 import re
@@ -14,7 +14,7 @@ import chips  # noqa: E402
 TOOLS = {"cortex": "arm-none-eabi-", "rv32im": "riscv64-unknown-elf-", "atmega": "avr-"}
 PROGRAMS = [f"{program}-{engine}" for program in ("bare", "replay", "companion") for engine in chips.ENGINES]
 
-# Names as the linker knows them: what none of these images may hold.
+# Linker symbols that no image may contain.
 FORBIDDEN = re.compile(
     r"malloc|calloc|realloc|free|_sbrk|_Zn[wa][jmy](RKSt9nothrow_t|St\w*)?|_Zd[la]\w*"
     r"|_ZGV\w*|__cxa_(?!pure_virtual)\w*|__gxx_\w*|_Unwind_\w*|__dso_handle|__aeabi_atexit|atexit"
@@ -33,12 +33,12 @@ def forbidden(names):
     return sorted(name for name in names if FORBIDDEN.fullmatch(name))
 
 
-# Instructions of AVR that leave the flags alone.
+# AVR instructions that do not change the flags.
 QUIET = {"mov", "movw", "ldi", "ld", "ldd", "lds", "st", "std", "sts", "in", "out", "push", "pop", "lpm", "elpm"}
 
 
 def follows(before, operands):
-    """`operands` without an offset: the next register after one at offset 63 of the same pointer?"""
+    """Whether `operands`, without an offset, load the register after one at offset 63 of the same pointer."""
     first, second = (re.findall(r"\br(\d+)\b", text) for text in (before, operands))
     pointer = re.search(r"\b([YZ])\+63\b", before)
     return bool(first and second and pointer and re.search(rf"\b{pointer[1]}(?!\+)\b", operands)
@@ -46,8 +46,8 @@ def follows(before, operands):
 
 
 def miscompiled(listing):
-    """Two faults of clang 14 for AVR. The carry of an addition that was turned into a subtraction is its opposite;
-    the upper byte of a half word at offset 63 is taken from offset 0, which lacks its sixth bit."""
+    """Finds two faults of clang 14 for AVR: after it turns an addition into a subtraction, it uses the carry without
+    inverting it; it reads the upper byte of a half word at offset 63 from offset 0, because 64 loses its top bit."""
     function, flags, before, found = "?", "", "", []
     for line in listing.splitlines():
         if head := re.match(r"[0-9a-f]+ <(.*)>:$", line):
@@ -64,7 +64,7 @@ def miscompiled(listing):
         if operation not in QUIET:
             flags = operation
         before = operands
-    # libgcc's division carries a borrow on purpose.
+    # libgcc's division uses a borrow as carry on purpose.
     return [problem for problem in found if not problem.startswith("__udivmod")]
 
 

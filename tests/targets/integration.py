@@ -1,4 +1,4 @@
-"""The examples of docs/integration build from nothing, and those for QEMU run and reach their goal.
+"""The examples of docs/integration build in an empty folder, and those for QEMU run and reach their goal.
 
 usage: integration.py ROOT WORK_FOLDER CMAKE GENERATOR
 """
@@ -17,7 +17,7 @@ def run(*command, **options):
 
 
 def drives(root, image):
-    """The program's words, on the board that it was built for."""
+    """The output of the program on its board."""
     said = run(root / "scripts/chip", "cortex-m3", image, "--serial", stdin=subprocess.DEVNULL)
     if not said.endswith("arrived: at_goal\n"):
         sys.exit(f"{image}: it said\n{said}")

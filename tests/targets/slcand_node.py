@@ -1,5 +1,5 @@
-"""The core on an emulated chip, an SLCAN adapter to its UART, as an ordinary CAN interface: Linux's driver and slcand
-make it one in the micro-VM. The plant drives over it, candump listens, and the commands are those of this process.
+"""The core on an emulated chip, with SLCAN on its UART, becomes an ordinary CAN interface through slcand and Linux's
+driver in the micro-VM. The plant drives over it, candump records, and the commands equal those of the core in process.
 
 usage: slcand_node.py ROOT WHISKER
 """
@@ -16,7 +16,7 @@ LIMIT_S = 400
 PATIENCE_S = 10  # with the emulator
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
 
-# WHISKER TRAP SECONDS: prints one JSON object a line.
+# WHISKER TRAP SECONDS: prints one JSON object per line.
 PROGRAM = r"""
 slcand -F -o -s6 /dev/hvc0 slcan0 &
 until ip link set slcan0 up 2>/dev/null; do sleep 0.1; done

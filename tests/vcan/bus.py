@@ -1,4 +1,4 @@
-"""Processes on a CAN bus and what is seen of them."""
+"""Starts processes on a CAN bus and observes their output and frames."""
 
 import fcntl
 import json
@@ -13,8 +13,8 @@ import tempfile
 import threading
 import time
 
-PATIENCE_S = 200  # with any one step
-WATCH_S = 0.02  # between two looks
+PATIENCE_S = 200  # for each step
+WATCH_S = 0.02  # between two polls
 
 
 def wait_until(condition, trouble):
@@ -26,7 +26,7 @@ def wait_until(condition, trouble):
 
 
 class Interface:
-    """A virtual CAN interface of one's own, up from the constructor to close()."""
+    """A private virtual CAN interface, up from the constructor to close()."""
 
     def __init__(self, name):
         self.name = name
@@ -51,12 +51,12 @@ class Interface:
         self.set("del", self.name)
 
     def close(self):
-        # The test may have failed while it was away.
+        # The test may have failed while the interface was down.
         subprocess.run(["ip", "link", "del", self.name], capture_output=True, timeout=PATIENCE_S, check=False)
 
 
 class Valve:
-    """A record that is written to a pipe: its writer drives on only as far as the pipe is emptied."""
+    """A record written to a pipe: its writer continues only as far as the pipe is drained."""
 
     ROOM = 4096  # bytes: about a dozen ticks
 
@@ -81,7 +81,7 @@ class Valve:
 
 
 class Running:
-    """A process whose words on standard error can be waited for."""
+    """A process; tests can wait for its messages on standard error."""
 
     def __init__(self, *command):
         self.log = tempfile.TemporaryFile("w+")
@@ -125,21 +125,21 @@ class Running:
 
 
 def listeners(interface):
-    """Sockets that take every frame of it."""
+    """Sockets that receive every frame of the interface."""
     return len(re.findall(rf"{interface} .* raw$", pathlib.Path("/proc/self/net/can/rcvlist_all").read_text("ascii"), re.M))
 
 
 class Candump:
     """A log of an interface from the constructor to end()."""
 
-    LAST = "7FF#"  # nobody else's
+    LAST = "7FF#"  # no other node sends it
 
     def __init__(self, path, interface):
         self.path = path
         self.interface = interface
         before = listeners(interface)
         with open(path, "w", encoding="ascii") as file:
-            # Line by line: a full buffer would keep the last frame.
+            # Line-buffered: a block buffer would hold back the last frame.
             self.process = subprocess.Popen(["stdbuf", "-oL", "candump", "-r", "4000000", "-L", interface], stdout=file)
         wait_until(lambda: listeners(interface) > before, lambda: "candump does not listen")
 
@@ -156,9 +156,9 @@ def frames_of(log_lines):
 
 
 class Meddler:
-    """Answers every other frame on an interface with one that nobody may obey: with a wrong bit, one byte short, as a
-    remote request, with a long identifier, and one that wins every arbitration. A whole copy would be another matter:
-    that of a twin."""
+    """Answers every other frame on an interface with an invalid one that every node must ignore: with a wrong bit, one
+    byte short, as a remote request, with a long identifier, and one that wins every arbitration. Exact copies are a
+    different fault: a second node with the same identifiers."""
 
     FRAME = struct.Struct("<IB3x8s")
 

@@ -1,4 +1,4 @@
-"""`whisker plant`, `controller` and `hil` on an interface of Linux, with can-utils and iproute2 as the others on it.
+"""`whisker plant`, `controller` and `hil` on a Linux CAN interface, together with can-utils and iproute2.
 
 usage: hil_test.py WHISKER
 """
@@ -37,7 +37,7 @@ class OnTheBus(unittest.TestCase):
         return running
 
     def start_behind_valve(self, *arguments):
-        """The plant, which does not reach the end of its run before the valve is open."""
+        """The plant, which cannot finish its run before the valve opens."""
         valve = Valve(self.folder / "valve")
         return self.start("plant", *arguments, "--record", self.folder / "valve"), valve
 

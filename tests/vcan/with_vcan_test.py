@@ -13,7 +13,7 @@ def run(*arguments):
     return done.returncode, done.stdout, done.stderr
 
 
-# Its first argument is with-vcan itself: the inner bus is another one.
+# Its first argument is the path of with-vcan: the inner bus is a separate one.
 PROGRAM = r"""
 ip -br link | sed -n 's/^\(vcan[0-9]*\) .*UP.*/\1/p'
 candump -L -n 1 vcan2 &
@@ -27,7 +27,7 @@ exit 7
 
 
 class Bus(unittest.TestCase):
-    """Under scripts/with-vcan: where its caller made a bus, it can make another. Few runs, as each takes seconds."""
+    """Runs under scripts/with-vcan and makes a second bus. Few runs, because each takes seconds."""
 
     def test_makes_private_interfaces_and_passes_arguments_output_and_status(self):
         status, out, err = run("--which", "--count", 3, "bash", "-c", PROGRAM, "bash", SCRIPT, "a  b", "*")
@@ -40,7 +40,7 @@ class Bus(unittest.TestCase):
 
 
 class Usage(unittest.TestCase):
-    """Anywhere."""
+    """Runs anywhere."""
 
     def test_refuses_what_it_does_not_know(self):
         for wrong in ((), ("--count",), ("--count", 0, "true"), ("--count", 17, "true"), ("--timeout", "x", "true"), ("--tty", "/dev/null", "true"), ("--nonsense", "true")):

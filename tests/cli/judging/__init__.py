@@ -1,1 +1,1 @@
-"""What the judge knows, written from the file formats alone: it shares no code with the product."""
+"""The judge's checks, written from the file formats alone: they share no code with the product."""

@@ -1,11 +1,11 @@
-"""Does the result say what the trace shows?"""
+"""Checks that the result agrees with the trace."""
 
 import math
 
 OUTCOMES = ("reached", "off_goal", "unreachable", "gave_up", "contact", "fault")
 KEYS = ("outcome", "time_s", "path_m", "final_distance_m", "believed_distance_m", "min_clearance_m", "ticks", "hash")
-FAR = 1000.0  # m: the least that may stand for the clearance of an empty world
-CLEARANCE_SLACK = 2e-4  # m: 0.1 mm of the format, and as much for the search between two rows
+FAR = 1000.0  # m: the smallest valid clearance of an empty world
+CLEARANCE_SLACK = 2e-4  # m: 0.1 mm of the format, and 0.1 mm for the search between two rows
 
 
 def fnv1a(commands):
@@ -24,7 +24,7 @@ def check_shape(result):
 
 
 def check_contact(world, trace, result):
-    """Every row is free; a contact stands in the last row, which shows the body at the moment of the impact."""
+    """No row overlaps an obstacle; only the last row may be a contact, with the body at the moment of impact."""
     touch = 3 * trace.position_unit
     last = len(trace.rows) - 1
     contact = result["outcome"] == "contact"
@@ -76,7 +76,7 @@ def check_lengths(scenario, trace, result):
 
 
 def check_clearance(world, trace, result):
-    """Between two rows the gap cannot change faster than the body and the fastest mover go."""
+    """Between two rows the gap changes at most at the speed of the body plus that of the fastest mover."""
     claimed = result["min_clearance_m"]
     gaps = [world.gap(row.at, row.t) for row in trace.rows]
     if not math.isfinite(min(gaps)):

@@ -6,7 +6,7 @@ NOTHING = math.inf
 
 
 def to_segment(p, a, b):
-    """From a point to the nearest point of a segment."""
+    """Distance from a point to a segment."""
     ux, uy = b[0] - a[0], b[1] - a[1]
     vx, vy = p[0] - a[0], p[1] - a[1]
     square = ux * ux + uy * uy
@@ -15,7 +15,7 @@ def to_segment(p, a, b):
 
 
 def inside(p, polygon):
-    """Even-odd rule."""
+    """Whether the point is inside, by the even-odd rule."""
     odd = False
     for (ax, ay), (bx, by) in zip(polygon, polygon[1:] + polygon[:1]):
         if (ay > p[1]) != (by > p[1]) and p[0] < ax + (p[1] - ay) * (bx - ax) / (by - ay):
@@ -26,8 +26,8 @@ def inside(p, polygon):
 class Cone:
     """All points whose bearing from the apex lies within `half` of `direction`, rad; half < 90 degrees.
 
-    The nearest point of an obstacle within it is the nearest of all, if the cone holds that one;
-    else it lies where the obstacle crosses one of the cone's two edges.
+    The nearest point of an obstacle within the cone is the obstacle's nearest point, if that is in the cone;
+    otherwise it lies where the obstacle crosses one of the cone's two edges.
     """
 
     def __init__(self, apex, direction, half):

@@ -1,4 +1,4 @@
-"""Does the body move as two wheels can move it? Each check yields lines of complaint."""
+"""Checks that the body moves as a differential drive can. Each check yields complaints."""
 
 import math
 
@@ -17,7 +17,7 @@ def check_start(scenario, trace):
 
 
 def check_wheels(scenario, trace, outcome):
-    """Row period, speed and acceleration. At the impact of a contact the wheels stop at once."""
+    """Row period, speed and acceleration. On contact the wheels stop at once."""
     robot = scenario.robot
     period, top = robot["control_period_s"], robot["wheel_speed_max_mps"]
     half = trace.unit["v_left_mps"] / 2
@@ -38,9 +38,9 @@ def check_wheels(scenario, trace, outcome):
 
 
 def check_rolling(scenario, trace, outcome):
-    """The pose integrates the wheels' speeds, and the body never moves sideways.
+    """The pose is the integral of the wheels' speeds, without sideways motion.
 
-    Between two rows a speed bends by at most acceleration / lag, which bounds the error of the trapezium.
+    The second derivative of a speed is at most acceleration / lag, which bounds the error of the trapezoidal rule.
     """
     robot = scenario.robot
     dt, track, lag = robot["control_period_s"], robot["wheel_track_m"], robot["motor_lag_s"]

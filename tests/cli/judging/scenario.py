@@ -28,7 +28,7 @@ NOISE = {
 
 
 class Mover:
-    """A disc that goes along its path there and back, from its centre's place on it, forwards first."""
+    """A disc that moves along its path to and fro, from its centre's position on it, forwards first."""
 
     def __init__(self, table):
         self.radius, self.speed = table["radius_m"], table["speed_mps"]

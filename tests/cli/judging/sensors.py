@@ -1,9 +1,9 @@
-"""Are the ranges what the rangefinders had to measure?"""
+"""Checks the ranges against the scenario's obstacles."""
 
 import math
 
-ROUNDING = 0.0006  # m: a whole millimetre to nearest, and the digits of the pose
-GRAZE = 3e-5  # rad: an obstacle this close to a cone's edge may count as in or out; more between two rows
+ROUNDING = 0.0006  # m: rounding to the nearest millimetre, and the digits of the pose
+GRAZE = 3e-5  # rad: an obstacle this close to a cone's edge may count as inside or outside; more between two rows
 SIGMAS = 6.0
 NAMES = ("left", "front", "right")
 
@@ -21,11 +21,11 @@ class Rangefinders:
         self.cache = (None, None)
 
     def newest(self, t):
-        """Number of the newest measurement that has arrived; negative before the first."""
+        """Number of the newest measurement that arrived; negative before the first."""
         return math.floor((t - self.latency) * self.rate + 1e-6)
 
     def graze(self, k):
-        """Between two rows the heading is known no better than a constant turn rate tells."""
+        """Uncertainty of the heading between two rows, interpolated at a constant turn rate."""
         where = k / self.rate / self.period
         return GRAZE + (0.0 if abs(where - round(where)) < 1e-6 else self.bend)
 
@@ -43,7 +43,7 @@ class Rangefinders:
         return min(self.high, max(self.low, d))
 
     def all_exact(self, k):
-        """The three at once; a robot that stands in a world without movers sees what it saw."""
+        """The three exact ranges; cached while the robot stands still in a world without movers."""
         key = self.pose(k) if not self.world.movers else k
         if key != self.cache[0]:
             self.cache = (key, [self.exact(k, beam) for beam in range(3)])

@@ -1,10 +1,10 @@
-"""A trace file as rows of numbers."""
+"""Reads a trace file into rows of numbers."""
 
 import csv
 from typing import NamedTuple, Optional
 
 COLUMNS = "t_s x_m y_m heading_rad left_m front_m right_m v_left_mps v_right_mps state why".split()
-COARSEST = {"x_m": 1e-4, "y_m": 1e-4, "heading_rad": 1e-4}  # what the format promises
+COARSEST = {"x_m": 1e-4, "y_m": 1e-4, "heading_rad": 1e-4}  # resolution that the format guarantees
 
 
 class TraceError(Exception):
@@ -27,7 +27,7 @@ class Row(NamedTuple):
 
 
 class Trace:
-    """`unit` of a column is the value of its last digit; a number may be off by half of it."""
+    """`unit` of a column is the value of its last digit; the rounding error is at most half of it."""
 
     def __init__(self, rows, unit):
         self.rows, self.unit = rows, unit

@@ -1,10 +1,10 @@
-"""The obstacles of a scenario: how near they are, and how near a rangefinder sees them."""
+"""The obstacles of a scenario: distance to the body, and the range that a rangefinder measures."""
 
 import math
 
 from .geometry import Cone, inside, to_segment
 
-SLACK = 0.5  # m that the body may move before the obstacles in reach are gathered anew
+SLACK = 0.5  # m that the body may move before the nearby obstacles are collected again
 
 
 def edges(points, closed):
@@ -39,7 +39,7 @@ class World:
         self.near_segments = [s for s in self.segments if to_segment(p, *s) < self.reach]
 
     def gap(self, p, t):
-        """Between the body at p and the nearest obstacle; negative where they overlap."""
+        """Gap between the body at p and the nearest obstacle; negative if they overlap."""
         self._gather(p)
         found = [math.dist(p, center) - radius for center, radius in self.near_discs]
         found += [to_segment(p, a, b) for a, b in self.near_segments]
@@ -56,7 +56,7 @@ class World:
         return best - self.radius
 
     def range(self, p, direction, half, offset, t):
-        """What a rangefinder at p, its apex `offset` ahead, sees within its cone; infinite for nothing in reach."""
+        """Range within the cone of a rangefinder at p with its apex `offset` ahead; infinite if nothing is in reach."""
         self._gather(p)
         cone = Cone((p[0] + offset * math.cos(direction), p[1] + offset * math.sin(direction)), direction, half)
         found = [cone.to_disc(center, radius) for center, radius in self.near_discs]
