@@ -77,7 +77,7 @@ void Robot::reset() noexcept {
   supervisor_.reset();
   started_ = false;
   was_settled_ = false;
-  // The next counts may tell of the whole way to rest.
+  // The next counts may include the whole braking path.
   since_counts_ += safety::braking_time(params_);
   perception_.forget(odometry_.pose());
   guard_.reset();

@@ -1,5 +1,5 @@
-// The least firmware: the core with one planner, and drivers that know nothing. What the budgets
-// weigh.
+// The smallest firmware: the core with one planner, and drivers without function. scripts/budget measures its
+// size.
 #include "firmware/apps/planner.hpp"
 #include "firmware/apps/static_storage.hpp"
 #include "firmware/robot.hpp"

@@ -21,8 +21,7 @@ struct Planners final : can_app::PlannerMaker {
 
 Planners planners;
 
-/// Nothing else on the board differs from one start to the next than the instant at which the other end
-/// speaks.
+/// Between two starts, only the instant of the other end's first byte differs.
 uint16_t boot_number(const hal::Board& board) noexcept {
   uint8_t byte = 0;
   while (board.line->take(&byte, 1) == 0) {

@@ -1,5 +1,5 @@
-// What a frame of the CAN protocol costs, of every message and with any content: a line for writing and one
-// for reading, with the least, the mean and the most work.
+// Cost of encoding and decoding CAN frames, over all messages with varied content: one line each, with the
+// minimum, mean and maximum instructions.
 #include "firmware/can/codec.hpp"
 #include "firmware/apps/work.hpp"
 
@@ -7,7 +7,7 @@ using namespace whisker;
 
 namespace {
 
-constexpr int kContents = 200;  // of each message
+constexpr int kContents = 200;  // per message
 
 images::Work writing;
 images::Work reading;
@@ -17,7 +17,7 @@ template <class M>
   frame = can::encode(message, 9, 7);
 }
 
-/// As a node does: CRC, counter, values.
+/// The same steps as in a node: CRC, counter, values.
 template <class M>
 [[gnu::noinline]] bool read(const hal::CanFrame& frame, can::AliveReceiver& alive, M& message) noexcept {
   uint8_t lost = 0;
@@ -38,7 +38,7 @@ uint32_t random() noexcept {
   return state = state * 1664525 + 1013904223;
 }
 
-/// Nothing, everything, then anything.
+/// All zeros, all ones, then random content.
 uint64_t content(int i) noexcept {
   return i < 2 ? uint64_t{0} - static_cast<uint64_t>(i) : uint64_t{random()} << 32 | random() >> 16;
 }

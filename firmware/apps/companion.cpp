@@ -1,4 +1,4 @@
-// A robot whose sensors and wheels are played by a companion at the other end of a serial line.
+// A robot whose sensors and wheels a companion simulates at the other end of a serial line.
 #include "firmware/apps/pil_link/session.hpp"
 #include "hal/board.hpp"
 

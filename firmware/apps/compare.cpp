@@ -1,4 +1,4 @@
-// What the fuzzy stage costs, done in four ways: a line for each, with the least, the mean and the most work
+// Cost of the fuzzy stage with four engines: one line each, with the minimum, mean and maximum instructions
 // over a grid of inputs. The only program here that uses floating point.
 #include "firmware/apps/float_inference.hpp"
 #include "firmware/apps/work.hpp"
@@ -9,11 +9,11 @@
 
 using namespace whisker;
 
-/// An engine's call operator as the function that it is on ARM and RISC-V, so that all are called by the same
-/// code.
+/// An engine's call operator as an ordinary function, as ARM and RISC-V pass `this`, so that the same code
+/// calls every engine.
 using Infer = fuzzy::Response (*)(const void* engine, fuzzy::Inputs);
 
-/// Returns at once: its one instruction, and those of the call, are no work of an engine.
+/// Returns at once: measures its one instruction and the call, which are then subtracted.
 fuzzy::Response idle(const void*, fuzzy::Inputs) asm("whisker_idle");
 #ifdef __riscv
 asm(".section .text.idle, \"ax\"\nwhisker_idle: ret\n.previous");
@@ -53,7 +53,7 @@ images::Work measure(Infer infer, const void* engine) {
   return work;
 }
 
-/// From the first instruction of the engine to its return, both included.
+/// From the engine's first instruction to its return, inclusive.
 template <class Engine>
 void report(const char* name, const Engine& engine) {
   fuzzy::Response (Engine::*const member)(fuzzy::Inputs) const noexcept = &Engine::operator();

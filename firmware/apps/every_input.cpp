@@ -1,4 +1,4 @@
-// Answers every input that the look-up tells apart, and some far outside, and prints a hash of all answers.
+// Evaluates every input that the look-up distinguishes, and some far outside; prints a hash of the answers.
 #include "firmware/fuzzy/response_table.hpp"
 #include "hal/board.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 constexpr int32_t kBeyond = 40;
 constexpr int16_t kExtremes[] = {INT16_MIN, INT16_MIN + 1, -4096, 4096, INT16_MAX - 1, INT16_MAX};
 
-/// FNV-1a, a word at a time.
+/// FNV-1a, one word at a time.
 class Hash {
  public:
   void add(uint32_t word) noexcept { value_ = (value_ ^ word) * 16777619U; }

@@ -1,6 +1,6 @@
-// Like replay, but an answer's work is that of one part of the core alone: the local grid, what the
-// map's beams mark, or the wavefront upon it. The linker puts the functions below between the part and who
-// calls it (--wrap).
+// Like replay, but counts only the instructions of one part of the core: the local grid, the marking of the
+// map's beams, or the wavefront. The linker puts the functions below between the part and its callers
+// (--wrap).
 #include "firmware/apps/pil_link/session.hpp"
 #include "firmware/perception/local_grid.hpp"
 #include "firmware/planning/global/wavefront.hpp"
@@ -8,7 +8,7 @@
 
 namespace {
 
-/// What passed while the part ran, instead of the time.
+/// Replaces the time with the instructions of the part.
 class PartMeter final : public whisker::hal::Meter {
  public:
   uint32_t stamp() noexcept override { return 0; }
@@ -28,7 +28,7 @@ class PartMeter final : public whisker::hal::Meter {
 
 PartMeter meter;
 
-/// Of the part, from here to the end of the block.
+/// Counts from construction to the end of the block.
 class Run {
  public:
   Run() noexcept : from_(PartMeter::board().stamp()) {}

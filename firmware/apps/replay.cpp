@@ -1,4 +1,4 @@
-// A robot whose sensors and wheels are played by a companion through the emulator's own input and output.
+// A robot whose sensors and wheels a companion simulates through the emulator's input and output.
 #include "firmware/apps/pil_link/session.hpp"
 #include "hal/board.hpp"
 

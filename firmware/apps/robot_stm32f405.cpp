@@ -1,4 +1,4 @@
-// The reference robot on an STM32F405: drives 2 m ahead and stands.
+// The reference robot on an STM32F405: drives 2 m ahead and stops.
 #include "firmware/planning/default_planner.hpp"
 #include "hal/boards/stm32f405/robot_board.hpp"
 #include "hal/boards/stm32f405/robot_params.hpp"

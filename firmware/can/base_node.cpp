@@ -5,8 +5,7 @@ namespace {
 
 int32_t size_of(int16_t speed) noexcept { return speed < 0 ? -int32_t{speed} : int32_t{speed}; }
 
-/// Both wheels lose the same part of their speed, so that the path keeps its curvature; the faster one loses
-/// `step`.
+/// Scales both wheels by the same factor, so that the path keeps its curvature; the faster one loses `step`.
 hal::WheelSpeeds slowed(hal::WheelSpeeds now, int16_t step) noexcept {
   const int32_t fastest = size_of(now.left) > size_of(now.right) ? size_of(now.left) : size_of(now.right);
   if (fastest <= step) return {};

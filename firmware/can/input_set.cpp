@@ -29,7 +29,7 @@ bool InputSets::sound(hal::RangeReading& wire) noexcept {
 hal::RangeReading InputSets::to_wire(const hal::RangeReading& reading) noexcept {
   hal::RangeReading wire = reading;
   wire.sequence &= 0x0F;
-  // A damaged reading must not look like a good one.
+  // A damaged reading must not look valid.
   if (wire.status > hal::RangeStatus::stale ||
       (wire.status == hal::RangeStatus::ok && wire.mm >= Any::kNone)) {
     wire.status = hal::RangeStatus::invalid;

@@ -5,7 +5,7 @@
 namespace whisker::can {
 namespace {
 
-/// More than any port keeps: a babbler cannot hold the node here.
+/// More than any port buffers. The limit keeps a babbling node from blocking this one.
 constexpr int kMostFrames = 64;
 constexpr uint16_t kLateness =
     Error::command_late | Error::odometry_late | Error::range_late | Error::peer_lost | Error::bus_off;
@@ -160,7 +160,7 @@ void Node::understand(MessageKind kind, const hal::CanFrame& frame) noexcept {
     case MessageKind::info: heard = read<Info>(frame, [this](const Info& m) { on_info(m); }); break;
     case MessageKind::info_request: announce_ = true; break;
     case MessageKind::diagnostics:
-    case MessageKind::fault: break;  // for people and tools
+    case MessageKind::fault: break;  // for diagnosis only
     default:
       if (!matched_) {
         count(health_.unmatched);

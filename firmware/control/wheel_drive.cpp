@@ -3,7 +3,7 @@
 namespace whisker::control {
 namespace {
 
-/// One tick of a first-order lag, by the trapezoid rule; a lag shorter than half a tick is none.
+/// One tick of a first-order lag, by the trapezoidal rule; a lag below half a tick counts as 0.
 Speed follow(Speed rolling, Speed commanded, Duration elapsed, const Params& params) noexcept {
   const int32_t tick = elapsed.raw();
   const int32_t whole = 2 * params.wheels.motor_lag.raw() + tick;

@@ -5,15 +5,15 @@
 namespace whisker::fuzzy {
 namespace {
 
-/// An input between two neighbouring centres, seen from the nearer one.
+/// An input between two neighbouring centres, relative to the nearer one.
 struct Place {
   uint8_t cell;
   int32_t near;        // index of the nearer centre
   ptrdiff_t to_other;  // 1 or -1
-  int32_t fraction;    // from near (0) toward the other one; at most kFull / 2
+  int32_t fraction;    // from near (0) toward the other centre; at most kFull / 2
 };
 
-/// kFull / gap of every cell, so that the target divides by no gap.
+/// kFull / gap of every cell, so that the target needs no division.
 struct UnitsPerStep {
   uint8_t of[kTerms - 1];
 };
@@ -47,8 +47,8 @@ struct Rules {
   const Q14* across;
 };
 
-// Inlined, it saves a fifth of the instructions; clang 14 for AVR makes mistakes of it, which the small
-// core's golden streams show.
+// Inlining saves a fifth of the instructions, but clang 14 for AVR then generates wrong code: the golden
+// streams of the small core fail.
 #ifdef __AVR__
 #define WHISKER_INLINE_MEAN [[gnu::noinline]]
 #else

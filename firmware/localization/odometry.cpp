@@ -3,7 +3,7 @@
 namespace whisker::localization {
 namespace {
 
-/// The shorter way from one count to the other on the counter's circle.
+/// The shorter difference between two values of the wrapping counter.
 int32_t moved(uint32_t from, uint32_t to) noexcept {
   const uint32_t forward = (to - from) % hal::kEncoderModulus;
   const int32_t steps = static_cast<int32_t>(forward);
@@ -14,7 +14,7 @@ int32_t moved(uint32_t from, uint32_t to) noexcept {
 
 void Odometry::configure(const Params& params) noexcept {
   um_per_count_ = divide_rounded(INT64_C(1000000) << 16, params.wheels.counts_per_metre);
-  // One count turns the body by its travel over the track, in radians.
+  // Turn of the body per count, in radians: travel per count / track.
   constexpr int64_t kTurnPerRadianQ30 = 170891319;
   const int64_t radians_q36 = divide_rounded(um_per_count_ << 20, params.body.track.raw());
   turn_per_count_ = static_cast<uint64_t>(scale_down<18>(radians_q36 * kTurnPerRadianQ30));
@@ -38,7 +38,7 @@ bool Odometry::update(const hal::EncoderCounts& counts, Duration since, CountSte
   if (has_last_) step = {moved(last_.left, counts.left), moved(last_.right, counts.right)};
   last_ = counts;
   has_last_ = true;
-  // So many counts fit into 32 bits.
+  // The largest number of counts that fits into 32 bits.
   const Duration over = min(since + period_, milliseconds(2000));
   const uint32_t most = 2 + static_cast<uint32_t>(over.raw()) * counts_per_ms_ / 256;
   if (magnitude(step.left) > most || magnitude(step.right) > most) return false;

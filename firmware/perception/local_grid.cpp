@@ -12,28 +12,28 @@ constexpr int32_t kAhead = 3;  // cells
 constexpr Duration kDoubt = 1000_ms;
 constexpr int64_t kNear = INT32_C(1) << 30;
 
-// From any apex that is nearby.
+// Seen from any apex within or near the window.
 constexpr int32_t kWholeWindow = 5 * kCells * kUnitsPerCell;
 
 constexpr int32_t within(int64_t x, int32_t limit) noexcept {
   return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
 }
 
-/// From the measurement of what moves to the body's rest: two more readings, latency, a gap, lag, braking.
+/// From the measurement of a moving object to standstill: two more readings, latency, a gap, lag, braking.
 Duration time_to_stop(const Params& p) noexcept {
   const int32_t braking = multiply_divide(p.wheels.max_speed.raw(), 1000, p.wheels.max_acceleration.raw());
   return p.rangefinders.latency + milliseconds(2000 / p.rangefinders.rate_hz) + longest_gap(p) +
          p.wheels.motor_lag + milliseconds(braking);
 }
 
-/// Not cut off at the outermost point.
+/// Within the range in which units() does not saturate.
 constexpr bool nearby(int32_t x) noexcept { return x > -kOutermost && x < kOutermost; }
 
 }  // namespace
 
 int32_t LocalGrid::units(int64_t um, int32_t most) const noexcept {
   const int64_t n = um * kUnitsPerCell;
-  // Most are near: a division of 32 bits is quicker.
+  // Most values are small, and a 32-bit division is faster.
   if (n < kNear && n > -kNear) return within(floor_div(static_cast<int32_t>(n), cell_um_), most);
   return within(floor_div<int64_t>(n, cell_um_), most);
 }
@@ -94,7 +94,7 @@ void LocalGrid::reset(const Pose& pose) noexcept {
 }
 
 void LocalGrid::move_to(const Pose& pose) noexcept {
-  // The body stands behind the middle of the window: the beams look ahead.
+  // The body is behind the middle of the window, because the beams point ahead.
   const Vec middle = pose.at + polar(pose.heading, Length::from_raw(cell_um_ * kAhead));
   const auto corner = [this](Length x) {
     return static_cast<int32_t>(floor_div<int64_t>(int64_t{x.raw()} + cell_um_ / 2, cell_um_)) - kCells / 2;
@@ -227,7 +227,7 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;
   const int32_t beyond = units(farthest + approach_) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
-  // What is seen in the cone may reach beyond its edges, and be nearer there; behind the apex it is not.
+  // The inflated outline may extend beyond the cone's edges, and nearer; behind the apex it must not.
   const HalfPlane ahead = HalfPlane::facing(axis);
   for (int row = 0; row < kCells; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;

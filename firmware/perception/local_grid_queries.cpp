@@ -3,7 +3,7 @@
 namespace whisker::perception {
 namespace {
 
-// To pass a corner d abeam brings the body nearer to it by x^2 / 2d after it lay x ahead (docs/ground.md).
+// Passing a corner at lateral distance d: the body comes x^2 / 2d nearer than x before it (docs/ground.md).
 constexpr int32_t kAbeam = 80;
 constexpr int32_t kWindow = kCells * kUnitsPerCell;
 
@@ -53,7 +53,7 @@ bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length r
   const Point there = local(from + polar(heading, step));
   const int32_t reach = units(radius);
   const int32_t half = units(step / 2);
-  // What lies beyond the window is not known.
+  // Beyond the window nothing is known.
   if (!in_window(there, reach + kHalfSquare)) return true;
   const HalfPlane ahead = HalfPlane::facing(heading);
   const Row box = Span::around(there.x, reach).columns();

@@ -3,17 +3,17 @@
 namespace whisker::perception {
 namespace {
 
-constexpr int32_t kUm = 125;  // in 1/8 mm
+constexpr int32_t kUm = 125;  // in units of 1/8 mm
 constexpr Length kFarthest = 2_m;
-// Of the estimated pose over the ways that the scans span, and of a reading's rounding.
+// Error of the estimated pose over the path between the scans, plus the rounding of a reading.
 constexpr Length kSlack = 3_mm;
 constexpr Angle kWidening = Angle::turns(5, 3600);
-// Three readings of a wall at rest are not all this much too near.
+// Noise bound: three readings of a wall at rest are not all too short by this.
 constexpr Length kNoise = 30_mm;
 constexpr Length kStep = 60_mm;
 constexpr Angle kTurn = Angle::turns(75, 3600);
 constexpr Duration kWhile = 250_ms;
-// Nearer to a sector's rim than this, three directions in 2^-14 do not decide.
+// Closer than this to a sector's rim, direction cosines in 2^-14 are too coarse to decide.
 constexpr Length kHair = micrometres(500);
 
 }  // namespace
@@ -64,7 +64,7 @@ bool MotionDetector::holds(const Scan& scan, int beam, Vec way) const noexcept {
   const Angle off = bearing(way) - scan.heading - beam_axis(side_, beam);
   const Length forward = reach * cos(off) - offset_;
   const Length aside = abs(reach * sin(off));
-  // Across the nearer edge; behind the apex, that is never inside.
+  // Distance inside the nearer edge; never positive behind the apex.
   if (forward * sin(half_) - aside * cos(half_) < kSlack) return false;
   return (norm({forward, aside}) + kSlack).raw() / kUm <= scan.free[beam];
 }
@@ -101,11 +101,11 @@ bool MotionDetector::contradicts(const Pose& from, int beam, Length nearest, Len
   const Angle half = half_ + kWidening;
   const Angle step = Angle::from_raw(half.raw() / (kSectors / 2));
   const Length far = farthest + kNoise;
-  // Cells are coarse: what stands in one takes the ground before it, too.
+  // A cell is coarse: an obstacle in it also occupies the cell's ground before the obstacle.
   const Length beyond = farthest + kNoise / 3;
   const Length middle = (nearest + beyond) / 2;
   const Length radius = (beyond - nearest) / 2 + arc(step, far) / 2 + kSlack;
-  // Of those sectors, the ones that hold the whole ray across the arc.
+  // The scans among these that cover the whole ray across the arc.
   const auto across = [&](Angle direction, Mask among) {
     if (among == 0) return Mask{0};
     const Q30 x = cos(direction);
@@ -114,7 +114,7 @@ bool MotionDetector::contradicts(const Pose& from, int beam, Length nearest, Len
     return behind == 0 ? Mask{0} : holding(apex + Vec{nearest * x, nearest * y}, behind);
   };
   for (int n = 0; n < kSectors; ++n) {
-    // What stands there mostly stands in the middle of the cone.
+    // Middle sectors first: an obstacle is most likely in the middle of the cone.
     const int k = (n + kSectors / 2) % kSectors;
     const Angle right = axis - half + step * k;
     const Angle centre = right + step - Angle::from_raw(step.raw() / 2);

@@ -55,7 +55,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       moved[i] = sight.farthest;
     }
     const uint8_t bit = static_cast<uint8_t>(1U << i);
-    // Only a reading of something is evidence by itself.
+    // A single clear reading is not evidence: it needs a second one.
     if (!sight.clear) {
       local_grid_.mark(observation);
     } else if ((seen_ & bit) != 0) {
@@ -66,7 +66,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     out.observed = static_cast<uint8_t>(out.observed | bit);
     ++seen;
   }
-  // After all marks: another beam may see ground as empty into which something is about to move.
+  // After all marks, because another beam may clear ground into which a moving object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
     if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
   }

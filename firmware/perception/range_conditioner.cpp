@@ -32,8 +32,8 @@ bool BeamConditioner::is_stuck(const hal::RangeReading& reading, Angle heading, 
     repeated_since_ = heading;
     return false;
   }
-  // A cone shows the nearest point of one thing at one distance over its own width, and a pocket can hold a
-  // second thing just as far; only a dead sensor repeats the millimetre over half a turn.
+  // While the body turns, an object keeps its range over at most the cone's width, and a second object may be
+  // exactly as far; only a dead sensor repeats the same millimetre over half a turn.
   return magnitude(heading - repeated_since_) >= stuck_turn.raw();
 }
 
@@ -59,7 +59,7 @@ Validity BeamConditioner::classify(const hal::RangeReading& reading, Angle headi
     case hal::RangeStatus::invalid:
     case hal::RangeStatus::stale: break;
   }
-  // Here, too, ends a status outside the enumeration: a damaged reading.
+  // A status outside the enumeration also ends here: the reading is damaged.
   count(health.range_invalid);
   return Validity::invalid;
 }
@@ -79,7 +79,7 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle h
                              Health& health) noexcept {
   fresh_ = false;
   const bool seen = reading.sequence == sequence_;
-  // Of a reading that is so old or older, nobody knows where the body was then.
+  // The pose at the time of such an old reading is unknown.
   const bool nothing = reading.status == hal::RangeStatus::stale || reading.age_ms == UINT8_MAX;
   if (seen || nothing) {
     age(now, params, health);

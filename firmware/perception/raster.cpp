@@ -7,21 +7,21 @@ namespace {
 
 int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
 
-/// Of the disc around x in a row that lies dy from its centre.
+/// Chord of the disc around x in a row at distance dy from its centre.
 Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
   if (radius < 0 || dy > radius || dy < -radius) return {INT16_MAX, -INT16_MAX};
   const int32_t half = static_cast<int32_t>(square_root_32(static_cast<uint32_t>(radius * radius - dy * dy)));
   return {x - half, x + half};
 }
 
-/// Of the centres of the cells that this disc touches.
+/// Span of the centres of the cells that this disc touches.
 Span touch(int32_t x, int32_t dy, int32_t radius) noexcept {
   const int32_t off = absolute(dy) - kHalfSquare;
   const Span span = chord(x, off < 0 ? 0 : off, radius);
   return {span.low - kHalfSquare, span.high + kHalfSquare};
 }
 
-/// How far the corner of a cell lies from its centre in the direction of this normal.
+/// Distance of a cell's corner from its centre along this normal.
 int32_t corner(int32_t nx, int32_t ny) noexcept {
   return ceil_div((absolute(nx) + absolute(ny)) * kHalfCell, 1 << 14) + kRim;
 }
@@ -88,8 +88,7 @@ Wedge::Wedge(Angle axis, Angle half) noexcept
       right_corner_(corner(right_.nx, right_.ny)) {}
 
 Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
-  // Of the points at this radius, the edges reach farthest up and down, but where straight up or down lies
-  // between them.
+  // At this radius the edges are the highest and lowest points, unless the wedge contains the vertical.
   const int32_t left = scale_down<14>(left_.nx * radius);
   const int32_t right = scale_down<14>(-right_.nx * radius);
   const int32_t higher = left > right ? left : right;
@@ -142,7 +141,7 @@ Row Stadium::box() const noexcept {
 }
 
 void Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
-  // Where the row crosses this long edge, if it does.
+  // Where the row crosses this long edge, if at all.
   const int32_t from_y = dy - sign * scale_down<14>(ux_ * beside_);
   if (uy_ == 0) return;
   const int32_t half = uy_ / 2;

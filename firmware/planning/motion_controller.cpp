@@ -4,11 +4,11 @@ namespace whisker::planning {
 namespace {
 
 constexpr int32_t kStillPeriods = 3;
-/// Held for as many periods, or readings, a drive is cut: what the guard waits for would have been seen.
+/// The guard holds a drive back for at most this long: by then the beams would have seen the unknown ground.
 constexpr int32_t kHeldPeriods = 20;
 constexpr int32_t kHeldReadings = 4;
 
-/// The highest speed from which `rest` is enough to stop: v with v^2 / 2a + v * settle = rest.
+/// The highest speed that stops within `rest`: v with v^2 / 2a + v * settle = rest.
 Speed approach_speed(Length rest, const Params& params) noexcept {
   if (rest <= Length{}) return Speed{};
   const int64_t a = params.wheels.max_acceleration.raw();
@@ -32,7 +32,7 @@ Duration longest_hold(const Params& params) noexcept {
 }
 
 void count_while(bool condition, Duration elapsed, Duration& time) noexcept {
-  // It would wrap after 24 days: by then a fault has stopped the robot.
+  // Saturates: it would wrap after 24 days, but a fault stops the robot before.
   const uint32_t longer = static_cast<uint32_t>(time.raw()) + static_cast<uint32_t>(elapsed.raw());
   time = Duration::from_raw(condition ? static_cast<int32_t>(longer) : 0);
 }
@@ -73,7 +73,7 @@ VelocityRequest MotionController::request(const Pose& pose, Duration elapsed, Du
   return {};
 }
 
-/// One that turns faster than the limit is slowed down as a whole: its path stays.
+/// If the turn rate exceeds the limit, both speeds are scaled, so that the path keeps its curvature.
 VelocityRequest MotionController::cruise(const Params& params) const noexcept {
   const Speed most = fastest_turning(params);
   const Speed turning = abs(current_.turning);
@@ -103,7 +103,7 @@ VelocityRequest MotionController::drive(const Pose& pose, Angle error, Duration 
   const Speed forward = min(approach_speed(rest, params), params.wheels.max_speed);
   const Speed fastest = min(params.wheels.max_speed, fastest_turning(params));
   const Speed correction = signed_approach(arc(error, params.body.track / 2), fastest, params);
-  // Half the forward speed at most, so that the correction bends the path and never reverses a wheel.
+  // At most half the forward speed, so that the correction never reverses a wheel.
   return {forward, limit(correction, forward / 2), true};
 }
 

@@ -4,9 +4,9 @@ namespace whisker::safety {
 namespace {
 
 constexpr Length kSample = 20_mm;
-constexpr Duration kCounted = 60000_ms;  // held for longer is not told apart
+constexpr Duration kCounted = 60000_ms;  // longer durations count as this
 
-/// How far a wheel still rolls: through its lag, at the new command until the next tick, and braking.
+/// Distance that a wheel still rolls: during its lag, at the new command until the next tick, while braking.
 struct Brake {
   Length left;
   Length right;
@@ -19,7 +19,7 @@ Brake brake(WheelPair command, const WheelState& wheels, const Params& params) n
   const int64_t a = params.wheels.max_acceleration.raw();
   const int64_t fastest = faster(command).raw();
   const auto rolls = [&](Speed commanded, Speed rolling) {
-    // Braked in proportion, each wheel covers half its speed times the time of the faster one.
+    // Both wheels brake in the same time, that of the faster one; each covers half its speed times that time.
     const Length braking = Length::from_raw(saturate32(divide_rounded(commanded.raw() * fastest, 2 * a)));
     return rolling * params.wheels.motor_lag + commanded * hold + braking;
   };

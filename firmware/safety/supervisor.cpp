@@ -5,10 +5,10 @@
 namespace whisker::safety {
 namespace {
 
-// What the wheels still do from before a reset is no one's command.
+// Motion that remains from before a reset matches no command.
 constexpr Duration kUnwatched = 500_ms;
 constexpr Length kPlace = 30_mm;  // for the reference body
-// In one place it may wait this many times stalled_after, turn around this often, and cross it this often.
+// Limits within one place: kWaits times stalled_after, kTurns full turns, kSteps crossings.
 constexpr int32_t kWaits = 60;
 constexpr int32_t kTurns = 30;
 constexpr int32_t kSteps = 30;
@@ -17,7 +17,7 @@ Duration ms_at(Length way, int32_t times, Speed speed) noexcept {
   return milliseconds(multiply_divide(way.raw(), 1000 * times, speed.raw()));
 }
 
-/// What is done in one place takes less than this.
+/// Upper bound of the time for permitted activity in one place.
 Duration longest_stay(const Params& p) noexcept {
   constexpr int32_t kMicroradians = 6283185;  // a turn
   const AngularRate rate = min(p.wheels.max_turn_rate, planning::kFastestTurn);
@@ -95,7 +95,7 @@ void Supervisor::check_ranges(Duration lost) noexcept {
 }
 
 void Supervisor::check_look(bool waits, Duration stood) noexcept {
-  // Each reading that a look needs may take `lost_after` before the beam is lost, and one is under way.
+  // Each reading of a static scan may take `lost_after` before the beam is lost; one more is under way.
   const Duration longest = params_.safety.lost_after * (params_.conditioning.reads + 1);
   if (waits && stood > longest) fail(Fault::range_unsteady, health_.unsteady_looks);
 }

@@ -4,13 +4,13 @@ namespace whisker::safety {
 namespace {
 
 constexpr Length kStretch = 40_mm;  // for the reference body
-constexpr int32_t kCounts = 10;     // fewer say nothing of a part of them
+constexpr int32_t kCounts = 10;     // fewer counts do not allow a judgement of fractions
 
 }  // namespace
 
 void WheelWatch::configure(const Params& params) noexcept {
   um_per_count_ = divide_rounded(1000000, params.wheels.counts_per_metre);
-  // A command and what it does lie up to a gap apart.
+  // A command and its effect are up to one gap apart.
   const Length gap = params.wheels.max_speed * (longest_gap(params) * 2);
   stretch_ = max(max(for_body(params, kStretch), way(kCounts)), gap);
 }
@@ -34,8 +34,8 @@ WheelWatch::Finding WheelWatch::judge(Wheel& wheel) const noexcept {
   const Length apart = abs(wheel.commanded_way - wheel.counted_way);
   if (wheel.counted < wheel.expected / 4) {
     if (wheel.other >= stretch_ / 2) return Finding::stalled;
-    // Both wheels at rest are held by something, which has its own time; what they did not do meanwhile must
-    // not count when they are let go.
+    // Something holds both wheels, which has a separate time-out. The motion missed meanwhile must not count
+    // after release.
     wheel.expected = min(wheel.expected, stretch_);
     wheel.commanded_way = limit(wheel.commanded_way, stretch_);
     return Finding::none;

@@ -78,7 +78,7 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
     behaviours_.scan.begin(heading, length, decision.manoeuvre);
     return true;
   }
-  // Held back by something unseen: a small turn may already show it.
+  // The guard limits the speed because of unseen ground: a small turn may already show it.
   Angle aside;
   if (view.granted < kHindered && turn_to_unseen(view, heading, length, heading, behaviours_.params, aside)) {
     heading += limited(aside, kCheapTurn);
@@ -89,7 +89,7 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
 
 bool Approach::advised(const View& view, Length distance, Vec& to, Decision& decision) noexcept {
   const GlobalPlanner::Advice advice = guide_->advise(view, distance, to);
-  // It may have led away from the goal: what comes now is measured anew.
+  // The guide may have led away from the goal, so progress is measured again from here.
   if (guided_ && advice == GlobalPlanner::Advice::none) measure_anew(view, distance);
   guided_ = advice != GlobalPlanner::Advice::none;
   refuted_ = advice == GlobalPlanner::Advice::no_way;

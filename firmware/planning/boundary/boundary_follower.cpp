@@ -7,7 +7,7 @@ namespace whisker::planning {
 namespace {
 
 constexpr Length kCommit = 60_mm;
-constexpr Length kRefused = 5_mm;  // of the commitment: the guard did not let it begin
+constexpr Length kRefused = 5_mm;  // of the commitment: less travel than this means that the guard refused it
 constexpr int8_t kRefusals = 10;
 constexpr Length kOpeningEvery = 100_mm;
 
@@ -134,7 +134,7 @@ void BoundaryFollower::search_on(const View& view, Decision& decision) noexcept 
     refusals_ = 0;
   else if (refusals_ < kRefusals)
     ++refusals_;
-  // Turned to that heading, it may have seen more on the wall's side.
+  // After turning to the refused heading, the beams may show more on the wall's side.
   if (refusals_ < kRefusals) {
     search_from_wall(view);
   } else {

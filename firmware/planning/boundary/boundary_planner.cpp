@@ -7,8 +7,8 @@ namespace whisker::planning {
 namespace {
 
 constexpr Length kNearer = 30_mm;
-constexpr Length kKeepSide = 500_mm;    // of travel after a leave
-constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, beside kKeepSide
+constexpr Length kKeepSide = 500_mm;    // of travel after leaving a boundary
+constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, in addition to kKeepSide
 constexpr int8_t kEscapes = 6;
 
 static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1024);
@@ -168,7 +168,7 @@ bool BoundaryPlanner::may_leave(const View& view) const noexcept {
   const Angle target = target_.direction();
   const Reach& reach = view.local_grid->reach();
   const Way found = way(view, target, min(reach.probe, target_.distance), reach.planning);
-  // Away from the wall the unseen may be tried; on its side it is most likely the wall.
+  // Away from the wall, unknown ground is acceptable; on the wall's side it is most likely wall.
   const bool wall_side = (target - view.pose.heading).wrapped() * int64_t{sign(wall_)} > 0;
   return found == Way::free || (found == Way::unknown && !wall_side);
 }
@@ -203,7 +203,7 @@ void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
     }
     return;
   }
-  // A gap that is closed from one side may be open from the other one.
+  // A gap may be passable from only one side, so follow the boundary in the other direction.
   other_way_ = true;
   wall_ = opposite(wall_);
   const Angle back = view.pose.heading + 180_deg;

@@ -8,16 +8,15 @@ namespace {
 constexpr Angle kStep = Angle::turns(1, kCandidateHeadings);
 constexpr int32_t kSteps = 10;  // to 75 degrees
 constexpr Angle kFineStep = Angle::turns(1, 3 * kCandidateHeadings);
-constexpr int32_t kNearlyFree = 5;  // cells; a gap as wide as the body is free between two of the steps
+constexpr int32_t kNearlyFree = 5;  // cells; between two steps a gap of body width may be free
 constexpr uint32_t kStraight = (1_deg).raw();
-// What stands there may begin to move: where there is room, more of it is left on a course that is not far
-// off.
+// An obstacle may start to move: if there is room, prefer a nearby course with more clearance.
 constexpr Length kRoom = 30_mm;
 constexpr int32_t kRoomSteps = 6;  // to 45 degrees
 
 }  // namespace
 
-/// Bends quickly and straightens slowly, so that the course does not swing about what it passes.
+/// Bends quickly and straightens slowly, so that the course does not oscillate beside an obstacle.
 void Course::bend_towards(Angle wanted) noexcept {
   const int64_t change = int64_t{wanted.wrapped()} - bend_;
   const bool grows = magnitude(wanted.wrapped()) > magnitude(bend_);

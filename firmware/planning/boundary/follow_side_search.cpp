@@ -4,11 +4,11 @@ namespace whisker::planning {
 namespace {
 
 constexpr AngularRate kSweepRate = 2000_mrad_per_s;
-constexpr int32_t kLast = 150;                     // degrees to which exits are looked for on each side
-constexpr int32_t kFine = 2 * kCandidateHeadings;  // a gap as wide as the body shows at few headings
+constexpr int32_t kLast = 150;                     // degrees to each side within which exits are searched
+constexpr int32_t kFine = 2 * kCandidateHeadings;  // a gap of body width is free at only a few headings
 constexpr int32_t kSteps = kLast * kFine / 360;
 constexpr Length kFarView = 800_mm;
-// The outer rim of a side cone is 42.5 degrees ahead of the front, and a way is as wide as the body.
+// The outer rim of a side cone is 42.5 degrees ahead of the front; a path is as wide as the body.
 constexpr int32_t kSeenBehind = 42;
 
 constexpr Angle step_angle(int32_t n) noexcept { return Angle::turns(n, kFine); }
@@ -27,7 +27,7 @@ void FollowSideSearch::begin_on(Angle blocked, Side only) noexcept {
   exit(opposite(only)).swept = true;
 }
 
-/// The far view counts: an exit into a pocket costs the whole sweep.
+/// Includes the far view, because an exit into a pocket would cost a full sweep.
 int32_t FollowSideSearch::cost(const Exit& e) noexcept {
   if (!e.free) return 1000;
   if (e.view == 0) return kLast + e.turn / 4;

@@ -6,7 +6,7 @@
 namespace whisker::planning {
 namespace {
 
-// All lengths are the reference body's.
+// All lengths are for the reference body.
 constexpr Length kApart = 40_mm;
 constexpr Angle kSwing = 110_deg;
 constexpr Angle kNotBack = 45_deg;

@@ -6,7 +6,7 @@ using namespace literals;
 
 namespace {
 
-constexpr uint32_t kDrift = 50;  // odometry is off by at most 1 / 50 of the way
+constexpr uint32_t kDrift = 50;  // odometry error: at most 1 / 50 of the travel
 constexpr int32_t kMostLaps = 3;
 constexpr uint64_t kDegree = (1_deg).raw();
 

@@ -5,7 +5,7 @@
 namespace whisker::planning {
 namespace {
 
-constexpr Angle kSide = 50_deg;  // with the cones' rims, 92 degrees to each side
+constexpr Angle kSide = 50_deg;  // with the outer edges of the cones, covers 92 degrees to each side
 
 }  // namespace
 

@@ -5,16 +5,16 @@
 namespace whisker::planning {
 namespace {
 
-// All lengths are the reference body's; what is measured is brought to its scale.
+// All lengths are for the reference body; measured lengths are scaled to it.
 constexpr Length kReference = 90_mm;
 constexpr Length kWanted = 150_mm;
-constexpr Length kTooFar = 60_mm;  // beyond the wanted distance: the wall has ended
+constexpr Length kTooFar = 60_mm;  // beyond the wanted distance: the wall ended
 constexpr Length kTooNear = 100_mm;
 constexpr int32_t kWallGain = 20;  // rad/s per metre
 constexpr Length kAhead = 300_mm;
 constexpr int32_t kAheadGain = 15;
 constexpr Length kEndRadius = 180_mm;
-constexpr AngularRate kHalts = 4000_mrad_per_s;  // the forward speed would be zero at this turn rate
+constexpr AngularRate kHalts = 4000_mrad_per_s;  // at this turn rate the forward speed is zero
 
 }  // namespace
 

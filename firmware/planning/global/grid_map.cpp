@@ -8,19 +8,19 @@ using perception::kHalfCell;
 using perception::kUnitsPerCell;
 
 constexpr int32_t kInside =
-    perception::kUnitsPerCell * 23 / 32;  // a disc so large around its middle covers a cell
+    perception::kUnitsPerCell * 23 / 32;  // a disc of this radius around a cell's centre covers the cell
 constexpr Length kFar = 2_m;              // for the reference body
-constexpr Length kSure = 160_mm;          // across: all that an echo can have come from is one thing
+constexpr Length kSure = 160_mm;          // across: an echo from an area this small has a single origin
 constexpr Angle kSuspectHalf = 6_deg;
 constexpr int32_t kNearBorder = 9;            // a ninth of the window
-constexpr int32_t kBias = 10, kBiasPart = 3;  // the body lies at most 3/10 of the window off its middle
+constexpr int32_t kBias = 10, kBiasPart = 3;  // the body is at most 3/10 of the window off its centre
 
 struct Columns {
   int32_t first;
   int32_t last;
 };
 
-/// The columns whose middles lie within the span.
+/// The columns whose centres lie within the span.
 Columns within(const perception::Span& span) noexcept {
   return {perception::ceil_div(span.low - kHalfCell, kUnitsPerCell),
           floor_div(span.high - kHalfCell, kUnitsPerCell)};
@@ -30,7 +30,7 @@ int32_t clamped(int32_t x, int32_t most) noexcept { return x > most ? most : x <
 
 }  // namespace
 
-/// The cells that an echo may have come from.
+/// Bounding box of the cells that may have caused an echo.
 struct GridMap::Box {
   Cell low{INT16_MAX, INT16_MAX};
   Cell high{-1, -1};
@@ -160,8 +160,8 @@ GridWord GridMap::too_narrow(int32_t row, int w) const noexcept {
   return near & ~*here & ~sure()[i];
 }
 
-/// The cells that have a level, all that lie beside them, and the window's rim, where a plan may come in: no
-/// other is of any account to the plan so far. What opens in a fine map makes room beside it: one cell more.
+/// Only these cells can affect the current plan: cells with a level, their neighbours, and the window's rim,
+/// where a path may enter. In a fine map a change also affects the room one cell further.
 GridWord GridMap::touched(int32_t row, int w) const noexcept {
   const int32_t words = shape_.words;
   const int32_t reach = shape_.fine() ? 2 : 1;

@@ -3,12 +3,12 @@
 namespace whisker::planning {
 namespace {
 
-constexpr int32_t kBeyond = 6;   // levels past the body's, for the cells around it
-constexpr int32_t kDetour = 20;  // levels: what a way around outside the window costs more
+constexpr int32_t kBeyond = 6;   // levels past the body's, for the cells around the body
+constexpr int32_t kDetour = 20;  // levels: extra cost of a detour outside the window
 
 int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
 
-/// Half the width of the row that lies dy from the goal within so many levels of it; negative: none.
+/// Half width of the row dy from the goal within the area that `level` levels cover; negative: none.
 int32_t half_width(int32_t level, int32_t dy) noexcept {
   const int32_t rest = level + level / 2 - absolute(dy);
   if (absolute(dy) > level) return -1;
@@ -81,7 +81,7 @@ bool Wavefront::end_level(GridMap& map) noexcept {
   if (level_ >= task_.most) return true;
   if (high_ < 0 && !pending) {
     if (reached_ >= 0 || entry_ == Entry::any_border || !reaches_border(map)) return true;
-    // Perhaps there is a way around outside.
+    // There may be a detour outside the window.
     entry_ = Entry::any_border;
     const int32_t inside =
         cell_distance({gap(task_.goal.x, map.shape().columns()), gap(task_.goal.y, map.shape().rows)});
@@ -116,8 +116,8 @@ GridWord Wavefront::passable(const GridMap& map, int32_t row, int w) const noexc
   return ~solid;
 }
 
-/// The row that is being spread to, and those above and below. Each is read once a level: what a level adds
-/// is of another phase than what it comes from.
+/// The row to spread to, and the rows above and below. Each is read once per level: cells that a level adds
+/// have a different phase from those it spreads from.
 class Wavefront::Rows {
  public:
   Rows(Wavefront& wavefront, GridMap& map) noexcept
@@ -137,20 +137,20 @@ class Wavefront::Rows {
   Rows& operator=(const Rows&) = delete;
 
   void begin_level() noexcept;
-  /// The next row of the level, or any as the first.
+  /// Spreads to the next row of the level; the first row may be any.
   void spread(int32_t row) noexcept;
 
  private:
-  /// A row's words, with none on either side.
+  /// The words of a row, with an empty word on either side.
   struct Row {
-    GridWord front[kMostWords + 2] = {};  ///< of the level before
-    GridWord open[kMostWords + 2] = {};   ///< does not block
-    GridWord fresh[kMostWords + 2] = {};  ///< the same, without a level
-    GridWord any = 0;                     ///< of the front
+    GridWord front[kMostWords + 2] = {};  ///< cells of the previous level
+    GridWord open[kMostWords + 2] = {};   ///< cells that do not block
+    GridWord fresh[kMostWords + 2] = {};  ///< open cells without a level
+    GridWord any = 0;                     ///< union of front
   };
 
   void read(int32_t row, Row& to) const noexcept;
-  // Out of line, so that read() keeps its words in registers: most maps have no too_narrow cells.
+  // Not inlined, so that read() keeps its words in registers: most maps have no too_narrow cells.
   [[gnu::noinline]] void cramp(int32_t row, Row& to) const noexcept;
   void move_on(int32_t row) noexcept;
   GridWord entering(int32_t row, int w) const noexcept;
@@ -162,24 +162,24 @@ class Wavefront::Rows {
   const GridWord* const sure_;
   GridWord* const high_;
   GridWord* const low_;
-  const GridWord any_state_;  // suspects block, too
-  const bool cramps_;         // too_narrow cells, too
+  const GridWord any_state_;  // suspected cells also block
+  const bool cramps_;         // too_narrow cells also block
   const bool body_inside_;
   Row row_[3];
   Row* above_ = &row_[0];
   Row* here_ = &row_[1];
   Row* below_ = &row_[2];
-  // Of the level:
-  bool first_ = true;  // no row was read
+  // State of the level:
+  bool first_ = true;  // no row read yet
   bool diagonal_ = false;
-  bool enters_ = false;  // over a side:
+  bool enters_ = false;  // across a side of the window:
   bool top_ = false;
   bool bottom_ = false;
   GridWord left_ = 0;
   GridWord right_ = 0;
-  GridWord not_high_ = 0;  // the planes' bits where the level before is not
+  GridWord not_high_ = 0;  // inverse of the planes' bits of the previous level
   GridWord not_low_ = 0;
-  GridWord in_high_ = 0;  // where this one is
+  GridWord in_high_ = 0;  // the planes' bits of this level
   GridWord in_low_ = 0;
 };
 
@@ -282,7 +282,7 @@ void Wavefront::Rows::spread(int32_t row) noexcept {
     GridWord news =
         beside(here.front[w - 1], here.front[w], here.front[w + 1]) | above.front[w] | below.front[w];
     if (diagonal_) {
-      // Not across the corner of something that blocks: over the open cells of both rows.
+      // Not across a blocked corner: only over cells that are open in both rows.
       const GridWord* const open = here.open + w;
       const GridWord* const a = above.front + w;
       const GridWord* const b = below.front + w;
@@ -338,7 +338,7 @@ bool Wavefront::next(const GridMap& map, Cell p, Cell aim, Cell& on) const noexc
       const Cell q = p + Cell{dx, dy};
       if (phase(map, q) != nearer) continue;
       if (dx != 0 && dy != 0) {
-        // Two levels on is the same, modulo 3: but then what lies beside both is one level on.
+        // Levels repeat modulo 3, so level + 2 looks the same; but then both side neighbours have level + 1.
         const int a = phase(map, p + Cell{dx, 0});
         const int b = phase(map, p + Cell{0, dy});
         const auto near = [&](int n) { return n == here || n == nearer; };

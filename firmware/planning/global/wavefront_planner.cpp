@@ -7,13 +7,13 @@ namespace {
 
 constexpr int32_t kRowsATick = 800;
 constexpr int32_t kEvery = 16;
-constexpr Length kDearer = 2500_mm;  // what the way around what is only suspected may cost more
+constexpr Length kDearer = 2500_mm;  // extra cost accepted to avoid suspected cells
 constexpr Length kHorizon = 3000_mm;
 constexpr Length kAhead = 600_mm;
 constexpr Length kSlack = 100_mm;
 constexpr Length kKept = 100_mm;
 constexpr Length kReached = 250_mm;
-constexpr Length kNoProgress = 20_m;  // of the first attempt; half as much of each later one
+constexpr Length kNoProgress = 20_m;  // of the first attempt; halves with each later one
 constexpr Length kLastTry = 8_m;
 constexpr Length kProgress = 150_mm;
 constexpr Length kBarred = 200_mm;
@@ -134,7 +134,7 @@ bool WavefrontPlanner::sees(Vec from, Vec to) const noexcept {
   return raytrace(map_, from, to, [this](Cell p) { return !wavefront_.blocked(map_, p); });
 }
 
-/// What the straight way there costs more than the best one; all there is, where something blocks it.
+/// Extra cost of the straight line over the best path; the maximum if an obstacle blocks the line.
 Length WavefrontPlanner::dearer(Vec from, Vec to) const noexcept {
   constexpr Length kBlocked = Length::from_raw(INT32_MAX);
   int32_t levels = 0;
@@ -144,7 +144,7 @@ Length WavefrontPlanner::dearer(Vec from, Vec to) const noexcept {
   const bool open = raytrace(map_, from, to, [&](Cell p) {
     const int now = wavefront_.phase(map_, p);
     if (now < 0) {
-      // A line that leaves the window does not come back, and may be of any length.
+      // A line that leaves the window does not return, so its remainder may have any length.
       leaves = !map_.holds(p);
       return false;
     }
@@ -191,7 +191,7 @@ void WavefrontPlanner::finish(const View& view) noexcept {
   if (first) way_ = goal_.at;
 }
 
-/// Long enough without getting nearer to the goal.
+/// Whether the robot drove too far without getting nearer to the goal.
 bool WavefrontPlanner::spent() const noexcept {
   const int32_t in_vain = travel_mm_ - improved_mm_;
   return in_vain > (last_try_ ? mm(kLastTry) : mm(kNoProgress) >> attempts_);

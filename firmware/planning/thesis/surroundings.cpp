@@ -7,12 +7,12 @@ namespace {
 
 constexpr int32_t kUmPerMm = 1000;
 constexpr Angle kWidth = Angle::turns(1, Surroundings::kSectors);
-constexpr Length kRounding = 1_mm;  // more than that of a point by its angle
+constexpr Length kRounding = 1_mm;  // more than the rounding of a point by its angle
 constexpr uint32_t kHalfWidth = kWidth.raw() / 2;
 
 constexpr Angle middle(int sector) noexcept { return kWidth * sector + Angle::from_raw(kHalfWidth); }
 
-/// A clear beam has nothing to object to, as in Probe: no step reaches beyond the maximum range.
+/// A clear beam is unlimited, as in Probe: no step exceeds the maximum range.
 uint16_t proved_mm(const perception::Echo& echo, Length ahead) noexcept {
   const int32_t mm = (echo.distance + ahead).raw() / kUmPerMm;
   const bool far = echo.validity == perception::Validity::clear || mm > int32_t{UINT16_MAX};
@@ -21,8 +21,8 @@ uint16_t proved_mm(const perception::Echo& echo, Length ahead) noexcept {
 
 }  // namespace
 
-// With its apex ahead of the centre a cone covers less of the circle. A direction counts as covered if the
-// ray from the centre has entered the cone where it leaves the body; nearer there is only the body itself.
+// A cone whose apex is ahead of the centre covers less of the circle. A direction counts as covered if the
+// ray from the centre is inside the cone where it leaves the body.
 void Surroundings::configure(const Params& params) noexcept {
   const RangefinderParams& r = params.rangefinders;
   const Angle half_cone = Angle::from_raw(r.cone.raw() / 2);

@@ -5,10 +5,10 @@
 namespace whisker::planning {
 namespace {
 
-/// How far an exit search turns to each side; both together leave out what lies behind.
+/// Maximum turn of an exit search to each side; the two sides together exclude the rear.
 constexpr uint32_t kSearchLimit = (150_deg).raw();
 
-/// The body has moved on by this.
+/// The body moved if it is farther away than this.
 constexpr Length kMoved = 10_mm;
 
 }  // namespace
@@ -46,8 +46,8 @@ void ThesisPlanner::advance(const View& view) noexcept {
   }
 }
 
-/// The guard cuts a step where it would come beside what no beam has seen: a scan may show it. What is cut
-/// again at the same place is taken for blocked.
+/// The guard cuts a step short at unseen ground: a scan may show that it is free. A second cut at the same
+/// place counts as blocked.
 void ThesisPlanner::end_step(const View& view) noexcept {
   if (!view.cut) {
     arrive_at_position(view);
@@ -130,7 +130,7 @@ void ThesisPlanner::steer(const View& view, Length distance) noexcept {
   const Angle turn = front >= distance ? Angle{} : scaled(params_.thesis.base_turn, decision_.response.turn);
   base_ = target_ + turn;
   deflections_ = 0;
-  // Deflect the way the table leans; where it does not, to the side with more room.
+  // Deflect to the side of the table's output; if it is 0, to the side with more room.
   const int32_t lean = turn.wrapped();
   if (lean != 0) {
     side_ = lean > 0 ? 1 : -1;
@@ -196,7 +196,7 @@ void ThesisPlanner::search(const View& view) noexcept {
     }
     exit_left_ = deflections_;
   }
-  // The right side is worth a look only below the turn that the left side needs.
+  // The right side is searched only up to less than the turn to the left exit.
   const uint64_t limit = left || exit_left_ == 0
                              ? uint64_t{kSearchLimit}
                              : static_cast<uint64_t>(exit_left_ - 1) * params_.thesis.delta.raw();
@@ -248,7 +248,7 @@ Length ThesisPlanner::rest_of_step(const View& view) const noexcept {
   return planned_ - along(view.pose.at - left_, base_ + deflection());
 }
 
-/// The body stands already.
+/// The body is already at rest.
 void ThesisPlanner::end(Mode mode, Why why, Outcome outcome) noexcept {
   finish(mode, why, outcome);
   decision_.manoeuvre = {};
