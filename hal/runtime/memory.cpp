@@ -1,4 +1,4 @@
-// The functions that compilers call by themselves. Built without the optimisation that would make them call
+// The functions that compilers call implicitly. Built without the optimisation that would make them call
 // themselves.
 #include <stddef.h>
 #include <stdint.h>
@@ -9,7 +9,7 @@ void* memcpy(void* to, const void* from, size_t count);
 void* memmove(void* to, const void* from, size_t count);
 void* memset(void* to, int value, size_t count);
 
-// Nearly all that is copied or filled are whole words.
+// Nearly all copies and fills are of whole words.
 using Word [[gnu::may_alias]] = uint32_t;
 constexpr bool kByWords = sizeof(void*) >= sizeof(Word);
 

@@ -1,4 +1,5 @@
-// What an abstract class's table points to; a build without inlining keeps such tables.
+// The entry for pure virtual functions in the tables of abstract classes; a build without inlining keeps
+// these tables.
 #include "hal/board.hpp"
 
 extern "C" [[noreturn]] void __cxa_pure_virtual();

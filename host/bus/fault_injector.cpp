@@ -55,7 +55,7 @@ void FaultInjector::flip_bit(hal::CanFrame& frame) {
   frame.data[bit / 8] = static_cast<std::uint8_t>(frame.data[bit / 8] ^ (1U << (bit % 8)));
 }
 
-/// False: there was nothing to change.
+/// False if there is nothing to change.
 bool FaultInjector::change(const Fault& fault, Memory& memory, Outcome& outcome) {
   hal::CanFrame& frame = outcome.frame;
   const bool has_data = frame.size > 0 && !frame.remote;

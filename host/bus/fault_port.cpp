@@ -58,7 +58,7 @@ void FaultPort::release_late(Way& way) {
 void FaultPort::pass(Way& way, const CanFrame& frame, std::uint8_t lifetime_ms, Direction direction) {
   const FaultInjector::Outcome outcome = injector_.meddle(frame, direction);
   const Passing passing{outcome.frame, lifetime_ms, injector_.tick() + outcome.ticks};
-  // One that waits for the next must not wait for ever because the next one waits too.
+  // At most one frame is held, because two held frames would wait for each other forever.
   const bool hold = outcome.held && way.held.empty();
   std::deque<Passing>& to = hold ? way.held : outcome.ticks > 0 ? way.late : way.ready;
   for (std::uint32_t i = 0; i < outcome.copies; ++i) to.push_back(passing);
@@ -122,7 +122,7 @@ void FaultPort::see_outgoing(std::uint32_t now_ms) {
   out_.ready.clear();
 }
 
-/// A frame that the inner port refuses had left already.
+/// Counts a frame that the inner port refuses as sent by this port.
 void FaultPort::add_counts() noexcept {
   const hal::CanCounts& now = inner_.counts();
   const auto add = [&](std::uint32_t& to, std::uint32_t hal::CanCounts::*which) {
@@ -158,7 +158,7 @@ void FaultPort::poll(std::uint32_t now_ms) noexcept {
   inner_.poll(now_ms);
   see_incoming();
   see_outgoing(now_ms);
-  // What has just been handed over leaves now, not at the next poll.
+  // Polls again, so that frames handed over above leave now.
   inner_.poll(now_ms);
   add_counts();
 }

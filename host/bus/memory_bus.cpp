@@ -5,7 +5,7 @@ namespace whisker::bus {
 std::uint32_t arbitration(const hal::CanFrame& frame) noexcept {
   const std::uint32_t remote = frame.remote ? 1 : 0;
   if (!frame.extended) return frame.id << 21 | remote << 20;
-  constexpr std::uint32_t kRecessive = 3U << 19;  // in the places of a base frame's RTR and IDE
+  constexpr std::uint32_t kRecessive = 3U << 19;  // at the positions of a base frame's RTR and IDE
   return (frame.id >> 18) << 21 | kRecessive | (frame.id & 0x3FFFF) << 1 | remote;
 }
 
@@ -38,7 +38,7 @@ MemoryPort* MemoryBus::winner() noexcept {
 }
 
 void MemoryBus::run(std::uint32_t now_ms) noexcept {
-  // A port whose clock is behind the others' brings no time.
+  // A port whose clock is behind the others' does not advance the time.
   const bool later = started_ && now_ms != now_ms_ && hal::reached(now_ms, now_ms_);
   if (!started_ || later) {
     started_ = true;

@@ -15,7 +15,8 @@ double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.e
 
 Estimate around(double value, double half_width) { return {value, value - half_width, value + half_width}; }
 
-/// P(count = k) for k = 0..n of a binomial count, built outwards from its mode: no term is lost that matters.
+/// P(count = k) for k = 0..n of a binomial count, computed outwards from the mode, so that no relevant term
+/// underflows.
 std::vector<double> binomial(std::size_t n, double p) {
   std::vector<double> weight(n + 1, 0);
   const double total = static_cast<double>(n);
@@ -56,7 +57,7 @@ Estimate quantile(std::vector<double> sample, double p) {
   const std::size_t n = sample.size();
   const double rank = std::ceil(p * static_cast<double>(n) - 1e-9);
   Estimate estimate{sample[static_cast<std::size_t>(std::max(rank, 1.0)) - 1], std::nullopt, std::nullopt};
-  // The r-th smallest lies above the quantile if fewer than r of the sample lie below it.
+  // The r-th smallest value exceeds the quantile if fewer than r of the sample lie below the quantile.
   const std::vector<double> probability = binomial(n, p);
   double fewer = 0;
   for (std::size_t r = 1; r <= n; ++r) {

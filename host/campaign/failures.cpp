@@ -8,7 +8,7 @@
 namespace whisker::campaign {
 namespace {
 
-/// As a single word of a POSIX shell.
+/// Quotes the text as one word of a POSIX shell.
 std::string shell_word(const std::string& text) {
   constexpr const char* kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./:=@%+,-";
   if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
@@ -17,7 +17,7 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
-/// The picture's name: that of the file, or of the kind of world.
+/// The picture's name: the name of the file, or the kind of world.
 std::string picture(const Row& row) {
   const std::size_t folder = row.world.rfind('/');
   const std::string last = folder == std::string::npos ? row.world : row.world.substr(folder + 1);

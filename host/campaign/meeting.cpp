@@ -11,9 +11,9 @@
 namespace whisker::campaign {
 namespace {
 
-constexpr double kOff = 0.03;  // m, of what a cone shows from the nearest point
+constexpr double kOff = 0.03;  // m, tolerance between a cone's reading and the nearest point
 
-/// What the beams show of the one mover in the world, and since when.
+/// Whether the beams detect the only mover in the world, and since when.
 class Sighting {
  public:
   explicit Sighting(const Scenario& scenario) : world_(scenario), spec_(sim::robot_spec(scenario.robot)) {}
@@ -62,7 +62,7 @@ Meeting meet(const Scenario& scenario, PlannerKind planner) {
   const RunResult result = run(scenario, options);
   m.verdict = result.verdict;
   m.time_s = result.time_s;
-  // The last record is the contact's, with the wheels at rest.
+  // The last record is that of the contact, with the wheels at rest.
   m.speed_mps = result.verdict == Verdict::contact ? before : 0;
   m.shown_s = sighting.shown_s();
   m.near_s = sighting.near_s();

@@ -16,7 +16,7 @@ void MotionCount::add(const TickRecord& record) {
 
 void MotionCount::add_speed(double speed_mps) {
   if (speed_mps > kDriving_mps) {
-    // Counted when it drives on, so that the stop at the end is none.
+    // Counted when the robot drives on, so that the final stop does not count.
     if (pace_ == Pace::standing) ++stops_;
     pace_ = Pace::driving;
   } else if (speed_mps < kStanding_mps && pace_ == Pace::driving) {

@@ -31,7 +31,7 @@ class Pool {
   void stop() { ended_ = stop_ = true; }
 
   enum class Wait { ready, not_yet, never };
-  /// Waits a little for the result of this piece.
+  /// Waits a short time for the result of this piece.
   Wait wait_for(std::uint64_t piece) {
     std::unique_lock lock(mutex_);
     const auto ready = [&] { return results_.count(piece) != 0; };
@@ -39,7 +39,7 @@ class Pool {
     if (ready()) return Wait::ready;
     return running_ == 0 ? Wait::never : Wait::not_yet;
   }
-  /// Precondition: it is ready.
+  /// Precondition: the result is ready.
   Result take(std::uint64_t piece) {
     const std::scoped_lock lock(mutex_);
     Result result = std::move(results_.at(piece));
@@ -78,8 +78,8 @@ class Pool {
 
   const Work& work_;
   std::atomic<std::uint64_t> next_{0};
-  std::atomic<bool> ended_{false};  // no piece is begun any more
-  std::atomic<bool> stop_{false};   // those begun shall stop
+  std::atomic<bool> ended_{false};  // no further piece is started
+  std::atomic<bool> stop_{false};   // running pieces shall stop
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::uint64_t, Result> results_;

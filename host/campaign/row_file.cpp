@@ -44,8 +44,8 @@ RowFile::RowFile(const std::string& path) : path_(path), target_(path) {
   write_line(kRowHeader);
 }
 
-/// What is in the file belongs to another process as long as that holds its lock, and after that as long as
-/// the file is not what `part_` names any more: it has been renamed or taken away between open() and flock().
+/// The file belongs to another process while that process holds its lock. After that, it does so if `part_`
+/// no longer names this file: it was renamed or removed between open() and flock().
 void RowFile::take_part() {
   const bool locked = ::flock(fd_, LOCK_EX | LOCK_NB) == 0;
   struct stat ours {
@@ -66,7 +66,7 @@ RowFile::~RowFile() {
 void RowFile::add(const Row& row) { write_line(to_csv(row)); }
 
 void RowFile::finish() {
-  // The copy's close tells what the file system held back; the lock stays until the file has its name.
+  // Closing the copy reports delayed write errors; the lock stays until the file has its final name.
   const int copy = ::dup(fd_);
   if (copy < 0 || ::close(copy) != 0) fail(errno);
   if (!part_.empty() && ::rename(part_.c_str(), target_.c_str()) != 0) fail(errno);

@@ -27,7 +27,7 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-/// One field after the other, unquoted; each accessor names its column when it complains.
+/// Reads one unquoted field after the other; errors name the column.
 class Fields {
  public:
   explicit Fields(std::string_view line) : rest_(line) {}

@@ -40,7 +40,7 @@ std::string summary_json(const Summary& s) {
   json["success"] = object(s.success);
   json["reached"] = object(s.reached);
   json["off_goal"] = object(s.off_goal);
-  json["at_goal"] = object(s.truly_there);  // its older name
+  json["at_goal"] = object(s.truly_there);  // the key's older name
   json["unreachable"] = object(s.unreachable);
   json["false_unreachable"] = object(s.false_unreachable);
   json["gave_up"] = object(s.gave_up);

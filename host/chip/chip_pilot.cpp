@@ -29,7 +29,7 @@ Status status_of(const link::Answer& a) {
   return s;
 }
 
-/// Values from another program that are used as indices.
+/// Checks values from another program that are used as indices.
 bool sound(const link::Answer& a) {
   return a.mode < planning::kModes && a.why < planning::kWhys &&
          a.outcome <= static_cast<std::uint8_t>(planning::Outcome::gave_up) && a.fault < kFaults;
@@ -58,7 +58,7 @@ class ChipPilot final : public Pilot {
       say([](Bytes& to) { append(to, link::Name::end); });
       hear<link::Total>();
     } catch (const ChipError&) {
-      // It has ended already.
+      // The chip has ended already.
     }
   }
 

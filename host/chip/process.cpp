@@ -35,7 +35,7 @@ Process::Process(const std::string& command) : command_(command) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, down[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, up[1], STDOUT_FILENO);
-  // A group of its own: the shell's children end with it.
+  // A separate process group, so that the shell's children end with it.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -62,7 +62,7 @@ Process::~Process() {
     if (waitpid(child_, nullptr, WNOHANG) != 0) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(kNap_ms));
   }
-  // Not SIGTERM: an emulator whose program ends at that moment can wait for itself for ever.
+  // Not SIGTERM: an emulator whose program ends at the same moment may deadlock.
   kill(-child_, SIGKILL);
   waitpid(child_, nullptr, 0);
 }
@@ -78,7 +78,7 @@ void Process::wait_for(int file, short event) const {
 }
 
 void Process::write(const std::uint8_t* from, std::size_t count) {
-  // A chip that has ended shall be an error here, not the end of this process.
+  // SIGPIPE would end this process; writing to an ended chip must only be an error.
   struct sigaction ignore {};
   struct sigaction before {};
   ignore.sa_handler = SIG_IGN;

@@ -12,7 +12,7 @@
 namespace whisker::cli {
 namespace {
 
-/// "1.2.3" as bytes of one number.
+/// "1.2.3" as the bytes of one number.
 std::uint32_t version_number() {
   std::uint32_t number = 0, part = 0;
   for (const char* c = WHISKER_VERSION; *c != 0; ++c) {

@@ -28,7 +28,7 @@ void run_before_others(const std::function<void(const std::string&)>& say) {
   if (!forbidden.empty()) say("ticks may be late, as it gets no real-time priority: " + forbidden);
 }
 
-/// Inside this a recorder gets what passes on the bus.
+/// A recorder that this port wraps gets only the frames that pass on the bus.
 bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
   bus::Schedule faults;
   if (choice.drop_percent > 0) {

@@ -29,7 +29,7 @@
 namespace whisker::cli {
 namespace {
 
-/// chosen: null for rows of files, which say themselves who drove.
+/// chosen: null for rows from files, which state their planner themselves.
 Provenance provenance(const CampaignOptions& o, const Missions* chosen) {
   Provenance p;
   if (chosen == nullptr) return p;
@@ -59,7 +59,7 @@ void print(const CampaignOptions& o, const std::vector<campaign::Row>& rows, con
   }
 }
 
-/// True if it went to its end.
+/// True if the campaign finished.
 bool drive_all(const CampaignOptions& o, const Missions& missions, std::vector<campaign::Row>& rows) {
   std::optional<campaign::RowFile> file;
   if (!o.csv.empty()) file.emplace(o.csv);
@@ -105,7 +105,7 @@ int run_campaign(const CampaignOptions& o) {
   return kInterrupted;
 }
 
-/// CLI11's own exclusions would swell the help text.
+/// CLI11's own exclusions would lengthen the help text.
 void refuse_others(const CLI::App& command, std::initializer_list<std::string> allowed) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();

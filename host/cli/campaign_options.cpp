@@ -60,7 +60,8 @@ std::uint64_t count(const CampaignOptions& o, const campaign::Files& files) {
   return wanted;
 }
 
-/// Shard I of N takes the I-th of N blocks, so that the shards' files one after the other are the whole.
+/// Shard I of N gets the I-th of N blocks, so that the concatenated files of the shards are the whole
+/// campaign.
 void take_shard(Missions& m, const std::string& shard) {
   if (shard.empty()) return;
   std::uint64_t i = 0, n = 0;

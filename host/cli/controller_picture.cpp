@@ -49,7 +49,7 @@ std::string engine_name() {
 #endif
 }
 
-/// Where the cells of the engine begin and end.
+/// The boundaries of the engine's cells.
 void add_nodes(report::FuzzyPicture& p) {
 #ifdef WHISKER_ENGINE_CLOSED
   for (const std::int16_t c : kDistanceCentres) p.d_nodes.push_back(value(Q7::from_raw(c)));

@@ -28,11 +28,11 @@ namespace whisker::cli {
 namespace {
 
 struct FiguresOptions {
-  std::string scenarios;  // "": those that this program has in it
+  std::string scenarios;  // "": the built-in scenarios
   std::string out;
 };
 
-/// A run with all that its picture shows.
+/// A run with all data of its picture.
 struct Driven {
   Driven(const Scenario& scenario, PlannerKind planner) : map(scenario.robot) {
     RunOptions options;
@@ -102,7 +102,7 @@ void draw_pair(const MapPicturePair& pair, const std::string& folder) {
       fmt::format("{}: no seed up to {} shows how the planners differ", pair.name, kSeeds));
 }
 
-/// As they were when this program was built.
+/// The scenarios at build time.
 constexpr std::pair<const char*, const char*> kScenarios[] = {
 #include <figure_scenarios.inc>
 };

@@ -29,7 +29,7 @@ struct HilOptions {
   PlannerKind planner = kDefaultPlanner;
 };
 
-/// The controller in a process of its own; ends with this object, or with this process.
+/// The controller in a separate process; it ends with this object or with this process.
 class ControllerProcess {
  public:
   template <class F>

@@ -12,7 +12,7 @@ namespace {
 
 sim::Vec2 metres(const Vec& v) { return {v.x.raw() * 1e-6, v.y.raw() * 1e-6}; }
 
-/// Counters of 24 bits, which wrap.
+/// Differences of wrapping 24-bit counters.
 std::int32_t change(std::uint32_t from, std::uint32_t to) {
   constexpr auto kHalf = static_cast<std::int32_t>(hal::kEncoderModulus / 2);
   const auto forward = static_cast<std::int32_t>((to - from) % hal::kEncoderModulus);

@@ -17,7 +17,7 @@
 
 namespace {
 
-/// Errors are one line, whatever a library put into them.
+/// Prints an error on one line, even if a library's message has several.
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   for (char& c : text) {
@@ -26,7 +26,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// CLI11 would only say that a subcommand is missing.
+/// CLI11 would only report that a subcommand is missing.
 void check_command(const CLI::App& app, int argc, char** argv, int at = 1) {
   if (argc <= at && at > 1) {
     const std::string first = app.get_subcommands({}).front()->get_name();
@@ -50,7 +50,7 @@ void check_command(const CLI::App& app, int argc, char** argv, int at = 1) {
       fmt::format("no command '{}'{} (see whisker --help)", word, whisker::cli::did_you_mean(word, known)));
 }
 
-/// Parses and runs; help and version are successes. `status` is set by the command that runs.
+/// Parses and runs; help and version count as success. The command that runs sets `status`.
 int parse(CLI::App& app, int argc, char** argv, const int& status) {
   try {
     check_command(app, argc, argv);
@@ -61,7 +61,7 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
   }
 }
 
-/// Not fmt: it throws where standard error is closed.
+/// Not fmt: it throws if standard error is closed.
 void complain(const std::string& text) { std::fputs((one_line(text) + "\n").c_str(), stderr); }
 
 constexpr const char* kExitStatus = R"(

@@ -33,7 +33,7 @@ RunResult with_progress(const Scenario& scenario, RunOptions& options, const Run
   return run(scenario, options);
 }
 
-/// With a map, the picture says how large that is.
+/// The picture's title includes the size of the map.
 report::RunPicture picture(const MapWatch& map, PlannerKind planner) {
   report::RunPicture picture;
   if (!map.last()) return picture;

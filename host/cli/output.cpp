@@ -23,7 +23,7 @@ constexpr std::string_view kStandardOutput = "-";
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
 
-/// Devices and pipes may be named as often as one likes.
+/// Devices and pipes may be named more than once.
 bool is_device(const fs::path& path) {
   std::error_code error;
   return fs::exists(path, error) && !fs::is_regular_file(path, error);
@@ -81,7 +81,7 @@ void finish_standard_output() {
   errno = 0;
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout.flush();
   if (!lost) return;
-  // What iostream lost earlier has left no errno.
+  // An earlier error of iostream leaves no errno.
   const std::string why = errno != 0 ? ": " + std::generic_category().message(errno) : "";
   throw std::runtime_error("cannot write to standard output" + why);
 }

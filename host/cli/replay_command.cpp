@@ -29,12 +29,12 @@ namespace {
 struct ReplayOptions {
   std::string log;
   hil::ReplayOptions replay;
-  std::string trace;  // "" for none
-  std::string html;   // "" for none
+  std::string trace;  // "": none
+  std::string html;   // "": none
   bool json = false;
 };
 
-/// What the log's last mission shows.
+/// The contents of the log's last mission.
 class Show {
  public:
   explicit Show(const ReplayOptions& o) : run_(o.log), planner_(o.replay.planner) {}

@@ -50,7 +50,7 @@ Json drives_json(const std::vector<TestDrive>& drives) {
   return all;
 }
 
-/// params: null if they are refused.
+/// params: null if the parameters are invalid.
 void print_json(const RobotOptions& o, const Params* params, const Json& violations,
                 const std::vector<TestDrive>& drives) {
   const bool fit = params != nullptr && std::all_of(drives.begin(), drives.end(), reached);

@@ -19,7 +19,7 @@ struct TableOptions {
   std::string svg;
 };
 
-/// Every quarter of a unit, over the whole of both inputs.
+/// In steps of a quarter unit, over the full range of both inputs.
 void print_csv(const report::FuzzyPicture& p) {
   fmt::print("d,r,sa,sd\n");
   for (int d = 0; d <= 40; ++d) {

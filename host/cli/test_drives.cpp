@@ -22,7 +22,7 @@ Scenario empty_world() {
   return s;
 }
 
-/// half_width: of the free floor.
+/// half_width: of the corridor.
 Scenario corridor(double half_width) {
   Scenario s;
   s.start = {{0, 0}, 0};
@@ -39,7 +39,7 @@ Scenario discs() {
 
 void scale(sim::Vec2& v, double by) { v = {v.x * by, v.y * by}; }
 
-/// For this robot instead of the reference robot.
+/// Scales the scenario from the reference robot to this robot.
 Scenario fitted(Scenario s, const Params& params) {
   const double by = metres(params.body.radius) / kReferenceRadius;
   scale(s.start.at, by);

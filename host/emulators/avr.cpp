@@ -1,6 +1,5 @@
-// Runs an AVR image in simavr, with this process's standard input and output at the other side of the three
-// registers of hal/emulated/simavr/board.cpp. Exit status: the image's, 124 after too many cycles, 2 for
-// usage.
+// Runs an AVR image in simavr and connects this process's standard input and output to the three registers of
+// hal/emulated/simavr/board.cpp. Exit status: the image's, 124 after too many cycles, 2 for usage.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -61,13 +60,13 @@ std::uint8_t read_control(avr_t*, avr_io_addr_t, void* param) {
   return byte;
 }
 
-/// The stack pointer moves by halves; between them it is no address of the RAM in use.
+/// The stack pointer changes one byte at a time; between the two writes it may point outside the used RAM.
 void watch_stack(const avr_t& avr, Host& host) {
   const auto pointer = static_cast<std::uint16_t>(avr.data[kStackLow] | avr.data[kStackHigh] << 8);
   if (pointer < host.lowest_stack && pointer > avr.ramend / 2) host.lowest_stack = pointer;
 }
 
-/// The emulator itself prints to standard output: it gets standard error instead.
+/// simavr prints to standard output: it gets standard error instead.
 FILE* take_standard_output() {
   const int own = dup(STDOUT_FILENO);
   return own >= 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0 ? fdopen(own, "wb") : nullptr;

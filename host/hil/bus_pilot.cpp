@@ -13,14 +13,14 @@
 namespace whisker::hil {
 namespace {
 
-constexpr std::uint8_t kCommitIndex = 255;  // the reply must not be taken for that to a write
+constexpr std::uint8_t kCommitIndex = 255;  // distinguishes the reply from that to a write
 
 std::int16_t ramp_of(const Params& p) {
   const std::int32_t um_per_s = (p.wheels.max_acceleration * p.safety.period).raw();
   return saturate16(um_per_s / 100 > 0 ? um_per_s / 100 : 1);
 }
 
-/// Ticks begin with a millisecond, as the waits end.
+/// Ticks start at whole milliseconds, because waits end there.
 std::uint64_t whole_ms(std::uint64_t us) { return us - us % 1000; }
 
 Status status_of(const can::NavStatus& n) {
@@ -34,7 +34,7 @@ Status status_of(const can::NavStatus& n) {
   return s;
 }
 
-/// No order will ever be obeyed; trouble() has the word for it.
+/// Thrown if the mission cannot continue; trouble() has the reason.
 struct Hopeless {};
 
 class BusPilot final : public Pilot {
@@ -93,8 +93,8 @@ class BusPilot final : public Pilot {
   bool lockstep() const { return options_.sync_mode == can::SyncMode::lockstep; }
   bool node_running() const { return node_.state() == can::NodeState::running; }
 
-  /// The bus does not carry the core's estimate, but all that it follows from. After a pause, the wheels may
-  /// have gone further than in one period.
+  /// Computes the estimate from the frames, because the bus does not carry the core's. After a pause, the
+  /// wheels may have rolled farther than in one period.
   void reckon() {
     hal::EncoderCounts counts{};
     localization::CountStep step;
@@ -117,7 +117,7 @@ class BusPilot final : public Pilot {
     asked_us_ = clock_.now_us();
   }
 
-  /// A controller that is away may come back; one that is there and silent will not speak.
+  /// A missing controller may return; a controller that is present but silent will not answer.
   void watch_patience() {
     const std::uint64_t now_us = clock_.now_us();
     const bool e_stopped =
@@ -208,7 +208,7 @@ class BusPilot final : public Pilot {
     ask_for("WheelCommand and NavStatus");
     while (node_running() || node_.state() == can::NodeState::waiting ||
            node_.state() == can::NodeState::off_bus) {
-      // An answer can come with the news that the controller is lost, and then it drives nothing.
+      // The answer may arrive together with the loss of the controller; then it drives nothing.
       if (node_running() && node_.answered(tick)) {
         const std::uint64_t now_us = clock_.now_us();
         resend_.answered(now_us);
@@ -253,7 +253,7 @@ class BusPilot final : public Pilot {
     return answered ? status_of(node_.status()) : status_;
   }
 
-  /// A safe stop of which the cause is gone does not end the mission.
+  /// Resumes after a safe stop whose cause is gone, so that the mission continues.
   void resume() {
     if (resuming_ && node_.order_state() == can::OrderState::accepted) ++figures_.resumed;
     if (node_.order_state() == can::OrderState::waiting) return;

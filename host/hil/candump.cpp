@@ -8,7 +8,7 @@
 namespace whisker::hil {
 namespace {
 
-/// Takes a whole number off the front, up to `end`, which is taken off too.
+/// Removes a whole number from the front, up to and including `end`.
 bool take(std::string_view& text, char end, int base, std::size_t most_digits, std::uint64_t& value) {
   const std::size_t length = end == 0 ? text.size() : text.find(end);
   if (length == std::string_view::npos || length == 0 || length > most_digits) return false;
@@ -68,7 +68,7 @@ std::optional<LogFrame> parse_log_line(std::string_view line) {
   if (space == std::string_view::npos || space == 0) return std::nullopt;
   entry.interface = line.substr(0, space);
   line.remove_prefix(space + 1);
-  // candump -L can end a line with the direction.
+  // candump -L may end a line with the direction.
   line = line.substr(0, line.find(' '));
   const std::size_t digits = line.find('#');
   if (digits != 3 && digits != 8) return std::nullopt;

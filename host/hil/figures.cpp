@@ -9,8 +9,8 @@
 namespace whisker::hil {
 namespace {
 
-/// In percent of what the bus can carry while the robot drives in real time. In lockstep the frames of an
-/// hour may pass in a second: of that second the bus could carry only a part.
+/// In percent of the bus capacity over the simulated time. In lockstep an hour of frames may pass in a
+/// second, so wall-clock time would not give the load.
 double load_percent(const Figures& f, double bitrate) {
   return f.run_s > 0 ? 100.0 * static_cast<double>(f.bits) / (f.run_s * bitrate) : 0.0;
 }

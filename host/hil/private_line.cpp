@@ -9,7 +9,7 @@
 namespace whisker::hil {
 namespace {
 
-/// Frames as packets of a socket pair: nothing is lost but what the other end does not take in time.
+/// Frames as packets of a socket pair: frames are lost only if the other end receives them too late.
 class PacketLine final : public Line, private hal::CanPort {
  public:
   explicit PacketLine(int socket) : socket_(socket) {}

@@ -21,7 +21,7 @@ namespace {
 
 using can::MessageKind;
 
-/// Planners of one kind that can be watched.
+/// Makes planners of one kind that record their decisions.
 class RecordingPlanners final : public can_app::PlannerMaker {
  public:
   explicit RecordingPlanners(PlannerKind kind) : planners_(kind) {}
@@ -69,7 +69,7 @@ class Replay {
   }
 
  private:
-  static constexpr std::size_t kKept = 256;  // complete sets: more than any command is late
+  static constexpr std::size_t kKept = 256;  // complete input sets: more than the delay of any command
 
   void execute(MessageKind kind, const hal::CanFrame& frame) {
     switch (kind) {
@@ -158,7 +158,7 @@ class Replay {
     return set && static_cast<std::uint16_t>(set->tick) == tick16 ? &*set : nullptr;
   }
 
-  /// Steps on the set of this tick, if that is still to be done. False: that cannot be.
+  /// Steps on the input set of this tick, unless done already. False if that is impossible.
   bool reach(std::uint16_t tick16) {
     if (stepped_ && tick16 == tick16_) return true;
     const can::InputSet* const set = kept(tick16);
@@ -180,7 +180,8 @@ class Replay {
     if (options_.stepped) options_.stepped(set, status_, planners_.local_grid(), planners_.guide());
   }
 
-  /// Answers that never reached the log leave a gap in the counters: the core made those steps all the same.
+  /// Answers missing from the log leave a gap in the counters; the core executed those steps, so they are
+  /// repeated.
   void fill_gap(std::uint16_t to, std::uint8_t counter) {
     const int lost = (counter + 2 * can::kAliveModulus - counter_ - 1) % can::kAliveModulus;
     const auto between = static_cast<std::uint16_t>(to - tick16_ - 1);

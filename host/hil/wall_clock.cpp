@@ -16,7 +16,7 @@ void WallClock::wait(std::uint64_t most_us) {
   pollfd waiting{descriptor_(), POLLIN, 0};
   const timespec most{static_cast<time_t>(most_us / 1000000), static_cast<long>(most_us % 1000000) * 1000};
   ppoll(&waiting, waiting.fd >= 0 ? 1 : 0, &most, nullptr);
-  // A descriptor in trouble is always ready: without a nap this would be a busy loop.
+  // poll() returns at once for a failed descriptor: without this sleep the caller would spin.
   if ((waiting.revents & ~POLLIN) != 0) ppoll(nullptr, 0, &most, nullptr);
 }
 

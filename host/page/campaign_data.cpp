@@ -28,7 +28,7 @@ Json row_data(const campaign::Row& row) {
 
 constexpr int kOffGoal = 3;
 
-/// Smaller is more worth a look.
+/// Smaller is more severe.
 int severity(const campaign::Row& row) {
   if (row.verdict == Verdict::contact) return 0;
   if (row.verdict == Verdict::fault) return 1;

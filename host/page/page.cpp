@@ -9,7 +9,7 @@
 namespace whisker::page {
 namespace {
 
-/// Nothing in it can end the element that it stands in.
+/// Escapes the text so that it cannot end its script element.
 std::string script_safe(const std::string& json) {
   std::string text;
   for (const char c : json) {

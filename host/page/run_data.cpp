@@ -94,7 +94,7 @@ const char* end_name(report::Encounter::End end) {
 constexpr std::int64_t kMilli = 1000;
 constexpr std::int64_t kMicro = 1000000;
 
-/// Gathers one integer a tick into a column.
+/// Collects one integer per tick into a column.
 class Writer {
  public:
   Writer(Columns& columns, const Ticks& ticks, Detail detail)
@@ -107,7 +107,7 @@ class Writer {
     for (const TickRecord& r : ticks_.records) values.push_back(static_cast<std::int64_t>(value_of(r)));
     columns_.add(name, order, per_unit, values);
   }
-  /// A coarse one has no more than thousandths.
+  /// With coarse detail, at most thousandths.
   template <class F>
   void decimal(const char* name, Order order, std::int64_t per_unit, F&& value_of) {
     const std::int64_t units = std::min(per_unit, finest_);
@@ -143,7 +143,7 @@ void add_motion(Writer& w) {
             [](const TickRecord& r) { return r.command.right / 10000.0; });
 }
 
-/// A lost reading keeps the value before it: the status says that there is none.
+/// A lost reading repeats the previous value; the status column marks it as lost.
 void add_ranges(Writer& w) {
   constexpr const char* kRanges[hal::kBeams] = {"left_m", "front_m", "right_m"};
   constexpr const char* kStatus[hal::kBeams] = {"left_status", "front_status", "right_status"};

@@ -9,7 +9,7 @@
 namespace whisker::page {
 namespace {
 
-/// Samples a unit of D and of R.
+/// Samples per unit of D and of R.
 constexpr int kSamples = 4;
 
 Json terms(const report::Variable& variable) {
@@ -31,7 +31,7 @@ Json rules(const std::vector<std::vector<report::Rule>>& picture) {
   return rows;
 }
 
-/// Thousandths, row after row of D upwards, R upwards within.
+/// Thousandths, by rows of ascending D, ascending R within a row.
 Json surface(const Controller& c, const std::function<double(double, double)>& at) {
   Json samples = Json::array();
   const int rows = static_cast<int>(std::lround((c.d.max - c.d.min) * kSamples));

@@ -10,9 +10,9 @@ namespace {
 
 using sim::Vec2;
 
-constexpr double kSlack = 1e-9;       // rad; ends of arcs belong to them
+constexpr double kSlack = 1e-9;       // rad; the ends of arcs are included
 constexpr double kNarrowest = 1e-12;  // rad
-constexpr double kSeam = 1.2345;      // rad; where no line of a tidy world touches
+constexpr double kSeam = 1.2345;      // rad; the seam avoids the angles of axis-parallel tangents
 
 double angle_of(Vec2 v) { return sim::arc_tangent(v.y, v.x); }
 
@@ -44,7 +44,7 @@ class Crossings {
     add(between * along - aside);
   }
 
-  /// With the straight sides of the segment inflated by the radius.
+  /// Intersects with the straight sides of the inflated segment.
   void with(const sim::Segment& segment, double radius) {
     const Vec2 way = segment.b - segment.a;
     const double length = std::sqrt(sim::dot(way, way));
@@ -54,7 +54,7 @@ class Crossings {
     for (const double side : {radius, -radius}) {
       const Vec2 start = segment.a + normal * side - rim_.center;
       const double off = sim::dot(start, normal);
-      // A side that only touches an end of its own segment has no second root to be found by.
+      // A side that only touches an end of its own segment has no second root.
       const double half2 = std::fmax(0, rim_.radius * rim_.radius - off * off);
       if (std::fabs(off) > rim_.radius * (1 + kSlack)) continue;
       for (const double half : {std::sqrt(half2), -std::sqrt(half2)}) {

@@ -10,9 +10,9 @@ namespace {
 
 using sim::Vec2;
 
-constexpr double kSlack = 1e-9;    // m; a line this much too near still touches only
+constexpr double kSlack = 1e-9;    // m; a line closer by at most this still only touches
 constexpr double kFinest = 0.3;    // m
-constexpr double kMostCells = 64;  // a side
+constexpr double kMostCells = 64;  // per side
 
 bool same(const sim::Disc& a, const sim::Disc& b) {
   return a.center.x == b.center.x && a.center.y == b.center.y && a.radius == b.radius;
@@ -26,7 +26,7 @@ double squared_distance(Vec2 p, const sim::Segment& s) {
   return sim::dot(off, off);
 }
 
-/// Whether the segments cross; ends that touch are the rims' business.
+/// Whether the segments cross; touching ends are handled by the rims.
 bool cross(const sim::Segment& s, const sim::Segment& t) {
   const Vec2 along = s.b - s.a;
   const double side_a = sim::cross(along, t.a - s.a);
@@ -113,7 +113,7 @@ Inflated::Cells Inflated::around(const sim::Disc& disc) const {
           row(disc.center.y - disc.radius), row(disc.center.y + disc.radius)};
 }
 
-/// The cells of one column that the line with this margin around it may touch.
+/// The cells of one column that the line, widened by this margin, may touch.
 Inflated::Cells Inflated::along(const sim::Segment& line, int column, double margin) const {
   const sim::Segment s = line.a.x <= line.b.x ? line : sim::Segment{line.b, line.a};
   const double left = corner_.x + column * cell_ - margin - kSlack;

@@ -11,10 +11,10 @@ namespace {
 
 using sim::Vec2;
 
-constexpr double kSlack = 1e-9;    // rad; so far back is not back
-constexpr double kBetter = 1e-13;  // m; a way must be shorter by it, or rounding would have its say
+constexpr double kSlack = 1e-9;    // rad; a smaller angle backwards counts as rounding
+constexpr double kBetter = 1e-13;  // m; a path must be shorter by this, so that rounding decides nothing
 
-/// The angle at which a rim is touched on this side by a line whose normal has this angle.
+/// The angle at which a line with this normal touches a rim on this side.
 double touch_angle(double normal_angle, Side side) {
   return side == Side::left ? normal_angle + kFullTurn / 2 : normal_angle;
 }
@@ -140,7 +140,7 @@ Way Search::way_to(int last) {
   way.length_m = node(last).way_m;
   std::vector<Leg> backwards;
   for (int i = last; node(i).before >= 0; i = node(i).before) {
-    // Around the rim, from tangent to tangent, back to where the way arrived at it.
+    // Around the rim, from tangent to tangent, back to the path's arrival point.
     const Stand stand = node(i).stand;
     Leg arc{{}, node(i).tangent.line.a, disc(stand), 0};
     double swept_rad = node(i).swept_rad;

@@ -7,7 +7,7 @@ namespace {
 
 using sim::Vec2;
 
-constexpr double kSlack = 1e-9;  // a point this deep in a disc lies on its rim
+constexpr double kSlack = 1e-9;  // a point this deep inside a disc counts as on its rim
 
 double signed_radius(const sim::Disc& disc, Side side) { return disc.radius * static_cast<int>(side); }
 
@@ -21,7 +21,7 @@ std::optional<Tangent> tangent(const sim::Disc& a, Side side_a, const sim::Disc&
   const Vec2 between = b.center - a.center;
   const double d2 = sim::dot(between, between);
   const double d = std::sqrt(d2);
-  // The normal leads from the line to a centre on its left over that disc's radius.
+  // The normal points from the line to the centre of a disc on its left, with the radius as length.
   const double across = signed_radius(b, side_b) - signed_radius(a, side_a);
   if (d <= 0 || std::fabs(across) > d + kSlack) return std::nullopt;
   const double length = std::sqrt(std::fmax(0, d2 - across * across));

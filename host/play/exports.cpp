@@ -1,6 +1,5 @@
-/// What the page calls: host/web/src/playground/core.ts. Everything that is not one number goes through a
-/// list of numbers in memory, which `list` gives room for and the calls that answer with a list's length
-/// write.
+/// The functions that host/web/src/playground/core.ts calls. Data other than single numbers passes through a
+/// list in memory: `list` allocates it, and functions that return a length fill it.
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -31,7 +30,7 @@ double value(Q14 x) { return x.raw() / 16384.0; }
 double metres(Length x) { return x.raw() / 1e6; }
 double half_turns(Angle x) { return x.wrapped() / 2147483648.0; }
 
-/// The core's planner with this number; the usual size of map, if it has one.
+/// The core's planner with this number, with the default size of map if it has one.
 PlannerKind offered(int number) {
   PlannerKind kind;
   planning::for_each_planner([&](const planning::PlannerInfo& info, auto type) {
@@ -41,7 +40,7 @@ PlannerKind offered(int number) {
   return kind;
 }
 
-/// Its name, or what there is to say about it; null where no planner has this number.
+/// Its name or its description; null if no planner has this number.
 const char* planner_word(int number, const char* planning::PlannerInfo::*word) {
   const char* found = nullptr;
   planning::for_each_planner([&](const planning::PlannerInfo& info, auto) {
@@ -52,7 +51,7 @@ const char* planner_word(int number, const char* planning::PlannerInfo::*word) {
 
 int answer() { return static_cast<int>(exchanged.size()); }
 
-/// As long as the table's own span is sampled: quarters of a unit over the whole of D and of R.
+/// Samples over the table's range: quarters of a unit over all of D and of R.
 constexpr int kSamples = 4;
 constexpr int kRows = 10 * kSamples;
 constexpr int kColumns = 16 * kSamples;
@@ -64,7 +63,7 @@ WHISKER_EXPORT(list) double* list(int count) {
   return exchanged.data();
 }
 
-/// A scenario of this kind as flat() has it; 0 if there is none.
+/// Writes a scenario of this kind in the format of flat(); 0 if there is none.
 WHISKER_EXPORT(generate) int generate(int kind, double seed, int discs, int box, int noise) {
   worlds::Options options;
   options.seed = static_cast<std::uint64_t>(seed);
@@ -77,14 +76,14 @@ WHISKER_EXPORT(generate) int generate(int kind, double seed, int discs, int box,
   return answer();
 }
 
-/// 0: the scenario in the list is a good one; 1: it is none; 2: the robot touches something at its start.
+/// 0: the list is a valid scenario; 1: it is not; 2: the robot touches an obstacle at its start.
 WHISKER_EXPORT(judge) int judge() {
   const std::optional<Scenario> scenario = scenario_of(exchanged);
   if (!scenario) return 1;
   return start_is_free(*scenario) ? 0 : 2;
 }
 
-/// The robot on this side starts anew in the scenario in the list; planner: its number, see word().
+/// Restarts the robot on this side in the scenario in the list; planner: its number, see word().
 WHISKER_EXPORT(begin) int begin(int side, int planner) {
   const std::optional<Scenario> scenario = scenario_of(exchanged);
   if (!scenario) return 0;
@@ -135,8 +134,8 @@ WHISKER_EXPORT(record) int record(int side) {
   return answer();
 }
 
-/// Verdict or -1, time, way, distance from the goal, true and believed, clearance, ticks, and the hash in
-/// four parts of 16 bits, the highest first.
+/// Verdict or -1, time, path length, distance from the goal, true and believed, clearance, ticks, and the
+/// hash in four 16-bit parts, highest first.
 WHISKER_EXPORT(result) int result(int side) {
   const MissionRun& mission = drives[side]->mission();
   const RunResult r = mission.result();
@@ -152,7 +151,7 @@ WHISKER_EXPORT(result) int result(int side) {
   return answer();
 }
 
-/// The way from this place of it on: x, y, what it did.
+/// The path from this index on: x, y, activity.
 WHISKER_EXPORT(way) int way(int side, int from) {
   const std::vector<Drive::Passed>& all = drives[side]->way();
   exchanged.clear();
@@ -162,7 +161,7 @@ WHISKER_EXPORT(way) int way(int side, int from) {
   return answer();
 }
 
-/// The clear cells' places, in cells of the world; nothing without a local grid.
+/// The positions of the clear cells, in cells of the world; empty without a local grid.
 WHISKER_EXPORT(clear_cells) int clear_cells(int side) {
   const Drive& drive = *drives[side];
   exchanged.clear();
@@ -175,11 +174,11 @@ WHISKER_EXPORT(clear_cells) int clear_cells(int side) {
   return answer();
 }
 
-/// Of the map of the planner on this side; 0 without a map.
+/// The map size of the planner on this side; 0 without a map.
 WHISKER_EXPORT(map_bytes) int map_bytes(int side) { return drives[side]->map_bytes(); }
 
-/// Columns, rows, side of a cell, first cell of the window, the state of each cell row by row, and the places
-/// of the plan's way; nothing without a map.
+/// Columns, rows, cell side, first cell of the window, the state of each cell row by row, and the points of
+/// the planned path; empty without a map.
 WHISKER_EXPORT(map) int map_cells(int side) {
   const std::optional<MapPicture>& picture = drives[side]->map();
   exchanged.clear();
@@ -192,8 +191,8 @@ WHISKER_EXPORT(map) int map_cells(int side) {
   return answer();
 }
 
-/// radius, track, top speed, side angle and cone in half turns, least and greatest range, offset, cell, base
-/// turn in half turns, period: of the reference robot.
+/// Of the reference robot: radius, track, top speed, side angle and cone in half turns, minimum and maximum
+/// range, offset, cell, base turn in half turns, period.
 WHISKER_EXPORT(robot) int robot() {
   const Params p;
   exchanged = {metres(p.body.radius),
@@ -210,7 +209,7 @@ WHISKER_EXPORT(robot) int robot() {
   return answer();
 }
 
-/// The 25 turns, then the 25 steps, raw.
+/// The 25 turns, then the 25 steps, as raw numbers.
 WHISKER_EXPORT(get_rules) int get_rules() {
   exchanged.clear();
   for (const auto* picture : {&rules.turn, &rules.step})
@@ -219,7 +218,7 @@ WHISKER_EXPORT(get_rules) int get_rules() {
   return answer();
 }
 
-/// The same from the list; the table follows. Answers with the faults of rule_faults().
+/// Sets the rules from the list and rebuilds the table. Returns the faults of rule_faults().
 WHISKER_EXPORT(set_rules) std::uint32_t set_rules() {
   const double* next = exchanged.data();
   for (auto* picture : {&rules.turn, &rules.step})
@@ -231,7 +230,7 @@ WHISKER_EXPORT(set_rules) std::uint32_t set_rules() {
 
 WHISKER_EXPORT(at_fault) int at_fault(int d, int r) { return rule_at_fault(rules, d, r) ? 1 : 0; }
 
-/// Distance nodes, bias nodes, their spacings, and both answers of each node, raw.
+/// Distance nodes, bias nodes, their spacings, and both outputs of each node, as raw numbers.
 WHISKER_EXPORT(get_table) int get_table() {
   using fuzzy::Bilinear;
   exchanged = {Bilinear::kDistanceNodes, Bilinear::kBiasNodes, Bilinear::kDistanceSpacing,
@@ -242,7 +241,7 @@ WHISKER_EXPORT(get_table) int get_table() {
   return answer();
 }
 
-/// Turn and step in thousandths over all of D, and within over all of R, at quarters of a unit.
+/// Turn and step in thousandths, over all of D and, within, over all of R, in quarters of a unit.
 WHISKER_EXPORT(sample_table) int sample_table() {
   exchanged.clear();
   const fuzzy::Bilinear engine(table);
@@ -257,8 +256,8 @@ WHISKER_EXPORT(sample_table) int sample_table() {
   return answer();
 }
 
-/// Word number i of a list: 0 states, 1 reasons, 2 faults, 3 kinds of worlds, 4 what a map says, 5 planners,
-/// 6 what there is to say about each. Null beyond its end.
+/// Word i of a list: 0 states, 1 reasons, 2 faults, 3 kinds of worlds, 4 map states, 5 planners, 6
+/// descriptions of the planners. Null beyond its end.
 WHISKER_EXPORT(word) const char* word(int which, int i) {
   switch (which) {
     case 0: return i < planning::kModes ? planning::name(static_cast<planning::Mode>(i)) : nullptr;

@@ -24,7 +24,7 @@ void add(std::vector<double>& list, const std::vector<Points>& lines) {
   for (const Points& line : lines) add(list, line);
 }
 
-/// Takes one number after the other, and remembers whether all were good.
+/// Reads one number after the other, and remembers whether all were valid.
 class Reader {
  public:
   explicit Reader(const std::vector<double>& list) : list_(list) {}
@@ -50,7 +50,7 @@ class Reader {
     const double n = whole({static_cast<double>(least), static_cast<double>(most)});
     return good_ ? static_cast<std::size_t>(n) : 0;
   }
-  /// Of all kinds together.
+  /// The obstacles of all kinds together.
   std::size_t things() {
     const std::size_t n = count(0, kMostThings - things_);
     things_ += n;

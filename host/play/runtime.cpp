@@ -1,4 +1,4 @@
-/// The module has no exceptions: what would throw stops it, and the page begins anew.
+/// The module has no exceptions: a throw stops the module, and the page restarts it.
 #include <cstddef>
 
 extern "C" {

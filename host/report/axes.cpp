@@ -61,7 +61,7 @@ void Box::add(sim::Vec2 p, double radius) {
 
 double round_step(double x) {
   const double decade = std::pow(10.0, std::floor(std::log10(x)));
-  // A hair of slack: 10^floor(log10(x)) may come out just above x.
+  // Small slack: 10^floor(log10(x)) may come out slightly above x.
   const double lead = x / decade + 1e-9;
   return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }

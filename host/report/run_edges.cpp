@@ -26,8 +26,8 @@ struct Mark {
   std::size_t number;
 };
 
-/// Numbers beside marks, each at the first of eight places that keeps it off the others and off all marks;
-/// left out where there is none.
+/// Numbers beside marks, each at the first of eight positions that does not overlap other numbers or marks;
+/// omitted if there is none.
 void draw_numbers(Svg& svg, const std::vector<Mark>& marks) {
   constexpr Point kPlaces[] = {{10, -8}, {-10, -8}, {10, 14}, {-10, 14},
                                {14, 4},  {-14, 4},  {0, -11}, {0, 19}};

@@ -25,13 +25,13 @@ class Column {
     svg_.text({corner_.x, y_}, text, R"(font-weight="bold")");
     y_ += 4;
   }
-  /// The middle of the next row's swatch.
+  /// Returns the centre of the new row's swatch.
   Point row(const std::string& label) {
     y_ += kRow;
     svg_.text({corner_.x + kSwatch + 8, y_ - 4}, label, "");
     return {corner_.x + kSwatch / 2, y_ - 8};
   }
-  /// Two figures at the right end of the row before, their right edges `apart` px apart.
+  /// Two figures at the right end of the current row, with their right edges `apart` px apart.
   void figures(const std::string& first, const std::string& second, double apart) {
     svg_.text({corner_.x + kLegendWidth - apart, y_ - 4}, first, R"(text-anchor="end")");
     svg_.text({corner_.x + kLegendWidth, y_ - 4}, second, R"(text-anchor="end")");

@@ -17,7 +17,7 @@ using sim::Vec2;
 constexpr double kRing = 8;     // px
 constexpr double kApart = 2.5;  // px
 
-/// From where the robot believes something to be, to where that is.
+/// Converts a point from the robot's believed frame into the true one.
 Vec2 truly(const TickRecord& r, Vec2 believed) {
   const double turn = r.heading_rad - r.est_heading_rad;
   const Vec2 d = believed - Vec2{r.est_x_m, r.est_y_m};
@@ -26,7 +26,7 @@ Vec2 truly(const TickRecord& r, Vec2 believed) {
   return Vec2{r.x_m, r.y_m} + Vec2{c * d.x - s * d.y, s * d.x + c * d.y};
 }
 
-/// Cells of one state as few boxes: runs of a row, as high as the same run goes on.
+/// Merges the cells of one state into few boxes: runs of a row, extended over rows with the same run.
 PathData boxes(const MapPicture& map, CellState state) {
   std::vector<bool> taken(map.cells.size());
   const auto index = [&](std::int32_t x, std::int32_t y) {

@@ -29,7 +29,7 @@ struct Layout {
   double height = 0;
 };
 
-/// Drawn once for nothing but its size.
+/// Draws the legend only to measure it.
 double legend_height(int columns, const LegendContent& content) {
   Svg scratch(1, 1, "");
   return draw_legend(scratch, {}, columns, content);
@@ -69,7 +69,7 @@ Box box_of(const Scenario& scenario, const std::vector<TickRecord>& records, con
   return box;
 }
 
-/// The last record that has a place, or null.
+/// The last record with a drawable position, or null.
 const TickRecord* last_placed(const std::vector<TickRecord>& records) {
   const auto it = std::find_if(records.rbegin(), records.rend(), [](const TickRecord& r) {
     return drawable({r.x_m, r.y_m});

@@ -12,11 +12,11 @@ namespace {
 constexpr int kCellsR = 32;  // over the thesis's ranges, cells of half a unit: every centre is a line
 constexpr int kCellsD = 20;
 constexpr double kWidth = 250;   ///< px from the front corner to the right corner, and to the left one
-constexpr double kDepth = 118;   ///< px that these corners lie higher on the page
+constexpr double kDepth = 118;   ///< px of these corners above the front corner
 constexpr double kHeight = 190;  ///< px from the lowest to the highest output
 
-/// A block over R (0 at the right corner, 1 at the front) and D (0 at the front, 1 at the left), output up:
-/// so that the low corner of the turn factor lies in front.
+/// A block over R (0 at the right corner, 1 at the front) and D (0 at the front, 1 at the left), output
+/// upwards, so that the low corner of the turn factor is in front.
 struct Block {
   Point front;
   Range r, d, out;
@@ -74,7 +74,7 @@ void draw_floor(Svg& svg, const Block& block, const FuzzyPicture& picture) {
   svg.close();
 }
 
-/// From the far corner to the near one, so that what is nearer covers what is behind.
+/// From the far corner to the near one, so that near cells cover far ones.
 void draw_surface(Svg& svg, const Block& block, const std::function<double(double, double)>& f,
                   const ColourScale& scale) {
   const auto value = [&](int i, int j) {

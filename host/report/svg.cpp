@@ -46,7 +46,7 @@ std::string_view markup(char c) {
   }
 }
 
-/// Six decimals of a unit beyond any page would only make the file longer.
+/// Six decimals suffice for any page; more would only enlarge the file.
 double on_page(double x) { return std::isfinite(x) ? std::clamp(x, -1e6, 1e6) : 0.0; }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 constexpr double kSide = 400;
 constexpr double kCell = 2.5;
 constexpr int kCells = 160;  // kSide / kCell
-constexpr int kLevels = 49;  // odd: zero in the middle of a diverging scale has a level of its own
+constexpr int kLevels = 49;  // odd, so that zero has its own level in the middle of a diverging scale
 
 using Function = std::function<double(double, double)>;
 
@@ -85,7 +85,7 @@ void draw_term_names(Svg& svg, const Plot& plot, const FuzzyPicture& picture) {
 
 void draw_map(Svg& svg, Point corner, const FuzzyPicture& picture, const Variable& output, const Function& f,
               const ColourScale& scale, bool sign) {
-  // R goes to the left, so that what is nearer on the left is on the left.
+  // R increases to the left, so that the left side of the map means nearer on the left.
   const Plot plot{corner, kSide, kSide, {picture.r.max, picture.r.min}, {picture.d.min, picture.d.max}};
   svg.open(fmt::format(R"(class="map {}")", sign ? "turn" : "step"));
   svg.text({corner.x, corner.y - 26}, output.symbol + ": " + output.meaning,

@@ -27,7 +27,7 @@ double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
 
 bool placed(const TickRecord& r) { return drawable({r.x_m, r.y_m}); }
 
-/// All points, cut where the class changes.
+/// All points, split where the activity changes.
 std::vector<Piece> full_pieces(const std::vector<TickRecord>& records) {
   std::vector<Piece> all;
   bool first = true;
@@ -45,8 +45,8 @@ std::vector<Piece> full_pieces(const std::vector<TickRecord>& records) {
   return all;
 }
 
-/// A point too far from the line between two others, or `from`. Of those nearly as far as the farthest it is
-/// the one nearest to the middle: halves keep a jagged path of n points at n log n, ends would make it n^2.
+/// A point too far from the line between two others, or `from`. Among points nearly as far as the farthest it
+/// takes the middle one: halving keeps a jagged path of n points at n log n instead of n^2.
 std::size_t split_point(const std::vector<Vec2>& points, std::size_t from, std::size_t to,
                         double tolerance_m) {
   const auto distance = [&](std::size_t i) {
@@ -120,7 +120,7 @@ std::vector<Piece> pieces(const std::vector<TickRecord>& records, double toleran
   const std::vector<Piece> full = full_pieces(records);
   std::vector<Piece> kept;
   std::size_t count = 0;
-  // Two points a piece is the least there is; 20 doublings turn half a millimetre into half a kilometre.
+  // A piece needs at least two points; 20 doublings turn half a millimetre into half a kilometre.
   for (int doublings = 0; doublings < 20; ++doublings, tolerance_m *= 2) {
     kept.clear();
     count = 0;

@@ -7,7 +7,7 @@
 namespace whisker {
 namespace {
 
-/// As planning::TableMap, with a guide that can be watched.
+/// The same as planning::TableMap, with a recording guide.
 template <int kBytes>
 struct RecordingMap {
   RecordingMap(const Params& params, const fuzzy::Engine::Table& table)

@@ -14,7 +14,7 @@ namespace {
 
 using Made = std::shared_ptr<planning::Planner>;
 
-/// A planner that lives and dies together with the rule or the law that is its member.
+/// A planner that shares the lifetime of its owner, which also holds its rule or law.
 template <class Whole>
 Made made(const Params& params) {
   const auto whole = std::make_shared<Whole>(params);
@@ -37,7 +37,7 @@ struct Entry {
   PlannerKind kind;
   std::string name;
   std::string_view alias;
-  Made (*make)(const Params& params) = nullptr;  ///< of a baseline
+  Made (*make)(const Params& params) = nullptr;  ///< for a baseline
 };
 
 const std::vector<Entry>& entries() {

@@ -7,7 +7,7 @@
 namespace whisker {
 namespace {
 
-/// How far along the path the point of it lies that is nearest to p, m.
+/// Arc length along the path to its point nearest to p, m.
 double arc_of(const std::vector<sim::Vec2>& path, sim::Vec2 p) {
   double best = std::numeric_limits<double>::infinity();
   double arc = 0;

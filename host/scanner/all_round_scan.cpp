@@ -17,7 +17,7 @@ using sim::Vec2;
 
 constexpr int kRays = 1440;
 constexpr double kApart = 2 * sim::kPi / kRays;  // rad
-constexpr double kSlack = 1e-9;                  // of kApart; no ray slips through where two segments meet
+constexpr double kSlack = 1e-9;                  // of kApart; no ray passes between two adjacent segments
 
 std::size_t index(int ray) { return static_cast<std::size_t>((ray % kRays + kRays) % kRays); }
 
@@ -33,11 +33,11 @@ Vec2 direction(int ray) {
   return directions[index(ray)];
 }
 
-/// A segment as the scanner meets it: counter-clockwise, the rays that it may stop one after the other.
+/// A segment oriented counter-clockwise around the scanner, with the rays that it may stop.
 struct Target {
   std::size_t segment;
-  Vec2 to, side;  // to where it begins, and along it
-  bool reversed;  // it begins at the segment's end
+  Vec2 to, side;  // to its start, and along it
+  bool reversed;  // it starts at the segment's end
   int first, last;
 };
 
@@ -85,7 +85,7 @@ class Scan {
         if (!sees(ray, t)) continue;
         const int begin = ray;
         while (ray < t.last && sees(ray + 1, t)) ++ray;
-        // What ends between two rays is seen to its end.
+        // A segment that ends between two rays is seen up to its end.
         const double from = begin == t.first && in_range(t.to) ? 0 : hit(t, begin).share;
         const double to = ray == t.last && in_range(t.to + t.side) ? 1 : hit(t, ray).share;
         add_to(t, from, to, seen);
@@ -109,7 +109,7 @@ class Scan {
     }
   }
 
-  /// Between two rays, or a line of sight itself.
+  /// A segment between two rays, or along a line of sight.
   void tell_slim(const Target& t, SeenOutlines& seen) const {
     const Vec2 end = t.to + t.side;
     const bool begins_nearer = sim::dot(t.to, t.to) <= sim::dot(end, end);

@@ -15,14 +15,14 @@ namespace {
 
 using sim::Vec2;
 
-constexpr double kApart = 0.01;  // m between the points of a way
+constexpr double kApart = 0.01;  // m between the points of a path
 constexpr int kPointsALook = 5;
-constexpr double kSlack = 0.9e-9;  // m; less than a shortest way allows itself
+constexpr double kSlack = 0.9e-9;  // m; less than the tolerance of a shortest path
 constexpr int kMostWays = 100000;
 
 struct Point {
   Vec2 at;
-  double step_m;  // driven since the point before
+  double step_m;  // path length since the previous point
 };
 
 Vec2 on(const paths::Leg& leg, double share) {
@@ -56,7 +56,7 @@ class Drive {
     scan_all_round(world_.segments, at_, range_, seen_);
   }
 
-  /// True: reached. False: what it saw leaves no way.
+  /// True: reached. False: the seen outlines leave no path.
   bool to(Vec2 goal) {
     for (int ways = 0; ways < kMostWays; ++ways) {
       seen_.take_new();
@@ -70,12 +70,12 @@ class Drive {
   double driven_m() const { return driven_m_; }
 
  private:
-  /// True: to its end. False: something is in the way that was not known.
+  /// True: followed to its end. False: an obstacle that was not known is in the way.
   bool follow(const std::vector<Point>& way) {
     for (std::size_t next = 0; next < way.size(); ++next) {
       if (next % kPointsALook == kPointsALook - 1 && !still_free(way, next)) return false;
       if (!fits(world_, way[next].at, radius_)) {
-        // It stood hidden until the body met it.
+        // The obstacle was hidden until the body met it.
         seen_.add_near(way[next].at, radius_);
         return false;
       }
@@ -92,7 +92,7 @@ class Drive {
                        [&](const Point& p) { return fits(found, p.at, radius_); });
   }
 
-  const World& world_;  // outlines alone
+  const World& world_;  // outlines only
   double radius_, range_;
   SeenOutlines seen_;
   Vec2 at_;

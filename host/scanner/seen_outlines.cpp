@@ -12,12 +12,12 @@ namespace {
 
 using sim::Vec2;
 
-constexpr double kEnd = 1e-6;      // m; a span that ends this near to its segment's end reaches it
+constexpr double kEnd = 1e-6;      // m; a span this close to the end of its segment reaches it
 constexpr double kInside = 0.002;  // m
 
 void add_polygon(std::vector<sim::Segment>& outlines, const sim::Disc& disc) {
   int corners = 8;
-  // The middle of an edge lies r (1 - cos(pi / corners)) inside.
+  // The middle of an edge is r (1 - cos(pi / corners)) inside the disc.
   while (disc.radius * (1 - sim::sin_cos(sim::kPi / corners).cos) > kInside) ++corners;
   const auto corner = [&](int i) {
     const sim::SinCos angle = sim::sin_cos(2 * sim::kPi * (i % corners) / corners);

@@ -14,8 +14,7 @@ void check_bounds(const TableReader& table, const Bounds& b) {
 
 void check_polygon(const TableReader& table, const std::vector<sim::Vec2>& points) {
   const bool flat = !has_area(points);
-  // The two halves of a bow tie may be as large as each other: then it has no area, but that is not its
-  // fault.
+  // A bow tie with equal halves has no area, but it must be reported as self-intersecting.
   const auto crossing = flat ? passing_edges(points) : crossing_edges(points);
   if (crossing) {
     table.fail_at("points", fmt::format("the polygon intersects itself: edges {} and {}", crossing->first + 1,

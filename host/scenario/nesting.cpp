@@ -47,14 +47,14 @@ class Scanner {
       if (level_ > 0) --level_;
     } else if (c == '\n' || c == '=' || c == ',') {
       dots_ = 0;
-      // A header ends with its line: one that is not closed is for toml++ to tell.
+      // A header ends with its line; toml++ reports an unclosed one.
       if (c == '\n' && header_) level_ = 0, header_ = false;
     }
   }
 
   bool here(std::string_view what) const { return text_.substr(at_, what.size()) == what; }
 
-  /// A string of one line ends there, closed or not; one of several lines where it is closed.
+  /// A single-line string ends with its line, closed or not; a multi-line string ends where it is closed.
   void skip_string(char quote) {
     const std::string triple(3, quote);
     const bool several_lines = here(triple);
@@ -89,7 +89,7 @@ class Scanner {
   std::size_t line_begin_ = 0;
   int dots_ = 0;
   int level_ = 0;
-  bool header_ = false;  ///< in a line that begins with a bracket
+  bool header_ = false;  ///< in a line that starts with a bracket
   static constexpr std::size_t npos = std::string_view::npos;
 };
 

@@ -63,7 +63,7 @@ std::string si_text(std::int64_t raw, ParamUnit unit) {
     text = fmt::format("{:.{}g}", si, digits);
     if (to_raw(std::strtod(text.c_str(), nullptr), unit) == raw) break;
   }
-  // %g turns 20 into 2e+01; the shortest form of that very number does not.
+  // %g turns 20 into 2e+01; the shortest form of that number does not.
   return fmt::format("{}", std::strtod(text.c_str(), nullptr));
 }
 

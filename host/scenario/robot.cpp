@@ -31,8 +31,8 @@ struct Setter {
   void number(const char* key, T& x, T low, T high) {
     if (!table.has(key)) return;
     const ParamUnit unit = unit_of(x);
-    // The range is checked after rounding, so that a limit that is no whole raw unit
-    // (170 degrees) is inside its own range.
+    // The range is checked after rounding, so that a limit without an exact raw value (170 degrees) is inside
+    // its own range.
     tried([&] {
       const double si = table.number(key, {-kAnyNumber, kAnyNumber});
       const std::int64_t raw = to_raw(std::clamp(si, -kMostSi, kMostSi), unit);

@@ -24,7 +24,7 @@ std::string value(const ParamEntry& e, std::string_view field) {
   return fmt::format("{}::from_raw({})", e.type, e.raw);
 }
 
-/// Neither a backslash nor a newline of a file's name may go on with a comment.
+/// Replaces backslashes and control characters, which could continue or end the comment.
 std::string in_a_comment(std::string text) {
   for (char& c : text) {
     if (c == '\\' || (c >= 0 && c < ' ') || c == '\x7F') c = '?';

@@ -89,10 +89,10 @@ using EdgePair = std::optional<std::pair<std::size_t, std::size_t>>;
 
 namespace {
 
-/// The first two edges that are no neighbours and of which this is true.
+/// The first two non-adjacent edges that satisfy the condition.
 EdgePair two_edges(const std::vector<Vec2>& polygon, bool (*are)(const Segment&, const Segment&)) {
   const std::size_t n = polygon.size();
-  // Only edges whose spans along x overlap are compared: a long outline stays fast.
+  // Compares only edges whose spans along x overlap, so that long outlines stay fast.
   const auto low = [&](std::size_t i) { return std::min(edge(polygon, i).a.x, edge(polygon, i).b.x); };
   const auto high = [&](std::size_t i) { return std::max(edge(polygon, i).a.x, edge(polygon, i).b.x); };
   std::vector<std::size_t> order(n);

@@ -52,7 +52,7 @@ std::string_view nearest_word(std::string_view word, const std::vector<std::stri
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string_view candidate : known) {
-    // A key without its unit suffix, or with one too many, is the commonest slip.
+    // A missing or superfluous unit suffix is the most common mistake.
     const bool suffix = starts_with(candidate, word) || starts_with(word, candidate);
     const std::size_t distance = suffix ? 1 : edit_distance(word, candidate);
     if (distance < best_distance) {

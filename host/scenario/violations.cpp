@@ -28,7 +28,7 @@ Broken broken(const Params& params) {
 
 bool is_of_a_key(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// The relation's sentence names the keys that it is about.
+/// The keys that the relation's sentence names.
 std::vector<std::size_t> keys_in(std::string_view sentence, const std::vector<ParamEntry>& list) {
   std::vector<std::size_t> keys;
   for (std::size_t i = 0; i < sentence.size();) {
@@ -44,13 +44,13 @@ std::vector<std::size_t> keys_in(std::string_view sentence, const std::vector<Pa
   return keys;
 }
 
-/// The values of one parameter that would do, on one side of what it is.
+/// The values of one parameter that satisfy the relation, on one side of its current value.
 struct Fitting {
   std::int64_t nearest;
   std::int64_t farthest;
 };
 
-/// Where `fits` turns from `inside`, where it does, to `outside`, where it does not: the last that does.
+/// Bisects between `inside`, which fits, and `outside`, which does not; returns the last value that fits.
 std::int64_t edge(std::int64_t inside, std::int64_t outside, const std::function<bool(std::int64_t)>& fits) {
   while (std::abs(inside - outside) > 1) {
     const std::int64_t middle = inside + (outside - inside) / 2;
@@ -59,8 +59,8 @@ std::int64_t edge(std::int64_t inside, std::int64_t outside, const std::function
   return inside;
 }
 
-/// The first stretch that fits on the way from `now`, which does not, to the range's end; found if it is
-/// longer than a 64th of that way, or at its end.
+/// The first interval that fits between `now`, which does not fit, and the range's end. It is found if it is
+/// longer than a 64th of that distance, or contains the end.
 std::optional<Fitting> towards(std::int64_t now, std::int64_t end,
                                const std::function<bool(std::int64_t)>& fits) {
   constexpr std::int64_t kSamples = 64;
@@ -86,7 +86,7 @@ std::string words(const ParamEntry& e, const Fitting& f) {
                      e.text_of(std::max(f.nearest, f.farthest)));
 }
 
-/// What would mend the relation: `strictly` without breaking one that holds.
+/// The changes that satisfy the relation; with `strictly`, only those that break no other relation.
 std::vector<std::string> mends(const Params& params, const Violation& v, const Broken& now, bool strictly) {
   const std::vector<ParamEntry> list = param_list(params);
   std::vector<std::string> all;

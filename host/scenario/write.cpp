@@ -20,7 +20,7 @@ std::string list(const std::vector<sim::Vec2>& points) {
   return out + "]";
 }
 
-/// The shortest decimal of degrees that reads back as this heading, or the nearest there is.
+/// The shortest decimal in degrees that reads back as this heading, or the nearest possible.
 std::string degrees(double heading) {
   const double exact = heading / kRadPerDeg;
   for (const double candidate : {exact, std::nextafter(exact, -1e9), std::nextafter(exact, 1e9)}) {

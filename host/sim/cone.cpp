@@ -7,8 +7,8 @@ namespace {
 
 constexpr double kNothing = __builtin_huge_val();
 
-// Seen from the apex a disc's rim recedes with the angle from the centre's direction, so the nearest point
-// lies in that direction or, if the cone misses it, on the edge next to it.
+// Seen from the apex, the distance to a disc's rim grows with the angle from the centre's direction. So the
+// nearest point lies in that direction or, if the cone misses it, on the nearer edge.
 double nearer(double best, const Cone& cone, Vec2 center, double radius) {
   const Vec2 q = center - cone.apex;
   const double d2 = dot(q, q);

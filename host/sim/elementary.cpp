@@ -3,7 +3,7 @@
 namespace whisker::sim {
 namespace {
 
-// Each constant is cut so that its leading parts times a small integer are exact.
+// Each constant is split so that its leading part times a small integer is exact.
 constexpr double kTwoOverPi = 0x1.45f306dc9c883p-1;
 constexpr double kHalfPi1 = 0x1.921fb544p+0;  // 33 bits
 constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
@@ -12,7 +12,7 @@ constexpr double kLog2E = 0x1.71547652b82fep+0;
 constexpr double kLn2High = 0x1.62e42feep-1;  // 32 bits
 constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
 
-// The power series below stop where the next term is under 2^-56 of the result.
+// Each power series ends where the next term is below 2^-56 of the result.
 
 double sin_near_zero(double r) {
   const double z = r * r;
@@ -106,7 +106,7 @@ double natural_log(double x) {
     m *= 2;
     --exponent;
   }
-  // log m = 2 artanh(s) with s = f / (2 + f); f - (f^2 / 2 - s (f^2 / 2 + tail)) keeps f's own digits.
+  // log m = 2 artanh(s) with s = f / (2 + f); f - (f^2 / 2 - s (f^2 / 2 + tail)) keeps the precision of f.
   const double f = m - 1.0;
   const double s = f / (2.0 + f);
   const double z = s * s;

@@ -17,7 +17,7 @@ uint64_t rotated(uint64_t x, int k) { return (x << k) | (x >> (64 - k)); }
 
 }  // namespace
 
-// The seed is mixed before the stream is added: otherwise neighbouring seeds would share streams.
+// Mixes the seed before it adds the stream, because neighbouring seeds would otherwise share streams.
 Random::Random(uint64_t seed, uint32_t stream) : state_{} {
   uint64_t x = mixed(mixed(seed + kGolden) + stream);
   for (uint64_t& word : state_.word) word = mixed(x += kGolden);
@@ -38,7 +38,7 @@ uint64_t Random::next() {
 
 double Random::uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
 
-// Box and Muller's transform, because it always uses the same count of numbers.
+// Box-Muller transform, because it always consumes the same number of random numbers.
 double Random::normal() {
   const double radius = square_root(-2.0 * natural_log(1.0 - uniform()));
   const double angle = 2.0 * kPi * uniform();

@@ -11,7 +11,7 @@ WheelModel::WheelModel(double lag_s, double max_acceleration, double step_s)
       decay_(lag_s > 0 ? exponential(-step_s / lag_s) : 0.0) {}
 
 WheelStep WheelModel::step(double v, double target) const {
-  // Else a stopping wheel would creep through the subnormal numbers, which are slow.
+  // Otherwise a stopping wheel would pass through the subnormal numbers, which are slow.
   constexpr double kSettled = 1e-12;
 
   const double remainder = target - v;
@@ -28,7 +28,7 @@ WheelStep WheelModel::step(double v, double target) const {
   const double limited = (size - lagging) / max_acceleration_;
   if (limited >= step_) {
     double end = v + acceleration * step_;
-    if ((target - end) * remainder < 0) end = target;  // by rounding
+    if ((target - end) * remainder < 0) end = target;  // because of rounding
     return {end, 0.5 * (v + end) * step_};
   }
   const double ramp_end = remainder < 0 ? target + lagging : target - lagging;

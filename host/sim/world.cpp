@@ -8,7 +8,7 @@ namespace {
 
 double length(Vec2 v) { return square_root(dot(v, v)); }
 
-// A root is taken only where the disc is nearer than the best so far.
+// Takes the square root only if the disc may be nearer than the best so far.
 double nearer(double best, Vec2 p, Vec2 center, double radius) {
   const Vec2 q = p - center;
   const double reach = best + radius;

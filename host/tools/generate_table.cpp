@@ -1,4 +1,4 @@
-// Writes the look-up table of the committed rules, or prints what other grids would cost.
+// Writes the look-up table of the committed rules, or prints the cost of other grids.
 #include <cstdio>
 #include <cstring>
 #include <fstream>

@@ -12,7 +12,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr seconds kToAsk{2};
-constexpr seconds kToTake{10};  // an answer, or an event
+constexpr seconds kToTake{10};  // for an answer or an event
 constexpr seconds kStalled{2};
 constexpr seconds kToLeave{1};
 constexpr milliseconds kSyncMode{50};  // between two events
@@ -25,7 +25,7 @@ std::string id_of(const Place& place) { return fmt::format("{}/{}", place.run, p
 Client::Client(Socket socket, Clock::time_point now) : socket_(std::move(socket)), until_(now + kToAsk) {}
 
 short Client::waits_for() const {
-  // Who watches has nothing more to say, but may hang up.
+  // A watching client sends nothing more, but may close the connection.
   return static_cast<short>((out_ ? POLLOUT : 0) | (said_all_ ? 0 : POLLIN));
 }
 
@@ -38,11 +38,11 @@ std::optional<Asked> Client::move(Clock::time_point now) {
 
 std::optional<Asked> Client::read() {
   char bytes[4096];
-  // A few at a time: others wait, too.
+  // A few bytes at a time, so that other clients are served too.
   for (int i = 0; i < 4 && !said_all_; ++i) {
     const Moved moved = receive(socket_, bytes, sizeof bytes);
     said_all_ = moved.ended;
-    // Who has said all may still wait for the answer.
+    // A client that closed its sending side may still wait for the answer.
     if (moved.ended && state_ != State::answering) state_ = State::gone;
     if (moved.bytes == 0) break;
     if (state_ != State::asking) continue;

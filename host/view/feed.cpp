@@ -12,10 +12,10 @@
 namespace whisker::view {
 namespace {
 
-// So many ticks at most are copied while the driver may have to wait.
+// Maximum ticks copied at once, because the simulation may wait for the copy.
 constexpr std::size_t kWhole = 256;
 
-// So many of those are reported at a time: a long run takes no one's memory or time at once.
+// Maximum reports of those at a time, so that a long run does not take too much memory or time at once.
 constexpr std::size_t kMostParts = 16;
 
 using page::Json;
@@ -26,7 +26,7 @@ std::string new_name() {
   return fmt::format("{:08x}{:08x}", random(), random());
 }
 
-/// What these were when only so many ticks were over.
+/// The boundaries as known after the first `ticks` ticks.
 Edges as_of(std::size_t ticks, Edges edges) {
   const auto later = [ticks](const std::optional<std::size_t>& tick) { return tick && *tick >= ticks; };
   while (!edges.empty() && edges.back().hit >= ticks) edges.pop_back();

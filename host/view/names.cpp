@@ -11,12 +11,12 @@
 namespace whisker::view {
 namespace {
 
-/// As an address of the web has it.
+/// The host part of a URL: an IPv6 address gets brackets.
 std::string host_of(const std::string& address) {
   return address.find(':') == std::string::npos ? address : "[" + address + "]";
 }
 
-/// With the brackets of IPv6.
+/// Whether the name is an IP address; IPv6 needs brackets.
 bool is_number(const std::string& name) {
   unsigned char bytes[sizeof(in6_addr)];
   if (inet_pton(AF_INET, name.c_str(), bytes) == 1) return true;
@@ -49,7 +49,7 @@ Names::Names(const std::string& address, int port)
 }
 
 bool Names::knows(std::string_view host) const {
-  // A colon within brackets belongs to the number.
+  // A colon within brackets belongs to the address.
   const std::size_t colon = host.rfind(':');
   const bool has_port = colon != std::string_view::npos && host.find(']', colon) == std::string_view::npos;
   const std::string name = lower(host.substr(0, has_port ? colon : host.size()));

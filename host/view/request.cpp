@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(from, text.find_last_not_of(" \t") - from + 1);
 }
 
-/// The text up to the mark, which is taken off the rest, and so is the mark.
+/// Removes and returns the text up to the mark; also removes the mark.
 std::string_view up_to(std::string_view mark, std::string_view& rest) {
   const std::size_t at = std::min(rest.find(mark), rest.size());
   const std::string_view text = rest.substr(0, at);
@@ -41,7 +41,7 @@ Asked first_line(std::string_view line) {
   return asked;
 }
 
-/// False: the line is no header, or one that may be there once is there again.
+/// False if the line is not a header, or repeats a header that must be unique.
 bool take_header(std::string_view line, std::optional<std::string>& host, Request& request) {
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos || colon == 0) return false;

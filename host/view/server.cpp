@@ -19,11 +19,11 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kMostClients = 128;
-constexpr milliseconds kTurn{20};     // between two looks at the feed
-constexpr milliseconds kWork{50};     // at most for news before all are looked after again
-constexpr milliseconds kNoRoom{100};  // before the next try to accept one
+constexpr milliseconds kTurn{20};     // between two polls of the feed
+constexpr milliseconds kWork{50};     // of work at most before all clients are served again
+constexpr milliseconds kNoRoom{100};  // before the next attempt to accept
 
-/// What is no id is the beginning.
+/// An invalid id means the beginning.
 Place place_of(const std::string& id) {
   const std::size_t slash = id.find('/');
   Place place;
@@ -50,7 +50,7 @@ const char* name_of(int status) {
   }
 }
 
-/// With its empty line. Nobody keeps what is answered, and no page of another site may use it.
+/// With the empty line that ends it. The headers forbid caching and use by other sites.
 std::string head_of(int status, const char* type, const std::string& more = "") {
   return fmt::format(
       "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\n"
@@ -135,7 +135,7 @@ void Server::Inside::accept(Clock::time_point now) {
   }
 }
 
-/// The one that has been here longest without watching has had its time.
+/// Closes the client that has been connected longest without watching.
 void Server::Inside::make_room() {
   const auto oldest =
       std::find_if(clients.begin(), clients.end(), [](const Client& c) { return !c.watches(); });
@@ -166,7 +166,7 @@ void Server::Inside::serve(Client& client, const Asked& asked, Clock::time_point
   }
 }
 
-/// Whoever is not reached this time is the first next time.
+/// Clients not served this time are first next time.
 void Server::Inside::publish() {
   const auto until = Clock::now() + kWork;
   for (std::size_t i = 0; i < clients.size(); ++i) {

@@ -17,7 +17,7 @@
 namespace whisker::view {
 namespace {
 
-constexpr int kWaiting = 512;  // connections that the kernel accepts ahead
+constexpr int kWaiting = 512;  // connections that the kernel accepts in advance
 
 bool is_not_now(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 

@@ -20,7 +20,7 @@ void draw_field(Scenario& s, Random& random, int discs, bool box) {
   add_discs(s, random, {discs, 0.15, box ? 0.6 : 0.8, kLow, kHigh});
 }
 
-/// A closed wall: a regular polygon of 3 to 7 sides around the point.
+/// A closed wall: a regular polygon with 3 to 7 sides around the point.
 std::vector<Vec2> fence(Random& random, Vec2 around) {
   const int sides = 3 + random.index(5);
   const double apothem = random.uniform(0.4, 1.4);
@@ -33,7 +33,7 @@ std::vector<Vec2> fence(Random& random, Vec2 around) {
   return points;
 }
 
-/// A fence that leaves the box.
+/// A fence that extends beyond the box.
 std::vector<Vec2> fence_across(Random& random, Vec2 around, const Bounds& box) {
   for (;;) {
     const std::vector<Vec2> points = fence(random, around);
@@ -43,7 +43,7 @@ std::vector<Vec2> fence_across(Random& random, Vec2 around, const Bounds& box) {
   }
 }
 
-/// Takes a piece out of one side of a closed wall. It may lie outside a box: then there is no way.
+/// Removes a piece from one side of a closed wall. The gap may lie outside the box: then there is no path.
 void open_gap(std::vector<Vec2>& fence, Random& random) {
   const std::size_t sides = fence.size() - 1;
   const auto side = static_cast<std::size_t>(random.index(static_cast<int>(sides)));
@@ -51,7 +51,7 @@ void open_gap(std::vector<Vec2>& fence, Random& random) {
   const Vec2 b = fence[side + 1];
   const double length = distance(a, b);
   const double width = std::min(random.uniform(0.26, 0.6), length / 2);
-  constexpr double kPost = 0.01;  // of the side that is left at least, so that no two points are the same
+  constexpr double kPost = 0.01;  // of the side that remains at least, so that no two points coincide
   const double begin = random.uniform(kPost, length - width - kPost);
   std::vector<Vec2> open{tidy(a + (b - a) * ((begin + width) / length))};
   for (std::size_t i = 1; i <= sides; ++i) open.push_back(fence[(side + i) % sides]);

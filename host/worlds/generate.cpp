@@ -16,7 +16,7 @@ constexpr int kMostDiscs = 200;
 bool has_discs(Kind kind) {
   return kind != Kind::u_trap && kind != Kind::spiral && kind != Kind::maze && kind != Kind::contest_maze;
 }
-/// The others have it anyway, or none.
+/// The other kinds always or never have it.
 bool may_have_box(Kind kind) { return kind == Kind::discs || kind == Kind::poles || kind == Kind::enclosed; }
 
 void check(Kind kind, const Options& o) {

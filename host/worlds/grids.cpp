@@ -11,12 +11,12 @@ using sim::Vec2;
 
 constexpr double kThick = 0.02;
 
-/// Which walls between the cells of a square grid stand.
+/// The standing walls between the cells of a square grid.
 class CellWalls {
  public:
   explicit CellWalls(int side) : side_(side), walls_(static_cast<std::size_t>(2 * side * side), true) {}
   int side() const { return side_; }
-  /// Between cell (x, y) and its neighbour to the right, or above.
+  /// The wall between cell (x, y) and its neighbour to the right, or above.
   std::vector<bool>::reference right_of(int x, int y) { return walls_[index(x, y, 0)]; }
   std::vector<bool>::reference above(int x, int y) { return walls_[index(x, y, 1)]; }
   std::vector<bool>::reference between(int x, int y, int dx, int dy) {
@@ -33,7 +33,7 @@ class CellWalls {
   std::vector<bool> walls_;
 };
 
-/// A random way through every cell, backing up where it ends; what it passes is opened.
+/// Opens the walls along a random depth-first walk through every cell.
 void carve(CellWalls& walls, Random& random) {
   const int side = walls.side();
   std::vector<bool> seen(static_cast<std::size_t>(side * side), false);
@@ -73,7 +73,7 @@ void add_bar(Scenario& s, Vec2 a, Vec2 b) {
   for (const Vec2 p : bar(a, b, kThick)) s.polygons.back().push_back(tidy(p));
 }
 
-/// Each straight run of standing walls is one solid. Cell (0, 0) has its middle at the origin.
+/// Each straight run of standing walls becomes one solid. The centre of cell (0, 0) is the origin.
 void add_walls(Scenario& s, CellWalls& walls, double cell) {
   const int side = walls.side();
   for (int line = 0; line + 1 < side; ++line) {
@@ -103,7 +103,7 @@ void add_walls(Scenario& s, CellWalls& walls, double cell) {
 constexpr int kRooms = 3;
 constexpr double kRoom = 2.5;
 
-/// A wall between two rooms, from `a` to `b`, whose rooms have these numbers.
+/// A wall between two rooms with these numbers, from `a` to `b`.
 struct RoomWall {
   Vec2 a, b;
   int room, other;
@@ -130,10 +130,10 @@ void shuffle(std::vector<T>& items, Random& random) {
 }
 
 void add_door(Scenario& s, Random& random, const RoomWall& wall) {
-  constexpr double kPost = 0.1;  // of wall left between a door and a corner
+  constexpr double kPost = 0.1;  // of wall that remains between a door and a corner
   const double width = random.uniform(0.3, 0.6);
   const double begin = random.uniform(kPost, kRoom - kPost - width);
-  // A bar reaches half its thickness beyond its ends; the door keeps its width.
+  // A wall extends half its thickness beyond its ends; the door keeps its width.
   const Vec2 along = (wall.b - wall.a) * (1 / kRoom);
   add_bar(s, wall.a, wall.a + along * (begin - kThick / 2));
   add_bar(s, wall.a + along * (begin + width + kThick / 2), wall.b);
@@ -178,7 +178,7 @@ void draw_rooms(Scenario& s, Random& random, const Options& o) {
   s.bounds = Bounds{{0, 0}, {kRooms * kRoom, kRooms * kRoom}};
   std::vector<RoomWall> walls = room_walls();
   shuffle(walls, random);
-  // Rooms already joined by doors carry the same number: a wall between two numbers gets a door.
+  // Connected rooms share a number: a wall between two different numbers gets a door.
   std::array<int, kRooms * kRooms> joined{};
   std::iota(joined.begin(), joined.end(), 0);
   for (const RoomWall& wall : walls) {

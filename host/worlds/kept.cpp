@@ -46,7 +46,7 @@ Noise reference_noise(const Options& o) {
 }  // namespace
 
 std::optional<Scenario> first_kept(Kind kind, const Options& options) {
-  // Different kinds with one seed share no numbers: the seed is stirred with the kind first.
+  // The kind is mixed into the seed first, so that kinds with the same seed share no numbers.
   Random random(Random(options.seed).bits() + static_cast<std::uint64_t>(kind));
   for (int i = 0; i < kMostDraws; ++i) {
     Scenario s;

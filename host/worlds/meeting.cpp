@@ -10,11 +10,11 @@ namespace whisker::worlds {
 namespace {
 
 constexpr double kWay = 4;        // m
-constexpr double kOut = 30;       // m, beyond which no mission goes on
+constexpr double kOut = 30;       // m, beyond the reach of any mission
 constexpr double kLimit = 120;    // s
 constexpr double kPace = 0.3;     // m/s, of the robot
-constexpr double kSurvey = 2.5;   // s, before it drives
-constexpr double kEarlier = 1.5;  // s, or later
+constexpr double kSurvey = 2.5;   // s, before the robot drives
+constexpr double kEarlier = 1.5;  // s, earlier or later
 
 }  // namespace
 

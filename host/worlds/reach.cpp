@@ -40,7 +40,8 @@ Box extent(const World& world, Vec2 from, Vec2 to, double margin) {
   return box;
 }
 
-/// Distances to the nearest obstacle, exact up to a cap: each bucket lists what may be that near.
+/// Distances to the nearest obstacle, exact up to a cap: each bucket lists the obstacles that may be that
+/// near.
 class Clearance {
  public:
   Clearance(const World& world, Box box, double cap)
@@ -105,7 +106,7 @@ class Clearance {
   std::vector<Bucket> buckets_;
 };
 
-/// Grid points with `from` among them, so that the wavefront begins exactly there.
+/// A grid that contains `from`, so that the wavefront starts exactly there.
 class Grid {
  public:
   Grid(const World& world, Vec2 from, Vec2 to, double radius)
@@ -119,8 +120,8 @@ class Grid {
     gaps_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), kUnknown);
   }
 
-  /// Visits every point reachable from `from` by steps to the 8 neighbours that `passable(gap,
-  /// gap of the neighbour, length)` allows; ends as soon as `arrived(point, gap)` says so.
+  /// Visits every point that is reachable from `from` by steps to the 8 neighbours if `passable(gap, gap of
+  /// the neighbour, length)`; stops when `arrived(point, gap)` is true.
   template <class P, class A>
   bool wavefront(P&& passable, A&& arrived) {
     std::vector<std::uint8_t> seen(gaps_.size(), 0);
@@ -173,7 +174,7 @@ class Grid {
 
 bool path_proven(const World& world, Vec2 from, Vec2 to, double radius_m) {
   Grid grid(world, from, to, radius_m);
-  // A straight step's clearance is at least the mean of its ends' less half its length.
+  // The clearance of a straight step is at least the mean of its ends' clearances minus half its length.
   const auto proven = [&](double a, double b, double length) { return a + b - length >= 2 * radius_m; };
   const double gap_to = grid.gap_at(to);
   if (grid.gap_at(from) < radius_m || gap_to < radius_m) return false;
@@ -186,7 +187,7 @@ bool path_proven(const World& world, Vec2 from, Vec2 to, double radius_m) {
 bool path_ruled_out(const World& world, Vec2 from, Vec2 to, double tolerance_m, double radius_m) {
   Grid grid(world, from, to, radius_m);
   if (grid.gap_at(from) < radius_m) return true;
-  // Every point of a path has a grid point this near, and that one's clearance is less by no more.
+  // Every point of a path has a grid point this near; that grid point's clearance is smaller by at most this.
   constexpr double kNearest = kCell * kDiagonal / 2;
   return !grid.wavefront([&](double, double b, double) { return b >= radius_m - kNearest; },
                          [&](Vec2 p, double) { return distance(p, to) <= tolerance_m + kNearest; });

@@ -11,7 +11,7 @@ using sim::Vec2;
 
 Vec2 turned(Vec2 p, Vec2 axis) { return {p.x * axis.x - p.y * axis.y, p.x * axis.y + p.y * axis.x}; }
 
-/// A trap in coordinates of its own.
+/// A trap in its own coordinates.
 struct Plan {
   std::vector<std::vector<Vec2>> solids;
   Vec2 start, goal;
@@ -34,7 +34,7 @@ using Line = std::vector<Vec2>;
 Line spiral_line(Random& random) {
   const double pitch = random.uniform(0.45, 0.9);
   const int legs = 4 + random.index(6);
-  // The pocket's middle is the origin; each pair of legs is one pitch longer than the last.
+  // The centre of the pocket is the origin; each pair of legs is one pitch longer than the last.
   Line line{{-pitch / 2, -pitch / 2}};
   Vec2 heading{1, 0};
   for (int i = 0; i < legs; ++i) {
@@ -56,7 +56,7 @@ std::vector<Line> nested_us(Random& random) {
                   {opening * back, half_width},
                   {opening * back, -half_width},
                   {opening * mouth, -half_width}});
-    // The next one faces the other way: its back lies a gap before this one's mouth.
+    // The next one faces the other way: its back is one gap before the mouth of this one.
     const double gap = random.uniform(0.45, 0.9);
     const double next_back = -(mouth + gap);
     mouth = -back + random.uniform(0.2, 1.0);

@@ -3,7 +3,7 @@
 namespace whisker::hal::mcu {
 namespace {
 
-constexpr int32_t kFarthest = 20000000;  // 0.1 um, that a wheel can roll between two steps
+constexpr int32_t kFarthest = 20000000;  // 0.1 um, the farthest that a wheel can roll between two steps
 
 int32_t within(int32_t x, int32_t limit) noexcept { return x > limit ? limit : x < -limit ? -limit : x; }
 
@@ -14,7 +14,7 @@ Governor::Governor(const MotorParams& params) noexcept
 
 int16_t Governor::step(int16_t wanted, int16_t counted, uint8_t elapsed_ms) noexcept {
   const int32_t rolled = way_per_count_ * within(counted, kFarthest / way_per_count_);
-  // 0.1 mm/s for a millisecond are 0.1 um.
+  // 0.1 mm/s for 1 ms is 0.1 um.
   lag_ += int32_t{wanted_} * elapsed_ms - rolled;
   lag_ = within(lag_, params_.most_lag);
   wanted_ = wanted;

@@ -8,8 +8,8 @@
 namespace whisker::hal::stm32f405 {
 namespace {
 
-constexpr uint32_t kDivideBy4 = 1;  // 21 MHz, of at most 36
-constexpr uint32_t kSample84 = 4;   // cycles, the code for it
+constexpr uint32_t kDivideBy4 = 1;  // 21 MHz; at most 36 MHz allowed
+constexpr uint32_t kSample84 = 4;   // register code for 84 cycles
 constexpr uint32_t kConversionUs = 50;
 constexpr int32_t kFullScale = 4095;
 
@@ -30,7 +30,7 @@ void Adc::start(const Clocks& clocks, Troubles& troubles) noexcept {
 }
 
 bool Adc::convert(uint8_t channel, int16_t& mv) noexcept {
-  // A conversion that ended late would be taken for this one.
+  // A result that arrived late would be mistaken for this conversion's.
   store(base::kAdc1, adc::kSr, 0);
   set(base::kAdc1, adc::kSq1, channel);
   set(base::kAdc1, adc::kSwstart, 1);

@@ -31,7 +31,7 @@ Timing timing_for(uint32_t bitrate, uint32_t hz) noexcept {
   return {hz / (bitrate * quanta), quanta};
 }
 
-/// The three parts of a bit are one quantum, what is before the sample, and two quanta after it.
+/// A bit consists of one quantum, the quanta before the sample point, and two quanta after it.
 uint32_t bit_timing(const Timing& t) noexcept {
   constexpr uint32_t kAfterSample = 2;
   return bits(can::kBrp, t.prescaler - 1) | bits(can::kTs1, t.quanta - 1 - kAfterSample - 1) |
@@ -135,7 +135,7 @@ void BxCan::fill() noexcept {
   }
 }
 
-/// What became of the frames in the mailboxes.
+/// Reads the results of the frames in the mailboxes.
 void BxCan::collect() noexcept {
   const uint32_t status = load(kBase, can::kTsr);
   for (uint8_t box = 0; box < can::kMailboxes; ++box) {
@@ -148,12 +148,12 @@ void BxCan::collect() noexcept {
       if (value(can::kTerr[box], status) != 0) count(counts_.unheard);
     }
     mailbox_[box].busy = false;
-    // Written alone: a one clears this flag and its three neighbours, and asks for nothing.
+    // Written alone: the one clears this flag and its three neighbours, without an abort request.
     store(kBase, can::kTsr, mask(can::kRqcp[box]));
   }
 }
 
-/// Of the mailboxes: the queue sees to itself.
+/// Drops stale frames in the mailboxes; the queue drops its own.
 void BxCan::drop_stale() noexcept {
   for (uint8_t box = 0; box < can::kMailboxes; ++box) {
     Mailbox& mailbox = mailbox_[box];
@@ -195,7 +195,7 @@ void BxCan::on_receive_interrupt() noexcept {
     store(kBase, can::kRf0r, mask(can::kFovr0));
     overruns_.happened();
   }
-  // The FIFO holds three; what comes meanwhile raises the interrupt again.
+  // The FIFO holds three frames; later ones raise the interrupt again.
   for (uint8_t left = 3; left > 0 && is_set(kBase, can::kFmp0); --left) {
     const uint32_t id = load(kBase, can::kRxId);
     CanFrame frame{};

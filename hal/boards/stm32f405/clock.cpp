@@ -10,12 +10,12 @@ namespace {
 
 constexpr uint32_t kInternalHz = 16000000;
 constexpr uint32_t kPllInputHz = 1000000;  // 1..2 MHz
-constexpr uint32_t kPllFactor = 336;       // the oscillator of the PLL: 100..432 MHz
-constexpr uint32_t kPllDivideBy2 = 0;      // the code for it
-constexpr uint32_t kPllQ = 7;              // 48 MHz for what needs them
-constexpr uint32_t kDivideBy2 = 4;         // codes of the bus dividers
+constexpr uint32_t kPllFactor = 336;       // the PLL's oscillator: 100..432 MHz
+constexpr uint32_t kPllDivideBy2 = 0;      // register code
+constexpr uint32_t kPllQ = 7;              // 48 MHz for USB and SDIO
+constexpr uint32_t kDivideBy2 = 4;         // register codes of the bus dividers
 constexpr uint32_t kDivideBy4 = 5;
-constexpr uint32_t kWaitStates = 5;  // of the flash at 168 MHz and 3.3 V
+constexpr uint32_t kWaitStates = 5;  // of the flash, at 168 MHz and 3.3 V
 constexpr uint32_t kFromPll = 2;
 static_assert(kPllInputHz * kPllFactor / 2 == kFullClocks.core_hz);
 static_assert(kFullClocks.core_hz / 2 == kFullClocks.apb2_hz &&
@@ -48,7 +48,7 @@ Clocks start_clocks(Troubles& troubles) noexcept {
     troubles.count(Trouble::pll_not_locked);
     return kInternalClocks;
   }
-  // The flash and the buses must be slow enough before the core gets fast.
+  // The flash and the buses must be slow enough before the core clock rises.
   set(base::kFlash, flash::kLatency, kWaitStates);
   set(base::kFlash, flash::kPrften, 1);
   set(base::kFlash, flash::kIcen, 1);

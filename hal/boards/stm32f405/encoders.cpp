@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kBothEdgesOfBoth = 3;  // encoder mode 3
 constexpr uint32_t kOwnInput = 1;
-constexpr uint32_t kSteadyFor8 = 3;  // timer clocks: takes out spikes of the wires
+constexpr uint32_t kSteadyFor8 = 3;  // timer clocks: filters spikes on the wires
 constexpr Address kTimers[2] = {base::kTim3, base::kTim4};
 
 }  // namespace

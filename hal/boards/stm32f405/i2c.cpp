@@ -19,11 +19,11 @@ constexpr Address kBase = base::kI2c1;
 void order(Field bit) noexcept { set(kBase, bit, 1); }
 
 void pause(Patience patience) noexcept {
-  // The loads are what takes the time.
+  // The loads take the time.
   while (patience.spend()) load(kBase, i2c::kSr1);
 }
 
-/// Reading the second status after the first is what lets the transfer go on after an address.
+/// After the address, the transfer continues only when the second status is read after the first.
 void clear_address_flag() noexcept {
   load(kBase, i2c::kSr1);
   load(kBase, i2c::kSr2);
@@ -49,7 +49,7 @@ void I2c::configure() noexcept {
   store(kBase, i2c::kCr1, mask(i2c::kPe));
 }
 
-/// A sensor that was reset in the middle of a byte holds the data line until it has seen the byte's clocks.
+/// A sensor that was reset within a byte holds the data line until it gets the rest of the byte's clocks.
 void I2c::free_bus() noexcept {
   using namespace wiring;
   make_open_drain(kI2cClock, true);
@@ -112,12 +112,12 @@ I2c::Step I2c::send(uint8_t address_byte, const uint8_t* out, uint8_t size, Pati
     if (step != Step::done) return step;
     store(kBase, i2c::kDr, out[i]);
   }
-  // After the last byte has left, so that its refusal is seen and a new start does not cut it off.
+  // Waits until the last byte has left, to see its refusal and not to cut it off with a new start.
   return size == 0 ? Step::done : wait(i2c::kBtf, patience);
 }
 
-/// The last byte must be refused and the stop ordered while the hardware still holds the clock: it does so
-/// when two bytes wait to be read, so the end is prepared at those points.
+/// The last byte must be refused and the stop requested while the hardware still holds the clock. It holds
+/// the clock when two bytes wait to be read, so the end is prepared at those points.
 I2c::Step I2c::receive(uint8_t address_byte, uint8_t* in, uint8_t size, Patience& patience) noexcept {
   set(kBase, i2c::kAck, size > 1 ? 1 : 0);
   set(kBase, i2c::kPos, size == 2 ? 1 : 0);
@@ -163,7 +163,7 @@ bool I2c::finish(Step step) noexcept {
       free_bus();
       return false;
   }
-  // Error flags go by writing 0.
+  // Writing 0 clears error flags.
   store(kBase, i2c::kSr1, 0);
   if (!patience(kBusyUs).until(kBase, i2c::kBusy, false)) free_bus();
   return false;

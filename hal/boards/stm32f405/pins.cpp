@@ -25,7 +25,7 @@ void connect(Pin pin, Function function, bool open_drain, Pull pull) noexcept {
 
 }  // namespace
 
-// A pin's level is set before its direction, so that it never shows the other one.
+// A pin's level is set before its direction, so that it never outputs the wrong level.
 void make_output(Pin pin, bool high) noexcept {
   write(pin, high);
   configure(pin, kOutput, false, kNone);

@@ -22,7 +22,7 @@ namespace {
 using Handler = void (*)();
 using whisker::hal::stm32f405::Interrupt;
 
-/// Nothing here expects a fault or another interrupt: the watchdog, which is no longer fed, resets the chip.
+/// No fault or other interrupt is expected: the watchdog is no longer fed and resets the chip.
 [[noreturn]] void stand_still() noexcept {
   for (;;) {
   }

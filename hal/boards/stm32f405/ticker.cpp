@@ -8,7 +8,7 @@ namespace whisker::hal::stm32f405 {
 void Ticker::start(const Clocks& clocks) noexcept {
   store(base::kTim2, tim::kPsc, clocks.timer2_hz / 1000000 - 1);
   store(base::kTim2, tim::kArr, UINT32_MAX);
-  // The prescaler counts only from the next update on.
+  // The prescaler takes effect at the next update.
   store(base::kTim2, tim::kEgr, bits(tim::kUg, 1));
   set(base::kTim2, tim::kCen, 1);
   last_us_ = now_us();

@@ -30,7 +30,7 @@ void Usart::on_interrupt() noexcept {
   constexpr uint32_t kDamaged = mask(usart::kFe) | mask(usart::kNf);
   constexpr uint32_t kAny = mask(usart::kRxne) | mask(usart::kOre);
   if ((status & kAny) == 0) return;
-  // Reading the data after the status clears the flags, those of errors too.
+  // Reading the data after the status clears the flags, including error flags.
   const uint8_t byte = static_cast<uint8_t>(load(base::kUsart2, usart::kDr));
   if ((status & mask(usart::kOre)) != 0) lost_.happened();
   if ((status & mask(usart::kRxne)) == 0) return;

@@ -8,13 +8,13 @@ namespace whisker::hal::stm32f405 {
 namespace {
 
 enum Key : uint32_t { kReload = 0xAAAA, kUnlock = 0x5555, kStart = 0xCCCC };
-constexpr uint32_t kDivideBy32 = 3;    // of 32 kHz: a count a millisecond
+constexpr uint32_t kDivideBy32 = 3;    // of 32 kHz: one count per millisecond
 constexpr uint32_t kUpdateUs = 10000;  // six cycles of the divided oscillator take 6 ms
 
 }  // namespace
 
 bool Watchdog::start(uint16_t timeout_ms, const Clocks& clocks, Troubles& troubles) noexcept {
-  // Its own oscillator must run before it takes a value, and starting it is what starts that.
+  // The watchdog accepts values only while its oscillator runs; starting the watchdog starts the oscillator.
   store(base::kIwdg, iwdg::kKr, kStart);
   store(base::kIwdg, iwdg::kKr, kUnlock);
   Patience patience = Patience::for_us(kUpdateUs, clocks.core_hz);

@@ -22,7 +22,7 @@ bool SemihostStream::read(uint8_t* to, size_t count) noexcept {
   while (count != 0) {
     const uintptr_t argument[] = {input_, reinterpret_cast<uintptr_t>(to), count};
     const uintptr_t missing = semihost(kRead, argument);
-    if (missing >= count) return false;  // the end, or a failure
+    if (missing >= count) return false;  // end of input, or failure
     to += count - missing;
     count = missing;
   }

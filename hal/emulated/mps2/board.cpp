@@ -1,4 +1,4 @@
-// Arm's MPS2 board as QEMU has it: mps2-an385 (Cortex-M3), -an386 (M4), -an500 (M7) and -an505 (M33).
+// Arm's MPS2 board in QEMU: mps2-an385 (Cortex-M3), -an386 (M4), -an500 (M7) and -an505 (M33).
 #include "hal/board.hpp"
 #include "hal/emulated/common/counter_meter.hpp"
 #include "hal/emulated/common/milliseconds.hpp"

@@ -1,5 +1,4 @@
-// An AVR in simavr whose three general-purpose registers lead to the host; host/emulators/avr.cpp is their
-// other side.
+// An AVR in simavr; three general-purpose registers connect it to the host program host/emulators/avr.cpp.
 #include "hal/board.hpp"
 #include "hal/emulated/common/milliseconds.hpp"
 
@@ -17,7 +16,7 @@ enum Command : uint8_t {
   kEnded = 1,    ///< answers 1 once standard input has ended, else 0
   kCycles = 2,   ///< answers the cycles so far, 4 bytes, low byte first
   kStack = 3,    ///< answers the lowest stack pointer so far, 2 bytes
-  kLeave = 128,  ///< and this much more: ends with a status
+  kLeave = 128,  ///< kLeave + n: exits with status n
 };
 
 uint32_t answer(Command command, int bytes) noexcept {

@@ -20,7 +20,7 @@ const Board kBoard{clock, uart, uart, &uart, host, meter};
 
 const Board& board() noexcept { return kBoard; }
 
-/// By the board's test device, so that a program that uses no semihosting needs none.
+/// Exits through the board's test device, so that programs without semihosting work too.
 void leave(int status) noexcept {
   constexpr uint32_t kPass = 0x5555;
   constexpr uint32_t kFail = 0x3333;

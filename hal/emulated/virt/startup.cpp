@@ -14,7 +14,7 @@ extern uint32_t __bss_end[];
 [[noreturn]] void begin() noexcept;
 [[noreturn]] void unexpected() noexcept;
 
-/// Of every trap.
+/// Handles every trap.
 [[gnu::aligned(4)]] void unexpected() noexcept { whisker::hal::leave(99); }
 
 void begin() noexcept {
@@ -25,7 +25,7 @@ void begin() noexcept {
   whisker::hal::leave(main());
 }
 
-/// Hart 0 goes on; there is no other.
+/// Only hart 0 continues.
 [[gnu::naked, gnu::section(".reset")]] void reset() noexcept {
   asm volatile(
       "la sp, __stack_top\n"
@@ -35,7 +35,7 @@ void begin() noexcept {
 
 namespace whisker::hal::mcu {
 
-// The marks around ebreak are what a debugger looks for; they must be uncompressed.
+// The debugger recognises the instructions around ebreak; they must be uncompressed.
 [[gnu::naked, gnu::noinline, gnu::aligned(16)]] uintptr_t semihost(uintptr_t, const void*) noexcept {
   asm volatile(
       ".option push\n"

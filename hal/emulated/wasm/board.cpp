@@ -1,5 +1,5 @@
-// A WebAssembly module as a board. It imports three functions of the page or program that holds it; memory is
-// exported, and `start` runs main.
+// A WebAssembly module as a board. It imports three functions from the embedding page or program; it exports
+// its memory, and `start` runs main.
 #include "hal/board.hpp"
 
 extern "C" {

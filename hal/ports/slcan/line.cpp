@@ -13,7 +13,7 @@ uint8_t digit_of(uint32_t value) noexcept {
   return static_cast<uint8_t>(low < 10 ? '0' + low : 'A' + (low - 10));
 }
 
-/// False: one of them is no digit.
+/// False if one of them is not a digit.
 bool read_digits(const uint8_t* digits, uint8_t count, uint32_t& value) noexcept {
   value = 0;
   for (; count > 0; --count, ++digits) {

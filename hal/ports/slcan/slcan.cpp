@@ -4,7 +4,7 @@ namespace whisker::hal::slcan {
 namespace {
 
 constexpr uint8_t kBell = 7;
-constexpr uint16_t kBytesPerPoll = 512;  // of a line that never ends
+constexpr uint16_t kBytesPerPoll = 512;  // bounds the work on a line without end
 constexpr const char* kOk = "\r";
 constexpr const char* kNo = "\a";
 
@@ -24,7 +24,7 @@ void Slcan::begin() noexcept {
     return;
   }
   enter(Phase::settling, CanState::starting);
-  // The empty lines end what the adapter may have got of an earlier one.
+  // The empty lines end a partial line of an earlier session.
   say("\r\r\rC\r");
 }
 
@@ -60,7 +60,7 @@ void Slcan::say(const char* text) noexcept {
   for (uint8_t i = 0; i < size; ++i) said_[said_size_++] = text[i];
 }
 
-/// Of an adapter, to the last command.
+/// The adapter's answer to the last command.
 void Slcan::see_answer(bool accepted) noexcept {
   if (role_ == Role::adapter || phase_ == Phase::settling) return;
   if (!accepted) count(line_counts_.refusals);
@@ -76,7 +76,7 @@ void Slcan::see_answer(bool accepted) noexcept {
   }
 }
 
-/// Linux's driver and some adapters tell the controller's state: s, a letter, two counters of three digits.
+/// Linux's driver and some adapters report the controller's state: s, a letter, two counters of three digits.
 bool Slcan::see_report() noexcept {
   if (in_[0] == 'z' || in_[0] == 'Z' || in_[0] == 'e') return true;
   constexpr uint8_t kReport = 8;
@@ -121,7 +121,7 @@ void Slcan::see_frame() noexcept {
   CanFrame frame{};
   const bool good = read_line(in_, in_size_, frame);
   if (!good) count(line_counts_.bad_lines);
-  // An adapter that is sent frames, or sends them, is open.
+  // An adapter that receives or sends frames is open.
   if (good && phase_ == Phase::opening) see_answer(true);
   const bool taken = good && phase_ == Phase::open && on_bus();
   if (taken) inbox_.push(frame, counts_);

@@ -54,7 +54,7 @@ can_frame wire_of(const CanFrame& frame) noexcept {
   return wire;
 }
 
-/// One frame, for the calls that move several. It points to both arguments.
+/// One frame for sendmmsg and recvmmsg. The result points to both arguments.
 mmsghdr message_of(can_frame& wire, iovec& part) noexcept {
   part = {&wire, sizeof wire};
   mmsghdr message{};
@@ -82,7 +82,7 @@ bool SocketCan::open() noexcept {
   lost_ = 0;
   socket_ = socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (socket_ < 0) return false;
-  constexpr int kLeast = 1;  // the kernel makes it its minimum, of a few frames
+  constexpr int kLeast = 1;  // the kernel raises it to its minimum of a few frames
   const std::vector<can_filter> filters = filters_of(accept_);
   const auto bytes = static_cast<socklen_t>(filters.size() * sizeof(can_filter));
   return set(socket_, SOL_SOCKET, SO_SNDBUF, kLeast) && set(socket_, SOL_SOCKET, SO_RXQ_OVFL, 1) &&
@@ -98,7 +98,7 @@ void SocketCan::join() noexcept {
     sockaddr_can address{};
     address.can_family = AF_CAN;
     address.can_ifindex = now.index;
-    // A socket can stay bound to an interface that is no more.
+    // A socket may stay bound to a deleted interface.
     if ((bound_ != 0 && !open()) ||
         bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
       wait_ = Wait::interface;
@@ -165,7 +165,7 @@ void SocketCan::see_loss(msghdr& message) noexcept {
 
 void SocketCan::fetch() noexcept {
   constexpr unsigned kMost = kReceiveDepth;
-  // While off the bus everything is taken, and dropped.
+  // While off the bus, all received frames are dropped.
   while (!on_bus() || !inbox_.full()) {
     can_frame wires[kMost];
     iovec parts[kMost];
@@ -209,7 +209,7 @@ void SocketCan::flush() noexcept {
     if (put <= 0) {
       if (gone(errno)) return leave();
       if (errno == ENOBUFS || errno == EAGAIN || errno == EINTR) return;
-      // Nothing else changes with time: the controller listens only, or its driver wants no such frame.
+      // Other errors do not pass with time: the controller is listen-only, or its driver rejects such frames.
       count(counts_.expired);
       outbox_.pop();
       ++done;

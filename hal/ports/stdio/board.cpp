@@ -1,4 +1,4 @@
-// A process on this computer as a board: for the same programs that run on chips.
+// A process on this computer as a board, for the same programs that run on chips.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kBetweenTries{50};
 
-/// What is at a path. False: nothing, or nobody may look.
+/// The file type at a path. False if it does not exist or access is denied.
 bool kind_at(const std::string& path, mode_t& kind) noexcept {
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) return false;
@@ -68,7 +68,7 @@ bool TtyLine::open_device() noexcept {
   if (file_ < 0 || tcgetattr(file_, &mode) != 0) return false;
   cfmakeraw(&mode);
   mode.c_cflag |= CLOCAL | CREAD;
-  // With at least one byte to a read, no byte at all means that the other end has gone.
+  // With a minimum of one byte per read, a read of zero bytes means that the other end closed.
   mode.c_cc[VMIN] = 1;
   mode.c_cc[VTIME] = 0;
   return cfsetspeed(&mode, speed_) == 0 && tcsetattr(file_, TCSANOW, &mode) == 0 &&

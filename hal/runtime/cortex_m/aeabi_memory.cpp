@@ -1,5 +1,5 @@
-// The names under which clang calls memcpy and its like on ARM. Source: "Run-time ABI for the Arm
-// Architecture", 4.3.4; memset takes its arguments in another order there.
+// The names under which clang calls memcpy and similar functions on ARM. Source: "Run-time ABI for the Arm
+// Architecture", 4.3.4; its memset has another order of arguments.
 #include <stddef.h>
 
 extern "C" {

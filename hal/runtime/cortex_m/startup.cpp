@@ -24,7 +24,7 @@ void reset() noexcept {
   whisker::hal::leave(main());
 }
 
-/// Of every exception that nothing here expects, the faults among them.
+/// Handles every unexpected exception, including faults.
 void unexpected() noexcept { whisker::hal::leave(99); }
 }
 
@@ -32,7 +32,7 @@ namespace {
 
 using Handler = void (*)();
 
-/// The sixteen entries that every Cortex-M has; no image here enables an interrupt.
+/// The sixteen entries of every Cortex-M; no image here enables an interrupt.
 struct Vectors {
   uint32_t* stack;
   Handler handler[15];
