@@ -1,5 +1,5 @@
-// Linked into programs whose properties deserve more than rapidcheck's own hundred cases. What the caller's
-// RC_PARAMS says comes first; a number of cases is added only if it names none.
+// Linked into programs whose properties need more than rapidcheck's default of 100 cases. The caller's
+// RC_PARAMS has precedence; a number of cases is added only if it names none.
 #include <cstdlib>
 #include <string>
 

@@ -1,5 +1,4 @@
-// The entry for pure virtual functions in the tables of abstract classes; a build without inlining keeps
-// these tables.
+// The table entry of pure virtual functions; a build without inlining keeps the abstract classes' tables.
 #include "hal/board.hpp"
 
 extern "C" [[noreturn]] void __cxa_pure_virtual();

@@ -60,8 +60,7 @@ std::uint64_t count(const CampaignOptions& o, const campaign::Files& files) {
   return wanted;
 }
 
-/// Shard I of N gets the I-th of N blocks, so that the concatenated files of the shards are the whole
-/// campaign.
+/// Shard I of N gets the I-th of N blocks, so that the shards' concatenated files are the campaign.
 void take_shard(Missions& m, const std::string& shard) {
   if (shard.empty()) return;
   std::uint64_t i = 0, n = 0;

@@ -9,8 +9,7 @@
 namespace whisker::cli {
 namespace {
 
-constexpr std::size_t kMostBytes =
-    5'000'000;  // limit for all replayed missions, so that the page can be mailed
+constexpr std::size_t kMostBytes = 5'000'000;  // of all missions to replay, so that the page can be mailed
 
 page::StoredRun driven_again(const Missions& missions, std::uint64_t index) {
   const Scenario scenario = mission(missions, index).scenario;

@@ -1,4 +1,4 @@
-// The planners to compare with, driven: each does what its algorithm promises, and none touches anything.
+// Missions of the baseline planners: each shows its algorithm's guarantees, and none has a contact.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -45,7 +45,7 @@ const std::string kFence = "[[polygon]]\npoints = [[2.5, -0.5], [3.5, -0.5], [3.
 const std::string kPen =
     "[[wall]]\npoints = [[-0.6, -0.6], [0.6, -0.6], [0.6, 0.6], [-0.6, 0.6], [-0.6, -0.6]]\n";
 
-/// The leftmost and the rightmost place, m from the x axis.
+/// The leftmost and the rightmost position, m from the x axis.
 struct Sides {
   double left_m = -std::numeric_limits<double>::infinity();
   double right_m = std::numeric_limits<double>::infinity();
@@ -118,7 +118,7 @@ TEST(Bug2, LeavesTheMLineOnlyRoundTheObstacleAndToTheLeft) {
 }
 
 TEST(Bug2, LeavesAtTheMLineAndNotAtTheFirstFreeViewOfTheGoal) {
-  // Beyond the wall's end the goal is in view at once; the m-line is not.
+  // Beyond the wall's end the goal is visible at once; the m-line is not reached yet.
   const Scenario s = three_metres("[[wall]]\npoints = [[1.2, -1.5], [1.2, 0.8]]\n");
   const Drive d = drive(s, kBug2);
   ASSERT_EQ(d.result.verdict, Verdict::reached);

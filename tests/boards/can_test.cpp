@@ -157,7 +157,7 @@ TEST_P(CanLossTest, WhatCannotLeaveIsDroppedInItsTimeAndItsCauseCounted) {
   for (std::uint32_t i = 0; i < 8; ++i) ASSERT_TRUE(port.send(frame(i), kLife));
   pass(kLife + 5);
   EXPECT_EQ(port.counts().expired, 8U);
-  EXPECT_EQ(port.counts().*GetParam().cause, 1U);  // the others never had their turn
+  EXPECT_EQ(port.counts().*GetParam().cause, 1U);  // the other frames were never attempted
   EXPECT_EQ(port.counts().outbid + port.counts().unheard, 1U);
   EXPECT_EQ(port.counts().sent, 0U);
   can.bus = Bus::fine;

@@ -24,7 +24,7 @@ class ClockTest : public ::testing::Test, public ModelChip {
     EXPECT_LE(apb2, 84);
     EXPECT_DOUBLE_EQ(clocks.apb1_hz, apb1 * 1e6);
     EXPECT_DOUBLE_EQ(clocks.apb2_hz, apb2 * 1e6);
-    // A timer runs at its bus's frequency, or twice that if the bus is divided.
+    // A timer runs at its bus's frequency, or at twice that if the bus is divided.
     EXPECT_DOUBLE_EQ(clocks.timer2_hz, (apb1 == core ? apb1 : 2 * apb1) * 1e6);
     EXPECT_DOUBLE_EQ(clocks.timer1_hz, (apb2 == core ? apb2 : 2 * apb2) * 1e6);
   }

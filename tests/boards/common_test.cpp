@@ -33,7 +33,7 @@ TEST(RingTest, IsAQueueThatRefusesWhenFull) {
   }
 }
 
-/// Two halves that must agree; copying one lets an interrupt come in between.
+/// Two values that must agree; an interrupt may come while they are copied.
 struct Pair {
   Pair() = default;
   Pair(const Pair& other) {
@@ -105,7 +105,7 @@ TEST(AnalogueIrTest, DistanceIsTheInverseOfTheCurve) {
     RangeReading r{};
     from_voltage(kGp2y0a21, voltage_at(kGp2y0a21, static_cast<int16_t>(mm)), r);
     ASSERT_EQ(r.status, RangeStatus::ok) << mm;
-    // A millivolt is this far at that distance.
+    // Range step per millivolt at this distance.
     const double step = double{1} * mm * mm / kGp2y0a21.slope_mv_mm;
     EXPECT_NEAR(r.mm, mm, 1 + step / 2);
   }
@@ -147,7 +147,7 @@ TEST(NearerTest, ShowsTheNearerAndNeverMoreThanTheLeadingOneHas) {
   const RangeReading all[] = {{500, RangeStatus::ok, 3, 4},    {300, RangeStatus::ok, 3, 4},
                               {0, RangeStatus::clear, 3, 4},   {0, RangeStatus::too_near, 3, 4},
                               {0, RangeStatus::invalid, 3, 4}, {0, RangeStatus::stale, 3, 4}};
-  // How near each is: lost ones have no distance.
+  // Rank by distance; lost readings have none.
   const auto nearness = [](const RangeReading& r) {
     return r.status == RangeStatus::too_near ? -1 : r.status == RangeStatus::ok ? r.mm : 1000000;
   };
@@ -187,7 +187,7 @@ TEST(NearerTest, OnlyTheLeadingOnesRefusalIsARefusal) {
   EXPECT_FALSE(both.read(out));
 }
 
-/// A wheel behind its motor: a gain that is wrong, and a lag.
+/// A wheel with a lag, whose motor gain differs from the parameters.
 double settled_speed(const MotorParams& params, int16_t wanted, double gain, double lag_s) {
   Governor governor(params);
   double v = 0;

@@ -79,7 +79,7 @@ TEST_F(DriveTest, CountsFollowTheWheelsBothWaysAndOverEveryWrap) {
   }
 }
 
-/// The wheels turn as the pulses say, through a lag, and the left motor is 20 % too weak.
+/// The wheels follow the PWM duty through a lag; the left motor is 20 % too weak.
 TEST_F(DriveTest, AWeakMotorIsHeldAtItsSpeed) {
   double speed[2] = {};
   double way[2] = {};
@@ -147,7 +147,7 @@ TEST_F(UsartTest, BytesWaitInTheRing) {
 TEST_F(UsartTest, LostAndDamagedBytesAreCounted) {
   std::uint8_t byte = 0;
   usart.receive('a');
-  come('b');  // over the first, which is kept
+  come('b');  // overruns the first byte, which stays
   ASSERT_TRUE(console.receive(byte, troubles));
   EXPECT_EQ(byte, 'a');
   EXPECT_EQ(troubles.of(Trouble::usart_receive_lost), 1U);

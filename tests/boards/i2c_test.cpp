@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Keeps what it is told and counts up when it is asked.
+/// Records written bytes and returns increasing ones.
 class Recorder : public model::I2cDevice {
  public:
   bool answers(std::uint8_t address) override { return address == 0x42; }
@@ -27,7 +27,7 @@ class Recorder : public model::I2cDevice {
   void stop() override { ++stops; }
 
   Bytes written;
-  int refuses = 0;  // which byte
+  int refuses = 0;  // number of the byte to refuse
   int reads = 0;
   int reads_begun = 0;
   int stops = 0;
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
                       FaultCase{model::I2cModel::Fault::arbitration, Trouble::i2c_arbitration_lost},
                       FaultCase{model::I2cModel::Fault::bus_error, Trouble::i2c_bus_error}));
 
-/// The data line is held until so many clocks have come.
+/// The device holds the data line until so many clocks came.
 class StuckBusTest : public I2cTest {
  protected:
   void hold_for(int clocks) {

@@ -21,7 +21,7 @@ class RangersTest : public ::testing::Test, public ModelChip {
     bus.start(kInternalClocks, troubles);
     rangers.start(0);
   }
-  /// Some milliseconds of the loop, four polls each; every sensor measures in every 33rd.
+  /// Runs the loop for some milliseconds, four polls each; every sensor measures every 33 ms.
   void pass(int ms) {
     for (int i = 0; i < ms; ++i, ++now) {
       for (int k = 0; k < hal::kBeams; ++k) {
@@ -73,7 +73,7 @@ TEST_F(RangersTest, SequenceGoesUpByOneWithEachMeasurement) {
 
 TEST_F(RangersTest, AgeIsSinceTheMeasurementBegan) {
   pass(200);
-  // The last one ended at a multiple of 33 ms, and was fetched within the next two polls.
+  // The last measurement ended at a multiple of 33 ms and was read within the next two polls.
   const std::uint32_t ended = now - 1 - (now - 1) % 33;
   EXPECT_GE(reading(0).age_ms, now - 1 - ended + 33 - 2);
   EXPECT_LE(reading(0).age_ms, now - 1 - ended + 33);

@@ -16,12 +16,12 @@
 namespace whisker::hal::stm32f405 {
 namespace {
 
-/// The whole image but for its start-up: core and drivers on the chip's models, whose pins move a simulated
-/// robot.
+/// The whole image except its start-up: core and drivers run on models of the chip, whose pins move a
+/// simulated robot.
 class RobotBoardTest : public ::testing::Test, public ModelChip {
  protected:
   RobotBoardTest() {
-    // So that the models' 16 MHz hold.
+    // Without crystal and PLL, so that the clock is the models' 16 MHz.
     rcc.dead_crystal = rcc.pll_without_lock = true;
     for (model::Vl53l0xModel& s : sensor) i2c.attach(s);
     adc.raw = [this](std::uint32_t channel) { return infrared(static_cast<int>(channel) - 10); };
@@ -35,7 +35,7 @@ class RobotBoardTest : public ::testing::Test, public ModelChip {
   }
 
   void go(Length x) { robot.set_goal({{x, 0_mm}, 50_mm}); }
-  /// Runs the loop for so long; true as soon as `done`.
+  /// Runs the loop for this time; returns true as soon as `done`.
   template <class Done>
   bool run(double seconds, Done done) {
     const double end = chip.now_us() + seconds * 1e6;
@@ -106,7 +106,7 @@ TEST_F(RobotBoardTest, DrivesToItsGoalThroughTheChipsRegisters) {
   EXPECT_NEAR(plant.pose().at.y, 0, 0.03);
   EXPECT_EQ(robot.status().health.fault, Fault::none);
   EXPECT_EQ(robot.status().health.late_ticks, 0U);
-  EXPECT_EQ(board.troubles().total(), 2U) << usart.sent;  // the oscillators
+  EXPECT_EQ(board.troubles().total(), 2U) << usart.sent;  // crystal and PLL
 }
 
 TEST_F(RobotBoardTest, AGoalBehindAWallEndsWithoutAContact) {

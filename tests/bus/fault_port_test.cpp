@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 
 using Frames = std::vector<CanFrame>;
 
-/// A port with faults, and another node on the same bus that has none. A tick is 10 ms.
+/// A port with faults, and another node without on the same bus. A tick is 10 ms.
 struct Rig {
   explicit Rig(Schedule schedule, std::uint64_t seed = 1, Repair repair = nullptr,
                std::uint32_t frames_per_ms = 100)
@@ -30,7 +30,7 @@ struct Rig {
         port(inner, std::move(schedule), seed, std::move(repair)) {
     port.poll(now_ms);
   }
-  /// Both nodes send, then a tick passes.
+  /// Both nodes send, then one tick passes.
   void tick(const Frames& from_port, const Frames& from_peer = {}) {
     port.at_tick(++at);
     for (const CanFrame& f : from_port) port.send(f, kLife_ms);
@@ -331,7 +331,7 @@ Schedule any_schedule() {
   return schedule;
 }
 
-/// Everything that a run with this schedule shows.
+/// All observable results of a run with this schedule.
 struct Shown {
   Frames frames;
   std::vector<CanState> states;
@@ -389,7 +389,7 @@ RC_GTEST_PROP(FaultPort, LosesAndDoublesAsManyAsItSays, ()) {
     rig.tick(i < 60 ? Frames{frame(0x100, 8, i), frame(0x200, 8, i)} : Frames{});
     arrived += static_cast<std::uint32_t>(rig.at_peer().size());
   }
-  // A frame that was doubled can be lost after that, with its double.
+  // Loss must come last: a frame that was duplicated before may be lost together with its copy.
   const bool loses_last = std::is_partitioned(schedule.begin(), schedule.end(),
                                               [](const Fault& f) { return f.kind == FaultKind::loss; });
   RC_PRE(loses_last);

@@ -14,7 +14,7 @@ using hal::CanPort;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// The bits that are sent until all of the identifier's part is: a dominant bit is 0.
+/// The arbitration bits in sending order; a dominant bit is 0.
 std::vector<int> wire_bits(const CanFrame &f) {
   std::vector<int> bits;
   const auto put = [&bits](std::uint32_t value, int width) {
@@ -37,7 +37,7 @@ CanFrame any_frame() {
   CanFrame f{};
   f.extended = *rc::gen::arbitrary<bool>();
   f.remote = *rc::gen::arbitrary<bool>();
-  // Few different ones, so that frames often begin alike.
+  // Few identifiers, so that frames often start with the same bits.
   f.id = *rc::gen::element(0U, 1U, 2U, 0x7FFU) << (f.extended ? 18 : 0);
   if (f.extended) f.id += *rc::gen::element(0U, 1U, 0x3FFFFU);
   return f;

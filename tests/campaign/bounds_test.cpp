@@ -55,7 +55,7 @@ TEST(Quantile, IsAnOrderStatisticBetweenOrderStatistics) {
 TEST(Quantile, HasNoBoundThatTheSampleCannotGive) {
   EXPECT_FALSE(quantile(one_to(5), 0.5).low);
   EXPECT_FALSE(quantile(one_to(5), 0.5).high);
-  // 0.95^72 < 2.5 % < 0.95^71: so many it takes for one to lie above the 95 % point.
+  // 0.95^72 < 2.5 % < 0.95^71: 72 draws are needed for one above the 95 % point.
   EXPECT_FALSE(quantile(one_to(71), 0.95).high);
   EXPECT_EQ(quantile(one_to(72), 0.95).high, 72);
   EXPECT_EQ(quantile({7}, 0.5).value, 7);
@@ -88,7 +88,7 @@ TEST(Rate, OfProportionalAmountsIsCertain) {
   EXPECT_EQ(rate({0, 1, 0}, {1, 1, 1}).low, 0) << "no rate is negative";
 }
 
-/// How often the bounds of an estimate from n draws contain the truth.
+/// How often the bounds from n draws contain the true value.
 double coverage(double truth, int n, const std::function<double(worlds::Random&)>& draw,
                 const std::function<Estimate(const std::vector<double>&)>& estimate) {
   constexpr int kRounds = 4000;

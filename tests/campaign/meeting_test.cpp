@@ -41,7 +41,7 @@ TEST(WorldsMeeting, IsTheSameForTheSameSeedAndLoadsAgain) {
   }
 }
 
-// Without a robot that gives way most of these would end in a contact.
+// Most of these runs would end in a contact if the robot did not give way.
 TEST(WorldsMeeting, BringsTheTwoTogether) {
   int near = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
@@ -52,7 +52,7 @@ TEST(WorldsMeeting, BringsTheTwoTogether) {
 }
 
 TEST(Meet, ARobotThatIsCrossedWaitsOrGoesAroundAndSaysSo) {
-  // It is in the robot's way when the robot comes: 0.3 m/s after a survey of 2.5 s.
+  // The mover crosses when the robot arrives: 0.3 m/s after a survey of 2.5 s.
   for (const char* y : {"1.1", "1.2", "1.3"}) {
     const Scenario s = scene("center = [1.5, " + std::string(y) + "]\nradius_m = 0.15\npath = [[1.5, " + y +
                              "], [1.5, -20.0]]\nspeed_mps = 0.2\n");
@@ -117,14 +117,14 @@ TEST(MeetingCount, CountsEachContactOnce) {
 
 class MeetAt : public testing::TestWithParam<double> {};
 
-// What it could have seen in time it hardly ever runs into.
+// The robot hardly ever drives into a mover that it could detect in time.
 TEST_P(MeetAt, NothingThatWasSeenIsTouchedByAMovingRobot) {
   for (const Course course : {Course::oncoming, Course::crossing}) {
     MeetingCount count;
     for (std::uint64_t seed = 1; seed <= test::effort(200); ++seed) {
       count.add(meet(worlds::meeting(course, GetParam(), seed), PlannerKind::skirt));
     }
-    // docs/ground.md: it happens, in one of some thousands.
+    // docs/ground.md: the rate is one in some thousands.
     EXPECT_LE(count.seen, 1U) << name(course);
     EXPECT_GT(count.said, count.missions / 4) << name(course);
   }

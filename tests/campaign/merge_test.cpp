@@ -68,7 +68,7 @@ TEST_F(Merge, AWrongFileIsRefusedWithItsLine) {
   EXPECT_EQ(complaint({folder_.path("")}), folder_.path("") + ":1:1: cannot be read");
 }
 
-// Written by a `whisker campaign` that called a belief `reached`.
+// Written by an older `whisker campaign`, which reported a wrong belief as `reached`.
 TEST_F(Merge, RowsFromBeforeOffGoalAreJudgedByTheirTruePlace) {
   const std::string old = std::string(WHISKER_SOURCE_DIR) + "/tests/campaign/old_rows.csv";
   int reached = 0, off = 0, other = 0;

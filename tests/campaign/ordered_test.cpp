@@ -11,7 +11,7 @@
 namespace whisker::campaign {
 namespace {
 
-/// Work whose pieces take unequal time and give their own number as the seed.
+/// Work whose pieces take unequal time; each returns its own number as the seed.
 Work uneven(std::uint64_t count, int jobs, std::vector<std::uint64_t>& taken) {
   Work work;
   work.count = count;

@@ -16,7 +16,7 @@ const std::string kLine =
     "7,reached,12.500000,2.000000,3.100000,1,2,3,0.050000,0.010000,0.020000,1,1.600000,1.250000,7.812500,"
     "1250,"
     "00000000000000ff,at_goal,thesis,,discs --noise,0.080000,1";
-/// The same before there was off_goal.
+/// The same row in the format without off_goal.
 const std::string kOldLine = kLine.substr(0, kLine.find(",0.080000,1"));
 
 std::string complaint(const std::string& line) {

@@ -31,7 +31,7 @@ TEST(Codec, SharedPartsLieAtOnePlace) {
   EXPECT_EQ(signal(MessageKind::info, 2).start, signal(MessageKind::info, 3).start);
 }
 
-/// Bit by bit, from the table's words alone.
+/// Decodes bit by bit, from the table alone.
 std::int64_t slow_raw(const hal::CanFrame& f, const Signal& s) {
   std::int64_t raw = 0;
   for (int i = s.length - 1; i >= 0; --i) {
@@ -56,7 +56,7 @@ RC_GTEST_PROP(Codec, AWheelCommandComesBack, (std::int16_t left, std::int16_t ri
   RC_ASSERT(out.speeds.left == left && out.speeds.right == right && out.tick == tick && out.mode == in.mode);
 }
 
-/// What decode() says of any content must be what the table says.
+/// decode() must accept exactly the content that the table allows.
 template <class M>
 void agrees_with_the_table(const hal::CanFrame& frame) {
   const Message& message = message_of(M::kKind);
@@ -75,7 +75,7 @@ RC_GTEST_PROP(Codec, AnyContentIsJudgedByTheTable, (std::vector<std::uint8_t> by
   for (std::size_t i = 0; i < 8 && i < bytes.size(); ++i) frame.data[i] = bytes[i];
   for_each_message([&](const Message&, auto message) {
     using M = decltype(message);
-    // The signals of a message with parts are not all in one frame, and nobody reads what is reserved.
+    // Not for messages with parts, whose signals are in several frames; reserved bits are ignored.
     constexpr bool kWhole = M::kKind != MessageKind::mission && M::kKind != MessageKind::info &&
                             M::kKind != MessageKind::info_request && M::kKind != MessageKind::diagnostics;
     if constexpr (kWhole) agrees_with_the_table<M>(frame);
@@ -137,7 +137,7 @@ TEST(Mission, ValuesOutOfRangeAreRefused) {
   EXPECT_FALSE(mission_of(values_of(m), out));
 }
 
-/// Frames that other tools decode: tests/can/golden_frames.txt has their bytes and their physical values.
+/// Frames that other tools decode: tests/can/golden_frames.txt has their bytes and physical values.
 std::vector<hal::CanFrame> golden_frames() {
   WheelState wheels{1, 5, {0x123456, 0xFFFFFE}};
   Range<MessageKind::range_left> left{{1234, hal::RangeStatus::ok, 20, 7}, 0xBEEF};

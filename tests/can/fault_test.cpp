@@ -1,5 +1,5 @@
-// Every fault of the bus, with real parties and a simulated body: when the wheels begin to brake, that they
-// stand, what is counted, and how it goes on.
+// Every fault of the bus, with both nodes and a simulated body: start of braking, standstill, counters and
+// recovery.
 #include <gtest/gtest.h>
 
 #include "tests/can/rig.hpp"
@@ -22,7 +22,7 @@ constexpr std::uint32_t kLong = 60;  // ticks: longer than every time-out
 std::uint32_t from_controller(MessageKind kind) { return can::id_of(can::message_of(kind).function, 1); }
 std::uint32_t from_base(MessageKind kind) { return can::id_of(can::message_of(kind).function, 9); }
 
-/// A fault that holds for some ticks, of frames with one identifier, or of all or of the port with 0.
+/// A fault for some ticks, on frames with one identifier; 0: on all frames or on the port.
 Fault fault(FaultKind kind, std::uint32_t ticks, std::uint32_t id = 0) {
   Fault f{};
   f.kind = kind;
@@ -52,11 +52,11 @@ std::uint32_t latency(const Rig& rig) {
 
 struct Expected {
   std::uint32_t most_latency;    ///< ticks
-  std::uint16_t base_error = 0;  ///< bits that must have been seen
+  std::uint16_t base_error = 0;  ///< bits that must be reported
   std::uint16_t controller_error = 0;
 };
 
-/// The wheels brake in time, stand within the braking time, and a new order makes the robot run again.
+/// The wheels brake in time, stop within the braking time, and a new order makes the robot run again.
 void expect_stop_and_resume(Rig& rig, const Expected& expected, std::uint32_t fault_ticks) {
   rig.cruise();
   ASSERT_EQ(rig.now().base, NodeState::running);
@@ -92,7 +92,7 @@ void expect_stop_and_resume(Rig& rig, const Expected& expected, std::uint32_t fa
       << "it knows how far it braked";
 }
 
-/// The robot never leaves its mission.
+/// The robot continues its mission.
 void expect_no_latch(Rig& rig, std::uint32_t fault_ticks) {
   rig.cruise();
   rig.drive(fault_ticks + 150);
@@ -324,7 +324,7 @@ TEST(Faults, TwoRobotsOnOneBusDoNotMindEachOther) {
   const std::uint32_t foreign = rig.base().health().foreign;
   for (int i = 0; i < 50; ++i) {
     rig.third.say(can::WheelCommand{can::DriveMode::drive, {-3000, -3000}, 0});
-    rig.third.send({0x013, false, false, 0, {}});  // its E-stop
+    rig.third.send({0x013, false, false, 0, {}});  // the other robot's E-stop
     rig.drive(1);
   }
   EXPECT_EQ(rig.now().base, NodeState::running);

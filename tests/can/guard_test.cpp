@@ -6,7 +6,7 @@
 namespace whisker::can {
 namespace {
 
-/// A port that is where a test puts it.
+/// A port whose state the test sets.
 class StatePort final : public hal::CanPort {
  public:
   hal::CanState now = hal::CanState::active;

@@ -1,4 +1,4 @@
-// Each party alone, millisecond by millisecond, against another that a test plays.
+// Each node alone, millisecond by millisecond; the test plays the other node.
 #include <gtest/gtest.h>
 
 #include "firmware/can/base_node.hpp"
@@ -12,7 +12,7 @@ constexpr Identity kIdentity{1, 500, 0x000100};
 constexpr std::uint16_t kPeerBoot = 600;
 constexpr int kRamp = 100;
 
-/// A base that runs on the commands of a controller that the test plays.
+/// A base that executes the commands of a controller that the test plays.
 class BaseAlone : public testing::Test {
  protected:
   bus::MemoryBus wire_;
@@ -31,7 +31,7 @@ class BaseAlone : public testing::Test {
     base_.poll(now_);
   }
 
-  /// One millisecond; every tenth is a tick.
+  /// One millisecond; every tenth one is a tick.
   void pass() {
     ++now_;
     peer_.poll(now_);
@@ -70,7 +70,7 @@ class BaseAlone : public testing::Test {
     ASSERT_EQ(base_.state(), NodeState::running);
     ASSERT_EQ(speeds_.left, speed_);
   }
-  /// Milliseconds until the node says so, at most 2000.
+  /// Milliseconds until the condition holds, at most 2000.
   template <class F>
   int until(const F& holds) {
     for (int ms = 0; ms < 2000; ++ms) {
@@ -82,7 +82,7 @@ class BaseAlone : public testing::Test {
   int until_stopped() {
     return until([&] { return base_.state() != NodeState::running; });
   }
-  /// The wheels go down by the ramp, never up, and stay at zero.
+  /// The wheel speeds follow the ramp down, never rise, and stay at zero.
   void expect_braking() {
     int before = speeds_.left;
     const int ticks = (before + kRamp - 1) / kRamp;
@@ -145,7 +145,7 @@ TEST_F(BaseAlone, InfoOfAnEarlierLifeDoesNotCount) {
 
 TEST_F(BaseAlone, ALateCommandStopsWithin50MillisecondsAndLatches) {
   start();
-  until([&] { return now_ % 10 == 1; });  // the last answer has been heard
+  until([&] { return now_ % 10 == 1; });  // the last answer has arrived
   answers_ = false;
   const int ms = until_stopped();
   EXPECT_EQ(ms, 50);
@@ -164,7 +164,7 @@ TEST_F(BaseAlone, AStaleCommandIsNoCommand) {
   until([&] { return now_ % 10 == 1; });
   answers_ = false;
   const int ms = until([&] {
-    // Always in time, and always an answer to a set of 60 ms ago.
+    // Always in time, but always the answer to a set 60 ms old.
     if (now_ % 10 == 5) {
       peer_.say(WheelCommand{DriveMode::drive, {speed_, speed_}, static_cast<std::uint16_t>(tick_ - 6)});
     }
@@ -320,9 +320,9 @@ TEST_F(BaseAlone, BadFramesAreCountedAndNeverObeyed) {
   frame.remote = false;
   frame.extended = true;
   peer_.send(frame);
-  // A value out of range, with a right CRC.
+  // A value out of range, with a valid CRC.
   peer_.send(sealed(UINT64_C(5) << 12, 0x101, 8, static_cast<std::uint8_t>((counter_of(frame) + 1) % 15)));
-  // A base's message from a controller's node.
+  // A message of the base from the controller's node.
   peer_.send(encode(Sync{}, 1, 0));
   pass(2);
   const BusHealth& h = base_.health();
@@ -338,7 +338,7 @@ TEST_F(BaseAlone, EveryMessageOfAControllerIsUnderstoodByItsNameAndNoOther) {
   ParamReply none;
   for (int k = 0; k < kKinds; ++k) {
     const auto kind = static_cast<MessageKind>(k);
-    // Heartbeat and Info are the handshake's; another boot number in them would end it.
+    // Heartbeat and Info belong to the handshake; another boot number in them would end it.
     if (kind == MessageKind::e_stop || kind == MessageKind::heartbeat || kind == MessageKind::info) continue;
     const Message& m = message_of(kind);
     const BusHealth was = base_.health();
@@ -730,7 +730,7 @@ TEST_F(ControllerAlone, InLockstepItWaitsForEver) {
   EXPECT_EQ(node_.state(), NodeState::waiting);
   for (bool& sends : sends_) sends = true;
   beats_ = true;
-  tick_ = tick_ - 500;  // the ticks stood still
+  tick_ = tick_ - 500;  // the ticks did not advance
   peer_.greet(kPeerBoot, NodeState::running);
   const int before = steps_;
   pass(20);

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::uint64_t kLeast_us = 20000;
 
-/// A set whose answer comes after this time, whichever copy it is for. Returns how often it was sent again.
+/// A set that is answered after this time, whichever copy it answers. Returns the number of repeats.
 int exchange(Resend& resend, std::uint64_t& now_us, std::uint64_t answer_us) {
   int again = 0;
   resend.sent(now_us);
@@ -43,7 +43,7 @@ RC_GTEST_PROP(Resend, WaitsNeverLessThanTheLeastNorMoreThanTheMost, ()) {
 TEST(Resend, DoublesWhileNobodyAnswers) {
   Resend resend(kLeast_us);
   std::uint64_t now_us = 0;
-  // At 20, 60, 140, 300, 620, 1260, 1900 ms.
+  // Repeats at 20, 60, 140, 300, 620, 1260, 1900 ms.
   EXPECT_EQ(exchange(resend, now_us, 2000000), 7);
   EXPECT_EQ(resend.wait_us(), Resend::kMost_us);
 }

@@ -1,5 +1,5 @@
-// A node of another make that shakes hands and then leaves a request without an answer: nobody waits for
-// ever, and what stays away has a name.
+// A foreign node completes the handshake and then leaves a request unanswered: every wait has a time-out, and
+// the missing message is named.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -18,7 +18,7 @@ Scenario short_way() {
   return worlds::generate(worlds::Kind::discs, options);
 }
 
-/// A controller that greets, lives, and answers these requests alone: orders with this status.
+/// A controller that greets, sends heartbeats and answers only these requests: orders with this status.
 class Taciturn {
  public:
   Taciturn(bus::MemoryBus& wire, std::set<can::MessageKind> answers, can::MissionStatus status)
@@ -54,7 +54,7 @@ class Taciturn {
   const can::MissionStatus status_;
 };
 
-/// What the plant says when it gives up, and the seconds that it waited.
+/// The plant's message when it gives up, and the seconds that it waited.
 std::pair<std::string, double> given_up(const std::set<can::MessageKind>& answers, can::SyncMode sync_mode,
                                         can::MissionStatus status = can::MissionStatus::accepted) {
   bus::MemoryBus wire;
@@ -96,7 +96,7 @@ TEST(Silence, ThePlantNamesTheRequestThatStaysWithoutAnAnswer) {
   EXPECT_LT(set_s, 5);
 }
 
-/// A controller beside a base of another make that falls silent, in real time; the errors that it shows then.
+/// A controller with a foreign base that falls silent, in real time; returns the reported errors.
 TEST(Silence, TheControllerNamesWhatABaseNoLongerSends) {
   bus::MemoryBus wire;
   can::ControllerNode node(wire.attach(), {1, 5, 0});

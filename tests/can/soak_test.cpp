@@ -1,5 +1,5 @@
-// Many random faults at once: nothing is hit because of the bus, the wheels brake whenever the robot does not
-// run, and every frame is accounted for.
+// Many random faults at once: no contact is due to the bus, the wheels brake whenever the robot does not run,
+// and every frame is accounted for.
 #include <algorithm>
 #include <cstdlib>
 #include <string>
@@ -15,13 +15,13 @@
 namespace whisker {
 namespace {
 
-/// Faults of every kind, each for a while, anywhere in the run.
+/// Faults of every kind at random times, each for a while.
 bus::Schedule random_faults(std::uint64_t seed, std::uint32_t ticks) {
   worlds::Random random(seed);
   bus::Schedule schedule;
   for (std::uint32_t from = 60; from < ticks; from += 60 + static_cast<std::uint32_t>(random.index(500))) {
     bus::Fault f{};
-    // A forged frame has all that makes a good one.
+    // A forged frame passes all checks.
     do f.kind = static_cast<bus::FaultKind>(random.index(static_cast<int>(bus::kFaultKinds)));
     while (f.kind == bus::FaultKind::forge);
     f.from_tick = from;
@@ -46,7 +46,7 @@ void expect_accounts(const can::BusHealth& h, const hal::CanCounts& port, const 
 
 int speed_of(const hal::WheelSpeeds& s) { return std::max(std::abs(s.left), std::abs(s.right)); }
 
-/// Returns the frames that both parties got.
+/// Returns the frames that both nodes received.
 std::uint64_t soak(std::uint64_t seed, std::uint32_t ticks) {
   worlds::Options options;
   options.seed = seed;

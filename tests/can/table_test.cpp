@@ -11,7 +11,7 @@ namespace whisker::can {
 namespace {
 
 TEST(Table, TheCrcIsThatOfTheProfile) {
-  // AUTOSAR's own examples: 8 bytes of zero, data id 0x123, with counters 0 and 1.
+  // AUTOSAR's examples: 8 bytes of zero, data id 0x123, with counters 0 and 1.
   const std::uint8_t zero[8] = {};
   const std::uint8_t one[8] = {0, 1};
   EXPECT_EQ(crc_of(0x123, zero, 8), 0xCC);

@@ -1,4 +1,4 @@
-/// Any bytes as frames: what a message's decode() takes is what encode() gives again.
+/// Any bytes as frames: encode() restores every frame that decode() accepts.
 
 #include <cstddef>
 #include <cstdint>

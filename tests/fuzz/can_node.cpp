@@ -1,4 +1,4 @@
-/// Any frames at any times, some with a right CRC and counter: the wheels turn only while the base runs, and
+/// Any frames at any times, some with a valid CRC and counter: the wheels turn only while the base runs, and
 /// every frame is accounted for.
 
 #include <algorithm>
@@ -20,7 +20,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Takes the input's bytes one after the other; zeros after its end.
+/// Takes the bytes of the input in order; zeros after its end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
@@ -57,7 +57,7 @@ class Bench {
   }
 
  private:
-  /// As the other party would, so that the input need not find a CRC of the table's hash.
+  /// Sealed as by the other node, so that the fuzzer need not find a valid CRC.
   void greet(std::uint8_t what) {
     const std::uint8_t node = (what & 1) != 0 ? 1 : 9;
     Heartbeat beat;

@@ -1,5 +1,5 @@
-/// Any bytes as a scenario file: a scenario that can be written and read back, or one line that says what is
-/// wrong.
+/// Any bytes as a scenario file: the result is a scenario that survives writing and reading, or a one-line
+/// error.
 
 #include <cmath>
 #include <cstddef>
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const std::string written = whisker::to_toml(scenario);
   whisker::Scenario again = whisker::parse_scenario(written, kName);
-  // to_toml promises the heading within one unit in the last place, and all else bit for bit.
+  // to_toml guarantees the heading within one unit in the last place, and all else bit for bit.
   require(std::abs(again.start.heading - scenario.start.heading) < 1e-9, "another heading", written);
   again.start.heading = scenario.start.heading;
   require(whisker::to_toml(again) == written, "written, read and written again: differs", written);

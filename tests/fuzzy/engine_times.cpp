@@ -1,4 +1,4 @@
-// Nanoseconds that each way of evaluating the rules takes on this computer, over the same grid of inputs.
+// Nanoseconds per inference of each engine on this computer, over the same grid of inputs.
 #include <chrono>
 #include <cstdio>
 
@@ -13,7 +13,7 @@ namespace {
 
 using namespace whisker::fuzzy;
 
-/// The least of several rounds: other programs only ever add.
+/// The minimum of several rounds: other programs can only add time.
 template <class F>
 void report(const char* name, int rounds, const F& infer) {
   double least = 1e12;

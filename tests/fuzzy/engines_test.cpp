@@ -1,4 +1,4 @@
-// Both engines on every pair of inputs: 2.6 million of them.
+// Both engines on all 2.6 million pairs of inputs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace whisker::fuzzy {
 namespace {
 
-// 1.5 % of the spans in use: SA covers 3, SD covers 0.3..1.7.
+// 1.5 % of the output ranges in use: SA covers 3, SD covers 0.3..1.7.
 constexpr double kTurnBar = 0.015 * 3.0;
 constexpr double kStepBar = 0.015 * 1.4;
 

@@ -1,4 +1,4 @@
-// Exact inference against the formula in floating point, written from the definition alone.
+// Exact inference compared with the formula in floating point, written from the definition alone.
 #include "firmware/fuzzy/exact.hpp"
 
 #include <gtest/gtest.h>

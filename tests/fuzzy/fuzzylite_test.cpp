@@ -1,4 +1,4 @@
-// fuzzylite as an independent judge of what the rule base means.
+// Compares the rule base with fuzzylite, an independent implementation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace whisker::fuzzy {
 namespace {
 
-// Constants are given to fuzzylite as raw units / 2^14, so that only the last rounding of ours differs.
+// fuzzylite gets constants as raw units / 2^14, so that only our final rounding differs.
 constexpr double kBound = 0.5 / Q14::kOne + 1e-9;
 
 TEST(Exact, AgreesWithFuzzyliteOnADenseGrid) {

@@ -1,4 +1,4 @@
-// Any rule base, on a random lattice of inputs. RC_PARAMS="seed=N" repeats a run.
+// Random rule bases on a random lattice of inputs. RC_PARAMS="seed=N" repeats a run.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -14,8 +14,8 @@
 namespace whisker::fuzzy {
 namespace {
 
-// The look-up's error is at most this part of the spread of the rule cell's four answers, over every
-// input and every rule base; half a unit is lost at each of the three roundings.
+// Bound of the look-up's error, over every input and every rule base, as a part of the spread of the cell's
+// four answers; each of the three roundings adds half a unit.
 constexpr double kErrorPerSpread = 0.0288;
 constexpr double kRoundings = 1.5;
 
@@ -29,7 +29,8 @@ RuleBase any_rules() {
   return rules;
 }
 
-/// Calls f(inputs) on a lattice with random offsets; strides are prime to the spacings of nodes and centres.
+/// Calls f(inputs) on a lattice with random offsets; strides are coprime to the spacings of nodes and
+/// centres.
 template <class F>
 void on_a_lattice(F&& f) {
   const int first_d = *rc::gen::inRange(0, 13);
@@ -84,7 +85,7 @@ RC_GTEST_PROP(AnyRuleBase, MirroredRulesGiveTheMirroredResponse, ()) {
   RuleBase mirrored;
   for (int i = 0; i < kTerms; ++i) {
     for (int j = 0; j < kTerms; ++j) {
-      rules.turn[i][j] = -(-rules.turn[i][j]);  // -32768 has no opposite
+      rules.turn[i][j] = -(-rules.turn[i][j]);  // -32768 has no negative counterpart
       mirrored.turn[i][j] = -rules.turn[i][kTerms - 1 - j];
       mirrored.step[i][j] = rules.step[i][kTerms - 1 - j];
     }

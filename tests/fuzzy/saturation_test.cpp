@@ -1,4 +1,4 @@
-// Beyond the outer centres an input changes nothing, up to the limits of its type.
+// Beyond the outer centres the output is constant, up to the limits of the input type.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The committed table and the figures in the documentation are what the rules give.
+// The committed table and the figures in the documentation follow from the rules.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

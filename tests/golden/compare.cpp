@@ -11,7 +11,7 @@
 namespace whisker::golden {
 namespace {
 
-/// A message's fields as text and number.
+/// The fields of a message as text and number.
 class Lister {
  public:
   template <class T>
@@ -30,7 +30,7 @@ Lister listed(const M& message) {
   return lister;
 }
 
-/// "turn is 5, not 6" of the first field that differs; "" for none.
+/// "turn is 5, not 6" for the first field that differs; "" if none does.
 template <class M>
 std::string difference(const M& expected, const M& answered) {
   const Lister want = listed(expected);
@@ -70,7 +70,7 @@ class Judge {
     result.costs.push_back({stream, 0, 0, 0});
     step_ = 0;
   }
-  /// False: no more.
+  /// False at the end.
   bool hear(link::Name name) {
     switch (name) {
       case link::Name::hello: return greeting();

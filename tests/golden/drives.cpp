@@ -9,10 +9,10 @@
 namespace whisker::golden {
 namespace {
 
-/// Of those that the smallest target of the whole recording has room for.
+/// The largest map that fits into every target of the full recording.
 constexpr PlannerKind kLargestMapOfAll = core_planner("map", 8192);
 
-/// Drives with the core in this process, and writes down what it is told.
+/// Drives with the core in this process, and records its inputs.
 class RecordingPilot final : public Pilot {
  public:
   RecordingPilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant, chip::Bytes& to)

@@ -1,4 +1,4 @@
-// Records the golden streams, and judges what chips answered to them.
+// Records the golden streams, and judges the answers of the chips.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -53,7 +53,7 @@ std::vector<Stream> joined(std::vector<Stream> all, const std::vector<Stream>& m
   return all;
 }
 
-/// Those whose name's first word is the planner.
+/// The streams whose names start with the planner.
 std::vector<Stream> of_planner(const std::vector<Stream>& all, const std::string& planner) {
   std::vector<Stream> some;
   std::copy_if(all.begin(), all.end(), std::back_inserter(some),
@@ -61,7 +61,7 @@ std::vector<Stream> of_planner(const std::vector<Stream>& all, const std::string
   return some;
 }
 
-/// As it lies in the memory of a little-endian target.
+/// The table in the memory layout of a little-endian target.
 template <class Table>
 void write_table(const std::string& path, const Table& table) {
   static_assert(std::is_trivially_copyable_v<Table> && sizeof(Table) % sizeof(std::int16_t) == 0);
@@ -82,7 +82,7 @@ int record(const std::string& folder) {
   return 0;
 }
 
-/// One line of JSON for programs, and for a person the words before it.
+/// One line of JSON, preceded by text for people.
 int judge_files(const std::string& recording, const std::string& expected, const std::string& answered) {
   const Bytes index = read(recording + ".txt");
   const Judgement j = judge(read(recording + ".bin"), std::string(index.begin(), index.end()), read(expected),

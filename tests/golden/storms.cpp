@@ -11,7 +11,7 @@ namespace {
 
 using test::Bits;
 
-/// A stormy board, asked once a tick before the robot is, so that what it says can be written down.
+/// Wraps a storm board and records its answers; asked once per tick, before the robot asks.
 class Oracle final : public hal::Rangefinders, public hal::Drive {
  public:
   explicit Oracle(test::StormBoard& board) : board_(board) {}
@@ -58,7 +58,7 @@ Time next_tick(Time now, const Params& params, Bits& bits) {
   return now + params.safety.period;
 }
 
-/// What a user does, now and then; told to the robot and written down.
+/// Random commands of a user, sent to the robot and recorded.
 void interfere(Robot& robot, Bits& bits, chip::Bytes& to) {
   const auto set_goal = [&] {
     const planning::Goal goal = random_goal(bits);

@@ -11,7 +11,7 @@ using namespace literals;
 
 bool operator==(const Pose& a, const Pose& b) { return a.at == b.at && a.heading == b.heading; }
 
-/// Any place within the region, and any heading.
+/// A random position within the region, and a random heading.
 class Places {
  public:
   Vec place() { return {length(), length()}; }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint32_t kMask = hal::kEncoderModulus - 1;
-constexpr Duration kSince = milliseconds(90);  // with a period of 10 ms, 100 ms of twice the full speed
+constexpr Duration kSince = milliseconds(90);  // with a period of 10 ms: 100 ms at twice the full speed
 
 struct Drift {
   double position_m;
@@ -20,7 +20,7 @@ struct Drift {
   double path_m;
 };
 
-// The same counts through the core and through doubles: what differs is the core's rounding alone.
+// The same counts through the core and through doubles: only the core's rounding differs.
 Drift drift_over(double path_m, int counts_per_metre, Length track, std::uint64_t seed) {
   Params params;
   params.wheels.counts_per_metre = counts_per_metre;
@@ -125,7 +125,7 @@ TEST(Odometry, RefusesAJumpThatNoWheelCanMakeAndGoesOnFromThere) {
   CountStep step;
   odometry.update({0, 0}, kSince, step);
   EXPECT_TRUE(
-      odometry.update({302, 302}, kSince, step));  // twice 0.3 m/s for 0.1 s is 300 counts, and 2 to spare
+      odometry.update({302, 302}, kSince, step));  // twice 0.3 m/s for 0.1 s is 300 counts; the limit adds 2
   const Pose before = odometry.pose();
   EXPECT_FALSE(odometry.update({605, 302}, kSince, step));
   EXPECT_FALSE(odometry.update({302, 605}, kSince, step));

@@ -1,4 +1,4 @@
-// Where the robot may be and may be sent: beyond that it says so by name, before any number saturates.
+// Outside the permitted region, the core reports a named error before any number saturates.
 #include "firmware/math/region.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ constexpr Vec kOutside[] = {{kBeyond, Length{}},
 constexpr Vec kCorners[] = {
     {kPlaceLimit, kPlaceLimit}, {-kPlaceLimit, -kPlaceLimit}, {kPlaceLimit, -kPlaceLimit}};
 
-/// In the open, with each planner in turn.
+/// In open ground, with each planner in turn.
 class Region : public testing::TestWithParam<int> {
  protected:
   Region() {
@@ -102,7 +102,7 @@ TEST_P(Region, APlacementOutsideWhileItDrivesStopsIt) {
   EXPECT_EQ(tick(3000).decision.outcome, planning::Outcome::reached);
 }
 
-/// Looks to both sides, and then drives on for ever.
+/// Turns to both sides, and then drives on without end.
 struct Outward final : planning::Planner {
   void set_goal(const planning::Goal&) noexcept override {}
   void move_goal(Vec) noexcept override {}

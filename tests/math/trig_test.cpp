@@ -27,8 +27,8 @@ struct Worst {
   }
 };
 
-// Between two samples a step apart, sine and its approximation both move by less than the step; the
-// approximation is a polynomial per quarter, so the sampled bound plus one step bounds every angle.
+// Between two adjacent samples, sine and its approximation each change by less than the step. The
+// approximation is one polynomial per quarter, so the sampled bound plus one step holds for every angle.
 TEST(Sine, IsWithinItsStatedErrorOverAWholeTurn) {
   const std::uint32_t step = long_run() ? 1 : 61;
   Worst worst;
@@ -63,7 +63,7 @@ TEST(ArcTangent, IsWithinItsStatedErrorAtEveryMagnitude) {
   };
   const int count = long_run() ? 200000000 : 3000000;
   for (int i = 0; i < count; ++i) {
-    // Every size of operand, from one unit up: the ratio's rounding is worst for middling ones.
+    // Operands of every magnitude: the rounding of the ratio is worst for medium ones.
     const auto draw = [&] {
       const std::uint32_t bits = random() % 32;
       const std::uint32_t value = random() >> bits;
@@ -157,7 +157,7 @@ TEST(Vectors, SaturateAtTheEndOfTheWorld) {
   EXPECT_EQ((Vec{Length::from_raw(INT32_MAX), {}} + Vec{Length::from_raw(1), {}}).x.raw(), INT32_MAX);
 }
 
-/// What the compiler works out for this number, beside what the same call gives at run time.
+/// Compares compile-time and run-time results for these numbers.
 template <std::int32_t kX, std::int32_t kY>
 void expect_the_same_from_compiler_and_machine() {
   constexpr Angle kAngle =

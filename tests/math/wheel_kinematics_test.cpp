@@ -46,7 +46,7 @@ TEST(Mixer, SlewReachesItsTargetWithoutPassingTheLimitOrTheTarget) {
     now = next;
     ASSERT_LT(++ticks, 100);
   }
-  EXPECT_EQ(ticks, 38);  // 373,458 um/s at 10,000 a tick
+  EXPECT_EQ(ticks, 38);  // 373,458 um/s at 10,000 per tick
 }
 
 TEST(Mixer, SlewMovesBothWheelsByTheSameFraction) {

@@ -1,5 +1,5 @@
-// The map planner's verdict where the goal's enclosure touches the wall of a box: unreachable, and reached
-// where the enclosure has a gap.
+// The map planner's verdict if the goal's enclosure touches the wall of a box: unreachable if closed, reached
+// if it has a gap.
 #include <gtest/gtest.h>
 
 #include "host/run/runner.hpp"
@@ -19,7 +19,7 @@ RunResult drive(worlds::Kind kind, std::uint64_t seed, PlannerKind planner) {
   return run(worlds::generate(kind, options), run_options);
 }
 
-/// In 97 % of the worlds, at least.
+/// In at least 97 % of the worlds.
 TEST(EnclosedAtWall, IsSaidToBeUnreachable) {
   const std::uint64_t count = test::effort(3, 300);
   for (const PlannerKind planner : kMaps) {
@@ -43,7 +43,7 @@ TEST(GapAtWall, IsFound) {
   }
 }
 
-/// Larger than the window of any map: no worse than without one.
+/// Larger than the window of any map: not worse than without a map.
 TEST(ContestMaze, IsSolvedAsOftenAsWithoutAMap) {
   const std::uint64_t count = test::effort(2, 20);
   const auto solved = [&](PlannerKind planner) {

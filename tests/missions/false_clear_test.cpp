@@ -1,5 +1,4 @@
-// A reading that wrongly says that nothing is there clears no ground, as long as the readings beside it are
-// true.
+// A reading that is wrongly clear clears no ground, if the adjacent readings are right.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -17,7 +16,7 @@ namespace {
 
 using worlds::Random;
 
-/// Makes readings of each beam wrongly clear, never two within five of them.
+/// Makes readings of each beam wrongly clear, with at least five between two of them.
 class LoneFalseClears {
  public:
   explicit LoneFalseClears(std::uint64_t seed) : random_(seed) {}
@@ -48,7 +47,7 @@ class LoneFalseClears {
 
 double metres(Length l) { return l.raw() * 1e-6; }
 
-/// Clear cells that hold part of an obstacle, without a rim of half a millimetre: the estimate's own error.
+/// Clear cells that overlap an obstacle by more than half a millimetre, the error of the estimate.
 int overlapping(Bench& bench, double cell) {
   constexpr double kSlack = 0.0005;
   const Pose& pose = bench.status().pose;
@@ -72,7 +71,7 @@ TEST(LoneFalseClears, ClearNoCellThatHoldsAnything) {
     bench.board().ranges = LoneFalseClears(seed);
     int here = 0, ticks = 0;
     while (bench.plant().time() < 300) {
-      // The estimate is the one of the tick, and so must be the truth.
+      // The estimate is that of the last tick, so the true pose is taken before time passes.
       if (!bench.tick()) break;
       if (++ticks % 5 == 0) here += overlapping(bench, cell);
       bench.pass(10);

@@ -1,6 +1,5 @@
-// The decisions of whole runs, compared with committed ones. An intended change of behaviour commits the new
-// files: run this program once with WHISKER_UPDATE_GOLDEN=1 in the environment, and read the diff
-// (docs/building.md).
+// The decisions of whole runs, compared with committed ones. After an intended change of behaviour, run this
+// program once with WHISKER_UPDATE_GOLDEN=1 in the environment, and read the diff (docs/building.md).
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -34,8 +33,8 @@ struct Case {
   Scenario scenario;
 };
 
-/// The thesis planner decides when it has looked; the boundary planner's ticks count where state or reason
-/// change, and every second.
+/// For the thesis planner, the ticks with a decision count; for the boundary planner, the ticks in which
+/// state or reason change, and one per second.
 bool tells(PlannerKind planner, const TickRecord& before, const TickRecord& r, std::size_t tick) {
   if (planner == PlannerKind::thesis) return r.looked;
   return r.mode != before.mode || r.why != before.why || tick % 100 == 0;

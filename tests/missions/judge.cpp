@@ -67,7 +67,7 @@ Ruling judge(const Scenario& scenario, const std::vector<TickRecord>& records, c
     const double dx = r.x_m - before.x_m, dy = r.y_m - before.y_m;
     const double middle = (r.heading_rad + before.heading_rad) / 2;
     const double sideways = -dx * std::sin(middle) + dy * std::cos(middle);
-    // Within a tick the heading is not the mean one throughout: second order in turn and acceleration.
+    // The mean heading is inexact within a tick: the error is of second order in turn and acceleration.
     if (std::fabs(sideways) >
         2e-6 + 0.02 * std::hypot(dx, dy) * std::fabs(r.heading_rad - before.heading_rad)) {
       object(i, fmt::format("slid {} m sideways", sideways));

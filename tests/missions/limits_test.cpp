@@ -1,4 +1,4 @@
-// Every limit of the wheels holds at every tick, whichever planner drives.
+// Every limit of the wheels holds in every tick, with every planner.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ class LimitsOf : public testing::TestWithParam<PlannerKind> {
     double acceleration = 0;  // m/s^2, of a wheel
     double turn_rate = 0;     // rad/s
   };
-  /// Through a world of discs; what the drive was commanded at the most.
+  /// Drives through a world of discs; returns the maximum of the commands.
   Most drive(const Params& robot) {
     EXPECT_EQ(check(robot), ParamFault::none);
     worlds::Options options;
@@ -50,13 +50,13 @@ class LimitsOf : public testing::TestWithParam<PlannerKind> {
     ended_ = bench.ended();
     return most;
   }
-  // The other planners may fail in a world that these two pass: they show what they can in 90 s.
+  // The other planners may fail in this world; 90 s are enough to test their limits.
   static bool must_arrive() { return GetParam() == PlannerKind::skirt || GetParam() == PlannerKind::map; }
 
   std::string ended_;
 };
 
-// The wire's 0.1 mm/s on each wheel.
+// Resolution of the commands: 0.1 mm/s per wheel.
 constexpr double kWire = 0.0001;
 
 TEST_P(LimitsOf, TheWheels) {

@@ -1,5 +1,5 @@
-// Nothing goes on for ever: what keeps a robot from getting on ends in a named fault or a verdict, and what
-// it is told twice changes nothing.
+// Nothing goes on forever: a robot that makes no progress ends in a named fault or a verdict, and a repeated
+// command changes nothing.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -46,7 +46,7 @@ TEST_P(Planners, ADriveThatRefusesNowAndThenIsForgiven) {
 
 TEST_P(Planners, ABodyThatTurnsAndNeverDrivesIsAFault) {
   Bench bench(open_ground(3, 1), GetParam());
-  // Both wheels do what they were told, but for the part of it that moves the body on.
+  // Both wheels execute only the turning part of the command.
   bench.board().wheels = [](hal::WheelSpeeds& speeds) {
     const int turning = (speeds.right - speeds.left) / 2;
     speeds = {static_cast<std::int16_t>(-turning), static_cast<std::int16_t>(turning)};

@@ -1,4 +1,4 @@
-// A mission whose pose is corrected from outside every second.
+// Missions whose pose is corrected from outside every second.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr PlannerKind kAll[] = {PlannerKind::skirt, PlannerKind::map, PlannerKind::thesis};
 
-/// Where the robot is told to be, each second.
+/// The pose that is given to the robot every second.
 using PlacedAt = std::function<Pose(const sim::Pose& truth, const Pose& believed)>;
 
 class PlacedPilot final : public test::PilotOn<hal::SimBoard> {
@@ -43,7 +43,7 @@ RunResult drive(const Scenario& scenario, PlannerKind planner, const PlacedAt& p
   return run(scenario, options);
 }
 
-/// The truth, off by up to 3 cm and 1 degree.
+/// The true pose, off by up to 3 cm and 1 degree.
 PlacedAt roughly(std::uint64_t seed) {
   return [random = std::mt19937_64(seed)](const sim::Pose& truth, const Pose&) mutable {
     std::uniform_real_distribution<double> draw(-1, 1);
@@ -60,14 +60,14 @@ Scenario world(std::uint64_t n, PlannerKind planner) {
                                      worlds::Kind::rooms};
   worlds::Options options;
   options.seed = 5200 + n;
-  // The thesis planner gets out of few traps.
+  // The thesis planner escapes from few traps.
   return worlds::generate(planner == PlannerKind::thesis ? worlds::Kind::discs : kKinds[n % 4], options);
 }
 
 struct Tally {
   int reached = 0;
   int contacts = 0;
-  int off = 0;  // it stands farther from the goal than its tolerance and what it was told wrongly
+  int off = 0;  // the distance to the goal exceeds the tolerance plus the error of the given poses
   void add(const Scenario& s, const RunResult& r) {
     if (r.verdict == Verdict::reached) {
       ++reached;

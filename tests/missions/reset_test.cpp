@@ -1,4 +1,4 @@
-// After a fault that may have cost distance, a reset trusts no old ground, and drives again.
+// After a fault that may have lost distance, a reset discards the local grid, and the robot drives again.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ Scenario ahead() {
   return s;
 }
 
-/// Brakes to rest, and is given the goal again.
+/// Brakes to rest, then gets the goal again.
 void reset(Bench& bench, const Scenario& s) {
   for (int i = 0; i < 80; ++i) bench.step(10);
   bench.robot().reset();
@@ -78,7 +78,7 @@ TEST(Reset, InClutterAfterStallsOfTheCallerItTouchesNothing) {
     for (int stall = 0; stall < 6 && !bench.plant().in_contact(); ++stall) {
       bench.run(5);
       if (bench.ended() != "running") break;
-      // While the caller stalls, the wheels go on: what they touch then is not the core's doing.
+      // While the caller stalls, the wheels keep turning: a contact then is not the core's fault.
       bench.board().wheels = [](hal::WheelSpeeds&) { return true; };
       bench.plant().command({0, 0});
       bench.pass(700);

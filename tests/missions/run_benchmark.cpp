@@ -1,4 +1,4 @@
-// How much faster than real time the whole loop runs: core, plant, sensors; no trace.
+// Speed of the whole loop relative to real time: core, plant, sensors; no trace.
 #include <cstdio>
 
 #include <benchmark/benchmark.h>

@@ -104,7 +104,7 @@ TEST(Planners, AreFoundByTheirNames) {
 }
 
 TEST(Run, AFlankThatNoBeamSeesIsNotTouched) {
-  // A pole beside the way, behind the cones when the step begins.
+  // A pole beside the path, behind the cones when the step starts.
   const Drive d =
       drive(small_world("[[disc]]\ncenter = [0.06, 0.105]\nradius_m = 0.02\n"), PlannerKind::thesis);
   EXPECT_EQ(d.result.verdict, Verdict::reached);
@@ -112,7 +112,7 @@ TEST(Run, AFlankThatNoBeamSeesIsNotTouched) {
 }
 
 TEST(Run, AContactIsReported) {
-  // Sensors that never see anything.
+  // Sensors that never detect anything.
   Scenario s = small_world("[[disc]]\ncenter = [0.5, 0.0]\nradius_m = 0.1\n");
   s.noise.range_false_clear = 1.0;
   const Drive d = drive(s);
@@ -168,7 +168,7 @@ TEST(Run, TheSeedOfTheNoiseDecidesAndOptionsOverrideIt) {
   EXPECT_EQ(run(s).hash, run(s, other).hash);
 }
 
-// Whatever becomes of the mission, the judge must find nothing that the verdict hides.
+// Whatever the outcome, the judge must find no contradiction to the verdict.
 TEST(Run, NothingEscapesTheJudgeInRandomWorlds) {
   int verdicts[6] = {};
   for (const auto kind :

@@ -23,7 +23,7 @@ Scenario rooms(std::uint64_t seed, double time_limit_s) {
   return scenario;
 }
 
-/// Little is in the way here.
+/// Few obstacles.
 Scenario open_field() {
   worlds::Options options;
   options.discs = 3;
@@ -86,7 +86,7 @@ TEST(RecordingGuide, IsNotThereWithoutAMap) {
   for (const TickRecord& r : records) ASSERT_EQ(r.guide, Guidance::unknown);
 }
 
-/// Steps over sides and corners, never into what is known to be occupied.
+/// The path steps over sides and corners, never into a cell that is known to be occupied.
 void expect_a_way(const MapPicture& picture, Cell from, Cell goal) {
   for (const Cell p : picture.way) {
     ASSERT_LE(std::abs(p.x - from.x), 1);

@@ -1,5 +1,4 @@
-// The boundary planner ends in a true verdict, with a map and without, wherever it starts and whatever stands
-// around it.
+// The boundary planner ends with a true verdict, with and without a map, for any start and any surroundings.
 #include <gtest/gtest.h>
 
 #include <cmath>

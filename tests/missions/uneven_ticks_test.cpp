@@ -1,5 +1,4 @@
-// Ticks need not be even: whatever gap is accepted, the body touches nothing; what is not accepted is a
-// fault.
+// Ticks may be uneven: with accepted gaps the body has no contact, and a gap that is too long is a fault.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -17,15 +16,15 @@ namespace {
 
 using worlds::Random;
 
-/// WHISKER_LONG=1: as many as a claim of less than one contact in a thousand takes.
+/// WHISKER_LONG=1: enough to show a contact rate below one in a thousand.
 std::uint64_t missions() { return test::effort(16, 400); }
 
-/// A pattern of gaps, all of them accepted.
+/// A pattern of accepted gaps.
 struct Gaps {
   const char* name;
   int least_ms;
   int most_ms;
-  int max_gap_ms = 0;  ///< Params::safety.max_gap; 0: not given
+  int max_gap_ms = 0;  ///< Params::safety.max_gap; 0: default
 };
 
 void PrintTo(const Gaps& gaps, std::ostream* out) { *out << gaps.name; }
@@ -65,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Of, UnevenTicks,
                                          Gaps{"from_1_to_100_ms", 1, 100, 100}),
                          [](const auto& of) { return std::string(of.param.name); });
 
-/// About the reference, far enough from it that each figure matters.
+/// Robots near the reference, but far enough from it that every parameter matters.
 Params draw_robot(Random& random) {
   for (;;) {
     Params p;

@@ -20,7 +20,7 @@ RunResult drive(const Scenario& scenario, std::vector<TickRecord>* records = nul
   return run(scenario, options);
 }
 
-/// Six metres straight ahead, with wheels that are known to so much.
+/// Six metres straight ahead, with this scale error of the wheels.
 Scenario ahead(double wheel_scale_sigma) {
   Scenario s;
   s.goal.at = {6, 0};
@@ -71,7 +71,7 @@ TEST(Verdicts, TheToleranceDecidesAndNothingElse) {
   EXPECT_EQ(drive(ahead(0)).verdict, Verdict::reached) << "of ideal ones";
 }
 
-// The robot keeps an eighth of the tolerance for its estimate's own error: ideal wheels never use it up.
+// The robot reserves an eighth of the tolerance for the error of its estimate, which ideal wheels never use.
 TEST(Verdicts, IdealWheelsAreNeverOffTheGoal) {
   double worst = 0;
   for (const worlds::Kind kind : worlds::kKinds) {

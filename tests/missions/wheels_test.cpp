@@ -1,4 +1,4 @@
-// Each wheel by itself: an encoder or a motor that fails is a fault soon, and a sound one never is.
+// A failed encoder or motor soon ends in a fault, and a sound one never does.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -57,7 +57,7 @@ void run_left_motor_away(FaultyBoard& board) {
   };
 }
 
-/// Adds counts at every tick, as a disturbed counter does.
+/// Adds counts in every tick, like a disturbed counter.
 std::function<void(FaultyBoard&)> glitch(std::uint32_t counts_a_tick) {
   return [counts_a_tick](FaultyBoard& board) {
     board.counts = [counts_a_tick, sum = std::uint32_t{0}](hal::EncoderCounts& counts) mutable {
@@ -69,7 +69,7 @@ std::function<void(FaultyBoard&)> glitch(std::uint32_t counts_a_tick) {
 
 class OneWheel : public testing::TestWithParam<Failure> {};
 
-// From the start, and in the middle of a drive.
+// From the start, and during a drive.
 TEST_P(OneWheel, ThatFailsIsAFaultBeforeItDoesHarm) {
   std::map<std::string, int> ends;
   double farthest = 0;
@@ -89,7 +89,7 @@ TEST_P(OneWheel, ThatFailsIsAFaultBeforeItDoesHarm) {
   for (const auto& [end, count] : ends) std::printf("%s %d  ", end.c_str(), count);
   std::printf("driven on for at most %.3f m\n", farthest);
   EXPECT_EQ(ends.count("running") + ends.count("reached") + ends.count("contact"), 0U);
-  // A motor that runs at full speed may do for a while what it would have been told.
+  // A motor stuck at full speed may match the commands for a while.
   EXPECT_LT(farthest, GetParam().may_hide ? 20 : 0.2);
 }
 

@@ -10,7 +10,7 @@
 namespace whisker::page {
 namespace {
 
-/// The column's numbers, read as the header says they are written.
+/// The column's numbers, decoded as the header states.
 std::vector<std::int64_t> read(const std::string& bytes, Order order) {
   std::vector<std::int64_t> values;
   std::int64_t last = 0, difference = 0;

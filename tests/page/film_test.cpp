@@ -23,7 +23,7 @@ Length centre(std::int64_t cell, const Params& params) {
   return Length::from_raw(static_cast<std::int32_t>(cell * um + um / 2));
 }
 
-/// Every clear cell of a window that is larger than the local grid.
+/// All clear cells, in a window larger than the local grid.
 Cells clear_cells(const perception::LocalGrid& local_grid, const Params& params, std::int64_t x,
                   std::int64_t y) {
   Cells cells;

@@ -9,7 +9,7 @@
 namespace whisker::page {
 namespace {
 
-/// Reads frames as a page does.
+/// Decodes frames as a page does.
 class Reader {
  public:
   explicit Reader(const MapPicture& like)
@@ -54,7 +54,7 @@ void expect_same(const Reader& reader, const MapPicture& picture) {
   }
 }
 
-/// Far enough that the window of the smallest map moves on again and again.
+/// Far enough that the window of the smallest map moves repeatedly.
 Scenario far() {
   worlds::Options options;
   options.seed = 5;
@@ -108,7 +108,7 @@ TEST(MapFilm, IsTheSameWhenItIsCutAndPutTogether) {
   };
   run(scenario, options);
   parts.push_back(cut.take());
-  // From a tick within the second part on, as a watcher who has lost the line asks for it.
+  // From a tick within the second part, as a client requests after it lost the connection.
   constexpr std::size_t kFrom = 300;
   Ticks rest;
   rest.append(parts[1], kFrom - 256, 256);

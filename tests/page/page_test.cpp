@@ -45,7 +45,7 @@ StoredRun watched(const Scenario& scenario, RunResult& result) {
   return stored({scenario, options.planner, 77}, recording.ticks(), result);
 }
 
-/// What stands in the element of this id.
+/// The content of the element with this id.
 std::string content(const std::string& page, const std::string& id) {
   const std::size_t open = page.find(" id=\"" + id + "\">");
   if (open == std::string::npos) return {};

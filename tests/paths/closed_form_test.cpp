@@ -1,4 +1,4 @@
-// Ways whose length can be written down.
+// Paths whose length has a closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,7 @@ TEST(ClosedForm, AroundADisc) {
       world.discs = {{{0, off}, 0.5}};
       const double inflated = 0.5 + radius;
       const double d = std::hypot(2, off);
-      // The way takes the side on which less of the disc lies.
+      // The path takes the side with the smaller part of the disc.
       const double up = 2 * std::acos(inflated / d) + 2 * std::atan2(std::fabs(off), 2);
       const double expected = 2 * std::sqrt(d * d - inflated * inflated) + inflated * (kPi - up);
       EXPECT_NEAR(shortest(world, {-2, 0}, {2, 0}, radius), expected, kExact) << radius << " " << off;
@@ -52,7 +52,7 @@ TEST(ClosedForm, OverTwoDiscsInARow) {
 }
 
 TEST(ClosedForm, BetweenTwoDiscsFromOneSideToTheOther) {
-  // Points mirrored at the origin; the way crosses it along the inner tangent of the two discs.
+  // Start and goal are mirrored at the origin; the path crosses it along the inner tangent of the two discs.
   constexpr double kGrown = 0.6;
   World world;
   world.discs = {{{-1, 0.5}, 0.5}, {{1, -0.5}, 0.5}, {{-1, -4}, 3.8}, {{1, 4}, 3.8}};

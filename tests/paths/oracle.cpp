@@ -46,7 +46,7 @@ struct Grid {
   }
   double gap_at(int i) const { return gaps[static_cast<std::size_t>(i)]; }
 
-  /// Dijkstra over eight neighbours; a step is taken if the gaps at its ends prove it free.
+  /// Dijkstra with eight neighbours; a step is allowed if the gaps at its ends prove it free.
   std::vector<Vec2> way(int from, int to, double radius) const {
     std::vector<double> best(gaps.size(), std::numeric_limits<double>::infinity());
     std::vector<int> before(gaps.size(), -1);
@@ -92,7 +92,7 @@ bool line_free(const World& world, const sim::Segment& line, double radius) {
   return true;
 }
 
-/// Leaves out every point that a free line can skip, the farthest skip first.
+/// Removes every point that a free line can skip, the farthest skip first.
 std::vector<Vec2> pulled(const World& world, const std::vector<Vec2>& way, double radius) {
   std::vector<Vec2> tight{way.front()};
   for (std::size_t here = 0; here + 1 < way.size();) {

@@ -1,4 +1,4 @@
-// The mean time to find the shortest way, over fifty worlds of a class.
+// The mean time to find the shortest path, over fifty worlds of a class.
 #include <benchmark/benchmark.h>
 
 #include <vector>

@@ -1,5 +1,5 @@
-// What must hold in every world: the way can be gone, nothing known is shorter, and no view of the world
-// matters.
+// Properties in every world: the path is free, no known path is shorter, and symmetries of the world do not
+// change its length.
 #include "host/paths/shortest.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ std::vector<Case> cases(int count) {
   return all;
 }
 
-/// Discs and walls on the points and lines of a lattice: many touch, lie on one line or on top of each other.
+/// Discs and walls on the points and lines of a lattice: many touch, are collinear or coincide.
 Case lattice(int seed) {
   worlds::Random random(static_cast<std::uint64_t>(seed));
   constexpr int kSide = 6;
@@ -142,7 +142,7 @@ TEST(Shortest, HoldsInALatticeWhereMuchTouches) {
   int ways = 0, compared = 0;
   for (int seed = 1; seed <= 600; ++seed) {
     const Case c = lattice(seed);
-    // Gaps of twice the first radius are frequent, and the body just fits; the second never does just fit.
+    // Gaps of twice the first radius are frequent: that body just fits, the second does not.
     for (const double radius : {0.1, 0.1001}) {
       SCOPED_TRACE(c.name + ", radius " + std::to_string(radius));
       const auto way = shortest_way(c.world, c.from, c.to, radius);

@@ -14,7 +14,7 @@ using sim::Vec2;
 
 constexpr Side kSides[] = {Side::left, Side::right};
 
-/// The centre's distance to the left of the directed line.
+/// Signed distance of the centre to the left of the directed line.
 double left_of(const sim::Segment& line, Vec2 centre) {
   return sim::cross((line.b - line.a) * (1 / distance(line.a, line.b)), centre - line.a);
 }

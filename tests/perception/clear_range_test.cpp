@@ -1,4 +1,4 @@
-// What a clear reading proves, and one of unknown age: of the ground, by the whole robot.
+// The ground that a clear reading and a reading of unknown age prove free, tested with the whole robot.
 #include <gtest/gtest.h>
 
 #include "firmware/planning/thesis/thesis_planner.hpp"
@@ -8,7 +8,7 @@
 namespace whisker {
 namespace {
 
-/// Stands and looks at the ground.
+/// Stands still and observes the local grid.
 class Watcher final : public planning::Planner {
  public:
   void set_goal(const planning::Goal&) noexcept override {}
@@ -23,7 +23,7 @@ class Watcher final : public planning::Planner {
 
 class ClearRange : public testing::Test {
  protected:
-  /// Whether the ground is proved free so far ahead, after some readings.
+  /// Whether the ground at this distance ahead is proved free after some readings.
   bool clear_at(Length ahead) {
     Robot robot(board_, board_, planner_, params_);
     for (std::uint32_t t = 10; t <= 300; t += 10) {
@@ -57,7 +57,7 @@ TEST_F(ClearRange, AClearReadingProvesNothingBeyond) {
 
 TEST_F(ClearRange, NorDoesAnEchoFromBeyond) {
   prove_to(260_mm);
-  // What lies behind may be seen through a gap beside what is not seen.
+  // The echo may come through a gap next to an undetected object.
   for (const hal::Beam beam : {hal::kLeft, hal::kFront, hal::kRight}) {
     board_.show(beam, hal::RangeStatus::ok, 600);
   }

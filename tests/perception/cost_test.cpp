@@ -1,4 +1,4 @@
-// What a tick costs: rows of the grid that are clipped, counted by the linker's --wrap (see CMakeLists.txt).
+// Cost of a tick: number of grid rows clipped, counted with the linker's --wrap (see CMakeLists.txt).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 int g_rows = 0;
 }
 
-// The wrapped functions by their mangled names; each is called once a row.
+// The wrapped functions by their mangled names; each is called once per row.
 extern "C" {
 whisker::perception::Row __real__ZNK7whisker10perception4Span7columnsEv(const whisker::perception::Span*);
 whisker::perception::Row __wrap__ZNK7whisker10perception4Span7columnsEv(
@@ -63,7 +63,7 @@ TEST(Cost, OfATickIsBounded) {
               plain.worst, sensing.mean(), sensing.worst);
   EXPECT_GT(plain.ticks, 10000);
   EXPECT_GT(sensing.mean(), 3 * 2 * 10);
-  // The planner's widest search: 144 headings of a stadium of 15 rows in one tick.
+  // The planner's largest search: 144 headings of a 15-row stadium in one tick.
   EXPECT_LE(plain.worst, 3000);
   EXPECT_LE(sensing.worst, 3000);
 }

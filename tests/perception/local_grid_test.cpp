@@ -17,7 +17,7 @@ namespace {
 
 using worlds::Random;
 
-constexpr int kAround = 24;  // cells, farther than the window reaches
+constexpr int kAround = 24;  // cells, beyond the window
 constexpr double kCell = 0.02;
 
 double metres(Length l) { return l.raw() * 1e-6; }
@@ -54,7 +54,7 @@ double distance(Cell cell, Vec at) {
   return std::hypot(metres(c.x) - metres(at.x), metres(c.y) - metres(at.y));
 }
 
-/// From the farthest corner of the cell, and from its nearest point.
+/// Distance from the farthest corner of the cell, and from its nearest point.
 double farthest(Cell cell, Vec at) {
   const Vec c = centre(cell);
   return std::hypot(std::fabs(metres(c.x) - metres(at.x)) + kCell / 2,
@@ -78,13 +78,13 @@ TEST(LocalGrid, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
     local_grid.reset(pose);
     const std::set<Cell> clear = clear_around(local_grid, pose.at);
     EXPECT_GT(clear.size(), 40U);
-    // Each wholly under the body.
+    // Each lies completely under the body.
     for (const Cell& cell : clear) ASSERT_LE(farthest(cell, pose.at), 0.09);
   }
 }
 
-// The rows and columns that the window leaves are forgotten, those that it keeps are kept, and no bit comes
-// in at the other end of the torus.
+// Rows and columns that leave the window are forgotten, the others are kept, and no bit wraps around the
+// torus.
 TEST(LocalGrid, AMovingWindowNeitherLeaksNorLoses) {
   for (std::uint64_t seed = 1; seed <= test::effort(300); ++seed) {
     Random random(seed);
@@ -231,7 +231,7 @@ TEST(LocalGrid, AClearCellLivesForOneToTwoSpans) {
   local_grid.mark(observation(pose, Angle{}, 2_m, false));
   const Vec seen{200_mm, 0_mm};
   ASSERT_TRUE(local_grid.is_clear(seen));
-  // To and fro, where the body's margin never comes near the cell.
+  // Back and forth, so that the body's margin never comes near the cell.
   Length travel{};
   while (travel < span) {
     pose.at.y = pose.at.y == 0_mm ? 10_mm : 0_mm;
@@ -267,7 +267,7 @@ TEST(LocalGrid, TurningAgesToo) {
   EXPECT_FALSE(local_grid.is_clear(seen));
 }
 
-// The ground beside the way that the body has come stays clear for at least a span after it passed.
+// The ground beside the driven path stays clear for at least a span after the body passed.
 TEST(LocalGrid, TheWayBackStaysOpen) {
   const Params params;
   perception::LocalGrid local_grid;
@@ -303,7 +303,7 @@ TEST(LocalGrid, DoubtTakesBackWhatMayBeReachedAndSparesTheBody) {
     EXPECT_FALSE(local_grid.is_clear({millimetres(mm), 0_mm})) << mm;
   EXPECT_TRUE(local_grid.is_clear({-200_mm, 0_mm}));
   EXPECT_TRUE(local_grid.is_clear({0_mm, 220_mm}));
-  // For a second no echo clears that near; afterwards it does.
+  // For one second no echo clears ground that near; afterwards it does.
   p.taken = Time::from_raw(900);
   local_grid.mark(p);
   EXPECT_FALSE(local_grid.is_clear({150_mm, 0_mm}));

@@ -9,7 +9,7 @@
 namespace whisker::test {
 namespace {
 
-// What stands still never looks as if it moved.
+// Static obstacles never look like moving ones.
 TEST(MotionDetector, IsNeverContradictedByAWorldAtRest) {
   int ticks = 0;
   for (const worlds::Kind kind : worlds::kKinds) {
@@ -27,7 +27,7 @@ TEST(MotionDetector, IsNeverContradictedByAWorldAtRest) {
   EXPECT_GT(ticks, static_cast<int>(test::effort(40000)));
 }
 
-/// Ticks, and those with doubt, in noisy worlds at rest.
+/// Number of ticks, and of ticks with doubt, in noisy static worlds.
 struct Doubts {
   int ticks = 0;
   int doubting = 0;
@@ -58,7 +58,7 @@ Doubts drive_noisy(worlds::Kind kind, bool odometry) {
   return d;
 }
 
-// Neither do outliers: 1 % of the readings miss what is there, 2 % are lost, and all are off by 1 cm.
+// Outliers do not either: 1 % of the readings miss the obstacle, 2 % are lost, and all are off by 1 cm.
 TEST(MotionDetector, IsRarelyContradictedByNoise) {
   for (const worlds::Kind kind : {worlds::Kind::discs, worlds::Kind::rooms}) {
     const Doubts ranges = drive_noisy(kind, false);

@@ -236,7 +236,7 @@ TEST_F(BeamTest, TheMedianOutvotesTheMinority) {
   EXPECT_EQ(look().validity, Validity::pending);
   see(505);
   EXPECT_EQ(look().distance, 510_mm);
-  params_.conditioning.reads = 4;  // an even count takes the nearer of the two in the middle
+  params_.conditioning.reads = 4;  // an even count takes the nearer of the two middle ones
   EXPECT_EQ(look().distance, 510_mm);
 }
 

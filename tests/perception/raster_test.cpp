@@ -14,15 +14,15 @@ using namespace perception;
 using worlds::Random;
 
 constexpr double kTurn = 2 * 3.14159265358979323846;
-// Of a Q14 normal over the longest distance, and of the roundings to whole units.
+// Error of a Q14 normal over the longest distance, plus the roundings to whole units.
 constexpr double kUnits = 4;
-// The rim that cells are given, on a diagonal, and the roundings.
+// The rim of cells on a diagonal, plus the roundings.
 constexpr double kWithRim = kRim * 1.4143 + 3;
 
 double centre(int cell) { return cell * kUnitsPerCell + kHalfCell; }
 double radians_of(Angle a) { return a.wrapped() * (kTurn / 4294967296.0); }
 
-/// On an axis, next to one, and anywhere.
+/// On an axis, next to one, or anywhere.
 Angle draw_angle(Random& random) {
   if (random.chance(0.4)) {
     return Angle::turns(random.index(8), 8) +
@@ -31,7 +31,7 @@ Angle draw_angle(Random& random) {
   return Angle::from_raw(static_cast<std::uint32_t>(random.bits()));
 }
 
-/// Within the window, on its edges, and at the outermost.
+/// Within the window, on its edges, or at the limits.
 int32_t draw_coordinate(Random& random) {
   switch (random.index(4)) {
     case 0: return random.index(3) * kCells * kUnitsPerCell / 2;
@@ -51,8 +51,7 @@ int32_t draw_length(Random& random) {
   }
 }
 
-/// Every column whose true measure lies clearly on one side is on that side: by more than `surely` it must be
-/// in, by less than -`surely_not` it must not.
+/// A column whose true measure exceeds `surely` must be inside, one below -`surely_not` must be outside.
 template <class F>
 void expect_row(Row row, F&& inside_by, const char* what, std::uint64_t seed, int line,
                 double surely = kUnits, double surely_not = kUnits) {
@@ -143,7 +142,7 @@ struct At {
   double x, y;
 };
 
-/// Of a point from the nearest and from the farthest point of the cell around a centre.
+/// Distance of a point from the nearest and the farthest point of the cell around a centre.
 double nearest(At cell, At p) {
   return std::hypot(std::fmax(std::fabs(cell.x - p.x) - kHalfCell, 0),
                     std::fmax(std::fabs(cell.y - p.y) - kHalfCell, 0));
@@ -158,7 +157,7 @@ double from_segment(At p, At begin, At direction, double length) {
   return std::hypot(p.x - begin.x - on * direction.x, p.y - begin.y - on * direction.y);
 }
 
-/// Between a cell and a segment that does not lie in it from one side to the other.
+/// Distance between a cell and a segment that does not cross it completely.
 double apart(At cell, At begin, At direction, double length) {
   double d = std::fmin(nearest(cell, begin),
                        nearest(cell, {begin.x + length * direction.x, begin.y + length * direction.y}));
@@ -170,7 +169,7 @@ double apart(At cell, At begin, At direction, double length) {
   return d;
 }
 
-// A cell that is not wholly inside must never be taken, and one that is touched never be left out.
+// Cells that are not completely inside are never held, and touched cells are never missed.
 TEST(Raster, DiscsTouchAndHoldWholeCells) {
   for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
     Random random(seed);

@@ -1,4 +1,4 @@
-// Ground marked clear is free ground, for a sensor that tells the distance of the nearest thing in its cone.
+// Ground marked clear is free, for a sensor that measures the distance of the nearest object in its cone.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ Pose draw_pose(Random& random) {
   return {{length(), length()}, heading};
 }
 
-/// Somewhere around the body, and where the rule is weakest: cell corners, cone edges, and hair's breadths.
+/// Near the body, or where the rule is weakest: cell corners, cone edges, and tiny distances from them.
 sim::Vec2 draw_point(const Params& p, const Pose& pose, Random& random) {
   const double cell = metres(patch_cell(p));
   const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
@@ -133,7 +133,7 @@ TEST(Soundness, NoAdversaryHidesInAClearCell) {
     const int obstacles = 1 + random.index(6);
     for (int i = 0; i < obstacles; ++i) add_obstacle(world, p, pose, random);
     const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
-    // Where no beam can prove it, the ground must be free when the body is placed.
+    // Ground that no beam can prove must be free when the body is placed.
     const Length blind = blind_reach(p) + patch_cell(p) * 2;
     const bool ring = blind_reach(p) > p.body.radius - cell_cover(p);
     if (ring && blind > p.body.radius * 2) continue;
@@ -156,8 +156,8 @@ TEST(Soundness, NoAdversaryHidesInAClearCell) {
   EXPECT_GT(clear / worlds_seen, 100);
 }
 
-// The estimated pose differs from the true one by what the encoders do not resolve and by what the wheels do
-// between two ticks; what the beams proved a metre of travel ago is off by that much.
+// The estimated pose differs from the true one by the encoder resolution and the motion between two ticks;
+// ground proved a metre of travel ago is off by that much.
 class SoundnessIn : public testing::TestWithParam<worlds::Kind> {};
 
 TEST_P(SoundnessIn, MotionHoldsButForAHair) {

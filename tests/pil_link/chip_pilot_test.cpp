@@ -1,4 +1,4 @@
-// A chip that does not do what it should is an error with a name, never a hang.
+// Every misbehaviour of a chip is a named error, never a hang.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -39,7 +39,7 @@ TEST(ChipPilot, NamesWhatIsWrong) {
 }
 
 TEST(ChipPilot, RefusesAMapThatTheChipHasNoRoomFor) {
-  // It has read what it is greeted with before it ends: else the host may find it gone.
+  // Reads the greeting before it ends; otherwise the host may find the pipe closed.
   const std::string chip = "head -c 1 >/dev/null; printf '\\002\\000\\000\\010'";
   EXPECT_EQ(complaint(chip, PlannerKind::map), chip + ": the chip has ended") << "2048 bytes are room enough";
   EXPECT_EQ(complaint(chip, core_planner("map", 4096)),

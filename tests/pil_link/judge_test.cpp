@@ -1,4 +1,4 @@
-// The judge of golden answers names the first difference, whatever the field.
+// The judge of golden answers names the first difference in any field.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -15,7 +15,7 @@ struct Recorded {
   chip::Bytes answers;
 };
 
-/// Three ticks and a probe, with made-up answers.
+/// Three ticks and a probe, with invented answers.
 Recorded recorded() {
   Recorded r;
   chip::append(r.sent, link::Name::hello);

@@ -1,4 +1,4 @@
-// The words of a link: bytes and back, and a session that refuses what makes no sense.
+// Encoding and decoding of the link's messages, and a session that rejects invalid ones.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace whisker::link {
 namespace {
 
-/// A stream whose input is given, and whose output is kept.
+/// A stream with given input and recorded output.
 class Script final : public hal::ByteStream {
  public:
   explicit Script(chip::Bytes input) : input_(std::move(input)) {}

@@ -5,7 +5,7 @@
 namespace whisker::planning {
 namespace {
 
-/// Notes what it is asked for, and does as it is told.
+/// Records its calls, and returns the prepared answers.
 class Recorder final : public GoalPlanner {
  public:
   int starts = 0;

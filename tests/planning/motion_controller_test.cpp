@@ -13,7 +13,7 @@
 namespace whisker::planning {
 namespace {
 
-/// Wheels with a first-order lag and encoders, enough to close the loop around the controller.
+/// Wheels with a first-order lag and encoders, to close the loop around the controller.
 class Loop {
  public:
   explicit Loop(const Params& params) : params_(params) {
@@ -121,7 +121,7 @@ TEST(MotionController, AStopOnTheMoveBrakesAndSettles) {
   EXPECT_FALSE(loop.controller().settled());
   loop.begin({ManoeuvreKind::stop, {}, {}});
   EXPECT_LT(loop.run(), 80);
-  EXPECT_LT(loop.pose().at.x - before, 66_mm);  // 0.30 m/s: 45 mm of braking, 15 of lag, a tick
+  EXPECT_LT(loop.pose().at.x - before, 66_mm);  // 0.30 m/s: 45 mm of braking, 15 mm of lag, one tick
 }
 
 TEST(MotionController, APausedDriveIsTakenUpAgainAndEndsAtTheSamePlace) {

@@ -12,21 +12,21 @@ namespace {
 
 using test::Ground;
 
-/// What a beam in this direction shows.
+/// The reading of a beam in this direction.
 struct Shown {
   Length reach;
   bool hit;
 };
 using World = std::function<Shown(Angle)>;
 
-/// A body that turns on the spot as it is told, at once, and marks what its beams show.
+/// A body that turns at once as commanded, and marks the readings of its beams.
 struct Turner {
   Ground ground;
   Angle heading;
   int ticks = 0;
   int stops = 0;
 
-  /// True if the look came to an end.
+  /// True if the scan ended.
   bool look(Angle along, const World& world) {
     ScanBehaviour look;
     Manoeuvre m;

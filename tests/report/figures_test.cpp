@@ -61,7 +61,7 @@ TEST(RulesSvg, has_25_squares_an_output_in_the_colours_of_their_values) {
   std::size_t k = 0;
   for (const auto& row : picture.turn)
     for (const Rule& rule : row) EXPECT_EQ(squares[k++]->attributes.at("fill"), scale.at(rule.value));
-  // D rises upwards: the first row of rules is the lowest on the page.
+  // D increases upwards: the first row of rules is the lowest on the page.
   EXPECT_GT(squares[0]->number("y"), squares[24]->number("y"));
 }
 
@@ -77,7 +77,7 @@ TEST(TableSvg, names_each_rule_at_its_centre) {
   const Element* map = root.by_class("turn").at(0);
   const Element* frame = map->by_class("frame").at(0);
   const Element* first = map->by_class("rules").at(0)->by_name("text").at(0);
-  // TLVB is the rule for an obstacle on the right, which is on the right.
+  // TLVB is the rule for an obstacle on the right, and is drawn on the right.
   EXPECT_NEAR(first->number("x"), frame->number("x") + frame->number("width") * 15 / 16, 0.01);
 }
 
@@ -89,7 +89,7 @@ TEST(TableSvg, the_axis_of_r_is_numbered_from_the_left_side_nearer) {
   EXPECT_GT(numbers.front()->number("x"), numbers.back()->number("x"));
 }
 
-/// The fill of the heat map at a place of the plane, from the rectangles of the file.
+/// The fill colour of the heat map at a point of the plane, from the rectangles of the file.
 std::string colour_at(const Element& map, double r01, double d01) {
   const Element* frame = map.by_class("frame").at(0);
   const double x = frame->number("x") + r01 * frame->number("width");

@@ -37,7 +37,7 @@ TEST(RunEdges, marks_and_numbers_where_edges_were_met_and_left) {
   EXPECT_EQ(marks->by_class("left").size(), 1U);
   EXPECT_EQ(marks->by_class("wall-lost").size(), 1U);
   EXPECT_THAT(root.texts_of_class("encounter-numbers"), ::testing::ElementsAre("1", "1", "2", "2", "3"));
-  // 7 m from the goal where it first turned aside, sqrt(53) = 7.28 m where it went on.
+  // 7 m from the goal at the hit point, sqrt(53) = 7.28 m at the leave point.
   EXPECT_THAT(root.texts_of_class("legend"), ::testing::IsSupersetOf({"edge 1", "7.00 m", "7.28 m", "edge 3",
                                                                       "-", "lost the wall: on to the goal"}));
 }

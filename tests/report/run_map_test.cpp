@@ -44,7 +44,7 @@ Element drawn(const std::vector<TickRecord>& records, const MapPicture* map) {
 
 std::vector<TickRecord> garden_run() { return testing::garden_run(testing::garden()); }
 
-/// What the boxes "Mx yhWvHh-Wz" cover.
+/// The area that the boxes "Mx yhWvHh-Wz" cover.
 std::vector<int> covered(const std::string& path, const MapPicture& map) {
   std::vector<int> count(map.cells.size());
   int x = 0, y = 0, width = 0, height = 0, back = 0, used = 0;

@@ -43,7 +43,7 @@ Drawn draw_garden(Verdict verdict) {
   return draw(scenario, records, result_of(verdict, scenario, records));
 }
 
-/// Ten minutes at full speed that never go straight and change class again and again.
+/// Ten minutes at full speed that never go straight and change activity often.
 std::vector<TickRecord> ten_restless_minutes() {
   std::mt19937 random(5);
   std::vector<TickRecord> records(60000);
@@ -153,7 +153,7 @@ RC_GTEST_PROP(RunSvg, has_equal_axes_and_keeps_places_in_worlds_from_one_to_fift
     const sim::Vec2 world = scenario.discs[i].center - scenario.discs[0].center;
     const double x = circles[i]->number("cx") - circles[0]->number("cx");
     const double y = circles[0]->number("cy") - circles[i]->number("cy");
-    // Coordinates have two decimals, and so has the radius that the scale is taken from.
+    // Coordinates have two decimals, and so has the radius from which the scale is computed.
     const double slack = 0.011 + 0.006 / circles[0]->number("r") * std::fmax(std::fabs(x), std::fabs(y));
     RC_ASSERT(std::fabs(x - world.x * scale) <= slack);
     RC_ASSERT(std::fabs(y - world.y * scale) <= slack);
@@ -167,7 +167,7 @@ TEST(RunSvg, numbers_its_axes_where_the_metres_are) {
   for (const Element* tick : drawn.root.by_class("x-axis").at(0)->by_name("text"))
     EXPECT_NEAR(tick->number("x"), circles[0]->number("cx") + (std::stod(tick->text) - 1.15) * scale, 0.2)
         << tick->text;
-  // The numbers hang 4 px low, so that their middle is at the line.
+  // The numbers are 4 px low, so that they are centred on the line.
   for (const Element* tick : drawn.root.by_class("y-axis").at(0)->by_name("text"))
     EXPECT_NEAR(tick->number("y") - 4, circles[0]->number("cy") - (std::stod(tick->text) - 0.75) * scale, 0.2)
         << tick->text;

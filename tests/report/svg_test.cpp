@@ -35,7 +35,7 @@ TEST(Escape, replaces_what_xml_forbids) {
 
 RC_GTEST_PROP(Escape, turns_any_bytes_into_what_a_parser_reads, (const std::string& bytes)) {
   const std::string once = text_of(escape(bytes));
-  // What came out is text, so escaping it again changes nothing that a reader sees.
+  // The output is text, so escaping it again changes nothing that a reader sees.
   RC_ASSERT(text_of(escape(once)) == once);
 }
 

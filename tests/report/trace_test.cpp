@@ -123,7 +123,7 @@ TEST(Trace, tells_of_the_guide_what_it_has) {
 }
 
 TEST(Trace, keeps_all_fuzzy_values_apart) {
-  // A reader can get the raw integer back from the text.
+  // A reader can recover the raw integer from the text.
   for (int raw = -16384; raw <= 16384; raw += 7) {
     TickRecord r;
     r.sa_q14 = r.sd_q14 = static_cast<std::int16_t>(raw);

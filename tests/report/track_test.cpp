@@ -98,7 +98,7 @@ RC_GTEST_PROP(Simplified, stays_within_the_tolerance_and_keeps_the_ends, ()) {
   RC_ASSERT(kept.size() >= std::min<std::size_t>(points.size(), 2));
   RC_ASSERT(kept.front().x == points.front().x && kept.front().y == points.front().y);
   RC_ASSERT(kept.back().x == points.back().x && kept.back().y == points.back().y);
-  // The kept points are points of the path in its order; what lies between two of them is near their line.
+  // The kept points are points of the path in order; the points between two of them are close to their line.
   std::size_t at = 0;
   for (std::size_t k = 0; k + 1 < kept.size(); ++k) {
     while (points[at].x != kept[k + 1].x || points[at].y != kept[k + 1].y) {

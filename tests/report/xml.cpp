@@ -30,7 +30,7 @@ void on_text(void* user, const XML_Char* text, int length) {
   static_cast<Builder*>(user)->open.back()->text.append(text, static_cast<std::size_t>(length));
 }
 
-/// Digits, with a sign before and one point inside at most.
+/// Digits, with an optional leading sign and at most one decimal point.
 bool plain_number(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789";
   if (!text.empty() && text.front() == '-') text.remove_prefix(1);

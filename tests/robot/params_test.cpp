@@ -10,7 +10,7 @@
 namespace whisker {
 namespace {
 
-// What a compiler finds, before any robot runs.
+// Errors that the compiler finds.
 constexpr Params with_shield_margin(Length margin) {
   Params p;
   p.skirt.shield_margin = margin;
@@ -117,7 +117,7 @@ TEST(Params, EveryRelationIsAskedOnceAndAllThatFailAreFound) {
 
 TEST(Params, NoRelationIsAskedOfValuesOutsideTheirRanges) {
   Params p;
-  p.rangefinders.rate_hz = 0;  // divided by
+  p.rangefinders.rate_hz = 0;  // a divisor
   EXPECT_EQ(violated(p), std::set<ParamFault>{ParamFault::out_of_range});
 }
 
@@ -155,8 +155,8 @@ TEST(Params, EachNewestRelationHoldsExactlyAtItsLimit) {
   p.motion.settle = p.wheels.motor_lag + p.safety.period;
   EXPECT_EQ(check(p), ParamFault::none);
   p.motion.settle = 80_ms;
-  // 16 x 50 ms of lag, 6 x 10 ms of ticks, and twice: 80 ms, 0.2 mm at 0.21 m/s (1 ms), 0.2 mm at 1 m/s^2
-  // from rest (20 ms).
+  // 16 x 50 ms of lag, 6 x 10 ms of ticks, and twice the sum of: 80 ms, 0.2 mm at 0.21 m/s (1 ms), 0.2 mm at
+  // 1 m/s^2 from rest (20 ms).
   p.safety.stalled_after = 1062_ms;
   EXPECT_EQ(check(p), ParamFault::none);
   p.safety.stalled_after = 1061_ms;
@@ -174,7 +174,7 @@ TEST(Params, AChoiceOutsideItsNamesIsRefused) {
   }
 }
 
-/// Puts the field number `wanted` just outside its range, low or high, and remembers its key.
+/// Sets field number `wanted` just outside its range, low or high, and stores its key.
 struct PushOut {
   int wanted;
   bool high;

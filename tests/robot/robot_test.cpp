@@ -122,7 +122,7 @@ TEST_F(RobotTest, ABeamWhoseReadingsNeverAgreeStopsItForGood) {
     tick();
     ++ticks;
   }
-  // Three readings may each take a second before the beam counts as lost, and one more may be under way.
+  // Each of three readings may take a second before the beam counts as lost, and one more may be under way.
   EXPECT_NEAR(ticks, 400, 20);
   expect_safe_stop(Fault::range_unsteady, 1);
   EXPECT_EQ(robot_.status().health.unsteady_looks, 1U);

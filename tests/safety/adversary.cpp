@@ -6,7 +6,7 @@
 namespace whisker::test {
 namespace {
 
-constexpr int kSurvey = 480;  // ticks: to both sides, so that there is cleared ground to misuse
+constexpr int kSurvey = 480;  // ticks: turns to both sides, so that there is clear ground
 
 Speed towards_nearest(const planning::View& view) {
   const perception::Echo* const b = view.moving_scan.beam;

@@ -1,5 +1,5 @@
-// Whatever a planner asks for, the guard keeps the body off what does not move, and it lets go where nothing
-// is.
+// For any commands of a planner, the guard prevents contact with static obstacles, and in open ground it does
+// not interfere.
 #include <gtest/gtest.h>
 
 #include <rapidcheck/gtest.h>
@@ -22,8 +22,8 @@ using worlds::Random;
 constexpr double kMission_s = 20;
 
 struct Torment {
-  double gap = 1;     // m, where it began with room
-  double beside = 1;  // m, where it began beside something
+  double gap = 1;     // m, starting with room
+  double beside = 1;  // m, starting beside an obstacle
   double path = 0;
   int worlds = 0;
 };
@@ -39,7 +39,7 @@ Torment torment(std::uint64_t seed, int count, bool noise) {
     }
     EXPECT_FALSE(rig.plant().in_contact()) << "seed " << seed + static_cast<std::uint64_t>(i)
                                            << ": contact at " << rig.plant().contact_time() << " s";
-    // It waits, and drives at walls, for longer than a planner may.
+    // The adversary waits and drives at walls for longer than a planner may.
     const Fault fault = rig.status().health.fault;
     EXPECT_TRUE(fault == Fault::none || fault == Fault::range_unsteady || fault == Fault::no_progress)
         << name(fault) << " seed " << seed + static_cast<std::uint64_t>(i);
@@ -52,7 +52,7 @@ Torment torment(std::uint64_t seed, int count, bool noise) {
   return nearest;
 }
 
-/// Part of the missions, and whether with the reference noise.
+/// Share of the missions, and whether with the reference noise.
 class GuardAgainst : public testing::TestWithParam<std::tuple<int, bool>> {};
 
 constexpr int kParts = 4;
@@ -76,7 +76,7 @@ RC_GTEST_PROP(Guard, NeverTouchesFromAnySeed, (std::uint64_t seed, bool noise)) 
   RC_ASSERT(n.beside > 0);
 }
 
-// In open ground the guard takes nothing away.
+// In open ground the guard does not interfere.
 TEST(Guard, GrantsAStraightRequestInOpenGroundInFull) {
   class Straight final : public planning::Planner {
     void set_goal(const planning::Goal&) noexcept override {}
@@ -86,7 +86,7 @@ TEST(Guard, GrantsAStraightRequestInOpenGroundInFull) {
       planning::Decision d;
       d.outcome = planning::Outcome::running;
       d.manoeuvre.kind = planning::ManoeuvreKind::cruise;
-      // The beams do not see the flanks: first a turn to both sides.
+      // The beams do not cover the flanks: first a turn to both sides.
       const int32_t part = ++ticks_ / 120;
       const bool drives = part >= 4;
       d.manoeuvre.forward = drives ? 300_mm_per_s : Speed{};

@@ -5,7 +5,7 @@
 namespace whisker::safety {
 namespace {
 
-/// Seconds that a running robot may stay in one place before that is a fault.
+/// Seconds until a running robot that stays in one place gets a fault.
 int longest_stay_s(const Params& params) {
   Health health;
   Supervisor supervisor(params, health);
@@ -25,7 +25,7 @@ TEST(Supervisor, OnePlaceIsLeftInMinutes) {
   EXPECT_LT(longest_stay_s({}), 600);
 }
 
-// Wheels of 0.02 m/s, 2 m apart: a turn takes 314 s.
+// Wheels of 0.02 m/s, 2 m apart: a full turn takes 314 s.
 TEST(Supervisor, SlowWheelsFarApartHaveTheTimeToTurn) {
   Params params;
   params.body.track = 2_m;

@@ -50,7 +50,7 @@ TEST(Look, SeesTheNearSideOfADisc) {
   world.discs = {{{1.5, 0}, 0.3}};
   const World known = seen_from(world, {0, 0});
   EXPECT_TRUE(some_near(known, {1.2, 0}, 0.002));
-  const double touch = 1.5 - 0.3 * 0.3 / 1.5;  // where a line of sight grazes the disc
+  const double touch = 1.5 - 0.3 * 0.3 / 1.5;  // where a line of sight is tangent to the disc
   for (const sim::Segment& s : known.segments) EXPECT_LT(std::max(s.a.x, s.b.x), touch + 0.06);
   EXPECT_TRUE(some_near(known, {touch, 0.29}, 0.06));
   EXPECT_TRUE(some_near(known, {touch, -0.29}, 0.06));

@@ -17,7 +17,7 @@ double shortest(const World& world, Vec2 from, Vec2 to) {
   return paths::shortest_path(world, from, to, kRadius).value_or(-1);
 }
 
-/// A blind alley along x that is open at -1 and shut at its end.
+/// A blind alley along x, open at -1 and closed at its end.
 World alley(double end) {
   World world;
   world.segments = {{{-1, -1}, {end, -1}}, {{end, -1}, {end, 1}}, {{end, 1}, {-1, 1}}};
@@ -47,7 +47,7 @@ TEST(ReferencePath, WhatItSeesFromTheStartCostsNoDetour) {
 TEST(ReferencePath, GoesIntoADeadEndUntilItSeesItsEndAndOutAgain) {
   const Vec2 start{-2, 0}, goal{6, 0};
   const World world = alley(4);
-  const double shown = 4 - kRange;  // the end comes into sight here, but not yet its corners
+  const double shown = 4 - kRange;  // the end becomes visible here, but not yet its corners
   const double least = (shown - start.x) + shortest(world, {shown, 0}, goal);
   const ReferencePath reference = drive(world, start, goal, kRadius, kRange);
   EXPECT_TRUE(reference.reached);

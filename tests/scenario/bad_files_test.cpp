@@ -1,4 +1,4 @@
-// Each file of bad/ begins with `# expect LINE:COLUMN some words of the message`.
+// Each file of bad/ begins with `# expect LINE:COLUMN part of the message`.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// docs/scenario.md is checked: its parameter table is the generated one, and its example loads.
+// The parameter table of docs/scenario.md is the generated one, and its example loads.
 #include <gtest/gtest.h>
 
 #include "host/scenario/load.hpp"

@@ -1,5 +1,4 @@
-// Files that would run toml++ out of stack are refused in words; what no file of ours nests is allowed to
-// nest.
+// Files that would overflow toml++'s stack are rejected with a message; nesting up to the limit is allowed.
 #include <gmock/gmock.h>
 
 #include <string>

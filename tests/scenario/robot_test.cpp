@@ -72,7 +72,7 @@ TEST(RobotFile, IsToldEveryValueOutOfRangeBeforeAnyRelation) {
 }
 
 TEST(Violations, NameTheirKeysAndWhatIsSaidToFitDoes) {
-  // One value of one parameter at a time, far from the default: each mend that is named must be one.
+  // Sets one parameter far from its default: every suggested change must satisfy the relation.
   const std::vector<ParamEntry> list = param_list(Params{});
   int mended = 0;
   for (std::size_t place = 0; place < list.size(); ++place) {
@@ -147,7 +147,7 @@ TEST(RobotTable, TakesBothEndsOfEveryRange) {
   for (const auto& [key, value] : ends.lines) {
     const std::string message = message_of<InputError>(
         [&, k = key, v = value] { parse_scenario(kLeast + ("[robot]\n" + k + " = " + v + "\n"), "text"); });
-    // A relation may be broken, or the start too tight; the range is not.
+    // A relation may be violated, or the start too narrow; the range may not.
     EXPECT_THAT(message, testing::Not(HasSubstr("must be from"))) << key << " = " << value;
   }
 }

@@ -35,7 +35,7 @@ std::string any_name() {
   return name;
 }
 
-/// Points at growing angles around a centre: a simple polygon.
+/// Points at increasing angles around a centre: a simple polygon.
 std::vector<Vec2> star(Vec2 center) {
   std::vector<Vec2> points;
   const int n = 3 + below(6);
@@ -46,7 +46,7 @@ std::vector<Vec2> star(Vec2 center) {
   return points;
 }
 
-/// Sets each parameter anew and takes back what check() refuses.
+/// Changes each parameter and restores it if check() rejects it.
 struct Shuffle {
   const Params& whole;
   template <class T>
@@ -87,7 +87,7 @@ std::vector<std::int64_t> values(const Params& params) {
   return v.all;
 }
 
-/// Adds what `add` makes unless the start touches it.
+/// Adds the result of `add` unless it touches the start.
 template <class F>
 void try_add(Scenario& s, F&& add) {
   Scenario more = s;
@@ -175,7 +175,7 @@ RC_GTEST_PROP(RoundTrip, GivesTheSameScenarioBitForBit, ()) {
   RC_ASSERT(to_toml(b) == text);
 }
 
-// Whatever the bytes are, the answer is a scenario or one line of complaint.
+// For any bytes, the result is a scenario or a one-line error.
 RC_GTEST_PROP(Parser, AnswersAnyDamagedFileInOneLine, ()) {
   std::string text = to_toml(any_scenario());
   for (int i = 1 + below(4); i > 0; --i) {

@@ -40,7 +40,7 @@ TEST(Intersect, FindsCrossingsTouchesAndOverlaps) {
   EXPECT_FALSE(intersect(s, {{5, -1}, {5, 1}}));
 }
 
-// A simple polygon's inside is where the outline winds around the point once.
+// A simple polygon contains a point if the outline winds around it once.
 double winding(Vec2 p, const Points& polygon) {
   double turn = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -19,7 +19,7 @@ Cone cone_at(Vec2 apex, double axis, double half_width) {
   return {apex, {std::cos(axis), std::sin(axis)}, std::cos(half_width), std::sin(half_width)};
 }
 
-/// How far a ray from p in this direction runs to the disc; infinite for a miss.
+/// Distance from p along this direction to the disc; infinite for a miss.
 double along_ray(Vec2 p, double direction, const Disc& disc) {
   const Vec2 u{std::cos(direction), std::sin(direction)};
   const Vec2 q = disc.center - p;
@@ -50,7 +50,7 @@ double by_rays(Vec2 apex, double axis, double half_width, const Shape& shape) {
   return nearest;
 }
 
-/// The nearest of many points of the shape among those within the half width of the axis.
+/// The nearest of many points of the shape that lie within the half width of the axis.
 double by_points(Vec2 apex, double axis, double half_width, const std::function<Vec2(double)>& outline) {
   constexpr int kPoints = 4000;
   double nearest = kInfinity;
@@ -62,8 +62,8 @@ double by_points(Vec2 apex, double axis, double half_width, const std::function<
   return nearest;
 }
 
-/// No ray may find a nearer point, and a slightly wider cone must hold a sample that is about as near: `gap`
-/// is the largest distance from a point of the shape to the next sample.
+/// No ray may find a nearer point, and a slightly wider cone must contain a sample about as near: `gap` is
+/// the largest distance from a point of the shape to the next sample.
 template <class Shape>
 void judge(const Shape& shape, const std::function<Vec2(double)>& outline, double gap) {
   const Vec2 apex = point(2);

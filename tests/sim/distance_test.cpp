@@ -41,7 +41,7 @@ TEST(Distance, ToASegmentAgreesWithATernarySearchAlongIt) {
       const double m1 = low + (high - low) / 3, m2 = high - (high - low) / 3;
       (at(m1) < at(m2) ? high : low) = at(m1) < at(m2) ? m2 : m1;
     }
-    // Near the least the search cannot see steps below the root of the precision.
+    // Near the minimum, the search cannot resolve steps below the square root of the precision.
     RC_ASSERT(std::fabs(distance(p, s) - at(0.5 * (low + high))) < 1e-7);
   }));
 }
@@ -68,7 +68,7 @@ TEST(Contains, ANotchIsOutside) {
 
 TEST(Contains, AgreesWithTheWindingAngle) {
   EXPECT_TRUE(rc::check([] {
-    // Star-shaped around the origin: any radii at rising angles.
+    // Star-shaped around the origin: any radii at increasing angles.
     const int n = *rc::gen::inRange(3, 12);
     std::vector<Vec2> polygon;
     for (int i = 0; i < n; ++i) {

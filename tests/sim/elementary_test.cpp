@@ -9,7 +9,7 @@
 namespace whisker::sim {
 namespace {
 
-/// The largest error over random and evenly spaced arguments; the judge computes in long double.
+/// The largest error over random and evenly spaced arguments; the reference computes in long double.
 template <class Error>
 double largest_error(double low, double high, Error error) {
   std::mt19937_64 random(20240601);

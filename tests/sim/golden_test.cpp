@@ -10,8 +10,8 @@
 namespace whisker::sim {
 namespace {
 
-// golden.txt: a seed and its hash a line. A change there is a change of every simulated run: it must be
-// meant.
+// golden.txt: one seed and its hash per line. A change there changes every simulated run, so it must be
+// intended.
 TEST(Golden, TheScriptedDriveComesOutTheSameEverywhere) {
   std::ifstream golden(std::filesystem::path(WHISKER_SOURCE_DIR) / "tests/sim/golden.txt");
   std::uint64_t seed = 0, hash = 0;

@@ -65,7 +65,7 @@ TEST(Sweep, StopsStraightMotionAtADiscWhereTheQuadraticSays) {
     const Sweep got = swept({&disc, 1, nullptr, 0, nullptr, 0}, {from, length, 0}, 1, body);
     RC_ASSERT(got.contact == hit);
     if (hit) {
-      // A gap of kContactGap at a grazing angle is a longer way along the path.
+      // At a grazing angle, a gap of kContactGap is a longer distance along the path.
       const double steepness = std::sqrt(touch * touch - off * off) / touch;
       RC_ASSERT(std::fabs(got.fraction * length - s) < 3 * kContactGap / steepness);
       RC_ASSERT(got.clearance >= 0 && got.clearance <= 3 * kContactGap);
@@ -101,7 +101,7 @@ TEST(Sweep, AgreesWithTinyStepsAlongAnArcAmongAllShapes) {
     }
     const Sweep got = swept(world, arc, 1, body);
     RC_CLASSIFY(got.contact, "contact");
-    // A gap that the tiny steps straddle may be either.
+    // A gap smaller than one tiny step may count as contact or not.
     if (contact <= 1) {
       RC_ASSERT(got.contact);
       RC_ASSERT(got.fraction <= contact);
@@ -119,7 +119,7 @@ TEST(Sweep, AgreesWithTinyStepsAlongAnArcAmongAllShapes) {
 }
 
 TEST(Sweep, AGrazingPassIsAContactExactlyIfTheGapCloses) {
-  // The body passes a disc, a wall's end and a wall alongside, each at a miss of so many metres.
+  // The body passes a disc, a wall's end and a parallel wall, each at this distance in metres.
   for (const double miss : {-1e-3, -1e-6, -1e-7, -1e-8, 1e-8, 1e-7, 1e-6, 1e-3}) {
     const double body = 0.09;
     const Arc arc{{{-0.2137, 0}, 0}, 0.4, 0};

@@ -7,7 +7,7 @@ namespace whisker::sim {
 namespace {
 
 /// A closed yard of 8 m with 30 discs. The robot drives and turns at changing speeds around the middle; a
-/// contact starts it again.
+/// contact restarts it.
 void plant_among_30_discs(benchmark::State& state) {
   Random random(1, 0);
   Disc discs[30];

@@ -42,8 +42,7 @@ TEST(Plant, DrivesALineAsItsWheelsRoll) {
   Plant plant(nothing, {}, {}, 1, {{0, 0}, 0.5});
   plant.command({3000, 3000});
   run(plant, 1000);
-  // The ramp and the lag together cost v^2 / 2a + v * lag... of 10 s at 0.3 m/s: see the wheel's step
-  // response.
+  // 10 s at 0.3 m/s, minus v^2 / 2a + v * lag for the ramp and the lag: see the wheel's step response.
   const double expected = 0.03125 + 0.3 * 9.75 - 0.0025;
   EXPECT_NEAR(plant.path_length(), expected, 1e-12);
   EXPECT_NEAR(plant.pose().at.x, expected * std::cos(0.5), 1e-12);
@@ -88,8 +87,8 @@ TEST(Plant, NeverSlidesSideways) {
         const Vec2 moved = plant.pose().at - before.at;
         const double turn = plant.pose().heading - before.heading;
         const double middle = before.heading + turn / 2;
-        // Within a tick the turn rate changes by 0.14 rad/s and the speed by 0.01 m/s at most, which together
-        // carry the end of the chord less than 1.2 um off the mean heading.
+        // Within a tick the turn rate changes by at most 0.14 rad/s and the speed by at most 0.01 m/s, so the
+        // end of the chord deviates less than 1.2 um from the mean heading.
         RC_ASSERT(std::fabs(cross({std::cos(middle), std::sin(middle)}, moved)) <= 1.2e-6);
         RC_ASSERT(std::hypot(moved.x, moved.y) <= 0.003 + 1e-12);
       }
@@ -240,7 +239,7 @@ TEST(Plant, SmallestClearanceAgreesWithManyPosesOfARun) {
     } else {
       RC_ASSERT(least > 0);
       RC_ASSERT(plant.min_clearance() <= least + kClearanceSlack);
-      // Between two poses the gap dips by half the way at most.
+      // Between two poses the gap is smaller by at most half the path.
       RC_ASSERT(plant.min_clearance() >= least - 0.5 * 0.005 * (0.3 + mover.speed) - 1e-12);
     }
   }));
@@ -272,7 +271,7 @@ TEST(Plant, MeasuresFromWhereItIsAtThatMomentBetweenTwoSteps) {
 }
 
 TEST(Plant, AMoverThatPassesRightThroughWithinATickIsAContact) {
-  // A disc that is gone again has set a smallest gap that the mover is far above when the tick begins.
+  // A disc that is removed later sets a smallest gap far below the mover's gap when the tick starts.
   const Disc near_by{{0, 0.2}, 0.1};
   const Vec2 path[] = {{1.03, 0}, {-1.03, 0}};
   const MovingDisc mover{path, 2, 0.05, 200, 0};

@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint64_t kSeed = 12345;
 constexpr int kCount = 1000000;
 
-/// The largest distance between the sample's and the true distribution function, times the root of the count:
-/// above 1.95 once in a thousand seeds (Kolmogorov).
+/// The largest distance between the sample's and the true distribution function, times the square root of the
+/// count: it exceeds 1.95 for one in a thousand seeds (Kolmogorov).
 template <class Cdf>
 double kolmogorov(std::vector<double> sample, Cdf cdf) {
   std::sort(sample.begin(), sample.end());
@@ -57,7 +57,7 @@ TEST(Random, NormalNumbersAreNormal) {
   }
   EXPECT_LT(kolmogorov(sample, [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }), 1.95)
       << "seed " << kSeed;
-  // The fourth power's own standard deviation is root 96.
+  // The standard deviation of the fourth power is the square root of 96.
   EXPECT_NEAR(fourth, 3.0, 4 * std::sqrt(96.0 / kCount)) << "seed " << kSeed;
 }
 
@@ -87,7 +87,7 @@ TEST(Random, StreamsAndSeedsAreUncorrelated) {
 }
 
 TEST(Random, NeighbouringSeedsAndStreamsNeverMeet) {
-  // Were the stream added to the seed, (s, 1) would equal (s + 1, 0).
+  // If the stream were added to the seed, (s, 1) would equal (s + 1, 0).
   std::vector<std::uint64_t> firsts;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     for (std::uint32_t stream = 0; stream < 64; ++stream) firsts.push_back(Random(seed, stream).next());

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint64_t kSeed = 4711;
 constexpr int kCount = 40000;
 
-/// A wall across the front beam's axis; the side beams of the reference robot see it farther away.
+/// A wall across the front beam's axis; it is farther away for the side beams of the reference robot.
 struct Wall {
   explicit Wall(double x) : segment{{x, -50}, {x, 50}} {}
   Segment segment;
@@ -167,7 +167,7 @@ TEST(RangeSensors, DropoutsAndFalseClearsComeAtTheirRates) {
       clear += reading.status == hal::RangeStatus::clear ? 1 : 0;
     }
   }
-  // A lost reading cannot be a false clear as well.
+  // A lost reading cannot be wrongly clear too.
   const double n = 3.0 * kCount, p = 0.2 * 0.9;
   EXPECT_NEAR(lost, 0.1 * n, 4 * std::sqrt(0.1 * 0.9 * n)) << "seed " << kSeed;
   EXPECT_NEAR(clear, p * n, 4 * std::sqrt(p * (1 - p) * n)) << "seed " << kSeed;

@@ -53,7 +53,7 @@ uint64_t scripted_drive(uint64_t seed) {
   const WorldView world{discs, 4, segments, 4, &mover, 1};
 
   RobotSpec robot;
-  robot.rate_hz = 47;  // never in step with the ticks
+  robot.rate_hz = 47;  // never synchronous with the ticks
   robot.offset = 0.03;
   const NoiseSpec noise{0.01, 0.05, 0.03, 0.005, 0.02};
   Plant plant(world, robot, noise, seed, {{-0.3, 0.2}, 0.1});

@@ -10,7 +10,7 @@
 namespace whisker::sim {
 namespace {
 
-/// The definition itself, in steps so short that a trapezoid is good to 1e-8.
+/// The definition itself, in steps so short that the trapezoidal rule is exact to 1e-8.
 WheelStep by_small_steps(double lag, double limit, double time, double v, double target) {
   constexpr int kSteps = 20000;
   const double dt = time / kSteps;

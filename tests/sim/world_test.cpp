@@ -50,7 +50,7 @@ TEST(MovingDisc, NeverOutrunsItsSpeed) {
     const double t = real(0, 50), dt = real(0, 3);
     const Vec2 moved = position(mover, t + dt) - position(mover, t);
     RC_ASSERT(std::hypot(moved.x, moved.y) <= mover.speed * dt + 1e-9);
-    // And stays on its path.
+    // It stays on its path.
     double off = std::hypot(position(mover, t).x - path[0].x, position(mover, t).y - path[0].y);
     for (std::size_t i = 1; i < path.size(); ++i) {
       off = std::fmin(off, distance(position(mover, t), {path[i - 1], path[i]}));

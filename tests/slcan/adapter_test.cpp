@@ -89,7 +89,7 @@ TEST_F(SlcanAdapter, TakesNoFrameFromTheEndOfALineThatIsTooLong) {
 }
 
 RC_GTEST_FIXTURE_PROP(SlcanAdapter, WhateverComesBeforeALineEndIsForgottenAfterIt, (std::string noise)) {
-  // Commands change the state, on purpose.
+  // Commands change the state, as intended.
   pipe.come(noise + "\r");
   for (int i = 0; i < 20; ++i) port.poll(++now);
   taken(port);

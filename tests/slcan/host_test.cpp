@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 
 class SlcanHost : public ::testing::Test {
  protected:
-  /// What the port sends in these milliseconds.
+  /// The output of the port during these milliseconds.
   std::string pass(std::uint32_t ms) {
     for (std::uint32_t i = 0; i < ms; ++i) port.poll(++now);
     return pipe.sent();

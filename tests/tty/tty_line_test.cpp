@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-/// A folder of its own for each test.
+/// A separate folder for each test.
 class TtyLineTest : public ::testing::Test {
  protected:
   TtyLineTest() {
@@ -73,7 +73,7 @@ class TtyLineTest : public ::testing::Test {
   fs::path folder;
 };
 
-/// The end of a pseudo terminal that has no path.
+/// The master end of a pseudo terminal, which has no path.
 class Master {
  public:
   Master() : file(posix_openpt(O_RDWR | O_NOCTTY)) {

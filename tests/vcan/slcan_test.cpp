@@ -1,5 +1,5 @@
-// Linux's own SLCAN driver as the other end: our port looks like a USB-CAN adapter to it. slcand makes its
-// interface in the first network namespace only, so a machine of one's own is needed: a micro-VM is one.
+// Linux's SLCAN driver as the other end: our port acts as a USB-CAN adapter. slcand creates its interface
+// only in the first network namespace, so this needs a separate machine, the micro-VM.
 #include "hal/ports/slcan/slcan.hpp"
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ using ::testing::ElementsAre;
 using vcan::Running;
 using vcan::shell;
 
-/// The end of a pseudo terminal that has no path.
+/// The master end of a pseudo terminal, which has no path.
 class Master final : public ByteLine {
  public:
   Master() : file_(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {

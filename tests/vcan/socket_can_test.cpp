@@ -27,7 +27,7 @@ using ::testing::IsEmpty;
 using vcan::Running;
 using vcan::shell;
 
-/// Somebody else on the bus, without a port.
+/// Another node on the bus, without a port.
 class RawSocket {
  public:
   RawSocket() : socket_(socket(PF_CAN, SOCK_RAW, CAN_RAW)) {
@@ -56,9 +56,9 @@ class SocketCanTest : public ::testing::Test {
     port.poll(now);
     ASSERT_EQ(port.state(), CanState::active) << port.waits_for();
   }
-  // What it did to the interface goes with it.
+  // Also removes the test's changes to the interface.
   void TearDown() override { shell("ip link del vtest0"); }
-  /// The port's clock runs with this one.
+  /// Advances the port's clock in real time.
   template <class Condition>
   bool soon(const Condition& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -191,7 +191,7 @@ TEST_F(SocketCanTest, ForgetsWhatWasOnTheBusBeforeItWentDown) {
   EXPECT_THAT(next(1), ElementsAre(frame(0x222, 0)));
 }
 
-// Error frames of a controller's driver: to a raw socket they are frames like others.
+// Error frames of a controller's driver: a raw socket receives them as ordinary frames.
 TEST_F(SocketCanTest, IsSilentAfterBusOffUntilItIsRestarted) {
   ASSERT_TRUE(port.send(frame(1), kLife_ms));
   shell("cansend vtest0 20000040#0000000000000000");
@@ -230,7 +230,7 @@ TEST_F(SocketCanTest, CountsWhatTheKernelDropped) {
   RawSocket other;
   for (std::uint32_t i = 0; i < kFlood; ++i) other.write(0x100);
   std::uint32_t got = 0;
-  // The kernel tells its count with the next frame.
+  // The kernel reports its count with the next frame.
   EXPECT_TRUE(soon([&] {
     got += static_cast<std::uint32_t>(taken(port).size());
     other.write(0x101);
@@ -241,7 +241,7 @@ TEST_F(SocketCanTest, CountsWhatTheKernelDropped) {
   EXPECT_GE(port.counts().overrun + got, kFlood - CanPort::kReceiveDepth);
 }
 
-/// 16 bytes a frame: one each 128 ms, and a queue for two more.
+/// 16 bytes per frame: one frame every 128 ms, and a queue for two more.
 constexpr const char* kSlow = "tc qdisc replace dev vtest0 root tbf rate 1kbit burst 16 limit 32";
 
 TEST_F(SocketCanTest, DropsWhatTheKernelHasNoRoomForUntilItIsTooOld) {
@@ -257,7 +257,7 @@ TEST_F(SocketCanTest, DropsWhatTheKernelHasNoRoomForUntilItIsTooOld) {
   EXPECT_EQ(port.state(), CanState::active);
 }
 
-// Lost arbitration, and passive so that its arrival shows.
+// Lost arbitration, and the passive state, which shows that the error frame arrived.
 TEST_F(SocketCanTest, NamesTheReasonOfWhatWasDropped) {
   shell("cansend vtest0 20000006#0020000000000000");
   ASSERT_TRUE(comes_to(CanState::passive));

@@ -19,7 +19,7 @@ using testing::drive;
 using testing::setting;
 using testing::short_run;
 
-/// The next news, which must be there.
+/// The next news, which must exist.
 json next(const Feed& feed, Place& place) {
   const auto news = feed.news(place);
   EXPECT_TRUE(news.has_value());
@@ -28,7 +28,7 @@ json next(const Feed& feed, Place& place) {
 
 std::size_t ticks_of(const json& news) { return news["columns"][0][3].get<std::size_t>(); }
 
-/// Listens, and checks that every tick comes once and in order.
+/// Reads the feed, and checks that every tick comes once and in order.
 class Listener {
  public:
   explicit Listener(const Feed& feed) : feed_(feed) {}
@@ -111,7 +111,7 @@ TEST(Feed, TheColumnsAreThoseOfTheTicks) {
   std::size_t pictures = 0;
   drive(scenario, feed, [&](const Moment& moment) {
     recording.add(moment);
-    // Between the ends of the feed's parts, at them and behind them.
+    // Between the ends of the feed's parts, at them and after them.
     const std::size_t ticks = recording.ticks().records.size();
     if (ticks != 1 && ticks != 100 && ticks % 256 > 1 && ticks % 256 < 255) return;
     const std::size_t from = place.next;

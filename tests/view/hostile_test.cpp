@@ -1,4 +1,4 @@
-// Clients that do a server no good: it runs in the process that drives the plant.
+// Hostile clients of the server, which runs in the process that drives the plant.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ using testing::Line;
 using testing::setting;
 using testing::short_run;
 
-/// What the descriptors of a process are.
+/// The targets of a process's file descriptors.
 std::set<std::string> open_files(pid_t process) {
   std::set<std::string> all;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/fd")) {
@@ -60,7 +60,7 @@ class Hostile : public ::testing::Test {
   Server server_{kHere, 0, feed_, "<p>page</p>"};
 };
 
-/// kB that this process has in memory.
+/// Resident memory of this process, kB.
 long resident() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
@@ -146,7 +146,7 @@ TEST_F(Hostile, WhoTakesThePageSlowlyIsLetGo) {
     taken += line.read_some().size();
     std::this_thread::sleep_for(milliseconds(100));
   }
-  // What the kernel still holds for it is all that comes.
+  // After that, only the data that the kernel still buffers arrives.
   EXPECT_LT(taken + line.read_all().size(), std::size_t{16} << 20);
 }
 

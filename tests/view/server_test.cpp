@@ -34,7 +34,7 @@ struct Event {
   json news;
 };
 
-/// The events of a stream, whole ones only.
+/// The complete events of a stream.
 std::vector<Event> events_of(const std::string& text) {
   std::vector<Event> events;
   std::size_t from = 0;
@@ -48,7 +48,7 @@ std::vector<Event> events_of(const std::string& text) {
   return events;
 }
 
-/// All that the server tells from this place on.
+/// All events that the server sends from this position.
 std::vector<Event> listen(int port, const std::string& from = "") {
   const Answer answer = get(port, kPath, from.empty() ? "" : "Last-Event-ID: " + from + "\r\n");
   EXPECT_EQ(answer.status, 200);
@@ -65,7 +65,7 @@ std::size_t ticks_of(const std::vector<Event>& events) {
   return ticks;
 }
 
-/// A connection that has asked for the events; it reads only what it is told to.
+/// A connection that requested the events; it reads only when the test calls it.
 class Idle {
  public:
   explicit Idle(int port) : line_(port, 4096) { line_.send(ask(port, kPath) + "\r\n"); }
@@ -129,7 +129,7 @@ TEST(Server, OneWhoReadsNothingKeepsNobodyWaiting) {
   server->start();
   const Idle idle(server->port());
   EXPECT_FALSE(idle.read_some().empty());
-  // More than the kernel takes for one who does not read.
+  // More than the kernel buffers for a client that does not read.
   Scenario scenario = short_run();
   scenario.name.assign(8 << 20, 'x');
   const RunResult result = drive(scenario, feed);
@@ -143,7 +143,7 @@ TEST(Server, OneWhoIsGoneIsForgotten) {
   Server server(kHere, 0, feed, "");
   server.start();
   for (int i = 0; i < 3 * Server::kMostWatchers; ++i) {
-    // Each finds a place, as soon as those before it are noticed to be gone.
+    // Each is accepted as soon as the server notices that earlier ones closed.
     std::string answer;
     while (answer.find(" 200 ") == std::string::npos) answer = Idle(server.port()).read_some();
     feed.say(std::to_string(i));

@@ -15,7 +15,7 @@ using sim::Vec2;
 constexpr std::uint64_t kSeeds = 200;
 constexpr double kRounding = 2e-4;  // coordinates are whole 0.1 mm
 
-/// What a number did over many worlds.
+/// Statistics of a number over many worlds.
 struct Spread {
   double low = 1e9, high = -1e9;
   void add(double x) {
@@ -106,7 +106,7 @@ TEST(UTrap, HasTheStatedShape) {
   depth.expect(0.5, 3, "depth");
   behind.expect(0.3, 3, "goal behind");
   from_start.expect(3, 7, "from start");
-  // A third of 200 worlds, give or take four standard deviations.
+  // A third of 200 worlds, within four standard deviations.
   EXPECT_NEAR(inside_it, 67, 27);
 }
 

@@ -15,7 +15,7 @@
 namespace whisker::worlds {
 namespace {
 
-/// A large world takes its time.
+/// A large world takes long.
 constexpr std::uint64_t seeds(Kind kind) { return kind == Kind::contest_maze ? 4 : 60; }
 
 class EveryKind : public testing::TestWithParam<Kind> {};

@@ -1,4 +1,4 @@
-// One seed means one world, whatever the compiler. A changed generator commits new hashes.
+// A seed gives the same world with every compiler. After a change of a generator, commit the new hashes.
 #include <gtest/gtest.h>
 
 #include "host/scenario/write.hpp"

@@ -6,7 +6,7 @@ namespace whisker::worlds {
 namespace {
 
 TEST(Random, IsSplitMix64) {
-  // The first numbers of the authors' reference program for this seed.
+  // The first numbers of the reference program by the algorithm's authors, for this seed.
   Random random(1234567);
   for (const std::uint64_t expected :
        {6457827717110365317U, 3203168211198807973U, 9817491932198370423U, 4593380528125082431U}) {

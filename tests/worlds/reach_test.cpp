@@ -14,9 +14,9 @@ namespace {
 using sim::Vec2;
 
 constexpr double kRadius = 0.125;
-constexpr double kBand = 0.0283;  // sqrt(2) cells: what the grid may cost
+constexpr double kBand = 0.0283;  // sqrt(2) cells: the error that the grid may cause
 
-/// A wall across a closed 4 m x 4 m room, with one gap; turned by any angle.
+/// A wall across a closed 4 m x 4 m room, with one gap, turned by any angle.
 World room_with_gap(double gap, double turn, double shift) {
   const Vec2 axis{std::cos(turn), std::sin(turn)};
   const Vec2 across{-axis.y, axis.x};
@@ -46,7 +46,7 @@ TEST(Path, ThroughAGapIsProvenOnceItIsWideEnough) {
 TEST(Path, BetweenDiscsDependsOnTheGapBetweenThem) {
   const auto ring = [](double gap) {
     World world;
-    // Twelve discs around the origin, neighbours this far apart.
+    // Twelve discs around the origin, with this distance between neighbours.
     const double pitch = 2 * std::sin(std::acos(-1) / 12) * 2;
     for (int i = 0; i < 12; ++i) {
       const double angle = i * std::acos(-1) / 6;
@@ -107,7 +107,7 @@ TEST(Path, InAWorldTooLargeForTheGridIsNotAnswered) {
   EXPECT_THROW(path_proven(World{}, {0, 0}, {100, 100}, kRadius), std::length_error);
 }
 
-/// The oracle: every point of a finer grid, each measured against every obstacle.
+/// Reference: every point of a finer grid, each measured against every obstacle.
 class FineGrid {
  public:
   static constexpr double kCell = 0.01;
@@ -117,7 +117,7 @@ class FineGrid {
   explicit FineGrid(const Scenario& s) {
     for (int i = 0; i < kSide * kSide; ++i) gaps_.push_back(nearest_obstacle(s, point(i)).distance_m);
   }
-  /// Whether points of at least this clearance lead from `from` to within `tolerance` of `to`.
+  /// Whether points with at least this clearance connect `from` to within `tolerance` of `to`.
   bool connected(Vec2 from, Vec2 to, double tolerance, double gap) const {
     std::vector<bool> seen(gaps_.size());
     std::vector<int> front;

@@ -1,5 +1,4 @@
-// BBC micro:bit, whose nRF51822 has a Cortex-M0. QEMU has no board with a Cortex-M0+; this board runs its
-// code.
+// BBC micro:bit: its nRF51822 has a Cortex-M0. QEMU has no Cortex-M0+ board; this one runs its code.
 #include "hal/board.hpp"
 #include "hal/emulated/common/counter_meter.hpp"
 #include "hal/emulated/common/milliseconds.hpp"

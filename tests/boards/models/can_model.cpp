@@ -53,7 +53,7 @@ void CanModel::store(std::uint32_t offset, std::uint32_t value) {
     if ((value & mask(can::kFovr0)) != 0) put(can::kFovr0, 0);
     return;
   }
-  // The bit timing is locked outside of initialisation, a filter's set-up while filters run.
+  // The bit timing is writable only during initialisation, a filter's set-up only while filters are off.
   if (offset == can::kBtr.offset && !in_init()) return;
   if ((offset == can::kFbm0.offset || offset == can::kFsc0.offset) && get(can::kFinit) == 0) return;
   word(offset) = value;
@@ -97,7 +97,7 @@ void CanModel::advance() {
     put(can::kInak, 0);
   }
   if (in_init() || get(can::kBoff) != 0 || bus == Bus::held || order_.empty()) return;
-  // In the order of the requests with TXFP, else by identifier.
+  // With TXFP in request order, otherwise by identifier.
   const std::uint8_t box =
       get(can::kTxfp) != 0
           ? order_.front()

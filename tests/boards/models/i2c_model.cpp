@@ -50,7 +50,7 @@ std::uint32_t I2cModel::load(std::uint32_t offset) {
 
 void I2cModel::store(std::uint32_t offset, std::uint32_t value) {
   if (offset == i2c::kSr1.offset) {
-    // Flags of errors go by writing 0; the others are the hardware's.
+    // Writing 0 clears error flags; the hardware owns the others.
     word(offset) &= value | ~(mask(i2c::kBerr) | mask(i2c::kArlo) | mask(i2c::kAf));
     return;
   }
@@ -169,7 +169,7 @@ void I2cModel::end_write() {
 
 void I2cModel::end_read() {
   shifting_ = false;
-  // With POS the acknowledgement was decided a byte earlier.
+  // With POS, the acknowledgement applies to the next byte.
   const bool ack_now = get(i2c::kAck) != 0;
   const bool acked = get(i2c::kPos) != 0 ? ack_next_ : ack_now;
   ack_next_ = ack_now;

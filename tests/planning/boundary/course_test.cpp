@@ -24,7 +24,7 @@ class Bends final : public HeadingDeflection {
 constexpr Vec kGoal{3_m, 4_m};  // 53.13 degrees
 constexpr double kTarget = 53.130102;
 
-/// Where it heads after so many readings, degrees from the goal's direction.
+/// The heading after so many readings, degrees from the goal's direction.
 double heads(Course& course, const View& view, Angle bend, int readings, Decision& decision) {
   Bends law(bend);
   Side wall = Side::left;

@@ -16,7 +16,7 @@ using test::in_degrees;
 struct Wall {
   int right_deg;
   int left_deg;
-  /// A cone in this direction meets it.
+  /// Whether a cone in this direction hits the wall.
   bool shown(double deg) const { return deg >= right_deg - 12.5 && deg <= left_deg + 12.5; }
 };
 
@@ -24,14 +24,14 @@ struct Sweep {
   FollowSideSearch search;
   Ground ground{};
   bool over = false;
-  double leftmost = 0;  // degrees that it turned to
+  double leftmost = 0;  // degrees, the largest turn to the left
   double rightmost = 0;
 };
 
-/// Turns a body as the search asks, and shows it what its beams then meet.
+/// Turns a body as the search requests, and simulates its beams.
 Sweep sweep(const Wall& wall, const FollowSideSearch& search) {
   Sweep s{search};
-  s.ground.free(120, 240, 300_mm);  // it came from there
+  s.ground.free(120, 240, 300_mm);  // the body came from there
   Angle heading;
   for (int i = 0; i < 2000 && !s.over; ++i) {
     for (int beam = 0; beam < hal::kBeams; ++beam) {

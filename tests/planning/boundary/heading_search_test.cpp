@@ -11,9 +11,9 @@ namespace {
 using test::Ground;
 using test::in_degrees;
 
-constexpr int kPatience = 20;  // steps; each judges a whole turn at most
+constexpr int kPatience = 20;  // steps; each judges at most a full turn
 
-/// A heading search of a body that came straight along its heading, 0.
+/// A heading search of a body that came straight along heading 0.
 HeadingSearch come() {
   HeadingSearch feeler;
   feeler.reset({-(400_mm), 0_mm}, Params{});

@@ -1,4 +1,4 @@
-// A body that turns but that the guard lets go nowhere, whatever the planner believes: it gives up.
+// A body that turns but that the guard never lets drive gives up, whatever the planner believes.
 #include <gtest/gtest.h>
 
 #include "firmware/planning/boundary/boundary_planner.hpp"

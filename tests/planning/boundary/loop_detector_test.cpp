@@ -11,7 +11,7 @@ namespace {
 
 using test::degrees;
 
-/// A body that drives round, counter-clockwise; its place on the circle is the heading's.
+/// A body that drives counter-clockwise on a circle; its heading determines its position.
 class Round {
  public:
   Round(LoopDetector& circuit, Length radius) : loop_(circuit), radius_(radius) { place(); }
@@ -20,7 +20,7 @@ class Round {
     loop_.begin(view_, Params{});
     EXPECT_FALSE(loop_.closed(view_));
   }
-  /// One degree further; the circle's centre may drift.
+  /// Drives one degree further; the circle's centre may drift.
   void drive(Vec drift = {}) {
     const Vec before = view_.pose.at;
     centre_ = centre_ + drift;
@@ -96,7 +96,7 @@ TEST(LoopDetector, DoesNotCloseWithoutAWholeTurn) {
   EXPECT_FALSE(circuit.closed(view));
 }
 
-/// Away and back with one heading. Returns whether that closes the loop.
+/// Back and forth with one heading. Returns whether that closes the loop.
 bool closes_without_a_turn(Length away, LoopDetector::Evidence evidence) {
   LoopDetector circuit;
   View view;
@@ -132,7 +132,7 @@ TEST(LoopDetector, TurnsOnTheSpotAreNoLapsByPlace) {
   }
 }
 
-// It was met elsewhere: this is another obstacle.
+// The body meets the boundary elsewhere, so this is another obstacle.
 TEST(LoopDetector, StraysRoundSomethingElse) {
   for (const auto evidence : {LoopDetector::Evidence::place, LoopDetector::Evidence::turning}) {
     LoopDetector circuit;
@@ -161,7 +161,7 @@ TEST(LoopDetector, DoesNotStrayWhileItGetsOn) {
   EXPECT_NEAR(strays, 1440, 2) << "so many laps are none of a spiral";
 }
 
-// Counter-clockwise: with the wall on the left it lies within, with the wall on the right all around.
+// Counter-clockwise: a wall on the left lies inside the circle, a wall on the right outside.
 TEST(LoopDetector, PartsOnlyWhatLiesOnItsTwoSides) {
   LoopDetector circuit;
   Round round(circuit, 1_m);

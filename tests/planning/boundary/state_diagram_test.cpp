@@ -1,4 +1,4 @@
-// The state diagrams of docs/phases.md are the code's tables, and the tables are sound.
+// The state diagrams of docs/phases.md match the code's tables, and the tables are complete and consistent.
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -92,7 +92,7 @@ const char* name(BoundaryFollower::Event event) {
   return nullptr;
 }
 
-/// A machine with its table; Phase(0), Phase(1) ... are all its phases, and so are its events.
+/// A state machine and its table; its phases are Phase(0), Phase(1) ..., its events Event(0) ...
 template <class Machine>
 struct Diagram {
   using Phase = typename Machine::Phase;

@@ -21,7 +21,7 @@ const Q14 kAll = Q14::ratio(1, 1);
 const Q14 kHalf = Q14::ratio(1, 2);
 constexpr Speed kTurning = 100_mm_per_s;
 
-/// Ticks until it says so; 1000: never.
+/// Ticks until it reports; 1000: never.
 int ticks(StuckDetector& stall, const View& v) {
   for (int n = 1; n < 1000; ++n) {
     if (stall.stalled(v, kPatience, Params{})) return n;

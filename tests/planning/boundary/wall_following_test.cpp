@@ -14,7 +14,7 @@ using test::echoes;
 constexpr int kFar = 2000;
 const double kOuter = std::sin(42.5 * 3.14159265358979 / 180);
 
-/// What a side beam shows of a straight wall beside it, its distance from the centre given.
+/// The reading of a side beam next to a straight wall at this distance from the centre.
 int beside(double wall_mm) { return static_cast<int>(std::lround(wall_mm / kOuter)); }
 
 double turning(const Twist& t) { return t.turning.raw() * 1e-6; }

@@ -1,5 +1,5 @@
-// What a tick costs the guide does not depend on how far away the goal is: cells of lines that it asks for,
-// counted by the linker's --wrap (see CMakeLists.txt).
+// The guide's cost per tick does not depend on the goal's distance: number of cells on the lines that it
+// traces, counted with the linker's --wrap (see CMakeLists.txt).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ struct Cost {
   int advised = 0;
 };
 
-/// Short drives in the open where walls come up: the way is straight at the goal, then another one.
+/// Short drives in the open while walls appear: the path is first straight to the goal, then another one.
 template <int kBytes>
 Cost cost_of(Vec from, Vec to) {
   Params params;
@@ -94,7 +94,7 @@ void expect_bounded() {
   SCOPED_TRACE(kBytes);
   constexpr planning::GridShape kShape = map_shape(kBytes);
   const int steps = kRange.raw() / kShape.cell.raw();
-  // A line to each of the places within the horizon, and two through the window.
+  // A line to each position within the horizon, and two through the window.
   const int bound = steps * 2 * steps + 2 * (kShape.columns() + kShape.rows);
   const Vec corner{kPlaceLimit, kPlaceLimit};
   const Vec opposite{-kPlaceLimit, -kPlaceLimit};

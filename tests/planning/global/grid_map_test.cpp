@@ -1,4 +1,4 @@
-// The map's window and what beams put into it.
+// The map's window and the marks of beams in it.
 #include "firmware/planning/global/grid_map.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace whisker::planning {
 namespace {
 
 constexpr GridShape kShape{2, 57, 100_mm};
-constexpr Vec kFrom{50_mm, 50_mm};  // the middle of a cell
+constexpr Vec kFrom{50_mm, 50_mm};  // the centre of a cell
 
 perception::ConeObservation observation(Vec at, Angle axis, Length free, bool hit) {
   perception::ConeObservation p;
@@ -114,7 +114,7 @@ TEST(GridMap, WhatThePatchShowsIsFreeAsFarAsItShowsIt) {
   room.map.free(local_grid, kFrom);
   EXPECT_EQ(room.map.at(cell(50)), CellState::free);
   EXPECT_EQ(room.map.at(cell(150)), CellState::occupied);
-  // The body drives on: its footprints show together what none of them does.
+  // The body drives on: its footprints together clear cells that none of them clears alone.
   for (int32_t x = 50; x <= 200; x += 10) local_grid.move_to({{millimetres(x), 50_mm}, {}});
   room.map.free(local_grid, {200_mm, 50_mm});
   EXPECT_EQ(room.map.at(cell(150)), CellState::free);

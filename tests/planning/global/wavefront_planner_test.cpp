@@ -1,4 +1,4 @@
-// What the guide says where the plan does not help: every spell of the map is bounded, and so is every wait.
+// The guide's advice if the plan does not help: every use of the map ends, and so does every wait.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,7 +13,7 @@ namespace {
 constexpr Vec kGoal{3_m, Length{}};
 constexpr int32_t kStep_mm = 5;
 
-/// A guide in the open, and a body that somebody else drives.
+/// A guide in the open; the test drives the body.
 class Guided : public testing::Test {
  protected:
   Guided() {
@@ -36,7 +36,7 @@ class Guided : public testing::Test {
     local_grid_.move_to(view_.pose);
     map_.guide.observe(view_);
   }
-  /// Beams all round, near enough for echoes to be sure.
+  /// Beams all round, near enough for sure echoes.
   void see_ring() {
     view_.observed = 1;
     for (int deg = 0; deg < 360; deg += 5) {
@@ -46,7 +46,7 @@ class Guided : public testing::Test {
     view_.observed = 0;
     stay(120);
   }
-  /// To and fro without getting nearer, until this is the advice. Returns the way, mm.
+  /// Back and forth without progress, until this advice. Returns the path length, mm.
   int32_t dither(int32_t most_mm, GlobalPlanner::Advice until = GlobalPlanner::Advice::none) {
     const Vec from = view_.pose.at;
     for (int32_t way = 0; way < most_mm; way += kStep_mm) {
@@ -89,7 +89,7 @@ TEST_F(Guided, EachSpellWithoutProgressIsHalfAsLongAsTheOneBefore) {
 TEST_F(Guided, TwelveRefusalsAreTakenAndEachWaitIsShort) {
   stay(40);
   for (int i = 0; i < 12; ++i) {
-    // Elsewhere: bars on all sides would leave no way at all.
+    // At another place each time: bars on all sides would leave no path.
     go_to({millimetres(-300 * i), Length{}});
     stay(40);
     ASSERT_EQ(advice(), GlobalPlanner::Advice::place);

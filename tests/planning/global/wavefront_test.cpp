@@ -1,4 +1,4 @@
-// The wavefront by whole rows against one that goes cell by cell, in random maps.
+// Compares the wavefront by whole rows with one by single cells, in random maps.
 #include "firmware/planning/global/wavefront.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 constexpr int kNever = -1;
 constexpr int32_t kWhole = INT32_MAX;
 
-/// Levels cell by cell, as far as the way inside the window and over the border that faces the goal leads.
+/// Computes levels cell by cell, inside the window and across the border that faces the goal.
 class Oracle {
  public:
   Oracle(const GridMap& map, const Wavefront::Task& task)
@@ -77,7 +77,7 @@ class Oracle {
   std::vector<int> levels_;
 };
 
-/// A map, and a way to be found in it.
+/// A map, and a task in it.
 struct Case {
   explicit Case(unsigned seed) : random(seed), room(shape(seed)) {
     room.scatter(random, std::uniform_real_distribution<double>(0, 0.45)(random));
@@ -275,8 +275,7 @@ TEST(Wavefront, BlocksAtSuspectsOnlyIfAsked) {
 }
 
 TEST(Wavefront, TakesAtMostSoManyWordsATickAndOneRowMore) {
-  // Of a word's work, all that can be seen from outside is how many ticks a wavefront takes: at least its
-  // rows.
+  // Only the number of ticks is observable. It must correspond to at least the words of the rows read.
   test::Room room({2, 57, 100_mm});
   Wavefront::Task task;
   task.body = {2, 2};

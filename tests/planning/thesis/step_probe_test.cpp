@@ -18,7 +18,7 @@ using perception::Validity;
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// The smallest distance of any point that the echo allows from the way, found by walking along the arc.
+/// The smallest distance between the path and any point that the echo allows, by steps along the arc.
 double nearest(double axis, double half, double offset, double d, double step) {
   double best = 1e9;
   for (int i = 0; i <= 4000; ++i) {

@@ -27,7 +27,7 @@ class SurroundingsTest : public testing::Test {
 
 TEST_F(SurroundingsTest, ObjectToNothingWithoutALook) { EXPECT_TRUE(ring_.allow(Angle{}, 1_m)); }
 
-// The case that the beams of the last look alone cannot see: a corner 0.1 m away, 55 degrees off the heading.
+// The beams of the last scan alone cannot cover this case: a corner 0.1 m away, 55 degrees off the heading.
 TEST_F(SurroundingsTest, RememberACornerThatHasLeftTheCones) {
   ring_.add(seen(2000, 2000, 99), 17_deg);  // the right cone covers -25.5 to -0.5 degrees
   EXPECT_FALSE(ring_.allow(47_deg, 100_mm));
@@ -40,7 +40,7 @@ TEST_F(SurroundingsTest, RememberACornerThatHasLeftTheCones) {
 TEST_F(SurroundingsTest, ASectorKeepsTheLargestDistanceThatWasProved) {
   ring_.add(seen(2000, 150, 2000), Angle{});
   EXPECT_FALSE(ring_.allow(Angle{}, 100_mm));
-  // The same directions seen by cones that pass beside the obstacle: it must lie at the edge between them.
+  // Cones beside the obstacle cover the same directions, so the obstacle lies at the edge between them.
   ring_.add(seen(2000, 2000, 2000), 12_deg);
   ring_.add(seen(2000, 2000, 2000), -(12_deg));
   EXPECT_TRUE(ring_.allow(Angle{}, 100_mm));

@@ -38,14 +38,14 @@ std::int32_t degrees(Angle a) {
   return static_cast<std::int32_t>(divide_rounded(std::int64_t{a.wrapped()} * 360, std::int64_t{1} << 32));
 }
 
-/// Executes every manoeuvre at once and shows the planner what the test says for a heading.
+/// Executes every manoeuvre at once and shows the planner the test's readings for each heading.
 class Puppet {
  public:
   using RecentReadings = std::function<Echoes(int heading_deg)>;
   explicit Puppet(const Params& params = Params{})
       : params_(params), planner_(params_, fuzzy::kDefaultTable) {}
 
-  /// Steps until the planner asks for a manoeuvre or is done; performs it.
+  /// Steps until the planner requests a manoeuvre or is done; performs the manoeuvre.
   Decision next(const RecentReadings& sight) {
     Decision d;
     for (int i = 0; i < 5; ++i) {
@@ -150,12 +150,12 @@ TEST(Thesis, BehindTheGoalNothingMatters) {
 }
 
 TEST(Thesis, ProbesByDeltaUntilTheStepIsFree) {
-  // Nothing ahead, and 0.33 m on both sides: free out to the danger range, too narrow for a whole step.
+  // Nothing ahead, and 0.33 m on both sides: free up to the danger range, too narrow for a full step.
   Puppet p = with_goal(3000, 0);
   const Decision d = p.next_drive([](int deg) { return deg <= -30 ? kOpen : echoes(330, 2000, 335); });
   EXPECT_EQ(d.mode, Mode::stepping);
   EXPECT_EQ(d.why, Why::narrow);
-  // The right side has more room. At -30 degrees the gap between two cones hides what was seen there before.
+  // The right side has more room. At -30 degrees the obstacle seen before lies in the gap between two cones.
   EXPECT_EQ(degrees(d.manoeuvre.heading), -40);
   EXPECT_EQ(d.danger_count, 0);
 

@@ -26,7 +26,7 @@ Wide saturated(Wide x) {
   return x < low ? low : x > high ? high : x;
 }
 
-/// Any value, the ends and the powers of two, and their neighbours.
+/// Any value, the limits, the powers of two, and their neighbours.
 template <class T>
 rc::Gen<T> edgy() {
   const auto near_a_power = rc::gen::map(

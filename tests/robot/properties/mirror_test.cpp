@@ -41,16 +41,15 @@ struct Side {
   Robot robot;
 };
 
-/// The planner looks left first where both sides are equal: in an exit search, where a narrow step leaves it
-/// nothing to lean to, and at the first of the cells that no beam has seen. From there on mirrored worlds are
-/// not driven alike, and need not be.
+/// If both sides are equal, the planner starts on the left: in an exit search, after a narrow step without a
+/// bias, and at the first of the unseen cells. From there on the two drives may differ.
 bool may_differ(const planning::Decision& d) {
   return d.danger_count > 0 || d.why == planning::Why::unknown_ahead ||
          (d.mode == planning::Mode::probing && d.inputs.bias == Q7{});
 }
 
-/// The guard's cells are those of the world, not of the body: what it grants of a step may differ by a
-/// fraction.
+/// The guard's cells are aligned with the world, not with the body: the granted part of a step may differ
+/// slightly.
 bool held_otherwise(const Status& a, const Status& b) {
   const bool mirrored = a.command.left == b.command.right && a.command.right == b.command.left;
   return !mirrored &&

@@ -15,13 +15,13 @@ namespace whisker::test {
 namespace {
 
 struct Ending {
-  std::string broken;  ///< what Watch says
+  std::string broken;  ///< the complaint of Watch
   std::string words;
   bool arrived = false;
   bool ended = false;
 };
 
-/// On a board that does what the parameters say, in an open world.
+/// On a board that matches the parameters, in an open world.
 Ending drive(const Params& params, Bits& bits) {
   LaggingBoard board(params);
   planning::ThesisPlanner planner(params, fuzzy::kDefaultTable);
@@ -59,7 +59,7 @@ RC_GTEST_PROP(OpenWorld, RobotsLikeTheReferenceArrive, (std::uint64_t seed)) {
   if (!end.arrived) RC_FAIL(end.words);
 }
 
-// Not all of them see enough of the ground beside their way for the guard to let them go: they say so.
+// Some robots see too little of the ground beside their path, so the guard holds them; they must report that.
 RC_GTEST_PROP(OpenWorld, EveryAcceptedParameterSetEndsWithAReason, (std::uint64_t seed)) {
   Bits bits(seed);
   const Params params = random_params(bits);

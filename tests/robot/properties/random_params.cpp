@@ -5,7 +5,7 @@
 namespace whisker::test {
 namespace {
 
-/// Gives each field in turn a new value, and takes it back where the whole set would not pass.
+/// Gives each field in turn a new value, and restores it if check() rejects the set.
 struct Draw {
   Params& whole;
   Bits& bits;
@@ -43,7 +43,7 @@ struct Draw {
 
 Params random_params(Bits& bits) {
   Params params;
-  // What one field's value forbids another may become possible once a third has moved.
+  // A change of one field may allow values of another, so every field gets several attempts.
   for (int pass = 0; pass < 3; ++pass) for_each_param(params, Draw{params, bits});
   return params;
 }

@@ -13,7 +13,7 @@
 namespace whisker::test {
 namespace {
 
-/// Mostly what the caller promises; sometimes late, rarely a jump either way.
+/// Mostly the promised period; sometimes late, rarely a jump in either direction.
 Time next_tick(Time now, const Params& params, Bits& bits) {
   if (bits.one_in(1000)) return Time::from_raw(static_cast<std::uint32_t>(bits.next()));
   if (bits.one_in(10)) return now + milliseconds(bits.whole(1, longest_gap(params).raw()));
@@ -46,8 +46,8 @@ bool interfere(Robot& robot, Watch& watch, Bits& bits) {
   return false;
 }
 
-// A run of up to a minute on any accepted parameters and any board keeps every promise of Watch, and under
-// the sanitizers computes nothing undefined.
+// With any accepted parameters and any board, a run of up to a minute satisfies every check of Watch, and the
+// sanitizers find no undefined behaviour.
 RC_GTEST_PROP(Storm, NoBoardBreaksAPromise, (std::uint64_t seed)) {
   Bits bits(seed);
   const Params params = random_params(bits);

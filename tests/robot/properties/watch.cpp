@@ -19,7 +19,7 @@ Watch::Watch(const Params& params)
                 longest_gap(params) * 2) {}
 
 std::string Watch::see(const Status& status, Duration elapsed, bool refused) {
-  // Two speeds rounded to the wire may lie one unit further apart than they were.
+  // Rounding to the wire may increase the difference of two speeds by one unit.
   change_ = (acceleration_ * elapsed).raw() / kUnit + 1;
   std::string broken = speeds(status, refused);
   if (broken.empty()) broken = faults(status, elapsed);
