@@ -16,8 +16,7 @@ std::uint32_t faults_at(const fuzzy::RuleBase& rules, int d, int r) {
   std::uint32_t faults = 0;
   if (turn.raw() != -rules.turn[d][mirror].raw()) faults |= kTurnNotMirrored;
   if (step != rules.step[d][mirror]) faults |= kStepNotMirrored;
-  // For terms below the centre the right side is nearer, and a left turn, which is positive, leads away from
-  // it.
+  // Terms below the centre: the right side is nearer, and a left turn (positive) leads away from it.
   if (r < kCentre ? turn < Q14{} : r > kCentre && turn > Q14{}) faults |= kTurnsTowardsNearer;
   if (d + 1 < kTerms) {
     if (size_of(turn) < size_of(rules.turn[d + 1][r])) faults |= kTurnsLessNear;

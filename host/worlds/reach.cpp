@@ -40,8 +40,7 @@ Box extent(const World& world, Vec2 from, Vec2 to, double margin) {
   return box;
 }
 
-/// Distances to the nearest obstacle, exact up to a cap: each bucket lists the obstacles that may be that
-/// near.
+/// Distances to the nearest obstacle, exact up to a cap: each bucket lists obstacles that may be that near.
 class Clearance {
  public:
   Clearance(const World& world, Box box, double cap)
