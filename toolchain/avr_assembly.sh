@@ -1,7 +1,7 @@
 #!/bin/sh
-# Mends FILE.s. A displacement reaches 63. Where a 16-bit number's two bytes lie at 63 and 64, clang 14 writes 64, and
-# its assembler silently encodes another address. Instead the pointer walks on by one and back: loads that move it
-# leave the flags alone. And an alias is no address of program memory, as clang 14 writes and its assembler refuses.
+# Corrects FILE.s. The largest displacement is 63. If the two bytes of a 16-bit number lie at 63 and 64, clang 14 writes
+# 64, and its assembler silently encodes another address. Instead, the pointer moves on by one and back; loads that move
+# it keep the flags. Also, clang 14 writes an alias as a program memory address, which its assembler rejects.
 # usage: avr_assembly.sh FILE.s
 set -eu
 awk '

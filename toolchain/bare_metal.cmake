@@ -1,5 +1,5 @@
-# What every chip's toolchain file shares: no operating system, no library, and room for the linker to drop what
-# nothing uses. Set before: WHISKER_FLAGS, the options of the processor, and WHISKER_TRIPLE, the tools' prefix.
+# Shared by the toolchain files of all chips: no operating system, no library, and sections that the linker can drop if
+# unused. Set before: WHISKER_FLAGS, the options of the processor, and WHISKER_TRIPLE, the tools' prefix.
 # WHISKER_CLANG=ON compiles with clang 14 and links with the GNU tools.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
@@ -14,13 +14,13 @@ if(WHISKER_CLANG)
   set(CMAKE_CXX_FLAGS_INIT "${WHISKER_FLAGS} ${WHISKER_CLANG_FLAGS} ${common} -nostdlibinc")
 else()
   set(CMAKE_CXX_COMPILER ${WHISKER_TRIPLE}-g++)
-  # A file beside each object with its functions' stacks and calls: scripts/budget walks them.
+  # Writes each function's stack and calls into a file beside the object, for scripts/budget.
   set(CMAKE_CXX_FLAGS_INIT "${WHISKER_FLAGS} ${common} -fcallgraph-info=su")
 endif()
-# Not ..._INIT: to that CMake would append its own -O3.
+# Not ..._INIT: CMake would append its own -O3.
 set(CMAKE_CXX_FLAGS_RELEASE "-Os -DNDEBUG" CACHE STRING "Options of a release")
 
-# GCC links for clang too: it knows where the compiler's helpers for this processor are.
+# GCC links for clang too, because it finds the compiler's helpers for this processor.
 set(CMAKE_CXX_LINK_EXECUTABLE
   "${WHISKER_TRIPLE}-gcc ${WHISKER_FLAGS} -nostdlib -Wl,--gc-sections,--fatal-warnings,-z,noexecstack <LINK_FLAGS> <OBJECTS> -o <TARGET> \
 -Wl,--start-group <LINK_LIBRARIES> -lgcc -Wl,--end-group")

@@ -1,4 +1,4 @@
-# 16 KB of RAM, as on the board. A tick with a map takes too long for the default planner.
+# 16 KB of RAM, as on the board. A tick with a map takes too long, so the default planner has none.
 set(WHISKER_TITLE "Arm Cortex-M0+")
 set(WHISKER_RUNS_ON "qemu-arm microbit")
 set(WHISKER_COMPILERS "gcc clang")

@@ -1,4 +1,4 @@
-# Every Cortex-M. Set before: WHISKER_CPU. Debian: gcc-arm-none-eabi, or clang-14 beside it.
+# Every Cortex-M. Set before: WHISKER_CPU. Debian: gcc-arm-none-eabi, plus clang-14 for clang.
 set(CMAKE_SYSTEM_PROCESSOR ${WHISKER_CPU})
 set(WHISKER_TRIPLE arm-none-eabi)
 set(WHISKER_FLAGS "-mcpu=${WHISKER_CPU} -mthumb -mfloat-abi=soft")

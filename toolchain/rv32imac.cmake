@@ -1,5 +1,5 @@
-# RISC-V, 32 bits, with multiplication, atomics and compressed instructions. Debian: gcc-riscv64-unknown-elf, or
-# clang-14 beside it.
+# RISC-V, 32 bits, with multiplication, atomics and compressed instructions. Debian: gcc-riscv64-unknown-elf, plus
+# clang-14 for clang.
 set(WHISKER_TITLE "RISC-V RV32IMAC")
 set(WHISKER_RUNS_ON "qemu-riscv virt")
 set(WHISKER_COMPILERS "gcc clang")

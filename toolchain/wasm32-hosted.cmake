@@ -1,5 +1,5 @@
-# WebAssembly with libc++ and the heap of wasi-libc, still without a system: nothing is imported. Debian: clang-14,
-# lld-14, libc++-14-dev-wasm32, libc++abi-14-dev-wasm32, wasi-libc.
+# WebAssembly with libc++ and the heap of wasi-libc, but without imports. Debian: clang-14, lld-14,
+# libc++-14-dev-wasm32, libc++abi-14-dev-wasm32, wasi-libc.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

@@ -59,18 +59,19 @@ constexpr Relation relation(ParamFault fault) noexcept {
       return {"steps_reversed", "thesis_small_step_m must not be greater than thesis_base_step_m"};
     case F::stop_longer_than_range:
       return {"stop_longer_than_range",
-              "the way to stop from wheel_speed_max_mps (braking at wheel_acceleration_max_mps2, motor_lag_s "
-              "and the longest gap between two ticks: max_tick_gap_s, or at 0 what control_period_s makes "
-              "it) must not be longer than range_max_m / 4"};
+              "the stopping distance from wheel_speed_max_mps, with wheel_acceleration_max_mps2, motor_lag_s "
+              "and the longest gap between two ticks (max_tick_gap_s or, if 0, control_period_s + 0.05 s), "
+              "must not exceed range_max_m / 4"};
     case F::stale_before_next_reading:
       return {"stale_before_next_reading",
               "stale_after_s must be greater than 1 / range_rate_hz + range_latency_s"};
     case F::lost_before_stale:
       return {"lost_before_stale", "lost_after_s must not be less than stale_after_s"};
     case F::tolerance_below_encoder:
-      return {"tolerance_below_encoder",
-              "drive_tolerance_m, and the rim's way over turn_tolerance_deg (at wheel_track_m / 2), must not "
-              "be less than 1 / encoder_counts_per_m"};
+      return {
+          "tolerance_below_encoder",
+          "drive_tolerance_m, and the rim distance of turn_tolerance_deg (at wheel_track_m / 2), must not "
+          "be less than 1 / encoder_counts_per_m"};
     case F::gap_below_period:
       return {"gap_below_period", "max_tick_gap_s must be at least 2 control_period_s, or 0"};
     case F::stuck_within_cone:
@@ -81,25 +82,25 @@ constexpr Relation relation(ParamFault fault) noexcept {
               "drive_tolerance_m must be less than thesis_small_step_m, and turn_tolerance_deg less than "
               "thesis_delta_deg"};
     case F::tolerance_below_wire:
-      return {"tolerance_below_wire",
-              "the rim's way over turn_tolerance_deg (at wheel_track_m / 2) must not be less than 0.0001 m/s "
-              "x motion_settle_s"};
+      return {
+          "tolerance_below_wire",
+          "the rim distance of turn_tolerance_deg (at wheel_track_m / 2) must not be less than 0.0001 m/s "
+          "x motion_settle_s"};
     case F::stalled_before_count:
       return {"stalled_before_count",
               "wheels_stalled_after_s must not be less than 16 motor_lag_s + 6 control_period_s + 2 "
-              "motion_settle_s + twice the time to accelerate over 1 / encoder_counts_per_m and to turn by "
-              "as much at full turn rate"};
+              "motion_settle_s + twice the time in which a wheel covers 1 / encoder_counts_per_m from rest "
+              "and again at full turn rate"};
     case F::settle_below_lag:
       return {"settle_below_lag", "motion_settle_s must not be less than motor_lag_s + control_period_s"};
     case F::cone_too_narrow:
-      return {
-          "cone_too_narrow",
-          "the beams must be able to prove the ground near the body: range_offset_m + 0.72 cell / "
-          "sin(range_cone_deg / 2) + cell <= 7/4 body_radius_m, with skirt_cell_m, or at 0 a suitable cell"};
+      return {"cone_too_narrow",
+              "the beams must be able to clear the ground near the body: range_offset_m + 0.72 cell / "
+              "sin(range_cone_deg / 2) + cell <= 7/4 body_radius_m; cell: skirt_cell_m or, if 0, automatic"};
     case F::patch_too_small:
       return {"patch_too_small",
               "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
-              "skirt_probe_m, with skirt_cell_m, or at 0 a suitable cell, and skirt_probe_m must not be less "
+              "skirt_probe_m, with cell = skirt_cell_m or, if 0, automatic; skirt_probe_m must not be less "
               "than body_radius_m / 2"};
     case F::planning_below_shield:
       return {"planning_below_shield", "skirt_planning_margin_m must not be less than skirt_shield_margin_m"};

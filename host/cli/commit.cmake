@@ -2,7 +2,7 @@
 set(commit unknown)
 find_program(git git)
 if(git)
-  # Sources that were unpacked inside somebody else's repository have no commit of their own.
+  # Sources unpacked inside another repository have no commit of their own.
   execute_process(COMMAND ${git} -C ${ROOT} rev-parse --show-prefix
     OUTPUT_VARIABLE prefix RESULT_VARIABLE failed OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   if(NOT failed AND prefix STREQUAL "")

@@ -1,5 +1,5 @@
-# Turns the file IN into the C++ source OUT, which defines page::template_parts(). Compilers take string literals of
-# 64 KiB at most, so it becomes several.
+# Turns the file IN into the C++ source OUT, which defines page::template_parts(). It has several string literals,
+# because compilers limit a literal to 64 KiB.
 file(READ ${IN} text)
 if(text MATCHES "[)]page\"")
   message(FATAL_ERROR "${IN}: holds the end of a raw string")

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What reaches too far is mended, or refused where it cannot be. usage: avr_assembly_test.sh PROGRAM WORK_FILE
+# Displacements above 63 are corrected, or rejected if that is impossible. usage: avr_assembly_test.sh PROGRAM WORK_FILE
 set -eu
 
 # expect PROGRAM WORK_FILE FROM TO

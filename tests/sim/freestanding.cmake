@@ -1,5 +1,5 @@
-# Compiles the kernel without any library for WebAssembly and for ARM, and links it: the link fails on every
-# undefined symbol but memcpy and memset.
+# Compiles the kernel without any library for WebAssembly and for ARM, and links it: the link fails on every undefined
+# symbol except memcpy and memset.
 # cmake -D SOURCE_DIR=.. -D OUT=.. -D "SOURCES=a.cpp;b.cpp" -P freestanding.cmake
 set(common -std=c++17 -Os -ffreestanding -ffp-contract=off -fno-math-errno -fno-exceptions -fno-rtti
   -Wall -Wextra -Werror -I${SOURCE_DIR} -c)

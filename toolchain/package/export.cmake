@@ -1,8 +1,8 @@
-# The libraries that other projects link.
+# The libraries for other projects.
 include(GNUInstallDirs)
 
-# whisker_export(TARGET NAME): TARGET is whisker::NAME, here and where it is installed. As a part of another project it
-# is built only if something links it, and nothing is installed.
+# whisker_export(TARGET NAME): TARGET becomes whisker::NAME, here and after installation. Inside another project it is
+# built only if linked, and nothing is installed.
 function(whisker_export TARGET NAME)
   add_library(whisker::${NAME} ALIAS ${TARGET})
   target_compile_features(${TARGET} PUBLIC cxx_std_17)
@@ -16,7 +16,7 @@ function(whisker_export TARGET NAME)
   endif()
 endfunction()
 
-# whisker_export_port(TARGET NAME FOLDER): a folder that is a library of its own. Boards take what they link.
+# whisker_export_port(TARGET NAME FOLDER): exports a folder that is a separate library.
 function(whisker_export_port TARGET NAME FOLDER)
   if(DEFINED WHISKER_BOARD)
     add_library(whisker::${NAME} ALIAS ${TARGET})
@@ -29,13 +29,13 @@ function(whisker_export_port TARGET NAME FOLDER)
   endif()
 endfunction()
 
-# whisker_install_headers(FOLDER): they keep their folders below include/whisker.
+# whisker_install_headers(FOLDER): keeps the folders below include/whisker.
 function(whisker_install_headers FOLDER)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/whisker/${FOLDER}
     FILES_MATCHING PATTERN "*.hpp" PATTERN apps EXCLUDE)
 endfunction()
 
-# whisker_install_package(): what find_package(whisker) reads.
+# whisker_install_package(): installs the files that find_package(whisker) reads.
 function(whisker_install_package)
   include(CMakePackageConfigHelpers)
   set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/whisker)

@@ -1,4 +1,4 @@
-# whisker_version: what firmware/version.hpp says.
+# whisker_version: read from firmware/version.hpp.
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/../../firmware/version.hpp whisker_version
   REGEX "^#define WHISKER_VERSION_(MAJOR|MINOR|PATCH) [0-9]+$")
 list(TRANSFORM whisker_version REPLACE "^.* " "")

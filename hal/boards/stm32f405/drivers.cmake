@@ -1,5 +1,5 @@
-# The drivers, start-up and vector table: for every board with this chip. It names its linker script, and its wiring where
-# that is another one.
+# The drivers, start-up and vector table for every board with this chip. The board names its linker script, and its
+# wiring if that differs.
 include(${CMAKE_CURRENT_LIST_DIR}/sources.cmake)
 target_sources(whisker_board PRIVATE
   ${whisker_stm32f405_sources}

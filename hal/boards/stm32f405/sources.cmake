@@ -1,4 +1,4 @@
-# The drivers. On the chip they touch its registers; a test builds the same sources on models of them.
+# The drivers. On the chip they access its registers; tests build the same sources with models of them.
 set(whisker_stm32f405_sources
   ${CMAKE_CURRENT_LIST_DIR}/../common/analogue_ir.cpp
   ${CMAKE_CURRENT_LIST_DIR}/../common/governor.cpp

@@ -3,7 +3,7 @@ target_sources(whisker_board PRIVATE ${emulated}/mps2/board.cpp)
 if(WHISKER_CPU STREQUAL cortex-m33)
   target_compile_definitions(whisker_board PRIVATE WHISKER_MPS2_SECURE)
 endif()
-# A toolchain file names the memories of its machine where they are not those of mps2-an385.
+# A toolchain file sets the memories of its machine if they differ from those of mps2-an385.
 if(NOT DEFINED WHISKER_MEMORIES)
   set(WHISKER_MEMORIES hal/emulated/mps2/mps2.ld)
 endif()
