@@ -6,8 +6,8 @@
 
 namespace whisker::test {
 
-/// `full` in a release build; a sixth, at least one, in the others, under sanitizers and for coverage, which
-/// are about ten times slower and look for other faults (tests/CMakeLists.txt).
+/// `full` in a release build; a sixth, at least one, in builds with sanitizers or coverage, which are about
+/// ten times slower and search for other faults (tests/CMakeLists.txt).
 constexpr std::uint64_t effort(std::uint64_t full) noexcept {
 #ifdef WHISKER_LESS_EFFORT
   return (full + 5) / 6;

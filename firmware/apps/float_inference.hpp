@@ -1,5 +1,5 @@
-/// The fuzzy stage as a textbook has it, in single precision: to compare its cost with. On a chip without
-/// floating point, every operation is a call.
+/// The textbook fuzzy inference in single precision, for a comparison of costs. On a chip without floating
+/// point, every operation is a call.
 #pragma once
 
 #include "firmware/fuzzy/variables.hpp"
@@ -17,10 +17,10 @@ struct FloatResponse {
   float step;
 };
 
-/// All 25 rules, those that do not fire left out of the sums.
+/// Evaluates all 25 rules; rules that do not fire are left out of the sums.
 FloatResponse infer(const FloatRules& rules, float distance, float bias) noexcept;
 
-/// Of the same rules in integers.
+/// Converts the integer rules.
 FloatRules as_float(const fuzzy::RuleBase& rules) noexcept;
 
 }  // namespace whisker::images

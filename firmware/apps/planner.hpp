@@ -1,4 +1,4 @@
-/// The planner of the images that have but one.
+/// The planner of the images that have only one.
 #pragma once
 
 #include "firmware/planning/default_planner.hpp"

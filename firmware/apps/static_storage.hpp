@@ -16,8 +16,8 @@ inline void* operator new(size_t, whisker::StorageAddress room) noexcept { retur
 
 namespace whisker {
 
-/// Room for one object that is made while the program runs. Itself all zero and without a constructor that
-/// runs: it needs no flash, no guard, and no code before main. Nothing is ever destroyed.
+/// Storage for one object created at run time. It is zero-initialised and needs no flash, no guard, and no
+/// code before main. The object is never destroyed.
 template <size_t kSize>
 class StaticStorage {
  public:

@@ -1,4 +1,4 @@
-/// What many runs of a piece of code cost, on the console.
+/// Prints the cost of many runs of a piece of code on the console.
 #pragma once
 
 #include "hal/board.hpp"
@@ -31,7 +31,7 @@ inline void print_number(uint32_t number) noexcept {
   hal::board().console.print(p);
 }
 
-/// A line: name, least, mean, most, each without what is not the code's own.
+/// A line: name, minimum, mean, maximum, each without the cost of the measurement.
 inline void print_work(const char* name, const Work& work, uint32_t not_its_own) noexcept {
   hal::board().console.print(name);
   print_number(work.least - not_its_own);

@@ -1,4 +1,4 @@
-/// Candidate headings: which are free by the local grid, and where to scan to know more.
+/// Classifies candidate headings by the local grid, and finds where to scan next.
 #pragma once
 
 #include "firmware/params.hpp"
@@ -10,16 +10,16 @@ namespace whisker::planning {
 constexpr int32_t kCandidateHeadings = 48;
 
 enum class Way : uint8_t {
-  free,      ///< all of it is proved clear
-  unknown,   ///< nothing known is in it, but not all of it was seen
-  occupied,  ///< an echo came from it, or a scan of it from here was in vain
+  free,      ///< all of it is clear
+  unknown,   ///< nothing detected in it, but not all of it is clear
+  occupied,  ///< an echo came from it, or a scan of it from here failed
 };
 
-/// The way of this length from where the body stands, as wide as `reach` to both sides.
+/// State of the path of this length from the body's position, `reach` wide to both sides.
 Way way(const View& view, Angle heading, Length length, Length reach) noexcept;
 
-/// The turn that brings the nearest beam's axis onto the nearest unseen cell in that way, seen from
-/// a body that heads `from`. False: there is no such cell, or the way is occupied.
+/// The turn that brings the axis of the nearest beam onto the nearest unseen cell of that path, for a body
+/// with heading `from`. False: no such cell, or the path is occupied.
 bool turn_to_unseen(const View& view, Angle heading, Length length, Angle from, const Params& params,
                     Angle& turn) noexcept;
 

@@ -9,13 +9,13 @@ namespace whisker::planning {
 
 class ClosestApproach {
  public:
-  /// Nowhere yet: farther than any place.
+  /// Initially farther than any place.
   void reset() noexcept { distance_ = Length::from_raw(INT32_MAX); }
   void set(Vec at, Length distance) noexcept {
     at_ = at;
     distance_ = distance;
   }
-  /// The same place, seen from where the goal lies by now.
+  /// Adapts the place to a moved goal.
   void follow(Vec goal) noexcept {
     if (distance_ != Length::from_raw(INT32_MAX)) distance_ = norm(goal - at_);
   }

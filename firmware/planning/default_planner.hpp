@@ -1,18 +1,18 @@
-/// The planner of those who choose none.
+/// The default planner.
 #pragma once
 
 #include "firmware/planning/global/map_planner.hpp"
 
 namespace whisker::planning {
 
-/// Bytes of the largest map that the target has room for beside all else; 0: none. A build may say it.
+/// Bytes of the largest map for which the target has room; 0: none. A build may define it.
 #ifdef WHISKER_MAP_BYTES
 constexpr int kRoomForMap = WHISKER_MAP_BYTES;
 #else
 constexpr int kRoomForMap = 16384;
 #endif
 
-/// Bytes of the map of the default planner; 0: it has none, and is the boundary planner. A build may say it.
+/// Bytes of the default planner's map; 0: no map, the boundary planner. A build may define it.
 #ifdef WHISKER_DEFAULT_MAP_BYTES
 constexpr int kDefaultMapBytes = WHISKER_DEFAULT_MAP_BYTES;
 #else
@@ -20,7 +20,7 @@ constexpr int kDefaultMapBytes = kRoomForMap >= kUsualMapBytes ? kUsualMapBytes 
 #endif
 static_assert(kDefaultMapBytes <= kRoomForMap);
 
-/// The planner with a map of so many bytes, or without.
+/// The planner with a map of so many bytes, or without a map.
 template <int kMapBytes>
 struct PlannerWithMap {
   using Type = TableMapPlanner<kMapBytes>;

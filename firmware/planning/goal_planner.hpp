@@ -1,4 +1,4 @@
-/// The base of all planners: it takes commands and ends missions.
+/// The base of all planners: receives commands and ends missions.
 #pragma once
 
 #include <stdint.h>
@@ -7,12 +7,11 @@
 
 namespace whisker::planning {
 
-/// Answers a command at the next step(), and calls advance() at every other one while the outcome is open.
+/// Processes a command at the next step(), and calls advance() at every other one while the outcome is open.
 class GoalPlanner : public Planner {
  public:
-  // Inline, so that planners outside the core may derive from it with run-time type information, which the
-  // core is built without.
-  // The same goal once more changes nothing.
+  // Inline, so that planners outside the core may use run-time type information, which the core is built
+  // without. Setting the same goal again changes nothing.
   void set_goal(const Goal& goal) noexcept final {
     const bool same = goal == goal_;
     goal_ = goal;
@@ -30,13 +29,13 @@ class GoalPlanner : public Planner {
 
   /// A new goal is set; the decision is reset.
   virtual void start(const View& view) noexcept = 0;
-  /// A tick on the way to it.
+  /// A tick of the drive to it.
   virtual void advance(const View& view) noexcept = 0;
 
-  /// The goal was moved; what is measured from it is measured anew.
+  /// The goal was moved; distances to it are measured again.
   virtual void follow_goal() noexcept {}
 
-  /// A place counts as the goal only well inside the tolerance: the estimate has its own error.
+  /// The goal counts as reached only well inside the tolerance, because the estimate has an error.
   bool is_goal(Length distance) const noexcept { return distance <= goal_.tolerance - goal_.tolerance / 8; }
   void report(Mode mode, Why why) noexcept;
   /// Comes to rest until there is a new goal.

@@ -1,4 +1,4 @@
-/// The manoeuvres that a planner asks for, and the velocities that follow from them.
+/// The manoeuvres that a planner requests, and the resulting velocities.
 #pragma once
 
 #include <stdint.h>
@@ -9,11 +9,11 @@
 namespace whisker::planning {
 
 enum class ManoeuvreKind : uint8_t {
-  keep,    ///< go on with the one under way
-  stop,    ///< come to rest as fast as the acceleration limit allows, and stand
-  turn,    ///< turn on the spot to `heading`, the shorter way
+  keep,    ///< continue the current one
+  stop,    ///< come to rest at the acceleration limit, and stand
+  turn,    ///< turn on the spot to `heading`, in the shorter direction
   drive,   ///< drive `length` straight along `heading`, and stand
-  cruise,  ///< run at these speeds until told otherwise
+  cruise,  ///< drive at these speeds until the next manoeuvre
 };
 
 struct Manoeuvre {
@@ -26,7 +26,7 @@ struct Manoeuvre {
 
 constexpr Manoeuvre stop() noexcept { return {ManoeuvreKind::stop, {}, {}, {}, {}}; }
 
-/// The velocities of one tick that a manoeuvre asks for. The guard decides what is granted of them.
+/// The velocities that a manoeuvre requests in one tick. The guard decides how much it grants.
 struct VelocityRequest {
   Speed forward{};
   Speed turning{};     ///< of the rims, counter-clockwise positive

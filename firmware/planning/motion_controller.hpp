@@ -1,4 +1,4 @@
-/// Turns the manoeuvre under way into the velocities of a tick.
+/// Turns the current manoeuvre into velocities, tick by tick.
 #pragma once
 
 #include <stdint.h>
@@ -11,19 +11,19 @@
 
 namespace whisker::planning {
 
-/// Braking is part of every tick: the speed is never more than what the acceleration limit can take off
-/// over the way that is left, less what the motor's lag adds.
+/// Braking is part of every tick: the speed never exceeds the speed from which the acceleration limit and the
+/// motor's lag allow a stop in the remaining distance.
 class MotionController {
  public:
   /// Starts a manoeuvre; ManoeuvreKind::keep changes nothing.
   void begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept;
 
-  /// Once a tick, unless the robot must stand. `elapsed` since the tick before; `held_for`: how long the
-  /// guard has let nothing through. A drive that is held for longer than kHeld ends there: see cut().
+  /// Once per tick, unless the robot must stand. `elapsed`: since the previous tick; `held_for`: how long the
+  /// guard has held the body. A drive held for longer than kHeld ends: see cut().
   VelocityRequest request(const Pose& pose, Duration elapsed, Duration held_for,
                           const Params& params) noexcept;
 
-  /// Once a tick, after request(). counts == nullptr: none came, so nothing says that the body stands.
+  /// Once per tick, after request(). counts == nullptr: no counts arrived, so standstill is unproved.
   /// `commanded`: a wheel is commanded to turn.
   void settle(const localization::CountStep* counts, bool commanded, Duration elapsed,
               const Params& params) noexcept;
@@ -32,10 +32,10 @@ class MotionController {
   bool settled() const noexcept { return settled_; }
   /// The guard ended the last drive before its length.
   bool cut() const noexcept { return cut_; }
-  /// For how long the wheels have been commanded to move and no count came.
+  /// How long the wheels have been commanded to move without any count.
   Duration stalled_for() const noexcept { return stalled_for_; }
-  /// How long ago, pauses left out, the manoeuvre last came nearer to its end; after its end, for how long
-  /// the wheels have been commanded to stand and the body did not.
+  /// Time, without pauses, since the manoeuvre last came nearer to its end; after its end, time in which the
+  /// wheels were commanded to stand but the body moved.
   Duration waiting_for() const noexcept { return waiting_for_; }
 
  private:
@@ -52,7 +52,7 @@ class MotionController {
   Duration still_for_;
   Duration stalled_for_;
   Duration waiting_for_;
-  Length nearest_;  // the smallest rest of this manoeuvre so far
+  Length nearest_;  // smallest remaining distance of this manoeuvre so far
 };
 
 }  // namespace whisker::planning

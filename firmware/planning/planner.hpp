@@ -1,4 +1,4 @@
-/// The planner's interface: what it sees at a tick, and what it decides.
+/// The planner's interface: its inputs and its decision in a tick.
 #pragma once
 
 #include <stdint.h>
@@ -19,26 +19,26 @@ struct Goal {
   }
 };
 
-/// What a planner sees at a tick.
+/// The inputs of a planner in a tick.
 struct View : perception::Percept {
-  Pose pose{};                ///< the body's own estimate
-  uint32_t travelled_um = 0;  ///< the length of its way so far, um modulo 2^32
-  bool settled = true;        ///< the last manoeuvre is over and the body stands
+  Pose pose{};                ///< the body's estimate
+  uint32_t travelled_um = 0;  ///< path length so far, um modulo 2^32
+  bool settled = true;        ///< the last manoeuvre has ended and the body stands
   bool cut = false;           ///< the last manoeuvre was a drive, and the guard ended it before its length
   Speed forward{};            ///< of the body, by its wheels
   Speed turning{};            ///< of the rims, counter-clockwise positive
-  Q14 granted{};              ///< part of the last forward speed asked for that the guard let through
-  Duration elapsed{};         ///< since the tick before
+  Q14 granted{};              ///< granted part of the last requested forward speed
+  Duration elapsed{};         ///< since the previous tick
 
-  /// The guard let through only part of what was asked for.
+  /// The guard granted only part of the request.
   constexpr bool held_back() const noexcept { return granted < Q14::ratio(1, 1); }
 };
 
 enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };
 
-/// What the planner asks for, and why.
+/// The planner's request and its reason.
 struct Decision {
-  Manoeuvre manoeuvre;  ///< ManoeuvreKind::keep: go on
+  Manoeuvre manoeuvre;  ///< ManoeuvreKind::keep: continue
   Mode mode = Mode::idle;
   Why why = Why::none;
   Outcome outcome = Outcome::none;
@@ -48,12 +48,12 @@ struct Decision {
   fuzzy::Response response;
 };
 
-/// A planner is called once a tick, never blocks, and keeps its last mode, why and outcome until they
-/// change. set_goal and cancel may come at any time; the next step() answers them.
+/// A planner is called once per tick, never blocks, and keeps its last mode, reason and outcome until they
+/// change. set_goal and cancel may come at any time; the next step() processes them.
 class Planner {
  public:
   virtual void set_goal(const Goal& goal) noexcept = 0;
-  /// The pose was corrected: the goal lies at `at` now. The mission goes on.
+  /// The pose was corrected: the goal is at `at` now. The mission continues.
   virtual void move_goal(Vec at) noexcept = 0;
   virtual void cancel() noexcept = 0;
   virtual Decision step(const View& view) noexcept = 0;

@@ -14,8 +14,8 @@ namespace whisker::planning {
 struct PlannerInfo {
   uint8_t number;     ///< on the companion's link
   const char* name;   ///< on the command line, in traces and on pages
-  const char* alias;  ///< another name that is understood; nullptr: none
-  const char* about;  ///< why it does not get stuck, or when it does: shown by the playground
+  const char* alias;  ///< accepted alternative name; nullptr: none
+  const char* about;  ///< why it avoids deadlocks, or when it does not: shown by the playground
 };
 
 /// The constructor of `Made` takes parameters and response table, which must outlive it.

@@ -1,4 +1,4 @@
-/// A scan of a way that is not known.
+/// Scans a path that is unknown.
 #pragma once
 
 #include "firmware/params.hpp"
@@ -6,16 +6,15 @@
 
 namespace whisker::planning {
 
-/// Turns beams onto what was never seen in a way, until the way is free or occupied, or a beam has pointed
-/// there for as long as stalled wheels are waited for: coarse encoders may not let it point there well
-/// enough.
+/// Turns beams onto unseen ground on a path until the path is free or occupied, or a beam has pointed there
+/// for the time-out of stalled wheels: with coarse encoders it may not point there exactly.
 class ScanBehaviour {
  public:
-  /// Of the way along this heading. Brings the body to rest.
+  /// Starts a scan of the path along this heading. Brings the body to rest.
   void begin(Angle heading, Length length, Manoeuvre& manoeuvre) noexcept;
-  /// Once a tick, for the way from where the body is. True: over; otherwise what to do next.
+  /// Once per tick, for the path from the body's position. True: finished; otherwise sets the manoeuvre.
   bool step(const View& view, const Params& params, Manoeuvre& manoeuvre) noexcept;
-  /// It is over, and the way is as unknown as before.
+  /// The scan ended, and the path is still unknown.
   bool in_vain() const noexcept { return in_vain_; }
 
  private:

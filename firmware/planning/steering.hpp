@@ -1,4 +1,4 @@
-/// From a wanted heading to a speed and a turn rate.
+/// Speed and turn rate for a wanted heading.
 #pragma once
 
 #include "firmware/math/angle.hpp"
@@ -13,27 +13,27 @@ struct Twist {
   AngularRate turning;  ///< counter-clockwise positive
 };
 
-/// The turn rate at which the readings still follow.
+/// The turn rate up to which the readings follow.
 constexpr AngularRate kFastestTurn = 2500_mrad_per_s;
 
-/// The smallest heading error that the body can hold: `wanted`, or a little more than the turn that one
-/// encoder count makes, if that is larger. A body that tries to do better may swing for ever.
+/// The smallest heading error that the body can hold: `wanted`, or slightly more than the turn of one encoder
+/// count if that is larger. A smaller tolerance could make it oscillate.
 Angle nearest_facing(Angle wanted, const Params& params) noexcept;
 
 /// gain x error, at most kFastestTurn.
 AngularRate rate_towards(Angle error, int32_t gain) noexcept;
 
-/// Turns by the error on the spot.
+/// Turns on the spot by the error.
 Twist face(Angle error) noexcept;
 
-/// Drives while it turns: at `top` straight ahead, slower the more the heading is off, and not at all beyond
-/// 1 / 1.2 rad.
+/// Drives while turning: at `top` straight ahead, slower for larger heading errors, and not at all beyond 1 /
+/// 1.2 rad.
 Twist steer(Angle error, Speed top) noexcept;
 
 /// A cruise at this twist.
 Manoeuvre cruise(Twist twist, const Params& params) noexcept;
 
-/// Turns by the error on the spot. True when it is below 3 degrees, see nearest_facing.
+/// Turns on the spot by the error. True when the error is below 3 degrees, see nearest_facing.
 bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept;
 
 }  // namespace whisker::planning

@@ -6,13 +6,13 @@
 
 namespace whisker::baselines {
 
-/// Along the m-line, the segment from the start to the goal. At an obstacle it turns left (the paper's local
-/// direction is any fixed one) and follows the boundary until it meets the m-line nearer to the goal than
-/// where it hit, with the way on free, if only for 60 mm: what is behind that is the next obstacle. Back at
-/// the hit point: unreachable.
+/// Follows the m-line, the segment from the start to the goal. At an obstacle it turns left (the paper's
+/// local direction is any fixed one) and follows the boundary until it meets the m-line nearer to the goal
+/// than the hit point, with the path ahead free for at least 60 mm: an obstacle behind that is the next one.
+/// Back at the hit point: unreachable.
 ///
-/// A body is no point: it meets the m-line where its centre crosses it or comes within 30 mm, and nearer is
-/// nearer by 30 mm. A boundary that it loses begins a new m-line.
+/// A body is not a point: it meets the m-line when its centre crosses it or comes within 30 mm, and nearer
+/// means nearer by 30 mm. After a lost boundary it starts a new m-line.
 class Bug2 final : public LeaveRule {
  public:
   /// The parameters must outlive it.

@@ -1,5 +1,5 @@
-/// Deflection laws without the response table. All else is the boundary planner, so the difference shows what
-/// the table is worth.
+/// Deflection laws without the response table. The rest is the boundary planner, so the difference shows the
+/// effect of the table.
 #pragma once
 
 #include "firmware/planning/boundary/boundary_planner.hpp"

@@ -6,12 +6,13 @@
 
 namespace whisker::baselines {
 
-/// Straight to the goal. At an obstacle it follows the boundary, to the side whose beam sees farther, and
-/// remembers d_min, the least distance to the goal so far. It leaves where d - F <= d_min - step: d is the
+/// Drives straight to the goal. At an obstacle it follows the boundary, to the side whose beam measures more,
+/// and stores d_min, the smallest distance to the goal so far. It leaves if d - F <= d_min - step: d is the
 /// distance to the goal, F the free range towards it. Back at the hit point: unreachable.
 ///
-/// F is what a beam within 6 degrees of the goal's direction sees, less the body, or what the local grid
-/// proves. d_min is kept over the boundaries: the paper's rule gives the same where F is exact.
+/// F is the range of a beam within 6 degrees of the goal's direction, minus the body, or the distance that
+/// the local grid proves free. d_min is kept over the boundaries: the paper's rule gives the same if F is
+/// exact.
 class DistBug final : public LeaveRule {
  public:
   /// The parameters must outlive it.

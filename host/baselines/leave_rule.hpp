@@ -1,4 +1,4 @@
-/// What one bug algorithm has of its own: where it goes, on which side it follows, and when it leaves.
+/// The rule of one bug algorithm: where it drives, on which side it follows, and when it leaves.
 #pragma once
 
 #include "firmware/params.hpp"

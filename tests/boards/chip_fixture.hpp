@@ -13,7 +13,7 @@
 
 namespace whisker::hal::stm32f405 {
 
-/// A chip with every peripheral that the board uses, as it wakes up.
+/// A chip with every peripheral of the board, in its reset state.
 struct ModelChip {
   ModelChip() {
     chip.attach(base::kRcc, rcc);

@@ -9,7 +9,7 @@
 
 namespace whisker::hal {
 
-/// What is on the wire: a remote frame's bytes are not.
+/// The content on the wire: a remote frame has no data bytes.
 inline bool operator==(const CanFrame& a, const CanFrame& b) {
   const auto head = [](const CanFrame& f) { return std::tuple(f.id, f.extended, f.remote, f.size); };
   if (head(a) != head(b)) return false;
@@ -41,7 +41,7 @@ inline hal::CanFrame remote(std::uint32_t id, std::uint8_t size = 0) {
   return {id, id > 0x7FF, true, size, {}};
 }
 
-/// All that wait.
+/// All waiting frames.
 inline std::vector<hal::CanFrame> taken(hal::CanPort& port) {
   std::vector<hal::CanFrame> frames;
   for (hal::CanFrame f{}; port.receive(f);) frames.push_back(f);

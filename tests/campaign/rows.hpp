@@ -8,10 +8,10 @@
 
 namespace whisker::campaign {
 
-/// Any row that a file may hold.
+/// A random valid row.
 Row random_row(worlds::Random& random);
 
-/// A folder of its own that is removed with all that is in it.
+/// A private folder, removed with its contents.
 class Folder {
  public:
   Folder();

@@ -1,4 +1,4 @@
-/// Both parties in one process, on a bus in memory, in a time of their own.
+/// Both nodes in one process, on a memory bus, in simulated time.
 #pragma once
 
 #include <deque>
@@ -13,14 +13,14 @@
 
 namespace whisker::test {
 
-/// What is slower than it should be, in the base's waits of a millisecond.
+/// Slowdowns, in the base's waits of one millisecond.
 struct Slowness {
-  std::uint32_t controller = 1;      ///< it is polled in each of so many
-  std::uint32_t base_stalls = 0;     ///< after each of so many the base does nothing for a while; 0: never
-  std::uint64_t stall_us = 1000000;  ///< longer than a heartbeat may stay away
+  std::uint32_t controller = 1;      ///< polled once in so many
+  std::uint32_t base_stalls = 0;     ///< the base pauses after so many; 0: never
+  std::uint64_t stall_us = 1000000;  ///< longer than the heartbeat time-out
 };
 
-/// Waiting lets a millisecond pass, in which the controller is polled.
+/// Each wait lasts one millisecond, in which the controller is polled.
 class SharedTime final : public hil::Clock {
  public:
   explicit SharedTime(std::function<void(std::uint32_t now_ms)> others, const Slowness& slowness = {})
@@ -40,7 +40,7 @@ class SharedTime final : public hil::Clock {
   const Slowness slowness_;
 };
 
-/// Drops one frame in fifty on the way out.
+/// Drops one of fifty sent frames.
 class LossyPort final : public hal::CanPort {
  public:
   LossyPort(hal::CanPort& port, std::uint64_t seed) : port_(port), random_(seed) {}
@@ -62,7 +62,7 @@ class LossyPort final : public hal::CanPort {
   std::uint64_t dropped_ = 0;
 };
 
-/// At the end of a line that lets frames out at the multiples of `every_ms` alone, and loses none.
+/// Behind a line that sends only at multiples of `every_ms`, and loses nothing.
 class StutteringPort final : public hal::CanPort {
  public:
   StutteringPort(hal::CanPort& port, std::uint32_t every_ms) : port_(port), every_ms_(every_ms) {}
@@ -100,7 +100,7 @@ struct LoopResult {
   hil::Figures figures;
 };
 
-/// A run over the bus. others: who else is on it, polled with the controller.
+/// A run over the bus. others: other nodes, polled with the controller.
 inline LoopResult drive_over_bus(
     const Scenario& scenario, PlannerKind kind, can::SyncMode sync_mode, hal::CanPort& base_port,
     hal::CanPort& controller_port, const Slowness& slowness = {},

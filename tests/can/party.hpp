@@ -1,4 +1,4 @@
-/// A party that says exactly what a test lets it say.
+/// A node that sends exactly what the test says.
 #pragma once
 
 #include <deque>
@@ -36,7 +36,7 @@ class Party {
     hal::CanFrame frame{};
     while (port_.receive(frame)) heard_.push_back(frame);
   }
-  /// The last frame of this kind that was heard; nothing of it is checked.
+  /// The last received frame of this kind, unchecked.
   template <class M>
   bool last(M& m) const {
     for (auto f = heard_.rbegin(); f != heard_.rend(); ++f) {

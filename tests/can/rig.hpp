@@ -1,5 +1,4 @@
-/// Both parties in real time, with their own faults, recorded tick by tick; a test may send frames of its
-/// own.
+/// Both nodes in real time, with their own faults, recorded tick by tick; a test may send additional frames.
 #pragma once
 
 #include <memory>
@@ -20,7 +19,7 @@
 
 namespace whisker::test {
 
-/// What a party showed at a tick.
+/// The state of a node at a tick.
 struct Seen {
   hal::WheelSpeeds speeds{};
   can::NodeState base = can::NodeState::waiting;
@@ -34,7 +33,7 @@ inline Scenario open_ground() {
                         "open.toml");
 }
 
-/// Looks to both sides, for the guard to see what lies beside its way, and goes straight ahead at full
+/// Turns to both sides, so that the guard knows the ground beside the path, and drives straight ahead at full
 /// speed.
 class Straight final : public planning::GoalPlanner {
  private:
@@ -75,7 +74,7 @@ inline void repair(hal::CanFrame& frame) {
 
 class Rig {
  public:
-  static constexpr std::uint32_t kFault = 800;  ///< the tick from which faults of the tests hold: it cruises
+  static constexpr std::uint32_t kFault = 800;  ///< first tick of the tests' faults: the robot cruises
 
   Rig(const Scenario& scenario, bus::Schedule at_base, bus::Schedule at_controller, std::uint64_t seed = 1,
       can_app::PlannerMaker* planners = nullptr)
@@ -100,7 +99,7 @@ class Rig {
   void drive(std::uint32_t ticks) {
     for (std::uint32_t i = 0; i < ticks; ++i) tick();
   }
-  /// Shakes hands, starts the mission and drives until the faults begin.
+  /// Completes the handshake, starts the mission and drives until the faults begin.
   void cruise() {
     drive(20);
     give(can::Order::start);

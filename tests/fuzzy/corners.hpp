@@ -1,4 +1,4 @@
-/// The values at the corners of the cell that an engine says it used.
+/// The values at the corners of the cell that an engine reports.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// The fuzzy stage's inputs as a test walks through them.
+/// The fuzzy stage's inputs, for iteration in tests.
 #pragma once
 
 #include <cstdint>

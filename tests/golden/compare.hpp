@@ -1,4 +1,4 @@
-/// Judges what a chip answered to the golden recording.
+/// Judges a chip's answers to the golden recording.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace whisker::golden {
 
-/// Of one stream.
+/// Results of one stream.
 struct Cost {
   std::string name;
   std::uint64_t ticks = 0;
@@ -19,12 +19,12 @@ struct Cost {
 
 struct Judgement {
   std::string difference;  ///< stream, tick and field of the first one, and both values; "" for none
-  link::Total total;       ///< as the chip says
+  link::Total total;       ///< as the chip reports
   std::vector<Cost> costs;
 };
 
-/// `recorded` with `index` is what the chip was told, `expected` what the core answers in this process.
-/// Work, stack and room for maps are not compared. Throws std::runtime_error on bytes that are no recording.
+/// `recorded` with `index` is the input of the chip, `expected` the answer of the core in this process. Work,
+/// stack and room for maps are not compared. Throws std::runtime_error for bytes that are not a recording.
 Judgement judge(const chip::Bytes& recorded, const std::string& index, const chip::Bytes& expected,
                 const chip::Bytes& answered);
 

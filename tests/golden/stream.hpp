@@ -1,4 +1,4 @@
-/// The golden streams: everything that a robot's sensors and its user can say, recorded.
+/// The golden streams: recorded inputs of sensors and users.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace whisker::golden {
 
-/// A part of the recording, by what it shows.
+/// A part of the recording.
 struct Stream {
   std::string name;
   chip::Bytes messages;
@@ -19,20 +19,20 @@ struct Stream {
 /// Inputs of the response table: every node of the look-up, a point inside every cell, the ends of the range.
 Stream table_sweep();
 
-/// Drives in simulated worlds, with every planner that chips have.
+/// Drives in simulated worlds, with every planner for chips.
 std::vector<Stream> drives();
-/// Boards that lie, refuse and jump, users who interfere, and robots of any accepted parameters.
+/// Faulty boards, random users, and robots with any accepted parameters.
 std::vector<Stream> storms();
-/// One of them. fury: see StormBoard. Seed 1 has the default robot, others any.
+/// One of them. fury: see StormBoard. Seed 1 has the default robot, others a random one.
 Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks);
-/// The beginnings of some of them, for targets whose emulator is slow.
+/// The first ticks of some of them, for targets with a slow emulator.
 std::vector<Stream> excerpts();
-/// For the small core, which has no boundary planner and no map: drives with the thesis planner.
-/// Even ticks and sound wheels, which the small core takes for granted.
+/// For the small core, which has no boundary planner and no map: drives with the thesis planner. Even ticks
+/// and sound wheels, which the small core assumes.
 std::vector<Stream> thesis_only();
 
-/// The streams one after the other, begun with a hello and ended; `index` gets a line for each: where its
-/// first byte lies, and its name.
+/// The streams one after the other, between a hello and an end; `index` gets a line for each: the offset of
+/// its first byte, and its name.
 chip::Bytes recording(const std::vector<Stream>& streams, std::string& index);
 
 }  // namespace whisker::golden

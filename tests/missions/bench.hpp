@@ -1,5 +1,4 @@
-/// The robot on the simulated plant, ticked whenever the test likes, over a board that fails as the test
-/// says.
+/// The robot on the simulated plant; the test controls the ticks and the faults of the board.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@
 
 namespace whisker::test {
 
-/// Wraps a board; each hook, if set, changes what passes.
+/// Wraps a board; each hook, if set, can change the values that pass.
 class FaultyBoard final : public hal::Rangefinders, public hal::Drive {
  public:
   explicit FaultyBoard(sim::Plant& plant) : board_(plant) {}
@@ -43,21 +42,21 @@ class Bench {
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
-  /// One tick. False: the run is over, by contact, fault or verdict.
+  /// One tick. False: the run has ended, by contact, fault or verdict.
   bool tick();
-  /// The time until the next one.
+  /// The time until the next tick.
   void pass(int gap_ms);
   bool step(int gap_ms) {
     const bool on = tick();
     pass(gap_ms);
     return on && !plant_.in_contact();
   }
-  /// Ticks until it is over or the simulated time has passed.
+  /// Ticks until the run ends or the simulated time has passed.
   void run(double seconds, const std::function<int()>& gap_ms);
   void run(double seconds);  ///< with steady periods
 
   const Status& status() const { return robot_.status(); }
-  /// How it ended: "reached", "contact", a fault's name, "running" ...
+  /// The result: "reached", "contact", a fault's name, "running" ...
   std::string ended() const;
   Robot& robot() { return robot_; }
   FaultyBoard& board() { return board_; }
@@ -65,7 +64,7 @@ class Bench {
   const sim::WorldView& world() const { return world_.view(); }
   const perception::LocalGrid* local_grid() const { return seen_.local_grid(); }
   std::uint32_t now_ms() const { return now_ms_; }
-  /// The clock goes wrong.
+  /// Disturbs the clock.
   void set_clock(std::uint32_t ms) { now_ms_ = ms; }
 
  private:

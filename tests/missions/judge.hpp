@@ -1,5 +1,5 @@
-/// An outside judge of a run: re-checks contact, speed limits and rolling from the records alone, with
-/// geometry of its own.
+/// An independent judge of a run: re-checks contact, speed limits and rolling from the records alone, with
+/// its own geometry.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace whisker::test {
 
 struct Ruling {
-  std::string complaint;       ///< empty: nothing to object to
+  std::string complaint;       ///< empty: no objection
   double min_clearance_m = 0;  ///< over the records
 };
 

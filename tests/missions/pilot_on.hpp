@@ -1,4 +1,4 @@
-/// The core on a board of the test's own.
+/// The core on a board of the test.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace whisker::test {
 
-/// `Board`: a class that is made with a plant, and has its sensors and its wheels.
+/// `Board`: a class that is constructed with a plant and provides sensors and wheels.
 template <class Board>
 class PilotOn : public Pilot {
  public:

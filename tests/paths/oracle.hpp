@@ -1,4 +1,4 @@
-/// Another way to find ways: over a grid, then pulled tight. It shares no code with host/paths.
+/// An independent path search: on a grid, then shortened. It shares no code with host/paths.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,11 @@
 
 namespace whisker::paths {
 
-/// The length of some way that the body of this radius can go, m: no shorter than the shortest. None if the
-/// grid of 3 cm shows none.
+/// The length of a feasible path of a body with this radius, m: not shorter than the shortest. None if the
+/// grid of 3 cm contains none.
 std::optional<double> some_way(const World& world, sim::Vec2 from, sim::Vec2 to, double radius_m);
 
-/// From the point to the nearest obstacle, m: infinite in an empty world.
+/// Distance from the point to the nearest obstacle, m: infinite in an empty world.
 double gap(const World& world, sim::Vec2 p);
 
 }  // namespace whisker::paths

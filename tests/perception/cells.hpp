@@ -1,4 +1,4 @@
-/// Cells of the local grid against obstacles, exactly, in double.
+/// Compares cells of the local grid with obstacles, exactly, in double.
 #pragma once
 
 #include "firmware/perception/local_grid.hpp"
@@ -13,23 +13,23 @@ struct Square {
   sim::Vec2 max;
 };
 
-/// Cell (column, row) of the world for cells of this size, without a rim of `slack` metres.
+/// Cell (column, row) of the world for cells of this size, reduced by `slack` metres at each side.
 Square square(int column, int row, double cell_m, double slack = 0);
 
 bool touches(const Square& s, const sim::Disc& disc);
 bool touches(const Square& s, const sim::Segment& segment);
 
-/// Where the estimated pose `believed` takes what is at `truth`: the frame of the local grid.
+/// Maps a true position into the frame of the local grid, whose estimated pose is `believed`.
 struct Shift {
   sim::Pose truth;
   sim::Pose believed;
   sim::Vec2 operator()(sim::Vec2 p) const;
 };
 
-/// What in the world touches the square, if anything; movers are ignored.
+/// The obstacle that touches the square, if any; movers are ignored.
 bool occupied(const Square& s, const sim::WorldView& world, const Shift& shift);
 
-/// The cells of the window around the pose: calls f(column, row) for each that is clear.
+/// Calls f(column, row) for each clear cell of the window around the pose.
 template <class F>
 void for_each_clear(const perception::LocalGrid& local_grid, const Pose& pose, int32_t cell_um, F&& f) {
   const auto middle = [&](Length x) { return static_cast<int>(x.raw() / cell_um); };

@@ -1,4 +1,4 @@
-/// The whole robot on the simulated plant, with a view into its local grid.
+/// The whole robot on the simulated plant, with access to its local grid.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class Rig {
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
 
-  /// One tick of the robot and one period of the plant. False: the run is over, by contact or by verdict.
+  /// One tick of the robot and one period of the plant. False: the run has ended, by contact or by verdict.
   bool step();
   const Status& status() const { return robot_.status(); }
   const planning::View& view() const { return recording_.view(); }

@@ -1,4 +1,4 @@
-/// A local grid by hand: what a body proved by turning once on the spot, sector by sector.
+/// A local grid made by hand: as if a body turned once on the spot, sector by sector.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace whisker::test {
 constexpr Angle degrees(int deg) { return Angle::turns(deg, 360); }
 constexpr double in_degrees(Angle a) { return a.wrapped() * 360.0 / 4294967296.0; }
 
-/// What three beams show; 2000 mm is nothing.
+/// Readings of three beams; 2000 mm is clear.
 inline perception::Echoes echoes(int left_mm, int front_mm, int right_mm) {
   perception::Echoes e;
   const int mm[] = {left_mm, front_mm, right_mm};
@@ -29,13 +29,13 @@ class Ground {
     local_grid_.reset(pose);
   }
 
-  /// Between these directions nothing is nearer than this.
+  /// Between these directions there is no obstacle nearer than this.
   Ground& free(int from_deg, int to_deg, Length reach = 500_mm) {
     return see(from_deg, to_deg, reach, false);
   }
-  /// Between these directions something stands at this distance.
+  /// Between these directions there is an obstacle at this distance.
   Ground& echo(int from_deg, int to_deg, Length at) { return see(from_deg, to_deg, at, true); }
-  /// A look in this direction proves no more than this, and sees nothing.
+  /// A scan in this direction proves no more than this, and detects nothing.
   Ground& look_in_vain(int deg, Length reach) {
     mark(degrees(deg), reach, false, true);
     return *this;
@@ -49,7 +49,7 @@ class Ground {
     local_grid_.mark(observation);
   }
 
-  /// Of the body where it is, heading there, with nothing before its beams.
+  /// The view of the body at its position with this heading, with clear beams.
   planning::View view(Angle heading = {}) const {
     planning::View v;
     v.pose = {pose_.at, heading};
@@ -64,8 +64,8 @@ class Ground {
 
  private:
   Ground& see(int from_deg, int to_deg, Length reach, bool hit) {
-    // A cone proves no cell at its very edge: sectors side by side overlap, and an echo marks the middle of
-    // its cone only.
+    // A cone proves no cell at its edge, so adjacent sectors overlap; an echo marks only the middle of its
+    // cone.
     const int rim = hit || to_deg - from_deg >= 360 ? 0 : 6;
     for (int deg = from_deg + rim; deg <= to_deg - rim; ++deg) mark(degrees(deg), reach, hit, false);
     return *this;

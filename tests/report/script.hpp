@@ -1,4 +1,4 @@
-/// Runs written by hand: a disc that follows a script past discs, with what its beams would have measured.
+/// Hand-written runs: a disc follows a script past obstacles, with the ranges that its beams would measure.
 #pragma once
 
 #include <vector>
@@ -15,14 +15,14 @@ struct Leg {
   int danger_count = 0;
 };
 
-/// One record every 10 ms: turns on the spot at 2 rad/s toward each leg's end, looks, then drives at 0.25
+/// One record every 10 ms: turns on the spot at 2 rad/s towards each leg's end, scans, then drives at 0.25
 /// m/s.
 std::vector<TickRecord> follow(const Scenario& scenario, const std::vector<Leg>& legs);
 
-/// A verdict with the figures that belong to the records.
+/// A verdict with matching figures.
 RunResult result_of(Verdict verdict, const Scenario& scenario, const std::vector<TickRecord>& records);
 
-/// 4 x 2.4 m, four discs, a polygon, a wall, a mover; all four classes occur on the way.
+/// 4 x 2.4 m, four discs, a polygon, a wall, a mover; all four activities occur.
 Scenario garden();
 std::vector<TickRecord> garden_run(const Scenario& scenario);
 

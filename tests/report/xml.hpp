@@ -1,4 +1,4 @@
-/// A file as expat sees it, for questions that a test asks.
+/// A file parsed with expat, for queries in tests.
 #pragma once
 
 #include <map>
@@ -14,17 +14,17 @@ struct Element {
   std::string text;
   std::vector<Element> children;
 
-  /// One of the words of the class attribute.
+  /// Whether the word is in the class attribute.
   bool has_class(std::string_view word) const;
   double number(const std::string& attribute) const;
-  /// Itself and everything below, in document order, that has the class.
+  /// The element and all descendants with this class, in document order.
   std::vector<const Element*> by_class(std::string_view word) const;
   std::vector<const Element*> by_name(std::string_view tag) const;
-  /// What the <text> elements below those of the class say, in document order.
+  /// The texts of the <text> elements below those of the class, in document order.
   std::vector<std::string> texts_of_class(std::string_view word) const;
 };
 
-/// Throws std::runtime_error with expat's words and the line if the text is not well-formed.
+/// Throws std::runtime_error with expat's message and the line if the text is not well-formed.
 Element parse_xml(std::string_view text);
 
 /// The first coordinate in any attribute that is not a plain decimal number, or an empty string.

@@ -4,7 +4,7 @@
 
 namespace whisker::test {
 
-/// How often this program has called operator new so far.
+/// Number of calls of operator new so far.
 std::uint64_t allocations();
 
 }  // namespace whisker::test

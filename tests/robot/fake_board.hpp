@@ -1,4 +1,4 @@
-/// A board whose wheels follow every command at once and whose rangefinders show what the test says.
+/// A board whose wheels follow every command at once; the test sets its readings.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ class FakeBoard final : public hal::Rangefinders, public hal::Drive {
   FakeBoard() {
     for (hal::RangeReading& r : shown.beam) r = {0, hal::RangeStatus::clear, 10, 0};
   }
-  /// 10 ms pass: the wheels roll, and every second time there are new readings.
+  /// Advances by 10 ms: the wheels roll, and every second call gives new readings.
   void pass() {
     const double v[2] = {command_.left * 1e-4, command_.right * 1e-4};
     for (int w = 0; w < 2; ++w) {
@@ -57,8 +57,8 @@ class FakeBoard final : public hal::Rangefinders, public hal::Drive {
   bool counts_refuse = false;
   bool drive_refuses = false;
   bool wheels_blocked = false;
-  bool swapped = false;  ///< each wheel's counts come as the other's
-  double jump = 0;       ///< metres added to both encoders
+  bool swapped = false;  ///< the counts of the two wheels are exchanged
+  double jump = 0;       ///< metres, added to both encoders
   int commands = 0;
 
  private:

@@ -1,4 +1,4 @@
-/// A planner that wants the worst: whatever it asks for, the guard must keep the body off what does not move.
+/// A hostile planner: whatever it requests, the guard must prevent contact with static obstacles.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace whisker::test {
 
-/// Asks for every kind of manoeuvre: for one tick, or for up to 150, each tick anew or with
+/// Requests every kind of manoeuvre: for one tick, or for up to 150, repeated each tick or continued with
 /// ManoeuvreKind::keep.
 class Adversary final : public planning::Planner {
  public:
@@ -20,7 +20,7 @@ class Adversary final : public planning::Planner {
   planning::Decision step(const planning::View& view) noexcept override;
 
  private:
-  /// How it goes on with a cruise.
+  /// Its next cruise.
   enum class Plot { steady, nearest, zigzag, shake, noise, survey };
 
   Speed draw(int mm_per_s) { return Speed::from_raw((random_.index(2 * mm_per_s + 1) - mm_per_s) * 1000); }
@@ -31,12 +31,12 @@ class Adversary final : public planning::Planner {
   worlds::Random random_;
   planning::Manoeuvre wish_;
   Plot plot_ = Plot::steady;
-  int rest_ = 0;         // ticks until it wants something else
-  bool keeps_ = false;   // says it once
-  bool fickle_ = false;  // changes its mind every tick
+  int rest_ = 0;         // ticks until the next choice
+  bool keeps_ = false;   // requests once, then keeps
+  bool fickle_ = false;  // chooses anew every tick
 };
 
-/// A world of any class of scripts/bars, with the body somewhere in the thick of it.
+/// A world of any class of scripts/bars, with the body placed among the obstacles.
 Scenario thick_of_it(worlds::Random& random, bool noise);
 
 }  // namespace whisker::test

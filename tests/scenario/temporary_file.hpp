@@ -10,7 +10,7 @@
 
 namespace whisker {
 
-/// A file that goes with its object.
+/// A file that is removed with its object.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::string_view content)

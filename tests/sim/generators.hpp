@@ -1,4 +1,4 @@
-/// Random places and shapes for properties. rapidcheck prints its seed and takes it back in RC_PARAMS.
+/// Random positions and shapes for properties. rapidcheck prints its seed; RC_PARAMS repeats it.
 #pragma once
 
 #include <rapidcheck.h>

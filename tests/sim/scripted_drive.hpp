@@ -1,5 +1,5 @@
-/// A short drive among every kind of obstacle with every kind of noise, as one number: what must come out the
-/// same on every compiler, at every optimisation, and in WebAssembly. It includes no library either.
+/// A hash of a short drive among every kind of obstacle with every kind of noise: it must be the same with
+/// every compiler and optimisation, and in WebAssembly. Includes no library.
 #pragma once
 
 #include <stdint.h>

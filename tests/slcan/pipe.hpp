@@ -8,7 +8,7 @@
 
 namespace whisker::hal::slcan {
 
-/// One end of a line whose other end a test holds.
+/// One end of a line; the test holds the other end.
 class Pipe final : public ByteLine {
  public:
   size_t take(uint8_t* to, size_t room) noexcept override {
@@ -28,7 +28,7 @@ class Pipe final : public ByteLine {
   bool ready() noexcept override { return up; }
 
   void come(const std::string& bytes) { in.insert(in.end(), bytes.begin(), bytes.end()); }
-  /// What was sent since the last call.
+  /// Bytes sent since the last call.
   std::string sent() {
     std::string text(out.begin(), out.end());
     out.clear();
@@ -37,11 +37,11 @@ class Pipe final : public ByteLine {
 
   std::deque<char> in;
   std::deque<char> out;
-  size_t space = SIZE_MAX;  ///< for this many bytes more
+  size_t space = SIZE_MAX;  ///< room for this many more bytes
   bool up = true;
 };
 
-/// Takes what each has sent to the other.
+/// Passes the bytes that each has sent to the other.
 inline void exchange(Pipe& a, Pipe& b) {
   b.come(a.sent());
   a.come(b.sent());

@@ -6,7 +6,7 @@
 
 namespace whisker::vcan {
 
-/// What a shell command prints on its standard output. Throws if it fails.
+/// Standard output of a shell command. Throws if it fails.
 inline std::string shell(const std::string& command) {
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("no shell");
@@ -28,7 +28,7 @@ class Running {
   ~Running() {
     if (pipe_ != nullptr) pclose(pipe_);
   }
-  /// What it has printed until its end.
+  /// Its output until its end.
   std::string wait() {
     std::string printed;
     char part[256];

@@ -1,4 +1,4 @@
-/// A plain client: no more than a socket, so that it can also misbehave.
+/// A minimal client on a socket, so that it can also misbehave.
 #pragma once
 
 #include <chrono>
@@ -10,37 +10,37 @@ namespace whisker::view::testing {
 inline constexpr const char* kHere = "127.0.0.1";
 
 struct Answer {
-  int status = 0;  ///< 0: none came
+  int status = 0;  ///< 0: no answer
   std::string head;
   std::string body;
 
-  /// "" where there is none.
+  /// "" if there is no such header.
   std::string header(std::string_view name) const;
 };
 
 /// One connection to this computer.
 class Line {
  public:
-  /// receive_buffer 0: the kernel's own choice.
+  /// receive_buffer 0: the kernel's default.
   explicit Line(int port, int receive_buffer = 0);
   ~Line();
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
 
-  /// How many of the bytes the other end has taken before it hung up.
+  /// Number of bytes that the other end received before it closed.
   std::size_t send(std::string_view bytes) const;
-  /// Some of what comes; "" when nothing more will, or nothing came for so long.
+  /// Some received bytes; "" at the end or after the time-out.
   std::string read_some(std::chrono::milliseconds patience = std::chrono::seconds(60)) const;
-  /// All up to the other end's last word.
+  /// All bytes until the other end closes.
   std::string read_all() const;
-  /// The other end has hung up, within so long.
+  /// Whether the other end closes within this time.
   bool is_left(std::chrono::milliseconds patience) const;
 
  private:
   int socket_;
 };
 
-/// The head of a request, without its last empty line; `more` has whole lines.
+/// The head of a request, without the final empty line; `more` has complete lines.
 std::string ask(int port, const std::string& path, const std::string& more = "");
 Answer answer_of(const std::string& bytes);
 Answer get(int port, const std::string& path, const std::string& more = "");

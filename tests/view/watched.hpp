@@ -1,4 +1,4 @@
-/// Runs to watch.
+/// Runs for the tests of the live view.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ Scenario short_run();
 
 inline page::Setting setting(const Scenario& scenario) { return {scenario, PlannerKind::skirt, 7}; }
 
-/// Begins, drives and ends; `each` is called after every tick.
+/// Begins, drives and ends a run; calls `each` after every tick.
 RunResult drive(const Scenario& scenario, Feed& feed, const std::function<void(const Moment&)>& each = {});
 
 }  // namespace whisker::view::testing

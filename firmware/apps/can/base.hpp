@@ -17,7 +17,7 @@ class Base {
   Base(can::BaseNode& node, hal::Rangefinders& rangefinders, hal::Drive& drive) noexcept
       : node_(node), rangefinders_(rangefinders), drive_(drive) {}
 
-  /// The input set of a tick is what the hardware says now.
+  /// Sets the measurements of a tick to the current values of the hardware.
   void measure(uint32_t tick, uint8_t period_ms) noexcept {
     set_ = {};
     set_.tick = tick;
@@ -29,9 +29,9 @@ class Base {
     set_.counts_valid = drive_.read(set_.counts);
     report(can::Error::sensors_refused, !asked);
   }
-  /// Sends the set; in lockstep as often as it takes.
+  /// Sends the set; in lockstep, repeats it as needed.
   bool publish(can::SyncMode sync_mode) noexcept { return node_.send_set(set_, sync_mode); }
-  /// Gives the wheels the speeds that they shall have until the next call.
+  /// Commands the wheel speeds until the next call.
   hal::WheelSpeeds drive() noexcept {
     const hal::WheelSpeeds speeds = node_.control();
     report(can::Error::drive_refused, !drive_.command(speeds));

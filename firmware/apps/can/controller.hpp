@@ -16,7 +16,7 @@ class Controller {
   Controller(hal::CanPort& port, const can::Identity& identity, PlannerMaker& planners) noexcept
       : node_(port, identity), pilot_(planners) {}
 
-  /// Call it every millisecond. True: the core made a step; status() is new.
+  /// Call it every millisecond. True: the core executed a step; status() is new.
   bool poll(uint32_t now_ms) noexcept {
     node_.poll(now_ms);
     can::Order order = can::Order::cancel;

@@ -6,11 +6,11 @@
 
 namespace whisker::can_app {
 
-/// Rangefinders and wheels at the other end of a bus: they say what the last input set said.
+/// Rangefinders and wheels at the other end of a bus: they return the values of the last input set.
 class RemoteBoard final : public hal::Rangefinders, public hal::Drive {
  public:
-  /// braked: the wheels were braked without the core's knowledge, so its next command is refused once, and it
-  /// begins anew from a stand.
+  /// braked: the wheels braked without the core's knowledge, so its next command is refused once, and it
+  /// starts again from standstill.
   void on_frame(const can::InputSet& set, bool braked) noexcept {
     set_ = set;
     braked_ = braked;

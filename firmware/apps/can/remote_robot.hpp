@@ -10,17 +10,17 @@
 
 namespace whisker::can_app {
 
-/// Where planners come from.
+/// Creates planners.
 class PlannerMaker {
  public:
-  /// A planner as new. The parameters and the planner live until the next call.
+  /// A planner in its initial state. The parameters and the planner live until the next call.
   virtual planning::Planner& make(const Params& params) noexcept = 0;
 
  protected:
   ~PlannerMaker() = default;
 };
 
-/// A robot that is made anew for every mission, and steps on input sets.
+/// A robot that is created anew for every mission, and steps on input sets.
 class RemoteRobot {
  public:
   explicit RemoteRobot(PlannerMaker& planners) noexcept : planners_(planners) {}
@@ -41,7 +41,7 @@ class RemoteRobot {
   StaticStorage<sizeof(Robot)> room_;
 };
 
-/// What the bus says of a tick; its tick is the node's business.
+/// The bus message of a tick; the node sets its tick.
 can::NavStatus nav_status(const Status& status) noexcept;
 
 }  // namespace whisker::can_app

@@ -6,7 +6,7 @@
 
 namespace whisker::link {
 
-/// Sensors and wheels that a companion plays: every call answers what its last message said.
+/// Sensors and wheels that a companion simulates: every call returns the values of its last message.
 class RemoteBoard final : public hal::Rangefinders, public hal::Drive {
  public:
   void on_frame(const Tick& tick) noexcept { tick_ = tick; }

@@ -1,5 +1,5 @@
-/// A robot whose companion plays its sensors and its wheels; firmware/apps/pil_link/message.hpp has the
-/// words.
+/// A robot whose sensors and wheels a companion simulates; firmware/apps/pil_link/message.hpp defines the
+/// messages.
 #pragma once
 
 #include "firmware/apps/pil_link/bytes.hpp"
@@ -21,7 +21,7 @@ class Session {
   constexpr Session() noexcept = default;
   Session(const Session&) = delete;
 
-  /// Answers until the companion ends it. 0: it did; 1: the stream ended without it, or made no sense. Once.
+  /// Answers until the companion ends the session. 0: it did; 1: early end or invalid stream. Call it once.
   int run(hal::ByteStream& stream, hal::Meter& meter) noexcept;
 
  private:

@@ -1,4 +1,4 @@
-/// The way to the goal in free space: by the response table, or where a global planner says.
+/// Drives to the goal in free space: by the response table, or to the guide's way point.
 #pragma once
 
 #include <stdint.h>
@@ -17,8 +17,8 @@ class Approach {
  public:
   enum class Phase : uint8_t {
     drive,  ///< towards the goal
-    scan,   ///< turns a beam onto what is unknown in the way
-    brake,  ///< comes to rest: the global planner plans anew
+    scan,   ///< turns a beam onto unknown ground on the path
+    brake,  ///< comes to rest: the global planner replans
   };
   enum class Event : uint8_t { unknown, scanned, refused, settled };
 
@@ -35,32 +35,32 @@ class Approach {
 
   /// A new goal is set.
   void start(const View& view, const Goal& goal) noexcept;
-  /// The goal lies there by now.
+  /// The goal moved to this place.
   void move_goal(Vec at) noexcept;
-  /// Once a tick, also while a boundary is followed.
+  /// Once per tick, also while a boundary is followed.
   void observe(const View& view) noexcept;
 
-  /// Straight at the goal again.
+  /// Resets the course to straight at the goal.
   void begin() noexcept;
-  /// Once a tick after that: manoeuvre, mode and reason. False: the way is blocked. `wall` is the side that
-  /// an obstacle was last on, and is kept up to date.
+  /// Once per tick after that: manoeuvre, mode and reason. False: the path is blocked. `wall` is the side of
+  /// the last obstacle; it is updated.
   bool step(const View& view, const Target& target, Side& wall, Decision& decision) noexcept;
 
-  /// From here on, progress is what comes nearer than this.
+  /// From here on, only a smaller distance counts as progress.
   void measure_anew(const View& view, Length distance) noexcept { closest_.set(view.pose.at, distance); }
   /// The least distance to the goal while no boundary was followed.
   Length closest() const noexcept { return closest_.distance(); }
 
-  /// As GlobalPlanner; false without one.
+  /// The same as in GlobalPlanner; false without a guide.
   bool knows_no_way() const noexcept { return guide_ != nullptr && guide_->knows_no_way(); }
   bool doubt() noexcept { return guide_ != nullptr && guide_->doubt(); }
 
-  /// A global planner guides; without one, the turning of the body is the evidence for a closed loop.
+  /// A global planner guides; without one, only the body's turning proves a closed loop.
   bool has_guide() const noexcept { return guide_ != nullptr; }
-  /// The way is blocked because the global planner has found that there is none.
+  /// The path is blocked because the global planner found none.
   bool refuted() const noexcept { return refuted_; }
 
-  /// What the body does now is due to what the guard holds back.
+  /// The current behaviour results from the guard's intervention.
   bool yields(const View& view, const Decision& decision) const noexcept;
 
  private:
@@ -74,7 +74,7 @@ class Approach {
   GlobalPlanner* guide_;
   Behaviours& behaviours_;
   Phase phase_ = Phase::drive;
-  bool guided_ = false;  // drives where the guide says
+  bool guided_ = false;  // drives to the guide's way point
   bool refuted_ = false;
   ClosestApproach closest_;
   Course course_;

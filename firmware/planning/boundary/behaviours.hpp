@@ -1,4 +1,4 @@
-/// What the boundary planner's state machines share: one of them drives at a time.
+/// Shared by the boundary planner's state machines; only one of them drives at a time.
 #pragma once
 
 #include <stdint.h>
@@ -16,18 +16,18 @@ struct Behaviours {
   /// The parameters must outlive it.
   explicit Behaviours(const Params& p) noexcept : params(p) {}
 
-  /// Once a tick while the body is to drive: whether the guard holds it.
+  /// Once per tick while the body shall drive: whether the guard holds it back.
   bool stalled(const View& view) noexcept;
-  /// A reference body's length for this one, in millimetres.
+  /// Scales a length from the reference body, in millimetres.
   int32_t mm(Length reference) const noexcept;
   /// Drives towards this heading.
   Manoeuvre drive(const View& view, Angle heading) const noexcept;
-  /// A phase is entered: it counts as an attempt, and the patience is new.
+  /// Call on entry into a phase: counts it as an attempt, and restarts the patience.
   void enter() noexcept {
     progress.pause();
     stuck.reset();
   }
-  /// Follows an arrow of a machine's table into its next phase.
+  /// Follows a transition of a machine's table into its next phase.
   template <class Phase, class Event, size_t kRows>
   void change(const Transition<Phase, Event> (&table)[kRows], Event event, Phase& phase,
               Decision& decision) noexcept {

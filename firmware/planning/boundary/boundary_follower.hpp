@@ -1,4 +1,4 @@
-/// Boundary following for a body that must not touch: the bug algorithms' "follow the obstacle's boundary".
+/// Follows the boundary of an obstacle, as in the bug algorithms, without contact.
 #pragma once
 
 #include <stdint.h>
@@ -10,18 +10,18 @@
 
 namespace whisker::planning {
 
-/// Drives along the wall by the beams while the guard lets it. Where that ends, or where the wall may have an
-/// opening, the body stands, takes the first free heading counted from the wall, and goes on. If there is
-/// none, it goes back on its own breadcrumbs. When to leave the boundary is the caller's rule.
+/// Follows the wall by the beams while the guard permits it. When that ends, or when the wall may have an
+/// opening, the body stops, takes the first free heading counted from the wall, and drives on. If no heading
+/// is free, it retreats along its breadcrumbs. The caller decides when to leave the boundary.
 class BoundaryFollower {
  public:
   enum class Phase : uint8_t {
     brake,    ///< comes to rest
     search,   ///< stands and takes the first free heading from the wall's side
-    scan,     ///< turns a beam onto what is unknown in that way
+    scan,     ///< turns a beam onto unknown ground on that path
     turn,     ///< turns to the heading chosen
-    follow,   ///< drives along the obstacle's edge
-    retreat,  ///< drives back the way it came
+    follow,   ///< drives along the obstacle's boundary
+    retreat,  ///< drives back along its breadcrumbs
   };
   enum class Event : uint8_t { settled, unknown, scanned, free, none_free, facing, opening, stuck, back };
 
@@ -41,25 +41,25 @@ class BoundaryFollower {
   /// The behaviours must outlive it.
   explicit BoundaryFollower(Behaviours& behaviours) noexcept : behaviours_(behaviours) {}
 
-  /// Forgets the way here.
+  /// Resets the state of this boundary.
   void reset(const View& view) noexcept { search_.reset(view.pose.at, behaviours_.params); }
-  /// Once a tick, also while no boundary is followed.
+  /// Once per tick, also while no boundary is followed.
   void move(const View& view) noexcept { search_.move(view.pose.at); }
 
   /// Each begins a boundary with the wall on this side:
   /// this heading is known to be free;
   void begin_along(Angle heading, Side wall) noexcept;
-  /// the way along `blocked` is not free: takes the first free heading from there, away from the wall;
+  /// the path along `blocked` is not free: takes the first free heading from there, away from the wall;
   void begin_beside(const View& view, Angle blocked, Side wall, Decision& decision) noexcept;
-  /// the boundary goes on about `ahead`: takes the first free heading from the wall's side.
+  /// the boundary continues about `ahead`: takes the first free heading from the wall's side.
   void begin_at_wall(const View& view, Angle ahead, Side wall, Decision& decision) noexcept;
 
-  /// Once a tick after that: manoeuvre, mode and reason. False: no way is free, not even the way back.
+  /// Once per tick after that: manoeuvre, mode and reason. False: no path is free, not even the retreat.
   bool step(const View& view, Decision& decision) noexcept;
 
-  /// It drives along the edge: the only phase in which the boundary may be left.
+  /// Following the boundary: the only phase in which the boundary may be left.
   bool follows() const noexcept { return phase_ == Phase::follow; }
-  /// What the body does now is due to what the guard holds back.
+  /// The current behaviour results from the guard's intervention.
   bool yields(const View& view) const noexcept;
 
  private:
@@ -78,12 +78,12 @@ class BoundaryFollower {
   Behaviours& behaviours_;
   Phase phase_ = Phase::follow;
   Side wall_ = Side::left;
-  bool searched_ = false;  // the heading chosen is the search's
-  int8_t refusals_ = 0;    // in a row, from one place
+  bool searched_ = false;  // the search chose the heading
+  int8_t refusals_ = 0;    // consecutive refusals at one place
   HeadingSearch search_;
-  Angle heading_;           // the one chosen
-  int32_t commit_mm_ = 0;   // travel until which it is kept
-  int32_t opening_mm_ = 0;  // travel at which an opening was last looked for
+  Angle heading_;           // the chosen heading
+  int32_t commit_mm_ = 0;   // travel up to which it is kept
+  int32_t opening_mm_ = 0;  // travel at the last search for an opening
 };
 
 }  // namespace whisker::planning

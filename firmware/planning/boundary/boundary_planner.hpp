@@ -1,5 +1,5 @@
-/// The planner that keeps the thesis's ideas and does not deadlock: it follows the boundary of what is in its
-/// way. A member of the DistBug family.
+/// Avoids the deadlocks of the thesis planner, with the same steering: it follows the boundary of an obstacle
+/// that blocks the path. A member of the DistBug family.
 #pragma once
 
 #include <stdint.h>
@@ -17,35 +17,35 @@
 
 namespace whisker::planning {
 
-/// Three state machines, drawn in docs/skirt.md from their tables: this one chooses between the way to the
-/// goal (Approach) and the way round an obstacle (BoundaryFollower).
+/// Three state machines, drawn in docs/skirt.md from their tables: this one switches between driving to the
+/// goal (Approach) and following an obstacle's boundary (BoundaryFollower).
 ///
-/// A mission ends: each leave is nearer to the goal than the one before by 30 mm, each loop is bounded, and
-/// so are the length of the way (`length_budget`) and what is tried without getting on (ProgressChecker).
+/// A mission ends: each leave point is nearer to the goal than the one before by 30 mm, each loop is bounded,
+/// and so are the path length (`length_budget`) and attempts without progress (ProgressChecker).
 class BoundaryPlanner final : public GoalPlanner {
  public:
   enum class Phase : uint8_t {
     survey,       ///< turns to both sides before the first movement
     approach,     ///< towards the goal: see Approach
-    choose_side,  ///< the way is blocked: looks for the exit that needs the smaller turn
-    boundary,     ///< round the obstacle: see BoundaryFollower
+    choose_side,  ///< the path is blocked: searches the exit with the smaller turn
+    boundary,     ///< along the obstacle's boundary: see BoundaryFollower
     arrive,       ///< at the goal: comes to rest
     over,         ///< the mission has ended
   };
   enum class Event : uint8_t {
     surveyed,
-    blocked,    ///< no heading towards the goal is left
+    blocked,    ///< no heading towards the goal is free
     exit,       ///< the side is chosen
-    no_exit,    ///< no side has an exit: along the wall in front
+    no_exit,    ///< no side has an exit: follows the wall in front
     nearer,     ///< the leave rule holds
-    closed,     ///< the loop is closed once: the other way round
-    wall_lost,  ///< round and round something else than what blocked the way
-    doubted,    ///< the global planner doubts its map, and has a way again
-    enclosed,   ///< the loop is closed both ways round
-    refuted,    ///< the last try of the global planner found no way either
-    stuck,      ///< no way is free, not even the way back
+    closed,     ///< closed the loop once: follow in the other direction
+    wall_lost,  ///< repeated laps around another obstacle than the one that blocked the path
+    doubted,    ///< the global planner doubts its map, and has a path again
+    enclosed,   ///< closed the loop in both directions
+    refuted,    ///< the last attempt of the global planner also found no path
+    stuck,      ///< no path is free, not even the retreat
     at_goal,
-    slid_off,  ///< at rest, but beside the goal
+    slid_off,  ///< at rest, but outside the goal's tolerance
     settled,   ///< at rest at the goal
   };
 
@@ -69,7 +69,7 @@ class BoundaryPlanner final : public GoalPlanner {
       {Phase::arrive, Event::settled, Phase::over, Mode::arrived, Why::at_goal},
   };
 
-  /// What is given must outlive the planner. A guide, if there is one, says where to drive in free space.
+  /// The arguments must outlive the planner. The optional guide gives way points in free space.
   BoundaryPlanner(const Params& params, HeadingDeflection& law, GlobalPlanner* guide = nullptr) noexcept
       : behaviours_(params), approach_(law, guide, behaviours_), follower_(behaviours_) {}
 
@@ -78,7 +78,7 @@ class BoundaryPlanner final : public GoalPlanner {
   void advance(const View& view) noexcept override;
   void follow_goal() noexcept override { approach_.move_goal(goal_.at); }
   void act(const View& view) noexcept;
-  /// Something moves, and what the body does now is due to that.
+  /// An object moves, and the current behaviour results from that.
   bool gives_way(const View& view) const noexcept;
 
   void on(Event event) noexcept;
@@ -86,7 +86,7 @@ class BoundaryPlanner final : public GoalPlanner {
   void survey(const View& view) noexcept;
   void approach(const View& view) noexcept;
   void choose_side(const View& view) noexcept;
-  /// True: it leaves the boundary.
+  /// True: the planner leaves the boundary.
   bool boundary(const View& view) noexcept;
   void arrive(const View& view) noexcept;
 
@@ -104,13 +104,13 @@ class BoundaryPlanner final : public GoalPlanner {
   FollowSideSearch side_search_;
   LoopDetector loop_;
   Phase phase_ = Phase::survey;
-  Side wall_ = Side::left;     ///< where the obstacle is, or was last
-  bool other_way_ = false;     // the loop was closed once
-  int8_t escapes_ = 0;         // from obstacles that were not what blocked the way
+  Side wall_ = Side::left;     ///< side of the current or last obstacle
+  bool other_way_ = false;     // closed the loop once
+  int8_t escapes_ = 0;         // from obstacles that did not block the path
   Why otherwise_ = Why::none;  // the reason, if nothing moved
-  int32_t left_edge_mm_ = 0;   // travel at which an edge was last left
+  int32_t left_edge_mm_ = 0;   // travel at the last leave point
   Target target_;
-  Vec began_;  // where it was given the goal
+  Vec began_;  // position when the goal was set
 };
 
 }  // namespace whisker::planning

@@ -1,4 +1,4 @@
-/// The last places that the body passed: the way back.
+/// The last positions of the body, for the retreat.
 #pragma once
 
 #include <stdint.h>
@@ -9,14 +9,14 @@ namespace whisker::planning {
 
 class Breadcrumbs {
  public:
-  /// Keeps places this far apart.
+  /// Minimum distance between breadcrumbs.
   void reset(Vec at, Length apart) noexcept;
-  /// True if the body has moved on by that.
+  /// True if the body moved by at least that distance.
   bool add(Vec at) noexcept;
   static constexpr int kPlaces = 4;
-  /// The last place kept, n = 0, or one of those before it; n < kPlaces.
+  /// Breadcrumb n, 0 = newest; n < kPlaces.
   Vec back(int n) const noexcept { return places_[(newest_ + kPlaces - n) % kPlaces]; }
-  /// The direction from `pose` to where it was three to four of them ago; straight behind if it has hardly
+  /// The direction from `pose` to the breadcrumb three to four before; straight behind if the body has hardly
   /// moved.
   Angle way_back(const Pose& pose) const noexcept;
 

@@ -1,4 +1,4 @@
-/// The heading towards the goal: the response table's, or the first candidate beside it that is not occupied.
+/// The heading towards the goal: the response table's, or the first free candidate beside it.
 #pragma once
 
 #include "firmware/params.hpp"
@@ -7,10 +7,10 @@
 
 namespace whisker::planning {
 
-/// How far the course is deflected from the goal's direction in free space.
+/// Law that deflects the course from the goal's direction in free space.
 class HeadingDeflection {
  public:
-  /// From the moving scan; counter-clockwise positive. Writes what it used into the decision.
+  /// From the moving scan; counter-clockwise positive. Writes its inputs into the decision.
   virtual Angle deflect(const perception::Echoes& sight, const Params& params,
                         Decision& decision) noexcept = 0;
 
@@ -20,7 +20,7 @@ class HeadingDeflection {
 
 class Course {
  public:
-  /// Straight at the goal again.
+  /// Resets the course to straight at the goal.
   void reset() noexcept { bend_ = 0; }
 
   /// Once per sensor update. False: every heading within 75 degrees of the goal's is occupied.

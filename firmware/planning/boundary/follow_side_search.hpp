@@ -1,5 +1,5 @@
-/// The thesis's exits on both sides of what blocks the target direction: one sweep to each side, and
-/// the smaller turn wins.
+/// The thesis's search for an exit on both sides of the blocked target direction: one sweep to each side; the
+/// smaller turn wins.
 #pragma once
 
 #include <stdint.h>
@@ -14,10 +14,10 @@ class FollowSideSearch {
  public:
   /// `blocked` is the target direction.
   void begin(Angle blocked, Side first) noexcept;
-  /// Only that side counts.
+  /// Searches only this side.
   void begin_on(Angle blocked, Side only) noexcept;
 
-  /// Turns and judges; the body must stand. True: over.
+  /// Turns and evaluates; the body must stand. True: finished.
   bool step(const View& view, Twist& twist) noexcept;
 
   /// After the search: whether there is an exit, its side and its heading.
@@ -29,7 +29,7 @@ class FollowSideSearch {
   struct Exit {
     bool free = false;
     bool swept = false;
-    Angle heading;     // of the first free way
+    Angle heading;     // of the first free path
     int32_t turn = 0;  // to it, degrees
     int32_t view = 0;  // to the first far view, degrees; 0: none
   };

@@ -1,5 +1,5 @@
-/// The next heading along a boundary: the first free one from the wall's side, or else back along the
-/// breadcrumbs.
+/// Finds the next heading along a boundary: the first free one from the wall's side, or else a retreat along
+/// the breadcrumbs.
 #pragma once
 
 #include <stdint.h>
@@ -21,34 +21,34 @@ class HeadingSearch {
   };
   enum class Retreat : uint8_t {
     under_way,
-    there,  ///< a bit back: follow again
-    stuck,  ///< that way is not free, either: search again
-    lost,   ///< too many retreats since the body last got on
+    there,  ///< retreated far enough: follow again
+    stuck,  ///< that path is not free either: search again
+    lost,   ///< too many retreats since the last progress
   };
   struct Heading {
     Angle angle;
-    Length length;  ///< of the way that was judged
+    Length length;  ///< of the path examined
   };
 
-  /// Forgets the way here.
+  /// Resets the state of this boundary.
   void reset(Vec at, const Params& params) noexcept;
-  /// Once a tick.
+  /// Once per tick.
   void move(Vec at) noexcept;
 
   /// From this heading on, away from the wall. The body must stand at `pose` during the search.
   void begin(Angle first, const Pose& pose, Side wall) noexcept;
-  /// From the wall's side of `ahead`, but not beyond the way back: that is where the body came from.
+  /// From the wall's side of `ahead`, but not past the backward direction, from which the body came.
   void begin_at_wall(Angle ahead, const Pose& pose, Side wall) noexcept;
-  /// Judges ways of the full length, then short ones, then narrow ones. The way back comes after all of them,
+  /// Examines paths of full length, then short ones, then narrow ones. The backward direction comes last,
   /// unless the search began there.
   Found step(const View& view, const Params& params, Heading& found) noexcept;
-  /// The guard grants nothing along the last heading: go on with the next one.
+  /// The guard grants nothing along the last heading: continue with the next one.
   void refuse() noexcept { ++candidate_; }
 
-  /// Once a tick after `none`; `stalled`: the body does not move.
+  /// Once per tick after `none`; `stalled`: the body does not move.
   Retreat retreat(const View& view, bool stalled, const Params& params, Manoeuvre& manoeuvre) noexcept;
 
-  /// A way on the wall's side is nearly clear: a door, or the end of the wall.
+  /// A path on the wall's side is nearly clear: a door, or the end of the wall.
   bool opening(const View& view, Side wall, const Params& params) const noexcept;
 
  private:
@@ -58,7 +58,7 @@ class HeadingSearch {
   Angle first_;
   Angle back_;
   static constexpr int kBack = 3;
-  Vec retreat_[kBack];  // the places to go back by, the nearest first
+  Vec retreat_[kBack];  // the retreat's way points, the nearest first
   int32_t candidate_ = 0;
   Side wall_ = Side::left;
   Effort effort_ = Effort::full;

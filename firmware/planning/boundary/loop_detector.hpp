@@ -1,4 +1,4 @@
-/// Whether the body has come round the obstacle that it follows.
+/// Detects whether the body closed the loop around the obstacle that it follows.
 #pragma once
 
 #include <stdint.h>
@@ -12,41 +12,41 @@ namespace whisker::planning {
 
 class LoopDetector {
  public:
-  /// What tells laps from other movements. In pockets the body may turn all round while it stands, so its
-  /// turning is no count of laps.
+  /// Evidence for laps. In pockets the body may turn fully while it stands, so turning alone does not count
+  /// laps.
   enum class Evidence : uint8_t {
     turning,  ///< whole turns
-    place,    ///< the same place and heading, and far away, or some way, in between
+    place,    ///< the same place and heading, after a far distance or some travel
   };
 
-  /// The obstacle is met here.
+  /// Marks the hit point.
   void begin(const View& view, const Params& params) noexcept;
-  /// Once a tick.
+  /// Once per tick.
   void move(const View& view) noexcept;
 
-  /// Back where it began, with the heading that closed() was first asked at, after a whole turn or from far
-  /// away: nothing in between was a way. Ask while the edge is followed.
+  /// True if the body is back at the hit point, with the heading of the first call, after a full turn or a
+  /// far distance: then it passed no exit. Call while following the boundary.
   bool closed(const View& view, Evidence evidence = Evidence::turning) noexcept;
-  /// Whether the followed boundary, with the wall on this side, can separate `from` from `to`: `to` lies
-  /// within the loop, or, if the wall is all around, `from` does. Within is what is no farther from the
-  /// beginning than the loop reached.
+  /// Whether the followed boundary, with the wall on this side, can separate `from` from `to`: the loop
+  /// encloses `to`, or, if the wall is outside, `from`. Inside means not farther from the hit point than the
+  /// loop reached.
   bool may_part(Vec from, Vec to, Side wall) const noexcept;
-  /// Whole turns that never pass the beginning: this is another obstacle. True after two laps that end in one
-  /// place, or, by turning alone, after four. Ask once a tick.
+  /// True after two laps that end in one place without passing the hit point, or, by turning alone, after
+  /// four: this is another obstacle. Call once per tick.
   bool strays(const View& view, Evidence evidence = Evidence::turning) noexcept;
 
  private:
   Vec at_;
-  Length scale_;  // what 100 mm are to the reference body
+  Length scale_;  // 100 mm, scaled from the reference body
   Angle heading_;
-  bool follows_ = false;   // from heading_ on
-  bool left_ = false;      // has been away from the beginning
-  Length farthest_;        // from the beginning
-  uint32_t began_um_ = 0;  // View::travelled_um at the beginning
-  Angle last_;             // the heading of the tick before
+  bool follows_ = false;   // heading_ is set
+  bool left_ = false;      // has been away from the hit point
+  Length farthest_;        // from the hit point
+  uint32_t began_um_ = 0;  // View::travelled_um at the hit point
+  Angle last_;             // the heading of the previous tick
   int64_t turned_ = 0;     // 2^-32 turn, counter-clockwise positive
   int32_t laps_ = 0;       // whole turns so far
-  Vec lap_at_;             // where the last of them ended
+  Vec lap_at_;             // position at the end of the last one
   uint32_t lap_um_ = 0;    // View::travelled_um there
 };
 

@@ -1,4 +1,4 @@
-/// Whether the body still gets on: it ends a mission that only costs time.
+/// Ends a mission that makes no progress.
 #pragma once
 
 #include <stdint.h>
@@ -12,22 +12,22 @@ class ProgressChecker {
  public:
   /// A new goal is set.
   void start(const View& view) noexcept;
-  /// Once a tick.
+  /// Once per tick.
   void move(const View& view, const Params& params) noexcept;
-  /// A phase is entered that may lead nowhere.
+  /// Call on entry into a phase that may fail.
   void pause() noexcept { ++pauses_; }
 
-  /// Driven since the goal was set.
+  /// Travel since the goal was set.
   int32_t travel_mm() const noexcept { return travel_mm_; }
-  /// Why the mission ends: Why::length_budget beyond `budget`, Why::no_exit after 1,000 phases without 30 mm
-  /// of travel, Why::none while neither is so.
+  /// Reason to end the mission: Why::length_budget beyond `budget`, Why::no_exit after 1,000 phases without
+  /// 30 mm of travel, otherwise Why::none.
   Why exhausted(Length budget) const noexcept;
 
  private:
-  uint32_t started_um_ = 0;  // View::travelled_um then
+  uint32_t started_um_ = 0;  // View::travelled_um at the start
   int32_t travel_mm_ = 0;
-  int32_t paused_mm_ = 0;  // travel at which the body last got on
-  int16_t pauses_ = 0;     // since then
+  int32_t paused_mm_ = 0;  // travel at the last progress
+  int16_t pauses_ = 0;     // phases since then
 };
 
 }  // namespace whisker::planning

@@ -11,7 +11,7 @@ namespace whisker::planning {
 class Survey {
  public:
   void reset() noexcept { sides_ = 0; }
-  /// Once a tick. True: both sides were faced.
+  /// Once per tick. True: faced both sides.
   bool step(const View& view, Angle target, const Params& params, Manoeuvre& manoeuvre) noexcept;
 
  private:

@@ -1,4 +1,4 @@
-/// The thesis's response table as the law that deflects the boundary planner's course.
+/// The thesis's response table as deflection law of the boundary planner.
 #pragma once
 
 #include "firmware/fuzzy/engine.hpp"
@@ -17,7 +17,7 @@ class TableDeflection final : public HeadingDeflection {
   fuzzy::Engine engine_;
 };
 
-/// The boundary planner as it is meant.
+/// The boundary planner with its standard law.
 struct TableBoundaryPlanner {
   /// Both references must outlive it.
   TableBoundaryPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept

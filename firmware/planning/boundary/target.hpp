@@ -1,4 +1,4 @@
-/// The goal as seen from the body.
+/// The goal relative to the body.
 #pragma once
 
 #include "firmware/math/trig.hpp"
@@ -6,7 +6,7 @@
 
 namespace whisker::planning {
 
-/// Where the goal lies, seen from the body.
+/// Vector from the body to the goal.
 struct Target {
   Target() = default;
   Target(const Goal& goal, const View& view) noexcept : to(goal.at - view.pose.at), distance(norm(to)) {}

@@ -8,11 +8,11 @@
 
 namespace whisker::planning {
 
-/// Keeps the wall at 0.15 m from the centre of a body of 0.09 m, in proportion for others, or the middle of
-/// what is narrower than twice that.
+/// Keeps the wall at 0.15 m from the centre of a body of 0.09 m, in proportion for others, or drives in the
+/// middle of a narrower passage.
 ///
-/// The side beam tells the wall's distance: along a straight wall its nearest echo comes from the cone's
-/// outer rim, so w = range x sin(side angle + cone / 2). Something ahead nearer than 0.30 m turns the body
+/// The side beam gives the wall's distance: along a straight wall its nearest echo comes from the cone's
+/// outer rim, so w = range x sin(side angle + cone / 2). An obstacle ahead nearer than 0.30 m turns the body
 /// away. Where the wall ends, it drives an arc of 0.18 m around the end.
 Twist along_edge(const perception::Echoes& sight, Side wall, const Params& params) noexcept;
 

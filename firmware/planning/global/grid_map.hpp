@@ -1,4 +1,4 @@
-/// A coarse map of what the beams have seen: a rolling window of cells.
+/// A coarse map of the beams' observations: a rolling window of cells.
 #pragma once
 
 #include <stddef.h>

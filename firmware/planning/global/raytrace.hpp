@@ -6,7 +6,7 @@
 namespace whisker::planning {
 
 /// Calls `visit(place)` for every cell that the line crosses after its first one, each a four-neighbour of
-/// the one before. Stops and returns false once `visit` returns false.
+/// the previous one. Stops and returns false when `visit` returns false.
 template <class Visit>
 bool raytrace(const GridMap& map, Vec from, Vec to, Visit&& visit) noexcept {
   Cell p = map.place(from);

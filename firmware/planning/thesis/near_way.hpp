@@ -5,8 +5,8 @@
 
 namespace whisker::planning {
 
-/// True if a point lies nearer than `reach` to the straight path from the origin to (step, 0). It compares
-/// squares, because a root is the most expensive part on small chips.
+/// True if a point is nearer than `reach` to the straight path from the origin to (step, 0). Compares
+/// squares, because a square root is expensive on small chips.
 inline bool near_way(Vec point, Length step, Length reach) noexcept {
   const Length beside = point.x < Length{} ? point.x : (max)(point.x - step, Length{});
   const int64_t x = beside.raw();

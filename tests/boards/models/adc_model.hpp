@@ -7,7 +7,7 @@
 
 namespace whisker::hal::stm32f405::model {
 
-/// One conversion at a time of whatever channel comes first.
+/// Converts one channel at a time, the first of the sequence.
 class AdcModel : public Peripheral {
  public:
   std::uint32_t load(std::uint32_t offset) override {
@@ -22,7 +22,7 @@ class AdcModel : public Peripheral {
     word(offset) = value;
     if (get(adc::kSwstart) == 0) return;
     put(adc::kSwstart, 0);
-    // A start while it converts begins anew.
+    // A start during a conversion restarts it.
     left_ = get(adc::kAdon) != 0 ? kConversion : 0;
   }
   void advance() override {

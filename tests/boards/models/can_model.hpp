@@ -9,7 +9,7 @@
 
 namespace whisker::hal::stm32f405::model {
 
-/// bxCAN and the bus it is on.
+/// bxCAN and its bus.
 class CanModel : public Peripheral {
  public:
   CanModel();
@@ -17,7 +17,7 @@ class CanModel : public Peripheral {
   void store(std::uint32_t offset, std::uint32_t value) override;
   void advance() override;
 
-  /// A frame comes in from the bus. Returns whether the interrupt is raised.
+  /// A frame arrives from the bus. Returns whether the interrupt is raised.
   bool receive(const hal::CanFrame& frame);
   /// Errors beyond the limit.
   void go_bus_off();
@@ -26,8 +26,8 @@ class CanModel : public Peripheral {
   double sample_point();
 
   enum class Bus { fine, nobody_hears, others_win, held };
-  Bus bus = Bus::fine;  // held: no idle time, so nothing starts
-  bool dead = false;    // the controller answers nothing
+  Bus bus = Bus::fine;  // held: the bus is never idle, so nothing starts
+  bool dead = false;    // the controller does not respond
   std::vector<hal::CanFrame> sent;
 
  private:

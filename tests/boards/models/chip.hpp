@@ -1,5 +1,5 @@
-/// The STM32F405 as its drivers see it: registers at addresses, and behind each peripheral a model of what it
-/// does. Time goes on with every access, so that a driver which waits is a driver which polls.
+/// The STM32F405 from its drivers' view: registers at addresses, with a model behind each peripheral. Every
+/// access advances the time, because a waiting driver polls.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 
 namespace whisker::hal::stm32f405::model {
 
-/// A peripheral: registers that remember what was written, unless a model does more.
+/// A peripheral: registers that store written values, unless a model does more.
 class Peripheral {
  public:
   virtual ~Peripheral() = default;
   virtual std::uint32_t load(std::uint32_t offset) { return word(offset); }
   virtual void store(std::uint32_t offset, std::uint32_t value) { word(offset) = value; }
-  /// A poll's time has passed.
+  /// One poll period has passed.
   virtual void advance() {}
 
   std::uint32_t get(Field f) { return value(f, word(f.offset)); }
@@ -29,12 +29,12 @@ class Peripheral {
   std::array<std::uint32_t, kSpan / 4> words_{};
 };
 
-/// The newest chip is the one at which the drivers' load() and store() end. Access to an address that no
-/// peripheral has is a test's failure, and so is a wait that goes on for ever.
+/// load() and store() of the drivers go to the newest chip. Access to an address without a peripheral fails
+/// the test, and so does an endless wait.
 class Chip {
  public:
   static constexpr std::uint64_t kMostAccesses = 200000000;
-  /// A poll's time: Patience::kCyclesPerPoll at 16 MHz.
+  /// The time of one poll: Patience::kCyclesPerPoll at 16 MHz.
   static constexpr double kUsPerAccess = 0.5;
 
   Chip();
@@ -42,7 +42,7 @@ class Chip {
   Chip(const Chip&) = delete;
   Chip& operator=(const Chip&) = delete;
 
-  /// The peripheral must outlive the chip's use.
+  /// The peripheral must outlive its use by the chip.
   void attach(Address base, Peripheral& peripheral);
   std::uint32_t load(Address address);
   void store(Address address, std::uint32_t value);

@@ -6,7 +6,7 @@
 
 namespace whisker::hal::stm32f405::model {
 
-/// Oscillators and the clock switch, each with a fault.
+/// Oscillators and the clock switch, each with a possible fault.
 class RccModel : public Peripheral {
  public:
   RccModel() { word(rcc::kCr.offset) = 0x83; }
@@ -19,7 +19,7 @@ class RccModel : public Peripheral {
     const std::uint32_t wanted = get(rcc::kSw);
     if (wanted != 2 || get(rcc::kPllrdy) != 0) put(rcc::kSws, wanted);
   }
-  /// Of the core, from how the tree is set up; 0 for a set-up that the data sheet forbids.
+  /// Core clock for the current set-up; 0 if the data sheet forbids it.
   double core_mhz(RccModel& rcc, Peripheral& flash) {
     if (rcc.get(rcc::kSws) == 0) return 16;
     const double input = get(rcc::kPllsrc) != 0 ? 8 : 16;

@@ -7,7 +7,7 @@
 
 namespace whisker::hal::stm32f405::model {
 
-/// A port: outputs drive their pins, and anybody outside may hold a pin low.
+/// A port: outputs drive their pins, and the outside may hold a pin low.
 class GpioModel : public Peripheral {
  public:
   enum Mode : std::uint32_t { kInput = 0, kOutput = 1, kFunction = 2, kAnalogue = 3 };
@@ -34,7 +34,7 @@ class GpioModel : public Peripheral {
   bool open_drain(std::uint8_t pin) { return get(of_pin(gpio::kOtyper, pin)) != 0; }
   bool pulled_up(std::uint8_t pin) { return get(of_pin(gpio::kPupdr, pin)) == 1; }
   std::uint32_t function(std::uint8_t pin) { return get(of_pin(pin < 8 ? gpio::kAfrl : gpio::kAfrh, pin)); }
-  /// What the port drives there as an output.
+  /// The level that the port drives as an output.
   bool output(std::uint8_t pin) { return mode(pin) == kOutput && (driven_ >> pin & 1U) != 0; }
   bool level(std::uint8_t pin) {
     if (held_low && held_low(pin)) return false;

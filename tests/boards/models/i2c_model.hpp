@@ -14,14 +14,14 @@ class I2cDevice {
   virtual ~I2cDevice() = default;
   virtual bool answers(std::uint8_t address) = 0;
   virtual void begin(bool reading) = 0;
-  /// False: refuses the byte.
+  /// False: the device refuses the byte.
   virtual bool write(std::uint8_t byte) = 0;
   virtual std::uint8_t read() = 0;
   virtual void stop() {}
 };
 
-/// I2C1 as a master, after the reference manual: flags, the clock held while nobody reads, and when the
-/// acknowledgement of a byte is decided.
+/// I2C1 as a master, after the reference manual: flags, clock stretching until data is read, and the time at
+/// which acknowledgement is decided.
 class I2cModel : public Peripheral {
  public:
   static constexpr int kBit = 5;  // polls
@@ -32,13 +32,13 @@ class I2cModel : public Peripheral {
 
   void attach(I2cDevice& device) { devices_.push_back(&device); }
   bool set_up_for_400khz(double mhz);
-  /// Bytes that were clocked in and that nobody wanted: the end of a read came too late.
+  /// Superfluous bytes that were clocked in because the end of a read came too late.
   int unwanted_bytes = 0;
   int stops = 0;
 
   enum class Fault { none, deaf, arbitration, bus_error, clock_held };
   Fault fault = Fault::none;
-  bool line_held = false;  // by somebody: the bus is busy, and no start comes through
+  bool line_held = false;  // by another device: the bus is busy, and no start succeeds
 
  private:
   enum class Phase { idle, starting, addressing, address_flag, writing, reading, halted };

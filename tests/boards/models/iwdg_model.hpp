@@ -5,7 +5,7 @@
 
 namespace whisker::hal::stm32f405::model {
 
-/// Its values can be written while it is unlocked, and take their time to be taken over.
+/// Its values are writable only while unlocked, and take effect after a delay.
 class IwdgModel : public Peripheral {
  public:
   IwdgModel() { word(iwdg::kRlr.offset) = 0xFFF; }

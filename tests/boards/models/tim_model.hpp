@@ -8,12 +8,12 @@ namespace whisker::hal::stm32f405::model {
 /// A timer as a clock, as a pulse width, or as a quadrature counter.
 class TimModel : public Peripheral {
  public:
-  /// 0: time does not move it.
+  /// 0: the counter does not advance with time.
   explicit TimModel(double input_mhz = 0) : input_mhz_(input_mhz) {}
 
   void store(std::uint32_t offset, std::uint32_t value) override {
     word(offset) = value;
-    // The prescaler takes its value at an update.
+    // The prescaler takes effect at an update.
     if (offset == tim::kEgr.offset && (value & mask(tim::kUg)) != 0) {
       prescaler_ = word(tim::kPsc.offset);
       clocks_ = 0;
@@ -28,7 +28,7 @@ class TimModel : public Peripheral {
       ++word(tim::kCnt.offset);
     }
   }
-  /// The wheel turns by so many edges.
+  /// The wheel turns by so many encoder edges.
   void turn(int edges) {
     const bool counts = get(tim::kCen) != 0 && get(tim::kSms) == 3 && get(tim::kCc1s) == 1 &&
                         get(tim::kCc2s) == 1 && word(tim::kArr.offset) == 0xFFFF;
@@ -36,7 +36,7 @@ class TimModel : public Peripheral {
     std::uint32_t& count = word(tim::kCnt.offset);
     count = (count + static_cast<std::uint32_t>(edges)) & 0xFFFF;
   }
-  /// Of the period for which the output is high; 0 if the output is off.
+  /// Fraction of the period with high output; 0 if the output is off.
   double duty(int channel) {
     const bool first = channel == 1;
     const bool on = get(tim::kCen) != 0 && get(tim::kMoe) != 0 && get(first ? tim::kCc1e : tim::kCc2e) != 0 &&

@@ -39,7 +39,7 @@ class UsartModel : public Peripheral {
   void advance() override {
     if (!line_held && left_ > 0 && --left_ == 0) put(usart::kTxe, 1);
   }
-  /// A byte comes in. Returns whether the interrupt is raised.
+  /// A byte arrives. Returns whether the interrupt is raised.
   bool receive(std::uint8_t byte, bool noisy = false) {
     if (get(usart::kRe) == 0 || get(usart::kUe) == 0) return false;
     if (get(usart::kRxne) != 0) {
@@ -56,7 +56,7 @@ class UsartModel : public Peripheral {
   }
 
   std::string sent;
-  bool line_held = false;  // what is being sent does not leave
+  bool line_held = false;  // sent bytes do not leave
 
  private:
   bool status_read_ = false;

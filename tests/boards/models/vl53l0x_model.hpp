@@ -7,7 +7,7 @@
 
 namespace whisker::hal::stm32f405::model {
 
-/// A time-of-flight sensor: asleep while its reset is held, then at its default address until told another.
+/// A time-of-flight sensor: off while its reset is held, then at its default address until readdressed.
 class Vl53l0xModel : public I2cDevice {
  public:
   bool answers(std::uint8_t address) override { return awake && !dead && address == address_; }

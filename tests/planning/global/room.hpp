@@ -1,4 +1,4 @@
-/// A map with room for its cells, and random ones.
+/// A map with storage for its cells, and random maps.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Room {
     map.configure(params);
     map.reset(body, goal);
   }
-  /// Every cell blocks with this chance, half of those for sure.
+  /// Every cell blocks with this chance, half of them surely.
   void scatter(std::mt19937& random, double chance) {
     std::uniform_real_distribution<double> draw(0, 1);
     for (int y = 0; y < map.shape().rows; ++y) {
@@ -33,7 +33,7 @@ struct Room {
   planning::GridMap map;
 };
 
-/// Cell by cell: in a fine map, an unseen one beside what blocks.
+/// By single cells: in a fine map, an unseen cell beside a blocked one.
 inline bool too_narrow(const planning::GridMap& map, planning::Cell p) {
   if (map.shape().cell >= millimetres(75) || map.at(p) != planning::CellState::unknown) return false;
   for (const planning::Cell d :

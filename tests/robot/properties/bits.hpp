@@ -1,4 +1,4 @@
-/// Random bits for long streams: one seed, drawn and printed by rapidcheck, stands for a whole run.
+/// Random bits for long streams: rapidcheck draws and prints one seed, which determines a whole run.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class Bits {
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
     return z ^ (z >> 31);
   }
-  /// Both ends are drawn.
+  /// Uniform, both limits included.
   std::int64_t between(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(next() % (static_cast<std::uint64_t>(high - low) + 1));
   }

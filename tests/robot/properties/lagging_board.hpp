@@ -1,5 +1,5 @@
-/// An honest board in an open world: wheels that follow with the lag, sensors at the rate and latency that
-/// the parameters state.
+/// A correct board in an open world: wheels follow with the lag, sensors have the rate and latency of the
+/// parameters.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// Parameter sets that check() accepts, the ends of every range among them.
+/// Parameter sets that check() accepts, including the limits of every range.
 #pragma once
 
 #include "firmware/params.hpp"
@@ -8,8 +8,7 @@ namespace whisker::test {
 
 Params random_params(Bits& bits);
 
-/// A robot like the reference one: its geometry, but for the scale, and other wheels, rates, latencies and
-/// steps.
+/// A robot similar to the reference: its scaled geometry, and other wheels, rates, latencies and steps.
 Params robot_like_the_reference(Bits& bits);
 
 }  // namespace whisker::test

@@ -1,4 +1,4 @@
-/// A board that behaves for a while, then lies, refuses, freezes or jumps, then behaves again.
+/// A board that alternates between correct phases and wrong readings, refusals, frozen values and jumps.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace whisker::test {
 
 class StormBoard final : public hal::Rangefinders, public hal::Drive {
  public:
-  /// fury 0: always behaves; else about one spell in `fury + 1` behaves.
+  /// fury 0: always correct; otherwise about one phase in `fury + 1` is correct.
   StormBoard(Bits bits, const Params& params, int fury);
 
   /// One control period passes.

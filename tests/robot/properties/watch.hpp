@@ -1,4 +1,4 @@
-/// What the core promises at every tick, whatever the board does.
+/// The guarantees of the core at every tick, for any board.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace whisker::test {
 class Watch {
  public:
   explicit Watch(const Params& params);
-  /// The first promise that this tick broke; empty if it kept them all.
-  /// elapsed: since the tick before, as the core takes it.
+  /// The first guarantee violated in this tick; empty if none. elapsed: since the previous tick, as the core
+  /// limits it.
   std::string see(const Status& status, Duration elapsed, bool refused);
-  /// The caller has reset the robot.
+  /// Call after a reset of the robot.
   void forgive() { fault_ = Fault::none; }
 
  private:
@@ -24,7 +24,7 @@ class Watch {
 
   int32_t top_;  // 0.1 mm/s
   Acceleration acceleration_;
-  int32_t change_ = 0;  // 0.1 mm/s at this tick
+  int32_t change_ = 0;  // 0.1 mm/s in this tick
   Duration to_stand_;   // from a fault
   hal::WheelSpeeds last_{};
   Health health_;
