@@ -1,4 +1,4 @@
-/// Headers: what a receiver needs of a message before it decodes the signals, without texts.
+/// Headers: the part of the table that a receiver needs before it decodes the signals, without texts.
 #pragma once
 
 #include <stdint.h>

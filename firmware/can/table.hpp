@@ -59,7 +59,7 @@ constexpr Signals<M> signals_of() noexcept {
   return signals;
 }
 
-/// Of a message, in the table's order.
+/// The signals of a message, in the table's order.
 template <class M>
 inline constexpr Signals<M> kSignals = signals_of<M>();
 

@@ -10,7 +10,7 @@
 
 namespace whisker {
 
-/// The relations between parameters; each comment is what must hold.
+/// The relations between parameters; each comment states the condition.
 enum class ParamFault : uint8_t {
   none,
   out_of_range,               ///< a value lies outside its own range

@@ -1,4 +1,4 @@
-/// What the robot perceives at a tick.
+/// The robot's perception in a tick.
 #pragma once
 
 #include <stdint.h>

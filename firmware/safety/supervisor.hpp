@@ -40,7 +40,7 @@ class Supervisor {
   void check_ranges(Duration lost) noexcept;
   /// How long the body has stood for a static scan that waits.
   void check_look(bool waits, Duration stood) noexcept;
-  /// Whatever a planner waits for or tries, it must not do it for ever in one place.
+  /// Bounds the time in one place, whatever the planner waits for or tries.
   void check_place(Vec at, bool running, Duration elapsed) noexcept;
   void check_motion(const planning::MotionController& motion) noexcept;
   /// Whether the drive accepted the command.

@@ -52,7 +52,7 @@ class BugPlanner final : public planning::GoalPlanner {
   planning::Side wall_ = planning::Side::left;
   std::int32_t looked_mm_ = 0;
   Angle course_;
-  Angle follow_heading_;  ///< before a look away from the wall
+  Angle follow_heading_;  ///< before the scan away from the wall
 };
 
 /// A bug planner with its rule.

@@ -1,4 +1,4 @@
-/// Missions with a moving object, and whether the robot could have seen what it touched.
+/// Missions with a moving object, and whether the robot could have detected the object that it touched.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 
 namespace whisker::campaign {
 
-/// Thrown by a task that was told to stop.
+/// Thrown by a task that was requested to stop.
 struct Stopped {};
 
 struct Work {
@@ -21,7 +21,7 @@ struct Work {
   std::function<void(const Row&)> take;
   /// Called on the caller's thread at least every tenth of a second with the number of received results.
   std::function<void(std::uint64_t)> wait;
-  std::function<bool()> stop;  ///< true: no new task is started, and running ones are told to stop
+  std::function<bool()> stop;  ///< true: no new task is started, and running ones are requested to stop
 };
 
 /// Returns the number of received results: work.count, or fewer after a stop. If a task throws, the results

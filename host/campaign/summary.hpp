@@ -32,12 +32,12 @@ struct Summary {
   Estimate estimate_error_p50, estimate_error_p95;  ///< m, of all missions
   Estimate path_p50, path_p95;                      ///< m driven, of all missions
 
-  /// Of the missions that report "reached"; none without any.
+  /// Over the missions that report "reached"; none if there are none.
   std::optional<Estimate> ratio_mean, ratio_p50, ratio_p95;
   std::optional<Estimate> s_per_m_p50, s_per_m_p95;
   std::optional<Estimate> clearance_p5;
   std::optional<Estimate> final_distance_p50, final_distance_p95;  ///< m, true
-  /// Of the missions that drove at all.
+  /// Over the missions in which the robot drove.
   PerMetre stops, flips, looks, turned;
 };
 

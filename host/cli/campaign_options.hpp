@@ -39,8 +39,9 @@ struct Missions {
   std::uint64_t last = 0;
 };
 
-/// KIND|DIR, --count, --seed, --discs and --box; `each` is the text for what is counted. Returns the first
-/// option.
+/// KIND
+/// DIR, --count, --seed, --discs and --box; `each` names the counted items in the help text. Returns the
+/// first option.
 CLI::Option* add_worlds(CLI::App& app, CampaignOptions& options, const std::string& each);
 /// --jobs.
 void add_jobs(CLI::App& app, CampaignOptions& options);

@@ -22,7 +22,7 @@ class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The waiting caller was told to stop.
+/// The waiting caller was requested to stop.
 class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -32,8 +32,8 @@ struct BusOptions {
   can::SyncMode sync_mode = can::SyncMode::lockstep;
   std::uint32_t resend_ms = 20;       ///< lockstep: the shortest wait before a set is repeated, see Resend
   std::uint32_t patience_ms = 30000;  ///< for the answer to one request while the handshake holds
-  std::function<void(const std::string&)> say;  ///< receives what it waits for, once each; "": it drives
-  std::function<std::string()> bus_waits_for;   ///< what keeps the port off the bus, if known
+  std::function<void(const std::string&)> say;  ///< receives each awaited item once; "": it drives
+  std::function<std::string()> bus_waits_for;   ///< reason why the port is off the bus, if known
   std::function<bool()> interrupted;            ///< true: give up
 };
 

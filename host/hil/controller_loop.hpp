@@ -12,7 +12,7 @@ namespace whisker::hil {
 struct ControllerOptions {
   can::Identity identity{1, 1, 0};
   PlannerKind planner = kDefaultPlanner;
-  std::function<void(const std::string&)> say;  ///< receives what the controller does or waits for, once each
+  std::function<void(const std::string&)> say;  ///< receives each activity or awaited item once
   std::function<bool()> interrupted;            ///< true: end
 };
 

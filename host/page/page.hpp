@@ -14,7 +14,7 @@
 
 namespace whisker::page {
 
-/// What is known of a run before its first tick.
+/// The data of a run that are known before its first tick.
 struct Setting {
   const Scenario& scenario;
   std::optional<PlannerKind> planner;  ///< none: unknown

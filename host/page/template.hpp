@@ -12,7 +12,7 @@ const std::vector<std::string_view>& template_parts();
 /// The mark that the data replaces; it occurs once.
 constexpr std::string_view kDataMark = "<!--data-->";
 
-/// What the page may load: nothing.
+/// Content security policy: the page may load nothing.
 constexpr std::string_view kPolicy = "default-src 'none';";
 
 }  // namespace whisker::page

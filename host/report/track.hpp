@@ -1,4 +1,4 @@
-/// Classes of what the robot did along its path, for pictures.
+/// Classes of the robot's activity along its path, for pictures.
 #pragma once
 
 #include <array>

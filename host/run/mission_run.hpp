@@ -35,7 +35,7 @@ class MissionRun {
   double distance_left() const;  ///< true, to the centre of the goal
   /// The same from the estimated position; none: unknown.
   std::optional<double> believed_distance() const;
-  /// Of the last tick, or of the contact.
+  /// At the last tick, or at the contact.
   TickRecord record() const;
   /// So far; verdict and detail are valid only after the end.
   RunResult result() const;

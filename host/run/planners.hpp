@@ -25,7 +25,7 @@ struct PlannerKind {
   friend constexpr bool operator!=(PlannerKind a, PlannerKind b) { return !(a == b); }
 };
 
-/// The core's planner of this name; its map, if it has one, has so many bytes.
+/// The core's planner with this name, and this size of map if it has one.
 constexpr PlannerKind core_planner(std::string_view name, std::int32_t map_bytes = 0) {
   PlannerKind found{-1, 0};
   planning::for_each_planner([&](const planning::PlannerInfo& info, auto type) {

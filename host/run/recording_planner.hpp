@@ -15,7 +15,7 @@ class RecordingPlanner final : public planning::Planner {
     view_ = view;
     return planner_.step(view);
   }
-  /// Of the last step.
+  /// The view of the last step.
   const planning::View& view() const { return view_; }
   /// Null before the first step.
   const perception::LocalGrid* local_grid() const { return view_.local_grid; }

@@ -4,8 +4,8 @@
 
 namespace whisker::scanner {
 
-/// Adds what an all-round sensor sees at this point: everything in range that is not hidden, by rays a
-/// quarter of a degree apart (9 mm at 2 m).
+/// Adds everything that an all-round sensor at this point detects: outlines in range that are not hidden, by
+/// rays a quarter of a degree apart (9 mm at 2 m).
 void scan_all_round(const std::vector<sim::Segment>& outlines, sim::Vec2 from, double range_m,
                     SeenOutlines& seen);
 

@@ -12,7 +12,7 @@
 namespace whisker::scanner {
 
 struct ReferencePath {
-  bool reached = false;  ///< false: what it saw leaves no path to the goal
+  bool reached = false;  ///< false: the seen outlines leave no path to the goal
   double driven_m = 0;
   /// The shortest path through all of the same outlines, none if it does not exist. A reference that reaches
   /// the goal is at most 1 part in 1000 shorter, because the body is checked against the world every 10 mm.

@@ -31,7 +31,7 @@ class SeenOutlines {
 
   /// The spans seen so far: a part of the world.
   World known() const;
-  /// What was added since the last call.
+  /// The segments added since the last call.
   World take_new();
 
  private:

@@ -22,7 +22,7 @@ class WheelModel {
   double lag_;
   double max_acceleration_;
   double step_;
-  double decay_;  // of the remainder over one whole step
+  double decay_;  // decay of the remainder over one whole step
 };
 
 }  // namespace whisker::sim

@@ -30,7 +30,7 @@ class Feed {
   void begin(const page::Setting& setting);
   /// For RunOptions::watch.
   void add(const Moment& moment);
-  /// What the run waits for, for people; "" for nothing.
+  /// For people: the item that the run waits for; "" if none.
   void say(const std::string& words);
   void end(const RunResult& result);
   /// No more data follows.

@@ -31,7 +31,7 @@ class Figures(Case):
             pages = (ROOT / f"docs/{name}.md" for name in ("replay", "playground"))
             self.assertTrue(any(f"](figures/{path.name})" in page.read_text() for page in pages), path.name)
         others = [path.name for path in (ROOT / "docs/figures").iterdir() if path.suffix not in (".svg", ".png")]
-        # What the pictures of pages were drawn from.
+        # Hashes of the sources of the pages' pictures.
         self.assertEqual(others, ["pages.sha256"])
 
 

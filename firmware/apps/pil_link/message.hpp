@@ -1,6 +1,6 @@
-/// docs/link.md is made from this.
+/// docs/link.md is generated from this.
 ///
-/// The words between a robot on a chip and the companion that plays its sensors and its wheels.
+/// Messages between a robot on a chip and the companion that simulates its sensors and its wheels.
 ///
 /// The companion sends messages, each a byte that names it and a body; the chip answers some:
 ///
@@ -12,12 +12,12 @@
 /// | G goal | Target | - |
 /// | L place | Stand | - |
 /// | C cancel, R reset | - | - |
-/// | T tick | Tick: the time, and what the hardware will say to this tick's calls | Answer |
+/// | T tick | Tick: the time, and the hardware's answers to this tick's calls | Answer |
 /// | F fuzzy | Probe: two inputs of the response table | Reaction |
 /// | E end | - | Total; the chip's program ends |
 ///
 /// Bodies are the fields that each() names, in its order, little-endian, two's complement, no padding.
-/// A byte that names no message, or a message before its turn, ends the program with an error.
+/// A byte that names no message, or a message out of order, ends the program with an error.
 #pragma once
 
 #include <stddef.h>
@@ -42,7 +42,7 @@ enum class Name : uint8_t {
 
 constexpr uint8_t kVersion = 2;
 
-/// Every message's each(m, f) calls f(name, field) for its fields, in the order of the bytes; M may be const.
+/// each(m, f) of a message calls f(name, field) for its fields, in byte order; M may be const.
 struct Greeting {
   uint8_t version = kVersion;
   uint8_t engine = 0;           ///< 0: look-up, 1: closed form
@@ -120,7 +120,7 @@ struct Tick {
   }
 };
 
-/// The status after a tick: whatever a wrong core would show.
+/// The status after a tick: every value that may reveal a fault of the core.
 struct Answer {
   hal::WheelSpeeds command{};
   uint8_t mode = 0;

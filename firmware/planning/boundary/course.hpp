@@ -1,4 +1,4 @@
-/// The heading towards the goal: the response table's, or the first free candidate beside it.
+/// The heading towards the goal: the response table's, or the first unoccupied candidate beside it.
 #pragma once
 
 #include "firmware/params.hpp"

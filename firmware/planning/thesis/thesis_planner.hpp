@@ -1,5 +1,5 @@
 /// The planner of the thesis: fuzzy steering in free space, a probe before every step, and deadlock
-/// prevention by following the boundary of what blocks the target.
+/// prevention by following the boundary of the obstacle that blocks the target.
 ///
 ///   idle -> facing -> looking -> steering -> probing -> stepping -> facing ...        (t = 0)
 ///                        |                      ^

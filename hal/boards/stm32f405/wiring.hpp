@@ -1,4 +1,4 @@
-/// What is connected to which pin.
+/// The connections of the pins.
 #pragma once
 
 #include "hal/boards/stm32f405/pin.hpp"
