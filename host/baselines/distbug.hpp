@@ -10,9 +10,8 @@ namespace whisker::baselines {
 /// and stores d_min, the smallest distance to the goal so far. It leaves if d - F <= d_min - step: d is the
 /// distance to the goal, F the free range towards it. Back at the hit point: unreachable.
 ///
-/// F is the range of a beam within 6 degrees of the goal's direction, minus the body, or the distance that
-/// the local grid proves free. d_min is kept over the boundaries: the paper's rule gives the same if F is
-/// exact.
+/// F is the range of a beam within 6 degrees of the goal's direction, minus the body, or the free distance
+/// in the local grid. d_min is kept over the boundaries: the paper's rule gives the same if F is exact.
 class DistBug final : public LeaveRule {
  public:
   /// The parameters must outlive it.

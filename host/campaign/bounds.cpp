@@ -15,8 +15,7 @@ double sum(const std::vector<double>& v) { return std::accumulate(v.begin(), v.e
 
 Estimate around(double value, double half_width) { return {value, value - half_width, value + half_width}; }
 
-/// P(count = k) for k = 0..n of a binomial count, outwards from the mode, so that no relevant term
-/// underflows.
+/// P(count = k) for k = 0..n of a binomial count from the mode outwards, so that no relevant term underflows.
 std::vector<double> binomial(std::size_t n, double p) {
   std::vector<double> weight(n + 1, 0);
   const double total = static_cast<double>(n);

@@ -180,8 +180,7 @@ class Replay {
     if (options_.stepped) options_.stepped(set, status_, planners_.local_grid(), planners_.guide());
   }
 
-  /// Answers missing from the log leave a gap in the counters; repeats these steps, because the core made
-  /// them.
+  /// Answers missing from the log leave a gap in the counters; the core made these steps, so repeat them.
   void fill_gap(std::uint16_t to, std::uint8_t counter) {
     const int lost = (counter + 2 * can::kAliveModulus - counter_ - 1) % can::kAliveModulus;
     const auto between = static_cast<std::uint16_t>(to - tick16_ - 1);

@@ -29,8 +29,7 @@ RuleBase any_rules() {
   return rules;
 }
 
-/// Calls f(inputs) on a lattice with random offsets; strides are coprime to the spacings of nodes and
-/// centres.
+/// Calls f(inputs) on a lattice with random offsets; strides are coprime to node and centre spacings.
 template <class F>
 void on_a_lattice(F&& f) {
   const int first_d = *rc::gen::inRange(0, 13);
