@@ -227,7 +227,7 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;
   const int32_t beyond = units(farthest + approach_) + kUnitsPerCell;
   const Wedge cone(axis, half_cone_);
-  // The inflated outline may extend beyond the cone's edges, and nearer; behind the apex it must not.
+  // The object may extend beyond the cone's edges, and be nearer there, but not behind the apex.
   const HalfPlane ahead = HalfPlane::facing(axis);
   for (int row = 0; row < kCells; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;

@@ -105,7 +105,7 @@ bool MotionDetector::contradicts(const Pose& from, int beam, Length nearest, Len
   const Length beyond = farthest + kNoise / 3;
   const Length middle = (nearest + beyond) / 2;
   const Length radius = (beyond - nearest) / 2 + arc(step, far) / 2 + kSlack;
-  // The scans among these that cover the whole ray across the arc.
+  // The sectors in `among` that contain the ray from `nearest` to `far`.
   const auto across = [&](Angle direction, Mask among) {
     if (among == 0) return Mask{0};
     const Q30 x = cos(direction);
