@@ -148,7 +148,7 @@ void BxCan::collect() noexcept {
       if (value(can::kTerr[box], status) != 0) count(counts_.unheard);
     }
     mailbox_[box].busy = false;
-    // Written alone: the one clears this flag and its three neighbours, without an abort request.
+    // Only this bit: writing 1 clears it and its three neighbours, and zeros request no abort.
     store(kBase, can::kTsr, mask(can::kRqcp[box]));
   }
 }

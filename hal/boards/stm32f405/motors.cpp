@@ -39,7 +39,7 @@ void Motors::drive_one(uint8_t wheel, int16_t duty) noexcept {
   const uint32_t size = static_cast<uint32_t>(duty < 0 ? -int32_t{duty} : int32_t{duty});
   const uint32_t high = size >= INT16_MAX ? steps_ : size * steps_ / INT16_MAX;
   const Pin* direction = &wiring::kDirections[2 * wheel];
-  // The low input changes first: both inputs high would brake for a moment.
+  // The low input changes first, so that both inputs are never high.
   write(direction[duty > 0 ? 1 : 0], false);
   store(kBase, wheel == 0 ? tim::kCcr1 : tim::kCcr2, high);
   if (duty != 0) {
