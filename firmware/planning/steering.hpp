@@ -23,8 +23,8 @@ Angle nearest_facing(Angle wanted, const Params& params) noexcept;
 /// gain x error, at most kFastestTurn.
 AngularRate rate_towards(Angle error, int32_t gain) noexcept;
 
-/// Turns by the error on the spot.
-Twist face(Angle error) noexcept;
+/// The highest speed from which `rest` is enough to stop: v with v^2 / 2a + v * settle = rest.
+Speed approach_speed(Length rest, const Params& params) noexcept;
 
 /// Drives while it turns: at `top` straight ahead, slower the more the heading is off, and not at all beyond
 /// 1 / 1.2 rad.
@@ -32,6 +32,9 @@ Twist steer(Angle error, Speed top) noexcept;
 
 /// A cruise at this twist.
 Manoeuvre cruise(Twist twist, const Params& params) noexcept;
+
+/// Turns by the error on the spot, never faster than the wheels can stop within it.
+Manoeuvre face(Angle error, const Params& params) noexcept;
 
 /// Turns by the error on the spot. True when it is below 3 degrees, see nearest_facing.
 bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept;
