@@ -7,8 +7,8 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
     : rangefinders_(rangefinders),
       planner_(planner),
       params_(params),
-      supervisor_(params, status_.health),
-      wheels_(drive) {
+      wheels_(drive),
+      supervisor_(params, status_.health) {
   if (check(params) != ParamFault::none) {
     supervisor_.fail(Fault::invalid_params);
     show_fault();

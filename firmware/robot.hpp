@@ -93,15 +93,6 @@ class Robot {
   planning::Planner& planner_;
   const Params& params_;
 
-  Status status_;
-  localization::Odometry odometry_;
-  localization::Frame frame_;
-  perception::Perception perception_;
-  planning::MotionController motion_;
-  safety::Guard guard_;
-  safety::Supervisor supervisor_;
-  control::WheelDrive wheels_;
-
   localization::CountStep step_;  // of this tick
   Time last_tick_;
   Time settled_since_;
@@ -112,6 +103,15 @@ class Robot {
   bool goal_refused_ = false;
   bool was_settled_ = false;
   bool braked_elsewhere_ = false;
+
+  Status status_;
+  localization::Frame frame_;
+  control::WheelDrive wheels_;
+  safety::Guard guard_;
+  planning::MotionController motion_;
+  localization::Odometry odometry_;
+  safety::Supervisor supervisor_;
+  perception::Perception perception_;
 };
 
 }  // namespace whisker

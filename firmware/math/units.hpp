@@ -64,18 +64,19 @@ using Acceleration = Unit<struct AccelerationTag>;
 using AngularRate = Unit<struct AngularRateTag>;
 using Duration = Unit<struct DurationTag>;
 
-// Parentheses, because Arduino and some vendors' headers define macros abs(), min() and max().
+// Parentheses, because Arduino and some vendors' headers define macros abs(), min() and max(). Choosing
+// between raw values, not between units, keeps the compilers from putting both on the stack.
 template <class Tag>
 constexpr Unit<Tag>(abs)(Unit<Tag> a) noexcept {
   return a.raw() < 0 ? -a : a;
 }
 template <class Tag>
 constexpr Unit<Tag>(min)(Unit<Tag> a, Unit<Tag> b) noexcept {
-  return b < a ? b : a;
+  return Unit<Tag>::from_raw(b < a ? b.raw() : a.raw());
 }
 template <class Tag>
 constexpr Unit<Tag>(max)(Unit<Tag> a, Unit<Tag> b) noexcept {
-  return a < b ? b : a;
+  return Unit<Tag>::from_raw(a < b ? b.raw() : a.raw());
 }
 /// x limited to [-limit, limit]. limit >= 0.
 template <class Tag>

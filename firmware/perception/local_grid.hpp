@@ -104,11 +104,7 @@ class LocalGrid {
   void renew_around(Vec at) noexcept;
   void clear_around(Vec at, int32_t reach) noexcept;
 
-  Row young_[kCells] = {};    // cleared since the last ageing step
-  Row old_[kCells] = {};      // cleared before it
-  Row suspect_[kCells] = {};  // near an echo
-  Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
-  int32_t column_ = 0;        // of the window's corner, in world cells
+  int32_t column_ = 0;  // of the window's corner, in world cells
   int32_t row_ = 0;
   Pose last_;
   Vec tested_at_;
@@ -126,6 +122,11 @@ class LocalGrid {
   int32_t footprint_ = 0;    // grid units
   int32_t placed_free_ = 0;  // assumed free when the body is placed; grid units
   int32_t ring_ = 0;         // the same: ring beside the body's path
+
+  Row young_[kCells] = {};    // cleared since the last ageing step
+  Row old_[kCells] = {};      // cleared before it
+  Row suspect_[kCells] = {};  // near an echo
+  Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
 };
 
 }  // namespace whisker::perception

@@ -60,7 +60,6 @@ class MotionDetector {
   /// The same for one sector, given the vector from its scan to the point; exact to the micrometre.
   bool holds(const Scan& scan, int beam, Vec way) const noexcept;
 
-  Scan scan_[kKept];
   Time newest_taken_;
   int8_t newest_ = kKept - 1;
   int8_t count_ = 0;
@@ -69,6 +68,7 @@ class MotionDetector {
   Facing beam_[kBeams];
   Facing edge_;  // half_
   Length offset_;
+  Scan scan_[kKept];
 };
 
 }  // namespace whisker::perception

@@ -51,13 +51,13 @@ class Perception {
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:
+  uint8_t seen_ = 0;                      // one bit per beam that has a last reading
+  EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
+  RangeScatter scatter_[hal::kBeams];
   RangeConditioner conditioner_;
   localization::PoseHistory history_;
-  LocalGrid local_grid_;
   MotionDetector motion_;
-  RangeScatter scatter_[hal::kBeams];
-  EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
-  uint8_t seen_ = 0;                      // one bit per beam that has one
+  LocalGrid local_grid_;
 };
 
 }  // namespace whisker::perception

@@ -1,5 +1,7 @@
 #include "firmware/planning/motion_controller.hpp"
 
+#include "firmware/planning/steering.hpp"
+
 namespace whisker::planning {
 namespace {
 
@@ -7,15 +9,6 @@ constexpr int32_t kStillPeriods = 3;
 /// The guard holds a drive back for at most this long: by then the beams would have seen the unknown ground.
 constexpr int32_t kHeldPeriods = 20;
 constexpr int32_t kHeldReadings = 4;
-
-/// The highest speed that stops within `rest`: v with v^2 / 2a + v * settle = rest.
-Speed approach_speed(Length rest, const Params& params) noexcept {
-  if (rest <= Length{}) return Speed{};
-  const int64_t a = params.wheels.max_acceleration.raw();
-  const int64_t lead = (params.wheels.max_acceleration * params.motion.settle).raw();
-  const uint32_t root = square_root(static_cast<uint64_t>(lead * lead + 2 * a * rest.raw()));
-  return Speed::from_raw(saturate32(static_cast<int64_t>(root) - lead));
-}
 
 Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noexcept {
   const Speed v = min(approach_speed(abs(rest), params), limit_speed);

@@ -32,7 +32,7 @@ bool ScanBehaviour::step(const View& view, const Params& params, Manoeuvre& mano
   if (in_vain_) return true;
   if (magnitude(turn) > (1_deg).raw()) {
     halting_ = false;
-    manoeuvre = cruise(face(turn), params);
+    manoeuvre = face(turn, params);
   } else if (!halting_) {
     halt(manoeuvre);
   }

@@ -21,7 +21,13 @@ AngularRate rate_towards(Angle error, int32_t gain) noexcept {
   return limit(AngularRate::from_raw(saturate32(microradians * gain)), kFastestTurn);
 }
 
-Twist face(Angle error) noexcept { return {Speed{}, rate_towards(error, kFaceGain)}; }
+Speed approach_speed(Length rest, const Params& params) noexcept {
+  if (rest <= Length{}) return Speed{};
+  const int64_t a = params.wheels.max_acceleration.raw();
+  const int64_t lead = (params.wheels.max_acceleration * params.motion.settle).raw();
+  const uint32_t root = square_root(static_cast<uint64_t>(lead * lead + 2 * a * rest.raw()));
+  return Speed::from_raw(saturate32(static_cast<int64_t>(root) - lead));
+}
 
 Twist steer(Angle error, Speed top) noexcept {
   const int64_t off = scale_down<32>(magnitude(error) * kMicroradians);
@@ -38,8 +44,14 @@ Manoeuvre cruise(Twist twist, const Params& params) noexcept {
   return m;
 }
 
+Manoeuvre face(Angle error, const Params& params) noexcept {
+  Manoeuvre m = cruise({Speed{}, rate_towards(error, kFaceGain)}, params);
+  m.turning = limit(m.turning, approach_speed(abs(arc(error, params.body.track / 2)), params));
+  return m;
+}
+
 bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept {
-  manoeuvre = cruise(face(error), params);
+  manoeuvre = face(error, params);
   return magnitude(error) < nearest_facing(kFacing, params).raw();
 }
 

@@ -23,8 +23,8 @@ Angle nearest_facing(Angle wanted, const Params& params) noexcept;
 /// gain x error, at most kFastestTurn.
 AngularRate rate_towards(Angle error, int32_t gain) noexcept;
 
-/// Turns on the spot by the error.
-Twist face(Angle error) noexcept;
+/// The highest speed that stops within `rest`: v with v^2 / 2a + v * settle = rest.
+Speed approach_speed(Length rest, const Params& params) noexcept;
 
 /// Drives while turning: at `top` straight ahead, slower for larger heading errors, and not at all beyond 1 /
 /// 1.2 rad.
@@ -32,6 +32,9 @@ Twist steer(Angle error, Speed top) noexcept;
 
 /// A cruise at this twist.
 Manoeuvre cruise(Twist twist, const Params& params) noexcept;
+
+/// Turns on the spot by the error, never faster than the wheels can stop within it.
+Manoeuvre face(Angle error, const Params& params) noexcept;
 
 /// Turns on the spot by the error. True when the error is below 3 degrees, see nearest_facing.
 bool turn_by(Angle error, const Params& params, Manoeuvre& manoeuvre) noexcept;

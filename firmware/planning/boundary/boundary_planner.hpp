@@ -97,12 +97,6 @@ class BoundaryPlanner final : public GoalPlanner {
   void escape(const View& view) noexcept;
   void give_up_goal(const View& view) noexcept;
 
-  Behaviours behaviours_;
-  Approach approach_;
-  BoundaryFollower follower_;
-  Survey survey_;
-  FollowSideSearch side_search_;
-  LoopDetector loop_;
   Phase phase_ = Phase::survey;
   Side wall_ = Side::left;     ///< side of the current or last obstacle
   bool other_way_ = false;     // closed the loop once
@@ -111,6 +105,13 @@ class BoundaryPlanner final : public GoalPlanner {
   int32_t left_edge_mm_ = 0;   // travel at the last leave point
   Target target_;
   Vec began_;  // position when the goal was set
+
+  Behaviours behaviours_;
+  Approach approach_;
+  BoundaryFollower follower_;
+  Survey survey_;
+  FollowSideSearch side_search_;
+  LoopDetector loop_;
 };
 
 }  // namespace whisker::planning

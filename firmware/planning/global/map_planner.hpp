@@ -42,18 +42,22 @@ constexpr void for_each_map(Visit&& visit) noexcept {
   if constexpr (kAt + 1 < sizeof kMapSizes / sizeof *kMapSizes) for_each_map<kAt + 1>(visit);
 }
 
+/// The memory of a map's cells.
+template <int kBytes>
+struct MapStorage {
+  GridWord words[static_cast<size_t>(kGridPlanes * map_shape(kBytes).size())];
+  static_assert(sizeof(words) + sizeof(WavefrontPlanner) <= size_t{kBytes});
+};
+
 /// A global planner with storage for its map.
 template <int kBytes>
 class MapOf {
  public:
-  explicit MapOf(const Params& params) noexcept : guide(params, map_shape(kBytes), storage_) {
-    static_assert(sizeof(MapOf) <= size_t{kBytes});
-  }
+  explicit MapOf(const Params& params) noexcept : guide(params, map_shape(kBytes), storage_.words) {}
   WavefrontPlanner guide;
 
  private:
-  static constexpr size_t kWords = static_cast<size_t>(kGridPlanes * map_shape(kBytes).size());
-  GridWord storage_[kWords];
+  MapStorage<kBytes> storage_;
 };
 
 /// The complete planner; the response table deflects its heading.
@@ -61,10 +65,11 @@ template <int kBytes>
 struct TableMapPlanner {
   /// Both references must outlive it.
   TableMapPlanner(const Params& params, const fuzzy::Engine::Table& table) noexcept
-      : law(table), map(params), planner(params, law, &map.guide) {}
+      : law(table), guide(params, map_shape(kBytes), storage.words), planner(params, law, &guide) {}
   TableDeflection law;
-  MapOf<kBytes> map;
+  WavefrontPlanner guide;
   BoundaryPlanner planner;
+  MapStorage<kBytes> storage;  // last, so that the other members have short addresses
 };
 
 }  // namespace whisker::planning

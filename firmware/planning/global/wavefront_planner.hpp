@@ -51,8 +51,6 @@ class WavefrontPlanner final : public GlobalPlanner {
   int32_t mm(Length l) const noexcept { return reference(l).raw() / 1000; }
 
   const Params& params_;
-  GridMap map_;
-  Wavefront wavefront_;
   Goal goal_;
   Stage stage_ = Stage::idle;
   Vec way_;  // the way point
@@ -70,9 +68,11 @@ class WavefrontPlanner final : public GlobalPlanner {
   int32_t improved_mm_ = 0;  // travel at the last improvement
   uint32_t started_um_ = 0;  // View::travelled_um at the start
   int32_t travel_mm_ = 0;
+  int8_t newest_ = 0;
   static constexpr int kVirtualObstacles = 4;
   VirtualObstacle virtual_obstacles_[kVirtualObstacles];
-  int8_t newest_ = 0;
+  GridMap map_;
+  Wavefront wavefront_;
 };
 
 }  // namespace whisker::planning

@@ -59,6 +59,18 @@ RC_GTEST_PROP(OpenWorld, RobotsLikeTheReferenceArrive, (std::uint64_t seed)) {
   if (!end.arrived) RC_FAIL(end.words);
 }
 
+// With the gain alone, these robots cannot stop a turn within its error.
+TEST(OpenWorld, SluggishWheelsDoNotSwingForEver) {
+  constexpr std::uint64_t kSeeds[] = {3803958774279, 14392240626399, 72459072658380,     573598,
+                                      3541398869,    3699386720,     148554187851083066, 55972063073403098};
+  for (const std::uint64_t seed : kSeeds) {
+    Bits bits(seed);
+    const Params params = robot_like_the_reference(bits);
+    const Ending end = drive(params, bits);
+    EXPECT_TRUE(end.arrived) << "seed " << seed << ": " << end.words;
+  }
+}
+
 // Some robots see too little of the ground beside their path, so the guard holds them; they must report that.
 RC_GTEST_PROP(OpenWorld, EveryAcceptedParameterSetEndsWithAReason, (std::uint64_t seed)) {
   Bits bits(seed);
