@@ -6,7 +6,7 @@
 namespace whisker::report {
 namespace {
 
-/// A look at an edge, and a stop for a fault, leave no edge.
+/// A static scan at the boundary, and a stop for a fault, do not leave it.
 bool leaves(const TickRecord& r) {
   if (doing(r) == Doing::danger) return false;
   switch (r.mode) {

@@ -221,7 +221,10 @@ describe('the replay page', () => {
     });
     assert.ok(found > 0);
     await seek(page, found);
-    assert.match(await page.textContent('#table-says'), /agreed on before: at this tick they read otherwise/);
+    assert.match(
+      await page.textContent('#table-says'),
+      /from earlier readings .*: the readings of this tick differ/,
+    );
     assert.doesNotMatch(await page.textContent('#run'), /distance ahead, now/);
   });
 
@@ -247,7 +250,7 @@ describe('the replay page', () => {
       return -1;
     });
     await seek(page, tick);
-    assert.match(await page.textContent('#sentence'), /Follows the edge/);
+    assert.match(await page.textContent('#sentence'), /Follows the boundary/);
     assert.match(await page.textContent('#leave-rule'), /it may leave below \d/);
     assert.match(await page.textContent('#table-says'), /Not in use now/);
     assert.equal(await page.locator('#edge-rows tr.current').count(), 1);
@@ -256,7 +259,7 @@ describe('the replay page', () => {
     assert.equal(await tickOf(page), await page.evaluate(() => window.whisker.run.info.edges[0].hit));
   });
 
-  test('the edges left are nearer to the goal than those met', async () => {
+  test('leave points are nearer to the goal than the hit points before', async () => {
     const {page} = await open();
     const rows = await page.locator('#edge-rows tr').allTextContents();
     assert.ok(rows.length > 0);
