@@ -68,7 +68,7 @@ export function controllerOf(core: Core, answers: Answers): Controller {
     sd_thousandths: [],
     d_nodes: nodes(rows, CENTRES.d[0], spacing[0]),
     r_nodes: nodes(columns, CENTRES.r[0], spacing[1]),
-    source: `Bilinear table of ${rows} × ${columns} nodes, made from the 25 rules on this page`,
+    source: `bilinear table of ${rows} × ${columns} nodes, made from the 25 rules on this page`,
   };
   refreshController(controller, core, answers);
   return controller;

@@ -54,7 +54,7 @@ export class Editor {
     const all = names.join('\n');
     if (all !== this.shown) {
       this.shown = all;
-      this.list.replaceChildren(new Option('nothing chosen', ''), ...names.map((name) => new Option(name)));
+      this.list.replaceChildren(new Option('nothing selected', ''), ...names.map((name) => new Option(name)));
     }
     this.list.selectedIndex = 1 + this.things.findIndex((thing) => same(thing, selected));
     const removable = selected !== null && selected.kind !== 'start' && selected.kind !== 'goal';
