@@ -15,7 +15,7 @@ import {
 } from './browser.mjs';
 import {Folder, whisker} from './scenarios.mjs';
 
-const KEYS = ['map: seen free', 'suspect', 'occupied', 'its plan'];
+const KEYS = ['map: seen free', 'suspect', 'occupied', 'planned path'];
 
 describe('the map on the replay page', () => {
   const folder = new Folder();

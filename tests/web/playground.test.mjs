@@ -248,6 +248,13 @@ describe('the playground', () => {
     await page.click('#who-thesis');
     await drawn(page);
     assert.equal(await page.textContent('#card-0 h2'), 'thesis planner');
+    assert.deepEqual(await page.locator('#who button').allTextContents(), [
+      'Boundary planner',
+      'Thesis planner',
+      'Map planner',
+      'Boundary and thesis',
+      'Boundary and map',
+    ]);
     await page.waitForFunction(() => location.hash.includes('planner=thesis'));
     await page.click('#who-both');
     assert.equal(await page.locator('.card:visible').count(), 2);

@@ -398,7 +398,7 @@ describe('the replay page', () => {
     assert.notEqual(wrong.chip, wrong.goalChip);
     const facts = await page.textContent('#facts');
     assert.match(facts, new RegExp(`from the goal at the end${off.final_distance_m.toFixed(3)} m`));
-    assert.match(facts, new RegExp(`as it believes${off.believed_distance_m.toFixed(3)} m`));
+    assert.match(facts, new RegExp(`by its own estimate${off.believed_distance_m.toFixed(3)} m`));
     assert.match(await page.textContent('#sentence'), /by its own estimate it is at the goal/);
     const right = await looks((await open('#t=999')).page);
     assert.equal(right.verdict, right.goal);

@@ -99,7 +99,7 @@ export class Facts {
         ['path driven', metres(result.path_m)],
         ['nearest to an obstacle', clearance],
         ['from the goal at the end', orUnknown(result.final_distance_m)],
-        ['as it believes', orUnknown(result.believed_distance_m)],
+        ['by its own estimate', orUnknown(result.believed_distance_m)],
       );
       facts.push(
         ['ticks', String(result.ticks)],

@@ -18,7 +18,7 @@ export const DOES: Record<string, string> = {
   idle: 'Stands without a goal',
   facing: 'Turns on the spot to face the goal',
   looking: 'Stands and takes a static scan',
-  steering: 'Turns to the heading that the response table asks for',
+  steering: 'Turns to the heading that the response table requests',
   probing: 'Turns in small steps until the next step is free',
   stepping: 'Drives one step',
   searching: 'Turns to both sides to find a clear heading and the side to follow',
