@@ -37,9 +37,9 @@ constexpr void for_each_planner(Visit&& visit) noexcept {
       PlannerInfo{
           0, "skirt", "boundary",
           "Where the path to the goal is blocked, the robot follows the boundary of the obstacle. It leaves "
-          "the "
-          "boundary only where it is nearer to the goal than ever before. So each boundary brings it nearer, "
-          "and no dead end can trap it. A closed loop without such a place means that no path exists."},
+          "it only where it is nearer to the goal than ever before. So each boundary brings it nearer, and "
+          "no "
+          "dead end can trap it. A closed loop without such a place means that no path exists."},
       PlannerType<TableBoundaryPlanner>{});
   visit(PlannerInfo{1, "thesis", nullptr,
                     "The robot may get stuck: it leaves a boundary as soon as the goal direction is clear, "
@@ -49,8 +49,7 @@ constexpr void for_each_planner(Visit&& visit) noexcept {
   constexpr PlannerInfo kMap{
       2, "map", nullptr,
       "The robot follows a plan on a map of what the beams have seen, as long as this brings it nearer to "
-      "the "
-      "goal. Otherwise it falls back to boundary following, by the rule of the boundary planner. The map "
+      "its goal. Otherwise it falls back to boundary following, by the rule of the boundary planner. The map "
       "resumes where the robot is nearer to the goal than ever before."};
   for_each_map([&](auto map) { visit(kMap, PlannerType<TableMapPlanner<map.kBytes>>{}); });
 }
