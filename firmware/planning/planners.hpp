@@ -36,19 +36,21 @@ constexpr void for_each_planner(Visit&& visit) noexcept {
   visit(
       PlannerInfo{
           0, "skirt", "boundary",
-          "Where the way is blocked, it follows the boundary of the obstacle, and leaves it only where it is "
-          "nearer to the goal than ever before. So each boundary brings it nearer, and no dead end can hold "
-          "it. A closed loop without such a place means that there is no way."},
+          "Where the path to the goal is blocked, the robot follows the boundary of the obstacle. It leaves "
+          "it only where it is nearer to the goal than ever before. So each boundary brings it nearer, and "
+          "no "
+          "dead end can trap it. A closed loop without such a place means that no path exists."},
       PlannerType<TableBoundaryPlanner>{});
   visit(PlannerInfo{1, "thesis", nullptr,
-                    "It may get stuck: it leaves a boundary as soon as the goal comes into sight, nearer or "
-                    "not, and can enter the same trap again and again. The skirt planner does not."},
+                    "The robot may get stuck: it leaves a boundary as soon as the goal direction is clear, "
+                    "nearer to the goal or not, and can enter the same trap again and again. The boundary "
+                    "planner does not."},
         PlannerType<ThesisPlanner>{});
   constexpr PlannerInfo kMap{
       2, "map", nullptr,
-      "It follows a map of what the beams have seen as long as that brings it nearer to the goal. Where it "
-      "does not, it follows boundaries by the rule of the skirt planner, and the map again from where it is "
-      "nearer to the goal than ever before."};
+      "The robot follows a plan on a map of what the beams have seen, as long as this brings it nearer to "
+      "its goal. Otherwise it falls back to boundary following, by the rule of the boundary planner. The map "
+      "resumes where the robot is nearer to the goal than ever before."};
   for_each_map([&](auto map) { visit(kMap, PlannerType<TableMapPlanner<map.kBytes>>{}); });
 }
 

@@ -59,8 +59,8 @@ void draw_run(const Scenario& scenario, PlannerKind planner, const std::string& 
 
 void draw_class(const ClassPicture& c, const std::string& folder) {
   report::RunPicture picture;
-  picture.subtitle =
-      fmt::format("whisker campaign {} --replay {}", campaign::arguments(c.kind, c.options), c.options.seed);
+  picture.subtitle = fmt::format("whisker campaign {} --planner boundary --replay {}",
+                                 campaign::arguments(c.kind, c.options), c.options.seed);
   picture.path_tolerance = 2e-3;
   draw_run(worlds::generate(c.kind, c.options), PlannerKind::skirt, fmt::format("{}/{}", folder, c.file),
            picture);
@@ -89,8 +89,8 @@ void draw_pair(const MapPicturePair& pair, const std::string& folder) {
     picture.path_tolerance = 2e-3;
     picture.legend = false;
     picture.beside = &map.records;
-    picture.subtitle =
-        fmt::format("skirt planner: whisker campaign {} --replay {}", mission.world, mission.seed);
+    picture.subtitle = fmt::format("boundary planner: whisker campaign {} --planner boundary --replay {}",
+                                   mission.world, mission.seed);
     skirt.draw(mission.scenario, fmt::format("{}/map_{}_skirt.svg", folder, pair.name), picture);
     picture.beside = &skirt.records;
     picture.subtitle = fmt::format("map planner, 2048 bytes: whisker campaign {} --planner map --replay {}",

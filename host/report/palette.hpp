@@ -18,9 +18,9 @@ struct Look {
 /// Indexed by Doing.
 constexpr Look kLooks[kDoings] = {
     {"free", "free driving", "#3487c4", 2.0, "none"},
-    {"table", "steered by the table", "#e69f00", 3.0, "none"},
-    {"probing", "probing: deflected", "#1f1f1f", 2.0, "5 2.5"},
-    {"danger", "along an edge", "#b3261e", 3.6, "none"},
+    {"table", "table deflection", "#e69f00", 3.0, "none"},
+    {"probing", "candidate heading", "#1f1f1f", 2.0, "5 2.5"},
+    {"danger", "boundary following", "#b3261e", 3.6, "none"},
 };
 
 /// A planner's map: above the obstacles, below the path.

@@ -75,7 +75,7 @@ std::string distance_text(const TickRecord& r, sim::Vec2 goal) {
 std::string end_text(const Encounter& e, sim::Vec2 goal) {
   switch (e.end) {
     case Encounter::End::none: return "-";
-    case Encounter::End::unreachable: return "came round";
+    case Encounter::End::unreachable: return "closed loop";
     case Encounter::End::left:
     case Encounter::End::wall_lost: return distance_text(*e.left, goal);
   }
@@ -92,10 +92,10 @@ void draw_edges(Column& column, const LegendContent& content) {
   column.figures("at hit", "on leaving", kApart);
   for (std::size_t i = 0; i < std::min(all, kRows); ++i) {
     const Encounter& e = content.encounters[i];
-    column.row(fmt::format("edge {}", i + 1));
+    column.row(fmt::format("boundary {}", i + 1));
     column.figures(distance_text(*e.hit, content.goal), end_text(e, content.goal), kApart);
   }
-  if (all > kRows) column.note(fmt::format("and {} more edges", all - kRows));
+  if (all > kRows) column.note(fmt::format("and {} more boundaries", all - kRows));
 }
 
 bool any(const std::vector<Encounter>& all, Encounter::End end) {
@@ -104,11 +104,11 @@ bool any(const std::vector<Encounter>& all, Encounter::End end) {
 
 void draw_edge_marks(Svg& svg, Column& column, const std::vector<Encounter>& all) {
   if (all.empty()) return;
-  draw_hit(svg, column.row("hit: the way to the goal is blocked"));
-  if (any(all, Encounter::End::left)) draw_left(svg, column.row("left the edge: on to the goal"));
+  draw_hit(svg, column.row("hit: the path to the goal is blocked"));
+  if (any(all, Encounter::End::left)) draw_left(svg, column.row("left the boundary: on to the goal"));
   if (any(all, Encounter::End::wall_lost)) draw_wall_lost(svg, column.row("lost the wall: on to the goal"));
   if (std::any_of(all.begin(), all.end(), [](const Encounter& e) { return e.turned != nullptr; }))
-    draw_turned(svg, column.row("came round: now the other way"));
+    draw_turned(svg, column.row("closed loop: now the other way"));
 }
 
 void draw_map_marks(Svg& svg, Column& column, const LegendContent& content) {
@@ -117,15 +117,15 @@ void draw_map_marks(Svg& svg, Column& column, const LegendContent& content) {
     const Point c = column.row(look.label);
     svg.rect({c.x - 8, c.y - 6}, 16, 12, look.fill);
   }
-  Point c = column.row("its window at the end");
+  Point c = column.row("map: window at the end");
   svg.rect({c.x - 8, c.y - 6}, 16, 12,
            fmt::format(R"(fill="none" stroke="{}" stroke-width="0.8")", kMapColour));
-  c = column.row("way points that it led to");
+  c = column.row("way points of the map");
   PathData dots;
   dots.dot({c.x - 8, c.y}).dot(c).dot({c.x + 8, c.y});
   svg.path(dots, fmt::format(R"({} stroke-width="4")", kMapDots));
   if (!content.map->way.empty()) {
-    c = column.row("its last plan");
+    c = column.row("last planned path");
     PathData plan;
     for (const int i : {-2, -1, 0, 1, 2}) plan.dot({c.x + 5.0 * i, c.y});
     svg.path(plan, fmt::format(R"({} stroke-width="2.4")", kMapDots));
@@ -136,8 +136,8 @@ void draw_hand_over_marks(Svg& svg, Column& column, const std::vector<HandOver>&
   const auto any = [&](bool to_edges) {
     return std::any_of(all.begin(), all.end(), [&](const HandOver& h) { return h.to_edges == to_edges; });
   };
-  if (any(true)) draw_to_edges(svg, column.row("the map hands over to the edges"));
-  if (any(false)) draw_to_map(svg, column.row("the map leads again"));
+  if (any(true)) draw_to_edges(svg, column.row("fallback to boundary following"));
+  if (any(false)) draw_to_map(svg, column.row("the map resumes"));
 }
 
 void draw_marks(Svg& svg, Column& column, const LegendContent& content) {

@@ -46,17 +46,17 @@ class Drives(Case):
     def distances(self, path):
         """(distance at the hit point, distance on leaving) of each boundary in the legend."""
         texts = [element.text for element in xml.etree.ElementTree.parse(path).iter() if element.tag.endswith("text")]
-        return [tuple(texts[i + 1 : i + 3]) for i, text in enumerate(texts) if re.fullmatch(r"edge \d+", text)]
+        return [tuple(texts[i + 1 : i + 3]) for i, text in enumerate(texts) if re.fullmatch(r"boundary \d+", text)]
 
-    def test_leave_each_edge_nearer_to_the_goal_than_ever(self):
+    def test_leave_each_boundary_nearer_to_the_goal_than_ever(self):
         for name, path in self.drives().items():
-            edges = self.distances(path)
-            self.assertGreater(len(edges), 0, name)
+            boundaries = self.distances(path)
+            self.assertGreater(len(boundaries), 0, name)
             if name == "skirt_enclosed":
-                self.assertEqual([left for _, left in edges], ["came round"])
+                self.assertEqual([left for _, left in boundaries], ["closed loop"])
                 continue
             best = float("inf")
-            for hit, left in ([float(text.removesuffix(" m")) for text in edge] for edge in edges):
+            for hit, left in ([float(text.removesuffix(" m")) for text in one] for one in boundaries):
                 best = min(best, hit)
                 # By 30 mm, but both are rounded to 10 mm.
                 self.assertGreaterEqual(round(best - left, 2), 0.02, name)
@@ -85,7 +85,7 @@ class Pairs(Case):
                 self.assertLess(path.stat().st_size, 60000, path.name)
                 self.assertIn(f"](figures/{path.name})", text)
             commands = [re.search(r": (whisker campaign [^<]*)<", path.read_text()).group(1) for path in (skirt, led)]
-            self.assertEqual(commands[1].replace(" --planner map", ""), commands[0])
+            self.assertEqual(commands[1].replace(" --planner map ", " --planner boundary "), commands[0])
             self.assertNotIn("class=\"map\"", skirt.read_text())
             self.assertIn("class=\"map\"", led.read_text())
 

@@ -20,7 +20,7 @@ Element drawn(const Scenario& scenario, const std::vector<TickRecord>& records) 
   return testing::parse_xml(run_svg(scenario, records, result));
 }
 
-TEST(RunEdges, marks_and_numbers_where_edges_were_met_and_left) {
+TEST(RunEdges, marks_and_numbers_hit_and_leave_points) {
   using planning::Mode;
   using planning::Why;
   Scenario scenario;
@@ -38,11 +38,12 @@ TEST(RunEdges, marks_and_numbers_where_edges_were_met_and_left) {
   EXPECT_EQ(marks->by_class("wall-lost").size(), 1U);
   EXPECT_THAT(root.texts_of_class("encounter-numbers"), ::testing::ElementsAre("1", "1", "2", "2", "3"));
   // 7 m from the goal at the hit point, sqrt(53) = 7.28 m at the leave point.
-  EXPECT_THAT(root.texts_of_class("legend"), ::testing::IsSupersetOf({"edge 1", "7.00 m", "7.28 m", "edge 3",
-                                                                      "-", "lost the wall: on to the goal"}));
+  EXPECT_THAT(root.texts_of_class("legend"),
+              ::testing::IsSupersetOf(
+                  {"boundary 1", "7.00 m", "7.28 m", "boundary 3", "-", "lost the wall: on to the goal"}));
 }
 
-TEST(RunEdges, lists_the_first_eight_edges_and_counts_the_others) {
+TEST(RunEdges, lists_the_first_eight_boundaries_and_counts_the_others) {
   Scenario scenario;
   std::vector<testing::Leg> legs;
   for (int i = 0; i < 21; ++i) {
@@ -53,12 +54,12 @@ TEST(RunEdges, lists_the_first_eight_edges_and_counts_the_others) {
   const auto records = testing::follow(scenario, legs);
   const Element root = drawn(scenario, records);
   const auto words = root.texts_of_class("legend");
-  EXPECT_THAT(words, ::testing::IsSupersetOf({"edge 8", "and 13 more edges"}));
-  EXPECT_THAT(words, ::testing::Not(::testing::Contains("edge 9")));
+  EXPECT_THAT(words, ::testing::IsSupersetOf({"boundary 8", "and 13 more boundaries"}));
+  EXPECT_THAT(words, ::testing::Not(::testing::Contains("boundary 9")));
   EXPECT_EQ(root.by_class("hit").size(), 22U) << "and one in the legend";
 }
 
-TEST(RunEdges, of_a_way_without_edges_marks_none) {
+TEST(RunEdges, marks_none_on_a_path_without_boundaries) {
   const Scenario scenario;
   const auto records = testing::follow(scenario, {{{0.5, 0.5}}});
   const Element root = drawn(scenario, records);

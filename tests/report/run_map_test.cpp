@@ -120,9 +120,9 @@ TEST(RunMap, shows_plan_way_points_and_hand_overs_with_a_legend) {
   EXPECT_EQ(root.by_class("to-edges").size(), 2U) << "one in the legend";
   EXPECT_EQ(root.by_class("to-map").size(), 2U);
   const auto words = root.texts_of_class("legend");
-  EXPECT_THAT(words, IsSupersetOf({"map: seen free", "map: suspect", "map: occupied", "its window at the end",
-                                   "way points that it led to", "its last plan",
-                                   "the map hands over to the edges", "the map leads again"}));
+  EXPECT_THAT(words, IsSupersetOf({"map: seen free", "map: suspect", "map: occupied",
+                                   "map: window at the end", "way points of the map", "last planned path",
+                                   "fallback to boundary following", "the map resumes"}));
 }
 
 TEST(RunSvg, may_go_without_its_legend) {

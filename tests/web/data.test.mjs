@@ -190,7 +190,10 @@ describe('the decoded data', () => {
     assert.deepEqual([...whys].sort(), Object.keys(BECAUSE).sort());
     assert.deepEqual([...faults].sort(), Object.keys(FAULTS).sort());
     assert.ok(Object.keys(LED).every((guide) => guides.includes(guide)));
-    assert.match(sentence('going', 'target_free', 'place'), /^Drives to the next place .* nothing is near/);
+    assert.match(
+      sentence('going', 'target_free', 'place'),
+      /^Drives to the next way point .* no obstacle is near/,
+    );
     assert.equal(sentence('going', 'target_free', 'goal'), sentence('going', 'target_free'));
     assert.equal(sentence('skirting', 'edge', 'place'), sentence('skirting', 'edge'));
   });

@@ -77,7 +77,7 @@ describe('links', () => {
     ['64 MB in 65 kB', packed('0,'.repeat(32 << 20)), /too large for this page/],
     ['300 kB', 'A'.repeat(300_000), /too large for this page/],
     ['4,000 movers', packed(`${head},4000${',9,0,0.1,0.1,2,9,0,9,1'.repeat(4000)},0,0,0,0,0]`), /too large/],
-    ['a goal at 1e9 m', packed('[1,600,0,0,1e9,0,0.1,0,0,0,0,0,0,0,0,0,0]'), /its world is none/],
+    ['a goal at 1e9 m', packed('[1,600,0,0,1e9,0,0.1,0,0,0,0,0,0,0,0,0,0]'), /its world is not valid/],
     ['a list cut short', packed('[1,600,0]'), /damaged/],
     ['something else', packed('{"a":[1]}'), /damaged/],
   ]) {

@@ -15,7 +15,7 @@ import {
 } from './browser.mjs';
 import {Folder, whisker} from './scenarios.mjs';
 
-const KEYS = ['map: seen free', 'suspect', 'occupied', 'its plan'];
+const KEYS = ['map: seen free', 'suspect', 'occupied', 'planned path'];
 
 describe('the map on the replay page', () => {
   const folder = new Folder();
@@ -39,7 +39,7 @@ describe('the map on the replay page', () => {
     assert.equal(await page.textContent('#planner-name'), 'map planner, 2048 bytes');
     assert.match(await page.textContent('#facts'), /map planner, 2048 bytes/);
     assert.match(await page.textContent('.what'), /rangefinders and a map of 2048 bytes drives/);
-    assert.match(await page.textContent('#planner-of-progress'), /Its map leads/);
+    assert.match(await page.textContent('#planner-of-progress'), /The map leads/);
     assert.deepEqual(await keys(page), KEYS);
     const shown = await pictureOf(page, 'world');
     await page.keyboard.press('m');
@@ -93,7 +93,7 @@ describe('the map on the replay page', () => {
   }
 
   test('has a lane with its hand-overs', async () => {
-    // The map leads there; that there is no way in is found along the edge.
+    // The map leads there; boundary following finds that there is no way in.
     folder.drive('enclosed', ['enclosed', '--seed', 2], '--planner', 'map');
     const {page} = await open('enclosed');
     assert.ok(await page.isVisible('#lane-map'));
@@ -112,10 +112,10 @@ describe('the map on the replay page', () => {
         const y = canvas.height - 2;
         return [...canvas.getContext('2d').getImageData(x, y, 1, 1).data].join();
       }, tick);
-    const [toMap, toEdges] = handOvers;
-    const onEdges = await colourAt(toEdges + 500);
-    assert.notEqual(onEdges, await colourAt((toMap + toEdges) / 2));
-    assert.notEqual(onEdges, await colourAt(toMap / 2));
+    const [toMap, toBoundary] = handOvers;
+    const onBoundary = await colourAt(toBoundary + 500);
+    assert.notEqual(onBoundary, await colourAt((toMap + toBoundary) / 2));
+    assert.notEqual(onBoundary, await colourAt(toMap / 2));
   });
 
   test('leads to a place that is drawn', async () => {
@@ -135,14 +135,14 @@ describe('the map on the replay page', () => {
     const before = await pictureOf(page, 'world');
     await seek(page, tick);
     assert.notEqual((await pictureOf(page, 'world')).sum, before.sum);
-    assert.match(await page.textContent('#sentence'), /^Drives to the next place on the way/);
+    assert.match(await page.textContent('#sentence'), /^Drives to the next way point of its map/);
     assert.ok(await page.isVisible('#way-key'));
   });
 
-  test('is nothing for the skirt planner', async () => {
+  test('is not there for the boundary planner', async () => {
     folder.drive('skirt', ['u-trap', '--seed', 7], '--planner', 'skirt');
     const {page, complaints} = await open('skirt', '#t=8');
-    assert.equal(await page.textContent('#planner-name'), 'skirt planner');
+    assert.equal(await page.textContent('#planner-name'), 'boundary planner');
     assert.match(await page.textContent('.what'), /rangefinders and no map drives/);
     assert.deepEqual(await keys(page), []);
     assert.ok(await page.isHidden('#show-map'));

@@ -52,8 +52,19 @@ test('histogram: round steps and quantiles', async () => {
 
 test('words: what moves does not stand yet', async () => {
   const {sentence} = await sources.words();
-  assert.equal(sentence('looking', 'none', '', 0), 'Stands and looks.');
-  assert.equal(sentence('looking', 'none', '', 0.16), 'Comes to a stand and looks.');
+  assert.equal(sentence('looking', 'none', '', 0), 'Stands and takes a static scan.');
+  assert.equal(sentence('looking', 'none', '', 0.16), 'Comes to a stand and takes a static scan.');
   assert.equal(sentence('stopped', 'fault', '', 0.16), 'Stops for safety: something failed.');
   assert.equal(sentence('stopped', 'fault', '', 0.004), 'Stopped for safety: something failed.');
+});
+
+test('words: names are those of the documents, values without a name of their own keep theirs', async () => {
+  const {shownName} = await sources.words();
+  assert.deepEqual(['skirt', 'skirting', 'edge', 'came_round'].map(shownName), [
+    'boundary',
+    'following',
+    'boundary',
+    'closed loop',
+  ]);
+  assert.deepEqual(['map', 'gave_up', 'target_free'].map(shownName), ['map', 'gave up', 'target free']);
 });

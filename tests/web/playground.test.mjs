@@ -158,7 +158,7 @@ describe('the playground', () => {
       await play(page, 'play.situation.world.discs[0]'),
     ]);
     assert.equal(await play(page, 'play.touched'), true);
-    assert.match(await page.textContent('#hashes'), /changed under way/);
+    assert.match(await page.textContent('#hashes'), /changed during the run/);
     await page.click('#original');
     assert.deepEqual(await play(page, 'play.situation.world.discs[0]'), before);
     assert.deepEqual(complaints, []);
@@ -224,7 +224,7 @@ describe('the playground', () => {
     );
     await drawn(page);
     assert.notEqual((await pictureOf(page, 'heat-turn')).sum, picture);
-    assert.match(await page.textContent('#hashes'), /changed under way/);
+    assert.match(await page.textContent('#hashes'), /changed during the run/);
     await page.click('#again');
     await toTheEnd(page);
     assert.notEqual(await play(page, 'play.runs[0].result.hash'), hash);
@@ -248,6 +248,13 @@ describe('the playground', () => {
     await page.click('#who-thesis');
     await drawn(page);
     assert.equal(await page.textContent('#card-0 h2'), 'thesis planner');
+    assert.deepEqual(await page.locator('#who button').allTextContents(), [
+      'Boundary planner',
+      'Thesis planner',
+      'Map planner',
+      'Boundary and thesis',
+      'Boundary and map',
+    ]);
     await page.waitForFunction(() => location.hash.includes('planner=thesis'));
     await page.click('#who-both');
     assert.equal(await page.locator('.card:visible').count(), 2);

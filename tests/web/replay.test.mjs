@@ -221,7 +221,10 @@ describe('the replay page', () => {
     });
     assert.ok(found > 0);
     await seek(page, found);
-    assert.match(await page.textContent('#table-says'), /agreed on before: at this tick they read otherwise/);
+    assert.match(
+      await page.textContent('#table-says'),
+      /from earlier readings .*: the readings of this tick differ/,
+    );
     assert.doesNotMatch(await page.textContent('#run'), /distance ahead, now/);
   });
 
@@ -247,7 +250,7 @@ describe('the replay page', () => {
       return -1;
     });
     await seek(page, tick);
-    assert.match(await page.textContent('#sentence'), /Follows the edge/);
+    assert.match(await page.textContent('#sentence'), /Follows the boundary/);
     assert.match(await page.textContent('#leave-rule'), /it may leave below \d/);
     assert.match(await page.textContent('#table-says'), /Not in use now/);
     assert.equal(await page.locator('#edge-rows tr.current').count(), 1);
@@ -256,7 +259,7 @@ describe('the replay page', () => {
     assert.equal(await tickOf(page), await page.evaluate(() => window.whisker.run.info.edges[0].hit));
   });
 
-  test('the edges left are nearer to the goal than those met', async () => {
+  test('leave points are nearer to the goal than the hit points before', async () => {
     const {page} = await open();
     const rows = await page.locator('#edge-rows tr').allTextContents();
     assert.ok(rows.length > 0);
@@ -395,7 +398,7 @@ describe('the replay page', () => {
     assert.notEqual(wrong.chip, wrong.goalChip);
     const facts = await page.textContent('#facts');
     assert.match(facts, new RegExp(`from the goal at the end${off.final_distance_m.toFixed(3)} m`));
-    assert.match(facts, new RegExp(`as it believes${off.believed_distance_m.toFixed(3)} m`));
+    assert.match(facts, new RegExp(`by its own estimate${off.believed_distance_m.toFixed(3)} m`));
     assert.match(await page.textContent('#sentence'), /by its own estimate it is at the goal/);
     const right = await looks((await open('#t=999')).page);
     assert.equal(right.verdict, right.goal);

@@ -1,16 +1,16 @@
 /** The address of the page, kept up to date with what it shows. */
 
-/** Browsers stop to take another address from who brings more than about three a second. */
+/** Browsers refuse more than about three changes of the address a second. */
 const EVERY_MS = 400;
 
 export class Address {
   private last = -Infinity;
   private waits = false;
 
-  /** `hash` says it as of now. */
+  /** `hash` returns the hash of the current state. */
   constructor(private readonly hash: () => string | Promise<string>) {}
 
-  /** There is another one to show: at once, or soon after the one before. */
+  /** The state has changed: updates the address at once, or soon after the last update. */
   change(): void {
     if (this.waits) return;
     const wait = this.last + EVERY_MS - performance.now();
@@ -34,7 +34,7 @@ export class Address {
     try {
       history.replaceState(null, '', text || location.pathname + location.search);
     } catch {
-      // The browser wants no more for now: the link that is copied does not depend on it.
+      // The browser refuses it for now; a copied link does not depend on the address.
     }
   }
 }
@@ -44,7 +44,7 @@ export function linkWith(hash: string): string {
   return location.href.replace(/#.*$/, '') + hash;
 }
 
-/** True: the reader has it. */
+/** True: the text is in the clipboard. */
 export async function copied(link: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(link);

@@ -1,4 +1,4 @@
-/** What lies under and over the world: ground, grid, the straight line to the goal, the scale. */
+/** Ground, grid, the straight line to the goal, and the scale. */
 import type {Camera} from './camera.ts';
 import type {World} from './data.ts';
 import type {Surface} from './dom.ts';
@@ -21,7 +21,7 @@ export function drawGround(
   c.fillRect(left, top, right - left, bottom - top);
 }
 
-/** Metres between two lines, or as long as the scale. */
+/** Metres between two lines of the grid; also the length of the scale. */
 function stepOf(camera: Camera): number {
   return camera.scale > 150 ? 0.5 : camera.scale > 20 ? 1 : 10;
 }

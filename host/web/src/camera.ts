@@ -1,4 +1,4 @@
-/** Which part of the world a canvas shows: y is up. */
+/** The part of the world that a canvas shows: y is up. */
 
 export interface Box {
   left: number;
@@ -36,7 +36,7 @@ export class Camera {
     return [this.x + (px - width / 2) / this.scale, this.y - (py - height / 2) / this.scale];
   }
 
-  /** About this place of a canvas of this size; for a camera that is not turned. */
+  /** Zooms about this place of a canvas of this size; for a camera that is not turned. */
   zoom(factor: number, px: number, py: number, width: number, height: number): void {
     const [x, y] = this.toWorld(px, py, width, height);
     const scale = Math.max(4, Math.min(2000, this.scale * factor));

@@ -1,4 +1,4 @@
-/** A campaign: what came of its missions, and the worst of them to replay. */
+/** A campaign: the outcomes of its missions, and the missions to replay. */
 import {copied} from './address.ts';
 import type {Estimate, PageData} from './data.ts';
 import {element, make, setText} from './dom.ts';
@@ -6,7 +6,7 @@ import {histogram} from './histogram.ts';
 import {isGood, type Mission} from './mission.ts';
 import {Scatter} from './scatter.ts';
 import type {Theme} from './theme.ts';
-import {ending, metres} from './words.ts';
+import {ending, metres, shownName} from './words.ts';
 
 function missions({fields, rows}: NonNullable<PageData['campaign']>): Mission[] {
   return rows.map(
@@ -58,14 +58,14 @@ export class CampaignView {
     this.missions = missions(campaign);
     const {summary} = campaign;
     const worlds = (summary.worlds as string[]).join(', ');
-    const planners = (summary.planners as string[]).join(', ');
+    const planners = (summary.planners as string[]).map(shownName).join(', ');
     const title = `${summary.missions} missions: ${worlds}`;
     document.title = `${title} - Whisker`;
     setText('campaign-title', title);
     setText(
       'campaign-about',
       `Planner ${planners}, seeds ${summary.least_seed} to ${summary.greatest_seed}. ` +
-        'Shares come with their 95 % bounds.',
+        'Shares have 95 % bounds.',
     );
     this.shares(summary);
     const scatter = new Scatter(
@@ -106,14 +106,14 @@ export class CampaignView {
       reached.map(of).filter((x): x is number => x !== null && x < 1000);
     element('histograms').replaceChildren(
       histogram({
-        title: 'way driven / shortest way',
+        title: 'path driven / shortest path',
         unit: '',
         values: numbers((m) => m.ratio),
         from: 1,
         tail: 0.95,
       }),
       histogram({
-        title: 'time per metre of the shortest way',
+        title: 'time per metre of the shortest path',
         unit: 's/m',
         values: numbers((m) => m.s_per_m),
         from: 0,
@@ -151,7 +151,7 @@ export class CampaignView {
     setText(
       'replays-note',
       stored < order.length
-        ? `This page has room for ${stored} of ${order.length} missions, the worst first. The others are driven again by their command.`
+        ? `This page has room for ${stored} of ${order.length} missions, the worst first. The commands of the others drive them again.`
         : '',
     );
     show(SHOWN_AT_FIRST);

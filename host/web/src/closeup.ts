@@ -1,4 +1,4 @@
-/** What the robot senses, from its own seat: ahead is up. */
+/** What the robot senses, in a view that turns with it: ahead is up. */
 import {Camera} from './camera.ts';
 import {BEAMS, RangeStatus, type Seen} from './data.ts';
 import {element, setText, Surface} from './dom.ts';
@@ -62,7 +62,7 @@ export class CloseUp {
     this.label(tick);
   }
 
-  /** Where the goal is and the place that a map leads to, and where the response table asks to go. */
+  /** The directions of the goal and of the way point, and the heading that the response table requests. */
   private drawArrows(c: CanvasRenderingContext2D, pixel: number, tick: number): void {
     const {run} = this;
     const p = this.theme.palette;
@@ -72,7 +72,7 @@ export class CloseUp {
     const dy = goalY - at('est_y_m');
     const reach = run.info.robot.radius * 3;
     if (Math.hypot(dx, dy) < reach) return;
-    // All as the robot believes, turned into the true world.
+    // All from the robot's estimate, rotated into the true world.
     const turn = at('heading_rad') - at('est_heading_rad');
     const toGoal = Math.atan2(dy, dx) + turn;
     const led = run.guide(tick) === 'place';

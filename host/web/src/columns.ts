@@ -69,7 +69,7 @@ export async function inflated(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Arr
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** The same of bytes that anybody may have made: null where they would become more than `most`, which is noticed in time. */
+/** The same for bytes from an untrusted source: null, without more memory, if they unpack to more than `most`. */
 export async function inflatedUpTo(most: number, bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array | null> {
   const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate')).getReader();
   const all = new Uint8Array(most);

@@ -1,4 +1,4 @@
-/** What the page is about, as the tool has put it into the file. */
+/** The data of the page, as host/page has written it into the file. */
 import {bytesOfBase64, decodeColumns, GrowingColumn, inflated, type ColumnInfo} from './columns.ts';
 import {Film, MapFilm, type MapInfo} from './film.ts';
 import type {MapSeen} from './map_scenery.ts';
@@ -42,9 +42,9 @@ export interface Result {
   outcome: string;
   time_s: number;
   path_m: number;
-  /** Null: nobody knows the true place. */
+  /** Null: the true place is not known. */
   final_distance_m: number | null;
-  /** Null: the robot has not said what it believes. */
+  /** Null: the estimate of the robot is not known. */
   believed_distance_m: number | null;
   min_clearance_m: number;
   ticks: number;
@@ -52,7 +52,7 @@ export interface Result {
   detail: string;
 }
 
-/** From the tick that found the way blocked to the tick that left the obstacle. */
+/** A followed boundary: from the hit to the leave. */
 export interface Edge {
   hit: number;
   turned: number | null;
@@ -63,11 +63,11 @@ export interface Edge {
 /** A run before its first tick. */
 export interface Setting {
   name: string;
-  /** Null: whoever drives has not said it. */
+  /** Null: it is not known. */
   planner: string | null;
-  /** Of the planner; null: it has none, or nobody knows. */
+  /** The map of the planner; null: it has none, or it is not known. */
   map: MapInfo | null;
-  /** False: the page does not know what the core asks its table, what it believes and what it counts. */
+  /** False: the inputs of the table, the estimate and the counters of the core are not known. */
   inside: boolean;
   seed: number;
   time_limit: number;
@@ -77,7 +77,7 @@ export interface Setting {
 }
 
 export interface RunInfo extends Setting {
-  /** Null: it goes on, or nobody knows how it ended. */
+  /** Null: the run is live, or its end is not known. */
   result: Result | null;
   edges: Edge[];
   columns: ColumnInfo[];
@@ -114,7 +114,7 @@ export interface Shared {
   modes: string[];
   whys: string[];
   faults: string[];
-  /** What a map says at a tick; nothing where there is none. */
+  /** Names of what leads the map planner; empty without a map. */
   guides: string[];
   doings: {name: string; label: string}[];
   controller: Controller;
@@ -140,7 +140,7 @@ export interface PageData {
   format: number;
   shared: Shared;
   runs: RunInfo[];
-  /** Where the events of a run that goes on come from. */
+  /** The address of the events of a live run. */
   live?: string;
   campaign?: CampaignInfo;
 }
@@ -174,7 +174,7 @@ export const COUNTERS = [
   'clock_jumps',
 ] as const;
 
-/** What can be seen of a robot at a tick: of a run that is over, or of one under way. */
+/** The data of a robot at a tick, of a run that is over or of a live one. */
 export interface Seen {
   readonly info: {readonly world: World; readonly robot: RobotInfo; readonly inside: boolean};
   readonly shared: {readonly controller: Controller};
@@ -184,13 +184,13 @@ export interface Seen {
     seek(tick: number): number;
     forEachClear(bodyX: number, bodyY: number, clear: (x: number, y: number) => void): void;
   };
-  /** Null: there is none, or it is not known here. */
+  /** Null: there is none, or it is not known. */
   readonly map: MapSeen | null;
-  /** It only believes that it has reached its goal. */
+  /** The robot reports the goal as reached, but is not there. */
   readonly offGoal: boolean;
   column(name: string): ArrayLike<number>;
   mode(tick: number): string;
-  /** What the map says. */
+  /** What leads the map planner. */
   guide(tick: number): string;
   why(tick: number): string;
   range(beam: number, tick: number): number | null;
@@ -215,14 +215,14 @@ export function speedOf(seen: Seen, tick: number): number {
   return (seen.column('v_left_mps')[tick] + seen.column('v_right_mps')[tick]) / 2;
 }
 
-/** What the robot believes, and what is true. */
+/** The estimated and the true place of the robot. */
 const BELIEFS = [
   ['est_x_m', 'x_m'],
   ['est_y_m', 'y_m'],
   ['est_heading_rad', 'heading_rad'],
 ] as const;
 
-/** One run with all its ticks, or with all so far. */
+/** One run with all its ticks; a live run with all ticks so far. */
 export class Run implements Seen {
   readonly film = new Film();
   readonly map: MapFilm | null;
@@ -234,7 +234,7 @@ export class Run implements Seen {
     readonly shared: Shared,
     columns: Map<string, Float64Array>,
   ) {
-    // The first word is nothing: who drives does not tell.
+    // The first word is empty: the planner does not report it.
     const tells = columns.get('guide')?.[0] !== 0;
     this.map = info.map && info.inside && tells ? new MapFilm(info.map) : null;
     this.grow(columns, 0);
@@ -247,7 +247,7 @@ export class Run implements Seen {
     return this.column('t_s');
   }
 
-  /** More ticks; `from` is the first one's number: the next, or 0, and then they are all ticks anew. */
+  /** Adds ticks. `from` is the number of the first one: the next number, or 0 to replace all ticks. */
   grow(columns: Map<string, Float64Array>, from: number): void {
     for (const [name, values] of columns) {
       const column = from > 0 && this.growing.get(name);
@@ -271,7 +271,7 @@ export class Run implements Seen {
     return this.info.result?.outcome === 'off_goal';
   }
 
-  /** Where the robot has proved the ground clear is known. */
+  /** The clear ground is known. */
   get hasFilm(): boolean {
     return this.film.ticks.length > 0;
   }
@@ -297,7 +297,7 @@ export class Run implements Seen {
     return rangeOf(this, beam, tick);
   }
 
-  /** The tick whose time is nearest. */
+  /** The tick with the nearest time. */
   tickAt(time: number): number {
     let low = 0;
     let high = this.ticks - 1;

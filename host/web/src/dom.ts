@@ -38,7 +38,7 @@ export class Surface {
     this.fit();
   }
 
-  /** Ready to draw anew, in CSS pixels. */
+  /** Clears the canvas; the context that it returns uses CSS pixels. */
   clear(): CanvasRenderingContext2D {
     this.context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     this.context.clearRect(0, 0, this.width, this.height);

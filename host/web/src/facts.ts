@@ -1,11 +1,11 @@
-/** Now in words, counters and faults, and what the run was. */
+/** The current tick in words, counters and faults, and the facts of the run. */
 import {COUNTERS, speedOf, type Run} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import type {WayToGoal} from './goal.ts';
 import type {Player} from './player.ts';
 import type {Theme} from './theme.ts';
 import {stateColour} from './timeline.ts';
-import {COUNTER_WORDS, FAULTS, metres, sentence, verdict, verdictClass} from './words.ts';
+import {COUNTER_WORDS, FAULTS, metres, sentence, shownName, verdict, verdictClass} from './words.ts';
 
 const NOISE: [key: string, words: string, factor: number, unit: string][] = [
   ['range_sigma_m', 'range noise', 1000, 'mm'],
@@ -22,10 +22,10 @@ function noiseWords(noise: Record<string, number>): string {
   return parts.length > 0 ? parts.join(', ') : 'none';
 }
 
-/** "map planner, 2048 bytes"; nothing where nobody has said who drives. */
+/** "map planner, 2048 bytes"; empty if the planner is not known. */
 function plannerWords({planner, map}: Run['info']): string {
   if (map) return `map planner, ${map.bytes} bytes`;
-  return planner ? `${planner} planner` : '';
+  return planner ? `${shownName(planner)} planner` : '';
 }
 
 function andMap({planner, map}: Run['info']): string {
@@ -37,7 +37,7 @@ function orUnknown(distance: number | null): string {
   return distance === null ? 'not known here' : metres(distance, 3);
 }
 
-/** Where the core is far away, much stays there. */
+/** On a bus, part of the data stays in the controller. */
 function sayWhatIsUnknown(run: Run): void {
   const {inside, map} = run.info;
   element('way-key').hidden = !run.map;
@@ -77,28 +77,29 @@ export class Facts {
     }
   }
 
-  /** The run has ended, or what tells of it has. */
+  /** The run has ended, or its connection has. */
   end(): void {
     this.list('broken off');
   }
 
-  /** What is known of the run; without a verdict, these words are it. */
+  /** The facts of the run. `unknown` stands for a missing verdict. */
   private list(unknown: string): void {
     const {result, planner, map, seed, noise, command} = this.run.info;
     setText('verdict', result ? verdict(result, result.time_s) : unknown);
     element('verdict').dataset.outcome = result ? verdictClass(result) : 'none';
     const facts: [string, string][] = [
-      ['planner', map ? plannerWords(this.run.info) : (planner ?? 'not known here')],
+      ['planner', map ? plannerWords(this.run.info) : shownName(planner ?? 'not known here')],
       ['noise', noiseWords(noise)],
       ['noise seed', String(seed)],
     ];
     if (result) {
-      const clearance = result.min_clearance_m < 1000 ? metres(result.min_clearance_m, 3) : 'nothing near';
+      const clearance =
+        result.min_clearance_m < 1000 ? metres(result.min_clearance_m, 3) : 'no obstacle near';
       facts.unshift(
-        ['way driven', metres(result.path_m)],
+        ['path driven', metres(result.path_m)],
         ['nearest to an obstacle', clearance],
         ['from the goal at the end', orUnknown(result.final_distance_m)],
-        ['as it believes', orUnknown(result.believed_distance_m)],
+        ['by its own estimate', orUnknown(result.believed_distance_m)],
       );
       facts.push(
         ['ticks', String(result.ticks)],
@@ -117,7 +118,7 @@ export class Facts {
     const {run} = this;
     const {tick} = this.player;
     const at = (name: string) => run.column(name)[tick];
-    setText('state', run.mode(tick).replaceAll('_', ' '));
+    setText('state', shownName(run.mode(tick)));
     element('state').style.setProperty('--chip', this.theme.palette[stateColour(run, tick)]);
     element('state').classList.toggle('pale', stateColour(run, tick) === 'still');
     const speed = speedOf(run, tick);

@@ -1,6 +1,6 @@
-/** What the robot knows of the ground over time, as host/page/film.hpp and host/page/map_film.hpp store it. */
+/** The local grid and the map over time, as host/page/film.hpp and host/page/map_film.hpp store them. */
 
-/** Pictures in bits, each by what changed in it since the one before. */
+/** A sequence of bit pictures, each stored as its changes since the one before. */
 class Pictures {
   protected readonly picture: Uint32Array;
   private readonly firstChange = [0];
@@ -14,7 +14,7 @@ class Pictures {
     this.picture = new Uint32Array(words);
   }
 
-  /** All pictures, of which those that were known stay as they are. */
+  /** Sets all pictures; those already known must not differ. */
   grow(ticks: Float64Array, changes: Float64Array, words: Float64Array, bits: Float64Array): void {
     Object.assign(this, {ticks, words, bits});
     const first = this.firstChange;
@@ -54,7 +54,7 @@ function wrapped(cell: number, count: number): number {
 const SIDE = 64;
 const REACH = 20;
 
-/** The clearance patch: bit x mod 64 of row y mod 64 is cell (x, y). */
+/** The local grid: bit x mod 64 of row y mod 64 is cell (x, y). */
 export class Film extends Pictures {
   constructor() {
     super(SIDE * 2);

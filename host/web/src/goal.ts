@@ -1,14 +1,14 @@
-/** How far the goal is at each tick: by the robot's own estimate, which decides, where the page knows it. */
+/** The distance to the goal at each tick: the robot's own estimate, which decides, if the page knows it. */
 import type {Run} from './data.ts';
 
 export class WayToGoal {
   readonly distance: number[] = [];
-  /** The nearest that it believed to be while off an edge, so far. */
+  /** The least distance so far, by that estimate, while the robot followed no boundary. */
   readonly nearest: number[] = [];
-  private readonly onEdge: number;
+  private readonly onBoundary: number;
 
   constructor(private readonly run: Run) {
-    this.onEdge = run.shared.doings.findIndex(({name}) => name === 'danger');
+    this.onBoundary = run.shared.doings.findIndex(({name}) => name === 'danger');
     this.grow();
   }
 
@@ -21,7 +21,7 @@ export class WayToGoal {
     for (let i = distance.length; i < run.ticks; ++i) {
       distance.push(Math.hypot(x[i] - goalX, y[i] - goalY));
       const before = i > 0 ? nearest[i - 1] : distance[0];
-      nearest.push(doing[i] === this.onEdge ? before : Math.min(before, distance[i]));
+      nearest.push(doing[i] === this.onBoundary ? before : Math.min(before, distance[i]));
     }
   }
 }

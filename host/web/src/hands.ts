@@ -1,11 +1,11 @@
 /** Wheel, mouse and fingers on a canvas. */
 
 export interface Hands {
-  /** About this place of the canvas, in pixels. */
+  /** Zooms about this place of the canvas, in pixels. */
   zoom(factor: number, x: number, y: number): void;
-  /** By so many pixels, x to the right, y down. */
+  /** Moves by this many pixels, x to the right, y down. */
   pan(dx: number, dy: number): void;
-  /** False where one finger is to scroll the page. */
+  /** False: one finger scrolls the page. */
   oneFingerPans(): boolean;
 }
 

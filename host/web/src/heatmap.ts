@@ -7,11 +7,11 @@ import type {Palette} from './theme.ts';
 
 const MARGIN = {left: 30, right: 8, top: 6, bottom: 30};
 
-/** What the table was asked last. */
+/** The last input of the table. */
 export interface Question {
   d: number;
   r: number;
-  /** Of the engine's grid. */
+  /** The cell of the engine's grid. */
   cellD: number;
   cellR: number;
   rules: FiredRule[];

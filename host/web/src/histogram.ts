@@ -1,4 +1,4 @@
-/** How a figure is spread over the missions. */
+/** The distribution of a figure over the missions. */
 import {make} from './dom.ts';
 
 const SVG = 'http://www.w3.org/2000/svg';
@@ -28,7 +28,7 @@ export interface Spread {
   title: string;
   unit: string;
   values: number[];
-  /** The bins begin here, or lower where there is something. */
+  /** The bins begin here, or at a smaller value. */
   from: number;
   /** The far end of the bad side: 0.95, or 0.05 where small is bad. */
   tail: 0.05 | 0.95;
@@ -37,7 +37,7 @@ export interface Spread {
 export function histogram({title, unit, values, from, tail}: Spread): HTMLElement {
   const figure = make('figure', 'histogram', [make('figcaption', '', title)]);
   if (values.length === 0) {
-    figure.append(make('p', 'muted', 'no mission says that it is there'));
+    figure.append(make('p', 'muted', 'no mission reports the goal as reached'));
     return figure;
   }
   const sorted = [...values].sort((a, b) => a - b);

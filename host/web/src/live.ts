@@ -1,11 +1,11 @@
-/** A run that goes on: what its server tells, put into the page as it comes. */
+/** A live run: shows the events of its server as they arrive. */
 import {bytesOfBase64, decodeColumns, inflated, type ColumnInfo} from './columns.ts';
 import {Run, type Edge, type PageData, type Result, type RunInfo, type Setting} from './data.ts';
 import {element, setText} from './dom.ts';
 import {openReplay, type Replay} from './replay.ts';
 import type {Theme} from './theme.ts';
 
-/** As host/view/feed.hpp says it. */
+/** An event, as host/view/feed.hpp writes it. */
 interface News {
   run: string;
   /** The tick that the columns begin with. */
@@ -29,7 +29,7 @@ export class Live {
   private setting: Setting | null = null;
   private replay: Replay | null = null;
   private source: EventSource | null = null;
-  /** News are unpacked one after the other. */
+  /** Events are unpacked one after the other. */
   private last = Promise.resolve();
 
   constructor(
@@ -62,7 +62,7 @@ export class Live {
     this.last = this.last.then(next).catch(this.failed);
   }
 
-  /** Why there are no events: what a browser keeps from who listens to them. */
+  /** The reason for the refusal, which a browser does not pass to the listener of events. */
   private async refusal(): Promise<string> {
     const stop = new AbortController();
     try {
@@ -77,13 +77,13 @@ export class Live {
 
   private lost(refusal: string): void {
     if (this.state === 'ended') return;
-    this.tell('connecting', refusal || 'nobody answers; the run may be over');
+    this.tell('connecting', refusal || 'no answer; the run may be over');
   }
 
   private async take(news: News): Promise<void> {
     const ticks = this.replay?.run.ticks ?? 0;
     const another = this.name !== '' && news.run !== this.name;
-    // A run's parts hold on to it: another run is another load of the page.
+    // The parts of the page keep a reference to their run, so another run needs a reload.
     if (another || (news.from !== ticks && news.from !== 0)) {
       this.source?.close();
       location.reload();
@@ -108,7 +108,7 @@ export class Live {
   }
 
   private end(result: Result | null): void {
-    this.tell('ended', result ? '' : 'it was interrupted');
+    this.tell('ended', result ? '' : 'the run was interrupted');
     this.replay?.end(result);
   }
 

@@ -18,7 +18,7 @@ async function openRun(data: PageData, index: number, theme: Theme): Promise<voi
   expose(run, openReplay(run, data.campaign ? index : null, theme));
 }
 
-/** For those who test or measure the page, and for the curious. */
+/** For tests, measurements and the console. */
 function expose(run: Run, {player}: Replay): void {
   Object.assign(window, {whisker: {run, player}});
 }
@@ -54,7 +54,7 @@ async function open(): Promise<void> {
     new CampaignView(data, theme);
   }
   if (!data.campaign) return;
-  // A run's parts hold on to it: another run is another load of the page.
+  // The parts of the page keep a reference to their run, so another run needs a reload.
   addEventListener('hashchange', () => {
     if (placeOf(location.hash).run !== run) location.reload();
   });

@@ -1,4 +1,4 @@
-/** A planner's map and what it leads to. Lengths are metres; the canvas is set to the believed world's axes. */
+/** A planner's map and its way point. Lengths are metres; the canvas has the axes of the robot's estimate. */
 import type {MapInfo} from './film.ts';
 import type {Colour, Palette} from './theme.ts';
 
@@ -11,11 +11,11 @@ export interface MapSeen {
   readonly corner: [x: number, y: number];
   /** As planning::CellState numbers it, of a cell of the world within the window. */
   state(x: number, y: number): number;
-  /** The plan's way goes there. */
+  /** The planned path goes through this cell. */
   onWay(x: number, y: number): boolean;
 }
 
-/** By planning::CellState; what is unknown has none. */
+/** By planning::CellState; unknown cells have no colour. */
 const COLOURS: (Colour | null)[] = [null, 'map-free', 'map-suspect', 'map-occupied'];
 
 export class MapScenery {
@@ -38,7 +38,7 @@ export class MapScenery {
     this.drawPlan(c, p, pixel);
   }
 
-  /** The place that it leads to, and the line of sight there. */
+  /** The way point, and the line of sight to it. */
   drawWayPoint(
     c: CanvasRenderingContext2D,
     p: Palette,

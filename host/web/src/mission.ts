@@ -14,7 +14,7 @@ export interface Mission extends Ended {
   detail: string;
 }
 
-/** Its verdict is the right one, and true. */
+/** Its verdict is correct and true. */
 export function isGood({success, outcome}: Mission): boolean {
   return success && outcome !== 'off_goal';
 }

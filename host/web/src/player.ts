@@ -1,9 +1,9 @@
-/** Which tick is shown, and how time goes on. */
+/** The current tick, and playback. */
 import type {Run} from './data.ts';
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 8, 16, 32, 64];
 
-/** A run is shown in at most about so many seconds, unless the reader asks for another speed. */
+/** The initial speed plays a run in at most about this many seconds. */
 const LONGEST_SHOW = 60;
 
 export class Player {
@@ -12,7 +12,7 @@ export class Player {
   speed = 1;
   /** More ticks may come. */
   live = false;
-  /** Shows the newest tick, whenever one comes. */
+  /** Stays at the newest tick. */
   following = false;
   private time = 0;
   private last = 0;
@@ -33,7 +33,7 @@ export class Player {
     return this.run.ticks - 1;
   }
 
-  /** Whoever goes to the newest tick of a run that goes on follows it. */
+  /** A seek to the newest tick of a live run follows it. */
   seek(tick: number): void {
     this.tick = Math.max(0, Math.min(this.end, Math.round(tick)));
     this.following = this.live && this.tick === this.end;
@@ -51,7 +51,7 @@ export class Player {
     else this.request();
   }
 
-  /** No more will come. */
+  /** No more ticks follow. */
   stopLive(): void {
     this.live = this.following = false;
     this.request();
@@ -98,7 +98,7 @@ export class Player {
   private frame(now: number): void {
     this.pending = false;
     if (this.playing) {
-      // A hidden page gets no frames; it goes on where it was.
+      // A hidden page gets no frames; it continues from the same tick.
       this.time += Math.min(0.1, Math.max(0, (now - this.last) / 1000)) * this.speed;
       this.last = now;
       this.tick = this.run.tickAt(this.time);

@@ -1,4 +1,4 @@
-/** Columns over time. */
+/** Plots of columns over time. */
 import uPlot from 'uplot';
 import {BEAMS, type Run} from './data.ts';
 import {element, make, setText} from './dom.ts';
@@ -18,11 +18,11 @@ interface Plot {
   lines: Line[];
   range: [low: number, high: number];
   unit: string;
-  /** The times on an edge are shaded. */
+  /** The times of boundary following are shaded. */
   edges: boolean;
 }
 
-/** Seconds shown before and after now, unless the whole run is. */
+/** Seconds before and after the current tick that a zoomed plot shows. */
 const BEFORE = 15;
 const AFTER = 5;
 const HEIGHT = 132;
@@ -66,7 +66,7 @@ export class Plots {
   ) {
     const wheel = (side: 'left' | 'right'): Line[] => [
       {label: side, colour: side, values: () => run.column(`v_${side}_mps`)},
-      {label: `${side}, asked`, colour: side, values: () => run.column(`cmd_${side}_mps`), dashed: true},
+      {label: `${side}, commanded`, colour: side, values: () => run.column(`cmd_${side}_mps`), dashed: true},
     ];
     this.grow();
     const ranges = BEAMS.map((beam, i): Line => ({label: beam, colour: beam, values: () => this.ranges[i]}));
@@ -91,7 +91,7 @@ export class Plots {
     for (const {plot, chart, head, values} of this.plots) {
       const {min, max} = this.window(now);
       if (this.zoomed) chart.setScale('x', {min, max});
-      // Not by valToPos: the chart takes a new scale a little later.
+      // valToPos would still use the old scale: the chart applies a new one later.
       const at = ((now - min) / (max - min)) * (chart.bbox.width / uPlot.pxRatio);
       head.style.transform = `translateX(${at}px)`;
       plot.lines.forEach(({values: all}, i) => {
@@ -110,7 +110,7 @@ export class Plots {
     });
   }
 
-  /** Draws what has come since. */
+  /** Draws the ticks that were added. */
   redraw(): void {
     for (const {plot, chart, shade} of this.plots) {
       plot.range = rangeOf(plot.lines);
@@ -218,7 +218,7 @@ export class Plots {
       this.data(plot),
       host,
     );
-    const shade = make('span', '', [make('span', 'key shade'), document.createTextNode(' on an edge')]);
+    const shade = make('span', '', [make('span', 'key shade'), document.createTextNode(' on a boundary')]);
     shade.hidden = !this.isShaded(plot);
     legend.append(shade);
     host.append(legend);

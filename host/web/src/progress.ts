@@ -1,36 +1,37 @@
-/** Why it does not get stuck: the edges it followed, and how much nearer it left each. */
+/** Why the robot does not get stuck: the boundaries that it followed, with the gain at each leave point. */
 import type {Edge, Run} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import type {WayToGoal} from './goal.ts';
 import type {Player} from './player.ts';
-import {metres} from './words.ts';
+import {metres, shownName} from './words.ts';
 
-/** Left when nearer by this than ever before, for the reference body of 0.09 m. */
+/** The robot may leave a boundary when it is nearer to the goal by this, for the reference body of 0.09 m. */
 const NEARER = 0.03;
 const REFERENCE_RADIUS = 0.09;
 
-function notSkirt({planner, map}: Run['info']): string {
+function otherRule({planner, map}: Run['info']): string {
   if (map) {
     return (
-      'Its map leads as long as that brings it nearer to the goal. Where it does not, it follows the edges by the rule ' +
-      'of the skirt planner, and the map leads again where the goal is nearer than ever before. So this ends, too.'
+      'The map leads as long as this brings the robot nearer to the goal. Otherwise the robot falls back to boundary ' +
+      'following, by the rule of the boundary planner. The map resumes where the robot is nearer to the goal than ever ' +
+      'before. So this ends, too.'
     );
   }
   return planner === null
-    ? 'Which planner drives is not known here, and so neither is what keeps it from getting stuck.'
-    : `The rule of the skirt planner does not hold here: this is ${planner}.`;
+    ? 'The planner is not known here, so its rule is not known either.'
+    : `The rule of the boundary planner does not hold here: this is the ${shownName(planner)} planner.`;
 }
 
 const ENDS: Record<Edge['end'], string> = {
   none: '',
   left: '',
-  wall_lost: 'not the one it met',
-  unreachable: 'all the way round: no way',
+  wall_lost: 'lost wall',
+  unreachable: 'closed loop: no path',
 };
 
 export class ProgressPanel {
   private rows: HTMLElement[] = [];
-  private readonly skirts: boolean;
+  private readonly followsBoundaries: boolean;
   private shown = '';
 
   constructor(
@@ -38,9 +39,9 @@ export class ProgressPanel {
     private readonly player: Player,
     private readonly way: WayToGoal,
   ) {
-    this.skirts = run.info.planner === 'skirt';
-    element('rule-of-progress').hidden = !this.skirts;
-    setText('planner-of-progress', this.skirts ? '' : notSkirt(run.info));
+    this.followsBoundaries = run.info.planner === 'skirt';
+    element('rule-of-progress').hidden = !this.followsBoundaries;
+    setText('planner-of-progress', this.followsBoundaries ? '' : otherRule(run.info));
     this.grow();
   }
 
@@ -51,7 +52,9 @@ export class ProgressPanel {
     if (now === this.shown) return;
     this.shown = now;
     element('edges').hidden = edges.length === 0;
-    const none = result ? 'Nothing stood in its way in this run.' : 'Nothing has stood in its way so far.';
+    const none = result
+      ? 'No obstacle blocked the path in this run.'
+      : 'No obstacle has blocked the path so far.';
     setText('edges-none', edges.length === 0 ? none : '');
     this.rows = edges.map((edge, i) => this.row(edge, i));
     element('edge-rows').replaceChildren(...this.rows);
@@ -68,16 +71,16 @@ export class ProgressPanel {
 
   private leaveRule(tick: number): string {
     const on = this.run.info.edges.find(({hit, left}) => hit <= tick && tick < (left ?? Infinity));
-    if (!on || !this.skirts || !this.run.info.inside) return '';
+    if (!on || !this.followsBoundaries || !this.run.info.inside) return '';
     const nearer = (NEARER * this.run.info.robot.radius) / REFERENCE_RADIUS;
     return (
-      `On an edge now, ${metres(this.way.distance[tick])} from the goal: ` +
+      `On a boundary now, ${metres(this.way.distance[tick])} from the goal: ` +
       `it may leave below ${metres(this.way.nearest[tick] - nearer)}.`
     );
   }
 
-  private onIt(): string {
-    return this.run.info.result ? 'the run ended on it' : '';
+  private endedHere(): string {
+    return this.run.info.result ? 'the run ended here' : '';
   }
 
   private row(edge: Edge, i: number): HTMLElement {
@@ -85,7 +88,7 @@ export class ProgressPanel {
     const met = this.way.distance[edge.hit];
     const left = edge.left === null ? null : this.way.distance[edge.left];
     const jump = make('button', 'link', `${t[edge.hit].toFixed(1)} s`);
-    jump.setAttribute('aria-label', `${t[edge.hit].toFixed(1)} s: go to where edge ${i + 1} was met`);
+    jump.setAttribute('aria-label', `${t[edge.hit].toFixed(1)} s: go to the hit point of boundary ${i + 1}`);
     jump.addEventListener('click', () => this.player.seek(edge.hit));
     return make('tr', '', [
       make('td', 'number', String(i + 1)),
@@ -95,7 +98,7 @@ export class ProgressPanel {
       make(
         'td',
         'number',
-        left === null ? ENDS[edge.end] || this.onIt() : ENDS[edge.end] || metres(met - left),
+        left === null ? ENDS[edge.end] || this.endedHere() : ENDS[edge.end] || metres(met - left),
       ),
     ]);
   }

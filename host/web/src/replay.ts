@@ -1,4 +1,4 @@
-/** One run on the page: everything that shows it. */
+/** The view of one run: all parts of the page that show it. */
 import {Address} from './address.ts';
 import {CloseUp} from './closeup.ts';
 import type {Edge, Result, Run} from './data.ts';
@@ -15,19 +15,19 @@ import {Timeline} from './timeline.ts';
 import {Transport} from './transport.ts';
 import {WorldView} from './world.ts';
 
-/** Milliseconds between two times that the plots of a run that goes on are drawn anew. */
+/** Milliseconds between two redraws of the plots of a live run. */
 const PLOTS_EVERY = 250;
 
 export interface Replay {
   readonly run: Run;
   readonly player: Player;
-  /** More ticks, as Run.grow takes them, and all edges so far. */
+  /** Adds ticks, as Run.grow does, and sets all boundaries so far. */
   grow(columns: Map<string, Float64Array>, edges: Edge[], from: number): void;
-  /** No more will come. */
+  /** No more ticks follow. */
   end(result: Result | null): void;
 }
 
-/** `index` is the run's number in the address; null where there is only one. Live: it goes on. */
+/** `index` is the run's number in the address; null if there is only one. `live`: more ticks follow. */
 export function openReplay(run: Run, index: number | null, theme: Theme, live = false): Replay {
   const player = new Player(run);
   player.live = live;
@@ -44,7 +44,7 @@ export function openReplay(run: Run, index: number | null, theme: Theme, live = 
   const transport = new Transport(run, player, timeline, world, theme, hash);
   const address = new Address(hash);
 
-  // Once a frame, however many news come between two.
+  // Once a frame, however many events arrive between two frames.
   let grown = false;
   const catchUp = () => {
     if (!grown) return;

@@ -1,4 +1,4 @@
-/** Why it turns: the response table, what it was asked, and the rules that answer. */
+/** Why the robot turns: the response table, its inputs and outputs, and the active rules. */
 import type {Seen} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import {HeatMap} from './heatmap.ts';
@@ -8,7 +8,7 @@ import type {Theme} from './theme.ts';
 import {degrees, ruleThen, ruleWhen} from './words.ts';
 
 const SHOWN_RULES = 4;
-const UNKNOWN = 'What it is asked and what it answers is not known here: that stays in the controller.';
+const UNKNOWN = 'Inputs and outputs of the table are not known here, because they stay in the controller.';
 
 /** "12 degrees left" */
 function sideways(radians: number): string {
@@ -51,7 +51,7 @@ export class ResponsePanel {
     setText('table-source', controller.source);
   }
 
-  /** The palette or the table is another one. */
+  /** The palette or the table has changed. */
   restyle(): void {
     this.shown = '';
     for (const map of this.maps) map.restyle(this.theme.palette);
@@ -66,9 +66,9 @@ export class ResponsePanel {
     const question = `${at('d')} ${at('r')} ${run.mode(tick)} ${ofNow}`;
     if (question === this.shown) return;
     this.shown = question;
-    // No step factor is 0: what shows one has not been asked.
+    // No answer has a step factor of 0: the table has not been used yet.
     if (at('sd') === 0) {
-      this.showUnasked(run.info.inside ? 'It has not been asked yet.' : UNKNOWN);
+      this.showUnasked(run.info.inside ? 'The table has not been used yet.' : UNKNOWN);
       return;
     }
     const rules = firedRules(run.shared.controller, at('d'), at('r'));
@@ -99,10 +99,10 @@ export class ResponsePanel {
   }
 
   private says(tick: number, inUse: boolean, ofNow: boolean, asked: string): string {
-    if (inUse && ofNow) return `Now it asks for ${asked}.`;
+    if (inUse && ofNow) return `Now it requests ${asked}.`;
     if (inUse)
-      return `It asks for ${asked}, by what the beams agreed on before: at this tick they read otherwise.`;
-    const instead = this.run.mode(tick) === 'skirting' ? ': along an edge it keeps beside it instead' : '';
+      return `It requests ${asked}, from earlier readings on which the beams agreed: the readings of this tick differ.`;
+    const instead = this.run.mode(tick) === 'skirting' ? ': the robot follows a boundary' : '';
     return `Not in use now${instead}. Its last answer was ${asked}.`;
   }
 

@@ -1,4 +1,4 @@
-/** How strongly each of the 25 rules speaks: firmware/fuzzy/exact.hpp in the page's numbers. */
+/** The weights of the 25 rules: firmware/fuzzy/exact.hpp in floating point. */
 import type {Controller, Variable} from './data.ts';
 
 /** 1 at a term's own centre, 0 at its neighbours', straight between; the outer terms are shoulders. */

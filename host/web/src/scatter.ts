@@ -1,4 +1,4 @@
-/** Every mission as a dot: the shortest way there is against the way that was driven. */
+/** Every mission as a dot: the path driven over the shortest path. */
 import {element, Surface} from './dom.ts';
 import {roundStep} from './histogram.ts';
 import {isGood, type Mission} from './mission.ts';
@@ -65,7 +65,7 @@ export class Scatter {
     c.textBaseline = 'top';
     const stepX = roundStep(this.mostX, 6);
     for (let x = 0; x <= this.mostX; x += stepX) c.fillText(`${+x.toFixed(6)}`, this.x(x), bottom + 5);
-    c.fillText('shortest way, m', (MARGIN.left + width - MARGIN.right) / 2, height - 14);
+    c.fillText('shortest path, m', (MARGIN.left + width - MARGIN.right) / 2, height - 14);
     c.textAlign = 'right';
     c.textBaseline = 'middle';
     const stepY = roundStep(this.mostY, 6);

@@ -1,8 +1,8 @@
-/** Which part of the world a picture of a run must show. */
+/** The part of the world that the view of a run must show. */
 import type {Box} from './camera.ts';
 import type {Point, Run, World} from './data.ts';
 
-/** The whole way, start and goal, and of the world what lies no farther from them than they are apart, or 4 m. */
+/** The whole path, start and goal, and the world around them up to their own extent, at least 4 m. */
 export function sceneBox(run: Run): Box {
   const x = run.column('x_m');
   const y = run.column('y_m');
@@ -11,7 +11,7 @@ export function sceneBox(run: Run): Box {
   return sceneBoxOf(run.info.world, way, run.info.robot.radius);
 }
 
-/** The same for a world and the places of a way. */
+/** The same for a world and the points of a path. */
 export function sceneBoxOf(world: World, way: Point[], radius = 0): Box {
   const {start, goal, tolerance, bounds, discs, polygons, walls, movers} = world;
   const box = {left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity};
@@ -24,7 +24,7 @@ export function sceneBoxOf(world: World, way: Point[], radius = 0): Box {
   for (const [x, y] of way) add(x, y, radius);
   add(start[0], start[1], 0.1);
   add(goal[0], goal[1], Math.max(tolerance, 0.1));
-  // Of a vast world only what lies about the way.
+  // Of a large world only the part around the path.
   const around = Math.max(4, box.right - box.left, box.top - box.bottom);
   const limit = {
     left: box.left - around,

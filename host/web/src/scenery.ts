@@ -1,4 +1,4 @@
-/** What both views of the world draw. Lengths are metres; the canvas is set to the world's axes. */
+/** What both views of the world draw. Lengths are metres; the canvas has the axes of the world. */
 import {BEAMS, RangeStatus, type Seen} from './data.ts';
 import {MapScenery} from './map_scenery.ts';
 import {moverPosition, polyline} from './shapes.ts';
@@ -68,7 +68,7 @@ export class Scenery {
     c.stroke(new Path2D(`M${goal[0] - arm},${goal[1]}h${2 * arm}M${goal[0]},${goal[1] - arm}v${2 * arm}`));
   }
 
-  /** The clear cells, where the robot believes them to be in the true world. */
+  /** The clear cells, at their place in the true world by the robot's estimate. */
   drawPatch(c: CanvasRenderingContext2D, p: Palette, tick: number): void {
     const {run} = this;
     const {cell} = run.info.robot;
@@ -84,7 +84,7 @@ export class Scenery {
     });
   }
 
-  /** The map with its plan, likewise, and the place that it leads to. */
+  /** The map with its planned path, likewise, and the way point. */
   drawMap(c: CanvasRenderingContext2D, p: Palette, pixel: number, tick: number): void {
     const {run, map} = this;
     if (!map) return;
@@ -136,7 +136,7 @@ export class Scenery {
     }
   }
 
-  /** The body, and a ring where the robot believes to be if that is elsewhere. */
+  /** The body, and a ring at the estimated place if that is elsewhere. */
   drawBody(c: CanvasRenderingContext2D, p: Palette, pixel: number, tick: number): void {
     const {run} = this;
     const at = (name: string) => run.column(name)[tick];

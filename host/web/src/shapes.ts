@@ -1,7 +1,7 @@
-/** Lines of the world, and what is left of them when no eye could tell. */
+/** Lines of the world, simplified within what is visible. */
 import type {Mover, Point, Run} from './data.ts';
 
-/** A stretch of the path driven in one class; neighbours share a point. */
+/** A piece of the path in one class; neighbours share a point. */
 export interface Piece {
   doing: number;
   ticks: number[];
@@ -37,10 +37,10 @@ function simplified(x: Float64Array, y: Float64Array, from: number, to: number, 
   return kept;
 }
 
-/** At most this many ticks are simplified at once, which bounds the work of a long way. */
+/** At most this many ticks are simplified at once, which bounds the work for a long path. */
 const CHUNK = 400;
 
-/** Those that begin at this tick, where a piece does. */
+/** The pieces from this tick on, at which a piece must begin. */
 export function pathPieces(run: Run, first = 0, tolerance = 0.002): Piece[] {
   const x = run.column('x_m');
   const y = run.column('y_m');
@@ -65,7 +65,7 @@ export function polyline(points: Point[], closed = false): Path2D {
   return path;
 }
 
-/** Where a mover is: from its centre towards the end of its path, then there and back. */
+/** The place of a mover: it drives from its centre to the end of its path, back, and again. */
 export function moverPosition({path, center, speed}: Mover, time: number): Point {
   const at = [0];
   let start = 0;

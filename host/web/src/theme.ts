@@ -1,4 +1,4 @@
-/** Light and dark: the system's choice until the reader makes another. */
+/** Light and dark: the system's setting until the user selects another. */
 import {element} from './dom.ts';
 
 const KEY = 'whisker-theme';

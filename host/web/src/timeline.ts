@@ -3,11 +3,11 @@ import {speedOf, type Run, type Seen} from './data.ts';
 import {element, setText, Surface} from './dom.ts';
 import type {Player} from './player.ts';
 import type {Colour, Theme} from './theme.ts';
-import {sentence} from './words.ts';
+import {sentence, shownName} from './words.ts';
 
 interface Segment {
   from: number;
-  /** The first tick behind it. */
+  /** The first tick after it. */
   to: number;
   label: string;
   colour: Colour;
@@ -45,30 +45,30 @@ export function stateColour(run: Seen, tick: number): Colour {
   return (['free', 'table', 'probing', 'danger'] as const)[run.column('doing')[tick]];
 }
 
-/** What a lane says of a tick. */
+/** The label and the colour of a lane at a tick. */
 type Lane = (run: Run, tick: number) => [label: string, colour: Colour];
 
 const GUIDES: Record<string, [label: string, colour: Colour]> = {
   goal: ['straight', 'free'],
   place: ['way point', 'map'],
   wait: ['plans', 'still'],
-  none: ['edges', 'danger'],
+  none: ['boundary', 'danger'],
 };
 
 const LANES: Lane[] = [
-  (run, tick) => [run.mode(tick), stateColour(run, tick)],
+  (run, tick) => [shownName(run.mode(tick)), stateColour(run, tick)],
   (run, tick) => {
     const why = run.why(tick);
     const colour = why === 'at_goal' && run.offGoal ? 'over' : (WHY_COLOURS[why] ?? 'still');
-    return [why.replaceAll('_', ' '), colour];
+    return [shownName(why), colour];
   },
 ];
 
-/** What the map says; before the first movement nobody has asked it. */
+/** What leads the map planner; empty before the first movement. */
 const MAP_LANE: Lane = (run, tick) =>
   run.why(tick) === 'goal_set' ? ['', 'still'] : GUIDES[run.guide(tick)];
 
-/** Goes on with these segments up to the last tick. */
+/** Extends the segments to the last tick. */
 function extend(all: Segment[], run: Run, lane: Lane): void {
   for (let tick = all.at(-1)?.to ?? 0; tick < run.ticks; ++tick) {
     const [label, colour] = lane(run, tick);
@@ -142,7 +142,7 @@ export class Timeline {
     const {tick} = this.player;
     if (Number(this.slider.value) !== tick) this.slider.value = String(tick);
     element('lanes-head').style.transform = `translateX(${this.x(tick)}px)`;
-    // Not on every frame: a screen reader would never come to an end.
+    // Not on every frame, because a screen reader would never finish.
     if (this.player.playing || this.player.following) return;
     const {run} = this;
     const says = sentence(run.mode(tick), run.why(tick), run.guide(tick), speedOf(run, tick));

@@ -1,4 +1,4 @@
-/** How a stretch of a way looks, by what the robot did: report::Doing. */
+/** Colours and widths of the path, by report::Doing. */
 import type {Colour} from './theme.ts';
 
 export const DOING_COLOURS: Colour[] = ['free', 'table', 'probing', 'danger'];

@@ -1,16 +1,29 @@
-/** The robot's own words, said in plain ones. */
+/** States, reasons and faults of the robot, and its verdicts, in words. */
+
+/** Names that differ from those in traces and on the command line. */
+const NAMES: Record<string, string> = {
+  skirt: 'boundary',
+  skirting: 'following',
+  edge: 'boundary',
+  came_round: 'closed loop',
+};
+
+/** Of a planner, a state or a reason: "boundary", "gave up". */
+export function shownName(name: string): string {
+  return NAMES[name] ?? name.replaceAll('_', ' ');
+}
 
 /** What it does, by state. */
 export const DOES: Record<string, string> = {
   idle: 'Stands without a goal',
   facing: 'Turns on the spot to face the goal',
-  looking: 'Stands and looks',
-  steering: 'Turns to the heading that the response table asks for',
-  probing: 'Turns aside by small steps until the next step is free',
+  looking: 'Stands and takes a static scan',
+  steering: 'Turns to the heading that the response table requests',
+  probing: 'Turns in small steps until the next step is free',
   stepping: 'Drives one step',
-  searching: 'Sweeps its beams to both sides for a way out',
-  skirting: 'Follows the edge of what is in the way',
-  surveying: 'Turns to both sides to see the ground around it before the first move',
+  searching: 'Turns to both sides to find a clear heading and the side to follow',
+  skirting: 'Follows the boundary of the obstacle',
+  surveying: 'Turns to both sides to scan the ground around it before it drives',
   going: 'Drives towards the goal',
   arrived: 'Stands',
   unreachable: 'Stands: the goal cannot be reached',
@@ -18,35 +31,36 @@ export const DOES: Record<string, string> = {
   stopped: 'Stopped for safety',
 };
 
-/** The same where a map leads it towards the goal. */
+/** The same while the plan of a map leads to the goal. */
 export const LED: Record<string, string> = {
-  place: 'Drives to the next place on the way that its map knows',
-  wait: 'Waits until its map has another plan',
+  place: 'Drives to the next way point of its map',
+  wait: 'Waits for the next plan of its map',
 };
 
 /** Why it does that, by reason. */
 export const BECAUSE: Record<string, string> = {
   none: '',
   goal_set: 'it has a new goal',
-  target_free: 'nothing is near in that direction',
-  table: 'something is near, and the response table bends its course away from it',
-  narrow: 'the way straight ahead is too narrow, the next free heading is taken',
+  target_free: 'no obstacle is near in that direction',
+  table: 'an obstacle is near, and the response table deflects the heading away from it',
+  narrow: 'the path straight ahead is too narrow, so it takes the next clear heading',
   target_blocked: 'an obstacle blocks the direction of the goal',
-  exit_left: 'the way out on the left needs the smaller turn',
-  exit_right: 'the way out on the right needs the smaller turn',
-  same_side: 'the goal is still hidden, so it keeps to the side it chose',
+  exit_left: 'the clear heading on the left needs the smaller turn',
+  exit_right: 'the clear heading on the right needs the smaller turn',
+  same_side: 'the direction of the goal is still blocked, so it keeps the side that it chose',
   blind: 'readings are lost, so it waits',
-  unknown_ahead: 'no beam has seen some of the ground ahead yet',
-  edge: 'the direction of the goal is still blocked, or it is not nearer than before',
-  opening: 'the edge may have an opening, so it feels for it',
-  way_back: 'no other way is free, so it goes back where it came from',
-  wall_lost: 'what it went round cannot be what parts it from the goal, so it heads for the goal again',
-  came_round: 'it is back where it met the obstacle',
+  unknown_ahead: 'part of the ground ahead is unknown',
+  edge: 'the direction of the goal is blocked, or the robot is not nearer to the goal than ever before',
+  opening: 'the boundary may have an opening, so it searches for a heading into it',
+  way_back: 'no other heading is clear, so it goes back in the direction it came from',
+  wall_lost:
+    'the obstacle that it circled is not the one that separates it from the goal, so it drives to the goal again',
+  came_round: 'it has closed the loop and is back at the hit point',
   at_goal: 'by its own estimate it is at the goal',
-  no_exit: 'no heading all around is free',
+  no_exit: 'no heading in any direction is clear',
   step_budget: 'its number of steps is used up',
   something_moves: 'something nearby moves, so it waits, looks or goes around',
-  length_budget: 'its length of way is used up',
+  length_budget: 'its length of path is used up',
   cancelled: 'the goal was cancelled',
   fault: 'something failed',
   goal_out_of_range: 'the goal is farther out than 1,000 m',
@@ -69,10 +83,10 @@ export const FAULTS: Record<string, string> = {
   drive_refused: 'the drive refused commands',
   encoder_jump: 'the encoders jumped',
   wheels_stalled: 'the wheels stand still',
-  range_unsteady: 'a beam never agreed with itself',
-  no_progress: 'a turn or step came to no end',
+  range_unsteady: 'the readings of a beam never agreed',
+  no_progress: 'a turn or step did not end',
   pose_out_of_range: 'farther out than 1,000 m',
-  wheel_runaway: 'a wheel does not turn as it is told',
+  wheel_runaway: 'a wheel does not turn as commanded',
 };
 
 export const COUNTER_WORDS: Record<string, string> = {
@@ -88,35 +102,35 @@ export const COUNTER_WORDS: Record<string, string> = {
   unsteady_looks: 'unsteady looks',
   no_progress: 'moves without progress',
   pose_out_of_range: 'times farther out than 1,000 m',
-  wheel_runaways: 'wheels that did not turn as told',
+  wheel_runaways: 'wheels that did not turn as commanded',
   late_ticks: 'late ticks',
   clock_jumps: 'clock jumps',
 };
 
-/** Of the terms of D, the nearest first. */
+/** The terms of D, the nearest first. */
 const AHEAD = ['very near ahead', 'near ahead', 'some way ahead', 'far ahead', 'very far ahead'];
-/** Of the terms of R, the most negative first: R is right minus left. */
+/** The terms of R, the most negative first: R is right minus left. */
 const SIDES = ['right much nearer', 'right nearer', 'both sides alike', 'left nearer', 'left much nearer'];
 
-/** When the rule of these terms speaks: "near ahead, left nearer". */
+/** The condition of a rule: "near ahead, left nearer". */
 export function ruleWhen(d: number, r: number): string {
   return `${AHEAD[d]}, ${SIDES[r]}`;
 }
 
-/** What it asks for: "turn right hard". */
+/** The answer of a rule: "turn right hard". */
 export function ruleThen(turn: number, mostTurn: number): string {
   if (turn === 0) return 'straight on';
   return `turn ${turn > 0 ? 'left' : 'right'}${Math.abs(turn) >= mostTurn ? ' hard' : ''}`;
 }
 
-/** How a run ended, as far as its verdict tells. */
+/** The end of a run, as in its verdict. */
 export interface Ended {
   outcome: string;
-  /** True; null: it is not known. */
+  /** The true distance; null: it is not known. */
   final_distance_m: number | null;
 }
 
-/** The robot says that it is at the goal; where it is, nobody knows. */
+/** The robot reports that it is at the goal, and its true place is not known. */
 function onlyBelieves({outcome, final_distance_m}: Ended): boolean {
   return outcome === 'reached' && final_distance_m === null;
 }
@@ -135,15 +149,15 @@ export function verdict(ended: Ended, seconds: number): string {
   return `${ending(ended)}${ended.outcome === 'off_goal' ? ',' : ''} after ${time}`;
 }
 
-/** For a style sheet: only what truly reached its goal is `reached`. */
+/** For a style sheet: `reached` is only a robot that is truly at its goal. */
 export function verdictClass(ended: Ended): string {
   return onlyBelieves(ended) ? 'believed' : ended.outcome;
 }
 
-/** m/s: slower than this it stands. */
+/** m/s; a slower robot counts as standing. */
 const STANDS_BELOW = 0.01;
 
-/** What happens at a tick, as one sentence. `guide`: what a map says; `speed`: forwards, m/s. */
+/** What the robot does at a tick and why, as one sentence. `guide`: what leads it; `speed`: forwards, m/s. */
 export function sentence(mode: string, why: string, guide: string, speed: number): string {
   const because = BECAUSE[why] ?? why;
   const does = (mode === 'going' && LED[guide]) || (DOES[mode] ?? mode);

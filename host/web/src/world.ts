@@ -21,7 +21,7 @@ export class WorldView {
   private box: Box;
   private following = false;
   private showsMap = true;
-  /** The reader has moved the view. */
+  /** The user has moved the view. */
   private moved = false;
 
   constructor(
@@ -137,7 +137,7 @@ export class WorldView {
     this.touchable();
   }
 
-  /** One finger scrolls the page while all is shown, and moves the world when it is larger than its window. */
+  /** One finger scrolls the page while the whole world is shown, and moves the view otherwise. */
   private touchable(): void {
     this.surface.canvas.style.touchAction = this.moved ? 'none' : 'pan-y';
   }
@@ -172,7 +172,7 @@ export class WorldView {
     }
   }
 
-  /** Words and the numbers of the edges, always upright and of one size. */
+  /** Labels and the numbers of the boundaries, always upright and of one size. */
   private drawMarks(c: CanvasRenderingContext2D, tick: number): void {
     const {camera, surface, run} = this;
     const p = this.theme.palette;

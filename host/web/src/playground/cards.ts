@@ -1,9 +1,9 @@
-/** What each robot does now, in words, and what came of its drive. */
+/** What each robot does now, in words, and its verdict. */
 import {element, make, setText} from '../dom.ts';
 import {speedOf} from '../data.ts';
 import type {Theme} from '../theme.ts';
 import {stateColour} from '../timeline.ts';
-import {FAULTS, metres, sentence, verdict, verdictClass} from '../words.ts';
+import {FAULTS, metres, sentence, shownName, verdict, verdictClass} from '../words.ts';
 import type {LiveRun} from './live.ts';
 
 export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
@@ -13,8 +13,8 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   };
   const {time, way} = run.result;
   const {ended} = run;
-  say('planner', `${run.planner} planner`);
-  say('state', run.mode().replaceAll('_', ' '));
+  say('planner', `${shownName(run.planner)} planner`);
+  say('state', shownName(run.mode()));
   const colour = stateColour(run, 0);
   part('state').style.setProperty('--chip', theme.palette[colour]);
   part('state').classList.toggle('pale', colour === 'still');
@@ -29,20 +29,20 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   say('clock', `${time.toFixed(1)} s, ${metres(way, 1)}`);
 }
 
-/** Of the robot that the panels look at. */
+/** Shows the progress of the robot that the panels show. */
 export function showProgress(run: LiveRun, several: boolean): void {
   setText('progress', run.about);
   setText('to-goal', metres(run.distance));
   setText('nearest', metres(run.nearest));
   for (const whose of document.querySelectorAll('.whose')) {
-    whose.textContent = several ? `(${run.planner} planner)` : '';
+    whose.textContent = several ? `(${shownName(run.planner)} planner)` : '';
   }
 }
 
 export interface HashNote {
-  /** Of the native run, if it is on record. */
+  /** The hash of the native run, if it is recorded. */
   native: string | null;
-  /** What else is to be said. */
+  /** Shown instead of a comparison. */
   words: string;
 }
 
@@ -58,7 +58,7 @@ export function showLedger(runs: LiveRun[], notes: HashNote[]): void {
       equal ? 'equals the native run' : 'differs from the native run',
     );
     const row = make('div', '', [
-      make('dt', '', run.planner),
+      make('dt', '', shownName(run.planner)),
       make('dd', '', [
         make('code', '', hash),
         make('span', 'muted', ` ${ticks} ticks `),

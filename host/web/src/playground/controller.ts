@@ -1,4 +1,4 @@
-/** The response table as the replay page's panels want it, from the rules that the core has now. */
+/** The response table in the form of the replay page, from the current rules of the core. */
 import type {Controller, Variable} from '../data.ts';
 import type {Core} from './core.ts';
 
@@ -11,7 +11,7 @@ export const TERMS = {
   turn: ['TRVB', 'TRB', 'Z', 'TLB', 'TLVB'],
   step: ['VS', 'S', 'M', 'B', 'VB'],
 } as const;
-/** Where the terms of D and R are fully true, raw: firmware/fuzzy/variables.hpp. */
+/** The centres of the terms of D and R, raw: firmware/fuzzy/variables.hpp. */
 const CENTRES = {d: [128, 384, 640, 896, 1152], r: [-896, -512, 0, 512, 896]};
 
 /** The five answers of each output, raw and rising; the default rules use all of them. */
@@ -33,7 +33,7 @@ function named(names: readonly string[], values: number[], one: number): Variabl
   return names.map((name, i) => [name, values[i] / one]);
 }
 
-/** Fills what depends on the rules; the object and its arrays stay the same. */
+/** Updates what depends on the rules; the object and its arrays stay the same. */
 export function refreshController(controller: Controller, core: Core, answers: Answers): void {
   const rules = core.rules();
   const picture = (from: number, values: number[], names: readonly string[]) =>
@@ -68,7 +68,7 @@ export function controllerOf(core: Core, answers: Answers): Controller {
     sd_thousandths: [],
     d_nodes: nodes(rows, CENTRES.d[0], spacing[0]),
     r_nodes: nodes(columns, CENTRES.r[0], spacing[1]),
-    source: `Bilinear table of ${rows} × ${columns} nodes, made from the 25 rules on this page`,
+    source: `bilinear table of ${rows} × ${columns} nodes, made from the 25 rules on this page`,
   };
   refreshController(controller, core, answers);
   return controller;

@@ -1,6 +1,6 @@
-/** Which world, who drives, how fast; and the keys. */
+/** The controls of world, planner and speed, and the keys. */
 import {element, make, setText} from '../dom.ts';
-import {ending} from '../words.ts';
+import {ending, shownName} from '../words.ts';
 import type {Playground} from './playground.ts';
 import type {Stage} from './stage.ts';
 
@@ -60,16 +60,16 @@ export class Controls {
     element('play').setAttribute('aria-label', play.playing ? 'Pause' : 'Play');
     element('play').classList.toggle('playing', play.playing);
     setText('clock', `${play.time.toFixed(1)} s`);
-    // Not on every frame: a screen reader would never come to an end.
+    // Not on every frame, because a screen reader would never finish.
     const over = play.runs.filter((run) => run.over);
-    setText('spoken', over.map((run) => `${run.planner}: ${ending(run.ended!)}`).join('. '));
+    setText('spoken', over.map((run) => `${shownName(run.planner)}: ${ending(run.ended!)}`).join('. '));
   }
 
   private world(kind: string, seed: number): void {
     const {play, stage} = this;
     const good = Number.isSafeInteger(seed) && seed >= 0;
     const done = good && play.restore({...play.state, kind, seed, own: null});
-    setText('told', done ? '' : 'There is no such world: take another seed, a whole number from 0 on.');
+    setText('told', done ? '' : 'There is no such world: select another seed, a whole number from 0 on.');
     if (done) {
       play.playing = true;
       stage.fit();
@@ -77,9 +77,10 @@ export class Controls {
     this.seed.value = String(play.state.seed);
   }
 
-  /** "Skirt planner", "Skirt and map". */
+  /** "Boundary planner", "Boundary and map". */
   private whoButton(who: string, team: readonly string[]): HTMLElement {
-    const words = team.length > 1 ? team.join(' and ') : `${who} planner`;
+    const names = team.map(shownName);
+    const words = names.length > 1 ? names.join(' and ') : `${names[0]} planner`;
     const button = make('button', '', words[0].toUpperCase() + words.slice(1));
     button.id = `who-${who}`;
     button.setAttribute('type', 'button');
@@ -100,7 +101,7 @@ export class Controls {
     const target = event.target as HTMLElement;
     if (event.ctrlKey || event.altKey || event.metaKey || element<HTMLDialogElement>('keys').open) return;
     if (['INPUT', 'SELECT', 'TEXTAREA'].includes(target.tagName)) return;
-    // A button's own keys press it.
+    // These keys press the button that has the focus.
     if (target.tagName === 'BUTTON' && [' ', 'Enter'].includes(event.key)) return;
     const actions: Record<string, () => void> = {
       ' ': () => this.toggle(),

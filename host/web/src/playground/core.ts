@@ -1,4 +1,4 @@
-/** The core, the simulator and the worlds, as host/play/exports.cpp gives them. */
+/** The core, the simulator and the worlds, as host/play/exports.cpp exports them. */
 import type {RobotInfo} from '../data.ts';
 import {flat, situationOf, type Situation} from './situation.ts';
 
@@ -26,7 +26,7 @@ interface Exports {
   word(which: number, i: number): number;
 }
 
-/** What record() answers, in its order. */
+/** The columns that record() returns, in its order. */
 const COLUMNS = [
   't_s', 'x_m', 'y_m', 'heading_rad', 'est_x_m', 'est_y_m', 'est_heading_rad', 'v_left_mps', 'v_right_mps',
   'state', 'why', 'doing', 't', 'd', 'r', 'sa', 'sd', 'cell_d', 'cell_r', 'fault',
@@ -40,7 +40,7 @@ export interface Result {
   outcome: (typeof OUTCOMES)[number] | null;
   time: number;
   way: number;
-  /** From the goal: true, and as the robot believes. */
+  /** Distances to the goal: true and estimated. */
   distance: number;
   believed: number;
   clearance: number;
@@ -91,7 +91,7 @@ export class Core {
     return new Core(instance.exports as unknown as Exports);
   }
 
-  /** Null where no world of that kind can be found. */
+  /** Null if no world of that kind exists for this seed. */
   generate(kind: string, seed: number, noise: boolean): Situation | null {
     const count = this.wasm.generate(this.words.kinds.indexOf(kind), seed, -1, 0, Number(noise));
     return count > 0 ? situationOf(this.read(count)) : null;
@@ -104,13 +104,14 @@ export class Core {
 
   begin(side: number, planner: string, situation: Situation): void {
     this.write(flat(situation));
-    if (!this.wasm.begin(side, this.words.planners.indexOf(planner))) throw new Error('this world is none');
+    if (!this.wasm.begin(side, this.words.planners.indexOf(planner)))
+      throw new Error('this world is not valid');
   }
 
   /** Obstacles and goal, while the robot drives. */
   change(side: number, situation: Situation): void {
     this.write(flat(situation));
-    if (!this.wasm.change(side)) throw new Error('this world is none');
+    if (!this.wasm.change(side)) throw new Error('this world is not valid');
   }
 
   advance(side: number, ticks: number): void {
@@ -137,7 +138,7 @@ export class Core {
     }; // prettier-ignore
   }
 
-  /** x, y and what it did, place after place. */
+  /** x, y and the class of the path, point after point. */
   way(side: number, from: number): Float64Array {
     return this.read(this.wasm.way(side, from));
   }
@@ -151,7 +152,7 @@ export class Core {
     return this.wasm.map_bytes(side);
   }
 
-  /** Columns, rows, side of a cell, corner, states, and places of the plan's way; empty without a map. */
+  /** Columns, rows, side of a cell, corner, states, and cells of the planned path; empty without a map. */
   map(side: number): Float64Array {
     return this.read(this.wasm.map(side));
   }
@@ -161,7 +162,7 @@ export class Core {
     return [...this.read(this.wasm.get_rules())];
   }
 
-  /** Answers with the bits of RULE_FAULTS. */
+  /** Returns the bits of RULE_FAULTS. */
   setRules(rules: number[]): number {
     this.write(rules);
     return this.wasm.set_rules();

@@ -1,4 +1,4 @@
-/** The things of the world by button, list and key. */
+/** Edits the objects of the world by button, list and key. */
 import type {World} from '../data.ts';
 import {element} from '../dom.ts';
 import {NEW_KINDS, nameOf, same, thingsOf, type NewKind, type Thing} from './things.ts';
@@ -29,7 +29,7 @@ export class Editor {
     element('smaller').addEventListener('click', () => edits.size(1 / GROW));
   }
 
-  /** Keys on a view; true if this was one. */
+  /** A key on a view; true if it has a function here. */
   key(event: KeyboardEvent): boolean {
     const step = event.shiftKey ? 5 * STEP : STEP;
     const actions: Record<string, () => void> = {
@@ -54,7 +54,7 @@ export class Editor {
     const all = names.join('\n');
     if (all !== this.shown) {
       this.shown = all;
-      this.list.replaceChildren(new Option('nothing chosen', ''), ...names.map((name) => new Option(name)));
+      this.list.replaceChildren(new Option('nothing selected', ''), ...names.map((name) => new Option(name)));
     }
     this.list.selectedIndex = 1 + this.things.findIndex((thing) => same(thing, selected));
     const removable = selected !== null && selected.kind !== 'start' && selected.kind !== 'goal';

@@ -1,4 +1,4 @@
-/** What can be taken away: the address, the scenario, the table. */
+/** Copies the link, and saves the scenario and the table. */
 import {copied, linkWith} from '../address.ts';
 import {element, setText} from '../dom.ts';
 import type {Core} from './core.ts';
@@ -27,6 +27,6 @@ export function offerFiles(play: Playground, core: Core): void {
   });
   element('copy').addEventListener('click', async () => {
     const done = await copied(linkWith(await hashOf(play.state)));
-    setText('copied', done ? 'copied' : 'the address bar has it');
+    setText('copied', done ? 'Link copied' : 'The address bar has the link');
   });
 }

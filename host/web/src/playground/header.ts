@@ -1,4 +1,4 @@
-/** The look-up table as firmware/fuzzy/response_table.hpp: for the default rules that file to the byte. */
+/** The look-up table in the form of firmware/fuzzy/response_table.hpp; with the default rules, byte for byte that file. */
 import type {Table} from './core.ts';
 
 const LOW = {d: 128, r: -896};
@@ -19,7 +19,7 @@ function row(table: Table, d: number): string {
   return `    {${texts.join(',')}},  // D = ${((LOW.d + spacing[0] * d) / Q7).toFixed(2)}`;
 }
 
-/** `note` says which rules these are, if not the default ones. */
+/** `note` names the rules if they are not the default ones. */
 export function tableHeader(table: Table, note: string | null): string {
   const origin = note
     ? [`/// The answers at the nodes of the look-up: {SA, SD}, raw Q14. ${note}`]

@@ -1,29 +1,29 @@
-/** A robot under way: what the replay page's parts want to know of a run, of which only now is known. */
+/** A robot of the playground, for the parts of the replay page: a run of which only the current tick is known. */
 import {rangeOf, type Controller, type Seen} from '../data.ts';
 import type {Core, Result} from './core.ts';
 import {LiveMap} from './live_map.ts';
 import type {Situation} from './situation.ts';
 import type {Ended} from '../words.ts';
 
-/** A stretch of the way in one class. */
+/** A piece of the path in one class. */
 export interface Stretch {
   doing: number;
   path: Path2D;
 }
 
 export class LiveRun implements Seen {
-  /** Of the only tick there is. */
+  /** The only tick. */
   readonly tick = 0;
   info: Seen['info'];
   result: Result;
   stretches: Stretch[] = [];
-  /** Null: its planner has none. */
+  /** Null: the planner has none. */
   readonly map: LiveMap | null;
   private readonly columns = new Map<string, Float64Array>();
   private cells: Float64Array = new Float64Array();
   private passed = 0;
   private last: [x: number, y: number] = [0, 0];
-  /** The least true distance to the goal on the way so far, m. */
+  /** The least true distance to the goal so far, m. */
   nearest = Infinity;
 
   constructor(
@@ -41,7 +41,7 @@ export class LiveRun implements Seen {
     this.refresh();
   }
 
-  /** Why its planner does not get stuck, or when it does. */
+  /** Why the planner does not get stuck, or when it does. */
   get about(): string {
     const {planners, abouts} = this.core.words;
     return abouts[planners.indexOf(this.planner)];
@@ -51,7 +51,7 @@ export class LiveRun implements Seen {
     return this.result.outcome === 'off_goal';
   }
 
-  /** Null: it is under way. */
+  /** Null: the run has not ended. */
   get ended(): Ended | null {
     const {outcome, distance} = this.result;
     return outcome && {outcome, final_distance_m: distance};
@@ -73,7 +73,7 @@ export class LiveRun implements Seen {
     this.refresh();
   }
 
-  /** Asks the core what there is to see. */
+  /** Reads the current state from the core. */
   refresh(): void {
     this.core.record(this.side, this.columns);
     this.result = this.core.result(this.side);

@@ -1,4 +1,4 @@
-/** The map of a robot under way, as host/play/exports.cpp tells it. */
+/** The current map of a robot, as host/play/exports.cpp exports it. */
 import type {MapInfo} from '../film.ts';
 import type {MapSeen} from '../map_scenery.ts';
 
@@ -14,7 +14,7 @@ export class LiveMap implements MapSeen {
     this.info = {bytes, columns: 0, rows: 0, cell: 1};
   }
 
-  /** A new picture, or the last one again. */
+  /** Takes a new picture, or the last one again. */
   show(told: Float64Array): void {
     const [columns, rows, cell, x, y] = told;
     this.info = {bytes: this.bytes, columns, rows, cell};

@@ -23,7 +23,7 @@ const FIRST: State = {kind: 'u-trap', seed: 7, who: 'skirt-map', own: null, nois
 /** Milliseconds. */
 const PANELS_EVERY = 80;
 
-const NO_SUCH_WORLD = 'its world is none, or too large for this page';
+const NO_SUCH_WORLD = 'its world is not valid, or too large for this page';
 
 function sayLinkFault(fault: string): void {
   element('link-fault').hidden = fault === '';
@@ -70,7 +70,7 @@ async function open(): Promise<void> {
     stage.draw();
     play.runs.forEach((run, i) => showCard(stage.cards[i], run, theme));
     controls.update();
-    // The panels are for reading: while it drives, no eye misses the pictures between.
+    // During a run, the panels need fewer updates than the views.
     if (play.playing && now - panels < PANELS_EVERY) return;
     panels = now;
     closeUp.run = response.run = focus();
@@ -90,7 +90,7 @@ async function open(): Promise<void> {
     pending = true;
     requestAnimationFrame((now) => {
       pending = false;
-      // A hidden page gets no frames; it goes on where it was.
+      // A hidden page gets no frames; it continues from the same tick.
       if (play.playing) play.pass(Math.min(0.1, Math.max(0, (now - last) / 1000)));
       last = now;
       draw(now);
@@ -121,7 +121,7 @@ async function open(): Promise<void> {
   noise.show(play.state.noise);
   if (play.state.rules) rules.setCode(play.state.rules);
   play.begin();
-  // For those who test or measure the page, and for the curious.
+  // For tests, measurements and the console.
   Object.assign(window, {whisker: {play, core, stage}});
   play.playing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
   last = performance.now();

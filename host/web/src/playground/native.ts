@@ -1,4 +1,4 @@
-/** The hashes of native runs, recorded by host/web/native.mjs, and what to say where none is known. */
+/** The hashes of native runs, recorded by host/web/native.mjs, and the note for a run without one. */
 import type {HashNote} from './cards.ts';
 import recorded from './native.json';
 import type {Playground} from './playground.ts';
@@ -9,9 +9,9 @@ export function notesOf({runs, state, touched}: Playground): HashNote[] {
   const plain = !state.own && !state.rules && state.noise.every((x) => x === 0);
   return runs.map(({planner, over}) => {
     const native = (plain && HASHES[`${state.kind} ${state.seed} ${planner}`]) || null;
-    if (touched) return {native: null, words: 'changed under way: drive again from the start to compare'};
-    if (!over) return {native, words: 'of the drive so far'};
-    if (state.rules) return {native, words: 'with your rules: build with the table to compare'};
+    if (touched) return {native: null, words: 'changed during the run: restart it to compare'};
+    if (!over) return {native, words: 'of the run so far'};
+    if (state.rules) return {native, words: 'with your rules: build whisker with the saved table to compare'};
     return {native, words: 'compare: save the scenario and run it'};
   });
 }

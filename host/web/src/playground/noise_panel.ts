@@ -6,7 +6,7 @@ interface Slider {
   unit: string;
   most: number;
   step: number;
-  /** Of the value in a scenario, from the slider's. */
+  /** The value in a scenario is that of the slider times this. */
   factor: number;
 }
 
@@ -14,13 +14,13 @@ interface Slider {
 const SLIDERS: Slider[] = [
   {label: 'Range noise', unit: 'mm', most: 50, step: 1, factor: 1e-3},
   {label: 'Readings lost', unit: '%', most: 40, step: 1, factor: 1e-2},
-  {label: 'Wrongly clear', unit: '%', most: 20, step: 0.5, factor: 1e-2},
+  {label: 'False clear', unit: '%', most: 20, step: 0.5, factor: 1e-2},
   {label: 'Wheel scale error', unit: '%', most: 2, step: 0.01, factor: 1e-2},
   {label: 'Heading drift', unit: '°/√m', most: 3, step: 0.1, factor: 1},
 ];
 
 export const NO_NOISE = [0, 0, 0, 0, 0];
-/** As `whisker world --noise` has it. */
+/** The noise of `whisker world --noise`. */
 export const REFERENCE_NOISE = [0.01, 0.02, 0.01, 0.0001, 0.3];
 
 export class NoisePanel {

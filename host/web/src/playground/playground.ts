@@ -1,4 +1,4 @@
-/** The world, its robots and what the visitor does to them. */
+/** The world, its robots, and the changes of the user. */
 import {Camera} from '../camera.ts';
 import type {World} from '../data.ts';
 import {sceneBoxOf} from '../scene_box.ts';
@@ -9,7 +9,7 @@ import {teamsOf, type State, type Teams} from './share.ts';
 import type {Situation} from './situation.ts';
 import {distanceTo, moved, sized, withNew, without, type NewKind, type Thing} from './things.ts';
 
-/** Metres between a robot and what is put beside it. */
+/** The least distance in metres between a robot and a new object. */
 const KEPT_FREE = 0.005;
 /** Milliseconds of a frame that the simulation may take. */
 const BUDGET = 11;
@@ -23,7 +23,7 @@ export class Playground {
   selected: Thing | null = null;
   playing = false;
   speed = 1;
-  /** Something was changed under way: this drive is no scenario's. */
+  /** The user changed the world during the run: no scenario repeats it. */
   touched = false;
   private owed = 0;
   private hurried = false;
@@ -60,7 +60,7 @@ export class Playground {
     return `${kind}, seed ${seed}${own ? ', changed' : ''}`;
   }
 
-  /** From the start, in the world as it is now. */
+  /** Restarts the run in the current world. */
   begin(): void {
     this.situation = {...this.situation, noise: this.state.noise};
     this.runs = this.planners.map(
@@ -72,7 +72,7 @@ export class Playground {
     this.changed();
   }
 
-  /** Another state; a world of the generator's unless it has its own. */
+  /** Sets the state; the generator makes the world unless the state contains one. */
   restore(state: State): boolean {
     const before = this.state;
     this.state = state;
@@ -132,10 +132,10 @@ export class Playground {
     return this.edit(without(this.situation.world, thing), null);
   }
 
-  /** Near the middle of what is shown, where there is room. */
+  /** Adds an object near the middle of the view, where there is room. */
   add(kind: NewKind): boolean {
     for (let i = 0; i < 60; ++i) {
-      // Sunflower seeds: evenly spread, from the middle outwards.
+      // On a spiral: evenly spread, from the middle outwards.
       const [angle, radius] = [2.4 * i, 0.35 * Math.sqrt(i)];
       const at: [number, number] = [
         this.camera.x + radius * Math.cos(angle),
@@ -153,7 +153,7 @@ export class Playground {
     this.camera.fit(sceneBoxOf(this.situation.world, []), width, height, 16);
   }
 
-  /** So much time has passed on the visitor's clock, s. */
+  /** Advances by real time, s. */
   pass(seconds: number): void {
     const {period} = this.core.robot;
     this.owed = this.hurried ? Infinity : this.owed + (seconds * this.speed) / period;
@@ -163,13 +163,13 @@ export class Playground {
       for (const run of this.runs) this.drive(run, ticks);
       this.owed -= ticks;
     }
-    // What the machine cannot keep up with is not owed for ever.
+    // Time that the machine cannot simulate in this frame is dropped.
     if (this.owed >= 1) this.owed = 0;
     for (const run of this.runs) run.refresh();
     if (this.over) this.playing = this.hurried = false;
   }
 
-  /** As fast as it goes, to the verdict of all. */
+  /** Runs at full speed until all robots have a verdict. */
   hurry(): void {
     if (this.over) return;
     this.playing = this.hurried = true;

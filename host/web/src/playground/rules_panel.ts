@@ -1,4 +1,4 @@
-/** The 25 rules as coloured squares, for either output. A press takes the next answer. */
+/** The 25 rules as coloured squares, for either output. A press selects the next answer. */
 import {blend, rgb} from '../colour.ts';
 import {element, make} from '../dom.ts';
 import type {FiredRule} from '../rules.ts';
@@ -16,11 +16,11 @@ const SIGNS = {turn: ['↻', '→', '·', '←', '↺'], step: ['1', '2', '3', '
 const WARNINGS: [bits: number, words: string][] = [
   [
     RULE_FAULTS.turnNotMirrored | RULE_FAULTS.stepNotMirrored,
-    'Not symmetric: in a mirrored world it would not do the mirrored thing.',
+    'Not symmetric: in a mirrored world the robot would not drive the mirrored path.',
   ],
   [RULE_FAULTS.turnsTowardsNearer, 'Unsafe: a rule turns towards the side that is nearer.'],
-  [RULE_FAULTS.turnsLessNear, 'Unsafe: a rule turns less for what is nearer.'],
-  [RULE_FAULTS.stepsLongerNear, 'Unsafe: a rule steps longer towards what is nearer.'],
+  [RULE_FAULTS.turnsLessNear, 'Unsafe: a rule turns less for a nearer obstacle.'],
+  [RULE_FAULTS.stepsLongerNear, 'Unsafe: a rule steps longer towards a nearer obstacle.'],
 ];
 
 type Output = 'turn' | 'step';
@@ -50,7 +50,7 @@ export class RulesPanel {
     this.edit('turn');
   }
 
-  /** 50 digits, or null for the rules as they are meant. */
+  /** 50 digits, or null for the default rules. */
   get code(): string | null {
     if (this.rules.every((raw, i) => raw === this.original[i])) return null;
     return this.rules.map((raw, i) => this.valuesAt(i).indexOf(raw)).join('');
@@ -60,7 +60,7 @@ export class RulesPanel {
     this.set(code ? [...code].map((digit, i) => this.valuesAt(i)[Number(digit)]) : [...this.original]);
   }
 
-  /** Those that speak now stand out. */
+  /** Marks the active rules. */
   light(fired: FiredRule[]): void {
     const weights = new Map(fired.map(({d, r, weight}) => [5 * d + r, weight]));
     this.squares.forEach((square, i) => square.style.setProperty('--weight', String(weights.get(i) ?? 0)));
@@ -99,7 +99,7 @@ export class RulesPanel {
 
   private build(): void {
     const rows: HTMLElement[] = [];
-    // D goes up, and what is nearer on the left is on the left, as in the heat maps.
+    // D grows upwards, and R to the left, as in the heat maps.
     for (let d = 4; d >= 0; --d) {
       const row = make('div', 'rule-row', [make('span', 'rule-term', TERMS.d[d])]);
       for (let r = 4; r >= 0; --r) {

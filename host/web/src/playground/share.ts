@@ -2,7 +2,7 @@
 import {bytesOfBase64, inflatedUpTo} from '../columns.ts';
 import {flat, situationOf, type Situation} from './situation.ts';
 
-/** By name: each planner alone, and some two side by side. */
+/** By name: each planner alone, and some pairs side by side. */
 export type Teams = Record<string, readonly string[]>;
 export function teamsOf(planners: string[]): Teams {
   const alone = Object.fromEntries(planners.map((planner) => [planner, [planner]]));
@@ -14,7 +14,7 @@ export interface State {
   seed: number;
   /** A name of Teams. */
   who: string;
-  /** What the visitor made of the world; null while it is the generator's. */
+  /** The world with the changes of the user; null while it is that of the generator. */
   own: Situation | null;
   /** As in Situation. */
   noise: number[];
@@ -45,17 +45,17 @@ export async function hashOf(state: State): Promise<string> {
   return `#${params}`;
 }
 
-/** A link that is longer, or becomes longer when it is unpacked, is none of this page's. */
+/** The page refuses a link with more characters, or with more bytes when unpacked. */
 const MOST_CHARACTERS = 200_000;
 const MOST_BYTES = 500_000;
 
-/** Why a link is not what it says. */
+/** The reason why a link is refused. */
 class LinkError extends Error {}
 
 function noiseOf(text: string): number[] {
   const list = text.split('_').map(Number);
   if (list.length === 5 && list.every((x) => x >= 0 && Number.isFinite(x))) return list;
-  throw new LinkError('its noise is no noise');
+  throw new LinkError('its noise is not valid');
 }
 
 async function ownOf(text: string): Promise<Situation> {
@@ -71,7 +71,7 @@ async function ownOf(text: string): Promise<Situation> {
     const list = JSON.parse(new TextDecoder().decode(bytes)) as unknown;
     if (!Array.isArray(list) || !list.every((x) => typeof x === 'number')) throw new RangeError();
     const own = situationOf(list as number[]);
-    // A list that is too short reads as numbers that are none: its own list has another length.
+    // A list that is too short yields undefined numbers, so its flat list has another length.
     if (flat(own).length !== list.length) throw new RangeError();
     return own;
   } catch {
@@ -102,7 +102,11 @@ async function readLink(hash: string, {kinds, planners}: Words, otherwise: State
     seed: take(
       'seed',
       (text) =>
-        demand(/^[0-9]+$/.test(text) && Number.isSafeInteger(Number(text)), Number(text), 'its seed is none'),
+        demand(
+          /^[0-9]+$/.test(text) && Number.isSafeInteger(Number(text)),
+          Number(text),
+          'its seed is not valid',
+        ),
       otherwise.seed,
     ),
     who: take(
@@ -111,7 +115,7 @@ async function readLink(hash: string, {kinds, planners}: Words, otherwise: State
       otherwise.who,
     ),
     noise: take('noise', noiseOf, [0, 0, 0, 0, 0]),
-    rules: take('rules', (text) => demand(/^[0-4]{50}$/.test(text), text, 'its rules are none'), null),
+    rules: take('rules', (text) => demand(/^[0-4]{50}$/.test(text), text, 'its rules are not valid'), null),
     own: own === null ? null : await ownOf(own),
   };
 }
@@ -122,7 +126,7 @@ export interface Read {
   fault: string;
 }
 
-/** What the address does not say is as in `otherwise`, and so is all of it where something in it is wrong. */
+/** Missing parts of the address are taken from `otherwise`, and all of it if a part is wrong. */
 export async function stateOf(hash: string, words: Words, otherwise: State): Promise<Read> {
   try {
     return {state: await readLink(hash, words, otherwise), fault: ''};

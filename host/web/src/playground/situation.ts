@@ -1,4 +1,4 @@
-/** A scenario in the page, and as the list of numbers of host/play/flat.hpp. */
+/** A scenario as an object, and as the list of numbers of host/play/flat.hpp. */
 import type {Mover, Point, World} from '../data.ts';
 
 export const NOISE_KEYS = [
@@ -46,7 +46,7 @@ export function situationOf(list: ArrayLike<number>): Situation {
   const point = (): Point => [next(), next()];
   const many = <T>(one: () => T): T[] => {
     const length = next();
-    if (!(length >= 0 && length <= list.length)) throw new RangeError('a list that is no situation');
+    if (!(length >= 0 && length <= list.length)) throw new RangeError('not the list of a situation');
     return Array.from({length}, one);
   };
   const seed = next();

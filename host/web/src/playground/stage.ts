@@ -20,7 +20,7 @@ function secondCard(): HTMLElement {
 
 export class Stage {
   readonly cards: HTMLElement[];
-  /** Which robot the panels look at. */
+  /** The robot that the panels show. */
   focus = 0;
   readonly editor: Editor;
   private readonly views: View[];
@@ -43,7 +43,7 @@ export class Stage {
     element('fit').addEventListener('click', () => this.fit());
     play.onChange(() => this.follow());
     this.follow();
-    // Where the second view has changed no size, nothing else would ask for it.
+    // A second view that has not changed its size does not request it.
     this.fit();
   }
 
@@ -97,16 +97,16 @@ export class Stage {
     });
   }
 
-  /** What a drag could not do yet: a thing that met a robot goes on when the hand has passed it. */
+  /** The part of a drag that was refused: an object stopped by a robot continues when the pointer has passed it. */
   private rest: [number, number] = [0, 0];
   private drag(dx: number, dy: number): void {
     this.rest = [this.rest[0] + dx, this.rest[1] + dy];
-    // Less than a millimetre would be rounded away.
+    // Rounding removes less than a millimetre.
     if (Math.hypot(...this.rest) < 0.002) return;
     if (this.play.move(...this.rest)) this.rest = [0, 0];
   }
 
-  /** The runs or their world are others. */
+  /** The runs or their world have changed. */
   private follow(): void {
     const {play} = this;
     this.cards.forEach((card, i) => {
@@ -123,7 +123,7 @@ export class Stage {
   private told(done: boolean): void {
     element('told').textContent = done
       ? ''
-      : 'That cannot be: the robot or its start would be in the way, or the thing too small or one too many.';
+      : 'Refused: the object would overlap the robot or its start, is too small, or is one too many.';
   }
 
   private changed(): void {

@@ -1,4 +1,4 @@
-/** What can be taken hold of in a world: found, moved, sized, removed. Nothing changes in place. */
+/** The objects of a world that the user can edit: find, move, resize, remove. Each function returns a new world. */
 import type {Point, World} from '../data.ts';
 
 export type Thing =
@@ -45,7 +45,7 @@ function inside([x, y]: Point, points: Point[]): boolean {
   return odd;
 }
 
-/** From a place to a thing's surface; negative inside it. */
+/** The distance from a place to an object's surface; negative inside it. */
 export function distanceTo(world: World, thing: Thing, at: Point): number {
   const from = ([x, y]: Point) => Math.hypot(x - at[0], y - at[1]);
   switch (thing.kind) {
@@ -69,7 +69,7 @@ export function distanceTo(world: World, thing: Thing, at: Point): number {
   }
 }
 
-/** The thing under a place, or within `reach` metres; what is small comes before what is large. */
+/** The object at a place, or within `reach` metres; small objects come first. */
 export function thingAt(world: World, at: Point, reach: number): Thing | null {
   let best: Thing | null = null;
   let least = Infinity;
@@ -83,7 +83,7 @@ export function thingAt(world: World, at: Point, reach: number): Thing | null {
   return best;
 }
 
-/** Millimetres: what is in the page is what is in a file. No 0 has a sign, which a link would lose. */
+/** Rounds to millimetres, so that page and file hold the same number. 0 has no sign, because a link would lose it. */
 export function tidy(x: number): number {
   return Math.round(x * 1000) / 1000 + 0;
 }
@@ -151,7 +151,7 @@ export function without(world: World, thing: Thing): World {
 export const NEW_KINDS = ['disc', 'bar', 'wall', 'mover'] as const;
 export type NewKind = (typeof NEW_KINDS)[number];
 
-/** The world with one thing more, and which one it is. */
+/** The world with one more object, and that object. */
 export function withNew(world: World, kind: NewKind, [px, py]: Point): [World, Thing] {
   const [x, y] = [tidy(px), tidy(py)];
   switch (kind) {

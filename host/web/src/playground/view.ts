@@ -1,4 +1,4 @@
-/** One robot's world from above. Things in it can be taken hold of. */
+/** The world of one robot from above. Its objects can be dragged. */
 import {drawGrid, drawGround, drawLineToGoal, drawScaleBar} from '../backdrop.ts';
 import type {Camera} from '../camera.ts';
 import type {Point, World} from '../data.ts';
@@ -11,15 +11,15 @@ import {DOING_COLOURS, DOING_WIDTHS} from '../way_looks.ts';
 import type {LiveRun} from './live.ts';
 import {thingAt, type Thing} from './things.ts';
 
-/** Pixels beside a thing that still take hold of it. */
+/** A press this many pixels beside an object still selects it. */
 const GRIP = {mouse: 8, touch: 18};
 
 export interface Grip {
   take(thing: Thing | null): void;
-  /** By so many metres since the last call; the first call comes with the first movement. */
+  /** Moves by this many metres since the last call; the first call comes with the first movement. */
   drag(dx: number, dy: number): void;
   drop(): void;
-  /** The camera was moved by hand. */
+  /** The user moved the camera. */
   looked(): void;
 }
 
@@ -53,7 +53,7 @@ export class View {
     });
   }
 
-  /** The world or the run is another one. */
+  /** The world or the run has changed. */
   show(run: LiveRun): void {
     this.run = run;
     this.scenery = new Scenery(run);
@@ -143,7 +143,7 @@ export class View {
     word('contact', at, -radius - 10, p.contact);
   }
 
-  /** Before the hands get to it: what is on a thing drags that, and everything else the view. */
+  /** Takes presses first: a press on an object drags that object, any other press moves the view. */
   private listen(): void {
     const {canvas, camera, surface} = this;
     const under = (x: number, y: number, touch: boolean) =>
@@ -179,7 +179,7 @@ export class View {
         this.grip.drop();
       });
     }
-    // A finger on a thing does not scroll the page.
+    // A finger on an object does not scroll the page.
     canvas.addEventListener(
       'touchstart',
       (event) => {
