@@ -38,8 +38,7 @@ constexpr void for_each_planner(Visit&& visit) noexcept {
           0, "skirt", "boundary",
           "Where the path to the goal is blocked, the robot follows the boundary of the obstacle. It leaves "
           "it only where it is nearer to the goal than ever before. So each boundary brings it nearer, and "
-          "no "
-          "dead end can trap it. A closed loop without such a place means that no path exists."},
+          "no dead end can trap it. A closed loop without such a place means that no path exists."},
       PlannerType<TableBoundaryPlanner>{});
   visit(PlannerInfo{1, "thesis", nullptr,
                     "The robot may get stuck: it leaves a boundary as soon as the goal direction is clear, "

@@ -15,7 +15,7 @@ void ScanBehaviour::begin(Angle heading, Length length, Manoeuvre& manoeuvre) no
   heading_ = heading;
   length_ = length;
   in_vain_ = false;
-  aimed_for_ = Duration{};
+  waited_for_ = Duration{};
   halt(manoeuvre);
 }
 
@@ -27,8 +27,9 @@ void ScanBehaviour::halt(Manoeuvre& manoeuvre) noexcept {
 bool ScanBehaviour::step(const View& view, const Params& params, Manoeuvre& manoeuvre) noexcept {
   Angle turn;
   if (!turn_to_unseen(view, heading_, length_, view.pose.heading, params, turn)) return true;
-  if (magnitude(turn) <= nearest_facing(kAimed, params).raw()) aimed_for_ += view.elapsed;
-  in_vain_ = aimed_for_ > params.safety.stalled_after;
+  const bool aimed = magnitude(turn) <= nearest_facing(kAimed, params).raw();
+  if (aimed || (!halting_ && view.granted == Q14{})) waited_for_ += view.elapsed;
+  in_vain_ = waited_for_ > params.safety.stalled_after;
   if (in_vain_) return true;
   if (magnitude(turn) > (1_deg).raw()) {
     halting_ = false;

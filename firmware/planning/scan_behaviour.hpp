@@ -6,8 +6,9 @@
 
 namespace whisker::planning {
 
-/// Turns beams onto unseen ground on a path until the path is free or occupied, or a beam has pointed there
-/// for the time-out of stalled wheels: with coarse encoders it may not point there exactly.
+/// Turns beams onto unseen ground on a path until the path is free or occupied. It ends in vain when a beam
+/// has pointed there, or the guard has let no turn through, for the time-out of stalled wheels: with coarse
+/// encoders a beam may not point there exactly.
 class ScanBehaviour {
  public:
   /// Starts a scan of the path along this heading. Brings the body to rest.
@@ -24,7 +25,7 @@ class ScanBehaviour {
   Length length_;
   bool halting_ = false;
   bool in_vain_ = false;
-  Duration aimed_for_;
+  Duration waited_for_;  // aimed, or held by the guard
 };
 
 }  // namespace whisker::planning

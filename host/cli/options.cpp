@@ -63,7 +63,10 @@ namespace {
 PlannerKind planner_of(const std::string& text) {
   if (const auto named = planner_named(text)) return *named;
   std::vector<std::string_view> names;
-  for (const PlannerKind kind : planners()) names.emplace_back(name(kind));
+  for (const PlannerKind kind : planners()) {
+    names.emplace_back(name(kind));
+    if (!alias(kind).empty()) names.push_back(alias(kind));
+  }
   throw CLI::ValidationError("--planner", fmt::format("no planner '{}'{}", text, did_you_mean(text, names)));
 }
 

@@ -128,6 +128,7 @@ class Slips(Case):
             (("campain",), "campaign"),
             (("robot", "chek"), "check"),
             (("run", NOTHING, "--planner", "skrit"), "skirt"),
+            (("run", NOTHING, "--planner", "boundry"), "boundary"),
             (("run", NOTHING, "--planner", "wall-folower"), "wall-follower"),
             (("world", "dics", "--seed", "1"), "discs"),
             (("campaign", "u-trp"), "u-trap"),

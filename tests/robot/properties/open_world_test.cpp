@@ -34,7 +34,8 @@ Ending drive(const Params& params, Bits& bits) {
   Ending end;
   Time now;
   int ticks = 0;
-  while (!end.ended && ++ticks < 1000000) {
+  // Ten hours: wheels of 20 mm/s under a body of 1 m may turn in one place for two.
+  while (!end.ended && std::int64_t{++ticks} * params.safety.period.raw() < 36000000) {
     now = now + params.safety.period;
     const Status& s = robot.tick(now);
     end.broken = watch.see(s, params.safety.period, false);
