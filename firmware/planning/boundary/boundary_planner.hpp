@@ -17,7 +17,7 @@
 
 namespace whisker::planning {
 
-/// Three state machines, drawn in docs/skirt.md from their tables: this one switches between driving to the
+/// Three state machines, drawn in docs/phases.md from their tables: this one switches between driving to the
 /// goal (Approach) and following an obstacle's boundary (BoundaryFollower).
 ///
 /// A mission ends: each leave point is nearer to the goal than the one before by 30 mm, each loop is bounded,
