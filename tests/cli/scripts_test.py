@@ -116,7 +116,7 @@ class Tables(Scripts):
         half = {"value": 0.5, "low": 0.25, "high": None}
         self.answer(reached=half, truly_there={**half, "value": 0.375}, contact={**half, "value": 0}, final_distance_m={"p50": {**half, "value": 2.857}, "p95": None})
         done = self.run_script("odometry", 2, 40)
-        self.assertIn("`scripts/odometry 2 40`: 2 missions a class and grade, seeds 40 to 41, on ", done.stdout)
+        self.assertIn("`scripts/odometry 2 40`: 2 missions a class and grade, seeds 40 to 41, map planner, on ", done.stdout)
         table = self.rows(done)
         self.assertEqual(table[0], ["world", "ideal", "wheels 0.05 %", "wheels 0.5 %", "wheels 1 %"])
         self.assertEqual(table[1], ["15 discs", *["50 % / 37.5 % / 0 / 2.86 m"] * 4])
