@@ -4,9 +4,9 @@
 
 #include "host/run/runner.hpp"
 #include "host/run/sim_world.hpp"
+#include "host/run/spec.hpp"
 #include "host/sim/cone.hpp"
 #include "host/sim/elementary.hpp"
-#include "host/sim/spec.hpp"
 
 namespace whisker::campaign {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kOff = 0.03;  // m, tolerance between a cone's reading and the 
 /// Whether the beams detect the only mover in the world, and since when.
 class Sighting {
  public:
-  explicit Sighting(const Scenario& scenario) : world_(scenario), spec_(sim::robot_spec(scenario.robot)) {}
+  explicit Sighting(const Scenario& scenario) : world_(scenario), spec_(robot_spec(scenario)) {}
 
   void add(const TickRecord& r) {
     const sim::Pose pose{{r.x_m, r.y_m}, r.heading_rad};

@@ -1,15 +1,14 @@
 #include "host/campaign/scan.hpp"
 
 #include "host/campaign/mission.hpp"
+#include "host/run/spec.hpp"
 #include "host/scanner/reference_path.hpp"
-#include "host/sim/spec.hpp"
 
 namespace whisker::campaign {
 
 Row scan(const Scenario& scenario) {
-  const scanner::ReferencePath reference =
-      scanner::drive(make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius,
-                     sim::robot_spec(scenario.robot).max_range);
+  const scanner::ReferencePath reference = scanner::drive(
+      make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius, robot_spec(scenario).max_range);
   Row row;
   row.seed = scenario.seed;
   row.verdict = reference.reached ? Verdict::reached : Verdict::unreachable;

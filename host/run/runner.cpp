@@ -8,7 +8,7 @@ namespace whisker {
 
 RunResult run(const Scenario& scenario, const RunOptions& options) {
   const SimWorld world(scenario);
-  sim::Plant plant(world.view(), sim::robot_spec(scenario.robot), noise_spec(scenario.noise),
+  sim::Plant plant(world.view(), robot_spec(scenario), noise_spec(scenario.noise),
                    options.seed.value_or(scenario.seed), scenario.start);
   const std::unique_ptr<Pilot> pilot = options.pilot(scenario, options.planner, plant);
   MissionRun mission(scenario, plant, *pilot);

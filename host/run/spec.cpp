@@ -20,6 +20,19 @@ sim::NoiseSpec noise_spec(const Noise& n) {
           n.heading_drift_deg_per_sqrt_m * (kPi / 180.0)};
 }
 
+sim::RobotSpec robot_spec(const Scenario& scenario) {
+  constexpr double kDegree = kPi / 180.0;
+  const Sensor& sensor = scenario.sensor;
+  sim::RobotSpec spec = sim::robot_spec(scenario.robot);
+  if (sensor.incidence_deg < 90) spec.incidence = sensor.incidence_deg * kDegree;
+  if (sensor.cone_deg) spec.cone_half_width = *sensor.cone_deg / 2 * kDegree;
+  spec.side_angle += sensor.skew_deg * kDegree;
+  spec.range_scale = sensor.scale;
+  spec.phantom = sensor.phantom;
+  spec.crosstalk = sensor.crosstalk;
+  return spec;
+}
+
 Pose fixed_pose(const sim::Pose& pose) {
   const double turns = pose.heading / (2 * kPi);
   const double fraction = turns - std::floor(turns);

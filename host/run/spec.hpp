@@ -8,6 +8,8 @@
 namespace whisker {
 
 sim::NoiseSpec noise_spec(const Noise& noise);
+/// The simulated robot: the scenario's robot with the sensors that it really has.
+sim::RobotSpec robot_spec(const Scenario& scenario);
 double radians(Angle angle);  ///< in [-pi, pi)
 
 /// A pose rounded to the core's units.

@@ -27,6 +27,10 @@ constexpr Limits kMoverSpeed{0, 10};        // m/s
 constexpr Limits kRangeSigma{0, 10};        // m
 constexpr Limits kWheelScaleSigma{0, 1};    //
 constexpr Limits kHeadingDrift{0, 360};     // deg/m^0.5
+constexpr Limits kIncidence{5, 90};         // deg
+constexpr Limits kTrueCone{0.5, 170};       // deg
+constexpr Limits kSkew{-45, 45};            // deg
+constexpr Limits kRangeScale{0.5, 2};       //
 constexpr std::size_t kMostPoints = 4096;   ///< of one list
 constexpr std::size_t kFewestOfPolygon = 3;
 constexpr std::size_t kFewestOfLine = 2;

@@ -70,6 +70,37 @@ Noise read_noise(const TableReader& table) {
   return n;
 }
 
+const std::vector<std::string_view> kSensorKeys = {"incidence_deg", "cone_deg", "skew_deg",
+                                                   "scale",         "phantom",  "crosstalk"};
+
+/// Keeps what the table does not set.
+void read_sensor(const TableReader& table, Sensor& s) {
+  s.incidence_deg = table.number_or("incidence_deg", kIncidence, s.incidence_deg);
+  if (table.has("cone_deg")) s.cone_deg = table.number("cone_deg", kTrueCone);
+  s.skew_deg = table.number_or("skew_deg", kSkew, s.skew_deg);
+  s.scale = table.number_or("scale", kRangeScale, s.scale);
+  s.phantom = table.number_or("phantom", kProbability, s.phantom);
+  s.crosstalk = table.number_or("crosstalk", kProbability, s.crosstalk);
+}
+
+/// A robot file: parameters at its top level or in [robot], and [sensor].
+void read_robot_file(const std::string& file, Params& params, Sensor& sensor) {
+  const toml::table root = parse_toml(read_file(file), file);
+  std::vector<std::string_view> known = robot_keys();
+  known.insert(known.end(), {"robot", "sensor"});
+  const TableReader top(file, root, "", known);
+  RobotTables tables{top};
+  if (top.has("robot")) tables.push_back(top.table("robot", robot_keys()));
+  for (const std::string_view key : robot_keys()) {
+    if (tables.size() > 1 && top.has(key) && tables.back().has(key)) {
+      tables.back().fail_at(key, fmt::format("'{}' is set both at the top level and in [robot]", key));
+    }
+  }
+  if (top.has("sensor")) read_sensor(top.table("sensor", kSensorKeys), sensor);
+  read_robot(tables, params);
+  check_robot(tables, params);
+}
+
 }  // namespace
 
 std::string read_file(const std::string& file) {
@@ -91,7 +122,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   const toml::table root = parse_toml(text, name);
   const TableReader top(name, root, "",
                         {"name", "seed", "time_limit_s", "start", "goal", "bounds", "disc", "polygon", "wall",
-                         "mover", "noise", "robot"});
+                         "mover", "noise", "sensor", "robot"});
   const TableReader start = top.table("start", {"x_m", "y_m", "heading_deg"});
   const TableReader goal = top.table("goal", {"x_m", "y_m", "tolerance_m"});
 
@@ -107,6 +138,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
     s.noise = read_noise(top.table("noise", {"range_sigma_m", "range_dropout", "range_false_clear",
                                              "wheel_scale_sigma", "heading_drift_deg_per_sqrt_m"}));
   }
+  if (top.has("sensor")) read_sensor(top.table("sensor", kSensorKeys), s.sensor);
   if (top.has("robot")) {
     const RobotTables robot{top.table("robot", robot_keys())};
     read_robot(robot, s.robot);
@@ -119,29 +151,19 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
 Scenario load_scenario(const std::string& file) { return parse_scenario(read_file(file), file); }
 
 void apply_robot_file(Params& params, const std::string& file) {
-  const toml::table root = parse_toml(read_file(file), file);
-  std::vector<std::string_view> known = robot_keys();
-  known.emplace_back("robot");
-  const TableReader top(file, root, "", known);
-  RobotTables tables{top};
-  if (top.has("robot")) tables.push_back(top.table("robot", robot_keys()));
-  for (const std::string_view key : robot_keys()) {
-    if (tables.size() > 1 && top.has(key) && tables.back().has(key)) {
-      tables.back().fail_at(key, fmt::format("'{}' is set both at the top level and in [robot]", key));
-    }
-  }
   Params changed = params;
-  read_robot(tables, changed);
-  check_robot(tables, changed);
+  Sensor ignored;
+  read_robot_file(file, changed, ignored);
   params = changed;
 }
 
 void apply_robot_file(Scenario& scenario, const std::string& file) {
   Scenario changed = scenario;
-  apply_robot_file(changed.robot, file);
+  read_robot_file(file, changed.robot, changed.sensor);
   const std::string fault = start_fault(changed);
   if (!fault.empty()) throw InputError(file, 1, 1, "with this robot " + fault);
   scenario.robot = changed.robot;
+  scenario.sensor = changed.sensor;
 }
 
 }  // namespace whisker

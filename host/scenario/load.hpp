@@ -15,9 +15,10 @@ Scenario load_scenario(const std::string& file);
 Scenario parse_scenario(std::string_view text, const std::string& name);
 
 /// Sets the parameters that a robot file contains (at its top level, or in [robot]) and keeps the others. On
-/// an error, the parameters are unchanged.
+/// an error, the parameters are unchanged. Its [sensor], if any, is only checked.
 void apply_robot_file(Params& params, const std::string& file);
-/// The same for the robot of a scenario; also throws if the new body is in contact at the start.
+/// The same for the robot of a scenario and its sensors; also throws if the new body is in contact at the
+/// start.
 void apply_robot_file(Scenario& scenario, const std::string& file);
 
 }  // namespace whisker

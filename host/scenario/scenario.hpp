@@ -37,6 +37,16 @@ struct Noise {
   double heading_drift_deg_per_sqrt_m = 0;
 };
 
+/// What the rangefinders really do; the robot does not know it. The defaults are what the robot believes.
+struct Sensor {
+  double incidence_deg = 90;       ///< a flat surface seen farther from its normal gives no echo
+  std::optional<double> cone_deg;  ///< the true full width
+  double skew_deg = 0;             ///< by which the side beams point farther outward
+  double scale = 1;                ///< of every distance
+  double phantom = 0;              ///< probability that a clear reading becomes an echo at 0.1 to 0.5 m
+  double crosstalk = 0;  ///< probability that a reading is a neighbouring beam's where that is nearer
+};
+
 struct Scenario {
   std::string name;
   std::uint64_t seed = 1;  ///< seed of the noise
@@ -49,6 +59,7 @@ struct Scenario {
   std::vector<std::vector<sim::Vec2>> walls;     ///< polylines of zero thickness
   std::vector<Mover> movers;
   Noise noise;
+  Sensor sensor;
   Params robot;
 };
 

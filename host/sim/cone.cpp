@@ -26,6 +26,8 @@ double nearer(double best, const Cone& cone, Vec2 center, double radius) {
   } else {
     const double along = ahead * cone.cos_half + aside * cone.sin_half;
     if (along <= 0) return best;
+    // The ray along the edge passes the centre at this distance: over the radius, the sine of its incidence.
+    if (cone.sin_incidence < 1 && outside > radius * cone.sin_incidence) return best;
     const double half_chord2 = radius * radius - outside * outside;
     d = along - (half_chord2 > 0 ? square_root(half_chord2) : 0.0);
   }
@@ -50,6 +52,11 @@ bool cut(Interval& kept, double start, double end) {
   return kept.low <= kept.high;
 }
 
+double nearer(double best, Vec2 end) {
+  const double d2 = dot(end, end);
+  return d2 <= kScatter * kScatter && d2 < best * best ? square_root(d2) : best;
+}
+
 // A half width below 90 degrees makes the cone the intersection of two half planes.
 double nearer(double best, const Cone& cone, const Segment& s) {
   const Vec2 qa = s.a - cone.apex;
@@ -69,6 +76,12 @@ double nearer(double best, const Cone& cone, const Segment& s) {
   if (t > kept.high) t = kept.high;
   const Vec2 nearest = a + d * t;
   const double d2 = dot(nearest, nearest);
+  // Of the points in the cone, the nearest one has the smallest incidence.
+  const double along = dot(nearest, d);
+  if (cone.sin_incidence < 1 && along * along > cone.sin_incidence * cone.sin_incidence * d2 * length2) {
+    if (kept.low <= 0) best = nearer(best, a);
+    return kept.high >= 1 ? nearer(best, b) : best;
+  }
   return d2 < best * best ? square_root(d2) : best;
 }
 

@@ -13,12 +13,17 @@ struct Cone {
   Vec2 axis;        ///< unit vector
   double cos_half;  ///< of the half width, which is above 0 and below 90 degrees
   double sin_half;
+  /// Sine of the largest angle between a ray and the normal of a surface that still gives an echo; from 1 on,
+  /// every surface does.
+  double sin_incidence = 1;
 };
 
 constexpr double kConeSlack = 1e-12;  ///< m
+/// Up to this distance, m, the end of a segment scatters: it gives an echo at any angle.
+constexpr double kScatter = 0.5;
 
-/// Distance from the apex to the nearest point of the obstacle within the cone, m; 0 if the apex is inside
-/// the disc or on the segment; infinite if the cone contains no point of it.
+/// Distance from the apex to the nearest point of the obstacle within the cone that gives an echo, m; 0 if
+/// the apex is inside the disc or on the segment; infinite if the cone contains no such point of it.
 double range(const Cone& cone, const Disc& disc);
 double range(const Cone& cone, const Segment& segment);
 

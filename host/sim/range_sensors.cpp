@@ -27,13 +27,19 @@ RangeSensors::RangeSensors(const RobotSpec& robot, const NoiseSpec& noise, uint6
       max_range_(robot.max_range),
       side_(sin_cos(robot.side_angle)),
       half_width_(sin_cos(robot.cone_half_width)),
+      sin_incidence_(robot.incidence < kPi / 2 ? sin_cos(robot.incidence).sin : 1.0),
+      scale_(robot.range_scale),
+      phantom_(robot.phantom),
+      crosstalk_(robot.crosstalk),
       noise_(noise),
-      faults_{{Random(seed, kStreamRangeNoise + hal::kLeft), Random(seed, kStreamDropout + hal::kLeft),
-               Random(seed, kStreamFalseClear + hal::kLeft)},
-              {Random(seed, kStreamRangeNoise + hal::kFront), Random(seed, kStreamDropout + hal::kFront),
-               Random(seed, kStreamFalseClear + hal::kFront)},
-              {Random(seed, kStreamRangeNoise + hal::kRight), Random(seed, kStreamDropout + hal::kRight),
-               Random(seed, kStreamFalseClear + hal::kRight)}} {}
+      faults_{{seed, hal::kLeft}, {seed, hal::kFront}, {seed, hal::kRight}} {}
+
+RangeSensors::Faults::Faults(uint64_t seed, uint32_t beam)
+    : noise(seed, kStreamRangeNoise + beam),
+      dropout(seed, kStreamDropout + beam),
+      false_clear(seed, kStreamFalseClear + beam),
+      phantom(seed, kStreamPhantom + beam),
+      crosstalk(seed, kStreamCrosstalk + beam) {}
 
 void RangeSensors::measure(const WorldView& world, const Pose& pose) {
   const double t = static_cast<double>(due_us_) * 1e-6;
@@ -45,13 +51,31 @@ void RangeSensors::measure(const WorldView& world, const Pose& pose) {
 
   Measurement& m = kept_[count_ % kKept];
   m.at_us = due_us_;
+  double metres[hal::kBeams];
   for (int i = 0; i < hal::kBeams; ++i) {
-    const Cone cone{pose.at + axes[i] * offset_, axes[i], half_width_.cos, half_width_.sin};
-    m.readings.beam[i] = classified(faults_[i], range(cone, world, t, max_range_));
+    const Cone cone{pose.at + axes[i] * offset_, axes[i], half_width_.cos, half_width_.sin, sin_incidence_};
+    metres[i] = range(cone, world, t, max_range_ / scale_);
+  }
+  for (int i = 0; i < hal::kBeams; ++i) {
+    m.readings.beam[i] = classified(faults_[i], echo(i, metres));
     m.readings.beam[i].sequence = static_cast<uint8_t>(count_ & 15);
   }
   ++count_;
   due_us_ = nearest(static_cast<double>(count_) * interval_us_);
+}
+
+double RangeSensors::echo(int i, const double (&metres)[hal::kBeams]) {
+  double nearest = metres[i];
+  // Both sources draw on every measurement, so that the seed's numbers do not depend on the world.
+  if (crosstalk_ > 0 && faults_[i].crosstalk.uniform() < crosstalk_) {
+    if (i > 0 && metres[i - 1] < nearest) nearest = metres[i - 1];
+    if (i + 1 < hal::kBeams && metres[i + 1] < nearest) nearest = metres[i + 1];
+  }
+  nearest *= scale_;
+  if (phantom_ <= 0) return nearest;
+  const bool phantom = faults_[i].phantom.uniform() < phantom_;
+  const double at = 0.1 + 0.4 * faults_[i].phantom.uniform();
+  return phantom && nearest > max_range_ ? at : nearest;
 }
 
 hal::RangeReading RangeSensors::classified(Faults& faults, double metres) const {

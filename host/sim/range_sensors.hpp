@@ -13,6 +13,10 @@ namespace whisker::sim {
 
 /// All three take measurement k at k / rate (to the nearest microsecond); it arrives `latency` later.
 ///
+/// A distance is that of the nearest echo in the beam's own cone or, with the crosstalk probability, in a
+/// neighbouring one where that is nearer; then it is scaled. Without an echo within max_range it becomes,
+/// with the phantom probability, one of 0.1 to 0.5 m.
+///
 /// The first condition that holds decides: lost with the dropout probability (invalid); wrongly clear with
 /// the false-clear probability; clear if the cone contains nothing nearer than max_range; else the distance
 /// plus noise, which may make it clear or too_near, rounded to the nearest millimetre. Each measurement draws
@@ -34,7 +38,12 @@ class RangeSensors {
     Random noise;
     Random dropout;
     Random false_clear;
+    Random phantom;
+    Random crosstalk;
+    Faults(uint64_t seed, uint32_t beam);
   };
+  /// The distance that beam i measures, given those in the cones of all beams.
+  double echo(int i, const double (&metres)[hal::kBeams]);
   hal::RangeReading classified(Faults& faults, double metres) const;
 
   static constexpr int64_t kKept = 32;
@@ -50,6 +59,10 @@ class RangeSensors {
   double max_range_;
   SinCos side_;
   SinCos half_width_;
+  double sin_incidence_;
+  double scale_;
+  double phantom_;
+  double crosstalk_;
   NoiseSpec noise_;
   Faults faults_[hal::kBeams];
   int64_t count_ = 0;

@@ -23,6 +23,12 @@ struct RobotSpec {
   double rate_hz = 50;                  ///< measurements a second; > 0
   double latency_s = 0.02;              ///< from a measurement to its arrival; rate * latency <= 30
 
+  double incidence =
+      kPi / 2;             ///< rad; a surface seen farther from its normal gives no echo; kPi / 2: each does
+  double range_scale = 1;  ///< of every distance, as from another speed of sound
+  double phantom = 0;      ///< probability that a clear reading becomes an echo at 0.1 to 0.5 m
+  double crosstalk = 0;    ///< probability that a reading is a neighbouring beam's where that is nearer
+
   double period_s = 0.01;  ///< control period; rounded to a whole number of milliseconds, at least 1
 };
 

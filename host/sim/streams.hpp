@@ -12,5 +12,7 @@ constexpr uint32_t kStreamDrift = 1;
 constexpr uint32_t kStreamRangeNoise = 16;
 constexpr uint32_t kStreamDropout = 32;
 constexpr uint32_t kStreamFalseClear = 48;
+constexpr uint32_t kStreamPhantom = 64;
+constexpr uint32_t kStreamCrosstalk = 80;
 
 }  // namespace whisker::sim

@@ -80,7 +80,7 @@ class Rig {
       can_app::PlannerMaker* planners = nullptr)
       : scenario_(scenario),
         world_(scenario_),
-        plant_(world_.view(), sim::robot_spec(scenario_.robot), noise_spec(scenario_.noise), scenario_.seed,
+        plant_(world_.view(), robot_spec(scenario_), noise_spec(scenario_.noise), scenario_.seed,
                scenario_.start),
         board_(plant_),
         base_port_(wire_.attach(), std::move(at_base), seed, repair),

@@ -115,7 +115,7 @@ TEST(Skirt, StartsWhereItIsPut) {
 TEST(Skirt, TakesAnotherGoalOrNoneWhileItFollowsAWall) {
   const Scenario s = scene(kAhead, wall("[[1.5, -2.0], [1.5, 2.0]]"));
   const SimWorld world(s);
-  sim::Plant plant(world.view(), sim::robot_spec(s.robot), noise_spec(s.noise), 1, s.start);
+  sim::Plant plant(world.view(), robot_spec(s), noise_spec(s.noise), 1, s.start);
   hal::SimBoard board(plant);
   planning::TableBoundaryPlanner skirt(s.robot, fuzzy::kDefaultTable);
   Robot robot(board, board, skirt.planner, s.robot);

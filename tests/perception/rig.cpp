@@ -8,7 +8,7 @@ namespace whisker::test {
 Rig::Rig(const Scenario& scenario, planning::Planner* planner)
     : scenario_(scenario),
       world_(scenario_),
-      plant_(world_.view(), sim::robot_spec(scenario_.robot), noise_spec(scenario_.noise), scenario_.seed,
+      plant_(world_.view(), robot_spec(scenario_), noise_spec(scenario_.noise), scenario_.seed,
              scenario_.start),
       board_(plant_),
       own_(planner == nullptr ? make_planner(PlannerKind::skirt, scenario_.robot) : nullptr),

@@ -23,6 +23,30 @@ TEST(RobotFile, SetsWhatItNamesAndLeavesTheRest) {
   EXPECT_EQ(params.safety.max_refusals, 9);
 }
 
+TEST(RobotFile, MaySayWhatTheSensorsReallyDo) {
+  const TemporaryFile file(
+      "body_radius_m = 0.12\n[sensor]\nincidence_deg = 40\ncone_deg = 15\nphantom = 0.3\n");
+  Scenario s = parse_scenario(std::string(kLeast) + "[sensor]\nskew_deg = 5\nphantom = 0.1\n", "scenario");
+  apply_robot_file(s, file.path());
+  EXPECT_EQ(s.robot.body.radius, 120_mm);
+  EXPECT_EQ(s.robot.rangefinders.cone, 25_deg) << "the robot does not know";
+  EXPECT_EQ(s.sensor.incidence_deg, 40);
+  EXPECT_EQ(s.sensor.cone_deg, 15);
+  EXPECT_EQ(s.sensor.phantom, 0.3);
+  EXPECT_EQ(s.sensor.skew_deg, 5) << "what the file does not set stays";
+  Params params;
+  apply_robot_file(params, file.path());
+  EXPECT_EQ(params.body.radius, 120_mm);
+}
+
+TEST(RobotFile, WithAWrongSensorChangesNothing) {
+  const TemporaryFile file("body_radius_m = 0.12\n[sensor]\nphantom = 1.5\n");
+  Params params;
+  EXPECT_EQ(message_of<InputError>([&] { apply_robot_file(params, file.path()); }),
+            file.path() + ":3:11: 'phantom' must be from 0 to 1, but is 1.5");
+  EXPECT_EQ(params.body.radius, 90_mm);
+}
+
 TEST(RobotFile, WithAnErrorChangesNothing) {
   const TemporaryFile file("body_radius_m = 0.12\nwheel_track_m = 0.5\n");
   Params params;

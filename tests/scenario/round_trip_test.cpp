@@ -119,6 +119,10 @@ Scenario any_scenario() {
     });
   }
   if (below(2) == 0) s.noise = {number(0, 1), number(0, 1), number(0, 1), number(0, 1), number(0, 9)};
+  if (below(2) == 0) {
+    s.sensor = {number(5, 90), {}, number(-45, 45), number(0.5, 2), number(0, 1), number(0, 1)};
+    if (below(2) == 0) s.sensor.cone_deg = number(1, 170);
+  }
   return s;
 }
 
@@ -171,6 +175,12 @@ RC_GTEST_PROP(RoundTrip, GivesTheSameScenarioBitForBit, ()) {
   RC_ASSERT(a.noise.range_false_clear == b.noise.range_false_clear);
   RC_ASSERT(a.noise.wheel_scale_sigma == b.noise.wheel_scale_sigma);
   RC_ASSERT(a.noise.heading_drift_deg_per_sqrt_m == b.noise.heading_drift_deg_per_sqrt_m);
+  RC_ASSERT(a.sensor.incidence_deg == b.sensor.incidence_deg);
+  RC_ASSERT(a.sensor.cone_deg == b.sensor.cone_deg);
+  RC_ASSERT(a.sensor.skew_deg == b.sensor.skew_deg);
+  RC_ASSERT(a.sensor.scale == b.sensor.scale);
+  RC_ASSERT(a.sensor.phantom == b.sensor.phantom);
+  RC_ASSERT(a.sensor.crosstalk == b.sensor.crosstalk);
   RC_ASSERT(values(a.robot) == values(b.robot));
   RC_ASSERT(to_toml(b) == text);
 }

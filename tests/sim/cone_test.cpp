@@ -177,6 +177,79 @@ TEST(ConeRange, ASegmentThatLiesAlongTheAxisOrAnEdgeIsSeenAtItsNearEnd) {
   EXPECT_NEAR(range(cone_at({0, 0}, 0, 20 * kDegree), Segment{{3 * c, -3 * s}, {c, -s}}), 1, 1e-9);
 }
 
+/// Angle between a ray in this direction from p and the normal where it first meets the shape.
+double incidence(Vec2 p, double direction, const Disc& disc) {
+  const Vec2 u{std::cos(direction), std::sin(direction)};
+  return std::asin(std::fmin(1, std::fabs(cross(u, disc.center - p)) / disc.radius));
+}
+double incidence(Vec2, double direction, const Segment& s) {
+  const Vec2 d = s.b - s.a;
+  return std::asin(
+      std::fmin(1, std::fabs(std::cos(direction) * d.x + std::sin(direction) * d.y) / std::hypot(d.x, d.y)));
+}
+
+/// The nearest of the rays that meet the shape at most this far from its normal.
+template <class Shape>
+double by_echoing_rays(Vec2 apex, double axis, double half_width, double most, const Shape& shape) {
+  constexpr int kRays = 2000;
+  double nearest = kInfinity;
+  for (int i = 0; i <= kRays; ++i) {
+    const double direction = axis + half_width * (2.0 * i / kRays - 1);
+    if (incidence(apex, direction, shape) <= most)
+      nearest = std::fmin(nearest, along_ray(apex, direction, shape));
+  }
+  return nearest;
+}
+
+/// With the limit, between what rays find at a slightly smaller and at a slightly larger one.
+template <class Shape>
+void judge_incidence(const Shape& shape, Vec2 apex) {
+  const double axis = real(-4, 4);
+  const double half_width = real(1, 60) * kDegree;
+  const double most = real(10, 85) * kDegree;
+  Cone cone = cone_at(apex, axis, half_width);
+  const double every = range(cone, shape);
+  RC_PRE(every > 0);
+  cone.sin_incidence = std::sin(most);
+  const double exact = range(cone, shape);
+  RC_ASSERT(exact >= every - 1e-12);
+  RC_ASSERT(exact <= by_echoing_rays(apex, axis, half_width, most - 1e-9, shape) + 1e-9);
+  // The rays lie up to half_width / 1000 apart: so much more of the surface may be in view.
+  const double step = half_width / 1000 + 1e-9;
+  const double wider = by_echoing_rays(apex, axis, half_width + 2 * step, most + 4 * step + 1e-3, shape);
+  RC_ASSERT(exact >= 0.95 * wider || exact <= kScatter);
+  RC_CLASSIFY(exact < kInfinity, "echoes");
+  RC_CLASSIFY(every < kInfinity && exact == kInfinity, "lost");
+}
+
+TEST(ConeRange, OfASlantedDiscAgreesWithTheRaysThatEcho) {
+  EXPECT_TRUE(rc::check([] { judge_incidence(Disc{point(3), real(0.05, 1.5)}, point(3)); }));
+}
+
+TEST(ConeRange, OfASlantedSegmentAgreesWithTheRaysThatEcho) {
+  EXPECT_TRUE(rc::check([] {
+    const Segment s{point(3), point(3)};
+    RC_PRE(std::hypot(s.b.x - s.a.x, s.b.y - s.a.y) > 0.1);
+    judge_incidence(s, point(3));
+  }));
+}
+
+TEST(ConeRange, AWallBeyondItsIncidenceIsLostButForItsEndsNearby) {
+  Cone cone = cone_at({0, 0}, 0, 10 * kDegree);
+  cone.sin_incidence = std::sin(40 * kDegree);
+  const auto wall = [](double far, double degrees, double from, double to) {
+    const Vec2 along{std::sin(degrees * kDegree), std::cos(degrees * kDegree)};
+    return Segment{Vec2{far, 0} + along * from, Vec2{far, 0} + along * to};
+  };
+  // The edge of the cone is 10 degrees nearer to the normal than the axis.
+  EXPECT_LT(range(cone, wall(1, 49, -5, 5)), 1);
+  EXPECT_EQ(range(cone, wall(1, 51, -5, 5)), kInfinity);
+  EXPECT_EQ(range(cone, wall(0.4, 51, -5, 5)), kInfinity);
+  EXPECT_DOUBLE_EQ(range(cone, wall(0.4, 51, 0, 5)), 0.4);
+  EXPECT_EQ(range(cone, wall(0.6, 51, 0, 5)), kInfinity);
+  EXPECT_LT(range(cone, wall(0.4, 51, 0, -5)), kInfinity);
+}
+
 TEST(ConeRange, OfAWorldIsTheNearestOfItsParts) {
   EXPECT_TRUE(rc::check([] {
     std::vector<Disc> discs;

@@ -103,6 +103,75 @@ TEST(RangeSensors, LookLeftAheadAndRightOfTheBody) {
   }
 }
 
+TEST(RangeSensors, ScaleEveryDistance) {
+  RobotSpec robot;
+  robot.range_scale = 1.1;
+  EXPECT_EQ(measured(robot, Wall(1).world).beam[hal::kFront].mm, 1100);
+  EXPECT_EQ(measured(robot, Wall(1.8).world).beam[hal::kFront].mm, 1980);
+  EXPECT_EQ(measured(robot, Wall(1.9).world).beam[hal::kFront].status, hal::RangeStatus::clear);
+  robot.range_scale = 0.9;
+  EXPECT_EQ(measured(robot, Wall(2.1).world).beam[hal::kFront].mm, 1890);
+}
+
+TEST(RangeSensors, LoseAWallThatIsTooOblique) {
+  RobotSpec robot;
+  robot.incidence = 15 * kPi / 180;
+  const hal::RangeReadings got = measured(robot, Wall(1).world);
+  EXPECT_EQ(got.beam[hal::kFront].mm, 1000);
+  EXPECT_EQ(got.beam[hal::kLeft].status, hal::RangeStatus::clear) << "its nearest edge is 17.5 degrees off";
+  robot.incidence = 18 * kPi / 180;
+  EXPECT_EQ(measured(robot, Wall(1).world).beam[hal::kLeft].status, hal::RangeStatus::ok);
+}
+
+struct Counted {
+  int phantoms = 0;
+  int others = 0;
+  double sum = 0;
+};
+Counted count_phantoms(const RobotSpec& robot, const WorldView& world, int usual_mm) {
+  RangeSensors sensors(robot, {}, kSeed);
+  Counted c;
+  for (int k = 0; k < kCount; ++k) {
+    const int64_t arrival = sensors.due_us() + 20000;
+    sensors.measure(world, {});
+    const hal::RangeReading got = sensors.read(arrival).beam[hal::kFront];
+    const bool usual = usual_mm == 0 ? got.status == hal::RangeStatus::clear : got.mm == usual_mm;
+    if (usual) continue;
+    const bool near = got.status == hal::RangeStatus::ok && got.mm >= 100 && got.mm <= 500;
+    ++(near ? c.phantoms : c.others);
+    c.sum += got.mm;
+  }
+  return c;
+}
+
+TEST(RangeSensors, PhantomsTakeThePlaceOfClearReadingsOnly) {
+  RobotSpec robot;
+  robot.phantom = 0.1;
+  const Counted c = count_phantoms(robot, {}, 0);
+  EXPECT_EQ(c.others, 0);
+  EXPECT_NEAR(c.phantoms, 0.1 * kCount, 4 * std::sqrt(0.1 * 0.9 * kCount)) << "seed " << kSeed;
+  EXPECT_NEAR(c.sum / c.phantoms, 300, 4 * 115.5 / std::sqrt(c.phantoms)) << "seed " << kSeed;
+  const Counted none = count_phantoms(robot, Wall(1).world, 1000);
+  EXPECT_EQ(none.phantoms + none.others, 0);
+}
+
+TEST(RangeSensors, CrosstalkShowsANearerNeighbour) {
+  RobotSpec robot;
+  robot.crosstalk = 0.3;
+  const Disc disc{{0.5 * std::cos(robot.side_angle), 0.5 * std::sin(robot.side_angle)}, 0.1};
+  RangeSensors sensors(robot, {}, kSeed);
+  int front = 0;
+  for (int k = 0; k < kCount; ++k) {
+    const int64_t arrival = sensors.due_us() + 20000;
+    sensors.measure({&disc, 1, nullptr, 0, nullptr, 0}, {});
+    const hal::RangeReadings got = sensors.read(arrival);
+    ASSERT_EQ(got.beam[hal::kLeft].mm, 400) << "no neighbour is nearer";
+    ASSERT_EQ(got.beam[hal::kRight].status, hal::RangeStatus::clear) << "the left beam is not beside it";
+    front += got.beam[hal::kFront].mm == 400 ? 1 : 0;
+  }
+  EXPECT_NEAR(front, 0.3 * kCount, 4 * std::sqrt(0.3 * 0.7 * kCount)) << "seed " << kSeed;
+}
+
 TEST(RangeSensors, NoiseHasItsMeanAndSigmaAndIsIndependentBetweenBeams) {
   RobotSpec robot;
   robot.side_angle = 0.0872;  // the cones overlap: all three see the foot of the wall
