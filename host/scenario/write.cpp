@@ -68,32 +68,36 @@ std::string obstacles(const Scenario& s) {
   return out;
 }
 
+/// Empty if the number has its default.
+std::string line(const char* key, double x, double otherwise, const char* comment = "") {
+  return x == otherwise ? "" : fmt::format("{} = {}{}\n", key, toml_number(x), comment);
+}
+
 std::string noise(const Noise& n) {
-  std::string out;
-  const auto line = [&](const char* key, double x, const char* comment) {
-    if (x != 0) out += fmt::format("{} = {}{}\n", key, toml_number(x), comment);
-  };
-  line("range_sigma_m", n.range_sigma_m, "");
-  line("range_dropout", n.range_dropout, "  # readings lost, and saying so");
-  line("range_false_clear", n.range_false_clear, "  # readings that wrongly say that nothing is there");
-  line("wheel_scale_sigma", n.wheel_scale_sigma, "  # of each wheel's encoder, once a run");
-  line("heading_drift_deg_per_sqrt_m", n.heading_drift_deg_per_sqrt_m, "");
+  constexpr Noise kNone;
+  const std::string out =
+      line("range_sigma_m", n.range_sigma_m, kNone.range_sigma_m) +
+      line("range_dropout", n.range_dropout, kNone.range_dropout, "  # readings lost, and saying so") +
+      line("range_false_clear", n.range_false_clear, kNone.range_false_clear,
+           "  # readings that wrongly say that nothing is there") +
+      line("wheel_scale_sigma", n.wheel_scale_sigma, kNone.wheel_scale_sigma,
+           "  # of each wheel's encoder, once a run") +
+      line("heading_drift_deg_per_sqrt_m", n.heading_drift_deg_per_sqrt_m,
+           kNone.heading_drift_deg_per_sqrt_m);
   return out.empty() ? out : "\n[noise]\n" + out;
 }
 
 std::string sensor(const Sensor& s) {
   constexpr Sensor kIdeal;
-  std::string out;
-  const auto line = [&](const char* key, double x, double ideal, const char* comment) {
-    if (x != ideal) out += fmt::format("{} = {}{}\n", key, toml_number(x), comment);
-  };
-  line("incidence_deg", s.incidence_deg, kIdeal.incidence_deg,
-       "  # surfaces farther from their normal give no echo");
-  if (s.cone_deg) out += fmt::format("cone_deg = {}  # the true full width\n", toml_number(*s.cone_deg));
-  line("skew_deg", s.skew_deg, kIdeal.skew_deg, "  # of the side beams, outward");
-  line("scale", s.scale, kIdeal.scale, "  # of every distance");
-  line("phantom", s.phantom, kIdeal.phantom, "  # clear readings that become echoes");
-  line("crosstalk", s.crosstalk, kIdeal.crosstalk, "  # readings that may be a neighbouring beam's");
+  const std::string cone =
+      s.cone_deg ? fmt::format("cone_deg = {}  # the true full width\n", toml_number(*s.cone_deg)) : "";
+  const std::string out =
+      line("incidence_deg", s.incidence_deg, kIdeal.incidence_deg,
+           "  # surfaces farther from their normal give no echo") +
+      cone + line("skew_deg", s.skew_deg, kIdeal.skew_deg, "  # of the side beams, outward") +
+      line("scale", s.scale, kIdeal.scale, "  # of every distance") +
+      line("phantom", s.phantom, kIdeal.phantom, "  # clear readings that become echoes") +
+      line("crosstalk", s.crosstalk, kIdeal.crosstalk, "  # readings that may be a neighbouring beam's");
   return out.empty() ? out : "\n[sensor]  # what the rangefinders really do\n" + out;
 }
 

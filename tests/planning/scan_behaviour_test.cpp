@@ -98,5 +98,28 @@ TEST(ScanBehaviour, StopsBeforeItTurnsAndAsksForNothingMoreWhileItStands) {
   EXPECT_EQ(m.kind, ManoeuvreKind::stop) << "it arrived: to be proved, a look stands";
 }
 
+/// Ticks until a scan that wants to turn ends, while the guard lets this part of its turn through; at most
+/// 1000.
+int ticks_with(Q14 granted, ScanBehaviour& look) {
+  Ground g;
+  Manoeuvre m;
+  look.begin(0_deg, 150_mm, m);
+  View view = g.view(90_deg);
+  view.elapsed = g.params().safety.period;
+  view.granted = granted;
+  int ticks = 0;
+  while (ticks < 1000 && !look.step(view, g.params(), m)) ++ticks;
+  return ticks;
+}
+
+TEST(ScanBehaviour, EndsInVainWhereTheGuardLetsNoTurnThrough) {
+  ScanBehaviour held, turning;
+  const Params params;
+  const int patience = params.safety.stalled_after.raw() / params.safety.period.raw();
+  EXPECT_NEAR(ticks_with(Q14{}, held), patience, 2);
+  EXPECT_TRUE(held.in_vain());
+  EXPECT_EQ(ticks_with(Q14::ratio(1, 1), turning), 1000);
+}
+
 }  // namespace
 }  // namespace whisker::planning
