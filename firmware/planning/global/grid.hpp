@@ -4,11 +4,12 @@
 #include <stdint.h>
 
 #include "firmware/math/units.hpp"
+#include "firmware/perception/raster.hpp"
 
 namespace whisker::planning {
 
-using GridWord = uint32_t;
-constexpr int kWordBits = 32;
+using GridWord = perception::Row;
+constexpr int kWordBits = perception::kCells;
 constexpr int kMostWords = 6;
 
 /// Beside a blocked cell narrower than this, there is no room for the centre of a body with a radius of 90
@@ -44,10 +45,9 @@ struct Cell {
 constexpr GridWord columns(int32_t first, int32_t last, int w) noexcept {
   const int32_t low = first - w * kWordBits;
   const int32_t high = last - w * kWordBits;
-  if (low >= kWordBits || high < 0 || low > high) return 0;
-  const GridWord from = low <= 0 ? ~GridWord{0} : ~GridWord{0} << low;
-  const GridWord to = high >= kWordBits - 1 ? ~GridWord{0} : ~(~GridWord{0} << (high + 1));
-  return from & to;
+  if (low >= kWordBits || high < 0) return 0;
+  return perception::columns_between(static_cast<int>(low < 0 ? 0 : low),
+                                     static_cast<int>(high < kWordBits ? high : kWordBits - 1));
 }
 
 /// Neighbours of the cells of the middle one of three words.
