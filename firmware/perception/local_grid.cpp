@@ -31,6 +31,14 @@ constexpr bool nearby(int32_t x) noexcept { return x > -kOutermost && x < kOuter
 
 }  // namespace
 
+Beam beam_of(const Mount& mount, const Pose& body) noexcept {
+  const Q30 c = cos(body.heading);
+  const Q30 s = sin(body.heading);
+  const Vec ahead{mount.apex.x * c, mount.apex.x * s};
+  const Vec aside{-(mount.apex.y * s), mount.apex.y * c};
+  return {body.at + ahead + aside, body.heading + mount.axis, mount.half_cone};
+}
+
 int32_t LocalGrid::units(int64_t um, int32_t most) const noexcept {
   const int64_t n = um * kUnitsPerCell;
   // Most values are small, and a 32-bit division is faster.
@@ -42,12 +50,7 @@ int32_t LocalGrid::units(Length l) const noexcept { return units(l.raw(), kLonge
 
 void LocalGrid::configure(const Params& params) noexcept {
   cell_um_ = patch_cell(params).raw();
-  offset_ = params.rangefinders.offset;
-  half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
-  footprint_ = units(params.body.radius);
-  const int32_t blind = units(blind_reach(params)) + kUnitsPerCell;
-  placed_free_ =
-      blind_reach(params) > params.body.radius - cell_cover(params) ? blind + kCellCover : footprint_;
+  footprint_ = units(rim_sweep(params).radius);
   reach_ = whisker::reach(params);
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
   age_travel_ = params.skirt.age_travel;
@@ -79,18 +82,13 @@ void LocalGrid::drop_columns(Row window) noexcept {
   }
 }
 
-void LocalGrid::forget(const Pose& pose) noexcept {
+void LocalGrid::reset(const Pose& pose) noexcept {
   drop_rows(0, kCells);
   last_ = pose;
   travel_ = Length{};
   turned_ = 0;
   doubting_ = false;
   move_to(pose);
-}
-
-void LocalGrid::reset(const Pose& pose) noexcept {
-  forget(pose);
-  clear_around(pose.at, placed_free_);
 }
 
 void LocalGrid::move_to(const Pose& pose) noexcept {
@@ -166,12 +164,11 @@ void LocalGrid::clear_around(Vec at, int32_t reach) noexcept {
 }
 
 void LocalGrid::mark(const ConeObservation& observation, const EarlierObservation* before) noexcept {
-  const Angle axis = observation.from.heading + observation.axis;
-  const Vec from = observation.from.at + polar(axis, offset_);
-  const Point apex = local(from);
+  const Beam& beam = observation.beam;
+  const Point apex = local(beam.apex);
   if (!nearby(apex.x) || !nearby(apex.y)) return;
-  const Angle axis_before = before == nullptr ? axis : before->from.heading + observation.axis;
-  const Vec from_before = before == nullptr ? from : before->from.at + polar(axis_before, offset_);
+  const Angle axis_before = before == nullptr ? beam.axis : before->axis;
+  const Vec from_before = before == nullptr ? beam.apex : before->apex;
   const Point apex_before = local(from_before);
   if (!nearby(apex_before.x) || !nearby(apex_before.y)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
@@ -179,12 +176,11 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   const int32_t free = units(observation.free - room - kReadingRounding);
   const int32_t free_before = before == nullptr ? free : units(before->free - room - kReadingRounding);
   const int32_t echo = units(observation.free) + kUnitsPerCell;
-  const Wedge cone(axis, half_cone_);
-  const bool moved =
-      from.x != from_before.x || from.y != from_before.y || axis != axis_before || free_before < free;
-  const Wedge cone_before = moved ? Wedge(axis_before, half_cone_) : cone;
-  const bool wide = observation.hit && half_cone_.raw() > kSuspectHalf.raw();
-  const Wedge core = wide ? Wedge(axis, kSuspectHalf) : cone;
+  const Wedge cone(beam.axis, beam.half_cone);
+  const bool moved = !(beam.apex == from_before) || beam.axis != axis_before || free_before < free;
+  const Wedge cone_before = moved ? Wedge(axis_before, beam.half_cone) : cone;
+  const bool wide = observation.hit && beam.half_cone.raw() > kSuspectHalf.raw();
+  const Wedge core = wide ? Wedge(beam.axis, kSuspectHalf) : cone;
   const int32_t reach = observation.aimed ? kWholeWindow : observation.hit ? echo : free;
   for (Rows rows = cone.rows(apex.y, reach); rows.more(); rows.next()) {
     const int32_t dy = rows.offset(apex.y);
@@ -218,17 +214,17 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
 void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexcept {
   doubting_ = true;
   doubted_ = observation.taken;
-  const Angle axis = observation.from.heading + observation.axis;
-  const Point apex = local(observation.from.at + polar(axis, offset_));
+  const Beam& beam = observation.beam;
+  const Point apex = local(beam.apex);
   const Point body = local(last_.at);
   if (!nearby(apex.x) || !nearby(apex.y)) return;
   const int32_t approach = units(approach_) + kCellCover;
   const int32_t nearest = units(observation.free) - approach;
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;
   const int32_t beyond = units(farthest + approach_) + kUnitsPerCell;
-  const Wedge cone(axis, half_cone_);
+  const Wedge cone(beam.axis, beam.half_cone);
   // The object may extend beyond the cone's edges, and be nearer there, but not behind the apex.
-  const HalfPlane ahead = HalfPlane::facing(axis);
+  const HalfPlane ahead = HalfPlane::facing(beam.axis);
   for (int row = 0; row < kCells; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
     Span around;

@@ -9,19 +9,28 @@
 
 namespace whisker::perception {
 
+/// The place and direction of a beam at the time of a measurement, in the frame of the pose.
+struct Beam {
+  Vec apex;
+  Angle axis;
+  Angle half_cone;
+};
+/// The beam of this mount on a body with this pose.
+Beam beam_of(const Mount& mount, const Pose& body) noexcept;
+
 /// Observation of one beam: nothing within its cone is nearer to the apex than `free`.
 struct ConeObservation {
-  Pose from;           ///< pose of the body at the time of the measurement
-  Angle axis;          ///< direction of the beam from straight ahead
+  Beam beam;
   Length free;         ///< free distance
   bool hit = false;    ///< an object lies at `free`
   bool aimed = false;  ///< from a static scan: cells that the beam covers and does not clear become tested
   Time taken{};
 };
 
-/// The free distance of the beam's last reading, and the pose at that time.
+/// The last reading of the same beam.
 struct EarlierObservation {
-  Pose from;
+  Vec apex;
+  Angle axis;
   Length free;
 };
 
@@ -44,11 +53,8 @@ class LocalGrid {
   static constexpr Length kShortestStep = micrometres(100);
 
   void configure(const Params& params) noexcept;
-  /// Clears the ground under the body and the ring that no beam can clear from there (see blind_reach), which
-  /// must be free; all else becomes unknown.
+  /// Clears the ground under the body, to the radius of rim_sweep(); all else becomes unknown.
   void reset(const Pose& pose) noexcept;
-  /// The same without the ring.
-  void forget(const Pose& pose) noexcept;
   /// Moves the window with the body, ages the cells, clears the footprint.
   void move_to(const Pose& pose) noexcept;
   /// Clears the cells that both observations show empty, each from its own pose, so that a single false clear
@@ -112,16 +118,13 @@ class LocalGrid {
   uint32_t turned_ = 0;  // the same, 2^-32 turn
   bool doubting_ = false;
   Time doubted_;
-  Length offset_;
-  Angle half_cone_;
   Length age_travel_;
   uint32_t age_turn_ = 0;
   Reach reach_;
   Length approach_;  // travel of a moving object while the body stops
   int32_t cell_um_ = 20000;
   int32_t footprint_ = 0;    // grid units
-  int32_t placed_free_ = 0;  // assumed free when the body is placed; grid units
-  int32_t ring_ = 0;         // the same: ring beside the body's path
+  int32_t ring_ = 0;         // ring beside the body's path; grid units
 
   Row young_[kCells] = {};    // cleared since the last ageing step
   Row old_[kCells] = {};      // cleared before it

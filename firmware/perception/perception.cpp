@@ -3,20 +3,16 @@
 namespace whisker::perception {
 
 void Perception::configure(const Params& params) noexcept {
+  for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
   local_grid_.configure(params);
-  motion_.configure(params);
+  motion_.configure(mounts_);
   const Duration reach = params.rangefinders.latency + milliseconds(1000 / params.rangefinders.rate_hz);
   history_.configure(reach / (localization::PoseHistory::kKept - 2));
 }
 
-void Perception::place(const Pose& pose) noexcept {
-  forget(pose);
-  local_grid_.reset(pose);
-}
-
 void Perception::forget(const Pose& pose) noexcept {
   history_.reset();
-  local_grid_.forget(pose);
+  local_grid_.reset(pose);
   motion_.reset();
   seen_ = 0;
   for (RangeScatter& scatter : scatter_) scatter = {};
@@ -34,7 +30,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   local_grid_.move_to(body.pose);
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
-  const Length proving = proving_range(params.rangefinders);
+  Pose from;
   int seen = 0;
   for (int i = 0; i < hal::kBeams; ++i) {
     const RecentReadings sight = conditioner_.sight(i, params);
@@ -42,8 +38,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     if (!sight.fresh) continue;
     out.sighted = true;
     ConeObservation& observation = out.observations[i];
-    if (!history_.at(sight.taken, observation.from)) continue;
-    observation.axis = beam_axis(params.rangefinders.side_angle, i);
+    if (!history_.at(sight.taken, from)) continue;
+    observation.beam = beam_of(mounts_[i], from);
+    const Length proving = proving_range(params.rangefinders, i);
     scatter_[i].add(sight);
     observation.hit = sight.near.validity != Validity::clear && sight.near.distance <= proving;
     const Length allowance = observation.hit ? scatter_[i].allowance() : Length{};
@@ -51,7 +48,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (observation.hit &&
-        motion_.contradicts(observation.from, i, observation.free, sight.farthest, local_grid_)) {
+        motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
       moved[i] = sight.farthest;
     }
     const uint8_t bit = static_cast<uint8_t>(1U << i);
@@ -61,7 +58,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     } else if ((seen_ & bit) != 0) {
       local_grid_.mark(observation, &last_[i]);
     }
-    last_[i] = {observation.from, observation.free};
+    last_[i] = {observation.beam.apex, observation.beam.axis, observation.free};
     seen_ |= bit;
     out.observed = static_cast<uint8_t>(out.observed | bit);
     ++seen;
@@ -70,7 +67,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   for (int i = 0; i < hal::kBeams; ++i) {
     if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
   }
-  if (seen == hal::kBeams) motion_.add(out.observations[0].from, out.observations[0].taken, free);
+  if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free);
   out.local_grid = &local_grid_;
 }
 

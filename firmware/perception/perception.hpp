@@ -31,9 +31,7 @@ class Perception {
   void configure(const Params& params) noexcept;
   /// No reading has arrived yet; the wait for readings starts at `now`.
   void start(Time now) noexcept { conditioner_.reset(now); }
-  /// The body was put down here: only the ground that must be free around it is clear.
-  void place(const Pose& pose) noexcept;
-  /// Resets all cells except those under the body to unknown, because the pose may be wrong.
+  /// Resets all cells except those under the body to unknown: it was put down here, or its pose may be wrong.
   void forget(const Pose& pose) noexcept;
   /// The body moves untracked between the last tick and the next one.
   void lose_history() noexcept { history_.reset(); }
@@ -51,6 +49,7 @@ class Perception {
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:
+  Mount mounts_[hal::kBeams];
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading
   EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
   RangeScatter scatter_[hal::kBeams];

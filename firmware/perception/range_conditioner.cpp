@@ -16,7 +16,7 @@ constexpr Validity validity_of(Length d, Length max_range) noexcept {
 }  // namespace
 
 void BeamConditioner::reset(Time now) noexcept {
-  *this = BeamConditioner{};
+  *this = BeamConditioner{beam_};
   last_new_ = now;
   last_usable_ = now;
 }
@@ -45,11 +45,11 @@ Validity BeamConditioner::classify(const hal::RangeReading& reading, Angle headi
   }
   switch (reading.status) {
     case hal::RangeStatus::ok:
-      if (millimetres(reading.mm) > params.rangefinders.max_range) {
+      if (millimetres(reading.mm) > max_range(params.rangefinders, beam_)) {
         count(health.range_out_of_range);
         return Validity::invalid;
       }
-      if (millimetres(reading.mm) < params.rangefinders.min_range) {
+      if (millimetres(reading.mm) < min_range(params.rangefinders, beam_)) {
         count(health.range_out_of_range);
         return Validity::too_near;
       }
@@ -88,7 +88,7 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle h
   sequence_ = reading.sequence;
   last_new_ = now;
   const Validity validity = classify(reading, heading, params, health);
-  latest_ = {distance_of(validity, reading.mm, params.rangefinders.max_range), validity};
+  latest_ = {distance_of(validity, reading.mm, max_range(params.rangefinders, beam_)), validity};
   if (!usable(validity)) return;
 
   fresh_ = true;
@@ -109,7 +109,7 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   const Length high = max(last[0], last[1]);
   const Length median = max(low, min(high, last[kTypical - 1]));
   const Length nearest = min(min(low, last[2]), last[3]);
-  const Length far = params.rangefinders.max_range;
+  const Length far = max_range(params.rangefinders, beam_);
   s.fresh = fresh_;
   s.taken = history_[newest_].taken;
   s.oldest = history_[(newest_ - kNear + 1 + kHistory) % kHistory].taken;
@@ -141,7 +141,7 @@ Echo BeamConditioner::look(Time since, const Params& params) const noexcept {
       break;
     case Consensus::median: break;
   }
-  return {agreed, validity_of(agreed, params.rangefinders.max_range)};
+  return {agreed, validity_of(agreed, max_range(params.rangefinders, beam_))};
 }
 
 void RangeConditioner::reset(Time now) noexcept {

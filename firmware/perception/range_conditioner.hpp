@@ -32,6 +32,9 @@ class BeamConditioner {
  public:
   static constexpr int kHistory = 5;  ///< the largest ConditioningParams::reads
 
+  /// The beam, a hal::Beam, chooses its own parameters.
+  explicit BeamConditioner(int beam = 0) noexcept : beam_(static_cast<int8_t>(beam)) {}
+
   /// Takes in the reading that the HAL returns at this tick; a known one (same sequence) only ages. The
   /// heading of the body tells a stuck sensor from a static world.
   void update(const hal::RangeReading& reading, Time now, Angle heading, const Params& params,
@@ -60,6 +63,7 @@ class BeamConditioner {
   bool is_stuck(const hal::RangeReading& reading, Angle heading, Angle stuck_turn) noexcept;
   void age(Time now, const Params& params, Health& health) noexcept;
 
+  int8_t beam_;
   Measurement history_[kHistory];
   int8_t count_ = 0;
   int8_t newest_ = 0;
@@ -86,7 +90,8 @@ class RangeConditioner {
   Duration lost_for(Time now) const noexcept;
 
  private:
-  BeamConditioner beam_[hal::kBeams];
+  BeamConditioner beam_[hal::kBeams] = {BeamConditioner{hal::kLeft}, BeamConditioner{hal::kFront},
+                                        BeamConditioner{hal::kRight}};
 };
 
 }  // namespace whisker::perception

@@ -15,6 +15,7 @@ namespace whisker::planning {
 /// motor's lag allow a stop in the remaining distance.
 class MotionController {
  public:
+  void configure(const Params& params) noexcept;
   /// Starts a manoeuvre; ManoeuvreKind::keep changes nothing.
   void begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept;
 
@@ -39,11 +40,12 @@ class MotionController {
   Duration waiting_for() const noexcept { return waiting_for_; }
 
  private:
-  VelocityRequest cruise(const Params& params) const noexcept;
+  VelocityRequest cruise() const noexcept;
   VelocityRequest turn(Angle error, Duration elapsed, const Params& params) noexcept;
   VelocityRequest drive(const Pose& pose, Angle error, Duration elapsed, const Params& params) noexcept;
   void approach(Length rest, Duration elapsed) noexcept;
 
+  Speed fastest_turning_;  // of the rim
   Manoeuvre current_{ManoeuvreKind::stop, {}, {}, {}, {}};
   Vec origin_;
   bool finished_ = true;

@@ -25,8 +25,11 @@ sim::RobotSpec robot_spec(const Scenario& scenario) {
   const Sensor& sensor = scenario.sensor;
   sim::RobotSpec spec = sim::robot_spec(scenario.robot);
   if (sensor.incidence_deg < 90) spec.incidence = sensor.incidence_deg * kDegree;
-  if (sensor.cone_deg) spec.cone_half_width = *sensor.cone_deg / 2 * kDegree;
-  spec.side_angle += sensor.skew_deg * kDegree;
+  for (sim::BeamSpec& beam : spec.beams) {
+    if (sensor.cone_deg) beam.cone_half_width = *sensor.cone_deg / 2 * kDegree;
+  }
+  spec.beams[hal::kLeft].angle += sensor.skew_deg * kDegree;
+  spec.beams[hal::kRight].angle -= sensor.skew_deg * kDegree;
   spec.range_scale = sensor.scale;
   spec.phantom = sensor.phantom;
   spec.crosstalk = sensor.crosstalk;

@@ -13,6 +13,7 @@ const char* type_of(const Acceleration&) { return "Acceleration"; }
 const char* type_of(const AngularRate&) { return "AngularRate"; }
 const char* type_of(const Duration&) { return "Duration"; }
 const char* type_of(const Angle&) { return "Angle"; }
+const char* type_of(const Direction&) { return "Direction"; }
 
 struct Lister {
   std::vector<ParamEntry> all;

@@ -22,17 +22,20 @@ hal::RangeReading without_distance(hal::RangeStatus status) { return {0, status,
 RangeSensors::RangeSensors(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed)
     : interval_us_(1e6 / robot.rate_hz),
       latency_us_(nearest(robot.latency_s * 1e6)),
-      offset_(robot.offset),
-      min_range_(robot.min_range),
-      max_range_(robot.max_range),
-      side_(sin_cos(robot.side_angle)),
-      half_width_(sin_cos(robot.cone_half_width)),
+      sensors_{Sensor(robot.beams[0]), Sensor(robot.beams[1]), Sensor(robot.beams[2])},
       sin_incidence_(robot.incidence < kPi / 2 ? sin_cos(robot.incidence).sin : 1.0),
       scale_(robot.range_scale),
       phantom_(robot.phantom),
       crosstalk_(robot.crosstalk),
       noise_(noise),
       faults_{{seed, hal::kLeft}, {seed, hal::kFront}, {seed, hal::kRight}} {}
+
+RangeSensors::Sensor::Sensor(const BeamSpec& beam)
+    : apex{beam.x, beam.y},
+      axis(sin_cos(beam.angle)),
+      half_width(sin_cos(beam.cone_half_width)),
+      min_range(beam.min_range),
+      max_range(beam.max_range) {}
 
 RangeSensors::Faults::Faults(uint64_t seed, uint32_t beam)
     : noise(seed, kStreamRangeNoise + beam),
@@ -46,18 +49,19 @@ void RangeSensors::measure(const WorldView& world, const Pose& pose) {
   const SinCos heading = sin_cos(pose.heading);
   const Vec2 front{heading.cos, heading.sin};
   const Vec2 left_of_front{-heading.sin, heading.cos};
-  const Vec2 axes[hal::kBeams] = {front * side_.cos + left_of_front * side_.sin, front,
-                                  front * side_.cos - left_of_front * side_.sin};
 
   Measurement& m = kept_[count_ % kKept];
   m.at_us = due_us_;
   double metres[hal::kBeams];
   for (int i = 0; i < hal::kBeams; ++i) {
-    const Cone cone{pose.at + axes[i] * offset_, axes[i], half_width_.cos, half_width_.sin, sin_incidence_};
-    metres[i] = range(cone, world, t, max_range_ / scale_);
+    const Sensor& s = sensors_[i];
+    const Cone cone{pose.at + front * s.apex.x + left_of_front * s.apex.y,
+                    front * s.axis.cos + left_of_front * s.axis.sin, s.half_width.cos, s.half_width.sin,
+                    sin_incidence_};
+    metres[i] = range(cone, world, t, s.max_range / scale_);
   }
   for (int i = 0; i < hal::kBeams; ++i) {
-    m.readings.beam[i] = classified(faults_[i], echo(i, metres));
+    m.readings.beam[i] = classified(i, echo(i, metres));
     m.readings.beam[i].sequence = static_cast<uint8_t>(count_ & 15);
   }
   ++count_;
@@ -75,19 +79,21 @@ double RangeSensors::echo(int i, const double (&metres)[hal::kBeams]) {
   if (phantom_ <= 0) return nearest;
   const bool phantom = faults_[i].phantom.uniform() < phantom_;
   const double at = 0.1 + 0.4 * faults_[i].phantom.uniform();
-  return phantom && nearest > max_range_ ? at : nearest;
+  return phantom && nearest > sensors_[i].max_range ? at : nearest;
 }
 
-hal::RangeReading RangeSensors::classified(Faults& faults, double metres) const {
+hal::RangeReading RangeSensors::classified(int i, double metres) {
+  Faults& faults = faults_[i];
+  const Sensor& sensor = sensors_[i];
   const double error = noise_.range_sigma_m > 0 ? noise_.range_sigma_m * faults.noise.normal() : 0.0;
   const bool lost = faults.dropout.uniform() < noise_.range_dropout;
   const bool false_clear = faults.false_clear.uniform() < noise_.range_false_clear;
 
   if (lost) return without_distance(hal::RangeStatus::invalid);
-  if (false_clear || metres > max_range_) return without_distance(hal::RangeStatus::clear);
+  if (false_clear || metres > sensor.max_range) return without_distance(hal::RangeStatus::clear);
   const double measured = metres + error;
-  if (measured > max_range_) return without_distance(hal::RangeStatus::clear);
-  if (measured < min_range_) return without_distance(hal::RangeStatus::too_near);
+  if (measured > sensor.max_range) return without_distance(hal::RangeStatus::clear);
+  if (measured < sensor.min_range) return without_distance(hal::RangeStatus::too_near);
   return {millimetres_of(measured), hal::RangeStatus::ok, 0, 0};
 }
 

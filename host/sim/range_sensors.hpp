@@ -44,7 +44,7 @@ class RangeSensors {
   };
   /// The distance that beam i measures, given those in the cones of all beams.
   double echo(int i, const double (&metres)[hal::kBeams]);
-  hal::RangeReading classified(Faults& faults, double metres) const;
+  hal::RangeReading classified(int i, double metres);
 
   static constexpr int64_t kKept = 32;
   struct Measurement {
@@ -54,11 +54,15 @@ class RangeSensors {
 
   double interval_us_;
   int64_t latency_us_;
-  double offset_;
-  double min_range_;
-  double max_range_;
-  SinCos side_;
-  SinCos half_width_;
+  struct Sensor {
+    Vec2 apex;  // in the body's frame
+    SinCos axis;
+    SinCos half_width;
+    double min_range;
+    double max_range;
+    explicit Sensor(const BeamSpec& beam);
+  };
+  Sensor sensors_[hal::kBeams];
   double sin_incidence_;
   double scale_;
   double phantom_;

@@ -19,11 +19,12 @@ RobotSpec robot_spec(const Params& params) {
   spec.max_acceleration = si(params.wheels.max_acceleration);
   spec.motor_lag = si(params.wheels.motor_lag);
   spec.counts_per_m = params.wheels.counts_per_metre;
-  spec.side_angle = si(params.rangefinders.side_angle);
-  spec.cone_half_width = si(params.rangefinders.cone) / 2;
-  spec.min_range = si(params.rangefinders.min_range);
-  spec.max_range = si(params.rangefinders.max_range);
-  spec.offset = si(params.rangefinders.offset);
+  for (int i = 0; i < 3; ++i) {
+    const RangefinderParams& r = params.rangefinders;
+    const Mount m = mount(r, i);
+    spec.beams[i] = {si(m.apex.x),      si(m.apex.y),        si(m.axis),
+                     si(m.half_cone), si(min_range(r, i)), si(max_range(r, i))};
+  }
   spec.rate_hz = params.rangefinders.rate_hz;
   spec.latency_s = si(params.rangefinders.latency);
   spec.period_s = si(params.safety.period);

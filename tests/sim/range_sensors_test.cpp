@@ -90,10 +90,13 @@ TEST(RangeSensors, ClassifyByTheirRange) {
 
 TEST(RangeSensors, LookLeftAheadAndRightOfTheBody) {
   RobotSpec robot;
-  robot.offset = 0.05;
+  for (BeamSpec& beam : robot.beams) {
+    beam.x = 0.05 * std::cos(beam.angle);
+    beam.y = 0.05 * std::sin(beam.angle);
+  }
   const double heading = 2.0;
   for (int beam = 0; beam < hal::kBeams; ++beam) {
-    const double angle = heading + (1 - beam) * robot.side_angle;
+    const double angle = heading + robot.beams[beam].angle;
     const Disc disc{{3 + 1.0 * std::cos(angle), -2 + 1.0 * std::sin(angle)}, 0.1};
     const hal::RangeReadings got = measured(robot, {&disc, 1, nullptr, 0, nullptr, 0}, {{3, -2}, heading});
     for (int other = 0; other < hal::kBeams; ++other) {
@@ -158,7 +161,8 @@ TEST(RangeSensors, PhantomsTakeThePlaceOfClearReadingsOnly) {
 TEST(RangeSensors, CrosstalkShowsANearerNeighbour) {
   RobotSpec robot;
   robot.crosstalk = 0.3;
-  const Disc disc{{0.5 * std::cos(robot.side_angle), 0.5 * std::sin(robot.side_angle)}, 0.1};
+  const double side = robot.beams[hal::kLeft].angle;
+  const Disc disc{{0.5 * std::cos(side), 0.5 * std::sin(side)}, 0.1};
   RangeSensors sensors(robot, {}, kSeed);
   int front = 0;
   for (int k = 0; k < kCount; ++k) {
@@ -174,7 +178,8 @@ TEST(RangeSensors, CrosstalkShowsANearerNeighbour) {
 
 TEST(RangeSensors, NoiseHasItsMeanAndSigmaAndIsIndependentBetweenBeams) {
   RobotSpec robot;
-  robot.side_angle = 0.0872;  // the cones overlap: all three see the foot of the wall
+  robot.beams[hal::kLeft].angle = 0.0872;
+  robot.beams[hal::kRight].angle = -0.0872;  // the cones overlap: all three see the foot of the wall
   NoiseSpec noise;
   noise.range_sigma_m = 0.02;
   const Wall wall(1);

@@ -48,8 +48,6 @@ int32_t GridMap::units(Length l) const noexcept {
 
 void GridMap::configure(const Params& params) noexcept {
   cell_um_ = for_body(params, shape_.cell).raw();
-  offset_ = params.rangefinders.offset;
-  half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
   far_ = units(for_body(params, kFar));
 }
 
@@ -181,20 +179,19 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
 }
 
 void GridMap::mark(const perception::ConeObservation& observation, bool hold) noexcept {
-  const Angle axis = observation.from.heading + observation.axis;
-  const Vec from = observation.from.at + polar(axis, offset_);
+  const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
     return saturate32(
         floor_div<int64_t>((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
   };
-  const int32_t x = from_corner(from.x, corner_.x);
-  const int32_t y = from_corner(from.y, corner_.y);
+  const int32_t x = from_corner(beam.apex.x, corner_.x);
+  const int32_t y = from_corner(beam.apex.y, corner_.y);
   if (!holds({floor_div(x, kUnitsPerCell), floor_div(y, kUnitsPerCell)})) return;
   const int32_t distance = units(observation.free);
   const int32_t seen = distance < far_ ? distance : far_;
   const bool echo = observation.hit && distance < far_;
-  const perception::Wedge cone(axis, half_cone_);
-  const perception::Wedge core(axis, kSuspectHalf);
+  const perception::Wedge cone(beam.axis, beam.half_cone);
+  const perception::Wedge core(beam.axis, kSuspectHalf);
   const int32_t reach = echo ? distance + kHalfCell : seen - kInside;
   if (reach < 0) return;
   int32_t first = perception::ceil_div(y - reach - kHalfCell, kUnitsPerCell);

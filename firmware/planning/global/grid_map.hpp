@@ -76,8 +76,6 @@ class GridMap {
   GridWord* planes_;
   Cell corner_;
   int32_t cell_um_ = 100000;
-  Length offset_;
-  Angle half_cone_;
   int32_t far_ = 0;  // grid units; echoes farther away are ignored
 };
 
