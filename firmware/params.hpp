@@ -237,6 +237,7 @@ struct RimSweep {
   Length radius;  ///< turning on the spot clears the ground beyond this distance from the centre; at least the
                   ///< body's radius. Ground between the two must be free when the robot is placed
   Angle step;     ///< of the turn between two readings one after the other but one, at most
+  Angle past;     ///< see Reach; zero if not needed
 };
 /// Source of the formula: docs/ground.md.
 constexpr RimSweep rim_sweep(const Params& params) noexcept;
@@ -247,6 +248,8 @@ struct Reach {
   Length guard;     ///< distance from the centre of the body within which cells must be clear at every tick
   Length planning;  ///< the same for a chosen heading
   Length probe;  ///< length of the checked path; by default 5/3 of the radius, or the reach of the local grid
+  Angle past;    ///< a beam clears a cell at the rim while it turns from this angle before the cell to this
+                 ///< angle behind it; zero if a single reading does
 };
 /// Computes a sine and divisions, so perception::LocalGrid stores the result.
 constexpr Reach reach(const Params& params) noexcept;

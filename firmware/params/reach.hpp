@@ -52,8 +52,10 @@ constexpr Angle slowest_step(Angle half_cone) noexcept {
   sweep.radius = p.body.radius;
   sweep.step = Angle::from_raw(UINT32_MAX);
   const Length error = place_error(p);
+  Angle widest;
   for (int i = 0; i < 3; ++i) {
     const Mount m = whisker::mount(p.rangefinders, i);
+    if (m.half_cone.raw() > widest.raw()) widest = m.half_cone;
     const Q30 sine = whisker::sin(m.half_cone);
     const int64_t holds = int64_t{whisker::cell_cover(p).raw()} * Q30::kOne / sine.raw();
     sweep.needed = sweep.needed || whisker::norm(m.apex) + Length::from_raw(saturate32(holds)) >
@@ -73,17 +75,22 @@ constexpr Angle slowest_step(Angle half_cone) noexcept {
     }
     if (step.raw() < sweep.step.raw()) sweep.step = step;
   }
-  if (!sweep.needed) sweep.radius = p.body.radius;
+  if (!sweep.needed) {
+    sweep.radius = p.body.radius;
+  } else {
+    sweep.past = widest + arc_sine(whisker::cell_cover(p), sweep.radius) + 2_deg;
+  }
   return sweep;
 }
 
 [[gnu::always_inline]] constexpr Reach reach(const Params& p) noexcept {
-  const Length swept = whisker::rim_sweep(p).radius;
+  const RimSweep sweep = whisker::rim_sweep(p);
+  const Length swept = sweep.radius;
   const Length planning = swept + p.skirt.planning_margin;
   const bool given = p.skirt.probe != Length{};
   const Length within = min(p.body.radius * 5 / 3, whisker::patch_cell(p) * kHalfWindow -
                                                        whisker::cell_cover(p) - planning);
-  return {swept + p.skirt.shield_margin, planning, given ? p.skirt.probe : within};
+  return {swept + p.skirt.shield_margin, planning, given ? p.skirt.probe : within, sweep.past};
 }
 
 }  // namespace formula

@@ -5,7 +5,6 @@ namespace {
 
 static_assert(kUnitsPerCell == 256, "kCellCover counts in 256ths of a cell");
 
-constexpr Length kReadingRounding = 1_mm;
 constexpr Angle kSuspectHalf = 6_deg;
 constexpr Length kTestedTravel = 4_mm;
 constexpr int32_t kAhead = 3;  // cells
@@ -25,9 +24,6 @@ Duration time_to_stop(const Params& p) noexcept {
   return p.rangefinders.latency + milliseconds(2000 / p.rangefinders.rate_hz) + longest_gap(p) +
          p.wheels.motor_lag + milliseconds(braking);
 }
-
-/// Within the range in which units() does not saturate.
-constexpr bool nearby(int32_t x) noexcept { return x > -kOutermost && x < kOutermost; }
 
 }  // namespace
 
@@ -50,8 +46,16 @@ int32_t LocalGrid::units(Length l) const noexcept { return units(l.raw(), kLonge
 
 void LocalGrid::configure(const Params& params) noexcept {
   cell_um_ = patch_cell(params).raw();
-  footprint_ = units(rim_sweep(params).radius);
+  swept_ = rim_sweep(params).radius;
+  place_error_ = formula::place_error(params);
+  footprint_ = units(swept_);
   reach_ = whisker::reach(params);
+  holds_ = Length{};
+  for (int i = 0; i < 3; ++i) {
+    const int64_t cover = int64_t{cell_cover(params).raw()} * Q30::kOne;
+    const int64_t holds = cover / sin(mount(params.rangefinders, i).half_cone).raw();
+    holds_ = max(holds_, Length::from_raw(saturate32(holds)) + patch_cell(params) * 2);
+  }
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
   age_travel_ = params.skirt.age_travel;
   age_turn_ = params.skirt.age_turn.raw();
@@ -69,6 +73,7 @@ void LocalGrid::drop_rows(int first, int count) noexcept {
   for (int row = first; row < first + count; ++row) {
     const int s = slot(row);
     young_[s] = old_[s] = suspect_[s] = tested_[s] = 0;
+    for (Chain& chain : chains_) chain.swept[s] = 0;
   }
 }
 
@@ -79,11 +84,13 @@ void LocalGrid::drop_columns(Row window) noexcept {
     old_[s] &= keep;
     suspect_[s] &= keep;
     tested_[s] &= keep;
+    for (Chain& chain : chains_) chain.swept[s] &= keep;
   }
 }
 
 void LocalGrid::reset(const Pose& pose) noexcept {
   drop_rows(0, kCells);
+  for (Chain& chain : chains_) chain.linked = false;
   last_ = pose;
   travel_ = Length{};
   turned_ = 0;
@@ -166,11 +173,11 @@ void LocalGrid::clear_around(Vec at, int32_t reach) noexcept {
 void LocalGrid::mark(const ConeObservation& observation, const EarlierObservation* before) noexcept {
   const Beam& beam = observation.beam;
   const Point apex = local(beam.apex);
-  if (!nearby(apex.x) || !nearby(apex.y)) return;
+  if (!nearby(apex)) return;
   const Angle axis_before = before == nullptr ? beam.axis : before->axis;
   const Vec from_before = before == nullptr ? beam.apex : before->apex;
   const Point apex_before = local(from_before);
-  if (!nearby(apex_before.x) || !nearby(apex_before.y)) return;
+  if (!nearby(apex_before)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
   const int32_t free = units(observation.free - room - kReadingRounding);
@@ -213,11 +220,12 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
 
 void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexcept {
   doubting_ = true;
+  for (Chain& chain : chains_) chain.linked = false;
   doubted_ = observation.taken;
   const Beam& beam = observation.beam;
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
-  if (!nearby(apex.x) || !nearby(apex.y)) return;
+  if (!nearby(apex)) return;
   const int32_t approach = units(approach_) + kCellCover;
   const int32_t nearest = units(observation.free) - approach;
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;

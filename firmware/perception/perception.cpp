@@ -39,6 +39,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     out.sighted = true;
     ConeObservation& observation = out.observations[i];
     if (!history_.at(sight.taken, from)) continue;
+    observation.number = static_cast<int8_t>(i);
     observation.beam = beam_of(mounts_[i], from);
     const Length proving = proving_range(params.rangefinders, i);
     scatter_[i].add(sight);
@@ -53,10 +54,10 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     }
     const uint8_t bit = static_cast<uint8_t>(1U << i);
     // A single clear reading is not evidence: it needs a second one.
-    if (!sight.clear) {
-      local_grid_.mark(observation);
-    } else if ((seen_ & bit) != 0) {
-      local_grid_.mark(observation, &last_[i]);
+    const EarlierObservation* const before = sight.clear ? &last_[i] : nullptr;
+    if (!sight.clear || (seen_ & bit) != 0) {
+      local_grid_.mark(observation, before);
+      local_grid_.chain(observation, before);
     }
     last_[i] = {observation.beam.apex, observation.beam.axis, observation.free};
     seen_ |= bit;
