@@ -67,7 +67,8 @@ constexpr Angle slowest_step(Angle half_cone) noexcept {
     Angle step = slowest;
     if (inner.raw() + slowest.raw() / 2 <= m.half_cone.raw()) {
       step = (m.half_cone - inner) * 2;
-      if (step.raw() > m.half_cone.raw()) step = m.half_cone;
+      const Angle most = Angle::from_raw(m.half_cone.raw() / 2 * 3);
+      if (step.raw() > most.raw()) step = most;
     } else {
       const Q30 narrow = whisker::sin(m.half_cone - Angle::from_raw(slowest.raw() / 2));
       const int64_t radius = int64_t{edge.raw()} * Q30::kOne / narrow.raw();

@@ -52,7 +52,8 @@ void LocalGrid::configure(const Params& params) noexcept {
   reach_ = whisker::reach(params);
   holds_ = Length{};
   for (int i = 0; i < 3; ++i) {
-    const int64_t cover = int64_t{cell_cover(params).raw()} * Q30::kOne;
+    // While it turns, two readings one after another share little more than half a cone.
+    const int64_t cover = int64_t{cell_cover(params).raw()} * 2 * Q30::kOne;
     const int64_t holds = cover / sin(mount(params.rangefinders, i).half_cone).raw();
     holds_ = max(holds_, Length::from_raw(saturate32(holds)) + patch_cell(params) * 2);
   }
@@ -195,6 +196,15 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
     cone.hold(inside, apex.x, dy);
     const int s = slot(rows.row());
     const Row covered = to_torus(inside.columns());
+    if (observation.hit && reach_.past != Angle{}) {
+      // Near the apex, the cone holds no cell.
+      Span around = Span::around(apex.x, echo);
+      core.clip(around, apex.x, dy, 0);
+      around.within_disc(apex.x, dy, echo);
+      Span nearer = Span::around(apex.x, echo);
+      nearer.within_disc(apex.x, dy, free - kCellCover);
+      suspect_[s] |= to_torus(around.columns() & ~nearer.columns()) & ~(young_[s] | old_[s]);
+    }
     if ((covered & (~young_[s] | suspect_[s] | tested_[s])) == 0) continue;
     Span empty = inside;
     empty.inside_disc(apex.x, dy, free);

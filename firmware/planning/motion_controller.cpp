@@ -29,7 +29,8 @@ void count_while(bool condition, Duration elapsed, Duration& time) noexcept {
 }  // namespace
 
 void MotionController::configure(const Params& params) noexcept {
-  fastest_turning_ = turn_rate(params) * (params.body.track / 2);
+  fastest_turning_ = params.wheels.max_turn_rate * (params.body.track / 2);
+  fastest_on_the_spot_ = turn_rate(params) * (params.body.track / 2);
 }
 
 void MotionController::begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept {
@@ -68,7 +69,7 @@ VelocityRequest MotionController::request(const Pose& pose, Duration elapsed, Du
 
 /// If the turn rate exceeds the limit, both speeds are scaled, so that the path keeps its curvature.
 VelocityRequest MotionController::cruise() const noexcept {
-  const Speed most = fastest_turning_;
+  const Speed most = current_.forward == Speed{} ? fastest_on_the_spot_ : fastest_turning_;
   const Speed turning = abs(current_.turning);
   if (turning <= most) return {current_.forward, current_.turning, true};
   return {Speed::from_raw(multiply_divide(current_.forward.raw(), most.raw(), turning.raw())),
@@ -82,7 +83,7 @@ VelocityRequest MotionController::turn(Angle error, Duration elapsed, const Para
   }
   const Length way = arc(error, params.body.track / 2);
   approach(abs(way), elapsed);
-  return {Speed{}, signed_approach(way, min(params.wheels.max_speed, fastest_turning_), params), true};
+  return {Speed{}, signed_approach(way, min(params.wheels.max_speed, fastest_on_the_spot_), params), true};
 }
 
 VelocityRequest MotionController::drive(const Pose& pose, Angle error, Duration elapsed,
@@ -94,7 +95,7 @@ VelocityRequest MotionController::drive(const Pose& pose, Angle error, Duration 
   }
   approach(rest, elapsed);
   const Speed forward = min(approach_speed(rest, params), params.wheels.max_speed);
-  const Speed fastest = min(params.wheels.max_speed, fastest_turning_);
+  const Speed fastest = min(params.wheels.max_speed, fastest_on_the_spot_);
   const Speed correction = signed_approach(arc(error, params.body.track / 2), fastest, params);
   // At most half the forward speed, so that the correction never reverses a wheel.
   return {forward, limit(correction, forward / 2), true};

@@ -46,6 +46,7 @@ class MotionController {
   void approach(Length rest, Duration elapsed) noexcept;
 
   Speed fastest_turning_;  // of the rim
+  Speed fastest_on_the_spot_;
   Manoeuvre current_{ManoeuvreKind::stop, {}, {}, {}, {}};
   Vec origin_;
   bool finished_ = true;

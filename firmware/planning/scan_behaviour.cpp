@@ -9,6 +9,7 @@ namespace {
 
 constexpr Angle kAimed = 5_deg;
 constexpr Angle kPast = 2_deg;
+constexpr Angle kUnbraked = 10_deg;
 constexpr int8_t kSweeps = 4;
 
 }  // namespace
@@ -55,13 +56,14 @@ bool ScanBehaviour::sweep(const View& view, const Unseen& rest, const Params& pa
   }
   const Angle past = view.local_grid->reach().past;
   const Angle turn = aim_ + (left_ ? past : -past) - view.pose.heading;
+  const Angle beyond = turn + (left_ ? kUnbraked : -kUnbraked);
   if (view.granted == Q14{}) waited_for_ += view.elapsed;
-  if (magnitude(turn) <= nearest_facing(kPast, params).raw()) {
+  if ((left_ ? turn : -turn).wrapped() <= static_cast<int32_t>(nearest_facing(kPast, params).raw())) {
     left_ = !left_;
     ++sweeps_;
   }
   in_vain_ = sweeps_ >= kSweeps || waited_for_ > params.safety.stalled_after;
-  manoeuvre = face(turn, params);
+  manoeuvre = face(beyond, params);
   return in_vain_;
 }
 
