@@ -28,10 +28,10 @@ struct WheelParams {
 
 /// What one rangefinder has of its own. Zero stands for the value that all three share.
 struct BeamParams {
-  Length x;          ///< of its apex, ahead of the centre; x and y zero: RangefinderParams::offset
-  Length y;          ///< the same to the left
-  Direction angle;   ///< of its axis; zero: side_angle, 0 or -side_angle
-  Angle cone;        ///< full width
+  Length x;         ///< of its apex, ahead of the centre; x and y zero: RangefinderParams::offset
+  Length y;         ///< the same to the left
+  Direction angle;  ///< of its axis; zero: side_angle, 0 or -side_angle
+  Angle cone;       ///< full width
   Length min_range;
   Length max_range;
 };
@@ -234,10 +234,10 @@ constexpr Length cell_cover(const Params& params) noexcept;
 /// that no single reading clears it: readings one after another must, while the body turns.
 struct RimSweep {
   bool needed = false;  ///< for some cell at the rim, no single reading suffices
-  Length radius;  ///< turning on the spot clears the ground beyond this distance from the centre; at least the
-                  ///< body's radius. Ground between the two must be free when the robot is placed
-  Angle step;     ///< of the turn between two readings one after the other but one, at most
-  Angle past;     ///< see Reach; zero if not needed
+  Length radius;  ///< turning on the spot clears the ground beyond this distance from the centre; at least
+                  ///< the body's radius. Ground between the two must be free when the robot is placed
+  Angle step;  ///< of the turn between two readings one after the other but one, at most
+  Angle past;  ///< see Reach; zero if not needed
 };
 /// Source of the formula: docs/ground.md.
 constexpr RimSweep rim_sweep(const Params& params) noexcept;

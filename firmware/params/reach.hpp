@@ -43,7 +43,7 @@ constexpr Length edge_offset(const Mount& m) noexcept {
 
 /// The slowest acceptable sweep; a cone must overlap the next.
 constexpr Angle slowest_step(Angle half_cone) noexcept {
-  constexpr Angle kSlowest = Angle::turns(15, 3600);
+  constexpr Angle kSlowest = 3_deg;
   return half_cone.raw() < kSlowest.raw() ? half_cone : kSlowest;
 }
 
@@ -89,8 +89,8 @@ constexpr Angle slowest_step(Angle half_cone) noexcept {
   const Length swept = sweep.radius;
   const Length planning = swept + p.skirt.planning_margin;
   const bool given = p.skirt.probe != Length{};
-  const Length within = min(p.body.radius * 5 / 3, whisker::patch_cell(p) * kHalfWindow -
-                                                       whisker::cell_cover(p) - planning);
+  const Length within =
+      min(p.body.radius * 5 / 3, whisker::patch_cell(p) * kHalfWindow - whisker::cell_cover(p) - planning);
   return {swept + p.skirt.shield_margin, planning, given ? p.skirt.probe : within, sweep.past};
 }
 

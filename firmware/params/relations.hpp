@@ -52,10 +52,11 @@ constexpr Relation relation(ParamFault fault) noexcept {
     case F::ranges_reversed:
       return {"ranges_reversed", "range_min_m must be less than range_max_m, and so must those of each beam"};
     case F::cones_apart_from_front:
-      return {"cones_apart_from_front",
-              "each beam must look ahead: the angle of its axis (range_side_angle_deg, or range_left_angle_deg, "
-              "range_front_angle_deg, range_right_angle_deg) plus half its cone (range_cone_deg, or its own) "
-              "<= 90"};
+      return {
+          "cones_apart_from_front",
+          "each beam must look ahead: the angle of its axis (range_side_angle_deg, or range_left_angle_deg, "
+          "range_front_angle_deg, range_right_angle_deg) plus half its cone (range_cone_deg, or its own) "
+          "<= 90"};
     case F::danger_inside_body:
       return {"danger_inside_body",
               "thesis_danger_range_m must be greater than body_radius_m + body_margin_m"};
@@ -98,10 +99,11 @@ constexpr Relation relation(ParamFault fault) noexcept {
     case F::settle_below_lag:
       return {"settle_below_lag", "motion_settle_s must not be less than motor_lag_s + control_period_s"};
     case F::cone_too_narrow:
-      return {"cone_too_narrow",
-              "the beams must be able to clear the ground near the body: beyond 7/4 body_radius_m, a turn on the "
-              "spot must leave no gap between the cones of readings one after another; it does with a smaller "
-              "range_offset_m, a larger range_cone_deg or more encoder_counts_per_m"};
+      return {
+          "cone_too_narrow",
+          "the beams must be able to clear the ground near the body: beyond 7/4 body_radius_m, a turn on the "
+          "spot must leave no gap between the cones of readings one after another; it does with a smaller "
+          "range_offset_m, a larger range_cone_deg or more encoder_counts_per_m"};
     case F::patch_too_small:
       return {"patch_too_small",
               "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
@@ -164,10 +166,10 @@ constexpr bool in_range(const Params& p) noexcept {
 
 /// What relations need to know of the three beams together.
 struct Beams {
-  bool range = true;                           ///< of each beam: the minimum is below the maximum
-  bool ordered = true;                         ///< the axes point from left to right
-  uint32_t outermost = 0;                      ///< direction of an edge from straight ahead
-  uint32_t widest_half = 0;                    ///< half cone
+  bool range = true;                              ///< of each beam: the minimum is below the maximum
+  bool ordered = true;                            ///< the axes point from left to right
+  uint32_t outermost = 0;                         ///< direction of an edge from straight ahead
+  uint32_t widest_half = 0;                       ///< half cone
   Length shortest = Length::from_raw(INT32_MAX);  ///< maximum range
   Length proving = shortest;
 };

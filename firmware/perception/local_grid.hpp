@@ -61,9 +61,9 @@ class LocalGrid {
   /// Clears the cells that both observations show empty, each from its own pose, so that a single false clear
   /// reading clears nothing. Without an earlier observation, only `observation` decides.
   void mark(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
-  /// Clears the cells that this reading and those of the same beam before it show empty together; for cells so
-  /// near to the apex that no single reading covers them. `before` as in mark(). No effect if Reach::past is
-  /// zero.
+  /// Clears the cells that this reading and those of the same beam before it show empty together; for cells
+  /// so near to the apex that no single reading covers them. `before` as in mark(). No effect if Reach::past
+  /// is zero.
   void chain(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
   /// An object in this beam between `observation.free` and `farthest` has moved there. Resets the cells that
   /// it can reach while the body stops, except those under the body. For a second, mark() clears no cell that
@@ -122,9 +122,9 @@ class LocalGrid {
 
   /// The readings of a beam one after another while its cone sweeps to one side.
   ///
-  /// The trailing edge of the cone is the one behind which ground falls as it sweeps. A cell is swept while it
-  /// has lain completely before some trailing edge, and no later reading can have missed a part of it. It is
-  /// clear as soon as it also lies completely behind the leading edge (proof: docs/ground.md).
+  /// The trailing edge of the cone is the one behind which ground falls as it sweeps. A cell is swept while
+  /// it has lain completely before some trailing edge, and no later reading can have missed a part of it. It
+  /// is clear as soon as it also lies completely behind the leading edge (proof: docs/ground.md).
   struct Chain {
     bool linked = false;
     bool left = true;  // sweeps to the left: the left edge leads
@@ -156,8 +156,8 @@ class LocalGrid {
   Reach reach_;
   Length approach_;  // travel of a moving object while the body stops
   int32_t cell_um_ = 20000;
-  int32_t footprint_ = 0;    // grid units
-  int32_t ring_ = 0;         // ring beside the body's path; grid units
+  int32_t footprint_ = 0;  // grid units
+  int32_t ring_ = 0;       // ring beside the body's path; grid units
 
   Length place_error_;  // between two readings
   Length swept_;        // radius of rim_sweep()

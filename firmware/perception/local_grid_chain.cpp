@@ -54,8 +54,8 @@ void LocalGrid::chain(const ConeObservation& observation, const EarlierObservati
   const bool both = before != nullptr;
   const Vec from_before = both ? before->apex : beam.apex;
   const Angle axis_before = both ? before->axis : beam.axis;
-  // Of two readings, the one that is farther decides what the link may have missed, and the other one what the
-  // next link may miss.
+  // Of two readings, the one that is farther decides what the link may have missed, and the other one what
+  // the next link may miss.
   const bool advanced = chain.back == Length{};
   Boundary seen_ahead;
   linked = linked && link(chain, advanced ? beam.apex : from_before,

@@ -22,7 +22,7 @@ RobotSpec robot_spec(const Params& params) {
   for (int i = 0; i < 3; ++i) {
     const RangefinderParams& r = params.rangefinders;
     const Mount m = mount(r, i);
-    spec.beams[i] = {si(m.apex.x),      si(m.apex.y),        si(m.axis),
+    spec.beams[i] = {si(m.apex.x),    si(m.apex.y),        si(m.axis),
                      si(m.half_cone), si(min_range(r, i)), si(max_range(r, i))};
   }
   spec.rate_hz = params.rangefinders.rate_hz;

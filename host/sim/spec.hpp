@@ -25,7 +25,7 @@ struct RobotSpec {
   double counts_per_m = 5000;     ///< encoder counts
 
   BeamSpec beams[3] = {{0, 0, kPi / 6}, {}, {0, 0, -kPi / 6}};  ///< left, front, right
-  double rate_hz = 50;      ///< measurements a second; > 0
+  double rate_hz = 50;                                          ///< measurements a second; > 0
   double latency_s = 0.02;  ///< from a measurement to its arrival; rate * latency <= 30
 
   double incidence =

@@ -12,6 +12,7 @@ constexpr int32_t kInside =
 constexpr Length kFar = 2_m;              // for the reference body
 constexpr Length kSure = 160_mm;          // across: an echo from an area this small has a single origin
 constexpr Angle kSuspectHalf = 6_deg;
+constexpr Angle kNarrow = 4_deg;
 constexpr int32_t kNearBorder = 9;            // a ninth of the window
 constexpr int32_t kBias = 10, kBiasPart = 3;  // the body is at most 3/10 of the window off its centre
 
@@ -198,6 +199,8 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold) no
   int32_t last = floor_div(y + reach - kHalfCell, kUnitsPerCell);
   if (first < 0) first = 0;
   if (last > shape_.rows - 1) last = shape_.rows - 1;
+  // Readings of a narrow cone one after another free a cell together.
+  const int32_t across = beam.half_cone.raw() < kNarrow.raw() ? 0 : kInside;
   Box box;
   const auto arc = [&](const perception::Wedge& wedge, int32_t row, auto&& each) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
@@ -220,7 +223,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold) no
   for (int32_t row = first; row <= last; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
     perception::Span empty{x - reach, x + reach};
-    cone.clip(empty, x, dy, kInside);
+    cone.clip(empty, x, dy, across);
     empty.within_disc(x, dy, seen - kInside);
     if (empty.empty()) continue;
     const Columns c = within(empty);

@@ -22,8 +22,8 @@ class StepProbe {
 
  private:
   struct Inner {
-    Vec apex;   // y: to the side to which the beam points
-    Q30 cos;    // of the direction in the cone nearest to straight ahead
+    Vec apex;  // y: to the side to which the beam points
+    Q30 cos;   // of the direction in the cone nearest to straight ahead
     Q30 sin;
     Q30 beyond;  // sine of the angle by which the cone extends beyond straight ahead
   };
