@@ -6,7 +6,9 @@ namespace {
 constexpr double kNever = 1000;  // m, as far as any coordinate
 constexpr double kNo = 0;        // of the light's keys: it does not matter
 
-// DS: the maker's data sheet. Range errors given as "+-x" are taken as two standard deviations (assumed).
+// The order is that of SensorModel: near and far cone; incidence; corner scatter; least and largest range;
+// sigma and its share; soft range; reference reflectance; knee of the ambient light; what is lost. DS: the
+// maker's data sheet. Range errors given as "+-x" are taken as two standard deviations (assumed).
 constexpr SensorModel kModels[] = {
     {
         "hc-sr04",
@@ -27,12 +29,12 @@ constexpr SensorModel kModels[] = {
     {
         "us-100",
         40,      // as hc-sr04: the same transducers (assumed)
-        15,      // DS: sensing angle below 15 deg
+        15,      // resellers' sheets: 15 deg
         40,      // as hc-sr04
         0.5,     // assumed
-        0.02,    // DS
-        3.5,     // 4.5 in the DS, 3.5 in resellers' sheets; the shorter
-        0.0015,  // DS: 0.3 cm + 1 %, the DS's error bound as two standard deviations
+        0.02,    // Adafruit's and resellers' sheets
+        4.5,     // the same; Adafruit's driver notes no reading beyond 4.6 m
+        0.0015,  // resellers' sheets: 0.3 cm + 1 %
         0.005,   // the same
         0.5,     // as hc-sr04
         kNo,
@@ -41,8 +43,8 @@ constexpr SensorModel kModels[] = {
     },
     {
         "maxbotix-mb1020",  // LV-MaxSonar-EZ2
-        45,                 // near cone: read off the DS's beam pattern of the 3.25-inch dowel, to 5 deg
-        10,                 // far cone: the same; the pattern of the board at full range is narrow
+        45,                 // near cone: the DS only draws it; wider near than far, 45 deg is assumed
+        10,                 // far cone: the same, 10 deg is assumed
         40,                 // as hc-sr04 (assumed)
         0.5,                // assumed
         0.152,              // DS: objects nearer than 6 inches range as 6 inches
@@ -93,7 +95,7 @@ constexpr SensorModel kModels[] = {
         0.04,    // ST, STEBCN2V1 user's manual: 40 mm
         3.6,     // the same: long mode, white 88 %, in the dark
         0.01,    // the same: +-20 mm in the dark
-        0.0015,  // DS: repeatability (assumed)
+        0.0015,  // assumed
         kNever,
         0.88,  // the same; the law gives 1.58 m at 17 %, the manual 1.7 m
         0.17,  // fits 0.73 m on white in 200 kcps/SPAD, which is 100 klux if 10 kcps/SPAD are 5 klux as in

@@ -5,6 +5,8 @@
 #include <set>
 
 #include "host/scenario/load.hpp"
+#include "host/scenario/reader.hpp"
+#include "host/scenario/sensor_text.hpp"
 #include "host/scenario/write.hpp"
 #include "tests/scenario/temporary_file.hpp"
 
@@ -142,6 +144,17 @@ TEST(SensorKeys, EachHasItsRange) {
           << x;
     }
     EXPECT_NO_THROW(with(std::string(k.key) + " = 0.5\n")) << k.key;
+  }
+}
+
+TEST(SensorKeys, AndModelsAreInTheManuals) {
+  const std::string scenario = read_file(WHISKER_SOURCE_DIR "/docs/scenario.md");
+  for (const std::string_view key : sensor_keys()) {
+    EXPECT_THAT(scenario, HasSubstr("| `" + std::string(key) + "` |"));
+  }
+  const std::string simulator = read_file(WHISKER_SOURCE_DIR "/docs/simulator.md");
+  for (const std::string_view name : sensor_model_names()) {
+    EXPECT_THAT(simulator, HasSubstr("`" + std::string(name) + "`"));
   }
 }
 

@@ -41,9 +41,11 @@ Outline outline(const Segment& s) {
           std::hypot(s.b.x - s.a.x, s.b.y - s.a.y) / kPoints};
 }
 
-/// The nearest sample within a cone that is wider by `slack` and by what `gap` spans, and longer by `gap`.
-double by_points(const Outline& shape, Vec2 apex, double axis, const TaperedCone& cone, double slack,
-                 double gap) {
+/// The nearest sample within a cone that is wider by `slack` and by what `gap` spans, and longer by `gap`;
+/// of those that `echoes` accepts.
+double by_points(
+    const Outline& shape, Vec2 apex, double axis, const TaperedCone& cone, double slack, double gap,
+    const std::function<bool(Vec2)>& echoes = [](Vec2) { return true; }) {
   double nearest = kInfinity;
   for (int i = 0; i <= kPoints; ++i) {
     const Vec2 q = shape.at(double{1} * i / kPoints) - apex;
@@ -52,7 +54,7 @@ double by_points(const Outline& shape, Vec2 apex, double axis, const TaperedCone
     const double share = std::fmin(1, std::fmax(0, d - gap) / cone.reach);
     const double half_width = cone.near + (cone.far - cone.near) * share;
     const double spans = gap > 0 ? std::asin(std::fmin(1, gap / std::fmax(d, 1e-9))) : 0;
-    if (off <= half_width + slack + spans) nearest = std::fmin(nearest, d);
+    if (off <= half_width + slack + spans && echoes(q)) nearest = std::fmin(nearest, d);
   }
   return nearest;
 }
@@ -77,10 +79,39 @@ void judge(const Shape& shape, const WorldView& world) {
 TEST(TaperedCone, ToADiscAgreesWithDensePoints) {
   EXPECT_TRUE(rc::check([] {
     const Disc disc{point(3), real(0.01, 1)};
-    const Vec2 away = disc.center;
-    RC_PRE(std::hypot(away.x, away.y) > 0);
     const WorldView world{&disc, 1, nullptr, 0, nullptr, 0};
     judge(disc, world);
+  }));
+}
+
+TEST(TaperedCone, ToADiscThatIsSlantedAgreesWithThePointsThatEcho) {
+  EXPECT_TRUE(rc::check([] {
+    const Disc disc{point(3), real(0.1, 1)};
+    const WorldView world{&disc, 1, nullptr, 0, nullptr, 0};
+    const Vec2 apex = point(3);
+    const double axis = real(-4, 4);
+    const double near = real(5, 80) * kDegree;
+    const double most = real(10, 80) * kDegree;
+    Cone front = plain(apex, axis);
+    front.sin_incidence = std::sin(most);
+    const TaperedCone cone(front, near, near * real(0.05, 1), real(0.5, 6));
+    const double exact = range(cone, world, 0, kInfinity);
+    RC_PRE(exact > 0);
+    const Outline points = outline(disc);
+    const auto up_to = [&](double limit) {
+      return [=](Vec2 q) {
+        const Vec2 normal = (q + apex - disc.center) * (1 / disc.radius);
+        return -dot(q, normal) >= std::cos(limit) * std::hypot(q.x, q.y);
+      };
+    };
+    RC_ASSERT(exact <= by_points(points, apex, axis, cone, -1e-9, 0, up_to(most - 1e-9)) + 1e-9);
+    RC_CLASSIFY(exact < kInfinity, "echoes");
+    if (exact < kInfinity && exact > 2 * points.gap) {
+      const double slack = (cone.near - cone.far) * kTaperSlack + 1e-9;
+      const double more = most + points.gap / disc.radius + 2 * points.gap / exact;
+      RC_ASSERT(exact >=
+                by_points(points, apex, axis, cone, slack, points.gap, up_to(more)) - points.gap - 1e-9);
+    }
   }));
 }
 
