@@ -211,7 +211,13 @@ struct Mount {
 };
 /// The beams of these rangefinders; 0 <= beam < 3.
 constexpr Mount mount(const RangefinderParams& rangefinders, int beam) noexcept;
-/// The ranges of a beam. A clear reading stands for the maximum range.
+/// The axis of a beam, its cone, and its ranges. A clear reading stands for the maximum range.
+constexpr Angle beam_axis(const RangefinderParams& r, int beam) noexcept {
+  return r.beams[beam].angle == Direction{} ? r.side_angle * (1 - beam) : angle_of(r.beams[beam].angle);
+}
+constexpr Angle beam_cone(const RangefinderParams& r, int beam) noexcept {
+  return r.beams[beam].cone == Angle{} ? r.cone : r.beams[beam].cone;
+}
 constexpr Length min_range(const RangefinderParams& r, int beam) noexcept {
   return r.beams[beam].min_range == Length{} ? r.min_range : r.beams[beam].min_range;
 }
@@ -236,8 +242,8 @@ struct RimSweep {
   bool needed = false;  ///< for some cell at the rim, no single reading suffices
   Length radius;  ///< turning on the spot clears the ground beyond this distance from the centre; at least
                   ///< the body's radius. Ground between the two must be free when the robot is placed
-  Angle step;  ///< of the turn between two readings one after the other but one, at most
-  Angle past;  ///< see Reach; zero if not needed
+  Angle step;     ///< of the turn between two readings one after the other but one, at most
+  Angle past;     ///< see Reach; zero if not needed
 };
 /// Source of the formula: docs/ground.md.
 constexpr RimSweep rim_sweep(const Params& params) noexcept;

@@ -24,8 +24,8 @@ namespace formula {
 [[gnu::always_inline]] constexpr Mount mount(const RangefinderParams& r, int beam) noexcept {
   const BeamParams& own = r.beams[beam];
   Mount m{};
-  m.axis = own.angle == Direction{} ? r.side_angle * (1 - beam) : angle_of(own.angle);
-  m.half_cone = Angle::from_raw((own.cone == Angle{} ? r.cone : own.cone).raw() / 2);
+  m.axis = beam_axis(r, beam);
+  m.half_cone = Angle::from_raw(beam_cone(r, beam).raw() / 2);
   m.apex = {own.x, own.y};
   if (m.apex == Vec{} && r.offset != Length{}) m.apex = whisker::polar(m.axis, r.offset);
   return m;

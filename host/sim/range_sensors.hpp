@@ -65,7 +65,8 @@ class RangeSensors {
   struct Direction {
     SinCos axis;  // from straight ahead
     SinCos half_width;
-    explicit Direction(const BeamSpec& beam) : axis(sin_cos(beam.angle)), half_width(sin_cos(beam.cone_half_width)) {}
+    explicit Direction(const BeamSpec& beam)
+        : axis(sin_cos(beam.angle)), half_width(sin_cos(beam.cone_half_width)) {}
   };
   Direction directions_[hal::kBeams];
   double sin_incidence_;

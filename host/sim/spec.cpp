@@ -1,5 +1,7 @@
 #include "host/sim/spec.hpp"
 
+#include "host/sim/geometry.hpp"
+
 namespace whisker::sim {
 namespace {
 
@@ -21,9 +23,16 @@ RobotSpec robot_spec(const Params& params) {
   spec.counts_per_m = params.wheels.counts_per_metre;
   for (int i = 0; i < 3; ++i) {
     const RangefinderParams& r = params.rangefinders;
-    const Mount m = mount(r, i);
-    spec.beams[i] = {si(m.apex.x),    si(m.apex.y),        si(m.axis),
-                     si(m.half_cone), si(min_range(r, i)), si(max_range(r, i))};
+    const Vec2 own{si(r.beams[i].x), si(r.beams[i].y)};
+    const double axis = si(beam_axis(r, i));
+    const SinCos direction = sin_cos(axis);
+    const bool radial = own.x == 0 && own.y == 0;
+    spec.beams[i] = {radial ? si(r.offset) * direction.cos : own.x,
+                     radial ? si(r.offset) * direction.sin : own.y,
+                     axis,
+                     si(beam_cone(r, i)) / 2,
+                     si(min_range(r, i)),
+                     si(max_range(r, i))};
   }
   spec.rate_hz = params.rangefinders.rate_hz;
   spec.latency_s = si(params.rangefinders.latency);

@@ -73,9 +73,10 @@ sim::Vec2 draw_point(const Params& p, const Pose& pose, Random& random) {
       return {std::round(near.x / cell) * cell + hair, std::round(near.y / cell) * cell + hair};
     }
     default: {
-      const double axis = radians(pose.heading) + radians(p.rangefinders.side_angle) * (random.index(3) - 1);
-      const double edge = radians(p.rangefinders.cone) / 2 * (random.chance(0.5) ? 1 : -1) + hair;
-      const sim::Vec2 apex = body + sim::Vec2{std::cos(axis), std::sin(axis)} * metres(p.rangefinders.offset);
+      const perception::Beam beam = beam_of(mount(p.rangefinders, random.index(3)), pose);
+      const double axis = radians(beam.axis);
+      const double edge = radians(beam.half_cone) * (random.chance(0.5) ? 1 : -1) + hair;
+      const sim::Vec2 apex{metres(beam.apex.x), metres(beam.apex.y)};
       return apex + sim::Vec2{std::cos(axis + edge), std::sin(axis + edge)} * reach;
     }
   }
@@ -101,18 +102,20 @@ void add_obstacle(Cluttered& world, const Params& p, const Pose& pose, Random& r
 }
 
 perception::ConeObservation look(const Params& p, const Cluttered& world, const Pose& pose, int beam) {
-  const Angle off = beam_axis(p.rangefinders.side_angle, beam);
-  const double axis = radians(pose.heading + off);
-  const double half = radians(p.rangefinders.cone) / 2;
-  const sim::Vec2 direction{std::cos(axis), std::sin(axis)};
+  const sim::BeamSpec mounted = sim::robot_spec(p).beams[beam];
+  const sim::Vec2 ahead{std::cos(radians(pose.heading)), std::sin(radians(pose.heading))};
+  const sim::Vec2 left{-ahead.y, ahead.x};
+  const double axis = radians(pose.heading) + mounted.angle;
   const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
-  const sim::Cone cone{body + direction * metres(p.rangefinders.offset), direction, std::cos(half),
-                       std::sin(half)};
-  const double max = metres(p.rangefinders.max_range);
-  const double d = sim::range(cone, world.view(), 0, max);
+  const sim::Cone cone{body + ahead * mounted.x + left * mounted.y,
+                       {std::cos(axis), std::sin(axis)},
+                       std::cos(mounted.cone_half_width),
+                       std::sin(mounted.cone_half_width)};
+  const double d = sim::range(cone, world.view(), 0, mounted.max_range);
+  const double max = mounted.max_range;
   perception::ConeObservation observation;
-  observation.from = pose;
-  observation.axis = off;
+  observation.number = static_cast<int8_t>(beam);
+  observation.beam = beam_of(mount(p.rangefinders, beam), pose);
   observation.hit = d < max;
   observation.free =
       observation.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5))) : p.rangefinders.max_range;
@@ -134,10 +137,7 @@ TEST(Soundness, NoAdversaryHidesInAClearCell) {
     for (int i = 0; i < obstacles; ++i) add_obstacle(world, p, pose, random);
     const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
     // Ground that no beam can prove must be free when the body is placed.
-    const Length blind = blind_reach(p) + patch_cell(p) * 2;
-    const bool ring = blind_reach(p) > p.body.radius - cell_cover(p);
-    if (ring && blind > p.body.radius * 2) continue;
-    if (sim::clearance(world.view(), body, 0, metres(ring ? blind : p.body.radius)) <= 0) continue;
+    if (sim::clearance(world.view(), body, 0, metres(rim_sweep(p).radius)) <= 0) continue;
     ++worlds_seen;
     for (int turn = 0; turn < 3; ++turn) {
       for (int beam = 0; beam < 3; ++beam) local_grid.mark(look(p, world, pose, beam));

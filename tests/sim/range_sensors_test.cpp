@@ -386,15 +386,15 @@ TEST(RangeSensors, TheCoverGlassComesBeforePhantomsAndDoesNotChangeTheirs) {
 
 TEST(RangeSensors, ANarrowerConeFarAwayMissesWhatIsBesideTheAxis) {
   RobotSpec robot;
-  robot.cone_far_half_width = robot.cone_half_width / 5;
-  const double off = robot.cone_half_width * 0.8;
+  robot.cone_far_half_width = robot.beams[hal::kFront].cone_half_width / 5;
+  const double off = robot.beams[hal::kFront].cone_half_width * 0.8;
   const auto post = [&](double d) {
     const Disc disc{{d * std::cos(off), d * std::sin(off)}, 0.005};
     return measured(robot, {&disc, 1, nullptr, 0, nullptr, 0}).beam[hal::kFront].status;
   };
   EXPECT_EQ(post(0.3), hal::RangeStatus::ok);
   EXPECT_EQ(post(1.5), hal::RangeStatus::clear);
-  robot.cone_far_half_width = robot.cone_half_width * 2;
+  robot.cone_far_half_width = robot.beams[hal::kFront].cone_half_width * 2;
   EXPECT_EQ(post(1.5), hal::RangeStatus::ok) << "a cone never widens";
 }
 
