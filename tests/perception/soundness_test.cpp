@@ -73,7 +73,7 @@ sim::Vec2 draw_point(const Params& p, const Pose& pose, Random& random) {
       return {std::round(near.x / cell) * cell + hair, std::round(near.y / cell) * cell + hair};
     }
     default: {
-      const perception::Beam beam = beam_of(mount(p.rangefinders, random.index(3)), pose);
+      const perception::Beam beam = perception::beam_of(mount(p.rangefinders, random.index(3)), pose);
       const double axis = radians(beam.axis);
       const double edge = radians(beam.half_cone) * (random.chance(0.5) ? 1 : -1) + hair;
       const sim::Vec2 apex{metres(beam.apex.x), metres(beam.apex.y)};
@@ -115,7 +115,7 @@ perception::ConeObservation look(const Params& p, const Cluttered& world, const 
   const double max = mounted.max_range;
   perception::ConeObservation observation;
   observation.number = static_cast<int8_t>(beam);
-  observation.beam = beam_of(mount(p.rangefinders, beam), pose);
+  observation.beam = perception::beam_of(mount(p.rangefinders, beam), pose);
   observation.hit = d < max;
   observation.free =
       observation.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5))) : p.rangefinders.max_range;
