@@ -50,7 +50,9 @@ constexpr Relation relation(ParamFault fault) noexcept {
       return {"track_wider_than_body",
               "the wheels must lie within the body: wheel_track_m <= 2 body_radius_m"};
     case F::ranges_reversed:
-      return {"ranges_reversed", "range_min_m must be less than range_max_m, and so must those of each beam"};
+      return {"ranges_reversed",
+              "range_min_m must be less than range_max_m; the same holds for a beam's own range_left_min_m, "
+              "range_left_max_m, range_front_min_m, range_front_max_m, range_right_min_m, range_right_max_m"};
     case F::cones_apart_from_front:
       return {
           "cones_apart_from_front",
@@ -169,7 +171,7 @@ struct Beams {
   bool range = true;                              ///< of each beam: the minimum is below the maximum
   bool ordered = true;                            ///< the axes point from left to right
   uint32_t outermost = 0;                         ///< direction of an edge from straight ahead
-  uint32_t widest_half = 0;                       ///< half cone
+  uint32_t widest = 0;                            ///< cone
   Length shortest = Length::from_raw(INT32_MAX);  ///< maximum range
   Length proving = shortest;
 };
@@ -182,7 +184,7 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
     all.range = all.range && min_range(r, i) < max_range(r, i);
     all.ordered = all.ordered && m.axis.wrapped() < left_of_it;
     all.outermost = edge > all.outermost ? edge : all.outermost;
-    all.widest_half = m.half_cone.raw() > all.widest_half ? m.half_cone.raw() : all.widest_half;
+    all.widest = beam_cone(r, i).raw() > all.widest ? beam_cone(r, i).raw() : all.widest;
     all.shortest = (min)(all.shortest, max_range(r, i));
     all.proving = (min)(all.proving, proving_range(r, i));
     left_of_it = m.axis.wrapped();
@@ -242,8 +244,8 @@ template <class Scope = void, class Visit>
       visit(F::lost_before_stale, p.safety.lost_after >= p.conditioning.stale_after) &&
       visit(F::tolerance_below_encoder, p.motion.drive_tolerance >= count && turn_way >= count) &&
       visit(F::gap_below_period, longest_gap(p) >= p.safety.period * 2) &&
-      visit(F::stuck_within_cone, p.conditioning.stuck_turn.raw() > beams.widest_half * 2) &&
-      visit(F::cone_too_wide, beams.widest_half <= r::kWidestCone.raw() / 2) &&
+      visit(F::stuck_within_cone, p.conditioning.stuck_turn.raw() > beams.widest) &&
+      visit(F::cone_too_wide, beams.widest <= r::kWidestCone.raw()) &&
       visit(F::tolerance_above_step, p.motion.drive_tolerance < p.thesis.small_step &&
                                          p.motion.turn_tolerance.raw() < p.thesis.delta.raw()) &&
       visit(F::tolerance_below_wire, turn_way >= r::kWireSpeed * p.motion.settle) &&

@@ -265,4 +265,29 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   }
 }
 
+void LocalGrid::revoke(const ConeObservation& observation) noexcept {
+  const Beam& beam = observation.beam;
+  const Point apex = local(beam.apex);
+  const Point body = local(last_.at);
+  if (!nearby(apex)) return;
+  const int32_t free = units(observation.free - kReadingRounding);
+  const int32_t ends = units(observation.free) + kUnitsPerCell;
+  const Wedge cone(beam.axis, beam.half_cone);
+  for (Rows rows(apex.y, ends); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    if ((young_[s] | old_[s]) == 0) continue;
+    const int32_t dy = rows.offset(apex.y);
+    Span touched = Span::around(apex.x, ends);
+    cone.clip(touched, apex.x, dy, -kCellCover);
+    touched.within_disc(apex.x, dy, ends);
+    Span nearer = Span::around(apex.x, ends);
+    nearer.inside_disc(apex.x, dy, free);
+    Span under = Span::around(body.x, footprint_);
+    under.inside_disc(body.x, rows.offset(body.y), footprint_);
+    const Row taken = to_torus(touched.columns() & ~nearer.columns() & ~under.columns());
+    young_[s] &= ~taken;
+    old_[s] &= ~taken;
+  }
+}
+
 }  // namespace whisker::perception

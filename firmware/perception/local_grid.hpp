@@ -65,6 +65,10 @@ class LocalGrid {
   /// so near to the apex that no single reading covers them. `before` as in mark(). No effect if Reach::past
   /// is zero.
   void chain(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
+  /// An echo takes back the ground that it may come from: cells that the cone touches from the free distance
+  /// to one cell beyond become unknown, except those under the body. For sensors that lose walls seen at an
+  /// angle, so that a clear cell may hold one.
+  void revoke(const ConeObservation& observation) noexcept;
   /// An object in this beam between `observation.free` and `farthest` has moved there. Resets the cells that
   /// it can reach while the body stops, except those under the body. For a second, mark() clears no cell that
   /// near to an echo.

@@ -3,6 +3,7 @@
 namespace whisker::perception {
 
 void Perception::configure(const Params& params) noexcept {
+  loses_walls_ = params.rangefinders.incidence.raw() < (90_deg).raw();
   for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
   local_grid_.configure(params);
   motion_.configure(mounts_);
@@ -15,6 +16,7 @@ void Perception::forget(const Pose& pose) noexcept {
   local_grid_.reset(pose);
   motion_.reset();
   seen_ = 0;
+  for (Contradiction& contradiction : contradictions_) contradiction = {};
   for (RangeScatter& scatter : scatter_) scatter = {};
 }
 
@@ -49,7 +51,8 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (observation.hit &&
-        motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
+        motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_) &&
+        (!loses_walls_ || contradictions_[i].approaches(observation))) {
       moved[i] = sight.farthest;
     }
     const uint8_t bit = static_cast<uint8_t>(1U << i);
@@ -64,8 +67,11 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     out.observed = static_cast<uint8_t>(out.observed | bit);
     ++seen;
   }
-  // After all marks, because another beam may clear ground into which a moving object is about to drive.
+  // After all marks, because another beam may clear ground that an echo takes back, or into which a moving
+  // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
+    const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
+    if (loses_walls_ && echo) local_grid_.revoke(out.observations[i]);
     if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
   }
   if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free);

@@ -8,6 +8,7 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/perception/contradiction.hpp"
 #include "firmware/perception/local_grid.hpp"
 #include "firmware/perception/motion_detector.hpp"
 #include "firmware/perception/percept.hpp"
@@ -50,6 +51,8 @@ class Perception {
 
  private:
   Mount mounts_[hal::kBeams];
+  bool loses_walls_ = false;  // a clear cell may hold a wall
+  Contradiction contradictions_[hal::kBeams];
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading
   EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
   RangeScatter scatter_[hal::kBeams];

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace whisker {
 namespace {
 
@@ -52,6 +54,12 @@ struct RawSetter {
 };
 
 }  // namespace
+
+bool ParamEntry::of_one_beam() const {
+  const std::string_view name = key;
+  return name.find("_left_") != name.npos || name.find("_front_") != name.npos ||
+         name.find("_right_") != name.npos;
+}
 
 std::string ParamEntry::text_of(std::int64_t other) const { return si_text(other, unit); }
 
