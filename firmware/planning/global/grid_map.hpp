@@ -76,6 +76,7 @@ class GridMap {
   GridWord* planes_;
   Cell corner_;
   int32_t cell_um_ = 100000;
+  bool loses_walls_ = false;  // a free cell may hold a wall
   int32_t far_ = 0;  // grid units; echoes farther away are ignored
 };
 
