@@ -16,6 +16,7 @@ void Perception::forget(const Pose& pose) noexcept {
   local_grid_.reset(pose);
   motion_.reset();
   seen_ = 0;
+  contradicted_ = 0;
   for (Contradiction& contradiction : contradictions_) contradiction = {};
   for (RangeScatter& scatter : scatter_) scatter = {};
 }
@@ -51,14 +52,15 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (observation.hit &&
-        motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_) &&
-        (!loses_walls_ || contradictions_[i].approaches(observation))) {
-      moved[i] = sight.farthest;
+        motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
+      const bool approaches = contradictions_[i].approaches(observation);
+      if (!approaches && !sight.phantoms && contradicted_ < kDistrusted) ++contradicted_;
+      if (approaches || !(revokes() || sight.phantoms)) moved[i] = sight.farthest;
     }
     const uint8_t bit = static_cast<uint8_t>(1U << i);
     // A single clear reading is not evidence: it needs a second one.
-    const EarlierObservation* const before = sight.clear ? &last_[i] : nullptr;
-    if (!sight.clear || (seen_ & bit) != 0) {
+    const EarlierObservation* const before = sight.single ? &last_[i] : nullptr;
+    if (!sight.single || (seen_ & bit) != 0) {
       local_grid_.mark(observation, before);
       local_grid_.chain(observation, before);
     }
@@ -71,10 +73,11 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
-    if (loses_walls_ && echo) local_grid_.revoke(out.observations[i]);
+    if (revokes() && echo) local_grid_.revoke(out.observations[i]);
     if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
   }
   if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free);
+  out.revoking = revokes();
   out.local_grid = &local_grid_;
 }
 

@@ -17,8 +17,10 @@ struct RecentReadings {
   bool fresh = false;     ///< a usable measurement arrived at this tick
   Time taken;             ///< time of the newest measurement
   Time oldest;            ///< time of the oldest measurement behind `near`
-  Echo near;              ///< the nearest of the last four: a single reading cannot make it far
-  bool clear = false;     ///< the newest measurement is clear
+  Echo near;              ///< the nearest of the last four: a single reading cannot make it far. If phantoms
+                          ///< are frequent, the nearest of the last five that others confirm
+  bool single = false;    ///< the newest measurement alone does not prove `near`: it is clear or a phantom
+  bool phantoms = false;  ///< phantoms are frequent
   Echo typical;           ///< the median of the last three
   Length farthest;        ///< the farthest of the last three: a single reading cannot make it near
   bool measured = false;  ///< the last three are all distances
@@ -61,6 +63,9 @@ class BeamConditioner {
   Validity classify(const hal::RangeReading& reading, Angle heading, const Params& params,
                     Health& health) noexcept;
   bool is_stuck(const hal::RangeReading& reading, Angle heading, Angle stuck_turn) noexcept;
+  /// Estimates how many readings are wrong.
+  void judge(Angle turned, const Params& params) noexcept;
+  Length confirmed(const Length (&last)[kHistory]) const noexcept;
   void age(Time now, const Params& params, Health& health) noexcept;
 
   int8_t beam_;
@@ -75,6 +80,10 @@ class BeamConditioner {
   bool repeating_ = false;
   Angle repeated_since_;
   uint8_t sequence_ = 0xFF;
+  Angle heading_;  // at the last usable reading
+  int8_t steady_ = 0;      // readings since a fast turn
+  uint16_t phantoms_ = 0;  // share of single near readings, and of single far ones, 2^-16
+  uint16_t misses_ = 0;
 };
 
 class RangeConditioner {

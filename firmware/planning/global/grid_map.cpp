@@ -50,7 +50,6 @@ int32_t GridMap::units(Length l) const noexcept {
 void GridMap::configure(const Params& params) noexcept {
   cell_um_ = for_body(params, shape_.cell).raw();
   far_ = units(for_body(params, kFar));
-  loses_walls_ = params.rangefinders.incidence.raw() < (90_deg).raw();
 }
 
 Cell GridMap::place(Vec at) const noexcept {
@@ -180,7 +179,7 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
   return near;
 }
 
-void GridMap::mark(const perception::ConeObservation& observation, bool hold) noexcept {
+void GridMap::mark(const perception::ConeObservation& observation, bool hold, bool revoke) noexcept {
   const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
     return saturate32(
@@ -215,7 +214,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold) no
     const Columns nearer = inner.empty() ? Columns{INT16_MAX, -INT16_MAX} : within(inner);
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
-      const GridWord freed = loses_walls_ ? 0 : sure()[i] & ~blocking()[i];
+      const GridWord freed = revoke ? 0 : sure()[i] & ~blocking()[i];
       const GridWord cells =
           columns(all.first, all.last, w) & ~columns(nearer.first, nearer.last, w) & ~freed;
       if (cells != 0) each(i, w, cells);
