@@ -17,6 +17,7 @@ void Perception::forget(const Pose& pose) noexcept {
   motion_.reset();
   seen_ = 0;
   contradicted_ = 0;
+  misses_ = false;
   for (Contradiction& contradiction : contradictions_) contradiction = {};
   for (RangeScatter& scatter : scatter_) scatter = {};
 }
@@ -46,6 +47,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.beam = beam_of(mounts_[i], from);
     const Length proving = proving_range(params.rangefinders, i);
     scatter_[i].add(sight);
+    misses_ = misses_ || sight.misses;
+    // What contradicted was a phantom.
+    if (sight.phantoms) contradicted_ = 0;
     observation.hit = sight.near.validity != Validity::clear && sight.near.distance <= proving;
     const Length allowance = observation.hit ? scatter_[i].allowance() : Length{};
     observation.free = free[i] = max(Length{}, min(sight.near.distance, proving) - allowance);

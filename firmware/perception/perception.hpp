@@ -52,10 +52,11 @@ class Perception {
  private:
   /// From this number of contradicted echoes on, clear ground is not trusted.
   static constexpr uint8_t kDistrusted = 3;
-  bool revokes() const noexcept { return loses_walls_ || contradicted_ >= kDistrusted; }
+  bool revokes() const noexcept { return loses_walls_ || misses_ || contradicted_ >= kDistrusted; }
 
   Mount mounts_[hal::kBeams];
   bool loses_walls_ = false;  // by the parameters, a clear cell may hold a wall
+  bool misses_ = false;       // some beam often reports clear where something is
   uint8_t contradicted_ = 0;  // echoes from clear ground that nothing moving explains
   Contradiction contradictions_[hal::kBeams];
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading

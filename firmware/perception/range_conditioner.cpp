@@ -7,11 +7,11 @@ constexpr uint32_t kSlowParts = 8;
 constexpr Length kOdd = 100_mm;    // a single reading differs from those around it by more than this
 constexpr Length kRoom = 500_mm;   // phantoms are nearer
 constexpr Length kAlike = 40_mm;   // readings that confirm each other differ by at most this
-constexpr int32_t kAveraged = 64;   // readings
+constexpr int32_t kAveraged = 64;  // readings
 // Shares of single readings, 2^-16. The reference noise causes fewer than 0.05 % near ones.
-constexpr uint16_t kFewPhantoms = 655;
-constexpr uint16_t kManyPhantoms = 1638;
-constexpr uint16_t kFewMisses = 655;
+constexpr uint16_t kFewPhantoms = 2621;
+constexpr uint16_t kManyPhantoms = 6554;
+constexpr uint16_t kFewMisses = 6554;
 
 constexpr Length distance_of(Validity v, uint16_t mm, Length max_range) noexcept {
   if (v == Validity::ok) return millimetres(mm);
@@ -162,6 +162,7 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   const Length high = max(last[0], last[1]);
   const Length median = max(low, min(high, last[kTypical - 1]));
   Length nearest = min(min(low, last[2]), last[3]);
+  s.misses = misses_ > kFewMisses;
   s.phantoms = phantoms_ > kFewPhantoms;
   if (s.phantoms && steady_ == kHistory && count_ == kHistory) {
     last[kNear] = history_[(newest_ - kNear + kHistory) % kHistory].distance;

@@ -21,6 +21,7 @@ struct RecentReadings {
                           ///< are frequent, the nearest of the last five that others confirm
   bool single = false;    ///< the newest measurement alone does not prove `near`: it is clear or a phantom
   bool phantoms = false;  ///< phantoms are frequent
+  bool misses = false;    ///< readings that miss an object are frequent
   Echo typical;           ///< the median of the last three
   Length farthest;        ///< the farthest of the last three: a single reading cannot make it near
   bool measured = false;  ///< the last three are all distances
@@ -80,7 +81,7 @@ class BeamConditioner {
   bool repeating_ = false;
   Angle repeated_since_;
   uint8_t sequence_ = 0xFF;
-  Angle heading_;  // at the last usable reading
+  Angle heading_;          // at the last usable reading
   int8_t steady_ = 0;      // readings since a fast turn
   uint16_t phantoms_ = 0;  // share of single near readings, and of single far ones, 2^-16
   uint16_t misses_ = 0;
