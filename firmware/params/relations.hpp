@@ -56,9 +56,9 @@ constexpr Relation relation(ParamFault fault) noexcept {
     case F::cones_apart_from_front:
       return {
           "cones_apart_from_front",
-          "each beam must look ahead: the angle of its axis (range_side_angle_deg, or range_left_angle_deg, "
-          "range_front_angle_deg, range_right_angle_deg) plus half its cone (range_cone_deg, or its own) "
-          "<= 90"};
+          "the beams must look ahead: range_side_angle_deg + range_cone_deg / 2 <= 90; the same holds for a "
+          "beam's own range_left_angle_deg, range_left_cone_deg, range_front_angle_deg, "
+          "range_front_cone_deg, range_right_angle_deg, range_right_cone_deg"};
     case F::danger_inside_body:
       return {"danger_inside_body",
               "thesis_danger_range_m must be greater than body_radius_m + body_margin_m"};

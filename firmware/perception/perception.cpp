@@ -59,7 +59,8 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
         motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
       const bool approaches = contradictions_[i].approaches(observation);
       if (!approaches && !sight.phantoms && contradicted_ < kDistrusted) ++contradicted_;
-      if (approaches || !(revokes() || sight.phantoms)) moved[i] = sight.farthest;
+      const bool explained = loses_walls_ || misses_ || sight.phantoms;
+      if (approaches || !explained) moved[i] = sight.farthest;
     }
     const uint8_t bit = static_cast<uint8_t>(1U << i);
     // A single clear reading is not evidence: it needs a second one.
