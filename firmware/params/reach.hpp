@@ -115,8 +115,10 @@ constexpr AngularRate turn_rate(const Params& p) noexcept {
   // Two readings make a step; a fifth is left for the wheels' unevenness.
   constexpr int64_t kMicroradians = 6283185;
   const int64_t step = scale_down<32>(int64_t{sweep.step.wrapped()} * kMicroradians);
-  return min(p.wheels.max_turn_rate,
-             AngularRate::from_raw(saturate32(step * p.rangefinders.rate_hz * 2 / 5)));
+  // Of several readings in a control period, only the newest counts.
+  const int32_t ticks_hz = 1000 / p.safety.period.raw();
+  const int32_t rate_hz = p.rangefinders.rate_hz < ticks_hz ? p.rangefinders.rate_hz : ticks_hz;
+  return min(p.wheels.max_turn_rate, AngularRate::from_raw(saturate32(step * rate_hz * 2 / 5)));
 }
 
 }  // namespace whisker

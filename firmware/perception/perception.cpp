@@ -58,7 +58,8 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     if (observation.hit &&
         motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
       const bool approaches = contradictions_[i].approaches(observation);
-      if (!approaches && !sight.phantoms && contradicted_ < kDistrusted) ++contradicted_;
+      const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
+      if (anew && contradicted_ < kDistrusted) ++contradicted_;
       const bool explained = loses_walls_ || misses_ || sight.phantoms;
       if (approaches || !explained) moved[i] = sight.farthest;
     }

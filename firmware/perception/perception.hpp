@@ -50,8 +50,8 @@ class Perception {
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:
-  /// From this number of contradicted echoes on, clear ground is not trusted.
-  static constexpr uint8_t kDistrusted = 3;
+  /// From this number of contradictions on, clear ground is not trusted. An object that moves causes fewer.
+  static constexpr uint8_t kDistrusted = 6;
   bool revokes() const noexcept { return loses_walls_ || misses_ || contradicted_ >= kDistrusted; }
 
   Mount mounts_[hal::kBeams];
