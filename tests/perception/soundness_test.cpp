@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "host/run/spec.hpp"
-#include "host/sim/cone.hpp"
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"
 #include "tests/effort.hpp"
 #include "tests/perception/cells.hpp"
+#include "tests/perception/cluttered.hpp"
 #include "tests/perception/rig.hpp"
 
 namespace whisker::test {
@@ -20,21 +20,6 @@ namespace {
 using worlds::Random;
 
 constexpr double kTurn = 2 * 3.14159265358979323846;
-
-double metres(Length l) { return l.raw() * 1e-6; }
-
-struct Cluttered {
-  std::vector<sim::Disc> discs;
-  std::vector<sim::Segment> segments;
-  sim::WorldView view() const {
-    sim::WorldView v;
-    v.discs = discs.data();
-    v.disc_count = discs.size();
-    v.segments = segments.data();
-    v.segment_count = segments.size();
-    return v;
-  }
-};
 
 Params draw_params(Random& random) {
   Params p;
@@ -99,27 +84,6 @@ void add_obstacle(Cluttered& world, const Params& p, const Pose& pose, Random& r
     }
     default: world.segments.push_back({at, draw_point(p, pose, random)}); break;
   }
-}
-
-perception::ConeObservation look(const Params& p, const Cluttered& world, const Pose& pose, int beam) {
-  const sim::BeamSpec mounted = sim::robot_spec(p).beams[beam];
-  const sim::Vec2 ahead{std::cos(radians(pose.heading)), std::sin(radians(pose.heading))};
-  const sim::Vec2 left{-ahead.y, ahead.x};
-  const double axis = radians(pose.heading) + mounted.angle;
-  const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
-  const sim::Cone cone{body + ahead * mounted.x + left * mounted.y,
-                       {std::cos(axis), std::sin(axis)},
-                       std::cos(mounted.cone_half_width),
-                       std::sin(mounted.cone_half_width)};
-  const double d = sim::range(cone, world.view(), 0, mounted.max_range);
-  const double max = mounted.max_range;
-  perception::ConeObservation observation;
-  observation.number = static_cast<int8_t>(beam);
-  observation.beam = perception::beam_of(mount(p.rangefinders, beam), pose);
-  observation.hit = d < max;
-  observation.free =
-      observation.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5))) : p.rangefinders.max_range;
-  return observation;
 }
 
 TEST(Soundness, NoAdversaryHidesInAClearCell) {

@@ -1,0 +1,283 @@
+// Ground that a chain of readings marks clear is free, and a turn on the spot marks the rim clear.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "host/run/spec.hpp"
+#include "host/worlds/random.hpp"
+#include "tests/effort.hpp"
+#include "tests/perception/cells.hpp"
+#include "tests/perception/cluttered.hpp"
+
+namespace whisker::test {
+namespace {
+
+using perception::Beam;
+using sim::Vec2;
+using worlds::Random;
+
+constexpr double kTurn = 2 * 3.14159265358979323846;
+constexpr double kPole = 0.0005;   // m, radius
+constexpr double kTouch = 1e-7;    // m, from the body to an obstacle that all but touches it
+constexpr int kDisplaced = 299;    // um; rounding to whole micrometres adds less than one
+constexpr double kRim = 0.000301;  // m
+
+Vec2 vec(const Vec& v) { return {metres(v.x), metres(v.y)}; }
+Vec2 towards(double angle) { return {std::cos(angle), std::sin(angle)}; }
+Angle tenths(int n) { return Angle::turns(n, 3600); }
+
+Params draw_any_robot(Random& random) {
+  Params p;
+  p.body.radius = millimetres(20 + random.index(130));
+  p.body.margin = millimetres(random.index(30));
+  p.body.track = p.body.radius * 3 / 2;
+  p.skirt.cell = millimetres(5 + random.index(36));
+  p.thesis.base_step = 100_mm;
+  p.thesis.small_step = 50_mm;
+  if (random.chance(0.5)) p.wheels.counts_per_metre = 1000000;
+  RangefinderParams& r = p.rangefinders;
+  const auto cone = [&] { return tenths(20 + random.index(random.chance(0.1) ? 580 : 380)); };
+  const auto beside = [&](double low, double high) {
+    return Length::from_raw(static_cast<int32_t>(p.body.radius.raw() * random.uniform(low, high)));
+  };
+  r.max_range = millimetres(500 + random.index(1500));
+  r.cone = cone();
+  r.side_angle = tenths(50 + random.index(800));
+  if (random.chance(0.5)) r.offset = beside(0, 1.3);
+  if (random.chance(0.5)) return p;
+  for (int i = 0; i < 3; ++i) {
+    BeamParams& own = r.beams[i];
+    own.x = beside(-0.5, 1.1);
+    own.y = beside(-0.8, 0.8);
+    own.cone = cone();
+    own.angle = direction_of(tenths(600 * (1 - i) + random.index(500) - 250));
+  }
+  return p;
+}
+
+/// A robot that needs chains.
+Params draw_robot(Random& random) {
+  for (;;) {
+    const Params p = draw_any_robot(random);
+    if (check(p) == ParamFault::none && rim_sweep(p).needed) return p;
+  }
+}
+
+std::vector<Pose> draw_walk(const Params& p, Random& random) {
+  const double cone = 2 * radians(mount(p.rangefinders, random.index(3)).half_cone);
+  const double longest = metres(p.body.radius) * 0.2;
+  const auto any = [&](int32_t limit) {
+    return Length::from_raw(static_cast<int32_t>(random.uniform(-limit, limit)));
+  };
+  std::vector<Pose> walk{{{any(500000), any(500000)}, Angle::from_raw(static_cast<uint32_t>(random.bits()))}};
+  const int steps = 4 + random.index(30);
+  const bool turns = random.chance(0.9);
+  const bool drives = !turns || random.chance(0.6);
+  double turn = 0;
+  double drive = 0;
+  for (int i = 0; i < steps; ++i) {
+    if (i == 0 || random.chance(0.1)) {
+      turn = turns ? random.uniform(-1.1, 1.1) * cone * (random.chance(0.5) ? 0.5 : 1) : 0;
+      drive = drives ? random.uniform(-longest, longest) : 0;
+    }
+    if (random.chance(0.05)) turn = -turn;
+    double turned = turn * (random.chance(0.7) ? 1 : random.uniform(0, 1.2));
+    double driven = drive * (random.chance(0.7) ? 1 : random.uniform(0, 1.2));
+    if (random.chance(0.1)) turned = random.uniform(-0.01, 0.01);
+    // Here the edge of a side beam turns back as far as it drives ahead.
+    if (random.chance(0.1)) driven = turned * metres(p.body.radius) * random.uniform(-3, 3);
+    Pose next = walk.back();
+    next.heading += Angle::from_raw(static_cast<uint32_t>(std::llround(turned / kTurn * 0x1p32)));
+    next.at = next.at + polar(walk.back().heading, Length::from_raw(static_cast<int32_t>(driven * 1e6)));
+    walk.push_back(next);
+  }
+  return walk;
+}
+
+/// Where a chain is weakest.
+Vec2 draw_point(const Params& p, const std::vector<Pose>& walk, Random& random) {
+  const int steps = static_cast<int>(walk.size());
+  const int first = random.index(steps);
+  const int then = std::min(steps - 1, first + 1 + random.index(3) / 2);
+  const int number = random.index(3);
+  const Mount m = mount(p.rangefinders, number);
+  const Beam old = perception::beam_of(m, walk[static_cast<size_t>(first)]);
+  const Beam now = perception::beam_of(m, walk[static_cast<size_t>(then)]);
+  const double half = radians(m.half_cone) * (random.chance(0.5) ? 1 : -1);
+  const Vec2 lead = towards(radians(old.axis) + half);
+  const Vec2 trail = towards(radians(now.axis) - half);
+  const Vec2 apex = vec(now.apex);
+  const double reach = metres(p.body.radius) * random.uniform(0, 3);
+  Vec2 at = apex + trail * reach;
+  const double sine = sim::cross(trail, lead);
+  if (random.chance(0.7) && std::abs(sine) > 1e-3) {
+    at = apex + trail * (sim::cross(vec(old.apex) - apex, lead) / sine);
+    if (random.chance(0.3)) at = at + trail * random.uniform(-0.01, 0.01);
+  } else if (random.chance(0.3)) {
+    at = vec(old.apex) + lead * reach;
+  }
+  if (random.chance(0.2)) {
+    const double cell = metres(patch_cell(p));
+    at = {std::round(at.x / cell) * cell, std::round(at.y / cell) * cell};
+  }
+  if (random.chance(0.5))
+    at = at + towards(random.uniform(0, kTurn)) * std::pow(10.0, random.uniform(-9, -2.5));
+  return at;
+}
+
+/// The point, or the point near it at which an obstacle of this radius all but touches the body.
+Vec2 beside_body(const Params& p, const std::vector<Pose>& walk, Vec2 at, double radius) {
+  const double nearest = metres(rim_sweep(p).radius) + radius + kTouch;
+  for (int pass = 0; pass < 2; ++pass) {
+    for (const Pose& pose : walk) {
+      const Vec2 off = at - vec(pose.at);
+      const double d = std::hypot(off.x, off.y);
+      if (d < nearest && d > 0) at = vec(pose.at) + off * (nearest / d);
+    }
+  }
+  return at;
+}
+
+void add_obstacle(Cluttered& world, const Params& p, const std::vector<Pose>& walk, Random& random) {
+  Cluttered one;
+  const Vec2 at = draw_point(p, walk, random);
+  const Vec2 body = vec(walk[static_cast<size_t>(random.index(static_cast<int>(walk.size())))].at);
+  const double radius = random.chance(0.7) ? kPole : random.uniform(0.001, 0.1);
+  const Vec2 near = beside_body(p, walk, at, 0);
+  switch (random.index(6)) {
+    case 0:
+    case 1:
+    case 2: one.discs.push_back({beside_body(p, walk, at, radius), radius}); break;
+    case 3: one.segments.push_back({near, near}); break;
+    case 4: one.segments.push_back({near, near + (near - body) * random.uniform(0.001, 2)}); break;
+    default: one.segments.push_back({near, draw_point(p, walk, random)}); break;
+  }
+  for (const Pose& pose : walk) {
+    if (sim::clearance(one.view(), vec(pose.at), 0, metres(rim_sweep(p).radius)) <= 0) return;
+  }
+  world.discs.insert(world.discs.end(), one.discs.begin(), one.discs.end());
+  world.segments.insert(world.segments.end(), one.segments.begin(), one.segments.end());
+}
+
+enum class Fault { none, false_clear, displaced };
+
+/// One beam, from exact readings to the local grid, like Perception.
+class Eye {
+ public:
+  Eye(Fault fault, Random& random) : fault_(fault), random_(random) {}
+
+  void see(perception::ConeObservation seen, const Params& p, perception::LocalGrid& grid,
+           perception::LocalGrid& unchained) {
+    const Length far = max_range(p.rangefinders, seen.number);
+    bool clear = !seen.hit;
+    if (fault_ == Fault::false_clear) {
+      ++since_;
+      const bool new_one = seen.hit && seen.free + 5_mm < last_four_[0];
+      if (seen.hit && since_ >= 5 && random_.chance(new_one ? 0.7 : 1.0 / 7)) {
+        since_ = 0;
+        seen.free = far;
+        clear = true;
+      }
+      std::rotate(last_four_, last_four_ + 3, last_four_ + 4);
+      last_four_[0] = seen.free;
+      if (++count_ < 4) return;
+      seen.free = *std::min_element(last_four_, last_four_ + 4);
+      seen.hit = seen.free < far;
+    }
+    const perception::EarlierObservation* const before = clear ? &last_ : nullptr;
+    if (!clear || seen_) {
+      grid.mark(seen, before);
+      unchained.mark(seen, before);
+      grid.chain(seen, before);
+    }
+    last_ = {seen.beam.apex, seen.beam.axis, seen.free};
+    seen_ = true;
+  }
+
+ private:
+  Fault fault_;
+  Random& random_;
+  Length last_four_[4];
+  int count_ = 0;
+  int since_ = 5;
+  bool seen_ = false;
+  perception::EarlierObservation last_;
+};
+
+/// The pose that odometry believes.
+Pose believed(const Params& p, Pose pose, int beam, bool odd, bool aimed, Fault fault, Random& random) {
+  if (fault != Fault::displaced) return pose;
+  // Across the axis, and to the other side at every other reading: both edges of a gap then err.
+  const Angle across = pose.heading + mount(p.rangefinders, beam).axis + (odd ? 90_deg : 270_deg);
+  const Angle any = Angle::from_raw(static_cast<uint32_t>(random.bits()));
+  pose.at = pose.at + polar(aimed ? across : any, micrometres(kDisplaced));
+  return pose;
+}
+
+void search(Fault fault) {
+  const double slack = fault == Fault::displaced ? kRim : 0;
+  int worlds_seen = 0;
+  int clear = 0;
+  int chained = 0;
+  int unsound = 0;
+  std::uint64_t first_unsound = 0;
+  for (std::uint64_t seed = 1; seed <= test::effort(20000, 200000); ++seed) {
+    Random random(seed);
+    const Params p = draw_robot(random);
+    const double cell = metres(patch_cell(p));
+    const std::vector<Pose> walk = draw_walk(p, random);
+    Cluttered world;
+    const int obstacles = 1 + random.index(6);
+    for (int i = 0; i < obstacles; ++i) add_obstacle(world, p, walk, random);
+    if (world.discs.empty() && world.segments.empty()) continue;
+    ++worlds_seen;
+    const bool aimed = random.chance(0.5);
+    const bool late = random.chance(0.3);
+    perception::LocalGrid grid;
+    perception::LocalGrid unchained;
+    for (perception::LocalGrid* g : {&grid, &unchained}) {
+      g->configure(p);
+      g->reset(walk.front());
+    }
+    Eye eyes[] = {{fault, random}, {fault, random}, {fault, random}};
+    Pose at = walk.front();
+    Time now;
+    for (size_t i = 0; i < walk.size(); ++i) {
+      const size_t here = late && i + 1 < walk.size() ? i + 1 : i;
+      at = believed(p, walk[here], random.index(3), i % 2 != 0, aimed, fault, random);
+      grid.move_to(at);
+      unchained.move_to(at);
+      for (int beam = 0; beam < 3; ++beam) {
+        perception::ConeObservation seen = look(p, world, walk[i], beam);
+        seen.beam = perception::beam_of(mount(p.rangefinders, beam),
+                                        believed(p, walk[i], beam, i % 2 != 0, aimed, fault, random));
+        seen.taken = now;
+        eyes[beam].see(seen, p, grid, unchained);
+      }
+      now = now + milliseconds(random.chance(0.02) ? 460 : 50);
+    }
+    bool hidden = false;
+    for_each_clear(grid, at, patch_cell(p).raw(), [&](int column, int row) {
+      ++clear;
+      const Vec corner{Length::from_raw(column * patch_cell(p).raw()),
+                       Length::from_raw(row * patch_cell(p).raw())};
+      chained += unchained.is_clear(corner + Vec{patch_cell(p) / 2, patch_cell(p) / 2}) ? 0 : 1;
+      hidden = hidden || occupied(square(column, row, cell, slack), world.view(), Shift{});
+    });
+    if (hidden && unsound++ == 0) first_unsound = seed;
+  }
+  std::printf("%d worlds, %d clear cells, %d of them by chains only\n", worlds_seen, clear, chained);
+  EXPECT_EQ(unsound, 0) << "worlds; the first has the seed " << first_unsound;
+  EXPECT_GT(worlds_seen, static_cast<int>(test::effort(10000)));
+  EXPECT_GT(chained / worlds_seen, 2);
+}
+
+TEST(ChainSoundness, ExactReadings) { search(Fault::none); }
+TEST(ChainSoundness, FalseClears) { search(Fault::false_clear); }
+TEST(ChainSoundness, DisplacedPoses) { search(Fault::displaced); }
+
+}  // namespace
+}  // namespace whisker::test
