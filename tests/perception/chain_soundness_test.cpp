@@ -76,6 +76,9 @@ std::vector<Pose> draw_walk(const Params& p, Random& random) {
   const int steps = 4 + random.index(30);
   const bool turns = random.chance(0.9);
   const bool drives = !turns || random.chance(0.6);
+  const Mount side = mount(p.rangefinders, 2 * random.index(2));
+  // The edges of a side beam hardly move at the rim of the body, but near the apex they do.
+  const bool balanced = random.chance(0.2);
   double turn = 0;
   double drive = 0;
   for (int i = 0; i < steps; ++i) {
@@ -87,8 +90,11 @@ std::vector<Pose> draw_walk(const Params& p, Random& random) {
     double turned = turn * (random.chance(0.7) ? 1 : random.uniform(0, 1.2));
     double driven = drive * (random.chance(0.7) ? 1 : random.uniform(0, 1.2));
     if (random.chance(0.1)) turned = random.uniform(-0.01, 0.01);
-    // Here the edge of a side beam turns back as far as it drives ahead.
-    if (random.chance(0.1)) driven = turned * metres(p.body.radius) * random.uniform(-3, 3);
+    if (balanced && random.chance(0.5)) {
+      turned = random.uniform(-0.06, 0.06);
+      driven = turned * metres(p.body.radius) / std::sin(radians(side.axis)) * random.uniform(0.8, 1.2);
+      driven = std::clamp(driven, -longest * 2, longest * 2);
+    }
     Pose next = walk.back();
     next.heading += Angle::from_raw(static_cast<uint32_t>(std::llround(turned / kTurn * 0x1p32)));
     next.at = next.at + polar(walk.back().heading, Length::from_raw(static_cast<int32_t>(driven * 1e6)));
@@ -97,33 +103,48 @@ std::vector<Pose> draw_walk(const Params& p, Random& random) {
   return walk;
 }
 
-/// Where a chain is weakest.
-Vec2 draw_point(const Params& p, const std::vector<Pose>& walk, Random& random) {
+bool outside(const Params& p, const std::vector<Pose>& walk, Vec2 at, double radius) {
+  return std::all_of(walk.begin(), walk.end(), [&](const Pose& pose) {
+    const Vec2 off = at - vec(pose.at);
+    return std::hypot(off.x, off.y) > metres(rim_sweep(p).radius) + radius;
+  });
+}
+
+/// Where a chain is weakest: near the point behind which two readings see nothing between their cones, and on
+/// their edges.
+Vec2 draw_point(const Params& p, const std::vector<Pose>& walk, double radius, Random& random) {
   const int steps = static_cast<int>(walk.size());
-  const int first = random.index(steps);
-  const int then = std::min(steps - 1, first + 1 + random.index(3) / 2);
-  const int number = random.index(3);
-  const Mount m = mount(p.rangefinders, number);
-  const Beam old = perception::beam_of(m, walk[static_cast<size_t>(first)]);
-  const Beam now = perception::beam_of(m, walk[static_cast<size_t>(then)]);
-  const double half = radians(m.half_cone) * (random.chance(0.5) ? 1 : -1);
-  const Vec2 lead = towards(radians(old.axis) + half);
-  const Vec2 trail = towards(radians(now.axis) - half);
-  const Vec2 apex = vec(now.apex);
-  const double reach = metres(p.body.radius) * random.uniform(0, 3);
-  Vec2 at = apex + trail * reach;
-  const double sine = sim::cross(trail, lead);
-  if (random.chance(0.7) && std::abs(sine) > 1e-3) {
-    at = apex + trail * (sim::cross(vec(old.apex) - apex, lead) / sine);
-    if (random.chance(0.3)) at = at + trail * random.uniform(-0.01, 0.01);
-  } else if (random.chance(0.3)) {
-    at = vec(old.apex) + lead * reach;
+  const double body = metres(rim_sweep(p).radius);
+  Vec2 at;
+  for (int attempt = 0; attempt < 30; ++attempt) {
+    const int first = random.index(steps);
+    const int then = std::min(steps - 1, first + 1 + random.index(4) / 3);
+    const Mount m = mount(p.rangefinders, random.index(3));
+    const Beam old = perception::beam_of(m, walk[static_cast<size_t>(first)]);
+    const Beam now = perception::beam_of(m, walk[static_cast<size_t>(then)]);
+    const double half = radians(m.half_cone) * (random.chance(0.5) ? 1 : -1);
+    const Vec2 lead = towards(radians(old.axis) + half);
+    const Vec2 trail = towards(radians(now.axis) - half);
+    const Vec2 apex = vec(now.apex);
+    const double sine = std::abs(sim::cross(trail, lead));
+    if (sine < 1e-3 || random.chance(0.01)) {
+      at = apex + trail * (body * random.uniform(0, 3));
+      break;
+    }
+    const Vec2 gap = apex + trail * (sim::cross(vec(old.apex) - apex, lead) / sim::cross(trail, lead));
+    // An obstacle of this radius has no part in either cone if it lies this far behind.
+    const double tip = radius / std::sin(std::asin(sine) / 2);
+    const double hair = std::pow(10.0, random.uniform(-5, -2)) * (random.chance(0.9) ? 1 : -1);
+    const double behind = tip + (random.chance(0.7) ? hair : random.uniform(0, body));
+    const Vec2 between = lead + trail;
+    const Vec2 back = between * (-1 / std::hypot(between.x, between.y));
+    const double aside = random.chance(0.7) ? 0 : random.uniform(-1, 1) * std::tan(std::asin(sine) / 2);
+    at = gap + back * behind + Vec2{-back.y, back.x} * (aside * (behind - tip));
+    const double ahead = sim::dot(at - apex, between);
+    if (ahead > 0 && std::hypot(at.x - apex.x, at.y - apex.y) < 4 * body && outside(p, walk, at, radius))
+      break;
   }
-  if (random.chance(0.2)) {
-    const double cell = metres(patch_cell(p));
-    at = {std::round(at.x / cell) * cell, std::round(at.y / cell) * cell};
-  }
-  if (random.chance(0.5))
+  if (random.chance(0.1))
     at = at + towards(random.uniform(0, kTurn)) * std::pow(10.0, random.uniform(-9, -2.5));
   return at;
 }
@@ -143,23 +164,42 @@ Vec2 beside_body(const Params& p, const std::vector<Pose>& walk, Vec2 at, double
 
 void add_obstacle(Cluttered& world, const Params& p, const std::vector<Pose>& walk, Random& random) {
   Cluttered one;
-  const Vec2 at = draw_point(p, walk, random);
   const Vec2 body = vec(walk[static_cast<size_t>(random.index(static_cast<int>(walk.size())))].at);
-  const double radius = random.chance(0.7) ? kPole : random.uniform(0.001, 0.1);
-  const Vec2 near = beside_body(p, walk, at, 0);
-  switch (random.index(6)) {
-    case 0:
-    case 1:
-    case 2: one.discs.push_back({beside_body(p, walk, at, radius), radius}); break;
-    case 3: one.segments.push_back({near, near}); break;
-    case 4: one.segments.push_back({near, near + (near - body) * random.uniform(0.001, 2)}); break;
-    default: one.segments.push_back({near, draw_point(p, walk, random)}); break;
+  const int kind = random.index(8);
+  const double radius = kind < 2 ? kPole : kind == 2 ? random.uniform(0.001, 0.1) : 0;
+  const Vec2 at = beside_body(p, walk, draw_point(p, walk, radius, random), radius);
+  if (radius > 0) {
+    one.discs.push_back({at, radius});
+  } else if (kind < 6) {
+    one.segments.push_back({at, at});
+  } else if (kind == 6) {
+    one.segments.push_back({at, at + (at - body) * random.uniform(0.001, 2)});
+  } else {
+    one.segments.push_back({at, draw_point(p, walk, 0, random)});
   }
   for (const Pose& pose : walk) {
     if (sim::clearance(one.view(), vec(pose.at), 0, metres(rim_sweep(p).radius)) <= 0) return;
   }
   world.discs.insert(world.discs.end(), one.discs.begin(), one.discs.end());
   world.segments.insert(world.segments.end(), one.segments.begin(), one.segments.end());
+}
+
+/// Moves the world so that its first obstacle lies in a corner of a cell, which the chain proves last.
+void align(Cluttered& world, std::vector<Pose>& walk, int32_t cell_um, double slack, Random& random) {
+  if (world.discs.empty() && world.segments.empty()) return;
+  const bool disc = !world.discs.empty();
+  const Vec2 at = disc ? world.discs[0].center : world.segments[0].a;
+  const double reach = disc ? world.discs[0].radius : 0;
+  const auto shift = [&](double x) {
+    const double inset = slack - reach + std::pow(10.0, random.uniform(-6, -2.5));
+    const double wanted = random.chance(0.5) ? inset : cell_um * 1e-6 - inset;
+    const double now = std::fmod(x, cell_um * 1e-6);
+    return static_cast<int32_t>(std::lround((wanted - now) * 1e6));
+  };
+  const Vec by{Length::from_raw(shift(at.x)), Length::from_raw(shift(at.y))};
+  for (Pose& pose : walk) pose.at = pose.at + by;
+  for (sim::Disc& d : world.discs) d.center = d.center + vec(by);
+  for (sim::Segment& s : world.segments) s = {s.a + vec(by), s.b + vec(by)};
 }
 
 enum class Fault { none, false_clear, displaced };
@@ -228,10 +268,11 @@ void search(Fault fault) {
     Random random(seed);
     const Params p = draw_robot(random);
     const double cell = metres(patch_cell(p));
-    const std::vector<Pose> walk = draw_walk(p, random);
+    std::vector<Pose> walk = draw_walk(p, random);
     Cluttered world;
-    const int obstacles = 1 + random.index(6);
+    const int obstacles = 1 + random.index(1 + random.index(5));
     for (int i = 0; i < obstacles; ++i) add_obstacle(world, p, walk, random);
+    if (random.chance(0.7)) align(world, walk, patch_cell(p).raw(), slack, random);
     if (world.discs.empty() && world.segments.empty()) continue;
     ++worlds_seen;
     const bool aimed = random.chance(0.5);
