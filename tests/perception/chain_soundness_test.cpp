@@ -66,6 +66,22 @@ Params draw_robot(Random& random) {
   }
 }
 
+/// The pose after a turn and then a straight drive, rad and m.
+Pose after(const Pose& pose, double turned, double driven) {
+  return {pose.at + polar(pose.heading, Length::from_raw(static_cast<int32_t>(driven * 1e6))),
+          pose.heading + Angle::from_raw(static_cast<uint32_t>(std::llround(turned / kTurn * 0x1p32)))};
+}
+
+/// The drive during this turn that moves the axis only this far at this distance from the apex, m.
+double sway(const Mount& m, const Pose& pose, double turned, Length distance, double moved) {
+  const Beam from = perception::beam_of(m, pose);
+  const auto moves = [&](double driven) {
+    const Beam to = perception::beam_of(m, after(pose, turned, driven));
+    return metres(arc(to.axis - from.axis, distance) - across(to.apex - from.apex, to.axis));
+  };
+  return (moved - moves(0)) / (moves(0.01) - moves(0)) * 0.01;
+}
+
 std::vector<Pose> draw_walk(const Params& p, Random& random) {
   const double cone = 2 * radians(mount(p.rangefinders, random.index(3)).half_cone);
   const double longest = metres(p.body.radius) * 0.2;
@@ -78,7 +94,7 @@ std::vector<Pose> draw_walk(const Params& p, Random& random) {
   const bool drives = !turns || random.chance(0.6);
   const Mount side = mount(p.rangefinders, 2 * random.index(2));
   // The edges of a side beam hardly move at the rim of the body, but near the apex they do.
-  const bool balanced = random.chance(0.2);
+  const bool balanced = random.chance(0.4);
   double turn = 0;
   double drive = 0;
   for (int i = 0; i < steps; ++i) {
@@ -90,15 +106,12 @@ std::vector<Pose> draw_walk(const Params& p, Random& random) {
     double turned = turn * (random.chance(0.7) ? 1 : random.uniform(0, 1.2));
     double driven = drive * (random.chance(0.7) ? 1 : random.uniform(0, 1.2));
     if (random.chance(0.1)) turned = random.uniform(-0.01, 0.01);
-    if (balanced && random.chance(0.5)) {
-      turned = random.uniform(-0.06, 0.06);
-      driven = turned * metres(p.body.radius) / std::sin(radians(side.axis)) * random.uniform(0.8, 1.2);
-      driven = std::clamp(driven, -longest * 2, longest * 2);
+    if (balanced && random.chance(0.3)) {
+      turned = random.uniform(-0.12, 0.12);
+      driven = sway(side, walk.back(), turned, rim_sweep(p).radius, random.uniform(-0.0006, 0.0006));
+      driven = std::clamp(driven, -longest * 3, longest * 3);
     }
-    Pose next = walk.back();
-    next.heading += Angle::from_raw(static_cast<uint32_t>(std::llround(turned / kTurn * 0x1p32)));
-    next.at = next.at + polar(walk.back().heading, Length::from_raw(static_cast<int32_t>(driven * 1e6)));
-    walk.push_back(next);
+    walk.push_back(after(walk.back(), turned, driven));
   }
   return walk;
 }
@@ -110,12 +123,39 @@ bool outside(const Params& p, const std::vector<Pose>& walk, Vec2 at, double rad
   });
 }
 
+/// Positive to the left of this edge of the beam; side is 1 for its left edge, else -1.
+double left_of(const Beam& beam, int side, Vec2 at) {
+  return sim::cross(towards(radians(beam.axis) + side * radians(beam.half_cone)), at - vec(beam.apex));
+}
+
+/// A point that only one reading sees, although the cone sweeps over it: if that one is wrongly clear, none
+/// does.
+bool draw_seen_once(const Params& p, const std::vector<Pose>& walk, Vec2& at, Random& random) {
+  const int steps = static_cast<int>(walk.size());
+  for (int attempt = 0; attempt < 200; ++attempt) {
+    const size_t then = static_cast<size_t>(2 + random.index(steps - 2));
+    const Mount m = mount(p.rangefinders, random.index(3));
+    const int way = random.chance(0.5) ? 1 : -1;
+    const Beam past = perception::beam_of(m, walk[then]);
+    const size_t middle = random.chance(0.5) ? 1 : 2;
+    const Beam seen = perception::beam_of(m, walk[then - middle]);
+    const Beam before = perception::beam_of(m, walk[then - (3 - middle)]);
+    const double reach = metres(p.body.radius) * random.uniform(0, 2.5);
+    at = vec(seen.apex) + towards(radians(seen.axis) + random.uniform(-1, 1) * radians(m.half_cone)) * reach;
+    if (way * left_of(past, -way, at) < 0 && way * left_of(before, way, at) > 0 && outside(p, walk, at, 0)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Where a chain is weakest: near the point behind which two readings see nothing between their cones, and on
 /// their edges.
 Vec2 draw_point(const Params& p, const std::vector<Pose>& walk, double radius, Random& random) {
   const int steps = static_cast<int>(walk.size());
   const double body = metres(rim_sweep(p).radius);
   Vec2 at;
+  if (radius == 0 && random.chance(0.5) && draw_seen_once(p, walk, at, random)) return at;
   for (int attempt = 0; attempt < 30; ++attempt) {
     const int first = random.index(steps);
     const int then = std::min(steps - 1, first + 1 + random.index(4) / 3);
