@@ -54,12 +54,19 @@ void LocalGrid::chain(const ConeObservation& observation, const EarlierObservati
   const bool both = before != nullptr;
   const Vec from_before = both ? before->apex : beam.apex;
   const Angle axis_before = both ? before->axis : beam.axis;
-  // Of two readings, the one that is farther decides what the link may have missed, and the other one what
-  // the next link may miss.
-  const bool advanced = chain.back == Length{};
+  // Of two readings, either may be wrong. So a link joins the least advanced leading edge to the most
+  // advanced trailing one; of a body that drives and turns, one may have the farther apex, the other the
+  // farther axis.
+  const Angle on = (beam.axis - axis_before) * sign;
+  const bool turned_on = on.wrapped() >= 0;
+  const auto shifted_on = [&](Angle edge) {
+    return across(from_before - beam.apex, edge) * sign >= Length{};
+  };
+  const Angle foremost = (turned_on ? beam.axis : axis_before) - half;
+  const Angle rearmost = (turned_on ? axis_before : beam.axis) + half;
   Boundary seen_ahead;
-  linked = linked && link(chain, advanced ? beam.apex : from_before,
-                          (advanced ? beam.axis : axis_before) - half, beam.half_cone, seen_ahead);
+  linked = linked &&
+           link(chain, shifted_on(foremost) ? beam.apex : from_before, foremost, beam.half_cone, seen_ahead);
 
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
   const int32_t most = units(holds_);
@@ -110,8 +117,8 @@ void LocalGrid::chain(const ConeObservation& observation, const EarlierObservati
     suspect_[s] &= ~clear;
     tested_[s] &= ~clear;
   }
-  chain.lead_from = advanced ? from_before : beam.apex;
-  chain.lead = (advanced ? axis_before : beam.axis) + half;
+  chain.lead_from = shifted_on(rearmost) ? from_before : beam.apex;
+  chain.lead = rearmost;
   chain.last = beam;
   chain.taken = observation.taken;
   chain.linked = sound;
