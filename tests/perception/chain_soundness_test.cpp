@@ -91,11 +91,11 @@ void search(Fault fault) {
     std::vector<Pose> walk = draw_walk(p, random);
     Cluttered world;
     const int obstacles = 1 + random.index(1 + random.index(5));
-    for (int i = 0; i < obstacles; ++i) add_obstacle(world, p, walk, random);
+    for (int i = 0; i < obstacles; ++i) add_obstacle(world, p, walk, fault == Fault::false_clear, random);
     if (random.chance(0.7)) align(world, walk, patch_cell(p).raw(), slack, random);
     if (world.discs.empty() && world.segments.empty()) continue;
     ++worlds_seen;
-    const bool aimed = random.chance(0.5);
+    const bool aimed = random.chance(0.8);
     const bool late = random.chance(0.3);
     perception::LocalGrid grid;
     perception::LocalGrid unchained;

@@ -92,11 +92,11 @@ bool draw_seen_once(const Params& p, const std::vector<Pose>& walk, Vec2& at, Ra
 
 /// Where a chain is weakest: near the point behind which two readings see nothing between their cones, and on
 /// their edges.
-Vec2 draw_point(const Params& p, const std::vector<Pose>& walk, double radius, Random& random) {
+Vec2 draw_point(const Params& p, const std::vector<Pose>& walk, double radius, bool once, Random& random) {
   const int steps = static_cast<int>(walk.size());
   const double body = metres(rim_sweep(p).radius);
   Vec2 at;
-  if (radius == 0 && random.chance(0.5) && draw_seen_once(p, walk, at, random)) return at;
+  if (once && radius == 0 && random.chance(0.5) && draw_seen_once(p, walk, at, random)) return at;
   for (int attempt = 0; attempt < 30; ++attempt) {
     const int first = random.index(steps);
     const int then = std::min(steps - 1, first + 1 + random.index(4) / 3);
@@ -191,12 +191,13 @@ std::vector<Pose> draw_walk(const Params& p, Random& random) {
   return walk;
 }
 
-void add_obstacle(Cluttered& world, const Params& p, const std::vector<Pose>& walk, Random& random) {
+void add_obstacle(Cluttered& world, const Params& p, const std::vector<Pose>& walk, bool once,
+                  Random& random) {
   Cluttered one;
   const Vec2 body = vec(walk[static_cast<size_t>(random.index(static_cast<int>(walk.size())))].at);
   const int kind = random.index(8);
   const double radius = kind < 2 ? kPole : kind == 2 ? random.uniform(0.001, 0.1) : 0;
-  const Vec2 at = beside_body(p, walk, draw_point(p, walk, radius, random), radius);
+  const Vec2 at = beside_body(p, walk, draw_point(p, walk, radius, once, random), radius);
   if (radius > 0) {
     one.discs.push_back({at, radius});
   } else if (kind < 6) {
@@ -204,7 +205,7 @@ void add_obstacle(Cluttered& world, const Params& p, const std::vector<Pose>& wa
   } else if (kind == 6) {
     one.segments.push_back({at, at + (at - body) * random.uniform(0.001, 2)});
   } else {
-    one.segments.push_back({at, draw_point(p, walk, 0, random)});
+    one.segments.push_back({at, draw_point(p, walk, 0, once, random)});
   }
   for (const Pose& pose : walk) {
     if (sim::clearance(one.view(), vec(pose.at), 0, metres(rim_sweep(p).radius)) <= 0) return;

@@ -18,8 +18,10 @@ Params draw_robot(worlds::Random& random);
 Pose after(const Pose& pose, double turned, double driven);
 /// The poses of one reading after another.
 std::vector<Pose> draw_walk(const Params& p, worlds::Random& random);
-/// Adds an obstacle outside the discs that the body takes on this walk, or none.
-void add_obstacle(Cluttered& world, const Params& p, const std::vector<Pose>& walk, worlds::Random& random);
+/// Adds an obstacle outside the discs that the body takes on this walk, or none; half of them so that only
+/// one reading sees them, if `once`.
+void add_obstacle(Cluttered& world, const Params& p, const std::vector<Pose>& walk, bool once,
+                  worlds::Random& random);
 /// Moves the world so that an obstacle lies in a corner of a cell, `slack` metres inside at least.
 void align(Cluttered& world, std::vector<Pose>& walk, int32_t cell_um, double slack, worlds::Random& random);
 
