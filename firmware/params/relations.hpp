@@ -30,7 +30,7 @@ enum class ParamFault : uint8_t {
   tolerance_below_wire,       ///< the rim distance of turn_tolerance >= 0.1 mm/s x settle
   stalled_before_count,       ///< stalled_after >= the time of the slowest count and the slowest stop
   settle_below_lag,           ///< settle >= motor_lag + period
-  cone_too_narrow,            ///< radius of rim_sweep() <= 7/4 radius
+  cone_too_narrow,            ///< radius of rim_sweep() <= 7/4 radius; if needed, cell <= 2/5 of it
   patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
   planning_below_shield,      ///< planning_margin >= shield_margin
   step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
@@ -211,6 +211,13 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
          p.wheels.motor_lag * 16 + p.safety.period * 6;
 }
 
+/// A larger cell at the rim would reach behind the part of the body that the gap between two readings may
+/// touch.
+[[gnu::always_inline]] constexpr bool beams_clear_the_rim(const Params& p) noexcept {
+  const RimSweep sweep = rim_sweep(p);
+  return sweep.radius <= p.body.radius * 7 / 4 && (!sweep.needed || patch_cell(p) <= sweep.radius * 2 / 5);
+}
+
 [[gnu::always_inline]] constexpr bool patch_holds_ways(const Params& p) noexcept {
   const Reach ways = reach(p);
   return patch_cell(p) * kHalfWindow >= ways.planning + cell_cover(p) + ways.probe &&
@@ -252,7 +259,7 @@ template <class Scope = void, class Visit>
       visit(F::stalled_before_count, p.safety.stalled_after >= r::slowest_count(p, count)) &&
       visit(F::settle_below_lag, p.motion.settle >= p.wheels.motor_lag + p.safety.period) &&
       visit(F::step_beyond_range, beams.proving >= swept) &&
-      visit(F::cone_too_narrow, rim_sweep(p).radius <= p.body.radius * 7 / 4) &&
+      visit(F::cone_too_narrow, r::beams_clear_the_rim(p)) &&
       visit(F::patch_too_small, r::patch_holds_ways(p)) &&
       visit(F::planning_below_shield, p.skirt.planning_margin >= p.skirt.shield_margin) &&
       visit(F::beams_crossed, beams.ordered));

@@ -4,6 +4,7 @@ namespace whisker::perception {
 namespace {
 
 constexpr Length kSweptBack = micrometres(500);
+constexpr int32_t kWidest = (60_deg).wrapped();  // 0.58 below is the tangent of half of it
 constexpr Duration kLongestLink = 450_ms;
 // The gap point may lie within the body if what lies behind it, ahead of this part of the radius, does too.
 constexpr int32_t kAheadPart = 3, kAheadParts = 10;
@@ -16,7 +17,7 @@ bool LocalGrid::link(const Chain& chain, const Vec& from, Angle trail, Angle hal
   const int32_t sign = chain.left ? 1 : -1;
   const Angle overlap = (chain.lead - trail) * sign;
   const int32_t least = static_cast<int32_t>(half_cone.raw() / 4);
-  if (overlap.wrapped() < least) return false;
+  if (overlap.wrapped() < least || overlap.wrapped() > kWidest) return false;
   // Where the old leading edge crosses the new trailing one, both moved towards each other by the error.
   const Length between = across(chain.lead_from - from, chain.lead) * sign + place_error_ * 2;
   const int64_t reach = int64_t{between.raw()} * Q30::kOne / sin(overlap).raw();
