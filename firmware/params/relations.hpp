@@ -105,7 +105,8 @@ constexpr Relation relation(ParamFault fault) noexcept {
           "cone_too_narrow",
           "the beams must be able to clear the ground near the body: beyond 7/4 body_radius_m, a turn on the "
           "spot must leave no gap between the cones of readings one after another; it does with a smaller "
-          "range_offset_m, a larger range_cone_deg or more encoder_counts_per_m"};
+          "range_offset_m, a larger range_cone_deg or more encoder_counts_per_m; and where no single reading "
+          "clears a cell at the rim, skirt_cell_m must not be greater than 2/5 body_radius_m"};
     case F::patch_too_small:
       return {"patch_too_small",
               "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
