@@ -17,7 +17,6 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
   odometry_.configure(params);
   perception_.configure(params);
   supervisor_.configure();
-  motion_.configure(params);
 }
 
 bool Robot::place(const Pose& pose) noexcept {
@@ -37,7 +36,7 @@ bool Robot::place(const Pose& pose) noexcept {
 void Robot::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
   status_.pose = pose;
-  perception_.forget(pose);
+  perception_.place(pose);
   guard_.reset();
   frame_.tie(pose, pose);
   if (has_goal_) aim_again();

@@ -65,12 +65,6 @@ constexpr Angle angle_of(Length arc, Length radius) noexcept {
   return Angle::from_raw(static_cast<uint32_t>(static_cast<uint64_t>(raw)));
 }
 
-/// A direction from straight ahead, counter-clockwise positive; raw unit 2^-32 turn. Unlike angles, directions
-/// have an order.
-using Direction = Unit<struct DirectionTag>;
-constexpr Direction direction_of(Angle a) noexcept { return Direction::from_raw(a.wrapped()); }
-constexpr Angle angle_of(Direction d) noexcept { return Angle::from_raw(static_cast<uint32_t>(d.raw())); }
-
 namespace literals {
 constexpr Angle operator""_deg(unsigned long long x) noexcept {
   return Angle::turns(static_cast<int32_t>(x), 360);

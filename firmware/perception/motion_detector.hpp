@@ -21,8 +21,7 @@ class MotionDetector {
   /// Echoes farther away are ignored.
   static constexpr Length kReach = Length::from_raw(700000);
 
-  /// The mounts must outlive it.
-  void configure(const Mount (&mounts)[kBeams]) noexcept;
+  void configure(const Params& params) noexcept;
   void reset() noexcept {
     count_ = 0;
     newest_ = kKept - 1;
@@ -34,7 +33,7 @@ class MotionDetector {
 
   /// True if no point of the beam's cone between these two distances could have been occupied before: each
   /// lies in a kept sector or in clear ground.
-  bool contradicts(const Beam& beam, Length nearest, Length farthest,
+  bool contradicts(const Pose& from, int beam, Length nearest, Length farthest,
                    const LocalGrid& local_grid) const noexcept;
 
  private:
@@ -64,10 +63,11 @@ class MotionDetector {
   Time newest_taken_;
   int8_t newest_ = kKept - 1;
   int8_t count_ = 0;
-  const Mount* mounts_ = nullptr;
+  Angle side_;
+  Angle half_;
   Facing beam_[kBeams];
-  Facing edge_[kBeams];  // of the half cone
-  Length outermost_;     // distance of an apex from the centre
+  Facing edge_;  // half_
+  Length offset_;
   Scan scan_[kKept];
 };
 

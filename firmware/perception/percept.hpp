@@ -14,7 +14,6 @@ struct Percept {
   bool sighted = false;  ///< a reading arrived at this tick
   const LocalGrid* local_grid = nullptr;        ///< clear ground nearby
   ConeObservation observations[hal::kBeams]{};  ///< one per beam, taken in at this tick
-  bool revoking = false;                        ///< clear ground may hold an obstacle: echoes take it back
   uint8_t observed = 0;                         ///< one bit per beam that has one
 };
 

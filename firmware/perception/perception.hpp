@@ -8,7 +8,6 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
-#include "firmware/perception/contradiction.hpp"
 #include "firmware/perception/local_grid.hpp"
 #include "firmware/perception/motion_detector.hpp"
 #include "firmware/perception/percept.hpp"
@@ -32,7 +31,9 @@ class Perception {
   void configure(const Params& params) noexcept;
   /// No reading has arrived yet; the wait for readings starts at `now`.
   void start(Time now) noexcept { conditioner_.reset(now); }
-  /// Resets all cells except those under the body to unknown: it was put down here, or its pose may be wrong.
+  /// The body was put down here: only the ground that must be free around it is clear.
+  void place(const Pose& pose) noexcept;
+  /// Resets all cells except those under the body to unknown, because the pose may be wrong.
   void forget(const Pose& pose) noexcept;
   /// The body moves untracked between the last tick and the next one.
   void lose_history() noexcept { history_.reset(); }
@@ -50,15 +51,6 @@ class Perception {
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:
-  /// From this number of contradictions on, clear ground is not trusted. An object that moves causes fewer.
-  static constexpr uint8_t kDistrusted = 6;
-  bool revokes() const noexcept { return loses_walls_ || misses_ || contradicted_ >= kDistrusted; }
-
-  Mount mounts_[hal::kBeams];
-  bool loses_walls_ = false;  // by the parameters, a clear cell may hold a wall
-  bool misses_ = false;       // some beam often reports clear where something is
-  uint8_t contradicted_ = 0;  // echoes from clear ground that nothing moving explains
-  Contradiction contradictions_[hal::kBeams];
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading
   EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
   RangeScatter scatter_[hal::kBeams];

@@ -15,7 +15,6 @@ namespace whisker::planning {
 /// motor's lag allow a stop in the remaining distance.
 class MotionController {
  public:
-  void configure(const Params& params) noexcept;
   /// Starts a manoeuvre; ManoeuvreKind::keep changes nothing.
   void begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept;
 
@@ -40,13 +39,11 @@ class MotionController {
   Duration waiting_for() const noexcept { return waiting_for_; }
 
  private:
-  VelocityRequest cruise() const noexcept;
+  VelocityRequest cruise(const Params& params) const noexcept;
   VelocityRequest turn(Angle error, Duration elapsed, const Params& params) noexcept;
   VelocityRequest drive(const Pose& pose, Angle error, Duration elapsed, const Params& params) noexcept;
   void approach(Length rest, Duration elapsed) noexcept;
 
-  Speed fastest_turning_;  // of the rim
-  Speed fastest_on_the_spot_;
   Manoeuvre current_{ManoeuvreKind::stop, {}, {}, {}, {}};
   Vec origin_;
   bool finished_ = true;

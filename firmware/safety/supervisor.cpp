@@ -20,7 +20,7 @@ Duration ms_at(Length way, int32_t times, Speed speed) noexcept {
 /// Upper bound of the time for permitted activity in one place.
 Duration longest_stay(const Params& p) noexcept {
   constexpr int32_t kMicroradians = 6283185;  // a turn
-  const AngularRate rate = min(turn_rate(p), planning::kFastestTurn);
+  const AngularRate rate = min(p.wheels.max_turn_rate, planning::kFastestTurn);
   const Duration turn = max(milliseconds(multiply_divide(kMicroradians, 1000, rate.raw())),
                             ms_at(p.body.track * 22 / 7, 1, p.wheels.max_speed));
   return p.safety.stalled_after * kWaits + turn * kTurns +

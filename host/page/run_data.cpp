@@ -50,16 +50,6 @@ Json world_data(const Scenario& s) {
 
 Json robot_data(const Params& p) {
   const RangefinderParams& sensor = p.rangefinders;
-  Json beams = Json::array();
-  for (int i = 0; i < hal::kBeams; ++i) {
-    const Mount m = mount(sensor, i);
-    beams.push_back({{"x", metres(m.apex.x)},
-                     {"y", metres(m.apex.y)},
-                     {"angle", radians(m.axis)},
-                     {"cone", radians(m.half_cone) * 2},
-                     {"min_range", metres(min_range(sensor, i))},
-                     {"max_range", metres(max_range(sensor, i))}});
-  }
   return {{"radius", metres(p.body.radius)},
           {"track", metres(p.body.track)},
           {"max_speed", metres(Length::from_raw(p.wheels.max_speed.raw()))},
@@ -68,7 +58,6 @@ Json robot_data(const Params& p) {
           {"min_range", metres(sensor.min_range)},
           {"max_range", metres(sensor.max_range)},
           {"offset", metres(sensor.offset)},
-          {"beams", beams},
           {"cell", metres(patch_cell(p))},
           {"base_turn", radians(p.thesis.base_turn)},
           {"period", static_cast<double>(p.safety.period.raw()) / 1000.0}};

@@ -14,27 +14,20 @@ Length length(double metres) {
 }
 
 void set_width(const Sensor& sensor, sim::RobotSpec& spec) {
-  for (sim::BeamSpec& beam : spec.beams) {
-    if (sensor.cone_deg) beam.cone_half_width = *sensor.cone_deg / 2 * kDegree;
-  }
+  if (sensor.cone_deg) spec.cone_half_width = *sensor.cone_deg / 2 * kDegree;
   if (sensor.cone_far_deg) spec.cone_far_half_width = *sensor.cone_far_deg / 2 * kDegree;
-  spec.beams[hal::kLeft].angle += sensor.skew_deg * kDegree;
-  spec.beams[hal::kRight].angle -= sensor.skew_deg * kDegree;
+  spec.side_angle += sensor.skew_deg * kDegree;
 }
 
 /// The driver says clear beyond the range that the robot believes, so a longer one of the sensor only widens
 /// the taper and the reach in ambient light.
 void set_reach(const Sensor& sensor, sim::RobotSpec& spec) {
-  double believed = 0;
-  for (const sim::BeamSpec& beam : spec.beams) believed = std::fmax(believed, beam.max_range);
-  const double reach = sensor.max_range_m.value_or(believed);
+  const double reach = sensor.max_range_m.value_or(spec.max_range);
   const double share = echo_share(sensor);
   spec.taper_range = reach;
   if (share < 1) spec.echo_range = reach * share;
-  for (sim::BeamSpec& beam : spec.beams) {
-    beam.max_range = std::fmin(reach, beam.max_range);
-    beam.min_range = sensor.min_range_m.value_or(beam.min_range);
-  }
+  spec.max_range = std::fmin(reach, spec.max_range);
+  spec.min_range = sensor.min_range_m.value_or(spec.min_range);
   spec.soft_range = sensor.soft_range_m;
   spec.dark_is_invalid = sensor.lost_is == Lost::invalid;
   spec.corner_scatter = sensor.corner_scatter_m;

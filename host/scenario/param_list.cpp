@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 namespace whisker {
 namespace {
 
@@ -15,7 +13,6 @@ const char* type_of(const Acceleration&) { return "Acceleration"; }
 const char* type_of(const AngularRate&) { return "AngularRate"; }
 const char* type_of(const Duration&) { return "Duration"; }
 const char* type_of(const Angle&) { return "Angle"; }
-const char* type_of(const Direction&) { return "Direction"; }
 
 struct Lister {
   std::vector<ParamEntry> all;
@@ -54,12 +51,6 @@ struct RawSetter {
 };
 
 }  // namespace
-
-bool ParamEntry::of_one_beam() const {
-  const std::string_view name = key;
-  return name.find("_left_") != name.npos || name.find("_front_") != name.npos ||
-         name.find("_right_") != name.npos;
-}
 
 std::string ParamEntry::text_of(std::int64_t other) const { return si_text(other, unit); }
 

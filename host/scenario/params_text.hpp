@@ -23,7 +23,6 @@ constexpr ParamUnit unit_of(const Acceleration&) { return {"m/s^2", 1e6, 1}; }
 constexpr ParamUnit unit_of(const AngularRate&) { return {"rad/s", 1e6, 1}; }
 constexpr ParamUnit unit_of(const Duration&) { return {"s", 1e3, 1}; }
 constexpr ParamUnit unit_of(const Angle&) { return {"deg", 4294967296.0, 360}; }
-constexpr ParamUnit unit_of(const Direction&) { return {"deg", 4294967296.0, 360}; }
 
 /// To nearest. |si| <= 1e9.
 std::int64_t to_raw(double si, ParamUnit unit);

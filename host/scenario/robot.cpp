@@ -84,8 +84,6 @@ InputError error_of(const RobotTables& tables, const std::vector<ParamEntry>& li
   for (const std::size_t place : v.keys) {
     const ParamEntry& e = list[place];
     const TableReader* const table = table_with(tables, e.key);
-    // Zero stands for the value that all beams share.
-    if (table == nullptr && e.raw == 0 && e.of_one_beam()) continue;
     if (where == nullptr && table != nullptr) where = table, at = e.key;
     values +=
         fmt::format("{}{} = {} ({})", values.empty() ? "" : ", ", e.key, e.text(),

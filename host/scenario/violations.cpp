@@ -91,7 +91,7 @@ std::vector<std::string> mends(const Params& params, const Violation& v, const B
   const std::vector<ParamEntry> list = param_list(params);
   std::vector<std::string> all;
   for (const std::size_t place : v.keys) {
-    if (list[place].word != nullptr || (list[place].of_one_beam() && list[place].raw == 0)) continue;
+    if (list[place].word != nullptr) continue;
     const auto fits = [&](std::int64_t raw) {
       Params changed = params;
       set_param(changed, place, raw);

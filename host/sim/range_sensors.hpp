@@ -46,10 +46,10 @@ class RangeSensors {
     Faults(uint64_t seed, uint32_t beam);
   };
   /// The nearest obstacle within this cone that is nearer than the limit, m; else infinite.
-  double seen(const Cone& cone, double half_width, const WorldView& world, double t, double limit) const;
+  double seen(const Cone& cone, const WorldView& world, double t, double limit) const;
   /// The distance that beam i measures, given those in the cones of all beams.
   double echo(int i, const double (&metres)[hal::kBeams]);
-  hal::RangeReading classified(int i, double metres, bool dark);
+  hal::RangeReading classified(Faults& faults, double metres, bool dark) const;
   double sigma(double metres) const;
 
   static constexpr int64_t kKept = 32;
@@ -62,13 +62,8 @@ class RangeSensors {
   NoiseSpec noise_;
   double interval_us_;
   int64_t latency_us_;
-  struct Direction {
-    SinCos axis;  // from straight ahead
-    SinCos half_width;
-    explicit Direction(const BeamSpec& beam)
-        : axis(sin_cos(beam.angle)), half_width(sin_cos(beam.cone_half_width)) {}
-  };
-  Direction directions_[hal::kBeams];
+  SinCos side_;
+  SinCos half_width_;
   double sin_incidence_;
   Faults faults_[hal::kBeams];
   int64_t count_ = 0;

@@ -6,16 +6,6 @@
 
 namespace whisker::sim {
 
-/// A rangefinder on the body: its apex in the body's frame, x ahead, y to the left.
-struct BeamSpec {
-  double x = 0;                         ///< m
-  double y = 0;                         ///< m
-  double angle = 0;                     ///< rad, of its axis from straight ahead, counter-clockwise
-  double cone_half_width = kPi / 14.4;  ///< rad; 0 < half width < pi/2
-  double min_range = 0.02;              ///< m; nearer is too_near
-  double max_range = 2.0;               ///< m; farther is clear; at most 65.5
-};
-
 struct RobotSpec {
   double radius = 0.09;           ///< m, of the disc body
   double track = 0.14;            ///< m, between the wheels; > 0
@@ -24,9 +14,14 @@ struct RobotSpec {
   double motor_lag = 0.05;        ///< s, time constant from command to wheel speed; 0 for none
   double counts_per_m = 5000;     ///< encoder counts
 
-  BeamSpec beams[3] = {{0, 0, kPi / 6}, {}, {0, 0, -kPi / 6}};  ///< left, front, right
-  double rate_hz = 50;                                          ///< measurements a second; > 0
-  double latency_s = 0.02;  ///< from a measurement to its arrival; rate * latency <= 30
+  double side_angle =
+      kPi / 6;  ///< rad, axis of the left beam from straight ahead; the right beam is mirrored
+  double cone_half_width = kPi / 14.4;  ///< rad; 0 < half width < pi/2
+  double min_range = 0.02;              ///< m; nearer is too_near
+  double max_range = 2.0;               ///< m; farther is clear; at most 65.5
+  double offset = 0;                    ///< m, of the apexes from the centre, along the axis of each beam
+  double rate_hz = 50;                  ///< measurements a second; > 0
+  double latency_s = 0.02;              ///< from a measurement to its arrival; rate * latency <= 30
 
   double incidence =
       kPi / 2;             ///< rad; a surface seen farther from its normal gives no echo; kPi / 2: each does

@@ -16,7 +16,7 @@ OPTIONS = {
     ("run",): ("SCENARIO", "--planner", "--map-bytes", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--chip"),
     ("campaign",): (
         "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--map-bytes",
-        "--robot", "--robots", "--jobs", "--shard", "--csv", "--save-failures", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
+        "--robot", "--jobs", "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
     ),
     ("plant",): (
         "SCENARIO", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",

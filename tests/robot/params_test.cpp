@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/types.hpp"
-
 namespace whisker {
 namespace {
 
@@ -73,14 +71,8 @@ TEST(Params, EveryRelationIsChecked) {
       {ParamFault::settle_below_lag, [](Params& p) { p.motion.settle = 59_ms; }},
       {ParamFault::step_beyond_range, [](Params& p) { p.thesis.base_step = 941_mm; }},
       {ParamFault::step_beyond_range, [](Params& p) { p.rangefinders.clear_range = 519_mm; }},
-      {ParamFault::cone_too_narrow,
-       [](Params& p) {
-         p.rangefinders.cone = 3_deg;
-         p.rangefinders.offset = 80_mm;
-       }},
-      {ParamFault::cone_too_narrow, [](Params& p) { p.rangefinders.offset = 140_mm; }},
-      {ParamFault::beams_crossed,
-       [](Params& p) { p.rangefinders.beams[hal::kFront].angle = direction_of(31_deg); }},
+      {ParamFault::cone_too_narrow, [](Params& p) { p.rangefinders.cone = 3_deg; }},
+      {ParamFault::cone_too_narrow, [](Params& p) { p.rangefinders.offset = 120_mm; }},
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 200_mm; }},
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 44_mm; }},
       {ParamFault::planning_below_shield, [](Params& p) { p.skirt.shield_margin = 7_mm; }},

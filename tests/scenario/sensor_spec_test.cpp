@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "hal/types.hpp"
 #include "host/run/spec.hpp"
 #include "host/scenario/sensor_models.hpp"
 
@@ -34,33 +33,33 @@ double reach(const char* name, double reflectance, double ambient_klux) {
 
 TEST(SensorSpec, IsTheCoresRobotByDefault) {
   const sim::RobotSpec core = sim::robot_spec(Params{}), ours = spec({});
-  EXPECT_EQ(ours.beams[hal::kFront].max_range, core.beams[hal::kFront].max_range);
-  EXPECT_EQ(ours.beams[hal::kFront].min_range, core.beams[hal::kFront].min_range);
-  EXPECT_EQ(ours.beams[hal::kFront].cone_half_width, core.beams[hal::kFront].cone_half_width);
+  EXPECT_EQ(ours.max_range, core.max_range);
+  EXPECT_EQ(ours.min_range, core.min_range);
+  EXPECT_EQ(ours.cone_half_width, core.cone_half_width);
   EXPECT_EQ(ours.echo_range, kInfinity);
   EXPECT_EQ(ours.corner_scatter, core.corner_scatter);
   EXPECT_EQ(ours.range_sigma, 0);
   EXPECT_EQ(ours.range_sigma_share, 0);
   EXPECT_EQ(ours.cover_glass, 0);
-  EXPECT_GE(ours.cone_far_half_width, ours.beams[hal::kFront].cone_half_width) << "no taper";
+  EXPECT_GE(ours.cone_far_half_width, ours.cone_half_width) << "no taper";
 }
 
 TEST(SensorSpec, TakesTheShorterOfTheTwoRanges) {
-  EXPECT_EQ(spec(model("gp2y0a21")).beams[hal::kFront].max_range, 0.8);
+  EXPECT_EQ(spec(model("gp2y0a21")).max_range, 0.8);
   const sim::RobotSpec far = spec(model("hc-sr04"));
-  EXPECT_EQ(far.beams[hal::kFront].max_range, 2);
+  EXPECT_EQ(far.max_range, 2);
   EXPECT_EQ(far.taper_range, 4) << "the cone has its far width at the sensor's own range";
-  EXPECT_NEAR(far.beams[hal::kFront].cone_half_width, 20 * kDegree, 1e-15);
+  EXPECT_NEAR(far.cone_half_width, 20 * kDegree, 1e-15);
   EXPECT_NEAR(far.cone_far_half_width, 7.5 * kDegree, 1e-15);
-  EXPECT_EQ(spec(model("hc-sr04"), 6_m).beams[hal::kFront].max_range, 4);
-  EXPECT_EQ(spec(model("tfmini")).beams[hal::kFront].min_range, 0.3);
+  EXPECT_EQ(spec(model("hc-sr04"), 6_m).max_range, 4);
+  EXPECT_EQ(spec(model("tfmini")).min_range, 0.3);
 }
 
 TEST(SensorSpec, LightActsOnTheRangeOfTheSensorItself) {
   Sensor s = model("tfmini");
   s.reflectance = 0.225;
   EXPECT_DOUBLE_EQ(spec(s).echo_range, 6);
-  EXPECT_EQ(spec(s).beams[hal::kFront].max_range, 2);
+  EXPECT_EQ(spec(s).max_range, 2);
   Sensor own;
   own.reflectance = 0.25;
   EXPECT_DOUBLE_EQ(spec(own).echo_range, 1);

@@ -252,7 +252,7 @@ TEST(Plant, MeasuresFromWhereItIsAtThatMomentBetweenTwoSteps) {
   robot.max_speed = 3;
   robot.max_acceleration = 1000;
   robot.motor_lag = 0;
-  robot.beams[hal::kFront].max_range = 60;
+  robot.max_range = 60;
   robot.rate_hz = 30;
   robot.latency_s = 0;
   Plant plant(world, robot, {}, 1, {});
@@ -292,14 +292,11 @@ TEST(Plant, TheReferenceRobotIsTheCoresDefault) {
   EXPECT_EQ(core.max_acceleration, ours.max_acceleration);
   EXPECT_EQ(core.motor_lag, ours.motor_lag);
   EXPECT_EQ(core.counts_per_m, ours.counts_per_m);
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_NEAR(core.beams[i].angle, ours.beams[i].angle, 1e-9);
-    EXPECT_NEAR(core.beams[i].cone_half_width, ours.beams[i].cone_half_width, 1e-9);
-    EXPECT_EQ(core.beams[i].min_range, ours.beams[i].min_range);
-    EXPECT_EQ(core.beams[i].max_range, ours.beams[i].max_range);
-    EXPECT_EQ(core.beams[i].x, ours.beams[i].x);
-    EXPECT_EQ(core.beams[i].y, ours.beams[i].y);
-  }
+  EXPECT_NEAR(core.side_angle, ours.side_angle, 1e-9);
+  EXPECT_NEAR(core.cone_half_width, ours.cone_half_width, 1e-9);
+  EXPECT_EQ(core.min_range, ours.min_range);
+  EXPECT_EQ(core.max_range, ours.max_range);
+  EXPECT_EQ(core.offset, ours.offset);
   EXPECT_EQ(core.rate_hz, ours.rate_hz);
   EXPECT_EQ(core.latency_s, ours.latency_s);
   EXPECT_EQ(core.period_s, ours.period_s);

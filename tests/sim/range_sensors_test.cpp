@@ -90,13 +90,10 @@ TEST(RangeSensors, ClassifyByTheirRange) {
 
 TEST(RangeSensors, LookLeftAheadAndRightOfTheBody) {
   RobotSpec robot;
-  for (BeamSpec& beam : robot.beams) {
-    beam.x = 0.05 * std::cos(beam.angle);
-    beam.y = 0.05 * std::sin(beam.angle);
-  }
+  robot.offset = 0.05;
   const double heading = 2.0;
   for (int beam = 0; beam < hal::kBeams; ++beam) {
-    const double angle = heading + robot.beams[beam].angle;
+    const double angle = heading + (1 - beam) * robot.side_angle;
     const Disc disc{{3 + 1.0 * std::cos(angle), -2 + 1.0 * std::sin(angle)}, 0.1};
     const hal::RangeReadings got = measured(robot, {&disc, 1, nullptr, 0, nullptr, 0}, {{3, -2}, heading});
     for (int other = 0; other < hal::kBeams; ++other) {
@@ -161,8 +158,7 @@ TEST(RangeSensors, PhantomsTakeThePlaceOfClearReadingsOnly) {
 TEST(RangeSensors, CrosstalkShowsANearerNeighbour) {
   RobotSpec robot;
   robot.crosstalk = 0.3;
-  const double side = robot.beams[hal::kLeft].angle;
-  const Disc disc{{0.5 * std::cos(side), 0.5 * std::sin(side)}, 0.1};
+  const Disc disc{{0.5 * std::cos(robot.side_angle), 0.5 * std::sin(robot.side_angle)}, 0.1};
   RangeSensors sensors(robot, {}, kSeed);
   int front = 0;
   for (int k = 0; k < kCount; ++k) {
@@ -178,8 +174,7 @@ TEST(RangeSensors, CrosstalkShowsANearerNeighbour) {
 
 TEST(RangeSensors, NoiseHasItsMeanAndSigmaAndIsIndependentBetweenBeams) {
   RobotSpec robot;
-  robot.beams[hal::kLeft].angle = 0.0872;
-  robot.beams[hal::kRight].angle = -0.0872;  // the cones overlap: all three see the foot of the wall
+  robot.side_angle = 0.0872;  // the cones overlap: all three see the foot of the wall
   NoiseSpec noise;
   noise.range_sigma_m = 0.02;
   const Wall wall(1);
@@ -386,15 +381,15 @@ TEST(RangeSensors, TheCoverGlassComesBeforePhantomsAndDoesNotChangeTheirs) {
 
 TEST(RangeSensors, ANarrowerConeFarAwayMissesWhatIsBesideTheAxis) {
   RobotSpec robot;
-  robot.cone_far_half_width = robot.beams[hal::kFront].cone_half_width / 5;
-  const double off = robot.beams[hal::kFront].cone_half_width * 0.8;
+  robot.cone_far_half_width = robot.cone_half_width / 5;
+  const double off = robot.cone_half_width * 0.8;
   const auto post = [&](double d) {
     const Disc disc{{d * std::cos(off), d * std::sin(off)}, 0.005};
     return measured(robot, {&disc, 1, nullptr, 0, nullptr, 0}).beam[hal::kFront].status;
   };
   EXPECT_EQ(post(0.3), hal::RangeStatus::ok);
   EXPECT_EQ(post(1.5), hal::RangeStatus::clear);
-  robot.cone_far_half_width = robot.beams[hal::kFront].cone_half_width * 2;
+  robot.cone_far_half_width = robot.cone_half_width * 2;
   EXPECT_EQ(post(1.5), hal::RangeStatus::ok) << "a cone never widens";
 }
 
