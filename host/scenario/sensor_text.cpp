@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "host/scenario/sensor_models.hpp"
 #include "host/scenario/text.hpp"
 
@@ -100,15 +98,6 @@ std::string line(std::string_view name, const std::string& value, std::string_vi
 }
 
 }  // namespace
-
-double echo_share(const Sensor& s) {
-  double share = 1;
-  if (s.reflectance < s.reflectance_reference) share = std::sqrt(s.reflectance / s.reflectance_reference);
-  if (s.ambient_klux > 0 && s.ambient_knee_klux > 0) {
-    share /= std::sqrt(std::sqrt(1 + s.ambient_klux / s.ambient_knee_klux));
-  }
-  return share;
-}
 
 std::vector<std::string_view> sensor_keys() {
   std::vector<std::string_view> names = {"model", "lost_is"};
