@@ -15,7 +15,6 @@
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/reader.hpp"
 #include "host/scenario/robot.hpp"
-#include "host/scenario/sensor_text.hpp"
 
 namespace whisker {
 namespace {
@@ -71,6 +70,19 @@ Noise read_noise(const TableReader& table) {
   return n;
 }
 
+const std::vector<std::string_view> kSensorKeys = {"incidence_deg", "cone_deg", "skew_deg",
+                                                   "scale",         "phantom",  "crosstalk"};
+
+/// Keeps what the table does not set.
+void read_sensor(const TableReader& table, Sensor& s) {
+  s.incidence_deg = table.number_or("incidence_deg", kIncidence, s.incidence_deg);
+  if (table.has("cone_deg")) s.cone_deg = table.number("cone_deg", kTrueCone);
+  s.skew_deg = table.number_or("skew_deg", kSkew, s.skew_deg);
+  s.scale = table.number_or("scale", kRangeScale, s.scale);
+  s.phantom = table.number_or("phantom", kProbability, s.phantom);
+  s.crosstalk = table.number_or("crosstalk", kProbability, s.crosstalk);
+}
+
 /// A robot file: parameters at its top level or in [robot], and [sensor].
 void read_robot_file(const std::string& file, Params& params, Sensor& sensor) {
   const toml::table root = parse_toml(read_file(file), file);
@@ -84,7 +96,7 @@ void read_robot_file(const std::string& file, Params& params, Sensor& sensor) {
       tables.back().fail_at(key, fmt::format("'{}' is set both at the top level and in [robot]", key));
     }
   }
-  if (top.has("sensor")) read_sensor(top.table("sensor", sensor_keys()), sensor);
+  if (top.has("sensor")) read_sensor(top.table("sensor", kSensorKeys), sensor);
   read_robot(tables, params);
   check_robot(tables, params);
 }
@@ -126,7 +138,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
     s.noise = read_noise(top.table("noise", {"range_sigma_m", "range_dropout", "range_false_clear",
                                              "wheel_scale_sigma", "heading_drift_deg_per_sqrt_m"}));
   }
-  if (top.has("sensor")) read_sensor(top.table("sensor", sensor_keys()), s.sensor);
+  if (top.has("sensor")) read_sensor(top.table("sensor", kSensorKeys), s.sensor);
   if (top.has("robot")) {
     const RobotTables robot{top.table("robot", robot_keys())};
     read_robot(robot, s.robot);

@@ -29,19 +29,6 @@ struct RobotSpec {
   double phantom = 0;      ///< probability that a clear reading becomes an echo at 0.1 to 0.5 m
   double crosstalk = 0;    ///< probability that a reading is a neighbouring beam's where that is nearer
 
-  /// rad, half width of the cones at the distance taper_range; it falls linearly from cone_half_width at 0.
-  /// Not less than 0; a larger one than cone_half_width counts as that: no taper.
-  double cone_far_half_width = kPi / 2;
-  double taper_range = 2.0;                  ///< m; > 0
-  double corner_scatter = 0.5;               ///< m; up to it, ends of segments give an echo at any angle
-  double echo_range = __builtin_huge_val();  ///< m; what is not nearer is too dark to give an echo
-  bool dark_is_invalid = false;              ///< such a reading is invalid, not clear
-  double soft_range = __builtin_huge_val();  ///< m; obstacles that absorb give an echo only if nearer
-  double range_sigma = 0;                    ///< m, standard deviation of a distance
-  double range_sigma_share = 0;              ///< the same, as a share of the distance
-  double cover_glass = 0;                    ///< probability that a clear reading becomes an echo
-  double cover_glass_at = 0.05;              ///< m, at this distance
-
   double period_s = 0.01;  ///< control period; rounded to a whole number of milliseconds, at least 1
 };
 
