@@ -15,6 +15,8 @@ const char* name(Fault fault) noexcept {
     case Fault::no_progress: return "no_progress";
     case Fault::pose_out_of_range: return "pose_out_of_range";
     case Fault::wheel_runaway: return "wheel_runaway";
+    case Fault::bumper_lost: return "bumper_lost";
+    case Fault::bumper_stuck: return "bumper_stuck";
   }
   return "?";
 }

@@ -15,11 +15,14 @@ enum class Fault : uint8_t {
   encoder_jump,    ///< the counts moved further than the wheels can turn
   wheels_stalled,  ///< commanded to move, but the counts of one or both wheels stand still
   range_unsteady,  ///< a static scan waits too long: readings of a beam arrive but never agree
-  no_progress,  ///< a turn or step comes no nearer to its end, or the robot stays in one place for too long
+  no_progress,  ///< a turn or step comes no nearer to its end, the robot stays in one place for too long, or
+                ///< it presses a bump switch there again and again
   pose_out_of_range,  ///< the body left kBodyLimit, or was placed beyond kPlaceLimit (math/region.hpp)
   wheel_runaway,      ///< a wheel turns much further than commanded, or backwards
+  bumper_lost,        ///< the bumper gave no state too often within a short time
+  bumper_stuck,       ///< a bump switch stays pressed although the body has backed off
 };
-constexpr int kFaults = 11;
+constexpr int kFaults = 13;
 
 const char* name(Fault fault) noexcept;
 
@@ -41,6 +44,9 @@ struct Health {
   uint32_t pose_out_of_range = 0;  ///< number of times the body left the region, and placements outside it
   uint32_t late_ticks = 0;         ///< ticks more than a quarter of a period late
   uint32_t clock_jumps = 0;
+  uint32_t bumps = 0;           ///< presses of a bump switch during a mission
+  uint32_t bumper_refused = 0;  ///< ticks without the state of the bump switches
+  uint32_t bumper_stuck = 0;
 };
 
 constexpr void count(uint32_t& counter) noexcept {

@@ -1,17 +1,12 @@
 #include "firmware/params.hpp"
 
 namespace whisker {
-namespace {
-struct OfThisSource;
-}
-
 namespace at_run_time {
 
-Length patch_cell(const Params& p) noexcept { return formula::patch_cell(p); }
-Length blind_reach(const Params& p) noexcept { return formula::blind_reach(p); }
-Length cell_cover(const Params& p) noexcept { return formula::cell_cover(p); }
+Mount mount(const RangefinderParams& r, int beam) noexcept { return formula::mount(r, beam); }
+RimSweep rim_sweep(const Params& p) noexcept { return formula::rim_sweep(p); }
 Reach reach(const Params& p) noexcept { return formula::reach(p); }
-ParamFault check(const Params& p) noexcept { return formula::check<OfThisSource>(p); }
+ParamFault check(const Params& p) noexcept { return formula::check(p); }
 
 }  // namespace at_run_time
 

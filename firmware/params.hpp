@@ -6,6 +6,7 @@
 
 #include "firmware/math/angle.hpp"
 #include "firmware/math/units.hpp"
+#include "firmware/math/vec.hpp"
 
 namespace whisker {
 
@@ -25,6 +26,16 @@ struct WheelParams {
   int32_t counts_per_metre = 5000;  ///< encoder counts per metre of rim travel
 };
 
+/// What one rangefinder has of its own. Zero stands for the value that all three share.
+struct BeamParams {
+  Length x;         ///< of its apex, ahead of the centre; x and y zero: RangefinderParams::offset
+  Length y;         ///< the same to the left
+  Direction angle;  ///< of its axis; zero: side_angle, 0 or -side_angle
+  Angle cone;       ///< full width, at least 1 degree
+  Length min_range;
+  Length max_range;
+};
+
 struct RangefinderParams {
   Angle side_angle = 30_deg;  ///< axis of the left beam from straight ahead; the right beam is mirrored
   Angle cone = 25_deg;        ///< full width
@@ -34,10 +45,9 @@ struct RangefinderParams {
   int32_t rate_hz = 50;
   Duration latency = 20_ms;  ///< from the measurement to its arrival
   Length clear_range;        ///< readings mark no ground beyond it as free; zero: max_range
+  Angle incidence = 90_deg;  ///< a flat wall seen beyond this angle from its normal may give no echo
+  BeamParams beams[3];       ///< indexed by hal::Beam
 };
-
-/// Axis of beam 0, 1, 2 (left, front, right) from straight ahead.
-constexpr Angle beam_axis(Angle side_angle, int beam) noexcept { return side_angle * (1 - beam); }
 
 /// How several readings become one. The enumeration has four bytes like every parameter: clang 14 for AVR
 /// misreads a 16-bit half that crosses the 64th byte of its struct, and four-byte fields never do.
@@ -95,6 +105,13 @@ struct SafetyParams {
   int32_t max_refusals = 5;          ///< of the drive, close to one another
 };
 
+enum class Fitted : int32_t { no, yes };
+
+struct BumperParams {
+  Fitted fitted = Fitted::no;  ///< bump switches are fitted: hal::Bumper
+  Speed creep_speed;  ///< with a bumper: up to this speed also over ground that no beam has cleared; 0: never
+};
+
 struct Params {
   BodyParams body;
   WheelParams wheels;
@@ -104,6 +121,7 @@ struct Params {
   SkirtParams skirt;
   MotionParams motion;
   SafetyParams safety;
+  BumperParams bumper;
 };
 
 /// The violated relation between parameters; firmware/params/relations.hpp lists all relations.
@@ -111,11 +129,13 @@ enum class ParamFault : uint8_t;
 const char* name(ParamFault fault) noexcept;
 
 /// Calls f.number(key, field, min, max), f.count(key, field, min, max) or f.choice(key, field, names, count)
-/// for every parameter. The suffix of the key is the unit on the host: m, mps, mps2, radps, deg, s, hz.
+/// for every parameter; a choice between "false" and "true" is a boolean in a file. The suffix of the key is
+/// the unit on the host: m, mps, mps2, radps, deg, s, hz.
 template <class P, class F>
 constexpr void for_each_param(P& p, F&& f) {
   constexpr const char* kConsensus[] = {"agreeing", "median"};
   constexpr const char* kSource[] = {"front", "mean"};
+  constexpr const char* kBoolean[] = {"false", "true"};
 
   f.number("body_radius_m", p.body.radius, 20_mm, 1_m);
   f.number("body_margin_m", p.body.margin, 0_mm, 500_mm);
@@ -170,14 +190,58 @@ constexpr void for_each_param(P& p, F&& f) {
   // The index of a parameter on the CAN bus is its place in this list: append new ones.
   f.number("range_clear_m", p.rangefinders.clear_range, 0_mm, 60_m);
   f.number("length_budget_m", p.skirt.length_budget, 1_m, 2000_m);
+  f.number("range_incidence_deg", p.rangefinders.incidence, 5_deg, 90_deg);
+
+  constexpr Direction kOutermost = direction_of(85_deg);
+  f.number("range_left_x_m", p.rangefinders.beams[0].x, -1_m, 1_m);
+  f.number("range_left_y_m", p.rangefinders.beams[0].y, -1_m, 1_m);
+  f.number("range_left_angle_deg", p.rangefinders.beams[0].angle, -kOutermost, kOutermost);
+  f.number("range_left_cone_deg", p.rangefinders.beams[0].cone, Angle{}, 90_deg);
+  f.number("range_left_min_m", p.rangefinders.beams[0].min_range, 0_mm, 1_m);
+  f.number("range_left_max_m", p.rangefinders.beams[0].max_range, 0_mm, 60_m);
+  f.number("range_front_x_m", p.rangefinders.beams[1].x, -1_m, 1_m);
+  f.number("range_front_y_m", p.rangefinders.beams[1].y, -1_m, 1_m);
+  f.number("range_front_angle_deg", p.rangefinders.beams[1].angle, -kOutermost, kOutermost);
+  f.number("range_front_cone_deg", p.rangefinders.beams[1].cone, Angle{}, 90_deg);
+  f.number("range_front_min_m", p.rangefinders.beams[1].min_range, 0_mm, 1_m);
+  f.number("range_front_max_m", p.rangefinders.beams[1].max_range, 0_mm, 60_m);
+  f.number("range_right_x_m", p.rangefinders.beams[2].x, -1_m, 1_m);
+  f.number("range_right_y_m", p.rangefinders.beams[2].y, -1_m, 1_m);
+  f.number("range_right_angle_deg", p.rangefinders.beams[2].angle, -kOutermost, kOutermost);
+  f.number("range_right_cone_deg", p.rangefinders.beams[2].cone, Angle{}, 90_deg);
+  f.number("range_right_min_m", p.rangefinders.beams[2].min_range, 0_mm, 1_m);
+  f.number("range_right_max_m", p.rangefinders.beams[2].max_range, 0_mm, 60_m);
+
+  f.choice("bumper", p.bumper.fitted, kBoolean, 2);
+  f.number("creep_speed_mps", p.bumper.creep_speed, 0_mm_per_s, 100_mm_per_s);
 }
 
-/// The distance up to which readings mark ground as free.
-constexpr Length proving_range(const RangefinderParams& r) noexcept {
-  return r.clear_range == Length{} ? r.max_range : min(r.clear_range, r.max_range);
+/// A rangefinder on the body, in the body's frame: x ahead, y to the left.
+struct Mount {
+  Vec apex;
+  Angle axis;
+  Angle half_cone;
+};
+/// The beams of these rangefinders; 0 <= beam < 3.
+constexpr Mount mount(const RangefinderParams& rangefinders, int beam) noexcept;
+/// The axis of a beam, its cone, and its ranges. A clear reading stands for the maximum range.
+constexpr Angle beam_axis(const RangefinderParams& r, int beam) noexcept {
+  return r.beams[beam].angle == Direction{} ? r.side_angle * (1 - beam) : angle_of(r.beams[beam].angle);
 }
-/// Side of a cell of the local grid. By default 2/9 of the radius, or less, down to half of that, where a
-/// narrow cone or sensors far from the centre could otherwise not clear the ground at the rim of the body.
+constexpr Angle beam_cone(const RangefinderParams& r, int beam) noexcept {
+  return r.beams[beam].cone == Angle{} ? r.cone : r.beams[beam].cone;
+}
+constexpr Length min_range(const RangefinderParams& r, int beam) noexcept {
+  return r.beams[beam].min_range == Length{} ? r.min_range : r.beams[beam].min_range;
+}
+constexpr Length max_range(const RangefinderParams& r, int beam) noexcept {
+  return r.beams[beam].max_range == Length{} ? r.max_range : r.beams[beam].max_range;
+}
+/// The distance up to which readings of a beam mark ground as free.
+constexpr Length proving_range(const RangefinderParams& r, int beam) noexcept {
+  return r.clear_range == Length{} ? max_range(r, beam) : min(r.clear_range, max_range(r, beam));
+}
+/// Side of a cell of the local grid; by default 2/9 of the radius.
 constexpr Length patch_cell(const Params& params) noexcept;
 /// A disc of this radius around the centre covers the cell, in 1/256 of a cell: 0.7072, rounded up.
 constexpr int32_t kCellCover = 184;
@@ -185,14 +249,26 @@ constexpr int32_t kCellCover = 184;
 constexpr int32_t kHalfWindow = 15;
 /// The radius of that disc.
 constexpr Length cell_cover(const Params& params) noexcept;
-/// Within this distance from the centre, no beam can clear a cell while the body stands, because its cone is
-/// too narrow there. If this exceeds the body, the ring between must be free when the robot is placed.
-constexpr Length blind_reach(const Params& params) noexcept;
+/// How the beams clear the ground at the rim of the body. Near its apex, a cone is narrower than a cell, so
+/// that no single reading clears it: readings one after another must, while the body turns.
+struct RimSweep {
+  bool needed = false;  ///< for some cell at the rim, no single reading suffices
+  Length radius;  ///< turning on the spot clears the ground beyond this distance from the centre; at least
+                  ///< the body's radius. Ground between the two must be free when the robot is placed
+  Angle step;     ///< of the turn between two readings one after the other but one, at most
+  Angle past;     ///< see Reach; zero if not needed
+};
+/// Source of the formula: docs/ground.md.
+constexpr RimSweep rim_sweep(const Params& params) noexcept;
+/// The turn rate up to which the readings clear the ground at the rim, and which the parameters allow.
+constexpr AngularRate turn_rate(const Params& params) noexcept;
 /// How far the path is checked, ahead and beside.
 struct Reach {
   Length guard;     ///< distance from the centre of the body within which cells must be clear at every tick
   Length planning;  ///< the same for a chosen heading
   Length probe;  ///< length of the checked path; by default 5/3 of the radius, or the reach of the local grid
+  Angle past;    ///< a beam clears a cell at the rim while it turns from this angle before the cell to this
+                 ///< angle behind it; zero if a single reading does
 };
 /// Computes a sine and divisions, so perception::LocalGrid stores the result.
 constexpr Reach reach(const Params& params) noexcept;

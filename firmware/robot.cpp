@@ -3,10 +3,11 @@
 namespace whisker {
 
 Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
-             const Params& params) noexcept
+             const Params& params, hal::Bumper* bumper) noexcept
     : rangefinders_(rangefinders),
       planner_(planner),
       params_(params),
+      bumper_(bumper),
       wheels_(drive),
       supervisor_(params, status_.health) {
   if (check(params) != ParamFault::none) {
@@ -17,6 +18,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
   odometry_.configure(params);
   perception_.configure(params);
   supervisor_.configure();
+  motion_.configure(params);
 }
 
 bool Robot::place(const Pose& pose) noexcept {
@@ -36,8 +38,9 @@ bool Robot::place(const Pose& pose) noexcept {
 void Robot::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
   status_.pose = pose;
-  perception_.place(pose);
+  perception_.forget(pose);
   guard_.reset();
+  reflex_.reset();
   frame_.tie(pose, pose);
   if (has_goal_) aim_again();
 }
@@ -81,6 +84,7 @@ void Robot::reset() noexcept {
   since_counts_ += safety::braking_time(params_);
   perception_.forget(odometry_.pose());
   guard_.reset();
+  reflex_.reset();
   motion_.begin(planning::stop(), odometry_.pose());
   cancel();
 }
@@ -92,7 +96,7 @@ const Status& Robot::tick(Time now) noexcept {
   }
   planning::View view;
   const bool counted = localize(now, view);
-  perceive(view);
+  perceive(view, counted);
   plan(view);
   actuate(guard(view, !counted));
   return status_;
@@ -157,19 +161,43 @@ bool Robot::take_counts() noexcept {
   return true;
 }
 
-void Robot::perceive(planning::View& view) noexcept {
+void Robot::perceive(planning::View& view, bool counted) noexcept {
   hal::RangeReadings readings{};
   const bool read = rangefinders_.read(readings);
   perception_.sense(read ? &readings : nullptr, last_tick_, view.pose.heading, params_, status_.health);
   status_.echoes = perception_.latest();
   supervisor_.check_ranges(perception_.lost_for(last_tick_));
+  if (params_.bumper.fitted == Fitted::yes) take_bumps(view.pose, counted);
   if (supervisor_.faulted()) return;
   perception_.observe({view.pose, last_tick_, view.settled, settled_since_}, params_, view);
+}
+
+void Robot::take_bumps(const Pose& pose, bool counted) noexcept {
+  hal::BumperReading reading{};
+  const bool read = bumper_ != nullptr && bumper_->read(reading);
+  supervisor_.check_bumper(read);
+  if (read) status_.pressed = reading.pressed & hal::kAllSwitches;
+  if (supervisor_.faulted()) return;
+  const bool still = counted && step_.left == 0 && step_.right == 0;
+  const bool was_active = reflex_.active();
+  const uint8_t fresh = reflex_.step(pose, {status_.pressed, has_goal_, still, elapsed_}, params_);
+  if (reflex_.active() && !was_active) motion_.interrupt();
+  if (fresh != 0) {
+    perception_.touch(fresh, pose);
+    supervisor_.check_bump(pose.at);
+  }
+  if (reflex_.stuck(params_)) supervisor_.fail(Fault::bumper_stuck, status_.health.bumper_stuck);
 }
 
 void Robot::plan(const planning::View& view) noexcept {
   if (supervisor_.faulted()) return;
   planning::Decision& decision = status_.decision;
+  if (reflex_.active()) {
+    decision.manoeuvre = {};
+    decision.why = planning::Why::bumped;
+    decision.looked = false;
+    return;
+  }
   decision = planner_.step(view);
   const bool running = decision.outcome == planning::Outcome::running;
   has_goal_ = running;
@@ -184,16 +212,26 @@ void Robot::plan(const planning::View& view) noexcept {
   supervisor_.check_place(view.pose.at, running, elapsed_);
 }
 
+WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
+  if (reflex_.stops()) return guard_.stop();
+  planning::VelocityRequest request{};
+  if (!stands && reflex_.backs()) {
+    request = reflex_.request(view.pose, params_);
+    if (reflex_.retraces()) return guard_.retrace(request, wheels_.state(), elapsed_, params_);
+  } else if (!stands) {
+    request = motion_.request(view.pose, elapsed_, guard_.held_for(), params_);
+  }
+  return guard_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
+}
+
 WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {
   const bool fresh = perception_.lost_for(last_tick_) <= params_.conditioning.stale_after;
-  if (!fresh && !supervisor_.faulted() && status_.decision.outcome == planning::Outcome::running) {
+  if (!fresh && !supervisor_.faulted() && !reflex_.active() &&
+      status_.decision.outcome == planning::Outcome::running) {
     status_.decision.why = planning::Why::blind;
   }
   const bool stands = paused || !fresh || supervisor_.faulted() || supervisor_.refused();
-  const planning::VelocityRequest request =
-      stands ? planning::VelocityRequest{} : motion_.request(view.pose, elapsed_, guard_.held_for(), params_);
-  const WheelPair speeds =
-      guard_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
+  const WheelPair speeds = granted(view, stands);
   const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
   motion_.settle(paused ? nullptr : &step_, commanded, elapsed_, params_);
   supervisor_.check_motion(motion_);

@@ -11,8 +11,10 @@
 #include "firmware/perception/perception.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/planning/planner.hpp"
+#include "firmware/safety/bump_reflex.hpp"
 #include "firmware/safety/guard.hpp"
 #include "firmware/safety/supervisor.hpp"
+#include "hal/bumper.hpp"
 #include "hal/drive.hpp"
 #include "hal/rangefinders.hpp"
 
@@ -24,6 +26,7 @@ struct Status {
   Pose pose;                   ///< estimated
   perception::Echoes echoes;   ///< the latest single reading of each beam
   hal::WheelSpeeds command{};  ///< as sent to the drive
+  uint8_t pressed = 0;         ///< bump switches, see hal::BumperReading; 0 without a bumper
   Health health;
 };
 
@@ -38,11 +41,15 @@ struct Status {
 /// status().health.fault names the cause until reset(). All references must outlive the robot, and the
 /// parameters must not change while it lives.
 ///
+/// A bumper is used if BumperParams::fitted says so: then it must be given. A press stops the wheels at that
+/// very tick, the body backs off (safety/bump_reflex.hpp), and the place becomes an obstacle
+/// (perception/contacts.hpp). The planner is not asked meanwhile.
+///
 /// Poses and goals are in the user's frame and lie within kPlaceLimit (math/region.hpp).
 class Robot {
  public:
-  Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
-        const Params& params) noexcept;
+  Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner, const Params& params,
+        hal::Bumper* bumper = nullptr) noexcept;
 
   /// Sets the pose of the robot.
   ///
@@ -75,13 +82,15 @@ class Robot {
  private:
   // The five stages of a tick, in this order. The view collects their results.
   bool localize(Time now, planning::View& view) noexcept;
-  void perceive(planning::View& view) noexcept;
+  void perceive(planning::View& view, bool counted) noexcept;
   void plan(const planning::View& view) noexcept;
   WheelPair guard(const planning::View& view, bool paused) noexcept;
+  WheelPair granted(const planning::View& view, bool stands) noexcept;
   void actuate(WheelPair speeds) noexcept;
 
   void take_time(Time now) noexcept;
   bool take_counts() noexcept;
+  void take_bumps(const Pose& pose, bool counted) noexcept;
   void put_down(const Pose& pose) noexcept;
   void correct(const Pose& pose) noexcept;
   void aim_again() noexcept;
@@ -92,6 +101,7 @@ class Robot {
   hal::Rangefinders& rangefinders_;
   planning::Planner& planner_;
   const Params& params_;
+  hal::Bumper* bumper_;
 
   localization::CountStep step_;  // of this tick
   Time last_tick_;
@@ -108,6 +118,7 @@ class Robot {
   localization::Frame frame_;
   control::WheelDrive wheels_;
   safety::Guard guard_;
+  safety::BumpReflex reflex_;
   planning::MotionController motion_;
   localization::Odometry odometry_;
   safety::Supervisor supervisor_;

@@ -29,6 +29,14 @@ struct RangeReadings {
   RangeReading beam[kBeams];  ///< indexed by Beam
 };
 
+/// The bump switches: bit 1 << Beam is set if the switch on that side of the body is pressed. A body with one
+/// switch reports it as kFront; one with a left and a right half reports both if it touches straight ahead.
+struct BumperReading {
+  uint8_t pressed;
+};
+
+constexpr uint8_t kAllSwitches = (1 << kBeams) - 1;
+
 /// Wheel rim speeds, 0.1 mm/s, forward positive; +-3.2767 m/s.
 struct WheelSpeeds {
   int16_t left;

@@ -23,6 +23,8 @@ INDIRECT = (
     (r"8planning6Course", r"8planning15TableDeflection7deflectE"),
     # The linker merges the empty read functions into one.
     (r"Robot(8perceive|4tick|11take_counts|8localize)E", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
+    (r"Robot10take_bumpsE", r"4readER.*13BumperReadingE"),
+    (r"Robot10take_bumpsE", None),  # most images have no bump switch
     (r"10WheelDrive4readE", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
     (r"10WheelDrive7commandE|Robot(7actuate|4tick)E", r"7commandE.*11WheelSpeedsE"),
 )  # fmt: skip

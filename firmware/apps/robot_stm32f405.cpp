@@ -9,7 +9,7 @@ int main() {
   using namespace whisker::hal::stm32f405;
   static RobotBoard board(kVl53l0x, kMotorParams, kMotorParams);
   static planning::DefaultPlanner planner(kRobotParams, fuzzy::kDefaultTable);
-  static Robot robot(board.rangefinders(), board.drive(), planner.planner, kRobotParams);
+  static Robot robot(board.rangefinders(), board.drive(), planner.planner, kRobotParams, &board.bumper());
 
   board.start();
   robot.place({});

@@ -33,11 +33,16 @@ bool BaseNode::send_set(const InputSet& set, SyncMode sync_mode) noexcept {
   period_ms_ = set.period_ms;
   const auto tick16 = static_cast<uint16_t>(set.tick);
   const hal::RangeReading* beam = set.ranges.beam;
-  bool taken = send(Range<MessageKind::range_left>{InputSets::to_wire(beam[hal::kLeft]), tick16}, kLife_ms);
-  taken =
-      send(Range<MessageKind::range_front>{InputSets::to_wire(beam[hal::kFront]), tick16}, kLife_ms) && taken;
-  taken =
-      send(Range<MessageKind::range_right>{InputSets::to_wire(beam[hal::kRight]), tick16}, kLife_ms) && taken;
+  bool taken = true;
+  const auto range = [&](auto frame, int at) {
+    frame.reading = InputSets::to_wire(beam[at]);
+    frame.tick = tick16;
+    frame.bump = set.bumps[at];
+    taken = send(frame, kLife_ms) && taken;
+  };
+  range(Range<MessageKind::range_left>{}, hal::kLeft);
+  range(Range<MessageKind::range_front>{}, hal::kFront);
+  range(Range<MessageKind::range_right>{}, hal::kRight);
   WheelState wheels;
   wheels.valid = set.counts_valid ? 1 : 0;
   wheels.tick = static_cast<uint8_t>(set.tick % WheelState::kTickModulus);

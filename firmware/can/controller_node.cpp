@@ -88,7 +88,7 @@ template <MessageKind kKind>
 bool ControllerNode::on_range(int beam, const hal::CanFrame& frame) noexcept {
   Range<kKind> range;
   if (!decode(frame, range) || !InputSets::sound(range.reading)) return false;
-  sets_.on_frame(beam, range.reading, range.tick);
+  sets_.on_frame(beam, range.reading, range.tick, range.bump);
   beam_seen_[beam] = now_ms();
   return true;
 }

@@ -40,7 +40,8 @@ hal::RangeReading InputSets::to_wire(const hal::RangeReading& reading) noexcept 
   return wire;
 }
 
-void InputSets::on_frame(int beam, const hal::RangeReading& reading, uint16_t tick) noexcept {
+void InputSets::on_frame(int beam, const hal::RangeReading& reading, uint16_t tick, BumpState bump) noexcept {
+  bumps_[beam] = bump;
   ranges_.beam[beam] = reading;
   range_tick_[beam] = tick;
   seen_ = static_cast<uint8_t>(seen_ | 1 << beam);
@@ -65,7 +66,8 @@ bool InputSets::complete() const noexcept {
 }
 
 InputSet InputSets::set() const noexcept {
-  return {sync_.tick, sync_.period_ms, ranges_, wheels_.counts, wheels_.valid != 0};
+  return {sync_.tick,     sync_.period_ms,    ranges_,
+          wheels_.counts, wheels_.valid != 0, {bumps_[0], bumps_[1], bumps_[2]}};
 }
 
 }  // namespace whisker::can

@@ -13,6 +13,7 @@ struct InputSet {
   hal::RangeReadings ranges{};
   hal::EncoderCounts counts{};
   bool counts_valid = false;
+  BumpState bumps[hal::kBeams] = {};
 };
 
 /// Assembles the frames of a tick. Frames may arrive in any order; the latest of each kind counts.
@@ -23,7 +24,7 @@ class InputSets {
   /// The reading in the form of the frame.
   static hal::RangeReading to_wire(const hal::RangeReading& reading) noexcept;
 
-  void on_frame(int beam, const hal::RangeReading& reading, uint16_t tick) noexcept;
+  void on_frame(int beam, const hal::RangeReading& reading, uint16_t tick, BumpState bump) noexcept;
   void on_frame(const WheelState& state) noexcept;
   void on_frame(const Sync& sync) noexcept;
   /// All five frames of the last Sync's tick have arrived.
@@ -35,6 +36,7 @@ class InputSets {
  private:
   hal::RangeReadings ranges_{};
   uint16_t range_tick_[hal::kBeams] = {};
+  BumpState bumps_[hal::kBeams] = {};
   WheelState wheels_;
   Sync sync_;
   uint8_t seen_ = 0;

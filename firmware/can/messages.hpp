@@ -181,6 +181,7 @@ struct Range {
   hal::RangeReading
       reading{};  ///< reading.mm is the distance of the frame: kClear and kNone mean no distance
   uint16_t tick = 0;
+  BumpState bump = BumpState::none;
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
@@ -188,6 +189,7 @@ struct Range {
     f({"Distance", 16, 16, false, 0, kMost16, "0.001", "m", "65535: clear; 65534: no distance"}, m.reading.mm);
     f({"Age", 32, 8, false, 0, kMost8, "0.001", "s", "since the distance was true; 0.255 means that or more"}, m.reading.age_ms);
     f({"Sequence", 40, 4, false, 0, kMost4, "1", "", "increases with every new measurement"}, m.reading.sequence);
+    f({"Bump", 44, 2, false, 0, 3, "1", "", "bump switch on this side", kAlways, word_in<kBumpWords>}, m.bump);
     f({"Tick", 48, 16, false, 0, kMost16, "1", "", "modulo 2^16"}, m.tick);
   }
 };

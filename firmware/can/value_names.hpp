@@ -97,6 +97,15 @@ inline constexpr const char* kErrorWords[] = {
     "bus_off_latched", "peer_restarted", "peer_stopped",  "duplicate_node", "e_stop",
     "wrong_version",   "core_fault",     "drive_refused", "sensors_refused"};
 
+/// Of the bump switch beside a beam.
+enum class BumpState : uint8_t {
+  none,  ///< no bumper
+  open,
+  pressed,
+  unknown,  ///< the bumper gave no state
+};
+inline constexpr const char* kBumpWords[] = {"none", "open", "pressed", "unknown"};
+
 // Names of values whose types belong to the hardware interface or to the planner.
 inline constexpr const char* kRangeWords[] = {"ok", "clear", "too_near", "invalid", "stale"};
 inline constexpr const char* kOutcomeWords[] = {"none", "running", "reached", "unreachable", "gave_up"};

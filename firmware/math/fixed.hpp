@@ -90,8 +90,8 @@ class Fixed {
  public:
   static constexpr int32_t kOne = INT32_C(1) << kFraction;
 
-  constexpr Fixed() noexcept = default;
-  static constexpr Fixed from_raw(Rep raw) noexcept {
+  [[gnu::always_inline]] constexpr Fixed() noexcept = default;
+  [[gnu::always_inline]] static constexpr Fixed from_raw(Rep raw) noexcept {
     Fixed f;
     f.raw_ = raw;
     return f;
@@ -100,7 +100,7 @@ class Fixed {
   static constexpr Fixed ratio(int32_t numerator, int32_t denominator) noexcept {
     return from_raw(clamp(divide_rounded(static_cast<int64_t>(numerator) * kOne, denominator)));
   }
-  constexpr Rep raw() const noexcept { return raw_; }
+  [[gnu::always_inline]] constexpr Rep raw() const noexcept { return raw_; }
 
   friend constexpr bool operator==(Fixed a, Fixed b) noexcept { return a.raw_ == b.raw_; }
   friend constexpr bool operator!=(Fixed a, Fixed b) noexcept { return a.raw_ != b.raw_; }

@@ -39,6 +39,18 @@ constexpr Vec polar(Angle direction, Length length) noexcept;
 /// The component of v in this direction.
 constexpr Length along(const Vec& v, Angle direction) noexcept;
 
+/// The component of v to the right of this direction: how far a line in this direction through the point v
+/// passes to the left of the origin, with the opposite sign.
+constexpr Length across(const Vec& v, Angle direction) noexcept {
+  return v.x * sin(direction) - v.y * cos(direction);
+}
+
+/// The angle whose sine is part / whole; |part| <= whole.
+constexpr Angle arc_sine(Length part, Length whole) noexcept {
+  const int64_t rest = int64_t{whole.raw()} * whole.raw() - int64_t{part.raw()} * part.raw();
+  return atan2(part.raw(), saturate32(square_root(static_cast<uint64_t>(rest))));
+}
+
 }  // namespace whisker
 
 #include "firmware/math/trig_math.hpp"

@@ -19,13 +19,13 @@ namespace whisker {
 template <class Tag>
 class Unit {
  public:
-  constexpr Unit() noexcept = default;
-  static constexpr Unit from_raw(int32_t raw) noexcept {
+  [[gnu::always_inline]] constexpr Unit() noexcept = default;
+  [[gnu::always_inline]] static constexpr Unit from_raw(int32_t raw) noexcept {
     Unit u;
     u.raw_ = raw;
     return u;
   }
-  constexpr int32_t raw() const noexcept { return raw_; }
+  [[gnu::always_inline]] constexpr int32_t raw() const noexcept { return raw_; }
 
   friend constexpr bool operator==(Unit a, Unit b) noexcept { return a.raw_ == b.raw_; }
   friend constexpr bool operator!=(Unit a, Unit b) noexcept { return a.raw_ != b.raw_; }
@@ -87,13 +87,13 @@ constexpr Unit<Tag> limit(Unit<Tag> x, Unit<Tag> limit) noexcept {
 /// An instant on a millisecond counter that wraps; compare instants by their difference only.
 class Time {
  public:
-  constexpr Time() noexcept = default;
-  static constexpr Time from_raw(uint32_t ms) noexcept {
+  [[gnu::always_inline]] constexpr Time() noexcept = default;
+  [[gnu::always_inline]] static constexpr Time from_raw(uint32_t ms) noexcept {
     Time t;
     t.ms_ = ms;
     return t;
   }
-  constexpr uint32_t raw() const noexcept { return ms_; }
+  [[gnu::always_inline]] constexpr uint32_t raw() const noexcept { return ms_; }
   /// Valid for instants less than 24.8 days apart.
   friend constexpr Duration operator-(Time a, Time b) noexcept {
     return Duration::from_raw(as_signed(a.ms_ - b.ms_));
@@ -113,22 +113,25 @@ constexpr Length micrometres(int32_t um) noexcept { return Length::from_raw(um);
 constexpr Length millimetres(int32_t mm) noexcept { return Length::from_raw(1000) * mm; }
 constexpr Duration milliseconds(int32_t ms) noexcept { return Duration::from_raw(ms); }
 
+// Always inline: otherwise clang for AVR computes these constants at run time.
 namespace literals {
-constexpr Length operator""_mm(unsigned long long x) noexcept { return millimetres(static_cast<int32_t>(x)); }
-constexpr Length operator""_m(unsigned long long x) noexcept {
-  return millimetres(1000) * static_cast<int32_t>(x);
+[[gnu::always_inline]] constexpr Length operator""_mm(unsigned long long x) noexcept {
+  return Length::from_raw(static_cast<int32_t>(x * 1000));
 }
-constexpr Speed operator""_mm_per_s(unsigned long long x) noexcept {
-  return Speed::from_raw(1000) * static_cast<int32_t>(x);
+[[gnu::always_inline]] constexpr Length operator""_m(unsigned long long x) noexcept {
+  return Length::from_raw(static_cast<int32_t>(x * 1000000));
 }
-constexpr Acceleration operator""_mm_per_s2(unsigned long long x) noexcept {
-  return Acceleration::from_raw(1000) * static_cast<int32_t>(x);
+[[gnu::always_inline]] constexpr Speed operator""_mm_per_s(unsigned long long x) noexcept {
+  return Speed::from_raw(static_cast<int32_t>(x * 1000));
 }
-constexpr AngularRate operator""_mrad_per_s(unsigned long long x) noexcept {
-  return AngularRate::from_raw(1000) * static_cast<int32_t>(x);
+[[gnu::always_inline]] constexpr Acceleration operator""_mm_per_s2(unsigned long long x) noexcept {
+  return Acceleration::from_raw(static_cast<int32_t>(x * 1000));
 }
-constexpr Duration operator""_ms(unsigned long long x) noexcept {
-  return milliseconds(static_cast<int32_t>(x));
+[[gnu::always_inline]] constexpr AngularRate operator""_mrad_per_s(unsigned long long x) noexcept {
+  return AngularRate::from_raw(static_cast<int32_t>(x * 1000));
+}
+[[gnu::always_inline]] constexpr Duration operator""_ms(unsigned long long x) noexcept {
+  return Duration::from_raw(static_cast<int32_t>(x));
 }
 }  // namespace literals
 

@@ -15,8 +15,8 @@ enum class ParamFault : uint8_t {
   none,
   out_of_range,               ///< a value lies outside its own range
   track_wider_than_body,      ///< track <= 2 radius
-  ranges_reversed,            ///< min_range < max_range
-  cones_apart_from_front,     ///< side_angle + cone / 2 <= 90 degrees
+  ranges_reversed,            ///< min_range < max_range, of each beam
+  cones_apart_from_front,     ///< each beam: angle of the axis + cone / 2 <= 90 degrees
   danger_inside_body,         ///< danger_range > radius + margin
   steps_reversed,             ///< small_step <= base_step
   stop_longer_than_range,     ///< stopping distance from full speed <= max_range / 4
@@ -30,10 +30,12 @@ enum class ParamFault : uint8_t {
   tolerance_below_wire,       ///< the rim distance of turn_tolerance >= 0.1 mm/s x settle
   stalled_before_count,       ///< stalled_after >= the time of the slowest count and the slowest stop
   settle_below_lag,           ///< settle >= motor_lag + period
-  cone_too_narrow,            ///< blind_reach + cell <= 7/4 radius
+  cone_too_narrow,            ///< radius of rim_sweep() <= 7/4 radius; if needed, cell <= 2/5 of it
   patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
   planning_below_shield,      ///< planning_margin >= shield_margin
   step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
+  beams_crossed,              ///< the axes point from left to right
+  creep_without_bumper,       ///< creep_speed is zero unless a bumper is fitted
 };
 
 struct Relation {
@@ -48,10 +50,16 @@ constexpr Relation relation(ParamFault fault) noexcept {
     case F::track_wider_than_body:
       return {"track_wider_than_body",
               "the wheels must lie within the body: wheel_track_m <= 2 body_radius_m"};
-    case F::ranges_reversed: return {"ranges_reversed", "range_min_m must be less than range_max_m"};
+    case F::ranges_reversed:
+      return {"ranges_reversed",
+              "range_min_m must be less than range_max_m; the same holds for a beam's own range_left_min_m, "
+              "range_left_max_m, range_front_min_m, range_front_max_m, range_right_min_m, range_right_max_m"};
     case F::cones_apart_from_front:
-      return {"cones_apart_from_front",
-              "the side beams must look ahead: range_side_angle_deg + range_cone_deg / 2 <= 90"};
+      return {
+          "cones_apart_from_front",
+          "the beams must look ahead: range_side_angle_deg + range_cone_deg / 2 <= 90; the same holds for a "
+          "beam's own range_left_angle_deg, range_left_cone_deg, range_front_angle_deg, "
+          "range_front_cone_deg, range_right_angle_deg, range_right_cone_deg"};
     case F::danger_inside_body:
       return {"danger_inside_body",
               "thesis_danger_range_m must be greater than body_radius_m + body_margin_m"};
@@ -94,9 +102,12 @@ constexpr Relation relation(ParamFault fault) noexcept {
     case F::settle_below_lag:
       return {"settle_below_lag", "motion_settle_s must not be less than motor_lag_s + control_period_s"};
     case F::cone_too_narrow:
-      return {"cone_too_narrow",
-              "the beams must be able to clear the ground near the body: range_offset_m + 0.72 cell / "
-              "sin(range_cone_deg / 2) + cell <= 7/4 body_radius_m; cell: skirt_cell_m or, if 0, automatic"};
+      return {
+          "cone_too_narrow",
+          "the beams must be able to clear the ground near the body: beyond 7/4 body_radius_m, a turn on the "
+          "spot must leave no gap between the cones of readings one after another; it does with a smaller "
+          "range_offset_m, a larger range_cone_deg or more encoder_counts_per_m; and where no single reading "
+          "clears a cell at the rim, skirt_cell_m must not be greater than 2/5 body_radius_m"};
     case F::patch_too_small:
       return {"patch_too_small",
               "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
@@ -108,6 +119,12 @@ constexpr Relation relation(ParamFault fault) noexcept {
       return {"step_beyond_range",
               "range_clear_m and range_max_m must not be less than 2 thesis_base_step_m + body_radius_m + "
               "body_margin_m"};
+    case F::beams_crossed:
+      return {"beams_crossed",
+              "range_left_angle_deg must be greater than range_front_angle_deg, and that greater than "
+              "range_right_angle_deg"};
+    case F::creep_without_bumper:
+      return {"creep_without_bumper", "creep_speed_mps must be 0 unless bumper is true"};
   }
   return {"?", ""};
 }
@@ -119,6 +136,11 @@ constexpr int count_param_faults() noexcept {
 }
 constexpr int kParamFaults = count_param_faults();
 
+namespace at_run_time {
+bool in_range(const Params& p) noexcept;
+ParamFault check(const Params& p) noexcept;
+}  // namespace at_run_time
+
 namespace relations {
 
 // Walls at right angles, one body radius away: 15 degrees beyond the rim of the cone, each is 3.5 %
@@ -126,8 +148,6 @@ namespace relations {
 constexpr Angle kWidestCone = 60_deg;
 constexpr Speed kWireSpeed = Speed::from_raw(100);  // the smallest speed that hal::WheelSpeeds can represent
 
-/// Scope: void, or a type local to one source, which then gets its own, smaller copy.
-template <class Scope>
 struct Ranges {
   bool hold = true;
   template <class Tag>
@@ -142,15 +162,41 @@ struct Ranges {
   }
   template <class E>
   constexpr void choice(const char*, const E& x, const char* const*, int names) noexcept {
-    hold = hold && static_cast<int>(x) < names;
+    hold = hold && 0 <= static_cast<int>(x) && static_cast<int>(x) < names;
   }
 };
 
-template <class Scope>
-constexpr bool in_range(const Params& p) noexcept {
-  Ranges<Scope> ranges;
+[[gnu::always_inline]] constexpr bool in_range(const Params& p) noexcept {
+  if (!__builtin_is_constant_evaluated()) return at_run_time::in_range(p);
+  Ranges ranges;
   for_each_param(p, ranges);
   return ranges.hold;
+}
+
+/// What relations need to know of the three beams together.
+struct Beams {
+  bool range = true;                              ///< of each beam: the minimum is below the maximum
+  bool ordered = true;                            ///< the axes point from left to right
+  uint32_t outermost = 0;                         ///< direction of an edge from straight ahead
+  uint32_t widest = 0;                            ///< cone
+  Length shortest = Length::from_raw(INT32_MAX);  ///< maximum range
+  Length proving = shortest;
+};
+constexpr Beams beams(const RangefinderParams& r) noexcept {
+  Beams all;
+  int32_t left_of_it = INT32_MAX;
+  for (int i = 0; i < 3; ++i) {
+    const Mount m = mount(r, i);
+    const uint32_t edge = magnitude(m.axis) + m.half_cone.raw();
+    all.range = all.range && min_range(r, i) < max_range(r, i);
+    all.ordered = all.ordered && m.axis.wrapped() < left_of_it;
+    all.outermost = edge > all.outermost ? edge : all.outermost;
+    all.widest = beam_cone(r, i).raw() > all.widest ? beam_cone(r, i).raw() : all.widest;
+    all.shortest = (min)(all.shortest, max_range(r, i));
+    all.proving = (min)(all.proving, proving_range(r, i));
+    left_of_it = m.axis.wrapped();
+  }
+  return all;
 }
 
 /// v^2 / 2a + v (lag + longest gap): the stopping distance from full speed.
@@ -172,6 +218,13 @@ constexpr bool in_range(const Params& p) noexcept {
          p.wheels.motor_lag * 16 + p.safety.period * 6;
 }
 
+/// A larger cell at the rim would reach behind the part of the body that the gap between two readings may
+/// touch.
+[[gnu::always_inline]] constexpr bool beams_clear_the_rim(const Params& p) noexcept {
+  const RimSweep sweep = rim_sweep(p);
+  return sweep.radius <= p.body.radius * 7 / 4 && (!sweep.needed || patch_cell(p) <= sweep.radius * 2 / 5);
+}
+
 [[gnu::always_inline]] constexpr bool patch_holds_ways(const Params& p) noexcept {
   const Reach ways = reach(p);
   return patch_cell(p) * kHalfWindow >= ways.planning + cell_cover(p) + ways.probe &&
@@ -182,40 +235,42 @@ constexpr bool in_range(const Params& p) noexcept {
 
 /// Calls visit(ParamFault, holds) for each relation while it returns true. Every relation needs values within
 /// their own ranges: if out_of_range does not hold, it is the only one visited.
-template <class Scope = void, class Visit>
+template <class Visit>
 [[gnu::always_inline]] constexpr void for_each_relation(const Params& p, Visit&& visit) noexcept {
   using F = ParamFault;
   namespace r = relations;
-  const bool ranged = r::in_range<Scope>(p);
+  const bool ranged = r::in_range(p);
   if (!visit(F::out_of_range, ranged) || !ranged) return;
 
   const Duration between_readings = milliseconds(1000 / p.rangefinders.rate_hz) + p.rangefinders.latency;
   const Length count = millimetres(1000) / p.wheels.counts_per_metre;
   const Length turn_way = arc(p.motion.turn_tolerance, p.body.track / 2);
   const Length swept = p.thesis.base_step * 2 + p.body.radius + p.body.margin;
-  const uint32_t outer_edge = p.rangefinders.side_angle.raw() + p.rangefinders.cone.raw() / 2;
+  const r::Beams beams = r::beams(p.rangefinders);
   static_cast<void>(
       visit(F::track_wider_than_body, p.body.track <= p.body.radius * 2) &&
-      visit(F::ranges_reversed, p.rangefinders.min_range < p.rangefinders.max_range) &&
-      visit(F::cones_apart_from_front, outer_edge <= (90_deg).raw()) &&
+      visit(F::ranges_reversed, beams.range) &&
+      visit(F::cones_apart_from_front, beams.outermost <= (90_deg).raw()) &&
       visit(F::danger_inside_body, p.thesis.danger_range > p.body.radius + p.body.margin) &&
       visit(F::steps_reversed, p.thesis.small_step <= p.thesis.base_step) &&
-      visit(F::stop_longer_than_range, r::stopping_distance(p) <= p.rangefinders.max_range / 4) &&
+      visit(F::stop_longer_than_range, r::stopping_distance(p) <= beams.shortest / 4) &&
       visit(F::stale_before_next_reading, p.conditioning.stale_after > between_readings) &&
       visit(F::lost_before_stale, p.safety.lost_after >= p.conditioning.stale_after) &&
       visit(F::tolerance_below_encoder, p.motion.drive_tolerance >= count && turn_way >= count) &&
       visit(F::gap_below_period, longest_gap(p) >= p.safety.period * 2) &&
-      visit(F::stuck_within_cone, p.conditioning.stuck_turn.raw() > p.rangefinders.cone.raw()) &&
-      visit(F::cone_too_wide, p.rangefinders.cone.raw() <= r::kWidestCone.raw()) &&
+      visit(F::stuck_within_cone, p.conditioning.stuck_turn.raw() > beams.widest) &&
+      visit(F::cone_too_wide, beams.widest <= r::kWidestCone.raw()) &&
       visit(F::tolerance_above_step, p.motion.drive_tolerance < p.thesis.small_step &&
                                          p.motion.turn_tolerance.raw() < p.thesis.delta.raw()) &&
       visit(F::tolerance_below_wire, turn_way >= r::kWireSpeed * p.motion.settle) &&
       visit(F::stalled_before_count, p.safety.stalled_after >= r::slowest_count(p, count)) &&
       visit(F::settle_below_lag, p.motion.settle >= p.wheels.motor_lag + p.safety.period) &&
-      visit(F::step_beyond_range, proving_range(p.rangefinders) >= swept) &&
-      visit(F::cone_too_narrow, blind_reach(p) + patch_cell(p) <= p.body.radius * 7 / 4) &&
+      visit(F::step_beyond_range, beams.proving >= swept) &&
+      visit(F::cone_too_narrow, r::beams_clear_the_rim(p)) &&
       visit(F::patch_too_small, r::patch_holds_ways(p)) &&
-      visit(F::planning_below_shield, p.skirt.planning_margin >= p.skirt.shield_margin));
+      visit(F::planning_below_shield, p.skirt.planning_margin >= p.skirt.shield_margin) &&
+      visit(F::beams_crossed, beams.ordered) &&
+      visit(F::creep_without_bumper, p.bumper.fitted == Fitted::yes || p.bumper.creep_speed == Speed{}));
 }
 
 namespace formula {
@@ -228,21 +283,16 @@ struct FirstFault {
   }
 };
 
-template <class Scope>
 [[gnu::always_inline]] constexpr ParamFault check(const Params& p) noexcept {
   FirstFault first;
-  for_each_relation<Scope>(p, first);
+  for_each_relation(p, first);
   return first.found;
 }
 
 }  // namespace formula
 
-namespace at_run_time {
-ParamFault check(const Params& p) noexcept;
-}  // namespace at_run_time
-
 [[gnu::always_inline]] constexpr ParamFault check(const Params& p) noexcept {
-  if (__builtin_is_constant_evaluated()) return formula::check<void>(p);
+  if (__builtin_is_constant_evaluated()) return formula::check(p);
   return at_run_time::check(p);
 }
 

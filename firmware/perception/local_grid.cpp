@@ -5,7 +5,6 @@ namespace {
 
 static_assert(kUnitsPerCell == 256, "kCellCover counts in 256ths of a cell");
 
-constexpr Length kReadingRounding = 1_mm;
 constexpr Angle kSuspectHalf = 6_deg;
 constexpr Length kTestedTravel = 4_mm;
 constexpr int32_t kAhead = 3;  // cells
@@ -26,10 +25,15 @@ Duration time_to_stop(const Params& p) noexcept {
          p.wheels.motor_lag + milliseconds(braking);
 }
 
-/// Within the range in which units() does not saturate.
-constexpr bool nearby(int32_t x) noexcept { return x > -kOutermost && x < kOutermost; }
-
 }  // namespace
+
+Beam beam_of(const Mount& mount, const Pose& body) noexcept {
+  const Q30 c = cos(body.heading);
+  const Q30 s = sin(body.heading);
+  const Vec ahead{mount.apex.x * c, mount.apex.x * s};
+  const Vec aside{-(mount.apex.y * s), mount.apex.y * c};
+  return {body.at + ahead + aside, body.heading + mount.axis, mount.half_cone};
+}
 
 int32_t LocalGrid::units(int64_t um, int32_t most) const noexcept {
   const int64_t n = um * kUnitsPerCell;
@@ -42,13 +46,17 @@ int32_t LocalGrid::units(Length l) const noexcept { return units(l.raw(), kLonge
 
 void LocalGrid::configure(const Params& params) noexcept {
   cell_um_ = patch_cell(params).raw();
-  offset_ = params.rangefinders.offset;
-  half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
-  footprint_ = units(params.body.radius);
-  const int32_t blind = units(blind_reach(params)) + kUnitsPerCell;
-  placed_free_ =
-      blind_reach(params) > params.body.radius - cell_cover(params) ? blind + kCellCover : footprint_;
+  swept_ = rim_sweep(params).radius;
+  place_error_ = formula::place_error(params);
+  footprint_ = units(swept_);
   reach_ = whisker::reach(params);
+  holds_ = Length{};
+  for (int i = 0; i < 3; ++i) {
+    // While it turns, two readings one after another share little more than half a cone.
+    const int64_t cover = int64_t{cell_cover(params).raw()} * 2 * Q30::kOne;
+    const int64_t holds = cover / sin(mount(params.rangefinders, i).half_cone).raw();
+    holds_ = max(holds_, Length::from_raw(saturate32(holds)) + patch_cell(params) * 2);
+  }
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
   age_travel_ = params.skirt.age_travel;
   age_turn_ = params.skirt.age_turn.raw();
@@ -66,6 +74,7 @@ void LocalGrid::drop_rows(int first, int count) noexcept {
   for (int row = first; row < first + count; ++row) {
     const int s = slot(row);
     young_[s] = old_[s] = suspect_[s] = tested_[s] = 0;
+    for (Chain& chain : chains_) chain.swept[s] = 0;
   }
 }
 
@@ -76,21 +85,18 @@ void LocalGrid::drop_columns(Row window) noexcept {
     old_[s] &= keep;
     suspect_[s] &= keep;
     tested_[s] &= keep;
+    for (Chain& chain : chains_) chain.swept[s] &= keep;
   }
 }
 
-void LocalGrid::forget(const Pose& pose) noexcept {
+void LocalGrid::reset(const Pose& pose) noexcept {
   drop_rows(0, kCells);
+  for (Chain& chain : chains_) chain.linked = false;
   last_ = pose;
   travel_ = Length{};
   turned_ = 0;
   doubting_ = false;
   move_to(pose);
-}
-
-void LocalGrid::reset(const Pose& pose) noexcept {
-  forget(pose);
-  clear_around(pose.at, placed_free_);
 }
 
 void LocalGrid::move_to(const Pose& pose) noexcept {
@@ -166,25 +172,23 @@ void LocalGrid::clear_around(Vec at, int32_t reach) noexcept {
 }
 
 void LocalGrid::mark(const ConeObservation& observation, const EarlierObservation* before) noexcept {
-  const Angle axis = observation.from.heading + observation.axis;
-  const Vec from = observation.from.at + polar(axis, offset_);
-  const Point apex = local(from);
-  if (!nearby(apex.x) || !nearby(apex.y)) return;
-  const Angle axis_before = before == nullptr ? axis : before->from.heading + observation.axis;
-  const Vec from_before = before == nullptr ? from : before->from.at + polar(axis_before, offset_);
+  const Beam& beam = observation.beam;
+  const Point apex = local(beam.apex);
+  if (!nearby(apex)) return;
+  const Angle axis_before = before == nullptr ? beam.axis : before->axis;
+  const Vec from_before = before == nullptr ? beam.apex : before->apex;
   const Point apex_before = local(from_before);
-  if (!nearby(apex_before.x) || !nearby(apex_before.y)) return;
+  if (!nearby(apex_before)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
   const int32_t free = units(observation.free - room - kReadingRounding);
   const int32_t free_before = before == nullptr ? free : units(before->free - room - kReadingRounding);
   const int32_t echo = units(observation.free) + kUnitsPerCell;
-  const Wedge cone(axis, half_cone_);
-  const bool moved =
-      from.x != from_before.x || from.y != from_before.y || axis != axis_before || free_before < free;
-  const Wedge cone_before = moved ? Wedge(axis_before, half_cone_) : cone;
-  const bool wide = observation.hit && half_cone_.raw() > kSuspectHalf.raw();
-  const Wedge core = wide ? Wedge(axis, kSuspectHalf) : cone;
+  const Wedge cone(beam.axis, beam.half_cone);
+  const bool moved = !(beam.apex == from_before) || beam.axis != axis_before || free_before < free;
+  const Wedge cone_before = moved ? Wedge(axis_before, beam.half_cone) : cone;
+  const bool wide = observation.hit && beam.half_cone.raw() > kSuspectHalf.raw();
+  const Wedge core = wide ? Wedge(beam.axis, kSuspectHalf) : cone;
   const int32_t reach = observation.aimed ? kWholeWindow : observation.hit ? echo : free;
   for (Rows rows = cone.rows(apex.y, reach); rows.more(); rows.next()) {
     const int32_t dy = rows.offset(apex.y);
@@ -192,6 +196,15 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
     cone.hold(inside, apex.x, dy);
     const int s = slot(rows.row());
     const Row covered = to_torus(inside.columns());
+    if (observation.hit && reach_.past != Angle{}) {
+      // Near the apex, the cone holds no cell.
+      Span around = Span::around(apex.x, echo);
+      core.clip(around, apex.x, dy, 0);
+      around.within_disc(apex.x, dy, echo);
+      Span nearer = Span::around(apex.x, echo);
+      nearer.within_disc(apex.x, dy, free - kCellCover);
+      suspect_[s] |= to_torus(around.columns() & ~nearer.columns()) & ~(young_[s] | old_[s]);
+    }
     if ((covered & (~young_[s] | suspect_[s] | tested_[s])) == 0) continue;
     Span empty = inside;
     empty.inside_disc(apex.x, dy, free);
@@ -217,18 +230,19 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
 
 void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexcept {
   doubting_ = true;
+  for (Chain& chain : chains_) chain.linked = false;
   doubted_ = observation.taken;
-  const Angle axis = observation.from.heading + observation.axis;
-  const Point apex = local(observation.from.at + polar(axis, offset_));
+  const Beam& beam = observation.beam;
+  const Point apex = local(beam.apex);
   const Point body = local(last_.at);
-  if (!nearby(apex.x) || !nearby(apex.y)) return;
+  if (!nearby(apex)) return;
   const int32_t approach = units(approach_) + kCellCover;
   const int32_t nearest = units(observation.free) - approach;
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;
   const int32_t beyond = units(farthest + approach_) + kUnitsPerCell;
-  const Wedge cone(axis, half_cone_);
+  const Wedge cone(beam.axis, beam.half_cone);
   // The object may extend beyond the cone's edges, and be nearer there, but not behind the apex.
-  const HalfPlane ahead = HalfPlane::facing(axis);
+  const HalfPlane ahead = HalfPlane::facing(beam.axis);
   for (int row = 0; row < kCells; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
     Span around;
@@ -248,6 +262,49 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
     old_[s] &= ~taken;
     suspect_[s] = (suspect_[s] & ~taken) | (taken & to_torus(echo.columns()));
     tested_[s] &= ~taken;
+  }
+}
+
+void LocalGrid::revoke(const ConeObservation& observation) noexcept {
+  const Beam& beam = observation.beam;
+  const Point apex = local(beam.apex);
+  const Point body = local(last_.at);
+  if (!nearby(apex)) return;
+  const int32_t free = units(observation.free - kReadingRounding);
+  const int32_t ends = units(observation.free) + kUnitsPerCell;
+  const Wedge cone(beam.axis, beam.half_cone);
+  for (Rows rows(apex.y, ends); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    if ((young_[s] | old_[s]) == 0) continue;
+    const int32_t dy = rows.offset(apex.y);
+    Span touched = Span::around(apex.x, ends);
+    cone.clip(touched, apex.x, dy, -kCellCover);
+    touched.within_disc(apex.x, dy, ends);
+    Span nearer = Span::around(apex.x, ends);
+    nearer.inside_disc(apex.x, dy, free);
+    Span under = Span::around(body.x, footprint_);
+    under.inside_disc(body.x, rows.offset(body.y), footprint_);
+    const Row taken = to_torus(touched.columns() & ~nearer.columns() & ~under.columns());
+    young_[s] &= ~taken;
+    old_[s] &= ~taken;
+  }
+}
+
+void LocalGrid::block(Vec centre, Length radius) noexcept {
+  const Point at = local(centre);
+  const Point body = local(last_.at);
+  if (!nearby(at)) return;
+  const int32_t reach = units(radius);
+  for (Rows rows(at.y, reach + kHalfSquare); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
+    Span touched;
+    touched.touched_by_disc(at.x, rows.offset(at.y), reach);
+    Span under = Span::around(body.x, footprint_);
+    under.inside_disc(body.x, rows.offset(body.y), footprint_);
+    const Row taken = to_torus(touched.columns() & ~under.columns());
+    young_[s] &= ~taken;
+    old_[s] &= ~taken;
+    suspect_[s] |= taken;
   }
 }
 

@@ -9,19 +9,29 @@
 
 namespace whisker::perception {
 
+/// The place and direction of a beam at the time of a measurement, in the frame of the pose.
+struct Beam {
+  Vec apex;
+  Angle axis;
+  Angle half_cone;
+};
+/// The beam of this mount on a body with this pose.
+Beam beam_of(const Mount& mount, const Pose& body) noexcept;
+
 /// Observation of one beam: nothing within its cone is nearer to the apex than `free`.
 struct ConeObservation {
-  Pose from;           ///< pose of the body at the time of the measurement
-  Angle axis;          ///< direction of the beam from straight ahead
+  Beam beam;
+  int8_t number = 0;   ///< of the beam, a hal::Beam
   Length free;         ///< free distance
   bool hit = false;    ///< an object lies at `free`
   bool aimed = false;  ///< from a static scan: cells that the beam covers and does not clear become tested
   Time taken{};
 };
 
-/// The free distance of the beam's last reading, and the pose at that time.
+/// The last reading of the same beam.
 struct EarlierObservation {
-  Pose from;
+  Vec apex;
+  Angle axis;
   Length free;
 };
 
@@ -30,6 +40,12 @@ struct Obstacles {
   int32_t unknown = 0;  ///< never cleared, and nothing else is known
   int32_t suspect = 0;  ///< near an echo, or a static scan did not clear it
   Vec nearest_unknown;  ///< the nearest unknown cell, from the body
+};
+
+/// Cells that count as obstacles.
+enum class Avoid : uint8_t {
+  unclear,  ///< all that are not clear
+  suspect,  ///< those of Obstacles::suspect
 };
 
 /// A rolling grid of 32 x 32 cells around the body, aligned with the world. Each cell has one of four states,
@@ -44,20 +60,27 @@ class LocalGrid {
   static constexpr Length kShortestStep = micrometres(100);
 
   void configure(const Params& params) noexcept;
-  /// Clears the ground under the body and the ring that no beam can clear from there (see blind_reach), which
-  /// must be free; all else becomes unknown.
+  /// Clears the ground under the body, to the radius of rim_sweep(); all else becomes unknown.
   void reset(const Pose& pose) noexcept;
-  /// The same without the ring.
-  void forget(const Pose& pose) noexcept;
   /// Moves the window with the body, ages the cells, clears the footprint.
   void move_to(const Pose& pose) noexcept;
   /// Clears the cells that both observations show empty, each from its own pose, so that a single false clear
   /// reading clears nothing. Without an earlier observation, only `observation` decides.
   void mark(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
+  /// Clears the cells that this reading and those of the same beam before it show empty together; for cells
+  /// so near to the apex that no single reading covers them. `before` as in mark(). No effect if Reach::past
+  /// is zero.
+  void chain(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
+  /// An echo takes back the ground that it may come from: cells that the cone touches from the free distance
+  /// to one cell beyond become unknown, except those under the body. For sensors that lose walls seen at an
+  /// angle, so that a clear cell may hold one.
+  void revoke(const ConeObservation& observation) noexcept;
   /// An object in this beam between `observation.free` and `farthest` has moved there. Resets the cells that
   /// it can reach while the body stops, except those under the body. For a second, mark() clears no cell that
   /// near to an echo.
   void doubt(const ConeObservation& observation, Length farthest) noexcept;
+  /// The cells that this disc touches are suspect, except those under the body. Holds until the next mark().
+  void block(Vec centre, Length radius) noexcept;
   /// Something moved during the last second.
   bool doubting() const noexcept { return doubting_; }
   /// Lengths for which paths are checked.
@@ -71,7 +94,8 @@ class LocalGrid {
   /// True if a step of this length brings the body nearer to a cell that is not clear, and then within
   /// `radius` of it. Cells abeam are ignored: passing them reduces the distance by less than the guard's
   /// margin. False below kShortestStep.
-  bool approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
+  bool approaches(const Vec& from, Angle heading, Length step, Length radius,
+                  Avoid avoid = Avoid::unclear) const noexcept;
   /// The grid covers at most this distance from the body along each axis.
   Length half_window() const noexcept { return Length::from_raw(cell_um_ * (kCells / 2)); }
   /// The state of one cell, for display; false outside the window.
@@ -80,11 +104,13 @@ class LocalGrid {
   bool all_clear(Vec centre, Length radius) const noexcept;
 
  private:
+  static constexpr Length kReadingRounding = Length::from_raw(1000);
   struct Point {
     int32_t x = 0;
     int32_t y = 0;
   };
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
+  Row solid_row(int row) const noexcept { return to_window(suspect_[slot(row)] | tested_[slot(row)]); }
   int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
   uint32_t shift() const noexcept { return static_cast<uint32_t>(column_) & (kCells - 1); }
   Row to_torus(Row window) const noexcept {
@@ -97,12 +123,39 @@ class LocalGrid {
   int32_t units(int64_t um, int32_t most) const noexcept;
   Length length_of(int32_t units) const noexcept;
   Point local(Vec at) const noexcept;
+  /// Within the range in which units() does not saturate.
+  static bool nearby(Point p) noexcept {
+    return p.x > -kOutermost && p.x < kOutermost && p.y > -kOutermost && p.y < kOutermost;
+  }
   static bool in_window(Point p, int32_t reach) noexcept;
   void drop_rows(int first, int count) noexcept;
   void drop_columns(Row window) noexcept;
   void age(const Pose& pose) noexcept;
   void renew_around(Vec at) noexcept;
   void clear_around(Vec at, int32_t reach) noexcept;
+
+  /// The readings of a beam one after another while its cone sweeps to one side.
+  ///
+  /// The trailing edge of the cone is the one behind which ground falls as it sweeps. A cell is swept while
+  /// it has lain completely before some trailing edge, and no later reading can have missed a part of it. It
+  /// is clear as soon as it also lies completely behind the leading edge (proof: docs/ground.md).
+  struct Chain {
+    bool linked = false;
+    bool left = true;  // sweeps to the left: the left edge leads
+    Beam last;         // the last reading
+    Vec lead_from;     // a point of the leading edge, and its direction
+    Angle lead;
+    Length back;  // how far it has swept to the other side since
+    Time taken;
+    Row swept[kCells] = {};
+  };
+  /// Ground that no reading of a link may have seen lies behind this boundary.
+  struct Boundary {
+    Vec at;
+    Angle facing;
+  };
+  bool link(const Chain& chain, const Vec& from, Angle trail, Angle half_cone,
+            Boundary& seen_ahead) const noexcept;
 
   int32_t column_ = 0;  // of the window's corner, in world cells
   int32_t row_ = 0;
@@ -112,16 +165,18 @@ class LocalGrid {
   uint32_t turned_ = 0;  // the same, 2^-32 turn
   bool doubting_ = false;
   Time doubted_;
-  Length offset_;
-  Angle half_cone_;
   Length age_travel_;
   uint32_t age_turn_ = 0;
   Reach reach_;
   Length approach_;  // travel of a moving object while the body stops
   int32_t cell_um_ = 20000;
-  int32_t footprint_ = 0;    // grid units
-  int32_t placed_free_ = 0;  // assumed free when the body is placed; grid units
-  int32_t ring_ = 0;         // the same: ring beside the body's path
+  int32_t footprint_ = 0;  // grid units
+  int32_t ring_ = 0;       // ring beside the body's path; grid units
+
+  Length place_error_;  // between two readings
+  Length swept_;        // radius of rim_sweep()
+  Length holds_;        // from this distance on, a cone holds a cell
+  Chain chains_[3];
 
   Row young_[kCells] = {};    // cleared since the last ageing step
   Row old_[kCells] = {};      // cleared before it

@@ -25,11 +25,10 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
   const Row box = stadium.box();
   int32_t nearest = INT32_MAX;
   for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
-    const int s = slot(rows.row());
-    Row blocked = box & to_window(~(young_[s] | old_[s]));
+    Row blocked = box & to_window(~clear_row(rows.row()));
     if (blocked == 0) continue;
     blocked &= stadium.columns(rows.row());
-    const Row solid = blocked & to_window(suspect_[s] | tested_[s]);
+    const Row solid = blocked & solid_row(rows.row());
     found.suspect += bits(solid);
     if (found.suspect >= enough) break;
     const int32_t dy = rows.offset(start.y);
@@ -47,7 +46,8 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
   return found;
 }
 
-bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius) const noexcept {
+bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius,
+                           Avoid avoid) const noexcept {
   if (step < kShortestStep) return false;
   const Point here = local(from);
   const Point there = local(from + polar(heading, step));
@@ -58,7 +58,8 @@ bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length r
   const HalfPlane ahead = HalfPlane::facing(heading);
   const Row box = Span::around(there.x, reach).columns();
   for (Rows rows(there.y, reach + kHalfSquare); rows.more(); rows.next()) {
-    const Row unclear = box & to_window(~clear_row(rows.row()));
+    Row unclear = box & to_window(~clear_row(rows.row()));
+    if (avoid == Avoid::suspect) unclear &= solid_row(rows.row());
     if (unclear == 0) continue;
     Span span;
     span.touched_by_disc(there.x, rows.offset(there.y), reach);

@@ -18,12 +18,14 @@ constexpr Length kHair = micrometres(500);
 
 }  // namespace
 
-void MotionDetector::configure(const Params& params) noexcept {
-  side_ = params.rangefinders.side_angle;
-  half_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
-  offset_ = params.rangefinders.offset;
-  edge_ = facing(half_);
-  for (int i = 0; i < kBeams; ++i) beam_[i] = facing(beam_axis(side_, i));
+void MotionDetector::configure(const Mount (&mounts)[kBeams]) noexcept {
+  mounts_ = mounts;
+  outermost_ = Length{};
+  for (int i = 0; i < kBeams; ++i) {
+    beam_[i] = facing(mounts[i].axis);
+    edge_[i] = facing(mounts[i].half_cone);
+    outermost_ = max(outermost_, norm(mounts[i].apex));
+  }
 }
 
 void MotionDetector::add(const Pose& from, Time taken, const Length (&free)[kBeams]) noexcept {
@@ -60,13 +62,16 @@ Vec MotionDetector::seen(Vec v, Facing facing) noexcept {
 }
 
 bool MotionDetector::holds(const Scan& scan, int beam, Vec way) const noexcept {
-  const Length reach = norm(way);
-  const Angle off = bearing(way) - scan.heading - beam_axis(side_, beam);
-  const Length forward = reach * cos(off) - offset_;
-  const Length aside = abs(reach * sin(off));
+  const Mount& mount = mounts_[beam];
+  const Beam seen_from = beam_of(mount, {{}, scan.heading});
+  const Vec from_apex = way - seen_from.apex;
+  const Length reach = norm(from_apex);
+  const Angle off = bearing(from_apex) - seen_from.axis;
   // Distance inside the nearer edge; never positive behind the apex.
-  if (forward * sin(half_) - aside * cos(half_) < kSlack) return false;
-  return (norm({forward, aside}) + kSlack).raw() / kUm <= scan.free[beam];
+  if (reach * cos(off) * sin(mount.half_cone) - abs(reach * sin(off)) * cos(mount.half_cone) < kSlack) {
+    return false;
+  }
+  return (reach + kSlack).raw() / kUm <= scan.free[beam];
 }
 
 MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexcept {
@@ -76,14 +81,14 @@ MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexce
     const Vec way = point - scan.at;
     uint16_t free = 0;
     for (const uint16_t f : scan.free) free = f > free ? f : free;
-    if (farther(way, min(kFarthest, offset_ + Length::from_raw(free * kUm)))) continue;
+    if (farther(way, min(kFarthest, outermost_ + Length::from_raw(free * kUm)))) continue;
     const Vec ahead = seen(way, scan.facing);
     for (int i = 0; i < kBeams; ++i) {
       const Mask bit = Mask{1} << (n * kBeams + i);
       if ((among & bit) == 0) continue;
-      const Vec at = seen(ahead, beam_[i]);
-      const Vec from_apex{at.x - offset_, abs(at.y)};
-      const Length inwards = -seen(from_apex, edge_).y;
+      const Vec at = seen(ahead - mounts_[i].apex, beam_[i]);
+      const Vec from_apex{at.x, abs(at.y)};
+      const Length inwards = -seen(from_apex, edge_[i]).y;
       const Length rim = Length::from_raw(scan.free[i] * kUm) - kSlack;
       if (inwards < kSlack - kHair || farther(from_apex, rim + kHair)) continue;
       const bool well_inside = inwards >= kSlack + kHair && !farther(from_apex, rim - kHair);
@@ -93,12 +98,10 @@ MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexce
   return holding;
 }
 
-bool MotionDetector::contradicts(const Pose& from, int beam, Length nearest, Length farthest,
+bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthest,
                                  const LocalGrid& local_grid) const noexcept {
   if (farthest > kReach || nearest <= Length{}) return false;
-  const Angle axis = from.heading + beam_axis(side_, beam);
-  const Vec apex = from.at + polar(axis, offset_);
-  const Angle half = half_ + kWidening;
+  const Angle half = beam.half_cone + kWidening;
   const Angle step = Angle::from_raw(half.raw() / (kSectors / 2));
   const Length far = farthest + kNoise;
   // A cell is coarse: an obstacle in it also occupies the cell's ground before the obstacle.
@@ -110,15 +113,15 @@ bool MotionDetector::contradicts(const Pose& from, int beam, Length nearest, Len
     if (among == 0) return Mask{0};
     const Q30 x = cos(direction);
     const Q30 y = sin(direction);
-    const Mask behind = holding(apex + Vec{far * x, far * y}, among);
-    return behind == 0 ? Mask{0} : holding(apex + Vec{nearest * x, nearest * y}, behind);
+    const Mask behind = holding(beam.apex + Vec{far * x, far * y}, among);
+    return behind == 0 ? Mask{0} : holding(beam.apex + Vec{nearest * x, nearest * y}, behind);
   };
   for (int n = 0; n < kSectors; ++n) {
     // Middle sectors first: an obstacle is most likely in the middle of the cone.
     const int k = (n + kSectors / 2) % kSectors;
-    const Angle right = axis - half + step * k;
+    const Angle right = beam.axis - half + step * k;
     const Angle centre = right + step - Angle::from_raw(step.raw() / 2);
-    if (local_grid.all_clear(apex + polar(centre, middle), radius)) continue;
+    if (local_grid.all_clear(beam.apex + polar(centre, middle), radius)) continue;
     if (across(right + step, across(right, ~Mask{0})) == 0) return false;
   }
   return true;

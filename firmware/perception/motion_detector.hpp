@@ -21,7 +21,8 @@ class MotionDetector {
   /// Echoes farther away are ignored.
   static constexpr Length kReach = Length::from_raw(700000);
 
-  void configure(const Params& params) noexcept;
+  /// The mounts must outlive it.
+  void configure(const Mount (&mounts)[kBeams]) noexcept;
   void reset() noexcept {
     count_ = 0;
     newest_ = kKept - 1;
@@ -33,7 +34,7 @@ class MotionDetector {
 
   /// True if no point of the beam's cone between these two distances could have been occupied before: each
   /// lies in a kept sector or in clear ground.
-  bool contradicts(const Pose& from, int beam, Length nearest, Length farthest,
+  bool contradicts(const Beam& beam, Length nearest, Length farthest,
                    const LocalGrid& local_grid) const noexcept;
 
  private:
@@ -63,11 +64,10 @@ class MotionDetector {
   Time newest_taken_;
   int8_t newest_ = kKept - 1;
   int8_t count_ = 0;
-  Angle side_;
-  Angle half_;
+  const Mount* mounts_ = nullptr;
   Facing beam_[kBeams];
-  Facing edge_;  // half_
-  Length offset_;
+  Facing edge_[kBeams];  // of the half cone
+  Length outermost_;     // distance of an apex from the centre
   Scan scan_[kKept];
 };
 

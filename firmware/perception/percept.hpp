@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "firmware/perception/contacts.hpp"
 #include "firmware/perception/echo.hpp"
 #include "firmware/perception/local_grid.hpp"
 
@@ -13,7 +14,9 @@ struct Percept {
   Echoes moving_scan{};  ///< the same while it moves: the median of the last few readings of each beam
   bool sighted = false;  ///< a reading arrived at this tick
   const LocalGrid* local_grid = nullptr;        ///< clear ground nearby
+  const Contacts* contacts = nullptr;           ///< obstacles found by touch; null: none
   ConeObservation observations[hal::kBeams]{};  ///< one per beam, taken in at this tick
+  bool revoking = false;                        ///< clear ground may hold an obstacle: echoes take it back
   uint8_t observed = 0;                         ///< one bit per beam that has one
 };
 

@@ -3,22 +3,24 @@
 namespace whisker::perception {
 
 void Perception::configure(const Params& params) noexcept {
+  loses_walls_ = params.rangefinders.incidence.raw() < (90_deg).raw();
+  for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
   local_grid_.configure(params);
-  motion_.configure(params);
+  contacts_.configure(params.body.radius);
+  motion_.configure(mounts_);
   const Duration reach = params.rangefinders.latency + milliseconds(1000 / params.rangefinders.rate_hz);
   history_.configure(reach / (localization::PoseHistory::kKept - 2));
 }
 
-void Perception::place(const Pose& pose) noexcept {
-  forget(pose);
-  local_grid_.reset(pose);
-}
-
 void Perception::forget(const Pose& pose) noexcept {
   history_.reset();
-  local_grid_.forget(pose);
+  local_grid_.reset(pose);
+  contacts_.reset();
   motion_.reset();
   seen_ = 0;
+  contradicted_ = 0;
+  misses_ = false;
+  for (Contradiction& contradiction : contradictions_) contradiction = {};
   for (RangeScatter& scatter : scatter_) scatter = {};
 }
 
@@ -34,7 +36,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   local_grid_.move_to(body.pose);
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
-  const Length proving = proving_range(params.rangefinders);
+  Pose from;
   int seen = 0;
   for (int i = 0; i < hal::kBeams; ++i) {
     const RecentReadings sight = conditioner_.sight(i, params);
@@ -42,36 +44,51 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     if (!sight.fresh) continue;
     out.sighted = true;
     ConeObservation& observation = out.observations[i];
-    if (!history_.at(sight.taken, observation.from)) continue;
-    observation.axis = beam_axis(params.rangefinders.side_angle, i);
+    if (!history_.at(sight.taken, from)) continue;
+    observation.number = static_cast<int8_t>(i);
+    observation.beam = beam_of(mounts_[i], from);
+    const Length proving = proving_range(params.rangefinders, i);
     scatter_[i].add(sight);
+    misses_ = misses_ || sight.misses;
+    // What contradicted was a phantom.
+    if (sight.phantoms) contradicted_ = 0;
     observation.hit = sight.near.validity != Validity::clear && sight.near.distance <= proving;
     const Length allowance = observation.hit ? scatter_[i].allowance() : Length{};
     observation.free = free[i] = max(Length{}, min(sight.near.distance, proving) - allowance);
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (observation.hit &&
-        motion_.contradicts(observation.from, i, observation.free, sight.farthest, local_grid_)) {
-      moved[i] = sight.farthest;
+        motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
+      const bool approaches = contradictions_[i].approaches(observation);
+      const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
+      if (anew && contradicted_ < kDistrusted) ++contradicted_;
+      const bool explained = loses_walls_ || misses_ || sight.phantoms;
+      if (approaches || !explained) moved[i] = sight.farthest;
     }
     const uint8_t bit = static_cast<uint8_t>(1U << i);
     // A single clear reading is not evidence: it needs a second one.
-    if (!sight.clear) {
-      local_grid_.mark(observation);
-    } else if ((seen_ & bit) != 0) {
-      local_grid_.mark(observation, &last_[i]);
+    const EarlierObservation* const before = sight.single ? &last_[i] : nullptr;
+    if (!sight.single || (seen_ & bit) != 0) {
+      local_grid_.mark(observation, before);
+      local_grid_.chain(observation, before);
     }
-    last_[i] = {observation.from, observation.free};
+    last_[i] = {observation.beam.apex, observation.beam.axis, observation.free};
     seen_ |= bit;
     out.observed = static_cast<uint8_t>(out.observed | bit);
     ++seen;
   }
-  // After all marks, because another beam may clear ground into which a moving object is about to drive.
+  // After all marks, because another beam may clear ground that an echo takes back, or into which a moving
+  // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
+    const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
+    if (revokes() && echo) local_grid_.revoke(out.observations[i]);
     if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
   }
-  if (seen == hal::kBeams) motion_.add(out.observations[0].from, out.observations[0].taken, free);
+  for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());
+  if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free);
+  out.revoking = revokes();
   out.local_grid = &local_grid_;
+  out.contacts = &contacts_;
 }
 
 }  // namespace whisker::perception

@@ -8,6 +8,8 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/perception/contacts.hpp"
+#include "firmware/perception/contradiction.hpp"
 #include "firmware/perception/local_grid.hpp"
 #include "firmware/perception/motion_detector.hpp"
 #include "firmware/perception/percept.hpp"
@@ -31,9 +33,7 @@ class Perception {
   void configure(const Params& params) noexcept;
   /// No reading has arrived yet; the wait for readings starts at `now`.
   void start(Time now) noexcept { conditioner_.reset(now); }
-  /// The body was put down here: only the ground that must be free around it is clear.
-  void place(const Pose& pose) noexcept;
-  /// Resets all cells except those under the body to unknown, because the pose may be wrong.
+  /// Resets all cells except those under the body to unknown: it was put down here, or its pose may be wrong.
   void forget(const Pose& pose) noexcept;
   /// The body moves untracked between the last tick and the next one.
   void lose_history() noexcept { history_.reset(); }
@@ -41,6 +41,8 @@ class Perception {
   /// Takes in the readings of a tick. readings == nullptr: the HAL refused.
   void sense(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
              Health& health) noexcept;
+  /// A body with this pose touches something with these switches: see Contacts::add().
+  void touch(uint8_t pressed, const Pose& body) noexcept { contacts_.add(pressed, body); }
   /// Updates the grid and returns the percept; call once per tick after sense().
   void observe(const Standing& body, const Params& params, Percept& out) noexcept;
 
@@ -51,12 +53,22 @@ class Perception {
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:
+  /// From this number of contradictions on, clear ground is not trusted. An object that moves causes fewer.
+  static constexpr uint8_t kDistrusted = 6;
+  bool revokes() const noexcept { return loses_walls_ || misses_ || contradicted_ >= kDistrusted; }
+
+  Mount mounts_[hal::kBeams];
+  bool loses_walls_ = false;  // by the parameters, a clear cell may hold a wall
+  bool misses_ = false;       // some beam often reports clear where something is
+  uint8_t contradicted_ = 0;  // echoes from clear ground that nothing moving explains
+  Contradiction contradictions_[hal::kBeams];
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading
   EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
   RangeScatter scatter_[hal::kBeams];
   RangeConditioner conditioner_;
   localization::PoseHistory history_;
   MotionDetector motion_;
+  Contacts contacts_;
   LocalGrid local_grid_;
 };
 

@@ -17,8 +17,11 @@ struct RecentReadings {
   bool fresh = false;     ///< a usable measurement arrived at this tick
   Time taken;             ///< time of the newest measurement
   Time oldest;            ///< time of the oldest measurement behind `near`
-  Echo near;              ///< the nearest of the last four: a single reading cannot make it far
-  bool clear = false;     ///< the newest measurement is clear
+  Echo near;              ///< the nearest of the last four: a single reading cannot make it far. If phantoms
+                          ///< are frequent, the nearest of the last five that others confirm
+  bool single = false;    ///< the newest measurement alone does not prove `near`: it is clear or a phantom
+  bool phantoms = false;  ///< phantoms are frequent
+  bool misses = false;    ///< readings that miss an object are frequent
   Echo typical;           ///< the median of the last three
   Length farthest;        ///< the farthest of the last three: a single reading cannot make it near
   bool measured = false;  ///< the last three are all distances
@@ -31,6 +34,9 @@ struct RecentReadings {
 class BeamConditioner {
  public:
   static constexpr int kHistory = 5;  ///< the largest ConditioningParams::reads
+
+  /// The beam, a hal::Beam, chooses its own parameters.
+  explicit BeamConditioner(int beam = 0) noexcept : beam_(static_cast<int8_t>(beam)) {}
 
   /// Takes in the reading that the HAL returns at this tick; a known one (same sequence) only ages. The
   /// heading of the body tells a stuck sensor from a static world.
@@ -58,8 +64,12 @@ class BeamConditioner {
   Validity classify(const hal::RangeReading& reading, Angle heading, const Params& params,
                     Health& health) noexcept;
   bool is_stuck(const hal::RangeReading& reading, Angle heading, Angle stuck_turn) noexcept;
+  /// Estimates how many readings are wrong.
+  void judge(Angle turned, const Params& params) noexcept;
+  Length confirmed(const Length (&last)[kHistory]) const noexcept;
   void age(Time now, const Params& params, Health& health) noexcept;
 
+  int8_t beam_;
   Measurement history_[kHistory];
   int8_t count_ = 0;
   int8_t newest_ = 0;
@@ -71,6 +81,10 @@ class BeamConditioner {
   bool repeating_ = false;
   Angle repeated_since_;
   uint8_t sequence_ = 0xFF;
+  Angle heading_;          // at the last usable reading
+  int8_t steady_ = 0;      // readings since a fast turn
+  uint16_t phantoms_ = 0;  // share of single near readings, and of single far ones, 2^-16
+  uint16_t misses_ = 0;
 };
 
 class RangeConditioner {
@@ -86,7 +100,8 @@ class RangeConditioner {
   Duration lost_for(Time now) const noexcept;
 
  private:
-  BeamConditioner beam_[hal::kBeams];
+  BeamConditioner beam_[hal::kBeams] = {BeamConditioner{hal::kLeft}, BeamConditioner{hal::kFront},
+                                        BeamConditioner{hal::kRight}};
 };
 
 }  // namespace whisker::perception

@@ -79,6 +79,8 @@ void HalfPlane::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const no
   }
 }
 
+void HalfPlane::hold(Span& span, int32_t x, int32_t dy) const noexcept { clip(span, x, dy, corner(nx, ny)); }
+
 HalfPlane HalfPlane::facing(Angle direction) noexcept { return {q14(cos(direction)), q14(sin(direction))}; }
 
 Wedge::Wedge(Angle axis, Angle half) noexcept

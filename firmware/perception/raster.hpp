@@ -82,10 +82,14 @@ class Rows {
 struct HalfPlane {
   /// The half plane ahead of a boundary that faces this direction.
   static HalfPlane facing(Angle direction) noexcept;
+  /// The half plane to the left of a line in this direction.
+  static HalfPlane left_of(Angle direction) noexcept { return facing(direction + Angle::turns(1, 4)); }
   int32_t nx;
   int32_t ny;
   /// dy from the origin of the boundary, whose x is given.
   void clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept;
+  /// Keeps the cells of the row that lie completely inside.
+  void hold(Span& span, int32_t x, int32_t dy) const noexcept;
 };
 
 /// The points between two directions. half < 90 degrees.

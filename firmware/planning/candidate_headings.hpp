@@ -18,9 +18,12 @@ enum class Way : uint8_t {
 /// State of the path of this length from the body's position, `reach` wide to both sides.
 Way way(const View& view, Angle heading, Length length, Length reach) noexcept;
 
-/// The turn that brings the axis of the nearest beam onto the nearest unseen cell of that path, for a body
-/// with heading `from`. False: no such cell, or the path is occupied.
-bool turn_to_unseen(const View& view, Angle heading, Length length, Angle from, const Params& params,
-                    Angle& turn) noexcept;
+/// Unseen ground on a path.
+struct Unseen {
+  int32_t cells = 0;  ///< zero: none, or the path is occupied
+  Angle turn;         ///< brings the axis of the nearest beam onto the nearest of these cells
+};
+/// That path as seen by a body with heading `from`.
+Unseen unseen(const View& view, Angle heading, Length length, Angle from, const Params& params) noexcept;
 
 }  // namespace whisker::planning

@@ -15,10 +15,6 @@ Speed signed_approach(Length rest, Speed limit_speed, const Params& params) noex
   return rest < Length{} ? -v : v;
 }
 
-Speed fastest_turning(const Params& params) noexcept {
-  return params.wheels.max_turn_rate * (params.body.track / 2);
-}
-
 Duration longest_hold(const Params& params) noexcept {
   return max(params.safety.period * kHeldPeriods,
              milliseconds(1000 / params.rangefinders.rate_hz) * kHeldReadings);
@@ -32,6 +28,11 @@ void count_while(bool condition, Duration elapsed, Duration& time) noexcept {
 
 }  // namespace
 
+void MotionController::configure(const Params& params) noexcept {
+  fastest_turning_ = params.wheels.max_turn_rate * (params.body.track / 2);
+  fastest_on_the_spot_ = turn_rate(params) * (params.body.track / 2);
+}
+
 void MotionController::begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept {
   if (manoeuvre.kind == ManoeuvreKind::keep) return;
   const bool cruises_on = manoeuvre.kind == ManoeuvreKind::cruise && current_.kind == ManoeuvreKind::cruise;
@@ -40,6 +41,13 @@ void MotionController::begin(const Manoeuvre& manoeuvre, const Pose& pose) noexc
   origin_ = pose.at;
   finished_ = manoeuvre.kind == ManoeuvreKind::stop;
   cut_ = settled_ = false;
+  still_for_ = stalled_for_ = waiting_for_ = Duration{};
+  nearest_ = Length::from_raw(INT32_MAX);
+}
+
+void MotionController::interrupt() noexcept {
+  if (current_.kind == ManoeuvreKind::drive && !finished_) finished_ = cut_ = true;
+  settled_ = false;
   still_for_ = stalled_for_ = waiting_for_ = Duration{};
   nearest_ = Length::from_raw(INT32_MAX);
 }
@@ -61,14 +69,14 @@ VelocityRequest MotionController::request(const Pose& pose, Duration elapsed, Du
       if (held_for <= longest_hold(params)) return drive(pose, error, elapsed, params);
       finished_ = cut_ = true;
       break;
-    case ManoeuvreKind::cruise: return cruise(params);
+    case ManoeuvreKind::cruise: return cruise();
   }
   return {};
 }
 
 /// If the turn rate exceeds the limit, both speeds are scaled, so that the path keeps its curvature.
-VelocityRequest MotionController::cruise(const Params& params) const noexcept {
-  const Speed most = fastest_turning(params);
+VelocityRequest MotionController::cruise() const noexcept {
+  const Speed most = current_.forward == Speed{} ? fastest_on_the_spot_ : fastest_turning_;
   const Speed turning = abs(current_.turning);
   if (turning <= most) return {current_.forward, current_.turning, true};
   return {Speed::from_raw(multiply_divide(current_.forward.raw(), most.raw(), turning.raw())),
@@ -82,7 +90,7 @@ VelocityRequest MotionController::turn(Angle error, Duration elapsed, const Para
   }
   const Length way = arc(error, params.body.track / 2);
   approach(abs(way), elapsed);
-  return {Speed{}, signed_approach(way, min(params.wheels.max_speed, fastest_turning(params)), params), true};
+  return {Speed{}, signed_approach(way, min(params.wheels.max_speed, fastest_on_the_spot_), params), true};
 }
 
 VelocityRequest MotionController::drive(const Pose& pose, Angle error, Duration elapsed,
@@ -94,7 +102,7 @@ VelocityRequest MotionController::drive(const Pose& pose, Angle error, Duration 
   }
   approach(rest, elapsed);
   const Speed forward = min(approach_speed(rest, params), params.wheels.max_speed);
-  const Speed fastest = min(params.wheels.max_speed, fastest_turning(params));
+  const Speed fastest = min(params.wheels.max_speed, fastest_on_the_spot_);
   const Speed correction = signed_approach(arc(error, params.body.track / 2), fastest, params);
   // At most half the forward speed, so that the correction never reverses a wheel.
   return {forward, limit(correction, forward / 2), true};

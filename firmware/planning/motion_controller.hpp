@@ -15,8 +15,12 @@ namespace whisker::planning {
 /// motor's lag allow a stop in the remaining distance.
 class MotionController {
  public:
+  void configure(const Params& params) noexcept;
   /// Starts a manoeuvre; ManoeuvreKind::keep changes nothing.
   void begin(const Manoeuvre& manoeuvre, const Pose& pose) noexcept;
+
+  /// Something else moves the wheels now. A drive ends: see cut(). Any other manoeuvre continues after it.
+  void interrupt() noexcept;
 
   /// Once per tick, unless the robot must stand. `elapsed`: since the previous tick; `held_for`: how long the
   /// guard has held the body. A drive held for longer than kHeld ends: see cut().
@@ -30,7 +34,7 @@ class MotionController {
 
   /// The manoeuvre is over and the counts have stood still for three periods.
   bool settled() const noexcept { return settled_; }
-  /// The guard ended the last drive before its length.
+  /// The guard, or a bump switch, ended the last drive before its length.
   bool cut() const noexcept { return cut_; }
   /// How long the wheels have been commanded to move without any count.
   Duration stalled_for() const noexcept { return stalled_for_; }
@@ -39,11 +43,13 @@ class MotionController {
   Duration waiting_for() const noexcept { return waiting_for_; }
 
  private:
-  VelocityRequest cruise(const Params& params) const noexcept;
+  VelocityRequest cruise() const noexcept;
   VelocityRequest turn(Angle error, Duration elapsed, const Params& params) noexcept;
   VelocityRequest drive(const Pose& pose, Angle error, Duration elapsed, const Params& params) noexcept;
   void approach(Length rest, Duration elapsed) noexcept;
 
+  Speed fastest_turning_;  // of the rim
+  Speed fastest_on_the_spot_;
   Manoeuvre current_{ManoeuvreKind::stop, {}, {}, {}, {}};
   Vec origin_;
   bool finished_ = true;

@@ -24,11 +24,11 @@ struct View : perception::Percept {
   Pose pose{};                ///< the body's estimate
   uint32_t travelled_um = 0;  ///< path length so far, um modulo 2^32
   bool settled = true;        ///< the last manoeuvre has ended and the body stands
-  bool cut = false;           ///< the last manoeuvre was a drive, and the guard ended it before its length
-  Speed forward{};            ///< of the body, by its wheels
-  Speed turning{};            ///< of the rims, counter-clockwise positive
-  Q14 granted{};              ///< granted part of the last requested forward speed
-  Duration elapsed{};         ///< since the previous tick
+  bool cut = false;    ///< the last manoeuvre was a drive, and the guard or a bump ended it before its length
+  Speed forward{};     ///< of the body, by its wheels
+  Speed turning{};     ///< of the rims, counter-clockwise positive
+  Q14 granted{};       ///< granted part of the last requested forward speed
+  Duration elapsed{};  ///< since the previous tick
 
   /// The guard granted only part of the request.
   constexpr bool held_back() const noexcept { return granted < Q14::ratio(1, 1); }

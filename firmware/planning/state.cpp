@@ -48,6 +48,7 @@ const char* name(Why why) noexcept {
     case Why::cancelled: return "cancelled";
     case Why::fault: return "fault";
     case Why::goal_out_of_range: return "goal_out_of_range";
+    case Why::bumped: return "bumped";
   }
   return "?";
 }

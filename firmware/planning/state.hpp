@@ -50,8 +50,9 @@ enum class Why : uint8_t {
   cancelled,
   fault,              ///< see Health for its name
   goal_out_of_range,  ///< the goal is beyond kPlaceLimit: refused
+  bumped,             ///< a bump switch was pressed: backing off
 };
-constexpr int kWhys = 24;
+constexpr int kWhys = 25;
 
 const char* name(Mode mode) noexcept;
 const char* name(Why why) noexcept;

@@ -8,6 +8,11 @@ constexpr int32_t kFaceGain = 5;
 constexpr int32_t kSteerGain = 6;
 constexpr int64_t kMicroradians = 6283185;  // a turn
 
+/// The highest rim speed of a turn that stops within the error.
+Speed turn_speed(Angle error, const Params& params) noexcept {
+  return approach_speed(abs(arc(error, params.body.track / 2)), params);
+}
+
 }  // namespace
 
 Angle nearest_facing(Angle wanted, const Params& params) noexcept {
@@ -29,13 +34,6 @@ Speed approach_speed(Length rest, const Params& params) noexcept {
   return Speed::from_raw(saturate32(static_cast<int64_t>(root) - lead));
 }
 
-Twist steer(Angle error, Speed top) noexcept {
-  const int64_t off = scale_down<32>(magnitude(error) * kMicroradians);
-  const int64_t part = 1000000 - off * 6 / 5;
-  const Speed forward = part <= 0 ? Speed{} : top * Q15::ratio(static_cast<int32_t>(part), 1000000);
-  return {forward, rate_towards(error, kSteerGain)};
-}
-
 Manoeuvre cruise(Twist twist, const Params& params) noexcept {
   Manoeuvre m;
   m.kind = ManoeuvreKind::cruise;
@@ -44,9 +42,19 @@ Manoeuvre cruise(Twist twist, const Params& params) noexcept {
   return m;
 }
 
+Manoeuvre steer(Angle error, Speed top, const Params& params) noexcept {
+  const int64_t off = scale_down<32>(magnitude(error) * kMicroradians);
+  const int64_t part = 1000000 - off * 6 / 5;
+  const Speed forward = part <= 0 ? Speed{} : top * Q15::ratio(static_cast<int32_t>(part), 1000000);
+  Manoeuvre m = cruise({forward, rate_towards(error, kSteerGain)}, params);
+  // An eighth more than stops within the error: while the body drives, the error is corrected continuously.
+  m.turning = limit(m.turning, turn_speed(error, params) * 9 / 8);
+  return m;
+}
+
 Manoeuvre face(Angle error, const Params& params) noexcept {
   Manoeuvre m = cruise({Speed{}, rate_towards(error, kFaceGain)}, params);
-  m.turning = limit(m.turning, approach_speed(abs(arc(error, params.body.track / 2)), params));
+  m.turning = limit(m.turning, turn_speed(error, params));
   return m;
 }
 

@@ -26,12 +26,12 @@ AngularRate rate_towards(Angle error, int32_t gain) noexcept;
 /// The highest speed that stops within `rest`: v with v^2 / 2a + v * settle = rest.
 Speed approach_speed(Length rest, const Params& params) noexcept;
 
-/// Drives while turning: at `top` straight ahead, slower for larger heading errors, and not at all beyond 1 /
-/// 1.2 rad.
-Twist steer(Angle error, Speed top) noexcept;
-
 /// A cruise at this twist.
 Manoeuvre cruise(Twist twist, const Params& params) noexcept;
+
+/// Drives while turning: at `top` straight ahead, slower for larger heading errors, and not at all beyond 1 /
+/// 1.2 rad. Turns hardly faster than the wheels can stop within the error.
+Manoeuvre steer(Angle error, Speed top, const Params& params) noexcept;
 
 /// Turns on the spot by the error, never faster than the wheels can stop within it.
 Manoeuvre face(Angle error, const Params& params) noexcept;

@@ -27,7 +27,8 @@ Brake brake(WheelPair command, const WheelState& wheels, const Params& params) n
 }
 
 bool free(const WheelPair& command, const Pose& pose, const WheelState& wheels,
-          const perception::LocalGrid& grid, const Params& params) noexcept {
+          const perception::LocalGrid& grid, const Params& params,
+          perception::Avoid avoid = perception::Avoid::unclear) noexcept {
   const Brake way = brake(command, wheels, params);
   const bool crawls = command.left + command.right != Speed{};
   const Length rolled = (way.left + way.right) / 2;
@@ -41,7 +42,7 @@ bool free(const WheelPair& command, const Pose& pose, const WheelState& wheels,
     const Angle chord =
         Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
     const Length far = Length::from_raw(multiply_divide(length.raw(), i, samples));
-    if (grid.approaches(pose.at, pose.heading + chord + backwards, abs(far), grid.reach().guard))
+    if (grid.approaches(pose.at, pose.heading + chord + backwards, abs(far), grid.reach().guard, avoid))
       return false;
   }
   return true;
@@ -69,8 +70,25 @@ WheelPair Guard::step(const planning::VelocityRequest& request, const Pose& pose
     command = next;
     break;
   }
+  const Speed creep = min(params.bumper.creep_speed, request.forward);
+  if (request.forward * granted_ < creep) {
+    const WheelPair want = inverse_kinematics(creep, request.turning, params.wheels.max_speed);
+    const WheelPair next = slew(wheels.commanded, want, change);
+    if ((next.left + next.right) / 2 <= creep &&
+        free(next, pose, wheels, grid, params, perception::Avoid::suspect)) {
+      granted_ = Q14::ratio(creep.raw(), request.forward.raw());
+      command = next;
+    }
+  }
   held_for_ = granted_ == Q14{} ? min(held_for_ + elapsed, kCounted) : Duration{};
   return command;
+}
+
+WheelPair Guard::retrace(const planning::VelocityRequest& request, const WheelState& wheels, Duration elapsed,
+                         const Params& params) noexcept {
+  reset();
+  const WheelPair want = inverse_kinematics(request.forward, request.turning, params.wheels.max_speed);
+  return slew(wheels.commanded, want, params.wheels.max_acceleration * elapsed);
 }
 
 }  // namespace whisker::safety

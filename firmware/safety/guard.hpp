@@ -16,6 +16,9 @@ namespace whisker::safety {
 /// the largest one whose braking arc, after the longest gap before the next tick, brings the disc of
 /// Reach::guard no nearer to a cell that is not clear. If there is none, both wheels brake in proportion
 /// along the arc that was found free one tick before.
+///
+/// With BumperParams::creep_speed, it then tries that forward speed, if it is less than the requested one,
+/// over ground that is not clear but holds no suspect cell.
 class Guard {
  public:
   void reset() noexcept { *this = Guard{}; }
@@ -25,7 +28,17 @@ class Guard {
   WheelPair step(const planning::VelocityRequest& request, const Pose& pose, const WheelState& wheels,
                  const perception::LocalGrid& grid, Duration elapsed, const Params& params) noexcept;
 
-  /// Granted fraction of the last requested forward speed; zero if it only brakes.
+  /// Stands at once, without a ramp. Instead of step().
+  WheelPair stop() noexcept {
+    reset();
+    return {};
+  }
+
+  /// Over ground that the body has covered just before. It needs no check. Instead of step().
+  WheelPair retrace(const planning::VelocityRequest& request, const WheelState& wheels, Duration elapsed,
+                    const Params& params) noexcept;
+
+  /// Granted fraction of the last requested forward speed; zero if it only brakes. Creeping counts.
   Q14 granted() const noexcept { return granted_; }
   /// How long it has granted nothing of a request to drive.
   Duration held_for() const noexcept { return held_for_; }

@@ -12,6 +12,8 @@ constexpr Length kPlace = 30_mm;  // for the reference body
 constexpr int32_t kWaits = 60;
 constexpr int32_t kTurns = 30;
 constexpr int32_t kSteps = 30;
+constexpr Length kBumpedPlace = 500_mm;  // for the reference body
+constexpr int32_t kMostBumps = 30;       // within it
 
 Duration ms_at(Length way, int32_t times, Speed speed) noexcept {
   return milliseconds(multiply_divide(way.raw(), 1000 * times, speed.raw()));
@@ -20,7 +22,7 @@ Duration ms_at(Length way, int32_t times, Speed speed) noexcept {
 /// Upper bound of the time for permitted activity in one place.
 Duration longest_stay(const Params& p) noexcept {
   constexpr int32_t kMicroradians = 6283185;  // a turn
-  const AngularRate rate = min(p.wheels.max_turn_rate, planning::kFastestTurn);
+  const AngularRate rate = min(turn_rate(p), planning::kFastestTurn);
   const Duration turn = max(milliseconds(multiply_divide(kMicroradians, 1000, rate.raw())),
                             ms_at(p.body.track * 22 / 7, 1, p.wheels.max_speed));
   return p.safety.stalled_after * kWaits + turn * kTurns +
@@ -43,6 +45,8 @@ void Supervisor::reset() noexcept {
   health_.fault = Fault::none;
   drive_refusals_.reset();
   encoder_refusals_.reset();
+  bumper_refusals_.reset();
+  bumps_ = 0;
   wheel_watch_.reset();
   unwatched_ = kUnwatched;
 }
@@ -101,6 +105,7 @@ void Supervisor::check_look(bool waits, Duration stood) noexcept {
 }
 
 void Supervisor::check_place(Vec at, bool running, Duration elapsed) noexcept {
+  if (!running) bumps_ = 0;
   if (!running || farther(at - place_, for_body(params_, kPlace))) {
     place_ = at;
     at_place_for_ = Duration{};
@@ -108,6 +113,24 @@ void Supervisor::check_place(Vec at, bool running, Duration elapsed) noexcept {
   }
   at_place_for_ += elapsed;
   if (at_place_for_ > longest_stay_) fail(Fault::no_progress, health_.no_progress);
+}
+
+void Supervisor::check_bumper(bool read) noexcept {
+  if (read) {
+    bumper_refusals_.accept();
+    return;
+  }
+  count(health_.bumper_refused);
+  if (bumper_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::bumper_lost);
+}
+
+void Supervisor::check_bump(Vec at) noexcept {
+  count(health_.bumps);
+  if (bumps_ == 0 || farther(at - bumped_at_, for_body(params_, kBumpedPlace))) {
+    bumped_at_ = at;
+    bumps_ = 0;
+  }
+  if (++bumps_ > kMostBumps) fail(Fault::no_progress, health_.no_progress);
 }
 
 void Supervisor::check_motion(const planning::MotionController& motion) noexcept {

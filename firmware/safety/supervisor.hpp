@@ -42,6 +42,10 @@ class Supervisor {
   void check_look(bool waits, Duration stood) noexcept;
   /// Bounds the time in one place, whatever the planner waits for or tries.
   void check_place(Vec at, bool running, Duration elapsed) noexcept;
+  /// Whether the bumper gave its state.
+  void check_bumper(bool read) noexcept;
+  /// A bump switch was pressed here. Bounds the presses near one place in a mission.
+  void check_bump(Vec at) noexcept;
   void check_motion(const planning::MotionController& motion) noexcept;
   /// Whether the drive accepted the command.
   void check_command(bool taken) noexcept;
@@ -53,11 +57,14 @@ class Supervisor {
   Health& health_;
   Refusals drive_refusals_;
   Refusals encoder_refusals_;
+  Refusals bumper_refusals_;
   WheelWatch wheel_watch_;
   Duration unwatched_;  // time until the wheel watch starts
   Vec place_;           // the place that the body has not left
   Duration at_place_for_;
   Duration longest_stay_;
+  Vec bumped_at_;
+  int32_t bumps_ = 0;  // near there
 };
 
 /// Time to brake from full speed, including the motor lag.

@@ -17,12 +17,12 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
-/// The picture's name: the name of the file, or the kind of world.
-std::string picture(const Row& row) {
+/// The name of the file or the kind of world, and the seed.
+std::string stem(const Row& row) {
   const std::size_t folder = row.world.rfind('/');
   const std::string last = folder == std::string::npos ? row.world : row.world.substr(folder + 1);
-  const std::string stem = last.substr(0, last.find(is_scenario_file(row.world) ? ".toml" : " "));
-  return fmt::format("{}-{}.svg", stem, row.seed);
+  const std::string world = last.substr(0, last.find(is_scenario_file(row.world) ? ".toml" : " "));
+  return fmt::format("{}-{}", world, row.seed);
 }
 
 bool off_goal(const Row& row) { return row.verdict == Verdict::off_goal; }
@@ -41,8 +41,12 @@ std::string replay_command(const Row& row) {
                             : fmt::format("whisker campaign {} --replay {}", row.world, row.seed);
   command += " --planner " + shell_word(row.planner);
   if (!row.robot.empty()) command += " --robot " + shell_word(row.robot);
-  return command + " --svg " + shell_word(picture(row));
+  return command + " --svg " + shell_word(stem(row) + ".svg");
 }
+
+bool is_failure(const Row& row) { return !succeeded(row) || off_goal(row); }
+
+std::string scenario_file(const Row& row) { return stem(row) + ".toml"; }
 
 std::string failure_lines(const std::vector<Row>& rows, std::size_t most) {
   std::string lines, counts;

@@ -20,15 +20,20 @@ class Sighting {
 
   void add(const TickRecord& r) {
     const sim::Pose pose{{r.x_m, r.y_m}, r.heading_rad};
-    const double near = sim::clearance(world_.view(), pose.at, r.t_s, 0) - spec_.offset + kOff;
+    const sim::SinCos heading = sim::sin_cos(pose.heading);
+    const sim::Vec2 ahead{heading.cos, heading.sin};
+    const sim::Vec2 left{-heading.sin, heading.cos};
     double range = kSeenWithin;
-    for (int beam = -1; beam <= 1; ++beam) {
-      const sim::SinCos axis = sim::sin_cos(pose.heading + beam * spec_.side_angle);
-      const sim::SinCos half = sim::sin_cos(spec_.cone_half_width);
-      const sim::Vec2 direction{axis.cos, axis.sin};
-      const sim::Cone cone{pose.at + direction * spec_.offset, direction, half.cos, half.sin};
+    double outermost = 0;
+    for (const sim::BeamSpec& beam : spec_.beams) {
+      const sim::SinCos axis = sim::sin_cos(pose.heading + beam.angle);
+      const sim::SinCos half = sim::sin_cos(beam.cone_half_width);
+      const sim::Cone cone{
+          pose.at + ahead * beam.x + left * beam.y, {axis.cos, axis.sin}, half.cos, half.sin};
       range = std::fmin(range, sim::range(cone, world_.view(), r.t_s, kSeenWithin));
+      outermost = std::fmax(outermost, std::hypot(beam.x, beam.y));
     }
+    const double near = sim::clearance(world_.view(), pose.at, r.t_s, 0) - outermost + kOff;
     if (range >= kSeenWithin) not_shown_ = r.t_s;
     if (range >= std::fmin(kSeenWithin, near)) not_near_ = r.t_s;
     now_ = r.t_s;

@@ -9,7 +9,7 @@
 
 namespace whisker::campaign {
 
-Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop) {
+Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop, double way_radius_m) {
   MotionCount count(scenario.robot.body.track.raw() * 1e-6);
   double estimate_error_m = 0;
   RunOptions options;
@@ -37,7 +37,7 @@ Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>
   row.estimate_error_m = rounded(estimate_error_m);
   row.at_goal = at_goal(result.final_distance_m, scenario.goal.tolerance_m);
   const auto shortest_m =
-      paths::shortest_path(make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius);
+      paths::shortest_path(make_world(scenario), scenario.start.at, scenario.goal.at, way_radius_m);
   if (shortest_m) row.shortest_m = rounded(*shortest_m);
   row.ticks = result.ticks;
   row.hash = result.hash;

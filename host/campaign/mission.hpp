@@ -9,10 +9,12 @@
 
 namespace whisker::campaign {
 
-constexpr double kWayRadius = 0.10;  ///< m: the shortest path is for a disc of this radius
+constexpr double kWayRadius = 0.10;  ///< m: the shortest path is for a disc of this radius, unless said
 
 /// Runs the scenario to a verdict and measures it; deterministic. Sets all of the row except the names of
-/// robot and world. Throws Stopped soon after `stop` has become true.
-Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop);
+/// robot and world. Throws Stopped soon after `stop` has become true. way_radius_m: of the disc whose
+/// shortest path is measured.
+Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop,
+          double way_radius_m = kWayRadius);
 
 }  // namespace whisker::campaign

@@ -28,7 +28,9 @@ struct Row {
   std::string detail;
   std::string planner;
   std::string robot;  ///< robot file; empty: the scenario's robot
-  std::string world;  ///< arguments of `whisker world` without the seed, or a scenario file (*.toml)
+  /// Arguments of `whisker world` without the seed, then kRandomRobots for such robots; or a scenario file
+  /// (*.toml).
+  std::string world;
 };
 
 /// x rounded to the nearest multiple of 1e-6.

@@ -7,8 +7,9 @@
 namespace whisker::campaign {
 
 Row scan(const Scenario& scenario) {
-  const scanner::ReferencePath reference = scanner::drive(
-      make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius, robot_spec(scenario).max_range);
+  const scanner::ReferencePath reference =
+      scanner::drive(make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius,
+                     robot_spec(scenario).beams[hal::kFront].max_range);
   Row row;
   row.seed = scenario.seed;
   row.verdict = reference.reached ? Verdict::reached : Verdict::unreachable;

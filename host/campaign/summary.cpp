@@ -59,6 +59,18 @@ void add_reached(Summary& s, const std::vector<Row>& rows) {
   s.final_distance_p95 = quantile_of(distances, 0.95);
 }
 
+void add_robots(Summary& s, const std::vector<Row>& rows) {
+  s.random_robots = true;
+  for (const Row& row : rows) {
+    if (!has_random_robots(row.world)) {
+      s.random_robots = false;
+      continue;
+    }
+    const Refusals refusals = random_robot(row.seed).refusals;
+    for (std::size_t i = 0; i < refusals.size(); ++i) s.refusals[i] += refusals[i];
+  }
+}
+
 }  // namespace
 
 Summary summarize(const std::vector<Row>& rows) {
@@ -83,6 +95,7 @@ Summary summarize(const std::vector<Row>& rows) {
   s.false_unreachable =
       share_of(rows, [](const Row& r) { return r.verdict == Verdict::unreachable && !has_no_way(r); });
   add_reached(s, rows);
+  add_robots(s, rows);
   std::vector<double> errors, paths;
   for (const Row& row : rows) {
     errors.push_back(row.estimate_error_m);

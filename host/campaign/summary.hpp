@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/campaign/bounds.hpp"
+#include "host/campaign/random_robot.hpp"
 #include "host/campaign/row.hpp"
 
 namespace whisker::campaign {
@@ -23,6 +24,8 @@ struct Summary {
   std::uint64_t least_seed = 0, greatest_seed = 0;
   std::vector<std::string> worlds;  ///< each once, in order; the scenario files of a campaign count as one
   std::vector<std::string> planners;
+  bool random_robots = false;  ///< every mission has a random robot
+  Refusals refusals{};         ///< in the draws of the random robots
 
   /// Shares of all missions. A success is that the robot reports "reached", or "unreachable" if no path
   /// exists: all that it can know.

@@ -31,6 +31,15 @@ std::string text(const Json& json) { return json.dump(-1, ' ', false, Json::erro
 
 Json object(const PerMetre& p) { return {{"all", object(p.rate)}, {"p50", object(p.p50)}}; }
 
+/// The causes in the order of check().
+Json object(const Refusals& refusals) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < refusals.size(); ++i) {
+    if (refusals[i] > 0) json[name(static_cast<ParamFault>(i))] = refusals[i];
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string summary_json(const Summary& s) {
@@ -56,6 +65,10 @@ std::string summary_json(const Summary& s) {
   json["flips_per_m"] = object(s.flips);
   json["looks_per_m"] = object(s.looks);
   json["turned_rad_per_m"] = object(s.turned);
+  if (s.random_robots) {
+    json["robots"] = "random";
+    json["refused_draws"] = object(s.refusals);
+  }
   return text(json);
 }
 

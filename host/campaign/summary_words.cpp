@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "host/campaign/scan.hpp"
 #include "host/campaign/summary.hpp"
 
@@ -29,6 +32,21 @@ std::string line(const char* what, const char* which, const std::optional<Estima
 
 std::string ratio_lines(const Summary& s) {
   return line("ratio", "mean", s.ratio_mean) + line("", "p50", s.ratio_p50) + line("", "p95", s.ratio_p95);
+}
+
+/// What the relations of check() refuse, most often refused first.
+std::string refusal_lines(const Refusals& refusals) {
+  std::vector<std::pair<std::uint64_t, const char*>> causes;
+  std::uint64_t all = 0;
+  for (std::size_t i = 0; i < refusals.size(); ++i) {
+    all += refusals[i];
+    if (refusals[i] > 0) causes.emplace_back(refusals[i], name(static_cast<ParamFault>(i)));
+  }
+  if (causes.empty()) return {};
+  std::stable_sort(causes.begin(), causes.end(), [](auto a, auto b) { return a.first > b.first; });
+  std::string text = fmt::format("refused draws of robots: {}\n", all);
+  for (const auto& [count, cause] : causes) text += fmt::format("  {:<27}{:>9}\n", cause, count);
+  return text;
 }
 
 }  // namespace
@@ -64,7 +82,7 @@ std::string summary_words(const Summary& s) {
   text += line("", "p50", s.looks.p50);
   text += line("rad/m", "all", s.turned.rate);
   text += line("", "p50", s.turned.p50);
-  return text;
+  return text + refusal_lines(s.refusals);
 }
 
 std::string scan_words(const Summary& s) {

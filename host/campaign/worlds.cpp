@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "host/campaign/random_robot.hpp"
 #include "host/scenario/load.hpp"
 
 namespace whisker::campaign {
@@ -32,6 +33,11 @@ std::string arguments(worlds::Kind kind, const worlds::Options& o) {
   return text;
 }
 
+bool has_random_robots(std::string_view world) {
+  return !is_scenario_file(world) && world.size() > kRandomRobots.size() &&
+         world.substr(world.size() - kRandomRobots.size()) == kRandomRobots;
+}
+
 Files load_folder(const std::string& folder) {
   Files files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -52,7 +58,12 @@ Files load_folder(const std::string& folder) {
 Mission mission(const Generated& g, std::uint64_t index) {
   worlds::Options options = g.options;
   options.seed = g.first_seed + index;
-  return {options.seed, arguments(g.kind, options), worlds::generate(g.kind, options)};
+  Mission m{options.seed, arguments(g.kind, options), worlds::generate(g.kind, options)};
+  if (g.random_robots) {
+    m.world += kRandomRobots;
+    fit_to(m.scenario, random_robot(options.seed).params);
+  }
+  return m;
 }
 
 Mission mission(const Files& files, std::uint64_t index) {

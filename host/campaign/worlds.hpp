@@ -18,6 +18,7 @@ struct Generated {
   worlds::Kind kind = worlds::Kind::discs;
   worlds::Options options;  ///< its seed is not used
   std::uint64_t first_seed = 1;
+  bool random_robots = false;  ///< each seed has a robot of its own, in a world of its size
 };
 
 /// Mission i is file i modulo their number; the seed of its noise is first_seed + i, or the file's own.
@@ -33,6 +34,10 @@ bool has_control_characters(std::string_view text);  ///< a row holds none
 
 /// The arguments of `whisker world` that generate these worlds, without the seed: "discs --discs 20 --noise".
 std::string arguments(worlds::Kind kind, const worlds::Options& options);
+
+/// Follows the arguments in the name of a world for random robots.
+constexpr std::string_view kRandomRobots = " --robots random";
+bool has_random_robots(std::string_view world);
 
 /// Every *.toml of the folder in order of name. Throws InputError for an invalid one, std::invalid_argument
 /// if there is none or a name contains control characters.

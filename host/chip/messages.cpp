@@ -13,9 +13,8 @@ link::Stand stand(const Pose& pose) { return {pose.at.x.raw(), pose.at.y.raw(), 
 
 void append_params(Bytes& to, const Params& params) {
   append(to, link::Name::params);
-  to.resize(to.size() + link::params_size());
-  link::ParamEncoder encoder{to.data() + to.size() - link::params_size()};
-  for_each_param(params, encoder);
+  to.resize(to.size() + link::kParamsSize);
+  link::encode_params(params, to.data() + to.size() - link::kParamsSize);
 }
 
 void append_begin(Bytes& to, PlannerKind planner, const Pose& pose) {
@@ -36,6 +35,7 @@ link::Tick tick_of(const sim::Plant& plant, Time now) {
   tick.now_ms = now.raw();
   tick.ranges = plant.ranges();
   tick.counts = plant.encoders();
+  tick.bumps = plant.bumper();
   return tick;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "host/campaign/failures.hpp"
 #include "host/campaign/merge.hpp"
 #include "host/campaign/mission.hpp"
+#include "host/campaign/random_robot.hpp"
 #include "host/campaign/row_file.hpp"
 #include "host/campaign/summary.hpp"
 #include "host/cli/campaign_options.hpp"
@@ -24,7 +26,9 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/report/file.hpp"
 #include "host/scenario/load.hpp"
+#include "host/scenario/write.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -36,6 +40,10 @@ Provenance provenance(const CampaignOptions& o, const Missions* chosen) {
   p.planner = name(chosen->planner);
   if (const auto* generated = std::get_if<campaign::Generated>(&chosen->worlds)) {
     p.seed = generated->first_seed;
+    if (generated->random_robots) {
+      p.robot_name = "random";
+      return p;
+    }
     Params robot;
     if (!o.robot.empty()) apply_robot_file(robot, o.robot);
     p.robot_name = robot_name(robot, o.robot, "");
@@ -63,10 +71,12 @@ void print(const CampaignOptions& o, const std::vector<campaign::Row>& rows, con
 bool drive_all(const CampaignOptions& o, const Missions& missions, std::vector<campaign::Row>& rows) {
   std::optional<campaign::RowFile> file;
   if (!o.csv.empty()) file.emplace(o.csv);
+  const bool random = has_random_robots(missions);
   const bool whole = drive_many(
       missions, o.jobs,
       [&](const Scenario& scenario, const std::atomic<bool>& stop) {
-        return campaign::drive(scenario, missions.planner, stop);
+        const double size = random ? campaign::size_of(scenario.robot) : 1;
+        return campaign::drive(scenario, missions.planner, stop, campaign::kWayRadius * size);
       },
       [&](const campaign::Row& row) {
         if (file) file->add(row);
@@ -74,6 +84,16 @@ bool drive_all(const CampaignOptions& o, const Missions& missions, std::vector<c
       });
   if (file) file->finish();
   return whole;
+}
+
+/// `whisker run` on such a file with the same planner repeats the mission.
+void save_failures(const std::string& folder, const Missions& chosen,
+                   const std::vector<campaign::Row>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!campaign::is_failure(rows[i])) continue;
+    const std::string text = to_toml(mission(chosen, chosen.first + i).scenario);
+    report::write_file(folder + "/" + campaign::scenario_file(rows[i]), text);
+  }
 }
 
 int run_campaign(const CampaignOptions& o) {
@@ -92,9 +112,13 @@ int run_campaign(const CampaignOptions& o) {
     return drive_one(scenario, options, outputs);
   }
   if (!o.svg.empty() || !o.trace.empty()) throw UsageError("--svg and --trace need --replay");
+  if (!o.save_failures.empty() && !std::filesystem::is_directory(o.save_failures)) {
+    throw UsageError(fmt::format("--save-failures {}: no such folder", o.save_failures));
+  }
   std::vector<campaign::Row> rows;
   const bool whole = drive_all(o, chosen, rows);
   print(o, rows, &chosen);
+  if (!o.save_failures.empty()) save_failures(o.save_failures, chosen, rows);
   if (whole && !o.html.empty()) {
     write_campaign_page(o.html, chosen, rows);
     if (!o.json) fmt::print(words_beside({o.csv, o.html}), "page: {}\n", o.html);
@@ -124,9 +148,13 @@ void add_campaign(CLI::App& app, int& status) {
   add_wheel_scale_sigma(*cmd, o->world.wheel_scale_sigma, "Scale error of the wheels, as in `whisker world`");
   add_planner(*cmd, o->planner);
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenarios");
+  add_name(*cmd, "--robots", o->robots, "Each seed draws a robot, in a world of its size")
+      ->type_name("random");
   add_jobs(*cmd, *o);
   cmd->add_option("--shard", o->shard, "Only the I-th of N parts of the missions")->type_name("I/N");
   add_file(*cmd, "--csv", o->csv, "Write one row per mission");
+  add_name(*cmd, "--save-failures", o->save_failures, "Write the scenario of each failed mission there")
+      ->type_name("FOLDER");
   add_switch(*cmd, "--json", o->json, "Print the summary as one JSON object and nothing else");
   cmd->add_option("--merge", o->merge, "Sum up the rows of these files instead of driving")
       ->type_name("FILE");
@@ -139,8 +167,9 @@ void add_campaign(CLI::App& app, int& status) {
   cmd->callback([o, cmd, &status] {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {
-      refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--wheel-scale-sigma",
-                           "--planner", "--map-bytes", "--robot", "--svg", "--trace", "--html", "--json"});
+      refuse_others(
+          *cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner",
+                 "--map-bytes", "--robot", "--robots", "--svg", "--trace", "--html", "--json"});
     }
     status = run_campaign(*o);
   });

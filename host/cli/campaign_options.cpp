@@ -19,7 +19,7 @@ constexpr std::uint64_t kUsualCount = 100;
 constexpr std::uint64_t kMostMissions = 1000000000;
 
 campaign::Generated generated(const CampaignOptions& o, worlds::Kind kind) {
-  return {kind, o.world, o.replay.value_or(o.seed.value_or(1))};
+  return {kind, o.world, o.replay.value_or(o.seed.value_or(1)), !o.robots.empty()};
 }
 
 campaign::Files folder(const CampaignOptions& o) {
@@ -35,6 +35,7 @@ campaign::Files folder(const CampaignOptions& o) {
         "--discs, --box, --noise and --wheel-scale-sigma are for generated worlds; a scenario file says all "
         "that itself");
   }
+  if (!o.robots.empty()) throw UsageError("--robots is for generated worlds; scenario files have robots");
   if (o.replay)
     throw UsageError("--replay is for generated worlds; `whisker run` drives a scenario file again");
   try {
@@ -103,6 +104,10 @@ void add_jobs(CLI::App& app, CampaignOptions& o) {
 }
 
 Missions missions(const CampaignOptions& o) {
+  if (!o.robots.empty() && o.robots != "random") {
+    throw UsageError(fmt::format("--robots {}: not random", o.robots));
+  }
+  if (!o.robots.empty() && !o.robot.empty()) throw UsageError("--robots does not go with --robot");
   if (campaign::has_control_characters(o.robot)) {
     throw UsageError("--robot: the file's name has control characters in it");
   }
@@ -125,6 +130,11 @@ Missions missions(const CampaignOptions& o) {
     throw UsageError(e.what());
   }
   return m;
+}
+
+bool has_random_robots(const Missions& m) {
+  const auto* const generated = std::get_if<campaign::Generated>(&m.worlds);
+  return generated != nullptr && generated->random_robots;
 }
 
 campaign::Mission mission(const Missions& m, std::uint64_t index) {

@@ -19,9 +19,11 @@ struct CampaignOptions {
   worlds::Options world;
   PlannerKind planner = kDefaultPlanner;
   std::string robot;
-  int jobs = 0;  ///< 0: one per core
+  std::string robots;  ///< "random", or empty
+  int jobs = 0;        ///< 0: one per core
   std::string shard;
   std::string csv;
+  std::string save_failures;  ///< folder
   bool json = false;
   std::vector<std::string> merge;
   std::optional<std::uint64_t> replay;
@@ -47,6 +49,9 @@ void add_jobs(CLI::App& app, CampaignOptions& options);
 
 /// Throws UsageError if the options do not fit together, InputError for an invalid scenario file.
 Missions missions(const CampaignOptions& options);
+
+/// Every mission has a random robot.
+bool has_random_robots(const Missions& missions);
 
 /// The mission's scenario with the robot's parameters. Throws InputError if they do not fit.
 campaign::Mission mission(const Missions& missions, std::uint64_t index);

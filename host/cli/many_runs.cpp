@@ -33,22 +33,16 @@ int threads(int jobs) {
 
 }  // namespace
 
-bool drive_many(const Missions& missions, int jobs,
-                const std::function<campaign::Row(const Scenario&, const std::atomic<bool>& stop)>& drive,
-                const std::function<void(const campaign::Row&)>& take) {
+bool make_many(std::uint64_t count, int jobs,
+               const std::function<campaign::Row(std::uint64_t, const std::atomic<bool>&)>& make,
+               const std::function<void(const campaign::Row&)>& take) {
   const Interrupt interrupt;
   ProgressLine line;
   const auto began = std::chrono::steady_clock::now();
   campaign::Work work;
-  work.count = missions.last - missions.first;
+  work.count = count;
   work.jobs = threads(jobs);
-  work.make = [&](std::uint64_t i, const std::atomic<bool>& stop) {
-    const campaign::Mission m = mission(missions, missions.first + i);
-    campaign::Row row = drive(m.scenario, stop);
-    row.robot = missions.robot;
-    row.world = m.world;
-    return row;
-  };
+  work.make = make;
   work.take = take;
   work.wait = [&](std::uint64_t done) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
@@ -56,6 +50,19 @@ bool drive_many(const Missions& missions, int jobs,
   };
   work.stop = [&] { return interrupt.noted(); };
   return campaign::do_in_order(work) == work.count;
+}
+
+bool drive_many(const Missions& missions, int jobs,
+                const std::function<campaign::Row(const Scenario&, const std::atomic<bool>& stop)>& drive,
+                const std::function<void(const campaign::Row&)>& take) {
+  const auto make = [&](std::uint64_t i, const std::atomic<bool>& stop) {
+    const campaign::Mission m = mission(missions, missions.first + i);
+    campaign::Row row = drive(m.scenario, stop);
+    row.robot = missions.robot;
+    row.world = m.world;
+    return row;
+  };
+  return make_many(missions.last - missions.first, jobs, make, take);
 }
 
 }  // namespace whisker::cli

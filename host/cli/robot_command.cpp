@@ -16,6 +16,7 @@
 #include "host/report/file.hpp"
 #include "host/report/result.hpp"
 #include "host/scenario/load.hpp"
+#include "host/scenario/mounting.hpp"
 #include "host/scenario/robot_header.hpp"
 
 namespace whisker::cli {
@@ -50,11 +51,20 @@ Json drives_json(const std::vector<TestDrive>& drives) {
   return all;
 }
 
+Json warnings_json(const std::vector<MountingWarning>& warnings) {
+  Json all = Json::array();
+  for (const MountingWarning& w : warnings) all.push_back({{"kind", w.kind}, {"text", w.text}});
+  return all;
+}
+
 /// params: null if the parameters are invalid.
 void print_json(const RobotOptions& o, const Params* params, const Json& violations,
-                const std::vector<TestDrive>& drives) {
+                const std::vector<MountingWarning>& warnings, const std::vector<TestDrive>& drives) {
   const bool fit = params != nullptr && std::all_of(drives.begin(), drives.end(), reached);
-  const Json json = {{"fit", fit}, {"violations", violations}, {"drives", drives_json(drives)}};
+  const Json json = {{"fit", fit},
+                     {"violations", violations},
+                     {"warnings", warnings_json(warnings)},
+                     {"drives", drives_json(drives)}};
   Provenance provenance;
   provenance.planner = name(o.planner);
   provenance.robot_name = o.file;
@@ -66,16 +76,21 @@ int execute(const RobotOptions& o) {
   check_outputs({o.header}, {o.file}, o.json);
   std::FILE* const out = words_beside({o.header});
   Params params;
+  Sensor sensor;
   try {
-    apply_robot_file(params, o.file);
+    apply_robot_file(params, sensor, o.file);
   } catch (const InputErrors& errors) {
     if (!o.json) throw;
-    print_json(o, nullptr, violations_json(errors), {});
+    print_json(o, nullptr, violations_json(errors), {}, {});
     return kBadInput;
   }
-  const std::vector<TestDrive> drives = test_drives(params, o.planner);
+  const std::vector<MountingWarning> warnings = mounting_warnings(params, sensor);
+  for (const MountingWarning& w : warnings) {
+    if (!o.json) fmt::print(stderr, "whisker: {}: warning: {}\n", o.file, w.text);
+  }
+  const std::vector<TestDrive> drives = test_drives(params, sensor, o.planner);
   const bool fit = std::all_of(drives.begin(), drives.end(), reached);
-  if (o.json) print_json(o, &params, Json::array(), drives);
+  if (o.json) print_json(o, &params, Json::array(), warnings, drives);
   for (const TestDrive& drive : drives) {
     if (!o.json) fmt::print(out, "{}: {}\n", drive.world, report::verdict_words(drive.result));
     if (!reached(drive)) {
@@ -94,15 +109,14 @@ int execute(const RobotOptions& o) {
 
 constexpr const char* kStatus = R"(
 Exit status of robot check: 0 fit, 2 a parameter or a relation is wrong: every one, a line each,
-6 a test drive failed, 1 anything else.)";
+6 a test drive failed, 1 anything else. A warning (walls that may be invisible, ground that no cone
+sees in time) is a line on standard error and changes no status.)";
 
 }  // namespace
 
-void add_robot(CLI::App& app, int& status) {
-  CLI::App* robot = app.add_subcommand("robot", "Work on the parameters of a robot");
-  robot->require_subcommand(1);
+void add_robot_check(CLI::App& robot, int& status) {
   CLI::App* cmd =
-      robot->add_subcommand("check", "Say whether a robot's parameters fit, and drive it a little");
+      robot.add_subcommand("check", "Say whether a robot's parameters fit, and drive it a little");
   const auto o = std::make_shared<RobotOptions>();
   add_file(*cmd, "ROBOT", o->file, "Robot file (TOML)")->required();
   add_file(*cmd, "--header", o->header, "Write the parameters of a fit robot as a C++ header");
@@ -110,6 +124,13 @@ void add_robot(CLI::App& app, int& status) {
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->footer(kStatus);
   cmd->callback([o, &status] { status = execute(*o); });
+}
+
+void add_robot(CLI::App& app, int& status) {
+  CLI::App* robot = app.add_subcommand("robot", "Check a robot's parameters, or lay out its sensors");
+  robot->require_subcommand(1);
+  add_robot_check(*robot, status);
+  add_robot_layout(*robot, status);
 }
 
 }  // namespace whisker::cli

@@ -40,7 +40,7 @@ Scenario discs() {
 void scale(sim::Vec2& v, double by) { v = {v.x * by, v.y * by}; }
 
 /// Scales the scenario from the reference robot to this robot.
-Scenario fitted(Scenario s, const Params& params) {
+Scenario fitted(Scenario s, const Params& params, const Sensor& sensor) {
   const double by = metres(params.body.radius) / kReferenceRadius;
   scale(s.start.at, by);
   scale(s.goal.at, by);
@@ -52,13 +52,14 @@ Scenario fitted(Scenario s, const Params& params) {
   const sim::Vec2 way = s.goal.at - s.start.at;
   s.time_limit_s = 600 + 40 * std::sqrt(sim::dot(way, way)) / (params.wheels.max_speed.raw() * 1e-6);
   s.noise = {};
+  s.sensor = sensor;
   s.robot = params;
   return s;
 }
 
 }  // namespace
 
-std::vector<TestDrive> test_drives(const Params& params, PlannerKind planner) {
+std::vector<TestDrive> test_drives(const Params& params, const Sensor& sensor, PlannerKind planner) {
   const double wide = 2.8 * (1 + metres(params.skirt.planning_margin) / metres(params.body.radius));
   const std::pair<const char*, Scenario> worlds[] = {
       {"the empty world", empty_world()},
@@ -69,7 +70,7 @@ std::vector<TestDrive> test_drives(const Params& params, PlannerKind planner) {
   options.planner = planner;
   std::vector<TestDrive> drives;
   for (const auto& [name, scenario] : worlds) {
-    drives.push_back({name, run(fitted(scenario, params), options)});
+    drives.push_back({name, run(fitted(scenario, params, sensor), options)});
   }
   return drives;
 }

@@ -6,6 +6,7 @@
 
 #include "host/run/planners.hpp"
 #include "host/run/record.hpp"
+#include "host/scenario/sensor.hpp"
 
 namespace whisker::cli {
 
@@ -14,7 +15,8 @@ struct TestDrive {
   RunResult result;
 };
 
-/// Without noise, in worlds that scale with the body. The parameters must pass check().
-std::vector<TestDrive> test_drives(const Params& params, PlannerKind planner);
+/// With these sensors and no other noise, in worlds that scale with the body. The parameters must pass
+/// check().
+std::vector<TestDrive> test_drives(const Params& params, const Sensor& sensor, PlannerKind planner);
 
 }  // namespace whisker::cli

@@ -50,7 +50,7 @@ class BusPilot final : public Pilot {
         resend_(std::uint64_t{options.resend_ms} * 1000),
         board_(plant),
         node_(port, options.identity, ramp_of(scenario.robot)),
-        base_(node_, board_, board_) {
+        base_(node_, board_, board_, params_.bumper.fitted == Fitted::yes ? &board_ : nullptr) {
     odometry_.configure(params_);
     odometry_.place(mission_.start);
   }

@@ -104,7 +104,7 @@ class Replay {
   template <MessageKind kKind>
   void on_range(int beam, const hal::CanFrame& frame) {
     with<can::Range<kKind>>(frame, [&](auto m) {
-      if (can::InputSets::sound(m.reading)) sets_.on_frame(beam, m.reading, m.tick), keep();
+      if (can::InputSets::sound(m.reading)) sets_.on_frame(beam, m.reading, m.tick, m.bump), keep();
     });
   }
 

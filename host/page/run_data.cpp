@@ -50,6 +50,16 @@ Json world_data(const Scenario& s) {
 
 Json robot_data(const Params& p) {
   const RangefinderParams& sensor = p.rangefinders;
+  Json beams = Json::array();
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const Mount m = mount(sensor, i);
+    beams.push_back({{"x", metres(m.apex.x)},
+                     {"y", metres(m.apex.y)},
+                     {"angle", radians(m.axis)},
+                     {"cone", radians(m.half_cone) * 2},
+                     {"min_range", metres(min_range(sensor, i))},
+                     {"max_range", metres(max_range(sensor, i))}});
+  }
   return {{"radius", metres(p.body.radius)},
           {"track", metres(p.body.track)},
           {"max_speed", metres(Length::from_raw(p.wheels.max_speed.raw()))},
@@ -58,6 +68,7 @@ Json robot_data(const Params& p) {
           {"min_range", metres(sensor.min_range)},
           {"max_range", metres(sensor.max_range)},
           {"offset", metres(sensor.offset)},
+          {"beams", beams},
           {"cell", metres(patch_cell(p))},
           {"base_turn", radians(p.thesis.base_turn)},
           {"period", static_cast<double>(p.safety.period.raw()) / 1000.0}};
@@ -173,6 +184,7 @@ void add_decisions(Writer& w) {
   w.tick("cell_d", kSteady, 1, [](const TickRecord& r) { return r.cell.distance; });
   w.tick("cell_r", kSteady, 1, [](const TickRecord& r) { return r.cell.bias; });
   w.tick("guide", kSteady, 1, [](const TickRecord& r) { return static_cast<int>(r.guide); });
+  w.tick("pressed", kSteady, 1, [](const TickRecord& r) { return r.pressed; });
   w.decimal("way_x_m", kSteady, kMicro, [](const TickRecord& r) { return r.way_x_m; });
   w.decimal("way_y_m", kSteady, kMicro, [](const TickRecord& r) { return r.way_y_m; });
 }
@@ -196,6 +208,9 @@ void add_health(Columns& columns, Writer& w, const std::vector<Health>& health) 
   w.counter("wheel_runaways", &Health::wheel_runaways);
   w.counter("late_ticks", &Health::late_ticks);
   w.counter("clock_jumps", &Health::clock_jumps);
+  w.counter("bumps", &Health::bumps);
+  w.counter("bumper_refused", &Health::bumper_refused);
+  w.counter("bumper_stuck", &Health::bumper_stuck);
 }
 
 void add_film(Columns& columns, const Frames& film) {

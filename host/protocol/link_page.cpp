@@ -130,7 +130,7 @@ std::string link_page() {
   std::vector<std::int32_t> sizes;
   for (const planning::MapSize& size : planning::kMapSizes) sizes.push_back(size.bytes);
   std::string out =
-      fmt::format(kWords, fmt::arg("params", link::params_size()), fmt::arg("version", link::kVersion),
+      fmt::format(kWords, fmt::arg("params", link::kParamsSize), fmt::arg("version", link::kVersion),
                   fmt::arg("map_sizes", fmt::join(sizes, ", ")));
   out += "## Bodies\n\nLengths are in um, headings in 2^-32 turn.\n\n";
   out += body<link::Greeting>("Greeting",
@@ -143,8 +143,11 @@ std::string link_page() {
   out += body<link::Tick>(
       "Tick",
       ". The three beams are left, front, right, and mm is a distance in mm. "
-      "ranges_given, counts_given and accepts are 1. 0 means that the sensors do not answer, "
-      "that there are no counts, or that the wheels refuse the command.");
+      "ranges_given, counts_given, accepts and bumps_given are 1. 0 means that the sensors do not answer, "
+      "that there are no counts, that the wheels refuse the command, or that the bump switches do not "
+      "answer. "
+      "pressed is the sum of 1 for the left, 2 for the front and 4 for the right switch; it counts if the "
+      "parameter bumper is 1.");
   out += body<link::Answer>(
       "Answer", ". The commands are rim speeds in 0.1 mm/s; x, y and heading are the estimated pose.");
   out += body<link::Probe>("Probe", ".");

@@ -124,6 +124,9 @@ class ParamRows {
   void number(const char* key, const Angle& x, Angle low, Angle high) {
     row(key, "2^-32 turn", x, low, high);
   }
+  void number(const char* key, const Direction& x, Direction low, Direction high) {
+    row(key, "2^-32 turn", x, low, high);
+  }
   void count(const char* key, const int32_t& x, int32_t low, int32_t high) {
     writer_.number_row(key, "1", x, low, high);
   }

@@ -55,6 +55,7 @@ std::string result_json(const RunResult& result, const std::string& bus) {
   json["ticks"] = result.ticks;
   json["hash"] = fmt::format("{:016x}", result.hash);
   json["detail"] = result.detail;
+  json["bumps"] = result.bumps ? Json(*result.bumps) : Json(nullptr);
   if (!bus.empty()) json["bus"] = Json::parse(bus);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -68,6 +69,8 @@ std::string verdict_words(const RunResult& result) {
     words += fmt::format(", {:.2f} m from the goal", result.final_distance_m);
   if (result.min_clearance_m < kEmptyWorldClearance)
     words += fmt::format(", min clearance {} m", decimals(result.min_clearance_m, 3));
+  if (result.bumps.value_or(0) > 0)
+    words += fmt::format(", {} bump{}", *result.bumps, *result.bumps == 1 ? "" : "s");
   if (!result.detail.empty()) words += fmt::format(" ({})", result.detail);
   return words;
 }

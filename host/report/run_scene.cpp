@@ -48,11 +48,11 @@ void draw_movers(Svg& svg, const View& view, const std::vector<Mover>& movers, d
   svg.close();
 }
 
-double beam_length(const hal::RangeReading& reading, const RangefinderParams& sensor) {
+double beam_length(const hal::RangeReading& reading, const RangefinderParams& sensor, int beam) {
   switch (reading.status) {
     case hal::RangeStatus::ok: return reading.mm / 1000.0;
-    case hal::RangeStatus::clear: return metres(sensor.max_range);
-    case hal::RangeStatus::too_near: return metres(sensor.min_range);
+    case hal::RangeStatus::clear: return metres(max_range(sensor, beam));
+    case hal::RangeStatus::too_near: return metres(min_range(sensor, beam));
     case hal::RangeStatus::invalid:
     case hal::RangeStatus::stale: return 0;
   }
@@ -190,16 +190,16 @@ std::vector<const TickRecord*> danger_entries(const std::vector<TickRecord>& rec
 }
 
 void draw_cones(Svg& svg, const View& view, const RangefinderParams& sensor, const TickRecord& record) {
-  const double side = radians(sensor.side_angle);
-  const double half = radians(sensor.cone) / 2;
-  const double axes[hal::kBeams] = {side, 0, -side};
   svg.open(
       R"(class="cones" fill="#e69f00" fill-opacity="0.13" stroke="#8a6000" stroke-opacity="0.55" stroke-width="0.7")");
   for (int beam = 0; beam < hal::kBeams; ++beam) {
-    const double range = beam_length(record.ranges.beam[beam], sensor);
+    const double range = beam_length(record.ranges.beam[beam], sensor, beam);
     if (range <= 0) continue;
-    const double axis = record.heading_rad + axes[beam];
-    const Vec2 apex = place(record) + ahead(axis, metres(sensor.offset));
+    const Mount m = mount(sensor, beam);
+    const double half = radians(m.half_cone);
+    const double axis = record.heading_rad + radians(m.axis);
+    const Vec2 apex = place(record) + ahead(record.heading_rad, metres(m.apex.x)) +
+                      ahead(record.heading_rad + sim::kPi / 2, metres(m.apex.y));
     PathData sector;
     sector.move(view.page(apex));
     constexpr int kArc = 8;

@@ -77,6 +77,7 @@ void add_row(std::string& out, const RangefinderParams& sensor, const TickRecord
   const auto place = [&](double x) { has_place(r.guide) ? row.number(x, 6) : row.word(""); };
   place(r.way_x_m);
   place(r.way_y_m);
+  row.count(r.pressed);
   row.end();
 }
 
@@ -84,7 +85,8 @@ void add_row(std::string& out, const RangefinderParams& sensor, const TickRecord
 
 const char* const kTraceHeader =
     "t_s,x_m,y_m,heading_rad,left_m,front_m,right_m,v_left_mps,v_right_mps,state,why,"
-    "t,looked,d,r,sa,sd,cmd_left_mps,cmd_right_mps,est_x_m,est_y_m,est_heading_rad,guide,way_x_m,way_y_m";
+    "t,looked,d,r,sa,sd,cmd_left_mps,cmd_right_mps,est_x_m,est_y_m,est_heading_rad,guide,way_x_m,way_y_m,"
+    "pressed";
 
 std::string trace_csv(const Scenario& scenario, const std::vector<TickRecord>& records) {
   std::string out = kTraceHeader;

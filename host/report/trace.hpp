@@ -16,9 +16,11 @@
 ///
 /// - guide: the advice of the planner's map, a name of Guidance
 /// - way_x_m, way_y_m: the way point, in the frame of the estimate, 6 decimals
+/// - pressed: bump switches, the sum of 1 for the left, 2 for the front and 4 for the right one; 0 without a
+///   bumper
 ///
-/// d, r, sa, sd and the estimate are empty on a bus, which does not carry them. The last three columns are
-/// empty for planners without a map and on a chip, too; the way point is empty if the guide has none.
+/// d, r, sa, sd and the estimate are empty on a bus, which does not carry them. guide and way point are empty
+/// for planners without a map and on a chip, too; the way point is empty if the guide has none.
 #pragma once
 
 #include <string>

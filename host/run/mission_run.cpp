@@ -30,6 +30,7 @@ TickRecord record_of(const sim::Plant& plant, const Pilot& pilot, const Status& 
   r.x_m = plant.pose().at.x;
   r.y_m = plant.pose().at.y;
   r.heading_rad = plant.pose().heading;
+  r.pressed = plant.bumper().pressed;
   r.v_left_mps = plant.v_left();
   r.v_right_mps = plant.v_right();
   return r;
@@ -94,6 +95,7 @@ RunResult MissionRun::result() const {
   result.final_distance_m = distance_left();
   result.believed_distance_m = believed_distance();
   result.min_clearance_m = std::fmin(plant_->min_clearance(), kEmptyWorldClearance);
+  result.bumps = plant_->bumps();
   result.ticks = ticks_;
   result.hash = hash_.value();
   return result;

@@ -30,6 +30,7 @@ struct TickRecord {
   double est_x_m = 0, est_y_m = 0, est_heading_rad = 0;  ///< the core's own estimate
   bool inside = true;  ///< false: the core is remote and its fuzzy values and estimate are unknown
   Guidance guide = Guidance::unknown;
+  std::uint8_t pressed = 0;         ///< bump switches, see hal::BumperReading
   double way_x_m = 0, way_y_m = 0;  ///< way point, in the frame of the estimate; 0 without one
 };
 
@@ -46,6 +47,7 @@ struct RunResult {
   std::optional<double> believed_distance_m;
   double min_clearance_m =
       0;  ///< smallest true gap between body and obstacle; <= 0 at a contact; 1000 in an empty world
+  std::optional<std::uint32_t> bumps;  ///< touches that pressed a bump switch; none: unknown
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;  ///< FNV-1a 64 over the wheel commands of all ticks
 };

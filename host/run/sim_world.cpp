@@ -32,8 +32,13 @@ SimWorld::SimWorld(const Scenario& scenario) : world_(make_world(scenario)) {
   for (const Mover& m : world_.movers) {
     movers_.push_back({m.path.data(), m.path.size(), m.radius_m, m.speed_mps, arc_of(m.path, m.center)});
   }
-  view_ = {world_.discs.data(),    world_.discs.size(), world_.segments.data(),
-           world_.segments.size(), movers_.data(),      movers_.size()};
+  view_ = {world_.discs.data(),
+           world_.discs.size(),
+           world_.segments.data(),
+           world_.segments.size(),
+           movers_.data(),
+           movers_.size(),
+           world_.soft.empty() ? nullptr : world_.soft.data()};
 }
 
 }  // namespace whisker

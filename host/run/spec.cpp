@@ -2,13 +2,44 @@
 
 #include <cmath>
 
+#include "hal/types.hpp"
+
 namespace whisker {
 namespace {
 
 using sim::kPi;
 
+constexpr double kDegree = kPi / 180.0;
+
 Length length(double metres) {
   return micrometres(static_cast<std::int32_t>(std::floor(metres * 1e6 + 0.5)));
+}
+
+void set_width(const Sensor& sensor, sim::RobotSpec& spec) {
+  for (sim::BeamSpec& beam : spec.beams) {
+    if (sensor.cone_deg) beam.cone_half_width = *sensor.cone_deg / 2 * kDegree;
+  }
+  if (sensor.cone_far_deg) spec.cone_far_half_width = *sensor.cone_far_deg / 2 * kDegree;
+  spec.beams[hal::kLeft].angle += sensor.skew_deg * kDegree;
+  spec.beams[hal::kRight].angle -= sensor.skew_deg * kDegree;
+}
+
+/// The driver says clear beyond the range that the robot believes, so a longer one of the sensor only widens
+/// the taper and the reach in ambient light.
+void set_reach(const Sensor& sensor, sim::RobotSpec& spec) {
+  double believed = 0;
+  for (const sim::BeamSpec& beam : spec.beams) believed = std::fmax(believed, beam.max_range);
+  const double reach = sensor.max_range_m.value_or(believed);
+  const double share = echo_share(sensor);
+  spec.taper_range = reach;
+  if (share < 1) spec.echo_range = reach * share;
+  for (sim::BeamSpec& beam : spec.beams) {
+    beam.max_range = std::fmin(reach, beam.max_range);
+    beam.min_range = sensor.min_range_m.value_or(beam.min_range);
+  }
+  spec.soft_range = sensor.soft_range_m;
+  spec.dark_is_invalid = sensor.lost_is == Lost::invalid;
+  spec.corner_scatter = sensor.corner_scatter_m;
 }
 
 }  // namespace
@@ -21,15 +52,18 @@ sim::NoiseSpec noise_spec(const Noise& n) {
 }
 
 sim::RobotSpec robot_spec(const Scenario& scenario) {
-  constexpr double kDegree = kPi / 180.0;
   const Sensor& sensor = scenario.sensor;
   sim::RobotSpec spec = sim::robot_spec(scenario.robot);
   if (sensor.incidence_deg < 90) spec.incidence = sensor.incidence_deg * kDegree;
-  if (sensor.cone_deg) spec.cone_half_width = *sensor.cone_deg / 2 * kDegree;
-  spec.side_angle += sensor.skew_deg * kDegree;
+  set_width(sensor, spec);
+  set_reach(sensor, spec);
   spec.range_scale = sensor.scale;
   spec.phantom = sensor.phantom;
   spec.crosstalk = sensor.crosstalk;
+  spec.range_sigma = sensor.sigma_m;
+  spec.range_sigma_share = sensor.sigma_share;
+  spec.cover_glass = sensor.cover_glass_probability;
+  spec.cover_glass_at = sensor.cover_glass_m;
   return spec;
 }
 

@@ -22,16 +22,21 @@ constexpr double kFarthest = 1000;  ///< m; no coordinate or length of a scenari
 constexpr Limits kCoordinate{-kFarthest, kFarthest};
 constexpr Limits kLength{0, kFarthest, true};
 constexpr Limits kProbability{0, 1};
-constexpr Limits kTimeLimit{0, 1e6, true};  // s
-constexpr Limits kMoverSpeed{0, 10};        // m/s
-constexpr Limits kRangeSigma{0, 10};        // m
-constexpr Limits kWheelScaleSigma{0, 1};    //
-constexpr Limits kHeadingDrift{0, 360};     // deg/m^0.5
-constexpr Limits kIncidence{5, 90};         // deg
-constexpr Limits kTrueCone{0.5, 170};       // deg
-constexpr Limits kSkew{-45, 45};            // deg
-constexpr Limits kRangeScale{0.5, 2};       //
-constexpr std::size_t kMostPoints = 4096;   ///< of one list
+constexpr Limits kTimeLimit{0, 1e6, true};    // s
+constexpr Limits kMoverSpeed{0, 10};          // m/s
+constexpr Limits kRangeSigma{0, 10};          // m
+constexpr Limits kWheelScaleSigma{0, 1};      //
+constexpr Limits kHeadingDrift{0, 360};       // deg/m^0.5
+constexpr Limits kIncidence{5, 90};           // deg
+constexpr Limits kTrueCone{0.5, 170};         // deg
+constexpr Limits kTrueMinRange{0, 10};        // m
+constexpr Limits kTrueMaxRange{0, 60, true};  // m
+constexpr Limits kTrueLength{0, kFarthest};   // m
+constexpr Limits kCoverGlass{0, 1};           // m
+constexpr Limits kAmbient{0, 200};            // klux
+constexpr Limits kSkew{-45, 45};              // deg
+constexpr Limits kRangeScale{0.5, 2};         //
+constexpr std::size_t kMostPoints = 4096;     ///< of one list
 constexpr std::size_t kFewestOfPolygon = 3;
 constexpr std::size_t kFewestOfLine = 2;
 

@@ -15,6 +15,7 @@
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/reader.hpp"
 #include "host/scenario/robot.hpp"
+#include "host/scenario/sensor_text.hpp"
 
 namespace whisker {
 namespace {
@@ -70,19 +71,6 @@ Noise read_noise(const TableReader& table) {
   return n;
 }
 
-const std::vector<std::string_view> kSensorKeys = {"incidence_deg", "cone_deg", "skew_deg",
-                                                   "scale",         "phantom",  "crosstalk"};
-
-/// Keeps what the table does not set.
-void read_sensor(const TableReader& table, Sensor& s) {
-  s.incidence_deg = table.number_or("incidence_deg", kIncidence, s.incidence_deg);
-  if (table.has("cone_deg")) s.cone_deg = table.number("cone_deg", kTrueCone);
-  s.skew_deg = table.number_or("skew_deg", kSkew, s.skew_deg);
-  s.scale = table.number_or("scale", kRangeScale, s.scale);
-  s.phantom = table.number_or("phantom", kProbability, s.phantom);
-  s.crosstalk = table.number_or("crosstalk", kProbability, s.crosstalk);
-}
-
 /// A robot file: parameters at its top level or in [robot], and [sensor].
 void read_robot_file(const std::string& file, Params& params, Sensor& sensor) {
   const toml::table root = parse_toml(read_file(file), file);
@@ -96,7 +84,7 @@ void read_robot_file(const std::string& file, Params& params, Sensor& sensor) {
       tables.back().fail_at(key, fmt::format("'{}' is set both at the top level and in [robot]", key));
     }
   }
-  if (top.has("sensor")) read_sensor(top.table("sensor", kSensorKeys), sensor);
+  if (top.has("sensor")) read_sensor(top.table("sensor", sensor_keys()), sensor);
   read_robot(tables, params);
   check_robot(tables, params);
 }
@@ -138,7 +126,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
     s.noise = read_noise(top.table("noise", {"range_sigma_m", "range_dropout", "range_false_clear",
                                              "wheel_scale_sigma", "heading_drift_deg_per_sqrt_m"}));
   }
-  if (top.has("sensor")) read_sensor(top.table("sensor", kSensorKeys), s.sensor);
+  if (top.has("sensor")) read_sensor(top.table("sensor", sensor_keys()), s.sensor);
   if (top.has("robot")) {
     const RobotTables robot{top.table("robot", robot_keys())};
     read_robot(robot, s.robot);
@@ -150,11 +138,17 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
 
 Scenario load_scenario(const std::string& file) { return parse_scenario(read_file(file), file); }
 
-void apply_robot_file(Params& params, const std::string& file) {
+void apply_robot_file(Params& params, Sensor& sensor, const std::string& file) {
   Params changed = params;
-  Sensor ignored;
-  read_robot_file(file, changed, ignored);
+  Sensor changed_sensor = sensor;
+  read_robot_file(file, changed, changed_sensor);
   params = changed;
+  sensor = changed_sensor;
+}
+
+void apply_robot_file(Params& params, const std::string& file) {
+  Sensor ignored;
+  apply_robot_file(params, ignored, file);
 }
 
 void apply_robot_file(Scenario& scenario, const std::string& file) {

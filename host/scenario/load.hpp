@@ -17,6 +17,8 @@ Scenario parse_scenario(std::string_view text, const std::string& name);
 /// Sets the parameters that a robot file contains (at its top level, or in [robot]) and keeps the others. On
 /// an error, the parameters are unchanged. Its [sensor], if any, is only checked.
 void apply_robot_file(Params& params, const std::string& file);
+/// The same, and sets what its [sensor] contains.
+void apply_robot_file(Params& params, Sensor& sensor, const std::string& file);
 /// The same for the robot of a scenario and its sensors; also throws if the new body is in contact at the
 /// start.
 void apply_robot_file(Scenario& scenario, const std::string& file);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace whisker {
 namespace {
 
@@ -13,6 +15,7 @@ const char* type_of(const Acceleration&) { return "Acceleration"; }
 const char* type_of(const AngularRate&) { return "AngularRate"; }
 const char* type_of(const Duration&) { return "Duration"; }
 const char* type_of(const Angle&) { return "Angle"; }
+const char* type_of(const Direction&) { return "Direction"; }
 
 struct Lister {
   std::vector<ParamEntry> all;
@@ -26,7 +29,7 @@ struct Lister {
   template <class E>
   void choice(const char* key, const E& x, const char* const* names, int count) {
     const int chosen = static_cast<int>(x);
-    all.push_back({key, chosen, 0, count - 1, kPlain, names[chosen], ""});
+    all.push_back({key, chosen, 0, count - 1, kPlain, names[chosen], "", is_boolean(names, count)});
   }
 };
 
@@ -52,9 +55,15 @@ struct RawSetter {
 
 }  // namespace
 
+bool ParamEntry::of_one_beam() const {
+  const std::string_view name = key;
+  return name.find("_left_") != name.npos || name.find("_front_") != name.npos ||
+         name.find("_right_") != name.npos;
+}
+
 std::string ParamEntry::text_of(std::int64_t other) const { return si_text(other, unit); }
 
-std::string ParamEntry::text() const { return word != nullptr ? fmt::format("\"{}\"", word) : text_of(raw); }
+std::string ParamEntry::text() const { return word != nullptr ? choice_text(word, boolean) : text_of(raw); }
 
 std::vector<ParamEntry> param_list(const Params& params) {
   Lister lister;

@@ -18,6 +18,8 @@ struct ParamEntry {
   ParamUnit unit;            ///< symbol "" for a count or a choice
   const char* word;          ///< of a choice; otherwise null
   const char* type;          ///< "Length"; "int32_t" for a count, "" for a choice
+  bool boolean = false;      ///< a choice between "false" and "true"
+  bool of_one_beam() const;  ///< not of all three
   std::string text() const;  ///< as in a file
   std::string text_of(std::int64_t other) const;
 };

@@ -38,9 +38,11 @@ struct Rows {
   }
   template <class E>
   void choice(const char* key, const E& x, const char* const* names, int count) {
+    const bool boolean = is_boolean(names, count);
     std::string words;
-    for (int i = 0; i < count; ++i) words += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", names[i]);
-    all.push_back({key, "one of", fmt::format("\"{}\"", names[static_cast<int>(x)]), words});
+    for (int i = 0; i < count; ++i) words += (i == 0 ? "" : ", ") + choice_text(names[i], boolean);
+    const char* const chosen = names[static_cast<int>(x)];
+    all.push_back({key, boolean ? "boolean" : "one of", choice_text(chosen, boolean), words});
   }
 };
 
@@ -51,6 +53,14 @@ std::vector<Row> rows(const Params& params) {
 }
 
 }  // namespace
+
+bool is_boolean(const char* const* names, int count) {
+  return count == 2 && std::string_view(names[0]) == "false" && std::string_view(names[1]) == "true";
+}
+
+std::string choice_text(const char* word, bool boolean) {
+  return boolean ? word : fmt::format("\"{}\"", word);
+}
 
 std::int64_t to_raw(double si, ParamUnit unit) {
   return std::llround(si * unit.numerator / unit.denominator);

@@ -23,9 +23,23 @@ constexpr ParamUnit unit_of(const Acceleration&) { return {"m/s^2", 1e6, 1}; }
 constexpr ParamUnit unit_of(const AngularRate&) { return {"rad/s", 1e6, 1}; }
 constexpr ParamUnit unit_of(const Duration&) { return {"s", 1e3, 1}; }
 constexpr ParamUnit unit_of(const Angle&) { return {"deg", 4294967296.0, 360}; }
+constexpr ParamUnit unit_of(const Direction&) { return {"deg", 4294967296.0, 360}; }
+
+/// The words of a choice between "false" and "true": a boolean in a file.
+bool is_boolean(const char* const* names, int count);
+/// The word of a choice as in a file: quoted unless it is a boolean.
+std::string choice_text(const char* word, bool boolean);
 
 /// To nearest. |si| <= 1e9.
 std::int64_t to_raw(double si, ParamUnit unit);
+/// Sets a parameter to an SI value, or degrees, rounded to its unit. The value must lie within its range.
+template <class T>
+void set_si(T& field, double si) {
+  field = T::from_raw(static_cast<std::int32_t>(to_raw(si, unit_of(field))));
+}
+inline void set_si(Angle& field, double deg) {
+  field = Angle::from_raw(static_cast<std::uint32_t>(to_raw(deg, unit_of(field))));
+}
 /// The shortest decimal that to_raw() converts back to the same raw value.
 std::string si_text(std::int64_t raw, ParamUnit unit);
 

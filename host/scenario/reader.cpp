@@ -129,6 +129,14 @@ std::int64_t TableReader::integer(std::string_view key, std::int64_t low, std::i
   return x;
 }
 
+bool TableReader::boolean(std::string_view key) const {
+  const toml::node& node = require(key);
+  const auto* boolean = node.as_boolean();
+  if (boolean == nullptr)
+    fail(node, fmt::format("'{}' must be true or false, but is {}", key, kind_of(node)));
+  return boolean->get();
+}
+
 std::string TableReader::text(std::string_view key) const {
   const toml::node& node = require(key);
   const auto* string = node.as_string();

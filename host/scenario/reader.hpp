@@ -32,6 +32,7 @@ class TableReader {
   double number_or(std::string_view key, Limits limits, double fallback) const;
   /// A TOML integer in [low, high].
   std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high) const;
+  bool boolean(std::string_view key) const;
   /// One line of text.
   std::string text(std::string_view key) const;
   sim::Vec2 point(std::string_view key) const;

@@ -52,6 +52,10 @@ struct Setter {
   void choice(const char* key, E& x, const char* const* names, int count) {
     if (!table.has(key)) return;
     tried([&] {
+      if (is_boolean(names, count)) {
+        x = static_cast<E>(table.boolean(key) ? 1 : 0);
+        return;
+      }
       const std::string word = table.text(key);
       const auto* const named = std::find(names, names + count, word);
       if (named == names + count) {
@@ -84,6 +88,8 @@ InputError error_of(const RobotTables& tables, const std::vector<ParamEntry>& li
   for (const std::size_t place : v.keys) {
     const ParamEntry& e = list[place];
     const TableReader* const table = table_with(tables, e.key);
+    // Zero stands for the value that all beams share.
+    if (table == nullptr && e.raw == 0 && e.of_one_beam()) continue;
     if (where == nullptr && table != nullptr) where = table, at = e.key;
     values +=
         fmt::format("{}{} = {} ({})", values.empty() ? "" : ", ", e.key, e.text(),

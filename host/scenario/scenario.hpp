@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/params.hpp"
+#include "host/scenario/sensor.hpp"
 #include "host/sim/geometry.hpp"
 
 namespace whisker {
@@ -35,16 +36,6 @@ struct Noise {
   double range_false_clear = 0;  ///< probability that a reading is wrongly clear
   double wheel_scale_sigma = 0;  ///< relative error of each wheel's encoder, drawn once per run
   double heading_drift_deg_per_sqrt_m = 0;
-};
-
-/// What the rangefinders really do; the robot does not know it. The defaults are what the robot believes.
-struct Sensor {
-  double incidence_deg = 90;       ///< a flat surface seen farther from its normal gives no echo
-  std::optional<double> cone_deg;  ///< the true full width
-  double skew_deg = 0;             ///< by which the side beams point farther outward
-  double scale = 1;                ///< of every distance
-  double phantom = 0;              ///< probability that a clear reading becomes an echo at 0.1 to 0.5 m
-  double crosstalk = 0;  ///< probability that a reading is a neighbouring beam's where that is nearer
 };
 
 struct Scenario {

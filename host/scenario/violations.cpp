@@ -44,6 +44,23 @@ std::vector<std::size_t> keys_in(std::string_view sentence, const std::vector<Pa
   return keys;
 }
 
+/// The key that a beam's own key replaces: range_left_cone_deg, range_cone_deg.
+std::string shared_key(std::string_view own) {
+  const std::string_view what = own.substr(own.find('_', own.find('_') + 1) + 1);
+  if (what == "x_m" || what == "y_m") return "range_offset_m";
+  if (what == "angle_deg") return "range_side_angle_deg";
+  return fmt::format("range_{}", what);
+}
+
+/// Where the sentence names a key that all beams share, beams that have a value of their own count too.
+void add_own_keys(std::vector<std::size_t>& keys, const std::vector<ParamEntry>& list) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].of_one_beam() || list[i].raw == 0 || std::count(keys.begin(), keys.end(), i) != 0) continue;
+    const auto is_shared = [&](std::size_t k) { return list[k].key == shared_key(list[i].key); };
+    if (std::any_of(keys.begin(), keys.end(), is_shared)) keys.push_back(i);
+  }
+}
+
 /// The values of one parameter that satisfy the relation, on one side of its current value.
 struct Fitting {
   std::int64_t nearest;
@@ -91,7 +108,7 @@ std::vector<std::string> mends(const Params& params, const Violation& v, const B
   const std::vector<ParamEntry> list = param_list(params);
   std::vector<std::string> all;
   for (const std::size_t place : v.keys) {
-    if (list[place].word != nullptr) continue;
+    if (list[place].word != nullptr || (list[place].of_one_beam() && list[place].raw == 0)) continue;
     const auto fits = [&](std::int64_t raw) {
       Params changed = params;
       set_param(changed, place, raw);
@@ -116,7 +133,9 @@ std::vector<Violation> violations(const Params& params) {
   const std::vector<ParamEntry> list = param_list(params);
   std::vector<Violation> all;
   for_each_relation(params, [&](ParamFault fault, bool holds) {
-    if (!holds) all.push_back({fault, keys_in(relation(fault).words, list), {}});
+    if (holds) return true;
+    all.push_back({fault, keys_in(relation(fault).words, list), {}});
+    add_own_keys(all.back().keys, list);
     return true;
   });
   for (Violation& v : all) {

@@ -1,11 +1,54 @@
 #include "host/scenario/world.hpp"
 
+#include <utility>
+
 #include "host/scenario/shapes.hpp"
+#include "host/sim/random.hpp"
+#include "host/sim/streams.hpp"
 
 namespace whisker {
 
+namespace {
+
+enum Kind : std::uint32_t { kDiscs, kMovers, kPolygons, kWalls, kBounds };
+
+/// Draws which obstacles absorb; all edges of one are alike.
+class SoftDraw {
+ public:
+  explicit SoftDraw(const Scenario& s) : seed_(s.seed), share_(s.sensor.soft) {}
+
+  /// edges(i): count of entries of obstacle i.
+  template <class Edges>
+  void add(Kind kind, std::size_t count, Edges&& edges) {
+    sim::Random random(seed_, sim::kStreamSoft + kind);
+    for (std::size_t i = 0; i < count; ++i) {
+      soft_.insert(soft_.end(), edges(i), random.uniform() < share_ ? 1 : 0);
+    }
+  }
+  std::vector<std::uint8_t> take() { return std::move(soft_); }
+
+ private:
+  std::uint64_t seed_;
+  double share_;
+  std::vector<std::uint8_t> soft_;
+};
+
+std::vector<std::uint8_t> soft_obstacles(const Scenario& s) {
+  if (s.sensor.soft <= 0) return {};
+  const auto one = [](std::size_t) { return std::size_t{1}; };
+  SoftDraw draw(s);
+  draw.add(kDiscs, s.discs.size(), one);
+  draw.add(kMovers, s.movers.size(), one);
+  draw.add(kPolygons, s.polygons.size(), [&](std::size_t i) { return s.polygons[i].size(); });
+  draw.add(kWalls, s.walls.size(), [&](std::size_t i) { return s.walls[i].size() - 1; });
+  draw.add(kBounds, s.bounds ? 1 : 0, [](std::size_t) { return std::size_t{4}; });
+  return draw.take();
+}
+
+}  // namespace
+
 World make_world(const Scenario& scenario) {
-  World world{scenario.discs, {}, scenario.movers};
+  World world{scenario.discs, {}, scenario.movers, soft_obstacles(scenario)};
   for (const auto& polygon : scenario.polygons) {
     for (std::size_t i = 0; i < polygon.size(); ++i) world.segments.push_back(edge(polygon, i));
   }

@@ -7,6 +7,7 @@
 
 #include "host/scenario/bearing.hpp"
 #include "host/scenario/params_text.hpp"
+#include "host/scenario/sensor_text.hpp"
 #include "host/scenario/text.hpp"
 
 namespace whisker {
@@ -87,27 +88,13 @@ std::string noise(const Noise& n) {
   return out.empty() ? out : "\n[noise]\n" + out;
 }
 
-std::string sensor(const Sensor& s) {
-  constexpr Sensor kIdeal;
-  const std::string cone =
-      s.cone_deg ? fmt::format("cone_deg = {}  # the true full width\n", toml_number(*s.cone_deg)) : "";
-  const std::string out =
-      line("incidence_deg", s.incidence_deg, kIdeal.incidence_deg,
-           "  # surfaces farther from their normal give no echo") +
-      cone + line("skew_deg", s.skew_deg, kIdeal.skew_deg, "  # of the side beams, outward") +
-      line("scale", s.scale, kIdeal.scale, "  # of every distance") +
-      line("phantom", s.phantom, kIdeal.phantom, "  # clear readings that become echoes") +
-      line("crosstalk", s.crosstalk, kIdeal.crosstalk, "  # readings that may be a neighbouring beam's");
-  return out.empty() ? out : "\n[sensor]  # what the rangefinders really do\n" + out;
-}
-
 }  // namespace
 
 std::string to_toml(const Scenario& s) {
   const std::string robot = robot_toml(s.robot);
   return fmt::format("name = {}\nseed = {}  # of the noise\ntime_limit_s = {}\n", toml_string(s.name), s.seed,
                      toml_number(s.time_limit_s)) +
-         places(s) + obstacles(s) + noise(s.noise) + sensor(s.sensor) +
+         places(s) + obstacles(s) + noise(s.noise) + sensor_toml(s.sensor) +
          (robot.empty() ? robot : "\n[robot]  # what differs from the reference robot\n" + robot);
 }
 

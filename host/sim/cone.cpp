@@ -52,9 +52,9 @@ bool cut(Interval& kept, double start, double end) {
   return kept.low <= kept.high;
 }
 
-double nearer(double best, Vec2 end) {
+double nearer(double best, const Cone& cone, Vec2 end) {
   const double d2 = dot(end, end);
-  return d2 <= kScatter * kScatter && d2 < best * best ? square_root(d2) : best;
+  return d2 <= cone.scatter * cone.scatter && d2 < best * best ? square_root(d2) : best;
 }
 
 // A half width below 90 degrees makes the cone the intersection of two half planes.
@@ -79,8 +79,8 @@ double nearer(double best, const Cone& cone, const Segment& s) {
   // Of the points in the cone, the nearest one has the smallest incidence.
   const double along = dot(nearest, d);
   if (cone.sin_incidence < 1 && along * along > cone.sin_incidence * cone.sin_incidence * d2 * length2) {
-    if (kept.low <= 0) best = nearer(best, a);
-    return kept.high >= 1 ? nearer(best, b) : best;
+    if (kept.low <= 0) best = nearer(best, cone, a);
+    return kept.high >= 1 ? nearer(best, cone, b) : best;
   }
   return d2 < best * best ? square_root(d2) : best;
 }
@@ -91,15 +91,18 @@ double range(const Cone& cone, const Disc& disc) { return nearer(kNothing, cone,
 
 double range(const Cone& cone, const Segment& segment) { return nearer(kNothing, cone, segment); }
 
-double range(const Cone& cone, const WorldView& world, double t, double limit) {
+double range(const Cone& cone, const WorldView& world, double t, double limit, double soft_limit) {
   double best = limit;
-  for (size_t i = 0; i < world.disc_count; ++i) {
-    best = nearer(best, cone, world.discs[i].center, world.discs[i].radius);
-  }
-  for (size_t i = 0; i < world.mover_count; ++i) {
-    best = nearer(best, cone, position(world.movers[i], t), world.movers[i].radius);
-  }
-  for (size_t i = 0; i < world.segment_count; ++i) best = nearer(best, cone, world.segments[i]);
+  const uint8_t* soft = world.soft;
+  const auto add = [&](auto... obstacle) {
+    const bool absorbs = soft != nullptr && *soft++ != 0;
+    const double within = absorbs && soft_limit < best ? soft_limit : best;
+    const double d = nearer(within, cone, obstacle...);
+    if (d < within) best = d;
+  };
+  for (size_t i = 0; i < world.disc_count; ++i) add(world.discs[i].center, world.discs[i].radius);
+  for (size_t i = 0; i < world.mover_count; ++i) add(position(world.movers[i], t), world.movers[i].radius);
+  for (size_t i = 0; i < world.segment_count; ++i) add(world.segments[i]);
   return best < limit ? best : kNothing;
 }
 

@@ -6,6 +6,9 @@
 
 namespace whisker::sim {
 
+constexpr double kConeSlack = 1e-12;  ///< m
+constexpr double kScatter = 0.5;      ///< m
+
 /// All points within the half width of the axis, including the edges. A point within kConeSlack of an edge
 /// counts as inside, so that rounding loses no obstacle that passes through the apex or touches an edge.
 struct Cone {
@@ -16,18 +19,18 @@ struct Cone {
   /// Sine of the largest angle between a ray and the normal of a surface that still gives an echo; from 1 on,
   /// every surface does.
   double sin_incidence = 1;
+  /// Up to this distance, m, the end of a segment scatters: it gives an echo at any angle.
+  double scatter = kScatter;
 };
-
-constexpr double kConeSlack = 1e-12;  ///< m
-/// Up to this distance, m, the end of a segment scatters: it gives an echo at any angle.
-constexpr double kScatter = 0.5;
 
 /// Distance from the apex to the nearest point of the obstacle within the cone that gives an echo, m; 0 if
 /// the apex is inside the disc or on the segment; infinite if the cone contains no such point of it.
 double range(const Cone& cone, const Disc& disc);
 double range(const Cone& cone, const Segment& segment);
 
-/// The smallest range over a world at time t, s; infinite if it is at least `limit`, m.
-double range(const Cone& cone, const WorldView& world, double t, double limit);
+/// The smallest range over a world at time t, s; infinite if it is at least `limit`, m. An obstacle that
+/// absorbs (WorldView::soft) counts only if it is nearer than `soft_limit`, m.
+double range(const Cone& cone, const WorldView& world, double t, double limit,
+             double soft_limit = __builtin_huge_val());
 
 }  // namespace whisker::sim

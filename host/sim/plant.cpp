@@ -1,9 +1,12 @@
 #include "host/sim/plant.hpp"
 
+#include "host/sim/bumper.hpp"
 #include "host/sim/elementary.hpp"
 
 namespace whisker::sim {
 namespace {
+
+constexpr double kPressGap = 4 * kContactGap;  // a touch is reported within 3 of it
 
 double size_of(double x) { return x < 0 ? -x : x; }
 double larger(double a, double b) { return a > b ? a : b; }
@@ -27,6 +30,7 @@ Plant::Plant(const WorldView& world, const RobotSpec& robot, const NoiseSpec& no
       radius_(robot.radius),
       track_(robot.track),
       max_speed_(robot.max_speed),
+      press_speed_(robot.bumper ? robot.press_speed : -1),
       period_us_(whole_period_us(robot.period_s)),
       step_us_(period_us_ % 2000 == 0 ? 2000 : 1000),
       wheel_(robot.motor_lag, robot.max_acceleration, seconds(step_us_)),
@@ -67,7 +71,7 @@ void Plant::advance() {
         gap = free.clearance;
         min_clearance_ = free.least_clearance;
         free_fraction = free.fraction;
-        if (free.contact) touch(time() + free_fraction * step_s);
+        if (free.contact && !press(along(arc, free_fraction))) touch(time() + free_fraction * step_s);
       }
       rolled_left += left.distance * free_fraction;
       rolled_right += right.distance * free_fraction;
@@ -77,6 +81,21 @@ void Plant::advance() {
     sense(arc, free_fraction);
   }
   encoders_.roll(rolled_left, rolled_right, path_length_ - path_before);
+  if (pressed_ != 0) release();
+}
+
+bool Plant::press(const Pose& at) {
+  if (size_of(v_left_ + v_right_) / 2 > press_speed_) return false;
+  const uint8_t pressed = switch_pressed(*world_, at, radius_, kPressGap);
+  if (pressed == 0) return false;
+  if ((pressed_ & pressed) == 0) ++bumps_;
+  pressed_ = static_cast<uint8_t>(pressed_ | pressed);
+  v_left_ = v_right_ = 0;
+  return true;
+}
+
+void Plant::release() {
+  if (clearance(*world_, pose_.at, time(), radius_) > kReleaseGap) pressed_ = 0;
 }
 
 double Plant::gap_now() {

@@ -30,6 +30,8 @@ class Plant {
 
   hal::RangeReadings ranges() const { return sensors_.read(now_us_); }
   hal::EncoderCounts encoders() const { return encoders_.counts(); }
+  /// All open without a bumper.
+  hal::BumperReading bumper() const { return {pressed_}; }
 
   /// True values, SI units.
   Pose pose() const { return pose_; }
@@ -38,6 +40,8 @@ class Plant {
   double time() const { return static_cast<double>(now_us_) * 1e-6; }
   bool in_contact() const { return contact_; }
   double contact_time() const { return contact_time_; }  ///< -1 before a contact
+  /// Touches that pressed a switch. The body stops there, but they are no contact.
+  uint32_t bumps() const { return bumps_; }
   /// The smallest gap so far, at most kClearanceSlack above the true one; 0 or less after a contact; infinite
   /// in an empty world.
   double min_clearance() const { return min_clearance_; }
@@ -50,11 +54,14 @@ class Plant {
   double farthest_travel() const;
   void sense(const Arc& arc, double free_fraction);  // measurements that are due during the last step
   void touch(double time);
+  bool press(const Pose& at);  // false: this touch presses no switch, so it is a contact
+  void release();
 
   const WorldView* world_;
   double radius_;
   double track_;
   double max_speed_;
+  double press_speed_;
   int64_t period_us_;
   int64_t step_us_;
   WheelModel wheel_;
@@ -67,6 +74,8 @@ class Plant {
   double target_right_ = 0;
   double v_left_ = 0;
   double v_right_ = 0;
+  uint8_t pressed_ = 0;
+  uint32_t bumps_ = 0;
   bool contact_ = false;
   double contact_time_ = -1;
   double min_clearance_ = 0;

@@ -1,8 +1,8 @@
 #include "host/sim/range_sensors.hpp"
 
-#include "host/sim/cone.hpp"
 #include "host/sim/elementary.hpp"
 #include "host/sim/streams.hpp"
+#include "host/sim/tapered_cone.hpp"
 
 namespace whisker::sim {
 namespace {
@@ -20,18 +20,12 @@ hal::RangeReading without_distance(hal::RangeStatus status) { return {0, status,
 }  // namespace
 
 RangeSensors::RangeSensors(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed)
-    : interval_us_(1e6 / robot.rate_hz),
-      latency_us_(nearest(robot.latency_s * 1e6)),
-      offset_(robot.offset),
-      min_range_(robot.min_range),
-      max_range_(robot.max_range),
-      side_(sin_cos(robot.side_angle)),
-      half_width_(sin_cos(robot.cone_half_width)),
-      sin_incidence_(robot.incidence < kPi / 2 ? sin_cos(robot.incidence).sin : 1.0),
-      scale_(robot.range_scale),
-      phantom_(robot.phantom),
-      crosstalk_(robot.crosstalk),
+    : robot_(robot),
       noise_(noise),
+      interval_us_(1e6 / robot.rate_hz),
+      latency_us_(nearest(robot.latency_s * 1e6)),
+      directions_{Direction(robot.beams[0]), Direction(robot.beams[1]), Direction(robot.beams[2])},
+      sin_incidence_(robot.incidence < kPi / 2 ? sin_cos(robot.incidence).sin : 1.0),
       faults_{{seed, hal::kLeft}, {seed, hal::kFront}, {seed, hal::kRight}} {}
 
 RangeSensors::Faults::Faults(uint64_t seed, uint32_t beam)
@@ -39,55 +33,93 @@ RangeSensors::Faults::Faults(uint64_t seed, uint32_t beam)
       dropout(seed, kStreamDropout + beam),
       false_clear(seed, kStreamFalseClear + beam),
       phantom(seed, kStreamPhantom + beam),
-      crosstalk(seed, kStreamCrosstalk + beam) {}
+      crosstalk(seed, kStreamCrosstalk + beam),
+      cover_glass(seed, kStreamCoverGlass + beam) {}
 
 void RangeSensors::measure(const WorldView& world, const Pose& pose) {
   const double t = static_cast<double>(due_us_) * 1e-6;
   const SinCos heading = sin_cos(pose.heading);
   const Vec2 front{heading.cos, heading.sin};
   const Vec2 left_of_front{-heading.sin, heading.cos};
-  const Vec2 axes[hal::kBeams] = {front * side_.cos + left_of_front * side_.sin, front,
-                                  front * side_.cos - left_of_front * side_.sin};
 
   Measurement& m = kept_[count_ % kKept];
   m.at_us = due_us_;
   double metres[hal::kBeams];
+  bool dark[hal::kBeams];
   for (int i = 0; i < hal::kBeams; ++i) {
-    const Cone cone{pose.at + axes[i] * offset_, axes[i], half_width_.cos, half_width_.sin, sin_incidence_};
-    metres[i] = range(cone, world, t, max_range_ / scale_);
+    const BeamSpec& beam = robot_.beams[i];
+    const Direction& d = directions_[i];
+    const double within = beam.max_range / robot_.range_scale;
+    const double bright = robot_.echo_range < within ? robot_.echo_range : within;
+    const Cone cone{pose.at + front * beam.x + left_of_front * beam.y,
+                    front * d.axis.cos + left_of_front * d.axis.sin,
+                    d.half_width.cos,
+                    d.half_width.sin,
+                    sin_incidence_,
+                    robot_.corner_scatter};
+    const auto seen_within = [&](double limit) { return seen(cone, beam.cone_half_width, world, t, limit); };
+    metres[i] = seen_within(bright);
+    dark[i] = robot_.dark_is_invalid && bright < within && seen_within(within) < within;
   }
   for (int i = 0; i < hal::kBeams; ++i) {
-    m.readings.beam[i] = classified(faults_[i], echo(i, metres));
+    m.readings.beam[i] = classified(i, echo(i, metres), dark[i]);
     m.readings.beam[i].sequence = static_cast<uint8_t>(count_ & 15);
   }
   ++count_;
   due_us_ = nearest(static_cast<double>(count_) * interval_us_);
 }
 
+double RangeSensors::seen(const Cone& cone, double half_width, const WorldView& world, double t,
+                          double limit) const {
+  if (robot_.cone_far_half_width >= half_width) {
+    return range(cone, world, t, limit, robot_.soft_range);
+  }
+  const TaperedCone tapered(cone, half_width, robot_.cone_far_half_width, robot_.taper_range);
+  return range(tapered, world, t, limit, robot_.soft_range);
+}
+
 double RangeSensors::echo(int i, const double (&metres)[hal::kBeams]) {
   double nearest = metres[i];
-  // Both sources draw on every measurement, so that the seed's numbers do not depend on the world.
-  if (crosstalk_ > 0 && faults_[i].crosstalk.uniform() < crosstalk_) {
+  // Every source draws on every measurement, so that the seed's numbers do not depend on the world.
+  if (robot_.crosstalk > 0 && faults_[i].crosstalk.uniform() < robot_.crosstalk) {
     if (i > 0 && metres[i - 1] < nearest) nearest = metres[i - 1];
     if (i + 1 < hal::kBeams && metres[i + 1] < nearest) nearest = metres[i + 1];
   }
-  nearest *= scale_;
-  if (phantom_ <= 0) return nearest;
-  const bool phantom = faults_[i].phantom.uniform() < phantom_;
-  const double at = 0.1 + 0.4 * faults_[i].phantom.uniform();
-  return phantom && nearest > max_range_ ? at : nearest;
+  nearest *= robot_.range_scale;
+  if (robot_.cover_glass > 0 && faults_[i].cover_glass.uniform() < robot_.cover_glass) {
+    if (nearest > robot_.beams[i].max_range) nearest = robot_.cover_glass_at;
+  }
+  if (robot_.phantom > 0) {
+    const bool phantom = faults_[i].phantom.uniform() < robot_.phantom;
+    const double at = 0.1 + 0.4 * faults_[i].phantom.uniform();
+    if (phantom && nearest > robot_.beams[i].max_range) nearest = at;
+  }
+  return nearest;
 }
 
-hal::RangeReading RangeSensors::classified(Faults& faults, double metres) const {
-  const double error = noise_.range_sigma_m > 0 ? noise_.range_sigma_m * faults.noise.normal() : 0.0;
+// The errors of the sensor and of [noise] are independent, so their variances add.
+double RangeSensors::sigma(double metres) const {
+  const double share = robot_.range_sigma_share * metres;
+  const double own2 = robot_.range_sigma * robot_.range_sigma + share * share;
+  return own2 > 0 ? square_root(own2 + noise_.range_sigma_m * noise_.range_sigma_m) : noise_.range_sigma_m;
+}
+
+hal::RangeReading RangeSensors::classified(int i, double metres, bool dark) {
+  Faults& faults = faults_[i];
+  const BeamSpec& beam = robot_.beams[i];
+  const bool noisy = noise_.range_sigma_m > 0 || robot_.range_sigma > 0 || robot_.range_sigma_share > 0;
+  const double deviate = noisy ? faults.noise.normal() : 0.0;
   const bool lost = faults.dropout.uniform() < noise_.range_dropout;
   const bool false_clear = faults.false_clear.uniform() < noise_.range_false_clear;
 
   if (lost) return without_distance(hal::RangeStatus::invalid);
-  if (false_clear || metres > max_range_) return without_distance(hal::RangeStatus::clear);
-  const double measured = metres + error;
-  if (measured > max_range_) return without_distance(hal::RangeStatus::clear);
-  if (measured < min_range_) return without_distance(hal::RangeStatus::too_near);
+  if (false_clear) return without_distance(hal::RangeStatus::clear);
+  if (metres > beam.max_range) {
+    return without_distance(dark ? hal::RangeStatus::invalid : hal::RangeStatus::clear);
+  }
+  const double measured = metres + sigma(metres) * deviate;
+  if (measured > beam.max_range) return without_distance(hal::RangeStatus::clear);
+  if (measured < beam.min_range) return without_distance(hal::RangeStatus::too_near);
   return {millimetres_of(measured), hal::RangeStatus::ok, 0, 0};
 }
 

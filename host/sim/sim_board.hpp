@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hal/bumper.hpp"
 #include "hal/drive.hpp"
 #include "hal/rangefinders.hpp"
 #include "host/sim/plant.hpp"
@@ -7,7 +8,7 @@
 namespace whisker::hal {
 
 /// The simulated robot as a board. It never refuses; tests wrap it to add refusals.
-class SimBoard final : public Rangefinders, public Drive {
+class SimBoard final : public Rangefinders, public Drive, public Bumper {
  public:
   explicit SimBoard(sim::Plant& plant) noexcept : plant_(plant) {}
 
@@ -17,6 +18,10 @@ class SimBoard final : public Rangefinders, public Drive {
   }
   bool read(EncoderCounts& out) noexcept override {
     out = plant_.encoders();
+    return true;
+  }
+  bool read(BumperReading& out) noexcept override {
+    out = plant_.bumper();
     return true;
   }
   bool command(WheelSpeeds speeds) noexcept override {

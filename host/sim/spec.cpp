@@ -1,5 +1,7 @@
 #include "host/sim/spec.hpp"
 
+#include "host/sim/geometry.hpp"
+
 namespace whisker::sim {
 namespace {
 
@@ -19,13 +21,22 @@ RobotSpec robot_spec(const Params& params) {
   spec.max_acceleration = si(params.wheels.max_acceleration);
   spec.motor_lag = si(params.wheels.motor_lag);
   spec.counts_per_m = params.wheels.counts_per_metre;
-  spec.side_angle = si(params.rangefinders.side_angle);
-  spec.cone_half_width = si(params.rangefinders.cone) / 2;
-  spec.min_range = si(params.rangefinders.min_range);
-  spec.max_range = si(params.rangefinders.max_range);
-  spec.offset = si(params.rangefinders.offset);
+  for (int i = 0; i < 3; ++i) {
+    const RangefinderParams& r = params.rangefinders;
+    const Vec2 own{si(r.beams[i].x), si(r.beams[i].y)};
+    const double axis = si(beam_axis(r, i));
+    const SinCos direction = sin_cos(axis);
+    const bool radial = own.x == 0 && own.y == 0;
+    spec.beams[i] = {radial ? si(r.offset) * direction.cos : own.x,
+                     radial ? si(r.offset) * direction.sin : own.y,
+                     axis,
+                     si(beam_cone(r, i)) / 2,
+                     si(min_range(r, i)),
+                     si(max_range(r, i))};
+  }
   spec.rate_hz = params.rangefinders.rate_hz;
   spec.latency_s = si(params.rangefinders.latency);
+  spec.bumper = params.bumper.fitted == Fitted::yes;
   spec.period_s = si(params.safety.period);
   return spec;
 }

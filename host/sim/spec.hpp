@@ -6,6 +6,16 @@
 
 namespace whisker::sim {
 
+/// A rangefinder on the body: its apex in the body's frame, x ahead, y to the left.
+struct BeamSpec {
+  double x = 0;                         ///< m
+  double y = 0;                         ///< m
+  double angle = 0;                     ///< rad, of its axis from straight ahead, counter-clockwise
+  double cone_half_width = kPi / 14.4;  ///< rad; 0 < half width < pi/2
+  double min_range = 0.02;              ///< m; nearer is too_near
+  double max_range = 2.0;               ///< m; farther is clear; at most 65.5
+};
+
 struct RobotSpec {
   double radius = 0.09;           ///< m, of the disc body
   double track = 0.14;            ///< m, between the wheels; > 0
@@ -14,20 +24,31 @@ struct RobotSpec {
   double motor_lag = 0.05;        ///< s, time constant from command to wheel speed; 0 for none
   double counts_per_m = 5000;     ///< encoder counts
 
-  double side_angle =
-      kPi / 6;  ///< rad, axis of the left beam from straight ahead; the right beam is mirrored
-  double cone_half_width = kPi / 14.4;  ///< rad; 0 < half width < pi/2
-  double min_range = 0.02;              ///< m; nearer is too_near
-  double max_range = 2.0;               ///< m; farther is clear; at most 65.5
-  double offset = 0;                    ///< m, of the apexes from the centre, along the axis of each beam
-  double rate_hz = 50;                  ///< measurements a second; > 0
-  double latency_s = 0.02;              ///< from a measurement to its arrival; rate * latency <= 30
+  BeamSpec beams[3] = {{0, 0, kPi / 6}, {}, {0, 0, -kPi / 6}};  ///< left, front, right
+  double rate_hz = 50;                                          ///< measurements a second; > 0
+  double latency_s = 0.02;  ///< from a measurement to its arrival; rate * latency <= 30
 
   double incidence =
       kPi / 2;             ///< rad; a surface seen farther from its normal gives no echo; kPi / 2: each does
   double range_scale = 1;  ///< of every distance, as from another speed of sound
   double phantom = 0;      ///< probability that a clear reading becomes an echo at 0.1 to 0.5 m
   double crosstalk = 0;    ///< probability that a reading is a neighbouring beam's where that is nearer
+
+  /// rad, half width of the cones at the distance taper_range; it falls linearly from cone_half_width at 0.
+  /// Not less than 0; a larger one than cone_half_width counts as that: no taper.
+  double cone_far_half_width = kPi / 2;
+  double taper_range = 2.0;                  ///< m; > 0
+  double corner_scatter = 0.5;               ///< m; up to it, ends of segments give an echo at any angle
+  double echo_range = __builtin_huge_val();  ///< m; what is not nearer is too dark to give an echo
+  bool dark_is_invalid = false;              ///< such a reading is invalid, not clear
+  double soft_range = __builtin_huge_val();  ///< m; obstacles that absorb give an echo only if nearer
+  double range_sigma = 0;                    ///< m, standard deviation of a distance
+  double range_sigma_share = 0;              ///< the same, as a share of the distance
+  double cover_glass = 0;                    ///< probability that a clear reading becomes an echo
+  double cover_glass_at = 0.05;              ///< m, at this distance
+
+  bool bumper = false;       ///< bump switches at the front half
+  double press_speed = 0.1;  ///< m/s, of the body's centre; a faster touch is a contact all the same
 
   double period_s = 0.01;  ///< control period; rounded to a whole number of milliseconds, at least 1
 };

@@ -14,5 +14,8 @@ constexpr uint32_t kStreamDropout = 32;
 constexpr uint32_t kStreamFalseClear = 48;
 constexpr uint32_t kStreamPhantom = 64;
 constexpr uint32_t kStreamCrosstalk = 80;
+constexpr uint32_t kStreamCoverGlass = 96;
+// Which obstacles absorb; one per kind of obstacle, so that a new one changes no other kind: add its Kind.
+constexpr uint32_t kStreamSoft = 112;
 
 }  // namespace whisker::sim

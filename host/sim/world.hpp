@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "host/sim/geometry.hpp"
 
@@ -24,6 +25,8 @@ struct WorldView {
   size_t segment_count = 0;
   const MovingDisc* movers = nullptr;
   size_t mover_count = 0;
+  /// Not 0 for each obstacle that absorbs; discs, then movers, then segments. Null: none does.
+  const uint8_t* soft = nullptr;
 };
 
 /// The centre of the mover at time t, s, in closed form.

@@ -159,5 +159,65 @@ TEST_F(RobotBoardTest, EverythingDeadAtTheStartEndsInNamesInBoundedTime) {
 
 TEST(RobotParamsTest, AreOnesThatTheCoreAccepts) { EXPECT_EQ(check(kRobotParams), ParamFault::none); }
 
+TEST_F(RobotBoardTest, ReadsTheBumpSwitchesWithoutTheirBouncing) {
+  std::uint32_t closed = 0;  // by pin
+  gpio_c.held_low = [&](std::uint8_t pin) { return (closed >> pin & 1U) != 0; };
+  for (const Pin pin : wiring::kBumpers) {
+    EXPECT_EQ(gpio_c.mode(pin.number), model::GpioModel::kInput);
+    EXPECT_TRUE(gpio_c.pulled_up(pin.number));
+  }
+  BumpSwitches switches;
+  const auto at = [&](std::uint32_t ms, std::uint32_t pins) {
+    closed = pins;
+    switches.poll(ms);
+    BumperReading reading{255};
+    EXPECT_TRUE(switches.read(reading));
+    return reading.pressed;
+  };
+  const std::uint32_t left = 1U << wiring::kBumpers[0].number, right = 1U << wiring::kBumpers[1].number;
+  EXPECT_EQ(at(100, 0), 0);
+  EXPECT_EQ(at(101, left), 1U << kLeft) << "at once";
+  EXPECT_EQ(at(103, 0), 1U << kLeft) << "it bounces";
+  EXPECT_EQ(at(105, left | right), 1U << kLeft | 1U << kRight);
+  EXPECT_EQ(at(115, left), 1U << kLeft | 1U << kRight);
+  EXPECT_EQ(at(125, left), 1U << kLeft) << "open for 20 ms";
+  EXPECT_EQ(at(144, 0), 1U << kLeft);
+  EXPECT_EQ(at(145, 0), 0);
+
+  closed = right;
+  switches.poll(200);
+  closed = 0;
+  switches.poll(300);
+  EXPECT_EQ(at(301, 0), 1U << kRight) << "a press between two reads is not missed";
+  EXPECT_EQ(at(302, 0), 0);
+}
+
+TEST_F(RobotBoardTest, ABumpStopsTheMotors) {
+  Params params = kRobotParams;
+  params.bumper.fitted = Fitted::yes;
+  planning::TableBoundaryPlanner own{params, fuzzy::kDefaultTable};
+  Robot bumped{board.rangefinders(), board.drive(), own.planner, params, &board.bumper()};
+  bool closed = false;
+  gpio_c.held_low = [&](std::uint8_t pin) { return closed && pin == wiring::kBumpers[0].number; };
+  const auto pass = [&](int ticks) {
+    for (int i = 0; i < ticks;) {
+      board.poll(bumped.status());
+      if (!board.due(10)) continue;
+      bumped.tick(board.now());
+      ++i;
+    }
+  };
+  bumped.place({});
+  pass(50);
+  bumped.set_goal({{500_mm, 0_mm}, 50_mm});
+  pass(5);
+  closed = true;
+  pass(1);
+  EXPECT_EQ(bumped.status().pressed, 1U << kLeft);
+  EXPECT_EQ(bumped.status().command.left, 0);
+  EXPECT_EQ(bumped.status().decision.why, planning::Why::bumped);
+  EXPECT_EQ(bumped.status().health.bumps, 1U);
+}
+
 }  // namespace
 }  // namespace whisker::hal::stm32f405

@@ -137,6 +137,20 @@ TEST(Mission, ValuesOutOfRangeAreRefused) {
   EXPECT_FALSE(mission_of(values_of(m), out));
 }
 
+TEST(Codec, ARangeCarriesTheSwitchOnItsSideAndNothingWithoutABumper) {
+  Range<MessageKind::range_left> in{{1234, hal::RangeStatus::ok, 20, 7}, 0xBEEF};
+  const hal::CanFrame plain = encode(in, 9, 10);
+  EXPECT_EQ(plain.data[5], 0x07) << "the bits were unused before";
+  for (int state = 0; state < 4; ++state) {
+    in.bump = static_cast<BumpState>(state);
+    const hal::CanFrame frame = encode(in, 9, 10);
+    EXPECT_EQ(frame.data[5], 0x07 | state << 4);
+    Range<MessageKind::range_left> out;
+    ASSERT_TRUE(decode(frame, out));
+    EXPECT_EQ(out.bump, in.bump);
+  }
+}
+
 /// Frames that other tools decode: tests/can/golden_frames.txt has their bytes and physical values.
 std::vector<hal::CanFrame> golden_frames() {
   WheelState wheels{1, 5, {0x123456, 0xFFFFFE}};

@@ -122,5 +122,28 @@ INSTANTIATE_TEST_SUITE_P(Now, Twins,
 
 INSTANTIATE_TEST_SUITE_P(Worlds, EveryWorld, testing::ValuesIn(worlds::kKinds));
 
+TEST(Bus, HandsThePressesOfTheBumperOnAlsoIfFramesAreDropped) {
+  Scenario scenario;
+  scenario.goal.at = {2, 0.1};
+  scenario.discs.push_back({{1, 0}, 0.15});
+  scenario.sensor.soft = 1;
+  scenario.sensor.soft_range_m = 0;
+  scenario.robot.wheels.max_speed = 100_mm_per_s;
+  scenario.robot.bumper.fitted = Fitted::yes;
+  const RunResult direct = run(scenario);
+  EXPECT_EQ(direct.verdict, Verdict::reached);
+  EXPECT_GE(direct.bumps.value_or(0), 1U);
+  for (const bool lossy : {false, true}) {
+    bus::MemoryBus wire;
+    hal::CanPort& plain = wire.attach();
+    test::LossyPort dropping(wire.attach(), 1);
+    hal::CanPort& base = lossy ? static_cast<hal::CanPort&>(dropping) : plain;
+    const auto over_bus =
+        test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep, base, wire.attach());
+    EXPECT_EQ(over_bus.result.hash, direct.hash);
+    EXPECT_EQ(over_bus.result.bumps, direct.bumps);
+  }
+}
+
 }  // namespace
 }  // namespace whisker

@@ -1,4 +1,4 @@
-"""`whisker robot check`: the robots that it rejects, its test drives, and the header that it writes."""
+"""`whisker robot check`: the robots that it rejects, its warnings, its test drives, and the header that it writes."""
 
 import json
 import pathlib
@@ -27,7 +27,7 @@ class RobotCheck(Case):
             self.assertEqual([line.split(":")[0] for line in done.stdout.splitlines()],
                              ["the empty world", "the corridor", "the field of discs", "fit"])  # fmt: skip
             result = json.loads(check(robot, "--json").stdout)
-            self.assertEqual((result["fit"], result["violations"]), (True, []))
+            self.assertEqual((result["fit"], result["violations"], result["warnings"]), (True, [], []))
             self.assertEqual([drive["outcome"] for drive in result["drives"]], ["reached"] * 3)
 
     def test_every_violation_is_a_line_and_run_refuses_the_same(self):
@@ -55,6 +55,42 @@ class RobotCheck(Case):
         result = json.loads(check(short, "--json").stdout)
         self.assertEqual([drive["outcome"] for drive in result["drives"]], ["reached", "reached", "gave_up"])
         self.assertFalse(result["fit"])
+
+    def test_the_drives_have_the_sensors_of_the_file(self):
+        blind = check(self.file("blind.toml", "[sensor]\nmax_range_m = 0.1\n"))
+        self.assertEqual(blind.returncode, 6, blind.stdout)
+        self.assertRegex(blind.stderr, r"the drive through the field of discs failed: contact")
+        self.assertEqual(check(self.file("ideal.toml", "[sensor]\nincidence_deg = 90\n")).stdout.splitlines()[:3],
+                         check(self.file("none.toml", "")).stdout.splitlines()[:3])  # fmt: skip
+        noisy = check(self.file("noisy.toml", "[sensor]\nsigma_m = 0.01\n"))
+        self.assertEqual(noisy.returncode, 0, noisy.stderr)
+        self.assertNotEqual(noisy.stdout.splitlines()[:3], check(self.file("none.toml", "")).stdout.splitlines()[:3])
+
+    def test_warnings_are_lines_and_change_no_status(self):
+        robot = self.file("sonar.toml", "range_incidence_deg = 45\nrange_cone_deg = 15\n")
+        done = check(robot, "--header", self.folder / "sonar.hpp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.folder / "sonar.hpp").exists())
+        lines = done.stderr.splitlines()
+        self.assertEqual(len(lines), 2)
+        self.assertRegex(lines[0], r"^whisker: \S+sonar.toml: warning: walls ahead may be invisible: .* fit with range_side_angle_deg >= 42.5, ")
+        self.assertRegex(lines[1], r"^whisker: \S+sonar.toml: warning: the cones leave a gap: ")
+        told = check(robot, "--json")
+        self.assertEqual((told.returncode, told.stderr), (0, ""))
+        result = json.loads(told.stdout)
+        self.assertTrue(result["fit"])
+        self.assertEqual([w["kind"] for w in result["warnings"]], ["invisible_walls", "unseen_strip"])
+        for line, warning in zip(lines, result["warnings"]):
+            self.assertTrue(line.endswith(": warning: " + warning["text"]))
+
+    def test_the_named_layouts_do_as_the_manual_says(self):
+        kinds = {}
+        for name in ("reference", "layout-45", "layout-40", "layout-45-true-38", "hc-sr04", "vl53l1x"):
+            done = check(ROOT / f"host/robots/{name}.toml", "--json")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            kinds[name] = [w["kind"] for w in json.loads(done.stdout)["warnings"]]
+        self.assertEqual(kinds, {"reference": [], "layout-45": [], "layout-40": [], "layout-45-true-38": ["invisible_walls"],
+                                 "hc-sr04": ["unseen_strip"], "vl53l1x": []})  # fmt: skip
 
     def test_files_that_are_none(self):
         self.refused("robot", says="robot")
@@ -95,17 +131,23 @@ class Header(Case):
         wanted = []
         for key, unit, default, _ in rows:
             key = key.strip("`")
+            if key in ("bumper", "creep_speed_mps"):  # a switch that is no number; nothing without it
+                continue
             other = {"integer": lambda: int(default) + 1, "one of": lambda: {"agreeing": '"median"', "front": '"mean"'}[default.strip('"')]}
             value = other.get(unit, lambda: round(float(default) * 1.05, 4) or 0.02)()
             zeros = {"skirt_probe_m": 0.1, "skirt_cell_m": 0.019, "range_clear_m": 1.5, "max_tick_gap_s": 0.03}
-            value = zeros.get(key, value)
+            # Slightly more does not fit: the default is the limit, or zero stands for another parameter.
+            own = {"range_incidence_deg": 80, "range_right_angle_deg": -31}
+            own.update({f"range_{beam}_cone_deg": 20 for beam in ("left", "front", "right")})
+            own.update({f"range_{beam}_max_m": 1.9 for beam in ("left", "front", "right")})
+            value = {**zeros, **own}.get(key, value)
             robot = self.file("one.toml", f"{key} = {value}\n")
             done = check(robot, "--header", self.folder / "one.hpp")
             self.assertIn(done.returncode, (0, 6), (key, done.stderr))
             if done.returncode == 0:
                 wanted.append(key)
                 self.assertIn(f"// {key} = ", (self.folder / "one.hpp").read_text())
-        self.assertGreater(len(wanted), len(rows) - 3)
+        self.assertGreater(len(wanted), len(rows) - 5)
 
 
 if __name__ == "__main__":

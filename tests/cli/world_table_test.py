@@ -16,7 +16,7 @@ OPTIONS = {
     ("run",): ("SCENARIO", "--planner", "--map-bytes", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--chip"),
     ("campaign",): (
         "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--map-bytes",
-        "--robot", "--jobs", "--shard", "--csv", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
+        "--robot", "--robots", "--jobs", "--shard", "--csv", "--save-failures", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
     ),
     ("plant",): (
         "SCENARIO", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
@@ -34,6 +34,9 @@ OPTIONS = {
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--contacts"),
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),
+    ("robot", "layout"): (
+        "--sensor", "--body", "--robot", "--angles", "--count", "--seed", "--planner", "--map-bytes", "--jobs", "--svg", "--json", "--out",
+    ),
     ("figures",): ("FOLDER", "--scenarios"),
 }
 

@@ -49,7 +49,7 @@ std::size_t body_size(link::Name name) {
     case link::Name::cancel:
     case link::Name::reset:
     case link::Name::end: return 0;
-    case link::Name::params: return link::params_size();
+    case link::Name::params: return link::kParamsSize;
     case link::Name::begin: return link::size_of<link::Begin>();
     case link::Name::goal: return link::size_of<link::Target>();
     case link::Name::place: return link::size_of<link::Stand>();

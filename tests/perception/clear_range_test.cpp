@@ -67,7 +67,7 @@ TEST_F(ClearRange, NorDoesAnEchoFromBeyond) {
 
 TEST_F(ClearRange, MoreThanTheMaximumRangeIsThat) {
   params_.rangefinders.clear_range = 50_m;
-  EXPECT_EQ(proving_range(params_.rangefinders), params_.rangefinders.max_range);
+  EXPECT_EQ(proving_range(params_.rangefinders, hal::kFront), params_.rangefinders.max_range);
 }
 
 TEST_F(ClearRange, AReadingOfUnknownAgeProvesNothing) {

@@ -42,8 +42,8 @@ std::set<Cell> clear_around(const perception::LocalGrid& local_grid, Vec at) {
 
 perception::ConeObservation observation(Pose from, Angle axis, Length free, bool hit = true) {
   perception::ConeObservation p;
-  p.from = from;
-  p.axis = axis;
+  p.beam = perception::beam_of({{}, axis, Params{}.rangefinders.cone}, from);
+  p.beam.half_cone = Angle::from_raw(p.beam.half_cone.raw() / 2);
   p.free = free;
   p.hit = hit;
   return p;

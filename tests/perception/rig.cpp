@@ -13,7 +13,7 @@ Rig::Rig(const Scenario& scenario, planning::Planner* planner)
       board_(plant_),
       own_(planner == nullptr ? make_planner(PlannerKind::skirt, scenario_.robot) : nullptr),
       recording_(planner == nullptr ? *own_ : *planner),
-      robot_(board_, board_, recording_, scenario_.robot) {
+      robot_(board_, board_, recording_, scenario_.robot, &board_) {
   robot_.place(fixed_pose(scenario_.start));
   robot_.set_goal(
       {fixed_pose({scenario_.goal.at, 0}).at, fixed_pose({{scenario_.goal.tolerance_m, 0}, 0}).at.x});

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "host/run/spec.hpp"
-#include "host/sim/cone.hpp"
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"
 #include "tests/effort.hpp"
 #include "tests/perception/cells.hpp"
+#include "tests/perception/cluttered.hpp"
 #include "tests/perception/rig.hpp"
 
 namespace whisker::test {
@@ -20,21 +20,6 @@ namespace {
 using worlds::Random;
 
 constexpr double kTurn = 2 * 3.14159265358979323846;
-
-double metres(Length l) { return l.raw() * 1e-6; }
-
-struct Cluttered {
-  std::vector<sim::Disc> discs;
-  std::vector<sim::Segment> segments;
-  sim::WorldView view() const {
-    sim::WorldView v;
-    v.discs = discs.data();
-    v.disc_count = discs.size();
-    v.segments = segments.data();
-    v.segment_count = segments.size();
-    return v;
-  }
-};
 
 Params draw_params(Random& random) {
   Params p;
@@ -73,9 +58,10 @@ sim::Vec2 draw_point(const Params& p, const Pose& pose, Random& random) {
       return {std::round(near.x / cell) * cell + hair, std::round(near.y / cell) * cell + hair};
     }
     default: {
-      const double axis = radians(pose.heading) + radians(p.rangefinders.side_angle) * (random.index(3) - 1);
-      const double edge = radians(p.rangefinders.cone) / 2 * (random.chance(0.5) ? 1 : -1) + hair;
-      const sim::Vec2 apex = body + sim::Vec2{std::cos(axis), std::sin(axis)} * metres(p.rangefinders.offset);
+      const perception::Beam beam = perception::beam_of(mount(p.rangefinders, random.index(3)), pose);
+      const double axis = radians(beam.axis);
+      const double edge = radians(beam.half_cone) * (random.chance(0.5) ? 1 : -1) + hair;
+      const sim::Vec2 apex{metres(beam.apex.x), metres(beam.apex.y)};
       return apex + sim::Vec2{std::cos(axis + edge), std::sin(axis + edge)} * reach;
     }
   }
@@ -100,25 +86,6 @@ void add_obstacle(Cluttered& world, const Params& p, const Pose& pose, Random& r
   }
 }
 
-perception::ConeObservation look(const Params& p, const Cluttered& world, const Pose& pose, int beam) {
-  const Angle off = beam_axis(p.rangefinders.side_angle, beam);
-  const double axis = radians(pose.heading + off);
-  const double half = radians(p.rangefinders.cone) / 2;
-  const sim::Vec2 direction{std::cos(axis), std::sin(axis)};
-  const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
-  const sim::Cone cone{body + direction * metres(p.rangefinders.offset), direction, std::cos(half),
-                       std::sin(half)};
-  const double max = metres(p.rangefinders.max_range);
-  const double d = sim::range(cone, world.view(), 0, max);
-  perception::ConeObservation observation;
-  observation.from = pose;
-  observation.axis = off;
-  observation.hit = d < max;
-  observation.free =
-      observation.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5))) : p.rangefinders.max_range;
-  return observation;
-}
-
 TEST(Soundness, NoAdversaryHidesInAClearCell) {
   int worlds_seen = 0;
   int clear = 0;
@@ -134,10 +101,7 @@ TEST(Soundness, NoAdversaryHidesInAClearCell) {
     for (int i = 0; i < obstacles; ++i) add_obstacle(world, p, pose, random);
     const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
     // Ground that no beam can prove must be free when the body is placed.
-    const Length blind = blind_reach(p) + patch_cell(p) * 2;
-    const bool ring = blind_reach(p) > p.body.radius - cell_cover(p);
-    if (ring && blind > p.body.radius * 2) continue;
-    if (sim::clearance(world.view(), body, 0, metres(ring ? blind : p.body.radius)) <= 0) continue;
+    if (sim::clearance(world.view(), body, 0, metres(rim_sweep(p).radius)) <= 0) continue;
     ++worlds_seen;
     for (int turn = 0; turn < 3; ++turn) {
       for (int beam = 0; beam < 3; ++beam) local_grid.mark(look(p, world, pose, beam));

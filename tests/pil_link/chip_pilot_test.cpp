@@ -34,20 +34,20 @@ TEST(ChipPilot, NamesWhatIsWrong) {
   EXPECT_EQ(complaint("exit 3"), "exit 3: the chip has ended");
   EXPECT_EQ(complaint("no_such_command 2>&-"), "no_such_command 2>&-: the chip has ended");
   EXPECT_EQ(complaint("yes"), "yes: speaks another version");
-  EXPECT_EQ(complaint("printf '\\002\\000\\000\\010'"), "printf '\\002\\000\\000\\010': the chip has ended")
+  EXPECT_EQ(complaint("printf '\\003\\000\\000\\010'"), "printf '\\003\\000\\000\\010': the chip has ended")
       << "after its greeting";
 }
 
 TEST(ChipPilot, RefusesAMapThatTheChipHasNoRoomFor) {
   // Reads the greeting before it ends; otherwise the host may find the pipe closed.
-  const std::string chip = "head -c 1 >/dev/null; printf '\\002\\000\\000\\010'";
+  const std::string chip = "head -c 1 >/dev/null; printf '\\003\\000\\000\\010'";
   EXPECT_EQ(complaint(chip, PlannerKind::map), chip + ": the chip has ended") << "2048 bytes are room enough";
   EXPECT_EQ(complaint(chip, core_planner("map", 4096)),
             "no room: " + chip + ": has room for 2048 bytes of map, not 4096");
 }
 
 TEST(ChipPilot, RefusesAPlannerThatNoChipHas) {
-  const std::string chip = "head -c 1 >/dev/null; printf '\\002\\000\\000\\010'; cat >/dev/null";
+  const std::string chip = "head -c 1 >/dev/null; printf '\\003\\000\\000\\010'; cat >/dev/null";
   for (const PlannerKind kind : planners()) {
     if (!is_baseline(kind)) continue;
     EXPECT_EQ(complaint(chip, kind), "no such planner: " + name(kind) + ": no chip has this planner");
@@ -55,7 +55,7 @@ TEST(ChipPilot, RefusesAPlannerThatNoChipHas) {
 }
 
 TEST(ChipPilot, RefusesAnswersThatMakeNoSense) {
-  EXPECT_EQ(complaint("printf '\\002\\000\\000\\010'; yes"), "the chip's answer makes no sense");
+  EXPECT_EQ(complaint("printf '\\003\\000\\000\\010'; yes"), "the chip's answer makes no sense");
 }
 
 TEST(ChipPilot, DrivesAsTheCoreInThisProcess) {
@@ -71,6 +71,25 @@ TEST(ChipPilot, DrivesAsTheCoreInThisProcess) {
     EXPECT_EQ(here.ticks, there.ticks);
     EXPECT_EQ(here.detail, there.detail);
   }
+}
+
+TEST(ChipPilot, HandsThePressesOfTheBumperOn) {
+  Scenario scenario;
+  scenario.goal.at = {2, 0.1};
+  scenario.discs.push_back({{1, 0}, 0.15});
+  scenario.sensor.soft = 1;
+  scenario.sensor.soft_range_m = 0;
+  scenario.robot.wheels.max_speed = 100_mm_per_s;
+  scenario.robot.bumper.fitted = Fitted::yes;
+  RunOptions options;
+  options.planner = PlannerKind::skirt;
+  const RunResult here = run(scenario, options);
+  options.pilot = chip_pilot(WHISKER_REPLAY);
+  const RunResult there = run(scenario, options);
+  EXPECT_EQ(here.verdict, Verdict::reached);
+  EXPECT_GE(here.bumps.value_or(0), 1U);
+  EXPECT_EQ(there.bumps, here.bumps);
+  EXPECT_EQ(there.hash, here.hash);
 }
 
 }  // namespace

@@ -85,10 +85,9 @@ TEST(Message, EveryParameterComesBack) {
   params.safety.max_refusals = 9;
   chip::Bytes bytes;
   chip::append_params(bytes, params);
-  ASSERT_EQ(bytes.size(), 1 + params_size());
+  ASSERT_EQ(bytes.size(), 1 + kParamsSize);
   Params back;
-  ParamDecoder decoder{bytes.data() + 1};
-  for_each_param(back, decoder);
+  decode_params(back, bytes.data() + 1);
   chip::Bytes again;
   chip::append_params(again, back);
   EXPECT_EQ(again, bytes);

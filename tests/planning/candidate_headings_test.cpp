@@ -45,26 +45,26 @@ TEST(Ways, AreBlockedWhereALookWasInVain) {
   EXPECT_EQ(judged(g, 0_deg), Way::occupied);
 }
 
-TEST(TurnToUnseen, BringsTheNearestBeamOntoTheNearestUnseenCell) {
+TEST(Unseen, BringsTheNearestBeamOntoTheNearestUnseenCell) {
   Ground g;
   g.free(-100, 100);
   const View v = g.view();
-  const Angle side = g.params().rangefinders.side_angle;
   int turns = 0;
   for (int i = 0; i < kCandidateHeadings; ++i) {
     const Angle heading = Angle::turns(i, kCandidateHeadings);
     const Reach& reach = v.local_grid->reach();
     const perception::Obstacles o = v.local_grid->along(v.pose.at, heading, reach.probe, reach.planning);
     for (int from = 0; from < 360; from += 7) {
-      Angle turn;
-      ASSERT_EQ(turn_to_unseen(v, heading, reach.probe, degrees(from), g.params(), turn), o.unknown > 0);
+      const Unseen rest = unseen(v, heading, reach.probe, degrees(from), g.params());
+      ASSERT_EQ(rest.cells, o.unknown);
       if (o.unknown == 0) continue;
       ++turns;
       bool met = false;
       for (int beam = 0; beam < hal::kBeams; ++beam) {
-        const Angle needed = bearing(o.nearest_unknown) - degrees(from) - beam_axis(side, beam);
-        EXPECT_LE(magnitude(turn), magnitude(needed));
-        met = met || turn == needed;
+        const Angle needed =
+            bearing(o.nearest_unknown) - degrees(from) - beam_axis(g.params().rangefinders, beam);
+        EXPECT_LE(magnitude(rest.turn), magnitude(needed));
+        met = met || rest.turn == needed;
       }
       EXPECT_TRUE(met);
     }
@@ -72,11 +72,10 @@ TEST(TurnToUnseen, BringsTheNearestBeamOntoTheNearestUnseenCell) {
   EXPECT_GT(turns, 500);
 }
 
-TEST(TurnToUnseen, SeesNoUseInABlockedWay) {
+TEST(Unseen, SeesNoUseInABlockedWay) {
   Ground g;
   g.echo(-30, 30, 150_mm);
-  Angle turn;
-  EXPECT_FALSE(turn_to_unseen(g.view(), 0_deg, 150_mm, 0_deg, g.params(), turn));
+  EXPECT_EQ(unseen(g.view(), 0_deg, 150_mm, 0_deg, g.params()).cells, 0);
 }
 
 }  // namespace

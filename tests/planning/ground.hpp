@@ -42,7 +42,7 @@ class Ground {
   }
   void mark(Angle direction, Length reach, bool hit, bool aimed) {
     perception::ConeObservation observation;
-    observation.from = {pose_.at, direction};
+    observation.beam = perception::beam_of(mount(params_.rangefinders, hal::kFront), {pose_.at, direction});
     observation.free = reach;
     observation.hit = hit;
     observation.aimed = aimed;

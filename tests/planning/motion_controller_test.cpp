@@ -18,6 +18,7 @@ class Loop {
  public:
   explicit Loop(const Params& params) : params_(params) {
     odometry_.configure(params);
+    controller_.configure(params);
     odometry_.place({});
     tick(false);
   }

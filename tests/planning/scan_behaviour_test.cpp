@@ -38,7 +38,7 @@ struct Turner {
       EXPECT_EQ(m.forward, Speed{}) << "a look does not drive";
       if (turns) heading += angle_of(m.turning * params.safety.period, params.body.track / 2);
       for (int beam = 0; beam < hal::kBeams; ++beam) {
-        const Angle axis = heading + beam_axis(params.rangefinders.side_angle, beam);
+        const Angle axis = heading + beam_axis(params.rangefinders, beam);
         const Shown shown = world(axis);
         ground.mark(axis, shown.reach, shown.hit, !turns);
       }
@@ -86,8 +86,9 @@ TEST(ScanBehaviour, StopsBeforeItTurnsAndAsksForNothingMoreWhileItStands) {
   Manoeuvre m;
   look.begin(0_deg, 150_mm, m);
   EXPECT_EQ(m.kind, ManoeuvreKind::stop);
-  Angle turn;
-  ASSERT_TRUE(turn_to_unseen(g.view(), 0_deg, 150_mm, 0_deg, g.params(), turn));
+  const Unseen rest = unseen(g.view(), 0_deg, 150_mm, 0_deg, g.params());
+  ASSERT_GT(rest.cells, 0);
+  const Angle turn = rest.turn;
   const View aimed = g.view(turn);
   m = {};
   EXPECT_FALSE(look.step(aimed, g.params(), m));

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <cstdint>
 
+#include "hal/bumper.hpp"
 #include "hal/drive.hpp"
 #include "hal/rangefinders.hpp"
 
 namespace whisker::test {
 
-class FakeBoard final : public hal::Rangefinders, public hal::Drive {
+class FakeBoard final : public hal::Rangefinders, public hal::Bumper, public hal::Drive {
  public:
   FakeBoard() {
     for (hal::RangeReading& r : shown.beam) r = {0, hal::RangeStatus::clear, 10, 0};
@@ -41,6 +42,11 @@ class FakeBoard final : public hal::Rangefinders, public hal::Drive {
     out = {count(way_[swapped ? 1 : 0] + jump), count(way_[swapped ? 0 : 1] + jump)};
     return true;
   }
+  bool read(hal::BumperReading& out) noexcept override {
+    if (bumper_refuses) return false;
+    out.pressed = pressed;
+    return true;
+  }
   bool command(hal::WheelSpeeds speeds) noexcept override {
     ++commands;
     if (drive_refuses) {
@@ -57,8 +63,10 @@ class FakeBoard final : public hal::Rangefinders, public hal::Drive {
   bool counts_refuse = false;
   bool drive_refuses = false;
   bool wheels_blocked = false;
-  bool swapped = false;  ///< the counts of the two wheels are exchanged
-  double jump = 0;       ///< metres, added to both encoders
+  bool swapped = false;      ///< the counts of the two wheels are exchanged
+  double jump = 0;           ///< metres, added to both encoders
+  std::uint8_t pressed = 0;  ///< bump switches
+  bool bumper_refuses = false;
   int commands = 0;
 
  private:

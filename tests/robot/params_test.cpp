@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hal/types.hpp"
+
 namespace whisker {
 namespace {
 
@@ -71,8 +73,25 @@ TEST(Params, EveryRelationIsChecked) {
       {ParamFault::settle_below_lag, [](Params& p) { p.motion.settle = 59_ms; }},
       {ParamFault::step_beyond_range, [](Params& p) { p.thesis.base_step = 941_mm; }},
       {ParamFault::step_beyond_range, [](Params& p) { p.rangefinders.clear_range = 519_mm; }},
-      {ParamFault::cone_too_narrow, [](Params& p) { p.rangefinders.cone = 3_deg; }},
-      {ParamFault::cone_too_narrow, [](Params& p) { p.rangefinders.offset = 120_mm; }},
+      {ParamFault::cone_too_narrow,
+       [](Params& p) {
+         p.rangefinders.cone = 3_deg;
+         p.rangefinders.offset = 80_mm;
+       }},
+      {ParamFault::cone_too_narrow, [](Params& p) { p.rangefinders.offset = 140_mm; }},
+      {ParamFault::cone_too_narrow, [](Params& p) { p.rangefinders.beams[2].cone = Angle::from_raw(1); }},
+      // One count of each wheel turns the body by 3.2 degrees, and the cones are 4 degrees wide.
+      {ParamFault::cone_too_narrow,
+       [](Params& p) {
+         p.rangefinders.cone = 4_deg;
+         p.wheels.counts_per_metre = 250;
+         p.motion.turn_tolerance = 4_deg;
+         p.motion.drive_tolerance = 5_mm;
+         p.safety.stalled_after = 4000_ms;
+       }},
+      {ParamFault::creep_without_bumper, [](Params& p) { p.bumper.creep_speed = 50_mm_per_s; }},
+      {ParamFault::beams_crossed,
+       [](Params& p) { p.rangefinders.beams[hal::kFront].angle = direction_of(31_deg); }},
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 200_mm; }},
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 44_mm; }},
       {ParamFault::planning_below_shield, [](Params& p) { p.skirt.shield_margin = 7_mm; }},

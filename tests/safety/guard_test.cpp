@@ -108,5 +108,39 @@ TEST(Guard, GrantsAStraightRequestInOpenGroundInFull) {
   EXPECT_GT(rig.plant().path_length(), 0.29 * (12 - 5.2));
 }
 
+// Straight on from the start, where no beam has seen the flanks.
+TEST(Guard, CreepsOverUnseenGroundIfItMayAndStopsBeforeAnEcho) {
+  class Ahead final : public planning::Planner {
+    void set_goal(const planning::Goal&) noexcept override {}
+    void move_goal(Vec) noexcept override {}
+    void cancel() noexcept override {}
+    planning::Decision step(const planning::View&) noexcept override {
+      planning::Decision d;
+      d.outcome = planning::Outcome::running;
+      d.manoeuvre.kind = planning::ManoeuvreKind::cruise;
+      d.manoeuvre.forward = 300_mm_per_s;
+      return d;
+    }
+  };
+  const auto path = [](Speed creep) {
+    Scenario s;
+    s.goal.at = {100, 0};
+    s.walls.push_back({{0.5, -2}, {0.5, 2}});
+    s.robot.bumper = {Fitted::yes, creep};
+    Ahead ahead;
+    Rig rig(s, &ahead);
+    while (rig.plant().time() < 20 && rig.step()) {
+    }
+    EXPECT_EQ(rig.plant().bumps(), 0U);
+    EXPECT_FALSE(rig.plant().in_contact());
+    return rig.plant().path_length();
+  };
+  const double strict = path({}), creeping = path(50_mm_per_s);
+  std::printf("%.3f m strict, %.3f m creeping\n", strict, creeping);
+  EXPECT_LT(strict, 0.1);
+  EXPECT_GT(creeping, 0.3);
+  EXPECT_LT(creeping, 0.41);
+}
+
 }  // namespace
 }  // namespace whisker::test

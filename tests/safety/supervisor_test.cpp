@@ -45,6 +45,31 @@ TEST(Supervisor, WhoLeavesThePlaceOrRestsIsNotCounted) {
   EXPECT_FALSE(supervisor.faulted());
 }
 
+TEST(Supervisor, PressesInOnePlaceAreBounded) {
+  Health health;
+  const Params params;
+  Supervisor supervisor(params, health);
+  supervisor.configure();
+  for (int i = 0; i < 30; ++i) supervisor.check_bump({millimetres(100 * (i % 5)), {}});
+  EXPECT_FALSE(supervisor.faulted());
+  supervisor.check_bump({});
+  EXPECT_EQ(health.fault, Fault::no_progress);
+  EXPECT_EQ(health.bumps, 31U);
+}
+
+TEST(Supervisor, PressesElsewhereOrInTheNextMissionCountAnew) {
+  Health health;
+  const Params params;
+  Supervisor supervisor(params, health);
+  supervisor.configure();
+  for (int i = 0; i < 300; ++i) supervisor.check_bump({millimetres(100 * i), {}});
+  for (int mission = 0; mission < 10; ++mission) {
+    supervisor.check_place({}, false, 10_ms);
+    for (int i = 0; i < 25; ++i) supervisor.check_bump({});
+  }
+  EXPECT_FALSE(supervisor.faulted());
+}
+
 TEST(Supervisor, TheFirstFaultStays) {
   Health health;
   const Params params;

@@ -130,6 +130,31 @@ TEST(RobotFile, ThatSetsAParameterTwiceIsRefused) {
             file.path() + ":3:15: 'range_max_m' is set both at the top level and in [robot]");
 }
 
+TEST(RobotFile, SaysWithABooleanThatABumperIsFitted) {
+  for (const bool is : {false, true}) {
+    const TemporaryFile file(is ? "bumper = true\n" : "bumper = false\n");
+    Params params;
+    params.bumper.fitted = is ? Fitted::no : Fitted::yes;
+    apply_robot_file(params, file.path());
+    EXPECT_EQ(params.bumper.fitted, is ? Fitted::yes : Fitted::no);
+    EXPECT_EQ(robot_toml(params), is ? "bumper = true\n" : "");
+  }
+  const TemporaryFile word("bumper = \"true\"\n");
+  Params params;
+  EXPECT_EQ(message_of<InputErrors>([&] { apply_robot_file(params, word.path()); }),
+            word.path() + ":1:10: 'bumper' must be true or false, but is a string");
+}
+
+TEST(RobotFile, CreepsOnlyWithABumper) {
+  const TemporaryFile file("creep_speed_mps = 0.05\n");
+  Params params;
+  EXPECT_THAT(message_of<InputErrors>([&] { apply_robot_file(params, file.path()); }),
+              HasSubstr("creep_speed_mps must be 0 unless bumper is true"));
+  const TemporaryFile both("creep_speed_mps = 0.05\nbumper = true\n");
+  apply_robot_file(params, both.path());
+  EXPECT_EQ(params.bumper.creep_speed, 50_mm_per_s);
+}
+
 TEST(RobotFile, WithAMisspeltKeyIsRefused) {
   const TemporaryFile file("# a robot\nbody_radus_m = 0.1\n");
   Params params;
@@ -160,7 +185,7 @@ struct Ends {
   }
   template <class E>
   void choice(const char* key, const E&, const char* const* names, int count) {
-    for (int i = 0; i < count; ++i) lines.emplace_back(key, '"' + std::string(names[i]) + '"');
+    for (int i = 0; i < count; ++i) lines.emplace_back(key, choice_text(names[i], is_boolean(names, count)));
   }
 };
 

@@ -163,6 +163,85 @@ TEST(Plant, FreezesWhereItTouchesAWall) {
   EXPECT_LE(plant.ranges().beam[hal::kFront].age_ms, 40);
 }
 
+RobotSpec with_bumper() {
+  RobotSpec robot;
+  robot.bumper = true;
+  return robot;
+}
+
+TEST(Plant, ASlowTouchPressesTheBumperAndIsNoContact) {
+  const Segment wall{{0.3, -1}, {0.3, 1}};
+  const WorldView world{nullptr, 0, &wall, 1, nullptr, 0};
+  Plant plant(world, with_bumper(), {}, 1, {});
+  plant.command({1000, 1000});
+  run(plant, 210);
+  EXPECT_EQ(plant.bumper().pressed, 0);
+  run(plant, 290);
+  EXPECT_FALSE(plant.in_contact());
+  EXPECT_EQ(plant.bumper().pressed, 1U << hal::kFront);
+  EXPECT_EQ(plant.bumps(), 1U) << "once, however long it pushes";
+  EXPECT_NEAR(plant.pose().at.x, 0.21, 3 * kContactGap);
+  EXPECT_LT(plant.pose().at.x, 0.21) << "the body does not penetrate";
+  EXPECT_LT(plant.v_left(), 0.003);
+  EXPECT_GT(plant.min_clearance(), 0);
+  EXPECT_NEAR(plant.path_length(), 0.21, 3 * kContactGap);
+  EXPECT_NEAR(plant.encoders().left, 0.21 * 5000, 1);
+
+  plant.command({-500, -500});
+  run(plant, 100);
+  EXPECT_EQ(plant.bumper().pressed, 0);
+  EXPECT_LT(plant.pose().at.x, 0.18);
+  plant.command({1000, 1000});
+  run(plant, 300);
+  EXPECT_EQ(plant.bumps(), 2U);
+}
+
+TEST(Plant, AFastTouchIsAContactWithABumperToo) {
+  const Segment wall{{0.5, -1}, {0.5, 1}};
+  const WorldView world{nullptr, 0, &wall, 1, nullptr, 0};
+  Plant plant(world, with_bumper(), {}, 1, {}), plain(world, {}, {}, 1, {});
+  for (Plant* each : {&plant, &plain}) {
+    each->command({1100, 1100});
+    run(*each, 500);
+    EXPECT_TRUE(each->in_contact());
+    EXPECT_EQ(each->bumps(), 0U);
+  }
+  EXPECT_EQ(plant.contact_time(), plain.contact_time());
+  EXPECT_EQ(plant.pose().at.x, plain.pose().at.x);
+}
+
+TEST(Plant, ATouchBehindOrOfAMoverIsAContactWithABumperToo) {
+  const Segment wall{{-0.3, -1}, {-0.3, 1}};
+  const WorldView behind{nullptr, 0, &wall, 1, nullptr, 0};
+  Plant backing(behind, with_bumper(), {}, 1, {});
+  backing.command({-500, -500});
+  run(backing, 1000);
+  EXPECT_TRUE(backing.in_contact());
+
+  const Vec2 path[] = {{0.3, 0}, {0.2, 0}};
+  const MovingDisc mover{path, 2, 0.05, 0.02, 0};
+  const WorldView moving{nullptr, 0, nullptr, 0, &mover, 1};
+  Plant standing(moving, with_bumper(), {}, 1, {{0.1, 0}, 0});
+  run(standing, 1000);
+  EXPECT_TRUE(standing.in_contact());
+  EXPECT_EQ(standing.bumps(), 0U);
+}
+
+TEST(Plant, TheSwitchOnTheSideOfTheTouchIsPressed) {
+  for (const int degrees : {-80, -45, -31, -29, 0, 29, 31, 45, 80}) {
+    const double angle = degrees * kPi / 180;
+    const Disc post{{0.1105 * std::cos(angle), 0.1105 * std::sin(angle)}, 0.02};
+    const WorldView world{&post, 1, nullptr, 0, nullptr, 0};
+    Plant plant(world, with_bumper(), {}, 1, {});
+    plant.command({500, 500});
+    run(plant, 300);
+    const int side = std::abs(degrees) < 30 ? hal::kFront : degrees > 0 ? hal::kLeft : hal::kRight;
+    EXPECT_EQ(plant.bumper().pressed, 1U << side) << degrees;
+    EXPECT_EQ(plant.bumps(), 1U) << degrees;
+    EXPECT_FALSE(plant.in_contact());
+  }
+}
+
 TEST(Plant, StoppingShortOfAWallIsNoContact) {
   const Segment wall{{0.5, -1}, {0.5, 1}};
   const WorldView world{nullptr, 0, &wall, 1, nullptr, 0};
@@ -252,7 +331,7 @@ TEST(Plant, MeasuresFromWhereItIsAtThatMomentBetweenTwoSteps) {
   robot.max_speed = 3;
   robot.max_acceleration = 1000;
   robot.motor_lag = 0;
-  robot.max_range = 60;
+  robot.beams[hal::kFront].max_range = 60;
   robot.rate_hz = 30;
   robot.latency_s = 0;
   Plant plant(world, robot, {}, 1, {});
@@ -292,11 +371,14 @@ TEST(Plant, TheReferenceRobotIsTheCoresDefault) {
   EXPECT_EQ(core.max_acceleration, ours.max_acceleration);
   EXPECT_EQ(core.motor_lag, ours.motor_lag);
   EXPECT_EQ(core.counts_per_m, ours.counts_per_m);
-  EXPECT_NEAR(core.side_angle, ours.side_angle, 1e-9);
-  EXPECT_NEAR(core.cone_half_width, ours.cone_half_width, 1e-9);
-  EXPECT_EQ(core.min_range, ours.min_range);
-  EXPECT_EQ(core.max_range, ours.max_range);
-  EXPECT_EQ(core.offset, ours.offset);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(core.beams[i].angle, ours.beams[i].angle, 1e-9);
+    EXPECT_NEAR(core.beams[i].cone_half_width, ours.beams[i].cone_half_width, 1e-9);
+    EXPECT_EQ(core.beams[i].min_range, ours.beams[i].min_range);
+    EXPECT_EQ(core.beams[i].max_range, ours.beams[i].max_range);
+    EXPECT_EQ(core.beams[i].x, ours.beams[i].x);
+    EXPECT_EQ(core.beams[i].y, ours.beams[i].y);
+  }
   EXPECT_EQ(core.rate_hz, ours.rate_hz);
   EXPECT_EQ(core.latency_s, ours.latency_s);
   EXPECT_EQ(core.period_s, ours.period_s);

@@ -90,10 +90,13 @@ TEST(RangeSensors, ClassifyByTheirRange) {
 
 TEST(RangeSensors, LookLeftAheadAndRightOfTheBody) {
   RobotSpec robot;
-  robot.offset = 0.05;
+  for (BeamSpec& beam : robot.beams) {
+    beam.x = 0.05 * std::cos(beam.angle);
+    beam.y = 0.05 * std::sin(beam.angle);
+  }
   const double heading = 2.0;
   for (int beam = 0; beam < hal::kBeams; ++beam) {
-    const double angle = heading + (1 - beam) * robot.side_angle;
+    const double angle = heading + robot.beams[beam].angle;
     const Disc disc{{3 + 1.0 * std::cos(angle), -2 + 1.0 * std::sin(angle)}, 0.1};
     const hal::RangeReadings got = measured(robot, {&disc, 1, nullptr, 0, nullptr, 0}, {{3, -2}, heading});
     for (int other = 0; other < hal::kBeams; ++other) {
@@ -158,7 +161,8 @@ TEST(RangeSensors, PhantomsTakeThePlaceOfClearReadingsOnly) {
 TEST(RangeSensors, CrosstalkShowsANearerNeighbour) {
   RobotSpec robot;
   robot.crosstalk = 0.3;
-  const Disc disc{{0.5 * std::cos(robot.side_angle), 0.5 * std::sin(robot.side_angle)}, 0.1};
+  const double side = robot.beams[hal::kLeft].angle;
+  const Disc disc{{0.5 * std::cos(side), 0.5 * std::sin(side)}, 0.1};
   RangeSensors sensors(robot, {}, kSeed);
   int front = 0;
   for (int k = 0; k < kCount; ++k) {
@@ -174,7 +178,8 @@ TEST(RangeSensors, CrosstalkShowsANearerNeighbour) {
 
 TEST(RangeSensors, NoiseHasItsMeanAndSigmaAndIsIndependentBetweenBeams) {
   RobotSpec robot;
-  robot.side_angle = 0.0872;  // the cones overlap: all three see the foot of the wall
+  robot.beams[hal::kLeft].angle = 0.0872;
+  robot.beams[hal::kRight].angle = -0.0872;  // the cones overlap: all three see the foot of the wall
   NoiseSpec noise;
   noise.range_sigma_m = 0.02;
   const Wall wall(1);
@@ -266,6 +271,141 @@ TEST(RangeSensors, TheWorldDoesNotChangeWhichReadingsAreLost) {
     }
   }
   EXPECT_GT(lost, 1000);
+}
+
+struct Statuses {
+  int ok = 0, clear = 0, invalid = 0, at_glass = 0;
+  double sum = 0, squares = 0;
+};
+Statuses front_of(const RobotSpec& robot, const NoiseSpec& noise, const WorldView& world) {
+  RangeSensors sensors(robot, noise, kSeed);
+  Statuses s;
+  for (int k = 0; k < kCount; ++k) {
+    const int64_t arrival = sensors.due_us() + 20000;
+    sensors.measure(world, {});
+    const hal::RangeReading got = sensors.read(arrival).beam[hal::kFront];
+    s.ok += got.status == hal::RangeStatus::ok ? 1 : 0;
+    s.clear += got.status == hal::RangeStatus::clear ? 1 : 0;
+    s.invalid += got.status == hal::RangeStatus::invalid ? 1 : 0;
+    s.at_glass += got.mm == 60 ? 1 : 0;
+    s.sum += got.mm * 0.001;
+    s.squares += got.mm * 0.001 * got.mm * 0.001;
+  }
+  return s;
+}
+
+TEST(RangeSensors, OwnNoiseGrowsWithTheDistanceAndAddsToTheOther) {
+  RobotSpec robot;
+  robot.range_sigma = 0.003;
+  robot.range_sigma_share = 0.01;
+  NoiseSpec noise;
+  for (const double other : {0.0, 0.008}) {
+    noise.range_sigma_m = other;
+    for (const double x : {0.5, 1.6}) {
+      const Statuses s = front_of(robot, noise, Wall(x).world);
+      ASSERT_EQ(s.ok, kCount);
+      const double sigma = std::sqrt(0.003 * 0.003 + 0.0001 * x * x + other * other);
+      const double mean = s.sum / kCount;
+      EXPECT_NEAR(mean, x, 4 * sigma / std::sqrt(kCount) + 1e-5) << "seed " << kSeed;
+      EXPECT_NEAR(std::sqrt(s.squares / kCount - mean * mean), sigma,
+                  4 * sigma / std::sqrt(2.0 * kCount) + 1e-5)
+          << x << ' ' << other << " seed " << kSeed;
+    }
+  }
+}
+
+TEST(RangeSensors, OwnNoiseDrawsTheSameNumbersAsTheOther) {
+  RobotSpec noisy;
+  noisy.range_sigma = 0.01;
+  NoiseSpec noise;
+  noise.range_sigma_m = 0.01;
+  const Wall wall(1);
+  RangeSensors one(noisy, {}, kSeed), other({}, noise, kSeed);
+  for (int k = 0; k < 1000; ++k) {
+    const int64_t arrival = one.due_us() + 20000;
+    one.measure(wall.world, {});
+    other.measure(wall.world, {});
+    ASSERT_EQ(one.read(arrival).beam[hal::kLeft].mm, other.read(arrival).beam[hal::kLeft].mm);
+  }
+}
+
+TEST(RangeSensors, LoseWhatIsTooDark) {
+  RobotSpec robot;
+  robot.echo_range = 0.8;
+  EXPECT_EQ(measured(robot, Wall(0.7999).world).beam[hal::kFront].mm, 800);
+  EXPECT_EQ(measured(robot, Wall(0.8001).world).beam[hal::kFront].status, hal::RangeStatus::clear);
+  robot.dark_is_invalid = true;
+  EXPECT_EQ(measured(robot, Wall(0.7999).world).beam[hal::kFront].mm, 800);
+  EXPECT_EQ(measured(robot, Wall(0.8001).world).beam[hal::kFront].status, hal::RangeStatus::invalid);
+  EXPECT_EQ(measured(robot, Wall(1.9999).world).beam[hal::kFront].status, hal::RangeStatus::invalid);
+  EXPECT_EQ(measured(robot, Wall(2.0001).world).beam[hal::kFront].status, hal::RangeStatus::clear);
+  robot.range_scale = 1.1;
+  EXPECT_EQ(measured(robot, Wall(0.7).world).beam[hal::kFront].mm, 770);
+  EXPECT_EQ(measured(robot, Wall(0.8001).world).beam[hal::kFront].status, hal::RangeStatus::invalid);
+}
+
+TEST(RangeSensors, TheCoverGlassTakesThePlaceOfClearReadingsOnly) {
+  RobotSpec robot;
+  robot.cover_glass = 0.2;
+  robot.cover_glass_at = 0.06;
+  const Statuses open = front_of(robot, {}, {});
+  EXPECT_EQ(open.at_glass + open.clear, kCount);
+  EXPECT_NEAR(open.at_glass, 0.2 * kCount, 4 * std::sqrt(0.2 * 0.8 * kCount)) << "seed " << kSeed;
+  const Statuses wall = front_of(robot, {}, Wall(1).world);
+  EXPECT_EQ(wall.ok, kCount);
+  EXPECT_EQ(wall.at_glass, 0);
+  robot.echo_range = 0.5;
+  robot.dark_is_invalid = true;
+  const Statuses dark = front_of(robot, {}, Wall(1).world);
+  EXPECT_EQ(dark.at_glass + dark.invalid, kCount);
+  EXPECT_EQ(dark.at_glass, open.at_glass) << "the world does not change which readings these are";
+}
+
+TEST(RangeSensors, TheCoverGlassComesBeforePhantomsAndDoesNotChangeTheirs) {
+  RobotSpec robot;
+  robot.phantom = 0.1;
+  RobotSpec both = robot;
+  both.cover_glass = 0.2;
+  both.cover_glass_at = 0.06;
+  RangeSensors one(robot, {}, kSeed), other(both, {}, kSeed);
+  int glass = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const int64_t arrival = one.due_us() + 20000;
+    one.measure({}, {});
+    other.measure({}, {});
+    const hal::RangeReading a = one.read(arrival).beam[hal::kRight],
+                            b = other.read(arrival).beam[hal::kRight];
+    if (b.mm == 60) {
+      ++glass;
+    } else {
+      ASSERT_EQ(a.mm, b.mm) << k;
+    }
+  }
+  EXPECT_GT(glass, 300);
+}
+
+TEST(RangeSensors, ANarrowerConeFarAwayMissesWhatIsBesideTheAxis) {
+  RobotSpec robot;
+  robot.cone_far_half_width = robot.beams[hal::kFront].cone_half_width / 5;
+  const double off = robot.beams[hal::kFront].cone_half_width * 0.8;
+  const auto post = [&](double d) {
+    const Disc disc{{d * std::cos(off), d * std::sin(off)}, 0.005};
+    return measured(robot, {&disc, 1, nullptr, 0, nullptr, 0}).beam[hal::kFront].status;
+  };
+  EXPECT_EQ(post(0.3), hal::RangeStatus::ok);
+  EXPECT_EQ(post(1.5), hal::RangeStatus::clear);
+  robot.cone_far_half_width = robot.beams[hal::kFront].cone_half_width * 2;
+  EXPECT_EQ(post(1.5), hal::RangeStatus::ok) << "a cone never widens";
+}
+
+TEST(RangeSensors, LoseSoftObstaclesFarAway) {
+  RobotSpec robot;
+  robot.soft_range = 0.6;
+  const std::uint8_t soft = 1;
+  Wall near(0.59), far(0.61);
+  near.world.soft = far.world.soft = &soft;
+  EXPECT_EQ(measured(robot, near.world).beam[hal::kFront].mm, 590);
+  EXPECT_EQ(measured(robot, far.world).beam[hal::kFront].status, hal::RangeStatus::clear);
 }
 
 }  // namespace

@@ -54,7 +54,11 @@ uint64_t scripted_drive(uint64_t seed) {
 
   RobotSpec robot;
   robot.rate_hz = 47;  // never synchronous with the ticks
-  robot.offset = 0.03;
+  for (BeamSpec& beam : robot.beams) {
+    const SinCos axis = sin_cos(beam.angle);
+    beam.x = 0.03 * axis.cos;
+    beam.y = 0.03 * axis.sin;
+  }
   const NoiseSpec noise{0.01, 0.05, 0.03, 0.005, 0.02};
   Plant plant(world, robot, noise, seed, {{-0.3, 0.2}, 0.1});
 

@@ -17,6 +17,7 @@ const TOLERANCES = {
   v_right_mps: 6e-6,
   t: 0,
   looked: 0,
+  pressed: 0,
   d: 6e-5,
   r: 6e-5,
   sa: 6e-6,

@@ -99,7 +99,7 @@ def drive(companion, world, limit_s):
     while not run.over() and not robot.touched() and robot.tick * PERIOD_S < limit_s:
         now_ms = round((robot.tick + FIRST_TICK) * PERIOD_S * 1000)
         beams = [v for r in robot.ranges() for v in (r.mm, r.status, r.age_ms, r.sequence)]
-        companion.say(b"T", companion.body("Tick", now_ms, 1, 1, 1, *beams, *robot.counts()))
+        companion.say(b"T", companion.body("Tick", now_ms, 1, 1, 1, *beams, *robot.counts(), 1, 0))
         answer = companion.hear("Answer")
         left, right = answer["command_left"], answer["command_right"]
         run.add(answer["outcome"], answer["fault"], left, right)

@@ -3,6 +3,7 @@
 #include <stdint.h>
 
 #include "firmware/can/base_node.hpp"
+#include "hal/bumper.hpp"
 #include "hal/drive.hpp"
 #include "hal/rangefinders.hpp"
 
@@ -14,8 +15,10 @@ namespace whisker::can_app {
 ///   every period:       base.drive();  base.measure(tick++, period);  base.publish(SyncMode::real_time);
 class Base {
  public:
-  Base(can::BaseNode& node, hal::Rangefinders& rangefinders, hal::Drive& drive) noexcept
-      : node_(node), rangefinders_(rangefinders), drive_(drive) {}
+  /// bumper: null without one.
+  Base(can::BaseNode& node, hal::Rangefinders& rangefinders, hal::Drive& drive,
+       hal::Bumper* bumper = nullptr) noexcept
+      : node_(node), rangefinders_(rangefinders), drive_(drive), bumper_(bumper) {}
 
   /// Sets the measurements of a tick to the current values of the hardware.
   void measure(uint32_t tick, uint8_t period_ms) noexcept {
@@ -27,6 +30,7 @@ class Base {
       if (!asked) reading.status = hal::RangeStatus::invalid;
     }
     set_.counts_valid = drive_.read(set_.counts);
+    if (bumper_ != nullptr) measure_bumps();
     report(can::Error::sensors_refused, !asked);
   }
   /// Sends the set; in lockstep, repeats it as needed.
@@ -40,6 +44,16 @@ class Base {
   can::BaseNode& node() noexcept { return node_; }
 
  private:
+  void measure_bumps() noexcept {
+    hal::BumperReading reading{};
+    const bool read = bumper_->read(reading);
+    for (int i = 0; i < hal::kBeams; ++i) {
+      const bool pressed = (reading.pressed >> i & 1U) != 0;
+      set_.bumps[i] = !read     ? can::BumpState::unknown
+                      : pressed ? can::BumpState::pressed
+                                : can::BumpState::open;
+    }
+  }
   void report(uint16_t bit, bool on) noexcept {
     trouble_ = static_cast<uint16_t>(on ? trouble_ | bit : trouble_ & ~bit);
     node_.report(trouble_, 0);
@@ -48,6 +62,7 @@ class Base {
   can::BaseNode& node_;
   hal::Rangefinders& rangefinders_;
   hal::Drive& drive_;
+  hal::Bumper* bumper_;
   can::InputSet set_;
   uint16_t trouble_ = 0;
 };

@@ -7,7 +7,7 @@ void RemoteRobot::execute(can::Order order, const can::Mission& mission, const P
     case can::Order::start:
       params_ = params;
       board_ = RemoteBoard{};
-      robot_ = &room_.make<Robot>(board_, board_, planners_.make(params_), params_);
+      robot_ = &room_.make<Robot>(board_, board_, planners_.make(params_), params_, &board_);
       robot_->place(mission.start);
       robot_->set_goal(mission.goal);
       break;

@@ -16,12 +16,14 @@ class Encoder {
   }
   template <class T>
   void put(T value) noexcept {
-    auto bits = static_cast<uint64_t>(value);
-    for (size_t i = 0; i < sizeof(T); ++i, bits >>= 8) *at_++ = static_cast<uint8_t>(bits);
+    put(static_cast<uint64_t>(value), sizeof(T));
   }
   uint8_t* end() const noexcept { return at_; }
 
  private:
+  void put(uint64_t bits, uint8_t bytes) noexcept {
+    for (; bytes > 0; --bytes, bits >>= 8) *at_++ = static_cast<uint8_t>(bits);
+  }
   uint8_t* at_;
 };
 
@@ -30,12 +32,15 @@ class Decoder {
   explicit Decoder(const uint8_t* from) noexcept : at_(from) {}
   template <class T>
   void operator()(const char*, T& value) noexcept {
-    uint64_t bits = 0;
-    for (size_t i = 0; i < sizeof(T); ++i) bits |= static_cast<uint64_t>(*at_++) << (8 * i);
-    value = static_cast<T>(bits);
+    value = static_cast<T>(get(sizeof(T)));
   }
 
  private:
+  uint64_t get(uint8_t bytes) noexcept {
+    uint64_t bits = 0;
+    for (uint8_t i = 0; i < bytes; ++i) bits |= static_cast<uint64_t>(*at_++) << (8 * i);
+    return bits;
+  }
   const uint8_t* at_;
 };
 
@@ -55,10 +60,13 @@ class Ruler {
 /// The bytes of a message's body.
 template <class M>
 constexpr size_t size_of() noexcept {
-  const M m{};
-  Ruler ruler;
-  M::each(m, ruler);
-  return ruler.size();
+  constexpr size_t kSize = [] {
+    Ruler ruler;
+    const M m{};
+    M::each(m, ruler);
+    return ruler.size();
+  }();
+  return kSize;
 }
 
 /// `to` has room for size_of<M>() bytes. Returns their end.

@@ -40,7 +40,7 @@ enum class Name : uint8_t {
   end = 'E',
 };
 
-constexpr uint8_t kVersion = 2;
+constexpr uint8_t kVersion = 3;
 
 /// each(m, f) of a message calls f(name, field) for its fields, in byte order; M may be const.
 struct Greeting {
@@ -102,6 +102,8 @@ struct Tick {
   uint8_t accepts = 1;       ///< 0: Drive::command refuses
   hal::RangeReadings ranges{};
   hal::EncoderCounts counts{};
+  uint8_t bumps_given = 1;  ///< 0: Bumper::read refuses
+  hal::BumperReading bumps{};
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) {
@@ -117,6 +119,8 @@ struct Tick {
     }
     f("count_left", m.counts.left);
     f("count_right", m.counts.right);
+    f("bumps_given", m.bumps_given);
+    f("pressed", m.bumps.pressed);
   }
 };
 

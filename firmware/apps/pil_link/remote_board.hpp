@@ -1,13 +1,14 @@
 #pragma once
 
 #include "firmware/apps/pil_link/message.hpp"
+#include "hal/bumper.hpp"
 #include "hal/drive.hpp"
 #include "hal/rangefinders.hpp"
 
 namespace whisker::link {
 
 /// Sensors and wheels that a companion simulates: every call returns the values of its last message.
-class RemoteBoard final : public hal::Rangefinders, public hal::Drive {
+class RemoteBoard final : public hal::Rangefinders, public hal::Bumper, public hal::Drive {
  public:
   void on_frame(const Tick& tick) noexcept { tick_ = tick; }
 
@@ -18,6 +19,10 @@ class RemoteBoard final : public hal::Rangefinders, public hal::Drive {
   bool read(hal::EncoderCounts& out) noexcept override {
     if (tick_.counts_given != 0) out = tick_.counts;
     return tick_.counts_given != 0;
+  }
+  bool read(hal::BumperReading& out) noexcept override {
+    if (tick_.bumps_given != 0) out = tick_.bumps;
+    return tick_.bumps_given != 0;
   }
   bool command(hal::WheelSpeeds) noexcept override { return tick_.accepts != 0; }
 

@@ -17,7 +17,8 @@ Pose pose(const Stand& s) noexcept {
 uint32_t failures(const Health& h) noexcept {
   return h.range_refused + h.range_invalid + h.range_stale + h.range_stuck + h.range_out_of_range +
          h.drive_refused + h.encoder_refused + h.encoder_jumps + h.wheel_stalls + h.unsteady_looks +
-         h.no_progress + h.pose_out_of_range + h.wheel_runaways + h.late_ticks + h.clock_jumps;
+         h.no_progress + h.pose_out_of_range + h.wheel_runaways + h.late_ticks + h.clock_jumps +
+         h.bumper_refused + h.bumper_stuck;
 }
 
 Answer answer_of(const Status& status) noexcept {
@@ -79,9 +80,8 @@ bool Session::execute(Name name) noexcept {
   switch (name) {
     case Name::hello: return say(Greeting{kVersion, kEngine, planning::kRoomForMap});
     case Name::params: {
-      if (!on_frame(params_size())) return false;
-      ParamDecoder decoder{buffer_};
-      for_each_param(my_->params, decoder);
+      if (!on_frame(kParamsSize)) return false;
+      decode_params(my_->params, buffer_);
       robot_ = nullptr;
       return true;
     }
@@ -131,7 +131,7 @@ bool Session::begin(const Begin& what) noexcept {
   };
   const auto planner = planning::with_planner<planning::Planner*>(what.planner, what.map_bytes, make);
   if (planner == nullptr) return false;
-  robot_ = &room_for_robot_.make<Robot>(my_->board, my_->board, *planner, my_->params);
+  robot_ = &room_for_robot_.make<Robot>(my_->board, my_->board, *planner, my_->params, &my_->board);
   robot_->place(pose(what.stand));
   return true;
 }

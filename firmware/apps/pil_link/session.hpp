@@ -51,7 +51,7 @@ class Session {
   StaticStorage<sizeof(Robot)> room_for_robot_;
   uint32_t ticks_ = 0;
   bool ended_ = false;
-  uint8_t buffer_[params_size()] = {};
+  uint8_t buffer_[kParamsSize] = {};
 };
 
 }  // namespace whisker::link

@@ -79,9 +79,13 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
     return true;
   }
   // The guard limits the speed because of unseen ground: a small turn may already show it.
-  Angle aside;
-  if (view.granted < kHindered && turn_to_unseen(view, heading, length, heading, behaviours_.params, aside)) {
-    heading += limited(aside, kCheapTurn);
+  if (view.granted < kHindered) {
+    const Unseen rest = unseen(view, heading, length, heading, behaviours_.params);
+    const Angle past = view.local_grid->reach().past;
+    heading += limited(rest.cells == 0           ? Angle{}
+                       : rest.turn.wrapped() < 0 ? rest.turn - past
+                                                 : rest.turn + past,
+                       kCheapTurn);
   }
   decision.manoeuvre = behaviours_.drive(view, heading);
   return true;

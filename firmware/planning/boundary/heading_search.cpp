@@ -83,7 +83,7 @@ HeadingSearch::Retreat HeadingSearch::retreat(const View& view, bool stalled, co
     if (++retreats_ == kRetreats) return Retreat::lost;
     return there ? Retreat::there : Retreat::stuck;
   }
-  manoeuvre = cruise(steer(bearing(rest) - view.pose.heading, params.wheels.max_speed / 4), params);
+  manoeuvre = steer(bearing(rest) - view.pose.heading, params.wheels.max_speed / 4, params);
   return Retreat::under_way;
 }
 

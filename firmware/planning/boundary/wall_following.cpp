@@ -19,9 +19,13 @@ constexpr AngularRate kHalts = 4000_mrad_per_s;  // at this turn rate the forwar
 }  // namespace
 
 Twist along_edge(const perception::Echoes& sight, Side wall, const Params& params) noexcept {
-  const Q30 outer = sin(params.rangefinders.side_angle + Angle::from_raw(params.rangefinders.cone.raw() / 2));
-  const Length left = sight.beam[hal::kLeft].distance * outer;
-  const Length right = sight.beam[hal::kRight].distance * outer;
+  const auto beside = [&](hal::Beam beam) {
+    const Mount m = mount(params.rangefinders, beam);
+    const Angle outwards = m.axis.wrapped() < 0 ? -m.axis : m.axis;
+    return abs(m.apex.y) + sight.beam[beam].distance * sin(outwards + m.half_cone);
+  };
+  const Length left = beside(hal::kLeft);
+  const Length right = beside(hal::kRight);
   const Length gap = wall == Side::left ? left : right;
   const auto reference = [&](Length l) {
     return Length::from_raw(multiply_divide(l.raw(), kReference.raw(), params.body.radius.raw()));

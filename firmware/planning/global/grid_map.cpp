@@ -12,6 +12,7 @@ constexpr int32_t kInside =
 constexpr Length kFar = 2_m;              // for the reference body
 constexpr Length kSure = 160_mm;          // across: an echo from an area this small has a single origin
 constexpr Angle kSuspectHalf = 6_deg;
+constexpr Angle kNarrow = 4_deg;
 constexpr int32_t kNearBorder = 9;            // a ninth of the window
 constexpr int32_t kBias = 10, kBiasPart = 3;  // the body is at most 3/10 of the window off its centre
 
@@ -48,8 +49,6 @@ int32_t GridMap::units(Length l) const noexcept {
 
 void GridMap::configure(const Params& params) noexcept {
   cell_um_ = for_body(params, shape_.cell).raw();
-  offset_ = params.rangefinders.offset;
-  half_cone_ = Angle::from_raw(params.rangefinders.cone.raw() / 2);
   far_ = units(for_body(params, kFar));
 }
 
@@ -180,27 +179,28 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
   return near;
 }
 
-void GridMap::mark(const perception::ConeObservation& observation, bool hold) noexcept {
-  const Angle axis = observation.from.heading + observation.axis;
-  const Vec from = observation.from.at + polar(axis, offset_);
+void GridMap::mark(const perception::ConeObservation& observation, bool hold, bool revoke) noexcept {
+  const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
     return saturate32(
         floor_div<int64_t>((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
   };
-  const int32_t x = from_corner(from.x, corner_.x);
-  const int32_t y = from_corner(from.y, corner_.y);
+  const int32_t x = from_corner(beam.apex.x, corner_.x);
+  const int32_t y = from_corner(beam.apex.y, corner_.y);
   if (!holds({floor_div(x, kUnitsPerCell), floor_div(y, kUnitsPerCell)})) return;
   const int32_t distance = units(observation.free);
   const int32_t seen = distance < far_ ? distance : far_;
   const bool echo = observation.hit && distance < far_;
-  const perception::Wedge cone(axis, half_cone_);
-  const perception::Wedge core(axis, kSuspectHalf);
+  const perception::Wedge cone(beam.axis, beam.half_cone);
+  const perception::Wedge core(beam.axis, kSuspectHalf);
   const int32_t reach = echo ? distance + kHalfCell : seen - kInside;
   if (reach < 0) return;
   int32_t first = perception::ceil_div(y - reach - kHalfCell, kUnitsPerCell);
   int32_t last = floor_div(y + reach - kHalfCell, kUnitsPerCell);
   if (first < 0) first = 0;
   if (last > shape_.rows - 1) last = shape_.rows - 1;
+  // Readings of a narrow cone one after another free a cell together.
+  const int32_t across = beam.half_cone.raw() < kNarrow.raw() ? 0 : kInside;
   Box box;
   const auto arc = [&](const perception::Wedge& wedge, int32_t row, auto&& each) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
@@ -214,7 +214,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold) no
     const Columns nearer = inner.empty() ? Columns{INT16_MAX, -INT16_MAX} : within(inner);
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
-      const GridWord freed = sure()[i] & ~blocking()[i];
+      const GridWord freed = revoke ? 0 : sure()[i] & ~blocking()[i];
       const GridWord cells =
           columns(all.first, all.last, w) & ~columns(nearer.first, nearer.last, w) & ~freed;
       if (cells != 0) each(i, w, cells);
@@ -223,7 +223,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold) no
   for (int32_t row = first; row <= last; ++row) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
     perception::Span empty{x - reach, x + reach};
-    cone.clip(empty, x, dy, kInside);
+    cone.clip(empty, x, dy, across);
     empty.within_disc(x, dy, seen - kInside);
     if (empty.empty()) continue;
     const Columns c = within(empty);

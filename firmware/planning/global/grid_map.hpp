@@ -32,8 +32,8 @@ class GridMap {
   /// Moves the window if the body comes near its border. True: it moved.
   bool follow(Vec body, Vec goal) noexcept;
   /// Adds the observation of one beam. `hold`: a plan is in progress, and blocked cells that it has reached
-  /// stay blocked.
-  void mark(const perception::ConeObservation& observation, bool hold) noexcept;
+  /// stay blocked. `revoke`: an echo may come from free cells, too.
+  void mark(const perception::ConeObservation& observation, bool hold, bool revoke = false) noexcept;
   /// Copies mostly clear cells from the local grid, because several beams together clear cells that none
   /// clears alone. Not while a plan is in progress.
   void free(const perception::LocalGrid& local_grid, Vec body) noexcept;
@@ -76,8 +76,6 @@ class GridMap {
   GridWord* planes_;
   Cell corner_;
   int32_t cell_um_ = 100000;
-  Length offset_;
-  Angle half_cone_;
   int32_t far_ = 0;  // grid units; echoes farther away are ignored
 };
 

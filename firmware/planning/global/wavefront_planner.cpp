@@ -57,7 +57,7 @@ void WavefrontPlanner::observe(const View& view) noexcept {
   }
   const bool hold = stage_ != Stage::idle;
   for (int i = 0; i < hal::kBeams; ++i) {
-    if ((view.observed >> i & 1U) != 0) map_.mark(view.observations[i], hold);
+    if ((view.observed >> i & 1U) != 0) map_.mark(view.observations[i], hold, view.revoking);
   }
   const Cell body = map_.place(view.pose.at);
   if (!hold) map_.set(body, CellState::free);
@@ -78,6 +78,16 @@ void WavefrontPlanner::place_virtual_obstacles() noexcept {
   }
 }
 
+/// The body may stand on the cell of a contact: a cell may be larger than the body.
+void WavefrontPlanner::place_contacts(const View& view) noexcept {
+  if (view.contacts == nullptr) return;
+  const Cell body = map_.place(view.pose.at);
+  for (int i = 0; i < view.contacts->count(); ++i) {
+    const Cell cell = map_.place(view.contacts->at(i));
+    if (!(cell == body)) map_.set(cell, CellState::occupied);
+  }
+}
+
 void WavefrontPlanner::begin(Stage stage, const View& view) noexcept {
   stage_ = stage;
   Wavefront::Task task;
@@ -95,6 +105,7 @@ void WavefrontPlanner::plan(const View& view) noexcept {
     map_.follow(view.pose.at, goal_.at);
     map_.free(*view.local_grid, view.pose.at);
     place_virtual_obstacles();
+    place_contacts(view);
     begin(Stage::strict, view);
     return;
   }

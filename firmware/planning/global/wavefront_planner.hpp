@@ -44,6 +44,7 @@ class WavefrontPlanner final : public GlobalPlanner {
   bool straight(const View& view) const noexcept;
   bool sees(Vec from, Vec to) const noexcept;
   void place_virtual_obstacles() noexcept;
+  void place_contacts(const View& view) noexcept;
   bool spent() const noexcept;
   void hand_over() noexcept;
   void bar(Vec at) noexcept;

@@ -5,17 +5,16 @@
 namespace whisker::planning {
 
 void StepProbe::configure(const Params& params) noexcept {
-  const RangefinderParams& r = params.rangefinders;
   reach_ = params.body.radius + params.body.margin;
-  const Vec apex = polar(r.side_angle, r.offset);
-  side_apex_x_ = apex.x;
-  side_apex_y_ = apex.y;
-  front_apex_ = r.offset;
-  const uint32_t half_cone = r.cone.raw() / 2;
-  const bool overlaps_ahead = half_cone >= r.side_angle.raw();
-  const Angle inner = overlaps_ahead ? Angle{} : r.side_angle - Angle::from_raw(half_cone);
-  inner_cos_ = cos(inner);
-  inner_sin_ = sin(inner);
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const Mount m = mount(params.rangefinders, i);
+    const uint32_t aside = magnitude(m.axis);
+    const uint32_t half = m.half_cone.raw();
+    const bool left = m.axis == Angle{} ? m.apex.y >= Length{} : m.axis.wrapped() > 0;
+    const Angle inner = Angle::from_raw(aside > half ? aside - half : 0);
+    const Angle beyond = Angle::from_raw(half > aside ? half - aside : 0);
+    beam_[i] = {{m.apex.x, left ? m.apex.y : -m.apex.y}, cos(inner), sin(inner), sin(beyond)};
+  }
 }
 
 bool StepProbe::free(const perception::Echoes& look, Length step) const noexcept {
@@ -23,9 +22,9 @@ bool StepProbe::free(const perception::Echoes& look, Length step) const noexcept
     const perception::Echo& echo = look.beam[i];
     if (!perception::usable(echo.validity)) return false;
     if (echo.validity == perception::Validity::clear) continue;
-    const Vec nearest = i == hal::kFront ? Vec{front_apex_ + echo.distance, Length{}}
-                                         : Vec{side_apex_x_ + echo.distance * inner_cos_,
-                                               side_apex_y_ + echo.distance * inner_sin_};
+    const Inner& b = beam_[i];
+    const Length aside = b.apex.y + echo.distance * b.sin - echo.distance * b.beyond;
+    const Vec nearest{b.apex.x + echo.distance * b.cos, max(Length{}, aside)};
     if (near_way(nearest, step, reach_)) return false;
   }
   return true;

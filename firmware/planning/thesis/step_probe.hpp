@@ -21,12 +21,14 @@ class StepProbe {
   bool free(const perception::Echoes& look, Length step) const noexcept;
 
  private:
-  Length reach_;        // radius + margin
-  Length side_apex_x_;  // of the side sensors, ahead
-  Length side_apex_y_;  // and to their own side
-  Length front_apex_;
-  Q30 inner_cos_;  // of the edge of the side cones nearest to straight ahead
-  Q30 inner_sin_;
+  struct Inner {
+    Vec apex;  // y: to the side to which the beam points
+    Q30 cos;   // of the direction in the cone nearest to straight ahead
+    Q30 sin;
+    Q30 beyond;  // sine of the angle by which the cone extends beyond straight ahead
+  };
+  Length reach_;  // radius + margin
+  Inner beam_[hal::kBeams];
 };
 
 }  // namespace whisker::planning

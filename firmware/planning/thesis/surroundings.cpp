@@ -24,19 +24,22 @@ uint16_t proved_mm(const perception::Echo& echo, Length ahead) noexcept {
 // A cone whose apex is ahead of the centre covers less of the circle. A direction counts as covered if the
 // ray from the centre is inside the cone where it leaves the body.
 void Surroundings::configure(const Params& params) noexcept {
-  const RangefinderParams& r = params.rangefinders;
-  const Angle half_cone = Angle::from_raw(r.cone.raw() / 2);
-  const Length across = r.offset * sin(half_cone);
   reach_ = params.body.radius + params.body.margin;
-  side_ = r.side_angle;
-  ahead_ = r.offset * cos(half_cone);
-  half_ = 0;
-  if (across >= params.body.radius) return;
-  const int64_t radius = params.body.radius.raw();
-  const int64_t along =
-      square_root(static_cast<uint64_t>(radius * radius - int64_t{across.raw()} * across.raw()));
-  const Angle lost = atan2(across.raw(), saturate32(along));
-  if (lost.raw() < half_cone.raw()) half_ = (half_cone - lost).raw();
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const Mount m = mount(params.rangefinders, i);
+    const Angle left = m.axis + m.half_cone;
+    const Angle right = m.axis - m.half_cone;
+    const Length off_left = max(Length{}, across(m.apex, left));
+    const Length off_right = max(Length{}, -across(m.apex, right));
+    beam_[i] = {};
+    if (off_left >= params.body.radius || off_right >= params.body.radius) continue;
+    const uint32_t lost_left = arc_sine(off_left, params.body.radius).raw() / 2;
+    const uint32_t lost_right = arc_sine(off_right, params.body.radius).raw() / 2;
+    if (lost_left + lost_right >= m.half_cone.raw()) continue;
+    beam_[i].axis = m.axis + Angle::from_raw(lost_right - lost_left);
+    beam_[i].half = m.half_cone.raw() - lost_left - lost_right;
+    beam_[i].ahead = min(along(m.apex, left), along(m.apex, right));
+  }
 }
 
 void Surroundings::forget() noexcept {
@@ -47,10 +50,10 @@ void Surroundings::add(const perception::Echoes& look, Angle heading) noexcept {
   for (int i = 0; i < hal::kBeams; ++i) {
     const perception::Echo& echo = look.beam[i];
     if (!perception::usable(echo.validity)) continue;
-    const Angle axis = heading + beam_axis(side_, i);
-    const uint16_t mm = proved_mm(echo, ahead_);
+    const Angle axis = heading + beam_[i].axis;
+    const uint16_t mm = proved_mm(echo, beam_[i].ahead);
     for (int s = 0; s < kSectors; ++s) {
-      const bool inside = magnitude(middle(s) - axis) + kHalfWidth <= half_;
+      const bool inside = magnitude(middle(s) - axis) + kHalfWidth <= beam_[i].half;
       if (inside && mm > free_mm_[s]) free_mm_[s] = mm;
     }
   }

@@ -28,10 +28,14 @@ class Surroundings {
 
  private:
   static constexpr uint16_t kUnknown = 0;
-  Length reach_;                     // radius + margin
-  Angle side_;                       // of the left beam's axis
-  uint32_t half_ = 0;                // of the cone as seen from the body's centre, at its rim; 2^-32 turn
-  Length ahead_;                     // minimum by which an echo is farther from the centre than from the apex
+  /// A cone as seen from the body's centre, at its rim.
+  struct Seen {
+    Angle axis;
+    uint32_t half = 0;  // 2^-32 turn
+    Length ahead;       // minimum by which an echo is farther from the centre than from the apex
+  };
+  Length reach_;  // radius + margin
+  Seen beam_[hal::kBeams];
   uint16_t free_mm_[kSectors] = {};  // from the body's centre; rounded down
 };
 

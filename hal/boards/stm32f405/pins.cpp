@@ -6,7 +6,7 @@
 namespace whisker::hal::stm32f405 {
 namespace {
 
-enum Mode : uint32_t { kOutput = 1, kFunction = 2, kAnalogue = 3 };
+enum Mode : uint32_t { kInput = 0, kOutput = 1, kFunction = 2, kAnalogue = 3 };
 enum Pull : uint32_t { kNone = 0, kUp = 1 };
 constexpr uint32_t kMediumSpeed = 1;
 
@@ -35,6 +35,8 @@ void make_open_drain(Pin pin, bool high) noexcept {
   write(pin, high);
   configure(pin, kOutput, true, kUp);
 }
+
+void make_input_pulled_up(Pin pin) noexcept { configure(pin, kInput, false, kUp); }
 
 void make_analogue(Pin pin) noexcept { configure(pin, kAnalogue, false, kNone); }
 
@@ -70,6 +72,7 @@ void set_up_pins() noexcept {
   make_shared_line(kI2cData, Function::i2c);
   for (const Pin pin : kRangerAwake) make_output(pin, false);
   for (const Pin pin : kInfrared) make_analogue(pin);
+  for (const Pin pin : kBumpers) make_input_pulled_up(pin);
   make_function(kCanOut, Function::can);
   make_function_pulled_up(kCanIn, Function::can);
 }

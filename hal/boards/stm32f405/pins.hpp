@@ -13,6 +13,8 @@ enum class Function : uint8_t { tim1 = 1, tim3_tim4 = 2, i2c = 4, usart = 7, can
 void make_output(Pin pin, bool high) noexcept;
 /// Open drain: only driven low; the resistor of the line pulls it up.
 void make_open_drain(Pin pin, bool high) noexcept;
+/// High while nothing pulls it low.
+void make_input_pulled_up(Pin pin) noexcept;
 void make_analogue(Pin pin) noexcept;
 void make_function(Pin pin, Function function) noexcept;
 /// As make_function, with open drain.

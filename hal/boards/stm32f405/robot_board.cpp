@@ -45,6 +45,7 @@ void RobotBoard::poll(const Status& status) noexcept {
   can_.poll(now);
   tof_.poll(now);
   infrared_.poll(now);
+  switches_.poll(now);
   reporter_.poll(now, status);
 }
 

@@ -4,6 +4,7 @@
 #include "hal/boards/common/governed_wheels.hpp"
 #include "hal/boards/common/nearer.hpp"
 #include "hal/boards/stm32f405/adc.hpp"
+#include "hal/boards/stm32f405/bump_switches.hpp"
 #include "hal/boards/stm32f405/bx_can.hpp"
 #include "hal/boards/stm32f405/encoders.hpp"
 #include "hal/boards/stm32f405/i2c_rangers.hpp"
@@ -29,13 +30,14 @@ class RobotBoard {
 
   /// Call once. Every wait in it is bounded: 100 ms in total if no device answers.
   void start() noexcept;
-  /// Call between two ticks, as often as possible: serves sensors, CAN, console.
+  /// Call between two ticks, as often as possible: serves sensors, bump switches, CAN, console.
   void poll(const Status& status) noexcept;
   /// True once per period: time for a tick. Also feeds the watchdog.
   bool due(uint32_t period_ms) noexcept;
   Time now() noexcept { return Time::from_raw(ticker_.now_ms()); }
 
   Rangefinders& rangefinders() noexcept { return beams_; }
+  Bumper& bumper() noexcept { return switches_; }
   Drive& drive() noexcept { return wheels_; }
   CanPort& can() noexcept { return can_; }
   Usart& console() noexcept { return console_; }
@@ -53,6 +55,7 @@ class RobotBoard {
   Adc adc_;
   mcu::AnalogueRangers<Adc> infrared_;
   mcu::Nearer beams_;
+  BumpSwitches switches_;
   Motors motors_;
   Encoders encoders_;
   mcu::GovernedWheels<Motors, Encoders> wheels_;

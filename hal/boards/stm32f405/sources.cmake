@@ -4,6 +4,7 @@ set(whisker_stm32f405_sources
   ${CMAKE_CURRENT_LIST_DIR}/../common/governor.cpp
   ${CMAKE_CURRENT_LIST_DIR}/../common/nearer.cpp
   ${CMAKE_CURRENT_LIST_DIR}/adc.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/bump_switches.cpp
   ${CMAKE_CURRENT_LIST_DIR}/bx_can.cpp
   ${CMAKE_CURRENT_LIST_DIR}/clock.cpp
   ${CMAKE_CURRENT_LIST_DIR}/encoders.cpp

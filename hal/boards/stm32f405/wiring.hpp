@@ -28,6 +28,8 @@ inline constexpr Pin kRangerAwake[] = {{base::kGpioC, 8}, {base::kGpioC, 9}, {ba
 /// Analogue infrared: left, front, right.
 inline constexpr Pin kInfrared[] = {{base::kGpioC, 0}, {base::kGpioC, 1}, {base::kGpioC, 2}};
 inline constexpr uint8_t kInfraredChannel[] = {10, 11, 12};
+/// Switches to ground, for those who have them: left and right half of the bumper.
+inline constexpr Pin kBumpers[] = {{base::kGpioC, 4}, {base::kGpioC, 5}};
 inline constexpr Pin kCanIn = {base::kGpioA, 11};  ///< CAN1
 inline constexpr Pin kCanOut = {base::kGpioA, 12};
 

@@ -172,6 +172,9 @@ export const COUNTERS = [
   'wheel_runaways',
   'late_ticks',
   'clock_jumps',
+  'bumps',
+  'bumper_refused',
+  'bumper_stuck',
 ] as const;
 
 /** The data of a robot at a tick, of a run that is over or of a live one. */

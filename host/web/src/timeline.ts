@@ -36,6 +36,7 @@ const WHY_COLOURS: Record<string, Colour> = {
   step_budget: 'contact',
   length_budget: 'contact',
   goal_out_of_range: 'contact',
+  bumped: 'contact',
 };
 
 export function stateColour(run: Seen, tick: number): Colour {

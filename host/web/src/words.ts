@@ -64,6 +64,7 @@ export const BECAUSE: Record<string, string> = {
   cancelled: 'the goal was cancelled',
   fault: 'something failed',
   goal_out_of_range: 'the goal is farther out than 1,000 m',
+  bumped: 'a bump switch was pressed, so it backs off',
 };
 
 const OUTCOMES: Record<string, string> = {
@@ -87,6 +88,8 @@ export const FAULTS: Record<string, string> = {
   no_progress: 'a turn or step did not end',
   pose_out_of_range: 'farther out than 1,000 m',
   wheel_runaway: 'a wheel does not turn as commanded',
+  bumper_lost: 'the bump switches gave no state',
+  bumper_stuck: 'a bump switch stays pressed',
 };
 
 export const COUNTER_WORDS: Record<string, string> = {
@@ -105,6 +108,9 @@ export const COUNTER_WORDS: Record<string, string> = {
   wheel_runaways: 'wheels that did not turn as commanded',
   late_ticks: 'late ticks',
   clock_jumps: 'clock jumps',
+  bumps: 'bumps',
+  bumper_refused: 'ticks without bump switches',
+  bumper_stuck: 'stuck bump switches',
 };
 
 /** The terms of D, the nearest first. */

@@ -24,7 +24,7 @@ def check_shape(result):
 
 
 def check_contact(world, trace, result):
-    """No row overlaps an obstacle; only the last row may be a contact, with the body at the moment of impact."""
+    """No row overlaps an obstacle; a pressed bump switch may touch it; only the last row may be a contact, with the body at the moment of impact."""
     touch = 3 * trace.position_unit
     last = len(trace.rows) - 1
     contact = result["outcome"] == "contact"
@@ -33,7 +33,7 @@ def check_contact(world, trace, result):
         if contact and i == last:
             if abs(gap) > touch:
                 yield f"row {i}: a contact is claimed at a gap of {gap:.6f} m"
-        elif gap < trace.position_unit:
+        elif gap < (-touch if row.pressed else trace.position_unit):
             yield f"row {i}: a gap of {gap:.6f} m to an obstacle, and {'no contact' if not contact else 'it went on'}"
 
 

@@ -17,7 +17,7 @@ def check_start(scenario, trace):
 
 
 def check_wheels(scenario, trace, outcome):
-    """Row period, speed and acceleration. On contact the wheels stop at once."""
+    """Row period, speed and acceleration. On contact, and on a bump, the wheels stop at once."""
     robot = scenario.robot
     period, top = robot["control_period_s"], robot["wheel_speed_max_mps"]
     half = trace.unit["v_left_mps"] / 2
@@ -30,7 +30,7 @@ def check_wheels(scenario, trace, outcome):
         before = trace.rows[i - 1]
         if abs(row.t - before.t - period) > 1e-9:
             yield f"row {i}: {row.t - before.t:.6f} s after the row before, not {period}"
-        if outcome == "contact" and i == len(trace.rows) - 1:
+        if row.pressed or (outcome == "contact" and i == len(trace.rows) - 1):
             continue
         change = max(abs(row.v_left - before.v_left), abs(row.v_right - before.v_right))
         if change > robot["wheel_acceleration_max_mps2"] * period + 2.02 * half:
@@ -54,7 +54,7 @@ def check_rolling(scenario, trace, outcome):
     for i in range(1, len(trace.rows)):
         a, b = trace.rows[i - 1], trace.rows[i]
         dx, dy, turned = b.x - a.x, b.y - a.y, b.heading - a.heading
-        if outcome == "contact" and i == last:
+        if b.pressed or (outcome == "contact" and i == last):
             if math.hypot(dx, dy) > top * dt + place:
                 yield f"row {i}: jumped {math.hypot(dx, dy):.6f} m into the contact"
             continue

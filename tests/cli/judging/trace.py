@@ -20,6 +20,7 @@ class Row(NamedTuple):
     v_left: float
     v_right: float
     command: Optional[tuple[int, int]]  # 0.1 mm/s, left and right
+    pressed: bool  # a bump switch
 
     @property
     def at(self):
@@ -50,6 +51,7 @@ def numbered(fields, number):
             tuple(round(float(fields[f"cmd_{s}_mps"]) * 10000) for s in ("left", "right"))
             if "cmd_left_mps" in fields
             else None,
+            int(fields.get("pressed", 0)) != 0,
         )
     except (TypeError, ValueError) as error:
         raise TraceError(f"row {number}: {error}") from error

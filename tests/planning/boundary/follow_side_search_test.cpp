@@ -35,7 +35,7 @@ Sweep sweep(const Wall& wall, const FollowSideSearch& search) {
   Angle heading;
   for (int i = 0; i < 2000 && !s.over; ++i) {
     for (int beam = 0; beam < hal::kBeams; ++beam) {
-      const Angle axis = heading + beam_axis(s.ground.params().rangefinders.side_angle, beam);
+      const Angle axis = heading + beam_axis(s.ground.params().rangefinders, beam);
       const bool shown = wall.shown(in_degrees(axis));
       s.ground.mark(axis, shown ? 150_mm : 2_m, shown, false);
     }

@@ -73,9 +73,9 @@ Cost cost_of(Vec from, Vec to) {
       local_grid.move_to(view.pose);
       view.observed = 7;
       for (int i = 0; i < hal::kBeams; ++i) {
-        const Angle axis = beam_axis(params.rangefinders.side_angle, i);
         const bool hit = draw(0, 2) == 0;
-        view.observations[i] = {view.pose, axis, hit ? millimetres(draw(200, 1500)) : 2_m, hit};
+        view.observations[i] = {perception::beam_of(mount(params.rangefinders, i), view.pose), 0,
+                                hit ? millimetres(draw(200, 1500)) : 2_m, hit};
       }
     }
     g_cells = 0;

@@ -18,7 +18,7 @@ constexpr Vec kFrom{50_mm, 50_mm};  // the centre of a cell
 
 perception::ConeObservation observation(Vec at, Angle axis, Length free, bool hit) {
   perception::ConeObservation p;
-  p.from = {at, axis};
+  p.beam = perception::beam_of(mount(Params{}.rangefinders, hal::kFront), {at, axis});
   p.free = free;
   p.hit = hit;
   return p;

@@ -40,7 +40,9 @@ class Guided : public testing::Test {
   void see_ring() {
     view_.observed = 1;
     for (int deg = 0; deg < 360; deg += 5) {
-      view_.observations[0] = {{{}, test::degrees(deg)}, Angle{}, 250_mm, true};
+      view_.observations[0] = {
+          perception::beam_of(mount(params_.rangefinders, hal::kFront), {{}, test::degrees(deg)}), 0, 250_mm,
+          true};
       stay(1);
     }
     view_.observed = 0;
@@ -116,7 +118,7 @@ TEST_F(Guided, ARefusedWayIsBarred) {
 
 TEST_F(Guided, DoubtsOnceAndForgetsWhatBlocked) {
   for (int i = 0; i < hal::kBeams; ++i) {
-    view_.observations[i] = {{{}, Angle{}}, beam_axis(params_.rangefinders.side_angle, i), 250_mm, true};
+    view_.observations[i] = {perception::beam_of(mount(params_.rangefinders, i), {}), 0, 250_mm, true};
   }
   view_.observed = 7;
   stay(1);

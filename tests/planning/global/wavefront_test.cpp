@@ -195,8 +195,9 @@ TEST(Wavefront, IsTheWholeOneOfTheMapThatItEndsWithWhereCellsOpenMeanwhile) {
         std::uniform_int_distribution<uint32_t> heading;
         while (!parts.run(map, words(c.random))) {
           perception::ConeObservation clear;
-          clear.from.at = map.middle({column(c.random), row(c.random)});
-          clear.from.heading = Angle::from_raw(heading(c.random));
+          clear.beam.apex = map.middle({column(c.random), row(c.random)});
+          clear.beam.axis = Angle::from_raw(heading(c.random));
+          clear.beam.half_cone = Angle::from_raw(Params{}.rangefinders.cone.raw() / 2);
           clear.free = 2_m;
           map.mark(clear, true);
         }

@@ -1,9 +1,13 @@
 #include "tests/robot/properties/random_params.hpp"
 
 #include <cstdint>
+#include <string_view>
 
 namespace whisker::test {
 namespace {
+
+/// The boards of these tests have no bumper.
+bool is_of_a_bumper(const std::string_view key) { return key == "bumper" || key == "creep_speed_mps"; }
 
 /// Gives each field in turn a new value, and restores it if check() rejects the set.
 struct Draw {
@@ -22,9 +26,10 @@ struct Draw {
     if (check(whole) != ParamFault::none) field = old;
   }
   template <class Tag>
-  void number(const char*, Unit<Tag>& x, Unit<Tag> low, Unit<Tag> high) {
-    draw<Unit<Tag>>(x, low.raw(), high.raw(),
-                    [](std::int64_t v) { return Unit<Tag>::from_raw(static_cast<std::int32_t>(v)); });
+  void number(const char* key, Unit<Tag>& x, Unit<Tag> low, Unit<Tag> high) {
+    if (!is_of_a_bumper(key))
+      draw<Unit<Tag>>(x, low.raw(), high.raw(),
+                      [](std::int64_t v) { return Unit<Tag>::from_raw(static_cast<std::int32_t>(v)); });
   }
   void number(const char*, Angle& x, Angle low, Angle high) {
     draw<Angle>(x, low.raw(), high.raw(),
@@ -34,8 +39,8 @@ struct Draw {
     draw<std::int32_t>(x, low, high, [](std::int64_t v) { return static_cast<std::int32_t>(v); });
   }
   template <class E>
-  void choice(const char*, E& x, const char* const*, int names) {
-    draw<E>(x, 0, names - 1, [](std::int64_t v) { return static_cast<E>(v); });
+  void choice(const char* key, E& x, const char* const*, int names) {
+    if (!is_of_a_bumper(key)) draw<E>(x, 0, names - 1, [](std::int64_t v) { return static_cast<E>(v); });
   }
 };
 

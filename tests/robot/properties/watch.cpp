@@ -67,7 +67,8 @@ std::string Watch::counters(const Health& now) {
       now.wheel_stalls < before.wheel_stalls || now.wheel_runaways < before.wheel_runaways ||
       now.unsteady_looks < before.unsteady_looks || now.no_progress < before.no_progress ||
       now.pose_out_of_range < before.pose_out_of_range || now.late_ticks < before.late_ticks ||
-      now.clock_jumps < before.clock_jumps;
+      now.clock_jumps < before.clock_jumps || now.bumps < before.bumps ||
+      now.bumper_refused < before.bumper_refused || now.bumper_stuck < before.bumper_stuck;
   return down ? "a counter went down" : "";
 }
 

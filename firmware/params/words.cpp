@@ -1,0 +1,80 @@
+#include "firmware/params/words.hpp"
+
+#include "firmware/params/relations.hpp"
+
+namespace whisker {
+namespace {
+
+// One table instead of a visitor's code for each parameter: that takes 15 KB of an AVR's flash.
+struct Word {
+  uint8_t at = 0;  // place in Params
+  uint32_t low = 0;
+  uint32_t span = 0;  // of the accepted values, signed or not, from the lowest up
+};
+struct Words {
+  Word of[kParams];
+};
+struct Raw {
+  uint32_t of[sizeof(Params) / 4];
+};
+static_assert(sizeof(Raw) == sizeof(Params) && sizeof(Params) == 4 * kParams, "every word is a parameter");
+
+// Writes each parameter's number into the parameter, and its range into the table.
+struct Numberer {
+  Words words{};
+  int next = 0;
+
+  template <class T>
+  constexpr void number(const char*, T& field, T low, T high) noexcept {
+    field = T::from_raw(static_cast<decltype(field.raw())>(next));
+    add(static_cast<uint32_t>(low.raw()), static_cast<uint32_t>(high.raw()));
+  }
+  constexpr void count(const char*, int32_t& field, int32_t low, int32_t high) noexcept {
+    field = next;
+    add(static_cast<uint32_t>(low), static_cast<uint32_t>(high));
+  }
+  template <class E>
+  constexpr void choice(const char*, E& field, const char* const*, int names) noexcept {
+    field = static_cast<E>(next);
+    add(0, static_cast<uint32_t>(names - 1));
+  }
+  constexpr void add(uint32_t low, uint32_t high) noexcept {
+    words.of[next].low = low;
+    words.of[next++].span = high - low;
+  }
+};
+
+constexpr Words make_words() noexcept {
+  Params p{};
+  Numberer numberer;
+  for_each_param(p, numberer);
+  const Raw raw = __builtin_bit_cast(Raw, p);
+  for (int at = 0; at < kParams; ++at) numberer.words.of[raw.of[at]].at = static_cast<uint8_t>(at);
+  return numberer.words;
+}
+constexpr Words kWords = make_words();
+
+}  // namespace
+
+uint32_t raw_param(const Params& params, int number) noexcept {
+  uint32_t raw = 0;
+  __builtin_memcpy(&raw, reinterpret_cast<const unsigned char*>(&params) + 4 * kWords.of[number].at, 4);
+  return raw;
+}
+
+void set_raw_param(Params& params, int number, uint32_t raw) noexcept {
+  __builtin_memcpy(reinterpret_cast<unsigned char*>(&params) + 4 * kWords.of[number].at, &raw, 4);
+}
+
+bool in_own_range(int number, uint32_t raw) noexcept {
+  return raw - kWords.of[number].low <= kWords.of[number].span;
+}
+
+bool at_run_time::in_range(const Params& params) noexcept {
+  for (int i = 0; i < kParams; ++i) {
+    if (!in_own_range(i, raw_param(params, i))) return false;
+  }
+  return true;
+}
+
+}  // namespace whisker

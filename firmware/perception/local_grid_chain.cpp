@@ -1,0 +1,128 @@
+#include "firmware/perception/local_grid.hpp"
+
+namespace whisker::perception {
+namespace {
+
+constexpr Length kSweptBack = micrometres(500);
+constexpr int32_t kWidest = (60_deg).wrapped();  // 0.58 below is the tangent of half of it
+constexpr Duration kLongestLink = 450_ms;
+// The gap point may lie within the body if what lies behind it, ahead of this part of the radius, does too.
+constexpr int32_t kAheadPart = 3, kAheadParts = 10;
+
+}  // namespace
+
+/// False if the cones of the two readings may not overlap.
+bool LocalGrid::link(const Chain& chain, const Vec& from, Angle trail, Angle half_cone,
+                     Boundary& seen_ahead) const noexcept {
+  const int32_t sign = chain.left ? 1 : -1;
+  const Angle overlap = (chain.lead - trail) * sign;
+  const int32_t least = static_cast<int32_t>(half_cone.raw() / 4);
+  if (overlap.wrapped() < least || overlap.wrapped() > kWidest) return false;
+  // Where the old leading edge crosses the new trailing one, both moved towards each other by the error.
+  const Length between = across(chain.lead_from - from, chain.lead) * sign + place_error_ * 2;
+  const int64_t reach = int64_t{between.raw()} * Q30::kOne / sin(overlap).raw();
+  const Vec gap = from + polar(trail, Length::from_raw(saturate32(reach)));
+  const Angle half = Angle::from_raw(overlap.raw() / 2);
+  seen_ahead = {gap, trail + half * sign};
+  // The part of the gap within the body is free.
+  const Vec off = gap - last_.at;
+  const Length body = swept_ - place_error_;
+  const Length ahead = body * kAheadPart / kAheadParts;
+  const Length deep = max(Length{}, whisker::along(off, seen_ahead.facing) - ahead);
+  const Length beside = abs(across(off, seen_ahead.facing)) + deep * Q14::ratio(58, 100);
+  if (!farther(off, body) && !farther({ahead, beside}, body)) {
+    seen_ahead.at = last_.at + polar(seen_ahead.facing, ahead);
+  }
+  return true;
+}
+
+void LocalGrid::chain(const ConeObservation& observation, const EarlierObservation* before) noexcept {
+  if (reach_.past == Angle{}) return;
+  Chain& chain = chains_[observation.number];
+  const Beam& beam = observation.beam;
+  const Angle turn = beam.axis - chain.last.axis;
+  const Length moved = arc(turn, swept_) - across(beam.apex - chain.last.apex, beam.axis);
+  const Length back = chain.left ? -moved : moved;
+  chain.back = back < Length{} ? Length{} : chain.back + back;
+  bool linked = chain.linked && observation.taken - chain.taken <= kLongestLink;
+  if (chain.back > kSweptBack || !linked) {
+    if (linked) chain.left = !chain.left;
+    chain.back = Length{};
+    linked = false;
+  }
+  const int32_t sign = chain.left ? 1 : -1;
+  const Angle half = beam.half_cone * sign;
+  const bool both = before != nullptr;
+  const Vec from_before = both ? before->apex : beam.apex;
+  const Angle axis_before = both ? before->axis : beam.axis;
+  // Of two readings, either may be wrong. So a link joins the least advanced leading edge to the most
+  // advanced trailing one; of a body that drives and turns, one may have the farther apex, the other the
+  // farther axis.
+  const Angle on = (beam.axis - axis_before) * sign;
+  const bool turned_on = on.wrapped() >= 0;
+  const auto shifted_on = [&](Angle edge) {
+    return across(from_before - beam.apex, edge) * sign >= Length{};
+  };
+  const Angle foremost = (turned_on ? beam.axis : axis_before) - half;
+  const Angle rearmost = (turned_on ? axis_before : beam.axis) + half;
+  Boundary seen_ahead;
+  linked = linked &&
+           link(chain, shifted_on(foremost) ? beam.apex : from_before, foremost, beam.half_cone, seen_ahead);
+
+  const Length room = doubting_ && observation.hit ? approach_ : Length{};
+  const int32_t most = units(holds_);
+  const auto within = [&](Length free) {
+    const int32_t empty = units(free - room - kReadingRounding);
+    return empty < most ? empty : most;
+  };
+  const Point apex = local(beam.apex);
+  const Point gap = local(seen_ahead.at);
+  const Point apex_before = local(from_before);
+  const int32_t free = within(observation.free);
+  const int32_t free_before = both ? within(before->free) : free;
+  const auto side = [&](Angle direction, int32_t which) {
+    const HalfPlane left = HalfPlane::left_of(direction);
+    return which > 0 ? left : HalfPlane{-left.nx, -left.ny};
+  };
+  const bool sound = nearby(apex) && nearby(apex_before) && (!linked || nearby(gap));
+  const HalfPlane trail = side(beam.axis - half, sign);
+  const HalfPlane lead = side(beam.axis + half, -sign);
+  const HalfPlane trail_before = side(axis_before - half, sign);
+  const HalfPlane lead_before = side(axis_before + half, -sign);
+  const HalfPlane ahead = HalfPlane::facing(seen_ahead.facing);
+  for (int row = 0; row < kCells; ++row) {
+    const int s = slot(row);
+    Row& swept = chain.swept[s];
+    if (!linked || !sound) swept = 0;
+    if (!sound) continue;
+    const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
+    const int32_t dy_before = row * kUnitsPerCell + kHalfCell - apex_before.y;
+    Span empty = Span::around(apex.x, free);
+    empty.inside_disc(apex.x, dy, free);
+    if (both) empty.inside_disc(apex_before.x, dy_before, free_before);
+    if (empty.empty()) {
+      swept = 0;
+      continue;
+    }
+    Span kept = empty;
+    if (swept != 0) ahead.hold(kept, gap.x, row * kUnitsPerCell + kHalfCell - gap.y);
+    Span entered = empty;
+    trail.hold(entered, apex.x, dy);
+    if (both) trail_before.hold(entered, apex_before.x, dy_before);
+    Span left_behind = empty;
+    lead.hold(left_behind, apex.x, dy);
+    if (both) lead_before.hold(left_behind, apex_before.x, dy_before);
+    swept = (swept & to_torus(kept.columns())) | to_torus(entered.columns());
+    const Row clear = swept & to_torus(left_behind.columns());
+    young_[s] |= clear;
+    suspect_[s] &= ~clear;
+    tested_[s] &= ~clear;
+  }
+  chain.lead_from = shifted_on(rearmost) ? from_before : beam.apex;
+  chain.lead = rearmost;
+  chain.last = beam;
+  chain.taken = observation.taken;
+  chain.linked = sound;
+}
+
+}  // namespace whisker::perception

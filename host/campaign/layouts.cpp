@@ -1,0 +1,109 @@
+#include "host/campaign/layouts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/scenario/coverage.hpp"
+#include "host/scenario/params_text.hpp"
+
+namespace whisker::campaign {
+namespace {
+
+void scale(Length& length, double by, double low_m, double high_m) {
+  set_si(length, std::clamp(length.raw() * 1e-6 * by, low_m, high_m));
+}
+
+}  // namespace
+
+Params scaled(Params p, double size) {
+  scale(p.body.radius, size, 0.02, 1);
+  scale(p.body.margin, size, 0, 0.5);
+  scale(p.body.track, size, 0.02, 2);
+  scale(p.conditioning.tolerance, size, 0.001, 1);
+  scale(p.thesis.base_step, size, 0.02, 2);
+  scale(p.thesis.small_step, size, 0.01, 1);
+  scale(p.thesis.danger_range, size, 0.05, 5);
+  scale(p.skirt.cell, size, 0, 0.25);
+  scale(p.skirt.probe, size, 0, 2);
+  scale(p.skirt.shield_margin, size, 0, 0.5);
+  scale(p.skirt.planning_margin, size, 0, 0.5);
+  scale(p.skirt.age_travel, size, 0.1, 1000);
+  scale(p.skirt.length_budget, size, 1, 2000);
+  scale(p.motion.drive_tolerance, size, std::max(0.001, 1.1 / p.wheels.counts_per_metre), 0.05);
+  return p;
+}
+
+Params equipped(Params p, const SensorModel& model) {
+  RangefinderParams& r = p.rangefinders;
+  for (BeamParams& beam : r.beams) beam = {};
+  set_si(r.incidence, model.incidence_deg);
+  set_si(r.cone, std::min(model.cone_deg, model.cone_far_deg));
+  set_si(r.min_range, model.min_range_m);
+  set_si(r.max_range, model.max_range_m);
+  r.rate_hz = model.rate_hz;
+  set_si(r.latency, model.latency_s);
+  // No step may be longer than the sensors see.
+  const Length room = proving_range(r, 1) - p.body.radius - p.body.margin;
+  p.thesis.base_step = (std::min)(p.thesis.base_step, Length::from_raw(room.raw() / 2));
+  p.thesis.small_step = (std::min)(p.thesis.small_step, p.thesis.base_step);
+  const double oldest = 1.0 / model.rate_hz + model.latency_s;
+  // A lost reading must not make a slow sensor stale.
+  set_si(p.conditioning.stale_after, std::max(p.conditioning.stale_after.raw() * 1e-3, 2.5 * oldest));
+  p.safety.lost_after = (std::max)(p.safety.lost_after, p.conditioning.stale_after);
+  return p;
+}
+
+double rule_angle_deg(const Params& robot, bool with_margin) {
+  const double half_cone = robot.rangefinders.cone.wrapped() * (90.0 / 2147483648.0);
+  return 90 + (with_margin ? kIncidenceMargin : 0) - seen_incidence_deg(robot, {}) - half_cone;
+}
+
+namespace {
+
+std::vector<double> usual_angles(const Params& robot) {
+  std::vector<double> angles;
+  for (double angle = kFirstAngle; angle <= kLastAngle; angle += kAngleStep) angles.push_back(angle);
+  const double rule = std::ceil(rule_angle_deg(robot, true) * 2 - 1e-6) / 2;
+  const auto at = std::lower_bound(angles.begin(), angles.end(), rule);
+  if (rule > kFirstAngle && (at == angles.end() || *at != rule)) angles.insert(at, rule);
+  return angles;
+}
+
+}  // namespace
+
+LayoutGrid layout_grid(const Params& robot, std::vector<double> angles_deg) {
+  LayoutGrid grid;
+  grid.angles_deg = angles_deg.empty() ? usual_angles(robot) : std::move(angles_deg);
+  std::sort(grid.angles_deg.begin(), grid.angles_deg.end());
+  grid.angles_deg.erase(std::unique(grid.angles_deg.begin(), grid.angles_deg.end()), grid.angles_deg.end());
+  const double radius = robot.body.radius.raw() * 1e-6;
+  for (const double part : kOffsets) grid.offsets_m.push_back(std::round(part * radius * 1e3) * 1e-3);
+  for (const double offset : grid.offsets_m) {
+    for (const double angle : grid.angles_deg) {
+      Layout layout{angle, offset, robot};
+      set_si(layout.robot.rangefinders.side_angle, angle);
+      set_si(layout.robot.rangefinders.offset, offset);
+      const ParamFault fault = check(layout.robot);
+      if (fault == ParamFault::none) {
+        grid.layouts.push_back(layout);
+      } else {
+        ++grid.refusals[static_cast<std::size_t>(fault)];
+        ++grid.refused;
+      }
+    }
+  }
+  return grid;
+}
+
+Scenario layout_scenario(const Layout& layout, const Sensor& sensor, worlds::Kind kind, std::uint64_t seed) {
+  worlds::Options options;
+  options.seed = seed;
+  Scenario scenario = worlds::generate(kind, options);
+  scenario.time_limit_s = kLayoutTimeLimit;
+  fit_to(scenario, layout.robot);
+  scenario.sensor = sensor;
+  return scenario;
+}
+
+}  // namespace whisker::campaign

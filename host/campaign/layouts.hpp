@@ -1,0 +1,53 @@
+/// Mountings of three equal rangefinders that `whisker robot layout` compares.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "firmware/params.hpp"
+#include "host/campaign/random_robot.hpp"
+#include "host/scenario/scenario.hpp"
+#include "host/scenario/sensor_models.hpp"
+#include "host/worlds/generate.hpp"
+
+namespace whisker::campaign {
+
+struct Layout {
+  double side_angle_deg = 0;
+  double offset_m = 0;
+  Params robot;  ///< check() accepts them
+};
+
+struct LayoutGrid {
+  std::vector<double> angles_deg, offsets_m;  ///< rising
+  std::vector<Layout> layouts;                ///< by offset, then by angle
+  Refusals refusals{};                        ///< of the other mountings, by the first violated relation
+  std::uint64_t refused = 0;                  ///< their sum
+};
+
+constexpr double kFirstAngle = 25, kLastAngle = 65, kAngleStep = 5;  ///< deg
+constexpr double kOffsets[] = {0, 0.5, 0.9};                         ///< body radii
+
+/// The robot with every length that does not belong to its sensors multiplied by `size`, within the range of
+/// the parameter. size > 0.
+Params scaled(Params robot, double size);
+/// The robot with three of these sensors: incidence, the cone at the maximum range, ranges, rate, latency,
+/// and time-outs and steps that fit them. The beams have no values of their own.
+Params equipped(Params robot, const SensorModel& model);
+/// The side angle at which the cones reach as far outward as the robot's incidence needs, deg: with the
+/// margin of kIncidenceMargin, or without.
+double rule_angle_deg(const Params& robot, bool with_margin);
+/// Every mounting at these angles, deg; without them, at those of the grid and at the rule's angle with its
+/// margin, rounded up to half a degree, if it is larger than kFirstAngle.
+LayoutGrid layout_grid(const Params& robot, std::vector<double> angles_deg = {});
+
+constexpr worlds::Kind kLayoutWorlds[] = {worlds::Kind::discs, worlds::Kind::u_trap, worlds::Kind::maze,
+                                          worlds::Kind::rooms};
+constexpr int kLayoutKinds = 4;
+/// s for the reference robot; it scales as in fit_to().
+constexpr double kLayoutTimeLimit = 600;
+
+/// The world of this seed, the same for every layout. Throws what worlds::generate throws.
+Scenario layout_scenario(const Layout& layout, const Sensor& sensor, worlds::Kind kind, std::uint64_t seed);
+
+}  // namespace whisker::campaign

@@ -1,0 +1,116 @@
+#include "host/scenario/coverage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/params/relations.hpp"
+
+namespace whisker {
+namespace {
+
+constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+constexpr int kSamples = 400;  // of a radius
+// The local grid reaches at least as far ahead of the body: half its window, whose middle is 3 cells ahead.
+constexpr int kCellsAhead = kHalfWindow + 3;
+
+double metres(Length l) { return l.raw() * 1e-6; }
+double degrees(Angle a) { return a.wrapped() * (180.0 / 2147483648.0); }
+
+struct Cone {
+  double x, y, axis_deg, half_deg, reach_m;
+};
+
+Cone cone(const Params& p, const Sensor& sensor, int beam) {
+  const Mount m = mount(p.rangefinders, beam);
+  double half = degrees(m.half_cone), reach = metres(proving_range(p.rangefinders, beam));
+  for (const auto& width : {sensor.cone_deg, sensor.cone_far_deg})
+    half = std::min(half, width.value_or(180) / 2);
+  return {metres(m.apex.x), metres(m.apex.y), degrees(m.axis), half,
+          std::min(reach, sensor.max_range_m.value_or(reach))};
+}
+
+/// Stretch of a line along the course; empty if from > to.
+struct Stretch {
+  double from, to;
+  /// Keeps where slope * x + offset >= 0.
+  void keep(double slope, double offset) {
+    if (slope > 0) {
+      from = std::max(from, -offset / slope);
+    } else if (slope < 0) {
+      to = std::min(to, -offset / slope);
+    } else if (offset < 0) {
+      to = from - 1;
+    }
+  }
+};
+
+/// Whether the cone sees a point of the line at distance y to the left of the course.
+bool sees(const Cone& c, double y, Stretch x) {
+  const double dy = y - c.y;
+  for (const double side : {1.0, -1.0}) {
+    // side * cross(edge, point - apex) <= 0 inside.
+    const double edge = (c.axis_deg + side * c.half_deg) * kRadPerDeg;
+    const double ex = std::cos(edge), ey = std::sin(edge);
+    x.keep(side * ey, -side * (ex * dy + ey * c.x));
+  }
+  const double span = c.reach_m * c.reach_m - dy * dy;
+  if (span < 0) return false;
+  x.from = std::max(x.from, c.x - std::sqrt(span));
+  x.to = std::min(x.to, c.x + std::sqrt(span));
+  return x.from <= x.to;
+}
+
+/// The widest on this side of the course.
+Strip unseen_beside(const Params& p, const Cone (&cones)[3], bool left) {
+  const double swept = metres(reach(p).guard), step = metres(p.body.radius) / kSamples;
+  const double window = kCellsAhead * metres(patch_cell(p)), ahead = seen_ahead_m(p);
+  Strip widest{0, 0, left}, now = widest;
+  for (int i = 0; (i + 0.5) * step < swept; ++i) {
+    const double y = (i + 0.5) * step;
+    const double from = std::min(std::sqrt(swept * swept - y * y) + ahead, window);
+    const Stretch x{from, window};
+    const bool seen = std::any_of(cones, cones + 3, [&](const Cone& c) { return sees(c, left ? y : -y, x); });
+    if (seen) {
+      now.inner_m = now.outer_m = (i + 1) * step;
+    } else {
+      now.outer_m = std::min((i + 1) * step, swept);
+      if (now.width() > widest.width()) widest = now;
+    }
+  }
+  return widest;
+}
+
+}  // namespace
+
+double outer_edge_deg(const Params& params, const Sensor& sensor, bool left) {
+  double outermost = -180;
+  for (int i = 0; i < 3; ++i) {
+    const Cone c = cone(params, sensor, i);
+    outermost = std::max(outermost, (left ? c.axis_deg : -c.axis_deg) + c.half_deg);
+  }
+  return outermost;
+}
+
+double needed_incidence_deg(const Params& params, const Sensor& sensor) {
+  return 90 - std::min(outer_edge_deg(params, sensor, true), outer_edge_deg(params, sensor, false));
+}
+
+double seen_incidence_deg(const Params& params, const Sensor& sensor) {
+  return std::min(degrees(params.rangefinders.incidence), sensor.incidence_deg);
+}
+
+double seen_ahead_m(const Params& params) {
+  return metres(min(relations::stopping_distance(params), reach(params).probe));
+}
+
+Strip unseen_strip(const Params& params, const Sensor& sensor) {
+  const Cone cones[3] = {cone(params, sensor, 0), cone(params, sensor, 1), cone(params, sensor, 2)};
+  const Strip left = unseen_beside(params, cones, true), right = unseen_beside(params, cones, false);
+  return right.width() > left.width() ? right : left;
+}
+
+bool hides_obstacles(const Strip& strip, const Params& params) {
+  return strip.width() > metres(params.skirt.shield_margin);
+}
+
+}  // namespace whisker

@@ -1,0 +1,100 @@
+// The warnings of `whisker robot check`, and that what they propose ends them.
+#include "host/scenario/mounting.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <regex>
+
+#include "host/scenario/load.hpp"
+#include "tests/scenario/temporary_file.hpp"
+
+namespace whisker {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<MountingWarning> warnings(const std::string& keys) {
+  const TemporaryFile file(keys);
+  Params params;
+  Sensor sensor;
+  apply_robot_file(params, sensor, file.path());
+  return mounting_warnings(params, sensor);
+}
+
+TEST(MountingWarnings, ThereAreNoneForIdealSensorsAndForLayoutsWithAMargin) {
+  for (const char* keys :
+       {"", "range_incidence_deg = 52.5\n", "range_side_angle_deg = 37.5\nrange_incidence_deg = 45\n",
+        "range_side_angle_deg = 42.5\nrange_incidence_deg = 40\n"}) {
+    EXPECT_TRUE(warnings(keys).empty()) << keys;
+  }
+}
+
+TEST(MountingWarnings, WallsAreInvisibleBelow95Degrees) {
+  const auto all = warnings("range_incidence_deg = 45\n");
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_STREQ(all[0].kind, "invisible_walls");
+  EXPECT_EQ(
+      all[0].text,
+      "walls ahead may be invisible: the cones reach 42.5 degrees outward (range_side_angle_deg + "
+      "range_cone_deg / 2) and walls echo up to 45.0 degrees: the sum 87.5 is less than 90 + 5; it would "
+      "fit with range_side_angle_deg >= 37.5, or with sensors that see walls up to 52.5 degrees");
+  EXPECT_EQ(warnings("range_incidence_deg = 52.4\n").size(), 1U);
+}
+
+TEST(MountingWarnings, TheFilesSensorCounts) {
+  EXPECT_EQ(warnings("[sensor]\nincidence_deg = 50\n").size(), 1U);
+  const auto all = warnings("[sensor]\nmodel = \"hc-sr04\"\n");
+  ASSERT_EQ(all.size(), 2U) << "its true cone of 15 degrees leaves a gap, too";
+  EXPECT_STREQ(all[0].kind, "invisible_walls");
+  EXPECT_STREQ(all[1].kind, "unseen_strip");
+}
+
+TEST(MountingWarnings, OwnAxesAreNamed) {
+  const std::string axes = "range_incidence_deg = 45\nrange_left_angle_deg = 30\nrange_right_angle_deg = ";
+  EXPECT_THAT(warnings(axes + "-32\n")[0].text,
+              HasSubstr("range_left_angle_deg >= 37.5 and range_right_angle_deg <= -37.5,"));
+  EXPECT_THAT(warnings(axes + "-40\n")[0].text, HasSubstr("fit with range_left_angle_deg >= 37.5, or"));
+}
+
+/// Each "key >= value" or "key <= value" that the text proposes, alone, leaves no warning.
+int proposals_that_hold(const std::string& keys, const std::string& text) {
+  const std::regex proposal("(range_[a-z_]+) [<>]= (-?[0-9.]+[0-9])");
+  int count = 0;
+  for (std::sregex_iterator it(text.begin(), text.end(), proposal), end; it != end; ++it, ++count) {
+    const std::string key = (*it)[1];
+    const std::string others = std::regex_replace(keys, std::regex(key + " = [0-9.]+\n"), "");
+    EXPECT_TRUE(warnings(key + " = " + std::string((*it)[2]) + "\n" + others).empty()) << it->str();
+  }
+  return count;
+}
+
+TEST(MountingWarnings, WhatTheyProposeFits) {
+  const std::pair<const char*, int> robots[] = {
+      {"range_incidence_deg = 45\n", 1},
+      {"range_incidence_deg = 41.37\n", 1},
+      {"range_cone_deg = 15\n", 2},
+      {"range_cone_deg = 20\nrange_side_angle_deg = 45\n", 2},
+      {"range_offset_m = 0.08\nrange_side_angle_deg = 38\n", 3},
+      {"range_cone_deg = 15\nrange_side_angle_deg = 47.5\nrange_offset_m = 0.05\nrange_incidence_deg = 40\n",
+       1},
+  };
+  for (const auto& [keys, proposals] : robots) {
+    const auto all = warnings(keys);
+    ASSERT_EQ(all.size(), 1U) << keys;
+    EXPECT_EQ(proposals_that_hold(keys, all[0].text), proposals) << all[0].text;
+  }
+}
+
+TEST(MountingWarnings, SayWhereNoSingleValueFits) {
+  const auto all = warnings(
+      "range_cone_deg = 15\nrange_side_angle_deg = 47.5\nrange_offset_m = 0.05\nrange_incidence_deg = 40\n"
+      "[sensor]\nmodel = \"hc-sr04\"\n");
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_THAT(
+      all[0].text,
+      HasSubstr("no single value of range_side_angle_deg, range_cone_deg or range_offset_m would fit"));
+}
+
+}  // namespace
+}  // namespace whisker

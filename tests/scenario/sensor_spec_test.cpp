@@ -1,0 +1,90 @@
+// What the keys of [sensor] make of the simulated robot.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hal/types.hpp"
+#include "host/run/spec.hpp"
+#include "host/scenario/sensor_models.hpp"
+
+namespace whisker {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+const double kInfinity = __builtin_huge_val();
+
+sim::RobotSpec spec(const Sensor& sensor, Length believed = 2_m) {
+  Scenario s;
+  s.sensor = sensor;
+  s.robot.rangefinders.max_range = believed;
+  return robot_spec(s);
+}
+Sensor model(const char* name) {
+  Sensor s;
+  apply(*find_sensor_model(name), s);
+  return s;
+}
+/// The range up to which this model gives an echo, m.
+double reach(const char* name, double reflectance, double ambient_klux) {
+  Sensor s = model(name);
+  s.reflectance = reflectance;
+  s.ambient_klux = ambient_klux;
+  return *s.max_range_m * echo_share(s);
+}
+
+TEST(SensorSpec, IsTheCoresRobotByDefault) {
+  const sim::RobotSpec core = sim::robot_spec(Params{}), ours = spec({});
+  EXPECT_EQ(ours.beams[hal::kFront].max_range, core.beams[hal::kFront].max_range);
+  EXPECT_EQ(ours.beams[hal::kFront].min_range, core.beams[hal::kFront].min_range);
+  EXPECT_EQ(ours.beams[hal::kFront].cone_half_width, core.beams[hal::kFront].cone_half_width);
+  EXPECT_EQ(ours.echo_range, kInfinity);
+  EXPECT_EQ(ours.corner_scatter, core.corner_scatter);
+  EXPECT_EQ(ours.range_sigma, 0);
+  EXPECT_EQ(ours.range_sigma_share, 0);
+  EXPECT_EQ(ours.cover_glass, 0);
+  EXPECT_GE(ours.cone_far_half_width, ours.beams[hal::kFront].cone_half_width) << "no taper";
+}
+
+TEST(SensorSpec, TakesTheShorterOfTheTwoRanges) {
+  EXPECT_EQ(spec(model("gp2y0a21")).beams[hal::kFront].max_range, 0.8);
+  const sim::RobotSpec far = spec(model("hc-sr04"));
+  EXPECT_EQ(far.beams[hal::kFront].max_range, 2);
+  EXPECT_EQ(far.taper_range, 4) << "the cone has its far width at the sensor's own range";
+  EXPECT_NEAR(far.beams[hal::kFront].cone_half_width, 20 * kDegree, 1e-15);
+  EXPECT_NEAR(far.cone_far_half_width, 7.5 * kDegree, 1e-15);
+  EXPECT_EQ(spec(model("hc-sr04"), 6_m).beams[hal::kFront].max_range, 4);
+  EXPECT_EQ(spec(model("tfmini")).beams[hal::kFront].min_range, 0.3);
+}
+
+TEST(SensorSpec, LightActsOnTheRangeOfTheSensorItself) {
+  Sensor s = model("tfmini");
+  s.reflectance = 0.225;
+  EXPECT_DOUBLE_EQ(spec(s).echo_range, 6);
+  EXPECT_EQ(spec(s).beams[hal::kFront].max_range, 2);
+  Sensor own;
+  own.reflectance = 0.25;
+  EXPECT_DOUBLE_EQ(spec(own).echo_range, 1);
+  own.reflectance = 0;
+  EXPECT_EQ(spec(own).echo_range, 0);
+}
+
+// The figures that the table of docs/simulator.md compares with the data sheets.
+TEST(EchoShare, FollowsTheDataSheets) {
+  EXPECT_DOUBLE_EQ(reach("vl53l0x", 0.88, 0), 2.0);
+  EXPECT_DOUBLE_EQ(reach("vl53l0x", 1, 0), 2.0);
+  EXPECT_NEAR(reach("vl53l0x", 0.17, 0), 0.8, 0.1);
+  EXPECT_NEAR(reach("vl53l0x", 0.88, 5), 0.8, 0.01);
+  EXPECT_NEAR(reach("vl53l0x", 0.17, 5), 0.5, 0.16);
+  EXPECT_NEAR(reach("vl53l1x", 0.17, 0), 1.7, 0.13);
+  EXPECT_NEAR(reach("vl53l1x", 0.88, 100), 0.73, 0.01);
+  EXPECT_NEAR(reach("tfmini", 0.9, 70), 7, 0.05);
+  EXPECT_NEAR(reach("tfmini", 0.1, 0), 5, 1.01);
+}
+
+TEST(EchoShare, IsOneWhereLightDoesNotMatter) {
+  EXPECT_EQ(reach("hc-sr04", 0.01, 100), 4);
+  EXPECT_EQ(reach("gp2y0a21", 0.1, 100), 0.8);
+}
+
+}  // namespace
+}  // namespace whisker
