@@ -14,18 +14,17 @@ namespace whisker::safety {
 ///
 /// 1. stop: the wheels are commanded to stand, from the tick of the press on, until the counts stand still;
 /// 2. back: along the places that the body has just passed, half its radius far. That ground is free,
-/// whatever
-///    the beams say of it. If they end earlier and the switch is still pressed, straight back as the guard
-///    grants;
+///    whatever the beams say of it. If they end earlier and the switch is still pressed, straight back as the
+///    guard grants;
 /// 3. wait: until no switch is pressed. A switch that stays pressed for SafetyParams::stalled_after is stuck.
 ///
 /// Without a mission, the wheels stand while a switch is pressed, and nothing else happens.
 class BumpReflex {
  public:
   struct Senses {
-    uint8_t pressed;   ///< hal::BumperReading::pressed
-    bool mission;      ///< the planner drives to a goal
-    bool still;        ///< the wheels counted nothing since the last tick
+    uint8_t pressed = 0;   ///< hal::BumperReading::pressed
+    bool mission = false;  ///< the planner drives to a goal
+    bool still = false;    ///< the wheels counted nothing since the last tick
     Duration elapsed;  ///< since the last tick
   };
 

@@ -25,6 +25,7 @@ DRIVES = (
     ("cortex-m0plus", SHORT, "map"),
     ("cortex-m3", TRAP, "map --map-bytes 16384"),
 )
+NOT_SENT = ("guide", "way_x_m", "way_y_m")
 # Planners that a chip has no room for, and the error message.
 REFUSALS = (
     ("atmega1284p", "map", "has room for 0 bytes of map, not 2048"),
@@ -37,12 +38,16 @@ def drive(whisker, scenario, planner, trace, chip=None):
     done = subprocess.run(command + (["--chip", chip] if chip else []), capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"exit status {done.returncode}: {done.stderr}{done.stdout}")
-    return json.loads(done.stdout), [told(line) for line in pathlib.Path(trace).read_text().splitlines()]
+    return json.loads(done.stdout), told(pathlib.Path(trace).read_text().splitlines())
 
 
-def told(line):
-    """A row of the trace without the columns that a chip does not send: guide, way_x_m, way_y_m."""
-    return line.rsplit(",", 3)[0]
+def told(lines):
+    """The trace without the columns that a chip does not send."""
+    rows = [line.split(",") for line in lines]
+    kept = [column for column, name in enumerate(rows[0]) if name not in NOT_SENT]
+    if len(kept) != len(rows[0]) - len(NOT_SENT):
+        raise RuntimeError(f"the trace lacks a column of {', '.join(NOT_SENT)}")
+    return [",".join(row[column] for column in kept) for row in rows]
 
 
 def first_difference(here, there):
