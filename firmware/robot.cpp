@@ -1,5 +1,7 @@
 #include "firmware/robot.hpp"
 
+#include "firmware/safety/warning.hpp"
+
 namespace whisker {
 
 Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
@@ -17,6 +19,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
   }
   odometry_.configure(params);
   perception_.configure(params);
+  warned_speed_ = safety::warned_speed(params);
   supervisor_.configure();
   motion_.configure(params);
 }
@@ -220,6 +223,9 @@ WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
     if (reflex_.retraces()) return guard_.retrace(request, wheels_.state(), elapsed_, params_);
   } else if (!stands) {
     request = motion_.request(view.pose, elapsed_, guard_.held_for(), params_);
+  }
+  if (perception_.revokes()) {
+    request.forward = limit(request.forward, safety::warned_speed(warned_speed_, request.turning));
   }
   return guard_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
 }

@@ -1,7 +1,11 @@
 #include "firmware/perception/local_grid.hpp"
 
+#include "hal/types.hpp"
+
 namespace whisker::perception {
 namespace {
+
+constexpr Angle kBeside = 30_deg;  // of a side beam, revoked with it
 
 static_assert(kUnitsPerCell == 256, "kCellCover counts in 256ths of a cell");
 
@@ -265,29 +269,43 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   }
 }
 
-void LocalGrid::revoke(const ConeObservation& observation) noexcept {
-  const Beam& beam = observation.beam;
+template <typename Each>
+bool LocalGrid::each_of_arc(const Beam& beam, Length free, Each&& each) noexcept {
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
-  if (!nearby(apex)) return;
-  const int32_t free = units(observation.free - kReadingRounding);
-  const int32_t ends = units(observation.free) + kUnitsPerCell;
+  const int32_t begins = units(free - kReadingRounding);
+  const int32_t ends = units(free) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
   for (Rows rows(apex.y, ends); rows.more(); rows.next()) {
-    const int s = slot(rows.row());
-    if ((young_[s] | old_[s]) == 0) continue;
     const int32_t dy = rows.offset(apex.y);
     Span touched = Span::around(apex.x, ends);
     cone.clip(touched, apex.x, dy, -kCellCover);
     touched.within_disc(apex.x, dy, ends);
     Span nearer = Span::around(apex.x, ends);
-    nearer.inside_disc(apex.x, dy, free);
+    nearer.inside_disc(apex.x, dy, begins);
     Span under = Span::around(body.x, footprint_);
     under.inside_disc(body.x, rows.offset(body.y), footprint_);
-    const Row taken = to_torus(touched.columns() & ~nearer.columns() & ~under.columns());
-    young_[s] &= ~taken;
-    old_[s] &= ~taken;
+    const Row arc = to_torus(touched.columns() & ~nearer.columns() & ~under.columns());
+    if (!each(slot(rows.row()), arc)) return false;
   }
+  return true;
+}
+
+void LocalGrid::revoke(const ConeObservation& observation, bool appears) noexcept {
+  const Beam& beam = observation.beam;
+  if (!nearby(local(beam.apex))) return;
+  const auto is_clear = [this](int s, Row arc) { return (arc & ~(young_[s] | old_[s])) == 0; };
+  const auto take = [this](int s, Row arc) {
+    young_[s] &= ~arc;
+    old_[s] &= ~arc;
+    return true;
+  };
+  if (each_of_arc(beam, observation.free, is_clear)) each_of_arc(beam, observation.free, take);
+  if (!appears || observation.number == hal::kFront || units(observation.free) > 2 * footprint_) return;
+  const Angle beside = Angle::from_raw(kBeside.raw() / 2);
+  const Angle outward = beam.half_cone + beside;
+  const Angle axis = observation.number == hal::kLeft ? beam.axis + outward : beam.axis - outward;
+  each_of_arc({beam.apex, axis, beside}, observation.free, take);
 }
 
 void LocalGrid::block(Vec centre, Length radius) noexcept {

@@ -71,10 +71,12 @@ class LocalGrid {
   /// so near to the apex that no single reading covers them. `before` as in mark(). No effect if Reach::past
   /// is zero.
   void chain(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
-  /// An echo takes back the ground that it may come from: cells that the cone touches from the free distance
-  /// to one cell beyond become unknown, except those under the body. For sensors that lose walls seen at an
-  /// angle, so that a clear cell may hold one.
-  void revoke(const ConeObservation& observation) noexcept;
+  /// An echo that no unclear cell explains takes back the ground that it may come from: cells that the cone
+  /// touches from the free distance to one cell beyond become unknown, except those under the body. For
+  /// sensors that lose walls seen at an angle, so that a clear cell may hold one. If an echo of a side beam
+  /// appears nearer than two radii, it also takes back the arc beside the cone, away from the front beam:
+  /// what the echo comes from may reach there, and the flank would meet it unseen.
+  void revoke(const ConeObservation& observation, bool appears = false) noexcept;
   /// An object in this beam between `observation.free` and `farthest` has moved there. Resets the cells that
   /// it can reach while the body stops, except those under the body. For a second, mark() clears no cell that
   /// near to an echo.
@@ -104,6 +106,8 @@ class LocalGrid {
   bool all_clear(Vec centre, Length radius) const noexcept;
 
  private:
+  template <typename Each>
+  bool each_of_arc(const Beam& beam, Length free, Each&& each) noexcept;
   static constexpr Length kReadingRounding = Length::from_raw(1000);
   struct Point {
     int32_t x = 0;

@@ -1,6 +1,11 @@
 #include "firmware/perception/perception.hpp"
 
 namespace whisker::perception {
+namespace {
+
+constexpr Length kAppears = 50_mm;  // nearer than the reading before: another object
+
+}  // namespace
 
 void Perception::configure(const Params& params) noexcept {
   loses_walls_ = params.rangefinders.incidence.raw() < (90_deg).raw();
@@ -36,6 +41,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   local_grid_.move_to(body.pose);
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
+  bool appears[hal::kBeams] = {};
   Pose from;
   int seen = 0;
   for (int i = 0; i < hal::kBeams; ++i) {
@@ -72,6 +78,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       local_grid_.mark(observation, before);
       local_grid_.chain(observation, before);
     }
+    appears[i] = (seen_ & bit) != 0 && last_[i].free > observation.free + kAppears;
     last_[i] = {observation.beam.apex, observation.beam.axis, observation.free};
     seen_ |= bit;
     out.observed = static_cast<uint8_t>(out.observed | bit);
@@ -81,7 +88,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
-    if (revokes() && echo) local_grid_.revoke(out.observations[i]);
+    if (revokes() && echo) local_grid_.revoke(out.observations[i], appears[i]);
     if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
   }
   for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());

@@ -50,12 +50,13 @@ class Perception {
   Echoes latest() const noexcept { return conditioner_.latest(); }
   /// The longest time for which a beam has had no usable reading.
   Duration lost_for(Time now) const noexcept { return conditioner_.lost_for(now); }
+  /// Clear ground may hold an obstacle, by the parameters or by what the readings show: echoes take it back.
+  bool revokes() const noexcept { return loses_walls_ || misses_ || contradicted_ >= kDistrusted; }
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:
   /// From this number of contradictions on, clear ground is not trusted. An object that moves causes fewer.
   static constexpr uint8_t kDistrusted = 6;
-  bool revokes() const noexcept { return loses_walls_ || misses_ || contradicted_ >= kDistrusted; }
 
   Mount mounts_[hal::kBeams];
   bool loses_walls_ = false;  // by the parameters, a clear cell may hold a wall

@@ -35,6 +35,7 @@ int32_t clamped(int32_t x, int32_t most) noexcept { return x > most ? most : x <
 struct GridMap::Box {
   Cell low{INT16_MAX, INT16_MAX};
   Cell high{-1, -1};
+  bool empty() const noexcept { return high.x < low.x; }
   void add(int32_t x, int32_t y) noexcept {
     if (x < low.x) low.x = x;
     if (x > high.x) high.x = x;
@@ -159,6 +160,17 @@ GridWord GridMap::too_narrow(int32_t row, int w) const noexcept {
   return near & ~*here & ~sure()[i];
 }
 
+/// Cells of walls that a beam meets at more than 45 degrees from the normal. A wall is a run of blocked
+/// cells.
+GridWord GridMap::oblique(int32_t row, int w, bool upright) const noexcept {
+  const int32_t words = shape_.words;
+  const int32_t i = row * words + w;
+  const GridWord* const here = blocking() + i;
+  const GridWord across = beside(w > 0 ? here[-1] : 0, *here, w < words - 1 ? here[1] : 0);
+  const GridWord along = (row > 0 ? here[-words] : 0) | (row < shape_.rows - 1 ? here[words] : 0);
+  return *here & sure()[i] & (upright ? along & ~across : across & ~along);
+}
+
 /// Only these cells can affect the current plan: cells with a level, their neighbours, and the window's rim,
 /// where a path may enter. In a fine map a change also affects the room one cell further.
 GridWord GridMap::touched(int32_t row, int w) const noexcept {
@@ -199,9 +211,11 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
   int32_t last = floor_div(y + reach - kHalfCell, kUnitsPerCell);
   if (first < 0) first = 0;
   if (last > shape_.rows - 1) last = shape_.rows - 1;
+  const bool upright = magnitude(beam.axis + beam.axis) > (90_deg).raw();
   // Readings of a narrow cone one after another free a cell together.
   const int32_t across = beam.half_cone.raw() < kNarrow.raw() ? 0 : kInside;
   Box box;
+  bool takes_back = false;
   const auto arc = [&](const perception::Wedge& wedge, int32_t row, auto&& each) {
     const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
     perception::Span outer{x - reach, x + reach};
@@ -214,7 +228,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
     const Columns nearer = inner.empty() ? Columns{INT16_MAX, -INT16_MAX} : within(inner);
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
-      const GridWord freed = revoke ? 0 : sure()[i] & ~blocking()[i];
+      const GridWord freed = takes_back ? 0 : sure()[i] & ~blocking()[i];
       const GridWord cells =
           columns(all.first, all.last, w) & ~columns(nearer.first, nearer.last, w) & ~freed;
       if (cells != 0) each(i, w, cells);
@@ -230,6 +244,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
       GridWord cells = columns(c.first, c.last, w);
+      if (revoke) cells &= ~oblique(row, w, upright);
       if (hold) {
         const GridWord closed = cells & (blocking()[i] | too_narrow(row, w));
         if (closed != 0) cells &= ~(closed & touched(row, w));
@@ -239,17 +254,24 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
     }
   }
   if (!echo) return;
-  for (int32_t row = first; row <= last; ++row) {
-    arc(cone, row, [&](int32_t, int w, GridWord cells) {
-      int32_t column = w * kWordBits;
-      for (; cells != 0; cells >>= 1, ++column) {
-        if ((cells & 1U) != 0) box.add(column, row);
-      }
-    });
+  const auto find = [&] {
+    for (int32_t row = first; row <= last; ++row) {
+      arc(cone, row, [&](int32_t, int w, GridWord cells) {
+        int32_t column = w * kWordBits;
+        for (; cells != 0; cells >>= 1, ++column) {
+          if ((cells & 1U) != 0) box.add(column, row);
+        }
+      });
+    }
+  };
+  find();
+  if (revoke && box.empty()) {
+    takes_back = true;
+    find();
   }
   const Cell wide = box.high - box.low;
   const int32_t most = units(kSure) * kUnitsPerCell;
-  const bool narrow = box.high.x >= box.low.x && wide.x < kWordBits && wide.y < kWordBits &&
+  const bool narrow = !box.empty() && wide.x < kWordBits && wide.y < kWordBits &&
                       (wide.x * wide.x + wide.y * wide.y) * kUnitsPerCell * kUnitsPerCell <=
                           most / kUnitsPerCell * (most / kUnitsPerCell);
   for (int32_t row = first; row <= last; ++row) {

@@ -32,7 +32,8 @@ class GridMap {
   /// Moves the window if the body comes near its border. True: it moved.
   bool follow(Vec body, Vec goal) noexcept;
   /// Adds the observation of one beam. `hold`: a plan is in progress, and blocked cells that it has reached
-  /// stay blocked. `revoke`: an echo may come from free cells, too.
+  /// stay blocked. `revoke`: if no other cell explains an echo, free ones may, and
+  /// a beam frees no cell of a wall that it meets at an angle.
   void mark(const perception::ConeObservation& observation, bool hold, bool revoke = false) noexcept;
   /// Copies mostly clear cells from the local grid, because several beams together clear cells that none
   /// clears alone. Not while a plan is in progress.
@@ -68,6 +69,7 @@ class GridMap {
   struct Box;
   GridWord* plane(int n) const noexcept { return planes_ + ptrdiff_t{n} * shape_.size(); }
   GridWord touched(int32_t row, int w) const noexcept;
+  GridWord oblique(int32_t row, int w, bool upright) const noexcept;
   int32_t units(Length l) const noexcept;
   Cell corner_for(Vec body, Vec goal) const noexcept;
   void move_by(Cell step) noexcept;

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include "firmware/params.hpp"
+#include "firmware/perception/local_grid.hpp"
+
+namespace whisker::test {
+namespace {
+
+using perception::ConeObservation;
+using perception::LocalGrid;
+
+ConeObservation beam_at(Angle axis, Length free, bool hit) {
+  ConeObservation o;
+  o.beam.axis = axis;
+  o.beam.half_cone = Angle::from_raw(Params{}.rangefinders.cone.raw() / 2);
+  o.free = free;
+  o.hit = hit;
+  return o;
+}
+
+class Revocation : public testing::Test {
+ protected:
+  Revocation() {
+    grid_.configure(params_);
+    grid_.reset({});
+    grid_.move_to({});
+  }
+  /// A beam that sees nothing, at these angles.
+  void clear(Angle from, Angle to) {
+    for (Angle axis = from; (to - axis).wrapped() >= 0; axis += 2_deg) grid_.mark(beam_at(axis, 2_m, false));
+  }
+  bool clear_at(Length x, Length y) const { return grid_.is_clear({x, y}); }
+
+  const Params params_;
+  LocalGrid grid_;
+};
+
+TEST_F(Revocation, AnEchoFromClearGroundTakesItBack) {
+  clear(-(40_deg), 40_deg);
+  ASSERT_TRUE(clear_at(205_mm, 0_mm));
+  grid_.revoke(beam_at(0_deg, 200_mm, true));
+  EXPECT_FALSE(clear_at(205_mm, 0_mm));
+  EXPECT_FALSE(clear_at(200_mm, 30_mm));
+  EXPECT_FALSE(clear_at(200_mm, -(30_mm)));
+  EXPECT_TRUE(clear_at(160_mm, 0_mm)) << "nearer than the echo";
+  EXPECT_TRUE(clear_at(250_mm, 0_mm)) << "beyond the echo";
+  EXPECT_TRUE(clear_at(180_mm, 90_mm)) << "beside the cone";
+}
+
+TEST_F(Revocation, AnEchoThatUnclearGroundExplainsTakesNothingBack) {
+  // Only the right half of the cone is known.
+  clear(-(40_deg), -(12_deg));
+  ASSERT_TRUE(clear_at(200_mm, -(30_mm)));
+  ASSERT_FALSE(clear_at(200_mm, 30_mm));
+  grid_.revoke(beam_at(0_deg, 200_mm, true));
+  EXPECT_TRUE(clear_at(200_mm, -(30_mm)));
+}
+
+TEST_F(Revocation, TheSecondEchoIsExplainedByTheFirst) {
+  clear(-(40_deg), 40_deg);
+  grid_.revoke(beam_at(0_deg, 200_mm, true));
+  grid_.revoke(beam_at(6_deg, 200_mm, true));
+  EXPECT_TRUE(clear_at(190_mm, 62_mm)) << "in the second cone only";
+}
+
+TEST_F(Revocation, AnEchoThatAppearsAtASideTakesBackTheArcBesideItsCone) {
+  const auto taken = [&](hal::Beam number, bool appears) {
+    LocalGrid grid = grid_;
+    ConeObservation echo = beam_at(30_deg, 150_mm, true);
+    echo.number = number;
+    grid.revoke(echo, appears);
+    return !grid.is_clear({65_mm, 140_mm});  // at 65 degrees
+  };
+  for (Angle axis = -(40_deg); (80_deg - axis).wrapped() >= 0; axis += 2_deg)
+    grid_.mark(beam_at(axis, 2_m, false));
+  EXPECT_TRUE(taken(hal::kLeft, true));
+  EXPECT_FALSE(taken(hal::kLeft, false)) << "it was there before";
+  EXPECT_FALSE(taken(hal::kFront, true));
+}
+
+TEST_F(Revocation, TheGroundUnderTheBodyStaysClear) {
+  clear(-(40_deg), 40_deg);
+  grid_.revoke(beam_at(0_deg, 40_mm, true));
+  EXPECT_TRUE(clear_at(50_mm, 0_mm));
+}
+
+}  // namespace
+}  // namespace whisker::test
