@@ -224,7 +224,7 @@ WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
   } else if (!stands) {
     request = motion_.request(view.pose, elapsed_, guard_.held_for(), params_);
   }
-  if (perception_.revokes()) {
+  if (perception_.doubts()) {
     request.forward = limit(request.forward, safety::warned_speed(warned_speed_, request.turning));
   }
   return guard_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);

@@ -72,10 +72,10 @@ class LocalGrid {
   /// is zero.
   void chain(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
   /// An echo that no unclear cell explains takes back the ground that it may come from: cells that the cone
-  /// touches from the free distance to one cell beyond become unknown, except those under the body. For
-  /// sensors that lose walls seen at an angle, so that a clear cell may hold one. If an echo of a side beam
-  /// appears nearer than two radii, it also takes back the arc beside the cone, away from the front beam:
-  /// what the echo comes from may reach there, and the flank would meet it unseen.
+  /// touches from the free distance to one cell beyond become unknown, except those under the body. A sensor
+  /// that loses walls seen at an angle may have cleared one of them. If an echo of a side beam appears nearer
+  /// than two radii, it also takes back the arc beside the cone, away from the front beam: what the echo
+  /// comes from may reach there, and the flank would meet it unseen.
   void revoke(const ConeObservation& observation, bool appears = false) noexcept;
   /// An object in this beam between `observation.free` and `farthest` has moved there. Resets the cells that
   /// it can reach while the body stops, except those under the body. For a second, mark() clears no cell that

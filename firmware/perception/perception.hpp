@@ -50,8 +50,8 @@ class Perception {
   Echoes latest() const noexcept { return conditioner_.latest(); }
   /// The longest time for which a beam has had no usable reading.
   Duration lost_for(Time now) const noexcept { return conditioner_.lost_for(now); }
-  /// Clear ground may hold an obstacle, by the parameters or by what the readings show: echoes take it back.
-  bool revokes() const noexcept { return loses_walls_ || misses_ || contradicted_ >= kDistrusted; }
+  /// Clear ground may hold an obstacle, by the parameters or by what the readings show.
+  bool doubts() const noexcept { return loses_walls_ || misses_ || contradicted_ >= kDistrusted; }
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:

@@ -25,7 +25,7 @@ class BumpReflex {
     uint8_t pressed = 0;   ///< hal::BumperReading::pressed
     bool mission = false;  ///< the planner drives to a goal
     bool still = false;    ///< the wheels counted nothing since the last tick
-    Duration elapsed;  ///< since the last tick
+    Duration elapsed;      ///< since the last tick
   };
 
   /// The body was moved by other means.
