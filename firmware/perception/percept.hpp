@@ -16,6 +16,7 @@ struct Percept {
   const LocalGrid* local_grid = nullptr;        ///< clear ground nearby
   const Contacts* contacts = nullptr;           ///< obstacles found by touch; null: none
   ConeObservation observations[hal::kBeams]{};  ///< one per beam, taken in at this tick
+  bool doubts = false;                          ///< Perception::doubts()
   uint8_t observed = 0;                         ///< one bit per beam that has one
 };
 

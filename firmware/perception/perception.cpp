@@ -93,6 +93,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   }
   for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());
   if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free);
+  out.doubts = doubts();
   out.local_grid = &local_grid_;
   out.contacts = &contacts_;
 }

@@ -69,7 +69,7 @@ struct Tally {
   int contacts = 0;
   int off = 0;  // the distance to the goal exceeds the tolerance plus the error of the given poses
   void add(const Scenario& s, const RunResult& r) {
-    if (r.verdict == Verdict::reached) {
+    if (r.verdict == Verdict::reached || r.verdict == Verdict::off_goal) {
       ++reached;
       if (r.final_distance_m > s.goal.tolerance_m + 0.06) ++off;
     }

@@ -57,7 +57,7 @@ void WavefrontPlanner::observe(const View& view) noexcept {
   }
   const bool hold = stage_ != Stage::idle;
   for (int i = 0; i < hal::kBeams; ++i) {
-    if ((view.observed >> i & 1U) != 0) map_.mark(view.observations[i], hold);
+    if ((view.observed >> i & 1U) != 0) map_.mark(view.observations[i], hold, view.doubts);
   }
   const Cell body = map_.place(view.pose.at);
   if (!hold) map_.set(body, CellState::free);

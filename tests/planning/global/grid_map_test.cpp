@@ -104,17 +104,18 @@ TEST(GridMap, ANearEchoIsSureAndAFarOneIsNot) {
   EXPECT_EQ(far.map.at(far.map.place({550_mm, 50_mm})), CellState::free);
 }
 
-TEST(GridMap, ABeamAlongAWallFreesNoneOfIt) {
-  const auto after = [](Vec at, Angle axis) {
+TEST(GridMap, ABeamAlongAWallThatItMayLoseFreesNoneOfIt) {
+  const auto after = [](Vec at, Angle axis, bool loses_walls) {
     test::Room room(kShape);
     for (int32_t x = 0; x < 1000; x += 100) {
       room.map.set(room.map.place({millimetres(x + 50), 250_mm}), CellState::occupied);
     }
-    room.map.mark(observation(at, axis, 2_m, false), false);
+    room.map.mark(observation(at, axis, 2_m, false), false, loses_walls);
     return room.map.at(room.map.place({550_mm, 250_mm}));
   };
-  EXPECT_EQ(after(kFrom, 20_deg), CellState::occupied);
-  EXPECT_EQ(after({550_mm, -(450_mm)}, 90_deg), CellState::free) << "it would see this wall";
+  EXPECT_EQ(after(kFrom, 20_deg, true), CellState::occupied);
+  EXPECT_EQ(after(kFrom, 20_deg, false), CellState::free);
+  EXPECT_EQ(after({550_mm, -(450_mm)}, 90_deg, true), CellState::free) << "it would see this wall";
 }
 
 TEST(GridMap, AnEchoThatFreeCellsAloneExplainTakesThemBack) {
