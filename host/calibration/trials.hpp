@@ -1,0 +1,28 @@
+/// How accurate the calibration is: many simulated spins of random robots, of which the truth is known.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "host/calibration/calibration.hpp"
+#include "host/calibration/simulated.hpp"
+
+namespace whisker::calibration {
+
+/// A random robot in front of a wall: apexes anywhere on the body, cones 10 to 40 degrees wide, axes up to 8
+/// degrees off, L of 25 to 75 degrees, wall 0.25 to 0.4 m away. The same for the same seed.
+struct Trial {
+  Scenario scenario;     ///< its robot is what the robot believes
+  sim::RobotSpec robot;  ///< as it is
+  double wall_m = 0;
+  std::uint64_t seed = 0;
+};
+Trial random_trial(const Noise& noise, double phantom, std::uint64_t seed);
+
+struct TrialResult {
+  Calibration measured;
+  std::array<Truth, hal::kBeams> truth;
+};
+TrialResult run(const Trial& trial);
+
+}  // namespace whisker::calibration
