@@ -14,6 +14,7 @@ namespace whisker::calibration {
 namespace {
 
 constexpr double kSure = 2;         // standard deviations
+constexpr double kLeastCone = 0.5;  // deg, of the half: the same
 constexpr double kLeastSkew = 0.5;  // deg; what is smaller changes nothing that can be measured
 constexpr double kCommonTurn = 2;   // deg, of all beams: rather the body than three mounts
 constexpr double kAlike = 1.5;      // deg, from their mean
@@ -51,7 +52,9 @@ void advise_cones(Advice& advice, const Calibration& c) {
   for (std::size_t i = 0; i < c.fits.size(); ++i) {
     const BeamFit& fit = c.fits[i];
     if (fit.trouble != Trouble::none) continue;
-    if (fit.half_cone_deg + kSure * fit.half_cone_error_deg >= c.believed[i].half_cone_deg) continue;
+    if (fit.half_cone_deg + std::max(kLeastCone, kSure * fit.half_cone_error_deg) >=
+        c.believed[i].half_cone_deg)
+      continue;
     advice.notes.push_back(
         fmt::format("the {} cone is {:.1f} degrees wide at {:.2f} m, and the robot believes {:.1f}: it would "
                     "take ground for free that no beam sees",

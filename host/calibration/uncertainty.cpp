@@ -26,8 +26,9 @@ Square inverse(const Square& a) {
   return minor;
 }
 
-constexpr double kWeak = 0.35;        // rad: what is known of an angle without any reading
-constexpr double kBinError = 0.0017;  // rad, of the edge: its resolution
+constexpr double kWeak = 0.35;         // rad: what is known of an angle without any reading
+constexpr double kBinError = 0.0017;   // rad, of axis and edge: their resolution
+constexpr double kModelError = 0.003;  // rad, of the half cone: real cones have no sharp edge
 
 }  // namespace
 
@@ -69,7 +70,7 @@ Uncertainty uncertainty(const Wall& wall, const std::vector<Look>& looks, const 
   if (!bound[0] && !bound[1]) information[0][0] += 1 / (edges * edges);
   const Square covariance = inverse(information);
   u.facing = std::sqrt(covariance[0][0] + kBinError * kBinError);
-  u.half_cone = std::sqrt(covariance[1][1]);
+  u.half_cone = std::sqrt(covariance[1][1] + kModelError * kModelError);
   u.edge = std::sqrt(edges * edges + kBinError * kBinError);
   return u;
 }

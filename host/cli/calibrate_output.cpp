@@ -1,6 +1,6 @@
 #include "host/cli/calibrate_output.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,13 +27,16 @@ const char* word(Trouble trouble) {
   return "";
 }
 
-std::string value(double x, double error) { return fmt::format("{:.1f} +-{:.1f}", x, error); }
+/// To a tenth; never -0.0.
+double tenths(double x) { return std::round(x * 10) / 10 + 0.0; }
+
+std::string value(double x, double error) { return fmt::format("{:.1f} +-{:.1f}", tenths(x), error); }
 
 std::string measured_row(const char* name, const Believed& beam, const BeamFit& f) {
   const char* const bound = f.edge_is_bound ? ">=" : "";
   return fmt::format(
       "{:<7}{:>13}{:>8}{:>13}{:>15}{:>15}{:>9}{:>9}{:>8}{:>7}{:>6}{:>10}\n", name,
-      value(f.axis_deg, f.axis_error_deg), fmt::format("{:+.1f}", calibration::skew_deg(beam, f)),
+      value(f.axis_deg, f.axis_error_deg), fmt::format("{:+.1f}", tenths(calibration::skew_deg(beam, f))),
       value(f.half_cone_deg, f.half_cone_error_deg), bound + value(f.edge_deg, f.edge_error_deg),
       bound + value(calibration::incidence_deg(f), calibration::incidence_error_deg(f)),
       fmt::format("{}{:.1f}", bound, calibration::incidence_deg(f, beam)), fmt::format("{:.3f}", f.wall_m),
@@ -41,8 +44,8 @@ std::string measured_row(const char* name, const Believed& beam, const BeamFit& 
 }
 
 std::string truth_row(const Believed& beam, const Truth& t) {
-  return fmt::format("{:<7}{:>8.1f}{:>13}{:>8.1f}{:>15.1f}{:>15.1f}\n", "  true", t.axis_deg,
-                     fmt::format("{:+.1f}", t.axis_deg - beam.axis_deg), t.half_cone_deg, t.edge_deg,
+  return fmt::format("{:<7}{:>8.1f}{:>13}{:>8.1f}{:>15.1f}{:>15.1f}\n", "  true", tenths(t.axis_deg),
+                     fmt::format("{:+.1f}", tenths(t.axis_deg - beam.axis_deg)), t.half_cone_deg, t.edge_deg,
                      t.incidence_deg);
 }
 
