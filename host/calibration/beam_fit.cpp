@@ -67,8 +67,8 @@ struct Solution {
 Solution solve(BeamFit& fit, const std::vector<Look>& looks, const Believed& beam, Errors& errors) {
   Solution s;
   s.wall = coarse_search(looks, beam, errors);
-  for (int round = 0; round < 3; ++round) {
-    s.gain = refine(s.wall, looks, errors, beam.min_range_m);
+  for (const bool final : {false, false, true}) {
+    s.gain = refine(s.wall, looks, errors, beam.min_range_m, final);
     count(fit, s.wall, looks, errors, beam.min_range_m);
   }
   return s;

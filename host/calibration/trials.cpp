@@ -37,6 +37,10 @@ TrialResult run(const Trial& trial) {
   for (int i = 0; i < hal::kBeams; ++i) {
     r.truth[static_cast<std::size_t>(i)] = truth(trial.robot, i, trial.wall_m);
   }
+  if (r.measured.complete()) {
+    const Params written = advise(r.measured, p).params;
+    r.written_incidence_deg = written.rangefinders.incidence.wrapped() * (180.0 / 2147483648.0);
+  }
   return r;
 }
 

@@ -22,6 +22,7 @@ Trial random_trial(const Noise& noise, double phantom, std::uint64_t seed);
 struct TrialResult {
   Calibration measured;
   std::array<Truth, hal::kBeams> truth;
+  double written_incidence_deg = 0;  ///< for the robot file; 0: none, because a beam was not measured
 };
 TrialResult run(const Trial& trial);
 

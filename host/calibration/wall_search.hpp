@@ -10,8 +10,8 @@ namespace whisker::calibration {
 /// Over all headings, at the most frequent distances, with the believed cone.
 Wall coarse_search(const std::vector<Look>& looks, const Believed& beam, const Errors& errors);
 
-/// Improves facing, half cone and distance; sets the edge. Returns its gain.
-double refine(Wall& wall, const std::vector<Look>& looks, const Errors& errors, double min_range);
+/// Improves facing, half cone and distance; sets the edge. Returns its gain. final: as well as possible.
+double refine(Wall& wall, const std::vector<Look>& looks, const Errors& errors, double min_range, bool final);
 
 /// Estimates of the standard deviations, rad.
 struct Uncertainty {
