@@ -87,6 +87,7 @@ void advise_incidence(Advice& advice, const Calibration& c) {
 }
 
 void note_common_turn(Advice& advice, const Calibration& c) {
+  if (c.wall_error_deg) return;
   double mean = 0;
   for (std::size_t i = 0; i < c.fits.size(); ++i) mean += skew_deg(c.believed[i], c.fits[i]) / hal::kBeams;
   if (std::fabs(mean) < kCommonTurn) return;

@@ -131,6 +131,7 @@ BeamFit fit_beam(const Samples& samples, const Believed& beam, double wall_deg) 
   fit.half_cone_deg = std::min(s.wall.half_cone, s.wall.edge) / kRadPerDeg;
   fit.half_cone_error_deg = u.half_cone / kRadPerDeg;
   fit.wall_m = s.wall.distance;
+  fit.wall_error_m = u.distance;
   fit.second_m = 0;
   fit.sigma_m = errors.sigma;
   fit.within_m = errors.within;

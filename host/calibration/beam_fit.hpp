@@ -26,6 +26,7 @@ struct BeamFit {
   bool edge_is_bound = false;  ///< the wall left the range before its echo was lost: the edge lies farther
   double half_cone_deg = 0;    ///< effective at this distance
   double half_cone_error_deg = 0;
+  double wall_error_m = 0;
   double wall_m = 0;    ///< from the centre of the turn
   double sigma_m = 0;   ///< standard deviation of the distances from the wall
   double within_m = 0;  ///< farther echoes were left out

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "host/calibration/square.hpp"
+
 namespace whisker::calibration {
 
 const char* const kBeamNames[hal::kBeams] = {"left", "front", "right"};
@@ -15,11 +17,23 @@ bool Calibration::complete() const {
 
 Calibration calibrate(const Sweep& sweep, const Params& params, double wall_deg) {
   Calibration all;
-  all.wall_deg = wall_deg;
-  for (std::size_t i = 0; i < all.fits.size(); ++i) {
-    all.believed[i] = believed(params, static_cast<int>(i));
-    all.fits[i] = fit_beam(sweep[i], all.believed[i], wall_deg);
-  }
+  all.wall_deg = all.assumed_wall_deg = wall_deg;
+  for (std::size_t i = 0; i < all.fits.size(); ++i) all.believed[i] = believed(params, static_cast<int>(i));
+  const Places places = places_of(sweep);
+  const auto fit = [&](const Sweep& at) {
+    std::array<BeamFit, hal::kBeams> fits{};
+    for (std::size_t i = 0; i < fits.size(); ++i) fits[i] = fit_beam(at[i], all.believed[i], all.wall_deg);
+    return fits;
+  };
+  all.fits = fit(places.first);
+  if (!places.second) return all;
+  const auto second = fit(*places.second);
+  const std::optional<Square> square = squared(places, all.fits, second, wall_deg);
+  if (!square) return all;
+  all.wall_deg = square->wall_deg;
+  all.wall_error_deg = square->error_deg;
+  all.fits = fit(places.first);
+  for (BeamFit& f : all.fits) f.axis_error_deg = std::hypot(f.axis_error_deg, square->error_deg);
   return all;
 }
 

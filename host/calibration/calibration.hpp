@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,16 @@ struct Calibration {
   std::array<Believed, hal::kBeams> believed{};
   std::array<BeamFit, hal::kBeams> fits{};
   double wall_deg = 0;
-  bool complete() const;  ///< all three beams were measured
+  /// Two turns at places beside each other tell the heading of the wall: wall_deg is measured, with this
+  /// error.
+  std::optional<double> wall_error_deg;
+  double assumed_wall_deg = 0;  ///< without the second turn
+  bool complete() const;        ///< all three beams were measured
 };
 
-/// wall_deg: the heading of the samples at which the body faces the wall squarely.
+/// wall_deg: the heading of the samples at which the body is believed to face the wall squarely. If the body
+/// turned at two places, 0.1 m or more apart along the wall, their distances from the wall say better.
+/// Readings at other places are left out.
 Calibration calibrate(const Sweep& sweep, const Params& params, double wall_deg);
 
 /// deg; measured minus believed axis, counter-clockwise positive.

@@ -86,7 +86,7 @@ class Listener {
     odometry_.update(set.counts, Duration::from_raw(static_cast<std::int32_t>(ahead * set.period_ms)),
                      counts);
     const double t_s = static_cast<double>(last_ - first_) * set.period_ms * 1e-3;
-    collector_.add(t_s, odometry_.pose().heading, set.ranges);
+    collector_.add(t_s, odometry_.pose(), set.ranges);
   }
 
   static constexpr std::uint32_t kLongestGap = 1000;  // ticks

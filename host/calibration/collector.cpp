@@ -1,5 +1,7 @@
 #include "host/calibration/collector.hpp"
 
+#include <cmath>
+
 #include "host/run/spec.hpp"
 
 namespace whisker::calibration {
@@ -26,14 +28,19 @@ bool Collector::heading_at(double t_s, double& heading) const {
   return false;
 }
 
-void Collector::add(double t_s, Angle heading, const hal::RangeReadings& readings) {
+double Collector::from_start_m() const {
+  return 1e-6 * std::hypot(last_.at.x.raw() - first_.at.x.raw(), last_.at.y.raw() - first_.at.y.raw());
+}
+
+void Collector::add(double t_s, const Pose& pose, const hal::RangeReadings& readings) {
   if (path_.empty()) {
-    start_ = radians(heading);
+    first_ = pose;
+    start_ = radians(pose.heading);
     path_.push_back({t_s, start_});
   } else {
-    path_.push_back({t_s, path_.back().heading + radians(heading - last_)});
+    path_.push_back({t_s, path_.back().heading + radians(pose.heading - last_.heading)});
   }
-  last_ = heading;
+  last_ = pose;
   while (path_.front().t_s < t_s - kKept_s) path_.pop_front();
   for (std::size_t i = 0; i < sweep_.size(); ++i) {
     const hal::RangeReading& r = readings.beam[i];
@@ -41,6 +48,8 @@ void Collector::add(double t_s, Angle heading, const hal::RangeReadings& reading
       continue;
     sequence_[i] = r.sequence;
     Sample sample;
+    sample.x_m = pose.at.x.raw() * 1e-6;
+    sample.y_m = pose.at.y.raw() * 1e-6;
     if (!heading_at(t_s - r.age_ms * 1e-3, sample.heading_rad)) continue;
     if (sample_of(r, beams_[i], sample)) sweep_[i].push_back(sample);
   }

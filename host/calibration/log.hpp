@@ -18,9 +18,9 @@ struct Log {
 Log read_log(const std::string& file, const Params& params, int robot);
 
 /// The columns t_s, left_m, front_m, right_m, and est_heading_rad or, where that column is missing or its
-/// first field empty, heading_rad; others are ignored, and the order does not matter. Ranges as in
-/// host/report/trace.hpp. A row may repeat the measurement of the row before; the parameters say how often
-/// the sensors measure, and how late a measurement arrives.
+/// first field empty, heading_rad; if present, est_x_m and est_y_m; others are ignored, and the order does
+/// not matter. Ranges as in host/report/trace.hpp. A row may repeat the measurement of the row before; the
+/// parameters say how often the sensors measure, and how late a measurement arrives.
 Log read_trace(std::istream& in, const std::string& name, const Params& params);
 /// The input sets of one robot; the heading is computed from its counts, from 0 on.
 Log read_candump(std::istream& in, const std::string& name, const Params& params, int robot);

@@ -19,7 +19,8 @@ enum class Reading {
 struct Sample {
   double heading_rad = 0;  ///< of the body by odometry when the distance was true; unbounded
   Reading reading = Reading::lost;
-  double metres = 0;  ///< of an echo
+  double metres = 0;        ///< of an echo
+  double x_m = 0, y_m = 0;  ///< of the body by odometry
 };
 
 /// Each measurement once, in the order in which they were taken.

@@ -58,20 +58,21 @@ double usual_distance_m(const Params& params, const Sensor& sensor) {
 }
 
 Sweep simulated_spin(const Scenario& scenario, const Params& believed, const sim::RobotSpec& what,
-                     std::uint64_t seed, std::vector<TickRecord>* records) {
+                     std::uint64_t seed, double along_m, std::vector<TickRecord>* records) {
   const SimWorld world(scenario);
   sim::Plant plant(world.view(), what, noise_spec(scenario.noise), seed, scenario.start);
   localization::Odometry odometry;
   odometry.configure(believed);
   odometry.place({});
   Collector collector(believed);
-  Spin spin(believed);
+  Spin spin(believed, along_m);
   const Duration period = believed.safety.period;
   while (!spin.done() && !spin.failed() && !plant.in_contact()) {
     localization::CountStep counts;
     odometry.update(plant.encoders(), period, counts);
-    collector.add(plant.time(), odometry.pose().heading, plant.ranges());
-    const hal::WheelSpeeds command = spin.step(collector.turned_rad(), plant.time());
+    collector.add(plant.time(), odometry.pose(), plant.ranges());
+    const hal::WheelSpeeds command =
+        spin.step(collector.turned_rad(), collector.from_start_m(), plant.time());
     if (records != nullptr) records->push_back(record(plant, odometry.pose(), command));
     plant.command(command);
     plant.advance();

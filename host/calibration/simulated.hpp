@@ -17,10 +17,11 @@ Scenario wall_scenario(const Params& params, const Sensor& sensor, const Noise& 
 /// m: 0.3, more for a large body or sensors that are blind near by, less for sensors of a short range.
 double usual_distance_m(const Params& params, const Sensor& sensor);
 
-/// believed: of the odometry and the spin. what: the robot as it is. The heading of the wall is 0. The spin
-/// ends early if the body touches the wall. records: null, or receives a record of each tick.
+/// believed: of the odometry and the spin. what: the robot as it is. along_m: see Spin. Headings count from
+/// the start. The spin ends early if the body touches the wall. records: null, or receives a record of each
+/// tick.
 Sweep simulated_spin(const Scenario& scenario, const Params& believed, const sim::RobotSpec& what,
-                     std::uint64_t seed, std::vector<TickRecord>* records = nullptr);
+                     std::uint64_t seed, double along_m = 0, std::vector<TickRecord>* records = nullptr);
 
 /// deg. What an ideal measurement at this distance would give.
 struct Truth {

@@ -1,5 +1,7 @@
-/// The drive of the calibration: on the spot, once around and back.
+/// The drive of the calibration: on the spot, once around and back; if wanted, a second time beside.
 #pragma once
+
+#include <vector>
 
 #include "firmware/params.hpp"
 #include "hal/types.hpp"
@@ -10,24 +12,34 @@ namespace whisker::calibration {
 /// speed is within 8 to 25 degrees a second.
 class Spin {
  public:
-  explicit Spin(const Params& params);
+  /// along_m: 0, or the length of a straight drive to the right, along the wall, to the place of the second
+  /// turn.
+  explicit Spin(const Params& params, double along_m = 0);
 
-  /// turned_rad: by odometry since the first call. t_s: since the first call.
-  hal::WheelSpeeds step(double turned_rad, double t_s);
-  bool done() const { return phase_ == Phase::done; }
+  /// turned_rad: by odometry since the first call. from_start_m: the distance from the first place by
+  /// odometry. t_s: since the first call.
+  hal::WheelSpeeds step(double turned_rad, double from_start_m, double t_s);
+  bool done() const { return at_ == moves_.size(); }
   /// The wheels do not turn as commanded.
-  bool failed() const { return phase_ == Phase::failed; }
+  bool failed() const { return failed_; }
   /// s, of the whole drive.
   double duration_s() const;
 
  private:
-  enum class Phase { settle, forth, pause, back, last, done, failed };
-  void enter(Phase phase, double t_s);
-  hal::WheelSpeeds turning(int sign) const;
+  struct Move {
+    enum class Kind { rest, left, right, ahead } kind;
+    double until;  ///< s, rad or m
+    double usual_s;
+  };
+  static bool complete(const Move& move, double turned_rad, double from_start_m, double since_s);
+  void turn_to(double rad);
 
   double rate_rad_s_;
   double rim_m_s_;
-  Phase phase_ = Phase::settle;
+  double turned_to_ = 0;
+  std::vector<Move> moves_;
+  std::size_t at_ = 0;
+  bool failed_ = false;
   double entered_s_ = 0;
 };
 

@@ -31,6 +31,7 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 struct Row {
   double t_s = 0;
   double heading_rad = 0;
+  double x_m = 0, y_m = 0;
   std::array<std::optional<double>, hal::kBeams> metres;  ///< none: an empty field
 };
 
@@ -84,6 +85,8 @@ class Reader {
     plain_heading_ = find(names, "heading_rad");
     if (heading_ == kNone) heading_ = need(names, "heading_rad");
     if (plain_heading_ == kNone) plain_heading_ = heading_;
+    x_ = find(names, "est_x_m");
+    y_ = find(names, "est_y_m");
     beams_ = {need(names, "left_m"), need(names, "front_m"), need(names, "right_m")};
   }
 
@@ -101,6 +104,10 @@ class Reader {
     Row r;
     r.t_s = number(fields, time_);
     r.heading_rad = number(fields, heading_);
+    if (x_ != kNone && y_ != kNone && !fields[x_].empty()) {
+      r.x_m = number(fields, x_);
+      r.y_m = number(fields, y_);
+    }
     for (std::size_t i = 0; i < r.metres.size(); ++i) {
       if (fields[beams_[i]].empty()) continue;
       r.metres[i] = number(fields, beams_[i]);
@@ -113,6 +120,7 @@ class Reader {
   std::string name_;
   std::size_t line_ = 0;
   std::size_t columns_ = 0, time_ = 0, heading_ = 0, plain_heading_ = 0;
+  std::size_t x_ = kNone, y_ = kNone;
   std::array<std::size_t, hal::kBeams> beams_{};
 };
 
@@ -135,9 +143,12 @@ void unwind(std::vector<Row>& rows) {
   }
 }
 
-Sample sample(const std::optional<double>& metres, double heading, const Believed& beam) {
+Sample sample(const Row& row, std::size_t beam_index, double heading, const Believed& beam) {
+  const std::optional<double>& metres = row.metres[beam_index];
   Sample s;
   s.heading_rad = heading;
+  s.x_m = row.x_m;
+  s.y_m = row.y_m;
   if (!metres) return s;
   const bool clear = *metres > beam.max_range_m - kRounding;
   s.reading = clear ? Reading::clear : Reading::echo;
@@ -166,7 +177,7 @@ Log read_trace(std::istream& in, const std::string& name, const Params& params) 
     last = &row;
     const double heading = heading_at(rows, row.t_s - age_s);
     for (std::size_t i = 0; i < log.sweep.size(); ++i) {
-      log.sweep[i].push_back(sample(row.metres[i], heading, beams[i]));
+      log.sweep[i].push_back(sample(row, i, heading, beams[i]));
     }
   }
   return log;

@@ -6,7 +6,7 @@
 #include "host/worlds/random.hpp"
 
 namespace whisker::calibration {
-Trial random_trial(const Noise& noise, double phantom, std::uint64_t seed) {
+Trial random_trial(const Noise& noise, double phantom, double along_m, std::uint64_t seed) {
   worlds::Random random(seed);
   Trial t;
   t.seed = seed;
@@ -27,13 +27,15 @@ Trial random_trial(const Noise& noise, double phantom, std::uint64_t seed) {
   t.scenario = wall_scenario(p, sensor, noise, t.wall_m);
   t.robot = robot_spec(t.scenario);
   for (sim::BeamSpec& beam : t.robot.beams) beam.angle += random.uniform(-8, 8) * kRadPerDeg;
+  t.along_m = along_m;
+  if (along_m > 0) t.scenario.start.heading = random.uniform(-5, 5) * kRadPerDeg;
   return t;
 }
 
 TrialResult run(const Trial& trial) {
   TrialResult r;
   const Params& p = trial.scenario.robot;
-  r.measured = calibrate(simulated_spin(trial.scenario, p, trial.robot, trial.seed), p, 0);
+  r.measured = calibrate(simulated_spin(trial.scenario, p, trial.robot, trial.seed, trial.along_m), p, 0);
   for (int i = 0; i < hal::kBeams; ++i) {
     r.truth[static_cast<std::size_t>(i)] = truth(trial.robot, i, trial.wall_m);
   }

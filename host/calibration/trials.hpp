@@ -15,9 +15,11 @@ struct Trial {
   Scenario scenario;     ///< its robot is what the robot believes
   sim::RobotSpec robot;  ///< as it is
   double wall_m = 0;
+  double along_m = 0;
   std::uint64_t seed = 0;
 };
-Trial random_trial(const Noise& noise, double phantom, std::uint64_t seed);
+/// along_m: 0, or see Spin: then the body stands up to 5 degrees off square.
+Trial random_trial(const Noise& noise, double phantom, double along_m, std::uint64_t seed);
 
 struct TrialResult {
   Calibration measured;

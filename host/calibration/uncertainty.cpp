@@ -8,11 +8,11 @@ namespace whisker::calibration {
 namespace {
 
 using Vector = std::array<double, 3>;
-using Square = std::array<Vector, 3>;
+using Matrix = std::array<Vector, 3>;
 
 /// The inverse of a symmetric, positive definite matrix.
-Square inverse(const Square& a) {
-  Square minor{};
+Matrix inverse(const Matrix& a) {
+  Matrix minor{};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       const std::size_t r = (i + 1) % 3, s = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
@@ -35,7 +35,7 @@ constexpr double kModelError = 0.003;  // rad, of the half cone: real cones have
 Uncertainty uncertainty(const Wall& wall, const std::vector<Look>& looks, const Errors& errors,
                         double min_range) {
   const double noise = 1 / (errors.sigma * errors.sigma);
-  Square information{};
+  Matrix information{};
   information[0][0] = information[1][1] = 1 / (kWeak * kWeak);
   information[2][2] = 1;
   // Of each side: the readings beyond the last tenth before the edge, and whether the edge is within the
@@ -68,9 +68,10 @@ Uncertainty uncertainty(const Wall& wall, const std::vector<Look>& looks, const 
   u.edge_is_bound = bound[0] && bound[1];
   const double edges = 0.5 * std::sqrt(left * left + right * right);
   if (!bound[0] && !bound[1]) information[0][0] += 1 / (edges * edges);
-  const Square covariance = inverse(information);
+  const Matrix covariance = inverse(information);
   u.facing = std::sqrt(covariance[0][0] + kBinError * kBinError);
   u.half_cone = std::sqrt(covariance[1][1] + kModelError * kModelError);
+  u.distance = std::sqrt(covariance[2][2]);
   u.edge = std::sqrt(edges * edges + kBinError * kBinError);
   return u;
 }

@@ -13,11 +13,12 @@ Wall coarse_search(const std::vector<Look>& looks, const Believed& beam, const E
 /// Improves facing, half cone and distance; sets the edge. Returns its gain. final: as well as possible.
 double refine(Wall& wall, const std::vector<Look>& looks, const Errors& errors, double min_range, bool final);
 
-/// Estimates of the standard deviations, rad.
+/// Estimates of the standard deviations; angles in rad.
 struct Uncertainty {
   double facing = 0;
   double half_cone = 0;
   double edge = 0;
+  double distance = 0;         ///< m
   bool edge_is_bound = false;  ///< on both sides, the wall leaves the range before the edge
 };
 Uncertainty uncertainty(const Wall& wall, const std::vector<Look>& looks, const Errors& errors,

@@ -25,8 +25,8 @@ constexpr std::uint32_t kFarewell_ms = 500;  // the base hears that the mission 
 /// The controller of a spin.
 class Spinner {
  public:
-  Spinner(hal::CanPort& port, const can::Identity& identity, const Params& params)
-      : node_(port, identity), params_(params), collector_(params), spin_(params) {
+  Spinner(hal::CanPort& port, const can::Identity& identity, const Params& params, double along_m)
+      : node_(port, identity), params_(params), collector_(params), spin_(params, along_m) {
     odometry_.configure(params);
   }
 
@@ -91,9 +91,9 @@ class Spinner {
       localization::CountStep counts;
       odometry_.update(set.counts, Duration::from_raw(ms), counts);
       last_ = set.tick;
-      collector_.add(t_s, odometry_.pose().heading, set.ranges);
+      collector_.add(t_s, odometry_.pose(), set.ranges);
     }
-    const hal::WheelSpeeds speeds = spin_.step(collector_.turned_rad(), t_s);
+    const hal::WheelSpeeds speeds = spin_.step(collector_.turned_rad(), collector_.from_start_m(), t_s);
     if (spin_.failed()) throw SpinError("the wheels do not turn as commanded");
     can::NavStatus status;
     status.outcome = spin_.done() ? planning::Outcome::reached : planning::Outcome::running;
@@ -113,7 +113,7 @@ class Spinner {
 
 }  // namespace
 
-calibration::Sweep spin_on_bus(const BusChoice& bus, const Params& params, hil::Line& line) {
+calibration::Sweep spin_on_bus(const BusChoice& bus, const Params& params, double along_m, hil::Line& line) {
   const Interrupt interrupt;
   hil::Recorder recorder(bus.record, bus.name);
   hil::Tap tap(line.port(), [&recorder](const hal::CanFrame& frame) { recorder.write(frame); });
@@ -125,7 +125,7 @@ calibration::Sweep spin_on_bus(const BusChoice& bus, const Params& params, hil::
   }
   bus::FaultPort port(tap, std::move(faults), static_cast<std::uint64_t>(bus.robot));
   hil::WallClock clock([&line] { return line.descriptor(); });
-  Spinner spinner(port, bus.identity(), params);
+  Spinner spinner(port, bus.identity(), params, along_m);
   std::string said;
   const auto say = [&](const std::string& words) {
     if (words != said) fmt::print(stderr, "controller {} on {}: {}\n", bus.robot, bus.name, words);

@@ -21,12 +21,14 @@
 #include "host/report/file.hpp"
 #include "host/report/trace.hpp"
 #include "host/run/spec.hpp"
+#include "host/scenario/bearing.hpp"
 #include "host/scenario/load.hpp"
 
 namespace whisker::cli {
 namespace {
 
-constexpr double kFarthestWall = 20;  // m
+constexpr double kFarthestWall = 20;                       // m
+constexpr double kShortestAlong = 0.1, kLongestAlong = 2;  // m
 constexpr std::uint64_t kMostTrials = 100000;
 
 struct CalibrateOptions {
@@ -36,6 +38,8 @@ struct CalibrateOptions {
   std::optional<double> wall_deg;
   std::string truth;
   std::optional<double> distance;
+  double along_m = 0;
+  double turned_deg = 0;
   Noise noise;
   std::optional<double> phantom;
   std::uint64_t seed = 1;
@@ -61,11 +65,12 @@ Spun simulate(const CalibrateOptions& o, const Params& params, const Sensor& sen
     throw UsageError(fmt::format("--distance {}: the body needs more than {:.2f} m", wall_m,
                                  real.body.radius.raw() * 1e-6 + 0.01));
   }
-  const Scenario scenario = calibration::wall_scenario(real, what, o.noise, wall_m);
+  Scenario scenario = calibration::wall_scenario(real, what, o.noise, wall_m);
+  scenario.start.heading = o.turned_deg * kRadPerDeg;
   const sim::RobotSpec spec = robot_spec(scenario);
   std::vector<TickRecord> records;
-  const calibration::Sweep sweep =
-      calibration::simulated_spin(scenario, params, spec, o.seed, o.trace.empty() ? nullptr : &records);
+  const calibration::Sweep sweep = calibration::simulated_spin(scenario, params, spec, o.seed, o.along_m,
+                                                               o.trace.empty() ? nullptr : &records);
   if (!o.trace.empty()) report::write_trace(o.trace, scenario, records);
   report.source = fmt::format("simulated spin, wall {:.2f} m away, seed {}: {} readings of a beam", wall_m,
                               o.seed, sweep[0].size());
@@ -86,7 +91,7 @@ Spun spin(const CalibrateOptions& o, const Params& params, const Sensor& sensor,
     BusChoice bus = o.bus;
     bus.robot = std::max(bus.robot, 1);
     const auto line = hil::open_line(bus.name);
-    Spun spun{spin_on_bus(bus, params, *line), 0};
+    Spun spun{spin_on_bus(bus, params, o.along_m, *line), 0};
     report.source = fmt::format("spin of robot {} on {}: {} readings of a beam", bus.robot, bus.name,
                                 spun.sweep[0].size());
     return spun;
@@ -97,19 +102,24 @@ Spun spin(const CalibrateOptions& o, const Params& params, const Sensor& sensor,
 void check_use(const CalibrateOptions& o) {
   const bool real = !o.log.empty() || !o.bus.name.empty();
   if (!o.log.empty() && !o.bus.name.empty()) throw UsageError("--log and --can: choose one");
-  const bool simulated = o.distance || o.phantom || !o.truth.empty() || !o.trace.empty() ||
-                         o.noise.range_sigma_m > 0 || o.noise.range_dropout > 0 ||
+  const bool simulated = o.distance || o.turned_deg != 0 || o.phantom || !o.truth.empty() ||
+                         !o.trace.empty() || o.noise.range_sigma_m > 0 || o.noise.range_dropout > 0 ||
                          o.noise.wheel_scale_sigma > 0;
   if (real && (simulated || o.count > 0)) {
     throw UsageError(
-        "--true, --distance, --sigma, --dropout, --phantom, --wheel-scale-sigma, --count and --trace are of "
+        "--true, --distance, --turned, --sigma, --dropout, --phantom, --wheel-scale-sigma, --count and "
+        "--trace are of "
         "a "
         "simulated spin: not with --log or --can");
   }
+  if (!o.log.empty() && o.along_m > 0) throw UsageError("--along drives a robot: not with --log");
+  if (o.along_m > 0 && o.along_m < kShortestAlong) {
+    throw UsageError(fmt::format("--along {}: 0, or {} m at least", o.along_m, kShortestAlong));
+  }
   if (o.log.empty() && o.wall_deg) throw UsageError("--wall-heading: only with --log");
   if (o.bus.name.empty() && !o.bus.record.empty()) throw UsageError("--record: only with --can");
-  if (o.count > 0 && (o.distance || !o.truth.empty() || !o.trace.empty())) {
-    throw UsageError("--count makes random robots: not with --true, --distance or --trace");
+  if (o.count > 0 && (o.distance || o.turned_deg != 0 || !o.truth.empty() || !o.trace.empty())) {
+    throw UsageError("--count makes random robots: not with --true, --distance, --turned or --trace");
   }
 }
 
@@ -118,7 +128,8 @@ int many(const CalibrateOptions& o) {
   std::atomic<std::uint64_t> next{0};
   const auto work = [&] {
     for (std::uint64_t i = next++; i < o.count; i = next++) {
-      all[i] = calibration::run(calibration::random_trial(o.noise, o.phantom.value_or(0), o.seed + i));
+      all[i] =
+          calibration::run(calibration::random_trial(o.noise, o.phantom.value_or(0), o.along_m, o.seed + i));
     }
   };
   const unsigned cores = std::max(std::thread::hardware_concurrency(), 1U);
@@ -208,6 +219,15 @@ void add_robot_calibrate(CLI::App& robot, int& status) {
   cmd->add_option("--distance", o->distance, "From the robot's centre to the simulated wall, m")
       ->transform(amount(kFarthestWall))
       ->type_name("M");
+  cmd->add_option("--along", o->along_m,
+                  "Then drive so many metres to the right, along the wall, and turn once more:\nmeasures "
+                  "whether the body "
+                  "stood square to the wall")
+      ->transform(amount(kLongestAlong))
+      ->type_name("M");
+  cmd->add_option("--turned", o->turned_deg, "The simulated body stands so many degrees off square")
+      ->check(CLI::Range(-30.0, 30.0))
+      ->type_name("DEG");
   cmd->add_option("--sigma", o->noise.range_sigma_m, "Standard deviation of a simulated distance, m")
       ->transform(amount(1))
       ->type_name("M");

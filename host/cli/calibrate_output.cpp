@@ -102,6 +102,11 @@ std::string calibration_words(const CalibrationReport& r) {
     if (f.trouble == Trouble::none && r.truth) out += truth_row(r.measured.believed[i], (*r.truth)[i]);
   }
   out += "Angles in degrees. L given: cone/2+L less the half cone that the robot believes.\n";
+  if (r.measured.wall_error_deg) {
+    out += fmt::format(
+        "The body stood {} degrees off square, by the two turns; the axes take that into account.\n",
+        value(r.measured.assumed_wall_deg - r.measured.wall_deg, *r.measured.wall_error_deg));
+  }
   if (!r.advice.lines.empty()) out += fmt::format("\nWrite into {}:\n", r.robot);
   for (const std::string& line : r.advice.lines) out += line + "\n";
   if (!r.advice.notes.empty()) out += "\n";
@@ -111,6 +116,11 @@ std::string calibration_words(const CalibrationReport& r) {
 
 std::string calibration_json(const CalibrationReport& r) {
   Json json = {{"measured", r.measured.complete()}, {"fits", r.advice.fits}};
+  json["off_square_deg"] = nullptr;
+  if (r.measured.wall_error_deg) {
+    json["off_square_deg"] = r.measured.assumed_wall_deg - r.measured.wall_deg;
+    json["off_square_error_deg"] = *r.measured.wall_error_deg;
+  }
   Json beams = Json::array();
   for (std::size_t i = 0; i < r.measured.fits.size(); ++i) beams.push_back(beam_json(i, r));
   json["beams"] = beams;

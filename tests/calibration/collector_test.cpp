@@ -14,7 +14,7 @@ TEST(Collector, TakesEachMeasurementOnceAtItsTime) {
   for (int tick = 0; tick < 10; ++tick) {
     const auto sequence = static_cast<std::uint8_t>(tick / 2);
     const auto age = static_cast<std::uint8_t>(15 + 10 * (tick % 2));
-    c.add(0.01 * tick, Angle::turns(tick, 360), readings({300, hal::RangeStatus::ok, age, sequence}));
+    c.add(0.01 * tick, {{}, Angle::turns(tick, 360)}, readings({300, hal::RangeStatus::ok, age, sequence}));
   }
   ASSERT_EQ(c.sweep()[0].size(), 4U) << "five, of which the first is older than the first tick";
   EXPECT_NEAR(c.sweep()[0][0].heading_rad / kRadPerDeg, 2 - 1.5, 1e-6);
@@ -25,7 +25,7 @@ TEST(Collector, TakesEachMeasurementOnceAtItsTime) {
 TEST(Collector, HeadingsGoOnBeyondATurn) {
   Collector c{Params{}};
   for (int tick = 0; tick < 500; ++tick) {
-    c.add(0.01 * tick, Angle::turns(tick, 360), readings({0, hal::RangeStatus::clear, 0, 0}));
+    c.add(0.01 * tick, {{}, Angle::turns(tick, 360)}, readings({0, hal::RangeStatus::clear, 0, 0}));
   }
   EXPECT_NEAR(c.turned_rad() / kRadPerDeg, 499, 1e-5);
 }

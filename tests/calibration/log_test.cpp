@@ -40,7 +40,7 @@ TEST(TraceLog, SaysTheSameAsTheSpin) {
     sensor.phantom = 0.3;
     const Scenario s = wall_scenario(p, sensor, {0.01, 0.1, 0, 0, 0}, 0.3);
     std::vector<TickRecord> records;
-    const Sweep direct = simulated_spin(s, p, robot_spec(s), 1, &records);
+    const Sweep direct = simulated_spin(s, p, robot_spec(s), 1, 0, &records);
     std::istringstream in(report::trace_csv(s, records));
     const Log log = read_trace(in, "spin.csv", p);
     EXPECT_NEAR(log.start_deg, 0, 1e-3);

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "host/scenario/bearing.hpp"
 
 namespace whisker::calibration {
@@ -15,7 +18,7 @@ struct Body {
 
   void drive(Spin& spin, const Params& p, double share = 1) {
     while (!spin.done() && !spin.failed() && t_s < 1000) {
-      const hal::WheelSpeeds v = spin.step(turned, t_s);
+      const hal::WheelSpeeds v = spin.step(turned, 0, t_s);
       EXPECT_EQ(v.left, -v.right) << "on the spot";
       turned += share * (v.right - v.left) * 1e-4 / (p.body.track.raw() * 1e-6) * 0.01;
       most = std::max(most, turned);
@@ -35,6 +38,25 @@ TEST(Spin, TurnsMoreThanOnceAndBack) {
   EXPECT_NEAR(body.t_s, spin.duration_s(), 0.5);
 }
 
+TEST(Spin, DrivesAlongTheWallToASecondTurn) {
+  const Params p;
+  Spin spin(p, 0.2);
+  double turned = 0, x = 0, y = 0, least = 0, most = 0, t_s = 0;
+  for (; !spin.done() && !spin.failed() && t_s < 1000; t_s += 0.01) {
+    const hal::WheelSpeeds v = spin.step(turned, std::hypot(x, y), t_s);
+    turned += (v.right - v.left) * 1e-4 / (p.body.track.raw() * 1e-6) * 0.01;
+    x += std::cos(turned) * (v.left + v.right) * 0.5e-4 * 0.01;
+    y += std::sin(turned) * (v.left + v.right) * 0.5e-4 * 0.01;
+    least = std::min(least, turned);
+    most = std::max(most, turned);
+  }
+  EXPECT_TRUE(spin.done());
+  EXPECT_NEAR(x, 0, 0.01);
+  EXPECT_NEAR(y, -0.2, 0.01) << "to the right";
+  EXPECT_NEAR(turned / kRadPerDeg, -90, 1);
+  EXPECT_NEAR(t_s, spin.duration_s(), 0.5);
+}
+
 TEST(Spin, SlowSensorsTurnTheBodySlowly) {
   Params slow;
   slow.rangefinders.rate_hz = 20;
@@ -50,7 +72,7 @@ TEST(Spin, FailsIfTheWheelsDoNotTurn) {
   body.drive(spin, p, 0.3);
   EXPECT_TRUE(spin.failed());
   EXPECT_FALSE(spin.done());
-  EXPECT_EQ(spin.step(1, body.t_s + 1).left, 0);
+  EXPECT_EQ(spin.step(1, 0, body.t_s + 1).left, 0);
 }
 
 }  // namespace

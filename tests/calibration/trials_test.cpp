@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "host/scenario/bearing.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker::calibration {
@@ -47,7 +48,7 @@ TEST(Trials, AreAsAccurateAsTheManualSays) {
   RecordProperty("first_seed", std::to_string(first));
   std::vector<Difference> axis, cone, edge, incidence;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
-    const TrialResult r = run(random_trial(noise, 0.3, seed));
+    const TrialResult r = run(random_trial(noise, 0.3, 0, seed));
     for (std::size_t i = 0; i < r.truth.size(); ++i) {
       const BeamFit& f = r.measured.fits[i];
       const Truth& t = r.truth[i];
@@ -67,10 +68,27 @@ TEST(Trials, AreAsAccurateAsTheManualSays) {
   expect_accuracy("L", incidence, 0.35, 3);
 }
 
+TEST(Trials, TheSecondTurnTellsWhetherTheBodyStoodSquare) {
+  for (std::uint64_t seed = first_seed(); seed < first_seed() + test::effort(6, 100); ++seed) {
+    const Trial trial = random_trial({0.01, 0.1, 0, 0, 0}, 0.3, 0.2, seed);
+    const TrialResult r = run(trial);
+    ASSERT_TRUE(r.measured.wall_error_deg) << "WHISKER_SEED=" << seed;
+    EXPECT_NEAR(r.measured.wall_deg, -trial.scenario.start.heading / kRadPerDeg, 1)
+        << "WHISKER_SEED=" << seed;
+    EXPECT_LT(*r.measured.wall_error_deg, 0.5);
+    for (std::size_t i = 0; i < r.truth.size(); ++i) {
+      const BeamFit& f = r.measured.fits[i];
+      EXPECT_NEAR(f.axis_deg, r.truth[i].axis_deg, 1.2) << "WHISKER_SEED=" << seed << ", beam " << i;
+      EXPECT_NEAR(f.half_cone_deg, r.truth[i].half_cone_deg, 3) << "WHISKER_SEED=" << seed;
+    }
+  }
+}
+
 TEST(Trials, TheSameSeedGivesTheSameSpin) {
-  const Trial a = random_trial({0.01, 0.1, 0, 0, 0}, 0.3, 7), b = random_trial({0.01, 0.1, 0, 0, 0}, 0.3, 7);
+  const Trial a = random_trial({0.01, 0.1, 0, 0, 0}, 0.3, 0, 7),
+              b = random_trial({0.01, 0.1, 0, 0, 0}, 0.3, 0, 7);
   EXPECT_EQ(run(a).measured.fits[0].axis_deg, run(b).measured.fits[0].axis_deg);
-  EXPECT_NE(run(a).measured.fits[0].axis_deg, run(random_trial({}, 0, 8)).measured.fits[0].axis_deg);
+  EXPECT_NE(run(a).measured.fits[0].axis_deg, run(random_trial({}, 0, 0, 8)).measured.fits[0].axis_deg);
 }
 
 TEST(Truth, CountsTheTaperOfTheCone) {

@@ -100,6 +100,19 @@ class Calibrate(Case):
         self.assertEqual(done.returncode, 6)
         self.assertIn("it must turn once around", done.stderr)
 
+    def test_a_second_turn_measures_whether_the_body_stood_square(self):
+        robot = self.file("robot.toml", ROBOT)
+        off = self.measured(robot, *NOISE, "--turned", 4)
+        self.assertIsNone(off["off_square_deg"])
+        self.assertAlmostEqual(off["beams"][1]["axis_deg"], 4, delta=1.5)
+        for turned in (4, -3):
+            result = self.measured(robot, *NOISE, "--turned", turned, "--along", "0.2", "--trace", self.folder / "two.csv")
+            self.near_truth(result, axis=1)
+            self.assertAlmostEqual(result["off_square_deg"], turned, delta=0.8)
+            self.assertIn("degrees off square", calibrate(robot, "--turned", turned, "--along", "0.2").stdout)
+            log = self.measured(robot, "--log", self.folder / "two.csv", "--wall-heading", 0)
+            self.assertAlmostEqual(log["off_square_deg"], turned, delta=0.8)
+
     def test_many_trials(self):
         robot = self.file("robot.toml", "")
         done = calibrate(robot, *NOISE, "--count", 4, "--seed", 5)
@@ -129,6 +142,8 @@ class Calibrate(Case):
         self.refused("robot", "calibrate", robot, "--record", "r.log", says="only with --can")
         self.refused("robot", "calibrate", robot, "--count", "3", "--distance", "1", says="--count makes random robots")
         self.refused("robot", "calibrate", robot, "--distance", "0.05", says="the body needs more than")
+        self.refused("robot", "calibrate", robot, "--along", "0.05", says="--along 0.05")
+        self.refused("robot", "calibrate", robot, "--log", "bad.csv", "--along", "0.2", says="not with --log")
         self.refused("robot", "calibrate", robot, "--true", "none.toml", says="none.toml:1:1: ")
         self.refused("robot", "calibrate", robot, "--trace", robot, says="would overwrite")
         self.refused("robot", "calibrate", robot, "--dropout", "1.5", says="--dropout")
