@@ -70,10 +70,18 @@ void advise_incidence(Advice& advice, const Calibration& c) {
   for (std::size_t i = 0; i < c.fits.size(); ++i) {
     const BeamFit& fit = c.fits[i];
     const double cone = std::max(fit.half_cone_deg, c.believed[i].half_cone_deg);
-    const double sure = fit.edge_deg - cone - kSure * incidence_error_deg(fit);
+    const double sure = fit.sure_edge_deg - cone - kSure * incidence_error_deg(fit);
     if (sure >= least) continue;
     least = sure;
     bound = fit.edge_is_bound;
+  }
+  for (std::size_t i = 0; i < c.fits.size(); ++i) {
+    const BeamFit& fit = c.fits[i];
+    if (fit.sure_edge_deg >= fit.edge_deg) continue;
+    advice.notes.push_back(
+        fmt::format("the edge of the {} beam is soft: from {:.1f} to {:.1f} degrees off its axis, echoes are "
+                    "missing now and then; the line above does without them",
+                    kBeamNames[i], fit.sure_edge_deg, fit.edge_deg));
   }
   if (!set(advice, "range_incidence_deg", half_degree_below(least))) {
     advice.notes.push_back(

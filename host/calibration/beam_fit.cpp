@@ -127,6 +127,7 @@ BeamFit fit_beam(const Samples& samples, const Believed& beam, double wall_deg) 
   fit.axis_error_deg = u.facing / kRadPerDeg;
   fit.edge_deg = s.wall.edge / kRadPerDeg;
   fit.edge_error_deg = u.edge / kRadPerDeg;
+  fit.sure_edge_deg = sure_edge(s.wall, all, errors, beam.min_range_m) / kRadPerDeg;
   fit.edge_is_bound = u.edge_is_bound;
   fit.half_cone_deg = std::min(s.wall.half_cone, s.wall.edge) / kRadPerDeg;
   fit.half_cone_error_deg = u.half_cone / kRadPerDeg;

@@ -23,6 +23,7 @@ struct BeamFit {
   double axis_error_deg = 0;
   double edge_deg = 0;  ///< half cone + L: off the axis, as far as the wall is seen
   double edge_error_deg = 0;
+  double sure_edge_deg = 0;    ///< up to here, hardly an echo is missing; edge_deg if the edge is sharp
   bool edge_is_bound = false;  ///< the wall left the range before its echo was lost: the edge lies farther
   double half_cone_deg = 0;    ///< effective at this distance
   double half_cone_error_deg = 0;

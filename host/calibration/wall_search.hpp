@@ -13,6 +13,9 @@ Wall coarse_search(const std::vector<Look>& looks, const Believed& beam, const E
 /// Improves facing, half cone and distance; sets the edge. Returns its gain. final: as well as possible.
 double refine(Wall& wall, const std::vector<Look>& looks, const Errors& errors, double min_range, bool final);
 
+/// rad; the edge, or less if it is soft: up to here, hardly more echoes are missing than near the axis.
+double sure_edge(const Wall& wall, const std::vector<Look>& looks, const Errors& errors, double min_range);
+
 /// Estimates of the standard deviations; angles in rad.
 struct Uncertainty {
   double facing = 0;

@@ -66,6 +66,7 @@ Json beam_json(std::size_t i, const CalibrationReport& r) {
     one["cone_error_deg"] = 2 * f.half_cone_error_deg;
     one["edge_deg"] = f.edge_deg;
     one["edge_error_deg"] = f.edge_error_deg;
+    one["sure_edge_deg"] = f.sure_edge_deg;
     one["edge_is_bound"] = f.edge_is_bound;
     one["incidence_deg"] = calibration::incidence_deg(f);
     one["incidence_error_deg"] = calibration::incidence_error_deg(f);

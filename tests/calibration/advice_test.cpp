@@ -21,7 +21,7 @@ Calibration as_believed(const Params& params) {
     f.trouble = Trouble::none;
     f.axis_deg = c.believed[i].axis_deg;
     f.half_cone_deg = c.believed[i].half_cone_deg;
-    f.edge_deg = f.half_cone_deg + 60;
+    f.edge_deg = f.sure_edge_deg = f.half_cone_deg + 60;
     f.axis_error_deg = f.half_cone_error_deg = f.edge_error_deg = 0.1;
   }
   return c;
@@ -52,12 +52,22 @@ TEST(Advice, WritesAxes) {
 TEST(Advice, TakesTheSmallestIncidenceToTheSafeSide) {
   const Params p;
   Calibration c = as_believed(p);
-  c.fits[1].edge_deg = 12.5 + 55.4;
+  c.fits[1].edge_deg = c.fits[1].sure_edge_deg = 12.5 + 55.4;
   EXPECT_THAT(advise(c, p).lines, ElementsAre("range_incidence_deg = 55"));
   c.fits[1].edge_error_deg = 1;
   EXPECT_THAT(advise(c, p).lines, ElementsAre("range_incidence_deg = 53"));
   c.fits[1].half_cone_deg = 15;
   EXPECT_THAT(advise(c, p).lines, ElementsAre("range_incidence_deg = 50.5")) << "the wider cone counts";
+}
+
+TEST(Advice, ASoftEdgeCountsUpToWhereItIsSure) {
+  const Params p;
+  Calibration c = as_believed(p);
+  c.fits[2].sure_edge_deg = 12.5 + 52;
+  const Advice a = advise(c, p);
+  EXPECT_THAT(a.lines, ElementsAre("range_incidence_deg = 51.5"));
+  EXPECT_THAT(a.notes, Contains(HasSubstr("the edge of the right beam is soft: from 64.5 to 72.5")));
+  EXPECT_THAT(a.notes, Contains(HasSubstr("walls ahead may be invisible")));
 }
 
 TEST(Advice, ANarrowConeIsWritten) {
@@ -72,7 +82,7 @@ TEST(Advice, ANarrowConeIsWritten) {
 TEST(Advice, WarnsOfInvisibleWalls) {
   const Params p;
   Calibration c = as_believed(p);
-  for (BeamFit& f : c.fits) f.edge_deg = 12.5 + 40.3;
+  for (BeamFit& f : c.fits) f.edge_deg = f.sure_edge_deg = 12.5 + 40.3;
   const Advice a = advise(c, p);
   EXPECT_THAT(a.lines, ElementsAre("range_incidence_deg = 40"));
   EXPECT_THAT(a.notes, ElementsAre(HasSubstr("walls ahead may be invisible")));

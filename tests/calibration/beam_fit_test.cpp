@@ -63,6 +63,22 @@ TEST(BeamFit, AnEdgeBeyondTheRangeIsABound) {
   EXPECT_GE(f.edge_deg, 12.5 + 50);
 }
 
+TEST(BeamFit, TellsASoftEdgeFromASharpOne) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Setting s = noisy();
+    s.seed = seed;
+    BeamFit f = fit(s);
+    EXPECT_LE(f.sure_edge_deg, f.edge_deg);
+    EXPECT_GT(f.sure_edge_deg, f.edge_deg - 1.5) << "seed " << seed;
+    s.soft_deg = 10;
+    f = fit(s);
+    ASSERT_EQ(f.trouble, Trouble::none) << "seed " << seed;
+    EXPECT_NEAR(f.axis_deg, 30, 2) << "seed " << seed;
+    EXPECT_LT(f.sure_edge_deg, 62.5 - 3) << "seed " << seed;
+    EXPECT_GT(f.sure_edge_deg, 62.5 - 12) << "seed " << seed;
+  }
+}
+
 TEST(BeamFit, RefusesFewReadings) {
   Setting s;
   s.step_deg = 8;
