@@ -9,7 +9,9 @@
 namespace whisker::calibration {
 namespace {
 
-constexpr double kTurn = 380 * kRadPerDeg;  // more than once around, so that no edge lies at the ends
+// More than half around to each side: headings that face the wall are near zero, where a scale error of the
+// wheels counts least, and no edge lies at the ends.
+constexpr double kHalfTurn = 190 * kRadPerDeg;
 constexpr double kAside = -90 * kRadPerDeg;
 constexpr double kRest_s = 0.5;  // until the wheels stand and the last readings have arrived
 constexpr double kSlowest = 8 * kRadPerDeg, kFastest = 25 * kRadPerDeg;
@@ -29,14 +31,16 @@ Spin::Spin(const Params& params, double along_m)
   }
   const Move rest{Move::Kind::rest, kRest_s, kRest_s};
   moves_ = {rest};
-  turn_to(kTurn);
+  turn_to(kHalfTurn);
+  turn_to(-kHalfTurn);
   turn_to(0);
   if (along_m <= 0) return;
   turn_to(kAside);
   moves_.push_back({Move::Kind::ahead, along_m, along_m / kAhead_m_s});
   moves_.push_back(rest);
-  turn_to(kAside + kTurn);
-  turn_to(kAside);
+  turn_to(kHalfTurn);
+  turn_to(-kHalfTurn);
+  turn_to(0);
 }
 
 void Spin::turn_to(double rad) {

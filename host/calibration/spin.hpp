@@ -1,4 +1,5 @@
-/// The drive of the calibration: on the spot, once around and back; if wanted, a second time beside.
+/// The drive of the calibration: on the spot, half around to the left, once around to the right, and back; if
+/// wanted, a second time beside.
 #pragma once
 
 #include <vector>

@@ -13,6 +13,7 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/hil/error_names.hpp"
+#include "host/hil/precedence.hpp"
 #include "host/hil/recorder.hpp"
 #include "host/hil/tap.hpp"
 #include "host/hil/wall_clock.hpp"
@@ -131,6 +132,8 @@ calibration::Sweep spin_on_bus(const BusChoice& bus, const Params& params, doubl
     if (words != said) fmt::print(stderr, "controller {} on {}: {}\n", bus.robot, bus.name, words);
     said = words;
   };
+  const std::string forbidden = bus.real_time ? hil::take_precedence() : "";
+  if (!forbidden.empty()) say("commands may be late, as it gets no real-time priority: " + forbidden);
   while (spinner.poll(clock.now_ms())) {
     if (interrupt.noted()) throw SpinInterrupted();
     say(spinner.words());

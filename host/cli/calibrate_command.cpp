@@ -118,6 +118,7 @@ void check_use(const CalibrateOptions& o) {
   }
   if (o.log.empty() && o.wall_deg) throw UsageError("--wall-heading: only with --log");
   if (o.bus.name.empty() && !o.bus.record.empty()) throw UsageError("--record: only with --can");
+  if (o.bus.name.empty() && o.bus.real_time) throw UsageError("--realtime: only with --can");
   if (o.count > 0 && (o.distance || o.turned_deg != 0 || !o.truth.empty() || !o.trace.empty())) {
     throw UsageError("--count makes random robots: not with --true, --distance, --turned or --trace");
   }
@@ -211,6 +212,7 @@ void add_robot_calibrate(CLI::App& robot, int& status) {
   add_file(*cmd, "ROBOT", o->robot, "Robot file (TOML): what the robot believes")->required();
   add_file(*cmd, "--log", o->log, "Analyse this log of a spin: a trace (CSV) or a candump log");
   add_bus(*cmd, o->bus);
+  add_switch(*cmd, "--realtime", o->bus.real_time, "With --can: run before other processes");
   cmd->add_option("--wall-heading", o->wall_deg,
                   "With --log: the heading that faces the wall, in degrees; by default the log's first")
       ->check(CLI::Range(-360.0, 360.0))

@@ -14,6 +14,7 @@ namespace {
 struct Body {
   double turned = 0;
   double most = 0;
+  double least = 0;
   double t_s = 0;
 
   void drive(Spin& spin, const Params& p, double share = 1) {
@@ -22,18 +23,20 @@ struct Body {
       EXPECT_EQ(v.left, -v.right) << "on the spot";
       turned += share * (v.right - v.left) * 1e-4 / (p.body.track.raw() * 1e-6) * 0.01;
       most = std::max(most, turned);
+      least = std::min(least, turned);
       t_s += 0.01;
     }
   }
 };
 
-TEST(Spin, TurnsMoreThanOnceAndBack) {
+TEST(Spin, TurnsMoreThanHalfAroundToEachSide) {
   const Params p;
   Spin spin(p);
   Body body;
   body.drive(spin, p);
   EXPECT_TRUE(spin.done());
-  EXPECT_NEAR(body.most / kRadPerDeg, 380, 1);
+  EXPECT_NEAR(body.most / kRadPerDeg, 190, 1);
+  EXPECT_NEAR(body.least / kRadPerDeg, -190, 1);
   EXPECT_NEAR(body.turned / kRadPerDeg, 0, 1);
   EXPECT_NEAR(body.t_s, spin.duration_s(), 0.5);
 }
@@ -53,16 +56,18 @@ TEST(Spin, DrivesAlongTheWallToASecondTurn) {
   EXPECT_TRUE(spin.done());
   EXPECT_NEAR(x, 0, 0.01);
   EXPECT_NEAR(y, -0.2, 0.01) << "to the right";
-  EXPECT_NEAR(turned / kRadPerDeg, -90, 1);
+  EXPECT_NEAR(turned / kRadPerDeg, 0, 1);
+  EXPECT_NEAR(most / kRadPerDeg, 190, 1);
+  EXPECT_NEAR(least / kRadPerDeg, -190, 1);
   EXPECT_NEAR(t_s, spin.duration_s(), 0.5);
 }
 
 TEST(Spin, SlowSensorsTurnTheBodySlowly) {
   Params slow;
   slow.rangefinders.rate_hz = 20;
-  EXPECT_NEAR(Spin(slow).duration_s(), 2 * 380 / 10.0 + 1.5, 0.1) << "half a degree a measurement";
+  EXPECT_NEAR(Spin(slow).duration_s(), 2 * 380 / 10.0 + 2, 0.1) << "half a degree a measurement";
   slow.rangefinders.rate_hz = 5;
-  EXPECT_NEAR(Spin(slow).duration_s(), 2 * 380 / 8.0 + 1.5, 0.1) << "the slowest";
+  EXPECT_NEAR(Spin(slow).duration_s(), 2 * 380 / 8.0 + 2, 0.1) << "the slowest";
 }
 
 TEST(Spin, FailsIfTheWheelsDoNotTurn) {

@@ -140,6 +140,7 @@ class Calibrate(Case):
         self.refused("robot", "calibrate", robot, "--log", "bad.csv", "--count", "3", says="of a simulated spin")
         self.refused("robot", "calibrate", robot, "--wall-heading", "3", says="only with --log")
         self.refused("robot", "calibrate", robot, "--record", "r.log", says="only with --can")
+        self.refused("robot", "calibrate", robot, "--realtime", says="only with --can")
         self.refused("robot", "calibrate", robot, "--count", "3", "--distance", "1", says="--count makes random robots")
         self.refused("robot", "calibrate", robot, "--distance", "0.05", says="the body needs more than")
         self.refused("robot", "calibrate", robot, "--along", "0.05", says="--along 0.05")
