@@ -127,10 +127,12 @@ void add_robot_check(CLI::App& robot, int& status) {
 }
 
 void add_robot(CLI::App& app, int& status) {
-  CLI::App* robot = app.add_subcommand("robot", "Check a robot's parameters, or lay out its sensors");
+  CLI::App* robot =
+      app.add_subcommand("robot", "Check a robot's parameters, lay out its sensors, or measure them");
   robot->require_subcommand(1);
   add_robot_check(*robot, status);
   add_robot_layout(*robot, status);
+  add_robot_calibrate(*robot, status);
 }
 
 }  // namespace whisker::cli

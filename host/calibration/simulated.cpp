@@ -1,0 +1,99 @@
+#include "host/calibration/simulated.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/localization/odometry.hpp"
+#include "host/calibration/collector.hpp"
+#include "host/calibration/spin.hpp"
+#include "host/run/sim_world.hpp"
+#include "host/run/spec.hpp"
+#include "host/scenario/bearing.hpp"
+#include "host/sim/plant.hpp"
+
+namespace whisker::calibration {
+namespace {
+
+constexpr double kHalfWall = 20;  // m: its ends are out of every range
+
+TickRecord record(const sim::Plant& plant, const Pose& believed, hal::WheelSpeeds command) {
+  TickRecord r;
+  r.t_s = plant.time();
+  r.x_m = plant.pose().at.x;
+  r.y_m = plant.pose().at.y;
+  r.heading_rad = plant.pose().heading;
+  r.ranges = plant.ranges();
+  r.v_left_mps = plant.v_left();
+  r.v_right_mps = plant.v_right();
+  r.command = command;
+  r.est_x_m = believed.at.x.raw() * 1e-6;
+  r.est_y_m = believed.at.y.raw() * 1e-6;
+  r.est_heading_rad = radians(believed.heading);
+  return r;
+}
+
+}  // namespace
+
+Scenario wall_scenario(const Params& params, const Sensor& sensor, const Noise& noise, double wall_m) {
+  Scenario s;
+  s.name = "wall";
+  s.robot = params;
+  s.sensor = sensor;
+  s.noise = noise;
+  s.walls = {{{wall_m, -kHalfWall}, {wall_m, kHalfWall}}};
+  return s;
+}
+
+double usual_distance_m(const Params& params, const Sensor& sensor) {
+  const double radius = params.body.radius.raw() * 1e-6;
+  double apex = 0, nearest = sensor.min_range_m.value_or(0), farthest = sensor.max_range_m.value_or(1000);
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const Believed b = believed(params, i);
+    apex = std::max(apex, std::hypot(b.x_m, b.y_m));
+    nearest = std::max(nearest, b.min_range_m);
+    farthest = std::min(farthest, b.max_range_m);
+  }
+  const double least = std::max(radius + 0.05, apex + 1.2 * nearest);
+  return std::max(least, std::min(std::max(0.3, 1.5 * radius), 0.5 * farthest));
+}
+
+Sweep simulated_spin(const Scenario& scenario, const Params& believed, const sim::RobotSpec& what,
+                     std::uint64_t seed, double along_m, std::vector<TickRecord>* records) {
+  const SimWorld world(scenario);
+  sim::Plant plant(world.view(), what, noise_spec(scenario.noise), seed, scenario.start);
+  localization::Odometry odometry;
+  odometry.configure(believed);
+  odometry.place({});
+  Collector collector(believed);
+  Spin spin(believed, along_m);
+  const Duration period = believed.safety.period;
+  while (!spin.done() && !spin.failed() && !plant.in_contact()) {
+    localization::CountStep counts;
+    odometry.update(plant.encoders(), period, counts);
+    collector.add(plant.time(), odometry.pose(), plant.ranges());
+    const hal::WheelSpeeds command =
+        spin.step(collector.turned_rad(), collector.from_start_m(), plant.time());
+    if (records != nullptr) records->push_back(record(plant, odometry.pose(), command));
+    plant.command(command);
+    plant.advance();
+  }
+  return collector.sweep();
+}
+
+Truth truth(const sim::RobotSpec& what, int beam, double wall_m) {
+  const sim::BeamSpec& b = what.beams[beam];
+  const auto half_cone = [&](double metres) {
+    const double far = std::min(what.cone_far_half_width, b.cone_half_width);
+    const double share = std::min(metres / what.taper_range, 1.0);
+    return b.cone_half_width - (b.cone_half_width - far) * share;
+  };
+  const double incidence = std::min(what.incidence, 89 * kRadPerDeg);
+  Truth t;
+  t.axis_deg = b.angle / kRadPerDeg;
+  t.half_cone_deg = half_cone(wall_m) / kRadPerDeg;
+  t.incidence_deg = what.incidence / kRadPerDeg;
+  t.edge_deg = t.incidence_deg + half_cone(wall_m / std::cos(incidence)) / kRadPerDeg;
+  return t;
+}
+
+}  // namespace whisker::calibration

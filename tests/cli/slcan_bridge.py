@@ -1,0 +1,56 @@
+"""A CAN bus of two nodes: two adapters on Unix sockets that pass every frame to each other (SLCAN: docs/protocol.md)."""
+
+import socket
+import threading
+
+
+class Bridge:
+    """`slcan:<path>` of each of the two paths is one end of the bus. Ends with close()."""
+
+    def __init__(self, *paths):
+        self.ends = [None, None]
+        self.listeners = []
+        for index, path in enumerate(paths):
+            listener = socket.socket(socket.AF_UNIX)
+            listener.bind(str(path))
+            listener.listen(1)
+            self.listeners.append(listener)
+            threading.Thread(target=self.serve, args=(index, listener), daemon=True).start()
+
+    def serve(self, index, listener):
+        try:
+            end, _ = listener.accept()
+        except OSError:
+            return
+        self.ends[index] = end
+        rest = b""
+        while data := self.receive(end):
+            *lines, rest = (rest + data).split(b"\r")
+            for line in lines:
+                if line.startswith(b"t"):
+                    self.send(self.ends[1 - index], line + b"\r")
+                elif line in (b"S6", b"O"):
+                    self.send(end, b"\r")
+
+    @staticmethod
+    def receive(end):
+        try:
+            return end.recv(65536)
+        except OSError:
+            return b""
+
+    @staticmethod
+    def send(end, data):
+        """A frame to an end that is not there, or gone, is lost, as on a bus."""
+        try:
+            if end is not None:
+                end.sendall(data)
+        except OSError:
+            pass
+
+    def close(self):
+        for listener in self.listeners:
+            listener.close()
+        for end in self.ends:
+            if end is not None:
+                end.close()
