@@ -269,14 +269,14 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   }
 }
 
-template <typename Each>
-bool LocalGrid::each_of_arc(const Beam& beam, Length free, Each&& each) noexcept {
+bool LocalGrid::echo_arc(const Beam& beam, Length free, bool takes) noexcept {
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
   const int32_t begins = units(free - kReadingRounding);
   const int32_t ends = units(free) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
   for (Rows rows(apex.y, ends); rows.more(); rows.next()) {
+    const int s = slot(rows.row());
     const int32_t dy = rows.offset(apex.y);
     Span touched = Span::around(apex.x, ends);
     cone.clip(touched, apex.x, dy, -kCellCover);
@@ -285,27 +285,28 @@ bool LocalGrid::each_of_arc(const Beam& beam, Length free, Each&& each) noexcept
     nearer.inside_disc(apex.x, dy, begins);
     Span under = Span::around(body.x, footprint_);
     under.inside_disc(body.x, rows.offset(body.y), footprint_);
-    const Row arc = to_torus(touched.columns() & ~nearer.columns() & ~under.columns());
-    if (!each(slot(rows.row()), arc)) return false;
+    const Row cells = to_torus(touched.columns() & ~nearer.columns() & ~under.columns());
+    if (takes) {
+      young_[s] &= ~cells;
+      old_[s] &= ~cells;
+    } else if ((cells & ~(young_[s] | old_[s])) != 0) {
+      return false;
+    }
   }
   return true;
 }
 
 void LocalGrid::revoke(const ConeObservation& observation, bool appears) noexcept {
-  const Beam& beam = observation.beam;
+  Beam beam = observation.beam;
+  const Length free = observation.free;
   if (!nearby(local(beam.apex))) return;
-  const auto is_clear = [this](int s, Row arc) { return (arc & ~(young_[s] | old_[s])) == 0; };
-  const auto take = [this](int s, Row arc) {
-    young_[s] &= ~arc;
-    old_[s] &= ~arc;
-    return true;
-  };
-  if (each_of_arc(beam, observation.free, is_clear)) each_of_arc(beam, observation.free, take);
-  if (!appears || observation.number == hal::kFront || units(observation.free) > 2 * footprint_) return;
+  if (echo_arc(beam, free, false)) echo_arc(beam, free, true);
+  if (!appears || observation.number == hal::kFront || units(free) > 2 * footprint_) return;
   const Angle beside = Angle::from_raw(kBeside.raw() / 2);
   const Angle outward = beam.half_cone + beside;
-  const Angle axis = observation.number == hal::kLeft ? beam.axis + outward : beam.axis - outward;
-  each_of_arc({beam.apex, axis, beside}, observation.free, take);
+  beam.axis += observation.number == hal::kLeft ? outward : -outward;
+  beam.half_cone = beside;
+  echo_arc(beam, free, true);
 }
 
 void LocalGrid::block(Vec centre, Length radius) noexcept {

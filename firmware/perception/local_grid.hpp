@@ -106,8 +106,8 @@ class LocalGrid {
   bool all_clear(Vec centre, Length radius) const noexcept;
 
  private:
-  template <typename Each>
-  bool each_of_arc(const Beam& beam, Length free, Each&& each) noexcept;
+  /// The cells that an echo at `free` may come from: takes them back, or tells whether all are clear.
+  bool echo_arc(const Beam& beam, Length free, bool takes) noexcept;
   static constexpr Length kReadingRounding = Length::from_raw(1000);
   struct Point {
     int32_t x = 0;

@@ -20,7 +20,8 @@ Speed warned_speed(const Params& params) noexcept;
 /// The same while the rims turn at this speed: what the inner flank runs into comes into view later. At least
 /// a quarter of the speed straight ahead.
 constexpr Speed warned_speed(Speed straight, Speed turning) noexcept {
-  return max(straight / 4, straight - abs(turning));
+  const Speed rest = turning < Speed{} ? straight + turning : straight - turning;
+  return rest < straight / 4 ? straight / 4 : rest;
 }
 
 }  // namespace whisker::safety
