@@ -15,7 +15,8 @@ Reach reach(const Params& p) noexcept;
 }  // namespace at_run_time
 
 constexpr Length patch_cell(const Params& p) noexcept {
-  return p.skirt.cell != Length{} ? p.skirt.cell : p.body.radius * 2 / 9;
+  const Length side = p.skirt.cell != Length{} ? p.skirt.cell : p.body.radius * 2 / 9;
+  return side / 2 * 2;  // its halves are the cells of a finer grid
 }
 constexpr Length cell_cover(const Params& p) noexcept { return patch_cell(p) * kCellCover / 256; }
 

@@ -9,14 +9,9 @@ constexpr Angle kSuspectHalf = 6_deg;
 constexpr Length kTestedTravel = 4_mm;
 constexpr int32_t kAhead = 3;  // cells
 constexpr Duration kDoubt = 1000_ms;
-constexpr int64_t kNear = INT32_C(1) << 30;
 
 // Seen from any apex within or near the window.
 constexpr int32_t kWholeWindow = 5 * kCells * kUnitsPerCell;
-
-constexpr int32_t within(int64_t x, int32_t limit) noexcept {
-  return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
-}
 
 /// From the measurement of a moving object to standstill: two more readings, latency, a gap, lag, braking.
 Duration time_to_stop(const Params& p) noexcept {
@@ -35,17 +30,9 @@ Beam beam_of(const Mount& mount, const Pose& body) noexcept {
   return {body.at + ahead + aside, body.heading + mount.axis, mount.half_cone};
 }
 
-int32_t LocalGrid::units(int64_t um, int32_t most) const noexcept {
-  const int64_t n = um * kUnitsPerCell;
-  // Most values are small, and a 32-bit division is faster.
-  if (n < kNear && n > -kNear) return within(floor_div(static_cast<int32_t>(n), cell_um_), most);
-  return within(floor_div<int64_t>(n, cell_um_), most);
-}
-
-int32_t LocalGrid::units(Length l) const noexcept { return units(l.raw(), kLongest); }
-
 void LocalGrid::configure(const Params& params) noexcept {
-  cell_um_ = patch_cell(params).raw();
+  frame_.cell_um = patch_cell(params).raw();
+  fine_.configure(frame_.cell_um);
   swept_ = rim_sweep(params).radius;
   place_error_ = formula::place_error(params);
   footprint_ = units(swept_);
@@ -61,13 +48,6 @@ void LocalGrid::configure(const Params& params) noexcept {
   age_travel_ = params.skirt.age_travel;
   age_turn_ = params.skirt.age_turn.raw();
   approach_ = params.skirt.mover_speed * time_to_stop(params);
-}
-
-LocalGrid::Point LocalGrid::local(Vec at) const noexcept {
-  const auto from_corner = [this](Length x, int32_t corner) {
-    return units(int64_t{x.raw()} - int64_t{corner} * cell_um_, kOutermost);
-  };
-  return {from_corner(at.x, column_), from_corner(at.y, row_)};
 }
 
 void LocalGrid::drop_rows(int first, int count) noexcept {
@@ -91,6 +71,7 @@ void LocalGrid::drop_columns(Row window) noexcept {
 
 void LocalGrid::reset(const Pose& pose) noexcept {
   drop_rows(0, kCells);
+  fine_.reset();
   for (Chain& chain : chains_) chain.linked = false;
   last_ = pose;
   travel_ = Length{};
@@ -101,19 +82,20 @@ void LocalGrid::reset(const Pose& pose) noexcept {
 
 void LocalGrid::move_to(const Pose& pose) noexcept {
   // The body is behind the middle of the window, because the beams point ahead.
-  const Vec middle = pose.at + polar(pose.heading, Length::from_raw(cell_um_ * kAhead));
+  const Vec middle = pose.at + polar(pose.heading, Length::from_raw(frame_.cell_um * kAhead));
   const auto corner = [this](Length x) {
-    return static_cast<int32_t>(floor_div<int64_t>(int64_t{x.raw()} + cell_um_ / 2, cell_um_)) - kCells / 2;
+    return static_cast<int32_t>(floor_div<int64_t>(int64_t{x.raw()} + frame_.cell_um / 2, frame_.cell_um)) -
+           kCells / 2;
   };
-  const int32_t right = corner(middle.x) - column_;
-  const int32_t up = corner(middle.y) - row_;
+  const int32_t right = corner(middle.x) - frame_.column;
+  const int32_t up = corner(middle.y) - frame_.row;
   if (right >= kCells || right <= -kCells || up >= kCells || up <= -kCells) {
-    column_ += right;
-    row_ += up;
+    frame_.column += right;
+    frame_.row += up;
     drop_rows(0, kCells);
   } else {
-    column_ += right;
-    row_ += up;
+    frame_.column += right;
+    frame_.row += up;
     const int rows = static_cast<int>(up);
     const int cols = static_cast<int>(right);
     if (rows > 0) drop_rows(kCells - rows, rows);
@@ -121,12 +103,14 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
     if (cols > 0) drop_columns(columns_between(kCells - cols, kCells - 1));
     if (cols < 0) drop_columns(columns_between(0, -cols - 1));
   }
+  fine_.move_to(frame_.column, frame_.row);
   if (farther(pose.at - tested_at_, kTestedTravel)) {
     for (Row& row : tested_) row = 0;
     tested_at_ = pose.at;
   }
   age(pose);
   clear_around(pose.at, footprint_);
+  fine_.mark_around(fine_.frame().local(pose.at), fine_.frame().units(swept_));
 }
 
 void LocalGrid::age(const Pose& pose) noexcept {
@@ -139,6 +123,8 @@ void LocalGrid::age(const Pose& pose) noexcept {
       old_[s] = young_[s];
       young_[s] = 0;
     }
+    const GridFrame& fine = fine_.frame();
+    fine_.keep_around(fine.local(pose.at), fine.units(reach_.planning) + kUnitsPerCell + kCellCover);
     travel_ = Length{};
     turned_ = 0;
   }
@@ -171,16 +157,47 @@ void LocalGrid::clear_around(Vec at, int32_t reach) noexcept {
   }
 }
 
+void LocalGrid::forget(int row, Row cells) noexcept {
+  young_[slot(row)] &= ~cells;
+  old_[slot(row)] &= ~cells;
+  fine_.forget(row, to_window(cells));
+}
+
+void LocalGrid::mark_fine(const ConeObservation& observation, const EarlierObservation& before,
+                          Length room) noexcept {
+  const GridFrame& frame = fine_.frame();
+  const Beam& beam = observation.beam;
+  const Point apex = frame.local(beam.apex);
+  const Point apex_before = frame.local(before.apex);
+  if (!GridFrame::nearby(apex) || !GridFrame::nearby(apex_before)) return;
+  const int32_t free = frame.units(observation.free - room - kReadingRounding);
+  const int32_t free_before = frame.units(before.free - room - kReadingRounding);
+  const Wedge cone(beam.axis, beam.half_cone);
+  const Wedge cone_before(before.axis, beam.half_cone);
+  for (Rows rows = cone.rows(apex.y, free, FineGrid::kFineCells); rows.more(); rows.next()) {
+    const int32_t dy = rows.offset(apex.y);
+    Span empty = Span::around(apex.x, free);
+    cone.hold(empty, apex.x, dy);
+    if ((FineGrid::columns(empty) & ~fine_.clear(rows.row())) == 0) continue;
+    empty.inside_disc(apex.x, dy, free);
+    cone_before.hold(empty, apex_before.x, rows.offset(apex_before.y));
+    empty.inside_disc(apex_before.x, rows.offset(apex_before.y), free_before);
+    fine_.mark(rows.row(), empty);
+  }
+}
+
 void LocalGrid::mark(const ConeObservation& observation, const EarlierObservation* before) noexcept {
   const Beam& beam = observation.beam;
   const Point apex = local(beam.apex);
-  if (!nearby(apex)) return;
+  if (!GridFrame::nearby(apex)) return;
   const Angle axis_before = before == nullptr ? beam.axis : before->axis;
   const Vec from_before = before == nullptr ? beam.apex : before->apex;
   const Point apex_before = local(from_before);
-  if (!nearby(apex_before)) return;
+  if (!GridFrame::nearby(apex_before)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
+  mark_fine(observation,
+            before == nullptr ? EarlierObservation{beam.apex, beam.axis, observation.free} : *before, room);
   const int32_t free = units(observation.free - room - kReadingRounding);
   const int32_t free_before = before == nullptr ? free : units(before->free - room - kReadingRounding);
   const int32_t echo = units(observation.free) + kUnitsPerCell;
@@ -235,7 +252,7 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   const Beam& beam = observation.beam;
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
-  if (!nearby(apex)) return;
+  if (!GridFrame::nearby(apex)) return;
   const int32_t approach = units(approach_) + kCellCover;
   const int32_t nearest = units(observation.free) - approach;
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;
@@ -258,8 +275,7 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
     cone.clip(echo, apex.x, dy, 0);
     echo.within_disc(apex.x, dy, echo_ends);
     const int s = slot(row);
-    young_[s] &= ~taken;
-    old_[s] &= ~taken;
+    forget(row, taken);
     suspect_[s] = (suspect_[s] & ~taken) | (taken & to_torus(echo.columns()));
     tested_[s] &= ~taken;
   }
@@ -269,13 +285,11 @@ void LocalGrid::revoke(const ConeObservation& observation) noexcept {
   const Beam& beam = observation.beam;
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
-  if (!nearby(apex)) return;
+  if (!GridFrame::nearby(apex)) return;
   const int32_t free = units(observation.free - kReadingRounding);
   const int32_t ends = units(observation.free) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
   for (Rows rows(apex.y, ends); rows.more(); rows.next()) {
-    const int s = slot(rows.row());
-    if ((young_[s] | old_[s]) == 0) continue;
     const int32_t dy = rows.offset(apex.y);
     Span touched = Span::around(apex.x, ends);
     cone.clip(touched, apex.x, dy, -kCellCover);
@@ -285,15 +299,14 @@ void LocalGrid::revoke(const ConeObservation& observation) noexcept {
     Span under = Span::around(body.x, footprint_);
     under.inside_disc(body.x, rows.offset(body.y), footprint_);
     const Row taken = to_torus(touched.columns() & ~nearer.columns() & ~under.columns());
-    young_[s] &= ~taken;
-    old_[s] &= ~taken;
+    forget(rows.row(), taken);
   }
 }
 
 void LocalGrid::block(Vec centre, Length radius) noexcept {
   const Point at = local(centre);
   const Point body = local(last_.at);
-  if (!nearby(at)) return;
+  if (!GridFrame::nearby(at)) return;
   const int32_t reach = units(radius);
   for (Rows rows(at.y, reach + kHalfSquare); rows.more(); rows.next()) {
     const int s = slot(rows.row());
@@ -302,8 +315,7 @@ void LocalGrid::block(Vec centre, Length radius) noexcept {
     Span under = Span::around(body.x, footprint_);
     under.inside_disc(body.x, rows.offset(body.y), footprint_);
     const Row taken = to_torus(touched.columns() & ~under.columns());
-    young_[s] &= ~taken;
-    old_[s] &= ~taken;
+    forget(rows.row(), taken);
     suspect_[s] |= taken;
   }
 }

@@ -5,6 +5,8 @@
 
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
+#include "firmware/perception/fine_grid.hpp"
+#include "firmware/perception/grid_frame.hpp"
 #include "firmware/perception/raster.hpp"
 
 namespace whisker::perception {
@@ -97,7 +99,7 @@ class LocalGrid {
   bool approaches(const Vec& from, Angle heading, Length step, Length radius,
                   Avoid avoid = Avoid::unclear) const noexcept;
   /// The grid covers at most this distance from the body along each axis.
-  Length half_window() const noexcept { return Length::from_raw(cell_um_ * (kCells / 2)); }
+  Length half_window() const noexcept { return Length::from_raw(frame_.cell_um * (kCells / 2)); }
   /// The state of one cell, for display; false outside the window.
   bool is_clear(Vec at) const noexcept;
   /// True if all cells that this disc touches are inside the window and clear.
@@ -105,34 +107,32 @@ class LocalGrid {
 
  private:
   static constexpr Length kReadingRounding = Length::from_raw(1000);
-  struct Point {
-    int32_t x = 0;
-    int32_t y = 0;
-  };
+  using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
   Row solid_row(int row) const noexcept { return to_window(suspect_[slot(row)] | tested_[slot(row)]); }
-  int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
-  uint32_t shift() const noexcept { return static_cast<uint32_t>(column_) & (kCells - 1); }
+  int slot(int row) const noexcept { return (frame_.row + row) & (kCells - 1); }
+  uint32_t shift() const noexcept { return static_cast<uint32_t>(frame_.column) & (kCells - 1); }
   Row to_torus(Row window) const noexcept {
     return shift() == 0 ? window : (window << shift()) | (window >> (kCells - shift()));
   }
   Row to_window(Row torus) const noexcept {
     return shift() == 0 ? torus : (torus >> shift()) | (torus << (kCells - shift()));
   }
-  int32_t units(Length l) const noexcept;
-  int32_t units(int64_t um, int32_t most) const noexcept;
-  Length length_of(int32_t units) const noexcept;
-  Point local(Vec at) const noexcept;
-  /// Within the range in which units() does not saturate.
-  static bool nearby(Point p) noexcept {
-    return p.x > -kOutermost && p.x < kOutermost && p.y > -kOutermost && p.y < kOutermost;
-  }
+  int32_t units(Length l) const noexcept { return frame_.units(l); }
+  Point local(Vec at) const noexcept { return frame_.local(at); }
   static bool in_window(Point p, int32_t reach) noexcept;
   void drop_rows(int first, int count) noexcept;
   void drop_columns(Row window) noexcept;
   void age(const Pose& pose) noexcept;
   void renew_around(Vec at) noexcept;
   void clear_around(Vec at, int32_t reach) noexcept;
+  void mark_fine(const ConeObservation& observation, const EarlierObservation& before, Length room) noexcept;
+  /// These cells of a row, on the torus, are not clear any more, nor are their parts.
+  void forget(int row, Row cells) noexcept;
+  /// Those of these cells of a row that have a part that the shape touches and that is not clear. `touched`
+  /// gives the span of a fine row that the shape touches.
+  template <class Touched>
+  Row with_unclear_parts(int row, Row cells, const Touched& touched) const noexcept;
 
   /// The readings of a beam one after another while its cone sweeps to one side.
   ///
@@ -157,8 +157,7 @@ class LocalGrid {
   bool link(const Chain& chain, const Vec& from, Angle trail, Angle half_cone,
             Boundary& seen_ahead) const noexcept;
 
-  int32_t column_ = 0;  // of the window's corner, in world cells
-  int32_t row_ = 0;
+  GridFrame frame_;
   Pose last_;
   Vec tested_at_;
   Length travel_;        // since the last ageing
@@ -168,8 +167,7 @@ class LocalGrid {
   Length age_travel_;
   uint32_t age_turn_ = 0;
   Reach reach_;
-  Length approach_;  // travel of a moving object while the body stops
-  int32_t cell_um_ = 20000;
+  Length approach_;        // travel of a moving object while the body stops
   int32_t footprint_ = 0;  // grid units
   int32_t ring_ = 0;       // ring beside the body's path; grid units
 
@@ -182,6 +180,7 @@ class LocalGrid {
   Row old_[kCells] = {};      // cleared before it
   Row suspect_[kCells] = {};  // near an echo
   Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
+  FineGrid fine_;
 };
 
 }  // namespace whisker::perception

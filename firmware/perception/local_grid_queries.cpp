@@ -5,12 +5,18 @@ namespace {
 
 // Passing a corner at lateral distance d: the body comes x^2 / 2d nearer than x before it (docs/ground.md).
 constexpr int32_t kAbeam = 80;
+constexpr int32_t kFineAbeam = kAbeam * FineGrid::kParts;
 constexpr int32_t kWindow = kCells * kUnitsPerCell;
 
 }  // namespace
 
-Length LocalGrid::length_of(int32_t units) const noexcept {
-  return Length::from_raw(multiply_divide(units, cell_um_, kUnitsPerCell));
+template <class Touched>
+Row LocalGrid::with_unclear_parts(int row, Row cells, const Touched& touched) const noexcept {
+  FineRow unclear = 0;
+  for (int part = row * FineGrid::kParts; part < (row + 1) * FineGrid::kParts; ++part) {
+    unclear |= FineGrid::columns(touched(part)) & ~fine_.clear(part);
+  }
+  return cells & FineGrid::cells_of(unclear);
 }
 
 bool LocalGrid::in_window(Point p, int32_t reach) noexcept {
@@ -23,11 +29,17 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
   const Point start = local(from);
   const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
   const Row box = stadium.box();
+  const GridFrame& frame = fine_.frame();
+  const Point fine_start = frame.local(from);
+  const Stadium fine(
+      {fine_start.x, fine_start.y, heading, frame.units(length), frame.units(radius), kFineAbeam});
   int32_t nearest = INT32_MAX;
   for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
     Row blocked = box & to_window(~clear_row(rows.row()));
     if (blocked == 0) continue;
     blocked &= stadium.columns(rows.row());
+    if (blocked == 0) continue;
+    blocked = with_unclear_parts(rows.row(), blocked, [&](int part) { return fine.span(part); });
     const Row solid = blocked & solid_row(rows.row());
     found.suspect += bits(solid);
     if (found.suspect >= enough) break;
@@ -39,7 +51,7 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
       const int32_t squared = dx * dx + dy * dy;
       if (squared < nearest) {
         nearest = squared;
-        found.nearest_unknown = {length_of(dx), length_of(dy)};
+        found.nearest_unknown = {frame_.length_of(dx), frame_.length_of(dy)};
       }
     }
   }
@@ -50,12 +62,25 @@ bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length r
                            Avoid avoid) const noexcept {
   if (step < kShortestStep) return false;
   const Point here = local(from);
-  const Point there = local(from + polar(heading, step));
+  const Vec end = from + polar(heading, step);
+  const Point there = local(end);
   const int32_t reach = units(radius);
   const int32_t half = units(step / 2);
   // Beyond the window nothing is known.
   if (!in_window(there, reach + kHalfSquare)) return true;
   const HalfPlane ahead = HalfPlane::facing(heading);
+  const GridFrame& fine = fine_.frame();
+  const Point fine_here = fine.local(from);
+  const Point fine_there = fine.local(end);
+  const int32_t fine_reach = fine.units(radius);
+  const int32_t fine_half = fine.units(step / 2);
+  const auto touched = [&](int part) {
+    const int32_t centre = part * kUnitsPerCell + kHalfCell;
+    Span span = Span::around(fine_there.x, fine_reach);
+    span.touched_by_disc(fine_there.x, centre - fine_there.y, fine_reach);
+    ahead.clip(span, fine_here.x, centre - fine_here.y, fine_half > kFineAbeam ? fine_half : kFineAbeam);
+    return span;
+  };
   const Row box = Span::around(there.x, reach).columns();
   for (Rows rows(there.y, reach + kHalfSquare); rows.more(); rows.next()) {
     Row unclear = box & to_window(~clear_row(rows.row()));
@@ -64,7 +89,8 @@ bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length r
     Span span;
     span.touched_by_disc(there.x, rows.offset(there.y), reach);
     ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
-    if ((span.columns() & unclear) != 0) return true;
+    unclear &= span.columns();
+    if (unclear != 0 && with_unclear_parts(rows.row(), unclear, touched) != 0) return true;
   }
   return false;
 }

@@ -54,17 +54,17 @@ void Span::touched_by_disc(int32_t x, int32_t dy, int32_t radius) noexcept {
 
 Row Span::columns() const noexcept {
   constexpr int32_t kLastCentre = kCells * kUnitsPerCell - kHalfCell;
-  if (low > kLastCentre || high < kHalfCell) return 0;
+  if (low > kLastCentre || high < kHalfCell || low > high) return 0;
   const int32_t first = low < kHalfCell ? 0 : (low - kHalfCell + kUnitsPerCell - 1) / kUnitsPerCell;
   const int32_t last = high > kLastCentre ? kCells - 1 : (high - kHalfCell) / kUnitsPerCell;
   return columns_between(static_cast<int>(first), static_cast<int>(last));
 }
 
-Rows::Rows(int32_t low, int32_t high, int32_t reach) noexcept
+Rows::Rows(int32_t low, int32_t high, int32_t reach, int window) noexcept
     : row_(static_cast<int>(ceil_div(low - reach - kHalfCell, kUnitsPerCell))),
       last_(static_cast<int>(floor_div(high + reach - kHalfCell, kUnitsPerCell))) {
   if (row_ < 0) row_ = 0;
-  if (last_ > kCells - 1) last_ = kCells - 1;
+  if (last_ > window - 1) last_ = window - 1;
 }
 
 void HalfPlane::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
@@ -89,7 +89,7 @@ Wedge::Wedge(Angle axis, Angle half) noexcept
       left_corner_(corner(left_.nx, left_.ny)),
       right_corner_(corner(right_.nx, right_.ny)) {}
 
-Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
+Rows Wedge::rows(int32_t y, int32_t radius, int window) const noexcept {
   // At this radius the edges are the highest and lowest points, unless the wedge contains the vertical.
   const int32_t left = scale_down<14>(left_.nx * radius);
   const int32_t right = scale_down<14>(-right_.nx * radius);
@@ -103,7 +103,7 @@ Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
               up           ? y + radius
               : higher > 0 ? y + higher
                            : y,
-              kRim);
+              kRim, window);
 }
 
 void Wedge::hold(Span& span, int32_t x, int32_t dy) const noexcept {
@@ -154,7 +154,7 @@ void Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
   if (x > span.high) span.high = x;
 }
 
-Row Stadium::columns(int row) const noexcept {
+Span Stadium::span(int row) const noexcept {
   const int32_t dy = row * kUnitsPerCell + kHalfCell - y_;
   Span span = touch(x_, dy, radius_);
   const Span end = touch(x_ + end_x_, dy - end_y_, radius_);
@@ -162,9 +162,8 @@ Row Stadium::columns(int row) const noexcept {
   if (end.high > span.high) span.high = end.high;
   side(span, dy, 1);
   side(span, dy, -1);
-  if (span.empty()) return 0;
   HalfPlane{ux_, uy_}.clip(span, x_, dy, abeam_);
-  return span.empty() ? 0 : span.columns();
+  return span;
 }
 
 }  // namespace whisker::perception

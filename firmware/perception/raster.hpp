@@ -62,11 +62,11 @@ struct Span {
   Row columns() const noexcept;
 };
 
-/// The rows of the window whose centres lie within `reach` of y.
+/// The rows of the window, which has 32 unless stated otherwise, whose centres lie within `reach` of y.
 class Rows {
  public:
   Rows(int32_t y, int32_t reach) noexcept : Rows(y, y, reach) {}
-  Rows(int32_t low, int32_t high, int32_t reach) noexcept;
+  Rows(int32_t low, int32_t high, int32_t reach, int window = kCells) noexcept;
   bool more() const noexcept { return row_ <= last_; }
   void next() noexcept { ++row_; }
   int row() const noexcept { return row_; }
@@ -97,7 +97,7 @@ class Wedge {
  public:
   Wedge(Angle axis, Angle half) noexcept;
   /// The rows with points of the wedge at most this far from its apex.
-  Rows rows(int32_t y, int32_t radius) const noexcept;
+  Rows rows(int32_t y, int32_t radius, int window = kCells) const noexcept;
   /// Keeps the cells of the row that lie completely inside.
   void hold(Span& span, int32_t x, int32_t dy) const noexcept;
   /// Keeps the part of the row that is at least `margin` inside both edges.
@@ -125,7 +125,8 @@ class Stadium {
  public:
   explicit Stadium(const Sweep& sweep) noexcept;
   Rows rows() const noexcept;
-  Row columns(int row) const noexcept;
+  Row columns(int row) const noexcept { return span(row).columns(); }
+  Span span(int row) const noexcept;
   /// The union of the columns over all rows.
   Row box() const noexcept;
 

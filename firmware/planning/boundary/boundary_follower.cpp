@@ -10,6 +10,7 @@ constexpr Length kCommit = 60_mm;
 constexpr Length kRefused = 5_mm;  // of the commitment: less travel than this means that the guard refused it
 constexpr int8_t kRefusals = 10;
 constexpr Length kOpeningEvery = 100_mm;
+constexpr Length kSlitEvery = 20_mm;
 
 }  // namespace
 
@@ -123,7 +124,12 @@ void BoundaryFollower::search_from_wall(const View& view) noexcept {
 }
 
 bool BoundaryFollower::opening(const View& view) noexcept {
-  if (travel_mm() - opening_mm_ <= behaviours_.mm(kOpeningEvery)) return false;
+  const bool thorough = search_.thorough();
+  if (!thorough && !saw_slit_ && travel_mm() - slit_mm_ > behaviours_.mm(kSlitEvery)) {
+    slit_mm_ = travel_mm();
+    saw_slit_ = search_.slit(view, wall_, behaviours_.params);
+  }
+  if (travel_mm() - opening_mm_ <= behaviours_.mm(thorough ? kSlitEvery : kOpeningEvery)) return false;
   opening_mm_ = travel_mm();
   return search_.opening(view, wall_, behaviours_.params);
 }

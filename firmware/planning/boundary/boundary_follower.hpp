@@ -62,6 +62,14 @@ class BoundaryFollower {
   /// The current behaviour results from the guard's intervention.
   bool yields(const View& view) const noexcept;
 
+  /// Call at the begin of a loop: thorough loops take gaps hardly wider than the body.
+  void begin_loop(bool thorough) noexcept {
+    search_.set_thorough(thorough);
+    saw_slit_ = false;
+  }
+  /// Since begin_loop(), the wall had a gap that a thorough loop may take.
+  bool saw_slit() const noexcept { return saw_slit_; }
+
  private:
   void on(Event event, Decision& decision) noexcept;
   void start(Phase phase, Side wall) noexcept;
@@ -84,6 +92,8 @@ class BoundaryFollower {
   Angle heading_;           // the chosen heading
   int32_t commit_mm_ = 0;   // travel up to which it is kept
   int32_t opening_mm_ = 0;  // travel at the last search for an opening
+  int32_t slit_mm_ = 0;     // the same for a slit
+  bool saw_slit_ = false;
 };
 
 }  // namespace whisker::planning

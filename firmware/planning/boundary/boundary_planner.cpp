@@ -112,6 +112,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
   other_way_ = false;
+  follower_.begin_loop(false);
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -195,7 +196,7 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
-  if (other_way_ || approach_.knows_no_way()) {
+  if (other_way_ || (approach_.knows_no_way() && !follower_.saw_slit())) {
     if (loop_.may_part(began_, goal_.at, wall_)) {
       give_up_goal(view);
     } else {
@@ -205,6 +206,7 @@ void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
   }
   // A gap may be passable from only one side, so follow the boundary in the other direction.
   other_way_ = true;
+  follower_.begin_loop(true);
   wall_ = opposite(wall_);
   const Angle back = view.pose.heading + 180_deg;
   loop_.begin(view, behaviours_.params);

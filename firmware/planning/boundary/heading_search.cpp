@@ -15,6 +15,9 @@ constexpr Length kThere = 10_mm;
 constexpr int8_t kRetreats = 8;
 constexpr Length kOpeningWay = 100_mm;
 constexpr int32_t kOpeningCells = 6;
+constexpr Length kSlitWay = 150_mm;
+constexpr Length kSlit = 63_mm;  // to both sides
+constexpr int32_t kSlitCells = 2;
 
 }  // namespace
 
@@ -34,6 +37,7 @@ void HeadingSearch::begin(Angle first, const Pose& pose, Side wall) noexcept {
   wall_ = wall;
   candidate_ = 0;
   effort_ = Effort::full;
+  wall_first_ = false;
 }
 
 void HeadingSearch::begin_at_wall(Angle ahead, const Pose& pose, Side wall) noexcept {
@@ -42,6 +46,7 @@ void HeadingSearch::begin_at_wall(Angle ahead, const Pose& pose, Side wall) noex
   const Angle to_back = (back_ - ahead) * sign(wall);
   if (to_back.raw() > kNotBack.raw() && (to_back - kNotBack).raw() < swing.raw()) swing = to_back - kNotBack;
   first_ = ahead + swing * sign(wall);
+  wall_first_ = thorough_;
 }
 
 HeadingSearch::Found HeadingSearch::step(const View& view, const Params& params, Heading& found) noexcept {
@@ -52,8 +57,8 @@ HeadingSearch::Found HeadingSearch::step(const View& view, const Params& params,
   const Reach& reach = view.local_grid->reach();
   const Length beside = narrow ? reach.guard : reach.planning;
   found.length = effort_ == Effort::full ? reach.probe : for_body(params, kShortWay);
-  for (const int32_t all = narrow ? 3 * kCandidateHeadings : kCandidateHeadings; candidate_ < all;
-       ++candidate_) {
+  const int32_t turn = narrow ? 3 * kCandidateHeadings : kCandidateHeadings;
+  for (const int32_t all = wall_first_ ? turn / 4 : turn; candidate_ < all; ++candidate_) {
     found.angle = first_ - step * (candidate_ * sign(wall_));
     if (!may_return_ && magnitude(found.angle - back_) < kNotBack.raw()) continue;
     const Way there = way(view, found.angle, found.length, beside);
@@ -65,6 +70,10 @@ HeadingSearch::Found HeadingSearch::step(const View& view, const Params& params,
     case Effort::full: effort_ = Effort::short_ways; return Found::nothing;
     case Effort::short_ways: effort_ = Effort::narrow_ways; return Found::nothing;
     case Effort::narrow_ways: effort_ = Effort::full; break;
+  }
+  if (wall_first_) {
+    wall_first_ = false;
+    return Found::nothing;
   }
   if (!may_return_) {
     may_return_ = true;
@@ -96,8 +105,22 @@ bool HeadingSearch::opening(const View& view, Side wall, const Params& params) c
     const perception::Obstacles o = view.local_grid->along(
         view.pose.at, heading, length, view.local_grid->reach().planning, kOpeningCells + 1);
     if (o.suspect + o.unknown <= kOpeningCells) return true;
+    if (thorough_ && slit(view, heading, params)) return true;
   }
   return false;
+}
+
+bool HeadingSearch::slit(const View& view, Side wall, const Params& params) const noexcept {
+  for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
+    if (slit(view, view.pose.heading + 1_deg * (degrees * sign(wall)), params)) return true;
+  }
+  return false;
+}
+
+bool HeadingSearch::slit(const View& view, Angle heading, const Params& params) const noexcept {
+  const perception::Obstacles o =
+      view.local_grid->along(view.pose.at, heading, for_body(params, kSlitWay), for_body(params, kSlit), 1);
+  return o.suspect == 0 && o.unknown <= kSlitCells;
 }
 
 }  // namespace whisker::planning

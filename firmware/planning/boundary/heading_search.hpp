@@ -51,7 +51,16 @@ class HeadingSearch {
   /// A path on the wall's side is nearly clear: a door, or the end of the wall.
   bool opening(const View& view, Side wall, const Params& params) const noexcept;
 
+  /// A thin path through the wall is nearly clear: a gap for the body is possible there.
+  bool slit(const View& view, Side wall, const Params& params) const noexcept;
+
+  /// Searches at the wall try all efforts on the wall's side before any other heading, and a slit counts as
+  /// an opening. Finds narrow gaps, but takes longer.
+  void set_thorough(bool thorough) noexcept { thorough_ = thorough; }
+  bool thorough() const noexcept { return thorough_; }
+
  private:
+  bool slit(const View& view, Angle heading, const Params& params) const noexcept;
   enum class Effort : uint8_t { full, short_ways, narrow_ways };
 
   Breadcrumbs breadcrumbs_;
@@ -65,6 +74,8 @@ class HeadingSearch {
   int8_t retreated_ = 0;
   int8_t retreats_ = 0;
   bool may_return_ = false;
+  bool thorough_ = false;
+  bool wall_first_ = false;  // only headings on the wall's side so far
 };
 
 }  // namespace whisker::planning

@@ -1,0 +1,57 @@
+/// Clear ground at half the side of the local grid's cells, for gaps hardly wider than the body.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/perception/grid_frame.hpp"
+
+namespace whisker::perception {
+
+/// One bit per fine cell.
+using FineRow = uint64_t;
+
+/// The window of the local grid in cells of half the side. A fine cell is clear by the same rule as a cell:
+/// it lies completely inside an empty beam sector. Where a cell is not clear, some of its parts may be.
+///
+/// Fine cells have no age: when the cells of the local grid age, those around the body stay, and all others
+/// become unknown.
+class FineGrid {
+ public:
+  static constexpr int kParts = 2;  ///< along a side of a cell
+  static constexpr int kFineCells = kParts * kCells;
+
+  /// Side of a cell of the local grid; even.
+  void configure(int32_t cell_um) noexcept { frame_.cell_um = cell_um / kParts; }
+  void reset() noexcept;
+  /// The corner of the local grid's window, in its cells. What leaves the window becomes unknown.
+  void move_to(int32_t column, int32_t row) noexcept;
+  const GridFrame& frame() const noexcept { return frame_; }
+
+  FineRow clear(int row) const noexcept { return to_window(clear_[slot(row)]); }
+  void mark(int row, const Span& clear) noexcept { clear_[slot(row)] |= to_torus(columns(clear)); }
+  /// Cells completely inside this disc are clear.
+  void mark_around(GridPoint centre, int32_t radius) noexcept;
+  /// All cells with centres outside this disc become unknown.
+  void keep_around(GridPoint centre, int32_t radius) noexcept;
+  /// The parts of these cells of a row of the local grid become unknown.
+  void forget(int row, Row cells) noexcept;
+
+  static FineRow columns(const Span& span) noexcept;
+  /// The cells of a row of the local grid that have a part among these.
+  static Row cells_of(FineRow parts) noexcept;
+
+ private:
+  int slot(int row) const noexcept { return (frame_.row + row) & (kFineCells - 1); }
+  uint32_t shift() const noexcept { return static_cast<uint32_t>(frame_.column) & (kFineCells - 1); }
+  FineRow to_torus(FineRow window) const noexcept {
+    return shift() == 0 ? window : (window << shift()) | (window >> (kFineCells - shift()));
+  }
+  FineRow to_window(FineRow torus) const noexcept {
+    return shift() == 0 ? torus : (torus >> shift()) | (torus << (kFineCells - shift()));
+  }
+
+  GridFrame frame_;
+  FineRow clear_[kFineCells] = {};
+};
+
+}  // namespace whisker::perception
