@@ -102,6 +102,8 @@ class LocalGrid {
   Length half_window() const noexcept { return Length::from_raw(frame_.cell_um * (kCells / 2)); }
   /// The state of one cell, for display; false outside the window.
   bool is_clear(Vec at) const noexcept;
+  /// Its cell or its quarter of the cell is clear.
+  bool is_part_clear(Vec at) const noexcept;
   /// True if all cells that this disc touches are inside the window and clear.
   bool all_clear(Vec centre, Length radius) const noexcept;
 

@@ -116,4 +116,12 @@ bool LocalGrid::is_clear(Vec at) const noexcept {
   return (to_window(clear_row(static_cast<int>(p.y / kUnitsPerCell))) >> (p.x / kUnitsPerCell) & 1U) != 0;
 }
 
+bool LocalGrid::is_part_clear(Vec at) const noexcept {
+  constexpr int32_t kFineWindow = FineGrid::kFineCells * kUnitsPerCell;
+  const Point p = fine_.frame().local(at);
+  if (p.x < 0 || p.y < 0 || p.x >= kFineWindow || p.y >= kFineWindow) return false;
+  return is_clear(at) ||
+         (fine_.clear(static_cast<int>(p.y / kUnitsPerCell)) >> (p.x / kUnitsPerCell) & 1U) != 0;
+}
+
 }  // namespace whisker::perception

@@ -166,4 +166,6 @@ Span Stadium::span(int row) const noexcept {
   return span;
 }
 
+Row Stadium::columns(int row) const noexcept { return span(row).columns(); }
+
 }  // namespace whisker::perception

@@ -125,7 +125,7 @@ class Stadium {
  public:
   explicit Stadium(const Sweep& sweep) noexcept;
   Rows rows() const noexcept;
-  Row columns(int row) const noexcept { return span(row).columns(); }
+  Row columns(int row) const noexcept;
   Span span(int row) const noexcept;
   /// The union of the columns over all rows.
   Row box() const noexcept;

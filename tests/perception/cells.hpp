@@ -42,4 +42,18 @@ void for_each_clear(const perception::LocalGrid& local_grid, const Pose& pose, i
   }
 }
 
+/// Calls f(column, row) for each clear part of a cell, in cells of half the side.
+template <class F>
+void for_each_clear_part(const perception::LocalGrid& local_grid, const Pose& pose, int32_t cell_um, F&& f) {
+  const int32_t part_um = cell_um / 2;
+  const auto middle = [&](Length x) { return static_cast<int>(x.raw() / part_um); };
+  for (int row = middle(pose.at.y) - 40; row <= middle(pose.at.y) + 40; ++row) {
+    for (int column = middle(pose.at.x) - 40; column <= middle(pose.at.x) + 40; ++column) {
+      const Vec centre{Length::from_raw(column * part_um + part_um / 2),
+                       Length::from_raw(row * part_um + part_um / 2)};
+      if (local_grid.is_part_clear(centre)) f(column, row);
+    }
+  }
+}
+
 }  // namespace whisker::test

@@ -49,6 +49,25 @@ perception::ConeObservation observation(Pose from, Angle axis, Length free, bool
   return p;
 }
 
+/// The centre of a quarter of a cell, 0 <= i < 4.
+Vec centre_of_part(Cell cell, int i) {
+  return centre(cell) + Vec{millimetres(i % 2 == 0 ? -5 : 5), millimetres(i < 2 ? -5 : 5)};
+}
+/// The greatest f(centre, side) of the parts of a cell that are not clear.
+template <class F>
+double most_of_parts(const perception::LocalGrid& local_grid, Cell cell, const F& f) {
+  double most = -1;
+  for (int i = 0; i < 4; ++i) {
+    const Vec at = centre_of_part(cell, i);
+    if (!local_grid.is_part_clear(at)) most = std::fmax(most, f(at, kCell / 2));
+  }
+  return most;
+}
+double nearest(Vec square, double side, double x, double y) {
+  return std::hypot(std::fmax(std::fabs(metres(square.x) - x) - side / 2, 0),
+                    std::fmax(std::fabs(metres(square.y) - y) - side / 2, 0));
+}
+
 double distance(Cell cell, Vec at) {
   const Vec c = centre(cell);
   return std::hypot(metres(c.x) - metres(at.x), metres(c.y) - metres(at.y));
@@ -59,11 +78,6 @@ double farthest(Cell cell, Vec at) {
   const Vec c = centre(cell);
   return std::hypot(std::fabs(metres(c.x) - metres(at.x)) + kCell / 2,
                     std::fabs(metres(c.y) - metres(at.y)) + kCell / 2);
-}
-double nearest(Cell cell, double x, double y) {
-  const Vec c = centre(cell);
-  return std::hypot(std::fmax(std::fabs(metres(c.x) - x) - kCell / 2, 0),
-                    std::fmax(std::fabs(metres(c.y) - y) - kCell / 2, 0));
 }
 
 TEST(LocalGrid, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
@@ -159,16 +173,19 @@ TEST(LocalGrid, AlongCountsWhatIsNotClearOnTheWay) {
     for (int y = here.second - 13; y <= here.second + 13; ++y) {
       for (int x = here.first - 13; x <= here.first + 13; ++x) {
         if (local_grid.is_clear(centre({x, y}))) continue;
-        const double dx = metres(centre({x, y}).x) - metres(pose.at.x);
-        const double dy = metres(centre({x, y}).y) - metres(pose.at.y);
-        const double ahead = dx * std::cos(heading) + dy * std::sin(heading);
-        double off = 1;
-        for (int i = 0; i <= kSamples; ++i) {
-          const double on = metres(length) * i / kSamples;
-          off = std::fmin(off, nearest({x, y}, metres(pose.at.x) + on * std::cos(heading),
-                                       metres(pose.at.y) + on * std::sin(heading)));
-        }
-        const double by = std::fmin(metres(radius) - off, ahead - kAbeam);
+        const auto inside = [&](Vec at, double side) {
+          const double dx = metres(at.x) - metres(pose.at.x);
+          const double dy = metres(at.y) - metres(pose.at.y);
+          const double ahead = dx * std::cos(heading) + dy * std::sin(heading);
+          double off = 1;
+          for (int i = 0; i <= kSamples; ++i) {
+            const double on = metres(length) * i / kSamples;
+            off = std::fmin(off, nearest(at, side, metres(pose.at.x) + on * std::cos(heading),
+                                         metres(pose.at.y) + on * std::sin(heading)));
+          }
+          return std::fmin(metres(radius) - off, ahead - kAbeam);
+        };
+        const double by = std::fmin(inside(centre({x, y}), kCell), most_of_parts(local_grid, {x, y}, inside));
         if (by > kRounding) ++surely;
         if (by > -kRounding) ++perhaps;
       }
@@ -201,12 +218,14 @@ TEST(LocalGrid, ApproachesTellsWhatComesNearer) {
     for (int y = here.second - 13; y <= here.second + 13; ++y) {
       for (int x = here.first - 13; x <= here.first + 13; ++x) {
         if (local_grid.is_clear(centre({x, y}))) continue;
-        const double dx = metres(centre({x, y}).x) - metres(pose.at.x);
-        const double dy = metres(centre({x, y}).y) - metres(pose.at.y);
-        const double off = nearest({x, y}, metres(pose.at.x) + metres(step) * std::cos(heading),
-                                   metres(pose.at.y) + metres(step) * std::sin(heading));
-        const double by =
-            std::fmin(metres(radius) - off, dx * std::cos(heading) + dy * std::sin(heading) - ahead);
+        const auto inside = [&](Vec at, double side) {
+          const double dx = metres(at.x) - metres(pose.at.x);
+          const double dy = metres(at.y) - metres(pose.at.y);
+          const double off = nearest(at, side, metres(pose.at.x) + metres(step) * std::cos(heading),
+                                     metres(pose.at.y) + metres(step) * std::sin(heading));
+          return std::fmin(metres(radius) - off, dx * std::cos(heading) + dy * std::sin(heading) - ahead);
+        };
+        const double by = std::fmin(inside(centre({x, y}), kCell), most_of_parts(local_grid, {x, y}, inside));
         surely = surely || by > kRounding;
         perhaps = perhaps || by > -kRounding;
       }
