@@ -1,61 +1,54 @@
 #include "firmware/perception/fine_grid.hpp"
 
 namespace whisker::perception {
-namespace {
 
-/// Bit i if bit 2i or 2i + 1 is set.
-uint32_t halved(uint32_t parts) noexcept {
-  uint32_t x = (parts | parts >> 1) & 0x55555555U;
-  x = (x | x >> 1) & 0x33333333U;
-  x = (x | x >> 2) & 0x0F0F0F0FU;
-  x = (x | x >> 4) & 0x00FF00FFU;
-  return (x | x >> 8) & 0x0000FFFFU;
-}
-
-/// Bits 2i and 2i + 1 if bit i < 16 is set.
-uint32_t doubled(uint32_t cells) noexcept {
-  uint32_t x = cells & 0x0000FFFFU;
-  x = (x | x << 8) & 0x00FF00FFU;
-  x = (x | x << 4) & 0x0F0F0F0FU;
-  x = (x | x << 2) & 0x33333333U;
-  x = (x | x << 1) & 0x55555555U;
-  return x | x << 1;
-}
-
-constexpr int32_t kHalfOfWindow = kCells * kUnitsPerCell;
-
-FineRow joined(Row low, Row high) noexcept { return low | static_cast<FineRow>(high) << kCells; }
-
-}  // namespace
-
+/// Of the fine cells whose centres lie in the span.
 FineRow FineGrid::columns(const Span& span) noexcept {
-  return joined(span.columns(), Span{span.low - kHalfOfWindow, span.high - kHalfOfWindow}.columns());
+  FineRow row{};
+  for (int i = 0; i < kParts; ++i) {
+    // Fine column 2k + i has its centre at 512 k + 256 i + 128, cell k at 256 k + 128.
+    const int32_t shifted = kHalfCell - i * kUnitsPerCell;
+    row.parts[i] =
+        Span{-floor_div(-(span.low + shifted), kParts), floor_div(span.high + shifted, kParts)}.columns();
+  }
+  return row;
 }
 
-Row FineGrid::cells_of(FineRow parts) noexcept {
-  return halved(static_cast<uint32_t>(parts)) | halved(static_cast<uint32_t>(parts >> kCells))
-                                                    << (kCells / 2);
+Row FineGrid::unclear(int row, const Span& touched) const noexcept {
+  const FineRow columns = FineGrid::columns(touched);
+  const FineRow& clear = clear_[slot(row)];
+  return (columns.parts[0] & ~to_window(clear.parts[0])) | (columns.parts[1] & ~to_window(clear.parts[1]));
+}
+
+bool FineGrid::is_clear(GridPoint at) const noexcept {
+  const int32_t row = at.y / kUnitsPerCell;
+  return unclear(static_cast<int>(row),
+                 {at.x - at.x % kUnitsPerCell, at.x - at.x % kUnitsPerCell + kUnitsPerCell}) == 0;
+}
+
+void FineGrid::mark(int row, const Span& clear) noexcept {
+  const FineRow columns = FineGrid::columns(clear);
+  for (int i = 0; i < kParts; ++i) clear_[slot(row)].parts[i] |= to_torus(columns.parts[i]);
 }
 
 void FineGrid::reset() noexcept {
-  for (FineRow& row : clear_) row = 0;
+  for (FineRow& row : clear_) row = {};
 }
 
 void FineGrid::move_to(int32_t column, int32_t row) noexcept {
-  const int32_t right = column * kParts - frame_.column;
+  const int32_t right = column - frame_.column / kParts;
   const int32_t up = row * kParts - frame_.row;
-  frame_.column += right;
+  if (right == 0 && up == 0) return;
+  frame_.column += right * kParts;
   frame_.row += up;
-  if (right >= kFineCells || right <= -kFineCells || up >= kFineCells || up <= -kFineCells) {
+  if (right >= kCells || right <= -kCells || up >= kFineCells || up <= -kFineCells) {
     reset();
     return;
   }
-  if (right == 0 && up == 0) return;
-  const FineRow all = ~FineRow{0};
-  const FineRow keep = to_torus(right > 0 ? all >> right : all << -right);
+  const Row keep = to_torus(right > 0 ? UINT32_MAX >> right : UINT32_MAX << -right);
   for (int i = 0; i < kFineCells; ++i) {
-    FineRow& cells = clear_[slot(i)];
-    cells &= up > 0 && i >= kFineCells - up ? 0 : up < 0 && i < -up ? 0 : keep;
+    const bool out = up > 0 ? i >= kFineCells - up : i < -up;
+    for (Row& cells : clear_[slot(i)].parts) cells &= out ? 0 : keep;
   }
 }
 
@@ -71,14 +64,15 @@ void FineGrid::keep_around(GridPoint centre, int32_t radius) noexcept {
   for (int row = 0; row < kFineCells; ++row) {
     Span span = Span::around(centre.x, radius);
     span.within_disc(centre.x, row * kUnitsPerCell + kHalfCell - centre.y, radius);
-    clear_[slot(row)] &= to_torus(columns(span));
+    const FineRow near = columns(span);
+    for (int i = 0; i < kParts; ++i) clear_[slot(row)].parts[i] &= to_torus(near.parts[i]);
   }
 }
 
 void FineGrid::forget(int row, Row cells) noexcept {
-  if (cells == 0) return;
-  const FineRow parts = to_torus(joined(doubled(cells), doubled(cells >> (kCells / 2))));
-  for (int i = 0; i < kParts; ++i) clear_[slot(row * kParts + i)] &= ~parts;
+  for (int i = row * kParts; i < (row + 1) * kParts; ++i) {
+    for (Row& parts : clear_[slot(i)].parts) parts &= ~cells;
+  }
 }
 
 }  // namespace whisker::perception

@@ -7,8 +7,10 @@
 
 namespace whisker::perception {
 
-/// One bit per fine cell.
-using FineRow = uint64_t;
+/// A row of fine cells: the left and the right parts of the cells of a row of the local grid.
+struct FineRow {
+  Row parts[2];
+};
 
 /// The window of the local grid in cells of half the side. A fine cell is clear by the same rule as a cell:
 /// it lies completely inside an empty beam sector. Where a cell is not clear, some of its parts may be.
@@ -27,27 +29,26 @@ class FineGrid {
   void move_to(int32_t column, int32_t row) noexcept;
   const GridFrame& frame() const noexcept { return frame_; }
 
-  FineRow clear(int row) const noexcept { return to_window(clear_[slot(row)]); }
-  void mark(int row, const Span& clear) noexcept { clear_[slot(row)] |= to_torus(columns(clear)); }
+  /// Those of these fine cells of a row that are not clear, as cells of the local grid.
+  Row unclear(int row, const Span& touched) const noexcept;
+  bool is_clear(GridPoint at) const noexcept;
+  void mark(int row, const Span& clear) noexcept;
   /// Cells completely inside this disc are clear.
   void mark_around(GridPoint centre, int32_t radius) noexcept;
   /// All cells with centres outside this disc become unknown.
   void keep_around(GridPoint centre, int32_t radius) noexcept;
-  /// The parts of these cells of a row of the local grid become unknown.
+  /// The parts of these cells of a row of the local grid become unknown; on the torus.
   void forget(int row, Row cells) noexcept;
 
-  static FineRow columns(const Span& span) noexcept;
-  /// The cells of a row of the local grid that have a part among these.
-  static Row cells_of(FineRow parts) noexcept;
-
  private:
+  static FineRow columns(const Span& span) noexcept;
   int slot(int row) const noexcept { return (frame_.row + row) & (kFineCells - 1); }
-  uint32_t shift() const noexcept { return static_cast<uint32_t>(frame_.column) & (kFineCells - 1); }
-  FineRow to_torus(FineRow window) const noexcept {
-    return shift() == 0 ? window : (window << shift()) | (window >> (kFineCells - shift()));
+  uint32_t shift() const noexcept { return static_cast<uint32_t>(frame_.column / kParts) & (kCells - 1); }
+  Row to_torus(Row window) const noexcept {
+    return shift() == 0 ? window : (window << shift()) | (window >> (kCells - shift()));
   }
-  FineRow to_window(FineRow torus) const noexcept {
-    return shift() == 0 ? torus : (torus >> shift()) | (torus << (kFineCells - shift()));
+  Row to_window(Row torus) const noexcept {
+    return shift() == 0 ? torus : (torus >> shift()) | (torus << (kCells - shift()));
   }
 
   GridFrame frame_;

@@ -160,7 +160,7 @@ void LocalGrid::clear_around(Vec at, int32_t reach) noexcept {
 void LocalGrid::forget(int row, Row cells) noexcept {
   young_[slot(row)] &= ~cells;
   old_[slot(row)] &= ~cells;
-  fine_.forget(row, to_window(cells));
+  fine_.forget(row, cells);
 }
 
 void LocalGrid::mark_fine(const ConeObservation& observation, const EarlierObservation& before,
@@ -178,7 +178,7 @@ void LocalGrid::mark_fine(const ConeObservation& observation, const EarlierObser
     const int32_t dy = rows.offset(apex.y);
     Span empty = Span::around(apex.x, free);
     cone.hold(empty, apex.x, dy);
-    if ((FineGrid::columns(empty) & ~fine_.clear(rows.row())) == 0) continue;
+    if (fine_.unclear(rows.row(), empty) == 0) continue;
     empty.inside_disc(apex.x, dy, free);
     cone_before.hold(empty, apex_before.x, rows.offset(apex_before.y));
     empty.inside_disc(apex_before.x, rows.offset(apex_before.y), free_before);

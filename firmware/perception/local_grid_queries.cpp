@@ -12,11 +12,11 @@ constexpr int32_t kWindow = kCells * kUnitsPerCell;
 
 template <class Touched>
 Row LocalGrid::with_unclear_parts(int row, Row cells, const Touched& touched) const noexcept {
-  FineRow unclear = 0;
+  Row unclear = 0;
   for (int part = row * FineGrid::kParts; part < (row + 1) * FineGrid::kParts; ++part) {
-    unclear |= FineGrid::columns(touched(part)) & ~fine_.clear(part);
+    unclear |= fine_.unclear(part, touched(part));
   }
-  return cells & FineGrid::cells_of(unclear);
+  return cells & unclear;
 }
 
 bool LocalGrid::in_window(Point p, int32_t reach) noexcept {
@@ -120,8 +120,7 @@ bool LocalGrid::is_part_clear(Vec at) const noexcept {
   constexpr int32_t kFineWindow = FineGrid::kFineCells * kUnitsPerCell;
   const Point p = fine_.frame().local(at);
   if (p.x < 0 || p.y < 0 || p.x >= kFineWindow || p.y >= kFineWindow) return false;
-  return is_clear(at) ||
-         (fine_.clear(static_cast<int>(p.y / kUnitsPerCell)) >> (p.x / kUnitsPerCell) & 1U) != 0;
+  return is_clear(at) || fine_.is_clear(p);
 }
 
 }  // namespace whisker::perception
