@@ -8,8 +8,9 @@ FineRow FineGrid::columns(const Span& span) noexcept {
   for (int i = 0; i < kParts; ++i) {
     // Fine column 2k + i has its centre at 512 k + 256 i + 128, cell k at 256 k + 128.
     const int32_t shifted = kHalfCell - i * kUnitsPerCell;
-    row.parts[i] =
-        Span{-floor_div(-(span.low + shifted), kParts), floor_div(span.high + shifted, kParts)}.columns();
+    row.parts[i] = Span{-floor_div<int32_t>(-(span.low + shifted), kParts),
+                        floor_div<int32_t>(span.high + shifted, kParts)}
+                       .columns();
   }
   return row;
 }

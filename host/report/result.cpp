@@ -52,11 +52,11 @@ std::string result_json(const RunResult& result, const std::string& bus) {
   json["final_distance_m"] = rounded(result.final_distance_m);
   json["believed_distance_m"] = result.believed_distance_m ? rounded(*result.believed_distance_m) : nullptr;
   json["min_clearance_m"] = rounded(result.min_clearance_m);
-  json["unreachable_above_m"] = result.unreachable_above_m ? rounded(*result.unreachable_above_m) : nullptr;
   json["ticks"] = result.ticks;
   json["hash"] = fmt::format("{:016x}", result.hash);
   json["detail"] = result.detail;
   json["bumps"] = result.bumps ? Json(*result.bumps) : Json(nullptr);
+  if (result.unreachable_above_m) json["unreachable_above_m"] = rounded(*result.unreachable_above_m);
   if (!bus.empty()) json["bus"] = Json::parse(bus);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

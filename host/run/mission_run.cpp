@@ -1,9 +1,9 @@
 #include "host/run/mission_run.hpp"
-#include "host/run/narrowest_gap.hpp"
 
 #include <cmath>
 
 #include "host/run/make_record.hpp"
+#include "host/run/narrowest_gap.hpp"
 
 namespace whisker {
 namespace {
