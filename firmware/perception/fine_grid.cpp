@@ -32,27 +32,6 @@ void FineGrid::mark(int row, const Span& clear) noexcept {
   for (int i = 0; i < kParts; ++i) clear_[slot(row)].parts[i] |= to_torus(columns.parts[i]);
 }
 
-void FineGrid::reset() noexcept {
-  for (FineRow& row : clear_) row = {};
-}
-
-void FineGrid::move_to(int32_t column, int32_t row) noexcept {
-  const int32_t right = column - frame_.column / kParts;
-  const int32_t up = row * kParts - frame_.row;
-  if (right == 0 && up == 0) return;
-  frame_.column += right * kParts;
-  frame_.row += up;
-  if (right >= kCells || right <= -kCells || up >= kFineCells || up <= -kFineCells) {
-    reset();
-    return;
-  }
-  const Row keep = to_torus(right > 0 ? UINT32_MAX >> right : UINT32_MAX << -right);
-  for (int i = 0; i < kFineCells; ++i) {
-    const bool out = up > 0 ? i >= kFineCells - up : i < -up;
-    for (Row& cells : clear_[slot(i)].parts) cells &= out ? 0 : keep;
-  }
-}
-
 void FineGrid::mark_around(GridPoint centre, int32_t radius) noexcept {
   for (Rows rows(centre.y, centre.y, radius, kFineCells); rows.more(); rows.next()) {
     Span span = Span::around(centre.x, radius);

@@ -24,9 +24,11 @@ class FineGrid {
 
   /// Side of a cell of the local grid; even.
   void configure(int32_t cell_um) noexcept { frame_.cell_um = cell_um / kParts; }
-  void reset() noexcept;
-  /// The corner of the local grid's window, in its cells. What leaves the window becomes unknown.
-  void move_to(int32_t column, int32_t row) noexcept;
+  /// The corner of the local grid's window, in its cells. Whoever moves it forgets what leaves the window.
+  void place(int32_t column, int32_t row) noexcept {
+    frame_.column = column * kParts;
+    frame_.row = row * kParts;
+  }
   const GridFrame& frame() const noexcept { return frame_; }
 
   /// Those of these fine cells of a row that are not clear, as cells of the local grid.

@@ -53,16 +53,17 @@ void LocalGrid::configure(const Params& params) noexcept {
 void LocalGrid::drop_rows(int first, int count) noexcept {
   for (int row = first; row < first + count; ++row) {
     const int s = slot(row);
-    young_[s] = old_[s] = suspect_[s] = tested_[s] = 0;
+    forget(row, UINT32_MAX);
+    suspect_[s] = tested_[s] = 0;
     for (Chain& chain : chains_) chain.swept[s] = 0;
   }
 }
 
 void LocalGrid::drop_columns(Row window) noexcept {
   const Row keep = ~to_torus(window);
-  for (int s = 0; s < kCells; ++s) {
-    young_[s] &= keep;
-    old_[s] &= keep;
+  for (int row = 0; row < kCells; ++row) {
+    const int s = slot(row);
+    forget(row, ~keep);
     suspect_[s] &= keep;
     tested_[s] &= keep;
     for (Chain& chain : chains_) chain.swept[s] &= keep;
@@ -71,7 +72,6 @@ void LocalGrid::drop_columns(Row window) noexcept {
 
 void LocalGrid::reset(const Pose& pose) noexcept {
   drop_rows(0, kCells);
-  fine_.reset();
   for (Chain& chain : chains_) chain.linked = false;
   last_ = pose;
   travel_ = Length{};
@@ -92,10 +92,12 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
   if (right >= kCells || right <= -kCells || up >= kCells || up <= -kCells) {
     frame_.column += right;
     frame_.row += up;
+    fine_.place(frame_.column, frame_.row);
     drop_rows(0, kCells);
   } else {
     frame_.column += right;
     frame_.row += up;
+    fine_.place(frame_.column, frame_.row);
     const int rows = static_cast<int>(up);
     const int cols = static_cast<int>(right);
     if (rows > 0) drop_rows(kCells - rows, rows);
@@ -103,7 +105,6 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
     if (cols > 0) drop_columns(columns_between(kCells - cols, kCells - 1));
     if (cols < 0) drop_columns(columns_between(0, -cols - 1));
   }
-  fine_.move_to(frame_.column, frame_.row);
   if (farther(pose.at - tested_at_, kTestedTravel)) {
     for (Row& row : tested_) row = 0;
     tested_at_ = pose.at;
