@@ -106,7 +106,7 @@ class Robot {
   localization::CountStep step_;  // of this tick
   Time last_tick_;
   Time settled_since_;
-  Speed warned_speed_;     // while echoes take back clear ground
+  Speed warned_speed_;     // while the ground is in doubt
   Duration elapsed_;       // since the last tick, at most the longest gap
   Duration since_counts_;  // since the counts were last read
   bool started_ = false;

@@ -191,7 +191,7 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
   return near;
 }
 
-void GridMap::mark(const perception::ConeObservation& observation, bool hold, bool loses_walls) noexcept {
+void GridMap::mark(const perception::ConeObservation& observation, bool hold, bool doubts) noexcept {
   const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
     return saturate32(
@@ -244,7 +244,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
     for (int w = 0; w < shape_.words; ++w) {
       const int32_t i = row * shape_.words + w;
       GridWord cells = columns(c.first, c.last, w);
-      if (loses_walls) cells &= ~oblique(row, w, upright);
+      if (doubts) cells &= ~oblique(row, w, upright);
       if (hold) {
         const GridWord closed = cells & (blocking()[i] | too_narrow(row, w));
         if (closed != 0) cells &= ~(closed & touched(row, w));
@@ -265,7 +265,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
     }
   };
   find();
-  if (box.empty()) {
+  if (doubts && box.empty()) {
     takes_back = true;
     find();
   }

@@ -32,9 +32,9 @@ class GridMap {
   /// Moves the window if the body comes near its border. True: it moved.
   bool follow(Vec body, Vec goal) noexcept;
   /// Adds the observation of one beam. `hold`: a plan is in progress, and blocked cells that it has reached
-  /// stay blocked. If no other cell explains an echo, free ones do. `loses_walls`: a beam frees no cell of a
+  /// stay blocked. `doubts`: if no other cell explains an echo, free ones do, and a beam frees no cell of a
   /// wall that it meets at an angle.
-  void mark(const perception::ConeObservation& observation, bool hold, bool loses_walls = false) noexcept;
+  void mark(const perception::ConeObservation& observation, bool hold, bool doubts = false) noexcept;
   /// Copies mostly clear cells from the local grid, because several beams together clear cells that none
   /// clears alone. Not while a plan is in progress.
   void free(const perception::LocalGrid& local_grid, Vec body) noexcept;

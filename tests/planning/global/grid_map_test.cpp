@@ -119,17 +119,18 @@ TEST(GridMap, ABeamAlongAWallThatItMayLoseFreesNoneOfIt) {
 }
 
 TEST(GridMap, AnEchoThatFreeCellsAloneExplainTakesThemBack) {
-  const auto after = [](CellState beside) {
+  const auto after = [](CellState beside, bool doubts) {
     test::Room room(kShape);
     for (const Angle axis : {-(20_deg), 0_deg, 20_deg}) {
       room.map.mark(observation(kFrom, axis, 2_m, false), false);
     }
     room.map.set(room.map.place({950_mm, 150_mm}), beside);
-    room.map.mark(observation(kFrom, Angle{}, 900_mm, true), false);
+    room.map.mark(observation(kFrom, Angle{}, 900_mm, true), false, doubts);
     return room.map.at(room.map.place({950_mm, 50_mm}));
   };
-  EXPECT_EQ(after(CellState::free), CellState::suspect);
-  EXPECT_EQ(after(CellState::suspect), CellState::free) << "that cell explains the echo";
+  EXPECT_EQ(after(CellState::free, true), CellState::suspect);
+  EXPECT_EQ(after(CellState::free, false), CellState::free);
+  EXPECT_EQ(after(CellState::suspect, true), CellState::free) << "that cell explains the echo";
 }
 
 TEST(GridMap, WhatThePatchShowsIsFreeAsFarAsItShowsIt) {
