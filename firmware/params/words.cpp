@@ -1,5 +1,7 @@
 #include "firmware/params/words.hpp"
 
+#include <stddef.h>
+
 #include "firmware/params/relations.hpp"
 
 namespace whisker {
@@ -15,9 +17,9 @@ struct Words {
   Word of[kParams];
 };
 struct Raw {
-  uint32_t of[sizeof(Params) / 4];
+  uint32_t of[kParams];
 };
-static_assert(sizeof(Raw) == sizeof(Params) && sizeof(Params) == 4 * kParams, "every word is a parameter");
+static_assert(sizeof(Raw) == sizeof(Params), "every word is a parameter");
 
 // Writes each parameter's number into the parameter, and its range into the table.
 struct Numberer {
@@ -54,16 +56,18 @@ constexpr Words make_words() noexcept {
 }
 constexpr Words kWords = make_words();
 
+constexpr ptrdiff_t place_of(int number) noexcept { return ptrdiff_t{4} * kWords.of[number].at; }
+
 }  // namespace
 
 uint32_t raw_param(const Params& params, int number) noexcept {
   uint32_t raw = 0;
-  __builtin_memcpy(&raw, reinterpret_cast<const unsigned char*>(&params) + 4 * kWords.of[number].at, 4);
+  __builtin_memcpy(&raw, reinterpret_cast<const unsigned char*>(&params) + place_of(number), 4);
   return raw;
 }
 
 void set_raw_param(Params& params, int number, uint32_t raw) noexcept {
-  __builtin_memcpy(reinterpret_cast<unsigned char*>(&params) + 4 * kWords.of[number].at, &raw, 4);
+  __builtin_memcpy(reinterpret_cast<unsigned char*>(&params) + place_of(number), &raw, 4);
 }
 
 bool in_own_range(int number, uint32_t raw) noexcept {
