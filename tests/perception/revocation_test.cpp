@@ -67,7 +67,7 @@ TEST_F(Revocation, AnEchoThatAppearsAtASideTakesBackTheArcBesideItsCone) {
   const auto taken = [&](hal::Beam number, bool appears) {
     LocalGrid grid = grid_;
     ConeObservation echo = beam_at(30_deg, 150_mm, true);
-    echo.number = number;
+    echo.number = static_cast<int8_t>(number);
     grid.revoke(echo, appears);
     return !grid.is_clear({65_mm, 140_mm});  // at 65 degrees
   };
