@@ -2,6 +2,7 @@
 
 #include "firmware/params.hpp"
 #include "firmware/perception/local_grid.hpp"
+#include "hal/types.hpp"
 
 namespace whisker::test {
 namespace {
