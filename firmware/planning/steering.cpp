@@ -26,12 +26,16 @@ AngularRate rate_towards(Angle error, int32_t gain) noexcept {
   return limit(AngularRate::from_raw(saturate32(microradians * gain)), kFastestTurn);
 }
 
-Speed approach_speed(Length rest, const Params& params) noexcept {
+Speed stopping_speed(Length rest, Duration delay, const Params& params) noexcept {
   if (rest <= Length{}) return Speed{};
   const int64_t a = params.wheels.max_acceleration.raw();
-  const int64_t lead = (params.wheels.max_acceleration * params.motion.settle).raw();
+  const int64_t lead = (params.wheels.max_acceleration * delay).raw();
   const uint32_t root = square_root(static_cast<uint64_t>(lead * lead + 2 * a * rest.raw()));
   return Speed::from_raw(saturate32(static_cast<int64_t>(root) - lead));
+}
+
+Speed approach_speed(Length rest, const Params& params) noexcept {
+  return stopping_speed(rest, params.motion.settle, params);
 }
 
 Manoeuvre cruise(Twist twist, const Params& params) noexcept {

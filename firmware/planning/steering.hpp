@@ -23,7 +23,11 @@ Angle nearest_facing(Angle wanted, const Params& params) noexcept;
 /// gain x error, at most kFastestTurn.
 AngularRate rate_towards(Angle error, int32_t gain) noexcept;
 
-/// The highest speed that stops within `rest`: v with v^2 / 2a + v * settle = rest.
+/// The highest speed that stops within `rest` if braking begins after `delay`: v with v^2 / 2a + v * delay =
+/// rest.
+Speed stopping_speed(Length rest, Duration delay, const Params& params) noexcept;
+
+/// The same with the settling time as the delay.
 Speed approach_speed(Length rest, const Params& params) noexcept;
 
 /// A cruise at this twist.

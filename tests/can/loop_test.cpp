@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "host/worlds/generate.hpp"
+#include "tests/unseen_disc.hpp"
 
 namespace whisker {
 namespace {
@@ -123,13 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Now, Twins,
 INSTANTIATE_TEST_SUITE_P(Worlds, EveryWorld, testing::ValuesIn(worlds::kKinds));
 
 TEST(Bus, HandsThePressesOfTheBumperOnAlsoIfFramesAreDropped) {
-  Scenario scenario;
-  scenario.goal.at = {2, 0.1};
-  scenario.discs.push_back({{1, 0}, 0.15});
-  scenario.sensor.soft = 1;
-  scenario.sensor.soft_range_m = 0;
-  scenario.robot.wheels.max_speed = 100_mm_per_s;
-  scenario.robot.bumper.fitted = Fitted::yes;
+  const Scenario scenario = test::unseen_disc();
   const RunResult direct = run(scenario);
   EXPECT_EQ(direct.verdict, Verdict::reached);
   EXPECT_GE(direct.bumps.value_or(0), 1U);

@@ -5,20 +5,15 @@
 #include <cmath>
 
 #include "host/run/runner.hpp"
+#include "tests/unseen_disc.hpp"
 
 namespace whisker {
 namespace {
 
 Scenario unseen(bool bumper) {
-  Scenario s;
-  s.name = "unseen";
-  s.goal.at = {2, 0.1};
+  Scenario s = test::unseen_disc();
   s.time_limit_s = 300;
-  s.discs.push_back({{1, 0}, 0.15});
-  s.sensor.soft = 1;
-  s.sensor.soft_range_m = 0;
-  s.robot.wheels.max_speed = 100_mm_per_s;
-  s.robot.bumper.fitted = bumper ? Fitted::yes : Fitted::no;
+  if (!bumper) s.robot.bumper.fitted = Fitted::no;
   return s;
 }
 

@@ -8,6 +8,7 @@
 #include "host/chip/process.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/load.hpp"
+#include "tests/unseen_disc.hpp"
 
 namespace whisker::chip {
 namespace {
@@ -74,13 +75,7 @@ TEST(ChipPilot, DrivesAsTheCoreInThisProcess) {
 }
 
 TEST(ChipPilot, HandsThePressesOfTheBumperOn) {
-  Scenario scenario;
-  scenario.goal.at = {2, 0.1};
-  scenario.discs.push_back({{1, 0}, 0.15});
-  scenario.sensor.soft = 1;
-  scenario.sensor.soft_range_m = 0;
-  scenario.robot.wheels.max_speed = 100_mm_per_s;
-  scenario.robot.bumper.fitted = Fitted::yes;
+  const Scenario scenario = test::unseen_disc();
   RunOptions options;
   options.planner = PlannerKind::skirt;
   const RunResult here = run(scenario, options);
