@@ -78,10 +78,10 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
     behaviours_.scan.begin(heading, length, decision.manoeuvre);
     return true;
   }
-  // The guard limits the speed because of unseen ground: a small turn may already show it.
-  if (view.granted < kHindered) {
+  const Angle past = view.local_grid->reach().past;
+  // A small turn may show unseen ground. A body that must sweep looks ahead, others once the guard limits it.
+  if (view.granted < kHindered || past != Angle{}) {
     const Unseen rest = unseen(view, heading, length, heading, behaviours_.params);
-    const Angle past = view.local_grid->reach().past;
     heading += limited(rest.cells == 0           ? Angle{}
                        : rest.turn.wrapped() < 0 ? rest.turn - past
                                                  : rest.turn + past,

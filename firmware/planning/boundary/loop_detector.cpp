@@ -50,12 +50,13 @@ bool LoopDetector::strays(const View& view, Evidence evidence) noexcept {
   if (magnitude(turned_) < 360 * kDegree * static_cast<uint64_t>(laps_ + 1)) return false;
   const bool by_place = evidence == Evidence::place;
   const Length way = Length::from_raw(saturate32(int64_t{view.travelled_um - lap_um_}));
-  const bool same_place =
-      laps_ > 0 && norm(view.pose.at - lap_at_) < scale_ * 7 / 2 && (!by_place || way > scale_ * 10);
-  const bool again = same_place || (!by_place && laps_ == kMostLaps);
+  const bool first = laps_++ == 0;
+  // Laps of less travel count together: one around a small obstacle, or around nothing, is shorter.
+  if (by_place && !first && way <= scale_ * 10) return false;
+  const bool same_place = !first && norm(view.pose.at - lap_at_) < scale_ * 7 / 2;
+  const bool again = same_place || (!by_place && laps_ > kMostLaps);
   lap_at_ = view.pose.at;
   lap_um_ = view.travelled_um;
-  ++laps_;
   return again;
 }
 

@@ -149,6 +149,19 @@ TEST(LoopDetector, StraysRoundSomethingElse) {
   }
 }
 
+TEST(LoopDetector, SmallLapsByPlaceCountTogether) {
+  LoopDetector circuit;
+  Round round(circuit, 100_mm);
+  round.begin();
+  round.jump({3_m, 0_mm});
+  int strays = 0;
+  for (int deg = 1; deg <= 3000 && strays == 0; ++deg) {
+    round.drive();
+    if (circuit.strays(round.view(), LoopDetector::Evidence::place)) strays = deg;
+  }
+  EXPECT_NEAR(strays, 1080, 2) << "two laps of 0.63 m after the first";
+}
+
 TEST(LoopDetector, DoesNotStrayWhileItGetsOn) {
   LoopDetector circuit;
   Round round(circuit, 500_mm);
