@@ -17,6 +17,7 @@ void add_movers(CLI::App& app, int& status);
 void add_table(CLI::App& app, int& status);
 void add_figures(CLI::App& app, int& status);
 void add_plant(CLI::App& app, int& status);
+void add_socket(CLI::App& app, int& status);
 void add_controller(CLI::App& app, int& status);
 void add_hil(CLI::App& app, int& status);
 void add_replay(CLI::App& app, int& status);

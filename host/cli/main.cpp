@@ -101,6 +101,7 @@ int main(int argc, char** argv) {
   add_controller(app, status);
   add_hil(app, status);
   add_replay(app, status);
+  add_socket(app, status);
   add_dbc(app, status);
   add_protocol(app, status);
   app.footer(std::string(kExitStatus) + kCampaignExitStatus + kFirstSteps);

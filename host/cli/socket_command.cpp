@@ -1,0 +1,115 @@
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/version.hpp"
+#include "host/report/result.hpp"
+#include "host/scenario/load.hpp"
+#include "host/socket/channel.hpp"
+#include "host/socket/session.hpp"
+
+namespace whisker::cli {
+namespace {
+
+constexpr std::uint64_t kMostPort = 65535;
+
+struct SocketOptions {
+  std::string address = "127.0.0.1";
+  std::uint64_t tcp = 0;
+  std::uint64_t udp = 0;
+  bool has_tcp = false;
+  bool has_udp = false;
+  bool standard = false;
+  std::string robot;
+  PlannerKind planner = kDefaultPlanner;
+  double timeout_s = 10;
+  bool json = false;
+};
+
+void say_port(int port) { fmt::print(stderr, "listening on port {}\n", port); }
+
+std::unique_ptr<socket::Channel> open_channel(const SocketOptions& o) {
+  if (o.has_tcp + o.has_udp + o.standard != 1)
+    throw UsageError("socket needs one of --tcp, --udp and --stdio");
+  if (o.standard && o.json) throw UsageError("--json: --stdio takes the standard output");
+  if (o.standard) return socket::standard_channel();
+  if (o.has_tcp) return socket::accept_tcp(o.address, static_cast<int>(o.tcp), o.timeout_s, say_port);
+  return socket::bind_udp(o.address, static_cast<int>(o.udp), say_port);
+}
+
+std::uint32_t now_ms() {
+  namespace chrono = std::chrono;
+  static const auto began = chrono::steady_clock::now();
+  return static_cast<std::uint32_t>(
+      chrono::duration_cast<chrono::milliseconds>(chrono::steady_clock::now() - began).count());
+}
+
+int execute(const SocketOptions& o) {
+  socket::Opening defaults;
+  defaults.planner = o.planner;
+  if (!o.robot.empty()) apply_robot_file(defaults.robot, o.robot);
+  std::signal(SIGPIPE, SIG_IGN);  // a closed end is reported as an error of write()
+  try {
+    const auto channel = open_channel(o);
+    socket::Session session(defaults, version());
+    while (const auto line = channel->read(o.timeout_s)) {
+      try {
+        channel->write(session.answer(*line, now_ms()), o.timeout_s);
+      } catch (const socket::ProtocolError& e) {
+        channel->write(nlohmann::json{{"error", e.what()}}.dump(-1, ' ', false,
+                                                                nlohmann::json::error_handler_t::replace),
+                       o.timeout_s);
+        fmt::print(stderr, "whisker: {}\n", e.what());
+        return kBadInput;
+      }
+    }
+    const auto result = session.result();
+    if (!result) throw UsageError("the other end closed before a tick");
+    if (o.json) fmt::print("{}\n", report::result_json(*result, ""));
+    fmt::print(stderr, "{} after {} s, {} lines ({})\n", report::outcome(result->verdict), result->time_s,
+               session.lines(), result->detail);
+    return exit_status(result->verdict);
+  } catch (const socket::ChannelError& e) {
+    fmt::print(stderr, "whisker: {}\n", e.what());
+    return kFailure;
+  }
+}
+
+}  // namespace
+
+void add_socket(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("socket", "Drive the robot of another simulator: docs/socket.md");
+  const auto o = std::make_shared<SocketOptions>();
+  CLI::Option* tcp = cmd->add_option("--tcp", o->tcp, "Wait for one client on this port; 0: any free port")
+                         ->transform(whole_number(kMostPort))
+                         ->type_name("PORT");
+  CLI::Option* udp = cmd->add_option("--udp", o->udp, "One datagram a line on this port; 0: any free port")
+                         ->transform(whole_number(kMostPort))
+                         ->type_name("PORT");
+  add_switch(*cmd, "--stdio", o->standard, "Lines on standard input and output");
+  add_name(*cmd, "--address", o->address, "IPv4 address to listen on; 127.0.0.1 by default")->type_name("A");
+  add_file(*cmd, "--robot", o->robot, "Parameters; those of the first line override them");
+  add_planner(*cmd, o->planner);
+  cmd->add_option("--timeout", o->timeout_s,
+                  "Longest wait for a client, a line or its reader; 10 s by default")
+      ->transform(amount(1e6))
+      ->type_name("S");
+  add_switch(*cmd, "--json", o->json, "Print the result as one JSON object");
+  cmd->callback([o, tcp, udp, &status] {
+    o->has_tcp = tcp->count() > 0;
+    o->has_udp = udp->count() > 0;
+    status = execute(*o);
+  });
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,38 @@
+/// Lines to and from one simulator.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace whisker::socket {
+
+constexpr std::size_t kLongestLine = 65536;  ///< bytes
+
+/// What the other end did not do in time, or what this machine refused; what() is one line.
+struct ChannelError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class Channel {
+ public:
+  virtual ~Channel() = default;
+  /// The next line without its end; none: the other end has closed. Waits at most this long, and throws
+  /// ChannelError then, or if the line is too long.
+  virtual std::optional<std::string> read(double most_s) = 0;
+  /// Throws ChannelError if the other end takes nothing for that long.
+  virtual void write(std::string_view line, double most_s) = 0;
+};
+
+/// Standard input and output.
+std::unique_ptr<Channel> standard_channel();
+/// A TCP server for one client. Waits for it at most this long. listening() is called with the port.
+std::unique_ptr<Channel> accept_tcp(const std::string& address, int port, double most_s,
+                                    void (*listening)(int port));
+/// One datagram a line. Answers go to the sender of the last one.
+std::unique_ptr<Channel> bind_udp(const std::string& address, int port, void (*listening)(int port));
+
+}  // namespace whisker::socket

@@ -1,0 +1,87 @@
+// Channels over byte streams.
+#include <fmt/format.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "host/socket/channel.hpp"
+#include "host/socket/descriptor.hpp"
+
+namespace whisker::socket {
+namespace {
+
+class Stream final : public Channel {
+ public:
+  Stream(Descriptor in, Descriptor out) : in_(std::move(in)), out_(std::move(out)) {}
+  explicit Stream(Descriptor both) : in_(std::move(both)), out_(-1) {}
+
+  std::optional<std::string> read(double most_s) override {
+    for (;;) {
+      const std::size_t end = held_.find('\n', searched_);
+      if (end != std::string::npos) {
+        std::string line = held_.substr(0, end);
+        held_.erase(0, end + 1);
+        searched_ = 0;
+        if (!line.empty() && line.back() == '\r') line.pop_back();
+        return line;
+      }
+      searched_ = held_.size();
+      if (held_.size() > kLongestLine)
+        throw ChannelError(fmt::format("a line of over {} bytes", kLongestLine));
+      if (!wait_for(in_, POLLIN, most_s)) throw ChannelError(fmt::format("no line for {} s", most_s));
+      char bytes[4096];
+      const ssize_t got = ::read(in_.number(), bytes, sizeof bytes);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0 && errno != ECONNRESET) throw ChannelError(fmt::format("read: {}", std::strerror(errno)));
+      if (got <= 0) return std::nullopt;
+      held_.append(bytes, static_cast<std::size_t>(got));
+    }
+  }
+
+  void write(std::string_view line, double most_s) override {
+    const Descriptor& out = out_.number() >= 0 ? out_ : in_;
+    std::string all(line);
+    all += '\n';
+    for (std::size_t sent = 0; sent < all.size();) {
+      if (!wait_for(out, POLLOUT, most_s))
+        throw ChannelError(fmt::format("the other end has read nothing for {} s", most_s));
+      const ssize_t n = ::write(out.number(), all.data() + sent, all.size() - sent);
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) throw ChannelError(fmt::format("write: {}", std::strerror(errno)));
+      sent += static_cast<std::size_t>(n);
+    }
+  }
+
+ private:
+  Descriptor in_;
+  Descriptor out_;  // -1: the same
+  std::string held_;
+  std::size_t searched_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Channel> standard_channel() {
+  return std::make_unique<Stream>(Descriptor(STDIN_FILENO), Descriptor(STDOUT_FILENO));
+}
+
+std::unique_ptr<Channel> accept_tcp(const std::string& address, int port, double most_s,
+                                    void (*listening)(int port)) {
+  const Descriptor server = bound(SOCK_STREAM, address, port);
+  if (::listen(server.number(), 1) != 0) throw ChannelError(fmt::format("listen: {}", std::strerror(errno)));
+  listening(port_of(server));
+  if (!wait_for(server, POLLIN, most_s)) throw ChannelError(fmt::format("nobody connected for {} s", most_s));
+  Descriptor client(::accept4(server.number(), nullptr, nullptr, SOCK_CLOEXEC));
+  if (client.number() < 0) throw ChannelError(fmt::format("accept: {}", std::strerror(errno)));
+  // Each line waits for the answer to the one before.
+  const int yes = 1;
+  ::setsockopt(client.number(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  return std::make_unique<Stream>(std::move(client));
+}
+
+}  // namespace whisker::socket

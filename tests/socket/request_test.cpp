@@ -1,0 +1,77 @@
+#include "host/socket/request.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace whisker::socket {
+namespace {
+
+std::string refusal(const std::string& line, bool first = false) {
+  try {
+    first ? static_cast<void>(read_opening(line, {})) : static_cast<void>(read_tick(line));
+  } catch (const ProtocolError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Request, ReadsEveryKeyOfATick) {
+  const Tick t = read_tick(
+      R"({"t_s": 1.25, "range_m": [0.5, "clear", null], "age_s": [0.01, 0.02, 0], "counts": [-1, 16777217],
+          "pressed": ["left", "right"], "reset": true, "cancel": false, "place": {"x_m": 2},
+          "goal": {"x_m": 1, "y_m": -1}})");
+  EXPECT_EQ(t.now_ms, 1250U);
+  EXPECT_TRUE(t.has_ranges);
+  EXPECT_EQ(t.beam[0].mm, 500);
+  EXPECT_EQ(t.beam[0].age_ms, 10);
+  EXPECT_EQ(t.beam[1].status, hal::RangeStatus::clear);
+  EXPECT_FALSE(t.beam[2].fresh);
+  EXPECT_EQ(t.counts->left, 0xFFFFFFU) << "modulo 2^24";
+  EXPECT_EQ(t.counts->right, 1U);
+  EXPECT_EQ(t.bumper->pressed, 1 << hal::kLeft | 1 << hal::kRight);
+  EXPECT_TRUE(t.reset);
+  EXPECT_FALSE(t.cancel);
+  EXPECT_EQ(t.place->at.x, 2);
+  EXPECT_EQ(t.goal->tolerance_m, 0.1);
+}
+
+TEST(Request, OneAgeForAllBeams) {
+  EXPECT_EQ(read_tick(R"({"range_m": [1, 1, 1], "age_s": 0.03})").beam[2].age_ms, 30);
+  EXPECT_EQ(read_tick(R"({"range_m": [1, 1, 1], "age_s": 9})").beam[2].age_ms, 255) << "ignored by the core";
+}
+
+TEST(Request, RefusesWhatDoesNotFollowTheProtocol) {
+  EXPECT_EQ(refusal("hello"), "no JSON");
+  EXPECT_EQ(refusal("[1]"), "not a JSON object");
+  EXPECT_EQ(refusal(R"({"ranges": []})"), "unknown key 'ranges'");
+  EXPECT_EQ(refusal(R"({"range_m": [1, 2]})"), "'range_m' must be a list of 3 values");
+  EXPECT_EQ(refusal(R"({"range_m": [1, 2, -1]})"), "'range_m' must be from 0 to 65.533, but is -1");
+  EXPECT_THAT(refusal(R"({"range_m": [1, 2, "far"]})"), testing::HasSubstr("but is 'far'"));
+  EXPECT_EQ(refusal(R"({"range_m": [1, 2, true]})"), "'range_m' must be a number");
+  EXPECT_EQ(refusal(R"({"counts": [1.5, 2]})"), "'counts' must be whole numbers");
+  EXPECT_EQ(refusal(R"({"counts": [1, 99999999999999999]})"), "'counts' must be within 2^53");
+  EXPECT_EQ(refusal(R"({"t_s": "now"})"), "'t_s' must be a number");
+  EXPECT_EQ(refusal(R"({"pressed": ["back"]})"), "'pressed' may name left, front and right");
+  EXPECT_EQ(refusal(R"({"cancel": 1})"), "'cancel' must be true or false");
+  EXPECT_EQ(refusal(R"({"goal": {"x_m": 1}})"), "'y_m' is missing");
+  EXPECT_EQ(refusal(R"({"goal": {"x_m": 1, "y_m": 0, "z_m": 0}})"), "goal: unknown key 'z_m'");
+}
+
+TEST(Request, RefusesAWrongFirstLine) {
+  EXPECT_EQ(refusal("{}", true), "the first line must have the key 'whisker'");
+  EXPECT_EQ(refusal(R"({"whisker": 2})", true), "this is version 1 of the protocol");
+  EXPECT_EQ(refusal(R"({"whisker": 1, "planner": "best"})", true), "no planner 'best'");
+  EXPECT_THAT(refusal(R"({"whisker": 1, "robot": {"body_radius": 1}})", true),
+              testing::HasSubstr("body_radius"));
+  EXPECT_THAT(refusal(R"({"whisker": 1, "robot": {"body_radius_m": 9}})", true),
+              testing::HasSubstr("must be from"));
+  EXPECT_THAT(refusal(R"({"whisker": 1, "robot": {"wheel_track_m": 0.5}})", true),
+              testing::HasSubstr("it would fit with"));
+  EXPECT_THAT(refusal(R"({"whisker": 1, "robot": {"body_radius_m": [1]}})", true),
+              testing::HasSubstr("must be a number"));
+}
+
+}  // namespace
+}  // namespace whisker::socket

@@ -1,0 +1,175 @@
+#include "host/socket/session.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/run/pilot.hpp"
+#include "host/run/runner.hpp"
+#include "host/sim/elementary.hpp"
+#include "host/worlds/generate.hpp"
+#include "tests/unseen_disc.hpp"
+
+namespace whisker::socket {
+namespace {
+
+using Json = nlohmann::json;
+
+Json range_of(const hal::RangeReading& r) {
+  switch (r.status) {
+    case hal::RangeStatus::ok: return r.mm / 1000.0;
+    case hal::RangeStatus::clear: return "clear";
+    case hal::RangeStatus::too_near: return "too_near";
+    case hal::RangeStatus::invalid: return "invalid";
+    case hal::RangeStatus::stale: break;
+  }
+  return nullptr;
+}
+
+/// The core behind the lines of a simulator.
+class SocketPilot final : public Pilot {
+ public:
+  SocketPilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant)
+      : plant_(plant), session_({scenario.robot, planner, {}, {}}, "test") {
+    Json hello;
+    hello["whisker"] = 1;
+    hello["start"] = {{"x_m", scenario.start.at.x},
+                      {"y_m", scenario.start.at.y},
+                      {"heading_deg", scenario.start.heading * 180 / sim::kPi}};
+    hello["goal"] = {
+        {"x_m", scenario.goal.at.x}, {"y_m", scenario.goal.at.y}, {"tolerance_m", scenario.goal.tolerance_m}};
+    session_.answer(hello.dump(), 0);
+  }
+
+  const Status& tick(Time now) override {
+    const hal::RangeReadings ranges = plant_.ranges();
+    Json line;
+    line["t_s"] = now.raw() / 1000.0;
+    for (int i = 0; i < hal::kBeams; ++i) {
+      const hal::RangeReading& r = ranges.beam[i];
+      const bool fresh = r.status != hal::RangeStatus::stale && (!seen_ || r.sequence != sequence_[i]);
+      line["range_m"].push_back(fresh ? range_of(r) : Json());
+      line["age_s"].push_back(fresh ? r.age_ms / 1000.0 : 0.0);
+      sequence_[i] = r.sequence;
+    }
+    seen_ = true;
+    line["counts"] = {plant_.encoders().left, plant_.encoders().right};
+    line["pressed"] = Json::array();
+    for (int i = 0; i < hal::kBeams; ++i) {
+      constexpr const char* kNames[] = {"left", "front", "right"};
+      if ((plant_.bumper().pressed >> i & 1) != 0) line["pressed"].push_back(kNames[i]);
+    }
+    const std::string text = line.dump();
+    const std::string said = session_.answer(text, 0);
+    EXPECT_EQ(session_.answer(text, 0), said) << "the same time again";
+    take(Json::parse(said));
+    return status_;
+  }
+
+ private:
+  void take(const Json& answer) {
+    const auto tenths = [&](std::size_t side) {
+      return static_cast<std::int16_t>(std::lround(answer["wheel_mps"][side].get<double>() * 1e4));
+    };
+    status_.command = {tenths(0), tenths(1)};
+    plant_.command(status_.command);
+    const auto outcome = answer["outcome"].get<std::string>();
+    status_.decision.outcome = outcome == "reached"       ? planning::Outcome::reached
+                               : outcome == "unreachable" ? planning::Outcome::unreachable
+                               : outcome == "gave_up"     ? planning::Outcome::gave_up
+                                                          : planning::Outcome::running;
+    EXPECT_THAT(outcome, testing::AnyOf("running", "reached", "unreachable", "gave_up"));
+    const auto length = [&](const char* key) {
+      return Length::from_raw(
+          static_cast<std::int32_t>(std::lround(answer["pose"][key].get<double>() * 1e6)));
+    };
+    status_.pose.at = {length("x_m"), length("y_m")};
+  }
+
+  sim::Plant& plant_;
+  Session session_;
+  Status status_;
+  bool seen_ = false;
+  std::uint8_t sequence_[hal::kBeams] = {};
+};
+
+std::unique_ptr<Pilot> over_socket(const Scenario& s, PlannerKind k, sim::Plant& p) {
+  return std::make_unique<SocketPilot>(s, k, p);
+}
+
+void expect_same(const Scenario& scenario) {
+  const RunResult direct = run(scenario);
+  RunOptions options;
+  options.pilot = over_socket;
+  const RunResult through = run(scenario, options);
+  EXPECT_EQ(through.hash, direct.hash) << scenario.name;
+  EXPECT_EQ(through.verdict, direct.verdict);
+  EXPECT_EQ(through.ticks, direct.ticks);
+  EXPECT_NEAR(*through.believed_distance_m, *direct.believed_distance_m, 1e-6);
+}
+
+TEST(Session, DrivesBitForBitAsTheCoreInThisProcess) {
+  for (const worlds::Kind kind : {worlds::Kind::discs, worlds::Kind::maze, worlds::Kind::u_trap}) {
+    worlds::Options options;
+    options.seed = 11;
+    options.noise = true;
+    expect_same(worlds::generate(kind, options));
+  }
+}
+
+TEST(Session, HandsTheBumperOn) { expect_same(test::unseen_disc()); }
+
+TEST(Session, GreetsWithTheRobotThatItDrives) {
+  Session session({}, "1.2.3");
+  const Json hello = Json::parse(session.answer(
+      R"({"whisker": 1, "robot": {"body_radius_m": 0.1, "range_cone_deg": 30}, "planner": "skirt"})", 0));
+  EXPECT_EQ(hello["version"], "1.2.3");
+  EXPECT_EQ(hello["planner"], "skirt");
+  EXPECT_EQ(hello["body_radius_m"], 0.1);
+  EXPECT_EQ(hello["period_s"], 0.01);
+  ASSERT_EQ(hello["beams"].size(), 3U);
+  EXPECT_EQ(hello["beams"][0]["angle_deg"], 30.0);
+  EXPECT_EQ(hello["beams"][2]["cone_deg"], 30.0);
+}
+
+TEST(Session, WhatASimulatorLeavesOutLeadsToANamedFault) {
+  Session session({}, "");
+  session.answer(R"({"whisker": 1, "goal": {"x_m": 3, "y_m": 0}})", 0);
+  std::string fault;
+  for (std::uint32_t now = 0; now < 3000 && fault != "drive_refused"; now += 10) {
+    fault = Json::parse(session.answer("{}", now))["fault"];
+  }
+  EXPECT_EQ(fault, "drive_refused");
+  EXPECT_EQ(session.result()->verdict, Verdict::fault);
+}
+
+TEST(Session, TheTimeOfArrivalCountsWithoutATime) {
+  Session session({}, "");
+  session.answer(R"({"whisker": 1})", 0);
+  EXPECT_EQ(Json::parse(session.answer("{}", 40))["t_s"], 0.04);
+  EXPECT_EQ(Json::parse(session.answer("{}", 50))["t_s"], 0.05);
+  EXPECT_EQ(Json::parse(session.answer("{}", 5000))["fault"], "clock_jump");
+}
+
+TEST(Session, TakesCommandsWithATick) {
+  Session session({}, "");
+  session.answer(R"({"whisker": 1})", 0);
+  const auto outcome = [&](const std::string& line, std::uint32_t now) {
+    return Json::parse(session.answer(line, now))["outcome"].get<std::string>();
+  };
+  EXPECT_EQ(outcome(R"({"counts": [0, 0]})", 10), "idle");
+  EXPECT_EQ(outcome(R"({"counts": [0, 0], "goal": {"x_m": 1, "y_m": 2}})", 20), "running");
+  EXPECT_EQ(outcome(R"({"counts": [0, 0], "cancel": true})", 30), "idle");
+  const Json placed = Json::parse(
+      session.answer(R"({"counts": [0, 0], "place": {"x_m": 1, "y_m": 2, "heading_deg": 90}})", 40));
+  EXPECT_EQ(placed["pose"]["x_m"], 1.0);
+  EXPECT_EQ(placed["pose"]["heading_deg"], 90.0);
+  EXPECT_EQ(outcome("{}", 9000), "fault");
+  EXPECT_EQ(outcome(R"({"counts": [0, 0], "reset": true})", 9010), "idle");
+}
+
+}  // namespace
+}  // namespace whisker::socket
