@@ -3,7 +3,6 @@
 namespace whisker::safety {
 namespace {
 
-constexpr Length kSample = 20_mm;
 constexpr Duration kCounted = 60000_ms;  // longer durations count as this
 
 /// Distance that a wheel still rolls: during its lag, at the new command until the next tick, while braking.
@@ -11,6 +10,9 @@ struct Brake {
   Length left;
   Length right;
 };
+
+/// Between two discs this far apart, the body's flank lies 0.6 % of the radius outside both.
+Length sample(const Params& params) noexcept { return params.body.radius * 2 / 9; }
 
 Speed faster(WheelPair w) noexcept { return max(abs(w.left), abs(w.right)); }
 
@@ -37,7 +39,7 @@ bool free(const WheelPair& command, const Pose& pose, const WheelState& wheels,
       crawls && abs(rolled) < kShortest ? (rolled < Length{} ? -kShortest : kShortest) : rolled;
   const Angle backwards = length < Length{} ? 180_deg : Angle{};
   const Angle turn = angle_of(way.right - way.left, params.body.track);
-  const int32_t samples = 1 + abs(length).raw() / kSample.raw();
+  const int32_t samples = 1 + abs(length).raw() / sample(params).raw();
   for (int32_t i = 1; i <= samples; ++i) {
     const Angle chord =
         Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));
