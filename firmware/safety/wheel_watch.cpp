@@ -5,7 +5,6 @@ namespace {
 
 constexpr Length kStretch = 40_mm;  // for the reference body
 constexpr int32_t kCounts = 10;     // fewer counts do not allow a judgement of fractions
-constexpr int32_t kHidden = 3;      // counts in a reversal: those of steady(), and one of rounding
 
 }  // namespace
 
@@ -18,27 +17,22 @@ void WheelWatch::configure(const Params& params) noexcept {
 
 int32_t WheelWatch::steady(Wheel& wheel, int32_t counts) noexcept {
   const int32_t at = wheel.slack + counts;
-  wheel.slack = static_cast<int8_t>(at > 1 ? 1 : at < -1 ? -1 : at);
+  wheel.slack = at > 1 ? 1 : at < -1 ? -1 : at;
   return at - wheel.slack;
 }
 
 void WheelWatch::expect(WheelPair speeds, Duration elapsed) noexcept {
   const Length way[2] = {speeds.left * elapsed, speeds.right * elapsed};
   for (int i = 0; i < 2; ++i) {
-    Wheel& wheel = wheel_[i];
-    wheel.expected += abs(way[i]);
-    wheel.commanded_way += way[i];
-    if (way[i] == Length{}) continue;
-    const int8_t direction = way[i] < Length{} ? -1 : 1;
-    if (direction == -wheel.direction && wheel.reversals < UINT16_MAX) ++wheel.reversals;
-    wheel.direction = direction;
+    wheel_[i].expected += abs(way[i]);
+    wheel_[i].commanded_way += way[i];
   }
 }
 
 WheelWatch::Finding WheelWatch::judge(Wheel& wheel) const noexcept {
   if (max(wheel.expected, wheel.counted) < stretch_) return Finding::none;
   const Length apart = abs(wheel.commanded_way - wheel.counted_way);
-  if (wheel.counted < (wheel.expected - way(kHidden * wheel.reversals)) / 4) {
+  if (wheel.counted < wheel.expected / 4 && apart > stretch_ / 4) {
     if (wheel.other >= stretch_ / 2) return Finding::stalled;
     // Something holds both wheels, which has a separate time-out. The motion missed meanwhile must not count
     // after release.
@@ -49,7 +43,7 @@ WheelWatch::Finding WheelWatch::judge(Wheel& wheel) const noexcept {
   if (wheel.counted / 3 > wheel.expected || apart > (wheel.expected + wheel.counted) * 3 / 4) {
     return Finding::runaway;
   }
-  const int8_t slack = wheel.slack;
+  const int32_t slack = wheel.slack;
   wheel = {};
   wheel.slack = slack;
   return Finding::none;

@@ -13,13 +13,14 @@ namespace whisker::safety {
 /// Compares the counts of each encoder with the commands of its wheel, delayed by the motor lag, over a
 /// stretch of travel: 40 mm for the reference body, ten counts, or the travel in two of the longest gaps
 /// between ticks at full speed, whichever is longest. A wheel that follows within a factor of three never
-/// causes a fault; wheel slip and a small error of the stated lag are far below that. Each reversal may hide
-/// three counts: a wheel may swing within them and count nothing.
+/// causes a fault; wheel slip and a small error of the stated lag are far below that. A wheel that
+/// swings within its counts may count nothing.
 class WheelWatch {
  public:
   enum class Finding : uint8_t {
     none,
-    stalled,  ///< less than a quarter of the commanded distance was counted, while the other wheel turned
+    stalled,  ///< less than a quarter of the commanded distance was counted, while the other wheel turned,
+              ///< and a quarter of the stretch is missing in one direction
     runaway,  ///< more than three times the commanded distance was counted, or counts went backwards
   };
 
@@ -36,10 +37,8 @@ class WheelWatch {
     Length counted;
     Length commanded_way;  // signed
     Length counted_way;
-    Length other;            // counted by the other wheel
-    int8_t slack = 0;        // counts within which it may oscillate
-    int8_t direction = 0;    // of its command: -1 or 1 after the first
-    uint16_t reversals = 0;  // of its command
+    Length other;       // counted by the other wheel
+    int32_t slack = 0;  // counts within which it may oscillate
   };
   /// The counts of this step without the oscillation of a wheel that stands between two counts.
   static int32_t steady(Wheel& wheel, int32_t counts) noexcept;
