@@ -132,10 +132,12 @@ constexpr AngularRate turn_rate(const Params& p) noexcept {
   const uint32_t fifth = sweep.step.raw() / 5, error = formula::turn_of_counts(p).raw();
   const int64_t left = sweep.step.raw() - (error > fifth ? error : fifth);
   const int64_t step = scale_down<32>(left * kMicroradians);
-  // Of several readings in a control period, only the newest counts.
-  const int32_t ticks_hz = 1000 / p.safety.period.raw();
-  const int32_t rate_hz = p.rangefinders.rate_hz < ticks_hz ? p.rangefinders.rate_hz : ticks_hz;
-  return min(p.wheels.max_turn_rate, AngularRate::from_raw(saturate32(step * rate_hz / 2)));
+  // Of several readings in a control period, only the newest counts. So from one such reading to the next but
+  // one, as many intervals pass as begin in two periods.
+  const int32_t begun = (2 * p.safety.period.raw() * p.rangefinders.rate_hz + 999) / 1000;
+  const int32_t intervals = begun > 2 ? begun : 2;
+  return min(p.wheels.max_turn_rate,
+             AngularRate::from_raw(saturate32(step * p.rangefinders.rate_hz / intervals)));
 }
 
 }  // namespace whisker

@@ -3,7 +3,6 @@
 namespace whisker::safety {
 namespace {
 
-constexpr Length kSample = 20_mm;
 constexpr Duration kCounted = 60000_ms;  // longer durations count as this
 
 /// Distance that a wheel still rolls: during its lag, at the new command until the next tick, while braking.
@@ -37,7 +36,8 @@ bool free(const WheelPair& command, const Pose& pose, const WheelState& wheels,
       crawls && abs(rolled) < kShortest ? (rolled < Length{} ? -kShortest : kShortest) : rolled;
   const Angle backwards = length < Length{} ? 180_deg : Angle{};
   const Angle turn = angle_of(way.right - way.left, params.body.track);
-  const int32_t samples = 1 + abs(length).raw() / kSample.raw();
+  // 2/9 of the radius apart: between two such discs, the body's flank lies 0.6 % of the radius outside both.
+  const int32_t samples = 1 + abs(length).raw() * 9 / (params.body.radius.raw() * 2);
   for (int32_t i = 1; i <= samples; ++i) {
     const Angle chord =
         Angle::from_raw(static_cast<uint32_t>(multiply_divide(turn.wrapped(), i, 2 * samples)));

@@ -32,7 +32,7 @@ void WheelWatch::expect(WheelPair speeds, Duration elapsed) noexcept {
 WheelWatch::Finding WheelWatch::judge(Wheel& wheel) const noexcept {
   if (max(wheel.expected, wheel.counted) < stretch_) return Finding::none;
   const Length apart = abs(wheel.commanded_way - wheel.counted_way);
-  if (wheel.counted < wheel.expected / 4) {
+  if (wheel.counted < wheel.expected / 4 && apart > stretch_ / 4) {
     if (wheel.other >= stretch_ / 2) return Finding::stalled;
     // Something holds both wheels, which has a separate time-out. The motion missed meanwhile must not count
     // after release.

@@ -13,12 +13,14 @@ namespace whisker::safety {
 /// Compares the counts of each encoder with the commands of its wheel, delayed by the motor lag, over a
 /// stretch of travel: 40 mm for the reference body, ten counts, or the travel in two of the longest gaps
 /// between ticks at full speed, whichever is longest. A wheel that follows within a factor of three never
-/// causes a fault; wheel slip and a small error of the stated lag are far below that.
+/// causes a fault; wheel slip and a small error of the stated lag are far below that. A wheel that
+/// swings within its counts may count nothing.
 class WheelWatch {
  public:
   enum class Finding : uint8_t {
     none,
-    stalled,  ///< less than a quarter of the commanded distance was counted, while the other wheel turned
+    stalled,  ///< less than a quarter of the commanded distance was counted, while the other wheel turned,
+              ///< and a quarter of the stretch is missing in one direction
     runaway,  ///< more than three times the commanded distance was counted, or counts went backwards
   };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -111,16 +112,41 @@ TEST(RandomRobot, GetsAWorldOfItsSizeAndTimeForIt) {
   }
 }
 
-TEST(RandomRobot, ReachesItsGoalOrSaysWhyNotButTouchesNothing) {
-  for (std::uint64_t i = 0; i < test::effort(20); ++i) {
+TEST(RandomRobot, DrivesTheSameFromItsSavedScenario) {
+  for (std::uint64_t i = 0; i < 3; ++i) {
     const Mission m = mission(Generated{worlds::Kind::discs, {}, 1, true}, i);
     const Row row = drive(m.scenario, kDefaultPlanner, kNeverStopped);
-    EXPECT_NE(row.verdict, Verdict::contact) << m.seed;
-    if (i >= 3) continue;
     const Scenario saved = parse_scenario(to_toml(m.scenario), "saved");
     EXPECT_EQ(run(saved).hash, row.hash) << m.seed;
   }
 }
+
+class AnyRobot : public testing::TestWithParam<worlds::Kind> {};
+
+TEST_P(AnyRobot, ReachesItsGoalWithoutContactAndFault) {
+  constexpr std::uint64_t kFirstSeed = 1;
+  const std::uint64_t count = test::effort(40, 1000);
+  const Generated generated{GetParam(), {}, kFirstSeed, true};
+  std::uint64_t reached = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const Mission m = mission(generated, i);
+    const Row row = drive(m.scenario, kDefaultPlanner, kNeverStopped);
+    EXPECT_NE(row.verdict, Verdict::contact) << m.world << " seed " << m.seed;
+    EXPECT_NE(row.verdict, Verdict::fault) << m.world << " seed " << m.seed << ": " << row.detail;
+    if (row.verdict == Verdict::reached) {
+      ++reached;
+    } else {
+      std::printf("seed %llu: %s\n", static_cast<unsigned long long>(m.seed), row.detail.c_str());
+    }
+  }
+  std::printf("%llu of %llu robots from seed %llu reached their goals\n",
+              static_cast<unsigned long long>(reached), static_cast<unsigned long long>(count),
+              static_cast<unsigned long long>(kFirstSeed));
+  EXPECT_GE(reached, count - (count + 99) / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kind, AnyRobot,
+                         testing::Values(worlds::Kind::discs, worlds::Kind::maze, worlds::Kind::u_trap));
 
 TEST(AnyWorld, HasRandomRobotsIfItsNameSaysSo) {
   EXPECT_TRUE(has_random_robots("discs --noise --robots random"));

@@ -1,5 +1,6 @@
 #include "firmware/params.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <set>
@@ -239,6 +240,38 @@ TEST(Params, EveryFieldHasARangeAtBothEndsAndAKeyOfItsOwn) {
   }
   EXPECT_EQ(keys.size(), static_cast<std::size_t>(counter.index));
   EXPECT_GE(counter.index, 30);
+}
+
+/// Intervals from a reading that is the newest at a tick to the next such reading but one, at most.
+std::int32_t most_intervals(std::int32_t period_ms, std::int32_t rate_hz) {
+  std::int32_t most = 0, last = 0, before = 0;
+  for (std::int32_t tick = 1; tick <= 2000; ++tick) {
+    const std::int32_t newest = tick * period_ms * rate_hz / 1000;
+    if (newest == last) continue;
+    if (before > 0) most = std::max(most, newest - before);
+    before = last;
+    last = newest;
+  }
+  return most;
+}
+
+// Ticks and readings at rates that are no multiples of each other: 56 Hz at 50 Hz skips a reading now and
+// then.
+TEST(TurnRate, KeepsTheNewestReadingsOfTicksWithinAStep) {
+  Params p;
+  p.rangefinders.offset = 80_mm;
+  ASSERT_TRUE(rim_sweep(p).needed);
+  const double step_rad = rim_sweep(p).step.raw() * (6.283185 / 4294967296.0) * 0.8;
+  for (std::int32_t period = 5; period <= 20; ++period) {
+    for (std::int32_t rate = 5; rate <= 100; ++rate) {
+      p.safety.period = milliseconds(period);
+      p.rangefinders.rate_hz = rate;
+      const double turn = turn_rate(p).raw() * 1e-6 / rate * most_intervals(period, rate);
+      EXPECT_LE(turn, step_rad * 1.0001) << rate << " Hz, " << period << " ms";
+      const bool limited = turn_rate(p) < p.wheels.max_turn_rate;
+      EXPECT_TRUE(!limited || turn > step_rad * 0.999) << rate << " Hz, " << period << " ms";
+    }
+  }
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace whisker::test {
 /// ManoeuvreKind::keep.
 class Adversary final : public planning::Planner {
  public:
-  explicit Adversary(std::uint64_t seed) : random_(seed) {}
+  /// Its speeds and lengths are in proportion to the robot's.
+  explicit Adversary(std::uint64_t seed, const Params& robot = {});
   void set_goal(const planning::Goal&) noexcept override {}
   void move_goal(Vec) noexcept override {}
   void cancel() noexcept override {}
@@ -23,12 +24,20 @@ class Adversary final : public planning::Planner {
   /// Its next cruise.
   enum class Plot { steady, nearest, zigzag, shake, noise, survey };
 
-  Speed draw(int mm_per_s) { return Speed::from_raw((random_.index(2 * mm_per_s + 1) - mm_per_s) * 1000); }
+  /// A speed of the reference robot, for this one.
+  Speed speed(std::int64_t um_per_s) const {
+    return Speed::from_raw(static_cast<std::int32_t>(um_per_s * full_speed_.raw() / 300000));
+  }
+  Speed draw(int mm_per_s) { return speed((random_.index(2 * mm_per_s + 1) - mm_per_s) * 1000); }
   Angle draw_angle() { return Angle::from_raw(static_cast<std::uint32_t>(random_.bits())); }
   void plot(const planning::View& view);
   void change_cruise(const planning::View& view);
 
   worlds::Random random_;
+  const Speed full_speed_;
+  const Length radius_;
+  const Speed survey_;  // of the rims
+  const int survey_ticks_;
   planning::Manoeuvre wish_;
   Plot plot_ = Plot::steady;
   int rest_ = 0;         // ticks until the next choice
@@ -36,7 +45,8 @@ class Adversary final : public planning::Planner {
   bool fickle_ = false;  // chooses anew every tick
 };
 
-/// A world of any class of scripts/bars, with the body placed among the obstacles.
-Scenario thick_of_it(worlds::Random& random, bool noise);
+/// A world of any class of scripts/bars and of the robot's size, with the body placed among the obstacles and
+/// at rest on ground that rim_sweep() takes as free.
+Scenario thick_of_it(worlds::Random& random, bool noise, const Params& robot = {});
 
 }  // namespace whisker::test

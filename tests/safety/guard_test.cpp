@@ -142,5 +142,35 @@ TEST(Guard, CreepsOverUnseenGroundIfItMayAndStopsBeforeAnEcho) {
   EXPECT_LT(creeping, 0.41);
 }
 
+// The body would pass 0.2 mm into a cell beside the middle of its way, which the disc at the end of the way,
+// 19 mm ahead, does not touch.
+TEST(Guard, ChecksTheWholeWayOfTheSmallestBody) {
+  Params p;
+  p.body.radius = 20_mm;
+  p.body.track = 30_mm;
+  p.skirt.shield_margin = micrometres(900);
+  p.wheels.max_speed = 115_mm_per_s;
+  const auto granted = [&](Length beside) {
+    const Pose pose{{micrometres(1350), micrometres(17778) - beside}, {}};
+    perception::LocalGrid grid;
+    grid.configure(p);
+    grid.reset(pose);
+    for (int i = 0; i < 24; ++i) {
+      perception::ConeObservation around;
+      around.beam = {pose.at, 15_deg * i, 40_deg};
+      around.free = 200_mm;
+      grid.mark(around);
+    }
+    grid.block({10_mm, 20_mm}, micrometres(100));
+    safety::Guard guard;
+    const WheelPair full{p.wheels.max_speed, p.wheels.max_speed};
+    static_cast<void>(
+        guard.step({p.wheels.max_speed, {}, true}, pose, {full, full}, grid, p.safety.period, p));
+    return guard.granted();
+  };
+  EXPECT_EQ(granted(micrometres(19800)), Q14{});
+  EXPECT_EQ(granted(micrometres(21500)), Q14::ratio(1, 1));
+}
+
 }  // namespace
 }  // namespace whisker::test

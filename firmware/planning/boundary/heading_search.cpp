@@ -13,6 +13,9 @@ constexpr Angle kNotBack = 45_deg;
 constexpr Length kShortWay = 60_mm;
 constexpr Length kThere = 10_mm;
 constexpr int8_t kRetreats = 8;
+// A scan ends where the path is occupied. If the counts of an encoder shift the path by a cell, it may be
+// unknown again as soon as the body stands.
+constexpr int8_t kScans = 8;
 constexpr Length kOpeningWay = 100_mm;
 constexpr int32_t kOpeningCells = 6;
 
@@ -33,6 +36,7 @@ void HeadingSearch::begin(Angle first, const Pose& pose, Side wall) noexcept {
   first_ = first;
   wall_ = wall;
   candidate_ = 0;
+  scans_ = 0;
   effort_ = Effort::full;
 }
 
@@ -52,15 +56,15 @@ HeadingSearch::Found HeadingSearch::step(const View& view, const Params& params,
   const Reach& reach = view.local_grid->reach();
   const Length beside = narrow ? reach.guard : reach.planning;
   found.length = effort_ == Effort::full ? reach.probe : for_body(params, kShortWay);
-  for (const int32_t all = narrow ? 3 * kCandidateHeadings : kCandidateHeadings; candidate_ < all;
-       ++candidate_) {
+  for (const int32_t all = narrow ? 3 * kCandidateHeadings : kCandidateHeadings; candidate_ < all; refuse()) {
     found.angle = first_ - step * (candidate_ * sign(wall_));
     if (!may_return_ && magnitude(found.angle - back_) < kNotBack.raw()) continue;
     const Way there = way(view, found.angle, found.length, beside);
     if (there == Way::free) return Found::free;
-    if (there == Way::unknown && !narrow) return Found::unseen;
+    if (there == Way::unknown && !narrow && scans_++ < kScans) return Found::unseen;
   }
   candidate_ = 0;
+  scans_ = 0;
   switch (effort_) {
     case Effort::full: effort_ = Effort::short_ways; return Found::nothing;
     case Effort::short_ways: effort_ = Effort::narrow_ways; return Found::nothing;

@@ -42,8 +42,12 @@ class HeadingSearch {
   /// Examines paths of full length, then short ones, then narrow ones. The backward direction comes last,
   /// unless the search began there.
   Found step(const View& view, const Params& params, Heading& found) noexcept;
-  /// The guard grants nothing along the last heading: continue with the next one.
-  void refuse() noexcept { ++candidate_; }
+  /// The guard grants nothing along the last heading, or a scan shows nothing of it: continue with the next
+  /// one.
+  void refuse() noexcept {
+    ++candidate_;
+    scans_ = 0;
+  }
 
   /// Once per tick after `none`; `stalled`: the body does not move.
   Retreat retreat(const View& view, bool stalled, const Params& params, Manoeuvre& manoeuvre) noexcept;
@@ -64,6 +68,7 @@ class HeadingSearch {
   Effort effort_ = Effort::full;
   int8_t retreated_ = 0;
   int8_t retreats_ = 0;
+  int8_t scans_ = 0;  // of this candidate
   bool may_return_ = false;
 };
 

@@ -79,6 +79,23 @@ TEST(HeadingSearch, WantsToSeeWhatIsOpen) {
   EXPECT_EQ(judged(g, felt.way), Way::unknown);
 }
 
+// A scan may end without showing anything, again and again: the counts of a coarse encoder shift the path.
+TEST(HeadingSearch, DoesNotScanOneWayForEver) {
+  Ground g;
+  g.echo(-30, 180, 150_mm);
+  HeadingSearch feeler = come();
+  const Felt felt = feel(feeler, g, Side::left);
+  ASSERT_EQ(felt.found, HeadingSearch::Found::unseen);
+  HeadingSearch::Heading again;
+  int scans = 1;
+  while (scans < 100 && feeler.step(g.view(), g.params(), again) == HeadingSearch::Found::unseen &&
+         again.angle == felt.way.angle) {
+    ++scans;
+  }
+  EXPECT_EQ(scans, 8);
+  EXPECT_EQ(judged(g, again), Way::unknown) << "it goes on with the next one";
+}
+
 TEST(HeadingSearch, TakesAShorterWayWhereNoneIsLong) {
   Ground g;
   g.free(0, 360, 230_mm).echo(0, 360, 230_mm);
