@@ -15,6 +15,9 @@ constexpr Angle kTurn = Angle::turns(75, 3600);
 constexpr Duration kWhile = 250_ms;
 // Closer than this to a sector's rim, direction cosines in 2^-14 are too coarse to decide.
 constexpr Length kHair = micrometres(500);
+// Displacement of a moving object over the kept scans. A shorter one has no certain direction.
+constexpr Length kDisplaced = 40_mm;
+constexpr Length kFarthestDisplaced = 500_mm;
 
 }  // namespace
 
@@ -28,7 +31,7 @@ void MotionDetector::configure(const Mount (&mounts)[kBeams]) noexcept {
   }
 }
 
-void MotionDetector::add(const Pose& from, Time taken, const Length (&free)[kBeams]) noexcept {
+void MotionDetector::add(const Pose& from, Time taken, const Length (&free)[kBeams], uint8_t hits) noexcept {
   if (count_ > 0) {
     const Scan& last = scan_[newest_];
     if (!farther(from.at - last.at, kStep - micrometres(1)) &&
@@ -43,6 +46,7 @@ void MotionDetector::add(const Pose& from, Time taken, const Length (&free)[kBea
   scan.at = from.at;
   scan.heading = from.heading;
   scan.facing = facing(from.heading);
+  scan.hits = hits;
   for (int i = 0; i < kBeams; ++i) {
     scan.free[i] = static_cast<uint16_t>(min(free[i], kFarthest).raw() / kUm);
   }
@@ -125,6 +129,26 @@ bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthe
     if (across(right + step, across(right, ~Mask{0})) == 0) return false;
   }
   return true;
+}
+
+bool MotionDetector::came_from(Vec at, Angle& direction) const noexcept {
+  for (int n = count_; n > 0; --n) {
+    const Scan& scan = scan_[(newest_ + kKept + 1 - n) % kKept];
+    Vec way;
+    Length nearest = kFarthestDisplaced;
+    for (int i = 0; i < kBeams; ++i) {
+      if ((scan.hits >> i & 1U) == 0) continue;
+      const Beam beam = beam_of(mounts_[i], {scan.at, scan.heading});
+      const Vec from = at - beam.apex - polar(beam.axis, Length::from_raw(scan.free[i] * kUm));
+      if (farther(from, nearest)) continue;
+      nearest = norm(from);
+      way = from;
+    }
+    if (!farther(way, kDisplaced)) continue;
+    direction = bearing(way);
+    return true;
+  }
+  return false;
 }
 
 }  // namespace whisker::perception

@@ -28,14 +28,19 @@ class MotionDetector {
     newest_ = kKept - 1;
   }
 
-  /// All beams at one time: nothing lies nearer than free[i]. The scan is kept if the body has moved or
-  /// turned since the last kept one, or after some time.
-  void add(const Pose& from, Time taken, const Length (&free)[kBeams]) noexcept;
+  /// All beams at one time: nothing lies nearer than free[i], and `hits` has the bit of each beam that has an
+  /// echo from there. The scan is kept if the body has moved or turned since the last kept one, or after some
+  /// time.
+  void add(const Pose& from, Time taken, const Length (&free)[kBeams], uint8_t hits) noexcept;
 
   /// True if no point of the beam's cone between these two distances could have been occupied before: each
   /// lies in a kept sector or in clear ground.
   bool contradicts(const Beam& beam, Length nearest, Length farthest,
                    const LocalGrid& local_grid) const noexcept;
+
+  /// The direction in which the object at this place has moved, by the oldest scan that has an echo of it.
+  /// False: there is none.
+  bool came_from(Vec at, Angle& direction) const noexcept;
 
  private:
   static constexpr int kKept = 10;
@@ -55,6 +60,7 @@ class MotionDetector {
     Angle heading;
     Facing facing;               // the same direction
     uint16_t free[kBeams] = {};  // 1/8 mm
+    uint8_t hits = 0;            // as in add()
   };
   /// The kept sectors that contain this point.
   Mask holding(Vec point, Mask among) const noexcept;

@@ -6,6 +6,7 @@
 #include "firmware/perception/contacts.hpp"
 #include "firmware/perception/echo.hpp"
 #include "firmware/perception/local_grid.hpp"
+#include "firmware/perception/mover.hpp"
 
 namespace whisker::perception {
 
@@ -16,6 +17,7 @@ struct Percept {
   const LocalGrid* local_grid = nullptr;        ///< clear ground nearby
   const Contacts* contacts = nullptr;           ///< obstacles found by touch; null: none
   ConeObservation observations[hal::kBeams]{};  ///< one per beam, taken in at this tick
+  Mover mover;                                  ///< the nearest object that moves
   bool doubts = false;                          ///< Perception::doubts()
   uint8_t observed = 0;                         ///< one bit per beam that has one
 };

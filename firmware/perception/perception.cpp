@@ -43,6 +43,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
   Pose from;
+  uint8_t hits = 0;
   int seen = 0;
   for (int i = 0; i < hal::kBeams; ++i) {
     const RecentReadings sight = conditioner_.sight(i, params);
@@ -72,6 +73,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       if (approaches || !explained) moved[i] = sight.farthest;
     }
     const uint8_t bit = static_cast<uint8_t>(1U << i);
+    if (observation.hit) hits = static_cast<uint8_t>(hits | bit);
     // A single clear reading is not evidence: it needs a second one.
     const EarlierObservation* const before = sight.single ? &last_[i] : nullptr;
     if (!sight.single || (seen_ & bit) != 0) {
@@ -84,15 +86,25 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     out.observed = static_cast<uint8_t>(out.observed | bit);
     ++seen;
   }
+  Length nearest;
   // After all marks, because another beam may clear ground that an echo takes back, or into which a moving
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
     if (doubts() && echo) local_grid_.revoke(out.observations[i], appears[i]);
-    if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
+    if (moved[i] == Length{}) continue;
+    local_grid_.doubt(out.observations[i], moved[i]);
+    if (out.mover.seen && free[i] >= nearest) continue;
+    nearest = free[i];
+    const Beam& beam = out.observations[i].beam;
+    out.mover.at = beam.apex + polar(beam.axis, nearest);
+    out.mover.seen = true;
+    if (!motion_.came_from(out.mover.at, out.mover.direction)) {
+      out.mover.direction = bearing(body.pose.at - out.mover.at);
+    }
   }
   for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());
-  if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free);
+  if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free, hits);
   out.doubts = doubts();
   out.local_grid = &local_grid_;
   out.contacts = &contacts_;

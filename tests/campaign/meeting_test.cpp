@@ -62,6 +62,21 @@ TEST(Meet, ARobotThatIsCrossedWaitsOrGoesAroundAndSaysSo) {
   }
 }
 
+// It would run into a robot that only stops before it.
+TEST(Meet, ARobotInThePathOfSomethingSlowLeavesIt) {
+  for (const PlannerKind planner : {PlannerKind::skirt, kDefaultPlanner}) {
+    for (const Course course : {Course::oncoming, Course::crossing}) {
+      MeetingCount count;
+      for (std::uint64_t seed = 1; seed <= test::effort(60); ++seed) {
+        count.add(meet(worlds::meeting(course, 0.1, seed), planner));
+      }
+      // docs/ground.md: 3 to 7 % and 20 to 30 %.
+      EXPECT_LE(count.contacts, count.missions * (course == Course::oncoming ? 12 : 36) / 100)
+          << name(course);
+    }
+  }
+}
+
 TEST(Meet, NothingIsSaidOfWhatStands) {
   const Meeting m = meet(scene("center = [2.0, 0.05]\nradius_m = 0.2\npath = [[2.0, 0.05], [2.0, 9.0]]\n"
                                "speed_mps = 0.0\n"),

@@ -21,6 +21,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
   approach_.start(view, goal_);
   follower_.reset(view);
   survey_.reset();
+  evasion_.reset();
   loop_.begin(view, behaviours_.params);
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
@@ -44,6 +45,7 @@ void BoundaryPlanner::advance(const View& view) noexcept {
 }
 
 bool BoundaryPlanner::gives_way(const View& view) const noexcept {
+  if (phase_ == Phase::evade) return true;
   if (!view.local_grid->doubting()) return false;
   switch (phase_) {
     case Phase::survey:
@@ -51,6 +53,7 @@ bool BoundaryPlanner::gives_way(const View& view) const noexcept {
     case Phase::approach: return approach_.yields(view, decision_);
     case Phase::choose_side: return true;
     case Phase::boundary: return follower_.yields(view);
+    case Phase::evade: break;
     case Phase::arrive: return view.held_back();
   }
   return false;
@@ -67,6 +70,13 @@ void BoundaryPlanner::act(const View& view) noexcept {
     on(Event::at_goal);
     decision_.manoeuvre = stop();
   }
+  const bool threatened = evasion_.threatened(view, behaviours_.params);
+  if (threatened &&
+      (phase_ == Phase::approach || phase_ == Phase::choose_side || phase_ == Phase::boundary)) {
+    evasion_.begin();
+    on(Event::threatened);
+  }
+  if (!threatened && phase_ == Phase::evade) begin_approach(Event::passed);
   switch (phase_) {
     case Phase::survey: survey(view); break;
     case Phase::approach: approach(view); break;
@@ -74,6 +84,7 @@ void BoundaryPlanner::act(const View& view) noexcept {
     case Phase::boundary:
       if (boundary(view)) approach(view);
       break;
+    case Phase::evade: decision_.manoeuvre = evasion_.step(view, behaviours_.params); break;
     case Phase::arrive: arrive(view); break;
     case Phase::over: break;
   }

@@ -8,6 +8,7 @@
 #include "firmware/planning/boundary/approach.hpp"
 #include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/boundary_follower.hpp"
+#include "firmware/planning/boundary/evasion.hpp"
 #include "firmware/planning/boundary/follow_side_search.hpp"
 #include "firmware/planning/boundary/loop_detector.hpp"
 #include "firmware/planning/boundary/survey.hpp"
@@ -29,21 +30,24 @@ class BoundaryPlanner final : public GoalPlanner {
     approach,     ///< towards the goal: see Approach
     choose_side,  ///< the path is blocked: searches the exit with the smaller turn
     boundary,     ///< along the obstacle's boundary: see BoundaryFollower
+    evade,        ///< something that moves comes this way: leaves its path, see Evasion
     arrive,       ///< at the goal: comes to rest
     over,         ///< the mission has ended
   };
   enum class Event : uint8_t {
     surveyed,
-    blocked,    ///< no heading towards the goal is free
-    exit,       ///< the side is chosen
-    no_exit,    ///< no side has an exit: follows the wall in front
-    nearer,     ///< the leave rule holds
-    closed,     ///< closed the loop once: follow in the other direction
-    wall_lost,  ///< repeated laps around another obstacle than the one that blocked the path
-    doubted,    ///< the global planner doubts its map, and has a path again
-    enclosed,   ///< closed the loop in both directions
-    refuted,    ///< the last attempt of the global planner also found no path
-    stuck,      ///< no path is free, not even the retreat
+    blocked,     ///< no heading towards the goal is free
+    exit,        ///< the side is chosen
+    no_exit,     ///< no side has an exit: follows the wall in front
+    nearer,      ///< the leave rule holds
+    closed,      ///< closed the loop once: follow in the other direction
+    wall_lost,   ///< repeated laps around another obstacle than the one that blocked the path
+    doubted,     ///< the global planner doubts its map, and has a path again
+    enclosed,    ///< closed the loop in both directions
+    refuted,     ///< the last attempt of the global planner also found no path
+    stuck,       ///< no path is free, not even the retreat
+    threatened,  ///< something that moves comes this way
+    passed,      ///< it has passed, or is out of sight
     at_goal,
     slid_off,  ///< at rest, but outside the goal's tolerance
     settled,   ///< at rest at the goal
@@ -61,6 +65,11 @@ class BoundaryPlanner final : public GoalPlanner {
       {Phase::boundary, Event::enclosed, Phase::over, Mode::unreachable, Why::came_round},
       {Phase::approach, Event::refuted, Phase::over, Mode::unreachable, Why::came_round},
       {Phase::boundary, Event::stuck, Phase::over, Mode::gave_up, Why::no_exit},
+      {Phase::approach, Event::threatened, Phase::evade},
+      {Phase::choose_side, Event::threatened, Phase::evade},
+      {Phase::boundary, Event::threatened, Phase::evade},
+      {Phase::evade, Event::passed, Phase::approach, Mode::going, Why::target_free},
+      {Phase::evade, Event::at_goal, Phase::arrive},
       {Phase::survey, Event::at_goal, Phase::arrive},
       {Phase::approach, Event::at_goal, Phase::arrive},
       {Phase::choose_side, Event::at_goal, Phase::arrive},
@@ -110,6 +119,7 @@ class BoundaryPlanner final : public GoalPlanner {
   Approach approach_;
   BoundaryFollower follower_;
   Survey survey_;
+  Evasion evasion_;
   FollowSideSearch side_search_;
   LoopDetector loop_;
 };

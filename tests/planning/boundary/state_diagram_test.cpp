@@ -20,6 +20,7 @@ const char* name(BoundaryPlanner::Phase phase) {
     case BoundaryPlanner::Phase::approach: return "approach";
     case BoundaryPlanner::Phase::choose_side: return "choose_side";
     case BoundaryPlanner::Phase::boundary: return "boundary";
+    case BoundaryPlanner::Phase::evade: return "evade";
     case BoundaryPlanner::Phase::arrive: return "arrive";
     case BoundaryPlanner::Phase::over: return "over";
   }
@@ -39,6 +40,8 @@ const char* name(BoundaryPlanner::Event event) {
     case BoundaryPlanner::Event::enclosed: return "the loop is closed both ways round";
     case BoundaryPlanner::Event::refuted: return "the last try with the map found no way either";
     case BoundaryPlanner::Event::stuck: return "no way is left";
+    case BoundaryPlanner::Event::threatened: return "something that moves comes this way";
+    case BoundaryPlanner::Event::passed: return "it has passed";
     case BoundaryPlanner::Event::at_goal: return "at the goal";
     case BoundaryPlanner::Event::slid_off: return "at rest beside the goal";
     case BoundaryPlanner::Event::settled: return "at rest at the goal";

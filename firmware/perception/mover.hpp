@@ -1,0 +1,14 @@
+/// An object that moves.
+#pragma once
+
+#include "firmware/math/vec.hpp"
+
+namespace whisker::perception {
+
+struct Mover {
+  Vec at;             ///< its nearest point
+  Angle direction;    ///< of its motion, by the scans that showed it before; towards the body if none did
+  bool seen = false;  ///< at this tick
+};
+
+}  // namespace whisker::perception
