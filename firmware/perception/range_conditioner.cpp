@@ -9,6 +9,7 @@ constexpr Length kRoom = 500_mm;  // phantoms are nearer
 constexpr Length kAlike = 40_mm;  // readings that confirm each other differ by at most this
 constexpr Length kUndecided = Length::from_raw(-1);
 constexpr int32_t kAveraged = 64;  // readings
+constexpr int32_t kAveragedBeforeWall = 8 * kAveraged;
 // Shares of single readings, 2^-16. The reference noise causes fewer than 0.05 % near ones.
 constexpr uint16_t kFewPhantoms = 2621;
 constexpr uint16_t kManyPhantoms = 6554;
@@ -127,13 +128,14 @@ void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   }
   // Phantoms that surround a true reading differ.
   const bool echo = farthest < most - kOdd && farthest - nearest <= kAlike;
-  const auto follow = [](uint16_t& share, bool seen) {
-    const int32_t step = ((seen ? int32_t{UINT16_MAX} : 0) - share) / kAveraged;
+  const auto follow = [](uint16_t& share, bool seen, int32_t averaged) {
+    const int32_t step = ((seen ? int32_t{UINT16_MAX} : 0) - share) / averaged;
     share = static_cast<uint16_t>(share + step);
   };
-  // Only where there is room for a phantom, or something to miss.
-  if (nearest > kRoom) follow(phantoms_, nearest > middle + kOdd);
-  if (echo) follow(misses_, farthest < middle - kOdd);
+  // Only where there is room for a phantom, or something to miss. Before a wall, phantoms may be rare.
+  const bool near = nearest > middle + kOdd;
+  if (nearest > kRoom) follow(phantoms_, near, near || nearest == most ? kAveraged : kAveragedBeforeWall);
+  if (echo) follow(misses_, farthest < middle - kOdd, kAveraged);
 }
 
 Length BeamConditioner::confirmed(const Length (&last)[kHistory], Length far) const noexcept {

@@ -276,6 +276,15 @@ TEST_F(PhantomTest, HardlyAnyCountsAsAnEcho) {
   EXPECT_LT(near, kCount / 500);
 }
 
+TEST_F(PhantomTest, AFarWallBeforeWhichThereAreNoneDoesNotMakeTheBeamForgetThem) {
+  for (int i = 0; i < 500; ++i) see(900);
+  see(RangeStatus::clear, 0);
+  see(RangeStatus::clear, 0);
+  see(RangeStatus::clear, 0);
+  see(300);
+  EXPECT_EQ(sight().near.validity, Validity::clear);
+}
+
 TEST_F(PhantomTest, AnObjectCountsFromTheFourthReadingOnAndIsClearInNone) {
   for (int trial = 0; trial < 200; ++trial) {
     for (int i = 0; i < 20; ++i) see_nothing();
