@@ -88,7 +88,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
-    if (doubts() && echo) local_grid_.revoke(out.observations[i], appears[i]);
+    if (echo) local_grid_.revoke(out.observations[i], appears[i]);
     if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
   }
   for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());
