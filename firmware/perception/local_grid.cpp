@@ -275,6 +275,12 @@ bool LocalGrid::echo_arc(const Beam& beam, Length free, bool takes) noexcept {
   const int32_t begins = units(free - kReadingRounding);
   const int32_t ends = units(free) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
+  // What lies outside the window explains an echo.
+  const Angle sides[] = {-beam.half_cone, Angle{}, beam.half_cone};
+  for (const Angle side : sides) {
+    const Vec end = polar(beam.axis + side, free + Length::from_raw(cell_um_));
+    if (!takes && !in_window(local(beam.apex + end), 0)) return false;
+  }
   for (Rows rows(apex.y, ends); rows.more(); rows.next()) {
     const int s = slot(rows.row());
     const int32_t dy = rows.offset(apex.y);

@@ -4,10 +4,12 @@ namespace whisker::perception {
 namespace {
 
 constexpr uint32_t kSlowParts = 8;
-constexpr Length kOdd = 100_mm;    // a single reading differs from those around it by more than this
-constexpr Length kRoom = 500_mm;   // phantoms are nearer
-constexpr Length kAlike = 40_mm;   // readings that confirm each other differ by at most this
+constexpr Length kOdd = 100_mm;   // a single reading differs from those around it by more than this
+constexpr Length kRoom = 500_mm;  // phantoms are nearer
+constexpr Length kAlike = 40_mm;  // readings that confirm each other differ by at most this
+constexpr Length kUndecided = Length::from_raw(-1);
 constexpr int32_t kAveraged = 64;  // readings
+constexpr int32_t kAveragedBeforeWall = 8 * kAveraged;
 // Shares of single readings, 2^-16. The reference noise causes fewer than 0.05 % near ones.
 constexpr uint16_t kFewPhantoms = 2621;
 constexpr uint16_t kManyPhantoms = 6554;
@@ -117,38 +119,41 @@ void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   if (count_ < kHistory || steady_ < kHistory) return;
   const Length middle = history_[(newest_ + kHistory - kHistory / 2) % kHistory].distance;
   const Length most = max_range(params.rangefinders, beam_);
-  bool near = true;
-  bool far = true;
-  bool room = true;
-  bool echo = true;
+  Length nearest = most;
+  Length farthest;
   for (int i = 0; i < kHistory; ++i) {
     if (i == (newest_ + kHistory - kHistory / 2) % kHistory) continue;
-    near = near && history_[i].distance > middle + kOdd;
-    far = far && history_[i].distance < middle - kOdd;
-    room = room && history_[i].distance > kRoom;
-    echo = echo && history_[i].distance < most - kOdd;
+    nearest = min(nearest, history_[i].distance);
+    farthest = max(farthest, history_[i].distance);
   }
-  const auto follow = [](uint16_t& share, bool seen) {
-    const int32_t step = ((seen ? int32_t{UINT16_MAX} : 0) - share) / kAveraged;
+  // Phantoms that surround a true reading differ.
+  const bool echo = farthest < most - kOdd && farthest - nearest <= kAlike;
+  const auto follow = [](uint16_t& share, bool seen, int32_t averaged) {
+    const int32_t step = ((seen ? int32_t{UINT16_MAX} : 0) - share) / averaged;
     share = static_cast<uint16_t>(share + step);
   };
-  // Only where there is room for a phantom, or something to miss.
-  if (room) follow(phantoms_, near);
-  if (echo) follow(misses_, far);
+  // Only where there is room for a phantom, or something to miss. Before a wall, phantoms may be rare.
+  const bool near = nearest > middle + kOdd;
+  if (nearest > kRoom) follow(phantoms_, near, near || nearest == most ? kAveraged : kAveragedBeforeWall);
+  if (echo) follow(misses_, farthest < middle - kOdd, kAveraged);
 }
 
-Length BeamConditioner::confirmed(const Length (&last)[kHistory]) const noexcept {
+Length BeamConditioner::confirmed(const Length (&last)[kHistory], Length far) const noexcept {
   Length sorted[kHistory];
   for (int i = 0; i < kHistory; ++i) {
     int slot = i;
     for (; slot > 0 && sorted[slot - 1] > last[i]; --slot) sorted[slot] = sorted[slot - 1];
     sorted[slot] = last[i];
   }
-  const int others = phantoms_ > kManyPhantoms && misses_ < kFewMisses ? 2 : 1;
-  for (int i = 0; i + others < kHistory; ++i) {
-    if (sorted[i + others] - sorted[i] <= kAlike) return sorted[i];
+  const int wanted = misses_ > kFewMisses ? 2 : phantoms_ > kManyPhantoms ? 4 : 3;
+  bool pair = false;
+  for (int i = 0; i + 1 < kHistory; ++i) {
+    if (sorted[i + 1] - sorted[i] > kAlike) continue;
+    if (sorted[i] == far) return pair ? kUndecided : far;
+    if (i + wanted <= kHistory && sorted[i + wanted - 1] - sorted[i] <= kAlike) return sorted[i];
+    pair = true;
   }
-  return sorted[0];
+  return kUndecided;
 }
 
 RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
@@ -160,20 +165,24 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   for (int i = 0; i < kNear; ++i) last[i] = history_[(newest_ - i + kHistory) % kHistory].distance;
   const Length low = min(last[0], last[1]);
   const Length high = max(last[0], last[1]);
-  const Length median = max(low, min(high, last[kTypical - 1]));
+  const Length far = max_range(params.rangefinders, beam_);
+  bool agreed = true;
+  Length median = max(low, min(high, last[kTypical - 1]));
   Length nearest = min(min(low, last[2]), last[3]);
   s.misses = misses_ > kFewMisses;
   s.phantoms = phantoms_ > kFewPhantoms;
   if (s.phantoms && steady_ == kHistory && count_ == kHistory) {
     last[kNear] = history_[(newest_ - kNear + kHistory) % kHistory].distance;
-    nearest = confirmed(last);
+    nearest = confirmed(last, far);
+    agreed = nearest != kUndecided;
+    median = agreed ? nearest : far;
   }
-  const Length far = max_range(params.rangefinders, beam_);
-  s.fresh = fresh_;
+  s.fresh = fresh_ && agreed;
   s.taken = history_[newest_].taken;
   s.oldest = history_[(newest_ - kNear + 1 + kHistory) % kHistory].taken;
   s.farthest = max(high, last[kTypical - 1]);
-  s.measured = min(low, last[2]) > Length{} && s.farthest < far;
+  s.measured =
+      min(low, last[2]) > Length{} && s.farthest < far && (!s.phantoms || s.farthest - nearest <= kAlike);
   s.bend = abs(last[0] - last[1] * 2 + last[2]);
   // Two that nothing confirms may be an object that has just come into view.
   if (last[0] < nearest && last[1] < nearest) s.fresh = false;

@@ -66,7 +66,9 @@ class BeamConditioner {
   bool is_stuck(const hal::RangeReading& reading, Angle heading, Angle stuck_turn) noexcept;
   /// Estimates how many readings are wrong.
   void judge(Angle turned, const Params& params) noexcept;
-  Length confirmed(const Length (&last)[kHistory]) const noexcept;
+  /// The nearest distance that enough of these readings confirm, or nothing nearer than `far`. Undecided if
+  /// fewer agree on an echo, or nearly all disagree.
+  Length confirmed(const Length (&last)[kHistory], Length far) const noexcept;
   void age(Time now, const Params& params, Health& health) noexcept;
 
   int8_t beam_;

@@ -1,6 +1,7 @@
 #include "firmware/perception/range_conditioner.hpp"
 
 #include <cstdint>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -238,6 +239,72 @@ TEST_F(BeamTest, TheMedianOutvotesTheMinority) {
   EXPECT_EQ(look().distance, 510_mm);
   params_.conditioning.reads = 4;  // an even count takes the nearer of the two middle ones
   EXPECT_EQ(look().distance, 510_mm);
+}
+
+/// Three of ten readings of empty space are phantoms at 0.1 to 0.5 m; the beam has learnt that.
+class PhantomTest : public BeamTest {
+ protected:
+  PhantomTest() {
+    for (int i = 0; i < 500; ++i) see_nothing();
+  }
+  void see_nothing() {
+    if (std::bernoulli_distribution{0.3}(random_)) {
+      see(std::uniform_int_distribution<std::uint16_t>{100, 500}(random_));
+    } else {
+      see(RangeStatus::clear, 0);
+    }
+  }
+  RecentReadings sight() const { return beam_.sight(params_); }
+
+  std::mt19937 random_{1};
+};
+
+TEST_F(PhantomTest, HardlyAnyCountsAsAnEcho) {
+  constexpr int kCount = 10000;
+  int decided = 0;
+  int echoes = 0;
+  int near = 0;
+  for (int i = 0; i < kCount; ++i) {
+    see_nothing();
+    decided += sight().fresh ? 1 : 0;
+    echoes += sight().fresh && sight().near.validity != Validity::clear ? 1 : 0;
+    near += sight().typical.validity != Validity::clear ? 1 : 0;
+    EXPECT_FALSE(sight().misses) << i;  // nothing is there to be missed
+  }
+  EXPECT_GT(decided, kCount / 2);
+  EXPECT_LT(echoes, kCount / 500);
+  EXPECT_LT(near, kCount / 500);
+}
+
+TEST_F(PhantomTest, AFarWallBeforeWhichThereAreNoneDoesNotMakeTheBeamForgetThem) {
+  for (int i = 0; i < 500; ++i) see(900);
+  see(RangeStatus::clear, 0);
+  see(RangeStatus::clear, 0);
+  see(RangeStatus::clear, 0);
+  see(300);
+  EXPECT_EQ(sight().near.validity, Validity::clear);
+}
+
+TEST_F(PhantomTest, AnObjectCountsFromTheFourthReadingOnAndIsClearInNone) {
+  for (int trial = 0; trial < 200; ++trial) {
+    for (int i = 0; i < 20; ++i) see_nothing();
+    see(400);  // `single`: clear only together with the reading before, which saw nothing
+    for (int i = 1; i < 3; ++i) {
+      see(400);
+      EXPECT_TRUE(!sight().fresh || sight().near.validity != Validity::clear) << trial;
+    }
+    see(400);
+    EXPECT_TRUE(sight().fresh);
+    EXPECT_LE(sight().near.distance, 400_mm);
+  }
+}
+
+TEST_F(PhantomTest, ALoneFalseClearAfterTwoEchoesClearsNothing) {
+  for (int i = 0; i < 20; ++i) see(RangeStatus::clear, 0);
+  see(400);
+  see(400);
+  see(RangeStatus::clear, 0);
+  EXPECT_FALSE(sight().fresh);
 }
 
 TEST(RangeConditioner, IsAsLostAsItsWorstBeam) {

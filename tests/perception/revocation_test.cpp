@@ -57,6 +57,14 @@ TEST_F(Revocation, AnEchoThatUnclearGroundExplainsTakesNothingBack) {
   EXPECT_TRUE(clear_at(200_mm, -(30_mm)));
 }
 
+TEST_F(Revocation, GroundOutsideTheWindowExplainsAnEcho) {
+  clear(-(40_deg), 40_deg);
+  ASSERT_TRUE(clear_at(370_mm, 0_mm));
+  ASSERT_FALSE(clear_at(390_mm, 0_mm)) << "the window ends at 380 mm";
+  grid_.revoke(beam_at(0_deg, 365_mm, true));
+  EXPECT_TRUE(clear_at(370_mm, 0_mm));
+}
+
 TEST_F(Revocation, TheSecondEchoIsExplainedByTheFirst) {
   clear(-(40_deg), 40_deg);
   grid_.revoke(beam_at(0_deg, 200_mm, true));

@@ -39,6 +39,15 @@ TEST(RobotFile, MaySayWhatTheSensorsReallyDo) {
   EXPECT_EQ(params.body.radius, 120_mm);
 }
 
+TEST(RobotFile, MaySayHowNoisyTheRobotIs) {
+  const TemporaryFile file("[noise]\nrange_false_clear = 0.3\n");
+  Scenario s = parse_scenario(std::string(kLeast) + "[noise]\nrange_false_clear = 0.1\nrange_dropout = 0.2\n",
+                              "scenario");
+  apply_robot_file(s, file.path());
+  EXPECT_EQ(s.noise.range_false_clear, 0.3);
+  EXPECT_EQ(s.noise.range_dropout, 0.2) << "what the file does not set stays";
+}
+
 TEST(RobotFile, WithAWrongSensorChangesNothing) {
   const TemporaryFile file("body_radius_m = 0.12\n[sensor]\nphantom = 1.5\n");
   Params params;
