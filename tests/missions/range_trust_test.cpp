@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "firmware/perception/range_monitor.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/scenario.hpp"
 #include "host/worlds/generate.hpp"
@@ -51,12 +52,11 @@ TEST(RangeTrust, SwappedSideBeamsStopTheRobot) {
 }
 
 /// Ends of missions with this sensor, by their details.
-std::map<std::string, int> ends(worlds::Kind kind, const Sensor& sensor, double false_clears = 0) {
+std::map<std::string, int> ends(worlds::Kind kind, const Sensor& sensor) {
   std::map<std::string, int> ends;
   for (std::uint64_t seed = kSeed; seed < kSeed + 6; ++seed) {
     Scenario scenario = world(kind, seed);
     scenario.sensor = sensor;
-    scenario.noise.range_false_clear = false_clears;
     const RunResult result = run(scenario);
     ++ends[result.detail];
     EXPECT_EQ(result.detail == "range_untrusted", result.ranges->level == RangeLevel::untrusted);
@@ -76,8 +76,43 @@ TEST(RangeTrust, SideBeamsThatPointFarOutwardsStopTheRobot) {
   EXPECT_GE(ends(worlds::Kind::rooms, sensor)["range_untrusted"], 3);
 }
 
-TEST(RangeTrust, MostlyFalseClearReadingsStopTheRobotUnlessItTouchesBefore) {
-  EXPECT_GE(ends(worlds::Kind::discs, {}, 0.7)["range_untrusted"], 2);
+TEST(RangeTrust, SharesDoubtAndStopButPhantomsDoNotSlow) {
+  constexpr int kPercent = 656;
+  perception::RangeMonitor monitor;
+  monitor.configure({});
+  const auto level = [&](int phantoms, int false_clears) {
+    monitor.judge(static_cast<std::uint16_t>(phantoms * kPercent),
+                  static_cast<std::uint16_t>(false_clears * kPercent));
+    return monitor.trust().level;
+  };
+  EXPECT_EQ(level(15, 15), RangeLevel::trusted);
+  EXPECT_EQ(level(30, 0), RangeLevel::doubtful);
+  EXPECT_FALSE(monitor.slows());
+  EXPECT_EQ(level(0, 30), RangeLevel::doubtful);
+  EXPECT_TRUE(monitor.slows());
+  EXPECT_EQ(level(70, 0), RangeLevel::untrusted);
+  EXPECT_EQ(level(0, 60), RangeLevel::untrusted);
+}
+
+TEST(RangeTrust, ContradictionsFadeOverThePath) {
+  perception::RangeMonitor monitor;
+  monitor.configure({});
+  Vec at;
+  const auto drive = [&](int steps, bool contradicted) {
+    for (int i = 0; i < steps; ++i) {
+      at.x += 21_mm;
+      monitor.move_to(at);
+      if (contradicted) monitor.contradict(false);
+      if (contradicted) monitor.contradict(false);  // the same step
+    }
+    monitor.judge(0, 0);
+    return monitor.trust().level;
+  };
+  EXPECT_EQ(drive(10, true), RangeLevel::trusted);
+  EXPECT_EQ(drive(6, true), RangeLevel::doubtful);
+  EXPECT_EQ(drive(40, true), RangeLevel::untrusted);
+  EXPECT_EQ(drive(150, false), RangeLevel::doubtful);
+  EXPECT_EQ(drive(300, false), RangeLevel::trusted);
 }
 
 TEST(RangeTrust, TheIncidenceSeenApproachesTheLimitOfTheSensorsFromBelow) {
