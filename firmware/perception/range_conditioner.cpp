@@ -145,9 +145,6 @@ void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   const bool object =
       before < most - kOdd && like(before, after) && (like(before, other(-2)) || like(after, other(2)));
   if (object) follow(false_clear_share_, middle == most, kAveraged * 2);
-  if (before > kRoom && after > kRoom) {
-    follow(phantom_share_, middle < kRoom && before > middle + kOdd && after > middle + kOdd);
-  }
 }
 
 Length BeamConditioner::confirmed(const Length (&last)[kHistory]) const noexcept {

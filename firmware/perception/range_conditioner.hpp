@@ -54,9 +54,9 @@ class BeamConditioner {
   Echo latest() const noexcept { return latest_; }
   /// Time since the last usable measurement arrived.
   Duration lost_for(Time now) const noexcept { return now - last_usable_; }
-  /// Share of near echoes between two readings with room, and of clear readings between two echoes of one
-  /// object, 2^-16. Estimates of the probability of a phantom and of a false clear reading, at any rate.
-  uint16_t phantom_share() const noexcept { return phantom_share_; }
+  /// Share of near echoes among four readings with room, and of clear readings between two echoes of one
+  /// object, 2^-16. Estimates of the probability of a phantom and of a false clear reading.
+  uint16_t phantom_share() const noexcept { return phantoms_; }
   uint16_t false_clear_share() const noexcept { return false_clear_share_; }
   /// Clears the history; the beam is pending and, from `now`, not yet lost.
   void reset(Time now) noexcept;
@@ -90,7 +90,6 @@ class BeamConditioner {
   int8_t steady_ = 0;      // readings since a fast turn
   uint16_t phantoms_ = 0;  // share of single near readings, and of single far ones, 2^-16
   uint16_t misses_ = 0;
-  uint16_t phantom_share_ = 0;
   uint16_t false_clear_share_ = 0;
 };
 
