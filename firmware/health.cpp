@@ -17,6 +17,16 @@ const char* name(Fault fault) noexcept {
     case Fault::wheel_runaway: return "wheel_runaway";
     case Fault::bumper_lost: return "bumper_lost";
     case Fault::bumper_stuck: return "bumper_stuck";
+    case Fault::range_untrusted: return "range_untrusted";
+  }
+  return "?";
+}
+
+const char* name(RangeLevel level) noexcept {
+  switch (level) {
+    case RangeLevel::trusted: return "trusted";
+    case RangeLevel::doubtful: return "doubtful";
+    case RangeLevel::untrusted: return "untrusted";
   }
   return "?";
 }

@@ -21,10 +21,30 @@ enum class Fault : uint8_t {
   wheel_runaway,      ///< a wheel turns much further than commanded, or backwards
   bumper_lost,        ///< the bumper gave no state too often within a short time
   bumper_stuck,       ///< a bump switch stays pressed although the body has backed off
+  range_untrusted,    ///< the readings contradict each other or the parameters: see RangeTrust
 };
-constexpr int kFaults = 13;
+constexpr int kFaults = 14;
+
+/// How far the rangefinders do what the parameters say.
+enum class RangeLevel : uint8_t {
+  trusted,
+  doubtful,   ///< the robot drives slowly, and echoes take clear ground back
+  untrusted,  ///< the robot stops with Fault::range_untrusted
+};
+constexpr int kRangeLevels = 3;
 
 const char* name(Fault fault) noexcept;
+const char* name(RangeLevel level) noexcept;
+
+/// What the robot measures of its rangefinders; docs/safety.md has figures of good and bad sensors.
+struct RangeTrust {
+  static constexpr uint16_t kOnePerMetre = 256;
+  RangeLevel level = RangeLevel::trusted;
+  uint16_t contradictions = 0;  ///< echoes from ground shown empty, 1/256 per metre, over the last 4 m
+  uint16_t phantoms = 0;        ///< share of empty readings with a single near echo, 2^-16, worst beam
+  uint16_t false_clears = 0;    ///< share of single clear readings among echoes, 2^-16, worst beam
+  uint8_t incidence_deg = 0;    ///< walls gave echoes up to this angle from their normal; 0: unknown
+};
 
 /// How often each failure happened since the start; the counters saturate.
 struct Health {
@@ -47,6 +67,7 @@ struct Health {
   uint32_t bumps = 0;           ///< presses of a bump switch during a mission
   uint32_t bumper_refused = 0;  ///< ticks without the state of the bump switches
   uint32_t bumper_stuck = 0;
+  RangeTrust ranges;
 };
 
 constexpr void count(uint32_t& counter) noexcept {

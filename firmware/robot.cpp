@@ -173,6 +173,8 @@ void Robot::perceive(planning::View& view, bool counted) noexcept {
   if (params_.bumper.fitted == Fitted::yes) take_bumps(view.pose, counted);
   if (supervisor_.faulted()) return;
   perception_.observe({view.pose, last_tick_, view.settled, settled_since_}, params_, view);
+  status_.health.ranges = perception_.trust();
+  supervisor_.check_trust(perception_.trust().level);
 }
 
 void Robot::take_bumps(const Pose& pose, bool counted) noexcept {
@@ -224,8 +226,11 @@ WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
   } else if (!stands) {
     request = motion_.request(view.pose, elapsed_, guard_.held_for(), params_);
   }
-  if (perception_.doubts()) {
-    request.forward = limit(request.forward, safety::warned_speed(warned_speed_, request.turning));
+  const bool slows = perception_.slows();
+  if (slows || perception_.doubts()) {
+    // The warned speed rests on the parameters, which the readings contradict.
+    const Speed straight = slows ? min(warned_speed_, params_.wheels.max_speed / 2) : warned_speed_;
+    request.forward = limit(request.forward, safety::warned_speed(straight, request.turning));
   }
   return guard_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
 }

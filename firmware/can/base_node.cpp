@@ -101,6 +101,11 @@ bool BaseNode::replied(ParamReply& reply) const noexcept {
   return replied_;
 }
 
+bool BaseNode::reported(RangeTrustReport& trust) const noexcept {
+  if (trust_come_) trust = trust_;
+  return trust_come_;
+}
+
 FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept {
   switch (kind) {
     case MessageKind::wheel_command:
@@ -110,6 +115,11 @@ FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noe
       return read<NavStatus>(frame, [this](const auto& m) {
         status_ = m;
         status_come_ = true;
+      });
+    case MessageKind::range_trust:
+      return read<RangeTrustReport>(frame, [this](const auto& m) {
+        trust_ = m;
+        trust_come_ = true;
       });
     case MessageKind::param_reply:
       return read<ParamReply>(frame, [this](const auto& m) {
@@ -150,6 +160,7 @@ void BaseNode::on_reply(const MissionReply& reply) noexcept {
 void BaseNode::reset_peer() noexcept {
   commanded_ = false;
   status_come_ = false;
+  trust_come_ = false;
   replied_ = false;
 }
 

@@ -36,6 +36,8 @@ class BaseNode final : public Node {
   bool answered(uint32_t tick) const noexcept;
   const WheelCommand& command() const noexcept { return command_; }
   const NavStatus& status() const noexcept { return status_; }
+  /// The last report; false: none has arrived.
+  bool reported(RangeTrustReport& trust) const noexcept;
 
   /// Sends an order and repeats it until it is answered. It ends the safe stop of this node, so the wheels
   /// must be at rest. The robot runs once a start or resume is accepted.
@@ -63,6 +65,8 @@ class BaseNode final : public Node {
   uint8_t period_ms_ = 10;
   bool commanded_ = false;  // a command for this mission has arrived
   bool status_come_ = false;
+  RangeTrustReport trust_;
+  bool trust_come_ = false;
 
   MissionValues values_;
   Order order_ = Order::start;

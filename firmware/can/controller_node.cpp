@@ -1,6 +1,11 @@
 #include "firmware/can/controller_node.hpp"
 
 namespace whisker::can {
+namespace {
+
+constexpr uint32_t kTrustTicks = 50;
+
+}  // namespace
 
 ControllerNode::ControllerNode(hal::CanPort& port, const Identity& identity) noexcept
     : Node(port, Party::controller, identity) {}
@@ -69,6 +74,11 @@ void ControllerNode::answer(hal::WheelSpeeds speeds, const NavStatus& status) no
   braked_ = false;
   repeat_answer();
   flush();
+}
+
+void ControllerNode::publish_trust(const RangeTrustReport& trust, bool ends) noexcept {
+  if (!ends && trust.level == published_ && tick_ % kTrustTicks != 0) return;
+  if (send(trust)) published_ = trust.level;
 }
 
 FrameResult ControllerNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept {

@@ -29,6 +29,9 @@ class ControllerNode final : public Node {
   bool braked() const noexcept { return braked_; }
   /// The answer to the last set. In lockstep it is stored and sent again on request.
   void answer(hal::WheelSpeeds speeds, const NavStatus& status) noexcept;
+  /// Call it before answer(). Sends the report every 50 ticks, when its level changes, and if this tick ends
+  /// the mission.
+  void publish_trust(const RangeTrustReport& trust, bool ends) noexcept;
 
   /// Parameters accepted by a commit.
   const Params& params() const noexcept { return committed_; }
@@ -55,6 +58,7 @@ class ControllerNode final : public Node {
   bool stepped_ = false;  // a set was taken in this mission
   bool answered_ = false;
   bool asked_again_ = false;
+  RangeLevel published_ = RangeLevel::trusted;
   WheelCommand command_;
   NavStatus status_;
 

@@ -31,6 +31,7 @@ enum class MessageKind : uint8_t {
   nav_status,
   param_request,
   param_reply,
+  range_trust,
   heartbeat,
   info,
   info_request,
@@ -244,6 +245,24 @@ struct ParamReply {
   }
 };
 
+struct RangeTrustReport {
+  static constexpr MessageKind kKind = MessageKind::range_trust;
+  RangeLevel level = RangeLevel::trusted;
+  uint16_t contradictions = 0;
+  uint8_t phantoms = 0;
+  uint8_t false_clears = 0;
+  uint8_t incidence = 0;
+
+  template <class M, class F>
+  static constexpr void each(M& m, F& f) noexcept {
+    f({"Level", 12, 4, false, 0, kRangeLevels - 1, "1", "", "how far the rangefinders do what the parameters say", kAlways, word_of<RangeLevel, kRangeLevels>}, m.level);
+    f({"Contradictions", 16, 16, false, 0, kMost16, "0.00390625", "1/m", "echoes from ground shown empty, over the last 4 m"}, m.contradictions);
+    f({"Phantoms", 32, 8, false, 0, kMost8, "0.00390625", "", "share of empty readings that show a near echo, worst beam"}, m.phantoms);
+    f({"FalseClears", 40, 8, false, 0, kMost8, "0.00390625", "", "share of echoes missed, worst beam"}, m.false_clears);
+    f({"Incidence", 48, 8, false, 0, 90, "1", "deg", "walls gave echoes up to this angle from their normal; 0: unknown"}, m.incidence);
+  }
+};
+
 struct Heartbeat {
   static constexpr MessageKind kKind = MessageKind::heartbeat;
   NodeState state = NodeState::waiting;
@@ -331,6 +350,7 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"NavStatus", 0x15, 8, true, false, 10, "state of the navigation and its reason"}, NavStatus{});
   visit(Message{"ParamRequest", 0x16, 7, false, true, 0, "reads or changes a parameter"}, ParamRequest{});
   visit(Message{"ParamReply", 0x17, 7, true, false, 0, "answer to a ParamRequest"}, ParamReply{});
+  visit(Message{"RangeTrust", 0x1A, 7, true, false, 500, "what the core measures of its rangefinders; also at every change of the level"}, RangeTrustReport{});
   visit(Message{"Heartbeat", 0x70, 8, true, true, 100, "the node is alive, and its state"}, Heartbeat{});
   visit(Message{"Info", 0x71, 8, true, true, 0, "at the start, and on request"}, Info{});
   visit(Message{"InfoRequest", 0x72, 2, true, true, 0, "requests the Info of the other node"}, InfoRequest{});

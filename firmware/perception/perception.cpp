@@ -13,6 +13,7 @@ void Perception::configure(const Params& params) noexcept {
   local_grid_.configure(params);
   contacts_.configure(params.body.radius);
   motion_.configure(mounts_);
+  monitor_.configure(params);
   const Duration reach = params.rangefinders.latency + milliseconds(1000 / params.rangefinders.rate_hz);
   history_.configure(reach / (localization::PoseHistory::kKept - 2));
 }
@@ -22,6 +23,7 @@ void Perception::forget(const Pose& pose) noexcept {
   local_grid_.reset(pose);
   contacts_.reset();
   motion_.reset();
+  monitor_.reset();
   seen_ = 0;
   contradicted_ = 0;
   misses_ = false;
@@ -39,9 +41,11 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   if (body.settled) out.static_scan = conditioner_.look(body.settled_since, params);
   history_.add(body.pose, body.now);
   local_grid_.move_to(body.pose);
+  monitor_.move_to(body.pose.at);
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
+  SeenRange shown[hal::kBeams];
   Pose from;
   uint8_t hits = 0;
   int seen = 0;
@@ -56,6 +60,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.beam = beam_of(mounts_[i], from);
     const Length proving = proving_range(params.rangefinders, i);
     scatter_[i].add(sight);
+    if (sight.newest.validity == Validity::ok) {
+      shown[i] = {static_cast<uint16_t>(sight.newest.distance.raw() / 1000), scatter_[i].allowance()};
+    }
     misses_ = misses_ || sight.misses;
     // What contradicted was a phantom.
     if (sight.phantoms) contradicted_ = 0;
@@ -67,6 +74,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     if (observation.hit &&
         motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
       const bool approaches = contradictions_[i].approaches(observation);
+      if (!sight.phantoms) monitor_.contradict(approaches);
       const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
       if (anew && contradicted_ < kDistrusted) ++contradicted_;
       const bool explained = loses_walls_ || misses_ || sight.phantoms;
@@ -104,7 +112,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     }
   }
   for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());
+  if (seen > 0) monitor_.see(from, shown, mounts_);
   if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free, hits);
+  monitor_.judge(conditioner_.phantom_share(), conditioner_.false_clear_share());
   out.doubts = doubts();
   out.local_grid = &local_grid_;
   out.contacts = &contacts_;

@@ -14,6 +14,7 @@
 #include "firmware/perception/motion_detector.hpp"
 #include "firmware/perception/percept.hpp"
 #include "firmware/perception/range_conditioner.hpp"
+#include "firmware/perception/range_monitor.hpp"
 #include "firmware/perception/range_scatter.hpp"
 #include "hal/types.hpp"
 
@@ -51,7 +52,13 @@ class Perception {
   /// The longest time for which a beam has had no usable reading.
   Duration lost_for(Time now) const noexcept { return conditioner_.lost_for(now); }
   /// Clear ground may hold an obstacle, by the parameters or by what the readings show.
-  bool doubts() const noexcept { return loses_walls_ || misses_ || contradicted_ >= kDistrusted; }
+  bool doubts() const noexcept {
+    return loses_walls_ || misses_ || contradicted_ >= kDistrusted || monitor_.contradicted();
+  }
+  /// The readings contradict the parameters on which speeds rest.
+  bool slows() const noexcept { return monitor_.slows(); }
+  /// How far the rangefinders do what the parameters say.
+  const RangeTrust& trust() const noexcept { return monitor_.trust(); }
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:
@@ -69,6 +76,7 @@ class Perception {
   RangeConditioner conditioner_;
   localization::PoseHistory history_;
   MotionDetector motion_;
+  RangeMonitor monitor_;
   Contacts contacts_;
   LocalGrid local_grid_;
 };

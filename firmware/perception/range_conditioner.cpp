@@ -136,6 +136,16 @@ void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   const bool near = nearest > middle + kOdd;
   if (nearest > kRoom) follow(phantoms_, near, near || nearest == most ? kAveraged : kAveragedBeforeWall);
   if (echo) follow(misses_, farthest < middle - kOdd, kAveraged);
+  const auto other = [&](int i) {
+    return history_[(newest_ + kHistory - kHistory / 2 + i) % kHistory].distance;
+  };
+  const Length before = other(-1);
+  const Length after = other(1);
+  const auto like = [](Length a, Length b) { return abs(a - b) <= kOdd; };
+  // Two phantoms in a row may be alike, three hardly.
+  const bool object =
+      before < most - kOdd && like(before, after) && (like(before, other(-2)) || like(after, other(2)));
+  if (object) follow(false_clear_share_, middle == most, kAveraged * 2);
 }
 
 Length BeamConditioner::confirmed(const Length (&last)[kHistory], Length far) const noexcept {
@@ -187,6 +197,7 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   // Two that nothing confirms may be an object that has just come into view.
   if (last[0] < nearest && last[1] < nearest) s.fresh = false;
   s.single = last[0] == far || last[0] < nearest;
+  s.newest = {last[0], validity_of(last[0], far)};
   s.near = {nearest, validity_of(nearest, far)};
   s.typical = {median, validity_of(median, far)};
   return s;
@@ -239,6 +250,18 @@ Echoes RangeConditioner::latest() const noexcept {
   Echoes e;
   for (int i = 0; i < hal::kBeams; ++i) e.beam[i] = beam_[i].latest();
   return e;
+}
+
+uint16_t RangeConditioner::phantom_share() const noexcept {
+  uint16_t most = 0;
+  for (const BeamConditioner& b : beam_) most = b.phantom_share() > most ? b.phantom_share() : most;
+  return most;
+}
+
+uint16_t RangeConditioner::false_clear_share() const noexcept {
+  uint16_t most = 0;
+  for (const BeamConditioner& b : beam_) most = b.false_clear_share() > most ? b.false_clear_share() : most;
+  return most;
 }
 
 Duration RangeConditioner::lost_for(Time now) const noexcept {

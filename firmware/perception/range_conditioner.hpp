@@ -22,6 +22,7 @@ struct RecentReadings {
   bool single = false;    ///< the newest measurement alone does not prove `near`: it is clear or a phantom
   bool phantoms = false;  ///< phantoms are frequent
   bool misses = false;    ///< readings that miss an object are frequent
+  Echo newest;            ///< the newest measurement
   Echo typical;           ///< the median of the last three
   Length farthest;        ///< the farthest of the last three: a single reading cannot make it near
   bool measured = false;  ///< the last three are all distances
@@ -53,6 +54,10 @@ class BeamConditioner {
   Echo latest() const noexcept { return latest_; }
   /// Time since the last usable measurement arrived.
   Duration lost_for(Time now) const noexcept { return now - last_usable_; }
+  /// Share of near echoes among four readings with room, and of clear readings between two echoes of one
+  /// object, 2^-16. Estimates of the probability of a phantom and of a false clear reading.
+  uint16_t phantom_share() const noexcept { return phantoms_; }
+  uint16_t false_clear_share() const noexcept { return false_clear_share_; }
   /// Clears the history; the beam is pending and, from `now`, not yet lost.
   void reset(Time now) noexcept;
 
@@ -87,6 +92,7 @@ class BeamConditioner {
   int8_t steady_ = 0;      // readings since a fast turn
   uint16_t phantoms_ = 0;  // share of single near readings, and of single far ones, 2^-16
   uint16_t misses_ = 0;
+  uint16_t false_clear_share_ = 0;
 };
 
 class RangeConditioner {
@@ -100,6 +106,9 @@ class RangeConditioner {
   Echoes latest() const noexcept;
   /// The longest time for which a beam has had no usable measurement.
   Duration lost_for(Time now) const noexcept;
+  /// The largest shares of the beams.
+  uint16_t phantom_share() const noexcept;
+  uint16_t false_clear_share() const noexcept;
 
  private:
   BeamConditioner beam_[hal::kBeams] = {BeamConditioner{hal::kLeft}, BeamConditioner{hal::kFront},

@@ -98,6 +98,10 @@ void Supervisor::check_ranges(Duration lost) noexcept {
   if (lost > params_.safety.lost_after) fail(Fault::range_lost);
 }
 
+void Supervisor::check_trust(RangeLevel level) noexcept {
+  if (level == RangeLevel::untrusted) fail(Fault::range_untrusted);
+}
+
 void Supervisor::check_look(bool waits, Duration stood) noexcept {
   // Each reading of a static scan may take `lost_after` before the beam is lost; one more is under way.
   const Duration longest = params_.safety.lost_after * (params_.conditioning.reads + 1);

@@ -38,6 +38,7 @@ class Supervisor {
   void check_wheels(const localization::CountStep& step) noexcept;
   /// How long a beam has had no usable reading.
   void check_ranges(Duration lost) noexcept;
+  void check_trust(RangeLevel level) noexcept;
   /// How long the body has stood for a static scan that waits.
   void check_look(bool waits, Duration stood) noexcept;
   /// Bounds the time in one place, whatever the planner waits for or tries.

@@ -85,6 +85,8 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
     report::write_file(o.html, page::run_page(run, controller_picture()));
   }
 
+  const std::string warning = result.ranges ? report::range_warning(*result.ranges) : "";
+  if (!warning.empty()) fmt::print(stderr, "whisker: {}\n", warning);
   if (o.json) {
     const std::string json = report::result_json(result, o.bus_json ? o.bus_json() : "");
     fmt::print("{}\n", with_provenance(json, provenance(scenario, options, o)));

@@ -80,6 +80,14 @@ class BusPilot final : public Pilot {
   bool sees_inside() const override { return false; }
   std::optional<Pose> estimate() const override { return odometry_.pose(); }
 
+  std::optional<RangeTrust> ranges() const override {
+    can::RangeTrustReport report;
+    if (!node_.reported(report)) return std::nullopt;
+    const auto share = [](std::uint8_t part) { return static_cast<std::uint16_t>(part << 8); };
+    return RangeTrust{report.level, report.contradictions, share(report.phantoms), share(report.false_clears),
+                      report.incidence};
+  }
+
   const char* trouble() const override {
     if (node_.state() == can::NodeState::e_stopped) return "e_stop";
     if (const std::uint16_t bits = node_.permanent_errors(); bits != 0) {

@@ -125,6 +125,12 @@ class Writer {
     tick(name, order, units,
          [&](const TickRecord& r) { return std::llround(value_of(r) * static_cast<double>(units)); });
   }
+  template <class F>
+  void ranges(const char* name, std::int64_t per_unit, F&& value_of) {
+    std::vector<std::int64_t> values;
+    for (const Health& h : ticks_.health) values.push_back(static_cast<std::int64_t>(value_of(h.ranges)));
+    columns_.add(name, Order::differences, per_unit, values);
+  }
   void counter(const char* name, std::uint32_t Health::*counter) {
     std::vector<std::int64_t> values;
     for (const Health& h : ticks_.health) values.push_back(h.*counter);
@@ -211,6 +217,12 @@ void add_health(Columns& columns, Writer& w, const std::vector<Health>& health) 
   w.counter("bumps", &Health::bumps);
   w.counter("bumper_refused", &Health::bumper_refused);
   w.counter("bumper_stuck", &Health::bumper_stuck);
+  w.ranges("range_level", 1, [](const RangeTrust& r) { return static_cast<int>(r.level); });
+  w.ranges("contradictions_per_m", RangeTrust::kOnePerMetre,
+           [](const RangeTrust& r) { return r.contradictions; });
+  w.ranges("phantom_share", INT64_C(1) << 16, [](const RangeTrust& r) { return r.phantoms; });
+  w.ranges("false_clear_share", INT64_C(1) << 16, [](const RangeTrust& r) { return r.false_clears; });
+  w.ranges("incidence_seen_deg", 1, [](const RangeTrust& r) { return r.incidence_deg; });
 }
 
 void add_film(Columns& columns, const Frames& film) {

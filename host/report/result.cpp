@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -44,6 +45,38 @@ const char* outcome(Verdict verdict) noexcept {
   return "?";
 }
 
+double contradictions_per_m(const RangeTrust& ranges) {
+  return static_cast<double>(ranges.contradictions) / RangeTrust::kOnePerMetre;
+}
+
+double share(std::uint16_t part) { return part / 65536.0; }
+
+std::string range_warning(const RangeTrust& ranges) {
+  if (ranges.level == RangeLevel::trusted) return "";
+  const std::string level = fmt::format("the ranges are {}: ", name(ranges.level));
+  const double phantoms = share(ranges.phantoms);
+  const double false_clears = share(ranges.false_clears);
+  if (std::max(phantoms, false_clears) >= 0.2) {
+    const bool near = phantoms > false_clears;
+    return level + fmt::format("{:.0f} % {}; check the sensors{}", 100 * std::max(phantoms, false_clears),
+                               near ? "phantoms" : "false clear readings",
+                               near ? ", or set range_clear_m below the distance of the phantoms" : "");
+  }
+  const std::string rate = fmt::format("{:.1f} contradictions per metre", contradictions_per_m(ranges));
+  const int seen = ranges.incidence_deg;
+  if (seen > 0 && seen < 55) {
+    return level + fmt::format(
+                       "{}, and walls are seen up to {} degrees only; set range_incidence_deg = {} if the "
+                       "sensors lose "
+                       "oblique walls, else check which sensor is which",
+                       rate, seen, seen);
+  }
+  return level + fmt::format(
+                     "{}; check range_*_angle_deg, range_*_cone_deg, range_incidence_deg and which sensor is "
+                     "which",
+                     rate);
+}
+
 std::string result_json(const RunResult& result, const std::string& bus) {
   Json json;
   json["outcome"] = outcome(result.verdict);
@@ -56,6 +89,15 @@ std::string result_json(const RunResult& result, const std::string& bus) {
   json["hash"] = fmt::format("{:016x}", result.hash);
   json["detail"] = result.detail;
   json["bumps"] = result.bumps ? Json(*result.bumps) : Json(nullptr);
+  const auto ranges = [&](auto figure) {
+    return result.ranges ? Json(figure(*result.ranges)) : Json(nullptr);
+  };
+  json["range_trust"] = ranges([](const RangeTrust& r) { return Json(name(r.level)); });
+  json["contradictions_per_m"] = ranges([](const RangeTrust& r) { return rounded(contradictions_per_m(r)); });
+  json["phantom_share"] = ranges([](const RangeTrust& r) { return rounded(share(r.phantoms)); });
+  json["false_clear_share"] = ranges([](const RangeTrust& r) { return rounded(share(r.false_clears)); });
+  json["incidence_seen_deg"] =
+      ranges([](const RangeTrust& r) { return r.incidence_deg > 0 ? Json(r.incidence_deg) : Json(nullptr); });
   if (!bus.empty()) json["bus"] = Json::parse(bus);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

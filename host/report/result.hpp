@@ -1,6 +1,7 @@
 /// The verdict of a run, for programs and for people.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "host/run/record.hpp"
@@ -14,6 +15,12 @@ const char* outcome(Verdict verdict) noexcept;
 /// is not finite (the clearance in an empty world) or unknown becomes null. bus: a JSON object for the key
 /// "bus"; "" for none.
 std::string result_json(const RunResult& result, const std::string& bus = "");
+
+/// The figures of RangeTrust in the units of the JSON object.
+double contradictions_per_m(const RangeTrust& ranges);
+double share(std::uint16_t part);
+/// What is wrong with the rangefinders, its figure and the parameter to change; "" while they are trusted.
+std::string range_warning(const RangeTrust& ranges);
 
 /// "reached in 48.2 s, 12.31 m, min clearance 0.031 m", "believes it is there; is 5.83 m off, after 48.2 s,
 /// 12.31 m": one line, the detail in brackets if there is one.

@@ -13,6 +13,7 @@ class CorePilot final : public Pilot {
   CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Plant& plant);
   const Status& tick(Time now) override { return robot_.tick(now); }
   const perception::LocalGrid* local_grid() const override { return shown_.local_grid(); }
+  std::optional<RangeTrust> ranges() const override { return robot_.status().health.ranges; }
   const RecordingGuide* guide() const override { return planner_.guide; }
   /// Sets a new goal, during a mission or after it has ended.
   void set_goal(const planning::Goal& goal) { robot_.set_goal(goal); }

@@ -96,6 +96,7 @@ RunResult MissionRun::result() const {
   result.believed_distance_m = believed_distance();
   result.min_clearance_m = std::fmin(plant_->min_clearance(), kEmptyWorldClearance);
   result.bumps = plant_->bumps();
+  result.ranges = pilot_->ranges();
   result.ticks = ticks_;
   result.hash = hash_.value();
   return result;

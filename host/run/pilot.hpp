@@ -25,6 +25,8 @@ class Pilot {
   virtual bool sees_inside() const { return true; }
   /// The estimated pose, for a pilot without access to the core; none: unknown.
   virtual std::optional<Pose> estimate() const { return std::nullopt; }
+  /// What the robot measures of its rangefinders; none: unknown.
+  virtual std::optional<RangeTrust> ranges() const { return std::nullopt; }
   /// Why the robot will not move any more although its core has no fault; nullptr: it will.
   virtual const char* trouble() const { return nullptr; }
 };

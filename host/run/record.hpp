@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/fuzzy/variables.hpp"
+#include "firmware/health.hpp"
 #include "firmware/planning/state.hpp"
 #include "hal/types.hpp"
 #include "host/run/guidance.hpp"
@@ -48,6 +49,7 @@ struct RunResult {
   double min_clearance_m =
       0;  ///< smallest true gap between body and obstacle; <= 0 at a contact; 1000 in an empty world
   std::optional<std::uint32_t> bumps;  ///< touches that pressed a bump switch; none: unknown
+  std::optional<RangeTrust> ranges;    ///< at the end; none: unknown
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;  ///< FNV-1a 64 over the wheel commands of all ticks
 };

@@ -41,7 +41,8 @@ TEST(WorldsMeeting, IsTheSameForTheSameSeedAndLoadsAgain) {
   }
 }
 
-// Most of these runs would end in a contact if the robot did not stop; the thesis planner does not leave the path.
+// Most of these runs would end in a contact if the robot did not stop; the thesis planner does not leave the
+// path.
 TEST(WorldsMeeting, BringsTheTwoTogether) {
   RunOptions options;
   options.planner = PlannerKind::thesis;

@@ -700,6 +700,30 @@ TEST_F(ControllerAlone, OlderSetsAreNeverSteppedOn) {
   EXPECT_EQ(node_.state(), NodeState::safe_stop) << "it has had no set for 100 ms";
 }
 
+TEST_F(ControllerAlone, PublishesItsTrustEvery50TicksAtEveryChangeAndAtTheEnd) {
+  start();
+  peer_.forget();
+  RangeTrustReport trust;
+  for (int i = 0; i < 100; ++i) {
+    pass(10);
+    node_.publish_trust(trust, false);
+  }
+  peer_.poll(now_);
+  EXPECT_NEAR(peer_.heard<RangeTrustReport>(), 2, 1);
+  peer_.forget();
+  trust.level = RangeLevel::doubtful;
+  while (tick_ % 50 != 7) pass(10);
+  node_.publish_trust(trust, false);
+  node_.publish_trust(trust, false);
+  node_.publish_trust(trust, true);
+  node_.poll(now_);
+  peer_.poll(now_);
+  EXPECT_EQ(peer_.heard<RangeTrustReport>(), 2);
+  RangeTrustReport last;
+  ASSERT_TRUE(peer_.last(last));
+  EXPECT_EQ(last.level, RangeLevel::doubtful);
+}
+
 TEST_F(ControllerAlone, InLockstepTheSameSetGetsTheSameAnswer) {
   sync_mode_ = SyncMode::lockstep;
   start();

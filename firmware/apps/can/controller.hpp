@@ -25,6 +25,8 @@ class Controller {
     can::InputSet set;
     if (!pilot_.ready() || !node_.take_set(set)) return false;
     status_ = pilot_.step(set, node_.braked());
+    node_.publish_trust(trust_report(status_.health.ranges),
+                        status_.decision.outcome != planning::Outcome::running);
     node_.answer(status_.command, nav_status(status_));
     const bool failed = status_.health.fault != Fault::none;
     node_.report(failed ? uint16_t{can::Error::core_fault} : uint16_t{0},

@@ -39,4 +39,9 @@ can::NavStatus nav_status(const Status& s) noexcept {
   return n;
 }
 
+can::RangeTrustReport trust_report(const RangeTrust& trust) noexcept {
+  return {trust.level, trust.contradictions, static_cast<uint8_t>(trust.phantoms >> 8),
+          static_cast<uint8_t>(trust.false_clears >> 8), trust.incidence_deg};
+}
+
 }  // namespace whisker::can_app

@@ -5,7 +5,17 @@ import type {WayToGoal} from './goal.ts';
 import type {Player} from './player.ts';
 import type {Theme} from './theme.ts';
 import {stateColour} from './timeline.ts';
-import {COUNTER_WORDS, FAULTS, metres, sentence, shownName, verdict, verdictClass} from './words.ts';
+import {
+  COUNTER_WORDS,
+  FAULTS,
+  metres,
+  RANGE_LEVELS,
+  rangeFigures,
+  sentence,
+  shownName,
+  verdict,
+  verdictClass,
+} from './words.ts';
 
 const NOISE: [key: string, words: string, factor: number, unit: string][] = [
   ['range_sigma_m', 'range noise', 1000, 'mm'],
@@ -43,6 +53,7 @@ function sayWhatIsUnknown(run: Run): void {
   element('way-key').hidden = !run.map;
   element('map-unknown').hidden = !map || run.map !== null;
   element('counters-unknown').hidden = inside;
+  element('ranges-known').hidden = !inside;
   for (const id of ['course-key', 'rules']) element(id).hidden = !inside;
   element('clear-unknown').hidden = run.hasFilm;
   for (const id of ['clear-known', 'clear-key']) element(id).hidden = !run.hasFilm;
@@ -80,6 +91,23 @@ export class Facts {
   /** The run has ended, or its connection has. */
   end(): void {
     this.list('broken off');
+  }
+
+  private showRanges(): void {
+    const at = (name: string) => this.run.column(name)[this.player.tick];
+    const [level, warning] = RANGE_LEVELS[at('range_level')];
+    setText('range-level', level);
+    setText(
+      'range-figures',
+      rangeFigures(
+        at('contradictions_per_m'),
+        at('phantom_share'),
+        at('false_clear_share'),
+        at('incidence_seen_deg'),
+      ),
+    );
+    setText('range-warning', warning);
+    element('range-warning').hidden = warning === '';
   }
 
   /** The facts of the run. `unknown` stands for a missing verdict. */
@@ -132,6 +160,7 @@ export class Facts {
     const turning = (at('v_right_mps') - at('v_left_mps')) / run.info.robot.track;
     setText('now-turn', `${((turning * 180) / Math.PI).toFixed(0)}°/s`);
     setText('fault', FAULTS[fault] ?? fault);
+    this.showRanges();
     for (const {name, value, item} of this.counters) {
       const text = String(at(name));
       if (value.textContent === text) continue;

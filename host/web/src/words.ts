@@ -90,6 +90,7 @@ export const FAULTS: Record<string, string> = {
   wheel_runaway: 'a wheel does not turn as commanded',
   bumper_lost: 'the bump switches gave no state',
   bumper_stuck: 'a bump switch stays pressed',
+  range_untrusted: 'the rangefinders cannot be trusted',
 };
 
 export const COUNTER_WORDS: Record<string, string> = {
@@ -112,6 +113,25 @@ export const COUNTER_WORDS: Record<string, string> = {
   bumper_refused: 'ticks without bump switches',
   bumper_stuck: 'stuck bump switches',
 };
+
+/** By RangeLevel of firmware/health.hpp. */
+export const RANGE_LEVELS: [name: string, warning: string][] = [
+  ['trusted', ''],
+  ['doubtful', 'The readings contradict each other or the parameters: it drives slowly.'],
+  ['untrusted', 'The rangefinders cannot be trusted: it stops.'],
+];
+
+/** "0.3 contradictions per metre, 2 % phantoms, 0 % false clears, walls seen up to 67°". */
+export function rangeFigures(
+  contradictions: number,
+  phantoms: number,
+  falseClears: number,
+  incidence: number,
+): string {
+  const percent = (share: number) => `${Math.round(100 * share)} %`;
+  const walls = incidence > 0 ? `walls seen up to ${incidence}°` : 'incidence not known yet';
+  return `${contradictions.toFixed(1)} contradictions per metre, ${percent(phantoms)} phantoms, ${percent(falseClears)} false clears, ${walls}`;
+}
 
 /** The terms of D, the nearest first. */
 const AHEAD = ['very near ahead', 'near ahead', 'some way ahead', 'far ahead', 'very far ahead'];
