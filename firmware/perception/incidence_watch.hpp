@@ -20,7 +20,8 @@ struct SeenRange {
 /// whatever the width of the cone. So five readings in a row measure i. The result is the incidence that 98 %
 /// of the measurements do not exceed. It is a lower bound: it approaches the limit of the sensor from below
 /// if the robot turns past long walls, and stays lower if walls end before they vanish. Three beams cannot
-/// tell an end from a loss, because both look alike until the ground behind is seen from elsewhere.
+/// tell an end from a loss, because both look alike until the ground behind is seen from elsewhere. It only
+/// informs: nothing that the robot does depends on it.
 class IncidenceWatch {
  public:
   void reset() noexcept;

@@ -54,7 +54,7 @@ class MotionDetector {
   };
   static Facing facing(Angle direction) noexcept;
   /// The vector v in the frame of this direction; error up to 90 um at 2 m.
-  static Vec seen(Vec v, Facing facing) noexcept;
+  [[gnu::noinline]] static Vec seen(Vec v, Facing facing) noexcept;
   struct Scan {
     Vec at;
     Angle heading;

@@ -102,7 +102,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     if (doubts() && echo) local_grid_.revoke(out.observations[i], appears[i]);
     if (moved[i] == Length{}) continue;
     local_grid_.doubt(out.observations[i], moved[i]);
-    if (out.mover.seen && free[i] >= nearest) continue;
+    if (!kEvades || (out.mover.seen && free[i] >= nearest)) continue;
     nearest = free[i];
     const Beam& beam = out.observations[i].beam;
     out.mover.at = beam.apex + polar(beam.axis, nearest);

@@ -112,19 +112,24 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle h
   heading_ = heading;
 }
 
+const BeamConditioner::Measurement& BeamConditioner::recent(int back) const noexcept {
+  const int place = newest_ - back;
+  return history_[place < 0 ? place + kHistory : place];
+}
+
 void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   // In a faster turn, the cone may meet a thin object in a single reading.
   const bool slow = magnitude(turned) <= beam_cone(params.rangefinders, beam_).raw() / kSlowParts;
   steady_ = !slow ? int8_t{0} : steady_ < kHistory ? static_cast<int8_t>(steady_ + 1) : steady_;
   if (count_ < kHistory || steady_ < kHistory) return;
-  const Length middle = history_[(newest_ + kHistory - kHistory / 2) % kHistory].distance;
+  const Length middle = recent(kHistory / 2).distance;
   const Length most = max_range(params.rangefinders, beam_);
   Length nearest = most;
   Length farthest;
   for (int i = 0; i < kHistory; ++i) {
-    if (i == (newest_ + kHistory - kHistory / 2) % kHistory) continue;
-    nearest = min(nearest, history_[i].distance);
-    farthest = max(farthest, history_[i].distance);
+    if (i == kHistory / 2) continue;
+    nearest = min(nearest, recent(i).distance);
+    farthest = max(farthest, recent(i).distance);
   }
   // Phantoms that surround a true reading differ.
   const bool echo = farthest < most - kOdd && farthest - nearest <= kAlike;
@@ -136,15 +141,12 @@ void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   const bool near = nearest > middle + kOdd;
   if (nearest > kRoom) follow(phantoms_, near, near || nearest == most ? kAveraged : kAveragedBeforeWall);
   if (echo) follow(misses_, farthest < middle - kOdd, kAveraged);
-  const auto other = [&](int i) {
-    return history_[(newest_ + kHistory - kHistory / 2 + i) % kHistory].distance;
-  };
-  const Length before = other(-1);
-  const Length after = other(1);
+  const Length before = recent(kHistory / 2 + 1).distance;
+  const Length after = recent(kHistory / 2 - 1).distance;
   const auto like = [](Length a, Length b) { return abs(a - b) <= kOdd; };
   // Two phantoms in a row may be alike, three hardly.
-  const bool object =
-      before < most - kOdd && like(before, after) && (like(before, other(-2)) || like(after, other(2)));
+  const bool object = before < most - kOdd && like(before, after) &&
+                      (like(before, recent(kHistory - 1).distance) || like(after, recent(0).distance));
   if (object) follow(false_clear_share_, middle == most, kAveraged * 2);
 }
 
@@ -172,7 +174,7 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   RecentReadings s;
   if (count_ < kNear) return s;
   Length last[kHistory];
-  for (int i = 0; i < kNear; ++i) last[i] = history_[(newest_ - i + kHistory) % kHistory].distance;
+  for (int i = 0; i < kNear; ++i) last[i] = recent(i).distance;
   const Length low = min(last[0], last[1]);
   const Length high = max(last[0], last[1]);
   const Length far = max_range(params.rangefinders, beam_);
@@ -182,14 +184,14 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   s.misses = misses_ > kFewMisses;
   s.phantoms = phantoms_ > kFewPhantoms;
   if (s.phantoms && steady_ == kHistory && count_ == kHistory) {
-    last[kNear] = history_[(newest_ - kNear + kHistory) % kHistory].distance;
+    last[kNear] = recent(kNear).distance;
     nearest = confirmed(last, far);
     agreed = nearest != kUndecided;
     median = agreed ? nearest : far;
   }
   s.fresh = fresh_ && agreed;
   s.taken = history_[newest_].taken;
-  s.oldest = history_[(newest_ - kNear + 1 + kHistory) % kHistory].taken;
+  s.oldest = recent(kNear - 1).taken;
   s.farthest = max(high, last[kTypical - 1]);
   s.measured =
       min(low, last[2]) > Length{} && s.farthest < far && (!s.phantoms || s.farthest - nearest <= kAlike);
@@ -208,7 +210,7 @@ Echo BeamConditioner::look(Time since, const Params& params) const noexcept {
   if (count_ < wanted) return {};
   Length sorted[kHistory];
   for (int i = 0; i < wanted; ++i) {
-    const Measurement& m = history_[(newest_ - i + kHistory) % kHistory];
+    const Measurement& m = recent(i);
     if (m.taken - since < Duration{}) return {};
     int slot = i;
     for (; slot > 0 && sorted[slot - 1] > m.distance; --slot) sorted[slot] = sorted[slot - 1];

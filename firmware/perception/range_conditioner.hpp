@@ -66,6 +66,9 @@ class BeamConditioner {
     Length distance;
     Time taken;
   };
+  /// The measurement this many before the newest; below kHistory. Not inline, because small chips have no
+  /// room.
+  [[gnu::noinline]] const Measurement& recent(int back) const noexcept;
   Validity classify(const hal::RangeReading& reading, Angle heading, const Params& params,
                     Health& health) noexcept;
   bool is_stuck(const hal::RangeReading& reading, Angle heading, Angle stuck_turn) noexcept;

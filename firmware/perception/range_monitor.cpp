@@ -10,11 +10,10 @@ static_assert(kStep * kFading == 4_m);
 
 // Measured: docs/safety.md.
 constexpr uint16_t kContradicted = 3 * RangeTrust::kOnePerMetre;
-constexpr uint16_t kAbsurd = 10 * RangeTrust::kOnePerMetre;
+constexpr uint16_t kAbsurd = 8 * RangeTrust::kOnePerMetre;
 // Where walls vanish at an angle, contradictions are part of the operation.
 constexpr uint16_t kLossyContradicted = 20 * RangeTrust::kOnePerMetre;
 constexpr uint16_t kLossyAbsurd = 40 * RangeTrust::kOnePerMetre;
-constexpr uint8_t kLossy_deg = 55;  // sensors that give echoes at any angle show walls beyond it
 constexpr uint16_t kManyPhantoms = 13107;
 constexpr uint16_t kMostPhantoms = 42598;
 constexpr uint16_t kSomeFalseClears = 6554;
@@ -54,10 +53,9 @@ void RangeMonitor::judge(uint16_t phantoms, uint16_t false_clears) noexcept {
   trust_.phantoms = phantoms;
   trust_.false_clears = false_clears;
   trust_.incidence_deg = incidence_.seen_deg();
-  const bool seen_lossy = trust_.incidence_deg != 0 && trust_.incidence_deg < kLossy_deg;
   // Phantoms appear in clear ground, and false clear readings clear ground wrongly.
   if (phantoms >= kManyPhantoms) trust_.contradictions = 0;
-  const bool lossy = seen_lossy || false_clears >= kSomeFalseClears || doubtful_rate_ == kLossyContradicted;
+  const bool lossy = false_clears >= kSomeFalseClears || doubtful_rate_ == kLossyContradicted;
   const bool absurd = trust_.contradictions >= (lossy ? kLossyAbsurd : kAbsurd);
   if (absurd || phantoms >= kMostPhantoms || false_clears >= kMostFalseClears) {
     trust_.level = RangeLevel::untrusted;

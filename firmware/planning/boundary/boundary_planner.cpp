@@ -70,7 +70,7 @@ void BoundaryPlanner::act(const View& view) noexcept {
     on(Event::at_goal);
     decision_.manoeuvre = stop();
   }
-  const bool threatened = evasion_.threatened(view, behaviours_.params);
+  const bool threatened = perception::kEvades && evasion_.threatened(view, behaviours_.params);
   if (threatened &&
       (phase_ == Phase::approach || phase_ == Phase::choose_side || phase_ == Phase::boundary)) {
     evasion_.begin();
@@ -84,7 +84,9 @@ void BoundaryPlanner::act(const View& view) noexcept {
     case Phase::boundary:
       if (boundary(view)) approach(view);
       break;
-    case Phase::evade: decision_.manoeuvre = evasion_.step(view, behaviours_.params); break;
+    case Phase::evade:
+      if constexpr (perception::kEvades) decision_.manoeuvre = evasion_.step(view, behaviours_.params);
+      break;
     case Phase::arrive: arrive(view); break;
     case Phase::over: break;
   }

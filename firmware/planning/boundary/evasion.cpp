@@ -11,6 +11,7 @@ constexpr Length kPassed = 50_mm;
 constexpr Length kClear = 350_mm;
 constexpr Length kThreatened = 500_mm;
 constexpr Length kNear = 700_mm;
+constexpr Angle kFacing = 3_deg;
 // From the object's motion, in order of preference.
 constexpr int8_t kOffDegrees[] = {90, 120, 60, 30};
 // Behind the body, only the ground that it has just left is known to be free, so it prefers to turn.
@@ -51,6 +52,8 @@ Manoeuvre Evasion::step(const View& view, const Params& params) const noexcept {
   if (backwards) error += 180_deg;
   Manoeuvre away = steer(error, params.wheels.max_speed, params);
   if (backwards) away.forward = -away.forward;
+  // Where the guard grants no way, a turn of less than a count would look like stalled wheels.
+  if (magnitude(error) < nearest_facing(kFacing, params).raw()) away.turning = Speed{};
   return away;
 }
 
