@@ -25,7 +25,7 @@ int parts_of(const Input& input) {
 
 }  // namespace
 
-bool make_axis(const RuleBase& base, std::size_t index, Axis& out) {
+bool make_axis(const RuleBase& base, std::size_t index, int fewest, Axis& out) {
   const Input& input = base.inputs[index];
   const double range = input.high - input.low;
   out.input = index;
@@ -35,7 +35,7 @@ bool make_axis(const RuleBase& base, std::size_t index, Axis& out) {
     if (!whole(steps) || steps < 1 || steps > kMostRangeSteps) return false;
   } else {
     int steps = parts_of(input);
-    while (steps < kFewestSteps) steps *= 2;
+    while (steps < fewest) steps *= 2;
     out.per_unit = steps / range;
   }
   const double low = input.low * out.per_unit;

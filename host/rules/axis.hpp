@@ -8,7 +8,7 @@
 
 namespace whisker::rules {
 
-/// Fewest steps over the range of an input without its own resolution.
+/// Fewest steps over the range of an input without its own resolution, unless the user asks for others.
 constexpr int kFewestSteps = 1024;
 /// Most steps over the range of an input with its own resolution.
 constexpr int kMostRangeSteps = 32768;
@@ -25,10 +25,10 @@ struct Axis {
   std::int32_t count() const { return high - low + 1; }
 };
 
-/// The input's own resolution, or the coarsest with at least kFewestSteps over the range: the corners of the
-/// terms lie on raw values if at most 256 equal parts of the range have all of them on their borders.
+/// The input's own resolution, or the coarsest with at least `fewest` steps over the range: the corners of
+/// the terms lie on raw values if at most 256 equal parts of the range have all of them on their borders.
 /// Origin 0 if raw values then fit in 16 bits, else the lower end of the range. False: the given resolution
 /// does not fit the range.
-bool make_axis(const RuleBase& base, std::size_t input, Axis& out);
+bool make_axis(const RuleBase& base, std::size_t input, int fewest, Axis& out);
 
 }  // namespace whisker::rules

@@ -92,7 +92,8 @@ Compiled compile(RuleBase base, const Options& options) {
   Compiled c;
   c.base = std::move(base);
   const Inference inference(c.base);
-  c.surface = make_surface(c.base, inference, make_domain(c.base, inference, options.fixed));
+  c.surface =
+      make_surface(c.base, inference, make_domain(c.base, inference, options.fixed, options.fewest_steps));
   for (std::size_t r = 0; r < c.surface.fired.size(); ++r)
     if (!c.surface.fired[r]) c.never.push_back(r);
   find_gaps(c);

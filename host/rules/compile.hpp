@@ -12,6 +12,7 @@ namespace whisker::rules {
 struct Options {
   Demand demand;
   std::vector<Fixed> fixed;
+  int fewest_steps = kFewestSteps;  ///< over the range of an input without its own resolution
 };
 
 /// Inputs where no rule fires for an output.

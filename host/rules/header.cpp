@@ -120,7 +120,8 @@ class Writer {
   void output(std::size_t o) {
     const OutputScale& s = c_.table.scales[o];
     const std::string name = macro_ + "_" + upper(outputs_[o]);
-    add("/* Output {}: value = origin + raw / per unit. */\n#define {}_ORIGIN ({})\n#define {}_PER_UNIT {}\n\n",
+    add("/* Output {}: value = origin + raw / per unit. */\n#define {}_ORIGIN ({})\n#define {}_PER_UNIT "
+        "{}\n\n",
         outputs_[o], name, toml_number(s.origin), name, toml_number(s.per_unit));
   }
 

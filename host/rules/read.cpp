@@ -59,6 +59,8 @@ RuleBase parse_rules(std::string_view text, const std::string& name) {
   const std::string low = lower(name);
   if (ends_with(low, ".fis")) return read_fis(source);
   if (ends_with(low, ".fll")) return read_fll(source);
+  if (ends_with(low, ".fcl")) return read_fcl(source);
+  if (ends_with(low, ".toml")) return read_toml(source);
 
   source.fail(Place{}, "the name of a rule file ends in .fis, .fll, .fcl or .toml");
 }

@@ -38,9 +38,9 @@ bool enters_linear_term(const RuleBase& base, std::size_t input) {
   return false;
 }
 
-Domain::Part make_part(const RuleBase& base, const Inference& inference, std::size_t input) {
+Domain::Part make_part(const RuleBase& base, const Inference& inference, std::size_t input, int fewest) {
   Domain::Part part;
-  if (!make_axis(base, input, part.axis)) {
+  if (!make_axis(base, input, fewest, part.axis)) {
     fail(base, base.inputs[input].place,
          fmt::format("'{}': the range must be a whole number of raw units, at most 32768, and fit in 16 bits",
                      base.inputs[input].name));
@@ -149,13 +149,14 @@ double Domain::Part::multiplicity(std::int32_t i) const {
   return n;
 }
 
-Domain make_domain(const RuleBase& base, const Inference& inference, const std::vector<Fixed>& fixed) {
+Domain make_domain(const RuleBase& base, const Inference& inference, const std::vector<Fixed>& fixed,
+                   int fewest_steps) {
   Domain domain;
   for (std::size_t i = 0; i < base.inputs.size(); ++i) {
     const auto same = [i](const Fixed& f) { return f.input == i; };
     const auto held = std::find_if(fixed.begin(), fixed.end(), same);
     domain.inputs.push_back(held == fixed.end() ? 0 : held->value);
-    if (held == fixed.end()) domain.parts.push_back(make_part(base, inference, i));
+    if (held == fixed.end()) domain.parts.push_back(make_part(base, inference, i, fewest_steps));
     if (domain.parts.size() > 2) {
       fail(base, base.inputs[i].place,
            fmt::format("a table has at most two inputs; fix one of the {} with --fix {}=VALUE",

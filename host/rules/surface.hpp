@@ -42,7 +42,8 @@ struct Surface {
 };
 
 /// Throws InputError if the number of free inputs is neither one nor two, or a resolution does not fit.
-Domain make_domain(const RuleBase& base, const Inference& inference, const std::vector<Fixed>& fixed);
+Domain make_domain(const RuleBase& base, const Inference& inference, const std::vector<Fixed>& fixed,
+                   int fewest_steps);
 
 /// Evaluates on all processors.
 Surface make_surface(const RuleBase& base, const Inference& inference, const Domain& domain);
