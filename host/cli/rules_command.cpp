@@ -15,6 +15,7 @@
 #include "host/report/file.hpp"
 #include "host/rules/compile.hpp"
 #include "host/rules/header.hpp"
+#include "host/rules/picture.hpp"
 #include "host/rules/read.hpp"
 #include "host/scenario/text.hpp"
 
@@ -28,7 +29,15 @@ struct CompileOptions {
   std::string nodes;
   std::vector<std::string> fixed;
   std::string header;
+  std::string svg;
+  std::string steps;
   bool json = false;
+};
+
+struct ShowOptions {
+  std::string file;
+  std::vector<std::string> fixed;
+  std::string svg;
 };
 
 bool parse_finite(std::string_view text, double& out) {
@@ -88,27 +97,59 @@ std::vector<rules::Fixed> fixed(const rules::RuleBase& base, const std::vector<s
 }
 
 int execute_rules_compile(const CompileOptions& o) {
-  check_outputs({o.header}, {o.file}, o.json);
+  check_outputs({o.header, o.svg}, {o.file}, o.json);
   rules::Options options;
   if (!o.tolerance.empty()) options.demand.tolerance = tolerance(o.tolerance);
   if (!o.most_bytes.empty()) options.demand.most_bytes = std::stoul(o.most_bytes);
   if (!o.nodes.empty()) options.demand.nodes = nodes(o.nodes);
+  if (!o.steps.empty()) options.fewest_steps = std::stoi(o.steps);
   rules::RuleBase base = rules::read_rules(o.file);
   options.fixed = fixed(base, o.fixed);
   const rules::Compiled compiled = rules::compile(std::move(base), options);
   if (!o.header.empty()) report::write_file(o.header, rules::header(compiled, o.header));
+  if (!o.svg.empty()) report::write_file(o.svg, rules::picture(compiled.base, compiled.surface));
   if (o.json) {
     fmt::print("{}\n", table_json(compiled));
   } else {
-    std::FILE* const out = words_beside({o.header});
+    std::FILE* const out = words_beside({o.header, o.svg});
     print_table(out, compiled);
     if (!o.header.empty()) fmt::print(out, "header: {}\n", o.header);
+    if (!o.svg.empty()) fmt::print(out, "picture: {}\n", o.svg);
   }
+  return 0;
+}
+
+int execute_rules_show(const ShowOptions& o) {
+  check_outputs({o.svg}, {o.file});
+  const rules::RuleBase base = rules::read_rules(o.file);
+  const rules::Inference inference(base);
+  const rules::Domain domain = rules::make_domain(base, inference, fixed(base, o.fixed), rules::kFewestSteps);
+  std::FILE* const out = words_beside({o.svg});
+  if (!o.svg.empty())
+    report::write_file(o.svg, rules::picture(base, rules::make_surface(base, inference, domain)));
+  print_rule_base(out, base);
+  if (!o.svg.empty()) fmt::print(out, "picture: {}\n", o.svg);
   return 0;
 }
 
 constexpr const char* kRulesStatus = R"(
 Exit status of rules: 0 done, 2 the file cannot be read or compiled, or wrong usage, 1 anything else.)";
+
+void add_fix(CLI::App& cmd, std::vector<std::string>& fixed) {
+  cmd.add_option("--fix", fixed, "Hold an input at a value: INPUT=VALUE; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void add_show(CLI::App& rules, int& status) {
+  CLI::App* cmd = rules.add_subcommand("show", "List variables and rules, and draw memberships and surface");
+  const auto o = std::make_shared<ShowOptions>();
+  add_file(*cmd, "FILE", o->file, "Rule base: .fis, .fll, .fcl or .toml")->required();
+  add_fix(*cmd, o->fixed);
+  add_file(*cmd, "--svg", o->svg, "Draw the memberships and the exact answers");
+  cmd->footer(kRulesStatus);
+  cmd->callback([o, &status] { status = execute_rules_show(*o); });
+}
 
 void add_compile(CLI::App& rules, int& status) {
   CLI::App* cmd =
@@ -122,10 +163,11 @@ void add_compile(CLI::App& rules, int& status) {
   add_name(*cmd, "--nodes", o->nodes, "The table with exactly this many nodes, N or NxM, instead")
       ->excludes("--tolerance")
       ->excludes("--max-bytes");
-  cmd->add_option("--fix", o->fixed, "Hold an input at a value: INPUT=VALUE; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false);
+  add_fix(*cmd, o->fixed);
+  add_name(*cmd, "--steps", o->steps, "Fewest raw units over the range of an input (default 1024)")
+      ->transform(whole_number(8192));
   add_file(*cmd, "--header", o->header, "Write table and look-up as a header for C99 and C++17");
+  add_file(*cmd, "--svg", o->svg, "Draw the memberships and the exact answers");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->footer(kRulesStatus);
   cmd->callback([o, &status] { status = execute_rules_compile(*o); });
@@ -137,6 +179,7 @@ void add_rules(CLI::App& app, int& status) {
   CLI::App* rules = app.add_subcommand("rules", "Compile a fuzzy rule base to an integer table");
   rules->require_subcommand(1);
   add_compile(*rules, status);
+  add_show(*rules, status);
 }
 
 }  // namespace whisker::cli

@@ -117,6 +117,22 @@ void print_table(std::FILE* out, const Compiled& c) {
   for (const rules::Finding& f : rules::findings(c)) fmt::print(out, "warning: {}\n", f.text);
 }
 
+void print_rule_base(std::FILE* out, const rules::RuleBase& base) {
+  const auto terms = [out](const std::vector<rules::Term>& all) {
+    for (std::size_t t = 0; t < all.size(); ++t) fmt::print(out, "{}{}", t == 0 ? ": " : ", ", all[t].name);
+    fmt::print(out, "\n");
+  };
+  fmt::print(out, "{}: {} rules\n", base.name.empty() ? base.file : base.name, base.rules.size());
+  for (const rules::Input& v : base.inputs) {
+    fmt::print(out, "input {}, {:g} to {:g}", v.name, v.low, v.high);
+    terms(v.terms);
+  }
+  for (const rules::Output& v : base.outputs) {
+    fmt::print(out, "output {}, {:g} to {:g}", v.name, v.low, v.high);
+    terms(v.terms);
+  }
+}
+
 std::string table_json(const Compiled& c) {
   Json never = Json::array();
   for (const std::size_t r : c.never)

@@ -54,14 +54,12 @@ void Inference::prepare(std::size_t o) {
   Prepared& prepared = outputs_.emplace_back();
   std::vector<Canvas::Set> sets;
   std::vector<std::pair<std::size_t, bool>> of;
-  bool minimum = false;
   for (std::size_t r = 0; r < base_.rules.size(); ++r) {
     for (const Conclusion& c : base_.rules[r].conclusions) {
       if (c.output != o) continue;
       const std::pair<std::size_t, bool> key{c.term, c.negated};
       const auto at = static_cast<std::size_t>(std::find(of.begin(), of.end(), key) - of.begin());
       const bool product = base_.rules[r].implication == And::product;
-      minimum = minimum || !product;
       prepared.parts.push_back({r, c.term, at, product});
       if (at < of.size()) continue;
       of.push_back(key);
@@ -69,7 +67,7 @@ void Inference::prepare(std::size_t o) {
     }
   }
   prepared.sets = sets.size();
-  const bool crossings = minimum && output.aggregation == Or::maximum;
+  const bool crossings = output.aggregation == Or::maximum;
   if (is_weighted(output)) return;
   prepared.canvas.emplace_back(sets, output.low, output.high, crossings, false);
   if (!Canvas::exact(sets)) prepared.canvas.emplace_back(sets, output.low, output.high, crossings, true);

@@ -29,7 +29,8 @@ inline double join(Or norm, double a, double b) {
     case Or::sum: return a + b;
     case Or::drastic: return std::min(a, b) <= 0 ? std::max(a, b) : 1;
     case Or::einstein: return (a + b) / (1 + a * b);
-    case Or::hamacher: return a * b != 1 ? (a + b - 2 * a * b) / (1 - a * b) : 1;
+    // As (a + b - 2ab) / (1 - ab), but stable where a and b approach 1.
+    case Or::hamacher: return a * b < 1 ? 1 - (1 - a) * (1 - b) / (1 - a * b) : 1;
     case Or::nilpotent: return a + b < 1 ? std::max(a, b) : 1;
   }
   return 0;

@@ -113,6 +113,9 @@ void roots(const Polynomial& p, double a, double b, std::vector<double>& out) {
     if (t > a && t < b) out.push_back(t);
     return;
   }
+  double others = 0;
+  for (int i = 1; i <= degree; ++i) others += std::abs(p.c[i]);
+  if (std::abs(p.c[0]) > others) return;
   Polynomial lower = p;
   lower.degree = degree;
   std::vector<double> ends{a};

@@ -122,7 +122,7 @@ class Reader {
     if (!step.any) {
       const Word term = next("a term");
       const Input& input = base_.inputs[step.input];
-      step.term = source_.index_of(term, names_of(input.terms), fmt::format("term of '{}'", input.name));
+      step.term = source_.index_of_term(term, names_of(input.terms), input.name);
     }
     add(std::move(step));
   }
@@ -159,7 +159,7 @@ class Reader {
       for (const char* hedge : {"not", "any", "very", "somewhat", "extremely", "seldom"})
         if (term == hedge && dialect_ == Dialect::fll)
           source_.fail(term, "a hedge in a conclusion cannot be compiled");
-      c.term = source_.index_of(term, names_of(output.terms), fmt::format("term of '{}'", output.name));
+      c.term = source_.index_of_term(term, names_of(output.terms), output.name);
       rule_.conclusions.push_back(c);
     } while (take("and") || take(","));
   }

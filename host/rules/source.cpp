@@ -72,11 +72,20 @@ long Source::whole(const Word& word, long low, long high) const {
 
 std::size_t Source::index_of(const Word& word, const std::vector<std::string_view>& names,
                              std::string_view what) const {
+  return find(word, names, fmt::format("unknown {} '{}'", what, word.text));
+}
+
+std::size_t Source::index_of_term(const Word& word, const std::vector<std::string_view>& names,
+                                  std::string_view variable) const {
+  return find(word, names, fmt::format("'{}' has no term '{}'", variable, word.text));
+}
+
+std::size_t Source::find(const Word& word, const std::vector<std::string_view>& names,
+                         const std::string& otherwise) const {
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == word.text) return i;
   const std::string_view near = nearest_word(word.text, names);
-  fail(word, fmt::format("unknown {} '{}'{}", what, word.text,
-                         near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  fail(word, otherwise + (near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
 }
 
 Word trimmed(Word word) {

@@ -12,7 +12,7 @@ namespace whisker::rules {
 
 /// Limits of a rule file: more is refused.
 constexpr std::size_t kMostVariables = 32;
-constexpr std::size_t kMostTerms = 256;
+constexpr std::size_t kMostTerms = 64;
 constexpr std::size_t kMostRules = 4096;
 constexpr std::size_t kMostSteps = 60;
 /// Greatest size of any number but a shoulder's infinity.
@@ -53,8 +53,14 @@ class Source {
   /// The index of a word among names; fails as "unknown WHAT 'word'", with the nearest name.
   std::size_t index_of(const Word& word, const std::vector<std::string_view>& names,
                        std::string_view what) const;
+  /// As index_of(), for the terms of a variable: fails as "'VARIABLE' has no term 'word'".
+  std::size_t index_of_term(const Word& word, const std::vector<std::string_view>& names,
+                            std::string_view variable) const;
 
  private:
+  std::size_t find(const Word& word, const std::vector<std::string_view>& names,
+                   const std::string& otherwise) const;
+
   std::string_view text_;
   std::string file_;
 };

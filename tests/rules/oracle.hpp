@@ -23,7 +23,8 @@ struct Agreement {
 Agreement compare(const std::string& text, const std::string& format, rules::RuleBase base, int points,
                   unsigned seed);
 
-/// Defuzzifiers of MATLAB and of the standard that fuzzylite defines otherwise.
-bool comparable(const rules::RuleBase& base, const std::string& format);
+/// False if fuzzylite defines a defuzzifier otherwise than the format: mom, som and lom of MATLAB, MM of
+/// .fcl.
+bool comparable(const rules::RuleBase& base);
 
 }  // namespace whisker::test

@@ -38,18 +38,18 @@ void check_bound(const Compiled& c) {
 }
 
 TEST(RandomRuleBases, AgreeWithFuzzyliteAndKeepTheirBound) {
-  const std::uint64_t count = test::effort(300, 10000);
+  const std::uint64_t count = test::effort(120, 10000);
   int answers = 0;
   int refused = 0;
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::string text = test::random_fll(seed);
     const RuleBase base = parse_rules(text, "random.fll");
-    const test::Agreement a = test::compare(text, "fll", base, 10, static_cast<unsigned>(seed));
+    const test::Agreement a = test::compare(text, "fll", base, 7, static_cast<unsigned>(seed));
     EXPECT_EQ(a.disagrees, "") << text;
     answers += a.points;
     Options options;
-    options.fewest_steps = 48;
+    options.fewest_steps = 24;
     options.demand.tolerance = 0.02;
     try {
       const Compiled c = compile(base, options);
@@ -63,7 +63,7 @@ TEST(RandomRuleBases, AgreeWithFuzzyliteAndKeepTheirBound) {
     }
     if (testing::Test::HasFailure()) break;
   }
-  EXPECT_GT(answers, 5 * static_cast<int>(count));
+  EXPECT_GT(answers, 4 * static_cast<int>(count));
   RecordProperty("answers", answers);
   std::printf("%d answers of %d rule bases, seeds from %d\n", answers, static_cast<int>(count),
               static_cast<int>(kFirstSeed));
