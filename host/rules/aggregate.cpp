@@ -63,13 +63,19 @@ Polynomial clipped(const Shaped& s, double middle) {
   return s.factor * s.set->p(middle) > s.limit ? constant(s.limit) : scaled(s.set->p, s.factor);
 }
 
-/// p over [a, b] of the cell; it is not a polynomial there, so it is cut until it is within 1e-14.
-void visit_fitted(const Cell& cell, double a, double b, int halvings, const std::function<double(double)>& f,
+constexpr double kFitError = 1e-13;
+/// An error below this that no longer shrinks is rounding.
+constexpr double kRounding = 1e-11;
+
+/// f over [a, b] of the cell; it is not a polynomial there, so it is halved until a polynomial is within
+/// kFitError. `before`: the error over the interval twice as long.
+void visit_fitted(const Cell& cell, double a, double b, double before, const std::function<double(double)>& f,
                   const std::function<void(const Piece&)>& visit) {
   const Fit found = fit(f, a, b, Polynomial::kMostDegree);
-  if (found.error > 1e-14 && halvings > 0) {
-    visit_fitted(cell, a, (a + b) / 2, halvings - 1, f, visit);
-    visit_fitted(cell, (a + b) / 2, b, halvings - 1, f, visit);
+  const bool shrinks = found.error > kRounding || found.error < before / 4;
+  if (found.error > kFitError && shrinks && b - a > 1e-6) {
+    visit_fitted(cell, a, (a + b) / 2, found.error, f, visit);
+    visit_fitted(cell, (a + b) / 2, b, found.error, f, visit);
     return;
   }
   const Cell part{cell.start + a * cell.width, (b - a) * cell.width, {}};
@@ -104,7 +110,7 @@ void visit_part(const Cell& cell, double a, double b, Or aggregation, const std:
       for (const Polynomial& p : parts) mu = join(aggregation, mu, p(t));
       return mu;
     };
-    visit_fitted(cell, a, b, 30, f, visit);
+    visit_fitted(cell, a, b, 1, f, visit);
   }
 }
 

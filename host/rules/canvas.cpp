@@ -6,10 +6,11 @@
 namespace whisker::rules {
 namespace {
 
-constexpr double kFitError = 1e-14;
+constexpr double kFitError = 5e-14;
 constexpr double kRelativeError = 1e-13;
 constexpr double kNothing = 1e-200;
 constexpr int kMostHalvings = 40;
+constexpr std::size_t kMostCuts = 4096;
 
 double value(const Canvas::Set& set, double y) {
   const double m = set.membership(y);
@@ -71,7 +72,7 @@ bool good(const Canvas::Set& set, double from, double to, bool relative) {
 void refine(const std::vector<Canvas::Set>& sets, double from, double to, bool relative, int halvings,
             std::vector<double>& cuts) {
   for (const Canvas::Set& set : sets) {
-    if (halvings == 0 || good(set, from, to, relative)) continue;
+    if (halvings == 0 || cuts.size() > kMostCuts || good(set, from, to, relative)) continue;
     const double middle = from + (to - from) / 2;
     cuts.push_back(middle);
     refine(sets, from, middle, relative, halvings - 1, cuts);

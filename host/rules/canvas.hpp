@@ -31,7 +31,7 @@ class Canvas {
     bool negated = false;
   };
 
-  /// Polylines and S, Z and pi curves are exact, others within 1e-14; `relative`: within 1e-13 of their own
+  /// Polylines and S, Z and pi curves are exact, others within 1e-13; `relative`: within 1e-13 of their own
   /// greatest value in the cell, for weak rules. `crossings`: also cut where two sets cross, so that within a
   /// cell the larger one stays the larger.
   Canvas(const std::vector<Set>& sets, double low, double high, bool crossings, bool relative);

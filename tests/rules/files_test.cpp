@@ -48,12 +48,12 @@ TEST(Errors, NameThePlaceInAFisFile) {
     SCOPED_TRACE(to);
     expect_error("tip.fis", replaced(tip, from, to), std::string("tip.fis:") + what);
   };
-  error("'trimf',[2 5 8]", "'trimf',[5 2 8]", "19:13: the corners must ascend");
-  error("'trimf',[2 5 8]", "'trimf',[2 5]", "19:13: 'trimf' needs 3 parameters, but has 2");
+  error("'trimf',[2 5 8]", "'trimf',[5 2 8]", "20:13: the corners must ascend");
+  error("'trimf',[2 5 8]", "'trimf',[2 5]", "20:13: 'trimf' needs 3 parameters, but has 2");
   error("'trimf',[2 5 8]", "'trimg',[2 5 8]",
-        "19:13: unknown membership function 'trimg'; did you mean 'trimf'?");
-  error("'trimf',[2 5 8]", "'trimf',[2 x 8]", "19:23: 'x' is not a number");
-  error("'trimf',[2 5 8]", "'constant',[2]", "19:13: 'constant' is for outputs only");
+        "20:13: unknown membership function 'trimg'; did you mean 'trimf'?");
+  error("'trimf',[2 5 8]", "'trimf',[2 x 8]", "20:23: 'x' is not a number");
+  error("'trimf',[2 5 8]", "'constant',[2]", "20:13: 'constant' is for outputs only");
   error("Type='mamdani'", "Type='mamdanitype2'",
         "4:7: type 'mamdanitype2' cannot be compiled; only mamdani and sugeno");
   error("ImpMethod='min'", "ImpMethod='einstein'",
@@ -75,17 +75,17 @@ TEST(Errors, NameThePlaceInAFllFile) {
     expect_error("p.fll", replaced(pendulum, from, to), std::string("p.fll:") + what);
   };
   error("activation: General", "activation: Highest 2",
-        "41:15: activation 'Highest 2' cannot be compiled; only General");
+        "39:15: activation 'Highest 2' cannot be compiled; only General");
   error("disjunction: none", "disjunction: Maxmum",
-        "39:16: unknown S-norm 'Maxmum'; did you mean 'Maximum'?");
-  error("angle is NB and", "angel is NB and", "42:12: unknown input 'angel'; did you mean 'angle'?");
-  error("angle is NB and", "angle is NB or", "42:9: the rule block has no disjunction");
-  error("then force is NB", "then force is very NB", "42:50: a hedge in a conclusion cannot be compiled");
-  error("then force is NB", "then force is", "42:49: the rule ends where a term is expected");
+        "37:16: unknown S-norm 'Maxmum'; did you mean 'Maximum'?");
+  error("angle is NB and", "angel is NB and", "40:12: unknown input 'angel'; did you mean 'angle'?");
+  error("angle is NB and", "angle is NB or", "40:9: the rule block has no disjunction");
+  error("then force is NB", "then force is very NB", "40:53: a hedge in a conclusion cannot be compiled");
+  error("then force is NB", "then force is", "40:52: the rule ends where a term is expected");
   error("angle is NB and rate is NB", "force is NB and rate is NB",
-        "42:12: 'force' is an output; a rule cannot depend on it");
+        "40:12: 'force' is an output; a rule cannot depend on it");
   error("range: -30 30", "range: -inf inf", "5:10: '-inf' must be finite");
-  error("aggregation: Maximum", "aggregation: none", "22:17: 'force' has no aggregation");
+  error("aggregation: Maximum", "aggregation: none", "21:17: 'force' has no aggregation");
   error("term: Z Triangle -10 0 10", "term: Z Function angle*2",
         "9:11: a function of text cannot be compiled");
 }
@@ -96,13 +96,13 @@ TEST(Errors, NameThePlaceInAFclFile) {
     SCOPED_TRACE(to);
     expect_error("fan.fcl", replaced(fan, from, to), std::string("fan.fcl:") + what);
   };
-  error("METHOD : COGS", "METHOD : COGX", "34:12: METHOD 'COGX' cannot be compiled");
+  error("METHOD : COGS", "METHOD : COGX", "33:12: METHOD 'COGX' cannot be compiled");
   error("METHOD : COGS", "METHOD : COG",
-        "30:8: 'off' of 'duty': a constant or linear term needs a weighted average or sum");
-  error("(0, 0) (4, 1) (6, 1)", "(0, 0) (4, 2) (6, 1)", "18:27: a degree must be from 0 to 1");
-  error("END_FUNCTION_BLOCK", "", "52:1: the file ends where a section or END_FUNCTION_BLOCK is expected");
+        "29:8: 'off' of 'duty': a constant or linear term needs a weighted average or sum");
+  error("(0, 0) (4, 1) (6, 1)", "(0, 0) (4, 2) (6, 1)", "16:27: a degree must be from 0 to 1");
+  error("END_FUNCTION_BLOCK", "", "51:1: the file ends where a section or END_FUNCTION_BLOCK is expected");
   error("trend IS NOT rising", "trend IS NOT rissing",
-        "42:48: 'trend' has no term 'rissing'; did you mean 'rising'?");
+        "41:46: 'trend' has no term 'rissing'; did you mean 'rising'?");
 }
 
 TEST(Errors, NameThePlaceInATomlFile) {
@@ -111,12 +111,12 @@ TEST(Errors, NameThePlaceInATomlFile) {
     SCOPED_TRACE(to);
     expect_error("t.toml", replaced(thesis, from, to), std::string("t.toml:") + what);
   };
-  error("[\"S\", 3.0]", "[\"S\", 0.5]", "7:24: the centres of an input must ascend");
+  error("[\"S\", 3.0]", "[\"S\", 0.5]", "7:23: the centres of an input must ascend");
   error("\"TLVB\", \"TLVB\", \"Z\"", "\"TLVB\", \"TLVC\", \"Z\"", "22:12: 'SA' has no term 'TLVC'");
   error("[\"TLVB\", \"TLVB\", \"Z\", \"TRVB\", \"TRVB\"],", "",
         "20:9: 'rules' must have 5 rows, one for each term of 'D'");
   error("raw_per_unit = 128", "raw_per_units = 128",
-        "8:1: unknown key 'raw_per_units' in [input]; did you mean 'raw_per_unit'?");
+        "8:1: unknown key 'raw_per_units' in [[input]] 1; did you mean 'raw_per_unit'?");
 }
 
 TEST(Errors, RefuseOtherFormats) {
