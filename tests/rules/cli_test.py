@@ -188,6 +188,7 @@ class Malformed(Case):
                 if done.returncode == 0:
                     (self.folder / "out.h").unlink()
                     (self.folder / "out.svg").unlink()
+                    path.unlink()
                     continue
                 refused += 1
                 self.assertEqual((done.returncode, done.stdout), (2, ""), path.read_text())
