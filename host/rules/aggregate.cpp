@@ -59,6 +59,19 @@ bool add_single(const Cell& cell, const std::vector<Activated>& activated, Momen
   return true;
 }
 
+/// The aggregated set is the sum of its parts all over the cell.
+bool adds_up(const Cell& cell, Or aggregation, const std::vector<Activated>& activated) {
+  if (aggregation == Or::sum) return true;
+  double highest = 0;
+  int count = 0;
+  for (const Activated& a : activated) {
+    const double high = cell.sets[a.set].high;
+    highest += a.product ? a.strength * high : std::min(a.strength, high);
+    if (high > 0) ++count;
+  }
+  return count < 2 || (aggregation == Or::bounded_sum && highest <= 1);
+}
+
 Polynomial clipped(const Shaped& s, double middle) {
   return s.factor * s.set->p(middle) > s.limit ? constant(s.limit) : scaled(s.set->p, s.factor);
 }
@@ -146,7 +159,7 @@ Moments moments(const Canvas& canvas, Or aggregation, const std::vector<Activate
   for (const Cell& cell : canvas.cells()) {
     if (aggregation == Or::maximum) {
       if (!add_single(cell, activated, m)) maximum_pieces(cell, activated, scratch, count);
-    } else if (aggregation == Or::sum) {
+    } else if (adds_up(cell, aggregation, activated)) {
       for (const Activated& a : activated) add_whole(cell, a, m);
     } else {
       visit_cell(cell, aggregation, activated, count);
