@@ -57,19 +57,21 @@ class Headers(Case):
     def test_every_example_in_c_and_cpp_gives_the_same(self):
         for name in NAMES:
             with self.subTest(name):
-                done = compile_rules(EXAMPLES / name, "--header", self.folder / "law.h", "--json", "--steps", "200")
+                # Fewer inputs: the program prints all of them.
+                rules = self.file(name, (EXAMPLES / name).read_text().replace("raw_per_unit = 128", "raw_per_unit = 8"))
+                done = compile_rules(rules, "--header", self.folder / "law.h", "--json", "--steps", "100")
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 result = json.loads(done.stdout)
                 in_c = self.built(result, "gcc", "-std=c99")
                 self.assertEqual(in_c, self.built(result, "g++", "-std=c++17"))
-                self.bound_is_kept(EXAMPLES / name, result, in_c)
+                self.bound_is_kept(rules, result, in_c)
 
-    def bound_is_kept(self, name, result, raw):
+    def bound_is_kept(self, rules, result, raw):
         """The header against a much finer table of the same rules: no error above both bounds, and the printed place is close to its bound."""
         rows = [[int(x) for x in line.split()] for line in raw.splitlines()]
         size = [i["raw_high"] - i["raw_low"] + 1 for i in result["inputs"]]
         self.assertEqual(len(rows), size[0] * size[1])
-        whole = compile_rules(name, "--header", self.folder / "whole.h", "--json", "--steps", "200", "--tolerance", "0.02%")
+        whole = compile_rules(rules, "--header", self.folder / "whole.h", "--json", "--steps", "100", "--tolerance", "0.02%")
         finer = json.loads(whole.stdout)
         text = (self.folder / "whole.h").read_text().replace("whole", "law").replace("WHOLE", "LAW")
         (self.folder / "law.h").write_text(text)
