@@ -13,6 +13,9 @@
 namespace whisker::rules {
 namespace {
 
+/// Accuracy of inference, as a share of an output's range.
+constexpr double kRounding = 1e-9;
+
 [[noreturn]] void fail(const RuleBase& base, Place at, const std::string& what) {
   throw InputError(base.file, at.line, at.column, what);
 }
@@ -97,13 +100,18 @@ Compiled compile(RuleBase base, const Options& options) {
   for (std::size_t r = 0; r < c.surface.fired.size(); ++r)
     if (!c.surface.fired[r]) c.never.push_back(r);
   find_gaps(c);
-  for (const std::vector<double>& values : c.surface.values) c.spans.push_back(span_of(values));
+  for (std::size_t o = 0; o < c.surface.values.size(); ++o) {
+    const double span = span_of(c.surface.values[o]);
+    // Less is rounding: the output never changes.
+    const double least = kRounding * (c.base.outputs[o].high - c.base.outputs[o].low);
+    c.spans.push_back(span > least ? span : 0);
+  }
   c.symmetries = symmetries(c.surface, c.spans);
   // An output that never changes is right within a raw unit.
   std::vector<double> scales_span = c.spans;
   const std::vector<OutputScale> scales = scales_of(c);
   for (std::size_t o = 0; o < scales_span.size(); ++o)
-    if (scales_span[o] == 0) scales_span[o] = 100 / scales[o].per_unit;
+    if (scales_span[o] == 0) scales_span[o] = 1 / (scales[o].per_unit * options.demand.tolerance);
   std::optional<Found> found = search(c.surface, scales, scales_span, c.symmetries, options.demand);
   if (!found) fail_search(c.base, options.demand);
   c.table = std::move(found->table);

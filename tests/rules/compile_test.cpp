@@ -104,6 +104,14 @@ TEST(Compile, TakesTheBestTableWithinTheBytes) {
   EXPECT_LT(compile(read_rules(example("tip.fis")), options).errors[0].greatest, c.errors[0].greatest);
 }
 
+TEST(Compile, TakesAnOutputThatChangesOnlyByRoundingAsConstant) {
+  const Compiled c = compiled(line_of(R"([["a", 0.0], ["b", 3.0], ["c", 8.0]])",
+                                      R"([["p", 0.1], ["q", 0.7]])", R"(["p", "p", "p"])"));
+  EXPECT_EQ(c.spans[0], 0);
+  EXPECT_EQ(c.table.bytes(), 4U);
+  EXPECT_LE(c.errors[0].greatest, 1 / c.table.scales[0].per_unit);
+}
+
 TEST(Compile, RefusesThreeFreeInputsButNotAFixedOne) {
   std::string fis = "[System]\nType='sugeno'\nAndMethod='prod'\nOrMethod='max'\nDefuzzMethod='wtaver'\n";
   for (const char* i : {"1", "2", "3"})
