@@ -125,20 +125,18 @@ class Writer {
         outputs_[o], name, toml_number(s.origin), name, toml_number(s.per_unit));
   }
 
+  /// One line for each node of the first input.
   void nodes() {
     const bool two = inputs_.size() > 1;
     const std::int32_t columns = two ? axis(1).nodes() : 1;
-    add("static const int16_t {}_nodes[{}]", prefix_, axis(0).nodes());
-    if (two) add("[{}]", columns);
-    add("[{}] = {{\n", outputs_.size());
+    const std::size_t width = static_cast<std::size_t>(columns) * outputs_.size();
+    add("static const int16_t {}_nodes[{}][{}] = {{\n", prefix_, axis(0).nodes(), width);
     for (std::int32_t r = 0; r < axis(0).nodes(); ++r) {
-      add(two ? "  {{" : "  ");
-      for (std::int32_t n = 0; n < columns; ++n) {
+      add("  {{");
+      for (std::int32_t n = 0; n < columns; ++n)
         for (std::size_t o = 0; o < outputs_.size(); ++o)
-          add("{}{}", o == 0 ? (n == 0 ? "{" : ",{") : ",", c_.table.node(r, n, o));
-        add("}}");
-      }
-      add(two ? "}},\n" : ",\n");
+          add("{}{}", n == 0 && o == 0 ? "" : ",", c_.table.node(r, n, o));
+      add("}},\n");
     }
     add("}};\n\n");
   }
@@ -159,13 +157,19 @@ class Writer {
     }
   }
 
+  /// The cell's number and the offset in it. Up to 11 bits, a product replaces the comparison with zero.
   void place(std::size_t i) {
     const std::string name = macro_ + "_" + upper(inputs_[i]);
     add("  const int32_t x{0} = (int32_t)raw_{1} - {2}_START;\n"
-        "  const uint32_t u{0} = x{0} < 0 ? 0U : x{0} > {2}_SPAN ? (uint32_t){2}_SPAN : (uint32_t)x{0};\n"
-        "  const uint32_t c{0} = (u{0} - (u{0} > 0U ? 1U : 0U)) >> {2}_SHIFT;\n"
-        "  const int32_t f{0} = (int32_t)(u{0} - (c{0} << {2}_SHIFT));\n",
+        "  const int32_t y{0} = x{0} < 0 ? 0 : x{0};\n"
+        "  const uint32_t u{0} = (uint32_t)(y{0} > {2}_SPAN ? {2}_SPAN : y{0});\n",
         i, inputs_[i], name);
+    if (axis(i).high - axis(i).low < 2048) {
+      add("  const uint32_t c{0} = (u{0} * 2047U) >> ({1}_SHIFT + 11);\n", i, name);
+    } else {
+      add("  const uint32_t c{0} = (u{0} - (u{0} > 0U ? 1U : 0U)) >> {1}_SHIFT;\n", i, name);
+    }
+    add("  const int32_t f{0} = (int32_t)(u{0} - (c{0} << {1}_SHIFT));\n", i, name);
   }
 
   void look_up() {
@@ -190,6 +194,10 @@ class Writer {
     } else {
       add("  const int32_t w0 = {} - f0;\n", 1 << bits);
     }
+    const std::string column = two ? fmt::format("c1 * {}U", outputs_.size()) : "0";
+    add("  const int16_t* const n0 = &{0}_nodes[c0][{1}];\n  const int16_t* const n1 = &{0}_nodes[c0 + "
+        "1U][{1}];\n",
+        prefix_, column);
     add("  {}_outputs out;\n", prefix_);
     for (std::size_t o = 0; o < outputs_.size(); ++o) sum(o, two, bits);
     add("  return out;\n}}\n\n");
@@ -197,11 +205,10 @@ class Writer {
 
   void sum(std::size_t o, bool two, int bits) {
     if (two) {
-      add("  const int32_t s{0} = w0 * {1}_nodes[c0][c1][{0}] + w1 * {1}_nodes[c0][c1 + 1][{0}] +\n"
-          "                     w2 * {1}_nodes[c0 + 1][c1][{0}] + w3 * {1}_nodes[c0 + 1][c1 + 1][{0}];\n",
-          o, prefix_);
+      add("  const int32_t s{0} = w0 * n0[{0}] + w1 * n0[{1}] + w2 * n1[{0}] + w3 * n1[{1}];\n", o,
+          o + outputs_.size());
     } else {
-      add("  const int32_t s{0} = w0 * {1}_nodes[c0][{0}] + f0 * {1}_nodes[c0 + 1][{0}];\n", o, prefix_);
+      add("  const int32_t s{0} = w0 * n0[{0}] + f0 * n1[{0}];\n", o);
     }
     const int half = bits == 0 ? 0 : 1 << (bits - 1);
     const bool odd = c_.table.scales[o].odd && bits > 0;
