@@ -169,7 +169,7 @@ stage_fuzz() {
     name=$(basename "$fuzzer")
     mkdir -p "build/fuzz/corpus/$name" "build/fuzz/findings"
     "$fuzzer" -max_total_time="$fuzz_seconds" -timeout=10 -artifact_prefix="build/fuzz/findings/$name-" \
-      "build/fuzz/corpus/$name" host/worlds/scenarios tests/scenario
+      "build/fuzz/corpus/$name" host/worlds/scenarios tests/scenario host/rules/examples
   done
 }
 

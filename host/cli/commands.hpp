@@ -15,6 +15,7 @@ void add_campaign(CLI::App& app, int& status);
 void add_scanner(CLI::App& app, int& status);
 void add_movers(CLI::App& app, int& status);
 void add_table(CLI::App& app, int& status);
+void add_rules(CLI::App& app, int& status);
 void add_figures(CLI::App& app, int& status);
 void add_plant(CLI::App& app, int& status);
 void add_socket(CLI::App& app, int& status);

@@ -96,6 +96,7 @@ int main(int argc, char** argv) {
   add_scanner(app, status);
   add_movers(app, status);
   add_table(app, status);
+  add_rules(app, status);
   add_figures(app, status);
   add_plant(app, status);
   add_controller(app, status);

@@ -1,0 +1,185 @@
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/cli/rules_output.hpp"
+#include "host/report/file.hpp"
+#include "host/rules/compile.hpp"
+#include "host/rules/header.hpp"
+#include "host/rules/picture.hpp"
+#include "host/rules/read.hpp"
+#include "host/scenario/text.hpp"
+
+namespace whisker::cli {
+namespace {
+
+struct CompileOptions {
+  std::string file;
+  std::string tolerance;
+  std::string most_bytes;
+  std::string nodes;
+  std::vector<std::string> fixed;
+  std::string header;
+  std::string svg;
+  std::string steps;
+  bool json = false;
+};
+
+struct ShowOptions {
+  std::string file;
+  std::vector<std::string> fixed;
+  std::string svg;
+};
+
+bool parse_finite(std::string_view text, double& out) {
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, out);
+  return error == std::errc{} && stop == end && std::isfinite(out);
+}
+
+/// "1%" or "1": per cent.
+double tolerance(const std::string& text) {
+  std::string_view number = text;
+  if (!number.empty() && number.back() == '%') number.remove_suffix(1);
+  double percent = 0;
+  if (!parse_finite(number, percent) || !(percent > 0 && percent <= 100))
+    throw UsageError(fmt::format("--tolerance: '{}' must be a percentage above 0 and at most 100", text));
+  return percent / 100;
+}
+
+std::vector<std::int32_t> nodes(const std::string& text) {
+  std::vector<std::int32_t> all;
+  std::size_t from = 0;
+  while (from <= text.size()) {
+    const std::size_t end = std::min(text.find('x', from), text.size());
+    double n = 0;
+    if (!parse_finite({text.data() + from, end - from}, n) || n < 2 || n > 40000 || n != std::floor(n))
+      throw UsageError(fmt::format("--nodes: '{}' must be N or NxM", text));
+    all.push_back(static_cast<std::int32_t>(n));
+    from = end + 1;
+  }
+  return all;
+}
+
+/// "service=5"
+std::vector<rules::Fixed> fixed(const rules::RuleBase& base, const std::vector<std::string>& texts) {
+  std::vector<rules::Fixed> all;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.rfind('=');
+    const std::string name = text.substr(0, equals);
+    rules::Fixed one{base.inputs.size(), 0};
+    std::vector<std::string_view> names;
+    for (std::size_t i = 0; i < base.inputs.size(); ++i) {
+      names.push_back(base.inputs[i].name);
+      if (base.inputs[i].name == name) one.input = i;
+    }
+    if (equals == std::string::npos || !parse_finite(std::string_view(text).substr(equals + 1), one.value))
+      throw UsageError(fmt::format("--fix: '{}' must be INPUT=VALUE", text));
+    if (one.input == base.inputs.size())
+      throw UsageError(fmt::format("--fix: no input '{}'{}", name, did_you_mean(name, names)));
+    const rules::Input& input = base.inputs[one.input];
+    if (one.value < input.low || one.value > input.high)
+      throw UsageError(fmt::format("--fix: '{}' must be from {} to {}", name, input.low, input.high));
+    for (const rules::Fixed& other : all)
+      if (other.input == one.input) throw UsageError(fmt::format("--fix: '{}' is fixed twice", name));
+    all.push_back(one);
+  }
+  return all;
+}
+
+int execute_rules_compile(const CompileOptions& o) {
+  check_outputs({o.header, o.svg}, {o.file}, o.json);
+  rules::Options options;
+  if (!o.tolerance.empty()) options.demand.tolerance = tolerance(o.tolerance);
+  if (!o.most_bytes.empty()) options.demand.most_bytes = std::stoul(o.most_bytes);
+  if (!o.nodes.empty()) options.demand.nodes = nodes(o.nodes);
+  if (!o.steps.empty()) options.fewest_steps = std::stoi(o.steps);
+  rules::RuleBase base = rules::read_rules(o.file);
+  options.fixed = fixed(base, o.fixed);
+  const rules::Compiled compiled = rules::compile(std::move(base), options);
+  if (!o.header.empty()) report::write_file(o.header, rules::header(compiled, o.header));
+  if (!o.svg.empty()) report::write_file(o.svg, rules::picture(compiled.base, compiled.surface));
+  if (o.json) {
+    fmt::print("{}\n", table_json(compiled));
+  } else {
+    std::FILE* const out = words_beside({o.header, o.svg});
+    print_table(out, compiled);
+    if (!o.header.empty()) fmt::print(out, "header: {}\n", o.header);
+    if (!o.svg.empty()) fmt::print(out, "picture: {}\n", o.svg);
+  }
+  return 0;
+}
+
+int execute_rules_show(const ShowOptions& o) {
+  check_outputs({o.svg}, {o.file});
+  const rules::RuleBase base = rules::read_rules(o.file);
+  const rules::Inference inference(base);
+  const rules::Domain domain = rules::make_domain(base, inference, fixed(base, o.fixed), rules::kFewestSteps);
+  std::FILE* const out = words_beside({o.svg});
+  if (!o.svg.empty())
+    report::write_file(o.svg, rules::picture(base, rules::make_surface(base, inference, domain)));
+  print_rule_base(out, base);
+  if (!o.svg.empty()) fmt::print(out, "picture: {}\n", o.svg);
+  return 0;
+}
+
+constexpr const char* kRulesStatus = R"(
+Exit status of rules: 0 done, 2 the file cannot be read or compiled, or wrong usage, 1 anything else.)";
+
+void add_fix(CLI::App& cmd, std::vector<std::string>& fixed) {
+  cmd.add_option("--fix", fixed, "Hold an input at a value: INPUT=VALUE; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void add_show(CLI::App& rules, int& status) {
+  CLI::App* cmd = rules.add_subcommand("show", "List variables and rules, and draw memberships and surface");
+  const auto o = std::make_shared<ShowOptions>();
+  add_file(*cmd, "FILE", o->file, "Rule base: .fis, .fll, .fcl or .toml")->required();
+  add_fix(*cmd, o->fixed);
+  add_file(*cmd, "--svg", o->svg, "Draw the memberships and the exact answers");
+  cmd->footer(kRulesStatus);
+  cmd->callback([o, &status] { status = execute_rules_show(*o); });
+}
+
+void add_compile(CLI::App& rules, int& status) {
+  CLI::App* cmd =
+      rules.add_subcommand("compile", "Make the smallest integer table with a proven error bound");
+  const auto o = std::make_shared<CompileOptions>();
+  add_file(*cmd, "FILE", o->file, "Rule base: .fis, .fll, .fcl or .toml")->required();
+  add_name(*cmd, "--tolerance", o->tolerance, "Greatest error, per cent of each output's span (default 1%)");
+  add_name(*cmd, "--max-bytes", o->most_bytes, "The best table within this size instead")
+      ->transform(whole_number(std::uint64_t{1} << 24))
+      ->excludes("--tolerance");
+  add_name(*cmd, "--nodes", o->nodes, "The table with exactly this many nodes, N or NxM, instead")
+      ->excludes("--tolerance")
+      ->excludes("--max-bytes");
+  add_fix(*cmd, o->fixed);
+  add_name(*cmd, "--steps", o->steps, "Fewest raw units over the range of an input (default 1024)")
+      ->transform(whole_number(8192));
+  add_file(*cmd, "--header", o->header, "Write table and look-up as a header for C99 and C++17");
+  add_file(*cmd, "--svg", o->svg, "Draw the memberships and the exact answers");
+  add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
+  cmd->footer(kRulesStatus);
+  cmd->callback([o, &status] { status = execute_rules_compile(*o); });
+}
+
+}  // namespace
+
+void add_rules(CLI::App& app, int& status) {
+  CLI::App* rules = app.add_subcommand("rules", "Compile a fuzzy rule base to an integer table");
+  rules->require_subcommand(1);
+  add_compile(*rules, status);
+  add_show(*rules, status);
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,204 @@
+"""`whisker rules` from outside: headers that compile and keep the printed bound, errors in one line.
+
+usage: cli_test.py WHISKER [unittest options]
+"""
+
+import json
+import os
+import pathlib
+import random
+import re
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+import whisker  # noqa: E402
+from whisker import Case  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "host/rules/examples"
+NAMES = ("thesis.toml", "tip.fis", "pendulum.fll", "fan.fcl", "follower.fis")
+
+# Prints every output at every representable input, in raw units, row by row.
+DRIVER = """
+#include "law.h"
+#include <stdio.h>
+int main(void) {{
+  int i, j;
+  for (i = {low0}; i <= {high0}; ++i)
+    for (j = {low1}; j <= {high1}; ++j) {{
+      const law_outputs out = law_look_up((int16_t)i, (int16_t)j);
+{prints}
+    }}
+  return 0;
+}}
+"""
+
+
+def compile_rules(*arguments):
+    return whisker.whisker("rules", "compile", *arguments)
+
+
+class Headers(Case):
+    def built(self, result, compiler, *flags):
+        ids = {o["name"]: re.sub(r"[^a-z0-9]+", "_", o["name"].lower()) for o in result["outputs"]}
+        prints = "\n".join(f'      printf("%d ", out.raw_{ids[o["name"]]});' for o in result["outputs"]) + '\n      printf("\\n");'
+        low = [i["raw_low"] for i in result["inputs"]]
+        high = [i["raw_high"] for i in result["inputs"]]
+        suffix = ".c" if "-std=c99" in flags else ".cpp"
+        source = self.file("use" + suffix, DRIVER.format(low0=low[0], high0=high[0], low1=low[1], high1=high[1], prints=prints))
+        done = subprocess.run(
+            [compiler, *flags, "-O2", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror", source, "-o", self.folder / "use"],
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return subprocess.run([self.folder / "use"], capture_output=True, text=True, check=True).stdout
+
+    def test_every_example_in_c_and_cpp_gives_the_same(self):
+        for name in NAMES:
+            with self.subTest(name):
+                # Fewer inputs: the program prints all of them.
+                rules = self.file(name, (EXAMPLES / name).read_text().replace("raw_per_unit = 128", "raw_per_unit = 8"))
+                done = compile_rules(rules, "--header", self.folder / "law.h", "--json", "--steps", "100")
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                result = json.loads(done.stdout)
+                in_c = self.built(result, "gcc", "-std=c99")
+                self.assertEqual(in_c, self.built(result, "g++", "-std=c++17"))
+                self.bound_is_kept(rules, result, in_c)
+
+    def bound_is_kept(self, rules, result, raw):
+        """The header against a much finer table of the same rules: no error above both bounds, and the printed place is close to its bound."""
+        rows = [[int(x) for x in line.split()] for line in raw.splitlines()]
+        size = [i["raw_high"] - i["raw_low"] + 1 for i in result["inputs"]]
+        self.assertEqual(len(rows), size[0] * size[1])
+        whole = compile_rules(rules, "--header", self.folder / "whole.h", "--json", "--steps", "100", "--tolerance", "0.02%")
+        finer = json.loads(whole.stdout)
+        text = (self.folder / "whole.h").read_text().replace("whole", "law").replace("WHOLE", "LAW")
+        (self.folder / "law.h").write_text(text)
+        exact = [[int(x) for x in line.split()] for line in self.built(finer, "gcc", "-std=c99").splitlines()]
+        for o, (coarse_output, fine_output) in enumerate(zip(result["outputs"], finer["outputs"])):
+            unit = lambda out, n: out["origin"] + n / out["raw_per_unit"]  # noqa: E731
+            errors = [abs(unit(coarse_output, a[o]) - unit(fine_output, b[o])) for a, b in zip(rows, exact)]
+            slack = fine_output["max_error"] + 1e-9
+            self.assertLessEqual(max(errors), coarse_output["max_error"] + slack)
+            at = coarse_output["max_error_raw_at"]
+            index = (at[0] - result["inputs"][0]["raw_low"]) * size[1] + at[1] - result["inputs"][1]["raw_low"]
+            self.assertGreaterEqual(errors[index], coarse_output["max_error"] - slack)
+
+    def test_one_input(self):
+        law = self.file("line.fll", "Engine: line\nInputVariable: a b\n  range: -1 1\n  term: n Ramp 1 -1\n  term: p Ramp -1 1\n"
+                        "OutputVariable: int\n  range: 0 1\n  defuzzifier: WeightedAverage\n  term: z Constant 0\n  term: o Constant 1\n"
+                        "RuleBlock:\n")  # fmt: skip
+        self.refused("rules", "compile", "line.fll", says="line.fll:1:1: the file has no rule")
+        law.write_text(law.read_text().replace("a b", "ab") + "  rule: if ab is n then int is z\n  rule: if ab is p then int is o\n")
+        header = self.folder / "law.h"
+        self.assertEqual(compile_rules(law, "--header", header).returncode, 0)
+        use = self.file("one.c", '#include "law.h"\nint main(void) { return law_look_up(law_ab_raw(0.0)).raw_int == (int)(LAW_INT_PER_UNIT / 2) ? 0 : 1; }\n')
+        subprocess.run(["gcc", "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror", use, "-o", self.folder / "one"], check=True)
+        self.assertEqual(subprocess.run([self.folder / "one"], check=False).returncode, 0)
+
+
+class Command(Case):
+    def test_text_and_json_say_the_same(self):
+        done = compile_rules(EXAMPLES / "tip.fis")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        result = json.loads(compile_rules(EXAMPLES / "tip.fis", "--json").stdout)
+        self.assertIn(f"{result['bytes']} bytes", done.stdout)
+        self.assertIn(f"error at most {result['outputs'][0]['max_error_percent']:.4g} % of the span", done.stdout)
+        self.assertLessEqual(result["outputs"][0]["max_error_percent"], 1)
+
+    def test_tolerance_and_size(self):
+        sizes = [json.loads(compile_rules(EXAMPLES / "tip.fis", "--json", "--tolerance", t).stdout)["bytes"] for t in ("10%", "2%", "1")]
+        self.assertEqual(sizes, sorted(sizes))
+        best = json.loads(compile_rules(EXAMPLES / "tip.fis", "--json", "--max-bytes", sizes[1]).stdout)
+        self.assertLessEqual(best["bytes"], sizes[1])
+        self.assertLessEqual(best["outputs"][0]["max_error_percent"], 2)
+
+    def test_pictures(self):
+        for name in NAMES:
+            svg = self.folder / "law.svg"
+            done = whisker.whisker("rules", "show", EXAMPLES / name, "--svg", svg)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn("input ", done.stdout)
+            self.assertTrue(svg.read_text().rstrip().endswith("</svg>"))
+
+    def test_wrong_usage(self):
+        self.file("tip.fis", (EXAMPLES / "tip.fis").read_text())
+        self.refused("rules", says="rules needs a command")
+        self.refused("rules", "compile", says="FILE")
+        self.refused("rules", "compile", "missing.fis", says="missing.fis:1:1: ")
+        for tolerance in ("0", "-1%", "x", "101%", "1%%"):
+            self.refused("rules", "compile", "tip.fis", "--tolerance", tolerance, says="--tolerance")
+        for size in ("-1", "x", "1.5"):
+            self.refused("rules", "compile", "tip.fis", "--max-bytes", size, says="--max-bytes")
+        self.refused("rules", "compile", "tip.fis", "--max-bytes", "4", says="no table fits in 4 bytes")
+        self.refused("rules", "compile", "tip.fis", "--nodes", "3y3", says="--nodes")
+        self.refused("rules", "compile", "tip.fis", "--nodes", "7x9", says="no spacing that is a power of two")
+        for fix in ("x", "servce=1", "service=11", "service=x", "=1"):
+            self.refused("rules", "compile", "tip.fis", "--fix", fix, says="--fix")
+        self.refused("rules", "compile", "tip.fis", "--header", "tip.fis", says="would overwrite")
+        self.refused("rules", "show", "tip.fis", "--svg", "nowhere/x.svg", says="no such folder")
+
+
+class Documentation(Case):
+    def test_the_page_shows_what_the_command_prints(self):
+        page = (ROOT / "docs/rules.md").read_text()
+        for name in NAMES:
+            done = whisker.whisker("rules", "compile", f"host/rules/examples/{name}", cwd=ROOT)
+            self.assertIn(f"$ whisker rules compile host/rules/examples/{name}\n{done.stdout}```\n", page)
+
+
+class Malformed(Case):
+    COUNT = 2000 if os.environ.get("WHISKER_LONG") else 200
+    SEED = 20260701
+
+    def mutated(self, text, rng):
+        lines = text.splitlines(keepends=True)
+        for _ in range(rng.randint(1, 3)):
+            i = rng.randrange(len(lines))
+            line = lines[i]
+            at = rng.randrange(len(line) + 1)
+            kind = rng.randrange(7)
+            if kind == 0:
+                lines[i] = line[:at] + line[at + rng.randint(1, 5):]
+            elif kind == 1:
+                lines[i] = line[:at] + rng.choice(["\x00", "é", "[", "]", "(", "'", '"', ",", ":", "nan", "1e999", "-", "%", "\n"]) + line[at:]
+            elif kind == 2:
+                lines.insert(i, rng.choice(lines))
+            elif kind == 3 and len(lines) > 1:
+                del lines[i]
+            elif kind == 4:
+                lines[i] = re.sub(r"-?\d+(\.\d+)?", lambda m: rng.choice([m.group(), "inf", "1e300", "0", "-7", "x"]), line)
+            elif kind == 5:
+                lines = lines[:i + 1]
+            else:
+                words = line.split()
+                rng.shuffle(words)
+                lines[i] = " ".join(words) + "\n"
+        return "".join(lines)
+
+    def test_every_mutant_is_compiled_or_refused_in_one_line(self):
+        rng = random.Random(self.SEED)
+        refused = tries = 0
+        while refused < self.COUNT:
+            tries += 1
+            name = rng.choice(NAMES)
+            path = self.folder / name
+            path.write_bytes(self.mutated((EXAMPLES / name).read_text(), rng).encode())
+            done = compile_rules(path, "--steps", "16", "--header", self.folder / "out.h", "--svg", self.folder / "out.svg")
+            with self.subTest(seed=self.SEED, tries=tries, name=name):
+                if done.returncode == 0:
+                    (self.folder / "out.h").unlink()
+                    (self.folder / "out.svg").unlink()
+                    path.unlink()
+                    continue
+                refused += 1
+                self.assertEqual((done.returncode, done.stdout), (2, ""), path.read_text())
+                self.assertRegex(done.stderr, r"\A\S+" + re.escape(name) + r":\d+:\d+: [^\n]+\n\Z")
+                self.assertEqual([p.name for p in self.folder.iterdir()], [name], "nothing written")
+            path.unlink()
+        print(f"{refused} malformed files of {tries}, seed {self.SEED}")
+
+
+if __name__ == "__main__":
+    whisker.main()
