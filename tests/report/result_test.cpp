@@ -26,7 +26,8 @@ TEST(ResultJson, is_the_object_of_the_contract_on_one_line) {
   EXPECT_EQ(
       result_json(sample()),
       R"({"outcome":"reached","time_s":48.2,"path_m":0.3,"final_distance_m":0.098765,)"
-      R"("believed_distance_m":0.05,"min_clearance_m":0.031,"ticks":4820,"hash":"0000000000000abc","detail":"","bumps":null})");
+      R"("believed_distance_m":0.05,"min_clearance_m":0.031,"ticks":4820,"hash":"0000000000000abc","detail":"","bumps":null,)"
+      R"("range_trust":null,"contradictions_per_m":null,"phantom_share":null,"false_clear_share":null,"incidence_seen_deg":null})");
 }
 
 TEST(ResultJson, names_each_outcome) {

@@ -138,7 +138,7 @@ TEST_F(RobotTest, ReadingsThatDisagreeWhileItRestsAreNoFault) {
   robot_.set_goal({{1_m, 0_m}, 100_mm});
   tick(2);
   EXPECT_EQ(robot_.status().health.fault, Fault::none);
-  tick(1000);
+  tick(1200);
   EXPECT_EQ(robot_.status().decision.outcome, planning::Outcome::reached);
 }
 
