@@ -38,6 +38,12 @@ class Hil(OnABus):
             alone = self.json_of("run", scenario)
             both = self.json_of("hil", scenario)
             bus = both.pop("bus")
+            for key in whisker.RANGE_TRUST:
+                here, there = alone.pop(key), both.pop(key)
+                if isinstance(here, (int, float)):
+                    self.assertAlmostEqual(there, here, delta=1 / 64, msg=key)
+                else:
+                    self.assertEqual(there, here, key)
             self.assertEqual(both, alone, kind)
             self.assertEqual(bus["sets"], alone["ticks"])
             self.assertEqual((bus["safe_stops"], bus["refused"], bus["deadline_misses"]), (0, 0, 0))

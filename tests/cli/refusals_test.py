@@ -67,7 +67,7 @@ class Refusals(Case):
             self.refused("run", "wrong.toml", "--trace", "t.csv", "--svg", "t.svg", says=f"wrong.toml:{place}: ")
 
     def test_robots_that_are_wrong_are_named_with_their_place(self):
-        for text, place in (("body = 1\n", "1:1"), ("\nbody_radius_m = 9.0\n", "2:17"), ("[noise]\n", "1:2")):
+        for text, place in (("body = 1\n", "1:1"), ("\nbody_radius_m = 9.0\n", "2:17"), ("[goal]\n", "1:2")):
             self.file("wrong.toml", text)
             self.refused("run", "a.toml", "--robot", "wrong.toml", "--trace", "t.csv", says=f"wrong.toml:{place}: ")
         self.refused("run", "a.toml", "--robot", "missing.toml", says="missing.toml:1:1: ")

@@ -13,6 +13,8 @@ SCENARIOS = HERE / "scenarios"
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
 # The provenance keys of every JSON object.
 ORIGIN = ("schema", "version", "seed", "planner", "robot_name", "robot_digest")
+# What the robot noticed of its rangefinders; a bus carries them in coarser steps.
+RANGE_TRUST = ("range_trust", "contradictions_per_m", "phantom_share", "false_clear_share", "incidence_seen_deg")
 STATUS = {"reached": 0, "unreachable": 3, "gave_up": 4, "contact": 5, "fault": 6, "off_goal": 7}
 
 binary = ""

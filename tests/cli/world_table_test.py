@@ -38,6 +38,11 @@ OPTIONS = {
         "--sensor", "--body", "--robot", "--angles", "--count", "--seed", "--planner", "--map-bytes", "--jobs", "--svg", "--json", "--out",
     ),
     ("figures",): ("FOLDER", "--scenarios"),
+    ("rules", "compile"): (
+        "FILE", "--tolerance", "--max-bytes", "--fix", "--nodes", "--steps", "--header", "--svg", "--json",
+    ),
+    ("rules", "show"): ("FILE", "--svg"),
+    ("socket",): ("--tcp", "--udp", "--stdio", "--address", "--robot", "--planner", "--timeout", "--json"),
 }
 
 
