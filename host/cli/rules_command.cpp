@@ -133,7 +133,7 @@ int execute_rules_show(const ShowOptions& o) {
 }
 
 constexpr const char* kRulesStatus = R"(
-Exit status of rules: 0 done, 2 the file cannot be read or compiled, or wrong usage, 1 anything else.)";
+Exit status of rules: 0 done, 2 bad input or usage, 1 anything else.)";
 
 void add_fix(CLI::App& cmd, std::vector<std::string>& fixed) {
   cmd.add_option("--fix", fixed, "Hold an input at a value: INPUT=VALUE; may be repeated")
