@@ -33,12 +33,19 @@ REFUSALS = (
 )
 
 
+# A chip does not send what it noticed of its rangefinders.
+NOT_TOLD = ("range_trust", "contradictions_per_m", "phantom_share", "false_clear_share", "incidence_seen_deg")
+
+
 def drive(whisker, scenario, planner, trace, chip=None):
     command = [whisker, "run", scenario, "--planner", *planner.split(), "--trace", trace, "--json"]
     done = subprocess.run(command + (["--chip", chip] if chip else []), capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"exit status {done.returncode}: {done.stderr}{done.stdout}")
-    return json.loads(done.stdout), told(pathlib.Path(trace).read_text().splitlines())
+    result = json.loads(done.stdout)
+    for key in NOT_TOLD:
+        del result[key]
+    return result, told(pathlib.Path(trace).read_text().splitlines())
 
 
 def told(lines):
