@@ -56,6 +56,7 @@ std::string result_json(const RunResult& result, const std::string& bus) {
   json["hash"] = fmt::format("{:016x}", result.hash);
   json["detail"] = result.detail;
   json["bumps"] = result.bumps ? Json(*result.bumps) : Json(nullptr);
+  if (result.unreachable_above_m) json["unreachable_above_m"] = rounded(*result.unreachable_above_m);
   if (!bus.empty()) json["bus"] = Json::parse(bus);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -67,6 +68,8 @@ std::string verdict_words(const RunResult& result) {
   words += fmt::format(" {:.1f} s, {:.2f} m", result.time_s, result.path_m);
   if (!says_reached(result.verdict))
     words += fmt::format(", {:.2f} m from the goal", result.final_distance_m);
+  if (result.unreachable_above_m)
+    words += fmt::format(", if all gaps are below {:.3f} m", *result.unreachable_above_m);
   if (result.min_clearance_m < kEmptyWorldClearance)
     words += fmt::format(", min clearance {} m", decimals(result.min_clearance_m, 3));
   if (result.bumps.value_or(0) > 0)
