@@ -10,8 +10,12 @@ constexpr Length kNearer = 30_mm;
 constexpr Length kKeepSide = 500_mm;    // of travel after leaving a boundary
 constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, in addition to kKeepSide
 constexpr int8_t kEscapes = 6;
+constexpr Length kSlitEvery = 20_mm;
+constexpr Length kSlitWay = 150_mm;
+constexpr Length kSlit = 63_mm;  // to both sides
+constexpr int32_t kSlitCells = 2;
 
-static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1600);
+static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1800);
 
 }  // namespace
 
@@ -24,6 +28,8 @@ void BoundaryPlanner::start(const View& view) noexcept {
   loop_.begin(view, behaviours_.params);
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
+  slit_mm_ = 0;
+  passage_.reset();
   phase_ = Phase::survey;
   report(Mode::surveying, Why::goal_set);
   advance(view);
@@ -51,6 +57,7 @@ bool BoundaryPlanner::gives_way(const View& view) const noexcept {
     case Phase::approach: return approach_.yields(view, decision_);
     case Phase::choose_side: return true;
     case Phase::boundary: return follower_.yields(view);
+    case Phase::gap:
     case Phase::arrive: return view.held_back();
   }
   return false;
@@ -74,6 +81,7 @@ void BoundaryPlanner::act(const View& view) noexcept {
     case Phase::boundary:
       if (boundary(view)) approach(view);
       break;
+    case Phase::gap: gap(view); break;
     case Phase::arrive: arrive(view); break;
     case Phase::over: break;
   }
@@ -111,7 +119,7 @@ void BoundaryPlanner::approach(const View& view) noexcept {
 void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
-  other_way_ = false;
+  other_way_ = saw_slit_ = false;
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -153,8 +161,47 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       begin_approach(Event::nearer);
       return true;
     }
+    Angle ahead;
+    if (slit(view, ahead)) {
+      saw_slit_ = true;
+      const Vec at = view.pose.at + polar(ahead, for_body(behaviours_.params, kSlitWay));
+      if (other_way_ && passage_.worth_trying(at)) {
+        on(Event::slit);
+        passage_.begin(view, ahead, at, decision_);
+        return false;
+      }
+    }
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
+  return false;
+}
+
+void BoundaryPlanner::gap(const View& view) noexcept {
+  switch (passage_.step(view, decision_)) {
+    case GapPassage::Result::under_way: break;
+    case GapPassage::Result::through:
+      approach_.measure_anew(view, target_.distance);
+      begin_approach(Event::through);
+      break;
+    case GapPassage::Result::failed:
+      on(Event::too_narrow);
+      follower_.begin_at_wall(view, passage_.came_along(), wall_, decision_);
+      break;
+  }
+}
+
+bool BoundaryPlanner::slit(const View& view, Angle& ahead) noexcept {
+  const Params& params = behaviours_.params;
+  const int32_t travel_mm = behaviours_.progress.travel_mm();
+  if (view.local_grid->reach().past != Angle{}) return false;
+  if (travel_mm - slit_mm_ <= behaviours_.mm(kSlitEvery)) return false;
+  slit_mm_ = travel_mm;
+  for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
+    ahead = view.pose.heading + 1_deg * (degrees * sign(wall_));
+    const perception::Obstacles o =
+        view.local_grid->along(view.pose.at, ahead, for_body(params, kSlitWay), for_body(params, kSlit), 1);
+    if (o.suspect == 0 && o.unknown <= kSlitCells) return true;
+  }
   return false;
 }
 
@@ -195,7 +242,7 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
-  if (other_way_ || approach_.knows_no_way()) {
+  if (other_way_ || (approach_.knows_no_way() && !saw_slit_)) {
     if (loop_.may_part(began_, goal_.at, wall_)) {
       give_up_goal(view);
     } else {

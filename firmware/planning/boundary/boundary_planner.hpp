@@ -9,6 +9,7 @@
 #include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/boundary_follower.hpp"
 #include "firmware/planning/boundary/follow_side_search.hpp"
+#include "firmware/planning/boundary/gap_passage.hpp"
 #include "firmware/planning/boundary/loop_detector.hpp"
 #include "firmware/planning/boundary/survey.hpp"
 #include "firmware/planning/boundary/target.hpp"
@@ -29,21 +30,25 @@ class BoundaryPlanner final : public GoalPlanner {
     approach,     ///< towards the goal: see Approach
     choose_side,  ///< the path is blocked: searches the exit with the smaller turn
     boundary,     ///< along the obstacle's boundary: see BoundaryFollower
+    gap,          ///< through a narrow gap in the boundary: see GapPassage
     arrive,       ///< at the goal: comes to rest
     over,         ///< the mission has ended
   };
   enum class Event : uint8_t {
     surveyed,
-    blocked,    ///< no heading towards the goal is free
-    exit,       ///< the side is chosen
-    no_exit,    ///< no side has an exit: follows the wall in front
-    nearer,     ///< the leave rule holds
-    closed,     ///< closed the loop once: follow in the other direction
-    wall_lost,  ///< repeated laps around another obstacle than the one that blocked the path
-    doubted,    ///< the global planner doubts its map, and has a path again
-    enclosed,   ///< closed the loop in both directions
-    refuted,    ///< the last attempt of the global planner also found no path
-    stuck,      ///< no path is free, not even the retreat
+    blocked,     ///< no heading towards the goal is free
+    exit,        ///< the side is chosen
+    no_exit,     ///< no side has an exit: follows the wall in front
+    nearer,      ///< the leave rule holds
+    closed,      ///< closed the loop once: follow in the other direction
+    wall_lost,   ///< repeated laps around another obstacle than the one that blocked the path
+    doubted,     ///< the global planner doubts its map, and has a path again
+    enclosed,    ///< closed the loop in both directions
+    refuted,     ///< the last attempt of the global planner also found no path
+    stuck,       ///< no path is free, not even the retreat
+    slit,        ///< on the second loop, the boundary may have a narrow gap
+    through,     ///< the body is through the gap
+    too_narrow,  ///< the gap is none
     at_goal,
     slid_off,  ///< at rest, but outside the goal's tolerance
     settled,   ///< at rest at the goal
@@ -61,17 +66,24 @@ class BoundaryPlanner final : public GoalPlanner {
       {Phase::boundary, Event::enclosed, Phase::over, Mode::unreachable, Why::came_round},
       {Phase::approach, Event::refuted, Phase::over, Mode::unreachable, Why::came_round},
       {Phase::boundary, Event::stuck, Phase::over, Mode::gave_up, Why::no_exit},
+      {Phase::boundary, Event::slit, Phase::gap, Mode::looking, Why::opening},
+      {Phase::gap, Event::through, Phase::approach, Mode::going, Why::target_free},
+      {Phase::gap, Event::too_narrow, Phase::boundary, Mode::skirting, Why::edge},
       {Phase::survey, Event::at_goal, Phase::arrive},
       {Phase::approach, Event::at_goal, Phase::arrive},
       {Phase::choose_side, Event::at_goal, Phase::arrive},
       {Phase::boundary, Event::at_goal, Phase::arrive},
+      {Phase::gap, Event::at_goal, Phase::arrive},
       {Phase::arrive, Event::slid_off, Phase::approach},
       {Phase::arrive, Event::settled, Phase::over, Mode::arrived, Why::at_goal},
   };
 
   /// The arguments must outlive the planner. The optional guide gives way points in free space.
   BoundaryPlanner(const Params& params, HeadingDeflection& law, GlobalPlanner* guide = nullptr) noexcept
-      : behaviours_(params), approach_(law, guide, behaviours_), follower_(behaviours_) {}
+      : behaviours_(params),
+        approach_(law, guide, behaviours_),
+        follower_(behaviours_),
+        passage_(behaviours_) {}
 
  private:
   void start(const View& view) noexcept override;
@@ -88,11 +100,14 @@ class BoundaryPlanner final : public GoalPlanner {
   void choose_side(const View& view) noexcept;
   /// True: the planner leaves the boundary.
   bool boundary(const View& view) noexcept;
+  void gap(const View& view) noexcept;
   void arrive(const View& view) noexcept;
 
   void begin_approach(Event event) noexcept;
   void begin_side_search(const View& view) noexcept;
   bool may_leave(const View& view) const noexcept;
+  /// The boundary has a narrow gap about this heading, as far as the ground is clear.
+  bool slit(const View& view, Angle& ahead) noexcept;
   void go_the_other_way(const View& view) noexcept;
   void escape(const View& view) noexcept;
   void give_up_goal(const View& view) noexcept;
@@ -100,15 +115,18 @@ class BoundaryPlanner final : public GoalPlanner {
   Phase phase_ = Phase::survey;
   Side wall_ = Side::left;     ///< side of the current or last obstacle
   bool other_way_ = false;     // closed the loop once
+  bool saw_slit_ = false;      // on this loop
   int8_t escapes_ = 0;         // from obstacles that did not block the path
   Why otherwise_ = Why::none;  // the reason, if nothing moved
   int32_t left_edge_mm_ = 0;   // travel at the last leave point
+  int32_t slit_mm_ = 0;        // travel at the last search for a slit
   Target target_;
   Vec began_;  // position when the goal was set
 
   Behaviours behaviours_;
   Approach approach_;
   BoundaryFollower follower_;
+  GapPassage passage_;
   Survey survey_;
   FollowSideSearch side_search_;
   LoopDetector loop_;

@@ -1,0 +1,163 @@
+#include "firmware/planning/boundary/gap_passage.hpp"
+
+#include "firmware/planning/steering.hpp"
+
+namespace whisker::planning {
+namespace {
+
+// All lengths are for the reference body.
+constexpr int8_t kAttempts = 8;
+constexpr Length kElsewhere = 150_mm;
+constexpr AngularRate kSweepRate = 250_mrad_per_s;
+constexpr Angle kSweep = 75_deg;
+constexpr Angle kGlance = 35_deg;  // from within the lane
+constexpr int8_t kSweeps = 4;
+constexpr int8_t kRounds = 5;
+constexpr int8_t kStops = 3;
+constexpr Length kDrop = 40_mm;      // of a reading, at a jamb
+constexpr Length kJambs = 450_mm;    // farthest from the body, and from each other
+constexpr Length kInFront = 160_mm;  // of the gap
+constexpr Length kThere = 5_mm;
+constexpr Length kBehind = 125_mm;  // the gap: the body has passed it
+constexpr Length kOff = 2_mm;       // of the lane from the middle of the jambs
+constexpr Angle kTilted = 2_deg;
+constexpr Length kPursuit = 60_mm;
+
+constexpr int index(Side side) noexcept { return side == Side::left ? 0 : 1; }
+
+}  // namespace
+
+bool GapPassage::worth_trying(Vec at) const noexcept {
+  if (attempts_ == 0) return true;
+  return attempts_ < kAttempts && farther(at - at_, for_body(behaviours_.params, kElsewhere));
+}
+
+void GapPassage::enter(Phase phase) noexcept {
+  phase_ = phase;
+  behaviours_.enter();
+  before_ = Length{};
+}
+
+void GapPassage::begin(const View& view, Angle ahead, Vec at, Decision& decision) noexcept {
+  enter(Phase::brake);
+  ++attempts_;
+  at_ = at;
+  ahead_ = ahead;
+  came_along_ = view.pose.heading;
+  sweeps_ = rounds_ = stops_ = 0;
+  seen_ = 0;
+  moved_ = opened_ = false;
+  decision.manoeuvre = stop();
+}
+
+GapPassage::Result GapPassage::step(const View& view, Decision& decision) noexcept {
+  switch (phase_) {
+    case Phase::brake:
+      if (view.settled) enter(Phase::face);
+      break;
+    case Phase::face:
+      if (!turn_by(ahead_ - view.pose.heading, behaviours_.params, decision.manoeuvre)) break;
+      if (opened_) {
+        enter(Phase::creep);
+      } else {
+        seen_ = 0;
+        sweeps_ = 0;
+        enter(Phase::sweep);
+      }
+      break;
+    case Phase::sweep: return sweep(view, decision);
+    case Phase::move: move(view, decision); break;
+    case Phase::creep: return creep(view, decision);
+  }
+  return Result::under_way;
+}
+
+GapPassage::Result GapPassage::sweep(const View& view, Decision& decision) noexcept {
+  const Params& params = behaviours_.params;
+  decision.manoeuvre = cruise({Speed{}, kSweepRate * sign(side_)}, params);
+  const Angle most = stops_ > 0 ? kGlance : kSweep;
+  bool ends = ((view.pose.heading - ahead_) * sign(side_)).wrapped() > static_cast<int32_t>(most.raw());
+  const perception::ConeObservation& front = view.observations[hal::kFront];
+  if ((view.observed >> hal::kFront & 1U) != 0) {
+    const Length drop = for_body(params, kDrop);
+    if (front.hit && before_ > front.free + drop && front.free < for_body(params, kJambs)) {
+      const Angle edge = front.beam.axis + front.beam.half_cone * sign(side_);
+      jambs_[index(side_)] = front.beam.apex + polar(edge, front.free);
+      seen_ = static_cast<uint8_t>(seen_ | 1U << index(side_));
+      ends = true;
+    }
+    before_ = front.free;
+  }
+  if (!ends) return Result::under_way;
+  before_ = Length{};
+  side_ = opposite(side_);
+  if (stops_ > 0) {
+    if (++sweeps_ == 2) enter(Phase::face);
+    return Result::under_way;
+  }
+  if (seen_ == 3) return measured(view, decision);
+  return ++sweeps_ < kSweeps ? Result::under_way : Result::failed;
+}
+
+GapPassage::Result GapPassage::measured(const View& view, Decision& decision) noexcept {
+  const Params& params = behaviours_.params;
+  const Vec across_gap = jambs_[0] - jambs_[1];
+  const Length width = norm(across_gap);
+  const Length half = view.local_grid->lane().half_width();
+  if (width < half * 2 || width > for_body(params, kJambs)) return Result::failed;
+  const Vec at{(jambs_[0].x + jambs_[1].x) / 2, (jambs_[0].y + jambs_[1].y) / 2};
+  const Angle ahead = bearing(across_gap) - 90_deg;
+  const bool same =
+      opened_ && !farther(at - at_, for_body(params, kOff)) && magnitude(ahead - ahead_) < kTilted.raw();
+  at_ = at;
+  ahead_ = ahead;
+  if (++rounds_ > kRounds) return Result::failed;
+  if (same) {
+    enter(Phase::face);
+    return Result::under_way;
+  }
+  if (!moved_) {
+    enter(Phase::move);
+    return Result::under_way;
+  }
+  opened_ = true;
+  decision.opens_lane = true;
+  decision.lane = {place_in_front(), ahead_};
+  seen_ = 0;
+  sweeps_ = 0;
+  return Result::under_way;
+}
+
+Vec GapPassage::place_in_front() const noexcept {
+  return at_ - polar(ahead_, for_body(behaviours_.params, kInFront));
+}
+
+void GapPassage::move(const View& view, Decision& decision) noexcept {
+  const Params& params = behaviours_.params;
+  const Vec rest = place_in_front() - view.pose.at;
+  if (norm(rest) < for_body(params, kThere) || behaviours_.stalled(view)) {
+    moved_ = true;
+    decision.manoeuvre = stop();
+    enter(Phase::brake);
+    return;
+  }
+  decision.manoeuvre = steer(bearing(rest) - view.pose.heading, params.wheels.max_speed / 5, params);
+}
+
+GapPassage::Result GapPassage::creep(const View& view, Decision& decision) noexcept {
+  const Params& params = behaviours_.params;
+  const Vec off = view.pose.at - at_;
+  if (along(off, ahead_) > for_body(params, kBehind)) return Result::through;
+  if (behaviours_.stalled(view)) {
+    if (++stops_ > kStops) return Result::failed;
+    seen_ = 0;
+    sweeps_ = 0;
+    enter(Phase::sweep);
+    return Result::under_way;
+  }
+  const Angle back = atan2(across(off, ahead_).raw(), for_body(params, kPursuit).raw());
+  decision.manoeuvre = steer(ahead_ + back - view.pose.heading, params.wheels.max_speed / 5, params);
+  return Result::under_way;
+}
+
+}  // namespace whisker::planning
