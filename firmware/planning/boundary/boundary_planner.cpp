@@ -198,9 +198,13 @@ bool BoundaryPlanner::slit(const View& view, Angle& ahead) noexcept {
   slit_mm_ = travel_mm;
   for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
     ahead = view.pose.heading + 1_deg * (degrees * sign(wall_));
+    const Length length = for_body(params, kSlitWay);
     const perception::Obstacles o =
-        view.local_grid->along(view.pose.at, ahead, for_body(params, kSlitWay), for_body(params, kSlit), 1);
-    if (o.suspect == 0 && o.unknown <= kSlitCells) return true;
+        view.local_grid->along(view.pose.at, ahead, length, for_body(params, kSlit), 1);
+    if (o.suspect == 0 && o.unknown <= kSlitCells &&
+        way(view, ahead, length, view.local_grid->reach().planning) != Way::free) {
+      return true;
+    }
   }
   return false;
 }

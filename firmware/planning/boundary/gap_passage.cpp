@@ -6,18 +6,21 @@ namespace whisker::planning {
 namespace {
 
 // All lengths are for the reference body.
-constexpr int8_t kAttempts = 8;
+constexpr int8_t kAttempts = 20;
 constexpr Length kElsewhere = 150_mm;
 constexpr AngularRate kSweepRate = 250_mrad_per_s;
 constexpr Angle kSweep = 75_deg;
 constexpr Angle kGlance = 35_deg;  // from within the lane
 constexpr int8_t kSweeps = 4;
-constexpr int8_t kRounds = 5;
+constexpr int8_t kRounds = 8;
 constexpr int8_t kStops = 3;
 constexpr Length kDrop = 40_mm;      // of a reading, at a jamb
 constexpr Length kJambs = 450_mm;    // farthest from the body, and from each other
-constexpr Length kInFront = 160_mm;  // of the gap
-constexpr Length kThere = 5_mm;
+constexpr Length kInFront = 250_mm;  // of the gap
+constexpr Length kLane = 170_mm;     // the same, for the begin of the lane
+constexpr Length kThere = 3_mm;
+constexpr Length kBeside = 8_mm;  // the place in front of the gap
+constexpr int8_t kMoves = 4;
 constexpr Length kBehind = 125_mm;  // the gap: the body has passed it
 constexpr Length kOff = 2_mm;       // of the lane from the middle of the jambs
 constexpr Angle kTilted = 2_deg;
@@ -35,7 +38,7 @@ bool GapPassage::worth_trying(Vec at) const noexcept {
 void GapPassage::enter(Phase phase) noexcept {
   phase_ = phase;
   behaviours_.enter();
-  before_ = Length{};
+  last_ = Length{};
 }
 
 void GapPassage::begin(const View& view, Angle ahead, Vec at, Decision& decision) noexcept {
@@ -46,7 +49,8 @@ void GapPassage::begin(const View& view, Angle ahead, Vec at, Decision& decision
   came_along_ = view.pose.heading;
   sweeps_ = rounds_ = stops_ = 0;
   seen_ = 0;
-  moved_ = opened_ = false;
+  moves_ = 0;
+  opened_ = false;
   decision.manoeuvre = stop();
 }
 
@@ -66,6 +70,13 @@ GapPassage::Result GapPassage::step(const View& view, Decision& decision) noexce
       }
       break;
     case Phase::sweep: return sweep(view, decision);
+    case Phase::aim:
+      if (!turn_by(bearing(before(kInFront) - view.pose.at) - view.pose.heading, behaviours_.params,
+                   decision.manoeuvre)) {
+        break;
+      }
+      enter(Phase::move);
+      break;
     case Phase::move: move(view, decision); break;
     case Phase::creep: return creep(view, decision);
   }
@@ -80,16 +91,16 @@ GapPassage::Result GapPassage::sweep(const View& view, Decision& decision) noexc
   const perception::ConeObservation& front = view.observations[hal::kFront];
   if ((view.observed >> hal::kFront & 1U) != 0) {
     const Length drop = for_body(params, kDrop);
-    if (front.hit && before_ > front.free + drop && front.free < for_body(params, kJambs)) {
+    if (front.hit && last_ > front.free + drop && front.free < for_body(params, kJambs)) {
       const Angle edge = front.beam.axis + front.beam.half_cone * sign(side_);
       jambs_[index(side_)] = front.beam.apex + polar(edge, front.free);
       seen_ = static_cast<uint8_t>(seen_ | 1U << index(side_));
       ends = true;
     }
-    before_ = front.free;
+    last_ = front.free;
   }
   if (!ends) return Result::under_way;
-  before_ = Length{};
+  last_ = Length{};
   side_ = opposite(side_);
   if (stops_ > 0) {
     if (++sweeps_ == 2) enter(Phase::face);
@@ -103,40 +114,47 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
   const Params& params = behaviours_.params;
   const Vec across_gap = jambs_[0] - jambs_[1];
   const Length width = norm(across_gap);
+  // From aside, the jambs may seem to be nearer to each other than they are.
   const Length half = view.local_grid->lane().half_width();
-  if (width < half * 2 || width > for_body(params, kJambs)) return Result::failed;
-  const Vec at{(jambs_[0].x + jambs_[1].x) / 2, (jambs_[0].y + jambs_[1].y) / 2};
-  const Angle ahead = bearing(across_gap) - 90_deg;
-  const bool same =
-      opened_ && !farther(at - at_, for_body(params, kOff)) && magnitude(ahead - ahead_) < kTilted.raw();
+  if (width < (moves_ > 0 ? half * 2 : half) || width > for_body(params, kJambs)) return Result::failed;
+  Vec at{(jambs_[0].x + jambs_[1].x) / 2, (jambs_[0].y + jambs_[1].y) / 2};
+  Angle ahead = bearing(across_gap) - 90_deg;
+  // Round jambs seem to turn away from the body. Half of the change meets the middle between them.
+  if (rounds_ > 0) {
+    at = {(at.x + at_.x) / 2, (at.y + at_.y) / 2};
+    ahead = ahead_ + Angle::from_raw(static_cast<uint32_t>((ahead - ahead_).wrapped() / 2));
+  }
+  const bool same = opened_ && !farther(at - at_, for_body(params, kOff)) &&
+                    magnitude(ahead - ahead_) < kTilted.raw();
   at_ = at;
   ahead_ = ahead;
-  if (++rounds_ > kRounds) return Result::failed;
   if (same) {
     enter(Phase::face);
     return Result::under_way;
   }
-  if (!moved_) {
-    enter(Phase::move);
+  if (++rounds_ > kRounds) return Result::failed;
+  seen_ = 0;
+  sweeps_ = 0;
+  if (moves_ < kMoves && farther(before(kInFront) - view.pose.at, for_body(params, kBeside))) {
+    ++moves_;
+    opened_ = false;
+    enter(Phase::aim);
     return Result::under_way;
   }
   opened_ = true;
   decision.opens_lane = true;
-  decision.lane = {place_in_front(), ahead_};
-  seen_ = 0;
-  sweeps_ = 0;
+  decision.lane = {before(kLane), ahead_};
   return Result::under_way;
 }
 
-Vec GapPassage::place_in_front() const noexcept {
-  return at_ - polar(ahead_, for_body(behaviours_.params, kInFront));
+Vec GapPassage::before(Length reference) const noexcept {
+  return at_ - polar(ahead_, for_body(behaviours_.params, reference));
 }
 
 void GapPassage::move(const View& view, Decision& decision) noexcept {
   const Params& params = behaviours_.params;
-  const Vec rest = place_in_front() - view.pose.at;
+  const Vec rest = before(kInFront) - view.pose.at;
   if (norm(rest) < for_body(params, kThere) || behaviours_.stalled(view)) {
-    moved_ = true;
     decision.manoeuvre = stop();
     enter(Phase::brake);
     return;

@@ -22,7 +22,7 @@ class GapPassage {
 
   /// Resets the number of attempts.
   void reset() noexcept { attempts_ = 0; }
-  /// The gap may lie there, and further attempts are allowed: at most eight a mission, and not twice in a row
+  /// The gap may lie there, and further attempts are allowed: at most twenty a mission, and not twice in a row
   /// at one place.
   bool worth_trying(Vec at) const noexcept;
   /// The gap lies about `ahead`, at this place. Brings the body to rest.
@@ -37,7 +37,8 @@ class GapPassage {
     brake,  // comes to rest
     face,   // turns towards the gap
     sweep,  // turns slowly to both sides and measures the jambs
-    move,   // drives to the place in front of the gap
+    aim,    // turns towards the place in front of the gap
+    move,   // drives there
     creep,  // drives along the lane
   };
 
@@ -46,7 +47,8 @@ class GapPassage {
   Result measured(const View& view, Decision& decision) noexcept;
   void move(const View& view, Decision& decision) noexcept;
   Result creep(const View& view, Decision& decision) noexcept;
-  Vec place_in_front() const noexcept;
+  /// The place on the middle line of the gap at this distance before it.
+  Vec before(Length reference) const noexcept;
 
   Behaviours& behaviours_;
   Phase phase_ = Phase::brake;
@@ -55,10 +57,10 @@ class GapPassage {
   int8_t sweeps_ = 0;    // to one side each, since the last pair of jambs
   int8_t rounds_ = 0;    // pairs of jambs
   int8_t stops_ = 0;     // on the lane
-  bool moved_ = false;   // stands in front of the gap
+  int8_t moves_ = 0;     // to the place in front of the gap
   bool opened_ = false;  // the lane is open
   uint8_t seen_ = 0;     // jambs, a bit for each side
-  Length before_;        // the last reading of this sweep; zero: none
+  Length last_;        // the last reading of this sweep; zero: none
   Vec jambs_[2];         // left, right
   Vec at_;               // the middle of the gap
   Angle ahead_;          // heading through it
