@@ -9,11 +9,12 @@ namespace {
 constexpr int8_t kAttempts = 20;
 constexpr Length kElsewhere = 150_mm;
 constexpr AngularRate kSweepRate = 250_mrad_per_s;
+constexpr AngularRate kGlanceRate = 500_mrad_per_s;
 constexpr Angle kSweep = 75_deg;
-constexpr Angle kGlance = 35_deg;  // from within the lane
+constexpr Angle kGlance = 50_deg;  // from within the lane
 constexpr int8_t kSweeps = 4;
 constexpr int8_t kRounds = 8;
-constexpr int8_t kStops = 3;
+constexpr int8_t kStops = 12;
 constexpr Length kDrop = 40_mm;      // of a reading, at a jamb
 constexpr Length kJambs = 450_mm;    // farthest from the body, and from each other
 constexpr Length kInFront = 250_mm;  // of the gap
@@ -85,7 +86,7 @@ GapPassage::Result GapPassage::step(const View& view, Decision& decision) noexce
 
 GapPassage::Result GapPassage::sweep(const View& view, Decision& decision) noexcept {
   const Params& params = behaviours_.params;
-  decision.manoeuvre = cruise({Speed{}, kSweepRate * sign(side_)}, params);
+  decision.manoeuvre = cruise({Speed{}, (stops_ > 0 ? kGlanceRate : kSweepRate) * sign(side_)}, params);
   const Angle most = stops_ > 0 ? kGlance : kSweep;
   bool ends = ((view.pose.heading - ahead_) * sign(side_)).wrapped() > static_cast<int32_t>(most.raw());
   const perception::ConeObservation& front = view.observations[hal::kFront];
@@ -124,8 +125,8 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
     at = {(at.x + at_.x) / 2, (at.y + at_.y) / 2};
     ahead = ahead_ + Angle::from_raw(static_cast<uint32_t>((ahead - ahead_).wrapped() / 2));
   }
-  const bool same = opened_ && !farther(at - at_, for_body(params, kOff)) &&
-                    magnitude(ahead - ahead_) < kTilted.raw();
+  const bool same =
+      opened_ && !farther(at - at_, for_body(params, kOff)) && magnitude(ahead - ahead_) < kTilted.raw();
   at_ = at;
   ahead_ = ahead;
   if (same) {
