@@ -12,7 +12,7 @@ constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, in addit
 constexpr int8_t kEscapes = 6;
 constexpr Length kSlitEvery = 20_mm;
 constexpr Length kSlitWay = 150_mm;
-constexpr Length kSlit = 63_mm;  // to both sides
+constexpr Length kSlit = 45_mm;  // to both sides
 constexpr int32_t kSlitCells = 2;
 
 static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1800);
@@ -119,7 +119,7 @@ void BoundaryPlanner::approach(const View& view) noexcept {
 void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
-  other_way_ = saw_slit_ = false;
+  other_way_ = saw_slit_ = slit_at_hit_ = false;
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -130,6 +130,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
 
 void BoundaryPlanner::choose_side(const View& view) noexcept {
   Twist twist;
+  if (view.sighted && !slit_at_hit_) slit_at_hit_ = slit(view, view.pose.heading);
   const bool over = side_search_.step(view, twist);
   decision_.manoeuvre = cruise(twist, behaviours_.params);
   if (!over) return;
@@ -161,15 +162,9 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       begin_approach(Event::nearer);
       return true;
     }
-    Angle ahead;
-    if (slit(view, ahead)) {
+    if (slit_beside(view)) {
       saw_slit_ = true;
-      const Vec at = view.pose.at + polar(ahead, for_body(behaviours_.params, kSlitWay));
-      if (other_way_ && passage_.worth_trying(at)) {
-        on(Event::slit);
-        passage_.begin(view, ahead, at, decision_);
-        return false;
-      }
+      if (other_way_ && try_slit(view)) return false;
     }
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
@@ -190,23 +185,33 @@ void BoundaryPlanner::gap(const View& view) noexcept {
   }
 }
 
-bool BoundaryPlanner::slit(const View& view, Angle& ahead) noexcept {
-  const Params& params = behaviours_.params;
+bool BoundaryPlanner::slit(const View& view, Angle ahead) noexcept {
+  const Length length = for_body(behaviours_.params, kSlitWay);
+  const Reach& reach = view.local_grid->reach();
+  if (reach.past != Angle{}) return false;
+  const perception::Obstacles o =
+      view.local_grid->along(view.pose.at, ahead, length, for_body(behaviours_.params, kSlit), 1);
+  if (o.suspect != 0 || o.unknown > kSlitCells) return false;
+  if (way(view, ahead, length, reach.planning) == Way::free) return false;
+  slit_ = {view.pose.at + polar(ahead, length), ahead};
+  return true;
+}
+
+bool BoundaryPlanner::slit_beside(const View& view) noexcept {
   const int32_t travel_mm = behaviours_.progress.travel_mm();
-  if (view.local_grid->reach().past != Angle{}) return false;
   if (travel_mm - slit_mm_ <= behaviours_.mm(kSlitEvery)) return false;
   slit_mm_ = travel_mm;
   for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
-    ahead = view.pose.heading + 1_deg * (degrees * sign(wall_));
-    const Length length = for_body(params, kSlitWay);
-    const perception::Obstacles o =
-        view.local_grid->along(view.pose.at, ahead, length, for_body(params, kSlit), 1);
-    if (o.suspect == 0 && o.unknown <= kSlitCells &&
-        way(view, ahead, length, view.local_grid->reach().planning) != Way::free) {
-      return true;
-    }
+    if (slit(view, view.pose.heading + 1_deg * (degrees * sign(wall_)))) return true;
   }
   return false;
+}
+
+bool BoundaryPlanner::try_slit(const View& view) noexcept {
+  if (!passage_.worth_trying(slit_.at)) return false;
+  on(Event::slit);
+  passage_.begin(view, slit_, decision_);
+  return true;
 }
 
 void BoundaryPlanner::begin_approach(Event event) noexcept {
@@ -246,6 +251,10 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
+  if (slit_at_hit_) {
+    slit_at_hit_ = false;
+    if (try_slit(view)) return;
+  }
   if (other_way_ || (approach_.knows_no_way() && !saw_slit_)) {
     if (loop_.may_part(began_, goal_.at, wall_)) {
       give_up_goal(view);

@@ -42,11 +42,11 @@ void GapPassage::enter(Phase phase) noexcept {
   last_ = Length{};
 }
 
-void GapPassage::begin(const View& view, Angle ahead, Vec at, Decision& decision) noexcept {
+void GapPassage::begin(const View& view, const Pose& gap, Decision& decision) noexcept {
   enter(Phase::brake);
   ++attempts_;
-  at_ = at;
-  ahead_ = ahead;
+  at_ = gap.at;
+  ahead_ = bearing(gap.at - view.pose.at);
   came_along_ = view.pose.heading;
   sweeps_ = rounds_ = stops_ = 0;
   seen_ = 0;

@@ -22,11 +22,11 @@ class GapPassage {
 
   /// Resets the number of attempts.
   void reset() noexcept { attempts_ = 0; }
-  /// The gap may lie there, and further attempts are allowed: at most twenty a mission, and not twice in a row
-  /// at one place.
+  /// The gap may lie there, and further attempts are allowed: at most twenty a mission, and not twice in a
+  /// row at one place.
   bool worth_trying(Vec at) const noexcept;
-  /// The gap lies about `ahead`, at this place. Brings the body to rest.
-  void begin(const View& view, Angle ahead, Vec at, Decision& decision) noexcept;
+  /// The gap lies at about this place and leads along this heading. Brings the body to rest.
+  void begin(const View& view, const Pose& gap, Decision& decision) noexcept;
   /// Once per tick after that.
   Result step(const View& view, Decision& decision) noexcept;
   /// The heading of the body when it began.
@@ -60,7 +60,7 @@ class GapPassage {
   int8_t moves_ = 0;     // to the place in front of the gap
   bool opened_ = false;  // the lane is open
   uint8_t seen_ = 0;     // jambs, a bit for each side
-  Length last_;        // the last reading of this sweep; zero: none
+  Length last_;          // the last reading of this sweep; zero: none
   Vec jambs_[2];         // left, right
   Vec at_;               // the middle of the gap
   Angle ahead_;          // heading through it
