@@ -11,7 +11,6 @@ constexpr Length kKeepSide = 500_mm;    // of travel after leaving a boundary
 constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, in addition to kKeepSide
 constexpr int8_t kEscapes = 6;
 constexpr Length kSlitEvery = 20_mm;
-constexpr Length kSlitWay = 150_mm;
 constexpr Length kSlit = 45_mm;  // to both sides
 constexpr int32_t kSlitCells = 2;
 
@@ -186,7 +185,7 @@ void BoundaryPlanner::gap(const View& view) noexcept {
 }
 
 bool BoundaryPlanner::slit(const View& view, Angle ahead) noexcept {
-  const Length length = for_body(behaviours_.params, kSlitWay);
+  const Length length = for_body(behaviours_.params, GapPassage::kSeenFrom);
   const Reach& reach = view.local_grid->reach();
   if (reach.past != Angle{}) return false;
   const perception::Obstacles o =

@@ -19,6 +19,7 @@ constexpr Length kDrop = 40_mm;      // of a reading, at a jamb
 constexpr Length kJambs = 450_mm;    // farthest from the body, and from each other
 constexpr Length kInFront = 250_mm;  // of the gap
 constexpr Length kLane = 170_mm;     // the same, for the begin of the lane
+constexpr Length kNear = 60_mm;      // the place from which it was seen
 constexpr Length kThere = 3_mm;
 constexpr Length kBeside = 8_mm;  // the place in front of the gap
 constexpr int8_t kMoves = 4;
@@ -46,21 +47,23 @@ void GapPassage::begin(const View& view, const Pose& gap, Decision& decision) no
   enter(Phase::brake);
   ++attempts_;
   at_ = gap.at;
-  ahead_ = bearing(gap.at - view.pose.at);
+  ahead_ = gap.heading;
   came_along_ = view.pose.heading;
   sweeps_ = rounds_ = stops_ = 0;
   seen_ = 0;
   moves_ = 0;
-  opened_ = false;
+  there_ = opened_ = false;
   decision.manoeuvre = stop();
 }
 
 GapPassage::Result GapPassage::step(const View& view, Decision& decision) noexcept {
   switch (phase_) {
     case Phase::brake:
-      if (view.settled) enter(Phase::face);
+      if (!view.settled) break;
+      enter(there_ ? Phase::face : Phase::aim);
       break;
     case Phase::face:
+      if (rounds_ == 0) ahead_ = bearing(at_ - view.pose.at);
       if (!turn_by(ahead_ - view.pose.heading, behaviours_.params, decision.manoeuvre)) break;
       if (opened_) {
         enter(Phase::creep);
@@ -72,11 +75,12 @@ GapPassage::Result GapPassage::step(const View& view, Decision& decision) noexce
       break;
     case Phase::sweep: return sweep(view, decision);
     case Phase::aim:
-      if (!turn_by(bearing(before(kInFront) - view.pose.at) - view.pose.heading, behaviours_.params,
-                   decision.manoeuvre)) {
-        break;
+      if (!there_ && !farther(rest(view), for_body(behaviours_.params, kNear))) {
+        there_ = true;
+        enter(Phase::face);
+      } else if (turn_by(bearing(rest(view)) - view.pose.heading, behaviours_.params, decision.manoeuvre)) {
+        enter(Phase::move);
       }
-      enter(Phase::move);
       break;
     case Phase::move: move(view, decision); break;
     case Phase::creep: return creep(view, decision);
@@ -152,15 +156,20 @@ Vec GapPassage::before(Length reference) const noexcept {
   return at_ - polar(ahead_, for_body(behaviours_.params, reference));
 }
 
+Vec GapPassage::rest(const View& view) const noexcept {
+  return before(moves_ == 0 ? kSeenFrom : kInFront) - view.pose.at;
+}
+
 void GapPassage::move(const View& view, Decision& decision) noexcept {
   const Params& params = behaviours_.params;
-  const Vec rest = before(kInFront) - view.pose.at;
-  if (norm(rest) < for_body(params, kThere) || behaviours_.stalled(view)) {
+  const Vec way = rest(view);
+  if (norm(way) < for_body(params, kThere) || behaviours_.stalled(view)) {
+    there_ = true;
     decision.manoeuvre = stop();
     enter(Phase::brake);
     return;
   }
-  decision.manoeuvre = steer(bearing(rest) - view.pose.heading, params.wheels.max_speed / 5, params);
+  decision.manoeuvre = steer(bearing(way) - view.pose.heading, params.wheels.max_speed / 5, params);
 }
 
 GapPassage::Result GapPassage::creep(const View& view, Decision& decision) noexcept {

@@ -16,6 +16,8 @@ namespace whisker::planning {
 class GapPassage {
  public:
   enum class Result : uint8_t { under_way, through, failed };
+  /// A gap is seen from a place this far before it, for the reference body.
+  static constexpr Length kSeenFrom = Length::from_raw(150000);
 
   /// The behaviours must outlive it.
   explicit GapPassage(Behaviours& behaviours) noexcept : behaviours_(behaviours) {}
@@ -49,6 +51,8 @@ class GapPassage {
   Result creep(const View& view, Decision& decision) noexcept;
   /// The place on the middle line of the gap at this distance before it.
   Vec before(Length reference) const noexcept;
+  /// From the body to the next place from which it measures.
+  Vec rest(const View& view) const noexcept;
 
   Behaviours& behaviours_;
   Phase phase_ = Phase::brake;
@@ -58,6 +62,7 @@ class GapPassage {
   int8_t rounds_ = 0;    // pairs of jambs
   int8_t stops_ = 0;     // on the lane
   int8_t moves_ = 0;     // to the place in front of the gap
+  bool there_ = false;   // at the place from which the gap was seen
   bool opened_ = false;  // the lane is open
   uint8_t seen_ = 0;     // jambs, a bit for each side
   Length last_;          // the last reading of this sweep; zero: none
