@@ -55,6 +55,18 @@ void Lane::mark(const Beam& beam, Length free, const EarlierObservation& before,
   }
 }
 
+void Lane::mark_around(Vec at, Length radius) noexcept {
+  if (!open_) return;
+  const GridPoint centre = local(at);
+  if (!centre.nearby()) return;
+  const int32_t reach = scale_.units(radius);
+  for (Rows rows(centre.y, reach); rows.more() && rows.row() < kRows; rows.next()) {
+    Span span = Span::around(centre.x, reach);
+    span.inside_disc(centre.x, rows.offset(centre.y), reach);
+    clear_[rows.row()] |= span.columns();
+  }
+}
+
 bool Lane::holds(const Vec& from, Angle heading, Length step, Length radius) const noexcept {
   if (!open_) return false;
   const GridPoint here = local(from);

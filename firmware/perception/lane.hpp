@@ -29,6 +29,8 @@ class Lane {
   void age() noexcept;
   /// Clears the cells that both observations show empty to these free distances.
   void mark(const Beam& beam, Length free, const EarlierObservation& before, Length free_before) noexcept;
+  /// Clears the cells completely inside this disc.
+  void mark_around(Vec at, Length radius) noexcept;
   /// True if the lane is open, and the ground that a disc touches at the end of a step, as far as it lies
   /// ahead of its start, is clear and inside the lane.
   bool holds(const Vec& from, Angle heading, Length step, Length radius) const noexcept;

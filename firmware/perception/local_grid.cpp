@@ -5,7 +5,7 @@
 namespace whisker::perception {
 namespace {
 
-constexpr int32_t kLaneTolerance = 30;  // of the radius, within which the body keeps to the lane's middle
+constexpr int32_t kLaneTolerance = 45;  // of the radius, within which the body keeps to the lane's middle
 constexpr Angle kBeside = 30_deg;       // of a side beam, revoked with it
 
 static_assert(kUnitsPerCell == 256, "kCellCover counts in 256ths of a cell");
@@ -121,6 +121,7 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
   }
   age(pose);
   clear_around(pose.at, footprint_);
+  lane_.mark_around(pose.at, swept_);
 }
 
 void LocalGrid::age(const Pose& pose) noexcept {

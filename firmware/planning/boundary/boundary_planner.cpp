@@ -13,6 +13,9 @@ constexpr int8_t kEscapes = 6;
 constexpr Length kSlitEvery = 20_mm;
 constexpr Length kSlit = 45_mm;  // to both sides
 constexpr int32_t kSlitCells = 2;
+constexpr Length kJamb = 110_mm;        // from the middle of a slit to those of its sides
+constexpr Length kSlitBeside = 300_mm;  // from there, a slit is tried on the second loop
+constexpr Length kSlitNear = 500_mm;    // the same at the end of a loop
 
 static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1800);
 
@@ -28,6 +31,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
   slit_mm_ = 0;
+  has_slit_ = false;
   passage_.reset();
   phase_ = Phase::survey;
   report(Mode::surveying, Why::goal_set);
@@ -107,6 +111,7 @@ void BoundaryPlanner::survey(const View& view) noexcept {
 }
 
 void BoundaryPlanner::approach(const View& view) noexcept {
+  if (view.sighted && decision_.why == Why::narrow) find_slit(view, view.pose.heading);
   if (approach_.step(view, target_, wall_, decision_)) return;
   if (approach_.refuted()) {
     end(Event::refuted, Outcome::unreachable);
@@ -118,7 +123,7 @@ void BoundaryPlanner::approach(const View& view) noexcept {
 void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
-  other_way_ = saw_slit_ = slit_at_hit_ = false;
+  other_way_ = false;
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -129,7 +134,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
 
 void BoundaryPlanner::choose_side(const View& view) noexcept {
   Twist twist;
-  if (view.sighted && !slit_at_hit_) slit_at_hit_ = slit(view, view.pose.heading);
+  if (view.sighted) find_slit(view, view.pose.heading);
   const bool over = side_search_.step(view, twist);
   decision_.manoeuvre = cruise(twist, behaviours_.params);
   if (!over) return;
@@ -161,10 +166,8 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       begin_approach(Event::nearer);
       return true;
     }
-    if (slit_beside(view)) {
-      saw_slit_ = true;
-      if (other_way_ && try_slit(view)) return false;
-    }
+    find_slit_beside(view);
+    if (other_way_ && try_slit(view, kSlitBeside)) return false;
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
   return false;
@@ -184,29 +187,36 @@ void BoundaryPlanner::gap(const View& view) noexcept {
   }
 }
 
-bool BoundaryPlanner::slit(const View& view, Angle ahead) noexcept {
-  const Length length = for_body(behaviours_.params, GapPassage::kSeenFrom);
-  const Reach& reach = view.local_grid->reach();
-  if (reach.past != Angle{}) return false;
-  const perception::Obstacles o =
-      view.local_grid->along(view.pose.at, ahead, length, for_body(behaviours_.params, kSlit), 1);
-  if (o.suspect != 0 || o.unknown > kSlitCells) return false;
-  if (way(view, ahead, length, reach.planning) == Way::free) return false;
+void BoundaryPlanner::find_slit(const View& view, Angle ahead) noexcept {
+  const Params& params = behaviours_.params;
+  if (view.local_grid->reach().past != Angle{}) return;
+  const Length length = for_body(params, GapPassage::kSeenFrom);
+  const auto beside = [&](Length left) {
+    const Vec from = view.pose.at + polar(ahead + 90_deg, for_body(params, left));
+    return view.local_grid->along(from, ahead, length, for_body(params, kSlit), 1);
+  };
+  const perception::Obstacles middle = beside(Length{});
+  if (middle.suspect != 0 || middle.unknown > kSlitCells) return;
+  const perception::Obstacles left = beside(kJamb), right = beside(-kJamb);
+  if (left.suspect + left.unknown == 0 || right.suspect + right.unknown == 0) return;
+  if (left.suspect + right.suspect == 0) return;
   slit_ = {view.pose.at + polar(ahead, length), ahead};
-  return true;
+  has_slit_ = true;
 }
 
-bool BoundaryPlanner::slit_beside(const View& view) noexcept {
+void BoundaryPlanner::find_slit_beside(const View& view) noexcept {
   const int32_t travel_mm = behaviours_.progress.travel_mm();
-  if (travel_mm - slit_mm_ <= behaviours_.mm(kSlitEvery)) return false;
+  if (travel_mm - slit_mm_ <= behaviours_.mm(kSlitEvery)) return;
   slit_mm_ = travel_mm;
   for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
-    if (slit(view, view.pose.heading + 1_deg * (degrees * sign(wall_)))) return true;
+    find_slit(view, view.pose.heading + 1_deg * (degrees * sign(wall_)));
   }
-  return false;
 }
 
-bool BoundaryPlanner::try_slit(const View& view) noexcept {
+bool BoundaryPlanner::try_slit(const View& view, Length near) noexcept {
+  const Vec from = slit_.at - polar(slit_.heading, for_body(behaviours_.params, GapPassage::kSeenFrom));
+  if (!has_slit_ || farther(view.pose.at - from, for_body(behaviours_.params, near))) return false;
+  has_slit_ = false;
   if (!passage_.worth_trying(slit_.at)) return false;
   on(Event::slit);
   passage_.begin(view, slit_, decision_);
@@ -250,11 +260,8 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
-  if (slit_at_hit_) {
-    slit_at_hit_ = false;
-    if (try_slit(view)) return;
-  }
-  if (other_way_ || (approach_.knows_no_way() && !saw_slit_)) {
+  if (try_slit(view, kSlitNear)) return;
+  if (other_way_ || (approach_.knows_no_way() && !has_slit_)) {
     if (loop_.may_part(began_, goal_.at, wall_)) {
       give_up_goal(view);
     } else {

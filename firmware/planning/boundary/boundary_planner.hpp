@@ -106,22 +106,21 @@ class BoundaryPlanner final : public GoalPlanner {
   void begin_approach(Event event) noexcept;
   void begin_side_search(const View& view) noexcept;
   bool may_leave(const View& view) const noexcept;
-  /// The boundary may have a narrow gap at this heading: then it is the one to try, see `slit_`.
-  bool slit(const View& view, Angle ahead) noexcept;
+  /// Remembers a narrow gap at this heading, if there may be one.
+  void find_slit(const View& view, Angle ahead) noexcept;
   /// The same on the wall's side of a body that follows the boundary.
-  bool slit_beside(const View& view) noexcept;
-  /// Tries that gap, if it is worth it.
-  bool try_slit(const View& view) noexcept;
+  void find_slit_beside(const View& view) noexcept;
+  /// Begins to pass the slit, if the body is not farther than this from the place from which it was seen.
+  bool try_slit(const View& view, Length near) noexcept;
   void go_the_other_way(const View& view) noexcept;
   void escape(const View& view) noexcept;
   void give_up_goal(const View& view) noexcept;
 
   Phase phase_ = Phase::survey;
-  Side wall_ = Side::left;     ///< side of the current or last obstacle
-  bool other_way_ = false;     // closed the loop once
-  bool slit_at_hit_ = false;   // at the hit point, slit_ was seen
-  bool saw_slit_ = false;      // on this loop
-  Pose slit_;                  // the last one: a place in it, and the heading there
+  Side wall_ = Side::left;  ///< side of the current or last obstacle
+  bool other_way_ = false;  // closed the loop once
+  bool has_slit_ = false;
+  Pose slit_;                  // the last narrow gap seen and not tried: a place in it, and the heading there
   int8_t escapes_ = 0;         // from obstacles that did not block the path
   Why otherwise_ = Why::none;  // the reason, if nothing moved
   int32_t left_edge_mm_ = 0;   // travel at the last leave point

@@ -7,6 +7,7 @@ namespace {
 
 // All lengths are for the reference body.
 constexpr int8_t kAttempts = 20;
+constexpr int8_t kHere = 2;
 constexpr Length kElsewhere = 150_mm;
 constexpr AngularRate kSweepRate = 250_mrad_per_s;
 constexpr AngularRate kGlanceRate = 500_mrad_per_s;
@@ -18,13 +19,13 @@ constexpr int8_t kStops = 12;
 constexpr Length kDrop = 40_mm;      // of a reading, at a jamb
 constexpr Length kJambs = 450_mm;    // farthest from the body, and from each other
 constexpr Length kInFront = 250_mm;  // of the gap
-constexpr Length kLane = 170_mm;     // the same, for the begin of the lane
+constexpr Length kLane = 200_mm;     // the same, for the begin of the lane
 constexpr Length kNear = 60_mm;      // the place from which it was seen
 constexpr Length kThere = 3_mm;
 constexpr Length kBeside = 8_mm;  // the place in front of the gap
 constexpr int8_t kMoves = 4;
 constexpr Length kBehind = 125_mm;  // the gap: the body has passed it
-constexpr Length kOff = 2_mm;       // of the lane from the middle of the jambs
+constexpr Length kOff = 1_mm;       // of the lane from the middle of the jambs
 constexpr Angle kTilted = 2_deg;
 constexpr Length kPursuit = 60_mm;
 
@@ -32,9 +33,12 @@ constexpr int index(Side side) noexcept { return side == Side::left ? 0 : 1; }
 
 }  // namespace
 
+bool GapPassage::elsewhere(Vec at) const noexcept {
+  return farther(at - at_, for_body(behaviours_.params, kElsewhere));
+}
+
 bool GapPassage::worth_trying(Vec at) const noexcept {
-  if (attempts_ == 0) return true;
-  return attempts_ < kAttempts && farther(at - at_, for_body(behaviours_.params, kElsewhere));
+  return attempts_ < kAttempts && (here_ < kHere || elsewhere(at));
 }
 
 void GapPassage::enter(Phase phase) noexcept {
@@ -46,6 +50,7 @@ void GapPassage::enter(Phase phase) noexcept {
 void GapPassage::begin(const View& view, const Pose& gap, Decision& decision) noexcept {
   enter(Phase::brake);
   ++attempts_;
+  here_ = static_cast<int8_t>(elsewhere(gap.at) ? 1 : here_ + 1);
   at_ = gap.at;
   ahead_ = gap.heading;
   came_along_ = view.pose.heading;

@@ -23,7 +23,7 @@ class GapPassage {
   explicit GapPassage(Behaviours& behaviours) noexcept : behaviours_(behaviours) {}
 
   /// Resets the number of attempts.
-  void reset() noexcept { attempts_ = 0; }
+  void reset() noexcept { attempts_ = here_ = 0; }
   /// The gap may lie there, and further attempts are allowed: at most twenty a mission, and not twice in a
   /// row at one place.
   bool worth_trying(Vec at) const noexcept;
@@ -45,6 +45,7 @@ class GapPassage {
   };
 
   void enter(Phase phase) noexcept;
+  bool elsewhere(Vec at) const noexcept;
   Result sweep(const View& view, Decision& decision) noexcept;
   Result measured(const View& view, Decision& decision) noexcept;
   void move(const View& view, Decision& decision) noexcept;
@@ -58,6 +59,7 @@ class GapPassage {
   Phase phase_ = Phase::brake;
   Side side_ = Side::left;  // of the jamb that the sweep looks for
   int8_t attempts_ = 0;
+  int8_t here_ = 0;      // attempts in a row at this place
   int8_t sweeps_ = 0;    // to one side each, since the last pair of jambs
   int8_t rounds_ = 0;    // pairs of jambs
   int8_t stops_ = 0;     // on the lane
