@@ -14,7 +14,7 @@ constexpr Length kSlitEvery = 20_mm;
 constexpr Length kSlit = 45_mm;  // to both sides
 constexpr int32_t kSlitCells = 2;
 constexpr Length kJamb = 110_mm;        // from the middle of a slit to those of its sides
-constexpr Length kSlitBeside = 300_mm;  // from there, a slit is tried on the second loop
+constexpr Length kSlitBeside = 200_mm;  // from there, a slit is tried on the second loop
 constexpr Length kSlitNear = 500_mm;    // the same at the end of a loop
 
 static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1800);
@@ -123,7 +123,7 @@ void BoundaryPlanner::approach(const View& view) noexcept {
 void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
-  other_way_ = false;
+  other_way_ = expects_slit_ = false;
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -153,7 +153,7 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
   if (follower_.follows() && view.sighted) {
     const LoopDetector::Evidence evidence =
         approach_.has_guide() ? LoopDetector::Evidence::place : LoopDetector::Evidence::turning;
-    if (loop_.closed(view, evidence)) {
+    if ((loop_.closed(view, evidence) || expects_slit_) && !expects_slit(view)) {
       go_the_other_way(view);
       return false;
     }
@@ -167,7 +167,7 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       return true;
     }
     find_slit_beside(view);
-    if (other_way_ && try_slit(view, kSlitBeside)) return false;
+    if ((other_way_ || expects_slit_) && try_slit(view)) return false;
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
   return false;
@@ -213,10 +213,24 @@ void BoundaryPlanner::find_slit_beside(const View& view) noexcept {
   }
 }
 
-bool BoundaryPlanner::try_slit(const View& view, Length near) noexcept {
+bool BoundaryPlanner::slit_near(const View& view, Length near) const noexcept {
   const Vec from = slit_.at - polar(slit_.heading, for_body(behaviours_.params, GapPassage::kSeenFrom));
-  if (!has_slit_ || farther(view.pose.at - from, for_body(behaviours_.params, near))) return false;
-  has_slit_ = false;
+  return has_slit_ && !farther(view.pose.at - from, for_body(behaviours_.params, near));
+}
+
+bool BoundaryPlanner::expects_slit(const View& view) noexcept {
+  const int32_t travel_mm = behaviours_.progress.travel_mm();
+  if (!expects_slit_) {
+    if (!slit_near(view, kSlitNear)) return false;
+    expect_mm_ = travel_mm + behaviours_.mm(kSlitNear * 3);
+  }
+  expects_slit_ = has_slit_ && travel_mm < expect_mm_;
+  return expects_slit_;
+}
+
+bool BoundaryPlanner::try_slit(const View& view) noexcept {
+  if (!slit_near(view, kSlitBeside)) return false;
+  has_slit_ = expects_slit_ = false;
   if (!passage_.worth_trying(slit_.at)) return false;
   on(Event::slit);
   passage_.begin(view, slit_, decision_);
@@ -260,7 +274,7 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
-  if (try_slit(view, kSlitNear)) return;
+  has_slit_ = has_slit_ && !other_way_ && !slit_near(view, kSlitNear);
   if (other_way_ || (approach_.knows_no_way() && !has_slit_)) {
     if (loop_.may_part(began_, goal_.at, wall_)) {
       give_up_goal(view);

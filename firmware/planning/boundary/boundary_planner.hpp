@@ -110,8 +110,12 @@ class BoundaryPlanner final : public GoalPlanner {
   void find_slit(const View& view, Angle ahead) noexcept;
   /// The same on the wall's side of a body that follows the boundary.
   void find_slit_beside(const View& view) noexcept;
-  /// Begins to pass the slit, if the body is not farther than this from the place from which it was seen.
-  bool try_slit(const View& view, Length near) noexcept;
+  /// There is a slit, and the body is not farther than this from the place from which it was seen.
+  bool slit_near(const View& view, Length near) const noexcept;
+  /// Begins to pass it, if that is allowed and it is near.
+  bool try_slit(const View& view) noexcept;
+  /// The loop ends, but the slit is ahead within some travel.
+  bool expects_slit(const View& view) noexcept;
   void go_the_other_way(const View& view) noexcept;
   void escape(const View& view) noexcept;
   void give_up_goal(const View& view) noexcept;
@@ -120,11 +124,13 @@ class BoundaryPlanner final : public GoalPlanner {
   Side wall_ = Side::left;  ///< side of the current or last obstacle
   bool other_way_ = false;  // closed the loop once
   bool has_slit_ = false;
+  bool expects_slit_ = false;  // the loop is closed
   Pose slit_;                  // the last narrow gap seen and not tried: a place in it, and the heading there
   int8_t escapes_ = 0;         // from obstacles that did not block the path
   Why otherwise_ = Why::none;  // the reason, if nothing moved
   int32_t left_edge_mm_ = 0;   // travel at the last leave point
   int32_t slit_mm_ = 0;        // travel at the last search for a slit
+  int32_t expect_mm_ = 0;      // travel up to which a slit is expected
   Target target_;
   Vec began_;  // position when the goal was set
 

@@ -16,8 +16,9 @@ constexpr Angle kGlance = 50_deg;  // from within the lane
 constexpr int8_t kSweeps = 4;
 constexpr int8_t kRounds = 8;
 constexpr int8_t kStops = 12;
-constexpr Length kDrop = 40_mm;      // of a reading, at a jamb
-constexpr Length kJambs = 450_mm;    // farthest from the body, and from each other
+constexpr Length kDrop = 40_mm;  // of a reading, at a jamb
+constexpr Length kFarJamb = 600_mm;
+constexpr Length kJambs = 450_mm;    // farthest from each other
 constexpr Length kInFront = 250_mm;  // of the gap
 constexpr Length kLane = 200_mm;     // the same, for the begin of the lane
 constexpr Length kNear = 60_mm;      // the place from which it was seen
@@ -101,7 +102,7 @@ GapPassage::Result GapPassage::sweep(const View& view, Decision& decision) noexc
   const perception::ConeObservation& front = view.observations[hal::kFront];
   if ((view.observed >> hal::kFront & 1U) != 0) {
     const Length drop = for_body(params, kDrop);
-    if (front.hit && last_ > front.free + drop && front.free < for_body(params, kJambs)) {
+    if (front.hit && last_ > front.free + drop && front.free < for_body(params, kFarJamb)) {
       const Angle edge = front.beam.axis + front.beam.half_cone * sign(side_);
       jambs_[index(side_)] = front.beam.apex + polar(edge, front.free);
       seen_ = static_cast<uint8_t>(seen_ | 1U << index(side_));
