@@ -35,7 +35,6 @@ GridPoint Lane::local(Vec at) const noexcept {
 
 void Lane::mark(const Beam& beam, Length free, const EarlierObservation& before,
                 Length free_before) noexcept {
-  if (!open_) return;
   const GridPoint apex = local(beam.apex);
   const GridPoint apex_before = local(before.apex);
   if (!apex.nearby() || !apex_before.nearby()) return;
@@ -56,7 +55,6 @@ void Lane::mark(const Beam& beam, Length free, const EarlierObservation& before,
 }
 
 void Lane::mark_around(Vec at, Length radius) noexcept {
-  if (!open_) return;
   const GridPoint centre = local(at);
   if (!centre.nearby()) return;
   const int32_t reach = scale_.units(radius);
@@ -68,7 +66,6 @@ void Lane::mark_around(Vec at, Length radius) noexcept {
 }
 
 bool Lane::holds(const Vec& from, Angle heading, Length step, Length radius) const noexcept {
-  if (!open_) return false;
   const GridPoint here = local(from);
   const GridPoint there = local(from + polar(heading, step));
   const int32_t reach = scale_.units(radius);
@@ -90,7 +87,7 @@ bool Lane::holds(const Vec& from, Angle heading, Length step, Length radius) con
 
 bool Lane::is_clear(Vec at) const noexcept {
   const GridPoint p = local(at);
-  if (!open_ || p.x < 0 || p.y < 0 || p.x >= kCells * kUnitsPerCell || p.y >= kRows * kUnitsPerCell) {
+  if (!is_open() || p.x < 0 || p.y < 0 || p.x >= kCells * kUnitsPerCell || p.y >= kRows * kUnitsPerCell) {
     return false;
   }
   return (clear_[p.y / kUnitsPerCell] >> (p.x / kUnitsPerCell) & 1U) != 0;

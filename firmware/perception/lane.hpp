@@ -10,6 +10,14 @@
 
 namespace whisker::perception {
 
+/// The robot passes gaps that are hardly wider than the body. The toolchain file of a chip without room for
+/// that sets WHISKER_NARROW_GAPS to 0.
+#ifdef WHISKER_NARROW_GAPS
+constexpr bool kNarrowGaps = WHISKER_NARROW_GAPS != 0;
+#else
+constexpr bool kNarrowGaps = true;
+#endif
+
 /// A strip of 32 x 16 cells whose rows lie along the lane. So the edges of the lane are edges of cells, at
 /// whatever angle it crosses the local grid. A cell is clear by the same rule as a cell of the local grid: it
 /// lies completely inside an empty beam sector.
@@ -27,16 +35,17 @@ class Lane {
   void close() noexcept { open_ = false; }
   /// The local grid ages. Clear cells expire one to two spans after they were seen.
   void age() noexcept;
+  /// The following are for an open lane.
+  bool is_open() const noexcept { return kNarrowGaps && open_; }
   /// Clears the cells that both observations show empty to these free distances.
   void mark(const Beam& beam, Length free, const EarlierObservation& before, Length free_before) noexcept;
   /// Clears the cells completely inside this disc.
   void mark_around(Vec at, Length radius) noexcept;
-  /// True if the lane is open, and the ground that a disc touches at the end of a step, as far as it lies
+  /// True if the ground that a disc touches at the end of a step, as far as it lies
   /// ahead of its start, is clear and inside the lane.
   bool holds(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
   /// For display and tests.
   bool is_clear(Vec at) const noexcept;
-  bool is_open() const noexcept { return open_; }
   Length half_width() const noexcept { return Length::from_raw(scale_.cell_um * (kRows / 2)); }
 
  private:

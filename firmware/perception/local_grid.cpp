@@ -121,7 +121,7 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
   }
   age(pose);
   clear_around(pose.at, footprint_);
-  lane_.mark_around(pose.at, swept_);
+  if (lane_.is_open()) lane_.mark_around(pose.at, swept_);
 }
 
 void LocalGrid::age(const Pose& pose) noexcept {
@@ -134,7 +134,7 @@ void LocalGrid::age(const Pose& pose) noexcept {
       old_[s] = young_[s];
       young_[s] = 0;
     }
-    lane_.age();
+    if (lane_.is_open()) lane_.age();
     travel_ = Length{};
     turned_ = 0;
   }
@@ -180,7 +180,7 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   const Length taken_off = room + kReadingRounding;
   const EarlierObservation earlier{from_before, axis_before,
                                    before == nullptr ? observation.free : before->free};
-  lane_.mark(beam, observation.free - taken_off, earlier, earlier.free - taken_off);
+  if (lane_.is_open()) lane_.mark(beam, observation.free - taken_off, earlier, earlier.free - taken_off);
   const int32_t free = units(observation.free - taken_off);
   const int32_t free_before = units(earlier.free - taken_off);
   const int32_t echo = units(observation.free) + kUnitsPerCell;

@@ -49,7 +49,7 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
 bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius,
                            Avoid avoid) const noexcept {
   return step >= kShortestStep && nears(from, heading, step, radius, avoid) &&
-         !lane_.holds(from, heading, step, radius);
+         !(lane_.is_open() && lane_.holds(from, heading, step, radius));
 }
 
 bool LocalGrid::nears(const Vec& from, Angle heading, Length step, Length radius,

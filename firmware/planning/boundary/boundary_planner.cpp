@@ -10,12 +10,6 @@ constexpr Length kNearer = 30_mm;
 constexpr Length kKeepSide = 500_mm;    // of travel after leaving a boundary
 constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, in addition to kKeepSide
 constexpr int8_t kEscapes = 6;
-constexpr Length kSlitEvery = 20_mm;
-constexpr Length kSlit = 45_mm;  // to both sides
-constexpr int32_t kSlitCells = 2;
-constexpr Length kJamb = 110_mm;        // from the middle of a slit to those of its sides
-constexpr Length kSlitBeside = 200_mm;  // from there, a slit is tried on the second loop
-constexpr Length kSlitNear = 500_mm;    // the same at the end of a loop
 
 static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1800);
 
@@ -30,8 +24,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
   loop_.begin(view, behaviours_.params);
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
-  slit_mm_ = 0;
-  has_slit_ = false;
+  slits_.reset();
   passage_.reset();
   phase_ = Phase::survey;
   report(Mode::surveying, Why::goal_set);
@@ -84,7 +77,9 @@ void BoundaryPlanner::act(const View& view) noexcept {
     case Phase::boundary:
       if (boundary(view)) approach(view);
       break;
-    case Phase::gap: gap(view); break;
+    case Phase::gap:
+      if (perception::kNarrowGaps) gap(view);
+      break;
     case Phase::arrive: arrive(view); break;
     case Phase::over: break;
   }
@@ -111,7 +106,7 @@ void BoundaryPlanner::survey(const View& view) noexcept {
 }
 
 void BoundaryPlanner::approach(const View& view) noexcept {
-  if (view.sighted && decision_.why == Why::narrow) find_slit(view, view.pose.heading);
+  if (view.sighted && decision_.why == Why::narrow) slits_.look(view, view.pose.heading);
   if (approach_.step(view, target_, wall_, decision_)) return;
   if (approach_.refuted()) {
     end(Event::refuted, Outcome::unreachable);
@@ -123,7 +118,8 @@ void BoundaryPlanner::approach(const View& view) noexcept {
 void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
-  other_way_ = expects_slit_ = false;
+  other_way_ = false;
+  slits_.begin_loop();
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -134,7 +130,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
 
 void BoundaryPlanner::choose_side(const View& view) noexcept {
   Twist twist;
-  if (view.sighted) find_slit(view, view.pose.heading);
+  if (view.sighted) slits_.look(view, view.pose.heading);
   const bool over = side_search_.step(view, twist);
   decision_.manoeuvre = cruise(twist, behaviours_.params);
   if (!over) return;
@@ -153,7 +149,7 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
   if (follower_.follows() && view.sighted) {
     const LoopDetector::Evidence evidence =
         approach_.has_guide() ? LoopDetector::Evidence::place : LoopDetector::Evidence::turning;
-    if ((loop_.closed(view, evidence) || expects_slit_) && !expects_slit(view)) {
+    if ((loop_.closed(view, evidence) || slits_.expects()) && !slits_.expected(view)) {
       go_the_other_way(view);
       return false;
     }
@@ -166,8 +162,8 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       begin_approach(Event::nearer);
       return true;
     }
-    find_slit_beside(view);
-    if ((other_way_ || expects_slit_) && try_slit(view)) return false;
+    slits_.look_beside(view, wall_);
+    if ((other_way_ || slits_.expects()) && try_slit(view)) return false;
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
   return false;
@@ -187,53 +183,12 @@ void BoundaryPlanner::gap(const View& view) noexcept {
   }
 }
 
-void BoundaryPlanner::find_slit(const View& view, Angle ahead) noexcept {
-  const Params& params = behaviours_.params;
-  if (view.local_grid->reach().past != Angle{}) return;
-  const Length length = for_body(params, GapPassage::kSeenFrom);
-  const auto beside = [&](Length left) {
-    const Vec from = view.pose.at + polar(ahead + 90_deg, for_body(params, left));
-    return view.local_grid->along(from, ahead, length, for_body(params, kSlit), 1);
-  };
-  const perception::Obstacles middle = beside(Length{});
-  if (middle.suspect != 0 || middle.unknown > kSlitCells) return;
-  const perception::Obstacles left = beside(kJamb), right = beside(-kJamb);
-  if (left.suspect + left.unknown == 0 || right.suspect + right.unknown == 0) return;
-  if (left.suspect + right.suspect == 0) return;
-  slit_ = {view.pose.at + polar(ahead, length), ahead};
-  has_slit_ = true;
-}
-
-void BoundaryPlanner::find_slit_beside(const View& view) noexcept {
-  const int32_t travel_mm = behaviours_.progress.travel_mm();
-  if (travel_mm - slit_mm_ <= behaviours_.mm(kSlitEvery)) return;
-  slit_mm_ = travel_mm;
-  for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
-    find_slit(view, view.pose.heading + 1_deg * (degrees * sign(wall_)));
-  }
-}
-
-bool BoundaryPlanner::slit_near(const View& view, Length near) const noexcept {
-  const Vec from = slit_.at - polar(slit_.heading, for_body(behaviours_.params, GapPassage::kSeenFrom));
-  return has_slit_ && !farther(view.pose.at - from, for_body(behaviours_.params, near));
-}
-
-bool BoundaryPlanner::expects_slit(const View& view) noexcept {
-  const int32_t travel_mm = behaviours_.progress.travel_mm();
-  if (!expects_slit_) {
-    if (!slit_near(view, kSlitNear)) return false;
-    expect_mm_ = travel_mm + behaviours_.mm(kSlitNear * 3);
-  }
-  expects_slit_ = has_slit_ && travel_mm < expect_mm_;
-  return expects_slit_;
-}
-
 bool BoundaryPlanner::try_slit(const View& view) noexcept {
-  if (!slit_near(view, kSlitBeside)) return false;
-  has_slit_ = expects_slit_ = false;
-  if (!passage_.worth_trying(slit_.at)) return false;
+  if (!slits_.at_hand(view)) return false;
+  const Pose slit = slits_.take();
+  if (!passage_.worth_trying(slit.at)) return false;
   on(Event::slit);
-  passage_.begin(view, slit_, decision_);
+  passage_.begin(view, slit, decision_);
   return true;
 }
 
@@ -274,8 +229,8 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
-  has_slit_ = has_slit_ && !other_way_ && !slit_near(view, kSlitNear);
-  if (other_way_ || (approach_.knows_no_way() && !has_slit_)) {
+  slits_.end_loop(view);
+  if (other_way_ || (approach_.knows_no_way() && !slits_.known())) {
     if (loop_.may_part(began_, goal_.at, wall_)) {
       give_up_goal(view);
     } else {

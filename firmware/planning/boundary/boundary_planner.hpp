@@ -11,6 +11,7 @@
 #include "firmware/planning/boundary/follow_side_search.hpp"
 #include "firmware/planning/boundary/gap_passage.hpp"
 #include "firmware/planning/boundary/loop_detector.hpp"
+#include "firmware/planning/boundary/slit_search.hpp"
 #include "firmware/planning/boundary/survey.hpp"
 #include "firmware/planning/boundary/target.hpp"
 #include "firmware/planning/goal_planner.hpp"
@@ -83,7 +84,8 @@ class BoundaryPlanner final : public GoalPlanner {
       : behaviours_(params),
         approach_(law, guide, behaviours_),
         follower_(behaviours_),
-        passage_(behaviours_) {}
+        passage_(behaviours_),
+        slits_(behaviours_) {}
 
  private:
   void start(const View& view) noexcept override;
@@ -106,31 +108,18 @@ class BoundaryPlanner final : public GoalPlanner {
   void begin_approach(Event event) noexcept;
   void begin_side_search(const View& view) noexcept;
   bool may_leave(const View& view) const noexcept;
-  /// Remembers a narrow gap at this heading, if there may be one.
-  void find_slit(const View& view, Angle ahead) noexcept;
-  /// The same on the wall's side of a body that follows the boundary.
-  void find_slit_beside(const View& view) noexcept;
-  /// There is a slit, and the body is not farther than this from the place from which it was seen.
-  bool slit_near(const View& view, Length near) const noexcept;
-  /// Begins to pass it, if that is allowed and it is near.
+  /// Begins to pass the slit, if it is at hand and worth it.
   bool try_slit(const View& view) noexcept;
-  /// The loop ends, but the slit is ahead within some travel.
-  bool expects_slit(const View& view) noexcept;
   void go_the_other_way(const View& view) noexcept;
   void escape(const View& view) noexcept;
   void give_up_goal(const View& view) noexcept;
 
   Phase phase_ = Phase::survey;
-  Side wall_ = Side::left;  ///< side of the current or last obstacle
-  bool other_way_ = false;  // closed the loop once
-  bool has_slit_ = false;
-  bool expects_slit_ = false;  // the loop is closed
-  Pose slit_;                  // the last narrow gap seen and not tried: a place in it, and the heading there
+  Side wall_ = Side::left;     ///< side of the current or last obstacle
+  bool other_way_ = false;     // closed the loop once
   int8_t escapes_ = 0;         // from obstacles that did not block the path
   Why otherwise_ = Why::none;  // the reason, if nothing moved
   int32_t left_edge_mm_ = 0;   // travel at the last leave point
-  int32_t slit_mm_ = 0;        // travel at the last search for a slit
-  int32_t expect_mm_ = 0;      // travel up to which a slit is expected
   Target target_;
   Vec began_;  // position when the goal was set
 
@@ -138,6 +127,7 @@ class BoundaryPlanner final : public GoalPlanner {
   Approach approach_;
   BoundaryFollower follower_;
   GapPassage passage_;
+  SlitSearch slits_;
   Survey survey_;
   FollowSideSearch side_search_;
   LoopDetector loop_;
