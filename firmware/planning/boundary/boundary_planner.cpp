@@ -185,7 +185,7 @@ void BoundaryPlanner::gap(const View& view) noexcept {
 
 bool BoundaryPlanner::try_slit(const View& view) noexcept {
   if (!slits_.at_hand(view)) return false;
-  const Pose slit = slits_.take();
+  const Pose slit = slits_.take(view);
   if (!passage_.worth_trying(slit.at)) return false;
   on(Event::slit);
   passage_.begin(view, slit, decision_);

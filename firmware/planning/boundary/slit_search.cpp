@@ -10,14 +10,15 @@ constexpr Length kEvery = 20_mm;
 constexpr Length kHalfWidth = 45_mm;
 constexpr int32_t kUnknown = 2;   // cells
 constexpr Length kJamb = 110_mm;  // from the middle of a slit to the paths that its sides block
-constexpr Length kAtHand = 200_mm;
+constexpr Length kSame = 150_mm;  // the distance between two views of one slit
 constexpr Length kHere = 500_mm;
 constexpr Length kExpected = 1500_mm;  // of travel
 
 }  // namespace
 
 void SlitSearch::reset() noexcept {
-  known_ = expected_ = false;
+  known_ = 0;
+  expected_ = false;
   looked_mm_ = 0;
 }
 
@@ -35,8 +36,12 @@ void SlitSearch::search(const View& view, Angle ahead) noexcept {
   const perception::Obstacles left = path(kJamb), right = path(-kJamb);
   if (left.suspect + left.unknown == 0 || right.suspect + right.unknown == 0) return;
   if (left.suspect + right.suspect == 0) return;
-  slit_ = {view.pose.at + polar(ahead, length), ahead};
-  known_ = true;
+  const Vec at = view.pose.at + polar(ahead, length);
+  const bool same =
+      (known_ >> newest_ & 1U) != 0 && !farther(at - slits_[newest_].at, for_body(params, kSame));
+  if (!same) newest_ = static_cast<int8_t>((newest_ + 1) % kKept);
+  slits_[newest_] = {at, ahead};
+  known_ = static_cast<uint8_t>(known_ | 1U << newest_);
 }
 
 void SlitSearch::look_beside(const View& view, Side wall) noexcept {
@@ -48,17 +53,20 @@ void SlitSearch::look_beside(const View& view, Side wall) noexcept {
   }
 }
 
-bool SlitSearch::within(const View& view, Length reference) const noexcept {
-  const Vec from = slit_.at - polar(slit_.heading, for_body(behaviours_.params, GapPassage::kSeenFrom));
-  return !farther(view.pose.at - from, for_body(behaviours_.params, reference));
+uint8_t SlitSearch::within(const View& view, Length reference) const noexcept {
+  const Params& params = behaviours_.params;
+  uint32_t found = 0;
+  for (int i = 0; i < kKept; ++i) {
+    const Vec from = slits_[i].at - polar(slits_[i].heading, for_body(params, GapPassage::kSeenFrom));
+    if (!farther(view.pose.at - from, for_body(params, reference))) found |= 1U << i;
+  }
+  return static_cast<uint8_t>(found & known_);
 }
-
-bool SlitSearch::at_hand(const View& view) const noexcept { return known() && within(view, kAtHand); }
 
 bool SlitSearch::expected(const View& view) noexcept {
   const int32_t travel_mm = behaviours_.progress.travel_mm();
   if (!expected_) {
-    if (!known() || !within(view, kHere)) return false;
+    if (!known() || within(view, kHere) == 0) return false;
     expected_mm_ = travel_mm + behaviours_.mm(kExpected);
   }
   expected_ = known() && travel_mm < expected_mm_;
@@ -66,12 +74,16 @@ bool SlitSearch::expected(const View& view) noexcept {
 }
 
 void SlitSearch::end_loop(const View& view) noexcept {
-  if (known() && within(view, kHere)) known_ = false;
+  if (known()) known_ = static_cast<uint8_t>(known_ & ~within(view, kHere));
 }
 
-Pose SlitSearch::take() noexcept {
-  known_ = expected_ = false;
-  return slit_;
+Pose SlitSearch::take(const View& view) noexcept {
+  const uint8_t found = within(view, kAtHand);
+  int i = 0;
+  while (i < kKept - 1 && (found >> i & 1U) == 0) ++i;
+  known_ = static_cast<uint8_t>(known_ & ~(1U << i));
+  expected_ = false;
+  return slits_[i];
 }
 
 }  // namespace whisker::planning

@@ -1,4 +1,4 @@
-/// Looks for narrow gaps in a boundary, and remembers the last one.
+/// Looks for narrow gaps in a boundary, and remembers the last ones.
 #pragma once
 
 #include <stdint.h>
@@ -26,26 +26,30 @@ class SlitSearch {
   /// The same at some headings on the side of the wall; not more often than every 20 mm.
   void look_beside(const View& view, Side wall) noexcept;
   /// There is a slit that was not tried.
-  bool known() const noexcept { return perception::kNarrowGaps && known_; }
-  /// The body is near the place from which the slit was seen, near enough to try it.
-  bool at_hand(const View& view) const noexcept;
-  /// The loop is closed, but the slit lies on the next metre and a half of the boundary. Once per tick from
+  bool known() const noexcept { return perception::kNarrowGaps && known_ != 0; }
+  /// The body is near the place from which a slit was seen, near enough to try it.
+  bool at_hand(const View& view) const noexcept { return known() && within(view, kAtHand) != 0; }
+  /// The loop is closed, but a slit lies on the next metre and a half of the boundary. Once per tick from
   /// then on.
   bool expected(const View& view) noexcept;
   bool expects() const noexcept { return known() && expected_; }
-  /// At the end of a loop: forgets a slit that lies here.
+  /// At the end of a loop: forgets the slits that lie here.
   void end_loop(const View& view) noexcept;
-  /// A place in the slit, and the heading there. Forgets it.
-  Pose take() noexcept;
+  /// A place in the slit at hand, and the heading there. Forgets it.
+  Pose take(const View& view) noexcept;
 
  private:
   void search(const View& view, Angle ahead) noexcept;
-  bool within(const View& view, Length reference) const noexcept;
+  /// The slits that were seen from places within this distance, one bit each.
+  uint8_t within(const View& view, Length reference) const noexcept;
+  static constexpr Length kAtHand = Length::from_raw(200000);  // for the reference body
+  static constexpr int kKept = 4;
 
   const Behaviours& behaviours_;
-  bool known_ = false;
+  uint8_t known_ = 0;  // one bit for each slit
+  int8_t newest_ = 0;
   bool expected_ = false;
-  Pose slit_;
+  Pose slits_[kKept];
   int32_t looked_mm_ = 0;    // travel at the last look beside
   int32_t expected_mm_ = 0;  // travel up to which it is expected
 };
