@@ -27,6 +27,7 @@ constexpr Length kBeside = 8_mm;  // the place in front of the gap
 constexpr int8_t kMoves = 4;
 constexpr Length kBehind = 125_mm;  // the gap: the body has passed it
 constexpr Length kOff = 1_mm;       // of the lane from the middle of the jambs
+constexpr Angle kAstray = 25_deg;   // of the first heading from the middle of the gap
 constexpr Angle kTilted = 2_deg;
 constexpr Length kPursuit = 60_mm;
 
@@ -102,8 +103,9 @@ GapPassage::Result GapPassage::sweep(const View& view, Decision& decision) noexc
   const perception::ConeObservation& front = view.observations[hal::kFront];
   if ((view.observed >> hal::kFront & 1U) != 0) {
     const Length drop = for_body(params, kDrop);
-    if (front.hit && last_ > front.free + drop && front.free < for_body(params, kFarJamb)) {
-      const Angle edge = front.beam.axis + front.beam.half_cone * sign(side_);
+    const Angle edge = front.beam.axis + front.beam.half_cone * sign(side_);
+    const bool own_side = ((edge - ahead_) * sign(side_)).wrapped() > -static_cast<int32_t>(kAstray.raw());
+    if (front.hit && own_side && last_ > front.free + drop && front.free < for_body(params, kFarJamb)) {
       jambs_[index(side_)] = front.beam.apex + polar(edge, front.free);
       seen_ = static_cast<uint8_t>(seen_ | 1U << index(side_));
       ends = true;
