@@ -47,9 +47,9 @@ class BoundaryPlanner final : public GoalPlanner {
     enclosed,    ///< closed the loop in both directions
     refuted,     ///< the last attempt of the global planner also found no path
     stuck,       ///< no path is free, not even the retreat
-    slit,        ///< on the second loop, the boundary may have a narrow gap
+    slit,        ///< at a place from which a narrow gap was seen
     through,     ///< the body is through the gap
-    too_narrow,  ///< the gap is none
+    too_narrow,  ///< the body does not fit, or the gap is none
     at_goal,
     slid_off,  ///< at rest, but outside the goal's tolerance
     settled,   ///< at rest at the goal

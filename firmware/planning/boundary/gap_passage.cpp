@@ -15,7 +15,8 @@ constexpr Angle kSweep = 75_deg;
 constexpr Angle kGlance = 50_deg;  // from within the lane
 constexpr int8_t kSweeps = 4;
 constexpr int8_t kRounds = 8;
-constexpr int8_t kStops = 12;
+constexpr int8_t kStops = 8;
+constexpr int8_t kReturns = 1;
 constexpr Length kDrop = 40_mm;  // of a reading, at a jamb
 constexpr Length kFarJamb = 600_mm;
 constexpr Length kJambs = 450_mm;    // farthest from each other
@@ -58,7 +59,7 @@ void GapPassage::begin(const View& view, const Pose& gap, Decision& decision) no
   came_along_ = view.pose.heading;
   sweeps_ = rounds_ = stops_ = 0;
   seen_ = 0;
-  moves_ = 0;
+  moves_ = returns_ = 0;
   there_ = opened_ = false;
   decision.manoeuvre = stop();
 }
@@ -89,7 +90,7 @@ GapPassage::Result GapPassage::step(const View& view, Decision& decision) noexce
         enter(Phase::move);
       }
       break;
-    case Phase::move: move(view, decision); break;
+    case Phase::move: return move(view, decision);
     case Phase::creep: return creep(view, decision);
   }
   return Result::under_way;
@@ -168,16 +169,17 @@ Vec GapPassage::rest(const View& view) const noexcept {
   return before(moves_ == 0 ? kSeenFrom : kInFront) - view.pose.at;
 }
 
-void GapPassage::move(const View& view, Decision& decision) noexcept {
+GapPassage::Result GapPassage::move(const View& view, Decision& decision) noexcept {
   const Params& params = behaviours_.params;
   const Vec way = rest(view);
-  if (norm(way) < for_body(params, kThere) || behaviours_.stalled(view)) {
-    there_ = true;
-    decision.manoeuvre = stop();
-    enter(Phase::brake);
-    return;
+  if (farther(way, for_body(params, kThere)) && !behaviours_.stalled(view)) {
+    decision.manoeuvre = steer(bearing(way) - view.pose.heading, params.wheels.max_speed / 5, params);
+    return Result::under_way;
   }
-  decision.manoeuvre = steer(bearing(way) - view.pose.heading, params.wheels.max_speed / 5, params);
+  there_ = true;
+  decision.manoeuvre = stop();
+  enter(Phase::brake);
+  return returns_ > kReturns ? Result::failed : Result::under_way;
 }
 
 GapPassage::Result GapPassage::creep(const View& view, Decision& decision) noexcept {
@@ -185,10 +187,18 @@ GapPassage::Result GapPassage::creep(const View& view, Decision& decision) noexc
   const Vec off = view.pose.at - at_;
   if (along(off, ahead_) > for_body(params, kBehind)) return Result::through;
   if (behaviours_.stalled(view)) {
-    if (++stops_ > kStops) return Result::failed;
     seen_ = 0;
     sweeps_ = 0;
-    enter(Phase::sweep);
+    if (++stops_ > kStops) {
+      // Back to the place in front: for another lane, or to leave the gap.
+      ++returns_;
+      stops_ = 0;
+      rounds_ = 1;
+      opened_ = false;
+      enter(Phase::aim);
+    } else {
+      enter(Phase::sweep);
+    }
     return Result::under_way;
   }
   const Angle back = atan2(across(off, ahead_).raw(), for_body(params, kPursuit).raw());

@@ -48,7 +48,7 @@ class GapPassage {
   bool elsewhere(Vec at) const noexcept;
   Result sweep(const View& view, Decision& decision) noexcept;
   Result measured(const View& view, Decision& decision) noexcept;
-  void move(const View& view, Decision& decision) noexcept;
+  Result move(const View& view, Decision& decision) noexcept;
   Result creep(const View& view, Decision& decision) noexcept;
   /// The place on the middle line of the gap at this distance before it.
   Vec before(Length reference) const noexcept;
@@ -62,6 +62,7 @@ class GapPassage {
   int8_t here_ = 0;      // attempts in a row at this place
   int8_t sweeps_ = 0;    // to one side each, since the last pair of jambs
   int8_t rounds_ = 0;    // pairs of jambs
+  int8_t returns_ = 0;   // from the lane to the place in front of the gap
   int8_t stops_ = 0;     // on the lane
   int8_t moves_ = 0;     // to the place in front of the gap
   bool there_ = false;   // at the place from which the gap was seen
