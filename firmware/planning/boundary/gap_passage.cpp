@@ -6,7 +6,7 @@ namespace whisker::planning {
 namespace {
 
 // All lengths are for the reference body.
-constexpr int8_t kAttempts = 20;
+constexpr int8_t kAttempts = 8;
 constexpr int8_t kHere = 2;
 constexpr Length kElsewhere = 150_mm;
 constexpr AngularRate kSweepRate = 250_mrad_per_s;

@@ -24,7 +24,7 @@ class GapPassage {
 
   /// Resets the number of attempts.
   void reset() noexcept { attempts_ = here_ = 0; }
-  /// The gap may lie there, and further attempts are allowed: at most twenty a mission, and not twice in a
+  /// The gap may lie there, and further attempts are allowed: at most eight a mission, and not twice in a
   /// row at one place.
   bool worth_trying(Vec at) const noexcept;
   /// The gap lies at about this place and leads along this heading. Brings the body to rest.
