@@ -12,6 +12,7 @@
 #include "host/scenario/bearing.hpp"
 #include "host/scenario/check.hpp"
 #include "host/scenario/contact.hpp"
+#include "host/scenario/noise.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/reader.hpp"
 #include "host/scenario/robot.hpp"
@@ -61,21 +62,11 @@ void read_obstacles(const TableReader& top, Scenario& s) {
   }
 }
 
-Noise read_noise(const TableReader& table) {
-  Noise n;
-  n.range_sigma_m = table.number_or("range_sigma_m", kRangeSigma, 0);
-  n.range_dropout = table.number_or("range_dropout", kProbability, 0);
-  n.range_false_clear = table.number_or("range_false_clear", kProbability, 0);
-  n.wheel_scale_sigma = table.number_or("wheel_scale_sigma", kWheelScaleSigma, 0);
-  n.heading_drift_deg_per_sqrt_m = table.number_or("heading_drift_deg_per_sqrt_m", kHeadingDrift, 0);
-  return n;
-}
-
-/// A robot file: parameters at its top level or in [robot], and [sensor].
-void read_robot_file(const std::string& file, Params& params, Sensor& sensor) {
+/// A robot file: parameters at its top level or in [robot], [sensor] and [noise].
+void read_robot_file(const std::string& file, Params& params, Sensor& sensor, Noise& noise) {
   const toml::table root = parse_toml(read_file(file), file);
   std::vector<std::string_view> known = robot_keys();
-  known.insert(known.end(), {"robot", "sensor"});
+  known.insert(known.end(), {"robot", "sensor", "noise"});
   const TableReader top(file, root, "", known);
   RobotTables tables{top};
   if (top.has("robot")) tables.push_back(top.table("robot", robot_keys()));
@@ -85,6 +76,7 @@ void read_robot_file(const std::string& file, Params& params, Sensor& sensor) {
     }
   }
   if (top.has("sensor")) read_sensor(top.table("sensor", sensor_keys()), sensor);
+  if (top.has("noise")) read_noise(top.table("noise", noise_keys()), noise);
   read_robot(tables, params);
   check_robot(tables, params);
 }
@@ -122,10 +114,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   s.time_limit_s = top.number_or("time_limit_s", kTimeLimit, s.time_limit_s);
   read_places(start, goal, s);
   read_obstacles(top, s);
-  if (top.has("noise")) {
-    s.noise = read_noise(top.table("noise", {"range_sigma_m", "range_dropout", "range_false_clear",
-                                             "wheel_scale_sigma", "heading_drift_deg_per_sqrt_m"}));
-  }
+  if (top.has("noise")) read_noise(top.table("noise", noise_keys()), s.noise);
   if (top.has("sensor")) read_sensor(top.table("sensor", sensor_keys()), s.sensor);
   if (top.has("robot")) {
     const RobotTables robot{top.table("robot", robot_keys())};
@@ -141,7 +130,8 @@ Scenario load_scenario(const std::string& file) { return parse_scenario(read_fil
 void apply_robot_file(Params& params, Sensor& sensor, const std::string& file) {
   Params changed = params;
   Sensor changed_sensor = sensor;
-  read_robot_file(file, changed, changed_sensor);
+  Noise ignored;
+  read_robot_file(file, changed, changed_sensor, ignored);
   params = changed;
   sensor = changed_sensor;
 }
@@ -153,11 +143,12 @@ void apply_robot_file(Params& params, const std::string& file) {
 
 void apply_robot_file(Scenario& scenario, const std::string& file) {
   Scenario changed = scenario;
-  read_robot_file(file, changed.robot, changed.sensor);
+  read_robot_file(file, changed.robot, changed.sensor, changed.noise);
   const std::string fault = start_fault(changed);
   if (!fault.empty()) throw InputError(file, 1, 1, "with this robot " + fault);
   scenario.robot = changed.robot;
   scenario.sensor = changed.sensor;
+  scenario.noise = changed.noise;
 }
 
 }  // namespace whisker
