@@ -36,6 +36,7 @@ enum class ParamFault : uint8_t {
   step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
   beams_crossed,              ///< the axes point from left to right
   creep_without_bumper,       ///< creep_speed is zero unless a bumper is fitted
+  gyro_saturates,             ///< a fitted gyro's range >= 5/4 max_turn_rate
 };
 
 struct Relation {
@@ -125,6 +126,9 @@ constexpr Relation relation(ParamFault fault) noexcept {
               "range_right_angle_deg"};
     case F::creep_without_bumper:
       return {"creep_without_bumper", "creep_speed_mps must be 0 unless bumper is true"};
+    case F::gyro_saturates:
+      return {"gyro_saturates",
+              "gyro_range_radps must not be less than 5/4 turn_rate_max_radps unless gyro is false"};
   }
   return {"?", ""};
 }
@@ -270,7 +274,9 @@ template <class Visit>
       visit(F::patch_too_small, r::patch_holds_ways(p)) &&
       visit(F::planning_below_shield, p.skirt.planning_margin >= p.skirt.shield_margin) &&
       visit(F::beams_crossed, beams.ordered) &&
-      visit(F::creep_without_bumper, p.bumper.fitted == Fitted::yes || p.bumper.creep_speed == Speed{}));
+      visit(F::creep_without_bumper, p.bumper.fitted == Fitted::yes || p.bumper.creep_speed == Speed{}) &&
+      visit(F::gyro_saturates,
+            p.gyro.fitted == Fitted::no || p.gyro.range >= p.wheels.max_turn_rate * 5 / 4));
 }
 
 namespace formula {

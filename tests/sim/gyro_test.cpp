@@ -7,8 +7,8 @@
 namespace whisker::sim {
 namespace {
 
-constexpr double kDegree = kPi / 180;
-constexpr double kUnit = 8.72665 / 32768;  // rad/s
+constexpr double kRadPerDegree = kPi / 180;
+constexpr double kGyroUnit = 8.72665 / 32768;  // rad/s
 
 RobotSpec fitted() {
   RobotSpec robot;
@@ -35,7 +35,7 @@ TEST(Gyro, AddsUpTheMeanRateOfEverySample) {
   t.turn(-0.5, 1);
   t.turn(0, 0.01);  // the latency of the last sample
   EXPECT_EQ(t.reading().samples, 300);
-  EXPECT_NEAR(signed_sum(t.reading()) * kUnit * 0.01, 1.5, 300 * kUnit * 0.01 / 2);
+  EXPECT_NEAR(signed_sum(t.reading()) * kGyroUnit * 0.01, 1.5, 300 * kGyroUnit * 0.01 / 2);
   EXPECT_EQ(t.reading().saturated, 0);
 }
 
@@ -45,7 +45,7 @@ TEST(Gyro, LosesNothingWhereASampleEndsWithinAStep) {
   Turntable t{{robot, {}, 1}};
   t.turn(1.0, 3);
   t.turn(0, 0.5);
-  EXPECT_NEAR(signed_sum(t.reading()) * kUnit / 130, 3.0, 390 * kUnit / 130 / 2);
+  EXPECT_NEAR(signed_sum(t.reading()) * kGyroUnit / 130, 3.0, 390 * kGyroUnit / 130 / 2);
 }
 
 TEST(Gyro, ASampleArrivesAfterItsLatency) {
@@ -66,7 +66,7 @@ TEST(Gyro, SaturatesAtItsRangeAndCountsIt) {
 
 TEST(Gyro, WarmsUpLinearlyForTenMinutes) {
   NoiseSpec noise;
-  noise.gyro_warm_up_radps = 20 * kDegree;
+  noise.gyro_warm_up_radps = 20 * kRadPerDegree;
   Turntable t{{fitted(), noise, 3}};
   double sums[3] = {};
   for (double& sum : sums) {
@@ -83,22 +83,22 @@ TEST(Gyro, WarmsUpLinearlyForTenMinutes) {
 TEST(Gyro, ErrorsHaveTheirSigmas) {
   constexpr int kRuns = 2000;
   NoiseSpec noise;
-  noise.gyro_bias_radps = 1 * kDegree;
-  noise.gyro_walk_rad_per_sqrt_s = 0.4 * kDegree / 60;
+  noise.gyro_bias_radps = 1 * kRadPerDegree;
+  noise.gyro_walk_rad_per_sqrt_s = 0.4 * kRadPerDegree / 60;
   NoiseSpec scaled;
   scaled.gyro_scale_sigma = 0.01;
   double bias2 = 0, walk2 = 0, scale2 = 0;
   for (int seed = 0; seed < kRuns; ++seed) {
     Turntable t{{fitted(), noise, static_cast<std::uint64_t>(seed)}};
     t.turn(0, 1.01);
-    const double first = signed_sum(t.reading()) * kUnit * 0.01;
+    const double first = signed_sum(t.reading()) * kGyroUnit * 0.01;
     t.turn(0, 1);
-    const double second = signed_sum(t.reading()) * kUnit * 0.01 - first;
+    const double second = signed_sum(t.reading()) * kGyroUnit * 0.01 - first;
     bias2 += first * first;
     walk2 += (second - first) * (second - first) / 2;  // the bias cancels
     Turntable s{{fitted(), scaled, static_cast<std::uint64_t>(seed)}};
     s.turn(1, 1.01);
-    const double error = signed_sum(s.reading()) * kUnit * 0.01 - 1;
+    const double error = signed_sum(s.reading()) * kGyroUnit * 0.01 - 1;
     scale2 += error * error;
   }
   // Four standard deviations of a standard deviation; seeds 0 to 1999.
