@@ -26,7 +26,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
     return;
   }
   odometry_.configure(params);
-  heading_.configure(params, odometry_);
+  if (has_gyro()) heading_.configure(params, odometry_);
   perception_.configure(params);
   warned_speed_ = safety::warned_speed(params);
   supervisor_.configure();
@@ -49,7 +49,7 @@ bool Robot::place(const Pose& pose) noexcept {
 
 void Robot::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
-  heading_.restart();
+  if (has_gyro()) heading_.restart();
   status_.pose = pose;
   perception_.forget(pose);
   guard_.reset();
@@ -177,7 +177,7 @@ bool Robot::take_counts() noexcept {
 }
 
 void Robot::advance_pose() noexcept {
-  if (params_.gyro.fitted == Fitted::no) return odometry_.advance(step_);
+  if (!has_gyro()) return odometry_.advance(step_);
   hal::GyroReading reading{};
   const bool read = gyro_ != nullptr && gyro_->read(reading);
   const bool commanded = status_.command.left != 0 || status_.command.right != 0;
@@ -248,7 +248,7 @@ void Robot::plan(const planning::View& view) noexcept {
 
 /// The planner is not asked meanwhile.
 bool Robot::rests_for_gyro() noexcept {
-  if (params_.gyro.fitted == Fitted::no) return false;
+  if (!has_gyro()) return false;
   localization::GyroBias& bias = heading_.bias();
   const bool resting = resting_for_ > Duration{};
   const bool begins = bias.stands() || bias.due_for() > kRestDelay;

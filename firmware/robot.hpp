@@ -92,6 +92,7 @@ class Robot {
   bool localize(Time now, planning::View& view) noexcept;
   void perceive(planning::View& view, bool counted) noexcept;
   void plan(const planning::View& view) noexcept;
+  bool has_gyro() const noexcept { return kGyroBuilt && params_.gyro.fitted == Fitted::yes; }
   bool rests_for_gyro() noexcept;
   WheelPair guard(const planning::View& view, bool paused) noexcept;
   WheelPair granted(const planning::View& view, bool stands) noexcept;

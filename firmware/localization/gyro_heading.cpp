@@ -8,7 +8,6 @@ constexpr Duration kSilence = 100_ms;
 }  // namespace
 
 void GyroHeading::configure(const Params& params, const Odometry& odometry) noexcept {
-  fitted_ = params.gyro.fitted == Fitted::yes;
   bias_.configure(params.gyro);
   gains_.configure(odometry.counts_per_turn(), params.wheels.counts_per_metre);
   const int32_t range = multiply_divide(params.gyro.range.raw(), params.gyro.scale.raw(), 1000000);
@@ -84,7 +83,6 @@ void GyroHeading::learn(const CountStep& counts, Angle gyro, Angle wheels, Healt
 }
 
 HeadingSource GyroHeading::source() const noexcept {
-  if (!fitted_) return HeadingSource::wheels;
   if (!answers_) return HeadingSource::gyro_lost;
   return bias_.known() ? HeadingSource::gyro : HeadingSource::bias_unknown;
 }

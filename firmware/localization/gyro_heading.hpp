@@ -27,9 +27,9 @@ enum class HeadingSource : uint8_t {
 class GyroHeading {
  public:
   struct Step {
-    const hal::GyroReading* reading;  ///< null: it does not answer
+    const hal::GyroReading* reading = nullptr;  ///< null: it does not answer
     CountStep counts;
-    bool commanded;  ///< a wheel is commanded to turn
+    bool commanded = false;  ///< a wheel is commanded to turn
     Duration elapsed;
   };
 
@@ -59,7 +59,6 @@ class GyroHeading {
   int32_t most_samples_ = 0;    // at once
   Angle ahead_;                 // turned by the wheels since the last sample
   Duration silent_for_;
-  bool fitted_ = false;
   bool answers_ = true;
   bool has_last_ = false;
 };

@@ -85,12 +85,12 @@ class RobotCheck(Case):
 
     def test_the_named_layouts_do_as_the_manual_says(self):
         kinds = {}
-        for name in ("reference", "layout-45", "layout-40", "layout-45-true-38", "hc-sr04", "vl53l1x"):
+        for name in ("reference", "layout-45", "layout-40", "layout-45-true-38", "hc-sr04", "vl53l1x", "gyro"):
             done = check(ROOT / f"host/robots/{name}.toml", "--json")
             self.assertEqual(done.returncode, 0, done.stdout)
             kinds[name] = [w["kind"] for w in json.loads(done.stdout)["warnings"]]
         self.assertEqual(kinds, {"reference": [], "layout-45": [], "layout-40": [], "layout-45-true-38": ["invisible_walls"],
-                                 "hc-sr04": ["unseen_strip"], "vl53l1x": []})  # fmt: skip
+                                 "hc-sr04": ["unseen_strip"], "vl53l1x": [], "gyro": []})  # fmt: skip
 
     def test_files_that_are_none(self):
         self.refused("robot", says="robot")

@@ -90,7 +90,7 @@ TEST(Params, EveryRelationIsChecked) {
          p.safety.stalled_after = 4000_ms;
        }},
       {ParamFault::creep_without_bumper, [](Params& p) { p.bumper.creep_speed = 50_mm_per_s; }},
-      {ParamFault::gyro_saturates,
+      {ParamFault::gyro_unfit,
        [](Params& p) {
          p.gyro.fitted = Fitted::yes;
          p.gyro.range = 3749_mrad_per_s;
