@@ -66,7 +66,9 @@ struct Shuffle {
   }
   template <class E>
   void choice(const char*, E& x, const char* const*, int count) {
+    const E old = x;
     x = static_cast<E>(below(count));
+    if (check(whole) != ParamFault::none) x = old;
   }
 };
 
@@ -232,7 +234,7 @@ RC_GTEST_PROP(RoundTrip, GivesTheSameScenarioBitForBit, ()) {
   same(a.goal.at, b.goal.at);
   RC_ASSERT(a.goal.tolerance_m == b.goal.tolerance_m);
   same_obstacles(a, b);
-  for (const NoiseKey& k : kNoiseKeys) RC_ASSERT(a.noise.*k.field == b.noise.*k.field);
+  for (const NoiseKey& k : kNoiseKeys) RC_ASSERT((a.noise.*k.field) == (b.noise.*k.field));
   same(a.sensor, b.sensor);
   RC_ASSERT(values(a.robot) == values(b.robot));
   RC_ASSERT(to_toml(b) == text);
