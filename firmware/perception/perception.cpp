@@ -42,6 +42,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
+  bool measured[hal::kBeams] = {};
   Pose from;
   int seen = 0;
   for (int i = 0; i < hal::kBeams; ++i) {
@@ -67,7 +68,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
         motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
       const bool approaches = contradictions_[i].approaches(observation);
       const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
-      if (anew && contradicted_ < kDistrusted) ++contradicted_;
+      if (anew && contradicted_ < kDistrusted) contradicted_ = static_cast<uint8_t>(contradicted_ + 3);
       const bool explained = loses_walls_ || misses_ || sight.phantoms;
       if (approaches || !explained) moved[i] = sight.farthest;
     }
@@ -78,6 +79,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       local_grid_.mark(observation, before);
       local_grid_.chain(observation, before);
     }
+    measured[i] = sight.measured;
     appears[i] = (seen_ & bit) != 0 && last_[i].free > observation.free + kAppears;
     last_[i] = {observation.beam.apex, observation.beam.axis, observation.free};
     seen_ |= bit;
@@ -88,7 +90,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
-    if (echo) local_grid_.revoke(out.observations[i], appears[i]);
+    if (echo && (doubts() || measured[i] || (appears[i] && i != hal::kFront))) {
+      local_grid_.revoke(out.observations[i], appears[i]);
+    }
     if (moved[i] > Length{}) local_grid_.doubt(out.observations[i], moved[i]);
   }
   for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());
