@@ -45,7 +45,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
-  Length echo_at[hal::kBeams];  // what the newest reading shows, if it proves an echo
+  Length echo_ends[hal::kBeams];
   SeenRange shown[hal::kBeams];
   Pose from;
   uint8_t hits = 0;
@@ -70,9 +70,8 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.hit = sight.near.validity != Validity::clear && sight.near.distance <= proving;
     const Length allowance = observation.hit ? scatter_[i].allowance() : Length{};
     observation.free = free[i] = max(Length{}, min(sight.near.distance, proving) - allowance);
-    if (observation.hit && !sight.single && sight.newest.distance <= proving) {
-      echo_at[i] = sight.newest.distance;
-    }
+    // Of readings that scatter, the nearest of four lies before the object, and so does its allowance.
+    echo_ends[i] = allowance == Length{} ? observation.free : max(observation.free, sight.newest.distance);
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (observation.hit &&
@@ -92,7 +91,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       local_grid_.mark(observation, before);
       local_grid_.chain(observation, before);
     }
-    appears[i] = observation.hit && (seen_ & bit) != 0 && last_[i].free > observation.free + kAppears;
+    appears[i] = (seen_ & bit) != 0 && last_[i].free > observation.free + kAppears;
     last_[i] = {observation.beam.apex, observation.beam.axis, observation.free};
     seen_ |= bit;
     out.observed = static_cast<uint8_t>(out.observed | bit);
@@ -102,12 +101,11 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // After all marks, because another beam may clear ground that an echo takes back, or into which a moving
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
-    // Each echo counts once, with its own pose: the nearest of four may come from another direction.
-    if (doubts() && echo_at[i] > Length{}) {
-      const Length scatter = scatter_[i].allowance() * 2;
-      local_grid_.revoke(out.observations[i].beam, echo_at[i] - scatter, echo_at[i] + scatter);
+    const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
+    if (doubts() && echo) {
+      local_grid_.revoke(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
+      if (appears[i]) local_grid_.revoke_beside(out.observations[i]);
     }
-    if (doubts() && appears[i]) local_grid_.revoke_beside(out.observations[i]);
     if (moved[i] == Length{}) continue;
     local_grid_.doubt(out.observations[i], moved[i]);
     if (!kEvades || (out.mover.seen && free[i] >= nearest)) continue;
