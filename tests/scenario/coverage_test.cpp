@@ -28,7 +28,7 @@ TEST(Walls, TheReferenceRobotNeedsSensorsThatSeeThemUpTo47Degrees) {
   EXPECT_EQ(seen_incidence_deg({}, {}), 90);
 }
 
-TEST(Coverage, AConeCountsAsWideAsItIsWhereReadingsClearGround) {
+TEST(Walls, AConeCountsAsWideAsItIsWhereReadingsClearGround) {
   Params params;
   params.rangefinders.cone = 40_deg;
   Sensor sensor;
