@@ -102,10 +102,10 @@ MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexce
   return holding;
 }
 
-bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthest,
+bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthest, Angle misaim,
                                  const LocalGrid& local_grid) const noexcept {
   if (farthest > kReach || nearest <= Length{}) return false;
-  const Angle half = beam.half_cone + kWidening;
+  const Angle half = beam.half_cone + kWidening + misaim;
   const Angle step = Angle::from_raw(half.raw() / (kSectors / 2));
   const Length far = farthest + kNoise;
   // A cell is coarse: an obstacle in it also occupies the cell's ground before the obstacle.

@@ -3,6 +3,7 @@
 namespace whisker::perception {
 namespace {
 
+constexpr Angle kMisaim = 5_deg;
 constexpr Length kAppears = 50_mm;  // nearer than the reading before: another object
 
 }  // namespace
@@ -46,6 +47,8 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
   SeenRange shown[hal::kBeams];
+  // Beams that point beside their axes cause contradictions wherever the robot passes.
+  const Angle misaim = !loses_walls_ && contradicted_ >= kMisaimed ? kMisaim : Angle{};
   Pose from;
   uint8_t hits = 0;
   int seen = 0;
@@ -72,7 +75,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (observation.hit &&
-        motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
+        motion_.contradicts(observation.beam, observation.free, sight.farthest, misaim, local_grid_)) {
       const bool approaches = contradictions_[i].approaches(observation);
       if (!sight.phantoms) monitor_.contradict(approaches);
       const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;

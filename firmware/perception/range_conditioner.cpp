@@ -161,7 +161,8 @@ Length BeamConditioner::confirmed(const Length (&last)[kHistory], Length far) co
   bool pair = false;
   for (int i = 0; i + 1 < kHistory; ++i) {
     if (sorted[i + 1] - sorted[i] > kAlike) continue;
-    if (sorted[i] == far) return pair ? kUndecided : far;
+    // Where misses are frequent, four readings that agree on nothing do not outweigh a lone echo.
+    if (sorted[i] == far) return pair || (misses_ > kFewMisses && i > 0) ? kUndecided : far;
     if (i + wanted <= kHistory && sorted[i + wanted - 1] - sorted[i] <= kAlike) return sorted[i];
     pair = true;
   }
@@ -183,6 +184,7 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   Length nearest = min(min(low, last[2]), last[3]);
   s.misses = misses_ > kFewMisses;
   s.phantoms = phantoms_ > kFewPhantoms;
+  if (s.misses && count_ == kHistory) nearest = min(nearest, recent(kNear).distance);
   if (s.phantoms && steady_ == kHistory && count_ == kHistory) {
     last[kNear] = recent(kNear).distance;
     nearest = confirmed(last, far);
