@@ -3,7 +3,6 @@
 namespace whisker::perception {
 namespace {
 
-constexpr Angle kMisaim = 5_deg;
 constexpr Length kAppears = 50_mm;  // nearer than the reading before: another object
 
 }  // namespace
@@ -47,8 +46,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
   SeenRange shown[hal::kBeams];
-  // Beams that point beside their axes cause contradictions wherever the robot passes.
-  const Angle misaim = !loses_walls_ && contradicted_ >= kMisaimed ? kMisaim : Angle{};
+  // Beams that point beside their axes cause contradictions wherever the robot passes. More of them refute
+  // that.
+  const bool misaimed = !loses_walls_ && contradicted_ >= kMisaimed && contradicted_ < kMisaimed * 2;
   Pose from;
   uint8_t hits = 0;
   int seen = 0;
@@ -75,7 +75,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (observation.hit &&
-        motion_.contradicts(observation.beam, observation.free, sight.farthest, misaim, local_grid_)) {
+        motion_.contradicts(observation.beam, observation.free, sight.farthest, misaimed, local_grid_)) {
       const bool approaches = contradictions_[i].approaches(observation);
       if (!sight.phantoms) monitor_.contradict(approaches);
       const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
@@ -102,7 +102,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
-    if (doubts() && echo) local_grid_.revoke(out.observations[i], appears[i]);
+    if (echo) local_grid_.revoke(out.observations[i], appears[i]);
     if (moved[i] == Length{}) continue;
     local_grid_.doubt(out.observations[i], moved[i]);
     if (!kEvades || (out.mover.seen && free[i] >= nearest)) continue;

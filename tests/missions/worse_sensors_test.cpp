@@ -28,6 +28,14 @@ TEST(WorseSensors, EchoesBesideTheConesDoNotKeepASkewedRobotFromItsGoal) {
   EXPECT_EQ(skewed(world(worlds::Kind::discs, 610039, 50)).verdict, Verdict::reached);
 }
 
+TEST(WorseSensors, ConesNarrowerThanStatedLeadToNoContactHere) {
+  for (const std::uint64_t seed : {620001, 620016}) {
+    Scenario scenario = world(worlds::Kind::discs, seed, 50);
+    scenario.sensor.cone_deg = 17.5;
+    EXPECT_EQ(run(scenario).verdict, Verdict::reached) << seed;
+  }
+}
+
 TEST(WorseSensors, ThreeMissesInTenReadingsLeadToNoContact) {
   Scenario scenario = world(worlds::Kind::maze, 610025);
   scenario.noise.range_false_clear = 0.3;
