@@ -47,6 +47,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   bool appears[hal::kBeams] = {};
   Length echo_ends[hal::kBeams];
   SeenRange shown[hal::kBeams];
+  // Beams that point beside their axes cause contradictions wherever the robot passes. More of them refute
+  // that.
+  const bool misaimed = !loses_walls_ && contradicted_ >= kMisaimed && contradicted_ < kMisaimed * 2;
   Pose from;
   uint8_t hits = 0;
   int seen = 0;
@@ -75,7 +78,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (observation.hit &&
-        motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
+        motion_.contradicts(observation.beam, observation.free, sight.farthest, misaimed, local_grid_)) {
       const bool approaches = contradictions_[i].approaches(observation);
       if (!sight.phantoms) monitor_.contradict(approaches);
       const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
@@ -102,7 +105,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
-    if (doubts() && echo) {
+    if (echo) {
       local_grid_.revoke(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
       if (appears[i]) local_grid_.revoke_beside(out.observations[i]);
     }
