@@ -112,6 +112,21 @@ struct BumperParams {
   Speed creep_speed;  ///< with a bumper: up to this speed also over ground that no beam has cleared; 0: never
 };
 
+/// Whether this image has the code for a gyro (8 KB on an AVR); the toolchain file of a chip without room for
+/// it sets WHISKER_GYRO to 0.
+#ifdef WHISKER_GYRO
+constexpr bool kGyroBuilt = WHISKER_GYRO != 0;
+#else
+constexpr bool kGyroBuilt = true;
+#endif
+
+struct GyroParams {
+  Fitted fitted = Fitted::no;                          ///< a yaw-rate gyro is fitted: hal::Gyro
+  int32_t rate_hz = 100;                               ///< samples a second by the chip's own clock
+  AngularRate range = AngularRate::from_raw(8726646);  ///< rate of a sample of 32768: 500 deg/s
+  Ratio scale = millionths(1000000);  ///< true rate / measured rate; includes the error of the chip's clock
+};
+
 struct Params {
   BodyParams body;
   WheelParams wheels;
@@ -122,6 +137,7 @@ struct Params {
   MotionParams motion;
   SafetyParams safety;
   BumperParams bumper;
+  GyroParams gyro;
 };
 
 /// The violated relation between parameters; firmware/params/relations.hpp lists all relations.
@@ -214,6 +230,11 @@ constexpr void for_each_param(P& p, F&& f) {
 
   f.choice("bumper", p.bumper.fitted, kBoolean, 2);
   f.number("creep_speed_mps", p.bumper.creep_speed, 0_mm_per_s, 100_mm_per_s);
+
+  f.choice("gyro", p.gyro.fitted, kBoolean, 2);
+  f.count("gyro_rate_hz", p.gyro.rate_hz, 20, 1000);
+  f.number("gyro_range_radps", p.gyro.range, 1000_mrad_per_s, 40000_mrad_per_s);
+  f.number("gyro_scale", p.gyro.scale, millionths(800000), millionths(1250000));
 }
 
 /// A rangefinder on the body, in the body's frame: x ahead, y to the left.

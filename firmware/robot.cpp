@@ -3,13 +3,21 @@
 #include "firmware/safety/warning.hpp"
 
 namespace whisker {
+namespace {
+
+// A mission that is due for a rest waits this long for a manoeuvre to end before it is interrupted.
+constexpr Duration kRestDelay = 15000_ms;
+constexpr Duration kLongestRest = 5000_ms;
+
+}  // namespace
 
 Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
-             const Params& params, hal::Bumper* bumper) noexcept
+             const Params& params, hal::Bumper* bumper, hal::Gyro* gyro) noexcept
     : rangefinders_(rangefinders),
       planner_(planner),
       params_(params),
       bumper_(bumper),
+      gyro_(gyro),
       wheels_(drive),
       supervisor_(params, status_.health) {
   if (check(params) != ParamFault::none) {
@@ -18,6 +26,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
     return;
   }
   odometry_.configure(params);
+  if (has_gyro()) heading_->configure(params, odometry_);
   perception_.configure(params);
   warned_speed_ = safety::warned_speed(params);
   supervisor_.configure();
@@ -40,6 +49,7 @@ bool Robot::place(const Pose& pose) noexcept {
 
 void Robot::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
+  if (has_gyro()) heading_->restart();
   status_.pose = pose;
   perception_.forget(pose);
   guard_.reset();
@@ -83,6 +93,7 @@ void Robot::reset() noexcept {
   supervisor_.reset();
   started_ = false;
   was_settled_ = false;
+  resting_for_ = Duration{};
   // The next counts may include the whole braking path.
   since_counts_ += safety::braking_time(params_);
   perception_.forget(odometry_.pose());
@@ -148,7 +159,8 @@ bool Robot::take_counts() noexcept {
   const bool read = wheels_.read(counts);
   supervisor_.check_counts(read);
   if (!read) return false;
-  const bool sound = odometry_.update(counts, since_counts_, step_);
+  const bool sound = odometry_.take(counts, since_counts_, step_);
+  if (sound) advance_pose();
   since_counts_ = Duration{};
   if (!sound) {
     supervisor_.fail(Fault::encoder_jump, status_.health.encoder_jumps);
@@ -162,6 +174,16 @@ bool Robot::take_counts() noexcept {
   }
   supervisor_.check_wheels(step_);
   return true;
+}
+
+void Robot::advance_pose() noexcept {
+  if (!has_gyro()) return odometry_.advance(step_);
+  hal::GyroReading reading{};
+  const bool read = gyro_ != nullptr && gyro_->read(reading);
+  const bool commanded = status_.command.left != 0 || status_.command.right != 0;
+  const localization::GyroHeading::Step step{read ? &reading : nullptr, step_, commanded, since_counts_};
+  odometry_.advance(step_, heading_->turn(step, odometry_, status_.health));
+  status_.heading_source = heading_->source();
 }
 
 void Robot::perceive(planning::View& view, bool counted) noexcept {
@@ -198,8 +220,17 @@ void Robot::plan(const planning::View& view) noexcept {
   if (supervisor_.faulted()) return;
   planning::Decision& decision = status_.decision;
   if (reflex_.active()) {
+    resting_for_ = Duration{};
     decision.manoeuvre = {};
     decision.why = planning::Why::bumped;
+    decision.looked = false;
+    return;
+  }
+  if (rests_for_gyro()) {
+    decision.manoeuvre = {};
+    decision.mode = planning::Mode::looking;
+    decision.why = planning::Why::gyro_rest;
+    decision.outcome = planning::Outcome::running;
     decision.looked = false;
     return;
   }
@@ -215,6 +246,24 @@ void Robot::plan(const planning::View& view) noexcept {
   const bool waits = view.settled && running && decision.manoeuvre.kind == planning::ManoeuvreKind::keep;
   supervisor_.check_look(waits, last_tick_ - settled_since_);
   supervisor_.check_place(view.pose.at, running, elapsed_);
+}
+
+/// The planner is not asked meanwhile.
+bool Robot::rests_for_gyro() noexcept {
+  if (!has_gyro()) return false;
+  localization::GyroBias& bias = heading_->bias();
+  const bool resting = resting_for_ > Duration{};
+  const bool begins = bias.stands() || bias.due_for() > kRestDelay;
+  if (has_goal_ && heading_->wants_rest() && (resting || begins)) {
+    if (!resting) motion_.interrupt();
+    resting_for_ += elapsed_;
+    if (resting_for_ < kLongestRest) return true;
+    bias.postpone();
+  }
+  // The look at the surroundings starts again: a planner that waits for it has only waited since now.
+  if (resting) settled_since_ = last_tick_;
+  resting_for_ = Duration{};
+  return false;
 }
 
 WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
@@ -241,7 +290,8 @@ WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {
       status_.decision.outcome == planning::Outcome::running) {
     status_.decision.why = planning::Why::blind;
   }
-  const bool stands = paused || !fresh || supervisor_.faulted() || supervisor_.refused();
+  const bool rests = resting_for_ > Duration{};
+  const bool stands = paused || rests || !fresh || supervisor_.faulted() || supervisor_.refused();
   const WheelPair speeds = granted(view, stands);
   const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
   motion_.settle(paused ? nullptr : &step_, commanded, elapsed_, params_);

@@ -4,7 +4,9 @@
 #include "firmware/control/wheel_drive.hpp"
 #include "firmware/health.hpp"
 #include "firmware/localization/frame.hpp"
+#include "firmware/localization/gyro_heading.hpp"
 #include "firmware/localization/odometry.hpp"
+#include "firmware/localization/part.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
@@ -16,6 +18,7 @@
 #include "firmware/safety/supervisor.hpp"
 #include "hal/bumper.hpp"
 #include "hal/drive.hpp"
+#include "hal/gyro.hpp"
 #include "hal/rangefinders.hpp"
 
 namespace whisker {
@@ -27,6 +30,7 @@ struct Status {
   perception::Echoes echoes;   ///< the latest single reading of each beam
   hal::WheelSpeeds command{};  ///< as sent to the drive
   uint8_t pressed = 0;         ///< bump switches, see hal::BumperReading; 0 without a bumper
+  localization::HeadingSource heading_source = localization::HeadingSource::wheels;
   Health health;
 };
 
@@ -45,11 +49,16 @@ struct Status {
 /// very tick, the body backs off (safety/bump_reflex.hpp), and the place becomes an obstacle
 /// (perception/contacts.hpp). The planner is not asked meanwhile.
 ///
+/// A gyro is used if GyroParams::fitted says so. Its bias is measured whenever the robot stands. During a
+/// mission, the robot stands for two seconds at the start and for one about every minute, with
+/// Why::gyro_rest. Without an answer from the gyro, the wheels turn the pose: Status::heading_source,
+/// Health::gyro_lost.
+///
 /// Poses and goals are in the user's frame and lie within kPlaceLimit (math/region.hpp).
 class Robot {
  public:
   Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner, const Params& params,
-        hal::Bumper* bumper = nullptr) noexcept;
+        hal::Bumper* bumper = nullptr, hal::Gyro* gyro = nullptr) noexcept;
 
   /// Sets the pose of the robot.
   ///
@@ -84,12 +93,15 @@ class Robot {
   bool localize(Time now, planning::View& view) noexcept;
   void perceive(planning::View& view, bool counted) noexcept;
   void plan(const planning::View& view) noexcept;
+  bool has_gyro() const noexcept { return kGyroBuilt && params_.gyro.fitted == Fitted::yes; }
+  bool rests_for_gyro() noexcept;
   WheelPair guard(const planning::View& view, bool paused) noexcept;
   WheelPair granted(const planning::View& view, bool stands) noexcept;
   void actuate(WheelPair speeds) noexcept;
 
   void take_time(Time now) noexcept;
   bool take_counts() noexcept;
+  void advance_pose() noexcept;
   void take_bumps(const Pose& pose, bool counted) noexcept;
   void put_down(const Pose& pose) noexcept;
   void correct(const Pose& pose) noexcept;
@@ -102,6 +114,7 @@ class Robot {
   planning::Planner& planner_;
   const Params& params_;
   hal::Bumper* bumper_;
+  hal::Gyro* gyro_;
 
   localization::CountStep step_;  // of this tick
   Time last_tick_;
@@ -109,6 +122,7 @@ class Robot {
   Speed warned_speed_;     // while the ground is in doubt
   Duration elapsed_;       // since the last tick, at most the longest gap
   Duration since_counts_;  // since the counts were last read
+  Duration resting_for_;   // for the gyro
   bool started_ = false;
   bool has_goal_ = false;  // a mission is active
   bool goal_refused_ = false;
@@ -122,6 +136,7 @@ class Robot {
   safety::BumpReflex reflex_;
   planning::MotionController motion_;
   localization::Odometry odometry_;
+  localization::Part<localization::GyroHeading, kGyroBuilt> heading_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;
 };

@@ -24,7 +24,7 @@ CorePilot::CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Pla
     : board_(plant),
       planner_(std::move(planner)),
       shown_(*planner_.planner),
-      robot_(board_, board_, shown_, scenario.robot, &board_) {
+      robot_(board_, board_, shown_, scenario.robot, &board_, &board_) {
   robot_.place(fixed_pose(scenario.start));
   robot_.set_goal(fixed_goal(scenario.goal));
 }
