@@ -27,6 +27,11 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
   }
   odometry_.configure(params);
   if (has_gyro()) heading_->configure(params, odometry_);
+  if (kGyroBuilt) {
+    bound_->configure(params);
+    status_.sigma_known = bound_->known();
+    restart_bound();
+  }
   perception_.configure(params);
   warned_speed_ = safety::warned_speed(params);
   supervisor_.configure();
@@ -55,6 +60,7 @@ void Robot::put_down(const Pose& pose) noexcept {
   guard_.reset();
   reflex_.reset();
   frame_.tie(pose, pose);
+  restart_bound();
   if (has_goal_) aim_again();
 }
 
@@ -62,6 +68,7 @@ void Robot::correct(const Pose& pose) noexcept {
   if (pose.at == status_.pose.at && pose.heading == status_.pose.heading) return;
   frame_.tie(odometry_.pose(), pose);
   status_.pose = pose;
+  restart_bound();
   aim_again();
 }
 
@@ -177,13 +184,30 @@ bool Robot::take_counts() noexcept {
 }
 
 void Robot::advance_pose() noexcept {
-  if (!has_gyro()) return odometry_.advance(step_);
+  if (!has_gyro()) {
+    odometry_.advance(step_);
+    if (has_bound()) advance_bound(Duration{});
+    return;
+  }
   hal::GyroReading reading{};
   const bool read = gyro_ != nullptr && gyro_->read(reading);
   const bool commanded = status_.command.left != 0 || status_.command.right != 0;
   const localization::GyroHeading::Step step{read ? &reading : nullptr, step_, commanded, since_counts_};
   odometry_.advance(step_, heading_->turn(step, odometry_, status_.health));
   status_.heading_source = heading_->source();
+  if (has_bound()) advance_bound(heading_->bias().age());
+}
+
+void Robot::advance_bound(Duration bias_age) noexcept {
+  const bool by_gyro = status_.heading_source == localization::HeadingSource::gyro;
+  const Pose pose = odometry_.pose();
+  if (bound_->step({pose, step_, since_counts_, by_gyro, bias_age})) status_.sigma = bound_->sigma();
+}
+
+void Robot::restart_bound() noexcept {
+  if (!has_bound()) return;
+  bound_->restart(odometry_.pose(), {});
+  status_.sigma = bound_->sigma();
 }
 
 void Robot::perceive(planning::View& view, bool counted) noexcept {

@@ -7,6 +7,7 @@
 #include "firmware/localization/gyro_heading.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "firmware/localization/part.hpp"
+#include "firmware/localization/pose_bound.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
@@ -26,10 +27,12 @@ namespace whisker {
 /// The result of the last tick.
 struct Status {
   planning::Decision decision;
-  Pose pose;                   ///< estimated
-  perception::Echoes echoes;   ///< the latest single reading of each beam
-  hal::WheelSpeeds command{};  ///< as sent to the drive
-  uint8_t pressed = 0;         ///< bump switches, see hal::BumperReading; 0 without a bumper
+  Pose pose;                 ///< estimated
+  bool sigma_known = false;  ///< the parameters declare an error of the wheels, and the image has the code
+  localization::PoseSigma sigma;  ///< standard deviations of the pose, if known
+  perception::Echoes echoes;      ///< the latest single reading of each beam
+  hal::WheelSpeeds command{};     ///< as sent to the drive
+  uint8_t pressed = 0;            ///< bump switches, see hal::BumperReading; 0 without a bumper
   localization::HeadingSource heading_source = localization::HeadingSource::wheels;
   Health health;
 };
@@ -53,6 +56,9 @@ struct Status {
 /// mission, the robot stands for two seconds at the start and for one about every minute, with
 /// Why::gyro_rest. Without an answer from the gyro, the wheels turn the pose: Status::heading_source,
 /// Health::gyro_lost.
+///
+/// If PoseErrorParams declare an error of the wheels, Status::sigma says how far the pose may be off. It
+/// changes no command.
 ///
 /// Poses and goals are in the user's frame and lie within kPlaceLimit (math/region.hpp).
 class Robot {
@@ -95,6 +101,9 @@ class Robot {
   void plan(const planning::View& view) noexcept;
   bool has_gyro() const noexcept { return kGyroBuilt && params_.gyro.fitted == Fitted::yes; }
   bool rests_for_gyro() noexcept;
+  bool has_bound() const noexcept { return kGyroBuilt && status_.sigma_known; }
+  void advance_bound(Duration bias_age) noexcept;
+  void restart_bound() noexcept;
   WheelPair guard(const planning::View& view, bool paused) noexcept;
   WheelPair granted(const planning::View& view, bool stands) noexcept;
   void actuate(WheelPair speeds) noexcept;
@@ -137,6 +146,7 @@ class Robot {
   planning::MotionController motion_;
   localization::Odometry odometry_;
   localization::Part<localization::GyroHeading, kGyroBuilt> heading_;
+  localization::Part<localization::PoseBound, kGyroBuilt> bound_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;
 };

@@ -38,6 +38,8 @@ class GyroBias {
   Duration due_for() const noexcept { return used_for_ - kServes; }
   /// The body does not come to rest: try again after kServes.
   void postpone() noexcept { used_for_ = Duration{}; }
+  /// Since the last long rest.
+  Duration age() const noexcept { return used_for_; }
   /// Of one sample, 2^-16 of its unit.
   int32_t value() const noexcept { return value_; }
 

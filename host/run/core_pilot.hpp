@@ -14,6 +14,10 @@ class CorePilot final : public Pilot {
   const Status& tick(Time now) override { return robot_.tick(now); }
   const perception::LocalGrid* local_grid() const override { return shown_.local_grid(); }
   std::optional<RangeTrust> ranges() const override { return robot_.status().health.ranges; }
+  std::optional<localization::PoseSigma> sigma() const override {
+    if (!robot_.status().sigma_known) return std::nullopt;
+    return robot_.status().sigma;
+  }
   const RecordingGuide* guide() const override { return planner_.guide; }
   /// Sets a new goal, during a mission or after it has ended.
   void set_goal(const planning::Goal& goal) { robot_.set_goal(goal); }
