@@ -138,6 +138,9 @@ struct PoseErrorParams {
   Angle gyro_warm_up = Angle::turns(1, 3600);  ///< change of the bias in ten minutes, in a second
 };
 
+/// What becomes of a fix that jumps by more than its sigma allows. Either way it is counted.
+enum class JumpPolicy : int32_t { accept, refuse };
+
 struct Params {
   BodyParams body;
   WheelParams wheels;
@@ -150,6 +153,7 @@ struct Params {
   BumperParams bumper;
   GyroParams gyro;
   PoseErrorParams pose_error;
+  JumpPolicy fix_jumps = JumpPolicy::accept;
 };
 
 /// The violated relation between parameters; firmware/params/relations.hpp lists all relations.
@@ -164,6 +168,7 @@ constexpr void for_each_param(P& p, F&& f) {
   constexpr const char* kConsensus[] = {"agreeing", "median"};
   constexpr const char* kSource[] = {"front", "mean"};
   constexpr const char* kBoolean[] = {"false", "true"};
+  constexpr const char* kJumps[] = {"accept", "refuse"};
 
   f.number("body_radius_m", p.body.radius, 20_mm, 1_m);
   f.number("body_margin_m", p.body.margin, 0_mm, 500_mm);
@@ -254,6 +259,7 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("gyro_scale_sigma", p.pose_error.gyro_scale, millionths(0), millionths(100000));
   f.number("gyro_walk_deg_per_sqrt_h", p.pose_error.gyro_walk, Angle{}, 10_deg);
   f.number("gyro_warm_up_dps", p.pose_error.gyro_warm_up, Angle{}, 1_deg);
+  f.choice("fix_jumps", p.fix_jumps, kJumps, 2);
 }
 
 /// A rangefinder on the body, in the body's frame: x ahead, y to the left.

@@ -29,8 +29,9 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
   if (has_gyro()) heading_->configure(params, odometry_);
   if (kGyroBuilt) {
     bound_->configure(params);
+    teacher_->configure(params, odometry_);
     status_.sigma_known = bound_->known();
-    restart_bound();
+    restart_bound({});
   }
   perception_.configure(params);
   warned_speed_ = safety::warned_speed(params);
@@ -38,14 +39,17 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
   motion_.configure(params);
 }
 
+bool Robot::placeable(const Pose& pose) noexcept {
+  if (within(pose.at, kPlaceLimit)) return true;
+  supervisor_.fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
+  show_fault();
+  return false;
+}
+
 bool Robot::place(const Pose& pose) noexcept {
-  if (!within(pose.at, kPlaceLimit)) {
-    supervisor_.fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
-    show_fault();
-    return false;
-  }
+  if (!placeable(pose)) return false;
   if (started_ && !supervisor_.faulted() && has_goal_) {
-    correct(pose);
+    move_frame(pose, {});
   } else {
     put_down(pose);
   }
@@ -55,21 +59,49 @@ bool Robot::place(const Pose& pose) noexcept {
 void Robot::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
   if (has_gyro()) heading_->restart();
+  if (kGyroBuilt) teacher_->restart(Angle{}, Angle{});
   status_.pose = pose;
   perception_.forget(pose);
   guard_.reset();
   reflex_.reset();
   frame_.tie(pose, pose);
-  restart_bound();
+  restart_bound({});
   if (has_goal_) aim_again();
 }
 
-void Robot::correct(const Pose& pose) noexcept {
+bool Robot::correct(const Pose& pose, const localization::PoseSigma& sigma) noexcept {
+  if (!placeable(pose)) return false;
+  localization::UncertainPose fix{pose, sigma};
+  if (has_bound()) {
+    const localization::UncertainPose estimate{status_.pose, bound_->sigma()};
+    if (localization::jumps(estimate, fix)) {
+      count(status_.health.fix_jumps);
+      if (params_.fix_jumps == JumpPolicy::refuse) {
+        count(status_.health.fixes_refused);
+        return false;
+      }
+    }
+    fix = localization::fused(estimate, fix);
+  }
+  teach(pose.heading, sigma.heading, fix);
+  move_frame(fix.pose, fix.sigma);
+  return true;
+}
+
+void Robot::teach(Angle fix, Angle sigma, const localization::UncertainPose& fused) noexcept {
+  if (!kGyroBuilt || has_gyro()) return;
+  const Angle heading = odometry_.pose().heading;
+  if (!teacher_->fix(fix - heading, sigma)) return;
+  teacher_->restart(fused.pose.heading - heading, fused.sigma.heading);
+  if (has_bound()) bound_->set_difference(teacher_->gains().skew_sigma() * 2, params_.body.track);
+}
+
+void Robot::move_frame(const Pose& pose, const localization::PoseSigma& sigma) noexcept {
+  restart_bound(sigma);
   if (pose.at == status_.pose.at && pose.heading == status_.pose.heading) return;
   frame_.tie(odometry_.pose(), pose);
   status_.pose = pose;
-  restart_bound();
-  aim_again();
+  if (has_goal_) aim_again();
 }
 
 void Robot::aim_again() noexcept {
@@ -185,7 +217,7 @@ bool Robot::take_counts() noexcept {
 
 void Robot::advance_pose() noexcept {
   if (!has_gyro()) {
-    odometry_.advance(step_);
+    advance_by_wheels();
     if (has_bound()) advance_bound(Duration{});
     return;
   }
@@ -198,15 +230,22 @@ void Robot::advance_pose() noexcept {
   if (has_bound()) advance_bound(heading_->bias().age());
 }
 
+void Robot::advance_by_wheels() noexcept {
+  if (!kGyroBuilt) return odometry_.advance(step_);
+  teacher_->pass(step_);
+  if (!teacher_->taught()) return odometry_.advance(step_);
+  odometry_.advance(step_, teacher_->turn(step_, odometry_));
+}
+
 void Robot::advance_bound(Duration bias_age) noexcept {
   const bool by_gyro = status_.heading_source == localization::HeadingSource::gyro;
   const Pose pose = odometry_.pose();
   if (bound_->step({pose, step_, since_counts_, by_gyro, bias_age})) status_.sigma = bound_->sigma();
 }
 
-void Robot::restart_bound() noexcept {
+void Robot::restart_bound(const localization::PoseSigma& sigma) noexcept {
   if (!has_bound()) return;
-  bound_->restart(odometry_.pose(), {});
+  bound_->restart(odometry_.pose(), sigma);
   status_.sigma = bound_->sigma();
 }
 

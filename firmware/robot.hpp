@@ -3,11 +3,13 @@
 
 #include "firmware/control/wheel_drive.hpp"
 #include "firmware/health.hpp"
+#include "firmware/localization/fix_teacher.hpp"
 #include "firmware/localization/frame.hpp"
 #include "firmware/localization/gyro_heading.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "firmware/localization/part.hpp"
 #include "firmware/localization/pose_bound.hpp"
+#include "firmware/localization/pose_fix.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
@@ -75,6 +77,15 @@ class Robot {
   ///
   /// False: the pose lies beyond kPlaceLimit, which is a fault; nothing else changed.
   bool place(const Pose& pose) noexcept;
+  /// A fix: a pose measured outside, by a beacon, a camera or a dock, with its standard deviations, which is
+  /// true at this instant. Local grid, map and movement stay, in the frame of the odometry; the goal moves in
+  /// it. With Status::sigma, the estimate becomes the mean of both, weighted by their variances, and a fix
+  /// that jumps (localization/pose_fix.hpp) is counted as Health::fix_jumps and, if Params::fix_jumps says
+  /// so, refused. Without, the estimate becomes the fix. Without a gyro, the headings of fixes also teach how
+  /// the wheels turn the body (localization/fix_teacher.hpp).
+  ///
+  /// False: it is refused, or lies beyond kPlaceLimit, which is a fault; nothing else changed.
+  bool correct(const Pose& pose, const localization::PoseSigma& sigma) noexcept;
   /// Accepted in any state; reset() drops a goal that was set during a fault. False: the goal lies beyond
   /// kPlaceLimit, or corrections have moved it there. It is then refused with Why::goal_out_of_range, and the
   /// current mission ends.
@@ -103,7 +114,7 @@ class Robot {
   bool rests_for_gyro() noexcept;
   bool has_bound() const noexcept { return kGyroBuilt && status_.sigma_known; }
   void advance_bound(Duration bias_age) noexcept;
-  void restart_bound() noexcept;
+  void restart_bound(const localization::PoseSigma& sigma) noexcept;
   WheelPair guard(const planning::View& view, bool paused) noexcept;
   WheelPair granted(const planning::View& view, bool stands) noexcept;
   void actuate(WheelPair speeds) noexcept;
@@ -113,7 +124,10 @@ class Robot {
   void advance_pose() noexcept;
   void take_bumps(const Pose& pose, bool counted) noexcept;
   void put_down(const Pose& pose) noexcept;
-  void correct(const Pose& pose) noexcept;
+  void advance_by_wheels() noexcept;
+  void teach(Angle fix, Angle sigma, const localization::UncertainPose& fused) noexcept;
+  void move_frame(const Pose& pose, const localization::PoseSigma& sigma) noexcept;
+  bool placeable(const Pose& pose) noexcept;
   void aim_again() noexcept;
   /// Notes whether the goal is within range; without one the planner has nothing to do.
   bool aimed(bool in_range) noexcept;
@@ -147,6 +161,7 @@ class Robot {
   localization::Odometry odometry_;
   localization::Part<localization::GyroHeading, kGyroBuilt> heading_;
   localization::Part<localization::PoseBound, kGyroBuilt> bound_;
+  localization::Part<localization::FixTeacher, kGyroBuilt> teacher_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;
 };

@@ -54,6 +54,12 @@ void PoseBound::configure(const Params& params) noexcept {
   walk_per_ms_ = squared_over(e.gyro_walk, 23344401);
 }
 
+void PoseBound::set_difference(Ratio sigma, Length track) noexcept {
+  // 2^44 / 1e6
+  const int64_t taught = divide_rounded(sigma.raw() * INT64_C(17592186), track.raw());
+  if (taught < turn_per_um_) turn_per_um_ = static_cast<int32_t>(taught);
+}
+
 void PoseBound::restart(const Pose& pose, const PoseSigma& sigma) noexcept {
   for (Lasting& error : lasting_) error = {};
   shortened_ = {};

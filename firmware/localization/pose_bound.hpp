@@ -43,6 +43,8 @@ class PoseBound {
   void configure(const Params& params) noexcept;
   /// False: the parameters declare no error of the wheels, so there is no bound.
   bool known() const noexcept { return known_; }
+  /// The wheels were taught: from now on, the difference of their errors has at most this standard deviation.
+  void set_difference(Ratio sigma, Length track) noexcept;
   /// The body is at this pose, known with this accuracy.
   void restart(const Pose& pose, const PoseSigma& sigma) noexcept;
   /// Once per tick. True: sigma() has changed.

@@ -60,6 +60,9 @@ sim::NoiseSpec noise_spec(const Noise& n) {
   spec.gyro_warm_up_radps = n.gyro_warm_up_dps * kDegree;
   spec.gyro_walk_rad_per_sqrt_s = n.gyro_walk_deg_per_sqrt_h * kDegree / kSqrtHour;
   spec.gyro_scale_sigma = n.gyro_scale_sigma;
+  spec.fix_every_m = n.fix_every_m;
+  spec.fix_sigma_m = n.fix_sigma_m;
+  spec.fix_sigma_rad = n.fix_sigma_deg * kDegree;
   return spec;
 }
 

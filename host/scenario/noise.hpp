@@ -28,6 +28,9 @@ constexpr NoiseKey kNoiseKeys[] = {
     {"gyro_warm_up_dps", &Noise::gyro_warm_up_dps, kGyroBias, "of the change of the bias in 10 minutes"},
     {"gyro_walk_deg_per_sqrt_h", &Noise::gyro_walk_deg_per_sqrt_h, kGyroWalk, "angle random walk"},
     {"gyro_scale_sigma", &Noise::gyro_scale_sigma, kGyroScaleSigma, "once a run"},
+    {"fix_every_m", &Noise::fix_every_m, kFixEvery, "driven between two fixes of the pose"},
+    {"fix_sigma_m", &Noise::fix_sigma_m, kFixSigma, "of each coordinate"},
+    {"fix_sigma_deg", &Noise::fix_sigma_deg, kFixTurnSigma},
 };
 
 std::vector<std::string_view> noise_keys();

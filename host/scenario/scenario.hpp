@@ -42,6 +42,9 @@ struct Noise {
   double gyro_warm_up_dps = 0;          ///< of the change of the bias in the first 10 minutes
   double gyro_walk_deg_per_sqrt_h = 0;
   double gyro_scale_sigma = 0;  ///< relative error of the rate, drawn once per run
+  double fix_every_m = 0;       ///< path between two fixes of the pose from outside; 0: none
+  double fix_sigma_m = 0;       ///< standard deviation of each coordinate of a fix
+  double fix_sigma_deg = 0;
 };
 
 struct Scenario {

@@ -73,6 +73,9 @@ struct NoiseSpec {
   double gyro_warm_up_radps = 0;        ///< of the change of the bias over kWarmUp, drawn once per run
   double gyro_walk_rad_per_sqrt_s = 0;  ///< angle random walk
   double gyro_scale_sigma = 0;          ///< relative error of the rate, drawn once per run
+  double fix_every_m = 0;               ///< path between two fixes of the pose from outside; 0: none
+  double fix_sigma_m = 0;               ///< standard deviation of each coordinate of a fix
+  double fix_sigma_rad = 0;
 };
 
 /// The robot that the core's parameters describe.

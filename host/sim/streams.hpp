@@ -15,6 +15,7 @@ constexpr uint32_t kStreamGyroBias = 5;
 constexpr uint32_t kStreamGyroScale = 6;
 constexpr uint32_t kStreamGyroWalk = 7;
 constexpr uint32_t kStreamGyroWarmUp = 8;
+constexpr uint32_t kStreamFix = 9;
 // One of each per beam: add hal::Beam.
 constexpr uint32_t kStreamRangeNoise = 16;
 constexpr uint32_t kStreamDropout = 32;
