@@ -49,7 +49,8 @@ bool Robot::placeable(const Pose& pose) noexcept {
 bool Robot::place(const Pose& pose) noexcept {
   if (!placeable(pose)) return false;
   if (started_ && !supervisor_.faulted() && has_goal_) {
-    move_frame(pose, {});
+    if (kGyroBuilt) restart_bound({});
+    move_frame(pose);
   } else {
     put_down(pose);
   }
@@ -65,7 +66,7 @@ void Robot::put_down(const Pose& pose) noexcept {
   guard_.reset();
   reflex_.reset();
   frame_.tie(pose, pose);
-  restart_bound({});
+  if (kGyroBuilt) restart_bound({});
   if (has_goal_) aim_again();
 }
 
@@ -84,7 +85,8 @@ bool Robot::correct(const Pose& pose, const localization::PoseSigma& sigma) noex
     fix = localization::fused(estimate, fix);
   }
   teach(pose.heading, sigma.heading, fix);
-  move_frame(fix.pose, fix.sigma);
+  if (kGyroBuilt) restart_bound(fix.sigma);
+  move_frame(fix.pose);
   return true;
 }
 
@@ -96,8 +98,7 @@ void Robot::teach(Angle fix, Angle sigma, const localization::UncertainPose& fus
   if (has_bound()) bound_->set_difference(teacher_->gains().skew_sigma() * 2, params_.body.track);
 }
 
-void Robot::move_frame(const Pose& pose, const localization::PoseSigma& sigma) noexcept {
-  restart_bound(sigma);
+void Robot::move_frame(const Pose& pose) noexcept {
   if (pose.at == status_.pose.at && pose.heading == status_.pose.heading) return;
   frame_.tie(odometry_.pose(), pose);
   status_.pose = pose;
@@ -216,6 +217,7 @@ bool Robot::take_counts() noexcept {
 }
 
 void Robot::advance_pose() noexcept {
+  if (!kGyroBuilt) return odometry_.advance(step_);
   if (!has_gyro()) {
     advance_by_wheels();
     if (has_bound()) advance_bound(Duration{});
@@ -231,7 +233,6 @@ void Robot::advance_pose() noexcept {
 }
 
 void Robot::advance_by_wheels() noexcept {
-  if (!kGyroBuilt) return odometry_.advance(step_);
   teacher_->pass(step_);
   if (!teacher_->taught()) return odometry_.advance(step_);
   odometry_.advance(step_, teacher_->turn(step_, odometry_));

@@ -126,7 +126,7 @@ class Robot {
   void put_down(const Pose& pose) noexcept;
   void advance_by_wheels() noexcept;
   void teach(Angle fix, Angle sigma, const localization::UncertainPose& fused) noexcept;
-  void move_frame(const Pose& pose, const localization::PoseSigma& sigma) noexcept;
+  void move_frame(const Pose& pose) noexcept;
   bool placeable(const Pose& pose) noexcept;
   void aim_again() noexcept;
   /// Notes whether the goal is within range; without one the planner has nothing to do.
