@@ -143,7 +143,7 @@ RC_GTEST_PROP(Trace, lets_a_judge_read_pose_and_speed_back, (int x, int y, int h
   r.heading_rad = heading / 1e7;
   r.v_left_mps = speed / 1e9;
   const auto cells = row_of(r);
-  RC_ASSERT(cells.size() == 26U);
+  RC_ASSERT(cells.size() == 29U);
   RC_ASSERT(std::fabs(std::stod(cells[1]) - r.x_m) <= 0.6e-6);
   RC_ASSERT(std::fabs(std::stod(cells[2]) - r.y_m) <= 0.6e-6);
   RC_ASSERT(std::fabs(std::stod(cells[3]) - r.heading_rad) <= 0.6e-6);
@@ -160,7 +160,7 @@ TEST(Trace, has_one_row_of_all_columns_for_each_tick_of_a_run) {
   const auto records = testing::garden_run(scenario);
   const std::vector<std::string> lines = split(trace_csv(scenario, records), '\n');
   ASSERT_EQ(lines.size(), records.size() + 2);
-  for (std::size_t i = 0; i + 1 < lines.size(); ++i) ASSERT_EQ(split(lines[i], ',').size(), 26U) << lines[i];
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) ASSERT_EQ(split(lines[i], ',').size(), 29U) << lines[i];
 }
 
 TEST(Trace, goes_into_a_file_as_it_is) {
