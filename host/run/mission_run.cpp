@@ -97,6 +97,8 @@ RunResult MissionRun::result() const {
   result.min_clearance_m = std::fmin(plant_->min_clearance(), kEmptyWorldClearance);
   result.bumps = plant_->bumps();
   result.ranges = pilot_->ranges();
+  result.sigma = pilot_->sigma();
+  result.goal_tolerance_m = scenario_->goal.tolerance_m;
   result.ticks = ticks_;
   result.hash = hash_.value();
   return result;

@@ -1,0 +1,23 @@
+/// A part of the robot that an image may leave out.
+#pragma once
+
+namespace whisker::localization {
+
+/// Without the code for it, there is no room for it either, and it must not be used.
+template <class T, bool kBuilt>
+class Part {
+ public:
+  T* operator->() noexcept { return &part_; }
+  const T* operator->() const noexcept { return &part_; }
+
+ private:
+  T part_;
+};
+
+template <class T>
+class Part<T, false> {
+ public:
+  T* operator->() const noexcept { __builtin_unreachable(); }
+};
+
+}  // namespace whisker::localization
