@@ -10,7 +10,7 @@
 namespace whisker::test {
 namespace {
 
-Scenario world(worlds::Kind kind, std::uint64_t seed, int discs = 0) {
+Scenario world_of(worlds::Kind kind, std::uint64_t seed, int discs = 0) {
   worlds::Options options;
   options.seed = seed;
   if (discs != 0) options.discs = discs;
@@ -23,21 +23,21 @@ RunResult skewed(Scenario scenario) {
 }
 
 TEST(WorseSensors, EchoesBesideTheConesDoNotKeepASkewedRobotFromItsGoal) {
-  EXPECT_EQ(skewed(world(worlds::Kind::rooms, 610007)).verdict, Verdict::reached);
-  EXPECT_EQ(skewed(world(worlds::Kind::rooms, 610038)).verdict, Verdict::reached);
-  EXPECT_EQ(skewed(world(worlds::Kind::discs, 610039, 50)).verdict, Verdict::reached);
+  EXPECT_EQ(skewed(world_of(worlds::Kind::rooms, 610007)).verdict, Verdict::reached);
+  EXPECT_EQ(skewed(world_of(worlds::Kind::rooms, 610038)).verdict, Verdict::reached);
+  EXPECT_EQ(skewed(world_of(worlds::Kind::discs, 610039, 50)).verdict, Verdict::reached);
 }
 
 TEST(WorseSensors, ConesNarrowerThanStatedLeadToNoContactHere) {
-  for (const std::uint64_t seed : {620001, 620016}) {
-    Scenario scenario = world(worlds::Kind::discs, seed, 50);
+  for (const std::uint64_t seed : {UINT64_C(620001), UINT64_C(620016)}) {
+    Scenario scenario = world_of(worlds::Kind::discs, seed, 50);
     scenario.sensor.cone_deg = 17.5;
     EXPECT_EQ(run(scenario).verdict, Verdict::reached) << seed;
   }
 }
 
 TEST(WorseSensors, ThreeMissesInTenReadingsLeadToNoContact) {
-  Scenario scenario = world(worlds::Kind::maze, 610025);
+  Scenario scenario = world_of(worlds::Kind::maze, 610025);
   scenario.noise.range_false_clear = 0.3;
   EXPECT_EQ(run(scenario).verdict, Verdict::reached);
 }
