@@ -24,6 +24,8 @@ INDIRECT = (
     # The linker merges the empty read functions into one.
     (r"Robot(8perceive|4tick|11take_counts|8localize)E", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
     (r"Robot10take_bumpsE", r"4readER.*13BumperReadingE"),
+    (r"Robot12advance_poseE", r"4readER.*11GyroReadingE"),
+    (r"Robot12advance_poseE", None),  # most images have no gyro
     (r"Robot10take_bumpsE", None),  # most images have no bump switch
     (r"10WheelDrive4readE", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
     (r"10WheelDrive7commandE|Robot(7actuate|4tick)E", r"7commandE.*11WheelSpeedsE"),

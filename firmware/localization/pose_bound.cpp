@@ -8,8 +8,8 @@ constexpr int64_t kMostHeading = INT64_C(1) << 41;   // 2 rad^2
 constexpr int64_t kMostMixed = INT64_C(1) << 41;
 constexpr int32_t kMostMove = INT32_C(1) << 20;  // um in one update
 // Rounding of the counts and of the instants of readings.
-constexpr int64_t kFloor = INT64_C(3000) * 3000;        // um^2
-constexpr int64_t kTurnPerRadian = 683565276;  // 2^-32 turn
+constexpr int64_t kFloor = INT64_C(3000) * 3000;  // um^2
+constexpr int64_t kTurnPerRadian = 683565276;     // 2^-32 turn
 constexpr Duration kWarmUp = 600000_ms;
 
 static_assert(int64_t{PoseBound::kMost.raw()} * PoseBound::kMost.raw() <= kMostVariance);
