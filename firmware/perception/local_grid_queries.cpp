@@ -10,7 +10,7 @@ constexpr int32_t kWindow = kCells * kUnitsPerCell;
 }  // namespace
 
 Length LocalGrid::length_of(int32_t units) const noexcept {
-  return Length::from_raw(multiply_divide(units, cell_um_, kUnitsPerCell));
+  return Length::from_raw(multiply_divide(units, scale_.cell_um, kUnitsPerCell));
 }
 
 bool LocalGrid::in_window(Point p, int32_t reach) noexcept {
@@ -48,7 +48,12 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
 
 bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius,
                            Avoid avoid) const noexcept {
-  if (step < kShortestStep) return false;
+  return step >= kShortestStep && nears(from, heading, step, radius, avoid) &&
+         !(lane_.is_open() && lane_.holds(from, heading, step, radius));
+}
+
+bool LocalGrid::nears(const Vec& from, Angle heading, Length step, Length radius,
+                      Avoid avoid) const noexcept {
   const Point here = local(from);
   const Point there = local(from + polar(heading, step));
   const int32_t reach = units(radius);

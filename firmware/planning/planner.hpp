@@ -44,6 +44,8 @@ struct Decision {
   Outcome outcome = Outcome::none;
   uint8_t danger_count = 0;  ///< the thesis's t: positions since the target direction was last free
   bool looked = false;       ///< this tick's decision used a static scan
+  bool opens_lane = false;   ///< from this tick on, there is a lane
+  Pose lane;                 ///< it begins here, see perception::Lane
   fuzzy::Inputs inputs;      ///< of the response table, as last used
   fuzzy::Response response;
 };

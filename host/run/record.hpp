@@ -50,6 +50,9 @@ struct RunResult {
       0;  ///< smallest true gap between body and obstacle; <= 0 at a contact; 1000 in an empty world
   std::optional<std::uint32_t> bumps;  ///< touches that pressed a bump switch; none: unknown
   std::optional<RangeTrust> ranges;    ///< at the end; none: unknown
+  /// Unreachable: the verdict holds only for gaps narrower than this, m; see narrowest_gap_m(). None: another
+  /// verdict, or the planner has no local grid.
+  std::optional<double> unreachable_above_m;
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;  ///< FNV-1a 64 over the wheel commands of all ticks
 };
