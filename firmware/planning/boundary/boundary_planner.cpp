@@ -26,7 +26,6 @@ void BoundaryPlanner::start(const View& view) noexcept {
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
   slits_.reset();
-  passage_.reset();
   phase_ = Phase::survey;
   report(Mode::surveying, Why::goal_set);
   advance(view);
@@ -162,7 +161,9 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
   if (follower_.follows() && view.sighted) {
     const LoopDetector::Evidence evidence =
         approach_.has_guide() ? LoopDetector::Evidence::place : LoopDetector::Evidence::turning;
-    if ((loop_.closed(view, evidence) || slits_.expects()) && !slits_.expected(view)) {
+    // The map refutes the rest of the second loop, which was for the slits.
+    const bool refuted = other_way_ && approach_.knows_no_way() && !slits_.known();
+    if ((refuted || loop_.closed(view, evidence) || slits_.expects()) && !slits_.expected(view)) {
       go_the_other_way(view);
       return false;
     }
@@ -190,6 +191,7 @@ void BoundaryPlanner::gap(const View& view) noexcept {
       begin_approach(Event::through);
       break;
     case GapPassage::Result::failed:
+      slits_.refuse(view);
       on(Event::too_narrow);
       follower_.begin_at_wall(view, passage_.came_along(), wall_, decision_);
       break;
@@ -198,10 +200,8 @@ void BoundaryPlanner::gap(const View& view) noexcept {
 
 bool BoundaryPlanner::try_slit(const View& view) noexcept {
   if (!slits_.at_hand(view)) return false;
-  const Pose slit = slits_.take(view);
-  if (!passage_.worth_trying(slit.at)) return false;
   on(Event::slit);
-  passage_.begin(view, slit, decision_);
+  passage_.begin(view, slits_.take(view), decision_);
   return true;
 }
 

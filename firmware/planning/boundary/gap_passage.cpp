@@ -6,9 +6,6 @@ namespace whisker::planning {
 namespace {
 
 // All lengths are for the reference body.
-constexpr int8_t kAttempts = 8;
-constexpr int8_t kHere = 2;
-constexpr Length kElsewhere = 150_mm;
 constexpr AngularRate kSweepRate = 250_mrad_per_s;
 constexpr AngularRate kFirstRate = 500_mrad_per_s;  // before both jambs were seen
 constexpr Angle kSweep = 75_deg;
@@ -37,14 +34,6 @@ constexpr int index(Side side) noexcept { return side == Side::left ? 0 : 1; }
 
 }  // namespace
 
-bool GapPassage::elsewhere(Vec at) const noexcept {
-  return farther(at - at_, for_body(behaviours_.params, kElsewhere));
-}
-
-bool GapPassage::worth_trying(Vec at) const noexcept {
-  return attempts_ < kAttempts && (here_ < kHere || elsewhere(at));
-}
-
 void GapPassage::enter(Phase phase) noexcept {
   phase_ = phase;
   behaviours_.enter();
@@ -53,8 +42,6 @@ void GapPassage::enter(Phase phase) noexcept {
 
 void GapPassage::begin(const View& view, const Pose& gap, Decision& decision) noexcept {
   enter(Phase::brake);
-  ++attempts_;
-  here_ = static_cast<int8_t>(elsewhere(gap.at) ? 1 : here_ + 1);
   at_ = gap.at;
   ahead_ = gap.heading;
   came_along_ = view.pose.heading;

@@ -22,11 +22,6 @@ class GapPassage {
   /// The behaviours must outlive it.
   explicit GapPassage(Behaviours& behaviours) noexcept : behaviours_(behaviours) {}
 
-  /// Resets the number of attempts.
-  void reset() noexcept { attempts_ = here_ = 0; }
-  /// The gap may lie there, and further attempts are allowed: at most eight a mission, and not twice in a
-  /// row at one place.
-  bool worth_trying(Vec at) const noexcept;
   /// The gap lies at about this place and leads along this heading. Brings the body to rest.
   void begin(const View& view, const Pose& gap, Decision& decision) noexcept;
   /// Once per tick after that.
@@ -45,7 +40,6 @@ class GapPassage {
   };
 
   void enter(Phase phase) noexcept;
-  bool elsewhere(Vec at) const noexcept;
   Result sweep(const View& view, Decision& decision) noexcept;
   /// Looks for the innermost point of the jamb on this side. True: the beam is past it.
   bool jamb(const View& view) noexcept;
@@ -62,24 +56,22 @@ class GapPassage {
   Behaviours& behaviours_;
   Phase phase_ = Phase::brake;
   Side side_ = Side::left;  // of the jamb that the sweep looks for
-  int8_t attempts_ = 0;
-  int8_t here_ = 0;        // attempts in a row at this place
-  int8_t sweeps_ = 0;      // to one side each, since the last pair of jambs
-  int8_t rounds_ = 0;      // pairs of jambs
-  int8_t lanes_ = 0;       // that did not lead through
-  int8_t stops_ = 0;       // on the lane
-  int8_t moves_ = 0;       // to the place in front of the gap
-  bool there_ = false;     // at the place from which the gap was seen
-  bool opened_ = false;    // the lane is open
-  bool returns_ = false;   // drives back along it
-  bool meets_ = false;     // this sweep has met a jamb
-  bool doubtful_ = false;  // the last pair of jambs was none
-  uint8_t seen_ = 0;       // jambs, a bit for each side
-  Length last_;            // the last reading of this sweep; zero: none
-  Vec jambs_[2];           // left, right
-  Vec stopped_;            // the last stop on the lane
-  Vec at_;                 // the middle of the gap
-  Angle ahead_;            // heading through it
+  int8_t sweeps_ = 0;       // to one side each, since the last pair of jambs
+  int8_t rounds_ = 0;       // pairs of jambs
+  int8_t lanes_ = 0;        // that did not lead through
+  int8_t stops_ = 0;        // on the lane
+  int8_t moves_ = 0;        // to the place in front of the gap
+  bool there_ = false;      // at the place from which the gap was seen
+  bool opened_ = false;     // the lane is open
+  bool returns_ = false;    // drives back along it
+  bool meets_ = false;      // this sweep has met a jamb
+  bool doubtful_ = false;   // the last pair of jambs was none
+  uint8_t seen_ = 0;        // jambs, a bit for each side
+  Length last_;             // the last reading of this sweep; zero: none
+  Vec jambs_[2];            // left, right
+  Vec stopped_;             // the last stop on the lane
+  Vec at_;                  // the middle of the gap
+  Angle ahead_;             // heading through it
   Angle came_along_;
 };
 

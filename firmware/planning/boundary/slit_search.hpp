@@ -19,7 +19,7 @@ class SlitSearch {
   void reset() noexcept;
   /// A loop around an obstacle begins.
   void begin_loop() noexcept { expected_ = false; }
-  /// Remembers a slit at this heading from the body, if there is one.
+  /// Remembers a slit at this heading from the body, if there is one and it may be tried from here.
   void look(const View& view, Angle ahead) noexcept {
     if (perception::kNarrowGaps) search(view, ahead);
   }
@@ -37,19 +37,26 @@ class SlitSearch {
   void end_loop(const View& view) noexcept;
   /// A place in the slit at hand, and the heading there. Forgets it.
   Pose take(const View& view) noexcept;
+  /// A slit was tried from here, and the body is not through: none is tried from here again. After five
+  /// refusals in a mission, there are no slits.
+  void refuse(const View& view) noexcept;
 
  private:
   void search(const View& view, Angle ahead) noexcept;
+  bool refused(Vec from) const noexcept;
   /// The slits that were seen from places within this distance, one bit each.
   uint8_t within(const View& view, Length reference) const noexcept;
   static constexpr Length kAtHand = Length::from_raw(200000);  // for the reference body
   static constexpr int kKept = 4;
+  static constexpr int kRefusals = 5;
 
   const Behaviours& behaviours_;
   uint8_t known_ = 0;  // one bit for each slit
   int8_t newest_ = 0;
+  int8_t refusals_ = 0;
   bool expected_ = false;
   Pose slits_[kKept];
+  Vec refused_[kRefusals];
   int32_t looked_mm_ = 0;    // travel at the last look beside
   int32_t expected_mm_ = 0;  // travel up to which it is expected
 };
