@@ -9,7 +9,7 @@ namespace {
 constexpr Length kEvery = 20_mm;
 constexpr Length kHalfWidth = 45_mm;
 constexpr int32_t kUnknown = 2;     // cells
-constexpr Length kJamb = 110_mm;    // from the middle of a slit to the paths that its sides block
+constexpr Length kJamb = 130_mm;    // from the middle of a slit to the paths that its sides block
 constexpr Length kSame = 150_mm;    // the distance between two views of one slit
 constexpr Length kRefused = 50_mm;  // from a place of a refusal
 constexpr Length kHere = 500_mm;
