@@ -18,4 +18,8 @@ int32_t GridScale::units(int64_t um, int32_t most) const noexcept {
   return within(floor_div<int64_t>(n, cell_um), most);
 }
 
+int32_t GridScale::units(Length l) const noexcept { return units(l.raw(), kLongest); }
+
+int32_t GridScale::coordinate(int64_t um) const noexcept { return units(um, kOutermost); }
+
 }  // namespace whisker::perception

@@ -13,9 +13,9 @@ struct GridScale {
 
   /// Rounded down; within -most..most.
   int32_t units(int64_t um, int32_t most) const noexcept;
-  int32_t units(Length l) const noexcept { return units(l.raw(), kLongest); }
+  int32_t units(Length l) const noexcept;
   /// A coordinate of a point, from the corner of the window.
-  int32_t coordinate(int64_t um) const noexcept { return units(um, kOutermost); }
+  int32_t coordinate(int64_t um) const noexcept;
 };
 
 /// A point; grid units from the corner of the window.

@@ -32,7 +32,9 @@ class Lane {
   }
   /// The lane begins here, and leads along this heading. Nothing on it is clear.
   void open(const Pose& from) noexcept;
-  void close() noexcept { open_ = false; }
+  void close() noexcept {
+    if (kNarrowGaps) open_ = false;
+  }
   /// The local grid ages. Clear cells expire one to two spans after they were seen.
   void age() noexcept;
   /// The following are for an open lane.

@@ -41,7 +41,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   place_error_ = formula::place_error(params);
   footprint_ = units(swept_);
   reach_ = whisker::reach(params);
-  lane_.configure(reach_.guard + swept_ / kLaneTolerance);
+  if (kNarrowGaps) lane_.configure(reach_.guard + swept_ / kLaneTolerance);
   holds_ = Length{};
   for (int i = 0; i < 3; ++i) {
     // While it turns, two readings one after another share little more than half a cone.

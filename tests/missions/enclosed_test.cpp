@@ -45,6 +45,11 @@ TEST(GapAtWall, IsFound) {
   }
 }
 
+/// Slits around one place are not tried again and again until the supervisor reports no progress.
+TEST(Enclosed, SlitsOfOnePlaceAreTriedOnce) {
+  EXPECT_EQ(drive(worlds::Kind::enclosed, 400009, PlannerKind::map).verdict, Verdict::unreachable);
+}
+
 /// What the verdict names as the narrowest gap that it would have taken: wider ones are taken.
 TEST(Gap, IsTakenFromTheNamedWidthOn) {
   worlds::Random random(1);

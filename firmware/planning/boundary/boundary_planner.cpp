@@ -25,7 +25,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
   loop_.begin(view, behaviours_.params);
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
-  slits_.reset();
+  if (perception::kNarrowGaps) slits_.reset();
   phase_ = Phase::survey;
   report(Mode::surveying, Why::goal_set);
   advance(view);
@@ -131,7 +131,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
   other_way_ = false;
-  slits_.begin_loop();
+  if (perception::kNarrowGaps) slits_.begin_loop();
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -162,8 +162,9 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
     const LoopDetector::Evidence evidence =
         approach_.has_guide() ? LoopDetector::Evidence::place : LoopDetector::Evidence::turning;
     // The map refutes the rest of the second loop, which was for the slits.
-    const bool refuted = other_way_ && approach_.knows_no_way() && !slits_.known();
-    if ((refuted || loop_.closed(view, evidence) || slits_.expects()) && !slits_.expected(view)) {
+    const bool refuted = perception::kNarrowGaps && other_way_ && approach_.knows_no_way() && !slits_.known();
+    if ((refuted || loop_.closed(view, evidence) || slits_.expects()) &&
+        !(perception::kNarrowGaps && slits_.expected(view))) {
       go_the_other_way(view);
       return false;
     }
@@ -176,8 +177,8 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       begin_approach(Event::nearer);
       return true;
     }
-    slits_.look_beside(view, wall_);
-    if ((other_way_ || slits_.expects()) && try_slit(view)) return false;
+    if (perception::kNarrowGaps) slits_.look_beside(view, wall_);
+    if (perception::kNarrowGaps && (other_way_ || slits_.expects()) && try_slit(view)) return false;
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
   return false;
@@ -242,7 +243,7 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
-  slits_.end_loop(view);
+  if (perception::kNarrowGaps) slits_.end_loop(view);
   if (other_way_ || (approach_.knows_no_way() && !slits_.known())) {
     if (loop_.may_part(began_, goal_.at, wall_)) {
       give_up_goal(view);
