@@ -58,7 +58,7 @@ class Lane {
   bool open_ = false;
   bool aged_ = false;
   Pose from_;
-  Row clear_[kRows] = {};
+  Row clear_[kNarrowGaps ? kRows : 1] = {};
 };
 
 }  // namespace whisker::perception

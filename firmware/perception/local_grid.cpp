@@ -178,11 +178,12 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
   const Length taken_off = room + kReadingRounding;
-  const EarlierObservation earlier{from_before, axis_before,
-                                   before == nullptr ? observation.free : before->free};
-  if (lane_.is_open()) lane_.mark(beam, observation.free - taken_off, earlier, earlier.free - taken_off);
+  const Length earlier = before == nullptr ? observation.free : before->free;
+  if (lane_.is_open()) {
+    lane_.mark(beam, observation.free - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
+  }
   const int32_t free = units(observation.free - taken_off);
-  const int32_t free_before = units(earlier.free - taken_off);
+  const int32_t free_before = units(earlier - taken_off);
   const int32_t echo = units(observation.free) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
   const bool moved = !(beam.apex == from_before) || beam.axis != axis_before || free_before < free;

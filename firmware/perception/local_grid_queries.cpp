@@ -46,14 +46,8 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
   return found;
 }
 
-bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius,
-                           Avoid avoid) const noexcept {
-  return step >= kShortestStep && nears(from, heading, step, radius, avoid) &&
-         !(lane_.is_open() && lane_.holds(from, heading, step, radius));
-}
-
-bool LocalGrid::nears(const Vec& from, Angle heading, Length step, Length radius,
-                      Avoid avoid) const noexcept {
+inline bool LocalGrid::nears(const Vec& from, Angle heading, Length step, Length radius,
+                             Avoid avoid) const noexcept {
   const Point here = local(from);
   const Point there = local(from + polar(heading, step));
   const int32_t reach = units(radius);
@@ -72,6 +66,12 @@ bool LocalGrid::nears(const Vec& from, Angle heading, Length step, Length radius
     if ((span.columns() & unclear) != 0) return true;
   }
   return false;
+}
+
+bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius,
+                           Avoid avoid) const noexcept {
+  return step >= kShortestStep && nears(from, heading, step, radius, avoid) &&
+         !(lane_.is_open() && lane_.holds(from, heading, step, radius));
 }
 
 bool LocalGrid::all_clear(Vec centre, Length radius) const noexcept {

@@ -47,8 +47,8 @@ class SlitSearch {
   /// The slits that were seen from places within this distance, one bit each.
   uint8_t within(const View& view, Length reference) const noexcept;
   static constexpr Length kAtHand = Length::from_raw(200000);  // for the reference body
-  static constexpr int kKept = 4;
-  static constexpr int kRefusals = 5;
+  static constexpr int kKept = perception::kNarrowGaps ? 4 : 1;
+  static constexpr int kRefusals = perception::kNarrowGaps ? 5 : 1;
 
   const Behaviours& behaviours_;
   uint8_t known_ = 0;  // one bit for each slit
