@@ -20,6 +20,4 @@ int32_t GridScale::units(int64_t um, int32_t most) const noexcept {
 
 int32_t GridScale::units(Length l) const noexcept { return units(l.raw(), kLongest); }
 
-int32_t GridScale::coordinate(int64_t um) const noexcept { return units(um, kOutermost); }
-
 }  // namespace whisker::perception

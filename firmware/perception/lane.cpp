@@ -29,15 +29,15 @@ void Lane::age() noexcept {
 
 GridPoint Lane::local(Vec at) const noexcept {
   const Vec off = at - from_.at;
-  return {scale_.coordinate(along(off, from_.heading).raw()),
-          scale_.coordinate(-across(off, from_.heading).raw()) + kRows / 2 * kUnitsPerCell};
+  return {scale_.units(along(off, from_.heading).raw(), kOutermost),
+          scale_.units(-across(off, from_.heading).raw(), kOutermost) + kRows / 2 * kUnitsPerCell};
 }
 
 void Lane::mark(const Beam& beam, Length free, const EarlierObservation& before,
                 Length free_before) noexcept {
   const GridPoint apex = local(beam.apex);
   const GridPoint apex_before = local(before.apex);
-  if (!apex.nearby() || !apex_before.nearby()) return;
+  if (!nearby(apex) || !nearby(apex_before)) return;
   const int32_t reach = scale_.units(free);
   const int32_t reach_before = scale_.units(free_before);
   const Wedge cone(beam.axis - from_.heading, beam.half_cone);
@@ -56,7 +56,7 @@ void Lane::mark(const Beam& beam, Length free, const EarlierObservation& before,
 
 void Lane::mark_around(Vec at, Length radius) noexcept {
   const GridPoint centre = local(at);
-  if (!centre.nearby()) return;
+  if (!nearby(centre)) return;
   const int32_t reach = scale_.units(radius);
   for (Rows rows(centre.y, reach); rows.more() && rows.row() < kRows; rows.next()) {
     Span span = Span::around(centre.x, reach);

@@ -32,13 +32,11 @@ class Lane {
   }
   /// The lane begins here, and leads along this heading. Nothing on it is clear.
   void open(const Pose& from) noexcept;
-  void close() noexcept {
-    if (kNarrowGaps) open_ = false;
-  }
+  void close() noexcept { open_ = false; }
   /// The local grid ages. Clear cells expire one to two spans after they were seen.
   void age() noexcept;
   /// The following are for an open lane.
-  bool is_open() const noexcept { return kNarrowGaps && open_; }
+  bool is_open() const noexcept { return open_; }
   /// Clears the cells that both observations show empty to these free distances.
   void mark(const Beam& beam, Length free, const EarlierObservation& before, Length free_before) noexcept;
   /// Clears the cells completely inside this disc.
@@ -54,11 +52,11 @@ class Lane {
   GridPoint local(Vec at) const noexcept;
   void clear() noexcept;
 
-  GridScale scale_;
+  GridScale scale_{};
   bool open_ = false;
   bool aged_ = false;
   Pose from_;
-  Row clear_[kNarrowGaps ? kRows : 1] = {};
+  Row clear_[kRows] = {};
 };
 
 }  // namespace whisker::perception

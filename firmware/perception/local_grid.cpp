@@ -41,7 +41,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   place_error_ = formula::place_error(params);
   footprint_ = units(swept_);
   reach_ = whisker::reach(params);
-  if (kNarrowGaps) lane_.configure(reach_.guard + swept_ / kLaneTolerance);
+  if (kNarrowGaps) lane_->configure(reach_.guard + swept_ / kLaneTolerance);
   holds_ = Length{};
   for (int i = 0; i < 3; ++i) {
     // While it turns, two readings one after another share little more than half a cone.
@@ -57,7 +57,7 @@ void LocalGrid::configure(const Params& params) noexcept {
 
 LocalGrid::Point LocalGrid::local(Vec at) const noexcept {
   const auto from_corner = [this](Length x, int32_t corner) {
-    return scale_.coordinate(int64_t{x.raw()} - int64_t{corner} * scale_.cell_um);
+    return scale_.units(int64_t{x.raw()} - int64_t{corner} * scale_.cell_um, kOutermost);
   };
   return {from_corner(at.x, column_), from_corner(at.y, row_)};
 }
@@ -88,7 +88,7 @@ void LocalGrid::reset(const Pose& pose) noexcept {
   travel_ = Length{};
   turned_ = 0;
   doubting_ = false;
-  lane_.close();
+  close_lane();
   move_to(pose);
 }
 
@@ -121,7 +121,7 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
   }
   age(pose);
   clear_around(pose.at, footprint_);
-  if (lane_.is_open()) lane_.mark_around(pose.at, swept_);
+  if (has_lane()) lane_->mark_around(pose.at, swept_);
 }
 
 void LocalGrid::age(const Pose& pose) noexcept {
@@ -134,7 +134,7 @@ void LocalGrid::age(const Pose& pose) noexcept {
       old_[s] = young_[s];
       young_[s] = 0;
     }
-    if (lane_.is_open()) lane_.age();
+    if (has_lane()) lane_->age();
     travel_ = Length{};
     turned_ = 0;
   }
@@ -170,17 +170,17 @@ void LocalGrid::clear_around(Vec at, int32_t reach) noexcept {
 void LocalGrid::mark(const ConeObservation& observation, const EarlierObservation* before) noexcept {
   const Beam& beam = observation.beam;
   const Point apex = local(beam.apex);
-  if (!apex.nearby()) return;
+  if (!nearby(apex)) return;
   const Angle axis_before = before == nullptr ? beam.axis : before->axis;
   const Vec from_before = before == nullptr ? beam.apex : before->apex;
   const Point apex_before = local(from_before);
-  if (!apex_before.nearby()) return;
+  if (!nearby(apex_before)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
   const Length taken_off = room + kReadingRounding;
   const Length earlier = before == nullptr ? observation.free : before->free;
-  if (lane_.is_open()) {
-    lane_.mark(beam, observation.free - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
+  if (has_lane()) {
+    lane_->mark(beam, observation.free - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
   }
   const int32_t free = units(observation.free - taken_off);
   const int32_t free_before = units(earlier - taken_off);
@@ -231,13 +231,13 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
 
 void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexcept {
   doubting_ = true;
-  lane_.close();
+  close_lane();
   for (Chain& chain : chains_) chain.linked = false;
   doubted_ = observation.taken;
   const Beam& beam = observation.beam;
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
-  if (!apex.nearby()) return;
+  if (!nearby(apex)) return;
   const int32_t approach = units(approach_) + kCellCover;
   const int32_t nearest = units(observation.free) - approach;
   const int32_t echo_ends = units(farthest) + kUnitsPerCell;
@@ -303,25 +303,25 @@ bool LocalGrid::echo_arc(const Beam& beam, Length free, bool takes) noexcept {
 void LocalGrid::revoke(const ConeObservation& observation, bool appears) noexcept {
   Beam beam = observation.beam;
   const Length free = observation.free;
-  if (!local(beam.apex).nearby()) return;
+  if (!nearby(local(beam.apex))) return;
   if (echo_arc(beam, free, false)) {
     echo_arc(beam, free, true);
-    lane_.close();
+    close_lane();
   }
   if (!appears || observation.number == hal::kFront || units(free) > 2 * footprint_) return;
   const Angle beside = Angle::from_raw(kBeside.raw() / 2);
   const Angle outward = beam.half_cone + beside;
   beam.axis += observation.number == hal::kLeft ? outward : -outward;
   beam.half_cone = beside;
-  lane_.close();
+  close_lane();
   echo_arc(beam, free, true);
 }
 
 void LocalGrid::block(Vec centre, Length radius) noexcept {
   const Point at = local(centre);
   const Point body = local(last_.at);
-  if (!at.nearby()) return;
-  lane_.close();
+  if (!nearby(at)) return;
+  close_lane();
   const int32_t reach = units(radius);
   for (Rows rows(at.y, reach + kHalfSquare); rows.more(); rows.next()) {
     const int s = slot(rows.row());

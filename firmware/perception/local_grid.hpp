@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "firmware/math/trig.hpp"
+#include "firmware/member_if.hpp"
 #include "firmware/params.hpp"
 #include "firmware/perception/grid_scale.hpp"
 #include "firmware/perception/lane.hpp"
@@ -63,8 +64,8 @@ class LocalGrid {
   /// Opens a lane through a narrow gap: it begins here, and leads along this heading. On the lane, the ground
   /// is also known in cells that lie along it. It holds until the next one, or until an echo or a touch takes
   /// back ground.
-  void open_lane(const Pose& from) noexcept { lane_.open(from); }
-  const Lane& lane() const noexcept { return lane_; }
+  void open_lane(const Pose& from) noexcept { lane_->open(from); }
+  const Lane& lane() const noexcept { return *lane_.operator->(); }
   /// Something moved during the last second.
   bool doubting() const noexcept { return doubting_; }
   /// Lengths for which paths are checked.
@@ -106,7 +107,10 @@ class LocalGrid {
   Length length_of(int32_t units) const noexcept;
   Point local(Vec at) const noexcept;
   static bool in_window(Point p, int32_t reach) noexcept;
-  bool nears(const Vec& from, Angle heading, Length step, Length radius, Avoid avoid) const noexcept;
+  bool has_lane() const noexcept { return kNarrowGaps && lane_->is_open(); }
+  void close_lane() noexcept {
+    if (kNarrowGaps) lane_->close();
+  }
   void drop_rows(int first, int count) noexcept;
   void drop_columns(Row window) noexcept;
   void age(const Pose& pose) noexcept;
@@ -148,7 +152,7 @@ class LocalGrid {
   uint32_t age_turn_ = 0;
   Reach reach_;
   Length approach_;  // travel of a moving object while the body stops
-  GridScale scale_;
+  GridScale scale_{20000};
   int32_t footprint_ = 0;  // grid units
   int32_t ring_ = 0;       // ring beside the body's path; grid units
 
@@ -161,7 +165,7 @@ class LocalGrid {
   Row old_[kCells] = {};      // cleared before it
   Row suspect_[kCells] = {};  // near an echo
   Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
-  Lane lane_;
+  MemberIf<Lane, kNarrowGaps> lane_;
 };
 
 }  // namespace whisker::perception

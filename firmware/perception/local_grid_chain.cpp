@@ -84,7 +84,7 @@ void LocalGrid::chain(const ConeObservation& observation, const EarlierObservati
     const HalfPlane left = HalfPlane::left_of(direction);
     return which > 0 ? left : HalfPlane{-left.nx, -left.ny};
   };
-  const bool sound = apex.nearby() && apex_before.nearby() && (!linked || gap.nearby());
+  const bool sound = nearby(apex) && nearby(apex_before) && (!linked || nearby(gap));
   const HalfPlane trail = side(beam.axis - half, sign);
   const HalfPlane lead = side(beam.axis + half, -sign);
   const HalfPlane trail_before = side(axis_before - half, sign);

@@ -46,8 +46,9 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
   return found;
 }
 
-inline bool LocalGrid::nears(const Vec& from, Angle heading, Length step, Length radius,
-                             Avoid avoid) const noexcept {
+bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius,
+                           Avoid avoid) const noexcept {
+  if (step < kShortestStep) return false;
   const Point here = local(from);
   const Point there = local(from + polar(heading, step));
   const int32_t reach = units(radius);
@@ -63,15 +64,11 @@ inline bool LocalGrid::nears(const Vec& from, Angle heading, Length step, Length
     Span span;
     span.touched_by_disc(there.x, rows.offset(there.y), reach);
     ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
-    if ((span.columns() & unclear) != 0) return true;
+    if ((span.columns() & unclear) != 0) {
+      return !(has_lane() && lane_->holds(from, heading, step, radius));
+    }
   }
   return false;
-}
-
-bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius,
-                           Avoid avoid) const noexcept {
-  return step >= kShortestStep && nears(from, heading, step, radius, avoid) &&
-         !(lane_.is_open() && lane_.holds(from, heading, step, radius));
 }
 
 bool LocalGrid::all_clear(Vec centre, Length radius) const noexcept {

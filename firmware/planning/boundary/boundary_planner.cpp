@@ -25,7 +25,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
   loop_.begin(view, behaviours_.params);
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
-  if (perception::kNarrowGaps) slits_.reset();
+  if (perception::kNarrowGaps) slits_->reset();
   phase_ = Phase::survey;
   report(Mode::surveying, Why::goal_set);
   advance(view);
@@ -118,7 +118,8 @@ void BoundaryPlanner::survey(const View& view) noexcept {
 }
 
 void BoundaryPlanner::approach(const View& view) noexcept {
-  if (view.sighted && decision_.why == Why::narrow) slits_.look(view, view.pose.heading);
+  if (perception::kNarrowGaps && view.sighted && decision_.why == Why::narrow)
+    slits_->look(view, view.pose.heading);
   if (approach_.step(view, target_, wall_, decision_)) return;
   if (approach_.refuted()) {
     end(Event::refuted, Outcome::unreachable);
@@ -131,7 +132,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
   other_way_ = false;
-  if (perception::kNarrowGaps) slits_.begin_loop();
+  if (perception::kNarrowGaps) slits_->begin_loop();
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -142,7 +143,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
 
 void BoundaryPlanner::choose_side(const View& view) noexcept {
   Twist twist;
-  if (view.sighted) slits_.look(view, view.pose.heading);
+  if (perception::kNarrowGaps && view.sighted) slits_->look(view, view.pose.heading);
   const bool over = side_search_.step(view, twist);
   decision_.manoeuvre = cruise(twist, behaviours_.params);
   if (!over) return;
@@ -162,9 +163,10 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
     const LoopDetector::Evidence evidence =
         approach_.has_guide() ? LoopDetector::Evidence::place : LoopDetector::Evidence::turning;
     // The map refutes the rest of the second loop, which was for the slits.
-    const bool refuted = perception::kNarrowGaps && other_way_ && approach_.knows_no_way() && !slits_.known();
-    if ((refuted || loop_.closed(view, evidence) || slits_.expects()) &&
-        !(perception::kNarrowGaps && slits_.expected(view))) {
+    const bool refuted = perception::kNarrowGaps && other_way_ && approach_.knows_no_way() && !knows_slit();
+    const bool expects = perception::kNarrowGaps && slits_->expects();
+    if ((refuted || loop_.closed(view, evidence) || expects) &&
+        !(perception::kNarrowGaps && slits_->expected(view))) {
       go_the_other_way(view);
       return false;
     }
@@ -177,32 +179,32 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       begin_approach(Event::nearer);
       return true;
     }
-    if (perception::kNarrowGaps) slits_.look_beside(view, wall_);
-    if (perception::kNarrowGaps && (other_way_ || slits_.expects()) && try_slit(view)) return false;
+    if (perception::kNarrowGaps) slits_->look_beside(view, wall_);
+    if (perception::kNarrowGaps && (other_way_ || slits_->expects()) && try_slit(view)) return false;
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
   return false;
 }
 
 void BoundaryPlanner::gap(const View& view) noexcept {
-  switch (passage_.step(view, decision_)) {
+  switch (passage_->step(view, decision_)) {
     case GapPassage::Result::under_way: break;
     case GapPassage::Result::through:
       approach_.measure_anew(view, target_.distance);
       begin_approach(Event::through);
       break;
     case GapPassage::Result::failed:
-      slits_.refuse(view);
+      slits_->refuse(view);
       on(Event::too_narrow);
-      follower_.begin_at_wall(view, passage_.came_along(), wall_, decision_);
+      follower_.begin_at_wall(view, passage_->came_along(), wall_, decision_);
       break;
   }
 }
 
 bool BoundaryPlanner::try_slit(const View& view) noexcept {
-  if (!slits_.at_hand(view)) return false;
+  if (!slits_->at_hand(view)) return false;
   on(Event::slit);
-  passage_.begin(view, slits_.take(view), decision_);
+  passage_->begin(view, slits_->take(view), decision_);
   return true;
 }
 
@@ -243,8 +245,8 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
-  if (perception::kNarrowGaps) slits_.end_loop(view);
-  if (other_way_ || (approach_.knows_no_way() && !slits_.known())) {
+  if (perception::kNarrowGaps) slits_->end_loop(view);
+  if (other_way_ || (approach_.knows_no_way() && !knows_slit())) {
     if (loop_.may_part(began_, goal_.at, wall_)) {
       give_up_goal(view);
     } else {

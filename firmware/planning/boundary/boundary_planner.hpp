@@ -4,7 +4,9 @@
 
 #include <stdint.h>
 
+#include "firmware/member_if.hpp"
 #include "firmware/params.hpp"
+#include "firmware/perception/lane.hpp"
 #include "firmware/planning/boundary/approach.hpp"
 #include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/boundary_follower.hpp"
@@ -117,6 +119,8 @@ class BoundaryPlanner final : public GoalPlanner {
   void begin_approach(Event event) noexcept;
   void begin_side_search(const View& view) noexcept;
   bool may_leave(const View& view) const noexcept;
+  /// There is a slit that was not tried.
+  bool knows_slit() const noexcept { return perception::kNarrowGaps && slits_->known(); }
   /// Begins to pass the slit, if it is at hand and worth it.
   bool try_slit(const View& view) noexcept;
   void go_the_other_way(const View& view) noexcept;
@@ -135,8 +139,8 @@ class BoundaryPlanner final : public GoalPlanner {
   Behaviours behaviours_;
   Approach approach_;
   BoundaryFollower follower_;
-  GapPassage passage_;
-  SlitSearch slits_;
+  MemberIf<GapPassage, perception::kNarrowGaps> passage_;
+  MemberIf<SlitSearch, perception::kNarrowGaps> slits_;
   Survey survey_;
   Evasion evasion_;
   FollowSideSearch side_search_;

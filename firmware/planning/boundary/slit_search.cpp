@@ -24,7 +24,7 @@ void SlitSearch::reset() noexcept {
   looked_mm_ = 0;
 }
 
-void SlitSearch::search(const View& view, Angle ahead) noexcept {
+void SlitSearch::look(const View& view, Angle ahead) noexcept {
   const Params& params = behaviours_.params;
   // Where beams must sweep past a cell to clear it, the passage cannot clear a lane.
   if (view.local_grid->reach().past != Angle{} || refused(view.pose.at)) return;

@@ -3,7 +3,6 @@
 
 #include <stdint.h>
 
-#include "firmware/perception/lane.hpp"
 #include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/side.hpp"
 #include "firmware/planning/planner.hpp"
@@ -20,13 +19,11 @@ class SlitSearch {
   /// A loop around an obstacle begins.
   void begin_loop() noexcept { expected_ = false; }
   /// Remembers a slit at this heading from the body, if there is one and it may be tried from here.
-  void look(const View& view, Angle ahead) noexcept {
-    if (perception::kNarrowGaps) search(view, ahead);
-  }
+  void look(const View& view, Angle ahead) noexcept;
   /// The same at some headings on the side of the wall; not more often than every 20 mm.
   void look_beside(const View& view, Side wall) noexcept;
   /// There is a slit that was not tried.
-  bool known() const noexcept { return perception::kNarrowGaps && known_ != 0; }
+  bool known() const noexcept { return known_ != 0; }
   /// The body is near the place from which a slit was seen, near enough to try it.
   bool at_hand(const View& view) const noexcept { return known() && within(view, kAtHand) != 0; }
   /// The loop is closed, but a slit lies on the next metre and a half of the boundary. Once per tick from
@@ -42,13 +39,12 @@ class SlitSearch {
   void refuse(const View& view) noexcept;
 
  private:
-  void search(const View& view, Angle ahead) noexcept;
   bool refused(Vec from) const noexcept;
   /// The slits that were seen from places within this distance, one bit each.
   uint8_t within(const View& view, Length reference) const noexcept;
   static constexpr Length kAtHand = Length::from_raw(200000);  // for the reference body
-  static constexpr int kKept = perception::kNarrowGaps ? 4 : 1;
-  static constexpr int kRefusals = perception::kNarrowGaps ? 5 : 1;
+  static constexpr int kKept = 4;
+  static constexpr int kRefusals = 5;
 
   const Behaviours& behaviours_;
   uint8_t known_ = 0;  // one bit for each slit
