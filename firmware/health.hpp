@@ -67,6 +67,11 @@ struct Health {
   uint32_t bumps = 0;           ///< presses of a bump switch during a mission
   uint32_t bumper_refused = 0;  ///< ticks without the state of the bump switches
   uint32_t bumper_stuck = 0;
+  uint32_t gyro_lost = 0;       ///< number of times that the gyro fell silent; the wheels then turn the pose
+  uint32_t gyro_saturated = 0;  ///< ticks at which a sample was at the limit of its range
+  uint32_t wheel_slips = 0;     ///< stretches on which the wheels disagree with the gyro
+  uint32_t fix_jumps = 0;       ///< fixes that differ from the estimate by more than both sigmas allow
+  uint32_t fixes_refused = 0;
   RangeTrust ranges;
 };
 

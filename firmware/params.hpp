@@ -112,6 +112,35 @@ struct BumperParams {
   Speed creep_speed;  ///< with a bumper: up to this speed also over ground that no beam has cleared; 0: never
 };
 
+/// Whether this image has the code for a gyro and for the bound of the pose (8 KB and 7 KB on an AVR); the
+/// toolchain file of a chip without room for them sets WHISKER_GYRO to 0.
+#ifdef WHISKER_GYRO
+constexpr bool kGyroBuilt = WHISKER_GYRO != 0;
+#else
+constexpr bool kGyroBuilt = true;
+#endif
+
+struct GyroParams {
+  Fitted fitted = Fitted::no;                          ///< a yaw-rate gyro is fitted: hal::Gyro
+  int32_t rate_hz = 100;                               ///< samples a second by the chip's own clock
+  AngularRate range = AngularRate::from_raw(8726646);  ///< rate of a sample of 32768: 500 deg/s
+  Ratio scale = millionths(1000000);  ///< true rate / measured rate; includes the error of the chip's clock
+};
+
+/// Standard deviations of the errors that the pose rests on. Without any of the first three, they are unknown
+/// and the pose has no bound. They change nothing else.
+struct PoseErrorParams {
+  Ratio wheel_scale;                           ///< of each wheel's counts per metre, relative
+  Ratio wheel_scale_common;                    ///< of both together
+  Angle heading_drift;                         ///< of the wheels' heading after a metre
+  Ratio gyro_scale = millionths(10000);        ///< relative
+  Angle gyro_walk = Angle::turns(1, 900);      ///< angle random walk: after an hour
+  Angle gyro_warm_up = Angle::turns(1, 3600);  ///< change of the bias in ten minutes, in a second
+};
+
+/// What becomes of a fix that jumps by more than its sigma allows. Either way it is counted.
+enum class JumpPolicy : int32_t { accept, refuse };
+
 struct Params {
   BodyParams body;
   WheelParams wheels;
@@ -122,6 +151,9 @@ struct Params {
   MotionParams motion;
   SafetyParams safety;
   BumperParams bumper;
+  GyroParams gyro;
+  PoseErrorParams pose_error;
+  JumpPolicy fix_jumps = JumpPolicy::accept;
 };
 
 /// The violated relation between parameters; firmware/params/relations.hpp lists all relations.
@@ -136,6 +168,7 @@ constexpr void for_each_param(P& p, F&& f) {
   constexpr const char* kConsensus[] = {"agreeing", "median"};
   constexpr const char* kSource[] = {"front", "mean"};
   constexpr const char* kBoolean[] = {"false", "true"};
+  constexpr const char* kJumps[] = {"accept", "refuse"};
 
   f.number("body_radius_m", p.body.radius, 20_mm, 1_m);
   f.number("body_margin_m", p.body.margin, 0_mm, 500_mm);
@@ -214,6 +247,19 @@ constexpr void for_each_param(P& p, F&& f) {
 
   f.choice("bumper", p.bumper.fitted, kBoolean, 2);
   f.number("creep_speed_mps", p.bumper.creep_speed, 0_mm_per_s, 100_mm_per_s);
+
+  f.choice("gyro", p.gyro.fitted, kBoolean, 2);
+  f.count("gyro_rate_hz", p.gyro.rate_hz, 20, 1000);
+  f.number("gyro_range_radps", p.gyro.range, 1000_mrad_per_s, 40000_mrad_per_s);
+  f.number("gyro_scale", p.gyro.scale, millionths(800000), millionths(1250000));
+
+  f.number("wheel_scale_sigma", p.pose_error.wheel_scale, millionths(0), millionths(100000));
+  f.number("wheel_scale_common_sigma", p.pose_error.wheel_scale_common, millionths(0), millionths(100000));
+  f.number("heading_drift_deg_per_sqrt_m", p.pose_error.heading_drift, Angle{}, 5_deg);
+  f.number("gyro_scale_sigma", p.pose_error.gyro_scale, millionths(0), millionths(100000));
+  f.number("gyro_walk_deg_per_sqrt_h", p.pose_error.gyro_walk, Angle{}, 10_deg);
+  f.number("gyro_warm_up_dps", p.pose_error.gyro_warm_up, Angle{}, 1_deg);
+  f.choice("fix_jumps", p.fix_jumps, kJumps, 2);
 }
 
 /// A rangefinder on the body, in the body's frame: x ahead, y to the left.

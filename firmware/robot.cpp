@@ -3,13 +3,21 @@
 #include "firmware/safety/warning.hpp"
 
 namespace whisker {
+namespace {
+
+// A mission that is due for a rest waits this long for a manoeuvre to end before it is interrupted.
+constexpr Duration kRestDelay = 15000_ms;
+constexpr Duration kLongestRest = 5000_ms;
+
+}  // namespace
 
 Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
-             const Params& params, hal::Bumper* bumper) noexcept
+             const Params& params, hal::Bumper* bumper, hal::Gyro* gyro) noexcept
     : rangefinders_(rangefinders),
       planner_(planner),
       params_(params),
       bumper_(bumper),
+      gyro_(gyro),
       wheels_(drive),
       supervisor_(params, status_.health) {
   if (check(params) != ParamFault::none) {
@@ -18,20 +26,31 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
     return;
   }
   odometry_.configure(params);
+  if (has_gyro()) heading_->configure(params, odometry_);
+  if (kGyroBuilt) {
+    bound_->configure(params);
+    teacher_->configure(params, odometry_);
+    status_.sigma_known = bound_->known();
+    restart_bound({});
+  }
   perception_.configure(params);
   warned_speed_ = safety::warned_speed(params);
   supervisor_.configure();
   motion_.configure(params);
 }
 
+bool Robot::placeable(const Pose& pose) noexcept {
+  if (within(pose.at, kPlaceLimit)) return true;
+  supervisor_.fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
+  show_fault();
+  return false;
+}
+
 bool Robot::place(const Pose& pose) noexcept {
-  if (!within(pose.at, kPlaceLimit)) {
-    supervisor_.fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
-    show_fault();
-    return false;
-  }
+  if (!placeable(pose)) return false;
   if (started_ && !supervisor_.faulted() && has_goal_) {
-    correct(pose);
+    if (kGyroBuilt) restart_bound({});
+    move_frame(pose);
   } else {
     put_down(pose);
   }
@@ -40,19 +59,50 @@ bool Robot::place(const Pose& pose) noexcept {
 
 void Robot::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
+  if (has_gyro()) heading_->restart();
+  if (kGyroBuilt) teacher_->restart(Angle{}, Angle{});
   status_.pose = pose;
   perception_.forget(pose);
   guard_.reset();
   reflex_.reset();
   frame_.tie(pose, pose);
+  if (kGyroBuilt) restart_bound({});
   if (has_goal_) aim_again();
 }
 
-void Robot::correct(const Pose& pose) noexcept {
+bool Robot::correct(const Pose& pose, const localization::PoseSigma& sigma) noexcept {
+  if (!placeable(pose)) return false;
+  localization::UncertainPose fix{pose, sigma};
+  if (has_bound()) {
+    const localization::UncertainPose estimate{status_.pose, bound_->sigma()};
+    if (localization::jumps(estimate, fix)) {
+      count(status_.health.fix_jumps);
+      if (params_.fix_jumps == JumpPolicy::refuse) {
+        count(status_.health.fixes_refused);
+        return false;
+      }
+    }
+    fix = localization::fused(estimate, fix);
+  }
+  teach(pose.heading, sigma.heading, fix);
+  if (kGyroBuilt) restart_bound(fix.sigma);
+  move_frame(fix.pose);
+  return true;
+}
+
+void Robot::teach(Angle fix, Angle sigma, const localization::UncertainPose& fused) noexcept {
+  if (!kGyroBuilt || has_gyro()) return;
+  const Angle heading = odometry_.pose().heading;
+  if (!teacher_->fix(fix - heading, sigma)) return;
+  teacher_->restart(fused.pose.heading - heading, fused.sigma.heading);
+  if (has_bound()) bound_->set_difference(teacher_->gains().skew_sigma() * 2, params_.body.track);
+}
+
+void Robot::move_frame(const Pose& pose) noexcept {
   if (pose.at == status_.pose.at && pose.heading == status_.pose.heading) return;
   frame_.tie(odometry_.pose(), pose);
   status_.pose = pose;
-  aim_again();
+  if (has_goal_) aim_again();
 }
 
 void Robot::aim_again() noexcept {
@@ -83,6 +133,7 @@ void Robot::reset() noexcept {
   supervisor_.reset();
   started_ = false;
   was_settled_ = false;
+  resting_for_ = Duration{};
   // The next counts may include the whole braking path.
   since_counts_ += safety::braking_time(params_);
   perception_.forget(odometry_.pose());
@@ -148,7 +199,8 @@ bool Robot::take_counts() noexcept {
   const bool read = wheels_.read(counts);
   supervisor_.check_counts(read);
   if (!read) return false;
-  const bool sound = odometry_.update(counts, since_counts_, step_);
+  const bool sound = odometry_.take(counts, since_counts_, step_);
+  if (sound) advance_pose();
   since_counts_ = Duration{};
   if (!sound) {
     supervisor_.fail(Fault::encoder_jump, status_.health.encoder_jumps);
@@ -162,6 +214,40 @@ bool Robot::take_counts() noexcept {
   }
   supervisor_.check_wheels(step_);
   return true;
+}
+
+void Robot::advance_pose() noexcept {
+  if (!kGyroBuilt) return odometry_.advance(step_);
+  if (!has_gyro()) {
+    advance_by_wheels();
+    if (has_bound()) advance_bound(Duration{});
+    return;
+  }
+  hal::GyroReading reading{};
+  const bool read = gyro_ != nullptr && gyro_->read(reading);
+  const bool commanded = status_.command.left != 0 || status_.command.right != 0;
+  const localization::GyroHeading::Step step{read ? &reading : nullptr, step_, commanded, since_counts_};
+  odometry_.advance(step_, heading_->turn(step, odometry_, status_.health));
+  status_.heading_source = heading_->source();
+  if (has_bound()) advance_bound(heading_->bias().age());
+}
+
+void Robot::advance_by_wheels() noexcept {
+  teacher_->pass(step_);
+  if (!teacher_->taught()) return odometry_.advance(step_);
+  odometry_.advance(step_, teacher_->turn(step_, odometry_));
+}
+
+void Robot::advance_bound(Duration bias_age) noexcept {
+  const bool by_gyro = status_.heading_source == localization::HeadingSource::gyro;
+  const Pose pose = odometry_.pose();
+  if (bound_->step({pose, step_, since_counts_, by_gyro, bias_age})) status_.sigma = bound_->sigma();
+}
+
+void Robot::restart_bound(const localization::PoseSigma& sigma) noexcept {
+  if (!has_bound()) return;
+  bound_->restart(odometry_.pose(), sigma);
+  status_.sigma = bound_->sigma();
 }
 
 void Robot::perceive(planning::View& view, bool counted) noexcept {
@@ -198,8 +284,17 @@ void Robot::plan(const planning::View& view) noexcept {
   if (supervisor_.faulted()) return;
   planning::Decision& decision = status_.decision;
   if (reflex_.active()) {
+    resting_for_ = Duration{};
     decision.manoeuvre = {};
     decision.why = planning::Why::bumped;
+    decision.looked = false;
+    return;
+  }
+  if (rests_for_gyro()) {
+    decision.manoeuvre = {};
+    decision.mode = planning::Mode::looking;
+    decision.why = planning::Why::gyro_rest;
+    decision.outcome = planning::Outcome::running;
     decision.looked = false;
     return;
   }
@@ -216,6 +311,24 @@ void Robot::plan(const planning::View& view) noexcept {
   const bool waits = view.settled && running && decision.manoeuvre.kind == planning::ManoeuvreKind::keep;
   supervisor_.check_look(waits, last_tick_ - settled_since_);
   supervisor_.check_place(view.pose.at, running, elapsed_);
+}
+
+/// The planner is not asked meanwhile.
+bool Robot::rests_for_gyro() noexcept {
+  if (!has_gyro()) return false;
+  localization::GyroBias& bias = heading_->bias();
+  const bool resting = resting_for_ > Duration{};
+  const bool begins = bias.stands() || bias.due_for() > kRestDelay;
+  if (has_goal_ && heading_->wants_rest() && (resting || begins)) {
+    if (!resting) motion_.interrupt();
+    resting_for_ += elapsed_;
+    if (resting_for_ < kLongestRest) return true;
+    bias.postpone();
+  }
+  // The look at the surroundings starts again: a planner that waits for it has only waited since now.
+  if (resting) settled_since_ = last_tick_;
+  resting_for_ = Duration{};
+  return false;
 }
 
 WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
@@ -242,7 +355,8 @@ WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {
       status_.decision.outcome == planning::Outcome::running) {
     status_.decision.why = planning::Why::blind;
   }
-  const bool stands = paused || !fresh || supervisor_.faulted() || supervisor_.refused();
+  const bool rests = resting_for_ > Duration{};
+  const bool stands = paused || rests || !fresh || supervisor_.faulted() || supervisor_.refused();
   const WheelPair speeds = granted(view, stands);
   const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
   motion_.settle(paused ? nullptr : &step_, commanded, elapsed_, params_);

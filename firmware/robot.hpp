@@ -3,11 +3,16 @@
 
 #include "firmware/control/wheel_drive.hpp"
 #include "firmware/health.hpp"
+#include "firmware/localization/fix_teacher.hpp"
 #include "firmware/localization/frame.hpp"
+#include "firmware/localization/gyro_heading.hpp"
 #include "firmware/localization/odometry.hpp"
+#include "firmware/localization/pose_bound.hpp"
+#include "firmware/localization/pose_fix.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/perception.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/planning/planner.hpp"
@@ -16,6 +21,7 @@
 #include "firmware/safety/supervisor.hpp"
 #include "hal/bumper.hpp"
 #include "hal/drive.hpp"
+#include "hal/gyro.hpp"
 #include "hal/rangefinders.hpp"
 
 namespace whisker {
@@ -23,10 +29,13 @@ namespace whisker {
 /// The result of the last tick.
 struct Status {
   planning::Decision decision;
-  Pose pose;                   ///< estimated
-  perception::Echoes echoes;   ///< the latest single reading of each beam
-  hal::WheelSpeeds command{};  ///< as sent to the drive
-  uint8_t pressed = 0;         ///< bump switches, see hal::BumperReading; 0 without a bumper
+  Pose pose;                 ///< estimated
+  bool sigma_known = false;  ///< the parameters declare an error of the wheels, and the image has the code
+  localization::PoseSigma sigma;  ///< standard deviations of the pose, if known
+  perception::Echoes echoes;      ///< the latest single reading of each beam
+  hal::WheelSpeeds command{};     ///< as sent to the drive
+  uint8_t pressed = 0;            ///< bump switches, see hal::BumperReading; 0 without a bumper
+  localization::HeadingSource heading_source = localization::HeadingSource::wheels;
   Health health;
 };
 
@@ -45,11 +54,19 @@ struct Status {
 /// very tick, the body backs off (safety/bump_reflex.hpp), and the place becomes an obstacle
 /// (perception/contacts.hpp). The planner is not asked meanwhile.
 ///
+/// A gyro is used if GyroParams::fitted says so. Its bias is measured whenever the robot stands. During a
+/// mission, the robot stands for two seconds at the start and for one about every minute, with
+/// Why::gyro_rest. Without an answer from the gyro, the wheels turn the pose: Status::heading_source,
+/// Health::gyro_lost.
+///
+/// If PoseErrorParams declare an error of the wheels, Status::sigma says how far the pose may be off. It
+/// changes no command.
+///
 /// Poses and goals are in the user's frame and lie within kPlaceLimit (math/region.hpp).
 class Robot {
  public:
   Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner, const Params& params,
-        hal::Bumper* bumper = nullptr) noexcept;
+        hal::Bumper* bumper = nullptr, hal::Gyro* gyro = nullptr) noexcept;
 
   /// Sets the pose of the robot.
   ///
@@ -60,6 +77,15 @@ class Robot {
   ///
   /// False: the pose lies beyond kPlaceLimit, which is a fault; nothing else changed.
   bool place(const Pose& pose) noexcept;
+  /// A fix: a pose measured outside, by a beacon, a camera or a dock, with its standard deviations, which is
+  /// true at this instant. Local grid, map and movement stay, in the frame of the odometry; the goal moves in
+  /// it. With Status::sigma, the estimate becomes the mean of both, weighted by their variances, and a fix
+  /// that jumps (localization/pose_fix.hpp) is counted as Health::fix_jumps and, if Params::fix_jumps says
+  /// so, refused. Without, the estimate becomes the fix. Without a gyro, the headings of fixes also teach how
+  /// the wheels turn the body (localization/fix_teacher.hpp).
+  ///
+  /// False: it is refused, or lies beyond kPlaceLimit, which is a fault; nothing else changed.
+  bool correct(const Pose& pose, const localization::PoseSigma& sigma) noexcept;
   /// Accepted in any state; reset() drops a goal that was set during a fault. False: the goal lies beyond
   /// kPlaceLimit, or corrections have moved it there. It is then refused with Why::goal_out_of_range, and the
   /// current mission ends.
@@ -84,15 +110,24 @@ class Robot {
   bool localize(Time now, planning::View& view) noexcept;
   void perceive(planning::View& view, bool counted) noexcept;
   void plan(const planning::View& view) noexcept;
+  bool has_gyro() const noexcept { return kGyroBuilt && params_.gyro.fitted == Fitted::yes; }
+  bool rests_for_gyro() noexcept;
+  bool has_bound() const noexcept { return kGyroBuilt && status_.sigma_known; }
+  void advance_bound(Duration bias_age) noexcept;
+  void restart_bound(const localization::PoseSigma& sigma) noexcept;
   WheelPair guard(const planning::View& view, bool paused) noexcept;
   WheelPair granted(const planning::View& view, bool stands) noexcept;
   void actuate(WheelPair speeds) noexcept;
 
   void take_time(Time now) noexcept;
   bool take_counts() noexcept;
+  void advance_pose() noexcept;
   void take_bumps(const Pose& pose, bool counted) noexcept;
   void put_down(const Pose& pose) noexcept;
-  void correct(const Pose& pose) noexcept;
+  void advance_by_wheels() noexcept;
+  void teach(Angle fix, Angle sigma, const localization::UncertainPose& fused) noexcept;
+  void move_frame(const Pose& pose) noexcept;
+  bool placeable(const Pose& pose) noexcept;
   void aim_again() noexcept;
   /// Notes whether the goal is within range; without one the planner has nothing to do.
   bool aimed(bool in_range) noexcept;
@@ -102,6 +137,7 @@ class Robot {
   planning::Planner& planner_;
   const Params& params_;
   hal::Bumper* bumper_;
+  hal::Gyro* gyro_;
 
   localization::CountStep step_;  // of this tick
   Time last_tick_;
@@ -109,6 +145,7 @@ class Robot {
   Speed warned_speed_;     // while the ground is in doubt
   Duration elapsed_;       // since the last tick, at most the longest gap
   Duration since_counts_;  // since the counts were last read
+  Duration resting_for_;   // for the gyro
   bool started_ = false;
   bool has_goal_ = false;  // a mission is active
   bool goal_refused_ = false;
@@ -122,6 +159,9 @@ class Robot {
   safety::BumpReflex reflex_;
   planning::MotionController motion_;
   localization::Odometry odometry_;
+  Part<localization::GyroHeading, kGyroBuilt> heading_;
+  Part<localization::PoseBound, kGyroBuilt> bound_;
+  Part<localization::FixTeacher, kGyroBuilt> teacher_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;
 };

@@ -37,6 +37,14 @@ struct BumperReading {
 
 constexpr uint8_t kAllSwitches = (1 << kBeams) - 1;
 
+/// The samples of the gyro since power-up. A sample is the yaw rate, counter-clockwise positive, in units of
+/// GyroParams::range / 32768; it lies within +-32767. Its time is 1 / GyroParams::rate_hz.
+struct GyroReading {
+  uint32_t sum;        ///< of all samples, modulo 2^32
+  uint16_t samples;    ///< their number, modulo 2^16
+  uint16_t saturated;  ///< how many of them were at the limit of the chip's range, modulo 2^16
+};
+
 /// Wheel rim speeds, 0.1 mm/s, forward positive; +-3.2767 m/s.
 struct WheelSpeeds {
   int16_t left;

@@ -110,6 +110,16 @@ def put(page, name, text):
     page.write_text(before + text + after)
 
 
+def show_table(lines, page, name, put_it):
+    """Prints the lines as they come, and then puts them into the page if asked to."""
+    text = ""
+    for text_line in lines:
+        print(text_line, flush=True)
+        text += text_line + "\n"
+    if put_it:
+        put(page, name, text)
+
+
 def machine():
     """"AMD EPYC, 2 cores, Debian GNU/Linux 12 (bookworm)"."""
     model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())

@@ -106,6 +106,11 @@ bool BaseNode::reported(RangeTrustReport& trust) const noexcept {
   return trust_come_;
 }
 
+bool BaseNode::reported(PoseSigmaReport& sigma) const noexcept {
+  if (sigma_come_) sigma = sigma_;
+  return sigma_come_;
+}
+
 FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept {
   switch (kind) {
     case MessageKind::wheel_command:
@@ -120,6 +125,11 @@ FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noe
       return read<RangeTrustReport>(frame, [this](const auto& m) {
         trust_ = m;
         trust_come_ = true;
+      });
+    case MessageKind::pose_sigma:
+      return read<PoseSigmaReport>(frame, [this](const auto& m) {
+        sigma_ = m;
+        sigma_come_ = true;
       });
     case MessageKind::param_reply:
       return read<ParamReply>(frame, [this](const auto& m) {
@@ -161,6 +171,7 @@ void BaseNode::reset_peer() noexcept {
   commanded_ = false;
   status_come_ = false;
   trust_come_ = false;
+  sigma_come_ = false;
   replied_ = false;
 }
 

@@ -38,6 +38,7 @@ class BaseNode final : public Node {
   const NavStatus& status() const noexcept { return status_; }
   /// The last report; false: none has arrived.
   bool reported(RangeTrustReport& trust) const noexcept;
+  bool reported(PoseSigmaReport& sigma) const noexcept;
 
   /// Sends an order and repeats it until it is answered. It ends the safe stop of this node, so the wheels
   /// must be at rest. The robot runs once a start or resume is accepted.
@@ -67,6 +68,8 @@ class BaseNode final : public Node {
   bool status_come_ = false;
   RangeTrustReport trust_;
   bool trust_come_ = false;
+  PoseSigmaReport sigma_;
+  bool sigma_come_ = false;
 
   MissionValues values_;
   Order order_ = Order::start;

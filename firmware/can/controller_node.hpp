@@ -32,6 +32,8 @@ class ControllerNode final : public Node {
   /// Call it before answer(). Sends the report every 50 ticks, when its level changes, and if this tick ends
   /// the mission.
   void publish_trust(const RangeTrustReport& trust, bool ends) noexcept;
+  /// Likewise.
+  void publish_sigma(const PoseSigmaReport& sigma, bool ends) noexcept;
 
   /// Parameters accepted by a commit.
   const Params& params() const noexcept { return committed_; }

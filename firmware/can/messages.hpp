@@ -32,6 +32,7 @@ enum class MessageKind : uint8_t {
   param_request,
   param_reply,
   range_trust,
+  pose_sigma,
   heartbeat,
   info,
   info_request,
@@ -263,6 +264,22 @@ struct RangeTrustReport {
   }
 };
 
+struct PoseSigmaReport {
+  static constexpr MessageKind kKind = MessageKind::pose_sigma;
+  uint8_t source = 0;
+  uint16_t along = 0;
+  uint16_t across = 0;
+  uint16_t heading = 0;
+
+  template <class M, class F>
+  static constexpr void each(M& m, F& f) noexcept {
+    f({"Source", 12, 4, false, 0, 3, "1", "", "what turns the pose", kAlways, word_in<kHeadingWords>}, m.source);
+    f({"Along", 16, 16, false, 0, 16000, "0.001", "m", "standard deviation of the position, along the heading"}, m.along);
+    f({"Across", 32, 16, false, 0, 16000, "0.001", "m", "standard deviation of the position, across the heading"}, m.across);
+    f({"Heading", 48, 16, false, 0, 16384, "0.0054931640625", "deg", "standard deviation of the heading"}, m.heading);
+  }
+};
+
 struct Heartbeat {
   static constexpr MessageKind kKind = MessageKind::heartbeat;
   NodeState state = NodeState::waiting;
@@ -351,6 +368,7 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"ParamRequest", 0x16, 7, false, true, 0, "reads or changes a parameter"}, ParamRequest{});
   visit(Message{"ParamReply", 0x17, 7, true, false, 0, "answer to a ParamRequest"}, ParamReply{});
   visit(Message{"RangeTrust", 0x1A, 7, true, false, 500, "what the core measures of its rangefinders; also at every change of the level"}, RangeTrustReport{});
+  visit(Message{"PoseSigma", 0x1B, 8, true, false, 500, "how far the pose may be off, if the parameters declare an error of the wheels; also at the end of the mission"}, PoseSigmaReport{});
   visit(Message{"Heartbeat", 0x70, 8, true, true, 100, "the node is alive, and its state"}, Heartbeat{});
   visit(Message{"Info", 0x71, 8, true, true, 0, "at the start, and on request"}, Info{});
   visit(Message{"InfoRequest", 0x72, 2, true, true, 0, "requests the Info of the other node"}, InfoRequest{});

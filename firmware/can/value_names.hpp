@@ -104,6 +104,7 @@ enum class BumpState : uint8_t {
   pressed,
   unknown,  ///< the bumper gave no state
 };
+inline constexpr const char* kHeadingWords[] = {"wheels", "bias_unknown", "gyro", "gyro_lost"};
 inline constexpr const char* kBumpWords[] = {"none", "open", "pressed", "unknown"};
 
 // Names of values whose types belong to the hardware interface or to the planner.

@@ -34,6 +34,19 @@ void Odometry::place(const Pose& pose) noexcept {
 }
 
 bool Odometry::update(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept {
+  if (!take(counts, since, step)) return false;
+  advance(step);
+  return true;
+}
+
+void Odometry::advance(const CountStep& step) noexcept {
+  difference_ += step.right - step.left;
+  const uint64_t turned = magnitude(difference_) * turn_per_count_;
+  const Angle size = Angle::from_raw(static_cast<uint32_t>(turned >> 16));
+  advance(step, start_heading_ + (difference_ < 0 ? -size : size) - heading_);
+}
+
+bool Odometry::take(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept {
   step = {};
   if (has_last_) step = {moved(last_.left, counts.left), moved(last_.right, counts.right)};
   last_ = counts;
@@ -41,23 +54,29 @@ bool Odometry::update(const hal::EncoderCounts& counts, Duration since, CountSte
   // The largest number of counts that fits into 32 bits.
   const Duration over = min(since + period_, milliseconds(2000));
   const uint32_t most = 2 + static_cast<uint32_t>(over.raw()) * counts_per_ms_ / 256;
-  if (magnitude(step.left) > most || magnitude(step.right) > most) return false;
+  return magnitude(step.left) <= most && magnitude(step.right) <= most;
+}
 
-  difference_ += step.right - step.left;
-  const uint64_t turned = magnitude(difference_) * turn_per_count_;
-  const Angle size = Angle::from_raw(static_cast<uint32_t>(turned >> 16));
-  const Angle before = heading_;
+void Odometry::advance(const CountStep& step, Angle turn) noexcept {
   const Vec from = pose().at;
-  heading_ = start_heading_ + (difference_ < 0 ? -size : size);
-
-  const Angle change = heading_ - before;
-  const Angle middle = before + scaled(change, Q15::ratio(1, 2));
+  const Angle middle = heading_ + scaled(turn, Q15::ratio(1, 2));
+  heading_ += turn;
   const int64_t both = (step.left + step.right) * um_per_count_;
   const int64_t distance_q10 = scale_down<7>(both);
   x_ += scale_down<24>(distance_q10 * cos(middle).raw());
   y_ += scale_down<24>(distance_q10 * sin(middle).raw());
   travelled_um_ += static_cast<uint32_t>(norm(pose().at - from).raw());
-  return true;
+}
+
+Angle Odometry::turn_of(int32_t difference) const noexcept {
+  // 2^-60 turn; it wraps after 16 turns, like an angle.
+  const uint64_t turned = magnitude(difference) * turn_per_count_ + (UINT64_C(1) << 27);
+  const Angle size = Angle::from_raw(static_cast<uint32_t>(turned >> 28));
+  return difference < 0 ? -size : size;
+}
+
+int32_t Odometry::counts_per_turn() const noexcept {
+  return saturate32(static_cast<int64_t>((UINT64_C(1) << 48) / turn_per_count_));
 }
 
 Pose Odometry::pose() const noexcept {

@@ -28,6 +28,15 @@ class Odometry {
   /// its full speed over that time plus one period; the pose then ignores the step, and the new counts are
   /// the new zero.
   bool update(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept;
+  /// The same in two steps: take() and, unless it is false, advance(), by the wheels alone or with the turn
+  /// of the body over this step.
+  bool take(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept;
+  void advance(const CountStep& step) noexcept;
+  void advance(const CountStep& step, Angle turn) noexcept;
+  /// The turn for this difference of counts, right minus left, in 2^-12 counts.
+  Angle turn_of(int32_t difference) const noexcept;
+  /// Counts of one wheel for a full turn of the body with the other wheel at rest.
+  int32_t counts_per_turn() const noexcept;
 
   Pose pose() const noexcept;
   /// The length of the way so far, um modulo 2^32; place() does not change it.

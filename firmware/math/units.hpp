@@ -7,6 +7,7 @@
 /// | Acceleration | 1 um/s^2 | +-2147 m/s^2 |
 /// | AngularRate | 1 urad/s | +-2147 rad/s |
 /// | Duration | 1 ms | +-24.8 days |
+/// | Ratio | 1e-6 | +-2147 |
 /// | Time | 1 ms, wraps after 49.7 days | - |
 #pragma once
 
@@ -63,6 +64,7 @@ using Speed = Unit<struct SpeedTag>;
 using Acceleration = Unit<struct AccelerationTag>;
 using AngularRate = Unit<struct AngularRateTag>;
 using Duration = Unit<struct DurationTag>;
+using Ratio = Unit<struct RatioTag>;
 
 // Parentheses, because Arduino and some vendors' headers define macros abs(), min() and max(). Choosing
 // between raw values, not between units, keeps the compilers from putting both on the stack.
@@ -112,6 +114,7 @@ class Time {
 constexpr Length micrometres(int32_t um) noexcept { return Length::from_raw(um); }
 constexpr Length millimetres(int32_t mm) noexcept { return Length::from_raw(1000) * mm; }
 constexpr Duration milliseconds(int32_t ms) noexcept { return Duration::from_raw(ms); }
+constexpr Ratio millionths(int32_t ppm) noexcept { return Ratio::from_raw(ppm); }
 
 // Always inline: otherwise clang for AVR computes these constants at run time.
 namespace literals {

@@ -36,6 +36,7 @@ enum class ParamFault : uint8_t {
   step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
   beams_crossed,              ///< the axes point from left to right
   creep_without_bumper,       ///< creep_speed is zero unless a bumper is fitted
+  gyro_unfit,                 ///< a fitted gyro: kGyroBuilt, range >= 5/4 max_turn_rate
 };
 
 struct Relation {
@@ -125,6 +126,10 @@ constexpr Relation relation(ParamFault fault) noexcept {
               "range_right_angle_deg"};
     case F::creep_without_bumper:
       return {"creep_without_bumper", "creep_speed_mps must be 0 unless bumper is true"};
+    case F::gyro_unfit:
+      return {"gyro_unfit",
+              "gyro_range_radps must not be less than 5/4 turn_rate_max_radps unless gyro is false, which it "
+              "must be in an image without the code for a gyro (ATmega1284P)"};
   }
   return {"?", ""};
 }
@@ -270,7 +275,9 @@ template <class Visit>
       visit(F::patch_too_small, r::patch_holds_ways(p)) &&
       visit(F::planning_below_shield, p.skirt.planning_margin >= p.skirt.shield_margin) &&
       visit(F::beams_crossed, beams.ordered) &&
-      visit(F::creep_without_bumper, p.bumper.fitted == Fitted::yes || p.bumper.creep_speed == Speed{}));
+      visit(F::creep_without_bumper, p.bumper.fitted == Fitted::yes || p.bumper.creep_speed == Speed{}) &&
+      visit(F::gyro_unfit,
+            p.gyro.fitted == Fitted::no || (kGyroBuilt && p.gyro.range >= p.wheels.max_turn_rate * 5 / 4)));
 }
 
 namespace formula {

@@ -267,16 +267,16 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   }
 }
 
-bool LocalGrid::echo_arc(const Beam& beam, Length free, bool takes) noexcept {
+bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept {
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
-  const int32_t begins = units(free - kReadingRounding);
-  const int32_t ends = units(free) + kUnitsPerCell;
+  const int32_t begins = units(nearest - kReadingRounding);
+  const int32_t ends = units(farthest) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
   // What lies outside the window explains an echo.
   const Angle sides[] = {-beam.half_cone, Angle{}, beam.half_cone};
   for (const Angle side : sides) {
-    const Vec end = polar(beam.axis + side, free + Length::from_raw(scale_.cell_um));
+    const Vec end = polar(beam.axis + side, farthest + Length::from_raw(scale_.cell_um));
     if (!takes && !in_window(local(beam.apex + end), 0)) return false;
   }
   for (Rows rows(apex.y, ends); rows.more(); rows.next()) {
@@ -300,21 +300,23 @@ bool LocalGrid::echo_arc(const Beam& beam, Length free, bool takes) noexcept {
   return true;
 }
 
-void LocalGrid::revoke(const ConeObservation& observation, bool appears) noexcept {
+void LocalGrid::revoke(const Beam& beam, Length nearest, Length farthest) noexcept {
+  if (!nearby(local(beam.apex))) return;
+  if (!echo_arc(beam, nearest, farthest, false)) return;
+  echo_arc(beam, nearest, farthest, true);
+  close_lane();
+}
+
+void LocalGrid::revoke_beside(const ConeObservation& observation) noexcept {
   Beam beam = observation.beam;
   const Length free = observation.free;
-  if (!nearby(local(beam.apex))) return;
-  if (echo_arc(beam, free, false)) {
-    echo_arc(beam, free, true);
-    close_lane();
-  }
-  if (!appears || observation.number == hal::kFront || units(free) > 2 * footprint_) return;
+  if (observation.number == hal::kFront || !nearby(local(beam.apex)) || units(free) > 2 * footprint_) return;
   const Angle beside = Angle::from_raw(kBeside.raw() / 2);
   const Angle outward = beam.half_cone + beside;
   beam.axis += observation.number == hal::kLeft ? outward : -outward;
   beam.half_cone = beside;
   close_lane();
-  echo_arc(beam, free, true);
+  echo_arc(beam, free, free, true);
 }
 
 void LocalGrid::block(Vec centre, Length radius) noexcept {

@@ -4,8 +4,8 @@
 #include <stdint.h>
 
 #include "firmware/math/trig.hpp"
-#include "firmware/member_if.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/grid_scale.hpp"
 #include "firmware/perception/lane.hpp"
 #include "firmware/perception/observation.hpp"
@@ -49,12 +49,14 @@ class LocalGrid {
   /// so near to the apex that no single reading covers them. `before` as in mark(). No effect if Reach::past
   /// is zero.
   void chain(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
-  /// An echo that no unclear cell explains takes back the ground that it may come from: cells that the cone
-  /// touches from the free distance to one cell beyond become unknown, except those under the body. A sensor
-  /// that loses walls seen at an angle may have cleared one of them. If an echo of a side beam appears nearer
-  /// than two radii, it also takes back the arc beside the cone, away from the front beam: what the echo
-  /// comes from may reach there, and the flank would meet it unseen.
-  void revoke(const ConeObservation& observation, bool appears = false) noexcept;
+  /// An object in this beam lies between these distances. If no unclear cell explains it, all cells that the
+  /// cone touches from `nearest` to one cell beyond `farthest` become unknown, except those under the body: a
+  /// sensor that loses walls seen at an angle may have cleared one of them.
+  void revoke(const Beam& beam, Length nearest, Length farthest) noexcept;
+  /// The echo of a side beam has just appeared. If it is nearer than two radii, the arc beside the cone, away
+  /// from the front beam, becomes unknown: what gives the echo may reach there, and the flank would meet it
+  /// unseen.
+  void revoke_beside(const ConeObservation& observation) noexcept;
   /// An object in this beam between `observation.free` and `farthest` has moved there. Resets the cells that
   /// it can reach while the body stops, except those under the body. For a second, mark() clears no cell that
   /// near to an echo.
@@ -89,8 +91,9 @@ class LocalGrid {
   bool all_clear(Vec centre, Length radius) const noexcept;
 
  private:
-  /// The cells that an echo at `free` may come from: takes them back, or tells whether all are clear.
-  bool echo_arc(const Beam& beam, Length free, bool takes) noexcept;
+  /// The cells that an echo between these distances may come from: takes them back, or tells whether all are
+  /// clear.
+  bool echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept;
   static constexpr Length kReadingRounding = Length::from_raw(1000);
   using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
@@ -165,7 +168,7 @@ class LocalGrid {
   Row old_[kCells] = {};      // cleared before it
   Row suspect_[kCells] = {};  // near an echo
   Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
-  MemberIf<Lane, kNarrowGaps> lane_;
+  Part<Lane, kNarrowGaps> lane_;
 };
 
 }  // namespace whisker::perception

@@ -8,6 +8,7 @@ constexpr Length kFarthest = 2_m;
 // Error of the estimated pose over the path between the scans, plus the rounding of a reading.
 constexpr Length kSlack = 3_mm;
 constexpr Angle kWidening = Angle::turns(5, 3600);
+constexpr Angle kMisaim = 5_deg + kWidening;
 // Noise bound: three readings of a wall at rest are not all too short by this.
 constexpr Length kNoise = 30_mm;
 constexpr Length kStep = 60_mm;
@@ -102,10 +103,10 @@ MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexce
   return holding;
 }
 
-bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthest,
+bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthest, bool misaimed,
                                  const LocalGrid& local_grid) const noexcept {
   if (farthest > kReach || nearest <= Length{}) return false;
-  const Angle half = beam.half_cone + kWidening;
+  const Angle half = beam.half_cone + (misaimed ? kMisaim : kWidening);
   const Angle step = Angle::from_raw(half.raw() / (kSectors / 2));
   const Length far = farthest + kNoise;
   // A cell is coarse: an obstacle in it also occupies the cell's ground before the obstacle.

@@ -34,8 +34,9 @@ class MotionDetector {
   void add(const Pose& from, Time taken, const Length (&free)[kBeams], uint8_t hits) noexcept;
 
   /// True if no point of the beam's cone between these two distances could have been occupied before: each
-  /// lies in a kept sector or in clear ground.
-  bool contradicts(const Beam& beam, Length nearest, Length farthest,
+  /// lies in a kept sector or in clear ground. `misaimed`: the beam may point beside its axis, so
+  /// that its cone counts as 5 degrees wider on either side.
+  bool contradicts(const Beam& beam, Length nearest, Length farthest, bool misaimed,
                    const LocalGrid& local_grid) const noexcept;
 
   /// The direction in which the object at this place has moved, by the oldest scan that has an echo of it.

@@ -45,7 +45,11 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
+  Length echo_ends[hal::kBeams];
   SeenRange shown[hal::kBeams];
+  // Beams that point beside their axes cause contradictions wherever the robot passes. More of them refute
+  // that.
+  const bool misaimed = !loses_walls_ && contradicted_ >= kMisaimed && contradicted_ < kMisaimed * 2;
   Pose from;
   uint8_t hits = 0;
   int seen = 0;
@@ -69,10 +73,12 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.hit = sight.near.validity != Validity::clear && sight.near.distance <= proving;
     const Length allowance = observation.hit ? scatter_[i].allowance() : Length{};
     observation.free = free[i] = max(Length{}, min(sight.near.distance, proving) - allowance);
+    // Of readings that scatter, the nearest of four lies before the object, and so does its allowance.
+    echo_ends[i] = allowance == Length{} ? observation.free : max(observation.free, sight.newest.distance);
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (observation.hit &&
-        motion_.contradicts(observation.beam, observation.free, sight.farthest, local_grid_)) {
+        motion_.contradicts(observation.beam, observation.free, sight.farthest, misaimed, local_grid_)) {
       const bool approaches = contradictions_[i].approaches(observation);
       if (!sight.phantoms) monitor_.contradict(approaches);
       const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
@@ -99,7 +105,10 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
-    if (doubts() && echo) local_grid_.revoke(out.observations[i], appears[i]);
+    if (echo) {
+      local_grid_.revoke(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
+      if (appears[i]) local_grid_.revoke_beside(out.observations[i]);
+    }
     if (moved[i] == Length{}) continue;
     local_grid_.doubt(out.observations[i], moved[i]);
     if (!kEvades || (out.mover.seen && free[i] >= nearest)) continue;

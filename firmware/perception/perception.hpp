@@ -67,6 +67,9 @@ class Perception {
  private:
   /// From this number of contradictions on, clear ground is not trusted. An object that moves causes fewer.
   static constexpr uint8_t kDistrusted = 6;
+  /// From this number on, the beams may point beside their axes; from twice as many on, that does not explain
+  /// them.
+  static constexpr uint8_t kMisaimed = 2;
 
   Mount mounts_[hal::kBeams];
   bool loses_walls_ = false;  // by the parameters, a clear cell may hold a wall

@@ -157,11 +157,13 @@ Length BeamConditioner::confirmed(const Length (&last)[kHistory], Length far) co
     for (; slot > 0 && sorted[slot - 1] > last[i]; --slot) sorted[slot] = sorted[slot - 1];
     sorted[slot] = last[i];
   }
-  const int wanted = misses_ > kFewMisses ? 2 : phantoms_ > kManyPhantoms ? 4 : 3;
-  bool pair = false;
+  const bool misses = misses_ > kFewMisses;
+  const int wanted = misses ? 2 : phantoms_ > kManyPhantoms ? 4 : 3;
+  // Where misses are frequent, four readings that agree on nothing do not outweigh a lone echo.
+  bool pair = misses;
   for (int i = 0; i + 1 < kHistory; ++i) {
     if (sorted[i + 1] - sorted[i] > kAlike) continue;
-    if (sorted[i] == far) return pair ? kUndecided : far;
+    if (sorted[i] == far) return pair && i > 0 ? kUndecided : far;
     if (i + wanted <= kHistory && sorted[i + wanted - 1] - sorted[i] <= kAlike) return sorted[i];
     pair = true;
   }
@@ -183,6 +185,7 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   Length nearest = min(min(low, last[2]), last[3]);
   s.misses = misses_ > kFewMisses;
   s.phantoms = phantoms_ > kFewPhantoms;
+  if (s.misses) nearest = min(nearest, recent(kNear).distance);
   if (s.phantoms && steady_ == kHistory && count_ == kHistory) {
     last[kNear] = recent(kNear).distance;
     nearest = confirmed(last, far);

@@ -27,7 +27,7 @@ void RangeMonitor::configure(const Params& params) noexcept {
 }
 
 void RangeMonitor::reset() noexcept {
-  incidence_.reset();
+  if (kIncidenceBuilt) incidence_->reset();
   trust_ = {};
   counted_ = 0;
 }
@@ -52,7 +52,7 @@ void RangeMonitor::contradict(bool approaches) noexcept {
 void RangeMonitor::judge(uint16_t phantoms, uint16_t false_clears) noexcept {
   trust_.phantoms = phantoms;
   trust_.false_clears = false_clears;
-  trust_.incidence_deg = incidence_.seen_deg();
+  if (kIncidenceBuilt) trust_.incidence_deg = incidence_->seen_deg();
   // Phantoms appear in clear ground, and false clear readings clear ground wrongly.
   if (phantoms >= kManyPhantoms) trust_.contradictions = 0;
   const bool lossy = false_clears >= kSomeFalseClears || doubtful_rate_ == kLossyContradicted;

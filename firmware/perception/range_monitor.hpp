@@ -7,9 +7,17 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/incidence_watch.hpp"
 
 namespace whisker::perception {
+
+/// Whether this image measures the incidence that the sensors see, which is only reported (1.3 KB on an AVR).
+#ifdef WHISKER_INCIDENCE
+constexpr bool kIncidenceBuilt = WHISKER_INCIDENCE != 0;
+#else
+constexpr bool kIncidenceBuilt = true;
+#endif
 
 /// Judges all beams together. The rate of contradictions is a mean over the path, with a weight that falls to
 /// 1/e in 4 m. The path counts in steps of 20 mm, and a step has at most one contradiction, so that a robot
@@ -27,7 +35,7 @@ class RangeMonitor {
   /// Readings of all beams: see IncidenceWatch::add().
   void see(const Pose& from, const SeenRange (&seen)[hal::kBeams],
            const Mount (&mounts)[hal::kBeams]) noexcept {
-    incidence_.add(from, seen, mounts);
+    if (kIncidenceBuilt) incidence_->add(from, seen, mounts);
   }
   /// The largest shares of all beams, 2^-16. Call once per tick, after the others.
   void judge(uint16_t phantoms, uint16_t false_clears) noexcept;
@@ -40,7 +48,7 @@ class RangeMonitor {
 
  private:
   static constexpr uint16_t kManyFalseClears = 13107;
-  IncidenceWatch incidence_;
+  Part<IncidenceWatch, kIncidenceBuilt> incidence_;
   RangeTrust trust_;
   Vec step_from_;
   uint8_t counted_ = 0;  // contradictions in this step

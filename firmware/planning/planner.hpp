@@ -5,7 +5,7 @@
 
 #include "firmware/fuzzy/variables.hpp"
 #include "firmware/math/trig.hpp"
-#include "firmware/member_if.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/lane.hpp"
 #include "firmware/perception/percept.hpp"
 #include "firmware/planning/manoeuvre.hpp"
@@ -52,7 +52,7 @@ struct Decision {
   Outcome outcome = Outcome::none;
   uint8_t danger_count = 0;  ///< the thesis's t: positions since the target direction was last free
   bool looked = false;       ///< this tick's decision used a static scan
-  MemberIf<NewLane, perception::kNarrowGaps> lane;
+  Part<NewLane, perception::kNarrowGaps> lane;
   fuzzy::Inputs inputs;  ///< of the response table, as last used
   fuzzy::Response response;
 };

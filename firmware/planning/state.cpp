@@ -49,6 +49,7 @@ const char* name(Why why) noexcept {
     case Why::fault: return "fault";
     case Why::goal_out_of_range: return "goal_out_of_range";
     case Why::bumped: return "bumped";
+    case Why::gyro_rest: return "gyro_rest";
   }
   return "?";
 }

@@ -51,8 +51,9 @@ enum class Why : uint8_t {
   fault,              ///< see Health for its name
   goal_out_of_range,  ///< the goal is beyond kPlaceLimit: refused
   bumped,             ///< a bump switch was pressed: backing off
+  gyro_rest,          ///< standing to measure the bias of the gyro
 };
-constexpr int kWhys = 25;
+constexpr int kWhys = 26;
 
 const char* name(Mode mode) noexcept;
 const char* name(Why why) noexcept;

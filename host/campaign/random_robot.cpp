@@ -34,6 +34,7 @@ class Draw {
     conditioning();
     planners();
     motion();
+    margins();
     return p_;
   }
 
@@ -43,8 +44,6 @@ class Draw {
     set_si(p_.body.margin, 0.03 * size_);
     track_ = random_.uniform(0.8, 2) * radius_;
     set_si(p_.body.track, track_);
-    set_si(p_.skirt.shield_margin, 0.004 * size_);
-    set_si(p_.skirt.planning_margin, 0.006 * size_);
   }
 
   void wheels() {
@@ -127,6 +126,12 @@ class Draw {
     set_si(p_.motion.drive_tolerance, std::max({0.001, 0.002 * size_, 1.1 * count}));
     const Duration slowest = relations::slowest_count(p_, millimetres(1000) / p_.wheels.counts_per_metre);
     set_si(p_.safety.stalled_after, std::clamp(slowest.raw() * 1e-3 * random_.uniform(1, 3), 0.2, 10.0));
+  }
+
+  void margins() {
+    const double shield = random_.uniform(0, 0.006) * size_;
+    set_si(p_.skirt.shield_margin, shield);
+    set_si(p_.skirt.planning_margin, shield + random_.uniform(0, 0.006) * size_);
   }
 
   Random& random_;

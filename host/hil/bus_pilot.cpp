@@ -88,6 +88,13 @@ class BusPilot final : public Pilot {
                       report.incidence};
   }
 
+  std::optional<localization::PoseSigma> sigma() const override {
+    can::PoseSigmaReport report;
+    if (!node_.reported(report)) return std::nullopt;
+    return localization::PoseSigma{millimetres(report.along), millimetres(report.across),
+                                   Angle::from_raw(std::uint32_t{report.heading} << 16)};
+  }
+
   const char* trouble() const override {
     if (node_.state() == can::NodeState::e_stopped) return "e_stop";
     if (const std::uint16_t bits = node_.permanent_errors(); bits != 0) {

@@ -121,6 +121,7 @@ class ParamRows {
   void number(const char* key, const Duration& x, Duration low, Duration high) {
     row(key, "ms", x, low, high);
   }
+  void number(const char* key, const Ratio& x, Ratio low, Ratio high) { row(key, "1e-6", x, low, high); }
   void number(const char* key, const Angle& x, Angle low, Angle high) {
     row(key, "2^-32 turn", x, low, high);
   }

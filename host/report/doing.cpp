@@ -29,6 +29,7 @@ Doing doing_of_step(planning::Why why) noexcept {
     case planning::Why::cancelled:
     case planning::Why::goal_out_of_range:
     case planning::Why::bumped:
+    case planning::Why::gyro_rest:
     case planning::Why::fault: return Doing::free;
   }
   return Doing::free;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/report/svg.hpp"
+#include "host/report/units.hpp"
 
 namespace whisker::report {
 namespace {
@@ -99,8 +100,24 @@ std::string result_json(const RunResult& result, const std::string& bus) {
   json["incidence_seen_deg"] =
       ranges([](const RangeTrust& r) { return r.incidence_deg > 0 ? Json(r.incidence_deg) : Json(nullptr); });
   if (result.unreachable_above_m) json["unreachable_above_m"] = rounded(*result.unreachable_above_m);
+  const auto sigma = [&](auto figure) {
+    return result.sigma ? rounded(figure(*result.sigma)) : Json(nullptr);
+  };
+  json["bound_m"] = sigma([](const localization::PoseSigma& s) { return metres(distance_bound(s)); });
+  json["sigma_along_m"] = sigma([](const localization::PoseSigma& s) { return metres(s.along); });
+  json["sigma_across_m"] = sigma([](const localization::PoseSigma& s) { return metres(s.across); });
+  json["sigma_heading_deg"] = sigma([](const localization::PoseSigma& s) { return degrees(s.heading); });
   if (!bus.empty()) json["bus"] = Json::parse(bus);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string bound_words(const RunResult& result) {
+  if (!result.sigma || !says_reached(result.verdict)) return "";
+  const double bound_m = metres(distance_bound(*result.sigma));
+  const bool wide = bound_m > result.goal_tolerance_m;
+  return fmt::format(
+      ", within {:.2f} m (2 sigma){}", bound_m,
+      wide ? fmt::format(", more than the tolerance of {:.2f} m", result.goal_tolerance_m) : "");
 }
 
 std::string verdict_words(const RunResult& result) {
@@ -116,6 +133,7 @@ std::string verdict_words(const RunResult& result) {
     words += fmt::format(", min clearance {} m", decimals(result.min_clearance_m, 3));
   if (result.bumps.value_or(0) > 0)
     words += fmt::format(", {} bump{}", *result.bumps, *result.bumps == 1 ? "" : "s");
+  words += bound_words(result);
   if (!result.detail.empty()) words += fmt::format(" ({})", result.detail);
   return words;
 }

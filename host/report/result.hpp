@@ -22,6 +22,10 @@ double share(std::uint16_t part);
 /// What is wrong with the rangefinders, its figure and the parameter to change; "" while they are trusted.
 std::string range_warning(const RangeTrust& ranges);
 
+/// ", within 0.08 m (2 sigma)" after a verdict that the goal is reached, and whether that is more than the
+/// tolerance of the goal; "" without a bound.
+std::string bound_words(const RunResult& result);
+
 /// "reached in 48.2 s, 12.31 m, min clearance 0.031 m", "believes it is there; is 5.83 m off, after 48.2 s,
 /// 12.31 m": one line, the detail in brackets if there is one.
 std::string verdict_words(const RunResult& result);

@@ -78,6 +78,11 @@ void add_row(std::string& out, const RangefinderParams& sensor, const TickRecord
   place(r.way_x_m);
   place(r.way_y_m);
   row.count(r.pressed);
+  const auto sigma = [&](double x) { r.sigma ? row.number(x, 6) : row.word(""); };
+  const localization::PoseSigma of = r.sigma.value_or(localization::PoseSigma{});
+  sigma(metres(of.along));
+  sigma(metres(of.across));
+  sigma(radians(of.heading));
   row.end();
 }
 
@@ -86,7 +91,7 @@ void add_row(std::string& out, const RangefinderParams& sensor, const TickRecord
 const char* const kTraceHeader =
     "t_s,x_m,y_m,heading_rad,left_m,front_m,right_m,v_left_mps,v_right_mps,state,why,"
     "t,looked,d,r,sa,sd,cmd_left_mps,cmd_right_mps,est_x_m,est_y_m,est_heading_rad,guide,way_x_m,way_y_m,"
-    "pressed";
+    "pressed,sigma_along_m,sigma_across_m,sigma_heading_rad";
 
 std::string trace_csv(const Scenario& scenario, const std::vector<TickRecord>& records) {
   std::string out = kTraceHeader;

@@ -13,4 +13,7 @@ constexpr double radians(Angle angle) {
   return static_cast<double>(angle.wrapped()) / 4294967296.0 * 6.283185307179586;
 }
 
+/// In [-180, 180).
+constexpr double degrees(Angle angle) { return static_cast<double>(angle.wrapped()) * (360 / 4294967296.0); }
+
 }  // namespace whisker::report

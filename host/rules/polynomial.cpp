@@ -82,7 +82,8 @@ double root_between(const Polynomial& p, double a, double b) {
   double at_b = p(b);
   if (at_a == 0) return a;
   if (at_b == 0) return b;
-  const double zero = 1e-17 * std::max(std::abs(at_a), std::abs(at_b));
+  // Pieces meet at a root: an error there changes their area by its square.
+  const double zero = 1e-12 * std::max(std::abs(at_a), std::abs(at_b));
   // Illinois: a false position that halves the value of an end that stays.
   int side = 0;
   for (int i = 0; i < 100 && b - a > 1e-16; ++i) {

@@ -21,12 +21,23 @@ struct RecordingMap {
 }  // namespace
 
 CorePilot::CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Plant& plant)
-    : board_(plant),
+    : plant_(plant),
+      fixes_(noise_spec(scenario.noise), scenario.seed),
+      fix_sigma_{fixed_pose({{scenario.noise.fix_sigma_m, 0}, 0}).at.x,
+                 fixed_pose({{scenario.noise.fix_sigma_m, 0}, 0}).at.x,
+                 fixed_pose({{}, noise_spec(scenario.noise).fix_sigma_rad}).heading},
+      board_(plant),
       planner_(std::move(planner)),
       shown_(*planner_.planner),
-      robot_(board_, board_, shown_, scenario.robot, &board_) {
+      robot_(board_, board_, shown_, scenario.robot, &board_, &board_) {
   robot_.place(fixed_pose(scenario.start));
   robot_.set_goal(fixed_goal(scenario.goal));
+}
+
+const Status& CorePilot::tick(Time now) {
+  sim::Pose fix;
+  if (fixes_.take(plant_.pose(), plant_.path_length(), fix)) robot_.correct(fixed_pose(fix), fix_sigma_);
+  return robot_.tick(now);
 }
 
 planning::Goal fixed_goal(const Goal& goal) {

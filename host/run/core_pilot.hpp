@@ -2,6 +2,7 @@
 
 #include "host/run/pilot.hpp"
 #include "host/run/recording_planner.hpp"
+#include "host/sim/fixes.hpp"
 #include "host/sim/sim_board.hpp"
 
 namespace whisker {
@@ -11,14 +12,21 @@ class CorePilot final : public Pilot {
  public:
   /// Scenario and plant must outlive it; the planner must be made with the scenario's robot.
   CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Plant& plant);
-  const Status& tick(Time now) override { return robot_.tick(now); }
+  const Status& tick(Time now) override;
   const perception::LocalGrid* local_grid() const override { return shown_.local_grid(); }
   std::optional<RangeTrust> ranges() const override { return robot_.status().health.ranges; }
+  std::optional<localization::PoseSigma> sigma() const override {
+    if (!robot_.status().sigma_known) return std::nullopt;
+    return robot_.status().sigma;
+  }
   const RecordingGuide* guide() const override { return planner_.guide; }
   /// Sets a new goal, during a mission or after it has ended.
   void set_goal(const planning::Goal& goal) { robot_.set_goal(goal); }
 
  private:
+  sim::Plant& plant_;
+  sim::Fixes fixes_;
+  localization::PoseSigma fix_sigma_;
   hal::SimBoard board_;
   RecordedPlanner planner_;
   RecordingPlanner shown_;

@@ -22,6 +22,7 @@ TickRecord make_record(const Status& status, const RecordingGuide* guide, const 
   r.est_x_m = status.pose.at.x.raw() * 1e-6;
   r.est_y_m = status.pose.at.y.raw() * 1e-6;
   r.est_heading_rad = radians(status.pose.heading);
+  if (status.sigma_known) r.sigma = status.sigma;
   if (guide != nullptr) {
     r.guide = guide->said();
     if (has_place(r.guide)) {

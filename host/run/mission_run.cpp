@@ -101,6 +101,8 @@ RunResult MissionRun::result() const {
   if (result.verdict == Verdict::unreachable && pilot_->local_grid() != nullptr) {
     result.unreachable_above_m = narrowest_gap_m(scenario_->robot);
   }
+  result.sigma = pilot_->sigma();
+  result.goal_tolerance_m = scenario_->goal.tolerance_m;
   result.ticks = ticks_;
   result.hash = hash_.value();
   return result;

@@ -27,6 +27,8 @@ class Pilot {
   virtual std::optional<Pose> estimate() const { return std::nullopt; }
   /// What the robot measures of its rangefinders; none: unknown.
   virtual std::optional<RangeTrust> ranges() const { return std::nullopt; }
+  /// The standard deviations of the estimated pose; none: unknown.
+  virtual std::optional<localization::PoseSigma> sigma() const { return std::nullopt; }
   /// Why the robot will not move any more although its core has no fault; nullptr: it will.
   virtual const char* trouble() const { return nullptr; }
 };

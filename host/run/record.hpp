@@ -8,6 +8,7 @@
 
 #include "firmware/fuzzy/variables.hpp"
 #include "firmware/health.hpp"
+#include "firmware/localization/pose_bound.hpp"
 #include "firmware/planning/state.hpp"
 #include "hal/types.hpp"
 #include "host/run/guidance.hpp"
@@ -31,8 +32,9 @@ struct TickRecord {
   double est_x_m = 0, est_y_m = 0, est_heading_rad = 0;  ///< the core's own estimate
   bool inside = true;  ///< false: the core is remote and its fuzzy values and estimate are unknown
   Guidance guide = Guidance::unknown;
-  std::uint8_t pressed = 0;         ///< bump switches, see hal::BumperReading
-  double way_x_m = 0, way_y_m = 0;  ///< way point, in the frame of the estimate; 0 without one
+  std::uint8_t pressed = 0;                      ///< bump switches, see hal::BumperReading
+  double way_x_m = 0, way_y_m = 0;               ///< way point, in the frame of the estimate; 0 without one
+  std::optional<localization::PoseSigma> sigma;  ///< of the estimate; none: unknown
 };
 
 /// The clearance in an empty world, m: no scenario is larger.
@@ -48,11 +50,13 @@ struct RunResult {
   std::optional<double> believed_distance_m;
   double min_clearance_m =
       0;  ///< smallest true gap between body and obstacle; <= 0 at a contact; 1000 in an empty world
-  std::optional<std::uint32_t> bumps;  ///< touches that pressed a bump switch; none: unknown
-  std::optional<RangeTrust> ranges;    ///< at the end; none: unknown
+  std::optional<std::uint32_t> bumps;            ///< touches that pressed a bump switch; none: unknown
+  std::optional<RangeTrust> ranges;              ///< at the end; none: unknown
+  std::optional<localization::PoseSigma> sigma;  ///< of the estimated pose at the end; none: unknown
   /// Unreachable: the verdict holds only for gaps narrower than this, m; see narrowest_gap_m(). None: another
   /// verdict, or the planner has no local grid.
   std::optional<double> unreachable_above_m;
+  double goal_tolerance_m = 0;
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;  ///< FNV-1a 64 over the wheel commands of all ticks
 };

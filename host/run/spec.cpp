@@ -47,8 +47,23 @@ void set_reach(const Sensor& sensor, sim::RobotSpec& spec) {
 double radians(Angle angle) { return angle.wrapped() * (kPi / 2147483648.0); }
 
 sim::NoiseSpec noise_spec(const Noise& n) {
-  return {n.range_sigma_m, n.range_dropout, n.range_false_clear, n.wheel_scale_sigma,
-          n.heading_drift_deg_per_sqrt_m * (kPi / 180.0)};
+  constexpr double kSqrtHour = 60;  // s^0.5
+  sim::NoiseSpec spec;
+  spec.range_sigma_m = n.range_sigma_m;
+  spec.range_dropout = n.range_dropout;
+  spec.range_false_clear = n.range_false_clear;
+  spec.wheel_scale_sigma = n.wheel_scale_sigma;
+  spec.heading_drift_rad_per_sqrt_m = n.heading_drift_deg_per_sqrt_m * kDegree;
+  spec.wheel_scale_common_sigma = n.wheel_scale_common_sigma;
+  spec.wheel_slip = n.wheel_slip;
+  spec.gyro_bias_radps = n.gyro_bias_dps * kDegree;
+  spec.gyro_warm_up_radps = n.gyro_warm_up_dps * kDegree;
+  spec.gyro_walk_rad_per_sqrt_s = n.gyro_walk_deg_per_sqrt_h * kDegree / kSqrtHour;
+  spec.gyro_scale_sigma = n.gyro_scale_sigma;
+  spec.fix_every_m = n.fix_every_m;
+  spec.fix_sigma_m = n.fix_sigma_m;
+  spec.fix_sigma_rad = n.fix_sigma_deg * kDegree;
+  return spec;
 }
 
 sim::RobotSpec robot_spec(const Scenario& scenario) {

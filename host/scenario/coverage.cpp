@@ -23,10 +23,12 @@ struct Cone {
 Cone cone(const Params& p, const Sensor& sensor, int beam) {
   const Mount m = mount(p.rangefinders, beam);
   double half = degrees(m.half_cone), reach = metres(proving_range(p.rangefinders, beam));
-  for (const auto& width : {sensor.cone_deg, sensor.cone_far_deg})
-    half = std::min(half, width.value_or(180) / 2);
-  return {metres(m.apex.x), metres(m.apex.y), degrees(m.axis), half,
-          std::min(reach, sensor.max_range_m.value_or(reach))};
+  reach = std::min(reach, sensor.max_range_m.value_or(reach));
+  if (sensor.cone_deg) {
+    const double wide = *sensor.cone_deg, far = std::min(wide, sensor.cone_far_deg.value_or(wide));
+    half = std::min(half, (wide - (wide - far) * reach / sensor.max_range_m.value_or(reach)) / 2);
+  }
+  return {metres(m.apex.x), metres(m.apex.y), degrees(m.axis), half, reach};
 }
 
 /// Stretch of a line along the course; empty if from > to.

@@ -10,7 +10,8 @@ namespace whisker {
 constexpr double kIncidenceMargin = 5;
 
 /// deg. The direction, from straight ahead, of the outer edge of the left or the right cone. A cone that is
-/// believed to be wider than it is at the maximum range counts with its true width.
+/// believed to be wider than it is at the distance up to which readings clear ground counts with its true
+/// width there.
 double outer_edge_deg(const Params& params, const Sensor& sensor, bool left);
 /// deg. The smallest incidence up to which sensors must see flat walls so that no wall ahead is invisible: 90
 /// minus the outer edge of the side that reaches less far.

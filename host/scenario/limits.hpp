@@ -27,6 +27,13 @@ constexpr Limits kMoverSpeed{0, 10};          // m/s
 constexpr Limits kRangeSigma{0, 10};          // m
 constexpr Limits kWheelScaleSigma{0, 1};      //
 constexpr Limits kHeadingDrift{0, 360};       // deg/m^0.5
+constexpr Limits kWheelSlip{0, 0.5};          //
+constexpr Limits kGyroBias{0, 100};           // deg/s
+constexpr Limits kGyroWalk{0, 100};           // deg/h^0.5
+constexpr Limits kGyroScaleSigma{0, 0.2};     //
+constexpr Limits kFixEvery{0, kFarthest};     // m
+constexpr Limits kFixSigma{0, 10};            // m
+constexpr Limits kFixTurnSigma{0, 90};        // deg
 constexpr Limits kIncidence{5, 90};           // deg
 constexpr Limits kTrueCone{0.5, 170};         // deg
 constexpr Limits kTrueMinRange{0, 10};        // m

@@ -12,6 +12,7 @@
 #include "host/scenario/bearing.hpp"
 #include "host/scenario/check.hpp"
 #include "host/scenario/contact.hpp"
+#include "host/scenario/noise.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/reader.hpp"
 #include "host/scenario/robot.hpp"
@@ -61,20 +62,7 @@ void read_obstacles(const TableReader& top, Scenario& s) {
   }
 }
 
-/// Keys that are not in [noise] keep their value.
-void read_noise(const TableReader& top, Noise& n) {
-  if (!top.has("noise")) return;
-  const TableReader table = top.table("noise", {"range_sigma_m", "range_dropout", "range_false_clear",
-                                                "wheel_scale_sigma", "heading_drift_deg_per_sqrt_m"});
-  n.range_sigma_m = table.number_or("range_sigma_m", kRangeSigma, n.range_sigma_m);
-  n.range_dropout = table.number_or("range_dropout", kProbability, n.range_dropout);
-  n.range_false_clear = table.number_or("range_false_clear", kProbability, n.range_false_clear);
-  n.wheel_scale_sigma = table.number_or("wheel_scale_sigma", kWheelScaleSigma, n.wheel_scale_sigma);
-  n.heading_drift_deg_per_sqrt_m =
-      table.number_or("heading_drift_deg_per_sqrt_m", kHeadingDrift, n.heading_drift_deg_per_sqrt_m);
-}
-
-/// A robot file: parameters at its top level or in [robot], [sensor], and [noise] on top of the scenario's.
+/// A robot file: parameters at its top level or in [robot], [sensor] and [noise].
 void read_robot_file(const std::string& file, Params& params, Sensor& sensor, Noise& noise) {
   const toml::table root = parse_toml(read_file(file), file);
   std::vector<std::string_view> known = robot_keys();
@@ -88,7 +76,7 @@ void read_robot_file(const std::string& file, Params& params, Sensor& sensor, No
     }
   }
   if (top.has("sensor")) read_sensor(top.table("sensor", sensor_keys()), sensor);
-  read_noise(top, noise);
+  if (top.has("noise")) read_noise(top.table("noise", noise_keys()), noise);
   read_robot(tables, params);
   check_robot(tables, params);
 }
@@ -126,7 +114,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   s.time_limit_s = top.number_or("time_limit_s", kTimeLimit, s.time_limit_s);
   read_places(start, goal, s);
   read_obstacles(top, s);
-  read_noise(top, s.noise);
+  if (top.has("noise")) read_noise(top.table("noise", noise_keys()), s.noise);
   if (top.has("sensor")) read_sensor(top.table("sensor", sensor_keys()), s.sensor);
   if (top.has("robot")) {
     const RobotTables robot{top.table("robot", robot_keys())};

@@ -15,12 +15,12 @@ Scenario load_scenario(const std::string& file);
 Scenario parse_scenario(std::string_view text, const std::string& name);
 
 /// Sets the parameters that a robot file contains (at its top level, or in [robot]) and keeps the others. On
-/// an error, the parameters are unchanged. Its [sensor], if any, is only checked.
+/// an error, the parameters are unchanged. Its [sensor] and [noise], if any, are only checked.
 void apply_robot_file(Params& params, const std::string& file);
 /// The same, and sets what its [sensor] contains.
 void apply_robot_file(Params& params, Sensor& sensor, const std::string& file);
-/// The same for the robot of a scenario and its sensors; also throws if the new body is in contact at the
-/// start.
+/// The same for the robot of a scenario, and sets what its [noise] contains; also throws if the new body is
+/// in contact at the start.
 void apply_robot_file(Scenario& scenario, const std::string& file);
 
 }  // namespace whisker

@@ -14,6 +14,7 @@ const char* type_of(const Speed&) { return "Speed"; }
 const char* type_of(const Acceleration&) { return "Acceleration"; }
 const char* type_of(const AngularRate&) { return "AngularRate"; }
 const char* type_of(const Duration&) { return "Duration"; }
+const char* type_of(const Ratio&) { return "Ratio"; }
 const char* type_of(const Angle&) { return "Angle"; }
 const char* type_of(const Direction&) { return "Direction"; }
 

@@ -22,6 +22,7 @@ constexpr ParamUnit unit_of(const Speed&) { return {"m/s", 1e6, 1}; }
 constexpr ParamUnit unit_of(const Acceleration&) { return {"m/s^2", 1e6, 1}; }
 constexpr ParamUnit unit_of(const AngularRate&) { return {"rad/s", 1e6, 1}; }
 constexpr ParamUnit unit_of(const Duration&) { return {"s", 1e3, 1}; }
+constexpr ParamUnit unit_of(const Ratio&) { return {"ratio", 1e6, 1}; }
 constexpr ParamUnit unit_of(const Angle&) { return {"deg", 4294967296.0, 360}; }
 constexpr ParamUnit unit_of(const Direction&) { return {"deg", 4294967296.0, 360}; }
 

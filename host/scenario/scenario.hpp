@@ -36,6 +36,15 @@ struct Noise {
   double range_false_clear = 0;  ///< probability that a reading is wrongly clear
   double wheel_scale_sigma = 0;  ///< relative error of each wheel's encoder, drawn once per run
   double heading_drift_deg_per_sqrt_m = 0;
+  double wheel_scale_common_sigma = 0;  ///< the same error of both encoders, drawn once per run
+  double wheel_slip = 0;                ///< mean share of a wheel's travel that is lost while it speeds up
+  double gyro_bias_dps = 0;             ///< standard deviation of the bias, drawn once per run
+  double gyro_warm_up_dps = 0;          ///< of the change of the bias in the first 10 minutes
+  double gyro_walk_deg_per_sqrt_h = 0;
+  double gyro_scale_sigma = 0;  ///< relative error of the rate, drawn once per run
+  double fix_every_m = 0;       ///< path between two fixes of the pose from outside; 0: none
+  double fix_sigma_m = 0;       ///< standard deviation of each coordinate of a fix
+  double fix_sigma_deg = 0;
 };
 
 struct Scenario {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "host/scenario/bearing.hpp"
+#include "host/scenario/noise.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/sensor_text.hpp"
 #include "host/scenario/text.hpp"
@@ -69,23 +70,9 @@ std::string obstacles(const Scenario& s) {
   return out;
 }
 
-/// Empty if the number has its default.
-std::string line(const char* key, double x, double otherwise, const char* comment = "") {
-  return x == otherwise ? "" : fmt::format("{} = {}{}\n", key, toml_number(x), comment);
-}
-
 std::string noise(const Noise& n) {
-  constexpr Noise kNone;
-  const std::string out =
-      line("range_sigma_m", n.range_sigma_m, kNone.range_sigma_m) +
-      line("range_dropout", n.range_dropout, kNone.range_dropout, "  # readings lost, and saying so") +
-      line("range_false_clear", n.range_false_clear, kNone.range_false_clear,
-           "  # readings that wrongly say that nothing is there") +
-      line("wheel_scale_sigma", n.wheel_scale_sigma, kNone.wheel_scale_sigma,
-           "  # of each wheel's encoder, once a run") +
-      line("heading_drift_deg_per_sqrt_m", n.heading_drift_deg_per_sqrt_m,
-           kNone.heading_drift_deg_per_sqrt_m);
-  return out.empty() ? out : "\n[noise]\n" + out;
+  const std::string lines = noise_toml(n);
+  return lines.empty() ? lines : "\n[noise]\n" + lines;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ constexpr double kPi = 0x1.921fb54442d18p+1;
 
 /// Correctly rounded. x >= 0.
 inline double square_root(double x) { return __builtin_sqrt(x); }
+inline double size_of(double x) { return x < 0 ? -x : x; }
 
 /// The largest integer that is not above x. |x| < 2^62.
 inline int64_t whole_below(double x) {

@@ -16,8 +16,10 @@ Encoders::Encoders(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed
       drift_per_sqrt_m_(noise.heading_drift_rad_per_sqrt_m * robot.track / 2),
       walk_(seed, kStreamDrift) {
   Random scale(seed, kStreamWheelScale);
+  Random common(seed, kStreamWheelScaleCommon);
+  const double both = noise.wheel_scale_common_sigma * common.normal();
   for (double& counts_per_m : counts_per_m_) {
-    counts_per_m = robot.counts_per_m * (1 + noise.wheel_scale_sigma * scale.normal());
+    counts_per_m = robot.counts_per_m * (1 + noise.wheel_scale_sigma * scale.normal() + both);
   }
 }
 

@@ -10,8 +10,9 @@
 namespace whisker::sim {
 
 /// counts = floor((distance + drift) * counts_per_m * (1 + scale error)) modulo 2^24 for each wheel. The
-/// scale errors are drawn once. The drift is a random walk, opposite on the two wheels: the odometry heading
-/// gains an error of standard deviation drift * sqrt(path), while the body itself does not move.
+/// scale error of a wheel is its own plus one common to both; they are drawn once. The drift is a random
+/// walk, opposite on the two wheels: the odometry heading gains an error of standard deviation drift *
+/// sqrt(path), while the body itself does not move.
 class Encoders {
  public:
   Encoders(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed);

@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kPressGap = 4 * kContactGap;  // a touch is reported within 3 of it
 
-double size_of(double x) { return x < 0 ? -x : x; }
 double larger(double a, double b) { return a > b ? a : b; }
 double seconds(int64_t us) { return static_cast<double>(us) * 1e-6; }
 
@@ -35,6 +34,10 @@ Plant::Plant(const WorldView& world, const RobotSpec& robot, const NoiseSpec& no
       step_us_(period_us_ % 2000 == 0 ? 2000 : 1000),
       wheel_(robot.motor_lag, robot.max_acceleration, seconds(step_us_)),
       encoders_(robot, noise, seed),
+      slip_{{robot, noise, seed, 0}, {robot, noise, seed, 1}},
+      gyro_(robot, noise, seed),
+      has_gyro_(robot.gyro),
+      gyro_dies_(robot.gyro_dies_s),
       sensors_(robot, noise, seed),
       pose_(start) {
   min_clearance_ = __builtin_huge_val();
@@ -62,10 +65,12 @@ void Plant::advance() {
     if (!contact_) {
       const WheelStep left = wheel_.step(v_left_, target_left_);
       const WheelStep right = wheel_.step(v_right_, target_right_);
+      const double ground_left = slip_[0].ground(v_left_, left, step_s);
+      const double ground_right = slip_[1].ground(v_right_, right, step_s);
       v_left_ = left.speed;
       v_right_ = right.speed;
-      arc.length = 0.5 * (left.distance + right.distance);
-      arc.turn = (right.distance - left.distance) / track_;
+      arc.length = 0.5 * (ground_left + ground_right);
+      arc.turn = (ground_right - ground_left) / track_;
       if (near) {
         const Sweep free = sweep(*world_, arc, time(), step_s, radius_, gap, min_clearance_);
         gap = free.clearance;
@@ -78,6 +83,7 @@ void Plant::advance() {
       path_length_ += size_of(arc.length) * free_fraction;
       pose_ = along(arc, free_fraction);
     }
+    if (has_gyro_) gyro_.turn(arc.turn * free_fraction, now_us_, now_us_ + step_us_);
     sense(arc, free_fraction);
   }
   encoders_.roll(rolled_left, rolled_right, path_length_ - path_before);

@@ -7,8 +7,10 @@
 #include "hal/types.hpp"
 #include "host/sim/encoders.hpp"
 #include "host/sim/geometry.hpp"
+#include "host/sim/gyro.hpp"
 #include "host/sim/motion.hpp"
 #include "host/sim/range_sensors.hpp"
+#include "host/sim/slip.hpp"
 #include "host/sim/spec.hpp"
 #include "host/sim/wheel.hpp"
 #include "host/sim/world.hpp"
@@ -32,6 +34,9 @@ class Plant {
   hal::EncoderCounts encoders() const { return encoders_.counts(); }
   /// All open without a bumper.
   hal::BumperReading bumper() const { return {pressed_}; }
+  hal::GyroReading gyro() const { return gyro_.read(now_us_); }
+  /// False without a gyro, and after its death.
+  bool gyro_answers() const { return has_gyro_ && time() < gyro_dies_; }
 
   /// True values, SI units.
   Pose pose() const { return pose_; }
@@ -66,6 +71,10 @@ class Plant {
   int64_t step_us_;
   WheelModel wheel_;
   Encoders encoders_;
+  WheelSlip slip_[2];
+  Gyro gyro_;
+  bool has_gyro_;
+  double gyro_dies_;
   RangeSensors sensors_;
 
   int64_t now_us_ = 0;

@@ -8,6 +8,7 @@ namespace {
 double si(Length x) { return x.raw() / 1e6; }
 double si(Speed x) { return x.raw() / 1e6; }
 double si(Acceleration x) { return x.raw() / 1e6; }
+double si(AngularRate x) { return x.raw() / 1e6; }
 double si(Duration x) { return x.raw() / 1e3; }
 double si(Angle x) { return x.wrapped() * (kPi * 0x1p-31); }
 
@@ -37,6 +38,9 @@ RobotSpec robot_spec(const Params& params) {
   spec.rate_hz = params.rangefinders.rate_hz;
   spec.latency_s = si(params.rangefinders.latency);
   spec.bumper = params.bumper.fitted == Fitted::yes;
+  spec.gyro = params.gyro.fitted == Fitted::yes;
+  spec.gyro_range = si(params.gyro.range);
+  spec.gyro_rate_hz = params.gyro.rate_hz;
   spec.period_s = si(params.safety.period);
   return spec;
 }

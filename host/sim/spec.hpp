@@ -50,6 +50,12 @@ struct RobotSpec {
   bool bumper = false;       ///< bump switches at the front half
   double press_speed = 0.1;  ///< m/s, of the body's centre; a faster touch is a contact all the same
 
+  bool gyro = false;             ///< a yaw-rate gyro is fitted
+  double gyro_range = 8.72665;   ///< rad/s, rate of a sample of 32768: 500 deg/s
+  double gyro_rate_hz = 100;     ///< samples a second; > 0
+  double gyro_latency_s = 0.01;  ///< from the end of a sample to its arrival; rate * latency <= 30
+  double gyro_dies_s = __builtin_huge_val();  ///< from then on it does not answer
+
   double period_s = 0.01;  ///< control period; rounded to a whole number of milliseconds, at least 1
 };
 
@@ -61,6 +67,15 @@ struct NoiseSpec {
   double wheel_scale_sigma = 0;  ///< relative error of each wheel's encoder, drawn once per run
   double heading_drift_rad_per_sqrt_m =
       0;  ///< error of the odometry heading after 1 m; grows with the square root
+  double wheel_scale_common_sigma = 0;  ///< the same error of both encoders, drawn once per run
+  double wheel_slip = 0;  ///< mean share of a wheel's travel that is lost while it speeds up; at most 0.5
+  double gyro_bias_radps = 0;           ///< standard deviation of the bias, drawn once per run
+  double gyro_warm_up_radps = 0;        ///< of the change of the bias over kWarmUp, drawn once per run
+  double gyro_walk_rad_per_sqrt_s = 0;  ///< angle random walk
+  double gyro_scale_sigma = 0;          ///< relative error of the rate, drawn once per run
+  double fix_every_m = 0;               ///< path between two fixes of the pose from outside; 0: none
+  double fix_sigma_m = 0;               ///< standard deviation of each coordinate of a fix
+  double fix_sigma_rad = 0;
 };
 
 /// The robot that the core's parameters describe.

@@ -8,6 +8,14 @@ namespace whisker::sim {
 
 constexpr uint32_t kStreamWheelScale = 0;
 constexpr uint32_t kStreamDrift = 1;
+constexpr uint32_t kStreamWheelScaleCommon = 2;
+// One per wheel: add 0 for the left and 1 for the right one.
+constexpr uint32_t kStreamWheelSlip = 3;
+constexpr uint32_t kStreamGyroBias = 5;
+constexpr uint32_t kStreamGyroScale = 6;
+constexpr uint32_t kStreamGyroWalk = 7;
+constexpr uint32_t kStreamGyroWarmUp = 8;
+constexpr uint32_t kStreamFix = 9;
 // One of each per beam: add hal::Beam.
 constexpr uint32_t kStreamRangeNoise = 16;
 constexpr uint32_t kStreamDropout = 32;

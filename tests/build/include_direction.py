@@ -17,7 +17,7 @@ HAL_OF_STAGE = {
     "perception": {"hal/types.hpp"},
     "control": {"hal/types.hpp", "hal/drive.hpp"},
     "can": {"hal/types.hpp", "hal/can_port.hpp"},
-    "robot": {"hal/types.hpp", "hal/rangefinders.hpp", "hal/drive.hpp", "hal/bumper.hpp"},
+    "robot": {"hal/types.hpp", "hal/rangefinders.hpp", "hal/drive.hpp", "hal/bumper.hpp", "hal/gyro.hpp"},
 }
 
 FREESTANDING = {"stdint.h", "stddef.h"}

@@ -183,6 +183,7 @@ std::vector<hal::CanFrame> golden_frames() {
       encode(ParamRequest{ParamAction::write, 4, 0xFFFFFFFF}, 9, 14),
       encode(ParamReply{ParamStatus::out_of_range, 4, 50000}, 1, 0),
       encode(RangeTrustReport{RangeLevel::doubtful, 896, 64, 128, 47}, 1, 5),
+      encode(PoseSigmaReport{2, 87, 1234, 546}, 1, 6),
       encode(beat, 9, 1),
       encode(Info{InfoPart::table_hash, 0xABCD, 0x12345678}, 1, 2),
       encode(Info{InfoPart::version, 0xABCD, 0x010203}, 9, 3),

@@ -724,6 +724,27 @@ TEST_F(ControllerAlone, PublishesItsTrustEvery50TicksAtEveryChangeAndAtTheEnd) {
   EXPECT_EQ(last.level, RangeLevel::doubtful);
 }
 
+TEST_F(ControllerAlone, PublishesItsSigmaEvery50TicksAndAtTheEnd) {
+  start();
+  peer_.forget();
+  for (int i = 0; i < 100; ++i) {
+    pass(10);
+    node_.publish_sigma({}, false);
+  }
+  peer_.poll(now_);
+  EXPECT_NEAR(peer_.heard<PoseSigmaReport>(), 2, 1);
+  peer_.forget();
+  while (tick_ % 50 != 7) pass(10);
+  node_.publish_sigma({2, 10, 20, 30}, false);
+  node_.publish_sigma({2, 10, 20, 30}, true);
+  node_.poll(now_);
+  peer_.poll(now_);
+  EXPECT_EQ(peer_.heard<PoseSigmaReport>(), 1);
+  PoseSigmaReport last;
+  ASSERT_TRUE(peer_.last(last));
+  EXPECT_EQ(last.across, 20);
+}
+
 TEST_F(ControllerAlone, InLockstepTheSameSetGetsTheSameAnswer) {
   sync_mode_ = SyncMode::lockstep;
   start();

@@ -85,12 +85,12 @@ class RobotCheck(Case):
 
     def test_the_named_layouts_do_as_the_manual_says(self):
         kinds = {}
-        for name in ("reference", "layout-45", "layout-40", "layout-45-true-38", "hc-sr04", "vl53l1x"):
+        for name in ("reference", "layout-45", "layout-40", "layout-45-true-38", "hc-sr04", "vl53l1x", "gyro"):
             done = check(ROOT / f"host/robots/{name}.toml", "--json")
             self.assertEqual(done.returncode, 0, done.stdout)
             kinds[name] = [w["kind"] for w in json.loads(done.stdout)["warnings"]]
         self.assertEqual(kinds, {"reference": [], "layout-45": [], "layout-40": [], "layout-45-true-38": ["invisible_walls"],
-                                 "hc-sr04": ["unseen_strip"], "vl53l1x": []})  # fmt: skip
+                                 "hc-sr04": ["unseen_strip"], "vl53l1x": [], "gyro": []})  # fmt: skip
 
     def test_files_that_are_none(self):
         self.refused("robot", says="robot")
@@ -131,7 +131,7 @@ class Header(Case):
         wanted = []
         for key, unit, default, _ in rows:
             key = key.strip("`")
-            if key in ("bumper", "creep_speed_mps"):  # a switch that is no number; nothing without it
+            if key in ("bumper", "creep_speed_mps", "gyro"):  # switches that are no numbers; nothing without them
                 continue
             other = {"integer": lambda: int(default) + 1, "one of": lambda: {"agreeing": '"median"', "front": '"mean"'}[default.strip('"')]}
             value = other.get(unit, lambda: round(float(default) * 1.05, 4) or 0.02)()

@@ -15,6 +15,8 @@ KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
 ORIGIN = ("schema", "version", "seed", "planner", "robot_name", "robot_digest")
 # What the robot noticed of its rangefinders; a bus carries them in coarser steps.
 RANGE_TRUST = ("range_trust", "contradictions_per_m", "phantom_share", "false_clear_share", "incidence_seen_deg")
+# How far the pose may be off, in whole millimetres on a bus.
+BOUND = ("bound_m", "sigma_along_m", "sigma_across_m", "sigma_heading_deg")
 STATUS = {"reached": 0, "unreachable": 3, "gave_up": 4, "contact": 5, "fault": 6, "off_goal": 7}
 
 binary = ""

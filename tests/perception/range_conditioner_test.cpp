@@ -307,6 +307,35 @@ TEST_F(PhantomTest, ALoneFalseClearAfterTwoEchoesClearsNothing) {
   EXPECT_FALSE(sight().fresh);
 }
 
+/// Three of ten readings miss the object; the beam has learnt that.
+class MissTest : public BeamTest {
+ protected:
+  MissTest() {
+    for (int i = 0; i < 500; ++i) see_object();
+  }
+  void see_object() {
+    if (std::bernoulli_distribution{0.3}(random_)) {
+      miss();
+    } else {
+      see(400);
+    }
+  }
+  void miss() { see(RangeStatus::clear, 0); }
+  RecentReadings sight() const { return beam_.sight(params_); }
+
+  std::mt19937 random_{1};
+};
+
+TEST_F(MissTest, ALoneEchoOfFiveIsNotOutvoted) {
+  ASSERT_TRUE(sight().misses);
+  see(400);
+  for (int i = 0; i < 4; ++i) miss();
+  EXPECT_TRUE(!sight().fresh || sight().near.distance <= 400_mm);
+  miss();
+  EXPECT_TRUE(sight().fresh);
+  EXPECT_EQ(sight().near.validity, Validity::clear);
+}
+
 TEST(RangeConditioner, IsAsLostAsItsWorstBeam) {
   Params params;
   Health health;

@@ -30,6 +30,9 @@ class Revocation : public testing::Test {
   void clear(Angle from, Angle to) {
     for (Angle axis = from; (to - axis).wrapped() >= 0; axis += 2_deg) grid_.mark(beam_at(axis, 2_m, false));
   }
+  void revoke(Angle axis, Length nearest, Length farthest) {
+    grid_.revoke(beam_at(axis, nearest, true).beam, nearest, farthest);
+  }
   bool clear_at(Length x, Length y) const { return grid_.is_clear({x, y}); }
 
   const Params params_;
@@ -39,7 +42,7 @@ class Revocation : public testing::Test {
 TEST_F(Revocation, AnEchoFromClearGroundTakesItBack) {
   clear(-(40_deg), 40_deg);
   ASSERT_TRUE(clear_at(205_mm, 0_mm));
-  grid_.revoke(beam_at(0_deg, 200_mm, true));
+  revoke(0_deg, 200_mm, 200_mm);
   EXPECT_FALSE(clear_at(205_mm, 0_mm));
   EXPECT_FALSE(clear_at(200_mm, 30_mm));
   EXPECT_FALSE(clear_at(200_mm, -(30_mm)));
@@ -53,43 +56,63 @@ TEST_F(Revocation, AnEchoThatUnclearGroundExplainsTakesNothingBack) {
   clear(-(40_deg), -(12_deg));
   ASSERT_TRUE(clear_at(200_mm, -(30_mm)));
   ASSERT_FALSE(clear_at(200_mm, 30_mm));
-  grid_.revoke(beam_at(0_deg, 200_mm, true));
+  revoke(0_deg, 200_mm, 200_mm);
   EXPECT_TRUE(clear_at(200_mm, -(30_mm)));
+}
+
+TEST_F(Revocation, TheScatterOfAnEchoReachesUnclearGroundThatExplainsIt) {
+  clear(-(40_deg), 40_deg);
+  LocalGrid all_clear = grid_;
+  revoke(0_deg, 200_mm, 200_mm);
+  ASSERT_TRUE(clear_at(170_mm, 0_mm));
+  revoke(0_deg, 160_mm, 200_mm);
+  EXPECT_TRUE(clear_at(170_mm, 0_mm));
+  all_clear.revoke(beam_at(0_deg, 160_mm, true).beam, 160_mm, 200_mm);
+  EXPECT_FALSE(all_clear.is_clear({170_mm, 0_mm}));
+}
+
+TEST_F(Revocation, AllGroundThatScatteringEchoesMayComeFromIsTakenBack) {
+  clear(-(40_deg), 40_deg);
+  revoke(0_deg, 180_mm, 220_mm);
+  EXPECT_FALSE(clear_at(190_mm, 0_mm));
+  EXPECT_FALSE(clear_at(225_mm, 0_mm));
+  EXPECT_TRUE(clear_at(150_mm, 0_mm));
+  EXPECT_TRUE(clear_at(270_mm, 0_mm));
 }
 
 TEST_F(Revocation, GroundOutsideTheWindowExplainsAnEcho) {
   clear(-(40_deg), 40_deg);
   ASSERT_TRUE(clear_at(370_mm, 0_mm));
   ASSERT_FALSE(clear_at(390_mm, 0_mm)) << "the window ends at 380 mm";
-  grid_.revoke(beam_at(0_deg, 365_mm, true));
+  revoke(0_deg, 365_mm, 365_mm);
   EXPECT_TRUE(clear_at(370_mm, 0_mm));
 }
 
 TEST_F(Revocation, TheSecondEchoIsExplainedByTheFirst) {
   clear(-(40_deg), 40_deg);
-  grid_.revoke(beam_at(0_deg, 200_mm, true));
-  grid_.revoke(beam_at(6_deg, 200_mm, true));
+  revoke(0_deg, 200_mm, 200_mm);
+  revoke(6_deg, 200_mm, 200_mm);
   EXPECT_TRUE(clear_at(190_mm, 62_mm)) << "in the second cone only";
 }
 
 TEST_F(Revocation, AnEchoThatAppearsAtASideTakesBackTheArcBesideItsCone) {
-  const auto taken = [&](hal::Beam number, bool appears) {
+  const auto taken = [&](hal::Beam number, Length distance) {
     LocalGrid grid = grid_;
-    ConeObservation echo = beam_at(30_deg, 150_mm, true);
+    ConeObservation echo = beam_at(30_deg, distance, true);
     echo.number = static_cast<int8_t>(number);
-    grid.revoke(echo, appears);
+    grid.revoke_beside(echo);
     return !grid.is_clear({65_mm, 140_mm});  // at 65 degrees
   };
   for (Angle axis = -(40_deg); (80_deg - axis).wrapped() >= 0; axis += 2_deg)
     grid_.mark(beam_at(axis, 2_m, false));
-  EXPECT_TRUE(taken(hal::kLeft, true));
-  EXPECT_FALSE(taken(hal::kLeft, false)) << "it was there before";
-  EXPECT_FALSE(taken(hal::kFront, true));
+  EXPECT_TRUE(taken(hal::kLeft, 150_mm));
+  EXPECT_FALSE(taken(hal::kLeft, 190_mm)) << "farther than two radii";
+  EXPECT_FALSE(taken(hal::kFront, 150_mm));
 }
 
 TEST_F(Revocation, TheGroundUnderTheBodyStaysClear) {
   clear(-(40_deg), 40_deg);
-  grid_.revoke(beam_at(0_deg, 40_mm, true));
+  revoke(0_deg, 40_mm, 40_mm);
   EXPECT_TRUE(clear_at(50_mm, 0_mm));
 }
 

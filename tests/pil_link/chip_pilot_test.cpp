@@ -35,20 +35,20 @@ TEST(ChipPilot, NamesWhatIsWrong) {
   EXPECT_EQ(complaint("exit 3"), "exit 3: the chip has ended");
   EXPECT_EQ(complaint("no_such_command 2>&-"), "no_such_command 2>&-: the chip has ended");
   EXPECT_EQ(complaint("yes"), "yes: speaks another version");
-  EXPECT_EQ(complaint("printf '\\003\\000\\000\\010'"), "printf '\\003\\000\\000\\010': the chip has ended")
+  EXPECT_EQ(complaint("printf '\\004\\000\\000\\010'"), "printf '\\004\\000\\000\\010': the chip has ended")
       << "after its greeting";
 }
 
 TEST(ChipPilot, RefusesAMapThatTheChipHasNoRoomFor) {
   // Reads the greeting before it ends; otherwise the host may find the pipe closed.
-  const std::string chip = "head -c 1 >/dev/null; printf '\\003\\000\\000\\010'";
+  const std::string chip = "head -c 1 >/dev/null; printf '\\004\\000\\000\\010'";
   EXPECT_EQ(complaint(chip, PlannerKind::map), chip + ": the chip has ended") << "2048 bytes are room enough";
   EXPECT_EQ(complaint(chip, core_planner("map", 4096)),
             "no room: " + chip + ": has room for 2048 bytes of map, not 4096");
 }
 
 TEST(ChipPilot, RefusesAPlannerThatNoChipHas) {
-  const std::string chip = "head -c 1 >/dev/null; printf '\\003\\000\\000\\010'; cat >/dev/null";
+  const std::string chip = "head -c 1 >/dev/null; printf '\\004\\000\\000\\010'; cat >/dev/null";
   for (const PlannerKind kind : planners()) {
     if (!is_baseline(kind)) continue;
     EXPECT_EQ(complaint(chip, kind), "no such planner: " + name(kind) + ": no chip has this planner");
@@ -56,7 +56,7 @@ TEST(ChipPilot, RefusesAPlannerThatNoChipHas) {
 }
 
 TEST(ChipPilot, RefusesAnswersThatMakeNoSense) {
-  EXPECT_EQ(complaint("printf '\\003\\000\\000\\010'; yes"), "the chip's answer makes no sense");
+  EXPECT_EQ(complaint("printf '\\004\\000\\000\\010'; yes"), "the chip's answer makes no sense");
 }
 
 TEST(ChipPilot, DrivesAsTheCoreInThisProcess) {

@@ -27,7 +27,34 @@ TEST(ResultJson, is_the_object_of_the_contract_on_one_line) {
       result_json(sample()),
       R"({"outcome":"reached","time_s":48.2,"path_m":0.3,"final_distance_m":0.098765,)"
       R"("believed_distance_m":0.05,"min_clearance_m":0.031,"ticks":4820,"hash":"0000000000000abc","detail":"","bumps":null,)"
-      R"("range_trust":null,"contradictions_per_m":null,"phantom_share":null,"false_clear_share":null,"incidence_seen_deg":null})");
+      R"("range_trust":null,"contradictions_per_m":null,"phantom_share":null,"false_clear_share":null,"incidence_seen_deg":null,)"
+      R"("bound_m":null,"sigma_along_m":null,"sigma_across_m":null,"sigma_heading_deg":null})");
+}
+
+TEST(ResultJson, has_the_bound_of_the_pose) {
+  RunResult r = sample();
+  r.sigma = localization::PoseSigma{millimetres(30), millimetres(40), Angle::turns(1, 360)};
+  const auto json = nlohmann::json::parse(result_json(r));
+  EXPECT_EQ(json["bound_m"], 0.1);
+  EXPECT_EQ(json["sigma_along_m"], 0.03);
+  EXPECT_EQ(json["sigma_across_m"], 0.04);
+  EXPECT_EQ(json["sigma_heading_deg"], 1.0);
+}
+
+TEST(VerdictWords, say_how_sure_the_robot_is_of_its_place) {
+  RunResult r = sample();
+  r.sigma = localization::PoseSigma{millimetres(30), millimetres(40), Angle{}};
+  r.goal_tolerance_m = 0.1;
+  EXPECT_EQ(bound_words(r), ", within 0.10 m (2 sigma)");
+  EXPECT_NE(verdict_words(r).find(bound_words(r)), std::string::npos);
+  r.goal_tolerance_m = 0.05;
+  EXPECT_EQ(bound_words(r), ", within 0.10 m (2 sigma), more than the tolerance of 0.05 m");
+  r.verdict = Verdict::off_goal;
+  EXPECT_EQ(bound_words(r), ", within 0.10 m (2 sigma), more than the tolerance of 0.05 m");
+  r.verdict = Verdict::gave_up;
+  EXPECT_EQ(bound_words(r), "");
+  r = sample();
+  EXPECT_EQ(bound_words(r), "");
 }
 
 TEST(ResultJson, names_each_outcome) {

@@ -91,6 +91,11 @@ TEST(Params, EveryRelationIsChecked) {
          p.safety.stalled_after = 4000_ms;
        }},
       {ParamFault::creep_without_bumper, [](Params& p) { p.bumper.creep_speed = 50_mm_per_s; }},
+      {ParamFault::gyro_unfit,
+       [](Params& p) {
+         p.gyro.fitted = Fitted::yes;
+         p.gyro.range = 3749_mrad_per_s;
+       }},
       {ParamFault::beams_crossed,
        [](Params& p) { p.rangefinders.beams[hal::kFront].angle = direction_of(31_deg); }},
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 200_mm; }},

@@ -28,11 +28,12 @@ struct Torment {
   int worlds = 0;
 };
 
-Torment torment(std::uint64_t seed, int count, bool noise) {
+Torment torment(std::uint64_t seed, int count, bool noise, Length margin = Params{}.skirt.shield_margin) {
   Torment nearest;
   for (int i = 0; i < count; ++i) {
     Random random(seed + static_cast<std::uint64_t>(i));
-    const Scenario scenario = thick_of_it(random, noise);
+    Scenario scenario = thick_of_it(random, noise);
+    scenario.robot.skirt.shield_margin = margin;
     Adversary adversary(random.bits());
     Rig rig(scenario, &adversary);
     while (rig.plant().time() < kMission_s && rig.step()) {
@@ -71,7 +72,8 @@ TEST_P(GuardAgainst, AnAdversaryThatAsksForEveryManoeuvre) {
 INSTANTIATE_TEST_SUITE_P(Part, GuardAgainst, testing::Combine(testing::Range(0, kParts), testing::Bool()));
 
 RC_GTEST_PROP(Guard, NeverTouchesFromAnySeed, (std::uint64_t seed, bool noise)) {
-  const Torment n = torment(seed, 1, noise);
+  const auto margin = micrometres(*rc::gen::inRange(0, Params{}.skirt.planning_margin.raw() + 1));
+  const Torment n = torment(seed, 1, noise, margin);
   RC_ASSERT(n.gap > 0);
   RC_ASSERT(n.beside > 0);
 }

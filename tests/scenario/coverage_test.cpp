@@ -28,6 +28,19 @@ TEST(Walls, TheReferenceRobotNeedsSensorsThatSeeThemUpTo47Degrees) {
   EXPECT_EQ(seen_incidence_deg({}, {}), 90);
 }
 
+TEST(Walls, AConeCountsAsWideAsItIsWhereReadingsClearGround) {
+  Params params;
+  params.rangefinders.cone = 40_deg;
+  Sensor sensor;
+  sensor.cone_deg = 40;
+  sensor.cone_far_deg = 20;
+  sensor.max_range_m = 4;
+  params.rangefinders.clear_range = 1_m;
+  EXPECT_NEAR(outer_edge_deg(params, sensor, true), 30 + 35 / 2.0, 1e-6);
+  params.rangefinders.cone = 30_deg;
+  EXPECT_NEAR(outer_edge_deg(params, sensor, true), 30 + 15, 1e-6) << "believed to be narrower";
+}
+
 TEST(Walls, TheSideThatReachesLessFarCounts) {
   const Params p =
       robot("range_left_angle_deg = 50\nrange_right_angle_deg = -40\nrange_right_cone_deg = 10\n");

@@ -47,6 +47,15 @@ TEST(Scenario, TakesEveryKeyFromItsFile) {
   EXPECT_EQ(s.noise.range_false_clear, 0.01);
   EXPECT_EQ(s.noise.wheel_scale_sigma, 0.005);
   EXPECT_EQ(s.noise.heading_drift_deg_per_sqrt_m, 0.3);
+  EXPECT_EQ(s.noise.wheel_scale_common_sigma, 0.001);
+  EXPECT_EQ(s.noise.wheel_slip, 0.05);
+  EXPECT_EQ(s.noise.gyro_bias_dps, 1);
+  EXPECT_EQ(s.noise.gyro_warm_up_dps, 0.1);
+  EXPECT_EQ(s.noise.gyro_walk_deg_per_sqrt_h, 0.4);
+  EXPECT_EQ(s.noise.gyro_scale_sigma, 0.01);
+  EXPECT_EQ(s.noise.fix_every_m, 2);
+  EXPECT_EQ(s.noise.fix_sigma_m, 0.03);
+  EXPECT_EQ(s.noise.fix_sigma_deg, 1);
   EXPECT_EQ(s.robot.body.radius, 80_mm);
   EXPECT_EQ(s.robot.rangefinders.cone, 20_deg);
   EXPECT_EQ(s.robot.wheels.motor_lag, 30_ms);

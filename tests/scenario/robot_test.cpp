@@ -139,6 +139,20 @@ TEST(RobotFile, ThatSetsAParameterTwiceIsRefused) {
             file.path() + ":3:15: 'range_max_m' is set both at the top level and in [robot]");
 }
 
+TEST(RobotFile, SetsTheNoiseThatItHasAndKeepsTheOthers) {
+  const TemporaryFile file("body_radius_m = 0.08\n[noise]\ngyro_bias_dps = 1.5\nwheel_slip = 0\n");
+  Scenario s;
+  s.goal.at = {1, 0};
+  s.noise.wheel_slip = 0.1;
+  s.noise.range_sigma_m = 0.02;
+  apply_robot_file(s, file.path());
+  EXPECT_EQ(s.noise.gyro_bias_dps, 1.5);
+  EXPECT_EQ(s.noise.wheel_slip, 0);
+  EXPECT_EQ(s.noise.range_sigma_m, 0.02);
+  const TemporaryFile bad("[noise]\ngyro_bias = 1\n");
+  EXPECT_THAT(message_of<InputError>([&] { apply_robot_file(s, bad.path()); }), HasSubstr("gyro_bias_dps"));
+}
+
 TEST(RobotFile, SaysWithABooleanThatABumperIsFitted) {
   for (const bool is : {false, true}) {
     const TemporaryFile file(is ? "bumper = true\n" : "bumper = false\n");

@@ -61,6 +61,29 @@ TEST(Encoders, ScaleErrorsHaveTheirMeanAndSigmaAndAreIndependent) {
   EXPECT_NEAR(product / kRuns, 0, 4 * kSigma * kSigma / std::sqrt(double{kRuns}));
 }
 
+TEST(Encoders, ACommonScaleErrorIsTheSameOnBothWheelsAndLeavesTheirOwn) {
+  NoiseSpec own, common, both;
+  own.wheel_scale_sigma = both.wheel_scale_sigma = 0.01;
+  common.wheel_scale_common_sigma = both.wheel_scale_common_sigma = 0.02;
+  constexpr int kRuns = 2000;
+  double squares = 0;
+  for (int seed = 0; seed < kRuns; ++seed) {
+    double error[3][2] = {};
+    int i = 0;
+    for (const NoiseSpec& noise : {own, common, both}) {
+      Encoders encoders(with_counts(1e6), noise, static_cast<std::uint64_t>(seed));
+      encoders.roll(1, 1, 1);
+      error[i][0] = encoders.counts().left / 1e6 - 1;
+      error[i++][1] = encoders.counts().right / 1e6 - 1;
+    }
+    ASSERT_EQ(error[1][0], error[1][1]);
+    ASSERT_NEAR(error[2][0], error[0][0] + error[1][0], 2e-6);
+    ASSERT_NEAR(error[2][1], error[0][1] + error[1][1], 2e-6);
+    squares += error[1][0] * error[1][0];
+  }
+  EXPECT_NEAR(std::sqrt(squares / kRuns), 0.02, 4 * 0.02 / std::sqrt(2.0 * kRuns));  // seeds 0 to 1999
+}
+
 TEST(Encoders, DriftTurnsTheOdometryByTheRootOfThePath) {
   constexpr int kRuns = 4000;
   constexpr double kDrift = 0.01;

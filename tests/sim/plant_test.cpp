@@ -134,6 +134,53 @@ TEST(Plant, HeadingDriftMovesTheOdometryAndNotTheBody) {
   EXPECT_NE(drifting.encoders().right, exact.encoders().right);
 }
 
+TEST(Plant, WheelsSlipOnlyWhileTheySpeedUp) {
+  const WorldView nothing;
+  NoiseSpec noise;
+  noise.wheel_slip = 0.2;
+  double lost = 0, turned = 0;
+  constexpr int kRuns = 200;
+  for (std::uint64_t seed = 0; seed < kRuns; ++seed) {
+    Plant slipping(nothing, {}, noise, seed, {}), firm(nothing, {}, {}, seed, {});
+    for (Plant* plant : {&slipping, &firm}) {
+      plant->command({3000, 3000});
+      run(*plant, 100);
+    }
+    EXPECT_EQ(slipping.encoders().left, firm.encoders().left);
+    const double after_start = firm.path_length() - slipping.path_length();
+    EXPECT_GE(after_start, 0);
+    lost += after_start;
+    turned += std::fabs(slipping.pose().heading);
+    for (Plant* plant : {&slipping, &firm}) {
+      run(*plant, 100);
+      plant->command({0, 0});
+      run(*plant, 100);
+    }
+    EXPECT_NEAR(firm.path_length() - slipping.path_length(), after_start, 1e-9) << "cruising and braking";
+  }
+  // The wheels roll about 44 mm until their growth falls below a twentieth of the limit; a fifth is lost.
+  EXPECT_NEAR(lost / kRuns, 0.2 * 0.070, 0.2 * 0.015);
+  EXPECT_GT(turned / kRuns, 0.03) << "each wheel slips on its own";
+}
+
+TEST(Plant, AGyroTurnsWithTheBodyUntilItDies) {
+  const WorldView nothing;
+  RobotSpec robot;
+  EXPECT_FALSE(Plant(nothing, robot, {}, 1, {}).gyro_answers());
+  robot.gyro = true;
+  robot.gyro_dies_s = 3;
+  Plant plant(nothing, robot, {}, 1, {});
+  plant.command({-500, 700});
+  run(plant, 200);
+  plant.command({0, 0});
+  run(plant, 50);
+  ASSERT_TRUE(plant.gyro_answers());
+  EXPECT_NEAR(static_cast<int32_t>(plant.gyro().sum) * (robot.gyro_range / 32768) * 0.01,
+              plant.pose().heading, 2e-4);
+  run(plant, 50);
+  EXPECT_FALSE(plant.gyro_answers());
+}
+
 TEST(Plant, FreezesWhereItTouchesAWall) {
   const Segment wall{{0.5, -1}, {0.5, 1}};
   const WorldView world{nullptr, 0, &wall, 1, nullptr, 0};

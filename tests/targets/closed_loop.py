@@ -11,6 +11,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from whisker import RANGE_TRUST
+
 # (argument of --chip, scenario, planner with its options)
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
 SHORT = "host/worlds/scenarios/two_discs.toml"
@@ -33,17 +36,13 @@ REFUSALS = (
 )
 
 
-# A chip does not send what it noticed of its rangefinders.
-NOT_TOLD = ("range_trust", "contradictions_per_m", "phantom_share", "false_clear_share", "incidence_seen_deg")
-
-
 def drive(whisker, scenario, planner, trace, chip=None):
     command = [whisker, "run", scenario, "--planner", *planner.split(), "--trace", trace, "--json"]
     done = subprocess.run(command + (["--chip", chip] if chip else []), capture_output=True, text=True, check=False)
     if done.returncode:
         raise RuntimeError(f"exit status {done.returncode}: {done.stderr}{done.stdout}")
     result = json.loads(done.stdout)
-    for key in NOT_TOLD:
+    for key in RANGE_TRUST:  # a chip does not send what it noticed of its rangefinders
         del result[key]
     return result, told(pathlib.Path(trace).read_text().splitlines())
 

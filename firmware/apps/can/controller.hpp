@@ -25,8 +25,9 @@ class Controller {
     can::InputSet set;
     if (!pilot_.ready() || !node_.take_set(set)) return false;
     status_ = pilot_.step(set, node_.braked());
-    node_.publish_trust(trust_report(status_.health.ranges),
-                        status_.decision.outcome != planning::Outcome::running);
+    const bool ends = status_.decision.outcome != planning::Outcome::running;
+    node_.publish_trust(trust_report(status_.health.ranges), ends);
+    if (status_.sigma_known) node_.publish_sigma(sigma_report(status_), ends);
     node_.answer(status_.command, nav_status(status_));
     const bool failed = status_.health.fault != Fault::none;
     node_.report(failed ? uint16_t{can::Error::core_fault} : uint16_t{0},

@@ -44,5 +44,6 @@ class RemoteRobot {
 /// The bus message of a tick; the node sets its tick.
 can::NavStatus nav_status(const Status& status) noexcept;
 can::RangeTrustReport trust_report(const RangeTrust& trust) noexcept;
+can::PoseSigmaReport sigma_report(const Status& status) noexcept;
 
 }  // namespace whisker::can_app

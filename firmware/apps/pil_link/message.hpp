@@ -40,7 +40,7 @@ enum class Name : uint8_t {
   end = 'E',
 };
 
-constexpr uint8_t kVersion = 3;
+constexpr uint8_t kVersion = 4;
 
 /// each(m, f) of a message calls f(name, field) for its fields, in byte order; M may be const.
 struct Greeting {

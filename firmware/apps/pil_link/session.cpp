@@ -18,7 +18,7 @@ uint32_t failures(const Health& h) noexcept {
   return h.range_refused + h.range_invalid + h.range_stale + h.range_stuck + h.range_out_of_range +
          h.drive_refused + h.encoder_refused + h.encoder_jumps + h.wheel_stalls + h.unsteady_looks +
          h.no_progress + h.pose_out_of_range + h.wheel_runaways + h.late_ticks + h.clock_jumps +
-         h.bumper_refused + h.bumper_stuck;
+         h.bumper_refused + h.bumper_stuck + (kGyroBuilt ? h.gyro_lost + h.gyro_saturated : 0);
 }
 
 Answer answer_of(const Status& status) noexcept {

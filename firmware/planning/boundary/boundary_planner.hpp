@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-#include "firmware/member_if.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/lane.hpp"
 #include "firmware/planning/boundary/approach.hpp"
 #include "firmware/planning/boundary/behaviours.hpp"
@@ -139,8 +139,8 @@ class BoundaryPlanner final : public GoalPlanner {
   Behaviours behaviours_;
   Approach approach_;
   BoundaryFollower follower_;
-  MemberIf<GapPassage, perception::kNarrowGaps> passage_;
-  MemberIf<SlitSearch, perception::kNarrowGaps> slits_;
+  Part<GapPassage, perception::kNarrowGaps> passage_;
+  Part<SlitSearch, perception::kNarrowGaps> slits_;
   Survey survey_;
   Evasion evasion_;
   FollowSideSearch side_search_;

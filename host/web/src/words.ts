@@ -65,6 +65,7 @@ export const BECAUSE: Record<string, string> = {
   fault: 'something failed',
   goal_out_of_range: 'the goal is farther out than 1,000 m',
   bumped: 'a bump switch was pressed, so it backs off',
+  gyro_rest: 'the bias of its gyro is due to be measured, so it stands',
 };
 
 const OUTCOMES: Record<string, string> = {

@@ -24,6 +24,8 @@ NOISE = {
     "range_false_clear": 0.0,
     "wheel_scale_sigma": 0.0,
     "heading_drift_deg_per_sqrt_m": 0.0,
+    "wheel_scale_common_sigma": 0.0,
+    "wheel_slip": 0.0,
 }
 
 
@@ -76,7 +78,8 @@ class Scenario:
 
     @property
     def odometry_is_exact(self):
-        return self.noise["wheel_scale_sigma"] == 0 and self.noise["heading_drift_deg_per_sqrt_m"] == 0
+        keys = ("wheel_scale_sigma", "wheel_scale_common_sigma", "wheel_slip", "heading_drift_deg_per_sqrt_m")
+        return all(self.noise[key] == 0 for key in keys)
 
 
 def load(path, robot_path=None):

@@ -68,7 +68,9 @@ std::string Watch::counters(const Health& now) {
       now.unsteady_looks < before.unsteady_looks || now.no_progress < before.no_progress ||
       now.pose_out_of_range < before.pose_out_of_range || now.late_ticks < before.late_ticks ||
       now.clock_jumps < before.clock_jumps || now.bumps < before.bumps ||
-      now.bumper_refused < before.bumper_refused || now.bumper_stuck < before.bumper_stuck;
+      now.bumper_refused < before.bumper_refused || now.bumper_stuck < before.bumper_stuck ||
+      now.gyro_lost < before.gyro_lost || now.gyro_saturated < before.gyro_saturated ||
+      now.wheel_slips < before.wheel_slips;
   return down ? "a counter went down" : "";
 }
 

@@ -1,0 +1,180 @@
+#include "firmware/localization/pose_bound.hpp"
+
+namespace whisker::localization {
+namespace {
+
+constexpr int64_t kMostVariance = INT64_C(1) << 48;  // um^2: kMost
+constexpr int64_t kMostHeading = INT64_C(1) << 41;   // 2 rad^2
+constexpr int64_t kMostMixed = INT64_C(1) << 41;
+constexpr int32_t kMostMove = INT32_C(1) << 20;  // um in one update
+// Rounding of the counts and of the instants of readings.
+constexpr int64_t kFloor = INT64_C(3000) * 3000;        // um^2
+constexpr int64_t kTurnPerRadian = 683565276;  // 2^-32 turn
+constexpr Duration kWarmUp = 600000_ms;
+
+static_assert(int64_t{PoseBound::kMost.raw()} * PoseBound::kMost.raw() <= kMostVariance);
+
+int64_t limited(int64_t x, int64_t most) noexcept { return x > most ? most : x < -most ? -most : x; }
+
+int64_t square(int64_t x) noexcept { return x * x; }
+
+int32_t sum(int32_t a, int64_t b) noexcept { return saturate32(a + b); }
+
+Length root(int64_t variance) noexcept {
+  const int64_t inside = variance < 0 ? 0 : variance;
+  const Length sigma = Length::from_raw(as_signed(square_root(static_cast<uint64_t>(inside))));
+  return min(sigma, PoseBound::kMost);
+}
+
+/// The square of an angle in 2^-32 turn, over a divisor.
+int32_t squared_over(Angle angle, int64_t divisor) noexcept {
+  return saturate32(divide_rounded(square(angle.wrapped()), divisor));
+}
+
+}  // namespace
+
+Length distance_bound(const PoseSigma& sigma) noexcept { return norm({sigma.along, sigma.across}) * 2; }
+
+void PoseBound::configure(const Params& params) noexcept {
+  const PoseErrorParams& e = params.pose_error;
+  known_ = e.wheel_scale != Ratio{} || e.wheel_scale_common != Ratio{} || e.heading_drift != Angle{};
+  um_per_counts_ =
+      static_cast<int32_t>(divide_rounded(INT64_C(500000) << 16, params.wheels.counts_per_metre));
+  // Errors of two wheels: their mean is off by 1 / sqrt(2) of one, their difference by sqrt(2).
+  const int64_t both = 2 * square(e.wheel_scale_common.raw()) + square(e.wheel_scale.raw());
+  const uint32_t twice = square_root(static_cast<uint64_t>(both) << 20);
+  scale_ = static_cast<int32_t>(twice * INT64_C(741455) / 1000000);
+  turn_per_um_ =
+      static_cast<int32_t>(divide_rounded(e.wheel_scale.raw() * INT64_C(24879108), params.body.track.raw()));
+  gyro_scale_ = multiply_divide(e.gyro_scale.raw(), INT32_C(1) << 30, 1000000);
+  // The mean of two seconds of rest.
+  bias_ = multiply_divide(e.gyro_walk.wrapped(), 303306, 1000000);
+  bias_per_ms_ = multiply_divide(e.gyro_warm_up.wrapped(), 42893, 1000000000);
+  walk_per_um_ = squared_over(e.heading_drift, 6484556);
+  walk_per_ms_ = squared_over(e.gyro_walk, 23344401);
+}
+
+void PoseBound::set_difference(Ratio sigma, Length track) noexcept {
+  // 2^44 / 1e6
+  const int64_t taught = divide_rounded(sigma.raw() * INT64_C(17592186), track.raw());
+  if (taught < turn_per_um_) turn_per_um_ = static_cast<int32_t>(taught);
+}
+
+void PoseBound::restart(const Pose& pose, const PoseSigma& sigma) noexcept {
+  for (Lasting& error : lasting_) error = {};
+  shortened_ = {};
+  last_ = pose;
+  counts_ = 0;
+  elapsed_ = Duration{};
+  ticks_ = 0;
+  const int64_t heading = divide_rounded(int64_t{sigma.heading.wrapped()} << 20, kTurnPerRadian);
+  heading_ = limited(square(heading), kMostHeading);
+  x_heading_ = y_heading_ = 0;
+  const int64_t c = cos(pose.heading).raw() >> 16;  // 2^-14
+  const int64_t s = sin(pose.heading).raw() >> 16;
+  const int64_t along = square(min(sigma.along, kMost).raw());
+  const int64_t across = square(min(sigma.across, kMost).raw());
+  xx_ = scale_down<14>(c * scale_down<14>(c * along) + s * scale_down<14>(s * across));
+  yy_ = along + across - xx_;
+  xy_ = scale_down<14>(c * scale_down<14>(s * (along - across)));
+}
+
+bool PoseBound::step(const Step& step) noexcept {
+  counts_ += step.counts.left + step.counts.right;
+  elapsed_ += step.elapsed;
+  if (++ticks_ < kEvery) return false;
+  const bool moved = !(step.pose.at == last_.at && step.pose.heading == last_.heading);
+  if (moved) update(step);
+  last_ = step.pose;
+  counts_ = 0;
+  elapsed_ = Duration{};
+  ticks_ = 0;
+  return moved;
+}
+
+void PoseBound::update(const Step& step) noexcept {
+  const Vec way = step.pose.at - last_.at;
+  const int64_t x = limited(way.x.raw(), kMostMove);
+  const int64_t y = limited(way.y.raw(), kMostMove);
+  const int64_t turned = scale_down<16>(int64_t{(step.pose.heading - last_.heading).wrapped()} * 25736);
+  const int64_t forward = scale_down<16>(int64_t{counts_} * um_per_counts_);
+  int64_t by[kLastings] = {};
+  if (step.by_gyro) {
+    by[kGyroScale] = scale_down<30>(turned * gyro_scale_);
+    const Length drifted = Length::from_raw(bias_per_ms_) * min(step.bias_age, kWarmUp).raw();
+    by[kBias] = scale_down<16>(int64_t{norm({Length::from_raw(bias_), drifted}).raw()} * elapsed_.raw());
+  } else {
+    by[kScale] = scale_down<30>(turned * scale_);
+    by[kDifference] = scale_down<16>(forward * turn_per_um_);
+  }
+  for (int i = 0; i < kLastings; ++i) {
+    Lasting& error = lasting_[i];
+    const int64_t heading = error.heading + by[i] / 2;
+    error.x = sum(error.x, -scale_down<24>(y * heading));
+    error.y = sum(error.y, scale_down<24>(x * heading));
+    error.heading = sum(error.heading, by[i]);
+  }
+  Lasting& scale = lasting_[kScale];
+  scale.x = sum(scale.x, scale_down<26>(x * scale_));
+  scale.y = sum(scale.y, scale_down<26>(y * scale_));
+
+  const int64_t walked = step.by_gyro ? int64_t{walk_per_ms_} * elapsed_.raw()
+                                      : (forward < 0 ? -forward : forward) * walk_per_um_;
+  walk(x, y, scale_down<16>(walked));
+  shorten(x, y);
+}
+
+/// A heading that is off by a makes the way shorter by a^2 / 2 along itself. Its root mean square is sqrt(3)
+/// / 2 of the variance.
+void PoseBound::shorten(int64_t x, int64_t y) noexcept {
+  const int64_t share = limited(heading_variance(), kMostHeading) * 887 / 1024;  // 2^-40
+  shortened_.x = sum(shortened_.x, scale_down<36>(x * share));
+  shortened_.y = sum(shortened_.y, scale_down<36>(y * share));
+}
+
+int64_t PoseBound::heading_variance() const noexcept {
+  int64_t sum = heading_;
+  for (const Lasting& error : lasting_) sum += scale_down<16>(square(error.heading));
+  return sum;
+}
+
+void PoseBound::walk(int64_t x, int64_t y, int64_t by) noexcept {
+  const int64_t x_by = scale_down<20>(-y * heading_);
+  const int64_t y_by = scale_down<20>(x * heading_);
+  xx_ = limited(xx_ - scale_down<20>(2 * y * x_heading_) - scale_down<20>(y * x_by), kMostVariance);
+  yy_ = limited(yy_ + scale_down<20>(2 * x * y_heading_) + scale_down<20>(x * y_by), kMostVariance);
+  xy_ = limited(xy_ + scale_down<20>(x * x_heading_ - y * y_heading_) + scale_down<20>(x * x_by),
+                kMostVariance);
+  x_heading_ = limited(x_heading_ + x_by, kMostMixed);
+  y_heading_ = limited(y_heading_ + y_by, kMostMixed);
+  heading_ = limited(heading_ + by, kMostHeading);
+}
+
+PoseSigma PoseBound::sigma() const noexcept {
+  int64_t xx = xx_ + kFloor;
+  int64_t xy = xy_;
+  int64_t yy = yy_ + kFloor;
+  const auto add = [&](const Lasting& error) {
+    xx += scale_down<8>(square(error.x));
+    xy += scale_down<8>(int64_t{error.x} * error.y);
+    yy += scale_down<8>(square(error.y));
+  };
+  for (const Lasting& error : lasting_) add(error);
+  add(shortened_);
+  if (xx > kMostVariance || yy > kMostVariance) {
+    xx = yy = kMostVariance;
+    xy = 0;
+  }
+  const int64_t c = cos(last_.heading).raw() >> 16;  // 2^-14
+  const int64_t s = sin(last_.heading).raw() >> 16;
+  const int64_t along = scale_down<14>(c * scale_down<14>(c * xx + s * xy)) +
+                        scale_down<14>(s * scale_down<14>(c * xy + s * yy));
+  const uint64_t radians =
+      square_root(static_cast<uint64_t>(limited(heading_variance(), kMostHeading)));  // 2^-20
+  const uint64_t turn = radians * kTurnPerRadian >> 20;
+  constexpr uint64_t kMostTurn = UINT64_C(1) << 30;
+  return {root(along), root(xx + yy - along),
+          Angle::from_raw(static_cast<uint32_t>(turn < kMostTurn ? turn : kMostTurn))};
+}
+
+}  // namespace whisker::localization

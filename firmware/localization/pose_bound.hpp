@@ -1,0 +1,93 @@
+/// How far the pose estimate may be off: standard deviations, from those of the wheels and the gyro.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/localization/odometry.hpp"
+#include "firmware/math/trig.hpp"
+#include "firmware/params.hpp"
+
+namespace whisker::localization {
+
+/// Standard deviations of a pose: along the heading, across it, and of the heading.
+struct PoseSigma {
+  Length along;
+  Length across;
+  Angle heading;  ///< at most a quarter turn
+};
+
+/// Twice the root of the mean square of the distance from the true position (2 DRMS). Between 95.4 and 98.2 %
+/// of normally distributed errors are smaller.
+Length distance_bound(const PoseSigma& sigma) noexcept;
+
+/// Propagates the error of the pose.
+///
+/// Errors that last (scale of the wheels, their difference, scale of the gyro, its bias) are one unknown
+/// number each. For each, `Lasting` is the error of the pose that one standard deviation has caused so far.
+/// Errors that do not last make the heading a random walk, whose covariance with the position is propagated.
+/// The sum of both is the covariance of the pose. Sigmas saturate at kMost.
+class PoseBound {
+ public:
+  static constexpr Length kMost = 16_m;
+  /// Ticks between two updates.
+  static constexpr uint8_t kEvery = 8;
+
+  struct Step {
+    Pose pose;  ///< after the step
+    CountStep counts;
+    Duration elapsed;
+    bool by_gyro = false;  ///< the gyro turned the pose
+    Duration bias_age;
+  };
+
+  void configure(const Params& params) noexcept;
+  /// False: the parameters declare no error of the wheels, so there is no bound.
+  bool known() const noexcept { return known_; }
+  /// The wheels were taught: from now on, the difference of their errors has at most this standard deviation.
+  void set_difference(Ratio sigma, Length track) noexcept;
+  /// The body is at this pose, known with this accuracy.
+  void restart(const Pose& pose, const PoseSigma& sigma) noexcept;
+  /// Once per tick. True: sigma() has changed.
+  bool step(const Step& step) noexcept;
+  PoseSigma sigma() const noexcept;
+
+ private:
+  struct Lasting {
+    int32_t x = 0;  // 2^-4 um
+    int32_t y = 0;
+    int32_t heading = 0;  // 2^-28 rad
+  };
+  enum : uint8_t { kScale, kDifference, kGyroScale, kBias, kLastings };
+  void shorten(int64_t x, int64_t y) noexcept;
+  int64_t heading_variance() const noexcept;
+
+  void update(const Step& step) noexcept;
+  void walk(int64_t x, int64_t y, int64_t by) noexcept;
+
+  Lasting lasting_[kLastings];
+  Lasting shortened_;  // by the square of the error of the heading; its heading stays zero
+  // The covariance of the rest: rad^2 2^-40, um rad 2^-20, um^2.
+  int64_t heading_ = 0;
+  int64_t x_heading_ = 0;
+  int64_t y_heading_ = 0;
+  int64_t xx_ = 0;
+  int64_t xy_ = 0;
+  int64_t yy_ = 0;
+
+  Pose last_;
+  int32_t counts_ = 0;  // of both wheels, signed
+  Duration elapsed_;
+  uint8_t ticks_ = 0;
+  bool known_ = false;
+
+  int32_t um_per_counts_ = 0;  // both wheels, 2^-16 um
+  int32_t scale_ = 0;          // 2^-30
+  int32_t turn_per_um_ = 0;    // by the difference of the wheels, 2^-44 rad
+  int32_t gyro_scale_ = 0;     // 2^-30
+  int32_t bias_ = 0;           // 2^-44 rad per ms, as measured at rest
+  int32_t bias_per_ms_ = 0;    // its change, 2^-44 rad per ms^2
+  int32_t walk_per_um_ = 0;    // of the wheels, 2^-56 rad^2
+  int32_t walk_per_ms_ = 0;    // of the gyro, 2^-56 rad^2
+};
+
+}  // namespace whisker::localization

@@ -1,0 +1,106 @@
+#include "firmware/localization/wheel_gains.hpp"
+
+namespace whisker::localization {
+namespace {
+
+// Standard deviations before the first stretch: 3 % of track and common scale, 2 % between the wheels. The
+// floors keep it learning.
+constexpr int32_t kGainVariance = 3865471;
+constexpr int32_t kSkewVariance = 1717987;
+constexpr int32_t kLeastGainVariance = 17180;  // 0.2 %
+constexpr int32_t kLeastSkewVariance = 172;    // 0.02 %
+constexpr uint8_t kStraight = 3;               // steps without turning: longer than the latency of a gyro
+constexpr int32_t kSlipDegrees = 3;            // an error below this is no slip
+
+int64_t square(int64_t x) noexcept { return x * x; }
+
+/// What remains of a variance after an observation with this share of it.
+int32_t remaining(int32_t variance, int64_t part, int64_t whole, int32_t least) noexcept {
+  const int32_t rest = variance - saturate32(divide_rounded(variance * part, whole));
+  return rest < least ? least : rest;
+}
+
+}  // namespace
+
+void WheelGains::configure(int32_t counts_per_turn, int32_t counts_per_metre) noexcept {
+  counts_per_turn_ = counts_per_turn;
+  least_way_ = counts_per_metre * 3 / 5;  // 0.3 m by two wheels
+  least_turn_ = counts_per_turn / 12;
+  gain_variance_ = kGainVariance;
+  skew_variance_ = kSkewVariance;
+}
+
+void WheelGains::expect(Ratio gain, Ratio skew) noexcept {
+  const auto variance = [](Ratio sigma) { return saturate32(square(sigma.raw()) * 4295 / 1000000); };
+  gain_variance_ = variance(gain);
+  skew_variance_ = variance(skew);
+}
+
+int32_t WheelGains::difference(const CountStep& step) const noexcept {
+  const int64_t difference = step.right - step.left;
+  const int64_t learned = difference * gain_ + int64_t{skew_} * (step.right + step.left);
+  return saturate32(difference * 4096 + scale_down<12>(learned));
+}
+
+void WheelGains::drop() noexcept {
+  now_ = {};
+  straight_ = 0;
+}
+
+bool WheelGains::teaches(int32_t way, int32_t turn) const noexcept {
+  return magnitude(way) >= static_cast<uint32_t>(least_way_) ||
+         magnitude(turn) >= static_cast<uint32_t>(least_turn_);
+}
+
+int64_t WheelGains::counts_of(int32_t turn) const noexcept {
+  return scale_down<28>(int64_t{turn} * counts_per_turn_);  // 2^-4 counts
+}
+
+int64_t WheelGains::noise_of(Angle sigma) const noexcept { return square(counts_of(sigma.wrapped())); }
+
+Ratio WheelGains::skew_sigma() const noexcept {
+  return millionths(
+      static_cast<int32_t>(uint64_t{square_root_32(static_cast<uint32_t>(skew_variance_))} * 1000000 >> 16));
+}
+
+bool WheelGains::compare(const CountStep& step, Angle gyro, Angle wheels) noexcept {
+  const int32_t difference = step.right - step.left;
+  now_.way = saturating_add(now_.way, step.left + step.right);
+  now_.turn = saturating_add(now_.turn, difference);
+  now_.error = saturating_add(now_.error, (gyro - wheels).wrapped());
+  straight_ =
+      magnitude(difference) > 2 ? uint8_t{0} : static_cast<uint8_t>(straight_ + (straight_ < kStraight));
+  return straight_ == kStraight && teaches(now_.way, now_.turn) && finish();
+}
+
+bool WheelGains::finish() noexcept {
+  const Stretch stretch = now_;
+  drop();
+  // Of counts and floor.
+  return observe(stretch, 4 * 256 + (magnitude(stretch.way) + magnitude(stretch.turn)) / 2);
+}
+
+/// A Kalman filter without covariances between the two: a stretch of a mission is nearly always either
+/// straight or a turn on the spot.
+bool WheelGains::observe(const Stretch& stretch, int64_t noise) noexcept {
+  const int32_t way = stretch.way;
+  const int32_t turn = stretch.turn;
+  const int64_t error = counts_of(stretch.error);
+  // Beyond these the products do not fit; such a stretch teaches little.
+  constexpr uint32_t kMost = UINT32_C(1) << 18;
+  if (magnitude(way) > kMost || magnitude(turn) > kMost) return false;
+  // Variances of the error in 2^-8 square counts.
+  const int64_t by_skew = scale_down<24>(square(way) * skew_variance_);
+  const int64_t by_gain = scale_down<24>(square(turn) * gain_variance_);
+  const int64_t all = by_skew + by_gain + noise;
+  const int64_t slip = int64_t{counts_per_turn_} * kSlipDegrees * 16 / 360;
+  if (square(error) > 16 * all + square(slip)) return true;
+
+  skew_ += saturate32(scale_down<4>(divide_rounded(int64_t{skew_variance_} * way * error, all)));
+  gain_ += saturate32(scale_down<4>(divide_rounded(int64_t{gain_variance_} * turn * error, all)));
+  skew_variance_ = remaining(skew_variance_, by_skew, all, kLeastSkewVariance);
+  gain_variance_ = remaining(gain_variance_, by_gain, all, kLeastGainVariance);
+  return false;
+}
+
+}  // namespace whisker::localization

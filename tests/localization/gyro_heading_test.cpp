@@ -1,0 +1,242 @@
+#include "firmware/localization/gyro_heading.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace whisker::localization {
+namespace {
+
+constexpr double kHalfTurn = 3.14159265358979323846;
+constexpr double kDegree = kHalfTurn / 180;
+
+Params params_of_gyro_test() {
+  Params p;
+  p.gyro.fitted = Fitted::yes;
+  return p;
+}
+
+/// A body whose speeds the test sets, ticks of 10 ms, with errors of wheels and gyro.
+class GyroHeadingTest : public testing::Test {
+ protected:
+  GyroHeadingTest() {
+    odometry_.configure(params_);
+    odometry_.place({});
+    heading_.configure(params_, odometry_);
+    heading_.restart();
+    CountStep step;
+    odometry_.take(counts(), 10_ms, step);
+  }
+
+  /// Rolls for this time; the gyro sample of a tick is read one tick later.
+  void drive(double seconds, double forward_mps, double turn_radps) {
+    const int ticks = static_cast<int>(std::lround(seconds * 100));
+    for (int i = 0; i < ticks; ++i) {
+      true_ += turn_radps * 0.01;
+      const double arc = turn_radps * 0.01 * 0.07;
+      way_[0] += forward_mps * 0.01 - arc;
+      way_[1] += (forward_mps * 0.01 + arc) * (1 - slip_right);
+      // What slips does not turn the body.
+      true_ -= slip_right * (forward_mps * 0.01 + arc) / 0.14;
+      rolled_[0] += (forward_mps * 0.01 - arc) * scale[0];
+      rolled_[1] += (forward_mps * 0.01 + arc) * scale[1];
+      const double rate = turn_radps - slip_right * (forward_mps + turn_radps * 0.07) / 0.14;
+      sample(rate + bias_dps * kDegree);
+      tick(forward_mps != 0 || turn_radps != 0);
+    }
+  }
+  void tick(bool commanded) {
+    elapsed_ += 10_ms;
+    if (skip_ticks > 0) {
+      --skip_ticks;
+      return;
+    }
+    CountStep step;
+    ASSERT_TRUE(odometry_.take(counts(), elapsed_, step));
+    const GyroHeading::Step in{answers ? &shown_ : nullptr, step, commanded, elapsed_};
+    odometry_.advance(step, heading_.turn(in, odometry_, health_));
+    elapsed_ = Duration{};
+  }
+  void sample(double rate) {
+    shown_ = next_;
+    const double units = std::round(rate * gyro_scale / (8.726646 / 32768));
+    const double held = std::fmin(32767, std::fmax(-32767, units));
+    next_.sum += static_cast<std::uint32_t>(static_cast<std::int32_t>(held));
+    ++next_.samples;
+    if (held != units) ++next_.saturated;
+  }
+  hal::EncoderCounts counts() const {
+    const auto of = [](double way) {
+      return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(way * 5000)) & 0xFFFFFF);
+    };
+    return {of(rolled_[0]), of(rolled_[1])};
+  }
+  /// Of the estimate, degrees.
+  double error() const {
+    const double estimate = odometry_.pose().heading.wrapped() * (kHalfTurn / 2147483648.0);
+    return std::remainder(estimate - true_, 2 * kHalfTurn) / kDegree;
+  }
+  void rest(double seconds) { drive(seconds, 0, 0); }
+  /// Several metres and turns, ending at rest.
+  void wander(int legs) {
+    for (int i = 0; i < legs; ++i) {
+      drive(4, 0.25, 0);
+      rest(0.1);
+      drive(1, 0, i % 3 == 0 ? -1.5 : 1.2);
+      rest(0.1);
+    }
+  }
+
+  Params params_ = params_of_gyro_test();
+  Odometry odometry_;
+  GyroHeading heading_;
+  Health health_;
+
+  double scale[2] = {1, 1};
+  double bias_dps = 1.3;
+  double gyro_scale = 1;
+  double slip_right = 0;
+  bool answers = true;
+  int skip_ticks = 0;
+
+ private:
+  double true_ = 0;
+  double way_[2] = {0, 0};
+  double rolled_[2] = {0, 0};
+  hal::GyroReading next_{}, shown_{};
+  Duration elapsed_;
+};
+
+TEST_F(GyroHeadingTest, MeasuresItsBiasInTwoSecondsOfRestAndThenTurnsByTheGyro) {
+  scale[1] = 1.02;
+  EXPECT_EQ(heading_.source(), HeadingSource::bias_unknown);
+  EXPECT_TRUE(heading_.wants_rest());
+  rest(2.0);
+  EXPECT_EQ(heading_.source(), HeadingSource::bias_unknown) << "150 ms do not count";
+  rest(0.3);
+  EXPECT_EQ(heading_.source(), HeadingSource::gyro);
+  EXPECT_FALSE(heading_.wants_rest());
+  wander(10);
+  EXPECT_NEAR(error(), 0, 0.3);
+  EXPECT_EQ(health_.wheel_slips, 0U);
+}
+
+TEST_F(GyroHeadingTest, UsesTheScaleOfTheParameters) {
+  params_.gyro.scale = millionths(1030000);
+  heading_.configure(params_, odometry_);
+  gyro_scale = 1 / 1.03;
+  rest(2.5);
+  drive(10, 0, 1.5);
+  rest(0.1);
+  EXPECT_NEAR(error(), 0, 0.1);
+}
+
+TEST_F(GyroHeadingTest, MissedTicksLoseNothing) {
+  rest(2.5);
+  for (int i = 0; i < 20; ++i) {
+    skip_ticks = i % 5;
+    drive(0.2, 0.1, 1.7);
+  }
+  rest(0.1);
+  EXPECT_NEAR(error(), 0, 0.1);
+  EXPECT_EQ(health_.gyro_lost, 0U);
+}
+
+TEST_F(GyroHeadingTest, TakesTheTurnOfTheWheelsBackWhenSamplesArriveLate) {
+  scale[0] = 0.9;
+  rest(2.5);
+  for (int i = 0; i < 20; ++i) {
+    answers = false;
+    drive(0.08, 0.2, 1.0);
+    answers = true;
+    drive(0.2, 0.2, 1.0);
+  }
+  rest(0.1);
+  EXPECT_NEAR(error(), 0, 0.1);
+  EXPECT_EQ(health_.gyro_lost, 0U);
+}
+
+TEST_F(GyroHeadingTest, TheWheelsTurnThePoseAsTheGyroTaughtThemOnceItIsSilent) {
+  scale[0] = 0.985;
+  scale[1] = 1.012;
+  rest(2.5);
+  wander(6);
+  answers = false;
+  wander(6);
+  EXPECT_EQ(heading_.source(), HeadingSource::gyro_lost);
+  EXPECT_EQ(health_.gyro_lost, 1U);
+  EXPECT_FALSE(heading_.wants_rest());
+  // Untaught wheels turn by 11 degrees on each metre, 66 in all.
+  EXPECT_NEAR(error(), 0, 3);
+  answers = true;
+  const double before = error();
+  wander(6);
+  EXPECT_EQ(heading_.source(), HeadingSource::gyro);
+  EXPECT_NEAR(error(), before, 0.5);
+}
+
+TEST_F(GyroHeadingTest, ASaturatedSampleIsReplacedByTheWheels) {
+  rest(2.5);
+  drive(0.5, 0, 10);
+  rest(0.2);
+  EXPECT_NEAR(error(), 0, 6) << "the latency; the gyro alone would lack 36 degrees";
+  EXPECT_GE(health_.gyro_saturated, 49U);
+  EXPECT_EQ(heading_.source(), HeadingSource::gyro);
+}
+
+TEST_F(GyroHeadingTest, CountsAWheelThatSlips) {
+  rest(2.5);
+  wander(6);
+  EXPECT_EQ(health_.wheel_slips, 0U);
+  slip_right = 0.3;
+  drive(0.25, 0.25, 0);
+  slip_right = 0;
+  drive(2, 0.25, 0);
+  EXPECT_EQ(health_.wheel_slips, 1U);
+  wander(6);
+  EXPECT_EQ(health_.wheel_slips, 1U);
+  EXPECT_NEAR(error(), 0, 0.3);
+}
+
+TEST_F(GyroHeadingTest, WantsASecondOfRestAfterAMinute) {
+  rest(2.5);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_FALSE(heading_.wants_rest()) << i;
+    drive(5.1, 0.1, 0);
+  }
+  EXPECT_TRUE(heading_.wants_rest());
+  bias_dps = 1.4;  // it has warmed up
+  rest(1.1);
+  EXPECT_TRUE(heading_.wants_rest());
+  rest(0.2);
+  EXPECT_FALSE(heading_.wants_rest());
+  const double before = error();
+  drive(20, 0.1, 0);
+  EXPECT_NEAR(error(), before, 20 * 0.05);
+}
+
+TEST_F(GyroHeadingTest, MotionThatTheWheelsDoNotCountYetIsNotTakenForBias) {
+  rest(2.5);
+  // The body still turns for 120 ms after the last count.
+  drive(1, 0.2, 0);
+  for (int i = 0; i < 12; ++i) {
+    sample((bias_dps + 2) * kDegree);
+    tick(false);
+  }
+  rest(1);
+  EXPECT_NEAR(heading_.bias().value() / 65536.0 * (500.0 / 32768), bias_dps, 0.02);
+}
+
+TEST_F(GyroHeadingTest, ATurntableUnderStandingWheelsIsATurnAndNoBias) {
+  rest(2.5);
+  for (int i = 0; i < 300; ++i) {
+    sample((bias_dps + 30) * kDegree);
+    tick(false);
+  }
+  EXPECT_NEAR(error(), 90, 1);
+  EXPECT_NEAR(heading_.bias().value() / 65536.0 * (500.0 / 32768), bias_dps, 0.02);
+}
+
+}  // namespace
+}  // namespace whisker::localization

@@ -1,0 +1,223 @@
+#include "firmware/localization/pose_bound.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace whisker::localization::pose_bound_test {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180;
+constexpr double kTick_s = 0.01;
+
+struct Errors {
+  double left = 0, right = 0;  // of the counts, relative
+  double gyro_scale = 0;
+  double bias = 0;     // rad/s
+  double warm_up = 0;  // rad/s in ten minutes
+};
+
+/// Speed in m/s and turn rate in rad/s at a time in s.
+struct Velocity {
+  double forward, turning;
+};
+Velocity course(double t_s) {
+  const double phase = std::fmod(t_s, 12);
+  if (phase < 5) return {0.3, 0};
+  if (phase < 6) return {0, kPi / 2};
+  if (phase < 9) return {0.25, -0.5};
+  return {0.2, t_s < 24 ? 0.4 : 0};
+}
+
+/// A drive with these errors: odometry and bound see the counts, and the gyro if there is one.
+class Drive {
+ public:
+  Drive(const Params& params, bool gyro) : params_(params), gyro_(gyro) {
+    odometry_.configure(params);
+    odometry_.place({});
+    bound_.configure(params);
+    bound_.restart({}, {});
+  }
+
+  void go(double seconds, const Errors& errors, double walk_per_sqrt_s, double drift_per_sqrt_m,
+          std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    for (double t = 0; t < seconds; t += kTick_s) {
+      const Velocity v = course(t);
+      const double turn = v.turning * kTick_s, way = v.forward * kTick_s;
+      x_ += way * std::cos(heading_ + turn / 2);
+      y_ += way * std::sin(heading_ + turn / 2);
+      heading_ += turn;
+      const double half = 0.5 * params_.body.track.raw() * 1e-6;
+      const double drift = drift_per_sqrt_m * std::sqrt(way) * normal(random) * half;
+      left_ += (way - half * turn) * (1 + errors.left) - drift;
+      right_ += (way + half * turn) * (1 + errors.right) + drift;
+      CountStep step;
+      EXPECT_TRUE(odometry_.take({count(left_), count(right_)}, 10_ms, step));
+      if (gyro_) {
+        const double bias = errors.bias + errors.warm_up * t / 600;
+        const double read = turn * (1 + errors.gyro_scale) + bias * kTick_s +
+                            walk_per_sqrt_s * std::sqrt(kTick_s) * normal(random);
+        by_gyro_ += read;
+        odometry_.advance(step, angle(by_gyro_) - odometry_.pose().heading);
+      } else {
+        odometry_.advance(step);
+      }
+      const auto age = milliseconds(static_cast<int32_t>(t * 1000));
+      bound_.step({odometry_.pose(), step, 10_ms, gyro_, age});
+    }
+  }
+
+  struct Off {
+    double along, across, heading;
+  };
+  Off off() const {
+    const Pose pose = odometry_.pose();
+    const double x = pose.at.x.raw() * 1e-6 - x_, y = pose.at.y.raw() * 1e-6 - y_;
+    const double c = std::cos(heading_), s = std::sin(heading_);
+    return {x * c + y * s, y * c - x * s, radians(pose.heading - angle(heading_))};
+  }
+  PoseSigma sigma() const { return bound_.sigma(); }
+  static double radians(Angle a) { return a.wrapped() * (kPi / 2147483648.0); }
+
+ private:
+  static Angle angle(double rad) {
+    return Angle::from_raw(
+        static_cast<uint32_t>(std::llround(std::remainder(rad, 2 * kPi) * 2147483648.0 / kPi)));
+  }
+  uint32_t count(double metres) const {
+    const auto counts = static_cast<int64_t>(std::floor(metres * params_.wheels.counts_per_metre));
+    return static_cast<uint32_t>(counts) & (hal::kEncoderModulus - 1);
+  }
+
+  const Params& params_;
+  const bool gyro_;
+  double x_ = 0, y_ = 0, heading_ = 0, by_gyro_ = 0;
+  double left_ = 0, right_ = 0;
+  Odometry odometry_;
+  PoseBound bound_;
+};
+
+/// Compares the sigmas of a drive without errors with the root mean square of the errors of many drives.
+void expect_calibrated(const Params& params, bool gyro, double seconds) {
+  const PoseErrorParams& e = params.pose_error;
+  const double each = e.wheel_scale.raw() * 1e-6, both = e.wheel_scale_common.raw() * 1e-6;
+  const double walk = Drive::radians(e.gyro_walk) / 60, drift = Drive::radians(e.heading_drift);
+  std::mt19937 random(5);
+  Drive nominal(params, gyro);
+  nominal.go(seconds, {}, 0, 0, random);
+  const PoseSigma sigma = nominal.sigma();
+
+  std::normal_distribution<double> normal;
+  Drive::Off sum{};
+  constexpr int kDrives = 300;
+  for (int i = 0; i < kDrives; ++i) {
+    const double common = both * normal(random);
+    const Errors errors{each * normal(random) + common, each * normal(random) + common,
+                        e.gyro_scale.raw() * 1e-6 * normal(random), walk / std::sqrt(2.0) * normal(random),
+                        Drive::radians(e.gyro_warm_up) * normal(random)};
+    Drive drive(params, gyro);
+    drive.go(seconds, errors, walk, drift, random);
+    const Drive::Off off = drive.off();
+    sum.along += off.along * off.along;
+    sum.across += off.across * off.across;
+    sum.heading += off.heading * off.heading;
+  }
+  const auto rms = [](double squares) { return std::sqrt(squares / kDrives); };
+  const double slack = 0.12;  // three standard errors of a root mean square of 300
+  const double floor_m = 0.004;
+  EXPECT_NEAR(sigma.along.raw() * 1e-6, rms(sum.along), floor_m + slack * rms(sum.along));
+  EXPECT_NEAR(sigma.across.raw() * 1e-6, rms(sum.across), floor_m + slack * rms(sum.across));
+  EXPECT_NEAR(Drive::radians(sigma.heading), rms(sum.heading), 0.0005 + slack * rms(sum.heading));
+}
+
+Angle degrees(double deg) { return Angle::from_raw(static_cast<uint32_t>(deg / 360 * 4294967296.0)); }
+
+TEST(PoseBound, WheelsThatDiffer) {
+  Params params;
+  params.pose_error.wheel_scale = millionths(5000);
+  expect_calibrated(params, false, 20);
+}
+
+TEST(PoseBound, WheelsWithACommonError) {
+  Params params;
+  params.pose_error.wheel_scale_common = millionths(20000);
+  expect_calibrated(params, false, 40);
+}
+
+TEST(PoseBound, AHeadingThatDrifts) {
+  Params params;
+  params.pose_error.heading_drift = degrees(1);
+  expect_calibrated(params, false, 40);
+}
+
+TEST(PoseBound, EverythingThatAGyroGetsWrong) {
+  Params params;
+  params.pose_error.wheel_scale = millionths(1000);
+  params.pose_error.wheel_scale_common = millionths(3000);
+  params.pose_error.gyro_scale = millionths(10000);
+  params.pose_error.gyro_walk = degrees(1);
+  params.pose_error.gyro_warm_up = degrees(0.5);
+  expect_calibrated(params, true, 60);
+}
+
+TEST(PoseBound, TheWalkOfAGyro) {
+  Params params;
+  params.pose_error.wheel_scale_common = millionths(1);
+  params.pose_error.gyro_scale = Ratio{};
+  params.pose_error.gyro_walk = degrees(4);
+  params.pose_error.gyro_warm_up = Angle{};
+  expect_calibrated(params, true, 60);
+}
+
+TEST(PoseBound, IsUnknownUnlessAnErrorOfTheWheelsIsDeclared) {
+  Params params;
+  PoseBound bound;
+  bound.configure(params);
+  EXPECT_FALSE(bound.known());
+  params.pose_error.wheel_scale_common = millionths(1);
+  bound.configure(params);
+  EXPECT_TRUE(bound.known());
+}
+
+TEST(PoseBound, RestartsWithTheGivenSigmaWhateverTheHeading) {
+  PoseBound bound;
+  bound.configure(Params{});
+  for (const double deg : {0.0, 30.0, 90.0, 200.0, 345.0}) {
+    bound.restart({{}, degrees(deg)}, {200_mm, 50_mm, 3_deg});
+    const PoseSigma sigma = bound.sigma();
+    EXPECT_NEAR(sigma.along.raw(), 200000, 300) << deg;
+    EXPECT_NEAR(sigma.across.raw(), 50000, 1500) << deg;
+    EXPECT_NEAR(Drive::radians(sigma.heading), 3 * kDegree, 1e-5) << deg;
+  }
+}
+
+TEST(PoseBound, SaturatesInsteadOfWrapping) {
+  Params params;
+  params.pose_error = {millionths(100000), millionths(100000), 5_deg, millionths(100000), 10_deg, 1_deg};
+  for (const bool gyro : {false, true}) {
+    std::mt19937 random(1);
+    Drive drive(params, gyro);
+    Length before;
+    for (int i = 0; i < 20; ++i) {
+      drive.go(240, {}, 0, 0, random);
+      const PoseSigma sigma = drive.sigma();
+      EXPECT_LE(sigma.along, PoseBound::kMost);
+      EXPECT_LE(sigma.across, PoseBound::kMost);
+      EXPECT_GT(sigma.across, 10_mm);
+      EXPECT_GT(sigma.along, 10_mm);
+      EXPECT_LE(sigma.heading.wrapped(), (90_deg).wrapped());
+      EXPECT_GT(distance_bound(sigma), i == 0 ? 1_m : before / 4);
+      before = distance_bound(sigma);
+    }
+  }
+}
+
+TEST(PoseBound, TheDistanceIsTwiceTheRootMeanSquare) {
+  EXPECT_EQ(distance_bound({30_mm, 40_mm, 1_deg}), 100_mm);
+}
+
+}  // namespace
+}  // namespace whisker::localization::pose_bound_test
