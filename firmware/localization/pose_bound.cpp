@@ -94,8 +94,8 @@ bool PoseBound::step(const Step& step) noexcept {
 
 void PoseBound::update(const Step& step) noexcept {
   const Vec way = step.pose.at - last_.at;
-  const int64_t x = limited(way.x.raw(), kMostMove);
-  const int64_t y = limited(way.y.raw(), kMostMove);
+  const int32_t x = static_cast<int32_t>(limited(way.x.raw(), kMostMove));
+  const int32_t y = static_cast<int32_t>(limited(way.y.raw(), kMostMove));
   const int64_t turned = scale_down<16>(int64_t{(step.pose.heading - last_.heading).wrapped()} * 25736);
   const int64_t forward = scale_down<16>(int64_t{counts_} * um_per_counts_);
   int64_t by[kLastings] = {};
@@ -115,8 +115,8 @@ void PoseBound::update(const Step& step) noexcept {
     error.heading = sum(error.heading, by[i]);
   }
   Lasting& scale = lasting_[kScale];
-  scale.x = sum(scale.x, scale_down<26>(x * scale_));
-  scale.y = sum(scale.y, scale_down<26>(y * scale_));
+  scale.x = sum(scale.x, scale_down<26>(int64_t{x} * scale_));
+  scale.y = sum(scale.y, scale_down<26>(int64_t{y} * scale_));
 
   const int64_t walked = step.by_gyro ? int64_t{walk_per_ms_} * elapsed_.raw()
                                       : (forward < 0 ? -forward : forward) * walk_per_um_;
@@ -126,7 +126,7 @@ void PoseBound::update(const Step& step) noexcept {
 
 /// A heading that is off by a makes the way shorter by a^2 / 2 along itself. Its root mean square is sqrt(3)
 /// / 2 of the variance.
-void PoseBound::shorten(int64_t x, int64_t y) noexcept {
+void PoseBound::shorten(int32_t x, int32_t y) noexcept {
   const int64_t share = limited(heading_variance(), kMostHeading) * 887 / 1024;  // 2^-40
   shortened_.x = sum(shortened_.x, scale_down<36>(x * share));
   shortened_.y = sum(shortened_.y, scale_down<36>(y * share));
@@ -138,11 +138,11 @@ int64_t PoseBound::heading_variance() const noexcept {
   return sum;
 }
 
-void PoseBound::walk(int64_t x, int64_t y, int64_t by) noexcept {
+void PoseBound::walk(int32_t x, int32_t y, int64_t by) noexcept {
   const int64_t x_by = scale_down<20>(-y * heading_);
   const int64_t y_by = scale_down<20>(x * heading_);
-  xx_ = limited(xx_ - scale_down<20>(2 * y * x_heading_) - scale_down<20>(y * x_by), kMostVariance);
-  yy_ = limited(yy_ + scale_down<20>(2 * x * y_heading_) + scale_down<20>(x * y_by), kMostVariance);
+  xx_ = limited(xx_ - scale_down<20>(y * x_heading_ * 2) - scale_down<20>(y * x_by), kMostVariance);
+  yy_ = limited(yy_ + scale_down<20>(x * y_heading_ * 2) + scale_down<20>(x * y_by), kMostVariance);
   xy_ = limited(xy_ + scale_down<20>(x * x_heading_ - y * y_heading_) + scale_down<20>(x * x_by),
                 kMostVariance);
   x_heading_ = limited(x_heading_ + x_by, kMostMixed);

@@ -58,11 +58,12 @@ class PoseBound {
     int32_t heading = 0;  // 2^-28 rad
   };
   enum : uint8_t { kScale, kDifference, kGyroScale, kBias, kLastings };
-  void shorten(int64_t x, int64_t y) noexcept;
+  // 32 bits, so that all arguments of walk() fit into registers: clang 14 for AVR fails on others here.
+  void shorten(int32_t x, int32_t y) noexcept;
   int64_t heading_variance() const noexcept;
 
   void update(const Step& step) noexcept;
-  void walk(int64_t x, int64_t y, int64_t by) noexcept;
+  void walk(int32_t x, int32_t y, int64_t by) noexcept;
 
   Lasting lasting_[kLastings];
   Lasting shortened_;  // by the square of the error of the heading; its heading stays zero
