@@ -55,6 +55,8 @@ function decoded(page, ticks) {
   );
 }
 
+const NOT_SHOWN = ['sigma_along_m', 'sigma_across_m', 'sigma_heading_rad']; // the page has no bound
+
 describe('the decoded data', () => {
   const folder = new Folder();
   let browser;
@@ -82,10 +84,11 @@ describe('the decoded data', () => {
       ticks.forEach((tick, i) => {
         assert.deepEqual(
           Object.keys(trace[tick]).sort(),
-          [...Object.keys(TOLERANCES), ...Object.keys(WORDS)].sort(),
+          [...Object.keys(TOLERANCES), ...Object.keys(WORDS), ...NOT_SHOWN].sort(),
           'a column of the trace is not compared',
         );
         for (const [column, text] of Object.entries(trace[tick])) {
+          if (NOT_SHOWN.includes(column)) continue;
           const value = rows[i][column];
           if (column in WORDS) assert.equal(value, text, `${column} at tick ${tick}`);
           else if (text === '') assert.equal(value, null, `${column} at tick ${tick}`);
