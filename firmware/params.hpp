@@ -112,14 +112,6 @@ struct BumperParams {
   Speed creep_speed;  ///< with a bumper: up to this speed also over ground that no beam has cleared; 0: never
 };
 
-/// Whether this image has the code for a gyro and for the bound of the pose (8 KB and 7 KB on an AVR); the
-/// toolchain file of a chip without room for them sets WHISKER_GYRO to 0.
-#ifdef WHISKER_GYRO
-constexpr bool kGyroBuilt = WHISKER_GYRO != 0;
-#else
-constexpr bool kGyroBuilt = true;
-#endif
-
 struct GyroParams {
   Fitted fitted = Fitted::no;                          ///< a yaw-rate gyro is fitted: hal::Gyro
   int32_t rate_hz = 100;                               ///< samples a second by the chip's own clock

@@ -7,12 +7,12 @@
 #include "firmware/localization/frame.hpp"
 #include "firmware/localization/gyro_heading.hpp"
 #include "firmware/localization/odometry.hpp"
-#include "firmware/localization/part.hpp"
 #include "firmware/localization/pose_bound.hpp"
 #include "firmware/localization/pose_fix.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/perception.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/planning/planner.hpp"
@@ -159,9 +159,9 @@ class Robot {
   safety::BumpReflex reflex_;
   planning::MotionController motion_;
   localization::Odometry odometry_;
-  localization::Part<localization::GyroHeading, kGyroBuilt> heading_;
-  localization::Part<localization::PoseBound, kGyroBuilt> bound_;
-  localization::Part<localization::FixTeacher, kGyroBuilt> teacher_;
+  Part<localization::GyroHeading, kGyroBuilt> heading_;
+  Part<localization::PoseBound, kGyroBuilt> bound_;
+  Part<localization::FixTeacher, kGyroBuilt> teacher_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;
 };

@@ -7,6 +7,7 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
 #include "firmware/params/reach.hpp"
+#include "firmware/part.hpp"
 
 namespace whisker {
 

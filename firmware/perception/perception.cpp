@@ -1,5 +1,7 @@
 #include "firmware/perception/perception.hpp"
 
+#include "firmware/part.hpp"
+
 namespace whisker::perception {
 namespace {
 

@@ -4,20 +4,13 @@
 #include <stdint.h>
 
 #include "firmware/health.hpp"
-#include "firmware/localization/part.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/incidence_watch.hpp"
 
 namespace whisker::perception {
-
-/// Whether this image measures the incidence that the sensors see, which is only reported (1.3 KB on an AVR).
-#ifdef WHISKER_INCIDENCE
-constexpr bool kIncidenceBuilt = WHISKER_INCIDENCE != 0;
-#else
-constexpr bool kIncidenceBuilt = true;
-#endif
 
 /// Judges all beams together. The rate of contradictions is a mean over the path, with a weight that falls to
 /// 1/e in 4 m. The path counts in steps of 20 mm, and a step has at most one contradiction, so that a robot
@@ -48,7 +41,7 @@ class RangeMonitor {
 
  private:
   static constexpr uint16_t kManyFalseClears = 13107;
-  localization::Part<IncidenceWatch, kIncidenceBuilt> incidence_;
+  Part<IncidenceWatch, kIncidenceBuilt> incidence_;
   RangeTrust trust_;
   Vec step_from_;
   uint8_t counted_ = 0;  // contradictions in this step

@@ -1,5 +1,7 @@
 #include "firmware/apps/pil_link/session.hpp"
 
+#include "firmware/part.hpp"
+
 namespace whisker::link {
 namespace {
 

@@ -1,5 +1,6 @@
 #include "firmware/planning/boundary/boundary_planner.hpp"
 
+#include "firmware/part.hpp"
 #include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/steering.hpp"
 
@@ -70,7 +71,7 @@ void BoundaryPlanner::act(const View& view) noexcept {
     on(Event::at_goal);
     decision_.manoeuvre = stop();
   }
-  const bool threatened = perception::kEvades && evasion_.threatened(view, behaviours_.params);
+  const bool threatened = kEvades && evasion_.threatened(view, behaviours_.params);
   if (threatened &&
       (phase_ == Phase::approach || phase_ == Phase::choose_side || phase_ == Phase::boundary)) {
     evasion_.begin();
@@ -85,7 +86,7 @@ void BoundaryPlanner::act(const View& view) noexcept {
       if (boundary(view)) approach(view);
       break;
     case Phase::evade:
-      if constexpr (perception::kEvades) decision_.manoeuvre = evasion_.step(view, behaviours_.params);
+      if constexpr (kEvades) decision_.manoeuvre = evasion_.step(view, behaviours_.params);
       break;
     case Phase::arrive: arrive(view); break;
     case Phase::over: break;
