@@ -1,5 +1,6 @@
 """Shared by the scripts: the classes of worlds, and `whisker campaign` in them."""
 
+import argparse
 import json
 import os
 import pathlib
@@ -110,14 +111,31 @@ def put(page, name, text):
     page.write_text(before + text + after)
 
 
-def show_table(lines, page, name, put_it):
-    """Prints the lines as they come, and then puts them into the page if asked to."""
-    text = ""
+def show(made, lines, page, name, update):
+    """Prints what made the table, and the table's lines as they come. `update`: writes both into the page."""
+    if update:
+        place_in(page, name)
+    text = f"{made}\n\n"
+    print(text, end="")
     for text_line in lines:
         print(text_line, flush=True)
         text += text_line + "\n"
-    if put_it:
+    if update:
         put(page, name, text)
+
+
+def table_options(description, unit, count):
+    """Parser for COUNT, FIRST_SEED and --update of a script that fills a table of a page."""
+    parser = argparse.ArgumentParser(prog=f"scripts/{PROGRAM}", description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("count", metavar="COUNT", nargs="?", type=whole_number, default=count, help=f"{unit}; default {count}")
+    parser.add_argument("first", metavar="FIRST_SEED", nargs="?", type=whole_number, default=1)
+    parser.add_argument("--update", action="store_true", help="write the table into its page of docs/")
+    return parser
+
+
+def made_by(o, unit):
+    """What a table with these options is, for its first line."""
+    return f"`scripts/{PROGRAM} {o.count} {o.first}`: {o.count} {unit}, seeds {o.first} to {o.first + o.count - 1}, on {machine()}."
 
 
 def machine():
