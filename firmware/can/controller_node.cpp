@@ -3,8 +3,7 @@
 namespace whisker::can {
 namespace {
 
-constexpr uint32_t kTrustTicks = 50;
-constexpr uint32_t kSigmaTicks = 50;
+constexpr uint32_t kReportTicks = 50;
 
 }  // namespace
 
@@ -78,12 +77,12 @@ void ControllerNode::answer(hal::WheelSpeeds speeds, const NavStatus& status) no
 }
 
 void ControllerNode::publish_trust(const RangeTrustReport& trust, bool ends) noexcept {
-  if (!ends && trust.level == published_ && tick_ % kTrustTicks != 0) return;
+  if (!ends && trust.level == published_ && tick_ % kReportTicks != 0) return;
   if (send(trust)) published_ = trust.level;
 }
 
 void ControllerNode::publish_sigma(const PoseSigmaReport& sigma, bool ends) noexcept {
-  if (ends || tick_ % kSigmaTicks == 0) send(sigma);
+  if (ends || tick_ % kReportTicks == 0) send(sigma);
 }
 
 FrameResult ControllerNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept {

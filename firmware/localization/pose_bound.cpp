@@ -16,8 +16,6 @@ static_assert(int64_t{PoseBound::kMost.raw()} * PoseBound::kMost.raw() <= kMostV
 
 int64_t limited(int64_t x, int64_t most) noexcept { return x > most ? most : x < -most ? -most : x; }
 
-int64_t square(int64_t x) noexcept { return x * x; }
-
 int32_t sum(int32_t a, int64_t b) noexcept { return saturate32(a + b); }
 
 Length root(int64_t variance) noexcept {

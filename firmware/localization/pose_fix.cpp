@@ -3,8 +3,6 @@
 namespace whisker::localization {
 namespace {
 
-int64_t square(int64_t x) noexcept { return x * x; }
-
 /// The difference of two values, and their standard deviations: lengths in 2^4 um, angles in 2^-24 turn.
 struct Difference {
   int32_t size;
@@ -41,7 +39,7 @@ int32_t weight(const Difference& d) noexcept {
 
 /// The standard deviation of the mean, in the unit of the fix's.
 int32_t remaining(int32_t fix, int32_t weight) noexcept {
-  return static_cast<int32_t>(int64_t{fix} * square_root(uint64_t{1} * static_cast<uint32_t>(weight) << 16) >>
+  return static_cast<int32_t>(int64_t{fix} * square_root(uint64_t{static_cast<uint32_t>(weight)} << 16) >>
                               16);
 }
 

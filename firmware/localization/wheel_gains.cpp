@@ -12,8 +12,6 @@ constexpr int32_t kLeastSkewVariance = 172;    // 0.02 %
 constexpr uint8_t kStraight = 3;               // steps without turning: longer than the latency of a gyro
 constexpr int32_t kSlipDegrees = 3;            // an error below this is no slip
 
-int64_t square(int64_t x) noexcept { return x * x; }
-
 /// What remains of a variance after an observation with this share of it.
 int32_t remaining(int32_t variance, int64_t part, int64_t whole, int32_t least) noexcept {
   const int32_t rest = variance - saturate32(divide_rounded(variance * part, whole));

@@ -44,6 +44,9 @@ constexpr uint64_t magnitude(int64_t x) noexcept {
   return x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
 }
 
+/// |x| < 2^31.5.
+constexpr int64_t square(int64_t x) noexcept { return x * x; }
+
 /// n / d to nearest, ties away from zero. d > 0; |n| + d / 2 must fit.
 [[gnu::noinline]] constexpr int64_t divide_rounded(int64_t n, int64_t d) noexcept {
   const int64_t sum = n < 0 ? n - d / 2 : n + d / 2;

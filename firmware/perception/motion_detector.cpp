@@ -133,8 +133,8 @@ bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthe
 }
 
 bool MotionDetector::came_from(Vec at, Angle& direction) const noexcept {
-  for (int n = 0; n < count_; ++n) {
-    const Scan& scan = scan_[(newest_ + kKept + 1 - count_ + n) % kKept];
+  for (int n = count_; n > 0; --n) {
+    const Scan& scan = scan_[(newest_ + kKept + 1 - n) % kKept];
     Vec way;
     Length nearest = kFarthestDisplaced;
     for (int i = 0; i < kBeams; ++i) {

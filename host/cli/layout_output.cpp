@@ -7,6 +7,7 @@
 
 #include "firmware/params/relations.hpp"
 #include "host/report/layout_svg.hpp"
+#include "host/report/units.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/sensor_text.hpp"
 
@@ -14,12 +15,12 @@ namespace whisker::cli {
 namespace {
 
 using campaign::LayoutScore;
+using report::degrees;
+using report::metres;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kWorlds = "30 discs, U-traps, mazes and rooms";
 
-double metres(Length l) { return l.raw() * 1e-6; }
-double degrees(Angle a) { return a.wrapped() * (180.0 / 2147483648.0); }
 /// Without the remainder of the fixed-point unit.
 double tidy(double x) { return campaign::rounded(x); }
 

@@ -18,14 +18,17 @@ struct RecordingMap {
   planning::BoundaryPlanner planner;
 };
 
+localization::PoseSigma fix_sigma(const sim::NoiseSpec& noise) {
+  const Pose sigma = fixed_pose({{noise.fix_sigma_m, 0}, noise.fix_sigma_rad});
+  return {sigma.at.x, sigma.at.x, sigma.heading};
+}
+
 }  // namespace
 
 CorePilot::CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Plant& plant)
     : plant_(plant),
       fixes_(noise_spec(scenario.noise), scenario.seed),
-      fix_sigma_{fixed_pose({{scenario.noise.fix_sigma_m, 0}, 0}).at.x,
-                 fixed_pose({{scenario.noise.fix_sigma_m, 0}, 0}).at.x,
-                 fixed_pose({{}, noise_spec(scenario.noise).fix_sigma_rad}).heading},
+      fix_sigma_(fix_sigma(noise_spec(scenario.noise))),
       board_(plant),
       planner_(std::move(planner)),
       shown_(*planner_.planner),
