@@ -71,6 +71,12 @@ TEST_P(GuardAgainst, AnAdversaryThatAsksForEveryManoeuvre) {
 
 INSTANTIATE_TEST_SUITE_P(Part, GuardAgainst, testing::Combine(testing::Range(0, kParts), testing::Bool()));
 
+TEST(Guard, TouchesNothingWithoutAMarginEither) {
+  const auto count = static_cast<int>(test::effort(150, 1250));
+  const Torment n = torment(1, count, false, Length{});
+  std::printf("%d missions without a margin from seed 1: the smallest gap is %.4f m\n", n.worlds, n.gap);
+}
+
 RC_GTEST_PROP(Guard, NeverTouchesFromAnySeed, (std::uint64_t seed, bool noise)) {
   const auto margin = micrometres(*rc::gen::inRange(0, Params{}.skirt.planning_margin.raw() + 1));
   const Torment n = torment(seed, 1, noise, margin);
