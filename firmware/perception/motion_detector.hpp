@@ -70,7 +70,7 @@ class MotionDetector {
 
   Time newest_taken_;
   int8_t newest_ = kKept - 1;
-  int8_t count_ = 0;
+  uint8_t count_ = 0;
   const Mount* mounts_ = nullptr;
   Facing beam_[kBeams];
   Facing edge_[kBeams];  // of the half cone
