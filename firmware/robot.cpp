@@ -18,6 +18,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
       params_(params),
       bumper_(bumper),
       gyro_(gyro),
+      localizer_(params, status_, status_.health),
       wheels_(drive),
       supervisor_(params, status_.health) {
   if (check(params) != ParamFault::none) {
@@ -25,14 +26,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
     show_fault();
     return;
   }
-  odometry_.configure(params);
-  if (has_gyro()) heading_->configure(params, odometry_);
-  if (kGyroBuilt) {
-    bound_->configure(params);
-    teacher_->configure(params, odometry_);
-    status_.sigma_known = bound_->known();
-    restart_bound({});
-  }
+  localizer_.configure();
   perception_.configure(params);
   warned_speed_ = safety::warned_speed(params);
   supervisor_.configure();
@@ -49,65 +43,26 @@ bool Robot::placeable(const Pose& pose) noexcept {
 bool Robot::place(const Pose& pose) noexcept {
   if (!placeable(pose)) return false;
   if (started_ && !supervisor_.faulted() && has_goal_) {
-    if (kGyroBuilt) restart_bound({});
-    move_frame(pose);
+    localizer_.move(pose);
   } else {
-    put_down(pose);
+    localizer_.put_down(pose);
+    perception_.forget(pose);
+    guard_.reset();
+    reflex_.reset();
   }
-  return true;
-}
-
-void Robot::put_down(const Pose& pose) noexcept {
-  odometry_.place(pose);
-  if (has_gyro()) heading_->restart();
-  if (kGyroBuilt) teacher_->restart(Angle{}, Angle{});
-  status_.pose = pose;
-  perception_.forget(pose);
-  guard_.reset();
-  reflex_.reset();
-  frame_.tie(pose, pose);
-  if (kGyroBuilt) restart_bound({});
   if (has_goal_) aim_again();
+  return true;
 }
 
 bool Robot::correct(const Pose& pose, const localization::PoseSigma& sigma) noexcept {
-  if (!placeable(pose)) return false;
-  localization::UncertainPose fix{pose, sigma};
-  if (has_bound()) {
-    const localization::UncertainPose estimate{status_.pose, bound_->sigma()};
-    if (localization::jumps(estimate, fix)) {
-      count(status_.health.fix_jumps);
-      if (params_.fix_jumps == JumpPolicy::refuse) {
-        count(status_.health.fixes_refused);
-        return false;
-      }
-    }
-    fix = localization::fused(estimate, fix);
-  }
-  teach(pose.heading, sigma.heading, fix);
-  if (kGyroBuilt) restart_bound(fix.sigma);
-  move_frame(fix.pose);
-  return true;
-}
-
-void Robot::teach(Angle fix, Angle sigma, const localization::UncertainPose& fused) noexcept {
-  if (!kGyroBuilt || has_gyro()) return;
-  const Angle heading = odometry_.pose().heading;
-  if (!teacher_->fix(fix - heading, sigma)) return;
-  teacher_->restart(fused.pose.heading - heading, fused.sigma.heading);
-  if (has_bound()) bound_->set_difference(teacher_->gains().skew_sigma() * 2, params_.body.track);
-}
-
-void Robot::move_frame(const Pose& pose) noexcept {
-  if (pose.at == status_.pose.at && pose.heading == status_.pose.heading) return;
-  frame_.tie(odometry_.pose(), pose);
-  status_.pose = pose;
+  if (!placeable(pose) || !localizer_.correct(pose, sigma)) return false;
   if (has_goal_) aim_again();
+  return true;
 }
 
 void Robot::aim_again() noexcept {
   Vec at;
-  if (aimed(frame_.aim_again(at))) planner_.move_goal(at);
+  if (aimed(localizer_.frame().aim_again(at))) planner_.move_goal(at);
 }
 
 bool Robot::aimed(bool in_range) noexcept {
@@ -119,7 +74,7 @@ bool Robot::aimed(bool in_range) noexcept {
 
 bool Robot::set_goal(const planning::Goal& goal) noexcept {
   planning::Goal inside = goal;
-  if (aimed(frame_.aim(goal.at, inside.at))) planner_.set_goal(inside);
+  if (aimed(localizer_.frame().aim(goal.at, inside.at))) planner_.set_goal(inside);
   return has_goal_;
 }
 
@@ -136,10 +91,10 @@ void Robot::reset() noexcept {
   resting_for_ = Duration{};
   // The next counts may include the whole braking path.
   since_counts_ += safety::braking_time(params_);
-  perception_.forget(odometry_.pose());
+  perception_.forget(localizer_.inside());
   guard_.reset();
   reflex_.reset();
-  motion_.begin(planning::stop(), odometry_.pose());
+  motion_.begin(planning::stop(), localizer_.inside());
   cancel();
 }
 
@@ -162,8 +117,8 @@ bool Robot::localize(Time now, planning::View& view) noexcept {
   if (motion_.settled() && !was_settled_) settled_since_ = now;
   was_settled_ = motion_.settled();
   const WheelPair rolling = wheels_.state().rolling;
-  view.pose = odometry_.pose();
-  view.travelled_um = odometry_.travelled_um();
+  view.pose = localizer_.inside();
+  view.travelled_um = localizer_.travelled_um();
   view.elapsed = elapsed_;
   view.settled = was_settled_;
   view.cut = motion_.cut();
@@ -195,59 +150,26 @@ void Robot::take_time(Time now) noexcept {
 }
 
 bool Robot::take_counts() noexcept {
-  hal::EncoderCounts counts{};
-  const bool read = wheels_.read(counts);
+  localization::Localizer::Step step;
+  const bool read = wheels_.read(step.counts);
   supervisor_.check_counts(read);
   if (!read) return false;
-  const bool sound = odometry_.take(counts, since_counts_, step_);
-  if (sound) advance_pose();
+  hal::GyroReading reading{};
+  if (localizer_.has_gyro() && gyro_ != nullptr && gyro_->read(reading)) step.gyro = &reading;
+  step.commanded = status_.command.left != 0 || status_.command.right != 0;
+  step.since = since_counts_;
   since_counts_ = Duration{};
-  if (!sound) {
+  if (!localizer_.step(step)) {
     supervisor_.fail(Fault::encoder_jump, status_.health.encoder_jumps);
     return false;
   }
-  const Pose inside = odometry_.pose();
-  status_.pose = frame_.outward(inside);
-  const bool within_region = within(status_.pose.at, kBodyLimit) && within(inside.at, kBodyLimit);
+  const bool within_region =
+      within(status_.pose.at, kBodyLimit) && within(localizer_.inside().at, kBodyLimit);
   if (!supervisor_.faulted() && !within_region) {
     supervisor_.fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
   }
-  supervisor_.check_wheels(step_);
+  supervisor_.check_wheels(localizer_.counts());
   return true;
-}
-
-void Robot::advance_pose() noexcept {
-  if (!kGyroBuilt) return odometry_.advance(step_);
-  if (!has_gyro()) {
-    advance_by_wheels();
-    if (has_bound()) advance_bound(Duration{});
-    return;
-  }
-  hal::GyroReading reading{};
-  const bool read = gyro_ != nullptr && gyro_->read(reading);
-  const bool commanded = status_.command.left != 0 || status_.command.right != 0;
-  const localization::GyroHeading::Step step{read ? &reading : nullptr, step_, commanded, since_counts_};
-  odometry_.advance(step_, heading_->turn(step, odometry_, status_.health));
-  status_.heading_source = heading_->source();
-  if (has_bound()) advance_bound(heading_->bias().age());
-}
-
-void Robot::advance_by_wheels() noexcept {
-  teacher_->pass(step_);
-  if (!teacher_->taught()) return odometry_.advance(step_);
-  odometry_.advance(step_, teacher_->turn(step_, odometry_));
-}
-
-void Robot::advance_bound(Duration bias_age) noexcept {
-  const bool by_gyro = status_.heading_source == localization::HeadingSource::gyro;
-  const Pose pose = odometry_.pose();
-  if (bound_->step({pose, step_, since_counts_, by_gyro, bias_age})) status_.sigma = bound_->sigma();
-}
-
-void Robot::restart_bound(const localization::PoseSigma& sigma) noexcept {
-  if (!has_bound()) return;
-  bound_->restart(odometry_.pose(), sigma);
-  status_.sigma = bound_->sigma();
 }
 
 void Robot::perceive(planning::View& view, bool counted) noexcept {
@@ -269,7 +191,7 @@ void Robot::take_bumps(const Pose& pose, bool counted) noexcept {
   supervisor_.check_bumper(read);
   if (read) status_.pressed = reading.pressed & hal::kAllSwitches;
   if (supervisor_.faulted()) return;
-  const bool still = counted && step_.left == 0 && step_.right == 0;
+  const bool still = counted && localizer_.counts().left == 0 && localizer_.counts().right == 0;
   const bool was_active = reflex_.active();
   const uint8_t fresh = reflex_.step(pose, {status_.pressed, has_goal_, still, elapsed_}, params_);
   if (reflex_.active() && !was_active) motion_.interrupt();
@@ -314,11 +236,11 @@ void Robot::plan(const planning::View& view) noexcept {
 
 /// The planner is not asked meanwhile.
 bool Robot::rests_for_gyro() noexcept {
-  if (!has_gyro()) return false;
-  localization::GyroBias& bias = heading_->bias();
+  if (!localizer_.has_gyro()) return false;
+  localization::GyroBias& bias = localizer_.gyro_bias();
   const bool resting = resting_for_ > Duration{};
   const bool begins = bias.stands() || bias.due_for() > kRestDelay;
-  if (has_goal_ && heading_->wants_rest() && (resting || begins)) {
+  if (has_goal_ && localizer_.wants_rest() && (resting || begins)) {
     if (!resting) motion_.interrupt();
     resting_for_ += elapsed_;
     if (resting_for_ < kLongestRest) return true;
@@ -358,7 +280,7 @@ WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {
   const bool stands = paused || rests || !fresh || supervisor_.faulted() || supervisor_.refused();
   const WheelPair speeds = granted(view, stands);
   const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
-  motion_.settle(paused ? nullptr : &step_, commanded, elapsed_, params_);
+  motion_.settle(paused ? nullptr : &localizer_.counts(), commanded, elapsed_, params_);
   supervisor_.check_motion(motion_);
   return speeds;
 }

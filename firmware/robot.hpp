@@ -3,16 +3,10 @@
 
 #include "firmware/control/wheel_drive.hpp"
 #include "firmware/health.hpp"
-#include "firmware/localization/fix_teacher.hpp"
-#include "firmware/localization/frame.hpp"
-#include "firmware/localization/gyro_heading.hpp"
-#include "firmware/localization/odometry.hpp"
-#include "firmware/localization/pose_bound.hpp"
-#include "firmware/localization/pose_fix.hpp"
+#include "firmware/localization/localizer.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
-#include "firmware/part.hpp"
 #include "firmware/perception/perception.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/planning/planner.hpp"
@@ -27,15 +21,11 @@
 namespace whisker {
 
 /// The result of the last tick.
-struct Status {
+struct Status : localization::Estimate {
   planning::Decision decision;
-  Pose pose;                 ///< estimated
-  bool sigma_known = false;  ///< the parameters declare an error of the wheels, and the image has the code
-  localization::PoseSigma sigma;  ///< standard deviations of the pose, if known
-  perception::Echoes echoes;      ///< the latest single reading of each beam
-  hal::WheelSpeeds command{};     ///< as sent to the drive
-  uint8_t pressed = 0;            ///< bump switches, see hal::BumperReading; 0 without a bumper
-  localization::HeadingSource heading_source = localization::HeadingSource::wheels;
+  perception::Echoes echoes;   ///< the latest single reading of each beam
+  hal::WheelSpeeds command{};  ///< as sent to the drive
+  uint8_t pressed = 0;         ///< bump switches, see hal::BumperReading; 0 without a bumper
   Health health;
 };
 
@@ -106,32 +96,23 @@ class Robot {
   const Status& status() const noexcept { return status_; }
 
  private:
-  // The five stages of a tick, in this order. The view collects their results.
+  // The five stages of a tick, in this order, each with its parts. The view collects their results.
   bool localize(Time now, planning::View& view) noexcept;
+  void take_time(Time now) noexcept;
+  bool take_counts() noexcept;
   void perceive(planning::View& view, bool counted) noexcept;
+  void take_bumps(const Pose& pose, bool counted) noexcept;
   void plan(const planning::View& view) noexcept;
-  bool has_gyro() const noexcept { return kGyroBuilt && params_.gyro.fitted == Fitted::yes; }
   bool rests_for_gyro() noexcept;
-  bool has_bound() const noexcept { return kGyroBuilt && status_.sigma_known; }
-  void advance_bound(Duration bias_age) noexcept;
-  void restart_bound(const localization::PoseSigma& sigma) noexcept;
   WheelPair guard(const planning::View& view, bool paused) noexcept;
   WheelPair granted(const planning::View& view, bool stands) noexcept;
   void actuate(WheelPair speeds) noexcept;
+  void show_fault() noexcept;
 
-  void take_time(Time now) noexcept;
-  bool take_counts() noexcept;
-  void advance_pose() noexcept;
-  void take_bumps(const Pose& pose, bool counted) noexcept;
-  void put_down(const Pose& pose) noexcept;
-  void advance_by_wheels() noexcept;
-  void teach(Angle fix, Angle sigma, const localization::UncertainPose& fused) noexcept;
-  void move_frame(const Pose& pose) noexcept;
   bool placeable(const Pose& pose) noexcept;
   void aim_again() noexcept;
   /// Notes whether the goal is within range; without one the planner has nothing to do.
   bool aimed(bool in_range) noexcept;
-  void show_fault() noexcept;
 
   hal::Rangefinders& rangefinders_;
   planning::Planner& planner_;
@@ -139,7 +120,6 @@ class Robot {
   hal::Bumper* bumper_;
   hal::Gyro* gyro_;
 
-  localization::CountStep step_;  // of this tick
   Time last_tick_;
   Time settled_since_;
   Speed warned_speed_;     // while the ground is in doubt
@@ -153,15 +133,11 @@ class Robot {
   bool braked_elsewhere_ = false;
 
   Status status_;
-  localization::Frame frame_;
+  localization::Localizer localizer_;
   control::WheelDrive wheels_;
   safety::Guard guard_;
   safety::BumpReflex reflex_;
   planning::MotionController motion_;
-  localization::Odometry odometry_;
-  Part<localization::GyroHeading, kGyroBuilt> heading_;
-  Part<localization::PoseBound, kGyroBuilt> bound_;
-  Part<localization::FixTeacher, kGyroBuilt> teacher_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;
 };

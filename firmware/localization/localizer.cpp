@@ -1,0 +1,100 @@
+#include "firmware/localization/localizer.hpp"
+
+namespace whisker::localization {
+
+void Localizer::configure() noexcept {
+  odometry_.configure(params_);
+  if (has_gyro()) heading_->configure(params_, odometry_);
+  if (!kGyroBuilt) return;
+  bound_->configure(params_);
+  teacher_->configure(params_, odometry_);
+  estimate_.sigma_known = bound_->known();
+  restart_bound({});
+}
+
+void Localizer::put_down(const Pose& pose) noexcept {
+  odometry_.place(pose);
+  if (has_gyro()) heading_->restart();
+  if (kGyroBuilt) teacher_->restart(Angle{}, Angle{});
+  estimate_.pose = pose;
+  frame_.tie(pose, pose);
+  restart_bound({});
+}
+
+void Localizer::move(const Pose& pose) noexcept {
+  restart_bound({});
+  tie(pose);
+}
+
+bool Localizer::correct(const Pose& pose, const PoseSigma& sigma) noexcept {
+  UncertainPose fix{pose, sigma};
+  if (has_bound()) {
+    const UncertainPose estimate{estimate_.pose, bound_->sigma()};
+    if (jumps(estimate, fix)) {
+      count(health_.fix_jumps);
+      if (params_.fix_jumps == JumpPolicy::refuse) {
+        count(health_.fixes_refused);
+        return false;
+      }
+    }
+    fix = fused(estimate, fix);
+  }
+  teach(pose.heading, sigma.heading, fix);
+  restart_bound(fix.sigma);
+  tie(fix.pose);
+  return true;
+}
+
+void Localizer::teach(Angle fix, Angle sigma, const UncertainPose& fused) noexcept {
+  if (!kGyroBuilt || has_gyro()) return;
+  const Angle heading = odometry_.pose().heading;
+  if (!teacher_->fix(fix - heading, sigma)) return;
+  teacher_->restart(fused.pose.heading - heading, fused.sigma.heading);
+  if (has_bound()) bound_->set_difference(teacher_->gains().skew_sigma() * 2, params_.body.track);
+}
+
+void Localizer::tie(const Pose& pose) noexcept {
+  if (pose.at == estimate_.pose.at && pose.heading == estimate_.pose.heading) return;
+  frame_.tie(odometry_.pose(), pose);
+  estimate_.pose = pose;
+}
+
+bool Localizer::step(const Step& step) noexcept {
+  if (!odometry_.take(step.counts, step.since, counts_)) return false;
+  advance(step);
+  estimate_.pose = frame_.outward(odometry_.pose());
+  return true;
+}
+
+void Localizer::advance(const Step& step) noexcept {
+  if (!kGyroBuilt) return odometry_.advance(counts_);
+  if (!has_gyro()) {
+    advance_by_wheels();
+    advance_bound(step.since, Duration{});
+    return;
+  }
+  const GyroHeading::Step turn{step.gyro, counts_, step.commanded, step.since};
+  odometry_.advance(counts_, heading_->turn(turn, odometry_, health_));
+  estimate_.heading_source = heading_->source();
+  advance_bound(step.since, heading_->bias().age());
+}
+
+void Localizer::advance_by_wheels() noexcept {
+  teacher_->pass(counts_);
+  if (!teacher_->taught()) return odometry_.advance(counts_);
+  odometry_.advance(counts_, teacher_->turn(counts_, odometry_));
+}
+
+void Localizer::advance_bound(Duration since, Duration bias_age) noexcept {
+  if (!has_bound()) return;
+  const bool by_gyro = estimate_.heading_source == HeadingSource::gyro;
+  if (bound_->step({odometry_.pose(), counts_, since, by_gyro, bias_age})) estimate_.sigma = bound_->sigma();
+}
+
+void Localizer::restart_bound(const PoseSigma& sigma) noexcept {
+  if (!has_bound()) return;
+  bound_->restart(odometry_.pose(), sigma);
+  estimate_.sigma = bound_->sigma();
+}
+
+}  // namespace whisker::localization
