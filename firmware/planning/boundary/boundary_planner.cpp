@@ -27,6 +27,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
   if (kNarrowGaps) slits_->reset();
+  sought_ = false;
   phase_ = Phase::survey;
   report(Mode::surveying, Why::goal_set);
   advance(view);
@@ -119,8 +120,7 @@ void BoundaryPlanner::survey(const View& view) noexcept {
 }
 
 void BoundaryPlanner::approach(const View& view) noexcept {
-  if (kNarrowGaps && view.sighted && decision_.why == Why::narrow)
-    slits_->look(view, view.pose.heading);
+  if (kNarrowGaps && view.sighted && decision_.why == Why::narrow) slits_->look(view, view.pose.heading);
   if (approach_.step(view, target_, wall_, decision_)) return;
   if (approach_.refuted()) {
     end(Event::refuted, Outcome::unreachable);
@@ -166,8 +166,10 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
     // The map refutes the rest of the second loop, which was for the slits.
     const bool refuted = kNarrowGaps && other_way_ && approach_.knows_no_way() && !knows_slit();
     const bool expects = kNarrowGaps && slits_->expects();
-    if ((refuted || loop_.closed(view, evidence) || expects) &&
-        !(kNarrowGaps && slits_->expected(view))) {
+    const bool closed = loop_.closed(view, evidence);
+    // The rest of the loop is driven for slits: it is no evidence.
+    if (closed && !expects) parts_ = loop_.may_part(began_, goal_.at, wall_);
+    if ((refuted || closed || expects) && !(kNarrowGaps && slits_->expected(view))) {
       go_the_other_way(view);
       return false;
     }
@@ -191,11 +193,15 @@ void BoundaryPlanner::gap(const View& view) noexcept {
   switch (passage_->step(view, decision_)) {
     case GapPassage::Result::under_way: break;
     case GapPassage::Result::through:
+      // Only a passage that brings the body nearer to the goal than ever before cannot repeat without end.
+      if (target_.distance >= approach_.closest() - for_body(behaviours_.params, kNearer))
+        slits_->end_attempt();
+      sought_ = false;
       approach_.measure_anew(view, target_.distance);
       begin_approach(Event::through);
       break;
     case GapPassage::Result::failed:
-      slits_->refuse(view);
+      slits_->end_attempt();
       on(Event::too_narrow);
       follower_.begin_at_wall(view, passage_->came_along(), wall_, decision_);
       break;
@@ -247,8 +253,8 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
   if (kNarrowGaps) slits_->end_loop(view);
-  if (other_way_ || (approach_.knows_no_way() && !knows_slit())) {
-    if (loop_.may_part(began_, goal_.at, wall_)) {
+  if (other_way_ || (approach_.knows_no_way() && (sought_ || !knows_slit()))) {
+    if (parts_) {
       give_up_goal(view);
     } else {
       escape(view);
@@ -257,6 +263,7 @@ void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
   }
   // A gap may be passable from only one side, so follow the boundary in the other direction.
   other_way_ = true;
+  sought_ = approach_.knows_no_way();
   wall_ = opposite(wall_);
   const Angle back = view.pose.heading + 180_deg;
   loop_.begin(view, behaviours_.params);

@@ -130,6 +130,8 @@ class BoundaryPlanner final : public GoalPlanner {
   Phase phase_ = Phase::survey;
   Side wall_ = Side::left;     ///< side of the current or last obstacle
   bool other_way_ = false;     // closed the loop once
+  bool parts_ = false;         // the last loop may separate start and goal
+  bool sought_ = false;        // made a loop for slits that the map refutes
   int8_t escapes_ = 0;         // from obstacles that did not block the path
   Why otherwise_ = Why::none;  // the reason, if nothing moved
   int32_t left_edge_mm_ = 0;   // travel at the last leave point

@@ -14,7 +14,7 @@ constexpr int8_t kRounds = 8;
 constexpr int8_t kStops = 8;
 constexpr Length kOn = 2_mm;        // from one stop to the next, or it is no use
 constexpr Length kOutward = 10_mm;  // past the innermost point of a jamb
-constexpr int8_t kLanes = 2;
+constexpr int8_t kOtherLanes = 1;
 constexpr Length kDrop = 40_mm;  // of a reading, at a jamb
 constexpr Length kFarJamb = 600_mm;
 constexpr Length kJambs = 450_mm;    // farthest from each other
@@ -197,7 +197,7 @@ GapPassage::Result GapPassage::creep(const View& view, Decision& decision) noexc
   const Length passed = along(off, heading);
   if (passed > for_body(params, returns_ ? kInFront : kBehind)) {
     if (!returns_) return Result::through;
-    if (++lanes_ > kLanes) return Result::failed;
+    if (++lanes_ > kOtherLanes) return Result::failed;
     returns_ = opened_ = false;
     stops_ = 0;
     rounds_ = 1;

@@ -8,10 +8,10 @@ namespace {
 // All lengths are for the reference body.
 constexpr Length kEvery = 20_mm;
 constexpr Length kHalfWidth = 45_mm;
-constexpr int32_t kUnknown = 2;     // cells
-constexpr Length kJamb = 130_mm;    // from the middle of a slit to the paths that its sides block
-constexpr Length kSame = 150_mm;    // the distance between two views of one slit
-constexpr Length kRefused = 50_mm;  // from a place of a refusal
+constexpr int32_t kUnknown = 2;   // cells
+constexpr Length kJamb = 130_mm;  // from the middle of a slit to the paths that its sides block
+constexpr Length kSame = 150_mm;  // the distance between two views of one slit
+constexpr Length kTried = 50_mm;  // from a slit that was tried
 constexpr Length kHere = 500_mm;
 constexpr Length kExpected = 1500_mm;  // of travel
 
@@ -19,7 +19,7 @@ constexpr Length kExpected = 1500_mm;  // of travel
 
 void SlitSearch::reset() noexcept {
   known_ = 0;
-  refusals_ = 0;
+  attempts_ = 0;
   expected_ = false;
   looked_mm_ = 0;
 }
@@ -27,7 +27,7 @@ void SlitSearch::reset() noexcept {
 void SlitSearch::look(const View& view, Angle ahead) noexcept {
   const Params& params = behaviours_.params;
   // Where beams must sweep past a cell to clear it, the passage cannot clear a lane.
-  if (view.local_grid->reach().past != Angle{} || refused(view.pose.at)) return;
+  if (view.local_grid->reach().past != Angle{} || attempts_ == kAttempts) return;
   const Length length = for_body(params, GapPassage::kSeenFrom);
   const auto path = [&](Length left) {
     const Vec from = view.pose.at + polar(ahead + 90_deg, for_body(params, left));
@@ -38,6 +38,7 @@ void SlitSearch::look(const View& view, Angle ahead) noexcept {
   const perception::Obstacles left = path(kJamb), right = path(-kJamb);
   if (left.suspect == 0 || right.suspect == 0) return;
   const Vec at = view.pose.at + polar(ahead, length);
+  if (tried(at)) return;
   const bool same =
       (known_ >> newest_ & 1U) != 0 && !farther(at - slits_[newest_].at, for_body(params, kSame));
   if (!same) newest_ = static_cast<int8_t>((newest_ + 1) % kKept);
@@ -84,20 +85,22 @@ Pose SlitSearch::take(const View& view) noexcept {
   while (i < kKept - 1 && (found >> i & 1U) == 0) ++i;
   known_ = static_cast<uint8_t>(known_ & ~(1U << i));
   expected_ = false;
+  taken_ = slits_[i].at;
   return slits_[i];
 }
 
-bool SlitSearch::refused(Vec from) const noexcept {
-  for (int i = 0; i < refusals_; ++i) {
-    if (!farther(from - refused_[i], for_body(behaviours_.params, kRefused))) return true;
+bool SlitSearch::tried(Vec at) const noexcept {
+  for (int i = 0; i < attempts_; ++i) {
+    if (!farther(at - tried_[i], for_body(behaviours_.params, kTried))) return true;
   }
-  return refusals_ == kRefusals;
+  return false;
 }
 
-void SlitSearch::refuse(const View& view) noexcept {
-  known_ = static_cast<uint8_t>(known_ & ~within(view, kRefused));
-  if (refusals_ < kRefusals) refused_[refusals_++] = view.pose.at;
-  if (refusals_ == kRefusals) known_ = 0;
+void SlitSearch::end_attempt() noexcept {
+  if (attempts_ < kAttempts) tried_[attempts_++] = taken_;
+  for (int i = 0; i < kKept; ++i) {
+    if (attempts_ == kAttempts || tried(slits_[i].at)) known_ = static_cast<uint8_t>(known_ & ~(1U << i));
+  }
 }
 
 }  // namespace whisker::planning

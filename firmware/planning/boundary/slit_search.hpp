@@ -34,25 +34,26 @@ class SlitSearch {
   void end_loop(const View& view) noexcept;
   /// A place in the slit at hand, and the heading there. Forgets it.
   Pose take(const View& view) noexcept;
-  /// A slit was tried from here, and the body is not through: none is tried from here again. After five
-  /// refusals in a mission, there are no slits.
-  void refuse(const View& view) noexcept;
+  /// The slit that was taken last was tried in vain: none within 50 mm of it is tried again. After three such
+  /// attempts in a mission, there are no slits.
+  void end_attempt() noexcept;
 
  private:
-  bool refused(Vec from) const noexcept;
+  bool tried(Vec at) const noexcept;
   /// The slits that were seen from places within this distance, one bit each.
   uint8_t within(const View& view, Length reference) const noexcept;
   static constexpr Length kAtHand = Length::from_raw(200000);  // for the reference body
   static constexpr int kKept = 4;
-  static constexpr int kRefusals = 5;
+  static constexpr int kAttempts = 3;
 
   const Behaviours& behaviours_;
   uint8_t known_ = 0;  // one bit for each slit
   int8_t newest_ = 0;
-  int8_t refusals_ = 0;
+  int8_t attempts_ = 0;  // in vain
   bool expected_ = false;
   Pose slits_[kKept];
-  Vec refused_[kRefusals];
+  Vec tried_[kAttempts];     // slits
+  Vec taken_;                // the slit that was taken last
   int32_t looked_mm_ = 0;    // travel at the last look beside
   int32_t expected_mm_ = 0;  // travel up to which it is expected
 };
