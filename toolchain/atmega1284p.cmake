@@ -1,4 +1,4 @@
-# The AVR with room for the whole core except the map, Evasion, the gyro and the incidence seen: 128 KB of flash and 16 KB of RAM.
+# The AVR with room for the whole core except the map, Evasion, narrow gaps, the gyro and the incidence seen: 128 KB of flash and 16 KB of RAM.
 set(WHISKER_TITLE "AVR ATmega1284P")
 set(WHISKER_RUNS_ON "simavr")
 set(WHISKER_COMPILERS "clang")
