@@ -50,6 +50,11 @@ TEST(Enclosed, SlitsOfOnePlaceAreTriedOnce) {
   EXPECT_EQ(drive(worlds::Kind::enclosed, 400009, PlannerKind::map).verdict, Verdict::unreachable);
 }
 
+/// A gap between two obstacles of the enclosure leads no nearer to the goal.
+TEST(Enclosed, AGapIsNotPassedToAndFro) {
+  EXPECT_EQ(drive(worlds::Kind::enclosed, 710037, PlannerKind::skirt).verdict, Verdict::unreachable);
+}
+
 /// What the verdict names as the narrowest gap that it would have taken: wider ones are taken.
 TEST(Gap, IsTakenFromTheNamedWidthOn) {
   worlds::Random random(1);
