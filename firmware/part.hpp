@@ -11,6 +11,9 @@
 #ifndef WHISKER_INCIDENCE
 #define WHISKER_INCIDENCE 1
 #endif
+#ifndef WHISKER_NARROW_GAPS
+#define WHISKER_NARROW_GAPS 1
+#endif
 
 namespace whisker {
 
@@ -20,12 +23,17 @@ constexpr bool kEvades = WHISKER_EVASION != 0;
 constexpr bool kGyroBuilt = WHISKER_GYRO != 0;
 /// The incidence that the sensors see, which is only reported (1.3 KB on an AVR).
 constexpr bool kIncidenceBuilt = WHISKER_INCIDENCE != 0;
+/// The robot passes gaps that are hardly wider than the body.
+constexpr bool kNarrowGaps = WHISKER_NARROW_GAPS != 0;
 
 /// A member that exists only if its part is built. Without the code for it, there is no room for it either,
 /// and it must not be used.
 template <class T, bool kBuilt>
 class Part {
  public:
+  Part() = default;
+  template <class Argument>
+  explicit Part(Argument& argument) noexcept : part_(argument) {}
   T* operator->() noexcept { return &part_; }
   const T* operator->() const noexcept { return &part_; }
 
@@ -36,6 +44,9 @@ class Part {
 template <class T>
 class Part<T, false> {
  public:
+  Part() = default;
+  template <class Argument>
+  explicit Part(Argument&) noexcept {}
   T* operator->() const noexcept { __builtin_unreachable(); }
 };
 

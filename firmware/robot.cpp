@@ -221,6 +221,7 @@ void Robot::plan(const planning::View& view) noexcept {
     return;
   }
   decision = planner_.step(view);
+  if (kNarrowGaps && decision.lane->opens) perception_.open_lane(decision.lane->from);
   const bool running = decision.outcome == planning::Outcome::running;
   has_goal_ = running;
   if (goal_refused_) {

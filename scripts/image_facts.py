@@ -30,9 +30,9 @@ INDIRECT = (
     (r"10WheelDrive4readE", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
     (r"10WheelDrive7commandE|Robot(7actuate|4tick)E", r"7commandE.*11WheelSpeedsE"),
 )  # fmt: skip
-NO_GUIDE = ((r"N7whisker8planning(15BoundaryPlanner|8Approach)", None),)
+NO_GUIDE = ((r"NK?7whisker8planning(15BoundaryPlanner|8Approach)", None),)
 # The boundary planner with a map.
-GUIDE = ((r"N7whisker8planning(15BoundaryPlanner|8Approach)", r"N7whisker8planning16WavefrontPlanner(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|WavefrontPlanner12knows_no_way"),)
+GUIDE = ((r"NK?7whisker8planning(15BoundaryPlanner|8Approach)", r"N7whisker8planning16WavefrontPlanner(5start|9move_goal|7observe|6advise|6refuse|5doubt)E|WavefrontPlanner12knows_no_way"),)
 # The controller on a bus: node, port and line.
 NODE = (
     (r"3can4Node10understandE", r"ControllerNode8on_frameE"),

@@ -5,7 +5,8 @@
 namespace whisker::perception {
 namespace {
 
-constexpr Angle kBeside = 30_deg;  // of a side beam, revoked with it
+constexpr int32_t kLaneTolerance = 45;  // of the radius, within which the body keeps to the lane's middle
+constexpr Angle kBeside = 30_deg;       // of a side beam, revoked with it
 
 static_assert(kUnitsPerCell == 256, "kCellCover counts in 256ths of a cell");
 
@@ -13,14 +14,9 @@ constexpr Angle kSuspectHalf = 6_deg;
 constexpr Length kTestedTravel = 4_mm;
 constexpr int32_t kAhead = 3;  // cells
 constexpr Duration kDoubt = 1000_ms;
-constexpr int64_t kNear = INT32_C(1) << 30;
 
 // Seen from any apex within or near the window.
 constexpr int32_t kWholeWindow = 5 * kCells * kUnitsPerCell;
-
-constexpr int32_t within(int64_t x, int32_t limit) noexcept {
-  return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
-}
 
 /// From the measurement of a moving object to standstill: two more readings, latency, a gap, lag, braking.
 Duration time_to_stop(const Params& p) noexcept {
@@ -39,21 +35,13 @@ Beam beam_of(const Mount& mount, const Pose& body) noexcept {
   return {body.at + ahead + aside, body.heading + mount.axis, mount.half_cone};
 }
 
-int32_t LocalGrid::units(int64_t um, int32_t most) const noexcept {
-  const int64_t n = um * kUnitsPerCell;
-  // Most values are small, and a 32-bit division is faster.
-  if (n < kNear && n > -kNear) return within(floor_div(static_cast<int32_t>(n), cell_um_), most);
-  return within(floor_div<int64_t>(n, cell_um_), most);
-}
-
-int32_t LocalGrid::units(Length l) const noexcept { return units(l.raw(), kLongest); }
-
 void LocalGrid::configure(const Params& params) noexcept {
-  cell_um_ = patch_cell(params).raw();
+  scale_.cell_um = patch_cell(params).raw();
   swept_ = rim_sweep(params).radius;
   place_error_ = formula::place_error(params);
   footprint_ = units(swept_);
   reach_ = whisker::reach(params);
+  if (kNarrowGaps) lane_->configure(reach_.guard + swept_ / kLaneTolerance);
   holds_ = Length{};
   for (int i = 0; i < 3; ++i) {
     // While it turns, two readings one after another share little more than half a cone.
@@ -69,7 +57,7 @@ void LocalGrid::configure(const Params& params) noexcept {
 
 LocalGrid::Point LocalGrid::local(Vec at) const noexcept {
   const auto from_corner = [this](Length x, int32_t corner) {
-    return units(int64_t{x.raw()} - int64_t{corner} * cell_um_, kOutermost);
+    return scale_.units(int64_t{x.raw()} - int64_t{corner} * scale_.cell_um, kOutermost);
   };
   return {from_corner(at.x, column_), from_corner(at.y, row_)};
 }
@@ -100,14 +88,16 @@ void LocalGrid::reset(const Pose& pose) noexcept {
   travel_ = Length{};
   turned_ = 0;
   doubting_ = false;
+  close_lane();
   move_to(pose);
 }
 
 void LocalGrid::move_to(const Pose& pose) noexcept {
   // The body is behind the middle of the window, because the beams point ahead.
-  const Vec middle = pose.at + polar(pose.heading, Length::from_raw(cell_um_ * kAhead));
+  const Vec middle = pose.at + polar(pose.heading, Length::from_raw(scale_.cell_um * kAhead));
   const auto corner = [this](Length x) {
-    return static_cast<int32_t>(floor_div<int64_t>(int64_t{x.raw()} + cell_um_ / 2, cell_um_)) - kCells / 2;
+    return static_cast<int32_t>(floor_div<int64_t>(int64_t{x.raw()} + scale_.cell_um / 2, scale_.cell_um)) -
+           kCells / 2;
   };
   const int32_t right = corner(middle.x) - column_;
   const int32_t up = corner(middle.y) - row_;
@@ -131,6 +121,7 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
   }
   age(pose);
   clear_around(pose.at, footprint_);
+  if (has_lane()) lane_->mark_around(pose.at, swept_);
 }
 
 void LocalGrid::age(const Pose& pose) noexcept {
@@ -143,6 +134,7 @@ void LocalGrid::age(const Pose& pose) noexcept {
       old_[s] = young_[s];
       young_[s] = 0;
     }
+    if (has_lane()) lane_->age();
     travel_ = Length{};
     turned_ = 0;
   }
@@ -185,8 +177,13 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   if (!nearby(apex_before)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
-  const int32_t free = units(observation.free - room - kReadingRounding);
-  const int32_t free_before = before == nullptr ? free : units(before->free - room - kReadingRounding);
+  const Length taken_off = room + kReadingRounding;
+  const Length earlier = before == nullptr ? observation.free : before->free;
+  if (has_lane()) {
+    lane_->mark(beam, observation.free - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
+  }
+  const int32_t free = units(observation.free - taken_off);
+  const int32_t free_before = units(earlier - taken_off);
   const int32_t echo = units(observation.free) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
   const bool moved = !(beam.apex == from_before) || beam.axis != axis_before || free_before < free;
@@ -234,6 +231,7 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
 
 void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexcept {
   doubting_ = true;
+  close_lane();
   for (Chain& chain : chains_) chain.linked = false;
   doubted_ = observation.taken;
   const Beam& beam = observation.beam;
@@ -278,7 +276,7 @@ bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool
   // What lies outside the window explains an echo.
   const Angle sides[] = {-beam.half_cone, Angle{}, beam.half_cone};
   for (const Angle side : sides) {
-    const Vec end = polar(beam.axis + side, farthest + Length::from_raw(cell_um_));
+    const Vec end = polar(beam.axis + side, farthest + Length::from_raw(scale_.cell_um));
     if (!takes && !in_window(local(beam.apex + end), 0)) return false;
   }
   for (Rows rows(apex.y, ends); rows.more(); rows.next()) {
@@ -304,7 +302,9 @@ bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool
 
 void LocalGrid::revoke(const Beam& beam, Length nearest, Length farthest) noexcept {
   if (!nearby(local(beam.apex))) return;
-  if (echo_arc(beam, nearest, farthest, false)) echo_arc(beam, nearest, farthest, true);
+  if (!echo_arc(beam, nearest, farthest, false)) return;
+  echo_arc(beam, nearest, farthest, true);
+  close_lane();
 }
 
 void LocalGrid::revoke_beside(const ConeObservation& observation) noexcept {
@@ -315,6 +315,7 @@ void LocalGrid::revoke_beside(const ConeObservation& observation) noexcept {
   const Angle outward = beam.half_cone + beside;
   beam.axis += observation.number == hal::kLeft ? outward : -outward;
   beam.half_cone = beside;
+  close_lane();
   echo_arc(beam, free, free, true);
 }
 
@@ -322,6 +323,7 @@ void LocalGrid::block(Vec centre, Length radius) noexcept {
   const Point at = local(centre);
   const Point body = local(last_.at);
   if (!nearby(at)) return;
+  close_lane();
   const int32_t reach = units(radius);
   for (Rows rows(at.y, reach + kHalfSquare); rows.more(); rows.next()) {
     const int s = slot(rows.row());

@@ -5,35 +5,13 @@
 
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
+#include "firmware/perception/grid_scale.hpp"
+#include "firmware/perception/lane.hpp"
+#include "firmware/perception/observation.hpp"
 #include "firmware/perception/raster.hpp"
 
 namespace whisker::perception {
-
-/// The place and direction of a beam at the time of a measurement, in the frame of the pose.
-struct Beam {
-  Vec apex;
-  Angle axis;
-  Angle half_cone;
-};
-/// The beam of this mount on a body with this pose.
-Beam beam_of(const Mount& mount, const Pose& body) noexcept;
-
-/// Observation of one beam: nothing within its cone is nearer to the apex than `free`.
-struct ConeObservation {
-  Beam beam;
-  int8_t number = 0;   ///< of the beam, a hal::Beam
-  Length free;         ///< free distance
-  bool hit = false;    ///< an object lies at `free`
-  bool aimed = false;  ///< from a static scan: cells that the beam covers and does not clear become tested
-  Time taken{};
-};
-
-/// The last reading of the same beam.
-struct EarlierObservation {
-  Vec apex;
-  Angle axis;
-  Length free;
-};
 
 /// Cells in a path that are not clear.
 struct Obstacles {
@@ -85,6 +63,11 @@ class LocalGrid {
   void doubt(const ConeObservation& observation, Length farthest) noexcept;
   /// The cells that this disc touches are suspect, except those under the body. Holds until the next mark().
   void block(Vec centre, Length radius) noexcept;
+  /// Opens a lane through a narrow gap: it begins here, and leads along this heading. On the lane, the ground
+  /// is also known in cells that lie along it. It holds until the next one, or until an echo or a touch takes
+  /// back ground.
+  void open_lane(const Pose& from) noexcept { lane_->open(from); }
+  const Lane& lane() const noexcept { return *lane_.operator->(); }
   /// Something moved during the last second.
   bool doubting() const noexcept { return doubting_; }
   /// Lengths for which paths are checked.
@@ -97,11 +80,11 @@ class LocalGrid {
                   int32_t enough = INT32_MAX) const noexcept;
   /// True if a step of this length brings the body nearer to a cell that is not clear, and then within
   /// `radius` of it. Cells abeam are ignored: passing them reduces the distance by less than the guard's
-  /// margin. False below kShortestStep.
+  /// margin. False below kShortestStep, and where the lane holds.
   bool approaches(const Vec& from, Angle heading, Length step, Length radius,
                   Avoid avoid = Avoid::unclear) const noexcept;
   /// The grid covers at most this distance from the body along each axis.
-  Length half_window() const noexcept { return Length::from_raw(cell_um_ * (kCells / 2)); }
+  Length half_window() const noexcept { return Length::from_raw(scale_.cell_um * (kCells / 2)); }
   /// The state of one cell, for display; false outside the window.
   bool is_clear(Vec at) const noexcept;
   /// True if all cells that this disc touches are inside the window and clear.
@@ -112,10 +95,7 @@ class LocalGrid {
   /// clear.
   bool echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept;
   static constexpr Length kReadingRounding = Length::from_raw(1000);
-  struct Point {
-    int32_t x = 0;
-    int32_t y = 0;
-  };
+  using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
   Row solid_row(int row) const noexcept { return to_window(suspect_[slot(row)] | tested_[slot(row)]); }
   int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
@@ -126,15 +106,14 @@ class LocalGrid {
   Row to_window(Row torus) const noexcept {
     return shift() == 0 ? torus : (torus >> shift()) | (torus << (kCells - shift()));
   }
-  int32_t units(Length l) const noexcept;
-  int32_t units(int64_t um, int32_t most) const noexcept;
+  int32_t units(Length l) const noexcept { return scale_.units(l); }
   Length length_of(int32_t units) const noexcept;
   Point local(Vec at) const noexcept;
-  /// Within the range in which units() does not saturate.
-  static bool nearby(Point p) noexcept {
-    return p.x > -kOutermost && p.x < kOutermost && p.y > -kOutermost && p.y < kOutermost;
-  }
   static bool in_window(Point p, int32_t reach) noexcept;
+  bool has_lane() const noexcept { return kNarrowGaps && lane_->is_open(); }
+  void close_lane() noexcept {
+    if (kNarrowGaps) lane_->close();
+  }
   void drop_rows(int first, int count) noexcept;
   void drop_columns(Row window) noexcept;
   void age(const Pose& pose) noexcept;
@@ -176,7 +155,7 @@ class LocalGrid {
   uint32_t age_turn_ = 0;
   Reach reach_;
   Length approach_;  // travel of a moving object while the body stops
-  int32_t cell_um_ = 20000;
+  GridScale scale_{20000};
   int32_t footprint_ = 0;  // grid units
   int32_t ring_ = 0;       // ring beside the body's path; grid units
 
@@ -189,6 +168,7 @@ class LocalGrid {
   Row old_[kCells] = {};      // cleared before it
   Row suspect_[kCells] = {};  // near an echo
   Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
+  Part<Lane, kNarrowGaps> lane_;
 };
 
 }  // namespace whisker::perception

@@ -10,7 +10,7 @@ constexpr int32_t kWindow = kCells * kUnitsPerCell;
 }  // namespace
 
 Length LocalGrid::length_of(int32_t units) const noexcept {
-  return Length::from_raw(multiply_divide(units, cell_um_, kUnitsPerCell));
+  return Length::from_raw(multiply_divide(units, scale_.cell_um, kUnitsPerCell));
 }
 
 bool LocalGrid::in_window(Point p, int32_t reach) noexcept {
@@ -64,7 +64,9 @@ bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length r
     Span span;
     span.touched_by_disc(there.x, rows.offset(there.y), reach);
     ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
-    if ((span.columns() & unclear) != 0) return true;
+    if ((span.columns() & unclear) != 0) {
+      return !(has_lane() && lane_->holds(from, heading, step, radius));
+    }
   }
   return false;
 }

@@ -47,6 +47,9 @@ class Perception {
   /// Updates the grid and returns the percept; call once per tick after sense().
   void observe(const Standing& body, const Params& params, Percept& out) noexcept;
 
+  /// See LocalGrid::open_lane().
+  void open_lane(const Pose& from) noexcept { local_grid_.open_lane(from); }
+
   /// The latest single reading of each beam.
   Echoes latest() const noexcept { return conditioner_.latest(); }
   /// The longest time for which a beam has had no usable reading.

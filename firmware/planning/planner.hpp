@@ -5,6 +5,8 @@
 
 #include "firmware/fuzzy/variables.hpp"
 #include "firmware/math/trig.hpp"
+#include "firmware/part.hpp"
+#include "firmware/perception/lane.hpp"
 #include "firmware/perception/percept.hpp"
 #include "firmware/planning/manoeuvre.hpp"
 #include "firmware/planning/state.hpp"
@@ -36,6 +38,12 @@ struct View : perception::Percept {
 
 enum class Outcome : uint8_t { none, running, reached, unreachable, gave_up };
 
+/// From this tick on, there is a lane: see perception::Lane.
+struct NewLane {
+  bool opens = false;
+  Pose from;
+};
+
 /// The planner's request and its reason.
 struct Decision {
   Manoeuvre manoeuvre;  ///< ManoeuvreKind::keep: continue
@@ -44,7 +52,8 @@ struct Decision {
   Outcome outcome = Outcome::none;
   uint8_t danger_count = 0;  ///< the thesis's t: positions since the target direction was last free
   bool looked = false;       ///< this tick's decision used a static scan
-  fuzzy::Inputs inputs;      ///< of the response table, as last used
+  Part<NewLane, kNarrowGaps> lane;
+  fuzzy::Inputs inputs;  ///< of the response table, as last used
   fuzzy::Response response;
 };
 

@@ -27,6 +27,7 @@ bool is_scenario_file(std::string_view name) {
 std::string arguments(worlds::Kind kind, const worlds::Options& o) {
   std::string text = worlds::name(kind);
   if (o.discs) text += fmt::format(" --discs {}", *o.discs);
+  if (o.gap_m) text += fmt::format(" --width {}", *o.gap_m);
   if (o.box) text += " --box";
   if (o.noise) text += " --noise";
   if (o.wheel_scale_sigma) text += fmt::format(" --wheel-scale-sigma {}", *o.wheel_scale_sigma);

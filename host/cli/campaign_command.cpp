@@ -168,8 +168,8 @@ void add_campaign(CLI::App& app, int& status) {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {
       refuse_others(
-          *cmd, {"--replay", "KIND|DIR", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner",
-                 "--map-bytes", "--robot", "--robots", "--svg", "--trace", "--html", "--json"});
+          *cmd, {"--replay", "KIND|DIR", "--discs", "--width", "--box", "--noise", "--wheel-scale-sigma",
+                 "--planner", "--map-bytes", "--robot", "--robots", "--svg", "--trace", "--html", "--json"});
     }
     status = run_campaign(*o);
   });

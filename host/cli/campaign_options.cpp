@@ -30,10 +30,10 @@ campaign::Files folder(const CampaignOptions& o) {
     throw UsageError(fmt::format("{}: neither a kind of world nor a folder of scenario files{}", o.worlds,
                                  did_you_mean(o.worlds, kinds)));
   }
-  if (o.world.discs || o.world.box || o.world.noise || o.world.wheel_scale_sigma) {
+  if (o.world.discs || o.world.gap_m || o.world.box || o.world.noise || o.world.wheel_scale_sigma) {
     throw UsageError(
-        "--discs, --box, --noise and --wheel-scale-sigma are for generated worlds; a scenario file says all "
-        "that itself");
+        "--discs, --width, --box, --noise and --wheel-scale-sigma are for generated worlds; a scenario file "
+        "says all that itself");
   }
   if (!o.robots.empty()) throw UsageError("--robots is for generated worlds; scenario files have robots");
   if (o.replay)
@@ -93,6 +93,7 @@ CLI::Option* add_worlds(CLI::App& app, CampaignOptions& o, const std::string& ea
   app.add_option("--discs", o.world.discs, "Number of discs, as in `whisker world`")
       ->transform(whole_number(200))
       ->type_name("N");
+  add_gap_width(app, o.world.gap_m, "Of the gap, as in `whisker world`");
   add_switch(app, "--box", o.world.box, "A closed box around, as in `whisker world`");
   return worlds;
 }

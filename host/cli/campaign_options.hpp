@@ -41,8 +41,8 @@ struct Missions {
   std::uint64_t last = 0;
 };
 
-/// KIND|DIR, --count, --seed, --discs and --box; `each` names the counted items in the help. Returns the
-/// first option.
+/// KIND|DIR, --count, --seed, --discs, --width and --box; `each` names the counted items in the help. Returns
+/// the first option.
 CLI::Option* add_worlds(CLI::App& app, CampaignOptions& options, const std::string& each);
 /// --jobs.
 void add_jobs(CLI::App& app, CampaignOptions& options);

@@ -44,6 +44,10 @@ CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, 
   return app.add_option("--wheel-scale-sigma", sigma, help)->transform(amount(1))->type_name("S");
 }
 
+CLI::Option* add_gap_width(CLI::App& app, std::optional<double>& width, const std::string& help) {
+  return app.add_option("--width", width, help)->transform(amount(1))->type_name("W");
+}
+
 CLI::Option* add_name(CLI::App& app, const std::string& option, std::string& name, const std::string& help) {
   const auto not_empty = [](const std::string& text) { return std::string(text.empty() ? "no name" : ""); };
   return app.add_option(option, name, help)->check(not_empty);

@@ -24,6 +24,9 @@ CLI::Validator amount(double most);
 /// --wheel-scale-sigma S, for worlds with noise.
 CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, const std::string& help);
 
+/// --width W, for worlds with a gap.
+CLI::Option* add_gap_width(CLI::App& app, std::optional<double>& width, const std::string& help);
+
 /// A name; an empty one, for example from an unset shell variable, is refused.
 CLI::Option* add_name(CLI::App& app, const std::string& option, std::string& name, const std::string& help);
 

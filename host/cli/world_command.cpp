@@ -47,8 +47,8 @@ void add_world(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("world", "Make a random scenario file");
   const auto o = std::make_shared<WorldOptions>();
   cmd->add_option("KIND", o->kind,
-                  "discs, poles, u-trap, spiral, maze, rooms, enclosed,\nenclosed-at-wall, gap-at-wall or "
-                  "contest-maze")
+                  "discs, poles, u-trap, spiral, maze, rooms, enclosed,\nenclosed-at-wall, gap-at-wall, "
+                  "contest-maze, gap or disc-gap")
       ->required()
       ->check([](const std::string& text) {
         std::vector<std::string_view> kinds;
@@ -62,6 +62,7 @@ void add_world(CLI::App& app, int& status) {
   cmd->add_option("--discs", o->world.discs, "Number of discs; 30 by default for kind discs")
       ->transform(whole_number(200))
       ->type_name("N");
+  add_gap_width(*cmd, o->world.gap_m, "Of the gap, 0.16 to 1 m; 0.32 by default (kinds gap, disc-gap)");
   add_switch(*cmd, "--box", o->world.box, "A closed box around it (kinds discs, poles, enclosed)");
   add_switch(*cmd, "--noise", o->world.noise, "With the reference robot's sensor noise and odometry error");
   add_wheel_scale_sigma(*cmd, o->world.wheel_scale_sigma,

@@ -99,6 +99,7 @@ std::string result_json(const RunResult& result, const std::string& bus) {
   json["false_clear_share"] = ranges([](const RangeTrust& r) { return rounded(share(r.false_clears)); });
   json["incidence_seen_deg"] =
       ranges([](const RangeTrust& r) { return r.incidence_deg > 0 ? Json(r.incidence_deg) : Json(nullptr); });
+  if (result.unreachable_above_m) json["unreachable_above_m"] = rounded(*result.unreachable_above_m);
   const auto sigma = [&](auto figure) {
     return result.sigma ? rounded(figure(*result.sigma)) : Json(nullptr);
   };
@@ -126,6 +127,8 @@ std::string verdict_words(const RunResult& result) {
   words += fmt::format(" {:.1f} s, {:.2f} m", result.time_s, result.path_m);
   if (!says_reached(result.verdict))
     words += fmt::format(", {:.2f} m from the goal", result.final_distance_m);
+  if (result.unreachable_above_m)
+    words += fmt::format(", if all gaps are below {:.3f} m", *result.unreachable_above_m);
   if (result.min_clearance_m < kEmptyWorldClearance)
     words += fmt::format(", min clearance {} m", decimals(result.min_clearance_m, 3));
   if (result.bumps.value_or(0) > 0)

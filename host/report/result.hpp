@@ -13,7 +13,7 @@ const char* outcome(Verdict verdict) noexcept;
 
 /// One JSON object on one line, without a final newline. Lengths and times are rounded to 1e-6. A number that
 /// is not finite (the clearance in an empty world) or unknown becomes null. bus: a JSON object for the key
-/// "bus"; "" for none.
+/// "bus"; "" for none. The key "unreachable_above_m" stands only in an unreachable verdict.
 std::string result_json(const RunResult& result, const std::string& bus = "");
 
 /// The figures of RangeTrust in the units of the JSON object.

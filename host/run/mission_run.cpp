@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/run/make_record.hpp"
+#include "host/run/narrowest_gap.hpp"
 
 namespace whisker {
 namespace {
@@ -97,6 +98,9 @@ RunResult MissionRun::result() const {
   result.min_clearance_m = std::fmin(plant_->min_clearance(), kEmptyWorldClearance);
   result.bumps = plant_->bumps();
   result.ranges = pilot_->ranges();
+  if (result.verdict == Verdict::unreachable && pilot_->local_grid() != nullptr) {
+    result.unreachable_above_m = narrowest_gap_m(scenario_->robot);
+  }
   result.sigma = pilot_->sigma();
   result.goal_tolerance_m = scenario_->goal.tolerance_m;
   result.ticks = ticks_;

@@ -53,6 +53,9 @@ struct RunResult {
   std::optional<std::uint32_t> bumps;            ///< touches that pressed a bump switch; none: unknown
   std::optional<RangeTrust> ranges;              ///< at the end; none: unknown
   std::optional<localization::PoseSigma> sigma;  ///< of the estimated pose at the end; none: unknown
+  /// Unreachable: the verdict holds only for gaps narrower than this, m; see narrowest_gap_m(). None: another
+  /// verdict, or the planner has no local grid.
+  std::optional<double> unreachable_above_m;
   double goal_tolerance_m = 0;
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;  ///< FNV-1a 64 over the wheel commands of all ticks

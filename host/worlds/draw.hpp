@@ -34,5 +34,7 @@ void draw_enclosed(Scenario& scenario, Random& random, const Options& options);
 void draw_enclosed_at_wall(Scenario& scenario, Random& random, const Options& options);
 void draw_gap_at_wall(Scenario& scenario, Random& random, const Options& options);
 void draw_contest_maze(Scenario& scenario, Random& random);
+void draw_gap(Scenario& scenario, Random& random, const Options& options);
+void draw_disc_gap(Scenario& scenario, Random& random, const Options& options);
 
 }  // namespace whisker::worlds

@@ -13,8 +13,10 @@ namespace {
 
 constexpr int kMostDiscs = 200;
 
+bool has_gap_of_width(Kind kind) { return kind == Kind::gap || kind == Kind::disc_gap; }
 bool has_discs(Kind kind) {
-  return kind != Kind::u_trap && kind != Kind::spiral && kind != Kind::maze && kind != Kind::contest_maze;
+  return kind != Kind::u_trap && kind != Kind::spiral && kind != Kind::maze && kind != Kind::contest_maze &&
+         !has_gap_of_width(kind);
 }
 /// The other kinds always or never have it.
 bool may_have_box(Kind kind) { return kind == Kind::discs || kind == Kind::poles || kind == Kind::enclosed; }
@@ -33,6 +35,12 @@ void check(Kind kind, const Options& o) {
       throw std::invalid_argument("the scale error of the wheels must be from 0 to 1");
     }
   }
+  if (o.gap_m) {
+    if (!has_gap_of_width(kind)) throw std::invalid_argument(fmt::format("{} takes no width", name(kind)));
+    if (!(*o.gap_m >= kGapMin && *o.gap_m <= kGapMax)) {
+      throw std::invalid_argument(fmt::format("the width must be from {} to {} m", kGapMin, kGapMax));
+    }
+  }
   if (o.box && !may_have_box(kind)) throw std::invalid_argument(fmt::format("{} takes no box", name(kind)));
 }
 
@@ -46,8 +54,9 @@ Scenario generate(Kind kind, const Options& options) {
                                          has_no_way(kind) ? "its goal shut in" : "a path to its goal"));
   }
   kept->name =
-      fmt::format("{}{}{}{}, seed {}", name(kind), options.discs ? fmt::format(" {}", *options.discs) : "",
-                  options.box ? " in a box" : "", options.noise ? " with noise" : "", options.seed);
+      fmt::format("{}{}{}{}{}, seed {}", name(kind), options.discs ? fmt::format(" {}", *options.discs) : "",
+                  options.gap_m ? fmt::format(" {} m", *options.gap_m) : "", options.box ? " in a box" : "",
+                  options.noise ? " with noise" : "", options.seed);
   return *std::move(kept);
 }
 

@@ -20,13 +20,15 @@ enum class Kind {
   enclosed_at_wall,  ///< no path: discs in a box, and a fence around the goal that crosses the box
   gap_at_wall,       ///< the same with a gap of 0.26..0.6 m in the fence
   contest_maze,      ///< 32 x 32 cells of 0.54 m, up to 30 % of the walls removed, the goal in the middle
+  gap,               ///< a wall across a box, with one gap between start and goal
+  disc_gap,          ///< the same between two discs of radius 0.2 m in that wall
 };
 /// The classes that every planner is measured in.
 constexpr Kind kKinds[] = {Kind::discs, Kind::poles, Kind::u_trap,  Kind::spiral,
                            Kind::maze,  Kind::rooms, Kind::enclosed};
-constexpr Kind kAllKinds[] = {Kind::discs,       Kind::poles,       Kind::u_trap,   Kind::spiral,
-                              Kind::maze,        Kind::rooms,       Kind::enclosed, Kind::enclosed_at_wall,
-                              Kind::gap_at_wall, Kind::contest_maze};
+constexpr Kind kAllKinds[] = {Kind::discs,       Kind::poles,        Kind::u_trap,   Kind::spiral,
+                              Kind::maze,        Kind::rooms,        Kind::enclosed, Kind::enclosed_at_wall,
+                              Kind::gap_at_wall, Kind::contest_maze, Kind::gap,      Kind::disc_gap};
 /// The goal is out of reach.
 constexpr bool has_no_way(Kind kind) { return kind == Kind::enclosed || kind == Kind::enclosed_at_wall; }
 
@@ -38,9 +40,16 @@ struct Options {
   bool noise = false;  ///< the reference robot's sensor and odometry noise
   /// Of each wheel's encoder, instead of the reference robot's: 0 to 1; only with noise.
   std::optional<double> wheel_scale_sigma = std::nullopt;
+  /// Width of the gap, m: kGapMin to kGapMax; only for gap and disc_gap, by default kGap.
+  std::optional<double> gap_m = std::nullopt;
 };
 
-constexpr double kPassableRadius = 0.125;  ///< m; in every kind with a path, a body of this radius has a path
+constexpr double kGap = 0.32;
+constexpr double kGapMin = 0.16;  ///< so that a body with the radius kGapMin / 2 - kPathBand has a path
+constexpr double kGapMax = 1;
+
+/// m; in every kind with a path, a body of this radius has a path, except through a gap_m below the default
+constexpr double kPassableRadius = 0.125;
 constexpr double kShutRadius = 0.085;  ///< m; an enclosed goal is out of reach even for a body of this radius
 constexpr double kKeptFree = 0.25;     ///< m from start and goal to the surface of any random disc
 constexpr double kTimeLimit = 1800;    ///< s

@@ -1,5 +1,7 @@
 #include "host/worlds/kept.hpp"
 
+#include <algorithm>
+
 #include "host/scenario/bearing.hpp"
 #include "host/scenario/nearest.hpp"
 #include "host/scenario/world.hpp"
@@ -21,16 +23,19 @@ void draw(Kind kind, Scenario& scenario, Random& random, const Options& options)
     case Kind::enclosed_at_wall: return draw_enclosed_at_wall(scenario, random, options);
     case Kind::gap_at_wall: return draw_gap_at_wall(scenario, random, options);
     case Kind::contest_maze: return draw_contest_maze(scenario, random);
+    case Kind::gap: return draw_gap(scenario, random, options);
+    case Kind::disc_gap: return draw_disc_gap(scenario, random, options);
   }
 }
 
-bool keeps_promise(Kind kind, const Scenario& s) {
+bool keeps_promise(Kind kind, const Scenario& s, const Options& o) {
   if (!start_is_free(s)) return false;
   const World world = make_world(s);
   if (has_no_way(kind)) {
     return path_ruled_out(world, s.start.at, s.goal.at, s.goal.tolerance_m, kShutRadius);
   }
-  return path_proven(world, s.start.at, s.goal.at, kPassableRadius);
+  const double radius = std::min(kPassableRadius, o.gap_m.value_or(kGap) / 2 - kPathBand);
+  return path_proven(world, s.start.at, s.goal.at, radius);
 }
 
 Noise reference_noise(const Options& o) {
@@ -51,7 +56,7 @@ std::optional<Scenario> first_kept(Kind kind, const Options& options) {
   for (int i = 0; i < kMostDraws; ++i) {
     Scenario s;
     draw(kind, s, random, options);
-    if (!keeps_promise(kind, s)) continue;
+    if (!keeps_promise(kind, s, options)) continue;
     s.seed = options.seed;
     s.time_limit_s = kTimeLimit;
     s.start.heading = bearing(s.start.at, s.goal.at);

@@ -14,6 +14,8 @@ const char* name(Kind kind) {
     case Kind::enclosed_at_wall: return "enclosed-at-wall";
     case Kind::gap_at_wall: return "gap-at-wall";
     case Kind::contest_maze: return "contest-maze";
+    case Kind::gap: return "gap";
+    case Kind::disc_gap: return "disc-gap";
   }
   return "?";
 }

@@ -2,8 +2,10 @@
 // if it has a gap.
 #include <gtest/gtest.h>
 
+#include "host/run/narrowest_gap.hpp"
 #include "host/run/runner.hpp"
 #include "host/worlds/generate.hpp"
+#include "host/worlds/random.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker {
@@ -40,6 +42,52 @@ TEST(GapAtWall, IsFound) {
       const RunResult r = drive(worlds::Kind::gap_at_wall, seed, planner);
       EXPECT_EQ(r.verdict, Verdict::reached) << name(planner) << ", " << seed << ": " << r.detail;
     }
+  }
+}
+
+/// Slits around one place are not tried again and again until the supervisor reports no progress.
+TEST(Enclosed, SlitsOfOnePlaceAreTriedOnce) {
+  EXPECT_EQ(drive(worlds::Kind::enclosed, 400009, PlannerKind::map).verdict, Verdict::unreachable);
+}
+
+/// A gap between two obstacles of the enclosure leads no nearer to the goal.
+TEST(Enclosed, AGapIsNotPassedToAndFro) {
+  EXPECT_EQ(drive(worlds::Kind::enclosed, 710037, PlannerKind::skirt).verdict, Verdict::unreachable);
+}
+
+/// What the verdict names as the narrowest gap that it would have taken: wider ones are taken.
+TEST(Gap, IsTakenFromTheNamedWidthOn) {
+  worlds::Random random(1);
+  const double named = narrowest_gap_m(Params{});
+  for (std::uint64_t seed = 1; seed <= test::effort(6, 1000); ++seed) {
+    for (const worlds::Kind kind : {worlds::Kind::gap, worlds::Kind::disc_gap}) {
+      worlds::Options options;
+      options.seed = seed;
+      options.gap_m = named * random.uniform(1, 1.5);
+      const RunResult wide = run(worlds::generate(kind, options), {});
+      EXPECT_EQ(wide.verdict, Verdict::reached) << *options.gap_m << " m, seed " << seed;
+    }
+  }
+}
+
+/// Narrower ones are taken on a lane, or at least without contact.
+TEST(Gap, NarrowerThanNamedIsPassedOnALane) {
+  for (const worlds::Kind kind : {worlds::Kind::gap, worlds::Kind::disc_gap}) {
+    const std::uint64_t count = test::effort(4, 1000);
+    std::uint64_t reached = 0;
+    for (std::uint64_t seed = 1; seed <= count; ++seed) {
+      worlds::Options options;
+      options.seed = seed;
+      options.gap_m = 0.225;
+      RunOptions boundary;
+      boundary.planner = PlannerKind::skirt;
+      const RunResult r = run(worlds::generate(kind, options), boundary);
+      EXPECT_TRUE(r.verdict == Verdict::reached || r.verdict == Verdict::unreachable) << r.detail;
+      EXPECT_EQ(r.unreachable_above_m.has_value(), r.verdict == Verdict::unreachable);
+      EXPECT_GT(r.unreachable_above_m.value_or(1), *options.gap_m);
+      if (r.verdict == Verdict::reached) ++reached;
+    }
+    EXPECT_GE(4 * reached, 3 * count);
   }
 }
 

@@ -120,6 +120,64 @@ TEST(Soundness, NoAdversaryHidesInAClearCell) {
   EXPECT_GT(clear / worlds_seen, 100);
 }
 
+/// Calls f(column, row) for each clear cell of the lane, in its frame: columns along it, row 0 left of its
+/// middle.
+template <class F>
+void for_each_clear_of_lane(const perception::Lane& lane, const Pose& from, F&& f) {
+  constexpr int kBeside = perception::Lane::kRows / 2;
+  const Length cell = lane.half_width() / kBeside;
+  for (int row = -kBeside; row < kBeside; ++row) {
+    for (int column = 0; column < perception::kCells; ++column) {
+      const Vec centre = from.at + polar(from.heading, cell * column + cell / 2) +
+                         polar(from.heading + Angle::turns(1, 4), cell * row + cell / 2);
+      if (lane.is_clear(centre)) f(column, row);
+    }
+  }
+}
+
+TEST(Soundness, NoAdversaryHidesOnALane) {
+  int worlds_seen = 0;
+  int clear = 0;
+  for (std::uint64_t seed = 1; seed <= test::effort(20000); ++seed) {
+    Random random(seed);
+    const Params p = draw_params(random);
+    perception::LocalGrid local_grid;
+    local_grid.configure(p);
+    Pose pose = draw_pose(random);
+    local_grid.reset(pose);
+    // The body may stand anywhere on the lane, or beside it.
+    const double half_width = metres(local_grid.lane().half_width());
+    const auto off = [&] {
+      return Length::from_raw(static_cast<int32_t>(random.uniform(-1, 1) * half_width * 1e6));
+    };
+    const Pose from{pose.at + Vec{off(), off()}, draw_pose(random).heading};
+    local_grid.open_lane(from);
+    const sim::Pose frame{{metres(from.at.x), metres(from.at.y)}, radians(from.heading)};
+    Cluttered world;
+    const int obstacles = 1 + random.index(6);
+    for (int i = 0; i < obstacles; ++i) add_obstacle(world, p, pose, random);
+    const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
+    if (sim::clearance(world.view(), body, 0, metres(rim_sweep(p).radius)) <= 0) continue;
+    ++worlds_seen;
+    for (int turn = 0; turn < 3; ++turn) {
+      for (int beam = 0; beam < 3; ++beam) local_grid.mark(look(p, world, pose, beam));
+      pose.heading += Angle::from_raw(static_cast<uint32_t>(random.index(1 << 29)));
+      local_grid.move_to(pose);
+    }
+    const Shift shift{frame, {}};
+    for_each_clear_of_lane(local_grid.lane(), from, [&](int column, int row) {
+      ++clear;
+      ASSERT_FALSE(
+          occupied(square(column, row, half_width * 2 / perception::Lane::kRows), world.view(), shift))
+          << "seed " << seed << ": cell " << column << ' ' << row;
+    });
+    if (HasFatalFailure()) return;
+  }
+  std::printf("%d worlds, %d clear cells of lanes\n", worlds_seen, clear);
+  EXPECT_GT(worlds_seen, static_cast<int>(test::effort(5000)));
+  EXPECT_GT(clear / worlds_seen, 50);
+}
+
 // The estimated pose differs from the true one by the encoder resolution and the motion between two ticks;
 // ground proved a metre of travel ago is off by that much.
 class SoundnessIn : public testing::TestWithParam<worlds::Kind> {};

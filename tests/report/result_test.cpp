@@ -68,6 +68,15 @@ TEST(ResultJson, names_each_outcome) {
   }
 }
 
+TEST(ResultJson, says_below_which_gaps_unreachable_holds) {
+  RunResult r = sample();
+  EXPECT_EQ(nlohmann::json::parse(result_json(r)).count("unreachable_above_m"), 0U);
+  r.verdict = Verdict::unreachable;
+  r.unreachable_above_m = 0.28856862;
+  EXPECT_EQ(nlohmann::json::parse(result_json(r))["unreachable_above_m"], 0.288569);
+  EXPECT_NE(verdict_words(r).find(", if all gaps are below 0.289 m"), std::string::npos);
+}
+
 TEST(ResultJson, keeps_all_bits_of_hash_and_ticks) {
   RunResult r = sample();
   r.hash = UINT64_MAX;

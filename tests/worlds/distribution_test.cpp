@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "host/scenario/shapes.hpp"
+#include "host/scenario/world.hpp"
 #include "host/worlds/generate.hpp"
+#include "host/worlds/reach.hpp"
 
 namespace whisker::worlds {
 namespace {
@@ -254,6 +256,42 @@ TEST(GapAtWall, LeavesOneGapInTheFence) {
     gap.add(distance(s.walls[0].front(), s.walls[0].back()));
   }
   gap.expect(0.26, 0.6, "gap");
+}
+
+TEST(Gap, HasTheWidthBetweenWallsAndBetweenDiscs) {
+  Spread middle;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    for (const double width : {0.2, 0.32}) {
+      Options o;
+      o.seed = seed;
+      o.gap_m = width;
+      const Scenario walls = generate(Kind::gap, o);
+      ASSERT_EQ(walls.polygons.size(), 2U);
+      double least = 100;
+      for (const Vec2 a : walls.polygons[0]) {
+        for (const Vec2 b : walls.polygons[1]) least = std::min(least, distance(a, b));
+      }
+      EXPECT_NEAR(least, width, 2 * kRounding) << seed;
+      const Scenario discs = generate(Kind::disc_gap, o);
+      ASSERT_EQ(discs.discs.size(), 2U);
+      const Vec2 a = discs.discs[0].center, b = discs.discs[1].center;
+      EXPECT_NEAR(distance(a, b) - 0.4, width, 2 * kRounding) << seed;
+      middle.add((a.y + b.y) / 2);
+    }
+  }
+  middle.expect(-0.8, 0.8, "middle of the gap");
+}
+
+TEST(Gap, HasNoOtherWayThroughItsWall) {
+  Options o;
+  o.gap_m = 0.2;
+  for (const Kind kind : {Kind::gap, Kind::disc_gap}) {
+    for (o.seed = 1; o.seed <= 20; ++o.seed) {
+      const Scenario s = generate(kind, o);
+      const World world = make_world(s);
+      EXPECT_TRUE(path_ruled_out(world, s.start.at, s.goal.at, s.goal.tolerance_m, 0.1 + kPathBand + 0.001));
+    }
+  }
 }
 
 TEST(ContestMaze, HasItsGoalInTheMiddleOf32By32Cells) {

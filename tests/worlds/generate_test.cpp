@@ -100,6 +100,17 @@ TEST(Generate, RefusesAScaleErrorThatIsNoneOrWithoutNoise) {
   }
 }
 
+TEST(Generate, RefusesAWidthOutOfRangeOrWithoutAGap) {
+  Options o;
+  o.gap_m = kGapMin;
+  EXPECT_NO_THROW(generate(Kind::gap, o));
+  EXPECT_THROW(generate(Kind::gap_at_wall, o), std::invalid_argument);
+  for (const double width : {0.0, kGapMin - 0.001, kGapMax + 0.001, std::nan("")}) {
+    o.gap_m = width;
+    EXPECT_THROW(generate(Kind::disc_gap, o), std::invalid_argument) << width;
+  }
+}
+
 TEST(Generate, GivesUpAloudWhereNoWorldHasAPath) {
   EXPECT_THROW(generate(Kind::discs, {1, 200, true, false}), std::runtime_error);
 }

@@ -40,6 +40,8 @@ const Golden kGolden[] = {
     {Kind::enclosed_at_wall, {1, {}, false, false}, 0x6192938368EE69D1U},
     {Kind::gap_at_wall, {1, {}, false, false}, 0x7A3E92F668C08F25U},
     {Kind::contest_maze, {1, {}, false, false}, 0xEEB87C1BA4E26D6AU},
+    {Kind::gap, {1, {}, false, false}, 0xA68437677F860BC5U},
+    {Kind::disc_gap, {2, {}, false, false, {}, 0.225}, 0xFD4E6F009BC8F44FU},
 };
 
 TEST(Golden, WorldsAreTheCommittedOnes) {

@@ -12,7 +12,7 @@ constexpr Length kKeepSide = 500_mm;    // of travel after leaving a boundary
 constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, in addition to kKeepSide
 constexpr int8_t kEscapes = 6;
 
-static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1600);
+static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1800);
 
 }  // namespace
 
@@ -26,6 +26,8 @@ void BoundaryPlanner::start(const View& view) noexcept {
   loop_.begin(view, behaviours_.params);
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
+  if (kNarrowGaps) slits_->reset();
+  sought_ = false;
   phase_ = Phase::survey;
   report(Mode::surveying, Why::goal_set);
   advance(view);
@@ -55,6 +57,7 @@ bool BoundaryPlanner::gives_way(const View& view) const noexcept {
     case Phase::choose_side: return true;
     case Phase::boundary: return follower_.yields(view);
     case Phase::evade: break;
+    case Phase::gap:
     case Phase::arrive: return view.held_back();
   }
   return false;
@@ -88,6 +91,9 @@ void BoundaryPlanner::act(const View& view) noexcept {
     case Phase::evade:
       if constexpr (kEvades) decision_.manoeuvre = evasion_.step(view, behaviours_.params);
       break;
+    case Phase::gap:
+      if (kNarrowGaps) gap(view);
+      break;
     case Phase::arrive: arrive(view); break;
     case Phase::over: break;
   }
@@ -114,6 +120,7 @@ void BoundaryPlanner::survey(const View& view) noexcept {
 }
 
 void BoundaryPlanner::approach(const View& view) noexcept {
+  if (kNarrowGaps && view.sighted && decision_.why == Why::narrow) slits_->look(view, view.pose.heading);
   if (approach_.step(view, target_, wall_, decision_)) return;
   if (approach_.refuted()) {
     end(Event::refuted, Outcome::unreachable);
@@ -126,6 +133,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
   other_way_ = false;
+  if (kNarrowGaps) slits_->begin_loop();
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -136,6 +144,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
 
 void BoundaryPlanner::choose_side(const View& view) noexcept {
   Twist twist;
+  if (kNarrowGaps && view.sighted) slits_->look(view, view.pose.heading);
   const bool over = side_search_.step(view, twist);
   decision_.manoeuvre = cruise(twist, behaviours_.params);
   if (!over) return;
@@ -154,7 +163,13 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
   if (follower_.follows() && view.sighted) {
     const LoopDetector::Evidence evidence =
         approach_.has_guide() ? LoopDetector::Evidence::place : LoopDetector::Evidence::turning;
-    if (loop_.closed(view, evidence)) {
+    // The map refutes the rest of the second loop, which was for the slits.
+    const bool refuted = kNarrowGaps && other_way_ && approach_.knows_no_way() && !knows_slit();
+    const bool expects = kNarrowGaps && slits_->expects();
+    const bool closed = loop_.closed(view, evidence);
+    // The rest of the loop is driven for slits: it is no evidence.
+    if (closed && !expects) parts_ = loop_.may_part(began_, goal_.at, wall_);
+    if ((refuted || closed || expects) && !(kNarrowGaps && slits_->expected(view))) {
       go_the_other_way(view);
       return false;
     }
@@ -167,9 +182,37 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       begin_approach(Event::nearer);
       return true;
     }
+    if (kNarrowGaps) slits_->look_beside(view, wall_);
+    if (kNarrowGaps && (other_way_ || slits_->expects()) && try_slit(view)) return false;
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
   return false;
+}
+
+void BoundaryPlanner::gap(const View& view) noexcept {
+  switch (passage_->step(view, decision_)) {
+    case GapPassage::Result::under_way: break;
+    case GapPassage::Result::through:
+      // Only a passage that brings the body nearer to the goal than ever before cannot repeat without end.
+      if (target_.distance >= approach_.closest() - for_body(behaviours_.params, kNearer))
+        slits_->end_attempt();
+      sought_ = false;
+      approach_.measure_anew(view, target_.distance);
+      begin_approach(Event::through);
+      break;
+    case GapPassage::Result::failed:
+      slits_->end_attempt();
+      on(Event::too_narrow);
+      follower_.begin_at_wall(view, passage_->came_along(), wall_, decision_);
+      break;
+  }
+}
+
+bool BoundaryPlanner::try_slit(const View& view) noexcept {
+  if (!slits_->at_hand(view)) return false;
+  on(Event::slit);
+  passage_->begin(view, slits_->take(view), decision_);
+  return true;
 }
 
 void BoundaryPlanner::begin_approach(Event event) noexcept {
@@ -209,8 +252,9 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
-  if (other_way_ || approach_.knows_no_way()) {
-    if (loop_.may_part(began_, goal_.at, wall_)) {
+  if (kNarrowGaps) slits_->end_loop(view);
+  if (other_way_ || (approach_.knows_no_way() && (sought_ || !knows_slit()))) {
+    if (parts_) {
       give_up_goal(view);
     } else {
       escape(view);
@@ -219,6 +263,7 @@ void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
   }
   // A gap may be passable from only one side, so follow the boundary in the other direction.
   other_way_ = true;
+  sought_ = approach_.knows_no_way();
   wall_ = opposite(wall_);
   const Angle back = view.pose.heading + 180_deg;
   loop_.begin(view, behaviours_.params);

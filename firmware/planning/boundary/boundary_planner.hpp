@@ -5,12 +5,16 @@
 #include <stdint.h>
 
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
+#include "firmware/perception/lane.hpp"
 #include "firmware/planning/boundary/approach.hpp"
 #include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/boundary_follower.hpp"
 #include "firmware/planning/boundary/evasion.hpp"
 #include "firmware/planning/boundary/follow_side_search.hpp"
+#include "firmware/planning/boundary/gap_passage.hpp"
 #include "firmware/planning/boundary/loop_detector.hpp"
+#include "firmware/planning/boundary/slit_search.hpp"
 #include "firmware/planning/boundary/survey.hpp"
 #include "firmware/planning/boundary/target.hpp"
 #include "firmware/planning/goal_planner.hpp"
@@ -31,6 +35,7 @@ class BoundaryPlanner final : public GoalPlanner {
     choose_side,  ///< the path is blocked: searches the exit with the smaller turn
     boundary,     ///< along the obstacle's boundary: see BoundaryFollower
     evade,        ///< something that moves comes this way: leaves its path, see Evasion
+    gap,          ///< through a narrow gap in the boundary: see GapPassage
     arrive,       ///< at the goal: comes to rest
     over,         ///< the mission has ended
   };
@@ -48,6 +53,9 @@ class BoundaryPlanner final : public GoalPlanner {
     stuck,       ///< no path is free, not even the retreat
     threatened,  ///< something that moves comes this way
     passed,      ///< it has passed, or is out of sight
+    slit,        ///< at a place from which a narrow gap was seen
+    through,     ///< the body is through the gap
+    too_narrow,  ///< the body does not fit, or the gap is none
     at_goal,
     slid_off,  ///< at rest, but outside the goal's tolerance
     settled,   ///< at rest at the goal
@@ -70,17 +78,25 @@ class BoundaryPlanner final : public GoalPlanner {
       {Phase::boundary, Event::threatened, Phase::evade},
       {Phase::evade, Event::passed, Phase::approach, Mode::going, Why::target_free},
       {Phase::evade, Event::at_goal, Phase::arrive},
+      {Phase::boundary, Event::slit, Phase::gap, Mode::looking, Why::opening},
+      {Phase::gap, Event::through, Phase::approach, Mode::going, Why::target_free},
+      {Phase::gap, Event::too_narrow, Phase::boundary, Mode::skirting, Why::edge},
       {Phase::survey, Event::at_goal, Phase::arrive},
       {Phase::approach, Event::at_goal, Phase::arrive},
       {Phase::choose_side, Event::at_goal, Phase::arrive},
       {Phase::boundary, Event::at_goal, Phase::arrive},
+      {Phase::gap, Event::at_goal, Phase::arrive},
       {Phase::arrive, Event::slid_off, Phase::approach},
       {Phase::arrive, Event::settled, Phase::over, Mode::arrived, Why::at_goal},
   };
 
   /// The arguments must outlive the planner. The optional guide gives way points in free space.
   BoundaryPlanner(const Params& params, HeadingDeflection& law, GlobalPlanner* guide = nullptr) noexcept
-      : behaviours_(params), approach_(law, guide, behaviours_), follower_(behaviours_) {}
+      : behaviours_(params),
+        approach_(law, guide, behaviours_),
+        follower_(behaviours_),
+        passage_(behaviours_),
+        slits_(behaviours_) {}
 
  private:
   void start(const View& view) noexcept override;
@@ -97,11 +113,16 @@ class BoundaryPlanner final : public GoalPlanner {
   void choose_side(const View& view) noexcept;
   /// True: the planner leaves the boundary.
   bool boundary(const View& view) noexcept;
+  void gap(const View& view) noexcept;
   void arrive(const View& view) noexcept;
 
   void begin_approach(Event event) noexcept;
   void begin_side_search(const View& view) noexcept;
   bool may_leave(const View& view) const noexcept;
+  /// There is a slit that was not tried.
+  bool knows_slit() const noexcept { return kNarrowGaps && slits_->known(); }
+  /// Begins to pass the slit, if it is at hand and worth it.
+  bool try_slit(const View& view) noexcept;
   void go_the_other_way(const View& view) noexcept;
   void escape(const View& view) noexcept;
   void give_up_goal(const View& view) noexcept;
@@ -109,6 +130,8 @@ class BoundaryPlanner final : public GoalPlanner {
   Phase phase_ = Phase::survey;
   Side wall_ = Side::left;     ///< side of the current or last obstacle
   bool other_way_ = false;     // closed the loop once
+  bool parts_ = false;         // the last loop may separate start and goal
+  bool sought_ = false;        // made a loop for slits that the map refutes
   int8_t escapes_ = 0;         // from obstacles that did not block the path
   Why otherwise_ = Why::none;  // the reason, if nothing moved
   int32_t left_edge_mm_ = 0;   // travel at the last leave point
@@ -118,6 +141,8 @@ class BoundaryPlanner final : public GoalPlanner {
   Behaviours behaviours_;
   Approach approach_;
   BoundaryFollower follower_;
+  Part<GapPassage, kNarrowGaps> passage_;
+  Part<SlitSearch, kNarrowGaps> slits_;
   Survey survey_;
   Evasion evasion_;
   FollowSideSearch side_search_;

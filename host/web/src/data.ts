@@ -50,6 +50,8 @@ export interface Result {
   ticks: number;
   hash: string;
   detail: string;
+  /** Unreachable: the verdict holds only if all gaps are narrower. */
+  unreachable_above_m?: number;
 }
 
 /** A followed boundary: from the hit to the leave. */

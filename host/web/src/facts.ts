@@ -129,6 +129,9 @@ export class Facts {
         ['from the goal at the end', orUnknown(result.final_distance_m)],
         ['by its own estimate', orUnknown(result.believed_distance_m)],
       );
+      if (result.unreachable_above_m !== undefined) {
+        facts.unshift(['if all gaps are below', metres(result.unreachable_above_m, 3)]);
+      }
       facts.push(
         ['ticks', String(result.ticks)],
         ['command hash', result.hash],

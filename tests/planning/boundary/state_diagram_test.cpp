@@ -21,6 +21,7 @@ const char* name(BoundaryPlanner::Phase phase) {
     case BoundaryPlanner::Phase::choose_side: return "choose_side";
     case BoundaryPlanner::Phase::boundary: return "boundary";
     case BoundaryPlanner::Phase::evade: return "evade";
+    case BoundaryPlanner::Phase::gap: return "gap";
     case BoundaryPlanner::Phase::arrive: return "arrive";
     case BoundaryPlanner::Phase::over: return "over";
   }
@@ -42,6 +43,9 @@ const char* name(BoundaryPlanner::Event event) {
     case BoundaryPlanner::Event::stuck: return "no way is left";
     case BoundaryPlanner::Event::threatened: return "something that moves comes this way";
     case BoundaryPlanner::Event::passed: return "it has passed";
+    case BoundaryPlanner::Event::slit: return "the boundary may have a narrow gap";
+    case BoundaryPlanner::Event::through: return "through the gap";
+    case BoundaryPlanner::Event::too_narrow: return "the gap is too narrow";
     case BoundaryPlanner::Event::at_goal: return "at the goal";
     case BoundaryPlanner::Event::slid_off: return "at rest beside the goal";
     case BoundaryPlanner::Event::settled: return "at rest at the goal";

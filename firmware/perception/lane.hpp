@@ -1,0 +1,54 @@
+/// Clear ground on a straight lane through a gap that is hardly wider than the body.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/math/trig.hpp"
+#include "firmware/perception/grid_scale.hpp"
+#include "firmware/perception/observation.hpp"
+#include "firmware/perception/raster.hpp"
+
+namespace whisker::perception {
+
+/// A strip of 32 x 16 cells whose rows lie along the lane. So the edges of the lane are edges of cells, at
+/// whatever angle it crosses the local grid. A cell is clear by the same rule as a cell of the local grid: it
+/// lies completely inside an empty beam sector.
+class Lane {
+ public:
+  static constexpr int kRows = 16;
+
+  /// From the middle of the lane to its edge.
+  void configure(Length half_width) noexcept {
+    scale_.cell_um = half_width.raw() / (kRows / 2);
+    open_ = false;
+  }
+  /// The lane begins here, and leads along this heading. Nothing on it is clear.
+  void open(const Pose& from) noexcept;
+  void close() noexcept { open_ = false; }
+  /// The local grid ages. Clear cells expire one to two spans after they were seen.
+  void age() noexcept;
+  /// The following are for an open lane.
+  bool is_open() const noexcept { return open_; }
+  /// Clears the cells that both observations show empty to these free distances.
+  void mark(const Beam& beam, Length free, const EarlierObservation& before, Length free_before) noexcept;
+  /// Clears the cells completely inside this disc.
+  void mark_around(Vec at, Length radius) noexcept;
+  /// True if the ground that a disc touches at the end of a step, as far as it lies
+  /// ahead of its start, is clear and inside the lane.
+  bool holds(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
+  /// For display and tests.
+  bool is_clear(Vec at) const noexcept;
+  Length half_width() const noexcept { return Length::from_raw(scale_.cell_um * (kRows / 2)); }
+
+ private:
+  GridPoint local(Vec at) const noexcept;
+  void clear() noexcept;
+
+  GridScale scale_{};
+  bool open_ = false;
+  bool aged_ = false;
+  Pose from_;
+  Row clear_[kRows] = {};
+};
+
+}  // namespace whisker::perception

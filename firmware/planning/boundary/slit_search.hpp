@@ -1,0 +1,61 @@
+/// Looks for narrow gaps in a boundary, and remembers the last ones.
+#pragma once
+
+#include <stdint.h>
+
+#include "firmware/planning/boundary/behaviours.hpp"
+#include "firmware/planning/boundary/side.hpp"
+#include "firmware/planning/planner.hpp"
+
+namespace whisker::planning {
+
+/// A slit is a thin clear path with something on both sides. GapPassage finds out whether the body fits.
+class SlitSearch {
+ public:
+  /// The behaviours must outlive it.
+  explicit SlitSearch(const Behaviours& behaviours) noexcept : behaviours_(behaviours) {}
+
+  void reset() noexcept;
+  /// A loop around an obstacle begins.
+  void begin_loop() noexcept { expected_ = false; }
+  /// Remembers a slit at this heading from the body, if there is one and it may be tried from here.
+  void look(const View& view, Angle ahead) noexcept;
+  /// The same at some headings on the side of the wall; not more often than every 20 mm.
+  void look_beside(const View& view, Side wall) noexcept;
+  /// There is a slit that was not tried.
+  bool known() const noexcept { return known_ != 0; }
+  /// The body is near the place from which a slit was seen, near enough to try it.
+  bool at_hand(const View& view) const noexcept { return known() && within(view, kAtHand) != 0; }
+  /// The loop is closed, but a slit lies on the next metre and a half of the boundary. Once per tick from
+  /// then on.
+  bool expected(const View& view) noexcept;
+  bool expects() const noexcept { return known() && expected_; }
+  /// At the end of a loop: forgets the slits that lie here.
+  void end_loop(const View& view) noexcept;
+  /// A place in the slit at hand, and the heading there. Forgets it.
+  Pose take(const View& view) noexcept;
+  /// The slit that was taken last was tried in vain: none within 50 mm of it is tried again. After three such
+  /// attempts in a mission, there are no slits.
+  void end_attempt() noexcept;
+
+ private:
+  bool tried(Vec at) const noexcept;
+  /// The slits that were seen from places within this distance, one bit each.
+  uint8_t within(const View& view, Length reference) const noexcept;
+  static constexpr Length kAtHand = Length::from_raw(200000);  // for the reference body
+  static constexpr int kKept = 4;
+  static constexpr int kAttempts = 3;
+
+  const Behaviours& behaviours_;
+  uint8_t known_ = 0;  // one bit for each slit
+  int8_t newest_ = 0;
+  int8_t attempts_ = 0;  // in vain
+  bool expected_ = false;
+  Pose slits_[kKept];
+  Vec tried_[kAttempts];     // slits
+  Vec taken_;                // the slit that was taken last
+  int32_t looked_mm_ = 0;    // travel at the last look beside
+  int32_t expected_mm_ = 0;  // travel up to which it is expected
+};
+
+}  // namespace whisker::planning
