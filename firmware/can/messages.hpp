@@ -10,6 +10,7 @@
 
 #include "firmware/can/signals.hpp"
 #include "firmware/health.hpp"
+#include "firmware/localization/pose_bound.hpp"
 #include "firmware/math/region.hpp"
 
 namespace whisker::can {
@@ -33,6 +34,9 @@ enum class MessageKind : uint8_t {
   param_reply,
   range_trust,
   pose_sigma,
+  gyro,
+  fix,
+  fix_reply,
   heartbeat,
   info,
   info_request,
@@ -61,13 +65,17 @@ struct Sync {
   uint32_t tick = 0;
   uint8_t period_ms = 10;
   uint8_t mission = 0;
+  uint8_t gyro = 0;
+  uint8_t fix = 0;
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Mode", 12, 4, false, 0, 1, "1", "", "the clock that drives the ticks", kAlways, word_in<kPaceWords>}, m.sync_mode);
+    f({"Mode", 12, 2, false, 0, 1, "1", "", "the clock that drives the ticks", kAlways, word_in<kPaceWords>}, m.sync_mode);
     f({"Tick", 16, 32, false, 0, kMost32, "1", "", "the tick of this input set"}, m.tick);
     f({"Period", 48, 8, false, 1, kMost8, "0.001", "s", "control period"}, m.period_ms);
     f({"Mission", 56, 8, false, 0, kMost8, "1", "", "the mission that this tick belongs to"}, m.mission);
+    f({"Gyro", 14, 1, false, 0, 1, "1", "", "1: the input set has a Gyro"}, m.gyro);
+    f({"Fix", 15, 1, false, 0, 1, "1", "", "1: the input set has a Fix"}, m.fix);
   }
 };
 
@@ -280,6 +288,63 @@ struct PoseSigmaReport {
   }
 };
 
+/// The part of a hal::GyroReading that its receiver needs to continue the sums.
+struct GyroState {
+  static constexpr MessageKind kKind = MessageKind::gyro;
+  uint8_t valid = 1;
+  uint8_t tick = 0;
+  hal::GyroReading reading{};
+
+  template <class M, class F>
+  static constexpr void each(M& m, F& f) noexcept {
+    f({"Valid", 12, 1, false, 0, 1, "1", "", "0: the gyro does not answer"}, m.valid);
+    f({"Tick", 13, 3, false, 0, 7, "1", "", "modulo 8"}, m.tick);
+    f({"Sum", 16, 24, false, 0, kMost24, "1", "", "of all samples, modulo 2^24, counter-clockwise positive"}, m.reading.sum);
+    f({"Samples", 40, 16, false, 0, kMost16, "1", "", "their number, modulo 2^16"}, m.reading.samples);
+    f({"Saturated", 56, 8, false, 0, kMost8, "1", "", "how many of them were at the limit of the range, modulo 256"}, m.reading.saturated);
+  }
+};
+
+constexpr int32_t kSigmaLimitUm = localization::PoseBound::kMost.raw();
+
+/// All values lie at the same bits as the heading. The range of a value is checked where its part is known.
+struct FixValue {
+  static constexpr MessageKind kKind = MessageKind::fix;
+  static constexpr Signal kMore[] = {
+    {"X", 32, 32, true, INT32_MIN, INT32_MAX, "0.000001", "m", "measured pose of the body", 0},
+    {"Y", 32, 32, true, INT32_MIN, INT32_MAX, "0.000001", "m", "", 1},
+    {"SigmaAlong", 32, 32, false, 0, kSigmaLimitUm, "0.000001", "m", "standard deviation along the heading", 3},
+    {"SigmaAcross", 32, 32, false, 0, kSigmaLimitUm, "0.000001", "m", "standard deviation across the heading", 4},
+    {"SigmaHeading", 32, 32, false, 0, INT64_C(1) << 30, "8.381903171539306640625E-08", "deg", "standard deviation of the heading", 5},
+  };
+  FixPart part = FixPart::x;
+  uint16_t tick = 0;
+  uint32_t value = 0;  ///< raw, two's complement
+
+  template <class M, class F>
+  static constexpr void each(M& m, F& f) noexcept {
+    f({"Part", 12, 4, false, 0, kFixValues - 1, "1", "", "one frame each", kMultiplexor, word_in<kFixPartWords>}, m.part);
+    f({"Tick", 16, 16, false, 0, kMost16, "1", "", "modulo 2^16"}, m.tick);
+    f({"Heading", 32, 32, false, 0, kMost32, "8.381903171539306640625E-08", "deg", "counter-clockwise from x", 2}, m.value);
+  }
+};
+
+struct FixReply {
+  static constexpr MessageKind kKind = MessageKind::fix_reply;
+  FixStatus status = FixStatus::accepted;
+  uint16_t tick = 0;
+  uint16_t jumps = 0;
+  uint16_t refused = 0;
+
+  template <class M, class F>
+  static constexpr void each(M& m, F& f) noexcept {
+    f({"Status", 12, 4, false, 0, 2, "1", "", "result of the fix", kAlways, word_in<kFixStatusWords>}, m.status);
+    f({"Tick", 16, 16, false, 0, kMost16, "1", "", "of the fix, modulo 2^16"}, m.tick);
+    f({"Jumps", 32, 16, false, 0, kMost16, "1", "", "fixes of this mission that were jumps; saturates"}, m.jumps);
+    f({"Refused", 48, 16, false, 0, kMost16, "1", "", "jumps that were refused; saturates"}, m.refused);
+  }
+};
+
 struct Heartbeat {
   static constexpr MessageKind kKind = MessageKind::heartbeat;
   NodeState state = NodeState::waiting;
@@ -369,6 +434,9 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"ParamReply", 0x17, 7, true, false, 0, "answer to a ParamRequest"}, ParamReply{});
   visit(Message{"RangeTrust", 0x1A, 7, true, false, 500, "what the core measures of its rangefinders; also at every change of the level"}, RangeTrustReport{});
   visit(Message{"PoseSigma", 0x1B, 8, true, false, 500, "how far the pose may be off, if the parameters declare an error of the wheels; also at the end of the mission"}, PoseSigmaReport{});
+  visit(Message{"Gyro", 0x1C, 8, false, true, 10, "gyro; only where one is fitted"}, GyroState{});
+  visit(Message{"Fix", 0x1D, 8, false, true, 0, "a pose measured outside of the robot"}, FixValue{});
+  visit(Message{"FixReply", 0x1E, 8, true, false, 0, "answer to a Fix"}, FixReply{});
   visit(Message{"Heartbeat", 0x70, 8, true, true, 100, "the node is alive, and its state"}, Heartbeat{});
   visit(Message{"Info", 0x71, 8, true, true, 0, "at the start, and on request"}, Info{});
   visit(Message{"InfoRequest", 0x72, 2, true, true, 0, "requests the Info of the other node"}, InfoRequest{});

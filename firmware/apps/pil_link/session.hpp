@@ -8,6 +8,7 @@
 #include "firmware/apps/pil_link/params.hpp"
 #include "firmware/apps/pil_link/remote_board.hpp"
 #include "firmware/apps/static_storage.hpp"
+#include "firmware/part.hpp"
 #include "firmware/planning/default_planner.hpp"
 #include "firmware/planning/planners.hpp"
 #include "firmware/robot.hpp"
@@ -27,12 +28,14 @@ class Session {
  private:
   struct Affairs {
     RemoteBoard board;
+    Part<RemoteGyro, kGyroBuilt> gyro;
     Params params;
     CommandHash hash;
   };
 
   bool execute(Name name) noexcept;
   bool begin(const Begin& what) noexcept;
+  bool fix(const Fix& what) noexcept;
   bool tick(const Tick& what) noexcept;
   bool probe(const Probe& what) noexcept;
   bool on_frame(size_t count) noexcept { return stream_->read(buffer_, count); }
