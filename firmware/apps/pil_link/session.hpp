@@ -28,14 +28,16 @@ class Session {
  private:
   struct Affairs {
     RemoteBoard board;
-    Part<RemoteGyro, kGyroBuilt> gyro;
     Params params;
     CommandHash hash;
+    Part<RemoteGyro, kGyroBuilt> gyro;
   };
 
   bool execute(Name name) noexcept;
   bool begin(const Begin& what) noexcept;
-  bool fix(const Fix& what) noexcept;
+  // A template, so that an image that does not use it has no part of it.
+  template <class F>
+  bool correct(const F& fix) noexcept;
   bool tick(const Tick& what) noexcept;
   bool probe(const Probe& what) noexcept;
   bool on_frame(size_t count) noexcept { return stream_->read(buffer_, count); }
