@@ -81,7 +81,7 @@ class BusPilot final : public Pilot {
     } catch (const Hopeless&) {
     }
     status_.command = base_.drive();
-    take_fix_reply();
+    take_reports();
     figures_.run_s = static_cast<double>(figures_.sets * period_us_) * 1e-6;
     if (begun_) figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
     return status_;
@@ -129,7 +129,10 @@ class BusPilot final : public Pilot {
     if (board_.read(counts)) odometry_.update(counts, kLongestPause, step);
   }
 
-  void take_fix_reply() {
+  void take_reports() {
+    const auto known = sigma();
+    status_.sigma_known = known.has_value();
+    if (known) status_.sigma = *known;
     can::FixReply reply;
     if (!node_.replied(reply)) return;
     status_.health.fix_jumps = reply.jumps;
