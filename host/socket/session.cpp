@@ -175,7 +175,9 @@ std::optional<RunResult> Session::result() const {
     result.detail = planning::name(status.decision.why);
   }
   result.time_s = *last_ms_ / 1e3;
+  if (status.sigma_known) result.sigma = status.sigma;
   if (core_->goal) {
+    result.goal_tolerance_m = core_->goal->tolerance_m;
     const sim::Vec2 rest = core_->goal->at - sim::Vec2{si(status.pose.at.x), si(status.pose.at.y)};
     result.believed_distance_m = std::sqrt(sim::dot(rest, rest));
   }

@@ -181,6 +181,7 @@ TEST(Session, AnswersWhatBecameOfAFix) {
   for (std::uint32_t now = 30; now < 200; now += 10)
     later = Json::parse(session.answer(R"({"counts": [0, 0]})", now));
   EXPECT_FALSE(later.contains("fix"));
+  EXPECT_TRUE(session.result()->sigma.has_value());
   EXPECT_EQ(later["heading_source"], "gyro_lost");
 }
 
