@@ -7,9 +7,11 @@
 int main() {
   using namespace whisker;
   using namespace whisker::hal::stm32f405;
-  static RobotBoard board(kVl53l0x, kMotorParams, kMotorParams);
+  static_assert(kRobotParams.gyro.fitted == Fitted::no || mpu6050::setup_of(kRobotParams.gyro).possible);
+  static RobotBoard board(kVl53l0x, kMotorParams, kMotorParams, kRobotParams.gyro);
   static planning::DefaultPlanner planner(kRobotParams, fuzzy::kDefaultTable);
-  static Robot robot(board.rangefinders(), board.drive(), planner.planner, kRobotParams, &board.bumper());
+  static Robot robot(board.rangefinders(), board.drive(), planner.planner, kRobotParams, &board.bumper(),
+                     &board.gyro());
 
   board.start();
   robot.place({});

@@ -48,7 +48,20 @@ bool BaseNode::send_set(const InputSet& set, SyncMode sync_mode) noexcept {
   wheels.tick = static_cast<uint8_t>(set.tick % WheelState::kTickModulus);
   wheels.counts = set.counts;
   taken = send(wheels, kLife_ms) && taken;
-  taken = send(Sync{sync_mode, set.tick, set.period_ms, mission_}, kLife_ms) && taken;
+  Sync sync{sync_mode, set.tick, set.period_ms, mission_};
+  if (set.has_gyro) {
+    sync.gyro = 1;
+    taken = send(GyroState{static_cast<uint8_t>(set.gyro_valid ? 1 : 0), wheels.tick, set.gyro}, kLife_ms) &&
+            taken;
+  }
+  if (set.has_fix) {
+    sync.fix = 1;
+    const FixValues fix = values_of(set.fix);
+    for (int i = 0; i < kFixValues; ++i) {
+      taken = send(FixValue{static_cast<FixPart>(i), tick16, fix.of[i]}, kLife_ms) && taken;
+    }
+  }
+  taken = send(sync, kLife_ms) && taken;
   flush();
   return taken;
 }
@@ -77,6 +90,7 @@ void BaseNode::give(Order order, const Mission& mission, SyncMode sync_mode) noe
   order_due_ = true;
   commanded_ = false;
   status_come_ = false;
+  fix_replied_ = false;
   rest();
   release();
 }
@@ -111,6 +125,11 @@ bool BaseNode::reported(PoseSigmaReport& sigma) const noexcept {
   return sigma_come_;
 }
 
+bool BaseNode::replied(FixReply& reply) const noexcept {
+  if (fix_replied_) reply = fix_reply_;
+  return fix_replied_;
+}
+
 FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept {
   switch (kind) {
     case MessageKind::wheel_command:
@@ -130,6 +149,11 @@ FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noe
       return read<PoseSigmaReport>(frame, [this](const auto& m) {
         sigma_ = m;
         sigma_come_ = true;
+      });
+    case MessageKind::fix_reply:
+      return read<FixReply>(frame, [this](const auto& m) {
+        fix_reply_ = m;
+        fix_replied_ = true;
       });
     case MessageKind::param_reply:
       return read<ParamReply>(frame, [this](const auto& m) {
@@ -172,6 +196,7 @@ void BaseNode::reset_peer() noexcept {
   status_come_ = false;
   trust_come_ = false;
   sigma_come_ = false;
+  fix_replied_ = false;
   replied_ = false;
 }
 

@@ -39,6 +39,8 @@ class BaseNode final : public Node {
   /// The last report; false: none has arrived.
   bool reported(RangeTrustReport& trust) const noexcept;
   bool reported(PoseSigmaReport& sigma) const noexcept;
+  /// The answer to the last fix of this mission that was answered; false: none has arrived.
+  bool replied(FixReply& reply) const noexcept;
 
   /// Sends an order and repeats it until it is answered. It ends the safe stop of this node, so the wheels
   /// must be at rest. The robot runs once a start or resume is accepted.
@@ -70,6 +72,8 @@ class BaseNode final : public Node {
   bool trust_come_ = false;
   PoseSigmaReport sigma_;
   bool sigma_come_ = false;
+  FixReply fix_reply_;
+  bool fix_replied_ = false;
 
   MissionValues values_;
   Order order_ = Order::start;

@@ -42,6 +42,7 @@ void ControllerNode::repeat_answer() noexcept {
   asked_again_ = false;
   send(command_, kLife_ms);
   send(status_, kLife_ms);
+  if (fix_answered_) send(fix_reply_);
 }
 
 bool ControllerNode::take_order(Order& order, Mission& mission) noexcept {
@@ -61,6 +62,7 @@ bool ControllerNode::take_set(InputSet& set) noexcept {
   tick_ = next.tick;
   stepped_ = true;
   answered_ = false;
+  fix_answered_ = false;
   set_seen_ = now_ms();
   set = next;
   return true;
@@ -85,12 +87,20 @@ void ControllerNode::publish_sigma(const PoseSigmaReport& sigma, bool ends) noex
   if (ends || tick_ % kReportTicks == 0) send(sigma);
 }
 
+void ControllerNode::answer_fix(const FixReply& reply) noexcept {
+  fix_reply_ = reply;
+  fix_reply_.tick = static_cast<uint16_t>(tick_);
+  fix_answered_ = true;
+}
+
 FrameResult ControllerNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept {
   switch (kind) {
     case MessageKind::range_left: return in_range(on_range<MessageKind::range_left>(hal::kLeft, frame));
     case MessageKind::range_front: return in_range(on_range<MessageKind::range_front>(hal::kFront, frame));
     case MessageKind::range_right: return in_range(on_range<MessageKind::range_right>(hal::kRight, frame));
     case MessageKind::wheel_state: return read<WheelState>(frame, [this](const auto& m) { on_wheels(m); });
+    case MessageKind::gyro: return read<GyroState>(frame, [this](const auto& m) { sets_.on_frame(m); });
+    case MessageKind::fix: return in_range(on_fix(frame));
     case MessageKind::sync: return read<Sync>(frame, [this](const auto& m) { on_sync(m); });
     case MessageKind::mission: return in_range(on_mission(frame));
     case MessageKind::param_request: return read<ParamRequest>(frame, [this](const auto& m) { on_param(m); });
@@ -105,6 +115,11 @@ bool ControllerNode::on_range(int beam, const hal::CanFrame& frame) noexcept {
   sets_.on_frame(beam, range.reading, range.tick, range.bump);
   beam_seen_[beam] = now_ms();
   return true;
+}
+
+bool ControllerNode::on_fix(const hal::CanFrame& frame) noexcept {
+  FixValue part;
+  return decode(frame, part) && sets_.on_frame(part);
 }
 
 void ControllerNode::on_wheels(const WheelState& state) noexcept {

@@ -32,8 +32,11 @@ class ControllerNode final : public Node {
   /// Call it before answer(). Sends the report every 50 ticks, when its level changes, and if this tick ends
   /// the mission.
   void publish_trust(const RangeTrustReport& trust, bool ends) noexcept;
-  /// Likewise.
+  /// Likewise, without a level.
   void publish_sigma(const PoseSigmaReport& sigma, bool ends) noexcept;
+
+  /// The answer to the fix of the last set. Call it before answer(), which sends it.
+  void answer_fix(const FixReply& reply) noexcept;
 
   /// Parameters accepted by a commit.
   const Params& params() const noexcept { return committed_; }
@@ -46,6 +49,7 @@ class ControllerNode final : public Node {
   bool timed() const noexcept override { return !lockstep() && stepped_; }
   template <MessageKind kKind>
   bool on_range(int beam, const hal::CanFrame& frame) noexcept;
+  bool on_fix(const hal::CanFrame& frame) noexcept;
   void on_wheels(const WheelState& state) noexcept;
   void on_sync(const Sync& sync) noexcept;
   bool on_mission(const hal::CanFrame& frame) noexcept;
@@ -63,6 +67,8 @@ class ControllerNode final : public Node {
   RangeLevel published_ = RangeLevel::trusted;
   WheelCommand command_;
   NavStatus status_;
+  FixReply fix_reply_;
+  bool fix_answered_ = false;  // by fix_reply_, in the answer to the last set
 
   uint32_t beam_seen_[hal::kBeams] = {};
   uint32_t wheels_seen_ = 0;

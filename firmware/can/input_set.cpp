@@ -6,6 +6,7 @@ namespace {
 constexpr uint8_t kWheels = 1 << hal::kBeams;
 constexpr uint8_t kSynced = kWheels << 1;
 constexpr uint8_t kAll = (kSynced << 1) - 1;
+constexpr uint8_t kGyro = kSynced << 1;
 using Any = Range<MessageKind::range_left>;
 
 }  // namespace
@@ -52,22 +53,37 @@ void InputSets::on_frame(const WheelState& state) noexcept {
   seen_ |= kWheels;
 }
 
+void InputSets::on_frame(const GyroState& state) noexcept {
+  gyro_ = state;
+  seen_ |= kGyro;
+}
+
 void InputSets::on_frame(const Sync& sync) noexcept {
   sync_ = sync;
   seen_ |= kSynced;
 }
 
 bool InputSets::complete() const noexcept {
-  if (seen_ != kAll || wheels_.tick != sync_.tick % WheelState::kTickModulus) return false;
-  for (const uint16_t tick : range_tick_) {
-    if (tick != static_cast<uint16_t>(sync_.tick)) return false;
+  const uint32_t tick = sync_.tick % WheelState::kTickModulus;
+  const auto tick16 = static_cast<uint16_t>(sync_.tick);
+  if ((seen_ & kAll) != kAll || wheels_.tick != tick) return false;
+  if (sync_.gyro != 0 && ((seen_ & kGyro) == 0 || gyro_.tick != tick)) return false;
+  if (sync_.fix != 0 && !fix_.complete(tick16)) return false;
+  for (const uint16_t of_range : range_tick_) {
+    if (of_range != tick16) return false;
   }
   return true;
 }
 
 InputSet InputSets::set() const noexcept {
-  return {sync_.tick,     sync_.period_ms,    ranges_,
-          wheels_.counts, wheels_.valid != 0, {bumps_[0], bumps_[1], bumps_[2]}};
+  InputSet set{sync_.tick,     sync_.period_ms,    ranges_,
+               wheels_.counts, wheels_.valid != 0, {bumps_[0], bumps_[1], bumps_[2]}};
+  set.has_gyro = sync_.gyro != 0;
+  set.gyro_valid = set.has_gyro && gyro_.valid != 0;
+  set.gyro = gyro_.reading;
+  set.has_fix = sync_.fix != 0;
+  if (set.has_fix) set.fix = fix_.fix();
+  return set;
 }
 
 }  // namespace whisker::can

@@ -8,6 +8,8 @@
 
 #include <stdint.h>
 
+#include "firmware/can/message_kind.hpp"
+#include "firmware/can/pose_messages.hpp"
 #include "firmware/can/signals.hpp"
 #include "firmware/health.hpp"
 #include "firmware/math/region.hpp"
@@ -15,29 +17,6 @@
 namespace whisker::can {
 
 constexpr uint8_t kProtocol = 1;
-
-/// In the order of for_each_message.
-enum class MessageKind : uint8_t {
-  e_stop,
-  sync,
-  fault,
-  mission,
-  mission_reply,
-  wheel_command,
-  wheel_state,
-  range_left,
-  range_front,
-  range_right,
-  nav_status,
-  param_request,
-  param_reply,
-  range_trust,
-  pose_sigma,
-  heartbeat,
-  info,
-  info_request,
-  diagnostics,
-};
 
 // Each message is a struct. each(m, f) calls f(signal, field) for the signals with fields, in the order of
 // the table. kMore lists the signals after them: those of parts that another struct carries, and those that
@@ -61,13 +40,17 @@ struct Sync {
   uint32_t tick = 0;
   uint8_t period_ms = 10;
   uint8_t mission = 0;
+  uint8_t gyro = 0;
+  uint8_t fix = 0;
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Mode", 12, 4, false, 0, 1, "1", "", "the clock that drives the ticks", kAlways, word_in<kPaceWords>}, m.sync_mode);
+    f({"Mode", 12, 2, false, 0, 1, "1", "", "the clock that drives the ticks", kAlways, word_in<kPaceWords>}, m.sync_mode);
     f({"Tick", 16, 32, false, 0, kMost32, "1", "", "the tick of this input set"}, m.tick);
     f({"Period", 48, 8, false, 1, kMost8, "0.001", "s", "control period"}, m.period_ms);
     f({"Mission", 56, 8, false, 0, kMost8, "1", "", "the mission that this tick belongs to"}, m.mission);
+    f({"Gyro", 14, 1, false, 0, 1, "1", "", "1: the input set has a Gyro"}, m.gyro);
+    f({"Fix", 15, 1, false, 0, 1, "1", "", "1: the input set has a Fix"}, m.fix);
   }
 };
 
@@ -264,22 +247,6 @@ struct RangeTrustReport {
   }
 };
 
-struct PoseSigmaReport {
-  static constexpr MessageKind kKind = MessageKind::pose_sigma;
-  uint8_t source = 0;
-  uint16_t along = 0;
-  uint16_t across = 0;
-  uint16_t heading = 0;
-
-  template <class M, class F>
-  static constexpr void each(M& m, F& f) noexcept {
-    f({"Source", 12, 4, false, 0, 3, "1", "", "what turns the pose", kAlways, word_in<kHeadingWords>}, m.source);
-    f({"Along", 16, 16, false, 0, 16000, "0.001", "m", "standard deviation of the position, along the heading"}, m.along);
-    f({"Across", 32, 16, false, 0, 16000, "0.001", "m", "standard deviation of the position, across the heading"}, m.across);
-    f({"Heading", 48, 16, false, 0, 16384, "0.0054931640625", "deg", "standard deviation of the heading"}, m.heading);
-  }
-};
-
 struct Heartbeat {
   static constexpr MessageKind kKind = MessageKind::heartbeat;
   NodeState state = NodeState::waiting;
@@ -369,6 +336,9 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"ParamReply", 0x17, 7, true, false, 0, "answer to a ParamRequest"}, ParamReply{});
   visit(Message{"RangeTrust", 0x1A, 7, true, false, 500, "what the core measures of its rangefinders; also at every change of the level"}, RangeTrustReport{});
   visit(Message{"PoseSigma", 0x1B, 8, true, false, 500, "how far the pose may be off, if the parameters declare an error of the wheels; also at the end of the mission"}, PoseSigmaReport{});
+  visit(Message{"Gyro", 0x1C, 8, false, true, 10, "gyro; only where one is fitted"}, GyroState{});
+  visit(Message{"Fix", 0x1D, 8, false, true, 0, "a pose measured outside of the robot"}, FixValue{});
+  visit(Message{"FixReply", 0x1E, 8, true, false, 0, "answer to a Fix"}, FixReply{});
   visit(Message{"Heartbeat", 0x70, 8, true, true, 100, "the node is alive, and its state"}, Heartbeat{});
   visit(Message{"Info", 0x71, 8, true, true, 0, "at the start, and on request"}, Info{});
   visit(Message{"InfoRequest", 0x72, 2, true, true, 0, "requests the Info of the other node"}, InfoRequest{});

@@ -42,6 +42,18 @@ enum class MissionStatus : uint8_t {
 inline constexpr const char* kMissionStatusWords[] = {"accepted", "incomplete", "refused", "unknown",
                                                       "out_of_range"};
 
+enum class FixPart : uint8_t { x, y, heading, sigma_along, sigma_across, sigma_heading };
+inline constexpr const char* kFixPartWords[] = {
+    "x", "y", "heading", "sigma_along", "sigma_across", "sigma_heading"};
+constexpr int kFixValues = 6;
+
+enum class FixStatus : uint8_t {
+  accepted,
+  refused,       ///< a jump, and the parameter fix_jumps is refuse: nothing was changed
+  out_of_range,  ///< beyond the limit of a place: a fault
+};
+inline constexpr const char* kFixStatusWords[] = {"accepted", "refused", "out_of_range"};
+
 enum class DriveMode : uint8_t { stop, drive };
 inline constexpr const char* kDriveWords[] = {"stop", "drive"};
 
@@ -88,14 +100,15 @@ struct Error {
     core_fault = 1 << 11,       ///< see NavStatus
     drive_refused = 1 << 12,    ///< base: the drive refused a command
     sensors_refused = 1 << 13,  ///< base: the rangefinders did not answer
+    gyro_refused = 1 << 14,     ///< base: the gyro did not answer
   };
 };
 
 /// The names of the bits of Errors, from bit 0.
 inline constexpr const char* kErrorWords[] = {
-    "command_late",    "odometry_late",  "range_late",    "peer_lost",      "bus_off",
-    "bus_off_latched", "peer_restarted", "peer_stopped",  "duplicate_node", "e_stop",
-    "wrong_version",   "core_fault",     "drive_refused", "sensors_refused"};
+    "command_late",    "odometry_late",  "range_late",    "peer_lost",       "bus_off",
+    "bus_off_latched", "peer_restarted", "peer_stopped",  "duplicate_node",  "e_stop",
+    "wrong_version",   "core_fault",     "drive_refused", "sensors_refused", "gyro_refused"};
 
 /// Of the bump switch beside a beam.
 enum class BumpState : uint8_t {

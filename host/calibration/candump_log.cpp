@@ -48,6 +48,8 @@ class Listener {
       case MessageKind::range_front: return range<MessageKind::range_front>(hal::kFront, frame);
       case MessageKind::range_right: return range<MessageKind::range_right>(hal::kRight, frame);
       case MessageKind::wheel_state: return input<can::WheelState>(frame);
+      case MessageKind::gyro: return input<can::GyroState>(frame);
+      case MessageKind::fix: return input<can::FixValue>(frame);
       case MessageKind::sync: return input<can::Sync>(frame);
       default: break;
     }

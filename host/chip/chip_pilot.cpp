@@ -4,6 +4,7 @@
 
 #include "host/chip/messages.hpp"
 #include "host/chip/process.hpp"
+#include "host/run/fix_source.hpp"
 #include "host/run/spec.hpp"
 
 namespace whisker::chip {
@@ -38,7 +39,7 @@ bool sound(const link::Answer& a) {
 class ChipPilot final : public Pilot {
  public:
   ChipPilot(const std::string& command, const Scenario& scenario, PlannerKind planner, sim::Plant& plant)
-      : plant_(plant), process_(command) {
+      : plant_(plant), fixes_(scenario), process_(command) {
     say([](Bytes& to) { append(to, link::Name::hello); });
     const auto greeting = hear<link::Greeting>();
     if (greeting.version != link::kVersion) throw ChipError(command + ": speaks another version");
@@ -63,15 +64,25 @@ class ChipPilot final : public Pilot {
   }
 
   const Status& tick(Time now) override {
-    say([&](Bytes& to) { append(to, link::Name::tick, tick_of(plant_, now)); });
+    if (const auto fix = fixes_.take(plant_)) correct(*fix);
+    say([&](Bytes& to) {
+      append_gyro(to, plant_);
+      append(to, link::Name::tick, tick_of(plant_, now));
+    });
     const auto answer = hear<link::Answer>();
     if (!sound(answer)) throw ChipError("the chip's answer makes no sense");
     status_ = status_of(answer);
+    status_.health.fix_jumps = fix_.jumps;
+    status_.health.fixes_refused = fix_.refused;
     plant_.command(status_.command);
     return status_;
   }
 
  private:
+  void correct(const localization::UncertainPose& fix) {
+    say([&](Bytes& to) { append_fix(to, fix); });
+    fix_ = hear<link::Verdict>();
+  }
   template <class F>
   void say(const F& words) {
     Bytes bytes;
@@ -86,6 +97,8 @@ class ChipPilot final : public Pilot {
   }
 
   sim::Plant& plant_;
+  FixSource fixes_;
+  link::Verdict fix_;  // of the last fix
   Process process_;
   Status status_;
 };

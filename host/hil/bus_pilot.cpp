@@ -7,6 +7,7 @@
 #include "firmware/localization/odometry.hpp"
 #include "host/hil/error_names.hpp"
 #include "host/hil/resend.hpp"
+#include "host/run/fix_source.hpp"
 #include "host/run/spec.hpp"
 #include "host/sim/sim_board.hpp"
 
@@ -48,9 +49,13 @@ class BusPilot final : public Pilot {
         mission_{fixed_pose(scenario.start), fixed_goal(scenario.goal)},
         period_us_(static_cast<std::uint64_t>(scenario.robot.safety.period.raw()) * 1000),
         resend_(std::uint64_t{options.resend_ms} * 1000),
+        plant_(plant),
+        fixes_(scenario),
+        reckons_(params_.gyro.fitted == Fitted::no && !(scenario.noise.fix_every_m > 0)),
         board_(plant),
         node_(port, options.identity, ramp_of(scenario.robot)),
-        base_(node_, board_, board_, params_.bumper.fitted == Fitted::yes ? &board_ : nullptr) {
+        base_(node_, board_, board_, params_.bumper.fitted == Fitted::yes ? &board_ : nullptr,
+              params_.gyro.fitted == Fitted::yes ? &board_ : nullptr) {
     odometry_.configure(params_);
     odometry_.place(mission_.start);
   }
@@ -65,6 +70,10 @@ class BusPilot final : public Pilot {
     const auto period_ms = static_cast<std::uint8_t>(period_us_ / 1000);
     try {
       if (!begun_) begin();
+      if (const auto fix = fixes_.take(plant_)) {
+        base_.correct(*fix);
+        ++figures_.fixes;
+      }
       base_.measure(now.raw() / period_ms, period_ms);
       reckon();
       ++figures_.sets;
@@ -72,13 +81,17 @@ class BusPilot final : public Pilot {
     } catch (const Hopeless&) {
     }
     status_.command = base_.drive();
+    take_reports();
     figures_.run_s = static_cast<double>(figures_.sets * period_us_) * 1e-6;
     if (begun_) figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
     return status_;
   }
 
   bool sees_inside() const override { return false; }
-  std::optional<Pose> estimate() const override { return odometry_.pose(); }
+  /// With a gyro or fixes, only the controller knows its estimate.
+  std::optional<Pose> estimate() const override {
+    return reckons_ ? std::optional(odometry_.pose()) : std::nullopt;
+  }
 
   std::optional<RangeTrust> ranges() const override {
     can::RangeTrustReport report;
@@ -114,6 +127,19 @@ class BusPilot final : public Pilot {
     hal::EncoderCounts counts{};
     localization::CountStep step;
     if (board_.read(counts)) odometry_.update(counts, kLongestPause, step);
+  }
+
+  void take_reports() {
+    const auto known = sigma();
+    status_.sigma_known = known.has_value();
+    if (known) status_.sigma = *known;
+    can::FixReply reply;
+    if (!node_.replied(reply)) return;
+    status_.health.fix_jumps = reply.jumps;
+    status_.health.fixes_refused = reply.refused;
+    if (answered_fix_ == reply.tick) return;
+    answered_fix_ = reply.tick;
+    ++(reply.status == can::FixStatus::accepted ? figures_.fixes_accepted : figures_.fixes_refused);
   }
 
   void nap() {
@@ -286,6 +312,9 @@ class BusPilot final : public Pilot {
   const can::Mission mission_;
   const std::uint64_t period_us_;
   Resend resend_;
+  sim::Plant& plant_;
+  FixSource fixes_;
+  const bool reckons_;  // the estimate can be computed from the frames
   hal::SimBoard board_;
   can::BaseNode node_;
   can_app::Base base_;
@@ -297,6 +326,7 @@ class BusPilot final : public Pilot {
   std::uint64_t begun_us_ = 0;
   std::uint64_t due_us_ = 0;
   std::uint32_t restarts_ = 0;
+  std::optional<std::uint16_t> answered_fix_;  // its tick
   bool begun_ = false;
   bool resuming_ = false;
 };

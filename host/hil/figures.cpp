@@ -36,6 +36,9 @@ std::string figures_json(const Figures& f, double bitrate) {
                     f.health.out_of_range + f.health.stale;
   json["safe_stops"] = f.health.stops;
   json["resumed"] = f.resumed;
+  if (f.fixes > 0) {
+    json["fixes"] = {{"sent", f.fixes}, {"accepted", f.fixes_accepted}, {"refused", f.fixes_refused}};
+  }
   return json.dump();
 }
 

@@ -17,6 +17,9 @@ struct Figures {
   std::vector<std::uint32_t> round_trip_us;  ///< from a set to its answer
   can::BusHealth health;                     ///< of the plant's node at the end
   std::uint32_t resumed = 0;                 ///< safe stops after which the mission continued
+  std::uint64_t fixes = 0;                   ///< sent, each once
+  std::uint64_t fixes_accepted = 0;          ///< of those whose answer arrived
+  std::uint64_t fixes_refused = 0;           ///< likewise
   std::uint64_t frames = 0;                  ///< on the bus, as seen by this side
   std::uint64_t bits = 0;                    ///< of these frames, upper bound
   double wall_s = 0;                         ///< from the first tick until now

@@ -78,6 +78,10 @@ class Replay {
       case MessageKind::range_right: return on_range<MessageKind::range_right>(hal::kRight, frame);
       case MessageKind::wheel_state:
         return with<can::WheelState>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
+      case MessageKind::gyro:
+        return with<can::GyroState>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
+      case MessageKind::fix:
+        return with<can::FixValue>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
       case MessageKind::sync:
         return with<can::Sync>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
       case MessageKind::mission: return on_mission(frame);

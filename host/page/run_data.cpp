@@ -160,6 +160,17 @@ void add_motion(Writer& w) {
             [](const TickRecord& r) { return r.command.right / 10000.0; });
 }
 
+/// 0 where the standard deviations are unknown: known ones are at least 3 mm.
+void add_sigma(Writer& w) {
+  const auto of = [](const TickRecord& r) { return r.sigma.value_or(localization::PoseSigma{}); };
+  w.decimal("sigma_along_m", Order::differences, kMicro,
+            [&](const TickRecord& r) { return metres(of(r).along); });
+  w.decimal("sigma_across_m", Order::differences, kMicro,
+            [&](const TickRecord& r) { return metres(of(r).across); });
+  w.decimal("sigma_heading_rad", Order::differences, kMicro,
+            [&](const TickRecord& r) { return radians(of(r).heading); });
+}
+
 /// A lost reading repeats the previous value; the status column marks it as lost.
 void add_ranges(Writer& w) {
   constexpr const char* kRanges[hal::kBeams] = {"left_m", "front_m", "right_m"};
@@ -278,6 +289,7 @@ Packed packed(const Ticks& ticks, Detail detail) {
   Columns columns;
   Writer writer(columns, ticks, detail);
   add_motion(writer);
+  add_sigma(writer);
   add_ranges(writer);
   add_decisions(writer);
   add_health(columns, writer, ticks.health);

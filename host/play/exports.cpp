@@ -10,6 +10,7 @@
 #include "host/play/drive.hpp"
 #include "host/play/flat.hpp"
 #include "host/play/rule_faults.hpp"
+#include "host/report/units.hpp"
 #include "host/run/clear_cells.hpp"
 #include "host/scenario/nearest.hpp"
 #include "host/worlds/kept.hpp"
@@ -104,6 +105,7 @@ WHISKER_EXPORT(advance) void advance(int side, int ticks) { drives[side]->advanc
 WHISKER_EXPORT(record) int record(int side) {
   const MissionRun& mission = drives[side]->mission();
   const TickRecord r = mission.record();
+  const localization::PoseSigma sigma = r.sigma.value_or(localization::PoseSigma{});
   exchanged = {r.t_s,
                r.x_m,
                r.y_m,
@@ -126,7 +128,10 @@ WHISKER_EXPORT(record) int record(int side) {
                static_cast<double>(mission.status().health.fault),
                static_cast<double>(r.guide),
                r.way_x_m,
-               r.way_y_m};
+               r.way_y_m,
+               report::metres(sigma.along),
+               report::metres(sigma.across),
+               report::radians(sigma.heading)};
   for (const hal::RangeReading& reading : r.ranges.beam) {
     exchanged.push_back(reading.mm / 1000.0);
     exchanged.push_back(static_cast<double>(reading.status));

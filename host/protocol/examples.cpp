@@ -99,6 +99,7 @@ class Section {
     row("ok, 1.234 m", can::Range<MessageKind::range_front>{{1234, RangeStatus::ok, 20, 1}, 1}, kBase);
     row("stale", can::Range<MessageKind::range_right>{{Left::kNone, RangeStatus::stale, 255, 0}, 1}, kBase);
     row("100 left, -1 right", can::WheelState{1, 1, {100, hal::kEncoderModulus - 1}}, kBase);
+    row("Sum -1, 5 samples, Tick 1; only with a gyro", can::GyroState{1, 1, {UINT32_MAX, 5, 0}}, kBase);
     row("lockstep, Tick 1, Period 10 ms, Mission 1", can::Sync{can::SyncMode::lockstep, 1, 10, 1}, kBase);
     row("drive, 0.3 m/s left, -0.3 m/s right, Tick 1",
         can::WheelCommand{can::DriveMode::drive, {3000, -3000}, 1}, kController);
@@ -111,6 +112,8 @@ class Section {
   void others() {
     row("write index 0: 80000", can::ParamRequest{can::ParamAction::write, 0, 80000}, kBase);
     row("ok, index 0: 80000", can::ParamReply{can::ParamStatus::ok, 0, 80000}, kController);
+    row("part 0: X 1 m, Tick 2", can::FixValue{can::FixPart::x, 2, 1000000}, kBase);
+    row("accepted, Tick 2", can::FixReply{can::FixStatus::accepted, 2, 0, 0}, kController);
     row("of the base: clear; its counter is not judged", can::EStop{can::kClearCommand}, kBase);
   }
 

@@ -46,6 +46,8 @@ These programs use the protocol: `build/host/firmware/apps/replay-table` on its 
 | L | place | Stand | - | B |
 | C | cancel | - | - | B |
 | R | reset | - | - | B |
+| Y | gyro | GyroSums | - | B |
+| X | fix | Fix | Verdict | B |
 | T | tick | Tick | Answer | B |
 | F | fuzzy | Probe | Reaction | - |
 | E | end | - | Total | - |
@@ -56,6 +58,10 @@ G; then T every period, until outcome in Answer is 2, 3 or 4, or fault is not 0;
 P deletes the robot, so B must follow. Inconsistent parameters create a robot with the fault invalid_params (1).
 R clears a fault of the core; then the goal must be set again. L sets the pose of the robot. A planner
 that does not fit into memory, or a map_bytes that is not a map size ({map_sizes}), ends the program.
+
+Y and X are optional. A robot with the parameter gyro needs Y before every T: without it, its gyro does not answer at that tick.
+X corrects the pose by one that was measured outside and is true at the next T ([odometry.md](odometry.md#fixes-from-outside)). To an image
+without the code for a gyro (ATmega1284P), both are unknown letters.
 
 Axes, beams, wheels, counts and measurements are defined in [protocol.md](protocol.md#axes), with two differences: the
 distance of a reading that is not ok is ignored, whatever its value; and now_ms increases by control_period_s from any initial value, modulo 2^32.
@@ -148,6 +154,18 @@ std::string link_page() {
       "answer. "
       "pressed is the sum of 1 for the left, 2 for the front and 4 for the right switch; it counts if the "
       "parameter bumper is 1.");
+  out += body<link::GyroSums>("GyroSums",
+                              ". sum is that of all samples so far, in units of gyro_range_radps / 32768, "
+                              "counter-clockwise positive; "
+                              "samples is their number; saturated is how many of them were at the limit of "
+                              "the range. All three wrap.");
+  out += body<link::Fix>("Fix",
+                         ". The sigmas are standard deviations along and across the heading, and of the "
+                         "heading, in [0, 2^31). Another value ends the program.");
+  out += body<link::Verdict>("Verdict",
+                             ". accepted is 0 if the fix changed nothing: it is a jump and the parameter "
+                             "fix_jumps is 1, or its place is out of range, which is a fault. jumps and "
+                             "refused count such fixes since B.");
   out += body<link::Answer>(
       "Answer", ". The commands are rim speeds in 0.1 mm/s; x, y and heading are the estimated pose.");
   out += body<link::Probe>("Probe", ".");

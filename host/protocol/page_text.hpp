@@ -94,7 +94,8 @@ Only start and resume end a safe stop.
 
 ## Ticks
 
-An input set consists of RangeLeft, RangeFront, RangeRight, WheelState and Sync with the same Tick, in this order. The base sends one set
+An input set consists of RangeLeft, RangeFront, RangeRight, WheelState and Sync with the same Tick, in this order. Before Sync, it has Gyro
+if Gyro in Sync is 1, and all parts of Fix if Fix in Sync is 1. The base sends one set
 per control period, the parameter control_period_s; Period repeats it. Mission is the number of the accepted order.
 The controller's clock is Tick x Period, so Tick increases by one per period; its first value in a mission is arbitrary.
 The controller steps once on a complete set, and its WheelCommand and NavStatus carry the Tick of the set. It never steps on an
@@ -106,10 +107,16 @@ than {old} ms old. Mode stop means: brake to standstill at the acceleration limi
 In real time, an incomplete set is skipped; a gap of more than max_tick_gap_s is a fault of the core. While the
 controller does not drive, it sends stop every {stop_repeat} ms. In lockstep (Mode 1), time stands still until the answer
 arrives: Tick increases by exactly one, and the base accepts only the answer to this Tick. Without an answer, it sends the same set
-again with new counters, and the controller repeats its answer. An answer consists of both frames.
+again with new counters, and the controller repeats its answer. An answer consists of both frames. FixReply
+follows them if the set has a Fix.
 
 The mission ends when Outcome in NavStatus is 2, 3 or 4, or Fault is not 0. The controller continues to answer
 sets until the base sends cancel.
+
+A fix is a pose of the body that was measured outside of the robot and is true at the Tick of its set. The controller corrects its estimate
+before it steps ([odometry.md](odometry.md#fixes-from-outside)). A fix whose set is incomplete is lost, and gets no FixReply.
+refused means that the fix is a jump and the parameter fix_jumps is 1; out_of_range, that its place is more than 1,000 m from the origin, which is a
+fault. Neither changes the pose.
 
 ## Measurements
 
@@ -119,6 +126,9 @@ sets until the base sends cancel.
   repeat one. The core expects the rate range_rate_hz and the latency range_latency_s.
 - Counts increase by encoder_counts_per_m for each metre of rim travel, from any initial value. Tick in WheelState is that of Sync, modulo 8.
   With Valid 0, the counts are not used.
+- Sum, Samples and Saturated of Gyro increase with every sample of the gyro, from any initial value; a sample is the yaw rate in units of
+  gyro_range_radps / 32768. Tick is that of Sync, modulo 8. With Valid 0, they are not used. A base without a gyro sends no Gyro; a
+  core whose parameter gyro is 1 then turns its pose by the wheels.
 
 )";
 

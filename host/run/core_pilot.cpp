@@ -18,17 +18,11 @@ struct RecordingMap {
   planning::BoundaryPlanner planner;
 };
 
-localization::PoseSigma fix_sigma(const sim::NoiseSpec& noise) {
-  const Pose sigma = fixed_pose({{noise.fix_sigma_m, 0}, noise.fix_sigma_rad});
-  return {sigma.at.x, sigma.at.x, sigma.heading};
-}
-
 }  // namespace
 
 CorePilot::CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Plant& plant)
     : plant_(plant),
-      fixes_(noise_spec(scenario.noise), scenario.seed),
-      fix_sigma_(fix_sigma(noise_spec(scenario.noise))),
+      fixes_(scenario),
       board_(plant),
       planner_(std::move(planner)),
       shown_(*planner_.planner),
@@ -38,8 +32,7 @@ CorePilot::CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Pla
 }
 
 const Status& CorePilot::tick(Time now) {
-  sim::Pose fix;
-  if (fixes_.take(plant_.pose(), plant_.path_length(), fix)) robot_.correct(fixed_pose(fix), fix_sigma_);
+  if (const auto fix = fixes_.take(plant_)) robot_.correct(fix->pose, fix->sigma);
   return robot_.tick(now);
 }
 

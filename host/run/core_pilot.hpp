@@ -1,8 +1,8 @@
 #pragma once
 
+#include "host/run/fix_source.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/recording_planner.hpp"
-#include "host/sim/fixes.hpp"
 #include "host/sim/sim_board.hpp"
 
 namespace whisker {
@@ -25,8 +25,7 @@ class CorePilot final : public Pilot {
 
  private:
   sim::Plant& plant_;
-  sim::Fixes fixes_;
-  localization::PoseSigma fix_sigma_;
+  FixSource fixes_;
   hal::SimBoard board_;
   RecordedPlanner planner_;
   RecordingPlanner shown_;

@@ -6,12 +6,13 @@
 
 #include "hal/bumper.hpp"
 #include "hal/drive.hpp"
+#include "hal/gyro.hpp"
 #include "hal/rangefinders.hpp"
 #include "host/socket/request.hpp"
 
 namespace whisker::socket {
 
-class Board final : public hal::Rangefinders, public hal::Drive, public hal::Bumper {
+class Board final : public hal::Rangefinders, public hal::Drive, public hal::Bumper, public hal::Gyro {
  public:
   void take(const Tick& tick, std::uint32_t now_ms) noexcept {
     tick_ = tick;
@@ -39,6 +40,10 @@ class Board final : public hal::Rangefinders, public hal::Drive, public hal::Bum
   bool read(hal::BumperReading& out) noexcept override {
     if (tick_.bumper) out = *tick_.bumper;
     return tick_.bumper.has_value();
+  }
+  bool read(hal::GyroReading& out) noexcept override {
+    if (tick_.gyro) out = *tick_.gyro;
+    return tick_.gyro.has_value();
   }
   bool command(hal::WheelSpeeds) noexcept override { return true; }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "host/run/spec.hpp"
 #include "host/scenario/limits.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/reader.hpp"
@@ -89,6 +90,19 @@ sim::Pose pose_in(const Value& object, const char* key) {
   return out;
 }
 
+localization::UncertainPose fix_in(const Value& object) {
+  constexpr Limits kMostSigma{0, localization::PoseBound::kMost.raw() * 1e-6};
+  const Value& fix = object_in(object, "fix");
+  check_keys(fix,
+             "fix: ", {"x_m", "y_m", "heading_deg", "sigma_along_m", "sigma_across_m", "sigma_heading_deg"});
+  const Pose pose = fixed_pose({{number_in(fix, "x_m", kCoordinate), number_in(fix, "y_m", kCoordinate)},
+                                number_in(fix, "heading_deg", {-360000, 360000}) * kDegree});
+  const Pose sigma =
+      fixed_pose({{number_in(fix, "sigma_along_m", kMostSigma), number_in(fix, "sigma_across_m", kMostSigma)},
+                  number_in(fix, "sigma_heading_deg", {0, 90}) * kDegree});
+  return {pose, {sigma.at.x, sigma.at.y, sigma.heading}};
+}
+
 /// The object as the table of a robot file, so that keys, ranges and relations are those of the files.
 Params robot_in(const Value& object, const Params& defaults) {
   std::string text;
@@ -144,11 +158,27 @@ std::uint8_t age_of(const Value& value) {
   return static_cast<std::uint8_t>(std::lround(std::min(ms, 255.0)));
 }
 
-std::uint32_t count_of(const Value& value) {
-  if (!value.is_number_integer()) throw ProtocolError("'counts' must be whole numbers");
+std::int64_t whole(const Value& value, const char* key, const char* must_be = "a whole number") {
+  if (!value.is_number_integer()) throw ProtocolError(fmt::format("'{}' must be {}", key, must_be));
   const auto count = value.get<std::int64_t>();
-  if (count > kMostCount || count < -kMostCount) throw ProtocolError("'counts' must be within 2^53");
-  return static_cast<std::uint32_t>(count) % hal::kEncoderModulus;
+  if (count > kMostCount || count < -kMostCount)
+    throw ProtocolError(fmt::format("'{}' must be within 2^53", key));
+  return count;
+}
+
+std::uint32_t count_of(const Value& value) {
+  return static_cast<std::uint32_t>(whole(value, "counts", "whole numbers")) % hal::kEncoderModulus;
+}
+
+hal::GyroReading gyro_in(const Value& object) {
+  const Value& gyro = object_in(object, "gyro");
+  check_keys(gyro, "gyro: ", {"sum", "samples", "saturated"});
+  const auto counter = [&](const char* key) {
+    if (!gyro.contains(key)) throw ProtocolError(fmt::format("gyro: '{}' is missing", key));
+    return whole(gyro[key], key);
+  };
+  return {static_cast<std::uint32_t>(counter("sum")), static_cast<std::uint16_t>(counter("samples")),
+          static_cast<std::uint16_t>(gyro.contains("saturated") ? counter("saturated") : 0)};
 }
 
 hal::BumperReading bumper_in(const Value& object) {
@@ -181,7 +211,9 @@ Opening read_opening(const std::string& line, const Opening& defaults) {
 
 Tick read_tick(const std::string& line) {
   const Value json = parsed(line);
-  check_keys(json, "", {"t_s", "range_m", "age_s", "counts", "pressed", "reset", "cancel", "place", "goal"});
+  check_keys(
+      json, "",
+      {"t_s", "range_m", "age_s", "counts", "pressed", "gyro", "reset", "cancel", "place", "fix", "goal"});
   Tick out;
   if (json.contains("t_s"))
     out.now_ms = static_cast<std::uint32_t>(std::llround(number(json["t_s"], "t_s", {0, kMostTime}) * 1000));
@@ -201,9 +233,11 @@ Tick read_tick(const std::string& line) {
     out.counts = hal::EncoderCounts{count_of(list[0]), count_of(list[1])};
   }
   if (json.contains("pressed")) out.bumper = bumper_in(json);
+  if (json.contains("gyro")) out.gyro = gyro_in(json);
   out.reset = flag_in(json, "reset");
   out.cancel = flag_in(json, "cancel");
   if (json.contains("place")) out.place = pose_in(json, "place");
+  if (json.contains("fix")) out.fix = fix_in(json);
   if (json.contains("goal")) out.goal = goal_in(json);
   return out;
 }

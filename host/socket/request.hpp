@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "firmware/localization/pose_fix.hpp"
 #include "firmware/params.hpp"
 #include "hal/types.hpp"
 #include "host/run/planners.hpp"
@@ -43,10 +44,12 @@ struct Tick {
   Beam beam[hal::kBeams];
   std::optional<hal::EncoderCounts> counts;
   std::optional<hal::BumperReading> bumper;
+  std::optional<hal::GyroReading> gyro;
   // Commands before the tick, in this order.
   bool reset = false;
   bool cancel = false;
   std::optional<sim::Pose> place;
+  std::optional<localization::UncertainPose> fix;
   std::optional<Goal> goal;
 };
 

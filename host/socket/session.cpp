@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "firmware/can/value_names.hpp"
+#include "firmware/math/region.hpp"
 #include "host/run/core_pilot.hpp"
 #include "host/run/make_record.hpp"
 #include "host/run/pilot.hpp"
@@ -19,6 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 double si(Length l) { return l.raw() / 1e6; }
+double si(AngularRate r) { return r.raw() / 1e6; }
 double si(Duration d) { return d.raw() / 1e3; }
 double degrees(Angle a) { return std::round(radians(a) * (180 / sim::kPi) * 1e4) / 1e4; }
 double speed(std::int16_t tenths) { return tenths / 1e4; }
@@ -55,13 +58,25 @@ Json pose_json(const Pose& pose) {
   return json;
 }
 
+Json sigma_json(const localization::PoseSigma& sigma) {
+  Json json;
+  json["along_m"] = si(sigma.along);
+  json["across_m"] = si(sigma.across);
+  json["heading_deg"] = degrees(sigma.heading);
+  return json;
+}
+
+const char* source_name(localization::HeadingSource source) {
+  return can::word_in<can::kHeadingWords>(static_cast<std::int64_t>(source));
+}
+
 }  // namespace
 
 struct Session::Core {
   explicit Core(const Opening& opening)
       : params(opening.robot),
         planner(make_planner(opening.planner, params)),
-        robot(board, board, *planner, params, &board) {
+        robot(board, board, *planner, params, &board, &board) {
     robot.place(fixed_pose(opening.start));
     if (opening.goal) aim(*opening.goal);
   }
@@ -106,6 +121,9 @@ std::string Session::greet(const Opening& opening) {
   json["wheel_track_m"] = si(p.body.track);
   json["encoder_counts_per_m"] = p.wheels.counts_per_metre;
   json["range_rate_hz"] = p.rangefinders.rate_hz;
+  if (p.gyro.fitted == Fitted::yes) {
+    json["gyro"] = {{"rate_hz", p.gyro.rate_hz}, {"range_radps", si(p.gyro.range)}};
+  }
   for (int i = 0; i < hal::kBeams; ++i) json["beams"].push_back(beam_json(p.rangefinders, i));
   return json.dump();
 }
@@ -118,6 +136,10 @@ std::string Session::step(const Tick& tick, std::uint32_t now_ms) {
   if (tick.cancel) core.robot.cancel();
   if (tick.place && !core.robot.place(fixed_pose(*tick.place)))
     throw ProtocolError("'place' lies outside the region");
+  std::optional<bool> fixed;
+  if (tick.fix && !within(tick.fix->pose.at, kPlaceLimit))
+    throw ProtocolError("'fix' lies outside the region");
+  if (tick.fix) fixed = core.robot.correct(tick.fix->pose, tick.fix->sigma);
   if (tick.goal) core.aim(*tick.goal);
   const Status& status = core.robot.tick(Time::from_raw(now_ms));
   core.hash.add(status.command);
@@ -130,6 +152,12 @@ std::string Session::step(const Tick& tick, std::uint32_t now_ms) {
   json["why"] = planning::name(status.decision.why);
   json["fault"] = name(status.health.fault);
   json["pose"] = pose_json(status.pose);
+  if (status.sigma_known) json["sigma"] = sigma_json(status.sigma);
+  if (core.params.gyro.fitted == Fitted::yes) json["heading_source"] = source_name(status.heading_source);
+  if (fixed) {
+    json["fix"] = {
+        {"accepted", *fixed}, {"jumps", status.health.fix_jumps}, {"refused", status.health.fixes_refused}};
+  }
   last_ms_ = now_ms;
   last_answer_ = json.dump();
   return last_answer_;
@@ -147,7 +175,9 @@ std::optional<RunResult> Session::result() const {
     result.detail = planning::name(status.decision.why);
   }
   result.time_s = *last_ms_ / 1e3;
+  if (status.sigma_known) result.sigma = status.sigma;
   if (core_->goal) {
+    result.goal_tolerance_m = core_->goal->tolerance_m;
     const sim::Vec2 rest = core_->goal->at - sim::Vec2{si(status.pose.at.x), si(status.pose.at.y)};
     result.believed_distance_m = std::sqrt(sim::dot(rest, rest));
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "firmware/planning/boundary/table_boundary_planner.hpp"
@@ -9,8 +10,10 @@
 #include "hal/boards/stm32f405/pins.hpp"
 #include "hal/boards/stm32f405/robot_params.hpp"
 #include "hal/boards/stm32f405/vl53l0x.hpp"
+#include "host/sim/elementary.hpp"
 #include "host/sim/plant.hpp"
 #include "tests/boards/chip_fixture.hpp"
+#include "tests/boards/models/mpu6050_model.hpp"
 #include "tests/boards/models/vl53l0x_model.hpp"
 
 namespace whisker::hal::stm32f405 {
@@ -20,10 +23,11 @@ namespace {
 /// simulated robot.
 class RobotBoardTest : public ::testing::Test, public ModelChip {
  protected:
-  RobotBoardTest() {
+  explicit RobotBoardTest(const Params& with = kRobotParams) : params(with) {
     // Without crystal and PLL, so that the clock is the models' 16 MHz.
     rcc.dead_crystal = rcc.pll_without_lock = true;
     for (model::Vl53l0xModel& s : sensor) i2c.attach(s);
+    i2c.attach(imu);
     adc.raw = [this](std::uint32_t channel) { return infrared(static_cast<int>(channel) - 10); };
     gpio_c.on_rise = [this](std::uint8_t pin) {
       for (int i = 0; i < kBeams; ++i) {
@@ -51,10 +55,12 @@ class RobotBoardTest : public ::testing::Test, public ModelChip {
   }
   static bool never() { return false; }
 
+  const Params params;
   model::Vl53l0xModel sensor[kBeams];
-  RobotBoard board{kVl53l0x, kMotorParams, kMotorParams};
-  planning::TableBoundaryPlanner planner{kRobotParams, fuzzy::kDefaultTable};
-  Robot robot{board.rangefinders(), board.drive(), planner.planner, kRobotParams};
+  model::Mpu6050Model imu;
+  RobotBoard board{kVl53l0x, kMotorParams, kMotorParams, params.gyro};
+  planning::TableBoundaryPlanner planner{params, fuzzy::kDefaultTable};
+  Robot robot{board.rangefinders(), board.drive(), planner.planner, params, nullptr, &board.gyro()};
 
   sim::Segment wall{{0.8, -3.0}, {0.8, 3.0}};
   sim::WorldView world{nullptr, 0, &wall, 1};
@@ -75,7 +81,9 @@ class RobotBoardTest : public ::testing::Test, public ModelChip {
   }
   void move_on() {
     plant.command({commanded(0), commanded(1)});
+    const double heading = plant.pose().heading;
     plant.advance();
+    turn_imu((plant.pose().heading - heading) / 0.01);
     const EncoderCounts now = plant.encoders();
     tim3.turn(mcu::counts_between(seen_.left, now.left));
     tim4.turn(mcu::counts_between(seen_.right, now.right));
@@ -88,6 +96,12 @@ class RobotBoardTest : public ::testing::Test, public ModelChip {
       sensor[i].measure(r.status == RangeStatus::ok ? r.mm : vl53l0x::kOutOfReachMm);
     }
     measured_ = ranges.beam[0].sequence;
+  }
+  /// A period at this rate, rad/s, which the chip shows with its bias.
+  void turn_imu(double rate) {
+    constexpr double kBias = 0.035;
+    const double unit = params.gyro.range.raw() * 1e-6 / 32768;
+    for (int ms = 0; ms < 10; ++ms) imu.pass(static_cast<int>(std::lround((rate + kBias) / unit)));
   }
   int infrared(int beam) {
     const RangeReading r = plant.ranges().beam[beam];
@@ -193,10 +207,10 @@ TEST_F(RobotBoardTest, ReadsTheBumpSwitchesWithoutTheirBouncing) {
 }
 
 TEST_F(RobotBoardTest, ABumpStopsTheMotors) {
-  Params params = kRobotParams;
-  params.bumper.fitted = Fitted::yes;
-  planning::TableBoundaryPlanner own{params, fuzzy::kDefaultTable};
-  Robot bumped{board.rangefinders(), board.drive(), own.planner, params, &board.bumper()};
+  Params own_params = kRobotParams;
+  own_params.bumper.fitted = Fitted::yes;
+  planning::TableBoundaryPlanner own{own_params, fuzzy::kDefaultTable};
+  Robot bumped{board.rangefinders(), board.drive(), own.planner, own_params, &board.bumper()};
   bool closed = false;
   gpio_c.held_low = [&](std::uint8_t pin) { return closed && pin == wiring::kBumpers[0].number; };
   const auto pass = [&](int ticks) {
@@ -217,6 +231,51 @@ TEST_F(RobotBoardTest, ABumpStopsTheMotors) {
   EXPECT_EQ(bumped.status().command.left, 0);
   EXPECT_EQ(bumped.status().decision.why, planning::Why::bumped);
   EXPECT_EQ(bumped.status().health.bumps, 1U);
+}
+
+TEST_F(RobotBoardTest, WithoutAGyroNothingAsksForIt) {
+  go(200_mm);
+  run(2, never);
+  EXPECT_EQ(imu.resets, 0);
+  EXPECT_EQ(robot.status().heading_source, localization::HeadingSource::wheels);
+}
+
+constexpr Params with_gyro() {
+  Params p = kRobotParams;
+  p.gyro.fitted = Fitted::yes;
+  return p;
+}
+
+class GyroBoardTest : public RobotBoardTest {
+ protected:
+  GyroBoardTest() : RobotBoardTest(with_gyro()) {}
+  bool reached() const { return robot.status().decision.outcome == planning::Outcome::reached; }
+};
+
+TEST_F(GyroBoardTest, DrivesByTheGyroThroughTheChipsRegisters) {
+  robot.set_goal({{400_mm, 300_mm}, 50_mm});
+  EXPECT_TRUE(run(30, [this] { return reached(); }));
+  EXPECT_EQ(robot.status().heading_source, localization::HeadingSource::gyro);
+  EXPECT_EQ(robot.status().health.gyro_lost, 1U) << "the chip starts for a quarter of a second";
+  EXPECT_EQ(robot.status().health.late_ticks, 0U);
+  EXPECT_EQ(robot.status().health.wheel_slips, 0U);
+  EXPECT_NEAR(robot.status().pose.heading.wrapped() * (sim::kPi / 2147483648.0), plant.pose().heading, 0.02);
+  EXPECT_NEAR(plant.pose().at.x, 0.4, 0.07);
+  EXPECT_NEAR(plant.pose().at.y, 0.3, 0.07);
+  EXPECT_FALSE(plant.in_contact());
+  EXPECT_EQ(board.troubles().total(), 2U) << usart.sent;  // crystal and PLL
+}
+
+TEST_F(GyroBoardTest, AGyroThatDiesHasANameAndTheWheelsGoOn) {
+  go(600_mm);
+  ASSERT_TRUE(run(20, [this] { return plant.v_left() > 0.1 && plant.v_right() > 0.1; }));
+  imu.dead = true;
+  EXPECT_TRUE(run(30, [this] { return reached(); }));
+  EXPECT_EQ(robot.status().heading_source, localization::HeadingSource::gyro_lost);
+  EXPECT_EQ(robot.status().health.gyro_lost, 2U) << "at the start, and now";
+  EXPECT_EQ(robot.status().health.fault, Fault::none);
+  EXPECT_EQ(board.troubles().of(Trouble::gyro_silent), 1U);
+  EXPECT_NE(usart.sent.find("gyro_silent 1"), std::string::npos);
 }
 
 }  // namespace

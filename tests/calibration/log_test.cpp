@@ -6,8 +6,11 @@
 #include <cmath>
 #include <sstream>
 
+#include "firmware/can/codec.hpp"
+#include "firmware/can/fix.hpp"
 #include "host/calibration/calibration.hpp"
 #include "host/calibration/simulated.hpp"
+#include "host/hil/candump.hpp"
 #include "host/report/trace.hpp"
 #include "host/run/spec.hpp"
 #include "host/scenario/error.hpp"
@@ -96,6 +99,40 @@ TEST(TraceLog, NamesWhatIsWrong) {
   EXPECT_THAT(complaint(one + "0.1,,1,1,1\n"), StartsWith("spin.csv:3:2: '' is no number"));
   EXPECT_THAT(complaint(one + "0.1,0,1,-1,1\n"), StartsWith("spin.csv:3:4: a distance below 0"));
   EXPECT_THAT(complaint(one + "0,0,1,1,1\n"), StartsWith("spin.csv:3:1: t_s does not rise"));
+}
+
+/// A log of 50 input sets; with the frames that a gyro and a fix add, or not.
+std::string candump_text(bool gyro, bool fix) {
+  std::string text;
+  const auto line = [&](const auto& message) {
+    text += hil::log_line({0, "can0", can::encode(message, 9, 0)}) + "\n";
+  };
+  for (std::uint16_t tick = 1; tick <= 50; ++tick) {
+    const hal::RangeReading reading{500, hal::RangeStatus::ok, 10, static_cast<std::uint8_t>(tick % 16)};
+    const auto tick8 = static_cast<std::uint8_t>(tick % 8);
+    line(can::Range<can::MessageKind::range_left>{reading, tick});
+    line(can::Range<can::MessageKind::range_front>{reading, tick});
+    line(can::Range<can::MessageKind::range_right>{reading, tick});
+    line(can::WheelState{1, tick8, {tick, tick}});
+    if (gyro) line(can::GyroState{1, tick8, {}});
+    for (int i = 0; fix && i < can::kFixValues; ++i)
+      line(can::FixValue{static_cast<can::FixPart>(i), tick, 1});
+    can::Sync sync{can::SyncMode::real_time, tick, 10, 1};
+    sync.gyro = gyro ? 1 : 0;
+    sync.fix = fix ? 1 : 0;
+    line(sync);
+  }
+  return text;
+}
+
+TEST(CandumpLog, HasTheSameReadingsWithAGyroAndFixes) {
+  const auto readings = [](bool gyro, bool fix) {
+    std::istringstream in(candump_text(gyro, fix));
+    return read_candump(in, "spin.log", {}, 0).sweep[1].size();
+  };
+  EXPECT_GT(readings(false, false), 40U);
+  EXPECT_EQ(readings(true, false), readings(false, false));
+  EXPECT_EQ(readings(true, true), readings(false, false));
 }
 
 TEST(CandumpLog, NamesWhatIsWrong) {

@@ -63,17 +63,26 @@ class Canmatrix(unittest.TestCase):
         self.assertEqual(everything - messages, {"InfoRequest"})
 
     def test_every_frame_of_a_run_decodes_and_keeps_its_ranges(self):
+        self.assertTrue(self.frames_of_a_run("").isdisjoint({"Gyro", "Fix", "FixReply", "PoseSigma"}))
+
+    def test_every_frame_of_a_run_with_gyro_and_fixes_too(self):
+        more = "[robot]\ngyro = true\nwheel_scale_sigma = 0.01\n[noise]\nfix_every_m = 0.1\nfix_sigma_m = 0.01\n"
+        self.assertLessEqual({"Gyro", "Fix", "FixReply", "PoseSigma"}, self.frames_of_a_run(more))
+
+    def frames_of_a_run(self, more):
+        """Their names."""
         frames = {f.arbitration_id.id: f for f in load_dbc((ROOT / "whisker.dbc").read_bytes()).frames}
         with tempfile.TemporaryDirectory(prefix="whisker-dbc-") as folder:
             world, log = pathlib.Path(folder, "world.toml"), pathlib.Path(folder, "run.log")
-            world.write_text("time_limit_s = 2.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 9.0\ny_m = 0.0\n")
+            world.write_text("time_limit_s = 5.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 9.0\ny_m = 0.0\n" + more)
             subprocess.run([WHISKER, "hil", world, "--record", log], capture_output=True, timeout=60, check=False)
             lines = log.read_text("ascii").splitlines()
-        speeds = []
+        speeds, names = [], set()
         for line in lines:
             identifier, _, data = line.split()[2].partition("#")
             frame = frames[int(identifier, 16)]
             self.assertEqual(frame.size, len(data) // 2, line)
+            names.add(frame.name)
             values = {name: decoded.phys_value for name, decoded in frame.decode(bytes.fromhex(data)).items()}
             for name, value in values.items():
                 signal = frame.signal_by_name(name)
@@ -81,7 +90,8 @@ class Canmatrix(unittest.TestCase):
             if frame.name == "WheelCommand":
                 speeds.append(values["Left"])
         self.assertGreater(len(speeds), 200)
-        self.assertTrue(0.1 < max(speeds) <= 0.3, max(speeds))
+        self.assertTrue(0.1 < max(speeds) <= decimal.Decimal("0.3"), max(speeds))
+        return names
 
     def test_names_of_values_are_there(self):
         frame = load_dbc((ROOT / "whisker.dbc").read_bytes()).frame_by_name("NavStatus")

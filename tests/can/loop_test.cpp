@@ -140,5 +140,80 @@ TEST(Bus, HandsThePressesOfTheBumperOnAlsoIfFramesAreDropped) {
   }
 }
 
+/// A gyro like that of host/robots/gyro.toml.
+Scenario with_gyro(worlds::Kind kind) {
+  Scenario s = scenario_of(kind);
+  s.robot.gyro.fitted = Fitted::yes;
+  s.noise.wheel_scale_sigma = 0.01;
+  s.noise.gyro_bias_dps = 1;
+  s.noise.gyro_walk_deg_per_sqrt_h = 0.4;
+  s.noise.gyro_scale_sigma = 0.001;
+  return s;
+}
+
+/// Wheels that are worse than the robot declares, so that some fixes are jumps.
+Scenario with_fixes(JumpPolicy policy) {
+  Scenario s = scenario_of(worlds::Kind::discs);
+  s.noise.wheel_scale_sigma = 0.02;
+  s.robot.pose_error.wheel_scale = millionths(3000);
+  s.robot.fix_jumps = policy;
+  s.noise.fix_every_m = 0.5;
+  s.noise.fix_sigma_m = 0.01;
+  s.noise.fix_sigma_deg = 0.5;
+  return s;
+}
+
+TEST(Bus, HandsTheGyroOnAlsoIfFramesAreDropped) {
+  for (const worlds::Kind kind : {worlds::Kind::discs, worlds::Kind::maze}) {
+    const Scenario scenario = with_gyro(kind);
+    const RunResult direct = run(scenario);
+    Scenario without = scenario;
+    without.robot.gyro.fitted = Fitted::no;
+    EXPECT_NE(run(without).hash, direct.hash) << "the gyro changes the run";
+    for (const bool lossy : {false, true}) {
+      bus::MemoryBus wire;
+      test::LossyPort base(wire.attach(), 1), controller(wire.attach(), 2);
+      hal::CanPort& plain_base = wire.attach();
+      hal::CanPort& plain_controller = wire.attach();
+      const auto over_bus =
+          test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep,
+                               lossy ? static_cast<hal::CanPort&>(base) : plain_base,
+                               lossy ? static_cast<hal::CanPort&>(controller) : plain_controller);
+      EXPECT_EQ(over_bus.result.hash, direct.hash) << lossy;
+      EXPECT_EQ(over_bus.result.ticks, direct.ticks) << lossy;
+      EXPECT_EQ(over_bus.result.believed_distance_m, std::nullopt) << "only the controller knows it";
+    }
+  }
+}
+
+TEST(Bus, HandsTheGyroOnInRealTime) {
+  const Scenario scenario = with_gyro(worlds::Kind::discs);
+  bus::MemoryBus wire;
+  const auto over_bus =
+      test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::real_time, wire.attach(), wire.attach());
+  EXPECT_EQ(over_bus.figures.misses, 0U);
+  EXPECT_EQ(over_bus.result.hash, run(scenario).hash);
+}
+
+TEST(Bus, HandsFixesOnAndTheirAnswersBack) {
+  for (const JumpPolicy policy : {JumpPolicy::accept, JumpPolicy::refuse}) {
+    const Scenario scenario = with_fixes(policy);
+    const RunResult direct = run(scenario);
+    for (const bool lossy : {false, true}) {
+      bus::MemoryBus wire;
+      hal::CanPort& plain = wire.attach();
+      test::LossyPort dropping(wire.attach(), 1);
+      hal::CanPort& base = lossy ? static_cast<hal::CanPort&>(dropping) : plain;
+      const auto over_bus =
+          test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep, base, wire.attach());
+      EXPECT_EQ(over_bus.result.hash, direct.hash) << lossy;
+      const hil::Figures& f = over_bus.figures;
+      EXPECT_GT(f.fixes, 5U);
+      EXPECT_EQ(f.fixes_accepted + f.fixes_refused, f.fixes) << lossy;
+      EXPECT_EQ(f.fixes_refused > 0, policy == JumpPolicy::refuse) << lossy;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace whisker

@@ -621,6 +621,54 @@ TEST_F(ControllerAlone, ASetWithoutOneFrameIsSkipped) {
   }
 }
 
+TEST_F(ControllerAlone, ASetWithoutTheGyroOrTheFixThatItAnnouncesIsSkipped) {
+  start();
+  const int before = steps_;
+  const auto next = [&](bool gyro, bool fix, bool whole) {
+    ++tick_;
+    sends_[4] = false;
+    send_set(tick_);
+    sends_[4] = true;
+    if (gyro && whole) peer_.say(GyroState{1, static_cast<std::uint8_t>(tick_ % 8), {}});
+    for (int i = 0; fix && i < kFixValues; ++i) {
+      if (whole || i != 3) peer_.say(FixValue{static_cast<FixPart>(i), static_cast<std::uint16_t>(tick_), 1});
+    }
+    Sync sync{sync_mode_, tick_, 10, mission_};
+    sync.gyro = gyro ? 1 : 0;
+    sync.fix = fix ? 1 : 0;
+    peer_.say(sync);
+    pass();
+  };
+  next(true, false, false);
+  next(false, true, false);
+  EXPECT_EQ(steps_, before);
+  next(true, true, true);
+  EXPECT_EQ(steps_, before + 1);
+  EXPECT_EQ(node_.state(), NodeState::running);
+}
+
+TEST_F(ControllerAlone, RepeatsTheAnswerToAFixWithThatOfItsTick) {
+  sync_mode_ = SyncMode::lockstep;
+  start();
+  peer_.forget();
+  node_.answer_fix({FixStatus::refused, 0, 3, 2});
+  node_.answer({1000, 1000}, {});
+  send_set(tick_);
+  node_.poll(now_);
+  peer_.poll(now_);
+  EXPECT_EQ(peer_.heard<FixReply>(), 2);
+  FixReply reply;
+  ASSERT_TRUE(peer_.last(reply));
+  EXPECT_EQ(reply.status, FixStatus::refused);
+  EXPECT_EQ(reply.tick, static_cast<std::uint16_t>(tick_));
+  EXPECT_EQ(reply.jumps, 3);
+  EXPECT_EQ(reply.refused, 2);
+  peer_.forget();
+  pass(10);
+  EXPECT_GE(peer_.heard<WheelCommand>(), 1);
+  EXPECT_EQ(peer_.heard<FixReply>(), 0) << "it belongs to the tick before";
+}
+
 TEST_F(ControllerAlone, AMissingRangeBrakesAfter30MillisecondsAndLatchesAfter100) {
   for (int beam = 0; beam < 3; ++beam) {
     if (beam == 0) start();

@@ -48,6 +48,27 @@ class Hil(OnABus):
             self.assertEqual(bus["sets"], alone["ticks"])
             self.assertEqual((bus["safe_stops"], bus["refused"], bus["deadline_misses"]), (0, 0, 0))
 
+    def test_a_gyro_and_fixes_give_the_run_of_one_also_if_frames_are_dropped_and_in_the_log(self):
+        gyro = "gyro = true\nwheel_scale_sigma = 0.005\n[noise]\ngyro_bias_dps = 1\n"
+        fixes = "fix_every_m = 1\nfix_sigma_m = 0.02\nfix_sigma_deg = 1\n"
+        scenario, robot = self.world("discs"), self.file("gyro.toml", gyro + fixes)
+        log = self.folder / "gyro.log"
+        alone = self.json_of("run", scenario, "--robot", robot)
+        both = self.json_of("hil", scenario, "--robot", robot, "--record", log)
+        self.assertEqual(both["hash"], alone["hash"])
+        self.assertIsNone(both["believed_distance_m"])
+        for key in ("sigma_along_m", "sigma_across_m", "bound_m"):
+            self.assertAlmostEqual(both[key], alone[key], delta=0.005, msg=key)
+        sent = both["bus"]["fixes"]["sent"]
+        self.assertGreater(sent, 3)
+        self.assertEqual(both["bus"]["fixes"], {"sent": sent, "accepted": sent, "refused": 0})
+        self.assertNotEqual(self.json_of("run", scenario)["hash"], alone["hash"])
+        replayed = self.json_of("replay", log)
+        self.assertEqual((replayed["hash"], replayed["unknown_sets"]), (alone["hash"], 0))
+        dropped = self.json_of("hil", scenario, "--robot", robot, "--drop", 2)
+        self.assertEqual(dropped["hash"], alone["hash"])
+        self.assertGreater(dropped["bus"]["resent"], 100)
+
     def test_a_robot_off_its_goal_is_judged_the_same(self):
         both = self.json_of("hil", SCENARIOS / "bad_wheels.toml")
         del both["bus"]

@@ -53,6 +53,8 @@ std::size_t body_size(link::Name name) {
     case link::Name::begin: return link::size_of<link::Begin>();
     case link::Name::goal: return link::size_of<link::Target>();
     case link::Name::place: return link::size_of<link::Stand>();
+    case link::Name::gyro: return link::size_of<link::GyroSums>();
+    case link::Name::fix: return link::size_of<link::Fix>();
     case link::Name::tick: return link::size_of<link::Tick>();
     case link::Name::fuzzy: return link::size_of<link::Probe>();
   }
@@ -75,6 +77,7 @@ class Judge {
     switch (name) {
       case link::Name::hello: return greeting();
       case link::Name::fuzzy: return compare<link::Reaction>(fmt::format("probe {}", step_++));
+      case link::Name::fix: return compare<link::Verdict>(fmt::format("fix before tick {}", step_));
       case link::Name::tick: return tick();
       case link::Name::end: return end();
       default: return true;

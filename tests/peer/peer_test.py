@@ -125,6 +125,12 @@ class Peer(unittest.TestCase):
         self.assertNotEqual(fast["hash"], stream["hash"])
         self.assertLess(fast["seconds"], stream["seconds"])
 
+    def test_a_gyro_gives_the_same_commands_over_both(self):
+        bus, stream = self.reached(self.over_can(SHORT, "--gyro")), self.reached(self.over_link(SHORT, "--gyro"))
+        self.assertEqual(bus["hash"], stream["hash"])
+        without = self.reached(self.over_link(SHORT))
+        self.assertGreater(stream["seconds"], without["seconds"] + 1.5, "it stands first to measure the bias")
+
     def test_in_real_time_a_controller_that_pauses_costs_a_safe_stop_and_is_resumed(self):
         line = self.folder / "line"
         controller = self.start(WHISKER, "controller", "--can", f"slcan:{line}", "--planner", "skirt")

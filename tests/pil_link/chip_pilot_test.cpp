@@ -35,20 +35,20 @@ TEST(ChipPilot, NamesWhatIsWrong) {
   EXPECT_EQ(complaint("exit 3"), "exit 3: the chip has ended");
   EXPECT_EQ(complaint("no_such_command 2>&-"), "no_such_command 2>&-: the chip has ended");
   EXPECT_EQ(complaint("yes"), "yes: speaks another version");
-  EXPECT_EQ(complaint("printf '\\004\\000\\000\\010'"), "printf '\\004\\000\\000\\010': the chip has ended")
+  EXPECT_EQ(complaint("printf '\\005\\000\\000\\010'"), "printf '\\005\\000\\000\\010': the chip has ended")
       << "after its greeting";
 }
 
 TEST(ChipPilot, RefusesAMapThatTheChipHasNoRoomFor) {
   // Reads the greeting before it ends; otherwise the host may find the pipe closed.
-  const std::string chip = "head -c 1 >/dev/null; printf '\\004\\000\\000\\010'";
+  const std::string chip = "head -c 1 >/dev/null; printf '\\005\\000\\000\\010'";
   EXPECT_EQ(complaint(chip, PlannerKind::map), chip + ": the chip has ended") << "2048 bytes are room enough";
   EXPECT_EQ(complaint(chip, core_planner("map", 4096)),
             "no room: " + chip + ": has room for 2048 bytes of map, not 4096");
 }
 
 TEST(ChipPilot, RefusesAPlannerThatNoChipHas) {
-  const std::string chip = "head -c 1 >/dev/null; printf '\\004\\000\\000\\010'; cat >/dev/null";
+  const std::string chip = "head -c 1 >/dev/null; printf '\\005\\000\\000\\010'; cat >/dev/null";
   for (const PlannerKind kind : planners()) {
     if (!is_baseline(kind)) continue;
     EXPECT_EQ(complaint(chip, kind), "no such planner: " + name(kind) + ": no chip has this planner");
@@ -56,7 +56,7 @@ TEST(ChipPilot, RefusesAPlannerThatNoChipHas) {
 }
 
 TEST(ChipPilot, RefusesAnswersThatMakeNoSense) {
-  EXPECT_EQ(complaint("printf '\\004\\000\\000\\010'; yes"), "the chip's answer makes no sense");
+  EXPECT_EQ(complaint("printf '\\005\\000\\000\\010'; yes"), "the chip's answer makes no sense");
 }
 
 TEST(ChipPilot, DrivesAsTheCoreInThisProcess) {
@@ -85,6 +85,30 @@ TEST(ChipPilot, HandsThePressesOfTheBumperOn) {
   EXPECT_GE(here.bumps.value_or(0), 1U);
   EXPECT_EQ(there.bumps, here.bumps);
   EXPECT_EQ(there.hash, here.hash);
+}
+
+TEST(ChipPilot, HandsTheGyroAndFixesOn) {
+  Scenario scenario =
+      load_scenario(std::string(WHISKER_SOURCE_DIR) + "/host/worlds/scenarios/two_discs.toml");
+  scenario.noise.wheel_scale_sigma = 0.02;
+  scenario.robot.pose_error.wheel_scale = millionths(3000);
+  scenario.noise.fix_every_m = 0.5;
+  scenario.noise.fix_sigma_m = 0.01;
+  scenario.noise.fix_sigma_deg = 0.5;
+  scenario.noise.gyro_bias_dps = 1;
+  for (const Fitted gyro : {Fitted::no, Fitted::yes}) {
+    for (const JumpPolicy policy : {JumpPolicy::accept, JumpPolicy::refuse}) {
+      scenario.robot.gyro.fitted = gyro;
+      scenario.robot.fix_jumps = policy;
+      RunOptions options;
+      const RunResult here = run(scenario, options);
+      options.pilot = chip_pilot(WHISKER_REPLAY);
+      const RunResult there = run(scenario, options);
+      EXPECT_EQ(there.hash, here.hash);
+      EXPECT_EQ(there.believed_distance_m, here.believed_distance_m);
+      EXPECT_GT(here.ticks, 500U);
+    }
+  }
 }
 
 }  // namespace

@@ -150,5 +150,74 @@ TEST(Session, NewParametersAskForANewBeginning) {
   EXPECT_EQ(outcome(bytes).status, 0);
 }
 
+/// A session whose robot stands at the origin, with an error of the wheels and this policy.
+chip::Bytes begun(JumpPolicy policy) {
+  Params params;
+  params.pose_error.wheel_scale = millionths(5000);
+  params.fix_jumps = policy;
+  chip::Bytes bytes;
+  chip::append_params(bytes, params);
+  chip::append_begin(bytes, PlannerKind::skirt, Pose{});
+  return bytes;
+}
+
+TEST(Session, AnswersAFixByName) {
+  chip::Bytes bytes = begun(JumpPolicy::refuse);
+  chip::append(bytes, Name::fix, Fix{{0, 0, 0}, 10000, 10000, 1U << 20});
+  chip::append(bytes, Name::fix, Fix{{5000000, 0, 0}, 10000, 10000, 1U << 20});
+  chip::append(bytes, Name::fix, Fix{{INT32_MAX, 0, 0}, 10000, 10000, 1U << 20});
+  chip::append(bytes, Name::end);
+  const Outcome o = outcome(bytes);
+  EXPECT_EQ(o.status, 0);
+  const auto verdict = [&](std::size_t i) {
+    return decode<Verdict>(o.output.data() + i * size_of<Verdict>());
+  };
+  EXPECT_EQ(verdict(0).accepted, 1);
+  EXPECT_EQ(verdict(1).accepted, 0);
+  EXPECT_EQ(verdict(1).jumps, 1U);
+  EXPECT_EQ(verdict(1).refused, 1U);
+  EXPECT_EQ(verdict(2).accepted, 0) << "out of range";
+  EXPECT_EQ(verdict(2).refused, 1U) << "no jump, but a fault";
+}
+
+TEST(Session, AGyroAndAFixNeedARobotAndASoundSigma) {
+  for (const bool robot : {false, true}) {
+    const chip::Bytes start = robot ? begun(JumpPolicy::accept) : chip::Bytes{};
+    chip::Bytes gyro = start;
+    chip::append(gyro, Name::gyro, GyroSums{});
+    chip::append(gyro, Name::end);
+    EXPECT_EQ(outcome(gyro).status, robot ? 0 : 1);
+    for (const Fix& fix : {Fix{}, Fix{{}, -1, 0, 0}, Fix{{}, 0, -1, 0}, Fix{{}, 0, 0, 1U << 31}}) {
+      chip::Bytes bytes = start;
+      chip::append(bytes, Name::fix, fix);
+      chip::append(bytes, Name::end);
+      const bool sound = fix.sigma_along == 0 && fix.sigma_across == 0 && fix.sigma_heading == 0;
+      EXPECT_EQ(outcome(bytes).status, robot && sound ? 0 : 1);
+    }
+  }
+}
+
+TEST(Session, AGyroCountsForOneTick) {
+  Params params;
+  params.gyro.fitted = Fitted::yes;
+  const auto failures = [&](int gyro_ticks) {
+    chip::Bytes bytes;
+    chip::append_params(bytes, params);
+    chip::append_begin(bytes, PlannerKind::skirt, Pose{});
+    std::uint16_t samples = 0;
+    for (int i = 0; i < 20; ++i) {
+      Tick tick;
+      tick.now_ms = static_cast<std::uint32_t>(10 * i);
+      if (i < gyro_ticks) chip::append(bytes, Name::gyro, GyroSums{{0, ++samples, 0}});
+      chip::append(bytes, Name::tick, tick);
+    }
+    chip::append(bytes, Name::end);
+    const Outcome o = outcome(bytes);
+    EXPECT_EQ(o.status, 0);
+    return decode<Answer>(o.output.data() + 19 * size_of<Answer>()).failures;
+  };
+  EXPECT_EQ(failures(5), failures(20) + 1) << "gyro_lost, 100 ms after the last one";
+}
+
 }  // namespace
 }  // namespace whisker::link

@@ -21,7 +21,9 @@ TEST(Request, ReadsEveryKeyOfATick) {
   const Tick t = read_tick(
       R"({"t_s": 1.25, "range_m": [0.5, "clear", null], "age_s": [0.01, 0.02, 0], "counts": [-1, 16777217],
           "pressed": ["left", "right"], "reset": true, "cancel": false, "place": {"x_m": 2},
-          "goal": {"x_m": 1, "y_m": -1}})");
+          "goal": {"x_m": 1, "y_m": -1}, "gyro": {"sum": -5, "samples": 65538, "saturated": 1},
+          "fix": {"x_m": 1, "y_m": 2, "heading_deg": 90, "sigma_along_m": 0.01, "sigma_across_m": 0.02,
+                  "sigma_heading_deg": 45}})");
   EXPECT_EQ(t.now_ms, 1250U);
   EXPECT_TRUE(t.has_ranges);
   EXPECT_EQ(t.beam[0].mm, 500);
@@ -35,6 +37,13 @@ TEST(Request, ReadsEveryKeyOfATick) {
   EXPECT_FALSE(t.cancel);
   EXPECT_EQ(t.place->at.x, 2);
   EXPECT_EQ(t.goal->tolerance_m, 0.1);
+  EXPECT_EQ(t.gyro->sum, 0xFFFFFFFBU) << "modulo 2^32";
+  EXPECT_EQ(t.gyro->samples, 2) << "modulo 2^16";
+  EXPECT_EQ(t.gyro->saturated, 1);
+  EXPECT_EQ(t.fix->pose.at.y, 2_m);
+  EXPECT_EQ(t.fix->pose.heading.raw(), 1U << 30);
+  EXPECT_EQ(t.fix->sigma.across, 20_mm);
+  EXPECT_EQ(t.fix->sigma.heading.raw(), 1U << 29);
 }
 
 TEST(Request, OneAgeForAllBeams) {
@@ -54,6 +63,13 @@ TEST(Request, RefusesWhatDoesNotFollowTheProtocol) {
   EXPECT_EQ(refusal(R"({"counts": [1, 99999999999999999]})"), "'counts' must be within 2^53");
   EXPECT_EQ(refusal(R"({"t_s": "now"})"), "'t_s' must be a number");
   EXPECT_EQ(refusal(R"({"pressed": ["back"]})"), "'pressed' may name left, front and right");
+  EXPECT_EQ(refusal(R"({"gyro": 1})"), "'gyro' must be an object");
+  EXPECT_EQ(refusal(R"({"gyro": {"sum": 1}})"), "gyro: 'samples' is missing");
+  EXPECT_EQ(refusal(R"({"gyro": {"sum": 0.5, "samples": 1}})"), "'sum' must be a whole number");
+  EXPECT_EQ(refusal(R"({"gyro": {"sum": 1, "samples": 1, "rate": 1}})"), "gyro: unknown key 'rate'");
+  EXPECT_EQ(refusal(R"({"fix": {"x_m": 1, "y_m": 1}})"), "'heading_deg' is missing");
+  EXPECT_EQ(refusal(R"({"fix": {"x_m": 1, "y_m": 1, "heading_deg": 0, "sigma_along_m": -1}})"),
+            "'sigma_along_m' must be from 0 to 16, but is -1");
   EXPECT_EQ(refusal(R"({"cancel": 1})"), "'cancel' must be true or false");
   EXPECT_EQ(refusal(R"({"goal": {"x_m": 1}})"), "'y_m' is missing");
   EXPECT_EQ(refusal(R"({"goal": {"x_m": 1, "y_m": 0, "z_m": 0}})"), "goal: unknown key 'z_m'");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "host/run/fix_source.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/runner.hpp"
 #include "host/sim/elementary.hpp"
@@ -29,11 +30,22 @@ Json range_of(const hal::RangeReading& r) {
   return nullptr;
 }
 
+Json json_of(const localization::UncertainPose& fix) {
+  const auto metres = [](Length l) { return l.raw() * 1e-6; };
+  const auto degrees = [](Angle a) { return a.wrapped() * (360 / 4294967296.0); };
+  return {{"x_m", metres(fix.pose.at.x)},
+          {"y_m", metres(fix.pose.at.y)},
+          {"heading_deg", degrees(fix.pose.heading)},
+          {"sigma_along_m", metres(fix.sigma.along)},
+          {"sigma_across_m", metres(fix.sigma.across)},
+          {"sigma_heading_deg", degrees(fix.sigma.heading)}};
+}
+
 /// The core behind the lines of a simulator.
 class SocketPilot final : public Pilot {
  public:
   SocketPilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant)
-      : plant_(plant), session_({scenario.robot, planner, {}, {}}, "test") {
+      : plant_(plant), fixes_(scenario), session_({scenario.robot, planner, {}, {}}, "test") {
     Json hello;
     hello["whisker"] = 1;
     hello["start"] = {{"x_m", scenario.start.at.x},
@@ -62,9 +74,17 @@ class SocketPilot final : public Pilot {
       constexpr const char* kNames[] = {"left", "front", "right"};
       if ((plant_.bumper().pressed >> i & 1) != 0) line["pressed"].push_back(kNames[i]);
     }
+    if (plant_.gyro_answers()) {
+      const hal::GyroReading gyro = plant_.gyro();
+      line["gyro"] = {{"sum", static_cast<std::int32_t>(gyro.sum)}, {"samples", gyro.samples}};
+      if (gyro.saturated != 0) line["gyro"]["saturated"] = gyro.saturated;
+    }
+    const auto fix = fixes_.take(plant_);
+    if (fix) line["fix"] = json_of(*fix);
     const std::string text = line.dump();
     const std::string said = session_.answer(text, 0);
     EXPECT_EQ(session_.answer(text, 0), said) << "the same time again";
+    EXPECT_EQ(Json::parse(said).contains("fix"), fix.has_value());
     take(Json::parse(said));
     return status_;
   }
@@ -90,6 +110,7 @@ class SocketPilot final : public Pilot {
   }
 
   sim::Plant& plant_;
+  FixSource fixes_;
   Session session_;
   Status status_;
   bool seen_ = false;
@@ -121,6 +142,62 @@ TEST(Session, DrivesBitForBitAsTheCoreInThisProcess) {
 }
 
 TEST(Session, HandsTheBumperOn) { expect_same(test::unseen_disc()); }
+
+TEST(Session, HandsTheGyroAndFixesOn) {
+  Scenario scenario = worlds::generate(worlds::Kind::discs, {11, 30, false, true, 0.02});
+  scenario.noise.gyro_bias_dps = 1;
+  scenario.noise.fix_every_m = 1;
+  scenario.noise.fix_sigma_m = 0.01;
+  scenario.noise.fix_sigma_deg = 0.5;
+  scenario.robot.pose_error.wheel_scale = millionths(3000);
+  for (const Fitted gyro : {Fitted::no, Fitted::yes}) {
+    scenario.robot.gyro.fitted = gyro;
+    expect_same(scenario);
+  }
+}
+
+TEST(Session, AnswersWhatBecameOfAFix) {
+  Session session({}, "");
+  session.answer(
+      R"({"whisker": 1, "robot": {"wheel_scale_sigma": 0.005, "fix_jumps": "refuse", "gyro": true}})", 0);
+  const auto with_fix = [&](double x, std::uint32_t now) {
+    Json line = {{"counts", {0, 0}}};
+    line["fix"] = {{"x_m", x},
+                   {"y_m", 0},
+                   {"heading_deg", 0},
+                   {"sigma_along_m", 0.01},
+                   {"sigma_across_m", 0.02},
+                   {"sigma_heading_deg", 1}};
+    return Json::parse(session.answer(line.dump(), now));
+  };
+  const Json near = with_fix(0, 10);
+  EXPECT_EQ(near["fix"], Json({{"accepted", true}, {"jumps", 0}, {"refused", 0}}));
+  EXPECT_LT(near["sigma"]["along_m"], 0.01) << "less than that of the fix";
+  EXPECT_LT(near["sigma"]["along_m"], near["sigma"]["across_m"]);
+  const Json far = with_fix(5, 20);
+  EXPECT_EQ(far["fix"], Json({{"accepted", false}, {"jumps", 1}, {"refused", 1}}));
+  EXPECT_EQ(far["pose"]["x_m"], 0);
+  Json later;
+  for (std::uint32_t now = 30; now < 200; now += 10)
+    later = Json::parse(session.answer(R"({"counts": [0, 0]})", now));
+  EXPECT_FALSE(later.contains("fix"));
+  EXPECT_TRUE(session.result()->sigma.has_value());
+  EXPECT_EQ(later["heading_source"], "gyro_lost");
+}
+
+TEST(Session, SaysNothingOfWhatTheRobotDoesNotHave) {
+  Session session({}, "");
+  EXPECT_FALSE(Json::parse(session.answer(R"({"whisker": 1})", 0)).contains("gyro"));
+  const Json answer = Json::parse(session.answer(R"({"counts": [0, 0]})", 10));
+  for (const char* key : {"sigma", "heading_source", "fix"}) EXPECT_FALSE(answer.contains(key)) << key;
+}
+
+TEST(Session, GreetsWithTheGyro) {
+  Session session({}, "");
+  const Json hello = Json::parse(session.answer(R"({"whisker": 1, "robot": {"gyro": true}})", 0));
+  EXPECT_EQ(hello["gyro"]["rate_hz"], 100);
+  EXPECT_NEAR(hello["gyro"]["range_radps"], 8.726646, 1e-9);
+}
 
 TEST(Session, GreetsWithTheRobotThatItDrives) {
   Session session({}, "1.2.3");

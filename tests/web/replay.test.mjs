@@ -67,6 +67,38 @@ describe('the replay page', () => {
     assert.deepEqual(complaints, []);
   });
 
+  test('shows how well the pose is known', async () => {
+    const {page: without} = await open();
+    assert.ok(await without.isHidden('#sigma'));
+    folder.driveWithSigma('sigma');
+    const {page, complaints} = await openPage(browser, folder.url('sigma.html', '#t=30'));
+    const [along, across, turn] = await page.evaluate(() => {
+      const {run, player} = window.whisker;
+      return ['along_m', 'across_m', 'heading_rad'].map((part) => run.column(`sigma_${part}`)[player.tick]);
+    });
+    assert.ok(along > 0.003 && across > 0.003 && turn > 0);
+    assert.equal(
+      await page.textContent('#now-sigma'),
+      `${(2 * Math.hypot(along, across)).toFixed(2)} m, ${((turn * 360) / Math.PI).toFixed(1)}\u00b0`,
+    );
+    assert.ok(await page.isVisible('#sigma-key'));
+    // Without it, the same tick has another picture.
+    const picture = () => page.evaluate(() => document.getElementById('closeup').toDataURL());
+    const drawn = await picture();
+    const blank = await page.evaluate(() => {
+      const {run, player} = window.whisker;
+      run.column('sigma_along_m')[player.tick] = 0;
+      player.request();
+      return new Promise((done) =>
+        requestAnimationFrame(() =>
+          requestAnimationFrame(() => done(document.getElementById('closeup').toDataURL())),
+        ),
+      );
+    });
+    assert.notEqual(drawn, blank);
+    assert.deepEqual(complaints, []);
+  });
+
   test('obeys the keyboard', async () => {
     const {page} = await open('#t=10');
     const presses = [

@@ -77,6 +77,12 @@ export class Folder {
     whisker('world', ...world, '--out', scenario);
     return this.run(name, scenario, ...options);
   }
+  /** The same with a gyro and a bound of the pose. */
+  driveWithSigma(name) {
+    const robot = this.at(`${name}_robot.toml`);
+    writeFileSync(robot, 'gyro = true\nwheel_scale_sigma = 0.005\n[noise]\ngyro_bias_dps = 1\n');
+    return this.drive(name, ['discs', '--noise', '--seed', 3], '--robot', robot);
+  }
   /** With the boundary planner, if the options name no other. */
   run(name, scenario, ...options) {
     if (!options.includes('--planner')) options.push('--planner', 'skirt');

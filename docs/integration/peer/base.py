@@ -204,15 +204,20 @@ class Base:
             raise Refused(f"order {order}: status {status}")
         self.enter(READY if order == CANCEL else RUNNING)
 
-    def send_set(self, tick, ranges, counts, period_ms):
+    def send_set(self, tick, ranges, counts, period_ms, gyro=None):
+        """gyro: sum and number of its samples; None: there is none."""
         names = ("RangeLeft", "RangeFront", "RangeRight")
         frames = [self.range(name, reading, tick) for name, reading in zip(names, ranges)]
         frames.append(self.frame("WheelState", Valid=1, Tick=tick % 8, Left=counts[0], Right=counts[1]))
         mode = LOCKSTEP if self.lockstep else REAL_TIME
-        frames.append(self.frame("Sync", Mode=mode, Tick=tick, Period=period_ms, Mission=self.mission))
+        if gyro:
+            total, samples = gyro
+            frames.append(self.frame("Gyro", Valid=1, Tick=tick % 8, Sum=total % 2**24, Samples=samples % 65536, Saturated=0))
+        sync = {"Mode": mode, "Gyro": 1 if gyro else 0, "Fix": 0}
+        frames.append(self.frame("Sync", **sync, Tick=tick, Period=period_ms, Mission=self.mission))
         self.adapter.send(frames)
 
-    def step(self, tick, ranges, counts, period_ms):
+    def step(self, tick, ranges, counts, period_ms, gyro=None):
         """In lockstep: sends an input set; (left, right, outcome, fault) of the answer."""
 
         def answer():
@@ -222,7 +227,7 @@ class Base:
             return (command, status) if command["Tick"] == status["Tick"] == tick % 65536 else None
 
         def say():
-            self.send_set(tick, ranges, counts, period_ms)
+            self.send_set(tick, ranges, counts, period_ms, gyro)
 
         command, status = self.until(answer, f"answer to set {tick}", say, RESEND_S)
         return command["Left"], command["Right"], status["Outcome"], status["Fault"]

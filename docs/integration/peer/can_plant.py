@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Puts a simulated robot on a CAN bus for a Whisker controller, and gives it a mission.
 
-usage: can_plant.py SCENARIO.toml LINE [--pty] [--realtime] [--speed-mm-per-s N] [--limit-s S] [--patience-s S]
+usage: can_plant.py SCENARIO.toml LINE [--pty] [--realtime] [--gyro] [--speed-mm-per-s N] [--limit-s S] [--patience-s S]
 
 LINE is a name that is made: a Unix socket, or with --pty a pseudo terminal. Start there:
     whisker controller --can slcan:LINE
 Prints what became of the mission as JSON. Exit status 0: the goal is reached without a contact; 1: it is not; 2: the
-controller is silent or refuses something. With --realtime a tick comes every period, and a safe stop is followed by an order to resume.
+controller is silent or refuses something. With --gyro the robot has a gyro. With --realtime a tick comes every period, and a safe stop is followed by an order to resume.
 """
 
 import argparse
@@ -42,12 +42,14 @@ def try_parameters(base, speed_mm_per_s):
     base.set_parameters({"wheel_speed_max_mps": speed_mm_per_s * 1000})
 
 
-def drive(base, world, limit_s):
+def drive(base, world, limit_s, has_gyro):
     robot, run = Robot(world), Run()
     mission = mission_of(world)
     base.give(START, mission)
     while not run.over() and not robot.touched() and robot.tick * PERIOD_S < limit_s:
-        left, right, outcome, fault = base.step(robot.tick + FIRST_TICK, robot.ranges(), robot.counts(), PERIOD_MS)
+        gyro = robot.gyro() if has_gyro else None
+        tick = robot.tick + FIRST_TICK
+        left, right, outcome, fault = base.step(tick, robot.ranges(), robot.counts(), PERIOD_MS, gyro)
         run.add(outcome, fault, left, right)
         robot.command(left, right)
         robot.advance()
@@ -55,7 +57,7 @@ def drive(base, world, limit_s):
     return run.report(robot) | {"not_obeyed": base.trouble}
 
 
-def drive_in_time(base, world, limit_s):
+def drive_in_time(base, world, limit_s, has_gyro):
     robot, run, wheels, resumed = Robot(world), Run(), Wheels(base, PERIOD_MS), 0
     base.lockstep = False
     mission = mission_of(world)
@@ -64,7 +66,7 @@ def drive_in_time(base, world, limit_s):
     due = time.monotonic()
     while not run.over() and not robot.touched() and robot.tick * PERIOD_S < limit_s:
         tick = robot.tick + FIRST_TICK
-        base.send_set(tick, robot.ranges(), robot.counts(), PERIOD_MS)
+        base.send_set(tick, robot.ranges(), robot.counts(), PERIOD_MS, robot.gyro() if has_gyro else None)
         due = max(due, time.monotonic() - PERIOD_S) + PERIOD_S
         while time.monotonic() < due:
             base.poll(due - time.monotonic())
@@ -90,6 +92,7 @@ def main():
     parser.add_argument("line")
     parser.add_argument("--pty", action="store_true")
     parser.add_argument("--realtime", action="store_true")
+    parser.add_argument("--gyro", action="store_true")
     parser.add_argument("--speed-mm-per-s", type=int)
     parser.add_argument("--limit-s", type=float, default=120, help="of simulated time")
     parser.add_argument("--patience-s", type=float, default=30, help="for anything that is waited for")
@@ -102,7 +105,9 @@ def main():
         base.shake_hands()
         if options.speed_mm_per_s:
             try_parameters(base, options.speed_mm_per_s)
-        report = (drive_in_time if options.realtime else drive)(base, world, options.limit_s)
+        if options.gyro:
+            base.set_parameters({"gyro": 1})
+        report = (drive_in_time if options.realtime else drive)(base, world, options.limit_s, options.gyro)
     except (Silence, Refused) as trouble:
         print(f"can_plant: {trouble}", file=sys.stderr)
         return 2

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Is the companion of a Whisker robot in another process, and gives it a mission.
 
-usage: link_plant.py SCENARIO.toml [--speed-mm-per-s N] [--limit-s S] [--patience-s S] -- COMMAND [ARGUMENT...]
+usage: link_plant.py SCENARIO.toml [--gyro] [--speed-mm-per-s N] [--limit-s S] [--patience-s S] -- COMMAND [ARGUMENT...]
 
 COMMAND speaks docs/link.md on its standard input and output: build/host/firmware/apps/replay-table, or a chip in an emulator.
-Prints what became of the mission as JSON. Exit status 0: the goal is reached without a contact; 1: it is not; 2: the
+With --gyro the robot has a gyro. Prints what became of the mission as JSON. Exit status 0: the goal is reached without a contact; 1: it is not; 2: the
 robot is silent or speaks another version.
 """
 
@@ -74,31 +74,36 @@ class Companion:
         return struct.pack(self.link.formats[name], *values)
 
 
-def parameters(speed_mm_per_s):
+def parameters(speed_mm_per_s, gyro):
     """All of them, raw, in the order of their indices."""
     known = Protocol().parameters
     values = {name: parameter.default for name, parameter in known.items()}
-    values["wheel_speed_max_mps"] = speed_mm_per_s * 1000
+    if speed_mm_per_s:
+        values["wheel_speed_max_mps"] = speed_mm_per_s * 1000
+    values["gyro"] = 1 if gyro else 0
     return b"".join(struct.pack("<I", values[name] & 0xFFFFFFFF) for name in sorted(known, key=lambda n: known[n].index))
 
 
-def begin(companion, world, speed_mm_per_s):
+def begin(companion, world, speed_mm_per_s, gyro):
     companion.say(b"H")
     greeting = companion.hear("Greeting")
     if greeting["version"] != companion.link.version:
         raise Silence(f"the robot speaks version {greeting['version']}")
-    if speed_mm_per_s:
-        companion.say(b"P", parameters(speed_mm_per_s))
+    if speed_mm_per_s or gyro:
+        companion.say(b"P", parameters(speed_mm_per_s, gyro))
     x, y, heading = world.start
     companion.say(b"B", companion.body("Begin", SKIRT, 0, micrometres(x), micrometres(y), binary_angle(heading)))
     companion.say(b"G", companion.body("Target", *map(micrometres, world.goal)))
 
 
-def drive(companion, world, limit_s):
+def drive(companion, world, limit_s, has_gyro):
     robot, run = Robot(world), Run()
     while not run.over() and not robot.touched() and robot.tick * PERIOD_S < limit_s:
         now_ms = round((robot.tick + FIRST_TICK) * PERIOD_S * 1000)
         beams = [v for r in robot.ranges() for v in (r.mm, r.status, r.age_ms, r.sequence)]
+        if has_gyro:
+            total, samples = robot.gyro()
+            companion.say(b"Y", companion.body("GyroSums", total % 2**32, samples % 65536, 0))
         companion.say(b"T", companion.body("Tick", now_ms, 1, 1, 1, *beams, *robot.counts(), 1, 0))
         answer = companion.hear("Answer")
         left, right = answer["command_left"], answer["command_right"]
@@ -113,6 +118,7 @@ def drive(companion, world, limit_s):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenario")
+    parser.add_argument("--gyro", action="store_true")
     parser.add_argument("--speed-mm-per-s", type=int)
     parser.add_argument("--limit-s", type=float, default=120, help="of simulated time")
     parser.add_argument("--patience-s", type=float, default=30, help="for an answer")
@@ -121,8 +127,8 @@ def main():
     world = World.load(options.scenario)
     try:
         with Companion(options.command, options.patience_s) as companion:
-            begin(companion, world, options.speed_mm_per_s)
-            report = drive(companion, world, options.limit_s)
+            begin(companion, world, options.speed_mm_per_s, options.gyro)
+            report = drive(companion, world, options.limit_s, options.gyro)
     except Silence as trouble:
         print(f"link_plant: {trouble}", file=sys.stderr)
         return 2

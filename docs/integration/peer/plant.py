@@ -14,6 +14,7 @@ SIDE_ANGLE, HALF_CONE = math.radians(30), math.radians(12.5)
 NEAREST, FARTHEST = 0.02, 2.0
 TICKS_PER_READING, TICKS_OF_LATENCY = 2, 2  # 50 Hz, 20 ms
 STEPS = 10  # of the kinematics in a control period
+GYRO_RADPS = 8.726646  # rate of a sample of 32768; one sample in a control period, 100 Hz
 
 OK, CLEAR, TOO_NEAR, INVALID, STALE = range(5)
 
@@ -133,6 +134,7 @@ class Robot:
         self.ways = [0.0, 0.0]
         self.commands = [0.0, 0.0]
         self.tick = 0
+        self.gyro_sum = 0  # of one sample for each tick
         self.least_clearance = world.clearance(self.x, self.y)
         self.measured = collections.deque()  # (tick, sequence, distances), oldest first
 
@@ -142,6 +144,10 @@ class Robot:
 
     def counts(self):
         return [math.floor(way * COUNTS_PER_M) % (1 << 24) for way in self.ways]
+
+    def gyro(self):
+        """Sum of the samples, and their number."""
+        return self.gyro_sum, self.tick
 
     def ranges(self):
         """Left, front, right."""
@@ -167,7 +173,7 @@ class Robot:
 
     def advance(self):
         """One control period."""
-        dt = PERIOD_S / STEPS
+        dt, heading = PERIOD_S / STEPS, self.heading
         for _ in range(STEPS):
             for i in (0, 1):
                 self.speeds[i] += (self.commands[i] - self.speeds[i]) * dt / MOTOR_LAG_S
@@ -177,6 +183,7 @@ class Robot:
             self.x += forward * dt * math.cos(middle)
             self.y += forward * dt * math.sin(middle)
             self.heading += turning * dt
+        self.gyro_sum += round((self.heading - heading) / PERIOD_S / GYRO_RADPS * 32768)
         self.tick += 1
         self.least_clearance = min(self.least_clearance, self.world.clearance(self.x, self.y))
 

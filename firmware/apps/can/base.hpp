@@ -5,6 +5,7 @@
 #include "firmware/can/base_node.hpp"
 #include "hal/bumper.hpp"
 #include "hal/drive.hpp"
+#include "hal/gyro.hpp"
 #include "hal/rangefinders.hpp"
 
 namespace whisker::can_app {
@@ -15,11 +16,17 @@ namespace whisker::can_app {
 ///   every period:       base.drive();  base.measure(tick++, period);  base.publish(SyncMode::real_time);
 class Base {
  public:
-  /// bumper: null without one.
-  Base(can::BaseNode& node, hal::Rangefinders& rangefinders, hal::Drive& drive,
-       hal::Bumper* bumper = nullptr) noexcept
-      : node_(node), rangefinders_(rangefinders), drive_(drive), bumper_(bumper) {}
+  /// bumper, gyro: null without one.
+  Base(can::BaseNode& node, hal::Rangefinders& rangefinders, hal::Drive& drive, hal::Bumper* bumper = nullptr,
+       hal::Gyro* gyro = nullptr) noexcept
+      : node_(node), rangefinders_(rangefinders), drive_(drive), bumper_(bumper), gyro_(gyro) {}
 
+  /// A pose measured outside of the robot, which is true at the next measure(): the controller gets it with
+  /// that set, and answers node().replied(). It gets lost with its set.
+  void correct(const localization::UncertainPose& fix) noexcept {
+    fix_ = fix;
+    has_fix_ = true;
+  }
   /// Sets the measurements of a tick to the current values of the hardware.
   void measure(uint32_t tick, uint8_t period_ms) noexcept {
     set_ = {};
@@ -31,7 +38,13 @@ class Base {
     }
     set_.counts_valid = drive_.read(set_.counts);
     if (bumper_ != nullptr) measure_bumps();
+    set_.has_gyro = gyro_ != nullptr;
+    set_.gyro_valid = set_.has_gyro && gyro_->read(set_.gyro);
+    set_.has_fix = has_fix_;
+    set_.fix = fix_;
+    has_fix_ = false;
     report(can::Error::sensors_refused, !asked);
+    report(can::Error::gyro_refused, set_.has_gyro && !set_.gyro_valid);
   }
   /// Sends the set; in lockstep, repeats it as needed.
   bool publish(can::SyncMode sync_mode) noexcept { return node_.send_set(set_, sync_mode); }
@@ -63,7 +76,10 @@ class Base {
   hal::Rangefinders& rangefinders_;
   hal::Drive& drive_;
   hal::Bumper* bumper_;
+  hal::Gyro* gyro_;
   can::InputSet set_;
+  localization::UncertainPose fix_{};
+  bool has_fix_ = false;
   uint16_t trouble_ = 0;
 };
 

@@ -28,6 +28,7 @@ class Controller {
     const bool ends = status_.decision.outcome != planning::Outcome::running;
     node_.publish_trust(trust_report(status_.health.ranges), ends);
     if (status_.sigma_known) node_.publish_sigma(sigma_report(status_), ends);
+    if (set.has_fix) node_.answer_fix(fix_reply(pilot_.fix_status(), status_.health));
     node_.answer(status_.command, nav_status(status_));
     const bool failed = status_.health.fault != Fault::none;
     node_.report(failed ? uint16_t{can::Error::core_fault} : uint16_t{0},

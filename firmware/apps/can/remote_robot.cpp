@@ -7,7 +7,7 @@ void RemoteRobot::execute(can::Order order, const can::Mission& mission, const P
     case can::Order::start:
       params_ = params;
       board_ = RemoteBoard{};
-      robot_ = &room_.make<Robot>(board_, board_, planners_.make(params_), params_, &board_);
+      robot_ = &room_.make<Robot>(board_, board_, planners_.make(params_), params_, &board_, &board_);
       robot_->place(mission.start);
       robot_->set_goal(mission.goal);
       break;
@@ -25,6 +25,13 @@ void RemoteRobot::execute(can::Order order, const can::Mission& mission, const P
 const Status& RemoteRobot::step(const can::InputSet& set, bool braked) noexcept {
   board_.on_frame(set, braked);
   if (braked) robot_->braked_elsewhere();
+  if (set.has_fix) {
+    const bool placeable = within(set.fix.pose.at, kPlaceLimit);
+    const bool taken = robot_->correct(set.fix.pose, set.fix.sigma);
+    fix_status_ = taken       ? can::FixStatus::accepted
+                  : placeable ? can::FixStatus::refused
+                              : can::FixStatus::out_of_range;
+  }
   return robot_->tick(Time::from_raw(set.tick * set.period_ms));
 }
 
@@ -48,6 +55,11 @@ can::PoseSigmaReport sigma_report(const Status& s) noexcept {
   const auto mm = [](Length x) { return static_cast<uint16_t>((x.raw() + 999) / 1000); };
   return {static_cast<uint8_t>(s.heading_source), mm(s.sigma.along), mm(s.sigma.across),
           static_cast<uint16_t>((s.sigma.heading.raw() + 65535) >> 16)};
+}
+
+can::FixReply fix_reply(can::FixStatus status, const Health& health) noexcept {
+  const auto counted = [](uint32_t n) { return static_cast<uint16_t>(n < UINT16_MAX ? n : UINT16_MAX); };
+  return {status, 0, counted(health.fix_jumps), counted(health.fixes_refused)};
 }
 
 }  // namespace whisker::can_app

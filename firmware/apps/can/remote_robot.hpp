@@ -32,11 +32,14 @@ class RemoteRobot {
   bool ready() const noexcept { return robot_ != nullptr; }
   /// One control tick, at the time of the set's tick. Only when ready().
   const Status& step(const can::InputSet& set, bool braked) noexcept;
+  /// What became of the fix in the last set that had one.
+  can::FixStatus fix_status() const noexcept { return fix_status_; }
 
  private:
   PlannerMaker& planners_;
   RemoteBoard board_;
   Params params_;
+  can::FixStatus fix_status_ = can::FixStatus::accepted;
   Robot* robot_ = nullptr;
   StaticStorage<sizeof(Robot)> room_;
 };
@@ -45,5 +48,6 @@ class RemoteRobot {
 can::NavStatus nav_status(const Status& status) noexcept;
 can::RangeTrustReport trust_report(const RangeTrust& trust) noexcept;
 can::PoseSigmaReport sigma_report(const Status& status) noexcept;
+can::FixReply fix_reply(can::FixStatus status, const Health& health) noexcept;
 
 }  // namespace whisker::can_app

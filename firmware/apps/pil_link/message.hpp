@@ -12,6 +12,8 @@
 /// | G goal | Target | - |
 /// | L place | Stand | - |
 /// | C cancel, R reset | - | - |
+/// | Y gyro | GyroSums: what the gyro says at the next tick | - |
+/// | X fix | Fix: a pose from outside, before the next tick | Verdict |
 /// | T tick | Tick: the time, and the hardware's answers to this tick's calls | Answer |
 /// | F fuzzy | Probe: two inputs of the response table | Reaction |
 /// | E end | - | Total; the chip's program ends |
@@ -35,12 +37,14 @@ enum class Name : uint8_t {
   place = 'L',
   cancel = 'C',
   reset = 'R',
+  gyro = 'Y',
+  fix = 'X',
   tick = 'T',
   fuzzy = 'F',
   end = 'E',
 };
 
-constexpr uint8_t kVersion = 4;
+constexpr uint8_t kVersion = 5;
 
 /// each(m, f) of a message calls f(name, field) for its fields, in byte order; M may be const.
 struct Greeting {
@@ -121,6 +125,47 @@ struct Tick {
     f("count_right", m.counts.right);
     f("bumps_given", m.bumps_given);
     f("pressed", m.bumps.pressed);
+  }
+};
+
+/// Without it, Gyro::read refuses at the next tick.
+struct GyroSums {
+  hal::GyroReading reading{};
+
+  template <class M, class F>
+  static constexpr void each(M& m, F& f) {
+    f("sum", m.reading.sum);
+    f("samples", m.reading.samples);
+    f("saturated", m.reading.saturated);
+  }
+};
+
+struct Fix {
+  Stand pose;
+  int32_t sigma_along = 0;  ///< um
+  int32_t sigma_across = 0;
+  uint32_t sigma_heading = 0;  ///< 2^-32 turn
+
+  template <class M, class F>
+  static constexpr void each(M& m, F& f) {
+    Stand::each(m.pose, f);
+    f("sigma_along", m.sigma_along);
+    f("sigma_across", m.sigma_across);
+    f("sigma_heading", m.sigma_heading);
+  }
+};
+
+/// What became of a fix.
+struct Verdict {
+  uint8_t accepted = 0;
+  uint32_t jumps = 0;  ///< Health::fix_jumps
+  uint32_t refused = 0;
+
+  template <class M, class F>
+  static constexpr void each(M& m, F& f) {
+    f("accepted", m.accepted);
+    f("jumps", m.jumps);
+    f("refused", m.refused);
   }
 };
 

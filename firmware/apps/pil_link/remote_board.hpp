@@ -3,6 +3,7 @@
 #include "firmware/apps/pil_link/message.hpp"
 #include "hal/bumper.hpp"
 #include "hal/drive.hpp"
+#include "hal/gyro.hpp"
 #include "hal/rangefinders.hpp"
 
 namespace whisker::link {
@@ -28,6 +29,26 @@ class RemoteBoard final : public hal::Rangefinders, public hal::Bumper, public h
 
  private:
   Tick tick_;
+};
+
+/// The gyro that a companion simulates.
+class RemoteGyro final : public hal::Gyro {
+ public:
+  void on_frame(const GyroSums& gyro) noexcept {
+    reading_ = gyro.reading;
+    answers_ = true;
+  }
+  /// From now on it does not answer.
+  void forget() noexcept { answers_ = false; }
+
+  bool read(hal::GyroReading& out) noexcept override {
+    if (answers_) out = reading_;
+    return answers_;
+  }
+
+ private:
+  hal::GyroReading reading_{};
+  bool answers_ = false;
 };
 
 }  // namespace whisker::link

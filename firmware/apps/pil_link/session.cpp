@@ -1,7 +1,5 @@
 #include "firmware/apps/pil_link/session.hpp"
 
-#include "firmware/part.hpp"
-
 namespace whisker::link {
 namespace {
 
@@ -66,6 +64,17 @@ bool Session::say(const M& message) noexcept {
   return stream_->write(buffer_, size_of<M>());
 }
 
+template <class F>
+bool Session::correct(const F& fix) noexcept {
+  const localization::PoseSigma sigma{Length::from_raw(fix.sigma_along), Length::from_raw(fix.sigma_across),
+                                      Angle::from_raw(fix.sigma_heading)};
+  const bool sound = fix.sigma_along >= 0 && fix.sigma_across >= 0 && sigma.heading.wrapped() >= 0;
+  if (robot_ == nullptr || !sound) return false;
+  const bool taken = robot_->correct(pose(fix.pose), sigma);
+  const Health& health = robot_->status().health;
+  return say(Verdict{static_cast<uint8_t>(taken ? 1 : 0), health.fix_jumps, health.fixes_refused});
+}
+
 int Session::run(hal::ByteStream& stream, hal::Meter& meter) noexcept {
   stream_ = &stream;
   meter_ = &meter;
@@ -110,6 +119,21 @@ bool Session::execute(Name name) noexcept {
     case Name::reset:
       if (robot_ != nullptr) robot_->reset();
       return robot_ != nullptr;
+    // An image without the code for a gyro and the bound of the pose does not know these.
+    case Name::gyro:
+      if constexpr (kGyroBuilt) {
+        GyroSums what;
+        if (!on_frame(what) || robot_ == nullptr) return false;
+        my_->gyro->on_frame(what);
+        return true;
+      }
+      return false;
+    case Name::fix:
+      if constexpr (kGyroBuilt) {
+        Fix what;
+        return on_frame(what) && correct(what);
+      }
+      return false;
     case Name::tick: {
       Tick what;
       return on_frame(what) && tick(what);
@@ -133,7 +157,9 @@ bool Session::begin(const Begin& what) noexcept {
   };
   const auto planner = planning::with_planner<planning::Planner*>(what.planner, what.map_bytes, make);
   if (planner == nullptr) return false;
-  robot_ = &room_for_robot_.make<Robot>(my_->board, my_->board, *planner, my_->params, &my_->board);
+  hal::Gyro* const gyro = kGyroBuilt ? my_->gyro.operator->() : nullptr;
+  if (kGyroBuilt) my_->gyro->forget();
+  robot_ = &room_for_robot_.make<Robot>(my_->board, my_->board, *planner, my_->params, &my_->board, gyro);
   robot_->place(pose(what.stand));
   return true;
 }
@@ -144,6 +170,7 @@ bool Session::tick(const Tick& what) noexcept {
   const uint32_t before = meter_->stamp();
   const Status& status = robot_->tick(Time::from_raw(what.now_ms));
   const uint32_t after = meter_->stamp();
+  if (kGyroBuilt) my_->gyro->forget();
   ++ticks_;
   my_->hash.add(status.command);
   Answer answer = answer_of(status);

@@ -8,6 +8,7 @@
 #include "firmware/apps/pil_link/params.hpp"
 #include "firmware/apps/pil_link/remote_board.hpp"
 #include "firmware/apps/static_storage.hpp"
+#include "firmware/part.hpp"
 #include "firmware/planning/default_planner.hpp"
 #include "firmware/planning/planners.hpp"
 #include "firmware/robot.hpp"
@@ -29,10 +30,14 @@ class Session {
     RemoteBoard board;
     Params params;
     CommandHash hash;
+    Part<RemoteGyro, kGyroBuilt> gyro;
   };
 
   bool execute(Name name) noexcept;
   bool begin(const Begin& what) noexcept;
+  // A template, so that an image that does not use it has no part of it.
+  template <class F>
+  bool correct(const F& fix) noexcept;
   bool tick(const Tick& what) noexcept;
   bool probe(const Probe& what) noexcept;
   bool on_frame(size_t count) noexcept { return stream_->read(buffer_, count); }

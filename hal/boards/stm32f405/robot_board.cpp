@@ -11,9 +11,11 @@ RobotBoard* interrupted = nullptr;
 
 }  // namespace
 
-RobotBoard::RobotBoard(const RangerKind& kind, const mcu::MotorParams& left,
-                       const mcu::MotorParams& right) noexcept
+RobotBoard::RobotBoard(const RangerKind& kind, const mcu::MotorParams& left, const mcu::MotorParams& right,
+                       const GyroParams& gyro, Facing facing) noexcept
     : tof_(kind, bus_, troubles_),
+      gyro_(gyro, facing, bus_, troubles_),
+      has_gyro_(gyro.fitted == Fitted::yes),
       infrared_(mcu::kGp2y0a21, mcu::kGp2y0a21PeriodMs, wiring::kInfraredChannel, adc_),
       beams_(tof_, infrared_),
       wheels_(left, right, motors_, encoders_, ticker_),
@@ -36,6 +38,7 @@ void RobotBoard::start() noexcept {
   watchdog_.start(kWatchdogMs, clocks, troubles_);
   const uint32_t now = ticker_.now_ms();
   tof_.start(now);
+  gyro_.start(now);
   infrared_.start(now);
   schedule_.begin(now);
 }
@@ -44,6 +47,7 @@ void RobotBoard::poll(const Status& status) noexcept {
   const uint32_t now = ticker_.now_ms();
   can_.poll(now);
   tof_.poll(now);
+  if (has_gyro_) gyro_.poll(now);
   infrared_.poll(now);
   switches_.poll(now);
   reporter_.poll(now, status);

@@ -9,6 +9,7 @@
 #include "hal/boards/stm32f405/encoders.hpp"
 #include "hal/boards/stm32f405/i2c_rangers.hpp"
 #include "hal/boards/stm32f405/motors.hpp"
+#include "hal/boards/stm32f405/mpu6050.hpp"
 #include "hal/boards/stm32f405/reporter.hpp"
 #include "hal/boards/stm32f405/ticker.hpp"
 #include "hal/boards/stm32f405/usart.hpp"
@@ -26,11 +27,13 @@ class RobotBoard {
   static constexpr uint32_t kCanBitrate = 500000;
   static constexpr uint16_t kWatchdogMs = 200;
 
-  RobotBoard(const RangerKind& kind, const mcu::MotorParams& left, const mcu::MotorParams& right) noexcept;
+  /// gyro: the one of the robot's parameters. If none is fitted, nothing asks for it.
+  RobotBoard(const RangerKind& kind, const mcu::MotorParams& left, const mcu::MotorParams& right,
+             const GyroParams& gyro = {}, Facing facing = Facing::up) noexcept;
 
   /// Call once. Every wait in it is bounded: 100 ms in total if no device answers.
   void start() noexcept;
-  /// Call between two ticks, as often as possible: serves sensors, bump switches, CAN, console.
+  /// Call between two ticks, as often as possible: serves sensors, gyro, bump switches, CAN, console.
   void poll(const Status& status) noexcept;
   /// True once per period: time for a tick. Also feeds the watchdog.
   bool due(uint32_t period_ms) noexcept;
@@ -38,6 +41,7 @@ class RobotBoard {
 
   Rangefinders& rangefinders() noexcept { return beams_; }
   Bumper& bumper() noexcept { return switches_; }
+  hal::Gyro& gyro() noexcept { return gyro_; }
   Drive& drive() noexcept { return wheels_; }
   CanPort& can() noexcept { return can_; }
   Usart& console() noexcept { return console_; }
@@ -52,6 +56,8 @@ class RobotBoard {
   Usart console_;
   I2c bus_;
   I2cRangers tof_;
+  Mpu6050 gyro_;
+  const bool has_gyro_;
   Adc adc_;
   mcu::AnalogueRangers<Adc> infrared_;
   mcu::Nearer beams_;

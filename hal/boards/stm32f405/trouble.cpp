@@ -16,6 +16,9 @@ const char* name(Trouble trouble) noexcept {
     case Trouble::i2c_timeout: return "i2c_timeout";
     case Trouble::ranger_not_started: return "ranger_not_started";
     case Trouble::ranger_silent: return "ranger_silent";
+    case Trouble::gyro_not_started: return "gyro_not_started";
+    case Trouble::gyro_silent: return "gyro_silent";
+    case Trouble::gyro_samples_lost: return "gyro_samples_lost";
     case Trouble::adc_no_conversion: return "adc_no_conversion";
   }
   return "unknown";

@@ -18,9 +18,12 @@ enum class Trouble : uint8_t {
   i2c_timeout,           ///< the transfer did not end in time
   ranger_not_started,    ///< a rangefinder did not give the answer of its kind
   ranger_silent,         ///< a rangefinder stopped measuring and was reset
-  adc_no_conversion,     ///< a conversion did not end in time
+  gyro_not_started,  ///< the gyro did not give the answer of its kind, or does not have the rate or the range
+  gyro_silent,       ///< the gyro stopped measuring and was reset
+  gyro_samples_lost,  ///< samples of the gyro were lost, and it was reset
+  adc_no_conversion,  ///< a conversion did not end in time
 };
-constexpr uint8_t kTroubles = 13;
+constexpr uint8_t kTroubles = 16;
 
 /// In snake case; never nullptr.
 const char* name(Trouble trouble) noexcept;

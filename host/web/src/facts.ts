@@ -93,6 +93,14 @@ export class Facts {
     this.list('broken off');
   }
 
+  /** Two standard deviations of the pose: the distance from the true place, and the heading. */
+  private showSigma(): void {
+    const at = (name: string) => this.run.column(name)[this.player.tick];
+    const within = 2 * Math.hypot(at('sigma_along_m'), at('sigma_across_m'));
+    for (const id of ['sigma', 'sigma-key']) element(id).hidden = within === 0;
+    setText('now-sigma', `${metres(within)}, ${((at('sigma_heading_rad') * 360) / Math.PI).toFixed(1)}°`);
+  }
+
   private showRanges(): void {
     const at = (name: string) => this.run.column(name)[this.player.tick];
     const [level, warning] = RANGE_LEVELS[at('range_level')];
@@ -163,6 +171,7 @@ export class Facts {
     const turning = (at('v_right_mps') - at('v_left_mps')) / run.info.robot.track;
     setText('now-turn', `${((turning * 180) / Math.PI).toFixed(0)}°/s`);
     setText('fault', FAULTS[fault] ?? fault);
+    this.showSigma();
     this.showRanges();
     for (const {name, value, item} of this.counters) {
       const text = String(at(name));

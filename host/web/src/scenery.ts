@@ -5,6 +5,15 @@ import {moverPosition, polyline} from './shapes.ts';
 import type {Palette} from './theme.ts';
 
 const TAU = 2 * Math.PI;
+/** Of the estimated pose: its place and heading, and their standard deviations along and across the heading. */
+const SIGMA = [
+  'est_x_m',
+  'est_y_m',
+  'est_heading_rad',
+  'sigma_along_m',
+  'sigma_across_m',
+  'sigma_heading_rad',
+];
 
 export class Scenery {
   private readonly discs = new Path2D();
@@ -136,6 +145,23 @@ export class Scenery {
     }
   }
 
+  /** Two standard deviations around the estimated pose: an ellipse, and a wedge of headings. Nothing if unknown. */
+  private drawSigma(c: CanvasRenderingContext2D, p: Palette, pixel: number, tick: number): void {
+    const [x, y, heading, along, across, turn] = SIGMA.map((name) => this.run.column(name)[tick]);
+    if (!along) return;
+    c.fillStyle = c.strokeStyle = p.muted;
+    c.lineWidth = pixel;
+    c.beginPath();
+    c.ellipse(x, y, 2 * along, 2 * across, heading, 0, TAU);
+    c.moveTo(x, y);
+    c.arc(x, y, 2.5 * this.run.info.robot.radius, heading - 2 * turn, heading + 2 * turn);
+    c.closePath();
+    c.globalAlpha = 0.2;
+    c.fill();
+    c.globalAlpha = 1;
+    c.stroke();
+  }
+
   /** The body, and a ring at the estimated place if that is elsewhere. */
   drawBody(c: CanvasRenderingContext2D, p: Palette, pixel: number, tick: number): void {
     const {run} = this;
@@ -164,5 +190,6 @@ export class Scenery {
     c.lineTo(x + 0.9 * nose * Math.cos(heading), y + 0.9 * nose * Math.sin(heading));
     c.lineWidth = Math.max(2 * pixel, 0.16 * nose);
     c.stroke();
+    this.drawSigma(c, p, pixel, tick);
   }
 }

@@ -30,7 +30,7 @@ interface Exports {
 const COLUMNS = [
   't_s', 'x_m', 'y_m', 'heading_rad', 'est_x_m', 'est_y_m', 'est_heading_rad', 'v_left_mps', 'v_right_mps',
   'state', 'why', 'doing', 't', 'd', 'r', 'sa', 'sd', 'cell_d', 'cell_r', 'fault',
-  'guide', 'way_x_m', 'way_y_m',
+  'guide', 'way_x_m', 'way_y_m', 'sigma_along_m', 'sigma_across_m', 'sigma_heading_rad',
   'left_m', 'left_status', 'front_m', 'front_status', 'right_m', 'right_status',
 ] as const; // prettier-ignore
 
