@@ -78,14 +78,14 @@ Polynomial clipped(const Shaped& s, double middle) {
 
 constexpr double kFitError = 1e-13;
 /// An error below this that no longer shrinks is rounding.
-constexpr double kRounding = 1e-11;
+constexpr double kRoundingError = 1e-11;
 
 /// f over [a, b] of the cell; it is not a polynomial there, so it is halved until a polynomial is within
 /// kFitError. `before`: the error over the interval twice as long.
 void visit_fitted(const Cell& cell, double a, double b, double before, const std::function<double(double)>& f,
                   const std::function<void(const Piece&)>& visit) {
   const Fit found = fit(f, a, b, Polynomial::kMostDegree);
-  const bool shrinks = found.error > kRounding || found.error < before / 4;
+  const bool shrinks = found.error > kRoundingError || found.error < before / 4;
   if (found.error > kFitError && shrinks && b - a > 1e-6) {
     visit_fitted(cell, a, (a + b) / 2, found.error, f, visit);
     visit_fitted(cell, (a + b) / 2, b, found.error, f, visit);

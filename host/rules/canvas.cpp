@@ -6,7 +6,7 @@
 namespace whisker::rules {
 namespace {
 
-constexpr double kFitError = 5e-14;
+constexpr double kCellError = 5e-14;
 constexpr double kRelativeError = 1e-13;
 constexpr double kNothing = 1e-200;
 constexpr int kMostHalvings = 40;
@@ -63,7 +63,7 @@ void sort_out(std::vector<double>& cuts, double low, double high) {
 bool good(const Canvas::Set& set, double from, double to, bool relative) {
   if (degree_of(set.membership) < Polynomial::kMostDegree) return true;
   const double error = fit_set(set, from, to).error;
-  if (!relative) return error <= kFitError;
+  if (!relative) return error <= kCellError;
   const double size = std::max(value(set, from), value(set, to));
   return size < kNothing || error <= kRelativeError * size;
 }

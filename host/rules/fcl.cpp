@@ -18,9 +18,9 @@ struct Accumulation {
   std::vector<std::size_t> rules;
 };
 
-class Reader {
+class FclReader {
  public:
-  explicit Reader(const Source& source) : source_(source), tokens_(source) {}
+  explicit FclReader(const Source& source) : source_(source), tokens_(source) {}
 
   RuleBase run() {
     base_.file = source_.file();
@@ -355,7 +355,7 @@ class Reader {
 RuleBase read_fcl(const Source& source) {
   const std::string plain = without_fcl_comments(source.text());
   const Source same(plain, source.file());
-  return Reader(same).run();
+  return FclReader(same).run();
 }
 
 }  // namespace whisker::rules

@@ -11,7 +11,7 @@ namespace whisker::rules {
 namespace {
 
 /// Changes below this share of the span are rounding.
-constexpr double kNothing = 1e-9;
+constexpr double kLeastChange = 1e-9;
 /// A direction is meant if at least this share of all changes follows it.
 constexpr double kMeant = 0.9;
 /// Neighbours that differ by more may be the two sides of a jump.
@@ -59,7 +59,7 @@ void add_monotony(const Compiled& c, std::size_t o, std::size_t p, const Slopes&
   const bool rising = s.rises >= kMeant * all;
   if (!rising && s.falls < kMeant * all) return;
   const double against = rising ? s.greatest_fall : s.greatest_rise;
-  if (against <= kNothing * c.spans[o]) return;
+  if (against <= kLeastChange * c.spans[o]) return;
   out.push_back(
       {Kind::not_monotone,
        fmt::format("'{}' {} with '{}', but {} by up to {:.3g} % of the span, at {}", c.base.outputs[o].name,

@@ -33,9 +33,9 @@ Word without_comment(Word line) {
   return line;
 }
 
-class Reader {
+class FisReader {
  public:
-  explicit Reader(const Source& source) : source_(source) {}
+  explicit FisReader(const Source& source) : source_(source) {}
 
   RuleBase run() {
     base_.file = source_.file();
@@ -349,6 +349,6 @@ class Reader {
 
 }  // namespace
 
-RuleBase read_fis(const Source& source) { return Reader(source).run(); }
+RuleBase read_fis(const Source& source) { return FisReader(source).run(); }
 
 }  // namespace whisker::rules

@@ -63,9 +63,9 @@ void read_range(const Source& source, const Word& value, Variable& v) {
   v.high = source.number(words[1]);
 }
 
-class Reader {
+class FllReader {
  public:
-  explicit Reader(const Source& source) : source_(source) {}
+  explicit FllReader(const Source& source) : source_(source) {}
 
   RuleBase run() {
     base_.file = source_.file();
@@ -266,6 +266,6 @@ class Reader {
 
 }  // namespace
 
-RuleBase read_fll(const Source& source) { return Reader(source).run(); }
+RuleBase read_fll(const Source& source) { return FllReader(source).run(); }
 
 }  // namespace whisker::rules

@@ -25,9 +25,9 @@ std::vector<Word> tokens(Word text) {
   return all;
 }
 
-class Reader {
+class RuleReader {
  public:
-  Reader(const Source& source, Word text, Dialect dialect, const RuleBase& base, Rule& rule)
+  RuleReader(const Source& source, Word text, Dialect dialect, const RuleBase& base, Rule& rule)
       : source_(source),
         dialect_(dialect),
         base_(base),
@@ -176,7 +176,7 @@ class Reader {
 }  // namespace
 
 void read_rule_text(const Source& source, Word text, Dialect dialect, const RuleBase& base, Rule& out) {
-  Reader(source, text, dialect, base, out).run();
+  RuleReader(source, text, dialect, base, out).run();
 }
 
 }  // namespace whisker::rules

@@ -12,9 +12,9 @@ namespace {
 constexpr Limits kValue{-kGreatest, kGreatest};
 constexpr Limits kRawPerUnit{1e-6, 1e6};
 
-class Reader {
+class TomlReader {
  public:
-  explicit Reader(const Source& source)
+  explicit TomlReader(const Source& source)
       : source_(source),
         root_(parse_toml(source.text(), source.file())),
         top_(source.file(), root_, "", {"name", "input", "output"}) {}
@@ -202,6 +202,6 @@ class Reader {
 
 }  // namespace
 
-RuleBase read_toml(const Source& source) { return Reader(source).run(); }
+RuleBase read_toml(const Source& source) { return TomlReader(source).run(); }
 
 }  // namespace whisker::rules
