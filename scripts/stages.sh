@@ -17,9 +17,24 @@ export RC_PARAMS=${RC_PARAMS:-seed=1}
 
 cxx_files() { find firmware hal host tests \( -name '*.hpp' -o -name '*.cpp' \) -print0; }
 
+# The same file is compiled for several programs: the cache shares the objects, in one run and between runs.
+if command -v ccache >/dev/null; then
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_DIR=${CCACHE_DIR:-$PWD/build/ccache} CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+  export CCACHE_SLOPPINESS=pch_defines,time_macros
+fi
+
+# one_at_a_time PRESET COMMAND...: stages that run beside each other may share a build folder.
+one_at_a_time() {
+  mkdir -p build
+  flock "build/$1.lock" "${@:2}"
+}
+
+configure() { one_at_a_time "$1" cmake --preset "$1"; }
+
+# build PRESET [OPTION...]
 build() {
-  cmake --preset "$1"
-  cmake --build --preset "$1" -j "$jobs" -- --quiet
+  configure "$1"
+  one_at_a_time "$1" cmake --build --preset "$1" -j "$jobs" "${@:2}" -- --quiet
 }
 
 # The gates on the source tree have the label build. They do not depend on the compiler, so one stage runs them.
@@ -44,8 +59,7 @@ stage_gcc() {
 }
 
 stage_web() {
-  cmake --preset host
-  cmake --build --preset host -j "$jobs" --target whisker -- --quiet
+  build host --target whisker
   npm --prefix host/web ci --ignore-scripts --no-audit --no-fund
   npm --prefix host/web run check
   scripts/playground --build-only
@@ -53,7 +67,7 @@ stage_web() {
 }
 
 stage_cross() {
-  cmake --preset host | tee build/cross-configure.log
+  configure host | tee build/cross-configure.log
   if grep "^-- No compiler for" build/cross-configure.log; then return 1; fi
   ctest --preset host --no-tests=error -L '^cross$' -V
 }
@@ -99,13 +113,13 @@ stage_clang() { build_and_test clang; }
 build_and_test_core() {
   local preset=$1 labels=$2
   shift 2
-  cmake --preset "$preset"
-  cmake --build --preset "$preset" -j "$jobs" --target "$@" -- --quiet
+  build "$preset" --target "$@"
   find "build/$preset" -name '*.gcda' -delete
   ctest --preset "$preset" --no-tests=error -L "$labels"
 }
 
-# The code that chips run, and the simulator that tests it.
+# The code that chips run, and the simulator that tests it. The preset has the closed form of the fuzzy engine, so that this
+# stage also tests the core with it.
 readonly sanitized='robot|fuzzy|perception|planning|global|missions|bus|can|pil_link|slcan|sim'
 
 stage_asan() {
@@ -145,10 +159,21 @@ stage_core() {
   build_and_test core-tests
 }
 
-stage_tidy() {
-  cmake --preset core
-  find firmware -path firmware/apps -prune -o -name "*.cpp" -print0 | xargs -0 -n 4 -P "$jobs" clang-tidy-14 -p build/core --quiet
+# tidy [OPTION...]: clang-tidy on the core.
+tidy() {
+  configure core
+  find firmware -path firmware/apps -prune -o -name "*.cpp" -print0 |
+    xargs -0 -n 4 -P "$jobs" clang-tidy-14 -p build/core --quiet "$@"
 }
+
+# The static analyzer follows paths within functions only: across them, it takes eight times as long.
+stage_tidy() {
+  local option shallow=()
+  for option in -Xclang -analyzer-config -Xclang mode=shallow; do shallow+=("--extra-arg=$option"); done
+  tidy "${shallow[@]}"
+}
+
+stage_analyzer() { tidy '--checks=-*,clang-analyzer-*,-clang-analyzer-optin.performance.Padding'; }
 
 stage_campaign() {
   build host

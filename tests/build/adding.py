@@ -81,7 +81,7 @@ def main(root, work, cmake, generator, compiler):
             shutil.copy2(root / part, tree / part)
     try:
         touched = apply((root / "docs/adding.md").read_text(), tree)
-        options = ["-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DWHISKER_TESTS=OFF", "-DCMAKE_UNITY_BUILD=ON"]
+        options = ["-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DWHISKER_TESTS=OFF", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=16"]
         run(cmake, "-S", tree, "-B", build, "-G", generator, f"-DCMAKE_CXX_COMPILER={compiler}", *options)
         run(cmake, "--build", build, "-j", os.cpu_count(), "--target", "whisker")
         problems = [f"not so: {what}" for what, holds in check(build / "whisker", work) if not holds]
