@@ -85,7 +85,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       if (!sight.phantoms) monitor_.contradict(approaches);
       const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
       if (anew && contradicted_ < kDistrusted) ++contradicted_;
-      const bool explained = loses_walls_ || misses_ || sight.phantoms;
+      const bool explained = loses_walls_ || misses_ || sight.phantoms || contradicted_ >= kDistrusted;
       if (approaches || !explained) moved[i] = sight.farthest;
     }
     const uint8_t bit = static_cast<uint8_t>(1U << i);
