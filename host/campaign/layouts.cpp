@@ -38,9 +38,10 @@ Params equipped(Params p, const SensorModel& model) {
   RangefinderParams& r = p.rangefinders;
   for (BeamParams& beam : r.beams) beam = {};
   set_si(r.incidence, model.incidence_deg);
-  set_si(r.cone, std::min(model.cone_deg, model.cone_far_deg));
   set_si(r.min_range, model.min_range_m);
   set_si(r.max_range, model.max_range_m);
+  const double taper = model.cone_deg - std::min(model.cone_deg, model.cone_far_deg);
+  set_si(r.cone, model.cone_deg - taper * proving_range(r, 1).raw() / r.max_range.raw());
   r.rate_hz = model.rate_hz;
   set_si(r.latency, model.latency_s);
   // No step may be longer than the sensors see.

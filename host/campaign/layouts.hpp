@@ -31,8 +31,8 @@ constexpr double kOffsets[] = {0, 0.5, 0.9};                         ///< body r
 /// The robot with every length that does not belong to its sensors multiplied by `size`, within the range of
 /// the parameter. size > 0.
 Params scaled(Params robot, double size);
-/// The robot with three of these sensors: incidence, the cone at the maximum range, ranges, rate, latency,
-/// and time-outs and steps that fit them. The beams have no values of their own.
+/// The robot with three of these sensors: incidence, ranges, the cone at the distance up to which readings
+/// clear ground, rate, latency, and time-outs and steps that fit them. The beams have no values of their own.
 Params equipped(Params robot, const SensorModel& model);
 /// The side angle at which the cones reach as far outward as the robot's incidence needs, deg: with the
 /// margin of kIncidenceMargin, or without.

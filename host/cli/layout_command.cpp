@@ -19,6 +19,7 @@
 #include "host/cli/provenance.hpp"
 #include "host/report/file.hpp"
 #include "host/scenario/load.hpp"
+#include "host/scenario/params_text.hpp"
 #include "host/scenario/sensor_models.hpp"
 
 namespace whisker::cli {
@@ -26,11 +27,13 @@ namespace {
 
 constexpr double kSmallestBody = 0.02, kLargestBody = 1;  // m
 constexpr double kLargestAngle = 85;                      // deg
+constexpr double kFarthestClear = 60;                     // m
 constexpr std::uint64_t kMostOfAKind = 1000;              // of a layout in a kind of world
 
 struct LayoutOptions {
   std::string sensor;
   std::optional<double> body;
+  std::optional<double> clear;
   std::string robot;
   std::vector<double> angles;  ///< empty: the grid's
   std::uint64_t count = 5;
@@ -60,6 +63,7 @@ LayoutTrade trade_of(const LayoutOptions& o) {
     throw UsageError(fmt::format("--body {}: below {} m", *o.body, kSmallestBody));
   }
   if (o.body) t.robot = campaign::scaled(t.robot, *o.body / (t.robot.body.radius.raw() * 1e-6));
+  if (o.clear) set_si(t.robot.rangefinders.clear_range, *o.clear);
   t.robot = campaign::equipped(t.robot, model);
   apply(model, t.what);
   t.grid = campaign::layout_grid(t.robot, o.angles);
@@ -141,6 +145,9 @@ void add_robot_layout(CLI::App& robot, int& status) {
   cmd->add_option("--body", o->body, "Radius of the body in m; the robot's lengths scale with it")
       ->transform(amount(kLargestBody))
       ->type_name("R");
+  cmd->add_option("--clear", o->clear, "Readings clear ground up to M m, where the cone is wider")
+      ->transform(amount(kFarthestClear))
+      ->type_name("M");
   add_file(*cmd, "--robot", o->robot, "The rest of your robot (TOML)");
   cmd->add_option("--angles", o->angles, "Only these side angles, in degrees")
       ->transform(amount(kLargestAngle))

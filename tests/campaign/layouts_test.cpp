@@ -28,6 +28,15 @@ TEST(Equipped, TakesFromTheModelWhatItStates) {
   EXPECT_EQ(check(p), ParamFault::none);
 }
 
+TEST(Equipped, CountsATaperingConeWhereReadingsClearGround) {
+  Params robot;
+  robot.rangefinders.clear_range = 600_mm;
+  const RangefinderParams r = equipped(robot, model("hc-sr04")).rangefinders;
+  // 40 degrees at the apex, 15 at 4 m.
+  EXPECT_NEAR(r.cone.wrapped() * (180.0 / 2147483648.0), 36.25, 1e-6);
+  EXPECT_EQ(r.clear_range, 600_mm);
+}
+
 TEST(Equipped, ShortensStepsToTheRange) {
   const Params p = equipped({}, model("gp2y0a41"));
   EXPECT_EQ(p.thesis.base_step, 90_mm);

@@ -47,6 +47,15 @@ class Layout(Case):
         self.assertEqual(whisker.whisker("run", world, "--robot", robot).returncode, 0)
         self.assertEqual(whisker.whisker("robot", "check", robot, "--json").returncode, 0)
 
+    def test_a_cone_that_tapers_counts_where_ground_is_cleared(self):
+        angle = ("--sensor", "hc-sr04", "--angles", 37.5, "--count", 1, "--json")
+        far, near = (json.loads(layout(*angle, *clear).stdout) for clear in ((), ("--clear", 0.6)))
+        self.assertEqual((far["cone_deg"], near["cone_deg"]), (15, 36.25))
+        self.assertEqual((far["rule_angle_deg"], near["rule_angle_deg"]), (42.5, 31.875))
+        done = layout("--sensor", "hc-sr04", "--clear", "61")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--clear", done.stderr)
+
     def test_json_says_the_same_whatever_the_jobs(self):
         told = [layout(*QUICK, "--json", "--jobs", jobs) for jobs in (1, 3)]
         self.assertEqual((told[0].returncode, told[0].stderr), (0, ""))

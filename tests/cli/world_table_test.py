@@ -35,7 +35,8 @@ OPTIONS = {
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),
     ("robot", "layout"): (
-        "--sensor", "--body", "--robot", "--angles", "--count", "--seed", "--planner", "--map-bytes", "--jobs", "--svg", "--json", "--out",
+        "--sensor", "--body", "--clear", "--robot", "--angles", "--count", "--seed", "--planner", "--map-bytes", "--jobs", "--svg",
+        "--json", "--out",
     ),
     ("figures",): ("FOLDER", "--scenarios"),
     ("rules", "compile"): (
