@@ -84,7 +84,11 @@ def presets():
             "toolchainFile": f"${{sourceDir}}/toolchain/{file}.cmake",
         }
 
-    plain = {"CMAKE_BUILD_TYPE": "Release", "WHISKER_HOST": "OFF", "WHISKER_TESTS": "OFF", "WHISKER_IMAGES": "ON"}
+    # No cache of compiled files: it would not keep the call graphs (bare_metal.cmake).
+    plain = {
+        "CMAKE_BUILD_TYPE": "Release", "CMAKE_CXX_COMPILER_LAUNCHER": "", "WHISKER_HOST": "OFF", "WHISKER_TESTS": "OFF",
+        "WHISKER_IMAGES": "ON",
+    }
     hidden = [
         {"name": "base", "hidden": True, "generator": "Ninja", "binaryDir": "${sourceDir}/build/${presetName}"},
         {"name": "chip", "hidden": True, "inherits": "base", "cacheVariables": plain},
