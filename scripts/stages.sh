@@ -118,8 +118,7 @@ build_and_test_core() {
   ctest --preset "$preset" --no-tests=error -L "$labels"
 }
 
-# The code that chips run, and the simulator that tests it. The preset has the closed form of the fuzzy engine, so that this
-# stage also tests the core with it.
+# The code that chips run, and the simulator that tests it.
 readonly sanitized='robot|fuzzy|perception|planning|global|missions|bus|can|pil_link|slcan|sim'
 
 stage_asan() {
