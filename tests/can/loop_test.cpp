@@ -123,18 +123,24 @@ INSTANTIATE_TEST_SUITE_P(Now, Twins,
 
 INSTANTIATE_TEST_SUITE_P(Worlds, EveryWorld, testing::ValuesIn(worlds::kKinds));
 
+/// A run in lockstep, with ports that drop frames where asked.
+auto in_lockstep(const Scenario& scenario, bool base_drops, bool controller_drops) {
+  bus::MemoryBus wire;
+  test::LossyPort base(wire.attach(), 1), controller(wire.attach(), 2);
+  hal::CanPort& plain_base = wire.attach();
+  hal::CanPort& plain_controller = wire.attach();
+  return test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep,
+                              base_drops ? static_cast<hal::CanPort&>(base) : plain_base,
+                              controller_drops ? static_cast<hal::CanPort&>(controller) : plain_controller);
+}
+
 TEST(Bus, HandsThePressesOfTheBumperOnAlsoIfFramesAreDropped) {
   const Scenario scenario = test::unseen_disc();
   const RunResult direct = run(scenario);
   EXPECT_EQ(direct.verdict, Verdict::reached);
   EXPECT_GE(direct.bumps.value_or(0), 1U);
   for (const bool lossy : {false, true}) {
-    bus::MemoryBus wire;
-    hal::CanPort& plain = wire.attach();
-    test::LossyPort dropping(wire.attach(), 1);
-    hal::CanPort& base = lossy ? static_cast<hal::CanPort&>(dropping) : plain;
-    const auto over_bus =
-        test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep, base, wire.attach());
+    const auto over_bus = in_lockstep(scenario, lossy, false);
     EXPECT_EQ(over_bus.result.hash, direct.hash);
     EXPECT_EQ(over_bus.result.bumps, direct.bumps);
   }
@@ -171,14 +177,7 @@ TEST(Bus, HandsTheGyroOnAlsoIfFramesAreDropped) {
     without.robot.gyro.fitted = Fitted::no;
     EXPECT_NE(run(without).hash, direct.hash) << "the gyro changes the run";
     for (const bool lossy : {false, true}) {
-      bus::MemoryBus wire;
-      test::LossyPort base(wire.attach(), 1), controller(wire.attach(), 2);
-      hal::CanPort& plain_base = wire.attach();
-      hal::CanPort& plain_controller = wire.attach();
-      const auto over_bus =
-          test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep,
-                               lossy ? static_cast<hal::CanPort&>(base) : plain_base,
-                               lossy ? static_cast<hal::CanPort&>(controller) : plain_controller);
+      const auto over_bus = in_lockstep(scenario, lossy, lossy);
       EXPECT_EQ(over_bus.result.hash, direct.hash) << lossy;
       EXPECT_EQ(over_bus.result.ticks, direct.ticks) << lossy;
       EXPECT_EQ(over_bus.result.believed_distance_m, std::nullopt) << "only the controller knows it";
@@ -200,12 +199,7 @@ TEST(Bus, HandsFixesOnAndTheirAnswersBack) {
     const Scenario scenario = with_fixes(policy);
     const RunResult direct = run(scenario);
     for (const bool lossy : {false, true}) {
-      bus::MemoryBus wire;
-      hal::CanPort& plain = wire.attach();
-      test::LossyPort dropping(wire.attach(), 1);
-      hal::CanPort& base = lossy ? static_cast<hal::CanPort&>(dropping) : plain;
-      const auto over_bus =
-          test::drive_over_bus(scenario, kDefaultPlanner, can::SyncMode::lockstep, base, wire.attach());
+      const auto over_bus = in_lockstep(scenario, lossy, false);
       EXPECT_EQ(over_bus.result.hash, direct.hash) << lossy;
       const hil::Figures& f = over_bus.figures;
       EXPECT_GT(f.fixes, 5U);
