@@ -88,7 +88,9 @@ TEST(Gap, NarrowerThanNamedIsPassedOnALane) {
       if (r.verdict == Verdict::reached) ++reached;
     }
     // With less effort, there are too few for a share.
-    if (count >= 4) EXPECT_GE(4 * reached, 3 * count);
+    if (count >= 4) {
+      EXPECT_GE(4 * reached, 3 * count);
+    }
   }
 }
 
