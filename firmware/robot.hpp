@@ -122,7 +122,7 @@ class Robot {
 
   Time last_tick_;
   Time settled_since_;
-  Speed warned_speed_;     // while the ground is in doubt
+  Speed warned_speed_[2];  // while the ground is in doubt; the second one if readings err
   Duration elapsed_;       // since the last tick, at most the longest gap
   Duration since_counts_;  // since the counts were last read
   Duration resting_for_;   // for the gyro

@@ -55,8 +55,10 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   Pose from;
   uint8_t hits = 0;
   int seen = 0;
+  readings_err_ = misses_;
   for (int i = 0; i < hal::kBeams; ++i) {
     const RecentReadings sight = conditioner_.sight(i, params);
+    readings_err_ = readings_err_ || sight.phantoms || sight.misses;
     out.moving_scan.beam[i] = sight.typical;
     if (!sight.fresh) continue;
     out.sighted = true;

@@ -58,6 +58,9 @@ class Perception {
   bool doubts() const noexcept {
     return loses_walls_ || misses_ || contradicted_ >= kDistrusted || monitor_.contradicted();
   }
+  /// Some beam often shows a phantom, or clear where something is: it takes several readings until an echo
+  /// counts.
+  bool readings_err() const noexcept { return readings_err_; }
   /// The readings contradict the parameters on which speeds rest.
   bool slows() const noexcept { return monitor_.slows(); }
   /// How far the rangefinders do what the parameters say.
@@ -74,6 +77,7 @@ class Perception {
   Mount mounts_[hal::kBeams];
   bool loses_walls_ = false;  // by the parameters, a clear cell may hold a wall
   bool misses_ = false;       // some beam often reports clear where something is
+  bool readings_err_ = false;
   uint8_t contradicted_ = 0;  // echoes from clear ground that nothing moving explains
   Contradiction contradictions_[hal::kBeams];
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading

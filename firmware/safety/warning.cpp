@@ -7,7 +7,9 @@
 namespace whisker::safety {
 namespace {
 
-constexpr int32_t kReadings = 3;  // after the first one, until an echo counts
+// Until an echo counts: the next one of the beam; of readings that often err, three that agree.
+constexpr int32_t kReadings = 1;
+constexpr int32_t kAgreeing = 3;
 
 }  // namespace
 
@@ -18,9 +20,10 @@ Length shortest_warning(const Params& params) noexcept {
   return Length::from_raw(saturate32(way)) * 2 / 3;
 }
 
-Speed warned_speed(const Params& params) noexcept {
+Speed warned_speed(const Params& params, bool readings_err) noexcept {
   const RangefinderParams& r = params.rangefinders;
-  const Duration delay = r.latency + milliseconds(kReadings * 1000 / r.rate_hz) + params.motion.settle;
+  const int32_t readings = readings_err ? kAgreeing : kReadings;
+  const Duration delay = r.latency + milliseconds(readings * 1000 / r.rate_hz) + params.motion.settle;
   return planning::stopping_speed(shortest_warning(params), delay, params);
 }
 
