@@ -120,7 +120,7 @@ struct GyroParams {
 };
 
 /// Standard deviations of the errors that the pose rests on. Without any of the first three, they are unknown
-/// and the pose has no bound. They change nothing else.
+/// and the pose has no bound. See Robot for what it changes.
 struct PoseErrorParams {
   Ratio wheel_scale;                           ///< of each wheel's counts per metre, relative
   Ratio wheel_scale_common;                    ///< of both together

@@ -119,6 +119,7 @@ bool Robot::localize(Time now, planning::View& view) noexcept {
   const WheelPair rolling = wheels_.state().rolling;
   view.pose = localizer_.inside();
   view.travelled_um = localizer_.travelled_um();
+  if (kGyroBuilt && status_.sigma_known) view.bound = localization::distance_bound(status_.sigma);
   view.elapsed = elapsed_;
   view.settled = was_settled_;
   view.cut = motion_.cut();

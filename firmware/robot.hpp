@@ -50,7 +50,8 @@ struct Status : localization::Estimate {
 /// Health::gyro_lost.
 ///
 /// If PoseErrorParams declare an error of the wheels, Status::sigma says how far the pose may be off. It
-/// changes no command.
+/// makes clear ground expire sooner (perception/ground_age.hpp) and widens what counts as the same place
+/// (planning/boundary/loop_detector.hpp).
 ///
 /// Poses and goals are in the user's frame and lie within kPlaceLimit (math/region.hpp).
 class Robot {

@@ -1,5 +1,6 @@
 #include "firmware/perception/local_grid.hpp"
 
+#include "firmware/perception/ground_age.hpp"
 #include "hal/types.hpp"
 
 namespace whisker::perception {
@@ -50,8 +51,9 @@ void LocalGrid::configure(const Params& params) noexcept {
     holds_ = max(holds_, Length::from_raw(saturate32(holds)) + patch_cell(params) * 2);
   }
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
-  age_travel_ = params.skirt.age_travel;
-  age_turn_ = params.skirt.age_turn.raw();
+  const GroundAge age = ground_age(params);
+  age_travel_ = age.travel;
+  age_turn_ = age.turn.raw();
   approach_ = params.skirt.mover_speed * time_to_stop(params);
 }
 

@@ -25,6 +25,7 @@ struct Goal {
 struct View : perception::Percept {
   Pose pose{};                ///< the body's estimate
   uint32_t travelled_um = 0;  ///< path length so far, um modulo 2^32
+  Length bound;               ///< localization::distance_bound of the estimate; zero: not known
   bool settled = true;        ///< the last manoeuvre has ended and the body stands
   bool cut = false;    ///< the last manoeuvre was a drive, and the guard or a bump ended it before its length
   Speed forward{};     ///< of the body, by its wheels

@@ -112,9 +112,14 @@ std::string result_json(const RunResult& result, const std::string& bus) {
 }
 
 std::string bound_words(const RunResult& result) {
-  if (!result.sigma || !says_reached(result.verdict)) return "";
+  if (!result.sigma) return "";
   const double bound_m = metres(distance_bound(*result.sigma));
   const bool wide = bound_m > result.goal_tolerance_m;
+  if (result.verdict == Verdict::unreachable && wide) {
+    return fmt::format(", unless the goal is elsewhere: the place is known within {:.2f} m (2 sigma)",
+                       bound_m);
+  }
+  if (!says_reached(result.verdict)) return "";
   return fmt::format(
       ", within {:.2f} m (2 sigma){}", bound_m,
       wide ? fmt::format(", more than the tolerance of {:.2f} m", result.goal_tolerance_m) : "");

@@ -51,6 +51,10 @@ TEST(VerdictWords, say_how_sure_the_robot_is_of_its_place) {
   EXPECT_EQ(bound_words(r), ", within 0.10 m (2 sigma), more than the tolerance of 0.05 m");
   r.verdict = Verdict::off_goal;
   EXPECT_EQ(bound_words(r), ", within 0.10 m (2 sigma), more than the tolerance of 0.05 m");
+  r.verdict = Verdict::unreachable;
+  EXPECT_EQ(bound_words(r), ", unless the goal is elsewhere: the place is known within 0.10 m (2 sigma)");
+  r.goal_tolerance_m = 0.1;
+  EXPECT_EQ(bound_words(r), "");
   r.verdict = Verdict::gave_up;
   EXPECT_EQ(bound_words(r), "");
   r = sample();

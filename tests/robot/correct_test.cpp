@@ -73,7 +73,7 @@ TEST(Correct, WithoutABoundTheEstimateBecomesTheFixAndTheGoalMoves) {
 TEST(Correct, WithABoundTheEstimateMovesByTheWeightOfTheFix) {
   Corrected c{with_sigma()};
   c.robot.set_goal({{9_m, 0_m}, 100_mm});
-  c.tick(1000);
+  c.tick(1500);
   const Status before = c.robot.status();
   const double own = before.sigma.along.raw();
   ASSERT_GT(before.pose.at.x, 1_m);

@@ -17,6 +17,7 @@ void LoopDetector::begin(const View& view, const Params& params) noexcept {
   at_ = view.pose.at;
   last_ = view.pose.heading;
   began_um_ = view.travelled_um;
+  bound_ = view.bound;
   scale_ = for_body(params, 100_mm);
 }
 
@@ -35,9 +36,10 @@ bool LoopDetector::closed(const View& view, Evidence evidence) noexcept {
   const bool turned = magnitude(turned_) >= 300 * kDegree;
   const bool far = evidence == Evidence::place && farthest_ > scale_ * 15;
   if (!left_ || !(turned || far)) return false;
-  const Length near =
-      min(scale_ * 7 / 2,
-          scale_ * 3 / 2 + Length::from_raw(static_cast<int32_t>((view.travelled_um - began_um_) / kDrift)));
+  const Length grown = view.bound - bound_;
+  if (grown > farthest_ / 2) return false;
+  const Length drift = Length::from_raw(static_cast<int32_t>((view.travelled_um - began_um_) / kDrift));
+  const Length near = max(min(scale_ * 7 / 2, scale_ * 3 / 2 + drift), grown);
   return norm(view.pose.at - at_) < near && magnitude(view.pose.heading - heading_) < (90_deg).raw();
 }
 

@@ -25,7 +25,9 @@ class LoopDetector {
   void move(const View& view) noexcept;
 
   /// True if the body is back at the hit point, with the heading of the first call, after a full turn or a
-  /// far distance: then it passed no exit. Call while following the boundary.
+  /// far distance: then it passed no exit. The place widens with the bound of the pose; a loop that is not
+  /// twice as large as what the bound has grown meanwhile cannot be told from none. Call while following the
+  /// boundary.
   bool closed(const View& view, Evidence evidence = Evidence::turning) noexcept;
   /// Whether the followed boundary, with the wall on this side, can separate `from` from `to`: the loop
   /// encloses `to`, or, if the wall is outside, `from`. Inside means not farther from the hit point than the
@@ -43,6 +45,7 @@ class LoopDetector {
   bool left_ = false;      // has been away from the hit point
   Length farthest_;        // from the hit point
   uint32_t began_um_ = 0;  // View::travelled_um at the hit point
+  Length bound_;           // View::bound there
   Angle last_;             // the heading of the previous tick
   int64_t turned_ = 0;     // 2^-32 turn, counter-clockwise positive
   int32_t laps_ = 0;       // whole turns so far

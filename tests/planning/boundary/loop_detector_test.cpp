@@ -29,6 +29,7 @@ class Round {
     view_.travelled_um += static_cast<uint32_t>(norm(view_.pose.at - before).raw());
     loop_.move(view_);
   }
+  void grow_bound(Length by) { view_.bound += by; }
   void jump(Vec by) {
     centre_ = centre_ + by;
     place();
@@ -57,6 +58,31 @@ TEST(LoopDetector, ClosesWhereItBeganAfterAWholeTurn) {
     EXPECT_GE(closed, 300);
     EXPECT_LE(closed, 360);
   }
+}
+
+bool closes(Length radius, Vec drift, Length grows) {
+  LoopDetector circuit;
+  Round round(circuit, radius);
+  round.grow_bound(1_m);  // what it was at the hit point does not count
+  round.begin();
+  bool closed = false;
+  for (int deg = 1; deg <= 380; ++deg) {
+    round.drive(drift);
+    round.grow_bound(grows);
+    closed = closed || circuit.closed(round.view());
+  }
+  return closed;
+}
+
+TEST(LoopDetector, ClosesWithinTheGrowthOfTheBound) {
+  const Vec drift{Length{}, 4_mm};  // 1.4 m in a loop
+  EXPECT_FALSE(closes(3_m, drift, Length{}));
+  EXPECT_TRUE(closes(3_m, drift, 6_mm));
+}
+
+TEST(LoopDetector, DoesNotCloseALoopThatIsNotTwiceTheGrowth) {
+  EXPECT_TRUE(closes(1_m, {}, 2_mm));
+  EXPECT_FALSE(closes(1_m, {}, 4_mm));
 }
 
 TEST(LoopDetector, DoesNotCloseOnTheSpot) {

@@ -1,0 +1,38 @@
+#include "firmware/perception/ground_age.hpp"
+
+#include "firmware/params/reach.hpp"
+#include "firmware/part.hpp"
+
+namespace whisker::perception {
+namespace {
+
+constexpr int32_t kOne = 1000000;  // Ratio of 1
+
+/// part / error, at most `most`. An error of zero allows everything.
+constexpr int64_t quotient(int64_t part, int64_t error, int64_t most) noexcept {
+  return error == 0 || part / error > most ? most : part / error;
+}
+
+}  // namespace
+
+GroundAge ground_age(const Params& params) noexcept {
+  GroundAge age{params.skirt.age_travel, params.skirt.age_turn};
+  const PoseErrorParams& e = params.pose_error;
+  if (!kGyroBuilt || (e.wheel_scale == Ratio{} && e.wheel_scale_common == Ratio{})) return age;
+  const Reach reach = whisker::reach(params);
+  // One standard deviation of the heading, millionths of a radian.
+  const int64_t allowed =
+      int64_t{patch_cell(params).raw()} * kOne / (4 * int64_t{(reach.guard + reach.probe).raw()});
+  const bool gyro = params.gyro.fitted == Fitted::yes;
+  // Errors of two wheels: their difference is off by sqrt(2) of one, their mean by 1 / sqrt(2).
+  const int64_t apart = gyro ? 0 : int64_t{e.wheel_scale.raw()} * 1414 / 1000;
+  age.travel = Length::from_raw(
+      static_cast<int32_t>(quotient(allowed * params.body.track.raw(), apart, age.travel.raw())));
+  const int32_t together = max(e.wheel_scale * 707 / 1000, e.wheel_scale_common).raw();
+  const int32_t turning = gyro ? e.gyro_scale.raw() : together;
+  constexpr int64_t kPerRadian = 683565276;  // 2^32 / (2 pi)
+  age.turn = Angle::from_raw(static_cast<uint32_t>(quotient(allowed * kPerRadian, turning, age.turn.raw())));
+  return age;
+}
+
+}  // namespace whisker::perception

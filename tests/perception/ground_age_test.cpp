@@ -1,0 +1,67 @@
+#include "firmware/perception/ground_age.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "firmware/params/reach.hpp"
+
+namespace whisker::perception {
+namespace {
+
+double radians(Angle a) { return a.raw() * 2 * M_PI / 4294967296.0; }
+
+Params wheels(int32_t millionth) {
+  Params p;
+  p.pose_error.wheel_scale = millionths(millionth);
+  return p;
+}
+
+TEST(GroundAge, IsThatOfTheParametersIfNoErrorIsDeclared) {
+  Params p;
+  p.gyro.fitted = Fitted::yes;
+  const GroundAge age = ground_age(p);
+  EXPECT_EQ(age.travel, p.skirt.age_travel);
+  EXPECT_EQ(age.turn, p.skirt.age_turn);
+}
+
+TEST(GroundAge, TwoStandardDeviationsOfTheHeadingMoveTheGroundByHalfACell) {
+  for (const int32_t millionth : {15000, 20000, 50000}) {
+    const Params p = wheels(millionth);
+    const GroundAge age = ground_age(p);
+    const Reach reach = whisker::reach(p);
+    const double far = (reach.guard + reach.probe).raw() * 1e-6;
+    const double most = patch_cell(p).raw() * 1e-6 / 2;
+    const double each = millionth * 1e-6;
+    const double by_travel = age.travel.raw() * 1e-6 * each * std::sqrt(2) / (p.body.track.raw() * 1e-6);
+    EXPECT_NEAR(2 * by_travel * far, most, most * 0.01) << millionth;
+    const double by_turn = radians(age.turn) * each / std::sqrt(2);
+    EXPECT_LE(2 * by_turn * far, most * 1.01) << millionth;
+  }
+}
+
+TEST(GroundAge, GoodWheelsAreNoReasonToAgeSooner) {
+  const GroundAge age = ground_age(wheels(1000));
+  EXPECT_EQ(age.travel, Params{}.skirt.age_travel);
+  EXPECT_EQ(age.turn, Params{}.skirt.age_turn);
+}
+
+TEST(GroundAge, AGyroCountsInsteadOfTheWheels) {
+  Params p = wheels(50000);
+  p.gyro.fitted = Fitted::yes;
+  p.pose_error.gyro_scale = millionths(1000);
+  EXPECT_EQ(ground_age(p).travel, p.skirt.age_travel);
+  EXPECT_EQ(ground_age(p).turn, p.skirt.age_turn);
+  p.pose_error.gyro_scale = millionths(50000);
+  EXPECT_LT(ground_age(p).turn.raw(), p.skirt.age_turn.raw());
+}
+
+TEST(GroundAge, ACommonErrorOfTheWheelsTurnsTheBodyToo) {
+  Params p;
+  p.pose_error.wheel_scale_common = millionths(30000);
+  EXPECT_EQ(ground_age(p).travel, p.skirt.age_travel);
+  EXPECT_LT(ground_age(p).turn.raw(), p.skirt.age_turn.raw());
+}
+
+}  // namespace
+}  // namespace whisker::perception
