@@ -60,7 +60,8 @@ class Tables(Scripts):
             ("compare", (1,), 8 * 10),
             ("measure", (1,), 11),
             ("odometry", (1, "--only", "wheels"), 3 * 7),
-            ("odometry", (1, "--only", "classes"), 10 + 10 * 4),
+            ("odometry", (1, "--only", "classes"), 10 * 4),
+            ("odometry", (1, "--only", "readme"), 10),
         ):
             (self.folder / "whisker.calls").unlink(missing_ok=True)
             table = self.rows(self.run_script(name, *arguments))
@@ -112,16 +113,23 @@ class Tables(Scripts):
         self.assertEqual(rest, {("campaign", "maze", "--count", "3", "--seed", "40", "--noise", "--wheel-scale-sigma", "--json")})
 
 
-    def test_odometry_shows_ideal_and_real_wheels_side_by_side(self):
+    def test_odometry_shows_wheels_of_one_percent_with_and_without_a_gyro(self):
         half = {"value": 0.5, "low": 0.25, "high": None}
         self.answer(reached=half, truly_there={**half, "value": 0.375}, contact={**half, "value": 0}, final_distance_m={"p50": {**half, "value": 2.857}, "p95": None})
-        done = self.run_script("odometry", 2, 40)
-        self.assertIn("`scripts/odometry 2 40`: 2 missions a class and grade, seeds 40 to 41, map planner, on ", done.stdout)
+        done = self.run_script("odometry", 2, 40, "--only", "readme")
+        self.assertIn("`scripts/odometry --only readme 2 40`: 2 missions a class and grade, seeds 40 to 41, map planner, on ", done.stdout)
         table = self.rows(done)
-        self.assertEqual(table[0], ["world", "ideal", "wheels 0.05 %", "wheels 0.5 %", "wheels 1 %"])
-        self.assertEqual(table[1], ["15 discs", *["50 % / 37.5 % / 0 / 2.86 m"] * 4])
+        self.assertEqual(table[0], ["world", "gyro, tape", "gyro, wheels 1 %", "no gyro, wheels 1 %"])
+        self.assertEqual(table[1], ["15 discs", *["50 % / 37.5 % / 0 / 2.86 m"] * 3])
+        rooms = [call for call in self.calls() if "rooms" in call]
+        self.assertEqual(["--robot" in call for call in rooms], [True, True, False])
+        self.assertEqual(["--wheel-scale-sigma 0.01" in " ".join(call) for call in rooms], [False, True, True])
+
+    def test_odometry_drives_no_campaign_twice(self):
+        self.answer(reached={"value": 0.5, "low": 0.25, "high": None})
+        self.run_script("odometry", 2, 40, "--only", "classes")
         calls = [" ".join(call) for call in self.calls()]
-        self.assertEqual(len(calls), len(set(calls)), "no campaign is driven twice")
+        self.assertEqual(len(calls), len(set(calls)))
         rooms = ["--noise --wheel-scale-sigma " + sigma + " " for sigma in ("0.0005", "0.005", "0.01")]
         self.assertEqual([call for call in calls if "rooms" in call], [f"campaign rooms --count 2 --seed 40 {noise}--json" for noise in ("", *rooms)])
 
