@@ -4,13 +4,22 @@
 #include "firmware/part.hpp"
 
 namespace whisker::perception {
+
+using namespace literals;
+
 namespace {
 
 constexpr int32_t kOne = 1000000;  // Ratio of 1
 
-/// part / error, at most `most`. An error of zero allows everything.
-constexpr int64_t quotient(int64_t part, int64_t error, int64_t most) noexcept {
-  return error == 0 || part / error > most ? most : part / error;
+// The least ages that the parameters may set: with shorter ones, ground expires before the body has looked
+// around.
+constexpr Length kLeastTravel = 100_mm;
+constexpr Angle kLeastTurn = 90_deg;
+
+/// part / error, between `least` and `most`. An error of zero allows everything.
+constexpr int64_t quotient(int64_t part, int64_t error, int64_t least, int64_t most) noexcept {
+  if (error == 0 || part / error > most) return most;
+  return part / error < least ? least : part / error;
 }
 
 }  // namespace
@@ -26,12 +35,13 @@ GroundAge ground_age(const Params& params) noexcept {
   const bool gyro = params.gyro.fitted == Fitted::yes;
   // Errors of two wheels: their difference is off by sqrt(2) of one, their mean by 1 / sqrt(2).
   const int64_t apart = gyro ? 0 : int64_t{e.wheel_scale.raw()} * 1414 / 1000;
-  age.travel = Length::from_raw(
-      static_cast<int32_t>(quotient(allowed * params.body.track.raw(), apart, age.travel.raw())));
+  age.travel = Length::from_raw(static_cast<int32_t>(
+      quotient(allowed * params.body.track.raw(), apart, kLeastTravel.raw(), age.travel.raw())));
   const int32_t together = max(e.wheel_scale * 707 / 1000, e.wheel_scale_common).raw();
   const int32_t turning = gyro ? e.gyro_scale.raw() : together;
   constexpr int64_t kPerRadian = 683565276;  // 2^32 / (2 pi)
-  age.turn = Angle::from_raw(static_cast<uint32_t>(quotient(allowed * kPerRadian, turning, age.turn.raw())));
+  age.turn = Angle::from_raw(
+      static_cast<uint32_t>(quotient(allowed * kPerRadian, turning, kLeastTurn.raw(), age.turn.raw())));
   return age;
 }
 

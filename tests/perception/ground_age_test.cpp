@@ -26,7 +26,7 @@ TEST(GroundAge, IsThatOfTheParametersIfNoErrorIsDeclared) {
 }
 
 TEST(GroundAge, TwoStandardDeviationsOfTheHeadingMoveTheGroundByHalfACell) {
-  for (const int32_t millionth : {15000, 20000, 50000}) {
+  for (const int32_t millionth : {6000, 12000, 18000}) {
     const Params p = wheels(millionth);
     const GroundAge age = ground_age(p);
     const Reach reach = whisker::reach(p);
@@ -37,6 +37,13 @@ TEST(GroundAge, TwoStandardDeviationsOfTheHeadingMoveTheGroundByHalfACell) {
     EXPECT_NEAR(2 * by_travel * far, most, most * 0.01) << millionth;
     const double by_turn = radians(age.turn) * each / std::sqrt(2);
     EXPECT_LE(2 * by_turn * far, most * 1.01) << millionth;
+  }
+}
+
+TEST(GroundAge, TheLargestErrorsLeaveWhatTheParametersMaySet) {
+  for (const int32_t millionth : {50000, 100000}) {
+    EXPECT_EQ(ground_age(wheels(millionth)).travel, 100_mm) << millionth;
+    EXPECT_EQ(ground_age(wheels(millionth)).turn, 90_deg) << millionth;
   }
 }
 
