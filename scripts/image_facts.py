@@ -77,14 +77,17 @@ def weigh(map_file, ram_sections=RAM):
     """Bytes of flash and RAM by stage; code outside the core counts as 'helpers' (libgcc) or 'rest'."""
     known = stages()
     flash, ram = collections.Counter(), collections.Counter()
+    namespace = re.compile(r"_Z\w*?7whisker(?:\d+(" + "|".join(set(known.values())) + r")\d)?")
     for name, size, origin in sections(map_file):
         member = re.search(r"\((\w+\.cpp)\.obj\)$", origin)
         of_core = member and "whisker_core" in origin
         stage = known.get(member[1], "rest") if of_core else "helpers" if "libgcc" in origin else "rest"
-        # Functions defined in the core's headers lie in the first object that uses them.
-        named = re.search(r"_ZNK?7whisker\d+(" + "|".join(set(known.values())) + r")\d", name)
+        named = namespace.search(name)
         if stage == "rest" and named:
-            stage = named[1]
+            # Functions defined in the core's headers lie in the first object that uses them. An image for AVR is one
+            # object, where functions of no stage's namespace are the robot's or shared.
+            whole = origin.endswith(".o") and not name.startswith(".text._ZN7whisker3hal")
+            stage = named[1] or ("robot" if whole else "rest")
         if name.startswith(FLASH):
             flash[stage] += size
         if name.startswith(ram_sections) or name == "COMMON":

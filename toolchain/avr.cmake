@@ -10,12 +10,10 @@ set(CMAKE_CXX_COMPILER_TARGET avr)
 set(CMAKE_CXX_FLAGS_INIT "-mmcu=${WHISKER_CPU} -fno-builtin -nostdlibinc -fno-exceptions -fno-rtti \
 -fno-threadsafe-statics -fno-use-cxa-atexit -mllvm -inline-threshold=-30 -ffunction-sections -fdata-sections")
 set(CMAKE_CXX_FLAGS_RELEASE "-Oz -DNDEBUG" CACHE STRING "Options of a release")
-set(CMAKE_CXX_LINK_EXECUTABLE
-  "avr-gcc -mmcu=${WHISKER_CPU} -nodefaultlibs -Wl,--gc-sections,--relax <LINK_FLAGS> <OBJECTS> -o <TARGET> \
--Wl,--start-group <LINK_LIBRARIES> -lgcc -Wl,--end-group")
 set(CMAKE_EXECUTABLE_SUFFIX_CXX .elf)
-# Through assembly, where a fault of clang is corrected.
+# Objects and libraries hold LLVM bitcode. At the link they become assembly, where a fault of clang is corrected.
 set(CMAKE_CXX_COMPILE_OBJECT
-  "<CMAKE_CXX_COMPILER> <DEFINES> <INCLUDES> <FLAGS> -S <SOURCE> -o <OBJECT>.s"
-  "sh ${CMAKE_CURRENT_LIST_DIR}/avr_assembly.sh <OBJECT>.s"
-  "<CMAKE_CXX_COMPILER> -mmcu=${WHISKER_CPU} -c <OBJECT>.s -o <OBJECT>")
+  "<CMAKE_CXX_COMPILER> <DEFINES> <INCLUDES> <FLAGS> -c -emit-llvm <SOURCE> -o <OBJECT>")
+set(CMAKE_CXX_LINK_EXECUTABLE
+  "sh ${CMAKE_CURRENT_LIST_DIR}/avr_link.sh ${WHISKER_CPU} <TARGET> <OBJECTS> <LINK_LIBRARIES> -- \
+<LINK_FLAGS>")
