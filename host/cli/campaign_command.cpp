@@ -26,6 +26,7 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/report/file.hpp"
 #include "host/scenario/load.hpp"
 #include "host/scenario/write.hpp"
@@ -38,6 +39,7 @@ Provenance provenance(const CampaignOptions& o, const Missions* chosen) {
   Provenance p;
   if (chosen == nullptr) return p;
   p.planner = name(chosen->planner);
+  p.rules_digest = rules_digest(chosen->planner);
   if (const auto* generated = std::get_if<campaign::Generated>(&chosen->worlds)) {
     p.seed = generated->first_seed;
     if (generated->random_robots) {

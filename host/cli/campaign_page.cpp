@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "host/cli/controller_picture.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/page/page.hpp"
 #include "host/report/file.hpp"
 
@@ -35,7 +35,7 @@ void write_campaign_page(const std::string& path, const Missions& missions,
     if (bytes > kMostBytes && !replays.empty()) break;
     replays.push_back({row, std::move(run)});
   }
-  report::write_file(path, page::campaign_page(rows, replays, controller_picture()));
+  report::write_file(path, page::campaign_page(rows, replays, controller_picture(missions.planner)));
 }
 
 }  // namespace whisker::cli

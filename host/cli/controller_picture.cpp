@@ -40,6 +40,19 @@ std::vector<std::vector<report::Rule>> picture_of(const Q14 (&rules)[kTerms][kTe
   return rows;
 }
 
+RuleBase answers_at_centres(const Engine::Table& table) {
+  RuleBase rules{};
+  for (int d = 0; d < kTerms; ++d) {
+    for (int r = 0; r < kTerms; ++r) {
+      const Response answer =
+          Engine(table)({Q7::from_raw(kDistanceCentres[d]), Q7::from_raw(kBiasCentres[r])});
+      rules.turn[d][r] = answer.turn;
+      rules.step[d][r] = answer.step;
+    }
+  }
+  return rules;
+}
+
 std::string engine_name() {
 #ifdef WHISKER_ENGINE_CLOSED
   return fmt::format("closed form on the 5 x 5 rules, {} bytes", sizeof(Engine::Table));
@@ -64,7 +77,7 @@ void add_nodes(report::FuzzyPicture& p) {
 
 }  // namespace
 
-report::FuzzyPicture controller_picture() {
+report::FuzzyPicture controller_picture(const Engine::Table& table) {
   using namespace turn_terms;
   using namespace step_terms;
   report::FuzzyPicture p;
@@ -85,9 +98,11 @@ report::FuzzyPicture controller_picture() {
           0,
           2,
           {{"VS", value(VS)}, {"S", value(S)}, {"M", value(M)}, {"B", value(B)}, {"VB", value(VB)}}};
-  p.turn = picture_of(kRules.turn, p.sa);
-  p.step = picture_of(kRules.step, p.sd);
-  const auto at = [](double d, double r) { return Engine(kDefaultTable)({q7(d), q7(r)}); };
+  const bool own = &table == &kDefaultTable;
+  const RuleBase rules = own ? kRules : answers_at_centres(table);
+  p.turn = picture_of(rules.turn, p.sa);
+  p.step = picture_of(rules.step, p.sd);
+  const auto at = [&table](double d, double r) { return Engine(table)({q7(d), q7(r)}); };
   p.sa_at = [at](double d, double r) { return value(at(d, r).turn); };
   p.sd_at = [at](double d, double r) { return value(at(d, r).step); };
   add_nodes(p);

@@ -67,7 +67,7 @@ int execute(const HilOptions& o) {
   controller.drop_percent = 0;
   const bool is_private = o.bus.name == kPrivate;
   if (o.bus.name.rfind("slcan:", 0) == 0) throw UsageError("hil: a serial line has one end here; see plant");
-  const auto view = o.view.open();
+  const auto view = o.view.open(o.planner);
   auto lines =
       is_private ? hil::private_lines() : std::pair{hil::open_line(o.bus.name), hil::open_line(o.bus.name)};
   const ControllerProcess child([&] {

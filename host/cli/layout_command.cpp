@@ -17,6 +17,7 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/report/file.hpp"
 #include "host/scenario/load.hpp"
 #include "host/scenario/params_text.hpp"
@@ -116,6 +117,7 @@ int execute(const LayoutOptions& o) {
     Provenance p;
     p.seed = o.seed;
     p.planner = name(o.planner);
+    p.rules_digest = rules_digest(o.planner);
     p.robot_name = o.robot.empty() ? "reference" : o.robot;
     p.robot_digest = robot_digest(trade.ranked.front().layout.robot);
     fmt::print("{}\n", with_provenance(layout_json(trade), p));

@@ -6,10 +6,10 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/page/page.hpp"
 #include "host/view/names.hpp"
 
@@ -20,8 +20,8 @@ constexpr std::chrono::milliseconds kFarewell{3000};
 
 }  // namespace
 
-LiveView::LiveView(const std::string& address, int port, bool stay) try
-    : server_(address, port, feed_, page::live_page(view::kEvents, controller_picture())),
+LiveView::LiveView(const std::string& address, int port, bool stay, PlannerKind planner) try
+    : server_(address, port, feed_, page::live_page(view::kEvents, controller_picture(planner))),
       address_(address),
       stay_(stay) {
 } catch (const view::ServerError& e) {
@@ -48,9 +48,9 @@ LiveView::~LiveView() {
   server_.wait_for_watchers(kFarewell);
 }
 
-std::unique_ptr<LiveView> ViewChoice::open() const {
+std::unique_ptr<LiveView> ViewChoice::open(PlannerKind planner) const {
   if (option->count() == 0) return nullptr;
-  return std::make_unique<LiveView>(address, port.empty() ? kDefaultPort : std::stoi(port), stay);
+  return std::make_unique<LiveView>(address, port.empty() ? kDefaultPort : std::stoi(port), stay, planner);
 }
 
 void add_view(CLI::App& app, ViewChoice& choice) {

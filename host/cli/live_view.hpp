@@ -6,6 +6,7 @@
 
 #include "host/cli/cli11_forward.hpp"
 #include "host/cli/interrupt.hpp"
+#include "host/run/planners.hpp"
 #include "host/view/feed.hpp"
 #include "host/view/server.hpp"
 
@@ -15,7 +16,7 @@ namespace whisker::cli {
 class LiveView {
  public:
   /// Binds the port, but does not answer yet. Throws UsageError.
-  LiveView(const std::string& address, int port, bool stay);
+  LiveView(const std::string& address, int port, bool stay, PlannerKind planner);
   /// Sends the end to all watchers, which takes some seconds at most.
   ~LiveView();
   LiveView(const LiveView&) = delete;
@@ -43,8 +44,8 @@ struct ViewChoice {
   bool stay = false;
   const CLI::Option* option = nullptr;
 
-  /// Null without --view. Throws UsageError.
-  std::unique_ptr<LiveView> open() const;
+  /// Null without --view. planner: whose response table the page shows. Throws UsageError.
+  std::unique_ptr<LiveView> open(PlannerKind planner = kDefaultPlanner) const;
 };
 
 /// --view, --view-address and --view-stay.

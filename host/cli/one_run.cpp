@@ -5,10 +5,10 @@
 
 #include <fmt/core.h>
 
-#include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/page/page.hpp"
 #include "host/page/recording.hpp"
 #include "host/report/file.hpp"
@@ -45,7 +45,10 @@ report::RunPicture picture(const MapWatch& map, PlannerKind planner) {
 Provenance provenance(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs) {
   Provenance p;
   p.seed = options.seed.value_or(scenario.seed);
-  if (outputs.knows_planner) p.planner = name(options.planner);
+  if (outputs.knows_planner) {
+    p.planner = name(options.planner);
+    p.rules_digest = rules_digest(options.planner);
+  }
   p.robot_name = outputs.robot_name;
   p.robot_digest = robot_digest(scenario.robot);
   return p;
@@ -82,7 +85,7 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
     report::write_file(o.svg, report::run_svg(scenario, records, result, picture(map, options.planner)));
   if (!o.html.empty()) {
     const page::StoredRun run = page::stored(setting(scenario, options, o), recording.ticks(), result);
-    report::write_file(o.html, page::run_page(run, controller_picture()));
+    report::write_file(o.html, page::run_page(run, controller_picture(options.planner)));
   }
 
   const std::string warning = result.ranges ? report::range_warning(*result.ranges) : "";

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "host/cli/rules_choice.hpp"
 #include "host/scenario/text.hpp"
 
 namespace whisker::cli {
@@ -108,6 +109,7 @@ CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
          fmt::format("Of planner map: {}", fmt::join(sizes, ", ")))
       ->default_str(fmt::format("{}", planning::kUsualMapBytes))
       ->type_name("N");
+  add_rules_choice(app, kind);
   return option;
 }
 

@@ -11,12 +11,12 @@
 
 #include "firmware/can/ids.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/logged_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/hil/replay.hpp"
 #include "host/page/page.hpp"
 #include "host/page/recording.hpp"
@@ -55,7 +55,7 @@ class Show {
     if (o.html.empty()) return;
     const page::StoredRun stored =
         page::stored({run_.scenario(), planner_, run_.scenario().seed}, recording_->ticks(), run_.result());
-    report::write_file(o.html, page::run_page(stored, controller_picture()));
+    report::write_file(o.html, page::run_page(stored, controller_picture(planner_)));
   }
 
  private:
@@ -100,6 +100,7 @@ int execute(const ReplayOptions& o) {
   if (!o.trace.empty() || !o.html.empty()) show.watch(replay);
   Provenance provenance;
   provenance.planner = name(o.replay.planner);
+  provenance.rules_digest = rules_digest(o.replay.planner);
   provenance.robot_name = o.log;
   replay.begins = [&provenance, also = replay.begins](const can::Mission& mission, const Params& params) {
     provenance.robot_digest = robot_digest(params);

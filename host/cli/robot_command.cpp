@@ -12,6 +12,7 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/cli/test_drives.hpp"
 #include "host/report/file.hpp"
 #include "host/report/result.hpp"
@@ -67,6 +68,7 @@ void print_json(const RobotOptions& o, const Params* params, const Json& violati
                      {"drives", drives_json(drives)}};
   Provenance provenance;
   provenance.planner = name(o.planner);
+  provenance.rules_digest = rules_digest(o.planner);
   provenance.robot_name = o.file;
   if (params != nullptr) provenance.robot_digest = robot_digest(*params);
   fmt::print("{}\n", with_provenance(json.dump(-1, ' ', false, Json::error_handler_t::replace), provenance));

@@ -24,6 +24,9 @@ int execute(const RunCommandOptions& o) {
   if (!o.chip.empty() && is_baseline(o.planner)) {
     throw UsageError(fmt::format("--chip: planner {} runs on this computer only", name(o.planner)));
   }
+  if (!o.chip.empty() && o.planner.table != &fuzzy::kDefaultTable)
+    throw UsageError(
+        "--chip: the core behind it has a response table of its own; --rules does not go with it");
   const Scenario scenario = o.scenario.load();
   RunOptions options = o.scenario.run_options();
   options.planner = o.planner;

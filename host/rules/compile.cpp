@@ -8,17 +8,12 @@
 #include <cstdint>
 
 #include "host/rules/findings.hpp"
-#include "host/scenario/error.hpp"
 
 namespace whisker::rules {
 namespace {
 
 /// Accuracy of inference, as a share of an output's range.
 constexpr double kRounding = 1e-9;
-
-[[noreturn]] void fail(const RuleBase& base, Place at, const std::string& what) {
-  throw InputError(base.file, at.line, at.column, what);
-}
 
 double raw_count(const Domain::Part& part, std::int32_t i) { return part.multiplicity(i); }
 

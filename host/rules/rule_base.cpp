@@ -2,7 +2,14 @@
 
 #include <cmath>
 
+#include "host/scenario/error.hpp"
+
 namespace whisker::rules {
+
+void fail(const RuleBase& base, Place at, const std::string& what) {
+  throw InputError(base.file, at.line, at.column, what);
+}
+
 namespace {
 
 double apply(Hedge hedge, double x) {

@@ -107,6 +107,9 @@ struct RuleBase {
   double least_strength = 0;  ///< a rule fires with at least this strength, above zero
 };
 
+/// Throws InputError at a place of the file.
+[[noreturn]] void fail(const RuleBase& base, Place at, const std::string& what);
+
 /// The degree after the hedges.
 double hedged(double degree, const std::vector<Hedge>& hedges);
 

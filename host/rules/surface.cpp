@@ -7,14 +7,9 @@
 #include <mutex>
 #include <thread>
 
-#include "host/scenario/error.hpp"
 
 namespace whisker::rules {
 namespace {
-
-[[noreturn]] void fail(const RuleBase& base, Place at, const std::string& what) {
-  throw InputError(base.file, at.line, at.column, what);
-}
 
 /// Degrees of the propositions of one input, for every raw value from `from` to `to`.
 using Degrees = std::vector<std::vector<double>>;

@@ -6,13 +6,6 @@
 namespace whisker::rules {
 namespace {
 
-/// Halves away from zero; a value within 1e-7 of a half counts as one.
-std::int16_t rounded(double raw) {
-  const double up = std::floor(std::abs(raw) + 0.5 + 1e-7);
-  const double limited = std::min(up, double{INT16_MAX});
-  return static_cast<std::int16_t>(raw < 0 ? -limited : limited);
-}
-
 struct Place1 {
   std::int32_t cell;
   std::int32_t offset;
@@ -44,6 +37,12 @@ class Line {
 };
 
 }  // namespace
+
+std::int16_t nearest_raw(double raw) {
+  const double up = std::floor(std::abs(raw) + 0.5 + 1e-7);
+  const double limited = std::min(up, double{INT16_MAX});
+  return static_cast<std::int16_t>(raw < 0 ? -limited : limited);
+}
 
 std::int16_t Table::node(std::int32_t row, std::int32_t column, std::size_t output) const {
   const std::int32_t columns = axes.size() > 1 ? axes[1].nodes() : 1;
@@ -93,7 +92,7 @@ Table make_table(const Surface& surface, const std::vector<GridAxis>& axes,
           };
           return two ? columns(j, at) : at(0);
         };
-        table.nodes.push_back(rounded((rows(i, at_row) - scales[o].origin) * scales[o].per_unit));
+        table.nodes.push_back(nearest_raw((rows(i, at_row) - scales[o].origin) * scales[o].per_unit));
       }
     }
   }

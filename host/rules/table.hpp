@@ -37,6 +37,10 @@ struct Table {
   std::int16_t node(std::int32_t row, std::int32_t column, std::size_t output) const;
 };
 
+/// To the nearest integer, ties away from zero; what is within 1e-7 of a tie is one. Limited to 16 bits,
+/// without INT16_MIN.
+std::int16_t nearest_raw(double raw);
+
 /// The look-up of one output at raw inputs. Inputs beyond an axis are limited to it; a node belongs to the
 /// cell below it, the first to the first cell; the result is rounded to nearest.
 std::int16_t look_up(const Table& table, std::size_t output, const std::int32_t* raw);

@@ -65,7 +65,7 @@ const Entry& entry(PlannerKind kind) {
 
 RecordedPlanner make_recorded_planner(PlannerKind kind, const Params& params) {
   if (is_baseline(kind)) return {entry(kind).make(params)};
-  return make_core_planner(kind, params, fuzzy::kDefaultTable);
+  return make_core_planner(kind, params, *kind.table);
 }
 
 std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params) {

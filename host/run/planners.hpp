@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/fuzzy/engine.hpp"
 #include "firmware/params.hpp"
 #include "firmware/planning/default_planner.hpp"
 #include "firmware/planning/planners.hpp"
@@ -14,9 +15,11 @@
 
 namespace whisker {
 
+/// The response table is not part of the kind: two kinds are equal whatever their tables.
 struct PlannerKind {
   int number = 0;  ///< in the core's list; the baselines follow it
   std::int32_t map_bytes = 0;
+  const fuzzy::Engine::Table* table = &fuzzy::kDefaultTable;  ///< must outlive the planner
 
   static const PlannerKind skirt, thesis, map;
   friend constexpr bool operator==(PlannerKind a, PlannerKind b) {
@@ -47,7 +50,7 @@ struct RecordedPlanner {
   const RecordingGuide* guide = nullptr;  ///< null without a map; lives as long as the planner
 };
 
-/// With the default response table. The parameters must outlive the planner.
+/// A baseline has no response table. The parameters must outlive the planner.
 RecordedPlanner make_recorded_planner(PlannerKind kind, const Params& params);
 std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params);
 

@@ -13,29 +13,29 @@ from whisker import KINDS, Case, with_time_limit
 WIDEST = 100
 OPTIONS = {
     (): ("--help", "--version"),
-    ("run",): ("SCENARIO", "--planner", "--map-bytes", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--chip"),
+    ("run",): ("SCENARIO", "--planner", "--map-bytes", "--rules", "--map", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--chip"),
     ("campaign",): (
-        "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--map-bytes",
+        "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--map-bytes", "--rules", "--map",
         "--robot", "--robots", "--jobs", "--shard", "--csv", "--save-failures", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
     ),
     ("plant",): (
         "SCENARIO", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
     ),
-    ("controller",): ("--can", "--node", "--planner", "--map-bytes", "--record", "--drop"),
+    ("controller",): ("--can", "--node", "--planner", "--map-bytes", "--rules", "--map", "--record", "--drop"),
     ("hil",): (
-        "SCENARIO", "--can", "--node", "--realtime", "--planner", "--map-bytes", "--robot", "--seed", "--trace", "--svg", "--html",
+        "SCENARIO", "--can", "--node", "--realtime", "--planner", "--map-bytes", "--rules", "--map", "--robot", "--seed", "--trace", "--svg", "--html",
         "--json", "--record", "--drop",
     ),
-    ("replay",): ("LOG", "--node", "--planner", "--map-bytes", "--json"),
+    ("replay",): ("LOG", "--node", "--planner", "--map-bytes", "--rules", "--map", "--json"),
     ("dbc",): ("--robot",),
     ("protocol",): ("--link", "--parameters"),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
     ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
-    ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--contacts"),
+    ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--contacts"),
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),
     ("robot", "layout"): (
-        "--sensor", "--body", "--clear", "--robot", "--angles", "--count", "--seed", "--planner", "--map-bytes", "--jobs", "--svg",
+        "--sensor", "--body", "--clear", "--robot", "--angles", "--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--jobs", "--svg",
         "--json", "--out",
     ),
     ("figures",): ("FOLDER", "--scenarios"),

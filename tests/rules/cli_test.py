@@ -39,6 +39,51 @@ def compile_rules(*arguments):
     return whisker.whisker("rules", "compile", *arguments)
 
 
+class Drives(Case):
+    """--rules: the core drives with the table of a file."""
+
+    def setUp(self):
+        super().setUp()
+        self.world = self.folder / "world.toml"
+        whisker.whisker("world", "u-trap", "--seed", "3", "--out", self.world)
+
+    def run_json(self, *arguments):
+        return json.loads(whisker.whisker("run", self.world, "--json", *arguments).stdout)
+
+    def test_the_thesis_drives_as_the_built_in_table(self):
+        own, same = self.run_json(), self.run_json("--rules", EXAMPLES / "thesis.toml")
+        self.assertEqual(own["rules_digest"], same["rules_digest"])
+        self.assertEqual(own, same)
+
+    def test_other_rules_drive_otherwise_also_on_a_bus(self):
+        text = (EXAMPLES / "thesis.toml").read_text().replace('["TLVB", 1.5]', '["TLVB", 0.2]').replace('["TRVB", -1.5]', '["TRVB", -0.2]')
+        law = self.file("law.toml", text.replace('name = "SA"', 'name = "steer"'))
+        options = ("--rules", law, "--map", "SA=steer", "--planner", "skirt")
+        own, other = self.run_json("--planner", "skirt"), self.run_json(*options)
+        self.assertNotEqual(own["rules_digest"], other["rules_digest"])
+        self.assertNotEqual(own["hash"], other["hash"])
+        bus = json.loads(whisker.whisker("hil", self.world, "--json", *options).stdout)
+        self.assertEqual(bus["hash"], other["hash"])
+        self.assertEqual(bus["rules_digest"], other["rules_digest"])
+
+    def test_errors_are_one_line(self):
+        thesis = EXAMPLES / "thesis.toml"
+        for arguments, said in (
+            (("--rules", EXAMPLES / "tip.fis"), "tip.fis:1:1: no input 'D' to drive with; the file has service, food"),
+            (("--rules", self.folder / "none.toml"), "none.toml:1:1: "),
+            (("--rules", thesis, "--map", "SA=steer"), "thesis.toml:1:1: no output 'steer'"),
+            (("--rules", thesis, "--map", "XY=steer"), "--map: 'XY=steer' must be D=NAME, R=NAME, SA=NAME or SD=NAME"),
+            (("--rules", thesis, "--planner", "fan"), "--rules: planner fan has no table"),
+            (("--rules", thesis, "--chip", "false"), "--chip: "),
+            (("--map", "SA=steer"), "--map needs --rules"),
+        ):
+            with self.subTest(said):
+                done = whisker.whisker("run", self.world, *arguments)
+                self.assertEqual((done.returncode, done.stdout), (2, ""))
+                self.assertIn(said, done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1)
+
+
 class Headers(Case):
     def built(self, result, compiler, *flags):
         ids = {o["name"]: re.sub(r"[^a-z0-9]+", "_", o["name"].lower()) for o in result["outputs"]}

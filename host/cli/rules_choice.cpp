@@ -1,0 +1,77 @@
+#include "host/cli/rules_choice.hpp"
+
+#include <list>
+#include <memory>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include "host/cli/controller_picture.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
+#include "host/rules/read.hpp"
+#include "host/rules/response.hpp"
+
+namespace whisker::cli {
+namespace {
+
+struct RulesChoice {
+  std::string file;
+  std::vector<std::string> names;
+};
+
+/// By template, because only an engine with this table compiles it.
+template <class Table>
+const Table* load(const RulesChoice& choice) {
+  if constexpr (std::is_same_v<Table, fuzzy::Bilinear::Table>) {
+    static std::list<Table> tables;
+    try {
+      const rules::ResponseNames names = rules::response_names(choice.names);
+      return &tables.emplace_back(rules::response(rules::read_rules(choice.file), names).table);
+    } catch (const std::invalid_argument& e) {
+      throw UsageError(fmt::format("--map: {}", e.what()));
+    }
+  } else {
+    throw UsageError("--rules: this build evaluates its own 25 rules in closed form");
+  }
+}
+
+template <class Table>
+std::optional<std::string> digest(const Table& table) {
+  if constexpr (std::is_same_v<Table, fuzzy::Bilinear::Table>)
+    return fmt::format("{:08x}", rules::digest(table));
+  return std::nullopt;
+}
+
+}  // namespace
+
+void add_rules_choice(CLI::App& app, PlannerKind& kind) {
+  const auto choice = std::make_shared<RulesChoice>();
+  add_file(
+      app, "--rules", choice->file,
+      "Response table from a rule base (.fis, .fll, .fcl, .toml) with\ninputs D and R, outputs SA and SD");
+  app.add_option("--map", choice->names, "With --rules: the file's name of D, R, SA or SD; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("D=NAME");
+  app.parse_complete_callback([choice, &kind] {
+    if (choice->file.empty()) {
+      if (!choice->names.empty()) throw UsageError("--map needs --rules");
+      return;
+    }
+    if (is_baseline(kind)) throw UsageError(fmt::format("--rules: planner {} has no table", name(kind)));
+    kind.table = load<fuzzy::Engine::Table>(*choice);
+  });
+}
+
+std::optional<std::string> rules_digest(PlannerKind kind) {
+  if (is_baseline(kind)) return std::nullopt;
+  return digest(*kind.table);
+}
+
+report::FuzzyPicture controller_picture(PlannerKind kind) { return controller_picture(*kind.table); }
+
+}  // namespace whisker::cli
