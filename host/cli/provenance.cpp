@@ -58,9 +58,9 @@ std::string with_provenance(const std::string& json_object, const Provenance& p)
   json["version"] = version();
   json["seed"] = or_null(p.seed);
   json["planner"] = or_null(p.planner);
-  json["rules_digest"] = or_null(p.rules_digest);
   json["robot_name"] = or_null(p.robot_name);
   json["robot_digest"] = or_null(p.robot_digest);
+  json["rules_digest"] = or_null(p.rules_digest);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -16,9 +16,9 @@ constexpr int kSchema = 1;
 struct Provenance {
   std::optional<std::uint64_t> seed;
   std::optional<std::string> planner;
-  std::optional<std::string> rules_digest;  ///< of the planner's response table
   std::optional<std::string> robot_name;
   std::optional<std::string> robot_digest;
+  std::optional<std::string> rules_digest;  ///< of the planner's response table
 };
 
 /// 16 hex digits: FNV-1a 64 over the key and raw value of each parameter. Equal for equal robots.
@@ -26,7 +26,7 @@ std::string robot_digest(const Params& params);
 /// The robot file; without one, "reference" for the reference robot, else the scenario file.
 std::string robot_name(const Params& params, const std::string& robot_file, const std::string& scenario_file);
 
-/// The JSON object with the keys schema, version, seed, planner, rules_digest, robot_name and robot_digest
+/// The JSON object with the keys schema, version, seed, planner, robot_name, robot_digest and rules_digest
 /// appended.
 std::string with_provenance(const std::string& json_object, const Provenance& provenance);
 

@@ -69,6 +69,7 @@ class Origin(Case):
         reference = self.told("run", NOTHING)
         self.assertEqual(reference[:3], [1, "map", "reference"])
         self.assertRegex(reference[3], r"\A[0-9a-f]{16}\Z")
+        self.assertRegex(reference[4], r"\A[0-9a-f]{8}\Z")
         self.assertEqual(self.told("run", NOTHING, "--seed", 7, "--planner", "map", "--map-bytes", 1024), [7, "map-1024", *reference[2:]])
         self.assertEqual(self.told("hil", NOTHING), reference)
         robot = self.file("slow.toml", "wheel_speed_max_mps = 0.2\n")
@@ -76,15 +77,15 @@ class Origin(Case):
         self.assertEqual(slow[2], str(robot))
         self.assertNotEqual(slow[3], reference[3])
         within = self.file("within.toml", NOTHING.read_text() + "\n[robot]\nwheel_speed_max_mps = 0.2\n")
-        self.assertEqual(self.told("run", within), [1, "map", str(within), slow[3]])
+        self.assertEqual(self.told("run", within), [1, "map", str(within), *slow[3:]])
         self.assertEqual(self.told("campaign", "discs", "--count", 1, "--seed", 5), [5, *reference[1:]])
         self.assertEqual(self.told("campaign", "discs", "--count", 1, "--robot", robot), [1, *slow[1:]])
         self.assertEqual(self.told("campaign", "discs", "--replay", 5), [5, *reference[1:]])
-        self.assertEqual(self.told("scanner", "discs", "--count", 1, "--seed", 5), [5, None, None, None])
-        self.assertEqual(self.told("robot", "check", robot), [None, "map", str(robot), slow[3]])
+        self.assertEqual(self.told("scanner", "discs", "--count", 1, "--seed", 5), [5, None, None, None, None])
+        self.assertEqual(self.told("robot", "check", robot), [None, "map", str(robot), *slow[3:]])
         log = self.folder / "hil.log"
         run("hil", NOTHING, "--record", log)
-        self.assertEqual(self.told("replay", log), [None, "map", str(log), reference[3]])
+        self.assertEqual(self.told("replay", log), [None, "map", str(log), *reference[3:]])
 
     def test_the_version_names_a_commit_of_this_repository(self):
         commit = re.fullmatch(r"whisker \d+\.\d+\.\d+ \(([-.+A-Za-z0-9]+)\)\n", run("--version").stdout)[1]

@@ -12,7 +12,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SCENARIOS = HERE / "scenarios"
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
 # The provenance keys of every JSON object.
-ORIGIN = ("schema", "version", "seed", "planner", "rules_digest", "robot_name", "robot_digest")
+ORIGIN = ("schema", "version", "seed", "planner", "robot_name", "robot_digest", "rules_digest")
 # What the robot noticed of its rangefinders; a bus carries them in coarser steps.
 RANGE_TRUST = ("range_trust", "contradictions_per_m", "phantom_share", "false_clear_share", "incidence_seen_deg")
 # How far the pose may be off, in whole millimetres on a bus.
