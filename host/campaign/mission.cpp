@@ -9,7 +9,8 @@
 
 namespace whisker::campaign {
 
-Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop, double way_radius_m) {
+Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop, double way_radius_m,
+          const std::function<void(const TickRecord&)>& also) {
   MotionCount count(scenario.robot.body.track.raw() * 1e-6);
   double estimate_error_m = 0;
   RunOptions options;
@@ -17,6 +18,7 @@ Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>
   options.observe = [&](const TickRecord& record) {
     if (stop) throw Stopped{};
     count.add(record);
+    if (also) also(record);
     const double x = record.est_x_m - record.x_m, y = record.est_y_m - record.y_m;
     estimate_error_m = std::sqrt(x * x + y * y);
   };

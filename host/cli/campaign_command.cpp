@@ -169,9 +169,9 @@ void add_campaign(CLI::App& app, int& status) {
   cmd->callback([o, cmd, &status] {
     if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
     if (o->replay) {
-      refuse_others(
-          *cmd, {"--replay", "KIND|DIR", "--discs", "--width", "--box", "--noise", "--wheel-scale-sigma",
-                 "--planner", "--map-bytes", "--robot", "--robots", "--svg", "--trace", "--html", "--json"});
+      refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--width", "--box", "--noise",
+                           "--wheel-scale-sigma", "--planner", "--map-bytes", "--rules", "--map", "--robot",
+                           "--robots", "--svg", "--trace", "--html", "--json"});
     }
     status = run_campaign(*o);
   });

@@ -80,9 +80,9 @@ void take_shard(Missions& m, const std::string& shard) {
 
 }  // namespace
 
-CLI::Option* add_worlds(CLI::App& app, CampaignOptions& o, const std::string& each) {
-  CLI::Option* worlds = app.add_option(
-      "KIND|DIR", o.worlds, "A kind of world as in `whisker world`, or a folder of scenario files");
+CLI::Option* add_worlds(CLI::App& app, CampaignOptions& o, const std::string& each, const std::string& name) {
+  CLI::Option* worlds =
+      app.add_option(name, o.worlds, "A kind of world as in `whisker world`, or a folder of scenario files");
   worlds->type_name("");
   app.add_option("--count", o.count, fmt::format("How many {}; 100 by default, or every file once", each))
       ->transform(whole_number(kMostMissions))

@@ -41,9 +41,10 @@ struct Missions {
   std::uint64_t last = 0;
 };
 
-/// KIND|DIR, --count, --seed, --discs, --width and --box; `each` names the counted items in the help. Returns
-/// the first option.
-CLI::Option* add_worlds(CLI::App& app, CampaignOptions& options, const std::string& each);
+/// The worlds under this name, --count, --seed, --discs, --width and --box; `each` names the counted items in
+/// the help. Returns the first option.
+CLI::Option* add_worlds(CLI::App& app, CampaignOptions& options, const std::string& each,
+                        const std::string& name = "KIND|DIR");
 /// --jobs.
 void add_jobs(CLI::App& app, CampaignOptions& options);
 

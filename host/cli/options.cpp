@@ -87,7 +87,7 @@ PlannerKind with_map_of(PlannerKind kind, const std::string& bytes) {
 
 }  // namespace
 
-CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
+CLI::Option* add_planner_kind(CLI::App& app, PlannerKind& kind) {
   std::string names, baselines;
   for (const PlannerKind k : planners()) {
     if (k.map_bytes != 0 && k.map_bytes != planning::kUsualMapBytes) continue;
@@ -109,6 +109,11 @@ CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
          fmt::format("Of planner map: {}", fmt::join(sizes, ", ")))
       ->default_str(fmt::format("{}", planning::kUsualMapBytes))
       ->type_name("N");
+  return option;
+}
+
+CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
+  CLI::Option* const option = add_planner_kind(app, kind);
   add_rules_choice(app, kind);
   return option;
 }

@@ -33,8 +33,10 @@ CLI::Option* add_name(CLI::App& app, const std::string& option, std::string& nam
 /// A path, with the check of add_name.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::string& path, const std::string& help);
 
-/// --planner, by name, with --map-bytes and --rules; the default is the value of `kind`. Sets the callback
-/// that CLI11 calls after parsing.
+/// --planner, by name, with --map-bytes; the default is the value of `kind`.
+CLI::Option* add_planner_kind(CLI::App& app, PlannerKind& kind);
+
+/// The same with --rules. Sets the callback that CLI11 calls after parsing.
 CLI::Option* add_planner(CLI::App& app, PlannerKind& kind);
 
 /// A flag that takes no value.

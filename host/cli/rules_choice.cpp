@@ -18,19 +18,14 @@
 namespace whisker::cli {
 namespace {
 
-struct RulesChoice {
-  std::string file;
-  std::vector<std::string> names;
-};
-
 /// By template, because only an engine with this table compiles it.
 template <class Table>
-const Table* load(const RulesChoice& choice) {
+const Table* load(const std::string& file, const std::vector<std::string>& changes) {
   if constexpr (std::is_same_v<Table, fuzzy::Bilinear::Table>) {
     static std::list<Table> tables;
     try {
-      const rules::ResponseNames names = rules::response_names(choice.names);
-      return &tables.emplace_back(rules::response(rules::read_rules(choice.file), names).table);
+      const rules::ResponseNames names = rules::response_names(changes);
+      return &tables.emplace_back(rules::response(rules::read_rules(file), names).table);
     } catch (const std::invalid_argument& e) {
       throw UsageError(fmt::format("--map: {}", e.what()));
     }
@@ -48,22 +43,33 @@ std::optional<std::string> digest(const Table& table) {
 
 }  // namespace
 
+const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
+                                           const std::vector<std::string>& names) {
+  if (file_or_default == "default") return &fuzzy::kDefaultTable;
+  return load<fuzzy::Engine::Table>(file_or_default, names);
+}
+
+void add_map_names(CLI::App& app, std::vector<std::string>& names, const std::string& help) {
+  app.add_option("--map", names, help)->take_all()->allow_extra_args(false)->type_name("D=NAME");
+}
+
 void add_rules_choice(CLI::App& app, PlannerKind& kind) {
+  struct RulesChoice {
+    std::string file;
+    std::vector<std::string> names;
+  };
   const auto choice = std::make_shared<RulesChoice>();
   add_file(
       app, "--rules", choice->file,
       "Response table from a rule base (.fis, .fll, .fcl, .toml) with\ninputs D and R, outputs SA and SD");
-  app.add_option("--map", choice->names, "With --rules: the file's name of D, R, SA or SD; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false)
-      ->type_name("D=NAME");
+  add_map_names(app, choice->names, "With --rules: the file's name of D, R, SA or SD; may be repeated");
   app.parse_complete_callback([choice, &kind] {
     if (choice->file.empty()) {
       if (!choice->names.empty()) throw UsageError("--map needs --rules");
       return;
     }
     if (is_baseline(kind)) throw UsageError(fmt::format("--rules: planner {} has no table", name(kind)));
-    kind.table = load<fuzzy::Engine::Table>(*choice);
+    kind.table = load<fuzzy::Engine::Table>(choice->file, choice->names);
   });
 }
 

@@ -3,12 +3,21 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/cli/cli11_forward.hpp"
 #include "host/report/fuzzy_picture.hpp"
 #include "host/run/planners.hpp"
 
 namespace whisker::cli {
+
+/// The table of a rule base, or of the core for the word "default"; it lives as long as the program. Throws
+/// UsageError or InputError.
+const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
+                                           const std::vector<std::string>& names);
+
+/// --map CORE=NAME.
+void add_map_names(CLI::App& app, std::vector<std::string>& names, const std::string& help);
 
 /// --rules FILE and --map CORE=NAME. After parsing, `kind` has the table of the file, which lives as long as
 /// the program. Throws UsageError or InputError if the file is no such table or the planner has none.

@@ -11,6 +11,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/rules_compare.hpp"
 #include "host/cli/rules_output.hpp"
 #include "host/report/file.hpp"
 #include "host/rules/compile.hpp"
@@ -180,6 +181,7 @@ void add_rules(CLI::App& app, int& status) {
   rules->require_subcommand(1);
   add_compile(*rules, status);
   add_show(*rules, status);
+  add_rules_compare(*rules, status);
 }
 
 }  // namespace whisker::cli

@@ -66,6 +66,35 @@ class Drives(Case):
         self.assertEqual(bus["hash"], other["hash"])
         self.assertEqual(bus["rules_digest"], other["rules_digest"])
 
+    def test_compare_drives_both_in_the_same_worlds(self):
+        straight = ROOT / "host/rules/laws/straight.toml"
+        arguments = ("rules", "compare", "default", straight, "--worlds", "u-trap", "--count", 3, "--seed", 11, "--planner", "skirt", "--json")
+        told = json.loads(whisker.whisker(*arguments).stdout)
+        self.assertEqual(told, json.loads(whisker.whisker(*arguments, "--jobs", 1).stdout))
+        self.assertEqual((told["worlds"], told["both_reach"]), (3, 3))
+        product = 1.0
+        for seed in (11, 12, 13):
+            times = []
+            for rules in ((), ("--rules", straight)):
+                done = whisker.whisker("campaign", "u-trap", "--replay", seed, "--planner", "skirt", *rules, "--json")
+                times.append(json.loads(done.stdout)["time_s"])
+            product *= times[1] / times[0]
+        self.assertAlmostEqual(told["time_ratio"]["value"], product ** (1 / 3), places=5)
+        same = json.loads(whisker.whisker("rules", "compare", "default", EXAMPLES / "thesis.toml", *arguments[4:]).stdout)
+        self.assertEqual(same["time_ratio"], {"value": 1.0, "low": 1.0, "high": 1.0})
+        words = whisker.whisker(*arguments[:-1]).stdout
+        self.assertIn("time, B / A", words)
+
+    def test_compare_refuses_what_has_no_table(self):
+        for arguments, said in (
+            ((), "rules compare: --worlds is required"),
+            (("--worlds", "maze", "--planner", "fan"), "rules compare: planner fan has no table"),
+            (("--worlds", "maze", "--count", "0"), "--count 0: nothing to do"),
+        ):
+            done = whisker.whisker("rules", "compare", "default", "default", *arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(said, done.stderr)
+
     def test_errors_are_one_line(self):
         thesis = EXAMPLES / "thesis.toml"
         for arguments, said in (
