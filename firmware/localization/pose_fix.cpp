@@ -27,7 +27,7 @@ Differences differences(const UncertainPose& estimate, const UncertainPose& fix)
           {part(fix.pose.heading - ahead), part(estimate.sigma.heading), part(fix.sigma.heading)}};
 }
 
-bool jumps(const Difference& d) noexcept {
+bool too_far(const Difference& d) noexcept {
   return square(d.size) > square(kJumpSigmas) * (square(d.estimate) + square(d.fix));
 }
 
@@ -47,7 +47,7 @@ int32_t remaining(int32_t fix, int32_t weight) noexcept {
 
 bool jumps(const UncertainPose& estimate, const UncertainPose& fix) noexcept {
   const Differences d = differences(estimate, fix);
-  return jumps(d.along) || jumps(d.across) || jumps(d.heading);
+  return too_far(d.along) || too_far(d.across) || too_far(d.heading);
 }
 
 UncertainPose fused(const UncertainPose& estimate, const UncertainPose& fix) noexcept {

@@ -32,7 +32,7 @@ endfunction()
 # whisker_install_headers(FOLDER): keeps the folders below include/whisker.
 function(whisker_install_headers FOLDER)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${FOLDER}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/whisker/${FOLDER}
-    FILES_MATCHING PATTERN "*.hpp" PATTERN apps EXCLUDE)
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h" PATTERN apps EXCLUDE)
 endfunction()
 
 # whisker_install_package(): installs the files that find_package(whisker) reads.
