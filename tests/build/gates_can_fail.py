@@ -1,6 +1,8 @@
 """Each gate rejects a violation, and accepts a similar valid input. usage: gates_can_fail.py CXX [ARM_CXX ARM_NM]"""
 
 import contextlib
+import importlib.machinery
+import importlib.util
 import io
 import json
 import pathlib
@@ -9,6 +11,9 @@ import tempfile
 import unittest
 
 import absolute_paths
+import arduino
+import c_params
+import components
 import core_alone
 import cross
 import headers_alone
@@ -287,6 +292,95 @@ class CoreAlone(unittest.TestCase):
     def test_accepts_the_rest(self):
         self.assertEqual(self.lookups("/root/CMakeLists.txt", "add_library"), [])
         self.assertEqual(self.lookups("/usr/share/cmake/Modules/X.cmake", "find_program"), [])
+
+
+class CParams(unittest.TestCase):
+    TABLE = "| 0 | body_radius_m | um | 90000 | 20000..1000000 |\n| 1 | gyro | choice | 0 | 0..1 |\n"
+    HEADER = "enum whisker_param {\n  /* params:begin */\n%s  /* params:end */\n};\n"
+    LINES = (
+        "  WHISKER_PARAM_BODY_RADIUS, /* um; 90000; 20000 to 1000000 */\n"
+        "  WHISKER_PARAM_GYRO         /* choice; 0; 0 to 1 */\n"
+    )  # fmt: skip
+
+    def status(self, lines, table=TABLE):
+        return run(c_params.main, {c_params.HEADER: self.HEADER % lines, c_params.TABLE: table})[0]
+
+    def test_wants_the_parameters_of_the_table(self):
+        self.assertEqual(self.status(self.LINES), 0)
+        self.assertEqual(self.status(self.LINES.replace("RADIUS", "RADIUS_M")), 1)
+        self.assertEqual(self.status(self.LINES.replace("20000", "10000")), 1)
+        self.assertEqual(self.status("".join(self.LINES.splitlines(True)[1:])), 1)
+
+
+class Amalgamation(unittest.TestCase):
+    SCRIPT = str(pathlib.Path(__file__).resolve().parents[2] / "scripts/amalgamate")
+
+    def setUp(self):
+        loader = importlib.machinery.SourceFileLoader("amalgamate", self.SCRIPT)
+        self.script = importlib.util.module_from_spec(importlib.util.spec_from_loader("amalgamate", loader))
+        loader.exec_module(self.script)
+
+    def test_finds_the_names_of_unnamed_namespaces(self):
+        for text, names in (
+            ("constexpr int kA = 1, kB = 2;", {"kA", "kB"}),
+            ("constexpr int8_t kA[] = {1, 2};", {"kA"}),
+            ("struct A { int x; int f() { return x; } };", {"A"}),
+            ("enum class A : uint8_t { b, c };", {"A"}),
+            ("template <class T, int n> T f(T a, int b) noexcept { int c = 0; return a; }", {"f"}),
+            ("[[gnu::noinline]] ns::Pair g(int a);", {"g"}),
+            ("using A = int;  // using B = int;\nusing ns::c;", {"A"}),
+            ("static_assert(kX == 1);", set()),
+            ("const char* const s = \"int x;\";", {"s"}),
+            ("struct A { int x; };\nint f() { return 1; }\nA a{};", {"A", "f", "a"}),
+        ):
+            source = "namespace whisker {\nint outside;\nnamespace {\n" + text + "\n}  // namespace\nint after() { return 1; }\n}\n"
+            self.assertEqual(self.script.unnamed_names(source), names, text)
+
+    def test_renames_neither_members_nor_words(self):
+        before = "f(x.f, ns::f, p->f, \"f\", ff); // f"
+        self.assertEqual(self.script.renamed(before, {"f"}, "_a"), "f_a(x.f, ns::f, p->f, \"f\", ff); // f")
+
+    def test_knows_names_outside(self):
+        source = "namespace whisker::a {\nnamespace {\nint f() { return 1; }\n}\nint f(int x) { return x; }\nint A::g() { return 1; }\n}\n"
+        self.assertEqual(self.script.names_in(source, "namespace whisker.*"), {"f"})
+
+
+class Arduino(unittest.TestCase):
+    PROPERTIES = (
+        "name=A\nversion=1.2.3\nauthor=a\nmaintainer=a\nsentence=a\nparagraph=a\ncategory=Other\nurl=https://a.b\narchitectures=*\n"
+        "includes=a.hpp\n"
+    )  # fmt: skip
+    JSON = {"name": "A", "version": "1.2.3", "description": "a", "keywords": ["a"], "authors": [{"name": "a"}], "license": "MIT"}
+
+    def properties(self, text):
+        return list(arduino.properties_problems(text, "1.2.3", lambda path: path == "src/a.hpp"))
+
+    def json(self, **changes):
+        return list(arduino.json_problems(json.dumps({**self.JSON, **changes}), "1.2.3", lambda path: path == "src/a.hpp"))
+
+    def test_properties(self):
+        self.assertEqual(self.properties(self.PROPERTIES), [])
+        for before, after in (
+            ("author=a\n", ""), ("1.2.3", "1.2.4"), ("Other", "Robots"), ("https://a.b", "a.b"), ("a.hpp", "b.hpp"),
+            ("sentence", "sentense"), ("name=A", "name=Arduino A"), ("name=A", "name=-A"),
+        ):  # fmt: skip
+            self.assertNotEqual(self.properties(self.PROPERTIES.replace(before, after)), [], after)
+
+    def test_json(self):
+        self.assertEqual(self.json(headers=["a.hpp"], build={"flags": ["-O2"]}), [])
+        for changes in (
+            {"version": "1"}, {"headers": ["b.hpp"]}, {"build": {"flag": ""}}, {"author": "a"}, {"license": ""}, {"name": "a/b"},
+            {"description": ""},
+        ):  # fmt: skip
+            self.assertNotEqual(self.json(**changes), [], changes)
+
+
+class Components(unittest.TestCase):
+    def test_options_are_in_kconfig(self):
+        known = "menu \"a\"\nconfig A\n\tbool\nendmenu\n"
+        self.assertEqual(list(components.kconfig_problems("a", "if(CONFIG_A)", known)), [])
+        self.assertEqual(len(list(components.kconfig_problems("a", "if(CONFIG_B)", known))), 1)
+        self.assertEqual(len(list(components.kconfig_problems("a", "", known.replace("endmenu\n", "")))), 1)
 
 
 def cross_status(target, compiler, text, *options):

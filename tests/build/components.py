@@ -1,0 +1,110 @@
+"""The component for ESP-IDF and the module for Zephyr: their files are well-formed and there, and they compile all sources of the core.
+
+usage: components.py ROOT CMAKE
+"""
+
+import pathlib
+import re
+import sys
+import tempfile
+
+import yaml
+
+from commands import Failure, run
+from sources import core_sources, finish, sources
+from version import of_header
+
+IDF, ZEPHYR = "toolchain/package/esp-idf/whisker", "toolchain/package/zephyr"
+# Commands of these systems that print their arguments, run by cmake -P: the list, one argument a line. As in ESP-IDF, which first reads
+# a component for its requirements only, the registration returns.
+STUBS = """
+function(say)
+  foreach(argument IN LISTS ARGN)
+    message(STATUS "${{argument}}")
+  endforeach()
+endfunction()
+macro(idf_component_register)
+  say(${{ARGN}})
+  return()
+endmacro()
+function(zephyr_library_sources)
+  say(SRCS ${{ARGN}})
+endfunction()
+function(zephyr_include_directories)
+  say(INCLUDE_DIRS ${{ARGN}})
+endfunction()
+function(zephyr_library_named)
+endfunction()
+function(zephyr_compile_definitions)
+  say(DEFINITIONS ${{ARGN}})
+endfunction()
+set(CONFIG_WHISKER y)
+set(CONFIG_WHISKER_MAP_BYTES 2048)
+include({file})
+"""
+
+
+def listed(cmake, file):
+    """The words that follow each keyword."""
+    with tempfile.TemporaryDirectory() as folder:
+        script = pathlib.Path(folder, "stub.cmake")
+        script.write_text(STUBS.format(file=file))
+        found, key = {}, None
+        for line in run(cmake, "-P", script).stdout.splitlines():
+            word = line.removeprefix("-- ")
+            if re.fullmatch(r"[A-Z_]+", word):
+                key = word
+            else:
+                found.setdefault(key, []).append(word)
+        return found
+
+
+def source_problems(root, cmake, folder):
+    said = listed(cmake, f"{root}/{folder}/CMakeLists.txt")
+    wanted = {f"{root}/{path}" for path in [*core_sources(root), *sources(root, ("hal/boards/common",), (".cpp",))]}
+    for path in sorted(wanted ^ set(said.get("SRCS", []))):
+        yield f"{folder}/CMakeLists.txt: {path} is {'not compiled' if path in wanted else 'no source of the core'}"
+    if said.get("INCLUDE_DIRS") != [str(root)]:
+        yield f"{folder}/CMakeLists.txt: include folders {said.get('INCLUDE_DIRS')}"
+
+
+def kconfig_problems(folder, cmake_text, kconfig):
+    """Each option that the CMake file reads is one of Kconfig."""
+    known = set(re.findall(r"^\s*config (\w+)$", kconfig, re.MULTILINE))
+    for name in sorted(set(re.findall(r"\bCONFIG_(\w+)", cmake_text)) - known):
+        yield f"{folder}/Kconfig: no {name}"
+    if len(re.findall(r"^\s*(?:if|menu)\b", kconfig, re.MULTILINE)) != len(re.findall(r"^\s*end(?:if|menu)\b", kconfig, re.MULTILINE)):
+        yield f"{folder}/Kconfig: a block is not closed"
+
+
+def manifest_problems(root):
+    manifest = yaml.safe_load((root / IDF / "idf_component.yml").read_text())
+    if manifest.get("version") != of_header((root / "firmware/version.hpp").read_text()):
+        yield f"{IDF}/idf_component.yml: version {manifest.get('version')}"
+    if manifest.get("url") != (root / "toolchain/package/url").read_text().strip():
+        yield f"{IDF}/idf_component.yml: url {manifest.get('url')}"
+    for name in sorted(manifest.keys() - {"version", "description", "url", "license", "dependencies"}):
+        yield f"{IDF}/idf_component.yml: unknown field {name}"
+    module = yaml.safe_load((root / ZEPHYR / "zephyr/module.yml").read_text())
+    if not re.fullmatch(r"[\w-]+", module.get("name", "")) or module.keys() - {"name", "build"}:
+        yield f"{ZEPHYR}/zephyr/module.yml: {module}"
+    build = module.get("build", {})
+    for file in (pathlib.Path(build.get("cmake", "?"), "CMakeLists.txt"), build.get("kconfig", "?")):
+        if not (root / ZEPHYR / file).is_file():
+            yield f"{ZEPHYR}/zephyr/module.yml: no {file}"
+
+
+def main(root, cmake):
+    root = pathlib.Path(root)
+    problems = list(manifest_problems(root))
+    try:
+        for folder in (IDF, ZEPHYR):
+            problems += source_problems(root, cmake, folder)
+            problems += kconfig_problems(folder, (root / folder / "CMakeLists.txt").read_text(), (root / folder / "Kconfig").read_text())
+    except Failure as failure:
+        problems.append(str(failure))
+    return finish("components", 2, problems)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
