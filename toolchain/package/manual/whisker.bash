@@ -1,0 +1,173 @@
+# shellcheck shell=bash
+# Completion of the whisker command. Made by scripts/manual.
+_whisker() {
+  local path=whisker word here=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options="" words="" paths=none
+  for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    case "$path $word" in
+      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
+    esac
+  done
+  case $path in
+    "whisker")
+      options="-h --help --version" words="run world robot campaign scanner movers table rules figures plant controller hil replay socket dbc protocol" paths=none
+      ;;
+    "whisker run")
+      options="-h --help --robot --seed --trace --svg --html --json --planner --map-bytes --chip" words="" paths=file
+      case $before in
+        --robot | --trace | --svg | --html) options="" words="" paths=file ;;
+        --seed | --chip) options="" words="" paths=value ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+      esac
+      ;;
+    "whisker world")
+      options="-h --help --seed --discs --width --box --noise --wheel-scale-sigma --out" words="discs poles u-trap spiral maze rooms enclosed enclosed-at-wall gap-at-wall contest-maze gap disc-gap" paths=none
+      case $before in
+        --seed | --discs | --width | --wheel-scale-sigma) options="" words="" paths=value ;;
+        --out) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker robot")
+      options="-h --help" words="check layout calibrate" paths=none
+      ;;
+    "whisker robot check")
+      options="-h --help --header --planner --map-bytes --json" words="" paths=file
+      case $before in
+        --header) options="" words="" paths=file ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+      esac
+      ;;
+    "whisker robot layout")
+      options="-h --help --sensor --body --clear --robot --angles --count --seed --planner --map-bytes --jobs --svg --json --out" words="" paths=none
+      case $before in
+        --sensor | --body | --clear | --angles | --count | --seed | --jobs) options="" words="" paths=value ;;
+        --robot | --svg | --out) options="" words="" paths=file ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+      esac
+      ;;
+    "whisker robot calibrate")
+      options="-h --help --log --node --record --drop --can --realtime --wall-heading --true --distance --along --turned --sigma --dropout --false-clear --phantom --wheel-scale-sigma --seed --count --jobs --trace --json" words="" paths=file
+      case $before in
+        --log | --record | --true | --trace) options="" words="" paths=file ;;
+        --node | --drop | --can | --wall-heading | --distance | --along | --turned | --sigma | --dropout | --false-clear | --phantom | --wheel-scale-sigma | --seed | --count | --jobs) options="" words="" paths=value ;;
+      esac
+      ;;
+    "whisker campaign")
+      options="-h --help --count --seed --discs --width --box --noise --wheel-scale-sigma --planner --map-bytes --robot --robots --jobs --shard --csv --save-failures --json --merge --replay --svg --trace --html" words="" paths=folder
+      case $before in
+        --count | --seed | --discs | --width | --wheel-scale-sigma | --jobs | --shard | --replay) options="" words="" paths=value ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+        --robot | --csv | --merge | --svg | --trace | --html) options="" words="" paths=file ;;
+        --robots) options="" words="random" paths=value ;;
+        --save-failures) options="" words="" paths=folder ;;
+      esac
+      ;;
+    "whisker scanner")
+      options="-h --help --count --seed --discs --width --box --jobs --json" words="" paths=folder
+      case $before in
+        --count | --seed | --discs | --width | --jobs) options="" words="" paths=value ;;
+      esac
+      ;;
+    "whisker movers")
+      options="-h --help --count --seed --planner --map-bytes --contacts" words="" paths=none
+      case $before in
+        --count | --seed) options="" words="" paths=value ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+        --contacts) options="" words="" paths=folder ;;
+      esac
+      ;;
+    "whisker table")
+      options="-h --help --csv --svg" words="" paths=none
+      case $before in
+        --svg) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker rules")
+      options="-h --help" words="compile show" paths=none
+      ;;
+    "whisker rules compile")
+      options="-h --help --tolerance --max-bytes --nodes --fix --steps --header --svg --json" words="" paths=file
+      case $before in
+        --tolerance | --max-bytes | --nodes | --fix | --steps) options="" words="" paths=value ;;
+        --header | --svg) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker rules show")
+      options="-h --help --fix --svg" words="" paths=file
+      case $before in
+        --fix) options="" words="" paths=value ;;
+        --svg) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker figures")
+      options="-h --help --scenarios" words="" paths=folder
+      case $before in
+        --scenarios) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker plant")
+      options="-h --help --robot --seed --trace --svg --html --json --node --record --drop --can --realtime --view --view-address --view-stay" words="" paths=file
+      case $before in
+        --robot | --trace | --svg | --html | --record) options="" words="" paths=file ;;
+        --seed | --node | --drop | --can | --view | --view-address) options="" words="" paths=value ;;
+      esac
+      ;;
+    "whisker controller")
+      options="-h --help --node --record --drop --can --planner --map-bytes --realtime" words="" paths=none
+      case $before in
+        --node | --drop | --can) options="" words="" paths=value ;;
+        --record) options="" words="" paths=file ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+      esac
+      ;;
+    "whisker hil")
+      options="-h --help --robot --seed --trace --svg --html --json --node --record --drop --can --planner --map-bytes --realtime --view --view-address --view-stay" words="" paths=file
+      case $before in
+        --robot | --trace | --svg | --html | --record) options="" words="" paths=file ;;
+        --seed | --node | --drop | --can | --view | --view-address) options="" words="" paths=value ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+      esac
+      ;;
+    "whisker replay")
+      options="-h --help --node --planner --map-bytes --trace --html --json" words="" paths=file
+      case $before in
+        --node) options="" words="" paths=value ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+        --trace | --html) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker socket")
+      options="-h --help --tcp --udp --stdio --address --robot --planner --map-bytes --timeout --json" words="" paths=none
+      case $before in
+        --tcp | --udp | --address | --timeout) options="" words="" paths=value ;;
+        --robot) options="" words="" paths=file ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+      esac
+      ;;
+    "whisker dbc")
+      options="-h --help --robot" words="" paths=none
+      case $before in
+        --robot) options="" words="" paths=value ;;
+      esac
+      ;;
+    "whisker protocol")
+      options="-h --help --link --parameters" words="" paths=none
+      ;;
+  esac
+  [[ $here == -* ]] && words=$options
+  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$here")
+  [[ $here == -* ]] && return
+  case $paths in
+    file) mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -f -- "$here") ;;
+    folder) mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -d -- "$here") ;;
+  esac
+}
+complete -o filenames -F _whisker whisker
