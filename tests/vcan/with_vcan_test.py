@@ -1,8 +1,10 @@
-"""scripts/with-vcan. usage: with_vcan_test.py ROOT Bus|Usage"""
+"""scripts/with-vcan. usage: with_vcan_test.py ROOT Bus|Usage|Alone"""
 
 import pathlib
+import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 SCRIPT = pathlib.Path(sys.argv.pop(1)) / "scripts" / "with-vcan"
@@ -51,8 +53,45 @@ class Usage(unittest.TestCase):
     def test_names_its_options(self):
         status, out, _ = run("--help")
         self.assertEqual(status, 0)
-        for option in ("--count", "--timeout", "--vm", "--tty", "--which"):
+        for option in ("--count", "--timeout", "--vm", "--tty", "--which", "--alone"):
             self.assertIn(option, out)
+
+
+class Alone(unittest.TestCase):
+    """The one file for others. Runs anywhere."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.file = self.folder / "with-vcan"
+        self.assertEqual(run("--alone", self.file), (0, "", ""))
+
+    def run_alone(self, *arguments):
+        return subprocess.run([self.file, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=110, check=False)
+
+    def test_is_the_script_without_the_repository(self):
+        text = self.file.read_text()
+        for word in ("BASH_SOURCE[0]}\")\" && pwd", "alone FILE", "write_alone", "scripts/", "repository"):
+            self.assertNotIn(word, text.split("# The parts of the micro-VM:\n")[0].replace("scripts/with-vcan --alone", ""), word)
+        helped = self.run_alone("--help")
+        self.assertEqual(helped.returncode, 0)
+        self.assertIn("usage: with-vcan ", helped.stdout)
+        self.assertEqual(self.run_alone("--count", "0", "true").returncode, 2)
+        self.assertEqual(self.run_alone("--alone", "x").returncode, 2)
+
+    def test_has_the_parts_of_the_machine(self):
+        unpack = re.search(r"^unpack\(\) \{.*?^\}$", self.file.read_text(), re.MULTILINE | re.DOTALL)[0]
+        script = f"set -e; here={self.folder}/cache/key; {unpack}; unpack; unpack".replace("${BASH_SOURCE[0]}", str(self.file))
+        subprocess.run(["bash", "-c", script], check=True)
+        for path in (SCRIPT.parent / "vm").iterdir():
+            if path.is_file():
+                self.assertEqual((self.folder / "cache/key/vm" / path.name).read_bytes(), path.read_bytes(), path)
+
+    def test_is_the_same_each_time(self):
+        again = self.folder / "again"
+        run("--alone", again)
+        self.assertEqual(again.read_bytes(), self.file.read_bytes())
 
 
 if __name__ == "__main__":
