@@ -1,6 +1,7 @@
 // The controller of a robot as a node of a CAN bus, behind the board's UART: it looks like an SLCAN adapter.
 #include "firmware/apps/can/controller.hpp"
 #include "firmware/apps/planner.hpp"
+#include "firmware/fuzzy/digest.hpp"
 #include "firmware/version.hpp"
 #include "hal/board.hpp"
 #include "hal/ports/slcan/slcan.hpp"
@@ -34,7 +35,7 @@ uint16_t boot_number(const hal::Board& board) noexcept {
 
 int main() {
   const hal::Board& board = hal::board();
-  const can::Identity identity{1, boot_number(board), kVersionNumber};
+  const can::Identity identity{1, boot_number(board), kVersionNumber, fuzzy::digest(fuzzy::kDefaultTable)};
   auto& port = room_for_port.make<hal::slcan::Slcan>(*board.line, hal::slcan::Role::adapter);
   auto& controller = room_for_controller.make<can_app::Controller>(port, identity, planners);
   for (;;) controller.poll(board.clock.now_ms());

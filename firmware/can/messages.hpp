@@ -269,6 +269,7 @@ struct Info {
   static constexpr MessageKind kKind = MessageKind::info;
   static constexpr Signal kMore[] = {
     {"Version", 32, 24, false, 0, kMost24, "1", "", "of the firmware: major, minor, patch, one byte each", 1},
+    {"RulesHash", 32, 32, false, 0, kMost32, "1", "", "of the controller's response table: CRC-32; the base sends none", 2},
   };
   InfoPart part = InfoPart::table_hash;
   uint16_t boot = 0;
@@ -276,7 +277,7 @@ struct Info {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Part", 12, 4, false, 0, 1, "1", "", "one frame each", kMultiplexor, word_in<kInfoPartWords>}, m.part);
+    f({"Part", 12, 4, false, 0, 2, "1", "", "one frame each", kMultiplexor, word_in<kInfoPartWords>}, m.part);
     f({"Boot", 16, 16, false, 0, kMost16, "1", "", "as in Heartbeat"}, m.boot);
     f({"TableHash", 32, 32, false, 0, kMost32, "1", "", "of this table", 0}, m.value);
   }

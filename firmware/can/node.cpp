@@ -185,6 +185,7 @@ void Node::on_heartbeat(const Heartbeat& beat) noexcept {
     stop(Error::peer_restarted);
     lose_peer();
     hash_known_ = false;
+    peer_rules_ = 0;
     reset_peer();
   }
   if (!peer_heard_) announce_ = true;
@@ -198,7 +199,9 @@ void Node::on_heartbeat(const Heartbeat& beat) noexcept {
 }
 
 void Node::on_info(const Info& info) noexcept {
-  if (info.part != InfoPart::table_hash || !peer_known_ || info.boot != peer_.boot) return;
+  if (!peer_known_ || info.boot != peer_.boot) return;
+  if (info.part == InfoPart::rules_hash) peer_rules_ = info.value;
+  if (info.part != InfoPart::table_hash) return;
   hash_known_ = true;
   hash_right_ = info.value == kTableHash;
   match();
@@ -235,7 +238,8 @@ void Node::publish() noexcept {
 
 void Node::publish_info() noexcept {
   announce_ = !(send(Info{InfoPart::table_hash, identity_.boot, kTableHash}) &&
-                send(Info{InfoPart::version, identity_.boot, identity_.version}));
+                send(Info{InfoPart::version, identity_.boot, identity_.version}) &&
+                (identity_.rules == 0 || send(Info{InfoPart::rules_hash, identity_.boot, identity_.rules})));
 }
 
 void Node::publish_fault() noexcept {

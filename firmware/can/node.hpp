@@ -40,9 +40,10 @@ struct BusHealth {
 };
 
 struct Identity {
-  uint8_t robot;     ///< 1..kRobots
-  uint16_t boot;     ///< a new number at every start
-  uint32_t version;  ///< of the firmware: major << 16 | minor << 8 | patch
+  uint8_t robot;       ///< 1..kRobots
+  uint16_t boot;       ///< a new number at every start
+  uint32_t version;    ///< of the firmware: major << 16 | minor << 8 | patch
+  uint32_t rules = 0;  ///< fuzzy::digest() of the response table; 0: has none
 };
 
 /// Result of a node for a valid frame in sequence.
@@ -67,6 +68,10 @@ class Node {
   const Heartbeat& peer() const noexcept { return peer_; }  ///< its last heartbeat
   bool peer_heard() const noexcept { return peer_heard_; }
   uint32_t peer_restarts() const noexcept { return peer_restarts_; }
+  /// Identity::rules of the other node; 0: unknown.
+  uint32_t peer_rules() const noexcept { return peer_rules_; }
+  /// Asks the other node for its Info, also for what a lost frame contained.
+  void ask_for_info() noexcept { send(InfoRequest{}); }
   bool lockstep() const noexcept { return sync_mode_ == SyncMode::lockstep; }
   uint32_t now_ms() const noexcept { return now_; }
 
@@ -154,6 +159,7 @@ class Node {
   Heartbeat peer_;
   uint32_t peer_seen_ = 0;
   uint32_t peer_restarts_ = 0;
+  uint32_t peer_rules_ = 0;
   bool peer_known_ = false;
   bool peer_heard_ = false;
   bool hash_known_ = false;

@@ -80,8 +80,8 @@ enum class NodeState : uint8_t {
 inline constexpr const char* kNodeStateWords[] = {"off_bus", "waiting",   "ready",
                                                   "running", "safe_stop", "e_stopped"};
 
-enum class InfoPart : uint8_t { table_hash, version };
-inline constexpr const char* kInfoPartWords[] = {"table_hash", "version"};
+enum class InfoPart : uint8_t { table_hash, version, rules_hash };
+inline constexpr const char* kInfoPartWords[] = {"table_hash", "version", "rules_hash"};
 
 /// Bits of Errors in Heartbeat. The first group latches a safe stop.
 struct Error {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "firmware/can/node.hpp"
@@ -15,6 +16,8 @@ struct BusChoice {
   std::string record;
   double drop_percent = 0;  ///< of the frames in each direction
   bool real_time = false;
+
+  std::optional<std::uint32_t> rules;  ///< digest that the controller must name; none: any
 
   /// With a new boot number.
   can::Identity identity() const;

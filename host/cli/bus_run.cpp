@@ -55,6 +55,7 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   hil::WallClock clock([&line] { return line.descriptor(); });
   hil::BusOptions how;
   how.identity = bus.identity();
+  how.rules = bus.rules;
   how.sync_mode = bus.real_time ? can::SyncMode::real_time : can::SyncMode::lockstep;
   how.say = [view, speak = speaker("plant", bus)](const std::string& words) {
     if (!words.empty()) speak(words);
@@ -83,6 +84,8 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
     } catch (const hil::ControllerRestarted&) {
       how.say("the controller started anew, so the run begins again");
       figures = {};
+    } catch (const hil::OtherRules& e) {
+      throw UsageError(e.what());
     } catch (const hil::Interrupted&) {
       break;
     }

@@ -39,7 +39,7 @@ Provenance provenance(const CampaignOptions& o, const Missions* chosen) {
   Provenance p;
   if (chosen == nullptr) return p;
   p.planner = name(chosen->planner);
-  p.rules_digest = rules_digest(chosen->planner);
+  p.rules_digest = rules_name(chosen->planner);
   if (const auto* generated = std::get_if<campaign::Generated>(&chosen->worlds)) {
     p.seed = generated->first_seed;
     if (generated->random_robots) {

@@ -78,7 +78,9 @@ int execute(const HilOptions& o) {
   lines.second.reset();
   RunOptions options = o.scenario.run_options();
   options.planner = o.planner;
-  return drive_on_bus(scenario, options, o.scenario.run_outputs(scenario), o.bus, *lines.first, view.get());
+  BusChoice base = o.bus;
+  if (!is_baseline(o.planner)) base.rules = rules_digest(o.planner);
+  return drive_on_bus(scenario, options, o.scenario.run_outputs(scenario), base, *lines.first, view.get());
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ int execute(const LayoutOptions& o) {
     Provenance p;
     p.seed = o.seed;
     p.planner = name(o.planner);
-    p.rules_digest = rules_digest(o.planner);
+    p.rules_digest = rules_name(o.planner);
     p.robot_name = o.robot.empty() ? "reference" : o.robot;
     p.robot_digest = robot_digest(trade.ranked.front().layout.robot);
     fmt::print("{}\n", with_provenance(layout_json(trade), p));

@@ -47,7 +47,7 @@ Provenance provenance(const Scenario& scenario, const RunOptions& options, const
   p.seed = options.seed.value_or(scenario.seed);
   if (outputs.knows_planner) {
     p.planner = name(options.planner);
-    p.rules_digest = rules_digest(options.planner);
+    p.rules_digest = rules_name(options.planner);
   }
   p.robot_name = outputs.robot_name;
   p.robot_digest = robot_digest(scenario.robot);

@@ -114,7 +114,9 @@ CLI::Option* add_planner_kind(CLI::App& app, PlannerKind& kind) {
 
 CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
   CLI::Option* const option = add_planner_kind(app, kind);
-  add_rules_choice(app, kind);
+  add_rules_choice(app, kind,
+                   "Response table from a rule base (.fis, .fll, .fcl, .toml) with\n"
+                   "inputs D and R, outputs SA and SD");
   return option;
 }
 

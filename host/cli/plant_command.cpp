@@ -9,6 +9,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/cli/scenario_options.hpp"
 
 namespace whisker::cli {
@@ -18,6 +19,8 @@ struct PlantOptions {
   ScenarioChoice scenario;
   BusChoice bus;
   ViewChoice view;
+  PlannerKind wanted;
+  const CLI::Option* rules = nullptr;
 };
 
 int execute(const PlantOptions& o) {
@@ -26,7 +29,9 @@ int execute(const PlantOptions& o) {
   const auto line = hil::open_line(o.bus.name);
   RunOutputs outputs = o.scenario.run_outputs(scenario);
   outputs.knows_planner = false;
-  return drive_on_bus(scenario, o.scenario.run_options(), outputs, o.bus, *line, view.get());
+  BusChoice bus = o.bus;
+  if (o.rules->count() > 0) bus.rules = rules_digest(o.wanted);
+  return drive_on_bus(scenario, o.scenario.run_options(), outputs, bus, *line, view.get());
 }
 
 }  // namespace
@@ -37,6 +42,8 @@ void add_plant(CLI::App& app, int& status) {
   add_scenario(*cmd, o->scenario);
   add_bus(*cmd, o->bus)->required();
   add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
+  o->rules = add_rules_choice(*cmd, o->wanted,
+                              "Refuse a controller with another response table than this rule base");
   add_view(*cmd, o->view);
   cmd->callback([o, &status] { status = execute(*o); });
 }

@@ -100,7 +100,7 @@ int execute(const ReplayOptions& o) {
   if (!o.trace.empty() || !o.html.empty()) show.watch(replay);
   Provenance provenance;
   provenance.planner = name(o.replay.planner);
-  provenance.rules_digest = rules_digest(o.replay.planner);
+  provenance.rules_digest = rules_name(o.replay.planner);
   provenance.robot_name = o.log;
   replay.begins = [&provenance, also = replay.begins](const can::Mission& mission, const Params& params) {
     provenance.robot_digest = robot_digest(params);

@@ -68,7 +68,7 @@ void print_json(const RobotOptions& o, const Params* params, const Json& violati
                      {"drives", drives_json(drives)}};
   Provenance provenance;
   provenance.planner = name(o.planner);
-  provenance.rules_digest = rules_digest(o.planner);
+  provenance.rules_digest = rules_name(o.planner);
   provenance.robot_name = o.file;
   if (params != nullptr) provenance.robot_digest = robot_digest(*params);
   fmt::print("{}\n", with_provenance(json.dump(-1, ' ', false, Json::error_handler_t::replace), provenance));

@@ -34,13 +34,6 @@ const Table* load(const std::string& file, const std::vector<std::string>& chang
   }
 }
 
-template <class Table>
-std::optional<std::string> digest(const Table& table) {
-  if constexpr (std::is_same_v<Table, fuzzy::Bilinear::Table>)
-    return fmt::format("{:08x}", rules::digest(table));
-  return std::nullopt;
-}
-
 }  // namespace
 
 const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
@@ -53,15 +46,13 @@ void add_map_names(CLI::App& app, std::vector<std::string>& names, const std::st
   app.add_option("--map", names, help)->take_all()->allow_extra_args(false)->type_name("D=NAME");
 }
 
-void add_rules_choice(CLI::App& app, PlannerKind& kind) {
+CLI::Option* add_rules_choice(CLI::App& app, PlannerKind& kind, const std::string& help) {
   struct RulesChoice {
     std::string file;
     std::vector<std::string> names;
   };
   const auto choice = std::make_shared<RulesChoice>();
-  add_file(
-      app, "--rules", choice->file,
-      "Response table from a rule base (.fis, .fll, .fcl, .toml) with\ninputs D and R, outputs SA and SD");
+  CLI::Option* const rules = add_file(app, "--rules", choice->file, help);
   add_map_names(app, choice->names, "With --rules: the file's name of D, R, SA or SD; may be repeated");
   app.parse_complete_callback([choice, &kind] {
     if (choice->file.empty()) {
@@ -69,13 +60,14 @@ void add_rules_choice(CLI::App& app, PlannerKind& kind) {
       return;
     }
     if (is_baseline(kind)) throw UsageError(fmt::format("--rules: planner {} has no table", name(kind)));
-    kind.table = load<fuzzy::Engine::Table>(choice->file, choice->names);
+    kind.table = response_table(choice->file, choice->names);
   });
+  return rules;
 }
 
-std::optional<std::string> rules_digest(PlannerKind kind) {
+std::optional<std::string> rules_name(PlannerKind kind) {
   if (is_baseline(kind)) return std::nullopt;
-  return digest(*kind.table);
+  return fmt::format("{:08x}", rules_digest(kind));
 }
 
 report::FuzzyPicture controller_picture(PlannerKind kind) { return controller_picture(*kind.table); }

@@ -19,12 +19,12 @@ const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
 /// --map CORE=NAME.
 void add_map_names(CLI::App& app, std::vector<std::string>& names, const std::string& help);
 
-/// --rules FILE and --map CORE=NAME. After parsing, `kind` has the table of the file, which lives as long as
-/// the program. Throws UsageError or InputError if the file is no such table or the planner has none.
-void add_rules_choice(CLI::App& app, PlannerKind& kind);
+/// --rules FILE and --map CORE=NAME. After parsing, `kind` has the table. Throws UsageError or InputError if
+/// the file is no such table or the planner has none. Returns --rules.
+CLI::Option* add_rules_choice(CLI::App& app, PlannerKind& kind, const std::string& help);
 
 /// Eight hex digits that name the response table; none: the planner has no table.
-std::optional<std::string> rules_digest(PlannerKind kind);
+std::optional<std::string> rules_name(PlannerKind kind);
 
 /// The planner's response table, for pictures.
 report::FuzzyPicture controller_picture(PlannerKind kind);

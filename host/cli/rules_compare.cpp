@@ -92,7 +92,7 @@ Json json_of(const CompareOptions& o, const campaign::Comparison& c, const Plann
   const auto side = [](const std::string& file, PlannerKind kind, const campaign::Estimate& success,
                        std::uint64_t contacts, std::uint64_t alone) {
     return Json{{"rules", file},
-                {"rules_digest", rules_digest(kind).value_or("")},
+                {"rules_digest", rules_name(kind).value_or("")},
                 {"success", json_of(success)},
                 {"contacts", contacts},
                 {"succeeds_alone", alone}};

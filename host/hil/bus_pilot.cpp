@@ -14,6 +14,7 @@
 namespace whisker::hil {
 namespace {
 
+constexpr std::uint64_t kAskAgain_us = 200000;
 constexpr std::uint8_t kCommitIndex = 255;  // distinguishes the reply from that to a write
 
 std::int16_t ramp_of(const Params& p) {
@@ -201,12 +202,31 @@ class BusPilot final : public Pilot {
 
   void begin() {
     while (!node_.matched()) watchful_nap();
+    if (options_.rules) check_rules(*options_.rules);
     hand_over_params();
     give(can::Order::start);
     restarts_ = node_.peer_restarts();
     begun_ = true;
     begun_us_ = clock_.now_us();
     due_us_ = whole_ms(begun_us_);
+  }
+
+  void check_rules(std::uint32_t wanted) {
+    ask_for("Info with its rules");
+    std::uint64_t again_us = asked_us_;
+    while (node_.peer_rules() == 0) {
+      if (clock_.now_us() >= again_us) {
+        node_.ask_for_info();
+        again_us = clock_.now_us() + kAskAgain_us;
+      }
+      watchful_nap();
+      watch_patience();
+    }
+    if (node_.peer_rules() == wanted) return;
+    throw OtherRules(
+        fmt::format("the controller drives with the response table {:08x}, not {:08x}; start it with "
+                    "the same --rules",
+                    node_.peer_rules(), wanted));
   }
 
   void give(can::Order order) {

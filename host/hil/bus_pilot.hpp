@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -22,6 +23,11 @@ class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The controller drives with another response table than BusOptions::rules.
+class OtherRules : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The waiting caller was requested to stop.
 class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -29,6 +35,7 @@ class Interrupted : public std::runtime_error {
 
 struct BusOptions {
   can::Identity identity{1, 1, 0};
+  std::optional<std::uint32_t> rules;  ///< the controller must drive with the response table of this digest
   can::SyncMode sync_mode = can::SyncMode::lockstep;
   std::uint32_t resend_ms = 20;       ///< lockstep: the shortest wait before a set is repeated, see Resend
   std::uint32_t patience_ms = 30000;  ///< for the answer to one request while the handshake holds
@@ -39,7 +46,7 @@ struct BusOptions {
 
 /// The base: the controller at the other end of a bus drives the simulated robot. Port, clock and figures
 /// must outlive it. The first tick waits for a controller without limit, sends the parameters of the robot
-/// and starts the mission. Ticks throw ControllerRestarted, NoAnswer and Interrupted.
+/// and starts the mission. Ticks throw ControllerRestarted, NoAnswer, OtherRules and Interrupted.
 MakePilot bus_pilot(hal::CanPort& port, Clock& clock, const BusOptions& options, Figures& figures);
 
 }  // namespace whisker::hil

@@ -29,7 +29,9 @@ std::string words_for(const can::Node& node, const Line& line) {
 
 void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
   HostPlanners planners(options.planner);
-  const auto controller = std::make_unique<can_app::Controller>(port, options.identity, planners);
+  can::Identity identity = options.identity;
+  identity.rules = rules_digest(options.planner);
+  const auto controller = std::make_unique<can_app::Controller>(port, identity, planners);
   WallClock clock([&line] { return line.descriptor(); });
   std::string said;
   while (!options.interrupted()) {

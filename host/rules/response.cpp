@@ -1,7 +1,5 @@
 #include "host/rules/response.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -149,19 +147,6 @@ Response response(const RuleBase& base, const ResponseNames& names) {
   measure(surface, result);
   result.symmetric = mirrored(result.table);
   return result;
-}
-
-std::uint32_t digest(const Bilinear::Table& table) {
-  std::vector<unsigned char> bytes;
-  for (const auto& row : table.node) {
-    for (const Bilinear::Node& node : row) {
-      for (const std::int16_t value : {node.turn, node.step}) {
-        bytes.push_back(static_cast<unsigned char>(value & 0xFF));
-        bytes.push_back(static_cast<unsigned char>((value >> 8) & 0xFF));
-      }
-    }
-  }
-  return static_cast<std::uint32_t>(crc32(0, bytes.data(), static_cast<uInt>(bytes.size())));
 }
 
 }  // namespace whisker::rules

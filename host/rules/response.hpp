@@ -1,7 +1,6 @@
 /// A rule base as the response table of the core.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -33,8 +32,5 @@ struct Response {
 /// Samples the exact answers at the core's nodes. Other inputs than these two must not exist, the ranges of
 /// the two must cover the core's, and answers must lie in [-2, 2). Throws InputError if not.
 Response response(const RuleBase& base, const ResponseNames& names);
-
-/// CRC-32 over the turn and step of each node, D before R, little-endian: names a table.
-std::uint32_t digest(const fuzzy::Bilinear::Table& table);
 
 }  // namespace whisker::rules

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "firmware/fuzzy/digest.hpp"
 #include "host/baselines/bug2.hpp"
 #include "host/baselines/bug_planner.hpp"
 #include "host/baselines/deflection_laws.hpp"
@@ -80,6 +81,7 @@ std::vector<PlannerKind> planners() {
 
 bool is_baseline(PlannerKind kind) { return entry(kind).make != nullptr; }
 const std::string& name(PlannerKind kind) { return entry(kind).name; }
+std::uint32_t rules_digest(PlannerKind kind) { return is_baseline(kind) ? 0 : fuzzy::digest(*kind.table); }
 std::string_view alias(PlannerKind kind) { return entry(kind).alias; }
 
 std::optional<PlannerKind> planner_named(std::string_view text) {

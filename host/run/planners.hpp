@@ -60,6 +60,8 @@ std::vector<PlannerKind> planners();
 bool is_baseline(PlannerKind kind);
 /// As on the command line: "skirt", "map", and "map-1024" for another size of map.
 const std::string& name(PlannerKind kind);
+/// fuzzy::digest() of its response table; 0: it has none.
+std::uint32_t rules_digest(PlannerKind kind);
 /// Another accepted name; empty: none.
 std::string_view alias(PlannerKind kind);
 /// Finds a planner by its name or its alias.

@@ -198,6 +198,7 @@ std::vector<hal::CanFrame> golden_frames() {
       encode(beat, 9, 1),
       encode(Info{InfoPart::table_hash, 0xABCD, 0x12345678}, 1, 2),
       encode(Info{InfoPart::version, 0xABCD, 0x010203}, 9, 3),
+      encode(Info{InfoPart::rules_hash, 0xABCD, 0xB02921C5}, 1, 4),
       encode(Diagnostics{2, {1, 65535, 3}}, 9, 4),
   };
 }

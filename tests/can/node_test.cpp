@@ -132,6 +132,25 @@ TEST_F(BaseAlone, AnotherProtocolOrTableNeverMatches) {
   EXPECT_EQ(base_.state(), NodeState::ready);
 }
 
+TEST_F(BaseAlone, LearnsTheRulesOfThisLifeOfItsPeer) {
+  shake_hands();
+  pass(5);
+  EXPECT_EQ(base_.peer_rules(), 0U);
+  peer_.say(Info{InfoPart::rules_hash, kPeerBoot - 1, 0xDEAD});
+  pass(5);
+  EXPECT_EQ(base_.peer_rules(), 0U);
+  peer_.say(Info{InfoPart::rules_hash, kPeerBoot, 0xB02921C5});
+  pass(5);
+  EXPECT_EQ(base_.peer_rules(), 0xB02921C5U);
+  EXPECT_EQ(base_.state(), NodeState::ready);
+  beats_ = false;
+  Heartbeat again;
+  again.boot = kPeerBoot + 1;
+  peer_.say(again);
+  pass(5);
+  EXPECT_EQ(base_.peer_rules(), 0U);
+}
+
 TEST_F(BaseAlone, InfoOfAnEarlierLifeDoesNotCount) {
   beats_ = false;
   Heartbeat beat;

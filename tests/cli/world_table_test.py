@@ -19,7 +19,7 @@ OPTIONS = {
         "--robot", "--robots", "--jobs", "--shard", "--csv", "--save-failures", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
     ),
     ("plant",): (
-        "SCENARIO", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
+        "SCENARIO", "--rules", "--map", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
     ),
     ("controller",): ("--can", "--node", "--planner", "--map-bytes", "--rules", "--map", "--record", "--drop"),
     ("hil",): (

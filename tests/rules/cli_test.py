@@ -13,6 +13,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 import whisker  # noqa: E402
+from slcan_bridge import Bridge  # noqa: E402
 from whisker import Case  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -65,6 +66,27 @@ class Drives(Case):
         bus = json.loads(whisker.whisker("hil", self.world, "--json", *options).stdout)
         self.assertEqual(bus["hash"], other["hash"])
         self.assertEqual(bus["rules_digest"], other["rules_digest"])
+
+    def test_a_plant_refuses_a_controller_with_other_rules(self):
+        straight = ROOT / "host/rules/laws/straight.toml"
+        own = self.run_json("--planner", "skirt", "--rules", straight)
+        for wanted, status in ((straight, 0), ("default", 2)):
+            with self.subTest(str(wanted)):
+                ends = [self.folder / f"{status}-{end}" for end in ("controller", "plant")]
+                bridge = Bridge(*ends)
+                self.addCleanup(bridge.close)
+                command = [whisker.binary, "controller", "--can", f"slcan:{ends[0]}", "--planner", "skirt", "--rules", straight]
+                with subprocess.Popen(command, stderr=subprocess.DEVNULL) as controller:
+                    self.addCleanup(controller.kill)
+                    done = whisker.whisker("plant", self.world, "--can", f"slcan:{ends[1]}", "--rules", wanted, "--json")
+                    controller.terminate()
+                self.assertEqual(done.returncode, status, done.stderr)
+                if status == 0:
+                    self.assertEqual(json.loads(done.stdout)["hash"], own["hash"])
+                else:
+                    self.assertEqual(done.stdout, "")
+                    said = f"the controller drives with the response table {own['rules_digest']}, not "
+                    self.assertIn(said, done.stderr.splitlines()[-1])
 
     def test_compare_drives_both_in_the_same_worlds(self):
         straight = ROOT / "host/rules/laws/straight.toml"

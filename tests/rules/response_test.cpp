@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/fuzzy/digest.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "host/rules/compile.hpp"
 #include "host/rules/read.hpp"
@@ -45,7 +46,7 @@ std::string error_of(const std::string& text, const ResponseNames& names = {}) {
 TEST(Response, TheThesisGivesTheCommittedTableByteForByte) {
   const Response r = of(thesis_text());
   EXPECT_EQ(std::memcmp(&r.table, &fuzzy::kResponseTable, sizeof r.table), 0);
-  EXPECT_EQ(digest(r.table), digest(fuzzy::kResponseTable));
+  EXPECT_EQ(fuzzy::digest(r.table), fuzzy::digest(fuzzy::kResponseTable));
   EXPECT_TRUE(r.symmetric);
 }
 
@@ -62,7 +63,7 @@ TEST(Response, OneChangedRuleBreaksSymmetryAndChangesTheDigest) {
   const Response r = of(with(thesis_text(), R"(["TLVB", "TLVB", "Z", "TRVB", "TRVB"])",
                              R"(["TLVB", "TLVB", "TLB", "TRVB", "TRVB"])"));
   EXPECT_FALSE(r.symmetric);
-  EXPECT_NE(digest(r.table), digest(fuzzy::kResponseTable));
+  EXPECT_NE(fuzzy::digest(r.table), fuzzy::digest(fuzzy::kResponseTable));
 }
 
 TEST(Response, OtherNamesGiveTheSameTable) {
@@ -70,7 +71,7 @@ TEST(Response, OtherNamesGiveTheSameTable) {
       with(with(thesis_text(), "name = \"D\"", "name = \"front\""), "name = \"SA\"", "name = \"steer\"");
   EXPECT_EQ(error_of(text), "law.toml:1:1: no input 'D' to drive with; the file has front, R");
   const ResponseNames names = response_names({"D=front", "SA=steer"});
-  EXPECT_EQ(digest(of(text, names).table), digest(fuzzy::kResponseTable));
+  EXPECT_EQ(fuzzy::digest(of(text, names).table), fuzzy::digest(fuzzy::kResponseTable));
 }
 
 TEST(Response, OutputsAreFoundInAnyOrder) {
