@@ -4,7 +4,7 @@ _whisker() {
   local path=whisker word here=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options="" words="" paths=none
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case "$path $word" in
-      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
+      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules compare" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
     esac
   done
   case $path in
@@ -12,10 +12,10 @@ _whisker() {
       options="-h --help --version" words="run world robot campaign scanner movers table rules figures plant controller hil replay socket dbc protocol" paths=none
       ;;
     "whisker run")
-      options="-h --help --robot --seed --trace --svg --html --json --planner --map-bytes --chip" words="" paths=file
+      options="-h --help --robot --seed --trace --svg --html --json --planner --map-bytes --rules --map --chip" words="" paths=file
       case $before in
-        --robot | --trace | --svg | --html) options="" words="" paths=file ;;
-        --seed | --chip) options="" words="" paths=value ;;
+        --robot | --trace | --svg | --html | --rules) options="" words="" paths=file ;;
+        --seed | --map | --chip) options="" words="" paths=value ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
       esac
@@ -31,18 +31,19 @@ _whisker() {
       options="-h --help" words="check layout calibrate" paths=none
       ;;
     "whisker robot check")
-      options="-h --help --header --planner --map-bytes --json" words="" paths=file
+      options="-h --help --header --planner --map-bytes --rules --map --json" words="" paths=file
       case $before in
-        --header) options="" words="" paths=file ;;
+        --header | --rules) options="" words="" paths=file ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+        --map) options="" words="" paths=value ;;
       esac
       ;;
     "whisker robot layout")
-      options="-h --help --sensor --body --clear --robot --angles --count --seed --planner --map-bytes --jobs --svg --json --out" words="" paths=none
+      options="-h --help --sensor --body --clear --robot --angles --count --seed --planner --map-bytes --rules --map --jobs --svg --json --out" words="" paths=none
       case $before in
-        --sensor | --body | --clear | --angles | --count | --seed | --jobs) options="" words="" paths=value ;;
-        --robot | --svg | --out) options="" words="" paths=file ;;
+        --sensor | --body | --clear | --angles | --count | --seed | --map | --jobs) options="" words="" paths=value ;;
+        --robot | --rules | --svg | --out) options="" words="" paths=file ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
       esac
@@ -55,12 +56,12 @@ _whisker() {
       esac
       ;;
     "whisker campaign")
-      options="-h --help --count --seed --discs --width --box --noise --wheel-scale-sigma --planner --map-bytes --robot --robots --jobs --shard --csv --save-failures --json --merge --replay --svg --trace --html" words="" paths=folder
+      options="-h --help --count --seed --discs --width --box --noise --wheel-scale-sigma --planner --map-bytes --rules --map --robot --robots --jobs --shard --csv --save-failures --json --merge --replay --svg --trace --html" words="" paths=folder
       case $before in
-        --count | --seed | --discs | --width | --wheel-scale-sigma | --jobs | --shard | --replay) options="" words="" paths=value ;;
+        --count | --seed | --discs | --width | --wheel-scale-sigma | --map | --jobs | --shard | --replay) options="" words="" paths=value ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
-        --robot | --csv | --merge | --svg | --trace | --html) options="" words="" paths=file ;;
+        --rules | --robot | --csv | --merge | --svg | --trace | --html) options="" words="" paths=file ;;
         --robots) options="" words="random" paths=value ;;
         --save-failures) options="" words="" paths=folder ;;
       esac
@@ -72,11 +73,12 @@ _whisker() {
       esac
       ;;
     "whisker movers")
-      options="-h --help --count --seed --planner --map-bytes --contacts" words="" paths=none
+      options="-h --help --count --seed --planner --map-bytes --rules --map --contacts" words="" paths=none
       case $before in
-        --count | --seed) options="" words="" paths=value ;;
+        --count | --seed | --map) options="" words="" paths=value ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+        --rules) options="" words="" paths=file ;;
         --contacts) options="" words="" paths=folder ;;
       esac
       ;;
@@ -87,7 +89,7 @@ _whisker() {
       esac
       ;;
     "whisker rules")
-      options="-h --help" words="compile show" paths=none
+      options="-h --help" words="compile show compare" paths=none
       ;;
     "whisker rules compile")
       options="-h --help --tolerance --max-bytes --nodes --fix --steps --header --svg --json" words="" paths=file
@@ -103,6 +105,16 @@ _whisker() {
         --svg) options="" words="" paths=file ;;
       esac
       ;;
+    "whisker rules compare")
+      options="-h --help --map --worlds --count --seed --discs --width --box --noise --planner --map-bytes --robot --jobs --json" words="" paths=file
+      case $before in
+        --map | --count | --seed | --discs | --width | --jobs) options="" words="" paths=value ;;
+        --worlds) options="" words="" paths=folder ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+        --robot) options="" words="" paths=file ;;
+      esac
+      ;;
     "whisker figures")
       options="-h --help --scenarios" words="" paths=folder
       case $before in
@@ -110,44 +122,44 @@ _whisker() {
       esac
       ;;
     "whisker plant")
-      options="-h --help --robot --seed --trace --svg --html --json --node --record --drop --can --realtime --view --view-address --view-stay" words="" paths=file
+      options="-h --help --robot --seed --trace --svg --html --json --node --record --drop --can --realtime --rules --map --view --view-address --view-stay" words="" paths=file
       case $before in
-        --robot | --trace | --svg | --html | --record) options="" words="" paths=file ;;
-        --seed | --node | --drop | --can | --view | --view-address) options="" words="" paths=value ;;
+        --robot | --trace | --svg | --html | --record | --rules) options="" words="" paths=file ;;
+        --seed | --node | --drop | --can | --map | --view | --view-address) options="" words="" paths=value ;;
       esac
       ;;
     "whisker controller")
-      options="-h --help --node --record --drop --can --planner --map-bytes --realtime" words="" paths=none
+      options="-h --help --node --record --drop --can --planner --map-bytes --rules --map --realtime" words="" paths=none
       case $before in
-        --node | --drop | --can) options="" words="" paths=value ;;
-        --record) options="" words="" paths=file ;;
+        --node | --drop | --can | --map) options="" words="" paths=value ;;
+        --record | --rules) options="" words="" paths=file ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
       esac
       ;;
     "whisker hil")
-      options="-h --help --robot --seed --trace --svg --html --json --node --record --drop --can --planner --map-bytes --realtime --view --view-address --view-stay" words="" paths=file
+      options="-h --help --robot --seed --trace --svg --html --json --node --record --drop --can --planner --map-bytes --rules --map --realtime --view --view-address --view-stay" words="" paths=file
       case $before in
-        --robot | --trace | --svg | --html | --record) options="" words="" paths=file ;;
-        --seed | --node | --drop | --can | --view | --view-address) options="" words="" paths=value ;;
+        --robot | --trace | --svg | --html | --record | --rules) options="" words="" paths=file ;;
+        --seed | --node | --drop | --can | --map | --view | --view-address) options="" words="" paths=value ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
       esac
       ;;
     "whisker replay")
-      options="-h --help --node --planner --map-bytes --trace --html --json" words="" paths=file
+      options="-h --help --node --planner --map-bytes --rules --map --trace --html --json" words="" paths=file
       case $before in
-        --node) options="" words="" paths=value ;;
+        --node | --map) options="" words="" paths=value ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
-        --trace | --html) options="" words="" paths=file ;;
+        --rules | --trace | --html) options="" words="" paths=file ;;
       esac
       ;;
     "whisker socket")
-      options="-h --help --tcp --udp --stdio --address --robot --planner --map-bytes --timeout --json" words="" paths=none
+      options="-h --help --tcp --udp --stdio --address --robot --planner --map-bytes --rules --map --timeout --json" words="" paths=none
       case $before in
-        --tcp | --udp | --address | --timeout) options="" words="" paths=value ;;
-        --robot) options="" words="" paths=file ;;
+        --tcp | --udp | --address | --map | --timeout) options="" words="" paths=value ;;
+        --robot | --rules) options="" words="" paths=file ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
       esac
