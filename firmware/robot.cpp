@@ -47,7 +47,7 @@ bool Robot::place(const Pose& pose) noexcept {
   } else {
     localizer_.put_down(pose);
     perception_.forget(pose);
-    guard_.reset();
+    limiter_.reset();
     reflex_.reset();
   }
   if (has_goal_) aim_again();
@@ -92,7 +92,7 @@ void Robot::reset() noexcept {
   // The next counts may include the whole braking path.
   since_counts_ += safety::braking_time(params_);
   perception_.forget(localizer_.inside());
-  guard_.reset();
+  limiter_.reset();
   reflex_.reset();
   motion_.begin(planning::stop(), localizer_.inside());
   cancel();
@@ -125,7 +125,7 @@ bool Robot::localize(Time now, planning::View& view) noexcept {
   view.cut = motion_.cut();
   view.forward = (rolling.left + rolling.right) / 2;
   view.turning = (rolling.right - rolling.left) / 2;
-  view.granted = guard_.granted();
+  view.granted = limiter_.granted();
   return counted;
 }
 
@@ -255,13 +255,13 @@ bool Robot::rests_for_gyro() noexcept {
 }
 
 WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
-  if (reflex_.stops()) return guard_.stop();
+  if (reflex_.stops()) return limiter_.stop();
   planning::VelocityRequest request{};
   if (!stands && reflex_.backs()) {
     request = reflex_.request(view.pose, params_);
-    if (reflex_.retraces()) return guard_.retrace(request, wheels_.state(), elapsed_, params_);
+    if (reflex_.retraces()) return limiter_.retrace(request, wheels_.state(), elapsed_, params_);
   } else if (!stands) {
-    request = motion_.request(view.pose, elapsed_, guard_.held_for(), params_);
+    request = motion_.request(view.pose, elapsed_, limiter_.held_for(), params_);
   }
   const bool slows = perception_.slows();
   if (slows || perception_.doubts()) {
@@ -270,7 +270,7 @@ WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
     const Speed straight = slows ? min(warned, params_.wheels.max_speed / 2) : warned;
     request.forward = limit(request.forward, safety::warned_speed(straight, request.turning));
   }
-  return guard_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
+  return limiter_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
 }
 
 WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {

@@ -11,7 +11,7 @@
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/planning/planner.hpp"
 #include "firmware/safety/bump_reflex.hpp"
-#include "firmware/safety/guard.hpp"
+#include "firmware/safety/speed_limiter.hpp"
 #include "firmware/safety/supervisor.hpp"
 #include "hal/bumper.hpp"
 #include "hal/drive.hpp"
@@ -136,7 +136,7 @@ class Robot {
   Status status_;
   localization::Localizer localizer_;
   control::WheelDrive wheels_;
-  safety::Guard guard_;
+  safety::SpeedLimiter limiter_;
   safety::BumpReflex reflex_;
   planning::MotionController motion_;
   safety::Supervisor supervisor_;

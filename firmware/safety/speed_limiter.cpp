@@ -1,4 +1,4 @@
-#include "firmware/safety/guard.hpp"
+#include "firmware/safety/speed_limiter.hpp"
 
 namespace whisker::safety {
 namespace {
@@ -50,8 +50,9 @@ bool free(const WheelPair& command, const Pose& pose, const WheelState& wheels,
 
 }  // namespace
 
-WheelPair Guard::step(const planning::VelocityRequest& request, const Pose& pose, const WheelState& wheels,
-                      const perception::LocalGrid& grid, Duration elapsed, const Params& params) noexcept {
+WheelPair SpeedLimiter::step(const planning::VelocityRequest& request, const Pose& pose,
+                             const WheelState& wheels, const perception::LocalGrid& grid, Duration elapsed,
+                             const Params& params) noexcept {
   constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2), Q14::ratio(3, 10),
                               Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
   const Speed change = params.wheels.max_acceleration * elapsed;
@@ -84,8 +85,8 @@ WheelPair Guard::step(const planning::VelocityRequest& request, const Pose& pose
   return command;
 }
 
-WheelPair Guard::retrace(const planning::VelocityRequest& request, const WheelState& wheels, Duration elapsed,
-                         const Params& params) noexcept {
+WheelPair SpeedLimiter::retrace(const planning::VelocityRequest& request, const WheelState& wheels,
+                                Duration elapsed, const Params& params) noexcept {
   reset();
   const WheelPair want = inverse_kinematics(request.forward, request.turning, params.wheels.max_speed);
   return slew(wheels.commanded, want, params.wheels.max_acceleration * elapsed);

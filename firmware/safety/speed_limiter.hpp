@@ -10,18 +10,18 @@
 
 namespace whisker::safety {
 
-/// The last stage before the wheels; it alone decides their speeds.
+/// The core of the guard, the last stage before the wheels: it alone decides their speeds.
 ///
-/// The guard tries fractions of the requested forward speed together with the rim speed of turning. It grants
+/// It tries fractions of the requested forward speed together with the rim speed of turning. It grants
 /// the largest one whose braking arc, after the longest gap before the next tick, brings the disc of
 /// Reach::guard no nearer to a cell that is not clear. If there is none, both wheels brake in proportion
 /// along the arc that was found free one tick before.
 ///
 /// With BumperParams::creep_speed, it then tries that forward speed, if it is less than the requested one,
 /// over ground that is not clear but holds no suspect cell.
-class Guard {
+class SpeedLimiter {
  public:
-  void reset() noexcept { *this = Guard{}; }
+  void reset() noexcept { *this = SpeedLimiter{}; }
 
   /// Call once per tick. Returns the wheel speeds to command, exactly as checked, within the acceleration
   /// limit over `elapsed`, the time since the last tick.

@@ -1,5 +1,5 @@
-// For any commands of a planner, the guard prevents contact with static obstacles, and in open ground it does
-// not interfere.
+// For any commands of a planner, the speed limiter prevents contact with static obstacles, and in open ground
+// it does not interfere.
 #include <gtest/gtest.h>
 
 #include <rapidcheck/gtest.h>
@@ -71,21 +71,21 @@ TEST_P(GuardAgainst, AnAdversaryThatAsksForEveryManoeuvre) {
 
 INSTANTIATE_TEST_SUITE_P(Part, GuardAgainst, testing::Combine(testing::Range(0, kParts), testing::Bool()));
 
-TEST(Guard, TouchesNothingWithoutAMarginEither) {
+TEST(SpeedLimiter, TouchesNothingWithoutAMarginEither) {
   const auto count = static_cast<int>(test::effort(150, 1250));
   const Torment n = torment(1, count, false, Length{});
   std::printf("%d missions without a margin from seed 1: the smallest gap is %.4f m\n", n.worlds, n.gap);
 }
 
-RC_GTEST_PROP(Guard, NeverTouchesFromAnySeed, (std::uint64_t seed, bool noise)) {
+RC_GTEST_PROP(SpeedLimiter, NeverTouchesFromAnySeed, (std::uint64_t seed, bool noise)) {
   const auto margin = micrometres(*rc::gen::inRange(0, Params{}.skirt.planning_margin.raw() + 1));
   const Torment n = torment(seed, 1, noise, margin);
   RC_ASSERT(n.gap > 0);
   RC_ASSERT(n.beside > 0);
 }
 
-// In open ground the guard does not interfere.
-TEST(Guard, GrantsAStraightRequestInOpenGroundInFull) {
+// In open ground the speed limiter does not interfere.
+TEST(SpeedLimiter, GrantsAStraightRequestInOpenGroundInFull) {
   class Straight final : public planning::Planner {
     void set_goal(const planning::Goal&) noexcept override {}
     void move_goal(Vec) noexcept override {}
@@ -117,7 +117,7 @@ TEST(Guard, GrantsAStraightRequestInOpenGroundInFull) {
 }
 
 // Straight on from the start, where no beam has seen the flanks.
-TEST(Guard, CreepsOverUnseenGroundIfItMayAndStopsBeforeAnEcho) {
+TEST(SpeedLimiter, CreepsOverUnseenGroundIfItMayAndStopsBeforeAnEcho) {
   class Ahead final : public planning::Planner {
     void set_goal(const planning::Goal&) noexcept override {}
     void move_goal(Vec) noexcept override {}
@@ -152,7 +152,7 @@ TEST(Guard, CreepsOverUnseenGroundIfItMayAndStopsBeforeAnEcho) {
 
 // The body would pass 0.2 mm into a cell beside the middle of its way, which the disc at the end of the way,
 // 19 mm ahead, does not touch.
-TEST(Guard, ChecksTheWholeWayOfTheSmallestBody) {
+TEST(SpeedLimiter, ChecksTheWholeWayOfTheSmallestBody) {
   Params p;
   p.body.radius = 20_mm;
   p.body.track = 30_mm;
@@ -170,11 +170,11 @@ TEST(Guard, ChecksTheWholeWayOfTheSmallestBody) {
       grid.mark(around);
     }
     grid.block({10_mm, 20_mm}, micrometres(100));
-    safety::Guard guard;
+    safety::SpeedLimiter limiter;
     const WheelPair full{p.wheels.max_speed, p.wheels.max_speed};
     static_cast<void>(
-        guard.step({p.wheels.max_speed, {}, true}, pose, {full, full}, grid, p.safety.period, p));
-    return guard.granted();
+        limiter.step({p.wheels.max_speed, {}, true}, pose, {full, full}, grid, p.safety.period, p));
+    return limiter.granted();
   };
   EXPECT_EQ(granted(micrometres(19800)), Q14{});
   EXPECT_EQ(granted(micrometres(21500)), Q14::ratio(1, 1));
