@@ -133,6 +133,12 @@ struct PoseErrorParams {
 /// What becomes of a fix that jumps by more than its sigma allows. Either way it is counted.
 enum class JumpPolicy : int32_t { accept, refuse };
 
+/// Of whisker::Guard only.
+struct GuardParams {
+  Duration command_timeout = 250_ms;  ///< without a newer command for this long, it brakes
+  Fitted nods = Fitted::yes;          ///< it turns a beam onto unseen ground that holds it
+};
+
 struct Params {
   BodyParams body;
   WheelParams wheels;
@@ -146,6 +152,7 @@ struct Params {
   GyroParams gyro;
   PoseErrorParams pose_error;
   JumpPolicy fix_jumps = JumpPolicy::accept;
+  GuardParams guard;
 };
 
 /// The violated relation between parameters; firmware/params/relations.hpp lists all relations.
@@ -252,6 +259,9 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("gyro_walk_deg_per_sqrt_h", p.pose_error.gyro_walk, Angle{}, 10_deg);
   f.number("gyro_warm_up_dps", p.pose_error.gyro_warm_up, Angle{}, 1_deg);
   f.choice("fix_jumps", p.fix_jumps, kJumps, 2);
+
+  f.number("command_timeout_s", p.guard.command_timeout, 20_ms, 2000_ms);
+  f.choice("guard_nods", p.guard.nods, kBoolean, 2);
 }
 
 /// A rangefinder on the body, in the body's frame: x ahead, y to the left.

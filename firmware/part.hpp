@@ -14,6 +14,9 @@
 #ifndef WHISKER_NARROW_GAPS
 #define WHISKER_NARROW_GAPS 1
 #endif
+#ifndef WHISKER_VOUCH
+#define WHISKER_VOUCH 1
+#endif
 
 namespace whisker {
 
@@ -25,6 +28,8 @@ constexpr bool kGyroBuilt = WHISKER_GYRO != 0;
 constexpr bool kIncidenceBuilt = WHISKER_INCIDENCE != 0;
 /// The robot passes gaps that are hardly wider than the body.
 constexpr bool kNarrowGaps = WHISKER_NARROW_GAPS != 0;
+/// The operator may say that ground is free, for whisker::Guard.
+constexpr bool kVouches = WHISKER_VOUCH != 0;
 
 /// A member that exists only if its part is built. Without the code for it, there is no room for it either,
 /// and it must not be used.

@@ -1,7 +1,5 @@
 #include "firmware/robot.hpp"
 
-#include "firmware/safety/warning.hpp"
-
 namespace whisker {
 namespace {
 
@@ -28,7 +26,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
   }
   localizer_.configure();
   perception_.configure(params);
-  for (int err = 0; err < 2; ++err) warned_speed_[err] = safety::warned_speed(params, err != 0);
+  warned_speed_.configure(params);
   supervisor_.configure();
   motion_.configure(params);
 }
@@ -265,10 +263,8 @@ WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
   }
   const bool slows = perception_.slows();
   if (slows || perception_.doubts()) {
-    // The warned speed rests on the parameters, which the readings contradict.
-    const Speed warned = warned_speed_[perception_.readings_err() ? 1 : 0];
-    const Speed straight = slows ? min(warned, params_.wheels.max_speed / 2) : warned;
-    request.forward = limit(request.forward, safety::warned_speed(straight, request.turning));
+    const Speed most = warned_speed_.most(request.turning, perception_.readings_err(), slows, params_);
+    request.forward = limit(request.forward, most);
   }
   return limiter_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
 }

@@ -13,6 +13,7 @@
 #include "firmware/safety/bump_reflex.hpp"
 #include "firmware/safety/speed_limiter.hpp"
 #include "firmware/safety/supervisor.hpp"
+#include "firmware/safety/warned_speed.hpp"
 #include "hal/bumper.hpp"
 #include "hal/drive.hpp"
 #include "hal/gyro.hpp"
@@ -123,7 +124,7 @@ class Robot {
 
   Time last_tick_;
   Time settled_since_;
-  Speed warned_speed_[2];  // while the ground is in doubt; the second one if readings err
+  safety::WarnedSpeed warned_speed_;
   Duration elapsed_;       // since the last tick, at most the longest gap
   Duration since_counts_;  // since the counts were last read
   Duration resting_for_;   // for the gyro

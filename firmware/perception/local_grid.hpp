@@ -53,6 +53,8 @@ class LocalGrid {
   /// cone touches from `nearest` to one cell beyond `farthest` become unknown, except those under the body: a
   /// sensor that loses walls seen at an angle may have cleared one of them.
   void revoke(const Beam& beam, Length nearest, Length farthest) noexcept;
+  /// The same whatever explains the echo; while cells are clear that nobody has seen.
+  void take_back(const Beam& beam, Length nearest, Length farthest) noexcept;
   /// The echo of a side beam has just appeared. If it is nearer than two radii, the arc beside the cone, away
   /// from the front beam, becomes unknown: what gives the echo may reach there, and the flank would meet it
   /// unseen.
@@ -63,6 +65,10 @@ class LocalGrid {
   void doubt(const ConeObservation& observation, Length farthest) noexcept;
   /// The cells that this disc touches are suspect, except those under the body. Holds until the next mark().
   void block(Vec centre, Length radius) noexcept;
+  /// Someone says that nothing stands within this distance: clears the cells completely inside that no beam
+  /// covers. The beams show nothing nearer than these distances. The cells that a beam covers, or touches
+  /// from there on, stay as they are, and so do suspect ones.
+  void vouch(Vec centre, Length radius, const Beam (&beams)[3], const Length (&free)[3]) noexcept;
   /// Opens a lane through a narrow gap: it begins here, and leads along this heading. On the lane, the ground
   /// is also known in cells that lie along it. It holds until the next one, or until an echo or a touch takes
   /// back ground.
@@ -78,6 +84,18 @@ class LocalGrid {
   /// later rows are not counted.
   Obstacles along(const Vec& from, Angle heading, Length length, Length radius,
                   int32_t enough = INT32_MAX) const noexcept;
+  /// Calls f with the centre of each cell that along() counts, from `from`.
+  template <class F>
+  void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f) const {
+    const Point start = local(from);
+    const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
+    for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
+      Row open = to_window(~clear_row(rows.row())) & stadium.columns(rows.row());
+      for (int32_t dx = kHalfCell - start.x; open != 0; open >>= 1, dx += kUnitsPerCell) {
+        if ((open & 1U) != 0) f(Vec{length_of(dx), length_of(rows.offset(start.y))});
+      }
+    }
+  }
   /// True if a step of this length brings the body nearer to a cell that is not clear, and then within
   /// `radius` of it. Cells abeam are ignored: passing them reduces the distance by less than the guard's
   /// margin. False below kShortestStep, and where the lane holds.
@@ -94,6 +112,8 @@ class LocalGrid {
   /// The cells that an echo between these distances may come from: takes them back, or tells whether all are
   /// clear.
   bool echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept;
+  // Passing a corner at lateral distance d: the body comes x^2 / 2d nearer than x before it (docs/ground.md).
+  static constexpr int32_t kAbeam = 80;
   static constexpr Length kReadingRounding = Length::from_raw(1000);
   using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }

@@ -3,8 +3,6 @@
 namespace whisker::perception {
 namespace {
 
-// Passing a corner at lateral distance d: the body comes x^2 / 2d nearer than x before it (docs/ground.md).
-constexpr int32_t kAbeam = 80;
 constexpr int32_t kWindow = kCells * kUnitsPerCell;
 
 }  // namespace
@@ -84,6 +82,33 @@ bool LocalGrid::all_clear(Vec centre, Length radius) const noexcept {
     if ((span.columns() & unclear) != 0) return false;
   }
   return true;
+}
+
+void LocalGrid::vouch(Vec centre, Length radius, const Beam (&beams)[3], const Length (&free)[3]) noexcept {
+  if (!kVouches) return;
+  const Point at = local(centre);
+  const int32_t reach = units(radius);
+  for (Rows rows(at.y, reach); rows.more(); rows.next()) {
+    Span inside;
+    inside.inside_disc(at.x, rows.offset(at.y), reach);
+    Row vouched = inside.columns();
+    for (int i = 0; i < 3; ++i) {
+      const Point apex = local(beams[i].apex);
+      const int32_t dy = rows.offset(apex.y);
+      const Wedge cone(beams[i].axis, beams[i].half_cone);
+      Span covered, touched, nearer;
+      cone.hold(covered, apex.x, dy);
+      cone.clip(touched, apex.x, dy, -kCellCover);
+      nearer.inside_disc(apex.x, dy, units(free[i] - kReadingRounding));
+      vouched &= ~(covered.columns() | (touched.columns() & ~nearer.columns()));
+    }
+    const int s = slot(rows.row());
+    young_[s] |= to_torus(vouched) & ~suspect_[s];
+  }
+}
+
+void LocalGrid::take_back(const Beam& beam, Length nearest, Length farthest) noexcept {
+  if (kVouches && nearby(local(beam.apex))) echo_arc(beam, nearest, farthest, true);
 }
 
 bool LocalGrid::is_clear(Vec at) const noexcept {

@@ -1,7 +1,5 @@
 #include "firmware/perception/perception.hpp"
 
-#include "firmware/part.hpp"
-
 namespace whisker::perception {
 namespace {
 
@@ -26,11 +24,32 @@ void Perception::forget(const Pose& pose) noexcept {
   contacts_.reset();
   motion_.reset();
   monitor_.reset();
+  if (kVouches) vouched_->any = false;
   seen_ = 0;
   contradicted_ = 0;
   misses_ = false;
   for (Contradiction& contradiction : contradictions_) contradiction = {};
   for (RangeScatter& scatter : scatter_) scatter = {};
+}
+
+bool Perception::vouch(Length radius, const Pose& body) noexcept {
+  const Echoes echoes = latest();
+  if (!usable(echoes)) return false;
+  Beam beams[hal::kBeams];
+  Length free[hal::kBeams];
+  for (int i = 0; i < hal::kBeams; ++i) {
+    beams[i] = beam_of(mounts_[i], body);
+    free[i] = echoes.beam[i].distance;
+  }
+  vouched_->any = true;
+  vouched_->at = body.at;
+  local_grid_.vouch(body.at, radius, beams, free);
+  return true;
+}
+
+/// Drops it once all vouched cells have left the window.
+void Perception::leave_vouched(Vec body) noexcept {
+  if (vouched_->any && farther(body - vouched_->at, local_grid_.half_window() * 5 / 2)) vouched_->any = false;
 }
 
 void Perception::sense(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
@@ -44,6 +63,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   history_.add(body.pose, body.now);
   local_grid_.move_to(body.pose);
   monitor_.move_to(body.pose.at);
+  if (kVouches) leave_vouched(body.pose.at);
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
@@ -111,6 +131,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
     if (echo) {
       local_grid_.revoke(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
+      if (kVouches && vouched_->any) {
+        local_grid_.take_back(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
+      }
       if (appears[i]) local_grid_.revoke_beside(out.observations[i]);
     }
     if (moved[i] == Length{}) continue;

@@ -8,6 +8,7 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/contacts.hpp"
 #include "firmware/perception/contradiction.hpp"
 #include "firmware/perception/local_grid.hpp"
@@ -50,6 +51,10 @@ class Perception {
   /// See LocalGrid::open_lane().
   void open_lane(const Pose& from) noexcept { local_grid_.open_lane(from); }
 
+  /// See LocalGrid::vouch(); the body stands. Until it has left, every echo takes back the cells that it may
+  /// come from. False: some beam has no usable reading yet. Needs kVouches.
+  bool vouch(Length radius, const Pose& body) noexcept;
+
   /// The latest single reading of each beam.
   Echoes latest() const noexcept { return conditioner_.latest(); }
   /// The longest time for which a beam has had no usable reading.
@@ -68,6 +73,7 @@ class Perception {
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:
+  void leave_vouched(Vec body) noexcept;
   /// From this number of contradictions on, clear ground is not trusted. An object that moves causes fewer.
   static constexpr uint8_t kDistrusted = 6;
   /// From this number on, the beams may point beside their axes; from twice as many on, that does not explain
@@ -89,6 +95,11 @@ class Perception {
   RangeMonitor monitor_;
   Contacts contacts_;
   LocalGrid local_grid_;
+  struct Vouched {
+    bool any = false;
+    Vec at;
+  };
+  Part<Vouched, kVouches> vouched_;
 };
 
 }  // namespace whisker::perception

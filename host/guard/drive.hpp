@@ -1,0 +1,53 @@
+/// An operator drives the simulated robot, through the guard or without it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "firmware/guard.hpp"
+#include "host/guard/operator.hpp"
+#include "host/scenario/scenario.hpp"
+
+namespace whisker::guard {
+
+/// Everything observable at one tick; valid during the call only.
+struct Moment {
+  double t_s = 0;
+  sim::Pose pose;  ///< true
+  double v_left_mps = 0, v_right_mps = 0;
+  hal::RangeReadings ranges{};
+  Twist asked;                                  ///< the last command
+  const GuardStatus* status = nullptr;          ///< null without the guard
+  const perception::LocalGrid* grid = nullptr;  ///< null without the guard
+};
+
+struct Options {
+  bool guarded = true;                    ///< false: the same commands go to the wheels, within their limits
+  double time_s = 600;                    ///< at most
+  double vouched_m = 0;                   ///< the operator vouches for this radius around the start
+  bool until_goal = true;                 ///< ends at the goal
+  std::function<int()> gap_ms = nullptr;  ///< between two ticks; null: the control period
+  std::function<void(const Moment&)> watch = nullptr;
+};
+
+enum class End { arrived, contact, fault, time };
+const char* name(End end);
+
+struct Result {
+  End end = End::time;
+  Fault fault = Fault::none;
+  double time_s = 0;
+  double path_m = 0;
+  double min_clearance_m = 0;
+  double granted = 1;  ///< mean share of the asked forward speed, over the ticks that asked for one
+  std::uint64_t ticks = 0;
+  std::uint64_t stops = 0;  ///< times that the guard brought the asked forward speed to nothing
+  std::array<std::uint64_t, kGuardReasons> reasons{};  ///< ticks by reason
+};
+
+/// Deterministic.
+Result drive(const Scenario& scenario, Operator& hand, const Options& options = {});
+
+}  // namespace whisker::guard
