@@ -13,6 +13,8 @@ void add_robot_layout(CLI::App& robot, int& status);
 void add_robot_calibrate(CLI::App& robot, int& status);
 void add_campaign(CLI::App& app, int& status);
 void add_scanner(CLI::App& app, int& status);
+void add_guard(CLI::App& app, int& status);
+void add_operators(CLI::App& app, int& status);
 void add_movers(CLI::App& app, int& status);
 void add_table(CLI::App& app, int& status);
 void add_rules(CLI::App& app, int& status);

@@ -95,6 +95,8 @@ int main(int argc, char** argv) {
   add_campaign(app, status);
   add_scanner(app, status);
   add_movers(app, status);
+  add_guard(app, status);
+  add_operators(app, status);
   add_table(app, status);
   add_rules(app, status);
   add_figures(app, status);

@@ -51,6 +51,7 @@ class Drive {
         board_(plant_),
         guard_(board_, board_, scenario_.robot, &board_),
         bare_(plant_, scenario_.robot) {
+    next_s_ = hand.first_s();
     if (options.vouched_m > 0) guard_.vouch(Length::from_raw(micro(options.vouched_m)));
   }
 
@@ -82,7 +83,7 @@ class Drive {
   bool faulted() const { return options_.guarded && guard_.status().health.fault != Fault::none; }
   /// A fault ends the drive once the body stands.
   bool over() const {
-    return plant_.in_contact() || at_goal() ||
+    return plant_.in_contact() || at_goal() || (options_.ended && options_.ended()) ||
            (faulted() && std::fabs(plant_.v_left()) < 1e-3 && std::fabs(plant_.v_right()) < 1e-3);
   }
   End ended() {

@@ -30,6 +30,7 @@ struct Options {
   bool until_goal = true;                 ///< ends at the goal
   std::function<int()> gap_ms = nullptr;  ///< between two ticks; null: the control period
   std::function<void(const Moment&)> watch = nullptr;
+  std::function<bool()> ended = nullptr;  ///< true: the operator has enough
 };
 
 enum class End { arrived, contact, fault, time };

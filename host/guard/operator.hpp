@@ -21,8 +21,10 @@ class Operator {
   virtual ~Operator() = default;
   /// The next command.
   virtual Twist ask(const Sight& sight) = 0;
-  /// Time until the one after it.
+  /// Time until the one after it; infinite: there is none.
   virtual double pause_s() { return 0.02; }
+  /// Time of the first command.
+  virtual double first_s() { return 0; }
 };
 
 }  // namespace whisker::guard

@@ -20,15 +20,15 @@ double deviate(worlds::Random& random) {
   return sum;
 }
 
-/// The target moves to the side, with a correlation time of a second.
+/// Looks two radii ahead, and its target wanders: the correlation time of the error is three seconds.
 class Sloppy final : public PathFollower {
  public:
   Sloppy(std::vector<sim::Vec2> path, const Scenario& s, std::uint64_t seed)
-      : PathFollower(std::move(path), s.robot.body.radius.raw() * 1e-6, limits_of(s)), random_(seed) {}
+      : PathFollower(std::move(path), s.robot.body.radius.raw() * 2e-6, limits_of(s)), random_(seed) {}
 
  private:
   sim::Vec2 off(sim::Vec2 target, const Sight& sight) override {
-    const double decay = std::exp(-(sight.t_s - last_s_));
+    const double decay = std::exp(-(sight.t_s - last_s_) / 3);
     last_s_ = sight.t_s;
     const double fresh = std::sqrt(1 - decay * decay);
     error_ = {error_.x * decay + fresh * deviate(random_), error_.y * decay + fresh * deviate(random_)};

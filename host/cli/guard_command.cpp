@@ -1,0 +1,123 @@
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/keys.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/guard/drive.hpp"
+#include "host/guard/operators.hpp"
+#include "host/guard/recorded.hpp"
+#include "host/guard/trace.hpp"
+#include "host/report/file.hpp"
+#include "host/scenario/load.hpp"
+
+namespace whisker::cli {
+namespace {
+
+constexpr double kMostSeconds = 3600;
+constexpr double kMostVouched_m = 10;
+
+struct GuardOptions {
+  std::string file, robot, commands, hand = "perfect", trace;
+  std::optional<std::uint64_t> seed;
+  bool keys = false, bare = false;
+  double time_s = 120, vouched_m = 0;
+};
+
+int exit_status(guard::End end) {
+  switch (end) {
+    case guard::End::arrived: return kReached;
+    case guard::End::contact: return kContact;
+    case guard::End::fault: return kFault;
+    case guard::End::time: return kGaveUp;
+  }
+  return kFailure;
+}
+
+std::unique_ptr<guard::Operator> operator_of(const GuardOptions& o, const Scenario& s) {
+  if (o.keys) return std::make_unique<Keys>(s.robot.wheels.max_speed.raw() * 1e-6, 1.5);
+  if (!o.commands.empty()) return std::make_unique<guard::Recorded>(guard::load_commands(o.commands));
+  auto hand = guard::make_operator(*guard::hand_named(o.hand), s, s.seed);
+  if (!hand) throw UsageError(fmt::format("{}: no path with the margin of operator {}", o.file, o.hand));
+  return hand;
+}
+
+void print(const guard::Result& r, std::FILE* out) {
+  fmt::print(out,
+             "{}{} after {:.2f} s and {:.2f} m; smallest gap {:.3f} m; {:.1f} % of the asked speed granted\n",
+             name(r.end), r.end == guard::End::fault ? fmt::format(" {}", name(r.fault)) : "", r.time_s,
+             r.path_m, r.min_clearance_m, r.granted * 100);
+  for (int i = 0; i < kGuardReasons; ++i) {
+    const auto ticks = r.reasons[static_cast<std::size_t>(i)];
+    if (ticks != 0) fmt::print(out, "  {:<16} {} ticks\n", name(static_cast<GuardReason>(i)), ticks);
+  }
+}
+
+int execute(const GuardOptions& o) {
+  if (o.keys && !o.commands.empty()) throw UsageError("--keys and --commands: choose one");
+  check_outputs({o.trace}, {o.file, o.robot, o.commands == "-" ? "" : o.commands});
+  Scenario scenario = load_scenario(o.file);
+  if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
+  if (o.seed) scenario.seed = *o.seed;
+  const auto hand = operator_of(o, scenario);
+  const auto* const keys = dynamic_cast<Keys*>(hand.get());
+  const double track_m = scenario.robot.body.track.raw() * 1e-6;
+  std::string rows = fmt::format("{}\n", guard::kTraceHeader);
+  ProgressLine line;
+  guard::Options options;
+  options.guarded = !o.bare;
+  options.time_s = o.time_s;
+  options.vouched_m = o.vouched_m;
+  options.until_goal = o.commands.empty();
+  options.ended = [&] { return keys != nullptr && keys->ended(); };
+  options.watch = [&](const guard::Moment& m) {
+    if (!o.trace.empty()) rows += guard::trace_row(m, track_m) + "\n";
+    if (keys == nullptr || m.status == nullptr) return;
+    line.show(fmt::format(
+        "asked {:5.2f} m/s {:5.2f} rad/s, granted {:3.0f} % {:3.0f} %, {:<16} at {:.2f}, {:.2f} m",
+        m.asked.forward_mps, m.asked.turning_radps, m.status->forward.raw() / 163.84,
+        m.status->turning.raw() / 163.84, name(m.status->reason), m.pose.at.x, m.pose.at.y));
+  };
+  const guard::Result result = guard::drive(scenario, *hand, options);
+  line.show("");
+  if (!o.trace.empty()) report::write_file(o.trace, rows);
+  print(result, words_beside({o.trace}));
+  return exit_status(result.end);
+}
+
+}  // namespace
+
+void add_guard(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("guard", "Drive the simulated robot yourself; the guard keeps it safe");
+  const auto o = std::make_shared<GuardOptions>();
+  add_file(*cmd, "SCENARIO", o->file, "Scenario file (TOML)")->required();
+  add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenario");
+  add_file(*cmd, "--commands", o->commands,
+           "Commands from this CSV file, or - : t_s,forward_mps,turning_radps");
+  add_switch(*cmd, "--keys", o->keys, "Drive with the arrow keys, in real time; q ends");
+  cmd->add_option("--operator", o->hand,
+                  "Otherwise who commands: perfect (default), sloppy, blind, joystick\nor hostile")
+      ->check(CLI::IsMember({"perfect", "sloppy", "blind", "joystick", "hostile"}))
+      ->type_name("NAME");
+  cmd->add_option("--seed", o->seed, "Seed of noise and operator, instead of the scenario's")
+      ->transform(whole_number())
+      ->type_name("N");
+  cmd->add_option("--vouch", o->vouched_m, "You vouch for this radius around the start, m; 0 by default")
+      ->transform(amount(kMostVouched_m))
+      ->type_name("R");
+  cmd->add_option("--time", o->time_s, "Ends after this time, s; 120 by default")
+      ->transform(amount(kMostSeconds))
+      ->type_name("T");
+  add_switch(*cmd, "--bare", o->bare, "Without the guard: the wheels do what is asked");
+  add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");
+  cmd->callback([o, &status] { status = execute(*o); });
+}
+
+}  // namespace whisker::cli

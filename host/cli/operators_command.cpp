@@ -1,0 +1,117 @@
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/guard/campaign.hpp"
+#include "host/guard/hostile_drive.hpp"
+#include "host/scenario/load.hpp"
+
+namespace whisker::cli {
+namespace {
+
+constexpr std::uint64_t kMostDrives = 1000000;
+
+struct OperatorsOptions {
+  std::uint64_t count = 60;
+  std::uint64_t seed = 1;
+  std::string robot;
+  std::uint64_t hostile = 0;
+  bool noise = false;
+};
+
+Params robot_of(const OperatorsOptions& o) {
+  Params robot;
+  if (!o.robot.empty()) apply_robot_file(robot, o.robot);
+  return robot;
+}
+
+std::string row(const guard::Plan& plan, const guard::Summary& s) {
+  const std::string arrived =
+      guard::arrives(plan.hand) || plan.hand == guard::Hand::blind ? fmt::format("{}", s.arrived) : "-";
+  return fmt::format("| {} | {} | {} | {} | {} | {} | {:.3f} | {:.0f} % | {:.2f} |", name(plan.hand),
+                     plan.ground.name, plan.mode.name, s.drives, arrived, s.contacts, s.speed_mps(),
+                     s.mean_granted() * 100, s.path_m > 0 ? static_cast<double>(s.stops) / s.path_m : 0.0);
+}
+
+void drive_operators(const OperatorsOptions& o, const Interrupt& interrupt) {
+  fmt::print("| operator | worlds | mode | drives | arrived | contacts | m/s | granted | stops/m |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|\n");
+  ProgressLine line;
+  for (const guard::Hand hand : guard::kHands) {
+    for (const guard::Ground& ground : guard::kGrounds) {
+      for (const guard::Mode& mode : guard::kModes) {
+        const guard::Plan plan{hand, ground, mode, robot_of(o), o.noise, o.seed, o.count};
+        const guard::Summary summary = guard::drive_many(plan, [&](std::uint64_t i) {
+          if (i % 10 == 0) line.show(fmt::format("{}, {}, {}: {}", name(hand), ground.name, mode.name, i));
+          return !interrupt.noted();
+        });
+        line.show("");
+        if (interrupt.noted()) return;
+        fmt::print("{}\n", row(plan, summary));
+      }
+    }
+  }
+}
+
+void drive_hostile(const OperatorsOptions& o, const Interrupt& interrupt) {
+  const Params robot = robot_of(o);
+  guard::Summary summary;
+  ProgressLine line;
+  for (std::uint64_t i = 0; i < o.hostile && !interrupt.noted(); ++i) {
+    const guard::Result result = guard::hostile_drive(o.seed + i, o.noise, robot);
+    summary.add(result);
+    if (result.end == guard::End::contact) {
+      line.show("");
+      fmt::print("contact: seed {} at {:.2f} s\n", o.seed + i, result.time_s);
+    }
+    if (i % 50 == 0) line.show(fmt::format("hostile: {} of {}", i, o.hostile));
+  }
+  line.show("");
+  fmt::print(
+      "{} hostile drives of 20 s{}, seeds from {}: {} contacts, {} faults, {:.0f} m, smallest gap {:.4f} m\n",
+      summary.drives, o.noise ? " with noise" : "", o.seed, summary.contacts, summary.faults, summary.path_m,
+      summary.min_clearance_m);
+}
+
+int execute(const OperatorsOptions& o) {
+  if (o.count == 0) throw UsageError("--count 0: nothing to do");
+  if (o.seed > INT64_MAX / 2 - kMostDrives) throw UsageError("--seed: seeds must be below 2^62");
+  const Interrupt interrupt;
+  if (o.hostile > 0) {
+    drive_hostile(o, interrupt);
+  } else {
+    drive_operators(o, interrupt);
+  }
+  return interrupt.noted() ? kInterrupted : 0;
+}
+
+}  // namespace
+
+void add_operators(CLI::App& app, int& status) {
+  CLI::App* cmd =
+      app.add_subcommand("operators", "Let operators of all kinds drive, with the guard and without it");
+  const auto o = std::make_shared<OperatorsOptions>();
+  cmd->add_option("--count", o->count, "How many worlds a row; 60 by default")
+      ->transform(whole_number(kMostDrives))
+      ->type_name("N");
+  cmd->add_option("--seed", o->seed, "Drive i has seed S + i; 1 by default")
+      ->transform(whole_number())
+      ->type_name("S");
+  cmd->add_option("--hostile", o->hostile,
+                  "Instead: this many drives of the adversary in worlds of all kinds")
+      ->transform(whole_number(kMostDrives))
+      ->type_name("N");
+  add_switch(*cmd, "--noise", o->noise, "With the reference robot's sensor and odometry noise");
+  add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML)");
+  cmd->callback([o, &status] { status = execute(*o); });
+}
+
+}  // namespace whisker::cli

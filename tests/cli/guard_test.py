@@ -1,0 +1,74 @@
+"""whisker guard and whisker operators from outside."""
+
+import csv
+import pathlib
+import tempfile
+import unittest
+
+import whisker
+
+HEADER = "t_s,forward_mps,turning_radps"
+
+
+class Guard(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.world = str(pathlib.Path(cls.folder.name, "world.toml"))
+        assert whisker.whisker("world", "discs", "--seed", "1", "--out", cls.world).returncode == 0
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def commands(self, *rows):
+        file = pathlib.Path(self.folder.name, "commands.csv")
+        file.write_text("\n".join([HEADER, *rows]) + "\n")
+        return str(file)
+
+    def test_a_perfect_operator_arrives(self):
+        done = whisker.whisker("guard", self.world)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("arrived", done.stdout)
+
+    def test_a_blind_operator_touches_without_the_guard_only(self):
+        self.assertEqual(whisker.whisker("guard", self.world, "--operator", "blind", "--bare").returncode, 5)
+        self.assertEqual(whisker.whisker("guard", self.world, "--operator", "blind").returncode, 4)
+
+    def test_commands_of_a_file_time_out_and_the_trace_says_so(self):
+        trace = str(pathlib.Path(self.folder.name, "trace.csv"))
+        file = self.commands("0.1,0.2,0", "0.3,0.2,0.5")
+        done = whisker.whisker("guard", self.world, "--commands", file, "--time", "2", "--vouch", "0.35", "--trace", trace)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        with open(trace, newline="") as rows:
+            reasons = {round(float(r["t_s"]), 2): r["reason"] for r in csv.DictReader(rows)}
+        self.assertEqual(reasons[0.05], "command_timeout")
+        self.assertEqual(reasons[0.55], reasons[0.2])
+        self.assertEqual(reasons[0.56], "command_timeout")
+        again = whisker.whisker("guard", self.world, "--commands", file, "--time", "2", "--vouch", "0.35")
+        self.assertEqual(done.stderr + done.stdout, again.stderr + again.stdout)
+
+    def test_refuses_bad_commands_with_their_line(self):
+        for row, says in (("1,2", "a row has three numbers"), ("-1,0,0", "must not be negative"), ("1,2,3,4", "a row has three")):
+            file = self.commands("0,0,0", row)
+            done = whisker.whisker("guard", self.world, "--commands", file)
+            self.assertEqual(done.returncode, 2)
+            self.assertTrue(done.stderr.startswith(f"{file}:3:1: "), done.stderr)
+            self.assertIn(says, done.stderr)
+        self.assertEqual(whisker.whisker("guard", self.world, "--commands", "none.csv").returncode, 2)
+
+    def test_keys_need_a_terminal(self):
+        done = whisker.whisker("guard", self.world, "--keys")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no terminal", done.stderr)
+
+    def test_operators_prints_a_row_for_each(self):
+        done = whisker.whisker("operators", "--count", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("\n"), 2 + 5 * 2 * 4)
+        hostile = whisker.whisker("operators", "--hostile", "5", "--noise")
+        self.assertIn("5 hostile drives of 20 s with noise, seeds from 1: 0 contacts", hostile.stdout)
+
+
+if __name__ == "__main__":
+    whisker.main()
