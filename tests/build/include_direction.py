@@ -16,6 +16,7 @@ HAL_OF_STAGE = {
     "calibration": {"hal/storage.hpp"},
     "localization": {"hal/types.hpp"},
     "perception": {"hal/types.hpp"},
+    "planning": {"hal/types.hpp"},
     "control": {"hal/types.hpp", "hal/drive.hpp"},
     "can": {"hal/types.hpp", "hal/can_port.hpp"},
     "robot": {"hal/types.hpp", "hal/rangefinders.hpp", "hal/drive.hpp", "hal/bumper.hpp", "hal/gyro.hpp"},

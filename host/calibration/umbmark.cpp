@@ -1,0 +1,96 @@
+#include "host/calibration/umbmark.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "host/sim/elementary.hpp"
+
+namespace whisker::calibration {
+namespace {
+
+struct Place {
+  double x = 0, y = 0, heading = 0;
+  void drive(double length, double turn) {
+    const double chord = std::abs(turn) < 1e-9 ? length : length * std::sin(turn / 2) / (turn / 2);
+    x += chord * std::cos(heading + turn / 2);
+    y += chord * std::sin(heading + turn / 2);
+    heading += turn;
+  }
+};
+
+/// What a body with this skew (the right wheel goes 1 + skew, the left one 1 - skew times as far as believed)
+/// and this track (true / believed) drives instead of a square.
+Place driven(bool left, double side, double track, double skew, double track_ratio) {
+  Place at;
+  for (int i = 0; i < 4; ++i) {
+    at.drive(side, 2 * skew * side / (track * track_ratio));
+    const double rim = (left ? 1 : -1) * sim::kPi / 4 * track;
+    at.drive(skew * rim, 2 * rim / (track * track_ratio));
+  }
+  return at;
+}
+
+struct Fit {
+  double skew = 0, track = 1;
+};
+using Normal = std::array<double, 3>;  // of a symmetric 2 x 2 matrix
+
+double determinant(const Normal& n) { return n[0] * n[2] - n[1] * n[1]; }
+
+}  // namespace
+
+Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_m) {
+  int left = 0;
+  for (const SquareEnd& end : ends) left += end.left ? 1 : 0;
+  const int right = static_cast<int>(ends.size()) - left;
+  if (left < 2 || right < 2)
+    throw std::runtime_error("two squares to the left and two to the right are needed");
+  Fit fit;
+  Normal normal{};
+  double squares = 0;
+  for (int round = 0; round < 30; ++round) {
+    normal = {};
+    squares = 0;
+    double g0 = 0, g1 = 0;
+    for (const SquareEnd& end : ends) {
+      const auto at = [&](double skew, double track) {
+        return driven(end.left, side_m, track_m, skew, track);
+      };
+      constexpr double kStep = 1e-6;
+      const Place now = at(fit.skew, fit.track);
+      const Place by_skew = at(fit.skew + kStep, fit.track);
+      const Place by_track = at(fit.skew, fit.track + kStep);
+      const auto take = [&](double seen, double here, double s, double t) {
+        const double a = (s - here) / kStep, b = (t - here) / kStep, error = seen - here;
+        normal[0] += a * a, normal[1] += a * b, normal[2] += b * b;
+        g0 += a * error, g1 += b * error;
+        squares += error * error;
+      };
+      take(end.x_m - end.believed_x_m, now.x, by_skew.x, by_track.x);
+      take(end.y_m - end.believed_y_m, now.y, by_skew.y, by_track.y);
+    }
+    const double det = determinant(normal);
+    if (!(det > 1e-12)) throw std::runtime_error("the ends tell nothing: is the side long enough?");
+    const double d_skew = (normal[2] * g0 - normal[1] * g1) / det;
+    const double d_track = (normal[0] * g1 - normal[1] * g0) / det;
+    fit.skew += d_skew;
+    fit.track += d_track;
+    if (std::abs(fit.skew) > 0.06 || std::abs(fit.track - 1) > 0.12) {
+      throw std::runtime_error("no ratio within 12 % and track within 12 % explain the ends");
+    }
+    if (std::abs(d_skew) < 1e-10 && std::abs(d_track) < 1e-10) break;
+  }
+  const double freedom = 2.0 * static_cast<double>(ends.size()) - 2;
+  const double variance = squares / freedom;
+  const double det = determinant(normal);
+  Umbmark result;
+  result.wheel_ratio = (1 + fit.skew) / (1 - fit.skew);
+  result.ratio_sigma = 2 * std::sqrt(variance * normal[2] / det);
+  result.track = fit.track;
+  result.track_sigma = std::sqrt(variance * normal[0] / det);
+  result.residual_m = std::sqrt(squares / (2.0 * static_cast<double>(ends.size())));
+  return result;
+}
+
+}  // namespace whisker::calibration
