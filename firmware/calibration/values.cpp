@@ -43,8 +43,8 @@ void rescale(Values& values, const Params& params, Measured counts_per_metre) no
   const int32_t counts = before.known() ? before.value : params.wheels.counts_per_metre;
   Measured& track = values[Quantity::track];
   const int32_t length = track.known() ? track.value : params.body.track.raw();
+  if (!track.known()) track.sigma = counts_per_metre.sigma;
   track.value = multiply_divide(length, counts, counts_per_metre.value);
-  track.sigma = max(track.sigma, counts_per_metre.sigma);
   values[Quantity::counts_per_metre] = counts_per_metre;
 }
 

@@ -19,13 +19,22 @@ struct Place {
   }
 };
 
-/// What a body with this skew (the right wheel goes 1 + skew, the left one 1 - skew times as far as believed)
-/// and this track (true / believed) drives instead of a square.
-Place driven(bool left, double side, double track, double skew, double track_ratio) {
+/// Where a body with this skew (the right wheel goes 1 + skew, the left one 1 - skew times as far as
+/// believed) and this track (true / believed) is at the end of a square. Every side ends as far beside and
+/// beyond its corner as the robot believes of the last one, and the next one makes up for it.
+Place driven(const SquareEnd& end, double side, double track, double skew, double track_ratio) {
+  const double turn_sign = end.left ? 1 : -1;
+  const double beside = turn_sign * end.believed_x_m;  // to the left of a side
+  const double beyond = -turn_sign * end.believed_y_m;
   Place at;
   for (int i = 0; i < 4; ++i) {
-    at.drive(side, 2 * skew * side / (track * track_ratio));
-    const double rim = (left ? 1 : -1) * sim::kPi / 4 * track;
+    const double before = i == 0 ? 0 : turn_sign * beside;
+    const double length = side + beyond - before;
+    const double aslant = std::atan2(beside + (i == 0 ? 0 : turn_sign * beyond), length);
+    at.heading += aslant;
+    at.drive(length, 2 * skew * length / (track * track_ratio));
+    at.heading -= aslant;
+    const double rim = turn_sign * sim::kPi / 4 * track;
     at.drive(skew * rim, 2 * rim / (track * track_ratio));
   }
   return at;
@@ -40,7 +49,7 @@ double determinant(const Normal& n) { return n[0] * n[2] - n[1] * n[1]; }
 
 }  // namespace
 
-Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_m) {
+Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_m, double scale_sigma) {
   int left = 0;
   for (const SquareEnd& end : ends) left += end.left ? 1 : 0;
   const int right = static_cast<int>(ends.size()) - left;
@@ -54,9 +63,7 @@ Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_
     squares = 0;
     double g0 = 0, g1 = 0;
     for (const SquareEnd& end : ends) {
-      const auto at = [&](double skew, double track) {
-        return driven(end.left, side_m, track_m, skew, track);
-      };
+      const auto at = [&](double skew, double track) { return driven(end, side_m, track_m, skew, track); };
       constexpr double kStep = 1e-6;
       const Place now = at(fit.skew, fit.track);
       const Place by_skew = at(fit.skew + kStep, fit.track);
@@ -67,8 +74,8 @@ Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_
         g0 += a * error, g1 += b * error;
         squares += error * error;
       };
-      take(end.x_m - end.believed_x_m, now.x, by_skew.x, by_track.x);
-      take(end.y_m - end.believed_y_m, now.y, by_skew.y, by_track.y);
+      take(end.x_m, now.x, by_skew.x, by_track.x);
+      take(end.y_m, now.y, by_skew.y, by_track.y);
     }
     const double det = determinant(normal);
     if (!(det > 1e-12)) throw std::runtime_error("the ends tell nothing: is the side long enough?");
@@ -86,9 +93,11 @@ Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_
   const double det = determinant(normal);
   Umbmark result;
   result.wheel_ratio = (1 + fit.skew) / (1 - fit.skew);
-  result.ratio_sigma = 2 * std::sqrt(variance * normal[2] / det);
+  // A side that is truly longer by a share makes the effect of both errors larger by it.
+  result.ratio_sigma =
+      std::hypot(2 * std::sqrt(variance * normal[2] / det), (result.wheel_ratio - 1) * scale_sigma);
   result.track = fit.track;
-  result.track_sigma = std::sqrt(variance * normal[0] / det);
+  result.track_sigma = std::hypot(std::sqrt(variance * normal[0] / det), (fit.track - 1) * scale_sigma);
   result.residual_m = std::sqrt(squares / (2.0 * static_cast<double>(ends.size())));
   return result;
 }

@@ -23,9 +23,11 @@ struct Umbmark {
   double residual_m = 0;  ///< root of the mean square of what the fit leaves of a coordinate
 };
 
-/// side_m and track_m as the robot believes. Fits the arcs that unequal wheels drive, not their small-angle
-/// approximation, so that wheels of some per cent need no second pass. Throws std::runtime_error if there are
-/// not two squares to each side, or no ratio and track explain the ends.
-Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_m);
+/// side_m and track_m as the robot believes; scale_sigma: how well it knows lengths, see --tape. Fits the
+/// arcs that unequal wheels drive, not their small-angle approximation, so that wheels of some per cent need
+/// no second pass. Throws std::runtime_error if there are not two squares to each side, or no ratio and track
+/// explain the ends.
+Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_m,
+                double scale_sigma = 0.001);
 
 }  // namespace whisker::calibration
