@@ -99,14 +99,14 @@ Ended DriveRig::spin(const Scenario& world, planning::SpinPlanner& planner) {
       world, planner, [&] { return planner.trouble(); }, nullptr);
 }
 
-Ended DriveRig::straight(planning::StraightPlanner& planner) {
+Ended DriveRig::straight(planning::StraightPlanner& planner, const Scenario& world) {
   return run(
-      {}, planner, [&] { return planner.trouble(); }, nullptr);
+      world, planner, [&] { return planner.trouble(); }, nullptr);
 }
 
-Ended DriveRig::square(planning::SquarePlanner& planner, SquareEnd& end) {
+Ended DriveRig::square(planning::SquarePlanner& planner, SquareEnd& end, const Scenario& world) {
   return run(
-      {}, planner, [&] { return planner.trouble(); }, &end);
+      world, planner, [&] { return planner.trouble(); }, &end);
 }
 
 Ended DriveRig::run(const Scenario& world, planning::Planner& planner, const Told& trouble, SquareEnd* end) {
@@ -119,6 +119,7 @@ Ended DriveRig::run(const Scenario& world, planning::Planner& planner, const Tol
   spec.wheel_ratio *= errors_.wheel_ratio;
   spec.track *= errors_.track;
   spec.gyro_range *= believed_.gyro.scale.raw() * 1e-6 * errors_.gyro_scale;
+  spec.gyro_dies_s = gyro_dies_s_;
   sim::Plant plant(sim_world.view(), spec, noise_spec(noise_), seed_++, {});
   hal::SimBoard board(plant);
   Robot robot(board, board, planner, believed_, &board, &board);

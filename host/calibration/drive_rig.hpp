@@ -58,10 +58,12 @@ class DriveRig {
 
   /// In this world, from its origin.
   Ended spin(const Scenario& world, planning::SpinPlanner& planner);
-  /// On free ground, from the origin.
-  Ended straight(planning::StraightPlanner& planner);
-  /// The same; where the robot is at the end and where it believes to be.
-  Ended square(planning::SquarePlanner& planner, SquareEnd& end);
+  /// The same; by default on free ground.
+  Ended straight(planning::StraightPlanner& planner, const Scenario& world = {});
+  /// The same; where the robot is at the end and where it believes to be. `end` knows the side.
+  Ended square(planning::SquarePlanner& planner, SquareEnd& end, const Scenario& world = {});
+  /// So many seconds after the start of each mission, the gyro falls silent.
+  void gyro_dies(double after_s) { gyro_dies_s_ = after_s; }
   /// The true distance from the start of the last mission, along its first heading, m.
   double distance_m() const { return distance_m_; }
 
@@ -74,6 +76,7 @@ class DriveRig {
   Noise noise_;
   WheelErrors errors_;
   std::uint64_t seed_;
+  double gyro_dies_s_ = 1e9;
   double distance_m_ = 0;
 };
 

@@ -9,6 +9,9 @@ namespace {
 constexpr int kRounds = 4;
 constexpr int kLeastEchoes = 24;
 constexpr int32_t kLeastContrast = 4;  // mm of a sample
+// Quarters: twelve parts with few features each say too little; with this, two standard deviations cover
+// about 95 % (scripts/wheels).
+constexpr uint32_t kWider = 5;
 
 /// The vertex of the parabola through the points -kHalf..kHalf, in 1/256 of their distance from the middle.
 /// False: there is no minimum.
@@ -167,7 +170,8 @@ void ProfileMatch::measure() noexcept {
   const int64_t mean = divide_rounded(sum, kBlocks);
   uint64_t squares = 0;
   for (const int32_t one : without) squares += static_cast<uint64_t>(square(one - mean));
-  sigma_ = static_cast<int32_t>(square_root(squares * (kBlocks - 1) / kBlocks)) * kFine;
+  const uint32_t jackknife = square_root(squares * (kBlocks - 1) / kBlocks);
+  sigma_ = static_cast<int32_t>(jackknife * kFine * kWider / 4);
 }
 
 }  // namespace whisker::planning

@@ -19,7 +19,7 @@ class ProfileMatch {
   static constexpr int32_t kWindow = 6144;  // 46 degrees
   static constexpr int32_t kCoarse = 64;
   static constexpr int kCoarsePoints = 2 * kWindow / kCoarse + 1;
-  static constexpr int32_t kFine = 24;
+  static constexpr int32_t kFine = 36;
   static constexpr int kHalf = 12;
   static constexpr int kFinePoints = 2 * kHalf + 1;
   static constexpr int kBlocks = 12;
