@@ -40,6 +40,8 @@ class ProfileMatch {
   /// Mean difference of a sample, mm: at the minimum, and over all offsets.
   int32_t least() const noexcept { return per_sample(least_); }
   int32_t mean() const noexcept { return per_sample(mean_); }
+  /// The same at an offset of point * kCoarse - kWindow.
+  int32_t mismatch(int point) const noexcept { return per_sample(coarse_[point]); }
 
  private:
   int32_t per_sample(uint32_t cost) const noexcept;
@@ -50,7 +52,7 @@ class ProfileMatch {
 
   const RangeProfile& earlier_;
   const RangeProfile& later_;
-  uint32_t coarse_[kCoarsePoints];
+  uint32_t coarse_[kCoarsePoints] = {};
   uint32_t fine_[kFinePoints][kBlocks];
   int32_t centre_ = 0;
   int point_ = 0;
