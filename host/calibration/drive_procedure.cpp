@@ -14,6 +14,7 @@ namespace whisker::calibration {
 namespace {
 
 constexpr std::uint32_t kHandStream = 0xCA13;
+constexpr double kUnknownScale = 0.01;  // before the tape
 
 Length metres(double m) { return Length::from_raw(static_cast<std::int32_t>(std::lround(m * 1e6))); }
 
@@ -48,12 +49,19 @@ class Player {
   }
 
   Procedure play() {
-    tape();
-    spin();
     if (believed_.gyro.fitted == Fitted::yes) {
+      tape();
+      spin();
       straight();
     } else {
+      // Unequal wheels drive a curve along the tape: the squares come first.
+      spin();
       squares();
+      if (done_.steps.back().ended.good()) {
+        tape();
+      } else {
+        end("tape", {"needs the squares first", 0}, "");
+      }
     }
     return std::move(done_);
   }
@@ -81,8 +89,19 @@ class Player {
     const Ended ended = robot.straight(planner);
     const Tape tape{planner.way().raw() * 1e-6, robot.distance_m() + plan_.tape_sigma_m * hand_.normal()};
     if (ended.good()) take_tape(tape, plan_.tape_sigma_m, done_.calibrated, done_.values);
+    if (ended.good() && !ends_.empty()) fit_again(tape);
     end("tape", ended,
         fmt::format("drove {:.3f} m by its wheels, {:.3f} m by the tape", tape.driven_m, tape.measured_m));
+  }
+
+  /// The squares, now that their true size is known.
+  void fit_again(const Tape& tape) {
+    const double scale = tape.measured_m / tape.driven_m;
+    std::vector<SquareEnd> ends = ends_;
+    for (SquareEnd& end : ends) end.believed_x_m *= scale, end.believed_y_m *= scale;
+    Params params = driven_;
+    params.body.track = metres(driven_.body.track.raw() * 1e-6 * scale);
+    take_squares(ends, plan_.side_m * scale, plan_.tape_sigma_m / plan_.tape_m, params, done_.values);
   }
 
   void spin() {
@@ -108,7 +127,8 @@ class Player {
 
   void squares() {
     DriveRig robot = rig();
-    std::vector<SquareEnd> ends;
+    driven_ = done_.calibrated;
+    std::vector<SquareEnd>& ends = ends_;
     Ended all;
     for (int i = 0; i < 2 * plan_.squares && all.good(); ++i) {
       SquareEnd end;
@@ -123,11 +143,11 @@ class Player {
     }
     Umbmark found;
     try {
-      const double scale = plan_.tape_sigma_m / plan_.tape_m;
-      if (all.good()) found = take_squares(ends, plan_.side_m, scale, done_.calibrated, done_.values);
+      if (all.good()) found = take_squares(ends, plan_.side_m, kUnknownScale, driven_, done_.values);
     } catch (const std::exception& e) {
       all.trouble = e.what();
     }
+    if (!all.good()) ends.clear();
     end("squares", all,
         fmt::format("{} of {} m to each side; ratio and track leave {:.1f} mm of a coordinate", plan_.squares,
                     plan_.side_m, found.residual_m * 1e3));
@@ -146,6 +166,8 @@ class Player {
   const ProcedurePlan& plan_;
   std::uint64_t seed_;
   sim::Random hand_;
+  Params driven_;  // by the squares
+  std::vector<SquareEnd> ends_;
   Procedure done_;
 };
 

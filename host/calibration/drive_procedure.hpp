@@ -42,7 +42,7 @@ struct Procedure {
   bool complete() const;
 };
 
-/// With a gyro: tape, spin, straight drive. Without: tape, spin, squares to both sides. Each step drives with
+/// With a gyro: tape, spin, straight drive. Without: spin, squares to both sides, tape. Each step drives with
 /// what the steps before have found.
 Procedure play(const Params& believed, const Sensor& sensor, const Noise& noise, const WheelErrors& errors,
                const ProcedurePlan& plan, std::uint64_t seed);

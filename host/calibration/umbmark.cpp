@@ -1,5 +1,6 @@
 #include "host/calibration/umbmark.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -57,25 +58,29 @@ Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_
     throw std::runtime_error("two squares to the left and two to the right are needed");
   Fit fit;
   Normal normal{};
+  Normal spread{};  // of the squares' contributions to the gradient: their two coordinates err together
   double squares = 0;
   for (int round = 0; round < 30; ++round) {
-    normal = {};
+    normal = spread = {};
     squares = 0;
     double g0 = 0, g1 = 0;
     for (const SquareEnd& end : ends) {
       const auto at = [&](double skew, double track) { return driven(end, side_m, track_m, skew, track); };
       constexpr double kStep = 1e-6;
+      double own0 = 0, own1 = 0;
       const Place now = at(fit.skew, fit.track);
       const Place by_skew = at(fit.skew + kStep, fit.track);
       const Place by_track = at(fit.skew, fit.track + kStep);
       const auto take = [&](double seen, double here, double s, double t) {
         const double a = (s - here) / kStep, b = (t - here) / kStep, error = seen - here;
         normal[0] += a * a, normal[1] += a * b, normal[2] += b * b;
-        g0 += a * error, g1 += b * error;
+        own0 += a * error, own1 += b * error;
         squares += error * error;
       };
       take(end.x_m, now.x, by_skew.x, by_track.x);
       take(end.y_m, now.y, by_skew.y, by_track.y);
+      g0 += own0, g1 += own1;
+      spread[0] += own0 * own0, spread[1] += own0 * own1, spread[2] += own1 * own1;
     }
     const double det = determinant(normal);
     if (!(det > 1e-12)) throw std::runtime_error("the ends tell nothing: is the side long enough?");
@@ -91,13 +96,21 @@ Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_
   const double freedom = 2.0 * static_cast<double>(ends.size()) - 2;
   const double variance = squares / freedom;
   const double det = determinant(normal);
+  // normal^-1 spread normal^-1, the variance without the assumption that all coordinates err alike.
+  const double few = static_cast<double>(ends.size()) / static_cast<double>(ends.size() - 2);
+  const auto variance_of = [&](double a, double b) {
+    return few * (a * a * spread[0] + 2 * a * b * spread[1] + b * b * spread[2]);
+  };
+  const double skew_variance =
+      std::max(variance * normal[2] / det, variance_of(normal[2] / det, -normal[1] / det));
+  const double track_variance =
+      std::max(variance * normal[0] / det, variance_of(-normal[1] / det, normal[0] / det));
   Umbmark result;
   result.wheel_ratio = (1 + fit.skew) / (1 - fit.skew);
   // A side that is truly longer by a share makes the effect of both errors larger by it.
-  result.ratio_sigma =
-      std::hypot(2 * std::sqrt(variance * normal[2] / det), (result.wheel_ratio - 1) * scale_sigma);
+  result.ratio_sigma = std::hypot(2 * std::sqrt(skew_variance), (result.wheel_ratio - 1) * scale_sigma);
   result.track = fit.track;
-  result.track_sigma = std::hypot(std::sqrt(variance * normal[0] / det), (fit.track - 1) * scale_sigma);
+  result.track_sigma = std::hypot(std::sqrt(track_variance), (fit.track - 1) * scale_sigma);
   result.residual_m = std::sqrt(squares / (2.0 * static_cast<double>(ends.size())));
   return result;
 }

@@ -5,7 +5,7 @@ namespace {
 
 constexpr Angle kSide = 50_deg;
 constexpr Length kProgress = 50_mm;
-constexpr uint8_t kMostLooks = 2;
+constexpr uint8_t kMostLooks = 4;
 
 }  // namespace
 

@@ -16,7 +16,7 @@ class CourseDrive {
 
   /// From this place along this course; the body faces it.
   void begin(Vec from, Angle course, Length length) noexcept;
-  /// Once per tick, after begin(). blocked: twice in a row, looking around did not help.
+  /// Once per tick, after begin(). blocked: four times in a row, looking around did not help.
   Result step(const View& view, Manoeuvre& manoeuvre) noexcept;
 
  private:

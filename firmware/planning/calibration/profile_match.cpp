@@ -7,11 +7,12 @@ namespace whisker::planning {
 namespace {
 
 constexpr int kRounds = 4;
+constexpr uint32_t kSmooth = 60;  // mm
 constexpr int kLeastEchoes = 24;
 constexpr int32_t kLeastContrast = 4;  // mm of a sample
-// Quarters: twelve parts with few features each say too little; with this, two standard deviations cover
-// about 95 % (scripts/wheels).
-constexpr uint32_t kWider = 5;
+// Sixteenths. Twelve parts say too little of the spread, and less where one of them decides alone: its share
+// is added. Two standard deviations then cover about 95 % (scripts/wheels).
+constexpr uint32_t kWider = 16;
 
 /// The vertex of the parabola through the points -kHalf..kHalf, in 1/256 of their distance from the middle.
 /// False: there is no minimum.
@@ -38,7 +39,23 @@ bool vertex(const int64_t (&y)[ProfileMatch::kFinePoints], int32_t& at) noexcept
 }  // namespace
 
 int32_t ProfileMatch::per_sample(uint32_t cost) const noexcept {
-  return samples_ == 0 ? 0 : static_cast<int32_t>(cost / static_cast<uint32_t>(samples_));
+  return samples_ == 0 ? 0 : static_cast<int32_t>(cost / static_cast<uint32_t>(samples_ * 16));
+}
+
+/// The earlier profile at this heading, between two samples: a cubic where it is smooth, else a line.
+int32_t ProfileMatch::expected(int beam, int i, int32_t x) const noexcept {
+  const RangeProfile::Sample& a = earlier_.at(beam, i);
+  const RangeProfile::Sample& b = earlier_.at(beam, i + 1);
+  const int32_t width = b.at - a.at;
+  const int32_t into = x < a.at ? 0 : x > b.at ? width : x - a.at;
+  const int32_t line = a.mm * 16 + (b.mm - a.mm) * 16 * into / width;
+  if (i == 0 || i + 2 >= earlier_.count(beam)) return line;
+  // Second differences: how much it bends.
+  const int32_t at_a = b.mm - 2 * a.mm + earlier_.at(beam, i - 1).mm;
+  const int32_t at_b = earlier_.at(beam, i + 2).mm - 2 * b.mm + a.mm;
+  if (magnitude(at_a) > kSmooth || magnitude(at_b) > kSmooth) return line;
+  const int32_t t = into * 256 / width;
+  return line - t * (256 - t) / 256 * (at_a * (256 - t) + at_b * t) / 256 / 32;
 }
 
 uint32_t ProfileMatch::compare(int32_t offset, uint32_t* blocks) const noexcept {
@@ -50,13 +67,8 @@ uint32_t ProfileMatch::compare(int32_t offset, uint32_t* blocks) const noexcept 
       const RangeProfile::Sample& seen = later_.at(beam, j);
       const int32_t x = seen.at - offset;
       while (i < last - 1 && earlier_.at(beam, i + 1).at <= x) ++i;
-      const RangeProfile::Sample& a = earlier_.at(beam, i);
-      const RangeProfile::Sample& b = earlier_.at(beam, i + 1);
-      const int32_t width = b.at - a.at;
-      const int32_t into = x < a.at ? 0 : x > b.at ? width : x - a.at;
-      const int32_t expected = a.mm + (b.mm - a.mm) * into / width;
-      const uint32_t difference = magnitude(seen.mm - expected);
-      const uint32_t cost = difference < kCap ? difference : kCap;
+      const uint32_t difference = magnitude(seen.mm * 16 - expected(beam, i, x));
+      const uint32_t cost = difference < kCap * 16 ? difference : kCap * 16;
       all += cost;
       if (blocks == nullptr) continue;
       constexpr int32_t kPerBeam = kBlocks / hal::kBeams;
@@ -117,7 +129,7 @@ void ProfileMatch::judge() noexcept {
     if ((i < from || i > to) && coarse_[i] < second) second = coarse_[i];
   }
   trouble_ = Trouble::none;
-  if (contrast < static_cast<uint32_t>(samples_ * kLeastContrast))
+  if (contrast < static_cast<uint32_t>(samples_ * 16 * kLeastContrast))
     trouble_ = Trouble::no_features;
   else if (least_ > mean_ / 2)
     trouble_ = Trouble::scene_moved;
@@ -168,10 +180,15 @@ void ProfileMatch::measure() noexcept {
     sum += without[left_out];
   }
   const int64_t mean = divide_rounded(sum, kBlocks);
-  uint64_t squares = 0;
-  for (const int32_t one : without) squares += static_cast<uint64_t>(square(one - mean));
+  uint64_t squares = 0, largest = 0;
+  for (const int32_t one : without) {
+    const uint64_t d = static_cast<uint64_t>(square(one - mean));
+    squares += d;
+    largest = d > largest ? d : largest;
+  }
   const uint32_t jackknife = square_root(squares * (kBlocks - 1) / kBlocks);
-  sigma_ = static_cast<int32_t>(jackknife * kFine * kWider / 4);
+  const uint32_t dominance = squares == 0 ? 0 : static_cast<uint32_t>(largest * 16 / squares);
+  sigma_ = static_cast<int32_t>(jackknife * kFine * (kWider + dominance) / 16);
 }
 
 }  // namespace whisker::planning

@@ -45,6 +45,7 @@ class ProfileMatch {
 
  private:
   int32_t per_sample(uint32_t cost) const noexcept;
+  int32_t expected(int beam, int i, int32_t x) const noexcept;  // 1/16 mm
   uint32_t compare(int32_t offset, uint32_t* blocks) const noexcept;
   void judge() noexcept;
   bool refine() noexcept;

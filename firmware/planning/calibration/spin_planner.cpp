@@ -10,7 +10,7 @@ constexpr int32_t kLongestHold = 3000;        // ms
 constexpr int64_t kRunUp = INT64_C(1) << 28;  // 2^-32 turn
 constexpr int32_t kBetween = RangeProfile::kTurn * (SpinPlanner::kTurns - 1);
 constexpr int32_t kEnd = kBetween + RangeProfile::kTurn + ProfileMatch::kWindow;
-constexpr int32_t kReadingsPerTurn = 120;
+constexpr int32_t kReadingsPerTurn = 180;
 constexpr int kStepsPerTick = 2;
 constexpr Length kMoved = 40_mm;
 constexpr uint8_t kTooOld = 255;
@@ -151,9 +151,11 @@ void SpinPlanner::watch(const View& view) noexcept {
     end(Trouble::body_moved);
 }
 
-/// Of the angle that the gyro turned over this time: its random walk, and the bias measured in two seconds.
-Ratio SpinPlanner::gyro_sigma(Duration over) const noexcept {
-  if (!by_gyro_) return {};
+/// Of the angle by the gyro over this time: its random walk, and the bias measured in two seconds. By the
+/// wheels: their resolution.
+Ratio SpinPlanner::heading_sigma(Duration over) const noexcept {
+  // A third of a count: its rounding does not average out if the counts between two readings are whole.
+  if (!by_gyro_) return Ratio::from_raw(static_cast<int32_t>(500000 / (magnitude(counts_) + 1)));
   // An hour is 3600 s: in 2^-32 turn, the walk over t is walk sqrt(t / 3600), the bias' error t walk
   // sqrt(1 / 7200).
   const uint64_t walk = magnitude(params_.pose_error.gyro_walk);
@@ -171,12 +173,12 @@ void SpinPlanner::conclude() noexcept {
   constexpr int32_t kTrue = kBetween * 256;
   const int32_t believed = kTrue + match_.offset();
   const Ratio match_sigma = Ratio::from_raw(multiply_divide(match_.sigma(), 1000000, kTrue));
-  const Ratio by_gyro = gyro_sigma(Duration::from_raw(spun_ms_ * (kTurns - 1) / kTurns));
+  const Ratio by_heading = heading_sigma(Duration::from_raw(spun_ms_ * (kTurns - 1) / kTurns));
   const auto both = [](Ratio a, Ratio b) {
     return Ratio::from_raw(static_cast<int32_t>(
         square_root(static_cast<uint64_t>(square(a.raw())) + static_cast<uint64_t>(square(b.raw())))));
   };
-  const Ratio sigma = both(match_sigma, by_gyro);
+  const Ratio sigma = both(match_sigma, by_heading);
   if (sigma > kWorst) return end(Trouble::too_uncertain);
   if (by_gyro_) {
     values_[Quantity::gyro_scale] = {multiply_divide(params_.gyro.scale.raw(), kTrue, believed), sigma};

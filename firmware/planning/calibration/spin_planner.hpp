@@ -48,7 +48,7 @@ class SpinPlanner final : public CalibrationPlanner {
   bool heading_at(int32_t ms, int32_t& heading) const noexcept;
   void watch(const View& view) noexcept;
   void conclude() noexcept;
-  Ratio gyro_sigma(Duration over) const noexcept;
+  Ratio heading_sigma(Duration over) const noexcept;
 
   const Params& params_;
   RangeProfile first_;
