@@ -57,10 +57,10 @@ TEST(HandMeasured, ATapeChangesCountsAndTrack) {
   take_tape({5, 5.05}, 0.002, Params{}, values);
   EXPECT_EQ(values[Quantity::counts_per_metre].value, 4950);
   EXPECT_EQ(values[Quantity::track].value, 141414);
-  EXPECT_NEAR(values[Quantity::counts_per_metre].sigma.raw(), 400, 10);
+  EXPECT_NEAR(values[Quantity::counts_per_metre].sigma.raw(), 446, 2);
   EXPECT_EQ(robot_lines(values),
             (std::vector<std::string>{"encoder_counts_per_m = 4950", "wheel_track_m = 0.141414"}));
-  EXPECT_EQ(sigma_lines(values), std::vector<std::string>{"wheel_scale_common_sigma = 0.000400"});
+  EXPECT_EQ(sigma_lines(values), std::vector<std::string>{"wheel_scale_common_sigma = 0.000447"});
 }
 
 TEST(HandMeasured, SquaresKeepATrackThatIsKnownBetter) {

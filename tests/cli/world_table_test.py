@@ -34,6 +34,10 @@ OPTIONS = {
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--contacts"),
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),
+    ("robot", "calibrate-drive"): (
+        "ROBOT", "--tape", "--square-ends", "--side", "--true", "--scene", "--noise", "--straight", "--squares", "--seed", "--count",
+        "--jobs", "--svg", "--json",
+    ),
     ("robot", "layout"): (
         "--sensor", "--body", "--clear", "--robot", "--angles", "--count", "--seed", "--planner", "--map-bytes", "--jobs", "--svg",
         "--json", "--out",

@@ -30,7 +30,21 @@ class StraightPlanner final : public CalibrationPlanner {
 
  private:
   enum class Phase : uint8_t { resting, driving, turning };
+  /// Of the skew, 1e-7, on a sixth of a way each: how much the floor changes it.
+  struct Parts {
+    int32_t turned = 0;
+    int32_t difference = 0;
+    int32_t sum = 0;
+    int64_t total = 0;
+    uint64_t squares = 0;
+    int32_t count = 0;
+  };
+  static constexpr int32_t kPartsOfAWay = 6;
+
   void add(const View& view) noexcept;
+  void end_of_part() noexcept;
+  int64_t turning(int32_t turned, int32_t difference) const noexcept;
+  int32_t counts_of_way() const noexcept;
   void end_of_way(const View& view) noexcept;
   void conclude() noexcept;
 
@@ -46,7 +60,9 @@ class StraightPlanner final : public CalibrationPlanner {
   int32_t turned_ = 0;      // 2^-32 turn, on this way
   int32_t difference_ = 0;  // counts, right minus left, on this way
   int32_t sum_ = 0;         // counts of both, on this way
-  int32_t skew_[2] = {};    // 1e-7
+  int64_t turning_ = 0;     // of all ways, 1/256 count
+  int64_t travel_ = 0;      // the same
+  Parts parts_;
   Length way_;
   int32_t phase_ms_ = 0;
   bool by_gyro_ = false;
