@@ -7,6 +7,7 @@
 #include "firmware/math/angle.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/math/vec.hpp"
+#include "firmware/part.hpp"
 
 namespace whisker {
 
@@ -23,7 +24,9 @@ struct WheelParams {
   Acceleration max_acceleration = 1000_mm_per_s2;
   AngularRate max_turn_rate = 3000_mrad_per_s;
   Duration motor_lag = 50_ms;       ///< time constant from command to wheel speed
-  int32_t counts_per_metre = 5000;  ///< encoder counts per metre of rim travel
+  int32_t counts_per_metre = 5000;  ///< encoder counts per metre of rim travel, mean of both wheels
+  /// Rim travel per count of the right wheel / of the left wheel; 1 without kCalibrationBuilt.
+  Ratio ratio = millionths(1000000);
 };
 
 /// What one rangefinder has of its own. Zero stands for the value that all three share.
@@ -259,7 +262,8 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("gyro_walk_deg_per_sqrt_h", p.pose_error.gyro_walk, Angle{}, 10_deg);
   f.number("gyro_warm_up_dps", p.pose_error.gyro_warm_up, Angle{}, 1_deg);
   f.choice("fix_jumps", p.fix_jumps, kJumps, 2);
-
+  f.number("wheel_ratio", p.wheels.ratio, millionths(kCalibrationBuilt ? 900000 : 1000000),
+           millionths(kCalibrationBuilt ? 1100000 : 1000000));
   f.number("command_timeout_s", p.guard.command_timeout, 20_ms, 2000_ms);
   f.choice("guard_nods", p.guard.nods, kBoolean, 2);
 }

@@ -11,6 +11,9 @@
 #ifndef WHISKER_INCIDENCE
 #define WHISKER_INCIDENCE 1
 #endif
+#ifndef WHISKER_CALIBRATION
+#define WHISKER_CALIBRATION 1
+#endif
 #ifndef WHISKER_NARROW_GAPS
 #define WHISKER_NARROW_GAPS 1
 #endif
@@ -24,6 +27,8 @@ namespace whisker {
 constexpr bool kEvades = WHISKER_EVASION != 0;
 /// A gyro and the bound of the pose (8 KB and 7 KB on an AVR).
 constexpr bool kGyroBuilt = WHISKER_GYRO != 0;
+/// The wheels' ratio, and what planners of a calibration need to know of a tick.
+constexpr bool kCalibrationBuilt = WHISKER_CALIBRATION != 0;
 /// The incidence that the sensors see, which is only reported (1.3 KB on an AVR).
 constexpr bool kIncidenceBuilt = WHISKER_INCIDENCE != 0;
 /// The robot passes gaps that are hardly wider than the body.

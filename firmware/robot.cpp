@@ -124,6 +124,10 @@ bool Robot::localize(Time now, planning::View& view) noexcept {
   view.forward = (rolling.left + rolling.right) / 2;
   view.turning = (rolling.right - rolling.left) / 2;
   view.granted = limiter_.granted();
+  if (kCalibrationBuilt) {
+    if (counted) view.raw->counts = localizer_.counts();
+    view.raw->by_gyro = status_.heading_source == localization::HeadingSource::gyro;
+  }
   return counted;
 }
 
@@ -174,6 +178,7 @@ bool Robot::take_counts() noexcept {
 void Robot::perceive(planning::View& view, bool counted) noexcept {
   hal::RangeReadings readings{};
   const bool read = rangefinders_.read(readings);
+  if (kCalibrationBuilt) view.raw->ranges = readings;
   perception_.sense(read ? &readings : nullptr, last_tick_, view.pose.heading, params_, status_.health);
   status_.echoes = perception_.latest();
   supervisor_.check_ranges(perception_.lost_for(last_tick_));

@@ -3,7 +3,7 @@
 namespace whisker::localization {
 
 void FixTeacher::configure(const Params& params, const Odometry& odometry) noexcept {
-  gains_.configure(odometry.counts_per_turn(), params.wheels.counts_per_metre);
+  gains_.configure(odometry.counts_per_turn(), params.wheels.counts_per_metre, odometry.skew());
   const PoseErrorParams& e = params.pose_error;
   if (e.wheel_scale == Ratio{} && e.wheel_scale_common == Ratio{}) return;
   // The mean of two wheels is off by 1 / sqrt(2) of one, and so is half of their difference.

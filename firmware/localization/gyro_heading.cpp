@@ -9,7 +9,7 @@ constexpr Duration kSilence = 100_ms;
 
 void GyroHeading::configure(const Params& params, const Odometry& odometry) noexcept {
   bias_.configure(params.gyro);
-  gains_.configure(odometry.counts_per_turn(), params.wheels.counts_per_metre);
+  gains_.configure(odometry.counts_per_turn(), params.wheels.counts_per_metre, odometry.skew());
   const int32_t range = multiply_divide(params.gyro.range.raw(), params.gyro.scale.raw(), 1000000);
   // A microradian per second for a second, in 2^-29 turn, times 2^20; 2^15 units are the range.
   constexpr int64_t kTurnPerMicroradian = 89596268;

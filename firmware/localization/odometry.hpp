@@ -6,6 +6,7 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "hal/types.hpp"
 
 namespace whisker::localization {
@@ -37,12 +38,21 @@ class Odometry {
   Angle turn_of(int32_t difference) const noexcept;
   /// Counts of one wheel for a full turn of the body with the other wheel at rest.
   int32_t counts_per_turn() const noexcept;
+  /// Of WheelParams::ratio: the right wheel's counts go 1 + skew times as far, the left one's 1 - skew times;
+  /// 2^-24.
+  int32_t skew() const noexcept { return kCalibrationBuilt ? skew_->share : 0; }
 
   Pose pose() const noexcept;
   /// The length of the way so far, um modulo 2^32; place() does not change it.
   uint32_t travelled_um() const noexcept { return travelled_um_; }
 
  private:
+  struct Skew {
+    int64_t sum = 0;             // of both, counts since place()
+    int64_t um_per_count = 0;    // of the difference, 2^-16 um
+    int64_t turn_per_count = 0;  // of the sum, 2^-48 turn
+    int32_t share = 0;           // 2^-24
+  };
   int64_t x_ = 0;  // 2^-16 um
   int64_t y_ = 0;
   uint32_t travelled_um_ = 0;
@@ -51,6 +61,7 @@ class Odometry {
   int64_t difference_ = 0;       // right minus left, counts since place()
   int64_t um_per_count_ = 0;     // 2^-16 um
   uint64_t turn_per_count_ = 0;  // 2^-48 turn
+  Part<Skew, kCalibrationBuilt> skew_;
   Duration period_;
   uint32_t counts_per_ms_ = 0;  // at twice the full speed, 2^-8 count
   hal::EncoderCounts last_{};

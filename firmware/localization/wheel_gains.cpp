@@ -20,10 +20,11 @@ int32_t remaining(int32_t variance, int64_t part, int64_t whole, int32_t least) 
 
 }  // namespace
 
-void WheelGains::configure(int32_t counts_per_turn, int32_t counts_per_metre) noexcept {
+void WheelGains::configure(int32_t counts_per_turn, int32_t counts_per_metre, int32_t skew) noexcept {
   counts_per_turn_ = counts_per_turn;
   least_way_ = counts_per_metre * 3 / 5;  // 0.3 m by two wheels
   least_turn_ = counts_per_turn / 12;
+  skew_ = skew;
   gain_variance_ = kGainVariance;
   skew_variance_ = kSkewVariance;
 }

@@ -14,8 +14,8 @@ namespace whisker::localization {
 /// stretches that begin and end without turning, so that the latency of the gyro does not matter.
 class WheelGains {
  public:
-  /// counts_per_turn: see Odometry.
-  void configure(int32_t counts_per_turn, int32_t counts_per_metre) noexcept;
+  /// counts_per_turn, and the skew before the first stretch: see Odometry.
+  void configure(int32_t counts_per_turn, int32_t counts_per_metre, int32_t skew = 0) noexcept;
 
   /// Standard deviations before the first stretch, instead of 3 % and 2 %.
   void expect(Ratio gain, Ratio skew) noexcept;

@@ -4,12 +4,14 @@
 #include <stdint.h>
 
 #include "firmware/fuzzy/variables.hpp"
+#include "firmware/localization/odometry.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/part.hpp"
 #include "firmware/perception/lane.hpp"
 #include "firmware/perception/percept.hpp"
 #include "firmware/planning/manoeuvre.hpp"
 #include "firmware/planning/state.hpp"
+#include "hal/types.hpp"
 
 namespace whisker::planning {
 
@@ -19,6 +21,13 @@ struct Goal {
   friend constexpr bool operator==(const Goal& a, const Goal& b) noexcept {
     return a.at.x == b.at.x && a.at.y == b.at.y && a.tolerance == b.tolerance;
   }
+};
+
+/// What only a planner of a calibration needs: the readings as they are.
+struct RawReadings {
+  localization::CountStep counts;  ///< of this tick
+  hal::RangeReadings ranges{};
+  bool by_gyro = false;  ///< the gyro turns the pose
 };
 
 /// The inputs of a planner in a tick.
@@ -32,6 +41,8 @@ struct View : perception::Percept {
   Speed turning{};     ///< of the rims, counter-clockwise positive
   Q14 granted{};       ///< granted part of the last requested forward speed
   Duration elapsed{};  ///< since the previous tick
+
+  Part<RawReadings, kCalibrationBuilt> raw;
 
   /// The guard granted only part of the request.
   constexpr bool held_back() const noexcept { return granted < Q14::ratio(1, 1); }

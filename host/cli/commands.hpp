@@ -11,6 +11,7 @@ void add_robot(CLI::App& app, int& status);
 void add_robot_check(CLI::App& robot, int& status);
 void add_robot_layout(CLI::App& robot, int& status);
 void add_robot_calibrate(CLI::App& robot, int& status);
+void add_robot_calibrate_drive(CLI::App& robot, int& status);
 void add_campaign(CLI::App& app, int& status);
 void add_scanner(CLI::App& app, int& status);
 void add_guard(CLI::App& app, int& status);

@@ -135,6 +135,7 @@ void add_robot(CLI::App& app, int& status) {
   add_robot_check(*robot, status);
   add_robot_layout(*robot, status);
   add_robot_calibrate(*robot, status);
+  add_robot_calibrate_drive(*robot, status);
 }
 
 }  // namespace whisker::cli

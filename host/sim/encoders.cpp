@@ -21,6 +21,9 @@ Encoders::Encoders(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed
   for (double& counts_per_m : counts_per_m_) {
     counts_per_m = robot.counts_per_m * (1 + noise.wheel_scale_sigma * scale.normal() + both);
   }
+  const double skew = (robot.wheel_ratio - 1) / (robot.wheel_ratio + 1);
+  counts_per_m_[0] /= 1 - skew;
+  counts_per_m_[1] /= 1 + skew;
 }
 
 void Encoders::roll(double left, double right, double path) {

@@ -22,6 +22,7 @@ RobotSpec robot_spec(const Params& params) {
   spec.max_acceleration = si(params.wheels.max_acceleration);
   spec.motor_lag = si(params.wheels.motor_lag);
   spec.counts_per_m = params.wheels.counts_per_metre;
+  spec.wheel_ratio = params.wheels.ratio.raw() * 1e-6;
   for (int i = 0; i < 3; ++i) {
     const RangefinderParams& r = params.rangefinders;
     const Vec2 own{si(r.beams[i].x), si(r.beams[i].y)};

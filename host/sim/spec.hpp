@@ -22,7 +22,8 @@ struct RobotSpec {
   double max_speed = 0.3;         ///< m/s; a faster command is limited to it
   double max_acceleration = 1.0;  ///< m/s^2, of each wheel; > 0
   double motor_lag = 0.05;        ///< s, time constant from command to wheel speed; 0 for none
-  double counts_per_m = 5000;     ///< encoder counts
+  double counts_per_m = 5000;     ///< encoder counts, mean of both wheels
+  double wheel_ratio = 1;         ///< travel per count of the right wheel / of the left wheel
 
   BeamSpec beams[3] = {{0, 0, kPi / 6}, {}, {0, 0, -kPi / 6}};  ///< left, front, right
   double rate_hz = 50;                                          ///< measurements a second; > 0

@@ -8,13 +8,15 @@ from sources import finish, sources
 
 # The folders of firmware/, lowest first: each may include itself and the folders before it. From localization to control
 # they are the stages of a tick, in order.
-STAGES = ("version", "math", "part", "health", "params", "fuzzy", "localization", "perception", "planning", "safety", "control",
-          "guard", "robot", "can", "c", "apps")
+STAGES = ("version", "math", "part", "health", "params", "calibration", "fuzzy", "localization", "perception", "planning", "safety",
+          "control", "guard", "robot", "can", "c", "apps")
 
 # The files of hal/ that a folder may include; an unlisted folder may include none.
 HAL_OF_STAGE = {
+    "calibration": {"hal/storage.hpp"},
     "localization": {"hal/types.hpp"},
     "perception": {"hal/types.hpp"},
+    "planning": {"hal/types.hpp"},
     "control": {"hal/types.hpp", "hal/drive.hpp"},
     "can": {"hal/types.hpp", "hal/can_port.hpp"},
     "guard": {"hal/types.hpp", "hal/rangefinders.hpp", "hal/drive.hpp", "hal/gyro.hpp"},

@@ -36,6 +36,10 @@ OPTIONS = {
     ("operators",): ("--count", "--seed", "--hostile", "--noise", "--robot"),
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),
+    ("robot", "calibrate-drive"): (
+        "ROBOT", "--tape", "--square-ends", "--side", "--true", "--scene", "--noise", "--straight", "--squares", "--seed", "--count",
+        "--jobs", "--svg", "--json",
+    ),
     ("robot", "layout"): (
         "--sensor", "--body", "--clear", "--robot", "--angles", "--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--jobs", "--svg",
         "--json", "--out",

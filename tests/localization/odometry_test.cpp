@@ -21,10 +21,12 @@ struct Drift {
 };
 
 // The same counts through the core and through doubles: only the core's rounding differs.
-Drift drift_over(double path_m, int counts_per_metre, Length track, std::uint64_t seed) {
+Drift drift_over(double path_m, int counts_per_metre, Length track, std::uint64_t seed, int ratio = 1000000) {
   Params params;
   params.wheels.counts_per_metre = counts_per_metre;
   params.body.track = track;
+  params.wheels.ratio = millionths(ratio);
+  const double skew = (ratio - 1e6) / (ratio + 1e6);
   Odometry odometry;
   odometry.configure(params);
   odometry.place({});
@@ -43,8 +45,8 @@ Drift drift_over(double path_m, int counts_per_metre, Length track, std::uint64_
     left = (left + static_cast<std::uint32_t>(dl)) & kMask;
     right = (right + static_cast<std::uint32_t>(dr)) & kMask;
     EXPECT_TRUE(odometry.update({left, right}, kSince, step));
-    const double sl = static_cast<double>(dl) / counts_per_metre;
-    const double sr = static_cast<double>(dr) / counts_per_metre;
+    const double sl = static_cast<double>(dl) / counts_per_metre * (1 - skew);
+    const double sr = static_cast<double>(dr) / counts_per_metre * (1 + skew);
     const double turn = (sr - sl) / (track.raw() * 1e-6);
     x += (sl + sr) / 2 * std::cos(heading + turn / 2);
     y += (sl + sr) / 2 * std::sin(heading + turn / 2);
@@ -54,6 +56,14 @@ Drift drift_over(double path_m, int counts_per_metre, Length track, std::uint64_
   const Pose pose = odometry.pose();
   const double error = std::remainder(pose.heading.wrapped() * (kPi / 2147483648.0) - heading, 2 * kPi);
   return {std::hypot(pose.at.x.raw() * 1e-6 - x, pose.at.y.raw() * 1e-6 - y), std::abs(error), path};
+}
+
+TEST(Odometry, CountsOfUnequalWheels) {
+  for (const int ratio : {900000, 985000, 1000001, 1100000}) {
+    const Drift drift = drift_over(100, 4321, 140_mm, 3, ratio);
+    EXPECT_LT(drift.position_m, 1e-3) << ratio;
+    EXPECT_LT(drift.heading_rad, 2e-4) << ratio;
+  }
 }
 
 TEST(Odometry, DriftsLessThanAMillimetreInAKilometre) {

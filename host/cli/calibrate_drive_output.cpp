@@ -1,0 +1,100 @@
+#include "host/cli/calibrate_drive_output.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "host/calibration/hand_measured.hpp"
+
+namespace whisker::cli {
+namespace {
+
+using calibration::kQuantities;
+using calibration::Measured;
+using calibration::Quantity;
+using Json = nlohmann::ordered_json;
+
+/// As in a robot file.
+double in_file(Quantity q, double raw) { return q == Quantity::counts_per_metre ? raw : raw * 1e-6; }
+
+int digits(Quantity q) { return q == Quantity::counts_per_metre ? 1 : 6; }
+
+double truth_of(const DriveReport& r, Quantity q) {
+  return calibration::best_value(r.before, *r.truth, r.values, q);
+}
+
+std::string row(const DriveReport& r, Quantity q) {
+  const Measured& m = r.values[q];
+  const double before = value_in(r.before, q);
+  std::string line =
+      fmt::format("{:<21}{:>13.{}f}{:>13.{}f}{:>12}", name(q), in_file(q, before), digits(q),
+                  in_file(q, m.value), digits(q), fmt::format("{:.4f} %", m.sigma.raw() * 1e-4));
+  if (r.truth) {
+    const double truth = truth_of(r, q);
+    line += fmt::format("{:>13.{}f}{:>11}", in_file(q, truth), digits(q),
+                        fmt::format("{:+.4f} %", (m.value / truth - 1) * 100));
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string drive_words(const DriveReport& r) {
+  std::string out = r.source + "\n";
+  for (const calibration::ProcedureStep& step : r.steps) {
+    const std::string time = step.ended.time_s > 0 ? fmt::format(", {:.0f} s", step.ended.time_s) : "";
+    out += fmt::format("{}{}: {}\n", step.name, time,
+                       step.ended.good() ? step.found : "no result: " + step.ended.trouble);
+  }
+  out += fmt::format("\n{:<21}{:>13}{:>13}{:>12}", "", "so far", "found", "+-");
+  out += r.truth ? fmt::format("{:>13}{:>11}\n", "true", "off") : "\n";
+  for (int i = 0; i < kQuantities; ++i) {
+    if (r.values.of[i].known()) out += row(r, static_cast<Quantity>(i));
+  }
+  const auto lines = calibration::robot_lines(r.values);
+  if (lines.empty()) return out + "nothing was measured\n";
+  if (r.refused != ParamFault::none) return out;
+  out += fmt::format("\nWrite into {}:\n", r.robot);
+  for (const std::string& line : lines) out += line + "\n";
+  const auto sigmas = calibration::sigma_lines(r.values);
+  if (!sigmas.empty()) out += "\nTo declare what remains, for a bound of the pose:\n";
+  for (const std::string& line : sigmas) out += line + "\n";
+  return out;
+}
+
+std::string drive_json(const DriveReport& r) {
+  Json steps = Json::array();
+  bool measured = r.refused == ParamFault::none;
+  for (const calibration::ProcedureStep& step : r.steps) {
+    Json one = {{"step", step.name}, {"time_s", step.ended.time_s}, {"found", step.found}};
+    one["trouble"] = step.ended.good() ? Json() : Json(step.ended.trouble);
+    measured = measured && step.ended.good();
+    steps.push_back(one);
+  }
+  Json values = Json::array();
+  for (int i = 0; i < kQuantities; ++i) {
+    const auto q = static_cast<Quantity>(i);
+    const Measured& m = r.values[q];
+    if (!m.known()) continue;
+    Json one = {{"key", name(q)},
+                {"before", in_file(q, value_in(r.before, q))},
+                {"value", in_file(q, m.value)},
+                {"sigma", m.sigma.raw() * 1e-6}};
+    if (r.truth) {
+      one["true"] = in_file(q, truth_of(r, q));
+      one["error"] = m.value / truth_of(r, q) - 1;
+    }
+    values.push_back(one);
+  }
+  const bool fits = r.refused == ParamFault::none;
+  const Json json = {{"measured", measured},
+                     {"fits", fits},
+                     {"steps", steps},
+                     {"values", values},
+                     {"lines", fits ? calibration::robot_lines(r.values) : std::vector<std::string>{}},
+                     {"sigma_lines", fits ? calibration::sigma_lines(r.values) : std::vector<std::string>{}}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace whisker::cli
