@@ -131,7 +131,7 @@ bool whisker_set_param(whisker_params* params, enum whisker_param which, uint32_
   return true;
 }
 
-uint32_t whisker_param(const whisker_params* params, enum whisker_param which) {
+uint32_t whisker_get_param(const whisker_params* params, enum whisker_param which) {
   const int number = static_cast<int>(which);
   return number < 0 || number >= kParams ? 0 : params->words[number];
 }

@@ -118,7 +118,7 @@ void whisker_default_params(whisker_params* params);
  * range; nothing changed. */
 bool whisker_set_param(whisker_params* params, enum whisker_param which, uint32_t value);
 /* 0 if there is no such parameter. */
-uint32_t whisker_param(const whisker_params* params, enum whisker_param which);
+uint32_t whisker_get_param(const whisker_params* params, enum whisker_param which);
 /* The first relation between parameters that the set violates; 0: none. */
 uint8_t whisker_check_params(const whisker_params* params);
 /* Its name, for example "track_wider_than_body". */

@@ -10,8 +10,8 @@
 namespace whisker::planning {
 
 struct MapSize {
-  int32_t bytes;    ///< memory for cells, plan and bookkeeping
-  GridShape shape;  ///< the grid that fits into it
+  int32_t bytes = 0;  ///< memory for cells, plan and bookkeeping
+  GridShape shape;    ///< the grid that fits into it
 };
 inline constexpr MapSize kMapSizes[] = {{1024, {1, 48, 125_mm}},
                                         {2048, {2, 56, 100_mm}},
