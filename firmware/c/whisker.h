@@ -108,7 +108,10 @@ enum whisker_param {
   WHISKER_PARAM_GYRO_SCALE_SIGMA,             /* 1e-6; 10000; 0 to 100000 */
   WHISKER_PARAM_GYRO_WALK_DEG_PER_SQRT_H,     /* 2^-32 turn; 4772186; 0 to 119304647 */
   WHISKER_PARAM_GYRO_WARM_UP_DPS,             /* 2^-32 turn; 1193046; 0 to 11930465 */
-  WHISKER_PARAM_FIX_JUMPS                     /* choice; 0; 0 to 1 */
+  WHISKER_PARAM_FIX_JUMPS,                    /* choice; 0; 0 to 1 */
+  WHISKER_PARAM_WHEEL_RATIO,                  /* 1e-6; 1000000; 900000 to 1100000 */
+  WHISKER_PARAM_COMMAND_TIMEOUT,              /* ms; 250; 20 to 2000 */
+  WHISKER_PARAM_GUARD_NODS                    /* choice; 1; 0 to 1 */
   /* params:end */
 };
 

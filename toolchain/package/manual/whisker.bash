@@ -4,12 +4,12 @@ _whisker() {
   local path=whisker word here=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options="" words="" paths=none
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case "$path $word" in
-      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules compare" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
+      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules compare" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
     esac
   done
   case $path in
     "whisker")
-      options="-h --help --version" words="run world robot campaign scanner movers table rules figures plant controller hil replay socket dbc protocol" paths=none
+      options="-h --help --version" words="run world robot campaign scanner movers guard operators table rules figures plant controller hil replay socket dbc protocol" paths=none
       ;;
     "whisker run")
       options="-h --help --robot --seed --trace --svg --html --json --planner --map-bytes --rules --map --chip" words="" paths=file
@@ -28,7 +28,7 @@ _whisker() {
       esac
       ;;
     "whisker robot")
-      options="-h --help" words="check layout calibrate" paths=none
+      options="-h --help" words="check layout calibrate calibrate-drive" paths=none
       ;;
     "whisker robot check")
       options="-h --help --header --planner --map-bytes --rules --map --json" words="" paths=file
@@ -53,6 +53,13 @@ _whisker() {
       case $before in
         --log | --record | --true | --trace) options="" words="" paths=file ;;
         --node | --drop | --can | --wall-heading | --distance | --along | --turned | --sigma | --dropout | --false-clear | --phantom | --wheel-scale-sigma | --seed | --count | --jobs) options="" words="" paths=value ;;
+      esac
+      ;;
+    "whisker robot calibrate-drive")
+      options="-h --help --tape --square-ends --side --true --scene --noise --straight --squares --seed --count --jobs --svg --json" words="" paths=file
+      case $before in
+        --tape | --side | --scene | --straight | --squares | --seed | --count | --jobs) options="" words="" paths=value ;;
+        --square-ends | --true | --svg) options="" words="" paths=file ;;
       esac
       ;;
     "whisker campaign")
@@ -80,6 +87,20 @@ _whisker() {
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
         --rules) options="" words="" paths=file ;;
         --contacts) options="" words="" paths=folder ;;
+      esac
+      ;;
+    "whisker guard")
+      options="-h --help --robot --commands --keys --operator --seed --vouch --time --bare --trace" words="" paths=file
+      case $before in
+        --robot | --commands | --trace) options="" words="" paths=file ;;
+        --operator | --seed | --vouch | --time) options="" words="" paths=value ;;
+      esac
+      ;;
+    "whisker operators")
+      options="-h --help --count --seed --hostile --noise --robot" words="" paths=none
+      case $before in
+        --count | --seed | --hostile) options="" words="" paths=value ;;
+        --robot) options="" words="" paths=file ;;
       esac
       ;;
     "whisker table")
