@@ -1,7 +1,7 @@
 """scripts/arduino: its descriptions follow the specifications of Arduino and PlatformIO, and library and sketch compile for an AVR
 against the headers of Debian's arduino-core-avr.
 
-usage: arduino.py ROOT WORK_FOLDER CLANGXX-14
+usage: arduino.py ROOT WORK_FOLDER CLANGXX-14 ARDUINO_CORE
 """
 
 import json
@@ -17,7 +17,6 @@ from compile import compile_all
 from sources import finish
 from version import of_header
 
-CORE = pathlib.Path("/usr/share/arduino/hardware/arduino/avr")
 # https://arduino.github.io/arduino-cli/latest/library-specification/
 REQUIRED = ("name", "version", "author", "maintainer", "sentence", "paragraph", "category", "url", "architectures")
 OPTIONAL = ("depends", "dot_a_linkage", "includes", "precompiled", "ldflags")
@@ -34,7 +33,7 @@ AVR = [
     "--target=avr", "-mmcu=atmega2560", "-std=gnu++17", "-Os", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-nostdlibinc",
     # After clang's own headers, which show the limits of stdint.h to C++.
     "-idirafter", "/usr/lib/avr/include", "-DF_CPU=16000000L", "-DARDUINO=10819", "-DARDUINO_AVR_MEGA2560", "-DARDUINO_ARCH_AVR",
-    "-isystem", CORE / "cores/arduino", "-isystem", CORE / "variants/mega", *mission.STRICT,
+    *mission.STRICT,
 ]  # fmt: skip
 
 
@@ -85,13 +84,11 @@ def sketch_as_cpp(text):
     return f'#include <Arduino.h>\n#line 1 "drive.ino"\n{text}'
 
 
-def main(root, work, clang):
+def main(root, work, clang, core):
     work = pathlib.Path(work)
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     problems = []
-    if not (CORE / "cores/arduino/Arduino.h").exists():
-        return finish("Arduino", 1, [f"no {CORE}: scripts/setup cross"])
     try:
         archives = [work / f"{i}.zip" for i in range(2)]
         for archive in archives:
@@ -108,7 +105,8 @@ def main(root, work, clang):
         for sketch in sketches:
             if sketch.stem != sketch.parent.name:
                 problems.append(f"{sketch.name}: a sketch has the name of its folder")
-        command = [str(part) for part in (clang, *AVR, f"-I{library}/src", "-x", "c++", "-c", "-")]
+        headers = ["-isystem", f"{core}/cores/arduino", "-isystem", f"{core}/variants/mega"]
+        command = [str(part) for part in (clang, *AVR, *headers, f"-I{library}/src", "-x", "c++", "-c", "-")]
         jobs = [(sketch.name, [*command, "-o", str(sketch.with_suffix(".o"))], sketch_as_cpp(sketch.read_text())) for sketch in sketches]
         jobs.append(("whisker.cpp", [*command, "-o", str(work / "whisker.o")], (library / "src/whisker.cpp").read_text()))
         problems += [f"{name}:\n{output}" for name, output in compile_all(jobs) if output]
