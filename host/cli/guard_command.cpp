@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -5,12 +6,14 @@
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/keys.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/provenance.hpp"
 #include "host/guard/drive.hpp"
 #include "host/guard/operators.hpp"
 #include "host/guard/recorded.hpp"
@@ -23,17 +26,19 @@ namespace {
 
 constexpr double kMostSeconds = 3600;
 constexpr double kMostVouched_m = 10;
+constexpr double kStanding_mps = 1e-3;
 
 struct GuardOptions {
   std::string file, robot, commands, hand = "perfect", trace;
   std::optional<std::uint64_t> seed;
-  bool keys = false, bare = false;
+  bool keys = false, bare = false, json = false;
   double time_s = 120, vouched_m = 0;
 };
 
 int exit_status(guard::End end) {
   switch (end) {
-    case guard::End::arrived: return kReached;
+    case guard::End::arrived:
+    case guard::End::ended: return kReached;
     case guard::End::contact: return kContact;
     case guard::End::fault: return kFault;
     case guard::End::time: return kGaveUp;
@@ -60,15 +65,46 @@ void print(const guard::Result& r, std::FILE* out) {
   }
 }
 
+std::string json_of(const guard::Result& r) {
+  const auto outcome = [&] {
+    switch (r.end) {
+      case guard::End::arrived: return "reached";
+      case guard::End::contact: return "contact";
+      case guard::End::fault: return "fault";
+      case guard::End::time: return "gave_up";
+      case guard::End::ended: return "ended";
+    }
+    return "?";
+  };
+  nlohmann::ordered_json reasons = nlohmann::ordered_json::object();
+  for (int i = 0; i < kGuardReasons; ++i)
+    reasons[name(static_cast<GuardReason>(i))] = r.reasons[static_cast<std::size_t>(i)];
+  const nlohmann::ordered_json json = {{"outcome", outcome()},
+                                       {"time_s", r.time_s},
+                                       {"path_m", r.path_m},
+                                       {"final_distance_m", r.final_distance_m},
+                                       {"min_clearance_m", r.min_clearance_m},
+                                       {"ticks", r.ticks},
+                                       {"hash", fmt::format("{:016x}", r.hash)},
+                                       {"detail", r.end == guard::End::fault ? name(r.fault) : ""},
+                                       {"granted", r.granted},
+                                       {"stops", r.stops},
+                                       {"ticks_by_reason", reasons}};
+  return json.dump();
+}
+
 int execute(const GuardOptions& o) {
   if (o.keys && !o.commands.empty()) throw UsageError("--keys and --commands: choose one");
-  check_outputs({o.trace}, {o.file, o.robot, o.commands == "-" ? "" : o.commands});
+  check_outputs({o.trace}, {o.file, o.robot, o.commands == "-" ? "" : o.commands}, o.json);
   Scenario scenario = load_scenario(o.file);
   if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
   if (o.seed) scenario.seed = *o.seed;
   const auto hand = operator_of(o, scenario);
   const auto* const keys = dynamic_cast<Keys*>(hand.get());
-  const double track_m = scenario.robot.body.track.raw() * 1e-6;
+  const auto* const recorded = dynamic_cast<guard::Recorded*>(hand.get());
+  bool stands = false;
+  double now_s = 0;
+  const double timeout_s = scenario.robot.guard.command_timeout.raw() * 1e-3;
   std::string rows = fmt::format("{}\n", guard::kTraceHeader);
   ProgressLine line;
   guard::Options options;
@@ -76,9 +112,14 @@ int execute(const GuardOptions& o) {
   options.time_s = o.time_s;
   options.vouched_m = o.vouched_m;
   options.until_goal = o.commands.empty();
-  options.ended = [&] { return keys != nullptr && keys->ended(); };
+  options.ended = [&] {
+    if (recorded != nullptr) return stands && now_s > recorded->last_s() + timeout_s;
+    return keys != nullptr && keys->ended();
+  };
   options.watch = [&](const guard::Moment& m) {
-    if (!o.trace.empty()) rows += guard::trace_row(m, track_m) + "\n";
+    if (!o.trace.empty()) rows += guard::trace_row(m) + "\n";
+    now_s = m.t_s;
+    stands = std::abs(m.v_left_mps) < kStanding_mps && std::abs(m.v_right_mps) < kStanding_mps;
     if (keys == nullptr || m.status == nullptr) return;
     line.show(fmt::format(
         "asked {:5.2f} m/s {:5.2f} rad/s, granted {:3.0f} % {:3.0f} %, {:<16} at {:.2f}, {:.2f} m",
@@ -88,7 +129,15 @@ int execute(const GuardOptions& o) {
   const guard::Result result = guard::drive(scenario, *hand, options);
   line.show("");
   if (!o.trace.empty()) report::write_file(o.trace, rows);
-  print(result, words_beside({o.trace}));
+  if (o.json) {
+    Provenance p;
+    p.seed = scenario.seed;
+    p.robot_name = robot_name(scenario.robot, o.robot, o.file);
+    p.robot_digest = robot_digest(scenario.robot);
+    fmt::print("{}\n", with_provenance(json_of(result), p));
+  } else {
+    print(result, words_beside({o.trace}));
+  }
   return exit_status(result.end);
 }
 
@@ -99,8 +148,7 @@ void add_guard(CLI::App& app, int& status) {
   const auto o = std::make_shared<GuardOptions>();
   add_file(*cmd, "SCENARIO", o->file, "Scenario file (TOML)")->required();
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML), over those of the scenario");
-  add_file(*cmd, "--commands", o->commands,
-           "Commands from this CSV file, or - : t_s,forward_mps,turning_radps");
+  add_file(*cmd, "--commands", o->commands, "Commands from this CSV file, or - : t_s,v_mps,omega_radps");
   add_switch(*cmd, "--keys", o->keys, "Drive with the arrow keys, in real time; q ends");
   cmd->add_option("--operator", o->hand,
                   "Otherwise who commands: perfect (default), sloppy, blind, joystick\nor hostile")
@@ -117,6 +165,7 @@ void add_guard(CLI::App& app, int& status) {
       ->type_name("T");
   add_switch(*cmd, "--bare", o->bare, "Without the guard: the wheels do what is asked");
   add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");
+  add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

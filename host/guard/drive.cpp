@@ -1,4 +1,5 @@
 #include "host/guard/drive.hpp"
+#include "firmware/apps/pil_link/command_hash.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,8 @@ class Drive {
     result_.time_s = plant_.in_contact() ? plant_.contact_time() : plant_.time();
     result_.path_m = plant_.path_length();
     result_.min_clearance_m = plant_.min_clearance();
+    result_.final_distance_m = distance();
+    if (options_.guarded) result_.hash = hash_.value();
     if (asked_ > 0) result_.granted = granted_ / asked_;
     return result_;
   }
@@ -76,10 +79,11 @@ class Drive {
     return spec;
   }
   Time now() const { return Time::from_raw(now_ms_); }
-  bool at_goal() const {
+  double distance() const {
     const sim::Vec2 to = scenario_.goal.at - plant_.pose().at;
-    return options_.until_goal && std::hypot(to.x, to.y) <= scenario_.goal.tolerance_m;
+    return std::hypot(to.x, to.y);
   }
+  bool at_goal() const { return options_.until_goal && distance() <= scenario_.goal.tolerance_m; }
   bool faulted() const { return options_.guarded && guard_.status().health.fault != Fault::none; }
   /// A fault ends the drive once the body stands.
   bool over() const {
@@ -92,7 +96,8 @@ class Drive {
       result_.fault = guard_.status().health.fault;
       return End::fault;
     }
-    return at_goal() ? End::arrived : End::time;
+    if (at_goal()) return End::arrived;
+    return options_.ended && options_.ended() ? End::ended : End::time;
   }
 
   void ask() {
@@ -107,6 +112,7 @@ class Drive {
     const sim::Pose pose = plant_.pose();
     if (options_.guarded) {
       count(guard_.tick(now()));
+      hash_.add(guard_.status().command);
     } else {
       bare_.tick(velocity(twist_), milliseconds(gap_ms_));
     }
@@ -143,6 +149,7 @@ class Drive {
   Guard guard_;
   Bare bare_;
   Result result_;
+  link::CommandHash hash_;
   Twist twist_;
   double next_s_ = 0;
   double asked_ = 0, granted_ = 0;
@@ -159,6 +166,7 @@ const char* name(End end) {
     case End::contact: return "contact";
     case End::fault: return "fault";
     case End::time: return "time";
+    case End::ended: return "ended";
   }
   return "?";
 }

@@ -33,7 +33,7 @@ struct Options {
   std::function<bool()> ended = nullptr;  ///< true: the operator has enough
 };
 
-enum class End { arrived, contact, fault, time };
+enum class End { arrived, contact, fault, time, ended };  ///< ended: by Options::ended
 const char* name(End end);
 
 struct Result {
@@ -42,7 +42,9 @@ struct Result {
   double time_s = 0;
   double path_m = 0;
   double min_clearance_m = 0;
-  double granted = 1;  ///< mean share of the asked forward speed, over the ticks that asked for one
+  double final_distance_m = 0;  ///< from the goal
+  std::uint64_t hash = 0;       ///< link::CommandHash over the commands of the guard; 0 without it
+  double granted = 1;           ///< mean share of the asked forward speed, over the ticks that asked for one
   std::uint64_t ticks = 0;
   std::uint64_t stops = 0;  ///< times that the guard brought the asked forward speed to nothing
   std::array<std::uint64_t, kGuardReasons> reasons{};  ///< ticks by reason

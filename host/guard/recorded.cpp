@@ -12,7 +12,7 @@
 namespace whisker::guard {
 namespace {
 
-constexpr const char* kHeader = "t_s,forward_mps,turning_radps";
+constexpr const char* kHeader = "t_s,v_mps,omega_radps";
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Command parse(const std::string& line, const std::string& name, std::size_t number) {

@@ -1,4 +1,4 @@
-/// Commands from a file: a header `t_s,forward_mps,turning_radps`, then a row per command.
+/// Commands from a file: a header `t_s,v_mps,omega_radps`, then a row per command.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,13 @@ std::vector<Command> load_commands(const std::string& file);  ///< "-": standard
 /// Gives each command at its time, and none after the last.
 class Recorded final : public Operator {
  public:
+  /// At least one.
   explicit Recorded(std::vector<Command> commands);
   Twist ask(const Sight& sight) override;
   double pause_s() override;
   double first_s() override;
+  /// Of the last command.
+  double last_s() const { return commands_.back().t_s; }
 
  private:
   std::vector<Command> commands_;

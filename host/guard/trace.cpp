@@ -5,24 +5,21 @@
 namespace whisker::guard {
 
 const char* const kTraceHeader =
-    "t_s,x_m,y_m,heading_rad,left_m,front_m,right_m,asked_mps,asked_radps,forward,turning,reason,v_mps,w_"
-    "radps";
+    "t_s,x_m,y_m,heading_rad,left_m,front_m,right_m,v_left_mps,v_right_mps,state,why,asked_v_mps,"
+    "asked_omega_radps,granted_v,granted_omega";
 
-std::string trace_row(const Moment& m, double track_m) {
+std::string trace_row(const Moment& m) {
   std::string row =
       fmt::format("{:.3f},{:.6f},{:.6f},{:.6f}", m.t_s, m.pose.at.x, m.pose.at.y, m.pose.heading);
   for (const hal::RangeReading& beam : m.ranges.beam) {
-    row += beam.status == hal::RangeStatus::ok ? fmt::format(",{:.3f}", beam.mm * 1e-3) : ",";
+    row += beam.status == hal::RangeStatus::ok ? fmt::format(",{:.4f}", beam.mm * 1e-3) : ",";
   }
+  row += fmt::format(",{:.5f},{:.5f}", m.v_left_mps, m.v_right_mps);
+  row += m.status == nullptr ? ",bare," : fmt::format(",guarded,{}", name(m.status->reason));
   row += fmt::format(",{:.5f},{:.5f}", m.asked.forward_mps, m.asked.turning_radps);
-  if (m.status == nullptr) {
-    row += ",,,";
-  } else {
-    row += fmt::format(",{:.4f},{:.4f},{}", m.status->forward.raw() / 16384.0,
-                       m.status->turning.raw() / 16384.0, name(m.status->reason));
-  }
-  return row + fmt::format(",{:.5f},{:.5f}", (m.v_left_mps + m.v_right_mps) / 2,
-                           (m.v_right_mps - m.v_left_mps) / track_m);
+  if (m.status == nullptr) return row + ",,";
+  return row +
+         fmt::format(",{:.4f},{:.4f}", m.status->forward.raw() / 16384.0, m.status->turning.raw() / 16384.0);
 }
 
 }  // namespace whisker::guard

@@ -2,11 +2,12 @@
 ///
 /// - t_s: s, 3 decimals
 /// - x_m, y_m, heading_rad: true pose, 6 decimals
-/// - left_m, front_m, right_m: measured ranges, 3 decimals; empty if there is no distance
-/// - asked_mps, asked_radps: the last command, 5 decimals
-/// - forward, turning: granted shares, 4 decimals; empty without the guard
-/// - reason: a name of GuardReason; empty without the guard
-/// - v_mps, w_radps: true velocity of the body, 5 decimals
+/// - left_m, front_m, right_m: measured ranges, 4 decimals; empty if there is no distance
+/// - v_left_mps, v_right_mps: true speeds of the wheels, 5 decimals
+/// - state: guarded, or bare without the guard
+/// - why: a name of GuardReason; empty without the guard
+/// - asked_v_mps, asked_omega_radps: the last command, 5 decimals
+/// - granted_v, granted_omega: granted shares of it, 4 decimals; empty without the guard
 #pragma once
 
 #include <string>
@@ -17,6 +18,6 @@ namespace whisker::guard {
 
 extern const char* const kTraceHeader;
 /// Without the newline.
-std::string trace_row(const Moment& moment, double track_m);
+std::string trace_row(const Moment& moment);
 
 }  // namespace whisker::guard

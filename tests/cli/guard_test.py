@@ -1,13 +1,14 @@
 """whisker guard and whisker operators from outside."""
 
 import csv
+import json
 import pathlib
 import tempfile
 import unittest
 
 import whisker
 
-HEADER = "t_s,forward_mps,turning_radps"
+HEADER = "t_s,v_mps,omega_radps"
 
 
 class Guard(unittest.TestCase):
@@ -39,14 +40,33 @@ class Guard(unittest.TestCase):
         trace = str(pathlib.Path(self.folder.name, "trace.csv"))
         file = self.commands("0.1,0.2,0", "0.3,0.2,0.5")
         done = whisker.whisker("guard", self.world, "--commands", file, "--time", "2", "--vouch", "0.35", "--trace", trace)
-        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("ended after 1.0", done.stdout)
         with open(trace, newline="") as rows:
-            reasons = {round(float(r["t_s"]), 2): r["reason"] for r in csv.DictReader(rows)}
+            reasons = {round(float(r["t_s"]), 2): r["why"] for r in csv.DictReader(rows)}
         self.assertEqual(reasons[0.05], "command_timeout")
         self.assertEqual(reasons[0.55], reasons[0.2])
         self.assertEqual(reasons[0.56], "command_timeout")
         again = whisker.whisker("guard", self.world, "--commands", file, "--time", "2", "--vouch", "0.35")
         self.assertEqual(done.stderr + done.stdout, again.stderr + again.stdout)
+
+    def test_json_is_the_result_and_the_trace_has_every_tick(self):
+        trace = str(pathlib.Path(self.folder.name, "json.csv"))
+        file = self.commands("0.1,0.2,0", "0.3,0.2,0.5")
+        done = whisker.whisker("guard", self.world, "--commands", file, "--vouch", "0.35", "--trace", trace, "--json")
+        told = json.loads(done.stdout)
+        self.assertEqual((done.returncode, done.stderr, told["outcome"]), (0, "", "ended"))
+        self.assertEqual(sum(told["ticks_by_reason"].values()), told["ticks"])
+        with open(trace, newline="") as text:
+            rows = list(csv.DictReader(text))
+        self.assertEqual(len(rows), told["ticks"])
+        self.assertEqual(
+            list(rows[0])[:11],
+            ["t_s", "x_m", "y_m", "heading_rad", "left_m", "front_m", "right_m", "v_left_mps", "v_right_mps", "state", "why"],
+        )
+        self.assertLess(abs(float(rows[-1]["v_left_mps"])), 0.001)
+        blind = whisker.whisker("guard", self.world, "--operator", "blind", "--bare", "--json")
+        self.assertEqual((blind.returncode, json.loads(blind.stdout)["outcome"]), (5, "contact"))
 
     def test_refuses_bad_commands_with_their_line(self):
         for row, says in (("1,2", "a row has three numbers"), ("-1,0,0", "must not be negative"), ("1,2,3,4", "a row has three")):

@@ -32,7 +32,7 @@ OPTIONS = {
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
     ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--contacts"),
-    ("guard",): ("SCENARIO", "--robot", "--commands", "--keys", "--operator", "--seed", "--vouch", "--time", "--bare", "--trace"),
+    ("guard",): ("SCENARIO", "--robot", "--commands", "--keys", "--operator", "--seed", "--vouch", "--time", "--bare", "--trace", "--json"),
     ("operators",): ("--count", "--seed", "--hostile", "--noise", "--robot"),
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),

@@ -90,7 +90,7 @@ _whisker() {
       esac
       ;;
     "whisker guard")
-      options="-h --help --robot --commands --keys --operator --seed --vouch --time --bare --trace" words="" paths=file
+      options="-h --help --robot --commands --keys --operator --seed --vouch --time --bare --trace --json" words="" paths=file
       case $before in
         --robot | --commands | --trace) options="" words="" paths=file ;;
         --operator | --seed | --vouch | --time) options="" words="" paths=value ;;
