@@ -41,7 +41,7 @@ Guard::Guard(hal::Rangefinders& rangefinders, hal::Drive& drive, const Params& p
       localizer_(params, status_, status_.health),
       wheels_(drive),
       supervisor_(params, status_.health) {
-  if (check(params) != ParamFault::none || params.bumper.creep_speed != Speed{}) {
+  if (!usable()) {
     supervisor_.fail(Fault::invalid_params);
     status_.reason = GuardReason::fault;
     return;
@@ -54,11 +54,16 @@ Guard::Guard(hal::Rangefinders& rangefinders, hal::Drive& drive, const Params& p
   put_down();
 }
 
+bool Guard::usable() const noexcept {
+  if (kParamCheckBuilt && check(params_) != ParamFault::none) return false;
+  return params_.bumper.creep_speed == Speed{} && (kSweeps || !rim_sweep(params_).needed);
+}
+
 void Guard::put_down() noexcept {
   localizer_.put_down(Pose{});
   perception_.forget(Pose{});
   limiter_.reset();
-  nod_.reset();
+  if (kNodsBuilt) nod_->reset();
   started_ = commanded_ = false;
   vouched_ = Length{};
   stalled_for_ = Duration{};
@@ -184,20 +189,20 @@ WheelPair Guard::limit_speed(bool paused) noexcept {
   const bool doubted = limited.forward != asked.forward;
   // Without readings, nothing is seen yet.
   const bool seeing = vouched_ == Length{} && perception::usable(perception_.latest());
-  if (params_.guard.nods == Fitted::yes && seeing) {
-    limited = nod_.step(limited, limiter_.granted(), pose, perception_.local_grid(), elapsed_, params_);
+  if (kNodsBuilt && params_.guard.nods == Fitted::yes && seeing) {
+    limited = nod_->step(limited, limiter_.granted(), pose, perception_.local_grid(), elapsed_, params_);
   }
   const WheelPair speeds =
       limiter_.step(limited, pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
   const WheelPair aim = target(limited, speeds);
   status_.forward = share(forward_of(aim), status_.asked.forward);
   const Speed turning = status_.asked.turning * (params_.body.track / 2);
-  status_.turning = nod_.active() ? Q14{} : share(turning_of(aim), turning);
+  status_.turning = nodding() ? Q14{} : share(turning_of(aim), turning);
   constexpr Q14 kAll = Q14::ratio(999, 1000);
   const bool granted_in_full = status_.forward >= kAll && status_.turning >= kAll;
   status_.reason = !fresh            ? GuardReason::stale_ranges
                    : !commanded_     ? GuardReason::command_timeout
-                   : nod_.active()   ? GuardReason::nodding
+                   : nodding()       ? GuardReason::nodding
                    : granted_in_full ? GuardReason::clear
                                      : held_by(asked, doubted);
   return speeds;

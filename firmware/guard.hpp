@@ -9,6 +9,7 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/perception.hpp"
 #include "firmware/safety/nod.hpp"
 #include "firmware/safety/speed_limiter.hpp"
@@ -87,6 +88,8 @@ class Guard {
   const perception::LocalGrid& local_grid() const noexcept { return perception_.local_grid(); }
 
  private:
+  /// By the parameters, which must not ask for parts that this image lacks.
+  bool usable() const noexcept;
   void put_down() noexcept;
   void take_time(Time now) noexcept;
   bool take_counts() noexcept;
@@ -97,6 +100,7 @@ class Guard {
   WheelPair target(const planning::VelocityRequest& limited, WheelPair speeds) const noexcept;
   GuardReason held_by(const planning::VelocityRequest& asked, bool doubted) const noexcept;
   void check_stall(WheelPair speeds) noexcept;
+  bool nodding() const noexcept { return kNodsBuilt && nod_->active(); }
 
   hal::Rangefinders& rangefinders_;
   const Params& params_;
@@ -120,7 +124,7 @@ class Guard {
   control::WheelDrive wheels_;
   safety::SpeedLimiter limiter_;
   safety::WarnedSpeed warned_speed_;
-  safety::Nod nod_;
+  Part<safety::Nod, kNodsBuilt> nod_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;
 };

@@ -17,6 +17,30 @@
 #ifndef WHISKER_NARROW_GAPS
 #define WHISKER_NARROW_GAPS 1
 #endif
+#ifndef WHISKER_BUMPER
+#define WHISKER_BUMPER 1
+#endif
+#ifndef WHISKER_MOTION_DETECTOR
+#define WHISKER_MOTION_DETECTOR 1
+#endif
+#ifndef WHISKER_PARAM_CHECK
+#define WHISKER_PARAM_CHECK 1
+#endif
+#ifndef WHISKER_POSE_HISTORY
+#define WHISKER_POSE_HISTORY 16
+#endif
+#ifndef WHISKER_STATIC_SCANS
+#define WHISKER_STATIC_SCANS 1
+#endif
+#ifndef WHISKER_SWEEPS
+#define WHISKER_SWEEPS 1
+#endif
+#ifndef WHISKER_NODS
+#define WHISKER_NODS 1
+#endif
+#ifndef WHISKER_WHEEL_WATCH
+#define WHISKER_WHEEL_WATCH 1
+#endif
 #ifndef WHISKER_VOUCH
 #define WHISKER_VOUCH 1
 #endif
@@ -33,6 +57,27 @@ constexpr bool kCalibrationBuilt = WHISKER_CALIBRATION != 0;
 constexpr bool kIncidenceBuilt = WHISKER_INCIDENCE != 0;
 /// The robot passes gaps that are hardly wider than the body.
 constexpr bool kNarrowGaps = WHISKER_NARROW_GAPS != 0;
+/// Obstacles found by touch. Without, no bumper may be fitted.
+constexpr bool kBumperBuilt = WHISKER_BUMPER != 0;
+/// What moves is braked for. Without, only the static world is guarded, and readings are not judged by
+/// contradictions.
+constexpr bool kMotionDetectorBuilt = WHISKER_MOTION_DETECTOR != 0;
+/// whisker::Guard checks its parameters at run time. Without, the program must: static_assert(check(params)
+/// == ParamFault::none).
+constexpr bool kParamCheckBuilt = WHISKER_PARAM_CHECK != 0;
+/// Instants of the pose history: a smaller number interpolates over longer times, in proportion to the
+/// latency.
+constexpr int kPoseHistory = WHISKER_POSE_HISTORY;
+/// Planners wait for scans of the standing body. whisker::Guard needs none.
+constexpr bool kStaticScans = WHISKER_STATIC_SCANS != 0;
+/// Readings one after another clear ground together, for sensors whose cones hold no cell at the rim.
+/// Without, whisker::Guard refuses them.
+constexpr bool kSweeps = WHISKER_SWEEPS != 0;
+/// whisker::Guard turns a beam onto unseen ground.
+constexpr bool kNodsBuilt = WHISKER_NODS != 0;
+/// A wheel that does not follow its command is a fault. Without, only a jump of the counts, and both wheels
+/// held, are.
+constexpr bool kWheelWatchBuilt = WHISKER_WHEEL_WATCH != 0;
 /// The operator may say that ground is free, for whisker::Guard.
 constexpr bool kVouches = WHISKER_VOUCH != 0;
 
@@ -41,11 +86,11 @@ constexpr bool kVouches = WHISKER_VOUCH != 0;
 template <class T, bool kBuilt>
 class Part {
  public:
-  Part() = default;
+  [[gnu::always_inline]] constexpr Part() noexcept {}  // NOLINT(modernize-use-equals-default)
   template <class Argument>
   explicit Part(Argument& argument) noexcept : part_(argument) {}
-  T* operator->() noexcept { return &part_; }
-  const T* operator->() const noexcept { return &part_; }
+  [[gnu::always_inline]] T* operator->() noexcept { return &part_; }
+  [[gnu::always_inline]] const T* operator->() const noexcept { return &part_; }
 
  private:
   T part_;

@@ -5,12 +5,13 @@
 
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
+#include "firmware/part.hpp"
 
 namespace whisker::localization {
 
 class PoseHistory {
  public:
-  static constexpr int kKept = 16;
+  static constexpr int kKept = kPoseHistory;
 
   /// Keeps instants at least this far apart, so the history covers (kKept - 1) times that.
   void configure(Duration spacing) noexcept { spacing_ = spacing; }

@@ -67,8 +67,10 @@ LocalGrid::Point LocalGrid::local(Vec at) const noexcept {
 void LocalGrid::drop_rows(int first, int count) noexcept {
   for (int row = first; row < first + count; ++row) {
     const int s = slot(row);
-    young_[s] = old_[s] = suspect_[s] = tested_[s] = 0;
-    for (Chain& chain : chains_) chain.swept[s] = 0;
+    young_[s] = old_[s] = suspect_[s] = 0;
+    if (kStaticScans) tested_->row[s] = 0;
+    if (!kSweeps) continue;
+    for (Chain& chain : chains_->of) chain.swept[s] = 0;
   }
 }
 
@@ -78,14 +80,15 @@ void LocalGrid::drop_columns(Row window) noexcept {
     young_[s] &= keep;
     old_[s] &= keep;
     suspect_[s] &= keep;
-    tested_[s] &= keep;
-    for (Chain& chain : chains_) chain.swept[s] &= keep;
+    untest(s, ~keep);
+    if (!kSweeps) continue;
+    for (Chain& chain : chains_->of) chain.swept[s] &= keep;
   }
 }
 
 void LocalGrid::reset(const Pose& pose) noexcept {
   drop_rows(0, kCells);
-  for (Chain& chain : chains_) chain.linked = false;
+  unlink();
   last_ = pose;
   travel_ = Length{};
   turned_ = 0;
@@ -118,7 +121,9 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
     if (cols < 0) drop_columns(columns_between(0, -cols - 1));
   }
   if (farther(pose.at - tested_at_, kTestedTravel)) {
-    for (Row& row : tested_) row = 0;
+    if (kStaticScans) {
+      for (Row& row : tested_->row) row = 0;
+    }
     tested_at_ = pose.at;
   }
   age(pose);
@@ -208,7 +213,7 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
       nearer.within_disc(apex.x, dy, free - kCellCover);
       suspect_[s] |= to_torus(around.columns() & ~nearer.columns()) & ~(young_[s] | old_[s]);
     }
-    if ((covered & (~young_[s] | suspect_[s] | tested_[s])) == 0) continue;
+    if ((covered & (~young_[s] | suspect_[s] | tested(s))) == 0) continue;
     Span empty = inside;
     empty.inside_disc(apex.x, dy, free);
     if (moved) {
@@ -219,9 +224,9 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
     const Row clear = to_torus(empty.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;
-    tested_[s] &= ~clear;
+    untest(s, clear);
     const Row unproved = covered & ~(young_[s] | old_[s]);
-    if (observation.aimed) tested_[s] |= unproved;
+    if (kStaticScans && observation.aimed) tested_->row[s] |= unproved;
     if (observation.hit && unproved != 0) {
       Span near = inside;
       core.clip(near, apex.x, dy, 0);
@@ -234,7 +239,7 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
 void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexcept {
   doubting_ = true;
   close_lane();
-  for (Chain& chain : chains_) chain.linked = false;
+  unlink();
   doubted_ = observation.taken;
   const Beam& beam = observation.beam;
   const Point apex = local(beam.apex);
@@ -265,7 +270,7 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
     young_[s] &= ~taken;
     old_[s] &= ~taken;
     suspect_[s] = (suspect_[s] & ~taken) | (taken & to_torus(echo.columns()));
-    tested_[s] &= ~taken;
+    untest(s, taken);
   }
 }
 

@@ -117,7 +117,11 @@ class LocalGrid {
   static constexpr Length kReadingRounding = Length::from_raw(1000);
   using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
-  Row solid_row(int row) const noexcept { return to_window(suspect_[slot(row)] | tested_[slot(row)]); }
+  Row solid_row(int row) const noexcept { return to_window(suspect_[slot(row)] | tested(slot(row))); }
+  [[gnu::always_inline]] Row tested(int slot) const noexcept { return kStaticScans ? tested_->row[slot] : 0; }
+  [[gnu::always_inline]] void untest(int slot, Row cells) noexcept {
+    if (kStaticScans) tested_->row[slot] &= ~cells;
+  }
   int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
   uint32_t shift() const noexcept { return static_cast<uint32_t>(column_) & (kCells - 1); }
   Row to_torus(Row window) const noexcept {
@@ -182,12 +186,24 @@ class LocalGrid {
   Length place_error_;  // between two readings
   Length swept_;        // radius of rim_sweep()
   Length holds_;        // from this distance on, a cone holds a cell
-  Chain chains_[3];
+  struct Chains {
+    [[gnu::always_inline]] Chains() noexcept {}
+    Chain of[3];
+  };
+  Part<Chains, kSweeps> chains_;
+  [[gnu::always_inline]] void unlink() noexcept {
+    if (!kSweeps) return;
+    for (Chain& chain : chains_->of) chain.linked = false;
+  }
 
   Row young_[kCells] = {};    // cleared since the last ageing step
   Row old_[kCells] = {};      // cleared before it
   Row suspect_[kCells] = {};  // near an echo
-  Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
+  struct Tested {
+    [[gnu::always_inline]] Tested() noexcept {}
+    Row row[kCells] = {};
+  };
+  Part<Tested, kStaticScans> tested_;  // covered by a static scan from here and not cleared
   Part<Lane, kNarrowGaps> lane_;
 };
 

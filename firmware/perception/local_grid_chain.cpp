@@ -38,7 +38,7 @@ bool LocalGrid::link(const Chain& chain, const Vec& from, Angle trail, Angle hal
 
 void LocalGrid::chain(const ConeObservation& observation, const EarlierObservation* before) noexcept {
   if (reach_.past == Angle{}) return;
-  Chain& chain = chains_[observation.number];
+  Chain& chain = chains_->of[observation.number];
   const Beam& beam = observation.beam;
   const Angle turn = beam.axis - chain.last.axis;
   const Length moved = arc(turn, swept_) - across(beam.apex - chain.last.apex, beam.axis);
@@ -116,7 +116,7 @@ void LocalGrid::chain(const ConeObservation& observation, const EarlierObservati
     const Row clear = swept & to_torus(left_behind.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;
-    tested_[s] &= ~clear;
+    untest(s, clear);
   }
   chain.lead_from = shifted_on(rearmost) ? from_before : beam.apex;
   chain.lead = rearmost;

@@ -11,8 +11,8 @@ void Perception::configure(const Params& params) noexcept {
   loses_walls_ = params.rangefinders.incidence.raw() < (90_deg).raw();
   for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
   local_grid_.configure(params);
-  contacts_.configure(params.body.radius);
-  motion_.configure(mounts_);
+  if (kBumperBuilt) contacts_->configure(params.body.radius);
+  if (kMotionDetectorBuilt) motion_->configure(mounts_);
   monitor_.configure(params);
   const Duration reach = params.rangefinders.latency + milliseconds(1000 / params.rangefinders.rate_hz);
   history_.configure(reach / (localization::PoseHistory::kKept - 2));
@@ -21,14 +21,16 @@ void Perception::configure(const Params& params) noexcept {
 void Perception::forget(const Pose& pose) noexcept {
   history_.reset();
   local_grid_.reset(pose);
-  contacts_.reset();
-  motion_.reset();
+  if (kBumperBuilt) contacts_->reset();
+  if (kMotionDetectorBuilt) motion_->reset();
   monitor_.reset();
   if (kVouches) vouched_->any = false;
   seen_ = 0;
   contradicted_ = 0;
   misses_ = false;
-  for (Contradiction& contradiction : contradictions_) contradiction = {};
+  if (kMotionDetectorBuilt) {
+    for (Contradiction& contradiction : contradictions_->of) contradiction = {};
+  }
   for (RangeScatter& scatter : scatter_) scatter = {};
 }
 
@@ -59,7 +61,7 @@ void Perception::sense(const hal::RangeReadings* readings, Time now, Angle headi
 }
 
 void Perception::observe(const Standing& body, const Params& params, Percept& out) noexcept {
-  if (body.settled) out.static_scan = conditioner_.look(body.settled_since, params);
+  if (kStaticScans && body.settled) out.static_scan = conditioner_.look(body.settled_since, params);
   history_.add(body.pose, body.now);
   local_grid_.move_to(body.pose);
   monitor_.move_to(body.pose.at);
@@ -101,9 +103,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     echo_ends[i] = allowance == Length{} ? observation.free : max(observation.free, sight.newest.distance);
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
-    if (observation.hit &&
-        motion_.contradicts(observation.beam, observation.free, sight.farthest, misaimed, local_grid_)) {
-      const bool approaches = contradictions_[i].approaches(observation);
+    if (kMotionDetectorBuilt && observation.hit &&
+        motion_->contradicts(observation.beam, observation.free, sight.farthest, misaimed, local_grid_)) {
+      const bool approaches = contradictions_->of[i].approaches(observation);
       if (!sight.phantoms) monitor_.contradict(approaches);
       const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
       if (anew && contradicted_ < kDistrusted) ++contradicted_;
@@ -116,7 +118,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     const EarlierObservation* const before = sight.single ? &last_[i] : nullptr;
     if (!sight.single || (seen_ & bit) != 0) {
       local_grid_.mark(observation, before);
-      local_grid_.chain(observation, before);
+      if (kSweeps) local_grid_.chain(observation, before);
     }
     appears[i] = (seen_ & bit) != 0 && last_[i].free > observation.free + kAppears;
     last_[i] = {observation.beam.apex, observation.beam.axis, observation.free};
@@ -136,24 +138,26 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       }
       if (appears[i]) local_grid_.revoke_beside(out.observations[i]);
     }
-    if (moved[i] == Length{}) continue;
+    if (!kMotionDetectorBuilt || moved[i] == Length{}) continue;
     local_grid_.doubt(out.observations[i], moved[i]);
     if (!kEvades || (out.mover.seen && free[i] >= nearest)) continue;
     nearest = free[i];
     const Beam& beam = out.observations[i].beam;
     out.mover.at = beam.apex + polar(beam.axis, nearest);
     out.mover.seen = true;
-    if (!motion_.came_from(out.mover.at, out.mover.direction)) {
+    if (!motion_->came_from(out.mover.at, out.mover.direction)) {
       out.mover.direction = bearing(body.pose.at - out.mover.at);
     }
   }
-  for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());
+  if (kBumperBuilt) {
+    for (int i = 0; i < contacts_->count(); ++i) local_grid_.block(contacts_->at(i), contacts_->radius());
+    out.contacts = contacts_.operator->();
+  }
   if (seen > 0) monitor_.see(from, shown, mounts_);
-  if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free, hits);
+  if (kMotionDetectorBuilt && seen == hal::kBeams) motion_->add(from, out.observations[0].taken, free, hits);
   monitor_.judge(conditioner_.phantom_share(), conditioner_.false_clear_share());
   out.doubts = doubts();
   out.local_grid = &local_grid_;
-  out.contacts = &contacts_;
 }
 
 }  // namespace whisker::perception

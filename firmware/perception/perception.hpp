@@ -44,7 +44,7 @@ class Perception {
   void sense(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
              Health& health) noexcept;
   /// A body with this pose touches something with these switches: see Contacts::add().
-  void touch(uint8_t pressed, const Pose& body) noexcept { contacts_.add(pressed, body); }
+  void touch(uint8_t pressed, const Pose& body) noexcept { contacts_->add(pressed, body); }
   /// Updates the grid and returns the percept; call once per tick after sense().
   void observe(const Standing& body, const Params& params, Percept& out) noexcept;
 
@@ -85,15 +85,19 @@ class Perception {
   bool misses_ = false;       // some beam often reports clear where something is
   bool readings_err_ = false;
   uint8_t contradicted_ = 0;  // echoes from clear ground that nothing moving explains
-  Contradiction contradictions_[hal::kBeams];
+  struct Contradictions {
+    [[gnu::always_inline]] Contradictions() noexcept {}
+    Contradiction of[hal::kBeams];
+  };
+  Part<Contradictions, kMotionDetectorBuilt> contradictions_;
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading
   EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
   RangeScatter scatter_[hal::kBeams];
   RangeConditioner conditioner_;
   localization::PoseHistory history_;
-  MotionDetector motion_;
+  Part<MotionDetector, kMotionDetectorBuilt> motion_;
   RangeMonitor monitor_;
-  Contacts contacts_;
+  Part<Contacts, kBumperBuilt> contacts_;
   LocalGrid local_grid_;
   struct Vouched {
     bool any = false;

@@ -37,7 +37,7 @@ Duration braking_time(const Params& p) noexcept {
 }
 
 void Supervisor::configure() noexcept {
-  wheel_watch_.configure(params_);
+  if (kWheelWatchBuilt) wheel_watch_->configure(params_);
   longest_stay_ = longest_stay(params_);
 }
 
@@ -47,7 +47,7 @@ void Supervisor::reset() noexcept {
   encoder_refusals_.reset();
   bumper_refusals_.reset();
   bumps_ = 0;
-  wheel_watch_.reset();
+  if (kWheelWatchBuilt) wheel_watch_->reset();
   unwatched_ = kUnwatched;
 }
 
@@ -78,16 +78,17 @@ void Supervisor::check_counts(bool read) noexcept {
 }
 
 void Supervisor::expect_wheels(WheelPair speeds, Duration elapsed, Duration gap) noexcept {
+  if (!kWheelWatchBuilt) return;
   if (unwatched_ > Duration{}) {
     unwatched_ -= gap;
   } else {
-    wheel_watch_.expect(speeds, elapsed);
+    wheel_watch_->expect(speeds, elapsed);
   }
 }
 
 void Supervisor::check_wheels(const localization::CountStep& step) noexcept {
-  if (faulted() || unwatched_ > Duration{}) return;
-  switch (wheel_watch_.judge(step)) {
+  if (!kWheelWatchBuilt || faulted() || unwatched_ > Duration{}) return;
+  switch (wheel_watch_->judge(step)) {
     case WheelWatch::Finding::none: break;
     case WheelWatch::Finding::stalled: fail(Fault::wheels_stalled, health_.wheel_stalls); break;
     case WheelWatch::Finding::runaway: fail(Fault::wheel_runaway, health_.wheel_runaways); break;

@@ -9,6 +9,7 @@
 #include "firmware/math/units.hpp"
 #include "firmware/math/wheel_kinematics.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/safety/refusals.hpp"
 #include "firmware/safety/wheel_watch.hpp"
@@ -59,7 +60,7 @@ class Supervisor {
   Refusals drive_refusals_;
   Refusals encoder_refusals_;
   Refusals bumper_refusals_;
-  WheelWatch wheel_watch_;
+  Part<WheelWatch, kWheelWatchBuilt> wheel_watch_;
   Duration unwatched_;  // time until the wheel watch starts
   Vec place_;           // the place that the body has not left
   Duration at_place_for_;

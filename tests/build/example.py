@@ -1,12 +1,14 @@
-"""docs/firmware.md shows docs/example/main.cpp verbatim. usage: example.py ROOT"""
+"""The examples of the documentation are the files that are compiled, verbatim. usage: example.py ROOT"""
 
 import pathlib
 import sys
 
+EXAMPLES = {"docs/firmware.md": "docs/example/main.cpp", "docs/guard.md": "tests/guard/example.cpp"}
+
 root = pathlib.Path(sys.argv[1])
-shown = (root / "docs/firmware.md").read_text()
-example = (root / "docs/example/main.cpp").read_text()
-block = f"<!-- example:begin -->\n```cpp\n{example}```\n<!-- example:end -->\n"
-if block not in shown:
-    sys.exit("docs/firmware.md: the example between its marks is not docs/example/main.cpp")
-print("docs/firmware.md shows the example that is compiled")
+for page, file in EXAMPLES.items():
+    example = (root / file).read_text()
+    block = f"<!-- example:begin -->\n```cpp\n{example}```\n<!-- example:end -->\n"
+    if block not in (root / page).read_text():
+        sys.exit(f"{page}: the example between its marks is not {file}")
+    print(f"{page} shows the example that is compiled")
