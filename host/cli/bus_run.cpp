@@ -94,19 +94,43 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   return status;
 }
 
-void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line) {
-  const Interrupt interrupt;
+namespace {
+
+void control_until(const BusChoice& bus, hil::ControllerOptions how, hil::Line& line) {
   hil::Recorder recorder(bus.record, bus.name);
   hil::Tap tap(line.port(), [&recorder](const hal::CanFrame& frame) { recorder.write(frame); });
-  hil::ControllerOptions how;
   how.identity = bus.identity();
-  how.planner = planner;
-  how.say = speaker("controller", bus);
-  how.interrupted = [&interrupt] { return interrupt.noted(); };
   bus::FaultPort port = lossy(tap, bus);
   if (bus.real_time) run_before_others(how.say);
   hil::control(port, line, how);
   recorder.close();
+}
+
+}  // namespace
+
+void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line) {
+  const Interrupt interrupt;
+  hil::ControllerOptions how;
+  how.planner = planner;
+  how.say = speaker("controller", bus);
+  how.interrupted = [&interrupt] { return interrupt.noted(); };
+  control_until(bus, how, line);
+}
+
+bool control_mission_on_bus(const BusChoice& bus, can_app::PlannerMaker& planners, hil::Line& line,
+                            const std::function<void(const std::string&)>& heard,
+                            const std::function<bool()>& done) {
+  const Interrupt interrupt;
+  hil::ControllerOptions how;
+  how.planners = &planners;
+  const auto say = speaker("controller", bus);
+  how.say = [&](const std::string& words) {
+    say(words);
+    heard(words);
+  };
+  how.interrupted = [&] { return interrupt.noted() || done(); };
+  control_until(bus, how, line);
+  return interrupt.noted();
 }
 
 }  // namespace whisker::cli

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
+#include "firmware/apps/can/remote_robot.hpp"
 #include "host/cli/bus_options.hpp"
 #include "host/cli/live_view.hpp"
 #include "host/cli/one_run.hpp"
@@ -19,5 +22,10 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
 /// Runs the controller until it is interrupted; it prints its actions on standard error. Its pace is that of
 /// the plant; `real_time` only prepares it for that.
 void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line);
+
+/// The same with these planners, until `done`. heard: receives the actions, too. True: a signal ended it.
+bool control_mission_on_bus(const BusChoice& bus, can_app::PlannerMaker& planners, hil::Line& line,
+                            const std::function<void(const std::string&)>& heard,
+                            const std::function<bool()>& done);
 
 }  // namespace whisker::cli

@@ -28,9 +28,10 @@ std::string words_for(const can::Node& node, const Line& line) {
 }  // namespace
 
 void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
-  HostPlanners planners(options.planner);
+  HostPlanners usual(options.planner);
+  can_app::PlannerMaker& planners = options.planners != nullptr ? *options.planners : usual;
   can::Identity identity = options.identity;
-  identity.rules = rules_digest(options.planner);
+  if (options.planners == nullptr) identity.rules = rules_digest(options.planner);
   const auto controller = std::make_unique<can_app::Controller>(port, identity, planners);
   WallClock clock([&line] { return line.descriptor(); });
   std::string said;

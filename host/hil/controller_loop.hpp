@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "firmware/apps/can/remote_robot.hpp"
 #include "firmware/can/node.hpp"
 #include "host/hil/line.hpp"
 #include "host/run/planners.hpp"
@@ -12,6 +13,7 @@ namespace whisker::hil {
 struct ControllerOptions {
   can::Identity identity{1, 1, 0};
   PlannerKind planner = kDefaultPlanner;
+  can_app::PlannerMaker* planners = nullptr;    ///< instead of planners of that kind
   std::function<void(const std::string&)> say;  ///< receives each activity or awaited item once
   std::function<bool()> interrupted;            ///< true: end
 };

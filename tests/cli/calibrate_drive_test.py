@@ -2,9 +2,11 @@
 
 import json
 import pathlib
+import subprocess
 import xml.etree.ElementTree
 
 import whisker
+from slcan_bridge import Bridge
 from whisker import Case
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -121,6 +123,48 @@ class CalibrateDrive(Case):
         few = calibrate(PLAIN, "--square-ends", self.file("few.csv", "side,x_m,y_m\nleft,1,2\n"))
         self.assertEqual(few.returncode, 6)
         self.assertIn("two squares to the left and two to the right are needed", few.stderr)
+
+
+class Bus(Case):
+    def setUp(self):
+        super().setUp()
+        ends = (self.folder / "a", self.folder / "b")
+        bridge = Bridge(*ends)
+        self.addCleanup(bridge.close)
+        self.ends = [f"slcan:{end}" for end in ends]
+        self.true = self.file("true.toml", "gyro = true\n")
+        room = "[[wall]]\npoints = [[0.9, -0.7], [0.9, 0.8], [-1.1, 0.8], [-1.1, -0.7], [0.9, -0.7]]\n"
+        self.world = self.file("room.toml", f"[start]\nx_m = 0.0\ny_m = 0.0\nheading_deg = 0\n[goal]\nx_m = 0.5\ny_m = 0.0\n{room}")
+
+    def driven(self, mission, world, status, *more):
+        """What the command on the bus prints, while the plant has this world and orders a mission."""
+        command = subprocess.Popen(
+            [whisker.binary, "robot", "calibrate-drive", self.true, "--can", self.ends[0], "--mission", mission, "--json", *more],
+            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
+        self.addCleanup(command.communicate)
+        self.addCleanup(command.kill)
+        subprocess.run([whisker.binary, "plant", world, "--robot", self.true, "--can", self.ends[1]], capture_output=True, timeout=60, check=False)
+        out, err = command.communicate(timeout=60)
+        self.assertEqual(command.returncode, status, err)
+        return json.loads(out), err
+
+    def test_the_core_spins_on_the_bus(self):
+        result, _ = self.driven("spin", self.world, 0)
+        values = {v["key"]: v["value"] for v in result["values"]}
+        self.assertAlmostEqual(values["gyro_scale"], 1, delta=5e-4)
+        self.assertAlmostEqual(values["wheel_track_m"], 0.14, delta=2e-4)
+
+    def test_a_drive_that_is_blocked_says_so(self):
+        result, err = self.driven("straight", self.world, 6)
+        self.assertEqual(result["steps"][0]["trouble"], "blocked")
+        self.assertIn("whisker: straight: no result: blocked", err)
+
+    def test_refuses(self):
+        self.refused("robot", "calibrate-drive", PLAIN, "--can", "vcan0", says="--can and --mission: both or none")
+        self.refused("robot", "calibrate-drive", PLAIN, "--mission", "spin", says="--can and --mission: both or none")
+        self.refused("robot", "calibrate-drive", PLAIN, "--can", "vcan0", "--mission", "spine", says="did you mean 'spin'")
+        self.refused("robot", "calibrate-drive", PLAIN, "--can", "vcan0", "--mission", "spin", "--count", 2, says="drives a real robot")
+        self.refused("robot", "calibrate-drive", PLAIN, "--record", "x.log", says="only with --can")
 
 
 if __name__ == "__main__":

@@ -38,7 +38,7 @@ OPTIONS = {
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),
     ("robot", "calibrate-drive"): (
         "ROBOT", "--tape", "--square-ends", "--side", "--true", "--scene", "--noise", "--straight", "--squares", "--seed", "--count",
-        "--jobs", "--svg", "--json",
+        "--jobs", "--can", "--node", "--record", "--drop", "--realtime", "--mission", "--svg", "--json",
     ),
     ("robot", "layout"): (
         "--sensor", "--body", "--clear", "--robot", "--angles", "--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--jobs", "--svg",

@@ -46,13 +46,14 @@ int32_t ProfileMatch::per_sample(uint32_t cost) const noexcept {
 int32_t ProfileMatch::expected(int beam, int i, int32_t x) const noexcept {
   const RangeProfile::Sample& a = earlier_.at(beam, i);
   const RangeProfile::Sample& b = earlier_.at(beam, i + 1);
-  const int32_t width = b.at - a.at;
+  const int32_t width = int32_t{b.at} - a.at;
   const int32_t into = x < a.at ? 0 : x > b.at ? width : x - a.at;
-  const int32_t line = a.mm * 16 + (b.mm - a.mm) * 16 * into / width;
+  const int32_t near = a.mm, far = b.mm;
+  const int32_t line = near * 16 + (far - near) * 16 * into / width;
   if (i == 0 || i + 2 >= earlier_.count(beam)) return line;
   // Second differences: how much it bends.
-  const int32_t at_a = b.mm - 2 * a.mm + earlier_.at(beam, i - 1).mm;
-  const int32_t at_b = earlier_.at(beam, i + 2).mm - 2 * b.mm + a.mm;
+  const int32_t at_a = far - 2 * near + earlier_.at(beam, i - 1).mm;
+  const int32_t at_b = earlier_.at(beam, i + 2).mm - 2 * far + near;
   if (magnitude(at_a) > kSmooth || magnitude(at_b) > kSmooth) return line;
   const int32_t t = into * 256 / width;
   return line - t * (256 - t) / 256 * (at_a * (256 - t) + at_b * t) / 256 / 32;
@@ -67,12 +68,12 @@ uint32_t ProfileMatch::compare(int32_t offset, uint32_t* blocks) const noexcept 
       const RangeProfile::Sample& seen = later_.at(beam, j);
       const int32_t x = seen.at - offset;
       while (i < last - 1 && earlier_.at(beam, i + 1).at <= x) ++i;
-      const uint32_t difference = magnitude(seen.mm * 16 - expected(beam, i, x));
+      const uint32_t difference = magnitude(int32_t{seen.mm} * 16 - expected(beam, i, x));
       const uint32_t cost = difference < kCap * 16 ? difference : kCap * 16;
       all += cost;
       if (blocks == nullptr) continue;
       constexpr int32_t kPerBeam = kBlocks / hal::kBeams;
-      const int32_t part = (seen.at - kWindow) * kPerBeam / RangeProfile::kTurn;
+      const int32_t part = (int32_t{seen.at} - kWindow) * kPerBeam / RangeProfile::kTurn;
       blocks[beam * kPerBeam + (part < 0 ? 0 : part < kPerBeam ? part : kPerBeam - 1)] += cost;
     }
   }
@@ -98,7 +99,7 @@ void ProfileMatch::start() noexcept {
 bool ProfileMatch::step() noexcept {
   if (over_) return false;
   if (!fine_now_) {
-    coarse_[point_] = compare(point_ * kCoarse - kWindow, nullptr);
+    coarse_[point_] = compare(int32_t{point_} * kCoarse - kWindow, nullptr);
     if (++point_ == kCoarsePoints) judge();
   } else {
     uint32_t* const blocks = fine_[point_];

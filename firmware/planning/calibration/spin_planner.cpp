@@ -108,7 +108,7 @@ void SpinPlanner::follow(const View& view) noexcept {
 
 bool SpinPlanner::heading_at(int32_t ms, int32_t& heading) const noexcept {
   const int32_t kept = pasts_ < kPasts ? pasts_ : kPasts;
-  for (int i = 1; i < kept; ++i) {
+  for (int32_t i = 1; i < kept; ++i) {
     const Past& before = past_[(pasts_ - 1 - i) % kPasts];
     if (before.ms > ms) continue;
     const Past& after = past_[(pasts_ - i) % kPasts];

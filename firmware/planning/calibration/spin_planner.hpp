@@ -41,7 +41,7 @@ class SpinPlanner final : public CalibrationPlanner {
     int32_t ms;
     int32_t heading;  // 1/256 unit of a profile
   };
-  static constexpr int kPasts = 64;
+  static constexpr int32_t kPasts = 64;
 
   void follow(const View& view) noexcept;
   void sample(const hal::RangeReadings& ranges) noexcept;

@@ -29,8 +29,15 @@ void SquarePlanner::advance(const View& view) noexcept {
     return;
   }
   if (!view.settled || rested_ms_ < kRestAtStart) return;
-  if (step_ == kSteps) return end(Trouble::none);
-  if (step_ == 0) corner_ = view.pose.at;
+  if (step_ == kSteps) {
+    const Vec off = view.pose.at - begin_.at;
+    missed_ = {along(off, begin_.heading), -across(off, begin_.heading)};
+    return end(Trouble::none);
+  }
+  if (step_ == 0) {
+    begin_ = view.pose;
+    corner_ = begin_.at;
+  }
   drive_.begin(corner_, course_, length_);
   drive_.step(view, decision_.manoeuvre);
   report(Mode::stepping, Why::none);

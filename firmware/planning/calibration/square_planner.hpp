@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "firmware/math/trig.hpp"
 #include "firmware/planning/calibration/calibration_planner.hpp"
 #include "firmware/planning/calibration/course_drive.hpp"
 
@@ -20,6 +21,9 @@ class SquarePlanner final : public CalibrationPlanner {
   SquarePlanner(Length length, Side side) noexcept
       : length_(length), quarter_(side == Side::left ? 90_deg : -(90_deg)) {}
 
+  /// By how much it believes to have missed its start, in the frame of the start: x ahead, y to the left.
+  Vec missed() const noexcept { return missed_; }
+
  protected:
   void start(const View& view) noexcept override;
   void advance(const View& view) noexcept override;
@@ -28,6 +32,8 @@ class SquarePlanner final : public CalibrationPlanner {
   Length length_;
   Angle quarter_;
   Angle course_;
+  Pose begin_;
+  Vec missed_;
   int32_t rested_ms_ = 0;
   CourseDrive drive_;
   Vec corner_;        // where the next side begins, as it should be
