@@ -14,7 +14,7 @@ namespace whisker::planning {
 /// left, with all beams, for about kTurns and a half, then stands and searches the match for about two
 /// seconds.
 ///
-/// Any goal starts it. Outcome::reached: values() are valid; Outcome::gave_up: see trouble(). About 9 KB.
+/// Any goal starts it. Outcome::reached: values() are valid; Outcome::gave_up: see trouble(). About 10 KB.
 class SpinPlanner final : public CalibrationPlanner {
  public:
   /// Of the profiles, from the first to the last.
