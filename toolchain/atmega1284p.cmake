@@ -1,4 +1,4 @@
-# The AVR with room for the whole core except the map, calibration, Evasion, narrow gaps, the gyro and the incidence seen: 128 KB of flash and 16 KB of RAM.
+# The AVR with room for the whole core except the map, Evasion, narrow gaps, the gyro and the incidence seen: 128 KB of flash and 16 KB of RAM.
 set(WHISKER_TITLE "AVR ATmega1284P")
 set(WHISKER_RUNS_ON "simavr")
 set(WHISKER_COMPILERS "clang")
@@ -9,7 +9,6 @@ set(WHISKER_BOARD simavr)
 set(WHISKER_MAP_BYTES 0)
 set(WHISKER_EVASION 0)
 set(WHISKER_NARROW_GAPS 0)
-set(WHISKER_CALIBRATION 0)
 set(WHISKER_GYRO 0)
 set(WHISKER_INCIDENCE 0)
 set(WHISKER_VOUCH 0)
