@@ -150,7 +150,8 @@ class CallGraph:
 def graph_of(build, folders, image, indirect):
     folder = chips.BUILD / build
     programs = folder / "firmware/apps/CMakeFiles"
-    files = [path for name in folders for path in (folder / name).rglob("*.ci") if programs not in path.parents]
+    unused = (programs, folder / "firmware/CMakeFiles/whisker_c.dir")  # no image calls the interface for C
+    files = [path for name in folders for path in (folder / name).rglob("*.ci") if not {*unused} & {*path.parents}]
     files += programs.glob(f"{image}.dir/**/*.ci")
     return CallGraph(files, HELPER_BYTES.get(build, OTHER_HELPER_BYTES), indirect)
 

@@ -56,10 +56,10 @@ _whisker() {
       esac
       ;;
     "whisker robot calibrate-drive")
-      options="-h --help --tape --square-ends --side --true --scene --noise --straight --squares --seed --count --jobs --svg --json" words="" paths=file
+      options="-h --help --tape --square-ends --side --true --scene --noise --straight --squares --seed --count --jobs --node --record --drop --can --realtime --mission --svg --json" words="" paths=file
       case $before in
-        --tape | --side | --scene | --straight | --squares | --seed | --count | --jobs) options="" words="" paths=value ;;
-        --square-ends | --true | --svg) options="" words="" paths=file ;;
+        --tape | --side | --scene | --straight | --squares | --seed | --count | --jobs | --node | --drop | --can | --mission) options="" words="" paths=value ;;
+        --square-ends | --true | --record | --svg) options="" words="" paths=file ;;
       esac
       ;;
     "whisker campaign")
