@@ -1,5 +1,5 @@
-// Separate from params.cpp, because an image that checks its parameters at compile time needs none of this, nor
-// its 3.5 KB of sentences.
+// Separate from params.cpp, because an image that checks its parameters at compile time needs none of this,
+// nor its 3.5 KB of sentences.
 #include "firmware/params.hpp"
 
 namespace whisker {
