@@ -96,7 +96,7 @@ class IncludeDirection(unittest.TestCase):
             ("firmware/planning/a.cpp", "  #  include <cstdint>"),
             ("firmware/planning/a.cpp", "#include <arm_acle.h>"),
             ("firmware/planning/a.cpp", '#include "host/sim/body.hpp"'),
-            ("firmware/planning/a.cpp", '#include "hal/types.hpp"'),
+            ("firmware/planning/a.cpp", '#include "hal/drive.hpp"'),
             ("firmware/robot.hpp", '#include "hal/ports/tty/b.hpp"'),
             ("firmware/planning/a.cpp", '#include "missing.hpp"'),
             ("firmware/planning/a.cpp", "#include WHERE"),

@@ -20,7 +20,7 @@ OFFERS = (
     (("run", "--seed", ""), set()),
     (("run", ""), {"a.toml", "b.csv", "c"}),
     (("run", "--robot", "a"), {"a.toml"}),
-    (("robot", ""), {"check", "layout", "calibrate"}),
+    (("robot", ""), {"check", "layout", "calibrate", "calibrate-drive"}),
     (("robot", "layout", "--sens"), {"--sensor"}),
     (("world", "ga"), {"gap", "gap-at-wall"}),
     (("movers", "--contacts", ""), {"c"}),

@@ -133,7 +133,7 @@ class Header(Case):
             key = key.strip("`")
             if key in ("bumper", "creep_speed_mps", "gyro"):  # switches that are no numbers; nothing without them
                 continue
-            other = {"integer": lambda: int(default) + 1, "one of": lambda: {"agreeing": '"median"', "front": '"mean"', "accept": '"refuse"'}[default.strip('"')]}
+            other = {"boolean": lambda: {"true": "false", "false": "true"}[default], "integer": lambda: int(default) + 1, "one of": lambda: {"agreeing": '"median"', "front": '"mean"', "accept": '"refuse"'}[default.strip('"')]}
             value = other.get(unit, lambda: round(float(default) * 1.05, 4) or 0.02)()
             zeros = {"skirt_probe_m": 0.1, "skirt_cell_m": 0.019, "range_clear_m": 1.5, "max_tick_gap_s": 0.03}
             # Slightly more does not fit: the default is the limit, or zero stands for another parameter.

@@ -40,7 +40,8 @@ class LaggingBoard final : public hal::Rangefinders, public hal::Drive {
     return true;
   }
   bool read(hal::EncoderCounts& out) noexcept override {
-    out = {count(way_[0]), count(way_[1])};
+    const double skew = (params_.wheels.ratio.raw() - 1e6) / (params_.wheels.ratio.raw() + 1e6);
+    out = {count(way_[0] / (1 - skew)), count(way_[1] / (1 + skew))};
     return true;
   }
   bool command(hal::WheelSpeeds speeds) noexcept override {

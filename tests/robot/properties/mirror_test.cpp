@@ -74,6 +74,7 @@ RC_GTEST_PROP(Mirror, AMirroredWorldIsDrivenMirroredToTheLastBit, (std::uint64_t
   Bits bits(seed);
   Params params = random_params(bits);
   for (BeamParams& beam : params.rangefinders.beams) beam = {};
+  params.wheels.ratio = millionths(1000000);
   RC_PRE(check(params) == ParamFault::none);
   const int fury = *rc::gen::inRange(0, 3);
   const Bits weather(bits.next());
