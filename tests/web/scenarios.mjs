@@ -121,7 +121,7 @@ export class Folder {
 
 export const U_TRAP = join(ROOT, 'host/worlds/scenarios/figure8_u_trap.toml');
 
-const ORIGIN = ['schema', 'version', 'seed', 'planner', 'robot_name', 'robot_digest'];
+const ORIGIN = ['schema', 'version', 'seed', 'planner', 'robot_name', 'robot_digest', 'rules_digest'];
 
 /** A result of the command without what it says of how it came about: pages have that elsewhere. */
 export function withoutOrigin(result) {
