@@ -17,21 +17,21 @@ constexpr uint32_t kWider = 16;
 /// The vertex of the parabola through the points -kHalf..kHalf, in 1/256 of their distance from the middle.
 /// False: there is no minimum.
 bool vertex(const int64_t (&y)[ProfileMatch::kFinePoints], int32_t& at) noexcept {
-  constexpr int64_t n = ProfileMatch::kFinePoints;
-  constexpr int64_t h = ProfileMatch::kHalf;
-  constexpr int64_t s2 = h * (h + 1) * (2 * h + 1) / 3;
-  constexpr int64_t s4 = s2 * (3 * h * h + 3 * h - 1) / 5;
+  constexpr int64_t kN = ProfileMatch::kFinePoints;
+  constexpr int64_t kH = ProfileMatch::kHalf;
+  constexpr int64_t kS2 = kH * (kH + 1) * (2 * kH + 1) / 3;
+  constexpr int64_t kS4 = kS2 * (3 * kH * kH + 3 * kH - 1) / 5;
   int64_t sum = 0, first = 0, second = 0;
-  for (int i = 0; i < n; ++i) {
-    const int64_t k = i - h;
+  for (int i = 0; i < kN; ++i) {
+    const int64_t k = i - kH;
     sum += y[i];
     first += k * y[i];
     second += k * k * y[i];
   }
-  const int64_t bend = n * second - s2 * sum;  // times 1 / (n s4 - s2^2)
+  const int64_t bend = kN * second - kS2 * sum;  // times 1 / (kN kS4 - kS2^2)
   if (bend <= 0) return false;
-  // slope = first / s2, vertex = -slope / (2 bend')
-  const int64_t numerator = -first * (n * s4 - s2 * s2) / s2;
+  // slope = first / kS2, vertex = -slope / (2 bend')
+  const int64_t numerator = -first * (kN * kS4 - kS2 * kS2) / kS2;
   at = saturate32(divide_rounded(numerator, (2 * bend + 255) / 256));
   return true;
 }

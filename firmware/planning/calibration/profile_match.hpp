@@ -54,7 +54,7 @@ class ProfileMatch {
   const RangeProfile& earlier_;
   const RangeProfile& later_;
   uint32_t coarse_[kCoarsePoints] = {};
-  uint32_t fine_[kFinePoints][kBlocks];
+  uint32_t fine_[kFinePoints][kBlocks] = {};
   int32_t centre_ = 0;
   int point_ = 0;
   int rounds_ = 0;

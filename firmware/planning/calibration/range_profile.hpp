@@ -32,7 +32,7 @@ class RangeProfile {
   int echoes() const noexcept { return echoes_; }
 
  private:
-  Sample samples_[hal::kBeams][kMost];
+  Sample samples_[hal::kBeams][kMost] = {};
   int16_t count_[hal::kBeams] = {};
   int16_t echoes_ = 0;
 };

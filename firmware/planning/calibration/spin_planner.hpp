@@ -54,7 +54,7 @@ class SpinPlanner final : public CalibrationPlanner {
   RangeProfile first_;
   RangeProfile last_;
   ProfileMatch match_;
-  Past past_[kPasts];
+  Past past_[kPasts] = {};
   uint8_t sequence_[hal::kBeams] = {};
   Phase phase_ = Phase::resting;
   bool by_gyro_ = false;
