@@ -40,10 +40,10 @@ struct BusHealth {
 };
 
 struct Identity {
-  uint8_t robot;       ///< 1..kRobots
-  uint16_t boot;       ///< a new number at every start
-  uint32_t version;    ///< of the firmware: major << 16 | minor << 8 | patch
-  uint32_t rules = 0;  ///< fuzzy::digest() of the response table; 0: has none
+  uint8_t robot = 0;     ///< 1..kRobots
+  uint16_t boot = 0;     ///< a new number at every start
+  uint32_t version = 0;  ///< of the firmware: major << 16 | minor << 8 | patch
+  uint32_t rules = 0;    ///< fuzzy::digest() of the response table; 0: has none
 };
 
 /// Result of a node for a valid frame in sequence.
