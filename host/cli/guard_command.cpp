@@ -117,7 +117,7 @@ int execute(const GuardOptions& o) {
     return keys != nullptr && keys->ended();
   };
   options.watch = [&](const guard::Moment& m) {
-    if (!o.trace.empty()) rows += guard::trace_row(m) + "\n";
+    if (!o.trace.empty()) rows += guard::trace_row(m, scenario.robot.rangefinders) + "\n";
     now_s = m.t_s;
     stands = std::abs(m.v_left_mps) < kStanding_mps && std::abs(m.v_right_mps) < kStanding_mps;
     if (keys == nullptr || m.status == nullptr) return;

@@ -2,7 +2,8 @@
 ///
 /// - t_s: s, 3 decimals
 /// - x_m, y_m, heading_rad: true pose, 6 decimals
-/// - left_m, front_m, right_m: measured ranges, 4 decimals; empty if there is no distance
+/// - left_m, front_m, right_m: measured ranges, 4 decimals: a clear one is the maximum range, a too_near
+///   one the minimum range, a lost one is empty
 /// - v_left_mps, v_right_mps: true speeds of the wheels, 5 decimals
 /// - state: guarded, or bare without the guard
 /// - why: a name of GuardReason; empty without the guard
@@ -18,6 +19,6 @@ namespace whisker::guard {
 
 extern const char* const kTraceHeader;
 /// Without the newline.
-std::string trace_row(const Moment& moment);
+std::string trace_row(const Moment& moment, const RangefinderParams& sensors);
 
 }  // namespace whisker::guard

@@ -35,14 +35,7 @@ class Row {
     return *this;
   }
   Row& range(const hal::RangeReading& reading, const RangefinderParams& sensor) {
-    switch (reading.status) {
-      case hal::RangeStatus::ok: return number(reading.mm / 1000.0, 4);
-      case hal::RangeStatus::clear: return number(metres(sensor.max_range), 4);
-      case hal::RangeStatus::too_near: return number(metres(sensor.min_range), 4);
-      case hal::RangeStatus::invalid:
-      case hal::RangeStatus::stale: return word("");
-    }
-    return word("");
+    return word(range_text(reading, sensor).c_str());
   }
   void end() { out_ += '\n'; }
 
@@ -87,6 +80,17 @@ void add_row(std::string& out, const RangefinderParams& sensor, const TickRecord
 }
 
 }  // namespace
+
+std::string range_text(const hal::RangeReading& reading, const RangefinderParams& sensor) {
+  switch (reading.status) {
+    case hal::RangeStatus::ok: return fmt::format("{:.4f}", reading.mm / 1000.0);
+    case hal::RangeStatus::clear: return fmt::format("{:.4f}", metres(sensor.max_range));
+    case hal::RangeStatus::too_near: return fmt::format("{:.4f}", metres(sensor.min_range));
+    case hal::RangeStatus::invalid:
+    case hal::RangeStatus::stale: return "";
+  }
+  return "";
+}
 
 const char* const kTraceHeader =
     "t_s,x_m,y_m,heading_rad,left_m,front_m,right_m,v_left_mps,v_right_mps,state,why,"

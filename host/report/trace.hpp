@@ -34,6 +34,9 @@ namespace whisker::report {
 /// The header line, without its newline.
 extern const char* const kTraceHeader;
 
+/// A range as the columns have it.
+std::string range_text(const hal::RangeReading& reading, const RangefinderParams& sensor);
+
 /// The whole file. Lines end in a single newline.
 std::string trace_csv(const Scenario& scenario, const std::vector<TickRecord>& records);
 

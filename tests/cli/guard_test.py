@@ -65,6 +65,8 @@ class Guard(unittest.TestCase):
             ["t_s", "x_m", "y_m", "heading_rad", "left_m", "front_m", "right_m", "v_left_mps", "v_right_mps", "state", "why"],
         )
         self.assertLess(abs(float(rows[-1]["v_left_mps"])), 0.001)
+        seen = {row[beam] for row in rows for beam in ("left_m", "right_m")}
+        self.assertIn("2.0000", seen)  # clear: the maximum range
         blind = whisker.whisker("guard", self.world, "--operator", "blind", "--bare", "--json")
         self.assertEqual((blind.returncode, json.loads(blind.stdout)["outcome"]), (5, "contact"))
 
