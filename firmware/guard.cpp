@@ -29,6 +29,7 @@ const char* name(GuardReason reason) noexcept {
     case GuardReason::unseen: return "unseen";
     case GuardReason::doubt: return "doubt";
     case GuardReason::limits: return "limits";
+    case GuardReason::assisted: return "assisted";
   }
   return "?";
 }
@@ -178,15 +179,19 @@ WheelPair Guard::limit_speed(bool paused) noexcept {
   const bool fresh = perception_.lost_for(last_tick_) <= params_.conditioning.stale_after;
   const bool stands = paused || !fresh || supervisor_.faulted() || supervisor_.refused();
   const planning::VelocityRequest asked = request();
-  planning::VelocityRequest limited = asked;
+  const Pose pose = localizer_.inside();
+  planning::VelocityRequest wanted = asked;
+  if (assists()) {
+    wanted = assist_->step(asked, fastest_on_the_spot_, pose, perception_.local_grid(), params_);
+  }
+  planning::VelocityRequest limited = wanted;
   if (stands) limited = {};
   const bool slows = perception_.slows();
   if (slows || perception_.doubts()) {
     const Speed most = warned_speed_.most(limited.turning, perception_.readings_err(), slows, params_);
     limited.forward = limit(limited.forward, most);
   }
-  const Pose pose = localizer_.inside();
-  const bool doubted = limited.forward != asked.forward;
+  const bool doubted = limited.forward != wanted.forward;
   // Without readings, nothing is seen yet.
   const bool seeing = vouched_ == Length{} && perception::usable(perception_.latest());
   if (kNodsBuilt && params_.guard.nods == Fitted::yes && seeing) {
@@ -199,12 +204,13 @@ WheelPair Guard::limit_speed(bool paused) noexcept {
   const Speed turning = status_.asked.turning * (params_.body.track / 2);
   status_.turning = nodding() ? Q14{} : share(turning_of(aim), turning);
   constexpr Q14 kAll = Q14::ratio(999, 1000);
+  const bool bent = assists() && assist_->active();
   const bool granted_in_full = status_.forward >= kAll && status_.turning >= kAll;
-  status_.reason = !fresh            ? GuardReason::stale_ranges
-                   : !commanded_     ? GuardReason::command_timeout
-                   : nodding()       ? GuardReason::nodding
-                   : granted_in_full ? GuardReason::clear
-                                     : held_by(asked, doubted);
+  status_.reason = !fresh                     ? GuardReason::stale_ranges
+                   : !commanded_              ? GuardReason::command_timeout
+                   : nodding()                ? GuardReason::nodding
+                   : granted_in_full && !bent ? GuardReason::clear
+                                              : held_by(asked, doubted);
   return speeds;
 }
 
@@ -222,7 +228,10 @@ WheelPair Guard::target(const planning::VelocityRequest& limited, WheelPair spee
 }
 
 GuardReason Guard::held_by(const planning::VelocityRequest& asked, bool doubted) const noexcept {
-  if (limiter_.granted() == Q14::ratio(1, 1)) return doubted ? GuardReason::doubt : GuardReason::limits;
+  if (limiter_.granted() == Q14::ratio(1, 1)) {
+    if (doubted) return GuardReason::doubt;
+    return assists() && assist_->active() ? GuardReason::assisted : GuardReason::limits;
+  }
   const perception::LocalGrid& grid = perception_.local_grid();
   const Pose pose = localizer_.inside();
   const Angle way = pose.heading + (asked.forward < Speed{} ? 180_deg : Angle{});

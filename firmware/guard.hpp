@@ -11,6 +11,7 @@
 #include "firmware/params.hpp"
 #include "firmware/part.hpp"
 #include "firmware/perception/perception.hpp"
+#include "firmware/safety/assist.hpp"
 #include "firmware/safety/nod.hpp"
 #include "firmware/safety/speed_limiter.hpp"
 #include "firmware/safety/supervisor.hpp"
@@ -38,15 +39,16 @@ enum class GuardReason : uint8_t {
   unseen,           ///< ground that no beam has shown to be free is in the way
   doubt,            ///< slower, because the readings or the sensors leave doubt about clear ground
   limits,           ///< the command exceeds what the wheels can do
+  assisted,         ///< the response table bends or slows it, and nothing else holds the body back
 };
-constexpr int kGuardReasons = 9;
+constexpr int kGuardReasons = 10;
 const char* name(GuardReason reason) noexcept;
 
 /// The result of the last tick.
 struct GuardStatus : localization::Estimate {
   Velocity asked;  ///< the last command; zero after its time-out
   Q14 forward;     ///< granted share of the asked forward speed, 0 to 1
-  Q14 turning;     ///< the same of the turning; 0 while the guard nods
+  Q14 turning;     ///< the same of the turning; 0 while the guard nods, or turns the other way to assist
   GuardReason reason = GuardReason::command_timeout;
   hal::WheelSpeeds command{};  ///< as sent to the drive
   Health health;
@@ -61,7 +63,9 @@ struct GuardStatus : localization::Estimate {
 /// The moving body touches no obstacle that stands still, whatever the commands, if the conditions of
 /// docs/safety.md hold. Only the forward speed is scaled, so that the body follows the asked turning. A turn
 /// on the spot is always granted: the body is round. If ground that no beam has seen holds the body, and
-/// GuardParams::nods says so, a beam is turned onto it (safety/nod.hpp).
+/// GuardParams::nods says so, a beam is turned onto it (safety/nod.hpp). If GuardParams::assist says so, the
+/// response table bends and slows commands near obstacles before they are judged (safety/assist.hpp); the
+/// promise does not rest on it.
 ///
 /// All references must outlive the guard, and the parameters must not change while it lives. A bumper is not
 /// used: parameters with a creep speed are refused. The pose begins at zero.
@@ -77,6 +81,11 @@ class Guard {
   /// that no beam covers, once the readings of all beams have arrived, if the body still stands where it was
   /// said.
   void vouch(Length radius) noexcept;
+  /// Another response table for GuardParams::assist than the core's own. It must outlive the guard. No effect
+  /// in an image without this part.
+  void assist_by(const fuzzy::Bilinear::Table& table) noexcept {
+    if (kAssistBuilt) assist_->use(table);
+  }
   /// Ends the fault, drops the command and all readings, and resets all ground except that under the body to
   /// unknown; the pose begins at zero again. Parameters that check() refused stay refused.
   void reset() noexcept;
@@ -100,6 +109,7 @@ class Guard {
   WheelPair target(const planning::VelocityRequest& limited, WheelPair speeds) const noexcept;
   GuardReason held_by(const planning::VelocityRequest& asked, bool doubted) const noexcept;
   void check_stall(WheelPair speeds) noexcept;
+  bool assists() const noexcept { return kAssistBuilt && params_.guard.assist == Fitted::yes; }
   bool nodding() const noexcept { return kNodsBuilt && nod_->active(); }
 
   hal::Rangefinders& rangefinders_;
@@ -124,6 +134,7 @@ class Guard {
   control::WheelDrive wheels_;
   safety::SpeedLimiter limiter_;
   safety::WarnedSpeed warned_speed_;
+  Part<safety::Assist, kAssistBuilt> assist_;
   Part<safety::Nod, kNodsBuilt> nod_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;

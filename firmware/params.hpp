@@ -140,6 +140,7 @@ enum class JumpPolicy : int32_t { accept, refuse };
 struct GuardParams {
   Duration command_timeout = 250_ms;  ///< without a newer command for this long, it brakes
   Fitted nods = Fitted::yes;          ///< it turns a beam onto unseen ground that holds it
+  Fitted assist = Fitted::yes;        ///< the response table bends and slows commands near obstacles
 };
 
 struct Params {
@@ -266,6 +267,7 @@ constexpr void for_each_param(P& p, F&& f) {
            millionths(kCalibrationBuilt ? 1100000 : 1000000));
   f.number("command_timeout_s", p.guard.command_timeout, 20_ms, 2000_ms);
   f.choice("guard_nods", p.guard.nods, kBoolean, 2);
+  f.choice("guard_assist", p.guard.assist, kBoolean, 2);
 }
 
 /// A rangefinder on the body, in the body's frame: x ahead, y to the left.

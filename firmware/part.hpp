@@ -38,6 +38,9 @@
 #ifndef WHISKER_NODS
 #define WHISKER_NODS 1
 #endif
+#ifndef WHISKER_ASSIST
+#define WHISKER_ASSIST 1
+#endif
 #ifndef WHISKER_WHEEL_WATCH
 #define WHISKER_WHEEL_WATCH 1
 #endif
@@ -75,6 +78,8 @@ constexpr bool kStaticScans = WHISKER_STATIC_SCANS != 0;
 constexpr bool kSweeps = WHISKER_SWEEPS != 0;
 /// whisker::Guard turns a beam onto unseen ground.
 constexpr bool kNodsBuilt = WHISKER_NODS != 0;
+/// whisker::Guard bends and slows commands by the response table (10 KB with the table).
+constexpr bool kAssistBuilt = WHISKER_ASSIST != 0;
 /// A wheel that does not follow its command is a fault. Without, only a jump of the counts, and both wheels
 /// held, are.
 constexpr bool kWheelWatchBuilt = WHISKER_WHEEL_WATCH != 0;

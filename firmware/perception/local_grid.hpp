@@ -86,11 +86,13 @@ class LocalGrid {
                   int32_t enough = INT32_MAX) const noexcept;
   /// Calls f with the centre of each cell that along() counts, from `from`.
   template <class F>
-  void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f) const {
+  void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f,
+                    Avoid avoid = Avoid::unclear) const {
     const Point start = local(from);
     const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
     for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
       Row open = to_window(~clear_row(rows.row())) & stadium.columns(rows.row());
+      if (avoid == Avoid::suspect) open &= solid_row(rows.row());
       for (int32_t dx = kHalfCell - start.x; open != 0; open >>= 1, dx += kUnitsPerCell) {
         if ((open & 1U) != 0) f(Vec{length_of(dx), length_of(rows.offset(start.y))});
       }

@@ -14,6 +14,7 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/guard/drive.hpp"
 #include "host/guard/operators.hpp"
 #include "host/guard/recorded.hpp"
@@ -33,6 +34,7 @@ struct GuardOptions {
   std::optional<std::uint64_t> seed;
   bool keys = false, bare = false, json = false;
   double time_s = 120, vouched_m = 0;
+  const fuzzy::Bilinear::Table* table = nullptr;
 };
 
 int exit_status(guard::End end) {
@@ -111,6 +113,7 @@ int execute(const GuardOptions& o) {
   options.guarded = !o.bare;
   options.time_s = o.time_s;
   options.vouched_m = o.vouched_m;
+  options.table = o.table;
   options.until_goal = o.commands.empty();
   options.ended = [&] {
     if (recorded != nullptr) return stands && now_s > recorded->last_s() + timeout_s;
@@ -164,6 +167,7 @@ void add_guard(CLI::App& app, int& status) {
       ->transform(amount(kMostSeconds))
       ->type_name("T");
   add_switch(*cmd, "--bare", o->bare, "Without the guard: the wheels do what is asked");
+  add_assist_rules(*cmd, o->table);
   add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->callback([o, &status] { status = execute(*o); });

@@ -10,6 +10,7 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/guard/campaign.hpp"
 #include "host/guard/hostile_drive.hpp"
 #include "host/scenario/load.hpp"
@@ -25,6 +26,7 @@ struct OperatorsOptions {
   std::string robot;
   std::uint64_t hostile = 0;
   bool noise = false;
+  const fuzzy::Bilinear::Table* table = nullptr;
 };
 
 Params robot_of(const OperatorsOptions& o) {
@@ -48,7 +50,7 @@ void drive_operators(const OperatorsOptions& o, const Interrupt& interrupt) {
   for (const guard::Hand hand : guard::kHands) {
     for (const guard::Ground& ground : guard::kGrounds) {
       for (const guard::Mode& mode : guard::kModes) {
-        const guard::Plan plan{hand, ground, mode, robot_of(o), o.noise, o.seed, o.count};
+        const guard::Plan plan{hand, ground, mode, robot_of(o), o.noise, o.seed, o.count, o.table};
         const guard::Summary summary = guard::drive_many(plan, [&](std::uint64_t i) {
           if (i % 10 == 0) line.show(fmt::format("{}, {}, {}: {}", name(hand), ground.name, mode.name, i));
           return !interrupt.noted();
@@ -66,7 +68,7 @@ void drive_hostile(const OperatorsOptions& o, const Interrupt& interrupt) {
   guard::Summary summary;
   ProgressLine line;
   for (std::uint64_t i = 0; i < o.hostile && !interrupt.noted(); ++i) {
-    const guard::Result result = guard::hostile_drive(o.seed + i, o.noise, robot);
+    const guard::Result result = guard::hostile_drive(o.seed + i, o.noise, robot, o.table);
     summary.add(result);
     if (result.end == guard::End::contact) {
       line.show("");
@@ -111,6 +113,7 @@ void add_operators(CLI::App& app, int& status) {
       ->type_name("N");
   add_switch(*cmd, "--noise", o->noise, "With the reference robot's sensor and odometry noise");
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML)");
+  add_assist_rules(*cmd, o->table);
   cmd->callback([o, &status] { status = execute(*o); });
 }
 

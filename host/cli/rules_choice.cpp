@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "firmware/fuzzy/response_table.hpp"
 #include "host/cli/controller_picture.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
@@ -34,6 +35,22 @@ const Table* load(const std::string& file, const std::vector<std::string>& chang
   }
 }
 
+struct RulesChoice {
+  std::string file;
+  std::vector<std::string> names;
+};
+
+CLI::Option* add_options(CLI::App& app, RulesChoice& choice, const std::string& help) {
+  CLI::Option* const rules = add_file(app, "--rules", choice.file, help);
+  add_map_names(app, choice.names, "With --rules: the file's name of D, R, SA or SD; may be repeated");
+  return rules;
+}
+
+bool given(const RulesChoice& choice) {
+  if (choice.file.empty() && !choice.names.empty()) throw UsageError("--map needs --rules");
+  return !choice.file.empty();
+}
+
 }  // namespace
 
 const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
@@ -42,25 +59,33 @@ const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
   return load<fuzzy::Engine::Table>(file_or_default, names);
 }
 
+const fuzzy::Bilinear::Table* assist_table(const std::string& file_or_default,
+                                           const std::vector<std::string>& names) {
+  if (file_or_default == "default") return &fuzzy::kResponseTable;
+  return load<fuzzy::Bilinear::Table>(file_or_default, names);
+}
+
 void add_map_names(CLI::App& app, std::vector<std::string>& names, const std::string& help) {
   app.add_option("--map", names, help)->take_all()->allow_extra_args(false)->type_name("D=NAME");
 }
 
 CLI::Option* add_rules_choice(CLI::App& app, PlannerKind& kind, const std::string& help) {
-  struct RulesChoice {
-    std::string file;
-    std::vector<std::string> names;
-  };
   const auto choice = std::make_shared<RulesChoice>();
-  CLI::Option* const rules = add_file(app, "--rules", choice->file, help);
-  add_map_names(app, choice->names, "With --rules: the file's name of D, R, SA or SD; may be repeated");
+  CLI::Option* const rules = add_options(app, *choice, help);
   app.parse_complete_callback([choice, &kind] {
-    if (choice->file.empty()) {
-      if (!choice->names.empty()) throw UsageError("--map needs --rules");
-      return;
-    }
+    if (!given(*choice)) return;
     if (is_baseline(kind)) throw UsageError(fmt::format("--rules: planner {} has no table", name(kind)));
     kind.table = response_table(choice->file, choice->names);
+  });
+  return rules;
+}
+
+CLI::Option* add_assist_rules(CLI::App& app, const fuzzy::Bilinear::Table*& table) {
+  const auto choice = std::make_shared<RulesChoice>();
+  CLI::Option* const rules =
+      add_options(app, *choice, "Response table of the assist from this rule base, see docs/rules.md");
+  app.parse_complete_callback([choice, &table] {
+    if (given(*choice)) table = assist_table(choice->file, choice->names);
   });
   return rules;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/fuzzy/bilinear.hpp"
 #include "host/cli/cli11_forward.hpp"
 #include "host/report/fuzzy_picture.hpp"
 #include "host/run/planners.hpp"
@@ -15,6 +16,14 @@ namespace whisker::cli {
 /// UsageError or InputError.
 const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
                                            const std::vector<std::string>& names);
+
+/// The same for the assist of whisker::Guard.
+const fuzzy::Bilinear::Table* assist_table(const std::string& file_or_default,
+                                           const std::vector<std::string>& names);
+
+/// --rules FILE and --map CORE=NAME. After parsing, `table` is that of the assist, or null if no file is
+/// given. Throws UsageError or InputError.
+CLI::Option* add_assist_rules(CLI::App& app, const fuzzy::Bilinear::Table*& table);
 
 /// --map CORE=NAME.
 void add_map_names(CLI::App& app, std::vector<std::string>& names, const std::string& help);

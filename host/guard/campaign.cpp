@@ -31,6 +31,7 @@ Summary drive_many(const Plan& plan, const std::function<bool(std::uint64_t)>& n
   Options options;
   options.guarded = plan.mode.guarded;
   options.vouched_m = plan.mode.vouched_m;
+  options.table = plan.table;
   options.until_goal = has_goal(plan.hand);
   options.time_s = options.until_goal ? kToGoal_s : kWandering_s;
   for (std::uint64_t i = 0; i < plan.count && next(i); ++i) {
@@ -42,6 +43,7 @@ Summary drive_many(const Plan& plan, const std::function<bool(std::uint64_t)>& n
     Scenario scenario = worlds::generate(worlds::Kind::discs, world);
     scenario.robot = plan.robot;
     scenario.robot.guard.nods = plan.mode.nods ? Fitted::yes : Fitted::no;
+    scenario.robot.guard.assist = plan.mode.assists ? Fitted::yes : Fitted::no;
     const auto hand = make_operator(plan.hand, scenario, world.seed);
     if (hand) summary.add(drive(scenario, *hand, options));
   }

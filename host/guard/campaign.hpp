@@ -23,11 +23,13 @@ struct Mode {
   bool guarded = true;
   bool nods = true;
   double vouched_m = 0;
+  bool assists = false;
 };
-constexpr Mode kModes[] = {{"no guard", false, false, 0},
-                           {"scale only", true, false, 0},
-                           {"nod", true, true, 0},
-                           {"nod, start vouched for", true, true, 0.35}};
+constexpr Mode kModes[] = {{"no guard", false, false, 0, false},
+                           {"scale only", true, false, 0, false},
+                           {"nod", true, true, 0, false},
+                           {"nod, start vouched for", true, true, 0.35, false},
+                           {"nod and assist", true, true, 0, true}};
 
 struct Summary {
   std::uint64_t drives = 0;  ///< worlds without a path for this operator do not count
@@ -49,6 +51,7 @@ struct Plan {
   bool noise = false;
   std::uint64_t first_seed = 1;
   std::uint64_t count = 60;
+  const fuzzy::Bilinear::Table* table = nullptr;  ///< of the assist; null: the core's own
 };
 /// Drive i is in the world of seed first_seed + i. `next` is called before each; false ends the campaign.
 /// Drives without a goal of their own last 20 s, others at most 120 s.

@@ -53,6 +53,7 @@ class Drive {
         guard_(board_, board_, scenario_.robot, &board_),
         bare_(plant_, scenario_.robot) {
     next_s_ = hand.first_s();
+    if (options.table != nullptr) guard_.assist_by(*options.table);
     if (options.vouched_m > 0) guard_.vouch(Length::from_raw(micro(options.vouched_m)));
   }
 

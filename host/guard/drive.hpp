@@ -24,11 +24,12 @@ struct Moment {
 };
 
 struct Options {
-  bool guarded = true;                    ///< false: the same commands go to the wheels, within their limits
-  double time_s = 600;                    ///< at most
-  double vouched_m = 0;                   ///< the operator vouches for this radius around the start
-  bool until_goal = true;                 ///< ends at the goal
-  std::function<int()> gap_ms = nullptr;  ///< between two ticks; null: the control period
+  bool guarded = true;     ///< false: the same commands go to the wheels, within their limits
+  double time_s = 600;     ///< at most
+  double vouched_m = 0;    ///< the operator vouches for this radius around the start
+  bool until_goal = true;  ///< ends at the goal
+  const fuzzy::Bilinear::Table* table = nullptr;  ///< of the assist; null: the core's own
+  std::function<int()> gap_ms = nullptr;          ///< between two ticks; null: the control period
   std::function<void(const Moment&)> watch = nullptr;
   std::function<bool()> ended = nullptr;  ///< true: the operator has enough
 };

@@ -50,13 +50,15 @@ Scenario hostile_scenario(std::uint64_t seed, bool noise, const Params& robot) {
   return s;
 }
 
-Result hostile_drive(std::uint64_t seed, bool noise, const Params& robot) {
+Result hostile_drive(std::uint64_t seed, bool noise, const Params& robot,
+                     const fuzzy::Bilinear::Table* table) {
   const Scenario scenario = hostile_scenario(seed, noise, robot);
   worlds::Random random(~seed);
   const auto hand = make_operator(Hand::hostile, scenario, random.bits());
   Options options;
   options.time_s = kDrive_s;
   options.until_goal = false;
+  options.table = table;
   if (random.chance(1.0 / 3)) {
     const int longest = static_cast<int>(longest_gap(robot).raw());
     options.gap_ms = [random, longest]() mutable { return 1 + random.index(longest); };

@@ -88,7 +88,7 @@ class Guard(unittest.TestCase):
     def test_operators_prints_a_row_for_each(self):
         done = whisker.whisker("operators", "--count", "1")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout.count("\n"), 2 + 5 * 2 * 4)
+        self.assertEqual(done.stdout.count("\n"), 2 + 5 * 2 * 5)
         hostile = whisker.whisker("operators", "--hostile", "5", "--noise")
         self.assertIn("5 hostile drives of 20 s with noise, seeds from 1: 0 contacts", hostile.stdout)
 

@@ -32,8 +32,8 @@ OPTIONS = {
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
     ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--contacts"),
-    ("guard",): ("SCENARIO", "--robot", "--commands", "--keys", "--operator", "--seed", "--vouch", "--time", "--bare", "--trace", "--json"),
-    ("operators",): ("--count", "--seed", "--hostile", "--noise", "--robot"),
+    ("guard",): ("SCENARIO", "--robot", "--commands", "--keys", "--operator", "--seed", "--vouch", "--time", "--bare", "--rules", "--map", "--trace", "--json"),
+    ("operators",): ("--count", "--seed", "--hostile", "--noise", "--robot", "--rules", "--map"),
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),
     ("robot", "calibrate-drive"): (

@@ -86,7 +86,7 @@ TEST(C, ParametersAreThoseOfTheCore) {
     EXPECT_EQ(whisker_get_param(&params, static_cast<whisker_param>(i)), raw_param(defaults, i)) << i;
   }
   EXPECT_EQ(whisker_check_params(&params), 0);
-  EXPECT_EQ(kParams, WHISKER_PARAM_GUARD_NODS + 1);
+  EXPECT_EQ(kParams, WHISKER_PARAM_GUARD_ASSIST + 1);
 }
 
 TEST(C, SetsParametersWithinTheirRanges) {

@@ -90,17 +90,17 @@ _whisker() {
       esac
       ;;
     "whisker guard")
-      options="-h --help --robot --commands --keys --operator --seed --vouch --time --bare --trace --json" words="" paths=file
+      options="-h --help --robot --commands --keys --operator --seed --vouch --time --bare --rules --map --trace --json" words="" paths=file
       case $before in
-        --robot | --commands | --trace) options="" words="" paths=file ;;
-        --operator | --seed | --vouch | --time) options="" words="" paths=value ;;
+        --robot | --commands | --rules | --trace) options="" words="" paths=file ;;
+        --operator | --seed | --vouch | --time | --map) options="" words="" paths=value ;;
       esac
       ;;
     "whisker operators")
-      options="-h --help --count --seed --hostile --noise --robot" words="" paths=none
+      options="-h --help --count --seed --hostile --noise --robot --rules --map" words="" paths=none
       case $before in
-        --count | --seed | --hostile) options="" words="" paths=value ;;
-        --robot) options="" words="" paths=file ;;
+        --count | --seed | --hostile | --map) options="" words="" paths=value ;;
+        --robot | --rules) options="" words="" paths=file ;;
       esac
       ;;
     "whisker table")
