@@ -13,7 +13,4 @@ namespace whisker::guard {
 Result hostile_drive(std::uint64_t seed, bool noise, const Params& robot,
                      const fuzzy::Bilinear::Table* table = nullptr);
 
-/// Its scenario.
-Scenario hostile_scenario(std::uint64_t seed, bool noise, const Params& robot);
-
 }  // namespace whisker::guard

@@ -1,9 +1,5 @@
 #include "tests/safety/adversary.hpp"
 
-#include "host/scenario/contact.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/scale.hpp"
-
 namespace whisker::test {
 namespace {
 
@@ -21,17 +17,6 @@ int towards_nearest(const planning::View& view) {
 // rims at 65 of at most 210 mm/s.
 constexpr double kSurveyTurn_rad = 4.8 * 3;
 constexpr Q14 kSurveyRate = Q14::ratio(65, 210);
-
-struct Class {
-  worlds::Kind kind;
-  int discs;
-  bool box;
-};
-constexpr Class kClasses[] = {{worlds::Kind::discs, 15, false}, {worlds::Kind::discs, 30, false},
-                              {worlds::Kind::discs, 50, false}, {worlds::Kind::discs, 75, true},
-                              {worlds::Kind::u_trap, 0, false}, {worlds::Kind::spiral, 0, false},
-                              {worlds::Kind::maze, 0, false},   {worlds::Kind::rooms, 0, false},
-                              {worlds::Kind::poles, 0, false},  {worlds::Kind::enclosed, 0, false}};
 
 }  // namespace
 
@@ -100,31 +85,6 @@ planning::Decision Adversary::step(const planning::View& view) noexcept {
   }
   d.manoeuvre = wish_;
   return d;
-}
-
-Scenario thick_of_it(worlds::Random& random, bool noise, const Params& robot) {
-  const Class& c = kClasses[random.index(10)];
-  worlds::Options options;
-  options.seed = random.bits() >> 2;
-  options.noise = noise;
-  options.box = c.box;
-  if (c.discs != 0) options.discs = c.discs;
-  Scenario s = worlds::generate(c.kind, options);
-  const double radius_m = robot.body.radius.raw() * 1e-6, size = radius_m / 0.09;
-  worlds::scale_lengths(s, size);
-  s.robot = robot;
-  const double placed_m = rim_sweep(robot).radius.raw() * 1e-6;
-  for (int i = 0; i < 200; ++i) {
-    const sim::Vec2 at{s.start.at.x + random.uniform(-0.5, 3) * size,
-                       s.start.at.y + random.uniform(-0.5, 3) * size};
-    const double gap = nearest_obstacle(s, at).distance_m - placed_m;
-    if (gap < 0.001 * size || gap > 0.3 * size) continue;
-    s.start.at = at;
-    break;
-  }
-  s.start.heading = random.uniform(-3.14, 3.14);
-  s.seed = random.bits();
-  return s;
 }
 
 }  // namespace whisker::test

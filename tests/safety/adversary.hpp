@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "firmware/planning/planner.hpp"
-#include "host/scenario/scenario.hpp"
 #include "host/worlds/random.hpp"
 
 namespace whisker::test {
@@ -44,9 +43,5 @@ class Adversary final : public planning::Planner {
   bool keeps_ = false;   // requests once, then keeps
   bool fickle_ = false;  // chooses anew every tick
 };
-
-/// A world of any class of scripts/bars and of the robot's size, with the body placed among the obstacles and
-/// at rest on ground that rim_sweep() takes as free.
-Scenario thick_of_it(worlds::Random& random, bool noise, const Params& robot = {});
 
 }  // namespace whisker::test

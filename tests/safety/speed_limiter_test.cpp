@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "host/scenario/contact.hpp"
+#include "host/worlds/beside.hpp"
 #include "host/worlds/random.hpp"
 #include "tests/effort.hpp"
 #include "tests/perception/rig.hpp"
@@ -32,7 +33,7 @@ Torment torment(std::uint64_t seed, int count, bool noise, Length margin = Param
   Torment nearest;
   for (int i = 0; i < count; ++i) {
     Random random(seed + static_cast<std::uint64_t>(i));
-    Scenario scenario = thick_of_it(random, noise);
+    Scenario scenario = worlds::beside_obstacle(random, worlds::kAllClasses, noise, {});
     scenario.robot.skirt.shield_margin = margin;
     Adversary adversary(random.bits());
     Rig rig(scenario, &adversary);
