@@ -10,12 +10,6 @@
 #include "host/cli/options.hpp"
 
 namespace whisker::cli {
-namespace {
-
-constexpr double kListen_s = 0.4;  // longer than the time after which a node counts as lost
-
-}  // namespace
-
 std::string version_text(std::uint32_t v) {
   return fmt::format("{}.{}.{}", v >> 16, v >> 8 & 0xFF, v & 0xFF);
 }
@@ -26,15 +20,12 @@ std::string BenchChoice::bus_name() const {
   return !can.empty() ? can : "slcan:" + (tty.empty() ? socket : tty);
 }
 
-void add_bench_bus(CLI::App& app, BenchChoice& choice) {
+void add_bench_line(CLI::App& app, BenchChoice& choice) {
   add_name(app, "--can", choice.can, "CAN interface, such as can0 or vcan0")->type_name("IFACE");
   add_name(app, "--tty", choice.tty, "Serial CAN adapter or board (SLCAN), such as /dev/ttyACM0")
       ->type_name("DEV");
   add_name(app, "--socket", choice.socket, "The same behind a Unix socket, such as that of an emulator")
       ->type_name("PATH");
-  app.add_option("--node", choice.bus.robot, "Number of the robot, 1 to 7; 1 by default")
-      ->check(CLI::Range(1, static_cast<int>(can::kRobots)))
-      ->type_name("N");
   app.add_option("--timeout", choice.timeout_s, "Wait so long for each answer, s; 3 by default")
       ->transform(amount(600))
       ->type_name("S");
@@ -42,6 +33,13 @@ void add_bench_bus(CLI::App& app, BenchChoice& choice) {
                  "Lose so many of the frames that are sent and received, at random")
       ->transform(amount(100))
       ->type_name("PERCENT");
+}
+
+void add_bench_bus(CLI::App& app, BenchChoice& choice) {
+  add_bench_line(app, choice);
+  app.add_option("--node", choice.bus.robot, "Number of the robot, 1 to 7; 1 by default")
+      ->check(CLI::Range(1, static_cast<int>(can::kRobots)))
+      ->type_name("N");
 }
 
 BenchBus::BenchBus(const BenchChoice& choice)

@@ -29,12 +29,17 @@ struct BenchChoice {
   std::string bus_name() const;
 };
 
-/// --can, --tty, --socket, --node, --timeout and --drop.
+/// --can, --tty, --socket, --timeout and --drop.
+void add_bench_line(CLI::App& app, BenchChoice& choice);
+/// The same with --node.
 void add_bench_bus(CLI::App& app, BenchChoice& choice);
 
 /// Opened by the constructor. Waits throw bench::NoAnswer and bench::Interrupted.
 class BenchBus {
  public:
+  static constexpr double kListen_s = 0.4;  ///< longer than the time after which a node counts as lost
+  static constexpr double kMost_s = 86400;  ///< of --for
+
   explicit BenchBus(const BenchChoice& choice);
 
   /// Receives for this time, or until `done`, once the port is on the bus. each: receives every frame; may be

@@ -19,10 +19,13 @@ void add_bench(CLI::App& app, int& status) {
   CLI::App* bench = app.add_subcommand("bench", "Look at a real robot on its bus, and set its parameters");
   bench->require_subcommand(1);
   add_bench_nodes(*bench, status);
+  add_bench_watch(*bench, status);
   add_bench_params(*bench, status);
+  add_bench_orders(*bench, status);
+  add_bench_drive(*bench, status);
   for (CLI::App* command : bench->get_subcommands({})) {
-    command->footer(R"(
-Exit status of bench: 0 done, 2 bad input or usage, or a value that is refused, 130 interrupted,
+    command->footer(
+        R"(Exit status of bench: 0 done, 2 bad input or usage, or a value that is refused, 130 interrupted,
 1 no answer, or anything else.)");
   }
 }

@@ -107,7 +107,7 @@ int execute(const NodesOptions& o) {
 void add_bench_nodes(CLI::App& bench, int& status) {
   CLI::App* cmd = bench.add_subcommand("nodes", "List the nodes on the bus");
   const auto o = std::make_shared<NodesOptions>();
-  add_bench_bus(*cmd, o->bus);
+  add_bench_line(*cmd, o->bus);
   cmd->add_option("--for", o->for_s, "Listen so long, s; 1 by default")
       ->transform(amount(3600))
       ->type_name("S");

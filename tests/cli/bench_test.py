@@ -8,7 +8,7 @@ import tomllib
 
 import whisker
 from slcan_bridge import Bridge
-from whisker import Case
+from whisker import Case, with_time_limit
 
 PATIENCE_S = 60
 
@@ -23,7 +23,7 @@ class Beside(Case):
 
     def start(self, *arguments):
         with open(self.folder / f"{arguments[0]}.err", "w", encoding="utf-8") as errors:
-            process = subprocess.Popen([whisker_binary(), *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=errors)
+            process = subprocess.Popen([whisker.binary, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=errors)
         self.addCleanup(lambda: (process.kill(), process.wait()))
         return process
 
@@ -52,12 +52,19 @@ class Beside(Case):
         self.assertRegex(done.stderr, r"\A[^\n]+\n\Z")
         self.assertIn(says, done.stderr)
 
+    def world(self, kind, seconds=60):
+        return self.file(f"{kind}.toml", with_time_limit(whisker.whisker("world", kind, "--seed", 1).stdout, seconds))
+
+    def wait_for_running(self):
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            nodes = json.loads(self.bench("nodes", "--json", "--for", 0.3).stdout)["nodes"]
+            if [n["state"] for n in nodes] == ["running"] * 2:
+                return {n["role"]: n for n in nodes}
+        self.fail("the robot does not drive")
+
     def value(self, name):
         return self.json_of("get", name)["parameters"][0]["value"]
-
-
-def whisker_binary():
-    return whisker.binary
 
 
 class Nodes(Beside):
@@ -73,15 +80,12 @@ class Nodes(Beside):
 
     def test_lists_both_nodes_while_they_drive_and_changes_nothing(self):
         self.controller()
-        plant = self.plant(self.file("w.toml", whisker.whisker("world", "discs", "--seed", 1).stdout), "--realtime")
-        nodes = {}
-        end = time.monotonic() + PATIENCE_S
-        while [n["state"] for n in nodes.values()] != ["running"] * 2 and time.monotonic() < end:
-            done = self.bench("nodes", "--json", "--for", 0.5)
-            nodes = {n["role"]: n for n in json.loads(done.stdout)["nodes"]}
+        plant = self.plant(self.world("discs"), "--realtime")
+        nodes = self.wait_for_running()
         self.assertEqual({role: (n["state"], n["node"], n["errors"]) for role, n in nodes.items()},
                          {"controller": ("running", 1, []), "base": ("running", 9, [])})
         self.complains("get", "--all", says="robot 1 has a base (node 9)")
+        self.complains("cancel", says="robot 1 has a base (node 9)")
         self.assertIsNone(plant.poll())
 
     def test_nobody_there(self):
@@ -156,6 +160,110 @@ class Parameters(Beside):
         written = self.json_of("set", "wheel_speed_max_mps=0.25", "gyro=true", "--drop", 10)["written"]
         self.assertEqual([w["name"] for w in written], ["wheel_speed_max_mps", "gyro"])
         self.assertEqual(self.value("wheel_speed_max_mps"), 0.25)
+
+
+class Orders(Beside):
+    def test_stop_and_reset_of_a_lone_controller(self):
+        self.controller()
+        self.assertEqual(self.done("stop"), "robot 1: E-stop\n")
+        (node,) = self.json_of("nodes")["nodes"]
+        self.assertEqual((node["state"], node["errors"]), ("e_stopped", ["e_stop"]))
+        self.assertIn("starts nothing", self.done("reset"))
+        (node,) = self.json_of("nodes")["nodes"]
+        self.assertEqual((node["state"], node["errors"]), ("waiting", []))
+        self.assertEqual(self.done("cancel"), "robot 1: cancelled\n")
+
+    def test_nobody_hears_a_stop(self):
+        self.complains("stop", "--timeout", 0.3, says="the E-stop was sent, but robot 1 was silent for 0.3 s")
+        self.complains("reset", "--timeout", 0.3, says="robot 1 was silent")
+
+    def test_stops_both_nodes_of_a_robot_that_drives(self):
+        self.controller()
+        self.plant(self.world("discs"), "--realtime")
+        self.wait_for_running()
+        self.done("stop")
+        states = {n["role"]: n["state"] for n in self.json_of("nodes")["nodes"]}
+        self.assertEqual(set(states.values()), {"e_stopped"})
+
+
+class Watching(Beside):
+    def test_a_record_replays_and_watching_changes_nothing(self):
+        scenario, log = self.world("discs", 10), self.folder / "run.log"
+        recorder = self.start("bench", "record", log, "--socket", self.folder / "bench", "--for", PATIENCE_S)
+        while not log.exists():
+            time.sleep(0.01)
+        self.controller()
+        plant = subprocess.run([whisker.binary, "plant", scenario, "--can", f"slcan:{self.folder / 'base'}", "--json"],
+                               capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+        recorder.terminate()
+        self.assertEqual(recorder.wait(), 0)
+        run = json.loads(whisker.whisker("run", scenario, "--json").stdout)
+        replay = json.loads(whisker.whisker("replay", log, "--json").stdout)
+        self.assertEqual(json.loads(plant.stdout)["hash"], run["hash"])
+        self.assertEqual((replay["same"], replay["hash"], replay["steps"]), (True, run["hash"], run["ticks"]))
+
+    def test_watch_tells_what_the_bus_carries(self):
+        self.controller()
+        self.plant(self.world("discs"), "--realtime")
+        self.wait_for_running()
+        lines = [json.loads(line) for line in self.done("watch", "--for", 2, "--every", 0.2, "--json").splitlines()]
+        self.assertGreaterEqual(len(lines), 5)
+        last = lines[-1]
+        self.assertEqual((last["controller"], last["base"]), ({"state": "running", "errors": ""},) * 2)
+        self.assertEqual((last["outcome"], last["fault"]), ("running", "none"))
+        self.assertEqual((len(last["wheel_mps"]), len(last["counts"]), len(last["range_m"])), (2, 2, 3))
+        self.assertEqual(sorted(line["t_s"] for line in lines), [line["t_s"] for line in lines])
+        self.assertRegex(self.done("watch", "--for", 0.5), r"\A +\d\.\d{3} controller running, base running; running: \w+, \w+; wheels ")
+
+    def test_silence_is_an_error(self):
+        self.complains("watch", "--for", 0.3, says="robot 1 was silent for 0.3 s")
+        self.complains("record", self.folder / "a.log", "--for", 0.3, says="no frame in 0.3 s")
+
+
+class Driving(Beside):
+    """The bench in the controller's place: its socket is the controller's."""
+
+    def beside_plant(self, scenario, *arguments):
+        plant = subprocess.Popen([whisker.binary, "plant", str(scenario), "--can", f"slcan:{self.folder / 'base'}", "--json"],
+                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.addCleanup(lambda: (plant.kill(), plant.communicate()))
+        done = self.bench(*arguments, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout), json.loads(plant.communicate(timeout=PATIENCE_S)[0])
+
+    def test_the_goal_of_the_base_gives_the_run_of_one_process(self):
+        scenario = self.world("discs", 300)
+        goal = tomllib.loads(scenario.read_text())["goal"]
+        told, plant = self.beside_plant(scenario, "goal", goal["x_m"], goal["y_m"], "--tolerance", goal["tolerance_m"])
+        run = json.loads(whisker.whisker("run", scenario, "--json").stdout)
+        self.assertEqual((told["outcome"], plant["outcome"], told["hash"]), ("reached", "reached", plant["hash"]))
+        self.assertEqual(plant["hash"], run["hash"])
+        self.assertIsNone(told["final_distance_m"])
+        self.assertAlmostEqual(told["believed_distance_m"], run["believed_distance_m"], delta=1e-4)
+
+    def test_another_goal_is_reached(self):
+        scenario = self.file("empty.toml", "time_limit_s = 60.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 3.0\ny_m = 0.0\n")
+        told, plant = self.beside_plant(scenario, "goal", 1, 0.5)
+        self.assertEqual((told["outcome"], plant["outcome"]), ("reached", "off_goal"))
+        self.assertAlmostEqual(plant["final_distance_m"], (2**2 + 0.5**2) ** 0.5, delta=0.15)
+
+    def test_drives_by_hand_and_the_guard_keeps_off_the_wall(self):
+        wall = "[[wall]]\npoints = [[1.0, -1.0], [1.0, 1.0]]\n"
+        scenario = self.file("wall.toml", "time_limit_s = 60.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 3.0\ny_m = 0.0\n" + wall)
+        commands = self.file("ahead.csv", "t_s,v_mps,omega_radps\n" + "".join(f"{i / 10},0.3,0\n" for i in range(80)))
+        told, plant = self.beside_plant(scenario, "drive", "--commands", commands, "--vouch", 0.3)
+        self.assertEqual((told["outcome"], told["fault"]), ("ended", "none"))
+        self.assertGreater(told["pose"]["x_m"], 0.6)
+        self.assertGreater(plant["min_clearance_m"], 0)
+        self.assertLess(plant["min_clearance_m"], 0.1)
+
+    def test_takes_no_taken_place(self):
+        self.controller()
+        self.complains("goal", 1, 0, says="robot 1 has a controller (node 1)")
+        self.complains("drive", "--commands", self.file("c.csv", "t_s,v_mps,omega_radps\n0,0,0\n"), says="has a controller")
+        self.complains("drive", status=2, says="choose --keys or --commands")
+        self.complains("drive", "--keys", status=2, says="standard input is no terminal")
+        self.complains("goal", 1, 0, "--node", 2, "--timeout", 0.3, says="no base of robot 2 in 0.3 s")
 
 
 if __name__ == "__main__":
