@@ -115,7 +115,7 @@ Written write_all(ParamClient& client, const std::vector<Change>& changes,
       return result;
     }
   } catch (const NoAnswer& e) {
-    throw NoAnswer(fmt::format("{}; staged, not in effect: {}; not written: {}", e.what(), names(0, staged),
+    throw NoAnswer(fmt::format("{}; staged, not in effect: {}; not confirmed: {}", e.what(), names(0, staged),
                                names(staged, changes.size())));
   }
   for (const Change& change : changes) {

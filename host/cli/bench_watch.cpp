@@ -6,14 +6,19 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "host/bench/bus_run.hpp"
 #include "host/bench/bus_state.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/bench_commands.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/live_view.hpp"
+#include "host/cli/logged_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/hil/error_names.hpp"
 #include "host/hil/recorder.hpp"
+#include "host/run/make_record.hpp"
+#include "host/scenario/load.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -22,7 +27,8 @@ using Json = nlohmann::ordered_json;
 
 struct WatchOptions {
   BenchChoice bus;
-  std::string file;
+  std::string file, robot;
+  ViewChoice view;
   double for_s = 60, every_s = 1;
   bool json = false;
 };
@@ -89,7 +95,52 @@ std::string occasion(const Json& j) {
   return all;
 }
 
+/// Feeds a live page with what the bus carries.
+class BusView {
+ public:
+  BusView(LiveView& view, const BenchBus& bus, const Params& params)
+      : view_(view),
+        run_(bus.name()),
+        seen_(bus.robot(), params,
+              {[this](const can::Mission& m, const Params& p, bool heard) { begin(m, p, heard); },
+               [this](const can::InputSet& set, const Status& status) { step(set, status); }}) {
+    run_.begin({}, params);
+    view_.feed().begin({run_.scenario(), std::nullopt, 1, false});
+    view_.feed().say("waits for a tick of the robot");
+    view_.start();
+  }
+
+  void on_frame(const hal::CanFrame& frame) { seen_.on_frame(frame); }
+  void end() {
+    if (!over_) view_.feed().end(run_.result());
+    over_ = true;
+  }
+
+ private:
+  void begin(const can::Mission& mission, const Params& params, bool heard) {
+    over_ = false;
+    run_.begin(mission, params);
+    view_.feed().begin({run_.scenario(), std::nullopt, 1, false});
+    view_.feed().say(heard ? "" : "start, goal and parameters are unknown: the mission began before");
+  }
+  void step(const can::InputSet& set, const Status& status) {
+    if (over_) return;
+    TickRecord record = run_.step(set, status, nullptr);
+    record.inside = false;
+    view_.feed().add({record, status.health, nullptr, nullptr});
+    if (status.health.fault != Fault::none || verdict_of(status.decision.outcome)) end();
+  }
+
+  LiveView& view_;
+  LoggedRun run_;
+  bench::BusRun seen_;
+  bool over_ = false;
+};
+
 int watch(const WatchOptions& o) {
+  Params params;
+  if (!o.robot.empty()) apply_robot_file(params, o.robot);
+  const auto view = o.view.open();
   BenchBus bus(o.bus);
   bench::BusState state;
   const std::uint64_t start_us = bus.clock().now_us();
@@ -113,7 +164,14 @@ int watch(const WatchOptions& o) {
     std::fflush(stdout);
     return false;
   };
-  bus.listen(o.for_s, tell, [&](const hal::CanFrame& frame) { state.on_frame(frame, bus.robot()); });
+  std::optional<BusView> page;
+  if (view) page.emplace(*view, bus, params);
+  bus.listen(o.for_s, tell, [&](const hal::CanFrame& frame) {
+    state.on_frame(frame, bus.robot());
+    if (page) page->on_frame(frame);
+  });
+  if (page) page->end();
+  if (view) view->stay(bus.interrupt());
   if (!last.empty()) return 0;
   throw bench::NoAnswer(fmt::format("{}: robot {} was silent for {} s", bus.name(), bus.robot(), o.for_s));
 }
@@ -159,6 +217,8 @@ void add_bench_watch(CLI::App& bench, int& status) {
   cmd->add_option("--every", watches->every_s, "And a line after this time, s; 1 by default")
       ->transform(amount(BenchBus::kMost_s))
       ->type_name("S");
+  add_file(*cmd, "--robot", watches->robot, "Parameters of the robot (TOML), for the page");
+  add_view(*cmd, watches->view);
   add_switch(*cmd, "--json", watches->json, "Print one JSON object a line");
 
   const auto records = std::make_shared<WatchOptions>();

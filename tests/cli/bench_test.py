@@ -1,5 +1,6 @@
 """`whisker bench` beside nodes on a bus of serial adapters, which needs no CAN."""
 
+import http.client
 import json
 import re
 import subprocess
@@ -214,6 +215,31 @@ class Watching(Beside):
         self.assertEqual((len(last["wheel_mps"]), len(last["counts"]), len(last["range_m"])), (2, 2, 3))
         self.assertEqual(sorted(line["t_s"] for line in lines), [line["t_s"] for line in lines])
         self.assertRegex(self.done("watch", "--for", 0.5), r"\A +\d\.\d{3} controller running, base running; running: \w+, \w+; wheels ")
+
+    def test_the_live_page_has_the_run(self):
+        scenario = self.world("discs", 300)
+        watcher = self.start("bench", "watch", "--socket", self.folder / "bench", "--for", PATIENCE_S, "--view", 0, "--view-stay")
+        errors = self.folder / "bench.err"
+        end = time.monotonic() + PATIENCE_S
+        while not (found := re.search(r"http://127\.0\.0\.1:(\d+)/", errors.read_text())) and time.monotonic() < end:
+            time.sleep(0.01)
+        self.controller()
+        done = whisker.whisker("plant", scenario, "--can", f"slcan:{self.folder / 'base'}", "--json")
+        run = json.loads(done.stdout)
+        server = http.client.HTTPConnection("127.0.0.1", int(found.group(1)), timeout=PATIENCE_S)
+        server.request("GET", "/events")
+        answer, events = server.getresponse(), []
+        while not events or not events[-1].get("result"):
+            if (line := answer.readline().decode()).startswith("data: "):
+                events.append(json.loads(line[6:]))
+            self.assertTrue(line)
+        server.close()
+        setting, goal = events[0]["setting"], tomllib.loads(scenario.read_text())["goal"]
+        self.assertEqual(setting["world"]["goal"][:2], [goal["x_m"], goal["y_m"]])
+        self.assertEqual((setting["inside"], setting["planner"]), (False, None))
+        result = events[-1]["result"]
+        self.assertEqual((result["outcome"], result["hash"]), ("reached", run["hash"]))
+        watcher.terminate()
 
     def test_silence_is_an_error(self):
         self.complains("watch", "--for", 0.3, says="robot 1 was silent for 0.3 s")

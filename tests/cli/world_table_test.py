@@ -31,7 +31,7 @@ OPTIONS = {
     ("bench", "set"): ("NAME=VALUE", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "save"): ("FILE", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "restore"): ("FILE", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
-    ("bench", "watch"): ("--for", "--every", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
+    ("bench", "watch"): ("--for", "--every", "--robot", "--view", "--view-address", "--view-stay", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "record"): ("FILE", "--for", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "stop"): ("--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "reset"): ("--can", "--tty", "--socket", "--node", "--timeout", "--drop"),

@@ -178,10 +178,10 @@ _whisker() {
       esac
       ;;
     "whisker bench watch")
-      options="-h --help --can --tty --socket --timeout --drop --node --for --every --json" words="" paths=none
+      options="-h --help --can --tty --socket --timeout --drop --node --for --every --robot --view --view-address --view-stay --json" words="" paths=none
       case $before in
-        --can | --tty | --timeout | --drop | --node | --for | --every) options="" words="" paths=value ;;
-        --socket) options="" words="" paths=file ;;
+        --can | --tty | --timeout | --drop | --node | --for | --every | --view | --view-address) options="" words="" paths=value ;;
+        --socket | --robot) options="" words="" paths=file ;;
       esac
       ;;
     "whisker bench record")
