@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include "host/bus/fault_port.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/hil/controller_loop.hpp"
@@ -28,7 +27,8 @@ void run_before_others(const std::function<void(const std::string&)>& say) {
   if (!forbidden.empty()) say("ticks may be late, as it gets no real-time priority: " + forbidden);
 }
 
-/// A recorder that this port wraps gets only the frames that pass on the bus.
+}  // namespace
+
 bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
   bus::Schedule faults;
   if (choice.drop_percent > 0) {
@@ -38,8 +38,6 @@ bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
   }
   return {port, std::move(faults), static_cast<std::uint64_t>(choice.robot)};
 }
-
-}  // namespace
 
 int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
                  const BusChoice& bus, hil::Line& line, LiveView* view) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "firmware/apps/can/remote_robot.hpp"
+#include "host/bus/fault_port.hpp"
 #include "host/cli/bus_options.hpp"
 #include "host/cli/live_view.hpp"
 #include "host/cli/one_run.hpp"
@@ -12,6 +13,10 @@
 #include "host/hil/line.hpp"
 
 namespace whisker::cli {
+
+/// The port with the losses of --drop. A recorder that this port wraps gets only the frames that pass on the
+/// bus.
+bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice);
 
 /// Runs one scenario as drive_one does, with the controller at the other end of the bus. Starts again if the
 /// controller restarts. view: the live view, or null. Returns the exit status, kInterrupted after an

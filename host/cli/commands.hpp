@@ -21,6 +21,7 @@ void add_table(CLI::App& app, int& status);
 void add_rules(CLI::App& app, int& status);
 void add_figures(CLI::App& app, int& status);
 void add_plant(CLI::App& app, int& status);
+void add_bench(CLI::App& app, int& status);
 void add_socket(CLI::App& app, int& status);
 void add_controller(CLI::App& app, int& status);
 void add_hil(CLI::App& app, int& status);

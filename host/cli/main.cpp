@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
   add_plant(app, status);
   add_controller(app, status);
   add_hil(app, status);
+  add_bench(app, status);
   add_replay(app, status);
   add_socket(app, status);
   add_dbc(app, status);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "firmware/apps/can/remote_robot.hpp"
 #include "host/run/planners.hpp"
+#include "host/run/recording_planner.hpp"
 
 namespace whisker::hil {
 
@@ -21,6 +23,21 @@ class HostPlanners final : public can_app::PlannerMaker {
  private:
   PlannerKind kind_;
   RecordedPlanner planner_;
+};
+
+/// The same planners; the view of the last one is recorded.
+class RecordingPlanners final : public can_app::PlannerMaker {
+ public:
+  explicit RecordingPlanners(PlannerKind kind) : planners_(kind) {}
+  planning::Planner& make(const Params& params) noexcept override {
+    return shown_.emplace(planners_.make(params));
+  }
+  const perception::LocalGrid* local_grid() const { return shown_ ? shown_->local_grid() : nullptr; }
+  const RecordingGuide* guide() const { return planners_.guide(); }
+
+ private:
+  HostPlanners planners_;
+  std::optional<RecordingPlanner> shown_;
 };
 
 }  // namespace whisker::hil

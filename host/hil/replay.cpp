@@ -14,27 +14,11 @@
 #include "firmware/can/param_server.hpp"
 #include "host/hil/candump.hpp"
 #include "host/hil/planners.hpp"
-#include "host/run/recording_planner.hpp"
 
 namespace whisker::hil {
 namespace {
 
 using can::MessageKind;
-
-/// Makes planners of one kind that record their decisions.
-class RecordingPlanners final : public can_app::PlannerMaker {
- public:
-  explicit RecordingPlanners(PlannerKind kind) : planners_(kind) {}
-  planning::Planner& make(const Params& params) noexcept override {
-    return shown_.emplace(planners_.make(params));
-  }
-  const perception::LocalGrid* local_grid() const { return shown_ ? shown_->local_grid() : nullptr; }
-  const RecordingGuide* guide() const { return planners_.guide(); }
-
- private:
-  HostPlanners planners_;
-  std::optional<RecordingPlanner> shown_;
-};
 
 class Replay {
  public:

@@ -1,14 +1,14 @@
-"""A CAN bus of two nodes: two adapters on Unix sockets that pass every frame to each other (SLCAN: docs/protocol.md)."""
+"""A CAN bus: adapters on Unix sockets that pass every frame to all others (SLCAN: docs/protocol.md)."""
 
 import socket
 import threading
 
 
 class Bridge:
-    """`slcan:<path>` of each of the two paths is one end of the bus. Ends with close()."""
+    """`slcan:<path>` of each path is one place on the bus, for one node after the other. Ends with close()."""
 
     def __init__(self, *paths):
-        self.ends = [None, None]
+        self.ends = [None] * len(paths)
         self.listeners = []
         for index, path in enumerate(paths):
             listener = socket.socket(socket.AF_UNIX)
@@ -18,17 +18,25 @@ class Bridge:
             threading.Thread(target=self.serve, args=(index, listener), daemon=True).start()
 
     def serve(self, index, listener):
-        try:
-            end, _ = listener.accept()
-        except OSError:
-            return
-        self.ends[index] = end
+        while True:
+            try:
+                end, _ = listener.accept()
+            except OSError:
+                return
+            self.ends[index] = end
+            self.carry(index, end)
+            self.ends[index] = None
+            end.close()
+
+    def carry(self, index, end):
         rest = b""
         while data := self.receive(end):
             *lines, rest = (rest + data).split(b"\r")
             for line in lines:
                 if line.startswith(b"t"):
-                    self.send(self.ends[1 - index], line + b"\r")
+                    for other, to in enumerate(self.ends):
+                        if other != index:
+                            self.send(to, line + b"\r")
                 elif line in (b"S6", b"O"):
                     self.send(end, b"\r")
 
@@ -50,6 +58,8 @@ class Bridge:
 
     def close(self):
         for listener in self.listeners:
+            # Wakes the thread that accepts.
+            listener.shutdown(socket.SHUT_RDWR)
             listener.close()
         for end in self.ends:
             if end is not None:

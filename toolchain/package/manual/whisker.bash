@@ -4,12 +4,12 @@ _whisker() {
   local path=whisker word here=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options="" words="" paths=none
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case "$path $word" in
-      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules compare" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
+      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules compare" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker bench" | "whisker bench nodes" | "whisker bench watch" | "whisker bench record" | "whisker bench get" | "whisker bench set" | "whisker bench save" | "whisker bench restore" | "whisker bench stop" | "whisker bench reset" | "whisker bench cancel" | "whisker bench goal" | "whisker bench drive" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
     esac
   done
   case $path in
     "whisker")
-      options="-h --help --version" words="run world robot campaign scanner movers guard operators table rules figures plant controller hil replay socket dbc protocol" paths=none
+      options="-h --help --version" words="run world robot campaign scanner movers guard operators table rules figures plant controller hil bench replay socket dbc protocol" paths=none
       ;;
     "whisker run")
       options="-h --help --robot --seed --trace --svg --html --json --planner --map-bytes --rules --map --chip" words="" paths=file
@@ -165,6 +165,95 @@ _whisker() {
         --seed | --node | --drop | --can | --map | --view | --view-address) options="" words="" paths=value ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+      esac
+      ;;
+    "whisker bench")
+      options="-h --help" words="nodes watch record get set save restore stop reset cancel goal drive" paths=none
+      ;;
+    "whisker bench nodes")
+      options="-h --help --can --tty --socket --timeout --drop --for --json" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --for) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench watch")
+      options="-h --help --can --tty --socket --timeout --drop --node --for --every --robot --view --view-address --view-stay --json" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --node | --for | --every | --view | --view-address) options="" words="" paths=value ;;
+        --socket | --robot) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench record")
+      options="-h --help --can --tty --socket --timeout --drop --node --for" words="" paths=file
+      case $before in
+        --can | --tty | --timeout | --drop | --node | --for) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench get")
+      options="-h --help --can --tty --socket --timeout --drop --node --all --json" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --node) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench set")
+      options="-h --help --can --tty --socket --timeout --drop --node --json" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --node) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench save")
+      options="-h --help --can --tty --socket --timeout --drop --node" words="" paths=file
+      case $before in
+        --can | --tty | --timeout | --drop | --node) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench restore")
+      options="-h --help --can --tty --socket --timeout --drop --node --json" words="" paths=file
+      case $before in
+        --can | --tty | --timeout | --drop | --node) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench stop")
+      options="-h --help --can --tty --socket --timeout --drop --node" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --node) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench reset")
+      options="-h --help --can --tty --socket --timeout --drop --node" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --node) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench cancel")
+      options="-h --help --can --tty --socket --timeout --drop --node" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --node) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench goal")
+      options="-h --help --can --tty --socket --timeout --drop --node --tolerance --for --planner --map-bytes --rules --map --view --view-address --view-stay --json" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --node | --tolerance | --for | --map | --view | --view-address) options="" words="" paths=value ;;
+        --socket | --rules) options="" words="" paths=file ;;
+        --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
+        --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
+      esac
+      ;;
+    "whisker bench drive")
+      options="-h --help --can --tty --socket --timeout --drop --node --keys --commands --speed --turn --vouch --for --json" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --node | --speed | --turn | --vouch | --for) options="" words="" paths=value ;;
+        --socket | --commands) options="" words="" paths=file ;;
       esac
       ;;
     "whisker replay")

@@ -1,0 +1,53 @@
+#include "host/bench/bus_state.hpp"
+
+#include "firmware/can/codec.hpp"
+#include "firmware/can/headers.hpp"
+#include "firmware/can/input_set.hpp"
+
+namespace whisker::bench {
+namespace {
+
+template <class M>
+void keep(const hal::CanFrame& frame, std::optional<M>& last) {
+  M message;
+  if (can::decode(frame, message)) last = message;
+}
+
+template <can::MessageKind kKind>
+void keep_range(const hal::CanFrame& frame, std::optional<hal::RangeReading>& last) {
+  can::Range<kKind> range;
+  if (can::decode(frame, range) && can::InputSets::sound(range.reading)) last = range.reading;
+}
+
+}  // namespace
+
+bool BusState::on_frame(const hal::CanFrame& frame, int robot) {
+  can::MessageKind kind = can::MessageKind::e_stop;
+  int owner = 0;
+  can::Party party = can::Party::base;
+  if (frame.extended || frame.remote || !can::kind_of(frame.id, kind)) return false;
+  if (!owner_of(static_cast<std::uint8_t>(frame.id & 0x0F), owner, party) || owner != robot) return false;
+  if (!can::may_send(party, kind) || frame.size != can::head_of(kind).size) return false;
+  if (frame.data[0] != can::crc_of(frame.id, frame.data, frame.size)) return false;
+  ++frames;
+  switch (kind) {
+    case can::MessageKind::nav_status: keep(frame, status); break;
+    case can::MessageKind::wheel_command: keep(frame, command); break;
+    case can::MessageKind::wheel_state: keep(frame, wheels); break;
+    case can::MessageKind::range_left:
+      keep_range<can::MessageKind::range_left>(frame, beams[hal::kLeft]);
+      break;
+    case can::MessageKind::range_front:
+      keep_range<can::MessageKind::range_front>(frame, beams[hal::kFront]);
+      break;
+    case can::MessageKind::range_right:
+      keep_range<can::MessageKind::range_right>(frame, beams[hal::kRight]);
+      break;
+    case can::MessageKind::range_trust: keep(frame, trust); break;
+    case can::MessageKind::pose_sigma: keep(frame, sigma); break;
+    default: break;
+  }
+  return true;
+}
+
+}  // namespace whisker::bench

@@ -1,0 +1,81 @@
+/// Reads and writes the parameters of a controller in the place of its base.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "firmware/can/base_node.hpp"
+#include "host/hil/clock.hpp"
+
+namespace whisker::bench {
+
+/// The controller did not answer in time, or cannot answer; what() is the reason in one line.
+class NoAnswer : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The caller was requested to stop.
+class Interrupted : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Patience {
+  std::uint32_t ms = 3000;            ///< for each answer
+  std::function<bool()> interrupted;  ///< true: give up; may be empty
+};
+
+/// A base that only asks. No other base of this robot may be on the bus: both would stop permanently. Port
+/// and clock must outlive it. Every call throws NoAnswer and Interrupted.
+class ParamClient {
+ public:
+  ParamClient(hal::CanPort& port, hil::Clock& clock, const can::Identity& identity, Patience patience);
+
+  /// Waits for the handshake.
+  void connect();
+  /// The staged value; none: the controller has no parameter with this index.
+  std::optional<std::uint32_t> read(std::uint8_t index);
+  /// Stages a value.
+  can::ParamStatus write(std::uint8_t index, std::uint32_t raw);
+  /// status: ok or busy, or inconsistent with the violated relation in `value`.
+  can::ParamReply commit();
+  /// Clears the goal; both nodes stop running.
+  void cancel();
+
+ private:
+  static constexpr std::uint8_t kCommitIndex = 255;  // distinguishes the reply from that to a write
+
+  can::ParamReply ask(const can::ParamRequest& request,
+                      const std::function<bool(const can::ParamReply&)>& answers);
+  /// Polls until `done`; awaited: for the message of NoAnswer.
+  void wait_until(const std::function<bool()>& done, const std::string& awaited);
+
+  hil::Clock& clock_;
+  Patience patience_;
+  can::BaseNode node_;
+};
+
+struct Change {
+  std::uint8_t index;
+  std::uint32_t before;
+  std::uint32_t after;
+};
+
+/// Outcome of write_all.
+struct Written {
+  bool committed = false;
+  std::optional<std::uint8_t> refused;  ///< index of the refused parameter, if it was one
+  can::ParamStatus status = can::ParamStatus::ok;
+  std::uint32_t relation = 0;  ///< number of the violated relation, if inconsistent
+};
+
+/// Stages all changes, commits them, and reads them back. If the controller refuses, the earlier values are
+/// staged again, and nothing has changed. If it stops to answer, NoAnswer says which changes were staged:
+/// name_of(index).
+Written write_all(ParamClient& client, const std::vector<Change>& changes,
+                  const std::function<std::string(std::uint8_t)>& name_of);
+
+}  // namespace whisker::bench

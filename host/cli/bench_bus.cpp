@@ -1,0 +1,120 @@
+#include "host/cli/bench_bus.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include "firmware/can/limits.hpp"
+#include "firmware/version.hpp"
+#include "host/cli/bus_run.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
+
+namespace whisker::cli {
+std::string version_text(std::uint32_t v) {
+  return fmt::format("{}.{}.{}", v >> 16, v >> 8 & 0xFF, v & 0xFF);
+}
+
+std::string BenchChoice::bus_name() const {
+  const int given = (can.empty() ? 0 : 1) + (tty.empty() ? 0 : 1) + (socket.empty() ? 0 : 1);
+  if (given != 1) throw UsageError("bench: choose one of --can, --tty and --socket");
+  return !can.empty() ? can : "slcan:" + (tty.empty() ? socket : tty);
+}
+
+void add_bench_line(CLI::App& app, BenchChoice& choice) {
+  add_name(app, "--can", choice.can, "CAN interface, such as can0 or vcan0")->type_name("IFACE");
+  add_name(app, "--tty", choice.tty, "Serial CAN adapter or board (SLCAN), such as /dev/ttyACM0")
+      ->type_name("DEV");
+  add_name(app, "--socket", choice.socket, "The same behind a Unix socket, such as that of an emulator")
+      ->type_name("PATH");
+  app.add_option("--timeout", choice.timeout_s, "Wait so long for each answer, s; 3 by default")
+      ->transform(amount(600))
+      ->type_name("S");
+  app.add_option("--drop", choice.bus.drop_percent,
+                 "Lose so many of the frames that are sent and received, at random")
+      ->transform(amount(100))
+      ->type_name("PERCENT");
+}
+
+void add_bench_bus(CLI::App& app, BenchChoice& choice) {
+  add_bench_line(app, choice);
+  app.add_option("--node", choice.bus.robot, "Number of the robot, 1 to 7; 1 by default")
+      ->check(CLI::Range(1, static_cast<int>(can::kRobots)))
+      ->type_name("N");
+}
+
+BenchBus::BenchBus(const BenchChoice& choice)
+    : choice_(choice),
+      name_(choice.bus_name()),
+      line_(hil::open_line(name_)),
+      clock_([this] { return line_->descriptor(); }),
+      lossy_(lossy(line_->port(), choice.bus)),
+      port_(lossy_, survey_, clock_) {}
+
+void BenchBus::join() {
+  const std::uint64_t end_us = clock_.now_us() + static_cast<std::uint64_t>(choice_.timeout_s * 1e6);
+  for (;;) {
+    port_.poll(clock_.now_ms());
+    guard_.watch(port_, clock_.now_ms());
+    if (guard_.on_bus()) return;
+    if (interrupt_.noted()) throw bench::Interrupted("interrupted");
+    if (clock_.now_us() >= end_us) {
+      const std::string what = line_->waits_for();
+      throw bench::NoAnswer(fmt::format("{}: not on the bus after {} s{}", name_, choice_.timeout_s,
+                                        what.empty() ? "" : ": waits for " + what));
+    }
+    clock_.wait_a_ms();
+  }
+}
+
+bool BenchBus::listen(double seconds, const std::function<bool()>& done,
+                      const std::function<void(const hal::CanFrame&)>& each) {
+  join();
+  const std::uint64_t end_us = clock_.now_us() + static_cast<std::uint64_t>(seconds * 1e6);
+  while (clock_.now_us() < end_us) {
+    port_.poll(clock_.now_ms());
+    guard_.watch(port_, clock_.now_ms());
+    hal::CanFrame frame{};
+    while (port_.receive(frame)) {
+      if (each) each(frame);
+    }
+    if (done && done()) return true;
+    if (interrupt_.noted()) throw bench::Interrupted("interrupted");
+    clock_.wait_a_ms();
+  }
+  return false;
+}
+
+std::unique_ptr<bench::ParamClient> BenchBus::base() {
+  listen(kListen_s, nullptr);
+  const auto there = [&](can::Party party) { return survey_.alive(robot(), party, clock_.now_us()); };
+  const auto refuse_base = [&] {
+    if (!there(can::Party::base)) return;
+    throw bench::NoAnswer(
+        fmt::format("{}: robot {} has a base (node {}), and a controller answers its base only: take it off "
+                    "the bus first",
+                    name_, robot(), robot() + can::kBaseOffset));
+  };
+  const auto found = [&] {
+    refuse_base();
+    return there(can::Party::controller);
+  };
+  if (!found() && !listen(choice_.timeout_s, found)) {
+    throw bench::NoAnswer(
+        fmt::format("{}: no controller of robot {} in {} s", name_, robot(), choice_.timeout_s));
+  }
+  const auto patience_ms = static_cast<std::uint32_t>(choice_.timeout_s * 1e3);
+  auto client = std::make_unique<bench::ParamClient>(
+      port_, clock_, choice_.bus.identity(),
+      bench::Patience{patience_ms, [this] { return interrupt_.noted(); }});
+  client->connect();
+  const bench::SeenNode* const node = survey_.find(robot(), can::Party::controller);
+  if (node != nullptr && node->version && *node->version != kVersionNumber) {
+    throw bench::NoAnswer(
+        fmt::format("{}: the controller runs firmware {}, and this is whisker {}: the "
+                    "numbers of their parameters may differ",
+                    name_, version_text(*node->version), version_text(kVersionNumber)));
+  }
+  return client;
+}
+
+}  // namespace whisker::cli

@@ -1,0 +1,76 @@
+/// The bus of the bench commands: options, and an open port that knows who is on it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "firmware/can/bus_guard.hpp"
+#include "host/bench/param_client.hpp"
+#include "host/bench/survey.hpp"
+#include "host/bus/fault_port.hpp"
+#include "host/cli/bus_options.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/hil/line.hpp"
+#include "host/hil/wall_clock.hpp"
+
+namespace whisker::cli {
+
+/// "1.2.3"; v: major << 16 | minor << 8 | patch.
+std::string version_text(std::uint32_t v);
+
+struct BenchChoice {
+  std::string can, tty, socket;
+  BusChoice bus;  ///< without a name; see bus_name
+  double timeout_s = 3;
+
+  /// For open_line. Throws UsageError unless exactly one of the three is given.
+  std::string bus_name() const;
+};
+
+/// --can, --tty, --socket, --timeout and --drop.
+void add_bench_line(CLI::App& app, BenchChoice& choice);
+/// The same with --node.
+void add_bench_bus(CLI::App& app, BenchChoice& choice);
+
+/// Opened by the constructor. Waits throw bench::NoAnswer and bench::Interrupted.
+class BenchBus {
+ public:
+  static constexpr double kListen_s = 0.4;  ///< longer than the time after which a node counts as lost
+  static constexpr double kMost_s = 86400;  ///< of --for
+
+  explicit BenchBus(const BenchChoice& choice);
+
+  /// Receives for this time, or until `done`, once the port is on the bus. each: receives every frame; may be
+  /// empty. False: the time is over.
+  bool listen(double seconds, const std::function<bool()>& done,
+              const std::function<void(const hal::CanFrame&)>& each = nullptr);
+  void send(const hal::CanFrame& frame) { port_.send(frame, can::kEventLife_ms); }
+
+  /// A base that may ask for parameters. Throws bench::NoAnswer if the robot has a base, or no controller.
+  std::unique_ptr<bench::ParamClient> base();
+
+  const bench::Survey& survey() const { return survey_; }
+  hil::WallClock& clock() { return clock_; }
+  hal::CanPort& port() { return port_; }
+  hil::Line& line() { return *line_; }
+  const std::string& name() const { return name_; }
+  int robot() const { return choice_.bus.robot; }
+  const Interrupt& interrupt() const { return interrupt_; }
+
+ private:
+  void join();
+
+  const BenchChoice choice_;
+  const std::string name_;
+  Interrupt interrupt_;
+  std::unique_ptr<hil::Line> line_;
+  hil::WallClock clock_;
+  bus::FaultPort lossy_;
+  bench::Survey survey_;
+  bench::SurveyPort port_;
+  can::BusGuard guard_;
+};
+
+}  // namespace whisker::cli

@@ -1,0 +1,237 @@
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "host/bench/seat.hpp"
+#include "host/cli/bench_bus.hpp"
+#include "host/cli/bench_commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/keys.hpp"
+#include "host/cli/live_view.hpp"
+#include "host/cli/logged_run.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
+#include "host/guard/recorded.hpp"
+#include "host/hil/error_names.hpp"
+#include "host/hil/planners.hpp"
+#include "host/report/result.hpp"
+#include "host/run/make_record.hpp"
+
+namespace whisker::cli {
+namespace {
+
+constexpr double kFarewell_s = 0.5;  // the base hears that the mission is over
+constexpr double kFarthest_m = 1000;
+
+struct SeatOptions {
+  BenchChoice bus;
+  double x_m = 0, y_m = 0, tolerance_m = 0.1, for_s = 600;
+  PlannerKind planner = kDefaultPlanner;
+  ViewChoice view;
+  std::string commands;
+  double speed_mps = 0.3, turn_radps = 1.5, vouched_m = 0;
+  bool keys = false, json = false;
+};
+
+std::string state_words(const can::Node& node, bool started) {
+  switch (node.state()) {
+    case can::NodeState::off_bus: return "waits for the bus";
+    case can::NodeState::waiting:
+      return (node.errors() & can::Error::wrong_version) != 0 ? "the base speaks another protocol"
+                                                              : "waits for the base";
+    case can::NodeState::ready: return started ? "ready" : "waits for the base's order to start";
+    case can::NodeState::running: return "drives";
+    case can::NodeState::safe_stop: return "safe stop: " + hil::error_names(node.errors());
+    case can::NodeState::e_stopped: return "E-stop";
+  }
+  return "";
+}
+
+/// Takes the controller's place. Throws bench::NoAnswer if the robot has a controller, or no base.
+void check_place(BenchBus& bus, const BenchChoice& choice) {
+  bus.listen(BenchBus::kListen_s, nullptr);
+  const auto there = [&](can::Party party) {
+    return bus.survey().alive(bus.robot(), party, bus.clock().now_us());
+  };
+  const auto found = [&] {
+    if (there(can::Party::controller)) {
+      throw bench::NoAnswer(fmt::format(
+          "{}: robot {} has a controller (node {}), which obeys its base only: take it off the bus first",
+          bus.name(), bus.robot(), bus.robot()));
+    }
+    return there(can::Party::base);
+  };
+  if (found() || bus.listen(choice.timeout_s, found)) return;
+  throw bench::NoAnswer(
+      fmt::format("{}: no base of robot {} in {} s", bus.name(), bus.robot(), choice.timeout_s));
+}
+
+/// Until `over` for kFarewell_s, or the time is over. Throws bench::NoAnswer if the base gives no order, or
+/// stops for longer than the time-out.
+void sit(BenchBus& bus, const BenchChoice& choice, bench::Seat& seat, double for_s,
+         const std::function<bool()>& over, const std::function<bool()>& interrupted) {
+  std::string said;
+  const std::uint64_t start_us = bus.clock().now_us();
+  std::uint64_t alive_us = start_us, over_us = 0;
+  for (;;) {
+    const bool stepped = seat.poll(bus.clock().now_ms());
+    const std::uint64_t now_us = bus.clock().now_us();
+    const std::string words = state_words(seat.node(), seat.started());
+    if (words != said) fmt::print(stderr, "controller {} on {}: {}\n", bus.robot(), bus.name(), words);
+    said = words;
+    if (stepped || !seat.started()) alive_us = now_us;
+    const bool is_over = seat.started() && over();
+    if (is_over && over_us == 0) over_us = now_us;
+    if (is_over && static_cast<double>(now_us - over_us) * 1e-6 >= kFarewell_s) return;
+    if (interrupted()) throw bench::Interrupted("interrupted");
+    if (!is_over && static_cast<double>(now_us - alive_us) * 1e-6 >= choice.timeout_s) {
+      throw bench::NoAnswer(fmt::format("{}: {} for {} s", bus.name(), words, choice.timeout_s));
+    }
+    if (!is_over && static_cast<double>(now_us - start_us) * 1e-6 >= for_s) {
+      if (!seat.started()) throw bench::NoAnswer(fmt::format("{}: {} for {} s", bus.name(), words, for_s));
+      return;
+    }
+    seat.node().lockstep() ? bus.clock().wait(hil::Clock::kNap_us) : bus.clock().wait_a_ms();
+  }
+}
+
+planning::Goal goal_of(const SeatOptions& o) {
+  const auto um = [](double m) { return Length::from_raw(static_cast<std::int32_t>(std::lround(m * 1e6))); };
+  return {{um(o.x_m), um(o.y_m)}, um(o.tolerance_m)};
+}
+
+int goal(const SeatOptions& o) {
+  if (!(std::fabs(o.x_m) <= kFarthest_m && std::fabs(o.y_m) <= kFarthest_m)) {
+    throw UsageError(fmt::format("bench goal: at most {} m from the origin", kFarthest_m));
+  }
+  if (!(o.tolerance_m > 0)) throw UsageError("bench goal: --tolerance must be above 0");
+  const auto view = o.view.open(o.planner);
+  BenchBus bus(o.bus);
+  check_place(bus, o.bus);
+  hil::RecordingPlanners planners(o.planner);
+  LoggedRun run(bus.name());
+  can::Identity identity = o.bus.bus.identity();
+  identity.rules = rules_digest(o.planner);
+  if (view) view->start();
+  bench::GoalSeat::Listener listener;
+  listener.begins = [&](const can::Mission& mission, const Params& params) {
+    run.begin(mission, params);
+    if (view) view->feed().begin({run.scenario(), o.planner, 1});
+  };
+  listener.stepped = [&](const can::InputSet& set, const Status& status) {
+    const TickRecord& record = run.step(set, status, planners.guide());
+    if (view) view->feed().add({record, status.health, planners.local_grid(), planners.guide()});
+  };
+  bench::GoalSeat seat(bus.port(), identity, planners, goal_of(o), listener);
+  const auto over = [&] {
+    const Status& s = seat.status();
+    return s.health.fault != Fault::none || verdict_of(s.decision.outcome).has_value();
+  };
+  sit(bus, o.bus, seat, o.for_s, over, [&] { return bus.interrupt().noted(); });
+  const RunResult result = run.result();
+  if (view) view->feed().end(result);
+  if (o.json) {
+    Provenance origin;
+    origin.planner = name(o.planner);
+    origin.rules_digest = rules_name(o.planner);
+    origin.robot_digest = robot_digest(run.scenario().robot);
+    fmt::print("{}\n", with_provenance(report::result_json(result, ""), origin));
+  } else {
+    fmt::print("{}{} by its own estimate, after {:.1f} s and {:.2f} m, {:.3f} m from the goal\n",
+               report::outcome(result.verdict), result.detail.empty() ? "" : " (" + result.detail + ")",
+               result.time_s, result.path_m, *result.believed_distance_m);
+  }
+  if (view) view->stay(bus.interrupt());
+  return exit_status(result.verdict);
+}
+
+int drive(const SeatOptions& o) {
+  if (o.keys != o.commands.empty()) throw UsageError("bench drive: choose --keys or --commands");
+  std::unique_ptr<Keys> keys;
+  std::unique_ptr<guard::Recorded> recorded;
+  if (o.keys) keys = std::make_unique<Keys>(o.speed_mps, o.turn_radps);
+  if (!o.keys) recorded = std::make_unique<guard::Recorded>(guard::load_commands(o.commands));
+  guard::Operator& hand = keys ? static_cast<guard::Operator&>(*keys) : *recorded;
+  BenchBus bus(o.bus);
+  check_place(bus, o.bus);
+  bench::GuardSeat seat(bus.port(), o.bus.bus.identity(), hand, o.vouched_m);
+  ProgressLine line;
+  const auto over = [&] {
+    const GuardStatus& s = seat.status();
+    const bool done = keys ? keys->ended() : seat.time_s() > recorded->last_s();
+    if (done || seat.time_s() >= o.for_s || bus.interrupt().noted()) seat.end();
+    if (keys) {
+      line.show(fmt::format("granted {:3.0f} % {:3.0f} %, {:<16} at {:.2f}, {:.2f} m",
+                            s.forward.raw() / 163.84, s.turning.raw() / 163.84, name(s.reason),
+                            s.pose.at.x.raw() * 1e-6, s.pose.at.y.raw() * 1e-6));
+    }
+    const bool ends = done || seat.time_s() >= o.for_s || bus.interrupt().noted();
+    return s.health.fault != Fault::none || (ends && seat.stands());
+  };
+  const auto interrupted = [&] { return bus.interrupt().noted() && !seat.started(); };
+  sit(bus, o.bus, seat, BenchBus::kMost_s, over, interrupted);
+  line.show("");
+  const GuardStatus& s = seat.status();
+  const bool failed = s.health.fault != Fault::none;
+  if (o.json) {
+    const nlohmann::ordered_json json = {
+        {"outcome", failed ? "fault" : "ended"},
+        {"fault", name(s.health.fault)},
+        {"time_s", seat.time_s()},
+        {"pose", {{"x_m", s.pose.at.x.raw() / 1e6}, {"y_m", s.pose.at.y.raw() / 1e6}}}};
+    fmt::print("{}\n", with_provenance(json.dump(), {}));
+  } else {
+    fmt::print("{} after {:.2f} s, at {:.3f}, {:.3f} m by its own estimate\n",
+               failed ? fmt::format("fault {}", name(s.health.fault)) : "ended", seat.time_s(),
+               s.pose.at.x.raw() * 1e-6, s.pose.at.y.raw() * 1e-6);
+  }
+  return failed ? kFault : bus.interrupt().noted() ? kInterrupted : 0;
+}
+
+}  // namespace
+
+void add_bench_drive(CLI::App& bench, int& status) {
+  const auto goes = std::make_shared<SeatOptions>();
+  CLI::App* cmd = bench.add_subcommand("goal", "Drive a real base to a goal, with the core on this computer");
+  cmd->add_option("X", goes->x_m, "Goal in the frame of the base's start, m")->required()->type_name("X");
+  cmd->add_option("Y", goes->y_m, "The same")->required()->type_name("Y");
+  add_bench_bus(*cmd, goes->bus);
+  cmd->add_option("--tolerance", goes->tolerance_m, "Reached within this distance, m; 0.1 by default")
+      ->transform(amount(10))
+      ->type_name("M");
+  cmd->add_option("--for", goes->for_s, "End after this time, s; 600 by default")
+      ->transform(amount(BenchBus::kMost_s))
+      ->type_name("S");
+  add_planner(*cmd, goes->planner);
+  add_view(*cmd, goes->view);
+  add_switch(*cmd, "--json", goes->json, "Print the result as one JSON object and nothing else");
+  cmd->callback([o = goes, &status] { status = bench_status([&] { return goal(*o); }); });
+
+  const auto drives = std::make_shared<SeatOptions>();
+  cmd = bench.add_subcommand("drive", "Drive a real base by hand; the guard on this computer keeps it safe");
+  add_bench_bus(*cmd, drives->bus);
+  add_switch(*cmd, "--keys", drives->keys, "With the arrow keys; q ends");
+  add_file(*cmd, "--commands", drives->commands, "Commands from this CSV file, or - : t_s,v_mps,omega_radps");
+  cmd->add_option("--speed", drives->speed_mps, "Of the keys ahead, m/s; 0.3 by default")
+      ->transform(amount(3.2))
+      ->type_name("V");
+  cmd->add_option("--turn", drives->turn_radps, "Of the keys aside, rad/s; 1.5 by default")
+      ->transform(amount(20))
+      ->type_name("W");
+  cmd->add_option("--vouch", drives->vouched_m, "You vouch for this radius around the start, m; 0 by default")
+      ->transform(amount(10))
+      ->type_name("R");
+  cmd->add_option("--for", drives->for_s, "End after this time, s; 600 by default")
+      ->transform(amount(BenchBus::kMost_s))
+      ->type_name("S");
+  add_switch(*cmd, "--json", drives->json, "Print the result as one JSON object and nothing else");
+  cmd->callback([o = drives, &status] { status = bench_status([&] { return drive(*o); }); });
+}
+
+}  // namespace whisker::cli

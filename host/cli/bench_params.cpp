@@ -1,0 +1,255 @@
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "firmware/params/words.hpp"
+#include "host/bench/param_values.hpp"
+#include "host/cli/bench_bus.hpp"
+#include "host/cli/bench_commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/cli/provenance.hpp"
+#include "host/report/file.hpp"
+#include "host/scenario/load.hpp"
+#include "host/scenario/reader.hpp"
+#include "host/scenario/violations.hpp"
+
+namespace whisker::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Names = std::vector<std::string>;
+
+struct ParamOptions {
+  BenchChoice bus;
+  Names names;
+  std::string file;
+  bool all = false, json = false;
+};
+
+/// Passes errors in the words of a parameter on as errors of usage.
+template <class F>
+auto as_usage(const F& parse) {
+  try {
+    return parse();
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(e.what());
+  }
+}
+
+void take(Params& params, std::size_t place, bench::ParamClient& client) {
+  const auto index = static_cast<std::uint8_t>(place);
+  const auto raw = client.read(index);
+  const char* const key = param_list(params)[place].key;
+  if (!raw) throw bench::NoAnswer(fmt::format("the controller has no parameter {}", key));
+  if (!in_own_range(index, *raw)) throw bench::NoAnswer(fmt::format("{} has no valid value", key));
+  set_raw_param(params, index, *raw);
+}
+
+Params read_all(bench::ParamClient& client) {
+  Params params;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kParams); ++i) take(params, i, client);
+  return params;
+}
+
+Json value_json(const ParamEntry& e, std::int64_t raw) {
+  if (e.boolean) return raw != 0;
+  const std::string text = e.word != nullptr ? bench::value_text(e, raw) : e.text_of(raw);
+  return e.word != nullptr ? Json(text) : Json::parse(text);
+}
+
+Json entry_json(const ParamEntry& e, std::size_t place) {
+  Json json = {{"name", e.key}, {"value", value_json(e, e.raw)}, {"unit", e.unit.symbol}};
+  if (e.word == nullptr) {
+    json["low"] = value_json(e, e.low);
+    json["high"] = value_json(e, e.high);
+  } else {
+    json["words"] = bench::words_of(place);
+  }
+  json["default"] = value_json(e, param_list(Params{})[place].raw);
+  json["index"] = place;
+  json["raw"] = e.raw;
+  return json;
+}
+
+int get(const ParamOptions& o) {
+  if (o.all != o.names.empty()) throw UsageError("bench get: name parameters, or --all");
+  std::vector<std::size_t> places;
+  for (const std::string& name : o.names) places.push_back(as_usage([&] { return bench::place_of(name); }));
+  for (std::size_t i = 0; o.all && i < static_cast<std::size_t>(kParams); ++i) places.push_back(i);
+  BenchBus bus(o.bus);
+  const auto client = bus.base();
+  Params params;
+  for (const std::size_t place : places) take(params, place, *client);
+  const std::vector<ParamEntry> list = param_list(params), usual = param_list(Params{});
+  Json json = {{"bus", bus.name()}, {"robot", bus.robot()}, {"parameters", Json::array()}};
+  for (const std::size_t place : places) {
+    const ParamEntry& e = list[place];
+    if (o.json) {
+      json["parameters"].push_back(entry_json(e, place));
+    } else {
+      fmt::print("{:<28} {:<18} {}; default {}\n", e.key, bench::value_text(e, e.raw),
+                 bench::range_text(e, place), bench::value_text(e, usual[place].raw));
+    }
+  }
+  if (o.json) fmt::print("{}\n", with_provenance(json.dump(), {}));
+  return 0;
+}
+
+std::vector<bench::Change> changes(const Params& from, const Params& to) {
+  std::vector<bench::Change> all;
+  for (int i = 0; i < kParams; ++i) {
+    const std::uint32_t before = raw_param(from, i), after = raw_param(to, i);
+    if (before != after) all.push_back({static_cast<std::uint8_t>(i), before, after});
+  }
+  return all;
+}
+
+void print_written(const ParamOptions& o, const BenchBus& bus, const Params& from, const Params& to) {
+  const std::vector<ParamEntry> before = param_list(from), after = param_list(to);
+  Json json = {{"bus", bus.name()}, {"robot", bus.robot()}, {"written", Json::array()}};
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i].raw == after[i].raw) continue;
+    const ParamEntry& e = after[i];
+    json["written"].push_back({{"name", e.key},
+                               {"from", value_json(e, before[i].raw)},
+                               {"to", value_json(e, e.raw)},
+                               {"unit", e.unit.symbol}});
+    if (!o.json) {
+      fmt::print("{}: {} -> {}\n", e.key, bench::value_text(e, before[i].raw), bench::value_text(e, e.raw));
+    }
+  }
+  if (o.json) {
+    fmt::print("{}\n", with_provenance(json.dump(), {}));
+  } else if (json["written"].empty()) {
+    fmt::print("the robot has these values already\n");
+  }
+}
+
+/// Throws UsageError for values that do not fit together.
+void check_relations(const Params& params) {
+  for (const Violation& v : violations(params)) {
+    std::string fits;
+    for (const std::string& fit : v.fits) fits += (fits.empty() ? "; it would fit with " : " or ") + fit;
+    throw UsageError(fmt::format("the values do not fit together: {}{}", relation(v.fault).words, fits));
+  }
+}
+
+/// refused: throws for the parameter that the controller refuses, with this sentence.
+void write(bench::ParamClient& client, const Params& from, const Params& to,
+           const std::function<void(std::size_t, const std::string&)>& refused) {
+  const std::vector<ParamEntry> list = param_list(to);
+  const auto name_of = [&](std::uint8_t i) { return std::string(list[i].key); };
+  const std::vector<bench::Change> diff = changes(from, to);
+  if (diff.empty()) return;
+  const bench::Written result = bench::write_all(client, diff, name_of);
+  if (result.committed) return;
+  const char* const word = can::word_in<can::kParamStatusWords>(static_cast<int>(result.status));
+  if (result.status == can::ParamStatus::busy) {
+    throw bench::NoAnswer("a mission runs (busy): nothing was written; cancel it first");
+  }
+  if (result.refused) {
+    const ParamEntry& e = list[*result.refused];
+    refused(*result.refused, fmt::format("the controller says {}: {}; nothing was written", word,
+                                         bench::outside_text(*result.refused, e.text(), e.raw)));
+  }
+  const auto fault = static_cast<ParamFault>(result.relation);
+  throw UsageError(
+      fmt::format("the controller says {}: {}; nothing was written", word, relation(fault).words));
+}
+
+int set(const ParamOptions& o) {
+  std::vector<bench::Assignment> wanted;
+  for (const std::string& text : o.names) {
+    wanted.push_back(as_usage([&] { return bench::parse_assignment(text); }));
+  }
+  BenchBus bus(o.bus);
+  const auto client = bus.base();
+  const Params from = read_all(*client);
+  Params to = from;
+  for (const bench::Assignment& a : wanted) set_param(to, a.place, a.raw);
+  check_relations(to);
+  write(*client, from, to, [](std::size_t, const std::string& words) { throw UsageError(words); });
+  print_written(o, bus, from, to);
+  return 0;
+}
+
+int save(const ParamOptions& o) {
+  check_outputs({o.file});
+  BenchBus bus(o.bus);
+  const auto client = bus.base();
+  const Params params = read_all(*client);
+  const bench::SeenNode* const node = bus.survey().find(bus.robot(), can::Party::controller);
+  const std::uint32_t v = node != nullptr ? node->version.value_or(0) : 0;
+  const std::string origin =
+      fmt::format("Parameters of robot {} on {}, firmware {}; unit and range behind each", bus.robot(),
+                  bus.name(), version_text(v));
+  report::write_file(o.file, bench::saved_toml(params, origin));
+  fmt::print(words_beside({o.file}), "{} parameters: {}\n", kParams, o.file);
+  return 0;
+}
+
+int restore(const ParamOptions& o) {
+  Params alone;
+  apply_robot_file(alone, o.file);
+  BenchBus bus(o.bus);
+  const auto client = bus.base();
+  const Params from = read_all(*client);
+  Params to = from;
+  apply_robot_file(to, o.file);
+  write(*client, from, to, [&](std::size_t place, const std::string& words) {
+    const toml::table file = parse_toml(read_file(o.file), o.file);
+    const toml::table* const own = file["robot"].as_table();
+    const char* const key = param_list(to)[place].key;
+    const toml::node* const at = own != nullptr && own->contains(key) ? own->get(key) : file.get(key);
+    const auto where = at != nullptr ? at->source().begin : toml::source_position{1, 1};
+    throw InputError(o.file, where.line, where.column, words);
+  });
+  print_written(o, bus, from, to);
+  return 0;
+}
+
+CLI::App* add(CLI::App& bench, int& status, const char* name, const char* about,
+              const std::shared_ptr<ParamOptions>& o, int (*execute)(const ParamOptions&)) {
+  CLI::App* cmd = bench.add_subcommand(name, about);
+  add_bench_bus(*cmd, o->bus);
+  cmd->callback([o, execute, &status] { status = bench_status([&] { return execute(*o); }); });
+  return cmd;
+}
+
+void add_json(CLI::App& cmd, ParamOptions& o) {
+  add_switch(cmd, "--json", o.json, "Print the result as one JSON object and nothing else");
+}
+
+}  // namespace
+
+void add_bench_params(CLI::App& bench, int& status) {
+  const auto reads = std::make_shared<ParamOptions>();
+  CLI::App* cmd = add(bench, status, "get", "Read parameters of the controller", reads, get);
+  cmd->add_option("NAME", reads->names, "Names as in a robot file")->type_name("NAME");
+  add_switch(*cmd, "--all", reads->all, "All of them");
+  add_json(*cmd, *reads);
+
+  const auto sets = std::make_shared<ParamOptions>();
+  cmd = add(bench, status, "set", "Write parameters: all of them, or none", sets, set);
+  cmd->add_option("NAME=VALUE", sets->names, "Values in the units of a robot file")->required();
+  add_json(*cmd, *sets);
+
+  const auto saves = std::make_shared<ParamOptions>();
+  cmd = add(bench, status, "save", "Write all parameters of the controller to a robot file", saves, save);
+  add_file(*cmd, "FILE", saves->file, "Robot file (TOML)")->required();
+
+  const auto restores = std::make_shared<ParamOptions>();
+  cmd = add(bench, status, "restore", "Write what differs from a robot file: all of it, or nothing", restores,
+            restore);
+  add_file(*cmd, "FILE", restores->file, "Robot file (TOML)")->required();
+  add_json(*cmd, *restores);
+}
+
+}  // namespace whisker::cli

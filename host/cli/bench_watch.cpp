@@ -1,0 +1,230 @@
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "host/bench/bus_run.hpp"
+#include "host/bench/bus_state.hpp"
+#include "host/cli/bench_bus.hpp"
+#include "host/cli/bench_commands.hpp"
+#include "host/cli/exit_status.hpp"
+#include "host/cli/live_view.hpp"
+#include "host/cli/logged_run.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/hil/error_names.hpp"
+#include "host/hil/recorder.hpp"
+#include "host/run/make_record.hpp"
+#include "host/scenario/load.hpp"
+
+namespace whisker::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct WatchOptions {
+  BenchChoice bus;
+  std::string file, robot;
+  ViewChoice view;
+  double for_s = 60, every_s = 1;
+  bool json = false;
+};
+
+Json node_json(const BenchBus& bus, can::Party party, std::uint64_t now_us) {
+  if (!bus.survey().alive(bus.robot(), party, now_us)) return nullptr;
+  const can::Heartbeat& beat = bus.survey().find(bus.robot(), party)->beat;
+  return {{"state", can::word_in<can::kNodeStateWords>(static_cast<int>(beat.state))},
+          {"errors", hil::error_names(beat.errors)}};
+}
+
+Json range_json(const std::optional<hal::RangeReading>& r) {
+  if (!r) return nullptr;
+  if (r->status == hal::RangeStatus::ok) return r->mm / 1000.0;
+  return can::word_in<can::kRangeWords>(static_cast<int>(r->status));
+}
+
+/// null: has not been on the bus.
+Json state_json(const BenchBus& bus, const bench::BusState& s, std::uint64_t now_us) {
+  Json json = {{"controller", node_json(bus, can::Party::controller, now_us)},
+               {"base", node_json(bus, can::Party::base, now_us)},
+               {"outcome", nullptr},
+               {"state", nullptr},
+               {"why", nullptr},
+               {"fault", nullptr},
+               {"wheel_mps", nullptr},
+               {"counts", nullptr},
+               {"range_m", Json::array()}};
+  if (s.status) {
+    json["outcome"] = can::word_in<can::kOutcomeWords>(static_cast<int>(s.status->outcome));
+    json["state"] = planning::name(s.status->state);
+    json["why"] = planning::name(s.status->why);
+    json["fault"] = name(static_cast<Fault>(s.status->fault < kFaults ? s.status->fault : 0));
+  }
+  if (s.command) {
+    const bool drives = s.command->mode == can::DriveMode::drive;
+    const auto mps = [&](std::int16_t x) { return drives ? x / 10000.0 : 0.0; };
+    json["wheel_mps"] = {mps(s.command->speeds.left), mps(s.command->speeds.right)};
+  }
+  if (s.wheels && s.wheels->valid != 0) json["counts"] = {s.wheels->counts.left, s.wheels->counts.right};
+  for (const auto& beam : s.beams) json["range_m"].push_back(range_json(beam));
+  return json;
+}
+
+std::string words(const Json& j) {
+  const auto text = [](const Json& x) {
+    return x.is_null() ? std::string("-") : x.is_string() ? x.get<std::string>() : x.dump();
+  };
+  const auto node = [&](const Json& n) {
+    if (n.is_null()) return std::string("-");
+    const std::string errors = n["errors"];
+    return text(n["state"]) + (errors.empty() ? "" : " (" + errors + ")");
+  };
+  return fmt::format("controller {}, base {}; {}: {}, {}{}; wheels {} m/s; ranges {}", node(j["controller"]),
+                     node(j["base"]), text(j["outcome"]), text(j["state"]), text(j["why"]),
+                     j["fault"].is_null() || j["fault"] == "none" ? "" : ", fault " + text(j["fault"]),
+                     text(j["wheel_mps"]), text(j["range_m"]));
+}
+
+/// What is worth a line at once.
+std::string occasion(const Json& j) {
+  std::string all;
+  for (const char* key : {"controller", "base", "outcome", "state", "why", "fault"}) all += j[key].dump();
+  return all;
+}
+
+/// Feeds a live page with what the bus carries.
+class BusView {
+ public:
+  BusView(LiveView& view, const BenchBus& bus, const Params& params)
+      : view_(view),
+        run_(bus.name()),
+        seen_(bus.robot(), params,
+              {[this](const can::Mission& m, const Params& p, bool heard) { begin(m, p, heard); },
+               [this](const can::InputSet& set, const Status& status) { step(set, status); }}) {
+    run_.begin({}, params);
+    view_.feed().begin({run_.scenario(), std::nullopt, 1, false});
+    view_.feed().say("waits for a tick of the robot");
+    view_.start();
+  }
+
+  void on_frame(const hal::CanFrame& frame) { seen_.on_frame(frame); }
+  void end() {
+    if (!over_) view_.feed().end(run_.result());
+    over_ = true;
+  }
+
+ private:
+  void begin(const can::Mission& mission, const Params& params, bool heard) {
+    over_ = false;
+    run_.begin(mission, params);
+    view_.feed().begin({run_.scenario(), std::nullopt, 1, false});
+    view_.feed().say(heard ? "" : "start, goal and parameters are unknown: the mission began before");
+  }
+  void step(const can::InputSet& set, const Status& status) {
+    if (over_) return;
+    TickRecord record = run_.step(set, status, nullptr);
+    record.inside = false;
+    view_.feed().add({record, status.health, nullptr, nullptr});
+    if (status.health.fault != Fault::none || verdict_of(status.decision.outcome)) end();
+  }
+
+  LiveView& view_;
+  LoggedRun run_;
+  bench::BusRun seen_;
+  bool over_ = false;
+};
+
+int watch(const WatchOptions& o) {
+  Params params;
+  if (!o.robot.empty()) apply_robot_file(params, o.robot);
+  const auto view = o.view.open();
+  BenchBus bus(o.bus);
+  bench::BusState state;
+  const std::uint64_t start_us = bus.clock().now_us();
+  std::uint64_t due_us = start_us;
+  // Every node that is there has sent a heartbeat by then.
+  const auto settle_us = static_cast<std::uint64_t>(BenchBus::kListen_s * 1e6);
+  std::string last;
+  const auto tell = [&] {
+    const std::uint64_t now_us = bus.clock().now_us();
+    Json json = state_json(bus, state, now_us);
+    const std::string now = occasion(json);
+    if (now == last && now_us < due_us) return false;
+    const bool both = !json["controller"].is_null() && !json["base"].is_null();
+    if (!both && now_us - start_us < settle_us) return false;
+    if (state.frames == 0) return false;
+    last = now;
+    due_us = now_us + static_cast<std::uint64_t>(o.every_s * 1e6);
+    json["t_s"] = static_cast<double>((now_us - start_us) / 1000) * 1e-3;
+    fmt::print("{}\n",
+               o.json ? json.dump() : fmt::format("{:8.3f} {}", json["t_s"].get<double>(), words(json)));
+    std::fflush(stdout);
+    return false;
+  };
+  std::optional<BusView> page;
+  if (view) page.emplace(*view, bus, params);
+  bus.listen(o.for_s, tell, [&](const hal::CanFrame& frame) {
+    state.on_frame(frame, bus.robot());
+    if (page) page->on_frame(frame);
+  });
+  if (page) page->end();
+  if (view) view->stay(bus.interrupt());
+  if (!last.empty()) return 0;
+  throw bench::NoAnswer(fmt::format("{}: robot {} was silent for {} s", bus.name(), bus.robot(), o.for_s));
+}
+
+int record(const WatchOptions& o) {
+  check_outputs({o.file});
+  BenchBus bus(o.bus);
+  hil::Recorder recorder(o.file, o.bus.can.empty() ? "slcan" : bus.name());
+  std::uint64_t frames = 0;
+  const auto note = [&](const hal::CanFrame& frame) {
+    recorder.write(frame);
+    ++frames;
+  };
+  int status = 0;
+  try {
+    bus.listen(o.for_s, nullptr, note);
+  } catch (const bench::Interrupted&) {
+    // Ctrl-C is the usual end of a record without --for.
+  }
+  recorder.close();
+  if (frames == 0) throw bench::NoAnswer(fmt::format("{}: no frame in {} s", bus.name(), o.for_s));
+  fmt::print(words_beside({o.file}), "{} frames: {}\n", frames, o.file);
+  return status;
+}
+
+CLI::App* add(CLI::App& bench, int& status, const char* name, const char* about,
+              const std::shared_ptr<WatchOptions>& o, int (*execute)(const WatchOptions&)) {
+  CLI::App* cmd = bench.add_subcommand(name, about);
+  add_bench_bus(*cmd, o->bus);
+  cmd->add_option("--for", o->for_s, "End after this time, s; 60 by default")
+      ->transform(amount(BenchBus::kMost_s))
+      ->type_name("S");
+  cmd->callback([o, execute, &status] { status = bench_status([&] { return execute(*o); }); });
+  return cmd;
+}
+
+}  // namespace
+
+void add_bench_watch(CLI::App& bench, int& status) {
+  const auto watches = std::make_shared<WatchOptions>();
+  CLI::App* cmd =
+      add(bench, status, "watch", "Print what the robot does: a line at each change", watches, watch);
+  cmd->add_option("--every", watches->every_s, "And a line after this time, s; 1 by default")
+      ->transform(amount(BenchBus::kMost_s))
+      ->type_name("S");
+  add_file(*cmd, "--robot", watches->robot, "Parameters of the robot (TOML), for the page");
+  add_view(*cmd, watches->view);
+  add_switch(*cmd, "--json", watches->json, "Print one JSON object a line");
+
+  const auto records = std::make_shared<WatchOptions>();
+  cmd = add(bench, status, "record", "Write all frames as a log for whisker replay, until Ctrl-C", records,
+            record);
+  add_file(*cmd, "FILE", records->file, "Log as of candump -L, or - for standard output")->required();
+}
+
+}  // namespace whisker::cli

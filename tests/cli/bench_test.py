@@ -1,0 +1,296 @@
+"""`whisker bench` beside nodes on a bus of serial adapters, which needs no CAN."""
+
+import http.client
+import json
+import re
+import subprocess
+import time
+import tomllib
+
+import whisker
+from slcan_bridge import Bridge
+from whisker import Case, with_time_limit
+
+PATIENCE_S = 60
+
+
+class Beside(Case):
+    """A bus with sockets for some nodes and one for each bench command, one after the other."""
+
+    def setUp(self):
+        super().setUp()
+        self.bridge = Bridge(*(self.folder / name for name in ("bench", "controller", "base")))
+        self.addCleanup(self.bridge.close)
+
+    def start(self, *arguments):
+        with open(self.folder / f"{arguments[0]}.err", "w", encoding="utf-8") as errors:
+            process = subprocess.Popen([whisker.binary, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=errors)
+        self.addCleanup(lambda: (process.kill(), process.wait()))
+        return process
+
+    def controller(self, *arguments):
+        return self.start("controller", "--can", f"slcan:{self.folder / 'controller'}", *arguments)
+
+    def plant(self, scenario, *arguments):
+        return self.start("plant", scenario, "--can", f"slcan:{self.folder / 'base'}", *arguments)
+
+    def bench(self, command, *arguments):
+        return whisker.whisker("bench", command, "--socket", self.folder / "bench", *arguments)
+
+    def done(self, *arguments):
+        done = self.bench(*arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        return done.stdout
+
+    def json_of(self, *arguments):
+        result = json.loads(self.done(*arguments, "--json"))
+        self.assertLessEqual(set(whisker.ORIGIN), set(result))
+        return result
+
+    def complains(self, *arguments, status=1, says=""):
+        done = self.bench(*arguments)
+        self.assertEqual((done.returncode, done.stdout), (status, ""), done.stderr)
+        self.assertRegex(done.stderr, r"\A[^\n]+\n\Z")
+        self.assertIn(says, done.stderr)
+
+    def world(self, kind, seconds=60):
+        return self.file(f"{kind}.toml", with_time_limit(whisker.whisker("world", kind, "--seed", 1).stdout, seconds))
+
+    def wait_for_running(self):
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            nodes = json.loads(self.bench("nodes", "--json", "--for", 0.3).stdout)["nodes"]
+            if [n["state"] for n in nodes] == ["running"] * 2:
+                return {n["role"]: n for n in nodes}
+        self.fail("the robot does not drive")
+
+    def value(self, name):
+        return self.json_of("get", name)["parameters"][0]["value"]
+
+
+class Nodes(Beside):
+    def test_lists_a_lone_controller_with_its_table(self):
+        self.controller("--node", 3)
+        for _ in range(3):
+            (node,) = self.json_of("nodes")["nodes"]
+            self.assertEqual((node["robot"], node["role"], node["node"], node["state"]), (3, "controller", 3, "waiting"))
+            self.assertEqual((node["protocol"], node["same_table"], node["errors"]), (1, True, []))
+            self.assertRegex(node["firmware"], r"\A\d+\.\d+\.\d+\Z")
+            self.assertLess(node["age_s"], 0.3)
+        self.assertRegex(self.done("nodes"), r"\Arobot 3 controller +node 3 +waiting .* heard 0\.\d\d s ago\n\Z")
+
+    def test_lists_both_nodes_while_they_drive_and_changes_nothing(self):
+        self.controller()
+        plant = self.plant(self.world("discs"), "--realtime")
+        nodes = self.wait_for_running()
+        self.assertEqual({role: (n["state"], n["node"], n["errors"]) for role, n in nodes.items()},
+                         {"controller": ("running", 1, []), "base": ("running", 9, [])})
+        self.complains("get", "--all", says="robot 1 has a base (node 9)")
+        self.complains("cancel", says="robot 1 has a base (node 9)")
+        self.assertIsNone(plant.poll())
+
+    def test_nobody_there(self):
+        done = self.bench("nodes", "--json", "--for", 0.2)
+        self.assertEqual((done.returncode, json.loads(done.stdout)["nodes"]), (1, []))
+        self.assertRegex(done.stderr, r"\A[^\n]*no node sent a heartbeat in 0\.2 s\n\Z")
+        self.complains("get", "gyro", "--timeout", 0.2, says="no controller of robot 1 in 0.2 s")
+        self.complains("get", "gyro", "--timeout", 0.2, "--can", "vcan0", status=2, says="choose one of --can, --tty and --socket")
+        done = whisker.whisker("bench", "nodes", "--socket", self.folder / "nothing", "--timeout", 0.2)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("not on the bus after 0.2 s: waits for", done.stderr)
+
+
+class Parameters(Beside):
+    def setUp(self):
+        super().setUp()
+        self.controller()
+
+    def test_get_names_unit_range_and_default(self):
+        self.assertRegex(self.done("get", "wheel_speed_max_mps"), r"\Awheel_speed_max_mps +0\.3 m/s +0\.02 to 3\.2 m/s; default 0\.3 m/s\n\Z")
+        everything = self.json_of("get", "--all")["parameters"]
+        listed = dict(re.findall(r"(?m)^\| `(\w+)` \| (.*?) \|", whisker.whisker("protocol", "--parameters").stdout))
+        self.assertEqual([p["name"] for p in everything], list(listed))
+        for p in everything:
+            self.assertEqual(p["value"], p["default"], p)
+        self.complains("get", status=2, says="name parameters, or --all")
+        self.complains("get", "wheel_sped_max_mps", status=2, says="did you mean 'wheel_speed_max_mps'?")
+
+    def test_set_writes_all_or_nothing(self):
+        written = self.json_of("set", "wheel_speed_max_mps=0.25", "gyro=true", "consensus=median", "range_rate_hz=50")["written"]
+        self.assertEqual({w["name"]: (w["from"], w["to"]) for w in written},
+                         {"wheel_speed_max_mps": (0.3, 0.25), "gyro": (False, True), "consensus": ("agreeing", "median")})
+        self.assertEqual(self.value("wheel_speed_max_mps"), 0.25)
+        self.assertEqual(self.done("set", "wheel_speed_max_mps=0.25"), "the robot has these values already\n")
+        self.assertEqual(self.done("set", "wheel_speed_max_mps=0.3"), "wheel_speed_max_mps: 0.25 m/s -> 0.3 m/s\n")
+        for bad, says in (
+            ("wheel_speed_max_mps=9", "too large; it may be 0.02 to 3.2 m/s; the nearest allowed value is 3.2 m/s"),
+            ("wheel_speed_max_mps=-1", "the nearest allowed value is 0.02 m/s"),
+            ("wheel_speed_max_mps=fast", "is no number; it may be 0.02 to 3.2 m/s"),
+            ("wheel_speed_max_mps=nan", "is no number"),
+            ("range_rate_hz=50.5", "must be a whole number"),
+            ("consensus=mean", "must be agreeing or median"),
+            ("gyro", "is no NAME=VALUE"),
+            ("gyros=true", "did you mean 'gyro'?"),
+            ("wheel_track_m=0.5", "the wheels must lie within the body: wheel_track_m <= 2 body_radius_m; it would fit with"),
+        ):
+            self.complains("set", "range_latency_s=0.03", bad, status=2, says=says)
+        self.assertEqual(self.value("range_latency_s"), 0.02)
+
+    def test_save_and_restore(self):
+        self.done("set", "wheel_speed_max_mps=0.25", "range_side_angle_deg=31.7", "gyro=true")
+        kept = self.folder / "kept.toml"
+        self.assertRegex(self.done("save", kept), r"\A\d+ parameters: ")
+        before = {p["name"]: p["value"] for p in self.json_of("get", "--all")["parameters"]}
+        self.assertEqual(tomllib.loads(kept.read_text()), before)
+        self.assertEqual(self.json_of("restore", kept)["written"], [])
+        self.done("set", "wheel_speed_max_mps=0.3", "range_side_angle_deg=30", "gyro=false")
+        self.assertEqual([w["name"] for w in self.json_of("restore", kept)["written"]],
+                         ["wheel_speed_max_mps", "range_side_angle_deg", "gyro"])
+        self.assertEqual({p["name"]: p["value"] for p in self.json_of("get", "--all")["parameters"]}, before)
+        self.assertEqual(whisker.whisker("robot", "check", kept).returncode, 0)
+
+    def test_restore_names_the_line_of_what_is_refused(self):
+        bad = self.file("bad.toml", "range_latency_s = 0.03\n\nwheel_speed_max_mps = 9\n")
+        self.complains("restore", bad, status=2, says=f"{bad}:3:23: 'wheel_speed_max_mps' must be from 0.02 to 3.2 m/s, but is 9")
+        self.complains("restore", self.folder / "none.toml", status=2, says="none.toml:1:1:")
+        self.assertEqual(self.value("range_latency_s"), 0.02)
+        part = self.file("part.toml", "[robot]\nrange_latency_s = 0.03\n")
+        self.assertEqual([w["name"] for w in self.json_of("restore", part)["written"]], ["range_latency_s"])
+
+    def test_lost_frames_change_nothing(self):
+        written = self.json_of("set", "wheel_speed_max_mps=0.25", "gyro=true", "--drop", 10)["written"]
+        self.assertEqual([w["name"] for w in written], ["wheel_speed_max_mps", "gyro"])
+        self.assertEqual(self.value("wheel_speed_max_mps"), 0.25)
+
+
+class Orders(Beside):
+    def test_stop_and_reset_of_a_lone_controller(self):
+        self.controller()
+        self.assertEqual(self.done("stop"), "robot 1: E-stop\n")
+        (node,) = self.json_of("nodes")["nodes"]
+        self.assertEqual((node["state"], node["errors"]), ("e_stopped", ["e_stop"]))
+        self.assertIn("starts nothing", self.done("reset"))
+        (node,) = self.json_of("nodes")["nodes"]
+        self.assertEqual((node["state"], node["errors"]), ("waiting", []))
+        self.assertEqual(self.done("cancel"), "robot 1: cancelled\n")
+
+    def test_nobody_hears_a_stop(self):
+        self.complains("stop", "--timeout", 0.3, says="the E-stop was sent, but robot 1 was silent for 0.3 s")
+        self.complains("reset", "--timeout", 0.3, says="robot 1 was silent")
+
+    def test_stops_both_nodes_of_a_robot_that_drives(self):
+        self.controller()
+        self.plant(self.world("discs"), "--realtime")
+        self.wait_for_running()
+        self.done("stop")
+        states = {n["role"]: n["state"] for n in self.json_of("nodes")["nodes"]}
+        self.assertEqual(set(states.values()), {"e_stopped"})
+
+
+class Watching(Beside):
+    def test_a_record_replays_and_watching_changes_nothing(self):
+        scenario, log = self.world("discs", 10), self.folder / "run.log"
+        recorder = self.start("bench", "record", log, "--socket", self.folder / "bench", "--for", PATIENCE_S)
+        while not log.exists():
+            time.sleep(0.01)
+        self.controller()
+        plant = subprocess.run([whisker.binary, "plant", scenario, "--can", f"slcan:{self.folder / 'base'}", "--json"],
+                               capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+        recorder.terminate()
+        self.assertEqual(recorder.wait(), 0)
+        run = json.loads(whisker.whisker("run", scenario, "--json").stdout)
+        replay = json.loads(whisker.whisker("replay", log, "--json").stdout)
+        self.assertEqual(json.loads(plant.stdout)["hash"], run["hash"])
+        self.assertEqual((replay["same"], replay["hash"], replay["steps"]), (True, run["hash"], run["ticks"]))
+
+    def test_watch_tells_what_the_bus_carries(self):
+        self.controller()
+        self.plant(self.world("discs"), "--realtime")
+        self.wait_for_running()
+        lines = [json.loads(line) for line in self.done("watch", "--for", 2, "--every", 0.2, "--json").splitlines()]
+        self.assertGreaterEqual(len(lines), 5)
+        last = lines[-1]
+        self.assertEqual((last["controller"], last["base"]), ({"state": "running", "errors": ""},) * 2)
+        self.assertEqual((last["outcome"], last["fault"]), ("running", "none"))
+        self.assertEqual((len(last["wheel_mps"]), len(last["counts"]), len(last["range_m"])), (2, 2, 3))
+        self.assertEqual(sorted(line["t_s"] for line in lines), [line["t_s"] for line in lines])
+        self.assertRegex(self.done("watch", "--for", 0.5), r"\A +\d\.\d{3} controller running, base running; running: \w+, \w+; wheels ")
+
+    def test_the_live_page_has_the_run(self):
+        scenario = self.world("discs", 300)
+        watcher = self.start("bench", "watch", "--socket", self.folder / "bench", "--for", PATIENCE_S, "--view", 0, "--view-stay")
+        errors = self.folder / "bench.err"
+        end = time.monotonic() + PATIENCE_S
+        while not (found := re.search(r"http://127\.0\.0\.1:(\d+)/", errors.read_text())) and time.monotonic() < end:
+            time.sleep(0.01)
+        self.controller()
+        done = whisker.whisker("plant", scenario, "--can", f"slcan:{self.folder / 'base'}", "--json")
+        run = json.loads(done.stdout)
+        server = http.client.HTTPConnection("127.0.0.1", int(found.group(1)), timeout=PATIENCE_S)
+        server.request("GET", "/events")
+        answer, events = server.getresponse(), []
+        while not events or not events[-1].get("result"):
+            if (line := answer.readline().decode()).startswith("data: "):
+                events.append(json.loads(line[6:]))
+            self.assertTrue(line)
+        server.close()
+        setting, goal = events[0]["setting"], tomllib.loads(scenario.read_text())["goal"]
+        self.assertEqual(setting["world"]["goal"][:2], [goal["x_m"], goal["y_m"]])
+        self.assertEqual((setting["inside"], setting["planner"]), (False, None))
+        result = events[-1]["result"]
+        self.assertEqual((result["outcome"], result["hash"]), ("reached", run["hash"]))
+        watcher.terminate()
+
+    def test_silence_is_an_error(self):
+        self.complains("watch", "--for", 0.3, says="robot 1 was silent for 0.3 s")
+        self.complains("record", self.folder / "a.log", "--for", 0.3, says="no frame in 0.3 s")
+
+
+class Driving(Beside):
+    """The bench in the controller's place: its socket is the controller's."""
+
+    def beside_plant(self, scenario, *arguments):
+        plant = subprocess.Popen([whisker.binary, "plant", str(scenario), "--can", f"slcan:{self.folder / 'base'}", "--json"],
+                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.addCleanup(lambda: (plant.kill(), plant.communicate()))
+        done = self.bench(*arguments, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout), json.loads(plant.communicate(timeout=PATIENCE_S)[0])
+
+    def test_the_goal_of_the_base_gives_the_run_of_one_process(self):
+        scenario = self.world("discs", 300)
+        goal = tomllib.loads(scenario.read_text())["goal"]
+        told, plant = self.beside_plant(scenario, "goal", goal["x_m"], goal["y_m"], "--tolerance", goal["tolerance_m"])
+        run = json.loads(whisker.whisker("run", scenario, "--json").stdout)
+        self.assertEqual((told["outcome"], plant["outcome"], told["hash"]), ("reached", "reached", plant["hash"]))
+        self.assertEqual(plant["hash"], run["hash"])
+        self.assertIsNone(told["final_distance_m"])
+        self.assertAlmostEqual(told["believed_distance_m"], run["believed_distance_m"], delta=1e-4)
+
+    def test_another_goal_is_reached(self):
+        scenario = self.file("empty.toml", "time_limit_s = 60.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 3.0\ny_m = 0.0\n")
+        told, plant = self.beside_plant(scenario, "goal", 1, 0.5)
+        self.assertEqual((told["outcome"], plant["outcome"]), ("reached", "off_goal"))
+        self.assertAlmostEqual(plant["final_distance_m"], (2**2 + 0.5**2) ** 0.5, delta=0.15)
+
+    def test_drives_by_hand_and_the_guard_keeps_off_the_wall(self):
+        wall = "[[wall]]\npoints = [[1.0, -1.0], [1.0, 1.0]]\n"
+        scenario = self.file("wall.toml", "time_limit_s = 60.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 3.0\ny_m = 0.0\n" + wall)
+        commands = self.file("ahead.csv", "t_s,v_mps,omega_radps\n" + "".join(f"{i / 10},0.3,0\n" for i in range(80)))
+        told, plant = self.beside_plant(scenario, "drive", "--commands", commands, "--vouch", 0.3)
+        self.assertEqual((told["outcome"], told["fault"]), ("ended", "none"))
+        self.assertGreater(told["pose"]["x_m"], 0.6)
+        self.assertGreater(plant["min_clearance_m"], 0)
+        self.assertLess(plant["min_clearance_m"], 0.1)
+
+    def test_takes_no_taken_place(self):
+        self.controller()
+        self.complains("goal", 1, 0, says="robot 1 has a controller (node 1)")
+        self.complains("drive", "--commands", self.file("c.csv", "t_s,v_mps,omega_radps\n0,0,0\n"), says="has a controller")
+        self.complains("drive", status=2, says="choose --keys or --commands")
+        self.complains("drive", "--keys", status=2, says="standard input is no terminal")
+        self.complains("goal", 1, 0, "--node", 2, "--timeout", 0.3, says="no base of robot 2 in 0.3 s")
+
+
+if __name__ == "__main__":
+    whisker.main()
