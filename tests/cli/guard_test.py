@@ -8,6 +8,7 @@ import unittest
 
 import whisker
 
+STRAIGHT = pathlib.Path(__file__).parents[2] / "host/rules/laws/straight.toml"
 HEADER = "t_s,v_mps,omega_radps"
 
 
@@ -89,6 +90,11 @@ class Guard(unittest.TestCase):
         done = whisker.whisker("operators", "--count", "1")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.count("\n"), 2 + 5 * 2 * 5)
+        one = whisker.whisker("operators", "--count", "1", "--operator", "sloppy", "--rules", STRAIGHT)
+        rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in one.stdout.splitlines()[2:]]
+        self.assertEqual([row[0] for row in rows], ["sloppy"] * 10)
+        # Without turns, the assist only slows.
+        self.assertLessEqual(float(rows[4][6]), float(rows[2][6]) + 0.02)
         hostile = whisker.whisker("operators", "--hostile", "5", "--noise")
         self.assertIn("5 hostile drives of 20 s with noise, seeds from 1: 0 contacts", hostile.stdout)
 
