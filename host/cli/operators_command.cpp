@@ -23,7 +23,7 @@ constexpr std::uint64_t kMostDrives = 1000000;
 struct OperatorsOptions {
   std::uint64_t count = 60;
   std::uint64_t seed = 1;
-  std::string robot;
+  std::string robot, hand;
   std::uint64_t hostile = 0;
   bool noise = false;
   const fuzzy::Bilinear::Table* table = nullptr;
@@ -48,6 +48,7 @@ void drive_operators(const OperatorsOptions& o, const Interrupt& interrupt) {
   fmt::print("|---|---|---|---|---|---|---|---|---|\n");
   ProgressLine line;
   for (const guard::Hand hand : guard::kHands) {
+    if (!o.hand.empty() && o.hand != name(hand)) continue;
     for (const guard::Ground& ground : guard::kGrounds) {
       for (const guard::Mode& mode : guard::kModes) {
         const guard::Plan plan{hand, ground, mode, robot_of(o), o.noise, o.seed, o.count, o.table};
@@ -107,6 +108,9 @@ void add_operators(CLI::App& app, int& status) {
   cmd->add_option("--seed", o->seed, "Drive i has seed S + i; 1 by default")
       ->transform(whole_number())
       ->type_name("S");
+  cmd->add_option("--operator", o->hand, "Only this one: perfect, sloppy, blind, joystick or hostile")
+      ->check(CLI::IsMember({"perfect", "sloppy", "blind", "joystick", "hostile"}))
+      ->type_name("NAME");
   cmd->add_option("--hostile", o->hostile,
                   "Instead: this many drives of the adversary in worlds of all kinds")
       ->transform(whole_number(kMostDrives))

@@ -8,6 +8,7 @@ import unittest
 
 import whisker
 
+STRAIGHT = pathlib.Path(__file__).parents[2] / "host/rules/laws/straight.toml"
 HEADER = "t_s,v_mps,omega_radps"
 
 
@@ -89,6 +90,11 @@ class Guard(unittest.TestCase):
         done = whisker.whisker("operators", "--count", "1")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.count("\n"), 2 + 5 * 2 * 5)
+        command = ("operators", "--count", "1", "--operator", "sloppy")
+        own, other = (whisker.whisker(*command, *rules).stdout.splitlines()[2:] for rules in ((), ("--rules", STRAIGHT)))
+        self.assertTrue(all(row.startswith("| sloppy |") for row in own))
+        changed = [i for i, rows in enumerate(zip(own, other, strict=True)) if rows[0] != rows[1]]
+        self.assertEqual(changed, [4, 9])  # only the assist has a table
         hostile = whisker.whisker("operators", "--hostile", "5", "--noise")
         self.assertIn("5 hostile drives of 20 s with noise, seeds from 1: 0 contacts", hostile.stdout)
 

@@ -48,7 +48,7 @@ OPTIONS = {
     ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--contacts"),
     ("guard",): ("SCENARIO", "--robot", "--commands", "--keys", "--operator", "--seed", "--vouch", "--time", "--bare", "--rules", "--map", "--trace", "--json"),
-    ("operators",): ("--count", "--seed", "--hostile", "--noise", "--robot", "--rules", "--map"),
+    ("operators",): ("--count", "--seed", "--operator", "--hostile", "--noise", "--robot", "--rules", "--map"),
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),
     ("robot", "calibrate-drive"): (

@@ -97,9 +97,9 @@ _whisker() {
       esac
       ;;
     "whisker operators")
-      options="-h --help --count --seed --hostile --noise --robot --rules --map" words="" paths=none
+      options="-h --help --count --seed --operator --hostile --noise --robot --rules --map" words="" paths=none
       case $before in
-        --count | --seed | --hostile | --map) options="" words="" paths=value ;;
+        --count | --seed | --operator | --hostile | --map) options="" words="" paths=value ;;
         --robot | --rules) options="" words="" paths=file ;;
       esac
       ;;

@@ -167,6 +167,7 @@ complete -c whisker -n '__fish_seen_subcommand_from guard' -l json -d 'Print the
 complete -c whisker -n '__fish_seen_subcommand_from operators' -s h -l help -d 'Print this help message and exit'
 complete -c whisker -n '__fish_seen_subcommand_from operators' -l count -x -d 'How many worlds a row; 60 by default'
 complete -c whisker -n '__fish_seen_subcommand_from operators' -l seed -x -d 'Drive i has seed S + i; 1 by default'
+complete -c whisker -n '__fish_seen_subcommand_from operators' -l operator -x -d 'Only this one: perfect, sloppy, blind, joystick or hostile'
 complete -c whisker -n '__fish_seen_subcommand_from operators' -l hostile -x -d 'Instead: this many drives of the adversary in worlds of all kinds'
 complete -c whisker -n '__fish_seen_subcommand_from operators' -l noise -d 'With the reference robot\'s sensor and odometry noise'
 complete -c whisker -n '__fish_seen_subcommand_from operators' -l robot -r -F -d 'Parameters of your robot (TOML)'
