@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -134,8 +135,9 @@ int goal(const SeatOptions& o) {
     return s.health.fault != Fault::none || verdict_of(s.decision.outcome).has_value();
   };
   sit(bus, o.bus, seat, o.for_s, over, [&] { return bus.interrupt().noted(); });
-  const RunResult result = run.result();
+  RunResult result = run.result();
   if (view) view->feed().end(result);
+  result.min_clearance_m = std::numeric_limits<double>::quiet_NaN();  // unknown
   if (o.json) {
     Provenance origin;
     origin.planner = name(o.planner);

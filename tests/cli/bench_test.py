@@ -264,7 +264,7 @@ class Driving(Beside):
         run = json.loads(whisker.whisker("run", scenario, "--json").stdout)
         self.assertEqual((told["outcome"], plant["outcome"], told["hash"]), ("reached", "reached", plant["hash"]))
         self.assertEqual(plant["hash"], run["hash"])
-        self.assertIsNone(told["final_distance_m"])
+        self.assertEqual((told["final_distance_m"], told["min_clearance_m"]), (None, None))
         self.assertAlmostEqual(told["believed_distance_m"], run["believed_distance_m"], delta=1e-4)
 
     def test_another_goal_is_reached(self):
