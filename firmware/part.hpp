@@ -78,7 +78,7 @@ constexpr bool kStaticScans = WHISKER_STATIC_SCANS != 0;
 constexpr bool kSweeps = WHISKER_SWEEPS != 0;
 /// whisker::Guard turns a beam onto unseen ground.
 constexpr bool kNodsBuilt = WHISKER_NODS != 0;
-/// whisker::Guard bends and slows commands by the response table (10 KB with the table).
+/// whisker::Guard bends and slows commands by the response table (9 KB on a Cortex-M3, with the table).
 constexpr bool kAssistBuilt = WHISKER_ASSIST != 0;
 /// A wheel that does not follow its command is a fault. Without, only a jump of the counts, and both wheels
 /// held, are.
