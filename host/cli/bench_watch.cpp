@@ -185,7 +185,6 @@ int record(const WatchOptions& o) {
     recorder.write(frame);
     ++frames;
   };
-  int status = 0;
   try {
     bus.listen(o.for_s, nullptr, note);
   } catch (const bench::Interrupted&) {
@@ -194,7 +193,9 @@ int record(const WatchOptions& o) {
   recorder.close();
   if (frames == 0) throw bench::NoAnswer(fmt::format("{}: no frame in {} s", bus.name(), o.for_s));
   fmt::print(words_beside({o.file}), "{} frames: {}\n", frames, o.file);
-  return status;
+  const std::uint32_t overrun = bus.port().counts().overrun;
+  if (overrun > 0) fmt::print(stderr, "whisker: {}: frames were lost {} times\n", bus.name(), overrun);
+  return overrun > 0 ? kFailure : 0;
 }
 
 CLI::App* add(CLI::App& bench, int& status, const char* name, const char* about,
