@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <ctime>
 #include <memory>
 #include <string>
@@ -33,6 +34,19 @@ double age_s(const bench::SeenNode& n, std::uint64_t now_us) {
   return static_cast<double>(now_us - n.heard_us) * 1e-6;
 }
 
+constexpr double kAskAgain_s = 0.2;
+
+/// It has sent no Info, and none will come unless it is asked for.
+bool unasked(const bench::SeenNode& n, BenchBus& bus) {
+  const bool partner = bus.survey().alive(n.robot, can::other(n.party), bus.clock().now_us());
+  return !partner && !(n.table_hash && n.version);
+}
+
+bool any_unasked(BenchBus& bus) {
+  const auto& nodes = bus.survey().nodes();
+  return std::any_of(nodes.begin(), nodes.end(), [&](const auto& n) { return unasked(n.second, bus); });
+}
+
 /// A node without a partner answers an InfoRequest in its partner's name, which is free. Two of them: a node
 /// ignores the first if it repeats the counter of an earlier request.
 void ask_lone_nodes(BenchBus& bus) {
@@ -40,8 +54,8 @@ void ask_lone_nodes(BenchBus& bus) {
   clock_gettime(CLOCK_REALTIME, &t);
   const auto counter = static_cast<std::uint8_t>(t.tv_nsec / 1000 % can::kAliveModulus);
   for (const auto& [number, n] : bus.survey().nodes()) {
+    if (!unasked(n, bus)) continue;
     const can::Party partner = can::other(n.party);
-    if (n.table_hash || bus.survey().alive(n.robot, partner, bus.clock().now_us())) continue;
     for (std::uint8_t i = 0; i < 2; ++i) {
       const auto next = static_cast<std::uint8_t>((counter + i) % can::kAliveModulus);
       bus.send(can::encode(can::InfoRequest{}, can::node_of(n.robot, partner), next));
@@ -85,9 +99,12 @@ std::string line_of(const bench::SeenNode& n, std::uint64_t now_us) {
 
 int execute(const NodesOptions& o) {
   BenchBus bus(o.bus);
-  bus.listen(o.for_s / 2, nullptr);
-  ask_lone_nodes(bus);
-  bus.listen(o.for_s / 2, nullptr);
+  bus.listen(o.for_s, nullptr);
+  const std::uint64_t end_us = bus.clock().now_us() + static_cast<std::uint64_t>(o.bus.timeout_s * 1e6);
+  while (any_unasked(bus) && bus.clock().now_us() < end_us) {
+    ask_lone_nodes(bus);
+    bus.listen(kAskAgain_s, [&] { return !any_unasked(bus); });
+  }
   const std::uint64_t now_us = bus.clock().now_us();
   const auto& nodes = bus.survey().nodes();
   if (o.json) {
