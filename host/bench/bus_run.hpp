@@ -1,17 +1,14 @@
 /// A run as an observer of the bus sees it: nothing is sent, and nothing inside the core is known.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 
-#include "firmware/can/input_set.hpp"
-#include "firmware/can/mission.hpp"
-#include "firmware/can/param_server.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "firmware/robot.hpp"
 #include "hal/can_port.hpp"
+#include "host/hil/overheard.hpp"
 
 namespace whisker::bench {
 
@@ -31,29 +28,13 @@ class BusRun {
   void on_frame(const hal::CanFrame& frame);
 
  private:
-  static constexpr std::size_t kKept = 16;  // complete input sets: more than the delay of any answer
-
-  void execute(can::MessageKind kind, const hal::CanFrame& frame);
-  template <can::MessageKind kKind>
-  void on_range(int beam, const hal::CanFrame& frame);
-  void on_mission(const hal::CanFrame& frame);
-  void on_reply(const can::MissionReply& reply);
-  void on_reply(const can::ParamReply& reply);
   void on_status(const can::NavStatus& told);
-  void keep();
   void begin(const can::Mission& mission, bool heard);
 
   const int robot_;
-  Params params_;
   const Listener listener_;
-  can::InputSets sets_;
-  std::array<std::optional<can::InputSet>, kKept> kept_;
-  can::MissionParts parts_;
-  std::optional<can::MissionOrder> order_;
-  std::optional<can::ParamRequest> request_;
-  can::ParamServer server_;
+  hil::Overheard overheard_;
   std::optional<can::WheelCommand> command_;
-  int accepted_ = -1;
   bool begun_ = false;
   std::optional<std::uint16_t> tick16_;  // of the last step
   std::uint32_t tick_ = 0;

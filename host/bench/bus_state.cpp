@@ -1,8 +1,7 @@
 #include "host/bench/bus_state.hpp"
 
 #include "firmware/can/codec.hpp"
-#include "firmware/can/headers.hpp"
-#include "firmware/can/input_set.hpp"
+#include "host/hil/overheard.hpp"
 
 namespace whisker::bench {
 namespace {
@@ -22,15 +21,10 @@ void keep_range(const hal::CanFrame& frame, std::optional<hal::RangeReading>& la
 }  // namespace
 
 bool BusState::on_frame(const hal::CanFrame& frame, int robot) {
-  can::MessageKind kind = can::MessageKind::e_stop;
-  int owner = 0;
-  can::Party party = can::Party::base;
-  if (frame.extended || frame.remote || !can::kind_of(frame.id, kind)) return false;
-  if (!owner_of(static_cast<std::uint8_t>(frame.id & 0x0F), owner, party) || owner != robot) return false;
-  if (!can::may_send(party, kind) || frame.size != can::head_of(kind).size) return false;
-  if (frame.data[0] != can::crc_of(frame.id, frame.data, frame.size)) return false;
+  const std::optional<hil::Sender> sender = hil::sender_of(frame);
+  if (!sender || sender->robot != robot || !sender->whole) return false;
   ++frames;
-  switch (kind) {
+  switch (sender->kind) {
     case can::MessageKind::nav_status: keep(frame, status); break;
     case can::MessageKind::wheel_command: keep(frame, command); break;
     case can::MessageKind::wheel_state: keep(frame, wheels); break;

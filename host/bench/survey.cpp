@@ -1,37 +1,25 @@
 #include "host/bench/survey.hpp"
 
 #include "firmware/can/codec.hpp"
-#include "firmware/can/headers.hpp"
 #include "firmware/can/limits.hpp"
+#include "host/hil/overheard.hpp"
 
 namespace whisker::bench {
 
-bool owner_of(std::uint8_t node, int& robot, can::Party& party) {
-  party = node > can::kBaseOffset ? can::Party::base : can::Party::controller;
-  robot = party == can::Party::base ? node - can::kBaseOffset : node;
-  return robot >= 1 && robot <= can::kRobots;
-}
-
 void Survey::on_frame(const hal::CanFrame& frame, std::uint64_t now_us) {
-  can::MessageKind kind = can::MessageKind::e_stop;
-  if (frame.extended || frame.remote || !can::kind_of(frame.id, kind)) return;
-  int robot = 0;
-  can::Party party = can::Party::base;
-  const auto number = static_cast<std::uint8_t>(frame.id & 0x0F);
-  if (!owner_of(number, robot, party) || !can::may_send(party, kind)) return;
-  if (frame.size != can::head_of(kind).size) return;
-  if (frame.data[0] != can::crc_of(frame.id, frame.data, frame.size)) return;
+  const std::optional<hil::Sender> sender = hil::sender_of(frame);
+  if (!sender || !sender->whole) return;
   can::Heartbeat beat;
   can::Info info;
-  if (kind == can::MessageKind::heartbeat && can::decode(frame, beat)) {
-    SeenNode& node = nodes_[number];
+  if (sender->kind == can::MessageKind::heartbeat && can::decode(frame, beat)) {
+    SeenNode& node = nodes_[sender->node];
     if (node.robot == 0 || node.beat.boot != beat.boot) node = {};
-    node.robot = static_cast<std::uint8_t>(robot);
-    node.party = party;
+    node.robot = static_cast<std::uint8_t>(sender->robot);
+    node.party = sender->party;
     node.beat = beat;
     node.heard_us = now_us;
-  } else if (kind == can::MessageKind::info && can::decode(frame, info)) {
-    const auto node = nodes_.find(number);
+  } else if (sender->kind == can::MessageKind::info && can::decode(frame, info)) {
+    const auto node = nodes_.find(sender->node);
     if (node == nodes_.end() || node->second.beat.boot != info.boot) return;
     switch (info.part) {
       case can::InfoPart::table_hash: node->second.table_hash = info.value; break;

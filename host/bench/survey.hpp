@@ -25,9 +25,6 @@ struct SeenNode {
   std::uint8_t node() const { return can::node_of(robot, party); }
 };
 
-/// The robot and the party of a node; false for node 0 and others without a party.
-bool owner_of(std::uint8_t node, int& robot, can::Party& party);
-
 class Survey {
  public:
   void on_frame(const hal::CanFrame& frame, std::uint64_t now_us);

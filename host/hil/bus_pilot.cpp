@@ -6,6 +6,7 @@
 #include "firmware/can/param_server.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "host/hil/error_names.hpp"
+#include "host/hil/overheard.hpp"
 #include "host/hil/resend.hpp"
 #include "host/run/fix_source.hpp"
 #include "host/run/spec.hpp"
@@ -24,17 +25,6 @@ std::int16_t ramp_of(const Params& p) {
 
 /// Ticks start at whole milliseconds, because waits end there.
 std::uint64_t whole_ms(std::uint64_t us) { return us - us % 1000; }
-
-Status status_of(const can::NavStatus& n) {
-  Status s;
-  s.decision.outcome = n.outcome;
-  s.decision.mode = n.state;
-  s.decision.why = n.why;
-  s.decision.danger_count = n.danger;
-  s.decision.looked = n.looked != 0;
-  s.health.fault = n.fault < kFaults ? static_cast<Fault>(n.fault) : Fault::none;
-  return s;
-}
 
 /// Thrown if the mission cannot continue; trouble() has the reason.
 struct Hopeless {};

@@ -1,0 +1,115 @@
+#include "host/hil/overheard.hpp"
+
+#include <utility>
+
+#include "firmware/can/codec.hpp"
+#include "firmware/can/headers.hpp"
+
+namespace whisker::hil {
+namespace {
+
+using can::MessageKind;
+
+template <class M, class F>
+void with(const hal::CanFrame& frame, const F& use) {
+  M message;
+  if (can::decode(frame, message)) use(message);
+}
+
+}  // namespace
+
+std::optional<Sender> sender_of(const hal::CanFrame& frame) {
+  MessageKind kind = MessageKind::e_stop;
+  if (frame.extended || frame.remote || !can::kind_of(frame.id, kind) || kind == MessageKind::e_stop)
+    return {};
+  const auto node = static_cast<std::uint8_t>(frame.id & 0x0F);
+  const can::Party party = node >= can::kBaseOffset ? can::Party::base : can::Party::controller;
+  const int robot = party == can::Party::base ? node - can::kBaseOffset : node;
+  if (robot == 0 || !can::may_send(party, kind)) return {};
+  const bool whole =
+      frame.size == can::head_of(kind).size && frame.data[0] == can::crc_of(frame.id, frame.data, frame.size);
+  return Sender{kind, party, robot, node, whole};
+}
+
+Status status_of(const can::NavStatus& told) {
+  Status s;
+  s.decision.outcome = told.outcome;
+  s.decision.mode = told.state;
+  s.decision.why = told.why;
+  s.decision.danger_count = told.danger;
+  s.decision.looked = told.looked != 0;
+  s.health.fault = told.fault < kFaults ? static_cast<Fault>(told.fault) : Fault::none;
+  return s;
+}
+
+Overheard::Overheard(const Params& params, Accepted accepted)
+    : params_(params), accepted_(std::move(accepted)) {
+  server_.stage(params);
+}
+
+void Overheard::on_frame(MessageKind kind, const hal::CanFrame& frame) {
+  switch (kind) {
+    case MessageKind::range_left: return on_range<MessageKind::range_left>(hal::kLeft, frame);
+    case MessageKind::range_front: return on_range<MessageKind::range_front>(hal::kFront, frame);
+    case MessageKind::range_right: return on_range<MessageKind::range_right>(hal::kRight, frame);
+    case MessageKind::wheel_state:
+      return with<can::WheelState>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
+    case MessageKind::gyro:
+      return with<can::GyroState>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
+    case MessageKind::fix:
+      return with<can::FixValue>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
+    case MessageKind::sync: return with<can::Sync>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
+    case MessageKind::mission: return on_mission(frame);
+    case MessageKind::mission_reply:
+      return with<can::MissionReply>(frame, [&](const auto& m) { on_reply(m); });
+    case MessageKind::param_request:
+      return with<can::ParamRequest>(frame, [&](const auto& m) { request_ = m; });
+    case MessageKind::param_reply: return with<can::ParamReply>(frame, [&](const auto& m) { on_reply(m); });
+    default: break;
+  }
+}
+
+const can::InputSet* Overheard::set_of(std::uint16_t tick16) const {
+  const auto& set = kept_[tick16 % kKept];
+  return set && static_cast<std::uint16_t>(set->tick) == tick16 ? &*set : nullptr;
+}
+
+template <MessageKind kKind>
+void Overheard::on_range(int beam, const hal::CanFrame& frame) {
+  with<can::Range<kKind>>(frame, [&](auto m) {
+    if (can::InputSets::sound(m.reading)) sets_.on_frame(beam, m.reading, m.tick, m.bump), keep();
+  });
+}
+
+void Overheard::keep() {
+  if (!sets_.complete()) return;
+  const can::InputSet set = sets_.set();
+  kept_[set.tick % kKept] = set;
+}
+
+void Overheard::on_mission(const hal::CanFrame& frame) {
+  can::MissionValue part;
+  if (!can::decode(frame, part)) return;
+  if (part.part != can::MissionPart::order) return parts_.on_frame(part);
+  with<can::MissionOrder>(frame, [&](const auto& m) { order_ = m; });
+}
+
+void Overheard::on_reply(const can::MissionReply& reply) {
+  if (reply.status != can::MissionStatus::accepted || !order_ || reply.mission != order_->mission) return;
+  can::Mission mission;
+  const bool known = parts_.complete(*order_) && can::mission_of(parts_.values(), mission);
+  if (reply.mission == accepted_mission_ || !known) return;
+  accepted_mission_ = reply.mission;
+  for (auto& set : kept_) set.reset();
+  sets_.forget();
+  accepted_(order_->order, mission);
+}
+
+void Overheard::on_reply(const can::ParamReply& reply) {
+  if (!request_ || reply.index != request_->index) return;
+  bool committed = false;
+  server_.answer(*request_, reply.status == can::ParamStatus::busy, committed);
+  if (committed) params_ = server_.staged();
+}
+
+}  // namespace whisker::hil

@@ -1,0 +1,71 @@
+/// What an observer of a robot's bus knows from its frames alone: nothing is sent.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "firmware/can/ids.hpp"
+#include "firmware/can/input_set.hpp"
+#include "firmware/can/mission.hpp"
+#include "firmware/can/param_server.hpp"
+#include "firmware/robot.hpp"
+#include "hal/can_port.hpp"
+
+namespace whisker::hil {
+
+struct Sender {
+  can::MessageKind kind;
+  can::Party party;
+  int robot;
+  std::uint8_t node;
+  bool whole;  ///< size and checksum are right
+};
+
+/// Empty for an E-stop, which has no sender, and for what no node of a robot sends.
+std::optional<Sender> sender_of(const hal::CanFrame& frame);
+
+/// A status with what the bus carries of it.
+Status status_of(const can::NavStatus& told);
+
+/// Input sets, missions and parameters of one robot.
+class Overheard {
+ public:
+  /// Called for each order that the controller accepts, once.
+  using Accepted = std::function<void(can::Order, const can::Mission&)>;
+
+  /// params: those of the robot, until a base transfers others.
+  Overheard(const Params& params, Accepted accepted);
+
+  /// Every whole frame of the robot.
+  void on_frame(can::MessageKind kind, const hal::CanFrame& frame);
+  /// A node restarted: the number of the last mission may come again.
+  void restarted() { accepted_mission_ = -1; }
+
+  const Params& params() const { return params_; }
+  /// The complete input set of this tick of the current mission; null if it is not kept.
+  const can::InputSet* set_of(std::uint16_t tick16) const;
+
+ private:
+  static constexpr std::size_t kKept = 256;  // complete input sets: more than the delay of any command
+
+  template <can::MessageKind kKind>
+  void on_range(int beam, const hal::CanFrame& frame);
+  void on_mission(const hal::CanFrame& frame);
+  void on_reply(const can::MissionReply& reply);
+  void on_reply(const can::ParamReply& reply);
+  void keep();
+
+  Params params_;
+  const Accepted accepted_;
+  can::InputSets sets_;
+  std::array<std::optional<can::InputSet>, kKept> kept_;
+  can::MissionParts parts_;
+  std::optional<can::MissionOrder> order_;
+  std::optional<can::ParamRequest> request_;
+  can::ParamServer server_;
+  int accepted_mission_ = -1;
+};
+
+}  // namespace whisker::hil
