@@ -111,13 +111,16 @@ void Guard::take_time(Time now) noexcept {
     perception_.start(now);
   } else {
     const Duration passed = now - last_tick_;
-    supervisor_.check_gap(passed, false);
+    const bool excused = braked_elsewhere_ && passed <= params_.safety.lost_after;
+    if (excused && passed > longest_gap(params_)) perception_.lose_history();
+    supervisor_.check_gap(passed, excused);
     if (passed > Duration{}) gap = passed;
   }
   elapsed_ = min(gap, longest_gap(params_));
   since_counts_ += gap;
   supervisor_.expect_wheels(wheels_.state().rolling, elapsed_, gap);
   last_tick_ = now;
+  braked_elsewhere_ = false;
 }
 
 bool Guard::take_counts() noexcept {

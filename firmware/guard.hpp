@@ -90,6 +90,10 @@ class Guard {
   /// unknown; the pose begins at zero again. Parameters that check() refused stay refused.
   void reset() noexcept;
 
+  /// Something else has braked the wheels since the last tick, for example a bus that lost messages: the next
+  /// gap may be as long as safety.lost_after.
+  void braked_elsewhere() noexcept { braked_elsewhere_ = true; }
+
   /// One control tick. `now` is about params.safety.period after the last tick and at most
   /// longest_gap(params), because the guard assumes that each command holds for that long.
   const GuardStatus& tick(Time now) noexcept;
@@ -128,6 +132,7 @@ class Guard {
   Vec vouched_at_;
   bool started_ = false;
   bool commanded_ = false;
+  bool braked_elsewhere_ = false;
   Part<safety::Assist, kAssistBuilt> assist_;  // here an image without it has room for its byte
 
   GuardStatus status_;

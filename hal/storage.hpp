@@ -4,24 +4,30 @@
 
 namespace whisker::hal {
 
-/// Memory that keeps two small records without power; optional. Calibration uses it
-/// (firmware/calibration/store.hpp).
+/// Memory that keeps two records without power; optional. Calibration uses one
+/// (firmware/calibration/store.hpp), and a response table another (firmware/fuzzy/table_store.hpp).
 ///
-/// The slots are independent: a write, also one that fails or that a loss of power cuts short, changes no
-/// byte of the other slot. Flash therefore needs a page or sector for each.
+/// The slots are independent: erase() and write(), also if they fail or a loss of power cuts them short,
+/// change no byte of the other slot. Flash therefore needs a page or sector for each.
 class Storage {
  public:
   static constexpr uint8_t kSlots = 2;
   /// Least size of a slot, bytes.
   static constexpr uint8_t kSlotBytes = 64;
+  /// Writes begin and end at multiples of it, bytes.
+  static constexpr uint8_t kGrain = 4;
 
-  /// Copies the first `size` bytes of a slot, whatever they are: an erased slot has any bytes. slot < kSlots,
-  /// size <= kSlotBytes. False: the memory does not answer; `out` is undefined.
-  virtual bool read(uint8_t slot, uint8_t* out, uint8_t size) noexcept = 0;
-  /// Replaces the first `size` bytes of a slot. May block for seconds while flash is erased: call it only
-  /// while the wheels stand. If the power fails meanwhile, the slot has any bytes. False: the write failed,
-  /// and the slot has any bytes.
-  virtual bool write(uint8_t slot, const uint8_t* data, uint8_t size) noexcept = 0;
+  /// Size of a slot, bytes.
+  virtual uint16_t size() const noexcept = 0;
+  /// Copies `size` bytes of a slot from byte `at` on, whatever they are: an erased slot has any bytes.
+  /// slot < kSlots, at + size <= size(). False: the memory does not answer; `out` is undefined.
+  virtual bool read(uint8_t slot, uint16_t at, uint8_t* out, uint16_t size) noexcept = 0;
+  /// Prepares a slot for writes; its bytes are lost. May block for seconds while flash is erased: call it
+  /// only while the wheels stand. If the power fails meanwhile, the slot has any bytes. False: it failed
+  /// likewise.
+  virtual bool erase(uint8_t slot) noexcept = 0;
+  /// Writes `size` bytes from byte `at` on, each once after erase(). Failures as for erase().
+  virtual bool write(uint8_t slot, uint16_t at, const uint8_t* data, uint16_t size) noexcept = 0;
 
  protected:
   ~Storage() = default;

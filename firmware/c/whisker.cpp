@@ -2,6 +2,7 @@
 
 #include <stddef.h>
 
+#include "firmware/guard.hpp"
 #include "firmware/params/words.hpp"
 #include "firmware/planning/default_planner.hpp"
 #include "firmware/planning/planners.hpp"
@@ -25,6 +26,12 @@ static_assert(sizeof(Params) <= sizeof(whisker_params) && kParams <= WHISKER_PAR
 static_assert(alignof(Params) <= alignof(whisker_params));
 static_assert(static_cast<int>(hal::RangeStatus::stale) == WHISKER_RANGE_STALE);
 static_assert(static_cast<int>(planning::Outcome::gave_up) == WHISKER_OUTCOME_GAVE_UP);
+static_assert(static_cast<int>(GuardReason::assisted) == WHISKER_GUARD_ASSISTED);
+
+/// The functions that each board must have.
+bool has_drivers(const whisker_board& board) noexcept {
+  return board.ranges != nullptr && board.counts != nullptr && board.speeds != nullptr;
+}
 
 /// The functions of a board as the interfaces of hal/.
 class Drivers final : public hal::Rangefinders, public hal::Drive, public hal::Bumper, public hal::Gyro {
@@ -93,8 +100,24 @@ constexpr Pose pose_of(int32_t x_um, int32_t y_um, uint32_t heading) noexcept {
   return {{micrometres(x_um), micrometres(y_um)}, Angle::from_raw(heading)};
 }
 
-whisker_status status_of(const Status& s) noexcept {
-  whisker_status out{};
+struct GuardForC {
+  GuardForC(const whisker_params& set, const whisker_board& board) noexcept
+      : params(params_of(set)),
+        drivers(board),
+        guard(drivers, drivers, params, board.gyro ? &drivers : nullptr) {}
+  const Params params;
+  Drivers drivers;
+  Guard guard;
+};
+static_assert(sizeof(GuardForC) <= sizeof(whisker_guard), "set WHISKER_GUARD_BYTES");
+static_assert(alignof(GuardForC) <= alignof(whisker_guard));
+
+Guard& guard_in(whisker_guard* room) noexcept { return reinterpret_cast<GuardForC*>(room)->guard; }
+
+/// The pose and how far it may be off: the same fields of both kinds of status.
+template <class Out>
+Out estimate_of(const localization::Estimate& s) noexcept {
+  Out out{};
   out.x_um = s.pose.at.x.raw();
   out.y_um = s.pose.at.y.raw();
   out.heading = s.pose.heading.raw();
@@ -103,6 +126,24 @@ whisker_status status_of(const Status& s) noexcept {
     out.sigma_across_um = static_cast<uint32_t>(s.sigma.across.raw());
     out.sigma_heading = s.sigma.heading.raw();
   }
+  return out;
+}
+
+whisker_guard_status status_of(const GuardStatus& s) noexcept {
+  auto out = estimate_of<whisker_guard_status>(s);
+  out.asked_forward = s.asked.forward.raw();
+  out.asked_turning = s.asked.turning.raw();
+  out.granted_forward = static_cast<uint16_t>(s.forward.raw());
+  out.granted_turning = static_cast<uint16_t>(s.turning.raw());
+  out.left = s.command.left;
+  out.right = s.command.right;
+  out.reason = static_cast<uint8_t>(s.reason);
+  out.fault = static_cast<uint8_t>(s.health.fault);
+  return out;
+}
+
+whisker_status status_of(const Status& s) noexcept {
+  auto out = estimate_of<whisker_status>(s);
   out.left = s.command.left;
   out.right = s.command.right;
   out.outcome = static_cast<uint8_t>(s.decision.outcome);
@@ -145,7 +186,7 @@ const char* whisker_param_fault_name(uint8_t fault) { return name(static_cast<Pa
 uint32_t whisker_heading(int32_t millidegrees) { return Angle::turns(millidegrees, 360000).raw(); }
 
 bool whisker_create(whisker_robot* robot, const whisker_params* params, const whisker_board* board) {
-  if (board->ranges == nullptr || board->counts == nullptr || board->speeds == nullptr) return false;
+  if (!c::has_drivers(*board)) return false;
   new (c::Room{robot}) c::RobotForC(*params, *board);
   return true;
 }
@@ -177,6 +218,34 @@ void whisker_tick(whisker_robot* robot, uint32_t now_ms, whisker_status* status)
 void whisker_get_status(const whisker_robot* robot, whisker_status* status) {
   *status = c::status_of(reinterpret_cast<const c::RobotForC*>(robot)->robot.status());
 }
+
+bool whisker_guard_create(whisker_guard* guard, const whisker_params* params, const whisker_board* board) {
+  if (!c::has_drivers(*board)) return false;
+  new (c::Room{guard}) c::GuardForC(*params, *board);
+  return true;
+}
+
+void whisker_guard_command(whisker_guard* guard, int32_t forward, int32_t turning, uint32_t now_ms) {
+  c::guard_in(guard).command({Speed::from_raw(forward), AngularRate::from_raw(turning)},
+                             Time::from_raw(now_ms));
+}
+
+void whisker_guard_vouch(whisker_guard* guard, int32_t radius_um) {
+  c::guard_in(guard).vouch(micrometres(radius_um > 0 ? radius_um : 0));
+}
+
+void whisker_guard_reset(whisker_guard* guard) { c::guard_in(guard).reset(); }
+
+void whisker_guard_tick(whisker_guard* guard, uint32_t now_ms, whisker_guard_status* status) {
+  const GuardStatus& result = c::guard_in(guard).tick(Time::from_raw(now_ms));
+  if (status != nullptr) *status = c::status_of(result);
+}
+
+void whisker_guard_get_status(const whisker_guard* guard, whisker_guard_status* status) {
+  *status = c::status_of(reinterpret_cast<const c::GuardForC*>(guard)->guard.status());
+}
+
+const char* whisker_guard_reason_name(uint8_t reason) { return name(static_cast<GuardReason>(reason)); }
 
 const char* whisker_fault_name(uint8_t fault) { return name(static_cast<Fault>(fault)); }
 const char* whisker_mode_name(uint8_t mode) { return planning::name(static_cast<planning::Mode>(mode)); }

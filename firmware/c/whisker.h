@@ -1,4 +1,4 @@
-/* The core for C: a robot with the default planner of the build. C99 and C++.
+/* The core for C: a robot with the default planner of the build, and the guard alone. C99 and C++.
  *
  *   static whisker_robot robot;                 a fixed size, no heap
  *   whisker_params params;
@@ -8,6 +8,11 @@
  *   whisker_place(&robot, 0, 0, 0);
  *   whisker_set_goal(&robot, 4000000, 1000000, 100000);
  *   every 10 ms:  whisker_tick(&robot, now_ms, &status);
+ *
+ * or, without a planner, with your own velocity commands (the guard alone, below):
+ *   whisker_guard_create(&guard, &params, &board);
+ *   whisker_guard_command(&guard, 200000, 500000, now_ms);
+ *   every 10 ms:  whisker_guard_tick(&guard, now_ms, &status);
  *
  * Lengths are in um, headings in 2^-32 turn, counter-clockwise positive; whisker_heading() converts degrees.
  * Places lie within 1,000 m of the origin along each axis. A failure stops the wheels until whisker_reset();
@@ -235,6 +240,69 @@ void whisker_reset(whisker_robot* robot);
 void whisker_tick(whisker_robot* robot, uint32_t now_ms, whisker_status* status);
 /* The result of the last tick. */
 void whisker_get_status(const whisker_robot* robot, whisker_status* status);
+
+/* ---- The guard alone: any velocity command in, safe wheel speeds out (docs/guard.md) */
+
+/* Room for a guard with its parameters; otherwise like whisker_robot. */
+#ifndef WHISKER_GUARD_BYTES
+#define WHISKER_GUARD_BYTES 4096
+#endif
+typedef struct whisker_guard {
+  uint64_t words[WHISKER_GUARD_BYTES / 8];
+} whisker_guard;
+
+/* Why the wheels do what they do; firmware/guard.hpp. */
+enum whisker_guard_reason {
+  WHISKER_GUARD_CLEAR, /* the command is granted in full */
+  WHISKER_GUARD_FAULT, /* whisker_guard_status.fault names it */
+  WHISKER_GUARD_STALE_RANGES,
+  WHISKER_GUARD_COMMAND_TIMEOUT,
+  WHISKER_GUARD_NODDING, /* a beam turns onto unseen ground, or back */
+  WHISKER_GUARD_OBSTACLE,
+  WHISKER_GUARD_UNSEEN,
+  WHISKER_GUARD_DOUBT,   /* the readings or the sensors leave doubt about clear ground */
+  WHISKER_GUARD_LIMITS,  /* the command exceeds what the wheels can do */
+  WHISKER_GUARD_ASSISTED /* the response table bends or slows it */
+};
+
+/* The result of a tick. The pose, which begins at zero, and its standard deviations are those of
+ * whisker_status. */
+typedef struct whisker_guard_status {
+  int32_t x_um;
+  int32_t y_um;
+  uint32_t heading;
+  uint32_t sigma_along_um;
+  uint32_t sigma_across_um;
+  uint32_t sigma_heading;
+  int32_t asked_forward;    /* the last command, um/s; 0 after WHISKER_PARAM_COMMAND_TIMEOUT */
+  int32_t asked_turning;    /* urad/s */
+  uint16_t granted_forward; /* share of the asked forward speed, 0 to 16384 */
+  uint16_t granted_turning; /* of the turning */
+  int16_t left;             /* the command of the wheels, 0.1 mm/s */
+  int16_t right;
+  uint8_t reason; /* enum whisker_guard_reason; whisker_guard_reason_name() */
+  uint8_t fault;  /* why it stands until whisker_guard_reset(); 0: no fault: whisker_fault_name() */
+} whisker_guard_status;
+
+/* Makes a guard; otherwise like whisker_create(). It uses no bump switches. Parameters that
+ * whisker_check_params() refuses, or with a creep speed, are a fault. */
+bool whisker_guard_create(whisker_guard* guard, const whisker_params* params, const whisker_board* board);
+/* The velocity of the body until the next command, at most for WHISKER_PARAM_COMMAND_TIMEOUT. Any value is
+ * safe. forward: um/s, negative: backwards; turning: urad/s, counter-clockwise positive; now_ms: by the clock
+ * of whisker_guard_tick(). */
+void whisker_guard_command(whisker_guard* guard, int32_t forward, int32_t turning, uint32_t now_ms);
+/* Guard::vouch: nothing stands within this distance of the body's centre; 0 or less: nothing is said. */
+void whisker_guard_vouch(whisker_guard* guard, int32_t radius_um);
+/* Ends a fault, and drops the command and all that was seen. */
+void whisker_guard_reset(whisker_guard* guard);
+/* One control tick, every WHISKER_PARAM_CONTROL_PERIOD. now_ms wraps. The status may be null. */
+void whisker_guard_tick(whisker_guard* guard, uint32_t now_ms, whisker_guard_status* status);
+/* The result of the last tick. */
+void whisker_guard_get_status(const whisker_guard* guard, whisker_guard_status* status);
+
+const char* whisker_guard_reason_name(uint8_t reason);
+
+/* ---- Names */
 
 const char* whisker_fault_name(uint8_t fault);
 const char* whisker_mode_name(uint8_t mode);

@@ -5,18 +5,11 @@
 #include <stdint.h>
 
 #include "firmware/calibration/record.hpp"
-#include "hal/storage.hpp"
+#include "firmware/storage/slots.hpp"
 
 namespace whisker::calibration {
 
-enum class Stored : uint8_t {
-  ok,
-  nothing,        ///< no slot has an undamaged record
-  other_version,  ///< the only records are of another layout; save() replaces one of them
-  no_answer,      ///< the storage does not answer
-  not_written,    ///< the storage failed to write, or reads back other bytes: the old values are still there
-};
-const char* name(Stored stored) noexcept;
+using storage::Stored;
 
 class Store {
  public:
@@ -26,18 +19,18 @@ class Store {
   /// The newest undamaged values. Unless ok, `values` is unchanged.
   Stored load(Values& values) noexcept;
   /// Writes into the slot that has not the newest values, and reads it back. Blocks as
-  /// hal::Storage::write().
+  /// hal::Storage::erase().
   Stored save(const Values& values) noexcept;
 
  private:
-  struct Newest {
-    Record record;
-    uint8_t slot = hal::Storage::kSlots - 1;
-    Stored found = Stored::nothing;
-  };
-  Newest newest() noexcept;
+  /// record: the newest one, if there is one.
+  storage::Newest newest(Record& record) noexcept;
 
   hal::Storage& storage_;
 };
+
+/// At the start of a board: writes the stored values into its parameters. False: there are none, or check()
+/// refuses them; the parameters are unchanged.
+bool apply_stored(hal::Storage& storage, Params& params) noexcept;
 
 }  // namespace whisker::calibration

@@ -115,6 +115,13 @@ bool BaseNode::replied(ParamReply& reply) const noexcept {
   return replied_;
 }
 
+bool BaseNode::take(RulesReply& reply) noexcept {
+  if (!rules_replied_) return false;
+  rules_replied_ = false;
+  reply = rules_reply_;
+  return true;
+}
+
 bool BaseNode::reported(RangeTrustReport& trust) const noexcept {
   if (trust_come_) trust = trust_;
   return trust_come_;
@@ -159,6 +166,12 @@ FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noe
       return read<ParamReply>(frame, [this](const auto& m) {
         reply_ = m;
         replied_ = true;
+      });
+    case MessageKind::guard_status: return read<GuardReport>(frame, [](const auto&) {});  // for the operator
+    case MessageKind::rules_reply:
+      return read<RulesReply>(frame, [this](const auto& m) {
+        rules_reply_ = m;
+        rules_replied_ = true;
       });
     default: return FrameResult::unknown;
   }

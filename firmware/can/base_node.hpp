@@ -51,6 +51,12 @@ class BaseNode final : public Node {
   /// The answer to the last request has arrived.
   bool replied(ParamReply& reply) const noexcept;
 
+  /// For RulesSender. False: the port did not accept it.
+  bool request(const RulesPart& part) noexcept { return send(part); }
+  bool request(const RulesOrder& order) noexcept { return send(order); }
+  /// A reply has arrived since the last call.
+  bool take(RulesReply& reply) noexcept;
+
  private:
   FrameResult on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept override;
   void reset_peer() noexcept override;
@@ -84,6 +90,8 @@ class BaseNode final : public Node {
 
   ParamReply reply_;
   bool replied_ = false;
+  RulesReply rules_reply_;
+  bool rules_replied_ = false;
 };
 
 }  // namespace whisker::can

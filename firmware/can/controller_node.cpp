@@ -4,19 +4,31 @@ namespace whisker::can {
 namespace {
 
 constexpr uint32_t kReportTicks = 50;
+constexpr uint32_t kStands_ms = 100;
 
 }  // namespace
 
-ControllerNode::ControllerNode(hal::CanPort& port, const Identity& identity) noexcept
-    : Node(port, Party::controller, identity) {}
+ControllerNode::ControllerNode(hal::CanPort& port, const Identity& identity, RulesServer* rules,
+                               OperatorInbox* inbox) noexcept
+    : Node(port, Party::controller, identity), rules_(rules), inbox_(inbox) {
+  if (rules_ != nullptr) set_rules(rules_->hash());
+}
 
 void ControllerNode::poll(uint32_t now) noexcept {
   listen(now);
+  if (inbox_ != nullptr && inbox_->silent(now)) lose_operator();
   watch();
   publish();
   if (asked_again_) repeat_answer();
   const bool drives = running() && !holding_;
   if (!drives && !lockstep() && matched() && now - braked_at_ >= kStopRepeat_ms) brake();
+}
+
+/// The counters of another operator, or of one that restarted, are not compared with those of this one.
+void ControllerNode::lose_operator() noexcept {
+  inbox_->lose();
+  forget(MessageKind::velocity);
+  forget(MessageKind::vouch);
 }
 
 void ControllerNode::watch() noexcept {
@@ -104,8 +116,22 @@ FrameResult ControllerNode::on_frame(MessageKind kind, const hal::CanFrame& fram
     case MessageKind::sync: return read<Sync>(frame, [this](const auto& m) { on_sync(m); });
     case MessageKind::mission: return in_range(on_mission(frame));
     case MessageKind::param_request: return read<ParamRequest>(frame, [this](const auto& m) { on_param(m); });
+    case MessageKind::velocity: return on_operator<VelocityCommand>(frame);
+    case MessageKind::vouch: return on_operator<VouchRequest>(frame);
+    case MessageKind::rules_part: return read<RulesPart>(frame, [this](const auto& m) { on_rules(m); });
+    case MessageKind::rules_order: return read<RulesOrder>(frame, [this](const auto& m) { on_rules(m); });
     default: return FrameResult::unknown;
   }
+}
+
+/// An operator that appears needs the Info, to compare the table.
+template <class M>
+FrameResult ControllerNode::on_operator(const hal::CanFrame& frame) noexcept {
+  if (inbox_ == nullptr) return FrameResult::unknown;
+  return read<M>(frame, [this](const M& m) {
+    if (inbox_->silent(now_ms())) announce();
+    inbox_->on_frame(m, now_ms());
+  });
 }
 
 template <MessageKind kKind>
@@ -124,7 +150,13 @@ bool ControllerNode::on_fix(const hal::CanFrame& frame) noexcept {
 
 void ControllerNode::on_wheels(const WheelState& state) noexcept {
   sets_.on_frame(state);
-  if (state.valid != 0) wheels_seen_ = now_ms();
+  if (state.valid == 0) return;
+  wheels_seen_ = now_ms();
+  if (state.counts.left == counts_.left && state.counts.right == counts_.right) return;
+  turned_ = counted_;
+  counted_ = true;
+  counts_ = state.counts;
+  turned_at_ = now_ms();
 }
 
 void ControllerNode::on_sync(const Sync& sync) noexcept {
@@ -186,7 +218,35 @@ void ControllerNode::on_param(const ParamRequest& request) noexcept {
   if (committed) committed_ = server_.staged();
 }
 
+RulesStatus ControllerNode::hindrance() const noexcept {
+  if (rules_ == nullptr) return RulesStatus::unsupported;
+  if (ordered()) return RulesStatus::running;
+  if (turned_ && now_ms() - turned_at_ < kStands_ms) return RulesStatus::moving;
+  return RulesStatus::receiving;
+}
+
+void ControllerNode::on_rules(const RulesPart& part) noexcept {
+  RulesReply reply{hindrance(), part.upload};
+  if (reply.status == RulesStatus::receiving) reply = rules_->take(part);
+  announce_rules();
+  if (ends_block(part)) send(reply);
+}
+
+void ControllerNode::on_rules(const RulesOrder& order) noexcept {
+  RulesReply reply{hindrance(), order.upload};
+  if (reply.status == RulesStatus::receiving) reply = rules_->execute(order);
+  announce_rules();
+  send(reply);
+}
+
+void ControllerNode::announce_rules() noexcept {
+  if (rules_ == nullptr || rules_->hash() == rules()) return;
+  set_rules(rules_->hash());
+  has_mission_ = false;
+}
+
 void ControllerNode::reset_peer() noexcept {
+  if (rules_ != nullptr) rules_->forget();
   sets_.forget();
   parts_.forget();
   numbered_ = false;

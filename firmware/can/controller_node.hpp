@@ -5,7 +5,9 @@
 #include "firmware/can/input_set.hpp"
 #include "firmware/can/mission.hpp"
 #include "firmware/can/node.hpp"
+#include "firmware/can/operator_inbox.hpp"
 #include "firmware/can/param_server.hpp"
+#include "firmware/can/rules_server.hpp"
 
 namespace whisker::can {
 
@@ -17,7 +19,10 @@ namespace whisker::can {
 ///                       if (node.take_set(set)) { ...; node.answer(...); }
 class ControllerNode final : public Node {
  public:
-  ControllerNode(hal::CanPort& port, const Identity& identity) noexcept;
+  /// rules: takes response tables from the base, and names the active one instead of the Identity; null:
+  /// none. inbox: where the messages of an operator go; null: they are not handled. Both must outlive the node.
+  ControllerNode(hal::CanPort& port, const Identity& identity, RulesServer* rules = nullptr,
+                 OperatorInbox* inbox = nullptr) noexcept;
 
   void poll(uint32_t now_ms) noexcept;
 
@@ -38,6 +43,11 @@ class ControllerNode final : public Node {
   /// The answer to the fix of the last set. Call it before answer(), which sends it.
   void answer_fix(const FixReply& reply) noexcept;
 
+  /// Tells the operator; not part of the answer.
+  void publish_guard(const GuardReport& report) noexcept {
+    if (state() != NodeState::off_bus) send(report, kLife_ms);
+  }
+
   /// Parameters accepted by a commit.
   const Params& params() const noexcept { return committed_; }
 
@@ -50,15 +60,25 @@ class ControllerNode final : public Node {
   template <MessageKind kKind>
   bool on_range(int beam, const hal::CanFrame& frame) noexcept;
   bool on_fix(const hal::CanFrame& frame) noexcept;
+  template <class M>
+  FrameResult on_operator(const hal::CanFrame& frame) noexcept;
   void on_wheels(const WheelState& state) noexcept;
   void on_sync(const Sync& sync) noexcept;
   bool on_mission(const hal::CanFrame& frame) noexcept;
   void on_param(const ParamRequest& request) noexcept;
+  void on_rules(const RulesPart& part) noexcept;
+  void on_rules(const RulesOrder& order) noexcept;
+  /// Why no response table is taken now; receiving: it is.
+  RulesStatus hindrance() const noexcept;
+  void announce_rules() noexcept;
   MissionStatus execute(const MissionOrder& order) noexcept;
   void watch() noexcept;
+  void lose_operator() noexcept;
   void brake() noexcept;
   void repeat_answer() noexcept;
 
+  RulesServer* const rules_;
+  OperatorInbox* const inbox_;
   InputSets sets_;
   uint32_t tick_ = 0;     // of the last set
   bool stepped_ = false;  // a set was taken in this mission
@@ -72,6 +92,10 @@ class ControllerNode final : public Node {
 
   uint32_t beam_seen_[hal::kBeams] = {};
   uint32_t wheels_seen_ = 0;
+  hal::EncoderCounts counts_{};
+  uint32_t turned_at_ = 0;
+  bool counted_ = false;  // counts_ are those of the base
+  bool turned_ = false;   // at turned_at_
   uint32_t set_seen_ = 0;
   uint32_t braked_at_ = 0;
   bool holding_ = false;

@@ -12,6 +12,7 @@ struct Head {
   uint8_t size;
   bool from_controller;
   bool from_base;
+  bool from_operator;
 };
 
 struct Headers {
@@ -26,7 +27,7 @@ constexpr Headers headers() noexcept {
   for (uint8_t& kind : h.kind) kind = Headers::kNone;
   for (uint8_t i = 0; i < kKinds; ++i) {
     const Message& m = kMessages[i];
-    h.of[i] = {m.size, m.from_controller, m.from_base};
+    h.of[i] = {m.size, m.from_controller, m.from_base, m.from_operator};
     h.kind[m.function] = i;
   }
   return h;

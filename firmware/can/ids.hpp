@@ -1,5 +1,5 @@
 /// Identifiers: function << 4 | node of the sender. A lower identifier wins arbitration, so the function is
-/// the priority.
+/// the priority. An operator is no node: it sends functions that no node sends, with the number of the robot.
 #pragma once
 
 #include <stdint.h>

@@ -9,7 +9,9 @@
 #include <stdint.h>
 
 #include "firmware/can/message_kind.hpp"
+#include "firmware/can/operator_messages.hpp"
 #include "firmware/can/pose_messages.hpp"
+#include "firmware/can/rules_messages.hpp"
 #include "firmware/can/signals.hpp"
 #include "firmware/health.hpp"
 #include "firmware/math/region.hpp"
@@ -327,6 +329,8 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"Fault", 0x09, 7, true, true, 1000, "when an error bit changes, and once a second while one is active"}, FaultReport{});
   visit(Message{"Mission", 0x0A, 7, false, true, 0, "an order, repeated until answered"}, MissionOrder{});
   visit(Message{"MissionReply", 0x0B, 3, true, false, 0, "answer to an order"}, MissionReply{});
+  visit(Message{"Velocity", 0x0C, 6, false, false, 20, "velocity that the operator asks for; a guard node only", true}, VelocityCommand{});
+  visit(Message{"Vouch", 0x0D, 5, false, false, 0, "the operator says that the ground around the robot is free; a guard node only", true}, VouchRequest{});
   visit(Message{"WheelCommand", 0x10, 8, true, false, 10, "answer to an input set, or stop"}, WheelCommand{});
   visit(Message{"WheelState", 0x11, 8, false, true, 10, "encoders"}, WheelState{});
   visit(Message{"RangeLeft", 0x12, 8, false, true, 10, "left rangefinder"}, Range<MessageKind::range_left>{});
@@ -340,6 +344,10 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"Gyro", 0x1C, 8, false, true, 10, "gyro; only where one is fitted"}, GyroState{});
   visit(Message{"Fix", 0x1D, 8, false, true, 0, "a pose measured outside of the robot"}, FixValue{});
   visit(Message{"FixReply", 0x1E, 8, true, false, 0, "answer to a Fix"}, FixReply{});
+  visit(Message{"GuardStatus", 0x1F, 8, true, false, 10, "what a guard node grants; every 100 ms while it does not drive"}, GuardReport{});
+  visit(Message{"RulesPart", 0x20, 8, false, true, 0, "a node of a response table"}, RulesPart{});
+  visit(Message{"RulesOrder", 0x21, 7, false, true, 0, "activates a response table, repeated until answered"}, RulesOrder{});
+  visit(Message{"RulesReply", 0x22, 5, true, false, 0, "answer to a RulesOrder, and to every eighth RulesPart"}, RulesReply{});
   visit(Message{"Heartbeat", 0x70, 8, true, true, 100, "the node is alive, and its state"}, Heartbeat{});
   visit(Message{"Info", 0x71, 8, true, true, 0, "at the start, and on request"}, Info{});
   visit(Message{"InfoRequest", 0x72, 2, true, true, 0, "requests the Info of the other node"}, InfoRequest{});

@@ -65,6 +65,11 @@ bool Node::run() noexcept {
   return true;
 }
 
+void Node::set_rules(uint32_t hash) noexcept {
+  identity_.rules = hash;
+  announce_ = true;
+}
+
 void Node::release() noexcept { latched_ &= kForGood; }
 
 void Node::press_e_stop() noexcept {
@@ -105,6 +110,8 @@ void Node::receive(const hal::CanFrame& frame) noexcept {
     count(health_.malformed);
   } else if (kind == MessageKind::e_stop) {
     receive_e_stop(frame);
+  } else if (head_of(kind).from_operator) {
+    receive_from_operator(kind, frame);
   } else if (is_sound(kind, frame)) {
     if (node == node_) {
       count(health_.duplicates);
@@ -131,9 +138,21 @@ void Node::receive_e_stop(const hal::CanFrame& frame) noexcept {
   running_ = false;
 }
 
+void Node::receive_from_operator(MessageKind kind, const hal::CanFrame& frame) noexcept {
+  if (party_ == Party::base) {
+    count(health_.foreign);
+  } else if (is_whole(kind, frame, (frame.id & 0x0F) == node_)) {
+    understand(kind, frame);
+  }
+}
+
 bool Node::is_sound(MessageKind kind, const hal::CanFrame& frame) noexcept {
   const bool own = (frame.id & 0x0F) == node_;
-  if (frame.size != head_of(kind).size || !may_send(own ? party_ : other(party_), kind)) {
+  return is_whole(kind, frame, may_send(own ? party_ : other(party_), kind));
+}
+
+bool Node::is_whole(MessageKind kind, const hal::CanFrame& frame, bool allowed) noexcept {
+  if (frame.size != head_of(kind).size || !allowed) {
     count(health_.malformed);
     return false;
   }

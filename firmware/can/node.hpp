@@ -68,10 +68,16 @@ class Node {
   const Heartbeat& peer() const noexcept { return peer_; }  ///< its last heartbeat
   bool peer_heard() const noexcept { return peer_heard_; }
   uint32_t peer_restarts() const noexcept { return peer_restarts_; }
-  /// Identity::rules of the other node; 0: unknown.
+  /// Hash of the own response table; 0: has none.
+  uint32_t rules() const noexcept { return identity_.rules; }
+  /// The same of the other node; 0: unknown.
   uint32_t peer_rules() const noexcept { return peer_rules_; }
-  /// Asks the other node for its Info, also for what a lost frame contained.
-  void ask_for_info() noexcept { send(InfoRequest{}); }
+  /// Asks the other node for its Info, also for what a lost frame contained. Until it comes, peer_rules() is
+  /// 0.
+  void ask_for_info() noexcept {
+    peer_rules_ = 0;
+    send(InfoRequest{});
+  }
   bool lockstep() const noexcept { return sync_mode_ == SyncMode::lockstep; }
   uint32_t now_ms() const noexcept { return now_; }
 
@@ -85,7 +91,8 @@ class Node {
   ~Node() = default;
 
   // Not pure, because that requires a run-time library.
-  /// Handles a valid frame of the other node in sequence, after the handshake.
+  /// Handles a valid frame of the other node, or of the operator to a controller, in sequence, after the
+  /// handshake.
   virtual FrameResult on_frame(MessageKind, const hal::CanFrame&) noexcept { return FrameResult::unknown; }
   static constexpr FrameResult in_range(bool is) noexcept {
     return is ? FrameResult::understood : FrameResult::out_of_range;
@@ -98,6 +105,10 @@ class Node {
     use(message);
     return FrameResult::understood;
   }
+  /// The next frame of this kind is in sequence, whatever its counter.
+  void forget(MessageKind kind) noexcept { heard_[static_cast<uint8_t>(kind)].forget(); }
+  /// Sends Info with the next publish().
+  void announce() noexcept { announce_ = true; }
   /// The other node has restarted: its earlier messages are void.
   virtual void reset_peer() noexcept {}
   virtual bool at_rest() const noexcept { return true; }
@@ -128,14 +139,18 @@ class Node {
   void release() noexcept;
   bool running() const noexcept { return state() == NodeState::running; }
   bool ordered() const noexcept { return running_; }  ///< as running(), even if the bus is down
+  /// Announces another response table than that of the Identity.
+  void set_rules(uint32_t hash) noexcept;
   void set_sync_mode(SyncMode sync_mode) noexcept { sync_mode_ = sync_mode; }
   BusHealth& tally() noexcept { return health_; }
 
  private:
   void receive(const hal::CanFrame& frame) noexcept;
   void receive_e_stop(const hal::CanFrame& frame) noexcept;
+  void receive_from_operator(MessageKind kind, const hal::CanFrame& frame) noexcept;
   bool is_for_us(uint8_t node) const noexcept;
   bool is_sound(MessageKind kind, const hal::CanFrame& frame) noexcept;
+  bool is_whole(MessageKind kind, const hal::CanFrame& frame, bool allowed) noexcept;
   void understand(MessageKind kind, const hal::CanFrame& frame) noexcept;
   void settle(FrameResult heard) noexcept;
   void on_heartbeat(const Heartbeat& beat) noexcept;
@@ -147,7 +162,7 @@ class Node {
   void publish_diagnostics() noexcept;
 
   hal::CanPort& port_;
-  const Identity identity_;
+  Identity identity_;
   const Party party_;
   const uint8_t node_;
   const uint8_t peer_node_;

@@ -34,6 +34,7 @@ struct Message {
   bool from_base = false;
   uint16_t cycle_ms = 0;  ///< 0: on an event
   const char* about = nullptr;
+  bool from_operator = false;
   const Signal* signals = nullptr;
   uint8_t count = 0;
 };

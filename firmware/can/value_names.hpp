@@ -69,6 +69,25 @@ enum class ParamStatus : uint8_t {
 };
 inline constexpr const char* kParamStatusWords[] = {"ok", "no_such", "out_of_range", "busy", "inconsistent"};
 
+enum class RulesAction : uint8_t {
+  activate,  ///< drive with the table of this hash
+  restore,   ///< drive with the controller's built-in table
+};
+inline constexpr const char* kRulesActionWords[] = {"activate", "restore"};
+
+enum class RulesStatus : uint8_t {
+  receiving,    ///< a part came
+  activated,    ///< the order is executed
+  incomplete,   ///< parts are missing: send them from Next on
+  wrong_hash,   ///< the parts have another hash than the order: send all again
+  running,      ///< a mission runs: nothing was changed
+  moving,       ///< the wheels turned within the last 100 ms: nothing was changed
+  unsupported,  ///< this controller has no room for a table
+};
+constexpr int kRulesStatuses = 7;
+inline constexpr const char* kRulesStatusWords[] = {"receiving", "activated", "incomplete", "wrong_hash",
+                                                    "running",   "moving",    "unsupported"};
+
 enum class NodeState : uint8_t {
   off_bus,    ///< the port is not on the bus
   waiting,    ///< no other node, or none with this protocol
@@ -117,6 +136,9 @@ enum class BumpState : uint8_t {
   pressed,
   unknown,  ///< the bumper gave no state
 };
+inline constexpr const char* kGuardReasonWords[] = {"clear",   "fault",    "stale_ranges", "command_timeout",
+                                                    "nodding", "obstacle", "unseen",       "doubt",
+                                                    "limits",  "assisted"};
 inline constexpr const char* kHeadingWords[] = {"wheels", "bias_unknown", "gyro", "gyro_lost"};
 inline constexpr const char* kBumpWords[] = {"none", "open", "pressed", "unknown"};
 

@@ -39,6 +39,8 @@ bool BusState::on_frame(const hal::CanFrame& frame, int robot) {
       break;
     case can::MessageKind::range_trust: keep(frame, trust); break;
     case can::MessageKind::pose_sigma: keep(frame, sigma); break;
+    case can::MessageKind::guard_status: keep(frame, guard); break;
+    case can::MessageKind::sync: keep(frame, sync); break;
     default: break;
   }
   return true;

@@ -16,6 +16,8 @@ struct BusState {
   std::optional<hal::RangeReading> beams[hal::kBeams];
   std::optional<can::RangeTrustReport> trust;
   std::optional<can::PoseSigmaReport> sigma;
+  std::optional<can::GuardReport> guard;  ///< only a guard node sends it
+  std::optional<can::Sync> sync;
   std::uint64_t frames = 0;  ///< of this robot, valid
 
   /// False: not a valid frame of this robot.

@@ -8,6 +8,7 @@ namespace whisker::bench {
 namespace {
 
 constexpr std::uint64_t kAskAgain_us = 50000;
+constexpr std::uint64_t kNoRules_us = 500000;
 constexpr std::int16_t kRamp = 1;  // the wheels of this base never turn
 
 }  // namespace
@@ -83,6 +84,37 @@ void ParamClient::cancel() {
   node_.give(can::Order::cancel, {{}, {{}, millimetres(1)}}, can::SyncMode::real_time);
   wait_until([&] { return node_.order_state() != can::OrderState::waiting; }, "MissionReply");
   if (node_.order_state() == can::OrderState::refused) throw NoAnswer("the controller refuses the cancel");
+}
+
+std::optional<std::uint32_t> ParamClient::rules() {
+  const std::uint64_t begun_us = clock_.now_us();
+  std::uint64_t asked_us = 0;
+  wait_until(
+      [&] {
+        const std::uint64_t now_us = clock_.now_us();
+        if (asked_us == 0 || now_us - asked_us >= kAskAgain_us) {
+          node_.ask_for_info();
+          asked_us = now_us;
+        }
+        return node_.peer_rules() != 0 || now_us - begun_us >= kNoRules_us;
+      },
+      "Info");
+  if (node_.peer_rules() == 0) return std::nullopt;
+  return node_.peer_rules();
+}
+
+can::RulesReply ParamClient::send_rules(const can::RulesSender::Table* table) {
+  can::RulesSender sender(node_, table, ++upload_);
+  std::uint16_t had = 0;
+  while (!sender.ended()) {
+    const auto goes_on = [&] {
+      sender.poll(clock_.now_ms());
+      return sender.ended() || sender.reply().next != had;
+    };
+    wait_until(goes_on, "RulesReply");
+    had = sender.reply().next;
+  }
+  return sender.reply();
 }
 
 Written write_all(ParamClient& client, const std::vector<Change>& changes,

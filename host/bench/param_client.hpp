@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/can/base_node.hpp"
+#include "firmware/can/rules_sender.hpp"
 #include "host/hil/clock.hpp"
 
 namespace whisker::bench {
@@ -44,6 +44,11 @@ class ParamClient {
   can::ParamReply commit();
   /// Clears the goal; both nodes stop running.
   void cancel();
+  /// The hash of the controller's response table; none: it names none in this time.
+  std::optional<std::uint32_t> rules();
+  /// Sends a response table and activates it; null restores the controller's own. The reply is that of
+  /// can::RulesSender.
+  can::RulesReply send_rules(const can::RulesSender::Table* table);
 
  private:
   static constexpr std::uint8_t kCommitIndex = 255;  // distinguishes the reply from that to a write
@@ -56,6 +61,7 @@ class ParamClient {
   hil::Clock& clock_;
   Patience patience_;
   can::BaseNode node_;
+  std::uint8_t upload_ = 0;
 };
 
 struct Change {

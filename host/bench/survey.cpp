@@ -11,7 +11,10 @@ void Survey::on_frame(const hal::CanFrame& frame, std::uint64_t now_us) {
   if (!sender || !sender->whole) return;
   can::Heartbeat beat;
   can::Info info;
-  if (sender->kind == can::MessageKind::heartbeat && can::decode(frame, beat)) {
+  if (sender->kind == can::MessageKind::guard_status) {
+    const auto node = nodes_.find(sender->node);
+    if (node != nodes_.end()) node->second.guards = true;
+  } else if (sender->kind == can::MessageKind::heartbeat && can::decode(frame, beat)) {
     SeenNode& node = nodes_[sender->node];
     if (node.robot == 0 || node.beat.boot != beat.boot) node = {};
     node.robot = static_cast<std::uint8_t>(sender->robot);

@@ -18,6 +18,7 @@ struct SeenNode {
   can::Party party = can::Party::controller;
   can::Heartbeat beat;
   std::uint64_t heard_us = 0;  ///< time of that heartbeat
+  bool guards = false;         ///< a guard node: it has sent a GuardStatus
   std::optional<std::uint32_t> table_hash;
   std::optional<std::uint32_t> version;  ///< of the firmware: major << 16 | minor << 8 | patch
   std::optional<std::uint32_t> rules;    ///< CRC-32 of the response table

@@ -21,6 +21,7 @@ void add_bench(CLI::App& app, int& status) {
   add_bench_nodes(*bench, status);
   add_bench_watch(*bench, status);
   add_bench_params(*bench, status);
+  add_bench_rules(*bench, status);
   add_bench_orders(*bench, status);
   add_bench_drive(*bench, status);
   for (CLI::App* command : bench->get_subcommands({})) {

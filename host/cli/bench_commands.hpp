@@ -11,6 +11,7 @@ void add_bench_drive(CLI::App& bench, int& status);
 void add_bench_nodes(CLI::App& bench, int& status);
 void add_bench_orders(CLI::App& bench, int& status);
 void add_bench_params(CLI::App& bench, int& status);
+void add_bench_rules(CLI::App& bench, int& status);
 void add_bench_watch(CLI::App& bench, int& status);
 
 /// The status of `run`; kInterrupted after an interruption.

@@ -7,9 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "host/bench/operator_link.hpp"
 #include "host/bench/seat.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/bench_commands.hpp"
+#include "host/cli/bench_operator.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/keys.hpp"
 #include "host/cli/live_view.hpp"
@@ -54,9 +56,9 @@ std::string state_words(const can::Node& node, bool started) {
   return "";
 }
 
-/// Takes the controller's place. Throws bench::NoAnswer if the robot has a controller, or no base.
+/// After listening for a while: takes the controller's place. Throws bench::NoAnswer if the robot has a
+/// controller, or no base.
 void check_place(BenchBus& bus, const BenchChoice& choice) {
-  bus.listen(BenchBus::kListen_s, nullptr);
   const auto there = [&](can::Party party) {
     return bus.survey().alive(bus.robot(), party, bus.clock().now_us());
   };
@@ -114,6 +116,7 @@ int goal(const SeatOptions& o) {
   if (!(o.tolerance_m > 0)) throw UsageError("bench goal: --tolerance must be above 0");
   const auto view = o.view.open(o.planner);
   BenchBus bus(o.bus);
+  bus.listen(BenchBus::kListen_s, nullptr);
   check_place(bus, o.bus);
   hil::RecordingPlanners planners(o.planner);
   LoggedRun run(bus.name());
@@ -153,6 +156,17 @@ int goal(const SeatOptions& o) {
   return exit_status(result.verdict);
 }
 
+/// Listens for a while. Throws bench::NoAnswer if the guard node has an operator.
+bool has_guard_node(BenchBus& bus) {
+  bool taken = false;
+  bus.listen(BenchBus::kListen_s, nullptr,
+             [&](const hal::CanFrame& frame) { taken = taken || bench::from_operator(frame, bus.robot()); });
+  const bench::SeenNode* const node = bus.survey().find(bus.robot(), can::Party::controller);
+  if (node == nullptr || !node->guards) return false;
+  if (!taken) return true;
+  throw bench::NoAnswer(fmt::format("{}: another operator drives robot {}", bus.name(), bus.robot()));
+}
+
 int drive(const SeatOptions& o) {
   if (o.keys != o.commands.empty()) throw UsageError("bench drive: choose --keys or --commands");
   std::unique_ptr<Keys> keys;
@@ -160,20 +174,21 @@ int drive(const SeatOptions& o) {
   if (o.keys) keys = std::make_unique<Keys>(o.speed_mps, o.turn_radps);
   if (!o.keys) recorded = std::make_unique<guard::Recorded>(guard::load_commands(o.commands));
   guard::Operator& hand = keys ? static_cast<guard::Operator&>(*keys) : *recorded;
+  const auto done = [&](double t_s) { return keys ? keys->ended() : t_s > recorded->last_s(); };
   BenchBus bus(o.bus);
+  if (has_guard_node(bus)) return operate(bus, o.bus, {hand, done, o.vouched_m, o.for_s, o.keys, o.json});
   check_place(bus, o.bus);
   bench::GuardSeat seat(bus.port(), o.bus.bus.identity(), hand, o.vouched_m);
   ProgressLine line;
   const auto over = [&] {
     const GuardStatus& s = seat.status();
-    const bool done = keys ? keys->ended() : seat.time_s() > recorded->last_s();
-    if (done || seat.time_s() >= o.for_s || bus.interrupt().noted()) seat.end();
+    const bool ends = done(seat.time_s()) || seat.time_s() >= o.for_s || bus.interrupt().noted();
+    if (ends) seat.end();
     if (keys) {
       line.show(fmt::format("granted {:3.0f} % {:3.0f} %, {:<16} at {:.2f}, {:.2f} m",
                             s.forward.raw() / 163.84, s.turning.raw() / 163.84, name(s.reason),
                             s.pose.at.x.raw() * 1e-6, s.pose.at.y.raw() * 1e-6));
     }
-    const bool ends = done || seat.time_s() >= o.for_s || bus.interrupt().noted();
     return s.health.fault != Fault::none || (ends && seat.stands());
   };
   const auto interrupted = [&] { return bus.interrupt().noted() && !seat.started(); };

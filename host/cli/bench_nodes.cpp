@@ -28,7 +28,9 @@ struct NodesOptions {
   bool json = false;
 };
 
-const char* role(const bench::SeenNode& n) { return n.party == can::Party::base ? "base" : "controller"; }
+const char* role(const bench::SeenNode& n) {
+  return n.party == can::Party::base ? "base" : n.guards ? "guard" : "controller";
+}
 
 double age_s(const bench::SeenNode& n, std::uint64_t now_us) {
   return static_cast<double>(now_us - n.heard_us) * 1e-6;

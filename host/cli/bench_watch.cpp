@@ -54,6 +54,7 @@ Json state_json(const BenchBus& bus, const bench::BusState& s, std::uint64_t now
                {"state", nullptr},
                {"why", nullptr},
                {"fault", nullptr},
+               {"guard", nullptr},
                {"wheel_mps", nullptr},
                {"counts", nullptr},
                {"range_m", Json::array()}};
@@ -62,6 +63,14 @@ Json state_json(const BenchBus& bus, const bench::BusState& s, std::uint64_t now
     json["state"] = planning::name(s.status->state);
     json["why"] = planning::name(s.status->why);
     json["fault"] = name(static_cast<Fault>(s.status->fault < kFaults ? s.status->fault : 0));
+  }
+  if (s.guard) {
+    json["guard"] = {{"reason", can::kGuardReasonWords[s.guard->reason]},
+                     {"armed", s.guard->armed != 0},
+                     {"asked_mps", s.guard->asked_forward / 1e4},
+                     {"asked_radps", s.guard->asked_turning / 1e3},
+                     {"granted_forward", s.guard->granted_forward / 100.0},
+                     {"granted_turning", s.guard->granted_turning / 100.0}};
   }
   if (s.command) {
     const bool drives = s.command->mode == can::DriveMode::drive;
@@ -82,9 +91,15 @@ std::string words(const Json& j) {
     const std::string errors = n["errors"];
     return text(n["state"]) + (errors.empty() ? "" : " (" + errors + ")");
   };
-  return fmt::format("controller {}, base {}; {}: {}, {}{}; wheels {} m/s; ranges {}", node(j["controller"]),
-                     node(j["base"]), text(j["outcome"]), text(j["state"]), text(j["why"]),
-                     j["fault"].is_null() || j["fault"] == "none" ? "" : ", fault " + text(j["fault"]),
+  const std::string guard =
+      j["guard"].is_null()
+          ? ""
+          : fmt::format("; guard {}, granted {}, {}", text(j["guard"]["reason"]),
+                        text(j["guard"]["granted_forward"]), text(j["guard"]["granted_turning"]));
+  return fmt::format("controller {}, base {}; {}: {}, {}{}{}; wheels {} m/s; ranges {}",
+                     node(j["controller"]), node(j["base"]), text(j["outcome"]), text(j["state"]),
+                     text(j["why"]),
+                     j["fault"].is_null() || j["fault"] == "none" ? "" : ", fault " + text(j["fault"]), guard,
                      text(j["wheel_mps"]), text(j["range_m"]));
 }
 
@@ -92,6 +107,7 @@ std::string words(const Json& j) {
 std::string occasion(const Json& j) {
   std::string all;
   for (const char* key : {"controller", "base", "outcome", "state", "why", "fault"}) all += j[key].dump();
+  if (!j["guard"].is_null()) all += j["guard"]["reason"].dump();
   return all;
 }
 

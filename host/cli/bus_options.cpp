@@ -8,6 +8,7 @@
 
 #include "firmware/can/ids.hpp"
 #include "host/cli/options.hpp"
+#include "host/hil/host_rules.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -27,6 +28,11 @@ std::uint32_t version_number() {
 }
 
 }  // namespace
+
+void BusChoice::drive_with(PlannerKind planner) {
+  rules = rules_digest(planner);
+  table = hil::table_to_send(planner);
+}
 
 can::Identity BusChoice::identity() const {
   timespec now{};

@@ -6,7 +6,9 @@
 #include <string>
 
 #include "firmware/can/node.hpp"
+#include "firmware/can/rules_server.hpp"
 #include "host/cli/cli11_forward.hpp"
+#include "host/run/planners.hpp"
 
 namespace whisker::cli {
 
@@ -17,8 +19,11 @@ struct BusChoice {
   double drop_percent = 0;  ///< of the frames in each direction
   bool real_time = false;
 
-  std::optional<std::uint32_t> rules;  ///< digest that the controller must name; none: any
+  std::optional<std::uint32_t> rules;              ///< digest that the controller must name; none: any
+  const can::RulesServer::Table* table = nullptr;  ///< of that digest, to send it
 
+  /// The controller must drive with the table of this planner, which has one.
+  void drive_with(PlannerKind planner);
   /// With a new boot number.
   can::Identity identity() const;
 };

@@ -1,6 +1,8 @@
 #include "host/cli/bus_run.hpp"
 
+#include <cmath>
 #include <cstdio>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/core.h>
@@ -54,6 +56,7 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   hil::BusOptions how;
   how.identity = bus.identity();
   how.rules = bus.rules;
+  how.table = bus.table;
   how.sync_mode = bus.real_time ? can::SyncMode::real_time : can::SyncMode::lockstep;
   how.say = [view, speak = speaker("plant", bus)](const std::string& words) {
     if (!words.empty()) speak(words);
@@ -104,15 +107,29 @@ void control_until(const BusChoice& bus, hil::ControllerOptions how, hil::Line& 
   recorder.close();
 }
 
+void control_until_interrupted(const BusChoice& bus, hil::ControllerOptions how, hil::Line& line) {
+  const Interrupt interrupt;
+  how.say = speaker(how.guard ? "guard" : "controller", bus);
+  how.interrupted = [&interrupt] { return interrupt.noted(); };
+  control_until(bus, std::move(how), line);
+}
+
 }  // namespace
 
-void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line) {
-  const Interrupt interrupt;
+void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line, hal::Storage* storage) {
   hil::ControllerOptions how;
   how.planner = planner;
-  how.say = speaker("controller", bus);
-  how.interrupted = [&interrupt] { return interrupt.noted(); };
-  control_until(bus, how, line);
+  how.storage = storage;
+  control_until_interrupted(bus, how, line);
+}
+
+void guard_on_bus(const BusChoice& bus, PlannerKind rules, double longest_command_s, hil::Line& line) {
+  hil::ControllerOptions how;
+  how.guard = true;
+  how.planner = rules;
+  if constexpr (std::is_same_v<fuzzy::Engine::Table, fuzzy::Bilinear::Table>) how.assist = rules.table;
+  how.longest_command = milliseconds(static_cast<std::int32_t>(std::lround(longest_command_s * 1000)));
+  control_until_interrupted(bus, how, line);
 }
 
 bool control_mission_on_bus(const BusChoice& bus, can_app::PlannerMaker& planners, hil::Line& line,

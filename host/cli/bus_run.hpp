@@ -25,8 +25,11 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
                  const BusChoice& bus, hil::Line& line, LiveView* view);
 
 /// Runs the controller until it is interrupted; it prints its actions on standard error. Its pace is that of
-/// the plant; `real_time` only prepares it for that.
-void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line);
+/// the plant; `real_time` only prepares it for that. storage: keeps the response table of a base; null: none.
+void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line,
+                    hal::Storage* storage = nullptr);
+/// The same with a guard node, whose assist has the planner's response table.
+void guard_on_bus(const BusChoice& bus, PlannerKind rules, double longest_command_s, hil::Line& line);
 
 /// The same with these planners, until `done`. heard: receives the actions, too. True: a signal ended it.
 bool control_mission_on_bus(const BusChoice& bus, can_app::PlannerMaker& planners, hil::Line& line,

@@ -6,7 +6,6 @@
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
@@ -18,7 +17,9 @@
 #include "host/guard/drive.hpp"
 #include "host/guard/operators.hpp"
 #include "host/guard/recorded.hpp"
+#include "host/guard/result_json.hpp"
 #include "host/guard/trace.hpp"
+#include "host/page/guard_recording.hpp"
 #include "host/report/file.hpp"
 #include "host/scenario/load.hpp"
 
@@ -30,7 +31,7 @@ constexpr double kMostVouched_m = 10;
 constexpr double kStanding_mps = 1e-3;
 
 struct GuardOptions {
-  std::string file, robot, commands, hand = "perfect", trace;
+  std::string file, robot, commands, hand = "perfect", trace, html;
   std::optional<std::uint64_t> seed;
   bool keys = false, bare = false, json = false;
   double time_s = 120, vouched_m = 0;
@@ -56,6 +57,12 @@ std::unique_ptr<guard::Operator> operator_of(const GuardOptions& o, const Scenar
   return hand;
 }
 
+std::string hand_words(const GuardOptions& o) {
+  if (o.keys) return "the arrow keys";
+  if (!o.commands.empty()) return o.commands == "-" ? "commands of a pipe" : "commands of " + o.commands;
+  return o.hand + " operator";
+}
+
 void print(const guard::Result& r, std::FILE* out) {
   fmt::print(out,
              "{}{} after {:.2f} s and {:.2f} m; smallest gap {:.3f} m; {:.1f} % of the asked speed granted\n",
@@ -67,37 +74,9 @@ void print(const guard::Result& r, std::FILE* out) {
   }
 }
 
-std::string json_of(const guard::Result& r) {
-  const auto outcome = [&] {
-    switch (r.end) {
-      case guard::End::arrived: return "reached";
-      case guard::End::contact: return "contact";
-      case guard::End::fault: return "fault";
-      case guard::End::time: return "gave_up";
-      case guard::End::ended: return "ended";
-    }
-    return "?";
-  };
-  nlohmann::ordered_json reasons = nlohmann::ordered_json::object();
-  for (int i = 0; i < kGuardReasons; ++i)
-    reasons[name(static_cast<GuardReason>(i))] = r.reasons[static_cast<std::size_t>(i)];
-  const nlohmann::ordered_json json = {{"outcome", outcome()},
-                                       {"time_s", r.time_s},
-                                       {"path_m", r.path_m},
-                                       {"final_distance_m", r.final_distance_m},
-                                       {"min_clearance_m", r.min_clearance_m},
-                                       {"ticks", r.ticks},
-                                       {"hash", fmt::format("{:016x}", r.hash)},
-                                       {"detail", r.end == guard::End::fault ? name(r.fault) : ""},
-                                       {"granted", r.granted},
-                                       {"stops", r.stops},
-                                       {"ticks_by_reason", reasons}};
-  return json.dump();
-}
-
 int execute(const GuardOptions& o) {
   if (o.keys && !o.commands.empty()) throw UsageError("--keys and --commands: choose one");
-  check_outputs({o.trace}, {o.file, o.robot, o.commands == "-" ? "" : o.commands}, o.json);
+  check_outputs({o.trace, o.html}, {o.file, o.robot, o.commands == "-" ? "" : o.commands}, o.json);
   Scenario scenario = load_scenario(o.file);
   if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
   if (o.seed) scenario.seed = *o.seed;
@@ -108,6 +87,7 @@ int execute(const GuardOptions& o) {
   double now_s = 0;
   const double timeout_s = scenario.robot.guard.command_timeout.raw() * 1e-3;
   std::string rows = fmt::format("{}\n", guard::kTraceHeader);
+  page::GuardRecording recording(scenario.robot);
   ProgressLine line;
   guard::Options options;
   options.guarded = !o.bare;
@@ -121,6 +101,7 @@ int execute(const GuardOptions& o) {
   };
   options.watch = [&](const guard::Moment& m) {
     if (!o.trace.empty()) rows += guard::trace_row(m, scenario.robot.rangefinders) + "\n";
+    if (!o.html.empty()) recording.add(m);
     now_s = m.t_s;
     stands = std::abs(m.v_left_mps) < kStanding_mps && std::abs(m.v_right_mps) < kStanding_mps;
     if (keys == nullptr || m.status == nullptr) return;
@@ -132,14 +113,20 @@ int execute(const GuardOptions& o) {
   const guard::Result result = guard::drive(scenario, *hand, options);
   line.show("");
   if (!o.trace.empty()) report::write_file(o.trace, rows);
+  if (!o.html.empty()) {
+    const page::GuardSetting setting{scenario, hand_words(o), !o.bare, o.vouched_m};
+    report::write_file(o.html, page::guard_page(recording.stored(setting, result)));
+  }
   if (o.json) {
     Provenance p;
     p.seed = scenario.seed;
     p.robot_name = robot_name(scenario.robot, o.robot, o.file);
     p.robot_digest = robot_digest(scenario.robot);
-    fmt::print("{}\n", with_provenance(json_of(result), p));
+    fmt::print("{}\n", with_provenance(guard::result_json(result), p));
   } else {
-    print(result, words_beside({o.trace}));
+    std::FILE* const out = words_beside({o.trace, o.html});
+    print(result, out);
+    if (!o.html.empty()) fmt::print(out, "page: {}\n", o.html);
   }
   return exit_status(result.end);
 }
@@ -169,6 +156,7 @@ void add_guard(CLI::App& app, int& status) {
   add_switch(*cmd, "--bare", o->bare, "Without the guard: the wheels do what is asked");
   add_assist_rules(*cmd, o->table);
   add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");
+  add_file(*cmd, "--html", o->html, "Write a replay of the drive: one page for a browser");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->callback([o, &status] { status = execute(*o); });
 }

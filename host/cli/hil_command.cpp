@@ -60,6 +60,12 @@ class ControllerProcess {
   pid_t child_ = -1;
 };
 
+/// As a controller that was started without --rules: the base sends them.
+PlannerKind with_own_table(PlannerKind kind) {
+  kind.table = &fuzzy::kDefaultTable;
+  return kind;
+}
+
 int execute(const HilOptions& o) {
   const Scenario scenario = o.scenario.load({o.bus.record});
   BusChoice controller = o.bus;
@@ -73,13 +79,13 @@ int execute(const HilOptions& o) {
   const ControllerProcess child([&] {
     if (view) view->abandon();
     lines.first.reset();
-    control_on_bus(controller, o.planner, *lines.second);
+    control_on_bus(controller, with_own_table(o.planner), *lines.second);
   });
   lines.second.reset();
   RunOptions options = o.scenario.run_options();
   options.planner = o.planner;
   BusChoice base = o.bus;
-  if (!is_baseline(o.planner)) base.rules = rules_digest(o.planner);
+  if (!is_baseline(o.planner)) base.drive_with(o.planner);
   return drive_on_bus(scenario, options, o.scenario.run_outputs(scenario), base, *lines.first, view.get());
 }
 

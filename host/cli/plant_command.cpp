@@ -30,7 +30,7 @@ int execute(const PlantOptions& o) {
   RunOutputs outputs = o.scenario.run_outputs(scenario);
   outputs.knows_planner = false;
   BusChoice bus = o.bus;
-  if (o.rules->count() > 0) bus.rules = rules_digest(o.wanted);
+  if (o.rules->count() > 0) bus.drive_with(o.wanted);
   return drive_on_bus(scenario, o.scenario.run_options(), outputs, bus, *line, view.get());
 }
 
@@ -42,8 +42,7 @@ void add_plant(CLI::App& app, int& status) {
   add_scenario(*cmd, o->scenario);
   add_bus(*cmd, o->bus)->required();
   add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
-  o->rules = add_rules_choice(*cmd, o->wanted,
-                              "Refuse a controller with another response table than this rule base");
+  o->rules = add_rules_choice(*cmd, o->wanted, "Send this rule base to the controller as its response table");
   add_view(*cmd, o->view);
   cmd->callback([o, &status] { status = execute(*o); });
 }

@@ -37,7 +37,7 @@ struct ReplayOptions {
 /// The contents of the log's last mission.
 class Show {
  public:
-  explicit Show(const ReplayOptions& o) : run_(o.log), planner_(o.replay.planner) {}
+  explicit Show(const ReplayOptions& o) : run_(o.log) {}
 
   void watch(hil::ReplayOptions& replay) {
     replay.begins = [this](const can::Mission& mission, const Params& params) {
@@ -50,17 +50,16 @@ class Show {
     };
   }
 
-  void write(const ReplayOptions& o) const {
+  void write(const ReplayOptions& o, PlannerKind planner) const {
     if (!o.trace.empty()) report::write_trace(o.trace, run_.scenario(), run_.records());
     if (o.html.empty()) return;
     const page::StoredRun stored =
-        page::stored({run_.scenario(), planner_, run_.scenario().seed}, recording_->ticks(), run_.result());
-    report::write_file(o.html, page::run_page(stored, controller_picture(planner_)));
+        page::stored({run_.scenario(), planner, run_.scenario().seed}, recording_->ticks(), run_.result());
+    report::write_file(o.html, page::run_page(stored, controller_picture(planner)));
   }
 
  private:
   LoggedRun run_;
-  PlannerKind planner_;
   std::optional<page::Recording> recording_;
 };
 
@@ -80,6 +79,7 @@ void print_json(const hil::ReplayResult& r, const Provenance& provenance) {
   nlohmann::ordered_json json;
   json["same"] = r.difference.empty();
   json["robot"] = r.robot;
+  json["guard"] = r.guard;
   json["frames"] = r.frames;
   json["damaged"] = r.damaged;
   json["missions"] = r.missions;
@@ -100,7 +100,6 @@ int execute(const ReplayOptions& o) {
   if (!o.trace.empty() || !o.html.empty()) show.watch(replay);
   Provenance provenance;
   provenance.planner = name(o.replay.planner);
-  provenance.rules_digest = rules_name(o.replay.planner);
   provenance.robot_name = o.log;
   replay.begins = [&provenance, also = replay.begins](const can::Mission& mission, const Params& params) {
     provenance.robot_digest = robot_digest(params);
@@ -110,7 +109,11 @@ int execute(const ReplayOptions& o) {
   if (r.cut > 0)
     fmt::print(stderr, "whisker: {}: line {}, the last, is cut off and left out\n", o.log, r.cut);
   if (r.compared == 0) throw UsageError(fmt::format("{}: no commands of a robot with their inputs", o.log));
-  show.write(o);
+  if (r.guard && !(o.trace.empty() && o.html.empty())) {
+    throw UsageError(fmt::format("{}: the log of a guard node has no planner to show", o.log));
+  }
+  provenance.rules_digest = rules_name(r.planner);
+  show.write(o, r.planner);
   if (o.json) {
     print_json(r, provenance);
   } else {
@@ -119,7 +122,10 @@ int execute(const ReplayOptions& o) {
                r.robot, r.steps, r.missions, r.missions == 1 ? "" : "s", r.compared, r.hash);
     if (r.unknown > 0)
       fmt::print(out, "{} answers are to input sets that the log does not have whole\n", r.unknown);
-    fmt::print(out, "{}\n", r.difference.empty() ? "the core gives the recorded commands" : r.difference);
+    fmt::print(out, "{}\n",
+               !r.difference.empty() ? r.difference
+               : r.guard             ? "the guard gives the recorded commands"
+                                     : "the core gives the recorded commands");
     if (!o.trace.empty()) fmt::print(out, "trace:   {}\n", o.trace);
     if (!o.html.empty()) fmt::print(out, "page:    {}\n", o.html);
   }

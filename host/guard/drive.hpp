@@ -7,21 +7,11 @@
 #include <vector>
 
 #include "firmware/guard.hpp"
+#include "host/guard/guarded_body.hpp"
 #include "host/guard/operator.hpp"
 #include "host/scenario/scenario.hpp"
 
 namespace whisker::guard {
-
-/// Everything observable at one tick; valid during the call only.
-struct Moment {
-  double t_s = 0;
-  sim::Pose pose;  ///< true
-  double v_left_mps = 0, v_right_mps = 0;
-  hal::RangeReadings ranges{};
-  Twist asked;                                  ///< the last command
-  const GuardStatus* status = nullptr;          ///< null without the guard
-  const perception::LocalGrid* grid = nullptr;  ///< null without the guard
-};
 
 struct Options {
   bool guarded = true;     ///< false: the same commands go to the wheels, within their limits

@@ -4,6 +4,7 @@
 
 #include "firmware/apps/can/base.hpp"
 #include "firmware/can/param_server.hpp"
+#include "firmware/can/rules_sender.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "host/hil/error_names.hpp"
 #include "host/hil/overheard.hpp"
@@ -16,6 +17,8 @@ namespace whisker::hil {
 namespace {
 
 constexpr std::uint64_t kAskAgain_us = 200000;
+constexpr std::uint64_t kNoRules_us = 1000000;
+constexpr int kMostDamaged = 3;
 constexpr std::uint8_t kCommitIndex = 255;  // distinguishes the reply from that to a write
 
 std::int16_t ramp_of(const Params& p) {
@@ -192,7 +195,7 @@ class BusPilot final : public Pilot {
 
   void begin() {
     while (!node_.matched()) watchful_nap();
-    if (options_.rules) check_rules(*options_.rules);
+    if (options_.rules) make_it_drive_with(*options_.rules);
     hand_over_params();
     give(can::Order::start);
     restarts_ = node_.peer_restarts();
@@ -201,10 +204,23 @@ class BusPilot final : public Pilot {
     due_us_ = whole_ms(begun_us_);
   }
 
-  void check_rules(std::uint32_t wanted) {
-    ask_for("Info with its rules");
+  void make_it_drive_with(std::uint32_t wanted) {
+    const bool sends = options_.table != nullptr;
+    // A controller without a table never names one.
+    ask_info_until("Info with its rules", [&] {
+      return node_.peer_rules() != 0 || (sends && clock_.now_us() - asked_us_ >= kNoRules_us);
+    });
+    const std::uint32_t had = node_.peer_rules();
+    if (had == wanted) return;
+    if (!sends || !send_rules(wanted)) refuse_rules(had, wanted);
+    ask_info_until("Info with the table that it activated", [&] { return node_.peer_rules() == wanted; });
+  }
+
+  template <class F>
+  void ask_info_until(const char* answer, const F& done) {
+    ask_for(answer);
     std::uint64_t again_us = asked_us_;
-    while (node_.peer_rules() == 0) {
+    while (!done()) {
       if (clock_.now_us() >= again_us) {
         node_.ask_for_info();
         again_us = clock_.now_us() + kAskAgain_us;
@@ -212,11 +228,42 @@ class BusPilot final : public Pilot {
       watchful_nap();
       watch_patience();
     }
-    if (node_.peer_rules() == wanted) return;
+  }
+
+  /// Repeats while the robot still moves. False: the controller takes no table.
+  bool send_rules(std::uint32_t wanted) {
+    if (options_.say) options_.say(fmt::format("sends the response table {:08x}", wanted));
+    ask_for("RulesReply that activates");
+    int damaged = 0;
+    for (std::uint8_t upload = 1;; ++upload) {
+      const can::RulesStatus status = send_rules_once(upload);
+      if (status == can::RulesStatus::activated) return true;
+      if (status == can::RulesStatus::unsupported) return false;
+      if (status == can::RulesStatus::wrong_hash && ++damaged == kMostDamaged) {
+        throw NoAnswer("the controller says wrong_hash: the response table arrives damaged");
+      }
+      for (std::uint32_t waited = 0; waited < can::kRulesRepeat_ms; ++waited) watchful_nap();
+      watch_patience();
+    }
+  }
+
+  can::RulesStatus send_rules_once(std::uint8_t upload) {
+    can::RulesSender sender(node_, options_.table, upload);
+    for (std::uint16_t had = 0; !sender.ended(); had = sender.reply().next) {
+      sender.poll(clock_.now_ms());
+      watchful_nap();
+      if (sender.reply().next > had) ask_for("RulesReply that activates");
+      watch_patience();
+    }
+    return sender.reply().status;
+  }
+
+  [[noreturn]] static void refuse_rules(std::uint32_t had, std::uint32_t wanted) {
+    if (had == 0) throw OtherRules("the controller has no response table, and takes none");
     throw OtherRules(
-        fmt::format("the controller drives with the response table {:08x}, not {:08x}; start it with "
-                    "the same --rules",
-                    node_.peer_rules(), wanted));
+        fmt::format("the controller drives with the response table {:08x}, not {:08x}, and takes no other; "
+                    "start it with the same --rules",
+                    had, wanted));
   }
 
   void give(can::Order order) {

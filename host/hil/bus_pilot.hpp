@@ -7,6 +7,7 @@
 #include <string>
 
 #include "firmware/can/base_node.hpp"
+#include "firmware/can/rules_server.hpp"
 #include "host/hil/clock.hpp"
 #include "host/hil/figures.hpp"
 #include "host/run/pilot.hpp"
@@ -23,7 +24,7 @@ class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The controller drives with another response table than BusOptions::rules.
+/// The controller drives with another response table than BusOptions::rules, and takes none.
 class OtherRules : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -36,6 +37,7 @@ class Interrupted : public std::runtime_error {
 struct BusOptions {
   can::Identity identity{1, 1, 0};
   std::optional<std::uint32_t> rules;  ///< the controller must drive with the response table of this digest
+  const can::RulesServer::Table* table = nullptr;  ///< of that digest: sent to a controller with another one
   can::SyncMode sync_mode = can::SyncMode::lockstep;
   std::uint32_t resend_ms = 20;       ///< lockstep: the shortest wait before a set is repeated, see Resend
   std::uint32_t patience_ms = 30000;  ///< for the answer to one request while the handshake holds

@@ -1,6 +1,9 @@
 #include "host/hil/controller_loop.hpp"
 
+#include <fmt/format.h>
+
 #include "firmware/apps/can/controller.hpp"
+#include "firmware/apps/can/guard_controller.hpp"
 #include "host/hil/error_names.hpp"
 #include "host/hil/planners.hpp"
 #include "host/hil/wall_clock.hpp"
@@ -25,27 +28,44 @@ std::string words_for(const can::Node& node, const Line& line) {
   return "";
 }
 
-}  // namespace
-
-void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
-  HostPlanners usual(options.planner);
-  can_app::PlannerMaker& planners = options.planners != nullptr ? *options.planners : usual;
-  can::Identity identity = options.identity;
-  if (options.planners == nullptr) identity.rules = rules_digest(options.planner);
-  const auto controller = std::make_unique<can_app::Controller>(port, identity, planners);
+template <class Controller>
+void run(Controller& controller, Line& line, const ControllerOptions& options) {
   WallClock clock([&line] { return line.descriptor(); });
   std::string said;
+  std::uint32_t rules_said = controller.node().rules();
   while (!options.interrupted()) {
-    controller->poll(clock.now_ms());
-    const std::string words = words_for(controller->node(), line);
+    controller.poll(clock.now_ms());
+    const std::string words = words_for(controller.node(), line);
     if (words != said && options.say) options.say(words);
     said = words;
-    if (controller->node().lockstep()) {
+    const std::uint32_t hash = controller.node().rules();
+    if (hash != rules_said && options.say) options.say(fmt::format("response table {:08x}", hash));
+    rules_said = hash;
+    if (controller.node().lockstep()) {
       clock.wait(Clock::kNap_us);
     } else {
       clock.wait_a_ms();
     }
   }
+}
+
+}  // namespace
+
+void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
+  HostRules rules(options.planner, options.storage);
+  HostPlanners usual(options.planner, &rules);
+  const bool own = options.planners == nullptr;
+  can_app::PlannerMaker& planners = own ? usual : *options.planners;
+  can::Identity identity = options.identity;
+  if (own) identity.rules = rules_digest(options.planner);
+  if (options.guard) {
+    const auto guard = std::make_unique<can_app::GuardController>(port, identity, options.longest_command);
+    if (options.assist != nullptr) guard->assist_by(*options.assist);
+    return run(*guard, line, options);
+  }
+  const auto controller =
+      std::make_unique<can_app::Controller>(port, identity, planners, own ? rules.server() : nullptr);
+  run(*controller, line, options);
 }
 
 }  // namespace whisker::hil

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "firmware/apps/can/remote_robot.hpp"
+#include "host/hil/host_rules.hpp"
 #include "host/run/planners.hpp"
 #include "host/run/recording_planner.hpp"
 
@@ -12,9 +13,10 @@ namespace whisker::hil {
 /// Planners of one kind, for a controller on this computer.
 class HostPlanners final : public can_app::PlannerMaker {
  public:
-  explicit HostPlanners(PlannerKind kind) : kind_(kind) {}
+  /// rules: has the table of each new planner, and must outlive it; null: the kind has it.
+  explicit HostPlanners(PlannerKind kind, const HostRules* rules = nullptr) : kind_(kind), rules_(rules) {}
   planning::Planner& make(const Params& params) noexcept override {
-    planner_ = make_recorded_planner(kind_, params);
+    planner_ = make_recorded_planner(rules_ != nullptr ? rules_->kind() : kind_, params);
     return *planner_.planner;
   }
   /// Global planner of the planner made last; null without a map.
@@ -22,13 +24,14 @@ class HostPlanners final : public can_app::PlannerMaker {
 
  private:
   PlannerKind kind_;
+  const HostRules* rules_;
   RecordedPlanner planner_;
 };
 
 /// The same planners; the view of the last one is recorded.
 class RecordingPlanners final : public can_app::PlannerMaker {
  public:
-  explicit RecordingPlanners(PlannerKind kind) : planners_(kind) {}
+  explicit RecordingPlanners(PlannerKind kind, const HostRules* rules = nullptr) : planners_(kind, rules) {}
   planning::Planner& make(const Params& params) noexcept override {
     return shown_.emplace(planners_.make(params));
   }

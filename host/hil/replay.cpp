@@ -10,6 +10,7 @@
 #include "firmware/apps/pil_link/command_hash.hpp"
 #include "firmware/can/codec.hpp"
 #include "host/hil/candump.hpp"
+#include "host/hil/guard_replay.hpp"
 #include "host/hil/overheard.hpp"
 #include "host/hil/planners.hpp"
 
@@ -22,7 +23,8 @@ class Replay {
  public:
   explicit Replay(const ReplayOptions& options)
       : options_(options),
-        planners_(options.planner),
+        rules_(std::make_shared<HostRules>(options.planner)),
+        planners_(options.planner, rules_.get()),
         pilot_(std::make_unique<can_app::RemoteRobot>(planners_)) {
     result_.robot = options.robot;
   }
@@ -30,7 +32,7 @@ class Replay {
   void on_frame(const hal::CanFrame& frame, std::uint64_t line) {
     line_ = line;
     const std::optional<Sender> sender = sender_of(frame);
-    if (!sender) return;
+    if (!sender) return hear_operator(frame);
     if (result_.robot == 0 && sender->whole) result_.robot = sender->robot;
     if (sender->robot != result_.robot) return;
     ++(sender->whole ? result_.frames : result_.damaged);
@@ -40,17 +42,34 @@ class Replay {
   ReplayResult result() const {
     ReplayResult out = result_;
     out.hash = hash_.value();
+    out.planner = rules_->kind();
+    out.rules = rules_;
     return out;
   }
 
  private:
   void execute(MessageKind kind, const hal::CanFrame& frame) {
+    if (kind == MessageKind::guard_status) {
+      result_.guard = true;
+      return with<can::GuardReport>(frame, [&](const auto& m) { step_guard(m); });
+    }
+    if (result_.guard && kind == MessageKind::nav_status) return;
+    if (result_.guard && kind == MessageKind::wheel_command) {
+      return with<can::WheelCommand>(frame, [&](const auto& m) { guard_.on_frame(m); });
+    }
     switch (kind) {
       case MessageKind::wheel_command:
         return with<can::WheelCommand>(frame, [&](const auto& m) { compare(m, can::counter_of(frame)); });
       case MessageKind::nav_status: return with<can::NavStatus>(frame, [&](const auto& m) { compare(m); });
       case MessageKind::heartbeat:
         return with<can::Heartbeat>(frame, [&](const auto& m) { watch(frame.id, m); });
+      case MessageKind::rules_part:
+        return with<can::RulesPart>(frame, [&](const auto& m) {
+          if (can::RulesServer* const rules = rules_->server()) rules->take(m);
+        });
+      case MessageKind::rules_order:
+        return with<can::RulesOrder>(frame, [&](const auto& m) { rules_order_ = m; });
+      case MessageKind::rules_reply: return with<can::RulesReply>(frame, [&](const auto& m) { follow(m); });
       default: overheard_.on_frame(kind, frame);
     }
   }
@@ -63,12 +82,47 @@ class Replay {
 
   void accept(can::Order order, const can::Mission& mission) {
     pilot_->execute(order, mission, overheard_.params());
+    guard_.execute(order, overheard_.params());
     if (order == can::Order::start) {
       ++result_.missions;
       if (options_.begins) options_.begins(mission, overheard_.params());
     }
     braked_ = order == can::Order::resume;
     stepped_ = false;
+  }
+
+  void hear_operator(const hal::CanFrame& frame) {
+    MessageKind kind = MessageKind::e_stop;
+    const bool here = static_cast<int>(frame.id & 0x0F) == result_.robot && can::kind_of(frame.id, kind);
+    if (!here || kind != MessageKind::vouch || frame.size != can::head_of(kind).size) return;
+    with<can::VouchRequest>(frame, [&](const auto& m) { guard_.on_frame(m); });
+  }
+
+  /// The guard node sends it after each answer.
+  void step_guard(const can::GuardReport& told) {
+    const std::optional<can::WheelCommand> answer = guard_.take();
+    const bool again = answer && stepped_ && answer->tick == tick16_;  // repeated in lockstep
+    if (!answer || again) return;
+    const can::InputSet* const set = overheard_.set_of(answer->tick);
+    if (set == nullptr || !guard_.ready()) {
+      ++result_.unknown;
+      return;
+    }
+    const GuardReplay::Step step = guard_.step(*set, *answer, told);
+    stepped_ = true;
+    tick16_ = answer->tick;
+    ++result_.steps;
+    ++result_.compared;
+    hash_.add(step.command);
+    if (!step.difference.empty()) differ(step.difference);
+  }
+
+  /// The controller has executed an order: what it drives with is in the log.
+  void follow(const can::RulesReply& reply) {
+    if (reply.status != can::RulesStatus::activated || !rules_order_ || rules_order_->upload != reply.upload)
+      return;
+    if (can::RulesServer* const rules = rules_->server()) rules->execute(*rules_order_);
+    rules_order_.reset();
   }
 
   void watch(std::uint32_t id, const can::Heartbeat& beat) {
@@ -146,12 +200,15 @@ class Replay {
   }
 
   const ReplayOptions& options_;
+  std::shared_ptr<HostRules> rules_;
   RecordingPlanners planners_;
   std::unique_ptr<can_app::RemoteRobot> pilot_;
+  GuardReplay guard_;
   ReplayResult result_;
   link::CommandHash hash_;
   std::uint64_t line_ = 0;
 
+  std::optional<can::RulesOrder> rules_order_;  // not answered
   Overheard overheard_{Params{}, [this](can::Order o, const can::Mission& m) { accept(o, m); }};
   std::array<std::optional<std::uint16_t>, 2> boots_;
 

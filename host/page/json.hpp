@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/page/columns.hpp"
 #include "host/page/page.hpp"
 #include "host/report/encounters.hpp"
 
@@ -10,7 +11,9 @@ namespace whisker::page {
 
 using Json = nlohmann::ordered_json;
 
-/// Data shared by all runs of a page: names of states and reasons, colours, the response table.
+/// Data shared by all runs of a page: names of states, reasons, faults and guides.
+Json names_data();
+/// The same, and the response table.
 Json shared_data(const Controller& controller);
 
 /// A run before its first tick: world, robot and noise.
@@ -24,6 +27,8 @@ struct Packed {
   std::string data;  ///< base64 of the deflated columns
 };
 Packed packed(const Ticks& ticks, Detail detail = Detail::full);
+Packed packed(const Columns& columns);
+void add_ticks(Columns& columns, const Ticks& ticks, Detail detail);
 
 /// Plain ASCII on one line for any content.
 std::string text_of(const Json& json);

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "host/campaign/failures.hpp"
+#include "host/page/guard_recording.hpp"
 #include "host/page/json.hpp"
 #include "host/page/template.hpp"
 
@@ -44,6 +45,12 @@ std::string filled(const std::string& data) {
   return page;
 }
 
+std::string page_of(const StoredRun& run, const Json& shared) {
+  Json data = {{"format", 1}, {"shared", shared}};
+  data["runs"] = Json::array({Json::parse(run.json)});
+  return filled(data_element(data) + columns_element(0, run.columns));
+}
+
 }  // namespace
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
@@ -57,10 +64,10 @@ std::string live_page(const std::string& events, const Controller& controller) {
 }
 
 std::string run_page(const StoredRun& run, const Controller& controller) {
-  Json data = {{"format", 1}, {"shared", shared_data(controller)}};
-  data["runs"] = Json::array({Json::parse(run.json)});
-  return filled(data_element(data) + columns_element(0, run.columns));
+  return page_of(run, shared_data(controller));
 }
+
+std::string guard_page(const StoredRun& drive) { return page_of(drive, names_data()); }
 
 std::string campaign_page(const std::vector<campaign::Row>& rows, const std::vector<Replay>& replays,
                           const Controller& controller) {

@@ -70,7 +70,7 @@ Json names(int count) {
 
 }  // namespace
 
-Json shared_data(const Controller& controller) {
+Json names_data() {
   Json faults = Json::array();
   for (int i = 0; i < kFaults; ++i) faults.push_back(name(static_cast<Fault>(i)));
   Json guides = Json::array();
@@ -82,8 +82,13 @@ Json shared_data(const Controller& controller) {
           {"whys", names<planning::Why>(planning::kWhys)},
           {"faults", faults},
           {"guides", guides},
-          {"doings", doings},
-          {"controller", controller_data(controller)}};
+          {"doings", doings}};
+}
+
+Json shared_data(const Controller& controller) {
+  Json data = names_data();
+  data["controller"] = controller_data(controller);
+  return data;
 }
 
 }  // namespace whisker::page

@@ -9,7 +9,9 @@
 #include "firmware/fuzzy/rules.hpp"
 #include "host/play/drive.hpp"
 #include "host/play/flat.hpp"
+#include "host/play/guard_drive.hpp"
 #include "host/play/rule_faults.hpp"
+#include "host/report/track.hpp"
 #include "host/report/units.hpp"
 #include "host/run/clear_cells.hpp"
 #include "host/scenario/nearest.hpp"
@@ -25,7 +27,9 @@ constexpr int kSides = 2;
 std::vector<double> exchanged;
 fuzzy::RuleBase rules = fuzzy::kRules;
 fuzzy::Bilinear::Table table = fuzzy::kResponseTable;
-std::unique_ptr<Drive> drives[kSides];
+std::unique_ptr<SimulatedRobot> robots[kSides];
+/// The one of them that the user drives, if there is one.
+GuardDrive* driven = nullptr;
 
 double value(Q14 x) { return x.raw() / 16384.0; }
 double metres(Length x) { return x.raw() / 1e6; }
@@ -48,6 +52,10 @@ const char* planner_word(int number, const char* planning::PlannerInfo::*word) {
     if (info.number == number) found = info.*word;
   });
   return found;
+}
+
+GuardDrive::Switches switches(int guarded, int nods, int assist) {
+  return {guarded != 0, nods != 0, assist != 0};
 }
 
 int answer() { return static_cast<int>(exchanged.size()); }
@@ -88,23 +96,56 @@ WHISKER_EXPORT(judge) int judge() {
 WHISKER_EXPORT(begin) int begin(int side, int planner) {
   const std::optional<Scenario> scenario = scenario_of(exchanged);
   if (!scenario) return 0;
-  drives[side] = std::make_unique<Drive>(*scenario, offered(planner), table);
+  if (side == 0) driven = nullptr;
+  robots[side] = std::make_unique<Drive>(*scenario, offered(planner), table);
   return 1;
+}
+
+/// The same for a robot that the user drives. It must be the only one; begin() ends its drive.
+WHISKER_EXPORT(begin_guard) int begin_guard(int guarded, int nods, int assist) {
+  const std::optional<Scenario> scenario = scenario_of(exchanged);
+  if (!scenario) return 0;
+  auto robot = std::make_unique<GuardDrive>(*scenario, switches(guarded, nods, assist), table);
+  driven = robot.get();
+  robots[0] = std::move(robot);
+  return 1;
+}
+
+WHISKER_EXPORT(set_guard) void set_guard(int guarded, int nods, int assist) {
+  driven->set(switches(guarded, nods, assist));
+}
+
+/// The asked velocity, m/s and rad/s.
+WHISKER_EXPORT(command) void command(double forward, double turning) { driven->command({forward, turning}); }
+
+/// Whether the guard is on, its reason, the asked velocity and the granted shares.
+WHISKER_EXPORT(grant) int grant() {
+  const guard::GuardedBody& body = driven->body();
+  exchanged = {0, 0, body.asked().forward_mps, body.asked().turning_radps, 1, 1};
+  if (!body.wiring().guarded) return answer();
+  const GuardStatus& s = body.status();
+  exchanged = {1,
+               static_cast<double>(s.reason),
+               s.asked.forward.raw() / 1e6,
+               s.asked.turning.raw() / 1e6,
+               value(s.forward),
+               value(s.turning)};
+  return answer();
 }
 
 WHISKER_EXPORT(change) int change(int side) {
   const std::optional<Scenario> scenario = scenario_of(exchanged);
   if (!scenario) return 0;
-  drives[side]->change(*scenario);
+  robots[side]->change(*scenario);
   return 1;
 }
 
-WHISKER_EXPORT(advance) void advance(int side, int ticks) { drives[side]->advance(ticks); }
+WHISKER_EXPORT(advance) void advance(int side, int ticks) { robots[side]->advance(ticks); }
 
 /// The columns of the trace, in the order of core.ts.
 WHISKER_EXPORT(record) int record(int side) {
-  const MissionRun& mission = drives[side]->mission();
-  const TickRecord r = mission.record();
+  const SimulatedRobot& robot = *robots[side];
+  const TickRecord r = robot.record();
   const localization::PoseSigma sigma = r.sigma.value_or(localization::PoseSigma{});
   exchanged = {r.t_s,
                r.x_m,
@@ -125,13 +166,16 @@ WHISKER_EXPORT(record) int record(int side) {
                r.sd_q14 / 16384.0,
                static_cast<double>(r.cell.distance),
                static_cast<double>(r.cell.bias),
-               static_cast<double>(mission.status().health.fault),
+               static_cast<double>(robot.fault()),
                static_cast<double>(r.guide),
                r.way_x_m,
                r.way_y_m,
                report::metres(sigma.along),
                report::metres(sigma.across),
-               report::radians(sigma.heading)};
+               report::radians(sigma.heading),
+               report::metres(robot.grid_pose().at.x),
+               report::metres(robot.grid_pose().at.y),
+               report::radians(robot.grid_pose().heading)};
   for (const hal::RangeReading& reading : r.ranges.beam) {
     exchanged.push_back(reading.mm / 1000.0);
     exchanged.push_back(static_cast<double>(reading.status));
@@ -142,9 +186,9 @@ WHISKER_EXPORT(record) int record(int side) {
 /// Verdict or -1, time, path length, distance from the goal, true and believed, clearance, ticks, and the
 /// hash in four 16-bit parts, highest first.
 WHISKER_EXPORT(result) int result(int side) {
-  const MissionRun& mission = drives[side]->mission();
-  const RunResult r = mission.result();
-  exchanged = {mission.verdict() ? static_cast<double>(*mission.verdict()) : -1.0,
+  const SimulatedRobot& robot = *robots[side];
+  const RunResult r = robot.result();
+  exchanged = {robot.over() ? static_cast<double>(r.verdict) : -1.0,
                r.time_s,
                r.path_m,
                r.final_distance_m,
@@ -156,36 +200,35 @@ WHISKER_EXPORT(result) int result(int side) {
   return answer();
 }
 
-/// The path from this index on: x, y, activity.
+/// The path from this index on: x, y, class.
 WHISKER_EXPORT(way) int way(int side, int from) {
-  const std::vector<Drive::Passed>& all = drives[side]->way();
+  const std::vector<SimulatedRobot::Passed>& all = robots[side]->way();
   exchanged.clear();
   for (std::size_t i = static_cast<std::size_t>(from); i < all.size(); ++i) {
-    exchanged.insert(exchanged.end(), {all[i].at.x, all[i].at.y, static_cast<double>(all[i].doing)});
+    exchanged.insert(exchanged.end(), {all[i].at.x, all[i].at.y, static_cast<double>(all[i].kind)});
   }
   return answer();
 }
 
 /// The positions of the clear cells, in cells of the world; empty without a local grid.
 WHISKER_EXPORT(clear_cells) int clear_cells(int side) {
-  const Drive& drive = *drives[side];
+  const SimulatedRobot& robot = *robots[side];
   exchanged.clear();
-  const perception::LocalGrid* local_grid = drive.mission().local_grid();
+  const perception::LocalGrid* local_grid = robot.local_grid();
   if (local_grid == nullptr) return 0;
-  for_each_clear_cell(*local_grid, drive.scenario().robot, drive.mission().status().pose.at,
-                      [](std::int64_t x, std::int64_t y) {
-                        exchanged.insert(exchanged.end(), {static_cast<double>(x), static_cast<double>(y)});
-                      });
+  for_each_clear_cell(*local_grid, robot.params(), robot.grid_pose().at, [](std::int64_t x, std::int64_t y) {
+    exchanged.insert(exchanged.end(), {static_cast<double>(x), static_cast<double>(y)});
+  });
   return answer();
 }
 
 /// The map size of the planner on this side; 0 without a map.
-WHISKER_EXPORT(map_bytes) int map_bytes(int side) { return drives[side]->map_bytes(); }
+WHISKER_EXPORT(map_bytes) int map_bytes(int side) { return robots[side]->map_bytes(); }
 
 /// Columns, rows, cell side, first cell of the window, the state of each cell row by row, and the points of
 /// the planned path; empty without a map.
 WHISKER_EXPORT(map) int map_cells(int side) {
-  const std::optional<MapPicture>& picture = drives[side]->map();
+  const std::optional<MapPicture>& picture = robots[side]->map();
   exchanged.clear();
   if (!picture) return 0;
   exchanged = {static_cast<double>(picture->columns), static_cast<double>(picture->rows), picture->cell_m,
@@ -262,7 +305,7 @@ WHISKER_EXPORT(sample_table) int sample_table() {
 }
 
 /// Word i of a list: 0 states, 1 reasons, 2 faults, 3 kinds of worlds, 4 map states, 5 planners, 6
-/// descriptions of the planners. Null beyond its end.
+/// descriptions of the planners, 7 reasons of the guard. Null beyond its end.
 WHISKER_EXPORT(word) const char* word(int which, int i) {
   switch (which) {
     case 0: return i < planning::kModes ? planning::name(static_cast<planning::Mode>(i)) : nullptr;
@@ -272,6 +315,7 @@ WHISKER_EXPORT(word) const char* word(int which, int i) {
     case 4: return i < kGuidances ? name(static_cast<Guidance>(i)) : nullptr;
     case 5: return planner_word(i, &planning::PlannerInfo::name);
     case 6: return planner_word(i, &planning::PlannerInfo::about);
+    case 7: return i < kGuardReasons ? name(static_cast<GuardReason>(i)) : nullptr;
     default: return nullptr;
   }
 }

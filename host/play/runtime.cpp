@@ -4,4 +4,6 @@
 extern "C" {
 void* __cxa_allocate_exception(std::size_t) { __builtin_trap(); }
 [[noreturn]] void __cxa_throw(void*, void*, void (*)(void*)) { __builtin_trap(); }
+// That of the library writes a message, for which it would need imports.
+[[noreturn]] void __cxa_pure_virtual() { __builtin_trap(); }
 }

@@ -27,6 +27,7 @@ std::vector<Entry> entries_of(std::uint8_t robot) {
     };
     if (m.from_controller) add(can::Party::controller, "Controller");
     if (m.from_base) add(can::Party::base, "Base");
+    if (m.from_operator) add(can::Party::controller, "Operator");
   }
   std::sort(out.begin(), out.end(), [](const Entry& a, const Entry& b) { return a.id < b.id; });
   return out;

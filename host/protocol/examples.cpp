@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint8_t kController = can::node_of(1, can::Party::controller);
 constexpr std::uint8_t kBase = can::node_of(1, can::Party::base);
+constexpr std::uint8_t kOperator = kController;
 constexpr std::uint16_t kBoot = 0x1234;
 
 class Section {
@@ -114,6 +115,20 @@ class Section {
     row("ok, index 0: 80000", can::ParamReply{can::ParamStatus::ok, 0, 80000}, kController);
     row("part 0: X 1 m, Tick 2", can::FixValue{can::FixPart::x, 2, 1000000}, kBase);
     row("accepted, Tick 2", can::FixReply{can::FixStatus::accepted, 2, 0, 0}, kController);
+    row("of the operator: 0.25 m/s ahead, -1 rad/s", can::VelocityCommand{2500, -1000}, kOperator);
+    row("1 of the operator: 0.35 m", can::VouchRequest{1, 350}, kOperator);
+    can::GuardReport guard;
+    guard.reason = 5;
+    guard.asked_forward = 2500;
+    guard.asked_turning = -1000;
+    guard.granted_forward = 40;
+    guard.granted_turning = 100;
+    guard.armed = 1;
+    row("obstacle: 40 % of that, armed", guard, kController);
+    row("1: activate the table with the hash 0x18749DCC",
+        can::RulesOrder{1, can::RulesAction::activate, 0x18749DCC}, kBase);
+    row("1: node 7, Turn 0, Step 0.3", can::RulesPart{1, 7, {0, 4915}}, kBase);
+    row("1: receiving, next is node 8", can::RulesReply{can::RulesStatus::receiving, 1, 0, 8}, kController);
     row("of the base: clear; its counter is not judged", can::EStop{can::kClearCommand}, kBase);
   }
 

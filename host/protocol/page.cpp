@@ -24,14 +24,18 @@ class Writer {
                        fmt::arg("most_ahead", can::kMostLost + 1));
     out_ += fmt::format(kOrder, fmt::arg("hash", can::kTableHash), fmt::arg("order_ms", can::kOrderRepeat_ms),
                         fmt::arg("protocol", can::kProtocol), fmt::arg("heartbeat", can::kHeartbeat_ms),
-                        fmt::arg("old", can::kCommandOld_ms), fmt::arg("stop_repeat", can::kStopRepeat_ms));
+                        fmt::arg("old", can::kCommandOld_ms), fmt::arg("stop_repeat", can::kStopRepeat_ms),
+                        fmt::arg("velocity_late", can::kVelocityLate_ms), fmt::arg("peer", can::kPeerLost_ms),
+                        fmt::arg("velocity_cycle", can::message_of(can::MessageKind::velocity).cycle_ms));
+    out_ += fmt::format(kRules, fmt::arg("nodes", fuzzy::kTableNodes), fmt::arg("block", can::kRulesBlock),
+                        fmt::arg("repeat", can::kRulesRepeat_ms));
     out_ += examples();
-    out_ +=
-        fmt::format(kStates, fmt::arg("hold", can::kHoldAfter_ms), fmt::arg("range", can::kRangeLatch_ms),
-                    fmt::arg("odometry", can::kOdometryLate_ms), fmt::arg("command", can::kCommandLate_ms),
-                    fmt::arg("old", can::kCommandOld_ms), fmt::arg("peer", can::kPeerLost_ms),
-                    fmt::arg("restart", can::kRestartAfter_ms), fmt::arg("limit", can::kBusOffLimit),
-                    fmt::arg("window", can::kBusOffWindow_ms / 1000));
+    out_ += fmt::format(
+        kStates, fmt::arg("velocity_late", can::kVelocityLate_ms), fmt::arg("hold", can::kHoldAfter_ms),
+        fmt::arg("range", can::kRangeLatch_ms), fmt::arg("odometry", can::kOdometryLate_ms),
+        fmt::arg("command", can::kCommandLate_ms), fmt::arg("old", can::kCommandOld_ms),
+        fmt::arg("peer", can::kPeerLost_ms), fmt::arg("restart", can::kRestartAfter_ms),
+        fmt::arg("limit", can::kBusOffLimit), fmt::arg("window", can::kBusOffWindow_ms / 1000));
     errors();
     messages();
     for (const can::Message& m : can::kMessages) signals(m);
@@ -53,20 +57,23 @@ class Writer {
   }
 
   static std::string senders(const can::Message& m) {
+    if (m.from_operator) return "operator";
     if (m.from_controller && m.from_base) return "both";
     return m.from_controller ? "controller" : "base";
   }
 
   void messages() {
-    put("\n## Messages\n\nThe identifiers are those of robot 1, sent by its controller and by its base.\n\n"
-        "| message | function | controller | base | bytes | period | meaning "
-        "|\n|---|---|---|---|---|---|---|\n");
+    put("\n## Messages\n\nThe identifiers are those of robot 1, sent by its controller, its base and its "
+        "operator.\n\n"
+        "| message | function | controller | base | operator | bytes | period | meaning "
+        "|\n|---|---|---|---|---|---|---|---|\n");
     for (const can::Message& m : can::kMessages) {
       const auto id = [&](bool sends, can::Party party) {
         return sends ? fmt::format("0x{:03X}", can::id_of(m.function, can::node_of(1, party))) : "";
       };
-      put("| {} | 0x{:02X} | {} | {} | {} | {} | {} |\n", m.name, m.function,
-          id(m.from_controller, can::Party::controller), id(m.from_base, can::Party::base), m.size,
+      put("| {} | 0x{:02X} | {} | {} | {} | {} | {} | {} |\n", m.name, m.function,
+          id(m.from_controller, can::Party::controller), id(m.from_base, can::Party::base),
+          id(m.from_operator, can::Party::controller), m.size,
           m.cycle_ms > 0 ? fmt::format("{} ms", m.cycle_ms) : "on an event", m.about);
     }
   }

@@ -18,9 +18,11 @@ frame has Crc in bits 0 to 7 and Counter in bits 8 to 11, which the tables omit;
 ## Nodes and identifiers
 
 A robot has two nodes. The controller decides. The base has the sensors and the wheels, and sends the
-missions. Controllers are nodes 1 to 7; the base of controller n is node n + 8. Node 0 means all robots.
+missions. Controllers are nodes 1 to 7; the base of controller n is node n + 8. Node 0 means all robots. A guard node is a controller that
+has no goals: an [operator](#an-operator-and-a-guard-node) commands its velocity.
 
-An identifier is `function << 4 | node of the sender`. So no two senders share an identifier, and a lower function has
+An identifier is `function << 4 | node of the sender`. An operator is no node. It sends functions that no node sends, with the number
+of the robot's controller. So no two senders share an identifier, and a lower function has
 priority on the bus, whatever the node. A node that receives a valid frame with its own number stops permanently
 (duplicate_node), so an adapter must not echo.
 
@@ -118,6 +120,28 @@ before it steps ([odometry.md](odometry.md#fixes-from-outside)). A fix whose set
 refused means that the fix is a jump and the parameter fix_jumps is 1; out_of_range, that its place is more than 1,000 m from the origin, which is a
 fault. Neither changes the pose.
 
+## An operator and a guard node
+
+A guard node takes the controller's place: handshake, parameters, orders, input sets, answers and time-outs are the same. It has
+[the guard](guard.md) instead of a planner. An operator, a third party on the bus, sends Velocity, at best every {velocity_cycle} ms. The guard node grants
+what is safe and says so in GuardStatus. All other nodes ignore an operator.
+
+1. The base's order start creates a new guard; start pose and goal are not used, and its pose begins at 0. It lets the wheels be driven, as does
+   resume after a stop. Neither moves them.
+2. Then the node obeys no Velocity until one is zero: Armed in GuardStatus is 0 until then. So a stick at full speed does not move a robot
+   that may run again.
+3. A Velocity holds for {velocity_late} ms, or for command_timeout_s if that is shorter. Then the guard brakes, and the next Velocity drives again. A sender whose
+   wishes are slower repeats them.
+4. A Vouch counts only while the wheels have not been commanded to move since the order. Repeat it with the same Number until Vouched in
+   GuardStatus is 1; another Number is a new one.
+5. NavStatus has the Outcome running until a Fault. A fault ends with the next order. A Fix is refused.
+
+The operator takes part in no handshake. When the first frame of an operator arrives, or the first after {peer} ms of silence, the guard node
+sends its Info; compare its table hash before you send a Velocity other than zero. After such a silence, the first counter is valid whatever it is.
+One robot has one operator: the frames of a second one disturb the counters of the first.
+
+In lockstep, the time of a Velocity is that of the next set, so an operator sends one at least every {velocity_late} ms of the robot's time.
+
 ## Measurements
 
 - Distance is the distance from the apex of the sensor to the nearest object in its cone. It is 65535 for Status clear (nothing up to
@@ -129,6 +153,38 @@ fault. Neither changes the pose.
 - Sum, Samples and Saturated of Gyro increase with every sample of the gyro, from any initial value; a sample is the yaw rate in units of
   gyro_range_radps / 32768. Tick is that of Sync, modulo 8. With Valid 0, they are not used. A base without a gyro sends no Gyro; a
   core whose parameter gyro is 1 then turns its pose by the wheels.
+
+)";
+
+inline constexpr const char* kRules = R"(## Response table
+
+The controller drives with a table of {nodes} nodes ([fuzzy.md](fuzzy.md)): 57 nodes in R, from -7 to 7, for each of 33 in D, from 1 to 9.
+Node is their number, R within D. RulesHash names a table: CRC-32 (polynomial 0x04C11DB7 reflected, as in Ethernet and zlib) over Turn and
+Step of each node in this order, each 16 bits, low byte first. Info, part 2, has that of the active table; a controller without a table
+does not send this part.
+
+The base sends another table as follows. A controller executes this only while no mission runs and the wheels stand.
+
+1. RulesOrder activate with the RulesHash and an Upload number other than the last. If the table is active already or is the built-in one,
+   the reply is activated, and nothing needs to be sent. Otherwise it is incomplete.
+2. RulesPart for each node, from Next of the last reply on, in order. After each part whose Node is {block} n - 1, and after the last one,
+   the base waits for RulesReply. The controller takes a part only if its Node is the first that is missing, and drops others: Next
+   in the reply says where the base goes on. Without a reply for {repeat} ms, the base sends the block again from the last Next.
+3. RulesOrder activate again, once Next is {nodes}, repeated every {repeat} ms until answered. The controller compares the hash of all
+   nodes, so a table that is incomplete or damaged is never active. It sends Info with the new hash.
+
+A part with another Upload number, or a new Boot of the base, starts again from node 0. RulesOrder restore activates the built-in table.
+Another active table ends a mission that could be resumed. A controller with a storage keeps its choice and says so by Kept; while
+it writes, it may be silent for seconds. Where there is room for one table only, node 0 of a new one activates the built-in table.
+
+| reply | reason | next step of the base |
+|---|---|---|
+| receiving | answer to a block | continue at Next |
+| activated | the order is executed, or was before | |
+| incomplete | parts are missing | send them from Next on |
+| wrong_hash | the nodes have another hash | send all again |
+| running, moving | a mission runs, or the counts changed within the last 100 ms; nothing was changed | cancel, or wait |
+| unsupported | the controller has no table or no room | |
 
 )";
 
@@ -153,6 +209,7 @@ robot does not move before.
 | the same | {range} ms | controller | safe stop, range_late |
 | valid counts | {odometry} ms | controller | safe stop, odometry_late |
 | a complete input set | {range} ms | controller | safe stop, odometry_late |
+| a Velocity of the operator | {velocity_late} ms | guard node | brakes; the next one drives again |
 | a valid command for measurements of the last {old} ms | {command} ms | base | ramp down, safe stop, command_late |
 | the heartbeat of the other node | {peer} ms | both | safe stop, peer_lost |
 | the bus, after bus-off | at once | both | safe stop, bus_off; back on the bus after {restart} ms |
@@ -170,9 +227,10 @@ No node blocks while it waits for another. State and Errors show what is missing
 | another protocol or table | waiting, wrong_version | the same |
 | the base sends no order, or no set after it | ready, or running without a step | none: the wheels have no speeds |
 | the sets of the base end, or a beam or the counts are missing | safe_stop, odometry_late or range_late | waits for an order |
-| the controller answers no Mission or ParamRequest | ready | the base repeats its request without limit |
+| the controller answers no Mission, ParamRequest, RulesOrder or block of RulesPart | ready | the base repeats its request without limit |
 | the controller answers no set, in real time | safe_stop, command_late | waits for an order |
 | the same, in lockstep | running | the base repeats the set without limit |
+| the operator, to a guard node | running, Reason command_timeout | none: the wheels stand |
 | any of these, later | safe_stop if it ran, peer_lost; then waiting | starts the handshake when the other node returns |
 
 `whisker plant` gives up after 30 s without an answer to one request while the handshake holds, and prints the request.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware/can/controller_node.hpp"
+#include "firmware/fuzzy/response_table.hpp"
 #include "firmware/params/words.hpp"
 #include "host/bus/memory_bus.hpp"
 
@@ -33,7 +34,8 @@ class Bench : public ::testing::Test, public hil::Clock {
   int polls_left_ = 1000000;
   bus::MemoryBus bus_;
   bus::MemoryPort& port_ = bus_.attach();
-  can::ControllerNode controller_{bus_.attach(), {1, 1, 0}};
+  can::RulesServerWith<1> rules_{fuzzy::kResponseTable};
+  can::ControllerNode controller_{bus_.attach(), {1, 1, 0}, &rules_};
   ParamClient client_{port_, *this, {1, 2, 0}, {500, nullptr}};
 };
 
@@ -99,6 +101,26 @@ TEST_F(Bench, CancelsAndCanBeInterrupted) {
   EXPECT_NO_THROW(client_.cancel());
   ParamClient other(port_, *this, {1, 3, 0}, {500, [] { return true; }});
   EXPECT_THROW(other.connect(), Interrupted);
+}
+
+TEST_F(Bench, SendsAResponseTableAndRestoresTheBuiltInOne) {
+  const auto& built_in = fuzzy::kResponseTable;
+  fuzzy::Bilinear::Table table = built_in;
+  fuzzy::node_of(table, 99).turn = 1;
+  connect();
+  EXPECT_EQ(client_.rules(), fuzzy::digest(built_in));
+  EXPECT_EQ(client_.send_rules(&table).status, can::RulesStatus::activated);
+  EXPECT_EQ(client_.rules(), fuzzy::digest(table));
+  EXPECT_EQ(client_.send_rules(nullptr).status, can::RulesStatus::activated);
+  EXPECT_EQ(client_.rules(), fuzzy::digest(built_in));
+  polls_left_ = 200;
+  try {
+    client_.send_rules(&table);
+    FAIL() << "no exception";
+  } catch (const NoAnswer& e) {
+    EXPECT_STREQ(e.what(), "the controller sends no RulesReply for 500 ms");
+  }
+  EXPECT_EQ(&rules_.active(), &built_in);
 }
 
 TEST_F(Bench, NoticesAnotherBase) {

@@ -66,7 +66,7 @@ def by_pkg_config(package, c_compiler, cxx):
     run(cxx, *mission.CXX17, f"-I{package.examples}", fixture, *flags, *libraries, "-o", work / "in_cpp")
     if run(work / "in_cpp").stdout != "drives: yes\n":
         yield "by pkg-config, the example does not drive"
-    sources = [package.examples / name for name in ("main.c", "plant.c")]
+    sources = [package.examples / name for name in ("main.c", "board.c", "plant.c")]
     run(c_compiler, *mission.C99, *sources, *flags, *libraries, "-lm", "-o", work / "in_c")
     mission.says(work / "in_c")
 

@@ -180,6 +180,23 @@ TEST(CalibrationStore, FailuresHaveNamesAndChangeNothing) {
   EXPECT_STREQ(name(Stored::other_version), "other_version");
 }
 
+TEST(CalibrationStore, ABoardStartsWithTheStoredValuesIfTheyFit) {
+  test::MemoryStorage storage;
+  Store store(storage);
+  Params params;
+  EXPECT_FALSE(apply_stored(storage, params)) << "nothing is stored";
+  Values values;
+  values[Quantity::track] = {141200, millionths(160)};
+  ASSERT_EQ(store.save(values), Stored::ok);
+  EXPECT_TRUE(apply_stored(storage, params));
+  EXPECT_EQ(params.body.track.raw(), 141200);
+  EXPECT_EQ(params.wheels.counts_per_metre, Params{}.wheels.counts_per_metre);
+  values[Quantity::track].value = 9000000;
+  ASSERT_EQ(store.save(values), Stored::ok);
+  EXPECT_FALSE(apply_stored(storage, params)) << "wider than the body";
+  EXPECT_EQ(params.body.track.raw(), 141200);
+}
+
 TEST(CalibrationStore, ARecordOfAnotherLayoutIsNotUsedAndNamed) {
   for (const int version : {0, 2, 255}) {
     for (const int size : {12, 40, 64}) {

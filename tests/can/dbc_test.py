@@ -69,13 +69,17 @@ class Canmatrix(unittest.TestCase):
         more = "[robot]\ngyro = true\nwheel_scale_sigma = 0.01\n[noise]\nfix_every_m = 0.1\nfix_sigma_m = 0.01\n"
         self.assertLessEqual({"Gyro", "Fix", "FixReply", "PoseSigma"}, self.frames_of_a_run(more))
 
-    def frames_of_a_run(self, more):
+    def test_every_frame_of_a_run_with_other_rules_too(self):
+        straight = ROOT / "host/rules/laws/straight.toml"
+        self.assertLessEqual({"RulesPart", "RulesOrder", "RulesReply"}, self.frames_of_a_run("", "--rules", straight))
+
+    def frames_of_a_run(self, more, *options):
         """Their names."""
         frames = {f.arbitration_id.id: f for f in load_dbc((ROOT / "whisker.dbc").read_bytes()).frames}
         with tempfile.TemporaryDirectory(prefix="whisker-dbc-") as folder:
             world, log = pathlib.Path(folder, "world.toml"), pathlib.Path(folder, "run.log")
             world.write_text("time_limit_s = 5.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 9.0\ny_m = 0.0\n" + more)
-            subprocess.run([WHISKER, "hil", world, "--record", log], capture_output=True, timeout=60, check=False)
+            subprocess.run([WHISKER, "hil", world, "--record", log, *options], capture_output=True, timeout=60, check=False)
             lines = log.read_text("ascii").splitlines()
         speeds, names = [], set()
         for line in lines:

@@ -364,7 +364,9 @@ TEST_F(BaseAlone, EveryMessageOfAControllerIsUnderstoodByItsNameAndNoOther) {
     peer_.send(sealed(0, id_of(m.function, 1), m.size, 7));
     pass(2);
     EXPECT_EQ(base_.health().accepted, was.accepted + (m.from_controller ? 1 : 0)) << m.name;
-    EXPECT_EQ(base_.health().malformed, was.malformed + (m.from_controller ? 0 : 1)) << m.name;
+    EXPECT_EQ(base_.health().foreign, was.foreign + (m.from_operator ? 1 : 0)) << m.name;
+    EXPECT_EQ(base_.health().malformed, was.malformed + (m.from_controller || m.from_operator ? 0 : 1))
+        << m.name;
     EXPECT_EQ(base_.replied(none), k >= static_cast<int>(MessageKind::param_reply)) << m.name;
   }
 }

@@ -21,7 +21,7 @@ TEST(Table, TheCrcIsThatOfTheProfile) {
 TEST(Table, EveryIdentifierIsOneSendersOwn) {
   std::set<std::uint32_t> seen;
   for (const Message& m : kMessages) {
-    EXPECT_TRUE(m.from_controller || m.from_base) << m.name;
+    EXPECT_NE(m.from_controller || m.from_base, m.from_operator) << m.name;
     for (std::uint8_t robot = 1; robot <= kRobots; ++robot) {
       for (const Party party : {Party::controller, Party::base}) {
         const std::uint32_t id = id_of(m.function, node_of(robot, party));

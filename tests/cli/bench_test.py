@@ -2,8 +2,11 @@
 
 import http.client
 import json
+import pathlib
 import re
+import socket
 import subprocess
+import threading
 import time
 import tomllib
 
@@ -12,6 +15,8 @@ from slcan_bridge import Bridge
 from whisker import Case, with_time_limit
 
 PATIENCE_S = 60
+PLANT_PATIENCE_S = 240  # it goes on to the end of its time
+STRAIGHT = pathlib.Path(__file__).resolve().parents[2] / "host/rules/laws/straight.toml"
 
 
 class Beside(Case):
@@ -21,11 +26,13 @@ class Beside(Case):
         super().setUp()
         self.bridge = Bridge(*(self.folder / name for name in ("bench", "controller", "base")))
         self.addCleanup(self.bridge.close)
+        self.processes = []
 
     def start(self, *arguments):
         with open(self.folder / f"{arguments[0]}.err", "w", encoding="utf-8") as errors:
             process = subprocess.Popen([whisker.binary, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=errors)
         self.addCleanup(lambda: (process.kill(), process.wait()))
+        self.processes.append(process)
         return process
 
     def controller(self, *arguments):
@@ -246,6 +253,66 @@ class Watching(Beside):
         self.complains("record", self.folder / "a.log", "--for", 0.3, says="no frame in 0.3 s")
 
 
+class Rules(Beside):
+    """The response table of a controller."""
+
+    def setUp(self):
+        super().setUp()
+        self.built_in, self.other = (json.loads(whisker.whisker("run", self.world("discs", 1), *rules, "--json").stdout)["rules_digest"]
+                                     for rules in ((), ("--rules", STRAIGHT)))
+
+    def rules(self):
+        return self.json_of("rules")["rules_hash"]
+
+    def test_are_sent_kept_and_restored(self):
+        kept = self.folder / "kept"
+        controller = self.controller("--keep", kept)
+        self.assertEqual(self.done("rules"), f"response table: {self.built_in}\n")
+        self.assertEqual(self.done("rules", STRAIGHT), f"response table: {self.built_in} -> {self.other}, kept for the next start\n")
+        for expected, restored in ((self.other, False), (self.built_in, True)):
+            if restored:
+                told = self.json_of("rules", "--restore")
+                self.assertEqual((told["rules_hash"], told["kept"]), (self.built_in, True))
+            controller.kill()
+            controller.wait()
+            controller = self.controller("--keep", kept)
+            self.assertEqual(self.rules(), expected)
+
+    def test_without_a_storage_they_last_until_the_next_start(self):
+        controller = self.controller()
+        self.assertEqual(self.done("rules", STRAIGHT, "--drop", 5), f"response table: {self.built_in} -> {self.other}, until the controller restarts\n")
+        controller.kill()
+        controller.wait()
+        self.controller()
+        self.assertEqual(self.rules(), self.built_in)
+
+    def test_a_damaged_file_is_not_used(self):
+        kept = self.folder / "kept"
+        controller = self.controller("--keep", kept)
+        self.done("rules", STRAIGHT)
+        controller.kill()
+        controller.wait()
+        stored = bytearray(kept.read_bytes())
+        stored[4000] ^= 1
+        kept.write_bytes(stored)
+        self.controller("--keep", kept)
+        self.assertEqual(self.rules(), self.built_in)
+
+    def test_refusals_change_nothing_and_are_one_line(self):
+        self.complains("rules", STRAIGHT, "--timeout", 0.2, says="no controller of robot 1")
+        controller = self.controller("--planner", "fan")
+        self.assertEqual(self.done("rules"), "response table: none\n")
+        self.complains("rules", STRAIGHT, says="the controller says unsupported: it takes no table; its response table is unchanged")
+        self.complains("rules", "--restore", says="unsupported")
+        controller.kill()
+        controller.wait()
+        self.controller()
+        self.complains("rules", STRAIGHT, "--restore", status=2, says="a file, or --restore")
+        self.complains("rules", "--map", "SA=steer", status=2, says="--map needs a file")
+        self.complains("rules", STRAIGHT, "--map", "SA=steer", status=2, says="no output 'steer'")
+        self.assertEqual(self.rules(), self.built_in)
+
+
 class Driving(Beside):
     """The bench in the controller's place: its socket is the controller's."""
 
@@ -290,6 +357,98 @@ class Driving(Beside):
         self.complains("drive", status=2, says="choose --keys or --commands")
         self.complains("drive", "--keys", status=2, says="standard input is no terminal")
         self.complains("goal", 1, 0, "--node", 2, "--timeout", 0.3, says="no base of robot 2 in 0.3 s")
+
+    def test_an_option_of_the_guard_needs_the_guard(self):
+        for arguments in (("--guard", "--planner", "map"), ("--command-timeout", 0.1)):
+            done = whisker.whisker("controller", "--can", "vcan0", *arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("--guard", done.stderr)
+
+
+class ThroughAGuardNode(Beside):
+    """The bench as the operator of a guard node, whose base has a wall before it."""
+
+    WALL = "[[wall]]\npoints = [[1.0, -1.0], [1.0, 1.0]]\n"
+
+    def world_of(self, seconds):
+        return self.file("wall.toml", f"time_limit_s = {seconds}\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 3.0\ny_m = 0.0\n{self.WALL}")
+
+    def ahead(self, seconds):
+        return self.file("ahead.csv", "t_s,v_mps,omega_radps\n" + "".join(f"{i / 10},0.3,0\n" for i in range(10 * seconds)))
+
+    def lockstep_plant(self, seconds):
+        plant = subprocess.Popen([whisker.binary, "plant", str(self.world_of(seconds)), "--can", f"slcan:{self.folder / 'base'}", "--json"],
+                                 stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.addCleanup(lambda: (plant.kill(), plant.communicate()))
+        return plant
+
+    def test_drives_by_hand_and_stops_before_the_wall_from_a_serial_device(self):
+        self.start("controller", "--can", f"slcan:{self.bridge.terminal()}", "--guard", "--command-timeout", 2)
+        plant = self.lockstep_plant(60)
+        done = self.bench("drive", "--commands", self.ahead(6), "--vouch", 0.3, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("guard 1 on ", done.stderr)
+        told = json.loads(done.stdout)
+        self.assertEqual((told["outcome"], told["fault"], told["pose"]), ("ended", "none", None))
+        self.assertGreater(told["time_s"], 5)
+        result = json.loads(plant.communicate(timeout=PLANT_PATIENCE_S)[0])
+        self.assertEqual(result["outcome"], "gave_up", "the time of its scenario is over")
+        self.assertGreater(result["path_m"], 0.6)
+        self.assertGreater(result["min_clearance_m"], 0)
+        self.assertLess(result["min_clearance_m"], 0.1)
+
+    def test_a_record_of_a_guard_node_replays(self):
+        log = self.folder / "run.log"
+        self.start("controller", "--can", f"slcan:{self.folder / 'controller'}", "--guard", "--command-timeout", 2, "--record", log)
+        time.sleep(0.3)
+        plant = self.lockstep_plant(30)
+        self.assertEqual(self.bench("drive", "--commands", self.ahead(5), "--vouch", 0.3).returncode, 0)
+        result = json.loads(plant.communicate(timeout=PLANT_PATIENCE_S)[0])
+        for process in self.processes:
+            process.terminate()
+            process.wait()
+        replay = json.loads(whisker.whisker("replay", log, "--json").stdout)
+        self.assertEqual((replay["same"], replay["guard"], replay["hash"]), (True, True, result["hash"]), replay)
+        self.assertGreater(replay["compared"], 2900)
+        text = log.read_text()
+        other = self.file("other.log", text.replace("1F1#", "1F2#"))
+        self.assertEqual(whisker.whisker("replay", other).returncode, 1, "without what was asked, the core drives")
+        done = whisker.whisker("replay", log, "--html", self.folder / "page.html")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("the log of a guard node has no planner to show", done.stderr)
+
+    def test_nodes_and_watch_know_a_guard_node(self):
+        self.controller("--guard")
+        self.lockstep_plant(3600)
+        self.wait_for_running()
+        self.assertEqual([n["role"] for n in self.json_of("nodes")["nodes"]], ["guard", "base"])
+        last = json.loads(self.done("watch", "--for", 0.3, "--json").splitlines()[-1])
+        self.assertEqual((last["guard"]["reason"], last["guard"]["armed"], last["guard"]["asked_mps"]), ("command_timeout", False, 0))
+        self.assertIn("; guard command_timeout, granted 1.0, 1.0; wheels ", self.done("watch", "--for", 0.3))
+
+    def test_a_robot_has_one_operator(self):
+        self.controller("--guard")
+        with socket.socket(socket.AF_UNIX) as other:
+            other.connect(str(self.folder / "base"))
+            over = threading.Event()
+
+            def drive():
+                while not over.wait(0.02):
+                    other.sendall(b"t0C16000000000000\r")
+
+            thread = threading.Thread(target=drive)
+            thread.start()
+            self.addCleanup(thread.join)
+            self.addCleanup(over.set)
+            self.complains("drive", "--commands", self.ahead(1), says="another operator drives robot 1")
+            over.set()
+            thread.join()
+
+    def test_waits_for_a_base_and_its_order(self):
+        self.controller("--guard")
+        done = self.bench("drive", "--commands", self.ahead(1), "--for", 0.5)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("the guard node of robot 1: waits for the base for 0.5 s", done.stderr.splitlines()[-1])
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import csv
 import json
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -71,6 +72,39 @@ class Guard(unittest.TestCase):
         self.assertLess(abs(float(rows[-1]["v_left_mps"])), 0.001)
         blind = whisker.whisker("guard", self.world, "--operator", "blind", "--bare", "--json")
         self.assertEqual((blind.returncode, json.loads(blind.stdout)["outcome"]), (5, "contact"))
+
+    def test_html_is_the_drive_as_a_page_and_changes_nothing(self):
+        html = pathlib.Path(self.folder.name, "page.html")
+        file = self.commands("0.1,0.2,0", "0.3,0.2,0.5")
+        command = ("guard", self.world, "--commands", file, "--vouch", "0.35", "--json")
+        done = whisker.whisker(*command, "--html", html)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout, whisker.whisker(*command).stdout)
+        page = html.read_text(encoding="ascii")
+        run = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.S)[1])["runs"][0]
+        told = json.loads(done.stdout)
+        self.assertEqual(run["result"], {key: told[key] for key in run["result"]})
+        self.assertEqual(run["guard"]["operator"], f"commands of {file}")
+        self.assertEqual((run["guard"]["guarded"], run["guard"]["vouched_m"]), (True, 0.35))
+        self.assertEqual(list(told["ticks_by_reason"]), run["guard"]["reasons"])
+        columns = {column[0]: column[3] for column in run["columns"]}
+        for name in ("t_s", "asked_v_mps", "asked_omega_radps", "granted_v", "granted_omega", "reason"):
+            self.assertEqual(columns[name], told["ticks"], name)
+        self.assertEqual(re.findall(r"""(?:src|href)\s*=\s*["'](?!#|data:)[^"']*""", page), [])
+        bare = whisker.whisker("guard", self.world, "--operator", "blind", "--bare", "--html", html)
+        self.assertIn(f"page: {html}\n", bare.stdout)
+        self.assertIn('"guarded":false', html.read_text(encoding="ascii"))
+
+    def test_html_is_refused_before_any_drive_where_it_cannot_go(self):
+        for html, says in ((self.folder.name, "is a folder"), (f"{self.folder.name}/no/p.html", "no such folder")):
+            done = whisker.whisker("guard", self.world, "--html", html)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(says, done.stderr)
+        both = f"{self.folder.name}/both"
+        done = whisker.whisker("guard", self.world, "--html", both, "--trace", both)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("named for two outputs", done.stderr)
+        self.assertFalse(pathlib.Path(both).exists())
 
     def test_refuses_bad_commands_with_their_line(self):
         for row, says in (("1,2", "a row has three numbers"), ("-1,0,0", "must not be negative"), ("1,2,3,4", "a row has three")):

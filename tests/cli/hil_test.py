@@ -145,6 +145,17 @@ class Hil(OnABus):
         self.assertEqual(other.returncode, 1)
         self.assertRegex(other.stdout, r"line \d+: tick \d+: recorded .*, the core says ")
 
+    def test_a_replay_takes_the_rules_from_the_log(self):
+        log, rules = self.folder / "run.log", pathlib.Path(__file__).resolve().parents[2] / "host/rules/laws/straight.toml"
+        result = self.json_of("hil", self.world("discs", 60), "--rules", rules, "--record", log)
+        for options in ((), ("--rules", rules)):
+            replay = self.json_of("replay", log, *options)
+            self.assertEqual((replay["same"], replay["hash"], replay["rules_digest"]), (True, result["hash"], result["rules_digest"]))
+        parts = re.compile(r" 2[0-2][19]#")
+        without = self.file("without.log", "".join(line for line in log.read_text().splitlines(True) if not parts.search(line)))
+        self.assertEqual(whisker.whisker("replay", without).returncode, 1)
+        self.assertTrue(self.json_of("replay", without, "--rules", rules)["same"])
+
     def test_a_replay_shows_what_the_core_knew(self):
         scenario, log = self.world("rooms"), self.folder / "run.log"
         result = self.json_of("run", scenario, "--trace", self.folder / "run.csv")

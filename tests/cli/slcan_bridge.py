@@ -1,7 +1,31 @@
 """A CAN bus: adapters on Unix sockets that pass every frame to all others (SLCAN: docs/protocol.md)."""
 
+import os
+import pty
 import socket
 import threading
+import tty
+
+
+class Terminal:
+    """The far end of a pseudo terminal, as a socket has it; a node opens `path`."""
+
+    def __init__(self):
+        # The near end stays open here, too: otherwise the far end fails while no node has it.
+        self.far, self.near = pty.openpty()
+        tty.setraw(self.near)
+        self.path = os.ttyname(self.near)
+
+    def recv(self, room):
+        return os.read(self.far, room)
+
+    def sendall(self, data):
+        while data:
+            data = data[os.write(self.far, data) :]
+
+    def close(self):
+        os.close(self.near)
+        os.close(self.far)
 
 
 class Bridge:
@@ -16,6 +40,17 @@ class Bridge:
             listener.listen(1)
             self.listeners.append(listener)
             threading.Thread(target=self.serve, args=(index, listener), daemon=True).start()
+
+    def terminal(self):
+        """One more place on the bus, which is a serial device; its path."""
+        end = Terminal()
+        self.join(end)
+        return end.path
+
+    def join(self, end):
+        """One more node, at the other side of this line."""
+        self.ends.append(end)
+        threading.Thread(target=self.carry, args=(len(self.ends) - 1, end), daemon=True).start()
 
     def serve(self, index, listener):
         while True:

@@ -21,7 +21,7 @@ OPTIONS = {
     ("plant",): (
         "SCENARIO", "--rules", "--map", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
     ),
-    ("controller",): ("--can", "--node", "--planner", "--map-bytes", "--rules", "--map", "--record", "--drop"),
+    ("controller",): ("--can", "--node", "--guard", "--command-timeout", "--planner", "--map-bytes", "--rules", "--map", "--keep", "--record", "--drop"),
     ("hil",): (
         "SCENARIO", "--can", "--node", "--realtime", "--planner", "--map-bytes", "--rules", "--map", "--robot", "--seed", "--trace", "--svg", "--html",
         "--json", "--record", "--drop",
@@ -31,6 +31,7 @@ OPTIONS = {
     ("bench", "set"): ("NAME=VALUE", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "save"): ("FILE", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "restore"): ("FILE", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
+    ("bench", "rules"): ("FILE", "--map", "--restore", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "watch"): ("--for", "--every", "--robot", "--view", "--view-address", "--view-stay", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "record"): ("FILE", "--for", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "stop"): ("--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
@@ -47,7 +48,7 @@ OPTIONS = {
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
     ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--contacts"),
-    ("guard",): ("SCENARIO", "--robot", "--commands", "--keys", "--operator", "--seed", "--vouch", "--time", "--bare", "--rules", "--map", "--trace", "--json"),
+    ("guard",): ("SCENARIO", "--robot", "--commands", "--keys", "--operator", "--seed", "--vouch", "--time", "--bare", "--rules", "--map", "--trace", "--html", "--json"),
     ("operators",): ("--count", "--seed", "--operator", "--hostile", "--noise", "--robot", "--rules", "--map"),
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),

@@ -1,5 +1,5 @@
-/// Any frames at any times, some with a valid CRC and counter: the wheels turn only while the base runs, and
-/// every frame is accounted for.
+/// Any frames at any times, some with a valid CRC and counter: the wheels turn only while the base runs, no
+/// velocity counts before the operator is armed, and every frame is accounted for.
 
 #include <algorithm>
 #include <cstddef>
@@ -92,7 +92,12 @@ class Bench {
       controller_.poll(now_);
       Order order = Order::cancel;
       Mission mission;
-      controller_.take_order(order, mission);
+      if (controller_.take_order(order, mission)) inbox_.disarm();
+      VelocityCommand velocity;
+      std::uint32_t age_ms = 0;
+      if (inbox_.take(velocity, now_, age_ms)) require(inbox_.armed());
+      VouchRequest vouch;
+      if (inbox_.take(vouch)) require(vouch.radius_mm > 0);
       InputSet set;
       if (controller_.take_set(set)) controller_.answer({1000, -1000}, {});
       base_.poll(now_);
@@ -115,7 +120,8 @@ class Bench {
   bus::MemoryPort& controller_port_ = wire_.attach();
   bus::MemoryPort& third_ = wire_.attach();
   BaseNode base_{base_port_, {1, 500, 0}, 100};
-  ControllerNode controller_{controller_port_, {1, 600, 0}};
+  OperatorInbox inbox_;
+  ControllerNode controller_{controller_port_, {1, 600, 0}, nullptr, &inbox_};
   AliveSender alive_[kKinds];
   hal::WheelSpeeds speeds_{};
   std::uint32_t now_ = 0;

@@ -60,7 +60,7 @@ TEST(Template, HasOnePlaceForDataAndIsPlainAscii) {
   EXPECT_NE(page.find(kDataMark), std::string::npos);
   for (const char c : page) ASSERT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << static_cast<int>(c);
   EXPECT_THAT(page, Not(HasSubstr("http://localhost")));
-  EXPECT_LT(page.size(), 150000U);
+  EXPECT_LT(page.size(), 160000U);
 }
 
 TEST(Page, HoldsTheRunWhateverItsNameIs) {

@@ -14,10 +14,11 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 import whisker  # noqa: E402
 from slcan_bridge import Bridge  # noqa: E402
-from whisker import Case  # noqa: E402
+from whisker import Case, with_time_limit  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "host/rules/examples"
+STRAIGHT = ROOT / "host/rules/laws/straight.toml"
 NAMES = ("thesis.toml", "tip.fis", "pendulum.fll", "fan.fcl", "follower.fis")
 
 # Prints every output at every representable input, in raw units, row by row.
@@ -47,9 +48,10 @@ class Drives(Case):
         super().setUp()
         self.world = self.folder / "world.toml"
         whisker.whisker("world", "u-trap", "--seed", "3", "--out", self.world)
+        self.short = self.file("short.toml", with_time_limit(whisker.whisker("world", "discs", "--seed", "3").stdout, 5))
 
-    def run_json(self, *arguments):
-        return json.loads(whisker.whisker("run", self.world, "--json", *arguments).stdout)
+    def run_json(self, *arguments, world=None):
+        return json.loads(whisker.whisker("run", world or self.world, "--json", *arguments).stdout)
 
     def test_the_thesis_drives_as_the_built_in_table(self):
         own, same = self.run_json(), self.run_json("--rules", EXAMPLES / "thesis.toml")
@@ -67,26 +69,55 @@ class Drives(Case):
         self.assertEqual(bus["hash"], other["hash"])
         self.assertEqual(bus["rules_digest"], other["rules_digest"])
 
-    def test_a_plant_refuses_a_controller_with_other_rules(self):
-        straight = ROOT / "host/rules/laws/straight.toml"
-        own = self.run_json("--planner", "skirt", "--rules", straight)
-        for wanted, status in ((straight, 0), ("default", 2)):
-            with self.subTest(str(wanted)):
-                ends = [self.folder / f"{status}-{end}" for end in ("controller", "plant")]
-                bridge = Bridge(*ends)
-                self.addCleanup(bridge.close)
-                command = [whisker.binary, "controller", "--can", f"slcan:{ends[0]}", "--planner", "skirt", "--rules", straight]
-                with subprocess.Popen(command, stderr=subprocess.DEVNULL) as controller:
-                    self.addCleanup(controller.kill)
-                    done = whisker.whisker("plant", self.world, "--can", f"slcan:{ends[1]}", "--rules", wanted, "--json")
-                    controller.terminate()
-                self.assertEqual(done.returncode, status, done.stderr)
-                if status == 0:
-                    self.assertEqual(json.loads(done.stdout)["hash"], own["hash"])
-                else:
-                    self.assertEqual(done.stdout, "")
-                    said = f"the controller drives with the response table {own['rules_digest']}, not "
-                    self.assertIn(said, done.stderr.splitlines()[-1])
+    def on_a_bus(self, controller, plant):
+        """Runs a plant and a controller with these options; returns the plant's end and what the controller said."""
+        ends = [self.folder / f"{len(list(self.folder.iterdir()))}-{end}" for end in ("controller", "plant")]
+        bridge = Bridge(*ends)
+        self.addCleanup(bridge.close)
+        command = [whisker.binary, "controller", "--can", f"slcan:{ends[0]}", *map(str, controller)]
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+            self.addCleanup(process.kill)
+            done = whisker.whisker("plant", self.short, "--can", f"slcan:{ends[1]}", *plant, "--json")
+            process.terminate()
+            return done, process.communicate()[1]
+
+    def test_a_plant_sends_its_rules_to_a_controller_with_others(self):
+        for built_in, wanted in ((STRAIGHT, STRAIGHT), (STRAIGHT, "default"), ("default", STRAIGHT)):
+            for drop in ((), ("--drop", 3)):
+                with self.subTest(f"{built_in}, {wanted}, {drop}"):
+                    direct = self.run_json("--planner", "skirt", "--rules", wanted, world=self.short)
+                    done, said = self.on_a_bus(("--planner", "skirt", "--rules", built_in), ("--rules", wanted, *drop))
+                    self.assertEqual(json.loads(done.stdout or "{}").get("hash"), direct["hash"], done.stderr)
+                    self.assertEqual(f"response table {direct['rules_digest']}" in said, built_in != wanted)
+
+    def test_a_controller_keeps_the_rules_in_a_file(self):
+        kept = self.folder / "kept"
+        direct = self.run_json("--planner", "skirt", "--rules", STRAIGHT, world=self.short)
+        self.on_a_bus(("--planner", "skirt", "--keep", kept), ("--rules", STRAIGHT))
+        done, said = self.on_a_bus(("--planner", "skirt", "--keep", kept), ())
+        self.assertEqual(json.loads(done.stdout)["hash"], direct["hash"])
+        self.assertIn(f"response table {direct['rules_digest']}", said)
+        done, _ = self.on_a_bus(("--planner", "skirt"), ())
+        self.assertNotEqual(json.loads(done.stdout)["hash"], direct["hash"])
+
+    def test_a_controller_without_a_table_is_refused(self):
+        done, _ = self.on_a_bus(("--planner", "fan"), ("--rules", STRAIGHT))
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr.splitlines()[-1], "whisker: the controller has no response table, and takes none")
+
+    def test_what_is_no_file_to_keep_rules_in_is_refused(self):
+        world = self.world.read_bytes()
+        for arguments, said in (
+            (("--keep", self.world), "world.toml: not a storage of whisker controller: name another file"),
+            (("--keep", self.folder / "none" / "kept"), "No such file or directory"),
+            (("--keep", self.folder / "kept", "--planner", "fan"), "--keep: planner fan takes no table"),
+        ):
+            done = whisker.whisker("controller", "--can", f"slcan:{self.folder / 'nobody'}", *arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertRegex(done.stderr, r"\A[^\n]+\n\Z")
+            self.assertIn(said, done.stderr)
+        self.assertEqual(self.world.read_bytes(), world)
+        self.assertFalse((self.folder / "kept").exists())
 
     def test_compare_drives_both_in_the_same_worlds(self):
         straight = ROOT / "host/rules/laws/straight.toml"

@@ -1,5 +1,6 @@
 """The core on an emulated chip, as a CAN node behind its UART, drives the simulated robot into a U-trap: the commands
-equal those of the core in the simulator's process. With WHISKER_LONG in the environment it also drives out again. The
+equal those of the core in the simulator's process. Then it drives again with a response table that the base sends.
+With WHISKER_LONG in the environment it also drives out again. The
 node with the memories of an STM32F103 drives with the map planner, and its stack stays within scripts/budget's bound.
 
 usage: can_node.py ROOT WHISKER
@@ -8,6 +9,7 @@ usage: can_node.py ROOT WHISKER
 import json
 import os
 import pathlib
+import re
 import socket
 import struct
 import subprocess
@@ -18,8 +20,10 @@ import time
 SECONDS = 10  # of the drive, without WHISKER_LONG
 PATIENCE_S = 300
 LONG_PATIENCE_S = 800
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
 NODES = (("can-node", "map"), ("can-node-stm32f103", "map"))
+RULES = ("host/rules/laws/straight.toml", "host/rules/laws/sides.toml")
 PRESET = "cortex-m3"
 PAINT = 0xC0DEC0DE  # hal/runtime/stack.hpp
 
@@ -89,10 +93,26 @@ def drive(chips, whisker, folder, node, planner, patience_s):
         began = time.monotonic()
         there = hash_of([whisker, "plant", scenario, "--can", f"slcan:{chip.socket}"], patience_s)
         took_s = time.monotonic() - began
+        well = here == there and with_rules(whisker, folder, chip, planner, patience_s)
         used = chip.deepest_stack()
     bound, _ = image_facts.node_stack(PRESET, node)
     print(f"{node}: here {here}, there {there}, {there[0] / took_s:.0f} ticks a second, stack {used} of {bound} bytes")
-    return here == there and 0 < used <= bound
+    return well and 0 < used <= bound
+
+
+def with_rules(whisker, folder, chip, planner, patience_s):
+    """The same in open ground, with the table that the base sends; then a second one, and the built-in one again."""
+    world = pathlib.Path(folder, "discs.toml")
+    subprocess.run([whisker, "world", "discs", "--seed", "3", "--out", world], check=True)
+    world.write_text(re.sub(r"(?m)^time_limit_s *=.*$", "time_limit_s = 5", world.read_text()))
+    hashes = []
+    for rules in (*(pathlib.Path(ROOT, law) for law in RULES), "default"):
+        here = hash_of([whisker, "run", world, "--planner", planner, "--rules", rules], patience_s)
+        began = time.monotonic()
+        there = hash_of([whisker, "plant", world, "--can", f"slcan:{chip.socket}", "--rules", rules], patience_s)
+        print(f"{rules}: here {here}, there {there}, {time.monotonic() - began:.1f} s")
+        hashes.append((here, there))
+    return len(set(hashes)) == len(hashes) and all(here == there for here, there in hashes)
 
 
 def main(root, whisker):

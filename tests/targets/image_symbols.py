@@ -73,8 +73,8 @@ def main():
     for build, target in chips.builds():
         prefix = next((tool for start, tool in TOOLS.items() if build.startswith(start)), None)
         more = [] if prefix == "avr-" else ["bare-map-table"]
-        more += ["can-node"] if "mps2" in target.emulator else []
-        more += ["can-node-stm32f103"] if target.name == "cortex-m3" else []
+        more += ["can-node", "guard-node"] if "mps2" in target.emulator else []
+        more += ["can-node-stm32f103", "guard-node-stm32f103"] if target.name == "cortex-m3" else []
         for program in PROGRAMS + more if prefix else ():
             image = chips.image(build, target, program)
             checked += 1

@@ -14,6 +14,8 @@ import unittest
 from bus import PATIENCE_S, Interface, Running
 
 BUS = "vbench0"
+LAWS = pathlib.Path(__file__).resolve().parents[2] / "host/rules/laws"
+STRAIGHT, SIDES = LAWS / "straight.toml", LAWS / "sides.toml"
 GOAL = "time_limit_s = 60.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 1.0\ny_m = 0.0\n"
 
 
@@ -70,6 +72,25 @@ class OnTheBus(unittest.TestCase):
         self.bench("stop")
         self.assertEqual(plant.result()["detail"], "e_stop")
         self.bench("reset")
+
+    def test_a_response_table_is_sent_drives_and_is_kept(self):
+        scenario, kept = self.folder / "empty.toml", self.folder / "kept"
+        scenario.write_text(GOAL)
+        controller = self.start("controller", "--can", BUS, "--keep", kept)
+        controller.wait_for("waits for the base")
+        built_in = json.loads(self.bench("rules", "--json"))["rules_hash"]
+        told = json.loads(self.bench("rules", SIDES, "--drop", 5, "--json"))
+        self.assertEqual(told["kept"], True)
+        self.assertNotEqual(told["rules_hash"], built_in)
+        for rules in (STRAIGHT, SIDES, "default"):
+            here = json.loads(once("run", scenario, "--rules", rules, "--json").stdout)
+            there = json.loads(once("plant", scenario, "--can", BUS, "--rules", rules, "--json").stdout)
+            self.assertEqual(there["hash"], here["hash"])
+            self.assertEqual(json.loads(self.bench("rules", "--json"))["rules_hash"], here["rules_digest"])
+        self.bench("rules", SIDES)
+        controller.close()
+        self.start("controller", "--can", BUS, "--keep", kept).wait_for(f"response table {told['rules_hash']}")
+        self.assertEqual(json.loads(self.bench("rules", "--json"))["rules_hash"], told["rules_hash"])
 
     def test_an_interface_that_is_down(self):
         self.interface.down()

@@ -17,6 +17,8 @@ export const words = () => module('words.ts');
 export const columns = () => module('columns.ts');
 export const link = () => module('link.ts');
 export const histogram = () => module('histogram.ts');
+export const guardWords = () => module('guard_words.ts');
+export const grants = () => module('grants.ts');
 export const core = () => module('playground/core.ts');
 export const situation = () => module('playground/situation.ts');
 export const share = () => module('playground/share.ts');

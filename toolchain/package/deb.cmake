@@ -2,8 +2,8 @@
 set(whisker_doc ${CMAKE_INSTALL_DATAROOTDIR}/doc/whisker)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${whisker_doc} RENAME copyright)
 install(FILES ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${whisker_doc})
-install(FILES ${PROJECT_SOURCE_DIR}/docs/example/main.cpp ${PROJECT_SOURCE_DIR}/docs/integration/c/main.c
-  ${PROJECT_SOURCE_DIR}/docs/integration/c/plant.c ${PROJECT_SOURCE_DIR}/docs/integration/c/plant.h DESTINATION ${whisker_doc}/examples)
+install(FILES ${PROJECT_SOURCE_DIR}/docs/example/main.cpp DESTINATION ${whisker_doc}/examples)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/integration/c/ DESTINATION ${whisker_doc}/examples)
 set(whisker_manual ${PROJECT_SOURCE_DIR}/toolchain/package/manual)
 install(FILES ${whisker_manual}/whisker.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
 install(FILES ${whisker_manual}/whisker.bash DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions RENAME whisker

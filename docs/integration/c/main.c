@@ -1,34 +1,9 @@
-/* A robot that is programmed in C. Here it drives in a simulation; your functions call your drivers instead.
- */
+/* A robot that is programmed in C. Here it drives in a simulation; your functions call your drivers
+ * instead of those in board.c. */
 #include <stdio.h>
 
+#include "board.h"
 #include "firmware/c/whisker.h"
-#include "plant.h"
-
-static bool ranges(void *user, whisker_range readings[3]) {
-  const plant *p = user;
-  int beam;
-  for (beam = 0; beam < 3; ++beam) {
-    const echo e = plant_echo(p, beam);
-    readings[beam].status = e.clear ? WHISKER_RANGE_CLEAR : WHISKER_RANGE_OK;
-    readings[beam].mm = e.mm;
-    readings[beam].age_ms = 0;
-    readings[beam].sequence = e.sequence;
-  }
-  return true;
-}
-
-static bool counts(void *user, uint32_t *left, uint32_t *right) {
-  *left = plant_count(user, 0);
-  *right = plant_count(user, 1);
-  return true;
-}
-
-static bool speeds(void *user, int16_t left, int16_t right) {
-  plant_command(user, 0, left);
-  plant_command(user, 1, right);
-  return true;
-}
 
 /* FNV-1a over the wheel commands: two programs that give the same commands print the same hash. */
 static uint64_t add(uint64_t hash, int16_t command) {
@@ -40,7 +15,7 @@ int main(void) {
   static const disc kDiscs[] = {{1.2, 0.1, 0.25}, {2.2, -0.35, 0.2}, {2.1, 0.6, 0.2}};
   static whisker_robot robot;
   plant p = {0};
-  whisker_board board = {0};
+  const whisker_board board = plant_board(&p);
   whisker_params params;
   whisker_status status;
   uint64_t hash = UINT64_C(0xCBF29CE484222325);
@@ -48,10 +23,6 @@ int main(void) {
 
   p.discs = kDiscs;
   p.count = 3;
-  board.user = &p;
-  board.ranges = ranges;
-  board.counts = counts;
-  board.speeds = speeds;
 
   whisker_default_params(&params);
   if (!whisker_set_param(&params, WHISKER_PARAM_BODY_RADIUS, 90000)) return 2;

@@ -60,8 +60,8 @@ class Protocol:
         self.table_hash = int(re.search(r"The hash is `([0-9A-F]{8})`", text)[1], 16)
         self.version = int(re.search(r"Protocol is (\d+)\.", text)[1])
         self.messages = {}
-        for name, function, _, _, size, _, _ in rows(
-            text, "message", "function", "controller", "base", "bytes", "period", "meaning"
+        for name, function, _, _, _, size, _, _ in rows(
+            text, "message", "function", "controller", "base", "operator", "bytes", "period", "meaning"
         ):
             section = text[text.index(f"\n### {name}\n") :]
             signals = rows(section, "signal", "bits", "sign", "raw range", "unit of 1", "meaning")

@@ -13,8 +13,10 @@ namespace whisker::can_app {
 ///   for (;;) controller.poll(clock.now_ms());
 class Controller {
  public:
-  Controller(hal::CanPort& port, const can::Identity& identity, PlannerMaker& planners) noexcept
-      : node_(port, identity), pilot_(planners) {}
+  /// rules: see ControllerNode; `planners` makes planners with its active table.
+  Controller(hal::CanPort& port, const can::Identity& identity, PlannerMaker& planners,
+             can::RulesServer* rules = nullptr) noexcept
+      : node_(port, identity, rules), pilot_(planners) {}
 
   /// Call it every millisecond. True: the core executed a step; status() is new.
   bool poll(uint32_t now_ms) noexcept {

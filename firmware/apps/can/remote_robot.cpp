@@ -51,7 +51,7 @@ can::RangeTrustReport trust_report(const RangeTrust& trust) noexcept {
           static_cast<uint8_t>(trust.false_clears >> 8), trust.incidence_deg};
 }
 
-can::PoseSigmaReport sigma_report(const Status& s) noexcept {
+can::PoseSigmaReport sigma_report(const localization::Estimate& s) noexcept {
   const auto mm = [](Length x) { return static_cast<uint16_t>((x.raw() + 999) / 1000); };
   return {static_cast<uint8_t>(s.heading_source), mm(s.sigma.along), mm(s.sigma.across),
           static_cast<uint16_t>((s.sigma.heading.raw() + 65535) >> 16)};

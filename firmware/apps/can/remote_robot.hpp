@@ -47,7 +47,7 @@ class RemoteRobot {
 /// The bus message of a tick; the node sets its tick.
 can::NavStatus nav_status(const Status& status) noexcept;
 can::RangeTrustReport trust_report(const RangeTrust& trust) noexcept;
-can::PoseSigmaReport sigma_report(const Status& status) noexcept;
+can::PoseSigmaReport sigma_report(const localization::Estimate& status) noexcept;
 can::FixReply fix_reply(can::FixStatus status, const Health& health) noexcept;
 
 }  // namespace whisker::can_app

@@ -8,6 +8,7 @@ set(whisker_stm32f405_sources
   ${CMAKE_CURRENT_LIST_DIR}/bx_can.cpp
   ${CMAKE_CURRENT_LIST_DIR}/clock.cpp
   ${CMAKE_CURRENT_LIST_DIR}/encoders.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/flash_storage.cpp
   ${CMAKE_CURRENT_LIST_DIR}/i2c.cpp
   ${CMAKE_CURRENT_LIST_DIR}/i2c_rangers.cpp
   ${CMAKE_CURRENT_LIST_DIR}/interrupts.cpp

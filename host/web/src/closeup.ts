@@ -1,5 +1,6 @@
 /** What the robot senses, in a view that turns with it: ahead is up. */
 import {Camera} from './camera.ts';
+import type {CommandArcs} from './command_arcs.ts';
 import {BEAMS, RangeStatus, type Seen} from './data.ts';
 import {element, setText, Surface} from './dom.ts';
 import type {Scenery} from './scenery.ts';
@@ -27,6 +28,7 @@ export class CloseUp {
     private readonly player: {readonly tick: number},
     private readonly theme: Theme,
     public scenery: Scenery,
+    public commands: CommandArcs | null = null,
   ) {
     this.surface = new Surface(element<HTMLCanvasElement>('closeup'), () => this.draw());
   }
@@ -57,6 +59,7 @@ export class CloseUp {
     scenery.drawGoal(c, p, pixel);
     scenery.drawBeams(c, p, pixel, tick);
     this.drawArrows(c, pixel, tick);
+    this.commands?.draw(c, p, pixel, tick);
     scenery.drawBody(c, p, pixel, tick);
     c.restore();
     this.label(tick);

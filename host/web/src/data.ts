@@ -52,6 +52,26 @@ export interface Result {
   detail: string;
   /** Unreachable: the verdict holds only if all gaps are narrower. */
   unreachable_above_m?: number;
+  /** Of a drive of the guard: times that it brought the asked forward speed to nothing. */
+  stops?: number;
+  /** Of a drive of the guard: mean granted share of the asked forward speed. */
+  granted?: number;
+}
+
+/** Of a drive of the guard: how it was set up. */
+export interface GuardInfo {
+  /** False: the wheels do what is asked. */
+  guarded: boolean;
+  /** Who commands, in words. */
+  operator: string;
+  nods: boolean;
+  assist: boolean;
+  vouched_m: number;
+  command_timeout_s: number;
+  /** Where the estimate of the guard begins at zero: x, y, heading. */
+  put_down: [x: number, y: number, heading: number];
+  /** Names of its reasons. */
+  reasons: string[];
 }
 
 /** A followed boundary: from the hit to the leave. */
@@ -82,6 +102,8 @@ export interface RunInfo extends Setting {
   /** Null: the run is live, or its end is not known. */
   result: Result | null;
   edges: Edge[];
+  /** A drive of the guard instead of a mission. */
+  guard?: GuardInfo;
   columns: ColumnInfo[];
   /** Coarse: some ticks a second only. */
   detail?: 'full' | 'coarse';
@@ -119,7 +141,8 @@ export interface Shared {
   /** Names of what leads the map planner; empty without a map. */
   guides: string[];
   doings: {name: string; label: string}[];
-  controller: Controller;
+  /** A drive of the guard has none. */
+  controller?: Controller;
 }
 
 export interface Estimate {
@@ -182,7 +205,6 @@ export const COUNTERS = [
 /** The data of a robot at a tick, of a run that is over or of a live one. */
 export interface Seen {
   readonly info: {readonly world: World; readonly robot: RobotInfo; readonly inside: boolean};
-  readonly shared: {readonly controller: Controller};
   readonly t: ArrayLike<number>;
   /** The clear cells. `seek` returns the tick of the last picture at or before a tick, or -1. */
   readonly film: {
@@ -220,11 +242,11 @@ export function speedOf(seen: Seen, tick: number): number {
   return (seen.column('v_left_mps')[tick] + seen.column('v_right_mps')[tick]) / 2;
 }
 
-/** The estimated and the true place of the robot. */
+/** The estimated and the true pose of the robot, and its pose in the frame of the local grid. */
 const BELIEFS = [
-  ['est_x_m', 'x_m'],
-  ['est_y_m', 'y_m'],
-  ['est_heading_rad', 'heading_rad'],
+  ['est_x_m', 'x_m', 'grid_x_m'],
+  ['est_y_m', 'y_m', 'grid_y_m'],
+  ['est_heading_rad', 'heading_rad', 'grid_heading_rad'],
 ] as const;
 
 /** One run with all its ticks; a live run with all ticks so far. */
@@ -262,14 +284,26 @@ export class Run implements Seen {
         this.columns.set(name, values);
       }
     }
+    for (const [belief, , grid] of BELIEFS) this.columns.set(grid, this.column(belief));
     if (!this.info.inside) {
       for (const [belief, truth] of BELIEFS) this.columns.set(belief, this.column(truth));
+    } else if (this.info.guard) {
+      this.placeEstimate(this.info.guard.put_down);
     }
     const all = (name: string) =>
       [this.column(`${name}_tick`), this.column(`${name}_changes`), this.column(`${name}_word`), this.column(`${name}_bits`)] as const; // prettier-ignore
     this.film.grow(...all('film'));
     this.map?.grow(...all('map'));
     this.map?.growWindows(this.column('map_x'), this.column('map_y'));
+  }
+
+  /** The estimate of the guard begins at zero; the page needs it in the world. */
+  private placeEstimate([x, y, heading]: GuardInfo['put_down']): void {
+    const [ahead, aside, turned] = BELIEFS.map(([, , grid]) => this.column(grid));
+    const [cos, sin] = [Math.cos(heading), Math.sin(heading)];
+    this.columns.set('est_x_m', ahead.map((dx, i) => x + cos * dx - sin * aside[i])); // prettier-ignore
+    this.columns.set('est_y_m', ahead.map((dx, i) => y + sin * dx + cos * aside[i])); // prettier-ignore
+    this.columns.set('est_heading_rad', turned.map((angle) => angle + heading)); // prettier-ignore
   }
 
   get offGoal(): boolean {

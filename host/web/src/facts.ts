@@ -3,59 +3,12 @@ import {COUNTERS, speedOf, type Run} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import type {WayToGoal} from './goal.ts';
 import type {Player} from './player.ts';
+import type {Story} from './story.ts';
 import type {Theme} from './theme.ts';
-import {stateColour} from './timeline.ts';
-import {
-  COUNTER_WORDS,
-  FAULTS,
-  metres,
-  RANGE_LEVELS,
-  rangeFigures,
-  sentence,
-  shownName,
-  verdict,
-  verdictClass,
-} from './words.ts';
+import {COUNTER_WORDS, FAULTS, metres, RANGE_LEVELS, rangeFigures} from './words.ts';
 
-const NOISE: [key: string, words: string, factor: number, unit: string][] = [
-  ['range_sigma_m', 'range noise', 1000, 'mm'],
-  ['range_dropout', 'readings lost', 100, '%'],
-  ['range_false_clear', 'false clear', 100, '%'],
-  ['wheel_scale_sigma', 'wheel scale error', 100, '%'],
-  ['heading_drift_deg_per_sqrt_m', 'heading drift', 1, '°/√m'],
-];
-
-function noiseWords(noise: Record<string, number>): string {
-  const parts = NOISE.filter(([key]) => noise[key] > 0).map(
-    ([key, words, factor, unit]) => `${words} ${Number((noise[key] * factor).toPrecision(3))} ${unit}`,
-  );
-  return parts.length > 0 ? parts.join(', ') : 'none';
-}
-
-/** "map planner, 2048 bytes"; empty if the planner is not known. */
-function plannerWords({planner, map}: Run['info']): string {
-  if (map) return `map planner, ${map.bytes} bytes`;
-  return planner ? `${shownName(planner)} planner` : '';
-}
-
-function andMap({planner, map}: Run['info']): string {
-  if (map) return ` and a map of ${map.bytes} bytes`;
-  return planner ? ' and no map' : '';
-}
-
-function orUnknown(distance: number | null): string {
-  return distance === null ? 'not known here' : metres(distance, 3);
-}
-
-/** On a bus, part of the data stays in the controller. */
-function sayWhatIsUnknown(run: Run): void {
-  const {inside, map} = run.info;
-  element('way-key').hidden = !run.map;
-  element('map-unknown').hidden = !map || run.map !== null;
-  element('counters-unknown').hidden = inside;
-  element('ranges-known').hidden = !inside;
-  for (const id of ['course-key', 'rules']) element(id).hidden = !inside;
-  element('clear-unknown').hidden = run.hasFilm;
+function sayWhatIsKnown(run: Run): void {
+  element('ranges-known').hidden = !run.info.inside;
   for (const id of ['clear-known', 'clear-key']) element(id).hidden = !run.hasFilm;
   if (!run.hasFilm) {
     element('closeup').setAttribute('aria-label', 'The robot from near, ahead is up, and its three beams');
@@ -70,14 +23,14 @@ export class Facts {
     private readonly player: Player,
     private readonly theme: Theme,
     private readonly way: WayToGoal,
+    private readonly story: Story,
   ) {
     const {name, inside} = run.info;
     setText('title', name || 'unnamed scenario');
-    setText('planner-name', plannerWords(run.info));
-    setText('and-map', andMap(run.info));
     document.title = `${name || 'run'} - Whisker`;
+    story.open();
     this.list('under way');
-    sayWhatIsUnknown(run);
+    sayWhatIsKnown(run);
     element('counters').replaceChildren();
     if (!inside) return;
     for (const counter of COUNTERS) {
@@ -120,33 +73,12 @@ export class Facts {
 
   /** The facts of the run. `unknown` stands for a missing verdict. */
   private list(unknown: string): void {
-    const {result, planner, map, seed, noise, command} = this.run.info;
-    setText('verdict', result ? verdict(result, result.time_s) : unknown);
-    element('verdict').dataset.outcome = result ? verdictClass(result) : 'none';
-    const facts: [string, string][] = [
-      ['planner', map ? plannerWords(this.run.info) : shownName(planner ?? 'not known here')],
-      ['noise', noiseWords(noise)],
-      ['noise seed', String(seed)],
-    ];
-    if (result) {
-      const clearance =
-        result.min_clearance_m < 1000 ? metres(result.min_clearance_m, 3) : 'no obstacle near';
-      facts.unshift(
-        ['path driven', metres(result.path_m)],
-        ['nearest to an obstacle', clearance],
-        ['from the goal at the end', orUnknown(result.final_distance_m)],
-        ['by its own estimate', orUnknown(result.believed_distance_m)],
-      );
-      if (result.unreachable_above_m !== undefined) {
-        facts.unshift(['if all gaps are below', metres(result.unreachable_above_m, 3)]);
-      }
-      facts.push(
-        ['ticks', String(result.ticks)],
-        ['command hash', result.hash],
-        ['detail', result.detail || '-'],
-      );
-    }
-    if (this.run.info.detail === 'coarse') facts.push(['stored', 'five ticks a second, to a millimetre']);
+    const {result, detail, command} = this.run.info;
+    const [words, outcome] = result ? this.story.verdict(result) : [unknown, 'none'];
+    setText('verdict', words);
+    element('verdict').dataset.outcome = outcome;
+    const facts = this.story.facts(result);
+    if (detail === 'coarse') facts.push(['stored', 'five ticks a second, to a millimetre']);
     if (command) facts.push(['again', command]);
     element('facts').replaceChildren(
       ...facts.map(([term, value]) => make('div', '', [make('dt', '', term), make('dd', '', value)])),
@@ -157,13 +89,14 @@ export class Facts {
     const {run} = this;
     const {tick} = this.player;
     const at = (name: string) => run.column(name)[tick];
-    setText('state', shownName(run.mode(tick)));
-    element('state').style.setProperty('--chip', this.theme.palette[stateColour(run, tick)]);
-    element('state').classList.toggle('pale', stateColour(run, tick) === 'still');
+    const [state, colour] = this.story.chip(tick);
+    setText('state', state);
+    element('state').style.setProperty('--chip', this.theme.palette[colour]);
+    element('state').classList.toggle('pale', colour === 'still');
     const speed = speedOf(run, tick);
     const fault = run.shared.faults[at('fault')];
     const named = fault === 'none' ? '' : ` The fault: ${FAULTS[fault] ?? fault}.`;
-    setText('sentence', sentence(run.mode(tick), run.why(tick), run.guide(tick), speed) + named);
+    setText('sentence', this.story.sentence(tick) + named);
     setText('now-time', `${run.t[tick].toFixed(2)} s`);
     setText('now-tick', `tick ${Math.round(run.t[tick] / run.info.robot.period)}`);
     setText('now-distance', metres(this.way.distance[tick]));

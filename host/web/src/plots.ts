@@ -6,17 +6,19 @@ import type {WayToGoal} from './goal.ts';
 import type {Player} from './player.ts';
 import type {Colour, Theme} from './theme.ts';
 
-interface Line {
+export interface Line {
   label: string;
   colour: Colour;
   values: () => ArrayLike<number | null>;
   dashed?: boolean;
 }
 
-interface Plot {
+export interface Plot {
   id: string;
   lines: Line[];
   range: [low: number, high: number];
+  /** The scale ends here, up and down. */
+  most: number;
   unit: string;
   /** The times of boundary following are shaded. */
   edges: boolean;
@@ -26,8 +28,9 @@ interface Plot {
 const BEFORE = 15;
 const AFTER = 5;
 const HEIGHT = 132;
+const ZOOMS = ['zoom', 'zoom-goal', 'zoom-asked'];
 
-function rangeOf(lines: Line[]): [number, number] {
+function rangeOf(lines: Line[], most: number): [number, number] {
   let low = 0;
   let high = 0;
   for (const line of lines) {
@@ -39,12 +42,23 @@ function rangeOf(lines: Line[]): [number, number] {
       if (value > high) high = value;
     }
   }
+  low = Math.max(low, -most);
+  high = Math.min(high, most);
   const air = 0.06 * (high - low) || 1;
   return [low < 0 ? low - air : 0, high + air];
 }
 
-function plotOf(id: string, unit: string, lines: Line[]): Plot {
-  return {id, lines, range: rangeOf(lines), unit, edges: id === 'plot-goal'};
+export function plotOf(id: string, unit: string, lines: Line[], most = Infinity): Plot {
+  return {id, lines, range: rangeOf(lines, most), most, unit, edges: id === 'plot-goal'};
+}
+
+/** Of a mission: the distance to the goal. */
+export function goalPlot(run: Run, way: WayToGoal): Plot {
+  const distance = run.info.inside ? 'distance to the goal' : 'true distance to the goal';
+  return plotOf('plot-goal', 'm', [
+    {label: distance, colour: 'accent', values: () => way.distance},
+    {label: 'nearest so far', colour: 'goal', values: () => way.nearest, dashed: true},
+  ]);
 }
 
 export class Plots {
@@ -62,7 +76,7 @@ export class Plots {
     private readonly run: Run,
     private readonly player: Player,
     private readonly theme: Theme,
-    way: WayToGoal,
+    own: Plot[],
   ) {
     const wheel = (side: 'left' | 'right'): Line[] => [
       {label: side, colour: side, values: () => run.column(`v_${side}_mps`)},
@@ -70,17 +84,13 @@ export class Plots {
     ];
     this.grow();
     const ranges = BEAMS.map((beam, i): Line => ({label: beam, colour: beam, values: () => this.ranges[i]}));
-    const distance = run.info.inside ? 'distance to the goal' : 'true distance to the goal';
     const plots = [
-      plotOf('plot-goal', 'm', [
-        {label: distance, colour: 'accent', values: () => way.distance},
-        {label: 'nearest so far', colour: 'goal', values: () => way.nearest, dashed: true},
-      ]),
+      ...own,
       plotOf('plot-ranges', 'm', ranges),
       plotOf('plot-wheels', 'm/s', [...wheel('left'), ...wheel('right')]),
     ];
     for (const plot of plots) this.build(plot);
-    for (const id of ['zoom', 'zoom-goal']) {
+    for (const id of ZOOMS) {
       element(id).addEventListener('click', () => this.setZoomed(!this.zoomed));
     }
   }
@@ -113,7 +123,7 @@ export class Plots {
   /** Draws the ticks that were added. */
   redraw(): void {
     for (const {plot, chart, shade} of this.plots) {
-      plot.range = rangeOf(plot.lines);
+      plot.range = rangeOf(plot.lines, plot.most);
       shade.hidden = !this.isShaded(plot);
       chart.setData(this.data(plot));
     }
@@ -130,7 +140,7 @@ export class Plots {
 
   setZoomed(on: boolean): void {
     this.zoomed = on;
-    for (const id of ['zoom', 'zoom-goal']) {
+    for (const id of ZOOMS) {
       element(id).setAttribute('aria-pressed', String(on));
     }
     if (!on) {

@@ -1,5 +1,5 @@
 /** Why the robot turns: the response table, its inputs and outputs, and the active rules. */
-import type {Seen} from './data.ts';
+import type {Controller, Seen} from './data.ts';
 import {element, make, setText} from './dom.ts';
 import {HeatMap} from './heatmap.ts';
 import {firedRules, type FiredRule} from './rules.ts';
@@ -25,8 +25,8 @@ export class ResponsePanel {
     public run: Seen,
     private readonly player: {readonly tick: number},
     private readonly theme: Theme,
+    private readonly controller: Controller,
   ) {
-    const {controller} = run.shared;
     const p = theme.palette;
     const turn = [controller.sa.min, controller.sa.max] as [number, number];
     const step = [controller.sd.terms[0][1], controller.sd.terms.at(-1)![1]] as [number, number];
@@ -71,7 +71,7 @@ export class ResponsePanel {
       this.showUnasked(run.info.inside ? 'The table has not been used yet.' : UNKNOWN);
       return;
     }
-    const rules = firedRules(run.shared.controller, at('d'), at('r'));
+    const rules = firedRules(this.controller, at('d'), at('r'));
     for (const map of this.maps) {
       map.show({
         d: at('d'),
@@ -107,7 +107,7 @@ export class ResponsePanel {
   }
 
   private listRules(rules: FiredRule[]): void {
-    const {controller} = this.run.shared;
+    const {controller} = this;
     const items = rules.slice(0, SHOWN_RULES).map(({d, r, weight}) => {
       const [turnTerm, turn] = controller.turn[d][r];
       const [stepTerm] = controller.step[d][r];

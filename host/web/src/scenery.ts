@@ -83,8 +83,8 @@ export class Scenery {
     const {cell} = run.info.robot;
     const frame = run.film.seek(tick);
     if (frame < 0) return;
-    const bodyX = Math.floor(run.column('est_x_m')[frame] / cell + 1e-6);
-    const bodyY = Math.floor(run.column('est_y_m')[frame] / cell + 1e-6);
+    const bodyX = Math.floor(run.column('grid_x_m')[frame] / cell + 1e-6);
+    const bodyY = Math.floor(run.column('grid_y_m')[frame] / cell + 1e-6);
     this.asBelieved(c, tick, () => {
       c.fillStyle = p.clear;
       c.beginPath();
@@ -109,8 +109,8 @@ export class Scenery {
     const at = (name: string) => this.run.column(name)[tick];
     c.save();
     c.translate(at('x_m'), at('y_m'));
-    c.rotate(at('heading_rad') - at('est_heading_rad'));
-    c.translate(-at('est_x_m'), -at('est_y_m'));
+    c.rotate(at('heading_rad') - at('grid_heading_rad'));
+    c.translate(-at('grid_x_m'), -at('grid_y_m'));
     draw();
     c.restore();
   }

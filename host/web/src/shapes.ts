@@ -3,7 +3,7 @@ import type {Mover, Point, Run} from './data.ts';
 
 /** A piece of the path in one class; neighbours share a point. */
 export interface Piece {
-  doing: number;
+  kind: number;
   ticks: number[];
   path: Path2D;
 }
@@ -40,19 +40,19 @@ function simplified(x: Float64Array, y: Float64Array, from: number, to: number, 
 /** At most this many ticks are simplified at once, which bounds the work for a long path. */
 const CHUNK = 400;
 
-/** The pieces from this tick on, at which a piece must begin. */
-export function pathPieces(run: Run, first = 0, tolerance = 0.002): Piece[] {
+/** The pieces from this tick on, at which a piece must begin. `classes` is the column with the class of each tick. */
+export function pathPieces(run: Run, classes: string, first = 0, tolerance = 0.002): Piece[] {
   const x = run.column('x_m');
   const y = run.column('y_m');
-  const doing = run.column('doing');
+  const kinds = run.column(classes);
   const pieces: Piece[] = [];
   for (let from = first; from < run.ticks - 1;) {
     let to = from + 1;
-    while (to < run.ticks - 1 && to - from < CHUNK && doing[to + 1] === doing[from + 1]) ++to;
+    while (to < run.ticks - 1 && to - from < CHUNK && kinds[to + 1] === kinds[from + 1]) ++to;
     const ticks = [from, ...simplified(x, y, from, to, tolerance)];
     const path = new Path2D();
     ticks.forEach((tick, i) => (i === 0 ? path.moveTo(x[tick], y[tick]) : path.lineTo(x[tick], y[tick])));
-    pieces.push({doing: doing[from + 1], ticks, path});
+    pieces.push({kind: kinds[from + 1], ticks, path});
     from = to;
   }
   return pieces;

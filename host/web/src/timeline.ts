@@ -1,99 +1,38 @@
-/** The lanes of states and reasons under the world, and the slider over them. */
-import {speedOf, type Run, type Seen} from './data.ts';
-import {element, setText, Surface} from './dom.ts';
+/** The lanes under the world, and the slider over them. */
+import type {Run} from './data.ts';
+import {element, make, setText, Surface} from './dom.ts';
 import type {Player} from './player.ts';
-import type {Colour, Theme} from './theme.ts';
-import {sentence, shownName} from './words.ts';
+import type {Story} from './story.ts';
+import type {Theme} from './theme.ts';
 
-interface Segment {
-  from: number;
-  /** The first tick after it. */
-  to: number;
-  label: string;
-  colour: Colour;
-}
-
-const STILL = new Set(['facing', 'looking', 'searching', 'surveying', 'idle']);
-const OVER = new Set(['arrived', 'unreachable', 'gave_up', 'stopped']);
-
-const WHY_COLOURS: Record<string, Colour> = {
-  target_free: 'free',
-  at_goal: 'goal',
-  table: 'table',
-  narrow: 'probing',
-  target_blocked: 'danger',
-  exit_left: 'danger',
-  exit_right: 'danger',
-  same_side: 'danger',
-  edge: 'danger',
-  opening: 'danger',
-  way_back: 'danger',
-  came_round: 'contact',
-  wall_lost: 'contact',
-  no_exit: 'contact',
-  blind: 'contact',
-  fault: 'contact',
-  step_budget: 'contact',
-  length_budget: 'contact',
-  goal_out_of_range: 'contact',
-  bumped: 'contact',
-};
-
-export function stateColour(run: Seen, tick: number): Colour {
-  const mode = run.mode(tick);
-  if (OVER.has(mode)) return mode === 'arrived' && !run.offGoal ? 'goal' : 'over';
-  if (STILL.has(mode)) return 'still';
-  return (['free', 'table', 'probing', 'danger'] as const)[run.column('doing')[tick]];
-}
-
-/** The label and the colour of a lane at a tick. */
-type Lane = (run: Run, tick: number) => [label: string, colour: Colour];
-
-const GUIDES: Record<string, [label: string, colour: Colour]> = {
-  goal: ['straight', 'free'],
-  place: ['way point', 'map'],
-  wait: ['plans', 'still'],
-  none: ['boundary', 'danger'],
-};
-
-const LANES: Lane[] = [
-  (run, tick) => [shownName(run.mode(tick)), stateColour(run, tick)],
-  (run, tick) => {
-    const why = run.why(tick);
-    const colour = why === 'at_goal' && run.offGoal ? 'over' : (WHY_COLOURS[why] ?? 'still');
-    return [shownName(why), colour];
-  },
-];
-
-/** What leads the map planner; empty before the first movement. */
-const MAP_LANE: Lane = (run, tick) =>
-  run.why(tick) === 'goal_set' ? ['', 'still'] : GUIDES[run.guide(tick)];
-
-/** Extends the segments to the last tick. */
-function extend(all: Segment[], run: Run, lane: Lane): void {
-  for (let tick = all.at(-1)?.to ?? 0; tick < run.ticks; ++tick) {
-    const [label, colour] = lane(run, tick);
-    const last = all[all.length - 1];
-    if (last && last.label === label && last.colour === colour) last.to = tick + 1;
-    else all.push({from: tick, to: tick + 1, label, colour});
-  }
-}
+/** Pixels between two lanes. */
+const GAP = 4;
+/** Pixels of a row of blocks; a phone has less room for each. */
+const ROW = {desktop: 24, phone: 20};
 
 export class Timeline {
   private readonly surface: Surface;
   private readonly slider = element<HTMLInputElement>('scrub');
-  private readonly lanes: {says: Lane; segments: Segment[]}[];
-  /** Ticks at which state or reason changes. */
   private changes: number[] = [];
 
   constructor(
     private readonly run: Run,
     private readonly player: Player,
     private readonly theme: Theme,
+    private readonly story: Story,
   ) {
-    this.lanes = (run.map ? [...LANES, MAP_LANE] : LANES).map((says) => ({says, segments: []}));
-    element('lane-map').hidden = !run.map;
-    element('lane-rows').classList.toggle('three', run.map !== null);
+    const names = story.lanes.map(({name}) => {
+      const span = make('span', 'lane-name', name);
+      span.id = `lane-${name}`;
+      return span;
+    });
+    const rows = element('lane-rows');
+    for (const old of rows.querySelectorAll('.lane-name')) old.remove();
+    rows.prepend(...names);
+    for (const [name, pixels] of Object.entries(ROW)) {
+      const heights = story.lanes.map((lane) => `${lane.rows * pixels}px`);
+      rows.style.setProperty(`--${name}-rows`, heights.join(' '));
+    }
     this.surface = new Surface(element<HTMLCanvasElement>('lanes'), () => this.draw());
     this.slider.addEventListener('input', () => player.seek(Number(this.slider.value)));
     this.grow();
@@ -101,42 +40,32 @@ export class Timeline {
 
   /** The run has more ticks. */
   grow(): void {
-    for (const {says, segments} of this.lanes) extend(segments, this.run, says);
-    const starts = this.lanes.slice(0, LANES.length).flatMap(({segments}) => segments.map(({from}) => from));
-    this.changes = [...new Set(starts)].sort((a, b) => a - b);
+    for (const lane of this.story.lanes) lane.grow();
+    this.changes = [...new Set(this.story.lanes.flatMap((lane) => lane.changes()))].sort((a, b) => a - b);
     this.slider.max = String(this.player.end);
     this.draw();
   }
 
   /** The colour of the last state depends on the verdict. */
   end(): void {
-    for (const {segments} of this.lanes) segments.length = 0;
+    for (const lane of this.story.lanes) lane.reset();
     this.grow();
   }
 
   draw(): void {
     const c = this.surface.clear();
-    const p = this.theme.palette;
     const {width, height} = this.surface;
-    const lane = (height + 4) / this.lanes.length - 4;
+    const {lanes} = this.story;
+    const row = (height + GAP) / lanes.reduce((sum, {rows}) => sum + rows, 0);
     c.font = '11px Inter, system-ui, sans-serif';
     c.textBaseline = 'middle';
     c.textAlign = 'left';
-    this.lanes.forEach(({segments}, row) => {
-      const y = row * (lane + 4);
-      for (const {from, to, colour} of segments) {
-        const x0 = this.x(from);
-        c.fillStyle = p[colour];
-        c.fillRect(x0, y, Math.max(0.75, this.x(to) - x0), lane);
-      }
-      for (const {from, to, label, colour} of segments) {
-        const x0 = Math.max(0, this.x(from));
-        const room = Math.min(width, this.x(to)) - x0;
-        if (c.measureText(label).width + 10 > room) continue;
-        c.fillStyle = colour === 'still' ? p.ink : p.panel;
-        c.fillText(label, x0 + 5, y + lane / 2 + 0.5);
-      }
-    });
+    let y = 0;
+    for (const lane of lanes) {
+      const strip = {y, width, height: lane.rows * row - GAP, x: (tick: number) => this.x(tick)};
+      lane.draw(c, this.theme.palette, strip);
+      y += lane.rows * row;
+    }
   }
 
   update(): void {
@@ -145,9 +74,7 @@ export class Timeline {
     element('lanes-head').style.transform = `translateX(${this.x(tick)}px)`;
     // Not on every frame, because a screen reader would never finish.
     if (this.player.playing || this.player.following) return;
-    const {run} = this;
-    const says = sentence(run.mode(tick), run.why(tick), run.guide(tick), speedOf(run, tick));
-    const now = `${run.t[tick].toFixed(2)} s. ${says}`;
+    const now = `${this.run.t[tick].toFixed(2)} s. ${this.story.sentence(tick)}`;
     this.slider.setAttribute('aria-valuetext', now);
     setText('spoken', now);
   }

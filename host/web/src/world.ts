@@ -1,6 +1,7 @@
 /** The world from above: the path driven so far, coloured by what the robot did, and the robot. */
 import {drawGrid, drawGround, drawLineToGoal, drawScaleBar} from './backdrop.ts';
 import {Camera, type Box} from './camera.ts';
+import type {CommandArcs} from './command_arcs.ts';
 import type {Run} from './data.ts';
 import {element, Surface} from './dom.ts';
 import type {Player} from './player.ts';
@@ -8,8 +9,8 @@ import {listenToHands} from './hands.ts';
 import {Scenery} from './scenery.ts';
 import {sceneBox} from './scene_box.ts';
 import {pathPieces, type Piece} from './shapes.ts';
+import type {WayLooks} from './story.ts';
 import type {Theme} from './theme.ts';
-import {DOING_COLOURS, DOING_WIDTHS} from './way_looks.ts';
 
 const FOLLOWED_METRES = 2.6;
 
@@ -29,6 +30,8 @@ export class WorldView {
     private readonly player: Player,
     private readonly theme: Theme,
     private readonly scenery: Scenery,
+    private readonly way: WayLooks,
+    private readonly commands: CommandArcs | null,
   ) {
     this.box = sceneBox(run);
     this.extend();
@@ -111,6 +114,7 @@ export class WorldView {
     scenery.drawGoal(c, p, pixel);
     this.drawPath(c, pixel, tick);
     scenery.drawBeams(c, p, pixel, tick);
+    this.commands?.draw(c, p, pixel, tick);
     scenery.drawBody(c, p, pixel, tick);
     c.restore();
     this.drawMarks(c, tick);
@@ -127,7 +131,7 @@ export class WorldView {
   /** The last piece may become longer. */
   private extend(): void {
     const from = this.pieces.pop()?.ticks[0] ?? 0;
-    this.pieces.push(...pathPieces(this.run, from));
+    this.pieces.push(...pathPieces(this.run, this.way.column, from));
     this.whole = new Path2D();
     for (const {path} of this.pieces) this.whole.addPath(path);
   }
@@ -153,10 +157,10 @@ export class WorldView {
     c.globalAlpha = 1;
     const x = this.run.column('x_m');
     const y = this.run.column('y_m');
-    for (const {doing, ticks, path} of this.pieces) {
+    for (const {kind, ticks, path} of this.pieces) {
       if (ticks[0] >= tick) break;
-      c.strokeStyle = p[DOING_COLOURS[doing]];
-      c.lineWidth = DOING_WIDTHS[doing] * pixel;
+      c.strokeStyle = p[this.way.colours[kind]];
+      c.lineWidth = this.way.widths[kind] * pixel;
       if (ticks[ticks.length - 1] <= tick) {
         c.stroke(path);
         continue;

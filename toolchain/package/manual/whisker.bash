@@ -4,7 +4,7 @@ _whisker() {
   local path=whisker word here=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options="" words="" paths=none
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case "$path $word" in
-      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules compare" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker bench" | "whisker bench nodes" | "whisker bench watch" | "whisker bench record" | "whisker bench get" | "whisker bench set" | "whisker bench save" | "whisker bench restore" | "whisker bench stop" | "whisker bench reset" | "whisker bench cancel" | "whisker bench goal" | "whisker bench drive" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
+      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules compare" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker bench" | "whisker bench nodes" | "whisker bench watch" | "whisker bench record" | "whisker bench get" | "whisker bench set" | "whisker bench save" | "whisker bench restore" | "whisker bench rules" | "whisker bench stop" | "whisker bench reset" | "whisker bench cancel" | "whisker bench goal" | "whisker bench drive" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
     esac
   done
   case $path in
@@ -90,9 +90,9 @@ _whisker() {
       esac
       ;;
     "whisker guard")
-      options="-h --help --robot --commands --keys --operator --seed --vouch --time --bare --rules --map --trace --json" words="" paths=file
+      options="-h --help --robot --commands --keys --operator --seed --vouch --time --bare --rules --map --trace --html --json" words="" paths=file
       case $before in
-        --robot | --commands | --rules | --trace) options="" words="" paths=file ;;
+        --robot | --commands | --rules | --trace | --html) options="" words="" paths=file ;;
         --operator | --seed | --vouch | --time | --map) options="" words="" paths=value ;;
       esac
       ;;
@@ -150,10 +150,10 @@ _whisker() {
       esac
       ;;
     "whisker controller")
-      options="-h --help --node --record --drop --can --planner --map-bytes --rules --map --realtime" words="" paths=none
+      options="-h --help --node --record --drop --can --planner --map-bytes --rules --map --guard --command-timeout --keep --realtime" words="" paths=none
       case $before in
-        --node | --drop | --can | --map) options="" words="" paths=value ;;
-        --record | --rules) options="" words="" paths=file ;;
+        --node | --drop | --can | --map | --command-timeout) options="" words="" paths=value ;;
+        --record | --rules | --keep) options="" words="" paths=file ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
       esac
@@ -168,7 +168,7 @@ _whisker() {
       esac
       ;;
     "whisker bench")
-      options="-h --help" words="nodes watch record get set save restore stop reset cancel goal drive" paths=none
+      options="-h --help" words="nodes watch record get set save restore rules stop reset cancel goal drive" paths=none
       ;;
     "whisker bench nodes")
       options="-h --help --can --tty --socket --timeout --drop --for --json" words="" paths=none
@@ -216,6 +216,13 @@ _whisker() {
       options="-h --help --can --tty --socket --timeout --drop --node --json" words="" paths=file
       case $before in
         --can | --tty | --timeout | --drop | --node) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench rules")
+      options="-h --help --can --tty --socket --timeout --drop --node --map --restore --json" words="" paths=file
+      case $before in
+        --can | --tty | --timeout | --drop | --node | --map) options="" words="" paths=value ;;
         --socket) options="" words="" paths=file ;;
       esac
       ;;

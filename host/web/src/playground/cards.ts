@@ -2,8 +2,9 @@
 import {element, make, setText} from '../dom.ts';
 import {speedOf} from '../data.ts';
 import type {Theme} from '../theme.ts';
-import {stateColour} from '../timeline.ts';
+import {stateColour} from '../mission_story.ts';
 import {FAULTS, metres, sentence, shownName, verdict, verdictClass} from '../words.ts';
+import {GuardRun} from './guard_run.ts';
 import type {LiveRun} from './live.ts';
 
 export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
@@ -13,15 +14,16 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
   };
   const {time, way} = run.result;
   const {ended} = run;
-  say('planner', `${shownName(run.planner)} planner`);
-  say('state', shownName(run.mode()));
-  const colour = stateColour(run, 0);
+  const yours = run instanceof GuardRun;
+  say('planner', yours ? 'you drive' : `${shownName(run.planner)} planner`);
+  say('state', shownName(yours ? run.reason : run.mode()));
+  const colour = yours ? run.colour : stateColour(run, 0);
   part('state').style.setProperty('--chip', theme.palette[colour]);
   part('state').classList.toggle('pale', colour === 'still');
   const fault = run.fault();
   say(
     'sentence',
-    sentence(run.mode(), run.why(), run.guide(), speedOf(run, 0)) +
+    (yours ? run.sentence : sentence(run.mode(), run.why(), run.guide(), speedOf(run, 0))) +
       (fault === 'none' ? '' : ` The fault: ${FAULTS[fault]}.`),
   );
   say('verdict', ended ? verdict(ended, time) : '');
@@ -31,7 +33,7 @@ export function showCard(card: HTMLElement, run: LiveRun, theme: Theme): void {
 
 /** Shows the progress of the robot that the panels show. */
 export function showProgress(run: LiveRun, several: boolean): void {
-  setText('progress', run.about);
+  setText('progress', run.about ?? '');
   setText('to-goal', metres(run.distance));
   setText('nearest', metres(run.nearest));
   for (const whose of document.querySelectorAll('.whose')) {

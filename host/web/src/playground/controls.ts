@@ -1,6 +1,7 @@
 /** The controls of world, planner and speed, and the keys. */
 import {element, make, setText} from '../dom.ts';
 import {ending, shownName} from '../words.ts';
+import {YOU} from './driver.ts';
 import type {Playground} from './playground.ts';
 import type {Stage} from './stage.ts';
 
@@ -80,7 +81,8 @@ export class Controls {
   /** "Boundary planner", "Boundary and map". */
   private whoButton(who: string, team: readonly string[]): HTMLElement {
     const names = team.map(shownName);
-    const words = names.length > 1 ? names.join(' and ') : `${names[0]} planner`;
+    const words =
+      who === YOU ? 'Drive it yourself' : names.length > 1 ? names.join(' and ') : `${names[0]} planner`;
     const button = make('button', '', words[0].toUpperCase() + words.slice(1));
     button.id = `who-${who}`;
     button.setAttribute('type', 'button');
@@ -99,6 +101,8 @@ export class Controls {
 
   private key(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
+    // The keys of a driver have another meaning.
+    if (event.defaultPrevented) return;
     if (event.ctrlKey || event.altKey || event.metaKey || element<HTMLDialogElement>('keys').open) return;
     if (['INPUT', 'SELECT', 'TEXTAREA'].includes(target.tagName)) return;
     // These keys press the button that has the focus.

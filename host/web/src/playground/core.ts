@@ -1,5 +1,7 @@
 /** The core, the simulator and the worlds, as host/play/exports.cpp exports them. */
 import type {RobotInfo} from '../data.ts';
+import type {Switches} from './driver.ts';
+import type {Grant} from './guard_run.ts';
 import {flat, situationOf, type Situation} from './situation.ts';
 
 interface Exports {
@@ -9,6 +11,10 @@ interface Exports {
   generate(kind: number, seed: number, discs: number, box: number, noise: number): number;
   judge(): number;
   begin(side: number, planner: number): number;
+  begin_guard(guarded: number, nods: number, assist: number): number;
+  set_guard(guarded: number, nods: number, assist: number): void;
+  command(forward: number, turning: number): void;
+  grant(): number;
   change(side: number): number;
   advance(side: number, ticks: number): void;
   record(side: number): number;
@@ -31,6 +37,7 @@ const COLUMNS = [
   't_s', 'x_m', 'y_m', 'heading_rad', 'est_x_m', 'est_y_m', 'est_heading_rad', 'v_left_mps', 'v_right_mps',
   'state', 'why', 'doing', 't', 'd', 'r', 'sa', 'sd', 'cell_d', 'cell_r', 'fault',
   'guide', 'way_x_m', 'way_y_m', 'sigma_along_m', 'sigma_across_m', 'sigma_heading_rad',
+  'grid_x_m', 'grid_y_m', 'grid_heading_rad',
   'left_m', 'left_status', 'front_m', 'front_status', 'right_m', 'right_status',
 ] as const; // prettier-ignore
 
@@ -66,7 +73,20 @@ export const RULE_FAULTS = {
   stepsLongerNear: 16,
 } as const;
 
-const WORDS = {modes: 0, whys: 1, faults: 2, kinds: 3, guides: 4, planners: 5, abouts: 6} as const;
+const WORDS = {
+  modes: 0,
+  whys: 1,
+  faults: 2,
+  kinds: 3,
+  guides: 4,
+  planners: 5,
+  abouts: 6,
+  reasons: 7,
+} as const;
+
+function flags({guarded, nods, assist}: Switches): [number, number, number] {
+  return [Number(guarded), Number(nods), Number(assist)];
+}
 
 export class Core {
   readonly words: Record<keyof typeof WORDS, string[]>;
@@ -106,6 +126,31 @@ export class Core {
     this.write(flat(situation));
     if (!this.wasm.begin(side, this.words.planners.indexOf(planner)))
       throw new Error('this world is not valid');
+  }
+
+  /** A robot on side 0 that the user drives. */
+  beginGuard(switches: Switches, situation: Situation): void {
+    this.write(flat(situation));
+    if (!this.wasm.begin_guard(...flags(switches))) throw new Error('this world is not valid');
+  }
+
+  setGuard(switches: Switches): void {
+    this.wasm.set_guard(...flags(switches));
+  }
+
+  /** m/s and rad/s; it holds until the next one. */
+  command(forward: number, turning: number): void {
+    this.wasm.command(forward, turning);
+  }
+
+  grant(): Grant {
+    const [guarded, reason, v, omega, ofV, ofOmega] = this.read(this.wasm.grant());
+    return {
+      guarded: guarded > 0,
+      reason: this.words.reasons[reason],
+      asked: {forward: v, turning: omega},
+      share: {forward: ofV, turning: ofOmega},
+    };
   }
 
   /** Obstacles and goal, while the robot drives. */

@@ -3,6 +3,7 @@ import {copied, linkWith} from '../address.ts';
 import {element, setText} from '../dom.ts';
 import type {Core} from './core.ts';
 import {tableHeader} from './header.ts';
+import type {Driver} from './driver.ts';
 import type {Playground} from './playground.ts';
 import {hashOf} from './share.ts';
 import {scenarioToml} from './toml.ts';
@@ -15,11 +16,15 @@ function save(name: string, text: string): void {
   URL.revokeObjectURL(link.href);
 }
 
-export function offerFiles(play: Playground, core: Core): void {
+export function offerFiles(play: Playground, core: Core, driver: Driver): void {
   element('save-scenario').addEventListener('click', () => {
     const {kind, seed, own} = play.state;
-    save(`${kind}-${seed}${own ? '-changed' : ''}.toml`, scenarioToml(play.name, play.situation));
+    save(
+      `${kind}-${seed}${own ? '-changed' : ''}.toml`,
+      scenarioToml(play.name, play.situation, play.drivenByUser ? driver.parameters() : []),
+    );
   });
+  element('save-drive').addEventListener('click', () => save('drive.csv', driver.csv()));
   element('save-table').addEventListener('click', () => {
     const {rules} = play.state;
     const note = rules ? `Of rules edited in the playground: ${rules}` : null;

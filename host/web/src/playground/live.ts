@@ -1,5 +1,8 @@
 /** A robot of the playground, for the parts of the replay page: a run of which only the current tick is known. */
-import {rangeOf, type Controller, type Seen} from '../data.ts';
+import {rangeOf, type Seen} from '../data.ts';
+import type {CommandArcs} from '../command_arcs.ts';
+import type {WayLooks} from '../story.ts';
+import {DOING_COLOURS, DOING_WIDTHS} from '../way_looks.ts';
 import type {Core, Result} from './core.ts';
 import {LiveMap} from './live_map.ts';
 import type {Situation} from './situation.ts';
@@ -7,9 +10,12 @@ import type {Ended} from '../words.ts';
 
 /** A piece of the path in one class. */
 export interface Stretch {
-  doing: number;
+  kind: number;
   path: Path2D;
 }
+
+/** Colours and widths of the classes of the path. */
+export type Looks = Omit<WayLooks, 'column'>;
 
 export class LiveRun implements Seen {
   /** The only tick. */
@@ -27,18 +33,27 @@ export class LiveRun implements Seen {
   nearest = Infinity;
 
   constructor(
-    private readonly core: Core,
-    private readonly side: number,
+    protected readonly core: Core,
+    protected readonly side: number,
     readonly planner: string,
     situation: Situation,
-    readonly shared: {readonly controller: Controller},
+    begin = () => core.begin(side, planner, situation),
   ) {
-    core.begin(side, planner, situation);
-    this.info = {world: situation.world, robot: core.robot, inside: true};
+    begin();
+    this.info = this.infoOf(situation);
     const bytes = core.mapBytes(side);
     this.map = bytes > 0 ? new LiveMap(bytes) : null;
     this.result = core.result(side);
     this.refresh();
+  }
+
+  get looks(): Looks {
+    return {colours: DOING_COLOURS, widths: DOING_WIDTHS};
+  }
+
+  /** What is asked for and granted; null: a planner drives. */
+  get arcs(): CommandArcs | null {
+    return null;
   }
 
   /** Why the planner does not get stuck, or when it does. */
@@ -69,7 +84,7 @@ export class LiveRun implements Seen {
     const [x, y] = situation.world.goal;
     if (x !== this.info.world.goal[0] || y !== this.info.world.goal[1]) this.nearest = Infinity;
     this.core.change(this.side, situation);
-    this.info = {world: situation.world, robot: this.core.robot, inside: true};
+    this.info = this.infoOf(situation);
     this.refresh();
   }
 
@@ -119,16 +134,22 @@ export class LiveRun implements Seen {
     },
   };
 
+  /** The guard alone does not report what its response table is asked. */
+  private infoOf({world}: Situation): Seen['info'] {
+    const {robot, words} = this.core;
+    return {world, robot, inside: words.planners.includes(this.planner)};
+  }
+
   private away(x: number, y: number): number {
     const {goal} = this.info.world;
     return Math.hypot(goal[0] - x, goal[1] - y);
   }
 
-  private pass(x: number, y: number, doing: number): void {
+  private pass(x: number, y: number, kind: number): void {
     this.nearest = Math.min(this.nearest, this.away(x, y));
     let stretch = this.stretches.at(-1);
-    if (!stretch || stretch.doing !== doing) {
-      stretch = {doing, path: new Path2D()};
+    if (!stretch || stretch.kind !== kind) {
+      stretch = {kind, path: new Path2D()};
       stretch.path.moveTo(...(this.stretches.length > 0 ? this.last : ([x, y] as [number, number])));
       this.stretches.push(stretch);
     }

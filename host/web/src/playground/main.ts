@@ -10,6 +10,8 @@ import {showCard, showLedger, showProgress} from './cards.ts';
 import {Controls} from './controls.ts';
 import {answersOf, controllerOf, refreshController} from './controller.ts';
 import {Core} from './core.ts';
+import {DriveBar} from './drive_bar.ts';
+import {Driver, MOST_TURNING} from './driver.ts';
 import {offerFiles} from './files.ts';
 import {notesOf} from './native.ts';
 import {NO_NOISE, NoisePanel} from './noise_panel.ts';
@@ -40,13 +42,14 @@ async function open(): Promise<void> {
   const first = await stateOf(location.hash, core.words, FIRST);
   const answers = answersOf(core.rules());
   const controller = controllerOf(core, answers);
+  const driver = new Driver(core.robot);
   let play: Playground;
   sayLinkFault(first.fault);
   try {
-    play = new Playground(core, controller, first.state);
+    play = new Playground(core, first.state, driver);
   } catch {
     sayLinkFault(NO_SUCH_WORLD);
-    play = new Playground(core, controller, FIRST);
+    play = new Playground(core, FIRST, driver);
   }
   document.body.dataset.view = 'playground';
   element('playground').hidden = false;
@@ -54,15 +57,18 @@ async function open(): Promise<void> {
   const stage = new Stage(play, theme);
   const focus = () => play.runs[stage.focus] ?? play.runs[0];
   const closeUp = new CloseUp(focus(), {tick: 0}, theme, stage.scenery());
-  const response = new ResponsePanel(focus(), {tick: 0}, theme);
+  const response = new ResponsePanel(focus(), {tick: 0}, theme, controller);
   const noise = new NoisePanel((values) => play.setNoise(values));
   const rules = new RulesPanel(core, theme, () => {
     refreshController(controller, core, answers);
     response.restyle();
     play.setRules(rules.code);
   });
+  // Before the controls: the keys of a driver come first.
+  const most = {forward: core.robot.max_speed, turning: MOST_TURNING};
+  const bar = new DriveBar(play, driver, most);
   const controls = new Controls(play, stage, core.words.kinds);
-  offerFiles(play, core);
+  offerFiles(play, core, driver);
 
   const address = new Address(() => hashOf(play.state));
   let panels = 0;
@@ -70,11 +76,13 @@ async function open(): Promise<void> {
     stage.draw();
     play.runs.forEach((run, i) => showCard(stage.cards[i], run, theme));
     controls.update();
+    bar.update();
     // During a run, the panels need fewer updates than the views.
     if (play.playing && now - panels < PANELS_EVERY) return;
     panels = now;
     closeUp.run = response.run = focus();
     closeUp.scenery = stage.scenery();
+    closeUp.commands = focus().arcs;
     closeUp.draw();
     response.update();
     const at = (name: string) => focus().column(name)[0];
@@ -122,7 +130,7 @@ async function open(): Promise<void> {
   if (play.state.rules) rules.setCode(play.state.rules);
   play.begin();
   // For tests, measurements and the console.
-  Object.assign(window, {whisker: {play, core, stage}});
+  Object.assign(window, {whisker: {play, core, stage, driver}});
   play.playing = !matchMedia('(prefers-reduced-motion: reduce)').matches;
   last = performance.now();
   request();

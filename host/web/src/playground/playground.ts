@@ -3,7 +3,8 @@ import {Camera} from '../camera.ts';
 import type {World} from '../data.ts';
 import {sceneBoxOf} from '../scene_box.ts';
 import type {Core} from './core.ts';
-import type {Controller} from '../data.ts';
+import {YOU, type Driver} from './driver.ts';
+import {GuardRun} from './guard_run.ts';
 import {LiveRun} from './live.ts';
 import {teamsOf, type State, type Teams} from './share.ts';
 import type {Situation} from './situation.ts';
@@ -31,8 +32,8 @@ export class Playground {
 
   constructor(
     private readonly core: Core,
-    readonly controller: Controller,
     public state: State,
+    private readonly driver: Driver,
   ) {
     this.situation = this.given();
     this.begin();
@@ -47,6 +48,9 @@ export class Playground {
   }
   get planners(): readonly string[] {
     return this.teams[this.state.who];
+  }
+  get drivenByUser(): boolean {
+    return this.state.who === YOU;
   }
   get over(): boolean {
     return this.runs.every((run) => run.over);
@@ -63,8 +67,10 @@ export class Playground {
   /** Restarts the run in the current world. */
   begin(): void {
     this.situation = {...this.situation, noise: this.state.noise};
-    this.runs = this.planners.map(
-      (planner, side) => new LiveRun(this.core, side, planner, this.situation, {controller: this.controller}),
+    this.runs = this.planners.map((planner, side) =>
+      planner === YOU
+        ? new GuardRun(this.core, this.situation, this.driver)
+        : new LiveRun(this.core, side, planner, this.situation),
     );
     this.touched = false;
     this.owed = 0;
@@ -96,6 +102,17 @@ export class Playground {
   setWho(who: State['who']): void {
     this.state = {...this.state, who};
     this.begin();
+  }
+
+  /** The switches of the driver have changed: a drive that has begun goes on with a new guard. */
+  rewire(): void {
+    if (this.time === 0 || this.over) {
+      this.begin();
+      return;
+    }
+    this.core.setGuard(this.driver.switches);
+    this.touched = true;
+    this.changed();
   }
 
   setNoise(noise: number[]): void {

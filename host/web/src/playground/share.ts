@@ -1,12 +1,13 @@
 /** The whole state of the page in its address. */
 import {bytesOfBase64, inflatedUpTo} from '../columns.ts';
+import {YOU} from './driver.ts';
 import {flat, situationOf, type Situation} from './situation.ts';
 
-/** By name: each planner alone, and some pairs side by side. */
+/** By name: each planner alone, some pairs side by side, and the user. */
 export type Teams = Record<string, readonly string[]>;
 export function teamsOf(planners: string[]): Teams {
   const alone = Object.fromEntries(planners.map((planner) => [planner, [planner]]));
-  return {...alone, both: ['skirt', 'thesis'], 'skirt-map': ['skirt', 'map']};
+  return {...alone, both: ['skirt', 'thesis'], 'skirt-map': ['skirt', 'map'], [YOU]: [YOU]};
 }
 
 export interface State {

@@ -76,6 +76,8 @@ export class Stage {
     card.addEventListener('pointerdown', look);
     canvas.addEventListener('focus', look);
     canvas.addEventListener('keydown', (event) => {
+      // Without a selection, the keys are those of the user who drives.
+      if (play.drivenByUser && !play.selected) return;
       if (!this.editor.key(event)) return;
       event.preventDefault();
       event.stopPropagation();

@@ -16,7 +16,12 @@ function points(list: Point[]): string {
   return `[${list.map(point).join(', ')}]`;
 }
 
-export function scenarioToml(name: string, {seed, timeLimit, world, noise}: Situation): string {
+/** `parameters`: lines for the robot. */
+export function scenarioToml(
+  name: string,
+  {seed, timeLimit, world, noise}: Situation,
+  parameters: string[] = [],
+): string {
   const {start, goal, tolerance, bounds, discs, polygons, walls, movers} = world;
   const parts = [
     `name = ${JSON.stringify(name)}\nseed = ${seed}  # of the noise\ntime_limit_s = ${number(timeLimit)}`,
@@ -40,5 +45,6 @@ export function scenarioToml(name: string, {seed, timeLimit, world, noise}: Situ
   }
   const disturbed = NOISE_KEYS.flatMap((key, i) => (noise[i] !== 0 ? [`${key} = ${number(noise[i])}`] : []));
   if (disturbed.length > 0) parts.push(`[noise]\n${disturbed.join('\n')}`);
+  if (parameters.length > 0) parts.push(`[robot]\n${parameters.join('\n')}`);
   return `${parts.join('\n\n')}\n`;
 }

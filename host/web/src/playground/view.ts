@@ -7,7 +7,6 @@ import {listenToHands} from '../hands.ts';
 import {Scenery} from '../scenery.ts';
 import {moverPosition, polyline} from '../shapes.ts';
 import type {Palette, Theme} from '../theme.ts';
-import {DOING_COLOURS, DOING_WIDTHS} from '../way_looks.ts';
 import type {LiveRun} from './live.ts';
 import {thingAt, type Thing} from './things.ts';
 
@@ -77,6 +76,7 @@ export class View {
     scenery.drawGoal(c, p, pixel);
     this.drawWay(c, p, pixel);
     scenery.drawBeams(c, p, pixel, 0);
+    run.arcs?.draw(c, p, pixel, 0);
     scenery.drawBody(c, p, pixel, 0);
     c.restore();
     this.drawWords(c, p, world);
@@ -86,9 +86,10 @@ export class View {
   private drawWay(c: CanvasRenderingContext2D, p: Palette, pixel: number): void {
     c.lineJoin = 'round';
     c.lineCap = 'butt';
-    for (const {doing, path} of this.run.stretches) {
-      c.strokeStyle = p[DOING_COLOURS[doing]];
-      c.lineWidth = DOING_WIDTHS[doing] * pixel;
+    const {colours, widths} = this.run.looks;
+    for (const {kind, path} of this.run.stretches) {
+      c.strokeStyle = p[colours[kind]];
+      c.lineWidth = widths[kind] * pixel;
       c.stroke(path);
     }
   }

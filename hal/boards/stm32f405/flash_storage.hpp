@@ -1,0 +1,22 @@
+#pragma once
+
+#include "hal/boards/stm32f405/io.hpp"
+#include "hal/storage.hpp"
+
+namespace whisker::hal::stm32f405 {
+
+/// Two slots in the last two sectors of the flash. The chip runs from the same flash, so it stands still
+/// while it erases, for 2 s at most: only while the wheels stand, and before Watchdog::start(). Needs 2.7 V
+/// or more.
+class FlashStorage final : public Storage {
+ public:
+  static constexpr uint16_t kSize = 8192;
+
+  uint16_t size() const noexcept override { return kSize; }
+  /// False: beyond the end of the slot.
+  bool read(uint8_t slot, uint16_t at, uint8_t* out, uint16_t size) noexcept override;
+  bool erase(uint8_t slot) noexcept override;
+  bool write(uint8_t slot, uint16_t at, const uint8_t* data, uint16_t size) noexcept override;
+};
+
+}  // namespace whisker::hal::stm32f405

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/boards/stm32f405/reg/flash.hpp"
+#include "tests/boards/models/chip.hpp"
+
+namespace whisker::hal::stm32f405::model {
+
+/// The flash interface: locked until the keys come, and busy for a while after each command.
+class FlashModel : public Peripheral {
+ public:
+  FlashModel() { put(flash::kLock, 1); }
+
+  void store(std::uint32_t offset, std::uint32_t value) override {
+    if (offset == flash::kKeyr.offset) {
+      if (value == 0xCDEF89AB && key_ == 0x45670123 && !jammed) put(flash::kLock, 0);
+      key_ = value;
+    } else if (offset == flash::kSr.offset) {
+      word(offset) &= ~value;
+    } else if (offset != flash::kCr.offset) {
+      Peripheral::store(offset, value);
+    } else if (get(flash::kLock) == 0) {
+      word(offset) = value & ~mask(flash::kStrt);
+      if ((value & mask(flash::kStrt)) != 0 && get(flash::kSer) != 0) start_erase();
+    }
+  }
+  void advance() override {
+    if (busy_ > 0 && !stuck && --busy_ == 0) put(flash::kBsy, 0);
+  }
+  /// False: refused with an error bit.
+  bool begin_word() {
+    if (get(flash::kLock) != 0 || get(flash::kPg) == 0 || get(flash::kBsy) != 0) {
+      put(flash::kPgserr, 1);
+    } else if (get(flash::kPsize) != 2) {
+      put(flash::kPgperr, 1);
+    } else if (write_protected) {
+      put(flash::kWrperr, 1);
+    } else {
+      begin(40);
+      return true;
+    }
+    return false;
+  }
+  std::array<int, 12> erasures{};  ///< of each sector
+  bool stuck = false;
+  bool jammed = false;
+  bool write_protected = false;
+
+ private:
+  void start_erase() {
+    if (write_protected) return put(flash::kWrperr, 1);
+    ++erasures.at(get(flash::kSnb));
+    begin(2000);
+  }
+  void begin(int accesses) {
+    put(flash::kBsy, 1);
+    busy_ = accesses;
+  }
+  std::uint32_t key_ = 0;
+  int busy_ = 0;
+};
+
+/// A part of a sector: bits are cleared by writing, and set by erasing the sector.
+class FlashPage : public Peripheral {
+ public:
+  FlashPage(FlashModel& flash, std::size_t sector) : flash_(flash), sector_(sector) {}
+  std::uint32_t load(std::uint32_t offset) override {
+    follow();
+    return word(offset);
+  }
+  void store(std::uint32_t offset, std::uint32_t value) override {
+    follow();
+    if (flash_.begin_word()) word(offset) &= value;
+  }
+  void advance() override { follow(); }
+
+ private:
+  void follow() {
+    if (flash_.erasures.at(sector_) == seen_) return;
+    seen_ = flash_.erasures.at(sector_);
+    for (std::uint32_t i = 0; i < kSpan; i += 4) word(i) = UINT32_MAX;
+  }
+  FlashModel& flash_;
+  const std::size_t sector_;
+  int seen_ = 0;
+};
+
+}  // namespace whisker::hal::stm32f405::model
