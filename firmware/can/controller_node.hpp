@@ -20,7 +20,8 @@ namespace whisker::can {
 class ControllerNode final : public Node {
  public:
   /// rules: takes response tables from the base, and names the active one instead of the Identity; null:
-  /// none. inbox: where the messages of an operator go; null: they are not handled. Both must outlive the node.
+  /// none. inbox: where the messages of an operator go; null: they are not handled. Both must outlive the
+  /// node.
   ControllerNode(hal::CanPort& port, const Identity& identity, RulesServer* rules = nullptr,
                  OperatorInbox* inbox = nullptr) noexcept;
 
