@@ -6,6 +6,7 @@
 #include "firmware/can/codec.hpp"
 #include "firmware/can/headers.hpp"
 #include "firmware/can/limits.hpp"
+#include "host/hil/overheard.hpp"
 
 namespace whisker::bench {
 namespace {
@@ -22,9 +23,8 @@ std::int16_t units(double value, double per_unit) {
 }  // namespace
 
 bool from_operator(const hal::CanFrame& frame, int robot) {
-  can::MessageKind kind = can::MessageKind::e_stop;
-  return can::kind_of(frame.id, kind) && can::head_of(kind).from_operator &&
-         static_cast<int>(frame.id & 0x0F) == robot;
+  const std::optional<hil::OperatorFrame> said = hil::operator_frame(frame);
+  return said && said->robot == robot;
 }
 
 OperatorLink::OperatorLink(hal::CanPort& port, int robot, guard::Operator& hand, double vouched_m,

@@ -11,7 +11,7 @@
 
 namespace whisker::bench {
 
-/// An operator of this robot sent it.
+/// An operator of this robot sent it, whole or not.
 bool from_operator(const hal::CanFrame& frame, int robot);
 
 /// Sends what a hand asks for. First it commands zero until the guard node is armed, and its vouch counts.

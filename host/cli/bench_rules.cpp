@@ -29,10 +29,11 @@ struct RulesOptions {
 /// Why the controller did not activate the table.
 std::string reason(can::RulesStatus status) {
   switch (status) {
-    case can::RulesStatus::running: return "a mission runs: cancel it first";
-    case can::RulesStatus::moving: return "the wheels turn";
-    case can::RulesStatus::unsupported: return "it takes no table";
-    case can::RulesStatus::wrong_hash: return "the table arrived damaged";
+    case can::RulesStatus::running: return "a mission runs: cancel it first; its response table is unchanged";
+    case can::RulesStatus::moving: return "the wheels turn; its response table is unchanged";
+    case can::RulesStatus::unsupported: return "it takes no table; its response table is unchanged";
+    // With room for one table only, it drives with the built-in one now.
+    case can::RulesStatus::wrong_hash: return "the table arrived damaged; send it again";
     case can::RulesStatus::receiving:
     case can::RulesStatus::activated:
     case can::RulesStatus::incomplete: break;
@@ -43,7 +44,7 @@ std::string reason(can::RulesStatus status) {
 can::RulesReply send(const RulesOptions& o, bench::ParamClient& client, const fuzzy::Bilinear::Table* table) {
   const can::RulesReply reply = client.send_rules(o.restore ? nullptr : table);
   if (reply.status == can::RulesStatus::activated) return reply;
-  throw bench::NoAnswer(fmt::format("the controller says {}: {}; its response table is unchanged",
+  throw bench::NoAnswer(fmt::format("the controller says {}: {}",
                                     can::word_in<can::kRulesStatusWords>(static_cast<int>(reply.status)),
                                     reason(reply.status)));
 }

@@ -16,19 +16,31 @@ void with(const hal::CanFrame& frame, const F& use) {
   if (can::decode(frame, message)) use(message);
 }
 
+bool has_kind(const hal::CanFrame& frame, MessageKind& kind) {
+  return !frame.extended && !frame.remote && can::kind_of(frame.id, kind);
+}
+
+bool is_whole(const hal::CanFrame& frame, MessageKind kind) {
+  return frame.size == can::head_of(kind).size &&
+         frame.data[0] == can::crc_of(frame.id, frame.data, frame.size);
+}
+
 }  // namespace
 
 std::optional<Sender> sender_of(const hal::CanFrame& frame) {
   MessageKind kind = MessageKind::e_stop;
-  if (frame.extended || frame.remote || !can::kind_of(frame.id, kind) || kind == MessageKind::e_stop)
-    return {};
+  if (!has_kind(frame, kind) || kind == MessageKind::e_stop) return {};
   const auto node = static_cast<std::uint8_t>(frame.id & 0x0F);
   const can::Party party = node >= can::kBaseOffset ? can::Party::base : can::Party::controller;
   const int robot = party == can::Party::base ? node - can::kBaseOffset : node;
   if (robot == 0 || !can::may_send(party, kind)) return {};
-  const bool whole =
-      frame.size == can::head_of(kind).size && frame.data[0] == can::crc_of(frame.id, frame.data, frame.size);
-  return Sender{kind, party, robot, node, whole};
+  return Sender{kind, party, robot, node, is_whole(frame, kind)};
+}
+
+std::optional<OperatorFrame> operator_frame(const hal::CanFrame& frame) {
+  MessageKind kind = MessageKind::e_stop;
+  if (!has_kind(frame, kind) || !can::head_of(kind).from_operator) return {};
+  return OperatorFrame{kind, static_cast<int>(frame.id & 0x0F), is_whole(frame, kind)};
 }
 
 Status status_of(const can::NavStatus& told) {

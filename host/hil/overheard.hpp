@@ -26,6 +26,15 @@ struct Sender {
 /// Empty for an E-stop, which has no sender, and for what no node of a robot sends.
 std::optional<Sender> sender_of(const hal::CanFrame& frame);
 
+struct OperatorFrame {
+  can::MessageKind kind;
+  int robot;
+  bool whole;  ///< size and checksum are right
+};
+
+/// Empty for what no operator sends.
+std::optional<OperatorFrame> operator_frame(const hal::CanFrame& frame);
+
 /// A status with what the bus carries of it.
 Status status_of(const can::NavStatus& told);
 

@@ -92,9 +92,8 @@ class Replay {
   }
 
   void hear_operator(const hal::CanFrame& frame) {
-    MessageKind kind = MessageKind::e_stop;
-    const bool here = static_cast<int>(frame.id & 0x0F) == result_.robot && can::kind_of(frame.id, kind);
-    if (!here || kind != MessageKind::vouch || frame.size != can::head_of(kind).size) return;
+    const std::optional<OperatorFrame> said = operator_frame(frame);
+    if (!said || said->robot != result_.robot || !said->whole || said->kind != MessageKind::vouch) return;
     with<can::VouchRequest>(frame, [&](const auto& m) { guard_.on_frame(m); });
   }
 

@@ -271,16 +271,19 @@ TEST(GuardNode, ObeysNoDamagedRepeatedOrForeignVelocity) {
   EXPECT_EQ(rig.base().health().unknown, base.unknown);
 }
 
+/// The frames of the front rangefinder are lost in these ticks.
+bus::Fault front_range_lost(std::uint32_t from_tick, std::uint32_t to_tick) {
+  bus::Fault f{bus::FaultKind::loss};
+  f.from_tick = from_tick;
+  f.to_tick = to_tick;
+  f.direction = bus::Direction::out;
+  f.match_id = can::id_of(can::message_of(can::MessageKind::range_front).function, 9);
+  f.match_mask = 0x7FF;
+  return f;
+}
+
 TEST(GuardNode, AFaultStandsUntilTheNextOrder) {
-  GuardRig rig(open_ground(), {[] {
-                 bus::Fault f{bus::FaultKind::loss};
-                 f.from_tick = 200;
-                 f.to_tick = 330;
-                 f.direction = bus::Direction::out;
-                 f.match_id = can::id_of(can::message_of(can::MessageKind::range_front).function, 9);
-                 f.match_mask = 0x7FF;
-                 return f;
-               }()});
+  GuardRig rig(open_ground(), {front_range_lost(200, 330)});
   rig.begin();
   rig.wish = kAhead;
   rig.drive(250);
@@ -298,15 +301,7 @@ TEST(GuardNode, AFaultStandsUntilTheNextOrder) {
 }
 
 TEST(GuardNode, AShortHoldIsNoFault) {
-  GuardRig rig(open_ground(), {[] {
-                 bus::Fault f{bus::FaultKind::loss};
-                 f.from_tick = 200;
-                 f.to_tick = 208;
-                 f.direction = bus::Direction::out;
-                 f.match_id = can::id_of(can::message_of(can::MessageKind::range_front).function, 9);
-                 f.match_mask = 0x7FF;
-                 return f;
-               }()});
+  GuardRig rig(open_ground(), {front_range_lost(200, 208)});
   rig.begin();
   rig.wish = kAhead;
   rig.drive(300);
