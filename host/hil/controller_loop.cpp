@@ -28,11 +28,12 @@ std::string words_for(const can::Node& node, const Line& line) {
   return "";
 }
 
+/// rules: the response table that is not announced.
 template <class Controller>
-void run(Controller& controller, Line& line, const ControllerOptions& options) {
+void run(Controller& controller, std::uint32_t rules, Line& line, const ControllerOptions& options) {
   WallClock clock([&line] { return line.descriptor(); });
   std::string said;
-  std::uint32_t rules_said = controller.node().rules();
+  std::uint32_t rules_said = rules;
   while (!options.interrupted()) {
     controller.poll(clock.now_ms());
     const std::string words = words_for(controller.node(), line);
@@ -61,11 +62,11 @@ void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
   if (options.guard) {
     const auto guard = std::make_unique<can_app::GuardController>(port, identity, options.longest_command);
     if (options.assist != nullptr) guard->assist_by(*options.assist);
-    return run(*guard, line, options);
+    return run(*guard, identity.rules, line, options);
   }
   const auto controller =
       std::make_unique<can_app::Controller>(port, identity, planners, own ? rules.server() : nullptr);
-  run(*controller, line, options);
+  run(*controller, identity.rules, line, options);
 }
 
 }  // namespace whisker::hil

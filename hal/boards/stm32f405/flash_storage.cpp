@@ -10,7 +10,8 @@ namespace {
 constexpr Address kSectors = 0x080C0000;  // 10 and 11, 128 KB each: stm32f405.ld keeps the program below
 constexpr Address kSectorBytes = 0x20000;
 constexpr uint32_t kFirstSector = 10;
-constexpr uint32_t kFirstKey = 0x45670123, kSecondKey = 0xCDEF89AB;
+constexpr uint32_t key(uint16_t high, uint16_t low) noexcept { return uint32_t{high} << 16 | low; }
+constexpr uint32_t kFirstKey = key(0x4567, 0x0123), kSecondKey = key(0xCDEF, 0x89AB);
 constexpr uint32_t kByWords = 2;  // PSIZE
 constexpr uint32_t kFastest = 168000000;
 constexpr uint32_t kEraseUs = 4000000, kWordUs = 1000;
