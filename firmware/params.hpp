@@ -133,8 +133,19 @@ struct PoseErrorParams {
   Angle gyro_warm_up = Angle::turns(1, 3600);  ///< change of the bias in ten minutes, in a second
 };
 
+/// One of the first three is declared.
+constexpr bool declares_errors(const PoseErrorParams& e) noexcept {
+  return e.wheel_scale != Ratio{} || e.wheel_scale_common != Ratio{} || e.heading_drift != Angle{};
+}
+
 /// What becomes of a fix that jumps by more than its sigma allows. Either way it is counted.
 enum class JumpPolicy : int32_t { accept, refuse };
+
+/// What the user says of the walls. See localization::WallDirection for what it changes; of Robot only.
+struct WallParams {
+  Fitted straight = Fitted::no;  ///< long walls run in one direction, or at right angles to it
+  Angle direction;               ///< this direction in the user's frame, counter-clockwise from x
+};
 
 /// Of whisker::Guard only.
 struct GuardParams {
@@ -157,6 +168,7 @@ struct Params {
   PoseErrorParams pose_error;
   JumpPolicy fix_jumps = JumpPolicy::accept;
   GuardParams guard;
+  WallParams walls;
 };
 
 /// The violated relation between parameters; firmware/params/relations.hpp lists all relations.
@@ -268,6 +280,8 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("command_timeout_s", p.guard.command_timeout, 20_ms, 2000_ms);
   f.choice("guard_nods", p.guard.nods, kBoolean, 2);
   f.choice("guard_assist", p.guard.assist, kBoolean, 2);
+  f.choice("straight_walls", p.walls.straight, kBoolean, 2);
+  f.number("wall_direction_deg", p.walls.direction, Angle{}, 90_deg);
 }
 
 /// A rangefinder on the body, in the body's frame: x ahead, y to the left.

@@ -44,6 +44,7 @@ bool Robot::place(const Pose& pose) noexcept {
     localizer_.move(pose);
   } else {
     localizer_.put_down(pose);
+    if (kGyroBuilt) walls_->restart();
     perception_.forget(pose);
     limiter_.reset();
     reflex_.reset();
@@ -185,8 +186,26 @@ void Robot::perceive(planning::View& view, bool counted) noexcept {
   if (params_.bumper.fitted == Fitted::yes) take_bumps(view.pose, counted);
   if (supervisor_.faulted()) return;
   perception_.observe({view.pose, last_tick_, view.settled, settled_since_}, params_, view);
+  if (kGyroBuilt && params_.walls.straight == Fitted::yes) {
+    follow_wall(hal::kLeft, view);
+    follow_wall(hal::kRight, view);
+  }
   status_.health.ranges = perception_.trust();
   supervisor_.check_trust(perception_.trust().level);
+}
+
+void Robot::follow_wall(hal::Beam side, const perception::Percept& percept) noexcept {
+  if ((percept.observed >> side & 1U) == 0) return;
+  const perception::Beam& beam = percept.observations[side].beam;
+  const perception::Echo& echo = status_.echoes.beam[side];
+  const Angle edge = beam.axis + (side == hal::kLeft ? beam.half_cone : -beam.half_cone);
+  const localization::WallDirection::Echo at{beam.apex + polar(edge, echo.distance),
+                                             beam.axis - beam_axis(params_.rangefinders, side)};
+  const bool shows = echo.validity == perception::Validity::ok;
+  const Angle outward = status_.pose.heading - localizer_.inside().heading;
+  localization::WallDirection::Found found;
+  if (!walls_->pass(side, shows ? &at : nullptr, params_.walls.direction - outward, found)) return;
+  if (localizer_.correct_heading(found.ahead, found.sigma) && has_goal_) aim_again();
 }
 
 void Robot::take_bumps(const Pose& pose, bool counted) noexcept {

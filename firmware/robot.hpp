@@ -4,9 +4,11 @@
 #include "firmware/control/wheel_drive.hpp"
 #include "firmware/health.hpp"
 #include "firmware/localization/localizer.hpp"
+#include "firmware/localization/wall_direction.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 #include "firmware/perception/perception.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/planning/planner.hpp"
@@ -103,6 +105,7 @@ class Robot {
   void take_time(Time now) noexcept;
   bool take_counts() noexcept;
   void perceive(planning::View& view, bool counted) noexcept;
+  void follow_wall(hal::Beam side, const perception::Percept& percept) noexcept;
   void take_bumps(const Pose& pose, bool counted) noexcept;
   void plan(const planning::View& view) noexcept;
   bool rests_for_gyro() noexcept;
@@ -136,6 +139,7 @@ class Robot {
 
   Status status_;
   localization::Localizer localizer_;
+  Part<localization::WallDirection, kGyroBuilt> walls_;
   control::WheelDrive wheels_;
   safety::SpeedLimiter limiter_;
   safety::BumpReflex reflex_;

@@ -117,7 +117,9 @@ enum whisker_param {
   WHISKER_PARAM_WHEEL_RATIO,                  /* 1e-6; 1000000; 900000 to 1100000 */
   WHISKER_PARAM_COMMAND_TIMEOUT,              /* ms; 250; 20 to 2000 */
   WHISKER_PARAM_GUARD_NODS,                   /* choice; 1; 0 to 1 */
-  WHISKER_PARAM_GUARD_ASSIST                  /* choice; 1; 0 to 1 */
+  WHISKER_PARAM_GUARD_ASSIST,                 /* choice; 1; 0 to 1 */
+  WHISKER_PARAM_STRAIGHT_WALLS,               /* choice; 0; 0 to 1 */
+  WHISKER_PARAM_WALL_DIRECTION                /* 2^-32 turn; 0; 0 to 1073741824 */
   /* params:end */
 };
 

@@ -45,6 +45,18 @@ bool Localizer::correct(const Pose& pose, const PoseSigma& sigma) noexcept {
   return true;
 }
 
+bool Localizer::correct_heading(Angle ahead, Angle sigma) noexcept {
+  PoseBound::Correction by;
+  if (!bound_->correct_heading(ahead, sigma, by)) return false;
+  estimate_.sigma = bound_->sigma();
+  const Angle outward = estimate_.pose.heading - odometry_.pose().heading;
+  const Vec shift = polar(bearing(by.shift) + outward, norm(by.shift));
+  const Pose pose{estimate_.pose.at + shift, estimate_.pose.heading + by.turn};
+  teach(estimate_.pose.heading + ahead, sigma, {pose, estimate_.sigma});
+  tie(pose);
+  return true;
+}
+
 void Localizer::teach(Angle fix, Angle sigma, const UncertainPose& fused) noexcept {
   if (!kGyroBuilt || has_gyro()) return;
   const Angle heading = odometry_.pose().heading;

@@ -45,6 +45,9 @@ class Localizer {
   void move(const Pose& pose) noexcept;
   /// The body is here by a fix from outside: see Robot::correct. False: the fix is refused.
   bool correct(const Pose& pose, const PoseSigma& sigma) noexcept;
+  /// The heading is measured: it is off by `ahead`, with this standard deviation. See
+  /// PoseBound::correct_heading(), also for false. Needs a bound of the pose.
+  bool correct_heading(Angle ahead, Angle sigma) noexcept;
   /// Advances the pose. False: the counts jumped, and the pose ignores them: see Odometry::update.
   bool step(const Step& step) noexcept;
 

@@ -6,6 +6,7 @@ namespace {
 constexpr int64_t kMostVariance = INT64_C(1) << 48;  // um^2: kMost
 constexpr int64_t kMostHeading = INT64_C(1) << 41;   // 2 rad^2
 constexpr int64_t kMostMixed = INT64_C(1) << 41;
+constexpr int64_t kMostGathered = INT64_C(1) << 38;  // so that times kMost it has 62 bits
 constexpr int32_t kMostMove = INT32_C(1) << 20;  // um in one update
 // Rounding of the counts and of the instants of readings.
 constexpr int64_t kFloor = INT64_C(3000) * 3000;  // um^2
@@ -35,7 +36,7 @@ Length distance_bound(const PoseSigma& sigma) noexcept { return norm({sigma.alon
 
 void PoseBound::configure(const Params& params) noexcept {
   const PoseErrorParams& e = params.pose_error;
-  known_ = e.wheel_scale != Ratio{} || e.wheel_scale_common != Ratio{} || e.heading_drift != Angle{};
+  known_ = declares_errors(e);
   um_per_counts_ =
       static_cast<int32_t>(divide_rounded(INT64_C(500000) << 16, params.wheels.counts_per_metre));
   // Errors of two wheels: their mean is off by 1 / sqrt(2) of one, their difference by sqrt(2).
@@ -56,6 +57,47 @@ void PoseBound::set_difference(Ratio sigma, Length track) noexcept {
   // 2^44 / 1e6
   const int64_t taught = divide_rounded(sigma.raw() * INT64_C(17592186), track.raw());
   if (taught < turn_per_um_) turn_per_um_ = static_cast<int32_t>(taught);
+}
+
+bool PoseBound::correct_heading(Angle ahead, Angle sigma, Correction& out) noexcept {
+  const auto radians = [](Angle a) { return divide_rounded(int64_t{a.wrapped()} << 20, kTurnPerRadian); };
+  const int64_t off = radians(ahead);
+  const int64_t noise = limited(square(radians(sigma)), kMostHeading) + 1;
+  const int64_t both = limited(heading_variance(), kMostHeading) + noise;
+  if (square(off) > square(kJumpSigmas) * both) return false;
+  gather();
+  // um per radian
+  const int64_t x = limited((x_heading_ << 20) / both, kMost.raw());
+  const int64_t y = limited((y_heading_ << 20) / both, kMost.raw());
+  const auto metres = [](int64_t um) { return Length::from_raw(saturate32(um)); };
+  out.shift = {metres(scale_down<20>(x * off)), metres(scale_down<20>(y * off))};
+  const int64_t share = (heading_ << 16) / both;
+  out.turn = Angle::from_raw(static_cast<uint32_t>(scale_down<16>(ahead.wrapped() * share)));
+  xx_ -= scale_down<20>(x * x_heading_);
+  xy_ -= scale_down<20>(x * y_heading_);
+  yy_ -= scale_down<20>(y * y_heading_);
+  const int64_t rest = 65536 - share;
+  x_heading_ = scale_down<16>(x_heading_ * rest);
+  y_heading_ = scale_down<16>(y_heading_ * rest);
+  heading_ = scale_down<16>(heading_ * rest);
+  return true;
+}
+
+/// All that turns the pose becomes part of the walk: a measured heading ties these errors together.
+void PoseBound::gather() noexcept {
+  for (Lasting& error : lasting_) {
+    if (error.heading == 0) continue;
+    heading_ += scale_down<16>(square(error.heading));
+    x_heading_ += scale_down<12>(int64_t{error.x} * error.heading);
+    y_heading_ += scale_down<12>(int64_t{error.y} * error.heading);
+    xx_ += scale_down<8>(square(error.x));
+    xy_ += scale_down<8>(int64_t{error.x} * error.y);
+    yy_ += scale_down<8>(square(error.y));
+    error = {};
+  }
+  heading_ = limited(heading_, kMostHeading);
+  x_heading_ = limited(x_heading_, kMostGathered);
+  y_heading_ = limited(y_heading_, kMostGathered);
 }
 
 void PoseBound::restart(const Pose& pose, const PoseSigma& sigma) noexcept {

@@ -29,6 +29,8 @@ Length distance_bound(const PoseSigma& sigma) noexcept;
 class PoseBound {
  public:
   static constexpr Length kMost = 16_m;
+  /// A measurement is a jump if it differs by more than this many standard deviations of the difference.
+  static constexpr int32_t kJumpSigmas = 4;
   /// Ticks between two updates.
   static constexpr uint8_t kEvery = 8;
 
@@ -51,6 +53,16 @@ class PoseBound {
   bool step(const Step& step) noexcept;
   PoseSigma sigma() const noexcept;
 
+  /// What a measured heading says of the pose in the frame of step().
+  struct Correction {
+    Vec shift;
+    Angle turn;
+  };
+  /// The heading is measured: by so much the true one is ahead, with this standard deviation, above zero. The
+  /// place is corrected, too, as far as its error comes from that of the heading (Kalman filter). False:
+  /// `ahead` is more than kJumpSigmas off, and nothing has changed.
+  bool correct_heading(Angle ahead, Angle sigma, Correction& out) noexcept;
+
  private:
   struct Lasting {
     int32_t x = 0;  // 2^-4 um
@@ -61,6 +73,7 @@ class PoseBound {
   // 32 bits, so that all arguments of walk() fit into registers: clang 14 for AVR fails on others here.
   void shorten(int32_t x, int32_t y) noexcept;
   int64_t heading_variance() const noexcept;
+  void gather() noexcept;
 
   void update(const Step& step) noexcept;
   void walk(int32_t x, int32_t y, int64_t by) noexcept;

@@ -28,7 +28,7 @@ Differences differences(const UncertainPose& estimate, const UncertainPose& fix)
 }
 
 bool too_far(const Difference& d) noexcept {
-  return square(d.size) > square(kJumpSigmas) * (square(d.estimate) + square(d.fix));
+  return square(d.size) > square(PoseBound::kJumpSigmas) * (square(d.estimate) + square(d.fix));
 }
 
 /// The weight of the fix, 2^-16: its share of the inverse variances.

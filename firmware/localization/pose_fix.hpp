@@ -12,9 +12,7 @@ struct UncertainPose {
   PoseSigma sigma;
 };
 
-/// A fix is a jump if it differs from the estimate by more than this many standard deviations of the
-/// difference: along the heading, across it, or in heading.
-constexpr int32_t kJumpSigmas = 4;
+/// By PoseBound::kJumpSigmas: along the heading, across it, or in heading.
 bool jumps(const UncertainPose& estimate, const UncertainPose& fix) noexcept;
 
 /// The mean of both, weighted by their variances along the heading, across it, and of the heading.

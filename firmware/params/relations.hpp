@@ -38,6 +38,7 @@ enum class ParamFault : uint8_t {
   beams_crossed,              ///< the axes point from left to right
   creep_without_bumper,       ///< creep_speed is zero unless a bumper is fitted
   gyro_unfit,                 ///< a fitted gyro: kGyroBuilt, range >= 5/4 max_turn_rate
+  walls_without_bound,        ///< straight walls need kGyroBuilt and a bound of the pose: PoseErrorParams
 };
 
 struct Relation {
@@ -131,6 +132,11 @@ constexpr Relation relation(ParamFault fault) noexcept {
       return {"gyro_unfit",
               "gyro_range_radps must not be less than 5/4 turn_rate_max_radps unless gyro is false, which it "
               "must be in an image without the code for a gyro (ATmega1284P)"};
+    case F::walls_without_bound:
+      return {"walls_without_bound",
+              "straight_walls must be false unless wheel_scale_sigma, wheel_scale_common_sigma or "
+              "heading_drift_deg_per_sqrt_m is greater than 0, and in an image without the code for a gyro "
+              "(ATmega1284P)"};
   }
   return {"?", ""};
 }
@@ -278,7 +284,9 @@ template <class Visit>
       visit(F::beams_crossed, beams.ordered) &&
       visit(F::creep_without_bumper, p.bumper.fitted == Fitted::yes || p.bumper.creep_speed == Speed{}) &&
       visit(F::gyro_unfit,
-            p.gyro.fitted == Fitted::no || (kGyroBuilt && p.gyro.range >= p.wheels.max_turn_rate * 5 / 4)));
+            p.gyro.fitted == Fitted::no || (kGyroBuilt && p.gyro.range >= p.wheels.max_turn_rate * 5 / 4)) &&
+      visit(F::walls_without_bound,
+            p.walls.straight == Fitted::no || (kGyroBuilt && declares_errors(p.pose_error))));
 }
 
 namespace formula {

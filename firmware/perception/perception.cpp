@@ -3,6 +3,8 @@
 namespace whisker::perception {
 namespace {
 
+constexpr Length kSamePlace = 20_mm;
+constexpr uint8_t kMostTakenBack = 16;  // times at one place
 constexpr Length kAppears = 50_mm;  // nearer than the reading before: another object
 
 }  // namespace
@@ -52,6 +54,20 @@ bool Perception::vouch(Length radius, const Pose& body) noexcept {
 /// Drops it once all vouched cells have left the window.
 void Perception::leave_vouched(Vec body) noexcept {
   if (vouched_->any && farther(body - vouched_->at, local_grid_.half_window() * 5 / 2)) vouched_->any = false;
+}
+
+/// A cone that is narrower than stated clears ground at its edges that it does not see, and any unclear cell
+/// would explain the echo. Where walls vanish or readings miss objects, echoes appear too often for that. So
+/// they do while the body turns at one place, and a look must come to an end.
+bool Perception::takes_back(Vec body) noexcept {
+  if (loses_walls_ || misses_) return false;
+  if (farther(body - taken_back_at_, kSamePlace)) {
+    taken_back_at_ = body;
+    taken_back_ = 0;
+  }
+  if (taken_back_ == kMostTakenBack) return false;
+  ++taken_back_;
+  return true;
 }
 
 void Perception::sense(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
@@ -133,7 +149,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
     if (echo) {
       local_grid_.revoke(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
-      if (kVouches && vouched_->any) {
+      if ((appears[i] && takes_back(body.pose.at)) || (kVouches && vouched_->any)) {
         local_grid_.take_back(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
       }
       if (appears[i]) local_grid_.revoke_beside(out.observations[i]);

@@ -74,6 +74,7 @@ class Perception {
 
  private:
   void leave_vouched(Vec body) noexcept;
+  bool takes_back(Vec body) noexcept;
   /// From this number of contradictions on, clear ground is not trusted. An object that moves causes fewer.
   static constexpr uint8_t kDistrusted = 6;
   /// From this number on, the beams may point beside their axes; from twice as many on, that does not explain
@@ -90,6 +91,8 @@ class Perception {
     Contradiction of[hal::kBeams];
   };
   Part<Contradictions, kMotionDetectorBuilt> contradictions_;
+  uint8_t taken_back_ = 0;  // echoes that appeared and took back ground, near the place below
+  Vec taken_back_at_;
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading
   EarlierObservation last_[hal::kBeams];  // last reading of each beam, if any
   RangeScatter scatter_[hal::kBeams];

@@ -45,7 +45,8 @@ class BusPilot final : public Pilot {
         resend_(std::uint64_t{options.resend_ms} * 1000),
         plant_(plant),
         fixes_(scenario),
-        reckons_(params_.gyro.fitted == Fitted::no && !(scenario.noise.fix_every_m > 0)),
+        reckons_(params_.gyro.fitted == Fitted::no && params_.walls.straight == Fitted::no &&
+                 !(scenario.noise.fix_every_m > 0)),
         board_(plant),
         node_(port, options.identity, ramp_of(scenario.robot)),
         base_(node_, board_, board_, params_.bumper.fitted == Fitted::yes ? &board_ : nullptr,

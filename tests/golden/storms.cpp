@@ -91,6 +91,7 @@ Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
   Bits bits(seed);
   Params params = seed == 1 ? Params{} : test::random_params(bits);
   params.gyro.fitted = Fitted::no;  // a stream carries none, and not every image has the code
+  params.walls.straight = Fitted::no;
   test::StormBoard board(Bits(bits.next()), params, fury);
   Oracle oracle(board);
   const auto planner = make_planner(kind, params);

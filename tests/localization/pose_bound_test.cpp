@@ -219,5 +219,49 @@ TEST(PoseBound, TheDistanceIsTwiceTheRootMeanSquare) {
   EXPECT_EQ(distance_bound({30_mm, 40_mm, 1_deg}), 100_mm);
 }
 
+/// One metre straight ahead, with wheels that are almost perfect, from a heading that is known within a degree.
+PoseBound after_a_metre() {
+  Params params;
+  params.pose_error.wheel_scale_common = millionths(1);
+  PoseBound bound;
+  bound.configure(params);
+  bound.restart({}, {{}, {}, degrees(1)});
+  for (int i = 1; i <= 200; ++i) bound.step({{{millimetres(5 * i), {}}, {}}, {10, 10}, 10_ms, false, {}});
+  return bound;
+}
+
+TEST(PoseBound, AMeasuredHeadingCorrectsThePlaceThatItHasMoved) {
+  PoseBound bound = after_a_metre();
+  ASSERT_NEAR(bound.sigma().across.raw(), 17700, 200);
+  PoseBound::Correction by;
+  ASSERT_TRUE(bound.correct_heading(degrees(2), degrees(0.1), by));
+  // The measurement has a weight of 1 / (1 + 0.01), and a degree moves the place by 17.45 mm.
+  EXPECT_NEAR(Drive::radians(by.turn) / kDegree, 2 / 1.01, 0.001);
+  EXPECT_NEAR(by.shift.x.raw(), 0, 2);
+  EXPECT_NEAR(by.shift.y.raw(), 2 * 17453 / 1.01, 40);
+  const PoseSigma sigma = bound.sigma();
+  EXPECT_NEAR(Drive::radians(sigma.heading) / kDegree, 0.0995, 0.001);
+  // 17.45 mm of the 0.0995 degrees that remain, and the floor of 3 mm.
+  EXPECT_NEAR(sigma.across.raw(), std::hypot(17453 * 0.0995, 3000), 50);
+}
+
+TEST(PoseBound, AHeadingMeasuredAgainCorrectsLittleMore) {
+  PoseBound bound = after_a_metre();
+  PoseBound::Correction by;
+  ASSERT_TRUE(bound.correct_heading(degrees(1), degrees(0.1), by));
+  ASSERT_TRUE(bound.correct_heading(degrees(0.01), degrees(0.1), by));
+  EXPECT_LT(by.shift.y.raw(), 100);
+}
+
+TEST(PoseBound, AHeadingThatIsTooFarOffChangesNothing) {
+  PoseBound bound = after_a_metre();
+  const PoseSigma before = bound.sigma();
+  PoseBound::Correction by;
+  EXPECT_FALSE(bound.correct_heading(degrees(4.1), degrees(0.1), by));
+  EXPECT_EQ(bound.sigma().across, before.across);
+  EXPECT_EQ(bound.sigma().heading.raw(), before.heading.raw());
+  EXPECT_TRUE(bound.correct_heading(degrees(-3.9), degrees(0.1), by));
+}
+
 }  // namespace
 }  // namespace whisker::localization::pose_bound_test

@@ -6,7 +6,7 @@
 #include "firmware/c/whisker.h"
 #include "firmware/params/words.hpp"
 #include "firmware/planning/state.hpp"
-#include "tests/robot/fake_board.hpp"
+#include "tests/robot/c_board.hpp"
 
 namespace whisker {
 namespace {
@@ -16,44 +16,11 @@ struct CRobot {
   explicit CRobot(const whisker_params* wanted = nullptr, bool extras = false) {
     whisker_default_params(&params);
     if (wanted != nullptr) params = *wanted;
-    whisker_board callbacks{};
-    callbacks.user = this;
-    callbacks.ranges = [](void* user, whisker_range readings[3]) {
-      hal::RangeReadings now{};
-      if (!of(user).board.read(now)) return false;
-      for (int i = 0; i < 3; ++i) {
-        const hal::RangeReading& r = now.beam[i];
-        readings[i] = {r.mm, static_cast<uint8_t>(r.status), r.age_ms, r.sequence};
-      }
-      return true;
-    };
-    callbacks.counts = [](void* user, uint32_t* left, uint32_t* right) {
-      hal::EncoderCounts now{};
-      if (!of(user).board.read(now)) return false;
-      *left = now.left;
-      *right = now.right;
-      return true;
-    };
-    callbacks.speeds = [](void* user, int16_t left, int16_t right) {
-      return of(user).board.command({left, right});
-    };
-    if (extras) {
-      callbacks.bumper = [](void* user, uint8_t* pressed) {
-        *pressed = of(user).board.pressed;
-        return !of(user).board.bumper_refuses;
-      };
-      callbacks.gyro = [](void* user, whisker_gyro* reading) {
-        hal::GyroReading now{};
-        const bool answers = of(user).board.read(now);
-        *reading = {now.sum, now.samples, now.saturated};
-        return answers;
-      };
-    }
+    const whisker_board callbacks = test::c_board(board, extras);
     created = whisker_create(&robot, &params, &callbacks);
   }
   CRobot(const CRobot&) = delete;
   CRobot& operator=(const CRobot&) = delete;
-  static CRobot& of(void* user) { return *static_cast<CRobot*>(user); }
 
   whisker_status tick() {
     whisker_status status{};
@@ -86,7 +53,7 @@ TEST(C, ParametersAreThoseOfTheCore) {
     EXPECT_EQ(whisker_get_param(&params, static_cast<whisker_param>(i)), raw_param(defaults, i)) << i;
   }
   EXPECT_EQ(whisker_check_params(&params), 0);
-  EXPECT_EQ(kParams, WHISKER_PARAM_GUARD_ASSIST + 1);
+  EXPECT_EQ(kParams, WHISKER_PARAM_WALL_DIRECTION + 1);
 }
 
 TEST(C, SetsParametersWithinTheirRanges) {

@@ -96,6 +96,7 @@ TEST(Params, EveryRelationIsChecked) {
          p.gyro.fitted = Fitted::yes;
          p.gyro.range = 3749_mrad_per_s;
        }},
+      {ParamFault::walls_without_bound, [](Params& p) { p.walls.straight = Fitted::yes; }},
       {ParamFault::beams_crossed,
        [](Params& p) { p.rangefinders.beams[hal::kFront].angle = direction_of(31_deg); }},
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 200_mm; }},

@@ -1,0 +1,94 @@
+#include "firmware/localization/wall_direction.hpp"
+
+#include "firmware/localization/wall_fit.hpp"
+
+namespace whisker::localization {
+namespace {
+
+constexpr Length kMean = 60_mm;                          // of the wall, for one mean
+constexpr int kLeast = 5;                                // means
+constexpr Length kStep = 60_mm;                          // between two points, at most
+constexpr Length kBend = 8_mm;                           // of a mean from the line, at most
+constexpr Length kRough = Length::from_raw(4000);        // residual of the means, at most
+constexpr Length kLeastError = Length::from_raw(2500);   // of a mean
+constexpr Angle kTurn = 10_deg;                          // of the body meanwhile, at most
+constexpr Angle kAlongside = 30_deg;                     // between line and heading, at most
+constexpr Angle kMostAhead = 15_deg;                     // what is farther off is hardly one of the walls
+constexpr Angle kFloor = Angle::turns(1, 3600);          // walls are not quite straight
+constexpr uint8_t kMostPoints = 200;
+constexpr int64_t kRadian = 683565276;  // 2^-32 turn
+
+/// Modulo 2^-bits turn, the nearest to zero.
+int32_t apart(Angle a, int bits) noexcept { return as_signed(a.raw() << bits) >> bits; }
+
+}  // namespace
+
+void WallDirection::restart() noexcept {
+  for (Run& run : runs_) drop(run);
+}
+
+bool WallDirection::pass(hal::Beam side, const Echo* echo, Angle direction, Found& found) noexcept {
+  Run& run = runs_[side == hal::kLeft ? 0 : 1];
+  const bool any = run.points > 0;
+  const bool ends = echo == nullptr || farther(echo->at - run.last, kStep) ||
+                    magnitude(echo->heading - run.heading) > kTurn.raw();
+  bool done = false;
+  if (any && ends) {
+    done = finish(run, direction, found);
+    drop(run);
+  }
+  if (echo == nullptr) return done;
+  add(run, *echo);
+  if (run.count < kMeans) return done;
+  done = finish(run, direction, found);
+  // The wall goes on: the last mean has not counted yet.
+  run.means[0] = run.means[kMeans - 2];
+  run.means[1] = run.means[kMeans - 1];
+  run.count = 2;
+  run.heading = echo->heading;
+  return done;
+}
+
+void WallDirection::add(Run& run, const Echo& echo) noexcept {
+  if (run.points == 0) {
+    if (run.count == 0) run.heading = echo.heading;
+    run.from = echo.at;
+    run.x = run.y = 0;
+  }
+  run.last = echo.at;
+  const Vec way = echo.at - run.from;
+  if (run.points < kMostPoints) {
+    run.x += way.x.raw();
+    run.y += way.y.raw();
+    ++run.points;
+  }
+  if (!farther(way, kMean)) return;
+  run.means[run.count] = run.from + Vec{Length::from_raw(run.x / run.points), Length::from_raw(run.y / run.points)};
+  ++run.count;
+  run.from = echo.at;
+  run.x = run.y = 0;
+  run.points = 1;
+}
+
+bool WallDirection::finish(const Run& run, Angle direction, Found& found) noexcept {
+  const int count = run.count - 2;
+  if (count < kLeast) return false;
+  const Vec* const means = run.means + 1;
+  const WallLine line = wall_line(means, count);
+  if (line.residual > kRough) return false;
+  for (int i = 0; i < count; ++i) {
+    if (abs(across(means[i] - line.middle, line.direction)) > kBend) return false;
+  }
+  const uint32_t aside = magnitude(apart(line.direction - run.heading, 1));
+  if (aside > kAlongside.raw()) return false;
+  const int32_t ahead = apart(direction - line.direction, 2);
+  if (magnitude(ahead) > kMostAhead.raw()) return false;
+  // Of count means, the line leaves count - 2 free.
+  const Length error = max(kLeastError, line.residual * count / (count - 2));
+  const int64_t over = int64_t{line.spread.raw()} * as_signed(square_root(static_cast<uint64_t>(count) << 16));
+  found.ahead = Angle::from_raw(static_cast<uint32_t>(ahead));
+  found.sigma = Angle::from_raw(static_cast<uint32_t>(error.raw() * (kRadian << 8) / over)) + kFloor;
+  return true;
+}
+
+}  // namespace whisker::localization
