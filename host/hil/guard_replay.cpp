@@ -6,33 +6,53 @@ namespace whisker::hil {
 
 void GuardReplay::execute(can::Order order, const Params& params) {
   guard_->execute(order, params);
-  vouched_ = false;
   vouch_.reset();
   answer_.reset();
+  said_.reset();
+  asked_ = {};
+  armed_ = vouched_ = false;
+  still_ = true;
   braked_ = order == can::Order::resume;
 }
 
-void GuardReplay::on_frame(const can::WheelCommand& command) {
-  if (command.mode == can::DriveMode::drive) {
-    answer_ = command;
-  } else {
-    braked_ = true;
-  }
+void GuardReplay::on_frame(const can::VelocityCommand& velocity) {
+  armed_ = armed_ || (velocity.forward == 0 && velocity.turning == 0);
+  if (armed_) said_ = velocity;
 }
 
-GuardReplay::Step GuardReplay::step(const can::InputSet& set, const can::WheelCommand& recorded,
-                                    const can::GuardReport& told) {
-  if (told.vouched != 0 && !vouched_ && vouch_) guard_->guard().vouch(millimetres(vouch_->radius_mm));
-  vouched_ = told.vouched != 0;
-  guard_->guard().command(can_app::velocity_of({told.asked_forward, told.asked_turning}),
-                          can_app::time_of(set));
+void GuardReplay::on_frame(const can::WheelCommand& command) {
+  if (command.mode != can::DriveMode::drive) {
+    braked_ = true;
+    return;
+  }
+  answer_ = Answer{command, said_.value_or(asked_), said_.has_value(), vouched_ || (vouch_ && still_)};
+  said_.reset();
+}
+
+GuardReplay::Step GuardReplay::step(const can::InputSet& set, const Answer& recorded,
+                                    const can::GuardReport* told) {
+  const Time now = can_app::time_of(set);
+  if (recorded.heard) asked_at_ = now;
+  asked_ = recorded.asked;
+  bool vouched = recorded.vouched;
+  if (told != nullptr) {
+    armed_ = told->armed != 0;
+    vouched = told->vouched != 0;
+    guard_->guard().command(can_app::velocity_of({told->asked_forward, told->asked_turning}), now);
+  } else {
+    guard_->guard().command(can_app::velocity_of(asked_), asked_at_);
+  }
+  if (vouched && !vouched_ && vouch_) guard_->guard().vouch(millimetres(vouch_->radius_mm));
+  vouched_ = vouched;
   const GuardStatus& status = guard_->step(set, braked_);
   braked_ = false;
+  const hal::WheelSpeeds& speeds = recorded.command.speeds;
+  still_ = still_ && speeds.left == 0 && speeds.right == 0;
   Step out{status.command, ""};
-  if (status.command.left != recorded.speeds.left || status.command.right != recorded.speeds.right) {
+  if (status.command.left != speeds.left || status.command.right != speeds.right) {
     out.difference =
-        fmt::format("tick {}: recorded {} {}, the guard says {} {} (0.1 mm/s)", recorded.tick,
-                    recorded.speeds.left, recorded.speeds.right, status.command.left, status.command.right);
+        fmt::format("tick {}: recorded {} {}, the guard says {} {} (0.1 mm/s)", recorded.command.tick,
+                    speeds.left, speeds.right, status.command.left, status.command.right);
   }
   return out;
 }

@@ -14,9 +14,17 @@
 namespace whisker::hil {
 
 /// Gives a guard the velocities that each GuardStatus says were asked. A GuardStatus belongs to the command
-/// before it.
+/// before it. A log may lack it: the node sends it once, and drops it if the bus takes it too late. Then the
+/// operator's own frames say what was asked.
 class GuardReplay {
  public:
+  /// A recorded answer to a set, and what the operator had asked when it was given.
+  struct Answer {
+    can::WheelCommand command;
+    can::VelocityCommand asked;
+    bool heard = false;  ///< since the answer before
+    bool vouched = false;
+  };
   struct Step {
     hal::WheelSpeeds command{};
     std::string difference;  ///< between the recorded answer and that of the guard; "": none
@@ -24,18 +32,26 @@ class GuardReplay {
 
   void execute(can::Order order, const Params& params);
   /// Of the operator.
+  void on_frame(const can::VelocityCommand& velocity);
   void on_frame(const can::VouchRequest& vouch) { vouch_ = vouch; }
   /// The answer to a set; a stop means that the wheels were braked.
   void on_frame(const can::WheelCommand& command);
-  /// Empty if it answers no set: the node does not drive.
-  std::optional<can::WheelCommand> take() { return std::exchange(answer_, std::nullopt); }
-  Step step(const can::InputSet& set, const can::WheelCommand& recorded, const can::GuardReport& told);
+  /// The last answer. Empty if it is taken already, or the node does not drive.
+  std::optional<Answer> take() { return std::exchange(answer_, std::nullopt); }
+  bool waits() const { return answer_.has_value(); }
+  /// told: null if the log lacks it.
+  Step step(const can::InputSet& set, const Answer& recorded, const can::GuardReport* told);
   bool ready() const { return guard_->ready(); }
 
  private:
   std::unique_ptr<can_app::RemoteGuard> guard_ = std::make_unique<can_app::RemoteGuard>();
   std::optional<can::VouchRequest> vouch_;
-  std::optional<can::WheelCommand> answer_;
+  std::optional<Answer> answer_;
+  std::optional<can::VelocityCommand> said_;  // since the last answer
+  can::VelocityCommand asked_;                // by the operator, at the time below
+  Time asked_at_;
+  bool armed_ = false;  // as can::OperatorInbox
+  bool still_ = false;  // as GuardController: a Vouch counts
   bool vouched_ = false;
   bool braked_ = false;
 };

@@ -39,7 +39,8 @@ class Replay {
     if (sender->whole) execute(sender->kind, frame);
   }
 
-  ReplayResult result() const {
+  ReplayResult result() {
+    step_guard(nullptr);
     ReplayResult out = result_;
     out.hash = hash_.value();
     out.planner = rules_->kind();
@@ -51,11 +52,11 @@ class Replay {
   void execute(MessageKind kind, const hal::CanFrame& frame) {
     if (kind == MessageKind::guard_status) {
       result_.guard = true;
-      return with<can::GuardReport>(frame, [&](const auto& m) { step_guard(m); });
+      return with<can::GuardReport>(frame, [&](const auto& m) { step_guard(&m); });
     }
     if (result_.guard && kind == MessageKind::nav_status) return;
     if (result_.guard && kind == MessageKind::wheel_command) {
-      return with<can::WheelCommand>(frame, [&](const auto& m) { guard_.on_frame(m); });
+      return with<can::WheelCommand>(frame, [&](const auto& m) { answer_guard(m); });
     }
     switch (kind) {
       case MessageKind::wheel_command:
@@ -93,25 +94,37 @@ class Replay {
 
   void hear_operator(const hal::CanFrame& frame) {
     const std::optional<OperatorFrame> said = operator_frame(frame);
-    if (!said || said->robot != result_.robot || !said->whole || said->kind != MessageKind::vouch) return;
-    with<can::VouchRequest>(frame, [&](const auto& m) { guard_.on_frame(m); });
+    if (!said || said->robot != result_.robot || !said->whole) return;
+    const auto hear = [this](const auto& m) { guard_.on_frame(m); };
+    if (said->kind == MessageKind::velocity) with<can::VelocityCommand>(frame, hear);
+    if (said->kind == MessageKind::vouch) with<can::VouchRequest>(frame, hear);
   }
 
-  /// The guard node sends it after each answer.
-  void step_guard(const can::GuardReport& told) {
-    const std::optional<can::WheelCommand> answer = guard_.take();
-    const bool again = answer && stepped_ && answer->tick == tick16_;  // repeated in lockstep
-    if (!answer || again) return;
-    const can::InputSet* const set = overheard_.set_of(answer->tick);
+  /// In lockstep an answer is repeated. Another one means that the log lacks the GuardStatus of the last.
+  void answer_guard(const can::WheelCommand& answer) {
+    const bool drives = answer.mode == can::DriveMode::drive;
+    if (drives && stepped_ && answer.tick == tick16_) return;
+    if (drives && guard_.waits() && answer.tick == waits_for_) return;
+    step_guard(nullptr);
+    guard_.on_frame(answer);
+    waits_for_ = answer.tick;
+  }
+
+  /// told: null if the log lacks it.
+  void step_guard(const can::GuardReport* told) {
+    const std::optional<GuardReplay::Answer> answer = guard_.take();
+    if (!answer) return;
+    const can::InputSet* const set = overheard_.set_of(answer->command.tick);
     if (set == nullptr || !guard_.ready()) {
       ++result_.unknown;
       return;
     }
     const GuardReplay::Step step = guard_.step(*set, *answer, told);
     stepped_ = true;
-    tick16_ = answer->tick;
+    tick16_ = answer->command.tick;
     ++result_.steps;
     ++result_.compared;
+    if (told == nullptr) ++result_.missing;
     hash_.add(step.command);
     if (!step.difference.empty()) differ(step.difference);
   }
@@ -215,6 +228,7 @@ class Replay {
   bool stepped_ = false;
   bool braked_ = false;
   std::uint16_t tick16_ = 0;
+  std::uint16_t waits_for_ = 0;  // tick of the guard's answer
   std::uint8_t counter_ = 0;
 };
 

@@ -36,7 +36,7 @@ struct ReplayResult {
   std::uint64_t steps = 0;           ///< of the core
   std::uint64_t compared = 0;        ///< commands and states that the log contains
   std::uint64_t unknown = 0;         ///< answers to sets that are incomplete in the log
-  std::uint64_t missing = 0;         ///< steps whose answers are not in the log
+  std::uint64_t missing = 0;         ///< steps whose answers, or GuardStatus, are not in the log
   PlannerKind planner;               ///< with the response table that drove last
   std::shared_ptr<HostRules> rules;  ///< owns that table
   std::uint64_t hash = 0;            ///< FNV-1a 64 over the wheel commands of all steps
