@@ -83,6 +83,8 @@ struct ThesisParams {
   int32_t max_steps = 4000;      ///< visited positions, after which it gives up
 };
 
+enum class Fitted : int32_t { no, yes };
+
 struct SkirtParams {
   Length cell;                       ///< side of a cell of the local grid; zero: see patch_cell
   Length shield_margin = 4_mm;       ///< clearance around the body that the guard keeps at every tick
@@ -92,6 +94,7 @@ struct SkirtParams {
   Angle age_turn = 340_deg;          ///< or after one to two of these turns, whichever comes first
   Speed mover_speed = 300_mm_per_s;  ///< assumed speed of moving objects; 0: nothing moves
   Length length_budget = 400_m;      ///< travel after which it gives up; also for the map planner
+  Fitted bend = Fitted::no;          ///< SA of the response table bends the course; also for the map planner
 };
 
 struct MotionParams {
@@ -107,8 +110,6 @@ struct SafetyParams {
   Duration stalled_after = 2000_ms;  ///< wheels without counts, or a manoeuvre without progress: a fault
   int32_t max_refusals = 5;          ///< of the drive, close to one another
 };
-
-enum class Fitted : int32_t { no, yes };
 
 struct BumperParams {
   Fitted fitted = Fitted::no;  ///< bump switches are fitted: hal::Bumper
@@ -282,6 +283,7 @@ constexpr void for_each_param(P& p, F&& f) {
   f.choice("guard_assist", p.guard.assist, kBoolean, 2);
   f.choice("straight_walls", p.walls.straight, kBoolean, 2);
   f.number("wall_direction_deg", p.walls.direction, Angle{}, 90_deg);
+  f.choice("bend_course", p.skirt.bend, kBoolean, 2);
 }
 
 /// A rangefinder on the body, in the body's frame: x ahead, y to the left.

@@ -22,7 +22,7 @@ class WallDirection {
     Vec at;         ///< on the outer edge of the cone, odometry frame
     Angle heading;  ///< of the body when it was measured
   };
-  /// The heading of the odometry is off by `ahead`, at most 10 degrees, with this standard deviation.
+  /// The heading of the odometry is off by `ahead`, at most 15 degrees, with this standard deviation.
   struct Found {
     Angle ahead;
     Angle sigma;
