@@ -5,17 +5,18 @@
 namespace whisker::localization {
 namespace {
 
-constexpr Length kMean = 60_mm;                          // of the wall, for one mean
-constexpr int kLeast = 5;                                // means
-constexpr Length kStep = 60_mm;                          // between two points, at most
-constexpr Length kBend = 8_mm;                           // of a mean from the line, at most
-constexpr Length kRough = Length::from_raw(4000);        // residual of the means, at most
-constexpr Length kLeastError = Length::from_raw(2500);   // of a mean
-constexpr Angle kTurn = 10_deg;                          // of the body meanwhile, at most
-constexpr Angle kAlongside = 30_deg;                     // between line and heading, at most
-constexpr Angle kMostAhead = 15_deg;                     // what is farther off is hardly one of the walls
-constexpr Angle kFloor = Angle::turns(1, 3600);          // walls are not quite straight
+constexpr Length kMean = 60_mm;                         // of the wall, for one mean
+constexpr int kLeast = 5;                               // means
+constexpr Length kStep = 60_mm;                         // between two points, at most
+constexpr Length kBend = 8_mm;                          // of a mean from the line, at most
+constexpr Length kRough = Length::from_raw(4000);       // residual of the means, at most
+constexpr Length kLeastError = Length::from_raw(2500);  // of a mean
+constexpr Angle kTurn = 10_deg;                         // of the body meanwhile, at most
+constexpr Angle kAlongside = 30_deg;                    // between line and heading, at most
+constexpr Angle kMostAhead = 15_deg;                    // what is farther off is hardly one of the walls
+constexpr Angle kFloor = Angle::turns(1, 3600);         // walls are not quite straight
 constexpr uint8_t kMostPoints = 200;
+constexpr int kMeanShift = 6;  // um to the unit of a mean; a run is shorter than the 2 m that it allows
 constexpr int64_t kRadian = 683565276;  // 2^-32 turn
 
 /// Modulo 2^-bits turn, the nearest to zero.
@@ -25,6 +26,7 @@ int32_t apart(Angle a, int bits) noexcept { return as_signed(a.raw() << bits) >>
 
 void WallDirection::restart() noexcept {
   for (Run& run : runs_) drop(run);
+  earlier_sigma_ = {};
 }
 
 bool WallDirection::pass(hal::Beam side, const Echo* echo, Angle direction, Found& found) noexcept {
@@ -42,16 +44,20 @@ bool WallDirection::pass(hal::Beam side, const Echo* echo, Angle direction, Foun
   if (run.count < kMeans) return done;
   done = finish(run, direction, found);
   // The wall goes on: the last mean has not counted yet.
-  run.means[0] = run.means[kMeans - 2];
-  run.means[1] = run.means[kMeans - 1];
-  run.count = 2;
+  const Vec kept[] = {place(run, kMeans - 2), place(run, kMeans - 1)};
+  run.origin = kept[0];
+  run.count = 0;
+  for (const Vec& mean : kept) keep(run, mean);
   run.heading = echo->heading;
   return done;
 }
 
 void WallDirection::add(Run& run, const Echo& echo) noexcept {
   if (run.points == 0) {
-    if (run.count == 0) run.heading = echo.heading;
+    if (run.count == 0) {
+      run.heading = echo.heading;
+      run.origin = echo.at;
+    }
     run.from = echo.at;
     run.x = run.y = 0;
   }
@@ -63,17 +69,29 @@ void WallDirection::add(Run& run, const Echo& echo) noexcept {
     ++run.points;
   }
   if (!farther(way, kMean)) return;
-  run.means[run.count] = run.from + Vec{Length::from_raw(run.x / run.points), Length::from_raw(run.y / run.points)};
-  ++run.count;
+  keep(run, run.from + Vec{Length::from_raw(run.x / run.points), Length::from_raw(run.y / run.points)});
   run.from = echo.at;
   run.x = run.y = 0;
   run.points = 1;
 }
 
+void WallDirection::keep(Run& run, Vec mean) noexcept {
+  const Vec from = mean - run.origin;
+  run.means[run.count++] = {static_cast<int16_t>(scale_down<kMeanShift>(from.x.raw())),
+                            static_cast<int16_t>(scale_down<kMeanShift>(from.y.raw()))};
+}
+
+Vec WallDirection::place(const Run& run, int mean) noexcept {
+  const Mean& m = run.means[mean];
+  return run.origin +
+         Vec{Length::from_raw(m.x * (1 << kMeanShift)), Length::from_raw(m.y * (1 << kMeanShift))};
+}
+
 bool WallDirection::finish(const Run& run, Angle direction, Found& found) noexcept {
   const int count = run.count - 2;
   if (count < kLeast) return false;
-  const Vec* const means = run.means + 1;
+  Vec means[kMeans - 2];
+  for (int i = 0; i < count; ++i) means[i] = place(run, i + 1);
   const WallLine line = wall_line(means, count);
   if (line.residual > kRough) return false;
   for (int i = 0; i < count; ++i) {
@@ -85,10 +103,15 @@ bool WallDirection::finish(const Run& run, Angle direction, Found& found) noexce
   if (magnitude(ahead) > kMostAhead.raw()) return false;
   // Of count means, the line leaves count - 2 free.
   const Length error = max(kLeastError, line.residual * count / (count - 2));
-  const int64_t over = int64_t{line.spread.raw()} * as_signed(square_root(static_cast<uint64_t>(count) << 16));
+  const int64_t over =
+      int64_t{line.spread.raw()} * as_signed(square_root(static_cast<uint64_t>(count) << 16));
   found.ahead = Angle::from_raw(static_cast<uint32_t>(ahead));
   found.sigma = Angle::from_raw(static_cast<uint32_t>(error.raw() * (kRadian << 8) / over)) + kFloor;
-  return true;
+  const bool agrees = earlier_sigma_ != Angle{} && magnitude(apart(line.direction - earlier_, 2)) <=
+                                                       2 * (earlier_sigma_ + found.sigma).raw();
+  earlier_ = line.direction;
+  earlier_sigma_ = found.sigma;
+  return agrees;
 }
 
 }  // namespace whisker::localization
