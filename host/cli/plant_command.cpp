@@ -24,7 +24,8 @@ struct PlantOptions {
 };
 
 int execute(const PlantOptions& o) {
-  const Scenario scenario = o.scenario.load({o.bus.record});
+  Scenario scenario = o.scenario.load({o.bus.record});
+  bend_if_chosen(scenario.robot, o.wanted);
   const auto view = o.view.open();
   const auto line = hil::open_line(o.bus.name);
   RunOutputs outputs = o.scenario.run_outputs(scenario);
@@ -42,7 +43,7 @@ void add_plant(CLI::App& app, int& status) {
   add_scenario(*cmd, o->scenario);
   add_bus(*cmd, o->bus)->required();
   add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
-  o->rules = add_rules_choice(*cmd, o->wanted, "Send this rule base to the controller as its response table");
+  o->rules = add_rules_choice(*cmd, o->wanted, "Send this rule base to the controller as its response table;\nsets bend_course");
   add_view(*cmd, o->view);
   cmd->callback([o, &status] { status = execute(*o); });
 }
