@@ -40,7 +40,7 @@ class BusPilot final : public Pilot {
         options_(options),
         figures_(figures),
         params_(scenario.robot),
-        mission_{fixed_pose(scenario.start), fixed_goal(scenario.goal)},
+        mission_{fixed_pose(scenario.start), options.goal ? *options.goal : fixed_goal(scenario.goal)},
         period_us_(static_cast<std::uint64_t>(scenario.robot.safety.period.raw()) * 1000),
         resend_(std::uint64_t{options.resend_ms} * 1000),
         plant_(plant),
@@ -73,6 +73,7 @@ class BusPilot final : public Pilot {
       reckon();
       ++figures_.sets;
       status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
+      await_calibration();
     } catch (const Hopeless&) {
     }
     status_.command = base_.drive();
@@ -198,7 +199,7 @@ class BusPilot final : public Pilot {
     while (!node_.matched()) watchful_nap();
     if (options_.rules) make_it_drive_with(*options_.rules);
     hand_over_params();
-    give(can::Order::start);
+    give(options_.order);
     restarts_ = node_.peer_restarts();
     begun_ = true;
     begun_us_ = clock_.now_us();
@@ -275,7 +276,30 @@ class BusPilot final : public Pilot {
         watchful_nap();
         watch_patience();
       }
+      refuse(order);
     } while (node_.order_state() == can::OrderState::refused);
+  }
+
+  void refuse(can::Order order) const {
+    if (!calibrates(order) || node_.order_state() != can::OrderState::refused) return;
+    if (node_.order_status() == can::MissionStatus::unsupported)
+      throw NoCalibration("the controller does not calibrate; whisker controller does with --calibration");
+    if (node_.order_status() == can::MissionStatus::out_of_range)
+      throw NoCalibration("a straight calibration is 0.5 m long at least: the goal is too near");
+  }
+
+  /// The controller saves, which may take seconds, and reports in turn.
+  void await_calibration() {
+    if (!calibrates(options_.order) || figures_.calibrated ||
+        status_.decision.outcome == planning::Outcome::running || status_.health.fault != Fault::none)
+      return;
+    ask_for("Calibration report");
+    can::Calibrated found;
+    while (!node_.calibrated(found)) {
+      watchful_nap();
+      watch_patience();
+    }
+    figures_.calibrated = found;
   }
 
   void hand_over_params() {
