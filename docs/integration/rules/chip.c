@@ -18,7 +18,8 @@ static void leave(uintptr_t status) {
 
 void port_print(const char* text) { semihost(0x04, text); }
 
-/* TIMER0 of the nRF51 counts at 16 MHz. With QEMU's option `-icount shift=10`, an instruction takes 1024 ns: 16.384 counts. */
+/* TIMER0 of the nRF51 counts at 16 MHz. With QEMU's option `-icount shift=10`, an instruction takes 1024
+ * ns: 16.384 counts. */
 #define TIMER(offset) (*(volatile uint32_t*)(0x40008000U + (offset)))
 
 uint32_t port_stamp(void) {

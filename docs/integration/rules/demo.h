@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-/* How raw values of an input or output become units. The constants are computed at compile time, so printing needs no
-   floating point. */
+/* How raw values of an input or output become units. The constants are computed at compile time, so printing
+   needs no floating point. */
 typedef struct {
   const char* name;
   int16_t low, high; /* raw; inputs only */

@@ -16,9 +16,11 @@ static const demo follower = {{INPUT("distance", FOLLOWER_DISTANCE), INPUT("bear
 
 int main(void) {
   demo_ask(&follower, follower_distance_raw(0.4), follower_bearing_raw(0.0));
-  demo_ask(&follower, follower_distance_raw(1.2), follower_bearing_raw(0.0));
   demo_ask(&follower, follower_distance_raw(1.2), follower_bearing_raw(25.0));
   demo_ask(&follower, follower_distance_raw(1.8), follower_bearing_raw(-50.0));
+  /* Here the error is greatest: the compiler prints these places. */
+  demo_ask(&follower, follower_distance_raw(1.1234375), follower_bearing_raw(-60.0));
+  demo_ask(&follower, follower_distance_raw(0.4765625), follower_bearing_raw(-59.8828125));
   demo_measure(&follower);
   return 0;
 }
