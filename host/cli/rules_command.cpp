@@ -1,7 +1,9 @@
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
@@ -41,6 +43,11 @@ struct ShowOptions {
   std::string svg;
 };
 
+struct EvaluateOptions {
+  std::string file;
+  std::vector<std::string> inputs;
+};
+
 bool parse_finite(std::string_view text, double& out) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, out);
@@ -71,8 +78,9 @@ std::vector<std::int32_t> nodes(const std::string& text) {
   return all;
 }
 
-/// "service=5"
-std::vector<rules::Fixed> fixed(const rules::RuleBase& base, const std::vector<std::string>& texts) {
+/// "service=5", from the option or argument `of`.
+std::vector<rules::Fixed> assigned(const rules::RuleBase& base, const std::vector<std::string>& texts,
+                                   std::string_view of) {
   std::vector<rules::Fixed> all;
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
@@ -84,17 +92,21 @@ std::vector<rules::Fixed> fixed(const rules::RuleBase& base, const std::vector<s
       if (base.inputs[i].name == name) one.input = i;
     }
     if (equals == std::string::npos || !parse_finite(std::string_view(text).substr(equals + 1), one.value))
-      throw UsageError(fmt::format("--fix: '{}' must be INPUT=VALUE", text));
+      throw UsageError(fmt::format("{}: '{}' must be INPUT=VALUE", of, text));
     if (one.input == base.inputs.size())
-      throw UsageError(fmt::format("--fix: no input '{}'{}", name, did_you_mean(name, names)));
+      throw UsageError(fmt::format("{}: no input '{}'{}", of, name, did_you_mean(name, names)));
     const rules::Input& input = base.inputs[one.input];
     if (one.value < input.low || one.value > input.high)
-      throw UsageError(fmt::format("--fix: '{}' must be from {} to {}", name, input.low, input.high));
+      throw UsageError(fmt::format("{}: '{}' must be from {} to {}", of, name, input.low, input.high));
     for (const rules::Fixed& other : all)
-      if (other.input == one.input) throw UsageError(fmt::format("--fix: '{}' is fixed twice", name));
+      if (other.input == one.input) throw UsageError(fmt::format("{}: '{}' is given twice", of, name));
     all.push_back(one);
   }
   return all;
+}
+
+std::vector<rules::Fixed> fixed(const rules::RuleBase& base, const std::vector<std::string>& texts) {
+  return assigned(base, texts, "--fix");
 }
 
 int execute_rules_compile(const CompileOptions& o) {
@@ -133,6 +145,21 @@ int execute_rules_show(const ShowOptions& o) {
   return 0;
 }
 
+int execute_rules_evaluate(const EvaluateOptions& o) {
+  const rules::RuleBase base = rules::read_rules(o.file);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> values(base.inputs.size(), kNone);
+  for (const rules::Fixed& one : assigned(base, o.inputs, "evaluate")) values[one.input] = one.value;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (std::isnan(values[i]))
+      throw UsageError(fmt::format("evaluate: input '{}' needs a value", base.inputs[i].name));
+  const std::vector<rules::Answer> answers = rules::Inference(base)(values);
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    fmt::print("{} = {:.12g}{}\n", base.outputs[i].name, answers[i].value,
+               answers[i].fired ? "" : " (no rule fires)");
+  return 0;
+}
+
 constexpr const char* kRulesStatus = R"(
 Exit status of rules: 0 done, 2 bad input or usage, 1 anything else.)";
 
@@ -150,6 +177,15 @@ void add_show(CLI::App& rules, int& status) {
   add_file(*cmd, "--svg", o->svg, "Draw the memberships and the exact answers");
   cmd->footer(kRulesStatus);
   cmd->callback([o, &status] { status = execute_rules_show(*o); });
+}
+
+void add_evaluate(CLI::App& rules, int& status) {
+  CLI::App* cmd = rules.add_subcommand("evaluate", "Print the exact answers at one input");
+  const auto o = std::make_shared<EvaluateOptions>();
+  add_file(*cmd, "FILE", o->file, "Rule base: .fis, .fll, .fcl or .toml")->required();
+  cmd->add_option("INPUT=VALUE", o->inputs, "The value of each input")->required();
+  cmd->footer(kRulesStatus);
+  cmd->callback([o, &status] { status = execute_rules_evaluate(*o); });
 }
 
 void add_compile(CLI::App& rules, int& status) {
@@ -181,6 +217,7 @@ void add_rules(CLI::App& app, int& status) {
   rules->require_subcommand(1);
   add_compile(*rules, status);
   add_show(*rules, status);
+  add_evaluate(*rules, status);
   add_rules_compare(*rules, status);
 }
 

@@ -249,6 +249,29 @@ class Command(Case):
             self.assertIn("input ", done.stdout)
             self.assertTrue(svg.read_text().rstrip().endswith("</svg>"))
 
+    def test_evaluate_prints_the_exact_answers(self):
+        # At 2 m, `near` is 0 and `far` is 1; bearing has no terms.
+        follower = whisker.whisker("rules", "evaluate", EXAMPLES / "follower.fis", "distance=2", "bearing=30")
+        self.assertEqual((follower.returncode, follower.stderr), (0, ""))
+        speed, turn = (line.split(" = ") for line in follower.stdout.splitlines())
+        self.assertEqual((speed[0], turn[0]), ("speed", "turn"))
+        right = 1 / (1 + ((2 - 0.8) / 0.3) ** 4)
+        self.assertAlmostEqual(float(speed[1]), (right * (0.5 * 2 - 0.2) + 0.5) / (right + 1), places=9)
+        self.assertAlmostEqual(float(turn[1]), (right * 45 + 45 + 0.25 * 22.5) / (right + 1.25), places=9)
+        self.assertEqual(whisker.whisker("rules", "evaluate", EXAMPLES / "fan.fcl", "trend=0", "error=-3").stdout, "duty = 0\n")
+
+    def test_evaluate_says_where_no_rule_fires(self):
+        rules = self.file("tip.fis", re.sub(r"(?s)\[Rules\].*", "[Rules]\n3 2, 3 (1) : 1\n", (EXAMPLES / "tip.fis").read_text()).replace("NumRules=4", "NumRules=1"))
+        self.assertEqual(whisker.whisker("rules", "evaluate", rules, "service=1", "food=1").stdout, "tip = 15 (no rule fires)\n")
+
+    def test_evaluate_refuses_wrong_inputs(self):
+        self.file("tip.fis", (EXAMPLES / "tip.fis").read_text())
+        self.refused("rules", "evaluate", "tip.fis", says="INPUT=VALUE is required")
+        for at, says in (("servce=1", "no input 'servce'; did you mean 'service'?"), ("service=11", "'service' must be from 0 to 10"),
+                         ("service=x", "'service=x' must be INPUT=VALUE"), ("service=1", "input 'food' needs a value")):  # fmt: skip
+            self.refused("rules", "evaluate", "tip.fis", at, says=f"evaluate: {says}")
+        self.refused("rules", "evaluate", "tip.fis", "food=1", "food=2", says="evaluate: 'food' is given twice")
+
     def test_wrong_usage(self):
         self.file("tip.fis", (EXAMPLES / "tip.fis").read_text())
         self.refused("rules", says="rules needs a command")
@@ -269,10 +292,11 @@ class Command(Case):
 
 class Documentation(Case):
     def test_the_page_shows_what_the_command_prints(self):
-        page = (ROOT / "docs/rules.md").read_text()
+        page = (ROOT / "docs/rule-compiler.md").read_text()
         for name in NAMES:
             done = whisker.whisker("rules", "compile", f"host/rules/examples/{name}", cwd=ROOT)
-            self.assertIn(f"$ whisker rules compile host/rules/examples/{name}\n{done.stdout}```\n", page)
+            header = f"{name.partition('.')[0]}.h"
+            self.assertIn(f"$ whisker rules compile host/rules/examples/{name} --header {header}\n{done.stdout}header: {header}\n```\n", page)
 
 
 class Malformed(Case):
