@@ -16,7 +16,7 @@ namespace whisker::can {
 
 struct CalibrationReport {
   static constexpr MessageKind kKind = MessageKind::calibration;
-  static constexpr int32_t kMostValue = (1 << 22) - 1, kMostSigma = (1 << 13) - 1;
+  static constexpr int32_t kMostValue = (INT32_C(1) << 22) - 1, kMostSigma = (1 << 13) - 1;
   calibration::Quantity quantity = calibration::Quantity::gyro_scale;
   planning::Trouble trouble = planning::Trouble::not_finished;
   storage::Stored stored = storage::Stored::nothing;
