@@ -16,11 +16,16 @@ constexpr Angle kAlongside = 30_deg;                    // between line and head
 constexpr Angle kMostAhead = 15_deg;                    // what is farther off is hardly one of the walls
 constexpr Angle kFloor = Angle::turns(1, 3600);         // walls are not quite straight
 constexpr uint8_t kMostPoints = 200;
-constexpr int kMeanShift = 6;  // um to the unit of a mean; a run is shorter than the 2 m that it allows
+constexpr int kPlaceShift = 6;  // um to the unit of a place; a run is shorter than the 2 m that it allows
 constexpr int64_t kRadian = 683565276;  // 2^-32 turn
 
 /// Modulo 2^-bits turn, the nearest to zero.
 int32_t apart(Angle a, int bits) noexcept { return as_signed(a.raw() << bits) >> bits; }
+
+int16_t sixteen_bits(Angle a) noexcept { return static_cast<int16_t>(a.wrapped() >> 16); }
+Angle turned(int16_t heading) noexcept {
+  return Angle::from_raw(static_cast<uint32_t>(static_cast<uint16_t>(heading)) << 16);
+}
 
 }  // namespace
 
@@ -32,8 +37,8 @@ void WallDirection::restart() noexcept {
 bool WallDirection::pass(hal::Beam side, const Echo* echo, Angle direction, Found& found) noexcept {
   Run& run = runs_[side == hal::kLeft ? 0 : 1];
   const bool any = run.points > 0;
-  const bool ends = echo == nullptr || farther(echo->at - run.last, kStep) ||
-                    magnitude(echo->heading - run.heading) > kTurn.raw();
+  const bool ends = echo == nullptr || farther(echo->at - point(run, run.last), kStep) ||
+                    magnitude(echo->heading - turned(run.heading)) > kTurn.raw();
   bool done = false;
   if (any && ends) {
     done = finish(run, direction, found);
@@ -44,24 +49,26 @@ bool WallDirection::pass(hal::Beam side, const Echo* echo, Angle direction, Foun
   if (run.count < kMeans) return done;
   done = finish(run, direction, found);
   // The wall goes on: the last mean has not counted yet.
-  const Vec kept[] = {place(run, kMeans - 2), place(run, kMeans - 1)};
-  run.origin = kept[0];
-  run.count = 0;
-  for (const Vec& mean : kept) keep(run, mean);
-  run.heading = echo->heading;
+  const Vec last = point(run, run.means[kMeans - 1]);
+  run.origin = point(run, run.means[kMeans - 2]);
+  run.means[0] = {0, 0};
+  run.means[1] = place(run, last);
+  run.count = 2;
+  run.last = place(run, echo->at);
+  run.heading = sixteen_bits(echo->heading);
   return done;
 }
 
 void WallDirection::add(Run& run, const Echo& echo) noexcept {
   if (run.points == 0) {
     if (run.count == 0) {
-      run.heading = echo.heading;
+      run.heading = sixteen_bits(echo.heading);
       run.origin = echo.at;
     }
     run.from = echo.at;
     run.x = run.y = 0;
   }
-  run.last = echo.at;
+  run.last = place(run, echo.at);
   const Vec way = echo.at - run.from;
   if (run.points < kMostPoints) {
     run.x += way.x.raw();
@@ -69,35 +76,35 @@ void WallDirection::add(Run& run, const Echo& echo) noexcept {
     ++run.points;
   }
   if (!farther(way, kMean)) return;
-  keep(run, run.from + Vec{Length::from_raw(run.x / run.points), Length::from_raw(run.y / run.points)});
+  const Vec mean{Length::from_raw(run.x / run.points), Length::from_raw(run.y / run.points)};
+  run.means[run.count++] = place(run, run.from + mean);
   run.from = echo.at;
   run.x = run.y = 0;
   run.points = 1;
 }
 
-void WallDirection::keep(Run& run, Vec mean) noexcept {
-  const Vec from = mean - run.origin;
-  run.means[run.count++] = {static_cast<int16_t>(scale_down<kMeanShift>(from.x.raw())),
-                            static_cast<int16_t>(scale_down<kMeanShift>(from.y.raw()))};
+WallDirection::Place WallDirection::place(const Run& run, Vec at) noexcept {
+  const Vec from = at - run.origin;
+  return {static_cast<int16_t>(scale_down<kPlaceShift>(from.x.raw())),
+          static_cast<int16_t>(scale_down<kPlaceShift>(from.y.raw()))};
 }
 
-Vec WallDirection::place(const Run& run, int mean) noexcept {
-  const Mean& m = run.means[mean];
+Vec WallDirection::point(const Run& run, const Place& place) noexcept {
   return run.origin +
-         Vec{Length::from_raw(m.x * (1 << kMeanShift)), Length::from_raw(m.y * (1 << kMeanShift))};
+         Vec{Length::from_raw(place.x * (1 << kPlaceShift)), Length::from_raw(place.y * (1 << kPlaceShift))};
 }
 
 bool WallDirection::finish(const Run& run, Angle direction, Found& found) noexcept {
   const int count = run.count - 2;
   if (count < kLeast) return false;
   Vec means[kMeans - 2];
-  for (int i = 0; i < count; ++i) means[i] = place(run, i + 1);
+  for (int i = 0; i < count; ++i) means[i] = point(run, run.means[i + 1]);
   const WallLine line = wall_line(means, count);
   if (line.residual > kRough) return false;
   for (int i = 0; i < count; ++i) {
     if (abs(across(means[i] - line.middle, line.direction)) > kBend) return false;
   }
-  const uint32_t aside = magnitude(apart(line.direction - run.heading, 1));
+  const uint32_t aside = magnitude(apart(line.direction - turned(run.heading), 1));
   if (aside > kAlongside.raw()) return false;
   const int32_t ahead = apart(direction - line.direction, 2);
   if (magnitude(ahead) > kMostAhead.raw()) return false;

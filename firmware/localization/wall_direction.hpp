@@ -38,25 +38,25 @@ class WallDirection {
  private:
   static constexpr int kMeans = 14;
   /// From the origin of its run; 2^6 um.
-  struct Mean {
+  struct Place {
     int16_t x;
     int16_t y;
   };
   /// One wall so far.
   struct Run {
-    Mean means[kMeans];
+    Place means[kMeans];
     Vec origin;
-    Angle heading;  // of the body at its beginning
     Vec from;       // of the mean that is being made
-    Vec last;
     int32_t x = 0;  // sum of its points, from `from`; um
     int32_t y = 0;
+    Place last;
+    int16_t heading;  // of the body at its beginning; 2^-16 turn
     uint8_t points = 0;
     int8_t count = 0;  // of means
   };
   static void add(Run& run, const Echo& echo) noexcept;
-  static void keep(Run& run, Vec mean) noexcept;
-  static Vec place(const Run& run, int mean) noexcept;
+  static Place place(const Run& run, Vec at) noexcept;
+  static Vec point(const Run& run, const Place& place) noexcept;
   bool finish(const Run& run, Angle direction, Found& found) noexcept;
   static void drop(Run& run) noexcept {
     run.points = 0;
