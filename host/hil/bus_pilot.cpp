@@ -6,7 +6,7 @@
 #include "firmware/can/param_server.hpp"
 #include "firmware/can/rules_sender.hpp"
 #include "firmware/localization/odometry.hpp"
-#include "host/hil/error_names.hpp"
+#include "host/hil/base_words.hpp"
 #include "host/hil/overheard.hpp"
 #include "host/hil/resend.hpp"
 #include "host/run/fix_source.hpp"
@@ -171,25 +171,8 @@ class BusPilot final : public Pilot {
     explain();
   }
 
-  std::string words() const {
-    switch (node_.state()) {
-      case can::NodeState::off_bus: {
-        const std::string what = options_.bus_waits_for ? options_.bus_waits_for() : "";
-        return "waits for " + (what.empty() ? "the bus" : what);
-      }
-      case can::NodeState::waiting:
-        return (node_.errors() & can::Error::wrong_version) != 0 ? "the controller speaks another protocol"
-                                                                 : "waits for the controller";
-      case can::NodeState::e_stopped: return "E-stop";
-      case can::NodeState::safe_stop: return "safe stop: " + error_names(node_.errors());
-      case can::NodeState::ready:
-      case can::NodeState::running: break;
-    }
-    return "";
-  }
-
   void explain() {
-    std::string now = words();
+    std::string now = waits_for(node_, options_);
     if (said_ == now) return;
     said_ = std::move(now);
     if (options_.say) options_.say(said_);
@@ -260,14 +243,6 @@ class BusPilot final : public Pilot {
     return sender.reply().status;
   }
 
-  [[noreturn]] static void refuse_rules(std::uint32_t had, std::uint32_t wanted) {
-    if (had == 0) throw OtherRules("the controller has no response table, and takes none");
-    throw OtherRules(
-        fmt::format("the controller drives with the response table {:08x}, not {:08x}, and takes no other; "
-                    "start it with the same --rules",
-                    had, wanted));
-  }
-
   void give(can::Order order) {
     ask_for("MissionReply that accepts");
     do {
@@ -276,16 +251,8 @@ class BusPilot final : public Pilot {
         watchful_nap();
         watch_patience();
       }
-      refuse(order);
+      refuse_calibration(node_, order);
     } while (node_.order_state() == can::OrderState::refused);
-  }
-
-  void refuse(can::Order order) const {
-    if (!calibrates(order) || node_.order_state() != can::OrderState::refused) return;
-    if (node_.order_status() == can::MissionStatus::unsupported)
-      throw NoCalibration("the controller does not calibrate; whisker controller does with --calibration");
-    if (node_.order_status() == can::MissionStatus::out_of_range)
-      throw NoCalibration("a straight calibration is 0.5 m long at least: the goal is too near");
   }
 
   /// The controller saves, which may take seconds, and reports in turn.
