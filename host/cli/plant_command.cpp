@@ -55,7 +55,8 @@ void add_plant(CLI::App& app, int& status) {
   add_scenario(*cmd, o->scenario);
   add_bus(*cmd, o->bus)->required();
   add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
-  o->rules = add_rules_choice(*cmd, o->wanted, "Send this rule base to the controller as its response table;\nsets bend_course");
+  o->rules = add_rules_choice(
+      *cmd, o->wanted, "Send this rule base to the controller as its response table;\nsets bend_course");
   add_name(*cmd, "--calibrate", o->calibrate,
            "Order a calibration instead of a mission: spin, or straight\nfor the distance of the goal")
       ->type_name("NAME");
