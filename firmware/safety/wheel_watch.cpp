@@ -5,6 +5,9 @@ namespace {
 
 constexpr Length kStretch = 40_mm;  // for the reference body
 constexpr int32_t kCounts = 10;     // fewer counts do not allow a judgement of fractions
+constexpr int kHeldShift = 6;
+constexpr int32_t kHeldStretches = 15;
+constexpr Length kMostHeld = Length::from_raw(INT32_C(65535) << kHeldShift);
 
 }  // namespace
 
@@ -17,7 +20,7 @@ void WheelWatch::configure(const Params& params) noexcept {
 
 int32_t WheelWatch::steady(Wheel& wheel, int32_t counts) noexcept {
   const int32_t at = wheel.slack + counts;
-  wheel.slack = at > 1 ? 1 : at < -1 ? -1 : at;
+  wheel.slack = static_cast<int16_t>(at > 1 ? 1 : at < -1 ? -1 : at);
   return at - wheel.slack;
 }
 
@@ -34,6 +37,11 @@ WheelWatch::Finding WheelWatch::judge(Wheel& wheel) const noexcept {
   const Length apart = abs(wheel.commanded_way - wheel.counted_way);
   if (wheel.counted < wheel.expected / 4 && apart > stretch_ / 4) {
     if (wheel.other >= stretch_ / 2) return Finding::stalled;
+    // The other one holds the heading of a body that does not move, and hardly turns.
+    const Length beyond = max(abs(wheel.commanded_way) - stretch_, Length{});
+    const Length held = min(Length::from_raw(wheel.held << kHeldShift) + beyond, kMostHeld);
+    wheel.held = static_cast<uint16_t>(held.raw() >> kHeldShift);
+    if (wheel.other > Length{} && held >= min(stretch_ * kHeldStretches, kMostHeld)) return Finding::stalled;
     // Something holds both wheels, which has a separate time-out. The motion missed meanwhile must not count
     // after release.
     wheel.expected = min(wheel.expected, stretch_);
@@ -43,7 +51,7 @@ WheelWatch::Finding WheelWatch::judge(Wheel& wheel) const noexcept {
   if (wheel.counted / 3 > wheel.expected || apart > (wheel.expected + wheel.counted) * 3 / 4) {
     return Finding::runaway;
   }
-  const int32_t slack = wheel.slack;
+  const int16_t slack = wheel.slack;
   wheel = {};
   wheel.slack = slack;
   return Finding::none;

@@ -20,7 +20,8 @@ class WheelWatch {
   enum class Finding : uint8_t {
     none,
     stalled,  ///< less than a quarter of the commanded distance was counted, while the other wheel turned,
-              ///< and a quarter of the stretch is missing in one direction
+              ///< and a quarter of the stretch is missing in one direction; or 15 stretches are missing,
+              ///< while the other wheel turned at all
     runaway,  ///< more than three times the commanded distance was counted, or counts went backwards
   };
 
@@ -38,7 +39,8 @@ class WheelWatch {
     Length commanded_way;  // signed
     Length counted_way;
     Length other;       // counted by the other wheel
-    int32_t slack = 0;  // counts within which it may oscillate
+    int16_t slack = 0;  // counts within which it may oscillate
+    uint16_t held = 0;  // commanded in one direction beyond a stretch, and not counted; 2^6 um
   };
   /// The counts of this step without the oscillation of a wheel that stands between two counts.
   static int32_t steady(Wheel& wheel, int32_t counts) noexcept;

@@ -194,11 +194,20 @@ TEST(Course, ReachesAGoalThatStandsBeforeAWall) {
 
 TEST(TableDeflection, TurnsAwayFromTheNearerSide) {
   TableDeflection law(fuzzy::kDefaultTable);
+  Params params;
+  params.skirt.bend = Fitted::yes;
   Decision decision;
-  const Angle right = law.deflect(echoes(300, 600, 2000), Params{}, decision);
+  const Angle right = law.deflect(echoes(300, 600, 2000), params, decision);
   EXPECT_LT(in_degrees(right), -1);
-  EXPECT_EQ(scaled(Params{}.thesis.base_turn, decision.response.turn), right);
-  EXPECT_EQ(law.deflect(echoes(2000, 600, 300), Params{}, decision), -right);
+  EXPECT_EQ(scaled(params.thesis.base_turn, decision.response.turn), right);
+  EXPECT_EQ(law.deflect(echoes(2000, 600, 300), params, decision), -right);
+}
+
+TEST(TableDeflection, IsStraightUnlessItIsAskedToBend) {
+  TableDeflection law(fuzzy::kDefaultTable);
+  Decision decision;
+  EXPECT_EQ(law.deflect(echoes(300, 600, 2000), Params{}, decision), Angle{});
+  EXPECT_LT(decision.response.turn, Q14{}) << "what it would have been";
 }
 
 }  // namespace
