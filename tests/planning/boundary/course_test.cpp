@@ -194,11 +194,20 @@ TEST(Course, ReachesAGoalThatStandsBeforeAWall) {
 
 TEST(TableDeflection, TurnsAwayFromTheNearerSide) {
   TableDeflection law(fuzzy::kDefaultTable);
+  Params bends;
+  bends.skirt.bend = Fitted::yes;
   Decision decision;
-  const Angle right = law.deflect(echoes(300, 600, 2000), Params{}, decision);
+  const Angle right = law.deflect(echoes(300, 600, 2000), bends, decision);
   EXPECT_LT(in_degrees(right), -1);
-  EXPECT_EQ(scaled(Params{}.thesis.base_turn, decision.response.turn), right);
-  EXPECT_EQ(law.deflect(echoes(2000, 600, 300), Params{}, decision), -right);
+  EXPECT_EQ(scaled(bends.thesis.base_turn, decision.response.turn), right);
+  EXPECT_EQ(law.deflect(echoes(2000, 600, 300), bends, decision), -right);
+}
+
+TEST(TableDeflection, IsStraightUnlessAskedForAndShowsTheTablesAnswer) {
+  TableDeflection law(fuzzy::kDefaultTable);
+  Decision decision;
+  EXPECT_EQ(law.deflect(echoes(300, 600, 2000), Params{}, decision), 0_deg);
+  EXPECT_LT(decision.response.turn.raw(), 0);
 }
 
 }  // namespace
