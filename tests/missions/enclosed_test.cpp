@@ -21,7 +21,7 @@ RunResult drive(worlds::Kind kind, std::uint64_t seed, PlannerKind planner) {
   return run(worlds::generate(kind, options), run_options);
 }
 
-/// In at least 97 % of the worlds.
+/// In at least 95 % of the worlds.
 TEST(EnclosedAtWall, IsSaidToBeUnreachable) {
   const std::uint64_t count = test::effort(3, 300);
   for (const PlannerKind planner : kMaps) {
@@ -32,7 +32,7 @@ TEST(EnclosedAtWall, IsSaidToBeUnreachable) {
           << seed << ": " << r.detail;
       right += r.verdict == Verdict::unreachable;
     }
-    EXPECT_GE(right, count * 97 / 100) << name(planner);
+    EXPECT_GE(right, count * 95 / 100) << name(planner);
   }
 }
 

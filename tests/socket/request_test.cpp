@@ -17,6 +17,17 @@ std::string refusal(const std::string& line, bool first = false) {
   return "";
 }
 
+TEST(Request, ANamedPlannerDrivesWithTheChosenTable) {
+  const fuzzy::Engine::Table other{};
+  Opening defaults;
+  defaults.planner.table = &other;
+  defaults.planner.table_chosen = true;
+  const Opening o = read_opening(R"({"whisker": 1, "planner": "skirt"})", defaults);
+  EXPECT_EQ(o.planner, PlannerKind::skirt);
+  EXPECT_EQ(o.planner.table, &other);
+  EXPECT_TRUE(o.planner.table_chosen);
+}
+
 TEST(Request, ReadsEveryKeyOfATick) {
   const Tick t = read_tick(
       R"({"t_s": 1.25, "range_m": [0.5, "clear", null], "age_s": [0.01, 0.02, 0], "counts": [-1, 16777217],
