@@ -139,7 +139,8 @@ def table_options(description, unit, count):
 
 def made_by(o, unit):
     """What a table with these options is, for its first line."""
-    return f"`scripts/{PROGRAM} {o.count} {o.first}`: {o.count} {unit}, seeds {o.first} to {o.first + o.count - 1}, on {machine()}."
+    only = "".join(f' --{name} "{value}"' for name in ("row", "world", "errors") if (value := getattr(o, name, None)))
+    return f"`scripts/{PROGRAM} {o.count} {o.first}{only}`: {o.count} {unit}, seeds {o.first} to {o.first + o.count - 1}, on {machine()}."
 
 
 def machine():

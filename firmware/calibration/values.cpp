@@ -14,16 +14,6 @@ void set(Params& params, Quantity quantity, int32_t value) noexcept {
 
 }  // namespace
 
-const char* name(Quantity quantity) noexcept {
-  switch (quantity) {
-    case Quantity::gyro_scale: return "gyro_scale";
-    case Quantity::wheel_ratio: return "wheel_ratio";
-    case Quantity::counts_per_metre: return "encoder_counts_per_m";
-    case Quantity::track: return "wheel_track_m";
-  }
-  return "?";
-}
-
 int32_t value_in(const Params& params, Quantity quantity) noexcept {
   switch (quantity) {
     case Quantity::gyro_scale: return params.gyro.scale.raw();

@@ -16,7 +16,15 @@ enum class Quantity : uint8_t {
 };
 constexpr int kQuantities = 4;
 /// The key.
-const char* name(Quantity quantity) noexcept;
+constexpr const char* name(Quantity quantity) noexcept {
+  switch (quantity) {
+    case Quantity::gyro_scale: return "gyro_scale";
+    case Quantity::wheel_ratio: return "wheel_ratio";
+    case Quantity::counts_per_metre: return "encoder_counts_per_m";
+    case Quantity::track: return "wheel_track_m";
+  }
+  return "?";
+}
 
 struct Measured {
   int32_t value = 0;  ///< raw value of the parameter; 0: not measured

@@ -91,6 +91,7 @@ void BaseNode::give(Order order, const Mission& mission, SyncMode sync_mode) noe
   commanded_ = false;
   status_come_ = false;
   fix_replied_ = false;
+  calibration_seen_ = 0;
   rest();
   release();
 }
@@ -173,8 +174,29 @@ FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noe
         rules_reply_ = m;
         rules_replied_ = true;
       });
+    case MessageKind::calibration:
+      return read<CalibrationReport>(frame, [this](const auto& m) { on_report(m); });
     default: return FrameResult::unknown;
   }
+}
+
+/// Reports of an earlier mission do not count.
+void BaseNode::on_report(const CalibrationReport& report) noexcept {
+  if (order_state_ != OrderState::accepted || report.mission != mission_ ||
+      report.trouble == planning::Trouble::not_finished) {
+    return;
+  }
+  calibration_.of[static_cast<int>(report.quantity)] = {static_cast<int32_t>(report.value),
+                                                        Ratio::from_raw(report.sigma)};
+  calibration_.trouble = report.trouble;
+  calibration_.stored = report.stored;
+  calibration_seen_ = static_cast<uint8_t>(calibration_seen_ | 1U << static_cast<unsigned>(report.quantity));
+}
+
+bool BaseNode::calibrated(Calibrated& result) const noexcept {
+  if (calibration_seen_ != (1U << calibration::kQuantities) - 1) return false;
+  result = calibration_;
+  return true;
 }
 
 void BaseNode::on_command(const WheelCommand& command) noexcept {
@@ -190,6 +212,7 @@ void BaseNode::on_command(const WheelCommand& command) noexcept {
 
 void BaseNode::on_reply(const MissionReply& reply) noexcept {
   if (reply.mission != mission_ || order_state_ != OrderState::waiting) return;
+  order_status_ = reply.status;
   switch (reply.status) {
     case MissionStatus::accepted:
       order_state_ = OrderState::accepted;
@@ -200,6 +223,7 @@ void BaseNode::on_reply(const MissionReply& reply) noexcept {
     case MissionStatus::incomplete: order_due_ = true; break;
     case MissionStatus::refused:
     case MissionStatus::out_of_range:
+    case MissionStatus::unsupported:
     case MissionStatus::unknown: order_state_ = OrderState::refused; break;
   }
 }
@@ -210,6 +234,7 @@ void BaseNode::reset_peer() noexcept {
   trust_come_ = false;
   sigma_come_ = false;
   fix_replied_ = false;
+  calibration_seen_ = 0;
   replied_ = false;
 }
 

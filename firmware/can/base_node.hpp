@@ -15,6 +15,12 @@ enum class OrderState : uint8_t {
   refused,  ///< or has no effect: see permanent_errors()
 };
 
+/// What a calibration ended with, and all values that the controller has.
+struct Calibrated : calibration::Values {
+  planning::Trouble trouble = planning::Trouble::not_finished;
+  storage::Stored stored = storage::Stored::nothing;
+};
+
 /// The node with the sensors and the wheels, which also sends the missions. It never allocates or waits.
 ///
 ///   every millisecond:  node.poll(now);
@@ -39,6 +45,8 @@ class BaseNode final : public Node {
   /// The last report; false: none has arrived.
   bool reported(RangeTrustReport& trust) const noexcept;
   bool reported(PoseSigmaReport& sigma) const noexcept;
+  /// What the mission that is a calibration ended with; false: it has not all arrived.
+  bool calibrated(Calibrated& result) const noexcept;
   /// The answer to the last fix of this mission that was answered; false: none has arrived.
   bool replied(FixReply& reply) const noexcept;
 
@@ -46,6 +54,8 @@ class BaseNode final : public Node {
   /// must be at rest. The robot runs once a start or resume is accepted.
   void give(Order order, const Mission& mission, SyncMode sync_mode) noexcept;
   OrderState order_state() const noexcept { return order_state_; }
+  /// The last answer to an order.
+  MissionStatus order_status() const noexcept { return order_status_; }
 
   void request(const ParamRequest& request) noexcept;
   /// The answer to the last request has arrived.
@@ -63,6 +73,7 @@ class BaseNode final : public Node {
   bool at_rest() const noexcept override { return speeds_.left == 0 && speeds_.right == 0; }
   void on_command(const WheelCommand& command) noexcept;
   void on_reply(const MissionReply& reply) noexcept;
+  void on_report(const CalibrationReport& report) noexcept;
   void send_order() noexcept;
 
   const int16_t ramp_;
@@ -80,10 +91,13 @@ class BaseNode final : public Node {
   bool sigma_come_ = false;
   FixReply fix_reply_;
   bool fix_replied_ = false;
+  Calibrated calibration_;
+  uint8_t calibration_seen_ = 0;  // one bit for each quantity
 
   MissionValues values_;
   Order order_ = Order::start;
   OrderState order_state_ = OrderState::none;
+  MissionStatus order_status_ = MissionStatus::accepted;
   uint8_t mission_ = 0;
   bool order_due_ = false;
   uint32_t ordered_at_ = 0;

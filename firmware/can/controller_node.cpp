@@ -5,6 +5,7 @@ namespace {
 
 constexpr uint32_t kReportTicks = 50;
 constexpr uint32_t kStands_ms = 100;
+constexpr Length kShortestStraight = 499_mm;
 
 }  // namespace
 
@@ -99,6 +100,11 @@ void ControllerNode::publish_sigma(const PoseSigmaReport& sigma, bool ends) noex
   if (ends || tick_ % kReportTicks == 0) send(sigma);
 }
 
+void ControllerNode::publish_calibration(CalibrationReport report) noexcept {
+  report.mission = number_;
+  if (state() != NodeState::off_bus) send(report);
+}
+
 void ControllerNode::answer_fix(const FixReply& reply) noexcept {
   fix_reply_ = reply;
   fix_reply_.tick = static_cast<uint16_t>(tick_);
@@ -188,6 +194,10 @@ MissionStatus ControllerNode::execute(const MissionOrder& order) noexcept {
   Mission mission;
   if (!mission_of(parts_.values(), mission)) return MissionStatus::out_of_range;
   if (order.order == Order::resume && !has_mission_) return MissionStatus::unknown;
+  if (calibrates(order.order) && !calibrates_) return MissionStatus::unsupported;
+  if (order.order == Order::straight && !farther(mission.goal.at - mission.start.at, kShortestStraight)) {
+    return MissionStatus::out_of_range;
+  }
   if (order.order == Order::cancel) {
     rest();
     has_mission_ = false;

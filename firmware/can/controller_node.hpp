@@ -49,6 +49,11 @@ class ControllerNode final : public Node {
     if (state() != NodeState::off_bus) send(report, kLife_ms);
   }
 
+  /// From now on it accepts orders to calibrate.
+  void accept_calibrations() noexcept { calibrates_ = true; }
+  /// Tells the base, at any time; the node sets the mission.
+  void publish_calibration(CalibrationReport report) noexcept;
+
   /// Parameters accepted by a commit.
   const Params& params() const noexcept { return committed_; }
 
@@ -109,6 +114,7 @@ class ControllerNode final : public Node {
   bool numbered_ = false;  // number_ belongs to an accepted order
   bool has_mission_ = false;
   bool order_taken_ = true;
+  bool calibrates_ = false;
 
   ParamServer server_;
   Params committed_;

@@ -30,6 +30,7 @@ enum class MessageKind : uint8_t {
   rules_part,
   rules_order,
   rules_reply,
+  calibration,
   heartbeat,
   info,
   info_request,

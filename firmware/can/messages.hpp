@@ -8,6 +8,7 @@
 
 #include <stdint.h>
 
+#include "firmware/can/calibration_messages.hpp"
 #include "firmware/can/message_kind.hpp"
 #include "firmware/can/operator_messages.hpp"
 #include "firmware/can/pose_messages.hpp"
@@ -96,7 +97,7 @@ struct MissionOrder {
   static constexpr void each(M& m, F& f) noexcept {
     f(kMissionPart, m.part);
     f(kMissionNumber, m.mission);
-    f({"Order", 24, 8, false, 0, 2, "1", "", "executed once all other parts are received", 0, word_in<kOrderWords>}, m.order);
+    f({"Order", 24, 8, false, 0, kOrders - 1, "1", "", "executed once all other parts are received", 0, word_in<kOrderWords>}, m.order);
     f({"Digest", 32, 16, false, 0, kMost16, "1", "", "over the values of parts 1 to 6", 0}, m.digest);
   }
 };
@@ -124,7 +125,7 @@ struct MissionReply {
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Status", 12, 4, false, 0, 4, "1", "", "result of the order", kAlways, word_in<kMissionStatusWords>}, m.status);
+    f({"Status", 12, 4, false, 0, kMissionStatuses - 1, "1", "", "result of the order", kAlways, word_in<kMissionStatusWords>}, m.status);
     f({"Mission", 16, 8, false, 0, kMost8, "1", "", "of the order"}, m.mission);
   }
 };
@@ -348,6 +349,7 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"RulesPart", 0x20, 8, false, true, 0, "a node of a response table"}, RulesPart{});
   visit(Message{"RulesOrder", 0x21, 7, false, true, 0, "activates a response table, repeated until answered"}, RulesOrder{});
   visit(Message{"RulesReply", 0x22, 5, true, false, 0, "answer to a RulesOrder, and to every eighth RulesPart"}, RulesReply{});
+  visit(Message{"Calibration", 0x23, 8, true, false, 500, "a value that the controller's storage has, and what became of the last calibration; the four values in turn; only of a controller that calibrates"}, CalibrationReport{});
   visit(Message{"Heartbeat", 0x70, 8, true, true, 100, "the node is alive, and its state"}, Heartbeat{});
   visit(Message{"Info", 0x71, 8, true, true, 0, "at the start, and on request"}, Info{});
   visit(Message{"InfoRequest", 0x72, 2, true, true, 0, "requests the Info of the other node"}, InfoRequest{});

@@ -26,21 +26,28 @@ inline constexpr const char* kMissionPartWords[] = {"order",  "start_x", "start_
 constexpr int kMissionValues = 6;
 
 enum class Order : uint8_t {
-  start,   ///< place the robot and drive to the goal
-  cancel,  ///< stop, and clear the goal
-  resume,  ///< drive to the goal from the estimated pose; ends a safe stop
+  start,     ///< place the robot and drive to the goal
+  cancel,    ///< stop, and clear the goal
+  resume,    ///< drive to the goal from the estimated pose; ends a safe stop
+  spin,      ///< calibrate: place the robot and turn on the spot
+  straight,  ///< calibrate: place the robot, drive straight ahead as far as the goal is away, and back
 };
-inline constexpr const char* kOrderWords[] = {"start", "cancel", "resume"};
+constexpr int kOrders = 5;
+inline constexpr const char* kOrderWords[] = {"start", "cancel", "resume", "spin", "straight"};
+constexpr bool calibrates(Order order) noexcept { return order == Order::spin || order == Order::straight; }
 
 enum class MissionStatus : uint8_t {
   accepted,
   incomplete,    ///< parts are missing, or do not match the digest: send all again
   refused,       ///< E-stop, no handshake, or inconsistent parameters
   unknown,       ///< resume without a mission
-  out_of_range,  ///< start or goal lies beyond the limit, or a value is invalid
+  out_of_range,  ///< start or goal lies beyond the limit, a value is invalid, or a straight drive is too
+                 ///< short
+  unsupported,   ///< this controller does not calibrate
 };
-inline constexpr const char* kMissionStatusWords[] = {"accepted", "incomplete", "refused", "unknown",
-                                                      "out_of_range"};
+constexpr int kMissionStatuses = 6;
+inline constexpr const char* kMissionStatusWords[] = {"accepted", "incomplete",   "refused",
+                                                      "unknown",  "out_of_range", "unsupported"};
 
 enum class FixPart : uint8_t { x, y, heading, sigma_along, sigma_across, sigma_heading };
 inline constexpr const char* kFixPartWords[] = {

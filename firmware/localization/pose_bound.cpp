@@ -7,7 +7,7 @@ constexpr int64_t kMostVariance = INT64_C(1) << 48;  // um^2: kMost
 constexpr int64_t kMostHeading = INT64_C(1) << 41;   // 2 rad^2
 constexpr int64_t kMostMixed = INT64_C(1) << 41;
 constexpr int64_t kMostGathered = INT64_C(1) << 38;  // so that times kMost it has 62 bits
-constexpr int32_t kMostMove = INT32_C(1) << 20;  // um in one update
+constexpr int32_t kMostMove = INT32_C(1) << 20;      // um in one update
 // Rounding of the counts and of the instants of readings.
 constexpr int64_t kFloor = INT64_C(3000) * 3000;  // um^2
 constexpr int64_t kTurnPerRadian = 683565276;     // 2^-32 turn

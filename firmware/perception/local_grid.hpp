@@ -53,8 +53,8 @@ class LocalGrid {
   /// cone touches from `nearest` to one cell beyond `farthest` become unknown, except those under the body: a
   /// sensor that loses walls seen at an angle may have cleared one of them.
   void revoke(const Beam& beam, Length nearest, Length farthest) noexcept;
-  /// The same whatever explains the echo: for one that has just appeared, and while cells are clear that nobody
-  /// has seen.
+  /// The same whatever explains the echo: for one that has just appeared, and while cells are clear that
+  /// nobody has seen.
   void take_back(const Beam& beam, Length nearest, Length farthest) noexcept;
   /// The echo of a side beam has just appeared. If it is nearer than two radii, the arc beside the cone, away
   /// from the front beam, becomes unknown: what gives the echo may reach there, and the flank would meet it

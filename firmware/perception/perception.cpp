@@ -5,7 +5,7 @@ namespace {
 
 constexpr Length kSamePlace = 20_mm;
 constexpr uint8_t kMostTakenBack = 16;  // times at one place
-constexpr Length kAppears = 50_mm;  // nearer than the reading before: another object
+constexpr Length kAppears = 50_mm;      // nearer than the reading before: another object
 
 }  // namespace
 

@@ -15,6 +15,7 @@ enum class Stored : uint8_t {
   no_answer,      ///< the storage does not answer
   not_written,    ///< the storage failed to write, or reads back other bytes: the old record is still there
 };
+constexpr int kStoreds = 5;
 constexpr const char* name(Stored stored) noexcept {
   switch (stored) {
     case Stored::ok: return "ok";

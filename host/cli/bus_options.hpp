@@ -21,6 +21,7 @@ struct BusChoice {
 
   std::optional<std::uint32_t> rules;              ///< digest that the controller must name; none: any
   const can::RulesServer::Table* table = nullptr;  ///< of that digest, to send it
+  can::Order order = can::Order::start;            ///< start, spin or straight
 
   /// The controller must drive with the table of this planner, which has one.
   void drive_with(PlannerKind planner);

@@ -18,6 +18,8 @@
 namespace whisker::cli {
 namespace {
 
+constexpr double kBackWithin_m = 1;
+
 std::function<void(const std::string&)> speaker(const char* who, const BusChoice& bus) {
   return [who, name = bus.name, robot = bus.robot](const std::string& words) {
     fmt::print(stderr, "{} {} on {}: {}\n", who, robot, name, words);
@@ -41,8 +43,8 @@ bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
   return {port, std::move(faults), static_cast<std::uint64_t>(choice.robot)};
 }
 
-int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
-                 const BusChoice& bus, hil::Line& line, LiveView* view) {
+int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& outputs, const BusChoice& bus,
+                 hil::Line& line, LiveView* view) {
   const Interrupt interrupt;
   hil::Recorder recorder(bus.record, bus.name);
   hil::Figures figures;
@@ -57,6 +59,13 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
   how.identity = bus.identity();
   how.rules = bus.rules;
   how.table = bus.table;
+  how.order = bus.order;
+  Scenario scenario = world;
+  if (calibrates(bus.order)) {
+    // It ends where it began, as well as the uncalibrated robot turns.
+    how.goal = fixed_goal(world.goal);
+    scenario.goal = {{world.start.at.x, world.start.at.y}, kBackWithin_m};
+  }
   how.sync_mode = bus.real_time ? can::SyncMode::real_time : can::SyncMode::lockstep;
   how.say = [view, speak = speaker("plant", bus)](const std::string& words) {
     if (!words.empty()) speak(words);
@@ -87,11 +96,18 @@ int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs&
       figures = {};
     } catch (const hil::OtherRules& e) {
       throw UsageError(e.what());
+    } catch (const hil::NoCalibration& e) {
+      throw UsageError(e.what());
     } catch (const hil::Interrupted&) {
       break;
     }
   }
   if (view != nullptr) view->stay(interrupt);
+  if (figures.calibrated && figures.calibrated->stored != storage::Stored::ok && status == 0) {
+    fmt::print(stderr, "whisker: the controller did not keep the calibration: {}\n",
+               name(figures.calibrated->stored));
+    return kFault;
+  }
   return status;
 }
 
@@ -116,10 +132,12 @@ void control_until_interrupted(const BusChoice& bus, hil::ControllerOptions how,
 
 }  // namespace
 
-void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line, hal::Storage* storage) {
+void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line, hal::Storage* storage,
+                    planning::Calibrator* calibrator) {
   hil::ControllerOptions how;
   how.planner = planner;
   how.storage = storage;
+  how.calibrator = calibrator;
   control_until_interrupted(bus, how, line);
 }
 

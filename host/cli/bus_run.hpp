@@ -18,16 +18,17 @@ namespace whisker::cli {
 /// bus.
 bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice);
 
-/// Runs one scenario as drive_one does, with the controller at the other end of the bus. Starts again if the
-/// controller restarts. view: the live view, or null. Returns the exit status, kInterrupted after an
-/// interruption.
+/// Runs one scenario as drive_one does, with the controller at the other end of the bus. A calibration's goal
+/// is its start. Starts again if the controller restarts. view: the live view, or null. Returns the exit
+/// status, kInterrupted after an interruption.
 int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
                  const BusChoice& bus, hil::Line& line, LiveView* view);
 
 /// Runs the controller until it is interrupted; it prints its actions on standard error. Its pace is that of
 /// the plant; `real_time` only prepares it for that. storage: keeps the response table of a base; null: none.
+/// calibrator: drives orders to calibrate; null: they are refused.
 void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line,
-                    hal::Storage* storage = nullptr);
+                    hal::Storage* storage = nullptr, planning::Calibrator* calibrator = nullptr);
 /// The same with a guard node, whose assist has the planner's response table.
 void guard_on_bus(const BusChoice& bus, PlannerKind rules, double longest_command_s, hil::Line& line);
 

@@ -48,6 +48,7 @@ Provenance provenance(const CampaignOptions& o, const Missions* chosen) {
     }
     Params robot;
     if (!o.robot.empty()) apply_robot_file(robot, o.robot);
+    bend_if_chosen(robot, chosen->planner);
     p.robot_name = robot_name(robot, o.robot, "");
     p.robot_digest = robot_digest(robot);
   } else {

@@ -10,6 +10,7 @@
 
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/scenario/load.hpp"
 
 namespace whisker::cli {
@@ -142,6 +143,7 @@ campaign::Mission mission(const Missions& m, std::uint64_t index) {
   campaign::Mission mission =
       std::visit([&](const auto& worlds) { return campaign::mission(worlds, index); }, m.worlds);
   if (!m.robot.empty()) apply_robot_file(mission.scenario, m.robot);
+  bend_if_chosen(mission.scenario.robot, m.planner);
   return mission;
 }
 

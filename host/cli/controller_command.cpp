@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/core.h>
@@ -23,28 +24,39 @@ struct ControllerOptions {
   bool guard = false;
   double command_s = can::kVelocityLate_ms * 1e-3;
   std::string keep;
+  std::string calibration;
 };
+
+/// Null without a file.
+std::unique_ptr<hil::FileStorage> open_file(const char* option, const std::string& path) {
+  if (path.empty()) return nullptr;
+  try {
+    return std::make_unique<hil::FileStorage>(path);
+  } catch (const hil::FileStorageError& e) {
+    throw UsageError(fmt::format("{}: {}", option, e.what()));
+  }
+}
 
 std::unique_ptr<hil::FileStorage> open_storage(const ControllerOptions& o) {
   if (o.keep.empty()) return nullptr;
   if (hil::table_to_send(o.planner) == nullptr) {
     throw UsageError(fmt::format("--keep: planner {} takes no table", name(o.planner)));
   }
-  try {
-    return std::make_unique<hil::FileStorage>(o.keep);
-  } catch (const hil::FileStorageError& e) {
-    throw UsageError(fmt::format("--keep: {}", e.what()));
-  }
+  return open_file("--keep", o.keep);
 }
 
 int execute(const ControllerOptions& o) {
   check_outputs({o.bus.record});
+  if (!o.keep.empty() && o.keep == o.calibration) throw UsageError("--keep and --calibration: two files");
   const auto storage = open_storage(o);
+  const auto kept = open_file("--calibration", o.calibration);
+  std::optional<planning::Calibrator> calibrator;
+  if (kept) calibrator.emplace(*kept);
   const auto line = hil::open_line(o.bus.name);
   if (o.guard) {
     guard_on_bus(o.bus, o.planner, o.command_s, *line);
   } else {
-    control_on_bus(o.bus, o.planner, *line, storage.get());
+    control_on_bus(o.bus, o.planner, *line, storage.get(), calibrator ? &*calibrator : nullptr);
   }
   return 0;
 }
@@ -68,6 +80,9 @@ void add_controller(CLI::App& app, int& status) {
       ->type_name("S");
   add_file(*cmd, "--keep", o->keep,
            "Keep the response table that a base sends in this file,\nand drive with it after the next start")
+      ->excludes(guard);
+  add_file(*cmd, "--calibration", o->calibration,
+           "Calibrate when a base orders it; keep the values in this file,\nand drive with them")
       ->excludes(guard);
   add_switch(*cmd, "--realtime", o->bus.real_time,
              "Be ready for a plant with --realtime: run before other processes");

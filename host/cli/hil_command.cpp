@@ -15,6 +15,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/cli/scenario_options.hpp"
 
 namespace whisker::cli {
@@ -67,7 +68,8 @@ PlannerKind with_own_table(PlannerKind kind) {
 }
 
 int execute(const HilOptions& o) {
-  const Scenario scenario = o.scenario.load({o.bus.record});
+  Scenario scenario = o.scenario.load({o.bus.record});
+  bend_if_chosen(scenario.robot, o.planner);
   BusChoice controller = o.bus;
   controller.record.clear();
   controller.drop_percent = 0;

@@ -86,7 +86,8 @@ bool drive_all(const LayoutOptions& o, LayoutTrade& t) {
       [&](std::uint64_t i, const std::atomic<bool>& stop) {
         const campaign::Layout& layout = t.grid.layouts[i / each];
         const worlds::Kind kind = campaign::kLayoutWorlds[i % each / o.count];
-        const Scenario scenario = campaign::layout_scenario(layout, t.what, kind, o.seed + i % o.count);
+        Scenario scenario = campaign::layout_scenario(layout, t.what, kind, o.seed + i % o.count);
+        bend_if_chosen(scenario.robot, o.planner);
         return campaign::drive(scenario, o.planner, stop,
                                campaign::kWayRadius * campaign::size_of(layout.robot));
       },

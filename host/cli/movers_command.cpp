@@ -12,6 +12,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/report/file.hpp"
 #include "host/scenario/write.hpp"
 #include "host/worlds/meeting.hpp"
@@ -39,7 +40,8 @@ campaign::MeetingCount drive(const MoversOptions& o, worlds::Course course, doub
                              ProgressLine& line) {
   campaign::MeetingCount count;
   for (std::uint64_t i = 0; i < o.count; ++i) {
-    const Scenario scenario = worlds::meeting(course, speed_mps, o.seed + i);
+    Scenario scenario = worlds::meeting(course, speed_mps, o.seed + i);
+    bend_if_chosen(scenario.robot, o.planner);
     const campaign::Meeting meeting = campaign::meet(scenario, o.planner);
     count.add(meeting);
     if (!o.contacts.empty() && meeting.verdict == Verdict::contact) {

@@ -116,7 +116,8 @@ CLI::Option* add_planner(CLI::App& app, PlannerKind& kind) {
   CLI::Option* const option = add_planner_kind(app, kind);
   add_rules_choice(app, kind,
                    "Response table from a rule base (.fis, .fll, .fcl, .toml) with\n"
-                   "inputs D and R, outputs SA and SD");
+                   "inputs D and R, outputs SA and SD; sets bend_course,\n"
+                   "unless a bus or a log gives the robot's parameters");
   return option;
 }
 

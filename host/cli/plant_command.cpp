@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "host/cli/bus_options.hpp"
@@ -21,15 +22,27 @@ struct PlantOptions {
   ViewChoice view;
   PlannerKind wanted;
   const CLI::Option* rules = nullptr;
+  std::string calibrate;
 };
 
+can::Order order_of(const PlantOptions& o) {
+  if (o.calibrate.empty()) return can::Order::start;
+  if (o.calibrate == "spin") return can::Order::spin;
+  if (o.calibrate == "straight") return can::Order::straight;
+  throw UsageError(fmt::format("--calibrate {}: spin or straight{}", o.calibrate,
+                               did_you_mean(o.calibrate, {"spin", "straight"})));
+}
+
 int execute(const PlantOptions& o) {
-  const Scenario scenario = o.scenario.load({o.bus.record});
+  const can::Order order = order_of(o);
+  Scenario scenario = o.scenario.load({o.bus.record});
+  bend_if_chosen(scenario.robot, o.wanted);
   const auto view = o.view.open();
   const auto line = hil::open_line(o.bus.name);
   RunOutputs outputs = o.scenario.run_outputs(scenario);
   outputs.knows_planner = false;
   BusChoice bus = o.bus;
+  bus.order = order;
   if (o.rules->count() > 0) bus.drive_with(o.wanted);
   return drive_on_bus(scenario, o.scenario.run_options(), outputs, bus, *line, view.get());
 }
@@ -42,7 +55,11 @@ void add_plant(CLI::App& app, int& status) {
   add_scenario(*cmd, o->scenario);
   add_bus(*cmd, o->bus)->required();
   add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
-  o->rules = add_rules_choice(*cmd, o->wanted, "Send this rule base to the controller as its response table");
+  o->rules = add_rules_choice(
+      *cmd, o->wanted, "Send this rule base to the controller as its response table;\nsets bend_course");
+  add_name(*cmd, "--calibrate", o->calibrate,
+           "Order a calibration instead of a mission: spin, or straight\nfor the distance of the goal")
+      ->type_name("NAME");
   add_view(*cmd, o->view);
   cmd->callback([o, &status] { status = execute(*o); });
 }

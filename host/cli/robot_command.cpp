@@ -90,7 +90,9 @@ int execute(const RobotOptions& o) {
   for (const MountingWarning& w : warnings) {
     if (!o.json) fmt::print(stderr, "whisker: {}: warning: {}\n", o.file, w.text);
   }
-  const std::vector<TestDrive> drives = test_drives(params, sensor, o.planner);
+  Params driven = params;
+  bend_if_chosen(driven, o.planner);
+  const std::vector<TestDrive> drives = test_drives(driven, sensor, o.planner);
   const bool fit = std::all_of(drives.begin(), drives.end(), reached);
   if (o.json) print_json(o, &params, Json::array(), warnings, drives);
   for (const TestDrive& drive : drives) {

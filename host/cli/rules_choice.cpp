@@ -76,6 +76,7 @@ CLI::Option* add_rules_choice(CLI::App& app, PlannerKind& kind, const std::strin
     if (!given(*choice)) return;
     if (is_baseline(kind)) throw UsageError(fmt::format("--rules: planner {} has no table", name(kind)));
     kind.table = response_table(choice->file, choice->names);
+    kind.table_chosen = true;
   });
   return rules;
 }
@@ -88,6 +89,10 @@ CLI::Option* add_assist_rules(CLI::App& app, const fuzzy::Bilinear::Table*& tabl
     if (given(*choice)) table = assist_table(choice->file, choice->names);
   });
   return rules;
+}
+
+void bend_if_chosen(Params& robot, PlannerKind kind) {
+  if (kind.table_chosen && kind != PlannerKind::thesis) robot.skirt.bend = Fitted::yes;
 }
 
 std::optional<std::string> rules_name(PlannerKind kind) {

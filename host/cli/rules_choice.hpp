@@ -28,9 +28,13 @@ CLI::Option* add_assist_rules(CLI::App& app, const fuzzy::Bilinear::Table*& tabl
 /// --map CORE=NAME.
 void add_map_names(CLI::App& app, std::vector<std::string>& names, const std::string& help);
 
-/// --rules FILE and --map CORE=NAME. After parsing, `kind` has the table. Throws UsageError or InputError if
-/// the file is no such table or the planner has none. Returns --rules.
+/// --rules FILE and --map CORE=NAME. After parsing, `kind` has the table, chosen. Throws UsageError or
+/// InputError if the file is no such table or the planner has none. Returns --rules.
 CLI::Option* add_rules_choice(CLI::App& app, PlannerKind& kind, const std::string& help);
+
+/// Whoever chooses a table wants to drive with it: sets bend_course, whatever the files say, if the planner's
+/// table is chosen and its turns need that parameter. For commands that own the robot's parameters.
+void bend_if_chosen(Params& robot, PlannerKind kind);
 
 /// Eight hex digits that name the response table; none: the planner has no table.
 std::optional<std::string> rules_name(PlannerKind kind);

@@ -32,6 +32,7 @@ PlannerKind with_table(const CompareOptions& o, const std::string& file) {
   PlannerKind kind = o.campaign.planner;
   if (is_baseline(kind)) throw UsageError(fmt::format("rules compare: planner {} has no table", name(kind)));
   kind.table = response_table(file, o.names);
+  kind.table_chosen = true;
   return kind;
 }
 
@@ -44,7 +45,8 @@ bool drive_pairs(const Missions& missions, const PlannerKind (&kinds)[2], int jo
   const bool whole = make_many(
       2 * count, jobs,
       [&](std::uint64_t i, const std::atomic<bool>& stop) {
-        const campaign::Mission m = mission(missions, missions.first + i / 2);
+        campaign::Mission m = mission(missions, missions.first + i / 2);
+        bend_if_chosen(m.scenario.robot, kinds[i % 2]);
         campaign::JerkMeter jerk;
         const auto note = [&](const TickRecord& r) { jerk.add(r.t_s, (r.v_left_mps + r.v_right_mps) / 2); };
         campaign::Row row = campaign::drive(m.scenario, kinds[i % 2], stop, campaign::kWayRadius, note);

@@ -9,6 +9,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/one_run.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/cli/scenario_options.hpp"
 
 namespace whisker::cli {
@@ -27,7 +28,8 @@ int execute(const RunCommandOptions& o) {
   if (!o.chip.empty() && o.planner.table != &fuzzy::kDefaultTable)
     throw UsageError(
         "--chip: the core behind it has a response table of its own; --rules does not go with it");
-  const Scenario scenario = o.scenario.load();
+  Scenario scenario = o.scenario.load();
+  bend_if_chosen(scenario.robot, o.planner);
   RunOptions options = o.scenario.run_options();
   options.planner = o.planner;
   if (!o.chip.empty()) options.pilot = chip::chip_pilot(o.chip);

@@ -12,6 +12,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/cli/version.hpp"
 #include "host/report/result.hpp"
 #include "host/scenario/load.hpp"
@@ -58,6 +59,7 @@ int execute(const SocketOptions& o) {
   socket::Opening defaults;
   defaults.planner = o.planner;
   if (!o.robot.empty()) apply_robot_file(defaults.robot, o.robot);
+  bend_if_chosen(defaults.robot, o.planner);
   std::signal(SIGPIPE, SIG_IGN);  // a closed end is reported as an error of write()
   try {
     const auto channel = open_channel(o);

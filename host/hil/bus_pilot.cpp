@@ -6,7 +6,7 @@
 #include "firmware/can/param_server.hpp"
 #include "firmware/can/rules_sender.hpp"
 #include "firmware/localization/odometry.hpp"
-#include "host/hil/error_names.hpp"
+#include "host/hil/base_words.hpp"
 #include "host/hil/overheard.hpp"
 #include "host/hil/resend.hpp"
 #include "host/run/fix_source.hpp"
@@ -40,7 +40,7 @@ class BusPilot final : public Pilot {
         options_(options),
         figures_(figures),
         params_(scenario.robot),
-        mission_{fixed_pose(scenario.start), fixed_goal(scenario.goal)},
+        mission_{fixed_pose(scenario.start), options.goal ? *options.goal : fixed_goal(scenario.goal)},
         period_us_(static_cast<std::uint64_t>(scenario.robot.safety.period.raw()) * 1000),
         resend_(std::uint64_t{options.resend_ms} * 1000),
         plant_(plant),
@@ -73,6 +73,7 @@ class BusPilot final : public Pilot {
       reckon();
       ++figures_.sets;
       status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
+      await_calibration();
     } catch (const Hopeless&) {
     }
     status_.command = base_.drive();
@@ -170,25 +171,8 @@ class BusPilot final : public Pilot {
     explain();
   }
 
-  std::string words() const {
-    switch (node_.state()) {
-      case can::NodeState::off_bus: {
-        const std::string what = options_.bus_waits_for ? options_.bus_waits_for() : "";
-        return "waits for " + (what.empty() ? "the bus" : what);
-      }
-      case can::NodeState::waiting:
-        return (node_.errors() & can::Error::wrong_version) != 0 ? "the controller speaks another protocol"
-                                                                 : "waits for the controller";
-      case can::NodeState::e_stopped: return "E-stop";
-      case can::NodeState::safe_stop: return "safe stop: " + error_names(node_.errors());
-      case can::NodeState::ready:
-      case can::NodeState::running: break;
-    }
-    return "";
-  }
-
   void explain() {
-    std::string now = words();
+    std::string now = waits_for(node_, options_);
     if (said_ == now) return;
     said_ = std::move(now);
     if (options_.say) options_.say(said_);
@@ -198,7 +182,7 @@ class BusPilot final : public Pilot {
     while (!node_.matched()) watchful_nap();
     if (options_.rules) make_it_drive_with(*options_.rules);
     hand_over_params();
-    give(can::Order::start);
+    give(options_.order);
     restarts_ = node_.peer_restarts();
     begun_ = true;
     begun_us_ = clock_.now_us();
@@ -259,14 +243,6 @@ class BusPilot final : public Pilot {
     return sender.reply().status;
   }
 
-  [[noreturn]] static void refuse_rules(std::uint32_t had, std::uint32_t wanted) {
-    if (had == 0) throw OtherRules("the controller has no response table, and takes none");
-    throw OtherRules(
-        fmt::format("the controller drives with the response table {:08x}, not {:08x}, and takes no other; "
-                    "start it with the same --rules",
-                    had, wanted));
-  }
-
   void give(can::Order order) {
     ask_for("MissionReply that accepts");
     do {
@@ -275,7 +251,22 @@ class BusPilot final : public Pilot {
         watchful_nap();
         watch_patience();
       }
+      refuse_calibration(node_, order);
     } while (node_.order_state() == can::OrderState::refused);
+  }
+
+  /// The controller saves, which may take seconds, and reports in turn.
+  void await_calibration() {
+    if (!calibrates(options_.order) || figures_.calibrated ||
+        status_.decision.outcome == planning::Outcome::running || status_.health.fault != Fault::none)
+      return;
+    ask_for("Calibration report");
+    can::Calibrated found;
+    while (!node_.calibrated(found)) {
+      watchful_nap();
+      watch_patience();
+    }
+    figures_.calibrated = found;
   }
 
   void hand_over_params() {

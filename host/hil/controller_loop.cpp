@@ -64,8 +64,8 @@ void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
     if (options.assist != nullptr) guard->assist_by(*options.assist);
     return run(*guard, identity.rules, line, options);
   }
-  const auto controller =
-      std::make_unique<can_app::Controller>(port, identity, planners, own ? rules.server() : nullptr);
+  const auto controller = std::make_unique<can_app::Controller>(
+      port, identity, planners, own ? rules.server() : nullptr, options.calibrator);
   run(*controller, identity.rules, line, options);
 }
 

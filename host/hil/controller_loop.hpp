@@ -13,9 +13,10 @@ namespace whisker::hil {
 struct ControllerOptions {
   can::Identity identity{1, 1, 0};
   PlannerKind planner = kDefaultPlanner;
-  hal::Storage* storage = nullptr;            ///< keeps the response table of a base; null: none
-  can_app::PlannerMaker* planners = nullptr;  ///< instead of planners of that kind
-  bool guard = false;                         ///< a guard node instead
+  hal::Storage* storage = nullptr;             ///< keeps the response table of a base; null: none
+  planning::Calibrator* calibrator = nullptr;  ///< null: orders to calibrate are refused
+  can_app::PlannerMaker* planners = nullptr;   ///< instead of planners of that kind
+  bool guard = false;                          ///< a guard node instead
   Duration longest_command = milliseconds(can::kVelocityLate_ms);  ///< of a guard node
   const fuzzy::Bilinear::Table* assist = nullptr;  ///< response table of its assist; null: the core's own
   std::function<void(const std::string&)> say;     ///< receives each activity or awaited item once

@@ -15,6 +15,35 @@ double load_percent(const Figures& f, double bitrate) {
   return f.run_s > 0 ? 100.0 * static_cast<double>(f.bits) / (f.run_s * bitrate) : 0.0;
 }
 
+/// As in a robot file.
+double in_file(calibration::Quantity q, std::int32_t raw) {
+  return q == calibration::Quantity::counts_per_metre ? raw : raw / 1e6;
+}
+
+nlohmann::ordered_json calibration_json(const can::Calibrated& found) {
+  nlohmann::ordered_json json = {{"trouble", name(found.trouble)}, {"stored", name(found.stored)}};
+  for (int i = 0; i < calibration::kQuantities; ++i) {
+    const auto q = static_cast<calibration::Quantity>(i);
+    if (!found[q].known()) continue;
+    json["values"][name(q)] = {{"value", in_file(q, found[q].value)}, {"sigma", found[q].sigma.raw() / 1e6}};
+  }
+  return json;
+}
+
+std::string calibration_words(const can::Calibrated& found) {
+  const bool good = found.trouble == planning::Trouble::none;
+  std::string words =
+      fmt::format("\ncalibration: {}; the controller's storage: {}",
+                  good ? "measured" : fmt::format("no result: {}", name(found.trouble)), name(found.stored));
+  for (int i = 0; i < calibration::kQuantities; ++i) {
+    const auto q = static_cast<calibration::Quantity>(i);
+    if (!found[q].known()) continue;
+    words += fmt::format("\n{} = {}  # +- {:.4f} %", name(q), in_file(q, found[q].value),
+                         found[q].sigma.raw() * 1e-4);
+  }
+  return words;
+}
+
 double rounded(double x) { return std::round(x * 100.0) / 100.0; }
 
 }  // namespace
@@ -39,15 +68,17 @@ std::string figures_json(const Figures& f, double bitrate) {
   if (f.fixes > 0) {
     json["fixes"] = {{"sent", f.fixes}, {"accepted", f.fixes_accepted}, {"refused", f.fixes_refused}};
   }
+  if (f.calibrated) json["calibration"] = calibration_json(*f.calibrated);
   return json.dump();
 }
 
 std::string figures_words(const Figures& f, double bitrate) {
-  return fmt::format(
+  const std::string words = fmt::format(
       "{} missed, {} resent, round trip {} us (99 %: {} us), {} frames, load of the bus in real time {:.1f} "
       "%",
       f.misses, f.resent, percentile(f.round_trip_us, 0.5), percentile(f.round_trip_us, 0.99), f.frames,
       load_percent(f, bitrate));
+  return f.calibrated ? words + calibration_words(*f.calibrated) : words;
 }
 
 std::uint32_t percentile(std::vector<std::uint32_t> samples, double part) {

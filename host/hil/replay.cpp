@@ -82,6 +82,11 @@ class Replay {
   }
 
   void accept(can::Order order, const can::Mission& mission) {
+    if (calibrates(order)) {
+      throw std::runtime_error(
+          "the log has a calibration: what the controller kept before is not in it, so it cannot be "
+          "replayed");
+    }
     pilot_->execute(order, mission, overheard_.params());
     guard_.execute(order, overheard_.params());
     if (order == can::Order::start) {

@@ -65,6 +65,7 @@ Json robot_data(const Params& p) {
           {"beams", beams},
           {"cell", metres(patch_cell(p))},
           {"base_turn", radians(p.thesis.base_turn)},
+          {"bends", p.skirt.bend == Fitted::yes},
           {"period", static_cast<double>(p.safety.period.raw()) / 1000.0}};
 }
 

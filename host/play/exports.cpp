@@ -1,5 +1,6 @@
 /// The functions that host/web/src/playground/core.ts calls. Data other than single numbers passes through a
 /// list in memory: `list` allocates it, and functions that return a length fill it.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -26,6 +27,7 @@ constexpr int kSides = 2;
 
 std::vector<double> exchanged;
 fuzzy::RuleBase rules = fuzzy::kRules;
+bool edited = false;  // rules that the user has changed bend the course
 fuzzy::Bilinear::Table table = fuzzy::kResponseTable;
 std::unique_ptr<SimulatedRobot> robots[kSides];
 /// The one of them that the user drives, if there is one.
@@ -56,6 +58,13 @@ const char* planner_word(int number, const char* planning::PlannerInfo::*word) {
 
 GuardDrive::Switches switches(int guarded, int nods, int assist) {
   return {guarded != 0, nods != 0, assist != 0};
+}
+
+bool same(const Q14 (&a)[fuzzy::kTerms][fuzzy::kTerms], const Q14 (&b)[fuzzy::kTerms][fuzzy::kTerms]) {
+  for (int d = 0; d < fuzzy::kTerms; ++d) {
+    if (!std::equal(a[d], a[d] + fuzzy::kTerms, b[d])) return false;
+  }
+  return true;
 }
 
 int answer() { return static_cast<int>(exchanged.size()); }
@@ -94,8 +103,9 @@ WHISKER_EXPORT(judge) int judge() {
 
 /// Restarts the robot on this side in the scenario in the list; planner: its number, see word().
 WHISKER_EXPORT(begin) int begin(int side, int planner) {
-  const std::optional<Scenario> scenario = scenario_of(exchanged);
+  std::optional<Scenario> scenario = scenario_of(exchanged);
   if (!scenario) return 0;
+  if (edited) scenario->robot.skirt.bend = Fitted::yes;
   if (side == 0) driven = nullptr;
   robots[side] = std::make_unique<Drive>(*scenario, offered(planner), table);
   return 1;
@@ -273,6 +283,10 @@ WHISKER_EXPORT(set_rules) std::uint32_t set_rules() {
     for (auto& row : *picture)
       for (Q14& q : row) q = Q14::from_raw(static_cast<std::int16_t>(*next++));
   fuzzy::generate<fuzzy::Bilinear>(rules, table);
+  edited = !same(rules.turn, fuzzy::kRules.turn) || !same(rules.step, fuzzy::kRules.step);
+  for (const auto& robot : robots) {
+    if (robot) robot->bend(edited);
+  }
   return rule_faults(rules);
 }
 

@@ -129,6 +129,10 @@ class Section {
         can::RulesOrder{1, can::RulesAction::activate, 0x18749DCC}, kBase);
     row("1: node 7, Turn 0, Step 0.3", can::RulesPart{1, 7, {0, 4915}}, kBase);
     row("1: receiving, next is node 8", can::RulesReply{can::RulesStatus::receiving, 1, 0, 8}, kController);
+    row("gyro_scale 1.014295 +- 0.0075 %, saved; of order 4",
+        can::CalibrationReport{calibration::Quantity::gyro_scale, planning::Trouble::none,
+                               storage::Stored::ok, 4, 1014295, 75},
+        kController);
     row("of the base: clear; its counter is not judged", can::EStop{can::kClearCommand}, kBase);
   }
 

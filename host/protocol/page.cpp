@@ -29,6 +29,7 @@ class Writer {
                         fmt::arg("velocity_cycle", can::message_of(can::MessageKind::velocity).cycle_ms));
     out_ += fmt::format(kRules, fmt::arg("nodes", fuzzy::kTableNodes), fmt::arg("block", can::kRulesBlock),
                         fmt::arg("repeat", can::kRulesRepeat_ms));
+    out_ += kCalibration;
     out_ += examples();
     out_ += fmt::format(
         kStates, fmt::arg("velocity_late", can::kVelocityLate_ms), fmt::arg("hold", can::kHoldAfter_ms),

@@ -82,6 +82,7 @@ byte, hash = (hash xor byte) x 0x01000193 modulo 2^32; the digest is (hash xor (
 | order | what the controller does |
 |---|---|
 | start | creates a new robot with the last committed parameters, places it at the start, sets the goal; both nodes run |
+| spin, straight | a [calibration](#calibration): places the robot as start does; both nodes run |
 | resume | drives to the goal from the estimated pose; the start values are not used; both nodes run |
 | cancel | clears the goal; both nodes stop running |
 
@@ -91,8 +92,9 @@ byte, hash = (hash xor byte) x 0x01000193 modulo 2^32; the digest is (hash xor (
 | incomplete | parts are missing, or the digest differs | send all parts again |
 | refused | E-stop, a latched error, or a value out of its range | correct the cause, send a new order |
 | unknown | resume without a mission | start |
+| unsupported | spin or straight, and this controller does not calibrate | |
 
-Only start and resume end a safe stop.
+Only start, resume, spin and straight end a safe stop.
 
 ## Ticks
 
@@ -185,6 +187,20 @@ it writes, it may be silent for seconds. Where there is room for one table only,
 | wrong_hash | the nodes have another hash | send all again |
 | running, moving | a mission runs, or the counts changed within the last 100 ms; nothing was changed | cancel, or wait |
 | unsupported | the controller has no table or no room | |
+
+)";
+
+inline constexpr const char* kCalibration = R"(## Calibration
+
+A controller with a storage may [measure](calibration.md#on-the-robot-itself) gyro scale, wheel ratio and track by itself. The base orders
+spin or straight, and sends input sets as in a mission; the Gyro is needed for straight. spin turns on the spot and uses no goal. straight drives
+ahead as far as the goal is from the start, 0.5 m at least, turns and comes back; less is out_of_range. Outcome is reached if there is a result,
+and gave_up otherwise. Then the controller saves; it may be silent for seconds, which is a safe stop of the base, whose wheels stand. cancel, start
+and a fault end a calibration without a result; resume begins it anew.
+
+Such a controller sends a Calibration every 125 ms, for each Quantity in turn: the Value and the Sigma that its storage has, the Trouble of the last
+calibration and the result of the last save. The result of an order is there once Mission is its number and Trouble is not not_finished; wait for all
+four. Every mission drives with the kept values instead of those of the ParamRequests; the parameters that ParamReply reads are the base's.
 
 )";
 

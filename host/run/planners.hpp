@@ -20,6 +20,7 @@ struct PlannerKind {
   int number = 0;  ///< in the core's list; the baselines follow it
   std::int32_t map_bytes = 0;
   const fuzzy::Engine::Table* table = &fuzzy::kDefaultTable;  ///< must outlive the planner
+  bool table_chosen = false;                                  ///< by the user, who wants it to drive
 
   static const PlannerKind skirt, thesis, map;
   friend constexpr bool operator==(PlannerKind a, PlannerKind b) {

@@ -125,12 +125,13 @@ Params robot_in(const Value& object, const Params& defaults) {
   }
 }
 
-PlannerKind planner_in(const Value& object) {
+/// With the table of `before`.
+PlannerKind planner_in(const Value& object, PlannerKind before) {
   if (!object["planner"].is_string()) throw ProtocolError("'planner' must be a name");
   const auto name = object["planner"].get<std::string>();
   const auto kind = planner_named(name);
   if (!kind) throw ProtocolError(fmt::format("no planner '{}'", name));
-  return *kind;
+  return {kind->number, kind->map_bytes, before.table, before.table_chosen};
 }
 
 Beam beam_of(const Value& value) {
@@ -203,7 +204,7 @@ Opening read_opening(const std::string& line, const Opening& defaults) {
   check_keys(json, "", {"whisker", "robot", "planner", "start", "goal"});
   Opening out = defaults;
   if (json.contains("robot")) out.robot = robot_in(json, defaults.robot);
-  if (json.contains("planner")) out.planner = planner_in(json);
+  if (json.contains("planner")) out.planner = planner_in(json, defaults.planner);
   if (json.contains("start")) out.start = pose_in(json, "start");
   if (json.contains("goal")) out.goal = goal_in(json);
   return out;

@@ -887,6 +887,58 @@ TEST_F(ControllerAlone, AnOrderNeedsAllItsParts) {
   EXPECT_EQ(replied(), MissionStatus::accepted);
 }
 
+TEST_F(ControllerAlone, OrdersToCalibrateNeedOneThatCalibrates) {
+  peer_.greet(kPeerBoot);
+  pass(2);
+  for (const Order what : {Order::spin, Order::straight}) {
+    ++mission_;
+    order(what);
+    EXPECT_EQ(replied(), MissionStatus::unsupported);
+    EXPECT_EQ(node_.state(), NodeState::ready);
+  }
+  node_.accept_calibrations();
+  const auto straight = [&](Length length) {
+    ++mission_;
+    order(Order::straight, {{{2_m, 1_m}, {}}, {{2_m, 1_m - length}, 100_mm}});
+    return replied();
+  };
+  EXPECT_EQ(straight(0_mm), MissionStatus::out_of_range);
+  EXPECT_EQ(straight(499_mm), MissionStatus::out_of_range);
+  EXPECT_EQ(node_.state(), NodeState::ready);
+  EXPECT_EQ(straight(500_mm), MissionStatus::accepted);
+  EXPECT_EQ(node_.state(), NodeState::running);
+}
+
+TEST_F(ControllerAlone, EveryOrderInEveryStateIsAnsweredByName) {
+  node_.accept_calibrations();
+  constexpr Order kEvery[] = {Order::start, Order::cancel, Order::resume, Order::spin, Order::straight};
+  const auto try_all = [&](NodeState state, MissionStatus resume, MissionStatus others) {
+    for (const Order what : kEvery) {
+      ASSERT_EQ(node_.state(), state) << kOrderWords[static_cast<int>(what)];
+      ++mission_;
+      order(what);
+      const MissionStatus expected = what == Order::resume   ? resume
+                                     : what == Order::cancel ? MissionStatus::accepted
+                                                             : others;
+      EXPECT_EQ(replied(), expected) << kOrderWords[static_cast<int>(what)];
+      if (state == NodeState::e_stopped || node_.state() == state) continue;
+      const bool runs = state == NodeState::running;
+      ++mission_;
+      order(runs ? Order::spin : Order::cancel);
+      EXPECT_EQ(replied(), MissionStatus::accepted);
+    }
+  };
+  peer_.greet(kPeerBoot);
+  pass(2);
+  try_all(NodeState::ready, MissionStatus::unknown, MissionStatus::accepted);
+  ++mission_;
+  order(Order::spin);
+  try_all(NodeState::running, MissionStatus::accepted, MissionStatus::accepted);
+  peer_.send({0x010, false, false, 1, {0}});
+  pass(2);
+  try_all(NodeState::e_stopped, MissionStatus::unknown, MissionStatus::refused);
+}
+
 TEST_F(ControllerAlone, AnEStopRefusesOrdersUntilItIsCleared) {
   start();
   peer_.send({0x010, false, false, 1, {0}});

@@ -190,7 +190,9 @@ class PlantWithRules : public testing::Test {
   Scenario scenario_ = [] {
     worlds::Options options;
     options.seed = 3;
-    return worlds::generate(worlds::Kind::discs, options);
+    Scenario scenario = worlds::generate(worlds::Kind::discs, options);
+    scenario.robot.skirt.bend = Fitted::yes;
+    return scenario;
   }();
   const Table table_ = straight();
   hil::Figures figures_;

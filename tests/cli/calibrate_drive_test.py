@@ -159,6 +159,56 @@ class Bus(Case):
         self.assertEqual(result["steps"][0]["trouble"], "blocked")
         self.assertIn("whisker: straight: no result: blocked", err)
 
+    def controller(self, *arguments):
+        process = subprocess.Popen([whisker.binary, "controller", "--can", self.ends[0], *arguments], stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def ordered(self, what, world, status=0, *more):
+        """The result that the plant has of the controller's calibration, and its standard error."""
+        done = subprocess.run(
+            [whisker.binary, "plant", world, "--robot", self.wrong, "--seed", "3", "--can", self.ends[1], "--calibrate", what, "--json", *more],
+            capture_output=True, text=True, timeout=60, check=False)  # fmt: skip
+        self.assertEqual(done.returncode, status, done.stderr)
+        return json.loads(done.stdout)["bus"]["calibration"] if done.stdout else None, done.stderr
+
+    def test_a_controller_calibrates_by_itself_and_keeps_it(self):
+        self.wrong = self.file("wrong.toml", "gyro = true\n[noise]\ngyro_scale_sigma = 0.01\nwheel_scale_sigma = 0.01\n")
+        long = "[[wall]]\npoints = [[4.5, -0.9], [4.5, 1.1], [-0.6, 1.1], [-0.6, -0.9], [4.5, -0.9]]\n"
+        world = self.file("long.toml", f"[start]\nx_m = 0.0\ny_m = 0.0\nheading_deg = 0\n[goal]\nx_m = 3.0\ny_m = 0.0\n{long}")
+        kept = self.folder / "kept"
+        first = self.controller("--calibration", kept)
+        spin, _ = self.ordered("spin", world)
+        self.assertEqual((spin["trouble"], spin["stored"], list(spin["values"])), ("none", "ok", ["gyro_scale", "wheel_track_m"]))
+        first.kill()
+        first.wait()
+        self.controller("--calibration", kept)
+        straight, _ = self.ordered("straight", world)
+        self.assertEqual(list(straight["values"]), ["gyro_scale", "wheel_ratio", "wheel_track_m"])
+        self.assertEqual(straight["values"]["gyro_scale"], spin["values"]["gyro_scale"], "after the restart")
+        again, _ = self.ordered("spin", world, 0, "--drop", "1")
+        for key, value in again["values"].items():
+            self.assertAlmostEqual(value["value"], straight["values"][key]["value"], delta=1e-3)
+            self.assertNotEqual(value["value"], {"gyro_scale": 1, "wheel_ratio": 1, "wheel_track_m": 0.14}[key])
+
+    def test_orders_that_a_controller_refuses_have_a_reason(self):
+        self.wrong = self.true
+        controller = self.controller()
+        _, err = self.ordered("spin", self.world, 2)
+        self.assertIn("whisker: the controller does not calibrate; whisker controller does with --calibration\n", err)
+        controller.kill()
+        controller.wait()
+        self.controller("--calibration", self.folder / "kept")
+        near = self.file("near.toml", "[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 0.4\ny_m = 0.0\n")
+        _, err = self.ordered("straight", near, 2)
+        self.assertIn("whisker: a straight calibration is 0.5 m long at least: the goal is too near\n", err)
+        nothing, _ = self.ordered("spin", near, 4)
+        self.assertEqual(nothing, {"trouble": "nothing_in_range", "stored": "nothing"})
+        self.refused("plant", near, "--can", self.ends[1], "--calibrate", "spine", says="--calibrate spine: spin or straight; did you mean 'spin'")
+        self.refused("controller", "--can", self.ends[0], "--calibration", near, says="--calibration:")
+        self.refused("controller", "--can", self.ends[0], "--calibration", "x", "--keep", "x", says="--keep and --calibration: two files")
+
     def test_refuses(self):
         self.refused("robot", "calibrate-drive", PLAIN, "--can", "vcan0", says="--can and --mission: both or none")
         self.refused("robot", "calibrate-drive", PLAIN, "--mission", "spin", says="--can and --mission: both or none")

@@ -131,7 +131,7 @@ class Header(Case):
         wanted = []
         for key, unit, default, _ in rows:
             key = key.strip("`")
-            if key in ("bumper", "creep_speed_mps", "gyro"):  # switches that are no numbers; nothing without them
+            if key in ("bumper", "creep_speed_mps", "gyro", "straight_walls"):  # nothing without other parameters
                 continue
             other = {"boolean": lambda: {"true": "false", "false": "true"}[default], "integer": lambda: int(default) + 1, "one of": lambda: {"agreeing": '"median"', "front": '"mean"', "accept": '"refuse"'}[default.strip('"')]}
             value = other.get(unit, lambda: round(float(default) * 1.05, 4) or 0.02)()

@@ -96,7 +96,7 @@ class Tables(Scripts):
         planners = {tuple(call[call.index("--planner") + 1 : -1]) for call in campaigns}
         core, baselines = whisker.planners()
         self.assertLessEqual({p[0] for p in planners}, {*core, *baselines})
-        self.assertLessEqual({*((p,) for p in ("skirt", "thesis", *baselines)), ("map", "--map-bytes", "16384")}, planners)
+        self.assertLessEqual({*((p,) for p in ("thesis", *baselines)), ("skirt", "--rules", "default"), ("map", "--map-bytes", "16384")}, planners)
         scans = [call for call in self.calls() if call[0] == "scanner"]
         self.assertEqual((len(campaigns), len(scans)), (len(planners) * 10, 10))
         headings = [row for row in self.rows(done) if row[0] == "world"]

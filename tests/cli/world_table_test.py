@@ -19,9 +19,10 @@ OPTIONS = {
         "--robot", "--robots", "--jobs", "--shard", "--csv", "--save-failures", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
     ),
     ("plant",): (
-        "SCENARIO", "--rules", "--map", "--can", "--node", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record", "--drop",
+        "SCENARIO", "--rules", "--map", "--can", "--node", "--calibrate", "--realtime", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--record",
+        "--drop",
     ),
-    ("controller",): ("--can", "--node", "--guard", "--command-timeout", "--planner", "--map-bytes", "--rules", "--map", "--keep", "--record", "--drop"),
+    ("controller",): ("--can", "--node", "--guard", "--command-timeout", "--planner", "--map-bytes", "--rules", "--map", "--keep", "--calibration", "--record", "--drop"),
     ("hil",): (
         "SCENARIO", "--can", "--node", "--realtime", "--planner", "--map-bytes", "--rules", "--map", "--robot", "--seed", "--trace", "--svg", "--html",
         "--json", "--record", "--drop",

@@ -219,7 +219,8 @@ TEST(PoseBound, TheDistanceIsTwiceTheRootMeanSquare) {
   EXPECT_EQ(distance_bound({30_mm, 40_mm, 1_deg}), 100_mm);
 }
 
-/// One metre straight ahead, with wheels that are almost perfect, from a heading that is known within a degree.
+/// One metre straight ahead, with wheels that are almost perfect, from a heading that is known within a
+/// degree.
 PoseBound after_a_metre() {
   Params params;
   params.pose_error.wheel_scale_common = millionths(1);

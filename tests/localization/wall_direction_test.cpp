@@ -31,7 +31,8 @@ using Object = std::function<std::optional<double>(double x)>;
 /// Drives along x, 6 mm from reading to reading. The odometry's heading is off by this much.
 class Drive {
  public:
-  explicit Drive(double off = 0, double noise_m = 0, unsigned seed = 1) : off_(off), noise_(0, noise_m), random_(seed) {}
+  explicit Drive(double off = 0, double noise_m = 0, unsigned seed = 1)
+      : off_(off), noise_(0, noise_m), random_(seed) {}
 
   void past(const Object& object, double from, double to) {
     for (double x = from; x < to; x += 0.006) see(x, object(x));
@@ -94,7 +95,7 @@ Object disc(Point centre, double radius) {
 TEST(WallDirection, ALongWallShowsHowFarTheHeadingIsOff) {
   for (const double off : {-9.9, -3.0, -0.5, 0.0, 0.2, 5.0, 9.9}) {
     Drive drive(off * kDegree);
-    drive.past(wall(0.3), 0, 1);
+    drive.past(wall(0.3), 0, 2);
     EXPECT_EQ(drive.count, 1) << off;
     EXPECT_LT(drive.worst, 0.02) << off;
     EXPECT_LT(degrees(drive.last.sigma), 0.6);
@@ -113,14 +114,14 @@ TEST(WallDirection, TheSigmaHoldsForReadingsThatScatter) {
   double squares = 0;
   for (unsigned seed = 1; seed <= 300; ++seed) {
     Drive drive(0.5 * kDegree, 0.01, seed);
-    drive.past(wall(0.3), 0, 2);
+    drive.past(wall(0.3), 0, 4);
     count += drive.count;
     squares += drive.squares;
   }
   const double rms = std::sqrt(squares / count);
   std::printf("%d walls, rms of the error over its sigma %.2f\n", count, rms);
   EXPECT_GE(count, 300);
-  EXPECT_GT(rms, 0.5);
+  EXPECT_GT(rms, 0.4);
   EXPECT_LT(rms, 1.2);
 }
 
@@ -166,11 +167,33 @@ TEST(WallDirection, ATurnOfTheBodyEndsAWall) {
   EXPECT_EQ(drive.count, 0);
 }
 
+TEST(WallDirection, ALineCountsIfTheLineBeforeItSaysTheSame) {
+  WallDirection walls;
+  WallDirection::Found found;
+  const auto passes = [&](double direction) {
+    for (int i = 0; i < 120; ++i) {
+      const double way = 0.006 * i;
+      const Vec at{length(way * std::cos(direction * kDegree)), length(way * std::sin(direction * kDegree))};
+      const WallDirection::Echo echo{at, {}};
+      EXPECT_FALSE(walls.pass(hal::kLeft, &echo, Angle{}, found));
+    }
+    return walls.pass(hal::kLeft, nullptr, Angle{}, found);
+  };
+  EXPECT_FALSE(passes(6));
+  EXPECT_FALSE(passes(-4));
+  EXPECT_FALSE(passes(2));
+  EXPECT_TRUE(passes(2.5));
+  EXPECT_NEAR(degrees(found.ahead), -2.5, 0.02);
+  EXPECT_TRUE(passes(92.5 - 90));
+  walls.restart();
+  EXPECT_FALSE(passes(2.5));
+}
+
 TEST(WallDirection, AWallAcrossTheDeclaredDirectionCountsLikeOneAlongIt) {
   WallDirection walls;
   WallDirection::Found found;
   bool any = false;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 300; ++i) {
     const WallDirection::Echo echo{{300_mm, millimetres(6 * i)}, 90_deg};
     any = walls.pass(hal::kRight, &echo, 1_deg, found) || any;
   }

@@ -15,16 +15,16 @@ namespace whisker {
 namespace {
 
 constexpr std::uint64_t kFirstSeed = 1700001;
-constexpr int kMissions = 12;
+constexpr int kMissions = 24;
 
-/// Wheels of 0.5 %, declared, and no gyro.
+/// Wheels of 0.2 %, declared, and no gyro.
 Scenario with_walls(worlds::Kind kind, int i, Fitted straight) {
   worlds::Options options;
   options.seed = kFirstSeed + static_cast<std::uint64_t>(i);
   options.noise = true;
-  options.wheel_scale_sigma = 0.005;
+  options.wheel_scale_sigma = 0.002;
   Scenario s = worlds::generate(kind, options);
-  s.robot.pose_error.wheel_scale = millionths(5000);
+  s.robot.pose_error.wheel_scale = millionths(2000);
   s.robot.walls.straight = straight;
   return s;
 }

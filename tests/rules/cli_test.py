@@ -48,21 +48,35 @@ class Drives(Case):
         super().setUp()
         self.world = self.folder / "world.toml"
         whisker.whisker("world", "u-trap", "--seed", "3", "--out", self.world)
-        self.short = self.file("short.toml", with_time_limit(whisker.whisker("world", "discs", "--seed", "3").stdout, 5))
+        self.short = self.file("short.toml", with_time_limit(whisker.whisker("world", "discs", "--seed", "3").stdout, 5) + "[robot]\nbend_course = true\n")
 
     def run_json(self, *arguments, world=None):
         return json.loads(whisker.whisker("run", world or self.world, "--json", *arguments).stdout)
 
     def test_the_thesis_drives_as_the_built_in_table(self):
-        own, same = self.run_json(), self.run_json("--rules", EXAMPLES / "thesis.toml")
-        self.assertEqual(own["rules_digest"], same["rules_digest"])
+        own, same = (self.run_json("--rules", rules) for rules in ("default", EXAMPLES / "thesis.toml"))
         self.assertEqual(own, same)
+        self.assertEqual(own["rules_digest"], self.run_json()["rules_digest"])
+
+    def test_a_chosen_table_bends_the_course_and_the_built_in_one_only_if_asked(self):
+        bent, straight = (self.file(f"{word}.toml", f"bend_course = {word}\n") for word in ("true", "false"))
+        for planner in ("map", "skirt"):
+            plain, chosen, asked, not_asked = (
+                self.run_json("--planner", planner, *options)["hash"]
+                for options in ((), ("--rules", "default"), ("--robot", bent), ("--robot", straight))
+            )
+            self.assertEqual((plain, chosen), (not_asked, asked))
+            self.assertNotEqual(plain, chosen)
+            without_turns = self.run_json("--planner", planner, "--rules", STRAIGHT)["hash"]
+            self.assertEqual(plain, without_turns)
+        thesis = {self.run_json("--planner", "thesis", "--robot", robot)["hash"] for robot in (bent, straight)}
+        self.assertEqual(len(thesis), 1)
 
     def test_other_rules_drive_otherwise_also_on_a_bus(self):
         text = (EXAMPLES / "thesis.toml").read_text().replace('["TLVB", 1.5]', '["TLVB", 0.2]').replace('["TRVB", -1.5]', '["TRVB", -0.2]')
         law = self.file("law.toml", text.replace('name = "SA"', 'name = "steer"'))
         options = ("--rules", law, "--map", "SA=steer", "--planner", "skirt")
-        own, other = self.run_json("--planner", "skirt"), self.run_json(*options)
+        own, other = self.run_json("--planner", "skirt", "--rules", "default"), self.run_json(*options)
         self.assertNotEqual(own["rules_digest"], other["rules_digest"])
         self.assertNotEqual(own["hash"], other["hash"])
         bus = json.loads(whisker.whisker("hil", self.world, "--json", *options).stdout)
@@ -128,8 +142,8 @@ class Drives(Case):
         product = 1.0
         for seed in (11, 12, 13):
             times = []
-            for rules in ((), ("--rules", straight)):
-                done = whisker.whisker("campaign", "u-trap", "--replay", seed, "--planner", "skirt", *rules, "--json")
+            for rules in ("default", straight):
+                done = whisker.whisker("campaign", "u-trap", "--replay", seed, "--planner", "skirt", "--rules", rules, "--json")
                 times.append(json.loads(done.stdout)["time_s"])
             product *= times[1] / times[0]
         self.assertAlmostEqual(told["time_ratio"]["value"], product ** (1 / 3), places=5)

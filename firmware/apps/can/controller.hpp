@@ -13,17 +13,24 @@ namespace whisker::can_app {
 ///   for (;;) controller.poll(clock.now_ms());
 class Controller {
  public:
-  /// rules: see ControllerNode; `planners` makes planners with its active table.
+  /// rules: see ControllerNode; `planners` makes planners with its active table. calibrator: drives the
+  /// orders to calibrate, and its values replace those of the base; null: such orders are refused.
   Controller(hal::CanPort& port, const can::Identity& identity, PlannerMaker& planners,
-             can::RulesServer* rules = nullptr) noexcept
-      : node_(port, identity, rules), pilot_(planners) {}
+             can::RulesServer* rules = nullptr, planning::Calibrator* calibrator = nullptr) noexcept
+      : node_(port, identity, rules), pilot_(planners, calibrator), calibrator_(calibrator) {
+    if (calibrator != nullptr) node_.accept_calibrations();
+  }
 
   /// Call it every millisecond. True: the core executed a step; status() is new.
   bool poll(uint32_t now_ms) noexcept {
     node_.poll(now_ms);
     can::Order order = can::Order::cancel;
     can::Mission mission;
-    if (node_.take_order(order, mission)) pilot_.execute(order, mission, node_.params());
+    if (node_.take_order(order, mission)) {
+      pilot_.execute(order, mission, node_.params());
+      ended_ = false;
+    }
+    report_calibration(now_ms);
     can::InputSet set;
     if (!pilot_.ready() || !node_.take_set(set)) return false;
     status_ = pilot_.step(set, node_.braked());
@@ -35,6 +42,8 @@ class Controller {
     const bool failed = status_.health.fault != Fault::none;
     node_.report(failed ? uint16_t{can::Error::core_fault} : uint16_t{0},
                  static_cast<uint8_t>(status_.health.fault));
+    if (calibrator_ != nullptr && ends && !ended_) calibrator_->finish();
+    ended_ = ends;
     return true;
   }
 
@@ -43,8 +52,30 @@ class Controller {
   can::ControllerNode& node() noexcept { return node_; }
 
  private:
+  static constexpr uint32_t kReportEvery_ms = 125;
+
+  void report_calibration(uint32_t now_ms) noexcept {
+    if (calibrator_ == nullptr || now_ms - reported_ms_ < kReportEvery_ms) return;
+    reported_ms_ = now_ms;
+    const calibration::Measured& measured = calibrator_->values().of[reported_];
+    can::CalibrationReport report;
+    report.quantity = static_cast<calibration::Quantity>(reported_);
+    report.trouble = calibrator_->trouble();
+    report.stored = calibrator_->stored();
+    report.value = static_cast<uint32_t>(measured.value);
+    const int32_t sigma = measured.sigma.raw();
+    report.sigma = static_cast<uint16_t>(
+        sigma < can::CalibrationReport::kMostSigma ? sigma : can::CalibrationReport::kMostSigma);
+    node_.publish_calibration(report);
+    reported_ = static_cast<uint8_t>((reported_ + 1) % calibration::kQuantities);
+  }
+
   can::ControllerNode node_;
   RemoteRobot pilot_;
+  planning::Calibrator* const calibrator_;
+  uint32_t reported_ms_ = 0;
+  uint8_t reported_ = 0;  // the next quantity
+  bool ended_ = false;    // the last step had an outcome
   Status status_;
 };
 

@@ -3,13 +3,22 @@
 namespace whisker::can_app {
 
 void RemoteRobot::execute(can::Order order, const can::Mission& mission, const Params& params) noexcept {
+  if (order == can::Order::start || calibrates(order)) {
+    params_ = params;
+    if (calibrator_ != nullptr) calibrator_->apply(params_);
+  }
   switch (order) {
     case can::Order::start:
-      params_ = params;
-      board_ = RemoteBoard{};
-      robot_ = &room_.make<Robot>(board_, board_, planners_.make(params_), params_, &board_, &board_);
-      robot_->place(mission.start);
-      robot_->set_goal(mission.goal);
+      if (calibrator_ != nullptr) calibrator_->abandon();
+      begin(planners_.make(params_), mission);
+      break;
+    case can::Order::spin:
+      if (calibrator_ != nullptr) begin(calibrator_->spin(params_), mission);
+      break;
+    case can::Order::straight:
+      if (calibrator_ != nullptr) {
+        begin(calibrator_->straight(params_, norm(mission.goal.at - mission.start.at)), mission);
+      }
       break;
     case can::Order::cancel:
       if (ready()) robot_->cancel();
@@ -17,9 +26,17 @@ void RemoteRobot::execute(can::Order order, const can::Mission& mission, const P
     case can::Order::resume:
       if (!ready()) break;
       robot_->reset();
+      if (calibrator_ != nullptr) calibrator_->begin_anew();
       robot_->set_goal(mission.goal);
       break;
   }
+}
+
+void RemoteRobot::begin(planning::Planner& planner, const can::Mission& mission) noexcept {
+  board_ = RemoteBoard{};
+  robot_ = &room_.make<Robot>(board_, board_, planner, params_, &board_, &board_);
+  robot_->place(mission.start);
+  robot_->set_goal(mission.goal);
 }
 
 const Status& RemoteRobot::step(const can::InputSet& set, bool braked) noexcept {

@@ -6,6 +6,7 @@
 #include "firmware/apps/static_storage.hpp"
 #include "firmware/can/input_set.hpp"
 #include "firmware/can/mission.hpp"
+#include "firmware/planning/calibration/calibrator.hpp"
 #include "firmware/robot.hpp"
 
 namespace whisker::can_app {
@@ -23,11 +24,14 @@ class PlannerMaker {
 /// A robot that is created anew for every mission, and steps on input sets.
 class RemoteRobot {
  public:
-  explicit RemoteRobot(PlannerMaker& planners) noexcept : planners_(planners) {}
+  /// calibrator: drives the orders to calibrate, and changes the parameters of every mission; null: none.
+  explicit RemoteRobot(PlannerMaker& planners, planning::Calibrator* calibrator = nullptr) noexcept
+      : planners_(planners), calibrator_(calibrator) {}
   RemoteRobot(const RemoteRobot&) = delete;
   RemoteRobot& operator=(const RemoteRobot&) = delete;
 
-  /// start: with these parameters, from the mission's place. Otherwise the robot must be there: see ready().
+  /// start, spin, straight: with these parameters, from the mission's place. Otherwise the robot must be
+  /// there: see ready().
   void execute(can::Order order, const can::Mission& mission, const Params& params) noexcept;
   bool ready() const noexcept { return robot_ != nullptr; }
   /// One control tick, at the time of the set's tick. Only when ready().
@@ -36,7 +40,10 @@ class RemoteRobot {
   can::FixStatus fix_status() const noexcept { return fix_status_; }
 
  private:
+  void begin(planning::Planner& planner, const can::Mission& mission) noexcept;
+
   PlannerMaker& planners_;
+  planning::Calibrator* const calibrator_;
   RemoteBoard board_;
   Params params_;
   can::FixStatus fix_status_ = can::FixStatus::accepted;

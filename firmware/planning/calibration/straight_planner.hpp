@@ -17,9 +17,12 @@ namespace whisker::planning {
 class StraightPlanner final : public CalibrationPlanner {
  public:
   enum class Way : uint8_t { there, there_and_back };
-  /// The parameters must outlive it. length: 0.5 m at least.
+  static constexpr Length kShortest = 500_mm;
+  /// The parameters must outlive it. length: kShortest at least.
   StraightPlanner(const Params& params, Length length, Way way) noexcept
       : params_(params), length_(length), legs_(way == Way::there ? 1 : 2) {}
+  /// Of the next drive.
+  void set_length(Length length) noexcept { length_ = length; }
 
   /// Along the first way, by the wheels.
   Length way() const noexcept { return way_; }

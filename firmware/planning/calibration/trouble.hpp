@@ -18,8 +18,26 @@ enum class Trouble : uint8_t {
   scene_moved,       ///< the last turn saw another scene than the first one
   ambiguous,         ///< the scene looks the same at two headings
   too_uncertain,     ///< the result would be off by more than half a per cent, one standard deviation
+  does_not_fit,      ///< the robot would refuse its parameters with these values
 };
-constexpr int kTroubles = 12;
-const char* name(Trouble trouble) noexcept;
+constexpr int kTroubles = 13;
+constexpr const char* name(Trouble trouble) noexcept {
+  switch (trouble) {
+    case Trouble::none: return "none";
+    case Trouble::not_finished: return "not_finished";
+    case Trouble::blocked: return "blocked";
+    case Trouble::too_slow: return "too_slow";
+    case Trouble::body_moved: return "body_moved";
+    case Trouble::gyro_lost: return "gyro_lost";
+    case Trouble::no_gyro: return "no_gyro";
+    case Trouble::nothing_in_range: return "nothing_in_range";
+    case Trouble::no_features: return "no_features";
+    case Trouble::scene_moved: return "scene_moved";
+    case Trouble::ambiguous: return "ambiguous";
+    case Trouble::too_uncertain: return "too_uncertain";
+    case Trouble::does_not_fit: return "does_not_fit";
+  }
+  return "?";
+}
 
 }  // namespace whisker::planning

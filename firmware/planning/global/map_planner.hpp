@@ -60,7 +60,7 @@ class MapOf {
   MapStorage<kBytes> storage_;
 };
 
-/// The complete planner; the response table deflects its heading.
+/// The complete planner; the response table may deflect its heading.
 template <int kBytes>
 struct TableMapPlanner {
   /// Both references must outlive it.

@@ -1,10 +1,11 @@
 import {BEAMS, RangeStatus, type Seen} from './data.ts';
 
-const STEERED = new Set(['going', 'steering', 'stepping']);
+const STEERED = new Set(['steering', 'stepping']);
 
 /** True if the response table is known to deflect the heading at this tick; otherwise its answer is an old one. */
 export function usesTable(run: Seen, tick: number): boolean {
-  return run.info.inside && STEERED.has(run.mode(tick));
+  const mode = run.mode(tick);
+  return run.info.inside && (mode === 'going' ? run.info.robot.bends : STEERED.has(mode));
 }
 
 /** The ranges of D and R, and the largest difference by noise between an input and the readings of its tick. */

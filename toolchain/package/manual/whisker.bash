@@ -146,17 +146,17 @@ _whisker() {
       esac
       ;;
     "whisker plant")
-      options="-h --help --robot --seed --trace --svg --html --json --node --record --drop --can --realtime --rules --map --view --view-address --view-stay" words="" paths=file
+      options="-h --help --robot --seed --trace --svg --html --json --node --record --drop --can --realtime --rules --map --calibrate --view --view-address --view-stay" words="" paths=file
       case $before in
         --robot | --trace | --svg | --html | --record | --rules) options="" words="" paths=file ;;
-        --seed | --node | --drop | --can | --map | --view | --view-address) options="" words="" paths=value ;;
+        --seed | --node | --drop | --can | --map | --calibrate | --view | --view-address) options="" words="" paths=value ;;
       esac
       ;;
     "whisker controller")
-      options="-h --help --node --record --drop --can --planner --map-bytes --rules --map --guard --command-timeout --keep --realtime" words="" paths=none
+      options="-h --help --node --record --drop --can --planner --map-bytes --rules --map --guard --command-timeout --keep --calibration --realtime" words="" paths=none
       case $before in
         --node | --drop | --can | --map | --command-timeout) options="" words="" paths=value ;;
-        --record | --rules | --keep) options="" words="" paths=file ;;
+        --record | --rules | --keep | --calibration) options="" words="" paths=file ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
       esac

@@ -18,10 +18,11 @@ function save(name: string, text: string): void {
 
 export function offerFiles(play: Playground, core: Core, driver: Driver): void {
   element('save-scenario').addEventListener('click', () => {
-    const {kind, seed, own} = play.state;
+    const {kind, seed, own, rules} = play.state;
+    const bends = rules ? ['bend_course = true'] : [];
     save(
       `${kind}-${seed}${own ? '-changed' : ''}.toml`,
-      scenarioToml(play.name, play.situation, play.drivenByUser ? driver.parameters() : []),
+      scenarioToml(play.name, play.situation, play.drivenByUser ? driver.parameters() : bends),
     );
   });
   element('save-drive').addEventListener('click', () => save('drive.csv', driver.csv()));

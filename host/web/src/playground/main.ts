@@ -62,6 +62,7 @@ async function open(): Promise<void> {
   const rules = new RulesPanel(core, theme, () => {
     refreshController(controller, core, answers);
     response.restyle();
+    core.robot.bends = rules.code !== null;
     play.setRules(rules.code);
   });
   // Before the controls: the keys of a driver come first.

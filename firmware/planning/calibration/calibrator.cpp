@@ -1,0 +1,58 @@
+#include "firmware/planning/calibration/calibrator.hpp"
+
+namespace whisker::planning {
+
+using calibration::Values;
+
+Calibrator::Calibrator(hal::Storage& storage) noexcept
+    : store_(storage),
+      stored_(store_.load(values_)),
+      spin_(params_),
+      straight_(params_, StraightPlanner::kShortest, StraightPlanner::Way::there_and_back) {}
+
+void Calibrator::begin(const Params& params, CalibrationPlanner& planner) noexcept {
+  params_ = params;
+  trouble_ = Trouble::not_finished;
+  runs_ = &planner;
+}
+
+Planner& Calibrator::spin(const Params& params) noexcept {
+  begin(params, spin_);
+  return spin_;
+}
+
+Planner& Calibrator::straight(const Params& params, Length length) noexcept {
+  begin(params, straight_);
+  straight_.set_length(length);
+  return straight_;
+}
+
+void Calibrator::begin_anew() noexcept { trouble_ = Trouble::not_finished; }
+
+void Calibrator::abandon() noexcept {
+  trouble_ = Trouble::not_finished;
+  runs_ = nullptr;
+}
+
+void Calibrator::finish() noexcept {
+  if (runs_ == nullptr) return;
+  const CalibrationPlanner& ended = *runs_;
+  trouble_ = ended.trouble();
+  if (trouble_ != Trouble::none) return;
+  Values all = values_;
+  for (int i = 0; i < calibration::kQuantities; ++i) {
+    if (ended.values().of[i].known()) all.of[i] = ended.values().of[i];
+  }
+  // What the robot would refuse at its next start is not kept.
+  Params checked = params_;
+  if (calibration::apply(all, checked) != ParamFault::none) {
+    trouble_ = Trouble::does_not_fit;
+    return;
+  }
+  stored_ = store_.save(all);
+  if (stored_ == calibration::Stored::ok) values_ = all;
+}
+
+void Calibrator::apply(Params& params) const noexcept { calibration::apply(values_, params); }
+
+}  // namespace whisker::planning

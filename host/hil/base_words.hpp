@@ -1,0 +1,18 @@
+/// What a base on this computer says of its controller.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "host/hil/bus_pilot.hpp"
+
+namespace whisker::hil {
+
+/// Empty: it drives, or could.
+std::string waits_for(const can::BaseNode& node, const BusOptions& options);
+/// Throws OtherRules. had: digest of the table with which the controller drives; 0: none.
+[[noreturn]] void refuse_rules(std::uint32_t had, std::uint32_t wanted);
+/// Throws NoCalibration if the controller has refused this order for good.
+void refuse_calibration(const can::BaseNode& node, can::Order order);
+
+}  // namespace whisker::hil
