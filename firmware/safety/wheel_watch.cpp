@@ -37,11 +37,13 @@ WheelWatch::Finding WheelWatch::judge(Wheel& wheel) const noexcept {
   const Length apart = abs(wheel.commanded_way - wheel.counted_way);
   if (wheel.counted < wheel.expected / 4 && apart > stretch_ / 4) {
     if (wheel.other >= stretch_ / 2) return Finding::stalled;
-    // The other one holds the heading of a body that does not move, and hardly turns.
-    const Length beyond = max(abs(wheel.commanded_way) - stretch_, Length{});
-    const Length held = min(Length::from_raw(wheel.held << kHeldShift) + beyond, kMostHeld);
-    wheel.held = static_cast<uint16_t>(held.raw() >> kHeldShift);
-    if (wheel.other > Length{} && held >= min(stretch_ * kHeldStretches, kMostHeld)) return Finding::stalled;
+    if (wheel.other > Length{}) {
+      // The other one holds the heading of a body that does not move, and hardly turns.
+      const Length beyond = max(abs(wheel.commanded_way) - stretch_, Length{});
+      const Length held = min(Length::from_raw(wheel.held << kHeldShift) + beyond, kMostHeld);
+      if (held >= min(stretch_ * kHeldStretches, kMostHeld)) return Finding::stalled;
+      wheel.held = static_cast<uint16_t>(held.raw() >> kHeldShift);
+    }
     // Something holds both wheels, which has a separate time-out. The motion missed meanwhile must not count
     // after release.
     wheel.expected = min(wheel.expected, stretch_);

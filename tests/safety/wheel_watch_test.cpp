@@ -47,5 +47,36 @@ TEST(WheelWatch, AWheelThatStandsIsStalled) {
             WheelWatch::Finding::stalled);
 }
 
+/// The reference body. Both wheels are asked for 150 mm/s; the left one turns from `released` on, the right
+/// one swings by this many counts every tenth tick before.
+WheelWatch::Finding held(int swing, int released) {
+  WheelWatch watch;
+  watch.configure(Params{});
+  const auto per_tick = static_cast<std::int32_t>(Params{}.wheels.counts_per_metre * 15 / 10000);
+  for (int tick = 0; tick < 2000; ++tick) {
+    watch.expect({150_mm_per_s, 150_mm_per_s}, kTick);
+    const bool turns = tick >= released;
+    const std::int32_t right = tick % 10 != 0 ? 0 : tick % 20 == 0 ? swing : -swing;
+    const WheelWatch::Finding found = turns ? watch.judge({per_tick, per_tick}) : watch.judge({0, right});
+    if (found != WheelWatch::Finding::none) return found;
+  }
+  return WheelWatch::Finding::none;
+}
+
+TEST(WheelWatch, AWheelThatStandsWhileTheOtherOneSwingsIsFound) {
+  EXPECT_EQ(held(3, 2000), WheelWatch::Finding::stalled);
+  // More than that is a wheel that goes another way than it is asked to.
+  for (const int swing : {4, 10}) EXPECT_NE(held(swing, 2000), WheelWatch::Finding::none) << swing;
+}
+
+TEST(WheelWatch, TwoWheelsThatAreHeldAndReleasedAreNot) {
+  for (const int released : {100, 300, 1000, 2000}) EXPECT_EQ(held(0, released), WheelWatch::Finding::none);
+}
+
+TEST(WheelWatch, AShortHoldIsForgotten) {
+  for (const int released : {20, 60, 100})
+    EXPECT_EQ(held(3, released), WheelWatch::Finding::none) << released;
+}
+
 }  // namespace
 }  // namespace whisker::safety
