@@ -16,6 +16,7 @@ class CalibrationPlanner : public GoalPlanner {
   const calibration::Values& values() const noexcept { return values_; }
 
  protected:
+  [[gnu::always_inline]] CalibrationPlanner() noexcept = default;  // see GoalPlanner
   ~CalibrationPlanner() = default;
   /// A standard deviation above this one is Trouble::too_uncertain.
   static constexpr Ratio kWorst = millionths(5000);
