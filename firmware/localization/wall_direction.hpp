@@ -39,8 +39,8 @@ class WallDirection {
   static constexpr int kMeans = 14;
   /// From the origin of its run; 2^6 um.
   struct Place {
-    int16_t x;
-    int16_t y;
+    int16_t x = 0;
+    int16_t y = 0;
   };
   /// One wall so far.
   struct Run {
@@ -50,7 +50,7 @@ class WallDirection {
     int32_t x = 0;  // sum of its points, from `from`; um
     int32_t y = 0;
     Place last;
-    int16_t heading;  // of the body at its beginning; 2^-16 turn
+    int16_t heading = 0;  // of the body at its beginning; 2^-16 turn
     uint8_t points = 0;
     int8_t count = 0;  // of means
   };

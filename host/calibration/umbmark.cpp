@@ -66,13 +66,13 @@ Umbmark umbmark(const std::vector<SquareEnd>& ends, double side_m, double track_
     double g0 = 0, g1 = 0;
     for (const SquareEnd& end : ends) {
       const auto at = [&](double skew, double track) { return driven(end, side_m, track_m, skew, track); };
-      constexpr double kStep = 1e-6;
+      constexpr double kNudge = 1e-6;
       double own0 = 0, own1 = 0;
       const Place now = at(fit.skew, fit.track);
-      const Place by_skew = at(fit.skew + kStep, fit.track);
-      const Place by_track = at(fit.skew, fit.track + kStep);
+      const Place by_skew = at(fit.skew + kNudge, fit.track);
+      const Place by_track = at(fit.skew, fit.track + kNudge);
       const auto take = [&](double seen, double here, double s, double t) {
-        const double a = (s - here) / kStep, b = (t - here) / kStep, error = seen - here;
+        const double a = (s - here) / kNudge, b = (t - here) / kNudge, error = seen - here;
         normal[0] += a * a, normal[1] += a * b, normal[2] += b * b;
         own0 += a * error, own1 += b * error;
         squares += error * error;

@@ -232,7 +232,7 @@ describe('the replay page', () => {
   });
 
   test('nothing stands that moves', async () => {
-    folder.drive('enclosed', ['enclosed', '--noise', '--seed', 1]);
+    folder.drive('enclosed', ['enclosed', '--noise', '--seed', 2]);
     const {page} = await openPage(browser, folder.url('enclosed.html', '#t=99999'));
     assert.ok(parseFloat(await page.textContent('#now-speed')) > 0.1, 'it is still fast when it knows');
     assert.match(await page.textContent('#sentence'), /^Comes to a stand: the goal cannot be reached/);
@@ -241,7 +241,7 @@ describe('the replay page', () => {
   test('where the beams read otherwise than the table was asked, it says so', async () => {
     const scenario = folder.at('false_clear.toml');
     whisker('world', 'discs', '--seed', 3, '--out', scenario);
-    writeFileSync(scenario, `${readFileSync(scenario, 'utf8')}\n[noise]\nrange_false_clear = 0.9\n`);
+    writeFileSync(scenario, `${readFileSync(scenario, 'utf8')}\n[robot]\nbend_course = true\n[noise]\nrange_false_clear = 0.9\n`);
     const {outcome} = folder.run('false_clear', scenario);
     assert.equal(outcome, 'contact');
     const {page} = await openPage(browser, folder.url('false_clear.html', '#t=99'));
