@@ -38,9 +38,9 @@ class Pair {
   Pair(const WheelErrors& errors, std::uint64_t seed, test::MemoryStorage& storage)
       : errors_(errors),
         seed_(seed),
-        calibrator_(std::make_unique<planning::Calibrator>(storage)),
+        calibrator_(storage),
         controller_(std::make_unique<can_app::Controller>(at_controller_, can::Identity{1, 22, 0}, planners_,
-                                                          nullptr, calibrator_.get())) {
+                                                          nullptr, &calibrator_)) {
     pass(50);
     std::uint32_t raw = 0;
     for (std::uint8_t i = 0; can::read_param(robot_.robot, i, raw); ++i) {
@@ -93,7 +93,7 @@ class Pair {
   }
 
   can::BaseNode& node() { return node_; }
-  planning::Calibrator& calibrator() { return *calibrator_; }
+  planning::Calibrator& calibrator() { return calibrator_; }
   const can_app::Controller& controller() const { return *controller_; }
   const sim::Plant& plant() const { return *plant_; }
   const Params& params() const { return robot_.robot; }
@@ -124,7 +124,7 @@ class Pair {
   bus::MemoryPort& at_controller_ = wire_.attach();
   can::BaseNode node_{at_base_, {1, 11, 0}, 100};
   hil::HostPlanners planners_{kDefaultPlanner};
-  std::unique_ptr<planning::Calibrator> calibrator_;
+  planning::Calibrator calibrator_;
   std::unique_ptr<can_app::Controller> controller_;
   std::unique_ptr<SimWorld> world_;
   std::unique_ptr<sim::Plant> plant_;

@@ -241,7 +241,10 @@ describe('the replay page', () => {
   test('where the beams read otherwise than the table was asked, it says so', async () => {
     const scenario = folder.at('false_clear.toml');
     whisker('world', 'discs', '--seed', 3, '--out', scenario);
-    writeFileSync(scenario, `${readFileSync(scenario, 'utf8')}\n[robot]\nbend_course = true\n[noise]\nrange_false_clear = 0.9\n`);
+    writeFileSync(
+      scenario,
+      `${readFileSync(scenario, 'utf8')}\n[robot]\nbend_course = true\n[noise]\nrange_false_clear = 0.9\n`,
+    );
     const {outcome} = folder.run('false_clear', scenario);
     assert.equal(outcome, 'contact');
     const {page} = await openPage(browser, folder.url('false_clear.html', '#t=99'));
