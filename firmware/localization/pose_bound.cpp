@@ -9,8 +9,9 @@ constexpr int64_t kMostMixed = INT64_C(1) << 41;
 constexpr int64_t kMostGathered = INT64_C(1) << 38;  // so that times kMost it has 62 bits
 constexpr int32_t kMostMove = INT32_C(1) << 20;      // um in one update
 // Rounding of the counts and of the instants of readings.
-constexpr int64_t kFloor = INT64_C(3000) * 3000;  // um^2
-constexpr int64_t kTurnPerRadian = 683565276;     // 2^-32 turn
+constexpr int64_t kFloor = INT64_C(3000) * 3000;   // um^2
+constexpr int64_t kRadianUnit = INT64_C(1) << 20;  // of a heading
+constexpr int64_t kTurnPerRadian = 683565276;      // 2^-32 turn
 constexpr Duration kWarmUp = 600000_ms;
 
 static_assert(int64_t{PoseBound::kMost.raw()} * PoseBound::kMost.raw() <= kMostVariance);
@@ -60,15 +61,15 @@ void PoseBound::set_difference(Ratio sigma, Length track) noexcept {
 }
 
 bool PoseBound::correct_heading(Angle ahead, Angle sigma, Correction& out) noexcept {
-  const auto radians = [](Angle a) { return divide_rounded(int64_t{a.wrapped()} << 20, kTurnPerRadian); };
+  const auto radians = [](Angle a) { return divide_rounded(a.wrapped() * kRadianUnit, kTurnPerRadian); };
   const int64_t off = radians(ahead);
   const int64_t noise = limited(square(radians(sigma)), kMostHeading) + 1;
   const int64_t both = limited(heading_variance(), kMostHeading) + noise;
   if (square(off) > square(kJumpSigmas) * both) return false;
   gather();
   // um per radian
-  const int64_t x = limited((x_heading_ << 20) / both, kMost.raw());
-  const int64_t y = limited((y_heading_ << 20) / both, kMost.raw());
+  const int64_t x = limited((x_heading_ * kRadianUnit) / both, kMost.raw());
+  const int64_t y = limited((y_heading_ * kRadianUnit) / both, kMost.raw());
   const auto metres = [](int64_t um) { return Length::from_raw(saturate32(um)); };
   out.shift = {metres(scale_down<20>(x * off)), metres(scale_down<20>(y * off))};
   const int64_t share = (heading_ << 16) / both;

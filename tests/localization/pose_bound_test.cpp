@@ -133,7 +133,9 @@ void expect_calibrated(const Params& params, bool gyro, double seconds) {
   EXPECT_NEAR(Drive::radians(sigma.heading), rms(sum.heading), 0.0005 + slack * rms(sum.heading));
 }
 
-Angle degrees(double deg) { return Angle::from_raw(static_cast<uint32_t>(deg / 360 * 4294967296.0)); }
+Angle degrees(double deg) {
+  return Angle::from_raw(static_cast<uint32_t>(std::llround(deg / 360 * 4294967296.0)));
+}
 
 TEST(PoseBound, WheelsThatDiffer) {
   Params params;

@@ -18,7 +18,8 @@ void StraightPlanner::start(const View& view) noexcept {
 }
 
 void StraightPlanner::add(const View& view) noexcept {
-  turned_ += (view.pose.heading - heading_).wrapped();
+  // Modulo a turn, because it also adds up while the body turns back, where nobody asks for it.
+  turned_ = as_signed(static_cast<uint32_t>(turned_) + (view.pose.heading - heading_).raw());
   heading_ = view.pose.heading;
   difference_ += view.raw->counts.right - view.raw->counts.left;
   sum_ += view.raw->counts.right + view.raw->counts.left;
