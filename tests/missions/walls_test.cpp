@@ -4,11 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host/run/core_pilot.hpp"
-#include "host/run/mission_run.hpp"
 #include "host/run/runner.hpp"
-#include "host/run/sim_world.hpp"
-#include "host/run/spec.hpp"
 #include "host/worlds/generate.hpp"
 
 namespace whisker {
@@ -30,19 +26,11 @@ Scenario with_walls(worlds::Kind kind, int i, Fitted straight) {
 }
 
 double place_off(const Scenario& s) {
-  const SimWorld world(s);
-  sim::Plant plant(world.view(), robot_spec(s), noise_spec(s.noise), s.seed, s.start);
-  const auto pilot = core_pilot(s, kDefaultPlanner, plant);
-  MissionRun run(s, plant, *pilot);
-  for (;;) {
-    run.decide();
-    if (run.verdict()) break;
-    run.move();
-    if (run.verdict()) break;
-  }
-  EXPECT_NE(run.result().verdict, Verdict::contact) << s.seed;
-  const Pose pose = run.status().pose;
-  return std::hypot(pose.at.x.raw() * 1e-6 - plant.pose().at.x, pose.at.y.raw() * 1e-6 - plant.pose().at.y);
+  double off = 0;
+  RunOptions options;
+  options.observe = [&](const TickRecord& r) { off = std::hypot(r.est_x_m - r.x_m, r.est_y_m - r.y_m); };
+  EXPECT_NE(run(s, options).verdict, Verdict::contact) << s.seed;
+  return off;
 }
 
 struct Means {
