@@ -54,6 +54,16 @@ void Lane::mark(const Beam& beam, Length free, const EarlierObservation& before,
   }
 }
 
+void Lane::take_back(const Beam& beam, Length begins, Length farthest) noexcept {
+  const GridPoint apex = local(beam.apex);
+  if (!nearby(apex)) return;
+  const EchoArc arc{Wedge(beam.axis - from_.heading, beam.half_cone), scale_.units(begins),
+                    scale_.units(farthest) + kUnitsPerCell};
+  for (Rows rows(apex.y, arc.ends); rows.more() && rows.row() < kRows; rows.next()) {
+    clear_[rows.row()] &= ~arc.columns(apex.x, rows.offset(apex.y));
+  }
+}
+
 void Lane::mark_around(Vec at, Length radius) noexcept {
   const GridPoint centre = local(at);
   if (!nearby(centre)) return;

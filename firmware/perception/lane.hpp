@@ -31,6 +31,8 @@ class Lane {
   bool is_open() const noexcept { return open_; }
   /// Clears the cells that both observations show empty to these free distances.
   void mark(const Beam& beam, Length free, const EarlierObservation& before, Length free_before) noexcept;
+  /// The cells that an echo between these distances may come from are no longer clear.
+  void take_back(const Beam& beam, Length begins, Length farthest) noexcept;
   /// Clears the cells completely inside this disc.
   void mark_around(Vec at, Length radius) noexcept;
   /// True if the ground that a disc touches at the end of a step, as far as it lies

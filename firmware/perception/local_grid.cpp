@@ -277,26 +277,19 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
 bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept {
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
-  const int32_t begins = units(nearest - kReadingRounding);
-  const int32_t ends = units(farthest) + kUnitsPerCell;
-  const Wedge cone(beam.axis, beam.half_cone);
+  const EchoArc arc{Wedge(beam.axis, beam.half_cone), units(nearest - kReadingRounding),
+                    units(farthest) + kUnitsPerCell};
   // What lies outside the window explains an echo.
   const Angle sides[] = {-beam.half_cone, Angle{}, beam.half_cone};
   for (const Angle side : sides) {
     const Vec end = polar(beam.axis + side, farthest + Length::from_raw(scale_.cell_um));
     if (!takes && !in_window(local(beam.apex + end), 0)) return false;
   }
-  for (Rows rows(apex.y, ends); rows.more(); rows.next()) {
+  for (Rows rows(apex.y, arc.ends); rows.more(); rows.next()) {
     const int s = slot(rows.row());
-    const int32_t dy = rows.offset(apex.y);
-    Span touched = Span::around(apex.x, ends);
-    cone.clip(touched, apex.x, dy, -kCellCover);
-    touched.within_disc(apex.x, dy, ends);
-    Span nearer = Span::around(apex.x, ends);
-    nearer.inside_disc(apex.x, dy, begins);
     Span under = Span::around(body.x, footprint_);
     under.inside_disc(body.x, rows.offset(body.y), footprint_);
-    const Row cells = to_torus(touched.columns() & ~nearer.columns() & ~under.columns());
+    const Row cells = to_torus(arc.columns(apex.x, rows.offset(apex.y)) & ~under.columns());
     if (takes) {
       young_[s] &= ~cells;
       old_[s] &= ~cells;
@@ -311,7 +304,7 @@ void LocalGrid::revoke(const Beam& beam, Length nearest, Length farthest) noexce
   if (!nearby(local(beam.apex))) return;
   if (!echo_arc(beam, nearest, farthest, false)) return;
   echo_arc(beam, nearest, farthest, true);
-  close_lane();
+  if (has_lane()) lane_->take_back(beam, nearest - kReadingRounding, farthest);
 }
 
 void LocalGrid::revoke_beside(const ConeObservation& observation) noexcept {
@@ -322,8 +315,8 @@ void LocalGrid::revoke_beside(const ConeObservation& observation) noexcept {
   const Angle outward = beam.half_cone + beside;
   beam.axis += observation.number == hal::kLeft ? outward : -outward;
   beam.half_cone = beside;
-  close_lane();
   echo_arc(beam, free, free, true);
+  if (has_lane()) lane_->take_back(beam, free - kReadingRounding, free);
 }
 
 void LocalGrid::block(Vec centre, Length radius) noexcept {

@@ -1,6 +1,7 @@
 #include "firmware/perception/raster.hpp"
 
 #include "firmware/math/trig.hpp"
+#include "firmware/params.hpp"
 
 namespace whisker::perception {
 namespace {
@@ -114,6 +115,15 @@ void Wedge::hold(Span& span, int32_t x, int32_t dy) const noexcept {
 void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
   left_.clip(span, x, dy, margin);
   right_.clip(span, x, dy, margin);
+}
+
+Row EchoArc::columns(int32_t x, int32_t dy) const noexcept {
+  Span touched = Span::around(x, ends);
+  cone.clip(touched, x, dy, -kCellCover);
+  touched.within_disc(x, dy, ends);
+  Span nearer = Span::around(x, ends);
+  nearer.inside_disc(x, dy, begins);
+  return touched.columns() & ~nearer.columns();
 }
 
 Stadium::Stadium(const Sweep& sweep) noexcept

@@ -110,6 +110,15 @@ class Wedge {
   int32_t right_corner_;
 };
 
+/// The cells from which an echo may come: those that a cone touches between two distances.
+struct EchoArc {
+  Wedge cone;
+  int32_t begins;
+  int32_t ends;
+  /// The apex is at x, and dy from the row.
+  Row columns(int32_t x, int32_t dy) const noexcept;
+};
+
 /// A straight path of a disc.
 struct Sweep {
   int32_t x = 0;  ///< of its start
