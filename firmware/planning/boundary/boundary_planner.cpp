@@ -169,7 +169,7 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
     const bool closed = loop_.closed(view, evidence);
     // The rest of the loop is driven for slits: it is no evidence.
     if (closed && !expects) parts_ = loop_.may_part(began_, goal_.at, wall_);
-    if ((refuted || closed || expects) && !(kNarrowGaps && slits_->expected(view))) {
+    if (refuted || ((closed || expects) && !(kNarrowGaps && slits_->expected(view)))) {
       go_the_other_way(view);
       return false;
     }

@@ -14,6 +14,7 @@ constexpr Length kSame = 150_mm;  // the distance between two views of one slit
 constexpr Length kTried = 50_mm;  // from a slit that was tried
 constexpr Length kHere = 500_mm;
 constexpr Length kExpected = 1500_mm;  // of travel
+constexpr Length kPast = 600_mm;       // the same, where no slit is known
 
 }  // namespace
 
@@ -68,10 +69,11 @@ uint8_t SlitSearch::within(const View& view, Length reference) const noexcept {
 bool SlitSearch::expected(const View& view) noexcept {
   const int32_t travel_mm = behaviours_.progress.travel_mm();
   if (!expected_) {
-    if (!known() || within(view, kHere) == 0) return false;
-    expected_mm_ = travel_mm + behaviours_.mm(kExpected);
+    // The loop closes before the body has passed the place where it began: a slit may lie between.
+    const bool here = known() && within(view, kHere) != 0;
+    expected_mm_ = travel_mm + behaviours_.mm(here ? kExpected : kPast);
   }
-  expected_ = known() && travel_mm < expected_mm_;
+  expected_ = travel_mm < expected_mm_;
   return expected_;
 }
 

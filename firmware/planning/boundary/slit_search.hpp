@@ -26,10 +26,10 @@ class SlitSearch {
   bool known() const noexcept { return known_ != 0; }
   /// The body is near the place from which a slit was seen, near enough to try it.
   bool at_hand(const View& view) const noexcept { return known() && within(view, kAtHand) != 0; }
-  /// The loop is closed, but a slit lies on the next metre and a half of the boundary. Once per tick from
-  /// then on.
+  /// The loop is closed, but a slit may lie on the next part of the boundary: a metre and a half where one is
+  /// known, 0.6 m where none is. Once per tick from then on.
   bool expected(const View& view) noexcept;
-  bool expects() const noexcept { return known() && expected_; }
+  bool expects() const noexcept { return expected_; }
   /// At the end of a loop: forgets the slits that lie here.
   void end_loop(const View& view) noexcept;
   /// A place in the slit at hand, and the heading there. Forgets it.
