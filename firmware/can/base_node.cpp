@@ -216,7 +216,7 @@ void BaseNode::on_reply(const MissionReply& reply) noexcept {
   switch (reply.status) {
     case MissionStatus::accepted:
       order_state_ = OrderState::accepted;
-      if (order_ == Order::cancel) break;
+      if (!drives(order_)) break;
       command_seen_ = now_ms();
       if (!run()) order_state_ = OrderState::refused;
       break;

@@ -195,10 +195,11 @@ MissionStatus ControllerNode::execute(const MissionOrder& order) noexcept {
   if (!mission_of(parts_.values(), mission)) return MissionStatus::out_of_range;
   if (order.order == Order::resume && !has_mission_) return MissionStatus::unknown;
   if (calibrates(order.order) && !calibrates_) return MissionStatus::unsupported;
-  if (order.order == Order::straight && !farther(mission.goal.at - mission.start.at, kShortestStraight)) {
+  const bool has_length = calibrates(order.order) && order.order != Order::spin;
+  if (has_length && !farther(mission.goal.at - mission.start.at, kShortestStraight)) {
     return MissionStatus::out_of_range;
   }
-  if (order.order == Order::cancel) {
+  if (!drives(order.order)) {
     rest();
     has_mission_ = false;
   } else {

@@ -31,10 +31,15 @@ enum class Order : uint8_t {
   resume,    ///< drive to the goal from the estimated pose; ends a safe stop
   spin,      ///< calibrate: place the robot and turn on the spot
   straight,  ///< calibrate: place the robot, drive straight ahead as far as the goal is away, and back
+  tape,      ///< calibrate: the same one way, along a tape
+  measured,  ///< calibrate: as far as the goal is away, the robot has gone by the tape; drives nothing
 };
-constexpr int kOrders = 5;
-inline constexpr const char* kOrderWords[] = {"start", "cancel", "resume", "spin", "straight"};
-constexpr bool calibrates(Order order) noexcept { return order == Order::spin || order == Order::straight; }
+constexpr int kOrders = 7;
+inline constexpr const char* kOrderWords[] = {"start",    "cancel", "resume",  "spin",
+                                              "straight", "tape",   "measured"};
+constexpr bool calibrates(Order order) noexcept { return order >= Order::spin; }
+/// The robot runs once it is accepted.
+constexpr bool drives(Order order) noexcept { return order != Order::cancel && order != Order::measured; }
 
 enum class MissionStatus : uint8_t {
   accepted,

@@ -87,16 +87,20 @@ class Player {
                                       planning::StraightPlanner::Way::there);
     DriveRig robot = rig();
     const Ended ended = robot.straight(planner);
-    const Tape tape{planner.way().raw() * 1e-6, robot.distance_m() + plan_.tape_sigma_m * hand_.normal()};
-    if (ended.good()) take_tape(tape, plan_.tape_sigma_m, done_.calibrated, done_.values);
-    if (ended.good() && !ends_.empty()) fit_again(tape);
-    end("tape", ended,
-        fmt::format("drove {:.3f} m by its wheels, {:.3f} m by the tape", tape.driven_m, tape.measured_m));
+    const Tape tape{planner.way(), metres(robot.distance_m() + plan_.tape_sigma_m * hand_.normal())};
+    Ended read = ended;
+    if (ended.good() && !take_tape(done_.values, done_.calibrated, tape, metres(plan_.tape_sigma_m))) {
+      read.trouble = planning::name(planning::Trouble::wrong_tape);
+    }
+    if (read.good() && !ends_.empty()) fit_again(tape);
+    end("tape", read,
+        fmt::format("drove {:.3f} m by its wheels, {:.3f} m by the tape", tape.driven.raw() * 1e-6,
+                    tape.measured.raw() * 1e-6));
   }
 
   /// The squares, now that their true size is known.
   void fit_again(const Tape& tape) {
-    const double scale = tape.measured_m / tape.driven_m;
+    const double scale = 1.0 * tape.measured.raw() / tape.driven.raw();
     std::vector<SquareEnd> ends = ends_;
     for (SquareEnd& end : ends) end.believed_x_m *= scale, end.believed_y_m *= scale;
     Params params = driven_;

@@ -106,15 +106,6 @@ class EndsReader {
 
 }  // namespace
 
-void take_tape(const Tape& tape, double sigma_m, const Params& params, Values& values) {
-  const std::int32_t counts = times(params.wheels.counts_per_metre, tape.driven_m / tape.measured_m);
-  // The counts are whole: half of one, evenly distributed.
-  const double rounding = 0.29 / counts;
-  constexpr double kStart = 0.001;  // m, of the axle at the zero of the tape
-  const double reading = std::hypot(sigma_m, kStart) / tape.measured_m;
-  rescale(values, params, {counts, ratio_of(std::hypot(reading, rounding))});
-}
-
 Umbmark take_squares(const std::vector<SquareEnd>& ends, double side_m, double scale_sigma,
                      const Params& params, Values& values) {
   const Umbmark found = umbmark(ends, side_m, params.body.track.raw() * 1e-6, scale_sigma);

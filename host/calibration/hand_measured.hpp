@@ -6,19 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "firmware/calibration/tape.hpp"
 #include "host/calibration/drive_rig.hpp"
 #include "host/calibration/umbmark.hpp"
 
 namespace whisker::calibration {
-
-/// A straight drive: as far as the robot believes to have gone, and as far as the tape says, m.
-struct Tape {
-  double driven_m = 0;
-  double measured_m = 0;
-};
-
-/// Counts per metre, and the track that goes with them.
-void take_tape(const Tape& tape, double sigma_m, const Params& params, Values& values);
 
 /// Ratio and track from the ends of squares. The track stays where a spin has measured it. Throws as
 /// umbmark().

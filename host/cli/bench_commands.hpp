@@ -7,6 +7,7 @@
 
 namespace whisker::cli {
 
+void add_bench_calibrate(CLI::App& bench, int& status);
 void add_bench_drive(CLI::App& bench, int& status);
 void add_bench_nodes(CLI::App& bench, int& status);
 void add_bench_orders(CLI::App& bench, int& status);

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "host/bench/operator_link.hpp"
-#include "host/bench/seat.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/bench_commands.hpp"
 #include "host/cli/bench_operator.hpp"
+#include "host/cli/bench_seat.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/keys.hpp"
 #include "host/cli/live_view.hpp"
@@ -21,7 +21,6 @@
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/guard/recorded.hpp"
-#include "host/hil/error_names.hpp"
 #include "host/hil/planners.hpp"
 #include "host/report/result.hpp"
 #include "host/run/make_record.hpp"
@@ -29,7 +28,6 @@
 namespace whisker::cli {
 namespace {
 
-constexpr double kFarewell_s = 0.5;  // the base hears that the mission is over
 constexpr double kFarthest_m = 1000;
 
 struct SeatOptions {
@@ -41,68 +39,6 @@ struct SeatOptions {
   double speed_mps = 0.3, turn_radps = 1.5, vouched_m = 0;
   bool keys = false, json = false;
 };
-
-std::string state_words(const can::Node& node, bool started) {
-  switch (node.state()) {
-    case can::NodeState::off_bus: return "waits for the bus";
-    case can::NodeState::waiting:
-      return (node.errors() & can::Error::wrong_version) != 0 ? "the base speaks another protocol"
-                                                              : "waits for the base";
-    case can::NodeState::ready: return started ? "ready" : "waits for the base's order to start";
-    case can::NodeState::running: return "drives";
-    case can::NodeState::safe_stop: return "safe stop: " + hil::error_names(node.errors());
-    case can::NodeState::e_stopped: return "E-stop";
-  }
-  return "";
-}
-
-/// After listening for a while: takes the controller's place. Throws bench::NoAnswer if the robot has a
-/// controller, or no base.
-void check_place(BenchBus& bus, const BenchChoice& choice) {
-  const auto there = [&](can::Party party) {
-    return bus.survey().alive(bus.robot(), party, bus.clock().now_us());
-  };
-  const auto found = [&] {
-    if (there(can::Party::controller)) {
-      throw bench::NoAnswer(fmt::format(
-          "{}: robot {} has a controller (node {}), which obeys its base only: take it off the bus first",
-          bus.name(), bus.robot(), bus.robot()));
-    }
-    return there(can::Party::base);
-  };
-  if (found() || bus.listen(choice.timeout_s, found)) return;
-  throw bench::NoAnswer(
-      fmt::format("{}: no base of robot {} in {} s", bus.name(), bus.robot(), choice.timeout_s));
-}
-
-/// Until `over` for kFarewell_s, or the time is over. Throws bench::NoAnswer if the base gives no order, or
-/// stops for longer than the time-out.
-void sit(BenchBus& bus, const BenchChoice& choice, bench::Seat& seat, double for_s,
-         const std::function<bool()>& over, const std::function<bool()>& interrupted) {
-  std::string said;
-  const std::uint64_t start_us = bus.clock().now_us();
-  std::uint64_t alive_us = start_us, over_us = 0;
-  for (;;) {
-    const bool stepped = seat.poll(bus.clock().now_ms());
-    const std::uint64_t now_us = bus.clock().now_us();
-    const std::string words = state_words(seat.node(), seat.started());
-    if (words != said) fmt::print(stderr, "controller {} on {}: {}\n", bus.robot(), bus.name(), words);
-    said = words;
-    if (stepped || !seat.started()) alive_us = now_us;
-    const bool is_over = seat.started() && over();
-    if (is_over && over_us == 0) over_us = now_us;
-    if (is_over && static_cast<double>(now_us - over_us) * 1e-6 >= kFarewell_s) return;
-    if (interrupted()) throw bench::Interrupted("interrupted");
-    if (!is_over && static_cast<double>(now_us - alive_us) * 1e-6 >= choice.timeout_s) {
-      throw bench::NoAnswer(fmt::format("{}: {} for {} s", bus.name(), words, choice.timeout_s));
-    }
-    if (!is_over && static_cast<double>(now_us - start_us) * 1e-6 >= for_s) {
-      if (!seat.started()) throw bench::NoAnswer(fmt::format("{}: {} for {} s", bus.name(), words, for_s));
-      return;
-    }
-    seat.node().lockstep() ? bus.clock().wait(hil::Clock::kNap_us) : bus.clock().wait_a_ms();
-  }
-}
 
 planning::Goal goal_of(const SeatOptions& o) {
   const auto um = [](double m) { return Length::from_raw(static_cast<std::int32_t>(std::lround(m * 1e6))); };

@@ -62,9 +62,14 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
   how.order = bus.order;
   Scenario scenario = world;
   if (calibrates(bus.order)) {
-    // It ends where it began, as well as the uncalibrated robot turns.
+    // It ends where it began, or ahead, as well as the uncalibrated robot turns.
     how.goal = fixed_goal(world.goal);
-    scenario.goal = {{world.start.at.x, world.start.at.y}, kBackWithin_m};
+    const sim::Pose& start = world.start;
+    const double away = std::hypot(world.goal.at.x - start.at.x, world.goal.at.y - start.at.y);
+    const double ahead = bus.order == can::Order::tape ? away : 0;
+    scenario.goal = {
+        {start.at.x + ahead * std::cos(start.heading), start.at.y + ahead * std::sin(start.heading)},
+        kBackWithin_m};
   }
   how.sync_mode = bus.real_time ? can::SyncMode::real_time : can::SyncMode::lockstep;
   how.say = [view, speak = speaker("plant", bus)](const std::string& words) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "firmware/calibration/values.hpp"
 #include "host/cli/bus_options.hpp"
@@ -15,9 +14,6 @@ struct BusMission {
   calibration::Values values;
   std::string found;  ///< for people
 };
-
-/// spin, straight, tape, square-left, square-right.
-std::vector<std::string_view> mission_names();
 
 /// Takes the controller's place on the bus: waits for the base and its order to start, drives the mission
 /// under the guard of the core, and stops. length_m: of a straight drive or a side. Prints what it waits for

@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include <fmt/core.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "host/calibration/hand_measured.hpp"
+#include "host/cli/exit_status.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -95,6 +97,20 @@ std::string drive_json(const DriveReport& r) {
                      {"lines", fits ? calibration::robot_lines(r.values) : std::vector<std::string>{}},
                      {"sigma_lines", fits ? calibration::sigma_lines(r.values) : std::vector<std::string>{}}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+int print_failures(const DriveReport& report) {
+  bool measured = true;
+  for (const calibration::ProcedureStep& step : report.steps) {
+    if (step.ended.good()) continue;
+    measured = false;
+    fmt::print(stderr, "whisker: {}: no result: {}\n", step.name, step.ended.trouble);
+  }
+  if (report.refused != ParamFault::none) {
+    fmt::print(stderr, "whisker: the values do not fit the robot: {}: {}\n", name(report.refused),
+               relation(report.refused).words);
+  }
+  return measured && report.refused == ParamFault::none ? 0 : kFault;
 }
 
 }  // namespace whisker::cli

@@ -24,6 +24,9 @@ std::string drive_words(const DriveReport& report);
 /// One JSON object without provenance.
 std::string drive_json(const DriveReport& report);
 
+/// A line on standard error for each step without a result. Exit status.
+int print_failures(const DriveReport& report);
+
 /// One robot of many.
 struct DriveTrial {
   DriveReport report;

@@ -29,8 +29,9 @@ can::Order order_of(const PlantOptions& o) {
   if (o.calibrate.empty()) return can::Order::start;
   if (o.calibrate == "spin") return can::Order::spin;
   if (o.calibrate == "straight") return can::Order::straight;
-  throw UsageError(fmt::format("--calibrate {}: spin or straight{}", o.calibrate,
-                               did_you_mean(o.calibrate, {"spin", "straight"})));
+  if (o.calibrate == "tape") return can::Order::tape;
+  throw UsageError(fmt::format("--calibrate {}: spin, straight or tape{}", o.calibrate,
+                               did_you_mean(o.calibrate, {"spin", "straight", "tape"})));
 }
 
 int execute(const PlantOptions& o) {
@@ -57,8 +58,9 @@ void add_plant(CLI::App& app, int& status) {
   add_switch(*cmd, "--realtime", o->bus.real_time, "A tick each period, instead of waiting for each answer");
   o->rules = add_rules_choice(
       *cmd, o->wanted, "Send this rule base to the controller as its response table;\nsets bend_course");
-  add_name(*cmd, "--calibrate", o->calibrate,
-           "Order a calibration instead of a mission: spin, or straight\nfor the distance of the goal")
+  add_name(
+      *cmd, "--calibrate", o->calibrate,
+      "Order a calibration instead of a mission: spin, or for the\ndistance of the goal straight or tape")
       ->type_name("NAME");
   add_view(*cmd, o->view);
   cmd->callback([o, &status] { status = execute(*o); });

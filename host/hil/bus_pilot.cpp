@@ -182,7 +182,7 @@ class BusPilot final : public Pilot {
     while (!node_.matched()) watchful_nap();
     if (options_.rules) make_it_drive_with(*options_.rules);
     hand_over_params();
-    give(options_.order);
+    give(options_.order, mission_);
     restarts_ = node_.peer_restarts();
     begun_ = true;
     begun_us_ = clock_.now_us();
@@ -243,10 +243,10 @@ class BusPilot final : public Pilot {
     return sender.reply().status;
   }
 
-  void give(can::Order order) {
+  void give(can::Order order, const can::Mission& mission) {
     ask_for("MissionReply that accepts");
     do {
-      node_.give(order, mission_, options_.sync_mode);
+      node_.give(order, mission, options_.sync_mode);
       while (node_.order_state() == can::OrderState::waiting) {
         watchful_nap();
         watch_patience();
@@ -260,6 +260,8 @@ class BusPilot final : public Pilot {
     if (!calibrates(options_.order) || figures_.calibrated ||
         status_.decision.outcome == planning::Outcome::running || status_.health.fault != Fault::none)
       return;
+    const bool drove = status_.decision.outcome == planning::Outcome::reached;
+    if (options_.order == can::Order::tape && drove) give(can::Order::measured, read_tape());
     ask_for("Calibration report");
     can::Calibrated found;
     while (!node_.calibrated(found)) {
@@ -267,6 +269,11 @@ class BusPilot final : public Pilot {
       watch_patience();
     }
     figures_.calibrated = found;
+  }
+
+  /// What a person does after a drive along a tape.
+  can::Mission read_tape() const {
+    return {mission_.start, {fixed_pose(plant_.pose()).at, mission_.goal.tolerance}};
   }
 
   void hand_over_params() {

@@ -43,7 +43,7 @@ struct BusOptions {
   can::Identity identity{1, 1, 0};
   std::optional<std::uint32_t> rules;  ///< the controller must drive with the response table of this digest
   const can::RulesServer::Table* table = nullptr;  ///< of that digest: sent to a controller with another one
-  can::Order order = can::Order::start;            ///< with which the run begins: start, spin or straight
+  can::Order order = can::Order::start;            ///< with which the run begins: one that drives
   std::optional<planning::Goal> goal;              ///< instead of the scenario's
   can::SyncMode sync_mode = can::SyncMode::lockstep;
   std::uint32_t resend_ms = 20;       ///< lockstep: the shortest wait before a set is repeated, see Resend
@@ -55,8 +55,9 @@ struct BusOptions {
 
 /// The base: the controller at the other end of a bus drives the simulated robot. Port, clock and figures
 /// must outlive it. The first tick waits for a controller without limit, sends the parameters of the robot
-/// and starts the mission. After a calibration, it waits for what the controller reports. Ticks throw
-/// ControllerRestarted, NoAnswer, NoCalibration, OtherRules and Interrupted.
+/// and starts the mission. After a calibration, it waits for what the controller reports; after a drive along
+/// a tape, it first says how far that was. Ticks throw ControllerRestarted, NoAnswer, NoCalibration,
+/// OtherRules and Interrupted.
 MakePilot bus_pilot(hal::CanPort& port, Clock& clock, const BusOptions& options, Figures& figures);
 
 }  // namespace whisker::hil

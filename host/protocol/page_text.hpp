@@ -82,7 +82,8 @@ byte, hash = (hash xor byte) x 0x01000193 modulo 2^32; the digest is (hash xor (
 | order | what the controller does |
 |---|---|
 | start | creates a new robot with the last committed parameters, places it at the start, sets the goal; both nodes run |
-| spin, straight | a [calibration](#calibration): places the robot as start does; both nodes run |
+| spin, straight, tape | a [calibration](#calibration): places the robot as start does; both nodes run |
+| measured | how far the last tape was, from start to goal; both nodes stop running |
 | resume | drives to the goal from the estimated pose; the start values are not used; both nodes run |
 | cancel | clears the goal; both nodes stop running |
 
@@ -92,9 +93,9 @@ byte, hash = (hash xor byte) x 0x01000193 modulo 2^32; the digest is (hash xor (
 | incomplete | parts are missing, or the digest differs | send all parts again |
 | refused | E-stop, a latched error, or a value out of its range | correct the cause, send a new order |
 | unknown | resume without a mission | start |
-| unsupported | spin or straight, and this controller does not calibrate | |
+| unsupported | spin, straight, tape or measured, and this controller does not calibrate | |
 
-Only start, resume, spin and straight end a safe stop.
+Only start, resume, spin, straight and tape end a safe stop.
 
 ## Ticks
 
@@ -192,10 +193,11 @@ it writes, it may be silent for seconds. Where there is room for one table only,
 
 inline constexpr const char* kCalibration = R"(## Calibration
 
-A controller with a storage may [measure](calibration.md#on-the-robot-itself) gyro scale, wheel ratio and track by itself. The base orders
-spin or straight, and sends input sets as in a mission; the Gyro is needed for straight. spin turns on the spot and uses no goal. straight drives
-ahead as far as the goal is from the start, 0.5 m at least, turns and comes back; less is out_of_range. Outcome is reached if there is a result,
-and gave_up otherwise. Then the controller saves; it may be silent for seconds, which is a safe stop of the base, whose wheels stand. cancel, start
+A controller with a storage may [measure](calibration.md#on-the-robot-itself) gyro scale, wheel ratio, track and counts per metre by itself. The base orders
+spin, straight or tape, and sends input sets as in a mission; the Gyro is needed for straight. spin turns on the spot and uses no goal. straight drives
+ahead as far as the goal is from the start, 0.5 m at least, turns and comes back; less is out_of_range. tape drives the same way without coming back, and has no result yet: a person measures
+how far the robot went, and the base orders measured, with a goal that is so far from its start. Its StartHeading and GoalTolerance are not used. A mission
+in between forgets the drive: no_drive. Outcome is reached if there is a result, and gave_up otherwise. Then the controller saves; it may be silent for seconds, which is a safe stop of the base, whose wheels stand. cancel, start
 and a fault end a calibration without a result; resume begins it anew.
 
 Such a controller sends a Calibration every 125 ms, for each Quantity in turn: the Value and the Sigma that its storage has, the Trouble of the last

@@ -1,6 +1,5 @@
 #include "hal/boards/stm32f405/flash_storage.hpp"
 
-#include <deque>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,14 +15,6 @@ namespace {
 
 class FlashTest : public ::testing::Test {
  protected:
-  FlashTest() {
-    chip.attach(base::kFlash, flash);
-    for (Address slot = 0; slot < Storage::kSlots; ++slot) {
-      for (Address at = 0; at < FlashStorage::kSize; at += model::Peripheral::kSpan) {
-        chip.attach(0x080C0000 + slot * 0x20000 + at, pages.emplace_back(flash, 10 + slot));
-      }
-    }
-  }
   std::vector<std::uint8_t> read(std::uint8_t slot, std::uint16_t at, std::uint16_t size) {
     std::vector<std::uint8_t> bytes(size);
     EXPECT_TRUE(storage.read(slot, at, bytes.data(), size));
@@ -31,8 +22,8 @@ class FlashTest : public ::testing::Test {
   }
 
   model::Chip chip;
-  model::FlashModel flash;
-  std::deque<model::FlashPage> pages;
+  model::FlashMemory memory{chip, FlashStorage::kSize};
+  model::FlashModel& flash = memory.model;
   FlashStorage storage;
 };
 

@@ -54,7 +54,7 @@ TEST(HandMeasured, NamesWhatIsWrongWithAFile) {
 
 TEST(HandMeasured, ATapeChangesCountsAndTrack) {
   Values values;
-  take_tape({5, 5.05}, 0.002, Params{}, values);
+  ASSERT_TRUE(take_tape(values, Params{}, {5_m, 5050_mm}));
   EXPECT_EQ(values[Quantity::counts_per_metre].value, 4950);
   EXPECT_EQ(values[Quantity::track].value, 141414);
   EXPECT_NEAR(values[Quantity::counts_per_metre].sigma.raw(), 446, 2);

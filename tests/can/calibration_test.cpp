@@ -254,6 +254,49 @@ TEST(CalibrationOnTheBus, ASafeStopInTheMiddleCostsASpinAndNothingElse) {
   EXPECT_NEAR(found[Quantity::gyro_scale].value, 1020000, 1000);
 }
 
+TEST(CalibrationOnTheBus, ATapeFindsTheSizeOfTheWheels) {
+  constexpr double kCounts = 1.02;
+  test::MemoryStorage storage;
+  Pair pair({1, 1, kCounts, 1}, 8, storage);
+  const auto read_tape = [&](double metres) {
+    pair.give(Order::measured, Length::from_raw(static_cast<std::int32_t>(std::lround(metres * 1e6))));
+    return pair.result();
+  };
+  pair.begin(Order::tape, {});
+  EXPECT_EQ(read_tape(3).trouble, Trouble::no_drive) << "nothing is driven yet";
+
+  const auto drive = [&] {
+    pair.begin(Order::tape, {});
+    pair.drive(25);
+    EXPECT_EQ(pair.controller().status().decision.outcome, planning::Outcome::reached);
+    can::Calibrated none;
+    EXPECT_FALSE(pair.node().calibrated(none)) << "a drive alone tells nothing";
+    return pair.plant().pose().at.x;
+  };
+  const can::Calibrated found = read_tape(drive());
+  ASSERT_EQ(found.trouble, Trouble::none) << name(found.trouble);
+  EXPECT_EQ(found.stored, Stored::ok);
+  EXPECT_NEAR(found[Quantity::counts_per_metre].value, kCounts * pair.params().wheels.counts_per_metre, 2);
+  EXPECT_NEAR(found[Quantity::counts_per_metre].sigma.raw(), 760, 20) << "2 mm and 1 mm of 3 m";
+  EXPECT_NEAR(found[Quantity::track].value, pair.params().body.track.raw() / kCounts, 60);
+  EXPECT_EQ(planning::Calibrator(storage).values(), static_cast<const Values&>(found));
+  EXPECT_EQ(read_tape(3).trouble, Trouble::no_drive) << "a drive counts once";
+
+  // With the new values, the same robot drives as far as it believes.
+  const double again = drive();
+  EXPECT_NEAR(again, 3, 0.01);
+  const can::Calibrated wrong = read_tape(again / 2);
+  EXPECT_EQ(wrong.trouble, Trouble::wrong_tape);
+  EXPECT_EQ(static_cast<const Values&>(wrong), static_cast<const Values&>(found));
+  drive();
+  pair.begin(Order::start, {}, 300_mm);
+  EXPECT_EQ(read_tape(3).trouble, Trouble::no_drive) << "another mission forgets the drive";
+  pair.begin(Order::tape, {});
+  pair.drive(5);
+  pair.give(Order::cancel);
+  EXPECT_EQ(read_tape(3).trouble, Trouble::no_drive) << "it did not end";
+}
+
 /// The power fails at every byte while it saves: at the next start there are the old values or the new ones.
 TEST(CalibrationOnTheBus, APowerCutWhileItSavesLosesNoOldValue) {
   test::MemoryStorage storage;

@@ -890,36 +890,41 @@ TEST_F(ControllerAlone, AnOrderNeedsAllItsParts) {
 TEST_F(ControllerAlone, OrdersToCalibrateNeedOneThatCalibrates) {
   peer_.greet(kPeerBoot);
   pass(2);
-  for (const Order what : {Order::spin, Order::straight}) {
+  for (const Order what : {Order::spin, Order::straight, Order::tape, Order::measured}) {
     ++mission_;
     order(what);
     EXPECT_EQ(replied(), MissionStatus::unsupported);
     EXPECT_EQ(node_.state(), NodeState::ready);
   }
   node_.accept_calibrations();
-  const auto straight = [&](Length length) {
+  const auto so_far = [&](Order what, Length length) {
     ++mission_;
-    order(Order::straight, {{{2_m, 1_m}, {}}, {{2_m, 1_m - length}, 100_mm}});
+    order(what, {{{2_m, 1_m}, {}}, {{2_m, 1_m - length}, 100_mm}});
     return replied();
   };
-  EXPECT_EQ(straight(0_mm), MissionStatus::out_of_range);
-  EXPECT_EQ(straight(499_mm), MissionStatus::out_of_range);
-  EXPECT_EQ(node_.state(), NodeState::ready);
-  EXPECT_EQ(straight(500_mm), MissionStatus::accepted);
-  EXPECT_EQ(node_.state(), NodeState::running);
+  for (const Order what : {Order::straight, Order::tape, Order::measured}) {
+    EXPECT_EQ(so_far(what, 0_mm), MissionStatus::out_of_range);
+    EXPECT_EQ(so_far(what, 499_mm), MissionStatus::out_of_range);
+    EXPECT_EQ(node_.state(), NodeState::ready);
+    EXPECT_EQ(so_far(what, 500_mm), MissionStatus::accepted);
+    EXPECT_EQ(node_.state(), what == Order::measured ? NodeState::ready : NodeState::running);
+    ++mission_;
+    order(Order::cancel);
+  }
 }
 
 TEST_F(ControllerAlone, EveryOrderInEveryStateIsAnsweredByName) {
   node_.accept_calibrations();
-  constexpr Order kEvery[] = {Order::start, Order::cancel, Order::resume, Order::spin, Order::straight};
+  constexpr Order kEvery[] = {Order::start, Order::cancel,   Order::resume,  Order::spin,
+                              Order::tape,  Order::straight, Order::measured};
   const auto try_all = [&](NodeState state, MissionStatus resume, MissionStatus others) {
     for (const Order what : kEvery) {
       ASSERT_EQ(node_.state(), state) << kOrderWords[static_cast<int>(what)];
       ++mission_;
       order(what);
-      const MissionStatus expected = what == Order::resume   ? resume
-                                     : what == Order::cancel ? MissionStatus::accepted
-                                                             : others;
+      const MissionStatus expected = what == Order::resume ? resume
+                                     : !drives(what)       ? MissionStatus::accepted
+                                                           : others;
       EXPECT_EQ(replied(), expected) << kOrderWords[static_cast<int>(what)];
       if (state == NodeState::e_stopped || node_.state() == state) continue;
       const bool runs = state == NodeState::running;

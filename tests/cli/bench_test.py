@@ -365,6 +365,56 @@ class Driving(Beside):
             self.assertIn("--guard", done.stderr)
 
 
+class Calibrating(Beside):
+    ROOM = """[robot]
+gyro = true
+[noise]
+gyro_scale_sigma = 0.01
+[start]
+x_m = 0
+y_m = 0
+heading_deg = 0
+[goal]
+x_m = 0.5
+y_m = 0
+[[wall]]
+points = [[0.9, -0.7], [0.9, 0.8], [-1.1, 0.8], [-1.1, -0.7], [0.9, -0.7]]
+"""
+
+    def measured(self, world, *arguments, status=0):
+        """The bench's result and standard error, while a base gives its order to start."""
+        scenario = self.file("world.toml", world)
+        plant = self.plant(scenario)
+        done = self.bench("calibrate", *arguments, "--json")
+        plant.kill()
+        plant.wait()
+        self.assertEqual(done.returncode, status, done.stderr)
+        return json.loads(done.stdout), done.stderr
+
+    def test_measures_what_the_base_has(self):
+        spin, _ = self.measured(self.ROOM, "spin")
+        self.assertEqual([v["key"] for v in spin["values"]], ["gyro_scale", "wheel_track_m"])
+        scale = spin["values"][0]
+        self.assertEqual(scale["before"], 1)
+        self.assertTrue(0.0001 < abs(scale["value"] - 1) < 0.04, scale)
+        self.assertLess(scale["sigma"], 0.001)
+        self.assertTrue(spin["lines"][0].startswith("gyro_scale = "))
+        tape, _ = self.measured(self.ROOM[: self.ROOM.index("[[wall]]")], "tape", "--length", 1)
+        self.assertRegex(tape["steps"][0]["found"], r"^drove (1\.0|0\.99)\d+ m by its wheels$")
+
+    def test_says_why_there_is_no_result(self):
+        blocked, err = self.measured(self.ROOM, "straight", status=6)
+        self.assertEqual(blocked["steps"][0]["trouble"], "blocked")
+        self.assertIn("whisker: straight: no result: blocked\n", err)
+
+    def test_refuses(self):
+        self.complains("calibrate", "spine", status=2, says="did you mean 'spin'")
+        self.complains("calibrate", "spin", "--length", 2, status=2, says="--length has no meaning")
+        self.complains("calibrate", "spin", "--timeout", 0.3, says="no base of robot 1 in 0.3 s")
+        self.controller()
+        self.complains("calibrate", "spin", says="robot 1 has a controller (node 1)")
+
+
 class ThroughAGuardNode(Beside):
     """The bench as the operator of a guard node, whose base has a wall before it."""
 

@@ -187,10 +187,17 @@ class Bus(Case):
         straight, _ = self.ordered("straight", world)
         self.assertEqual(list(straight["values"]), ["gyro_scale", "wheel_ratio", "wheel_track_m"])
         self.assertEqual(straight["values"]["gyro_scale"], spin["values"]["gyro_scale"], "after the restart")
+        tape, _ = self.ordered("tape", world)
+        self.assertEqual((tape["trouble"], tape["stored"]), ("none", "ok"))
+        self.assertEqual(list(tape["values"]), ["gyro_scale", "wheel_ratio", "encoder_counts_per_m", "wheel_track_m"])
+        self.assertNotEqual(tape["values"]["encoder_counts_per_m"]["value"], 5000)
+        self.assertAlmostEqual(tape["values"]["encoder_counts_per_m"]["value"] / 5000, 1, delta=0.03)
+        self.assertAlmostEqual(tape["values"]["encoder_counts_per_m"]["sigma"], 7.5e-4, delta=1e-4)
+        straight = tape
         again, _ = self.ordered("spin", world, 0, "--drop", "1")
         for key, value in again["values"].items():
             self.assertAlmostEqual(value["value"], straight["values"][key]["value"], delta=1e-3)
-            self.assertNotEqual(value["value"], {"gyro_scale": 1, "wheel_ratio": 1, "wheel_track_m": 0.14}[key])
+            self.assertNotEqual(value["value"], {"gyro_scale": 1, "wheel_ratio": 1, "wheel_track_m": 0.14, "encoder_counts_per_m": 5000}[key])
 
     def test_orders_that_a_controller_refuses_have_a_reason(self):
         self.wrong = self.true
@@ -205,7 +212,7 @@ class Bus(Case):
         self.assertIn("whisker: a straight calibration is 0.5 m long at least: the goal is too near\n", err)
         nothing, _ = self.ordered("spin", near, 4)
         self.assertEqual(nothing, {"trouble": "nothing_in_range", "stored": "nothing"})
-        self.refused("plant", near, "--can", self.ends[1], "--calibrate", "spine", says="--calibrate spine: spin or straight; did you mean 'spin'")
+        self.refused("plant", near, "--can", self.ends[1], "--calibrate", "spine", says="--calibrate spine: spin, straight or tape; did you mean 'spin'")
         self.refused("controller", "--can", self.ends[0], "--calibration", near, says="--calibration:")
         self.refused("controller", "--can", self.ends[0], "--calibration", "x", "--keep", "x", says="--keep and --calibration: two files")
 

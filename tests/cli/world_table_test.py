@@ -38,6 +38,7 @@ OPTIONS = {
     ("bench", "stop"): ("--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "reset"): ("--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "cancel"): ("--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
+    ("bench", "calibrate"): ("MISSION", "--length", "--for", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("bench", "goal"): (
         "X", "Y", "--tolerance", "--for", "--planner", "--map-bytes", "--rules", "--map", "--view", "--view-address", "--view-stay", "--json",
         "--can", "--tty", "--socket", "--node", "--timeout", "--drop",

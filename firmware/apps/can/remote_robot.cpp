@@ -3,7 +3,8 @@
 namespace whisker::can_app {
 
 void RemoteRobot::execute(can::Order order, const can::Mission& mission, const Params& params) noexcept {
-  if (order == can::Order::start || calibrates(order)) {
+  const Length length = norm(mission.goal.at - mission.start.at);
+  if (order != can::Order::resume && can::drives(order)) {
     params_ = params;
     if (calibrator_ != nullptr) calibrator_->apply(params_);
   }
@@ -16,9 +17,13 @@ void RemoteRobot::execute(can::Order order, const can::Mission& mission, const P
       if (calibrator_ != nullptr) begin(calibrator_->spin(params_), mission);
       break;
     case can::Order::straight:
-      if (calibrator_ != nullptr) {
-        begin(calibrator_->straight(params_, norm(mission.goal.at - mission.start.at)), mission);
-      }
+      if (calibrator_ != nullptr) begin(calibrator_->straight(params_, length), mission);
+      break;
+    case can::Order::tape:
+      if (calibrator_ != nullptr) begin(calibrator_->tape(params_, length), mission);
+      break;
+    case can::Order::measured:
+      if (calibrator_ != nullptr) calibrator_->take_tape(length);
       break;
     case can::Order::cancel:
       if (ready()) robot_->cancel();

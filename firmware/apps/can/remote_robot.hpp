@@ -30,8 +30,8 @@ class RemoteRobot {
   RemoteRobot(const RemoteRobot&) = delete;
   RemoteRobot& operator=(const RemoteRobot&) = delete;
 
-  /// start, spin, straight: with these parameters, from the mission's place. Otherwise the robot must be
-  /// there: see ready().
+  /// Orders that drive, except resume: with these parameters, from the mission's place. resume and cancel
+  /// need a robot: see ready().
   void execute(can::Order order, const can::Mission& mission, const Params& params) noexcept;
   bool ready() const noexcept { return robot_ != nullptr; }
   /// One control tick, at the time of the set's tick. Only when ready().

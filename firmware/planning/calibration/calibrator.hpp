@@ -26,6 +26,8 @@ class Calibrator {
   virtual Planner& spin(const Params& params) noexcept;
   /// There and back; length: see StraightPlanner.
   virtual Planner& straight(const Params& params, Length length) noexcept;
+  /// Along a tape, one way. It measures nothing before take_tape(): until then, its trouble is not_finished.
+  virtual Planner& tape(const Params& params, Length length) noexcept;
   /// The same planner begins its mission anew, after a fault.
   virtual void begin_anew() noexcept;
   /// The robot does something else: finish() has no effect until the next mission.
@@ -34,6 +36,9 @@ class Calibrator {
   /// Call it once when a mission ends, as the wheels then stand: saves the values if there are any. Blocks as
   /// hal::Storage::erase().
   virtual void finish() noexcept;
+  /// How far the last mission went by the tape. Saves what follows, as finish() does. The mission must have
+  /// been tape(); it counts once.
+  virtual void take_tape(Length measured) noexcept;
 
   /// Writes the kept values into the parameters, if check() accepts them together.
   virtual void apply(Params& params) const noexcept;
@@ -47,6 +52,7 @@ class Calibrator {
 
  private:
   void begin(const Params& params, CalibrationPlanner& planner) noexcept;
+  void keep(const calibration::Values& all) noexcept;
 
   calibration::Store store_;
   calibration::Values values_;
@@ -56,6 +62,8 @@ class Calibrator {
   SpinPlanner spin_;
   StraightPlanner straight_;
   CalibrationPlanner* runs_ = nullptr;
+  bool along_tape_ = false;  // what runs_
+  Length driven_;            // along a tape that is not read yet; 0: none
 };
 
 }  // namespace whisker::planning

@@ -22,7 +22,10 @@ class StraightPlanner final : public CalibrationPlanner {
   StraightPlanner(const Params& params, Length length, Way way) noexcept
       : params_(params), length_(length), legs_(way == Way::there ? 1 : 2) {}
   /// Of the next drive.
-  void set_length(Length length) noexcept { length_ = length; }
+  void set_course(Length length, Way way) noexcept {
+    length_ = length;
+    legs_ = way == Way::there ? 1 : 2;
+  }
 
   /// Along the first way, by the wheels.
   Length way() const noexcept { return way_; }

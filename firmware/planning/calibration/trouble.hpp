@@ -19,8 +19,10 @@ enum class Trouble : uint8_t {
   ambiguous,         ///< the scene looks the same at two headings
   too_uncertain,     ///< the result would be off by more than half a per cent, one standard deviation
   does_not_fit,      ///< the robot would refuse its parameters with these values
+  no_drive,          ///< a tape tells nothing without a drive along it just before
+  wrong_tape,        ///< the tape's length is more than 20 % away from the wheels'
 };
-constexpr int kTroubles = 13;
+constexpr int kTroubles = 15;
 constexpr const char* name(Trouble trouble) noexcept {
   switch (trouble) {
     case Trouble::none: return "none";
@@ -36,6 +38,8 @@ constexpr const char* name(Trouble trouble) noexcept {
     case Trouble::ambiguous: return "ambiguous";
     case Trouble::too_uncertain: return "too_uncertain";
     case Trouble::does_not_fit: return "does_not_fit";
+    case Trouble::no_drive: return "no_drive";
+    case Trouble::wrong_tape: return "wrong_tape";
   }
   return "?";
 }

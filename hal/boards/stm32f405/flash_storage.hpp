@@ -6,8 +6,8 @@
 namespace whisker::hal::stm32f405 {
 
 /// Two slots in the last two sectors of the flash. The chip runs from the same flash, so it stands still
-/// while it erases, for 2 s at most: only while the wheels stand, and before Watchdog::start(). Needs 2.7 V
-/// or more.
+/// while it erases, for 2 s at most: only while the wheels stand. Once the watchdog runs, through
+/// WatchedStorage. Needs 2.7 V or more.
 class FlashStorage final : public Storage {
  public:
   static constexpr uint16_t kSize = 8192;

@@ -73,6 +73,7 @@ void set_up_pins() noexcept {
   for (const Pin pin : kRangerAwake) make_output(pin, false);
   for (const Pin pin : kInfrared) make_analogue(pin);
   for (const Pin pin : kBumpers) make_input_pulled_up(pin);
+  make_input_pulled_up(kButton);
   make_function(kCanOut, Function::can);
   make_function_pulled_up(kCanIn, Function::can);
 }

@@ -1,6 +1,11 @@
 #include "hal/boards/stm32f405/reporter.hpp"
 
 namespace whisker::hal::stm32f405 {
+namespace {
+
+constexpr uint8_t kFirstTrouble = 2;  // line of a report
+
+}  // namespace
 
 void Reporter::add(const char* text) noexcept {
   while (*text != '\0' && size_ < kLongest - 2) line_[size_++] = *text++;
@@ -23,7 +28,7 @@ void Reporter::add_counter(const char* text, uint32_t count) noexcept {
   add(count);
 }
 
-void Reporter::next_line(uint32_t now_ms, const Status& status) noexcept {
+void Reporter::next_line(uint32_t now_ms, const Status& status, const char* calibration) noexcept {
   size_ = 0;
   sent_ = 0;
   if (next_ == 0) {
@@ -35,8 +40,13 @@ void Reporter::next_line(uint32_t now_ms, const Status& status) noexcept {
     add(planning::name(status.decision.why));
     add(" fault ");
     add(whisker::name(status.health.fault));
-  } else if (next_ <= kTroubles) {
-    const auto trouble = static_cast<Trouble>(next_ - 1);
+  } else if (next_ == 1) {
+    if (calibration != nullptr) {
+      add("calibration ");
+      add(calibration);
+    }
+  } else if (next_ < kFirstTrouble + kTroubles) {
+    const auto trouble = static_cast<Trouble>(next_ - kFirstTrouble);
     add_counter(name(trouble), troubles_.of(trouble));
   } else {
     const CanCounts& can = can_.counts();
@@ -47,7 +57,7 @@ void Reporter::next_line(uint32_t now_ms, const Status& status) noexcept {
                  {"can expired", can.expired},         {"can refused", can.refused},
                  {"can overrun", can.overrun},         {"late_ticks", status.health.late_ticks}};
     constexpr uint8_t kLines = sizeof lines / sizeof lines[0];
-    const uint8_t i = static_cast<uint8_t>(next_ - kTroubles - 1);
+    const uint8_t i = static_cast<uint8_t>(next_ - kTroubles - kFirstTrouble);
     if (i >= kLines) {
       next_ = 0;
       began_ms_ = now_ms;
@@ -61,11 +71,11 @@ void Reporter::next_line(uint32_t now_ms, const Status& status) noexcept {
   line_[size_++] = '\n';
 }
 
-void Reporter::poll(uint32_t now_ms, const Status& status) noexcept {
+void Reporter::poll(uint32_t now_ms, const Status& status, const char* calibration) noexcept {
   if (sent_ < size_) {
     if (usart_.offer(static_cast<uint8_t>(line_[sent_]))) ++sent_;
   } else if (next_ != 0 || now_ms - began_ms_ >= kPeriodMs) {
-    next_line(now_ms, status);
+    next_line(now_ms, status, calibration);
   }
 }
 

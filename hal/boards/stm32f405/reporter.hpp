@@ -10,10 +10,12 @@ namespace whisker::hal::stm32f405 {
 ///
 /// ```
 /// t 12340 running skirting fault none
+/// calibration starts
 /// i2c_timeout 7
 /// can not_started 1
 /// ```
-/// The first line appears every second, followed by each failure that has occurred.
+/// The first line appears every second, followed by what a calibration does, if there is one, and by each
+/// failure that has occurred.
 class Reporter {
  public:
   static constexpr uint32_t kPeriodMs = 1000;
@@ -22,12 +24,12 @@ class Reporter {
   Reporter(Usart& usart, Troubles& troubles, const CanPort& can) noexcept
       : usart_(usart), troubles_(troubles), can_(can) {}
 
-  /// Sends as much as there is room for.
-  void poll(uint32_t now_ms, const Status& status) noexcept;
+  /// Sends as much as there is room for. calibration: see RobotBoard::poll().
+  void poll(uint32_t now_ms, const Status& status, const char* calibration) noexcept;
 
  private:
   static constexpr uint8_t kLongest = 100;
-  void next_line(uint32_t now_ms, const Status& status) noexcept;
+  void next_line(uint32_t now_ms, const Status& status, const char* calibration) noexcept;
   void add(const char* text) noexcept;
   void add(uint32_t number) noexcept;
   void add_counter(const char* text, uint32_t count) noexcept;

@@ -19,6 +19,7 @@ RobotBoard::RobotBoard(const RangerKind& kind, const mcu::MotorParams& left, con
       infrared_(mcu::kGp2y0a21, mcu::kGp2y0a21PeriodMs, wiring::kInfraredChannel, adc_),
       beams_(tof_, infrared_),
       wheels_(left, right, motors_, encoders_, ticker_),
+      storage_(watchdog_, troubles_),
       reporter_(console_, troubles_, can_) {}
 
 void RobotBoard::start() noexcept {
@@ -36,6 +37,7 @@ void RobotBoard::start() noexcept {
   enable(Interrupt::usart2);
   enable(Interrupt::can1_receive0);
   watchdog_.start(kWatchdogMs, clocks, troubles_);
+  storage_.start(clocks, kWatchdogMs);
   const uint32_t now = ticker_.now_ms();
   tof_.start(now);
   gyro_.start(now);
@@ -43,14 +45,15 @@ void RobotBoard::start() noexcept {
   schedule_.begin(now);
 }
 
-void RobotBoard::poll(const Status& status) noexcept {
+void RobotBoard::poll(const Status& status, const char* calibration) noexcept {
   const uint32_t now = ticker_.now_ms();
   can_.poll(now);
   tof_.poll(now);
   if (has_gyro_) gyro_.poll(now);
   infrared_.poll(now);
   switches_.poll(now);
-  reporter_.poll(now, status);
+  button_.poll(now);
+  reporter_.poll(now, status, calibration);
 }
 
 bool RobotBoard::due(uint32_t period_ms) noexcept {

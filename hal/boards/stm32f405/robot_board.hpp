@@ -10,10 +10,12 @@
 #include "hal/boards/stm32f405/i2c_rangers.hpp"
 #include "hal/boards/stm32f405/motors.hpp"
 #include "hal/boards/stm32f405/mpu6050.hpp"
+#include "hal/boards/stm32f405/push_button.hpp"
 #include "hal/boards/stm32f405/reporter.hpp"
 #include "hal/boards/stm32f405/ticker.hpp"
 #include "hal/boards/stm32f405/usart.hpp"
 #include "hal/boards/stm32f405/watchdog.hpp"
+#include "hal/boards/stm32f405/watched_storage.hpp"
 
 namespace whisker::hal::stm32f405 {
 
@@ -33,14 +35,18 @@ class RobotBoard {
 
   /// Call once. Every wait in it is bounded: 100 ms in total if no device answers.
   void start() noexcept;
-  /// Call between two ticks, as often as possible: serves sensors, gyro, bump switches, CAN, console.
-  void poll(const Status& status) noexcept;
+  /// Call between two ticks, as often as possible: serves sensors, gyro, switches, button, CAN, console.
+  /// calibration: a word for the console; null: there is none.
+  void poll(const Status& status, const char* calibration = nullptr) noexcept;
   /// True once per period: time for a tick. Also feeds the watchdog.
   bool due(uint32_t period_ms) noexcept;
   Time now() noexcept { return Time::from_raw(ticker_.now_ms()); }
 
   Rangefinders& rangefinders() noexcept { return beams_; }
   Bumper& bumper() noexcept { return switches_; }
+  hal::Button& button() noexcept { return button_; }
+  /// For what is kept without power.
+  Storage& storage() noexcept { return storage_; }
   hal::Gyro& gyro() noexcept { return gyro_; }
   Drive& drive() noexcept { return wheels_; }
   CanPort& can() noexcept { return can_; }
@@ -62,11 +68,13 @@ class RobotBoard {
   mcu::AnalogueRangers<Adc> infrared_;
   mcu::Nearer beams_;
   BumpSwitches switches_;
+  PushButton button_;
   Motors motors_;
   Encoders encoders_;
   mcu::GovernedWheels<Motors, Encoders> wheels_;
   BxCan can_;
   Watchdog watchdog_;
+  WatchedStorage storage_;
   Reporter reporter_;
   Schedule schedule_;
 };

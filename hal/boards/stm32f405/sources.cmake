@@ -15,10 +15,12 @@ set(whisker_stm32f405_sources
   ${CMAKE_CURRENT_LIST_DIR}/motors.cpp
   ${CMAKE_CURRENT_LIST_DIR}/mpu6050.cpp
   ${CMAKE_CURRENT_LIST_DIR}/pins.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/push_button.cpp
   ${CMAKE_CURRENT_LIST_DIR}/reporter.cpp
   ${CMAKE_CURRENT_LIST_DIR}/robot_board.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ticker.cpp
   ${CMAKE_CURRENT_LIST_DIR}/trouble.cpp
   ${CMAKE_CURRENT_LIST_DIR}/usart.cpp
   ${CMAKE_CURRENT_LIST_DIR}/vl53l0x.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/watchdog.cpp)
+  ${CMAKE_CURRENT_LIST_DIR}/watchdog.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/watched_storage.cpp)

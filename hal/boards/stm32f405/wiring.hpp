@@ -30,6 +30,8 @@ inline constexpr Pin kInfrared[] = {{base::kGpioC, 0}, {base::kGpioC, 1}, {base:
 inline constexpr uint8_t kInfraredChannel[] = {10, 11, 12};
 /// Switches to ground, for those who have them: left and right half of the bumper.
 inline constexpr Pin kBumpers[] = {{base::kGpioC, 4}, {base::kGpioC, 5}};
+/// A push button to ground, for those who have one: starts a calibration.
+inline constexpr Pin kButton = {base::kGpioC, 13};
 inline constexpr Pin kCanIn = {base::kGpioA, 11};  ///< CAN1
 inline constexpr Pin kCanOut = {base::kGpioA, 12};
 

@@ -3,7 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <functional>
 
+#include "hal/boards/stm32f405/reg/bases.hpp"
 #include "hal/boards/stm32f405/reg/flash.hpp"
 #include "tests/boards/models/chip.hpp"
 
@@ -45,6 +48,7 @@ class FlashModel : public Peripheral {
     return false;
   }
   std::array<int, 12> erasures{};  ///< of each sector
+  std::function<void()> on_erase;
   bool stuck = false;
   bool jammed = false;
   bool write_protected = false;
@@ -53,6 +57,7 @@ class FlashModel : public Peripheral {
   void start_erase() {
     if (write_protected) return put(flash::kWrperr, 1);
     ++erasures.at(get(flash::kSnb));
+    if (on_erase) on_erase();
     begin(2000);
   }
   void begin(int accesses) {
@@ -86,6 +91,21 @@ class FlashPage : public Peripheral {
   FlashModel& flash_;
   const std::size_t sector_;
   int seen_ = 0;
+};
+
+/// The flash interface, and the first `bytes` of the last two sectors.
+struct FlashMemory {
+  FlashMemory(Chip& chip, Address bytes) {
+    chip.attach(base::kFlash, model);
+    for (std::size_t sector = 10; sector < 12; ++sector) {
+      for (Address at = 0; at < bytes; at += Peripheral::kSpan) {
+        chip.attach(static_cast<Address>(0x08080000 + (sector - 8) * 0x20000 + at),
+                    pages.emplace_back(model, sector));
+      }
+    }
+  }
+  FlashModel model;
+  std::deque<FlashPage> pages;
 };
 
 }  // namespace whisker::hal::stm32f405::model

@@ -4,7 +4,7 @@ _whisker() {
   local path=whisker word here=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options="" words="" paths=none
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case "$path $word" in
-      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules evaluate" | "whisker rules compare" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker bench" | "whisker bench nodes" | "whisker bench watch" | "whisker bench record" | "whisker bench get" | "whisker bench set" | "whisker bench save" | "whisker bench restore" | "whisker bench rules" | "whisker bench stop" | "whisker bench reset" | "whisker bench cancel" | "whisker bench goal" | "whisker bench drive" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
+      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules evaluate" | "whisker rules compare" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker bench" | "whisker bench nodes" | "whisker bench watch" | "whisker bench record" | "whisker bench get" | "whisker bench set" | "whisker bench save" | "whisker bench restore" | "whisker bench rules" | "whisker bench stop" | "whisker bench reset" | "whisker bench cancel" | "whisker bench goal" | "whisker bench drive" | "whisker bench calibrate" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
     esac
   done
   case $path in
@@ -171,7 +171,7 @@ _whisker() {
       esac
       ;;
     "whisker bench")
-      options="-h --help" words="nodes watch record get set save restore rules stop reset cancel goal drive" paths=none
+      options="-h --help" words="nodes watch record get set save restore rules stop reset cancel goal drive calibrate" paths=none
       ;;
     "whisker bench nodes")
       options="-h --help --can --tty --socket --timeout --drop --for --json" words="" paths=none
@@ -264,6 +264,13 @@ _whisker() {
       case $before in
         --can | --tty | --timeout | --drop | --node | --speed | --turn | --vouch | --for) options="" words="" paths=value ;;
         --socket | --commands) options="" words="" paths=file ;;
+      esac
+      ;;
+    "whisker bench calibrate")
+      options="-h --help --can --tty --socket --timeout --drop --node --length --for --json" words="" paths=none
+      case $before in
+        --can | --tty | --timeout | --drop | --node | --length | --for) options="" words="" paths=value ;;
+        --socket) options="" words="" paths=file ;;
       esac
       ;;
     "whisker replay")
