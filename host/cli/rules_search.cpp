@@ -115,6 +115,8 @@ int execute(const SearchOptions& o) {
   TableSearch search(plan, base);
   std::FILE* const out = words_beside({o.out});
   const auto after = [&](const Generation& g) {
+    // A signal between two rounds of missions ends the command at once.
+    if (g.kept && o.out != "-") report::write_file(o.out, searched_file(plan, names, search, std::nullopt));
     if (!o.campaign.json) print_generation(out, g);
   };
   if (!search.run(after)) return interrupted(o, plan, names, search);
