@@ -11,13 +11,6 @@ namespace {
 
 double total(const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); }
 
-/// Of b over a, one for each mission.
-std::vector<double> logs_of_ratios(const Standing& a, const Standing& b) {
-  std::vector<double> logs;
-  for (std::size_t i = 0; i < a.log_s.size(); ++i) logs.push_back(b.log_s[i] - a.log_s[i]);
-  return logs;
-}
-
 }  // namespace
 
 void Standing::add(const Row& row, double limit_s) {
@@ -27,7 +20,11 @@ void Standing::add(const Row& row, double limit_s) {
   log_s.push_back(std::log(good ? std::max(row.time_s, 1e-3) : kTimesLimit * limit_s));
 }
 
-Estimate time_ratio(const Standing& a, const Standing& b) { return geometric_mean(logs_of_ratios(a, b)); }
+Estimate time_ratio(const Standing& a, const Standing& b) {
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < a.log_s.size(); ++i) logs.push_back(b.log_s[i] - a.log_s[i]);
+  return geometric_mean(logs);
+}
 
 bool ranks_before(const Standing& a, const Standing& b) {
   if (a.contacts != b.contacts) return a.contacts < b.contacts;
@@ -35,12 +32,10 @@ bool ranks_before(const Standing& a, const Standing& b) {
   return total(a.log_s) < total(b.log_s);
 }
 
-bool improves(const Standing& challenger, const Standing& holder, double standard_errors) {
+bool improves(const Standing& challenger, const Standing& holder) {
   if (challenger.contacts > holder.contacts || challenger.successes < holder.successes) return false;
-  const Estimate log = mean(logs_of_ratios(holder, challenger));
-  if (!log.high) return false;
-  const double standard_error = (*log.high - log.value) / kToClaim;
-  return log.value + standard_errors * standard_error < 0;
+  const Estimate ratio = time_ratio(holder, challenger);
+  return ratio.high && *ratio.high < 1;
 }
 
 std::vector<Round> halving(std::size_t entrants, std::size_t worlds) {

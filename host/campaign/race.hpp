@@ -29,13 +29,8 @@ Estimate time_ratio(const Standing& a, const Standing& b);
 /// Fewer contacts; then more successes; then less time.
 bool ranks_before(const Standing& a, const Standing& b);
 
-/// Standard errors that the time must be below: to go on with in a search, where wrong steps cost little, and
-/// to claim a result, as the 95 % bounds.
-constexpr double kToKeep = 1;
-constexpr double kToClaim = 1.96;
-
-/// No more contacts, no fewer successes, and less time by this many standard errors of the mean logarithm.
-bool improves(const Standing& challenger, const Standing& holder, double standard_errors);
+/// No more contacts, no fewer successes, and less time as far as 95 % bounds can tell.
+bool improves(const Standing& challenger, const Standing& holder);
 
 struct Round {
   std::size_t entrants;

@@ -72,11 +72,11 @@ void check(const SearchOptions& o) {
     throw UsageError(fmt::format("rules search: planner {} has no table", name(o.campaign.planner)));
 }
 
-SearchPlan plan_of(const SearchOptions& o, const SearchNames& names) {
+SearchPlan plan_of(const SearchOptions& o) {
   SearchPlan plan = o.plan;
   plan.first_seed = o.seed;
   plan.jobs = o.campaign.jobs;
-  for (const worlds::Kind kind : names.kinds) {
+  for (const worlds::Kind kind : kinds(o)) {
     CampaignOptions one = o.campaign;
     one.worlds = name(kind);
     one.seed = o.seed;
@@ -84,6 +84,14 @@ SearchPlan plan_of(const SearchOptions& o, const SearchNames& names) {
     plan.classes.push_back(missions(one));
   }
   return plan;
+}
+
+SearchNames names_of(const SearchOptions& o) {
+  SearchNames names{
+      o.base, {}, o.plan.assist ? "sloppy operator with assist" : "planner " + name(o.campaign.planner)};
+  for (const worlds::Kind kind : kinds(o))
+    names.worlds.push_back(campaign::arguments(kind, o.campaign.world));
+  return names;
 }
 
 Candidate base_of(const SearchOptions& o) {
@@ -108,10 +116,9 @@ int execute(const SearchOptions& o) {
   const bool from_file = o.base != "default";
   check_outputs({o.out}, {from_file ? o.base : "", o.campaign.robot}, o.campaign.json);
   check(o);
-  SearchNames names{o.base, kinds(o), "planner " + name(o.campaign.planner)};
-  if (o.plan.assist) names.drives = "sloppy operator with assist";
+  const SearchPlan plan = plan_of(o);
+  const SearchNames names = names_of(o);
   const Candidate base = base_of(o);
-  const SearchPlan plan = plan_of(o, names);
   TableSearch search(plan, base);
   std::FILE* const out = words_beside({o.out});
   const auto after = [&](const Generation& g) {
@@ -139,10 +146,11 @@ int execute(const SearchOptions& o) {
 }
 
 constexpr const char* kFooter = R"(
-Each generation drives worlds of its own with the best table so far and its children; the better
-half of the children goes on to more worlds. The last child becomes the best if it has no more
-contacts, no fewer successes, and less time by a standard error; a mission that fails counts as
-ten time limits. In the end, base and best drive worlds that no generation has driven.
+rules search: each generation drives worlds of its own with the best table so far and its children;
+the better half of the children goes on to more worlds. The last child becomes the best if, in the
+worlds of the last round alone, it has no more contacts, no fewer successes, and less time as far as
+95 % bounds can tell; a mission that fails counts as ten time limits. In the end, base and best drive
+worlds that no generation has driven.
 Exit status of rules search: 0 the file is written, better than the base or not, 130 interrupted,
 2 bad input or usage, 1 anything else.)";
 

@@ -1,6 +1,6 @@
 #include "host/cli/rules_search_output.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/paired_drives.hpp"
@@ -9,13 +9,6 @@ namespace whisker::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string kinds_text(const SearchNames& names) {
-  std::string text;
-  for (const worlds::Kind kind : names.kinds)
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", name(kind));
-  return text;
-}
 
 std::uint64_t first_of_validation(const SearchPlan& plan) { return plan.first_seed + plan.searched(); }
 std::uint64_t last_of_validation(const SearchPlan& plan) {
@@ -32,13 +25,13 @@ const char* verdict_text(const Validation& v) {
 Json validation_json(const SearchPlan& plan, const SearchNames& names, const Validation& v) {
   Json classes = Json::array();
   for (std::size_t k = 0; k < v.classes.size(); ++k) {
-    Json one = {{"kind", name(names.kinds[k])}};
+    Json one = {{"world", names.worlds[k]}};
     one.update(comparison_json(v.classes[k]));
     classes.push_back(one);
   }
   return {{"first_seed", first_of_validation(plan)},
           {"last_seed", last_of_validation(plan)},
-          {"kinds", classes},
+          {"classes", classes},
           {"all", comparison_json(v.all)},
           {"time_ratio_with_failures", estimate_json(v.time)},
           {"better", v.better}};
@@ -53,14 +46,14 @@ void print_generation(std::FILE* out, const Generation& g) {
 }
 
 void print_validation(std::FILE* out, const SearchPlan& plan, const SearchNames& names, const Validation& v) {
-  fmt::print(out, "validation: A = {}, B = the rules found, {}, seeds {} to {} of each kind\n", names.base,
+  fmt::print(out, "validation: A = {}, B = the rules found, {}, seeds {} to {} of each class\n", names.base,
              names.drives, first_of_validation(plan), last_of_validation(plan));
   for (std::size_t k = 0; k < v.classes.size(); ++k) {
-    fmt::print(out, "{}, {} worlds\n", name(names.kinds[k]), v.classes[k].worlds);
+    fmt::print(out, "{}, {} worlds\n", names.worlds[k], v.classes[k].worlds);
     print_comparison(out, v.classes[k]);
   }
   if (v.classes.size() > 1) {
-    fmt::print(out, "all kinds, {} worlds\n", v.all.worlds);
+    fmt::print(out, "all classes, {} worlds\n", v.all.worlds);
     print_comparison(out, v.all);
   }
   fmt::print(out, "time with failures, B / A: {}; {}\n", estimate_text(v.time, 3), verdict_text(v));
@@ -70,7 +63,7 @@ std::string searched_file(const SearchPlan& plan, const SearchNames& names, cons
                           const std::optional<Validation>& v) {
   std::string comment = fmt::format(
       "Found by whisker rules search, {}, in {}: seeds {} to {},\n{} of {} generations of {} children.\n",
-      names.drives, kinds_text(names), plan.first_seed, first_of_validation(plan) - 1,
+      names.drives, fmt::join(names.worlds, ", "), plan.first_seed, first_of_validation(plan) - 1,
       search.generations().size(), plan.generations, plan.children);
   comment += fmt::format("It started from the table {}; this is {}.\n", digest_text(search.base()),
                          digest_text(search.best()));

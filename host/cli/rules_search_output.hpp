@@ -7,13 +7,12 @@
 #include <vector>
 
 #include "host/cli/table_search.hpp"
-#include "host/worlds/generate.hpp"
 
 namespace whisker::cli {
 
 struct SearchNames {
   std::string base;                 ///< a file, or "default"
-  std::vector<worlds::Kind> kinds;  ///< of the plan's classes
+  std::vector<std::string> worlds;  ///< of the plan's classes: "discs --discs 75 --box"
   std::string drives;               ///< "planner map", or "sloppy operator with assist"
 };
 

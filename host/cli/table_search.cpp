@@ -85,7 +85,8 @@ std::vector<Candidate> TableSearch::field() {
   return all;
 }
 
-/// Sets the standings, and the index of the child that came through all rounds. False: interrupted.
+/// Sets the index of the child that came through all rounds, and the standings of the last round alone: the
+/// earlier worlds chose the child, and would flatter it. False: interrupted.
 bool TableSearch::race(const std::vector<Candidate>& field, std::vector<campaign::Standing>& standings,
                        std::size_t& first) {
   std::vector<std::size_t> children(field.size() - 1);
@@ -97,6 +98,7 @@ bool TableSearch::race(const std::vector<Candidate>& field, std::vector<campaign
       return campaign::ranks_before(standings[a], standings[b]);
     });
     children.resize(round.entrants);
+    if (round.entrants == 1 && from > 0) standings.assign(field.size(), {});
     std::vector<std::size_t> entrants{0};
     entrants.insert(entrants.end(), children.begin(), children.end());
     const std::uint64_t each = plan_.classes.size() * entrants.size();
@@ -129,7 +131,7 @@ bool TableSearch::run(const std::function<void(const Generation&)>& after) {
     g.number = generations_.size() + 1;
     g.digest = all[first].digest;
     g.time = campaign::time_ratio(standings[0], standings[first]);
-    g.kept = campaign::improves(standings[first], standings[0], campaign::kToKeep);
+    g.kept = campaign::improves(standings[first], standings[0]);
     if (g.kept) best_ = all[first];
     generations_.push_back(g);
     after(g);
@@ -156,7 +158,7 @@ std::optional<Validation> TableSearch::validate() const {
   }
   v.all = campaign::compare(all);
   v.time = campaign::time_ratio(base, best);
-  v.better = campaign::improves(best, base, campaign::kToClaim);
+  v.better = campaign::improves(best, base);
   return v;
 }
 

@@ -41,7 +41,7 @@ std::optional<Candidate> candidate(const rules::MirroredRules& rules);
 struct Generation {
   std::uint64_t number = 0;  ///< from 1
   std::uint32_t digest = 0;  ///< of the child that came through all rounds
-  campaign::Estimate time;   ///< it over its parent
+  campaign::Estimate time;   ///< it over its parent, in the worlds of the last round
   bool kept = false;         ///< it is the parent of the next generation
 };
 

@@ -49,18 +49,15 @@ TEST(Standing, ContactsRankBeforeSuccessesAndSuccessesBeforeTime) {
   EXPECT_TRUE(ranks_before(fast, slow) && !ranks_before(slow, fast) && !ranks_before(slow, slow));
   EXPECT_TRUE(ranks_before(slow, failing) && !ranks_before(failing, slow));
   EXPECT_TRUE(ranks_before(failing, touching) && !ranks_before(touching, failing));
-  EXPECT_FALSE(improves(touching, slow, kToKeep) || improves(failing, slow, kToKeep));
+  EXPECT_FALSE(improves(touching, slow) || improves(failing, slow));
 }
 
-TEST(Standing, OnlyWhatTheBoundsShowIsClaimed) {
+TEST(Standing, OnlyWhatTheBoundsShowIsAnImprovement) {
   const Standing holder = of({10, 20, 30, 40});
-  EXPECT_TRUE(improves(of({9, 17, 27, 36}), holder, kToClaim));
-  const Standing lucky = of({5, 18, 30, 41});  // one world makes it faster in the mean
-  EXPECT_FALSE(improves(lucky, holder, kToClaim));
-  EXPECT_TRUE(improves(lucky, holder, kToKeep));
-  EXPECT_FALSE(improves(of({5, 22, 33, 44}), holder, kToKeep));
-  EXPECT_FALSE(improves(holder, holder, 0));
-  EXPECT_FALSE(improves(of({1}), of({9}), kToKeep));  // one world has no bounds
+  EXPECT_TRUE(improves(of({9, 17, 27, 36}), holder));
+  EXPECT_FALSE(improves(of({5, 18, 30, 41}), holder));  // faster in the mean, by one world
+  EXPECT_FALSE(improves(holder, holder));
+  EXPECT_FALSE(improves(of({1}), of({9})));  // one world has no bounds
   EXPECT_DOUBLE_EQ(time_ratio(of({10, 20}), of({20, 10})).value, 1);
   EXPECT_DOUBLE_EQ(time_ratio(of({10, 20}), of({5, 10})).value, 0.5);
 }

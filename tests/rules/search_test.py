@@ -59,7 +59,7 @@ class Search(Case):
         compared = json.loads(done.stdout)
         self.assertEqual(compared["b"]["rules_digest"], told["rules_digest"])
         for key in ("time_ratio", "path_ratio", "clearance_m_difference", "both_reach"):
-            self.assertEqual(validation["kinds"][0][key], compared[key])
+            self.assertEqual(validation["classes"][0][key], compared[key])
             self.assertEqual(validation["all"][key], compared[key])
         # All succeed, so no failure counts.
         for key, value in compared["time_ratio"].items():
@@ -75,12 +75,12 @@ class Search(Case):
         self.assertEqual(*rows)
 
     def test_for_the_assist_an_operator_drives(self):
-        arguments = ("--base", STRAIGHT, "--assist", "--worlds", "discs", "--count", 2, "--generations", 1, "--children", 2, "--validate", 2, "--json")
+        arguments = ("--base", STRAIGHT, "--assist", "--worlds", "discs", "--discs", 40, "--count", 2, "--generations", 1, "--children", 2, "--validate", 2, "--json")
         told, file = self.searched(*arguments)
         self.assertEqual((told, file), self.searched(*arguments, "--jobs", 2))
         told = json.loads(told)
         self.assertEqual((told["assist"], told["planner"]), (True, None))
-        self.assertIn("# Found by whisker rules search, sloppy operator with assist, in discs:", file)
+        self.assertIn("# Found by whisker rules search, sloppy operator with assist, in discs --discs 40:", file)
 
     def begun(self, *arguments):
         command = [whisker.binary, "rules", "search", *map(str, arguments), "--out", "found.toml"]
