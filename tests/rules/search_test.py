@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIDES = ROOT / "host/rules/laws/sides.toml"
 STRAIGHT = ROOT / "host/rules/laws/straight.toml"
 # One of its children is kept.
-SMALL = ("--base", SIDES, "--worlds", "u-trap", "--count", 3, "--seed", 6, "--generations", 2, "--children", 2, "--validate", 3)
+SMALL = ("--base", SIDES, "--worlds", "u-trap", "--count", 5, "--seed", 6, "--generations", 2, "--children", 2, "--validate", 3)
 
 
 class Search(Case):
@@ -42,7 +42,7 @@ class Search(Case):
         self.validation_is_a_comparison_in_other_worlds(told)
 
     def found_is_a_rule_base(self, text, digest):
-        self.assertRegex(text, r"(?s)\A# Found by whisker rules search, planner map, in u-trap: seeds 6 to 11,\n")
+        self.assertRegex(text, r"(?s)\A# Found by whisker rules search, planner map, in u-trap: seeds 6 to 15,\n")
         self.assertIn(f"this is {digest}.\n", text)
         self.assertEqual(sum(line.startswith("  [") and line.count('"') == 10 for line in text.splitlines()), 10)
         shown = whisker.whisker("rules", "show", "found.toml", "--svg", "found.svg", cwd=self.folder)
@@ -54,8 +54,8 @@ class Search(Case):
 
     def validation_is_a_comparison_in_other_worlds(self, told):
         validation = told["validation"]
-        self.assertEqual([told["first_seed"], told["last_seed"], validation["first_seed"], validation["last_seed"]], [6, 11, 12, 14])
-        done = whisker.whisker("rules", "compare", SIDES, "found.toml", "--worlds", "u-trap", "--seed", 12, "--count", 3, "--json", cwd=self.folder)
+        self.assertEqual([told["first_seed"], told["last_seed"], validation["first_seed"], validation["last_seed"]], [6, 15, 16, 18])
+        done = whisker.whisker("rules", "compare", SIDES, "found.toml", "--worlds", "u-trap", "--seed", 16, "--count", 3, "--json", cwd=self.folder)
         compared = json.loads(done.stdout)
         self.assertEqual(compared["b"]["rules_digest"], told["rules_digest"])
         for key in ("time_ratio", "path_ratio", "clearance_m_difference", "both_reach"):
@@ -64,7 +64,7 @@ class Search(Case):
         # All succeed, so no failure counts.
         for key, value in compared["time_ratio"].items():
             self.assertAlmostEqual(validation["time_ratio_with_failures"][key], value, places=12)
-        self.assertFalse(validation["better"])
+        self.assertEqual(validation["better"], compared["time_ratio"]["high"] < 1)
 
     def test_without_a_better_child_the_rules_are_the_bases(self):
         told, file = self.searched("--worlds", "u-trap", "--count", 1, "--generations", 1, "--children", 1, "--json")
