@@ -148,9 +148,9 @@ int execute(const SearchOptions& o) {
 constexpr const char* kFooter = R"(
 rules search: each generation drives worlds of its own with the best table so far and its children;
 the better half of the children goes on to more worlds. The last child becomes the best if, in the
-worlds of the last round alone, it has no more contacts, no fewer successes, and less time as far as
-95 % bounds can tell; a mission that fails counts as ten time limits. In the end, base and best drive
-worlds that no generation has driven.
+worlds of the last round alone, it has no more contacts, no fewer successes, and less time, as far
+as 95 % bounds can tell; a mission that fails counts as ten time limits. In the end, base and best
+drive worlds that no generation has driven.
 Exit status of rules search: 0 the file is written, better than the base or not, 130 interrupted,
 2 bad input or usage, 1 anything else.)";
 
