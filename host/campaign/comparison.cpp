@@ -5,14 +5,9 @@
 namespace whisker::campaign {
 namespace {
 
-/// Geometric mean of the ratios, from their logarithms.
 std::optional<Estimate> geometric(const std::vector<double>& logs) {
   if (logs.empty()) return std::nullopt;
-  Estimate e = mean(logs);
-  e.value = std::exp(e.value);
-  if (e.low) e.low = std::exp(*e.low);
-  if (e.high) e.high = std::exp(*e.high);
-  return e;
+  return geometric_mean(logs);
 }
 
 std::optional<Estimate> mean_of(const std::vector<double>& sample) {
@@ -25,6 +20,14 @@ void add_ratio(std::vector<double>& logs, double a, double b) {
 }
 
 }  // namespace
+
+Estimate geometric_mean(const std::vector<double>& logs) {
+  Estimate e = mean(logs);
+  e.value = std::exp(e.value);
+  if (e.low) e.low = std::exp(*e.low);
+  if (e.high) e.high = std::exp(*e.high);
+  return e;
+}
 
 Comparison compare(const std::vector<Pair>& pairs) {
   Comparison c;

@@ -29,6 +29,9 @@ struct Comparison {
   std::optional<Estimate> stops, flips, clearance;
 };
 
+/// Geometric mean of ratios, from their logarithms. Not empty.
+Estimate geometric_mean(const std::vector<double>& logs);
+
 /// At least one pair; the rows of each have the same world.
 Comparison compare(const std::vector<Pair>& pairs);
 

@@ -21,15 +21,9 @@ namespace {
 
 /// By template, because only an engine with this table compiles it.
 template <class Table>
-const Table* load(const std::string& file, const std::vector<std::string>& changes) {
+const Table* of_engine(const fuzzy::Bilinear::Table& table) {
   if constexpr (std::is_same_v<Table, fuzzy::Bilinear::Table>) {
-    static std::list<Table> tables;
-    try {
-      const rules::ResponseNames names = rules::response_names(changes);
-      return &tables.emplace_back(rules::response(rules::read_rules(file), names).table);
-    } catch (const std::invalid_argument& e) {
-      throw UsageError(fmt::format("--map: {}", e.what()));
-    }
+    return &table;
   } else {
     throw UsageError("--rules: this build evaluates its own 25 rules in closed form");
   }
@@ -53,16 +47,26 @@ bool given(const RulesChoice& choice) {
 
 }  // namespace
 
+const fuzzy::Engine::Table* engine_table(const fuzzy::Bilinear::Table& table) {
+  return of_engine<fuzzy::Engine::Table>(table);
+}
+
 const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
                                            const std::vector<std::string>& names) {
   if (file_or_default == "default") return &fuzzy::kDefaultTable;
-  return load<fuzzy::Engine::Table>(file_or_default, names);
+  return engine_table(*assist_table(file_or_default, names));
 }
 
 const fuzzy::Bilinear::Table* assist_table(const std::string& file_or_default,
                                            const std::vector<std::string>& names) {
   if (file_or_default == "default") return &fuzzy::kResponseTable;
-  return load<fuzzy::Bilinear::Table>(file_or_default, names);
+  static std::list<fuzzy::Bilinear::Table> tables;
+  try {
+    const rules::ResponseNames chosen = rules::response_names(names);
+    return &tables.emplace_back(rules::response(rules::read_rules(file_or_default), chosen).table);
+  } catch (const std::invalid_argument& e) {
+    throw UsageError(fmt::format("--map: {}", e.what()));
+  }
 }
 
 void add_map_names(CLI::App& app, std::vector<std::string>& names, const std::string& help) {

@@ -12,6 +12,9 @@
 
 namespace whisker::cli {
 
+/// This table for the planners; it must outlive them. Throws UsageError in a build that takes none.
+const fuzzy::Engine::Table* engine_table(const fuzzy::Bilinear::Table& table);
+
 /// The table of a rule base, or of the core for the word "default"; it lives as long as the program. Throws
 /// UsageError or InputError.
 const fuzzy::Engine::Table* response_table(const std::string& file_or_default,

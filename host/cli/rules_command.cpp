@@ -15,6 +15,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/rules_compare.hpp"
 #include "host/cli/rules_output.hpp"
+#include "host/cli/rules_search.hpp"
 #include "host/report/file.hpp"
 #include "host/rules/compile.hpp"
 #include "host/rules/header.hpp"
@@ -219,6 +220,7 @@ void add_rules(CLI::App& app, int& status) {
   add_show(*rules, status);
   add_evaluate(*rules, status);
   add_rules_compare(*rules, status);
+  add_rules_search(*rules, status);
 }
 
 }  // namespace whisker::cli

@@ -1,13 +1,13 @@
 #include "host/guard/campaign.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "host/worlds/generate.hpp"
 
 namespace whisker::guard {
 namespace {
 
-constexpr double kToGoal_s = 120;
 constexpr double kWandering_s = 20;
 
 bool has_goal(Hand hand) { return hand != Hand::joystick && hand != Hand::hostile; }
@@ -26,26 +26,32 @@ void Summary::add(const Result& r) {
   min_clearance_m = std::fmin(min_clearance_m, r.min_clearance_m);
 }
 
-Summary drive_many(const Plan& plan, const std::function<bool(std::uint64_t)>& next) {
-  Summary summary;
+std::optional<Result> drive_one(const Plan& plan, Scenario world, const std::function<bool()>& ended) {
   Options options;
   options.guarded = plan.mode.guarded;
   options.vouched_m = plan.mode.vouched_m;
   options.table = plan.table;
   options.until_goal = has_goal(plan.hand);
   options.time_s = options.until_goal ? kToGoal_s : kWandering_s;
+  options.ended = ended;
+  world.robot.guard.nods = plan.mode.nods ? Fitted::yes : Fitted::no;
+  world.robot.guard.assist = plan.mode.assists ? Fitted::yes : Fitted::no;
+  const auto hand = make_operator(plan.hand, world, world.seed);
+  if (!hand) return std::nullopt;
+  return drive(world, *hand, options);
+}
+
+Summary drive_many(const Plan& plan, const std::function<bool(std::uint64_t)>& next) {
+  Summary summary;
   for (std::uint64_t i = 0; i < plan.count && next(i); ++i) {
-    worlds::Options world;
-    world.seed = plan.first_seed + i;
-    world.discs = plan.ground.discs;
-    world.box = plan.ground.box;
-    world.noise = plan.noise;
-    Scenario scenario = worlds::generate(worlds::Kind::discs, world);
-    scenario.robot = plan.robot;
-    scenario.robot.guard.nods = plan.mode.nods ? Fitted::yes : Fitted::no;
-    scenario.robot.guard.assist = plan.mode.assists ? Fitted::yes : Fitted::no;
-    const auto hand = make_operator(plan.hand, scenario, world.seed);
-    if (hand) summary.add(drive(scenario, *hand, options));
+    worlds::Options options;
+    options.seed = plan.first_seed + i;
+    options.discs = plan.ground.discs;
+    options.box = plan.ground.box;
+    options.noise = plan.noise;
+    Scenario world = worlds::generate(worlds::Kind::discs, options);
+    world.robot = plan.robot;
+    if (const auto result = drive_one(plan, std::move(world))) summary.add(*result);
   }
   return summary;
 }

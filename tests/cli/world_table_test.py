@@ -67,6 +67,10 @@ OPTIONS = {
         "FILE", "--tolerance", "--max-bytes", "--fix", "--nodes", "--steps", "--header", "--svg", "--json",
     ),
     ("rules", "show"): ("FILE", "--svg"),
+    ("rules", "search"): (
+        "--base", "--worlds", "--count", "--seed", "--generations", "--children", "--validate", "--assist", "--discs", "--width", "--box", "--noise",
+        "--planner", "--map-bytes", "--robot", "--jobs", "--out", "--json",
+    ),
     ("socket",): ("--tcp", "--udp", "--stdio", "--address", "--robot", "--planner", "--timeout", "--json"),
 }
 

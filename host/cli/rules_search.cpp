@@ -1,0 +1,192 @@
+#include "host/cli/rules_search.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/cli/provenance.hpp"
+#include "host/cli/rules_search_output.hpp"
+#include "host/cli/table_search.hpp"
+#include "host/report/file.hpp"
+#include "host/rules/read.hpp"
+
+namespace whisker::cli {
+namespace {
+
+constexpr std::uint64_t kMostGenerations = 10000;
+constexpr std::uint64_t kMostChildren = 256;
+constexpr std::uint64_t kMostWorlds = 100000;
+
+struct SearchOptions {
+  std::string base = "default";
+  std::string out;
+  std::string kinds;
+  std::uint64_t seed = 1;
+  SearchPlan plan;
+  CampaignOptions campaign;
+};
+
+worlds::Kind kind_of(std::string_view word) {
+  if (const auto kind = worlds::kind_named(word)) return *kind;
+  std::vector<std::string_view> known;
+  for (const worlds::Kind kind : worlds::kAllKinds) known.emplace_back(name(kind));
+  throw UsageError(fmt::format("--worlds: no kind of world '{}'{}", word, did_you_mean(word, known)));
+}
+
+/// "discs,rooms"
+std::vector<worlds::Kind> kinds(const SearchOptions& o) {
+  std::vector<worlds::Kind> all;
+  for (std::size_t from = 0; from <= o.kinds.size();) {
+    const std::size_t end = std::min(o.kinds.find(',', from), o.kinds.size());
+    const worlds::Kind kind = kind_of(std::string_view(o.kinds).substr(from, end - from));
+    if (std::find(all.begin(), all.end(), kind) != all.end())
+      throw UsageError(fmt::format("--worlds: '{}' is given twice", name(kind)));
+    if (o.plan.assist && worlds::has_no_way(kind))
+      throw UsageError(fmt::format("--assist: no path for the operator in {}", name(kind)));
+    all.push_back(kind);
+    from = end + 1;
+  }
+  return all;
+}
+
+void check(const SearchOptions& o) {
+  const struct {
+    const char* option;
+    std::uint64_t value;
+  } counts[] = {{"--count", o.plan.count},
+                {"--generations", o.plan.generations},
+                {"--children", o.plan.children},
+                {"--validate", o.plan.validation}};
+  for (const auto& one : counts)
+    if (one.value == 0) throw UsageError(fmt::format("{} 0: nothing to do", one.option));
+  if (!o.plan.assist && is_baseline(o.campaign.planner))
+    throw UsageError(fmt::format("rules search: planner {} has no table", name(o.campaign.planner)));
+}
+
+SearchPlan plan_of(const SearchOptions& o) {
+  SearchPlan plan = o.plan;
+  plan.first_seed = o.seed;
+  plan.jobs = o.campaign.jobs;
+  for (const worlds::Kind kind : kinds(o)) {
+    CampaignOptions one = o.campaign;
+    one.worlds = name(kind);
+    one.seed = o.seed;
+    one.count = plan.searched() + plan.validation;
+    plan.classes.push_back(missions(one));
+  }
+  return plan;
+}
+
+SearchNames names_of(const SearchOptions& o) {
+  SearchNames names{
+      o.base, {}, o.plan.assist ? "sloppy operator with assist" : "planner " + name(o.campaign.planner)};
+  for (const worlds::Kind kind : kinds(o))
+    names.worlds.push_back(campaign::arguments(kind, o.campaign.world));
+  return names;
+}
+
+Candidate base_of(const SearchOptions& o) {
+  const auto base =
+      candidate(o.base == "default" ? rules::core_rules() : rules::mirrored_rules(rules::read_rules(o.base)));
+  if (base) return *base;
+  throw UsageError(fmt::format("{}: the look-up errs by more than {:g} % of the span", o.base,
+                               100 * rules::kMostLookUpError));
+}
+
+/// Writes the best so far, if there is one.
+int interrupted(const SearchOptions& o, const SearchPlan& plan, const SearchNames& names,
+                const TableSearch& search) {
+  const bool found = search.best().digest != search.base().digest;
+  if (found) report::write_file(o.out, searched_file(plan, names, search, std::nullopt));
+  fmt::print(stderr, "whisker: interrupted after {} of {} generations; {}\n", search.generations().size(),
+             plan.generations, found ? fmt::format("{}: the best rules so far", o.out) : "nothing written");
+  return kInterrupted;
+}
+
+int execute(const SearchOptions& o) {
+  const bool from_file = o.base != "default";
+  check_outputs({o.out}, {from_file ? o.base : "", o.campaign.robot}, o.campaign.json);
+  check(o);
+  const SearchPlan plan = plan_of(o);
+  const SearchNames names = names_of(o);
+  const Candidate base = base_of(o);
+  TableSearch search(plan, base);
+  std::FILE* const out = words_beside({o.out});
+  const auto after = [&](const Generation& g) {
+    // A signal between two rounds of missions ends the command at once.
+    if (g.kept && o.out != "-") report::write_file(o.out, searched_file(plan, names, search, std::nullopt));
+    if (!o.campaign.json) print_generation(out, g);
+  };
+  if (!search.run(after)) return interrupted(o, plan, names, search);
+  const bool found = search.best().digest != base.digest;
+  const auto validation = found ? search.validate() : std::nullopt;
+  if (found && !validation) return interrupted(o, plan, names, search);
+  report::write_file(o.out, searched_file(plan, names, search, validation));
+  if (o.campaign.json) {
+    Provenance p;
+    p.seed = o.seed;
+    if (!plan.assist) p.planner = name(o.campaign.planner);
+    p.rules_digest = fmt::format("{:08x}", search.best().digest);
+    fmt::print("{}\n", with_provenance(search_json(plan, names, search, validation), p));
+  } else {
+    if (validation) print_validation(out, plan, names, *validation);
+    if (!validation) fmt::print(out, "no child was kept: the rules are the base's\n");
+    fmt::print(out, "rules: {}\n", o.out);
+  }
+  return 0;
+}
+
+constexpr const char* kFooter = R"(
+rules search: each generation drives worlds of its own with the best table so far and its children;
+the better half of the children goes on to more worlds. The last child becomes the best if, in the
+worlds of the last round alone, it has no more contacts, no fewer successes, and less time, as far
+as 95 % bounds can tell; a mission that fails counts as ten time limits. In the end, base and best
+drive worlds that no generation has driven.
+Exit status of rules search: 0 the file is written, better than the base or not, 130 interrupted,
+2 bad input or usage, 1 anything else.)";
+
+}  // namespace
+
+void add_rules_search(CLI::App& rules, int& status) {
+  CLI::App* cmd = rules.add_subcommand("search", "Find rules and centres that drive faster, by a hill climb");
+  const auto o = std::make_shared<SearchOptions>();
+  add_file(*cmd, "--base", o->base, "Rules to start from (.toml), mirrored in R; the core's own by default");
+  add_name(*cmd, "--worlds", o->kinds, "Kinds of world as in `whisker world`, joined by commas")
+      ->required()
+      ->type_name("KIND,..");
+  const auto number = [&](const char* option, std::uint64_t& value, std::uint64_t most, const char* help) {
+    cmd->add_option(option, value, fmt::format("{}; {} by default", help, value))
+        ->transform(whole_number(most))
+        ->type_name("N");
+  };
+  number("--count", o->plan.count, kMostWorlds, "Worlds of a kind in a generation");
+  cmd->add_option("--seed", o->seed, "Of the first world of each kind, and of the changes; 1 by default")
+      ->transform(whole_number())
+      ->type_name("S");
+  number("--generations", o->plan.generations, kMostGenerations, "How many");
+  number("--children", o->plan.children, kMostChildren, "Changed tables in a generation");
+  number("--validate", o->plan.validation, kMostWorlds, "Worlds of a kind to validate in");
+  add_switch(*cmd, "--assist", o->plan.assist,
+             "Search for the guard's assist: a sloppy operator drives,\nas in `whisker operators`");
+  add_world_shape(*cmd, o->campaign);
+  add_switch(*cmd, "--noise", o->campaign.world.noise,
+             "Sensor noise and odometry error, as in `whisker world`");
+  add_planner_kind(*cmd, o->campaign.planner)->excludes("--assist");
+  add_file(*cmd, "--robot", o->campaign.robot, "Parameters of your robot (TOML), over those of the worlds");
+  add_jobs(*cmd, o->campaign);
+  add_file(*cmd, "--out", o->out, "Write the best rules (.toml)")->required();
+  add_switch(*cmd, "--json", o->campaign.json, "Print the result as one JSON object and nothing else");
+  cmd->footer(kFooter);
+  cmd->callback([o, &status] { status = execute(*o); });
+}
+
+}  // namespace whisker::cli
