@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "host/hil/param_question.hpp"
+
 namespace whisker::bench {
 namespace {
 
@@ -45,20 +47,9 @@ void ParamClient::connect() {
 
 can::ParamReply ParamClient::ask(const can::ParamRequest& request,
                                  const std::function<bool(const can::ParamReply&)>& answers) {
-  can::ParamReply reply;
-  std::uint64_t asked_us = 0;
-  const auto answered = [&] {
-    const bool replied = asked_us != 0 && node_.replied(reply);
-    if (replied && reply.index == request.index && answers(reply)) return true;
-    if (asked_us == 0 || clock_.now_us() - asked_us >= kAskAgain_us) {
-      node_.request(request);
-      node_.poll(clock_.now_ms());
-      asked_us = clock_.now_us();
-    }
-    return false;
-  };
-  wait_until(answered, "ParamReply");
-  return reply;
+  hil::ParamQuestion question(request, kAskAgain_us);
+  wait_until([&] { return question.poll(node_, clock_.now_us(), answers); }, "ParamReply");
+  return question.reply();
 }
 
 // A repeated request may have a second answer, which arrives during the next request for the same index.
@@ -77,7 +68,7 @@ can::ParamStatus ParamClient::write(std::uint8_t index, std::uint32_t raw) {
 }
 
 can::ParamReply ParamClient::commit() {
-  return ask({can::ParamAction::commit, kCommitIndex, 0}, [](const can::ParamReply&) { return true; });
+  return ask({can::ParamAction::commit, can::kCommitIndex, 0}, [](const can::ParamReply&) { return true; });
 }
 
 void ParamClient::cancel() {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/can/param_server.hpp"
 #include "firmware/can/rules_sender.hpp"
 #include "host/hil/clock.hpp"
 
@@ -51,8 +52,6 @@ class ParamClient {
   can::RulesReply send_rules(const can::RulesSender::Table* table);
 
  private:
-  static constexpr std::uint8_t kCommitIndex = 255;  // distinguishes the reply from that to a write
-
   can::ParamReply ask(const can::ParamRequest& request,
                       const std::function<bool(const can::ParamReply&)>& answers);
   /// Polls until `done`; awaited: for the message of NoAnswer.
