@@ -12,12 +12,6 @@ using can::MessageKind;
 /// After frames that were missed, the wheels may have rolled farther than in one period.
 constexpr std::uint32_t kLongestPause_ms = 1000;
 
-template <class M, class F>
-void with(const hal::CanFrame& frame, const F& use) {
-  M message;
-  if (can::decode(frame, message)) use(message);
-}
-
 }  // namespace
 
 BusRun::BusRun(int robot, const Params& params, Listener listener)
@@ -35,8 +29,8 @@ void BusRun::on_frame(const hal::CanFrame& frame) {
   if (sender->robot != robot_ || !sender->whole) return;
   switch (sender->kind) {
     case MessageKind::wheel_command:
-      return with<can::WheelCommand>(frame, [&](const auto& m) { command_ = m; });
-    case MessageKind::nav_status: return with<can::NavStatus>(frame, [&](const auto& m) { on_status(m); });
+      return hil::with<can::WheelCommand>(frame, [&](const auto& m) { command_ = m; });
+    case MessageKind::nav_status: return hil::with<can::NavStatus>(frame, [&](const auto& m) { on_status(m); });
     default: overheard_.on_frame(sender->kind, frame);
   }
 }

@@ -11,12 +11,6 @@ namespace {
 
 using can::MessageKind;
 
-template <class M, class F>
-void with(const hal::CanFrame& frame, const F& use) {
-  M message;
-  if (can::decode(frame, message)) use(message);
-}
-
 bool has_kind(const hal::CanFrame& frame, MessageKind& kind) {
   return !frame.extended && !frame.remote && can::kind_of(frame.id, kind);
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "firmware/can/codec.hpp"
 #include "firmware/can/ids.hpp"
 #include "firmware/can/input_set.hpp"
 #include "firmware/can/mission.hpp"
@@ -14,6 +15,13 @@
 #include "hal/can_port.hpp"
 
 namespace whisker::hil {
+
+/// Passes the message of the frame on, unless a value is out of range.
+template <class M, class F>
+void with(const hal::CanFrame& frame, const F& use) {
+  M message;
+  if (can::decode(frame, message)) use(message);
+}
 
 struct Sender {
   can::MessageKind kind;

@@ -76,12 +76,6 @@ class Replay {
     }
   }
 
-  template <class M, class F>
-  void with(const hal::CanFrame& frame, const F& use) {
-    M m;
-    if (can::decode(frame, m)) use(m);
-  }
-
   void accept(can::Requester who, can::Order order, const can::Mission& mission) {
     if (who != can::Requester::base) return accept_operator(order, mission.goal);
     if (calibrates(order)) {

@@ -92,6 +92,7 @@ class Rig {
   bus::FaultPort& base_port() { return side_.port(); }
   bus::FaultPort& controller_port() { return controller_port_; }
   const Status& status() const { return controller_->status(); }
+  bus::MemoryBus& wire() { return side_.wire(); }
 
  private:
   void tick() {
