@@ -468,6 +468,21 @@ class ThroughAGuardNode(Beside):
         self.assertGreater(result["min_clearance_m"], 0)
         self.assertLess(result["min_clearance_m"], 0.1)
 
+    @staticmethod
+    def told_of_a_clear_wish(lines):
+        """The lines of each GuardStatus, except where a Velocity came between set and answer: only the GuardStatus says whether it was in time."""
+        told, velocity, asked = [], False, False
+        for i, line in enumerate(lines):
+            if " 089#" in line:
+                velocity = False
+            elif " 0C1#" in line:
+                velocity = True
+            elif " 101#" in line:
+                asked = velocity
+            elif " 1F1#" in line and not asked:
+                told.append(i)
+        return told
+
     def test_a_record_of_a_guard_node_replays(self):
         log = self.folder / "run.log"
         self.start("controller", "--can", f"slcan:{self.folder / 'controller'}", "--guard", "--command-timeout", 2, "--record", log)
@@ -483,11 +498,11 @@ class ThroughAGuardNode(Beside):
         self.assertGreater(replay["compared"], 2900)
         text = log.read_text()
         lines = text.splitlines(keepends=True)
-        told = [i for i, line in enumerate(lines) if " 1F1#" in line]
-        thinned = self.file("thinned.log", "".join(line for i, line in enumerate(lines) if i not in told[::7]))
+        lost = self.told_of_a_clear_wish(lines)[::7]
+        thinned = self.file("thinned.log", "".join(line for i, line in enumerate(lines) if i not in lost))
         replay = json.loads(whisker.whisker("replay", thinned, "--json").stdout)
         self.assertEqual((replay["same"], replay["hash"]), (True, result["hash"]), replay)
-        self.assertGreater(replay["missing_answers"], 400)
+        self.assertGreater(replay["missing_answers"], 100)
         other = self.file("other.log", text.replace("1F1#", "1F2#"))
         self.assertEqual(whisker.whisker("replay", other).returncode, 1, "without what was asked, the core drives")
         done = whisker.whisker("replay", log, "--html", self.folder / "page.html")
