@@ -150,8 +150,7 @@ FrameResult ControllerNode::on_operator(MessageKind kind, const hal::CanFrame& f
   switch (kind) {
     case MessageKind::velocity:
       return read<VelocityCommand>(frame, [this](const auto& m) { inbox_->on_frame(m, now_ms()); });
-    case MessageKind::vouch:
-      return read<VouchRequest>(frame, [this](const auto& m) { inbox_->on_frame(m); });
+    case MessageKind::vouch: return read<VouchRequest>(frame, [this](const auto& m) { inbox_->on_frame(m); });
     case MessageKind::mission: return in_range(on_mission(frame, Requester::third_party));
     case MessageKind::param_request:
       return read<ParamRequest>(frame, [this](const auto& m) { on_param(m, Requester::third_party); });

@@ -87,9 +87,7 @@ class ControllerNode final : public Node {
   bool stands() const noexcept;
   /// Nothing is to be done, and the wheels stand.
   bool idle() const noexcept;
-  bool operator_silent() const noexcept {
-    return !operator_heard_ || now_ms() - operator_at_ > kPeerLost_ms;
-  }
+  bool operator_silent() const noexcept { return !operator_heard_ || now_ms() - operator_at_ > kPeerLost_ms; }
   void watch() noexcept;
   void lose_operator() noexcept;
   void brake() noexcept;

@@ -30,7 +30,8 @@ void BusRun::on_frame(const hal::CanFrame& frame) {
   switch (sender->kind) {
     case MessageKind::wheel_command:
       return hil::with<can::WheelCommand>(frame, [&](const auto& m) { command_ = m; });
-    case MessageKind::nav_status: return hil::with<can::NavStatus>(frame, [&](const auto& m) { on_status(m); });
+    case MessageKind::nav_status:
+      return hil::with<can::NavStatus>(frame, [&](const auto& m) { on_status(m); });
     default: overheard_.on_frame(sender->kind, frame);
   }
 }

@@ -19,11 +19,7 @@ constexpr std::uint64_t kOrderAgain_us = std::uint64_t{can::kOrderRepeat_ms} * 1
 
 OperatorClient::OperatorClient(hal::CanPort& port, hil::Clock& clock, const Survey& survey, int robot,
                                std::uint8_t number, Patience patience)
-    : ParamClient(clock, std::move(patience)),
-      port_(port),
-      survey_(survey),
-      robot_(robot),
-      number_(number) {}
+    : ParamClient(clock, std::move(patience)), port_(port), survey_(survey), robot_(robot), number_(number) {}
 
 template <class M>
 void OperatorClient::send(const M& message, can::AliveSender& alive) {
@@ -124,11 +120,12 @@ can::MissionStatus OperatorClient::order(can::Order order, const planning::Goal&
 
 void OperatorClient::refuse(const char* what, can::MissionStatus status) const {
   if (status == can::MissionStatus::unsupported) {
-    throw NoAnswer(fmt::format("the controller takes no {} (unsupported): it is a guard node, or calibrates",
-                               what));
+    throw NoAnswer(
+        fmt::format("the controller takes no {} (unsupported): it is a guard node, or calibrates", what));
   }
-  throw NoAnswer(fmt::format("the controller says {} to the {} ({}): its base must give an order to start first",
-                             can::kMissionStatusWords[static_cast<int>(status)], what, state()));
+  throw NoAnswer(
+      fmt::format("the controller says {} to the {} ({}): its base must give an order to start first",
+                  can::kMissionStatusWords[static_cast<int>(status)], what, state()));
 }
 
 std::string OperatorClient::state() const {

@@ -29,8 +29,8 @@ struct Patience {
   std::function<bool()> interrupted;  ///< true: give up; may be empty
 };
 
-/// Reads and writes the parameters of a controller. Port and clock must outlive it. Every call throws NoAnswer
-/// and Interrupted.
+/// Reads and writes the parameters of a controller. Port and clock must outlive it. Every call throws
+/// NoAnswer and Interrupted.
 class ParamClient {
  public:
   ParamClient(hil::Clock& clock, Patience patience) : clock_(clock), patience_(std::move(patience)) {}

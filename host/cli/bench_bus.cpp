@@ -134,10 +134,10 @@ std::unique_ptr<Client> BenchBus::ready(std::unique_ptr<Client> client) {
 std::unique_ptr<bench::BaseClient> BenchBus::base() {
   find_controller();
   if (has(can::Party::base)) {
-    throw bench::NoAnswer(
-        fmt::format("{}: robot {} has a base (node {}), and its controller takes this from its base only: take "
-                    "it off the bus first",
-                    name_, robot(), robot() + can::kBaseOffset));
+    throw bench::NoAnswer(fmt::format(
+        "{}: robot {} has a base (node {}), and its controller takes this from its base only: take "
+        "it off the bus first",
+        name_, robot(), robot() + can::kBaseOffset));
   }
   return in_its_place();
 }
@@ -148,8 +148,7 @@ std::unique_ptr<bench::BaseClient> BenchBus::in_its_place() {
 
 std::unique_ptr<bench::OperatorClient> BenchBus::third_party() {
   const auto number = static_cast<std::uint8_t>(choice_.bus.identity().boot);
-  return ready(
-      std::make_unique<bench::OperatorClient>(port_, clock_, survey_, robot(), number, patience()));
+  return ready(std::make_unique<bench::OperatorClient>(port_, clock_, survey_, robot(), number, patience()));
 }
 
 std::unique_ptr<bench::ParamClient> BenchBus::client() {

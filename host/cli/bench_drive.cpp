@@ -66,9 +66,8 @@ void check_place(BenchBus& bus, const BenchChoice& choice) {
   };
   const auto found = [&] {
     if (there(can::Party::controller)) {
-      throw bench::NoAnswer(fmt::format(
-          "{}: robot {} has a controller (node {}): take it off the bus first",
-          bus.name(), bus.robot(), bus.robot()));
+      throw bench::NoAnswer(fmt::format("{}: robot {} has a controller (node {}): take it off the bus first",
+                                        bus.name(), bus.robot(), bus.robot()));
     }
     return there(can::Party::base);
   };
@@ -122,7 +121,8 @@ int goal(const SeatOptions& o) {
   if (bus.has(can::Party::controller) && bus.has(can::Party::base)) {
     if (o.own_core) {
       throw UsageError(
-          "bench goal: the robot's own controller drives it: no --planner, --rules or --view (bench watch has one)");
+          "bench goal: the robot's own controller drives it: no --planner, --rules or --view (bench watch "
+          "has one)");
     }
     return drive_through(bus, goal_of(o), o.for_s, o.json);
   }
@@ -224,7 +224,8 @@ int drive(const SeatOptions& o) {
 
 void add_bench_drive(CLI::App& bench, int& status) {
   const auto goes = std::make_shared<SeatOptions>();
-  CLI::App* cmd = bench.add_subcommand("goal", "Drive to a goal: the robot's controller, or where it has none, the core on this computer");
+  CLI::App* cmd = bench.add_subcommand(
+      "goal", "Drive to a goal: the robot's controller, or where it has none, the core on this computer");
   cmd->add_option("X", goes->x_m, "Goal in the frame of the base's start, m")->required()->type_name("X");
   cmd->add_option("Y", goes->y_m, "The same")->required()->type_name("Y");
   add_bench_bus(*cmd, goes->bus);

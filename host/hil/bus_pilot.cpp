@@ -285,7 +285,8 @@ class BusPilot final : public Pilot {
       watchful_nap();
       watch_patience();
     }
-    if (question.reply().status != can::ParamStatus::ok) throw std::runtime_error("the controller refuses a parameter");
+    if (question.reply().status != can::ParamStatus::ok)
+      throw std::runtime_error("the controller refuses a parameter");
   }
 
   Status in_lockstep(std::uint32_t tick) {

@@ -49,7 +49,8 @@ Status status_of(const can::NavStatus& told);
 /// Input sets, missions and parameters of one robot.
 class Overheard {
  public:
-  /// Called for each order that the controller accepts, once. Of the operator's missions only the goal counts.
+  /// Called for each order that the controller accepts, once. Of the operator's missions only the goal
+  /// counts.
   using Accepted = std::function<void(can::Requester, can::Order, const can::Mission&)>;
 
   /// params: those of the robot, until others are committed.

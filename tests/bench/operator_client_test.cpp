@@ -97,12 +97,14 @@ TEST_F(ThirdParty, SaysWhyARobotTakesNoOrder) {
   connect();
   rig_.give(can::Order::cancel);  // its wheels turn: it sends no set of the mission that the controller knows
   listen();
-  EXPECT_EQ(trouble([&] { client_.drive_to(kNear); }),
-            "the controller says refused to the goal (safe_stop: odometry_late): its base must give an order to "
-            "start first");
-  EXPECT_EQ(trouble([&] { client_.cancel(); }),
-            "the controller says refused to the cancel (safe_stop: odometry_late): its base must give an order "
-            "to start first");
+  EXPECT_EQ(
+      trouble([&] { client_.drive_to(kNear); }),
+      "the controller says refused to the goal (safe_stop: odometry_late): its base must give an order to "
+      "start first");
+  EXPECT_EQ(
+      trouble([&] { client_.cancel(); }),
+      "the controller says refused to the cancel (safe_stop: odometry_late): its base must give an order "
+      "to start first");
 }
 
 TEST_F(ThirdParty, NoticesAnOrderOfTheBaseAndAnotherOperator) {
