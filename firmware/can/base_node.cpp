@@ -165,6 +165,7 @@ FrameResult BaseNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noe
       });
     case MessageKind::param_reply:
       return read<ParamReply>(frame, [this](const auto& m) {
+        if (m.to_operator != 0) return;
         reply_ = m;
         replied_ = true;
       });
@@ -211,7 +212,7 @@ void BaseNode::on_command(const WheelCommand& command) noexcept {
 }
 
 void BaseNode::on_reply(const MissionReply& reply) noexcept {
-  if (reply.mission != mission_ || order_state_ != OrderState::waiting) return;
+  if (reply.to_operator != 0 || reply.mission != mission_ || order_state_ != OrderState::waiting) return;
   order_status_ = reply.status;
   switch (reply.status) {
     case MissionStatus::accepted:

@@ -17,7 +17,7 @@ ControllerNode::ControllerNode(hal::CanPort& port, const Identity& identity, Rul
 
 void ControllerNode::poll(uint32_t now) noexcept {
   listen(now);
-  if (inbox_ != nullptr && inbox_->silent(now)) lose_operator();
+  if (operator_heard_ && operator_silent()) lose_operator();
   watch();
   publish();
   if (asked_again_) repeat_answer();
@@ -27,9 +27,11 @@ void ControllerNode::poll(uint32_t now) noexcept {
 
 /// The counters of another operator, or of one that restarted, are not compared with those of this one.
 void ControllerNode::lose_operator() noexcept {
-  inbox_->lose();
-  forget(MessageKind::velocity);
-  forget(MessageKind::vouch);
+  operator_heard_ = false;
+  operator_numbered_ = false;
+  operator_parts_.forget();
+  server_.drop(Requester::third_party);
+  forget_operator();
 }
 
 void ControllerNode::watch() noexcept {
@@ -63,6 +65,14 @@ bool ControllerNode::take_order(Order& order, Mission& mission) noexcept {
   order_taken_ = true;
   order = order_;
   mission = mission_;
+  return true;
+}
+
+bool ControllerNode::take_operator_order(Order& order, planning::Goal& goal) noexcept {
+  if (operator_order_taken_) return false;
+  operator_order_taken_ = true;
+  order = operator_order_;
+  goal = operator_goal_;
   return true;
 }
 
@@ -112,6 +122,7 @@ void ControllerNode::answer_fix(const FixReply& reply) noexcept {
 }
 
 FrameResult ControllerNode::on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept {
+  if (is_operator(frame.id & 0x0F, kind)) return on_operator(kind, frame);
   switch (kind) {
     case MessageKind::range_left: return in_range(on_range<MessageKind::range_left>(hal::kLeft, frame));
     case MessageKind::range_front: return in_range(on_range<MessageKind::range_front>(hal::kFront, frame));
@@ -120,10 +131,9 @@ FrameResult ControllerNode::on_frame(MessageKind kind, const hal::CanFrame& fram
     case MessageKind::gyro: return read<GyroState>(frame, [this](const auto& m) { sets_.on_frame(m); });
     case MessageKind::fix: return in_range(on_fix(frame));
     case MessageKind::sync: return read<Sync>(frame, [this](const auto& m) { on_sync(m); });
-    case MessageKind::mission: return in_range(on_mission(frame));
-    case MessageKind::param_request: return read<ParamRequest>(frame, [this](const auto& m) { on_param(m); });
-    case MessageKind::velocity: return on_operator<VelocityCommand>(frame);
-    case MessageKind::vouch: return on_operator<VouchRequest>(frame);
+    case MessageKind::mission: return in_range(on_mission(frame, Requester::base));
+    case MessageKind::param_request:
+      return read<ParamRequest>(frame, [this](const auto& m) { on_param(m, Requester::base); });
     case MessageKind::rules_part: return read<RulesPart>(frame, [this](const auto& m) { on_rules(m); });
     case MessageKind::rules_order: return read<RulesOrder>(frame, [this](const auto& m) { on_rules(m); });
     default: return FrameResult::unknown;
@@ -131,13 +141,21 @@ FrameResult ControllerNode::on_frame(MessageKind kind, const hal::CanFrame& fram
 }
 
 /// An operator that appears needs the Info, to compare the table.
-template <class M>
-FrameResult ControllerNode::on_operator(const hal::CanFrame& frame) noexcept {
-  if (inbox_ == nullptr) return FrameResult::unknown;
-  return read<M>(frame, [this](const M& m) {
-    if (inbox_->silent(now_ms())) announce();
-    inbox_->on_frame(m, now_ms());
-  });
+FrameResult ControllerNode::on_operator(MessageKind kind, const hal::CanFrame& frame) noexcept {
+  const bool for_guard = kind == MessageKind::velocity || kind == MessageKind::vouch;
+  if (for_guard && inbox_ == nullptr) return FrameResult::unknown;
+  if (operator_silent()) announce();
+  operator_heard_ = true;
+  operator_at_ = now_ms();
+  switch (kind) {
+    case MessageKind::velocity:
+      return read<VelocityCommand>(frame, [this](const auto& m) { inbox_->on_frame(m, now_ms()); });
+    case MessageKind::vouch: return read<VouchRequest>(frame, [this](const auto& m) { inbox_->on_frame(m); });
+    case MessageKind::mission: return in_range(on_mission(frame, Requester::third_party));
+    case MessageKind::param_request:
+      return read<ParamRequest>(frame, [this](const auto& m) { on_param(m, Requester::third_party); });
+    default: return FrameResult::unknown;
+  }
 }
 
 template <MessageKind kKind>
@@ -175,16 +193,18 @@ void ControllerNode::on_sync(const Sync& sync) noexcept {
   asked_again_ = lockstep() && answered_ && sync.tick == tick_;
 }
 
-bool ControllerNode::on_mission(const hal::CanFrame& frame) noexcept {
+bool ControllerNode::on_mission(const hal::CanFrame& frame, Requester who) noexcept {
+  const bool of_base = who == Requester::base;
   MissionValue part;
   if (!decode(frame, part)) return false;
   if (part.part != MissionPart::order) {
-    parts_.on_frame(part);
+    (of_base ? parts_ : operator_parts_).on_frame(part);
     return true;
   }
   MissionOrder order;
   if (!decode(frame, order)) return false;
-  send(MissionReply{execute(order), order.mission});
+  const MissionStatus status = of_base ? execute(order) : execute_operator(order);
+  send(MissionReply{status, order.mission, static_cast<uint8_t>(of_base ? 0 : 1)});
   return true;
 }
 
@@ -206,6 +226,7 @@ MissionStatus ControllerNode::execute(const MissionOrder& order) noexcept {
     set_sync_mode(SyncMode::real_time);
     if (!run()) return MissionStatus::refused;
     has_mission_ = true;
+    if (order.order != Order::resume) calibrating_ = calibrates(order.order);
   }
   number_ = order.mission;
   numbered_ = true;
@@ -223,16 +244,43 @@ MissionStatus ControllerNode::execute(const MissionOrder& order) noexcept {
   return MissionStatus::accepted;
 }
 
-void ControllerNode::on_param(const ParamRequest& request) noexcept {
-  bool committed = false;
-  send(server_.answer(request, ordered(), committed));
-  if (committed) committed_ = server_.staged();
+/// The order of the base holds on: its sets, its clock and its right to drive are those of this order, too.
+MissionStatus ControllerNode::execute_operator(const MissionOrder& order) noexcept {
+  // Each order is executed before the next one is accepted.
+  if (!operator_parts_.complete(order) || !operator_order_taken_) return MissionStatus::incomplete;
+  if (operator_numbered_ && order.mission == operator_number_) return MissionStatus::accepted;
+  if (!takes_operator_ || calibrating_ || calibrates(order.order)) return MissionStatus::unsupported;
+  Mission mission;
+  if (!mission_of(operator_parts_.values(), mission)) return MissionStatus::out_of_range;
+  if (!running() || !stepped_ || !answered_ || status_.fault != 0) return MissionStatus::refused;
+  if (order.order == Order::start && !idle()) return MissionStatus::refused;
+  operator_number_ = order.mission;
+  operator_numbered_ = true;
+  operator_order_ = order.order;
+  operator_goal_ = mission.goal;
+  operator_order_taken_ = false;
+  return MissionStatus::accepted;
+}
+
+bool ControllerNode::stands() const noexcept { return !turned_ || now_ms() - turned_at_ >= kStands_ms; }
+
+bool ControllerNode::idle() const noexcept {
+  if (!ordered()) return true;
+  const bool has_goal = inbox_ == nullptr && status_.outcome == planning::Outcome::running;
+  const bool commanded = command_.speeds.left != 0 || command_.speeds.right != 0;
+  return answered_ && operator_order_taken_ && !has_goal && !commanded && stands();
+}
+
+void ControllerNode::on_param(const ParamRequest& request, Requester who) noexcept {
+  const bool base_transfers = !ordered() && server_.stager() == Requester::base;
+  const bool busy = who == Requester::base ? ordered() : !idle() || base_transfers;
+  send(server_.answer(request, who, busy));
 }
 
 RulesStatus ControllerNode::hindrance() const noexcept {
   if (rules_ == nullptr) return RulesStatus::unsupported;
   if (ordered()) return RulesStatus::running;
-  if (turned_ && now_ms() - turned_at_ < kStands_ms) return RulesStatus::moving;
+  if (!stands()) return RulesStatus::moving;
   return RulesStatus::receiving;
 }
 
@@ -260,6 +308,8 @@ void ControllerNode::reset_peer() noexcept {
   if (rules_ != nullptr) rules_->forget();
   sets_.forget();
   parts_.forget();
+  server_.drop(Requester::base);
+  operator_order_taken_ = true;
   numbered_ = false;
   has_mission_ = false;
   order_taken_ = true;

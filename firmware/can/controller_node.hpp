@@ -27,8 +27,11 @@ class ControllerNode final : public Node {
 
   void poll(uint32_t now_ms) noexcept;
 
-  /// An order was accepted since the last call. `mission` is unused for a cancel.
+  /// An order of the base was accepted since the last call. `mission` is unused for a cancel.
   bool take_order(Order& order, Mission& mission) noexcept;
+  /// An order of the operator was accepted since the last call: call it before take_order. start and resume
+  /// drive to the goal from where the robot is, start with the parameters that hold now.
+  bool take_operator_order(Order& order, planning::Goal& goal) noexcept;
   /// The next complete input set while the robot runs: each once, and never an older one.
   bool take_set(InputSet& set) noexcept;
   /// The wheels were commanded to brake since the last answer: planned speeds must start at zero.
@@ -51,11 +54,13 @@ class ControllerNode final : public Node {
 
   /// From now on it accepts orders to calibrate.
   void accept_calibrations() noexcept { calibrates_ = true; }
+  /// From now on it accepts orders of the operator.
+  void accept_operator_orders() noexcept { takes_operator_ = true; }
   /// Tells the base, at any time; the node sets the mission.
   void publish_calibration(CalibrationReport report) noexcept;
 
   /// Parameters accepted by a commit.
-  const Params& params() const noexcept { return committed_; }
+  const Params& params() const noexcept { return server_.committed(); }
 
  private:
   FrameResult on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept override;
@@ -66,18 +71,23 @@ class ControllerNode final : public Node {
   template <MessageKind kKind>
   bool on_range(int beam, const hal::CanFrame& frame) noexcept;
   bool on_fix(const hal::CanFrame& frame) noexcept;
-  template <class M>
-  FrameResult on_operator(const hal::CanFrame& frame) noexcept;
+  FrameResult on_operator(MessageKind kind, const hal::CanFrame& frame) noexcept;
   void on_wheels(const WheelState& state) noexcept;
   void on_sync(const Sync& sync) noexcept;
-  bool on_mission(const hal::CanFrame& frame) noexcept;
-  void on_param(const ParamRequest& request) noexcept;
+  bool on_mission(const hal::CanFrame& frame, Requester who) noexcept;
+  void on_param(const ParamRequest& request, Requester who) noexcept;
   void on_rules(const RulesPart& part) noexcept;
   void on_rules(const RulesOrder& order) noexcept;
   /// Why no response table is taken now; receiving: it is.
   RulesStatus hindrance() const noexcept;
   void announce_rules() noexcept;
   MissionStatus execute(const MissionOrder& order) noexcept;
+  MissionStatus execute_operator(const MissionOrder& order) noexcept;
+  /// The counts have not changed for a while.
+  bool stands() const noexcept;
+  /// Nothing is to be done, and the wheels stand.
+  bool idle() const noexcept;
+  bool operator_silent() const noexcept { return !operator_heard_ || now_ms() - operator_at_ > kPeerLost_ms; }
   void watch() noexcept;
   void lose_operator() noexcept;
   void brake() noexcept;
@@ -115,9 +125,19 @@ class ControllerNode final : public Node {
   bool has_mission_ = false;
   bool order_taken_ = true;
   bool calibrates_ = false;
+  bool calibrating_ = false;  // the robot was placed by an order to calibrate
+
+  MissionParts operator_parts_;
+  planning::Goal operator_goal_;
+  Order operator_order_ = Order::cancel;
+  uint32_t operator_at_ = 0;
+  uint8_t operator_number_ = 0;
+  bool operator_numbered_ = false;  // as numbered_
+  bool operator_order_taken_ = true;
+  bool operator_heard_ = false;  // at operator_at_
+  bool takes_operator_ = false;
 
   ParamServer server_;
-  Params committed_;
 };
 
 }  // namespace whisker::can

@@ -1,5 +1,6 @@
 /// Identifiers: function << 4 | node of the sender. A lower identifier wins arbitration, so the function is
-/// the priority. An operator is no node: it sends functions that no node sends, with the number of the robot.
+/// the priority. An operator is no node: it sends functions that no controller sends, with the controller's
+/// number.
 #pragma once
 
 #include <stdint.h>

@@ -75,6 +75,7 @@ struct FaultReport {
 
 constexpr int32_t kPlaceLimitUm = kPlaceLimit.raw();
 inline constexpr Signal kMissionPart = {"Part", 12, 4, false, 0, 6, "1", "", "one frame each", kMultiplexor, word_in<kMissionPartWords>};
+inline constexpr Signal kToOperator = {"Operator", 15, 1, false, 0, 1, "1", "", "1: answers the operator; 0: the base"};
 inline constexpr Signal kMissionNumber = {"Mission", 16, 8, false, 0, kMost8, "1", "", "number, a new one for every order"};
 
 /// Part 0.
@@ -122,11 +123,13 @@ struct MissionReply {
   static constexpr MessageKind kKind = MessageKind::mission_reply;
   MissionStatus status = MissionStatus::accepted;
   uint8_t mission = 0;
+  uint8_t to_operator = 0;
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Status", 12, 4, false, 0, kMissionStatuses - 1, "1", "", "result of the order", kAlways, word_in<kMissionStatusWords>}, m.status);
+    f({"Status", 12, 3, false, 0, kMissionStatuses - 1, "1", "", "result of the order", kAlways, word_in<kMissionStatusWords>}, m.status);
     f({"Mission", 16, 8, false, 0, kMost8, "1", "", "of the order"}, m.mission);
+    f(kToOperator, m.to_operator);
   }
 };
 
@@ -223,12 +226,14 @@ struct ParamReply {
   ParamStatus status = ParamStatus::ok;
   uint8_t index = 0;
   uint32_t value = 0;
+  uint8_t to_operator = 0;
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) noexcept {
-    f({"Status", 12, 4, false, 0, 4, "1", "", "result of the request", kAlways, word_in<kParamStatusWords>}, m.status);
+    f({"Status", 12, 3, false, 0, 4, "1", "", "result of the request", kAlways, word_in<kParamStatusWords>}, m.status);
     f({"Index", 16, 8, false, 0, kMost8, "1", "", "of the request"}, m.index);
     f({"Value", 24, 32, false, 0, kMost32, "1", "", "current value; after commit: the parameter fault, or 0"}, m.value);
+    f(kToOperator, m.to_operator);
   }
 };
 
@@ -328,7 +333,7 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"EStop", 0x01, 2, true, true, 0, "any data frame with this identifier stops, valid or not; node 0 stops all robots"}, EStop{});
   visit(Message{"Sync", 0x08, 8, false, true, 10, "last frame of an input set"}, Sync{});
   visit(Message{"Fault", 0x09, 7, true, true, 1000, "when an error bit changes, and once a second while one is active"}, FaultReport{});
-  visit(Message{"Mission", 0x0A, 7, false, true, 0, "an order, repeated until answered"}, MissionOrder{});
+  visit(Message{"Mission", 0x0A, 7, false, true, 0, "an order, repeated until answered", true}, MissionOrder{});
   visit(Message{"MissionReply", 0x0B, 3, true, false, 0, "answer to an order"}, MissionReply{});
   visit(Message{"Velocity", 0x0C, 6, false, false, 20, "velocity that the operator asks for; a guard node only", true}, VelocityCommand{});
   visit(Message{"Vouch", 0x0D, 5, false, false, 0, "the operator says that the ground around the robot is free; a guard node only", true}, VouchRequest{});
@@ -338,7 +343,7 @@ constexpr void for_each_message(F&& visit) noexcept {
   visit(Message{"RangeFront", 0x13, 8, false, true, 10, "middle rangefinder"}, Range<MessageKind::range_front>{});
   visit(Message{"RangeRight", 0x14, 8, false, true, 10, "right rangefinder"}, Range<MessageKind::range_right>{});
   visit(Message{"NavStatus", 0x15, 8, true, false, 10, "state of the navigation and its reason"}, NavStatus{});
-  visit(Message{"ParamRequest", 0x16, 7, false, true, 0, "reads or changes a parameter"}, ParamRequest{});
+  visit(Message{"ParamRequest", 0x16, 7, false, true, 0, "reads or changes a parameter", true}, ParamRequest{});
   visit(Message{"ParamReply", 0x17, 7, true, false, 0, "answer to a ParamRequest"}, ParamReply{});
   visit(Message{"RangeTrust", 0x1A, 7, true, false, 500, "what the core measures of its rangefinders; also at every change of the level"}, RangeTrustReport{});
   visit(Message{"PoseSigma", 0x1B, 8, true, false, 500, "how far the pose may be off, if the parameters declare an error of the wheels; also at the end of the mission"}, PoseSigmaReport{});

@@ -110,14 +110,14 @@ void Node::receive(const hal::CanFrame& frame) noexcept {
     count(health_.malformed);
   } else if (kind == MessageKind::e_stop) {
     receive_e_stop(frame);
-  } else if (head_of(kind).from_operator) {
+  } else if (is_operator(node, kind)) {
     receive_from_operator(kind, frame);
   } else if (is_sound(kind, frame)) {
     if (node == node_) {
       count(health_.duplicates);
       stop(Error::duplicate_node);
     } else if (node == peer_node_) {
-      understand(kind, frame);
+      understand(kind, frame, heard_[static_cast<uint8_t>(kind)]);
     } else {
       count(health_.malformed);
     }
@@ -142,7 +142,7 @@ void Node::receive_from_operator(MessageKind kind, const hal::CanFrame& frame) n
   if (party_ == Party::base) {
     count(health_.foreign);
   } else if (is_whole(kind, frame, (frame.id & 0x0F) == node_)) {
-    understand(kind, frame);
+    understand(kind, frame, heard_operator_[head_of(kind).operator_place]);
   }
 }
 
@@ -163,9 +163,9 @@ bool Node::is_whole(MessageKind kind, const hal::CanFrame& frame, bool allowed) 
   return true;
 }
 
-void Node::understand(MessageKind kind, const hal::CanFrame& frame) noexcept {
+void Node::understand(MessageKind kind, const hal::CanFrame& frame, AliveReceiver& alive) noexcept {
   uint8_t lost = 0;
-  switch (heard_[static_cast<uint8_t>(kind)].judge(counter_of(frame), lost)) {
+  switch (alive.judge(counter_of(frame), lost)) {
     case Arrival::repeated: count(health_.repeated); return;
     case Arrival::out_of_sequence: count(health_.out_of_sequence); return;
     case Arrival::in_turn: break;
@@ -236,6 +236,10 @@ void Node::lose_peer() noexcept {
   peer_heard_ = false;
   matched_ = false;
   for (AliveReceiver& alive : heard_) alive.forget();
+}
+
+void Node::forget_operator() noexcept {
+  for (AliveReceiver& alive : heard_operator_) alive.forget();
 }
 
 void Node::publish() noexcept {

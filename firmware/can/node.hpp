@@ -105,8 +105,8 @@ class Node {
     use(message);
     return FrameResult::understood;
   }
-  /// The next frame of this kind is in sequence, whatever its counter.
-  void forget(MessageKind kind) noexcept { heard_[static_cast<uint8_t>(kind)].forget(); }
+  /// The next frame of each message of the operator is in sequence, whatever its counter.
+  void forget_operator() noexcept;
   /// Sends Info with the next publish().
   void announce() noexcept { announce_ = true; }
   /// The other node has restarted: its earlier messages are void.
@@ -151,7 +151,7 @@ class Node {
   bool is_for_us(uint8_t node) const noexcept;
   bool is_sound(MessageKind kind, const hal::CanFrame& frame) noexcept;
   bool is_whole(MessageKind kind, const hal::CanFrame& frame, bool allowed) noexcept;
-  void understand(MessageKind kind, const hal::CanFrame& frame) noexcept;
+  void understand(MessageKind kind, const hal::CanFrame& frame, AliveReceiver& alive) noexcept;
   void settle(FrameResult heard) noexcept;
   void on_heartbeat(const Heartbeat& beat) noexcept;
   void on_info(const Info& info) noexcept;
@@ -170,6 +170,7 @@ class Node {
   BusHealth health_;
   AliveSender sent_[kKinds];
   AliveReceiver heard_[kKinds];
+  AliveReceiver heard_operator_[kOperatorKinds];
 
   Heartbeat peer_;
   uint32_t peer_seen_ = 0;

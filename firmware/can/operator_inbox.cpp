@@ -4,21 +4,14 @@ namespace whisker::can {
 
 void OperatorInbox::disarm() noexcept { armed_ = commanded_ = asked_ = numbered_ = false; }
 
-void OperatorInbox::hear(uint32_t now_ms) noexcept {
-  heard_ = true;
-  heard_at_ = now_ms;
-}
-
 void OperatorInbox::on_frame(const VelocityCommand& velocity, uint32_t now_ms) noexcept {
-  hear(now_ms);
   armed_ = armed_ || (velocity.forward == 0 && velocity.turning == 0);
   velocity_ = velocity;
   velocity_at_ = now_ms;
   commanded_ = armed_;
 }
 
-void OperatorInbox::on_frame(const VouchRequest& vouch, uint32_t now_ms) noexcept {
-  hear(now_ms);
+void OperatorInbox::on_frame(const VouchRequest& vouch) noexcept {
   if (numbered_ && vouch.number == vouch_.number) return;
   numbered_ = asked_ = true;
   vouch_ = vouch;

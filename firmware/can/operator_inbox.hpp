@@ -3,7 +3,6 @@
 
 #include <stdint.h>
 
-#include "firmware/can/limits.hpp"
 #include "firmware/can/operator_messages.hpp"
 
 namespace whisker::can {
@@ -17,11 +16,7 @@ class OperatorInbox {
   bool armed() const noexcept { return armed_; }
 
   void on_frame(const VelocityCommand& velocity, uint32_t now_ms) noexcept;
-  void on_frame(const VouchRequest& vouch, uint32_t now_ms) noexcept;
-  /// No frame within the time after which a node is lost, or none yet.
-  bool silent(uint32_t now_ms) const noexcept { return !heard_ || now_ms - heard_at_ > kPeerLost_ms; }
-  /// The operator was lost: silent() until the next frame.
-  void lose() noexcept { heard_ = false; }
+  void on_frame(const VouchRequest& vouch) noexcept;
 
   /// A Velocity that came since the last call, and counts. age_ms: how long ago.
   bool take(VelocityCommand& velocity, uint32_t now_ms, uint32_t& age_ms) noexcept;
@@ -29,13 +24,9 @@ class OperatorInbox {
   bool take(VouchRequest& vouch) noexcept;
 
  private:
-  void hear(uint32_t now_ms) noexcept;
-
   VelocityCommand velocity_;
   VouchRequest vouch_;
   uint32_t velocity_at_ = 0;
-  uint32_t heard_at_ = 0;
-  bool heard_ = false;
   bool armed_ = false;
   bool commanded_ = false;  // velocity_ was not taken yet
   bool asked_ = false;      // the same of vouch_

@@ -4,6 +4,8 @@
 
 namespace whisker::can {
 
+static_assert(kParams <= kCommitIndex);
+
 bool read_param(const Params& params, uint8_t index, uint32_t& raw) noexcept {
   if (index >= kParams) return false;
   raw = raw_param(params, index);
@@ -17,19 +19,34 @@ ParamStatus write_param(Params& params, uint8_t index, uint32_t raw) noexcept {
   return ParamStatus::ok;
 }
 
-ParamReply ParamServer::answer(const ParamRequest& request, bool busy, bool& committed) noexcept {
-  committed = false;
+ParamStatus ParamServer::commit(ParamReply& reply) noexcept {
+  const ParamFault fault = check(staged_);
+  reply.value = static_cast<uint32_t>(fault);
+  if (fault != ParamFault::none) return ParamStatus::inconsistent;
+  committed_ = staged_;
+  stager_ = Requester::none;
+  return ParamStatus::ok;
+}
+
+void ParamServer::drop(Requester who) noexcept {
+  if (stager_ != who) return;
+  staged_ = committed_;
+  stager_ = Requester::none;
+}
+
+ParamReply ParamServer::answer(const ParamRequest& request, Requester who, bool busy) noexcept {
   ParamReply reply;
   reply.index = request.index;
+  reply.to_operator = who == Requester::third_party ? 1 : 0;
   if (request.action != ParamAction::read && busy) {
     reply.status = ParamStatus::busy;
-  } else if (request.action == ParamAction::commit) {
-    const ParamFault fault = check(staged_);
-    reply.value = static_cast<uint32_t>(fault);
-    committed = fault == ParamFault::none;
-    reply.status = committed ? ParamStatus::ok : ParamStatus::inconsistent;
-    return reply;
-  } else if (request.action == ParamAction::write) {
+  } else if (request.action != ParamAction::read) {
+    if (stager_ != who) drop(stager_);
+    if (request.action == ParamAction::commit) {
+      reply.status = commit(reply);
+      return reply;
+    }
+    stager_ = who;
     reply.status = write_param(staged_, request.index, request.value);
   }
   if (!read_param(staged_, request.index, reply.value) && reply.status == ParamStatus::ok) {

@@ -8,21 +8,36 @@
 
 namespace whisker::can {
 
+/// The index of a commit: no parameter has it, so its reply is not taken for that of a write.
+constexpr uint8_t kCommitIndex = 255;
+
 /// False: no parameter has this index.
 bool read_param(const Params& params, uint8_t index, uint32_t& raw) noexcept;
 /// Refuses values outside the parameter's own range.
 ParamStatus write_param(Params& params, uint8_t index, uint32_t raw) noexcept;
 
-/// Answers requests on a staged set of parameters; a commit checks it as a whole.
+/// Who requests; of staged values: who staged them.
+enum class Requester : uint8_t { none, base, third_party };
+
+/// Answers requests on a staged set of parameters; a commit checks it as a whole. What one has staged and not
+/// committed is void when another one stages.
 class ParamServer {
  public:
-  /// busy: the robot drives, and only reads are allowed. committed: this was a commit, and it succeeded.
-  ParamReply answer(const ParamRequest& request, bool busy, bool& committed) noexcept;
-  const Params& staged() const noexcept { return staged_; }
-  void stage(const Params& params) noexcept { staged_ = params; }
+  /// busy: only reads are allowed.
+  ParamReply answer(const ParamRequest& request, Requester who, bool busy) noexcept;
+  const Params& committed() const noexcept { return committed_; }
+  /// Both the committed and the staged ones.
+  void set(const Params& params) noexcept { committed_ = staged_ = params; }
+  Requester stager() const noexcept { return stager_; }
+  /// Drops what `who` has staged and not committed.
+  void drop(Requester who) noexcept;
 
  private:
+  ParamStatus commit(ParamReply& reply) noexcept;
+
   Params staged_;
+  Params committed_;
+  Requester stager_ = Requester::none;
 };
 
 }  // namespace whisker::can

@@ -12,31 +12,34 @@ using can::MessageKind;
 /// After frames that were missed, the wheels may have rolled farther than in one period.
 constexpr std::uint32_t kLongestPause_ms = 1000;
 
-template <class M, class F>
-void with(const hal::CanFrame& frame, const F& use) {
-  M message;
-  if (can::decode(frame, message)) use(message);
-}
-
 }  // namespace
 
 BusRun::BusRun(int robot, const Params& params, Listener listener)
     : robot_(robot),
       listener_(std::move(listener)),
-      overheard_(params, [this](can::Order order, const can::Mission& mission) {
-        tick16_.reset();
-        if (order == can::Order::start) begin(mission, true);
+      overheard_(params, [this](can::Requester who, can::Order order, const can::Mission& mission) {
+        const bool of_base = who == can::Requester::base;
+        if (of_base) tick16_.reset();
+        if (order == can::Order::start) begin(of_base ? mission : from_here(mission.goal), true);
       }) {}
 
 void BusRun::on_frame(const hal::CanFrame& frame) {
   const std::optional<hil::Sender> sender = hil::sender_of(frame);
-  if (!sender || sender->robot != robot_ || !sender->whole) return;
+  if (!sender) return on_operator(frame);
+  if (sender->robot != robot_ || !sender->whole) return;
   switch (sender->kind) {
     case MessageKind::wheel_command:
-      return with<can::WheelCommand>(frame, [&](const auto& m) { command_ = m; });
-    case MessageKind::nav_status: return with<can::NavStatus>(frame, [&](const auto& m) { on_status(m); });
+      return hil::with<can::WheelCommand>(frame, [&](const auto& m) { command_ = m; });
+    case MessageKind::nav_status:
+      return hil::with<can::NavStatus>(frame, [&](const auto& m) { on_status(m); });
     default: overheard_.on_frame(sender->kind, frame);
   }
+}
+
+/// Without the time of a frame, an operator is the same one always: it numbers its orders.
+void BusRun::on_operator(const hal::CanFrame& frame) {
+  const std::optional<hil::OperatorFrame> said = hil::operator_frame(frame);
+  if (said && said->robot == robot_ && said->whole) overheard_.on_operator(said->kind, frame, 0);
 }
 
 void BusRun::begin(const can::Mission& mission, bool heard) {

@@ -21,13 +21,15 @@ class BusRun {
     std::function<void(const can::InputSet&, const Status&)> stepped;
   };
 
-  /// params: those of the robot, until a base transfers others.
+  /// params: those of the robot, until others are committed.
   BusRun(int robot, const Params& params, Listener listener);
 
   /// Every frame on the bus, also of others.
   void on_frame(const hal::CanFrame& frame);
 
  private:
+  void on_operator(const hal::CanFrame& frame);
+  can::Mission from_here(const planning::Goal& goal) const { return {odometry_.pose(), goal}; }
   void on_status(const can::NavStatus& told);
   void begin(const can::Mission& mission, bool heard);
 

@@ -20,6 +20,10 @@ void keep_range(const hal::CanFrame& frame, std::optional<hal::RangeReading>& la
 
 }  // namespace
 
+bool stands(const can::WheelCommand& command) {
+  return command.mode == can::DriveMode::stop || (command.speeds.left == 0 && command.speeds.right == 0);
+}
+
 bool BusState::on_frame(const hal::CanFrame& frame, int robot) {
   const std::optional<hil::Sender> sender = hil::sender_of(frame);
   if (!sender || sender->robot != robot || !sender->whole) return false;

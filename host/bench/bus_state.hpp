@@ -9,6 +9,9 @@
 
 namespace whisker::bench {
 
+/// The wheels are commanded to stand.
+bool stands(const can::WheelCommand& command);
+
 struct BusState {
   std::optional<can::NavStatus> status;
   std::optional<can::WheelCommand> command;

@@ -89,10 +89,6 @@ void OperatorLink::send_vouch() {
   port_.send(can::encode(vouch, static_cast<std::uint8_t>(robot_), vouches_.next()), can::kLife_ms);
 }
 
-bool OperatorLink::stands() const {
-  if (!seen_.command) return false;
-  const can::WheelCommand& command = *seen_.command;
-  return command.mode == can::DriveMode::stop || (command.speeds.left == 0 && command.speeds.right == 0);
-}
+bool OperatorLink::stands() const { return seen_.command && bench::stands(*seen_.command); }
 
 }  // namespace whisker::bench

@@ -1,31 +1,17 @@
 #include "host/bench/param_client.hpp"
 
-#include <utility>
-
 #include <fmt/format.h>
 
+#include "host/hil/param_question.hpp"
+
 namespace whisker::bench {
-namespace {
-
-constexpr std::uint64_t kAskAgain_us = 50000;
-constexpr std::uint64_t kNoRules_us = 500000;
-constexpr std::int16_t kRamp = 1;  // the wheels of this base never turn
-
-}  // namespace
-
-ParamClient::ParamClient(hal::CanPort& port, hil::Clock& clock, const can::Identity& identity,
-                         Patience patience)
-    : clock_(clock), patience_(std::move(patience)), node_(port, identity, kRamp) {}
 
 void ParamClient::wait_until(const std::function<bool()>& done, const std::string& awaited) {
   const std::uint64_t end_us = clock_.now_us() + std::uint64_t{patience_.ms} * 1000;
   for (;;) {
-    node_.poll(clock_.now_ms());
+    poll();
     if (done()) return;
     if (patience_.interrupted && patience_.interrupted()) throw Interrupted("interrupted");
-    if ((node_.permanent_errors() & can::Error::duplicate_node) != 0) {
-      throw NoAnswer("another base of this robot came onto the bus (duplicate_node): restart it");
-    }
     if (clock_.now_us() >= end_us) {
       throw NoAnswer(fmt::format("the controller sends no {} for {} ms", awaited, patience_.ms));
     }
@@ -33,32 +19,11 @@ void ParamClient::wait_until(const std::function<bool()>& done, const std::strin
   }
 }
 
-void ParamClient::connect() {
-  const auto matched = [&] {
-    if ((node_.errors() & can::Error::wrong_version) != 0) {
-      throw NoAnswer("the controller speaks another protocol or table (wrong_version)");
-    }
-    return node_.matched();
-  };
-  wait_until(matched, "Info with its table");
-}
-
 can::ParamReply ParamClient::ask(const can::ParamRequest& request,
                                  const std::function<bool(const can::ParamReply&)>& answers) {
-  can::ParamReply reply;
-  std::uint64_t asked_us = 0;
-  const auto answered = [&] {
-    const bool replied = asked_us != 0 && node_.replied(reply);
-    if (replied && reply.index == request.index && answers(reply)) return true;
-    if (asked_us == 0 || clock_.now_us() - asked_us >= kAskAgain_us) {
-      node_.request(request);
-      node_.poll(clock_.now_ms());
-      asked_us = clock_.now_us();
-    }
-    return false;
-  };
-  wait_until(answered, "ParamReply");
-  return reply;
+  hil::ParamQuestion question(request, kAskAgain_us);
+  wait_until([&] { return question.poll(*this, clock_.now_us(), answers); }, "ParamReply");
+  return question.reply();
 }
 
 // A repeated request may have a second answer, which arrives during the next request for the same index.
@@ -77,44 +42,7 @@ can::ParamStatus ParamClient::write(std::uint8_t index, std::uint32_t raw) {
 }
 
 can::ParamReply ParamClient::commit() {
-  return ask({can::ParamAction::commit, kCommitIndex, 0}, [](const can::ParamReply&) { return true; });
-}
-
-void ParamClient::cancel() {
-  node_.give(can::Order::cancel, {{}, {{}, millimetres(1)}}, can::SyncMode::real_time);
-  wait_until([&] { return node_.order_state() != can::OrderState::waiting; }, "MissionReply");
-  if (node_.order_state() == can::OrderState::refused) throw NoAnswer("the controller refuses the cancel");
-}
-
-std::optional<std::uint32_t> ParamClient::rules() {
-  const std::uint64_t begun_us = clock_.now_us();
-  std::uint64_t asked_us = 0;
-  wait_until(
-      [&] {
-        const std::uint64_t now_us = clock_.now_us();
-        if (asked_us == 0 || now_us - asked_us >= kAskAgain_us) {
-          node_.ask_for_info();
-          asked_us = now_us;
-        }
-        return node_.peer_rules() != 0 || now_us - begun_us >= kNoRules_us;
-      },
-      "Info");
-  if (node_.peer_rules() == 0) return std::nullopt;
-  return node_.peer_rules();
-}
-
-can::RulesReply ParamClient::send_rules(const can::RulesSender::Table* table) {
-  can::RulesSender sender(node_, table, ++upload_);
-  std::uint16_t had = 0;
-  while (!sender.ended()) {
-    const auto goes_on = [&] {
-      sender.poll(clock_.now_ms());
-      return sender.ended() || sender.reply().next != had;
-    };
-    wait_until(goes_on, "RulesReply");
-    had = sender.reply().next;
-  }
-  return sender.reply();
+  return ask({can::ParamAction::commit, can::kCommitIndex, 0}, [](const can::ParamReply&) { return true; });
 }
 
 Written write_all(ParamClient& client, const std::vector<Change>& changes,

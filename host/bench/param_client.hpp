@@ -1,4 +1,4 @@
-/// Reads and writes the parameters of a controller in the place of its base.
+/// The parameters of a controller on a bus.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "firmware/can/rules_sender.hpp"
+#include "firmware/can/param_server.hpp"
 #include "host/hil/clock.hpp"
 
 namespace whisker::bench {
@@ -28,40 +29,46 @@ struct Patience {
   std::function<bool()> interrupted;  ///< true: give up; may be empty
 };
 
-/// A base that only asks. No other base of this robot may be on the bus: both would stop permanently. Port
-/// and clock must outlive it. Every call throws NoAnswer and Interrupted.
+/// Reads and writes the parameters of a controller. Port and clock must outlive it. Every call throws
+/// NoAnswer and Interrupted.
 class ParamClient {
  public:
-  ParamClient(hal::CanPort& port, hil::Clock& clock, const can::Identity& identity, Patience patience);
+  ParamClient(hil::Clock& clock, Patience patience) : clock_(clock), patience_(std::move(patience)) {}
+  virtual ~ParamClient() = default;
+  ParamClient(const ParamClient&) = delete;
+  ParamClient& operator=(const ParamClient&) = delete;
 
-  /// Waits for the handshake.
-  void connect();
+  /// Waits until the controller listens.
+  virtual void connect() = 0;
+  /// Clears the goal.
+  virtual void cancel() = 0;
   /// The staged value; none: the controller has no parameter with this index.
   std::optional<std::uint32_t> read(std::uint8_t index);
   /// Stages a value.
   can::ParamStatus write(std::uint8_t index, std::uint32_t raw);
   /// status: ok or busy, or inconsistent with the violated relation in `value`.
   can::ParamReply commit();
-  /// Clears the goal; both nodes stop running.
-  void cancel();
-  /// The hash of the controller's response table; none: it names none in this time.
-  std::optional<std::uint32_t> rules();
-  /// Sends a response table and activates it; null restores the controller's own. The reply is that of
-  /// can::RulesSender.
-  can::RulesReply send_rules(const can::RulesSender::Table* table);
 
- private:
-  static constexpr std::uint8_t kCommitIndex = 255;  // distinguishes the reply from that to a write
+  // For hil::ParamQuestion.
+  virtual void request(const can::ParamRequest& request) = 0;
+  virtual bool replied(can::ParamReply& reply) const = 0;
 
-  can::ParamReply ask(const can::ParamRequest& request,
-                      const std::function<bool(const can::ParamReply&)>& answers);
+ protected:
+  static constexpr std::uint64_t kAskAgain_us = 50000;
+
+  /// Takes what has come, and sends. Throws NoAnswer if an answer cannot come any more.
+  virtual void poll() = 0;
   /// Polls until `done`; awaited: for the message of NoAnswer.
   void wait_until(const std::function<bool()>& done, const std::string& awaited);
+  hil::Clock& clock() { return clock_; }
+  std::uint32_t patience_ms() const { return patience_.ms; }
+
+ private:
+  can::ParamReply ask(const can::ParamRequest& request,
+                      const std::function<bool(const can::ParamReply&)>& answers);
 
   hil::Clock& clock_;
-  Patience patience_;
-  can::BaseNode node_;
-  std::uint8_t upload_ = 0;
+  const Patience patience_;
 };
 
 struct Change {

@@ -105,28 +105,21 @@ bool BenchBus::listen(double seconds, const std::function<bool()>& done,
   return false;
 }
 
-std::unique_ptr<bench::ParamClient> BenchBus::base() {
+void BenchBus::find_controller() {
   listen(kListen_s, nullptr);
-  const auto there = [&](can::Party party) { return survey_.alive(robot(), party, clock_.now_us()); };
-  const auto refuse_base = [&] {
-    if (!there(can::Party::base)) return;
-    throw bench::NoAnswer(
-        fmt::format("{}: robot {} has a base (node {}), and a controller answers its base only: take it off "
-                    "the bus first",
-                    name_, robot(), robot() + can::kBaseOffset));
-  };
-  const auto found = [&] {
-    refuse_base();
-    return there(can::Party::controller);
-  };
+  const auto found = [&] { return has(can::Party::controller); };
   if (!found() && !listen(choice_.timeout_s, found)) {
     throw bench::NoAnswer(
         fmt::format("{}: no controller of robot {} in {} s", name_, robot(), choice_.timeout_s));
   }
-  const auto patience_ms = static_cast<std::uint32_t>(choice_.timeout_s * 1e3);
-  auto client = std::make_unique<bench::ParamClient>(
-      port_, clock_, choice_.bus.identity(),
-      bench::Patience{patience_ms, [this] { return interrupt_.noted(); }});
+}
+
+bench::Patience BenchBus::patience() {
+  return {static_cast<std::uint32_t>(choice_.timeout_s * 1e3), [this] { return interrupt_.noted(); }};
+}
+
+template <class Client>
+std::unique_ptr<Client> BenchBus::ready(std::unique_ptr<Client> client) {
   client->connect();
   const bench::SeenNode* const node = survey_.find(robot(), can::Party::controller);
   if (node != nullptr && node->version && *node->version != kVersionNumber) {
@@ -136,6 +129,32 @@ std::unique_ptr<bench::ParamClient> BenchBus::base() {
                     name_, version_text(*node->version), version_text(kVersionNumber)));
   }
   return client;
+}
+
+std::unique_ptr<bench::BaseClient> BenchBus::base() {
+  find_controller();
+  if (has(can::Party::base)) {
+    throw bench::NoAnswer(fmt::format(
+        "{}: robot {} has a base (node {}), and its controller takes this from its base only: take "
+        "it off the bus first",
+        name_, robot(), robot() + can::kBaseOffset));
+  }
+  return in_its_place();
+}
+
+std::unique_ptr<bench::BaseClient> BenchBus::in_its_place() {
+  return ready(std::make_unique<bench::BaseClient>(port_, clock_, choice_.bus.identity(), patience()));
+}
+
+std::unique_ptr<bench::OperatorClient> BenchBus::third_party() {
+  const auto number = static_cast<std::uint8_t>(choice_.bus.identity().boot);
+  return ready(std::make_unique<bench::OperatorClient>(port_, clock_, survey_, robot(), number, patience()));
+}
+
+std::unique_ptr<bench::ParamClient> BenchBus::client() {
+  find_controller();
+  if (has(can::Party::base)) return third_party();
+  return in_its_place();
 }
 
 }  // namespace whisker::cli

@@ -7,7 +7,8 @@
 #include <string>
 
 #include "firmware/can/bus_guard.hpp"
-#include "host/bench/param_client.hpp"
+#include "host/bench/base_client.hpp"
+#include "host/bench/operator_client.hpp"
 #include "host/bench/survey.hpp"
 #include "host/bus/fault_port.hpp"
 #include "host/cli/bus_options.hpp"
@@ -48,8 +49,15 @@ class BenchBus {
               const std::function<void(const hal::CanFrame&)>& each = nullptr);
   void send(const hal::CanFrame& frame) { port_.send(frame, can::kEventLife_ms); }
 
-  /// A base that may ask for parameters. Throws bench::NoAnswer if the robot has a base, or no controller.
-  std::unique_ptr<bench::ParamClient> base();
+  /// After listening for a while: the robot has this node.
+  bool has(can::Party party) { return survey_.alive(robot(), party, clock_.now_us()); }
+  /// The robot's base. Throws bench::NoAnswer if the robot has one, or no controller.
+  std::unique_ptr<bench::BaseClient> base();
+  /// An operator, if the robot has a base, or else its base. Throws bench::NoAnswer if the robot has no
+  /// controller, or another operator.
+  std::unique_ptr<bench::ParamClient> client();
+  /// Only if the robot has controller and base.
+  std::unique_ptr<bench::OperatorClient> third_party();
 
   const bench::Survey& survey() const { return survey_; }
   hil::WallClock& clock() { return clock_; }
@@ -61,6 +69,12 @@ class BenchBus {
 
  private:
   void join();
+  void find_controller();
+  bench::Patience patience();
+  std::unique_ptr<bench::BaseClient> in_its_place();
+  /// Connects it, and compares the versions. Returns it.
+  template <class Client>
+  std::unique_ptr<Client> ready(std::unique_ptr<Client> client);
 
   const BenchChoice choice_;
   const std::string name_;

@@ -10,6 +10,7 @@
 #include "host/bench/operator_link.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/bench_commands.hpp"
+#include "host/cli/bench_goal.hpp"
 #include "host/cli/bench_operator.hpp"
 #include "host/cli/bench_seat.hpp"
 #include "host/cli/exit_status.hpp"
@@ -38,6 +39,7 @@ struct SeatOptions {
   std::string commands;
   double speed_mps = 0.3, turn_radps = 1.5, vouched_m = 0;
   bool keys = false, json = false;
+  bool own_core = false;  ///< an option chooses what the core on this computer does
 };
 
 planning::Goal goal_of(const SeatOptions& o) {
@@ -53,6 +55,14 @@ int goal(const SeatOptions& o) {
   const auto view = o.view.open(o.planner);
   BenchBus bus(o.bus);
   bus.listen(BenchBus::kListen_s, nullptr);
+  if (bus.has(can::Party::controller) && bus.has(can::Party::base)) {
+    if (o.own_core) {
+      throw UsageError(
+          "bench goal: the robot's own controller drives it: no --planner, --rules or --view (bench watch "
+          "has one)");
+    }
+    return drive_through(bus, goal_of(o), o.for_s, o.json);
+  }
   check_place(bus, o.bus);
   hil::RecordingPlanners planners(o.planner);
   LoggedRun run(bus.name());
@@ -151,7 +161,8 @@ int drive(const SeatOptions& o) {
 
 void add_bench_drive(CLI::App& bench, int& status) {
   const auto goes = std::make_shared<SeatOptions>();
-  CLI::App* cmd = bench.add_subcommand("goal", "Drive a real base to a goal, with the core on this computer");
+  CLI::App* cmd = bench.add_subcommand(
+      "goal", "Drive to a goal: the robot's controller, or where it has none, the core on this computer");
   cmd->add_option("X", goes->x_m, "Goal in the frame of the base's start, m")->required()->type_name("X");
   cmd->add_option("Y", goes->y_m, "The same")->required()->type_name("Y");
   add_bench_bus(*cmd, goes->bus);
@@ -164,7 +175,10 @@ void add_bench_drive(CLI::App& bench, int& status) {
   add_planner(*cmd, goes->planner);
   add_view(*cmd, goes->view);
   add_switch(*cmd, "--json", goes->json, "Print the result as one JSON object and nothing else");
-  cmd->callback([o = goes, &status] { status = bench_status([&] { return goal(*o); }); });
+  cmd->callback([cmd, o = goes, &status] {
+    for (const char* const option : {"--planner", "--rules", "--view"}) o->own_core |= cmd->count(option) > 0;
+    status = bench_status([&] { return goal(*o); });
+  });
 
   const auto drives = std::make_shared<SeatOptions>();
   cmd = bench.add_subcommand("drive", "Drive a real base by hand; the guard on this computer keeps it safe");

@@ -68,7 +68,7 @@ int reset(const OrderOptions& o) { return press(o, can::kClearCommand); }
 
 int cancel(const OrderOptions& o) {
   BenchBus bus(o.bus);
-  bus.base()->cancel();
+  bus.client()->cancel();
   fmt::print("robot {}: cancelled\n", bus.robot());
   return 0;
 }
@@ -84,7 +84,7 @@ void add_bench_orders(CLI::App& bench, int& status) {
   };
   add("stop", "E-stop of the robot: the wheels brake and stand until reset", stop);
   add("reset", "Clear the E-stop, once the wheels stand; starts nothing", reset);
-  add("cancel", "Clear the goal of a controller that has no base", cancel);
+  add("cancel", "Stop the robot and clear its goal; its base may be on the bus", cancel);
 }
 
 }  // namespace whisker::cli

@@ -84,7 +84,7 @@ int get(const ParamOptions& o) {
   for (const std::string& name : o.names) places.push_back(as_usage([&] { return bench::place_of(name); }));
   for (std::size_t i = 0; o.all && i < static_cast<std::size_t>(kParams); ++i) places.push_back(i);
   BenchBus bus(o.bus);
-  const auto client = bus.base();
+  const auto client = bus.client();
   Params params;
   for (const std::size_t place : places) take(params, place, *client);
   const std::vector<ParamEntry> list = param_list(params), usual = param_list(Params{});
@@ -170,7 +170,7 @@ int set(const ParamOptions& o) {
     wanted.push_back(as_usage([&] { return bench::parse_assignment(text); }));
   }
   BenchBus bus(o.bus);
-  const auto client = bus.base();
+  const auto client = bus.client();
   const Params from = read_all(*client);
   Params to = from;
   for (const bench::Assignment& a : wanted) set_param(to, a.place, a.raw);
@@ -183,7 +183,7 @@ int set(const ParamOptions& o) {
 int save(const ParamOptions& o) {
   check_outputs({o.file});
   BenchBus bus(o.bus);
-  const auto client = bus.base();
+  const auto client = bus.client();
   const Params params = read_all(*client);
   const bench::SeenNode* const node = bus.survey().find(bus.robot(), can::Party::controller);
   const std::uint32_t v = node != nullptr ? node->version.value_or(0) : 0;
@@ -199,7 +199,7 @@ int restore(const ParamOptions& o) {
   Params alone;
   apply_robot_file(alone, o.file);
   BenchBus bus(o.bus);
-  const auto client = bus.base();
+  const auto client = bus.client();
   const Params from = read_all(*client);
   Params to = from;
   apply_robot_file(to, o.file);

@@ -41,7 +41,7 @@ std::string reason(can::RulesStatus status) {
   return "the table is incomplete";
 }
 
-can::RulesReply send(const RulesOptions& o, bench::ParamClient& client, const fuzzy::Bilinear::Table* table) {
+can::RulesReply send(const RulesOptions& o, bench::BaseClient& client, const fuzzy::Bilinear::Table* table) {
   const can::RulesReply reply = client.send_rules(o.restore ? nullptr : table);
   if (reply.status == can::RulesStatus::activated) return reply;
   throw bench::NoAnswer(fmt::format("the controller says {}: {}",

@@ -31,9 +31,8 @@ void check_place(BenchBus& bus, const BenchChoice& choice) {
   };
   const auto found = [&] {
     if (there(can::Party::controller)) {
-      throw bench::NoAnswer(fmt::format(
-          "{}: robot {} has a controller (node {}), which obeys its base only: take it off the bus first",
-          bus.name(), bus.robot(), bus.robot()));
+      throw bench::NoAnswer(fmt::format("{}: robot {} has a controller (node {}): take it off the bus first",
+                                        bus.name(), bus.robot(), bus.robot()));
     }
     return there(can::Party::base);
   };

@@ -8,6 +8,7 @@
 #include "host/cli/bus_options.hpp"
 #include "host/cli/bus_run.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"

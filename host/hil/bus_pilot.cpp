@@ -8,6 +8,7 @@
 #include "firmware/localization/odometry.hpp"
 #include "host/hil/base_words.hpp"
 #include "host/hil/overheard.hpp"
+#include "host/hil/param_question.hpp"
 #include "host/hil/resend.hpp"
 #include "host/run/fix_source.hpp"
 #include "host/run/spec.hpp"
@@ -19,7 +20,6 @@ namespace {
 constexpr std::uint64_t kAskAgain_us = 200000;
 constexpr std::uint64_t kNoRules_us = 1000000;
 constexpr int kMostDamaged = 3;
-constexpr std::uint8_t kCommitIndex = 255;  // distinguishes the reply from that to a write
 
 std::int16_t ramp_of(const Params& p) {
   const std::int32_t um_per_s = (p.wheels.max_acceleration * p.safety.period).raw();
@@ -281,21 +281,19 @@ class BusPilot final : public Pilot {
     for (std::uint8_t i = 0; can::read_param(params_, i, raw); ++i) {
       ask({can::ParamAction::write, i, raw});
     }
-    ask({can::ParamAction::commit, kCommitIndex, 0});
+    ask({can::ParamAction::commit, can::kCommitIndex, 0});
   }
 
   void ask(const can::ParamRequest& request) {
-    can::ParamReply reply;
+    ParamQuestion question(request, std::uint64_t{options_.resend_ms} * 1000);
     ask_for("ParamReply");
-    do {
+    const auto answers = [](const can::ParamReply& r) { return r.status != can::ParamStatus::busy; };
+    while (!question.poll(node_, clock_.now_us(), answers)) {
+      watchful_nap();
       watch_patience();
-      node_.request(request);
-      for (std::uint32_t waited = 0; waited < options_.resend_ms; ++waited) {
-        watchful_nap();
-        if (node_.replied(reply) && reply.index == request.index) break;
-      }
-    } while (!node_.replied(reply) || reply.index != request.index || reply.status == can::ParamStatus::busy);
-    if (reply.status != can::ParamStatus::ok) throw std::runtime_error("the controller refuses a parameter");
+    }
+    if (question.reply().status != can::ParamStatus::ok)
+      throw std::runtime_error("the controller refuses a parameter");
   }
 
   Status in_lockstep(std::uint32_t tick) {

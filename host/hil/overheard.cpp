@@ -4,17 +4,12 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/headers.hpp"
+#include "firmware/can/limits.hpp"
 
 namespace whisker::hil {
 namespace {
 
 using can::MessageKind;
-
-template <class M, class F>
-void with(const hal::CanFrame& frame, const F& use) {
-  M message;
-  if (can::decode(frame, message)) use(message);
-}
 
 bool has_kind(const hal::CanFrame& frame, MessageKind& kind) {
   return !frame.extended && !frame.remote && can::kind_of(frame.id, kind);
@@ -39,7 +34,7 @@ std::optional<Sender> sender_of(const hal::CanFrame& frame) {
 
 std::optional<OperatorFrame> operator_frame(const hal::CanFrame& frame) {
   MessageKind kind = MessageKind::e_stop;
-  if (!has_kind(frame, kind) || !can::head_of(kind).from_operator) return {};
+  if (!has_kind(frame, kind) || !can::is_operator(frame.id & 0x0F, kind)) return {};
   return OperatorFrame{kind, static_cast<int>(frame.id & 0x0F), is_whole(frame, kind)};
 }
 
@@ -54,9 +49,13 @@ Status status_of(const can::NavStatus& told) {
   return s;
 }
 
-Overheard::Overheard(const Params& params, Accepted accepted)
-    : params_(params), accepted_(std::move(accepted)) {
-  server_.stage(params);
+Overheard::Overheard(const Params& params, Accepted accepted) : accepted_(std::move(accepted)) {
+  server_.set(params);
+}
+
+void Overheard::restarted() {
+  base_.accepted = operator_.accepted = -1;
+  server_.drop(can::Requester::base);
 }
 
 void Overheard::on_frame(MessageKind kind, const hal::CanFrame& frame) {
@@ -71,13 +70,27 @@ void Overheard::on_frame(MessageKind kind, const hal::CanFrame& frame) {
     case MessageKind::fix:
       return with<can::FixValue>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
     case MessageKind::sync: return with<can::Sync>(frame, [&](const auto& m) { sets_.on_frame(m), keep(); });
-    case MessageKind::mission: return on_mission(frame);
     case MessageKind::mission_reply:
       return with<can::MissionReply>(frame, [&](const auto& m) { on_reply(m); });
-    case MessageKind::param_request:
-      return with<can::ParamRequest>(frame, [&](const auto& m) { request_ = m; });
     case MessageKind::param_reply: return with<can::ParamReply>(frame, [&](const auto& m) { on_reply(m); });
-    default: break;
+    default: return on_request(base_, kind, frame);
+  }
+}
+
+void Overheard::on_operator(MessageKind kind, const hal::CanFrame& frame, std::uint64_t time_us) {
+  // As the controller does.
+  if (time_us - operator_us_ > std::uint64_t{can::kPeerLost_ms} * 1000) {
+    operator_ = {};
+    server_.drop(can::Requester::third_party);
+  }
+  operator_us_ = time_us;
+  on_request(operator_, kind, frame);
+}
+
+void Overheard::on_request(Requests& from, MessageKind kind, const hal::CanFrame& frame) {
+  if (kind == MessageKind::mission) on_mission(from, frame);
+  if (kind == MessageKind::param_request) {
+    with<can::ParamRequest>(frame, [&](const auto& m) { from.param = m; });
   }
 }
 
@@ -99,29 +112,33 @@ void Overheard::keep() {
   kept_[set.tick % kKept] = set;
 }
 
-void Overheard::on_mission(const hal::CanFrame& frame) {
+void Overheard::on_mission(Requests& from, const hal::CanFrame& frame) {
   can::MissionValue part;
   if (!can::decode(frame, part)) return;
-  if (part.part != can::MissionPart::order) return parts_.on_frame(part);
-  with<can::MissionOrder>(frame, [&](const auto& m) { order_ = m; });
+  if (part.part != can::MissionPart::order) return from.parts.on_frame(part);
+  with<can::MissionOrder>(frame, [&](const auto& m) { from.order = m; });
 }
 
 void Overheard::on_reply(const can::MissionReply& reply) {
-  if (reply.status != can::MissionStatus::accepted || !order_ || reply.mission != order_->mission) return;
+  Requests& to = of(reply.to_operator);
+  if (reply.status != can::MissionStatus::accepted || !to.order || reply.mission != to.order->mission) return;
   can::Mission mission;
-  const bool known = parts_.complete(*order_) && can::mission_of(parts_.values(), mission);
-  if (reply.mission == accepted_mission_ || !known) return;
-  accepted_mission_ = reply.mission;
-  for (auto& set : kept_) set.reset();
-  sets_.forget();
-  accepted_(order_->order, mission);
+  const bool known = to.parts.complete(*to.order) && can::mission_of(to.parts.values(), mission);
+  if (reply.mission == to.accepted || !known) return;
+  to.accepted = reply.mission;
+  const bool of_base = reply.to_operator == 0;
+  if (of_base) {
+    for (auto& set : kept_) set.reset();
+    sets_.forget();
+  }
+  accepted_(of_base ? can::Requester::base : can::Requester::third_party, to.order->order, mission);
 }
 
 void Overheard::on_reply(const can::ParamReply& reply) {
-  if (!request_ || reply.index != request_->index) return;
-  bool committed = false;
-  server_.answer(*request_, reply.status == can::ParamStatus::busy, committed);
-  if (committed) params_ = server_.staged();
+  const Requests& to = of(reply.to_operator);
+  if (!to.param || reply.index != to.param->index) return;
+  server_.answer(*to.param, reply.to_operator != 0 ? can::Requester::third_party : can::Requester::base,
+                 reply.status == can::ParamStatus::busy);
 }
 
 }  // namespace whisker::hil

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "firmware/can/codec.hpp"
 #include "firmware/can/ids.hpp"
 #include "firmware/can/input_set.hpp"
 #include "firmware/can/mission.hpp"
@@ -14,6 +15,13 @@
 #include "hal/can_port.hpp"
 
 namespace whisker::hil {
+
+/// Passes the message of the frame on, unless a value is out of range.
+template <class M, class F>
+void with(const hal::CanFrame& frame, const F& use) {
+  M message;
+  if (can::decode(frame, message)) use(message);
+}
 
 struct Sender {
   can::MessageKind kind;
@@ -41,18 +49,21 @@ Status status_of(const can::NavStatus& told);
 /// Input sets, missions and parameters of one robot.
 class Overheard {
  public:
-  /// Called for each order that the controller accepts, once.
-  using Accepted = std::function<void(can::Order, const can::Mission&)>;
+  /// Called for each order that the controller accepts, once. Of the operator's missions only the goal
+  /// counts.
+  using Accepted = std::function<void(can::Requester, can::Order, const can::Mission&)>;
 
-  /// params: those of the robot, until a base transfers others.
+  /// params: those of the robot, until others are committed.
   Overheard(const Params& params, Accepted accepted);
 
-  /// Every whole frame of the robot.
+  /// Every whole frame of the robot's nodes.
   void on_frame(can::MessageKind kind, const hal::CanFrame& frame);
+  /// Every whole frame of its operator. time_us: of any clock.
+  void on_operator(can::MessageKind kind, const hal::CanFrame& frame, std::uint64_t time_us);
   /// A node restarted: the number of the last mission may come again.
-  void restarted() { accepted_mission_ = -1; }
+  void restarted();
 
-  const Params& params() const { return params_; }
+  const Params& params() const { return server_.committed(); }
   /// The complete input set of this tick of the current mission; null if it is not kept.
   const can::InputSet* set_of(std::uint16_t tick16) const;
 
@@ -61,20 +72,26 @@ class Overheard {
 
   template <can::MessageKind kKind>
   void on_range(int beam, const hal::CanFrame& frame);
-  void on_mission(const hal::CanFrame& frame);
+  /// What a requester has sent, and its last order that was accepted.
+  struct Requests {
+    can::MissionParts parts;
+    std::optional<can::MissionOrder> order;
+    int accepted = -1;
+    std::optional<can::ParamRequest> param;
+  };
+  Requests& of(std::uint8_t to_operator) { return to_operator != 0 ? operator_ : base_; }
+  void on_request(Requests& from, can::MessageKind kind, const hal::CanFrame& frame);
+  void on_mission(Requests& from, const hal::CanFrame& frame);
   void on_reply(const can::MissionReply& reply);
   void on_reply(const can::ParamReply& reply);
   void keep();
 
-  Params params_;
   const Accepted accepted_;
   can::InputSets sets_;
   std::array<std::optional<can::InputSet>, kKept> kept_;
-  can::MissionParts parts_;
-  std::optional<can::MissionOrder> order_;
-  std::optional<can::ParamRequest> request_;
+  Requests base_, operator_;
+  std::uint64_t operator_us_ = 0;  // of its last frame
   can::ParamServer server_;
-  int accepted_mission_ = -1;
 };
 
 }  // namespace whisker::hil

@@ -29,10 +29,11 @@ class Replay {
     result_.robot = options.robot;
   }
 
-  void on_frame(const hal::CanFrame& frame, std::uint64_t line) {
+  void on_frame(const LogFrame& entry, std::uint64_t line) {
     line_ = line;
+    const hal::CanFrame& frame = entry.frame;
     const std::optional<Sender> sender = sender_of(frame);
-    if (!sender) return hear_operator(frame);
+    if (!sender) return hear_operator(entry);
     if (result_.robot == 0 && sender->whole) result_.robot = sender->robot;
     if (sender->robot != result_.robot) return;
     ++(sender->whole ? result_.frames : result_.damaged);
@@ -75,13 +76,8 @@ class Replay {
     }
   }
 
-  template <class M, class F>
-  void with(const hal::CanFrame& frame, const F& use) {
-    M m;
-    if (can::decode(frame, m)) use(m);
-  }
-
-  void accept(can::Order order, const can::Mission& mission) {
+  void accept(can::Requester who, can::Order order, const can::Mission& mission) {
+    if (who != can::Requester::base) return accept_operator(order, mission.goal);
     if (calibrates(order)) {
       throw std::runtime_error(
           "the log has a calibration: what the controller kept before is not in it, so it cannot be "
@@ -97,12 +93,23 @@ class Replay {
     stepped_ = false;
   }
 
-  void hear_operator(const hal::CanFrame& frame) {
+  /// The pose is not in the log: it is the estimate of the last step.
+  void accept_operator(can::Order order, const planning::Goal& goal) {
+    if (!pilot_->ready()) return;
+    const bool anew = order == can::Order::start;
+    if (anew) ++result_.missions;
+    if (anew && options_.begins) options_.begins({status_.pose, goal}, overheard_.params());
+    pilot_->execute_operator(order, goal, overheard_.params());
+  }
+
+  void hear_operator(const LogFrame& entry) {
+    const hal::CanFrame& frame = entry.frame;
     const std::optional<OperatorFrame> said = operator_frame(frame);
     if (!said || said->robot != result_.robot || !said->whole) return;
     const auto hear = [this](const auto& m) { guard_.on_frame(m); };
     if (said->kind == MessageKind::velocity) with<can::VelocityCommand>(frame, hear);
     if (said->kind == MessageKind::vouch) with<can::VouchRequest>(frame, hear);
+    overheard_.on_operator(said->kind, frame, entry.time_us);
   }
 
   /// In lockstep an answer is repeated. Another one means that the log lacks the GuardStatus of the last.
@@ -226,7 +233,7 @@ class Replay {
   std::uint64_t line_ = 0;
 
   std::optional<can::RulesOrder> rules_order_;  // not answered
-  Overheard overheard_{Params{}, [this](can::Order o, const can::Mission& m) { accept(o, m); }};
+  Overheard overheard_{Params{}, [this](auto who, auto order, const auto& m) { accept(who, order, m); }};
   std::array<std::optional<std::uint16_t>, 2> boots_;
 
   Status status_;
@@ -246,7 +253,7 @@ ReplayResult replay(std::istream& log, const ReplayOptions& options) {
   for (std::uint64_t number = 1; std::getline(log, line); ++number) {
     if (line.empty()) continue;
     if (const auto entry = parse_log_line(line)) {
-      replay.on_frame(entry->frame, number);
+      replay.on_frame(*entry, number);
       continue;
     }
     const bool unfinished = log.eof() && line.front() == '(';

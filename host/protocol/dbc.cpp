@@ -46,14 +46,20 @@ class Writer {
     std::string mux;
     if (s.part == can::kMultiplexor) mux = " M";
     if (s.part >= 0) mux = fmt::format(" m{}", s.part);
-    const bool told = e.message->function == can::message_of(can::MessageKind::guard_status).function;
-    const std::string listener = e.sender.empty()           ? ""
-                                 : told                     ? "Operator"
-                                 : e.sender == "Controller" ? "Base"
-                                                            : "Controller";
     put(" SG_ {}{} : {}|{}@1{} ({},0) [{}|{}] \"{}\" {}\n", s.name, mux, s.start, s.length,
-        s.is_signed ? '-' : '+', s.factor, physical(s, s.min), physical(s, s.max), s.unit,
-        node(listener, robot_));
+        s.is_signed ? '-' : '+', s.factor, physical(s, s.min), physical(s, s.max), s.unit, listeners(e));
+  }
+
+  std::string listeners(const Entry& e) const {
+    if (e.sender.empty()) return node("", robot_);
+    if (e.sender != "Controller") return node("Controller", robot_);
+    if (is(e, can::MessageKind::guard_status)) return node("Operator", robot_);
+    const bool to_both = is(e, can::MessageKind::mission_reply) || is(e, can::MessageKind::param_reply);
+    return node("Base", robot_) + (to_both ? "," + node("Operator", robot_) : "");
+  }
+
+  static bool is(const Entry& e, can::MessageKind kind) {
+    return e.message->function == can::message_of(kind).function;
   }
 
   void comments(const Entry& e) {

@@ -20,14 +20,14 @@ std::vector<Entry> entries_of(std::uint8_t robot) {
   const can::Message& e_stop = can::message_of(can::MessageKind::e_stop);
   out.push_back({&e_stop, can::id_of(e_stop.function, 0), "EStopAll", ""});
   for (const can::Message& m : can::kMessages) {
-    const bool both = m.from_controller && m.from_base;
-    const auto add = [&](can::Party party, const char* sender) {
+    const auto add = [&](can::Party party, const char* sender, bool named) {
       const std::uint32_t id = can::id_of(m.function, can::node_of(robot, party));
-      out.push_back({&m, id, both ? fmt::format("{}{}", m.name, sender) : m.name, sender});
+      out.push_back({&m, id, named ? fmt::format("{}{}", m.name, sender) : m.name, sender});
     };
-    if (m.from_controller) add(can::Party::controller, "Controller");
-    if (m.from_base) add(can::Party::base, "Base");
-    if (m.from_operator) add(can::Party::controller, "Operator");
+    const bool both = m.from_controller && m.from_base;
+    if (m.from_controller) add(can::Party::controller, "Controller", both);
+    if (m.from_base) add(can::Party::base, "Base", both);
+    if (m.from_operator) add(can::Party::controller, "Operator", m.from_base);
   }
   std::sort(out.begin(), out.end(), [](const Entry& a, const Entry& b) { return a.id < b.id; });
   return out;

@@ -113,6 +113,14 @@ class Section {
   void others() {
     row("write index 0: 80000", can::ParamRequest{can::ParamAction::write, 0, 80000}, kBase);
     row("ok, index 0: 80000", can::ParamReply{can::ParamStatus::ok, 0, 80000}, kController);
+    row("of the operator: read index 0", can::ParamRequest{can::ParamAction::read, 0, 0}, kOperator);
+    row("ok, index 0: 80000, to the operator", can::ParamReply{can::ParamStatus::ok, 0, 80000, 1},
+        kController, 1);
+    const std::uint16_t digest = can::digest_of(can::values_of({{}, {{}, 1_mm}}));
+    row(fmt::format("9 of the operator, part 0: cancel, Digest 0x{:04X}", digest),
+        can::MissionOrder{can::MissionPart::order, 9, can::Order::cancel, digest}, kOperator);
+    row("9: accepted, to the operator", can::MissionReply{can::MissionStatus::accepted, 9, 1}, kController,
+        1);
     row("part 0: X 1 m, Tick 2", can::FixValue{can::FixPart::x, 2, 1000000}, kBase);
     row("accepted, Tick 2", can::FixReply{can::FixStatus::accepted, 2, 0, 0}, kController);
     row("of the operator: 0.25 m/s ahead, -1 rad/s", can::VelocityCommand{2500, -1000}, kOperator);

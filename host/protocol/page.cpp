@@ -58,7 +58,7 @@ class Writer {
   }
 
   static std::string senders(const can::Message& m) {
-    if (m.from_operator) return "operator";
+    if (m.from_operator) return m.from_base ? "base and operator" : "operator";
     if (m.from_controller && m.from_base) return "both";
     return m.from_controller ? "controller" : "base";
   }

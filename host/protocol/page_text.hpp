@@ -19,9 +19,10 @@ frame has Crc in bits 0 to 7 and Counter in bits 8 to 11, which the tables omit;
 
 A robot has two nodes. The controller decides. The base has the sensors and the wheels, and sends the
 missions. Controllers are nodes 1 to 7; the base of controller n is node n + 8. Node 0 means all robots. A guard node is a controller that
-has no goals: an [operator](#an-operator-and-a-guard-node) commands its velocity.
+has no goals: an [operator](#an-operator-and-a-guard-node) commands its velocity. An operator may also give
+[goals and parameters](#an-operator-beside-controller-and-base).
 
-An identifier is `function << 4 | node of the sender`. An operator is no node. It sends functions that no node sends, with the number
+An identifier is `function << 4 | node of the sender`. An operator is no node. It sends functions that no controller sends, with the number
 of the robot's controller. So no two senders share an identifier, and a lower function has
 priority on the bus, whatever the node. A node that receives a valid frame with its own number stops permanently
 (duplicate_node), so an adapter must not echo.
@@ -123,11 +124,41 @@ before it steps ([odometry.md](odometry.md#fixes-from-outside)). A fix whose set
 refused means that the fix is a jump and the parameter fix_jumps is 1; out_of_range, that its place is more than 1,000 m from the origin, which is a
 fault. Neither changes the pose.
 
+## An operator beside controller and base
+
+An operator is a third party on the bus, such as a service tool. It takes part in no handshake, and is heard while controller and base match. It sends
+Mission and ParamRequest as the base does, with the controller's number in the identifier, and with its own counters and mission numbers. Operator is 1 in
+the MissionReply and ParamReply to it: the base ignores these, and the operator ignores the others.
+
+The base has the right to drive; an operator only says where to. An order of the operator is executed while the last order of the base holds, and the next
+order of the base voids it. It changes neither the ticks nor the Mission in Sync, and both nodes stay running.
+
+| order of the operator | what the controller does |
+|---|---|
+| resume | drives to this goal instead, from where the robot is, without a stop; the parameters stay |
+| start | drives to this goal from standstill, with a new robot at the estimated pose and the last committed parameters; its PoseSigma begins at 0 |
+| cancel | stops and clears the goal: Outcome becomes 0. Further orders of the operator are executed |
+
+| reply | reason |
+|---|---|
+| accepted, incomplete, out_of_range | as to the base |
+| refused | no order of the base holds (ready, safe_stop, e_stopped), no set was answered since, or Fault is not 0: the base must order first. To start also: the robot is not idle |
+| unsupported | spin and straight; every order during a calibration; every order to a guard node |
+
+An operator reads parameters at any time. It writes and commits only while the robot is idle; otherwise the reply is busy. It is idle while no order of the base
+holds; or while Outcome is not running, or the node is a guard node, the commanded speeds are 0, and the counts have not changed for 100 ms. While no order holds, an operator
+is also busy from a write of the base to its commit. Values that an operator has staged are void when the base writes or commits, and after {peer} ms without a frame of the
+operator. So nobody commits what another one has staged. A base that transfers its parameters before its next order replaces those of an operator.
+
+When the first frame of an operator arrives, or the first after {peer} ms of silence, the controller sends its Info: compare its table hash before you write or
+order. After such a silence, the first counter is valid whatever it is, and every number of an order is new. One robot has one operator: the frames of a second one disturb
+the counters of the first.
+
 ## An operator and a guard node
 
 A guard node takes the controller's place: handshake, parameters, orders, input sets, answers and time-outs are the same. It has
 [the guard](guard.md) instead of a planner. An operator, a third party on the bus, sends Velocity, at best every {velocity_cycle} ms. The guard node grants
-what is safe and says so in GuardStatus. All other nodes ignore an operator.
+what is safe and says so in GuardStatus. Other controllers ignore Velocity and Vouch.
 
 1. The base's order start creates a new guard; start pose and goal are not used, and its pose begins at 0. It lets the wheels be driven, as does
    resume after a stop. Neither moves them.
@@ -139,9 +170,8 @@ what is safe and says so in GuardStatus. All other nodes ignore an operator.
    GuardStatus is 1; another Number is a new one.
 5. NavStatus has the Outcome running until a Fault. A fault ends with the next order. A Fix is refused.
 
-The operator takes part in no handshake. When the first frame of an operator arrives, or the first after {peer} ms of silence, the guard node
-sends its Info; compare its table hash before you send a Velocity other than zero. After such a silence, the first counter is valid whatever it is.
-One robot has one operator: the frames of a second one disturb the counters of the first.
+As of [every operator](#an-operator-beside-controller-and-base), its first frame is answered by an Info: compare the table hash before you send a Velocity other than
+zero.
 
 In lockstep, the time of a Velocity is that of the next set, so an operator sends one at least every {velocity_late} ms of the robot's time.
 

@@ -1,4 +1,4 @@
-#include "host/bench/param_client.hpp"
+#include "host/bench/base_client.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ class Bench : public ::testing::Test, public hil::Clock {
   bus::MemoryPort& port_ = bus_.attach();
   can::RulesServerWith<1> rules_{fuzzy::kResponseTable};
   can::ControllerNode controller_{bus_.attach(), {1, 1, 0}, &rules_};
-  ParamClient client_{port_, *this, {1, 2, 0}, {500, nullptr}};
+  BaseClient client_{port_, *this, {1, 2, 0}, {500, nullptr}};
 };
 
 TEST_F(Bench, ReadsEveryParameterAndNoOther) {
@@ -99,7 +99,7 @@ TEST_F(Bench, SaysWhatWasStagedWhenTheControllerFallsSilent) {
 TEST_F(Bench, CancelsAndCanBeInterrupted) {
   connect();
   EXPECT_NO_THROW(client_.cancel());
-  ParamClient other(port_, *this, {1, 3, 0}, {500, [] { return true; }});
+  BaseClient other(port_, *this, {1, 3, 0}, {500, [] { return true; }});
   EXPECT_THROW(other.connect(), Interrupted);
 }
 

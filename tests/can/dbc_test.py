@@ -8,6 +8,7 @@ import importlib.util
 import io
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -58,8 +59,7 @@ class Canmatrix(unittest.TestCase):
                 self.assertLessEqual(abs(decoded[signal].phys_value - decimal.Decimal(number)), step / 2, line)
             self.assertEqual({s for s in decoded} - {"Crc"}, {v.partition("=")[0] for v in values}, line)
             seen.add(name)
-        messages = {name.removesuffix("Controller").removesuffix("Base").removesuffix("All") for name in seen}
-        everything = {f.name.removesuffix("Controller").removesuffix("Base").removesuffix("All") for f in matrix.frames}
+        messages, everything = ({re.sub("(Controller|Base|All)$", "", name) for name in names} for names in (seen, (f.name for f in matrix.frames)))
         self.assertEqual(everything - messages, {"InfoRequest"})
 
     def test_every_frame_of_a_run_decodes_and_keeps_its_ranges(self):

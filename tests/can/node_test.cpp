@@ -351,6 +351,27 @@ TEST_F(BaseAlone, BadFramesAreCountedAndNeverObeyed) {
   EXPECT_EQ(base_.command().speeds.left, before);
 }
 
+TEST_F(BaseAlone, AReplyToTheOperatorAnswersNothing) {
+  shake_hands();
+  base_.give(Order::start, {{}, {{}, 100_mm}}, SyncMode::real_time);
+  base_.request({ParamAction::read, 4, 0});
+  pass(2);
+  MissionOrder order;
+  ASSERT_TRUE(peer_.last(order));
+  peer_.say(MissionReply{MissionStatus::accepted, order.mission, 1});
+  peer_.say(ParamReply{ParamStatus::ok, 4, 1, 1});
+  pass(2);
+  ParamReply reply;
+  EXPECT_EQ(base_.order_state(), OrderState::waiting);
+  EXPECT_FALSE(base_.replied(reply));
+  peer_.say(MissionReply{MissionStatus::accepted, order.mission, 0});
+  peer_.say(ParamReply{ParamStatus::ok, 4, 2, 0});
+  pass(2);
+  EXPECT_EQ(base_.order_state(), OrderState::accepted);
+  ASSERT_TRUE(base_.replied(reply));
+  EXPECT_EQ(reply.value, 2U);
+}
+
 TEST_F(BaseAlone, EveryMessageOfAControllerIsUnderstoodByItsNameAndNoOther) {
   start();
   answers_ = beats_ = false;

@@ -67,7 +67,8 @@ class Rig {
         controller_port_(side_.wire().attach(), std::move(at_controller), seed + 1, repair),
         controller_(std::make_unique<can_app::Controller>(controller_port_, can::Identity{1, 22, 0},
                                                           planners != nullptr ? *planners : straight_)),
-        third(side_.wire(), 3) {
+        third(side_.wire(), 3),
+        hand(side_.wire(), 1) {
     third.poll(0);
   }
 
@@ -91,6 +92,7 @@ class Rig {
   bus::FaultPort& base_port() { return side_.port(); }
   bus::FaultPort& controller_port() { return controller_port_; }
   const Status& status() const { return controller_->status(); }
+  bus::MemoryBus& wire() { return side_.wire(); }
 
  private:
   void tick() {
@@ -98,6 +100,7 @@ class Rig {
     const hal::WheelSpeeds speeds = side_.tick([this](std::uint32_t now_ms) {
       controller_->poll(now_ms);
       third.poll(now_ms);
+      hand.poll(now_ms);
     });
     seen_.push_back({speeds, base().state(), controller().state(), base().errors(), controller().errors()});
   }
@@ -110,6 +113,7 @@ class Rig {
 
  public:
   Party third;  ///< of robot 3
+  Party hand;   ///< the operator; its number is that of the robot
 };
 
 }  // namespace whisker::test

@@ -39,6 +39,7 @@ std::uint32_t accounted(const BusHealth& h) {
 
 class Bench {
  public:
+  Bench() { controller_.accept_operator_orders(); }
   void step(Bytes& bytes) {
     const std::uint8_t what = bytes.next();
     if (what < 64) {
@@ -92,6 +93,7 @@ class Bench {
       controller_.poll(now_);
       Order order = Order::cancel;
       Mission mission;
+      if (controller_.take_operator_order(order, mission.goal)) require(!calibrates(order));
       if (controller_.take_order(order, mission)) inbox_.disarm();
       VelocityCommand velocity;
       std::uint32_t age_ms = 0;

@@ -12,6 +12,7 @@ import subprocess
 import tempfile
 import threading
 import time
+import unittest
 
 PATIENCE_S = 200  # for each step
 WATCH_S = 0.02  # between two polls
@@ -53,6 +54,28 @@ class Interface:
     def close(self):
         # The test may have failed while the interface was down.
         subprocess.run(["ip", "link", "del", self.name], capture_output=True, timeout=PATIENCE_S, check=False)
+
+
+class BusCase(unittest.TestCase):
+    """A test beside processes of the program `whisker` on the interface `bus`."""
+
+    whisker = None
+    bus = None
+
+    def setUp(self):
+        box = tempfile.TemporaryDirectory(prefix="whisker-vcan-")
+        self.addCleanup(box.cleanup)
+        self.folder = pathlib.Path(box.name)
+        self.interface = Interface(self.bus)
+        self.addCleanup(self.interface.close)
+
+    def once(self, *arguments):
+        return subprocess.run([self.whisker, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+
+    def start(self, *arguments):
+        running = Running(self.whisker, *arguments)
+        self.addCleanup(running.close)
+        return running
 
 
 class Valve:

@@ -4,18 +4,15 @@ usage: guard_test.py WHISKER ROOT
 """
 
 import json
-import pathlib
 import random
 import socket
 import struct
-import subprocess
 import sys
-import tempfile
 import threading
 import time
 import unittest
 
-from bus import PATIENCE_S, Candump, Interface, Running, wait_until
+from bus import PATIENCE_S, BusCase, Candump, wait_until
 
 BUS = "vguard0"
 ROBOT = 1
@@ -81,20 +78,11 @@ class Operator:
         self.bus.close()
 
 
-class OnTheBus(unittest.TestCase):
-    def setUp(self):
-        box = tempfile.TemporaryDirectory(prefix="whisker-guard-")
-        self.addCleanup(box.cleanup)
-        self.folder = pathlib.Path(box.name)
-        self.addCleanup(Interface(BUS).close)
+class OnTheBus(BusCase):
+    bus = BUS
 
     def guard_node(self, *arguments):
         self.start("controller", "--guard", "--can", BUS, *arguments).wait_for("waits for the base")
-
-    def start(self, *arguments):
-        running = Running(WHISKER, *arguments)
-        self.addCleanup(running.close)
-        return running
 
     def plant(self, seconds, wall_x, *arguments):
         world = self.folder / "world.toml"
@@ -158,8 +146,7 @@ class OnTheBus(unittest.TestCase):
         plant = self.plant(60, 1)
         commands = self.folder / "ahead.csv"
         commands.write_text("t_s,v_mps,omega_radps\n" + "".join(f"{i / 10},0.3,0\n" for i in range(50)))
-        done = subprocess.run([WHISKER, "bench", "drive", "--can", BUS, "--commands", commands, "--vouch", "0.3", "--json"], capture_output=True,
-                              text=True, timeout=PATIENCE_S, check=False)
+        done = self.once("bench", "drive", "--can", BUS, "--commands", commands, "--vouch", 0.3, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout)["outcome"], "ended")
         result = plant.result()
@@ -168,7 +155,7 @@ class OnTheBus(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    WHISKER, ROOT = sys.argv.pop(1), sys.argv.pop(1)
+    BusCase.whisker, ROOT = sys.argv.pop(1), sys.argv.pop(1)
     sys.path.insert(0, f"{ROOT}/docs/integration/peer")
     from document import Protocol  # noqa: E402
     from frames import Counters, decode, encode  # noqa: E402

@@ -9,32 +9,17 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from bus import PATIENCE_S, Candump, Interface, Meddler, Running, Valve, frames_of
+from bus import PATIENCE_S, BusCase, Candump, Meddler, Valve, frames_of
 
 KINDS = ("discs", "poles", "u-trap", "spiral", "maze", "rooms", "enclosed")
 BUS = "vhil0"
 FAR = "time_limit_s = 900.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 200.0\ny_m = 0.0\n"
 
 
-def once(*arguments):
-    return subprocess.run([WHISKER, *map(str, arguments)], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
-
-
-class OnTheBus(unittest.TestCase):
-    def setUp(self):
-        box = tempfile.TemporaryDirectory(prefix="whisker-hil-")
-        self.addCleanup(box.cleanup)
-        self.folder = pathlib.Path(box.name)
-        self.interface = Interface(BUS)
-        self.addCleanup(self.interface.close)
-
-    def start(self, *arguments):
-        running = Running(WHISKER, *arguments)
-        self.addCleanup(running.close)
-        return running
+class OnTheBus(BusCase):
+    bus = BUS
 
     def start_behind_valve(self, *arguments):
         """The plant, which cannot finish its run before the valve opens."""
@@ -42,25 +27,25 @@ class OnTheBus(unittest.TestCase):
         return self.start("plant", *arguments, "--record", self.folder / "valve"), valve
 
     def world(self, kind, seconds):
-        text = once("world", kind, "--seed", 4, "--noise").stdout
+        text = self.once("world", kind, "--seed", 4, "--noise").stdout
         path = self.folder / f"{kind}-{seconds}.toml"
         path.write_text(re.sub(r"(?m)^time_limit_s *=.*$", f"time_limit_s = {seconds}", text))
         return path
 
     def hash_of(self, scenario):
-        return json.loads(once("run", scenario, "--json").stdout)["hash"]
+        return json.loads(self.once("run", scenario, "--json").stdout)["hash"]
 
     def test_the_trajectory_is_that_of_one_process(self):
         for kind in KINDS:
             scenario = self.world(kind, 3)
-            both = json.loads(once("hil", scenario, "--can", BUS, "--json").stdout)
+            both = json.loads(self.once("hil", scenario, "--can", BUS, "--json").stdout)
             self.assertEqual(both["hash"], self.hash_of(scenario), kind)
 
     def test_so_it_is_when_two_per_cent_of_the_frames_are_lost(self):
         lost = 0
         for kind in KINDS:
             scenario = self.world(kind, 1)
-            both = json.loads(once("hil", scenario, "--can", BUS, "--drop", 2, "--json").stdout)
+            both = json.loads(self.once("hil", scenario, "--can", BUS, "--drop", 2, "--json").stdout)
             self.assertEqual(both["hash"], self.hash_of(scenario), kind)
             lost += both["bus"]["lost"]
         self.assertGreater(lost, 0)
@@ -69,7 +54,7 @@ class OnTheBus(unittest.TestCase):
         scenario = self.world("u-trap", 3)
         meddler = Meddler(BUS)
         try:
-            both = json.loads(once("hil", scenario, "--can", BUS, "--json").stdout)
+            both = json.loads(self.once("hil", scenario, "--can", BUS, "--json").stdout)
         finally:
             said = meddler.end()
         self.assertEqual((both["hash"], both["bus"]["safe_stops"]), (self.hash_of(scenario), 0))
@@ -134,14 +119,14 @@ class OnTheBus(unittest.TestCase):
 
     def test_what_candump_wrote_replays(self):
         dump = Candump(self.folder / "candump.log", BUS)
-        result = json.loads(once("hil", self.world("rooms", 6), "--can", BUS, "--json").stdout)
+        result = json.loads(self.once("hil", self.world("rooms", 6), "--can", BUS, "--json").stdout)
         dump.end()
-        replay = json.loads(once("replay", dump.path, "--json").stdout)
+        replay = json.loads(self.once("replay", dump.path, "--json").stdout)
         self.assertEqual((replay["same"], replay["hash"], replay["steps"]), (True, result["hash"], result["ticks"]))
 
     def test_others_read_and_play_what_was_recorded(self):
         log = self.folder / "run.log"
-        result = json.loads(once("hil", self.world("discs", 3), "--record", log, "--json").stdout)
+        result = json.loads(self.once("hil", self.world("discs", 3), "--record", log, "--json").stdout)
         frames = frames_of(log.read_text().splitlines())
 
         fields = ("-T", "fields", "-E", "separator=#", "-e", "can.id", "-e", "data.data")
@@ -152,7 +137,7 @@ class OnTheBus(unittest.TestCase):
         dump = Candump(self.folder / "played.log", BUS)
         subprocess.run(["canplayer", "-t", "-I", log, f"{BUS}=private"], timeout=PATIENCE_S, check=True)
         self.assertEqual(frames_of(dump.end()), frames)
-        replay = json.loads(once("replay", dump.path, "--json").stdout)
+        replay = json.loads(self.once("replay", dump.path, "--json").stdout)
         self.assertEqual((replay["same"], replay["hash"]), (True, result["hash"]))
 
     def test_two_robots_share_the_bus(self):
@@ -171,7 +156,7 @@ class OnTheBus(unittest.TestCase):
         self.assertEqual((plant.process.returncode, result["outcome"], result["detail"]), (6, "fault", "duplicate_node"))
 
     def test_real_time_tells_its_figures(self):
-        result = json.loads(once("hil", self.world("discs", 3), "--can", BUS, "--realtime", "--json").stdout)
+        result = json.loads(self.once("hil", self.world("discs", 3), "--can", BUS, "--realtime", "--json").stdout)
         self.assertEqual(result["bus"]["sets"], result["ticks"])
         for key in ("deadline_misses", "round_trip_us", "load_percent"):
             self.assertIn(key, result["bus"])
@@ -180,5 +165,5 @@ class OnTheBus(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    WHISKER = sys.argv.pop(1)
+    BusCase.whisker = sys.argv.pop(1)
     unittest.main(verbosity=2)

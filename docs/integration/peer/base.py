@@ -112,7 +112,7 @@ class Base:
             self.hear_info(values)
         elif message.name == "InfoRequest":
             self.inform()
-        elif self.matched():
+        elif self.matched() and not values.get("Operator"):
             self.heard[message.name] = values
 
     def hear_heartbeat(self, values):

@@ -19,6 +19,7 @@ class Controller {
              can::RulesServer* rules = nullptr, planning::Calibrator* calibrator = nullptr) noexcept
       : node_(port, identity, rules), pilot_(planners, calibrator), calibrator_(calibrator) {
     if (calibrator != nullptr) node_.accept_calibrations();
+    node_.accept_operator_orders();
   }
 
   /// Call it every millisecond. True: the core executed a step; status() is new.
@@ -26,6 +27,10 @@ class Controller {
     node_.poll(now_ms);
     can::Order order = can::Order::cancel;
     can::Mission mission;
+    if (node_.take_operator_order(order, mission.goal)) {
+      pilot_.execute_operator(order, mission.goal, node_.params());
+      ended_ = false;
+    }
     if (node_.take_order(order, mission)) {
       pilot_.execute(order, mission, node_.params());
       ended_ = false;

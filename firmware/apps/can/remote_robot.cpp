@@ -37,6 +37,17 @@ void RemoteRobot::execute(can::Order order, const can::Mission& mission, const P
   }
 }
 
+void RemoteRobot::execute_operator(can::Order order, const planning::Goal& goal,
+                                   const Params& params) noexcept {
+  if (order == can::Order::start) {
+    execute(order, {robot_->status().pose, goal}, params);
+  } else if (order == can::Order::cancel) {
+    robot_->cancel();
+  } else {
+    robot_->set_goal(goal);
+  }
+}
+
 void RemoteRobot::begin(planning::Planner& planner, const can::Mission& mission) noexcept {
   board_ = RemoteBoard{};
   robot_ = &room_.make<Robot>(board_, board_, planner, params_, &board_, &board_);

@@ -33,6 +33,9 @@ class RemoteRobot {
   /// Orders that drive, except resume: with these parameters, from the mission's place. resume and cancel
   /// need a robot: see ready().
   void execute(can::Order order, const can::Mission& mission, const Params& params) noexcept;
+  /// An order of the operator, from where the robot is: start creates it anew, and its PoseSigma begins at 0.
+  /// Only when ready(), and not for a calibration.
+  void execute_operator(can::Order order, const planning::Goal& goal, const Params& params) noexcept;
   bool ready() const noexcept { return robot_ != nullptr; }
   /// One control tick, at the time of the set's tick. Only when ready().
   const Status& step(const can::InputSet& set, bool braked) noexcept;
