@@ -71,8 +71,8 @@ class LocalGrid {
   /// from there on, stay as they are, and so do suspect ones.
   void vouch(Vec centre, Length radius, const Beam (&beams)[3], const Length (&free)[3]) noexcept;
   /// Opens a lane through a narrow gap: it begins here, and leads along this heading. On the lane, the ground
-  /// is also known in cells that lie along it. It holds until the next one, or until an echo or a touch takes
-  /// back ground.
+  /// is also known in cells that lie along it. It holds until the next one, or until a touch takes back
+  /// ground; an echo takes back cells of both.
   void open_lane(const Pose& from) noexcept { lane_->open(from); }
   const Lane& lane() const noexcept { return *lane_.operator->(); }
   /// Something moved during the last second.

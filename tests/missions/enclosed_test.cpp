@@ -94,6 +94,20 @@ TEST(Gap, NarrowerThanNamedIsPassedOnALane) {
   }
 }
 
+/// A gap of 1.25 diameters between the two places where the loops in both directions close, and one whose
+/// jambs appear in the side beams while the body creeps.
+TEST(Gap, OnTheSeamOfBothLoopsIsPassed) {
+  for (const std::uint64_t seed : {1330018U, 1330041U, 1330003U, 1330008U}) {
+    worlds::Options options;
+    options.seed = seed;
+    options.gap_m = 0.225;
+    RunOptions run_options;
+    run_options.planner = PlannerKind::skirt;
+    const RunResult r = run(worlds::generate(worlds::Kind::gap, options), run_options);
+    EXPECT_EQ(r.verdict, Verdict::reached) << seed << ": " << r.detail;
+  }
+}
+
 /// Larger than the window of any map: not worse than without a map.
 TEST(ContestMaze, IsSolvedAsOftenAsWithoutAMap) {
   const std::uint64_t count = test::effort(2, 20);

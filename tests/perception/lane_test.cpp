@@ -40,6 +40,18 @@ TEST(Lane, HoldsNoStepBeyondItsEnd) {
   EXPECT_FALSE(lane.holds({300_mm, 0_mm}, Angle{}, 10_mm, kRadius));
 }
 
+/// An echo 200 mm ahead in a cone of 10 degrees: the cells before it and beside it stay clear.
+TEST(Lane, AnEchoTakesBackTheCellsThatItMayComeFrom) {
+  Lane lane = clear_to(380_mm);
+  lane.take_back({{0_mm, 0_mm}, Angle{}, 5_deg}, 200_mm, 200_mm);
+  EXPECT_FALSE(lane.is_clear({205_mm, 0_mm}));
+  EXPECT_TRUE(lane.is_clear({180_mm, 0_mm}));
+  EXPECT_TRUE(lane.is_clear({230_mm, 0_mm}));
+  EXPECT_TRUE(lane.is_clear({205_mm, 50_mm}));
+  lane.take_back({{200_mm, -(300_mm)}, 90_deg, 5_deg}, 100_mm, 100_mm);
+  EXPECT_TRUE(lane.is_clear({200_mm, -(90_mm)})) << "an echo from beside the lane takes nothing of it";
+}
+
 TEST(Lane, ForgetsGroundAfterTwoSpans) {
   Lane lane = clear_to(380_mm);
   lane.age();

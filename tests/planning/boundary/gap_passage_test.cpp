@@ -126,13 +126,13 @@ int passed(Place place, double width) {
 }
 
 TEST(GapPassage, MeasuresTheMiddleBetweenRoundPostsToAMillimetre) {
-  EXPECT_GE(passed(posts, 0.225), 3);
+  EXPECT_EQ(passed(posts, 0.225), 4);
   EXPECT_EQ(passed(posts, 0.24), 4);
   EXPECT_EQ(passed(posts, 0.27), 4);
 }
 
 TEST(GapPassage, MeasuresTheMiddleBetweenCornersToAMillimetre) {
-  EXPECT_GE(passed(corners, 0.225), 3);
+  EXPECT_EQ(passed(corners, 0.225), 4);
   EXPECT_EQ(passed(corners, 0.24), 4);
   EXPECT_EQ(passed(corners, 0.27), 4);
 }

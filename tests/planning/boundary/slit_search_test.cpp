@@ -159,13 +159,24 @@ TEST_F(SlitSearchTest, ExpectsASlitForAMetreAndAHalf) {
   const Ground ground = slit_at({});
   View view = ground.view();
   behaviours.progress.start(view);
-  EXPECT_FALSE(slits.expected(view)) << "none is known";
   slits.look(view, kAhead);
   EXPECT_TRUE(slits.expected(view));
   view.travelled_um = 1'490'000;
   behaviours.progress.move(view, params);
   EXPECT_TRUE(slits.expected(view));
   view.travelled_um = 1'510'000;
+  behaviours.progress.move(view, params);
+  EXPECT_FALSE(slits.expected(view));
+}
+
+TEST_F(SlitSearchTest, ExpectsAnUnknownSlitWhereTheLoopBegan) {
+  View view = Ground().view();
+  behaviours.progress.start(view);
+  EXPECT_TRUE(slits.expected(view));
+  view.travelled_um = 590'000;
+  behaviours.progress.move(view, params);
+  EXPECT_TRUE(slits.expected(view));
+  view.travelled_um = 610'000;
   behaviours.progress.move(view, params);
   EXPECT_FALSE(slits.expected(view));
 }
