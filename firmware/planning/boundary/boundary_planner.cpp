@@ -182,7 +182,7 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       begin_approach(Event::nearer);
       return true;
     }
-    if (kNarrowGaps) slits_->look_beside(view, wall_);
+    if (kNarrowGaps) slits_->look_on_boundary(view, wall_);
     if (kNarrowGaps && (other_way_ || slits_->expects()) && try_slit(view)) return false;
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);

@@ -47,10 +47,11 @@ void SlitSearch::look(const View& view, Angle ahead) noexcept {
   known_ = static_cast<uint8_t>(known_ | 1U << newest_);
 }
 
-void SlitSearch::look_beside(const View& view, Side wall) noexcept {
+void SlitSearch::look_on_boundary(const View& view, Side wall) noexcept {
   const int32_t travel_mm = behaviours_.progress.travel_mm();
   if (travel_mm - looked_mm_ <= behaviours_.mm(kEvery)) return;
   looked_mm_ = travel_mm;
+  look(view, view.pose.heading);
   for (int32_t degrees = 60; degrees <= 105; degrees += 15) {
     look(view, view.pose.heading + 1_deg * (degrees * sign(wall)));
   }
@@ -92,14 +93,14 @@ Pose SlitSearch::take(const View& view) noexcept {
 }
 
 bool SlitSearch::tried(Vec at) const noexcept {
-  for (int i = 0; i < attempts_; ++i) {
+  for (int i = 0; i < attempts_ && i < kKeptTried; ++i) {
     if (!farther(at - tried_[i], for_body(behaviours_.params, kTried))) return true;
   }
   return false;
 }
 
 void SlitSearch::end_attempt() noexcept {
-  if (attempts_ < kAttempts) tried_[attempts_++] = taken_;
+  if (attempts_ < kAttempts) tried_[attempts_++ % kKeptTried] = taken_;
   for (int i = 0; i < kKept; ++i) {
     if (attempts_ == kAttempts || tried(slits_[i].at)) known_ = static_cast<uint8_t>(known_ & ~(1U << i));
   }

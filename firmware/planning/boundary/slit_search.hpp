@@ -20,8 +20,8 @@ class SlitSearch {
   void begin_loop() noexcept { expected_ = false; }
   /// Remembers a slit at this heading from the body, if there is one and it may be tried from here.
   void look(const View& view, Angle ahead) noexcept;
-  /// The same at some headings on the side of the wall; not more often than every 20 mm.
-  void look_beside(const View& view, Side wall) noexcept;
+  /// The same straight ahead, and at some headings on the side of the wall; not more often than every 20 mm.
+  void look_on_boundary(const View& view, Side wall) noexcept;
   /// There is a slit that was not tried.
   bool known() const noexcept { return known_ != 0; }
   /// The body is near the place from which a slit was seen, near enough to try it.
@@ -34,8 +34,8 @@ class SlitSearch {
   void end_loop(const View& view) noexcept;
   /// A place in the slit at hand, and the heading there. Forgets it.
   Pose take(const View& view) noexcept;
-  /// The slit that was taken last was tried in vain: none within 50 mm of it is tried again. After three such
-  /// attempts in a mission, there are no slits.
+  /// The slit that was taken last was tried in vain: none within 50 mm of the last three such slits is tried.
+  /// After six such attempts in a mission, there are no slits.
   void end_attempt() noexcept;
 
  private:
@@ -44,7 +44,8 @@ class SlitSearch {
   uint8_t within(const View& view, Length reference) const noexcept;
   static constexpr Length kAtHand = Length::from_raw(200000);  // for the reference body
   static constexpr int kKept = 4;
-  static constexpr int kAttempts = 3;
+  static constexpr int kAttempts = 6;
+  static constexpr int kKeptTried = 3;
 
   const Behaviours& behaviours_;
   uint8_t known_ = 0;  // one bit for each slit
@@ -52,9 +53,9 @@ class SlitSearch {
   int8_t attempts_ = 0;  // in vain
   bool expected_ = false;
   Pose slits_[kKept];
-  Vec tried_[kAttempts];     // slits
+  Vec tried_[kKeptTried];    // slits
   Vec taken_;                // the slit that was taken last
-  int32_t looked_mm_ = 0;    // travel at the last look beside
+  int32_t looked_mm_ = 0;    // travel at the last look on the boundary
   int32_t expected_mm_ = 0;  // travel up to which it is expected
 };
 

@@ -92,12 +92,12 @@ TEST_F(SlitSearchTest, LooksOnTheSideOfTheWall) {
     behaviours.progress.start(view);
     view.travelled_um += 21'000;
     behaviours.progress.move(view, params);
-    slits.look_beside(view, wall);
+    slits.look_on_boundary(view, wall);
     EXPECT_TRUE(slits.known());
     slits.reset();
     view.travelled_um += 21'000;
     behaviours.progress.move(view, params);
-    slits.look_beside(view, opposite(wall));
+    slits.look_on_boundary(view, opposite(wall));
     EXPECT_FALSE(slits.known());
   }
 }
@@ -143,12 +143,21 @@ TEST_F(SlitSearchTest, AnAttemptForgetsTheOtherViewsOfItsSlit) {
   EXPECT_TRUE(slits.known()) << "that one metre away";
 }
 
-TEST_F(SlitSearchTest, TriesNoMoreAfterThreeAttemptsInAMission) {
-  for (int i = 0; i < 2; ++i) fail_at({1_m * i, 0_m});
+TEST_F(SlitSearchTest, RemembersTheLastThreeThatWereTried) {
+  for (int i = 0; i < 4; ++i) fail_at({1_m * i, 0_m});
+  for (int i = 0; i < 4; ++i) {
+    slits.look(slit_at({1_m * i, 0_m}).view(), kAhead);
+    EXPECT_EQ(slits.known(), i == 0) << i;
+    if (slits.known()) slits.take(slit_at({1_m * i, 0_m}).view());
+  }
+}
+
+TEST_F(SlitSearchTest, TriesNoMoreAfterSixAttemptsInAMission) {
+  for (int i = 0; i < 5; ++i) fail_at({1_m * i, 0_m});
   const Ground fresh = slit_at({0_m, 5_m});
   slits.look(fresh.view(), kAhead);
   ASSERT_TRUE(slits.known());
-  fail_at({1_m * 3, 0_m});
+  fail_at({1_m * 5, 0_m});
   EXPECT_FALSE(slits.known()) << "not even those that are known";
   slits.look(fresh.view(), kAhead);
   EXPECT_FALSE(slits.known());
