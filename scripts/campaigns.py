@@ -137,9 +137,9 @@ def table_options(description, unit, count):
     return parser
 
 
-def made_by(o, unit):
-    """What a table with these options is, for its first line."""
-    only = "".join(f' --{name} "{value}"' for name in ("row", "world", "errors") if (value := getattr(o, name, None)))
+def made_by(o, unit, more=""):
+    """What a table with these options is, for its first line; more: further options."""
+    only = more + "".join(f' --{name} "{value}"' for name in ("row", "world", "errors") if (value := getattr(o, name, None)))
     return f"`scripts/{PROGRAM} {o.count} {o.first}{only}`: {o.count} {unit}, seeds {o.first} to {o.first + o.count - 1}, on {machine()}."
 
 
