@@ -127,11 +127,10 @@ void Overheard::on_reply(const can::MissionReply& reply) {
   if (reply.mission == to.accepted || !known) return;
   to.accepted = reply.mission;
   const bool of_base = reply.to_operator == 0;
-  if (of_base) {
-    for (auto& set : kept_) set.reset();
-    sets_.forget();
-  }
   accepted_(of_base ? can::Requester::base : can::Requester::third_party, to.order->order, mission);
+  if (!of_base) return;
+  for (auto& set : kept_) set.reset();
+  sets_.forget();
 }
 
 void Overheard::on_reply(const can::ParamReply& reply) {

@@ -83,6 +83,8 @@ class Replay {
           "the log has a calibration: what the controller kept before is not in it, so it cannot be "
           "replayed");
     }
+    // The log may lack the GuardStatus of the last answer before the order.
+    step_guard(nullptr);
     pilot_->execute(order, mission, overheard_.params());
     guard_.execute(order, overheard_.params());
     if (order == can::Order::start) {
