@@ -4,7 +4,6 @@ namespace whisker {
 namespace {
 
 constexpr Length kStandsStill = 1_mm;
-constexpr int32_t kStallCounts = 10;
 
 /// part / whole, 0 to 1; 1 if nothing was asked.
 Q14 share(Speed part, Speed whole) noexcept {
@@ -67,7 +66,6 @@ void Guard::put_down() noexcept {
   if (kNodsBuilt) nod_->reset();
   started_ = commanded_ = false;
   vouched_ = Length{};
-  stalled_for_ = Duration{};
 }
 
 void Guard::reset() noexcept {
@@ -97,7 +95,7 @@ const GuardStatus& Guard::tick(Time now) noexcept {
   perceive();
   take_command();
   const WheelPair speeds = limit_speed(!counted);
-  check_stall(speeds);
+  if (counted) supervisor_.check_stall(localizer_.counts(), speeds, wheels_.state().rolling, elapsed_);
   supervisor_.check_command(wheels_.command(speeds, elapsed_, params_));
   status_.command = wheels_.sent();
   if (supervisor_.faulted()) status_.reason = GuardReason::fault;
@@ -240,27 +238,6 @@ GuardReason Guard::held_by(const planning::VelocityRequest& asked, bool doubted)
   const Angle way = pose.heading + (asked.forward < Speed{} ? 180_deg : Angle{});
   const perception::Obstacles found = grid.along(pose.at, way, params_.body.radius, grid.reach().guard, 1);
   return found.suspect > 0 ? GuardReason::obstacle : GuardReason::unseen;
-}
-
-/// Both wheels held: what WheelWatch cannot judge. Tiny commands that change their sign never turn a wheel by
-/// a count, so that the way counts, not the time alone.
-void Guard::check_stall(WheelPair speeds) noexcept {
-  const localization::CountStep& counts = localizer_.counts();
-  const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
-  if (!commanded || counts.left != 0 || counts.right != 0) {
-    stalled_for_ = Duration{};
-    owed_[0] = owed_[1] = Length{};
-    return;
-  }
-  stalled_for_ = min(stalled_for_ + elapsed_, params_.safety.stalled_after * 2);
-  const WheelPair rolling = wheels_.state().rolling;
-  owed_[0] += rolling.left * elapsed_;
-  owed_[1] += rolling.right * elapsed_;
-  const Length owed = max(abs(owed_[0]), abs(owed_[1]));
-  const Length most = millimetres(1000 * kStallCounts) / params_.wheels.counts_per_metre;
-  if (owed > most && stalled_for_ > params_.safety.stalled_after) {
-    supervisor_.fail(Fault::wheels_stalled, status_.health.wheel_stalls);
-  }
 }
 
 }  // namespace whisker

@@ -112,7 +112,6 @@ class Guard {
   WheelPair limit_speed(bool paused) noexcept;
   WheelPair target(const planning::VelocityRequest& limited, WheelPair speeds) const noexcept;
   GuardReason held_by(const planning::VelocityRequest& asked, bool doubted) const noexcept;
-  void check_stall(WheelPair speeds) noexcept;
   bool assists() const noexcept { return kAssistBuilt && params_.guard.assist == Fitted::yes; }
   bool nodding() const noexcept { return kNodsBuilt && nod_->active(); }
 
@@ -124,8 +123,6 @@ class Guard {
   Time commanded_at_;
   Duration elapsed_;       // since the last tick, at most the longest gap
   Duration since_counts_;  // since the counts were last read
-  Duration stalled_for_;
-  Length owed_[2];  // way of each wheel without a count
   Velocity command_;
   Speed fastest_on_the_spot_;  // of the rims
   Length vouched_;             // radius; zero: nothing

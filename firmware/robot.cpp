@@ -304,6 +304,7 @@ WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {
   const WheelPair speeds = granted(view, stands);
   const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
   motion_.settle(paused ? nullptr : &localizer_.counts(), commanded, elapsed_, params_);
+  if (!paused) supervisor_.check_stall(localizer_.counts(), speeds, wheels_.state().rolling, elapsed_);
   supervisor_.check_motion(motion_);
   return speeds;
 }

@@ -58,6 +58,8 @@ Validity BeamConditioner::classify(const hal::RangeReading& reading, Angle headi
   switch (reading.status) {
     case hal::RangeStatus::ok:
       if (millimetres(reading.mm) > max_range(params.rangefinders, beam_)) {
+        // An echo at the maximum range may be rounded up to a whole millimetre.
+        if (millimetres(reading.mm) - 1_mm < max_range(params.rangefinders, beam_)) return Validity::clear;
         count(health.range_out_of_range);
         return Validity::invalid;
       }

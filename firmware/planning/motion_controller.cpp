@@ -41,14 +41,14 @@ void MotionController::begin(const Manoeuvre& manoeuvre, const Pose& pose) noexc
   origin_ = pose.at;
   finished_ = manoeuvre.kind == ManoeuvreKind::stop;
   cut_ = settled_ = false;
-  still_for_ = stalled_for_ = waiting_for_ = Duration{};
+  still_for_ = waiting_for_ = Duration{};
   nearest_ = Length::from_raw(INT32_MAX);
 }
 
 void MotionController::interrupt() noexcept {
   if (current_.kind == ManoeuvreKind::drive && !finished_) finished_ = cut_ = true;
   settled_ = false;
-  still_for_ = stalled_for_ = waiting_for_ = Duration{};
+  still_for_ = waiting_for_ = Duration{};
   nearest_ = Length::from_raw(INT32_MAX);
 }
 
@@ -117,7 +117,6 @@ void MotionController::settle(const localization::CountStep* counts, bool comman
   }
   const bool still = counts->left == 0 && counts->right == 0;
   count_while(still && !commanded, elapsed, still_for_);
-  count_while(still && commanded, elapsed, stalled_for_);
   settled_ = finished_ && still_for_ >= params.safety.period * kStillPeriods;
   if (finished_) count_while(!commanded && !settled_, elapsed, waiting_for_);
 }

@@ -36,8 +36,6 @@ class MotionController {
   bool settled() const noexcept { return settled_; }
   /// The guard, or a bump switch, ended the last drive before its length.
   bool cut() const noexcept { return cut_; }
-  /// How long the wheels have been commanded to move without any count.
-  Duration stalled_for() const noexcept { return stalled_for_; }
   /// Time, without pauses, since the manoeuvre last came nearer to its end; after its end, time in which the
   /// wheels were commanded to stand but the body moved.
   Duration waiting_for() const noexcept { return waiting_for_; }
@@ -56,7 +54,6 @@ class MotionController {
   bool cut_ = false;
   bool settled_ = false;
   Duration still_for_;
-  Duration stalled_for_;
   Duration waiting_for_;
   Length nearest_;  // smallest remaining distance of this manoeuvre so far
 };

@@ -8,6 +8,7 @@ namespace whisker::planning {
 namespace {
 
 constexpr Angle kAimed = 5_deg;
+constexpr Angle kHeld = 1_deg;
 constexpr Angle kPast = 2_deg;
 constexpr Angle kUnbraked = 10_deg;
 constexpr int8_t kSweeps = 4;
@@ -37,7 +38,7 @@ bool ScanBehaviour::step(const View& view, const Params& params, Manoeuvre& mano
   if (aimed || (!halting_ && view.granted == Q14{})) waited_for_ += view.elapsed;
   in_vain_ = waited_for_ > params.safety.stalled_after;
   if (in_vain_) return true;
-  if (magnitude(turn) > (1_deg).raw()) {
+  if (magnitude(turn) > nearest_facing(kHeld, params).raw()) {
     halting_ = false;
     manoeuvre = face(turn, params);
   } else if (!halting_) {

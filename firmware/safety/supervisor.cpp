@@ -47,6 +47,7 @@ void Supervisor::reset() noexcept {
   encoder_refusals_.reset();
   bumper_refusals_.reset();
   bumps_ = 0;
+  stall_watch_.reset();
   if (kWheelWatchBuilt) wheel_watch_->reset();
   unwatched_ = kUnwatched;
 }
@@ -138,11 +139,15 @@ void Supervisor::check_bump(Vec at) noexcept {
   if (++bumps_ > kMostBumps) fail(Fault::no_progress, health_.no_progress);
 }
 
+void Supervisor::check_stall(const localization::CountStep& counts, WheelPair commanded, WheelPair rolling,
+                             Duration elapsed) noexcept {
+  if (!stall_watch_.stalled(counts, commanded, rolling, elapsed, params_) || faulted()) return;
+  fail(Fault::wheels_stalled, health_.wheel_stalls);
+}
+
 void Supervisor::check_motion(const planning::MotionController& motion) noexcept {
   if (faulted()) return;
-  if (motion.stalled_for() > params_.safety.stalled_after) {
-    fail(Fault::wheels_stalled, health_.wheel_stalls);
-  } else if (motion.waiting_for() > params_.safety.stalled_after) {
+  if (motion.waiting_for() > params_.safety.stalled_after) {
     fail(Fault::no_progress, health_.no_progress);
   }
 }

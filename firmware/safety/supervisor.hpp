@@ -12,6 +12,7 @@
 #include "firmware/part.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/safety/refusals.hpp"
+#include "firmware/safety/stall_watch.hpp"
 #include "firmware/safety/wheel_watch.hpp"
 
 namespace whisker::safety {
@@ -48,6 +49,9 @@ class Supervisor {
   void check_bumper(bool read) noexcept;
   /// A bump switch was pressed here. Bounds the presses near one place in a mission.
   void check_bump(Vec at) noexcept;
+  /// See StallWatch::stalled().
+  void check_stall(const localization::CountStep& counts, WheelPair commanded, WheelPair rolling,
+                   Duration elapsed) noexcept;
   void check_motion(const planning::MotionController& motion) noexcept;
   /// Whether the drive accepted the command.
   void check_command(bool taken) noexcept;
@@ -61,6 +65,7 @@ class Supervisor {
   Refusals encoder_refusals_;
   Refusals bumper_refusals_;
   Part<WheelWatch, kWheelWatchBuilt> wheel_watch_;
+  StallWatch stall_watch_;
   Duration unwatched_;  // time until the wheel watch starts
   Vec place_;           // the place that the body has not left
   Duration at_place_for_;

@@ -101,6 +101,19 @@ TEST_F(BeamTest, OutsideTheSensorsRangeIsLostAboveAndTooNearBelow) {
   EXPECT_EQ(health_.range_out_of_range, 2U);
 }
 
+TEST_F(BeamTest, AnEchoAtAMaximumOfNoWholeMillimetresIsClear) {
+  params_.rangefinders.max_range = micrometres(1999'100);
+  see(1999);
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  see(2000);
+  EXPECT_EQ(beam_.latest().validity, Validity::clear);
+  EXPECT_EQ(beam_.latest().distance, micrometres(1999'100));
+  EXPECT_EQ(health_.range_out_of_range, 0U);
+  see(2001);
+  EXPECT_EQ(beam_.latest().validity, Validity::invalid);
+  EXPECT_EQ(health_.range_out_of_range, 1U);
+}
+
 TEST_F(BeamTest, ZeroMillimetresIsTooNearWhereTheMinimumAllowsZero) {
   params_.rangefinders.min_range = Length{};
   see(0);

@@ -165,14 +165,5 @@ TEST(MotionController, ADriveThatTheGuardHoldsIsCut) {
   EXPECT_NEAR(degrees(loop.pose().heading), 90, 1.1) << "a turn is not cut";
 }
 
-TEST(MotionController, TellsForHowLongNothingMoved) {
-  const Params params;
-  Loop loop(params);
-  loop.block();
-  loop.begin({ManoeuvreKind::drive, {}, 300_mm});
-  for (int i = 0; i < 50; ++i) loop.tick(false);
-  EXPECT_EQ(loop.controller().stalled_for(), params.safety.period * 50);
-}
-
 }  // namespace
 }  // namespace whisker::planning

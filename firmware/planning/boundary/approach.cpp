@@ -61,19 +61,13 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
   Vec to = target.to;
   if (guide_ != nullptr && advised(view, target.distance, to, decision)) return !refuted_;
   if (view.sighted && !course_.choose(view, to, law_, behaviours_.params, wall, decision)) {
-    if (guided_ && guide_->refuse(view)) {
-      course_.reset();
-      on(Event::refused, decision);
-      decision.manoeuvre = stop();
-      return true;
-    }
-    if (guided_) measure_anew(view, target.distance);
-    guided_ = false;
-    return false;
+    return detour(view, target.distance, decision);
   }
   Angle heading = course_.heading();
   const Length length = min(view.local_grid->reach().probe, norm(to));
   if (behaviours_.stalled(view)) {
+    // The looks that this place needs are over: another one would see what the last one has seen.
+    if (behaviours_.progress.rests()) return detour(view, target.distance, decision);
     on(Event::unknown, decision);
     behaviours_.scan.begin(heading, length, decision.manoeuvre);
     return true;
@@ -89,6 +83,18 @@ bool Approach::drive(const View& view, const Target& target, Side& wall, Decisio
   }
   decision.manoeuvre = behaviours_.drive(view, heading);
   return true;
+}
+
+bool Approach::detour(const View& view, Length distance, Decision& decision) noexcept {
+  if (guided_ && guide_->refuse(view)) {
+    course_.reset();
+    on(Event::refused, decision);
+    decision.manoeuvre = stop();
+    return true;
+  }
+  if (guided_) measure_anew(view, distance);
+  guided_ = false;
+  return false;
 }
 
 bool Approach::advised(const View& view, Length distance, Vec& to, Decision& decision) noexcept {

@@ -68,6 +68,8 @@ class Approach {
   bool drive(const View& view, const Target& target, Side& wall, Decision& decision) noexcept;
   bool scan(const View& view, Decision& decision) noexcept;
   bool brake(const View& view, Decision& decision) noexcept;
+  /// The way is blocked. True: the guide shall find another one.
+  bool detour(const View& view, Length distance, Decision& decision) noexcept;
   bool advised(const View& view, Length distance, Vec& to, Decision& decision) noexcept;
 
   HeadingDeflection& law_;

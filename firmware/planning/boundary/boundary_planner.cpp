@@ -231,7 +231,8 @@ bool BoundaryPlanner::may_leave(const View& view) const noexcept {
 }
 
 void BoundaryPlanner::escape(const View& view) noexcept {
-  if (++escapes_ > kEscapes) {
+  // A held body that turns on the spot has followed no boundary.
+  if (!behaviours_.progress.rests() && ++escapes_ > kEscapes) {
     give_up_goal(view);
     return;
   }

@@ -17,17 +17,20 @@ class ProgressChecker {
   /// Call on entry into a phase that may fail.
   void pause() noexcept { ++pauses_; }
 
+  /// Many phases without having left a place of 30 mm. With coarse encoders, turns on the spot are travel.
+  bool rests() const noexcept;
+
   /// Travel since the goal was set.
   int32_t travel_mm() const noexcept { return travel_mm_; }
-  /// Reason to end the mission: Why::length_budget beyond `budget`, Why::no_exit after 1,000 phases without
-  /// 30 mm of travel, otherwise Why::none.
+  /// Reason to end the mission: Why::length_budget beyond `budget`, Why::no_exit after 1,000 phases in
+  /// one place, otherwise Why::none.
   Why exhausted(Length budget) const noexcept;
 
  private:
   uint32_t started_um_ = 0;  // View::travelled_um at the start
   int32_t travel_mm_ = 0;
-  int32_t paused_mm_ = 0;  // travel at the last progress
-  int16_t pauses_ = 0;     // phases since then
+  Vec place_;           // where the body was at the last progress
+  int16_t pauses_ = 0;  // phases since then
 };
 
 }  // namespace whisker::planning

@@ -1,0 +1,24 @@
+#include "firmware/safety/stall_watch.hpp"
+
+namespace whisker::safety {
+namespace {
+
+constexpr int32_t kCounts = 10;
+
+}  // namespace
+
+bool StallWatch::stalled(const localization::CountStep& counts, WheelPair commanded, WheelPair rolling,
+                         Duration elapsed, const Params& params) noexcept {
+  const bool turns = commanded.left != Speed{} || commanded.right != Speed{};
+  if (!turns || counts.left != 0 || counts.right != 0) {
+    reset();
+    return false;
+  }
+  for_ = min(for_ + elapsed, params.safety.stalled_after * 2);
+  missing_[0] += rolling.left * elapsed;
+  missing_[1] += rolling.right * elapsed;
+  const Length most = millimetres(1000 * kCounts) / params.wheels.counts_per_metre;
+  return for_ > params.safety.stalled_after && max(abs(missing_[0]), abs(missing_[1])) > most;
+}
+
+}  // namespace whisker::safety

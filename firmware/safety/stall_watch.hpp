@@ -1,0 +1,27 @@
+/// Checks that the body moves at all.
+#pragma once
+
+#include "firmware/localization/odometry.hpp"
+#include "firmware/math/units.hpp"
+#include "firmware/math/wheel_kinematics.hpp"
+#include "firmware/params.hpp"
+
+namespace whisker::safety {
+
+/// Finds both wheels held, which WheelWatch cannot judge: commanded to turn, but no wheel counts for
+/// SafetyParams::stalled_after, and a wheel has missed ten counts. A command to turn by less than a count, or
+/// to and fro, moves the body without a count, so that the time alone says nothing.
+class StallWatch {
+ public:
+  void reset() noexcept { *this = StallWatch{}; }
+  /// Call once per step of the counts. The wheels are commanded to turn at these speeds; by the model of the
+  /// motors, they turn at `rolling` now.
+  bool stalled(const localization::CountStep& counts, WheelPair commanded, WheelPair rolling,
+               Duration elapsed, const Params& params) noexcept;
+
+ private:
+  Duration for_;
+  Length missing_[2];  // signed way of each wheel without a count
+};
+
+}  // namespace whisker::safety
