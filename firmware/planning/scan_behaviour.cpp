@@ -13,6 +13,11 @@ constexpr Angle kPast = 2_deg;
 constexpr Angle kUnbraked = 10_deg;
 constexpr int8_t kSweeps = 4;
 
+/// Shorter than the supervisor lets a body stand for a look.
+Duration longest_wait(const Params& params) noexcept {
+  return min(params.safety.stalled_after, params.safety.lost_after * params.conditioning.reads);
+}
+
 }  // namespace
 
 void ScanBehaviour::begin(Angle heading, Length length, Manoeuvre& manoeuvre) noexcept {
@@ -36,7 +41,7 @@ bool ScanBehaviour::step(const View& view, const Params& params, Manoeuvre& mano
   const Angle turn = rest.turn;
   const bool aimed = magnitude(turn) <= nearest_facing(kAimed, params).raw();
   if (aimed || (!halting_ && view.granted == Q14{})) waited_for_ += view.elapsed;
-  in_vain_ = waited_for_ > params.safety.stalled_after;
+  in_vain_ = waited_for_ > longest_wait(params);
   if (in_vain_) return true;
   if (magnitude(turn) > nearest_facing(kHeld, params).raw()) {
     halting_ = false;

@@ -13,7 +13,8 @@ class Refusals {
   /// True: there are too many.
   bool refuse(int32_t most) noexcept {
     accepted_ = 0;
-    return ++count_ >= most;
+    if (count_ < most) ++count_;
+    return count_ >= most;
   }
   /// Ten accepted calls in a row restart the count.
   void accept() noexcept {
@@ -24,7 +25,7 @@ class Refusals {
 
  private:
   static constexpr int8_t kForgiven = 10;
-  int32_t count_ = 0;
+  int16_t count_ = 0;
   int8_t accepted_ = 0;  // in a row
 };
 

@@ -13,7 +13,7 @@ constexpr int32_t kWaits = 60;
 constexpr int32_t kTurns = 30;
 constexpr int32_t kSteps = 30;
 constexpr Length kBumpedPlace = 500_mm;  // for the reference body
-constexpr int32_t kMostBumps = 30;       // within it
+constexpr int8_t kMostBumps = 30;        // within it
 
 Duration ms_at(Length way, int32_t times, Speed speed) noexcept {
   return milliseconds(multiply_divide(way.raw(), 1000 * times, speed.raw()));
@@ -49,7 +49,7 @@ void Supervisor::reset() noexcept {
   bumps_ = 0;
   stall_watch_.reset();
   if (kWheelWatchBuilt) wheel_watch_->reset();
-  unwatched_ = kUnwatched;
+  unwatched_ms_ = static_cast<int16_t>(kUnwatched.raw());
 }
 
 void Supervisor::fail(Fault fault) noexcept {
@@ -80,15 +80,15 @@ void Supervisor::check_counts(bool read) noexcept {
 
 void Supervisor::expect_wheels(WheelPair speeds, Duration elapsed, Duration gap) noexcept {
   if (!kWheelWatchBuilt) return;
-  if (unwatched_ > Duration{}) {
-    unwatched_ -= gap;
+  if (unwatched_ms_ > 0) {
+    unwatched_ms_ = static_cast<int16_t>(gap.raw() < unwatched_ms_ ? unwatched_ms_ - gap.raw() : 0);
   } else {
     wheel_watch_->expect(speeds, elapsed);
   }
 }
 
 void Supervisor::check_wheels(const localization::CountStep& step) noexcept {
-  if (!kWheelWatchBuilt || faulted() || unwatched_ > Duration{}) return;
+  if (!kWheelWatchBuilt || faulted() || unwatched_ms_ > 0) return;
   switch (wheel_watch_->judge(step)) {
     case WheelWatch::Finding::none: break;
     case WheelWatch::Finding::stalled: fail(Fault::wheels_stalled, health_.wheel_stalls); break;
@@ -136,7 +136,8 @@ void Supervisor::check_bump(Vec at) noexcept {
     bumped_at_ = at;
     bumps_ = 0;
   }
-  if (++bumps_ > kMostBumps) fail(Fault::no_progress, health_.no_progress);
+  if (bumps_ <= kMostBumps) ++bumps_;
+  if (bumps_ > kMostBumps) fail(Fault::no_progress, health_.no_progress);
 }
 
 void Supervisor::check_stall(const localization::CountStep& counts, WheelPair commanded, WheelPair rolling,

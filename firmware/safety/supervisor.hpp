@@ -66,12 +66,12 @@ class Supervisor {
   Refusals bumper_refusals_;
   Part<WheelWatch, kWheelWatchBuilt> wheel_watch_;
   StallWatch stall_watch_;
-  Duration unwatched_;  // time until the wheel watch starts
-  Vec place_;           // the place that the body has not left
+  int16_t unwatched_ms_ = 0;  // time until the wheel watch starts
+  int8_t bumps_ = 0;          // near bumped_at_
+  Vec place_;                 // the place that the body has not left
   Duration at_place_for_;
   Duration longest_stay_;
   Vec bumped_at_;
-  int32_t bumps_ = 0;  // near there
 };
 
 /// Time to brake from full speed, including the motor lag.

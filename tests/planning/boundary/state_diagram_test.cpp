@@ -192,8 +192,7 @@ std::string document() {
          "in [skirt.md](skirt.md).\n\n"
          "## The planner\n\n"
          "`firmware/planning/boundary/boundary_planner.hpp`. Beside these arrows a mission ends from every\n"
-         "phase as *gave up* when the length budget is used up, or after 1,000 phases without 30 mm of "
-         "travel.\n\n" +
+         "phase as *gave up* when the length budget is used up, or after 1,000 phases in one place.\n\n" +
          PlannerDiagram::mermaid(kPlannerEntries, kPlannerEnds) +
          "\n## The approach\n\n"
          "`firmware/planning/boundary/approach.hpp`. It runs while the planner is in `approach`. A blocked "
