@@ -40,6 +40,7 @@ NODE = (
     (r"5slcan5Slcan", r"8UartPort.*(4takeE|5offerE|5readyE)"),
     (r"11RemoteRobot7executeE", r"8Planners4makeE"),
     (r"5fuzzy10TableStore", None),  # no storage
+    (r"7can_app10Controller4saveE", None),  # no calibrator
     (r"^main$", r"12Milliseconds.*6now_msE|8UartPort.*4takeE|12CounterMeter.*5stampE"),
 )  # fmt: skip
 

@@ -17,12 +17,17 @@ ControllerNode::ControllerNode(hal::CanPort& port, const Identity& identity, Rul
 
 void ControllerNode::poll(uint32_t now) noexcept {
   listen(now);
+  if (rules_replies_) {
+    send(rules_reply_);
+    rules_replies_ = false;
+  }
   if (operator_heard_ && operator_silent()) lose_operator();
   watch();
   publish();
   if (asked_again_) repeat_answer();
   const bool drives = running() && !holding_;
   if (!drives && !lockstep() && matched() && now - braked_at_ >= kStopRepeat_ms) brake();
+  if (rules_ordered_) execute_rules();
 }
 
 /// The counters of another operator, or of one that restarted, are not compared with those of this one.
@@ -292,10 +297,18 @@ void ControllerNode::on_rules(const RulesPart& part) noexcept {
 }
 
 void ControllerNode::on_rules(const RulesOrder& order) noexcept {
-  RulesReply reply{hindrance(), order.upload};
-  if (reply.status == RulesStatus::receiving) reply = rules_->execute(order);
+  rules_order_ = order;
+  rules_ordered_ = true;
+}
+
+/// May take seconds, after which the frames that wait in the port are stale. So it is the last step of a
+/// poll, and the next one sends the reply.
+void ControllerNode::execute_rules() noexcept {
+  rules_ordered_ = false;
+  rules_reply_ = {hindrance(), rules_order_.upload};
+  if (rules_reply_.status == RulesStatus::receiving) rules_reply_ = rules_->execute(rules_order_);
+  rules_replies_ = true;
   announce_rules();
-  send(reply);
 }
 
 void ControllerNode::announce_rules() noexcept {
@@ -306,6 +319,8 @@ void ControllerNode::announce_rules() noexcept {
 
 void ControllerNode::reset_peer() noexcept {
   if (rules_ != nullptr) rules_->forget();
+  rules_ordered_ = false;
+  rules_replies_ = false;
   sets_.forget();
   parts_.forget();
   server_.drop(Requester::base);

@@ -25,6 +25,7 @@ class ControllerNode final : public Node {
   ControllerNode(hal::CanPort& port, const Identity& identity, RulesServer* rules = nullptr,
                  OperatorInbox* inbox = nullptr) noexcept;
 
+  /// Blocks as RulesServer::execute() if the base orders another response table.
   void poll(uint32_t now_ms) noexcept;
 
   /// An order of the base was accepted since the last call. `mission` is unused for a cancel.
@@ -78,6 +79,7 @@ class ControllerNode final : public Node {
   void on_param(const ParamRequest& request, Requester who) noexcept;
   void on_rules(const RulesPart& part) noexcept;
   void on_rules(const RulesOrder& order) noexcept;
+  void execute_rules() noexcept;
   /// Why no response table is taken now; receiving: it is.
   RulesStatus hindrance() const noexcept;
   void announce_rules() noexcept;
@@ -94,6 +96,10 @@ class ControllerNode final : public Node {
   void repeat_answer() noexcept;
 
   RulesServer* const rules_;
+  RulesOrder rules_order_;
+  RulesReply rules_reply_;
+  bool rules_ordered_ = false;  // rules_order_ is to be executed
+  bool rules_replies_ = false;  // rules_reply_ is to be sent
   OperatorInbox* const inbox_;
   InputSets sets_;
   uint32_t tick_ = 0;     // of the last set

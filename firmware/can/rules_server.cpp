@@ -20,10 +20,13 @@ void RulesServer::activate(const Table& table) noexcept {
   hash_ = fuzzy::digest(table);
   begun_ = false;
   kept_ = false;
+  tried_ = false;
 }
 
-void RulesServer::keep() noexcept {
-  if (store_ == nullptr || kept_) return;
+void RulesServer::keep(uint8_t upload) noexcept {
+  if (store_ == nullptr || kept_ || (tried_ && upload == tried_for_)) return;
+  tried_ = true;
+  tried_for_ = upload;
   kept_ = store_->save(active_ == &built_in_ ? nullptr : active_) == Stored::ok;
 }
 
@@ -67,7 +70,7 @@ RulesReply RulesServer::execute(const RulesOrder& order) noexcept {
     }
     activate(room());
   }
-  keep();
+  keep(order.upload);
   return reply(RulesStatus::activated, order.upload);
 }
 

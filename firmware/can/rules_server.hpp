@@ -27,10 +27,14 @@ class RulesServer {
 
   /// Only while the robot stands. The reply is sent if ends_block(part).
   RulesReply take(const RulesPart& part) noexcept;
-  /// Only while the robot stands. Blocks as hal::Storage::erase() if there is a storage.
+  /// Only while the robot stands. Blocks as hal::Storage::erase() if there is a storage. An order with the
+  /// upload number of one that could not be kept is a repetition, and does not try again.
   RulesReply execute(const RulesOrder& order) noexcept;
   /// The parts that have arrived are void.
-  void forget() noexcept { begun_ = false; }
+  void forget() noexcept {
+    begun_ = false;
+    tried_ = false;
+  }
 
  protected:
   /// built_in, rooms and store must outlive it. rooms: one or two; they may be constructed later.
@@ -47,7 +51,7 @@ class RulesServer {
  private:
   Table& room() noexcept { return rooms_[count_ > 1 && active_ == rooms_ ? 1 : 0]; }
   void activate(const Table& table) noexcept;
-  void keep() noexcept;
+  void keep(uint8_t upload) noexcept;
   RulesReply reply(RulesStatus status, uint8_t upload) const noexcept;
 
   const Table& built_in_;
@@ -61,6 +65,8 @@ class RulesServer {
   uint8_t upload_ = 0;
   bool begun_ = false;  // upload_ and next_ belong to a base's table
   bool kept_ = false;   // the storage has the active table
+  bool tried_ = false;  // to keep it, for an order with the number tried_for_
+  uint8_t tried_for_ = 0;
 };
 
 /// With memory for one table or two: 7,524 bytes each.

@@ -207,8 +207,12 @@ The base sends another table as follows. A controller executes this only while n
    nodes, so a table that is incomplete or damaged is never active. It sends Info with the new hash.
 
 A part with another Upload number, or a new Boot of the base, starts again from node 0. RulesOrder restore activates the built-in table.
-Another active table ends a mission that could be resumed. A controller with a storage keeps its choice and says so by Kept; while
-it writes, it may be silent for seconds. Where there is room for one table only, node 0 of a new one activates the built-in table.
+Another active table ends a mission that could be resumed. Where there is room for one table only, node 0 of a new one activates the
+built-in table.
+
+A controller with a storage keeps its choice and says so by Kept. While it writes, it may be silent for 3 s. The base then loses it and
+waits; that stops nobody, because no mission runs. Once the handshake matches again, the base repeats its RulesOrder. With Kept 0 in
+activated, the table is active until the controller restarts: an order with the same Upload does not write again, one with another does.
 
 | reply | reason | next step of the base |
 |---|---|---|
@@ -227,8 +231,10 @@ A controller with a storage may [measure](calibration.md#on-the-robot-itself) gy
 spin, straight or tape, and sends input sets as in a mission; the Gyro is needed for straight. spin turns on the spot and uses no goal. straight drives
 ahead as far as the goal is from the start, 0.5 m at least, turns and comes back; less is out_of_range. tape drives the same way without coming back, and has no result yet: a person measures
 how far the robot went, and the base orders measured, with a goal that is so far from its start. Its StartHeading and GoalTolerance are not used. A mission
-in between forgets the drive: no_drive. Outcome is reached if there is a result, and gave_up otherwise. Then the controller saves; it may be silent for seconds, which is a safe stop of the base, whose wheels stand. cancel, start
-and a fault end a calibration without a result; resume begins it anew.
+in between forgets the drive: no_drive. Outcome is reached if there is a result, and gave_up otherwise. The controller saves 100 ms after it
+first sent the Outcome, so that the base knows it, or before it executes the next order if that comes earlier. Meanwhile it may be silent for 3 s, which is a safe stop of the
+base, whose wheels stand; an order whose MissionReply got lost is repeated. Do not resume after the Outcome: resume begins a calibration anew. cancel, start and
+a fault before the Outcome end a calibration without a result.
 
 Such a controller sends a Calibration every 125 ms, for each Quantity in turn: the Value and the Sigma that its storage has, the Trouble of the last
 calibration and the result of the last save. The result of an order is there once Mission is its number and Trouble is not not_finished; wait for all

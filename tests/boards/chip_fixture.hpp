@@ -8,6 +8,7 @@
 #include "tests/boards/models/gpio_model.hpp"
 #include "tests/boards/models/i2c_model.hpp"
 #include "tests/boards/models/iwdg_model.hpp"
+#include "tests/boards/models/rng_model.hpp"
 #include "tests/boards/models/tim_model.hpp"
 #include "tests/boards/models/usart_model.hpp"
 
@@ -32,6 +33,7 @@ struct ModelChip {
     chip.attach(base::kIwdg, iwdg);
     chip.attach(base::kCan1, can);
     chip.attach(base::kNvic, nvic);
+    chip.attach(base::kRng, rng);
   }
 
   model::Chip chip;
@@ -48,6 +50,7 @@ struct ModelChip {
   model::IwdgModel iwdg;
   model::CanModel can;
   model::Peripheral nvic;
+  model::RngModel rng;
   Troubles troubles;
 };
 

@@ -24,7 +24,7 @@ class FlashTest : public ::testing::Test {
   model::Chip chip;
   model::FlashMemory memory{chip, FlashStorage::kSize};
   model::FlashModel& flash = memory.model;
-  FlashStorage storage;
+  FlashStorage storage{FlashUse::calibration};
 };
 
 TEST_F(FlashTest, KeepsWhatIsWrittenInEachSlot) {
@@ -83,12 +83,29 @@ TEST_F(FlashTest, CalibrationAndAResponseTableComeBack) {
   EXPECT_EQ(table.node[7][9].step, fuzzy::kResponseTable.node[7][9].step);
 }
 
+TEST_F(FlashTest, EachUseHasSectorsOfItsOwn) {
+  FlashStorage tables(FlashUse::response_table);
+  for (std::uint8_t slot = 0; slot < 2; ++slot) {
+    const std::uint8_t one[] = {1, 2, 3, 4}, other[] = {5, 6, 7, 8};
+    std::uint8_t back[4] = {};
+    ASSERT_TRUE(storage.erase(slot) && storage.write(slot, 0, one, 4));
+    ASSERT_TRUE(tables.erase(slot) && tables.write(slot, 0, other, 4));
+    EXPECT_EQ(flash.erasures[8U + slot], 1);
+    EXPECT_EQ(flash.erasures[10U + slot], 1);
+    EXPECT_EQ(read(slot, 0, 4), (std::vector<std::uint8_t>{1, 2, 3, 4}));
+    ASSERT_TRUE(tables.read(slot, 0, back, 4));
+    EXPECT_EQ(back[3], 8);
+  }
+}
+
+TEST_F(FlashTest, ATableFitsIntoASlot) { EXPECT_GE(storage.size(), fuzzy::kTableRecordBytes); }
+
 TEST(StuckFlash, EveryWaitEnds) {
   model::Chip chip;
   model::FlashModel flash;
   chip.attach(base::kFlash, flash);
   flash.stuck = true;
-  FlashStorage storage;
+  FlashStorage storage(FlashUse::calibration);
   EXPECT_FALSE(storage.erase(1));
 }
 

@@ -85,7 +85,7 @@ TEST_F(SelfCalibrationBoardTest, BeforeTheWatchdogRunsAnErasureDoesNotStartIt) {
   model::IwdgModel idle;
   chip.attach(base::kIwdg, idle);
   Watchdog watchdog;
-  WatchedStorage storage(watchdog, troubles);
+  WatchedStorage storage(FlashUse::calibration, watchdog, troubles);
   EXPECT_TRUE(storage.erase(1));
   EXPECT_EQ(flash.erasures[11], 1);
   EXPECT_FALSE(idle.running);

@@ -242,6 +242,19 @@ TEST(CalibrationOnTheBus, ACancelledOneKeepsNothingAndAnotherOrderEndsIt) {
   EXPECT_EQ(storage.slots, slots);
 }
 
+TEST(CalibrationOnTheBus, ACancelAtOnceAfterItsEndKeepsTheResult) {
+  test::MemoryStorage storage;
+  Pair pair(kWrong, 9, storage);
+  pair.begin(Order::straight, {}, 500_mm);
+  const auto& decision = pair.controller().status().decision;
+  for (int tick = 0; tick < 3000 && decision.outcome != planning::Outcome::reached; ++tick) pair.drive(0.01);
+  EXPECT_FALSE(pair.calibrator().values()[Quantity::wheel_ratio].known())
+      << "the base must see the end first";
+  pair.give(Order::cancel);
+  EXPECT_EQ(pair.calibrator().stored(), Stored::ok);
+  EXPECT_TRUE(pair.calibrator().values()[Quantity::wheel_ratio].known());
+}
+
 TEST(CalibrationOnTheBus, ASafeStopInTheMiddleCostsASpinAndNothingElse) {
   test::MemoryStorage storage;
   Pair pair(kWrong, 5, storage);

@@ -22,9 +22,14 @@ class Controller {
     node_.accept_operator_orders();
   }
 
-  /// Call it every millisecond. True: the core executed a step; status() is new.
+  /// Call it every millisecond. True: the core executed a step; status() is new. With a storage, it blocks as
+  /// hal::Storage::erase() after a calibration, and as ControllerNode::poll().
   bool poll(uint32_t now_ms) noexcept {
     node_.poll(now_ms);
+    if (unsaved_ && now_ms - ended_at_ms_ >= kSaveAfter_ms) {
+      save();
+      return false;
+    }
     can::Order order = can::Order::cancel;
     can::Mission mission;
     if (node_.take_operator_order(order, mission.goal)) {
@@ -32,6 +37,7 @@ class Controller {
       ended_ = false;
     }
     if (node_.take_order(order, mission)) {
+      save();
       pilot_.execute(order, mission, node_.params());
       ended_ = false;
     }
@@ -47,7 +53,10 @@ class Controller {
     const bool failed = status_.health.fault != Fault::none;
     node_.report(failed ? uint16_t{can::Error::core_fault} : uint16_t{0},
                  static_cast<uint8_t>(status_.health.fault));
-    if (calibrator_ != nullptr && ends && !ended_) calibrator_->finish();
+    if (ends && !ended_ && calibrator_ != nullptr) {
+      unsaved_ = true;
+      ended_at_ms_ = now_ms;
+    }
     ended_ = ends;
     return true;
   }
@@ -58,6 +67,13 @@ class Controller {
 
  private:
   static constexpr uint32_t kReportEvery_ms = 125;
+  static constexpr uint32_t kSaveAfter_ms = 100;
+
+  /// Not with the last step: meanwhile no frame leaves, and the base would never learn that the mission ends.
+  void save() noexcept {
+    if (unsaved_) calibrator_->finish();
+    unsaved_ = false;
+  }
 
   void report_calibration(uint32_t now_ms) noexcept {
     if (calibrator_ == nullptr || now_ms - reported_ms_ < kReportEvery_ms) return;
@@ -81,6 +97,8 @@ class Controller {
   uint32_t reported_ms_ = 0;
   uint8_t reported_ = 0;  // the next quantity
   bool ended_ = false;    // the last step had an outcome
+  bool unsaved_ = false;  // since ended_at_ms_: a calibration may have a result
+  uint32_t ended_at_ms_ = 0;
   Status status_;
 };
 

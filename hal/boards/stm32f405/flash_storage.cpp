@@ -7,9 +7,8 @@
 namespace whisker::hal::stm32f405 {
 namespace {
 
-constexpr Address kSectors = 0x080C0000;  // 10 and 11, 128 KB each: stm32f405.ld keeps the program below
+constexpr Address kSector5 = 0x08020000;  // it and all later ones have this size
 constexpr Address kSectorBytes = 0x20000;
-constexpr uint32_t kFirstSector = 10;
 constexpr uint32_t key(uint16_t high, uint16_t low) noexcept { return uint32_t{high} << 16 | low; }
 constexpr uint32_t kFirstKey = key(0x4567, 0x0123), kSecondKey = key(0xCDEF, 0x89AB);
 constexpr uint32_t kByWords = 2;  // PSIZE
@@ -22,7 +21,9 @@ constexpr bool inside(uint8_t slot, uint16_t at, uint16_t size) noexcept {
   return slot < Storage::kSlots && at <= FlashStorage::kSize && size <= FlashStorage::kSize - at;
 }
 
-constexpr Address place(uint8_t slot, uint16_t at) noexcept { return kSectors + slot * kSectorBytes + at; }
+constexpr Address place(uint32_t sector, uint16_t at) noexcept {
+  return kSector5 + (sector - 5) * kSectorBytes + at;
+}
 
 /// The flash accepts commands while this lives.
 class Unlocked {
@@ -56,7 +57,7 @@ bool done(uint32_t within_us) noexcept {
 bool FlashStorage::read(uint8_t slot, uint16_t at, uint8_t* out, uint16_t size) noexcept {
   if (!inside(slot, at, size)) return false;
   for (uint16_t i = 0; i < size; ++i) {
-    const Address byte = place(slot, at) + i;
+    const Address byte = place(first_sector_ + slot, at) + i;
     out[i] = static_cast<uint8_t>(load(byte & ~Address{3}) >> (8 * (byte & 3)));
   }
   return true;
@@ -67,7 +68,7 @@ bool FlashStorage::erase(uint8_t slot) noexcept {
   const Unlocked unlocked;
   if (!done(kEraseUs)) return false;
   const uint32_t command =
-      bits(flash::kPsize, kByWords) | mask(flash::kSer) | bits(flash::kSnb, kFirstSector + slot);
+      bits(flash::kPsize, kByWords) | mask(flash::kSer) | bits(flash::kSnb, first_sector_ + slot);
   store(base::kFlash, flash::kCr, command);
   store(base::kFlash, flash::kCr, command | mask(flash::kStrt));
   return done(kEraseUs);
@@ -81,7 +82,7 @@ bool FlashStorage::write(uint8_t slot, uint16_t at, const uint8_t* data, uint16_
   for (uint16_t i = 0; i < size; i = static_cast<uint16_t>(i + kGrain)) {
     uint32_t word = 0;
     for (uint16_t b = 0; b < kGrain; ++b) word |= uint32_t{data[i + b]} << (8 * b);
-    store(place(slot, at) + i, word);
+    store(place(first_sector_ + slot, at) + i, word);
     if (!done(kWordUs)) return false;
   }
   return true;

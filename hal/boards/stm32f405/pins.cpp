@@ -56,7 +56,7 @@ bool read(Pin pin) noexcept { return is_set(pin.port, of_pin(gpio::kIdr, pin.num
 void power_peripherals() noexcept {
   static constexpr Field kUsed[] = {rcc::kGpioaen, rcc::kGpioben, rcc::kGpiocen, rcc::kTim1en,
                                     rcc::kTim2en,  rcc::kTim3en,  rcc::kTim4en,  rcc::kUsart2en,
-                                    rcc::kI2c1en,  rcc::kCan1en,  rcc::kAdc1en};
+                                    rcc::kI2c1en,  rcc::kCan1en,  rcc::kAdc1en,  rcc::kRngen};
   for (const Field enable : kUsed) set(base::kRcc, enable, 1);
 }
 

@@ -5,17 +5,12 @@
 #include "hal/boards/common/nearer.hpp"
 #include "hal/boards/stm32f405/adc.hpp"
 #include "hal/boards/stm32f405/bump_switches.hpp"
-#include "hal/boards/stm32f405/bx_can.hpp"
 #include "hal/boards/stm32f405/encoders.hpp"
 #include "hal/boards/stm32f405/i2c_rangers.hpp"
 #include "hal/boards/stm32f405/motors.hpp"
 #include "hal/boards/stm32f405/mpu6050.hpp"
+#include "hal/boards/stm32f405/node_board.hpp"
 #include "hal/boards/stm32f405/push_button.hpp"
-#include "hal/boards/stm32f405/reporter.hpp"
-#include "hal/boards/stm32f405/ticker.hpp"
-#include "hal/boards/stm32f405/usart.hpp"
-#include "hal/boards/stm32f405/watchdog.hpp"
-#include "hal/boards/stm32f405/watched_storage.hpp"
 
 namespace whisker::hal::stm32f405 {
 
@@ -25,9 +20,7 @@ namespace whisker::hal::stm32f405 {
 ///   for (;;) { board.poll(robot.status()); if (board.due()) robot.tick(...); }
 class RobotBoard {
  public:
-  static constexpr uint32_t kConsoleBaud = 115200;
-  static constexpr uint32_t kCanBitrate = 500000;
-  static constexpr uint16_t kWatchdogMs = 200;
+  static constexpr uint16_t kWatchdogMs = NodeBoard::kWatchdogMs;
 
   /// gyro: the one of the robot's parameters. If none is fitted, nothing asks for it.
   RobotBoard(const RangerKind& kind, const mcu::MotorParams& left, const mcu::MotorParams& right,
@@ -39,27 +32,22 @@ class RobotBoard {
   /// calibration: a word for the console; null: there is none.
   void poll(const Status& status, const char* calibration = nullptr) noexcept;
   /// True once per period: time for a tick. Also feeds the watchdog.
-  bool due(uint32_t period_ms) noexcept;
-  Time now() noexcept { return Time::from_raw(ticker_.now_ms()); }
+  bool due(uint32_t period_ms) noexcept { return node_.due(period_ms); }
+  Time now() noexcept { return Time::from_raw(node_.now_ms()); }
 
   Rangefinders& rangefinders() noexcept { return beams_; }
   Bumper& bumper() noexcept { return switches_; }
   hal::Button& button() noexcept { return button_; }
-  /// For what is kept without power.
-  Storage& storage() noexcept { return storage_; }
+  /// For the calibration, which is kept without power.
+  Storage& storage() noexcept { return node_.calibration(); }
   hal::Gyro& gyro() noexcept { return gyro_; }
   Drive& drive() noexcept { return wheels_; }
-  CanPort& can() noexcept { return can_; }
-  Usart& console() noexcept { return console_; }
-  const Troubles& troubles() const noexcept { return troubles_; }
-
-  void on_console_interrupt() noexcept { console_.on_interrupt(); }
-  void on_can_interrupt() noexcept { can_.on_receive_interrupt(); }
+  CanPort& can() noexcept { return node_.can(); }
+  Usart& console() noexcept { return node_.console(); }
+  const Troubles& troubles() const noexcept { return node_.troubles(); }
 
  private:
-  Troubles troubles_;
-  Ticker ticker_;
-  Usart console_;
+  NodeBoard node_;
   I2c bus_;
   I2cRangers tof_;
   Mpu6050 gyro_;
@@ -72,11 +60,6 @@ class RobotBoard {
   Motors motors_;
   Encoders encoders_;
   mcu::GovernedWheels<Motors, Encoders> wheels_;
-  BxCan can_;
-  Watchdog watchdog_;
-  WatchedStorage storage_;
-  Reporter reporter_;
-  Schedule schedule_;
 };
 
 }  // namespace whisker::hal::stm32f405

@@ -14,8 +14,10 @@ set(whisker_stm32f405_sources
   ${CMAKE_CURRENT_LIST_DIR}/interrupts.cpp
   ${CMAKE_CURRENT_LIST_DIR}/motors.cpp
   ${CMAKE_CURRENT_LIST_DIR}/mpu6050.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/node_board.cpp
   ${CMAKE_CURRENT_LIST_DIR}/pins.cpp
   ${CMAKE_CURRENT_LIST_DIR}/push_button.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/random.cpp
   ${CMAKE_CURRENT_LIST_DIR}/reporter.cpp
   ${CMAKE_CURRENT_LIST_DIR}/robot_board.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ticker.cpp

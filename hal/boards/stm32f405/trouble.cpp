@@ -20,6 +20,7 @@ const char* name(Trouble trouble) noexcept {
     case Trouble::gyro_silent: return "gyro_silent";
     case Trouble::gyro_samples_lost: return "gyro_samples_lost";
     case Trouble::adc_no_conversion: return "adc_no_conversion";
+    case Trouble::random_not_ready: return "random_not_ready";
   }
   return "unknown";
 }

@@ -22,8 +22,9 @@ enum class Trouble : uint8_t {
   gyro_silent,       ///< the gyro stopped measuring and was reset
   gyro_samples_lost,  ///< samples of the gyro were lost, and it was reset
   adc_no_conversion,  ///< a conversion did not end in time
+  random_not_ready,   ///< the generator of random numbers gave none
 };
-constexpr uint8_t kTroubles = 16;
+constexpr uint8_t kTroubles = 17;
 
 /// In snake case; never nullptr.
 const char* name(Trouble trouble) noexcept;

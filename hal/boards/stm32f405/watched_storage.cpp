@@ -20,6 +20,7 @@ bool WatchedStorage::erase(uint8_t slot) noexcept {
 }
 
 bool WatchedStorage::write(uint8_t slot, uint16_t at, const uint8_t* data, uint16_t size) noexcept {
+  if (watchdog_ms_ != 0) watchdog_.feed();
   return flash_.write(slot, at, data, size);
 }
 

@@ -13,8 +13,8 @@ class WatchedStorage final : public Storage {
   static constexpr uint16_t kErasureMs = 4095;
 
   /// Both must outlive it.
-  WatchedStorage(Watchdog& watchdog, Troubles& troubles) noexcept
-      : watchdog_(watchdog), troubles_(troubles) {}
+  WatchedStorage(FlashUse use, Watchdog& watchdog, Troubles& troubles) noexcept
+      : flash_(use), watchdog_(watchdog), troubles_(troubles) {}
   /// The watchdog runs from now on, with this time-out. Before, an erasure does not start it.
   void start(const Clocks& clocks, uint16_t watchdog_ms) noexcept;
 
@@ -22,6 +22,7 @@ class WatchedStorage final : public Storage {
   bool read(uint8_t slot, uint16_t at, uint8_t* out, uint16_t size) noexcept override;
   /// Blocks for 2.1 s at most if the flash keeps its data sheet's time.
   bool erase(uint8_t slot) noexcept override;
+  /// Feeds the watchdog: the words of a whole slot take 0.2 s at most.
   bool write(uint8_t slot, uint16_t at, const uint8_t* data, uint16_t size) noexcept override;
 
  private:

@@ -21,14 +21,20 @@ Chip::Chip() : before_(chip) { chip = this; }
 Chip::~Chip() { chip = before_; }
 Chip& Chip::current() { return *chip; }
 
-void Chip::attach(Address base, Peripheral& peripheral) { peripherals_[base] = &peripheral; }
+void Chip::attach(Address base, Peripheral& peripheral) {
+  peripherals_[base] = &peripheral;
+  advancing_.clear();
+  for (const auto& [at, attached] : peripherals_) {
+    if (attached->advances()) advancing_.push_back(attached);
+  }
+}
 
 Peripheral* Chip::find(Address address, std::uint32_t& offset) {
   if (++accesses_ > kMostAccesses) {
     ADD_FAILURE() << "a driver waits for ever";
     std::abort();
   }
-  for (const auto& [base, peripheral] : peripherals_) peripheral->advance();
+  for (Peripheral* const peripheral : advancing_) peripheral->advance();
   const auto after = peripherals_.upper_bound(address);
   if (after != peripherals_.begin()) {
     const auto& [base, peripheral] = *std::prev(after);

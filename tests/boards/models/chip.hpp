@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <vector>
 
 #include "hal/boards/stm32f405/io.hpp"
 
@@ -18,6 +19,8 @@ class Peripheral {
   virtual void store(std::uint32_t offset, std::uint32_t value) { word(offset) = value; }
   /// One poll period has passed.
   virtual void advance() {}
+  /// False: advance() does nothing.
+  virtual bool advances() const { return true; }
 
   std::uint32_t get(Field f) { return value(f, word(f.offset)); }
   void put(Field f, std::uint32_t v) { word(f.offset) = (word(f.offset) & ~mask(f)) | bits(f, v); }
@@ -42,7 +45,7 @@ class Chip {
   Chip(const Chip&) = delete;
   Chip& operator=(const Chip&) = delete;
 
-  /// The peripheral must outlive its use by the chip.
+  /// The peripheral must outlive its use by the chip. It replaces one at the same address.
   void attach(Address base, Peripheral& peripheral);
   std::uint32_t load(Address address);
   void store(Address address, std::uint32_t value);
@@ -54,6 +57,7 @@ class Chip {
  private:
   Peripheral* find(Address address, std::uint32_t& offset);
   std::map<Address, Peripheral*> peripherals_;
+  std::vector<Peripheral*> advancing_;
   std::uint64_t accesses_ = 0;
   Chip* before_;
 };

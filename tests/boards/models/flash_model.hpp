@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <vector>
 
 #include "hal/boards/stm32f405/reg/bases.hpp"
 #include "hal/boards/stm32f405/reg/flash.hpp"
@@ -35,6 +36,7 @@ class FlashModel : public Peripheral {
   }
   /// False: refused with an error bit.
   bool begin_word() {
+    if (power == 0) return false;
     if (get(flash::kLock) != 0 || get(flash::kPg) == 0 || get(flash::kBsy) != 0) {
       put(flash::kPgserr, 1);
     } else if (get(flash::kPsize) != 2) {
@@ -42,6 +44,7 @@ class FlashModel : public Peripheral {
     } else if (write_protected) {
       put(flash::kWrperr, 1);
     } else {
+      if (power > 0) --power;
       begin(40);
       return true;
     }
@@ -49,6 +52,9 @@ class FlashModel : public Peripheral {
   }
   std::array<int, 12> erasures{};  ///< of each sector
   std::function<void()> on_erase;
+  std::array<int, 12> torn{};  ///< of the erasures: the power failed meanwhile
+  int erase_accesses = 2000;   ///< how long an erasure takes
+  int power = -1;              ///< erasures and words until it fails; -1: never
   bool stuck = false;
   bool jammed = false;
   bool write_protected = false;
@@ -57,8 +63,10 @@ class FlashModel : public Peripheral {
   void start_erase() {
     if (write_protected) return put(flash::kWrperr, 1);
     ++erasures.at(get(flash::kSnb));
+    if (power == 0) ++torn.at(get(flash::kSnb));
+    if (power > 0) --power;
     if (on_erase) on_erase();
-    begin(2000);
+    begin(erase_accesses);
   }
   void begin(int accesses) {
     put(flash::kBsy, 1);
@@ -80,30 +88,50 @@ class FlashPage : public Peripheral {
     follow();
     if (flash_.begin_word()) word(offset) &= value;
   }
-  void advance() override { follow(); }
+  bool advances() const override { return false; }
 
  private:
   void follow() {
     if (flash_.erasures.at(sector_) == seen_) return;
     seen_ = flash_.erasures.at(sector_);
-    for (std::uint32_t i = 0; i < kSpan; i += 4) word(i) = UINT32_MAX;
+    const bool torn = flash_.torn.at(sector_) != torn_;
+    torn_ = flash_.torn.at(sector_);
+    for (std::uint32_t i = 0; i < kSpan; i += torn ? 8 : 4) word(i) = UINT32_MAX;
   }
   FlashModel& flash_;
   const std::size_t sector_;
   int seen_ = 0;
+  int torn_ = 0;
 };
 
-/// The flash interface, and the first `bytes` of the last two sectors.
+/// The flash interface, and the first `bytes` of the last four sectors.
 struct FlashMemory {
   FlashMemory(Chip& chip, Address bytes) {
     chip.attach(base::kFlash, model);
-    for (std::size_t sector = 10; sector < 12; ++sector) {
+    for (std::size_t sector = 8; sector < 12; ++sector) {
       for (Address at = 0; at < bytes; at += Peripheral::kSpan) {
         chip.attach(static_cast<Address>(0x08080000 + (sector - 8) * 0x20000 + at),
                     pages.emplace_back(model, sector));
       }
     }
   }
+  /// What is there without power.
+  using Contents = std::vector<std::uint32_t>;
+  Contents contents() {
+    Contents words;
+    for (FlashPage& page : pages) {
+      for (std::uint32_t i = 0; i < Peripheral::kSpan; i += 4) words.push_back(page.load(i));
+    }
+    return words;
+  }
+  /// As another chip of the same size left it.
+  void fill(const Contents& words) {
+    std::size_t at = 0;
+    for (FlashPage& page : pages) {
+      for (std::uint32_t i = 0; i < Peripheral::kSpan; i += 4) page.word(i) = words.at(at++);
+    }
+  }
+
   FlashModel model;
   std::deque<FlashPage> pages;
 };

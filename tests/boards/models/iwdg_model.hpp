@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "hal/boards/stm32f405/reg/iwdg.hpp"
 #include "tests/boards/models/chip.hpp"
 
@@ -13,7 +15,11 @@ class IwdgModel : public Peripheral {
   void store(std::uint32_t offset, std::uint32_t value) override {
     if (offset == iwdg::kKr.offset) {
       if (value == 0xCCCC) running = true;
-      if (value == 0xAAAA) ++feedings;
+      if (value == 0xAAAA) {
+        ++feedings;
+        hungry_us_ = 0;
+        loaded_ms_ = timeout_ms();
+      }
       unlocked_ = value == 0x5555;
       return;
     }
@@ -24,6 +30,10 @@ class IwdgModel : public Peripheral {
     left_ = 200;
   }
   void advance() override {
+    if (running) {
+      hungry_us_ += Chip::kUsPerAccess;
+      hungriest = std::max(hungriest, hungry_us_ / (1000 * loaded_ms_));
+    }
     if (!running || never_ready || left_ == 0 || --left_ > 0) return;
     put(iwdg::kPvu, 0);
     put(iwdg::kRvu, 0);
@@ -32,11 +42,14 @@ class IwdgModel : public Peripheral {
 
   bool running = false;
   int feedings = 0;
+  double hungriest = 0;  ///< largest part of the time-out that passed without a feeding
   bool never_ready = false;
 
  private:
   bool unlocked_ = false;
   int left_ = 0;
+  double hungry_us_ = 0;
+  double loaded_ms_ = 512;
 };
 
 }  // namespace whisker::hal::stm32f405::model

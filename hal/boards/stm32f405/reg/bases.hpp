@@ -20,6 +20,7 @@ inline constexpr Address kGpioB = 0x40020400;      ///< GPIOB
 inline constexpr Address kGpioC = 0x40020800;      ///< GPIOC
 inline constexpr Address kRcc = 0x40023800;        ///< RCC
 inline constexpr Address kFlash = 0x40023C00;      ///< FLASH
+inline constexpr Address kRng = 0x50060800;        ///< RNG
 inline constexpr Address kNvic = 0xE000E100;       ///< NVIC
 
 }  // namespace whisker::hal::stm32f405::base

@@ -26,6 +26,7 @@ inline constexpr Field kPpre2{0x08, 13, 3};     ///< CFGR.PPRE2
 inline constexpr Field kGpioaen{0x30, 0, 1};    ///< AHB1ENR.GPIOAEN
 inline constexpr Field kGpioben{0x30, 1, 1};    ///< AHB1ENR.GPIOBEN
 inline constexpr Field kGpiocen{0x30, 2, 1};    ///< AHB1ENR.GPIOCEN
+inline constexpr Field kRngen{0x34, 6, 1};      ///< AHB2ENR.RNGEN
 inline constexpr Field kTim2en{0x40, 0, 1};     ///< APB1ENR.TIM2EN
 inline constexpr Field kTim3en{0x40, 1, 1};     ///< APB1ENR.TIM3EN
 inline constexpr Field kTim4en{0x40, 2, 1};     ///< APB1ENR.TIM4EN
