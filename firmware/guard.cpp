@@ -56,7 +56,8 @@ Guard::Guard(hal::Rangefinders& rangefinders, hal::Drive& drive, const Params& p
 
 bool Guard::usable() const noexcept {
   if (kParamCheckBuilt && check(params_) != ParamFault::none) return false;
-  return params_.bumper.creep_speed == Speed{} && (kSweeps || !rim_sweep(params_).needed);
+  return params_.bumper.creep_speed == Speed{} &&
+         (kSweeps || !kParamCheckBuilt || !at_run_time::rim_sweep(params_).needed);
 }
 
 void Guard::put_down() noexcept {

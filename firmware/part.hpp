@@ -35,6 +35,9 @@
 #ifndef WHISKER_SWEEPS
 #define WHISKER_SWEEPS 1
 #endif
+#ifndef WHISKER_FRAMES
+#define WHISKER_FRAMES 1
+#endif
 #ifndef WHISKER_NODS
 #define WHISKER_NODS 1
 #endif
@@ -74,8 +77,11 @@ constexpr int kPoseHistory = WHISKER_POSE_HISTORY;
 /// Planners wait for scans of the standing body. whisker::Guard needs none.
 constexpr bool kStaticScans = WHISKER_STATIC_SCANS != 0;
 /// Readings one after another clear ground together, for sensors whose cones hold no cell at the rim.
-/// Without, whisker::Guard refuses them.
+/// Without, whisker::Guard refuses them; without kParamCheckBuilt, too, the program must:
+/// static_assert(!rim_sweep(params).needed).
 constexpr bool kSweeps = WHISKER_SWEEPS != 0;
+/// A user's frame beside that of the odometry, for fixes from outside. Only whisker::Guard can be without.
+constexpr bool kFrames = WHISKER_FRAMES != 0;
 /// whisker::Guard turns a beam onto unseen ground.
 constexpr bool kNodsBuilt = WHISKER_NODS != 0;
 /// whisker::Guard bends and slows commands by the response table (9 KB on a Cortex-M3, with the table).

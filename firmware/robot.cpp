@@ -3,6 +3,8 @@
 namespace whisker {
 namespace {
 
+static_assert(kFrames, "a goal is in the user's frame");
+
 // A mission that is due for a rest waits this long for a manoeuvre to end before it is interrupted.
 constexpr Duration kRestDelay = 15000_ms;
 constexpr Duration kLongestRest = 5000_ms;

@@ -17,7 +17,7 @@ void Localizer::put_down(const Pose& pose) noexcept {
   if (has_gyro()) heading_->restart();
   if (kGyroBuilt) teacher_->restart(Angle{}, Angle{});
   estimate_.pose = pose;
-  frame_.tie(pose, pose);
+  if (kFrames) frame_->tie(pose, pose);
   restart_bound({});
 }
 
@@ -66,15 +66,16 @@ void Localizer::teach(Angle fix, Angle sigma, const UncertainPose& fused) noexce
 }
 
 void Localizer::tie(const Pose& pose) noexcept {
+  if (!kFrames) return;
   if (pose.at == estimate_.pose.at && pose.heading == estimate_.pose.heading) return;
-  frame_.tie(odometry_.pose(), pose);
+  frame_->tie(odometry_.pose(), pose);
   estimate_.pose = pose;
 }
 
 bool Localizer::step(const Step& step) noexcept {
   if (!odometry_.take(step.counts, step.since, counts_)) return false;
   advance(step);
-  estimate_.pose = frame_.outward(odometry_.pose());
+  estimate_.pose = kFrames ? frame_->outward(odometry_.pose()) : odometry_.pose();
   return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
+#include "firmware/part.hpp"
 
 namespace whisker {
 namespace at_run_time {
@@ -53,10 +54,12 @@ constexpr Angle slowest_step(Angle half_cone, Angle error) noexcept {
   return Angle::from_raw(slowest > error.raw() * 2 ? slowest : error.raw() * 2);
 }
 
+constexpr RimSweep no_sweep(const Params& p) noexcept {
+  return {false, p.body.radius, Angle::from_raw(UINT32_MAX), {}};
+}
+
 [[gnu::always_inline]] constexpr RimSweep rim_sweep(const Params& p) noexcept {
-  RimSweep sweep{};
-  sweep.radius = p.body.radius;
-  sweep.step = Angle::from_raw(UINT32_MAX);
+  RimSweep sweep = no_sweep(p);
   const Length error = place_error(p);
   const Angle turn_error = turn_of_counts(p);
   Angle widest;
@@ -117,6 +120,7 @@ constexpr Angle slowest_step(Angle half_cone, Angle error) noexcept {
 }
 [[gnu::always_inline]] constexpr RimSweep rim_sweep(const Params& p) noexcept {
   if (__builtin_is_constant_evaluated()) return formula::rim_sweep(p);
+  if (!kSweeps) return formula::no_sweep(p);
   return at_run_time::rim_sweep(p);
 }
 [[gnu::always_inline]] constexpr Reach reach(const Params& p) noexcept {

@@ -33,6 +33,7 @@ void RangeMonitor::reset() noexcept {
 }
 
 void RangeMonitor::move_to(Vec at) noexcept {
+  if (!kMotionDetectorBuilt) return;
   if (!farther(at - step_from_, kStep)) return;
   step_from_ = at;
   counted_ = 0;

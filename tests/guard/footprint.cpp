@@ -28,6 +28,7 @@ class Board final : public whisker::hal::Rangefinders, public whisker::hal::Driv
 
 constexpr whisker::Params kParams{};
 static_assert(whisker::check(kParams) == whisker::ParamFault::none, "");
+static_assert(!whisker::rim_sweep(kParams).needed, "");
 Board board;
 alignas(whisker::Guard) unsigned char room[sizeof(whisker::Guard)];
 
