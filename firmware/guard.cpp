@@ -55,9 +55,9 @@ Guard::Guard(hal::Rangefinders& rangefinders, hal::Drive& drive, const Params& p
 }
 
 bool Guard::usable() const noexcept {
-  if (kParamCheckBuilt && check(params_) != ParamFault::none) return false;
-  return params_.bumper.creep_speed == Speed{} &&
-         (kSweeps || !kParamCheckBuilt || !at_run_time::rim_sweep(params_).needed);
+  if (params_.bumper.creep_speed != Speed{}) return false;
+  if (!kParamCheckBuilt) return true;
+  return check(params_) == ParamFault::none && (kSweeps || !at_run_time::rim_sweep(params_).needed);
 }
 
 void Guard::put_down() noexcept {
