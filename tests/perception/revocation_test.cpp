@@ -101,12 +101,13 @@ TEST_F(Revocation, AnEchoThatAppearsAtASideTakesBackTheArcBesideItsCone) {
     ConeObservation echo = beam_at(30_deg, distance, true);
     echo.number = static_cast<int8_t>(number);
     grid.revoke_beside(echo);
-    return !grid.is_clear({65_mm, 140_mm});  // at 65 degrees
+    return !grid.is_clear(polar(50_deg, distance));
   };
   for (Angle axis = -(40_deg); (80_deg - axis).wrapped() >= 0; axis += 2_deg)
     grid_.mark(beam_at(axis, 2_m, false));
   EXPECT_TRUE(taken(hal::kLeft, 150_mm));
-  EXPECT_FALSE(taken(hal::kLeft, 190_mm)) << "farther than two radii";
+  EXPECT_TRUE(taken(hal::kLeft, 350_mm));
+  EXPECT_FALSE(taken(hal::kLeft, 370_mm)) << "farther than four radii";
   EXPECT_FALSE(taken(hal::kFront, 150_mm));
 }
 
