@@ -32,6 +32,26 @@ TEST(Survey, ANodeIsAliveForTheTimeOfThreeHeartbeats) {
   EXPECT_TRUE(survey.alive(1, can::Party::controller, 301000));
   EXPECT_FALSE(survey.alive(1, can::Party::controller, 301001));
   EXPECT_FALSE(survey.alive(1, can::Party::base, 1000));
+  EXPECT_TRUE(survey.alive(1, can::Party::controller, 999)) << "heard after the look for frames had begun";
+}
+
+TEST(Survey, APartnerThatANodeHearsIsMissing) {
+  for (const can::NodeState state : {can::NodeState::ready, can::NodeState::running}) {
+    Survey survey;
+    EXPECT_FALSE(survey.misses_one(1));
+    can::Heartbeat h;
+    h.state = state;
+    survey.on_frame(can::encode(h, 1, 0), 0);
+    EXPECT_TRUE(survey.misses_one(1));
+    EXPECT_FALSE(survey.misses_one(2));
+    survey.on_frame(beat(9, 1), 0);
+    EXPECT_FALSE(survey.misses_one(1));
+  }
+  Survey survey;
+  can::Heartbeat alone;
+  alone.state = can::NodeState::waiting;
+  survey.on_frame(can::encode(alone, 1, 0), 0);
+  EXPECT_FALSE(survey.misses_one(1));
 }
 
 TEST(Survey, InfoCountsForItsStartOnly) {
