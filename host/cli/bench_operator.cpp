@@ -97,7 +97,9 @@ class Drive {
     const bool drove = link_.driven() != driven_;
     driven_ = link_.driven();
     const bool there = bus_.alive(can::Party::controller);
-    if (said_ == "drives" ? drove : there && !link_.started()) alive_us_ = bus_.clock().now_us();
+    // Who is held up sends no heartbeat in time, but what it drives is heard.
+    const bool drives = said_ == "drives" || said_ == "not heard";
+    if (drives ? drove : there && !link_.started()) alive_us_ = bus_.clock().now_us();
     double waited_s = since_s(alive_us_);
     if (!link_.started() && since_s(start_us_) >= drive_.for_s) waited_s = drive_.for_s;
     if (waited_s < choice_.timeout_s && waited_s < drive_.for_s) return;
