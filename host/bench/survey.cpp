@@ -20,6 +20,7 @@ void Survey::on_frame(const hal::CanFrame& frame, std::uint64_t now_us) {
     node.robot = static_cast<std::uint8_t>(sender->robot);
     node.party = sender->party;
     node.beat = beat;
+    node.drove = node.drove || beat.state == can::NodeState::running;
     node.heard_us = now_us;
   } else if (sender->kind == can::MessageKind::info && can::decode(frame, info)) {
     const auto node = nodes_.find(sender->node);
@@ -46,7 +47,7 @@ bool Survey::misses_one(int robot) const {
   const SeenNode* const controller = find(robot, can::Party::controller);
   const SeenNode* const base = find(robot, can::Party::base);
   const SeenNode* const only = controller == nullptr ? base : base == nullptr ? controller : nullptr;
-  return only != nullptr && only->matches();
+  return only != nullptr && (only->matches() || only->drove);
 }
 
 bool SurveyPort::receive(hal::CanFrame& out) noexcept {

@@ -19,6 +19,7 @@ struct SeenNode {
   can::Heartbeat beat;
   std::uint64_t heard_us = 0;  ///< time of that heartbeat
   bool guards = false;         ///< a guard node: it has sent a GuardStatus
+  bool drove = false;          ///< a heartbeat said so
   std::optional<std::uint32_t> table_hash;
   std::optional<std::uint32_t> version;  ///< of the firmware: major << 16 | minor << 8 | patch
   std::optional<std::uint32_t> rules;    ///< CRC-32 of the response table
@@ -40,7 +41,8 @@ class Survey {
   /// The controller or the base of the robot sent a heartbeat within the time after which a node is lost.
   /// now_us: of the last look for frames.
   bool alive(int robot, can::Party party, std::uint64_t now_us) const;
-  /// A node of the robot that has not sent a heartbeat must be there: its partner says that both match.
+  /// A node of the robot that has not sent a heartbeat must be there: its partner says that both match, or
+  /// said that it drives. That one may be held up, or lost.
   bool misses_one(int robot) const;
 
  private:

@@ -47,11 +47,21 @@ TEST(Survey, APartnerThatANodeHearsIsMissing) {
     survey.on_frame(beat(9, 1), 0);
     EXPECT_FALSE(survey.misses_one(1));
   }
-  Survey survey;
-  can::Heartbeat alone;
-  alone.state = can::NodeState::waiting;
-  survey.on_frame(can::encode(alone, 1, 0), 0);
-  EXPECT_FALSE(survey.misses_one(1));
+}
+
+TEST(Survey, APartnerThatANodeLostIsMissingIfItDrove) {
+  for (const bool drove : {false, true}) {
+    Survey survey;
+    can::Heartbeat h;
+    h.state = drove ? can::NodeState::running : can::NodeState::ready;
+    survey.on_frame(can::encode(h, 1, 0), 0);
+    h.state = can::NodeState::waiting;
+    survey.on_frame(can::encode(h, 1, 1), 0);
+    EXPECT_EQ(survey.misses_one(1), drove);
+    h.boot = 7;
+    survey.on_frame(can::encode(h, 1, 2), 0);
+    EXPECT_FALSE(survey.misses_one(1));
+  }
 }
 
 TEST(Survey, InfoCountsForItsStartOnly) {
