@@ -44,17 +44,20 @@ void BaseClient::cancel() {
 
 std::optional<std::uint32_t> BaseClient::rules() {
   const std::uint64_t begun_us = clock().now_us();
-  std::uint64_t asked_us = 0;
-  wait_until(
-      [&] {
-        const std::uint64_t now_us = clock().now_us();
-        if (asked_us == 0 || now_us - asked_us >= kAskAgain_us) {
-          node_.ask_for_info();
-          asked_us = now_us;
-        }
-        return node_.peer_rules() != 0 || now_us - begun_us >= kNoRules_us;
-      },
-      "Info");
+  std::uint64_t asked_us = begun_us;
+  node_.ask_for_info();
+  const auto named = [&] {
+    if (node_.peer_rules() != 0) return true;
+    const std::uint64_t now_us = clock().now_us();
+    if (now_us - asked_us >= kAskAgain_us) {
+      node_.ask_for_info();
+      asked_us = now_us;
+    }
+    return now_us - begun_us >= kNoRules_us;
+  };
+  wait_until(named, "Info");
+  // A controller that is held up has sent its Info before the second reply.
+  for (int i = 0; i < 2 && node_.peer_rules() == 0; ++i) read(0);
   if (node_.peer_rules() == 0) return std::nullopt;
   return node_.peer_rules();
 }

@@ -159,18 +159,25 @@ void OperatorClient::drive_to(const planning::Goal& goal) {
   };
   wait_until(settled, "MissionReply that accepts");
   if (status != can::MissionStatus::accepted) refuse("goal", status);
-  if (seen_.sync) first_tick_ = seen_.sync->tick;
+  first_tick_.reset();
+  begin_time();
   heard_us_ = clock().now_us();
 }
 
 std::optional<can::NavStatus> OperatorClient::ended() {
   poll();
+  begin_time();
   if (ended_) return ended_;
   if (replaced_) throw NoAnswer("the base has given another order");
   if (clock().now_us() - heard_us_ > std::uint64_t{patience_ms()} * 1000) {
     throw NoAnswer(fmt::format("the controller sends no NavStatus for {} ms ({})", patience_ms(), state()));
   }
   return std::nullopt;
+}
+
+/// The goal may be accepted before the first Sync is heard.
+void OperatorClient::begin_time() {
+  if (!first_tick_ && seen_.sync) first_tick_ = seen_.sync->tick;
 }
 
 double OperatorClient::time_s() const {

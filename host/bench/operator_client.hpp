@@ -47,6 +47,7 @@ class OperatorClient final : public ParamClient {
   void send_order(can::Order order, const can::MissionValues& values);
   template <class M>
   void send(const M& message, can::AliveSender& alive);
+  void begin_time();
   std::string state() const;
   [[noreturn]] void refuse(const char* what, can::MissionStatus status) const;
 

@@ -20,6 +20,7 @@ void Survey::on_frame(const hal::CanFrame& frame, std::uint64_t now_us) {
     node.robot = static_cast<std::uint8_t>(sender->robot);
     node.party = sender->party;
     node.beat = beat;
+    node.drove = node.drove || beat.state == can::NodeState::running;
     node.heard_us = now_us;
   } else if (sender->kind == can::MessageKind::info && can::decode(frame, info)) {
     const auto node = nodes_.find(sender->node);
@@ -39,7 +40,14 @@ const SeenNode* Survey::find(int robot, can::Party party) const {
 
 bool Survey::alive(int robot, can::Party party, std::uint64_t now_us) const {
   const SeenNode* const node = find(robot, party);
-  return node != nullptr && now_us - node->heard_us <= std::uint64_t{can::kPeerLost_ms} * 1000;
+  return node != nullptr && now_us <= node->heard_us + std::uint64_t{can::kPeerLost_ms} * 1000;
+}
+
+bool Survey::misses_one(int robot) const {
+  const SeenNode* const controller = find(robot, can::Party::controller);
+  const SeenNode* const base = find(robot, can::Party::base);
+  const SeenNode* const only = controller == nullptr ? base : base == nullptr ? controller : nullptr;
+  return only != nullptr && (only->matches() || only->drove);
 }
 
 bool SurveyPort::receive(hal::CanFrame& out) noexcept {

@@ -82,31 +82,43 @@ void BenchBus::join() {
   }
 }
 
+/// All that has come: a poll takes what fits into the queue of the port.
+void BenchBus::take(const std::function<void(const hal::CanFrame&)>& each) {
+  hal::CanFrame frame{};
+  bool received = true;
+  for (int i = 0; received && i < kMostPolls; ++i) {
+    received = false;
+    port_.poll(clock_.now_ms());
+    for (; port_.receive(frame); received = true) {
+      if (each) each(frame);
+    }
+  }
+}
+
+/// Looks at the clock before it takes what has come: whoever is held up longer than the time misses nothing.
 bool BenchBus::listen(double seconds, const std::function<bool()>& done,
                       const std::function<void(const hal::CanFrame&)>& each) {
   join();
   const std::uint64_t end_us = clock_.now_us() + static_cast<std::uint64_t>(seconds * 1e6);
-  while (clock_.now_us() < end_us) {
-    hal::CanFrame frame{};
-    bool received = true;
-    // A poll takes what fits into the queue of the port.
-    for (int i = 0; received && i < kMostPolls; ++i) {
-      received = false;
-      port_.poll(clock_.now_ms());
-      for (; port_.receive(frame); received = true) {
-        if (each) each(frame);
-      }
-    }
+  for (;;) {
+    const bool over = clock_.now_us() >= end_us, interrupted = interrupt_.noted();
+    take(each);
     guard_.watch(port_, clock_.now_ms());
     if (done && done()) return true;
-    if (interrupt_.noted()) throw bench::Interrupted("interrupted");
+    if (interrupted) throw bench::Interrupted("interrupted");
+    if (over) return false;
     clock_.wait_a_ms();
   }
-  return false;
+}
+
+void BenchBus::meet(const std::function<void(const hal::CanFrame&)>& each) {
+  const auto met = [this] { return !survey_.misses_one(robot()); };
+  listen(kListen_s, nullptr, each);
+  listen(choice_.timeout_s, met, each);
 }
 
 void BenchBus::find_controller() {
-  listen(kListen_s, nullptr);
+  meet();
   const auto found = [&] { return has(can::Party::controller); };
   if (!found() && !listen(choice_.timeout_s, found)) {
     throw bench::NoAnswer(

@@ -44,13 +44,18 @@ class BenchBus {
   explicit BenchBus(const BenchChoice& choice);
 
   /// Receives for this time, or until `done`, once the port is on the bus. each: receives every frame; may be
-  /// empty. False: the time is over.
+  /// empty. False: the time is over, and all that had come by then was received.
   bool listen(double seconds, const std::function<bool()>& done,
               const std::function<void(const hal::CanFrame&)>& each = nullptr);
   void send(const hal::CanFrame& frame) { port_.send(frame, can::kEventLife_ms); }
 
-  /// After listening for a while: the robot has this node.
-  bool has(can::Party party) { return survey_.alive(robot(), party, clock_.now_us()); }
+  /// Listens until it is known who is there.
+  void meet(const std::function<void(const hal::CanFrame&)>& each = nullptr);
+  /// It has sent a heartbeat. A node that is silent for a moment keeps its place: a second one there would
+  /// stop the robot.
+  bool has(can::Party party) const { return survey_.find(robot(), party) != nullptr; }
+  /// It is not silent.
+  bool alive(can::Party party) const { return survey_.alive(robot(), party, port_.polled_us()); }
   /// The robot's base. Throws bench::NoAnswer if the robot has one, or no controller.
   std::unique_ptr<bench::BaseClient> base();
   /// An operator, if the robot has a base, or else its base. Throws bench::NoAnswer if the robot has no
@@ -69,6 +74,7 @@ class BenchBus {
 
  private:
   void join();
+  void take(const std::function<void(const hal::CanFrame&)>& each);
   void find_controller();
   bench::Patience patience();
   std::unique_ptr<bench::BaseClient> in_its_place();

@@ -46,7 +46,7 @@ void check_use(const BenchMission& o) {
 int execute(const BenchMission& o) {
   check_use(o);
   BenchBus bus(o.bus);
-  bus.listen(BenchBus::kListen_s, nullptr);
+  bus.meet();
   check_place(bus, o.bus);
   CalibrationMission mission(o.mission, length_of(o));
   bench::GoalSeat seat(bus.port(), o.bus.bus.identity(), mission, {{1_m, 0_m}, 100_mm}, {});

@@ -54,7 +54,7 @@ int goal(const SeatOptions& o) {
   if (!(o.tolerance_m > 0)) throw UsageError("bench goal: --tolerance must be above 0");
   const auto view = o.view.open(o.planner);
   BenchBus bus(o.bus);
-  bus.listen(BenchBus::kListen_s, nullptr);
+  bus.meet();
   if (bus.has(can::Party::controller) && bus.has(can::Party::base)) {
     if (o.own_core) {
       throw UsageError(
@@ -102,13 +102,22 @@ int goal(const SeatOptions& o) {
   return exit_status(result.verdict);
 }
 
-/// Listens for a while. Throws bench::NoAnswer if the guard node has an operator.
-bool has_guard_node(BenchBus& bus) {
+/// Listens until it is known who is there. Throws bench::NoAnswer if the guard node has an operator.
+bool has_guard_node(BenchBus& bus, double timeout_s) {
   bool taken = false;
-  bus.listen(BenchBus::kListen_s, nullptr,
-             [&](const hal::CanFrame& frame) { taken = taken || bench::from_operator(frame, bus.robot()); });
-  const bench::SeenNode* const node = bus.survey().find(bus.robot(), can::Party::controller);
-  if (node == nullptr || !node->guards) return false;
+  const auto hear = [&](const hal::CanFrame& frame) {
+    taken = taken || bench::from_operator(frame, bus.robot());
+  };
+  const auto guards = [&] {
+    const bench::SeenNode* const node = bus.survey().find(bus.robot(), can::Party::controller);
+    return node != nullptr && node->guards;
+  };
+  const auto anyone = [&] { return bus.has(can::Party::controller) || bus.has(can::Party::base); };
+  bus.meet(hear);
+  bus.listen(timeout_s, anyone, hear);
+  // A node that has just come has a heartbeat first.
+  if (bus.has(can::Party::controller)) bus.listen(BenchBus::kListen_s, guards, hear);
+  if (!guards()) return false;
   if (!taken) return true;
   throw bench::NoAnswer(fmt::format("{}: another operator drives robot {}", bus.name(), bus.robot()));
 }
@@ -122,7 +131,8 @@ int drive(const SeatOptions& o) {
   guard::Operator& hand = keys ? static_cast<guard::Operator&>(*keys) : *recorded;
   const auto done = [&](double t_s) { return keys ? keys->ended() : t_s > recorded->last_s(); };
   BenchBus bus(o.bus);
-  if (has_guard_node(bus)) return operate(bus, o.bus, {hand, done, o.vouched_m, o.for_s, o.keys, o.json});
+  if (has_guard_node(bus, o.bus.timeout_s))
+    return operate(bus, o.bus, {hand, done, o.vouched_m, o.for_s, o.keys, o.json});
   check_place(bus, o.bus);
   bench::GuardSeat seat(bus.port(), o.bus.bus.identity(), hand, o.vouched_m);
   ProgressLine line;

@@ -40,7 +40,7 @@ constexpr double kAskAgain_s = 0.2;
 
 /// It has sent no Info, and none will come unless it is asked for.
 bool unasked(const bench::SeenNode& n, BenchBus& bus) {
-  const bool partner = bus.survey().alive(n.robot, can::other(n.party), bus.clock().now_us());
+  const bool partner = bus.survey().find(n.robot, can::other(n.party)) != nullptr;
   return !partner && !(n.table_hash && n.version);
 }
 
@@ -56,7 +56,7 @@ void ask_lone_nodes(BenchBus& bus) {
   clock_gettime(CLOCK_REALTIME, &t);
   const auto counter = static_cast<std::uint8_t>(t.tv_nsec / 1000 % can::kAliveModulus);
   for (const auto& [number, n] : bus.survey().nodes()) {
-    if (!unasked(n, bus)) continue;
+    if (!unasked(n, bus) || n.matches()) continue;
     const can::Party partner = can::other(n.party);
     for (std::uint8_t i = 0; i < 2; ++i) {
       const auto next = static_cast<std::uint8_t>((counter + i) % can::kAliveModulus);

@@ -24,7 +24,7 @@ constexpr double kAgain_s = 0.1;  // period of heartbeats
 std::pair<int, int> stopped_of_all(BenchBus& bus) {
   int stopped = 0, all = 0;
   for (const can::Party party : {can::Party::controller, can::Party::base}) {
-    if (!bus.survey().alive(bus.robot(), party, bus.clock().now_us())) continue;
+    if (!bus.alive(party)) continue;
     ++all;
     if (bus.survey().find(bus.robot(), party)->beat.state == can::NodeState::e_stopped) ++stopped;
   }

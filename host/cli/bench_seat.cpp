@@ -26,15 +26,12 @@ std::string state_words(const can::Node& node, bool started) {
 }  // namespace
 
 void check_place(BenchBus& bus, const BenchChoice& choice) {
-  const auto there = [&](can::Party party) {
-    return bus.survey().alive(bus.robot(), party, bus.clock().now_us());
-  };
   const auto found = [&] {
-    if (there(can::Party::controller)) {
+    if (bus.has(can::Party::controller)) {
       throw bench::NoAnswer(fmt::format("{}: robot {} has a controller (node {}): take it off the bus first",
                                         bus.name(), bus.robot(), bus.robot()));
     }
-    return there(can::Party::base);
+    return bus.has(can::Party::base);
   };
   if (found() || bus.listen(choice.timeout_s, found)) return;
   throw bench::NoAnswer(

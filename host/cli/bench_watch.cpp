@@ -33,8 +33,8 @@ struct WatchOptions {
   bool json = false;
 };
 
-Json node_json(const BenchBus& bus, can::Party party, std::uint64_t now_us) {
-  if (!bus.survey().alive(bus.robot(), party, now_us)) return nullptr;
+Json node_json(const BenchBus& bus, can::Party party) {
+  if (!bus.alive(party)) return nullptr;
   const can::Heartbeat& beat = bus.survey().find(bus.robot(), party)->beat;
   return {{"state", can::word_in<can::kNodeStateWords>(static_cast<int>(beat.state))},
           {"errors", hil::error_names(beat.errors)}};
@@ -47,9 +47,9 @@ Json range_json(const std::optional<hal::RangeReading>& r) {
 }
 
 /// null: has not been on the bus.
-Json state_json(const BenchBus& bus, const bench::BusState& s, std::uint64_t now_us) {
-  Json json = {{"controller", node_json(bus, can::Party::controller, now_us)},
-               {"base", node_json(bus, can::Party::base, now_us)},
+Json state_json(const BenchBus& bus, const bench::BusState& s) {
+  Json json = {{"controller", node_json(bus, can::Party::controller)},
+               {"base", node_json(bus, can::Party::base)},
                {"outcome", nullptr},
                {"state", nullptr},
                {"why", nullptr},
@@ -166,7 +166,7 @@ int watch(const WatchOptions& o) {
   std::string last;
   const auto tell = [&] {
     const std::uint64_t now_us = bus.clock().now_us();
-    Json json = state_json(bus, state, now_us);
+    Json json = state_json(bus, state);
     const std::string now = occasion(json);
     if (now == last && now_us < due_us) return false;
     const bool both = !json["controller"].is_null() && !json["base"].is_null();

@@ -30,12 +30,16 @@ std::string words_for(const can::Node& node, const Line& line) {
 
 /// rules: the response table that is not announced.
 template <class Controller>
-void run(Controller& controller, std::uint32_t rules, Line& line, const ControllerOptions& options) {
+void run(Controller& controller, std::uint32_t rules, hal::CanPort& port, Line& line,
+         const ControllerOptions& options) {
   WallClock clock([&line] { return line.descriptor(); });
   std::string said;
   std::uint32_t rules_said = rules;
   while (!options.interrupted()) {
-    controller.poll(clock.now_ms());
+    const bool stepped = controller.poll(clock.now_ms());
+    // On a busy computer, what was said in this poll would expire before the next one. In lockstep, the
+    // frames that a poll takes before a wait cost time.
+    if (stepped || !controller.node().lockstep()) port.poll(clock.now_ms());
     const std::string words = words_for(controller.node(), line);
     if (words != said && options.say) options.say(words);
     said = words;
@@ -62,11 +66,11 @@ void control(hal::CanPort& port, Line& line, const ControllerOptions& options) {
   if (options.guard) {
     const auto guard = std::make_unique<can_app::GuardController>(port, identity, options.longest_command);
     if (options.assist != nullptr) guard->assist_by(*options.assist);
-    return run(*guard, identity.rules, line, options);
+    return run(*guard, identity.rules, port, line, options);
   }
   const auto controller = std::make_unique<can_app::Controller>(
       port, identity, planners, own ? rules.server() : nullptr, options.calibrator);
-  run(*controller, identity.rules, line, options);
+  run(*controller, identity.rules, port, line, options);
 }
 
 }  // namespace whisker::hil

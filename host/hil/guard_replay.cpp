@@ -29,6 +29,12 @@ void GuardReplay::on_frame(const can::WheelCommand& command) {
   said_.reset();
 }
 
+bool GuardReplay::of_a_step(const can::GuardReport& told) {
+  const bool waits =
+      told.reason == static_cast<std::uint8_t>(GuardReason::command_timeout) && told.granted_forward == 0;
+  return !waits;
+}
+
 GuardReplay::Step GuardReplay::step(const can::InputSet& set, const Answer& recorded,
                                     const can::GuardReport* told) {
   const Time now = can_app::time_of(set);

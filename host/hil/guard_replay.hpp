@@ -39,6 +39,9 @@ class GuardReplay {
   /// The last answer. Empty if it is taken already, or the node does not drive.
   std::optional<Answer> take() { return std::exchange(answer_, std::nullopt); }
   bool waits() const { return answer_.has_value(); }
+  /// It belongs to an answer. A node that waits for a set says command_timeout, too, but grants nothing: a
+  /// step without a command grants all of it.
+  static bool of_a_step(const can::GuardReport& told);
   /// told: null if the log lacks it.
   Step step(const can::InputSet& set, const Answer& recorded, const can::GuardReport* told);
   bool ready() const { return guard_->ready(); }

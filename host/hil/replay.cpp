@@ -3,6 +3,8 @@
 #include <array>
 #include <memory>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,6 +21,29 @@ namespace {
 
 using can::MessageKind;
 
+/// Of which node the log is. Its first GuardStatus may be missing, so this is known before the replay begins.
+class Judge {
+ public:
+  explicit Judge(int robot) : robot_(robot) {}
+  /// True: it is known.
+  bool see(const hal::CanFrame& frame) {
+    const std::optional<Sender> sender = sender_of(frame);
+    if (!sender || !sender->whole) return false;
+    if (robot_ == 0) robot_ = sender->robot;
+    if (sender->robot != robot_) return false;
+    guards_ = sender->kind == MessageKind::guard_status;
+    return guards_ || (sender->kind == MessageKind::wheel_command && ++commands_ == kEnough);
+  }
+  bool guards() const { return guards_; }
+
+ private:
+  static constexpr int kEnough = 256;  // a guard node says more often that it is one
+
+  int robot_;
+  int commands_ = 0;
+  bool guards_ = false;
+};
+
 class Replay {
  public:
   explicit Replay(const ReplayOptions& options)
@@ -28,6 +53,8 @@ class Replay {
         pilot_(std::make_unique<can_app::RemoteRobot>(planners_)) {
     result_.robot = options.robot;
   }
+
+  void replays_a_guard() { result_.guard = true; }
 
   void on_frame(const LogFrame& entry, std::uint64_t line) {
     line_ = line;
@@ -53,7 +80,9 @@ class Replay {
   void execute(MessageKind kind, const hal::CanFrame& frame) {
     if (kind == MessageKind::guard_status) {
       result_.guard = true;
-      return with<can::GuardReport>(frame, [&](const auto& m) { step_guard(&m); });
+      return with<can::GuardReport>(frame, [&](const auto& m) {
+        if (GuardReplay::of_a_step(m)) step_guard(&m);
+      });
     }
     if (result_.guard && kind == MessageKind::nav_status) return;
     if (result_.guard && kind == MessageKind::wheel_command) {
@@ -250,12 +279,26 @@ class Replay {
 
 ReplayResult replay(std::istream& log, const ReplayOptions& options) {
   Replay replay(options);
+  Judge judge(options.robot);
+  std::vector<std::pair<LogFrame, std::uint64_t>> first;  // before it is judged
+  bool judged = false;
+  const auto begin = [&] {
+    judged = true;
+    if (judge.guards()) replay.replays_a_guard();
+    for (const auto& [entry, number] : first) replay.on_frame(entry, number);
+    first.clear();
+  };
   std::string line;
   std::uint64_t cut = 0;
   for (std::uint64_t number = 1; std::getline(log, line); ++number) {
     if (line.empty()) continue;
     if (const auto entry = parse_log_line(line)) {
-      replay.on_frame(*entry, number);
+      if (judged) {
+        replay.on_frame(*entry, number);
+      } else {
+        first.emplace_back(*entry, number);
+        if (judge.see(entry->frame)) begin();
+      }
       continue;
     }
     const bool unfinished = log.eof() && line.front() == '(';
@@ -264,6 +307,7 @@ ReplayResult replay(std::istream& log, const ReplayOptions& options) {
     }
     cut = number;
   }
+  if (!judged) begin();
   ReplayResult result = replay.result();
   result.cut = cut;
   return result;

@@ -12,6 +12,31 @@ constexpr std::uint8_t kSpeed = 3;
 constexpr planning::Goal kNear{{1_m, 500_mm}, 100_mm}, kFar{{20_m, 5_m}, 100_mm};
 
 /// Beside a robot whose base drives to a goal 30 m ahead; a wait of the client is a tick.
+/// Loses what the base says about time, while it is deaf.
+class LosesSync final : public hal::CanPort {
+ public:
+  explicit LosesSync(hal::CanPort& port) : port_(port) {}
+  bool send(const hal::CanFrame& frame, std::uint8_t lifetime_ms) noexcept override {
+    return port_.send(frame, lifetime_ms);
+  }
+  bool receive(hal::CanFrame& out) noexcept override {
+    while (port_.receive(out)) {
+      can::MessageKind kind = can::MessageKind::e_stop;
+      if (!deaf || !can::kind_of(out.id, kind) || kind != can::MessageKind::sync) return true;
+    }
+    return false;
+  }
+  void poll(std::uint32_t now_ms) noexcept override { port_.poll(now_ms); }
+  void restart() noexcept override { port_.restart(); }
+  hal::CanState state() const noexcept override { return port_.state(); }
+  const hal::CanCounts& counts() const noexcept override { return port_.counts(); }
+
+  bool deaf = false;
+
+ private:
+  hal::CanPort& port_;
+};
+
 class ThirdParty : public ::testing::Test, public hil::Clock {
  protected:
   ThirdParty() {
@@ -55,14 +80,18 @@ class ThirdParty : public ::testing::Test, public hil::Clock {
   hil::HostPlanners planners_{kDefaultPlanner, nullptr};
   test::Rig rig_{test::open_ground(), {}, {}, 1, &planners_};
   Survey survey_;
-  SurveyPort port_{rig_.wire().attach(), survey_, *this};
+  LosesSync heard_{rig_.wire().attach()};
+  SurveyPort port_{heard_, survey_, *this};
   OperatorClient client_{port_, *this, survey_, 1, 100, {500, nullptr}};
 };
 
 TEST_F(ThirdParty, DrivesToAGoalAndToTheNext) {
   connect();
   client_.drive_to(kFar);
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(client_.ended(), std::nullopt), wait_a_ms();
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_EQ(client_.ended(), std::nullopt);
+    wait_a_ms();
+  }
   client_.drive_to(kNear);
   EXPECT_EQ(end(), planning::Outcome::reached);
   EXPECT_GT(client_.time_s(), 3);
@@ -70,6 +99,18 @@ TEST_F(ThirdParty, DrivesToAGoalAndToTheNext) {
   EXPECT_EQ(client_.ended(), std::nullopt) << "not the end of the goal before";
   EXPECT_EQ(end(), planning::Outcome::reached);
   EXPECT_EQ(rig_.base().health().stops, 0U);
+}
+
+TEST_F(ThirdParty, ItsTimeBeginsWithTheFirstSyncAtTheLatest) {
+  heard_.deaf = true;
+  connect();
+  client_.drive_to(kFar);
+  heard_.deaf = false;
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_EQ(client_.ended(), std::nullopt);
+    wait_a_ms();
+  }
+  EXPECT_NEAR(client_.time_s(), 1, 0.1);
 }
 
 TEST_F(ThirdParty, WritesAfterACancelAndDrivesWithIt) {

@@ -20,7 +20,7 @@ class Bench : public ::testing::Test, public hil::Clock {
  protected:
   std::uint64_t now_us() override { return now_us_; }
   void wait(std::uint64_t most_us) override {
-    now_us_ += most_us;
+    now_us_ += most_us + held_up_us_;
     if (polls_left_ == 0) return;
     --polls_left_;
     controller_.poll(static_cast<std::uint32_t>(now_us_ / 1000));
@@ -31,6 +31,7 @@ class Bench : public ::testing::Test, public hil::Clock {
   }
 
   std::uint64_t now_us_ = 1000000;
+  std::uint64_t held_up_us_ = 0;
   int polls_left_ = 1000000;
   bus::MemoryBus bus_;
   bus::MemoryPort& port_ = bus_.attach();
@@ -121,6 +122,20 @@ TEST_F(Bench, SendsAResponseTableAndRestoresTheBuiltInOne) {
     EXPECT_STREQ(e.what(), "the controller sends no RulesReply for 500 ms");
   }
   EXPECT_EQ(&rules_.active(), &built_in);
+}
+
+TEST_F(Bench, ABusyComputerDoesNotHideTheResponseTable) {
+  connect();
+  for (const std::uint64_t ms : {60U, 290U}) {
+    held_up_us_ = ms * 1000;
+    EXPECT_EQ(client_.rules(), fuzzy::digest(fuzzy::kResponseTable)) << ms;
+  }
+}
+
+TEST_F(Bench, SilenceIsNoLackOfAResponseTable) {
+  connect();
+  polls_left_ = 0;
+  EXPECT_THROW(static_cast<void>(client_.rules()), NoAnswer);
 }
 
 TEST_F(Bench, NoticesAnotherBase) {

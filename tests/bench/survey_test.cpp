@@ -32,6 +32,36 @@ TEST(Survey, ANodeIsAliveForTheTimeOfThreeHeartbeats) {
   EXPECT_TRUE(survey.alive(1, can::Party::controller, 301000));
   EXPECT_FALSE(survey.alive(1, can::Party::controller, 301001));
   EXPECT_FALSE(survey.alive(1, can::Party::base, 1000));
+  EXPECT_TRUE(survey.alive(1, can::Party::controller, 999)) << "heard after the look for frames had begun";
+}
+
+TEST(Survey, APartnerThatANodeHearsIsMissing) {
+  for (const can::NodeState state : {can::NodeState::ready, can::NodeState::running}) {
+    Survey survey;
+    EXPECT_FALSE(survey.misses_one(1));
+    can::Heartbeat h;
+    h.state = state;
+    survey.on_frame(can::encode(h, 1, 0), 0);
+    EXPECT_TRUE(survey.misses_one(1));
+    EXPECT_FALSE(survey.misses_one(2));
+    survey.on_frame(beat(9, 1), 0);
+    EXPECT_FALSE(survey.misses_one(1));
+  }
+}
+
+TEST(Survey, APartnerThatANodeLostIsMissingIfItDrove) {
+  for (const bool drove : {false, true}) {
+    Survey survey;
+    can::Heartbeat h;
+    h.state = drove ? can::NodeState::running : can::NodeState::ready;
+    survey.on_frame(can::encode(h, 1, 0), 0);
+    h.state = can::NodeState::waiting;
+    survey.on_frame(can::encode(h, 1, 1), 0);
+    EXPECT_EQ(survey.misses_one(1), drove);
+    h.boot = 7;
+    survey.on_frame(can::encode(h, 1, 2), 0);
+    EXPECT_FALSE(survey.misses_one(1));
+  }
 }
 
 TEST(Survey, InfoCountsForItsStartOnly) {

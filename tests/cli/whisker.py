@@ -22,14 +22,14 @@ STATUS = {"reached": 0, "unreachable": 3, "gave_up": 4, "contact": 5, "fault": 6
 binary = ""
 
 
-def whisker(*arguments, **options):
+def whisker(*arguments, timeout=120, **options):
     """Runs the command to its end; output as text."""
     return subprocess.run(
         [binary, *map(str, arguments)],
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=timeout,
         check=False,
         **options,
     )
