@@ -8,14 +8,14 @@ constexpr int32_t kBiasTop = 8 * Q7::kOne;
 
 int64_t within(Length x, Length max_range) noexcept { return max(Length{}, min(x, max_range)).raw(); }
 
-Q7 fraction_of(int32_t top, int64_t part, int64_t whole) noexcept {
+Q7 fraction_of(int32_t top, int64_t part, int32_t whole) noexcept {
   return Q7::from_raw(static_cast<int16_t>(divide_rounded(top * part, whole)));
 }
 
 }  // namespace
 
 Inputs scale(Length left, Length front, Length right, Length max_range, DistanceSource source) noexcept {
-  const int64_t whole = max_range.raw();
+  const int32_t whole = max_range.raw();
   const int64_t l = within(left, max_range);
   const int64_t f = within(front, max_range);
   const int64_t r = within(right, max_range);

@@ -21,8 +21,11 @@ void Odometry::configure(const Params& params) noexcept {
 
   if (kCalibrationBuilt) {
     // The wheels turn by 1 -+ skew.
-    const int64_t ratio = params.wheels.ratio.raw();
-    const auto skewed = [ratio](int64_t x) { return divide_rounded(x * (ratio - 1000000), ratio + 1000000); };
+    const Ratio ratio = params.wheels.ratio;
+    const Ratio one = millionths(1000000);
+    const auto skewed = [&](int64_t x) {
+      return divide_rounded(x * (ratio - one).raw(), (ratio + one).raw());
+    };
     skew_->share = static_cast<int32_t>(skewed(INT64_C(1) << 24));
     skew_->um_per_count = skewed(um_per_count_);
     skew_->turn_per_count = skewed(static_cast<int64_t>(turn_per_count_));
@@ -92,7 +95,7 @@ Angle Odometry::turn_of(int32_t difference) const noexcept {
 }
 
 int32_t Odometry::counts_per_turn() const noexcept {
-  return saturate32(static_cast<int64_t>((UINT64_C(1) << 48) / turn_per_count_));
+  return saturate32(static_cast<int64_t>(quotient_64(UINT64_C(1) << 48, turn_per_count_)));
 }
 
 Pose Odometry::pose() const noexcept {

@@ -27,7 +27,7 @@ Length root(int64_t variance) noexcept {
 }
 
 /// The square of an angle in 2^-32 turn, over a divisor.
-int32_t squared_over(Angle angle, int64_t divisor) noexcept {
+int32_t squared_over(Angle angle, int32_t divisor) noexcept {
   return saturate32(divide_rounded(square(angle.wrapped()), divisor));
 }
 
@@ -43,7 +43,7 @@ void PoseBound::configure(const Params& params) noexcept {
   // Errors of two wheels: their mean is off by 1 / sqrt(2) of one, their difference by sqrt(2).
   const int64_t both = 2 * square(e.wheel_scale_common.raw()) + square(e.wheel_scale.raw());
   const uint32_t twice = square_root(static_cast<uint64_t>(both) << 20);
-  scale_ = static_cast<int32_t>(twice * INT64_C(741455) / 1000000);
+  scale_ = static_cast<int32_t>(quotient(twice * INT64_C(741455), 1000000));
   turn_per_um_ =
       static_cast<int32_t>(divide_rounded(e.wheel_scale.raw() * INT64_C(24879108), params.body.track.raw()));
   gyro_scale_ = multiply_divide(e.gyro_scale.raw(), INT32_C(1) << 30, 1000000);
@@ -68,11 +68,11 @@ bool PoseBound::correct_heading(Angle ahead, Angle sigma, Correction& out) noexc
   if (square(off) > square(kJumpSigmas) * both) return false;
   gather();
   // um per radian
-  const int64_t x = limited((x_heading_ * kRadianUnit) / both, kMost.raw());
-  const int64_t y = limited((y_heading_ * kRadianUnit) / both, kMost.raw());
+  const int64_t x = limited(quotient_64(x_heading_ * kRadianUnit, both), kMost.raw());
+  const int64_t y = limited(quotient_64(y_heading_ * kRadianUnit, both), kMost.raw());
   const auto metres = [](int64_t um) { return Length::from_raw(saturate32(um)); };
   out.shift = {metres(scale_down<20>(x * off)), metres(scale_down<20>(y * off))};
-  const int64_t share = (heading_ << 16) / both;
+  const int64_t share = quotient_64(heading_ << 16, both);
   out.turn = Angle::from_raw(static_cast<uint32_t>(scale_down<16>(ahead.wrapped() * share)));
   xx_ -= scale_down<20>(x * x_heading_);
   xy_ -= scale_down<20>(x * y_heading_);

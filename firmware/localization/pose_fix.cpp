@@ -34,7 +34,7 @@ bool too_far(const Difference& d) noexcept {
 /// The weight of the fix, 2^-16: its share of the inverse variances.
 int32_t weight(const Difference& d) noexcept {
   const int64_t both = square(d.estimate) + square(d.fix);
-  return both == 0 ? 65536 : static_cast<int32_t>((square(d.estimate) << 16) / both);
+  return both == 0 ? 65536 : static_cast<int32_t>(quotient_64(square(d.estimate) << 16, both));
 }
 
 /// The standard deviation of the mean, in the unit of the fix's.

@@ -113,7 +113,8 @@ bool WallDirection::finish(const Run& run, Angle direction, Found& found) noexce
   const int64_t over =
       int64_t{line.spread.raw()} * as_signed(square_root(static_cast<uint64_t>(count) << 16));
   found.ahead = Angle::from_raw(static_cast<uint32_t>(ahead));
-  found.sigma = Angle::from_raw(static_cast<uint32_t>(error.raw() * (kRadian << 8) / over)) + kFloor;
+  found.sigma =
+      Angle::from_raw(static_cast<uint32_t>(quotient_64(error.raw() * (kRadian << 8), over))) + kFloor;
   const bool agrees = earlier_sigma_ != Angle{} && magnitude(apart(line.direction - earlier_, 2)) <=
                                                        2 * (earlier_sigma_ + found.sigma).raw();
   earlier_ = line.direction;

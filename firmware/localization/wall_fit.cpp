@@ -33,9 +33,9 @@ WallLine wall_line(const Vec* points, int count) noexcept {
     xy += dx * dy;
     yy += dy * dy;
   }
-  const int32_t difference = saturate32((xx - yy) / count);
-  const int32_t mixed = saturate32(2 * xy / count);
-  const int64_t sum = (xx + yy) / count;
+  const int32_t difference = saturate32(quotient(xx - yy, count));
+  const int32_t mixed = saturate32(quotient(2 * xy, count));
+  const int64_t sum = quotient(xx + yy, count);
   const int64_t axes = square_root(static_cast<uint64_t>(square(difference) + square(mixed)));
   const int32_t twice = atan2(mixed, difference).wrapped();
   return {Angle::from_raw(static_cast<uint32_t>(twice / 2)), root((sum - axes) / 2), root((sum + axes) / 2),

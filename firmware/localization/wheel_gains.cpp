@@ -14,7 +14,7 @@ constexpr int32_t kSlipDegrees = 3;            // an error below this is no slip
 
 /// What remains of a variance after an observation with this share of it.
 int32_t remaining(int32_t variance, int64_t part, int64_t whole, int32_t least) noexcept {
-  const int32_t rest = variance - saturate32(divide_rounded(variance * part, whole));
+  const int32_t rest = variance - saturate32(divide_rounded_64(variance * part, whole));
   return rest < least ? least : rest;
 }
 
@@ -30,7 +30,7 @@ void WheelGains::configure(int32_t counts_per_turn, int32_t counts_per_metre, in
 }
 
 void WheelGains::expect(Ratio gain, Ratio skew) noexcept {
-  const auto variance = [](Ratio sigma) { return saturate32(square(sigma.raw()) * 4295 / 1000000); };
+  const auto variance = [](Ratio sigma) { return saturate32(quotient(square(sigma.raw()) * 4295, 1000000)); };
   gain_variance_ = variance(gain);
   skew_variance_ = variance(skew);
 }
@@ -92,11 +92,11 @@ bool WheelGains::observe(const Stretch& stretch, int64_t noise) noexcept {
   const int64_t by_skew = scale_down<24>(square(way) * skew_variance_);
   const int64_t by_gain = scale_down<24>(square(turn) * gain_variance_);
   const int64_t all = by_skew + by_gain + noise;
-  const int64_t slip = int64_t{counts_per_turn_} * kSlipDegrees * 16 / 360;
+  const int64_t slip = quotient(int64_t{counts_per_turn_} * kSlipDegrees * 16, 360);
   if (square(error) > 16 * all + square(slip)) return true;
 
-  skew_ += saturate32(scale_down<4>(divide_rounded(int64_t{skew_variance_} * way * error, all)));
-  gain_ += saturate32(scale_down<4>(divide_rounded(int64_t{gain_variance_} * turn * error, all)));
+  skew_ += saturate32(scale_down<4>(divide_rounded_64(int64_t{skew_variance_} * way * error, all)));
+  gain_ += saturate32(scale_down<4>(divide_rounded_64(int64_t{gain_variance_} * turn * error, all)));
   skew_variance_ = remaining(skew_variance_, by_skew, all, kLeastSkewVariance);
   gain_variance_ = remaining(gain_variance_, by_gain, all, kLeastGainVariance);
   return false;

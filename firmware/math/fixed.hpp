@@ -6,11 +6,9 @@
 
 #include <stdint.h>
 
-namespace whisker {
+#include "firmware/math/quotient.hpp"
 
-constexpr int32_t saturate32(int64_t x) noexcept {
-  return x > INT32_MAX ? INT32_MAX : x < INT32_MIN ? INT32_MIN : static_cast<int32_t>(x);
-}
+namespace whisker {
 
 constexpr int16_t saturate16(int32_t x) noexcept {
   return x > INT16_MAX ? INT16_MAX : x < INT16_MIN ? INT16_MIN : static_cast<int16_t>(x);
@@ -36,25 +34,22 @@ constexpr int32_t as_signed(uint32_t raw) noexcept {
   return raw <= INT32_MAX ? static_cast<int32_t>(raw) : -static_cast<int32_t>(~raw) - 1;
 }
 
-constexpr uint32_t magnitude(int32_t x) noexcept {
-  return x < 0 ? 0U - static_cast<uint32_t>(x) : static_cast<uint32_t>(x);
-}
-
-constexpr uint64_t magnitude(int64_t x) noexcept {
-  return x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
+constexpr int32_t saturate32(int64_t x) noexcept {
+  // Nearly every product saturates, so this is short: one comparison, and INT32_MIN follows INT32_MAX.
+  const int32_t low = as_signed(static_cast<uint32_t>(static_cast<uint64_t>(x)));
+  return low == x ? low : as_signed(UINT32_C(0x7FFFFFFF) + (x < 0 ? 1U : 0U));
 }
 
 /// |x| < 2^31.5.
 constexpr int64_t square(int64_t x) noexcept { return x * x; }
 
 /// n / d to nearest, ties away from zero. d > 0; |n| + d / 2 must fit.
-[[gnu::noinline]] constexpr int64_t divide_rounded(int64_t n, int64_t d) noexcept {
-  const int64_t sum = n < 0 ? n - d / 2 : n + d / 2;
-  const int32_t small_sum = saturate32(sum);
-  const int32_t small_d = saturate32(d);
-  // 32-bit division is much faster on most chips.
-  if (small_sum == sum && small_d == d && sum != INT32_MIN) return small_sum / small_d;
-  return sum / d;
+[[gnu::noinline]] constexpr int64_t divide_rounded(int64_t n, int32_t d) noexcept {
+  return quotient(n < 0 ? n - d / 2 : n + d / 2, d);
+}
+/// The same for denominators that may have more than 32 bits.
+[[gnu::noinline]] constexpr int64_t divide_rounded_64(int64_t n, int64_t d) noexcept {
+  return quotient_64(n < 0 ? n - d / 2 : n + d / 2, d);
 }
 
 /// x / 2^bits to nearest, ties away from zero.

@@ -52,7 +52,7 @@ constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noex
   if (ax == 0 && ay == 0) return Angle{};
   const uint32_t low = ax < ay ? ax : ay;
   const uint32_t high = ax < ay ? ay : ax;
-  const uint64_t ratio = ((uint64_t{low} << 30) + high / 2) / high;
+  const uint64_t ratio = quotient((uint64_t{low} << 30) + high / 2, high);
   uint32_t turn = static_cast<uint32_t>(odd_polynomial(kArcTangent, static_cast<int32_t>(ratio)));
   if (ax < ay) turn = (UINT32_C(1) << 30) - turn;
   if (x < 0) turn = (UINT32_C(1) << 31) - turn;

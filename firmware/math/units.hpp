@@ -49,8 +49,9 @@ class Unit {
   friend constexpr Unit operator*(Unit a, Fixed<kFraction, Rep> k) noexcept {
     return from_raw(saturate32(scale_down<kFraction>(int64_t{a.raw_} * k.raw())));
   }
+  /// Rounded to nearest. k > 0, so the quotient fits.
   friend constexpr Unit operator/(Unit a, int32_t k) noexcept {
-    return from_raw(saturate32(divide_rounded(a.raw_, k)));
+    return from_raw(static_cast<int32_t>(divide_rounded(a.raw_, k)));
   }
   constexpr Unit& operator+=(Unit b) noexcept { return *this = *this + b; }
   constexpr Unit& operator-=(Unit b) noexcept { return *this = *this - b; }
@@ -140,14 +141,14 @@ namespace literals {
 
 /// The distance covered at this speed in this time.
 constexpr Length operator*(Speed v, Duration t) noexcept {
-  return Length::from_raw(saturate32(divide_rounded(int64_t{v.raw()} * t.raw(), 1000)));
+  return Length::from_raw(multiply_divide(v.raw(), t.raw(), 1000));
 }
 constexpr Speed operator*(Acceleration a, Duration t) noexcept {
-  return Speed::from_raw(saturate32(divide_rounded(int64_t{a.raw()} * t.raw(), 1000)));
+  return Speed::from_raw(multiply_divide(a.raw(), t.raw(), 1000));
 }
 /// The speed of a point at this distance from the axis.
 constexpr Speed operator*(AngularRate w, Length radius) noexcept {
-  return Speed::from_raw(saturate32(divide_rounded(int64_t{w.raw()} * radius.raw(), 1000000)));
+  return Speed::from_raw(multiply_divide(w.raw(), radius.raw(), 1000000));
 }
 
 static_assert((Time::from_raw(5) - Time::from_raw(0xFFFFFFFBU)).raw() == 10);

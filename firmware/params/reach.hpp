@@ -73,7 +73,7 @@ constexpr RimSweep no_sweep(const Params& p) noexcept {
     }
     if (m.half_cone.raw() > widest.raw()) widest = m.half_cone;
     const Q30 sine = whisker::sin(m.half_cone);
-    const int64_t holds = int64_t{whisker::cell_cover(p).raw()} * Q30::kOne / sine.raw();
+    const int64_t holds = quotient(int64_t{whisker::cell_cover(p).raw()} * Q30::kOne, sine.raw());
     sweep.needed = sweep.needed || whisker::norm(m.apex) + Length::from_raw(saturate32(holds)) >
                                        p.body.radius - whisker::cell_cover(p);
     const Length edge = max(Length{}, edge_offset(m)) + error;
@@ -89,7 +89,7 @@ constexpr RimSweep no_sweep(const Params& p) noexcept {
       if (step.raw() > most.raw()) step = most;
     } else {
       const Q30 narrow = whisker::sin(m.half_cone - Angle::from_raw(slowest.raw() / 2));
-      const int64_t radius = int64_t{edge.raw()} * Q30::kOne / narrow.raw();
+      const int64_t radius = quotient(int64_t{edge.raw()} * Q30::kOne, narrow.raw());
       sweep.radius = max(sweep.radius, Length::from_raw(saturate32(radius)) + error);
     }
     if (step.raw() < sweep.step.raw()) sweep.step = step;
@@ -141,7 +141,7 @@ constexpr AngularRate turn_rate(const Params& p) noexcept {
   const int32_t begun = (2 * p.safety.period.raw() * p.rangefinders.rate_hz + 999) / 1000;
   const int32_t intervals = begun > 2 ? begun : 2;
   return min(p.wheels.max_turn_rate,
-             AngularRate::from_raw(saturate32(step * p.rangefinders.rate_hz / intervals)));
+             AngularRate::from_raw(saturate32(quotient(step * p.rangefinders.rate_hz, intervals))));
 }
 
 }  // namespace whisker

@@ -214,7 +214,7 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
 /// v^2 / 2a + v (lag + longest gap): the stopping distance from full speed.
 [[gnu::always_inline]] constexpr Length stopping_distance(const Params& p) noexcept {
   const int64_t v = p.wheels.max_speed.raw();
-  const int64_t braking = divide_rounded(v * v, 2 * int64_t{p.wheels.max_acceleration.raw()});
+  const int64_t braking = divide_rounded(v * v, (p.wheels.max_acceleration * 2).raw());
   return Length::from_raw(saturate32(braking)) + p.wheels.max_speed * (p.wheels.motor_lag + longest_gap(p));
 }
 
@@ -222,7 +222,7 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
 /// a turn and near the end of a manoeuvre at a tolerance (at least one count) per `settle`; plus the time in
 /// which the motor lag brings full speed below one count, with the ticks in which counts must stand still.
 [[gnu::always_inline]] constexpr Duration slowest_count(const Params& p, Length count) noexcept {
-  const int64_t square_ms2 = int64_t{count.raw()} * 2 * 1000000 / p.wheels.max_acceleration.raw();
+  const int64_t square_ms2 = quotient(int64_t{count.raw()} * 2 * 1000000, p.wheels.max_acceleration.raw());
   const uint32_t starting_ms = square_root(static_cast<uint64_t>(square_ms2));
   const Speed turning = min(p.wheels.max_speed, p.wheels.max_turn_rate * (p.body.track / 2));
   const Duration rolling = milliseconds(multiply_divide(count.raw(), 1000, turning.raw()));

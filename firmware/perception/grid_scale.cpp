@@ -15,7 +15,7 @@ int32_t GridScale::units(int64_t um, int32_t most) const noexcept {
   const int64_t n = um * kUnitsPerCell;
   // Most values are small, and a 32-bit division is faster.
   if (n < kNear && n > -kNear) return within(floor_div(static_cast<int32_t>(n), cell_um), most);
-  return within(floor_div<int64_t>(n, cell_um), most);
+  return within(floor_div(n, cell_um), most);
 }
 
 int32_t GridScale::units(Length l) const noexcept { return units(l.raw(), kLongest); }

@@ -48,7 +48,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   for (int i = 0; i < 3; ++i) {
     // While it turns, two readings one after another share little more than half a cone.
     const int64_t cover = int64_t{cell_cover(params).raw()} * 2 * Q30::kOne;
-    const int64_t holds = cover / sin(mount(params.rangefinders, i).half_cone).raw();
+    const int64_t holds = quotient(cover, sin(mount(params.rangefinders, i).half_cone).raw());
     holds_ = max(holds_, Length::from_raw(saturate32(holds)) + patch_cell(params) * 2);
   }
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
@@ -102,7 +102,7 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
   // The body is behind the middle of the window, because the beams point ahead.
   const Vec middle = pose.at + polar(pose.heading, Length::from_raw(scale_.cell_um * kAhead));
   const auto corner = [this](Length x) {
-    return static_cast<int32_t>(floor_div<int64_t>(int64_t{x.raw()} + scale_.cell_um / 2, scale_.cell_um)) -
+    return static_cast<int32_t>(floor_div(int64_t{x.raw()} + scale_.cell_um / 2, scale_.cell_um)) -
            kCells / 2;
   };
   const int32_t right = corner(middle.x) - column_;

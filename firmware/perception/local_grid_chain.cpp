@@ -20,7 +20,7 @@ bool LocalGrid::link(const Chain& chain, const Vec& from, Angle trail, Angle hal
   if (overlap.wrapped() < least || overlap.wrapped() > kWidest) return false;
   // Where the old leading edge crosses the new trailing one, both moved towards each other by the error.
   const Length between = across(chain.lead_from - from, chain.lead) * sign + place_error_ * 2;
-  const int64_t reach = int64_t{between.raw()} * Q30::kOne / sin(overlap).raw();
+  const int64_t reach = quotient(int64_t{between.raw()} * Q30::kOne, sin(overlap).raw());
   const Vec gap = from + polar(trail, Length::from_raw(saturate32(reach)));
   const Angle half = Angle::from_raw(overlap.raw() / 2);
   seen_ahead = {gap, trail + half * sign};

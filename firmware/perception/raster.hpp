@@ -26,9 +26,9 @@ constexpr int32_t kLongest = 4 * kCells * kUnitsPerCell - 1;
 constexpr int32_t kOutermost = 2 * kCells * kUnitsPerCell;
 
 /// d > 0.
-template <class T>
-constexpr T floor_div(T n, T d) noexcept {
-  return n >= 0 ? n / d : -((-n + d - 1) / d);
+constexpr int32_t floor_div(int32_t n, int32_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
+constexpr int64_t floor_div(int64_t n, int32_t d) noexcept {
+  return n >= 0 ? quotient(n, d) : -quotient(-n + d - 1, d);
 }
 constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return n > 0 ? (n + d - 1) / d : n / d; }
 

@@ -48,7 +48,7 @@ Manoeuvre cruise(Twist twist, const Params& params) noexcept {
 
 Manoeuvre steer(Angle error, Speed top, const Params& params) noexcept {
   const int64_t off = scale_down<32>(magnitude(error) * kMicroradians);
-  const int64_t part = 1000000 - off * 6 / 5;
+  const int64_t part = 1000000 - quotient(off * 6, 5);
   const Speed forward = part <= 0 ? Speed{} : top * Q15::ratio(static_cast<int32_t>(part), 1000000);
   Manoeuvre m = cruise({forward, rate_towards(error, kSteerGain)}, params);
   // An eighth more than stops within the error: while the body drives, the error is corrected continuously.

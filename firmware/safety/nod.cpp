@@ -22,7 +22,7 @@ constexpr Angle kBeyond = 2_deg;  // it turns on for this much
 /// Braking from full speed: unseen ground beyond it holds nothing yet.
 Length braking_way(const Params& p) noexcept {
   const int64_t v = p.wheels.max_speed.raw();
-  return Length::from_raw(saturate32(divide_rounded(v * v, 2 * int64_t{p.wheels.max_acceleration.raw()}))) +
+  return Length::from_raw(saturate32(divide_rounded(v * v, (p.wheels.max_acceleration * 2).raw()))) +
          p.wheels.max_speed * (p.wheels.motor_lag + longest_gap(p));
 }
 

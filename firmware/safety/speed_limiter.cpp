@@ -15,11 +15,11 @@ Speed faster(WheelPair w) noexcept { return max(abs(w.left), abs(w.right)); }
 
 Brake brake(WheelPair command, const WheelState& wheels, const Params& params) noexcept {
   const Duration hold = longest_gap(params);
-  const int64_t a = params.wheels.max_acceleration.raw();
+  const int32_t twice = (params.wheels.max_acceleration * 2).raw();
   const int64_t fastest = faster(command).raw();
   const auto rolls = [&](Speed commanded, Speed rolling) {
     // Both wheels brake in the same time, that of the faster one; each covers half its speed times that time.
-    const Length braking = Length::from_raw(saturate32(divide_rounded(commanded.raw() * fastest, 2 * a)));
+    const Length braking = Length::from_raw(saturate32(divide_rounded(commanded.raw() * fastest, twice)));
     return rolling * params.wheels.motor_lag + commanded * hold + braking;
   };
   return {rolls(command.left, wheels.rolling.left), rolls(command.right, wheels.rolling.right)};

@@ -16,7 +16,7 @@ constexpr int32_t kAgreeing = 3;
 Length shortest_warning(const Params& params) noexcept {
   const Q30 seen = sin(params.rangefinders.incidence);
   const Q30 edge = sin(Angle::from_raw(relations::beams(params.rangefinders).outermost));
-  const int64_t way = int64_t{params.body.radius.raw()} * seen.raw() / edge.raw();
+  const int64_t way = quotient(int64_t{params.body.radius.raw()} * seen.raw(), edge.raw());
   return Length::from_raw(saturate32(way)) * 2 / 3;
 }
 

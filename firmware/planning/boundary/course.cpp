@@ -20,7 +20,7 @@ constexpr int32_t kRoomSteps = 6;  // to 45 degrees
 void Course::bend_towards(Angle wanted) noexcept {
   const int64_t change = int64_t{wanted.wrapped()} - bend_;
   const bool grows = magnitude(wanted.wrapped()) > magnitude(bend_);
-  bend_ += static_cast<int32_t>(grows ? change * 3 / 10 : change * 3 / 50);
+  bend_ += static_cast<int32_t>(quotient(change * 3, grows ? 10 : 50));
 }
 
 bool Course::choose(const View& view, const Vec& to_goal, HeadingDeflection& law, const Params& params,

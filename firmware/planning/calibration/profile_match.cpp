@@ -31,8 +31,8 @@ bool vertex(const int64_t (&y)[ProfileMatch::kFinePoints], int32_t& at) noexcept
   const int64_t bend = kN * second - kS2 * sum;  // times 1 / (kN kS4 - kS2^2)
   if (bend <= 0) return false;
   // slope = first / kS2, vertex = -slope / (2 bend')
-  const int64_t numerator = -first * (kN * kS4 - kS2 * kS2) / kS2;
-  at = saturate32(divide_rounded(numerator, (2 * bend + 255) / 256));
+  const int64_t numerator = quotient_64(-first * (kN * kS4 - kS2 * kS2), kS2);
+  at = saturate32(divide_rounded_64(numerator, (2 * bend + 255) / 256));
   return true;
 }
 
@@ -119,7 +119,7 @@ void ProfileMatch::judge() noexcept {
     if (coarse_[i] < coarse_[best]) best = i;
   }
   least_ = coarse_[best];
-  mean_ = static_cast<uint32_t>(sum / kCoarsePoints);
+  mean_ = static_cast<uint32_t>(quotient(sum, kCoarsePoints));
   const uint32_t contrast = mean_ - least_;
   // The valley around the best offset, and the lowest point outside.
   int from = best, to = best;
@@ -187,8 +187,8 @@ void ProfileMatch::measure() noexcept {
     squares += d;
     largest = d > largest ? d : largest;
   }
-  const uint32_t jackknife = square_root(squares * (kBlocks - 1) / kBlocks);
-  const uint32_t dominance = squares == 0 ? 0 : static_cast<uint32_t>(largest * 16 / squares);
+  const uint32_t jackknife = square_root(quotient(squares * (kBlocks - 1), kBlocks));
+  const uint32_t dominance = squares == 0 ? 0 : static_cast<uint32_t>(quotient_64(largest * 16, squares));
   sigma_ = static_cast<int32_t>(jackknife * kFine * (kWider + dominance) / 16);
 }
 

@@ -160,10 +160,10 @@ Ratio SpinPlanner::heading_sigma(Duration over) const noexcept {
   // sqrt(1 / 7200).
   const uint64_t walk = magnitude(params_.pose_error.gyro_walk);
   const uint64_t ms = static_cast<uint64_t>(over.raw());
-  const uint64_t by_walk = walk * square_root(ms * 1000) / 60000;
-  const uint64_t by_bias = walk * ms / 84853;
+  const uint64_t by_walk = quotient(walk * square_root(ms * 1000), 60000);
+  const uint64_t by_bias = quotient(walk * ms, 84853);
   const uint64_t sum = square_root(by_walk * by_walk + by_bias * by_bias);
-  return Ratio::from_raw(static_cast<int32_t>(sum * 1000000 / (static_cast<uint64_t>(kTurns - 1) << 32)));
+  return Ratio::from_raw(static_cast<int32_t>(quotient(sum * 1000000, kTurns - 1) >> 32));
 }
 
 void SpinPlanner::conclude() noexcept {
@@ -187,7 +187,7 @@ void SpinPlanner::conclude() noexcept {
   const int64_t rims = divide_rounded(int64_t{counts_} * 16000000, params_.wheels.counts_per_metre);
   const int64_t turned = scale_down<12>(turned_);
   const int64_t radians = scale_down<17>(turned * 823550);
-  const int32_t track = saturate32(divide_rounded(rims * 65536, radians));
+  const int32_t track = saturate32(divide_rounded_64(rims * 65536, radians));
   const Ratio of_counts = Ratio::from_raw(static_cast<int32_t>(1000000 / (magnitude(counts_) + 1)));
   values_[Quantity::track] = {multiply_divide(track, believed, kTrue), both(sigma, of_counts)};
   end(Trouble::none);

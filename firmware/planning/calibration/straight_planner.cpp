@@ -96,11 +96,11 @@ void StraightPlanner::end_of_way(const View& view) noexcept {
 /// The gyro's random walk and bias and the counts' resolution say how much is off at least; the parts of the
 /// ways differ by more if the floor turns the body.
 void StraightPlanner::conclude() noexcept {
-  const int64_t skew = divide_rounded(turning_ * 10000000, travel_);
+  const int64_t skew = divide_rounded_64(turning_ * 10000000, travel_);
   const int64_t ms = multiply_divide(length_.raw(), 1000, params_.wheels.max_speed.raw()) + 1000;
   const int64_t walk = params_.pose_error.gyro_walk.wrapped();  // 2^-32 turn after an hour
-  const int64_t by_walk = walk * square_root(static_cast<uint64_t>(ms * 1000)) / 60000;
-  const int64_t by_bias = walk * ms / 84853;
+  const int64_t by_walk = quotient(walk * square_root(static_cast<uint64_t>(ms * 1000)), 60000);
+  const int64_t by_bias = quotient(walk * ms, 84853);
   const uint32_t angle = square_root(static_cast<uint64_t>(by_walk * by_walk + by_bias * by_bias));
   // skew = angle track / (2 length); 2 pi / 2^32 rad
   const int64_t track_ppm = divide_rounded(int64_t{params_.body.track.raw()} * 1000000, length_.raw());
@@ -109,17 +109,18 @@ void StraightPlanner::conclude() noexcept {
   const int64_t by_counts = divide_rounded(5800000, counts_of_way());
   const int64_t of_way = by_angle * by_angle + by_counts * by_counts;
   // A part's counts are rounded as those of a way.
-  const int64_t n = parts_.count;
+  const int32_t n = parts_.count;
   const int64_t rounding = square(by_counts * kPartsOfAWay);
   int64_t of_parts = 0;
   if (n > 2) {
     of_parts = static_cast<int64_t>(parts_.squares) - divide_rounded(parts_.total * parts_.total, n);
-    of_parts = of_parts / (n - 2) - rounding;
-    of_parts = of_parts > 0 ? of_parts / n : 0;
+    of_parts = quotient(of_parts, n - 2) - rounding;
+    of_parts = of_parts > 0 ? quotient(of_parts, n) : 0;
   }
-  const int64_t sigma = square_root(static_cast<uint64_t>(of_way / legs_ + of_parts));  // of the skew, 1e-7
+  const int64_t sigma =
+      square_root(static_cast<uint64_t>(quotient(of_way, legs_) + of_parts));  // of the skew, 1e-7
   // ratio = (1 + skew) / (1 - skew)
-  const int64_t ratio = divide_rounded((10000000 + skew) * 1000000, 10000000 - skew);
+  const int64_t ratio = divide_rounded_64((10000000 + skew) * 1000000, 10000000 - skew);
   const Ratio of_ratio = Ratio::from_raw(saturate32(divide_rounded(sigma, 5)));
   if (of_ratio > kWorst) return end(Trouble::too_uncertain);
   values_[calibration::Quantity::wheel_ratio] = {saturate32(ratio), of_ratio};

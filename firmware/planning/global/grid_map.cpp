@@ -45,7 +45,7 @@ struct GridMap::Box {
 };
 
 int32_t GridMap::units(Length l) const noexcept {
-  return saturate32(floor_div<int64_t>(int64_t{l.raw()} * kUnitsPerCell, cell_um_));
+  return saturate32(floor_div(int64_t{l.raw()} * kUnitsPerCell, cell_um_));
 }
 
 void GridMap::configure(const Params& params) noexcept {
@@ -54,8 +54,8 @@ void GridMap::configure(const Params& params) noexcept {
 }
 
 Cell GridMap::place(Vec at) const noexcept {
-  return Cell{static_cast<int32_t>(floor_div<int64_t>(at.x.raw(), cell_um_)),
-              static_cast<int32_t>(floor_div<int64_t>(at.y.raw(), cell_um_))} -
+  return Cell{static_cast<int32_t>(floor_div(int64_t{at.x.raw()}, cell_um_)),
+              static_cast<int32_t>(floor_div(int64_t{at.y.raw()}, cell_um_))} -
          corner_;
 }
 
@@ -95,7 +95,7 @@ bool GridMap::follow(Vec body, Vec goal) noexcept {
 void GridMap::move_by(Cell step) noexcept {
   const int32_t words = shape_.words;
   corner_ = corner_ + step;
-  const int32_t skip = floor_div<int32_t>(step.x, kWordBits);
+  const int32_t skip = floor_div(step.x, kWordBits);
   const int32_t shift = step.x - skip * kWordBits;
   GridWord* const kept[] = {blocking(), sure()};
   for (GridWord* const cells : kept) {
@@ -194,8 +194,7 @@ GridWord GridMap::touched(int32_t row, int w) const noexcept {
 void GridMap::mark(const perception::ConeObservation& observation, bool hold, bool doubts) noexcept {
   const perception::Beam& beam = observation.beam;
   const auto from_corner = [this](Length x, int32_t corner) {
-    return saturate32(
-        floor_div<int64_t>((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
+    return saturate32(floor_div((int64_t{x.raw()} - int64_t{corner} * cell_um_) * kUnitsPerCell, cell_um_));
   };
   const int32_t x = from_corner(beam.apex.x, corner_.x);
   const int32_t y = from_corner(beam.apex.y, corner_.y);

@@ -35,7 +35,7 @@ View view_of(const Pose& pose, bool settled, const Echoes& scan) {
 }
 
 std::int32_t degrees(Angle a) {
-  return static_cast<std::int32_t>(divide_rounded(std::int64_t{a.wrapped()} * 360, std::int64_t{1} << 32));
+  return static_cast<std::int32_t>(divide_rounded_64(std::int64_t{a.wrapped()} * 360, std::int64_t{1} << 32));
 }
 
 /// Executes every manoeuvre at once and shows the planner the test's readings for each heading.
