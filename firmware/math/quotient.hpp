@@ -1,4 +1,5 @@
-/// Division of 64-bit integers. Like /, it rounds towards zero; the denominator must not be 0.
+/// Division of 64-bit integers. Like /, it rounds towards zero; the denominator must not be 0, but every loop
+/// is bounded.
 ///
 /// A 32-bit chip has no instruction for it, and the function of the compiler's library is long, because it
 /// takes denominators of 64 bits, too. Nearly all denominators here have 32 bits.
@@ -47,7 +48,7 @@ constexpr int leading_zeros(uint32_t x) noexcept {
   const uint32_t part = (static_cast<uint32_t>(rest >> 18) / above) << 2;
   lower += part;
   rest -= uint64_t{part} * denominator;
-  for (; rest >= denominator; rest -= denominator) ++lower;
+  for (int i = 0; i < 10 && rest >= denominator; ++i, rest -= denominator) ++lower;
   return uint64_t{upper} << 32 | lower;
 }
 

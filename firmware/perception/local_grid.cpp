@@ -8,7 +8,6 @@ namespace {
 
 constexpr int32_t kLaneTolerance = 45;  // of the radius, within which the body keeps to the lane's middle
 constexpr Angle kBeside = 30_deg;       // of a side beam, revoked with it
-constexpr int32_t kBesideRadii = 4;     // of the body, within which it is
 
 static_assert(kUnitsPerCell == 256, "kCellCover counts in 256ths of a cell");
 
@@ -308,11 +307,10 @@ void LocalGrid::revoke(const Beam& beam, Length nearest, Length farthest) noexce
   if (has_lane()) lane_->take_back(beam, nearest - kReadingRounding, farthest);
 }
 
-void LocalGrid::revoke_beside(const ConeObservation& observation) noexcept {
+void LocalGrid::revoke_beside(const ConeObservation& observation, int32_t radii) noexcept {
   Beam beam = observation.beam;
   const Length free = observation.free;
-  if (observation.number == hal::kFront || !nearby(local(beam.apex)) ||
-      units(free) > kBesideRadii * footprint_)
+  if (observation.number == hal::kFront || !nearby(local(beam.apex)) || units(free) > radii * footprint_)
     return;
   const Angle beside = Angle::from_raw(kBeside.raw() / 2);
   const Angle outward = beam.half_cone + beside;

@@ -56,10 +56,10 @@ class LocalGrid {
   /// The same whatever explains the echo: for one that has just appeared, and while cells are clear that
   /// nobody has seen.
   void take_back(const Beam& beam, Length nearest, Length farthest) noexcept;
-  /// The echo of a side beam has just appeared. If it is nearer than four radii, the arc beside the cone, away
-  /// from the front beam, becomes unknown: what gives the echo may reach there, and the flank would meet it
-  /// unseen.
-  void revoke_beside(const ConeObservation& observation) noexcept;
+  /// The echo of a side beam has just appeared. If it is nearer than so many radii, the arc beside the cone,
+  /// away from the front beam, becomes unknown: what gives the echo may reach there, and the flank would meet
+  /// it unseen.
+  void revoke_beside(const ConeObservation& observation, int32_t radii) noexcept;
   /// An object in this beam between `observation.free` and `farthest` has moved there. Resets the cells that
   /// it can reach while the body stops, except those under the body. For a second, mark() clears no cell that
   /// near to an echo.

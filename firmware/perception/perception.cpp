@@ -6,6 +6,9 @@ namespace {
 constexpr Length kSamePlace = 20_mm;
 constexpr uint8_t kMostTakenBack = 16;  // times at one place
 constexpr Length kAppears = 50_mm;      // nearer than the reading before: another object
+constexpr int32_t kFlankRadii = 2;
+// The side of a disc at which a beam looks at an angle does not show before its nearer part does.
+constexpr int32_t kFlankRadiiOfLostWalls = 4;
 
 }  // namespace
 
@@ -152,7 +155,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       if ((appears[i] && takes_back(body.pose.at)) || (kVouches && vouched_->any)) {
         local_grid_.take_back(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
       }
-      if (appears[i]) local_grid_.revoke_beside(out.observations[i]);
+      if (appears[i]) {
+        local_grid_.revoke_beside(out.observations[i], loses_walls_ ? kFlankRadiiOfLostWalls : kFlankRadii);
+      }
     }
     if (!kMotionDetectorBuilt || moved[i] == Length{}) continue;
     local_grid_.doubt(out.observations[i], moved[i]);

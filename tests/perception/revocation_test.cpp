@@ -96,19 +96,20 @@ TEST_F(Revocation, TheSecondEchoIsExplainedByTheFirst) {
 }
 
 TEST_F(Revocation, AnEchoThatAppearsAtASideTakesBackTheArcBesideItsCone) {
-  const auto taken = [&](hal::Beam number, Length distance) {
+  const auto taken = [&](hal::Beam number, Length distance, int32_t radii) {
     LocalGrid grid = grid_;
     ConeObservation echo = beam_at(30_deg, distance, true);
     echo.number = static_cast<int8_t>(number);
-    grid.revoke_beside(echo);
+    grid.revoke_beside(echo, radii);
     return !grid.is_clear(polar(50_deg, distance));
   };
   for (Angle axis = -(40_deg); (80_deg - axis).wrapped() >= 0; axis += 2_deg)
     grid_.mark(beam_at(axis, 2_m, false));
-  EXPECT_TRUE(taken(hal::kLeft, 150_mm));
-  EXPECT_TRUE(taken(hal::kLeft, 350_mm));
-  EXPECT_FALSE(taken(hal::kLeft, 370_mm)) << "farther than four radii";
-  EXPECT_FALSE(taken(hal::kFront, 150_mm));
+  EXPECT_TRUE(taken(hal::kLeft, 150_mm, 2));
+  EXPECT_FALSE(taken(hal::kLeft, 190_mm, 2)) << "farther than two radii";
+  EXPECT_TRUE(taken(hal::kLeft, 350_mm, 4));
+  EXPECT_FALSE(taken(hal::kLeft, 370_mm, 4));
+  EXPECT_FALSE(taken(hal::kFront, 150_mm, 2));
 }
 
 TEST_F(Revocation, TheGroundUnderTheBodyStaysClear) {
