@@ -119,7 +119,7 @@ void ProfileMatch::judge() noexcept {
     if (coarse_[i] < coarse_[best]) best = i;
   }
   least_ = coarse_[best];
-  mean_ = static_cast<uint32_t>(quotient(sum, kCoarsePoints));
+  mean_ = static_cast<uint32_t>(quotient(sum, uint32_t{kCoarsePoints}));
   const uint32_t contrast = mean_ - least_;
   // The valley around the best offset, and the lowest point outside.
   int from = best, to = best;
@@ -187,7 +187,7 @@ void ProfileMatch::measure() noexcept {
     squares += d;
     largest = d > largest ? d : largest;
   }
-  const uint32_t jackknife = square_root(quotient(squares * (kBlocks - 1), kBlocks));
+  const uint32_t jackknife = square_root(quotient(squares * (kBlocks - 1), uint32_t{kBlocks}));
   const uint32_t dominance = squares == 0 ? 0 : static_cast<uint32_t>(quotient_64(largest * 16, squares));
   sigma_ = static_cast<int32_t>(jackknife * kFine * (kWider + dominance) / 16);
 }

@@ -160,10 +160,10 @@ Ratio SpinPlanner::heading_sigma(Duration over) const noexcept {
   // sqrt(1 / 7200).
   const uint64_t walk = magnitude(params_.pose_error.gyro_walk);
   const uint64_t ms = static_cast<uint64_t>(over.raw());
-  const uint64_t by_walk = quotient(walk * square_root(ms * 1000), 60000);
-  const uint64_t by_bias = quotient(walk * ms, 84853);
+  const uint64_t by_walk = quotient(walk * square_root(ms * 1000), 60000U);
+  const uint64_t by_bias = quotient(walk * ms, 84853U);
   const uint64_t sum = square_root(by_walk * by_walk + by_bias * by_bias);
-  return Ratio::from_raw(static_cast<int32_t>(quotient(sum * 1000000, kTurns - 1) >> 32));
+  return Ratio::from_raw(static_cast<int32_t>(quotient(sum * 1000000, uint32_t{kTurns} - 1) >> 32));
 }
 
 void SpinPlanner::conclude() noexcept {
