@@ -11,7 +11,6 @@ namespace {
 constexpr std::uint8_t kSpeed = 3;
 constexpr planning::Goal kNear{{1_m, 500_mm}, 100_mm}, kFar{{20_m, 5_m}, 100_mm};
 
-/// Beside a robot whose base drives to a goal 30 m ahead; a wait of the client is a tick.
 /// Loses what the base says about time, while it is deaf.
 class LosesSync final : public hal::CanPort {
  public:
@@ -37,6 +36,7 @@ class LosesSync final : public hal::CanPort {
   hal::CanPort& port_;
 };
 
+/// Beside a robot whose base drives to a goal 30 m ahead; a wait of the client is a tick.
 class ThirdParty : public ::testing::Test, public hil::Clock {
  protected:
   ThirdParty() {
