@@ -6,7 +6,7 @@
 namespace whisker::rules {
 namespace {
 
-/// Maxima within this difference count as equal.
+/// Maxima within this share of the greatest count as equal.
 constexpr double kEqual = 1e-9;
 
 struct Plateau {
@@ -65,7 +65,7 @@ std::vector<Plateau> maxima(std::vector<Plateau> all) {
   for (const Plateau& p : all) most = std::max(most, p.value);
   std::vector<Plateau> kept;
   for (const Plateau& p : all) {
-    if (p.value < most - kEqual) continue;
+    if (p.value < most * (1 - kEqual)) continue;
     const double near = 1e-9 * (1 + std::abs(p.from));
     if (!kept.empty() && p.from - kept.back().to <= near) {
       kept.back().to = std::max(kept.back().to, p.to);

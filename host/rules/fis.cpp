@@ -33,6 +33,13 @@ Word without_comment(Word line) {
   return line;
 }
 
+/// MATLAB's name of an operator that Octave names otherwise.
+Word matlab_name(Word w) {
+  if (w == "algebraic_product") w.text = "prod";
+  if (w == "algebraic_sum") w.text = "probor";
+  return w;
+}
+
 class FisReader {
  public:
   explicit FisReader(const Source& source) : source_(source) {}
@@ -122,13 +129,13 @@ class FisReader {
     } else if (key == "NumRules") {
       rules_ = value;
     } else if (key == "AndMethod") {
-      and_ = value;
+      and_ = matlab_name(value);
     } else if (key == "OrMethod") {
-      or_ = value;
+      or_ = matlab_name(value);
     } else if (key == "ImpMethod") {
-      implication_ = value;
+      implication_ = matlab_name(value);
     } else if (key == "AggMethod") {
-      aggregation_ = value;
+      aggregation_ = matlab_name(value);
     } else if (key == "DefuzzMethod") {
       defuzzifier_ = value;
     } else if (key != "NumMFs" && key != "DisableStructuralChecks") {

@@ -27,6 +27,25 @@ TEST(Examples, AgreeWithFuzzylite) {
   }
 }
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Fis, OctavesNamesOfOperatorsAreMatlabs) {
+  const std::string tip = text_of("tip.fis");
+  const auto answer = [&](const char* product, const char* sum) {
+    std::string text = replaced(tip, "AndMethod='min'", std::string("AndMethod='") + product + "'");
+    text = replaced(text, "OrMethod='max'", std::string("OrMethod='") + sum + "'");
+    text = replaced(text, "ImpMethod='min'", std::string("ImpMethod='") + product + "'");
+    text = replaced(text, "AggMethod='max'", std::string("AggMethod='") + sum + "'");
+    return Inference(parse_rules(text, "tip.fis"))({6.5, 8}).front().value;
+  };
+  EXPECT_EQ(answer("algebraic_product", "algebraic_sum"), answer("prod", "probor"));
+  EXPECT_NE(answer("prod", "probor"), answer("min", "max"));
+}
+
 void expect_error(const std::string& name, const std::string& text, const std::string& what) {
   try {
     parse_rules(text, name);
@@ -34,12 +53,6 @@ void expect_error(const std::string& name, const std::string& text, const std::s
   } catch (const InputError& error) {
     EXPECT_EQ(error.what(), what);
   }
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 TEST(Errors, NameThePlaceInAFisFile) {

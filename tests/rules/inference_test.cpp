@@ -88,6 +88,13 @@ TEST(Inference, FindsTheMaximaAsMatlabDoes) {
   EXPECT_NEAR(at(mamdani("som", "max", "min", sets, "1, 1 (1) : 1\n"), 0.5), 0.5, 1e-9);
 }
 
+TEST(Inference, FindsTheMaximaOfWeakRules) {
+  for (const char* method : {"mom", "som", "lom"}) {
+    const std::string one = mamdani(method, "max", "prod", "MF1='a':'trimf',[0 3 4]\n", "1, 1 (1) : 1\n");
+    for (const double s : {1e-15, 1e-11, 1e-9, 0.5}) EXPECT_NEAR(at(one, s), 3, 1e-9) << method << " " << s;
+  }
+}
+
 TEST(Inference, NegatesAConclusion) {
   // The complement of a triangle over the whole range [0, 4]: area 4 - 1, moment 8 - 1.
   EXPECT_NEAR(at(mamdani("centroid", "max", "min", "MF1='a':'trimf',[0 1 2]\n", "2, -1 (1) : 1\n"), 1),

@@ -2,9 +2,9 @@
 
 import random
 
-ANDS = ("min", "prod", "bounded_difference", "einstein_product", "hamacher_product")
-ORS = ("max", "probor", "bounded_sum", "sum", "einstein_sum", "hamacher_sum")
-AGGREGATIONS = ("max", "max", "sum", "probor", "bounded_sum", "einstein_sum", "hamacher_sum")
+ANDS = ("min", "prod", "algebraic_product", "bounded_difference", "einstein_product", "hamacher_product")
+ORS = ("max", "algebraic_sum", "bounded_sum", "sum", "einstein_sum", "hamacher_sum")
+AGGREGATIONS = ("max", "max", "sum", "algebraic_sum", "bounded_sum", "einstein_sum", "hamacher_sum")
 HEDGES = ("", "", ".05", ".20", ".40")
 
 
