@@ -62,9 +62,10 @@ function [least, greatest] = limits (method, x, y, answer)
     greatest = max ([x(left <= left(end) / 2 + margin), x(1)]) + h;
   else
     % The slopes beside a step limit how far the set may rise above both of its samples: twice that, for slopes that grow.
+    % Whisker takes heights for equal that differ by a share of 1e-9.
     d = [0, diff(y), 0];
     rise = 2 * min (max (d(1 : end - 2), 0), max (- d(3 : end), 0));
-    highest = find (max (y(1 : end - 1), y(2 : end)) + rise >= max (y));
+    highest = find (max (y(1 : end - 1), y(2 : end)) + rise >= (1 - 2e-9) * max (y));
     near = x([highest, highest + 1]);
     top = x(y == max (y));
     % A mean over several plateaus counts a sample more or less of each.
