@@ -2,9 +2,10 @@
 
 import random
 
-ANDS = ("min", "prod", "algebraic_product", "bounded_difference", "einstein_product", "hamacher_product")
-ORS = ("max", "algebraic_sum", "bounded_sum", "sum", "einstein_sum", "hamacher_sum")
-AGGREGATIONS = ("max", "max", "sum", "algebraic_sum", "bounded_sum", "einstein_sum", "hamacher_sum")
+# Hamacher's operators divide by degrees, so where these are nearly 0 or 1, rounding decides who fires: not drawn.
+ANDS = ("min", "prod", "algebraic_product", "bounded_difference", "einstein_product")
+ORS = ("max", "algebraic_sum", "bounded_sum", "sum", "einstein_sum")
+AGGREGATIONS = ("max", "max", "sum", "algebraic_sum", "bounded_sum", "einstein_sum")
 HEDGES = ("", "", ".05", ".20", ".40")
 
 
@@ -73,13 +74,12 @@ class Writer:
         conclusion = ["-" * (not self.sugeno and self.chance(0.05)) + str(self.random.randint(1, n)) for n in self.answers]
         if len(conclusion) > 1 and self.chance(0.2):
             conclusion[self.random.randrange(len(conclusion))] = "0"
-        weight = f"{self.random.uniform(0.1, 0.9):.6f}" if self.aggregation == "hamacher_sum" or self.chance(0.2) else "1"
+        weight = f"{self.random.uniform(0.1, 0.9):.6f}" if self.chance(0.2) else "1"
         return f"{' '.join(condition)}, {' '.join(conclusion)} ({weight}) : {1 + self.chance(0.2)}"
 
     def text(self):
         both = self.pick(*ANDS)
-        # Octave's hamacher_sum divides 0 by 0, but for rounding, where two degrees are close to 1.
-        either = self.pick(*(ORS if len(self.terms) < 3 else ORS[:-1]))
+        either = self.pick(*ORS)
         self.aggregation = "sum" if self.sugeno else "max" if self.peaks else self.pick(*AGGREGATIONS)
         # Octave's drastic operators are right for exactly two degrees.
         self.drastic = len(self.terms) == 2 and self.chance(0.15)
