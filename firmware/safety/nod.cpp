@@ -1,5 +1,6 @@
 #include "firmware/safety/nod.hpp"
 
+#include "firmware/params/relations.hpp"
 #include "firmware/perception/observation.hpp"
 #include "firmware/planning/steering.hpp"
 
@@ -20,11 +21,7 @@ constexpr Angle kEdge = 1_deg;    // a beam sees a cell that is completely insid
 constexpr Angle kBeyond = 2_deg;  // it turns on for this much
 
 /// Braking from full speed: unseen ground beyond it holds nothing yet.
-Length braking_way(const Params& p) noexcept {
-  const int64_t v = p.wheels.max_speed.raw();
-  return Length::from_raw(saturate32(divide_rounded(v * v, (p.wheels.max_acceleration * 2).raw()))) +
-         p.wheels.max_speed * (p.wheels.motor_lag + longest_gap(p));
-}
+Length braking_way(const Params& p) noexcept { return relations::stopping_distance(p); }
 
 /// The direction of the chord of the asked arc over this length, from straight ahead.
 Angle chord(const planning::VelocityRequest& asked, Length length, const Params& p) noexcept {

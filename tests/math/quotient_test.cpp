@@ -1,8 +1,9 @@
 #include "firmware/math/quotient.hpp"
 
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <random>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -18,6 +19,14 @@ constexpr std::uint64_t kLargest32 = UINT32_MAX;
 /// Both of the functions that a chip without a 64-bit division calls, whatever this computer calls.
 std::uint64_t by_parts(std::uint64_t n, std::uint64_t d) {
   return d <= kLargest32 ? quotient_by_parts(n, static_cast<std::uint32_t>(d)) : quotient_by_parts_64(n, d);
+}
+
+/// Random, or WHISKER_SEED; printed.
+std::uint64_t seed() {
+  const char* const given = std::getenv("WHISKER_SEED");
+  const std::uint64_t seed = given != nullptr ? std::strtoull(given, nullptr, 10) : std::random_device{}();
+  std::printf("WHISKER_SEED=%llu\n", static_cast<unsigned long long>(seed));
+  return seed;
 }
 
 /// 0, the powers of two, the largest number, and their neighbours.
@@ -47,9 +56,7 @@ TEST(Quotient, IsThatOfTheHostAtAllEdges) {
 }
 
 TEST(Quotient, IsThatOfTheHostAtRandom) {
-  const std::uint64_t seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(seed());
   // Every size of both is as likely as any other.
   const auto sized = [&] { return random() >> (random() % 64); };
   for (std::uint64_t i = 0; i < test::effort(2'000'000, 200'000'000); ++i) {
@@ -63,9 +70,7 @@ TEST(Quotient, IsThatOfTheHostAtRandom) {
 }
 
 TEST(Quotient, HasTheSignOfTheHostsAtRandom) {
-  const std::uint64_t seed = std::random_device{}();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(seed());
   const auto sized = [&] {
     const auto size = static_cast<std::int64_t>(random() >> (1 + random() % 63));
     return random() % 2 == 0 ? size : -size;
