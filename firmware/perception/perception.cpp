@@ -9,11 +9,14 @@ constexpr Length kAppears = 50_mm;      // nearer than the reading before: anoth
 constexpr int32_t kFlankRadii = 2;
 // The side of a disc at which a beam looks at an angle does not show before its nearer part does.
 constexpr int32_t kFlankRadiiOfLostWalls = 4;
+// Only walls seen at a grazing angle stay invisible.
+constexpr Angle kGrazing = 75_deg;
 
 }  // namespace
 
 void Perception::configure(const Params& params) noexcept {
   loses_walls_ = params.rangefinders.incidence.raw() < (90_deg).raw();
+  loses_only_grazed_ = params.rangefinders.incidence.raw() >= kGrazing.raw();
   for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
   local_grid_.configure(params);
   if (kBumperBuilt) contacts_->configure(params.body.radius);
@@ -118,8 +121,15 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     observation.hit = sight.near.validity != Validity::clear && sight.near.distance <= proving;
     const Length allowance = observation.hit ? scatter_[i].allowance() : Length{};
     observation.free = free[i] = max(Length{}, min(sight.near.distance, proving) - allowance);
-    // Of readings that scatter, the nearest of four lies before the object, and so does its allowance.
-    echo_ends[i] = allowance == Length{} ? observation.free : max(observation.free, sight.newest.distance);
+    // Of readings that scatter, the nearest of four lies before the object, and so does its allowance; the
+    // newest may lie before it by as much. A wall just behind then explains the echo of its own face, and the
+    // flank's ground stays clear. Where walls vanish at an angle, the echo may come from an object that
+    // showed no side.
+    echo_ends[i] = observation.free;
+    if (allowance > Length{}) {
+      echo_ends[i] = max(observation.free, sight.newest.distance);
+      if (loses_only_grazed_) echo_ends[i] += allowance;
+    }
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
     if (kMotionDetectorBuilt && observation.hit &&
