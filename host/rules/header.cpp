@@ -125,18 +125,17 @@ class Writer {
         outputs_[o], name, toml_number(s.origin), name, toml_number(s.per_unit));
   }
 
+  std::int32_t columns() const { return inputs_.size() > 1 ? axis(1).nodes() : 1; }
+  std::size_t row() const { return static_cast<std::size_t>(columns()) * outputs_.size(); }
+
   /// One line for each node of the first input.
   void nodes() {
-    const bool two = inputs_.size() > 1;
-    const std::int32_t columns = two ? axis(1).nodes() : 1;
-    const std::size_t width = static_cast<std::size_t>(columns) * outputs_.size();
-    add("static const int16_t {}_nodes[{}][{}] = {{\n", prefix_, axis(0).nodes(), width);
+    add("static const int16_t {}_nodes[{} * {}] = {{\n", prefix_, axis(0).nodes(), row());
     for (std::int32_t r = 0; r < axis(0).nodes(); ++r) {
-      add("  {{");
-      for (std::int32_t n = 0; n < columns; ++n)
+      for (std::int32_t n = 0; n < columns(); ++n)
         for (std::size_t o = 0; o < outputs_.size(); ++o)
-          add("{}{}", n == 0 && o == 0 ? "" : ",", c_.table.node(r, n, o));
-      add("}},\n");
+          add("{}{},", n == 0 && o == 0 ? "  " : "", c_.table.node(r, n, o));
+      add("\n");
     }
     add("}};\n\n");
   }
@@ -194,10 +193,9 @@ class Writer {
     } else {
       add("  const int32_t w0 = {} - f0;\n", 1 << bits);
     }
-    const std::string column = two ? fmt::format("c1 * {}U", outputs_.size()) : "0";
-    add("  const int16_t* const n0 = &{0}_nodes[c0][{1}];\n  const int16_t* const n1 = &{0}_nodes[c0 + "
-        "1U][{1}];\n",
-        prefix_, column);
+    const std::string column = two ? fmt::format(" + c1 * {}U", outputs_.size()) : "";
+    add("  const int16_t* const n0 = &{0}_nodes[c0 * {1}U{2}];\n  const int16_t* const n1 = n0 + {1};\n",
+        prefix_, row(), column);
     add("  {}_outputs out;\n", prefix_);
     for (std::size_t o = 0; o < outputs_.size(); ++o) sum(o, two, bits);
     add("  return out;\n}}\n\n");
