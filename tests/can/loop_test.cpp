@@ -160,7 +160,7 @@ Scenario with_gyro(worlds::Kind kind) {
 /// Wheels that are worse than the robot declares, so that some fixes are jumps.
 Scenario with_fixes(JumpPolicy policy) {
   Scenario s = scenario_of(worlds::Kind::discs);
-  s.noise.wheel_scale_sigma = 0.02;
+  s.noise.wheel_scale_sigma = 0.03;
   s.robot.pose_error.wheel_scale = millionths(3000);
   s.robot.fix_jumps = policy;
   s.noise.fix_every_m = 0.5;
