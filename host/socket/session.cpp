@@ -22,6 +22,8 @@ using Json = nlohmann::ordered_json;
 
 double si(Length l) { return l.raw() / 1e6; }
 double si(AngularRate r) { return r.raw() / 1e6; }
+double si(Acceleration a) { return a.raw() / 1e6; }
+double si(Speed v) { return v.raw() / 1e6; }
 double si(Duration d) { return d.raw() / 1e3; }
 double degrees(Angle a) { return std::round(radians(a) * (180 / sim::kPi) * 1e4) / 1e4; }
 double speed(std::int16_t tenths) { return tenths / 1e4; }
@@ -120,7 +122,11 @@ std::string Session::greet(const Opening& opening) {
   json["body_radius_m"] = si(p.body.radius);
   json["wheel_track_m"] = si(p.body.track);
   json["encoder_counts_per_m"] = p.wheels.counts_per_metre;
+  json["wheel_speed_max_mps"] = si(p.wheels.max_speed);
+  json["wheel_acceleration_max_mps2"] = si(p.wheels.max_acceleration);
+  json["motor_lag_s"] = si(p.wheels.motor_lag);
   json["range_rate_hz"] = p.rangefinders.rate_hz;
+  json["range_latency_s"] = si(p.rangefinders.latency);
   if (p.gyro.fitted == Fitted::yes) {
     json["gyro"] = {{"rate_hz", p.gyro.rate_hz}, {"range_radps", si(p.gyro.range)}};
   }

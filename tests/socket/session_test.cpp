@@ -207,6 +207,10 @@ TEST(Session, GreetsWithTheRobotThatItDrives) {
   EXPECT_EQ(hello["planner"], "skirt");
   EXPECT_EQ(hello["body_radius_m"], 0.1);
   EXPECT_EQ(hello["period_s"], 0.01);
+  EXPECT_EQ(hello["wheel_speed_max_mps"], 0.3);
+  EXPECT_EQ(hello["wheel_acceleration_max_mps2"], 1.0);
+  EXPECT_EQ(hello["motor_lag_s"], 0.05);
+  EXPECT_EQ(hello["range_latency_s"], 0.02);
   ASSERT_EQ(hello["beams"].size(), 3U);
   EXPECT_EQ(hello["beams"][0]["angle_deg"], 30.0);
   EXPECT_EQ(hello["beams"][2]["cone_deg"], 30.0);
