@@ -132,7 +132,7 @@ bool Guard::take_counts() noexcept {
   step.commanded = status_.command.left != 0 || status_.command.right != 0;
   step.since = since_counts_;
   since_counts_ = Duration{};
-  if (!localizer_.step(step)) {
+  if (localizer_.step(step) == localization::Localizer::Stepped::jumped) {
     supervisor_.fail(Fault::encoder_jump, status_.health.encoder_jumps);
     return false;
   }

@@ -165,10 +165,13 @@ bool Robot::take_counts() noexcept {
   step.commanded = status_.command.left != 0 || status_.command.right != 0;
   step.since = since_counts_;
   since_counts_ = Duration{};
-  if (!localizer_.step(step)) {
+  using Stepped = localization::Localizer::Stepped;
+  const Stepped stepped = localizer_.step(step);
+  if (stepped == Stepped::jumped) {
     supervisor_.fail(Fault::encoder_jump, status_.health.encoder_jumps);
     return false;
   }
+  if (stepped == Stepped::corrected && has_goal_) aim_again();
   const bool within_region =
       within(status_.pose.at, kBodyLimit) && within(localizer_.inside().at, kBodyLimit);
   if (!supervisor_.faulted() && !within_region) {

@@ -5,34 +5,65 @@ namespace {
 
 constexpr int32_t kLargestStep = 328;  // units of a sample
 constexpr Duration kForever = milliseconds(1000000000);
+// A change that was learned is followed no longer than two rests are apart.
+constexpr Duration kFollows = GyroBias::kServes * 2;
+constexpr Duration kShortest = 100_ms;
 
 int32_t samples_in(Duration time, int32_t rate_hz) noexcept { return time.raw() * rate_hz / 1000; }
 
 }  // namespace
 
+void GyroBias::configure(const GyroParams& params) noexcept {
+  rate_hz_ = params.rate_hz;
+  range_ = multiply_divide(params.range.raw(), params.scale.raw(), 1000000);
+}
+
+[[gnu::noinline]] int32_t GyroBias::value() const noexcept {
+  return saturate32(value_ + scale_down<16>(int64_t{change_} * min(measured_for_, kFollows).raw()));
+}
+
 void GyroBias::pass(bool still, Duration elapsed) noexcept {
+  measured_for_ = min(measured_for_ + elapsed, kForever);
   used_for_ = min(used_for_ + elapsed, kForever);
   still_for_ = still ? min(still_for_ + elapsed, kForever) : Duration{};
-  if (!still) rested_ = 0;
 }
 
 bool GyroBias::add(int32_t sum, int32_t samples) noexcept {
-  const int64_t apart = int64_t{sum} * 65536 - int64_t{value_} * samples;  // 2^-16 units
+  const int64_t apart = int64_t{sum} * 65536 - int64_t{value()} * samples;  // 2^-16 units
   const int64_t most = int64_t{kLargestStep} * samples * 65536;
   if (known_ && (apart > most || apart < -most)) return false;
-  if (rested_ == 0 && weight_ > 0) {
-    // The bias may have changed since the last rest.
-    const int32_t used_s = used_for_.raw() / 1000;
-    weight_ = used_s >= 48 ? weight_ / 4 : weight_ - weight_ * used_s / 64;
-  }
-  rested_ += samples;
-  weight_ = weight_ + samples;
-  const int32_t most_weight = samples_in(kFirstRest, rate_hz_);
-  if (weight_ > most_weight) weight_ = most_weight;
-  value_ += saturate32(divide_rounded(apart, weight_));
-  if (weight_ >= most_weight) known_ = true;
-  if (known_ && rested_ >= samples_in(kRest, rate_hz_)) used_for_ = Duration{};
+  samples_ += samples;
+  sum_ += sum;
+  if (known_ && still_for_ > kWait + kRest) used_for_ = Duration{};
   return true;
+}
+
+bool GyroBias::take(Mean& mean) noexcept {
+  const bool ended = known_ && !stands();
+  const Duration enough = ended ? kShortest : known_ ? kRest : kFirstRest;
+  if (samples_ == 0 || samples_ < samples_in(enough, rate_hz_)) {
+    if (ended) sum_ = samples_ = 0;
+    return false;
+  }
+  const int32_t measured = saturate32(divide_rounded(int64_t{sum_} * 65536, samples_));
+  mean.first = !known_;
+  mean.lasted = milliseconds(multiply_divide(samples_, 1000, rate_hz_));
+  sum_ = samples_ = 0;
+  if (mean.first) {
+    known_ = true;
+    value_ = measured;
+    measured_for_ = Duration{};
+    if (still_for_ > kRest) used_for_ = Duration{};
+  }
+  mean.off = saturate32(int64_t{measured} - value());
+  mean.off_rad = multiply_divide(mean.off, range_, 128000000);
+  return true;
+}
+
+void GyroBias::learn(int32_t off, int32_t bias, int32_t change) noexcept {
+  value_ = saturate32(value() + scale_down<16>(int64_t{off} * bias));
+  change_ = saturate32(change_ + scale_down<16>(int64_t{off} * change));
+  measured_for_ = Duration{};
 }
 
 }  // namespace whisker::localization

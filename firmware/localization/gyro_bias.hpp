@@ -11,7 +11,7 @@ namespace whisker::localization {
 /// A rest counts from kWait after the last encoder count on: until then the body may still move.
 ///
 /// The first measurement takes kFirstRest. Later, a rest of kRest serves for kServes, in which the bias of a
-/// gyro that warms up changes noticeably.
+/// gyro that warms up changes noticeably. In between, the value follows the change that was learned.
 class GyroBias {
  public:
   static constexpr Duration kWait = 150_ms;
@@ -19,7 +19,7 @@ class GyroBias {
   static constexpr Duration kRest = 1000_ms;
   static constexpr Duration kServes = 60000_ms;
 
-  void configure(const GyroParams& params) noexcept { rate_hz_ = params.rate_hz; }
+  void configure(const GyroParams& params) noexcept;
 
   /// Once per step. `still`: no counts, and no wheel is commanded to turn.
   void pass(bool still, Duration elapsed) noexcept;
@@ -31,6 +31,18 @@ class GyroBias {
   /// the body.
   bool add(int32_t sum, int32_t samples) noexcept;
 
+  /// A mean of samples at rest.
+  struct Mean {
+    int32_t off = 0;      ///< measured less value(), 2^-16 units of a sample
+    int32_t off_rad = 0;  ///< the same, 2^-24 rad/s
+    Duration lasted;
+    bool first = false;  ///< the bias was not known before; nothing is off
+  };
+  /// True: kRest has passed, or a shorter rest has ended; once for each.
+  bool take(Mean& mean) noexcept;
+  /// Of what was off, by these shares: the bias (2^-16), and its change per ms (2^-32).
+  void learn(int32_t off, int32_t bias, int32_t change) noexcept;
+
   bool known() const noexcept { return known_; }
   /// A rest is needed.
   bool due() const noexcept { return due_for() > Duration{}; }
@@ -38,16 +50,17 @@ class GyroBias {
   Duration due_for() const noexcept { return used_for_ - kServes; }
   /// The body does not come to rest: try again after kServes.
   void postpone() noexcept { used_for_ = Duration{}; }
-  /// Since the last long rest.
-  Duration age() const noexcept { return used_for_; }
   /// Of one sample, 2^-16 of its unit.
-  int32_t value() const noexcept { return value_; }
+  int32_t value() const noexcept;
 
  private:
-  int32_t value_ = 0;
+  int32_t value_ = 0;   // when it was measured
+  int32_t change_ = 0;  // since then, 2^-16 of its unit per ms
+  int32_t range_ = 0;   // urad/s
   int32_t rate_hz_ = 100;
-  int32_t weight_ = 0;  // samples in the mean
-  int32_t rested_ = 0;  // samples of this rest
+  int32_t sum_ = 0;      // of samples that are not yet taken
+  int32_t samples_ = 0;  // their number
+  Duration measured_for_;
   Duration still_for_;
   Duration used_for_ = kServes + 1_ms;  // since the last long rest
   bool known_ = false;

@@ -49,11 +49,29 @@ bool Localizer::correct_heading(Angle ahead, Angle sigma) noexcept {
   PoseBound::Correction by;
   if (!bound_->correct_heading(ahead, sigma, by)) return false;
   estimate_.sigma = bound_->sigma();
-  const Angle outward = estimate_.pose.heading - odometry_.pose().heading;
-  const Vec shift = polar(bearing(by.shift) + outward, norm(by.shift));
-  const Pose pose{estimate_.pose.at + shift, estimate_.pose.heading + by.turn};
+  const Pose pose = ahead_by(by);
   teach(estimate_.pose.heading + ahead, sigma, {pose, estimate_.sigma});
   tie(pose);
+  return true;
+}
+
+/// By a correction in the odometry frame.
+Pose Localizer::ahead_by(const PoseBound::Correction& by) const noexcept {
+  const Angle outward = estimate_.pose.heading - odometry_.pose().heading;
+  const Vec shift = polar(bearing(by.shift) + outward, norm(by.shift));
+  return {estimate_.pose.at + shift, estimate_.pose.heading + by.turn};
+}
+
+bool Localizer::learn_bias() noexcept {
+  GyroBias::Mean mean;
+  if (!heading_->bias().take(mean)) return false;
+  const PoseBound::Correction by = bound_->rest(mean, heading_->bias());
+  if (mean.first) {
+    estimate_.heading_source = heading_->source();
+    return false;
+  }
+  if (has_bound()) estimate_.sigma = bound_->sigma();
+  tie(ahead_by(by));
   return true;
 }
 
@@ -72,24 +90,24 @@ void Localizer::tie(const Pose& pose) noexcept {
   estimate_.pose = pose;
 }
 
-bool Localizer::step(const Step& step) noexcept {
-  if (!odometry_.take(step.counts, step.since, counts_)) return false;
+Localizer::Stepped Localizer::step(const Step& step) noexcept {
+  if (!odometry_.take(step.counts, step.since, counts_)) return Stepped::jumped;
   advance(step);
   estimate_.pose = kFrames ? frame_->outward(odometry_.pose()) : odometry_.pose();
-  return true;
+  return has_gyro() && learn_bias() ? Stepped::corrected : Stepped::advanced;
 }
 
 void Localizer::advance(const Step& step) noexcept {
   if (!kGyroBuilt) return odometry_.advance(counts_);
   if (!has_gyro()) {
     advance_by_wheels();
-    advance_bound(step.since, Duration{});
+    advance_bound(step.since);
     return;
   }
   const GyroHeading::Step turn{step.gyro, counts_, step.commanded, step.since};
   odometry_.advance(counts_, heading_->turn(turn, odometry_, health_));
   estimate_.heading_source = heading_->source();
-  advance_bound(step.since, heading_->bias().age());
+  advance_bound(step.since);
 }
 
 void Localizer::advance_by_wheels() noexcept {
@@ -98,16 +116,16 @@ void Localizer::advance_by_wheels() noexcept {
   odometry_.advance(counts_, teacher_->turn(counts_, odometry_));
 }
 
-void Localizer::advance_bound(Duration since, Duration bias_age) noexcept {
-  if (!has_bound()) return;
+void Localizer::advance_bound(Duration since) noexcept {
+  if (!has_bound() && !has_gyro()) return;
   const bool by_gyro = estimate_.heading_source == HeadingSource::gyro;
-  if (bound_->step({odometry_.pose(), counts_, since, by_gyro, bias_age})) estimate_.sigma = bound_->sigma();
+  if (bound_->step({odometry_.pose(), counts_, since, by_gyro})) estimate_.sigma = bound_->sigma();
 }
 
 void Localizer::restart_bound(const PoseSigma& sigma) noexcept {
-  if (!has_bound()) return;
+  if (!kGyroBuilt) return;
   bound_->restart(odometry_.pose(), sigma);
-  estimate_.sigma = bound_->sigma();
+  if (has_bound()) estimate_.sigma = bound_->sigma();
 }
 
 }  // namespace whisker::localization

@@ -48,8 +48,12 @@ class Localizer {
   /// The heading is measured: it is off by `ahead`, with this standard deviation. See
   /// PoseBound::correct_heading(), also for false. Needs a bound of the pose.
   bool correct_heading(Angle ahead, Angle sigma) noexcept;
-  /// Advances the pose. False: the counts jumped, and the pose ignores them: see Odometry::update.
-  bool step(const Step& step) noexcept;
+  enum class Stepped : uint8_t {
+    jumped,  ///< the counts did, and the pose ignores them: see Odometry::take
+    advanced,
+    corrected  ///< advanced, and what a rest of the gyro said was used: the goal moves in the odometry frame
+  };
+  Stepped step(const Step& step) noexcept;
 
   Pose inside() const noexcept { return odometry_.pose(); }
   uint32_t travelled_um() const noexcept { return odometry_.travelled_um(); }
@@ -66,7 +70,9 @@ class Localizer {
   bool has_bound() const noexcept { return kGyroBuilt && estimate_.sigma_known; }
   void advance(const Step& step) noexcept;
   void advance_by_wheels() noexcept;
-  void advance_bound(Duration since, Duration bias_age) noexcept;
+  void advance_bound(Duration since) noexcept;
+  bool learn_bias() noexcept;
+  Pose ahead_by(const PoseBound::Correction& by) const noexcept;
   void restart_bound(const PoseSigma& sigma) noexcept;
   void teach(Angle fix, Angle sigma, const UncertainPose& fused) noexcept;
   void tie(const Pose& pose) noexcept;

@@ -12,7 +12,6 @@ constexpr int32_t kMostMove = INT32_C(1) << 20;      // um in one update
 constexpr int64_t kFloor = INT64_C(3000) * 3000;   // um^2
 constexpr int64_t kRadianUnit = INT64_C(1) << 20;  // of a heading
 constexpr int64_t kTurnPerRadian = 683565276;      // 2^-32 turn
-constexpr Duration kWarmUp = 600000_ms;
 
 static_assert(int64_t{PoseBound::kMost.raw()} * PoseBound::kMost.raw() <= kMostVariance);
 
@@ -25,6 +24,11 @@ Length root(int64_t variance) noexcept {
   const Length sigma = Length::from_raw(as_signed(square_root(static_cast<uint64_t>(inside))));
   return min(sigma, PoseBound::kMost);
 }
+
+Length length_of(int64_t um) noexcept { return Length::from_raw(saturate32(um)); }
+
+/// Rounding may take more of a variance than it has.
+int64_t not_negative(int64_t variance) noexcept { return variance < 0 ? 0 : variance; }
 
 /// The square of an angle in 2^-32 turn, over a divisor.
 int32_t squared_over(Angle angle, int32_t divisor) noexcept {
@@ -47,9 +51,8 @@ void PoseBound::configure(const Params& params) noexcept {
   turn_per_um_ =
       static_cast<int32_t>(divide_rounded(e.wheel_scale.raw() * INT64_C(24879108), params.body.track.raw()));
   gyro_scale_ = multiply_divide(e.gyro_scale.raw(), INT32_C(1) << 30, 1000000);
-  // The mean of two seconds of rest.
-  bias_ = multiply_divide(e.gyro_walk.wrapped(), 303306, 1000000);
-  bias_per_ms_ = multiply_divide(e.gyro_warm_up.wrapped(), 42893, 1000000000);
+  // In ten minutes: 2 pi 2^30 / 2^32 / 600.
+  bias_change_ = multiply_divide(e.gyro_warm_up.wrapped(), 2617994, 1000000000);
   walk_per_um_ = squared_over(e.heading_drift, 6484556);
   walk_per_ms_ = squared_over(e.gyro_walk, 23344401);
 }
@@ -70,18 +73,39 @@ bool PoseBound::correct_heading(Angle ahead, Angle sigma, Correction& out) noexc
   // um per radian
   const int64_t x = limited(quotient_64(x_heading_ * kRadianUnit, both), kMost.raw());
   const int64_t y = limited(quotient_64(y_heading_ * kRadianUnit, both), kMost.raw());
-  const auto metres = [](int64_t um) { return Length::from_raw(saturate32(um)); };
-  out.shift = {metres(scale_down<20>(x * off)), metres(scale_down<20>(y * off))};
+  out.shift = {length_of(scale_down<20>(x * off)), length_of(scale_down<20>(y * off))};
   const int64_t share = quotient_64(heading_ << 16, both);
   out.turn = Angle::from_raw(static_cast<uint32_t>(scale_down<16>(ahead.wrapped() * share)));
   xx_ -= scale_down<20>(x * x_heading_);
   xy_ -= scale_down<20>(x * y_heading_);
   yy_ -= scale_down<20>(y * y_heading_);
+  bias_.correct_heading(share, x, y);
   const int64_t rest = 65536 - share;
   x_heading_ = scale_down<16>(x_heading_ * rest);
   y_heading_ = scale_down<16>(y_heading_ * rest);
   heading_ = scale_down<16>(heading_ * rest);
   return true;
+}
+
+PoseBound::Correction PoseBound::rest(const GyroBias::Mean& mean, GyroBias& bias) noexcept {
+  if (mean.first) {
+    bias_.begin(mean.lasted, walk_per_ms_, bias_change_);
+    return {};
+  }
+  BiasFilter::Covariance shrinks{};
+  const BiasFilter::Learned learned = bias_.measure({mean.off_rad, mean.lasted}, walk_per_ms_, shrinks);
+  bias.learn(mean.off, learned.bias, learned.change);
+  if (known_) {
+    heading_ = not_negative(heading_ - shrinks.heading);
+    x_heading_ -= shrinks.x_heading;
+    y_heading_ -= shrinks.y_heading;
+    xx_ = not_negative(xx_ - shrinks.xx);
+    xy_ -= shrinks.xy;
+    yy_ = not_negative(yy_ - shrinks.yy);
+  }
+  const int64_t turn = scale_down<20>(learned.ahead.heading * kTurnPerRadian);
+  return {{length_of(learned.ahead.x), length_of(learned.ahead.y)},
+          Angle::from_raw(static_cast<uint32_t>(turn))};
 }
 
 /// All that turns the pose becomes part of the walk: a measured heading ties these errors together.
@@ -103,6 +127,7 @@ void PoseBound::gather() noexcept {
 
 void PoseBound::restart(const Pose& pose, const PoseSigma& sigma) noexcept {
   for (Lasting& error : lasting_) error = {};
+  bias_.forget();
   shortened_ = {};
   last_ = pose;
   counts_ = 0;
@@ -125,25 +150,25 @@ bool PoseBound::step(const Step& step) noexcept {
   elapsed_ += step.elapsed;
   if (++ticks_ < kEvery) return false;
   const bool moved = !(step.pose.at == last_.at && step.pose.heading == last_.heading);
-  if (moved) update(step);
+  update(step, moved);
   last_ = step.pose;
   counts_ = 0;
   elapsed_ = Duration{};
   ticks_ = 0;
-  return moved;
+  return moved && known_;
 }
 
-void PoseBound::update(const Step& step) noexcept {
+void PoseBound::update(const Step& step, bool moved) noexcept {
   const Vec way = step.pose.at - last_.at;
   const int32_t x = static_cast<int32_t>(limited(way.x.raw(), kMostMove));
   const int32_t y = static_cast<int32_t>(limited(way.y.raw(), kMostMove));
+  const BiasFilter::Covariance grows = bias_.step(x, y, elapsed_, step.by_gyro && moved);
+  if (!moved || !known_) return;
   const int64_t turned = scale_down<16>(int64_t{(step.pose.heading - last_.heading).wrapped()} * 25736);
   const int64_t forward = scale_down<16>(int64_t{counts_} * um_per_counts_);
   int64_t by[kLastings] = {};
   if (step.by_gyro) {
     by[kGyroScale] = scale_down<30>(turned * gyro_scale_);
-    const Length drifted = Length::from_raw(bias_per_ms_) * min(step.bias_age, kWarmUp).raw();
-    by[kBias] = scale_down<16>(int64_t{norm({Length::from_raw(bias_), drifted}).raw()} * elapsed_.raw());
   } else {
     by[kScale] = scale_down<30>(turned * scale_);
     by[kDifference] = scale_down<16>(forward * turn_per_um_);
@@ -161,7 +186,9 @@ void PoseBound::update(const Step& step) noexcept {
 
   const int64_t walked = step.by_gyro ? int64_t{walk_per_ms_} * elapsed_.raw()
                                       : (forward < 0 ? -forward : forward) * walk_per_um_;
-  walk(x, y, scale_down<16>(walked));
+  walk(x, y, scale_down<16>(walked) + grows.heading);
+  x_heading_ = limited(x_heading_ + grows.x_heading, kMostMixed);
+  y_heading_ = limited(y_heading_ + grows.y_heading, kMostMixed);
   shorten(x, y);
 }
 
@@ -195,7 +222,7 @@ PoseSigma PoseBound::sigma() const noexcept {
   int64_t xx = xx_ + kFloor;
   int64_t xy = xy_;
   int64_t yy = yy_ + kFloor;
-  const auto add = [&](const Lasting& error) {
+  const auto add = [&](const Place& error) {
     xx += scale_down<8>(square(error.x));
     xy += scale_down<8>(int64_t{error.x} * error.y);
     yy += scale_down<8>(square(error.y));

@@ -3,6 +3,8 @@
 
 #include <stdint.h>
 
+#include "firmware/localization/bias_filter.hpp"
+#include "firmware/localization/gyro_bias.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
@@ -22,10 +24,11 @@ Length distance_bound(const PoseSigma& sigma) noexcept;
 
 /// Propagates the error of the pose.
 ///
-/// Errors that last (scale of the wheels, their difference, scale of the gyro, its bias) are one unknown
-/// number each. For each, `Lasting` is the error of the pose that one standard deviation has caused so far.
-/// Errors that do not last make the heading a random walk, whose covariance with the position is propagated.
-/// The sum of both is the covariance of the pose. Sigmas saturate at kMost.
+/// Errors that last (scale of the wheels, their difference, scale of the gyro) are one unknown number each.
+/// For each, `Lasting` is the error of the pose that one standard deviation has caused so far. Errors that do
+/// not last make the heading a random walk, whose covariance with the position is propagated. The bias of the
+/// gyro has a filter of its own, which adds to that. The sum is the covariance of the pose. Sigmas saturate
+/// at kMost.
 class PoseBound {
  public:
   static constexpr Length kMost = 16_m;
@@ -39,7 +42,6 @@ class PoseBound {
     CountStep counts;
     Duration elapsed;
     bool by_gyro = false;  ///< the gyro turned the pose
-    Duration bias_age;
   };
 
   void configure(const Params& params) noexcept;
@@ -49,7 +51,7 @@ class PoseBound {
   void set_difference(Ratio sigma, Length track) noexcept;
   /// The body is at this pose, known with this accuracy.
   void restart(const Pose& pose, const PoseSigma& sigma) noexcept;
-  /// Once per tick. True: sigma() has changed.
+  /// Once per tick. True: sigma() has changed. Unless known(), only the filter of the bias advances.
   bool step(const Step& step) noexcept;
   PoseSigma sigma() const noexcept;
 
@@ -62,24 +64,29 @@ class PoseBound {
   /// place is corrected, too, as far as its error comes from that of the heading (Kalman filter). False:
   /// `ahead` is more than kJumpSigmas off, and nothing has changed.
   bool correct_heading(Angle ahead, Angle sigma, Correction& out) noexcept;
+  /// The gyro was at rest. Corrects its bias, and returns what that says of the pose.
+  Correction rest(const GyroBias::Mean& mean, GyroBias& bias) noexcept;
 
  private:
-  struct Lasting {
+  struct Place {
     int32_t x = 0;  // 2^-4 um
     int32_t y = 0;
+  };
+  struct Lasting : Place {
     int32_t heading = 0;  // 2^-28 rad
   };
-  enum : uint8_t { kScale, kDifference, kGyroScale, kBias, kLastings };
+  enum : uint8_t { kScale, kDifference, kGyroScale, kLastings };
   // 32 bits, so that all arguments of walk() fit into registers: clang 14 for AVR fails on others here.
   void shorten(int32_t x, int32_t y) noexcept;
   int64_t heading_variance() const noexcept;
   void gather() noexcept;
 
-  void update(const Step& step) noexcept;
+  void update(const Step& step, bool moved) noexcept;
   void walk(int32_t x, int32_t y, int64_t by) noexcept;
 
+  BiasFilter bias_;
   Lasting lasting_[kLastings];
-  Lasting shortened_;  // by the square of the error of the heading; its heading stays zero
+  Place shortened_;  // by the square of the error of the heading
   // The covariance of the rest: rad^2 2^-40, um rad 2^-20, um^2.
   int64_t heading_ = 0;
   int64_t x_heading_ = 0;
@@ -98,8 +105,7 @@ class PoseBound {
   int32_t scale_ = 0;          // 2^-30
   int32_t turn_per_um_ = 0;    // by the difference of the wheels, 2^-44 rad
   int32_t gyro_scale_ = 0;     // 2^-30
-  int32_t bias_ = 0;           // 2^-44 rad per ms, as measured at rest
-  int32_t bias_per_ms_ = 0;    // its change, 2^-44 rad per ms^2
+  int32_t bias_change_ = 0;    // 2^-30 rad/s^2
   int32_t walk_per_um_ = 0;    // of the wheels, 2^-56 rad^2
   int32_t walk_per_ms_ = 0;    // of the gyro, 2^-56 rad^2
 };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "firmware/localization/pose_bound.hpp"
+
 namespace whisker::localization {
 namespace {
 
@@ -23,6 +25,7 @@ class GyroHeadingTest : public testing::Test {
   GyroHeadingTest() {
     odometry_.configure(params_);
     odometry_.place({});
+    bound_.configure(params_);
     heading_.configure(params_, odometry_);
     heading_.restart();
     CountStep step;
@@ -56,6 +59,9 @@ class GyroHeadingTest : public testing::Test {
     ASSERT_TRUE(odometry_.take(counts(), elapsed_, step));
     const GyroHeading::Step in{answers ? &shown_ : nullptr, step, commanded, elapsed_};
     odometry_.advance(step, heading_.turn(in, odometry_, health_));
+    bound_.step({odometry_.pose(), step, elapsed_, heading_.source() == HeadingSource::gyro});
+    GyroBias::Mean mean;
+    if (heading_.bias().take(mean)) bound_.rest(mean, heading_.bias());
     elapsed_ = Duration{};
   }
   void sample(double rate) {
@@ -90,6 +96,7 @@ class GyroHeadingTest : public testing::Test {
 
   Params params_ = params_of_gyro_test();
   Odometry odometry_;
+  PoseBound bound_;
   GyroHeading heading_;
   Health health_;
 

@@ -39,6 +39,8 @@ class Drive {
     odometry_.place({});
     bound_.configure(params);
     bound_.restart({}, {});
+    GyroBias bias;
+    if (gyro) bound_.rest({0, 0, GyroBias::kFirstRest, true}, bias);
   }
 
   void go(double seconds, const Errors& errors, double walk_per_sqrt_s, double drift_per_sqrt_m,
@@ -65,8 +67,7 @@ class Drive {
       } else {
         odometry_.advance(step);
       }
-      const auto age = milliseconds(static_cast<int32_t>(t * 1000));
-      bound_.step({odometry_.pose(), step, 10_ms, gyro_, age});
+      bound_.step({odometry_.pose(), step, 10_ms, gyro_});
     }
   }
 
@@ -80,6 +81,11 @@ class Drive {
     return {x * c + y * s, y * c - x * s, radians(pose.heading - angle(heading_))};
   }
   PoseSigma sigma() const { return bound_.sigma(); }
+  /// The gyro is at rest, and this rate (rad/s) is measured.
+  PoseBound::Correction rest(double rate) {
+    GyroBias bias;
+    return bound_.rest({0, static_cast<int32_t>(std::lround(rate * 16777216)), 1000_ms, false}, bias);
+  }
   static double radians(Angle a) { return a.wrapped() * (kPi / 2147483648.0); }
 
  private:
@@ -174,6 +180,27 @@ TEST(PoseBound, TheWalkOfAGyro) {
   expect_calibrated(params, true, 60);
 }
 
+TEST(PoseBound, ARestCorrectsWhatTheBiasHasDoneToThePose) {
+  Params params;
+  params.pose_error.wheel_scale_common = millionths(1);
+  params.pose_error.gyro_scale = millionths(1);
+  params.pose_error.gyro_walk = degrees(0.05);
+  Errors errors;
+  errors.warm_up = 0.15 * kDegree;
+  std::mt19937 random(7);
+  for (const double seconds : {20.0, 60.0, 120.0}) {
+    Drive drive(params, true);
+    drive.go(seconds, errors, 0, 0, random);
+    const Drive::Off off = drive.off();
+    const PoseSigma before = drive.sigma();
+    const PoseBound::Correction by = drive.rest(errors.warm_up * seconds / 600);
+    EXPECT_NEAR(Drive::radians(by.turn), -off.heading, 0.1 * std::fabs(off.heading) + 0.0001) << seconds;
+    const double place = std::hypot(off.along, off.across);
+    EXPECT_NEAR(norm(by.shift).raw() * 1e-6, place, 0.2 * place + 0.004) << seconds;
+    EXPECT_LT(drive.sigma().heading.raw(), before.heading.raw() / 2) << seconds;
+  }
+}
+
 TEST(PoseBound, IsUnknownUnlessAnErrorOfTheWheelsIsDeclared) {
   Params params;
   PoseBound bound;
@@ -229,7 +256,7 @@ PoseBound after_a_metre() {
   PoseBound bound;
   bound.configure(params);
   bound.restart({}, {{}, {}, degrees(1)});
-  for (int i = 1; i <= 200; ++i) bound.step({{{millimetres(5 * i), {}}, {}}, {10, 10}, 10_ms, false, {}});
+  for (int i = 1; i <= 200; ++i) bound.step({{{millimetres(5 * i), {}}, {}}, {10, 10}, 10_ms, false});
   return bound;
 }
 

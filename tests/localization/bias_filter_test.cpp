@@ -1,0 +1,145 @@
+#include "firmware/localization/bias_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+
+namespace whisker::localization::bias_filter_test {
+namespace {
+
+using namespace whisker::literals;
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kWalk = 0.4 * kDegree / 60;     // rad per root of a second
+constexpr double kChange = 0.1 * kDegree / 600;  // rad/s^2
+constexpr double kStep_s = 0.08;
+const auto kWalkRaw = static_cast<int32_t>(std::lround(kWalk * kWalk / 1000 * std::exp2(56)));
+const auto kChangeRaw = static_cast<int32_t>(std::lround(kChange * std::exp2(30)));
+
+/// The Kalman filter as textbooks have it: x, y, heading, bias and its change, in m, rad and s.
+class Textbook {
+ public:
+  using Row = std::array<double, 5>;
+
+  void begin(double lasted_s) {
+    p_ = {};
+    p_[3][3] = kWalk * kWalk / lasted_s;
+    p_[4][4] = kChange * kChange;
+  }
+  void step(double x, double y, double s, bool by_gyro) {
+    std::array<Row, 5> f{};
+    for (std::size_t i = 0; i < 5; ++i) f[i][i] = 1;
+    f[0][2] = -y;
+    f[1][2] = x;
+    f[2][3] = by_gyro ? -s : 0;
+    f[3][4] = s;
+    std::array<Row, 5> fp{}, out{};
+    for (std::size_t i = 0; i < 5; ++i)
+      for (std::size_t j = 0; j < 5; ++j)
+        for (std::size_t k = 0; k < 5; ++k) fp[i][j] += f[i][k] * p_[k][j];
+    for (std::size_t i = 0; i < 5; ++i)
+      for (std::size_t j = 0; j < 5; ++j)
+        for (std::size_t k = 0; k < 5; ++k) out[i][j] += fp[i][k] * f[j][k];
+    p_ = out;
+    p_[3][3] += 1.2e-11 * s;
+    p_[4][4] += 6e-15 * s;
+  }
+  /// The gains.
+  Row measure(double lasted_s) {
+    const double both = p_[3][3] + kWalk * kWalk / lasted_s;
+    Row gain{}, row = p_[3];
+    for (std::size_t i = 0; i < 5; ++i) gain[i] = row[i] / both;
+    for (std::size_t i = 0; i < 5; ++i)
+      for (std::size_t j = 0; j < 5; ++j) p_[i][j] -= gain[i] * row[j];
+    return gain;
+  }
+  double at(std::size_t i, std::size_t j) const { return p_[i][j]; }
+
+ private:
+  std::array<Row, 5> p_{};
+};
+
+constexpr int32_t rad_per_s(double rate) { return static_cast<int32_t>(rate * 16777216); }
+
+TEST(BiasFilter, LearnsAsTheTextbookDoes) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (int drive = 0; drive < 50; ++drive) {
+    BiasFilter filter;
+    Textbook textbook;
+    filter.begin(2000_ms, kWalkRaw, kChangeRaw);
+    textbook.begin(2);
+    double heading = 0, grown = 0, lost = 0;
+    for (int rest = 0; rest < 8; ++rest) {
+      const int steps = 100 + static_cast<int>(any(random) * 900);
+      const double forward = 0.3 * any(random), turning = any(random) - 0.5;
+      const bool by_gyro = any(random) < 0.9;
+      for (int i = 0; i < steps; ++i) {
+        heading += turning * kStep_s;
+        const int32_t x = static_cast<int32_t>(std::lround(forward * kStep_s * std::cos(heading) * 1e6));
+        const int32_t y = static_cast<int32_t>(std::lround(forward * kStep_s * std::sin(heading) * 1e6));
+        grown += static_cast<double>(filter.step(x, y, 80_ms, by_gyro).heading);
+        textbook.step(x * 1e-6, y * 1e-6, kStep_s, by_gyro);
+      }
+      EXPECT_NEAR((grown - lost) / std::exp2(40), textbook.at(2, 2), 1e-8 + 0.02 * textbook.at(2, 2));
+      const double lasted = any(random) < 0.5 ? 1 : 0.2;
+      // Well below a surprise.
+      const double off = (any(random) - 0.5) * 2 * kWalk;
+      BiasFilter::Covariance shrinks{};
+      const BiasFilter::Learned learned = filter.measure(
+          {rad_per_s(off), milliseconds(static_cast<int32_t>(lasted * 1000))}, kWalkRaw, shrinks);
+      lost += static_cast<double>(shrinks.heading);
+      const Textbook::Row gain = textbook.measure(lasted);
+      EXPECT_NEAR(learned.bias / 65536.0, gain[3], 0.005);
+      EXPECT_NEAR(learned.change * 1000.0 / std::exp2(32), gain[4], 1e-5 + 0.02 * gain[4]);
+      EXPECT_NEAR(learned.ahead.heading / 1048576.0, gain[2] * off, 2e-6 + 0.02 * std::fabs(gain[2] * off));
+      EXPECT_NEAR(learned.ahead.x * 1e-6, gain[0] * off, 1e-4 + 0.02 * std::fabs(gain[0] * off));
+      EXPECT_NEAR(learned.ahead.y * 1e-6, gain[1] * off, 1e-4 + 0.02 * std::fabs(gain[1] * off));
+    }
+  }
+}
+
+TEST(BiasFilter, ABiasThatHasJumpedIsTakenAsItIs) {
+  BiasFilter filter;
+  filter.begin(2000_ms, kWalkRaw, kChangeRaw);
+  for (int i = 0; i < 12; ++i) filter.step(0, 0, 5000_ms, true);
+  BiasFilter::Covariance shrinks{};
+  const BiasFilter::Learned learned = filter.measure({rad_per_s(2 * kDegree), 1000_ms}, kWalkRaw, shrinks);
+  EXPECT_GT(learned.bias, 65536 * 0.99);
+}
+
+TEST(BiasFilter, AMeasuredPoseLeavesNothingToCorrect) {
+  BiasFilter filter;
+  filter.begin(2000_ms, kWalkRaw, kChangeRaw);
+  for (std::size_t i = 0; i < 500; ++i) filter.step(20000, 0, 80_ms, true);
+  BiasFilter::Covariance shrinks{};
+  BiasFilter measured = filter;
+  EXPECT_GT(std::abs(filter.measure({rad_per_s(kWalk), 1000_ms}, kWalkRaw, shrinks).ahead.y), 1000);
+  measured.forget();
+  const BiasFilter::Learned learned = measured.measure({rad_per_s(kWalk), 1000_ms}, kWalkRaw, shrinks);
+  EXPECT_EQ(learned.ahead.y, 0);
+  EXPECT_EQ(learned.ahead.heading, 0);
+  EXPECT_GT(learned.bias, 0);
+}
+
+TEST(BiasFilter, SaturatesInsteadOfWrapping) {
+  BiasFilter filter;
+  filter.begin(2000_ms, INT32_MAX, INT32_MAX);
+  BiasFilter::Covariance shrinks{};
+  for (int i = 0; i < 3000; ++i) {
+    filter.step(1048576, -1048576, 2000_ms, true);
+    if (i % 100 != 99) continue;
+    const BiasFilter::Learned learned =
+        filter.measure({i % 200 == 99 ? INT32_MAX : INT32_MIN, 1_ms}, INT32_MAX, shrinks);
+    EXPECT_GE(learned.bias, 0);
+    EXPECT_LE(learned.bias, 65536);
+    EXPECT_GE(shrinks.heading, 0);
+    EXPECT_GE(shrinks.xx, 0);
+  }
+}
+
+}  // namespace
+}  // namespace whisker::localization::bias_filter_test
