@@ -55,36 +55,55 @@ std::uint32_t now_ms() {
       chrono::duration_cast<chrono::milliseconds>(chrono::steady_clock::now() - began).count());
 }
 
+void refuse(socket::Channel& channel, const std::string& why, double timeout_s) {
+  fmt::print(stderr, "whisker: {}\n", why);
+  channel.write(nlohmann::json{{"error", why}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
+                timeout_s);
+}
+
+/// Until the other end closes. False: a line was refused.
+bool serve(socket::Channel& channel, socket::Session& session, double timeout_s) {
+  try {
+    while (const auto line = channel.read(timeout_s))
+      channel.write(session.answer(*line, now_ms()), timeout_s);
+    return true;
+  } catch (const socket::ProtocolError& e) {
+    refuse(channel, e.what(), timeout_s);
+  } catch (const socket::LongLine& e) {
+    refuse(channel, fmt::format("line {}: {}", session.lines() + 1, e.what()), timeout_s);
+    channel.drop_line(timeout_s);
+  }
+  return false;
+}
+
+/// Nothing if there was no tick.
+void say_end(const socket::Session& session, bool json) {
+  const auto end = session.result();
+  if (!end) return;
+  if (json) fmt::print("{}\n", report::result_json(end->run, "", end->outcome));
+  fmt::print(stderr, "{} after {} s, {} lines ({})\n", end->outcome, end->run.time_s, session.lines(),
+             end->run.detail);
+}
+
 int execute(const SocketOptions& o) {
   socket::Opening defaults;
   defaults.planner = o.planner;
   if (!o.robot.empty()) apply_robot_file(defaults.robot, o.robot);
   bend_if_chosen(defaults.robot, o.planner);
   std::signal(SIGPIPE, SIG_IGN);  // a closed end is reported as an error of write()
+  socket::Session session(defaults, version());
   try {
     const auto channel = open_channel(o);
-    socket::Session session(defaults, version());
-    while (const auto line = channel->read(o.timeout_s)) {
-      try {
-        channel->write(session.answer(*line, now_ms()), o.timeout_s);
-      } catch (const socket::ProtocolError& e) {
-        channel->write(nlohmann::json{{"error", e.what()}}.dump(-1, ' ', false,
-                                                                nlohmann::json::error_handler_t::replace),
-                       o.timeout_s);
-        fmt::print(stderr, "whisker: {}\n", e.what());
-        return kBadInput;
-      }
-    }
-    const auto result = session.result();
-    if (!result) throw UsageError("the other end closed before a tick");
-    if (o.json) fmt::print("{}\n", report::result_json(*result, ""));
-    fmt::print(stderr, "{} after {} s, {} lines ({})\n", report::outcome(result->verdict), result->time_s,
-               session.lines(), result->detail);
-    return exit_status(result->verdict);
+    if (!serve(*channel, session, o.timeout_s)) return kBadInput;
   } catch (const socket::ChannelError& e) {
     fmt::print(stderr, "whisker: {}\n", e.what());
+    say_end(session, o.json);
     return kFailure;
   }
+  say_end(session, o.json);
+  const auto end = session.result();
+  if (!end) throw UsageError("the other end closed before a tick");
+  return exit_status(end->run.verdict);
 }
 
 }  // namespace

@@ -78,9 +78,9 @@ std::string range_warning(const RangeTrust& ranges) {
                      rate);
 }
 
-std::string result_json(const RunResult& result, const std::string& bus) {
+std::string result_json(const RunResult& result, const std::string& bus, const char* said) {
   Json json;
-  json["outcome"] = outcome(result.verdict);
+  json["outcome"] = said != nullptr ? said : outcome(result.verdict);
   json["time_s"] = rounded(result.time_s);
   json["path_m"] = rounded(result.path_m);
   json["final_distance_m"] = rounded(result.final_distance_m);

@@ -13,8 +13,9 @@ const char* outcome(Verdict verdict) noexcept;
 
 /// One JSON object on one line, without a final newline. Lengths and times are rounded to 1e-6. A number that
 /// is not finite (the clearance in an empty world) or unknown becomes null. bus: a JSON object for the key
-/// "bus"; "" for none. The key "unreachable_above_m" stands only in an unreachable verdict.
-std::string result_json(const RunResult& result, const std::string& bus = "");
+/// "bus"; "" for none. `said`: the outcome where there is no verdict yet; null: the verdict. The key
+/// "unreachable_above_m" stands only in an unreachable verdict.
+std::string result_json(const RunResult& result, const std::string& bus = "", const char* said = nullptr);
 
 /// The figures of RangeTrust in the units of the JSON object.
 double contradictions_per_m(const RangeTrust& ranges);

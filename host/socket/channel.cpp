@@ -21,12 +21,18 @@ Descriptor::~Descriptor() {
   if (number_ > STDERR_FILENO) ::close(number_);
 }
 
+using Clock = std::chrono::steady_clock;
+
+Deadline::Deadline(double most_s)
+    : until_(Clock::now() +
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(most_s))) {}
+
+double Deadline::left_s() const { return std::chrono::duration<double>(until_ - Clock::now()).count(); }
+
 bool wait_for(const Descriptor& descriptor, short events, double most_s) {
-  using Clock = std::chrono::steady_clock;
-  const auto until =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(most_s));
+  const Deadline deadline(most_s);
   for (;;) {
-    const double left_s = std::chrono::duration<double>(until - Clock::now()).count();
+    const double left_s = deadline.left_s();
     if (left_s < 0) return false;
     pollfd fd{descriptor.number(), events, 0};
     const int ready = ::poll(&fd, 1, static_cast<int>(std::ceil(left_s * 1000)));

@@ -17,12 +17,19 @@ struct ChannelError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A line of more than kLongestLine bytes; what() is one line.
+struct LongLine : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class Channel {
  public:
   virtual ~Channel() = default;
-  /// The next line without its end; none: the other end has closed. Waits at most this long, and throws
-  /// ChannelError then, or if the line is too long.
+  /// The next line without its end; none: the other end has closed. Throws LongLine, and ChannelError if no
+  /// whole line comes for that long.
   virtual std::optional<std::string> read(double most_s) = 0;
+  /// Drops what is left of a LongLine. TCP would take an answer back if the channel closed before.
+  virtual void drop_line(double /*most_s*/) {}
   /// Throws ChannelError if the other end takes nothing for that long.
   virtual void write(std::string_view line, double most_s) = 0;
 };

@@ -1,6 +1,7 @@
 /// File descriptors and bounded waits.
 #pragma once
 
+#include <chrono>
 #include <string>
 
 namespace whisker::socket {
@@ -17,6 +18,16 @@ class Descriptor {
 
  private:
   int number_;
+};
+
+/// The end of a wait of several steps.
+class Deadline {
+ public:
+  explicit Deadline(double most_s);
+  double left_s() const;  ///< negative: it is over
+
+ private:
+  std::chrono::steady_clock::time_point until_;
 };
 
 /// True: ready for `events` of poll(). False: not within this time.

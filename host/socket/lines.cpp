@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -21,8 +22,11 @@ class Stream final : public Channel {
   explicit Stream(Descriptor both) : in_(std::move(both)), out_(-1) {}
 
   std::optional<std::string> read(double most_s) override {
+    const Deadline deadline(most_s);
     for (;;) {
       const std::size_t end = held_.find('\n', searched_);
+      if (std::min(end, held_.size()) > kLongestLine)
+        throw LongLine(fmt::format("longer than {} bytes", kLongestLine));
       if (end != std::string::npos) {
         std::string line = held_.substr(0, end);
         held_.erase(0, end + 1);
@@ -31,15 +35,17 @@ class Stream final : public Channel {
         return line;
       }
       searched_ = held_.size();
-      if (held_.size() > kLongestLine)
-        throw ChannelError(fmt::format("a line of over {} bytes", kLongestLine));
-      if (!wait_for(in_, POLLIN, most_s)) throw ChannelError(fmt::format("no line for {} s", most_s));
-      char bytes[4096];
-      const ssize_t got = ::read(in_.number(), bytes, sizeof bytes);
-      if (got < 0 && errno == EINTR) continue;
-      if (got < 0 && errno != ECONNRESET) throw ChannelError(fmt::format("read: {}", std::strerror(errno)));
-      if (got <= 0) return std::nullopt;
-      held_.append(bytes, static_cast<std::size_t>(got));
+      if (!wait_for(in_, POLLIN, deadline.left_s()))
+        throw ChannelError(fmt::format("no line for {} s", most_s));
+      if (!receive()) return std::nullopt;
+    }
+  }
+
+  void drop_line(double most_s) override {
+    const Deadline deadline(most_s);
+    while (held_.find('\n') == std::string::npos) {
+      held_.clear();
+      if (!wait_for(in_, POLLIN, deadline.left_s()) || !receive()) return;
     }
   }
 
@@ -58,6 +64,16 @@ class Stream final : public Channel {
   }
 
  private:
+  /// False: the other end has closed.
+  bool receive() {
+    char bytes[4096];
+    const ssize_t got = ::read(in_.number(), bytes, sizeof bytes);
+    if (got < 0 && errno == EINTR) return true;
+    if (got < 0 && errno != ECONNRESET) throw ChannelError(fmt::format("read: {}", std::strerror(errno)));
+    if (got > 0) held_.append(bytes, static_cast<std::size_t>(got));
+    return got > 0;
+  }
+
   Descriptor in_;
   Descriptor out_;  // -1: the same
   std::string held_;

@@ -20,16 +20,22 @@ namespace {
 
 using Value = nlohmann::json;
 
-constexpr double kMostRange = 65.533;  // m, the largest hal::RangeReading::mm
-constexpr double kMostTime = 4294967;  // s, in 32 bits of milliseconds
-constexpr std::int64_t kMostCount = std::int64_t{1} << 53;
+constexpr double kMostRange = 65.533;           // m, the largest hal::RangeReading::mm
+constexpr double kMostTime = 4294967;           // s, in 32 bits of milliseconds
+constexpr double kTooLarge = 9007199254740992;  // 2^53: a double has every whole number below it
 constexpr double kDegree = sim::kPi / 180;
 
 Value parsed(const std::string& line) {
-  Value json = Value::parse(line, nullptr, false);
-  if (json.is_discarded()) throw ProtocolError("no JSON");
-  if (!json.is_object()) throw ProtocolError("not a JSON object");
-  return json;
+  try {
+    Value json = Value::parse(line);
+    if (!json.is_object()) throw ProtocolError("not a JSON object");
+    return json;
+  } catch (const Value::parse_error& e) {
+    if (e.byte > line.size()) throw ProtocolError(fmt::format("no JSON: it ends after byte {}", line.size()));
+    throw ProtocolError(fmt::format("no JSON at byte {}", e.byte));
+  } catch (const Value::out_of_range&) {
+    throw ProtocolError("a number is too large");
+  }
 }
 
 void check_keys(const Value& object, std::string_view where, std::initializer_list<std::string_view> known) {
@@ -103,6 +109,14 @@ localization::UncertainPose fix_in(const Value& object) {
   return {pose, {sigma.at.x, sigma.at.y, sigma.heading}};
 }
 
+/// 17 or 17.0: many languages write every number with a decimal point.
+bool is_whole(const Value& value) {
+  return value.is_number() && std::trunc(value.get<double>()) == value.get<double>();
+}
+
+/// Of a whole number.
+bool fits(const Value& value) { return std::fabs(value.get<double>()) < kTooLarge; }
+
 /// The object as the table of a robot file, so that keys, ranges and relations are those of the files.
 Params robot_in(const Value& object, const Params& defaults) {
   std::string text;
@@ -110,7 +124,8 @@ Params robot_in(const Value& object, const Params& defaults) {
     const Value& value = item.value();
     if (!value.is_number() && !value.is_boolean() && !value.is_string())
       throw ProtocolError(fmt::format("robot: '{}' must be a number, a word, true or false", item.key()));
-    text += Value(item.key()).dump() + " = " + value.dump() + "\n";
+    const Value written = is_whole(value) && fits(value) ? Value(value.get<std::int64_t>()) : value;
+    text += Value(item.key()).dump() + " = " + written.dump() + "\n";
   }
   static const std::string kName = "robot";
   try {
@@ -160,11 +175,9 @@ std::uint8_t age_of(const Value& value) {
 }
 
 std::int64_t whole(const Value& value, const char* key, const char* must_be = "a whole number") {
-  if (!value.is_number_integer()) throw ProtocolError(fmt::format("'{}' must be {}", key, must_be));
-  const auto count = value.get<std::int64_t>();
-  if (count > kMostCount || count < -kMostCount)
-    throw ProtocolError(fmt::format("'{}' must be within 2^53", key));
-  return count;
+  if (!is_whole(value)) throw ProtocolError(fmt::format("'{}' must be {}", key, must_be));
+  if (!fits(value)) throw ProtocolError(fmt::format("'{}' must be within 2^53", key));
+  return value.get<std::int64_t>();
 }
 
 std::uint32_t count_of(const Value& value) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "firmware/can/value_names.hpp"
@@ -68,6 +69,12 @@ Json sigma_json(const localization::PoseSigma& sigma) {
   return json;
 }
 
+/// As the documents name it.
+std::string_view public_name(PlannerKind kind) {
+  const std::string_view other = alias(kind);
+  return other.empty() ? name(kind) : other;
+}
+
 const char* source_name(localization::HeadingSource source) {
   return can::word_in<can::kHeadingWords>(static_cast<std::int64_t>(source));
 }
@@ -116,7 +123,7 @@ std::string Session::greet(const Opening& opening) {
   Json json;
   json["whisker"] = kProtocol;
   json["version"] = version_;
-  json["planner"] = name(opening.planner);
+  json["planner"] = public_name(opening.planner);
   json["period_s"] = si(p.safety.period);
   json["longest_gap_s"] = si(longest_gap(p));
   json["body_radius_m"] = si(p.body.radius);
@@ -169,16 +176,19 @@ std::string Session::step(const Tick& tick, std::uint32_t now_ms) {
   return last_answer_;
 }
 
-std::optional<RunResult> Session::result() const {
+std::optional<SessionEnd> Session::result() const {
   if (!core_ || !last_ms_) return std::nullopt;
   const Status& status = core_->robot.status();
-  RunResult result;
+  const planning::Decision& decision = status.decision;
+  SessionEnd end{outcome_name(status), {}};
+  RunResult& result = end.run;
   if (status.health.fault != Fault::none) {
     result.verdict = Verdict::fault;
     result.detail = name(status.health.fault);
   } else {
-    result.verdict = verdict_of(status.decision.outcome).value_or(Verdict::gave_up);
-    result.detail = planning::name(status.decision.why);
+    const bool goalless = decision.outcome == planning::Outcome::none && decision.why == planning::Why::none;
+    result.verdict = verdict_of(decision.outcome).value_or(Verdict::gave_up);
+    result.detail = goalless ? "no_goal" : planning::name(decision.why);
   }
   result.time_s = *last_ms_ / 1e3;
   if (status.sigma_known) result.sigma = status.sigma;
@@ -192,7 +202,7 @@ std::optional<RunResult> Session::result() const {
   result.path_m = NAN;
   result.ticks = core_->ticks;
   result.hash = core_->hash.value();
-  return result;
+  return end;
 }
 
 }  // namespace whisker::socket

@@ -14,6 +14,12 @@
 
 namespace whisker::socket {
 
+/// How it stands when the lines end.
+struct SessionEnd {
+  const char* outcome;  ///< of the last answer
+  RunResult run;        ///< by the robot's own estimate; gave_up also while there is no verdict
+};
+
 class Session {
  public:
   /// defaults: what the first line does not say. version: of the program, for the greeting.
@@ -24,8 +30,8 @@ class Session {
   /// ProtocolError with the number of the line.
   std::string answer(const std::string& line, std::uint32_t now_ms);
 
-  /// Outcome by the robot's own estimate, time and ticks so far; none: no mission has ended.
-  std::optional<RunResult> result() const;
+  /// None: there was no tick.
+  std::optional<SessionEnd> result() const;
   std::uint64_t lines() const { return lines_; }
 
  private:

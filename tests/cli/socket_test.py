@@ -6,6 +6,7 @@ import re
 import socket
 import subprocess
 import sys
+import time
 
 import whisker
 from whisker import Case
@@ -71,7 +72,7 @@ class Socket(Case):
             client.send(b"")
             status, out, err = server.end()
             self.assertEqual((status, out), (4, ""), err)
-            self.assertIn("gave_up after 0.01 s, 4 lines", err)
+            self.assertIn("running after 0.01 s, 4 lines", err)
 
     def test_standard_input_and_output(self):
         done = by_standard_input("\n".join(LINES) + "\n")
@@ -81,12 +82,52 @@ class Socket(Case):
         self.assertEqual(done.returncode, 4, "no verdict yet")
 
     def test_a_wrong_line_is_answered_and_ends_it(self):
-        for text, says in ((HELLO + "\n" + '{"range": []}\n', "line 2: unknown key 'range'"), ("hello\n", "line 1: no JSON"),
-                           ("\xff\xfe{\n", "line 1: no JSON")):
+        longest = 65536
+        long_line = HELLO + " " * (longest + 1 - len(HELLO)) + "\n"
+        for text, says in ((HELLO + "\n" + '{"range": []}\n', "line 2: unknown key 'range'"), ("hello\n", "line 1: no JSON at byte 1"),
+                           ("\xff\xfe{\n", "line 1: no JSON at byte 1"), (long_line, f"line 1: longer than {longest} bytes"),
+                           (HELLO + "\n" + "x" * 70000, f"line 2: longer than {longest} bytes")):
             done = by_standard_input(text)
             self.assertEqual(done.returncode, 2)
             self.assertEqual(json.loads(done.stdout.splitlines()[-1]), {"error": says})
             self.assertEqual(done.stderr.decode(), f"whisker: {says}\n")
+
+    def test_the_longest_line_is_read(self):
+        done = by_standard_input(HELLO + " " * (65536 - len(HELLO)) + "\n" + LINES[1] + "\n")
+        self.assertEqual([line.startswith(b'{"error') for line in done.stdout.splitlines()], [False, False], done.stderr)
+
+    def test_the_answer_to_a_line_that_is_too_long_reaches_a_client_that_still_writes(self):
+        with Server("--tcp", "0") as server, socket.create_connection(("127.0.0.1", server.port), timeout=10) as client:
+            client.sendall(b"x" * 20_000_000 + b"\n")
+            self.assertEqual(json.loads(client.makefile().readline()), {"error": "line 1: longer than 65536 bytes"})
+            self.assertEqual(server.end()[0], 2)
+
+    def test_a_line_that_never_ends_is_answered_at_once_and_not_read_for_ever(self):
+        with Server("--tcp", "0", "--timeout", "0.5") as server, socket.create_connection(("127.0.0.1", server.port), timeout=10) as client:
+            client.sendall(b"x" * 70000)
+            self.assertIn("longer than", client.makefile().readline())
+            self.assertEqual(server.end()[0], 2)
+
+    def test_the_verdict_of_a_session_without_an_outcome_says_what_is_so(self):
+        lines = [HELLO, '{"t_s": 0, "counts": [0, 0]}', '{"t_s": 0.01, "counts": [0, 0], "cancel": true}']
+        for text, says in (("\n".join(lines[:2]), "running after 0 s, 2 lines (goal_set)"),
+                           ("\n".join(lines), "idle after 0.01 s, 3 lines (cancelled)"),
+                           ('{"whisker": 1}\n' + lines[1], "idle after 0 s, 2 lines (no_goal)")):
+            done = by_standard_input(text + "\n")
+            self.assertEqual((done.returncode, done.stderr.decode()), (4, says + "\n"))
+
+    def test_silence_ends_with_the_verdict_so_far(self):
+        for kind in ("udp", "tcp"):
+            with self.subTest(kind), Server(f"--{kind}", "0", "--timeout", "0.3", "--json") as server, \
+                    socket.socket(type=socket.SOCK_DGRAM if kind == "udp" else socket.SOCK_STREAM) as client:
+                client.settimeout(10)
+                client.connect(("127.0.0.1", server.port))
+                for line in LINES:
+                    client.send(line.encode() + b"\n")
+                    client.recv(65536)
+                status, out, err = server.end()
+                self.assertEqual((status, json.loads(out)["outcome"]), (1, "running"))
+                self.assertRegex(err, r"\Awhisker: no line for 0.3 s\nrunning after 0.02 s, 4 lines \(\w+\)\n\Z")
 
     def test_every_wait_is_bounded(self):
         with Server("--tcp", "0", "--timeout", "0.2") as server:
@@ -97,6 +138,14 @@ class Socket(Case):
             client.sendall((HELLO + "\n").encode())
             self.assertIn(b'"whisker":1', client.recv(65536))
             self.assertEqual(server.end()[::2], (1, "whisker: no line for 0.3 s\n"))
+        with Server("--tcp", "0", "--timeout", "0.5") as server, socket.create_connection(("127.0.0.1", server.port)) as client:
+            for _ in range(20):
+                if server.process.poll() is not None:
+                    break
+                client.sendall(b"{")
+                time.sleep(0.2)
+            self.assertIsNotNone(server.process.returncode)
+            self.assertEqual(server.end()[::2], (1, "whisker: no line for 0.5 s\n"), "parts of a line are no line")
 
     def test_refusals(self):
         self.refused("socket", says="needs one of --tcp, --udp and --stdio")
@@ -104,8 +153,6 @@ class Socket(Case):
         self.refused("socket", "--stdio", "--json", says="--json")
         self.refused("socket", "--tcp", "65536", says="--tcp")
         self.refused("socket", "--tcp", "0", "--address", "here", status=1, says="'here' is no IPv4 address")
-        too_long = by_standard_input("x" * 70000)
-        self.assertEqual((too_long.returncode, too_long.stderr), (1, b"whisker: a line of over 65536 bytes\n"))
 
 
 if __name__ == "__main__":

@@ -57,13 +57,32 @@ TEST(Request, ReadsEveryKeyOfATick) {
   EXPECT_EQ(t.fix->sigma.heading.raw(), 1U << 29);
 }
 
+TEST(Request, AWholeNumberMayHaveADecimalPoint) {
+  const Tick t = read_tick(
+      R"({"counts": [-1.0, 9.007199254740991e15], "gyro": {"sum": -5.0, "samples": 7.0, "saturated": -0.0}})");
+  EXPECT_EQ(t.counts->left, 0xFFFFFFU);
+  EXPECT_EQ(t.counts->right, 0xFFFFFFU) << "2^53 - 1 modulo 2^24";
+  EXPECT_EQ(t.gyro->sum, 0xFFFFFFFBU);
+  EXPECT_EQ(t.gyro->samples, 7);
+  EXPECT_EQ(t.gyro->saturated, 0);
+  const Opening o = read_opening(R"({"whisker": 1.0, "robot": {"encoder_counts_per_m": 4000.0}})", {});
+  EXPECT_EQ(o.robot.wheels.counts_per_metre, 4000);
+  EXPECT_THAT(refusal(R"({"whisker": 1, "robot": {"encoder_counts_per_m": 4000.5}})", true),
+              testing::HasSubstr("must be an integer"));
+}
+
 TEST(Request, OneAgeForAllBeams) {
   EXPECT_EQ(read_tick(R"({"range_m": [1, 1, 1], "age_s": 0.03})").beam[2].age_ms, 30);
   EXPECT_EQ(read_tick(R"({"range_m": [1, 1, 1], "age_s": 9})").beam[2].age_ms, 255) << "ignored by the core";
 }
 
 TEST(Request, RefusesWhatDoesNotFollowTheProtocol) {
-  EXPECT_EQ(refusal("hello"), "no JSON");
+  EXPECT_EQ(refusal("hello"), "no JSON at byte 1");
+  EXPECT_EQ(refusal(R"({"t_s": })"), "no JSON at byte 9");
+  EXPECT_EQ(refusal(R"({"t_s": 1} 2)"), "no JSON at byte 12");
+  EXPECT_EQ(refusal(R"({"t_s": NaN})"), "no JSON at byte 9");
+  EXPECT_EQ(refusal(R"({"t_s": 1)"), "no JSON: it ends after byte 9");
+  EXPECT_EQ(refusal(R"({"t_s": 1e999})"), "a number is too large");
   EXPECT_EQ(refusal("[1]"), "not a JSON object");
   EXPECT_EQ(refusal(R"({"ranges": []})"), "unknown key 'ranges'");
   EXPECT_EQ(refusal(R"({"range_m": [1, 2]})"), "'range_m' must be a list of 3 values");
@@ -72,6 +91,11 @@ TEST(Request, RefusesWhatDoesNotFollowTheProtocol) {
   EXPECT_EQ(refusal(R"({"range_m": [1, 2, true]})"), "'range_m' must be a number");
   EXPECT_EQ(refusal(R"({"counts": [1.5, 2]})"), "'counts' must be whole numbers");
   EXPECT_EQ(refusal(R"({"counts": [1, 99999999999999999]})"), "'counts' must be within 2^53");
+  EXPECT_EQ(refusal(R"({"counts": [17.5, 2.0]})"), "'counts' must be whole numbers");
+  EXPECT_EQ(refusal(R"({"counts": [1, "2"]})"), "'counts' must be whole numbers");
+  EXPECT_EQ(refusal(R"({"counts": [1e300, 2]})"), "'counts' must be within 2^53");
+  EXPECT_EQ(refusal(R"({"counts": [-9007199254740993, 2]})"), "'counts' must be within 2^53");
+  EXPECT_EQ(refusal(R"({"counts": [18446744073709551615, 2]})"), "'counts' must be within 2^53") << "not -1";
   EXPECT_EQ(refusal(R"({"t_s": "now"})"), "'t_s' must be a number");
   EXPECT_EQ(refusal(R"({"pressed": ["back"]})"), "'pressed' may name left, front and right");
   EXPECT_EQ(refusal(R"({"gyro": 1})"), "'gyro' must be an object");

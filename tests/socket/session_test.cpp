@@ -181,7 +181,7 @@ TEST(Session, AnswersWhatBecameOfAFix) {
   for (std::uint32_t now = 30; now < 200; now += 10)
     later = Json::parse(session.answer(R"({"counts": [0, 0]})", now));
   EXPECT_FALSE(later.contains("fix"));
-  EXPECT_TRUE(session.result()->sigma.has_value());
+  EXPECT_TRUE(session.result()->run.sigma.has_value());
   EXPECT_EQ(later["heading_source"], "gyro_lost");
 }
 
@@ -204,7 +204,7 @@ TEST(Session, GreetsWithTheRobotThatItDrives) {
   const Json hello = Json::parse(session.answer(
       R"({"whisker": 1, "robot": {"body_radius_m": 0.1, "range_cone_deg": 30}, "planner": "skirt"})", 0));
   EXPECT_EQ(hello["version"], "1.2.3");
-  EXPECT_EQ(hello["planner"], "skirt");
+  EXPECT_EQ(hello["planner"], "boundary") << "the name of the documents";
   EXPECT_EQ(hello["body_radius_m"], 0.1);
   EXPECT_EQ(hello["period_s"], 0.01);
   EXPECT_EQ(hello["wheel_speed_max_mps"], 0.3);
@@ -224,7 +224,9 @@ TEST(Session, WhatASimulatorLeavesOutLeadsToANamedFault) {
     fault = Json::parse(session.answer("{}", now))["fault"];
   }
   EXPECT_EQ(fault, "drive_refused");
-  EXPECT_EQ(session.result()->verdict, Verdict::fault);
+  EXPECT_EQ(session.result()->run.verdict, Verdict::fault);
+  EXPECT_STREQ(session.result()->outcome, "fault");
+  EXPECT_EQ(session.result()->run.detail, "drive_refused");
 }
 
 TEST(Session, TheTimeOfArrivalCountsWithoutATime) {
@@ -250,6 +252,23 @@ TEST(Session, TakesCommandsWithATick) {
   EXPECT_EQ(placed["pose"]["heading_deg"], 90.0);
   EXPECT_EQ(outcome("{}", 9000), "fault");
   EXPECT_EQ(outcome(R"({"counts": [0, 0], "reset": true})", 9010), "idle");
+}
+
+TEST(Session, TheEndSaysWhyThereIsNoMission) {
+  Session session({}, "");
+  session.answer(R"({"whisker": 1})", 0);
+  EXPECT_FALSE(session.result().has_value());
+  const auto end = [&](const std::string& line, std::uint32_t now) {
+    session.answer(line, now);
+    const auto result = session.result();
+    EXPECT_EQ(result->run.verdict, Verdict::gave_up) << "for the exit status";
+    return std::string(result->outcome) + " " + result->run.detail;
+  };
+  EXPECT_EQ(end(R"({"counts": [0, 0]})", 10), "idle no_goal");
+  EXPECT_THAT(end(R"({"counts": [0, 0], "goal": {"x_m": 1, "y_m": 2}})", 20),
+              testing::StartsWith("running "));
+  EXPECT_EQ(end(R"({"counts": [0, 0], "cancel": true})", 30), "idle cancelled");
+  EXPECT_EQ(end(R"({"counts": [0, 0]})", 40), "idle cancelled");
 }
 
 }  // namespace
