@@ -109,7 +109,11 @@ Session::Session(const Opening& defaults, std::string version)
 std::string Session::answer(const std::string& line, std::uint32_t now_ms) {
   ++lines_;
   try {
-    if (!core_) return greet(read_opening(line, defaults_));
+    if (!core_) {
+      last_answer_ = greet(read_opening(line, defaults_));
+      opening_ = line;
+    }
+    if (!last_ms_ && line == opening_) return last_answer_;
     const Tick tick = read_tick(line);
     return step(tick, tick.now_ms.value_or(now_ms));
   } catch (const ProtocolError& e) {

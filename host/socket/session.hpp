@@ -26,8 +26,8 @@ class Session {
   Session(const Opening& defaults, std::string version);
 
   /// The answer to the next line, without its end. now_ms: the time of arrival, for lines without a time. A
-  /// tick with the time of the last one repeats its answer, so that a lost datagram may be sent again. Throws
-  /// ProtocolError with the number of the line.
+  /// tick with the time of the last one repeats its answer, and so does the first line before the first tick:
+  /// a lost datagram may be sent again. Throws ProtocolError with the number of the line.
   std::string answer(const std::string& line, std::uint32_t now_ms);
 
   /// None: there was no tick.
@@ -46,6 +46,7 @@ class Session {
   struct Core;
   std::shared_ptr<Core> core_;
   std::optional<std::uint32_t> last_ms_;
+  std::string opening_;
   std::string last_answer_;
 };
 

@@ -216,6 +216,15 @@ TEST(Session, GreetsWithTheRobotThatItDrives) {
   EXPECT_EQ(hello["beams"][2]["cone_deg"], 30.0);
 }
 
+TEST(Session, AnswersTheFirstLineAgainUntilTheFirstTick) {
+  Session session({}, "1");
+  const std::string opening = R"({"whisker": 1})";
+  const std::string greeting = session.answer(opening, 0);
+  EXPECT_EQ(session.answer(opening, 10), greeting);
+  EXPECT_NE(session.answer(R"({"t_s": 0.02})", 20), greeting);
+  EXPECT_THROW(session.answer(opening, 30), ProtocolError);
+}
+
 TEST(Session, WhatASimulatorLeavesOutLeadsToANamedFault) {
   Session session({}, "");
   session.answer(R"({"whisker": 1, "goal": {"x_m": 3, "y_m": 0}})", 0);
