@@ -12,7 +12,6 @@ constexpr int64_t kRounding = 64;         // of the mean of the samples, (rad/s)
 constexpr int64_t kSurprise = 16;         // variances of what is off: the bias has changed otherwise
 
 // Called, not inlined: each holds a product of 64 bits.
-[[gnu::noinline]] int32_t sum(int32_t a, int64_t b) noexcept { return saturate32(a + b); }
 [[gnu::noinline]] int64_t product(int64_t a, int32_t b) noexcept { return scale_down<20>(a * b); }
 [[gnu::noinline]] int64_t over(int64_t a, int64_t b, int64_t divisor) noexcept {
   return divide_rounded_64(a * b, divisor);
@@ -25,12 +24,9 @@ int32_t variance(int32_t walk, Duration lasted) noexcept {
 
 }  // namespace
 
-void BiasFilter::begin(Duration lasted, int32_t walk, int32_t change) noexcept {
-  of_bias_[kBias] = variance(walk, lasted);
-  of_change_[kBias] = 0;
-  change_ = saturate32(int64_t{change} * change);
-  forget();
-}
+void BiasFilter::configure(int32_t change) noexcept { change_ = saturate32(square(change)); }
+
+void BiasFilter::begin(Duration lasted, int32_t walk) noexcept { of_bias_[kBias] = variance(walk, lasted); }
 
 void BiasFilter::forget() noexcept {
   for (int i = 0; i < kPose; ++i) of_bias_[i] = of_change_[i] = 0;
@@ -48,24 +44,25 @@ BiasFilter::Covariance BiasFilter::step(int32_t x, int32_t y, Duration elapsed, 
   grows.y_heading = over(-int64_t{of_bias_[kY]}, turns, 16000);
 
   const auto drag = [x, y](int32_t(&with)[kRows], int64_t turned) {
-    with[kX] = sum(with[kX], -product(y, with[kHeading]));
-    with[kY] = sum(with[kY], product(x, with[kHeading]));
-    with[kHeading] = sum(with[kHeading], -turned);
+    with[kX] = saturated_sum(with[kX], -product(y, with[kHeading]));
+    with[kY] = saturated_sum(with[kY], product(x, with[kHeading]));
+    with[kHeading] = saturated_sum(with[kHeading], -turned);
   };
-  for (int i = 0; i < kRows; ++i) of_bias_[i] = sum(of_bias_[i], over(of_change_[i], ms, 64000));
+  for (int i = 0; i < kRows; ++i) of_bias_[i] = saturated_sum(of_bias_[i], over(of_change_[i], ms, 64000));
   drag(of_bias_, over(bias, turns, 16000));
-  of_bias_[kBias] = sum(of_bias_[kBias], over(of_change_[kBias], ms, 64000) + over(kWanders, ms, 1000));
+  of_bias_[kBias] =
+      saturated_sum(of_bias_[kBias], over(of_change_[kBias], ms, 64000) + over(kWanders, ms, 1000));
   drag(of_change_, over(of_change_[kBias], turns, 16000));
-  of_change_[kBias] = sum(of_change_[kBias], over(change_, ms, 64000));
-  change_ = sum(change_, over(kChangeWanders, ms, 1000));
+  of_change_[kBias] = saturated_sum(of_change_[kBias], over(change_, ms, 64000));
+  change_ = saturated_sum(change_, over(kChangeWanders, ms, 1000));
   return grows;
 }
 
-BiasFilter::Learned BiasFilter::measure(const Rest& rest, int32_t walk, Covariance& shrinks) noexcept {
-  const int32_t noise = variance(walk, rest.lasted);
-  const int64_t off = rest.off;
+BiasFilter::Learned BiasFilter::measure(int32_t off, Duration lasted, int32_t walk,
+                                        Covariance& shrinks) noexcept {
+  const int32_t noise = variance(walk, lasted);
   int32_t& bias = of_bias_[kBias];
-  if (off * off / kSurprise > int64_t{bias} + noise) bias = sum(bias, off * off);
+  if (square(off) / kSurprise > int64_t{bias} + noise) bias = saturated_sum(bias, square(off));
   const int64_t both = int64_t{bias} + noise;
   const auto share = [both](int32_t a, int32_t b) { return over(a, b, both); };
 
@@ -80,13 +77,13 @@ BiasFilter::Learned BiasFilter::measure(const Rest& rest, int32_t walk, Covarian
   learned.bias = saturate32(share(bias, 65536));
   const int32_t mixed = of_change_[kBias];
   learned.change = saturate32(share(mixed, 67109));
-  learned.ahead = {saturate32(share(with[kX], rest.off)), saturate32(share(with[kY], rest.off)),
-                   saturate32(share(with[kHeading], rest.off))};
+  learned.ahead = {saturate32(share(with[kX], off)), saturate32(share(with[kY], off)),
+                   saturate32(share(with[kHeading], off))};
 
-  change_ = sum(change_, -share(mixed, mixed));
+  change_ = saturated_sum(change_, -share(mixed, mixed));
   if (change_ < 0) change_ = 0;
   for (int i = 0; i < kRows; ++i) {
-    of_change_[i] = sum(of_change_[i], -share(of_bias_[i], mixed));
+    of_change_[i] = saturated_sum(of_change_[i], -share(of_bias_[i], mixed));
     of_bias_[i] = saturate32(share(of_bias_[i], noise));
   }
   return learned;
@@ -95,8 +92,8 @@ BiasFilter::Learned BiasFilter::measure(const Rest& rest, int32_t walk, Covarian
 void BiasFilter::correct_heading(int64_t share, int64_t x, int64_t y) noexcept {
   const int64_t by[kPose] = {x, y, share * 16};
   for (int i = 0; i < kPose; ++i) {
-    of_bias_[i] = sum(of_bias_[i], -product(by[i], of_bias_[kHeading]));
-    of_change_[i] = sum(of_change_[i], -product(by[i], of_change_[kHeading]));
+    of_bias_[i] = saturated_sum(of_bias_[i], -product(by[i], of_bias_[kHeading]));
+    of_change_[i] = saturated_sum(of_change_[i], -product(by[i], of_change_[kHeading]));
   }
 }
 

@@ -12,18 +12,13 @@ namespace whisker::localization {
 /// steadily while the gyro warms up, and wanders besides.
 class BiasFilter {
  public:
-  /// A mean of samples at rest.
-  struct Rest {
-    int32_t off = 0;  ///< measured less expected, 2^-24 rad/s
-    Duration lasted;  ///< above zero
-  };
   struct Error {
     int32_t x, y;     ///< um
     int32_t heading;  ///< 2^-20 rad
   };
   struct Learned {
-    int32_t bias;    ///< share of `off`, 2^-16
-    int32_t change;  ///< share of `off` per ms, 2^-32
+    int32_t bias;    ///< share of what is off, 2^-16
+    int32_t change;  ///< share of what is off per ms, 2^-32
     Error ahead;     ///< the true pose is ahead by so much
   };
   /// Covariances of a pose: rad^2 2^-40, um rad 2^-20, um^2.
@@ -31,17 +26,20 @@ class BiasFilter {
     int64_t heading, x_heading, y_heading, xx, xy, yy;
   };
 
-  /// The bias is measured for the first time. `walk`: of the gyro, 2^-56 rad^2 per ms; `change`: the standard
-  /// deviation of its change, 2^-30 rad/s^2.
-  void begin(Duration lasted, int32_t walk, int32_t change) noexcept;
+  /// `change`: the standard deviation of the change of the bias, 2^-30 rad/s^2.
+  void configure(int32_t change) noexcept;
+  /// The bias is measured for the first time. `lasted`, here and below: how long samples were added at rest,
+  /// above zero; `walk`: of the gyro, 2^-56 rad^2 per ms.
+  void begin(Duration lasted, int32_t walk) noexcept;
   bool begun() const noexcept { return of_bias_[kBias] > 0; }
   /// The pose is measured: what the bias has done to it is known.
   void forget() noexcept;
   /// The body has moved by x, y (um, less than 2^21). `by_gyro`: the gyro has turned it. Returns what the
   /// covariance of the pose grows by.
   Covariance step(int32_t x, int32_t y, Duration elapsed, bool by_gyro) noexcept;
-  /// `shrinks`: what the covariance of the pose loses.
-  Learned measure(const Rest& rest, int32_t walk, Covariance& shrinks) noexcept;
+  /// The mean of samples at rest is `off` (2^-24 rad/s) above what was expected. `shrinks`: what the
+  /// covariance of the pose loses.
+  Learned measure(int32_t off, Duration lasted, int32_t walk, Covariance& shrinks) noexcept;
   /// The heading is measured, and the pose corrected: the heading by a share of what it is off (2^-16), and
   /// the place by x, y (um per rad).
   void correct_heading(int64_t share, int64_t x, int64_t y) noexcept;

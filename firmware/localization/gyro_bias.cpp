@@ -13,9 +13,8 @@ int32_t samples_in(Duration time, int32_t rate_hz) noexcept { return time.raw() 
 
 }  // namespace
 
-void GyroBias::configure(const GyroParams& params) noexcept {
-  rate_hz_ = params.rate_hz;
-  range_ = multiply_divide(params.range.raw(), params.scale.raw(), 1000000);
+int32_t scaled_range(const GyroParams& params) noexcept {
+  return multiply_divide(params.range.raw(), params.scale.raw(), 1000000);
 }
 
 [[gnu::noinline]] int32_t GyroBias::value() const noexcept {
@@ -32,22 +31,22 @@ bool GyroBias::add(int32_t sum, int32_t samples) noexcept {
   const int64_t apart = int64_t{sum} * 65536 - int64_t{value()} * samples;  // 2^-16 units
   const int64_t most = int64_t{kLargestStep} * samples * 65536;
   if (known_ && (apart > most || apart < -most)) return false;
-  samples_ += samples;
+  samples_ = static_cast<uint16_t>(samples_ + samples);
   sum_ += sum;
   if (known_ && still_for_ > kWait + kRest) used_for_ = Duration{};
   return true;
 }
 
-bool GyroBias::take(Mean& mean) noexcept {
+bool GyroBias::take(const GyroParams& params, Mean& mean) noexcept {
   const bool ended = known_ && !stands();
   const Duration enough = ended ? kShortest : known_ ? kRest : kFirstRest;
-  if (samples_ == 0 || samples_ < samples_in(enough, rate_hz_)) {
+  if (samples_ == 0 || samples_ < samples_in(enough, params.rate_hz)) {
     if (ended) sum_ = samples_ = 0;
     return false;
   }
   const int32_t measured = saturate32(divide_rounded(int64_t{sum_} * 65536, samples_));
   mean.first = !known_;
-  mean.lasted = milliseconds(multiply_divide(samples_, 1000, rate_hz_));
+  mean.lasted = milliseconds(multiply_divide(samples_, 1000, params.rate_hz));
   sum_ = samples_ = 0;
   if (mean.first) {
     known_ = true;
@@ -56,7 +55,7 @@ bool GyroBias::take(Mean& mean) noexcept {
     if (still_for_ > kRest) used_for_ = Duration{};
   }
   mean.off = saturate32(int64_t{measured} - value());
-  mean.off_rad = multiply_divide(mean.off, range_, 128000000);
+  mean.off_rad = multiply_divide(mean.off, scaled_range(params), 128000000);
   return true;
 }
 

@@ -8,6 +8,9 @@
 
 namespace whisker::localization {
 
+/// The rate at which a sample has its largest value, with the scale that the gyro has: urad/s.
+int32_t scaled_range(const GyroParams& params) noexcept;
+
 /// A rest counts from kWait after the last encoder count on: until then the body may still move.
 ///
 /// The first measurement takes kFirstRest. Later, a rest of kRest serves for kServes, in which the bias of a
@@ -18,8 +21,6 @@ class GyroBias {
   static constexpr Duration kFirstRest = 2000_ms;
   static constexpr Duration kRest = 1000_ms;
   static constexpr Duration kServes = 60000_ms;
-
-  void configure(const GyroParams& params) noexcept;
 
   /// Once per step. `still`: no counts, and no wheel is commanded to turn.
   void pass(bool still, Duration elapsed) noexcept;
@@ -39,7 +40,7 @@ class GyroBias {
     bool first = false;  ///< the bias was not known before; nothing is off
   };
   /// True: kRest has passed, or a shorter rest has ended; once for each.
-  bool take(Mean& mean) noexcept;
+  bool take(const GyroParams& params, Mean& mean) noexcept;
   /// Of what was off, by these shares: the bias (2^-16), and its change per ms (2^-32).
   void learn(int32_t off, int32_t bias, int32_t change) noexcept;
 
@@ -56,13 +57,11 @@ class GyroBias {
  private:
   int32_t value_ = 0;   // when it was measured
   int32_t change_ = 0;  // since then, 2^-16 of its unit per ms
-  int32_t range_ = 0;   // urad/s
-  int32_t rate_hz_ = 100;
-  int32_t sum_ = 0;      // of samples that are not yet taken
-  int32_t samples_ = 0;  // their number
+  int32_t sum_ = 0;     // of samples that are not yet taken
   Duration measured_for_;
   Duration still_for_;
   Duration used_for_ = kServes + 1_ms;  // since the last long rest
+  uint16_t samples_ = 0;                // that are in the sum
   bool known_ = false;
 };
 

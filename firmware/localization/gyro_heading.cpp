@@ -8,14 +8,12 @@ constexpr Duration kSilence = 100_ms;
 }  // namespace
 
 void GyroHeading::configure(const Params& params, const Odometry& odometry) noexcept {
-  bias_.configure(params.gyro);
   gains_.configure(odometry.counts_per_turn(), params.wheels.counts_per_metre, odometry.skew());
-  const int32_t range = multiply_divide(params.gyro.range.raw(), params.gyro.scale.raw(), 1000000);
   // A microradian per second for a second, in 2^-29 turn, times 2^20; 2^15 units are the range.
   constexpr int64_t kTurnPerMicroradian = 89596268;
-  turn_per_unit_ = static_cast<uint32_t>(
-      divide_rounded_64(range * kTurnPerMicroradian, int64_t{params.gyro.rate_hz} * 1048576));
-  most_samples_ = params.gyro.rate_hz / 2 < 255 ? params.gyro.rate_hz / 2 : 255;
+  turn_per_unit_ = static_cast<uint32_t>(divide_rounded_64(scaled_range(params.gyro) * kTurnPerMicroradian,
+                                                           int64_t{params.gyro.rate_hz} * 1048576));
+  most_samples_ = static_cast<uint8_t>(params.gyro.rate_hz / 2 < 255 ? params.gyro.rate_hz / 2 : 255);
 }
 
 void GyroHeading::restart() noexcept {

@@ -56,11 +56,11 @@ class GyroHeading {
   WheelGains gains_;
   hal::GyroReading last_{};
   uint32_t turn_per_unit_ = 0;  // 2^-44 turn
-  int32_t most_samples_ = 0;    // at once
   Angle ahead_;                 // turned by the wheels since the last sample
   Duration silent_for_;
   bool answers_ = true;
   bool has_last_ = false;
+  uint8_t most_samples_ = 0;  // at once
 };
 
 }  // namespace whisker::localization

@@ -17,8 +17,6 @@ static_assert(int64_t{PoseBound::kMost.raw()} * PoseBound::kMost.raw() <= kMostV
 
 int64_t limited(int64_t x, int64_t most) noexcept { return x > most ? most : x < -most ? -most : x; }
 
-int32_t sum(int32_t a, int64_t b) noexcept { return saturate32(a + b); }
-
 Length root(int64_t variance) noexcept {
   const int64_t inside = variance < 0 ? 0 : variance;
   const Length sigma = Length::from_raw(as_signed(square_root(static_cast<uint64_t>(inside))));
@@ -52,7 +50,7 @@ void PoseBound::configure(const Params& params) noexcept {
       static_cast<int32_t>(divide_rounded(e.wheel_scale.raw() * INT64_C(24879108), params.body.track.raw()));
   gyro_scale_ = multiply_divide(e.gyro_scale.raw(), INT32_C(1) << 30, 1000000);
   // In ten minutes: 2 pi 2^30 / 2^32 / 600.
-  bias_change_ = multiply_divide(e.gyro_warm_up.wrapped(), 2617994, 1000000000);
+  bias_.configure(multiply_divide(e.gyro_warm_up.wrapped(), 2617994, 1000000000));
   walk_per_um_ = squared_over(e.heading_drift, 6484556);
   walk_per_ms_ = squared_over(e.gyro_walk, 23344401);
 }
@@ -89,11 +87,11 @@ bool PoseBound::correct_heading(Angle ahead, Angle sigma, Correction& out) noexc
 
 PoseBound::Correction PoseBound::rest(const GyroBias::Mean& mean, GyroBias& bias) noexcept {
   if (mean.first) {
-    bias_.begin(mean.lasted, walk_per_ms_, bias_change_);
+    bias_.begin(mean.lasted, walk_per_ms_);
     return {};
   }
   BiasFilter::Covariance shrinks{};
-  const BiasFilter::Learned learned = bias_.measure({mean.off_rad, mean.lasted}, walk_per_ms_, shrinks);
+  const BiasFilter::Learned learned = bias_.measure(mean.off_rad, mean.lasted, walk_per_ms_, shrinks);
   bias.learn(mean.off, learned.bias, learned.change);
   if (known_) {
     heading_ = not_negative(heading_ - shrinks.heading);
@@ -176,13 +174,13 @@ void PoseBound::update(const Step& step, bool moved) noexcept {
   for (int i = 0; i < kLastings; ++i) {
     Lasting& error = lasting_[i];
     const int64_t heading = error.heading + by[i] / 2;
-    error.x = sum(error.x, -scale_down<24>(y * heading));
-    error.y = sum(error.y, scale_down<24>(x * heading));
-    error.heading = sum(error.heading, by[i]);
+    error.x = saturated_sum(error.x, -scale_down<24>(y * heading));
+    error.y = saturated_sum(error.y, scale_down<24>(x * heading));
+    error.heading = saturated_sum(error.heading, by[i]);
   }
   Lasting& scale = lasting_[kScale];
-  scale.x = sum(scale.x, scale_down<26>(int64_t{x} * scale_));
-  scale.y = sum(scale.y, scale_down<26>(int64_t{y} * scale_));
+  scale.x = saturated_sum(scale.x, scale_down<26>(int64_t{x} * scale_));
+  scale.y = saturated_sum(scale.y, scale_down<26>(int64_t{y} * scale_));
 
   const int64_t walked = step.by_gyro ? int64_t{walk_per_ms_} * elapsed_.raw()
                                       : (forward < 0 ? -forward : forward) * walk_per_um_;
@@ -196,8 +194,8 @@ void PoseBound::update(const Step& step, bool moved) noexcept {
 /// / 2 of the variance.
 void PoseBound::shorten(int32_t x, int32_t y) noexcept {
   const int64_t share = limited(heading_variance(), kMostHeading) * 887 / 1024;  // 2^-40
-  shortened_.x = sum(shortened_.x, scale_down<36>(x * share));
-  shortened_.y = sum(shortened_.y, scale_down<36>(y * share));
+  shortened_.x = saturated_sum(shortened_.x, scale_down<36>(x * share));
+  shortened_.y = saturated_sum(shortened_.y, scale_down<36>(y * share));
 }
 
 int64_t PoseBound::heading_variance() const noexcept {

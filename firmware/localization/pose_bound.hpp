@@ -105,7 +105,6 @@ class PoseBound {
   int32_t scale_ = 0;          // 2^-30
   int32_t turn_per_um_ = 0;    // by the difference of the wheels, 2^-44 rad
   int32_t gyro_scale_ = 0;     // 2^-30
-  int32_t bias_change_ = 0;    // 2^-30 rad/s^2
   int32_t walk_per_um_ = 0;    // of the wheels, 2^-56 rad^2
   int32_t walk_per_ms_ = 0;    // of the gyro, 2^-56 rad^2
 };

@@ -16,7 +16,6 @@ constexpr Angle kGrazing = 75_deg;
 
 void Perception::configure(const Params& params) noexcept {
   loses_walls_ = params.rangefinders.incidence.raw() < (90_deg).raw();
-  loses_only_grazed_ = params.rangefinders.incidence.raw() >= kGrazing.raw();
   for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
   local_grid_.configure(params);
   if (kBumperBuilt) contacts_->configure(params.body.radius);
@@ -97,6 +96,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // that.
   const bool misaimed = !loses_walls_ && contradicted_ >= kMisaimed && contradicted_ < kMisaimed * 2;
   Pose from;
+  const bool loses_only_grazed = params.rangefinders.incidence.raw() >= kGrazing.raw();
   uint8_t hits = 0;
   int seen = 0;
   readings_err_ = misses_;
@@ -128,7 +128,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     echo_ends[i] = observation.free;
     if (allowance > Length{}) {
       echo_ends[i] = max(observation.free, sight.newest.distance);
-      if (loses_only_grazed_) echo_ends[i] += allowance;
+      if (loses_only_grazed) echo_ends[i] += allowance;
     }
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;

@@ -82,7 +82,6 @@ class Perception {
   static constexpr uint8_t kMisaimed = 2;
 
   Mount mounts_[hal::kBeams];
-  bool loses_only_grazed_ = true;
   bool loses_walls_ = false;  // by the parameters, a clear cell may hold a wall
   bool misses_ = false;       // some beam often reports clear where something is
   bool readings_err_ = false;

@@ -1,18 +1,9 @@
 #include "host/sim/spec.hpp"
 
 #include "host/sim/geometry.hpp"
+#include "host/sim/si.hpp"
 
 namespace whisker::sim {
-namespace {
-
-double si(Length x) { return x.raw() / 1e6; }
-double si(Speed x) { return x.raw() / 1e6; }
-double si(Acceleration x) { return x.raw() / 1e6; }
-double si(AngularRate x) { return x.raw() / 1e6; }
-double si(Duration x) { return x.raw() / 1e3; }
-double si(Angle x) { return x.wrapped() * (kPi * 0x1p-31); }
-
-}  // namespace
 
 RobotSpec robot_spec(const Params& params) {
   RobotSpec spec;

@@ -15,17 +15,15 @@
 #include "host/run/spec.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/sim/elementary.hpp"
+#include "host/sim/si.hpp"
 
 namespace whisker::socket {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-double si(Length l) { return l.raw() / 1e6; }
-double si(AngularRate r) { return r.raw() / 1e6; }
-double si(Acceleration a) { return a.raw() / 1e6; }
-double si(Speed v) { return v.raw() / 1e6; }
-double si(Duration d) { return d.raw() / 1e3; }
+using sim::si;
+
 double degrees(Angle a) { return std::round(radians(a) * (180 / sim::kPi) * 1e4) / 1e4; }
 double speed(std::int16_t tenths) { return tenths / 1e4; }
 

@@ -70,7 +70,8 @@ TEST(BiasFilter, LearnsAsTheTextbookDoes) {
   for (int drive = 0; drive < 50; ++drive) {
     BiasFilter filter;
     Textbook textbook;
-    filter.begin(2000_ms, kWalkRaw, kChangeRaw);
+    filter.configure(kChangeRaw);
+    filter.begin(2000_ms, kWalkRaw);
     textbook.begin(2);
     double heading = 0, grown = 0, lost = 0;
     for (int rest = 0; rest < 8; ++rest) {
@@ -90,7 +91,7 @@ TEST(BiasFilter, LearnsAsTheTextbookDoes) {
       const double off = (any(random) - 0.5) * 2 * kWalk;
       BiasFilter::Covariance shrinks{};
       const BiasFilter::Learned learned = filter.measure(
-          {rad_per_s(off), milliseconds(static_cast<int32_t>(lasted * 1000))}, kWalkRaw, shrinks);
+          rad_per_s(off), milliseconds(static_cast<int32_t>(lasted * 1000)), kWalkRaw, shrinks);
       lost += static_cast<double>(shrinks.heading);
       const Textbook::Row gain = textbook.measure(lasted);
       EXPECT_NEAR(learned.bias / 65536.0, gain[3], 0.005);
@@ -104,22 +105,24 @@ TEST(BiasFilter, LearnsAsTheTextbookDoes) {
 
 TEST(BiasFilter, ABiasThatHasJumpedIsTakenAsItIs) {
   BiasFilter filter;
-  filter.begin(2000_ms, kWalkRaw, kChangeRaw);
+  filter.configure(kChangeRaw);
+  filter.begin(2000_ms, kWalkRaw);
   for (int i = 0; i < 12; ++i) filter.step(0, 0, 5000_ms, true);
   BiasFilter::Covariance shrinks{};
-  const BiasFilter::Learned learned = filter.measure({rad_per_s(2 * kDegree), 1000_ms}, kWalkRaw, shrinks);
+  const BiasFilter::Learned learned = filter.measure(rad_per_s(2 * kDegree), 1000_ms, kWalkRaw, shrinks);
   EXPECT_GT(learned.bias, 65536 * 0.99);
 }
 
 TEST(BiasFilter, AMeasuredPoseLeavesNothingToCorrect) {
   BiasFilter filter;
-  filter.begin(2000_ms, kWalkRaw, kChangeRaw);
+  filter.configure(kChangeRaw);
+  filter.begin(2000_ms, kWalkRaw);
   for (std::size_t i = 0; i < 500; ++i) filter.step(20000, 0, 80_ms, true);
   BiasFilter::Covariance shrinks{};
   BiasFilter measured = filter;
-  EXPECT_GT(std::abs(filter.measure({rad_per_s(kWalk), 1000_ms}, kWalkRaw, shrinks).ahead.y), 1000);
+  EXPECT_GT(std::abs(filter.measure(rad_per_s(kWalk), 1000_ms, kWalkRaw, shrinks).ahead.y), 1000);
   measured.forget();
-  const BiasFilter::Learned learned = measured.measure({rad_per_s(kWalk), 1000_ms}, kWalkRaw, shrinks);
+  const BiasFilter::Learned learned = measured.measure(rad_per_s(kWalk), 1000_ms, kWalkRaw, shrinks);
   EXPECT_EQ(learned.ahead.y, 0);
   EXPECT_EQ(learned.ahead.heading, 0);
   EXPECT_GT(learned.bias, 0);
@@ -127,13 +130,14 @@ TEST(BiasFilter, AMeasuredPoseLeavesNothingToCorrect) {
 
 TEST(BiasFilter, SaturatesInsteadOfWrapping) {
   BiasFilter filter;
-  filter.begin(2000_ms, INT32_MAX, INT32_MAX);
+  filter.configure(INT32_MAX);
+  filter.begin(2000_ms, INT32_MAX);
   BiasFilter::Covariance shrinks{};
   for (int i = 0; i < 3000; ++i) {
     filter.step(1048576, -1048576, 2000_ms, true);
     if (i % 100 != 99) continue;
     const BiasFilter::Learned learned =
-        filter.measure({i % 200 == 99 ? INT32_MAX : INT32_MIN, 1_ms}, INT32_MAX, shrinks);
+        filter.measure(i % 200 == 99 ? INT32_MAX : INT32_MIN, 1_ms, INT32_MAX, shrinks);
     EXPECT_GE(learned.bias, 0);
     EXPECT_LE(learned.bias, 65536);
     EXPECT_GE(shrinks.heading, 0);
