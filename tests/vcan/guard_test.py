@@ -128,17 +128,24 @@ class OnTheBus(BusCase):
 
     def test_a_hostile_operator_touches_nothing(self):
         self.guard_node("--realtime")
-        plant = self.plant(12, 0.5, "--realtime")
+        # On a slow computer, the operator comes late, and most of its commands time out.
+        for seconds in (12, 24, 48):
+            result = self.drive_with_hostility(seconds)
+            self.assertNotEqual(result["outcome"], "contact")
+            self.assertGreater(result["min_clearance_m"], 0)
+            if result["path_m"] > 0.02:
+                return
+        self.fail("it never drives")
+
+    def drive_with_hostility(self, seconds):
+        plant = self.plant(seconds, 0.5, "--realtime")
         operator = self.operator(0)
         chance = random.Random(7)
         while plant.process.poll() is None:
             operator.wish = (chance.choice((3000, -3000, 32767, -32767, 0)), chance.randint(-4000, 4000))
             time.sleep(chance.uniform(0.001, 0.3))
         operator.end()
-        result = plant.result()
-        self.assertNotEqual(result["outcome"], "contact")
-        self.assertGreater(result["min_clearance_m"], 0)
-        self.assertGreater(result["path_m"], 0.02)
+        return plant.result()
 
     def test_bench_drives_by_hand(self):
         # In lockstep, a busy processor stops nothing.
