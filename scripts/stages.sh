@@ -205,6 +205,11 @@ stage_soak() {
 }
 
 # Only this stage needs the 118 packages, and fails where they cannot be installed.
+stage_published() {
+  build host --target whisker_rules_compare
+  python3 -B tests/rules/published_test.py build/host/tests/rules/whisker_rules_compare
+}
+
 stage_octave() {
   scripts/setup octave
   build host --target whisker
