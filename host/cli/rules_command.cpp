@@ -19,6 +19,7 @@
 #include "host/report/file.hpp"
 #include "host/rules/compile.hpp"
 #include "host/rules/header.hpp"
+#include "host/rules/page.hpp"
 #include "host/rules/picture.hpp"
 #include "host/rules/read.hpp"
 #include "host/scenario/text.hpp"
@@ -42,6 +43,7 @@ struct ShowOptions {
   std::string file;
   std::vector<std::string> fixed;
   std::string svg;
+  std::string html;
 };
 
 struct EvaluateOptions {
@@ -134,15 +136,23 @@ int execute_rules_compile(const CompileOptions& o) {
 }
 
 int execute_rules_show(const ShowOptions& o) {
-  check_outputs({o.svg}, {o.file});
+  check_outputs({o.svg, o.html}, {o.file});
   const rules::RuleBase base = rules::read_rules(o.file);
   const rules::Inference inference(base);
   const rules::Domain domain = rules::make_domain(base, inference, fixed(base, o.fixed), rules::kFewestSteps);
-  std::FILE* const out = words_beside({o.svg});
+  std::FILE* const out = words_beside({o.svg, o.html});
+  std::string html;
+  if (!o.html.empty()) {
+    rules::Options options;
+    options.fixed = fixed(base, o.fixed);
+    html = rules::page(rules::compile(base, options));
+  }
   if (!o.svg.empty())
     report::write_file(o.svg, rules::picture(base, rules::make_surface(base, inference, domain)));
+  if (!o.html.empty()) report::write_file(o.html, html);
   print_rule_base(out, base);
   if (!o.svg.empty()) fmt::print(out, "picture: {}\n", o.svg);
+  if (!o.html.empty()) fmt::print(out, "page: {}\n", o.html);
   return 0;
 }
 
@@ -176,6 +186,7 @@ void add_show(CLI::App& rules, int& status) {
   add_file(*cmd, "FILE", o->file, "Rule base: .fis, .fll, .fcl or .toml")->required();
   add_fix(*cmd, o->fixed);
   add_file(*cmd, "--svg", o->svg, "Draw the memberships and the exact answers");
+  add_file(*cmd, "--html", o->html, "Write a page: picture, rules, warnings, and the table for 1% to ask");
   cmd->footer(kRulesStatus);
   cmd->callback([o, &status] { status = execute_rules_show(*o); });
 }

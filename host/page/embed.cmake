@@ -1,5 +1,5 @@
-# Turns the file IN into the C++ source OUT, which defines page::template_parts(). It has several string literals,
-# because compilers limit a literal to 64 KiB.
+# Turns the file IN into the C++ source OUT, which defines NAMESPACE::template_parts(), declared in HEADER. It has several
+# string literals, because compilers limit a literal to 64 KiB.
 file(READ ${IN} text)
 if(text MATCHES "[)]page\"")
   message(FATAL_ERROR "${IN}: holds the end of a raw string")
@@ -14,9 +14,9 @@ while(from LESS length)
   math(EXPR from "${from} + 32000")
   math(EXPR count "${count} + 1")
 endwhile()
-file(WRITE ${OUT} "#include \"host/page/template.hpp\"
+file(WRITE ${OUT} "#include \"${HEADER}\"
 
-namespace whisker::page {
+namespace whisker::${NAMESPACE} {
 
 const std::vector<std::string_view>& template_parts() {
   static const std::vector<std::string_view> parts = {
@@ -24,5 +24,5 @@ ${parts}  };
   return parts;
 }
 
-}  // namespace whisker::page
+}  // namespace whisker::${NAMESPACE}
 ")

@@ -263,6 +263,28 @@ class Command(Case):
             self.assertIn("input ", done.stdout)
             self.assertTrue(svg.read_text().rstrip().endswith("</svg>"))
 
+    def test_a_page(self):
+        page = self.folder / "law.html"
+        text = (EXAMPLES / "tip.fis").read_text().replace("'service'", "'<b>service'")
+        file = self.folder / "marked.fis"
+        file.write_text(text)
+        done = whisker.whisker("rules", "show", file, "--html", page)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn(f"page: {page}", done.stdout)
+        html = page.read_text()
+        self.assertTrue("if &lt;b&gt;service is poor or food is not delicious then tip is small with 0.5" in html)
+        self.assertFalse("<b>" in html or "<!--" in html)
+
+    def test_no_page_of_what_cannot_be_compiled(self):
+        page = self.folder / "law.html"
+        file = self.folder / "silent.fll"
+        text = (EXAMPLES / "pendulum.fll").read_text()
+        file.write_text(text[: text.rindex("  rule: ")].replace("default: 0", "default: nan"))
+        done = whisker.whisker("rules", "show", file, "--html", page)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+        self.assertFalse(page.exists())
+
     def test_evaluate_prints_the_exact_answers(self):
         # At 2 m, `near` is 0 and `far` is 1; bearing has no terms.
         follower = whisker.whisker("rules", "evaluate", EXAMPLES / "follower.fis", "distance=2", "bearing=30")

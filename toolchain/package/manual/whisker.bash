@@ -120,10 +120,10 @@ _whisker() {
       esac
       ;;
     "whisker rules show")
-      options="-h --help --fix --svg" words="" paths=file
+      options="-h --help --fix --svg --html" words="" paths=file
       case $before in
         --fix) options="" words="" paths=value ;;
-        --svg) options="" words="" paths=file ;;
+        --svg | --html) options="" words="" paths=file ;;
       esac
       ;;
     "whisker rules evaluate")

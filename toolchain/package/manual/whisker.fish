@@ -195,6 +195,7 @@ complete -c whisker -n '__fish_seen_subcommand_from rules && __fish_seen_subcomm
 complete -c whisker -n '__fish_seen_subcommand_from rules && __fish_seen_subcommand_from show' -s h -l help -d 'Print this help message and exit'
 complete -c whisker -n '__fish_seen_subcommand_from rules && __fish_seen_subcommand_from show' -l fix -x -d 'Hold an input at a value: INPUT=VALUE; may be repeated'
 complete -c whisker -n '__fish_seen_subcommand_from rules && __fish_seen_subcommand_from show' -l svg -r -F -d 'Draw the memberships and the exact answers'
+complete -c whisker -n '__fish_seen_subcommand_from rules && __fish_seen_subcommand_from show' -l html -r -F -d 'Write a page: picture, rules, warnings, and the table for 1% to ask'
 complete -c whisker -n '__fish_seen_subcommand_from rules && __fish_seen_subcommand_from evaluate' -s h -l help -d 'Print this help message and exit'
 complete -c whisker -n '__fish_seen_subcommand_from rules && __fish_seen_subcommand_from compare' -s h -l help -d 'Print this help message and exit'
 complete -c whisker -n '__fish_seen_subcommand_from rules && __fish_seen_subcommand_from compare' -l map -x -d 'The files\' name of D, R, SA or SD; may be repeated'

@@ -1,0 +1,16 @@
+/// A compiled rule base as a page for a browser: what it says, what a user should know, and its table to ask.
+#pragma once
+
+#include <string>
+
+#include "host/rules/compile.hpp"
+
+namespace whisker::rules {
+
+/// One self-contained HTML file. It computes answers as a chip does, from the table's integers.
+std::string page(const Compiled& compiled);
+
+/// "if service is poor or food is not rancid then tip is cheap with 0.5".
+std::string words(const RuleBase& base, const Rule& rule);
+
+}  // namespace whisker::rules
