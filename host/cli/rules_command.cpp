@@ -138,18 +138,20 @@ int execute_rules_compile(const CompileOptions& o) {
 int execute_rules_show(const ShowOptions& o) {
   check_outputs({o.svg, o.html}, {o.file});
   const rules::RuleBase base = rules::read_rules(o.file);
-  const rules::Inference inference(base);
-  const rules::Domain domain = rules::make_domain(base, inference, fixed(base, o.fixed), rules::kFewestSteps);
   std::FILE* const out = words_beside({o.svg, o.html});
-  std::string html;
   if (!o.html.empty()) {
     rules::Options options;
     options.fixed = fixed(base, o.fixed);
-    html = rules::page(rules::compile(base, options));
+    const rules::Compiled compiled = rules::compile(base, options);
+    report::write_file(o.html, rules::page(compiled));
+    if (!o.svg.empty()) report::write_file(o.svg, rules::picture(base, compiled.surface));
+  } else {
+    const rules::Inference inference(base);
+    const rules::Domain domain =
+        rules::make_domain(base, inference, fixed(base, o.fixed), rules::kFewestSteps);
+    if (!o.svg.empty())
+      report::write_file(o.svg, rules::picture(base, rules::make_surface(base, inference, domain)));
   }
-  if (!o.svg.empty())
-    report::write_file(o.svg, rules::picture(base, rules::make_surface(base, inference, domain)));
-  if (!o.html.empty()) report::write_file(o.html, html);
   print_rule_base(out, base);
   if (!o.svg.empty()) fmt::print(out, "picture: {}\n", o.svg);
   if (!o.html.empty()) fmt::print(out, "page: {}\n", o.html);

@@ -12,10 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using rules::Compiled;
-
-double percent(const Compiled& c, std::size_t output, double difference) {
-  return c.spans[output] > 0 ? 100 * difference / c.spans[output] : 0;
-}
+using rules::percent;
 
 double spacing(const Compiled& c, std::size_t part) {
   return (1 << c.table.axes[part].shift) / c.surface.domain.parts[part].axis.per_unit;

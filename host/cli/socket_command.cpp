@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/core.h>
@@ -77,8 +78,7 @@ bool serve(socket::Channel& channel, socket::Session& session, double timeout_s)
 }
 
 /// Nothing if there was no tick.
-void say_end(const socket::Session& session, bool json) {
-  const auto end = session.result();
+void say_end(const std::optional<socket::SessionEnd>& end, const socket::Session& session, bool json) {
   if (!end) return;
   if (json) fmt::print("{}\n", report::result_json(end->run, "", end->outcome));
   fmt::print(stderr, "{} after {} s, {} lines ({})\n", end->outcome, end->run.time_s, session.lines(),
@@ -97,12 +97,12 @@ int execute(const SocketOptions& o) {
     if (!serve(*channel, session, o.timeout_s)) return kBadInput;
   } catch (const socket::ChannelError& e) {
     fmt::print(stderr, "whisker: {}\n", e.what());
-    say_end(session, o.json);
+    say_end(session.result(), session, o.json);
     return kFailure;
   }
-  say_end(session, o.json);
   const auto end = session.result();
   if (!end) throw UsageError("the other end closed before a tick");
+  say_end(end, session, o.json);
   return exit_status(end->run.verdict);
 }
 

@@ -1,30 +1,17 @@
 #include "host/page/page.hpp"
 
-#include <stdexcept>
-
 #include "host/campaign/failures.hpp"
 #include "host/page/guard_recording.hpp"
 #include "host/page/json.hpp"
 #include "host/page/template.hpp"
+#include "host/report/html.hpp"
 
 namespace whisker::page {
 namespace {
 
-/// Escapes the text so that it cannot end its script element.
-std::string script_safe(const std::string& json) {
-  std::string text;
-  for (const char c : json) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text += c;
-    }
-  }
-  return text;
-}
-
 std::string data_element(const Json& data) {
-  return "<script type=\"application/json\" id=\"data\">" + script_safe(text_of(data)) + "</script>\n";
+  return "<script type=\"application/json\" id=\"data\">" + report::script_safe(text_of(data)) +
+         "</script>\n";
 }
 
 std::string columns_element(std::size_t index, const std::string& columns) {
@@ -32,16 +19,10 @@ std::string columns_element(std::size_t index, const std::string& columns) {
          "</script>\n";
 }
 
-void put(std::string& page, std::string_view mark, const std::string& text) {
-  const std::size_t at = page.find(mark);
-  if (at == std::string::npos) throw std::logic_error("the page's template has no " + std::string(mark));
-  page.replace(at, mark.size(), text);
-}
-
 std::string filled(const std::string& data) {
   std::string page;
   for (const std::string_view part : template_parts()) page += part;
-  put(page, kDataMark, data);
+  report::put(page, kDataMark, data);
   return page;
 }
 
@@ -59,7 +40,7 @@ std::string live_page(const std::string& events, const Controller& controller) {
   const Json data = {
       {"format", 1}, {"shared", shared_data(controller)}, {"runs", Json::array()}, {"live", events}};
   std::string page = filled(data_element(data));
-  put(page, kPolicy, std::string(kPolicy) + " connect-src 'self';");
+  report::put(page, kPolicy, std::string(kPolicy) + " connect-src 'self';");
   return page;
 }
 

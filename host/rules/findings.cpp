@@ -17,10 +17,6 @@ constexpr double kMeant = 0.9;
 /// Neighbours that differ by more may be the two sides of a jump.
 constexpr double kJump = 0.05;
 
-double percent(const Compiled& c, std::size_t output, double difference) {
-  return 100 * difference / c.spans[output];
-}
-
 const std::string& input_name(const Compiled& c, std::size_t part) {
   return c.base.inputs[c.surface.domain.parts[part].axis.input].name;
 }
@@ -118,6 +114,10 @@ const char* name(Kind kind) {
     case Kind::discontinuity: return "discontinuity";
   }
   return "?";
+}
+
+double percent(const Compiled& c, std::size_t output, double difference) {
+  return c.spans[output] > 0 ? 100 * difference / c.spans[output] : 0;
 }
 
 std::string where(const Compiled& c, const std::int32_t* raw) {

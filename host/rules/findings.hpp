@@ -24,6 +24,9 @@ std::vector<Finding> findings(const Compiled& compiled);
 /// of neighbours, summed over the inputs.
 double rounding_effect(const Compiled& compiled, std::size_t output);
 
+/// A difference of answers, per cent of the output's span; 0 if that is 0.
+double percent(const Compiled& compiled, std::size_t output, double difference);
+
 /// "service = 2.5, food = 3": the inputs of a table at raw values.
 std::string where(const Compiled& compiled, const std::int32_t* raw);
 

@@ -4,25 +4,21 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string_view>
 
+#include "host/report/html.hpp"
 #include "host/report/svg.hpp"
 #include "host/rules/findings.hpp"
 #include "host/rules/page_template.hpp"
 #include "host/rules/picture.hpp"
+#include "host/rules/rule_words.hpp"
 
 namespace whisker::rules {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using report::escape;
-
-void put(std::string& page, std::string_view mark, const std::string& text) {
-  const std::size_t at = page.find(mark);
-  if (at == std::string::npos) throw std::logic_error("page.html has no " + std::string(mark));
-  page.replace(at, mark.size(), text);
-}
+using report::put;
 
 /// What a look-up needs.
 std::string table_data(const Compiled& c) {
@@ -49,19 +45,15 @@ std::string table_data(const Compiled& c) {
                        {"error", c.errors[o].greatest}});
   }
   const Json data = {{"inputs", inputs}, {"outputs", outputs}, {"nodes", c.table.nodes}};
-  std::string text;
-  for (const char each : data.dump(-1, ' ', true, Json::error_handler_t::replace))
-    each == '<' ? text += "\\u003c" : text += each;
-  return text;
+  return report::script_safe(data.dump(-1, ' ', true, Json::error_handler_t::replace));
 }
 
 std::string facts(const Compiled& c) {
   std::string rows;
   for (std::size_t o = 0; o < c.base.outputs.size(); ++o) {
-    const double share = c.spans[o] > 0 ? 100 * c.errors[o].greatest / c.spans[o] : 0;
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td>{:.6g}</td><td>{:.3g}</td><td>{:.3g} %</td><td>{}</td></tr>\n",
-        escape(c.base.outputs[o].name), c.spans[o], c.errors[o].greatest, share,
+        escape(c.base.outputs[o].name), c.spans[o], c.errors[o].greatest, percent(c, o, c.errors[o].greatest),
         escape(where(c, c.errors[o].at)));
   }
   return rows;

@@ -10,7 +10,4 @@ namespace whisker::rules {
 /// One self-contained HTML file. It computes answers as a chip does, from the table's integers.
 std::string page(const Compiled& compiled);
 
-/// "if service is poor or food is not rancid then tip is cheap with 0.5".
-std::string words(const RuleBase& base, const Rule& rule);
-
 }  // namespace whisker::rules

@@ -1,8 +1,8 @@
+#include "host/rules/rule_words.hpp"
+
 #include <fmt/format.h>
 
 #include <vector>
-
-#include "host/rules/page.hpp"
 
 namespace whisker::rules {
 namespace {

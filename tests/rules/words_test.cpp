@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "host/rules/page.hpp"
 #include "host/rules/read.hpp"
+#include "host/rules/rule_words.hpp"
 
 namespace whisker::rules {
 namespace {
