@@ -67,6 +67,8 @@ describe('the page of a rule base', () => {
       const {page} = await openPage(browser, folder.url('thesis.toml.html'), options);
       const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
       assert.ok(wide <= 0, `${wide} px too wide`);
+      const {width} = await page.locator('#inputs input').first().boundingBox();
+      assert.ok(width >= 150, `a slider of ${width} px`);
       assert.deepEqual(await accessibilityFaults(page), []);
     }
   });
