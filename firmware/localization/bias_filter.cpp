@@ -8,8 +8,11 @@ namespace {
 // The bias wanders by 0.002 deg/s in 100 s, its change by 7.5e-5 deg/s^2 in 300 s.
 constexpr int32_t kWanders = 3378;        // (rad/s)^2 2^-48 per s
 constexpr int32_t kChangeWanders = 6917;  // (rad/s^2)^2 2^-60 per s
-constexpr int64_t kRounding = 64;         // of the mean of the samples, (rad/s)^2 2^-48
 constexpr int64_t kSurprise = 16;         // variances of what is off: the bias has changed otherwise
+// Room for the sum of two numbers, and for a finer unit.
+constexpr int32_t kMost = INT32_C(1) << 30;
+constexpr int32_t kFew = INT32_C(1) << 26;
+constexpr uint8_t kCoarsest = 7;
 
 // Called, not inlined: each holds a product of 64 bits.
 [[gnu::noinline]] int64_t product(int64_t a, int32_t b) noexcept { return scale_down<20>(a * b); }
@@ -17,16 +20,57 @@ constexpr int64_t kSurprise = 16;         // variances of what is off: the bias 
   return divide_rounded_64(a * b, divisor);
 }
 
-/// Of a mean of samples, (rad/s)^2 2^-48.
-int32_t variance(int32_t walk, Duration lasted) noexcept {
-  return saturate32(divide_rounded(int64_t{walk} * 3906250, lasted.raw()) / 1000 + kRounding);
-}
+/// Of x, within 1.
+constexpr int32_t magnitude(int32_t x) noexcept { return x < 0 ? ~x : x; }
 
 }  // namespace
 
-void BiasFilter::configure(int32_t change) noexcept { change_ = saturate32(square(change)); }
+void BiasFilter::configure(int32_t change) noexcept {
+  rescale(square(change));
+  change_ = in_unit(square(change));
+}
 
-void BiasFilter::begin(Duration lasted, int32_t walk) noexcept { of_bias_[kBias] = variance(walk, lasted); }
+void BiasFilter::begin(int64_t variance) noexcept {
+  rescale(variance);
+  of_bias_[kBias] = in_unit(variance);
+}
+
+/// At least 1.
+int32_t BiasFilter::in_unit(int64_t variance) const noexcept {
+  const int64_t share = variance >> (2 * coarser_);
+  return share < 1 ? 1 : saturate32(share);
+}
+
+void BiasFilter::rescale(int64_t variance) noexcept {
+  for (;;) {
+    int32_t most = in_unit(variance) | change_;
+    for (int i = 0; i < kRows; ++i) most |= magnitude(of_bias_[i]) | magnitude(of_change_[i]);
+    if (most >= kMost && coarser_ < kCoarsest) {
+      scale(1);
+    } else if (most < kFew && coarser_ > 0) {
+      scale(-1);
+    } else {
+      return;
+    }
+  }
+}
+
+/// The unit becomes coarser by a power of 2, which is 1 or -1.
+void BiasFilter::scale(int by) noexcept {
+  const auto to = [by](int32_t& x) { x = by > 0 ? (x + 1) >> 1 : x * 2; };
+  const auto square_to = [&](int32_t& x) {
+    to(x);
+    to(x);
+  };
+  coarser_ = static_cast<uint8_t>(coarser_ + by);
+  for (int i = 0; i < kPose; ++i) {
+    to(of_bias_[i]);
+    to(of_change_[i]);
+  }
+  square_to(of_bias_[kBias]);
+  square_to(of_change_[kBias]);
+  square_to(change_);
+}
 
 void BiasFilter::forget() noexcept {
   for (int i = 0; i < kPose; ++i) of_bias_[i] = of_change_[i] = 0;
@@ -35,34 +79,40 @@ void BiasFilter::forget() noexcept {
 BiasFilter::Covariance BiasFilter::step(int32_t x, int32_t y, Duration elapsed, bool by_gyro) noexcept {
   Covariance grows{};
   if (!begun()) return grows;
+  // The pose moves by the bias that was.
   const int32_t ms = elapsed.raw();
-  const int32_t turns = by_gyro ? ms : 0;
+  const int32_t turned_for = by_gyro ? ms : 0;
+  const int32_t turns = turned_for << coarser_;
   const int32_t bias = of_bias_[kBias];
-  grows.heading =
-      over(-int64_t{of_bias_[kHeading]}, turns, 8000) + over(int64_t{bias} * turns, turns, 256000000);
-  grows.x_heading = over(-int64_t{of_bias_[kX]}, turns, 16000);
-  grows.y_heading = over(-int64_t{of_bias_[kY]}, turns, 16000);
-
   const auto drag = [x, y](int32_t(&with)[kRows], int64_t turned) {
     with[kX] = saturated_sum(with[kX], -product(y, with[kHeading]));
     with[kY] = saturated_sum(with[kY], product(x, with[kHeading]));
     with[kHeading] = saturated_sum(with[kHeading], -turned);
   };
-  for (int i = 0; i < kRows; ++i) of_bias_[i] = saturated_sum(of_bias_[i], over(of_change_[i], ms, 64000));
+  grows.heading = over(-int64_t{of_bias_[kHeading]}, turns, 8000) +
+                  over(int64_t{bias} * turned_for, turned_for, 256000000 >> (2 * coarser_));
   drag(of_bias_, over(bias, turns, 16000));
-  of_bias_[kBias] =
-      saturated_sum(of_bias_[kBias], over(of_change_[kBias], ms, 64000) + over(kWanders, ms, 1000));
   drag(of_change_, over(of_change_[kBias], turns, 16000));
+  grows.x_heading = over(-int64_t{of_bias_[kX]}, turns, 16000);
+  grows.y_heading = over(-int64_t{of_bias_[kY]}, turns, 16000);
+  // Then the bias changes.
+  for (int i = 0; i < kRows; ++i) of_bias_[i] = saturated_sum(of_bias_[i], over(of_change_[i], ms, 64000));
   of_change_[kBias] = saturated_sum(of_change_[kBias], over(change_, ms, 64000));
-  change_ = saturated_sum(change_, over(kChangeWanders, ms, 1000));
+  const int64_t wanders = over(kWanders, ms, INT64_C(1000) << (2 * coarser_));
+  of_bias_[kBias] = saturated_sum(of_bias_[kBias], over(of_change_[kBias], ms, 64000) + wanders);
+  change_ = saturated_sum(change_, over(kChangeWanders, ms, INT64_C(1000) << (2 * coarser_)));
+  rescale(0);
   return grows;
 }
 
-BiasFilter::Learned BiasFilter::measure(int32_t off, Duration lasted, int32_t walk,
-                                        Covariance& shrinks) noexcept {
-  const int32_t noise = variance(walk, lasted);
+BiasFilter::Learned BiasFilter::measure(int32_t off, int64_t variance, Covariance& shrinks) noexcept {
+  rescale(variance);
   int32_t& bias = of_bias_[kBias];
-  if (square(off) / kSurprise > int64_t{bias} + noise) bias = saturated_sum(bias, square(off));
+  if ((square(off) / kSurprise) >> (2 * coarser_) > int64_t{bias} + in_unit(variance)) {
+    rescale(square(off));
+    bias = saturated_sum(bias, in_unit(square(off)));
+  }
+  const int32_t noise = in_unit(variance);
   const int64_t both = int64_t{bias} + noise;
   const auto share = [both](int32_t a, int32_t b) { return over(a, b, both); };
 
@@ -77,8 +127,8 @@ BiasFilter::Learned BiasFilter::measure(int32_t off, Duration lasted, int32_t wa
   learned.bias = saturate32(share(bias, 65536));
   const int32_t mixed = of_change_[kBias];
   learned.change = saturate32(share(mixed, 67109));
-  learned.ahead = {saturate32(share(with[kX], off)), saturate32(share(with[kY], off)),
-                   saturate32(share(with[kHeading], off))};
+  const auto ahead = [&](int32_t with_bias) { return saturate32(over(with_bias, off, both << coarser_)); };
+  learned.ahead = {ahead(with[kX]), ahead(with[kY]), ahead(with[kHeading])};
 
   change_ = saturated_sum(change_, -share(mixed, mixed));
   if (change_ < 0) change_ = 0;
@@ -86,6 +136,8 @@ BiasFilter::Learned BiasFilter::measure(int32_t off, Duration lasted, int32_t wa
     of_change_[i] = saturated_sum(of_change_[i], -share(of_bias_[i], mixed));
     of_bias_[i] = saturate32(share(of_bias_[i], noise));
   }
+  if (bias < 1) bias = 1;
+  rescale(0);
   return learned;
 }
 

@@ -17,6 +17,10 @@ int32_t scaled_range(const GyroParams& params) noexcept {
   return multiply_divide(params.range.raw(), params.scale.raw(), 1000000);
 }
 
+int32_t unit_of(const GyroParams& params) noexcept {
+  return multiply_divide(65536, scaled_range(params), 128000000);
+}
+
 [[gnu::noinline]] int32_t GyroBias::value() const noexcept {
   return saturate32(value_ + scale_down<16>(int64_t{change_} * min(measured_for_, kFollows).raw()));
 }

@@ -65,7 +65,7 @@ Pose Localizer::ahead_by(const PoseBound::Correction& by) const noexcept {
 bool Localizer::learn_bias() noexcept {
   GyroBias::Mean mean;
   if (!heading_->bias().take(params_.gyro, mean)) return false;
-  const PoseBound::Correction by = bound_->rest(mean, heading_->bias());
+  const PoseBound::Correction by = bound_->rest(mean, params_, heading_->bias());
   if (mean.first) {
     estimate_.heading_source = heading_->source();
     return false;

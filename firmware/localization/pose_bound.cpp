@@ -8,8 +8,10 @@ constexpr int64_t kMostHeading = INT64_C(1) << 41;   // 2 rad^2
 constexpr int64_t kMostMixed = INT64_C(1) << 41;
 constexpr int64_t kMostGathered = INT64_C(1) << 38;  // so that times kMost it has 62 bits
 constexpr int32_t kMostMove = INT32_C(1) << 20;      // um in one update
+constexpr int32_t kLongest = INT16_MAX;              // ms in one update: far longer than a gyro is trusted
 // Rounding of the counts and of the instants of readings.
 constexpr int64_t kFloor = INT64_C(3000) * 3000;   // um^2
+constexpr int64_t kRounding = 64;                  // of the mean of samples, (rad/s)^2 2^-48
 constexpr int64_t kRadianUnit = INT64_C(1) << 20;  // of a heading
 constexpr int64_t kTurnPerRadian = 683565276;      // 2^-32 turn
 
@@ -33,6 +35,26 @@ int32_t squared_over(Angle angle, int32_t divisor) noexcept {
   return saturate32(divide_rounded(square(angle.wrapped()), divisor));
 }
 
+struct GyroNoise {
+  int32_t walk_per_ms;  // 2^-56 rad^2
+  int64_t rounding;     // of a mean of samples at rest, (rad/s)^2 2^-48
+};
+
+/// Samples with less noise than half their unit are all rounded to the same side while the body rests, and to
+/// either side while it turns.
+GyroNoise noise_of(const Params& params) noexcept {
+  const int32_t walk = squared_over(params.pose_error.gyro_walk, 23344401);
+  const int32_t rate = params.gyro.rate_hz;
+  const int64_t unit = square(unit_of(params.gyro));
+  if (int64_t{walk} * rate * 1000 / 256 >= unit / 4) return {walk, kRounding};
+  return {walk + static_cast<int32_t>(unit * 256 / (12000 * rate)), unit / 4};
+}
+
+/// Of a mean of samples, (rad/s)^2 2^-48.
+int64_t variance(const GyroNoise& noise, Duration lasted) noexcept {
+  return divide_rounded(int64_t{noise.walk_per_ms} * 3906250, lasted.raw()) / 1000 + noise.rounding;
+}
+
 }  // namespace
 
 Length distance_bound(const PoseSigma& sigma) noexcept { return norm({sigma.along, sigma.across}) * 2; }
@@ -52,7 +74,7 @@ void PoseBound::configure(const Params& params) noexcept {
   // In ten minutes: 2 pi 2^30 / 2^32 / 600.
   bias_.configure(multiply_divide(e.gyro_warm_up.wrapped(), 2617994, 1000000000));
   walk_per_um_ = squared_over(e.heading_drift, 6484556);
-  walk_per_ms_ = squared_over(e.gyro_walk, 23344401);
+  walk_per_ms_ = noise_of(params).walk_per_ms;
 }
 
 void PoseBound::set_difference(Ratio sigma, Length track) noexcept {
@@ -85,13 +107,15 @@ bool PoseBound::correct_heading(Angle ahead, Angle sigma, Correction& out) noexc
   return true;
 }
 
-PoseBound::Correction PoseBound::rest(const GyroBias::Mean& mean, GyroBias& bias) noexcept {
+PoseBound::Correction PoseBound::rest(const GyroBias::Mean& mean, const Params& params,
+                                      GyroBias& bias) noexcept {
+  const int64_t noise = variance(noise_of(params), mean.lasted);
   if (mean.first) {
-    bias_.begin(mean.lasted, walk_per_ms_);
+    bias_.begin(noise);
     return {};
   }
   BiasFilter::Covariance shrinks{};
-  const BiasFilter::Learned learned = bias_.measure(mean.off_rad, mean.lasted, walk_per_ms_, shrinks);
+  const BiasFilter::Learned learned = bias_.measure(mean.off_rad, noise, shrinks);
   bias.learn(mean.off, learned.bias, learned.change);
   if (known_) {
     heading_ = not_negative(heading_ - shrinks.heading);
@@ -129,7 +153,7 @@ void PoseBound::restart(const Pose& pose, const PoseSigma& sigma) noexcept {
   shortened_ = {};
   last_ = pose;
   counts_ = 0;
-  elapsed_ = Duration{};
+  elapsed_ms_ = 0;
   ticks_ = 0;
   const int64_t heading = divide_rounded(int64_t{sigma.heading.wrapped()} << 20, kTurnPerRadian);
   heading_ = limited(square(heading), kMostHeading);
@@ -145,13 +169,13 @@ void PoseBound::restart(const Pose& pose, const PoseSigma& sigma) noexcept {
 
 bool PoseBound::step(const Step& step) noexcept {
   counts_ += step.counts.left + step.counts.right;
-  elapsed_ += step.elapsed;
+  elapsed_ms_ = static_cast<uint16_t>(limited(int64_t{elapsed_ms_} + step.elapsed.raw(), kLongest));
   if (++ticks_ < kEvery) return false;
   const bool moved = !(step.pose.at == last_.at && step.pose.heading == last_.heading);
   update(step, moved);
   last_ = step.pose;
   counts_ = 0;
-  elapsed_ = Duration{};
+  elapsed_ms_ = 0;
   ticks_ = 0;
   return moved && known_;
 }
@@ -160,7 +184,7 @@ void PoseBound::update(const Step& step, bool moved) noexcept {
   const Vec way = step.pose.at - last_.at;
   const int32_t x = static_cast<int32_t>(limited(way.x.raw(), kMostMove));
   const int32_t y = static_cast<int32_t>(limited(way.y.raw(), kMostMove));
-  const BiasFilter::Covariance grows = bias_.step(x, y, elapsed_, step.by_gyro && moved);
+  const BiasFilter::Covariance grows = bias_.step(x, y, milliseconds(elapsed_ms_), step.by_gyro && moved);
   if (!moved || !known_) return;
   const int64_t turned = scale_down<16>(int64_t{(step.pose.heading - last_.heading).wrapped()} * 25736);
   const int64_t forward = scale_down<16>(int64_t{counts_} * um_per_counts_);
@@ -182,8 +206,8 @@ void PoseBound::update(const Step& step, bool moved) noexcept {
   scale.x = saturated_sum(scale.x, scale_down<26>(int64_t{x} * scale_));
   scale.y = saturated_sum(scale.y, scale_down<26>(int64_t{y} * scale_));
 
-  const int64_t walked = step.by_gyro ? int64_t{walk_per_ms_} * elapsed_.raw()
-                                      : (forward < 0 ? -forward : forward) * walk_per_um_;
+  const int64_t walked =
+      step.by_gyro ? int64_t{walk_per_ms_} * elapsed_ms_ : (forward < 0 ? -forward : forward) * walk_per_um_;
   walk(x, y, scale_down<16>(walked) + grows.heading);
   x_heading_ = limited(x_heading_ + grows.x_heading, kMostMixed);
   y_heading_ = limited(y_heading_ + grows.y_heading, kMostMixed);

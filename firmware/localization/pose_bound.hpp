@@ -65,7 +65,7 @@ class PoseBound {
   /// `ahead` is more than kJumpSigmas off, and nothing has changed.
   bool correct_heading(Angle ahead, Angle sigma, Correction& out) noexcept;
   /// The gyro was at rest. Corrects its bias, and returns what that says of the pose.
-  Correction rest(const GyroBias::Mean& mean, GyroBias& bias) noexcept;
+  Correction rest(const GyroBias::Mean& mean, const Params& params, GyroBias& bias) noexcept;
 
  private:
   struct Place {
@@ -86,7 +86,8 @@ class PoseBound {
 
   BiasFilter bias_;
   Lasting lasting_[kLastings];
-  Place shortened_;  // by the square of the error of the heading
+  Place shortened_;     // by the square of the error of the heading
+  int32_t counts_ = 0;  // of both wheels, signed
   // The covariance of the rest: rad^2 2^-40, um rad 2^-20, um^2.
   int64_t heading_ = 0;
   int64_t x_heading_ = 0;
@@ -96,8 +97,7 @@ class PoseBound {
   int64_t yy_ = 0;
 
   Pose last_;
-  int32_t counts_ = 0;  // of both wheels, signed
-  Duration elapsed_;
+  uint16_t elapsed_ms_ = 0;  // at most kLongest
   uint8_t ticks_ = 0;
   bool known_ = false;
 

@@ -13,21 +13,32 @@ namespace {
 using namespace whisker::literals;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kWalk = 0.4 * kDegree / 60;     // rad per root of a second
-constexpr double kChange = 0.1 * kDegree / 600;  // rad/s^2
 constexpr double kStep_s = 0.08;
-const auto kWalkRaw = static_cast<int32_t>(std::lround(kWalk * kWalk / 1000 * std::exp2(56)));
-const auto kChangeRaw = static_cast<int32_t>(std::lround(kChange * std::exp2(30)));
+
+/// Standard deviations, declared.
+struct Gyro {
+  double walk = 0.4 * kDegree / 60;     ///< rad per root of a second
+  double change = 0.1 * kDegree / 600;  ///< rad/s^2
+
+  double variance(double lasted_s) const { return walk * walk / lasted_s; }
+  int64_t variance_raw(double lasted_s) const { return std::llround(variance(lasted_s) * std::exp2(48)); }
+  int32_t change_raw() const { return static_cast<int32_t>(std::lround(change * std::exp2(30))); }
+  BiasFilter begun() const {
+    BiasFilter filter;
+    filter.configure(change_raw());
+    filter.begin(variance_raw(2));
+    return filter;
+  }
+};
 
 /// The Kalman filter as textbooks have it: x, y, heading, bias and its change, in m, rad and s.
 class Textbook {
  public:
   using Row = std::array<double, 5>;
 
-  void begin(double lasted_s) {
-    p_ = {};
-    p_[3][3] = kWalk * kWalk / lasted_s;
-    p_[4][4] = kChange * kChange;
+  explicit Textbook(const Gyro& gyro) : gyro_(gyro) {
+    p_[3][3] = gyro.variance(2);
+    p_[4][4] = gyro.change * gyro.change;
   }
   void step(double x, double y, double s, bool by_gyro) {
     std::array<Row, 5> f{};
@@ -49,7 +60,7 @@ class Textbook {
   }
   /// The gains.
   Row measure(double lasted_s) {
-    const double both = p_[3][3] + kWalk * kWalk / lasted_s;
+    const double both = p_[3][3] + gyro_.variance(lasted_s);
     Row gain{}, row = p_[3];
     for (std::size_t i = 0; i < 5; ++i) gain[i] = row[i] / both;
     for (std::size_t i = 0; i < 5; ++i)
@@ -59,23 +70,22 @@ class Textbook {
   double at(std::size_t i, std::size_t j) const { return p_[i][j]; }
 
  private:
+  Gyro gyro_;
   std::array<Row, 5> p_{};
 };
 
 constexpr int32_t rad_per_s(double rate) { return static_cast<int32_t>(rate * 16777216); }
 
-TEST(BiasFilter, LearnsAsTheTextbookDoes) {
+/// `slack`: times the rounding that the default gyro has.
+void expect_as_in_the_textbook(const Gyro& gyro, int steps_between_rests, double slack) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(0, 1);
   for (int drive = 0; drive < 50; ++drive) {
-    BiasFilter filter;
-    Textbook textbook;
-    filter.configure(kChangeRaw);
-    filter.begin(2000_ms, kWalkRaw);
-    textbook.begin(2);
+    BiasFilter filter = gyro.begun();
+    Textbook textbook(gyro);
     double heading = 0, grown = 0, lost = 0;
     for (int rest = 0; rest < 8; ++rest) {
-      const int steps = 100 + static_cast<int>(any(random) * 900);
+      const int steps = 100 + static_cast<int>(any(random) * (steps_between_rests - 100));
       const double forward = 0.3 * any(random), turning = any(random) - 0.5;
       const bool by_gyro = any(random) < 0.9;
       for (int i = 0; i < steps; ++i) {
@@ -88,41 +98,48 @@ TEST(BiasFilter, LearnsAsTheTextbookDoes) {
       EXPECT_NEAR((grown - lost) / std::exp2(40), textbook.at(2, 2), 1e-8 + 0.02 * textbook.at(2, 2));
       const double lasted = any(random) < 0.5 ? 1 : 0.2;
       // Well below a surprise.
-      const double off = (any(random) - 0.5) * 2 * kWalk;
+      const double off = (any(random) - 0.5) * 2 * gyro.walk;
       BiasFilter::Covariance shrinks{};
-      const BiasFilter::Learned learned = filter.measure(
-          rad_per_s(off), milliseconds(static_cast<int32_t>(lasted * 1000)), kWalkRaw, shrinks);
+      const BiasFilter::Learned learned = filter.measure(rad_per_s(off), gyro.variance_raw(lasted), shrinks);
       lost += static_cast<double>(shrinks.heading);
       const Textbook::Row gain = textbook.measure(lasted);
       EXPECT_NEAR(learned.bias / 65536.0, gain[3], 0.005);
-      EXPECT_NEAR(learned.change * 1000.0 / std::exp2(32), gain[4], 1e-5 + 0.02 * gain[4]);
+      EXPECT_NEAR(learned.change * 1000.0 / std::exp2(32), gain[4], slack * 1e-5 + 0.02 * gain[4]);
       EXPECT_NEAR(learned.ahead.heading / 1048576.0, gain[2] * off, 2e-6 + 0.02 * std::fabs(gain[2] * off));
-      EXPECT_NEAR(learned.ahead.x * 1e-6, gain[0] * off, 1e-4 + 0.02 * std::fabs(gain[0] * off));
-      EXPECT_NEAR(learned.ahead.y * 1e-6, gain[1] * off, 1e-4 + 0.02 * std::fabs(gain[1] * off));
+      EXPECT_NEAR(learned.ahead.x * 1e-6, gain[0] * off, slack * 1e-4 + 0.02 * std::fabs(gain[0] * off));
+      EXPECT_NEAR(learned.ahead.y * 1e-6, gain[1] * off, slack * 1e-4 + 0.02 * std::fabs(gain[1] * off));
     }
   }
 }
 
+TEST(BiasFilter, LearnsAsTheTextbookDoes) { expect_as_in_the_textbook({}, 1000, 1); }
+
+TEST(BiasFilter, LearnsAsTheTextbookDoesWhateverTheErrors) {
+  for (const double walk : {0.05, 2.0, 10.0})
+    for (const double warm_up : {0.01, 1.0}) {
+      SCOPED_TRACE(testing::Message() << "walk " << walk << ", warm-up " << warm_up);
+      expect_as_in_the_textbook({walk * kDegree / 60, warm_up * kDegree / 600}, 800, 5);
+    }
+}
+
 TEST(BiasFilter, ABiasThatHasJumpedIsTakenAsItIs) {
-  BiasFilter filter;
-  filter.configure(kChangeRaw);
-  filter.begin(2000_ms, kWalkRaw);
+  const Gyro gyro;
+  BiasFilter filter = gyro.begun();
   for (int i = 0; i < 12; ++i) filter.step(0, 0, 5000_ms, true);
   BiasFilter::Covariance shrinks{};
-  const BiasFilter::Learned learned = filter.measure(rad_per_s(2 * kDegree), 1000_ms, kWalkRaw, shrinks);
+  const BiasFilter::Learned learned = filter.measure(rad_per_s(2 * kDegree), gyro.variance_raw(1), shrinks);
   EXPECT_GT(learned.bias, 65536 * 0.99);
 }
 
 TEST(BiasFilter, AMeasuredPoseLeavesNothingToCorrect) {
-  BiasFilter filter;
-  filter.configure(kChangeRaw);
-  filter.begin(2000_ms, kWalkRaw);
+  const Gyro gyro;
+  BiasFilter filter = gyro.begun();
   for (std::size_t i = 0; i < 500; ++i) filter.step(20000, 0, 80_ms, true);
   BiasFilter::Covariance shrinks{};
   BiasFilter measured = filter;
-  EXPECT_GT(std::abs(filter.measure(rad_per_s(kWalk), 1000_ms, kWalkRaw, shrinks).ahead.y), 1000);
+  EXPECT_GT(std::abs(filter.measure(rad_per_s(gyro.walk), gyro.variance_raw(1), shrinks).ahead.y), 1000);
   measured.forget();
-  const BiasFilter::Learned learned = measured.measure(rad_per_s(kWalk), 1000_ms, kWalkRaw, shrinks);
+  const BiasFilter::Learned learned = measured.measure(rad_per_s(gyro.walk), gyro.variance_raw(1), shrinks);
   EXPECT_EQ(learned.ahead.y, 0);
   EXPECT_EQ(learned.ahead.heading, 0);
   EXPECT_GT(learned.bias, 0);
@@ -131,13 +148,13 @@ TEST(BiasFilter, AMeasuredPoseLeavesNothingToCorrect) {
 TEST(BiasFilter, SaturatesInsteadOfWrapping) {
   BiasFilter filter;
   filter.configure(INT32_MAX);
-  filter.begin(2000_ms, INT32_MAX);
+  filter.begin(INT64_C(1) << 47);
   BiasFilter::Covariance shrinks{};
   for (int i = 0; i < 3000; ++i) {
-    filter.step(1048576, -1048576, 2000_ms, true);
+    filter.step(1048576, -1048576, 32767_ms, true);
     if (i % 100 != 99) continue;
     const BiasFilter::Learned learned =
-        filter.measure(i % 200 == 99 ? INT32_MAX : INT32_MIN, 1_ms, INT32_MAX, shrinks);
+        filter.measure(i % 200 == 99 ? INT32_MAX : INT32_MIN, INT64_C(1) << 47, shrinks);
     EXPECT_GE(learned.bias, 0);
     EXPECT_LE(learned.bias, 65536);
     EXPECT_GE(shrinks.heading, 0);

@@ -61,7 +61,7 @@ class GyroHeadingTest : public testing::Test {
     odometry_.advance(step, heading_.turn(in, odometry_, health_));
     bound_.step({odometry_.pose(), step, elapsed_, heading_.source() == HeadingSource::gyro});
     GyroBias::Mean mean;
-    if (heading_.bias().take(params_.gyro, mean)) bound_.rest(mean, heading_.bias());
+    if (heading_.bias().take(params_.gyro, mean)) bound_.rest(mean, params_, heading_.bias());
     elapsed_ = Duration{};
   }
   void sample(double rate) {

@@ -40,7 +40,7 @@ class Drive {
     bound_.configure(params);
     bound_.restart({}, {});
     GyroBias bias;
-    if (gyro) bound_.rest({0, 0, GyroBias::kFirstRest, true}, bias);
+    if (gyro) bound_.rest({0, 0, GyroBias::kFirstRest, true}, params, bias);
   }
 
   void go(double seconds, const Errors& errors, double walk_per_sqrt_s, double drift_per_sqrt_m,
@@ -84,7 +84,8 @@ class Drive {
   /// The gyro is at rest, and this rate (rad/s) is measured.
   PoseBound::Correction rest(double rate) {
     GyroBias bias;
-    return bound_.rest({0, static_cast<int32_t>(std::lround(rate * 16777216)), 1000_ms, false}, bias);
+    const auto off = static_cast<int32_t>(std::lround(rate * 16777216));
+    return bound_.rest({0, off, 1000_ms, false}, params_, bias);
   }
   static double radians(Angle a) { return a.wrapped() * (kPi / 2147483648.0); }
 
@@ -199,6 +200,35 @@ TEST(PoseBound, ARestCorrectsWhatTheBiasHasDoneToThePose) {
     EXPECT_NEAR(norm(by.shift).raw() * 1e-6, place, 0.2 * place + 0.004) << seconds;
     EXPECT_LT(drive.sigma().heading.raw(), before.heading.raw() / 2) << seconds;
   }
+}
+
+/// Sigmas saturate if a covariance of the bias does, and the rest then takes too much of them.
+TEST(PoseBound, ARestLeavesASigmaWhateverTheGyro) {
+  std::mt19937 random(11);
+  for (const double walk : {0.0, 0.05, 0.4, 10.0})
+    for (const double warm_up : {0.0, 0.1, 1.0})
+      for (const int32_t range : {1000000, 8726646, 40000000})
+        for (const int32_t rate : {20, 100, 1000}) {
+          SCOPED_TRACE(testing::Message() << walk << ' ' << warm_up << ' ' << range << ' ' << rate);
+          Params params;
+          params.pose_error.wheel_scale_common = millionths(1000);
+          params.pose_error.gyro_scale = millionths(1);
+          params.pose_error.gyro_walk = degrees(walk);
+          params.pose_error.gyro_warm_up = degrees(warm_up);
+          params.gyro.range = AngularRate::from_raw(range);
+          params.gyro.rate_hz = rate;
+          Drive drive(params, true);
+          drive.go(90, {}, 0, 0, random);
+          const PoseSigma before = drive.sigma();
+          drive.rest(0);
+          const PoseSigma after = drive.sigma();
+          EXPECT_GT(after.along.raw(), 2900);
+          EXPECT_GT(after.across.raw(), 2900);
+          EXPECT_GT(after.heading.raw(), 0u);
+          EXPECT_LE(after.along.raw(), before.along.raw() * 1.001);
+          EXPECT_LE(after.across.raw(), before.across.raw() * 1.001);
+          EXPECT_LE(after.heading.raw(), before.heading.raw());
+        }
 }
 
 TEST(PoseBound, IsUnknownUnlessAnErrorOfTheWheelsIsDeclared) {
