@@ -36,7 +36,7 @@ void BiasFilter::begin(int64_t variance) noexcept {
 }
 
 /// At least 1.
-int32_t BiasFilter::in_unit(int64_t variance) const noexcept {
+[[gnu::noinline]] int32_t BiasFilter::in_unit(int64_t variance) const noexcept {
   const int64_t share = variance >> (2 * coarser_);
   return share < 1 ? 1 : saturate32(share);
 }
@@ -55,21 +55,18 @@ void BiasFilter::rescale(int64_t variance) noexcept {
   }
 }
 
-/// The unit becomes coarser by a power of 2, which is 1 or -1.
+/// The unit becomes coarser by 2^by, which is 2 or 1/2.
 void BiasFilter::scale(int by) noexcept {
-  const auto to = [by](int32_t& x) { x = by > 0 ? (x + 1) >> 1 : x * 2; };
-  const auto square_to = [&](int32_t& x) {
-    to(x);
-    to(x);
-  };
   coarser_ = static_cast<uint8_t>(coarser_ + by);
-  for (int i = 0; i < kPose; ++i) {
-    to(of_bias_[i]);
-    to(of_change_[i]);
+  const auto halve = [by](int32_t& x) { x = by > 0 ? (x + 1) >> 1 : x * 2; };
+  for (int i = 0; i < kRows; ++i) {
+    // The last of each is a square of the unit.
+    for (int times = i < kPose ? 1 : 2; times > 0; --times) {
+      halve(of_bias_[i]);
+      halve(of_change_[i]);
+      if (i == kBias) halve(change_);
+    }
   }
-  square_to(of_bias_[kBias]);
-  square_to(of_change_[kBias]);
-  square_to(change_);
 }
 
 void BiasFilter::forget() noexcept {
@@ -98,9 +95,9 @@ BiasFilter::Covariance BiasFilter::step(int32_t x, int32_t y, Duration elapsed, 
   // Then the bias changes.
   for (int i = 0; i < kRows; ++i) of_bias_[i] = saturated_sum(of_bias_[i], over(of_change_[i], ms, 64000));
   of_change_[kBias] = saturated_sum(of_change_[kBias], over(change_, ms, 64000));
-  const int64_t wanders = over(kWanders, ms, INT64_C(1000) << (2 * coarser_));
+  const int64_t wanders = over(kWanders, ms, INT32_C(1000) << (2 * coarser_));
   of_bias_[kBias] = saturated_sum(of_bias_[kBias], over(of_change_[kBias], ms, 64000) + wanders);
-  change_ = saturated_sum(change_, over(kChangeWanders, ms, INT64_C(1000) << (2 * coarser_)));
+  change_ = saturated_sum(change_, over(kChangeWanders, ms, INT32_C(1000) << (2 * coarser_)));
   rescale(0);
   return grows;
 }
