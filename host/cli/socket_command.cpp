@@ -60,6 +60,7 @@ void refuse(socket::Channel& channel, const std::string& why, double timeout_s) 
   fmt::print(stderr, "whisker: {}\n", why);
   channel.write(nlohmann::json{{"error", why}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
                 timeout_s);
+  channel.hang_up(timeout_s);
 }
 
 /// Until the other end closes. False: a line was refused.
@@ -72,7 +73,6 @@ bool serve(socket::Channel& channel, socket::Session& session, double timeout_s)
     refuse(channel, e.what(), timeout_s);
   } catch (const socket::LongLine& e) {
     refuse(channel, fmt::format("line {}: {}", session.lines() + 1, e.what()), timeout_s);
-    channel.drop_line(timeout_s);
   }
   return false;
 }

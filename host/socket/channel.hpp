@@ -28,8 +28,9 @@ class Channel {
   /// The next line without its end; none: the other end has closed. Throws LongLine, and ChannelError if no
   /// whole line comes for that long.
   virtual std::optional<std::string> read(double most_s) = 0;
-  /// Drops what is left of a LongLine. TCP would take an answer back if the channel closed before.
-  virtual void drop_line(double /*most_s*/) {}
+  /// Drops what the other end still says, until it closes too or falls silent or, where nothing is lost by
+  /// closing, until the end of a LongLine. TCP would take the last answer back if lines were left unread.
+  virtual void hang_up(double /*most_s*/) {}
   /// Throws ChannelError if the other end takes nothing for that long.
   virtual void write(std::string_view line, double most_s) = 0;
 };

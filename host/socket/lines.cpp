@@ -16,6 +16,8 @@
 namespace whisker::socket {
 namespace {
 
+constexpr double kSilence_s = 1;
+
 class Stream final : public Channel {
  public:
   Stream(Descriptor in, Descriptor out) : in_(std::move(in)), out_(std::move(out)) {}
@@ -41,11 +43,14 @@ class Stream final : public Channel {
     }
   }
 
-  void drop_line(double most_s) override {
+  void hang_up(double most_s) override {
     const Deadline deadline(most_s);
-    while (held_.find('\n') == std::string::npos) {
+    const bool tcp = out_.number() < 0;
+    if (tcp) ::shutdown(in_.number(), SHUT_WR);
+    const bool in_a_line = held_.size() > kLongestLine;
+    while (tcp || (in_a_line && held_.find('\n') == std::string::npos)) {
       held_.clear();
-      if (!wait_for(in_, POLLIN, deadline.left_s()) || !receive()) return;
+      if (!wait_for(in_, POLLIN, std::min(deadline.left_s(), kSilence_s)) || !receive()) return;
     }
   }
 

@@ -102,6 +102,15 @@ class Socket(Case):
             self.assertEqual(json.loads(client.makefile().readline()), {"error": "line 1: longer than 65536 bytes"})
             self.assertEqual(server.end()[0], 2)
 
+    def test_the_answer_to_a_wrong_line_reaches_a_client_that_has_written_more(self):
+        # TCP takes back what was not yet read if its end closes with bytes of the client unread.
+        with Server("--tcp", "0") as server, socket.create_connection(("127.0.0.1", server.port), timeout=10) as client:
+            client.sendall(b"wrong\n" + (HELLO + "\n").encode() * 2000)
+            client.shutdown(socket.SHUT_WR)
+            time.sleep(0.3)
+            self.assertEqual(client.makefile().read(), '{"error":"line 1: no JSON at byte 1"}\n')
+            self.assertEqual(server.end()[0], 2)
+
     def test_a_line_that_never_ends_is_answered_at_once_and_not_read_for_ever(self):
         with Server("--tcp", "0", "--timeout", "0.5") as server, socket.create_connection(("127.0.0.1", server.port), timeout=10) as client:
             client.sendall(b"x" * 70000)
