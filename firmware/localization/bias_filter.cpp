@@ -82,9 +82,9 @@ BiasFilter::Covariance BiasFilter::step(int32_t x, int32_t y, Duration elapsed, 
   const int32_t turns = turned_for << coarser_;
   const int32_t bias = of_bias_[kBias];
   const auto drag = [x, y](int32_t(&with)[kRows], int64_t turned) {
-    with[kX] = saturated_sum(with[kX], -product(y, with[kHeading]));
-    with[kY] = saturated_sum(with[kY], product(x, with[kHeading]));
-    with[kHeading] = saturated_sum(with[kHeading], -turned);
+    with[kX] = saturating_add(with[kX], -product(y, with[kHeading]));
+    with[kY] = saturating_add(with[kY], product(x, with[kHeading]));
+    with[kHeading] = saturating_add(with[kHeading], -turned);
   };
   grows.heading = over(-int64_t{of_bias_[kHeading]}, turns, 8000) +
                   over(int64_t{bias} * turned_for, turned_for, 256000000 >> (2 * coarser_));
@@ -93,11 +93,11 @@ BiasFilter::Covariance BiasFilter::step(int32_t x, int32_t y, Duration elapsed, 
   grows.x_heading = over(-int64_t{of_bias_[kX]}, turns, 16000);
   grows.y_heading = over(-int64_t{of_bias_[kY]}, turns, 16000);
   // Then the bias changes.
-  for (int i = 0; i < kRows; ++i) of_bias_[i] = saturated_sum(of_bias_[i], over(of_change_[i], ms, 64000));
-  of_change_[kBias] = saturated_sum(of_change_[kBias], over(change_, ms, 64000));
+  for (int i = 0; i < kRows; ++i) of_bias_[i] = saturating_add(of_bias_[i], over(of_change_[i], ms, 64000));
+  of_change_[kBias] = saturating_add(of_change_[kBias], over(change_, ms, 64000));
   const int64_t wanders = over(kWanders, ms, INT32_C(1000) << (2 * coarser_));
-  of_bias_[kBias] = saturated_sum(of_bias_[kBias], over(of_change_[kBias], ms, 64000) + wanders);
-  change_ = saturated_sum(change_, over(kChangeWanders, ms, INT32_C(1000) << (2 * coarser_)));
+  of_bias_[kBias] = saturating_add(of_bias_[kBias], over(of_change_[kBias], ms, 64000) + wanders);
+  change_ = saturating_add(change_, over(kChangeWanders, ms, INT32_C(1000) << (2 * coarser_)));
   rescale(0);
   return grows;
 }
@@ -107,7 +107,7 @@ BiasFilter::Learned BiasFilter::measure(int32_t off, int64_t variance, Covarianc
   int32_t& bias = of_bias_[kBias];
   if ((square(off) / kSurprise) >> (2 * coarser_) > int64_t{bias} + in_unit(variance)) {
     rescale(square(off));
-    bias = saturated_sum(bias, in_unit(square(off)));
+    bias = saturating_add(bias, in_unit(square(off)));
   }
   const int32_t noise = in_unit(variance);
   const int64_t both = int64_t{bias} + noise;
@@ -127,10 +127,10 @@ BiasFilter::Learned BiasFilter::measure(int32_t off, int64_t variance, Covarianc
   const auto ahead = [&](int32_t with_bias) { return saturate32(over(with_bias, off, both << coarser_)); };
   learned.ahead = {ahead(with[kX]), ahead(with[kY]), ahead(with[kHeading])};
 
-  change_ = saturated_sum(change_, -share(mixed, mixed));
+  change_ = saturating_add(change_, -share(mixed, mixed));
   if (change_ < 0) change_ = 0;
   for (int i = 0; i < kRows; ++i) {
-    of_change_[i] = saturated_sum(of_change_[i], -share(of_bias_[i], mixed));
+    of_change_[i] = saturating_add(of_change_[i], -share(of_bias_[i], mixed));
     of_bias_[i] = saturate32(share(of_bias_[i], noise));
   }
   if (bias < 1) bias = 1;
@@ -141,8 +141,8 @@ BiasFilter::Learned BiasFilter::measure(int32_t off, int64_t variance, Covarianc
 void BiasFilter::correct_heading(int64_t share, int64_t x, int64_t y) noexcept {
   const int64_t by[kPose] = {x, y, share * 16};
   for (int i = 0; i < kPose; ++i) {
-    of_bias_[i] = saturated_sum(of_bias_[i], -product(by[i], of_bias_[kHeading]));
-    of_change_[i] = saturated_sum(of_change_[i], -product(by[i], of_change_[kHeading]));
+    of_bias_[i] = saturating_add(of_bias_[i], -product(by[i], of_bias_[kHeading]));
+    of_change_[i] = saturating_add(of_change_[i], -product(by[i], of_change_[kHeading]));
   }
 }
 

@@ -198,13 +198,13 @@ void PoseBound::update(const Step& step, bool moved) noexcept {
   for (int i = 0; i < kLastings; ++i) {
     Lasting& error = lasting_[i];
     const int64_t heading = error.heading + by[i] / 2;
-    error.x = saturated_sum(error.x, -scale_down<24>(y * heading));
-    error.y = saturated_sum(error.y, scale_down<24>(x * heading));
-    error.heading = saturated_sum(error.heading, by[i]);
+    error.x = saturating_add(error.x, -scale_down<24>(y * heading));
+    error.y = saturating_add(error.y, scale_down<24>(x * heading));
+    error.heading = saturating_add(error.heading, by[i]);
   }
   Lasting& scale = lasting_[kScale];
-  scale.x = saturated_sum(scale.x, scale_down<26>(int64_t{x} * scale_));
-  scale.y = saturated_sum(scale.y, scale_down<26>(int64_t{y} * scale_));
+  scale.x = saturating_add(scale.x, scale_down<26>(int64_t{x} * scale_));
+  scale.y = saturating_add(scale.y, scale_down<26>(int64_t{y} * scale_));
 
   const int64_t walked =
       step.by_gyro ? int64_t{walk_per_ms_} * elapsed_ms_ : (forward < 0 ? -forward : forward) * walk_per_um_;
@@ -218,8 +218,8 @@ void PoseBound::update(const Step& step, bool moved) noexcept {
 /// / 2 of the variance.
 void PoseBound::shorten(int32_t x, int32_t y) noexcept {
   const int64_t share = limited(heading_variance(), kMostHeading) * 887 / 1024;  // 2^-40
-  shortened_.x = saturated_sum(shortened_.x, scale_down<36>(x * share));
-  shortened_.y = saturated_sum(shortened_.y, scale_down<36>(y * share));
+  shortened_.x = saturating_add(shortened_.x, scale_down<36>(x * share));
+  shortened_.y = saturating_add(shortened_.y, scale_down<36>(y * share));
 }
 
 int64_t PoseBound::heading_variance() const noexcept {

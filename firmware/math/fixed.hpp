@@ -40,8 +40,10 @@ constexpr int32_t saturate32(int64_t x) noexcept {
   return low == x ? low : as_signed(UINT32_C(0x7FFFFFFF) + (x < 0 ? 1U : 0U));
 }
 
-/// The sum of a and b, saturating. a + b must fit 64 bits. Called, not inlined: short code at every place.
-[[gnu::noinline]] constexpr int32_t saturated_sum(int32_t a, int64_t b) noexcept { return saturate32(a + b); }
+/// a + b must fit 64 bits. Called, not inlined: short code at every place.
+[[gnu::noinline]] constexpr int32_t saturating_add(int32_t a, int64_t b) noexcept {
+  return saturate32(a + b);
+}
 
 /// |x| < 2^31.5.
 constexpr int64_t square(int64_t x) noexcept { return x * x; }
