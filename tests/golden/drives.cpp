@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "host/run/fix_source.hpp"
 #include "host/run/runner.hpp"
 #include "host/run/spec.hpp"
 #include "host/scenario/load.hpp"
@@ -16,12 +17,14 @@ constexpr PlannerKind kLargestMapOfAll = core_planner("map", 8192);
 class RecordingPilot final : public Pilot {
  public:
   RecordingPilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant, chip::Bytes& to)
-      : pilot_(core_pilot(scenario, planner, plant)), plant_(plant), to_(to) {
+      : pilot_(core_pilot(scenario, planner, plant)), plant_(plant), fixes_(scenario), to_(to) {
     chip::append_params(to, scenario.robot);
     chip::append_begin(to, planner, fixed_pose(scenario.start));
     chip::append_goal(to, fixed_goal(scenario.goal));
   }
   const Status& tick(Time now) override {
+    if (const auto fix = fixes_.take(plant_)) chip::append_fix(to_, *fix);
+    chip::append_gyro(to_, plant_);
     chip::append(to_, link::Name::tick, chip::tick_of(plant_, now));
     return pilot_->tick(now);
   }
@@ -29,6 +32,7 @@ class RecordingPilot final : public Pilot {
  private:
   std::unique_ptr<Pilot> pilot_;
   sim::Plant& plant_;
+  FixSource fixes_;
   chip::Bytes& to_;
 };
 
@@ -53,6 +57,19 @@ Scenario generated(worlds::Kind kind, bool noise, std::uint64_t seed = 1) {
   options.seed = seed;
   options.noise = noise;
   return worlds::generate(kind, options);
+}
+
+/// The gyro rests after a minute. Of no planner's streams: budgets are without a gyro.
+Stream gyro_drive() {
+  Scenario scenario = generated(worlds::Kind::rooms, true);
+  apply_robot_file(scenario, std::string(WHISKER_SOURCE_DIR) + "/host/robots/gyro.toml");
+  scenario.robot.pose_error.wheel_scale = millionths(10000);
+  scenario.robot.walls.straight = Fitted::yes;
+  scenario.noise.fix_every_m = 4;
+  scenario.robot.safety.period = 20_ms;
+  Stream stream = drive("rooms, gyro and fixes", scenario, PlannerKind::skirt, 66);
+  stream.name = "with " + stream.name;
+  return stream;
 }
 
 }  // namespace
@@ -83,6 +100,7 @@ std::vector<Stream> drives() {
       drive("crossing mover", from_file("tests/cli/scenarios/crossing_mover"), PlannerKind::map, 3));
   all.push_back(
       drive("large fast robot", from_file("tests/cli/scenarios/large_fast_robot"), PlannerKind::map, 3));
+  all.push_back(gyro_drive());
   return all;
 }
 
