@@ -14,7 +14,6 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/rules/read.hpp"
-#include "host/rules/response.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -61,9 +60,12 @@ const fuzzy::Bilinear::Table* assist_table(const std::string& file_or_default,
                                            const std::vector<std::string>& names) {
   if (file_or_default == "default") return &fuzzy::kResponseTable;
   static std::list<fuzzy::Bilinear::Table> tables;
+  return &tables.emplace_back(named_response(rules::read_rules(file_or_default), names).table);
+}
+
+rules::Response named_response(const rules::RuleBase& base, const std::vector<std::string>& names) {
   try {
-    const rules::ResponseNames chosen = rules::response_names(names);
-    return &tables.emplace_back(rules::response(rules::read_rules(file_or_default), chosen).table);
+    return rules::response(base, rules::response_names(names));
   } catch (const std::invalid_argument& e) {
     throw UsageError(fmt::format("--map: {}", e.what()));
   }

@@ -8,6 +8,7 @@
 #include "firmware/fuzzy/bilinear.hpp"
 #include "host/cli/cli11_forward.hpp"
 #include "host/report/fuzzy_picture.hpp"
+#include "host/rules/response.hpp"
 #include "host/run/planners.hpp"
 
 namespace whisker::cli {
@@ -23,6 +24,9 @@ const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
 /// The same for the assist of whisker::Guard.
 const fuzzy::Bilinear::Table* assist_table(const std::string& file_or_default,
                                            const std::vector<std::string>& names);
+
+/// The response to a rule base with these names, CORE=NAME. Throws UsageError or InputError.
+rules::Response named_response(const rules::RuleBase& base, const std::vector<std::string>& names);
 
 /// --rules FILE and --map CORE=NAME. After parsing, `table` is that of the assist, or null if no file is
 /// given. Throws UsageError or InputError.

@@ -16,6 +16,7 @@
 #include "host/cli/rules_compare.hpp"
 #include "host/cli/rules_output.hpp"
 #include "host/cli/rules_search.hpp"
+#include "host/cli/rules_table.hpp"
 #include "host/report/file.hpp"
 #include "host/rules/compile.hpp"
 #include "host/rules/header.hpp"
@@ -232,6 +233,7 @@ void add_rules(CLI::App& app, int& status) {
   add_compile(*rules, status);
   add_show(*rules, status);
   add_evaluate(*rules, status);
+  add_rules_table(*rules, status)->footer(kRulesStatus);
   add_rules_compare(*rules, status);
   add_rules_search(*rules, status);
 }

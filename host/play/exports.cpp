@@ -4,14 +4,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "firmware/fuzzy/digest.hpp"
 #include "firmware/fuzzy/generate.hpp"
 #include "firmware/fuzzy/rules.hpp"
 #include "host/play/drive.hpp"
 #include "host/play/flat.hpp"
 #include "host/play/guard_drive.hpp"
 #include "host/play/rule_faults.hpp"
+#include "host/play/table_of.hpp"
 #include "host/report/track.hpp"
 #include "host/report/units.hpp"
 #include "host/run/clear_cells.hpp"
@@ -27,7 +30,7 @@ constexpr int kSides = 2;
 
 std::vector<double> exchanged;
 fuzzy::RuleBase rules = fuzzy::kRules;
-bool edited = false;  // rules that the user has changed bend the course
+bool edited = false;  // a table of the user, of rules or opened, bends the course
 fuzzy::Bilinear::Table table = fuzzy::kResponseTable;
 std::unique_ptr<SimulatedRobot> robots[kSides];
 /// The one of them that the user drives, if there is one.
@@ -65,6 +68,12 @@ bool same(const Q14 (&a)[fuzzy::kTerms][fuzzy::kTerms], const Q14 (&b)[fuzzy::kT
     if (!std::equal(a[d], a[d] + fuzzy::kTerms, b[d])) return false;
   }
   return true;
+}
+
+void bend_all() {
+  for (const auto& robot : robots) {
+    if (robot) robot->bend(edited);
+  }
 }
 
 int answer() { return static_cast<int>(exchanged.size()); }
@@ -284,13 +293,23 @@ WHISKER_EXPORT(set_rules) std::uint32_t set_rules() {
       for (Q14& q : row) q = Q14::from_raw(static_cast<std::int16_t>(*next++));
   fuzzy::generate<fuzzy::Bilinear>(rules, table);
   edited = !same(rules.turn, fuzzy::kRules.turn) || !same(rules.step, fuzzy::kRules.step);
-  for (const auto& robot : robots) {
-    if (robot) robot->bend(edited);
-  }
+  bend_all();
   return rule_faults(rules);
 }
 
 WHISKER_EXPORT(at_fault) int at_fault(int d, int r) { return rule_at_fault(rules, d, r) ? 1 : 0; }
+
+/// Replaces the table, until set_rules(), by the nodes in the list. 0: done. Otherwise nothing has changed,
+/// and 1: these are not the nodes of a table, 2: they do not have this hash.
+WHISKER_EXPORT(set_table) int set_table(std::uint32_t hash) {
+  const std::optional<fuzzy::Bilinear::Table> next = table_of(exchanged);
+  if (!next) return 1;
+  if (fuzzy::digest(*next) != hash) return 2;
+  table = *next;
+  edited = true;
+  bend_all();
+  return 0;
+}
 
 /// Distance nodes, bias nodes, their spacings, and both outputs of each node, as raw numbers.
 WHISKER_EXPORT(get_table) int get_table() {

@@ -8,8 +8,10 @@ import os
 import pathlib
 import random
 import re
+import struct
 import subprocess
 import sys
+import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 import whisker  # noqa: E402
@@ -178,6 +180,61 @@ class Drives(Case):
                 self.assertEqual((done.returncode, done.stdout), (2, ""))
                 self.assertIn(said, done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1)
+
+
+class Tables(Case):
+    """`whisker rules table`: the core's response table as JSON."""
+
+    def table(self, *arguments):
+        done = whisker.whisker("rules", "table", *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return json.loads(done.stdout)
+
+    def test_the_default_rules_give_the_committed_table(self):
+        table = self.table(EXAMPLES / "thesis.toml")
+        committed = (ROOT / "firmware/fuzzy/response_table.hpp").read_text()
+        nodes = [int(raw) for node in re.findall(r"\{ *(-?\d+), *(-?\d+)\}", committed) for raw in node]
+        self.assertEqual(table["nodes"], nodes)
+        self.assertEqual((table["whisker_table"], table["name"], table["symmetric"]), (1, "thesis", True))
+        self.assertEqual((table["rows"], table["columns"]), (33, 57))
+        world = self.file("world.toml", with_time_limit(whisker.whisker("world", "discs", "--seed", "3").stdout, 1))
+        run = json.loads(whisker.whisker("run", world, "--rules", EXAMPLES / "thesis.toml", "--json").stdout)
+        self.assertEqual(table["hash"], run["rules_digest"])
+        self.assertEqual(table["hash"], "%08x" % zlib.crc32(struct.pack(f"<{len(nodes)}h", *nodes)))
+
+    def test_errors_are_those_of_the_compiled_table(self):
+        table = self.table(EXAMPLES / "thesis.toml")
+        compiled = json.loads(compile_rules(EXAMPLES / "thesis.toml", "--nodes", "33x57", "--json").stdout)
+        for word, output in zip(("turn_error", "step_error"), compiled["outputs"]):
+            self.assertAlmostEqual(table[word], output["max_error"])
+
+    def test_a_file_holds_the_same(self):
+        law = self.file("my law.toml", (EXAMPLES / "thesis.toml").read_text().replace('name = "thesis"', "").replace('name = "SA"', 'name = "steer"').replace("1.5]", "1.2]", 1))
+        out = self.folder / "law.json"
+        done = whisker.whisker("rules", "table", law, "--map", "SA=steer", "--out", out)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, f"table: {out}\n", ""))
+        table = self.table(law, "--map", "SA=steer")
+        self.assertEqual(json.loads(out.read_text()), table)
+        self.assertEqual(table["name"], "my law.toml")
+        self.assertEqual(whisker.whisker("rules", "table", law, "--map", "SA=steer", "--out", "-").stdout, out.read_text())
+
+    def test_what_is_no_table_is_refused(self):
+        thesis = (EXAMPLES / "thesis.toml").read_text()
+        self.file("thesis.toml", thesis)
+        self.file("tip.fis", (EXAMPLES / "tip.fis").read_text())
+        self.file("cut.toml", thesis[:-40])
+        self.file("far.toml", thesis.replace('["VB", 1.7]', '["VB", 2.1]'))
+        for arguments, says in (
+            (("tip.fis",), "tip.fis:1:1: no input 'D' to drive with; the file has service, food"),
+            (("cut.toml",), "cut.toml:"),
+            (("far.toml",), "far.toml:30:1: 'SD' reaches 2.0"),
+            (("none.toml",), "none.toml:1:1: "),
+            (("thesis.toml", "--map", "SA=SD"), "--map: thesis.toml: one variable stands for two of the core's"),
+            (("thesis.toml", "--map", "XY=steer"), "--map: 'XY=steer' must be D=NAME, R=NAME, SA=NAME or SD=NAME"),
+            (("thesis.toml", "--out", "thesis.toml"), "would overwrite"),
+            (("thesis.toml", "--out", "nowhere/x.json"), "no such folder"),
+        ):
+            self.refused("rules", "table", *arguments, *(() if "--out" in arguments else ("--out", "x.json")), says=says)
 
 
 class Headers(Case):

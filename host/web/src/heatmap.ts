@@ -30,7 +30,7 @@ export class HeatMap {
     canvas: HTMLCanvasElement,
     private readonly controller: Controller,
     private readonly thousandths: number[],
-    private readonly range: [low: number, high: number],
+    private readonly range: () => [low: number, high: number],
     private readonly stops: (palette: Palette) => string[],
     palette: Palette,
   ) {
@@ -69,10 +69,11 @@ export class HeatMap {
     const context = image.getContext('2d')!;
     const pixels = context.createImageData(width, height);
     const stops: Rgb[] = this.stops(this.palette).map(rgb);
+    const [low, high] = this.range();
     this.thousandths.forEach((value, i) => {
       const row = height - 1 - Math.floor(i / width);
       const column = width - 1 - (i % width);
-      const k = (value / 1000 - this.range[0]) / (this.range[1] - this.range[0]);
+      const k = (value / 1000 - low) / (high - low);
       pixels.data.set([...blend(stops, k), 255], 4 * (row * width + column));
     });
     context.putImageData(pixels, 0, 0);

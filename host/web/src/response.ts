@@ -28,8 +28,8 @@ export class ResponsePanel {
     private readonly controller: Controller,
   ) {
     const p = theme.palette;
-    const turn = [controller.sa.min, controller.sa.max] as [number, number];
-    const step = [controller.sd.terms[0][1], controller.sd.terms.at(-1)![1]] as [number, number];
+    const turn = (): [number, number] => [controller.sa.min, controller.sa.max];
+    const step = (): [number, number] => [controller.sd.terms[0][1], controller.sd.terms.at(-1)![1]];
     this.maps = [
       new HeatMap(
         element<HTMLCanvasElement>('heat-turn'),
@@ -48,12 +48,13 @@ export class ResponsePanel {
         p,
       ),
     ];
-    setText('table-source', controller.source);
+    this.restyle();
   }
 
   /** The palette or the table has changed. */
   restyle(): void {
     this.shown = '';
+    setText('table-source', this.controller.source);
     for (const map of this.maps) map.restyle(this.theme.palette);
   }
 

@@ -18,8 +18,9 @@ export interface FiredRule {
   weight: number;
 }
 
-/** The rules with a weight above zero, the strongest first. */
+/** The rules with a weight above zero, the strongest first; none for a table that is not of these rules. */
 export function firedRules(controller: Controller, d: number, r: number): FiredRule[] {
+  if (controller.turn.length === 0) return [];
   const ofD = memberships(controller.d, d);
   const ofR = memberships(controller.r, r);
   const fired: FiredRule[] = [];

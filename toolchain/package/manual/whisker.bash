@@ -4,7 +4,7 @@ _whisker() {
   local path=whisker word here=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options="" words="" paths=none
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case "$path $word" in
-      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules evaluate" | "whisker rules compare" | "whisker rules search" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker bench" | "whisker bench nodes" | "whisker bench watch" | "whisker bench record" | "whisker bench get" | "whisker bench set" | "whisker bench save" | "whisker bench restore" | "whisker bench rules" | "whisker bench stop" | "whisker bench reset" | "whisker bench cancel" | "whisker bench goal" | "whisker bench drive" | "whisker bench calibrate" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
+      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules evaluate" | "whisker rules table" | "whisker rules compare" | "whisker rules search" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker bench" | "whisker bench nodes" | "whisker bench watch" | "whisker bench record" | "whisker bench get" | "whisker bench set" | "whisker bench save" | "whisker bench restore" | "whisker bench rules" | "whisker bench stop" | "whisker bench reset" | "whisker bench cancel" | "whisker bench goal" | "whisker bench drive" | "whisker bench calibrate" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
     esac
   done
   case $path in
@@ -110,7 +110,7 @@ _whisker() {
       esac
       ;;
     "whisker rules")
-      options="-h --help" words="compile show evaluate compare search" paths=none
+      options="-h --help" words="compile show evaluate table compare search" paths=none
       ;;
     "whisker rules compile")
       options="-h --help --tolerance --max-bytes --nodes --fix --steps --header --svg --json" words="" paths=file
@@ -128,6 +128,13 @@ _whisker() {
       ;;
     "whisker rules evaluate")
       options="-h --help" words="" paths=file
+      ;;
+    "whisker rules table")
+      options="-h --help --map --out" words="" paths=file
+      case $before in
+        --map) options="" words="" paths=value ;;
+        --out) options="" words="" paths=file ;;
+      esac
       ;;
     "whisker rules compare")
       options="-h --help --map --worlds --count --seed --discs --width --box --noise --planner --map-bytes --robot --jobs --json" words="" paths=file

@@ -26,6 +26,7 @@ interface Exports {
   robot(): number;
   get_rules(): number;
   set_rules(): number;
+  set_table(hash: number): number;
   at_fault(d: number, r: number): number;
   get_table(): number;
   sample_table(): number;
@@ -212,6 +213,12 @@ export class Core {
   setRules(rules: number[]): number {
     this.write(rules);
     return this.wasm.set_rules();
+  }
+
+  /** Turn and step of node after node, raw, R first; until setRules. Unchanged unless 'done'. */
+  setTable(nodes: number[], hash: number): 'done' | 'none' | 'damaged' {
+    this.write(nodes);
+    return (['done', 'none', 'damaged'] as const)[this.wasm.set_table(hash)];
   }
 
   atFault(d: number, r: number): boolean {

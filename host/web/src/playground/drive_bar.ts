@@ -88,9 +88,10 @@ export class DriveBar {
     setText('contacts-bare', String(driver.contacts.bare));
     element('contacts-guarded').classList.toggle('bad', driver.contacts.guarded > 0);
     const bare = driver.switches.guarded ? '' : ' --bare';
+    const rules = play.opened ? ' --rules RULES.fis' : '';
     setText(
       'command',
-      `whisker guard SCENARIO.toml --commands DRIVE.csv --time ${run.result.time.toFixed(2)}${bare} --html drive.html`,
+      `whisker guard SCENARIO.toml --commands DRIVE.csv --time ${run.result.time.toFixed(2)}${bare}${rules} --html drive.html`,
     );
   }
 

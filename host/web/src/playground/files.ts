@@ -16,10 +16,16 @@ function save(name: string, text: string): void {
   URL.revokeObjectURL(link.href);
 }
 
+/** What the table is of; null: the default rules. */
+function noteOf({state, opened}: Playground): string | null {
+  if (opened) return `Opened in the playground: ${opened.name}, hash ${opened.hash}.`;
+  return state.rules && `Of rules edited in the playground: ${state.rules}`;
+}
+
 export function offerFiles(play: Playground, core: Core, driver: Driver): void {
   element('save-scenario').addEventListener('click', () => {
     const {kind, seed, own, rules} = play.state;
-    const bends = rules ? ['bend_course = true'] : [];
+    const bends = rules || play.opened ? ['bend_course = true'] : [];
     save(
       `${kind}-${seed}${own ? '-changed' : ''}.toml`,
       scenarioToml(play.name, play.situation, play.drivenByUser ? driver.parameters() : bends),
@@ -27,12 +33,13 @@ export function offerFiles(play: Playground, core: Core, driver: Driver): void {
   });
   element('save-drive').addEventListener('click', () => save('drive.csv', driver.csv()));
   element('save-table').addEventListener('click', () => {
-    const {rules} = play.state;
-    const note = rules ? `Of rules edited in the playground: ${rules}` : null;
-    save('response_table.hpp', tableHeader(core.table(), note));
+    save('response_table.hpp', tableHeader(core.table(), noteOf(play)));
   });
   element('copy').addEventListener('click', async () => {
     const done = await copied(linkWith(await hashOf(play.state)));
-    setText('copied', done ? 'Link copied' : 'The address bar has the link');
+    setText(
+      'copied',
+      done ? `Link copied${play.opened ? ', without the table' : ''}` : 'The address bar has the link',
+    );
   });
 }

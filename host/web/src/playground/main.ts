@@ -19,6 +19,7 @@ import {Playground} from './playground.ts';
 import {RulesPanel} from './rules_panel.ts';
 import {hashOf, stateOf, type State} from './share.ts';
 import {Stage} from './stage.ts';
+import {TablePanel} from './table_panel.ts';
 
 const FIRST: State = {kind: 'u-trap', seed: 7, who: 'skirt-map', own: null, noise: NO_NOISE, rules: null};
 
@@ -59,11 +60,18 @@ async function open(): Promise<void> {
   const closeUp = new CloseUp(focus(), {tick: 0}, theme, stage.scenery());
   const response = new ResponsePanel(focus(), {tick: 0}, theme, controller);
   const noise = new NoisePanel((values) => play.setNoise(values));
-  const rules = new RulesPanel(core, theme, () => {
-    refreshController(controller, core, answers);
+  const follow = () => {
+    const {opened} = table;
+    const code = opened ? null : rules.code;
+    refreshController(controller, core, answers, opened !== null);
     response.restyle();
-    core.robot.bends = rules.code !== null;
-    play.setRules(rules.code);
+    core.robot.bends = opened !== null || code !== null;
+    play.setRules(code, opened);
+  };
+  const table = new TablePanel(core, follow);
+  const rules = new RulesPanel(core, theme, () => {
+    table.close();
+    follow();
   });
   // Before the controls: the keys of a driver come first.
   const most = {forward: core.robot.max_speed, turning: MOST_TURNING};

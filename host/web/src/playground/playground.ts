@@ -6,6 +6,7 @@ import type {Core} from './core.ts';
 import {YOU, type Driver} from './driver.ts';
 import {GuardRun} from './guard_run.ts';
 import {LiveRun} from './live.ts';
+import type {OpenedTable} from './opened_table.ts';
 import {teamsOf, type State, type Teams} from './share.ts';
 import type {Situation} from './situation.ts';
 import {distanceTo, moved, sized, withNew, without, type NewKind, type Thing} from './things.ts';
@@ -26,6 +27,8 @@ export class Playground {
   speed = 1;
   /** The user changed the world during the run: no scenario repeats it. */
   touched = false;
+  /** The table in the place of that of the rules. It is no part of the state: a link has no room for it. */
+  opened: OpenedTable | null = null;
   private owed = 0;
   private hurried = false;
   private readonly listeners: (() => void)[] = [];
@@ -120,8 +123,10 @@ export class Playground {
     this.begin();
   }
 
-  setRules(rules: string | null): void {
+  /** The rules are the default ones while a table is opened. */
+  setRules(rules: string | null, opened: OpenedTable | null): void {
     this.state = {...this.state, rules};
+    this.opened = opened;
     if (this.time > 0) this.touched = true;
     this.changed();
   }
