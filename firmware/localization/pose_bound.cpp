@@ -47,7 +47,7 @@ GyroNoise noise_of(const Params& params) noexcept {
   const int32_t rate = params.gyro.rate_hz;
   const int64_t unit = square(unit_of(params.gyro));
   if (int64_t{walk} * rate * 1000 / 256 >= unit / 4) return {walk, kRounding};
-  return {walk + static_cast<int32_t>(unit * 256 / (12000 * rate)), unit / 4};
+  return {walk + static_cast<int32_t>(unit * 256 / (INT64_C(12000) * rate)), unit / 4};
 }
 
 /// Of a mean of samples, (rad/s)^2 2^-48.
