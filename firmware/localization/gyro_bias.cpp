@@ -17,8 +17,8 @@ int32_t scaled_range(const GyroParams& params) noexcept {
   return multiply_divide(params.range.raw(), params.scale.raw(), 1000000);
 }
 
-int32_t unit_of(const GyroParams& params) noexcept {
-  return multiply_divide(65536, scaled_range(params), 128000000);
+int32_t rate_of(int32_t sample, const GyroParams& params) noexcept {
+  return multiply_divide(sample, scaled_range(params), 128000000);
 }
 
 [[gnu::noinline]] int32_t GyroBias::value() const noexcept {
@@ -59,7 +59,7 @@ bool GyroBias::take(const GyroParams& params, Mean& mean) noexcept {
     if (still_for_ > kRest) used_for_ = Duration{};
   }
   mean.off = saturate32(int64_t{measured} - value());
-  mean.off_rad = multiply_divide(mean.off, scaled_range(params), 128000000);
+  mean.off_rad = rate_of(mean.off, params);
   return true;
 }
 

@@ -10,8 +10,8 @@ namespace whisker::localization {
 
 /// The rate at which a sample has its largest value, with the scale that the gyro has: urad/s.
 int32_t scaled_range(const GyroParams& params) noexcept;
-/// The rate of a sample of 1: 2^-24 rad/s.
-int32_t unit_of(const GyroParams& params) noexcept;
+/// The rate that a sample of so much (2^-16 of its unit) means: 2^-24 rad/s.
+int32_t rate_of(int32_t sample, const GyroParams& params) noexcept;
 
 /// A rest counts from kWait after the last encoder count on: until then the body may still move.
 ///

@@ -45,7 +45,7 @@ struct GyroNoise {
 GyroNoise noise_of(const Params& params) noexcept {
   const int32_t walk = squared_over(params.pose_error.gyro_walk, 23344401);
   const int32_t rate = params.gyro.rate_hz;
-  const int64_t unit = square(unit_of(params.gyro));
+  const int64_t unit = square(rate_of(65536, params.gyro));
   if (int64_t{walk} * rate * 1000 / 256 >= unit / 4) return {walk, kRounding};
   return {walk + static_cast<int32_t>(unit * 256 / (INT64_C(12000) * rate)), unit / 4};
 }
