@@ -65,10 +65,7 @@ class ChipPilot final : public Pilot {
 
   const Status& tick(Time now) override {
     if (const auto fix = fixes_.take(plant_)) correct(*fix);
-    say([&](Bytes& to) {
-      append_gyro(to, plant_);
-      append(to, link::Name::tick, tick_of(plant_, now));
-    });
+    say([&](Bytes& to) { append_tick(to, plant_, now); });
     const auto answer = hear<link::Answer>();
     if (!sound(answer)) throw ChipError("the chip's answer makes no sense");
     status_ = status_of(answer);

@@ -30,23 +30,20 @@ void append_goal(Bytes& to, const planning::Goal& goal) {
 
 void append_place(Bytes& to, const Pose& pose) { append(to, link::Name::place, stand(pose)); }
 
-void append_gyro(Bytes& to, const sim::Plant& plant) {
-  if (plant.gyro_answers()) append(to, link::Name::gyro, link::GyroSums{plant.gyro()});
-}
-
 void append_fix(Bytes& to, const localization::UncertainPose& fix) {
   const localization::PoseSigma& sigma = fix.sigma;
   append(to, link::Name::fix,
          link::Fix{stand(fix.pose), sigma.along.raw(), sigma.across.raw(), sigma.heading.raw()});
 }
 
-link::Tick tick_of(const sim::Plant& plant, Time now) {
+void append_tick(Bytes& to, const sim::Plant& plant, Time now) {
+  if (plant.gyro_answers()) append(to, link::Name::gyro, link::GyroSums{plant.gyro()});
   link::Tick tick;
   tick.now_ms = now.raw();
   tick.ranges = plant.ranges();
   tick.counts = plant.encoders();
   tick.bumps = plant.bumper();
-  return tick;
+  append(to, link::Name::tick, tick);
 }
 
 }  // namespace whisker::chip

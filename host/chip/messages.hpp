@@ -36,11 +36,9 @@ void append_begin(Bytes& to, PlannerKind planner, const Pose& pose);
 void append_goal(Bytes& to, const planning::Goal& goal);
 void append_place(Bytes& to, const Pose& pose);
 
-/// Nothing if the gyro of the plant does not answer.
-void append_gyro(Bytes& to, const sim::Plant& plant);
 void append_fix(Bytes& to, const localization::UncertainPose& fix);
 
-/// Sensor data of the plant at this tick.
-link::Tick tick_of(const sim::Plant& plant, Time now);
+/// A tick with the sensor data of the plant, and before it the gyro's if it answers.
+void append_tick(Bytes& to, const sim::Plant& plant, Time now);
 
 }  // namespace whisker::chip

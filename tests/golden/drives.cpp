@@ -24,8 +24,7 @@ class RecordingPilot final : public Pilot {
   }
   const Status& tick(Time now) override {
     if (const auto fix = fixes_.take(plant_)) chip::append_fix(to_, *fix);
-    chip::append_gyro(to_, plant_);
-    chip::append(to_, link::Name::tick, chip::tick_of(plant_, now));
+    chip::append_tick(to_, plant_, now);
     return pilot_->tick(now);
   }
 
