@@ -167,7 +167,8 @@ class BusPilot final : public Pilot {
   void check() {
     if (options_.interrupted && options_.interrupted()) throw Interrupted("interrupted");
     if (node_.permanent_errors() != 0) throw Hopeless();
-    if (begun_ && node_.peer_restarts() != restarts_) throw ControllerRestarted("the controller restarted");
+    if (restarts_ && node_.peer_restarts() != *restarts_)
+      throw ControllerRestarted("the controller restarted");
     explain();
   }
 
@@ -180,10 +181,10 @@ class BusPilot final : public Pilot {
 
   void begin() {
     while (!node_.matched()) watchful_nap();
+    restarts_ = node_.peer_restarts();
     if (options_.rules) make_it_drive_with(*options_.rules);
     hand_over_params();
     give(options_.order, mission_);
-    restarts_ = node_.peer_restarts();
     begun_ = true;
     begun_us_ = clock_.now_us();
     due_us_ = whole_ms(begun_us_);
@@ -379,7 +380,8 @@ class BusPilot final : public Pilot {
   std::uint64_t asked_us_ = 0;
   std::uint64_t begun_us_ = 0;
   std::uint64_t due_us_ = 0;
-  std::uint32_t restarts_ = 0;
+  /// Of the controller before it got its table and parameters: with one more, it has lost them.
+  std::optional<std::uint32_t> restarts_;
   std::optional<std::uint16_t> answered_fix_;  // its tick
   bool begun_ = false;
   bool resuming_ = false;
