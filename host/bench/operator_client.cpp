@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include "firmware/can/codec.hpp"
+#include "firmware/can/headers.hpp"
+#include "firmware/can/limits.hpp"
 #include "firmware/can/table_hash.hpp"
 #include "host/bench/operator_link.hpp"
 #include "host/hil/error_names.hpp"
+#include "host/hil/overheard.hpp"
 
 namespace whisker::bench {
 namespace {

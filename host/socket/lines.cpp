@@ -1,5 +1,6 @@
 // Channels over byte streams.
 #include <fmt/format.h>
+#include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>

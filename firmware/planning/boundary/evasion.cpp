@@ -6,11 +6,12 @@
 namespace whisker::planning {
 namespace {
 
-// Distances from the object's nearest point; the first three for the reference body.
+// Distances from the object's nearest point; the first three for the reference body. Clear is more than the
+// two radii, 0.09 m and 0.3 m: the line of the motion is not known well.
 constexpr Length kPassed = 50_mm;
-constexpr Length kClear = 350_mm;
-constexpr Length kThreatened = 500_mm;
-constexpr Length kNear = 700_mm;
+constexpr Length kClear = 560_mm;
+constexpr Length kThreatened = 640_mm;
+constexpr Length kNear = 800_mm;
 constexpr Angle kFacing = 3_deg;
 // From the object's motion, in order of preference.
 constexpr int8_t kOffDegrees[] = {90, 120, 60, 30};
