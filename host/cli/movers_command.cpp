@@ -14,6 +14,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/report/file.hpp"
+#include "host/scenario/load.hpp"
 #include "host/scenario/write.hpp"
 #include "host/worlds/meeting.hpp"
 
@@ -27,6 +28,7 @@ struct MoversOptions {
   std::uint64_t count = 200;
   std::uint64_t seed = 1;
   PlannerKind planner = kDefaultPlanner;
+  std::string robot;
   std::string contacts;
 };
 
@@ -36,11 +38,14 @@ const char* kind(const campaign::Meeting& contact) {
   return count.seen > 0 ? "seen" : count.shown > 0 ? "shown" : count.moving > 0 ? "moving" : "standing";
 }
 
-campaign::MeetingCount drive(const MoversOptions& o, worlds::Course course, double speed_mps,
-                             ProgressLine& line) {
+/// own: a scenario with the robot, its sensors and its noise.
+campaign::MeetingCount drive(const MoversOptions& o, const Scenario& own, worlds::Course course,
+                             double speed_mps, ProgressLine& line) {
   campaign::MeetingCount count;
   for (std::uint64_t i = 0; i < o.count; ++i) {
-    Scenario scenario = worlds::meeting(course, speed_mps, o.seed + i);
+    Scenario scenario = worlds::meeting(course, speed_mps, o.seed + i, own.robot);
+    scenario.sensor = own.sensor;
+    scenario.noise = own.noise;
     bend_if_chosen(scenario.robot, o.planner);
     const campaign::Meeting meeting = campaign::meet(scenario, o.planner);
     count.add(meeting);
@@ -60,12 +65,14 @@ int execute(const MoversOptions& o) {
   if (!o.contacts.empty() && !std::filesystem::is_directory(o.contacts, error)) {
     throw UsageError(fmt::format("--contacts {}: no such folder", o.contacts));
   }
+  Scenario own;
+  if (!o.robot.empty()) apply_robot_file(own, o.robot);
   fmt::print("| course | m/s | missions | reached | said so | contacts | moving | shown | seen in time |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|\n");
   ProgressLine line;
   for (const worlds::Course course : worlds::kCourses) {
     for (const double speed_mps : kSpeeds) {
-      const campaign::MeetingCount c = drive(o, course, speed_mps, line);
+      const campaign::MeetingCount c = drive(o, own, course, speed_mps, line);
       line.show("");
       fmt::print("| {} | {:.2f} | {} | {} | {} | {} | {} | {} | {} |\n", name(course), speed_mps, c.missions,
                  c.reached, c.said, c.contacts, c.moving, c.shown, c.seen);
@@ -86,6 +93,7 @@ void add_movers(CLI::App& app, int& status) {
       ->transform(whole_number())
       ->type_name("S");
   add_planner(*cmd, o->planner);
+  add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML)");
   add_file(*cmd, "--contacts", o->contacts, "Write the scenario of each contact into this folder")
       ->type_name("FOLDER");
   cmd->callback([o, &status] { status = execute(*o); });

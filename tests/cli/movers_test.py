@@ -35,6 +35,23 @@ class Movers(Case):
         for key, row in self.table("--count", 4, "--seed", 7).items():
             self.assertEqual(row, {column: first[key][column] + second[key][column] for column in row})
 
+    def test_a_robot_of_ones_own_meets_what_moves(self):
+        same = self.file("same.toml", "body_radius_m = 0.09\n")
+        self.assertEqual(self.table("--count", 4, "--robot", same), self.table("--count", 4))
+        # A robot that sees nothing is touched more often, and never says why.
+        blind = self.file("blind.toml", "[noise]\nrange_false_clear = 1.0\n")
+        table = self.table("--count", 8, "--robot", blind)
+        self.assertEqual(sum(row["said so"] for row in table.values()), 0)
+        contacts = [sum(row["contacts"] for row in t.values()) for t in (table, self.table("--count", 8))]
+        self.assertGreater(contacts[0], contacts[1])
+
+    def test_a_large_body_starts_and_arrives_clear(self):
+        large = self.file("large.toml", "body_radius_m = 0.3\nwheel_track_m = 0.4\nthesis_danger_range_m = 0.5\n")
+        table = self.table("--count", 3, "--robot", large, "--contacts", self.folder)
+        self.assertGreater(table["oncoming", "0.05"]["reached"], 0)
+        for path in self.folder.glob("*_*.toml"):
+            self.assertNotIn("in contact at the start", whisker.whisker("run", path).stderr)
+
     def test_contacts_can_be_driven_again(self):
         table = self.table("--count", 6, "--contacts", self.folder)
         files = sorted(self.folder.glob("*.toml"))
@@ -54,6 +71,7 @@ class Movers(Case):
             (("--contacts", self.folder / "none"), "none"),
             (("--count", "x"), "x"),
             (("--planner", "nobody"), "nobody"),
+            (("--robot", self.folder / "no.toml"), "no.toml"),
         ):
             self.refused("movers", *arguments, says=says)
 

@@ -80,12 +80,12 @@ _whisker() {
       esac
       ;;
     "whisker movers")
-      options="-h --help --count --seed --planner --map-bytes --rules --map --contacts" words="" paths=none
+      options="-h --help --count --seed --planner --map-bytes --rules --map --robot --contacts" words="" paths=none
       case $before in
         --count | --seed | --map) options="" words="" paths=value ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
-        --rules) options="" words="" paths=file ;;
+        --rules | --robot) options="" words="" paths=file ;;
         --contacts) options="" words="" paths=folder ;;
       esac
       ;;

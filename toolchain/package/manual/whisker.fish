@@ -150,6 +150,7 @@ complete -c whisker -n '__fish_seen_subcommand_from movers' -l planner -x -a 'sk
 complete -c whisker -n '__fish_seen_subcommand_from movers' -l map-bytes -x -a '1024 2048 4096 8192 16384' -d 'Of planner map: 1024, 2048, 4096, 8192, 16384'
 complete -c whisker -n '__fish_seen_subcommand_from movers' -l rules -r -F -d 'Response table from a rule base (.fis, .fll, .fcl, .toml) with inputs D and R, outputs SA and SD; sets bend_course, unless a bus or a log gives the robot\'s parameters'
 complete -c whisker -n '__fish_seen_subcommand_from movers' -l map -x -d 'With --rules: the file\'s name of D, R, SA or SD; may be repeated'
+complete -c whisker -n '__fish_seen_subcommand_from movers' -l robot -r -F -d 'Parameters of your robot (TOML)'
 complete -c whisker -n '__fish_seen_subcommand_from movers' -l contacts -x -a '(__fish_complete_directories)' -d 'Write the scenario of each contact into this folder'
 complete -c whisker -n '__fish_seen_subcommand_from guard' -s h -l help -d 'Print this help message and exit'
 complete -c whisker -n '__fish_seen_subcommand_from guard' -l robot -r -F -d 'Parameters of your robot (TOML), over those of the scenario'
