@@ -77,6 +77,18 @@ TEST(Meet, ARobotInThePathOfSomethingSlowLeavesIt) {
   }
 }
 
+// What moves is not smaller because the body is.
+TEST(Meet, ASmallRobotLeavesAsFar) {
+  Params small;
+  small.body.radius = 40_mm;
+  small.body.track = 60_mm;
+  MeetingCount count;
+  for (std::uint64_t seed = 1; seed <= test::effort(60); ++seed) {
+    count.add(meet(worlds::meeting(Course::oncoming, 0.1, seed, small), kDefaultPlanner));
+  }
+  EXPECT_LE(count.contacts, count.missions * 12 / 100);
+}
+
 TEST(Meet, NothingIsSaidOfWhatStands) {
   const Meeting m = meet(scene("center = [2.0, 0.05]\nradius_m = 0.2\npath = [[2.0, 0.05], [2.0, 9.0]]\n"
                                "speed_mps = 0.0\n"),

@@ -6,12 +6,14 @@
 namespace whisker::planning {
 namespace {
 
-// Distances from the object's nearest point; the first three for the reference body. Clear is more than the
-// two radii, 0.09 m and 0.3 m: the line of the motion is not known well.
+// Behind the body's centre; for the reference body.
 constexpr Length kPassed = 50_mm;
-constexpr Length kClear = 560_mm;
-constexpr Length kThreatened = 640_mm;
-constexpr Length kNear = 800_mm;
+// From the object's nearest point to the body's rim. What moves has a size of its own, so a small body leaves
+// as far as a large one: clear is more than a radius of 0.3 m, because the line of the motion is not known
+// well.
+constexpr Length kClear = 470_mm;
+constexpr Length kThreatened = 550_mm;
+constexpr Length kNear = 710_mm;
 constexpr Angle kFacing = 3_deg;
 // From the object's motion, in order of preference.
 constexpr int8_t kOffDegrees[] = {90, 120, 60, 30};
@@ -32,11 +34,11 @@ bool Evasion::threatened(const View& view, const Params& params) noexcept {
   const Vec from = view.pose.at - at_;
   aside_ = -across(from, direction_);
   return unseen_for_ < kForgotten && along(from, direction_) > -for_body(params, kPassed) &&
-         abs(aside_) < for_body(params, kThreatened) && !farther(from, kNear);
+         abs(aside_) < params.body.radius + kThreatened && !farther(from, params.body.radius + kNear);
 }
 
 Manoeuvre Evasion::step(const View& view, const Params& params) const noexcept {
-  if ((left_ ? aside_ : -aside_) > for_body(params, kClear)) return cruise({}, params);
+  if ((left_ ? aside_ : -aside_) > params.body.radius + kClear) return cruise({}, params);
   const Reach& reach = view.local_grid->reach();
   Angle heading;
   int best = static_cast<int>(Way::occupied) + 1;
