@@ -43,6 +43,9 @@ void LocalGrid::configure(const Params& params) noexcept {
   footprint_ = units(swept_);
   reach_ = whisker::reach(params);
   if (kNarrowGaps) lane_->configure(reach_.guard + swept_ / kLaneTolerance);
+  // One true cell of a wall beyond the echo would explain it, and what stands on the clear cells between
+  // would stay unseen.
+  explains_ = loses_only_grazed(params.rangefinders) ? kUnitsPerCell : kHalfCell;
   holds_ = Length{};
   for (int i = 0; i < 3; ++i) {
     // While it turns, two readings one after another share little more than half a cone.
@@ -278,7 +281,7 @@ bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
   const EchoArc arc{Wedge(beam.axis, beam.half_cone), units(nearest - kReadingRounding),
-                    units(farthest) + kUnitsPerCell};
+                    units(farthest) + (takes ? kUnitsPerCell : explains_)};
   // What lies outside the window explains an echo.
   const Angle sides[] = {-beam.half_cone, Angle{}, beam.half_cone};
   for (const Angle side : sides) {

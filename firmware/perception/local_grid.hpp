@@ -51,7 +51,8 @@ class LocalGrid {
   void chain(const ConeObservation& observation, const EarlierObservation* before = nullptr) noexcept;
   /// An object in this beam lies between these distances. If no unclear cell explains it, all cells that the
   /// cone touches from `nearest` to one cell beyond `farthest` become unknown, except those under the body: a
-  /// sensor that loses walls seen at an angle may have cleared one of them.
+  /// sensor that loses walls seen at an angle may have cleared one of them. An unclear cell explains the echo
+  /// if its centre lies at most one cell beyond `farthest`, or half a cell unless loses_only_grazed().
   void revoke(const Beam& beam, Length nearest, Length farthest) noexcept;
   /// The same whatever explains the echo: for one that has just appeared, and while cells are clear that
   /// nobody has seen.
@@ -185,6 +186,7 @@ class LocalGrid {
   GridScale scale_{20000};
   int32_t footprint_ = 0;  // grid units
   int32_t ring_ = 0;       // ring beside the body's path; grid units
+  int32_t explains_ = 0;   // how far beyond an echo an unclear cell explains it; grid units
 
   Length place_error_;  // between two readings
   Length swept_;        // radius of rim_sweep()

@@ -17,6 +17,11 @@ struct Beam {
 /// The beam of this mount on a body with this pose.
 Beam beam_of(const Mount& mount, const Pose& body) noexcept;
 
+/// Only walls seen at a grazing angle stay invisible to these sensors.
+constexpr bool loses_only_grazed(const RangefinderParams& r) noexcept {
+  return r.incidence.raw() >= (75_deg).raw();
+}
+
 /// Observation of one beam: nothing within its cone is nearer to the apex than `free`.
 struct ConeObservation {
   Beam beam;

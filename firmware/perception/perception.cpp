@@ -9,8 +9,6 @@ constexpr Length kAppears = 50_mm;      // nearer than the reading before: anoth
 constexpr int32_t kFlankRadii = 2;
 // The side of a disc at which a beam looks at an angle does not show before its nearer part does.
 constexpr int32_t kFlankRadiiOfLostWalls = 4;
-// Only walls seen at a grazing angle stay invisible.
-constexpr Angle kGrazing = 75_deg;
 
 }  // namespace
 
@@ -96,7 +94,6 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   // that.
   const bool misaimed = !loses_walls_ && contradicted_ >= kMisaimed && contradicted_ < kMisaimed * 2;
   Pose from;
-  const bool loses_only_grazed = params.rangefinders.incidence.raw() >= kGrazing.raw();
   uint8_t hits = 0;
   int seen = 0;
   readings_err_ = misses_;
@@ -128,7 +125,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     echo_ends[i] = observation.free;
     if (allowance > Length{}) {
       echo_ends[i] = max(observation.free, sight.newest.distance);
-      if (loses_only_grazed) echo_ends[i] += allowance;
+      if (loses_only_grazed(params.rangefinders)) echo_ends[i] += allowance;
     }
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;

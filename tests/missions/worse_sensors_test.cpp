@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "host/report/units.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/scenario.hpp"
 #include "host/worlds/generate.hpp"
@@ -32,6 +33,23 @@ TEST(WorseSensors, ConesNarrowerThanStatedLeadToNoContactHere) {
     Scenario scenario = world_of(worlds::Kind::discs, seed, 50);
     scenario.sensor.cone_deg = 17.5;
     EXPECT_EQ(run(scenario).verdict, Verdict::reached) << seed;
+  }
+}
+
+// Here a beam shows a disc for a second, and a true cell of the ground behind it is not clear.
+TEST(WorseSensors, WhatABeamShowsIsNotTouchedWhereWallsVanish) {
+  struct Case {
+    std::uint64_t seed;
+    Angle cones_apart;  // the left axis from the right one
+    Angle incidence;
+  };
+  const Case cases[] = {{1400262, 95_deg, 60_deg}, {1400658, 95_deg, 60_deg}, {1400641, 85_deg, 40_deg}};
+  for (const Case& c : cases) {
+    Scenario scenario = world_of(worlds::Kind::discs, c.seed, 30);
+    scenario.robot.rangefinders.side_angle = Angle::from_raw(c.cones_apart.raw() / 2);
+    scenario.robot.rangefinders.incidence = c.incidence;
+    scenario.sensor.incidence_deg = report::degrees(c.incidence);
+    EXPECT_EQ(run(scenario).verdict, Verdict::reached) << c.seed;
   }
 }
 

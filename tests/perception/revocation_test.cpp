@@ -60,6 +60,31 @@ TEST_F(Revocation, AnEchoThatUnclearGroundExplainsTakesNothingBack) {
   EXPECT_TRUE(clear_at(200_mm, -(30_mm)));
 }
 
+/// An echo at this distance takes back clear ground although the centre of a cell in its cone that is not
+/// clear lies 216 mm away.
+bool takes_back_before_a_far_cell(Angle incidence, Length distance) {
+  Params params;
+  params.rangefinders.incidence = incidence;
+  LocalGrid grid;
+  grid.configure(params);
+  grid.reset({});
+  grid.move_to({});
+  for (Angle axis = -(40_deg); (40_deg - axis).wrapped() >= 0; axis += 2_deg)
+    grid.mark(beam_at(axis, 2_m, false));
+  grid.block({210_mm, 50_mm}, 1_mm);
+  EXPECT_FALSE(grid.is_clear({210_mm, 50_mm}));
+  grid.revoke(beam_at(0_deg, distance, true).beam, distance, distance);
+  return !grid.is_clear({distance + 5_mm, 10_mm});
+}
+
+TEST_F(Revocation, WhereWallsVanishOnlyUnclearGroundNearTheEchoExplainsIt) {
+  EXPECT_TRUE(takes_back_before_a_far_cell(45_deg, 203_mm)) << "13 mm beyond the echo";
+  EXPECT_TRUE(takes_back_before_a_far_cell(74_deg, 203_mm));
+  EXPECT_FALSE(takes_back_before_a_far_cell(45_deg, 207_mm)) << "9 mm beyond the echo";
+  EXPECT_FALSE(takes_back_before_a_far_cell(75_deg, 203_mm)) << "only grazed walls vanish";
+  EXPECT_TRUE(takes_back_before_a_far_cell(75_deg, 193_mm)) << "23 mm beyond the echo";
+}
+
 TEST_F(Revocation, TheScatterOfAnEchoReachesUnclearGroundThatExplainsIt) {
   clear(-(40_deg), 40_deg);
   LocalGrid all_clear = grid_;
