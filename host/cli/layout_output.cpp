@@ -93,7 +93,7 @@ std::string layout_words(const LayoutTrade& t) {
                       t.grid.angles_deg.front(), t.grid.angles_deg.back(), offsets, t.grid.refused,
                       t.grid.refused + t.grid.layouts.size(),
                       t.grid.refused == 0 ? "" : ": " + refused_words(t.grid));
-  text += fmt::format("each layout: {0} missions in each of {1}, seeds {2} to {3}\n\n", t.count, kWorlds,
+  text += fmt::format("missions of a layout in each of {1}: {0}, seeds {2} to {3}\n\n", t.count, kWorlds,
                       t.seed, t.seed + t.count - 1);
   text += " angle  offset  L from  margin  success  contact    s/m  discs u-trap   maze  rooms unseen\n";
   text += "   deg       m     deg     deg                                                        mm\n";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -95,12 +96,30 @@ std::optional<Fitting> towards(std::int64_t now, std::int64_t end,
   return found;
 }
 
+/// A value as short as possible between `bound` and `inside`, at most a thousandth of `bound` away from it.
+std::string short_of(const ParamEntry& e, std::int64_t bound, std::int64_t inside) {
+  constexpr int kMostDigits = 6;
+  constexpr double kThousandth = 0.001;
+  const double exact = static_cast<double>(bound) * e.unit.denominator / e.unit.numerator;
+  double scale = 1;
+  for (int digits = 0; digits < kMostDigits; ++digits, scale *= 10) {
+    for (const double whole : {std::floor(exact * scale), std::ceil(exact * scale)}) {
+      const std::int64_t raw = to_raw(whole / scale, e.unit);
+      const bool between = std::min(bound, inside) <= raw && raw <= std::max(bound, inside);
+      if (between && std::abs(whole / scale - exact) <= std::abs(exact) * kThousandth) return e.text_of(raw);
+    }
+  }
+  return e.text_of(bound);
+}
+
 std::string words(const ParamEntry& e, const Fitting& f) {
-  if (f.nearest == f.farthest) return fmt::format("{} = {}", e.key, e.text_of(f.nearest));
-  if (f.farthest == e.high) return fmt::format("{} >= {}", e.key, e.text_of(f.nearest));
-  if (f.farthest == e.low) return fmt::format("{} <= {}", e.key, e.text_of(f.nearest));
-  return fmt::format("{} from {} to {}", e.key, e.text_of(std::min(f.nearest, f.farthest)),
-                     e.text_of(std::max(f.nearest, f.farthest)));
+  const std::string nearest = short_of(e, f.nearest, f.farthest);
+  if (f.nearest == f.farthest) return fmt::format("{} = {}", e.key, nearest);
+  if (f.farthest == e.high) return fmt::format("{} >= {}", e.key, nearest);
+  if (f.farthest == e.low) return fmt::format("{} <= {}", e.key, nearest);
+  const std::string farthest = short_of(e, f.farthest, f.nearest);
+  return f.nearest < f.farthest ? fmt::format("{} from {} to {}", e.key, nearest, farthest)
+                                : fmt::format("{} from {} to {}", e.key, farthest, nearest);
 }
 
 /// The changes that satisfy the relation; with `strictly`, only those that break no other relation.

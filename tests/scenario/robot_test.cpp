@@ -63,7 +63,7 @@ TEST(RobotFile, WithAnErrorChangesNothing) {
             file.path() +
                 ":2:17: wheel_track_m = 0.5 (line 2), body_radius_m = 0.12 (line 1): the wheels must lie "
                 "within the body: wheel_track_m <= 2 body_radius_m; it would fit with wheel_track_m from "
-                "0.022861 to 0.24 or body_radius_m from 0.25 to 0.269999");
+                "0.02287 to 0.24 or body_radius_m from 0.25 to 0.2699");
   EXPECT_EQ(params.body.radius, 90_mm);
 }
 
@@ -130,6 +130,15 @@ TEST(Violations, NameTheirKeysAndWhatIsSaidToFitDoes) {
     }
   }
   EXPECT_GT(mended, 50);
+}
+
+TEST(Violations, SayShortNumbersThatFit) {
+  const auto wide = all_errors("range_side_angle_deg = 80\n");
+  ASSERT_EQ(wide.size(), 1U);
+  EXPECT_THAT(wide[0], testing::EndsWith("fit with range_side_angle_deg <= 77.5 or range_cone_deg <= 20"));
+  const auto fast = all_errors("wheel_speed_max_mps = 3\n");
+  ASSERT_EQ(fast.size(), 1U);
+  EXPECT_THAT(fast[0], testing::EndsWith("fit with wheel_speed_max_mps <= 0.896 or range_max_m >= 19.32"));
 }
 
 TEST(RobotFile, ThatSetsAParameterTwiceIsRefused) {
