@@ -311,6 +311,14 @@ constexpr Length max_range(const RangefinderParams& r, int beam) noexcept {
 constexpr Length proving_range(const RangefinderParams& r, int beam) noexcept {
   return r.clear_range == Length{} ? max_range(r, beam) : min(r.clear_range, max_range(r, beam));
 }
+/// Walls may give no echo: see RangefinderParams::incidence.
+constexpr bool loses_walls(const RangefinderParams& r) noexcept { return r.incidence.raw() < (90_deg).raw(); }
+/// Where walls may give no echo, their ends and corners give one up to this distance from the apex of a beam.
+constexpr Length kScatterRange = 500_mm;
+/// The distance up to which readings of a beam clear cells of the local grid.
+constexpr Length clearing_range(const RangefinderParams& r, int beam) noexcept {
+  return loses_walls(r) ? min(proving_range(r, beam), kScatterRange) : proving_range(r, beam);
+}
 /// Side of a cell of the local grid; by default 2/9 of the radius.
 constexpr Length patch_cell(const Params& params) noexcept;
 /// A disc of this radius around the centre covers the cell, in 1/256 of a cell: 0.7072, rounded up.
@@ -319,6 +327,9 @@ constexpr int32_t kCellCover = 184;
 constexpr int32_t kHalfWindow = 15;
 /// The radius of that disc.
 constexpr Length cell_cover(const Params& params) noexcept;
+/// The least clearance that the guard keeps. Between two checked places, 2/9 of the radius and 14.4 degrees
+/// apart, the body's flank lies up to 1/162 of the radius outside both, and up to 1/143 beside their chord.
+constexpr Length guard_slack(const Params& params) noexcept;
 /// How the beams clear the ground at the rim of the body. Near its apex, a cone is narrower than a cell, so
 /// that no single reading clears it: readings one after another must, while the body turns.
 struct RimSweep {

@@ -32,13 +32,15 @@ enum class ParamFault : uint8_t {
   stalled_before_count,       ///< stalled_after >= the time of the slowest count and the slowest stop
   settle_below_lag,           ///< settle >= motor_lag + period
   cone_too_narrow,            ///< radius of rim_sweep() <= 7/4 radius; if needed, cell <= 2/5 of it
-  patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
+  patch_too_small,            ///< ground_ahead() >= planning reach + probe, and probe >= radius / 2
   planning_below_shield,      ///< planning_margin >= shield_margin
   step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
   beams_crossed,              ///< the axes point from left to right
   creep_without_bumper,       ///< creep_speed is zero unless a bumper is fitted
   gyro_unfit,                 ///< a fitted gyro: kGyroBuilt, range >= 5/4 max_turn_rate
   walls_without_bound,        ///< straight walls need kGyroBuilt and a bound of the pose: PoseErrorParams
+  walls_unseen,  ///< incidence below 90 degrees: each wall ahead lies within cone / 2 + incidence of a beam
+  blind_at_rim,  ///< incidence below 90 degrees: no minimum range ends beyond planning reach + radius / 2
 };
 
 struct Relation {
@@ -112,10 +114,12 @@ constexpr Relation relation(ParamFault fault) noexcept {
           "range_offset_m, a larger range_cone_deg or more encoder_counts_per_m; and where no single reading "
           "clears a cell at the rim, skirt_cell_m must not be greater than 2/5 body_radius_m"};
     case F::patch_too_small:
-      return {"patch_too_small",
-              "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
-              "skirt_probe_m, with cell = skirt_cell_m or, if 0, automatic; skirt_probe_m must not be less "
-              "than body_radius_m / 2"};
+      return {
+          "patch_too_small",
+          "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
+          "skirt_probe_m, with cell = skirt_cell_m or, if 0, automatic; so must 0.5 m ahead of the front "
+          "beam (range_front_x_m or range_offset_m) if range_incidence_deg is below 90; skirt_probe_m must "
+          "not be less than body_radius_m / 2"};
     case F::planning_below_shield:
       return {"planning_below_shield", "skirt_planning_margin_m must not be less than skirt_shield_margin_m"};
     case F::step_beyond_range:
@@ -137,6 +141,19 @@ constexpr Relation relation(ParamFault fault) noexcept {
               "straight_walls must be false unless wheel_scale_sigma, wheel_scale_common_sigma or "
               "heading_drift_deg_per_sqrt_m is greater than 0, and in an image without the code for a gyro "
               "(ATmega1284P)"};
+    case F::walls_unseen:
+      return {
+          "walls_unseen",
+          "some beam must see each wall ahead: if range_incidence_deg is below 90, every direction from "
+          "-90 to 90 degrees must lie within range_incidence_deg + range_cone_deg / 2 of the axis of a beam "
+          "(range_side_angle_deg; range_left_angle_deg, range_front_angle_deg, range_right_angle_deg)"};
+    case F::blind_at_rim:
+      return {
+          "blind_at_rim",
+          "the sensors must measure what stands near the rim: if range_incidence_deg is below 90, "
+          "range_min_m "
+          "(range_left_min_m, range_front_min_m, range_right_min_m) and the distance of the apex along its "
+          "beam (range_offset_m) must not exceed 3/2 body_radius_m + skirt_planning_margin_m"};
   }
   return {"?", ""};
 }
@@ -239,8 +256,33 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
 
 [[gnu::always_inline]] constexpr bool patch_holds_ways(const Params& p) noexcept {
   const Reach ways = reach(p);
-  return patch_cell(p) * kHalfWindow >= ways.planning + cell_cover(p) + ways.probe &&
-         ways.probe >= p.body.radius / 2;
+  return formula::ground_ahead(p) >= ways.planning + ways.probe && ways.probe >= p.body.radius / 2;
+}
+
+/// A wall gives an echo to a beam in whose cone a ray meets it within the incidence of its normal.
+[[gnu::always_inline]] constexpr bool walls_are_seen(const RangefinderParams& r) noexcept {
+  if (!loses_walls(r)) return true;
+  constexpr int64_t kAbeam = INT64_C(1) << 30;
+  int64_t seen_to = -kAbeam;  // normals from the right to the left
+  for (int pass = 0; pass < 3; ++pass) {
+    for (int i = 0; i < 3; ++i) {
+      const int64_t half = int64_t{beam_cone(r, i).raw() / 2} + r.incidence.raw();
+      const int64_t axis = beam_axis(r, i).wrapped();
+      if (axis - half <= seen_to && axis + half > seen_to) seen_to = axis + half;
+    }
+  }
+  return seen_to >= kAbeam;
+}
+
+[[gnu::always_inline]] constexpr bool rim_is_measured(const Params& p) noexcept {
+  if (!loses_walls(p.rangefinders)) return true;
+  const Length most = reach(p).planning + p.body.radius / 2;
+  bool holds = true;
+  for (int i = 0; i < 3; ++i) {
+    const Mount m = mount(p.rangefinders, i);
+    holds = holds && along(m.apex, m.axis) + min_range(p.rangefinders, i) <= most;
+  }
+  return holds;
 }
 
 }  // namespace relations
@@ -286,7 +328,9 @@ template <class Visit>
       visit(F::gyro_unfit,
             p.gyro.fitted == Fitted::no || (kGyroBuilt && p.gyro.range >= p.wheels.max_turn_rate * 5 / 4)) &&
       visit(F::walls_without_bound,
-            p.walls.straight == Fitted::no || (kGyroBuilt && declares_errors(p.pose_error))));
+            p.walls.straight == Fitted::no || (kGyroBuilt && declares_errors(p.pose_error))) &&
+      visit(F::walls_unseen, r::walls_are_seen(p.rangefinders)) &&
+      visit(F::blind_at_rim, r::rim_is_measured(p)));
 }
 
 namespace formula {

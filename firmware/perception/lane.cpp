@@ -75,22 +75,29 @@ void Lane::mark_around(Vec at, Length radius) noexcept {
   }
 }
 
-bool Lane::holds(const Vec& from, Angle heading, Length step, Length radius) const noexcept {
+bool Lane::is_clear(const Span& span, int row) const noexcept {
+  if (span.empty()) return true;
+  if (span.low <= -kHalfCell || span.high >= kCells * kUnitsPerCell + kHalfCell) return false;
+  return (span.columns() & ~clear_[row]) == 0;
+}
+
+bool Lane::holds(const Vec& from, const Vec& way, Length radius) const noexcept {
   const GridPoint here = local(from);
-  const GridPoint there = local(from + polar(heading, step));
+  const GridPoint there = local(from + way);
+  const Length step = norm(way);
   const int32_t reach = scale_.units(radius);
   const int32_t half = scale_.units(step / 2);
   constexpr int32_t kWidth = kRows * kUnitsPerCell;
-  constexpr int32_t kLength = kCells * kUnitsPerCell;
   if (there.y - reach <= kRim || there.y + reach >= kWidth - kRim) return false;
-  const HalfPlane ahead = HalfPlane::facing(heading - from_.heading);
+  const HalfPlane ahead = HalfPlane::facing(bearing(way) - from_.heading);
   for (Rows rows(there.y, reach + kHalfSquare); rows.more() && rows.row() < kRows; rows.next()) {
     Span span = Span::around(there.x, reach);
     span.touched_by_disc(there.x, rows.offset(there.y), reach);
     ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
-    if (span.empty()) continue;
-    if (span.low <= -kHalfCell || span.high >= kLength + kHalfCell) return false;
-    if ((span.columns() & ~clear_[rows.row()]) != 0) return false;
+    Span rim;
+    rim.touched_by_disc(there.x, rows.offset(there.y), body_);
+    ahead.clip(rim, here.x, rows.offset(here.y), half - kCellCover);
+    if (!is_clear(span, rows.row()) || !is_clear(rim, rows.row())) return false;
   }
   return true;
 }

@@ -18,8 +18,10 @@ class Lane {
   static constexpr int kRows = 16;
 
   /// From the middle of the lane to its edge.
-  void configure(Length half_width) noexcept {
+  /// `body`: what the body covers between two checked places.
+  void configure(Length half_width, Length body) noexcept {
     scale_.cell_um = half_width.raw() / (kRows / 2);
+    body_ = scale_.units(body);
     open_ = false;
   }
   /// The lane begins here, and leads along this heading. Nothing on it is clear.
@@ -35,18 +37,19 @@ class Lane {
   void take_back(const Beam& beam, Length begins, Length farthest) noexcept;
   /// Clears the cells completely inside this disc.
   void mark_around(Vec at, Length radius) noexcept;
-  /// True if the ground that a disc touches at the end of a step, as far as it lies
-  /// ahead of its start, is clear and inside the lane.
-  bool holds(const Vec& from, Angle heading, Length step, Length radius) const noexcept;
+  /// See LocalGrid::approaches(): true if all ground that counts there lies on the lane and is clear.
+  bool holds(const Vec& from, const Vec& way, Length radius) const noexcept;
   /// For display and tests.
   bool is_clear(Vec at) const noexcept;
   Length half_width() const noexcept { return Length::from_raw(scale_.cell_um * (kRows / 2)); }
 
  private:
   GridPoint local(Vec at) const noexcept;
+  bool is_clear(const Span& span, int row) const noexcept;
   void clear() noexcept;
 
   GridScale scale_{};
+  int32_t body_ = 0;  // grid units
   bool open_ = false;
   bool aged_ = false;
   Pose from_;

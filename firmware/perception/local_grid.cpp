@@ -39,10 +39,13 @@ Beam beam_of(const Mount& mount, const Pose& body) noexcept {
 void LocalGrid::configure(const Params& params) noexcept {
   scale_.cell_um = patch_cell(params).raw();
   swept_ = rim_sweep(params).radius;
+  for (int i = 0; i < 3; ++i) clears_[i] = clearing_range(params.rangefinders, i);
   place_error_ = formula::place_error(params);
   footprint_ = units(swept_);
+  body_ = units(params.body.radius + guard_slack(params));
   reach_ = whisker::reach(params);
-  if (kNarrowGaps) lane_->configure(reach_.guard + swept_ / kLaneTolerance);
+  if (kNarrowGaps)
+    lane_->configure(reach_.guard + swept_ / kLaneTolerance, params.body.radius + guard_slack(params));
   // One true cell of a wall beyond the echo would explain it, and what stands on the clear cells between
   // would stay unseen.
   explains_ = loses_only_grazed(params.rangefinders) ? kUnitsPerCell : kHalfCell;
@@ -188,11 +191,13 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
   const Length taken_off = room + kReadingRounding;
-  const Length earlier = before == nullptr ? observation.free : before->free;
+  const Length clears = clears_[observation.number];
+  const Length cleared = min(observation.free, clears);
+  const Length earlier = before == nullptr ? cleared : min(before->free, clears);
   if (has_lane()) {
-    lane_->mark(beam, observation.free - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
+    lane_->mark(beam, cleared - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
   }
-  const int32_t free = units(observation.free - taken_off);
+  const int32_t free = units(cleared - taken_off);
   const int32_t free_before = units(earlier - taken_off);
   const int32_t echo = units(observation.free) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
@@ -310,7 +315,7 @@ void LocalGrid::revoke(const Beam& beam, Length nearest, Length farthest) noexce
   if (has_lane()) lane_->take_back(beam, nearest - kReadingRounding, farthest);
 }
 
-void LocalGrid::revoke_beside(const ConeObservation& observation, int32_t radii) noexcept {
+void LocalGrid::revoke_beside(const ConeObservation& observation, Length farthest, int32_t radii) noexcept {
   Beam beam = observation.beam;
   const Length free = observation.free;
   if (observation.number == hal::kFront || !nearby(local(beam.apex)) || units(free) > radii * footprint_)
@@ -319,8 +324,8 @@ void LocalGrid::revoke_beside(const ConeObservation& observation, int32_t radii)
   const Angle outward = beam.half_cone + beside;
   beam.axis += observation.number == hal::kLeft ? outward : -outward;
   beam.half_cone = beside;
-  echo_arc(beam, free, free, true);
-  if (has_lane()) lane_->take_back(beam, free - kReadingRounding, free);
+  echo_arc(beam, free, farthest, true);
+  if (has_lane()) lane_->take_back(beam, free - kReadingRounding, farthest);
 }
 
 void LocalGrid::block(Vec centre, Length radius) noexcept {

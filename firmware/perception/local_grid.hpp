@@ -54,13 +54,13 @@ class LocalGrid {
   /// sensor that loses walls seen at an angle may have cleared one of them. An unclear cell explains the echo
   /// if its centre lies at most one cell beyond `farthest`, or half a cell unless loses_only_grazed().
   void revoke(const Beam& beam, Length nearest, Length farthest) noexcept;
-  /// The same whatever explains the echo: for one that has just appeared, and while cells are clear that
-  /// nobody has seen.
+  /// The same whatever explains the echo: for one that has just appeared or may be anywhere up to the minimum
+  /// range, and while cells are clear that nobody has seen.
   void take_back(const Beam& beam, Length nearest, Length farthest) noexcept;
   /// The echo of a side beam has just appeared. If it is nearer than so many radii, the arc beside the cone,
-  /// away from the front beam, becomes unknown: what gives the echo may reach there, and the flank would meet
-  /// it unseen.
-  void revoke_beside(const ConeObservation& observation, int32_t radii) noexcept;
+  /// away from the front beam, becomes unknown up to one cell beyond `farthest`: what gives the echo may
+  /// reach there, and the flank would meet it unseen.
+  void revoke_beside(const ConeObservation& observation, Length farthest, int32_t radii) noexcept;
   /// An object in this beam between `observation.free` and `farthest` has moved there. Resets the cells that
   /// it can reach while the body stops, except those under the body. For a second, mark() clears no cell that
   /// near to an echo.
@@ -100,10 +100,11 @@ class LocalGrid {
       }
     }
   }
-  /// True if a step of this length brings the body nearer to a cell that is not clear, and then within
-  /// `radius` of it. Cells abeam are ignored: passing them reduces the distance by less than the guard's
-  /// margin. False below kShortestStep, and where the lane holds.
-  bool approaches(const Vec& from, Angle heading, Length step, Length radius,
+  /// True if the body, after this way, is nearer to a cell that is not clear than before, and then within
+  /// `radius` of it. Of a cell whose centre lies abeam, only the ground that the body itself would cover
+  /// counts: so a body near an obstacle may drive along it. False below kShortestStep, and where the lane
+  /// holds.
+  bool approaches(const Vec& from, const Vec& way, Length radius,
                   Avoid avoid = Avoid::unclear) const noexcept;
   /// The grid covers at most this distance from the body along each axis.
   Length half_window() const noexcept { return Length::from_raw(scale_.cell_um * (kCells / 2)); }
@@ -116,8 +117,7 @@ class LocalGrid {
   /// The cells that an echo between these distances may come from: takes them back, or tells whether all are
   /// clear.
   bool echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept;
-  // Passing a corner at lateral distance d: the body comes x^2 / 2d nearer than x before it (docs/ground.md).
-  static constexpr int32_t kAbeam = 80;
+  static constexpr int32_t kAbeam = 80;  // a body that passes an obstacle may turn a little towards it
   static constexpr Length kReadingRounding = Length::from_raw(1000);
   using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
@@ -185,9 +185,11 @@ class LocalGrid {
   Length approach_;  // travel of a moving object while the body stops
   GridScale scale_{20000};
   int32_t footprint_ = 0;  // grid units
+  int32_t body_ = 0;       // what the body covers between two checked places; grid units
   int32_t ring_ = 0;       // ring beside the body's path; grid units
   int32_t explains_ = 0;   // how far beyond an echo an unclear cell explains it; grid units
 
+  Length clears_[3];    // how far a beam's readings clear ground
   Length place_error_;  // between two readings
   Length swept_;        // radius of rim_sweep()
   Length holds_;        // from this distance on, a cone holds a cell

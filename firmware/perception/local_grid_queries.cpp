@@ -44,16 +44,16 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
   return found;
 }
 
-bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length radius,
-                           Avoid avoid) const noexcept {
+bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid avoid) const noexcept {
+  const Length step = norm(way);
   if (step < kShortestStep) return false;
   const Point here = local(from);
-  const Point there = local(from + polar(heading, step));
+  const Point there = local(from + way);
   const int32_t reach = units(radius);
   const int32_t half = units(step / 2);
   // Beyond the window nothing is known.
   if (!in_window(there, reach + kHalfSquare)) return true;
-  const HalfPlane ahead = HalfPlane::facing(heading);
+  const HalfPlane ahead = HalfPlane::facing(way, step);
   const Row box = Span::around(there.x, reach).columns();
   for (Rows rows(there.y, reach + kHalfSquare); rows.more(); rows.next()) {
     Row unclear = box & to_window(~clear_row(rows.row()));
@@ -62,8 +62,13 @@ bool LocalGrid::approaches(const Vec& from, Angle heading, Length step, Length r
     Span span;
     span.touched_by_disc(there.x, rows.offset(there.y), reach);
     ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
-    if ((span.columns() & unclear) != 0) {
-      return !(has_lane() && lane_->holds(from, heading, step, radius));
+    // The point of an unclear cell that the body would reach first may lie half a diagonal ahead of its
+    // centre.
+    Span rim;
+    rim.touched_by_disc(there.x, rows.offset(there.y), body_);
+    ahead.clip(rim, here.x, rows.offset(here.y), half - kCellCover);
+    if ((span.columns() & unclear) != 0 || (rim.columns() & unclear & solid_row(rows.row())) != 0) {
+      return !(has_lane() && lane_->holds(from, way, radius));
     }
   }
   return false;
@@ -108,7 +113,7 @@ void LocalGrid::vouch(Vec centre, Length radius, const Beam (&beams)[3], const L
 }
 
 void LocalGrid::take_back(const Beam& beam, Length nearest, Length farthest) noexcept {
-  if (kVouches && nearby(local(beam.apex))) echo_arc(beam, nearest, farthest, true);
+  if (nearby(local(beam.apex))) echo_arc(beam, nearest, farthest, true);
 }
 
 bool LocalGrid::is_clear(Vec at) const noexcept {

@@ -13,7 +13,7 @@ constexpr int32_t kFlankRadiiOfLostWalls = 4;
 }  // namespace
 
 void Perception::configure(const Params& params) noexcept {
-  loses_walls_ = params.rangefinders.incidence.raw() < (90_deg).raw();
+  loses_walls_ = loses_walls(params.rangefinders);
   for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
   local_grid_.configure(params);
   if (kBumperBuilt) contacts_->configure(params.body.radius);
@@ -89,6 +89,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
   Length echo_ends[hal::kBeams];
+  bool too_near[hal::kBeams] = {};
   SeenRange shown[hal::kBeams];
   // Beams that point beside their axes cause contradictions wherever the robot passes. More of them refute
   // that.
@@ -138,6 +139,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       const bool explained = loses_walls_ || misses_ || sight.phantoms || contradicted_ >= kDistrusted;
       if (approaches || !explained) moved[i] = sight.farthest;
     }
+    // It may be anywhere up to the minimum range.
+    too_near[i] = sight.newest.validity == Validity::too_near;
+    if (too_near[i]) echo_ends[i] = max(echo_ends[i], min_range(params.rangefinders, i));
     const uint8_t bit = static_cast<uint8_t>(1U << i);
     if (observation.hit) hits = static_cast<uint8_t>(hits | bit);
     // A single clear reading is not evidence: it needs a second one.
@@ -159,11 +163,14 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
     if (echo) {
       local_grid_.revoke(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
-      if ((appears[i] && takes_back(body.pose.at)) || (kVouches && vouched_->any)) {
+      // What stands on clear ground would be explained by any unclear cell of so deep an arc.
+      const bool hides = too_near[i] && (loses_walls_ || misses_);
+      if (hides || (appears[i] && takes_back(body.pose.at)) || (kVouches && vouched_->any)) {
         local_grid_.take_back(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
       }
       if (appears[i]) {
-        local_grid_.revoke_beside(out.observations[i], loses_walls_ ? kFlankRadiiOfLostWalls : kFlankRadii);
+        local_grid_.revoke_beside(out.observations[i], echo_ends[i],
+                                  loses_walls_ ? kFlankRadiiOfLostWalls : kFlankRadii);
       }
     }
     if (!kMotionDetectorBuilt || moved[i] == Length{}) continue;

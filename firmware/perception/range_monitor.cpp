@@ -22,7 +22,7 @@ constexpr uint16_t kMostFalseClears = 32768;
 }  // namespace
 
 void RangeMonitor::configure(const Params& params) noexcept {
-  const bool lossy = params.rangefinders.incidence.raw() < (90_deg).raw();
+  const bool lossy = loses_walls(params.rangefinders);
   doubtful_rate_ = lossy ? kLossyContradicted : kContradicted;
 }
 

@@ -84,6 +84,11 @@ void HalfPlane::hold(Span& span, int32_t x, int32_t dy) const noexcept { clip(sp
 
 HalfPlane HalfPlane::facing(Angle direction) noexcept { return {q14(cos(direction)), q14(sin(direction))}; }
 
+HalfPlane HalfPlane::facing(const Vec& way, Length length) noexcept {
+  const auto part = [&](Length x) { return multiply_divide(x.raw(), 1 << 14, length.raw()); };
+  return {part(way.x), part(way.y)};
+}
+
 Wedge::Wedge(Angle axis, Angle half) noexcept
     : left_{q14(sin(axis + half)), -q14(cos(axis + half))},
       right_{-q14(sin(axis - half)), q14(cos(axis - half))},

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "firmware/math/angle.hpp"
+#include "firmware/math/vec.hpp"
 
 namespace whisker::perception {
 
@@ -82,6 +83,8 @@ class Rows {
 struct HalfPlane {
   /// The half plane ahead of a boundary that faces this direction.
   static HalfPlane facing(Angle direction) noexcept;
+  /// The same for a vector of this length > 0.
+  static HalfPlane facing(const Vec& way, Length length) noexcept;
   /// The half plane to the left of a line in this direction.
   static HalfPlane left_of(Angle direction) noexcept { return facing(direction + Angle::turns(1, 4)); }
   int32_t nx;

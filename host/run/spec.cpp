@@ -39,6 +39,7 @@ void set_reach(const Sensor& sensor, sim::RobotSpec& spec) {
   }
   spec.soft_range = sensor.soft_range_m;
   spec.dark_is_invalid = sensor.lost_is == Lost::invalid;
+  spec.near_is_farther = sensor.near_is == Near::farther;
   spec.corner_scatter = sensor.corner_scatter_m;
 }
 

@@ -1,6 +1,7 @@
 #include "host/scenario/coverage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "firmware/params/relations.hpp"
@@ -8,7 +9,7 @@
 namespace whisker {
 namespace {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+constexpr double kRadiansADegree = 3.14159265358979323846 / 180;
 constexpr int kSamples = 400;  // of a radius
 // The local grid reaches at least as far ahead of the body: half its window, whose middle is 3 cells ahead.
 constexpr int kCellsAhead = kHalfWindow + 3;
@@ -51,7 +52,7 @@ bool sees(const Cone& c, double y, Stretch x) {
   const double dy = y - c.y;
   for (const double side : {1.0, -1.0}) {
     // side * cross(edge, point - apex) <= 0 inside.
-    const double edge = (c.axis_deg + side * c.half_deg) * kRadPerDeg;
+    const double edge = (c.axis_deg + side * c.half_deg) * kRadiansADegree;
     const double ex = std::cos(edge), ey = std::sin(edge);
     x.keep(side * ey, -side * (ex * dy + ey * c.x));
   }
@@ -94,11 +95,41 @@ double outer_edge_deg(const Params& params, const Sensor& sensor, bool left) {
 }
 
 double needed_incidence_deg(const Params& params, const Sensor& sensor) {
-  return 90 - std::min(outer_edge_deg(params, sensor, true), outer_edge_deg(params, sensor, false));
+  std::array<Cone, 3> cones{cone(params, sensor, 0), cone(params, sensor, 1), cone(params, sensor, 2)};
+  const auto low = [](const Cone& c) { return c.axis_deg - c.half_deg; };
+  const auto high = [](const Cone& c) { return c.axis_deg + c.half_deg; };
+  std::sort(cones.begin(), cones.end(), [&](const Cone& a, const Cone& b) { return low(a) < low(b); });
+  double needed = low(cones[0]) + 90, seen_to = high(cones[0]);
+  for (const Cone& c : cones) {
+    needed = std::max(needed, (low(c) - seen_to) / 2);
+    seen_to = std::max(seen_to, high(c));
+  }
+  return std::max(needed, 90 - seen_to);
+}
+
+bool wall_in_time(const Params& params, const Sensor& sensor, double normal_deg, double incidence_deg) {
+  const double w = normal_deg * kRadiansADegree,
+               away = metres(reach(params).guard) + seen_ahead_m(params) * std::cos(w);
+  for (int i = 0; i < 3; ++i) {
+    const Cone c = cone(params, sensor, i);
+    const double ray = std::clamp(normal_deg, c.axis_deg - c.half_deg, c.axis_deg + c.half_deg);
+    const double off = std::fabs(ray - normal_deg);
+    if (off > incidence_deg || off >= 90) continue;
+    const double range = (away - c.x * std::cos(w) - c.y * std::sin(w)) / std::cos(off * kRadiansADegree);
+    if (range <= c.reach_m && range >= metres(min_range(params.rangefinders, i))) return true;
+  }
+  return false;
 }
 
 double seen_incidence_deg(const Params& params, const Sensor& sensor) {
   return std::min(degrees(params.rangefinders.incidence), sensor.incidence_deg);
+}
+
+double rim_ahead_m(const Params& params, int beam) {
+  const Mount m = mount(params.rangefinders, beam);
+  const double ahead = metres(along(m.apex, m.axis)), beside = metres(across(m.apex, m.axis));
+  const double radius = metres(params.body.radius);
+  return std::sqrt(std::max(0.0, radius * radius - beside * beside)) - ahead;
 }
 
 double seen_ahead_m(const Params& params) {

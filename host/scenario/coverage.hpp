@@ -13,11 +13,18 @@ constexpr double kIncidenceMargin = 5;
 /// believed to be wider than it is at the distance up to which readings clear ground counts with its true
 /// width there.
 double outer_edge_deg(const Params& params, const Sensor& sensor, bool left);
-/// deg. The smallest incidence up to which sensors must see flat walls so that no wall ahead is invisible: 90
-/// minus the outer edge of the side that reaches less far.
+/// deg. The smallest incidence up to which sensors must see flat walls so that no wall ahead is invisible:
+/// the most that a direction between -90 and 90 degrees lies beside every cone.
 double needed_incidence_deg(const Params& params, const Sensor& sensor);
+/// Whether a straight wall whose normal points `normal_deg` to the left of straight ahead gives an echo
+/// within this incidence, nearer than readings clear ground and not too near, where the body must begin to
+/// brake.
+bool wall_in_time(const Params& params, const Sensor& sensor, double normal_deg, double incidence_deg);
 /// deg. The incidence up to which the sensors see flat walls: the smaller of the robot's and the sensor's.
 double seen_incidence_deg(const Params& params, const Sensor& sensor);
+
+/// m. The way from the apex of a beam along its axis to the rim of the body.
+double rim_ahead_m(const Params& params, int beam);
 
 /// A strip of ground beside a straight course, m from the course.
 struct Strip {

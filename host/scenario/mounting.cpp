@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host/scenario/coverage.hpp"
 #include "host/scenario/param_list.hpp"
@@ -11,6 +12,7 @@
 namespace whisker {
 namespace {
 
+constexpr const char* kBeamNames[] = {"left", "front", "right"};
 constexpr double kRounding = 1e-6;  // deg, of an angle in the fixed-point unit
 
 /// To a tenth of a degree, upwards.
@@ -18,6 +20,16 @@ double tenth_above(double deg) { return std::ceil(deg * 10 - kRounding) / 10; }
 
 bool walls_may_be_invisible(const Params& p, const Sensor& s) {
   return seen_incidence_deg(p, s) + kRounding < needed_incidence_deg(p, s) + kIncidenceMargin;
+}
+
+/// deg. The normal of a wall ahead that shows itself too late, if sensors lose walls.
+std::optional<double> late_wall(const Params& p, const Sensor& s) {
+  const double seen = seen_incidence_deg(p, s);
+  if (seen >= 90) return std::nullopt;
+  for (int half_deg = -180; half_deg <= 180; ++half_deg) {
+    if (!wall_in_time(p, s, half_deg / 2.0, seen + kRounding)) return half_deg / 2.0;
+  }
+  return std::nullopt;
 }
 
 /// Which side angle reaches the edge that this incidence needs.
@@ -41,7 +53,16 @@ std::string angle_that_sees_walls(const Params& p, const Sensor& s) {
 }
 
 std::string invisible_walls(const Params& p, const Sensor& s) {
-  const double edge = 90 - needed_incidence_deg(p, s), seen = seen_incidence_deg(p, s);
+  const double needed = needed_incidence_deg(p, s), edge = 90 - needed, seen = seen_incidence_deg(p, s);
+  if (std::min(outer_edge_deg(p, s, true), outer_edge_deg(p, s, false)) > edge + kRounding) {
+    return fmt::format(
+        "walls ahead may be invisible: some have a normal {:.1f} degrees beside the two cones next to it, "
+        "and "
+        "walls echo up to {:.1f} degrees, less than {:.1f} + {:.0f}; it would fit with a smaller gap between "
+        "two cones (range_side_angle_deg, range_cone_deg), or with sensors that see walls up to {:.1f} "
+        "degrees",
+        needed, seen, needed, kIncidenceMargin, tenth_above(needed + kIncidenceMargin));
+  }
   return fmt::format(
       "walls ahead may be invisible: the cones reach {:.1f} degrees outward (range_side_angle_deg + "
       "range_cone_deg / 2) and walls echo up to {:.1f} degrees: the sum {:.1f} is less than 90 + {:.0f}; it "
@@ -97,6 +118,26 @@ std::vector<MountingWarning> mounting_warnings(const Params& params, const Senso
   std::vector<MountingWarning> all;
   if (walls_may_be_invisible(params, sensor)) {
     all.push_back({"invisible_walls", invisible_walls(params, sensor)});
+  } else if (const auto normal = late_wall(params, sensor)) {
+    all.push_back(
+        {"invisible_walls",
+         fmt::format("walls ahead may be seen too late: one with a normal {:.1f} degrees beside the "
+                     "course gives no echo between the minimum range and the range that clears "
+                     "ground (range_max_m, range_clear_m) where the body must begin to brake, {:.0f} "
+                     "mm before it",
+                     *normal, seen_ahead_m(params) * 1e3)});
+  }
+  for (int i = 0; i < 3 && sensor.near_is == Near::farther; ++i) {
+    const double hidden =
+        sensor.min_range_m.value_or(min_range(params.rangefinders, i).raw() * 1e-6) - rim_ahead_m(params, i);
+    if (hidden <= 1e-6) continue;
+    all.push_back(
+        {"near_reads_farther",
+         fmt::format("what is nearer than the sensors' minimum range reads as farther, and that of the "
+                     "{} beam ends {:.0f} mm beyond the rim of the body: an obstacle there may be "
+                     "touched; mount the sensor so far behind the rim that nothing can be nearer",
+                     kBeamNames[i], hidden * 1e3)});
+    break;
   }
   const Strip strip = unseen_strip(params, sensor);
   if (hides_obstacles(strip, params)) all.push_back({"unseen_strip", unseen(params, sensor, strip)});

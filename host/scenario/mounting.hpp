@@ -10,7 +10,7 @@
 namespace whisker {
 
 struct MountingWarning {
-  const char* kind;  ///< "invisible_walls", "unseen_strip"
+  const char* kind;  ///< "invisible_walls", "near_reads_farther", "unseen_strip"
   std::string text;  ///< one line: what is wrong, and which change of one value would fit
 };
 

@@ -9,6 +9,10 @@ namespace whisker {
 /// The reading of a target that is too dark to give an echo.
 enum class Lost { clear, invalid };
 
+/// The reading of a target nearer than the minimum range. `farther`: the output folds back, and a target at d
+/// reads as one at minimum^2 / d, as of infrared triangulation.
+enum class Near { too_near, farther };
+
 /// The defaults are what the robot believes.
 struct Sensor {
   std::string_view model;  ///< name of a row of sensor_models.hpp; empty: none
@@ -19,7 +23,7 @@ struct Sensor {
   std::optional<double>
       cone_far_deg;               ///< the same at the maximum range; a wider one than cone_deg counts as it
   double corner_scatter_m = 0.5;  ///< up to this distance, ends of walls and corners echo at any angle
-  std::optional<double> min_range_m;  ///< nearer is too_near
+  std::optional<double> min_range_m;  ///< nearer is near_is
   std::optional<double> max_range_m;  ///< farther is clear, of a target of reference reflectance in the dark
   double sigma_m = 0;                 ///< standard deviation of a distance
   double sigma_share = 0;             ///< the same, as a share of the distance
@@ -27,6 +31,7 @@ struct Sensor {
   double reflectance_reference = 1;   ///< from which max_range_m holds; 0: reflectance does not matter
   double ambient_knee_klux = 0.15;    ///< that doubles the noise power of the dark; 0: light does not matter
   Lost lost_is = Lost::clear;
+  Near near_is = Near::too_near;
 
   // Of the mounting, of one unit, and of the surroundings; no model sets them.
   double skew_deg = 0;   ///< by which the side beams point farther outward

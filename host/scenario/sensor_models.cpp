@@ -130,7 +130,7 @@ constexpr SensorModel kModels[] = {
         5,       // the same (assumed)
         75,      // a matt surface shows the spot at nearly every angle; less light than vl53l0x (assumed)
         kNever,  // as vl53l0x
-        0.1,     // DS: nearer, the output falls again; a driver cannot tell, this model says too_near
+        0.1,     // DS: nearer, the output falls again
         0.8,     // DS
         0.002,   // assumed
         0.02,    // assumed: the voltage falls with 1 / distance, so its noise grows with the distance
@@ -140,6 +140,7 @@ constexpr SensorModel kModels[] = {
         Lost::clear,
         26,     // DS: a measurement takes 38.3 ms
         0.044,  // DS: and up to 5 ms until the output follows
+        Near::farther,
     },
     {
         "gp2y0a41",
@@ -157,6 +158,7 @@ constexpr SensorModel kModels[] = {
         Lost::clear,
         60,     // DS: a measurement takes 16.5 ms
         0.022,  // DS: and up to 5 ms until the output follows
+        Near::farther,
     },
 };
 
@@ -201,6 +203,7 @@ void apply(const SensorModel& model, Sensor& sensor) {
   sensor.reflectance_reference = model.reflectance_reference;
   sensor.ambient_knee_klux = model.ambient_knee_klux;
   sensor.lost_is = model.lost_is;
+  sensor.near_is = model.near_is;
 }
 
 }  // namespace whisker

@@ -26,7 +26,8 @@ struct SensorModel {
   Lost lost_is;
   // Of the driver at its usual setting; apply() leaves them out, because a robot knows them.
   int rate_hz;
-  double latency_s;  ///< from the start of a measurement
+  double latency_s;               ///< from the start of a measurement
+  Near near_is = Near::too_near;  ///< apply() sets it
 };
 
 /// Every name and every alias.

@@ -30,7 +30,7 @@ constexpr Key kKeys[] = {
     key("cone_deg", kTrueCone, &Sensor::cone_deg, "the true full width"),
     key("cone_far_deg", kTrueCone, &Sensor::cone_far_deg, "the same at the maximum range"),
     key("corner_scatter_m", kTrueLength, &Sensor::corner_scatter_m, "up to it, corners echo at any angle"),
-    key("min_range_m", kTrueMinRange, &Sensor::min_range_m, "nearer is too near"),
+    key("min_range_m", kTrueMinRange, &Sensor::min_range_m, "nearer is near_is"),
     key("max_range_m", kTrueMaxRange, &Sensor::max_range_m, "farther is clear"),
     key("sigma_m", kRangeSigma, &Sensor::sigma_m, "standard deviation of a range"),
     key("sigma_share", kProbability, &Sensor::sigma_share, "the same, of the distance"),
@@ -50,7 +50,14 @@ constexpr Key kKeys[] = {
     key("crosstalk", kProbability, &Sensor::crosstalk, "readings that may be a neighbouring beam's"),
 };
 
-constexpr const char* kLostWords[] = {"clear", "invalid"};
+/// A key whose value is one of two words, in the order of the enumeration.
+struct Choice {
+  const char* key;
+  const char* words[2];
+  const char* comment;
+};
+constexpr Choice kLost{"lost_is", {"clear", "invalid"}, "what is too dark"};
+constexpr Choice kNear{"near_is", {"too_near", "farther"}, "what is nearer than min_range_m"};
 
 void read_model(const TableReader& table, Sensor& s) {
   const std::string name = table.text("model");
@@ -65,12 +72,16 @@ void read_model(const TableReader& table, Sensor& s) {
   apply(*model, s);
 }
 
-void read_lost(const TableReader& table, Sensor& s) {
-  const std::string word = table.text("lost_is");
-  if (word != kLostWords[0] && word != kLostWords[1]) {
-    table.fail_at("lost_is", fmt::format("'lost_is' must be clear or invalid, but is '{}'", word));
+template <class E>
+void read_choice(const TableReader& table, const Choice& choice, E& value) {
+  if (!table.has(choice.key)) return;
+  const std::string word = table.text(choice.key);
+  const bool second = word == choice.words[1];
+  if (!second && word != choice.words[0]) {
+    table.fail_at(choice.key, fmt::format("'{}' must be {} or {}, but is '{}'", choice.key, choice.words[0],
+                                          choice.words[1], word));
   }
-  s.lost_is = word == kLostWords[1] ? Lost::invalid : Lost::clear;
+  value = static_cast<E>(second ? 1 : 0);
 }
 
 /// A key that is set alone may narrow a cone whose far width comes from elsewhere.
@@ -100,7 +111,7 @@ std::string line(std::string_view name, const std::string& value, std::string_vi
 }  // namespace
 
 std::vector<std::string_view> sensor_keys() {
-  std::vector<std::string_view> names = {"model", "lost_is"};
+  std::vector<std::string_view> names = {"model", kLost.key, kNear.key};
   for (const Key& k : kKeys) names.emplace_back(k.name);
   return names;
 }
@@ -116,7 +127,8 @@ void read_sensor(const TableReader& table, Sensor& s) {
       s.*k.maybe = x;
     }
   }
-  if (table.has("lost_is")) read_lost(table, s);
+  read_choice(table, kLost, s.lost_is);
+  read_choice(table, kNear, s.near_is);
   check_cone(table, s);
   check_ranges(table, s);
 }
@@ -133,10 +145,12 @@ std::string sensor_toml(const Sensor& s) {
       out += line(k.name, toml_number(*(s.*k.maybe)), k.comment);
     }
   }
-  if (s.lost_is != usual.lost_is) {
-    const char* word = kLostWords[s.lost_is == Lost::invalid ? 1 : 0];
-    out += line("lost_is", toml_string(word), "what is too dark");
-  }
+  const auto add = [&out](const Choice& choice, int value, int usual_value) {
+    if (value == usual_value) return;
+    out += line(choice.key, toml_string(choice.words[value]), choice.comment);
+  };
+  add(kLost, static_cast<int>(s.lost_is), static_cast<int>(usual.lost_is));
+  add(kNear, static_cast<int>(s.near_is), static_cast<int>(usual.near_is));
   return out.empty() ? out : "\n[sensor]  # what the rangefinders really do\n" + out;
 }
 

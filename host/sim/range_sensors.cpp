@@ -117,9 +117,11 @@ hal::RangeReading RangeSensors::classified(int i, double metres, bool dark) {
   if (metres > beam.max_range) {
     return without_distance(dark ? hal::RangeStatus::invalid : hal::RangeStatus::clear);
   }
+  const bool folds = robot_.near_is_farther && metres < beam.min_range;
+  if (folds) metres = metres > 0 ? beam.min_range * beam.min_range / metres : beam.max_range * 2;
   const double measured = metres + sigma(metres) * deviate;
   if (measured > beam.max_range) return without_distance(hal::RangeStatus::clear);
-  if (measured < beam.min_range) return without_distance(hal::RangeStatus::too_near);
+  if (measured < beam.min_range && !folds) return without_distance(hal::RangeStatus::too_near);
   return {millimetres_of(measured), hal::RangeStatus::ok, 0, 0};
 }
 

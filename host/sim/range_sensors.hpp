@@ -21,9 +21,9 @@ namespace whisker::sim {
 ///
 /// The first condition that holds decides: lost with the dropout probability (invalid); wrongly clear with
 /// the false-clear probability; without an echo within max_range, invalid if something there is too dark and
-/// dark_is_invalid, else clear; else the distance plus noise, which may make it clear or too_near, rounded to
-/// the nearest millimetre. Each measurement draws the same count of random numbers, whatever the outcome.
-/// Before the first arrival: stale, age 255, sequence 15.
+/// dark_is_invalid, else clear; else the distance, folded back below the minimum if near_is_farther, plus
+/// noise, which may make it clear or too_near, rounded to the nearest millimetre. Each measurement draws the
+/// same count of random numbers, whatever the outcome. Before the first arrival: stale, age 255, sequence 15.
 class RangeSensors {
  public:
   RangeSensors(const RobotSpec& robot, const NoiseSpec& noise, uint64_t seed);

@@ -42,6 +42,7 @@ struct RobotSpec {
   double corner_scatter = 0.5;               ///< m; up to it, ends of segments give an echo at any angle
   double echo_range = __builtin_huge_val();  ///< m; what is not nearer is too dark to give an echo
   bool dark_is_invalid = false;              ///< such a reading is invalid, not clear
+  bool near_is_farther = false;  ///< a target at d, nearer than the minimum, reads as one at minimum^2 / d
   double soft_range = __builtin_huge_val();  ///< m; obstacles that absorb give an echo only if nearer
   double range_sigma = 0;                    ///< m, standard deviation of a distance
   double range_sigma_share = 0;              ///< the same, as a share of the distance

@@ -67,13 +67,13 @@ class RobotCheck(Case):
         self.assertNotEqual(noisy.stdout.splitlines()[:3], check(self.file("none.toml", "")).stdout.splitlines()[:3])
 
     def test_warnings_are_lines_and_change_no_status(self):
-        robot = self.file("sonar.toml", "range_incidence_deg = 45\nrange_cone_deg = 15\n")
+        robot = self.file("sonar.toml", "range_incidence_deg = 55\nrange_cone_deg = 15\n")
         done = check(robot, "--header", self.folder / "sonar.hpp")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue((self.folder / "sonar.hpp").exists())
         lines = done.stderr.splitlines()
         self.assertEqual(len(lines), 2)
-        self.assertRegex(lines[0], r"^whisker: \S+sonar.toml: warning: walls ahead may be invisible: .* fit with range_side_angle_deg >= 42.5, ")
+        self.assertRegex(lines[0], r"^whisker: \S+sonar.toml: warning: walls ahead may be invisible: .* fit with range_side_angle_deg >= 32.5, ")
         self.assertRegex(lines[1], r"^whisker: \S+sonar.toml: warning: the cones leave a gap: ")
         told = check(robot, "--json")
         self.assertEqual((told.returncode, told.stderr), (0, ""))

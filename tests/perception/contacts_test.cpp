@@ -75,9 +75,8 @@ TEST(Contacts, StayObstaclesInTheLocalGridWhateverTheBeamsSay) {
   EXPECT_FALSE(percept.local_grid->is_clear(place));
   EXPECT_GT(percept.local_grid->along(pose.at, 0_deg, 100_mm, reach.planning).suspect, 0)
       << "no planner goes there";
-  EXPECT_TRUE(percept.local_grid->approaches(pose.at, 0_deg, 20_mm, reach.guard))
+  EXPECT_TRUE(percept.local_grid->approaches(pose.at, {20_mm, 0_mm}, reach.guard))
       << "nor does the guard let it";
-  EXPECT_FALSE(percept.local_grid->approaches(pose.at, 0_deg, -20_mm, reach.guard));
   EXPECT_TRUE(percept.local_grid->is_clear({60_mm, 0_m})) << "under the body";
   EXPECT_EQ(percept.contacts->count(), 1);
   perception.forget(pose);

@@ -11,7 +11,7 @@ constexpr Length kRadius = 90_mm;
 /// here.
 Lane clear_to(Length end) {
   Lane lane;
-  lane.configure(96_mm);
+  lane.configure(96_mm, 90_mm);
   lane.open({});
   for (Length x = 0_mm; x < end - 150_mm; x = x + 5_mm) lane.mark_around({x, 0_mm}, 150_mm);
   return lane;
@@ -19,25 +19,25 @@ Lane clear_to(Length end) {
 
 TEST(Lane, HoldsAStepOnItsMiddle) {
   const Lane lane = clear_to(380_mm);
-  EXPECT_TRUE(lane.holds({150_mm, 0_mm}, Angle{}, 10_mm, kRadius));
-  EXPECT_TRUE(lane.holds({150_mm, 0_mm}, 180_deg, 10_mm, kRadius)) << "and the way back";
+  EXPECT_TRUE(lane.holds({150_mm, 0_mm}, {10_mm, 0_mm}, kRadius));
+  EXPECT_TRUE(lane.holds({150_mm, 0_mm}, {-10_mm, 0_mm}, kRadius)) << "and the way back";
 }
 
 TEST(Lane, HoldsNoBodyThatReachesBeyondItsEdge) {
   const Lane lane = clear_to(380_mm);
-  EXPECT_FALSE(lane.holds({150_mm, 10_mm}, Angle{}, 10_mm, kRadius));
-  EXPECT_FALSE(lane.holds({150_mm, -(10_mm)}, Angle{}, 10_mm, kRadius));
+  EXPECT_FALSE(lane.holds({150_mm, 10_mm}, {10_mm, 0_mm}, kRadius));
+  EXPECT_FALSE(lane.holds({150_mm, -(10_mm)}, {10_mm, 0_mm}, kRadius));
 }
 
 TEST(Lane, HoldsNoStepOntoGroundThatIsNotClear) {
   const Lane lane = clear_to(250_mm);
-  EXPECT_TRUE(lane.holds({100_mm, 0_mm}, Angle{}, 10_mm, kRadius));
-  EXPECT_FALSE(lane.holds({170_mm, 0_mm}, Angle{}, 10_mm, kRadius));
+  EXPECT_TRUE(lane.holds({100_mm, 0_mm}, {10_mm, 0_mm}, kRadius));
+  EXPECT_FALSE(lane.holds({170_mm, 0_mm}, {10_mm, 0_mm}, kRadius));
 }
 
 TEST(Lane, HoldsNoStepBeyondItsEnd) {
   const Lane lane = clear_to(500_mm);
-  EXPECT_FALSE(lane.holds({300_mm, 0_mm}, Angle{}, 10_mm, kRadius));
+  EXPECT_FALSE(lane.holds({300_mm, 0_mm}, {10_mm, 0_mm}, kRadius));
 }
 
 /// An echo 200 mm ahead in a cone of 10 degrees: the cells before it and beside it stay clear.
@@ -58,7 +58,7 @@ TEST(Lane, ForgetsGroundAfterTwoSpans) {
   EXPECT_TRUE(lane.is_clear({150_mm, 0_mm}));
   lane.age();
   EXPECT_FALSE(lane.is_clear({150_mm, 0_mm}));
-  EXPECT_FALSE(lane.holds({150_mm, 0_mm}, Angle{}, 10_mm, kRadius));
+  EXPECT_FALSE(lane.holds({150_mm, 0_mm}, {10_mm, 0_mm}, kRadius));
 }
 
 }  // namespace

@@ -101,7 +101,26 @@ TEST(Params, EveryRelationIsChecked) {
        [](Params& p) { p.rangefinders.beams[hal::kFront].angle = direction_of(31_deg); }},
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 200_mm; }},
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 44_mm; }},
+      {ParamFault::patch_too_small,
+       [](Params& p) {
+         p.body.radius = 300_mm;
+         p.thesis.danger_range = 500_mm;
+         p.rangefinders.incidence = 80_deg;
+         p.skirt.probe = 200_mm;
+       }},
       {ParamFault::planning_below_shield, [](Params& p) { p.skirt.shield_margin = 7_mm; }},
+      {ParamFault::walls_unseen, [](Params& p) { p.rangefinders.incidence = 47_deg; }},
+      {ParamFault::walls_unseen,
+       [](Params& p) {
+         p.rangefinders.incidence = 14_deg;
+         p.rangefinders.side_angle = 75_deg;
+         p.rangefinders.cone = 12_deg;
+       }},
+      {ParamFault::blind_at_rim,
+       [](Params& p) {
+         p.rangefinders.incidence = 60_deg;
+         p.rangefinders.min_range = 142_mm;
+       }},
   };
   std::set<ParamFault> seen;
   for (const Broken& c : cases) {

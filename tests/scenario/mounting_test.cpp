@@ -31,14 +31,14 @@ TEST(MountingWarnings, ThereAreNoneForIdealSensorsAndForLayoutsWithAMargin) {
 }
 
 TEST(MountingWarnings, WallsAreInvisibleBelow95Degrees) {
-  const auto all = warnings("range_incidence_deg = 45\n");
+  const auto all = warnings("range_incidence_deg = 50\n");
   ASSERT_EQ(all.size(), 1U);
   EXPECT_STREQ(all[0].kind, "invisible_walls");
   EXPECT_EQ(
       all[0].text,
       "walls ahead may be invisible: the cones reach 42.5 degrees outward (range_side_angle_deg + "
-      "range_cone_deg / 2) and walls echo up to 45.0 degrees: the sum 87.5 is less than 90 + 5; it would "
-      "fit with range_side_angle_deg >= 37.5, or with sensors that see walls up to 52.5 degrees");
+      "range_cone_deg / 2) and walls echo up to 50.0 degrees: the sum 92.5 is less than 90 + 5; it would "
+      "fit with range_side_angle_deg >= 32.5, or with sensors that see walls up to 52.5 degrees");
   EXPECT_EQ(warnings("range_incidence_deg = 52.4\n").size(), 1U);
 }
 
@@ -53,11 +53,27 @@ TEST(MountingWarnings, TheFilesSensorCounts) {
   EXPECT_STREQ(narrow[1].kind, "unseen_strip");
 }
 
+TEST(MountingWarnings, ASensorThatFoldsBackMustSitBehindTheRim) {
+  const std::string folds = "[sensor]\nmin_range_m = 0.1\nnear_is = \"farther\"\n";
+  const auto all = warnings(folds);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_STREQ(all[0].kind, "near_reads_farther");
+  EXPECT_THAT(all[0].text, HasSubstr("left beam ends 10 mm beyond the rim"));
+  EXPECT_TRUE(warnings("body_radius_m = 0.1\n" + folds).empty());
+}
+
+TEST(MountingWarnings, WallsBetweenTwoConesAreSeenByNone) {
+  const auto all = warnings("range_incidence_deg = 25\nrange_side_angle_deg = 70\n");
+  ASSERT_GE(all.size(), 1U);
+  EXPECT_STREQ(all[0].kind, "invisible_walls");
+  EXPECT_THAT(all[0].text, HasSubstr("22.5 degrees beside the two cones next to it"));
+}
+
 TEST(MountingWarnings, OwnAxesAreNamed) {
-  const std::string axes = "range_incidence_deg = 45\nrange_left_angle_deg = 30\nrange_right_angle_deg = ";
-  EXPECT_THAT(warnings(axes + "-32\n")[0].text,
-              HasSubstr("range_left_angle_deg >= 37.5 and range_right_angle_deg <= -37.5,"));
-  EXPECT_THAT(warnings(axes + "-40\n")[0].text, HasSubstr("fit with range_left_angle_deg >= 37.5, or"));
+  const std::string axes = "range_incidence_deg = 50\nrange_left_angle_deg = 30\nrange_right_angle_deg = ";
+  EXPECT_THAT(warnings(axes + "-31\n")[0].text,
+              HasSubstr("range_left_angle_deg >= 32.5 and range_right_angle_deg <= -32.5,"));
+  EXPECT_THAT(warnings(axes + "-40\n")[0].text, HasSubstr("fit with range_left_angle_deg >= 32.5, or"));
 }
 
 /// Each "key >= value" or "key <= value" that the text proposes, alone, leaves no warning.
@@ -74,8 +90,8 @@ int proposals_that_hold(const std::string& keys, const std::string& text) {
 
 TEST(MountingWarnings, WhatTheyProposeFits) {
   const std::pair<const char*, int> robots[] = {
-      {"range_incidence_deg = 45\n", 1},
-      {"range_incidence_deg = 41.37\n", 1},
+      {"range_incidence_deg = 50\n", 1},
+      {"range_incidence_deg = 48.37\n", 1},
       {"range_cone_deg = 15\n", 2},
       {"range_cone_deg = 20\nrange_side_angle_deg = 45\n", 2},
       {"range_offset_m = 0.08\nrange_side_angle_deg = 38\n", 3},

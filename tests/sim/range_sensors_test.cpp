@@ -344,6 +344,16 @@ TEST(RangeSensors, LoseWhatIsTooDark) {
   EXPECT_EQ(measured(robot, Wall(0.8001).world).beam[hal::kFront].status, hal::RangeStatus::invalid);
 }
 
+TEST(RangeSensors, FoldBackNearerThanTheMinimum) {
+  RobotSpec robot;
+  for (BeamSpec& beam : robot.beams) beam.min_range = 0.1;
+  EXPECT_EQ(measured(robot, Wall(0.05).world).beam[hal::kFront].status, hal::RangeStatus::too_near);
+  robot.near_is_farther = true;
+  EXPECT_EQ(measured(robot, Wall(0.1).world).beam[hal::kFront].mm, 100);
+  EXPECT_EQ(measured(robot, Wall(0.05).world).beam[hal::kFront].mm, 200);
+  EXPECT_EQ(measured(robot, Wall(0.004).world).beam[hal::kFront].status, hal::RangeStatus::clear);
+}
+
 TEST(RangeSensors, TheCoverGlassTakesThePlaceOfClearReadingsOnly) {
   RobotSpec robot;
   robot.cover_glass = 0.2;
