@@ -185,7 +185,7 @@ void Robot::perceive(planning::View& view, bool counted) noexcept {
   hal::RangeReadings readings{};
   const bool read = rangefinders_.read(readings);
   if (kCalibrationBuilt) view.raw->ranges = readings;
-  perception_.sense(read ? &readings : nullptr, last_tick_, view.pose.heading, params_, status_.health);
+  perception_.sense(read ? &readings : nullptr, last_tick_, view.pose, params_, status_.health);
   status_.echoes = perception_.latest();
   supervisor_.check_ranges(perception_.lost_for(last_tick_));
   if (params_.bumper.fitted == Fitted::yes) take_bumps(view.pose, counted);
