@@ -147,7 +147,7 @@ void Guard::perceive() noexcept {
   const Pose pose = localizer_.inside();
   hal::RangeReadings readings{};
   const bool read = rangefinders_.read(readings);
-  perception_.sense(read ? &readings : nullptr, last_tick_, pose.heading, params_, status_.health);
+  perception_.sense(read ? &readings : nullptr, last_tick_, pose, params_, status_.health);
   supervisor_.check_ranges(perception_.lost_for(last_tick_));
   if (supervisor_.faulted()) return;
   perception::Percept percept;

@@ -64,7 +64,7 @@ struct ConditioningParams {
   int32_t reads = 3;
   Length tolerance = 60_mm;       ///< of agreeing readings
   Duration stale_after = 100_ms;  ///< no new measurement for this long: stale
-  Angle stuck_turn = 150_deg;     ///< the same millimetre over this turn: stuck
+  Angle stuck_turn = 150_deg;     ///< the same millimetre over this turn: suspected to be stuck
 };
 
 /// Which distance is D; the thesis states both.

@@ -9,6 +9,10 @@ static_assert(kFrames, "a goal is in the user's frame");
 constexpr Duration kRestDelay = 15000_ms;
 constexpr Duration kLongestRest = 5000_ms;
 
+constexpr planning::Why out_of_range(bool is) noexcept {
+  return is ? planning::Why::goal_out_of_range : planning::Why::none;
+}
+
 }  // namespace
 
 Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
@@ -61,26 +65,34 @@ bool Robot::correct(const Pose& pose, const localization::PoseSigma& sigma) noex
   return true;
 }
 
-void Robot::aim_again() noexcept {
-  Vec at;
-  if (aimed(localizer_.frame().aim_again(at))) planner_.move_goal(at);
+/// Parameters that are refused keep no goal anyway.
+bool Robot::keeps(Length tolerance) const noexcept {
+  return status_.health.fault == Fault::invalid_params || tolerance >= planning::smallest_tolerance(params_);
 }
 
-bool Robot::aimed(bool in_range) noexcept {
-  has_goal_ = in_range;
-  goal_refused_ = !in_range;
-  if (!in_range) planner_.cancel();
-  return in_range;
+void Robot::aim_again() noexcept {
+  Vec at;
+  if (aimed(out_of_range(!localizer_.frame().aim_again(at)))) planner_.move_goal(at);
+}
+
+bool Robot::aimed(planning::Why refused) noexcept {
+  refused_ = refused;
+  has_goal_ = refused == planning::Why::none;
+  if (!has_goal_) planner_.cancel();
+  return has_goal_;
 }
 
 bool Robot::set_goal(const planning::Goal& goal) noexcept {
   planning::Goal inside = goal;
-  if (aimed(localizer_.frame().aim(goal.at, inside.at))) planner_.set_goal(inside);
+  planning::Why refused = out_of_range(!localizer_.frame().aim(goal.at, inside.at));
+  if (refused == planning::Why::none && !keeps(goal.tolerance)) refused = planning::Why::tolerance_too_small;
+  if (aimed(refused)) planner_.set_goal(inside);
   return has_goal_;
 }
 
 void Robot::cancel() noexcept {
-  has_goal_ = goal_refused_ = false;
+  has_goal_ = false;
+  refused_ = planning::Why::none;
   planner_.cancel();
 }
 
@@ -185,7 +197,7 @@ void Robot::perceive(planning::View& view, bool counted) noexcept {
   hal::RangeReadings readings{};
   const bool read = rangefinders_.read(readings);
   if (kCalibrationBuilt) view.raw->ranges = readings;
-  perception_.sense(read ? &readings : nullptr, last_tick_, view.pose.heading, params_, status_.health);
+  perception_.sense(read ? &readings : nullptr, last_tick_, view.pose, params_, status_.health);
   status_.echoes = perception_.latest();
   supervisor_.check_ranges(perception_.lost_for(last_tick_));
   if (params_.bumper.fitted == Fitted::yes) take_bumps(view.pose, counted);
@@ -252,10 +264,10 @@ void Robot::plan(const planning::View& view) noexcept {
   if (kNarrowGaps && decision.lane->opens) perception_.open_lane(decision.lane->from);
   const bool running = decision.outcome == planning::Outcome::running;
   has_goal_ = running;
-  if (goal_refused_) {
+  if (refused_ != planning::Why::none) {
     decision.outcome = planning::Outcome::gave_up;
     decision.mode = planning::Mode::gave_up;
-    decision.why = planning::Why::goal_out_of_range;
+    decision.why = refused_;
   }
   motion_.begin(decision.manoeuvre, view.pose);
   const bool waits = view.settled && running && decision.manoeuvre.kind == planning::ManoeuvreKind::keep;

@@ -10,6 +10,7 @@
 #include "firmware/params.hpp"
 #include "firmware/part.hpp"
 #include "firmware/perception/perception.hpp"
+#include "firmware/planning/goal_planner.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/planning/planner.hpp"
 #include "firmware/safety/bump_reflex.hpp"
@@ -80,9 +81,14 @@ class Robot {
   ///
   /// False: it is refused, or lies beyond kPlaceLimit, which is a fault; nothing else changed.
   bool correct(const Pose& pose, const localization::PoseSigma& sigma) noexcept;
-  /// Accepted in any state; reset() drops a goal that was set during a fault. False: the goal lies beyond
-  /// kPlaceLimit, or corrections have moved it there. It is then refused with Why::goal_out_of_range, and the
-  /// current mission ends.
+  /// Accepted in any state; reset() drops a goal that was set during a fault. False: the goal is refused, and
+  /// the current mission ends. The reason is Why::goal_out_of_range if the goal lies beyond kPlaceLimit, or
+  /// corrections have moved it there, and Why::tolerance_too_small if its tolerance is below
+  /// planning::smallest_tolerance().
+  ///
+  /// That is enough for the last step, not for any way: even ideal wheels leave the body beside its estimate
+  /// by up to two encoder counts / track x the way driven, 2.9 mm per metre for the reference robot, and an
+  /// eighth of the tolerance is reserved for it.
   bool set_goal(const planning::Goal& goal) noexcept;
   void cancel() noexcept;
   /// Ends the fault, drops all readings, and resets all ground except that under the body to unknown. The
@@ -116,8 +122,9 @@ class Robot {
 
   bool placeable(const Pose& pose) noexcept;
   void aim_again() noexcept;
-  /// Notes whether the goal is within range; without one the planner has nothing to do.
-  bool aimed(bool in_range) noexcept;
+  bool keeps(Length tolerance) const noexcept;
+  /// Notes why the goal is refused, or that it is not; without one the planner has nothing to do.
+  bool aimed(planning::Why refused) noexcept;
 
   hal::Rangefinders& rangefinders_;
   planning::Planner& planner_;
@@ -133,9 +140,9 @@ class Robot {
   Duration resting_for_;   // for the gyro
   bool started_ = false;
   bool has_goal_ = false;  // a mission is active
-  bool goal_refused_ = false;
   bool was_settled_ = false;
   bool braked_elsewhere_ = false;
+  planning::Why refused_ = planning::Why::none;  // the last goal
 
   Status status_;
   localization::Localizer localizer_;

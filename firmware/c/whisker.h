@@ -234,7 +234,8 @@ bool whisker_place(whisker_robot* robot, int32_t x_um, int32_t y_um, uint32_t he
  * beyond the limit. */
 bool whisker_correct(whisker_robot* robot, int32_t x_um, int32_t y_um, uint32_t heading, int32_t sigma_um,
                      uint32_t sigma_heading);
-/* False: the goal lies beyond the limit; the current mission ends. */
+/* Robot::set_goal. False: the goal lies beyond the limit, or its tolerance is smaller than the robot keeps;
+ * the status says which, and the current mission ends. */
 bool whisker_set_goal(whisker_robot* robot, int32_t x_um, int32_t y_um, int32_t tolerance_um);
 void whisker_cancel(whisker_robot* robot);
 /* Ends a fault. Set the goal again. */

@@ -26,7 +26,7 @@ enum class ParamFault : uint8_t {
   tolerance_below_encoder,    ///< drive_tolerance and the rim distance of turn_tolerance >= one count
   gap_below_period,           ///< max_gap, unless zero, >= 2 period
   stuck_within_cone,          ///< stuck_turn > cone: within its cone, a real object keeps its distance
-  cone_too_wide,              ///< cone <= 60 degrees, so that a healthy sensor never looks stuck
+  cone_too_wide,              ///< cone <= 60 degrees: square rooms do not look round
   tolerance_above_step,       ///< drive_tolerance < small_step, turn_tolerance < delta
   tolerance_below_wire,       ///< the rim distance of turn_tolerance >= 0.1 mm/s x settle
   stalled_before_count,       ///< stalled_after >= the time of the slowest count and the slowest stop

@@ -24,6 +24,7 @@ void Perception::configure(const Params& params) noexcept {
 }
 
 void Perception::forget(const Pose& pose) noexcept {
+  conditioner_.put_down();
   history_.reset();
   local_grid_.reset(pose);
   if (kBumperBuilt) contacts_->reset();
@@ -73,10 +74,10 @@ bool Perception::takes_back(Vec body) noexcept {
   return true;
 }
 
-void Perception::sense(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
+void Perception::sense(const hal::RangeReadings* readings, Time now, const Pose& body, const Params& params,
                        Health& health) noexcept {
   if (readings == nullptr) count(health.range_refused);
-  conditioner_.update(readings, now, heading, params, health);
+  conditioner_.update(readings, now, body, params, health);
 }
 
 void Perception::observe(const Standing& body, const Params& params, Percept& out) noexcept {

@@ -41,7 +41,7 @@ class Perception {
   void lose_history() noexcept { history_.reset(); }
 
   /// Takes in the readings of a tick. readings == nullptr: the HAL refused.
-  void sense(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
+  void sense(const hal::RangeReadings* readings, Time now, const Pose& body, const Params& params,
              Health& health) noexcept;
   /// A body with this pose touches something with these switches: see Contacts::add().
   void touch(uint8_t pressed, const Pose& body) noexcept { contacts_->add(pressed, body); }

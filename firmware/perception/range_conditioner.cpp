@@ -33,25 +33,16 @@ void BeamConditioner::reset(Time now) noexcept {
   last_usable_ = now;
 }
 
-bool BeamConditioner::is_stuck(const hal::RangeReading& reading, Angle heading, Angle stuck_turn) noexcept {
-  if (reading.status != hal::RangeStatus::ok) {
-    repeating_ = false;
-    return false;
-  }
-  if (!repeating_ || reading.mm != repeated_mm_) {
-    repeating_ = true;
-    repeated_mm_ = reading.mm;
-    repeated_since_ = heading;
-    return false;
-  }
-  // While the body turns, an object keeps its range over at most the cone's width, and a second object may be
-  // exactly as far; only a dead sensor repeats the same millimetre over half a turn.
-  return magnitude(heading - repeated_since_) >= stuck_turn.raw();
+bool BeamConditioner::is_stuck(const hal::RangeReading& reading, const Pose& body,
+                               Angle stuck_turn) noexcept {
+  if (reading.status == hal::RangeStatus::ok) return repetition_.stuck(reading.mm, body, stuck_turn);
+  repetition_.end();
+  return false;
 }
 
-Validity BeamConditioner::classify(const hal::RangeReading& reading, Angle heading, const Params& params,
+Validity BeamConditioner::classify(const hal::RangeReading& reading, const Pose& body, const Params& params,
                                    Health& health) noexcept {
-  if (is_stuck(reading, heading, params.conditioning.stuck_turn)) {
+  if (is_stuck(reading, body, params.conditioning.stuck_turn)) {
     count(health.range_stuck);
     return Validity::stuck;
   }
@@ -89,8 +80,8 @@ void BeamConditioner::miss(Time now, const Params& params, Health& health) noexc
   age(now, params, health);
 }
 
-void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle heading, const Params& params,
-                             Health& health) noexcept {
+void BeamConditioner::update(const hal::RangeReading& reading, Time now, const Pose& body,
+                             const Params& params, Health& health) noexcept {
   fresh_ = false;
   const bool seen = reading.sequence == sequence_;
   // The pose at the time of such an old reading is unknown.
@@ -101,7 +92,7 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle h
   }
   sequence_ = reading.sequence;
   last_new_ = now;
-  const Validity validity = classify(reading, heading, params, health);
+  const Validity validity = classify(reading, body, params, health);
   latest_ = {distance_of(validity, reading.mm, max_range(params.rangefinders, beam_)), validity};
   if (!usable(validity)) return;
 
@@ -110,8 +101,8 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, Angle h
   newest_ = static_cast<int8_t>((newest_ + 1) % kHistory);
   history_[newest_] = {latest_.distance, now - milliseconds(reading.age_ms)};
   if (count_ < kHistory) ++count_;
-  judge(heading - heading_, params);
-  heading_ = heading;
+  judge(body.heading - heading_, params);
+  heading_ = body.heading;
 }
 
 const BeamConditioner::Measurement& BeamConditioner::recent(int back) const noexcept {
@@ -236,15 +227,19 @@ void RangeConditioner::reset(Time now) noexcept {
   for (BeamConditioner& b : beam_) b.reset(now);
 }
 
-void RangeConditioner::update(const hal::RangeReadings* readings, Time now, Angle heading,
+void RangeConditioner::update(const hal::RangeReadings* readings, Time now, const Pose& body,
                               const Params& params, Health& health) noexcept {
   for (int i = 0; i < hal::kBeams; ++i) {
     if (readings != nullptr) {
-      beam_[i].update(readings->beam[i], now, heading, params, health);
+      beam_[i].update(readings->beam[i], now, body, params, health);
     } else {
       beam_[i].miss(now, params, health);
     }
   }
+}
+
+void RangeConditioner::put_down() noexcept {
+  for (BeamConditioner& b : beam_) b.put_down();
 }
 
 Echoes RangeConditioner::look(Time since, const Params& params) const noexcept {

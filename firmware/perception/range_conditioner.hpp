@@ -4,10 +4,11 @@
 #include <stdint.h>
 
 #include "firmware/health.hpp"
-#include "firmware/math/angle.hpp"
+#include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
 #include "firmware/perception/echo.hpp"
+#include "firmware/perception/repetition.hpp"
 #include "hal/types.hpp"
 
 namespace whisker::perception {
@@ -39,9 +40,9 @@ class BeamConditioner {
   /// The beam, a hal::Beam, chooses its own parameters.
   explicit BeamConditioner(int beam = 0) noexcept : beam_(static_cast<int8_t>(beam)) {}
 
-  /// Takes in the reading that the HAL returns at this tick; a known one (same sequence) only ages. The
-  /// heading of the body tells a stuck sensor from a static world.
-  void update(const hal::RangeReading& reading, Time now, Angle heading, const Params& params,
+  /// Takes in the reading that the HAL returns at this tick; a known one (same sequence) only ages. How the
+  /// body moves tells a stuck sensor from a static world.
+  void update(const hal::RangeReading& reading, Time now, const Pose& body, const Params& params,
               Health& health) noexcept;
   /// The HAL returned nothing.
   void miss(Time now, const Params& params, Health& health) noexcept;
@@ -60,6 +61,8 @@ class BeamConditioner {
   uint16_t false_clear_share() const noexcept { return false_clear_share_; }
   /// Clears the history; the beam is pending and, from `now`, not yet lost.
   void reset(Time now) noexcept;
+  /// The pose jumps: repetitions before it mean nothing.
+  void put_down() noexcept { repetition_.end(); }
 
  private:
   struct Measurement {
@@ -69,9 +72,9 @@ class BeamConditioner {
   /// The measurement this many before the newest; below kHistory. Not inline, because small chips have no
   /// room.
   [[gnu::noinline]] const Measurement& recent(int back) const noexcept;
-  Validity classify(const hal::RangeReading& reading, Angle heading, const Params& params,
+  Validity classify(const hal::RangeReading& reading, const Pose& body, const Params& params,
                     Health& health) noexcept;
-  bool is_stuck(const hal::RangeReading& reading, Angle heading, Angle stuck_turn) noexcept;
+  bool is_stuck(const hal::RangeReading& reading, const Pose& body, Angle stuck_turn) noexcept;
   /// Estimates how many readings are wrong.
   void judge(Angle turned, const Params& params) noexcept;
   /// The nearest distance that enough of these readings confirm, or nothing nearer than `far`. Undecided if
@@ -87,9 +90,7 @@ class BeamConditioner {
   bool fresh_ = false;
   Time last_new_;
   Time last_usable_;
-  uint16_t repeated_mm_ = 0;
-  bool repeating_ = false;
-  Angle repeated_since_;
+  Repetition repetition_;
   uint8_t sequence_ = 0xFF;
   Angle heading_;          // at the last usable reading
   int8_t steady_ = 0;      // readings since a fast turn
@@ -102,8 +103,9 @@ class RangeConditioner {
  public:
   void reset(Time now) noexcept;
   /// readings == nullptr: the HAL refused.
-  void update(const hal::RangeReadings* readings, Time now, Angle heading, const Params& params,
+  void update(const hal::RangeReadings* readings, Time now, const Pose& body, const Params& params,
               Health& health) noexcept;
+  void put_down() noexcept;
   Echoes look(Time since, const Params& params) const noexcept;
   RecentReadings sight(int beam, const Params& params) const noexcept { return beam_[beam].sight(params); }
   Echoes latest() const noexcept;

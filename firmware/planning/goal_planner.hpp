@@ -7,6 +7,18 @@
 
 namespace whisker::planning {
 
+/// The goal counts as reached only this far inside its tolerance, because the estimate has an error.
+constexpr Length reserve(Length tolerance) noexcept { return tolerance / 8; }
+
+/// The smallest tolerance of a goal that this robot keeps with ideal wheels: a step that ends within
+/// drive_tolerance ends inside the reserve, and the reserve holds the rounding of an encoder count. A long
+/// way needs more: see Robot::set_goal(). For parameters that check() accepts.
+constexpr Length smallest_tolerance(const Params& params) noexcept {
+  const Length count =
+      micrometres((1000000 + params.wheels.counts_per_metre - 1) / params.wheels.counts_per_metre);
+  return max(count * 8, (params.motion.drive_tolerance * 8 + micrometres(3)) / 7);
+}
+
 /// Processes a command at the next step(), and calls advance() at every other one while the outcome is open.
 class GoalPlanner : public Planner {
  public:
@@ -37,8 +49,9 @@ class GoalPlanner : public Planner {
   /// The goal was moved; distances to it are measured again.
   virtual void follow_goal() noexcept {}
 
-  /// The goal counts as reached only well inside the tolerance, because the estimate has an error.
-  bool is_goal(Length distance) const noexcept { return distance <= goal_.tolerance - goal_.tolerance / 8; }
+  bool is_goal(Length distance) const noexcept {
+    return distance <= goal_.tolerance - reserve(goal_.tolerance);
+  }
   void report(Mode mode, Why why) noexcept;
   /// Comes to rest until there is a new goal.
   void finish(Mode mode, Why why, Outcome outcome) noexcept;

@@ -50,6 +50,7 @@ const char* name(Why why) noexcept {
     case Why::goal_out_of_range: return "goal_out_of_range";
     case Why::bumped: return "bumped";
     case Why::gyro_rest: return "gyro_rest";
+    case Why::tolerance_too_small: return "tolerance_too_small";
   }
   return "?";
 }

@@ -48,12 +48,13 @@ enum class Why : uint8_t {
   step_budget,    ///< the maximum number of steps is used up
   length_budget,  ///< the maximum path length is used up
   cancelled,
-  fault,              ///< see Health for its name
-  goal_out_of_range,  ///< the goal is beyond kPlaceLimit: refused
-  bumped,             ///< a bump switch was pressed: backing off
-  gyro_rest,          ///< standing to measure the bias of the gyro
+  fault,                ///< see Health for its name
+  goal_out_of_range,    ///< the goal is beyond kPlaceLimit: refused
+  bumped,               ///< a bump switch was pressed: backing off
+  gyro_rest,            ///< standing to measure the bias of the gyro
+  tolerance_too_small,  ///< the goal's tolerance is below smallest_tolerance(): refused
 };
-constexpr int kWhys = 26;
+constexpr int kWhys = 27;
 
 const char* name(Mode mode) noexcept;
 const char* name(Why why) noexcept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "firmware/planning/goal_planner.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/sim/elementary.hpp"
 #include "host/worlds/random.hpp"
@@ -162,6 +163,8 @@ double size_of(const Params& robot) {
 void fit_to(Scenario& scenario, const Params& robot) {
   const double size = size_of(robot);
   worlds::scale_lengths(scenario, size);
+  const double least = planning::smallest_tolerance(robot).raw() * 1e-6;
+  scenario.goal.tolerance_m = std::max(scenario.goal.tolerance_m, least);
   const Params reference;
   const double driving = size * reference.wheels.max_speed.raw() / robot.wheels.max_speed.raw();
   const double turning = static_cast<double>(turn_rate(reference).raw()) / turn_rate(robot).raw();

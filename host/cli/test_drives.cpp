@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "firmware/planning/goal_planner.hpp"
 #include "host/run/runner.hpp"
 #include "host/worlds/generate.hpp"
 
@@ -48,7 +49,9 @@ Scenario fitted(Scenario s, const Params& params, const Sensor& sensor) {
   for (auto& wall : s.walls) {
     for (sim::Vec2& p : wall) scale(p, by);
   }
-  s.goal.tolerance_m = std::max(s.goal.tolerance_m * by, 2 * metres(params.motion.drive_tolerance));
+  s.goal.tolerance_m = std::max(
+      s.goal.tolerance_m * by,
+      std::max(2 * metres(params.motion.drive_tolerance), metres(planning::smallest_tolerance(params))));
   const sim::Vec2 way = s.goal.at - s.start.at;
   s.time_limit_s = 600 + 40 * std::sqrt(sim::dot(way, way)) / (params.wheels.max_speed.raw() * 1e-6);
   s.noise = {};

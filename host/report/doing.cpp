@@ -30,6 +30,7 @@ Doing doing_of_step(planning::Why why) noexcept {
     case planning::Why::goal_out_of_range:
     case planning::Why::bumped:
     case planning::Why::gyro_rest:
+    case planning::Why::tolerance_too_small:
     case planning::Why::fault: return Doing::free;
   }
   return Doing::free;

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdint>
+
+#include "firmware/planning/goal_planner.hpp"
 #include "host/scenario/contact.hpp"
 #include "host/scenario/shapes.hpp"
 
@@ -33,6 +37,18 @@ void check_places(const TableReader& start, const Scenario& s) {
   if (s.bounds && !is_within(s.start.at, *s.bounds)) start.fail("the start lies outside the bounds");
   const std::string fault = start_fault(s);
   if (!fault.empty()) start.fail(fault);
+}
+
+std::string tolerance_fault(const Scenario& s) {
+  const std::int32_t least_um = planning::smallest_tolerance(s.robot).raw();
+  if (std::lround(s.goal.tolerance_m * 1e6) >= least_um) return "";
+  return fmt::format("'tolerance_m' must be at least {:.6f} m, the smallest that this robot keeps, but is {}",
+                     least_um * 1e-6, s.goal.tolerance_m);
+}
+
+void check_goal(const TableReader& goal, const Scenario& s) {
+  const std::string fault = tolerance_fault(s);
+  if (!fault.empty()) goal.fail_at("tolerance_m", fault);
 }
 
 }  // namespace whisker

@@ -1,6 +1,9 @@
 /// Checks of shapes and positions that depend on several numbers; each throws at the offending key.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "host/scenario/reader.hpp"
 #include "host/scenario/scenario.hpp"
 
@@ -11,5 +14,8 @@ void check_polygon(const TableReader& table, const std::vector<sim::Vec2>& point
 void check_mover(const TableReader& table, const Mover& mover);
 /// The start lies within the bounds, and nothing is in contact there.
 void check_places(const TableReader& start, const Scenario& scenario);
+void check_goal(const TableReader& goal, const Scenario& scenario);
+/// Why this robot cannot keep the goal's tolerance; "" if it can.
+std::string tolerance_fault(const Scenario& scenario);
 
 }  // namespace whisker

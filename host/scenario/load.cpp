@@ -122,6 +122,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
     check_robot(robot, s.robot);
   }
   check_places(start, s);
+  check_goal(goal, s);
   return s;
 }
 
@@ -144,7 +145,8 @@ void apply_robot_file(Params& params, const std::string& file) {
 void apply_robot_file(Scenario& scenario, const std::string& file) {
   Scenario changed = scenario;
   read_robot_file(file, changed.robot, changed.sensor, changed.noise);
-  const std::string fault = start_fault(changed);
+  std::string fault = start_fault(changed);
+  if (fault.empty()) fault = tolerance_fault(changed);
   if (!fault.empty()) throw InputError(file, 1, 1, "with this robot " + fault);
   scenario.robot = changed.robot;
   scenario.sensor = changed.sensor;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/planning/goal_planner.hpp"
 #include "host/campaign/mission.hpp"
 #include "host/campaign/worlds.hpp"
 #include "host/run/runner.hpp"
@@ -104,7 +105,8 @@ TEST(RandomRobot, GetsAWorldOfItsSizeAndTimeForIt) {
     const double size = size_of(robot);
     EXPECT_EQ(m.world, "discs --robots random");
     EXPECT_EQ(robot_toml(m.scenario.robot), robot_toml(robot));
-    EXPECT_EQ(m.scenario.goal.tolerance_m, small.scenario.goal.tolerance_m * size);
+    EXPECT_EQ(m.scenario.goal.tolerance_m, std::max(small.scenario.goal.tolerance_m * size,
+                                                    planning::smallest_tolerance(robot).raw() * 1e-6));
     EXPECT_EQ(m.scenario.discs.back().radius, small.scenario.discs.back().radius * size);
     const double driving = size * 300000 / robot.wheels.max_speed.raw();
     const double turning = 3000000.0 / turn_rate(robot).raw();

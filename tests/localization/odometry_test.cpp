@@ -81,6 +81,80 @@ TEST(Odometry, DriftsLessThanAMillimetreInAKilometre) {
   }
 }
 
+/// Two ideal wheels that turn the body on the spot and then drive straight ahead. A counter shows whole
+/// counts only, from wherever its wheel stood.
+struct IdealWheels {
+  IdealWheels(int counts_per_metre, Length track, double phase_left, double phase_right)
+      : counts_per_metre_(counts_per_metre),
+        track_m_(track.raw() * 1e-6),
+        left_(phase_left),
+        right_(phase_right) {
+    Params params;
+    params.wheels.counts_per_metre = counts_per_metre;
+    params.body.track = track;
+    params.wheels.max_speed = 1000_mm_per_s;
+    odometry_.configure(params);
+    odometry_.place({});
+    count();
+  }
+  /// Each wheel by this many counts.
+  void roll(double left, double right) {
+    left_ += left;
+    right_ += right;
+    const double turn = (right - left) / counts_per_metre_ / track_m_;
+    const double way = (left + right) / 2 / counts_per_metre_;
+    x_ += way * std::cos(heading_ + turn / 2);
+    y_ += way * std::sin(heading_ + turn / 2);
+    heading_ += turn;
+    count();
+  }
+  double heading_error() const {
+    return std::remainder(odometry_.pose().heading.wrapped() * (kPi / 2147483648.0) - heading_, 2 * kPi);
+  }
+  double position_error_m() const {
+    const Vec at = odometry_.pose().at;
+    return std::hypot(at.x.raw() * 1e-6 - x_, at.y.raw() * 1e-6 - y_);
+  }
+
+ private:
+  void count() {
+    CountStep step;
+    const auto whole = [](double c) {
+      return static_cast<std::uint32_t>(static_cast<std::int64_t>(c)) & kMask;
+    };
+    EXPECT_TRUE(odometry_.update({whole(left_), whole(right_)}, milliseconds(1000), step));
+  }
+  double counts_per_metre_, track_m_, left_, right_;
+  double x_ = 0, y_ = 0, heading_ = 0;
+  Odometry odometry_;
+};
+
+// The counters of both wheels are less than a count behind, at the start and now, so their difference is off
+// by less than two. If a tick is a whole number of counts, it stays as it is over any way.
+TEST(Odometry, IdealWheelsLeaveTheBodyBesideItsEstimateByTwoCountsOverTheTrackTimesTheWay) {
+  std::uint64_t state = 7;
+  const auto draw = [&state] {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<double>(state >> 11) * 0x1p-53;
+  };
+  double worst = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int counts_per_metre = static_cast<int>(100 * std::pow(1000, draw()));
+    const Length track = millimetres(static_cast<int>(50 + 450 * draw()));
+    const double base = 1e6 + draw();
+    IdealWheels body(counts_per_metre, track, base, base + draw());
+    const double count_m = 1.0 / counts_per_metre, beside = 2 * count_m / (track.raw() * 1e-6);
+    const double half_turn = (draw() - 0.5) * 2 * kPi * track.raw() * 1e-6 / 2 * counts_per_metre;
+    for (int k = 0; k < 200; ++k) body.roll(-half_turn / 200, half_turn / 200);
+    const double way_m = 1 + 199 * draw(), tick = std::floor(0.01 * counts_per_metre) + 1;
+    for (double way = 0; way < way_m; way += tick * count_m) body.roll(tick, tick);
+    EXPECT_LT(std::abs(body.heading_error()), beside);
+    EXPECT_LT(body.position_error_m(), beside * (way_m + 1) + 2 * count_m * (1 + kPi));
+    worst = std::fmax(worst, body.position_error_m() / (beside * way_m));
+  }
+  EXPECT_GT(worst, 0.6) << "else the bound is not that of this drive";
+}
+
 TEST(Odometry, TheFirstCountsAreTheZeroWhateverTheyAre) {
   Odometry odometry;
   odometry.configure(Params{});

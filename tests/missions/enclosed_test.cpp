@@ -2,8 +2,12 @@
 // if it has a gap.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "host/run/narrowest_gap.hpp"
 #include "host/run/runner.hpp"
+#include "host/sim/elementary.hpp"
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"
 #include "tests/effort.hpp"
@@ -53,6 +57,68 @@ TEST(Enclosed, SlitsOfOnePlaceAreTriedOnce) {
 /// A gap between two obstacles of the enclosure leads no nearer to the goal.
 TEST(Enclosed, AGapIsNotPassedToAndFro) {
   EXPECT_EQ(drive(worlds::Kind::enclosed, 710037, PlannerKind::skirt).verdict, Verdict::unreachable);
+}
+
+/// A closed pentagon in a box: between its lowest corner and the wall is a gap that the body passes on some
+/// loops only.
+Scenario pocket() {
+  Scenario s;
+  s.time_limit_s = 600;
+  s.start = {{0.8865242085126308, 0.7006332282981922}, 0.0049835};
+  s.goal.at = {-1.6729274051091234, -2.177661173690111};
+  s.bounds = Bounds{{-3.11993415, -3.14106873}, {3.11993415, 3.14106873}};
+  s.walls = {{{-1.797374195677733, -2.9007455623988805},
+              {-0.695385107283333, -2.6922996722239434},
+              {-1.1488900470921584, -1.6674323788015435},
+              {-2.090042450889265, -1.3312864574809362},
+              {-2.581671663606839, -2.309186753266264},
+              {-1.797374195677733, -2.9007455623988805}}};
+  return s;
+}
+
+TEST(ClosedPolygon, WithAGapToTheWallIsNotCircledForEver) {
+  RunOptions options;
+  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::map}) {
+    options.planner = planner;
+    const RunResult r = run(pocket(), options);
+    EXPECT_EQ(r.verdict, Verdict::unreachable) << name(planner) << ": " << r.detail;
+  }
+}
+
+/// Around the goal, 3 to 9 corners, in a box that leaves a gap of about a body beside it.
+Scenario closed_polygon(std::uint64_t seed) {
+  worlds::Random random(seed);
+  const int corners = 3 + static_cast<int>(seed % 7);
+  std::vector<sim::Vec2> points;
+  double most = 0;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * sim::kPi * (i + random.uniform(-0.3, 0.3)) / corners;
+    const double radius = random.uniform(0.4, 1.2);
+    points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    most = std::fmax(most, std::fmax(std::fabs(points.back().x), std::fabs(points.back().y)));
+  }
+  points.push_back(points.front());
+  Scenario s;
+  s.time_limit_s = 1800;
+  const double wall = most + random.uniform(0.18, 0.34);
+  s.bounds = Bounds{{-wall, -wall}, {wall + 1.5, wall + 1.5}};
+  s.start = {{wall + 1, wall + random.uniform(0.3, 1.2)}, -2};
+  s.walls = {points};
+  return s;
+}
+
+/// Looping without a verdict: at most one in 300.
+TEST(ClosedPolygon, IsSaidToBeUnreachable) {
+  const std::uint64_t count = test::effort(4, 600);
+  std::uint64_t gave_up = 0;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    RunOptions options;
+    options.planner = PlannerKind::skirt;
+    const Verdict verdict = run(closed_polygon(seed), options).verdict;
+    EXPECT_TRUE(verdict == Verdict::unreachable || verdict == Verdict::gave_up) << seed;
+    gave_up += verdict == Verdict::gave_up;
+  }
+  EXPECT_LE(gave_up, count / 300);
 }
 
 /// What the verdict names as the narrowest gap that it would have taken: wider ones are taken.

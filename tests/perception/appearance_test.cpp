@@ -30,7 +30,7 @@ class Appearance : public testing::Test {
         readings.beam[b] = {mm[b], status, 0, static_cast<std::uint8_t>(sequence_ & 15)};
       }
       now_ = now_ + params_.safety.period;
-      perception_.sense(&readings, now_, heading, params_, health_);
+      perception_.sense(&readings, now_, Pose{{}, heading}, params_, health_);
       perception::Percept out;
       perception_.observe({{{}, heading}, now_, false, {}}, params_, out);
     }

@@ -60,7 +60,7 @@ TEST(Contacts, StayObstaclesInTheLocalGridWhateverTheBeamsSay) {
     for (int i = 0; i < ticks; ++i, ++tick) {
       const Time now = Time{} + milliseconds(20 * tick);
       const hal::RangeReadings readings = nothing_near(tick);
-      perception.sense(&readings, now, pose.heading, params, health);
+      perception.sense(&readings, now, pose, params, health);
       percept = Percept{};
       perception.observe({pose, now, true, Time{}}, params, percept);
     }

@@ -13,16 +13,17 @@ using hal::RangeStatus;
 class BeamTest : public testing::Test {
  protected:
   /// One reading every 20 ms, measured 20 ms before.
-  void see(RangeStatus status, std::uint16_t mm, Angle heading = {}) {
+  void see(RangeStatus status, std::uint16_t mm, Angle heading = {}) { see(status, mm, Pose{{}, heading}); }
+  void see(RangeStatus status, std::uint16_t mm, const Pose& body) {
     now_ = now_ + milliseconds(20);
     sequence_ = static_cast<std::uint8_t>((sequence_ + 1) % 16);
-    beam_.update({mm, status, 20, sequence_}, now_, heading, params_, health_);
+    beam_.update({mm, status, 20, sequence_}, now_, body, params_, health_);
   }
   void see(std::uint16_t mm) { see(RangeStatus::ok, mm); }
   void repeat_old_reading(int ticks, std::uint16_t mm) {
     for (int i = 0; i < ticks; ++i) {
       now_ = now_ + milliseconds(10);
-      beam_.update({mm, RangeStatus::ok, 20, sequence_}, now_, {}, params_, health_);
+      beam_.update({mm, RangeStatus::ok, 20, sequence_}, now_, Pose{}, params_, health_);
     }
   }
   Echo look(Time since = Time::from_raw(0)) const { return beam_.look(since, params_); }
@@ -204,21 +205,88 @@ TEST_F(BeamTest, AStaleStatusOrAnAbsentReadingOnlyAges) {
   EXPECT_EQ(health_.range_stale, 2U);
 }
 
-TEST_F(BeamTest, TheSameMillimetreOverMostOfHalfATurnIsStuck) {
-  for (int deg = 0; deg < 150; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
-  EXPECT_EQ(beam_.latest().validity, Validity::ok);
-  see(RangeStatus::ok, 700, Angle::turns(150, 360));
-  EXPECT_EQ(beam_.latest().validity, Validity::stuck);
-  EXPECT_EQ(health_.range_stuck, 1U);
-  see(RangeStatus::ok, 701, Angle::turns(153, 360));
-  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+/// Repeats 700 mm while the body turns on the spot.
+class StuckBeamTest : public BeamTest {
+ protected:
+  void turn_to(int deg, Vec at = {}) {
+    for (; deg_ <= deg; deg_ += 3) see(RangeStatus::ok, 700, Pose{at, Angle::turns(deg_, 360)});
+  }
+  Validity ahead(Length way, std::uint16_t mm = 700) {
+    const Angle heading = Angle::turns(deg_ - 3, 360);
+    see(RangeStatus::ok, mm, Pose{polar(heading, way), heading});
+    return beam_.latest().validity;
+  }
+  int deg_ = 0;  // of the next reading
+};
+
+TEST_F(StuckBeamTest, TheSameMillimetreOverATurnAndThenOverSomeWayIsStuck) {
+  turn_to(150);
+  EXPECT_EQ(beam_.latest().validity, Validity::ok) << "it may be a round room";
+  EXPECT_EQ(ahead(20_mm), Validity::ok);
+  EXPECT_EQ(ahead(21_mm), Validity::stuck);
+  EXPECT_EQ(ahead(0_mm), Validity::stuck) << "until the distance differs";
+  EXPECT_EQ(health_.range_stuck, 2U);
+  EXPECT_EQ(ahead(0_mm, 701), Validity::ok);
+  EXPECT_EQ(ahead(30_mm, 701), Validity::ok);
 }
 
-TEST_F(BeamTest, IsStuckByTheTurnSinceTheFirstRepetitionWhicheverWayTheBodyLooked) {
-  for (int deg = 100; deg < 250; deg += 3) see(RangeStatus::ok, 700, Angle::turns(deg, 360));
+TEST_F(StuckBeamTest, TurnsOnForEverInARoundRoom) {
+  turn_to(2000);
   EXPECT_EQ(beam_.latest().validity, Validity::ok);
-  see(RangeStatus::ok, 700, Angle::turns(250, 360));
+  EXPECT_EQ(ahead(10_mm, 690), Validity::ok);
+  EXPECT_EQ(ahead(500_mm, 690), Validity::ok);
+  EXPECT_EQ(health_.range_stuck, 0U);
+}
+
+TEST_F(StuckBeamTest, ALesserTurnLeavesItOpenOverAnyWay) {
+  turn_to(147);
+  for (int mm = 0; mm < 3000; mm += 6) EXPECT_EQ(ahead(millimetres(mm)), Validity::ok) << "along a wall";
+}
+
+TEST_F(StuckBeamTest, TheTurnCountsWhicheverWayTheBodyLooked) {
+  deg_ = 100;
+  turn_to(250);
+  EXPECT_EQ(ahead(21_mm), Validity::stuck);
+}
+
+/// On a circle of this radius, with its centre to the left.
+Pose on_circle(Length radius, int deg) {
+  const Angle heading = Angle::turns(deg, 360);
+  return {polar(heading - 90_deg, radius), heading};
+}
+
+TEST_F(StuckBeamTest, CirclesForEverRoundAPillar) {
+  for (const int way : {3, -3}) {
+    for (int deg = 0; deg != 900 * (way / 3); deg += way) see(RangeStatus::ok, 700, on_circle(1_m, deg));
+    EXPECT_EQ(health_.range_stuck, 0U);
+    see(701);
+  }
+}
+
+TEST_F(StuckBeamTest, LeavingTheCircleShowsThatItIsStuck) {
+  for (int deg = 0; deg <= 180; deg += 3) see(RangeStatus::ok, 700, on_circle(1_m, deg));
+  const Pose left = on_circle(1_m, 180);
+  const auto ahead = [&](Length way) {
+    see(RangeStatus::ok, 700, Pose{left.at + polar(left.heading, way), left.heading});
+  };
+  for (int mm = 0; mm <= 144; mm += 6) ahead(millimetres(mm));
+  EXPECT_EQ(health_.range_stuck, 0U) << "a tangent leaves the circle slowly";
+  ahead(146_mm);
   EXPECT_EQ(beam_.latest().validity, Validity::stuck);
+}
+
+TEST_F(StuckBeamTest, AWayBeforeTheTurnIsNoRotation) {
+  for (int mm = -1000; mm < 0; mm += 6) see(RangeStatus::ok, 700, Pose{{millimetres(mm), 0_mm}, {}});
+  turn_to(150);
+  EXPECT_EQ(beam_.latest().validity, Validity::ok);
+  turn_to(171);
+  EXPECT_EQ(beam_.latest().validity, Validity::stuck) << "it was not here all the time";
+}
+
+TEST_F(StuckBeamTest, ABodyThatIsPutDownElsewhereHasNotMoved) {
+  turn_to(150);
+  beam_.put_down();
+  EXPECT_EQ(ahead(900_mm), Validity::ok);
 }
 
 TEST_F(BeamTest, AClearReadingInBetweenIsNoStuckSensor) {
@@ -361,14 +429,14 @@ TEST(RangeConditioner, IsAsLostAsItsWorstBeam) {
       readings.beam[b] = {300, dead ? RangeStatus::invalid : RangeStatus::ok, 20,
                           static_cast<std::uint8_t>(i % 16)};
     }
-    conditioner.update(&readings, Time::from_raw(20U * (i + 1U)), {}, params, health);
+    conditioner.update(&readings, Time::from_raw(20U * (i + 1U)), Pose{}, params, health);
   }
   const Echoes look = conditioner.look(Time::from_raw(0), params);
   EXPECT_EQ(look.beam[hal::kLeft].distance, 300_mm);
   EXPECT_EQ(look.beam[hal::kRight].validity, Validity::pending);
   EXPECT_FALSE(usable(look));
   EXPECT_EQ(conditioner.lost_for(Time::from_raw(240)), 240_ms);
-  conditioner.update(nullptr, Time::from_raw(500), {}, params, health);
+  conditioner.update(nullptr, Time::from_raw(500), Pose{}, params, health);
   EXPECT_EQ(conditioner.latest().beam[hal::kLeft].validity, Validity::stale);
 }
 

@@ -124,6 +124,7 @@ TEST(C, RefusesPlacesBeyondTheLimit) {
   CRobot robot;
   robot.tick();
   EXPECT_FALSE(whisker_set_goal(&robot.robot, 1000000001, 0, 50000));
+  EXPECT_FALSE(whisker_set_goal(&robot.robot, 1000000, 0, 2285)) << "smaller than it keeps";
   EXPECT_FALSE(whisker_place(&robot.robot, 0, -1000000001, 0));
   EXPECT_STREQ(whisker_fault_name(robot.tick().fault), "pose_out_of_range");
   whisker_reset(&robot.robot);

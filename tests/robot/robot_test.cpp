@@ -50,6 +50,22 @@ class RobotTest : public testing::Test {
   int peak_change_ = 0;
 };
 
+TEST_F(RobotTest, AToleranceThatItCannotKeepIsRefusedByName) {
+  const Length least = planning::smallest_tolerance(params_);
+  EXPECT_EQ(least, micrometres(2286)) << "8/7 of drive_tolerance";
+  for (const Length tolerance : {least - micrometres(1), 0_mm, -(1_m)}) {
+    robot_.set_goal({{5_m, 0_m}, 100_mm});
+    tick(100);
+    EXPECT_FALSE(robot_.set_goal({{1_m, 0_m}, tolerance})) << tolerance.raw();
+    tick(100);
+    EXPECT_EQ(robot_.status().decision.outcome, planning::Outcome::gave_up) << "of the mission before, too";
+    EXPECT_EQ(robot_.status().decision.why, planning::Why::tolerance_too_small);
+    EXPECT_EQ(board_.commanded().left, 0);
+  }
+  EXPECT_TRUE(robot_.set_goal({{1_m, 0_m}, least}));
+  EXPECT_EQ(tick().decision.outcome, planning::Outcome::running);
+}
+
 TEST_F(RobotTest, ReachesAGoalInTheOpenAndStands) {
   robot_.set_goal({{1_m, 500_mm}, 50_mm});
   int ticks = 0;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr uint32_t kDrift = 50;  // odometry error: at most 1 / 50 of the travel
 constexpr int32_t kMostLaps = 3;
+constexpr int8_t kMostReturns = 3;
 constexpr uint64_t kDegree = (1_deg).raw();
 
 }  // namespace
@@ -24,23 +25,32 @@ void LoopDetector::begin(const View& view, const Params& params) noexcept {
 void LoopDetector::move(const View& view) noexcept {
   turned_ += (view.pose.heading - last_).wrapped();
   last_ = view.pose.heading;
-  farthest_ = max(farthest_, norm(view.pose.at - at_));
-  if (farthest_ > scale_ * 3) left_ = true;
+  const Length away = norm(view.pose.at - at_);
+  farthest_ = max(farthest_, away);
+  if (away > scale_ * 3) left_ = away_ = true;
 }
 
 bool LoopDetector::closed(const View& view, Evidence evidence) noexcept {
   if (!follows_) {
     follows_ = true;
     heading_ = view.pose.heading;
+    turned_ = 0;  // the turn into this direction is none of the boundary
   }
+  const Length grown = view.bound - bound_;
+  if (!left_ || grown > farthest_ / 2 || magnitude(view.pose.heading - heading_) >= (90_deg).raw())
+    return false;
+  const Length off = norm(view.pose.at - at_);
   const bool turned = magnitude(turned_) >= 300 * kDegree;
   const bool far = evidence == Evidence::place && farthest_ > scale_ * 15;
-  if (!left_ || !(turned || far)) return false;
-  const Length grown = view.bound - bound_;
-  if (grown > farthest_ / 2) return false;
+  if (!turned && !far) return returned(off);
   const Length drift = Length::from_raw(static_cast<int32_t>((view.travelled_um - began_um_) / kDrift));
-  const Length near = max(min(scale_ * 7 / 2, scale_ * 3 / 2 + drift), grown);
-  return norm(view.pose.at - at_) < near && magnitude(view.pose.heading - heading_) < (90_deg).raw();
+  return off < max(min(scale_ * 7 / 2, scale_ * 3 / 2 + drift), grown);
+}
+
+bool LoopDetector::returned(Length off) noexcept {
+  if (!away_ || off >= scale_ * 3 / 2) return false;
+  away_ = false;
+  return ++returns_ >= kMostReturns;
 }
 
 bool LoopDetector::may_part(Vec from, Vec to, Side wall) const noexcept {

@@ -24,10 +24,11 @@ class LoopDetector {
   /// Once per tick.
   void move(const View& view) noexcept;
 
-  /// True if the body is back at the hit point, with the heading of the first call, after a full turn or a
-  /// far distance: then it passed no exit. The place widens with the bound of the pose; a loop that is not
-  /// twice as large as what the bound has grown meanwhile cannot be told from none. Call while following the
-  /// boundary.
+  /// True if the body is back at the hit point, with the heading of the first call, after a full turn since
+  /// then or a far distance: then it passed no exit. Where the boundary leads round one thing to the left and
+  /// round another to the right, the turns cancel; there, the third return counts. The place widens with the
+  /// bound of the pose; a loop that is not twice as large as what the bound has grown meanwhile cannot be
+  /// told from none. Call while following the boundary.
   bool closed(const View& view, Evidence evidence = Evidence::turning) noexcept;
   /// Whether the followed boundary, with the wall on this side, can separate `from` from `to`: the loop
   /// encloses `to`, or, if the wall is outside, `from`. Inside means not farther from the hit point than the
@@ -38,16 +39,21 @@ class LoopDetector {
   bool strays(const View& view, Evidence evidence = Evidence::turning) noexcept;
 
  private:
+  /// Counts how often the body came back to the hit point.
+  bool returned(Length off) noexcept;
+
   Vec at_;
   Length scale_;  // 100 mm, scaled from the reference body
   Angle heading_;
-  bool follows_ = false;   // heading_ is set
-  bool left_ = false;      // has been away from the hit point
+  bool follows_ = false;  // heading_ is set
+  bool left_ = false;     // has been away from the hit point
+  bool away_ = false;     // the same since the last return
+  int8_t returns_ = 0;
   Length farthest_;        // from the hit point
   uint32_t began_um_ = 0;  // View::travelled_um at the hit point
   Length bound_;           // View::bound there
   Angle last_;             // the heading of the previous tick
-  int64_t turned_ = 0;     // 2^-32 turn, counter-clockwise positive
+  int64_t turned_ = 0;     // while it follows, 2^-32 turn, counter-clockwise positive
   int32_t laps_ = 0;       // whole turns so far
   Vec lap_at_;             // position at the end of the last one
   uint32_t lap_um_ = 0;    // View::travelled_um there

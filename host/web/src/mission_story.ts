@@ -31,6 +31,7 @@ const WHY_COLOURS: Record<string, Colour> = {
   step_budget: 'contact',
   length_budget: 'contact',
   goal_out_of_range: 'contact',
+  tolerance_too_small: 'contact',
   bumped: 'contact',
 };
 

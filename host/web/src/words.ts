@@ -66,6 +66,7 @@ export const BECAUSE: Record<string, string> = {
   goal_out_of_range: 'the goal is farther out than 1,000 m',
   bumped: 'a bump switch was pressed, so it backs off',
   gyro_rest: 'the bias of its gyro is due to be measured, so it stands',
+  tolerance_too_small: "the goal's tolerance is smaller than this robot can keep",
 };
 
 const OUTCOMES: Record<string, string> = {

@@ -144,6 +144,46 @@ TEST(LoopDetector, ClosesByPlaceFromFarAway) {
   EXPECT_FALSE(closes_without_a_turn(2_m, LoopDetector::Evidence::turning));
 }
 
+/// The body turns on the spot into the direction of the boundary, then drives round.
+TEST(LoopDetector, TheTurnIntoTheBoundaryIsNoneOfTheLoop) {
+  for (const int into : {-170, -90, 90, 170}) {
+    LoopDetector circuit;
+    Round round(circuit, 1_m);
+    View before = round.view();
+    before.pose.heading += degrees(-into);
+    circuit.begin(before, Params{});
+    circuit.move(round.view());
+    EXPECT_FALSE(circuit.closed(round.view()));
+    int closed = 0;
+    for (int deg = 1; deg <= 380 && closed == 0; ++deg) {
+      round.drive();
+      if (circuit.closed(round.view())) closed = deg;
+    }
+    EXPECT_GE(closed, 300) << into;
+    EXPECT_LE(closed, 360) << into;
+  }
+}
+
+/// Round one thing to the left and another to the right, the turns cancel.
+TEST(LoopDetector, ClosesWithoutATurnAtTheThirdReturn) {
+  for (const auto evidence : {LoopDetector::Evidence::place, LoopDetector::Evidence::turning}) {
+    LoopDetector circuit;
+    View view;
+    const Pose here = view.pose;
+    circuit.begin(view, Params{});
+    int returns = 0;
+    for (bool closed = false; !closed && returns < 9; ++returns) {
+      for (const Pose& at : {Pose{{800_mm, 0_mm}, {}}, Pose{{140_mm, 0_mm}, {}}, here, here}) {
+        view.pose = at;
+        view.travelled_um += 500000;
+        circuit.move(view);
+        closed = closed || circuit.closed(view, evidence);
+      }
+    }
+    EXPECT_EQ(returns, 3) << "one for each time that it was away";
+  }
+}
+
 TEST(LoopDetector, TurnsOnTheSpotAreNoLapsByPlace) {
   for (const auto evidence : {LoopDetector::Evidence::place, LoopDetector::Evidence::turning}) {
     LoopDetector circuit;
