@@ -128,7 +128,7 @@ stage_asan() {
 stage_asan_all() { build_and_test asan; }
 
 stage_coverage() {
-  build_and_test_core coverage '^(robot|fuzzy|perception|global|missions)$' \
+  RC_PARAMS="$RC_PARAMS max_success=500" build_and_test_core coverage '^(robot|fuzzy|perception|global|missions)$' \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_perception_tests whisker_global_tests whisker_run_tests
   # No exception can leave the core, so branches of a throw are excluded.
   gcovr -j "$jobs" --root . --filter firmware/ --exclude firmware/apps/ --exclude-throw-branches --json build/coverage/all.json \
@@ -142,7 +142,7 @@ stage_coverage() {
 }
 
 stage_closed() {
-  build_and_test_core closed '^(robot|fuzzy|missions)$' \
+  RC_PARAMS="$RC_PARAMS max_success=500" build_and_test_core closed '^(robot|fuzzy|missions)$' \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_run_tests
 }
 
