@@ -1,6 +1,7 @@
 """The targets, as the files of toolchain/ declare them. Used by scripts/chip, golden and budget."""
 
 import json
+import os
 import pathlib
 import re
 
@@ -34,6 +35,8 @@ class Target:
         self.runs_on = f"QEMU `{self.machine}`" if self.machine else {"node": "Node.js"}.get(emulator, emulator)
         self.compilers = facts.get("COMPILERS", "").split()
         self.builds = [self.name, *(f"{self.name}-{c}" for c in self.compilers[1:])]
+        # Those of the default run of scripts/test.
+        self.by_day = [b for b, c in zip(self.builds, self.compilers) if c in facts.get("BY_DAY", "").split()]
         self.recording = facts.get("RECORDING", "full")  # largest golden recording that is fast enough on it
         self.counts = facts.get("COUNTS")
         self.in_budget = "BUDGET" in facts  # scripts/budget measures it
@@ -66,6 +69,11 @@ ROBOTS = {t.name: t for t in ALL if t.is_robot}
 def builds():
     """(preset, target) of each target that runs in an emulator."""
     return [(build, target) for target in TARGETS.values() for build in target.builds]
+
+
+def sample():
+    """The builds that the default run of scripts/test makes and compares: one of each kind; with WHISKER_LONG, all."""
+    return [(build, target) for build, target in builds() if build in target.by_day or "WHISKER_LONG" in os.environ]
 
 
 def image(build, target, program):

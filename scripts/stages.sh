@@ -40,7 +40,7 @@ build() {
 # The gates on the source tree have the label build. They do not depend on the compiler, so one stage runs them.
 build_and_test() {
   build "$1"
-  ctest --preset "$1" --no-tests=error -LE '^(build|targets|vcan|vm)$'
+  ctest --preset "$1" --no-tests=error -LE '^(build|night|targets|vcan|vm)$'
 }
 
 stage_shell() {
@@ -55,7 +55,7 @@ stage_format() { cxx_files | xargs -0 clang-format-14 --dry-run -Werror; }
 
 stage_gcc() {
   build host
-  ctest --preset host --no-tests=error -LE '^(cross|targets|vcan|vm)$'
+  ctest --preset host --no-tests=error -LE '^(cross|night|targets|vcan|vm)$'
 }
 
 stage_web() {
@@ -69,16 +69,16 @@ stage_web() {
 stage_cross() {
   configure host | tee build/cross-configure.log
   if grep "^-- No compiler for" build/cross-configure.log; then return 1; fi
-  ctest --preset host --no-tests=error -L '^cross$' -V
+  ctest --preset host --no-tests=error -L '^cross$' -LE '^night$' -V
 }
 
-# vcan_tests LABELS [OPTION...]: one with-vcan for all tests, because a micro-VM starts slowly. Each test gets a new vcan0,
+# vcan_tests LABELS NOT_LABELS [OPTION...]: one with-vcan for all tests, because a micro-VM starts slowly. Each test gets a new vcan0,
 # and creates and removes its other interfaces. ctest reads one folder only: an emulated processor needs seconds to list all.
 vcan_tests() {
-  local -r labels=$1 list=build/host/tests/vcan
-  shift
+  local -r labels=$1 others=$2 list=build/host/tests/vcan
+  shift 2
   local names
-  mapfile -t names < <(ctest --test-dir "$list" -N -L "$labels" | sed -n 's/^ *Test *#[0-9]*: //p')
+  mapfile -t names < <(ctest --test-dir "$list" -N -L "$labels" -LE "$others" | sed -n 's/^ *Test *#[0-9]*: //p')
   ((${#names[@]}))
   # shellcheck disable=SC2016  # for the other shell
   scripts/with-vcan --timeout $((600 * ${#names[@]})) "$@" bash -ec 'list=$1; shift
@@ -94,17 +94,17 @@ vcan_tests() {
 stage_vcan() {
   build host
   if [[ $(scripts/with-vcan --which 2>&1) == "with-vcan: vm" ]]; then
-    vcan_tests '^(vcan|vm)$' --vm
+    vcan_tests '^(vcan|vm)$' '^night$' --vm
   else
-    vcan_tests '^vcan$'
-    vcan_tests '^vm$' --vm
+    vcan_tests '^vcan$' '^night$'
+    vcan_tests '^vm$' '^night$' --vm
   fi
 }
 
 stage_targets() {
-  scripts/targets
+  scripts/targets --sample
   # Sequentially: each uses all processors.
-  ctest --preset host --no-tests=error -L '^targets$' -V -j 1
+  ctest --preset host --no-tests=error -L '^targets$' -LE '^night$' -V -j 1
 }
 
 stage_clang() { build_and_test clang; }
@@ -118,24 +118,17 @@ build_and_test_core() {
   ctest --preset "$preset" --no-tests=error -L "$labels"
 }
 
-# The code that chips run, and the simulator that tests it.
-readonly sanitized='robot|fuzzy|perception|planning|global|missions|bus|can|pil_link|slcan|sim'
-
+# The code that chips run, and the simulator that tests it. The tests of perception drive missions, too.
 stage_asan() {
-  # A sixth of the cases, as for the random worlds (tests/effort.hpp).
-  RC_PARAMS="$RC_PARAMS max_success=85" build_and_test_core asan "^($sanitized)\$" \
+  RC_PARAMS="$RC_PARAMS max_success=30" build_and_test_core asan '^(robot|fuzzy|perception|planning|global|bus|can|pil_link|slcan|sim)$' \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_perception_tests whisker_planning_tests whisker_global_tests \
-    whisker_run_tests whisker_bus_tests whisker_can_tests whisker_link_tests whisker_slcan_tests whisker_sim_tests
+    whisker_bus_tests whisker_can_tests whisker_link_tests whisker_slcan_tests whisker_sim_tests
 }
 
-# The host tools would take three times as long.
-stage_asan_host() {
-  build asan
-  ctest --preset asan --no-tests=error -LE "^(build|targets|vcan|vm|$sanitized)\$"
-}
+stage_asan_all() { build_and_test asan; }
 
 stage_coverage() {
-  build_and_test_core coverage '^(robot|fuzzy|perception|global|missions)$' \
+  RC_PARAMS="$RC_PARAMS max_success=500" build_and_test_core coverage '^(robot|fuzzy|perception|global|missions)$' \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_perception_tests whisker_global_tests whisker_run_tests
   # No exception can leave the core, so branches of a throw are excluded.
   gcovr -j "$jobs" --root . --filter firmware/ --exclude firmware/apps/ --exclude-throw-branches --json build/coverage/all.json \
@@ -149,13 +142,14 @@ stage_coverage() {
 }
 
 stage_closed() {
-  build_and_test_core closed '^(robot|fuzzy|missions)$' \
+  RC_PARAMS="$RC_PARAMS max_success=500" build_and_test_core closed '^(robot|fuzzy|missions)$' \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_run_tests
 }
 
+# Their tests are those of the preset host.
 stage_core() {
   build core
-  build_and_test core-tests
+  build core-tests
 }
 
 # tidy [OPTION...]: clang-tidy on the core.
@@ -176,14 +170,20 @@ stage_analyzer() { tidy '--checks=-*,clang-analyzer-*,-clang-analyzer-optin.perf
 
 stage_campaign() {
   build host
-  scripts/bars --gate --count 50 --noisy 50
+  scripts/bars --gate --count 25 --noisy 25
 }
 
 stage_long() {
+  build_and_test core-tests
   build host
-  RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" WHISKER_LONG=1 ctest --preset host --no-tests=error -LE '^(build|targets|vcan|vm)$'
-  scripts/targets cortex-m3
-  WHISKER_LONG=1 ctest --preset host --no-tests=error -R '^targets: a chip is a node of the CAN bus '
+  scripts/bars --gate --count 50 --noisy 50
+  export WHISKER_LONG=1
+  RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" ctest --preset host --no-tests=error -LE '^(targets|vcan|vm)$'
+  scripts/targets
+  ctest --preset host --no-tests=error -L '^targets$' -V -j 1
+  vcan_tests '^night$' '^vm$'
+  scripts/playground --build-only
+  node --test --test-reporter=tap tests/web/core.test.mjs
 }
 
 stage_fuzz() {

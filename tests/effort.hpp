@@ -6,19 +6,12 @@
 
 namespace whisker::test {
 
-/// `full` in a release build; a sixth, at least one, in builds with sanitizers or coverage, which are about
-/// ten times slower and search for other faults (tests/CMakeLists.txt).
-constexpr std::uint64_t effort(std::uint64_t full) noexcept {
-#ifdef WHISKER_LESS_EFFORT
-  return (full + 5) / 6;
-#else
-  return full;
-#endif
+/// `whole` with WHISKER_LONG=1, as in the stage long; otherwise `usual`.
+inline std::uint64_t effort(std::uint64_t usual, std::uint64_t whole) noexcept {
+  return std::getenv("WHISKER_LONG") != nullptr ? whole : usual;
 }
 
-/// `usual` as above; `whole` with WHISKER_LONG=1, as in the stage long.
-inline std::uint64_t effort(std::uint64_t usual, std::uint64_t whole) noexcept {
-  return std::getenv("WHISKER_LONG") != nullptr ? whole : effort(usual);
-}
+/// The same, where a sixth, at least one, is usual.
+inline std::uint64_t effort(std::uint64_t whole) noexcept { return effort((whole + 5) / 6, whole); }
 
 }  // namespace whisker::test

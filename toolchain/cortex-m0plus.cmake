@@ -2,6 +2,7 @@
 set(WHISKER_TITLE "Arm Cortex-M0+")
 set(WHISKER_RUNS_ON "qemu-arm microbit")
 set(WHISKER_COMPILERS "gcc clang")
+set(WHISKER_BY_DAY "gcc")
 set(WHISKER_COUNTS "timer")
 set(WHISKER_BUDGET ON)
 set(WHISKER_CPU cortex-m0plus)

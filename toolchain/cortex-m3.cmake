@@ -1,6 +1,7 @@
 set(WHISKER_TITLE "Arm Cortex-M3")
 set(WHISKER_RUNS_ON "qemu-arm mps2-an385")
 set(WHISKER_COMPILERS "gcc clang")
+set(WHISKER_BY_DAY "gcc")
 set(WHISKER_COUNTS "timer")
 set(WHISKER_BUDGET ON)
 set(WHISKER_CPU cortex-m3)

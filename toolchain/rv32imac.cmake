@@ -3,6 +3,7 @@
 set(WHISKER_TITLE "RISC-V RV32IMAC")
 set(WHISKER_RUNS_ON "qemu-riscv virt")
 set(WHISKER_COMPILERS "gcc clang")
+set(WHISKER_BY_DAY "gcc")
 set(WHISKER_COUNTS "minstret")
 set(WHISKER_BUDGET ON)
 set(WHISKER_CPU rv32imac)

@@ -2,6 +2,7 @@
 set(WHISKER_TITLE "WebAssembly")
 set(WHISKER_RUNS_ON "node")
 set(WHISKER_COMPILERS "clang")
+set(WHISKER_BY_DAY "clang")
 set(WHISKER_COUNTS "-")
 set(WHISKER_CPU wasm32)
 set(WHISKER_BOARD wasm)

@@ -1,4 +1,5 @@
-"""The planner, message and parameter of docs/adding.md, applied to a copy of the tree, build and work.
+"""The planner, message and parameter of docs/adding.md, applied to a copy of the tree, compile where they are read; with WHISKER_LONG,
+the command is built with them, and they work.
 
 usage: adding.py ROOT WORK_FOLDER CMAKE GENERATOR CXX
 """
@@ -11,8 +12,11 @@ import shutil
 import sys
 
 from commands import Failure, run
-from sources import finish
+from compile import LONG, compile_all
+from sources import core_sources, finish
 
+# They list the planners.
+NUMBERS = ("firmware/apps/pil_link/session.cpp", "firmware/c/whisker.cpp", "host/protocol/link_page.cpp")
 PARTS = ("firmware", "hal", "host", "toolchain", "CMakeLists.txt")
 WORLD = """time_limit_s = 120.0
 [start]
@@ -69,6 +73,28 @@ def check(whisker, folder):
     yield "the manual's table has it", "| `motion_patience_s` | s | 0.5 | 0 to 5 |" in run(whisker, "protocol", "--parameters").stdout
 
 
+def command_problems(tree, build, work, cmake, generator, compiler):
+    options = ["-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DWHISKER_TESTS=OFF", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=16"]
+    run(cmake, "-S", tree, "-B", build, "-G", generator, f"-DCMAKE_CXX_COMPILER={compiler}", *options)
+    run(cmake, "--build", build, "-j", os.cpu_count(), "--target", "whisker")
+    return [f"not so: {what}" for what, holds in check(build / "whisker", work) if not holds]
+
+
+def includes(path, headers):
+    text = path.read_text()
+    return any(f'#include "{header}"' in text for header in headers)
+
+
+def compiler_problems(tree, touched, compiler):
+    """Of the core's sources that are new or changed, include a header that is or handle messages, and of those that number the planners."""
+    of_core = map(str, core_sources(tree))
+    read = [path for path in of_core if path in touched or path.startswith("firmware/can/") or includes(tree / path, touched)]
+    listed = (tree / "firmware/CMakeLists.txt").read_text()
+    unlisted = [f"firmware/CMakeLists.txt: no {path}" for path in touched if path.endswith(".cpp") and path.removeprefix("firmware/") not in listed]
+    jobs = [(path, [compiler, "-std=c++17", f"-I{tree}", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", str(tree / path)], None) for path in (*read, *NUMBERS)]
+    return unlisted + [f"{name}:\n{output}" for name, output in compile_all(jobs) if output]
+
+
 def main(root, work, cmake, generator, compiler):
     root, work = pathlib.Path(root), pathlib.Path(work)
     tree, build = work / "tree", work / "build"
@@ -81,10 +107,9 @@ def main(root, work, cmake, generator, compiler):
             shutil.copy2(root / part, tree / part)
     try:
         touched = apply((root / "docs/adding.md").read_text(), tree)
-        options = ["-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DWHISKER_TESTS=OFF", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=16"]
-        run(cmake, "-S", tree, "-B", build, "-G", generator, f"-DCMAKE_CXX_COMPILER={compiler}", *options)
-        run(cmake, "--build", build, "-j", os.cpu_count(), "--target", "whisker")
-        problems = [f"not so: {what}" for what, holds in check(build / "whisker", work) if not holds]
+        problems = compiler_problems(tree, touched, compiler)
+        if LONG and not problems:
+            problems = command_problems(tree, build, work, cmake, generator, compiler)
     except Failure as failure:
         touched, problems = (), [str(failure)]
     return finish("additions", len(touched) or 1, problems)

@@ -1,5 +1,5 @@
 """scripts/arduino: its descriptions follow the specifications of Arduino and PlatformIO, and library and sketch compile for an AVR
-against the headers of Debian's arduino-core-avr.
+against the headers of Debian's arduino-core-avr, with WHISKER_LONG to code.
 
 usage: arduino.py ROOT WORK_FOLDER CLANGXX-14 ARDUINO_CORE
 """
@@ -13,7 +13,7 @@ import zipfile
 
 import mission
 from commands import Failure, run
-from compile import compile_all
+from compile import LONG, compile_all
 from sources import finish
 from version import of_header
 
@@ -106,7 +106,7 @@ def main(root, work, clang, core):
             if sketch.stem != sketch.parent.name:
                 problems.append(f"{sketch.name}: a sketch has the name of its folder")
         headers = ["-isystem", f"{core}/cores/arduino", "-isystem", f"{core}/variants/mega"]
-        command = [str(part) for part in (clang, *AVR, *headers, f"-I{library}/src", "-x", "c++", "-c", "-")]
+        command = [str(part) for part in (clang, *AVR, *headers, f"-I{library}/src", "-x", "c++", "-c" if LONG else "-fsyntax-only", "-")]
         jobs = [(sketch.name, [*command, "-o", str(sketch.with_suffix(".o"))], sketch_as_cpp(sketch.read_text())) for sketch in sketches]
         jobs.append(("whisker.cpp", [*command, "-o", str(work / "whisker.o")], (library / "src/whisker.cpp").read_text()))
         problems += [f"{name}:\n{output}" for name, output in compile_all(jobs) if output]

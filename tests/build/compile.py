@@ -1,8 +1,10 @@
-"""Runs compilers in parallel."""
+"""Runs compilers in parallel. LONG: whether a gate does all of its work, as every night (WHISKER_LONG, docs/building.md)."""
 
 import concurrent.futures
 import os
 import subprocess
+
+LONG = "WHISKER_LONG" in os.environ
 
 
 def run_one(job):

@@ -1,6 +1,7 @@
-"""Another project can use Whisker: as a subfolder with its own warnings, and installed, as C++20.
+"""Another project can use Whisker: as a subfolder with its own warnings, and installed, as C++20. With BUILD, that build is installed;
+without, or with WHISKER_LONG, one of the core alone.
 
-usage: dependency.py ROOT WORK_FOLDER CMAKE GENERATOR CXX
+usage: dependency.py ROOT WORK_FOLDER CMAKE GENERATOR CXX [BUILD]
 """
 
 import pathlib
@@ -9,6 +10,7 @@ import shutil
 import sys
 
 from commands import Failure, run
+from compile import LONG
 from sources import finish
 from version import of_header
 
@@ -23,8 +25,9 @@ def version(root):
 class Other:
     """The other project."""
 
-    def __init__(self, root, work, cmake, generator, compiler):
+    def __init__(self, root, work, cmake, generator, compiler, built=None):
         self.root, self.work, self.cmake = root, work, cmake
+        self.built = None if LONG else built
         self.options = ["-G", generator, f"-DCMAKE_CXX_COMPILER={compiler}"]
         self.source = f"{root}/tests/build/fixtures/dependent"
 
@@ -47,10 +50,11 @@ class Other:
         self.says_its_version("subfolder")
 
     def as_package(self):
-        self.configure(self.root, "core", "-DWHISKER_HOST=OFF", "-DWHISKER_TESTS=OFF")
-        self.build("core")
+        if not self.built:
+            self.configure(self.root, "core", "-DWHISKER_HOST=OFF", "-DWHISKER_TESTS=OFF")
+            self.build("core")
         prefix = self.work / "prefix"
-        run(self.cmake, "--install", self.work / "core", "--prefix", prefix)
+        run(self.cmake, "--install", self.built or self.work / "core", "--prefix", prefix)
         self.no_warnings_go_along(prefix)
         self.headers_have_libraries(prefix)
         found = [f"-DCMAKE_PREFIX_PATH={prefix}", f"-DWHISKER_VERSION={version(self.root)}", "-DCMAKE_CXX_STANDARD=20"]

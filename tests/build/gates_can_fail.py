@@ -134,6 +134,21 @@ class HeadersAlone(unittest.TestCase):
     def test_refuses_a_missing_guard(self):
         self.assertEqual(self.status("struct A { int x; };\n"), 1)
 
+    def test_refuses_what_only_a_header_beside_it_includes(self):
+        a, words, b = "struct A {};\n", "#include <string>\n", 'struct B { A a; };\n'
+        several = {f"host/{i}.hpp": f"#pragma once\n{words}struct W{i} {{ std::string a; }};\n" for i in range(headers_alone.SHARED)}
+        for wanted, text in (
+            (0, f'#include "host/a.hpp"\n{b}'),
+            (1, b),
+            (1, f'{b}#include "host/a.hpp"\n'),
+            (1, f'#ifdef NEVER\n#include "host/a.hpp"\n#endif\n{b}'),
+            (0, f"{words}struct B {{ std::string a; }};\n"),
+            (1, "struct B { std::string a; };\n"),
+            (1, f"#ifdef NEVER\n{words}#endif\nstruct B {{ std::string a; }};\n"),
+        ):
+            files = {**several, "host/a.hpp": f"#pragma once\n{a}", "host/b.hpp": f"#pragma once\n{text}"}
+            self.assertEqual(run(headers_alone.main, files, CXX)[0], wanted, text)
+
 
 class Lengths(unittest.TestCase):
     def status(self, **files):

@@ -1,5 +1,5 @@
 """The headers for chips compile after Arduino's macros, and in each language mode that other projects may choose. The
-first compiler also compiles the sources in these modes, without the macros.
+first compiler also compiles the sources as GNU's C++20, with WHISKER_LONG as C++17 too, without the macros.
 
 usage: vendor_macros.py ROOT COMPILER... Each may have options: "clang++-14 --target=avr".
 """
@@ -9,7 +9,7 @@ import re
 import shlex
 import sys
 
-from compile import compile_all
+from compile import LONG, compile_all
 from sources import core_sources, finish, sources
 
 MODES = ("c++17", "gnu++17", "c++20", "gnu++20")
@@ -31,7 +31,7 @@ def main(root, *compilers):
     headers = public_headers(root)
     text = f'#include "{MACROS}"\n' + "".join(f'#include "{header}"\n' for header in headers)
     jobs = [(f"{c}, {mode}", [*command(root, c, mode), "-"], text) for c in compilers for mode in MODES]
-    for mode in ("gnu++17", "gnu++20"):
+    for mode in ("gnu++17", "gnu++20") if LONG else ("gnu++20",):
         for source in core_sources(root):
             jobs.append((f"{source}, {mode}", [*command(root, compilers[0], mode), f"{root}/{source}"], None))
     problems = [f"{name}:\n{output}" for name, output in compile_all(jobs) if output]

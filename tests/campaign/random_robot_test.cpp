@@ -144,7 +144,7 @@ class AnyRobot : public testing::TestWithParam<worlds::Kind> {};
 
 TEST_P(AnyRobot, ReachesItsGoalWithoutContactAndFault) {
   constexpr std::uint64_t kFirstSeed = 1;
-  const std::uint64_t count = test::effort(12, 1000);
+  const std::uint64_t count = test::effort(2, 1000);
   const Generated generated{GetParam(), {}, kFirstSeed, true};
   std::uint64_t reached = 0;
   for (std::uint64_t i = 0; i < count; ++i) {

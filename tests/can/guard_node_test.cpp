@@ -359,7 +359,7 @@ Hostility hostile(std::uint64_t seed, std::uint32_t ticks) {
 }
 
 TEST(GuardNode, HostileVelocitiesTouchNothing) {
-  const std::uint64_t drives = test::effort(std::getenv("WHISKER_LONG") != nullptr ? 5000 : 60);
+  const std::uint64_t drives = test::effort(10, 5000);
   double path_m = 0;
   std::uint32_t stops = 0;
   for (std::uint64_t seed = 1; seed <= drives; ++seed) {

@@ -76,7 +76,7 @@ std::uint64_t soak(std::uint64_t seed, std::uint32_t ticks) {
 }
 
 TEST(Soak, RandomFaultsCauseNoContactAndNoMissedStop) {
-  const std::uint64_t wanted = test::effort(std::getenv("WHISKER_LONG") != nullptr ? 1000000 : 100000);
+  const std::uint64_t wanted = test::effort(16667, 1000000);
   std::uint64_t frames = 0;
   for (std::uint64_t seed = 1; frames < wanted && !HasFailure(); ++seed) frames += soak(seed, 4000);
   RecordProperty("frames", std::to_string(frames));

@@ -25,7 +25,7 @@ def rows_of(text):
     return list(csv.DictReader(io.StringIO(text)))
 
 
-class Campaigns(Case):
+class Driven(Case):
     def campaign(self, *arguments, **options):
         done = whisker.whisker("campaign", *arguments, cwd=self.folder, **options)
         self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
@@ -36,6 +36,8 @@ class Campaigns(Case):
         self.campaign(*arguments, "--csv", "rows.csv")
         return (self.folder / "rows.csv").read_text()
 
+
+class Campaigns(Driven):
     def test_are_in_order_of_seed_and_the_same_however_they_are_driven(self):
         alone = self.rows(*KIND, "--count", COUNT, "--seed", 5, "--jobs", 1)
         self.assertEqual([int(row["seed"]) for row in rows_of(alone)], list(range(5, 5 + COUNT)))
@@ -90,7 +92,7 @@ class Campaigns(Case):
             self.assertEqual((a["robot"], b["robot"]), ("", "slow.toml"))
 
 
-class Shards(Campaigns):
+class Shards(Driven):
     def test_put_together_are_the_whole(self):
         whole = self.rows(*KIND, "--count", COUNT)
         words = self.campaign("--merge", "rows.csv")
@@ -120,7 +122,7 @@ class Shards(Campaigns):
         self.refused("campaign", "--merge", says="--merge")
 
 
-class Summary(Campaigns):
+class Summary(Driven):
     def test_json_agrees_with_the_rows(self):
         text = self.rows("u-trap", "--count", COUNT)
         rows = rows_of(text)
@@ -177,7 +179,7 @@ class Summary(Campaigns):
         self.assertEqual([round(8 * summary[key]["value"]) for key in ("truly_there", "reached", "off_goal", "gave_up")], [2, 7, 5, 1])
 
 
-class Failures(Campaigns):
+class Failures(Driven):
     """The robot is too wide for most doors or has too little time, so that enough runs fail."""
 
     def replayed(self, line):
@@ -212,7 +214,7 @@ class Failures(Campaigns):
         self.assertIn("\nand 3 more that failed\n", words)
 
 
-class Folders(Campaigns):
+class Folders(Driven):
     def setUp(self):
         super().setUp()
         (self.folder / "worlds").mkdir()
@@ -248,7 +250,7 @@ class Folders(Campaigns):
         self.refused("campaign", "empty", says="no scenario files")
 
 
-class RandomRobots(Campaigns):
+class RandomRobots(Driven):
     RANDOM = ("discs", "--discs", 5, "--robots", "random", "--seed", 2)
 
     def test_are_the_same_however_they_are_driven(self):
@@ -280,7 +282,7 @@ class RandomRobots(Campaigns):
             self.assertEqual(result["hash"], mission)
 
 
-class Refusals(Campaigns):
+class Refusals(Driven):
     def test_a_command_line_that_means_nothing(self):
         self.refused("campaign", says="KIND|DIR")
         self.refused("campaign", "cubes", says="cubes")
@@ -306,7 +308,7 @@ class Refusals(Campaigns):
         self.assertRegex(done.stderr, r"\Awhisker: cannot write /dev/full: No space left[^\n]*\n\Z")
 
 
-class Interruption(Campaigns):
+class Interruption(Driven):
     """The campaign is far too long to end by itself."""
 
     def begun(self, stderr=subprocess.PIPE):

@@ -74,7 +74,7 @@ TEST(GuardAssist, WithATableThatSaysNothingEveryDriveIsThatWithoutIt) {
 }
 
 TEST(GuardAssist, TouchesNothingWithAnyTable) {
-  const auto count = test::effort(150, 10000);
+  const auto count = test::effort(50, 10000);
   double path = 0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     worlds::Random random(seed);
@@ -102,7 +102,7 @@ struct Count {
 
 Count sloppy(const SloppyIn& c, Fitted assist) {
   Count count;
-  for (std::uint64_t seed = 5001; seed < 5001 + test::effort(25, 300); ++seed) {
+  for (std::uint64_t seed = 5001; seed < 5001 + test::effort(9, 300); ++seed) {
     worlds::Options options;
     options.seed = seed;
     options.discs = c.discs;

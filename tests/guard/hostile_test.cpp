@@ -26,7 +26,7 @@ class HostileDrives : public testing::TestWithParam<std::tuple<int, bool>> {};
 // WHISKER_LONG=1: 100,000 drives of 20 s.
 TEST_P(HostileDrives, TouchNothing) {
   const auto [part, noise] = GetParam();
-  const auto count = test::effort(100, 12500);
+  const auto count = test::effort(34, 12500);
   const std::uint64_t first = 1 + static_cast<std::uint64_t>(part) * 12500 + (noise ? 50000 : 0);
   double path = 0, gap = 1;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
@@ -49,7 +49,7 @@ RC_GTEST_PROP(HostileDrive, TouchesNothingFromAnySeed, (std::uint64_t seed, bool
 }
 
 TEST(HostileDrive, TouchesNothingWithAnyRobot) {
-  const auto count = test::effort(60, 2000);
+  const auto count = test::effort(20, 2000);
   double path = 0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     Params robot = campaign::random_robot(seed).params;

@@ -28,7 +28,7 @@ TEST_P(PerfectOperator, Arrives) {
   const Class& c = GetParam();
   int arrived = 0, drives = 0;
   double path = 0, time = 0;
-  for (std::uint64_t seed = 1; seed <= test::effort(20, 200); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(7, 200); ++seed) {
     worlds::Options options;
     options.seed = seed;
     options.discs = c.discs;

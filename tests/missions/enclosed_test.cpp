@@ -27,7 +27,7 @@ RunResult drive(worlds::Kind kind, std::uint64_t seed, PlannerKind planner) {
 
 /// In at least 95 % of the worlds.
 TEST(EnclosedAtWall, IsSaidToBeUnreachable) {
-  const std::uint64_t count = test::effort(3, 300);
+  const std::uint64_t count = test::effort(1, 300);
   for (const PlannerKind planner : kMaps) {
     std::uint64_t right = 0;
     for (std::uint64_t seed = 1; seed <= count; ++seed) {
@@ -42,7 +42,7 @@ TEST(EnclosedAtWall, IsSaidToBeUnreachable) {
 
 TEST(GapAtWall, IsFound) {
   for (const PlannerKind planner : kMaps) {
-    for (std::uint64_t seed = 1; seed <= test::effort(6, 1000); ++seed) {
+    for (std::uint64_t seed = 1; seed <= test::effort(1, 1000); ++seed) {
       const RunResult r = drive(worlds::Kind::gap_at_wall, seed, planner);
       EXPECT_EQ(r.verdict, Verdict::reached) << name(planner) << ", " << seed << ": " << r.detail;
     }
@@ -125,7 +125,7 @@ TEST(ClosedPolygon, IsSaidToBeUnreachable) {
 TEST(Gap, IsTakenFromTheNamedWidthOn) {
   worlds::Random random(1);
   const double named = narrowest_gap_m(Params{});
-  for (std::uint64_t seed = 1; seed <= test::effort(6, 1000); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(1, 1000); ++seed) {
     for (const worlds::Kind kind : {worlds::Kind::gap, worlds::Kind::disc_gap}) {
       worlds::Options options;
       options.seed = seed;
@@ -139,7 +139,7 @@ TEST(Gap, IsTakenFromTheNamedWidthOn) {
 /// Narrower ones are taken on a lane, or at least without contact.
 TEST(Gap, NarrowerThanNamedIsPassedOnALane) {
   for (const worlds::Kind kind : {worlds::Kind::gap, worlds::Kind::disc_gap}) {
-    const std::uint64_t count = test::effort(4, 1000);
+    const std::uint64_t count = test::effort(1, 1000);
     std::uint64_t reached = 0;
     for (std::uint64_t seed = 1; seed <= count; ++seed) {
       worlds::Options options;
@@ -173,7 +173,7 @@ TEST(Gap, OnTheSeamOfBothLoopsIsPassed) {
 
 /// Larger than the window of any map: not worse than without a map.
 TEST(ContestMaze, IsSolvedAsOftenAsWithoutAMap) {
-  const std::uint64_t count = test::effort(2, 20);
+  const std::uint64_t count = test::effort(1, 20);
   const auto solved = [&](PlannerKind planner) {
     int n = 0;
     for (std::uint64_t seed = 1; seed <= count; ++seed) {

@@ -60,7 +60,7 @@ int overlapping(Bench& bench, double cell) {
 }
 
 TEST(LoneFalseClears, ClearNoCellThatHoldsAnything) {
-  const std::uint64_t missions = test::effort(12, 1000);
+  const std::uint64_t missions = test::effort(2, 1000);
   int overlaps = 0, missions_with = 0, contacts = 0, reached = 0;
   for (std::uint64_t seed = 1; seed <= missions; ++seed) {
     worlds::Options options;

@@ -91,7 +91,7 @@ TEST_P(Placement, OfTheSamePoseEachSecondChangesNothing) {
 TEST_P(Placement, ACorrectionEachSecondStillArrivesAndTouchesNothing) {
   Tally without;
   Tally with;
-  const std::uint64_t missions = test::effort(16, 40);
+  const std::uint64_t missions = test::effort(3, 40);
   for (std::uint64_t n = 1; n <= missions; ++n) {
     const Scenario s = world(n, GetParam());
     without.add(s, drive(s, GetParam(), {}));

@@ -17,7 +17,7 @@ namespace {
 using worlds::Random;
 
 /// WHISKER_LONG=1: enough to show a contact rate below one in a thousand.
-std::uint64_t missions() { return test::effort(16, 400); }
+std::uint64_t missions() { return test::effort(3, 400); }
 
 /// A pattern of accepted gaps.
 struct Gaps {
@@ -81,7 +81,7 @@ Params draw_robot(Random& random) {
 
 TEST(UnevenTicks, BringNoContactToOtherRobots) {
   std::map<std::string, int> ends;
-  const std::uint64_t robots = test::effort(24, 1000);
+  const std::uint64_t robots = test::effort(4, 1000);
   for (std::uint64_t seed = 1; seed <= robots; ++seed) {
     Random random(seed);
     worlds::Options options;

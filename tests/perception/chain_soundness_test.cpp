@@ -84,7 +84,7 @@ void search(Fault fault) {
   int chained = 0;
   int unsound = 0;
   std::uint64_t first_unsound = 0;
-  for (std::uint64_t seed = 1; seed <= test::effort(20000, 200000); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(3334, 200000); ++seed) {
     Random random(seed);
     const Params p = draw_robot(random);
     const double cell = metres(patch_cell(p));
@@ -218,7 +218,7 @@ TEST(ChainReach, ATurnOnTheSpotClearsTheRim) {
   int robots = 0;
   int incomplete = 0;
   std::uint64_t first = 0;
-  for (std::uint64_t seed = 1; seed <= test::effort(2000, 20000); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test::effort(334, 20000); ++seed) {
     Random random(seed);
     Params p = draw_robot(random);
     p.rangefinders.rate_hz = 5 + random.index(96);

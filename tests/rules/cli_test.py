@@ -393,7 +393,7 @@ class Documentation(Case):
 
 
 class Malformed(Case):
-    COUNT = 2000 if os.environ.get("WHISKER_LONG") else 200
+    COUNT = 2000 if os.environ.get("WHISKER_LONG") else 50
     SEED = 20260701
 
     def mutated(self, text, rng):

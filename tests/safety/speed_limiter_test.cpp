@@ -61,7 +61,7 @@ constexpr int kParts = 4;
 
 TEST_P(GuardAgainst, AnAdversaryThatAsksForEveryManoeuvre) {
   const auto [part, noise] = GetParam();
-  const auto count = static_cast<int>(test::effort(150, 5000 / kParts));
+  const auto count = static_cast<int>(test::effort(25, 5000 / kParts));
   const std::uint64_t seed = 1 + static_cast<std::uint64_t>(part) * 5000 + (noise ? 1000000 : 0);
   const Torment n = torment(seed, count, noise);
   std::printf(
@@ -73,7 +73,7 @@ TEST_P(GuardAgainst, AnAdversaryThatAsksForEveryManoeuvre) {
 INSTANTIATE_TEST_SUITE_P(Part, GuardAgainst, testing::Combine(testing::Range(0, kParts), testing::Bool()));
 
 TEST(SpeedLimiter, TouchesNothingWithoutAMarginEither) {
-  const auto count = static_cast<int>(test::effort(150, 1250));
+  const auto count = static_cast<int>(test::effort(25, 1250));
   const Torment n = torment(1, count, false, Length{});
   std::printf("%d missions without a margin from seed 1: the smallest gap is %.4f m\n", n.worlds, n.gap);
 }

@@ -28,6 +28,8 @@ def main(root):
     for name in PACKED:
         target = chips.TARGETS[name]
         for build in target.builds:
+            if build not in dict(chips.sample()):
+                continue
             runs[build] = target.command(chips.image(build, target, "every-input-table"), serial=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         answers = dict(zip(runs, pool.map(output, runs.values())))

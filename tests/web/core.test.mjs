@@ -86,7 +86,8 @@ describe('the core in the playground', () => {
   test('what it drives the native program drives alike, and what it refuses that refuses', () => {
     const planners = ['skirt', 'thesis', 'map'];
     const verdicts = {good: 0, none: 0, touches: 0};
-    for (let seed = 1; seed <= 150; ++seed) {
+    const count = process.env.WHISKER_LONG ? 150 : 50;
+    for (let seed = 1; seed <= count; ++seed) {
       const situation = randomSituation(seed);
       const judged = core.judge(situation);
       ++verdicts[judged];
@@ -103,7 +104,7 @@ describe('the core in the playground', () => {
         );
       }
     }
-    assert.ok(verdicts.good > 30 && verdicts.none > 30, JSON.stringify(verdicts));
+    assert.ok(verdicts.good > count / 5 && verdicts.none > count / 5, JSON.stringify(verdicts));
   });
 
   test('more things or points than the page takes are none, and a native scenario may have them', () => {
