@@ -53,12 +53,6 @@ void CorePilot::make_robot(const Params& params, const Pose& start) {
   robot_->set_goal(goal_);
 }
 
-bool CorePilot::Wheels::command(hal::WheelSpeeds speeds) noexcept {
-  const bool refused = refuses_;
-  refuses_ = false;
-  return board_.command(refused ? hal::WheelSpeeds{} : speeds) && !refused;
-}
-
 const Status& CorePilot::tick(Time now) {
   auto fix = fixes_.take(plant_);
   switch (loss_.step(away_.command, plant_)) {
@@ -83,7 +77,7 @@ const Status& CorePilot::tick(Time now) {
 
 /// A tick without the robot.
 const Status& CorePilot::stay(bool brakes) {
-  if (brakes) away_.command = can::slowed(away_.command, braking_step(next_params_));
+  if (brakes) away_.command = loss_.slowed(away_.command);
   board_.command(away_.command);
   return away_;
 }

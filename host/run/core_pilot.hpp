@@ -3,11 +3,11 @@
 #include <memory>
 #include <optional>
 
+#include "host/run/braked_wheels.hpp"
 #include "host/run/fix_source.hpp"
 #include "host/run/link_loss.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/recording_planner.hpp"
-#include "host/sim/sim_board.hpp"
 
 namespace whisker {
 
@@ -32,19 +32,6 @@ class CorePilot final : public Pilot {
   void set_goal(const planning::Goal& goal) { robot_->set_goal(goal); }
 
  private:
-  /// Wheels that refuse the next command once they have braked without the robot.
-  class Wheels final : public hal::Drive {
-   public:
-    explicit Wheels(hal::SimBoard& board) : board_(board) {}
-    bool read(hal::EncoderCounts& out) noexcept override { return board_.read(out); }
-    bool command(hal::WheelSpeeds speeds) noexcept override;
-    void refuse() { refuses_ = true; }
-
-   private:
-    hal::SimBoard& board_;
-    bool refuses_ = false;
-  };
-
   void make_robot(const Params& params, const Pose& start);
   bool start_with(const planning::Goal& goal);
   bool aim(const planning::Goal& goal);
@@ -56,7 +43,7 @@ class CorePilot final : public Pilot {
   sim::Plant& plant_;
   FixSource fixes_;
   hal::SimBoard board_;
-  Wheels wheels_;
+  BrakedWheels wheels_;
   LinkLoss loss_;
   planning::Goal goal_;
   Params next_params_;    // of the next start

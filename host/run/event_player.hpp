@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "host/scenario/event.hpp"
@@ -19,8 +20,8 @@ class EventPlayer {
 
   /// The next event that is due at this time; null: none.
   const Event* next(double now_s);
-  /// An event to come until then may give the robot a mission.
-  bool mission_to_come(double until_s) const;
+  /// An event of one of these kinds is to come until then.
+  bool to_come(std::initializer_list<EventKind> kinds, double until_s) const;
   bool empty() const { return events_.empty(); }
   void count(bool played) { ++(played ? count_.played : count_.refused); }
   const EventCount& counted() const { return count_; }

@@ -26,13 +26,16 @@ class LinkLoss {
   };
 
   explicit LinkLoss(const Params& params)
-      : period_ms_(static_cast<std::uint32_t>(params.safety.period.raw())) {}
+      : period_ms_(static_cast<std::uint32_t>(params.safety.period.raw())), slower_(braking_step(params)) {}
 
   void lose(double for_s);
   void restart() { restarts_ = true; }
+  bool restarts() const { return restarts_; }
   bool lost() const { return restarts_ || ticks_ > 0 || silent_ms_ > 0; }
   /// Once a tick. command: the last one that the wheels got.
   Step step(hal::WheelSpeeds command, const sim::Plant& plant);
+  /// The command of a tick of `brake`.
+  hal::WheelSpeeds slowed(hal::WheelSpeeds command) const { return can::slowed(command, slower_); }
   /// After `back`: the controller missed readings for so long that it has braked, too.
   bool held() const { return gap_ms_ > can::kHoldAfter_ms; }
   /// A loss of that length stops the base.
@@ -42,6 +45,7 @@ class LinkLoss {
   std::uint64_t ticks_of(double for_s) const;
 
   std::uint32_t period_ms_;
+  std::int16_t slower_;
   std::uint64_t ticks_ = 0;      // still to be lost
   std::uint64_t silent_ms_ = 0;  // since the last command
   std::uint64_t gap_ms_ = 0;

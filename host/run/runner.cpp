@@ -31,7 +31,8 @@ RunResult run(const Scenario& file, const RunOptions& options) {
       events.count(played);
       if (played && event->kind == EventKind::goal) scenario.goal = event->goal;
     }
-    mission.await_mission(!pilot->hears() || events.mission_to_come(scenario.time_limit_s));
+    mission.await_mission(!pilot->hears() ||
+                          events.to_come({EventKind::goal, EventKind::restart}, scenario.time_limit_s));
   };
   while (!mission.verdict()) {
     if (!events.empty()) play();
