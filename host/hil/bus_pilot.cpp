@@ -94,8 +94,8 @@ class BusPilot final : public Pilot {
       case EventKind::goal: return aim(fixed_goal(e.goal));
       case EventKind::cancel: return begun_ && order(can::Order::cancel, mission_.goal);
       case EventKind::correct: fix_ = fix_of(e, plant_.pose()); return true;
-      case EventKind::param: return apply_param(e, params_) && (changed_ = true);
-      case EventKind::table: return choose_table(e);
+      case EventKind::param: return change(apply_param(e, params_));
+      case EventKind::table: return change(choose_table(e));
       case EventKind::frames_lost:
         // In lockstep, time does not pass while a set is repeated.
         if (!lockstep() || loss_.stops(e.for_s)) loss_.lose(e.for_s);
@@ -168,7 +168,12 @@ class BusPilot final : public Pilot {
     if (!rules_ || table == nullptr) return false;
     table_ = table;
     rules_ = fuzzy::digest(*table);
-    return changed_ = true;
+    return true;
+  }
+
+  bool change(bool changed) {
+    changed_ = changed_ || changed;
+    return changed;
   }
 
   /// An operator's order: the base's own ones need wheels at rest.

@@ -1,11 +1,10 @@
-#include "host/run/core_pilot.hpp"
+#include "host/run/event_pilot.hpp"
 
 namespace whisker {
 
 std::unique_ptr<Pilot> core_pilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant) {
-  auto pilot = std::make_unique<CorePilot>(scenario, make_recorded_planner(planner, scenario.robot), plant);
-  pilot->start_anew_with(planner);
-  return pilot;
+  if (!scenario.events.empty()) return std::make_unique<EventPilot>(scenario, planner, plant);
+  return std::make_unique<CorePilot>(scenario, make_recorded_planner(planner, scenario.robot), plant);
 }
 
 }  // namespace whisker

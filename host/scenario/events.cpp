@@ -161,14 +161,6 @@ bool is_fixed_in_a_run(const char* key) {
   return std::find(std::begin(fixed), std::end(fixed), key) != std::end(fixed);
 }
 
-bool apply_param(const Event& event, Params& params) {
-  Params changed = params;
-  set_param(changed, event.param, event.raw);
-  if (check(changed) != ParamFault::none) return false;
-  params = changed;
-  return true;
-}
-
 std::vector<Event> read_events(const TableReader& top) {
   std::vector<Event> events;
   for (const TableReader& table : top.tables("event", all_keys())) events.push_back(read_event(table));
