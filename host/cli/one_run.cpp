@@ -97,6 +97,8 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
     std::FILE* const out = words_beside({o.trace, o.svg, o.html, o.record});
     fmt::print(out, "{}\n{:.2f} m from the goal after {} ticks, command hash {:016x}\n",
                report::verdict_words(result), result.final_distance_m, result.ticks, result.hash);
+    if (result.events)
+      fmt::print(out, "events:  {} played, {} refused\n", result.events->played, result.events->refused);
     if (o.bus_words) fmt::print(out, "bus:     {}\n", o.bus_words());
     if (!o.trace.empty()) fmt::print(out, "trace:   {}\n", o.trace);
     if (!o.svg.empty()) fmt::print(out, "picture: {}\n", o.svg);

@@ -24,9 +24,10 @@ CorePilot::CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Pla
     : plant_(plant),
       fixes_(scenario),
       board_(plant),
+      wheels_(board_),
       planner_(std::move(planner)),
       shown_(*planner_.planner),
-      robot_(board_, board_, shown_, scenario.robot, &board_, &board_) {
+      robot_(board_, wheels_, shown_, scenario.robot, &board_, &board_) {
   robot_.place(fixed_pose(scenario.start));
   robot_.set_goal(fixed_goal(scenario.goal));
 }

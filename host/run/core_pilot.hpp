@@ -1,9 +1,9 @@
 #pragma once
 
+#include "host/run/braked_wheels.hpp"
 #include "host/run/fix_source.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/recording_planner.hpp"
-#include "host/sim/sim_board.hpp"
 
 namespace whisker {
 
@@ -22,11 +22,19 @@ class CorePilot final : public Pilot {
   const RecordingGuide* guide() const override { return planner_.guide; }
   /// Sets a new goal, during a mission or after it has ended.
   void set_goal(const planning::Goal& goal) { robot_.set_goal(goal); }
+  Robot& robot() { return robot_; }
+  const Status& status() const { return robot_.status(); }
+  /// The wheels have braked without the robot.
+  void note_braked() {
+    wheels_.refuse();
+    robot_.braked_elsewhere();
+  }
 
  private:
   sim::Plant& plant_;
   FixSource fixes_;
   hal::SimBoard board_;
+  BrakedWheels wheels_;
   RecordedPlanner planner_;
   RecordingPlanner shown_;
   Robot robot_;

@@ -1,8 +1,9 @@
-#include "host/run/core_pilot.hpp"
+#include "host/run/event_pilot.hpp"
 
 namespace whisker {
 
 std::unique_ptr<Pilot> core_pilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant) {
+  if (!scenario.events.empty()) return std::make_unique<EventPilot>(scenario, planner, plant);
   return std::make_unique<CorePilot>(scenario, make_recorded_planner(planner, scenario.robot), plant);
 }
 

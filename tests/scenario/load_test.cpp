@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/scenario/bearing.hpp"
@@ -61,6 +62,39 @@ TEST(Scenario, TakesEveryKeyFromItsFile) {
   EXPECT_EQ(s.robot.wheels.motor_lag, 30_ms);
   EXPECT_EQ(s.robot.wheels.counts_per_metre, 8000);
   EXPECT_EQ(s.robot.conditioning.consensus, Consensus::median);
+}
+
+TEST(Scenario, HasEventsInTheOrderOfTheFile) {
+  const std::vector<Event> e = good("every_key").events;
+  ASSERT_EQ(e.size(), 11U);
+  EXPECT_EQ(e[0].kind, EventKind::goal);
+  EXPECT_EQ(e[0].t_s, 20);
+  EXPECT_EQ(e[0].goal.at.x, 3.5);
+  EXPECT_EQ(e[0].goal.at.y, -1);
+  EXPECT_EQ(e[0].goal.tolerance_m, 0.3);
+  EXPECT_EQ(e[1].kind, EventKind::correct);
+  EXPECT_EQ(e[1].x_m, 1);
+  EXPECT_EQ(e[1].y_m, std::nullopt);
+  EXPECT_EQ(e[1].heading_deg, 90);
+  EXPECT_EQ(e[1].sigma_m, 0.03);
+  EXPECT_EQ(e[1].sigma_deg, 2);
+  EXPECT_EQ(e[2].kind, EventKind::place);
+  EXPECT_EQ(e[2].x_m, std::nullopt);
+  Params params;
+  EXPECT_TRUE(apply_param(e[3], params));
+  EXPECT_EQ(params.wheels.max_speed, 200_mm_per_s);
+  params.conditioning.consensus = Consensus::median;
+  EXPECT_TRUE(apply_param(e[4], params));
+  EXPECT_EQ(params.conditioning.consensus, Consensus::agreeing);
+  EXPECT_EQ(e[5].file, "laws/straight.toml");
+  EXPECT_EQ(e[6].kind, EventKind::table);
+  EXPECT_EQ(e[6].file, "");
+  EXPECT_EQ(e[7].for_s, 0.3);
+  for (int kind = 0; kind < kEventKinds; ++kind) {
+    EXPECT_TRUE(
+        std::any_of(e.begin(), e.end(), [&](const Event& x) { return static_cast<int>(x.kind) == kind; }));
+  }
+  EXPECT_TRUE(good("only_what_is_required").events.empty());
 }
 
 TEST(Scenario, HasTheStatedDefaults) {

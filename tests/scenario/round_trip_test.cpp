@@ -9,6 +9,7 @@
 #include "host/scenario/contact.hpp"
 #include "host/scenario/load.hpp"
 #include "host/scenario/noise.hpp"
+#include "host/scenario/param_list.hpp"
 #include "host/scenario/sensor_models.hpp"
 #include "host/scenario/write.hpp"
 
@@ -158,6 +159,47 @@ void same(const Sensor& a, const Sensor& b) {
   RC_ASSERT(a.ambient_klux == b.ambient_klux);
 }
 
+Event any_event() {
+  Event e;
+  e.t_s = number(0, 1e6);
+  e.kind = static_cast<EventKind>(below(kEventKinds));
+  const auto maybe = [](double low, double high) {
+    return below(2) == 0 ? std::optional(number(low, high)) : std::nullopt;
+  };
+  const bool fix = e.kind == EventKind::correct;
+  if (e.kind == EventKind::goal) e.goal = {point(1000), number(0.01, 1000)};
+  if (fix) e.sigma_m = number(0, 10);
+  if (fix) e.sigma_deg = number(0, 90);
+  if (fix || e.kind == EventKind::place) {
+    e.x_m = maybe(-1000, 1000);
+    e.y_m = maybe(-1000, 1000);
+    e.heading_deg = maybe(-360, 360);
+  }
+  if (e.kind == EventKind::param) {
+    const std::vector<ParamEntry> list = param_list({});
+    do {
+      e.param = bits() % list.size();
+    } while (is_fixed_in_a_run(list[e.param].key));
+    const auto span = static_cast<std::uint64_t>(list[e.param].high - list[e.param].low) + 1;
+    e.raw = list[e.param].low + static_cast<std::int64_t>(bits() % span);
+  }
+  if (e.kind == EventKind::table && below(2) == 0) e.file = "a" + any_name();
+  if (e.kind == EventKind::frames_lost) e.for_s = number(0.001, 1e6);
+  return e;
+}
+
+void same(const std::vector<Event>& a, const std::vector<Event>& b) {
+  RC_ASSERT(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    RC_ASSERT(a[i].t_s == b[i].t_s && a[i].kind == b[i].kind && a[i].file == b[i].file);
+    RC_ASSERT(a[i].goal.at.x == b[i].goal.at.x && a[i].goal.at.y == b[i].goal.at.y);
+    RC_ASSERT(a[i].goal.tolerance_m == b[i].goal.tolerance_m);
+    RC_ASSERT(a[i].x_m == b[i].x_m && a[i].y_m == b[i].y_m && a[i].heading_deg == b[i].heading_deg);
+    RC_ASSERT(a[i].sigma_m == b[i].sigma_m && a[i].sigma_deg == b[i].sigma_deg);
+    RC_ASSERT(a[i].param == b[i].param && a[i].raw == b[i].raw && a[i].for_s == b[i].for_s);
+  }
+}
+
 Scenario any_scenario() {
   Scenario s;
   s.name = any_name();
@@ -187,6 +229,7 @@ Scenario any_scenario() {
   if (below(2) == 0) {
     s.sensor = any_sensor();
   }
+  for (int i = below(6); i > 0; --i) s.events.push_back(any_event());
   return s;
 }
 
@@ -237,6 +280,7 @@ RC_GTEST_PROP(RoundTrip, GivesTheSameScenarioBitForBit, ()) {
   for (const NoiseKey& k : kNoiseKeys) RC_ASSERT((a.noise.*k.field) == (b.noise.*k.field));
   same(a.sensor, b.sensor);
   RC_ASSERT(values(a.robot) == values(b.robot));
+  same(a.events, b.events);
   RC_ASSERT(to_toml(b) == text);
 }
 
