@@ -36,7 +36,8 @@ GyroHeading::Samples GyroHeading::take(const Step& step, Health& health) noexcep
   const uint16_t samples = static_cast<uint16_t>(reading->samples - last_.samples);
   const Samples taken{as_signed(reading->sum - last_.sum), samples};
   const bool saturated = reading->saturated != last_.saturated;
-  const bool follows = has_last_ && samples <= most_samples_;
+  const bool possible = magnitude(taken.sum) <= uint32_t{samples} * 32768;
+  const bool follows = has_last_ && possible && samples <= most_samples_;
   if (!follows) restart();
   last_ = *reading;
   has_last_ = answers_ = true;

@@ -27,7 +27,8 @@ void Localizer::move(const Pose& pose) noexcept {
 }
 
 bool Localizer::correct(const Pose& pose, const PoseSigma& sigma) noexcept {
-  UncertainPose fix{pose, sigma};
+  const UncertainPose told{pose, sound(sigma)};
+  UncertainPose fix = told;
   if (has_bound()) {
     const UncertainPose estimate{estimate_.pose, bound_->sigma()};
     if (jumps(estimate, fix)) {
@@ -39,7 +40,7 @@ bool Localizer::correct(const Pose& pose, const PoseSigma& sigma) noexcept {
     }
     fix = fused(estimate, fix);
   }
-  teach(pose.heading, sigma.heading, fix);
+  teach(told.pose.heading, told.sigma.heading, fix);
   restart_bound(fix.sigma);
   tie(fix.pose);
   return true;

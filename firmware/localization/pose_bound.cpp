@@ -225,7 +225,7 @@ void PoseBound::shorten(int32_t x, int32_t y) noexcept {
 int64_t PoseBound::heading_variance() const noexcept {
   int64_t sum = heading_;
   for (const Lasting& error : lasting_) sum += scale_down<16>(square(error.heading));
-  return sum;
+  return not_negative(sum);
 }
 
 void PoseBound::walk(int32_t x, int32_t y, int64_t by) noexcept {
@@ -255,6 +255,7 @@ PoseSigma PoseBound::sigma() const noexcept {
     xx = yy = kMostVariance;
     xy = 0;
   }
+  xy = limited(xy, kMostVariance);
   const int64_t c = cos(last_.heading).raw() >> 16;  // 2^-14
   const int64_t s = sin(last_.heading).raw() >> 16;
   const int64_t along = scale_down<14>(c * scale_down<14>(c * xx + s * xy)) +

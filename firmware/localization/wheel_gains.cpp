@@ -11,10 +11,12 @@ constexpr int32_t kLeastGainVariance = 17180;  // 0.2 %
 constexpr int32_t kLeastSkewVariance = 172;    // 0.02 %
 constexpr uint8_t kStraight = 3;               // steps without turning: longer than the latency of a gyro
 constexpr int32_t kSlipDegrees = 3;            // an error below this is no slip
+constexpr int64_t kCounts = 4 * 256;           // variance of the rounding of counts, 2^-8 square counts
 
 /// What remains of a variance after an observation with this share of it.
 int32_t remaining(int32_t variance, int64_t part, int64_t whole, int32_t least) noexcept {
-  const int32_t rest = variance - saturate32(divide_rounded_64(variance * part, whole));
+  const int64_t share = divide_rounded_64(part * (INT32_C(1) << 20), whole);
+  const int32_t rest = variance - static_cast<int32_t>(scale_down<20>(variance * share));
   return rest < least ? least : rest;
 }
 
@@ -75,8 +77,8 @@ bool WheelGains::compare(const CountStep& step, Angle gyro, Angle wheels) noexce
 bool WheelGains::finish() noexcept {
   const Stretch stretch = now_;
   drop();
-  // Of counts and floor.
-  return observe(stretch, 4 * 256 + (magnitude(stretch.way) + magnitude(stretch.turn)) / 2);
+  // Of the floor.
+  return observe(stretch, (magnitude(stretch.way) + magnitude(stretch.turn)) / 2);
 }
 
 /// A Kalman filter without covariances between the two: a stretch of a mission is nearly always either
@@ -91,12 +93,16 @@ bool WheelGains::observe(const Stretch& stretch, int64_t noise) noexcept {
   // Variances of the error in 2^-8 square counts.
   const int64_t by_skew = scale_down<24>(square(way) * skew_variance_);
   const int64_t by_gain = scale_down<24>(square(turn) * gain_variance_);
-  const int64_t all = by_skew + by_gain + noise;
+  const int64_t all = by_skew + by_gain + noise + kCounts;
   const int64_t slip = quotient(int64_t{counts_per_turn_} * kSlipDegrees * 16, 360);
   if (square(error) > 16 * all + square(slip)) return true;
 
-  skew_ += saturate32(scale_down<4>(divide_rounded_64(int64_t{skew_variance_} * way * error, all)));
-  gain_ += saturate32(scale_down<4>(divide_rounded_64(int64_t{gain_variance_} * turn * error, all)));
+  const auto learned = [&](int32_t variance, int32_t counts) {
+    const int64_t share = divide_rounded_64(int64_t{variance} * counts * 65536, all);
+    return scale_down<20>(share * error);
+  };
+  skew_ = saturating_add(skew_, learned(skew_variance_, way));
+  gain_ = saturating_add(gain_, learned(gain_variance_, turn));
   skew_variance_ = remaining(skew_variance_, by_skew, all, kLeastSkewVariance);
   gain_variance_ = remaining(gain_variance_, by_gain, all, kLeastGainVariance);
   return false;

@@ -32,7 +32,8 @@ class WheelGains {
   };
   /// The stretch is long enough to teach.
   bool teaches(int32_t way, int32_t turn) const noexcept;
-  /// Learns from a stretch. noise: variance of its error, see noise_of(). True: a wheel must have slipped.
+  /// Learns from a stretch. noise: variance of its error besides that of the counts, see noise_of(). True: a
+  /// wheel must have slipped.
   bool observe(const Stretch& stretch, int64_t noise) noexcept;
   /// The variance of an error with this standard deviation, 2^-8 square counts.
   int64_t noise_of(Angle sigma) const noexcept;

@@ -84,6 +84,8 @@ class GyroHeadingTest : public testing::Test {
     return std::remainder(estimate - true_, 2 * kHalfTurn) / kDegree;
   }
   void rest(double seconds) { drive(seconds, 0, 0); }
+  /// The sum of the samples jumps.
+  void leap(std::uint32_t by) { next_.sum += by; }
   /// Several metres and turns, ending at rest.
   void wander(int legs) {
     for (int i = 0; i < legs; ++i) {
@@ -181,6 +183,18 @@ TEST_F(GyroHeadingTest, TheWheelsTurnThePoseAsTheGyroTaughtThemOnceItIsSilent) {
   wander(6);
   EXPECT_EQ(heading_.source(), HeadingSource::gyro);
   EXPECT_NEAR(error(), before, 0.5);
+}
+
+TEST_F(GyroHeadingTest, ASumThatItsSamplesCannotHaveTurnsNothing) {
+  rest(2.5);
+  drive(1, 0, 1);
+  const double before = error();
+  leap(0x7FFF0000U);
+  drive(0.5, 0.1, 0);
+  leap(0x80000000U);
+  rest(3);
+  EXPECT_NEAR(error(), before, 0.3);
+  EXPECT_NEAR(heading_.bias().value() / 65536.0 * (500.0 / 32768), bias_dps, 0.02);
 }
 
 TEST_F(GyroHeadingTest, ASaturatedSampleIsReplacedByTheWheels) {
