@@ -151,10 +151,9 @@ void PoseBound::restart(const Pose& pose, const PoseSigma& sigma) noexcept {
   for (Lasting& error : lasting_) error = {};
   bias_.forget();
   shortened_ = {};
+  // Not the ticks, however often this is called: the bias of the gyro wanders on.
   last_ = pose;
   counts_ = 0;
-  elapsed_ms_ = 0;
-  ticks_ = 0;
   const int64_t heading = divide_rounded(int64_t{sigma.heading.wrapped()} << 20, kTurnPerRadian);
   heading_ = limited(square(heading), kMostHeading);
   x_heading_ = y_heading_ = 0;

@@ -84,6 +84,12 @@ class GyroHeadingTest : public testing::Test {
     return std::remainder(estimate - true_, 2 * kHalfTurn) / kDegree;
   }
   void rest(double seconds) { drive(seconds, 0, 0); }
+  /// The error of each wheel, in millionths.
+  void declare(int ppm) {
+    params_.pose_error.wheel_scale = millionths(ppm);
+    heading_ = {};
+    heading_.configure(params_, odometry_);
+  }
   /// The sum of the samples jumps.
   void leap(std::uint32_t by) { next_.sum += by; }
   /// Several metres and turns, ending at rest.
@@ -167,6 +173,7 @@ TEST_F(GyroHeadingTest, TakesTheTurnOfTheWheelsBackWhenSamplesArriveLate) {
 }
 
 TEST_F(GyroHeadingTest, TheWheelsTurnThePoseAsTheGyroTaughtThemOnceItIsSilent) {
+  declare(10000);
   scale[0] = 0.985;
   scale[1] = 1.012;
   rest(2.5);
@@ -183,6 +190,23 @@ TEST_F(GyroHeadingTest, TheWheelsTurnThePoseAsTheGyroTaughtThemOnceItIsSilent) {
   wander(6);
   EXPECT_EQ(heading_.source(), HeadingSource::gyro);
   EXPECT_NEAR(error(), before, 0.5);
+}
+
+TEST_F(GyroHeadingTest, WhatASilentGyroTaughtTurnsThePoseNoFurtherThanTheDeclaredErrors) {
+  for (const int ppm : {0, 1000}) {
+    declare(ppm);
+    scale[0] = 0.96;
+    answers = true;
+    rest(2.5);
+    wander(6);
+    answers = false;
+    drive(0.2, 0.25, 0);
+    const double before = error();
+    drive(8, 0.25, 0);
+    const double untaught = 2 * 0.04 / 0.14 / kDegree;
+    const double most = 2 * 2 * 3 * 0.000707 * ppm / 1000 / 0.14 / kDegree;
+    EXPECT_NEAR(error() - before, untaught - most, 0.4) << ppm;
+  }
 }
 
 TEST_F(GyroHeadingTest, ASumThatItsSamplesCannotHaveTurnsNothing) {
