@@ -104,6 +104,7 @@ void Robot::reset() noexcept {
   resting_for_ = Duration{};
   // The next counts may include the whole braking path.
   since_counts_ += safety::braking_time(params_);
+  localizer_.restart_lessons();
   perception_.forget(localizer_.inside());
   limiter_.reset();
   reflex_.reset();

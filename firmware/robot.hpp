@@ -66,18 +66,21 @@ class Robot {
   /// Sets the pose of the robot.
   ///
   /// Without an active goal, the robot was put down there: it resets the local grid to unknown, and the next
-  /// encoder counts are the new zero. With an active goal, the pose estimate is corrected: the local grid
-  /// stays around the body, the current movement continues, and the goal moves relative to the body. Call
-  /// cancel() before you carry the robot.
+  /// encoder counts are the new zero. With an active goal, the pose estimate is corrected: at the counts of
+  /// the last tick, the body was there. The local grid stays around the body, the current movement continues,
+  /// and the goal moves relative to the body. Call cancel() before you carry the robot.
   ///
   /// False: the pose lies beyond kPlaceLimit, which is a fault; nothing else changed.
   bool place(const Pose& pose) noexcept;
-  /// A fix: a pose measured outside, by a beacon, a camera or a dock, with its standard deviations, which is
-  /// true at this instant. Local grid, map and movement stay, in the frame of the odometry; the goal moves in
-  /// it. With Status::sigma, the estimate becomes the mean of both, weighted by their variances, and a fix
-  /// that jumps (localization/pose_fix.hpp) is counted as Health::fix_jumps and, if Params::fix_jumps says
-  /// so, refused. Without, the estimate becomes the fix. Without a gyro, the headings of fixes also teach how
-  /// the wheels turn the body (localization/fix_teacher.hpp).
+  /// A fix: a pose measured outside, by a beacon, a camera or a dock, with its standard deviations. It is the
+  /// pose at the counts of the last tick, so call this after tick(). Local grid, map and movement stay, in
+  /// the frame of the odometry; the goal moves in it. However wrong a fix is, it does not move ground that
+  /// was seen around the body. With Status::sigma, the estimate becomes the mean of both, weighted by their
+  /// variances, and a fix that jumps (localization/pose_fix.hpp) is counted as Health::fix_jumps and, if
+  /// Params::fix_jumps says so, refused. Without, the estimate becomes the fix. Without a gyro, but with a
+  /// declared error of the wheels, the headings of fixes also teach how the wheels turn the body
+  /// (localization/fix_teacher.hpp). place() and reset() make the next fix the first one, which teaches
+  /// nothing.
   ///
   /// False: it is refused, or lies beyond kPlaceLimit, which is a fault; nothing else changed.
   bool correct(const Pose& pose, const localization::PoseSigma& sigma) noexcept;

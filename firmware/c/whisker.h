@@ -230,8 +230,8 @@ bool whisker_create(whisker_robot* robot, const whisker_params* params, const wh
 /* Robot::place: the robot was put down there or, with an active goal, is there. False: beyond the limit,
  * which is a fault. */
 bool whisker_place(whisker_robot* robot, int32_t x_um, int32_t y_um, uint32_t heading);
-/* Robot::correct: a fix from outside, with its standard deviations in um and 2^-32 turn. False: refused, or
- * beyond the limit. */
+/* Robot::correct: a fix from outside that is true at the counts of the last tick, with its standard
+ * deviations in um and 2^-32 turn. False: refused, or beyond the limit. */
 bool whisker_correct(whisker_robot* robot, int32_t x_um, int32_t y_um, uint32_t heading, int32_t sigma_um,
                      uint32_t sigma_heading);
 /* Robot::set_goal. False: the goal lies beyond the limit, or its tolerance is smaller than the robot keeps;

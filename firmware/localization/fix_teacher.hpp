@@ -9,32 +9,30 @@
 
 namespace whisker::localization {
 
-/// For a robot without a gyro. Between two fixes, the wheels and the fixes turn the body by different angles;
-/// the difference teaches how the wheels turn it. After the first lesson, turn() replaces the nominal turn.
+/// For a robot without a gyro that declares an error of its wheels. Between two fixes, the wheels and the
+/// fixes turn the body by different angles; the difference teaches how the wheels turn it. A fix may be
+/// wrong, so this turns the user's frame only, never that of the odometry.
 class FixTeacher {
  public:
   void configure(const Params& params, const Odometry& odometry) noexcept;
-  /// The true heading is believed to be this far ahead of that of the odometry, with this standard deviation.
-  void restart(Angle offset, Angle sigma) noexcept;
-  /// A fix says how far the true heading is ahead. True: the way since restart() was long enough for a
-  /// lesson; call restart() then.
+  /// The next fix is the first one again: it teaches nothing. What was learned stays.
+  void restart() noexcept;
+  /// A fix says how far the true heading is ahead of that of the odometry, with this standard deviation.
+  /// True: it was a lesson. Without a way long enough for one, the earlier fix stays the one to compare with.
   bool fix(Angle offset, Angle sigma) noexcept;
-  void pass(const CountStep& step) noexcept;
+  /// Once per step. By how much the wheels turn the body beyond what the odometry counts, given in portions;
+  /// mostly zero.
+  Angle pass(const CountStep& step, const Odometry& odometry) noexcept;
 
-  bool taught() const noexcept { return taught_; }
-  /// By the wheels as taught.
-  Angle turn(const CountStep& step, const Odometry& odometry) const noexcept {
-    return odometry.turn_of(gains_.difference(step));
-  }
   const WheelGains& gains() const noexcept { return gains_; }
 
  private:
   WheelGains gains_;
-  int32_t way_ = 0;   // counts of both wheels since the last fix
-  int32_t turn_ = 0;  // their difference
-  Angle offset_;
+  WheelGains::Stretch since_;  // the earlier fix
+  Angle offset_;               // by it
   Angle sigma_;
-  bool taught_ = false;
+  Angle ahead_;  // not yet given by pass()
+  bool has_fix_ = false;
 };
 
 }  // namespace whisker::localization

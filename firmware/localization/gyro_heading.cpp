@@ -8,7 +8,7 @@ constexpr Duration kSilence = 100_ms;
 }  // namespace
 
 void GyroHeading::configure(const Params& params, const Odometry& odometry) noexcept {
-  gains_.configure(odometry.counts_per_turn(), params.wheels.counts_per_metre, odometry.skew());
+  gains_.configure(params, odometry);
   // A microradian per second for a second, in 2^-29 turn, times 2^20; 2^15 units are the range.
   constexpr int64_t kTurnPerMicroradian = 89596268;
   turn_per_unit_ = static_cast<uint32_t>(divide_rounded_64(scaled_range(params.gyro) * kTurnPerMicroradian,
@@ -36,7 +36,8 @@ GyroHeading::Samples GyroHeading::take(const Step& step, Health& health) noexcep
   const uint16_t samples = static_cast<uint16_t>(reading->samples - last_.samples);
   const Samples taken{as_signed(reading->sum - last_.sum), samples};
   const bool saturated = reading->saturated != last_.saturated;
-  const bool follows = has_last_ && samples <= most_samples_;
+  const bool possible = magnitude(taken.sum) <= uint32_t{samples} * 32768;
+  const bool follows = has_last_ && possible && samples <= most_samples_;
   if (!follows) restart();
   last_ = *reading;
   has_last_ = answers_ = true;
@@ -59,12 +60,14 @@ Angle GyroHeading::turn(const Step& step, const Odometry& odometry, Health& heal
   const bool still = step.counts.left == 0 && step.counts.right == 0 && !step.commanded;
   bias_.pass(still, step.elapsed);
   const Samples samples = take(step, health);
-  const Angle wheels = odometry.turn_of(gains_.difference(step.counts));
+  const int64_t difference = odometry.difference(step.counts);
+  const Angle nominal = odometry.turn_of(difference);
+  const Angle wheels = odometry.turn_of(difference + gains_.difference(step.counts));
   if (!answers_) return wheels;
   if (samples.count == 0) {
     if (!bias_.known() || !has_last_) return wheels;
     ahead_ += wheels;
-    learn(step.counts, wheels, wheels, health);
+    learn(step.counts, wheels, nominal, health);
     return wheels;
   }
   Angle gyro = turned(samples);
@@ -72,12 +75,12 @@ Angle GyroHeading::turn(const Step& step, const Odometry& odometry, Health& heal
   if (!bias_.known()) return wheels;
   const Angle turn = gyro - ahead_;
   ahead_ = Angle{};
-  learn(step.counts, turn, wheels, health);
+  learn(step.counts, turn, nominal, health);
   return turn;
 }
 
-void GyroHeading::learn(const CountStep& counts, Angle gyro, Angle wheels, Health& health) noexcept {
-  if (gains_.compare(counts, gyro, wheels)) count(health.wheel_slips);
+void GyroHeading::learn(const CountStep& counts, Angle gyro, Angle nominal, Health& health) noexcept {
+  if (gains_.compare(counts, gyro, nominal)) count(health.wheel_slips);
 }
 
 HeadingSource GyroHeading::source() const noexcept {

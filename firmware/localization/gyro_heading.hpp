@@ -18,7 +18,7 @@ enum class HeadingSource : uint8_t {
   wheels,        ///< no gyro is fitted
   bias_unknown,  ///< the wheels, until the robot has stood long enough to measure the bias
   gyro,
-  gyro_lost,  ///< the wheels, with the gains that the gyro taught, until it answers again
+  gyro_lost,  ///< the wheels, with what the gyro taught within their declared error, until it answers again
 };
 
 /// The gyro counts for the heading, the wheels for the distance. Where no sample has arrived since the last
@@ -37,6 +37,8 @@ class GyroHeading {
   /// The body was put down elsewhere.
   void restart() noexcept;
   Angle turn(const Step& step, const Odometry& odometry, Health& health) noexcept;
+  /// Counts have been lost: the stretch that is being compared teaches nothing.
+  void drop_stretch() noexcept { gains_.drop(); }
 
   HeadingSource source() const noexcept;
   GyroBias& bias() noexcept { return bias_; }
@@ -49,7 +51,7 @@ class GyroHeading {
     int32_t count = 0;
   };
   Samples take(const Step& step, Health& health) noexcept;
-  void learn(const CountStep& counts, Angle gyro, Angle wheels, Health& health) noexcept;
+  void learn(const CountStep& counts, Angle gyro, Angle nominal, Health& health) noexcept;
   Angle turned(Samples samples) const noexcept;
 
   GyroBias bias_;

@@ -15,19 +15,27 @@ void Localizer::configure() noexcept {
 void Localizer::put_down(const Pose& pose) noexcept {
   odometry_.place(pose);
   if (has_gyro()) heading_->restart();
-  if (kGyroBuilt) teacher_->restart(Angle{}, Angle{});
+  if (kGyroBuilt) teacher_->restart();
   estimate_.pose = pose;
   if (kFrames) frame_->tie(pose, pose);
   restart_bound({});
 }
 
 void Localizer::move(const Pose& pose) noexcept {
+  if (kGyroBuilt) teacher_->restart();
   restart_bound({});
   tie(pose);
 }
 
+void Localizer::restart_lessons() noexcept {
+  if (!kGyroBuilt) return;
+  teacher_->restart();
+  heading_->drop_stretch();
+}
+
 bool Localizer::correct(const Pose& pose, const PoseSigma& sigma) noexcept {
-  UncertainPose fix{pose, sigma};
+  const UncertainPose told{pose, sound(sigma)};
+  UncertainPose fix = told;
   if (has_bound()) {
     const UncertainPose estimate{estimate_.pose, bound_->sigma()};
     if (jumps(estimate, fix)) {
@@ -39,7 +47,7 @@ bool Localizer::correct(const Pose& pose, const PoseSigma& sigma) noexcept {
     }
     fix = fused(estimate, fix);
   }
-  teach(pose.heading, sigma.heading, fix);
+  teach(told.pose.heading, told.sigma.heading);
   restart_bound(fix.sigma);
   tie(fix.pose);
   return true;
@@ -50,7 +58,7 @@ bool Localizer::correct_heading(Angle ahead, Angle sigma) noexcept {
   if (!bound_->correct_heading(ahead, sigma, by)) return false;
   estimate_.sigma = bound_->sigma();
   const Pose pose = ahead_by(by);
-  teach(estimate_.pose.heading + ahead, sigma, {pose, estimate_.sigma});
+  teach(estimate_.pose.heading + ahead, sigma);
   tie(pose);
   return true;
 }
@@ -75,12 +83,16 @@ bool Localizer::learn_bias() noexcept {
   return true;
 }
 
-void Localizer::teach(Angle fix, Angle sigma, const UncertainPose& fused) noexcept {
-  if (!kGyroBuilt || has_gyro()) return;
-  const Angle heading = odometry_.pose().heading;
-  if (!teacher_->fix(fix - heading, sigma)) return;
-  teacher_->restart(fused.pose.heading - heading, fused.sigma.heading);
+void Localizer::teach(Angle fix, Angle sigma) noexcept {
+  if (!kGyroBuilt || has_gyro() || !teacher_->fix(fix - odometry_.pose().heading, sigma)) return;
   if (has_bound()) bound_->set_difference(teacher_->gains().skew_sigma() * 2, params_.body.track);
+}
+
+bool Localizer::turn_as_taught() noexcept {
+  const Angle turn = teacher_->pass(counts_, odometry_);
+  if (turn == Angle{}) return false;
+  tie({estimate_.pose.at, estimate_.pose.heading + turn});
+  return true;
 }
 
 void Localizer::tie(const Pose& pose) noexcept {
@@ -94,26 +106,21 @@ Localizer::Stepped Localizer::step(const Step& step) noexcept {
   if (!odometry_.take(step.counts, step.since, counts_)) return Stepped::jumped;
   advance(step);
   estimate_.pose = kFrames ? frame_->outward(odometry_.pose()) : odometry_.pose();
-  return has_gyro() && learn_bias() ? Stepped::corrected : Stepped::advanced;
+  if (!kGyroBuilt) return Stepped::advanced;
+  const bool moved = has_gyro() ? learn_bias() : kFrames && turn_as_taught();
+  return moved ? Stepped::corrected : Stepped::advanced;
 }
 
 void Localizer::advance(const Step& step) noexcept {
   if (!kGyroBuilt) return odometry_.advance(counts_);
-  if (!has_gyro()) {
-    advance_by_wheels();
-    advance_bound(step.since);
-    return;
+  if (has_gyro()) {
+    const GyroHeading::Step turn{step.gyro, counts_, step.commanded, step.since};
+    odometry_.advance(counts_, heading_->turn(turn, odometry_, health_));
+    estimate_.heading_source = heading_->source();
+  } else {
+    odometry_.advance(counts_);
   }
-  const GyroHeading::Step turn{step.gyro, counts_, step.commanded, step.since};
-  odometry_.advance(counts_, heading_->turn(turn, odometry_, health_));
-  estimate_.heading_source = heading_->source();
   advance_bound(step.since);
-}
-
-void Localizer::advance_by_wheels() noexcept {
-  teacher_->pass(counts_);
-  if (!teacher_->taught()) return odometry_.advance(counts_);
-  odometry_.advance(counts_, teacher_->turn(counts_, odometry_));
 }
 
 void Localizer::advance_bound(Duration since) noexcept {

@@ -23,8 +23,9 @@ struct Estimate {
   HeadingSource heading_source = HeadingSource::wheels;
 };
 
-/// Perception and planning work in the odometry frame, which never jumps: inside(). The estimate is in the
-/// user's frame.
+/// Perception and planning work in the odometry frame: inside(). Only counts and gyro move the body in it.
+/// What is told from outside, fixes, places and the direction of walls, moves the user's frame, in which the
+/// estimate is: whatever is told, ground that was seen stays where it is around the body.
 class Localizer {
  public:
   struct Step {
@@ -41,17 +42,20 @@ class Localizer {
 
   /// The body was put down here: the next counts are the new zero, and both frames are the same.
   void put_down(const Pose& pose) noexcept;
-  /// The body is here, exactly. The odometry frame stays.
+  /// The body was here at the last step, exactly.
   void move(const Pose& pose) noexcept;
-  /// The body is here by a fix from outside: see Robot::correct. False: the fix is refused.
+  /// The body was here at the last step, by a fix from outside: see Robot::correct. False: the fix is
+  /// refused.
   bool correct(const Pose& pose, const PoseSigma& sigma) noexcept;
+  /// Counts may have been lost: what is being learned of the wheels begins anew.
+  void restart_lessons() noexcept;
   /// The heading is measured: it is off by `ahead`, with this standard deviation. See
   /// PoseBound::correct_heading(), also for false. Needs a bound of the pose.
   bool correct_heading(Angle ahead, Angle sigma) noexcept;
   enum class Stepped : uint8_t {
     jumped,  ///< the counts did, and the pose ignores them: see Odometry::take
     advanced,
-    corrected  ///< advanced, and what a rest of the gyro said was used: the goal moves in the odometry frame
+    corrected  ///< advanced, and the user's frame has moved: so has the goal in the odometry frame
   };
   Stepped step(const Step& step) noexcept;
 
@@ -69,12 +73,12 @@ class Localizer {
  private:
   bool has_bound() const noexcept { return kGyroBuilt && estimate_.sigma_known; }
   void advance(const Step& step) noexcept;
-  void advance_by_wheels() noexcept;
   void advance_bound(Duration since) noexcept;
   bool learn_bias() noexcept;
+  bool turn_as_taught() noexcept;
   Pose ahead_by(const PoseBound::Correction& by) const noexcept;
   void restart_bound(const PoseSigma& sigma) noexcept;
-  void teach(Angle fix, Angle sigma, const UncertainPose& fused) noexcept;
+  void teach(Angle fix, Angle sigma) noexcept;
   void tie(const Pose& pose) noexcept;
 
   const Params& params_;

@@ -87,7 +87,13 @@ void Odometry::advance(const CountStep& step, Angle turn) noexcept {
   travelled_um_ += static_cast<uint32_t>(norm(pose().at - from).raw());
 }
 
-Angle Odometry::turn_of(int32_t difference) const noexcept {
+int64_t Odometry::difference(const CountStep& step) const noexcept {
+  const int64_t difference = int64_t{step.right - step.left} * 4096;
+  if (!kCalibrationBuilt) return difference;
+  return difference + scale_down<12>(int64_t{skew_->share} * (step.right + step.left));
+}
+
+Angle Odometry::turn_of(int64_t difference) const noexcept {
   // 2^-60 turn; it wraps after 16 turns, like an angle.
   const uint64_t turned = magnitude(difference) * turn_per_count_ + (UINT64_C(1) << 27);
   const Angle size = Angle::from_raw(static_cast<uint32_t>(turned >> 28));

@@ -34,13 +34,12 @@ class Odometry {
   bool take(const hal::EncoderCounts& counts, Duration since, CountStep& step) noexcept;
   void advance(const CountStep& step) noexcept;
   void advance(const CountStep& step, Angle turn) noexcept;
-  /// The turn for this difference of counts, right minus left, in 2^-12 counts.
-  Angle turn_of(int32_t difference) const noexcept;
+  /// The difference of counts, right minus left, that turns the body at this step: 2^-12 counts.
+  int64_t difference(const CountStep& step) const noexcept;
+  /// The turn for such a difference.
+  Angle turn_of(int64_t difference) const noexcept;
   /// Counts of one wheel for a full turn of the body with the other wheel at rest.
   int32_t counts_per_turn() const noexcept;
-  /// Of WheelParams::ratio: the right wheel's counts go 1 + skew times as far, the left one's 1 - skew times;
-  /// 2^-24.
-  int32_t skew() const noexcept { return kCalibrationBuilt ? skew_->share : 0; }
 
   Pose pose() const noexcept;
   /// The length of the way so far, um modulo 2^32; place() does not change it.
@@ -51,7 +50,7 @@ class Odometry {
     int64_t sum = 0;             // of both, counts since place()
     int64_t um_per_count = 0;    // of the difference, 2^-16 um
     int64_t turn_per_count = 0;  // of the sum, 2^-48 turn
-    int32_t share = 0;           // 2^-24
+    int32_t share = 0;           // of the sum in the difference that turns, 2^-24
   };
   int64_t x_ = 0;  // 2^-16 um
   int64_t y_ = 0;

@@ -151,10 +151,9 @@ void PoseBound::restart(const Pose& pose, const PoseSigma& sigma) noexcept {
   for (Lasting& error : lasting_) error = {};
   bias_.forget();
   shortened_ = {};
+  // Not the ticks, however often this is called: the bias of the gyro wanders on.
   last_ = pose;
   counts_ = 0;
-  elapsed_ms_ = 0;
-  ticks_ = 0;
   const int64_t heading = divide_rounded(int64_t{sigma.heading.wrapped()} << 20, kTurnPerRadian);
   heading_ = limited(square(heading), kMostHeading);
   x_heading_ = y_heading_ = 0;
@@ -225,7 +224,7 @@ void PoseBound::shorten(int32_t x, int32_t y) noexcept {
 int64_t PoseBound::heading_variance() const noexcept {
   int64_t sum = heading_;
   for (const Lasting& error : lasting_) sum += scale_down<16>(square(error.heading));
-  return sum;
+  return not_negative(sum);
 }
 
 void PoseBound::walk(int32_t x, int32_t y, int64_t by) noexcept {
@@ -255,6 +254,7 @@ PoseSigma PoseBound::sigma() const noexcept {
     xx = yy = kMostVariance;
     xy = 0;
   }
+  xy = limited(xy, kMostVariance);
   const int64_t c = cos(last_.heading).raw() >> 16;  // 2^-14
   const int64_t s = sin(last_.heading).raw() >> 16;
   const int64_t along = scale_down<14>(c * scale_down<14>(c * xx + s * xy)) +

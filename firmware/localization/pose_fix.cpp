@@ -45,6 +45,13 @@ int32_t remaining(int32_t fix, int32_t weight) noexcept {
 
 }  // namespace
 
+PoseSigma sound(const PoseSigma& sigma) noexcept {
+  const auto limited = [](Length x) { return x < Length{} ? PoseBound::kMost : min(x, PoseBound::kMost); };
+  constexpr Angle kMostHeading = Angle::turns(1, 4);
+  return {limited(sigma.along), limited(sigma.across),
+          sigma.heading.raw() > kMostHeading.raw() ? kMostHeading : sigma.heading};
+}
+
 bool jumps(const UncertainPose& estimate, const UncertainPose& fix) noexcept {
   const Differences d = differences(estimate, fix);
   return too_far(d.along) || too_far(d.across) || too_far(d.heading);

@@ -12,6 +12,9 @@ struct UncertainPose {
   PoseSigma sigma;
 };
 
+/// At most PoseBound::kMost and a quarter turn. A negative one is no accuracy, and becomes the largest.
+PoseSigma sound(const PoseSigma& sigma) noexcept;
+
 /// By PoseBound::kJumpSigmas: along the heading, across it, or in heading.
 bool jumps(const UncertainPose& estimate, const UncertainPose& fix) noexcept;
 

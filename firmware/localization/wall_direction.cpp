@@ -100,7 +100,8 @@ bool WallDirection::finish(const Run& run, Angle direction, Found& found) noexce
   Vec means[kMeans - 2];
   for (int i = 0; i < count; ++i) means[i] = point(run, run.means[i + 1]);
   const WallLine line = wall_line(means, count);
-  if (line.residual > kRough) return false;
+  // Of means one behind the other, the spread is larger.
+  if (line.residual > kRough || line.spread < kMean) return false;
   for (int i = 0; i < count; ++i) {
     if (abs(across(means[i] - line.middle, line.direction)) > kBend) return false;
   }

@@ -64,10 +64,10 @@ class ChipPilot final : public Pilot {
   }
 
   const Status& tick(Time now) override {
-    if (const auto fix = fixes_.take(plant_)) correct(*fix);
     say([&](Bytes& to) { append_tick(to, plant_, now); });
     const auto answer = hear<link::Answer>();
     if (!sound(answer)) throw ChipError("the chip's answer makes no sense");
+    if (const auto fix = fixes_.take(plant_)) correct(*fix);
     status_ = status_of(answer);
     status_.health.fix_jumps = fix_.jumps;
     status_.health.fixes_refused = fix_.refused;

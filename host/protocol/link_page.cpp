@@ -60,7 +60,7 @@ R clears a fault of the core; then the goal must be set again. L sets the pose o
 that does not fit into memory, or a map_bytes that is not a map size ({map_sizes}), ends the program.
 
 Y and X are optional. A robot with the parameter gyro needs Y before every T: without it, its gyro does not answer at that tick.
-X corrects the pose by one that was measured outside and is true at the next T ([odometry.md](odometry.md#fixes-from-outside)). To an image
+X corrects the pose by one that was measured outside and was true at the last T ([odometry.md](odometry.md#fixes-from-outside)). To an image
 without the code for a gyro (ATmega1284P), both are unknown letters.
 
 Axes, beams, wheels, counts and measurements are defined in [protocol.md](protocol.md#axes), with two differences: the

@@ -120,7 +120,7 @@ The mission ends when Outcome in NavStatus is 2, 3 or 4, or Fault is not 0. The 
 sets until the base sends cancel.
 
 A fix is a pose of the body that was measured outside of the robot and is true at the Tick of its set. The controller corrects its estimate
-before it steps ([odometry.md](odometry.md#fixes-from-outside)). A fix whose set is incomplete is lost, and gets no FixReply.
+after it has stepped on that set ([odometry.md](odometry.md#fixes-from-outside)). A fix whose set is incomplete is lost, and gets no FixReply.
 refused means that the fix is a jump and the parameter fix_jumps is 1; out_of_range, that its place is more than 1,000 m from the origin, which is a
 fault. Neither changes the pose.
 

@@ -33,8 +33,9 @@ CorePilot::CorePilot(const Scenario& scenario, RecordedPlanner planner, sim::Pla
 }
 
 const Status& CorePilot::tick(Time now) {
+  const Status& status = robot_.tick(now);
   if (const auto fix = fixes_.take(plant_)) robot_.correct(fix->pose, fix->sigma);
-  return robot_.tick(now);
+  return status;
 }
 
 planning::Goal fixed_goal(const Goal& goal) {

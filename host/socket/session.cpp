@@ -151,12 +151,12 @@ std::string Session::step(const Tick& tick, std::uint32_t now_ms) {
   if (tick.cancel) core.robot.cancel();
   if (tick.place && !core.robot.place(fixed_pose(*tick.place)))
     throw ProtocolError("'place' lies outside the region");
-  std::optional<bool> fixed;
   if (tick.fix && !within(tick.fix->pose.at, kPlaceLimit))
     throw ProtocolError("'fix' lies outside the region");
-  if (tick.fix) fixed = core.robot.correct(tick.fix->pose, tick.fix->sigma);
   if (tick.goal) core.aim(*tick.goal);
   const Status& status = core.robot.tick(Time::from_raw(now_ms));
+  std::optional<bool> fixed;
+  if (tick.fix) fixed = core.robot.correct(tick.fix->pose, tick.fix->sigma);
   core.hash.add(status.command);
   ++core.ticks;
   Json json;

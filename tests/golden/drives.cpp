@@ -23,8 +23,8 @@ class RecordingPilot final : public Pilot {
     chip::append_goal(to, fixed_goal(scenario.goal));
   }
   const Status& tick(Time now) override {
-    if (const auto fix = fixes_.take(plant_)) chip::append_fix(to_, *fix);
     chip::append_tick(to_, plant_, now);
+    if (const auto fix = fixes_.take(plant_)) chip::append_fix(to_, *fix);
     return pilot_->tick(now);
   }
 

@@ -16,14 +16,15 @@ Angle angle(double rad) {
 }
 double radians(Angle a) { return a.wrapped() * (kPi / 2147483648.0); }
 
-/// Straight ahead on wheels of which the counts of the right one are `skew` too many, with fixes every 2 m.
+/// Straight ahead on wheels of which the counts of the right one are `skew` too many, after a first exact
+/// fix.
 class Straight {
  public:
   Straight(double skew, const Params& params) : skew_(skew) {
     odometry_.configure(params);
     odometry_.place({});
     teacher_.configure(params, odometry_);
-    teacher_.restart({}, {});
+    EXPECT_FALSE(teacher_.fix({}, {}));
     CountStep step;
     odometry_.take({0, 0}, 10_ms, step);
   }
@@ -31,17 +32,16 @@ class Straight {
     for (const double end = way_ + metres; way_ < end; way_ += 0.003) {
       CountStep step;
       EXPECT_TRUE(odometry_.take({count(way_), count(way_ * (1 + skew_))}, 10_ms, step));
-      teacher_.pass(step);
-      odometry_.advance(step, teacher_.turn(step, odometry_));
+      odometry_.advance(step);
+      ahead_ += teacher_.pass(step, odometry_);
     }
   }
   bool fix(double error, double sigma) {
-    const Angle offset = angle(error) - odometry_.pose().heading;
-    const bool lesson = teacher_.fix(offset, angle(sigma));
-    if (lesson) teacher_.restart(offset, angle(sigma));
-    return lesson;
+    return teacher_.fix(angle(error) - odometry_.pose().heading, angle(sigma));
   }
-  double heading() const { return radians(odometry_.pose().heading); }
+  void restart() { teacher_.restart(); }
+  /// In the user's frame.
+  double heading() const { return radians(odometry_.pose().heading + ahead_); }
   const FixTeacher& teacher() const { return teacher_; }
 
  private:
@@ -52,6 +52,7 @@ class Straight {
   double way_ = 0;
   Odometry odometry_;
   FixTeacher teacher_;
+  Angle ahead_;
 };
 
 Params declared(int32_t ppm) {
@@ -120,10 +121,54 @@ TEST(FixTeacher, FixesCloseTogetherTeachNothingUntilTheWayIsLongEnough) {
   Straight wheels(0.005, declared(5000));
   wheels.drive(0.2);
   EXPECT_FALSE(wheels.fix(0, 0.01));
-  EXPECT_FALSE(wheels.teacher().taught());
   wheels.drive(0.2);
   EXPECT_TRUE(wheels.fix(0, 0.01));
-  EXPECT_TRUE(wheels.teacher().taught());
+}
+
+TEST(FixTeacher, TheFirstFixAfterARestartIsNoLesson) {
+  Straight wheels(0.005, declared(5000));
+  wheels.drive(2);
+  wheels.restart();
+  EXPECT_FALSE(wheels.fix(0.1, 0.01)) << "a place that was set wrong";
+  wheels.drive(2);
+  EXPECT_TRUE(wheels.fix(0.1, 0.01));
+  const double from = wheels.heading();
+  wheels.drive(2);
+  EXPECT_NEAR(wheels.heading(), from, 0.005) << "71 mrad untaught";
+}
+
+TEST(FixTeacher, WithoutADeclaredErrorThereIsNoLesson) {
+  Straight wheels(0.005, Params{});
+  wheels.drive(2);
+  EXPECT_FALSE(wheels.fix(0, 0.01));
+  wheels.drive(2);
+  EXPECT_NEAR(wheels.heading(), 4 * 0.005 / 0.14, 0.003);
+}
+
+TEST(FixTeacher, LiesTeachNoMoreThanThreeDeclaredSigmas) {
+  Straight wheels(0, declared(1000));
+  for (double lie = 0; lie < 6; lie += 0.05) {
+    wheels.drive(2);
+    wheels.fix(lie, 0.01);
+  }
+  const double from = wheels.heading();
+  wheels.drive(2);
+  const double most = 3 * 0.000707 * 2 * 2 / 0.14;
+  EXPECT_GT(wheels.heading() - from, 0.5 * most);
+  EXPECT_LT(wheels.heading() - from, 1.02 * most);
+}
+
+TEST(FixTeacher, ExactFixesOfExactWheelsDivideByNothing) {
+  Params common;
+  common.pose_error.wheel_scale_common = millionths(10000);
+  for (const Params& params : {declared(1), declared(10), common}) {
+    Straight wheels(0, params);
+    for (int i = 0; i < 3; ++i) {
+      wheels.drive(1);
+      EXPECT_TRUE(wheels.fix(0, 0));
+    }
+    EXPECT_NEAR(wheels.heading(), 0, 1e-4);
+  }
 }
 
 TEST(FixTeacher, AJumpOfTheHeadingTeachesNothing) {

@@ -84,6 +84,14 @@ class GyroHeadingTest : public testing::Test {
     return std::remainder(estimate - true_, 2 * kHalfTurn) / kDegree;
   }
   void rest(double seconds) { drive(seconds, 0, 0); }
+  /// The error of each wheel, in millionths.
+  void declare(int ppm) {
+    params_.pose_error.wheel_scale = millionths(ppm);
+    heading_ = {};
+    heading_.configure(params_, odometry_);
+  }
+  /// The sum of the samples jumps.
+  void leap(std::uint32_t by) { next_.sum += by; }
   /// Several metres and turns, ending at rest.
   void wander(int legs) {
     for (int i = 0; i < legs; ++i) {
@@ -165,6 +173,7 @@ TEST_F(GyroHeadingTest, TakesTheTurnOfTheWheelsBackWhenSamplesArriveLate) {
 }
 
 TEST_F(GyroHeadingTest, TheWheelsTurnThePoseAsTheGyroTaughtThemOnceItIsSilent) {
+  declare(10000);
   scale[0] = 0.985;
   scale[1] = 1.012;
   rest(2.5);
@@ -181,6 +190,35 @@ TEST_F(GyroHeadingTest, TheWheelsTurnThePoseAsTheGyroTaughtThemOnceItIsSilent) {
   wander(6);
   EXPECT_EQ(heading_.source(), HeadingSource::gyro);
   EXPECT_NEAR(error(), before, 0.5);
+}
+
+TEST_F(GyroHeadingTest, WhatASilentGyroTaughtTurnsThePoseNoFurtherThanTheDeclaredErrors) {
+  for (const int ppm : {0, 1000}) {
+    declare(ppm);
+    scale[0] = 0.96;
+    answers = true;
+    rest(2.5);
+    wander(6);
+    answers = false;
+    drive(0.2, 0.25, 0);
+    const double before = error();
+    drive(8, 0.25, 0);
+    const double untaught = 2 * 0.04 / 0.14 / kDegree;
+    const double most = 2 * 2 * 3 * 0.000707 * ppm / 1000 / 0.14 / kDegree;
+    EXPECT_NEAR(error() - before, untaught - most, 0.4) << ppm;
+  }
+}
+
+TEST_F(GyroHeadingTest, ASumThatItsSamplesCannotHaveTurnsNothing) {
+  rest(2.5);
+  drive(1, 0, 1);
+  const double before = error();
+  leap(0x7FFF0000U);
+  drive(0.5, 0.1, 0);
+  leap(0x80000000U);
+  rest(3);
+  EXPECT_NEAR(error(), before, 0.3);
+  EXPECT_NEAR(heading_.bias().value() / 65536.0 * (500.0 / 32768), bias_dps, 0.02);
 }
 
 TEST_F(GyroHeadingTest, ASaturatedSampleIsReplacedByTheWheels) {

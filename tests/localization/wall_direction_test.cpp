@@ -189,6 +189,18 @@ TEST(WallDirection, ALineCountsIfTheLineBeforeItSaysTheSame) {
   EXPECT_FALSE(passes(2.5));
 }
 
+TEST(WallDirection, ToAndFroOnOneSpotIsNoLine) {
+  WallDirection walls;
+  WallDirection::Found found;
+  // Every mean over 60 mm is the same place.
+  constexpr int kWay[] = {0, 59, 61, 59};
+  for (int i = 0; i < 200; ++i) {
+    const WallDirection::Echo echo{{millimetres(kWay[i % 4]), 300_mm}, {}};
+    EXPECT_FALSE(walls.pass(hal::kLeft, &echo, Angle{}, found));
+  }
+  EXPECT_FALSE(walls.pass(hal::kLeft, nullptr, Angle{}, found));
+}
+
 TEST(WallDirection, AWallAcrossTheDeclaredDirectionCountsLikeOneAlongIt) {
   WallDirection walls;
   WallDirection::Found found;

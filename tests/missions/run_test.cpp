@@ -57,6 +57,18 @@ TEST(Run, AnEmptyWorldIsCrossedStraight) {
   EXPECT_EQ(d.records.size(), d.result.ticks);
 }
 
+TEST(Run, AFixIsTrueAtTheCountsOfItsTick) {
+  Scenario scenario = small_world("");
+  scenario.noise.fix_every_m = 0.6;
+  for (const int ppm : {0, 1000}) {
+    scenario.robot.pose_error.wheel_scale = millionths(ppm);
+    const Drive d = drive(scenario);
+    EXPECT_EQ(d.result.verdict, Verdict::reached);
+    EXPECT_NEAR(d.result.believed_distance_m.value_or(0), d.result.final_distance_m, 0.0005)
+        << "at full speed, a period of the way is 3 mm";
+  }
+}
+
 TEST(Run, TheTimeLimitIsGaveUpAndSaysSo) {
   Scenario s = small_world("");
   s.time_limit_s = 1.0;

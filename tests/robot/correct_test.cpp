@@ -100,6 +100,34 @@ TEST(Correct, AJumpIsCountedAndRefusedIfTheParameterSaysSo) {
   }
 }
 
+TEST(Correct, ExactFixesAreTakenWhateverErrorIsDeclared) {
+  for (const int32_t each : {0, 1, 10}) {
+    for (const int32_t common : {0, 1, 10000}) {
+      Params params;
+      params.pose_error.wheel_scale = millionths(each);
+      params.pose_error.wheel_scale_common = millionths(common);
+      Corrected c{params};
+      c.robot.set_goal({{4_m, 0_m}, 100_mm});
+      for (int i = 0; i < 20; ++i) {
+        c.tick(100);
+        EXPECT_TRUE(c.robot.correct(c.pose(), {}));
+      }
+      EXPECT_EQ(c.robot.status().decision.outcome, planning::Outcome::reached);
+    }
+  }
+}
+
+TEST(Correct, AnAccuracyThatIsNoneIsTheWorst) {
+  Corrected c{with_sigma()};
+  c.robot.set_goal({{9_m, 0_m}, 100_mm});
+  c.tick(1000);
+  const Pose before = c.pose();
+  const Length none = micrometres(INT32_MIN);
+  EXPECT_TRUE(c.robot.correct({before.at + Vec{50_mm, 50_mm}, before.heading}, {none, none, 180_deg}));
+  EXPECT_LT(norm(c.pose().at - before.at), 1_mm);
+  EXPECT_LE(c.robot.status().sigma.along, localization::PoseBound::kMost);
+}
+
 TEST(Correct, BeyondTheLimitItIsAFault) {
   Corrected c{Params{}};
   EXPECT_FALSE(c.robot.correct({{1001_m, 0_m}, 0_deg}, kSmall));

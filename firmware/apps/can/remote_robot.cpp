@@ -58,6 +58,7 @@ void RemoteRobot::begin(planning::Planner& planner, const can::Mission& mission)
 const Status& RemoteRobot::step(const can::InputSet& set, bool braked) noexcept {
   board_.on_frame(set, braked);
   if (braked) robot_->braked_elsewhere();
+  const Status& status = robot_->tick(Time::from_raw(set.tick * set.period_ms));
   if (set.has_fix) {
     const bool placeable = within(set.fix.pose.at, kPlaceLimit);
     const bool taken = robot_->correct(set.fix.pose, set.fix.sigma);
@@ -65,7 +66,7 @@ const Status& RemoteRobot::step(const can::InputSet& set, bool braked) noexcept 
                   : placeable ? can::FixStatus::refused
                               : can::FixStatus::out_of_range;
   }
-  return robot_->tick(Time::from_raw(set.tick * set.period_ms));
+  return status;
 }
 
 can::NavStatus nav_status(const Status& s) noexcept {
