@@ -109,7 +109,7 @@ Scenario closed_polygon(std::uint64_t seed) {
 
 /// Looping without a verdict: at most one in 300.
 TEST(ClosedPolygon, IsSaidToBeUnreachable) {
-  const std::uint64_t count = test::effort(4, 600);
+  const std::uint64_t count = test::effort(4, 300);
   std::uint64_t gave_up = 0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     RunOptions options;
