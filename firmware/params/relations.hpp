@@ -40,6 +40,7 @@ enum class ParamFault : uint8_t {
   gyro_unfit,                 ///< a fitted gyro: kGyroBuilt, range >= 5/4 max_turn_rate
   walls_without_bound,        ///< straight walls need kGyroBuilt and a bound of the pose: PoseErrorParams
   walls_unseen,  ///< incidence below 90 degrees: each wall ahead lies within cone / 2 + incidence of a beam
+  flank_unseen,  ///< incidence below 90 degrees: see flank_is_seen() in this file
   blind_at_rim,  ///< incidence below 90 degrees: no minimum range ends beyond planning reach + radius / 2
 };
 
@@ -147,6 +148,13 @@ constexpr Relation relation(ParamFault fault) noexcept {
           "some beam must see each wall ahead: if range_incidence_deg is below 90, every direction from "
           "-90 to 90 degrees must lie within range_incidence_deg + range_cone_deg / 2 of the axis of a beam "
           "(range_side_angle_deg; range_left_angle_deg, range_front_angle_deg, range_right_angle_deg)"};
+    case F::flank_unseen:
+      return {
+          "flank_unseen",
+          "the cones must see ends of walls before the flank meets them: if range_incidence_deg is below 90, "
+          "on either side some cone must cover, at most 0.5 m from its apex and at least the stopping "
+          "distance (wheel_speed_max_mps, at most skirt_probe_m) ahead, the line body_radius_m beside the "
+          "course (range_side_angle_deg, range_cone_deg; range_left_angle_deg, range_right_angle_deg)"};
     case F::blind_at_rim:
       return {
           "blind_at_rim",
@@ -274,6 +282,37 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
   return seen_to >= kAbeam;
 }
 
+/// Whether this beam sees an end of a wall on the line that the flank follows: within the local grid, while
+/// it echoes, and while the body can still stop.
+[[gnu::always_inline]] constexpr bool sees_flank(const Params& p, int beam, bool left) noexcept {
+  const Mount m = mount(p.rangefinders, beam);
+  const Reach ways = reach(p);
+  const Length beside = ways.guard - (left ? m.apex.y : -m.apex.y);
+  const Length range = clearing_range(p.rangefinders, beam);
+  if (beside <= Length{} || beside > range) return beside <= Length{};
+  const int64_t axis = left ? m.axis.wrapped() : -int64_t{m.axis.wrapped()};
+  const int64_t inner = axis - m.half_cone.raw(), outer = axis + m.half_cone.raw();
+  const int64_t far = arc_sine(beside, range).wrapped();
+  const int64_t first = inner > far ? inner : far;
+  if (first > outer) return false;
+  const auto ahead = [&](int64_t ray) {
+    const Angle to = Angle::from_raw(static_cast<uint32_t>(ray));
+    return m.apex.x + Length::from_raw(multiply_divide(beside.raw(), cos(to).raw(), sin(to).raw()));
+  };
+  return ahead(outer) <= patch_cell(p) * (kHalfWindow + 3) &&
+         ahead(first) >= min(stopping_distance(p), ways.probe);
+}
+
+[[gnu::always_inline]] constexpr bool flank_is_seen(const Params& p) noexcept {
+  if (!loses_walls(p.rangefinders)) return true;
+  bool left = false, right = false;
+  for (int i = 0; i < 3; ++i) {
+    left = left || sees_flank(p, i, true);
+    right = right || sees_flank(p, i, false);
+  }
+  return left && right;
+}
+
 [[gnu::always_inline]] constexpr bool rim_is_measured(const Params& p) noexcept {
   if (!loses_walls(p.rangefinders)) return true;
   const Length most = reach(p).planning + p.body.radius / 2;
@@ -330,7 +369,7 @@ template <class Visit>
       visit(F::walls_without_bound,
             p.walls.straight == Fitted::no || (kGyroBuilt && declares_errors(p.pose_error))) &&
       visit(F::walls_unseen, r::walls_are_seen(p.rangefinders)) &&
-      visit(F::blind_at_rim, r::rim_is_measured(p)));
+      visit(F::flank_unseen, r::flank_is_seen(p)) && visit(F::blind_at_rim, r::rim_is_measured(p)));
 }
 
 namespace formula {

@@ -116,6 +116,20 @@ TEST(Params, EveryRelationIsChecked) {
          p.rangefinders.side_angle = 75_deg;
          p.rangefinders.cone = 12_deg;
        }},
+      {ParamFault::flank_unseen,
+       [](Params& p) {
+         p.body.radius = 300_mm;
+         p.body.track = 400_mm;
+         p.thesis.danger_range = 500_mm;
+         p.rangefinders.incidence = 80_deg;
+         p.rangefinders.side_angle = 20_deg;
+       }},
+      {ParamFault::flank_unseen,
+       [](Params& p) {
+         p.rangefinders.incidence = 60_deg;
+         p.rangefinders.side_angle = 60_deg;
+         p.wheels.max_speed = 400_mm_per_s;
+       }},
       {ParamFault::blind_at_rim,
        [](Params& p) {
          p.rangefinders.incidence = 60_deg;

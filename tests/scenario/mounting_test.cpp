@@ -63,10 +63,11 @@ TEST(MountingWarnings, ASensorThatFoldsBackMustSitBehindTheRim) {
 }
 
 TEST(MountingWarnings, WallsBetweenTwoConesAreSeenByNone) {
-  const auto all = warnings("range_incidence_deg = 25\nrange_side_angle_deg = 70\n");
+  const auto all =
+      warnings("range_incidence_deg = 22\nrange_side_angle_deg = 65\nwheel_speed_max_mps = 0.2\n");
   ASSERT_GE(all.size(), 1U);
   EXPECT_STREQ(all[0].kind, "invisible_walls");
-  EXPECT_THAT(all[0].text, HasSubstr("22.5 degrees beside the two cones next to it"));
+  EXPECT_THAT(all[0].text, HasSubstr("20.0 degrees beside the two cones next to it"));
 }
 
 TEST(MountingWarnings, OwnAxesAreNamed) {

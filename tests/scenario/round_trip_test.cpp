@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/scenario/bearing.hpp"
+#include "host/scenario/check.hpp"
 #include "host/scenario/contact.hpp"
 #include "host/scenario/load.hpp"
 #include "host/scenario/noise.hpp"
@@ -131,6 +132,7 @@ Sensor any_sensor() {
   set(s.reflectance, 0, 1);
   set(s.ambient_klux, 0, 100);
   if (below(2) == 0) s.lost_is = below(2) == 0 ? Lost::clear : Lost::invalid;
+  if (below(2) == 0) s.near_is = below(2) == 0 ? Near::too_near : Near::farther;
   return s;
 }
 
@@ -148,6 +150,7 @@ void same(const Sensor& a, const Sensor& b) {
   RC_ASSERT(a.reflectance_reference == b.reflectance_reference);
   RC_ASSERT(a.ambient_knee_klux == b.ambient_knee_klux);
   RC_ASSERT(a.lost_is == b.lost_is);
+  RC_ASSERT(a.near_is == b.near_is);
   RC_ASSERT(a.skew_deg == b.skew_deg);
   RC_ASSERT(a.scale == b.scale);
   RC_ASSERT(a.phantom == b.phantom);
@@ -211,6 +214,8 @@ Scenario any_scenario() {
   if (below(2) == 0) {
     Shuffle shuffle{s.robot};
     for_each_param(s.robot, shuffle);
+    // No robot needs more than 8 of its counts.
+    if (!tolerance_fault(s).empty()) s.goal.tolerance_m = number(0.08, 2);
   }
   if (below(2) == 0)
     s.bounds = Bounds{{number(-90, -60), number(-90, -60)}, {number(60, 90), number(60, 90)}};
