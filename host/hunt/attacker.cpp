@@ -9,7 +9,7 @@
 namespace whisker::hunt {
 namespace {
 
-constexpr int kPlots = 9;
+constexpr int kPlots = 10;
 
 double wrapped(double angle) { return std::remainder(angle, 2 * sim::kPi); }
 
@@ -20,7 +20,8 @@ Attacker::Attacker(const Scenario& scenario, std::uint64_t seed)
       dice_(seed),
       radius_m_(scenario.robot.body.radius.raw() * 1e-6),
       speed_mps_(scenario.robot.wheels.max_speed.raw() * 1e-6),
-      turn_radps_(scenario.robot.wheels.max_turn_rate.raw() * 1e-6) {}
+      turn_radps_(scenario.robot.wheels.max_turn_rate.raw() * 1e-6),
+      survey_radps_(turn_rate(scenario.robot).raw() * 1e-6) {}
 
 guard::Twist Attacker::ask(const guard::Sight& sight) {
   if (sight.t_s >= until_s_) plot(sight.t_s);
@@ -30,8 +31,12 @@ guard::Twist Attacker::ask(const guard::Sight& sight) {
 }
 
 void Attacker::plot(double t_s) {
-  until_s_ = t_s + dice_.log_uniform(0.02, 4);
-  plot_ = static_cast<Plot>(dice_.index(kPlots));
+  const bool begins = t_s == 0 && dice_.chance(0.6);
+  plot_ = begins || dice_.chance(0.15) ? Plot::survey : static_cast<Plot>(dice_.index(kPlots));
+  // A whole turn and more, or a part of one.
+  const double turn_s = 7 / survey_radps_;
+  until_s_ = t_s + (plot_ == Plot::survey ? std::min(15.0, turn_s * dice_.log_uniform(0.2, 2))
+                                          : dice_.log_uniform(0.02, 3));
   pause_s_ = dice_.chance(0.1) ? dice_.log_uniform(0.05, 0.6) : dice_.log_uniform(0.005, 0.1);
   draw();
 }
@@ -54,6 +59,7 @@ void Attacker::act(const guard::Sight& sight) {
   const Near near = hunts ? nearest(scenario_, sight.pose.at) : Near{0, {}};
   const sim::Vec2 way = hunts && std::isfinite(near.distance_m) ? near.at - sight.pose.at : sim::Vec2{1, 0};
   switch (plot_) {
+    case Plot::survey: twist_ = {0, std::copysign(survey_radps_ * 0.9, twist_.turning_radps)}; break;
     case Plot::steady: break;
     case Plot::charge: steer(sight.pose, way); break;
     case Plot::graze: steer(sight.pose, {way.y + way.x * 0.3, way.y * 0.3 - way.x}); break;

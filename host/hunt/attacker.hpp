@@ -10,8 +10,8 @@
 
 namespace whisker::hunt {
 
-/// Charges at the nearest obstacle, grazes it, spins and reverses beside it, and gives commands of every size
-/// at every rate. It records what it commanded.
+/// Surveys the ground so that the guard grants something, charges at the nearest obstacle, grazes it, spins
+/// and reverses beside it, and gives commands of every size at every rate. It records what it commanded.
 class Attacker final : public guard::Operator {
  public:
   /// The scenario must outlive it.
@@ -21,7 +21,7 @@ class Attacker final : public guard::Operator {
   const std::vector<guard::Command>& commands() const { return commands_; }
 
  private:
-  enum class Plot { steady, charge, graze, spin, zigzag, reverse, noise, beyond, ambush };
+  enum class Plot { survey, steady, charge, graze, spin, zigzag, reverse, noise, beyond, ambush };
 
   void plot(double t_s);
   void draw();
@@ -31,7 +31,7 @@ class Attacker final : public guard::Operator {
 
   const Scenario& scenario_;
   Dice dice_;
-  double radius_m_, speed_mps_, turn_radps_;
+  double radius_m_, speed_mps_, turn_radps_, survey_radps_;
   Plot plot_ = Plot::steady;
   double until_s_ = 0;
   double pause_s_ = 0.02;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@ namespace {
 
 constexpr std::size_t kMost = 400;
 constexpr double kNear = 0.3;  // radii
+constexpr int kPicks = 4;      // of which the nearest is changed
 
 std::string file_name(std::string niche) {
   std::replace_if(
@@ -50,9 +52,13 @@ void Corpus::keep(const std::string& niche, const Case& c, const Outcome& outcom
 }
 
 Corpus::Pick Corpus::pick(Dice& dice) const {
-  auto at = kept_.begin();
-  std::advance(at, dice.index(static_cast<int>(kept_.size())));
-  return {at->first, at->second.c};
+  const auto draw = [&] { return std::next(kept_.begin(), dice.index(static_cast<int>(kept_.size()))); };
+  auto best = draw();
+  for (int i = 1; i < kPicks; ++i) {
+    const auto other = draw();
+    if (other->second.closeness < best->second.closeness) best = other;
+  }
+  return {best->first, best->second.c};
 }
 
 }  // namespace whisker::hunt

@@ -27,7 +27,7 @@ class Corpus {
     const std::string& niche;
     const Case& c;
   };
-  /// Not empty.
+  /// Rather one that came near. The corpus must not be empty.
   Pick pick(Dice& dice) const;
 
  private:

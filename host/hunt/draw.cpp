@@ -31,8 +31,8 @@ double mission_time_s(const Scenario& s) {
 
 void draw_driver(Dice& dice, Case& c) {
   c.attacker = dice.bits();
-  if (dice.chance(0.5)) c.planner = draw_planner(dice);
-  if (dice.chance(0.25)) c.gaps = dice.bits() >> 1;
+  if (dice.chance(0.35)) c.planner = draw_planner(dice);
+  if (dice.chance(0.2)) c.gaps = dice.bits() >> 1;
   // The guard refuses parameters with a creep speed.
   if (c.scenario.robot.bumper.creep_speed != Speed{}) c.planner = c.planner.value_or(PlannerKind::map);
 }

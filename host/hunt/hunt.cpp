@@ -22,6 +22,8 @@ namespace whisker::hunt {
 namespace {
 
 constexpr std::uint64_t kShrunkOfAKind = 3;
+constexpr int kDrivesOfHarm = 400;
+constexpr int kDrives = 60;  // a robot that stops or errs is shrunk less
 /// Between what a job says: the drawn row, the judged row, and what the corpus takes.
 constexpr char kBreak = '\x1e';
 
@@ -239,7 +241,8 @@ class Hunt {
     const std::string finding = piece.row.finding;
     if (!options_.out.empty()) piece.path = fmt::format("{}/findings/{}", options_.out, file_of(piece.row));
     const Job job = [whole = piece.c, path = piece.path, finding](const Say&) {
-      const Case c = shrunk(whole, finding);
+      const bool harms = finding == "contact" || finding.rfind("crash", 0) == 0;
+      const Case c = shrunk(whole, finding, harms ? kDrivesOfHarm : kDrives);
       if (!path.empty()) save(c, path);
     };
     start(std::move(piece), job);

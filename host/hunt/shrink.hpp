@@ -13,6 +13,6 @@ std::string finding_of(Case& c);
 
 /// Gives keys their default back, removes obstacles, commands, noise and gaps, and shortens the time, as long
 /// as the premise holds and the finding stays the same. At most `tries` drives.
-Case shrunk(const Case& c, const std::string& finding, int tries = 400);
+Case shrunk(const Case& c, const std::string& finding, int tries);
 
 }  // namespace whisker::hunt
