@@ -79,9 +79,9 @@ int again(std::uint64_t seed, const std::string& out) {
   return status;
 }
 
-void print_found(const hunt::Row& row, double after_s, const std::string& path) {
-  fmt::print("{:8.1f} s  {}: {} {}, driven by {}, family {}, world {}{}\n", after_s, row.finding,
-             row.parent.empty() ? "seed" : "changed",
+void print_found(const hunt::Row& row, const hunt::Progress& p, const std::string& path) {
+  fmt::print("{:.0f} s, {:.0f} s of processor: {}: {} {}, {}, family {}, world {}{}\n", p.elapsed_s,
+             p.processor_s, row.finding, row.parent.empty() ? "seed" : "changed",
              row.parent.empty() ? std::to_string(row.seed) : row.parent, row.driver, row.family, row.world,
              path.empty() ? "" : ": " + path + ".toml");
   std::fflush(stdout);
@@ -109,9 +109,9 @@ int execute(HuntOptions o) {
     line.show(fmt::format("{} cases in {:.0f} s, {} findings, corpus {}", p.cases, p.elapsed_s, p.findings,
                           p.corpus));
   };
-  o.hunt.found = [&](const hunt::Row& row, double after_s, const std::string& path) {
+  o.hunt.found = [&](const hunt::Row& row, const hunt::Progress& p, const std::string& path) {
     line.show("");
-    print_found(row, after_s, path);
+    print_found(row, p, path);
   };
   const bool nothing = hunt::hunt(o.hunt);
   line.show("");

@@ -10,6 +10,8 @@ namespace whisker::hunt {
 namespace {
 
 constexpr int kPlots = 10;
+/// A command that is recorded a little earlier than its tick comes at that tick however times are rounded.
+constexpr double kEarlier_s = 0.0005;
 
 double wrapped(double angle) { return std::remainder(angle, 2 * sim::kPi); }
 
@@ -26,7 +28,7 @@ Attacker::Attacker(const Scenario& scenario, std::uint64_t seed)
 guard::Twist Attacker::ask(const guard::Sight& sight) {
   if (sight.t_s >= until_s_) plot(sight.t_s);
   act(sight);
-  commands_.push_back({sight.t_s, twist_});
+  commands_.push_back({std::max(0.0, sight.t_s - kEarlier_s), twist_});
   return twist_;
 }
 

@@ -1,6 +1,7 @@
 #include "host/hunt/hunt.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cctype>
@@ -22,8 +23,8 @@ namespace whisker::hunt {
 namespace {
 
 constexpr std::uint64_t kShrunkOfAKind = 3;
-constexpr int kDrivesOfHarm = 400;
-constexpr int kDrives = 60;  // a robot that stops or errs is shrunk less
+constexpr Effort kEffortForHarm{400, 60};
+constexpr Effort kEffort{60, 15};  // for robots that stop or err
 /// Between what a job says: the drawn row, the judged row, and what the corpus takes.
 constexpr char kBreak = '\x1e';
 
@@ -86,7 +87,6 @@ class Hunt {
       }
       if (crew_.busy() == 0) break;
       for (const Ended& ended : crew_.wait()) take(ended);
-      progress_.elapsed_s = elapsed_s();
       progress_.corpus = corpus_.size();
       if (options_.show) options_.show(progress_, nullptr);
     }
@@ -111,6 +111,15 @@ class Hunt {
   }
   double elapsed_s() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  }
+  /// Of the jobs that ended.
+  static double processor_s() {
+    rusage usage{};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& t) {
+      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
   }
   bool over() const {
     return (options_.stop && options_.stop()) || (options_.time_s > 0 && elapsed_s() >= options_.time_s);
@@ -242,7 +251,8 @@ class Hunt {
     if (!options_.out.empty()) piece.path = fmt::format("{}/findings/{}", options_.out, file_of(piece.row));
     const Job job = [whole = piece.c, path = piece.path, finding](const Say&) {
       const bool harms = finding == "contact" || finding.rfind("crash", 0) == 0;
-      const Case c = shrunk(whole, finding, harms ? kDrivesOfHarm : kDrives);
+      const Case c = shrunk(
+          whole, [&](Case& other) { return finding_of(other) == finding; }, harms ? kEffortForHarm : kEffort);
       if (!path.empty()) save(c, path);
     };
     start(std::move(piece), job);
@@ -259,7 +269,7 @@ class Hunt {
   }
 
   void took_shrunk(const Piece& piece, const Ended& ended) {
-    if (options_.found) options_.found(piece.row, elapsed_s(), ended.death.empty() ? piece.path : "");
+    if (options_.found) options_.found(piece.row, progress_, ended.death.empty() ? piece.path : "");
   }
 
   const Options& options_;

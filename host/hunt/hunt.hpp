@@ -13,6 +13,7 @@ struct Progress {
   std::uint64_t cases = 0, findings = 0;
   std::size_t corpus = 0;
   double elapsed_s = 0;
+  double processor_s = 0;  ///< of the cases and of shrinking
 };
 
 struct Options {
@@ -27,7 +28,7 @@ struct Options {
   /// After each case, and about ten times a second; row: null if none ended.
   std::function<void(const Progress&, const Row* row)> show;
   /// A finding was shrunk. `path` without the ending; empty: not written.
-  std::function<void(const Row& row, double after_s, const std::string& path)> found;
+  std::function<void(const Row& row, const Progress& progress, const std::string& path)> found;
 };
 
 /// The rows of fresh draws depend only on their seeds. Seeds that OUT/rows.csv holds are not driven again.

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -16,10 +16,16 @@
 namespace whisker::hunt {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+Clock::duration seconds(double s) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+}
+
 class Shrinker {
  public:
-  Shrinker(const Case& c, std::string finding, int tries)
-      : best_(c), finding_(std::move(finding)), tries_(tries) {}
+  Shrinker(const Case& c, const Fails& fails, const Effort& effort)
+      : best_(c), fails_(fails), drives_(effort.drives), until_(Clock::now() + seconds(effort.seconds)) {}
 
   Case run() {
     std::size_t before = 0;
@@ -31,20 +37,22 @@ class Shrinker {
       drop_some(&Scenario::polygons);
       drop_commands();
       reset_keys();
-    } while (successes_ > before && tries_ > 0);
+    } while (successes_ > before && may_try());
     return best_;
   }
 
  private:
-  /// Keeps the change if the case still fails in the same way.
+  bool may_try() const { return drives_ > 0 && Clock::now() < until_; }
+
+  /// Keeps the change if the case still fails.
   template <class Change>
   bool attempt(const Change& change) {
-    if (tries_ <= 0) return false;
+    if (!may_try()) return false;
     Case other = best_;
     change(other);
     if (!holds_premise(other.scenario)) return false;
-    --tries_;
-    if (finding_of(other) != finding_) return false;
+    --drives_;
+    if (!fails_(other)) return false;
     best_ = std::move(other);
     ++successes_;
     return true;
@@ -73,7 +81,7 @@ class Shrinker {
   template <class Items>
   void drop_blocks(const Items& items) {
     for (std::size_t block = items(best_).size(); block > 0; block /= 2) {
-      for (std::size_t first = 0; first < items(best_).size() && tries_ > 0;) {
+      for (std::size_t first = 0; first < items(best_).size() && may_try();) {
         const bool dropped = attempt([&](Case& c) {
           auto& list = items(c);
           const std::size_t last = std::min(list.size(), first + block);
@@ -94,7 +102,7 @@ class Shrinker {
   void drop_commands() {
     if (best_.planner || best_.commands.empty()) return;
     for (std::size_t block = best_.commands.size() / 2; block > 0; block /= 2) {
-      for (std::size_t first = 0; first < best_.commands.size() && tries_ > 0;) {
+      for (std::size_t first = 0; first < best_.commands.size() && may_try();) {
         const bool dropped =
             best_.commands.size() > block && attempt([&](Case& c) {
               const auto from = c.commands.begin() + static_cast<std::ptrdiff_t>(first);
@@ -106,10 +114,9 @@ class Shrinker {
     }
   }
 
-  /// A key that cannot have its default may have a rounder value in between.
   void reset_keys() {
     const std::vector<ParamEntry> usual = param_list(Params{});
-    for (std::size_t i = 0; i < usual.size() && tries_ > 0; ++i) {
+    for (std::size_t i = 0; i < usual.size() && may_try(); ++i) {
       const std::int64_t raw = param_list(best_.scenario.robot)[i].raw;
       if (raw == usual[i].raw) continue;
       attempt([&](Case& c) { set_param(c.scenario.robot, i, usual[i].raw); });
@@ -117,8 +124,9 @@ class Shrinker {
   }
 
   Case best_;
-  std::string finding_;
-  int tries_;
+  const Fails& fails_;
+  int drives_;
+  Clock::time_point until_;
   std::size_t successes_ = 0;
 };
 
@@ -136,8 +144,8 @@ std::string finding_of(Case& c) {
   return ended.text.substr(0, end);
 }
 
-Case shrunk(const Case& c, const std::string& finding, int tries) {
-  return Shrinker(c, finding, tries).run();
+Case shrunk(const Case& c, const Fails& fails, const Effort& effort) {
+  return Shrinker(c, fails, effort).run();
 }
 
 }  // namespace whisker::hunt

@@ -76,14 +76,14 @@ class GuardDrive final : public Driven {
 
   const sim::Plant& plant() const override { return body_.plant(); }
   bool tick() override {
-    if (body_.faulted() && body_.stands()) return false;
+    if (plant().time() >= case_.scenario.time_limit_s || (body_.faulted() && body_.stands())) return false;
     if (plant().time() >= next_s_) {
       body_.command(hand_.ask({plant().pose(), plant().time()}));
       next_s_ = plant().time() + hand_.pause_s();
     }
     body_.tick();
     states_.insert(name(body_.status().reason));
-    return plant().time() < case_.scenario.time_limit_s;
+    return true;
   }
   void pass(int ms) override { body_.pass(ms); }
   void tell(Outcome& o) override {
@@ -138,6 +138,7 @@ class MissionDrive final : public Driven {
     for (int i = 0; i < ms && !plant_.in_contact(); ++i) plant_.advance();
   }
   void tell(Outcome& o) override {
+    if (status_ == nullptr) return;  // in contact from the start
     const auto verdict = verdict_of(status_->decision.outcome);
     const char* const why = planning::name(status_->decision.why);
     o.end = status_->health.fault != Fault::none ? fmt::format("fault {}", name(status_->health.fault))
