@@ -1,20 +1,8 @@
 #include "firmware/can/base_node.hpp"
 
+#include "firmware/can/braking.hpp"
+
 namespace whisker::can {
-namespace {
-
-int32_t size_of(int16_t speed) noexcept { return speed < 0 ? -int32_t{speed} : int32_t{speed}; }
-
-/// Scales both wheels by the same factor, so that the path keeps its curvature; the faster one loses `step`.
-hal::WheelSpeeds slowed(hal::WheelSpeeds now, int16_t step) noexcept {
-  const int32_t fastest = size_of(now.left) > size_of(now.right) ? size_of(now.left) : size_of(now.right);
-  if (fastest <= step) return {};
-  const auto rest = [&](int16_t speed) { return static_cast<int16_t>(speed * (fastest - step) / fastest); };
-  return {rest(now.left), rest(now.right)};
-}
-
-}  // namespace
-
 BaseNode::BaseNode(hal::CanPort& port, const Identity& identity, int16_t ramp) noexcept
     : Node(port, Party::base, identity), ramp_(ramp) {}
 

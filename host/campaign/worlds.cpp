@@ -52,6 +52,7 @@ Files load_folder(const std::string& folder) {
       throw std::invalid_argument(fmt::format("{}: a file's name has control characters in it", folder));
     }
     files.scenarios.push_back(load_scenario(name));
+    files.scenarios.back().events.clear();
   }
   return files;
 }

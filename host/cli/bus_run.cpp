@@ -64,6 +64,7 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
   if (calibrates(bus.order)) {
     // It ends where it began, or ahead, as well as the uncalibrated robot turns.
     how.goal = fixed_goal(world.goal);
+    scenario.events.clear();
     const sim::Pose& start = world.start;
     const double away = std::hypot(world.goal.at.x - start.at.x, world.goal.at.y - start.at.y);
     const double ahead = bus.order == can::Order::tape ? away : 0;

@@ -80,6 +80,7 @@ int execute(const GuardOptions& o) {
   Scenario scenario = load_scenario(o.file);
   if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
   if (o.seed) scenario.seed = *o.seed;
+  load_event_tables(scenario, o.file);
   const auto hand = operator_of(o, scenario);
   const auto* const keys = dynamic_cast<Keys*>(hand.get());
   const auto* const recorded = dynamic_cast<guard::Recorded*>(hand.get());

@@ -1,5 +1,6 @@
 #include "host/cli/rules_choice.hpp"
 
+#include <filesystem>
 #include <list>
 #include <memory>
 #include <stdexcept>
@@ -61,6 +62,14 @@ const fuzzy::Bilinear::Table* assist_table(const std::string& file_or_default,
   if (file_or_default == "default") return &fuzzy::kResponseTable;
   static std::list<fuzzy::Bilinear::Table> tables;
   return &tables.emplace_back(named_response(rules::read_rules(file_or_default), names).table);
+}
+
+void load_event_tables(Scenario& scenario, const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  for (Event& event : scenario.events) {
+    if (event.kind == EventKind::table && !event.file.empty())
+      event.table = assist_table((folder / event.file).string(), {});
+  }
 }
 
 rules::Response named_response(const rules::RuleBase& base, const std::vector<std::string>& names) {

@@ -10,6 +10,7 @@
 #include "host/report/fuzzy_picture.hpp"
 #include "host/rules/response.hpp"
 #include "host/run/planners.hpp"
+#include "host/scenario/scenario.hpp"
 
 namespace whisker::cli {
 
@@ -24,6 +25,10 @@ const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
 /// The same for the assist of whisker::Guard.
 const fuzzy::Bilinear::Table* assist_table(const std::string& file_or_default,
                                            const std::vector<std::string>& names);
+
+/// Loads the rule bases of the scenario's events; their paths are relative to the scenario file's folder.
+/// Throws InputError.
+void load_event_tables(Scenario& scenario, const std::string& file);
 
 /// The response to a rule base with these names, CORE=NAME. Throws UsageError or InputError.
 rules::Response named_response(const rules::RuleBase& base, const std::vector<std::string>& names);

@@ -7,6 +7,7 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/scenario/load.hpp"
 
 namespace whisker::cli {
@@ -19,6 +20,7 @@ Scenario ScenarioChoice::load(std::initializer_list<std::string> more_outputs) c
   check_outputs(all, {file, robot}, outputs.json);
   Scenario scenario = load_scenario(file);
   if (!robot.empty()) apply_robot_file(scenario, robot);
+  load_event_tables(scenario, file);
   return scenario;
 }
 

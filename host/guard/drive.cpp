@@ -22,10 +22,14 @@ class Drive {
         period_ms_(static_cast<int>(scenario.robot.safety.period.raw())),
         world_(scenario_),
         body_(scenario_, world_.view(), wiring_of(scenario, options), options.gap_ms != nullptr),
-        next_s_(hand.first_s()) {}
+        next_s_(hand.first_s()),
+        events_(scenario.events),
+        goal_(scenario.goal) {}
 
   Result run() {
-    while (plant_.time() < options_.time_s && !over()) {
+    for (;;) {
+      if (!events_.empty()) play();
+      if (plant_.time() >= options_.time_s || over()) break;
       ask();
       tick();
       body_.pass(options_.gap_ms ? options_.gap_ms() : period_ms_);
@@ -33,6 +37,7 @@ class Drive {
     result_.end = ended();
     result_.time_s = plant_.in_contact() ? plant_.contact_time() : plant_.time();
     result_.path_m = plant_.path_length();
+    if (!events_.empty()) result_.events = events_.counted();
     result_.min_clearance_m = plant_.min_clearance();
     result_.final_distance_m = distance();
     if (options_.guarded) result_.hash = body_.hash();
@@ -42,14 +47,20 @@ class Drive {
 
  private:
   double distance() const {
-    const sim::Vec2 to = scenario_.goal.at - plant_.pose().at;
+    const sim::Vec2 to = goal_.at - plant_.pose().at;
     return std::hypot(to.x, to.y);
   }
-  bool at_goal() const { return options_.until_goal && distance() <= scenario_.goal.tolerance_m; }
-  /// A fault ends the drive once the body stands.
+  bool at_goal() const { return options_.until_goal && distance() <= goal_.tolerance_m; }
+  /// A fault ends the drive once the body stands, unless an event will end the fault; and the goal, unless
+  /// there will be another one.
   bool over() const {
-    return plant_.in_contact() || at_goal() || (options_.ended && options_.ended()) ||
-           (body_.faulted() && body_.stands());
+    const auto to_come = [&](std::initializer_list<EventKind> kinds) {
+      return events_.to_come(kinds, options_.time_s);
+    };
+    return plant_.in_contact() || (options_.ended && options_.ended()) ||
+           (at_goal() && !to_come({EventKind::goal})) ||
+           (body_.faulted() && body_.stands() && body_.hears() &&
+            !to_come({EventKind::reset, EventKind::restart}));
   }
   End ended() {
     if (plant_.in_contact()) return End::contact;
@@ -61,15 +72,26 @@ class Drive {
     return options_.ended && options_.ended() ? End::ended : End::time;
   }
 
+  void play() {
+    while (body_.hears()) {
+      const Event* const event = events_.next(plant_.time());
+      if (event == nullptr) return;
+      events_.count(body_.play(*event));
+      if (event->kind == EventKind::goal) goal_ = event->goal;
+    }
+  }
+
+  /// A command does not arrive while frames are lost.
   void ask() {
     if (plant_.time() < next_s_) return;
-    body_.command(hand_.ask({plant_.pose(), plant_.time()}));
+    const Twist twist = hand_.ask({plant_.pose(), plant_.time()});
+    if (body_.hears()) body_.command(twist);
     next_s_ = plant_.time() + hand_.pause_s();
   }
 
   void tick() {
     const Moment moment = body_.tick();
-    if (moment.status != nullptr) count(*moment.status);
+    if (moment.status != nullptr && body_.hears()) count(*moment.status);
     ++result_.ticks;
     if (options_.watch) options_.watch(moment);
   }
@@ -93,6 +115,8 @@ class Drive {
   const sim::Plant& plant_ = body_.plant();
   Result result_;
   double next_s_ = 0;
+  EventPlayer events_;
+  Goal goal_;
   double asked_ = 0, granted_ = 0;
   bool held_ = false;
 };

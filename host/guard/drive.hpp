@@ -4,11 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "firmware/guard.hpp"
 #include "host/guard/guarded_body.hpp"
 #include "host/guard/operator.hpp"
+#include "host/run/event_player.hpp"
 #include "host/scenario/scenario.hpp"
 
 namespace whisker::guard {
@@ -37,7 +39,8 @@ struct Result {
   std::uint64_t hash = 0;       ///< link::CommandHash over the commands of the guard; 0 without it
   double granted = 1;           ///< mean share of the asked forward speed, over the ticks that asked for one
   std::uint64_t ticks = 0;
-  std::uint64_t stops = 0;  ///< times that the guard brought the asked forward speed to nothing
+  std::uint64_t stops = 0;           ///< times that the guard brought the asked forward speed to nothing
+  std::optional<EventCount> events;  ///< none: the scenario has no events
   std::array<std::uint64_t, kGuardReasons> reasons{};  ///< ticks by reason
 };
 

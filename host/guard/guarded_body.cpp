@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "firmware/control/wheel_drive.hpp"
+#include "firmware/fuzzy/response_table.hpp"
 #include "firmware/math/wheel_kinematics.hpp"
 #include "host/run/spec.hpp"
 
@@ -33,21 +34,73 @@ GuardedBody::GuardedBody(const Scenario& scenario, const sim::WorldView& world, 
     : fine_(fine),
       params_(scenario.robot),
       plant_(world, spec_of(scenario, fine), noise_spec(scenario.noise), scenario.seed, scenario.start),
-      board_(plant_) {
+      board_(plant_),
+      wheels_(board_),
+      loss_(scenario.robot) {
   wire(wiring);
 }
 
 void GuardedBody::wire(const Wiring& wiring) {
   wiring_ = wiring;
-  // The guard keeps a reference to its parameters.
-  guard_.reset();
-  params_.guard = wiring.guard;
-  guard_.emplace(board_, board_, params_, &board_);
-  if (wiring.table != nullptr) guard_->assist_by(*wiring.table);
+  next_params_ = params_;
+  next_params_.guard = wiring.guard;
+  next_table_ = wiring.table;
+  make_guard();
   if (wiring.vouched_m > 0) guard_->vouch(Length::from_raw(micro(wiring.vouched_m)));
-  put_down_ = plant_.pose();
   bare_ = {};
   hash_ = {};
+}
+
+void GuardedBody::make_guard() {
+  // The guard keeps a reference to its parameters.
+  guard_.reset();
+  params_ = next_params_;
+  guard_.emplace(board_, wheels_, params_, &board_);
+  if (next_table_ != nullptr) guard_->assist_by(*next_table_);
+  put_down_ = plant_.pose();
+}
+
+bool GuardedBody::play(const Event& e) {
+  switch (e.kind) {
+    case EventKind::goal: return true;
+    case EventKind::reset:
+      if (wiring_.guarded) guard_->reset();
+      return wiring_.guarded;
+    case EventKind::param: return apply_param(e, next_params_);
+    case EventKind::table: {
+      const auto* const table = e.file.empty() ? &fuzzy::kResponseTable : e.table;
+      if (table != nullptr) next_table_ = table;
+      return table != nullptr;
+    }
+    case EventKind::frames_lost:
+      away_ = sent();
+      loss_.lose(e.for_s);
+      return true;
+    case EventKind::restart:
+      away_ = sent();
+      loss_.restart();
+      return true;
+    case EventKind::cancel:
+    case EventKind::correct:
+    case EventKind::place: break;
+  }
+  return false;
+}
+
+bool GuardedBody::regain() {
+  const LinkLoss::Step step = loss_.step(away_, plant_);
+  is_away_ = step == LinkLoss::Step::hold || step == LinkLoss::Step::brake;
+  if (step == LinkLoss::Step::brake) away_ = loss_.slowed(away_);
+  if (is_away_) plant_.command(away_);
+  if (is_away_ || step == LinkLoss::Step::up) return !is_away_;
+  if (step == LinkLoss::Step::restart) make_guard();
+  if (step == LinkLoss::Step::resume) guard_->reset();
+  bare_ = {};
+  if (step == LinkLoss::Step::resume || (step == LinkLoss::Step::back && loss_.held())) {
+    wheels_.refuse();
+    guard_->braked_elsewhere();
+  }
+  return true;
 }
 
 void GuardedBody::command(const Twist& twist) {
@@ -57,11 +110,13 @@ void GuardedBody::command(const Twist& twist) {
 
 Moment GuardedBody::tick() {
   Moment moment{plant_.time(), plant_.pose(), plant_.v_left(), plant_.v_right(), plant_.ranges(), twist_};
+  const bool heard = regain();
   if (wiring_.guarded) {
-    moment.status = &guard_->tick(now());
+    if (heard) guard_->tick(now());
+    moment.status = &guard_->status();
     moment.grid = &guard_->local_grid();
-    hash_.add(guard_->status().command);
-  } else {
+    hash_.add(sent());
+  } else if (heard) {
     without_guard();
   }
   moment.command = sent();
@@ -87,6 +142,7 @@ bool GuardedBody::stands() const {
 }
 
 hal::WheelSpeeds GuardedBody::sent() const {
+  if (is_away_) return away_;
   return wiring_.guarded ? guard_->status().command : control::to_wire(bare_);
 }
 

@@ -7,6 +7,8 @@
 #include "firmware/apps/pil_link/command_hash.hpp"
 #include "firmware/guard.hpp"
 #include "host/guard/operator.hpp"
+#include "host/run/braked_wheels.hpp"
+#include "host/run/link_loss.hpp"
 #include "host/scenario/scenario.hpp"
 #include "host/sim/plant.hpp"
 #include "host/sim/sim_board.hpp"
@@ -48,6 +50,10 @@ class GuardedBody {
   /// Replaces the command from the next tick on.
   void command(const Twist& twist);
   Moment tick();
+  /// An event between two ticks. False: it is refused, or means nothing to a guard.
+  bool play(const Event& event);
+  /// False: frames are lost, or the guard restarts.
+  bool hears() const { return !loss_.lost(); }
   /// Time passes until the next tick.
   void pass(int gap_ms);
 
@@ -73,12 +79,21 @@ class GuardedBody {
  private:
   Time now() const { return Time::from_raw(now_ms_); }
   void without_guard();
+  void make_guard();
+  /// False: no tick of the guard; the base holds the last command, or brakes.
+  bool regain();
 
   bool fine_;
   Params params_;
   Wiring wiring_;
   sim::Plant plant_;
   hal::SimBoard board_;
+  BrakedWheels wheels_;
+  LinkLoss loss_;
+  hal::WheelSpeeds away_{};  // the last command while a loss lasts
+  bool is_away_ = false;
+  Params next_params_;  // of the next start
+  const fuzzy::Bilinear::Table* next_table_ = nullptr;
   std::optional<Guard> guard_;
   sim::Pose put_down_;
   WheelPair bare_;

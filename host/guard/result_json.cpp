@@ -19,17 +19,18 @@ std::string result_json(const Result& r) {
   nlohmann::ordered_json reasons = nlohmann::ordered_json::object();
   for (int i = 0; i < kGuardReasons; ++i)
     reasons[name(static_cast<GuardReason>(i))] = r.reasons[static_cast<std::size_t>(i)];
-  const nlohmann::ordered_json json = {{"outcome", outcome()},
-                                       {"time_s", r.time_s},
-                                       {"path_m", r.path_m},
-                                       {"final_distance_m", r.final_distance_m},
-                                       {"min_clearance_m", r.min_clearance_m},
-                                       {"ticks", r.ticks},
-                                       {"hash", fmt::format("{:016x}", r.hash)},
-                                       {"detail", r.end == End::fault ? name(r.fault) : ""},
-                                       {"granted", r.granted},
-                                       {"stops", r.stops},
-                                       {"ticks_by_reason", reasons}};
+  nlohmann::ordered_json json = {{"outcome", outcome()},
+                                 {"time_s", r.time_s},
+                                 {"path_m", r.path_m},
+                                 {"final_distance_m", r.final_distance_m},
+                                 {"min_clearance_m", r.min_clearance_m},
+                                 {"ticks", r.ticks},
+                                 {"hash", fmt::format("{:016x}", r.hash)},
+                                 {"detail", r.end == End::fault ? name(r.fault) : ""},
+                                 {"granted", r.granted},
+                                 {"stops", r.stops},
+                                 {"ticks_by_reason", reasons}};
+  if (r.events) json["events"] = {{"played", r.events->played}, {"refused", r.events->refused}};
   return json.dump();
 }
 

@@ -5,12 +5,15 @@
 #include "firmware/apps/can/base.hpp"
 #include "firmware/can/param_server.hpp"
 #include "firmware/can/rules_sender.hpp"
+#include "firmware/fuzzy/digest.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "host/hil/base_words.hpp"
+#include "host/hil/operator_orders.hpp"
 #include "host/hil/overheard.hpp"
 #include "host/hil/param_question.hpp"
 #include "host/hil/resend.hpp"
 #include "host/run/fix_source.hpp"
+#include "host/run/link_loss.hpp"
 #include "host/run/spec.hpp"
 #include "host/sim/sim_board.hpp"
 
@@ -20,11 +23,6 @@ namespace {
 constexpr std::uint64_t kAskAgain_us = 200000;
 constexpr std::uint64_t kNoRules_us = 1000000;
 constexpr int kMostDamaged = 3;
-
-std::int16_t ramp_of(const Params& p) {
-  const std::int32_t um_per_s = (p.wheels.max_acceleration * p.safety.period).raw();
-  return saturate16(um_per_s / 100 > 0 ? um_per_s / 100 : 1);
-}
 
 /// Ticks start at whole milliseconds, because waits end there.
 std::uint64_t whole_ms(std::uint64_t us) { return us - us % 1000; }
@@ -40,15 +38,19 @@ class BusPilot final : public Pilot {
         options_(options),
         figures_(figures),
         params_(scenario.robot),
+        rules_(options.rules),
+        table_(options.table),
         mission_{fixed_pose(scenario.start), options.goal ? *options.goal : fixed_goal(scenario.goal)},
         period_us_(static_cast<std::uint64_t>(scenario.robot.safety.period.raw()) * 1000),
         resend_(std::uint64_t{options.resend_ms} * 1000),
         plant_(plant),
         fixes_(scenario),
         reckons_(params_.gyro.fitted == Fitted::no && params_.walls.straight == Fitted::no &&
-                 !(scenario.noise.fix_every_m > 0)),
+                 !(scenario.noise.fix_every_m > 0) && scenario.events.empty()),
+        loss_(params_),
+        operator_(port, options.identity.robot),
         board_(plant),
-        node_(port, options.identity, ramp_of(scenario.robot)),
+        node_(operator_.port(), options.identity, braking_step(scenario.robot)),
         base_(node_, board_, board_, params_.bumper.fitted == Fitted::yes ? &board_ : nullptr,
               params_.gyro.fitted == Fitted::yes ? &board_ : nullptr) {
     odometry_.configure(params_);
@@ -65,7 +67,11 @@ class BusPilot final : public Pilot {
     const auto period_ms = static_cast<std::uint8_t>(period_us_ / 1000);
     try {
       if (!begun_) begin();
-      if (const auto fix = fixes_.take(plant_)) {
+      auto fix = fixes_.take(plant_);
+      if (!regain()) return away(now.raw() / period_ms);
+      if (fix_) fix = fix_;
+      fix_.reset();
+      if (fix) {
         base_.correct(*fix);
         ++figures_.fixes;
       }
@@ -82,6 +88,25 @@ class BusPilot final : public Pilot {
     if (begun_) figures_.wall_s = static_cast<double>(clock_.now_us() - begun_us_) * 1e-6;
     return status_;
   }
+
+  bool play(const Event& e) override {
+    switch (e.kind) {
+      case EventKind::goal: return aim(fixed_goal(e.goal));
+      case EventKind::cancel: return begun_ && order(can::Order::cancel, mission_.goal);
+      case EventKind::correct: fix_ = fix_of(e, plant_.pose()); return true;
+      case EventKind::param: return apply_param(e, params_) && (changed_ = true);
+      case EventKind::table: return choose_table(e);
+      case EventKind::frames_lost:
+        // In lockstep, time does not pass while a set is repeated.
+        if (!lockstep() || loss_.stops(e.for_s)) loss_.lose(e.for_s);
+        return true;
+      case EventKind::restart: return restart();
+      case EventKind::place:
+      case EventKind::reset: break;
+    }
+    return false;
+  }
+  bool hears() const override { return !loss_.lost(); }
 
   bool sees_inside() const override { return false; }
   /// With a gyro or fixes, only the controller knows its estimate.
@@ -123,6 +148,85 @@ class BusPilot final : public Pilot {
     hal::EncoderCounts counts{};
     localization::CountStep step;
     if (board_.read(counts)) odometry_.update(counts, kLongestPause, step);
+  }
+
+  bool restart() {
+    loss_.restart();
+    status_.decision.outcome = planning::Outcome::running;
+    status_.health = {};
+    return true;
+  }
+
+  bool aim(const planning::Goal& goal) {
+    if (begun_ && !changed_ && !order(can::Order::resume, goal)) return false;
+    mission_.goal = goal;
+    return !changed_ || restart();
+  }
+
+  bool choose_table(const Event& event) {
+    const auto* const table = event.file.empty() ? &fuzzy::kResponseTable : event.table;
+    if (!rules_ || table == nullptr) return false;
+    table_ = table;
+    rules_ = fuzzy::digest(*table);
+    return changed_ = true;
+  }
+
+  /// An operator's order: the base's own ones need wheels at rest.
+  bool order(can::Order order, const planning::Goal& goal) {
+    if (!node_running()) return false;
+    ask_for("MissionReply to the operator");
+    operator_.begin();
+    while (!operator_.answered(order, goal, clock_.now_us())) {
+      watchful_nap();
+      watch_patience();
+      if (!node_running()) return false;
+    }
+    return operator_.accepted();
+  }
+
+  /// False: the robot has no controller in this tick.
+  bool regain() {
+    switch (loss_.step(status_.command, plant_)) {
+      case LinkLoss::Step::up:
+      case LinkLoss::Step::back: return true;
+      case LinkLoss::Step::hold: return false;
+      case LinkLoss::Step::brake: {
+        const bool restarts = loss_.restarts();
+        // In real time, a loss stops both nodes by itself.
+        if (!braking_ && (restarts || lockstep()))
+          node_.give(restarts ? can::Order::cancel : can::Order::resume, mission_, options_.sync_mode);
+        braking_ = true;
+        return false;
+      }
+      case LinkLoss::Step::resume:
+        if (lockstep()) give(can::Order::resume, mission_);
+        break;
+      case LinkLoss::Step::restart: start_anew(); break;
+    }
+    braking_ = false;
+    return true;
+  }
+
+  const Status& away(std::uint32_t tick) {
+    if (!lockstep()) in_time(tick, false);
+    status_.command = base_.drive();
+    return status_;
+  }
+
+  /// What a controller that has restarted gets: its table, the parameters, and the mission from where the
+  /// robot stands.
+  void start_anew() {
+    give(can::Order::cancel, mission_);
+    mission_.start = fixed_pose(plant_.pose());
+    hand_over();
+    give(can::Order::start, mission_);
+    due_us_ = whole_ms(clock_.now_us());
+  }
+
+  void hand_over() {
+    if (rules_) make_it_drive_with(*rules_);
+    hand_over_params();
+    changed_ = false;
   }
 
   void take_reports() {
@@ -182,8 +286,7 @@ class BusPilot final : public Pilot {
   void begin() {
     while (!node_.matched()) watchful_nap();
     restarts_ = node_.peer_restarts();
-    if (options_.rules) make_it_drive_with(*options_.rules);
-    hand_over_params();
+    hand_over();
     give(options_.order, mission_);
     begun_ = true;
     begun_us_ = clock_.now_us();
@@ -191,7 +294,7 @@ class BusPilot final : public Pilot {
   }
 
   void make_it_drive_with(std::uint32_t wanted) {
-    const bool sends = options_.table != nullptr;
+    const bool sends = table_ != nullptr;
     // A controller without a table never names one.
     ask_info_until("Info with its rules", [&] {
       return node_.peer_rules() != 0 || (sends && clock_.now_us() - asked_us_ >= kNoRules_us);
@@ -234,7 +337,7 @@ class BusPilot final : public Pilot {
   }
 
   can::RulesStatus send_rules_once(std::uint8_t upload) {
-    can::RulesSender sender(node_, options_.table, upload);
+    can::RulesSender sender(node_, table_, upload);
     for (std::uint16_t had = 0; !sender.ended(); had = sender.reply().next) {
       sender.poll(clock_.now_ms());
       watchful_nap();
@@ -325,14 +428,15 @@ class BusPilot final : public Pilot {
     return status_;
   }
 
-  Status in_time(std::uint32_t tick) {
+  /// sends: otherwise, the set of this tick is lost.
+  Status in_time(std::uint32_t tick, bool sends = true) {
     const std::uint64_t sent_us = clock_.now_us();
     if (sent_us > due_us_ + period_us_) {
       ++figures_.late;
       due_us_ = whole_ms(sent_us);
     }
     due_us_ += period_us_;
-    base_.publish(can::SyncMode::real_time);
+    if (sends) base_.publish(can::SyncMode::real_time);
     node_.poll(clock_.now_ms());
     bool answered = false;
     while (clock_.now_us() < due_us_) {
@@ -345,7 +449,7 @@ class BusPilot final : public Pilot {
     }
     if (!answered) ++figures_.misses;
     check();
-    resume();
+    if (sends) resume();
     return answered ? status_of(node_.status()) : status_;
   }
 
@@ -363,13 +467,20 @@ class BusPilot final : public Pilot {
   Clock& clock_;
   const BusOptions options_;
   Figures& figures_;
-  const Params params_;
-  const can::Mission mission_;
+  Params params_;  // of the next start
+  std::optional<std::uint32_t> rules_;
+  const can::RulesServer::Table* table_;
+  can::Mission mission_;
   const std::uint64_t period_us_;
   Resend resend_;
   sim::Plant& plant_;
   FixSource fixes_;
   const bool reckons_;  // the estimate can be computed from the frames
+  LinkLoss loss_;
+  OperatorOrders operator_;
+  std::optional<localization::UncertainPose> fix_;
+  bool changed_ = false;  // since the last start: the parameters, or the table
+  bool braking_ = false;
   hal::SimBoard board_;
   can::BaseNode node_;
   can_app::Base base_;

@@ -107,6 +107,8 @@ std::string result_json(const RunResult& result, const std::string& bus, const c
   json["sigma_along_m"] = sigma([](const localization::PoseSigma& s) { return metres(s.along); });
   json["sigma_across_m"] = sigma([](const localization::PoseSigma& s) { return metres(s.across); });
   json["sigma_heading_deg"] = sigma([](const localization::PoseSigma& s) { return degrees(s.heading); });
+  if (result.events)
+    json["events"] = {{"played", result.events->played}, {"refused", result.events->refused}};
   if (!bus.empty()) json["bus"] = Json::parse(bus);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -22,6 +22,12 @@ const char* detail_of(Verdict verdict, const Status& status, const Pilot& pilot)
   return verdict == Verdict::fault ? name(status.health.fault) : planning::name(status.decision.why);
 }
 
+/// An event has ended it, and the wheels are commanded to stand.
+bool has_no_mission(const Status& status) {
+  return status.decision.outcome == planning::Outcome::none && status.health.fault == Fault::none &&
+         status.command.left == 0 && status.command.right == 0;
+}
+
 double length(sim::Vec2 v) { return std::sqrt(sim::dot(v, v)); }
 
 TickRecord record_of(const sim::Plant& plant, const Pilot& pilot, const Status& status,
@@ -52,13 +58,16 @@ void MissionRun::decide() {
   status_ = &pilot_->tick(Time::from_raw(static_cast<std::uint32_t>(now_ms)));
   hash_.add(status_->command);
   ++ticks_;
-  verdict_ = verdict_of(*status_, *pilot_);
+  verdict_ = mission_to_come_ ? std::nullopt : verdict_of(*status_, *pilot_);
   if (verdict_) {
     verdict_ = judged(*verdict_, distance_left(), scenario_->goal.tolerance_m);
     detail_ = detail_of(*verdict_, *status_, *pilot_);
   } else if (static_cast<double>(now_ms + period_ms_) / 1000.0 > scenario_->time_limit_s) {
     verdict_ = Verdict::gave_up;
     detail_ = "time_limit";
+  } else if (!scenario_->events.empty() && !mission_to_come_ && has_no_mission(*status_)) {
+    verdict_ = Verdict::gave_up;
+    detail_ = "no_goal";
   }
 }
 

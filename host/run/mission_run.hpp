@@ -23,12 +23,15 @@ class MissionRun {
   void decide();
   /// The period of the plant after it. Ends with a contact.
   void move();
+  /// While true, only a contact and the time limit end the run: a verdict of the pilot is not the last one.
+  void await_mission(bool to_come) { mission_to_come_ = to_come; }
   /// Continues after a verdict of the pilot, with another goal. A contact and a fault are final.
   void resume();
 
   const std::optional<Verdict>& verdict() const { return verdict_; }
   std::uint64_t ticks() const { return ticks_; }  ///< decided so far
   double time() const { return t_s_; }            ///< of the last tick, or of the contact record
+  double next_time() const { return static_cast<double>(ticks_ * period_ms_) / 1000.0; }
   const Status& status() const { return *status_; }
   const perception::LocalGrid* local_grid() const { return pilot_->local_grid(); }
   const RecordingGuide* guide() const { return pilot_->guide(); }
@@ -51,6 +54,7 @@ class MissionRun {
   hal::RangeReadings ranges_{};
   link::CommandHash hash_;
   std::optional<Verdict> verdict_;
+  bool mission_to_come_ = false;
   const char* detail_ = "";
 };
 

@@ -17,6 +17,10 @@ class Pilot {
   virtual ~Pilot() = default;
   /// One control tick: reads the sensors of the plant and commands its wheels.
   virtual const Status& tick(Time now) = 0;
+  /// An event between two ticks. False: it is refused, or means nothing to this pilot.
+  virtual bool play(const Event&) { return false; }
+  /// False: it has no controller, and events wait.
+  virtual bool hears() const { return true; }
   /// The local grid last passed to the planner; null before its first step, and on a chip.
   virtual const perception::LocalGrid* local_grid() const { return nullptr; }
   /// The advice of the planner's global planner; null without a map, too.

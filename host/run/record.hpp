@@ -11,6 +11,7 @@
 #include "firmware/localization/pose_bound.hpp"
 #include "firmware/planning/state.hpp"
 #include "hal/types.hpp"
+#include "host/run/event_player.hpp"
 #include "host/run/guidance.hpp"
 #include "host/run/verdict.hpp"
 
@@ -57,6 +58,7 @@ struct RunResult {
   /// verdict, or the planner has no local grid.
   std::optional<double> unreachable_above_m;
   double goal_tolerance_m = 0;
+  std::optional<EventCount> events;  ///< none: the scenario has no events
   std::uint64_t ticks = 0;
   std::uint64_t hash = 0;  ///< FNV-1a 64 over the wheel commands of all ticks
 };

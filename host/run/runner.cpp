@@ -6,7 +6,9 @@
 
 namespace whisker {
 
-RunResult run(const Scenario& scenario, const RunOptions& options) {
+RunResult run(const Scenario& file, const RunOptions& options) {
+  Scenario scenario = file;  // its goal follows the events
+  EventPlayer events(scenario.events);
   const SimWorld world(scenario);
   sim::Plant plant(world.view(), robot_spec(scenario), noise_spec(scenario.noise),
                    options.seed.value_or(scenario.seed), scenario.start);
@@ -21,7 +23,19 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
     if (options.observe) options.observe(r);
     if (options.watch) options.watch({r, mission.status().health, pilot->local_grid(), pilot->guide()});
   };
+  const auto play = [&] {
+    while (pilot->hears()) {
+      const Event* const event = events.next(mission.next_time());
+      if (event == nullptr) break;
+      const bool played = pilot->play(*event);
+      events.count(played);
+      if (played && event->kind == EventKind::goal) scenario.goal = event->goal;
+    }
+    mission.await_mission(!pilot->hears() ||
+                          events.to_come({EventKind::goal, EventKind::restart}, scenario.time_limit_s));
+  };
   while (!mission.verdict()) {
+    if (!events.empty()) play();
     mission.decide();
     record();
     if (mission.verdict()) break;
@@ -31,7 +45,9 @@ RunResult run(const Scenario& scenario, const RunOptions& options) {
     if (options.progress && (mission.ticks() - 1) % ticks_a_second == 0)
       options.progress(t_s, mission.distance_left());
   }
-  return mission.result();
+  RunResult result = mission.result();
+  if (!events.empty()) result.events = events.counted();
+  return result;
 }
 
 }  // namespace whisker

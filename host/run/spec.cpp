@@ -89,4 +89,21 @@ Pose fixed_pose(const sim::Pose& pose) {
   return {{length(pose.at.x), length(pose.at.y)}, Angle::from_raw(static_cast<std::uint32_t>(raw))};
 }
 
+Pose pose_of(const Event& event, const sim::Pose& truth) {
+  sim::Pose pose = truth;
+  if (event.x_m) pose.at.x = *event.x_m;
+  if (event.y_m) pose.at.y = *event.y_m;
+  if (event.heading_deg) pose.heading = *event.heading_deg * kDegree;
+  return fixed_pose(pose);
+}
+
+localization::PoseSigma fixed_sigma(double sigma_m, double sigma_rad) {
+  const Pose sigma = fixed_pose({{sigma_m, 0}, sigma_rad});
+  return {sigma.at.x, sigma.at.x, sigma.heading};
+}
+
+localization::UncertainPose fix_of(const Event& event, const sim::Pose& truth) {
+  return {pose_of(event, truth), fixed_sigma(event.sigma_m, event.sigma_deg * kDegree)};
+}
+
 }  // namespace whisker

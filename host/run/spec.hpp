@@ -1,6 +1,7 @@
 /// Conversion between the units of the core and the simulator.
 #pragma once
 
+#include "firmware/localization/pose_fix.hpp"
 #include "firmware/math/trig.hpp"
 #include "host/scenario/scenario.hpp"
 #include "host/sim/spec.hpp"
@@ -14,5 +15,9 @@ double radians(Angle angle);  ///< in [-pi, pi)
 
 /// A pose rounded to the core's units.
 Pose fixed_pose(const sim::Pose& pose);
+/// Of an event: `truth` where it says nothing.
+Pose pose_of(const Event& event, const sim::Pose& truth);
+localization::UncertainPose fix_of(const Event& event, const sim::Pose& truth);
+localization::PoseSigma fixed_sigma(double sigma_m, double sigma_rad);
 
 }  // namespace whisker

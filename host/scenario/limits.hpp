@@ -23,6 +23,7 @@ constexpr Limits kCoordinate{-kFarthest, kFarthest};
 constexpr Limits kLength{0, kFarthest, true};
 constexpr Limits kProbability{0, 1};
 constexpr Limits kTimeLimit{0, 1e6, true};    // s
+constexpr Limits kEventTime{0, 1e6};          // s
 constexpr Limits kMoverSpeed{0, 10};          // m/s
 constexpr Limits kRangeSigma{0, 10};          // m
 constexpr Limits kWheelScaleSigma{0, 1};      //

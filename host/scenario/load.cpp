@@ -12,6 +12,7 @@
 #include "host/scenario/bearing.hpp"
 #include "host/scenario/check.hpp"
 #include "host/scenario/contact.hpp"
+#include "host/scenario/events.hpp"
 #include "host/scenario/noise.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/reader.hpp"
@@ -102,7 +103,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
   const toml::table root = parse_toml(text, name);
   const TableReader top(name, root, "",
                         {"name", "seed", "time_limit_s", "start", "goal", "bounds", "disc", "polygon", "wall",
-                         "mover", "noise", "sensor", "robot"});
+                         "mover", "noise", "sensor", "robot", "event"});
   const TableReader start = top.table("start", {"x_m", "y_m", "heading_deg"});
   const TableReader goal = top.table("goal", {"x_m", "y_m", "tolerance_m"});
 
@@ -121,6 +122,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
     read_robot(robot, s.robot);
     check_robot(robot, s.robot);
   }
+  s.events = read_events(top);
   check_places(start, s);
   return s;
 }

@@ -76,6 +76,25 @@ struct Setter {
   }
 };
 
+/// Sets one parameter from a key with another name.
+struct OneSetter {
+  Setter setter;
+  std::string_view param;
+  const char* key;
+
+  template <class T>
+  void number(const char* name, T& x, T low, T high) {
+    if (name == param) setter.number(key, x, low, high);
+  }
+  void count(const char* name, std::int32_t& x, std::int32_t low, std::int32_t high) {
+    if (name == param) setter.count(key, x, low, high);
+  }
+  template <class E>
+  void choice(const char* name, E& x, const char* const* names, int count) {
+    if (name == param) setter.choice(key, x, names, count);
+  }
+};
+
 const TableReader* table_with(const RobotTables& tables, const char* key) {
   const auto found = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.has(key); });
   return found == tables.end() ? nullptr : &*found;
@@ -110,6 +129,16 @@ void read_robot(const RobotTables& tables, Params& params) {
     for_each_param(params, setter);
   }
   if (!errors.empty()) throw InputErrors(std::move(errors));
+}
+
+std::int64_t read_param_value(const TableReader& table, const char* key, std::size_t param) {
+  if (!table.has(key)) table.fail(fmt::format("'{}' is missing", key));
+  Params params;
+  std::vector<InputError> errors;
+  OneSetter setter{{table, errors}, param_list(params)[param].key, key};
+  for_each_param(params, setter);
+  if (!errors.empty()) throw InputErrors(std::move(errors));
+  return param_list(params)[param].raw;
 }
 
 void check_robot(const RobotTables& tables, const Params& params) {

@@ -7,15 +7,11 @@
 #include <vector>
 
 #include "firmware/params.hpp"
+#include "host/scenario/event.hpp"
 #include "host/scenario/sensor.hpp"
 #include "host/sim/geometry.hpp"
 
 namespace whisker {
-
-struct Goal {
-  sim::Vec2 at;
-  double tolerance_m = 0.10;
-};
 
 struct Bounds {
   sim::Vec2 min;
@@ -61,6 +57,7 @@ struct Scenario {
   Noise noise;
   Sensor sensor;
   Params robot;
+  std::vector<Event> events;  ///< in the order of the file
 };
 
 }  // namespace whisker

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "host/scenario/bearing.hpp"
+#include "host/scenario/events.hpp"
 #include "host/scenario/noise.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/sensor_text.hpp"
@@ -82,7 +83,8 @@ std::string to_toml(const Scenario& s) {
   return fmt::format("name = {}\nseed = {}  # of the noise\ntime_limit_s = {}\n", toml_string(s.name), s.seed,
                      toml_number(s.time_limit_s)) +
          places(s) + obstacles(s) + noise(s.noise) + sensor_toml(s.sensor) +
-         (robot.empty() ? robot : "\n[robot]  # what differs from the reference robot\n" + robot);
+         (robot.empty() ? robot : "\n[robot]  # what differs from the reference robot\n" + robot) +
+         events_toml(s.events);
 }
 
 }  // namespace whisker
