@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/campaign/random_robot.hpp"
+#include "host/hunt/events.hpp"
 #include "host/hunt/geometry.hpp"
 #include "host/hunt/premise.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 constexpr double kLongestGuard_s = 30;
 constexpr double kLongestMission_s = 400;
 constexpr double kMission_s = 60;
+constexpr double kEventful = 0.25;
 constexpr std::size_t kManyShapes = 300;
 
 PlannerKind draw_planner(Dice& dice) {
@@ -65,15 +67,25 @@ void change_commands(Dice& dice, Case& c) {
   }
 }
 
+/// None if no draw keeps the premise.
+void draw_kept_events(Dice& dice, Scenario& s) {
+  for (int i = 0; i < 5; ++i) {
+    draw_events(dice, s);
+    if (holds_premise(s)) return;
+  }
+  s.events.clear();
+}
+
 void change_one(Dice& dice, Case& c) {
   Scenario& s = c.scenario;
-  switch (dice.index(8)) {
+  switch (dice.index(9)) {
     case 0:
     case 1: change_keys(dice, s.robot, 1 + dice.index(3)); return;
     case 2:
     case 3: return change_world(dice, s);
     case 4: return draw_truth(dice, s);
     case 5: c.gaps = dice.chance(0.5) ? 0 : dice.bits() >> 1; return;
+    case 6: return dice.chance(0.3) ? s.events.clear() : draw_events(dice, s);
     default: break;
   }
   if (!c.planner) return change_commands(dice, c);
@@ -102,6 +114,7 @@ Drawn draw_case(std::uint64_t seed) {
   } while (!holds_premise(s));
   draw_driver(dice, drawn.c);
   set_time(dice, drawn.c);
+  if (dice.chance(kEventful)) draw_kept_events(dice, s);
   return drawn;
 }
 

@@ -90,7 +90,7 @@ class Hunt {
       progress_.corpus = corpus_.size();
       if (options_.show) options_.show(progress_, nullptr);
     }
-    return progress_.findings == 0;
+    return options_.until_harm ? !harmed_ : progress_.findings == 0;
   }
 
  private:
@@ -122,7 +122,8 @@ class Hunt {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
   }
   bool over() const {
-    return (options_.stop && options_.stop()) || (options_.time_s > 0 && elapsed_s() >= options_.time_s);
+    return harmed_ || (options_.stop && options_.stop()) ||
+           (options_.time_s > 0 && elapsed_s() >= options_.time_s);
   }
 
   bool start_one() {
@@ -231,6 +232,12 @@ class Hunt {
   /// Only a few of each kind are shrunk.
   void note(const Piece& piece, const Parts& parts, const Row& row) {
     ++progress_.findings;
+    if (options_.until_harm) {
+      if (!harms(row.finding)) return;
+      harmed_ = true;
+      if (options_.found) options_.found(row, progress_, "");
+      return;
+    }
     const std::string kind = fmt::format("{} {} {}", row.finding, row.driver, row.family);
     if (++kinds_[kind] > kShrunkOfAKind) return;
     Piece shrink;
@@ -250,9 +257,9 @@ class Hunt {
     const std::string finding = piece.row.finding;
     if (!options_.out.empty()) piece.path = fmt::format("{}/findings/{}", options_.out, file_of(piece.row));
     const Job job = [whole = piece.c, path = piece.path, finding](const Say&) {
-      const bool harms = finding == "contact" || finding.rfind("crash", 0) == 0;
       const Case c = shrunk(
-          whole, [&](Case& other) { return finding_of(other) == finding; }, harms ? kEffortForHarm : kEffort);
+          whole, [&](Case& other) { return finding_of(other) == finding; },
+          harms(finding) ? kEffortForHarm : kEffort);
       if (!path.empty()) save(c, path);
     };
     start(std::move(piece), job);
@@ -284,6 +291,7 @@ class Hunt {
   std::vector<Piece> shrinks_;
   std::map<std::string, std::uint64_t> kinds_;
   Progress progress_;
+  bool harmed_ = false;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/hunt/events.hpp"
 #include "host/hunt/geometry.hpp"
 #include "host/hunt/robots.hpp"
 #include "host/scenario/limits.hpp"
@@ -71,10 +72,9 @@ bool fits_a_file(const Scenario& s) {
          std::all_of(s.polygons.begin(), s.polygons.end(), is_sound_polygon);
 }
 
-bool senses_as_believed(const Scenario& s) {
-  const Believed all = believed(s.robot.rangefinders);
-  const Sensor& sensor = s.sensor;
-  return sensor.incidence_deg >= std::min(90.0, degrees(s.robot.rangefinders.incidence)) &&
+bool senses_as_believed(const Params& p, const Sensor& sensor) {
+  const Believed all = believed(p.rangefinders);
+  return sensor.incidence_deg >= std::min(90.0, degrees(p.rangefinders.incidence)) &&
          sensor.corner_scatter_m >= all.max_range_m &&
          sensor.cone_deg.value_or(all.cone_deg) >= all.cone_deg &&
          sensor.min_range_m.value_or(0) <= all.min_range_m &&
@@ -96,8 +96,10 @@ void draw_truth(Dice& dice, Scenario& s) {
 }
 
 bool holds_premise(const Scenario& s) {
-  return drivable(s.robot) && senses_as_believed(s) && fits_a_file(s) &&
-         nearest(s, s.start.at).distance_m >= free_at_start_m(s.robot);
+  const std::vector<Params> robots = robots_of(s);
+  return std::all_of(robots.begin(), robots.end(),
+                     [&](const Params& p) { return drivable(p) && senses_as_believed(p, s.sensor); }) &&
+         fits_a_file(s) && nearest(s, s.start.at).distance_m >= free_at_start_m(s.robot);
 }
 
 }  // namespace whisker::hunt

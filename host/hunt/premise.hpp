@@ -13,7 +13,8 @@ double free_at_start_m(const Params& params);
 /// Sensors that see at least what the robot believes, and noise within what it declares.
 void draw_truth(Dice& dice, Scenario& scenario);
 
-/// The robot, the sensors, the noise, the start and the world keep the premise; a file can hold them.
+/// The robot (also after its events), the sensors, the noise, the start and the world keep the premise; a
+/// file can hold them.
 bool holds_premise(const Scenario& scenario);
 
 }  // namespace whisker::hunt

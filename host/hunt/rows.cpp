@@ -152,6 +152,11 @@ std::string nearest_table(std::vector<Row> rows) {
 
 }  // namespace
 
+bool harms(const std::string& finding) {
+  return finding == "contact" || finding == "judges_disagree" || finding == "other_hash" ||
+         finding.rfind("crash", 0) == 0;
+}
+
 std::string to_csv(const Row& r) {
   return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{:.3f},{:.4f},{:.7f},{:.6f},{:016x}\n", r.seed,
                      plain(r.parent), r.family, r.world, r.driver, r.families.drawn, r.families.accepted,

@@ -20,6 +20,10 @@ struct Row {
   std::uint64_t hash = 0;
 };
 
+/// The body touched something, the process died, or two computations of the same differ: worse than a robot
+/// that stops or errs.
+bool harms(const std::string& finding);
+
 std::string to_csv(const Row& row);  ///< with the newline
 Row parse_row(const std::string& line);
 /// Rows that a kill has cut short, and headers, are skipped.

@@ -32,6 +32,7 @@ class Shrinker {
     do {
       before = successes_;
       simplify();
+      drop_some(&Scenario::events);
       drop_some(&Scenario::discs);
       drop_some(&Scenario::walls);
       drop_some(&Scenario::polygons);

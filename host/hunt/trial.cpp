@@ -9,8 +9,11 @@
 #include "firmware/apps/pil_link/command_hash.hpp"
 #include "host/guard/guarded_body.hpp"
 #include "host/hunt/attacker.hpp"
+#include "host/hunt/events.hpp"
 #include "host/hunt/geometry.hpp"
 #include "host/hunt/judge.hpp"
+#include "host/hunt/premise.hpp"
+#include "host/run/event_player.hpp"
 #include "host/run/make_record.hpp"
 #include "host/run/narrowest_gap.hpp"
 #include "host/run/runner.hpp"
@@ -52,23 +55,57 @@ class Gaps {
   int period_ms_, longest_ms_;
 };
 
-/// A robot that somebody drives.
+/// A robot that somebody drives, and the events of its scenario.
 class Driven {
  public:
+  explicit Driven(const Scenario& scenario) : scenario_(scenario), events_(scenario.events) {
+    for (const Params& robot : robots_of(scenario)) free_m_ = std::max(free_m_, free_at_start_m(robot));
+  }
   virtual ~Driven() = default;
   virtual const sim::Plant& plant() const = 0;
   /// False: the drive is over.
   virtual bool tick() = 0;
   virtual void pass(int ms) = 0;
   virtual void tell(Outcome& outcome) = 0;
+  const Goal& goal() const { return scenario_.goal; }
+  /// An event put the robot down where the ground around it was not free.
+  bool is_outside_premise() const { return outside_; }
+
+ protected:
+  template <class Body>
+  void play(Body& body) {
+    while (body.hears()) {
+      const Event* const event = events_.next(plant().time());
+      if (event == nullptr) break;
+      if (event->kind == EventKind::goal) scenario_.goal = event->goal;
+      put_down_ = put_down_ || event->kind == EventKind::place || event->kind == EventKind::restart;
+      body.play(*event);
+    }
+    const bool stands = plant().v_left() == 0 && plant().v_right() == 0;
+    if (!put_down_ || !(stands || body.hears())) return;
+    outside_ = outside_ || nearest(scenario_, plant().pose().at).distance_m < free_m_;
+    put_down_ = !stands;
+  }
+  bool to_come(std::initializer_list<EventKind> kinds) const {
+    return events_.to_come(kinds, scenario_.time_limit_s);
+  }
+
+  Scenario scenario_;  // its goal follows the events
+  EventPlayer events_;
+
+ private:
+  double free_m_ = 0;
+  bool put_down_ = false;
+  bool outside_ = false;
 };
 
 class GuardDrive final : public Driven {
  public:
   GuardDrive(Case& c)
-      : case_(c),
-        world_(c.scenario),
-        body_(c.scenario, world_.view(), {true, c.scenario.robot.guard, 0, nullptr}, c.gaps != 0),
+      : Driven(c.scenario),
+        case_(c),
+        world_(scenario_),
+        body_(scenario_, world_.view(), {true, c.scenario.robot.guard, 0, nullptr}, c.gaps != 0),
         attacker_(c.scenario, c.attacker),
         recorded_(c.commands),
         hand_(c.commands.empty() ? static_cast<guard::Operator&>(attacker_) : recorded_),
@@ -76,9 +113,11 @@ class GuardDrive final : public Driven {
 
   const sim::Plant& plant() const override { return body_.plant(); }
   bool tick() override {
-    if (plant().time() >= case_.scenario.time_limit_s || (body_.faulted() && body_.stands())) return false;
+    if (!events_.empty()) play(body_);
+    if (plant().time() >= scenario_.time_limit_s || is_over()) return false;
     if (plant().time() >= next_s_) {
-      body_.command(hand_.ask({plant().pose(), plant().time()}));
+      const guard::Twist twist = hand_.ask({plant().pose(), plant().time()});
+      if (body_.hears()) body_.command(twist);
       next_s_ = plant().time() + hand_.pause_s();
     }
     body_.tick();
@@ -95,6 +134,11 @@ class GuardDrive final : public Driven {
   }
 
  private:
+  bool is_over() const {
+    return body_.faulted() && body_.stands() && body_.hears() &&
+           !to_come({EventKind::reset, EventKind::restart});
+  }
+
   Case& case_;
   SimWorld world_;
   guard::GuardedBody body_;
@@ -114,21 +158,23 @@ sim::RobotSpec spec_of(const Case& c) {
 class MissionDrive final : public Driven {
  public:
   explicit MissionDrive(const Case& c)
-      : scenario_(c.scenario),
+      : Driven(c.scenario),
         fine_(c.gaps != 0),
-        world_(c.scenario),
-        plant_(world_.view(), spec_of(c), noise_spec(c.scenario.noise), c.scenario.seed, c.scenario.start),
-        pilot_(core_pilot(c.scenario, *c.planner, plant_)) {}
+        world_(scenario_),
+        plant_(world_.view(), spec_of(c), noise_spec(scenario_.noise), scenario_.seed, scenario_.start),
+        pilot_(core_pilot(scenario_, *c.planner, plant_)) {}
 
   const sim::Plant& plant() const override { return plant_; }
   bool tick() override {
+    if (!events_.empty()) play(*pilot_);
+    const bool waits =
+        !events_.empty() && (!pilot_->hears() || to_come({EventKind::goal, EventKind::restart}));
     const Status& status = pilot_->tick(Time::from_raw(now_ms_));
     status_ = &status;
     hash_.add(status.command);
     states_.insert(
         fmt::format("{}/{}", planning::name(status.decision.mode), planning::name(status.decision.why)));
-    if (status.health.fault != Fault::none) return status.command.left != 0 || status.command.right != 0;
-    if (verdict_of(status.decision.outcome)) return false;
+    if (!waits && has_ended(status)) return false;
     const auto next_ms = static_cast<double>(now_ms_) + scenario_.robot.safety.period.raw();
     return next_ms / 1000 <= scenario_.time_limit_s;
   }
@@ -151,7 +197,14 @@ class MissionDrive final : public Driven {
   }
 
  private:
-  const Scenario& scenario_;
+  /// As MissionRun does.
+  bool has_ended(const Status& status) const {
+    const bool stands = status.command.left == 0 && status.command.right == 0;
+    if (status.health.fault != Fault::none) return stands;
+    if (verdict_of(status.decision.outcome)) return true;
+    return !events_.empty() && stands && status.decision.outcome == planning::Outcome::none;
+  }
+
   bool fine_;
   SimWorld world_;
   sim::Plant plant_;
@@ -162,17 +215,20 @@ class MissionDrive final : public Driven {
   std::set<std::string> states_;
 };
 
-bool is_exact(const Noise& n) { return n.fix_every_m == 0 && n.range_dropout == 0; }
+/// No dropouts, fixes or events excuse a fault.
+bool is_exact(const Scenario& s) {
+  return s.noise.fix_every_m == 0 && s.noise.range_dropout == 0 && s.events.empty();
+}
 
 bool has_promised_way(const Scenario& s) {
-  return is_exact(s.noise) && has_way(s, narrowest_gap_m(s.robot) / 2 * 1.01);
+  return is_exact(s) && has_way(s, narrowest_gap_m(s.robot) / 2 * 1.01);
 }
 
 /// Of a drive without contact that ended.
 std::string wrong_end(const Scenario& s, const Outcome& o, double left_m) {
-  if (o.end.rfind("fault", 0) == 0) return is_exact(s.noise) ? o.end : "";
+  if (o.end.rfind("fault", 0) == 0) return is_exact(s) ? o.end : "";
   const double allowed = s.goal.tolerance_m * 1.05 + kOffGoal_m + 1.0 / s.robot.wheels.counts_per_metre;
-  if (o.end == "reached") return is_exact(s.noise) && left_m > allowed ? "off_goal" : "";
+  if (o.end == "reached") return is_exact(s) && left_m > allowed ? "off_goal" : "";
   if (o.end == "unreachable" || o.end.rfind("gave_up", 0) == 0) return has_promised_way(s) ? o.end : "";
   return "";
 }
@@ -214,15 +270,16 @@ Outcome attempt(Case& c) {
   o.path_m = plant.path_length();
   o.gap_m = judge.gap_m();
   o.closeness = judge.closeness();
+  if (driven->is_outside_premise()) return o;
   if (plant.in_contact() || judge.touched()) {
     o.end = "contact";
     const bool agree = plant.in_contact() && judge.gap_m() < kAgreement_m;
     o.finding = agree ? "contact" : "judges_disagree";
     return o;
   }
-  o.finding = o.end == "time" && c.planner && judge.rests(o.time_s)
+  o.finding = o.end == "time" && c.planner && s.events.empty() && judge.rests(o.time_s)
                   ? "stuck"
-                  : wrong_end(s, o, length(s.goal.at - plant.pose().at));
+                  : wrong_end(s, o, length(driven->goal().at - plant.pose().at));
   if (o.finding.empty()) o.finding = other_hash(c, o.hash);
   return o;
 }

@@ -294,6 +294,11 @@ void shift(Scenario& s, Vec2 by) {
   s.start.at = s.start.at + by;
   s.goal.at = s.goal.at + by;
   each_point(s, [by](Vec2& p) { p = p + by; });
+  for (Event& e : s.events) {
+    e.goal.at = e.goal.at + by;
+    if (e.x_m) *e.x_m += by.x;
+    if (e.y_m) *e.y_m += by.y;
+  }
 }
 
 }  // namespace whisker::hunt

@@ -15,7 +15,7 @@
 namespace whisker::hunt {
 namespace {
 
-constexpr std::uint64_t kCases = 400;
+constexpr std::uint64_t kCases = 250;
 
 std::string whole(const Case& c) { return texts(c, "case").toml; }
 
