@@ -88,6 +88,8 @@ class Hunt {
       if (crew_.busy() == 0) break;
       for (const Ended& ended : crew_.wait()) take(ended);
       progress_.corpus = corpus_.size();
+      progress_.elapsed_s = elapsed_s();
+      progress_.processor_s = processor_s();
       if (options_.show) options_.show(progress_, nullptr);
     }
     return options_.until_harm ? !harmed_ : progress_.findings == 0;
