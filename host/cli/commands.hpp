@@ -15,6 +15,7 @@ void add_robot_calibrate_drive(CLI::App& robot, int& status);
 void add_campaign(CLI::App& app, int& status);
 void add_scanner(CLI::App& app, int& status);
 void add_guard(CLI::App& app, int& status);
+void add_hunt(CLI::App& app, int& status);
 void add_operators(CLI::App& app, int& status);
 void add_movers(CLI::App& app, int& status);
 void add_table(CLI::App& app, int& status);

@@ -96,6 +96,7 @@ int main(int argc, char** argv) {
   add_scanner(app, status);
   add_movers(app, status);
   add_guard(app, status);
+  add_hunt(app, status);
   add_operators(app, status);
   add_table(app, status);
   add_rules(app, status);
