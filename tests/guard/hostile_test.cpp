@@ -5,15 +5,12 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <tuple>
 
 #include "host/campaign/random_robot.hpp"
 #include "host/guard/drive.hpp"
 #include "host/guard/hostile_drive.hpp"
 #include "host/guard/operators.hpp"
-#include "host/guard/recorded.hpp"
-#include "host/scenario/load.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker::test {
@@ -59,24 +56,6 @@ TEST(HostileDrive, TouchesNothingWithAnyRobot) {
     path += result.path_m;
   }
   std::printf("%llu robots, %.0f m\n", static_cast<unsigned long long>(count), path);
-}
-
-// Commands that once led to a contact: tests/guard/cases.
-TEST(HostileDrive, RecordedCommandsTouchNothing) {
-  int drives = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(WHISKER_SOURCE_DIR "/tests/guard/cases")) {
-    std::filesystem::path file = entry.path();
-    if (file.extension() != ".toml") continue;
-    const Scenario scenario = load_scenario(file.string());
-    guard::Recorded commands(guard::load_commands(file.replace_extension(".csv").string()));
-    guard::Options options;
-    options.time_s = commands.last_s() + 1;
-    options.until_goal = false;
-    const guard::Result result = guard::drive(scenario, commands, options);
-    EXPECT_NE(result.end, guard::End::contact) << scenario.name << " at " << result.time_s << " s";
-    ++drives;
-  }
-  EXPECT_GT(drives, 0);
 }
 
 }  // namespace
