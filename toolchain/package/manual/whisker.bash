@@ -4,12 +4,12 @@ _whisker() {
   local path=whisker word here=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} options="" words="" paths=none
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
     case "$path $word" in
-      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules evaluate" | "whisker rules table" | "whisker rules compare" | "whisker rules search" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker bench" | "whisker bench nodes" | "whisker bench watch" | "whisker bench record" | "whisker bench get" | "whisker bench set" | "whisker bench save" | "whisker bench restore" | "whisker bench rules" | "whisker bench stop" | "whisker bench reset" | "whisker bench cancel" | "whisker bench goal" | "whisker bench drive" | "whisker bench calibrate" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
+      "whisker run" | "whisker world" | "whisker robot" | "whisker robot check" | "whisker robot layout" | "whisker robot calibrate" | "whisker robot calibrate-drive" | "whisker campaign" | "whisker scanner" | "whisker movers" | "whisker guard" | "whisker hunt" | "whisker operators" | "whisker table" | "whisker rules" | "whisker rules compile" | "whisker rules show" | "whisker rules evaluate" | "whisker rules table" | "whisker rules compare" | "whisker rules search" | "whisker figures" | "whisker plant" | "whisker controller" | "whisker hil" | "whisker bench" | "whisker bench nodes" | "whisker bench watch" | "whisker bench record" | "whisker bench get" | "whisker bench set" | "whisker bench save" | "whisker bench restore" | "whisker bench rules" | "whisker bench stop" | "whisker bench reset" | "whisker bench cancel" | "whisker bench goal" | "whisker bench drive" | "whisker bench calibrate" | "whisker replay" | "whisker socket" | "whisker dbc" | "whisker protocol") path+=" $word" ;;
     esac
   done
   case $path in
     "whisker")
-      options="-h --help --version" words="run world robot campaign scanner movers guard operators table rules figures plant controller hil bench replay socket dbc protocol" paths=none
+      options="-h --help --version" words="run world robot campaign scanner movers guard hunt operators table rules figures plant controller hil bench replay socket dbc protocol" paths=none
       ;;
     "whisker run")
       options="-h --help --robot --seed --trace --svg --html --json --planner --map-bytes --rules --map --chip" words="" paths=file
@@ -94,6 +94,14 @@ _whisker() {
       case $before in
         --robot | --commands | --rules | --trace | --html) options="" words="" paths=file ;;
         --operator | --seed | --vouch | --time | --map) options="" words="" paths=value ;;
+      esac
+      ;;
+    "whisker hunt")
+      options="-h --help --count --time --until-harm --seed --jobs --shard --out --again --case --summary" words="" paths=none
+      case $before in
+        --count | --time | --seed | --jobs | --shard | --again) options="" words="" paths=value ;;
+        --out) options="" words="" paths=folder ;;
+        --case | --summary) options="" words="" paths=file ;;
       esac
       ;;
     "whisker operators")
