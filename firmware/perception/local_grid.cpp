@@ -56,6 +56,10 @@ void LocalGrid::configure(const Params& params) noexcept {
     const int64_t holds = quotient(cover, sin(mount(params.rangefinders, i).half_cone).raw());
     holds_ = max(holds_, Length::from_raw(saturate32(holds)) + patch_cell(params) * 2);
   }
+  const Length margin = reach_.guard - swept_;
+  const uint64_t passed =
+      uint64_t{2} * static_cast<uint64_t>(swept_.raw()) * static_cast<uint64_t>(margin.raw());
+  passes_ = units(Length::from_raw(static_cast<int32_t>(square_root(passed)))) - kCellCover;
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
   const GroundAge age = ground_age(params);
   age_travel_ = age.travel;

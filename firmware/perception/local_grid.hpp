@@ -91,7 +91,7 @@ class LocalGrid {
   void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f,
                     Avoid avoid = Avoid::unclear) const {
     const Point start = local(from);
-    const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
+    const Stadium stadium({start.x, start.y, heading, units(length), units(radius), abeam()});
     for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
       Row open = to_window(~clear_row(rows.row())) & stadium.columns(rows.row());
       if (avoid == Avoid::suspect) open &= solid_row(rows.row());
@@ -101,9 +101,9 @@ class LocalGrid {
     }
   }
   /// True if the body, after this way, is nearer to a cell that is not clear than before, and then within
-  /// `radius` of it. Of a cell whose centre lies abeam, only the ground that the body itself would cover
-  /// counts: so a body near an obstacle may drive along it. False below kShortestStep, and where the lane
-  /// holds.
+  /// `radius` of it. Cells abeam are ignored: passing them reduces the distance by less than the guard's
+  /// margin. Of a suspect one, the ground that the body itself would cover counts all the same. False below
+  /// kShortestStep, and where the lane holds.
   bool approaches(const Vec& from, const Vec& way, Length radius,
                   Avoid avoid = Avoid::unclear) const noexcept;
   /// The grid covers at most this distance from the body along each axis.
@@ -118,6 +118,9 @@ class LocalGrid {
   /// clear.
   bool echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept;
   static constexpr int32_t kAbeam = 80;  // a body that passes an obstacle may turn a little towards it
+  // An obstacle at the guard's margin from the body comes nearer by less than that margin where the body
+  // passes it, if it lies at most sqrt(2 radius margin) ahead.
+  int32_t abeam() const noexcept { return passes_ < kAbeam ? passes_ : kAbeam; }
   static constexpr Length kReadingRounding = Length::from_raw(1000);
   using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
@@ -185,6 +188,7 @@ class LocalGrid {
   Length approach_;  // travel of a moving object while the body stops
   GridScale scale_{20000};
   int32_t footprint_ = 0;  // grid units
+  int32_t passes_ = 0;     // so far ahead may the centre of a cell with such an obstacle lie; grid units
   int32_t body_ = 0;       // what the body covers between two checked places; grid units
   int32_t ring_ = 0;       // ring beside the body's path; grid units
   int32_t explains_ = 0;   // how far beyond an echo an unclear cell explains it; grid units

@@ -19,7 +19,7 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
                            int32_t enough) const noexcept {
   Obstacles found;
   const Point start = local(from);
-  const Stadium stadium({start.x, start.y, heading, units(length), units(radius), kAbeam});
+  const Stadium stadium({start.x, start.y, heading, units(length), units(radius), abeam()});
   const Row box = stadium.box();
   int32_t nearest = INT32_MAX;
   for (Rows rows = stadium.rows(); rows.more(); rows.next()) {
@@ -54,6 +54,8 @@ bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid
   // Beyond the window nothing is known.
   if (!in_window(there, reach + kHalfSquare)) return true;
   const HalfPlane ahead = HalfPlane::facing(way, step);
+  const int32_t strict = half - kCellCover > passes_ ? half - kCellCover : passes_;
+  const int32_t abeam = half > kAbeam ? half : kAbeam;
   const Row box = Span::around(there.x, reach).columns();
   for (Rows rows(there.y, reach + kHalfSquare); rows.more(); rows.next()) {
     Row unclear = box & to_window(~clear_row(rows.row()));
@@ -61,7 +63,7 @@ bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid
     if (unclear == 0) continue;
     Span span;
     span.touched_by_disc(there.x, rows.offset(there.y), reach);
-    ahead.clip(span, here.x, rows.offset(here.y), half > kAbeam ? half : kAbeam);
+    ahead.clip(span, here.x, rows.offset(here.y), abeam < strict ? abeam : strict);
     // The point of an unclear cell that the body would reach first may lie half a diagonal ahead of its
     // centre.
     Span rim;

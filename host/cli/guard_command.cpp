@@ -21,6 +21,7 @@
 #include "host/guard/trace.hpp"
 #include "host/page/guard_recording.hpp"
 #include "host/report/file.hpp"
+#include "host/scenario/contact.hpp"
 #include "host/scenario/load.hpp"
 
 namespace whisker::cli {
@@ -80,6 +81,8 @@ int execute(const GuardOptions& o) {
   Scenario scenario = load_scenario(o.file);
   if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
   if (o.seed) scenario.seed = *o.seed;
+  const std::string warning = start_warning(scenario);
+  if (!warning.empty()) fmt::print(stderr, "whisker: {}\n", warning);
   load_event_tables(scenario, o.file);
   const auto hand = operator_of(o, scenario);
   const auto* const keys = dynamic_cast<Keys*>(hand.get());

@@ -88,8 +88,10 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
     report::write_file(o.html, page::run_page(run, controller_picture(options.planner)));
   }
 
-  const std::string warning = result.ranges ? report::range_warning(*result.ranges) : "";
-  if (!warning.empty()) fmt::print(stderr, "whisker: {}\n", warning);
+  for (const std::string& warning :
+       {start_warning(scenario), result.ranges ? report::range_warning(*result.ranges) : std::string()}) {
+    if (!warning.empty()) fmt::print(stderr, "whisker: {}\n", warning);
+  }
   if (o.json) {
     const std::string json = report::result_json(result, o.bus_json ? o.bus_json() : "");
     fmt::print("{}\n", with_provenance(json, provenance(scenario, options, o)));

@@ -6,6 +6,7 @@
 #include "host/hunt/events.hpp"
 #include "host/hunt/geometry.hpp"
 #include "host/hunt/robots.hpp"
+#include "host/scenario/check.hpp"
 #include "host/scenario/limits.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/shapes.hpp"
@@ -65,7 +66,7 @@ bool is_sound_wall(const std::vector<sim::Vec2>& points) {
 bool is_sound_disc(const sim::Disc& disc) { return disc.radius > 0 && !is_beyond(disc.center); }
 
 bool fits_a_file(const Scenario& s) {
-  return !is_beyond(s.start.at) && !is_beyond(s.goal.at) && s.goal.tolerance_m > 0 &&
+  return !is_beyond(s.start.at) && !is_beyond(s.goal.at) && tolerance_fault(s).empty() &&
          (!s.bounds || (is_sound(*s.bounds) && !is_beyond(s.bounds->min) && !is_beyond(s.bounds->max))) &&
          std::all_of(s.discs.begin(), s.discs.end(), is_sound_disc) &&
          std::all_of(s.walls.begin(), s.walls.end(), is_sound_wall) &&
@@ -83,7 +84,7 @@ bool senses_as_believed(const Params& p, const Sensor& sensor) {
 
 }  // namespace
 
-double free_at_start_m(const Params& params) { return rim_sweep(params).radius.raw() * 1e-6 + kNarrowest_m; }
+double free_at_start_m(const Params& params) { return reach(params).guard.raw() * 1e-6 + kNarrowest_m; }
 
 void draw_truth(Dice& dice, Scenario& s) {
   s.sensor = {};

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/planning/goal_planner.hpp"
 #include "host/campaign/random_robot.hpp"
 #include "host/hunt/geometry.hpp"
 #include "host/hunt/premise.hpp"
@@ -62,7 +63,8 @@ class Builder {
 
   void goal() {
     const double half_gap = narrowest_gap_m(s_.robot) / 2;
-    s_.goal.tolerance_m = dice_.log_uniform(0.1, 2) * radius_;
+    const double least = planning::smallest_tolerance(s_.robot).raw() * 1e-6;
+    s_.goal.tolerance_m = std::max(least, dice_.log_uniform(0.1, 2) * radius_);
     for (int i = 0; i < kTries; ++i) {
       s_.goal.at = dice_.around(s_.start.at, 2 * radius_, 26 * radius_);
       if (nearest(s_, s_.goal.at).distance_m > half_gap * 1.02) return;

@@ -19,4 +19,14 @@ std::string start_fault(const Scenario& s) {
                      nearest.what, nearest.distance_m, s.robot.body.radius.raw() / 1e6);
 }
 
+std::string start_warning(const Scenario& s) {
+  const Nearest nearest = nearest_obstacle(s, s.start.at);
+  const double free_m = reach(s.robot).guard.raw() * 1e-6, radius_m = s.robot.body.radius.raw() * 1e-6;
+  if (nearest.distance_m >= free_m || !start_is_free(s)) return {};
+  return fmt::format(
+      "the start is {:.4f} m from {}: the guard relies on {:.4f} m free around the body where it "
+      "is put down",
+      nearest.distance_m - radius_m, nearest.what, free_m - radius_m);
+}
+
 }  // namespace whisker

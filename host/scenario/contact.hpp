@@ -17,5 +17,7 @@ Nearest nearest_obstacle(const Scenario& scenario, sim::Vec2 point);
 /// The reason why the robot cannot start at the start (it touches something there), empty if it can. Call it
 /// again whenever the body radius changes.
 std::string start_fault(const Scenario& scenario);
+/// A warning if the start is nearer to an obstacle than the guard relies on (docs/safety.md); else empty.
+std::string start_warning(const Scenario& scenario);
 
 }  // namespace whisker

@@ -125,7 +125,7 @@ TEST_F(Revocation, AnEchoThatAppearsAtASideTakesBackTheArcBesideItsCone) {
     LocalGrid grid = grid_;
     ConeObservation echo = beam_at(30_deg, distance, true);
     echo.number = static_cast<int8_t>(number);
-    grid.revoke_beside(echo, radii);
+    grid.revoke_beside(echo, echo.free, radii);
     return !grid.is_clear(polar(50_deg, distance));
   };
   for (Angle axis = -(40_deg); (80_deg - axis).wrapped() >= 0; axis += 2_deg)
