@@ -103,21 +103,16 @@ constexpr RimSweep no_sweep(const Params& p) noexcept {
   return sweep;
 }
 
-/// How far from the centre the local grid may become clear.
-constexpr Length ground_ahead(const Params& p) noexcept {
-  const Length window = whisker::patch_cell(p) * kHalfWindow - whisker::cell_cover(p);
-  return loses_walls(p.rangefinders) ? min(window, kScatterRange + whisker::mount(p.rangefinders, 1).apex.x)
-                                     : window;
-}
-
 [[gnu::always_inline]] constexpr Reach reach(const Params& p) noexcept {
   const RimSweep sweep = whisker::rim_sweep(p);
   const Length swept = sweep.radius;
   const Length planning = swept + p.skirt.planning_margin;
-  const bool given = p.skirt.probe != Length{};
-  const Length within = min(p.body.radius * 5 / 3, ground_ahead(p) - planning);
-  return {swept + max(p.skirt.shield_margin, guard_slack(p)), planning, given ? p.skirt.probe : within,
-          sweep.past};
+  const Length window = whisker::patch_cell(p) * kHalfWindow - whisker::cell_cover(p);
+  Length probe = p.skirt.probe != Length{} ? p.skirt.probe : min(p.body.radius * 5 / 3, window - planning);
+  if (loses_walls(p.rangefinders)) {
+    probe = min(probe, kScatterRange + whisker::mount(p.rangefinders, 1).apex.x - planning);
+  }
+  return {swept + max(p.skirt.shield_margin, guard_slack(p)), planning, probe, sweep.past};
 }
 
 }  // namespace formula

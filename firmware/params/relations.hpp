@@ -32,7 +32,7 @@ enum class ParamFault : uint8_t {
   stalled_before_count,       ///< stalled_after >= the time of the slowest count and the slowest stop
   settle_below_lag,           ///< settle >= motor_lag + period
   cone_too_narrow,            ///< radius of rim_sweep() <= 7/4 radius; if needed, cell <= 2/5 of it
-  patch_too_small,            ///< ground_ahead() >= planning reach + probe, and probe >= radius / 2
+  patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
   planning_below_shield,      ///< planning_margin >= shield_margin
   step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
   beams_crossed,              ///< the axes point from left to right
@@ -118,9 +118,9 @@ constexpr Relation relation(ParamFault fault) noexcept {
       return {
           "patch_too_small",
           "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
-          "skirt_probe_m, with cell = skirt_cell_m or, if 0, automatic; so must 0.5 m ahead of the front "
-          "beam (range_front_x_m or range_offset_m) if range_incidence_deg is below 90; skirt_probe_m must "
-          "not be less than body_radius_m / 2"};
+          "skirt_probe_m, with cell = skirt_cell_m or, if 0, automatic; skirt_probe_m must not be less than "
+          "body_radius_m / 2, nor must what is left of it if range_incidence_deg is below 90: it then ends "
+          "0.5 m ahead of the front beam (range_front_x_m or range_offset_m)"};
     case F::planning_below_shield:
       return {"planning_below_shield", "skirt_planning_margin_m must not be less than skirt_shield_margin_m"};
     case F::step_beyond_range:
@@ -264,7 +264,8 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
 
 [[gnu::always_inline]] constexpr bool patch_holds_ways(const Params& p) noexcept {
   const Reach ways = reach(p);
-  return formula::ground_ahead(p) >= ways.planning + ways.probe && ways.probe >= p.body.radius / 2;
+  return patch_cell(p) * kHalfWindow >= ways.planning + cell_cover(p) + ways.probe &&
+         ways.probe >= p.body.radius / 2;
 }
 
 /// A wall gives an echo to a beam in whose cone a ray meets it within the incidence of its normal.

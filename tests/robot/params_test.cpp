@@ -103,10 +103,9 @@ TEST(Params, EveryRelationIsChecked) {
       {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 44_mm; }},
       {ParamFault::patch_too_small,
        [](Params& p) {
-         p.body.radius = 300_mm;
+         p.body.radius = 340_mm;
          p.thesis.danger_range = 500_mm;
          p.rangefinders.incidence = 80_deg;
-         p.skirt.probe = 200_mm;
        }},
       {ParamFault::planning_below_shield, [](Params& p) { p.skirt.shield_margin = 7_mm; }},
       {ParamFault::walls_unseen, [](Params& p) { p.rangefinders.incidence = 47_deg; }},
