@@ -315,10 +315,6 @@ constexpr Length proving_range(const RangefinderParams& r, int beam) noexcept {
 constexpr bool loses_walls(const RangefinderParams& r) noexcept { return r.incidence.raw() < (90_deg).raw(); }
 /// Where walls may give no echo, their ends and corners give one up to this distance from the apex of a beam.
 constexpr Length kScatterRange = 500_mm;
-/// The distance up to which readings of a beam clear cells of the local grid.
-constexpr Length clearing_range(const RangefinderParams& r, int beam) noexcept {
-  return loses_walls(r) ? min(proving_range(r, beam), kScatterRange) : proving_range(r, beam);
-}
 /// Side of a cell of the local grid; by default 2/9 of the radius.
 constexpr Length patch_cell(const Params& params) noexcept;
 /// A disc of this radius around the centre covers the cell, in 1/256 of a cell: 0.7072, rounded up.

@@ -269,7 +269,7 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
 }
 
 /// A wall gives an echo to a beam in whose cone a ray meets it within the incidence of its normal.
-[[gnu::always_inline]] constexpr bool walls_are_seen(const RangefinderParams& r) noexcept {
+constexpr bool walls_are_seen(const RangefinderParams& r) noexcept {
   if (!loses_walls(r)) return true;
   constexpr int64_t kAbeam = INT64_C(1) << 30;
   int64_t seen_to = -kAbeam;  // normals from the right to the left
@@ -285,11 +285,11 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
 
 /// Whether this beam sees an end of a wall on the line that the flank follows: within the local grid, while
 /// it echoes, and while the body can still stop.
-[[gnu::always_inline]] constexpr bool sees_flank(const Params& p, int beam, bool left) noexcept {
+constexpr bool sees_flank(const Params& p, int beam, bool left) noexcept {
   const Mount m = mount(p.rangefinders, beam);
   const Reach ways = reach(p);
   const Length beside = ways.guard - (left ? m.apex.y : -m.apex.y);
-  const Length range = clearing_range(p.rangefinders, beam);
+  const Length range = min(proving_range(p.rangefinders, beam), kScatterRange);
   if (beside <= Length{} || beside > range) return beside <= Length{};
   const int64_t axis = left ? m.axis.wrapped() : -int64_t{m.axis.wrapped()};
   const int64_t inner = axis - m.half_cone.raw(), outer = axis + m.half_cone.raw();
@@ -304,7 +304,7 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
          ahead(first) >= min(stopping_distance(p), ways.probe);
 }
 
-[[gnu::always_inline]] constexpr bool flank_is_seen(const Params& p) noexcept {
+constexpr bool flank_is_seen(const Params& p) noexcept {
   if (!loses_walls(p.rangefinders)) return true;
   bool left = false, right = false;
   for (int i = 0; i < 3; ++i) {
@@ -314,7 +314,7 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
   return left && right;
 }
 
-[[gnu::always_inline]] constexpr bool rim_is_measured(const Params& p) noexcept {
+constexpr bool rim_is_measured(const Params& p) noexcept {
   if (!loses_walls(p.rangefinders)) return true;
   const Length most = reach(p).planning + p.body.radius / 2;
   bool holds = true;

@@ -39,7 +39,7 @@ Beam beam_of(const Mount& mount, const Pose& body) noexcept {
 void LocalGrid::configure(const Params& params) noexcept {
   scale_.cell_um = patch_cell(params).raw();
   swept_ = rim_sweep(params).radius;
-  for (int i = 0; i < 3; ++i) clears_[i] = clearing_range(params.rangefinders, i);
+  clears_ = loses_walls(params.rangefinders) ? kScatterRange : 60_m;
   place_error_ = formula::place_error(params);
   footprint_ = units(swept_);
   body_ = units(params.body.radius + guard_slack(params));
@@ -195,9 +195,8 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
   const Length taken_off = room + kReadingRounding;
-  const Length clears = clears_[observation.number];
-  const Length cleared = min(observation.free, clears);
-  const Length earlier = before == nullptr ? cleared : min(before->free, clears);
+  const Length cleared = min(observation.free, clears_);
+  const Length earlier = before == nullptr ? cleared : min(before->free, clears_);
   if (has_lane()) {
     lane_->mark(beam, cleared - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
   }

@@ -193,7 +193,7 @@ class LocalGrid {
   int32_t ring_ = 0;       // ring beside the body's path; grid units
   int32_t explains_ = 0;   // how far beyond an echo an unclear cell explains it; grid units
 
-  Length clears_[3];    // how far a beam's readings clear ground
+  Length clears_;       // how far readings clear ground
   Length place_error_;  // between two readings
   Length swept_;        // radius of rim_sweep()
   Length holds_;        // from this distance on, a cone holds a cell

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include "firmware/apps/can/base.hpp"
-#include "firmware/can/param_server.hpp"
-#include "firmware/can/rules_sender.hpp"
 #include "firmware/fuzzy/digest.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "host/hil/base_words.hpp"
+#include "host/hil/bus_talk.hpp"
 #include "host/hil/operator_orders.hpp"
 #include "host/hil/overheard.hpp"
-#include "host/hil/param_question.hpp"
 #include "host/hil/resend.hpp"
 #include "host/run/fix_source.hpp"
 #include "host/run/link_loss.hpp"
@@ -20,15 +18,8 @@
 namespace whisker::hil {
 namespace {
 
-constexpr std::uint64_t kAskAgain_us = 200000;
-constexpr std::uint64_t kNoRules_us = 1000000;
-constexpr int kMostDamaged = 3;
-
 /// Ticks start at whole milliseconds, because waits end there.
 std::uint64_t whole_ms(std::uint64_t us) { return us - us % 1000; }
-
-/// Thrown if the mission cannot continue; trouble() has the reason.
-struct Hopeless {};
 
 class BusPilot final : public Pilot {
  public:
@@ -59,7 +50,7 @@ class BusPilot final : public Pilot {
 
   ~BusPilot() override {
     node_.give(can::Order::cancel, mission_, options_.sync_mode);
-    for (int i = 0; i < 100 && node_.order_state() == can::OrderState::waiting; ++i) nap();
+    for (int i = 0; i < 100 && node_.order_state() == can::OrderState::waiting; ++i) talk_.nap();
     figures_.health = node_.health();
   }
 
@@ -78,7 +69,7 @@ class BusPilot final : public Pilot {
       base_.measure(now.raw() / period_ms, period_ms);
       reckon();
       ++figures_.sets;
-      status_ = lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
+      status_ = talk_.lockstep() ? in_lockstep(now.raw() / period_ms) : in_time(now.raw() / period_ms);
       await_calibration();
     } catch (const Hopeless&) {
     }
@@ -98,7 +89,7 @@ class BusPilot final : public Pilot {
       case EventKind::table: return change(choose_table(e));
       case EventKind::frames_lost:
         // In lockstep, time does not pass while a set is repeated.
-        if (!lockstep() || loss_.stops(e.for_s)) loss_.lose(e.for_s);
+        if (!talk_.lockstep() || loss_.stops(e.for_s)) loss_.lose(e.for_s);
         return true;
       case EventKind::restart: return restart();
       case EventKind::place:
@@ -134,13 +125,11 @@ class BusPilot final : public Pilot {
     if (const std::uint16_t bits = node_.permanent_errors(); bits != 0) {
       return (bits & can::Error::duplicate_node) != 0 ? "duplicate_node" : "bus_off_latched";
     }
-    return lockstep() && node_.state() == can::NodeState::safe_stop ? "safe_stop" : nullptr;
+    return talk_.lockstep() && node_.state() == can::NodeState::safe_stop ? "safe_stop" : nullptr;
   }
 
  private:
   static constexpr Duration kLongestPause = milliseconds(1000);
-  bool lockstep() const { return options_.sync_mode == can::SyncMode::lockstep; }
-  bool node_running() const { return node_.state() == can::NodeState::running; }
 
   /// Computes the estimate from the frames, because the bus does not carry the core's. After a pause, the
   /// wheels may have rolled farther than in one period.
@@ -178,13 +167,13 @@ class BusPilot final : public Pilot {
 
   /// An operator's order: the base's own ones need wheels at rest.
   bool order(can::Order order, const planning::Goal& goal) {
-    if (!node_running()) return false;
-    ask_for("MissionReply to the operator");
+    if (!talk_.running()) return false;
+    talk_.ask_for("MissionReply to the operator");
     operator_.begin();
     while (!operator_.answered(order, goal, clock_.now_us())) {
-      watchful_nap();
-      watch_patience();
-      if (!node_running()) return false;
+      talk_.watchful_nap();
+      talk_.watch_patience();
+      if (!talk_.running()) return false;
     }
     return operator_.accepted();
   }
@@ -198,13 +187,13 @@ class BusPilot final : public Pilot {
       case LinkLoss::Step::brake: {
         const bool restarts = loss_.restarts();
         // In real time, a loss stops both nodes by itself.
-        if (!braking_ && (restarts || lockstep()))
+        if (!braking_ && (restarts || talk_.lockstep()))
           node_.give(restarts ? can::Order::cancel : can::Order::resume, mission_, options_.sync_mode);
         braking_ = true;
         return false;
       }
       case LinkLoss::Step::resume:
-        if (lockstep()) give(can::Order::resume, mission_);
+        if (talk_.lockstep()) talk_.give(can::Order::resume, mission_);
         break;
       case LinkLoss::Step::restart: start_anew(); break;
     }
@@ -213,7 +202,7 @@ class BusPilot final : public Pilot {
   }
 
   const Status& away(std::uint32_t tick) {
-    if (!lockstep()) in_time(tick, false);
+    if (!talk_.lockstep()) in_time(tick, false);
     status_.command = base_.drive();
     return status_;
   }
@@ -221,16 +210,16 @@ class BusPilot final : public Pilot {
   /// What a controller that has restarted gets: its table, the parameters, and the mission from where the
   /// robot stands.
   void start_anew() {
-    give(can::Order::cancel, mission_);
+    talk_.give(can::Order::cancel, mission_);
     mission_.start = fixed_pose(plant_.pose());
     hand_over();
-    give(can::Order::start, mission_);
+    talk_.give(can::Order::start, mission_);
     due_us_ = whole_ms(clock_.now_us());
   }
 
   void hand_over() {
-    if (rules_) make_it_drive_with(*rules_);
-    hand_over_params();
+    if (rules_) talk_.make_it_drive_with(*rules_, table_);
+    talk_.hand_over(params_);
     changed_ = false;
   }
 
@@ -247,121 +236,14 @@ class BusPilot final : public Pilot {
     ++(reply.status == can::FixStatus::accepted ? figures_.fixes_accepted : figures_.fixes_refused);
   }
 
-  void nap() {
-    node_.poll(clock_.now_ms());
-    clock_.wait_a_ms();
-    node_.poll(clock_.now_ms());
-  }
-
-  void watchful_nap() {
-    nap();
-    check();
-  }
-
-  void ask_for(const char* answer) {
-    awaited_ = answer;
-    asked_us_ = clock_.now_us();
-  }
-
-  /// A missing controller may return; a controller that is present but silent will not answer.
-  void watch_patience() {
-    const std::uint64_t now_us = clock_.now_us();
-    const bool e_stopped =
-        node_.state() == can::NodeState::e_stopped || node_.peer().state == can::NodeState::e_stopped;
-    if (!node_.matched() || e_stopped) asked_us_ = now_us;
-    if (now_us - asked_us_ <= std::uint64_t{options_.patience_ms} * 1000) return;
-    throw NoAnswer(fmt::format("the controller sends no {} for {} ms", awaited_, options_.patience_ms));
-  }
-
-  void check() {
-    if (options_.interrupted && options_.interrupted()) throw Interrupted("interrupted");
-    if (node_.permanent_errors() != 0) throw Hopeless();
-    if (restarts_ && node_.peer_restarts() != *restarts_)
-      throw ControllerRestarted("the controller restarted");
-    explain();
-  }
-
-  void explain() {
-    std::string now = waits_for(node_, options_);
-    if (said_ == now) return;
-    said_ = std::move(now);
-    if (options_.say) options_.say(said_);
-  }
-
   void begin() {
-    while (!node_.matched()) watchful_nap();
-    restarts_ = node_.peer_restarts();
+    while (!node_.matched()) talk_.watchful_nap();
+    talk_.count_restarts();
     hand_over();
-    give(options_.order, mission_);
+    talk_.give(options_.order, mission_);
     begun_ = true;
     begun_us_ = clock_.now_us();
     due_us_ = whole_ms(begun_us_);
-  }
-
-  void make_it_drive_with(std::uint32_t wanted) {
-    const bool sends = table_ != nullptr;
-    // A controller without a table never names one.
-    ask_info_until("Info with its rules", [&] {
-      return node_.peer_rules() != 0 || (sends && clock_.now_us() - asked_us_ >= kNoRules_us);
-    });
-    const std::uint32_t had = node_.peer_rules();
-    if (had == wanted) return;
-    if (!sends || !send_rules(wanted)) refuse_rules(had, wanted);
-    ask_info_until("Info with the table that it activated", [&] { return node_.peer_rules() == wanted; });
-  }
-
-  template <class F>
-  void ask_info_until(const char* answer, const F& done) {
-    ask_for(answer);
-    std::uint64_t again_us = asked_us_;
-    while (!done()) {
-      if (clock_.now_us() >= again_us) {
-        node_.ask_for_info();
-        again_us = clock_.now_us() + kAskAgain_us;
-      }
-      watchful_nap();
-      watch_patience();
-    }
-  }
-
-  /// Repeats while the robot still moves. False: the controller takes no table.
-  bool send_rules(std::uint32_t wanted) {
-    if (options_.say) options_.say(fmt::format("sends the response table {:08x}", wanted));
-    ask_for("RulesReply that activates");
-    int damaged = 0;
-    for (std::uint8_t upload = 1;; ++upload) {
-      const can::RulesStatus status = send_rules_once(upload);
-      if (status == can::RulesStatus::activated) return true;
-      if (status == can::RulesStatus::unsupported) return false;
-      if (status == can::RulesStatus::wrong_hash && ++damaged == kMostDamaged) {
-        throw NoAnswer("the controller says wrong_hash: the response table arrives damaged");
-      }
-      for (std::uint32_t waited = 0; waited < can::kRulesRepeat_ms; ++waited) watchful_nap();
-      watch_patience();
-    }
-  }
-
-  can::RulesStatus send_rules_once(std::uint8_t upload) {
-    can::RulesSender sender(node_, table_, upload);
-    for (std::uint16_t had = 0; !sender.ended(); had = sender.reply().next) {
-      sender.poll(clock_.now_ms());
-      watchful_nap();
-      if (sender.reply().next > had) ask_for("RulesReply that activates");
-      watch_patience();
-    }
-    return sender.reply().status;
-  }
-
-  void give(can::Order order, const can::Mission& mission) {
-    ask_for("MissionReply that accepts");
-    do {
-      node_.give(order, mission, options_.sync_mode);
-      while (node_.order_state() == can::OrderState::waiting) {
-        watchful_nap();
-        watch_patience();
-      }
-      refuse_calibration(node_, order);
-    } while (node_.order_state() == can::OrderState::refused);
   }
 
   /// The controller saves, which may take seconds, and reports in turn.
@@ -370,12 +252,12 @@ class BusPilot final : public Pilot {
         status_.decision.outcome == planning::Outcome::running || status_.health.fault != Fault::none)
       return;
     const bool drove = status_.decision.outcome == planning::Outcome::reached;
-    if (options_.order == can::Order::tape && drove) give(can::Order::measured, read_tape());
-    ask_for("Calibration report");
+    if (options_.order == can::Order::tape && drove) talk_.give(can::Order::measured, read_tape());
+    talk_.ask_for("Calibration report");
     can::Calibrated found;
     while (!node_.calibrated(found)) {
-      watchful_nap();
-      watch_patience();
+      talk_.watchful_nap();
+      talk_.watch_patience();
     }
     figures_.calibrated = found;
   }
@@ -385,35 +267,15 @@ class BusPilot final : public Pilot {
     return {mission_.start, {fixed_pose(plant_.pose()).at, mission_.goal.tolerance}};
   }
 
-  void hand_over_params() {
-    std::uint32_t raw = 0;
-    for (std::uint8_t i = 0; can::read_param(params_, i, raw); ++i) {
-      ask({can::ParamAction::write, i, raw});
-    }
-    ask({can::ParamAction::commit, can::kCommitIndex, 0});
-  }
-
-  void ask(const can::ParamRequest& request) {
-    ParamQuestion question(request, std::uint64_t{options_.resend_ms} * 1000);
-    ask_for("ParamReply");
-    const auto answers = [](const can::ParamReply& r) { return r.status != can::ParamStatus::busy; };
-    while (!question.poll(node_, clock_.now_us(), answers)) {
-      watchful_nap();
-      watch_patience();
-    }
-    if (question.reply().status != can::ParamStatus::ok)
-      throw std::runtime_error("the controller refuses a parameter");
-  }
-
   Status in_lockstep(std::uint32_t tick) {
     const std::uint64_t sent_us = clock_.now_us();
     base_.publish(can::SyncMode::lockstep);
     resend_.sent(sent_us);
-    ask_for("WheelCommand and NavStatus");
-    while (node_running() || node_.state() == can::NodeState::waiting ||
+    talk_.ask_for("WheelCommand and NavStatus");
+    while (talk_.running() || node_.state() == can::NodeState::waiting ||
            node_.state() == can::NodeState::off_bus) {
       // The answer may arrive together with the loss of the controller; then it drives nothing.
-      if (node_running() && node_.answered(tick)) {
+      if (talk_.running() && node_.answered(tick)) {
         const std::uint64_t now_us = clock_.now_us();
         resend_.answered(now_us);
         figures_.round_trip_us.push_back(static_cast<std::uint32_t>(now_us - sent_us));
@@ -422,14 +284,14 @@ class BusPilot final : public Pilot {
       clock_.wait(Clock::kNap_us);
       const std::uint64_t now_us = clock_.now_us();
       node_.poll(static_cast<std::uint32_t>(now_us / 1000));
-      check();
-      watch_patience();
-      if (!node_running() || node_.answered(tick) || !resend_.due(now_us)) continue;
+      talk_.check();
+      talk_.watch_patience();
+      if (!talk_.running() || node_.answered(tick) || !resend_.due(now_us)) continue;
       base_.publish(can::SyncMode::lockstep);
       ++figures_.resent;
       resend_.sent_again(now_us);
     }
-    explain();
+    talk_.explain();
     return status_;
   }
 
@@ -453,7 +315,7 @@ class BusPilot final : public Pilot {
       }
     }
     if (!answered) ++figures_.misses;
-    check();
+    talk_.check();
     if (sends) resume();
     return answered ? status_of(node_.status()) : status_;
   }
@@ -488,16 +350,12 @@ class BusPilot final : public Pilot {
   bool braking_ = false;
   hal::SimBoard board_;
   can::BaseNode node_;
+  BusTalk talk_{clock_, options_, node_};
   can_app::Base base_;
   localization::Odometry odometry_;
   Status status_;
-  std::string said_;
-  const char* awaited_ = "";
-  std::uint64_t asked_us_ = 0;
   std::uint64_t begun_us_ = 0;
   std::uint64_t due_us_ = 0;
-  /// Of the controller before it got its table and parameters: with one more, it has lost them.
-  std::optional<std::uint32_t> restarts_;
   std::optional<std::uint16_t> answered_fix_;  // its tick
   bool begun_ = false;
   bool resuming_ = false;

@@ -55,8 +55,9 @@ const Status& EventPilot::tick(Time now) {
   }
   if (fix_) fix = fix_;
   fix_.reset();
+  const Status& status = core_->tick(now);
   if (fix) core_->robot().correct(fix->pose, fix->sigma);
-  return core_->tick(now);
+  return status;
 }
 
 /// A tick without the robot.
