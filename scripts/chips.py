@@ -17,7 +17,6 @@ QEMU = "-display none -monitor none -semihosting-config enable=on,target=native"
 EMULATORS = {
     "qemu-arm": "qemu-system-arm -M {} -icount shift=10 " + QEMU,
     "qemu-riscv": "qemu-system-riscv32 -M {} -bios none -icount shift=0 " + QEMU,
-    "simavr": str(BUILD / "host/whisker_avr"),
     "node": "node " + str(ROOT / "hal/emulated/wasm/run.mjs"),
 }
 

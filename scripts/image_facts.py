@@ -9,8 +9,6 @@ import chips
 
 FLASH = (".text", ".rodata", ".data", ".progmem")
 RAM = (".data", ".bss")
-# AVR's start-up copies constants to RAM.
-RAM_OF_AVR = (*RAM, ".rodata")
 
 # The possible targets of each indirect call; an indirect call missing here is an error.
 INDIRECT = (

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
+#include <vector>
 
 #include "host/hunt/events.hpp"
 #include "host/hunt/geometry.hpp"
 #include "host/hunt/robots.hpp"
 #include "host/scenario/check.hpp"
 #include "host/scenario/limits.hpp"
+#include "host/scenario/param_list.hpp"
 #include "host/scenario/params_text.hpp"
 #include "host/scenario/shapes.hpp"
 
@@ -82,6 +86,21 @@ bool senses_as_believed(const Params& p, const Sensor& sensor) {
          sensor.max_range_m.value_or(all.max_range_m) >= all.max_range_m;
 }
 
+/// A parameter that changes on the way changes no wheel and no sensor.
+bool describes_hardware(std::string_view key) {
+  const std::string_view beginnings[] = {"range_", "wheel_", "body_radius", "motor_lag", "encoder_"};
+  return std::any_of(std::begin(beginnings), std::end(beginnings),
+                     [&](std::string_view begins) { return key.substr(0, begins.size()) == begins; });
+}
+
+bool is_of_the_same_body(const Params& p, const Params& first) {
+  const std::vector<ParamEntry> now = param_list(p), then = param_list(first);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (describes_hardware(now[i].key) && now[i].raw != then[i].raw) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 double free_at_start_m(const Params& params) { return reach(params).guard.raw() * 1e-6 + kNarrowest_m; }
@@ -99,7 +118,10 @@ void draw_truth(Dice& dice, Scenario& s) {
 bool holds_premise(const Scenario& s) {
   const std::vector<Params> robots = robots_of(s);
   return std::all_of(robots.begin(), robots.end(),
-                     [&](const Params& p) { return drivable(p) && senses_as_believed(p, s.sensor); }) &&
+                     [&](const Params& p) {
+                       return drivable(p) && senses_as_believed(p, s.sensor) &&
+                              is_of_the_same_body(p, s.robot);
+                     }) &&
          fits_a_file(s) && nearest(s, s.start.at).distance_m >= free_at_start_m(s.robot);
 }
 

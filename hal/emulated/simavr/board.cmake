@@ -1,1 +1,0 @@
-target_sources(whisker_board PRIVATE ${emulated}/simavr/board.cpp)
