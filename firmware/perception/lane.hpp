@@ -21,7 +21,7 @@ class Lane {
   /// `body`: what the body covers between two checked places.
   void configure(Length half_width, Length body) noexcept {
     scale_.cell_um = half_width.raw() / (kRows / 2);
-    body_ = scale_.units(body);
+    body_ = static_cast<int16_t>(scale_.units(body));
     open_ = false;
   }
   /// The lane begins here, and leads along this heading. Nothing on it is clear.
@@ -49,7 +49,7 @@ class Lane {
   void clear() noexcept;
 
   GridScale scale_{};
-  int32_t body_ = 0;  // grid units
+  int16_t body_ = 0;  // grid units
   bool open_ = false;
   bool aged_ = false;
   Pose from_;

@@ -42,7 +42,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   clears_ = loses_walls(params.rangefinders) ? kScatterRange : 60_m;
   place_error_ = formula::place_error(params);
   footprint_ = units(swept_);
-  body_ = units(params.body.radius + guard_slack(params));
+  body_ = static_cast<int16_t>(units(params.body.radius + guard_slack(params)));
   reach_ = whisker::reach(params);
   if (kNarrowGaps)
     lane_->configure(reach_.guard + swept_ / kLaneTolerance, params.body.radius + guard_slack(params));
@@ -59,7 +59,8 @@ void LocalGrid::configure(const Params& params) noexcept {
   const Length margin = reach_.guard - swept_;
   const uint64_t passed =
       uint64_t{2} * static_cast<uint64_t>(swept_.raw()) * static_cast<uint64_t>(margin.raw());
-  passes_ = units(Length::from_raw(static_cast<int32_t>(square_root(passed)))) - kCellCover;
+  passes_ =
+      static_cast<int16_t>(units(Length::from_raw(static_cast<int32_t>(square_root(passed)))) - kCellCover);
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
   const GroundAge age = ground_age(params);
   age_travel_ = age.travel;

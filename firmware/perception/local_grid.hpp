@@ -188,8 +188,8 @@ class LocalGrid {
   Length approach_;  // travel of a moving object while the body stops
   GridScale scale_{20000};
   int32_t footprint_ = 0;  // grid units
-  int32_t passes_ = 0;     // so far ahead may the centre of a cell with such an obstacle lie; grid units
-  int32_t body_ = 0;       // what the body covers between two checked places; grid units
+  int16_t passes_ = 0;     // so far ahead may the centre of a cell with such an obstacle lie; grid units
+  int16_t body_ = 0;       // what the body covers between two checked places; grid units
   int32_t ring_ = 0;       // ring beside the body's path; grid units
   int32_t explains_ = 0;   // how far beyond an echo an unclear cell explains it; grid units
 

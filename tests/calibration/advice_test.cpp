@@ -82,9 +82,9 @@ TEST(Advice, ANarrowConeIsWritten) {
 TEST(Advice, WarnsOfInvisibleWalls) {
   const Params p;
   Calibration c = as_believed(p);
-  for (BeamFit& f : c.fits) f.edge_deg = f.sure_edge_deg = 12.5 + 40.3;
+  for (BeamFit& f : c.fits) f.edge_deg = f.sure_edge_deg = 12.5 + 50.3;
   const Advice a = advise(c, p);
-  EXPECT_THAT(a.lines, ElementsAre("range_incidence_deg = 40"));
+  EXPECT_THAT(a.lines, ElementsAre("range_incidence_deg = 50"));
   EXPECT_THAT(a.notes, ElementsAre(HasSubstr("walls ahead may be invisible")));
 }
 

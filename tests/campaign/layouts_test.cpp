@@ -15,6 +15,7 @@ const SensorModel& model(const char* name) { return *find_sensor_model(name); }
 
 TEST(Equipped, TakesFromTheModelWhatItStates) {
   Params robot;
+  robot.rangefinders.side_angle = 45_deg;
   robot.rangefinders.beams[0].x = 10_mm;
   const Params p = equipped(robot, model("hc-sr04"));
   EXPECT_EQ(p.rangefinders.incidence, 40_deg);
@@ -45,7 +46,7 @@ TEST(Equipped, ShortensStepsToTheRange) {
 }
 
 TEST(Scaled, RobotsOfEverySizeFit) {
-  for (const double radius : {0.05, 0.09, 0.2, 0.5}) {
+  for (const double radius : {0.05, 0.09, 0.2, 0.3}) {
     const Params p = equipped(scaled({}, radius / 0.09), model("vl53l0x"));
     EXPECT_EQ(p.body.radius, micrometres(static_cast<std::int32_t>(radius * 1e6 + 0.5)));
     EXPECT_EQ(check(p), ParamFault::none) << name(check(p)) << " " << radius;

@@ -124,7 +124,7 @@ TEST(Attempt, FindsTheContactsOfRobotsOutsideThePremise) {
     c.scenario.robot = {};
     if (nearest(c.scenario, c.scenario.start.at).distance_m < 0.1) continue;
     c.planner = PlannerKind::skirt;
-    c.scenario.sensor.incidence_deg = 30;
+    c.scenario.sensor.incidence_deg = 10;
     c.scenario.time_limit_s = 60;
     c.gaps = 0;
     const Outcome outcome = attempt(c);

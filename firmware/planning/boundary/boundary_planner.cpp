@@ -12,7 +12,7 @@ constexpr Length kKeepSide = 500_mm;    // of travel after leaving a boundary
 constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, in addition to kKeepSide
 constexpr int8_t kEscapes = 6;
 
-static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) < 1800);
+static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) <= 1800);
 
 }  // namespace
 
