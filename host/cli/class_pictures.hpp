@@ -15,7 +15,7 @@ constexpr ClassPicture kClassPictures[] = {
     {"skirt_15_discs.svg", worlds::Kind::discs, {6, 15, false, false}},
     {"skirt_30_discs.svg", worlds::Kind::discs, {8, {}, false, false}},
     {"skirt_50_discs.svg", worlds::Kind::discs, {7, 50, false, false}},
-    {"skirt_75_discs.svg", worlds::Kind::discs, {12, 75, true, false}},
+    {"skirt_75_discs.svg", worlds::Kind::discs, {14, 75, true, false}},
     {"skirt_u_trap.svg", worlds::Kind::u_trap, {8, {}, false, false}},
     {"skirt_spiral.svg", worlds::Kind::spiral, {4, {}, false, false}},
     {"skirt_maze.svg", worlds::Kind::maze, {1, {}, false, false}},

@@ -41,7 +41,8 @@ class Events(Case):
             for key in ("hash", "outcome", "ticks", "final_distance_m", "events"):
                 self.assertEqual(both[key], alone[key], (events, key))
             self.assertEqual(alone["events"], {"played": len(events), "refused": 0})
-            self.assertEqual(alone["outcome"], "reached")
+            # A fix that lies leads beside the goal.
+            self.assertIn(alone["outcome"], ("off_goal",) if "correct" in events[0] else ("reached",))
 
     def test_a_table_is_read_beside_the_scenario_and_sent_over_the_bus(self):
         self.file("straight.toml", STRAIGHT.read_text())

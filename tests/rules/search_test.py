@@ -42,7 +42,7 @@ class Search(Case):
         self.validation_is_a_comparison_in_other_worlds(told)
 
     def found_is_a_rule_base(self, text, digest):
-        self.assertRegex(text, r"(?s)\A# Found by whisker rules search, planner map, in u-trap: seeds 6 to 15,\n")
+        self.assertRegex(text, r"(?s)\A# Found by whisker rules search, planner map, in u-trap: seeds 17 to 26,\n")
         self.assertIn(f"this is {digest}.\n", text)
         self.assertEqual(sum(line.startswith("  [") and line.count('"') == 10 for line in text.splitlines()), 10)
         shown = whisker.whisker("rules", "show", "found.toml", "--svg", "found.svg", cwd=self.folder)
