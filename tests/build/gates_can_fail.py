@@ -28,7 +28,6 @@ import vendor_macros
 import version
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "targets"))
-import image_symbols  # noqa: E402
 
 CXX, ARM_CXX, ARM_NM = (sys.argv[1:] + [None] * 3)[:3]
 
@@ -402,35 +401,6 @@ def cross_status(target, compiler, text, *options):
     with tempfile.TemporaryDirectory() as work:
         gate = lambda root: cross.main([target, root, work, compiler, *options])  # noqa: E731
         return run(gate, {"firmware/core/a.cpp": text})
-
-
-class ImageSymbols(unittest.TestCase):
-    def problems(self, *lines):
-        return image_symbols.miscompiled("\n".join(["0 <f>:"] + [f"   0:\t00 00\t{line}" for line in lines]))
-
-    def test_refuses_what_clang_compiles_wrong(self):
-        for lines in (
-            ("ldd\tr24, Y+63", "ld\tr25, Y"),
-            ("std\tZ+63, r24", "st\tZ, r25"),
-            ("subi\tr24, 0x01", "adc\tr25, r1"),
-            ("sbci\tr24, 0x01", "std\tY+1, r24", "adc\tr25, r1"),
-        ):
-            self.assertEqual(len(self.problems(*lines)), 1, lines)
-
-    def test_accepts_the_neighbours(self):
-        for lines in (
-            ("std\tY+62, r31", "ld\tr20, Z"),
-            ("std\tY+63, r31", "ld\tr20, Z"),
-            ("ldd\tr24, Y+63", "ld\tr25, Z"),
-            ("ldd\tr24, Y+63", "ld\tr25, Y+"),
-            ("ldd\tr24, Y+62", "ldd\tr25, Y+63"),
-            ("add\tr24, r22", "adc\tr25, r23"),
-        ):
-            self.assertEqual(self.problems(*lines), [], lines)
-
-    def test_names_what_no_chip_has(self):
-        names = {"malloc", "__aeabi_fadd", "printf", "_ZGVfoo", "memcpy", "__aeabi_uldivmod"}
-        self.assertEqual(image_symbols.forbidden(names), ["_ZGVfoo", "__aeabi_fadd", "malloc", "printf"])
 
 
 class NoFloat(unittest.TestCase):
