@@ -55,7 +55,7 @@ class Search(Case):
     def validation_is_a_comparison_in_other_worlds(self, told):
         validation = told["validation"]
         self.assertEqual([told["first_seed"], told["last_seed"], validation["first_seed"], validation["last_seed"]], [17, 26, 27, 29])
-        done = whisker.whisker("rules", "compare", SIDES, "found.toml", "--worlds", "u-trap", "--seed", 16, "--count", 3, "--json", cwd=self.folder)
+        done = whisker.whisker("rules", "compare", SIDES, "found.toml", "--worlds", "u-trap", "--seed", 27, "--count", 3, "--json", cwd=self.folder)
         compared = json.loads(done.stdout)
         self.assertEqual(compared["b"]["rules_digest"], told["rules_digest"])
         for key in ("time_ratio", "path_ratio", "clearance_m_difference", "both_reach"):
