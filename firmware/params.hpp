@@ -344,7 +344,7 @@ struct Reach {
   Length guard;     ///< distance from the centre of the body within which cells must be clear at every tick
   Length planning;  ///< the same for a chosen heading
   Length probe;     ///< length of the checked path; by default 5/3 of the radius, or the reach of the local
-                 ///< grid. Where walls may give no echo, it ends at kScatterRange from the front beam
+                    ///< grid. Where walls may give no echo, it ends at kScatterRange from the front beam
   Angle past;  ///< a beam clears a cell at the rim while it turns from this angle before the cell to this
                ///< angle behind it; zero if a single reading does
 };

@@ -13,8 +13,8 @@ namespace whisker::hal {
 /// driver still reports `clear`, because otherwise the robot could not drive in the open; clear_range of the
 /// board limits that promise. A sensor that detects its own failure reports `invalid`.
 ///
-/// Below RangefinderParams::min_range a reading is `too_near`: the object is anywhere up to it. A sensor whose
-/// output folds back there cannot tell: mount it so far behind the rim that nothing can be nearer.
+/// Below RangefinderParams::min_range a reading is `too_near`: the object is anywhere up to it. A sensor
+/// whose output folds back there cannot tell: mount it so far behind the rim that nothing can be nearer.
 class Rangefinders {
  public:
   /// Copies the latest measurement of each sensor. Never blocks, and never waits for a measurement. False: no
