@@ -178,9 +178,11 @@ describe('the page of a drive of the guard', () => {
       ]),
     );
     assert.deepEqual(
-      rows,
-      came.map(([reason, ticks]) => [reason.replaceAll('_', ' '), `${(ticks / 100).toFixed(1)} s`]),
+      rows.map(([reason]) => reason),
+      came.map(([reason]) => reason.replaceAll('_', ' ')),
     );
+    // A half may be rounded either way.
+    came.forEach(([, ticks], i) => assert.ok(Math.abs(Number.parseFloat(rows[i][1]) - ticks / 100) < 0.051));
     const never = await page.textContent('#reasons-never');
     for (const [reason, ticks] of Object.entries(result.ticks_by_reason)) {
       assert.equal(never.includes(reason.replaceAll('_', ' ')), ticks === 0, reason);
