@@ -8,7 +8,7 @@ namespace {
 constexpr Duration kCounted = 60000_ms;  // longer durations count as this
 
 /// The body along its way. It checks places at most 2/9 of the radius and 14.4 degrees apart: see
-/// guard_margin().
+/// guard_slack().
 class Track {
  public:
   Track(const Pose& pose, const perception::LocalGrid& grid, perception::Avoid avoid,
