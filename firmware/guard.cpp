@@ -88,7 +88,7 @@ void Guard::vouch(Length radius) noexcept {
 
 const GuardStatus& Guard::tick(Time now) noexcept {
   if (status_.health.fault == Fault::invalid_params) {
-    supervisor_.check_command(wheels_.command({}, params_.safety.period, params_));
+    supervisor_.check_command(wheels_.command({}));
     return status_;
   }
   take_time(now);
@@ -96,8 +96,10 @@ const GuardStatus& Guard::tick(Time now) noexcept {
   perceive();
   take_command();
   const WheelPair speeds = limit_speed(!counted);
-  if (counted) supervisor_.check_stall(localizer_.counts(), speeds, wheels_.state().rolling, elapsed_);
-  supervisor_.check_command(wheels_.command(speeds, elapsed_, params_));
+  if (counted)
+    supervisor_.check_stall(localizer_.counts(), control::turns_on_wire(speeds), wheels_.state().rolling,
+                            elapsed_);
+  supervisor_.check_command(wheels_.command(speeds));
   status_.command = wheels_.sent();
   if (supervisor_.faulted()) status_.reason = GuardReason::fault;
   return status_;
@@ -117,6 +119,7 @@ void Guard::take_time(Time now) noexcept {
   }
   elapsed_ = min(gap, longest_gap(params_));
   since_counts_ += gap;
+  wheels_.pass(elapsed_, params_);
   supervisor_.expect_wheels(wheels_.state().rolling, elapsed_, gap);
   last_tick_ = now;
   braked_elsewhere_ = false;

@@ -163,6 +163,7 @@ void Robot::take_time(Time now) noexcept {
   }
   elapsed_ = min(gap, longest_gap(params_));
   since_counts_ += gap;
+  wheels_.pass(elapsed_, params_);
   supervisor_.expect_wheels(wheels_.state().rolling, elapsed_, gap);
   last_tick_ = now;
   braked_elsewhere_ = false;
@@ -322,13 +323,15 @@ WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {
   const WheelPair speeds = granted(view, stands);
   const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
   motion_.settle(paused ? nullptr : &localizer_.counts(), commanded, elapsed_, params_);
-  if (!paused) supervisor_.check_stall(localizer_.counts(), speeds, wheels_.state().rolling, elapsed_);
+  if (!paused)
+    supervisor_.check_stall(localizer_.counts(), control::turns_on_wire(speeds), wheels_.state().rolling,
+                            elapsed_);
   supervisor_.check_motion(motion_);
   return speeds;
 }
 
 void Robot::actuate(WheelPair speeds) noexcept {
-  supervisor_.check_command(wheels_.command(speeds, elapsed_, params_));
+  supervisor_.check_command(wheels_.command(speeds));
   status_.command = wheels_.sent();
   if (supervisor_.faulted()) show_fault();
 }

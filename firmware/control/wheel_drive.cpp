@@ -14,10 +14,13 @@ Speed follow(Speed rolling, Speed commanded, Duration elapsed, const Params& par
 
 }  // namespace
 
-bool WheelDrive::command(WheelPair speeds, Duration elapsed, const Params& params) noexcept {
+void WheelDrive::pass(Duration elapsed, const Params& params) noexcept {
+  rolling_ = {follow(rolling_.left, commanded_.left, elapsed, params),
+              follow(rolling_.right, commanded_.right, elapsed, params)};
+}
+
+bool WheelDrive::command(WheelPair speeds) noexcept {
   commanded_ = speeds;
-  rolling_ = {follow(rolling_.left, speeds.left, elapsed, params),
-              follow(rolling_.right, speeds.right, elapsed, params)};
   sent_ = to_wire(speeds);
   if (drive_.command(sent_)) return true;
   commanded_ = {};
@@ -29,6 +32,11 @@ hal::WheelSpeeds to_wire(WheelPair speeds) noexcept {
   constexpr int32_t kUmPerS = 100;
   return {saturate16(static_cast<int32_t>(divide_rounded(speeds.left.raw(), kUmPerS))),
           saturate16(static_cast<int32_t>(divide_rounded(speeds.right.raw(), kUmPerS)))};
+}
+
+bool turns_on_wire(WheelPair speeds) noexcept {
+  const hal::WheelSpeeds sent = to_wire(speeds);
+  return sent.left != 0 || sent.right != 0;
 }
 
 }  // namespace whisker::control

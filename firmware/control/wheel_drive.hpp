@@ -16,9 +16,10 @@ class WheelDrive {
   explicit WheelDrive(hal::Drive& drive) noexcept : drive_(drive) {}
 
   bool read(hal::EncoderCounts& counts) noexcept { return drive_.read(counts); }
-  /// Commands these speeds; `elapsed` is the time since the last command. False: the drive refused, and the
-  /// wheels count as commanded to stand.
-  bool command(WheelPair speeds, Duration elapsed, const Params& params) noexcept;
+  /// Once per tick, before all else: the wheels followed the last command for this time.
+  void pass(Duration elapsed, const Params& params) noexcept;
+  /// False: the drive refused, and the wheels count as commanded to stand.
+  bool command(WheelPair speeds) noexcept;
 
   WheelState state() const noexcept { return {commanded_, rolling_}; }
   /// As sent to the drive; zero if it refused.
@@ -33,5 +34,7 @@ class WheelDrive {
 
 /// Converts to the HAL's unit of 0.1 mm/s, rounded to nearest; saturates.
 hal::WheelSpeeds to_wire(WheelPair speeds) noexcept;
+/// Not both of them round to zero.
+bool turns_on_wire(WheelPair speeds) noexcept;
 
 }  // namespace whisker::control

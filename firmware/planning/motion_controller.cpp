@@ -7,6 +7,7 @@ namespace {
 
 constexpr int32_t kStillPeriods = 3;
 /// The guard holds a drive back for at most this long: by then the beams would have seen the unknown ground.
+/// One that it lets creep ends when it comes no nearer.
 constexpr int32_t kHeldPeriods = 20;
 constexpr int32_t kHeldReadings = 4;
 
@@ -66,8 +67,11 @@ VelocityRequest MotionController::request(const Pose& pose, Duration elapsed, Du
     case ManoeuvreKind::stop: break;
     case ManoeuvreKind::turn: return turn(error, elapsed, params);
     case ManoeuvreKind::drive:
-      if (held_for <= longest_hold(params)) return drive(pose, error, elapsed, params);
+      if (held_for <= longest_hold(params) && waiting_for_ <= params.safety.stalled_after) {
+        return drive(pose, error, elapsed, params);
+      }
       finished_ = cut_ = true;
+      waiting_for_ = Duration{};
       break;
     case ManoeuvreKind::cruise: return cruise();
   }

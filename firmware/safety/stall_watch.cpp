@@ -7,10 +7,9 @@ constexpr int32_t kCounts = 10;
 
 }  // namespace
 
-bool StallWatch::stalled(const localization::CountStep& counts, WheelPair commanded, WheelPair rolling,
+bool StallWatch::stalled(const localization::CountStep& counts, bool commanded, WheelPair rolling,
                          Duration elapsed, const Params& params) noexcept {
-  const bool turns = commanded.left != Speed{} || commanded.right != Speed{};
-  if (!turns || counts.left != 0 || counts.right != 0) {
+  if (!commanded || counts.left != 0 || counts.right != 0) {
     reset();
     return false;
   }

@@ -14,10 +14,10 @@ namespace whisker::safety {
 class StallWatch {
  public:
   void reset() noexcept { *this = StallWatch{}; }
-  /// Call once per step of the counts. The wheels are commanded to turn at these speeds; by the model of the
-  /// motors, they turn at `rolling` now.
-  bool stalled(const localization::CountStep& counts, WheelPair commanded, WheelPair rolling,
-               Duration elapsed, const Params& params) noexcept;
+  /// Call once per step of the counts. `commanded`: a wheel was sent a speed; by the model of the motors,
+  /// they turn at `rolling` now.
+  bool stalled(const localization::CountStep& counts, bool commanded, WheelPair rolling, Duration elapsed,
+               const Params& params) noexcept;
 
  private:
   Duration for_;

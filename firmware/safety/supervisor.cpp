@@ -8,7 +8,8 @@ namespace {
 // Motion that remains from before a reset matches no command.
 constexpr Duration kUnwatched = 500_ms;
 constexpr Length kPlace = 30_mm;  // for the reference body
-// Limits within one place: kWaits times stalled_after, kTurns full turns, kSteps crossings.
+// Limits within one place: kWaits times stalled_after or longer, kTurns full turns, kSteps crossings.
+constexpr Duration kUsualWait = 2000_ms;
 constexpr int32_t kWaits = 60;
 constexpr int32_t kTurns = 30;
 constexpr int32_t kSteps = 30;
@@ -25,7 +26,7 @@ Duration longest_stay(const Params& p) noexcept {
   const AngularRate rate = min(turn_rate(p), planning::kFastestTurn);
   const Duration turn = max(milliseconds(multiply_divide(kMicroradians, 1000, rate.raw())),
                             ms_at(p.body.track * 22 / 7, 1, p.wheels.max_speed));
-  return p.safety.stalled_after * kWaits + turn * kTurns +
+  return max(p.safety.stalled_after, kUsualWait) * kWaits + turn * kTurns +
          ms_at(for_body(p, kPlace), kSteps, p.wheels.max_speed);
 }
 
@@ -39,6 +40,8 @@ Duration braking_time(const Params& p) noexcept {
 void Supervisor::configure() noexcept {
   if (kWheelWatchBuilt) wheel_watch_->configure(params_);
   longest_stay_ = longest_stay(params_);
+  // A manoeuvre may begin in full motion the other way.
+  longest_wait_ = params_.safety.stalled_after + braking_time(params_) * 2;
 }
 
 void Supervisor::reset() noexcept {
@@ -140,7 +143,7 @@ void Supervisor::check_bump(Vec at) noexcept {
   if (bumps_ > kMostBumps) fail(Fault::no_progress, health_.no_progress);
 }
 
-void Supervisor::check_stall(const localization::CountStep& counts, WheelPair commanded, WheelPair rolling,
+void Supervisor::check_stall(const localization::CountStep& counts, bool commanded, WheelPair rolling,
                              Duration elapsed) noexcept {
   if (!stall_watch_.stalled(counts, commanded, rolling, elapsed, params_) || faulted()) return;
   fail(Fault::wheels_stalled, health_.wheel_stalls);
@@ -148,9 +151,7 @@ void Supervisor::check_stall(const localization::CountStep& counts, WheelPair co
 
 void Supervisor::check_motion(const planning::MotionController& motion) noexcept {
   if (faulted()) return;
-  if (motion.waiting_for() > params_.safety.stalled_after) {
-    fail(Fault::no_progress, health_.no_progress);
-  }
+  if (motion.waiting_for() > longest_wait_) fail(Fault::no_progress, health_.no_progress);
 }
 
 void Supervisor::check_command(bool taken) noexcept {

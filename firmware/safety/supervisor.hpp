@@ -50,7 +50,7 @@ class Supervisor {
   /// A bump switch was pressed here. Bounds the presses near one place in a mission.
   void check_bump(Vec at) noexcept;
   /// See StallWatch::stalled().
-  void check_stall(const localization::CountStep& counts, WheelPair commanded, WheelPair rolling,
+  void check_stall(const localization::CountStep& counts, bool commanded, WheelPair rolling,
                    Duration elapsed) noexcept;
   void check_motion(const planning::MotionController& motion) noexcept;
   /// Whether the drive accepted the command.
@@ -71,6 +71,7 @@ class Supervisor {
   Vec place_;                 // the place that the body has not left
   Duration at_place_for_;
   Duration longest_stay_;
+  Duration longest_wait_;
   Vec bumped_at_;
 };
 

@@ -165,5 +165,17 @@ TEST(MotionController, ADriveThatTheGuardHoldsIsCut) {
   EXPECT_NEAR(degrees(loop.pose().heading), 90, 1.1) << "a turn is not cut";
 }
 
+TEST(MotionController, ADriveThatComesNoNearerIsCut) {
+  const Params params;
+  Loop loop(params);
+  loop.begin({ManoeuvreKind::drive, {}, 300_mm});
+  loop.block();
+  const int patience = params.safety.stalled_after.raw() / params.safety.period.raw();
+  for (int i = 0; i < patience; ++i) loop.tick(false);
+  EXPECT_FALSE(loop.controller().cut());
+  loop.run(100);
+  EXPECT_TRUE(loop.controller().cut());
+}
+
 }  // namespace
 }  // namespace whisker::planning

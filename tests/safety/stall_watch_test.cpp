@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "firmware/control/wheel_drive.hpp"
+
 namespace whisker::safety {
 namespace {
 
@@ -17,7 +19,7 @@ int found_after(Command command, localization::CountStep counts = {}) {
   StallWatch watch;
   for (int tick = 0; tick < kSteps; ++tick) {
     const WheelPair speeds = command(tick);
-    if (watch.stalled(counts, speeds, speeds, kStep, params)) return tick;
+    if (watch.stalled(counts, control::turns_on_wire(speeds), speeds, kStep, params)) return tick;
   }
   return kSteps;
 }
@@ -38,10 +40,15 @@ TEST(StallWatch, ACountOfEitherWheelOrAPauseBeginsAnew) {
 
 // A turn by less than a count.
 TEST(StallWatch, ACommandOfLessThanACountSaysNothing) {
-  const Speed creep = Speed::from_raw(5);
+  const Speed creep = Speed::from_raw(100);
   const int found = found_after([&](int) { return WheelPair{-creep, creep}; });
   const int ten_counts_ms = 10 * 1000000 / Params{}.wheels.counts_per_metre * 1000 / creep.raw();
   EXPECT_GE(found, std::min(kSteps, ten_counts_ms / kStep.raw()));
+}
+
+TEST(StallWatch, ASpeedThatRoundsToNoneOnTheWireSaysNothing) {
+  const Speed creep = Speed::from_raw(49);
+  EXPECT_EQ(found_after([&](int) { return WheelPair{-creep, creep}; }), kSteps);
 }
 
 TEST(StallWatch, CommandsToAndFroWithinTheCountsSayNothing) {

@@ -36,6 +36,13 @@ TEST(StuckDetector, IsPatientWithABodyThatIsSlow) {
   EXPECT_EQ(ticks(stall, driving({}, kAll)), kTicks);
 }
 
+TEST(StuckDetector, NeedsFourTicksHoweverLongTheyAre) {
+  StuckDetector stall;
+  View held = driving({}, {});
+  held.elapsed = kPatience;
+  EXPECT_EQ(ticks(stall, held), 4);
+}
+
 TEST(StuckDetector, IsLessPatientWhereTheShieldHoldsBack) {
   StuckDetector stall;
   EXPECT_EQ(ticks(stall, driving({}, kHalf)), kTicks / 4);
