@@ -13,7 +13,8 @@ int32_t scaled_range(const GyroParams& params) noexcept;
 /// The rate that a sample of so much (2^-16 of its unit) means: 2^-24 rad/s.
 int32_t rate_of(int32_t sample, const GyroParams& params) noexcept;
 
-/// A rest counts from kWait after the last encoder count on: until then the body may still move.
+/// A rest counts from kWait (more with a slow motor) after the last encoder count on: until then the body
+/// may still move.
 ///
 /// The first measurement takes kFirstRest. Later, a rest of kRest serves for kServes, in which the bias of a
 /// gyro that warms up changes noticeably. In between, the value follows the change that was learned.
@@ -24,12 +25,13 @@ class GyroBias {
   static constexpr Duration kRest = 1000_ms;
   static constexpr Duration kServes = 60000_ms;
 
+  void configure(const Params& params) noexcept { wait_ = max(kWait, params.wheels.motor_lag * 6 - kWait); }
   /// Once per step. `still`: no counts, and no wheel is commanded to turn.
   void pass(bool still, Duration elapsed) noexcept;
   /// No counts and no command at this step.
   bool stands() const noexcept { return still_for_ > Duration{}; }
   /// The body rests, so samples measure the bias.
-  bool rests() const noexcept { return still_for_ > kWait; }
+  bool rests() const noexcept { return still_for_ > wait_; }
   /// Adds samples of a rest. False: their rate is more than 1 % of the range off the bias; something turns
   /// the body.
   bool add(int32_t sum, int32_t samples) noexcept;
@@ -62,6 +64,7 @@ class GyroBias {
   int32_t sum_ = 0;     // of samples that are not yet taken
   Duration measured_for_;
   Duration still_for_;
+  Duration wait_ = kWait;
   Duration used_for_ = kServes + 1_ms;  // since the last long rest
   uint16_t samples_ = 0;                // that are in the sum
   bool known_ = false;

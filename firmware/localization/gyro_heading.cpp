@@ -9,6 +9,7 @@ constexpr Duration kSilence = 100_ms;
 
 void GyroHeading::configure(const Params& params, const Odometry& odometry) noexcept {
   gains_.configure(params, odometry);
+  bias_.configure(params);
   // A microradian per second for a second, in 2^-29 turn, times 2^20; 2^15 units are the range.
   constexpr int64_t kTurnPerMicroradian = 89596268;
   turn_per_unit_ = static_cast<uint32_t>(divide_rounded_64(scaled_range(params.gyro) * kTurnPerMicroradian,

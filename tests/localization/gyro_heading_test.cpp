@@ -273,6 +273,22 @@ TEST_F(GyroHeadingTest, MotionThatTheWheelsDoNotCountYetIsNotTakenForBias) {
   EXPECT_NEAR(heading_.bias().value() / 65536.0 * (500.0 / 32768), bias_dps, 0.02);
 }
 
+TEST_F(GyroHeadingTest, ASlowMotorTurnsTheBodyForLongerAfterTheLastCount) {
+  params_.wheels.motor_lag = 150_ms;
+  heading_ = {};
+  heading_.configure(params_, odometry_);
+  rest(3.5);
+  for (int stop = 0; stop < 20; ++stop) {
+    drive(1, 0.2, 0);
+    for (int i = 0; i < 45; ++i) {
+      sample((bias_dps + 2) * kDegree);
+      tick(false);
+    }
+    rest(0.4);
+  }
+  EXPECT_NEAR(heading_.bias().value() / 65536.0 * (500.0 / 32768), bias_dps, 0.02);
+}
+
 TEST_F(GyroHeadingTest, ATurntableUnderStandingWheelsIsATurnAndNoBias) {
   rest(2.5);
   for (int i = 0; i < 300; ++i) {
