@@ -87,7 +87,9 @@ constexpr Relation relation(ParamFault fault) noexcept {
           "drive_tolerance_m, and the rim distance of turn_tolerance_deg (at wheel_track_m / 2), must not "
           "be less than 1 / encoder_counts_per_m"};
     case F::gap_below_period:
-      return {"gap_below_period", "max_tick_gap_s must be at least 2 control_period_s, or 0"};
+      return {
+          "gap_below_period",
+          "max_tick_gap_s must be at least 2 control_period_s, over CAN also control_period_s + 0.049, or 0"};
     case F::stuck_within_cone:
       return {"stuck_within_cone", "stuck_turn_deg must be greater than range_cone_deg"};
     case F::cone_too_wide: return {"cone_too_wide", "range_cone_deg must not be greater than 60"};
@@ -255,8 +257,7 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
          p.wheels.motor_lag * 16 + p.safety.period * 6;
 }
 
-/// A larger cell at the rim would reach behind the part of the body that the gap between two readings may
-/// touch.
+/// A larger cell at the rim would reach behind what the body may touch between two readings.
 [[gnu::always_inline]] constexpr bool beams_clear_the_rim(const Params& p) noexcept {
   const RimSweep sweep = rim_sweep(p);
   return sweep.radius <= p.body.radius * 7 / 4 && (!sweep.needed || patch_cell(p) <= sweep.radius * 2 / 5);

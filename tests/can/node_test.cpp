@@ -1042,6 +1042,15 @@ TEST_F(ControllerAlone, ParametersAreReadCheckedAndCommitted) {
   EXPECT_EQ(reply.status, ParamStatus::inconsistent);
   EXPECT_EQ(reply.value, static_cast<std::uint32_t>(ParamFault::track_wider_than_body));
   EXPECT_EQ(node_.params().body.track, 140_mm);
+  EXPECT_EQ(ask({ParamAction::write, 2, 140000}).status, ParamStatus::ok);
+  // 38: the longest gap, ms.
+  const auto gap_of = [&](std::uint32_t ms) {
+    EXPECT_EQ(ask({ParamAction::write, 38, ms}).status, ParamStatus::ok);
+    return ask({ParamAction::commit, 255, 0});
+  };
+  EXPECT_EQ(gap_of(58).value, static_cast<std::uint32_t>(ParamFault::gap_below_period))
+      << "the base holds a command for longer";
+  EXPECT_EQ(gap_of(59).status, ParamStatus::ok);
   order(Order::start);
   EXPECT_EQ(ask({ParamAction::write, 0, 90000}).status, ParamStatus::busy);
   EXPECT_EQ(ask({ParamAction::commit, 255, 0}).status, ParamStatus::busy);
