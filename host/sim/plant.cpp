@@ -6,6 +6,7 @@
 namespace whisker::sim {
 namespace {
 
+constexpr double kSpeedRounding = 1e-6;       // m/s
 constexpr double kPressGap = 4 * kContactGap;  // a touch is reported within 3 of it
 
 double larger(double a, double b) { return a > b ? a : b; }
@@ -91,7 +92,7 @@ void Plant::advance() {
 }
 
 bool Plant::press(const Pose& at) {
-  if (size_of(v_left_ + v_right_) / 2 > press_speed_) return false;
+  if (size_of(v_left_ + v_right_) / 2 > press_speed_ + kSpeedRounding) return false;
   const uint8_t pressed = switch_pressed(*world_, at, radius_, kPressGap);
   if (pressed == 0) return false;
   if ((pressed_ & pressed) == 0) ++bumps_;

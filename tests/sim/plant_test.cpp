@@ -243,6 +243,18 @@ TEST(Plant, ASlowTouchPressesTheBumperAndIsNoContact) {
   EXPECT_EQ(plant.bumps(), 2U);
 }
 
+// The mean of two wheels may come out a rounding above it.
+TEST(Plant, ATouchOnAnArcAtTheFastestSlowSpeedPresses) {
+  const Segment wall{{0.3, -1}, {0.3, 1}};
+  const WorldView world{nullptr, 0, &wall, 1, nullptr, 0};
+  for (std::int16_t apart = 1; apart < 40; ++apart) {
+    Plant plant(world, with_bumper(), {}, 1, {});
+    plant.command({static_cast<std::int16_t>(1000 - apart), static_cast<std::int16_t>(1000 + apart)});
+    run(plant, 500);
+    EXPECT_FALSE(plant.in_contact()) << apart;
+  }
+}
+
 TEST(Plant, AFastTouchIsAContactWithABumperToo) {
   const Segment wall{{0.5, -1}, {0.5, 1}};
   const WorldView world{nullptr, 0, &wall, 1, nullptr, 0};
