@@ -115,6 +115,7 @@ Drawn draw_case(std::uint64_t seed) {
   draw_driver(dice, drawn.c);
   set_time(dice, drawn.c);
   if (dice.chance(kEventful)) draw_kept_events(dice, s);
+  keep_base_in_time(drawn.c);
   return drawn;
 }
 
@@ -126,6 +127,7 @@ Case changed(const Case& c, std::uint64_t seed) {
     for (int count = 1 + dice.index(3); count > 0; --count) change_one(dice, other);
     if (!holds_premise(other.scenario)) continue;
     if (!other.planner && other.scenario.robot.bumper.creep_speed != Speed{}) continue;
+    keep_base_in_time(other);
     if (other.planner) other.scenario.time_limit_s = mission_time_s(other.scenario);
     return other;
   }

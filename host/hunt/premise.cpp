@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/can/limits.hpp"
 #include "host/hunt/events.hpp"
 #include "host/hunt/geometry.hpp"
 #include "host/hunt/robots.hpp"
@@ -20,7 +21,9 @@ namespace {
 
 constexpr double kEverywhere_m = 1000;
 constexpr double kNarrowest_m = 1e-4;
+constexpr double kRounding_deg = 1e-4;
 
+double metres(Length length) { return length.raw() * 1e-6; }
 double degrees(Angle angle) { return static_cast<double>(angle.raw()) * 360 / 4294967296.0; }
 
 struct Believed {
@@ -31,8 +34,8 @@ Believed believed(const RangefinderParams& r) {
   Believed all;
   for (int i = 0; i < 3; ++i) {
     all.cone_deg = std::max(all.cone_deg, degrees(beam_cone(r, i)));
-    all.min_range_m = std::min(all.min_range_m, min_range(r, i).raw() * 1e-6);
-    all.max_range_m = std::max(all.max_range_m, max_range(r, i).raw() * 1e-6);
+    all.min_range_m = std::min(all.min_range_m, metres(min_range(r, i)));
+    all.max_range_m = std::max(all.max_range_m, metres(max_range(r, i)));
   }
   return all;
 }
@@ -80,7 +83,7 @@ bool fits_a_file(const Scenario& s) {
 bool senses_as_believed(const Params& p, const Sensor& sensor) {
   const Believed all = believed(p.rangefinders);
   return sensor.incidence_deg >= std::min(90.0, degrees(p.rangefinders.incidence)) &&
-         sensor.corner_scatter_m >= all.max_range_m &&
+         sensor.corner_scatter_m >= metres(kScatterRange) &&
          sensor.cone_deg.value_or(all.cone_deg) >= all.cone_deg &&
          sensor.min_range_m.value_or(0) <= all.min_range_m &&
          sensor.max_range_m.value_or(all.max_range_m) >= all.max_range_m;
@@ -103,16 +106,39 @@ bool is_of_the_same_body(const Params& p, const Params& first) {
 
 }  // namespace
 
-double free_at_start_m(const Params& params) { return reach(params).guard.raw() * 1e-6 + kNarrowest_m; }
+double free_at_start_m(const Params& params) { return metres(reach(params).guard) + kNarrowest_m; }
 
 void draw_truth(Dice& dice, Scenario& s) {
   s.sensor = {};
-  s.sensor.corner_scatter_m = kEverywhere_m;
+  s.sensor.corner_scatter_m = dice.chance(0.5) ? metres(kScatterRange) : kEverywhere_m;
   s.sensor.incidence_deg = std::min(90.0, degrees(s.robot.rangefinders.incidence));
   if (dice.chance(0.2)) draw_better_sensor(dice, s.robot.rangefinders, s.sensor);
   s.noise = {};
   if (dice.chance(0.1)) s.noise.range_dropout = dice.log_uniform(0.001, 0.3);
   if (dice.chance(0.2)) draw_fixes(dice, s.noise);
+}
+
+bool is_held_as_long_as_checked(const Params& p) {
+  return longest_gap(p) >= milliseconds(can::kCommandLate_ms) + p.safety.period;
+}
+
+bool senses_as_declared(const Scenario& s) {
+  const RangefinderParams& r = s.robot.rangefinders;
+  for (int i = 0; i < 3; ++i) {
+    if (s.sensor.cone_deg.value_or(0) > degrees(beam_cone(r, i)) + kRounding_deg) return false;
+  }
+  return true;
+}
+
+void keep_base_in_time(Case& c) {
+  std::vector<Event>& events = c.scenario.events;
+  const std::vector<Params> robots = robots_of(c.scenario);
+  const bool holds = !std::all_of(robots.begin(), robots.end(), is_held_as_long_as_checked);
+  const auto drops = [&](const Event& e) {
+    if (e.kind == EventKind::restart) return c.gaps != 0;
+    return e.kind == EventKind::frames_lost && (holds || c.gaps != 0);
+  };
+  events.erase(std::remove_if(events.begin(), events.end(), drops), events.end());
 }
 
 bool holds_premise(const Scenario& s) {

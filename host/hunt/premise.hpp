@@ -1,6 +1,7 @@
 /// The premise of docs/safety.md: within it, every contact is a fault of the core.
 #pragma once
 
+#include "host/hunt/case.hpp"
 #include "host/hunt/dice.hpp"
 #include "host/scenario/scenario.hpp"
 
@@ -12,6 +13,13 @@ double free_at_start_m(const Params& params);
 
 /// Sensors that see at least what the robot believes, and noise within what it declares.
 void draw_truth(Dice& dice, Scenario& scenario);
+
+/// No beam sees more than the robot believes; what a wider cone shows contradicts the other beams.
+bool senses_as_declared(const Scenario& scenario);
+
+/// Drops lost frames and restarts where ticks are uneven, because the base brakes by a clock of its own, and
+/// lost frames where it holds a command for longer than the robot assumes (over CAN, such a robot is refused).
+void keep_base_in_time(Case& c);
 
 /// The robot (also after its events), the sensors, the noise, the start and the world keep the premise; a
 /// file can hold them.

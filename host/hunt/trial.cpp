@@ -37,6 +37,9 @@ class Gaps {
         period_ms_(static_cast<int>(p.safety.period.raw())),
         longest_ms_(static_cast<int>(longest_gap(p).raw())) {}
 
+  /// The ticks are late on average; a mission may then make no progress.
+  bool are_late() const { return uneven_ && (kind_ == 0 || kind_ == 1 || kind_ == 3); }
+
   int next_ms() {
     if (!uneven_) return period_ms_;
     switch (kind_) {
@@ -215,21 +218,26 @@ class MissionDrive final : public Driven {
   std::set<std::string> states_;
 };
 
-/// No dropouts, fixes or events excuse a fault.
-bool is_exact(const Scenario& s) {
-  return s.noise.fix_every_m == 0 && s.noise.range_dropout == 0 && s.events.empty();
+/// No dropouts, fixes, events or late ticks excuse a fault.
+bool is_exact(const Case& c) {
+  const Scenario& s = c.scenario;
+  return !Gaps(c.gaps, s.robot).are_late() && s.noise.fix_every_m == 0 && s.noise.range_dropout == 0 &&
+         s.events.empty();
 }
 
-bool has_promised_way(const Scenario& s) {
-  return is_exact(s) && has_way(s, narrowest_gap_m(s.robot) / 2 * 1.01);
+bool has_promised_way(const Case& c) {
+  const Scenario& s = c.scenario;
+  return is_exact(c) && has_way(s, narrowest_gap_m(s.robot) / 2 * 1.01);
 }
 
 /// Of a drive without contact that ended.
-std::string wrong_end(const Scenario& s, const Outcome& o, double left_m) {
-  if (o.end.rfind("fault", 0) == 0) return is_exact(s) ? o.end : "";
+std::string wrong_end(const Case& c, const Outcome& o, double left_m) {
+  const Scenario& s = c.scenario;
+  if (o.end == "fault range_untrusted" && !senses_as_declared(s)) return "";
+  if (o.end.rfind("fault", 0) == 0) return is_exact(c) ? o.end : "";
   const double allowed = s.goal.tolerance_m * 1.05 + kOffGoal_m + 1.0 / s.robot.wheels.counts_per_metre;
-  if (o.end == "reached") return is_exact(s) && left_m > allowed ? "off_goal" : "";
-  if (o.end == "unreachable" || o.end.rfind("gave_up", 0) == 0) return has_promised_way(s) ? o.end : "";
+  if (o.end == "reached") return is_exact(c) && left_m > allowed ? "off_goal" : "";
+  if (o.end == "unreachable" || o.end.rfind("gave_up", 0) == 0) return has_promised_way(c) ? o.end : "";
   return "";
 }
 
@@ -277,9 +285,9 @@ Outcome attempt(Case& c) {
     o.finding = agree ? "contact" : "judges_disagree";
     return o;
   }
-  o.finding = o.end == "time" && c.planner && s.events.empty() && judge.rests(o.time_s)
+  o.finding = o.end == "time" && c.planner && is_exact(c) && judge.rests(o.time_s)
                   ? "stuck"
-                  : wrong_end(s, o, length(driven->goal().at - plant.pose().at));
+                  : wrong_end(c, o, length(driven->goal().at - plant.pose().at));
   if (o.finding.empty()) o.finding = other_hash(c, o.hash);
   return o;
 }
