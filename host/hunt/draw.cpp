@@ -15,6 +15,7 @@ constexpr double kLongestGuard_s = 30;
 constexpr double kLongestMission_s = 400;
 constexpr double kMission_s = 60;
 constexpr double kEventful = 0.25;
+constexpr double kMissions = 0.12;  // about half of the processor time
 constexpr std::size_t kManyShapes = 300;
 
 PlannerKind draw_planner(Dice& dice) {
@@ -33,7 +34,7 @@ double mission_time_s(const Scenario& s) {
 
 void draw_driver(Dice& dice, Case& c) {
   c.attacker = dice.bits();
-  if (dice.chance(0.35)) c.planner = draw_planner(dice);
+  if (dice.chance(kMissions)) c.planner = draw_planner(dice);
   if (dice.chance(0.2)) c.gaps = dice.bits() >> 1;
   // The guard refuses parameters with a creep speed.
   if (c.scenario.robot.bumper.creep_speed != Speed{}) c.planner = c.planner.value_or(PlannerKind::map);
