@@ -72,7 +72,7 @@ void LocalGrid::chain(const ConeObservation& observation, const EarlierObservati
   const Length room = doubting_ && observation.hit ? approach_ : Length{};
   const int32_t most = units(holds_);
   const auto within = [&](Length free) {
-    const int32_t empty = units(free - room - kReadingRounding);
+    const int32_t empty = units(min(free, clears_) - room - kReadingRounding);
     return empty < most ? empty : most;
   };
   const Point apex = local(beam.apex);

@@ -66,6 +66,46 @@ double nearest(Cell cell, double x, double y) {
                     std::fmax(std::fabs(metres(c.y) - y) - kCell / 2, 0));
 }
 
+// Beyond kScatterRange, the end of a wall may give no echo.
+TEST(LocalGrid, ATurnOfANarrowBeamThatLosesWallsClearsNothingFar) {
+  Params p;
+  p.body.radius = 330_mm;
+  p.rangefinders.cone = 12_deg;
+  p.rangefinders.incidence = 50_deg;
+  ASSERT_NE(reach(p).past, Angle{}) << "readings are chained";
+  perception::LocalGrid grid;
+  grid.configure(p);
+  grid.reset({});
+  std::set<Cell> clear;
+  perception::EarlierObservation before{};
+  for (std::int32_t tick = 0; tick < 180; ++tick) {
+    const Pose pose{{}, 1_deg * (tick * 2)};
+    grid.move_to(pose);
+    perception::ConeObservation seen;
+    seen.beam = perception::beam_of(mount(p.rangefinders, hal::kFront), pose);
+    seen.number = hal::kFront;
+    seen.free = 2_m;
+    seen.taken = Time::from_raw(static_cast<std::uint32_t>(tick * 50));
+    if (tick > 0) {
+      grid.mark(seen, &before);
+      grid.chain(seen, &before);
+    }
+    before = {seen.beam.apex, seen.beam.axis, seen.free};
+  }
+  int near = 0;
+  for (std::int32_t mm = 350; mm < 1200; mm += 5) {
+    for (std::int32_t around = 0; around < 360; around += 2) {
+      const bool is_clear = grid.is_clear(polar(1_deg * around, millimetres(mm)));
+      if (mm > 500 + metres(mount(p.rangefinders, hal::kFront).apex.x) * 1000 + 120) {
+        EXPECT_FALSE(is_clear) << mm << " mm at " << around;
+      } else {
+        near += is_clear ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(near, 100);
+}
+
 TEST(LocalGrid, KnowsOnlyTheGroundUnderTheBodyAtFirst) {
   for (std::uint64_t seed = 1; seed <= test::effort(300); ++seed) {
     Random random(seed);
