@@ -130,12 +130,25 @@ bool senses_as_declared(const Scenario& s) {
   return true;
 }
 
+bool is_held(const Scenario& s) {
+  const std::vector<Params> robots = robots_of(s);
+  return std::all_of(robots.begin(), robots.end(), is_held_as_long_as_checked);
+}
+
+bool drives_alike_on_the_bus(const Scenario& s) {
+  const double held_s = can::kCommandLate_ms * 1e-3 + s.robot.safety.period.raw() * 1e-3;
+  const auto differs = [&](const Event& e) {
+    return e.kind == EventKind::place || e.kind == EventKind::reset ||
+           (e.kind == EventKind::frames_lost && e.for_s <= held_s);
+  };
+  return is_held(s) && std::none_of(s.events.begin(), s.events.end(), differs);
+}
+
 void keep_base_in_time(Case& c) {
   std::vector<Event>& events = c.scenario.events;
-  const std::vector<Params> robots = robots_of(c.scenario);
-  const bool holds = !std::all_of(robots.begin(), robots.end(), is_held_as_long_as_checked);
+  const bool holds = !is_held(c.scenario);
   const auto drops = [&](const Event& e) {
-    if (e.kind == EventKind::restart) return c.gaps != 0;
+    if (e.kind == EventKind::restart || e.kind == EventKind::param) return c.gaps != 0;
     return e.kind == EventKind::frames_lost && (holds || c.gaps != 0);
   };
   events.erase(std::remove_if(events.begin(), events.end(), drops), events.end());

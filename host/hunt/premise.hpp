@@ -17,8 +17,11 @@ void draw_truth(Dice& dice, Scenario& scenario);
 /// No beam sees more than the robot believes; what a wider cone shows contradicts the other beams.
 bool senses_as_declared(const Scenario& scenario);
 
-/// Drops lost frames and restarts where ticks are uneven, because the base brakes by a clock of its own, and
-/// lost frames where it holds a command for longer than the robot assumes (over CAN, such a robot is refused).
+/// A controller on the bus accepts the robot, also after its events, and knows the events (docs/scenario.md).
+bool drives_alike_on_the_bus(const Scenario& scenario);
+
+/// Drops lost frames, restarts and what needs one where ticks are uneven, because the base brakes by a clock
+/// of its own, and lost frames where it holds a command for longer than the robot assumes.
 void keep_base_in_time(Case& c);
 
 /// The robot (also after its events), the sensors, the noise, the start and the world keep the premise; a

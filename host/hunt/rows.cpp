@@ -153,7 +153,7 @@ std::string nearest_table(std::vector<Row> rows) {
 }  // namespace
 
 bool harms(const std::string& finding) {
-  return finding == "contact" || finding == "judges_disagree" || finding == "other_hash" ||
+  return finding == "contact" || finding == "judges_disagree" || finding.rfind("other_hash", 0) == 0 ||
          finding.rfind("crash", 0) == 0;
 }
 
