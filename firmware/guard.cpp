@@ -204,7 +204,7 @@ WheelPair Guard::limit_speed(bool paused) noexcept {
   }
   const WheelPair speeds =
       limiter_.step(limited, pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
-  const WheelPair aim = target(limited, speeds);
+  const WheelPair aim = target(limited);
   status_.forward = share(forward_of(aim), status_.asked.forward);
   const Speed turning = status_.asked.turning * (params_.body.track / 2);
   status_.turning = nodding() ? Q14{} : share(turning_of(aim), turning);
@@ -220,16 +220,13 @@ WheelPair Guard::limit_speed(bool paused) noexcept {
 }
 
 /// What the wheels are on the way to.
-WheelPair Guard::target(const planning::VelocityRequest& limited, WheelPair speeds) const noexcept {
+WheelPair Guard::target(const planning::VelocityRequest& limited) const noexcept {
   if (!limited.moves) return {};
   const Speed top = params_.wheels.max_speed;
   const WheelPair aim = inverse_kinematics(limited.forward * limiter_.granted(), limited.turning, top);
   if (limiter_.granted() != Q14{}) return aim;
   // Nothing of the forward speed: it turns, unless it only brakes.
-  const Speed change = params_.wheels.max_acceleration * elapsed_;
-  const WheelPair turns = slew(wheels_.state().commanded, aim, change);
-  const bool brakes = turns.left != speeds.left || turns.right != speeds.right;
-  return brakes ? WheelPair{} : aim;
+  return limiter_.brakes() ? WheelPair{} : aim;
 }
 
 GuardReason Guard::held_by(const planning::VelocityRequest& asked, bool doubted) const noexcept {

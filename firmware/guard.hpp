@@ -110,7 +110,7 @@ class Guard {
   void take_command() noexcept;
   planning::VelocityRequest request() const noexcept;
   WheelPair limit_speed(bool paused) noexcept;
-  WheelPair target(const planning::VelocityRequest& limited, WheelPair speeds) const noexcept;
+  WheelPair target(const planning::VelocityRequest& limited) const noexcept;
   GuardReason held_by(const planning::VelocityRequest& asked, bool doubted) const noexcept;
   bool assists() const noexcept { return kAssistBuilt && params_.guard.assist == Fitted::yes; }
   bool nodding() const noexcept { return kNodsBuilt && nod_->active(); }

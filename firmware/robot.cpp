@@ -296,7 +296,10 @@ bool Robot::rests_for_gyro() noexcept {
 }
 
 WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
-  if (reflex_.stops()) return limiter_.stop();
+  if (reflex_.stops()) {
+    wheels_.halt();
+    return limiter_.stop();
+  }
   planning::VelocityRequest request{};
   if (!stands && reflex_.backs()) {
     request = reflex_.request(view.pose, params_);

@@ -15,15 +15,18 @@ Speed follow(Speed rolling, Speed commanded, Duration elapsed, const Params& par
 }  // namespace
 
 void WheelDrive::pass(Duration elapsed, const Params& params) noexcept {
-  rolling_ = {follow(rolling_.left, commanded_.left, elapsed, params),
-              follow(rolling_.right, commanded_.right, elapsed, params)};
+  WheelPair& rolling = state_.rolling;
+  // After a late tick, a command may be farther away than the wheels get in a tick.
+  state_.reached = slew(state_.reached, state_.commanded, params.wheels.max_acceleration * elapsed);
+  rolling = {follow(rolling.left, state_.reached.left, elapsed, params),
+             follow(rolling.right, state_.reached.right, elapsed, params)};
 }
 
 bool WheelDrive::command(WheelPair speeds) noexcept {
-  commanded_ = speeds;
+  state_.commanded = speeds;
   sent_ = to_wire(speeds);
   if (drive_.command(sent_)) return true;
-  commanded_ = {};
+  state_.commanded = state_.reached = {};
   sent_ = {};
   return false;
 }

@@ -8,8 +8,7 @@
 
 namespace whisker::control {
 
-/// Holds the drive and the state of its wheels: the last command, and the estimated speed behind the motor
-/// lag.
+/// Holds the drive and the state of its wheels.
 class WheelDrive {
  public:
   /// The drive must outlive it.
@@ -18,17 +17,18 @@ class WheelDrive {
   bool read(hal::EncoderCounts& counts) noexcept { return drive_.read(counts); }
   /// Once per tick, before all else: the wheels followed the last command for this time.
   void pass(Duration elapsed, const Params& params) noexcept;
+  /// What the body ran into stops the wheels.
+  void halt() noexcept { state_.reached = {}; }
   /// False: the drive refused, and the wheels count as commanded to stand.
   bool command(WheelPair speeds) noexcept;
 
-  WheelState state() const noexcept { return {commanded_, rolling_}; }
+  const WheelState& state() const noexcept { return state_; }
   /// As sent to the drive; zero if it refused.
   hal::WheelSpeeds sent() const noexcept { return sent_; }
 
  private:
   hal::Drive& drive_;
-  WheelPair commanded_;
-  WheelPair rolling_;
+  WheelState state_;
   hal::WheelSpeeds sent_{};
 };
 

@@ -10,9 +10,11 @@ struct WheelPair {
   Speed right;
 };
 
-/// State of the wheels: the last command, and the estimated speed behind the motor lag.
+/// State of the wheels: the last command, what the acceleration limit lets them have of it by now, and the
+/// estimated speed behind the motor lag.
 struct WheelState {
   WheelPair commanded;
+  WheelPair reached;
   WheelPair rolling;
 };
 

@@ -82,28 +82,34 @@ WheelPair SpeedLimiter::step(const planning::VelocityRequest& request, const Pos
                              const Params& params) noexcept {
   constexpr Q14 kFactors[] = {Q14::ratio(1, 1),  Q14::ratio(3, 4),  Q14::ratio(1, 2), Q14::ratio(3, 10),
                               Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
-  const Speed change = params.wheels.max_acceleration * elapsed;
+  // Braking goes on by the time that has passed. Another way begins where the wheels are, in a step that they
+  // follow within a tick.
+  const WheelPair braked = slew(wheels.commanded, {}, params.wheels.max_acceleration * elapsed);
+  const Speed change = params.wheels.max_acceleration * min(elapsed, params.safety.period);
+  brakes_ = true;
   if (!request.moves) {
     held_for_ = Duration{};
-    return slew(wheels.commanded, {}, change);
+    return braked;
   }
   granted_ = Q14{};
-  WheelPair command = slew(wheels.commanded, {}, change);
+  WheelPair command = braked;
   for (const Q14 factor : kFactors) {
     const WheelPair want =
         inverse_kinematics(request.forward * factor, request.turning, params.wheels.max_speed);
-    const WheelPair next = slew(wheels.commanded, want, change);
+    const WheelPair next = slew(wheels.reached, want, change);
     if (!free(next, pose, wheels, grid, params)) continue;
     granted_ = factor;
+    brakes_ = false;
     command = next;
     break;
   }
   const Speed creep = min(params.bumper.creep_speed, request.forward);
   if (request.forward * granted_ < creep) {
     const WheelPair want = inverse_kinematics(creep, request.turning, params.wheels.max_speed);
-    const WheelPair next = slew(wheels.commanded, want, change);
+    const WheelPair next = slew(wheels.reached, want, change);
     if ((next.left + next.right) / 2 <= creep &&
         free(next, pose, wheels, grid, params, perception::Avoid::suspect)) {
+      brakes_ = false;
       granted_ = Q14::ratio(creep.raw(), request.forward.raw());
       command = next;
     }
@@ -116,7 +122,7 @@ WheelPair SpeedLimiter::retrace(const planning::VelocityRequest& request, const 
                                 Duration elapsed, const Params& params) noexcept {
   reset();
   const WheelPair want = inverse_kinematics(request.forward, request.turning, params.wheels.max_speed);
-  return slew(wheels.commanded, want, params.wheels.max_acceleration * elapsed);
+  return slew(wheels.reached, want, params.wheels.max_acceleration * min(elapsed, params.safety.period));
 }
 
 }  // namespace whisker::safety

@@ -40,12 +40,15 @@ class SpeedLimiter {
 
   /// Granted fraction of the last requested forward speed; zero if it only brakes. Creeping counts.
   Q14 granted() const noexcept { return granted_; }
+  /// It found no way that is free: it follows the last one to its end.
+  bool brakes() const noexcept { return brakes_; }
   /// How long it has granted nothing of a request to drive.
   Duration held_for() const noexcept { return held_for_; }
 
  private:
   Q14 granted_;
   Duration held_for_;
+  bool brakes_ = true;
 };
 
 }  // namespace whisker::safety

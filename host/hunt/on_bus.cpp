@@ -9,6 +9,7 @@
 #include "host/hil/candump.hpp"
 #include "host/hil/controller_loop.hpp"
 #include "host/hil/figures.hpp"
+#include "host/hil/host_rules.hpp"
 #include "host/hil/line.hpp"
 #include "host/hil/replay.hpp"
 #include "host/hil/tap.hpp"
@@ -48,9 +49,12 @@ std::uint64_t driven(const Scenario& scenario, PlannerKind planner, std::ostream
   });
   hil::WallClock clock([&line = *base] { return line.descriptor(); });
   hil::Figures figures;
+  hil::BusOptions how;
+  how.rules = rules_digest(planner);
+  how.table = hil::table_to_send(planner);
   RunOptions options;
   options.planner = planner;
-  options.pilot = hil::bus_pilot(tap, clock, {}, figures);
+  options.pilot = hil::bus_pilot(tap, clock, how, figures);
   return run(scenario, options).hash;
 }
 

@@ -35,7 +35,7 @@ class Straight final : public planning::GoalPlanner {
     if (view.settled) next();
   }
   void next() noexcept {
-    constexpr Angle kTurns[] = {53_deg, -53_deg, 0_deg};
+    constexpr Angle kTurns[] = {54_deg, -54_deg, 0_deg};
     if (turns_ < 3) {
       decision_.manoeuvre = {planning::ManoeuvreKind::turn, heading_ + kTurns[turns_++], {}};
     } else {

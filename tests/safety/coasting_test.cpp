@@ -128,7 +128,7 @@ TEST(Coasting, StaysNearTheTrueWay) {
     const WheelPair rolling = draw_speeds(draw, p);
     const WheelPair command = near(draw, rolling, p);
     const Length allowed = micrometres(static_cast<std::int32_t>(draw.spread(300, 5000)));
-    const WheelState wheels{command, rolling};
+    const WheelState wheels{command, command, rolling};
     const Pieces way = pieces(command, wheels, p, allowed);
     const double off = farthest(simulated(command, wheels, p), way.places, 40);
     EXPECT_LE(off, metres(allowed) + 0.0006) << "seed " << seed << ", " << way.count << " pieces";
@@ -148,7 +148,8 @@ TEST(Coasting, PiecesAddUp) {
     Draw draw(seed);
     const Params p = robot(draw);
     const WheelPair rolling = draw_speeds(draw, p);
-    const WheelState wheels{near(draw, rolling, p), rolling};
+    const WheelPair command = near(draw, rolling, p);
+    const WheelState wheels{command, command, rolling};
     const auto total = [&](Length allowed) {
       Coasting coasting(wheels.commanded, wheels, p, allowed);
       Arc sum{};

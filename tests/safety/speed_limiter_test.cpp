@@ -174,7 +174,7 @@ TEST(SpeedLimiter, ChecksTheWholeWayOfTheSmallestBody) {
     safety::SpeedLimiter limiter;
     const WheelPair full{p.wheels.max_speed, p.wheels.max_speed};
     static_cast<void>(
-        limiter.step({p.wheels.max_speed, {}, true}, pose, {full, full}, grid, p.safety.period, p));
+        limiter.step({p.wheels.max_speed, {}, true}, pose, {full, full, full}, grid, p.safety.period, p));
     return limiter.granted();
   };
   EXPECT_EQ(granted(micrometres(19800)), Q14{});

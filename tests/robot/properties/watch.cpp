@@ -1,5 +1,7 @@
 #include "tests/robot/properties/watch.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "firmware/planning/state.hpp"
@@ -7,7 +9,8 @@
 namespace whisker::test {
 namespace {
 
-constexpr int32_t kUnit = 100;  // um/s on the wire
+constexpr int32_t kUnit = 100;    // um/s on the wire
+constexpr int32_t kRounded = 10;  // units, over many ticks
 
 }  // namespace
 
@@ -20,7 +23,8 @@ Watch::Watch(const Params& params)
 
 std::string Watch::see(const Status& status, Duration elapsed, bool refused) {
   // Rounding to the wire may increase the difference of two speeds by one unit.
-  change_ = (acceleration_ * elapsed).raw() / kUnit + 1;
+  follows_ = static_cast<double>((acceleration_ * elapsed).raw()) / kUnit;
+  change_ = static_cast<std::int32_t>(follows_) + 1;
   std::string broken = speeds(status, refused);
   if (broken.empty()) broken = faults(status, elapsed);
   if (broken.empty()) broken = counters(status.health);
@@ -30,15 +34,33 @@ std::string Watch::see(const Status& status, Duration elapsed, bool refused) {
   return broken;
 }
 
+/// What the wheels reach of the last command by now.
+void Watch::reach() {
+  const double left = last_.left - reached_[0], right = last_.right - reached_[1];
+  const double farther = std::max(std::fabs(left), std::fabs(right));
+  const double share = farther > follows_ ? follows_ / farther : 1;
+  reached_[0] += left * share;
+  reached_[1] += right * share;
+}
+
 std::string Watch::speeds(const Status& status, bool refused) {
   const hal::WheelSpeeds c = status.command;
   const hal::WheelSpeeds before = last_;
+  reach();
   last_ = c;
+  if (refused) reached_[0] = reached_[1] = 0;
   if (std::abs(c.left) > top_ || std::abs(c.right) > top_) return "beyond the speed limit";
   if (refused) return c.left == 0 && c.right == 0 ? "" : "a refused command is not zero";
-  if (std::abs(c.left - before.left) > change_ || std::abs(c.right - before.right) > change_) {
+  const auto far = [this](double from_left, double from_right, hal::WheelSpeeds to) {
+    return std::fabs(to.left - from_left) > change_ + kRounded ||
+           std::fabs(to.right - from_right) > change_ + kRounded;
+  };
+  // Braking goes on from the last command, everything else from where the wheels are.
+  if (far(before.left, before.right, c) && far(reached_[0], reached_[1], c)) {
     return "beyond the acceleration limit: " + std::to_string(before.left) + " -> " + std::to_string(c.left) +
-           ", " + std::to_string(before.right) + " -> " + std::to_string(c.right);
+           ", " + std::to_string(before.right) + " -> " + std::to_string(c.right) + ", reached " +
+           std::to_string(reached_[0]) + ", " + std::to_string(reached_[1]) + ", change " +
+           std::to_string(change_);
   }
   return "";
 }

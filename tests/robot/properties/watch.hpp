@@ -18,11 +18,14 @@ class Watch {
   void forgive() { fault_ = Fault::none; }
 
  private:
+  void reach();
   std::string speeds(const Status& status, bool refused);
   std::string faults(const Status& status, Duration elapsed);
   std::string counters(const Health& now);
 
-  int32_t top_;  // 0.1 mm/s
+  int32_t top_;                 // 0.1 mm/s
+  double reached_[2] = {0, 0};  // by the wheels, and how much they follow in this tick; 0.1 mm/s
+  double follows_ = 0;
   Acceleration acceleration_;
   int32_t change_ = 0;  // 0.1 mm/s in this tick
   Duration to_stand_;   // from a fault
