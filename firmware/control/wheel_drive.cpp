@@ -16,10 +16,13 @@ Speed follow(Speed rolling, Speed commanded, Duration elapsed, const Params& par
 
 void WheelDrive::pass(Duration elapsed, const Params& params) noexcept {
   WheelPair& rolling = state_.rolling;
+  WheelPair& reached = state_.reached;
   // After a late tick, a command may be farther away than the wheels get in a tick.
-  state_.reached = slew(state_.reached, state_.commanded, params.wheels.max_acceleration * elapsed);
-  rolling = {follow(rolling.left, state_.reached.left, elapsed, params),
-             follow(rolling.right, state_.reached.right, elapsed, params)};
+  if (reached.left != state_.commanded.left || reached.right != state_.commanded.right) {
+    reached = slew(reached, state_.commanded, params.wheels.max_acceleration * elapsed);
+  }
+  rolling = {follow(rolling.left, reached.left, elapsed, params),
+             follow(rolling.right, reached.right, elapsed, params)};
 }
 
 bool WheelDrive::command(WheelPair speeds) noexcept {

@@ -84,8 +84,10 @@ WheelPair SpeedLimiter::step(const planning::VelocityRequest& request, const Pos
                               Q14::ratio(3, 25), Q14::ratio(1, 25), Q14::ratio(0, 1)};
   // Braking goes on by the time that has passed. Another way begins where the wheels are, in a step that they
   // follow within a tick.
-  const WheelPair braked = slew(wheels.commanded, {}, params.wheels.max_acceleration * elapsed);
-  const Speed change = params.wheels.max_acceleration * min(elapsed, params.safety.period);
+  const Speed slowed = params.wheels.max_acceleration * elapsed;
+  const WheelPair braked = slew(wheels.commanded, {}, slowed);
+  const Speed change =
+      elapsed > params.safety.period ? params.wheels.max_acceleration * params.safety.period : slowed;
   brakes_ = true;
   if (!request.moves) {
     held_for_ = Duration{};

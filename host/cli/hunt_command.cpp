@@ -134,7 +134,6 @@ void add_hunt(CLI::App& app, int& status) {
                   "Ends after this time, s; every second case changes one that came near")
       ->transform(amount(kLongestHunt_s))
       ->type_name("T");
-  add_switch(*cmd, "--until-harm", o->hunt.until_harm, "Ends at the first contact, crash or contradiction");
   cmd->add_option("--seed", o->hunt.seed, "Case i is drawn from S + i; 1 by default")
       ->transform(whole_number())
       ->type_name("S");

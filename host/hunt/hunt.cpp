@@ -92,7 +92,7 @@ class Hunt {
       progress_.processor_s = processor_s();
       if (options_.show) options_.show(progress_, nullptr);
     }
-    return options_.until_harm ? !harmed_ : progress_.findings == 0;
+    return progress_.findings == 0;
   }
 
  private:
@@ -124,8 +124,7 @@ class Hunt {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
   }
   bool over() const {
-    return harmed_ || (options_.stop && options_.stop()) ||
-           (options_.time_s > 0 && elapsed_s() >= options_.time_s);
+    return (options_.stop && options_.stop()) || (options_.time_s > 0 && elapsed_s() >= options_.time_s);
   }
 
   bool start_one() {
@@ -234,12 +233,6 @@ class Hunt {
   /// Only a few of each kind are shrunk.
   void note(const Piece& piece, const Parts& parts, const Row& row) {
     ++progress_.findings;
-    if (options_.until_harm) {
-      if (!harms(row.finding)) return;
-      harmed_ = true;
-      if (options_.found) options_.found(row, progress_, "");
-      return;
-    }
     const std::string kind = fmt::format("{} {} {}", row.finding, row.driver, row.family);
     if (++kinds_[kind] > kShrunkOfAKind) return;
     Piece shrink;
@@ -293,7 +286,6 @@ class Hunt {
   std::vector<Piece> shrinks_;
   std::map<std::string, std::uint64_t> kinds_;
   Progress progress_;
-  bool harmed_ = false;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 

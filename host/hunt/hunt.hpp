@@ -23,7 +23,6 @@ struct Options {
   int jobs = 1;             ///< processes at once
   std::uint64_t shard = 0;  ///< only the seeds first + shard, first + shard + shards, ...
   std::uint64_t shards = 1;
-  bool until_harm = false;     ///< ends at the first finding that harms(), shrinks none, and counts no other
   std::string out;             ///< folder of rows, findings and corpus; empty: none
   std::function<bool()> stop;  ///< true: ends as soon as the running cases have
   /// After each case, and about ten times a second; row: null if none ended.

@@ -38,8 +38,12 @@ class Gaps {
         period_ms_(static_cast<int>(p.safety.period.raw())),
         longest_ms_(static_cast<int>(longest_gap(p).raw())) {}
 
-  /// The ticks are late on average; a mission may then make no progress.
-  bool are_late() const { return uneven_ && (kind_ == 0 || kind_ == 1 || kind_ == 3); }
+  /// The ticks are late on average; the robot may then miss readings and make no progress.
+  bool are_late() const {
+    const int means_ms[] = {longest_ms_ / 2, longest_ms_, (9 * period_ms_ + longest_ms_) / 10,
+                            longest_ms_ / 2, 0};
+    return uneven_ && means_ms[kind_] * 4 > period_ms_ * 5;
+  }
 
   int next_ms() {
     if (!uneven_) return period_ms_;
@@ -230,27 +234,25 @@ class MissionDrive final : public Driven {
   std::set<std::string> states_;
 };
 
-/// No dropouts, fixes, events or late ticks excuse a fault.
-bool is_exact(const Case& c) {
-  const Scenario& s = c.scenario;
-  return !Gaps(c.gaps, s.robot).are_late() && s.noise.fix_every_m == 0 && s.noise.range_dropout == 0 &&
-         s.events.empty();
+/// No dropouts, fixes or events excuse a fault.
+bool is_exact(const Scenario& s) {
+  return s.noise.fix_every_m == 0 && s.noise.range_dropout == 0 && s.events.empty();
 }
 
-bool has_promised_way(const Case& c) {
-  const Scenario& s = c.scenario;
-  return is_exact(c) && has_way(s, narrowest_gap_m(s.robot) / 2 * 1.01);
-}
+bool ticks_in_time(const Case& c) { return !Gaps(c.gaps, c.scenario.robot).are_late(); }
 
-/// Of a drive without contact that ended.
-std::string wrong_end(const Case& c, const Outcome& o, double left_m) {
+bool has_promised_way(const Scenario& s) { return has_way(s, narrowest_gap_m(s.robot) / 2 * 1.01); }
+
+/// Of a drive without contact that ended: as it should not with declared sensors, drive and ticks.
+bool is_wrong(const Case& c, const std::string& end, double left_m) {
   const Scenario& s = c.scenario;
-  if (o.end == "fault range_untrusted" && !senses_as_declared(s)) return "";
-  if (o.end.rfind("fault", 0) == 0) return is_exact(c) ? o.end : "";
   const double allowed = s.goal.tolerance_m * 1.05 + kOffGoal_m + 1.0 / s.robot.wheels.counts_per_metre;
-  if (o.end == "reached") return is_exact(c) && left_m > allowed ? "off_goal" : "";
-  if (o.end == "unreachable" || o.end.rfind("gave_up", 0) == 0) return has_promised_way(c) ? o.end : "";
-  return "";
+  if (end == "reached") return left_m > allowed;
+  if (end == "fault range_untrusted") return senses_as_declared(s);
+  if (end == "fault range_lost" || end == "fault range_unsteady") return ticks_in_time(c);
+  const bool gives_up = end == "unreachable" || end.rfind("gave_up", 0) == 0;
+  if (gives_up || end == "fault no_progress") return ticks_in_time(c) && has_promised_way(s);
+  return end.rfind("fault", 0) == 0;
 }
 
 std::string other_hash(const Case& c, std::uint64_t hash) {
@@ -299,9 +301,10 @@ Outcome attempt(Case& c) {
     o.finding = agree ? "contact" : "judges_disagree";
     return o;
   }
-  o.finding = o.end == "time" && c.planner && is_exact(c) && judge.rests(o.time_s)
-                  ? "stuck"
-                  : wrong_end(c, o, length(driven->goal().at - plant.pose().at));
+  const double left_m = length(driven->goal().at - plant.pose().at);
+  if (is_exact(s) && is_wrong(c, o.end, left_m)) o.finding = o.end == "reached" ? "off_goal" : o.end;
+  const bool rests = o.end == "time" && c.planner && judge.rests(o.time_s);
+  if (rests && is_exact(s) && ticks_in_time(c)) o.finding = "stuck";
   if (o.finding.empty()) o.finding = other_hash(c, o.hash);
   return o;
 }

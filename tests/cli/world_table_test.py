@@ -51,7 +51,7 @@ OPTIONS = {
     ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--contacts"),
     ("guard",): ("SCENARIO", "--robot", "--commands", "--keys", "--operator", "--seed", "--vouch", "--time", "--bare", "--rules", "--map", "--trace", "--html", "--json"),
-    ("hunt",): ("--count", "--time", "--until-harm", "--seed", "--jobs", "--shard", "--out", "--again", "--case", "--summary"),
+    ("hunt",): ("--count", "--time", "--seed", "--jobs", "--shard", "--out", "--again", "--case", "--summary"),
     ("operators",): ("--count", "--seed", "--operator", "--hostile", "--noise", "--robot", "--rules", "--map"),
     ("table",): ("--csv", "--svg"),
     ("robot", "check"): ("ROBOT", "--header", "--planner", "--json"),

@@ -97,7 +97,7 @@ _whisker() {
       esac
       ;;
     "whisker hunt")
-      options="-h --help --count --time --until-harm --seed --jobs --shard --out --again --case --summary" words="" paths=none
+      options="-h --help --count --time --seed --jobs --shard --out --again --case --summary" words="" paths=none
       case $before in
         --count | --time | --seed | --jobs | --shard | --again) options="" words="" paths=value ;;
         --out) options="" words="" paths=folder ;;

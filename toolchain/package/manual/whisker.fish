@@ -170,7 +170,6 @@ complete -c whisker -n '__fish_seen_subcommand_from guard' -l json -d 'Print the
 complete -c whisker -n '__fish_seen_subcommand_from hunt' -s h -l help -d 'Print this help message and exit'
 complete -c whisker -n '__fish_seen_subcommand_from hunt' -l count -x -d 'Number of fresh cases; 200 by default, without --time all in that time'
 complete -c whisker -n '__fish_seen_subcommand_from hunt' -l time -x -d 'Ends after this time, s; every second case changes one that came near'
-complete -c whisker -n '__fish_seen_subcommand_from hunt' -l until-harm -d 'Ends at the first contact, crash or contradiction'
 complete -c whisker -n '__fish_seen_subcommand_from hunt' -l seed -x -d 'Case i is drawn from S + i; 1 by default'
 complete -c whisker -n '__fish_seen_subcommand_from hunt' -l jobs -x -d 'Processes at once; by default one per core'
 complete -c whisker -n '__fish_seen_subcommand_from hunt' -l shard -x -d 'Only every N-th case from the I-th on'
