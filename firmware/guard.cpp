@@ -96,9 +96,10 @@ const GuardStatus& Guard::tick(Time now) noexcept {
   perceive();
   take_command();
   const WheelPair speeds = limit_speed(!counted);
-  if (counted)
+  if (counted) {
     supervisor_.check_stall(localizer_.counts(), control::turns_on_wire(speeds), wheels_.state().rolling,
                             elapsed_);
+  }
   supervisor_.check_command(wheels_.command(speeds));
   status_.command = wheels_.sent();
   if (supervisor_.faulted()) status_.reason = GuardReason::fault;

@@ -1,6 +1,5 @@
 #include "firmware/can/param_server.hpp"
 
-#include "firmware/can/limits.hpp"
 #include "firmware/params/words.hpp"
 
 namespace whisker::can {
@@ -22,8 +21,7 @@ ParamStatus write_param(Params& params, uint8_t index, uint32_t raw) noexcept {
 
 ParamStatus ParamServer::commit(ParamReply& reply) noexcept {
   ParamFault fault = check(staged_);
-  const bool held = longest_gap(staged_) >= milliseconds(kCommandLate_ms) + staged_.safety.period;
-  if (fault == ParamFault::none && !held) fault = ParamFault::gap_below_period;
+  if (fault == ParamFault::none && !outlasts_hold(staged_)) fault = ParamFault::gap_below_period;
   reply.value = static_cast<uint32_t>(fault);
   if (fault != ParamFault::none) return ParamStatus::inconsistent;
   committed_ = staged_;

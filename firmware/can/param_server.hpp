@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "firmware/can/limits.hpp"
 #include "firmware/can/messages.hpp"
 #include "firmware/params.hpp"
 
@@ -10,6 +11,11 @@ namespace whisker::can {
 
 /// The index of a commit: no parameter has it, so its reply is not taken for that of a write.
 constexpr uint8_t kCommitIndex = 255;
+
+/// The base holds a command for no longer than the robot assumes between two ticks.
+constexpr bool outlasts_hold(const Params& params) noexcept {
+  return longest_gap(params) >= milliseconds(kCommandLate_ms) + params.safety.period;
+}
 
 /// False: no parameter has this index.
 bool read_param(const Params& params, uint8_t index, uint32_t& raw) noexcept;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware/can/limits.hpp"
+#include "firmware/can/param_server.hpp"
 #include "host/hunt/events.hpp"
 #include "host/hunt/geometry.hpp"
 #include "host/hunt/robots.hpp"
@@ -118,10 +118,6 @@ void draw_truth(Dice& dice, Scenario& s) {
   if (dice.chance(0.2)) draw_fixes(dice, s.noise);
 }
 
-bool is_held_as_long_as_checked(const Params& p) {
-  return longest_gap(p) >= milliseconds(can::kCommandLate_ms) + p.safety.period;
-}
-
 bool senses_as_declared(const Scenario& s) {
   const RangefinderParams& r = s.robot.rangefinders;
   for (int i = 0; i < 3; ++i) {
@@ -132,7 +128,7 @@ bool senses_as_declared(const Scenario& s) {
 
 bool is_held(const Scenario& s) {
   const std::vector<Params> robots = robots_of(s);
-  return std::all_of(robots.begin(), robots.end(), is_held_as_long_as_checked);
+  return std::all_of(robots.begin(), robots.end(), can::outlasts_hold);
 }
 
 bool drives_alike_on_the_bus(const Scenario& s) {

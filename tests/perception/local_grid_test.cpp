@@ -76,7 +76,6 @@ TEST(LocalGrid, ATurnOfANarrowBeamThatLosesWallsClearsNothingFar) {
   perception::LocalGrid grid;
   grid.configure(p);
   grid.reset({});
-  std::set<Cell> clear;
   perception::EarlierObservation before{};
   for (std::int32_t tick = 0; tick < 180; ++tick) {
     const Pose pose{{}, 1_deg * (tick * 2)};

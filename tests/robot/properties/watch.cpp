@@ -51,12 +51,11 @@ std::string Watch::speeds(const Status& status, bool refused) {
   if (refused) reached_[0] = reached_[1] = 0;
   if (std::abs(c.left) > top_ || std::abs(c.right) > top_) return "beyond the speed limit";
   if (refused) return c.left == 0 && c.right == 0 ? "" : "a refused command is not zero";
-  const auto far = [this](double from_left, double from_right, hal::WheelSpeeds to) {
-    return std::fabs(to.left - from_left) > change_ + kRounded ||
-           std::fabs(to.right - from_right) > change_ + kRounded;
+  const auto far = [c](double left, double right, int32_t most) {
+    return std::fabs(c.left - left) > most || std::fabs(c.right - right) > most;
   };
   // Braking goes on from the last command, everything else from where the wheels are.
-  if (far(before.left, before.right, c) && far(reached_[0], reached_[1], c)) {
+  if (far(before.left, before.right, change_) && far(reached_[0], reached_[1], change_ + kRounded)) {
     return "beyond the acceleration limit: " + std::to_string(before.left) + " -> " + std::to_string(c.left) +
            ", " + std::to_string(before.right) + " -> " + std::to_string(c.right) + ", reached " +
            std::to_string(reached_[0]) + ", " + std::to_string(reached_[1]) + ", change " +
