@@ -144,7 +144,9 @@ void keep_base_in_time(Case& c) {
   std::vector<Event>& events = c.scenario.events;
   const bool holds = !is_held(c.scenario);
   const auto drops = [&](const Event& e) {
-    if (e.kind == EventKind::restart || e.kind == EventKind::param) return c.gaps != 0;
+    const bool restarts =
+        e.kind == EventKind::restart || e.kind == EventKind::param || e.kind == EventKind::table;
+    if (restarts) return c.gaps != 0;
     return e.kind == EventKind::frames_lost && (holds || c.gaps != 0);
   };
   events.erase(std::remove_if(events.begin(), events.end(), drops), events.end());
