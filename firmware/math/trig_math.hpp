@@ -59,33 +59,55 @@ constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noex
   return Angle::from_raw(y < 0 ? 0U - turn : turn);
 }
 
-[[gnu::always_inline]] constexpr uint32_t square_root_32(uint32_t x) noexcept {
-  uint32_t bit = UINT32_C(1) << 15;
-  while (bit * bit > x) bit >>= 1;
-  uint32_t root = 0;
-  for (; bit != 0; bit >>= 1) {
-    const uint32_t larger = root | bit;
-    if (larger * larger <= x) root = larger;
+/// The root of x, 2^-8, less 1: of the middle of all x in [1/4, 1) whose first 8 places are these.
+struct FirstRoots {
+  uint8_t of[192] = {};
+
+  constexpr FirstRoots() noexcept {
+    uint32_t root = 256;  // 2^-9
+    for (uint32_t i = 0; i < sizeof of; ++i) {
+      const uint32_t middle = (2 * (i + 64) + 1) << 9;  // 2^-18
+      while ((2 * root + 1) * (2 * root + 1) < 4 * middle) ++root;
+      of[i] = static_cast<uint8_t>(root - 256);
+    }
   }
-  return root;
+};
+constexpr FirstRoots kFirstRoots;
+
+struct RootAndRest {
+  uint32_t root;
+  uint32_t rest;  // x - root^2
+};
+
+/// One step of Newton's from the table. x >= 2^30.
+[[gnu::always_inline]] constexpr RootAndRest root_and_rest(uint32_t x) noexcept {
+  const uint32_t first = (256U + kFirstRoots.of[(x >> 24) - 64]) << 7;
+  // Newton's step is never too small, and here it is too large by less than 1.
+  const uint32_t root = (first + x / first) >> 1;
+  const uint32_t rest = x - root * root;
+  return rest <= 2 * root ? RootAndRest{root, rest} : RootAndRest{root - 1, rest + 2 * root - 1};
 }
 
+[[gnu::always_inline]] constexpr uint32_t square_root_32(uint32_t x) noexcept {
+  if (x == 0) return 0;
+  const int places = leading_zeros(x) & ~1;
+  return root_and_rest(x << places).root >> places / 2;
+}
+
+/// The lower half of the root by one division (Zimmermann, Karatsuba Square Root, INRIA RR-3805, 1999).
 [[gnu::always_inline]] constexpr uint32_t square_root(uint64_t x) noexcept {
   if (x <= UINT32_MAX) return whisker::square_root_32(static_cast<uint32_t>(x));
-  uint64_t rest = x;
-  uint64_t root = 0;
-  uint64_t bit = UINT64_C(1) << 62;
-  while (bit > x) bit >>= 2;
-  while (bit != 0) {
-    if (rest >= root + bit) {
-      rest -= root + bit;
-      root = (root >> 1) + bit;
-    } else {
-      root >>= 1;
-    }
-    bit >>= 2;
-  }
-  return static_cast<uint32_t>(root);
+  const int places = leading_zeros(static_cast<uint32_t>(x >> 32)) & ~1;
+  const uint64_t scaled = x << places;
+  const uint32_t low = static_cast<uint32_t>(scaled);
+  const RootAndRest upper = root_and_rest(static_cast<uint32_t>(scaled >> 32));
+  const uint32_t half = upper.rest << 15 | low >> 17;
+  uint32_t lower = half / upper.root;
+  if (lower > UINT16_MAX) lower = UINT16_MAX;
+  const uint32_t rest = 2 * (half - lower * upper.root) + (low >> 16 & 1);  // 2^16
+  uint32_t root = upper.root << 16 | lower;
+  if (rest <= UINT16_MAX && (rest << 16 | (low & UINT16_MAX)) < lower * lower) --root;
+  return root >> places / 2;
 }
 
 constexpr uint64_t squared(Vec v) noexcept {

@@ -107,11 +107,28 @@ TEST(SquareRoot, IsTheFloorAroundEverySquare) {
 }
 
 TEST(SquareRoot, Of32BitsIsTheSame) {
-  for (std::uint64_t x = 0; x <= UINT32_MAX; x += 1 + x / 50000) {
+  const bool all = long_run();
+  for (std::uint64_t x = 0; x <= UINT32_MAX; x += all ? 1 : 1 + x / 50000) {
     const auto r = std::uint64_t{square_root_32(static_cast<std::uint32_t>(x))};
     ASSERT_TRUE(r * r <= x && x < (r + 1) * (r + 1)) << x;
   }
+  for (std::uint32_t r = 1; r <= UINT16_MAX; ++r) {
+    ASSERT_EQ(square_root_32(r * r), r);
+    ASSERT_EQ(square_root_32(r * r - 1), r - 1);
+  }
   EXPECT_EQ(square_root_32(UINT32_MAX), 65535U);
+}
+
+TEST(SquareRoot, Of64BitsIsTheFloorAtEveryScale) {
+  std::uint64_t state = 3;
+  for (int i = 0; i < 2000000; ++i) {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    const auto r = static_cast<std::uint64_t>(state >> 32 >> i % 32);
+    if (r == 0) continue;
+    ASSERT_EQ(square_root(r * r), r);
+    ASSERT_EQ(square_root(r * r - 1), r - 1);
+    ASSERT_EQ(square_root(r * r + state % (2 * r + 1)), r);
+  }
 }
 
 TEST(Vectors, FartherIsWhatTheNormSays) {
