@@ -56,15 +56,14 @@ Guard::Guard(hal::Rangefinders& rangefinders, hal::Drive& drive, const Params& p
 
 bool Guard::usable() const noexcept {
   if (params_.bumper.creep_speed != Speed{}) return false;
-  if (!kParamCheckBuilt) return true;
-  return check(params_) == ParamFault::none && (kSweeps || !at_run_time::rim_sweep(params_).needed);
+  return check(params_) == ParamFault::none;
 }
 
 void Guard::put_down() noexcept {
   localizer_.put_down(Pose{});
   perception_.forget(Pose{});
   limiter_.reset();
-  if (kNodsBuilt) nod_->reset();
+  nod_.reset();
   started_ = commanded_ = false;
   vouched_ = Length{};
 }
@@ -158,7 +157,7 @@ void Guard::perceive() noexcept {
   perception_.observe({pose, last_tick_, false, {}}, params_, percept);
   status_.health.ranges = perception_.trust();
   supervisor_.check_trust(perception_.trust().level);
-  if (!kVouches || vouched_ == Length{}) return;
+  if (vouched_ == Length{}) return;
   if (farther(pose.at - vouched_at_, kStandsStill) || perception_.vouch(vouched_, pose)) vouched_ = Length{};
 }
 
@@ -188,7 +187,7 @@ WheelPair Guard::limit_speed(bool paused) noexcept {
   const Pose pose = localizer_.inside();
   planning::VelocityRequest wanted = asked;
   if (assists()) {
-    wanted = assist_->step(asked, fastest_on_the_spot_, pose, perception_.local_grid(), params_);
+    wanted = assist_.step(asked, fastest_on_the_spot_, pose, perception_.local_grid(), params_);
   }
   planning::VelocityRequest limited = wanted;
   if (stands) limited = {};
@@ -200,8 +199,8 @@ WheelPair Guard::limit_speed(bool paused) noexcept {
   const bool doubted = limited.forward != wanted.forward;
   // Without readings, nothing is seen yet.
   const bool seeing = vouched_ == Length{} && perception::usable(perception_.latest());
-  if (kNodsBuilt && params_.guard.nods == Fitted::yes && seeing) {
-    limited = nod_->step(limited, limiter_.granted(), pose, perception_.local_grid(), elapsed_, params_);
+  if (params_.guard.nods == Fitted::yes && seeing) {
+    limited = nod_.step(limited, limiter_.granted(), pose, perception_.local_grid(), elapsed_, params_);
   }
   const WheelPair speeds =
       limiter_.step(limited, pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
@@ -210,7 +209,7 @@ WheelPair Guard::limit_speed(bool paused) noexcept {
   const Speed turning = status_.asked.turning * (params_.body.track / 2);
   status_.turning = nodding() ? Q14{} : share(turning_of(aim), turning);
   constexpr Q14 kAll = Q14::ratio(999, 1000);
-  const bool bent = assists() && assist_->active();
+  const bool bent = assists() && assist_.active();
   const bool granted_in_full = status_.forward >= kAll && status_.turning >= kAll;
   status_.reason = !fresh                     ? GuardReason::stale_ranges
                    : !commanded_              ? GuardReason::command_timeout
@@ -233,7 +232,7 @@ WheelPair Guard::target(const planning::VelocityRequest& limited) const noexcept
 GuardReason Guard::held_by(const planning::VelocityRequest& asked, bool doubted) const noexcept {
   if (limiter_.granted() == Q14::ratio(1, 1)) {
     if (doubted) return GuardReason::doubt;
-    return assists() && assist_->active() ? GuardReason::assisted : GuardReason::limits;
+    return assists() && assist_.active() ? GuardReason::assisted : GuardReason::limits;
   }
   const perception::LocalGrid& grid = perception_.local_grid();
   const Pose pose = localizer_.inside();

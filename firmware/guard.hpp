@@ -9,7 +9,6 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
-#include "firmware/part.hpp"
 #include "firmware/perception/perception.hpp"
 #include "firmware/safety/assist.hpp"
 #include "firmware/safety/nod.hpp"
@@ -81,11 +80,8 @@ class Guard {
   /// that no beam covers, once the readings of all beams have arrived, if the body still stands where it was
   /// said.
   void vouch(Length radius) noexcept;
-  /// Another response table for GuardParams::assist than the core's own. It must outlive the guard. No effect
-  /// in an image without this part.
-  void assist_by(const fuzzy::Bilinear::Table& table) noexcept {
-    if (kAssistBuilt) assist_->use(table);
-  }
+  /// Another response table for GuardParams::assist than the core's own. It must outlive the guard.
+  void assist_by(const fuzzy::Bilinear::Table& table) noexcept { assist_.use(table); }
   /// Ends the fault, drops the command and all readings, and resets all ground except that under the body to
   /// unknown; the pose begins at zero again. Parameters that check() refused stay refused.
   void reset() noexcept;
@@ -101,7 +97,6 @@ class Guard {
   const perception::LocalGrid& local_grid() const noexcept { return perception_.local_grid(); }
 
  private:
-  /// By the parameters, which must not ask for parts that this image lacks.
   bool usable() const noexcept;
   void put_down() noexcept;
   void take_time(Time now) noexcept;
@@ -112,8 +107,8 @@ class Guard {
   WheelPair limit_speed(bool paused) noexcept;
   WheelPair target(const planning::VelocityRequest& limited) const noexcept;
   GuardReason held_by(const planning::VelocityRequest& asked, bool doubted) const noexcept;
-  bool assists() const noexcept { return kAssistBuilt && params_.guard.assist == Fitted::yes; }
-  bool nodding() const noexcept { return kNodsBuilt && nod_->active(); }
+  bool assists() const noexcept { return params_.guard.assist == Fitted::yes; }
+  bool nodding() const noexcept { return nod_.active(); }
 
   hal::Rangefinders& rangefinders_;
   const Params& params_;
@@ -130,14 +125,14 @@ class Guard {
   bool started_ = false;
   bool commanded_ = false;
   bool braked_elsewhere_ = false;
-  Part<safety::Assist, kAssistBuilt> assist_;  // here an image without it has room for its byte
+  safety::Assist assist_;
 
   GuardStatus status_;
   localization::Localizer localizer_;
   control::WheelDrive wheels_;
   safety::SpeedLimiter limiter_;
   safety::WarnedSpeed warned_speed_;
-  Part<safety::Nod, kNodsBuilt> nod_;
+  safety::Nod nod_;
   safety::Supervisor supervisor_;
   perception::Perception perception_;
 };

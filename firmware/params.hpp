@@ -7,7 +7,6 @@
 #include "firmware/math/angle.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/math/vec.hpp"
-#include "firmware/part.hpp"
 
 namespace whisker {
 
@@ -25,7 +24,7 @@ struct WheelParams {
   AngularRate max_turn_rate = 3000_mrad_per_s;
   Duration motor_lag = 50_ms;       ///< time constant from command to wheel speed
   int32_t counts_per_metre = 5000;  ///< encoder counts per metre of rim travel, mean of both wheels
-  /// Rim travel per count of the right wheel / of the left wheel; 1 without kCalibrationBuilt.
+  /// Rim travel per count of the right wheel / of the left wheel.
   Ratio ratio = millionths(1000000);
 };
 
@@ -276,8 +275,7 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("gyro_walk_deg_per_sqrt_h", p.pose_error.gyro_walk, Angle{}, 10_deg);
   f.number("gyro_warm_up_dps", p.pose_error.gyro_warm_up, Angle{}, 1_deg);
   f.choice("fix_jumps", p.fix_jumps, kJumps, 2);
-  f.number("wheel_ratio", p.wheels.ratio, millionths(kCalibrationBuilt ? 900000 : 1000000),
-           millionths(kCalibrationBuilt ? 1100000 : 1000000));
+  f.number("wheel_ratio", p.wheels.ratio, millionths(900000), millionths(1100000));
   f.number("command_timeout_s", p.guard.command_timeout, 20_ms, 2000_ms);
   f.choice("guard_nods", p.guard.nods, kBoolean, 2);
   f.choice("guard_assist", p.guard.assist, kBoolean, 2);

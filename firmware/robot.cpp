@@ -3,8 +3,6 @@
 namespace whisker {
 namespace {
 
-static_assert(kFrames, "a goal is in the user's frame");
-
 // A mission that is due for a rest waits this long for a manoeuvre to end before it is interrupted.
 constexpr Duration kRestDelay = 15000_ms;
 constexpr Duration kLongestRest = 5000_ms;
@@ -140,10 +138,8 @@ bool Robot::localize(Time now, planning::View& view) noexcept {
   view.forward = (rolling.left + rolling.right) / 2;
   view.turning = (rolling.right - rolling.left) / 2;
   view.granted = limiter_.granted();
-  if (kCalibrationBuilt) {
-    if (counted) view.raw->counts = localizer_.counts();
-    view.raw->by_gyro = status_.heading_source == localization::HeadingSource::gyro;
-  }
+  if (counted) view.raw.counts = localizer_.counts();
+  view.raw.by_gyro = status_.heading_source == localization::HeadingSource::gyro;
   return counted;
 }
 
@@ -198,7 +194,7 @@ bool Robot::take_counts() noexcept {
 void Robot::perceive(planning::View& view, bool counted) noexcept {
   hal::RangeReadings readings{};
   const bool read = rangefinders_.read(readings);
-  if (kCalibrationBuilt) view.raw->ranges = readings;
+  view.raw.ranges = readings;
   perception_.sense(read ? &readings : nullptr, last_tick_, view.pose, params_, status_.health);
   status_.echoes = perception_.latest();
   supervisor_.check_ranges(perception_.lost_for(last_tick_));
@@ -263,7 +259,7 @@ void Robot::plan(const planning::View& view) noexcept {
     return;
   }
   decision = planner_.step(view);
-  if (kNarrowGaps && decision.lane->opens) perception_.open_lane(decision.lane->from);
+  if (decision.lane.opens) perception_.open_lane(decision.lane.from);
   const bool running = decision.outcome == planning::Outcome::running;
   has_goal_ = running;
   if (refused_ != planning::Why::none) {

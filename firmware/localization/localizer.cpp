@@ -17,7 +17,7 @@ void Localizer::put_down(const Pose& pose) noexcept {
   if (has_gyro()) heading_->restart();
   if (kGyroBuilt) teacher_->restart();
   estimate_.pose = pose;
-  if (kFrames) frame_->tie(pose, pose);
+  frame_.tie(pose, pose);
   restart_bound({});
 }
 
@@ -96,18 +96,17 @@ bool Localizer::turn_as_taught() noexcept {
 }
 
 void Localizer::tie(const Pose& pose) noexcept {
-  if (!kFrames) return;
   if (pose.at == estimate_.pose.at && pose.heading == estimate_.pose.heading) return;
-  frame_->tie(odometry_.pose(), pose);
+  frame_.tie(odometry_.pose(), pose);
   estimate_.pose = pose;
 }
 
 Localizer::Stepped Localizer::step(const Step& step) noexcept {
   if (!odometry_.take(step.counts, step.since, counts_)) return Stepped::jumped;
   advance(step);
-  estimate_.pose = kFrames ? frame_->outward(odometry_.pose()) : odometry_.pose();
+  estimate_.pose = frame_.outward(odometry_.pose());
   if (!kGyroBuilt) return Stepped::advanced;
-  const bool moved = has_gyro() ? learn_bias() : kFrames && turn_as_taught();
+  const bool moved = has_gyro() ? learn_bias() : turn_as_taught();
   return moved ? Stepped::corrected : Stepped::advanced;
 }
 

@@ -63,7 +63,7 @@ class Localizer {
   uint32_t travelled_um() const noexcept { return odometry_.travelled_um(); }
   /// Counts of the last step.
   const CountStep& counts() const noexcept { return counts_; }
-  Frame& frame() noexcept { return *frame_.operator->(); }
+  Frame& frame() noexcept { return frame_; }
 
   bool has_gyro() const noexcept { return kGyroBuilt && params_.gyro.fitted == Fitted::yes; }
   /// With a gyro only: the robot should stand to measure the bias.
@@ -85,7 +85,7 @@ class Localizer {
   Estimate& estimate_;
   Health& health_;
   CountStep counts_;
-  Part<Frame, kFrames> frame_;
+  Frame frame_;
   Odometry odometry_;
   Part<GyroHeading, kGyroBuilt> heading_;
   Part<PoseBound, kGyroBuilt> bound_;

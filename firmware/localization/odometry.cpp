@@ -19,17 +19,13 @@ void Odometry::configure(const Params& params) noexcept {
   const int64_t radians_q36 = divide_rounded(um_per_count_ << 20, params.body.track.raw());
   turn_per_count_ = static_cast<uint64_t>(scale_down<18>(radians_q36 * kTurnPerRadianQ30));
 
-  if (kCalibrationBuilt) {
-    // The wheels turn by 1 -+ skew.
-    const Ratio ratio = params.wheels.ratio;
-    const Ratio one = millionths(1000000);
-    const auto skewed = [&](int64_t x) {
-      return divide_rounded(x * (ratio - one).raw(), (ratio + one).raw());
-    };
-    skew_->share = static_cast<int32_t>(skewed(INT64_C(1) << 24));
-    skew_->um_per_count = skewed(um_per_count_);
-    skew_->turn_per_count = skewed(static_cast<int64_t>(turn_per_count_));
-  }
+  // The wheels turn by 1 -+ skew.
+  const Ratio ratio = params.wheels.ratio;
+  const Ratio one = millionths(1000000);
+  const auto skewed = [&](int64_t x) { return divide_rounded(x * (ratio - one).raw(), (ratio + one).raw()); };
+  skew_.share = static_cast<int32_t>(skewed(INT64_C(1) << 24));
+  skew_.um_per_count = skewed(um_per_count_);
+  skew_.turn_per_count = skewed(static_cast<int64_t>(turn_per_count_));
   period_ = params.safety.period;
   const int32_t um_per_s = params.wheels.max_speed.raw() / 1000 * 512;
   counts_per_ms_ = static_cast<uint32_t>(multiply_divide(um_per_s, params.wheels.counts_per_metre, 1000000));
@@ -41,7 +37,7 @@ void Odometry::place(const Pose& pose) noexcept {
   start_heading_ = pose.heading;
   heading_ = pose.heading;
   difference_ = 0;
-  if (kCalibrationBuilt) skew_->sum = 0;
+  skew_.sum = 0;
   has_last_ = false;
 }
 
@@ -56,11 +52,9 @@ void Odometry::advance(const CountStep& step) noexcept {
   const uint64_t turned = magnitude(difference_) * turn_per_count_;
   const Angle size = Angle::from_raw(static_cast<uint32_t>(turned >> 16));
   Angle now = start_heading_ + (difference_ < 0 ? -size : size);
-  if (kCalibrationBuilt) {
-    skew_->sum += step.right + step.left;
-    const uint64_t skewed = static_cast<uint64_t>(skew_->sum) * static_cast<uint64_t>(skew_->turn_per_count);
-    now += Angle::from_raw(static_cast<uint32_t>(skewed >> 16));
-  }
+  skew_.sum += step.right + step.left;
+  const uint64_t skewed = static_cast<uint64_t>(skew_.sum) * static_cast<uint64_t>(skew_.turn_per_count);
+  now += Angle::from_raw(static_cast<uint32_t>(skewed >> 16));
   advance(step, now - heading_);
 }
 
@@ -80,7 +74,7 @@ void Odometry::advance(const CountStep& step, Angle turn) noexcept {
   const Angle middle = heading_ + scaled(turn, Q15::ratio(1, 2));
   heading_ += turn;
   int64_t both = (step.left + step.right) * um_per_count_;
-  if (kCalibrationBuilt) both += (step.right - step.left) * skew_->um_per_count;
+  both += (step.right - step.left) * skew_.um_per_count;
   const int64_t distance_q10 = scale_down<7>(both);
   x_ += scale_down<24>(distance_q10 * cos(middle).raw());
   y_ += scale_down<24>(distance_q10 * sin(middle).raw());
@@ -89,8 +83,7 @@ void Odometry::advance(const CountStep& step, Angle turn) noexcept {
 
 int64_t Odometry::difference(const CountStep& step) const noexcept {
   const int64_t difference = int64_t{step.right - step.left} * 4096;
-  if (!kCalibrationBuilt) return difference;
-  return difference + scale_down<12>(int64_t{skew_->share} * (step.right + step.left));
+  return difference + scale_down<12>(int64_t{skew_.share} * (step.right + step.left));
 }
 
 Angle Odometry::turn_of(int64_t difference) const noexcept {

@@ -6,7 +6,6 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
-#include "firmware/part.hpp"
 #include "hal/types.hpp"
 
 namespace whisker::localization {
@@ -60,7 +59,7 @@ class Odometry {
   int64_t difference_ = 0;       // right minus left, counts since place()
   int64_t um_per_count_ = 0;     // 2^-16 um
   uint64_t turn_per_count_ = 0;  // 2^-48 turn
-  Part<Skew, kCalibrationBuilt> skew_;
+  Skew skew_;
   Duration period_;
   uint32_t counts_per_ms_ = 0;  // at twice the full speed, 2^-8 count
   hal::EncoderCounts last_{};

@@ -5,13 +5,12 @@
 
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
-#include "firmware/part.hpp"
 
 namespace whisker::localization {
 
 class PoseHistory {
  public:
-  static constexpr int kKept = kPoseHistory;
+  static constexpr int kKept = 16;
 
   /// Keeps instants at least this far apart, so the history covers (kKept - 1) times that.
   void configure(Duration spacing) noexcept { spacing_ = spacing; }

@@ -6,7 +6,6 @@
 
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
-#include "firmware/part.hpp"
 
 namespace whisker {
 namespace at_run_time {
@@ -123,7 +122,6 @@ constexpr RimSweep no_sweep(const Params& p) noexcept {
 }
 [[gnu::always_inline]] constexpr RimSweep rim_sweep(const Params& p) noexcept {
   if (__builtin_is_constant_evaluated()) return formula::rim_sweep(p);
-  if (!kSweeps) return formula::no_sweep(p);
   return at_run_time::rim_sweep(p);
 }
 [[gnu::always_inline]] constexpr Reach reach(const Params& p) noexcept {

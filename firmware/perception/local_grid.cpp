@@ -44,8 +44,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   footprint_ = units(swept_);
   body_ = static_cast<int16_t>(units(params.body.radius + guard_slack(params)));
   reach_ = whisker::reach(params);
-  if (kNarrowGaps)
-    lane_->configure(reach_.guard + swept_ / kLaneTolerance, params.body.radius + guard_slack(params));
+  lane_.configure(reach_.guard + swept_ / kLaneTolerance, params.body.radius + guard_slack(params));
   // One true cell of a wall beyond the echo would explain it, and what stands on the clear cells between
   // would stay unseen.
   explains_ = loses_only_grazed(params.rangefinders) ? kUnitsPerCell : kHalfCell;
@@ -79,9 +78,8 @@ void LocalGrid::drop_rows(int first, int count) noexcept {
   for (int row = first; row < first + count; ++row) {
     const int s = slot(row);
     young_[s] = old_[s] = suspect_[s] = 0;
-    if (kStaticScans) tested_->row[s] = 0;
-    if (!kSweeps) continue;
-    for (Chain& chain : chains_->of) chain.swept[s] = 0;
+    tested_[s] = 0;
+    for (Chain& chain : chains_) chain.swept[s] = 0;
   }
 }
 
@@ -92,8 +90,7 @@ void LocalGrid::drop_columns(Row window) noexcept {
     old_[s] &= keep;
     suspect_[s] &= keep;
     untest(s, ~keep);
-    if (!kSweeps) continue;
-    for (Chain& chain : chains_->of) chain.swept[s] &= keep;
+    for (Chain& chain : chains_) chain.swept[s] &= keep;
   }
 }
 
@@ -132,14 +129,12 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
     if (cols < 0) drop_columns(columns_between(0, -cols - 1));
   }
   if (farther(pose.at - tested_at_, kTestedTravel)) {
-    if (kStaticScans) {
-      for (Row& row : tested_->row) row = 0;
-    }
+    for (Row& row : tested_) row = 0;
     tested_at_ = pose.at;
   }
   age(pose);
   clear_around(pose.at, footprint_);
-  if (has_lane()) lane_->mark_around(pose.at, swept_);
+  if (has_lane()) lane_.mark_around(pose.at, swept_);
 }
 
 void LocalGrid::age(const Pose& pose) noexcept {
@@ -152,7 +147,7 @@ void LocalGrid::age(const Pose& pose) noexcept {
       old_[s] = young_[s];
       young_[s] = 0;
     }
-    if (has_lane()) lane_->age();
+    if (has_lane()) lane_.age();
     travel_ = Length{};
     turned_ = 0;
   }
@@ -199,7 +194,7 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
   const Length cleared = min(observation.free, clears_);
   const Length earlier = before == nullptr ? cleared : min(before->free, clears_);
   if (has_lane()) {
-    lane_->mark(beam, cleared - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
+    lane_.mark(beam, cleared - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
   }
   const int32_t free = units(cleared - taken_off);
   const int32_t free_before = units(earlier - taken_off);
@@ -238,7 +233,7 @@ void LocalGrid::mark(const ConeObservation& observation, const EarlierObservatio
     suspect_[s] &= ~clear;
     untest(s, clear);
     const Row unproved = covered & ~(young_[s] | old_[s]);
-    if (kStaticScans && observation.aimed) tested_->row[s] |= unproved;
+    if (observation.aimed) tested_[s] |= unproved;
     if (observation.hit && unproved != 0) {
       Span near = inside;
       core.clip(near, apex.x, dy, 0);
@@ -316,7 +311,7 @@ void LocalGrid::revoke(const Beam& beam, Length nearest, Length farthest) noexce
   if (!nearby(local(beam.apex))) return;
   if (!echo_arc(beam, nearest, farthest, false)) return;
   echo_arc(beam, nearest, farthest, true);
-  if (has_lane()) lane_->take_back(beam, nearest - kReadingRounding, farthest);
+  if (has_lane()) lane_.take_back(beam, nearest - kReadingRounding, farthest);
 }
 
 void LocalGrid::revoke_beside(const ConeObservation& observation, Length farthest, int32_t radii) noexcept {
@@ -329,7 +324,7 @@ void LocalGrid::revoke_beside(const ConeObservation& observation, Length farthes
   beam.axis += observation.number == hal::kLeft ? outward : -outward;
   beam.half_cone = beside;
   echo_arc(beam, free, farthest, true);
-  if (has_lane()) lane_->take_back(beam, free - kReadingRounding, farthest);
+  if (has_lane()) lane_.take_back(beam, free - kReadingRounding, farthest);
 }
 
 void LocalGrid::block(Vec centre, Length radius) noexcept {

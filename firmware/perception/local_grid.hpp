@@ -5,7 +5,6 @@
 
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
-#include "firmware/part.hpp"
 #include "firmware/perception/grid_scale.hpp"
 #include "firmware/perception/lane.hpp"
 #include "firmware/perception/observation.hpp"
@@ -74,8 +73,8 @@ class LocalGrid {
   /// Opens a lane through a narrow gap: it begins here, and leads along this heading. On the lane, the ground
   /// is also known in cells that lie along it. It holds until the next one, or until a touch takes back
   /// ground; an echo takes back cells of both.
-  void open_lane(const Pose& from) noexcept { lane_->open(from); }
-  const Lane& lane() const noexcept { return *lane_.operator->(); }
+  void open_lane(const Pose& from) noexcept { lane_.open(from); }
+  const Lane& lane() const noexcept { return lane_; }
   /// Something moved during the last second.
   bool doubting() const noexcept { return doubting_; }
   /// Lengths for which paths are checked.
@@ -125,10 +124,8 @@ class LocalGrid {
   using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
   Row solid_row(int row) const noexcept { return to_window(suspect_[slot(row)] | tested(slot(row))); }
-  [[gnu::always_inline]] Row tested(int slot) const noexcept { return kStaticScans ? tested_->row[slot] : 0; }
-  [[gnu::always_inline]] void untest(int slot, Row cells) noexcept {
-    if (kStaticScans) tested_->row[slot] &= ~cells;
-  }
+  [[gnu::always_inline]] Row tested(int slot) const noexcept { return tested_[slot]; }
+  [[gnu::always_inline]] void untest(int slot, Row cells) noexcept { tested_[slot] &= ~cells; }
   int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
   uint32_t shift() const noexcept { return static_cast<uint32_t>(column_) & (kCells - 1); }
   Row to_torus(Row window) const noexcept {
@@ -141,10 +138,8 @@ class LocalGrid {
   Length length_of(int32_t units) const noexcept;
   Point local(Vec at) const noexcept;
   static bool in_window(Point p, int32_t reach) noexcept;
-  bool has_lane() const noexcept { return kNarrowGaps && lane_->is_open(); }
-  void close_lane() noexcept {
-    if (kNarrowGaps) lane_->close();
-  }
+  bool has_lane() const noexcept { return lane_.is_open(); }
+  void close_lane() noexcept { lane_.close(); }
   void drop_rows(int first, int count) noexcept;
   void drop_columns(Row window) noexcept;
   void age(const Pose& pose) noexcept;
@@ -197,25 +192,16 @@ class LocalGrid {
   Length place_error_;  // between two readings
   Length swept_;        // radius of rim_sweep()
   Length holds_;        // from this distance on, a cone holds a cell
-  struct Chains {
-    [[gnu::always_inline]] Chains() noexcept {}
-    Chain of[3];
-  };
-  Part<Chains, kSweeps> chains_;
+  Chain chains_[3];
   [[gnu::always_inline]] void unlink() noexcept {
-    if (!kSweeps) return;
-    for (Chain& chain : chains_->of) chain.linked = false;
+    for (Chain& chain : chains_) chain.linked = false;
   }
 
   Row young_[kCells] = {};    // cleared since the last ageing step
   Row old_[kCells] = {};      // cleared before it
   Row suspect_[kCells] = {};  // near an echo
-  struct Tested {
-    [[gnu::always_inline]] Tested() noexcept {}
-    Row row[kCells] = {};
-  };
-  Part<Tested, kStaticScans> tested_;  // covered by a static scan from here and not cleared
-  Part<Lane, kNarrowGaps> lane_;
+  Row tested_[kCells] = {};   // covered by a static scan from here and not cleared
+  Lane lane_;
 };
 
 }  // namespace whisker::perception

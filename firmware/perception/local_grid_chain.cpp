@@ -38,7 +38,7 @@ bool LocalGrid::link(const Chain& chain, const Vec& from, Angle trail, Angle hal
 
 void LocalGrid::chain(const ConeObservation& observation, const EarlierObservation* before) noexcept {
   if (reach_.past == Angle{}) return;
-  Chain& chain = chains_->of[observation.number];
+  Chain& chain = chains_[observation.number];
   const Beam& beam = observation.beam;
   const Angle turn = beam.axis - chain.last.axis;
   const Length moved = arc(turn, swept_) - across(beam.apex - chain.last.apex, beam.axis);

@@ -70,7 +70,7 @@ bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid
     rim.touched_by_disc(there.x, rows.offset(there.y), body_);
     ahead.clip(rim, here.x, rows.offset(here.y), half - kCellCover);
     if ((span.columns() & unclear) != 0 || (rim.columns() & unclear & solid_row(rows.row())) != 0) {
-      return !(has_lane() && lane_->holds(from, way, radius));
+      return !(has_lane() && lane_.holds(from, way, radius));
     }
   }
   return false;
@@ -92,7 +92,6 @@ bool LocalGrid::all_clear(Vec centre, Length radius) const noexcept {
 }
 
 void LocalGrid::vouch(Vec centre, Length radius, const Beam (&beams)[3], const Length (&free)[3]) noexcept {
-  if (!kVouches) return;
   const Point at = local(centre);
   const int32_t reach = units(radius);
   for (Rows rows(at.y, reach); rows.more(); rows.next()) {

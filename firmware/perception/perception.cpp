@@ -16,8 +16,8 @@ void Perception::configure(const Params& params) noexcept {
   loses_walls_ = loses_walls(params.rangefinders);
   for (int i = 0; i < hal::kBeams; ++i) mounts_[i] = mount(params.rangefinders, i);
   local_grid_.configure(params);
-  if (kBumperBuilt) contacts_->configure(params.body.radius);
-  if (kMotionDetectorBuilt) motion_->configure(mounts_);
+  contacts_.configure(params.body.radius);
+  motion_.configure(mounts_);
   monitor_.configure(params);
   const Duration reach = params.rangefinders.latency + milliseconds(1000 / params.rangefinders.rate_hz);
   history_.configure(reach / (localization::PoseHistory::kKept - 2));
@@ -27,16 +27,14 @@ void Perception::forget(const Pose& pose) noexcept {
   conditioner_.put_down();
   history_.reset();
   local_grid_.reset(pose);
-  if (kBumperBuilt) contacts_->reset();
-  if (kMotionDetectorBuilt) motion_->reset();
+  contacts_.reset();
+  motion_.reset();
   monitor_.reset();
-  if (kVouches) vouched_->any = false;
+  vouched_.any = false;
   seen_ = 0;
   contradicted_ = 0;
   misses_ = false;
-  if (kMotionDetectorBuilt) {
-    for (Contradiction& contradiction : contradictions_->of) contradiction = {};
-  }
+  for (Contradiction& contradiction : contradictions_) contradiction = {};
   for (RangeScatter& scatter : scatter_) scatter = {};
 }
 
@@ -49,15 +47,15 @@ bool Perception::vouch(Length radius, const Pose& body) noexcept {
     beams[i] = beam_of(mounts_[i], body);
     free[i] = echoes.beam[i].distance;
   }
-  vouched_->any = true;
-  vouched_->at = body.at;
+  vouched_.any = true;
+  vouched_.at = body.at;
   local_grid_.vouch(body.at, radius, beams, free);
   return true;
 }
 
 /// Drops it once all vouched cells have left the window.
 void Perception::leave_vouched(Vec body) noexcept {
-  if (vouched_->any && farther(body - vouched_->at, local_grid_.half_window() * 5 / 2)) vouched_->any = false;
+  if (vouched_.any && farther(body - vouched_.at, local_grid_.half_window() * 5 / 2)) vouched_.any = false;
 }
 
 /// A cone that is narrower than stated clears ground at its edges that it does not see, and any unclear cell
@@ -81,11 +79,11 @@ void Perception::sense(const hal::RangeReadings* readings, Time now, const Pose&
 }
 
 void Perception::observe(const Standing& body, const Params& params, Percept& out) noexcept {
-  if (kStaticScans && body.settled) out.static_scan = conditioner_.look(body.settled_since, params);
+  if (body.settled) out.static_scan = conditioner_.look(body.settled_since, params);
   history_.add(body.pose, body.now);
   local_grid_.move_to(body.pose);
   monitor_.move_to(body.pose.at);
-  if (kVouches) leave_vouched(body.pose.at);
+  leave_vouched(body.pose.at);
   Length free[hal::kBeams];
   Length moved[hal::kBeams];
   bool appears[hal::kBeams] = {};
@@ -131,9 +129,9 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     }
     observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
     observation.taken = sight.taken;
-    if (kMotionDetectorBuilt && observation.hit &&
-        motion_->contradicts(observation.beam, observation.free, sight.farthest, misaimed, local_grid_)) {
-      const bool approaches = contradictions_->of[i].approaches(observation);
+    if (observation.hit &&
+        motion_.contradicts(observation.beam, observation.free, sight.farthest, misaimed, local_grid_)) {
+      const bool approaches = contradictions_[i].approaches(observation);
       if (!sight.phantoms) monitor_.contradict(approaches);
       const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
       if (anew && contradicted_ < kDistrusted) ++contradicted_;
@@ -149,7 +147,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
     const EarlierObservation* const before = sight.single ? &last_[i] : nullptr;
     if (!sight.single || (seen_ & bit) != 0) {
       local_grid_.mark(observation, before);
-      if (kSweeps) local_grid_.chain(observation, before);
+      local_grid_.chain(observation, before);
     }
     appears[i] = (seen_ & bit) != 0 && last_[i].free > observation.free + kAppears;
     last_[i] = {observation.beam.apex, observation.beam.axis, observation.free};
@@ -166,7 +164,7 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
       local_grid_.revoke(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
       // What stands on clear ground would be explained by any unclear cell of so deep an arc.
       const bool hides = too_near[i] && (loses_walls_ || misses_);
-      if (hides || (appears[i] && takes_back(body.pose.at)) || (kVouches && vouched_->any)) {
+      if (hides || (appears[i] && takes_back(body.pose.at)) || vouched_.any) {
         local_grid_.take_back(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
       }
       if (appears[i]) {
@@ -174,23 +172,21 @@ void Perception::observe(const Standing& body, const Params& params, Percept& ou
                                   loses_walls_ ? kFlankRadiiOfLostWalls : kFlankRadii);
       }
     }
-    if (!kMotionDetectorBuilt || moved[i] == Length{}) continue;
+    if (moved[i] == Length{}) continue;
     local_grid_.doubt(out.observations[i], moved[i]);
-    if (!kEvades || (out.mover.seen && free[i] >= nearest)) continue;
+    if (out.mover.seen && free[i] >= nearest) continue;
     nearest = free[i];
     const Beam& beam = out.observations[i].beam;
     out.mover.at = beam.apex + polar(beam.axis, nearest);
     out.mover.seen = true;
-    if (!motion_->came_from(out.mover.at, out.mover.direction)) {
+    if (!motion_.came_from(out.mover.at, out.mover.direction)) {
       out.mover.direction = bearing(body.pose.at - out.mover.at);
     }
   }
-  if (kBumperBuilt) {
-    for (int i = 0; i < contacts_->count(); ++i) local_grid_.block(contacts_->at(i), contacts_->radius());
-    out.contacts = contacts_.operator->();
-  }
+  for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());
+  out.contacts = &contacts_;
   if (seen > 0) monitor_.see(from, shown, mounts_);
-  if (kMotionDetectorBuilt && seen == hal::kBeams) motion_->add(from, out.observations[0].taken, free, hits);
+  if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free, hits);
   monitor_.judge(conditioner_.phantom_share(), conditioner_.false_clear_share());
   out.doubts = doubts();
   out.local_grid = &local_grid_;

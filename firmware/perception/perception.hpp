@@ -8,7 +8,6 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
-#include "firmware/part.hpp"
 #include "firmware/perception/contacts.hpp"
 #include "firmware/perception/contradiction.hpp"
 #include "firmware/perception/local_grid.hpp"
@@ -44,7 +43,7 @@ class Perception {
   void sense(const hal::RangeReadings* readings, Time now, const Pose& body, const Params& params,
              Health& health) noexcept;
   /// A body with this pose touches something with these switches: see Contacts::add().
-  void touch(uint8_t pressed, const Pose& body) noexcept { contacts_->add(pressed, body); }
+  void touch(uint8_t pressed, const Pose& body) noexcept { contacts_.add(pressed, body); }
   /// Updates the grid and returns the percept; call once per tick after sense().
   void observe(const Standing& body, const Params& params, Percept& out) noexcept;
 
@@ -52,7 +51,7 @@ class Perception {
   void open_lane(const Pose& from) noexcept { local_grid_.open_lane(from); }
 
   /// See LocalGrid::vouch(); the body stands. Until it has left, every echo takes back the cells that it may
-  /// come from. False: some beam has no usable reading yet. Needs kVouches.
+  /// come from. False: some beam has no usable reading yet.
   bool vouch(Length radius, const Pose& body) noexcept;
 
   /// The latest single reading of each beam.
@@ -86,11 +85,7 @@ class Perception {
   bool misses_ = false;       // some beam often reports clear where something is
   bool readings_err_ = false;
   uint8_t contradicted_ = 0;  // echoes from clear ground that nothing moving explains
-  struct Contradictions {
-    [[gnu::always_inline]] Contradictions() noexcept {}
-    Contradiction of[hal::kBeams];
-  };
-  Part<Contradictions, kMotionDetectorBuilt> contradictions_;
+  Contradiction contradictions_[hal::kBeams];
   uint8_t taken_back_ = 0;  // echoes that appeared and took back ground, near the place below
   Vec taken_back_at_;
   uint8_t seen_ = 0;                      // one bit per beam that has a last reading
@@ -98,15 +93,15 @@ class Perception {
   RangeScatter scatter_[hal::kBeams];
   RangeConditioner conditioner_;
   localization::PoseHistory history_;
-  Part<MotionDetector, kMotionDetectorBuilt> motion_;
+  MotionDetector motion_;
   RangeMonitor monitor_;
-  Part<Contacts, kBumperBuilt> contacts_;
+  Contacts contacts_;
   LocalGrid local_grid_;
   struct Vouched {
     bool any = false;
     Vec at;
   };
-  Part<Vouched, kVouches> vouched_;
+  Vouched vouched_;
 };
 
 }  // namespace whisker::perception

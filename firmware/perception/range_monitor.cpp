@@ -27,13 +27,12 @@ void RangeMonitor::configure(const Params& params) noexcept {
 }
 
 void RangeMonitor::reset() noexcept {
-  if (kIncidenceBuilt) incidence_->reset();
+  incidence_.reset();
   trust_ = {};
   counted_ = 0;
 }
 
 void RangeMonitor::move_to(Vec at) noexcept {
-  if (!kMotionDetectorBuilt) return;
   if (!farther(at - step_from_, kStep)) return;
   step_from_ = at;
   counted_ = 0;
@@ -53,7 +52,7 @@ void RangeMonitor::contradict(bool approaches) noexcept {
 void RangeMonitor::judge(uint16_t phantoms, uint16_t false_clears) noexcept {
   trust_.phantoms = phantoms;
   trust_.false_clears = false_clears;
-  if (kIncidenceBuilt) trust_.incidence_deg = incidence_->seen_deg();
+  trust_.incidence_deg = incidence_.seen_deg();
   // Phantoms appear in clear ground, and false clear readings clear ground wrongly.
   if (phantoms >= kManyPhantoms) trust_.contradictions = 0;
   const bool lossy = false_clears >= kSomeFalseClears || doubtful_rate_ == kLossyContradicted;

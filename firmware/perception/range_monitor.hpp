@@ -7,7 +7,6 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
-#include "firmware/part.hpp"
 #include "firmware/perception/incidence_watch.hpp"
 
 namespace whisker::perception {
@@ -28,7 +27,7 @@ class RangeMonitor {
   /// Readings of all beams: see IncidenceWatch::add().
   void see(const Pose& from, const SeenRange (&seen)[hal::kBeams],
            const Mount (&mounts)[hal::kBeams]) noexcept {
-    if (kIncidenceBuilt) incidence_->add(from, seen, mounts);
+    incidence_.add(from, seen, mounts);
   }
   /// The largest shares of all beams, 2^-16. Call once per tick, after the others.
   void judge(uint16_t phantoms, uint16_t false_clears) noexcept;
@@ -41,7 +40,7 @@ class RangeMonitor {
 
  private:
   static constexpr uint16_t kManyFalseClears = 13107;
-  Part<IncidenceWatch, kIncidenceBuilt> incidence_;
+  IncidenceWatch incidence_;
   RangeTrust trust_;
   Vec step_from_;
   uint8_t counted_ = 0;  // contradictions in this step

@@ -5,7 +5,7 @@ namespace whisker::planning {
 const Decision& GoalPlanner::answer(const View& view) noexcept {
   decision_.manoeuvre = {};
   decision_.looked = false;
-  if (kNarrowGaps) decision_.lane->opens = false;
+  decision_.lane.opens = false;
   const Request request = request_;
   request_ = Request::none;
   switch (request) {

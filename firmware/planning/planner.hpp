@@ -6,7 +6,6 @@
 #include "firmware/fuzzy/variables.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "firmware/math/trig.hpp"
-#include "firmware/part.hpp"
 #include "firmware/perception/lane.hpp"
 #include "firmware/perception/percept.hpp"
 #include "firmware/planning/manoeuvre.hpp"
@@ -42,7 +41,7 @@ struct View : perception::Percept {
   Q14 granted{};       ///< granted part of the last requested forward speed
   Duration elapsed{};  ///< since the previous tick
 
-  Part<RawReadings, kCalibrationBuilt> raw;
+  RawReadings raw;
 
   /// The guard granted only part of the request.
   constexpr bool held_back() const noexcept { return granted < Q14::ratio(1, 1); }
@@ -64,7 +63,7 @@ struct Decision {
   Outcome outcome = Outcome::none;
   uint8_t danger_count = 0;  ///< the thesis's t: positions since the target direction was last free
   bool looked = false;       ///< this tick's decision used a static scan
-  Part<NewLane, kNarrowGaps> lane;
+  NewLane lane;
   fuzzy::Inputs inputs;  ///< of the response table, as last used
   fuzzy::Response response;
 };

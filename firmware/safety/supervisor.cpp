@@ -38,7 +38,7 @@ Duration braking_time(const Params& p) noexcept {
 }
 
 void Supervisor::configure() noexcept {
-  if (kWheelWatchBuilt) wheel_watch_->configure(params_);
+  wheel_watch_.configure(params_);
   longest_stay_ = longest_stay(params_);
   // A manoeuvre may begin in full motion the other way.
   longest_wait_ = params_.safety.stalled_after + braking_time(params_) * 2;
@@ -51,7 +51,7 @@ void Supervisor::reset() noexcept {
   bumper_refusals_.reset();
   bumps_ = 0;
   stall_watch_.reset();
-  if (kWheelWatchBuilt) wheel_watch_->reset();
+  wheel_watch_.reset();
   unwatched_ms_ = static_cast<int16_t>(kUnwatched.raw());
 }
 
@@ -82,17 +82,16 @@ void Supervisor::check_counts(bool read) noexcept {
 }
 
 void Supervisor::expect_wheels(WheelPair speeds, Duration elapsed, Duration gap) noexcept {
-  if (!kWheelWatchBuilt) return;
   if (unwatched_ms_ > 0) {
     unwatched_ms_ = static_cast<int16_t>(gap.raw() < unwatched_ms_ ? unwatched_ms_ - gap.raw() : 0);
   } else {
-    wheel_watch_->expect(speeds, elapsed);
+    wheel_watch_.expect(speeds, elapsed);
   }
 }
 
 void Supervisor::check_wheels(const localization::CountStep& step) noexcept {
-  if (!kWheelWatchBuilt || faulted() || unwatched_ms_ > 0) return;
-  switch (wheel_watch_->judge(step)) {
+  if (faulted() || unwatched_ms_ > 0) return;
+  switch (wheel_watch_.judge(step)) {
     case WheelWatch::Finding::none: break;
     case WheelWatch::Finding::stalled: fail(Fault::wheels_stalled, health_.wheel_stalls); break;
     case WheelWatch::Finding::runaway: fail(Fault::wheel_runaway, health_.wheel_runaways); break;

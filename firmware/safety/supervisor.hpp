@@ -9,7 +9,6 @@
 #include "firmware/math/units.hpp"
 #include "firmware/math/wheel_kinematics.hpp"
 #include "firmware/params.hpp"
-#include "firmware/part.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/safety/refusals.hpp"
 #include "firmware/safety/stall_watch.hpp"
@@ -64,7 +63,7 @@ class Supervisor {
   Refusals drive_refusals_;
   Refusals encoder_refusals_;
   Refusals bumper_refusals_;
-  Part<WheelWatch, kWheelWatchBuilt> wheel_watch_;
+  WheelWatch wheel_watch_;
   StallWatch stall_watch_;
   int16_t unwatched_ms_ = 0;  // time until the wheel watch starts
   int8_t bumps_ = 0;          // near bumped_at_

@@ -28,7 +28,6 @@ class Board final : public whisker::hal::Rangefinders, public whisker::hal::Driv
 
 constexpr whisker::Params kParams{};
 static_assert(whisker::check(kParams) == whisker::ParamFault::none, "");
-static_assert(!whisker::rim_sweep(kParams).needed, "");
 Board board;
 alignas(whisker::Guard) unsigned char room[sizeof(whisker::Guard)];
 
@@ -38,7 +37,7 @@ void* operator new(decltype(sizeof(0)), void* place) noexcept { return place; }
 
 extern "C" int main() {
   whisker::Guard& guard = *new (room) whisker::Guard(board, board, kParams);
-  if (whisker::kVouches) guard.vouch(350_mm);
+  guard.vouch(350_mm);
   for (uint32_t ms = 0;; ms += 10) {
     const whisker::Time now = whisker::Time::from_raw(ms);
     guard.command({300_mm_per_s, {}}, now);

@@ -1,6 +1,5 @@
 #include "firmware/planning/boundary/boundary_planner.hpp"
 
-#include "firmware/part.hpp"
 #include "firmware/planning/candidate_headings.hpp"
 #include "firmware/planning/steering.hpp"
 
@@ -26,7 +25,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
   loop_.begin(view, behaviours_.params);
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
-  if (kNarrowGaps) slits_->reset();
+  slits_.reset();
   sought_ = false;
   phase_ = Phase::survey;
   report(Mode::surveying, Why::goal_set);
@@ -74,7 +73,7 @@ void BoundaryPlanner::act(const View& view) noexcept {
     on(Event::at_goal);
     decision_.manoeuvre = stop();
   }
-  const bool threatened = kEvades && evasion_.threatened(view, behaviours_.params);
+  const bool threatened = evasion_.threatened(view, behaviours_.params);
   if (threatened &&
       (phase_ == Phase::approach || phase_ == Phase::choose_side || phase_ == Phase::boundary)) {
     evasion_.begin();
@@ -88,12 +87,8 @@ void BoundaryPlanner::act(const View& view) noexcept {
     case Phase::boundary:
       if (boundary(view)) approach(view);
       break;
-    case Phase::evade:
-      if constexpr (kEvades) decision_.manoeuvre = evasion_.step(view, behaviours_.params);
-      break;
-    case Phase::gap:
-      if (kNarrowGaps) gap(view);
-      break;
+    case Phase::evade: decision_.manoeuvre = evasion_.step(view, behaviours_.params); break;
+    case Phase::gap: gap(view); break;
     case Phase::arrive: arrive(view); break;
     case Phase::over: break;
   }
@@ -120,7 +115,7 @@ void BoundaryPlanner::survey(const View& view) noexcept {
 }
 
 void BoundaryPlanner::approach(const View& view) noexcept {
-  if (kNarrowGaps && view.sighted && decision_.why == Why::narrow) slits_->look(view, view.pose.heading);
+  if (view.sighted && decision_.why == Why::narrow) slits_.look(view, view.pose.heading);
   if (approach_.step(view, target_, wall_, decision_)) return;
   if (approach_.refuted()) {
     end(Event::refuted, Outcome::unreachable);
@@ -133,7 +128,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
   const Angle target = target_.direction();
   loop_.begin(view, behaviours_.params);
   other_way_ = false;
-  if (kNarrowGaps) slits_->begin_loop();
+  slits_.begin_loop();
   if (behaviours_.progress.travel_mm() - left_edge_mm_ < behaviours_.mm(kKeepSide)) {
     side_search_.begin_on(target, opposite(wall_));
   } else {
@@ -144,7 +139,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
 
 void BoundaryPlanner::choose_side(const View& view) noexcept {
   Twist twist;
-  if (kNarrowGaps && view.sighted) slits_->look(view, view.pose.heading);
+  if (view.sighted) slits_.look(view, view.pose.heading);
   const bool over = side_search_.step(view, twist);
   decision_.manoeuvre = cruise(twist, behaviours_.params);
   if (!over) return;
@@ -164,12 +159,12 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
     const LoopDetector::Evidence evidence =
         approach_.has_guide() ? LoopDetector::Evidence::place : LoopDetector::Evidence::turning;
     // The map refutes the rest of the second loop, which was for the slits.
-    const bool refuted = kNarrowGaps && other_way_ && approach_.knows_no_way() && !knows_slit();
-    const bool expects = kNarrowGaps && slits_->expects();
+    const bool refuted = other_way_ && approach_.knows_no_way() && !knows_slit();
+    const bool expects = slits_.expects();
     const bool closed = loop_.closed(view, evidence);
     // The rest of the loop is driven for slits: it is no evidence.
     if (closed && !expects) parts_ = loop_.may_part(began_, goal_.at, wall_);
-    if (refuted || ((closed || expects) && !(kNarrowGaps && slits_->expected(view)))) {
+    if (refuted || ((closed || expects) && !slits_.expected(view))) {
       go_the_other_way(view);
       return false;
     }
@@ -182,36 +177,36 @@ bool BoundaryPlanner::boundary(const View& view) noexcept {
       begin_approach(Event::nearer);
       return true;
     }
-    if (kNarrowGaps) slits_->look_on_boundary(view, wall_);
-    if (kNarrowGaps && (other_way_ || slits_->expects()) && try_slit(view)) return false;
+    slits_.look_on_boundary(view, wall_);
+    if ((other_way_ || slits_.expects()) && try_slit(view)) return false;
   }
   if (!follower_.step(view, decision_)) end(Event::stuck, Outcome::gave_up);
   return false;
 }
 
 void BoundaryPlanner::gap(const View& view) noexcept {
-  switch (passage_->step(view, decision_)) {
+  switch (passage_.step(view, decision_)) {
     case GapPassage::Result::under_way: break;
     case GapPassage::Result::through:
       // Only a passage that brings the body nearer to the goal than ever before cannot repeat without end.
       if (target_.distance >= approach_.closest() - for_body(behaviours_.params, kNearer))
-        slits_->end_attempt();
+        slits_.end_attempt();
       sought_ = false;
       approach_.measure_anew(view, target_.distance);
       begin_approach(Event::through);
       break;
     case GapPassage::Result::failed:
-      slits_->end_attempt();
+      slits_.end_attempt();
       on(Event::too_narrow);
-      follower_.begin_at_wall(view, passage_->came_along(), wall_, decision_);
+      follower_.begin_at_wall(view, passage_.came_along(), wall_, decision_);
       break;
   }
 }
 
 bool BoundaryPlanner::try_slit(const View& view) noexcept {
-  if (!slits_->at_hand(view)) return false;
+  if (!slits_.at_hand(view)) return false;
   on(Event::slit);
-  passage_->begin(view, slits_->take(view), decision_);
+  passage_.begin(view, slits_.take(view), decision_);
   return true;
 }
 
@@ -253,7 +248,7 @@ void BoundaryPlanner::give_up_goal(const View& view) noexcept {
 }
 
 void BoundaryPlanner::go_the_other_way(const View& view) noexcept {
-  if (kNarrowGaps) slits_->end_loop(view);
+  slits_.end_loop(view);
   if (other_way_ || (approach_.knows_no_way() && (sought_ || !knows_slit()))) {
     if (parts_) {
       give_up_goal(view);

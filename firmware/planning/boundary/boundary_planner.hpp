@@ -5,7 +5,6 @@
 #include <stdint.h>
 
 #include "firmware/params.hpp"
-#include "firmware/part.hpp"
 #include "firmware/perception/lane.hpp"
 #include "firmware/planning/boundary/approach.hpp"
 #include "firmware/planning/boundary/behaviours.hpp"
@@ -120,7 +119,7 @@ class BoundaryPlanner final : public GoalPlanner {
   void begin_side_search(const View& view) noexcept;
   bool may_leave(const View& view) const noexcept;
   /// There is a slit that was not tried.
-  bool knows_slit() const noexcept { return kNarrowGaps && slits_->known(); }
+  bool knows_slit() const noexcept { return slits_.known(); }
   /// Begins to pass the slit, if it is at hand and worth it.
   bool try_slit(const View& view) noexcept;
   void go_the_other_way(const View& view) noexcept;
@@ -141,8 +140,8 @@ class BoundaryPlanner final : public GoalPlanner {
   Behaviours behaviours_;
   Approach approach_;
   BoundaryFollower follower_;
-  Part<GapPassage, kNarrowGaps> passage_;
-  Part<SlitSearch, kNarrowGaps> slits_;
+  GapPassage passage_;
+  SlitSearch slits_;
   Survey survey_;
   Evasion evasion_;
   FollowSideSearch side_search_;

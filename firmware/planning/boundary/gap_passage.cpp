@@ -164,8 +164,8 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
     return Result::under_way;
   }
   opened_ = true;
-  decision.lane->opens = true;
-  decision.lane->from = {before(kLane), ahead_};
+  decision.lane.opens = true;
+  decision.lane.from = {before(kLane), ahead_};
   return Result::under_way;
 }
 

@@ -58,7 +58,7 @@ void SpinPlanner::advance(const View& view) noexcept {
   switch (phase_) {
     case Phase::resting:
       if (!view.settled || phase_ms_ < kRestBefore) break;
-      by_gyro_ = view.raw->by_gyro;
+      by_gyro_ = view.raw.by_gyro;
       decision_.manoeuvre = cruise({{}, rate()}, params_);
       report(Mode::surveying, Why::none);
       phase_ = Phase::running_up;
@@ -70,11 +70,11 @@ void SpinPlanner::advance(const View& view) noexcept {
       turned_ = 0;
       phase_ = Phase::spinning;
       phase_ms_ = 0;
-      for (int i = 0; i < hal::kBeams; ++i) sequence_[i] = view.raw->ranges.beam[i].sequence;
+      for (int i = 0; i < hal::kBeams; ++i) sequence_[i] = view.raw.ranges.beam[i].sequence;
       break;
     case Phase::spinning:
       turned_ += step.wrapped();
-      counts_ += view.raw->counts.right - view.raw->counts.left;
+      counts_ += view.raw.counts.right - view.raw.counts.left;
       follow(view);
       watch(view);
       break;
@@ -98,7 +98,7 @@ void SpinPlanner::follow(const View& view) noexcept {
   const int32_t heading = static_cast<int32_t>(scale_down<24>(turned_ * RangeProfile::kTurn));
   past_[pasts_ % kPasts] = {ms_, heading};
   ++pasts_;
-  sample(view.raw->ranges);
+  sample(view.raw.ranges);
   if (heading < kEnd * 256) return;
   spun_ms_ = phase_ms_;
   decision_.manoeuvre = stop();
@@ -137,11 +137,11 @@ void SpinPlanner::sample(const hal::RangeReadings& ranges) noexcept {
 
 void SpinPlanner::watch(const View& view) noexcept {
   if (trouble() != Trouble::not_finished || phase_ > Phase::spinning) return;
-  const bool moves = view.raw->counts.left != 0 || view.raw->counts.right != 0;
+  const bool moves = view.raw.counts.left != 0 || view.raw.counts.right != 0;
   held_ms_ = moves ? 0 : held_ms_ + view.elapsed.raw();
   // Of the whole spin, in ms: turns of 2 pi rad.
   const int32_t expected = multiply_divide((kTurns + 1) * 6283185, 1000, rate().raw());
-  if (view.raw->by_gyro != by_gyro_)
+  if (view.raw.by_gyro != by_gyro_)
     end(Trouble::gyro_lost);
   else if (held_ms_ > kLongestHold)
     end(Trouble::blocked);

@@ -21,8 +21,8 @@ void StraightPlanner::add(const View& view) noexcept {
   // Modulo a turn, because it also adds up while the body turns back, where nobody asks for it.
   turned_ = as_signed(static_cast<uint32_t>(turned_) + (view.pose.heading - heading_).raw());
   heading_ = view.pose.heading;
-  difference_ += view.raw->counts.right - view.raw->counts.left;
-  sum_ += view.raw->counts.right + view.raw->counts.left;
+  difference_ += view.raw.counts.right - view.raw.counts.left;
+  sum_ += view.raw.counts.right + view.raw.counts.left;
   if (phase_ == Phase::driving && sum_ - parts_.sum >= counts_of_way() / kPartsOfAWay) end_of_part();
 }
 
@@ -55,7 +55,7 @@ void StraightPlanner::advance(const View& view) noexcept {
   switch (phase_) {
     case Phase::resting:
       if (!view.settled || phase_ms_ < kRestForBias) break;
-      if (leg_ == 0) by_gyro_ = view.raw->by_gyro;
+      if (leg_ == 0) by_gyro_ = view.raw.by_gyro;
       if (legs_ > 1 && !by_gyro_) return end(Trouble::no_gyro);
       turned_ = difference_ = sum_ = 0;
       parts_.turned = parts_.difference = parts_.sum = 0;
@@ -66,7 +66,7 @@ void StraightPlanner::advance(const View& view) noexcept {
       phase_ = Phase::driving;
       break;
     case Phase::driving:
-      if (view.raw->by_gyro != by_gyro_) return end(Trouble::gyro_lost);
+      if (view.raw.by_gyro != by_gyro_) return end(Trouble::gyro_lost);
       switch (drive_.step(view, decision_.manoeuvre)) {
         case CourseDrive::Result::driving: break;
         case CourseDrive::Result::done: end_of_way(view); break;

@@ -75,7 +75,7 @@ class PassagePlanner final : public GoalPlanner {
       case GapPassage::Result::through: finish(Mode::arrived, Why::opening, Outcome::reached); break;
       case GapPassage::Result::failed: finish(Mode::gave_up, Why::opening, Outcome::gave_up); break;
     }
-    if (decision_.lane->opens) lane_ = decision_.lane->from;
+    if (decision_.lane.opens) lane_ = decision_.lane.from;
   }
 
   Behaviours behaviours_;
