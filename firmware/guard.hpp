@@ -3,18 +3,13 @@
 
 #include <stdint.h>
 
-#include "firmware/control/wheel_drive.hpp"
+#include "firmware/chassis.hpp"
 #include "firmware/health.hpp"
-#include "firmware/localization/localizer.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
-#include "firmware/perception/perception.hpp"
 #include "firmware/safety/assist.hpp"
 #include "firmware/safety/nod.hpp"
-#include "firmware/safety/speed_limiter.hpp"
-#include "firmware/safety/supervisor.hpp"
-#include "firmware/safety/warned_speed.hpp"
 #include "hal/drive.hpp"
 #include "hal/gyro.hpp"
 #include "hal/rangefinders.hpp"
@@ -88,53 +83,39 @@ class Guard {
 
   /// Something else has braked the wheels since the last tick, for example a bus that lost messages: the next
   /// gap may be as long as safety.lost_after.
-  void braked_elsewhere() noexcept { braked_elsewhere_ = true; }
+  void braked_elsewhere() noexcept { chassis_.braked_elsewhere(); }
 
   /// One control tick. `now` is about params.safety.period after the last tick and at most
   /// longest_gap(params), because the guard assumes that each command holds for that long.
   const GuardStatus& tick(Time now) noexcept;
   const GuardStatus& status() const noexcept { return status_; }
-  const perception::LocalGrid& local_grid() const noexcept { return perception_.local_grid(); }
+  const perception::LocalGrid& local_grid() const noexcept { return chassis_.perception().local_grid(); }
 
  private:
   bool usable() const noexcept;
   void put_down() noexcept;
-  void take_time(Time now) noexcept;
-  bool take_counts() noexcept;
   void perceive() noexcept;
   void take_command() noexcept;
   planning::VelocityRequest request() const noexcept;
-  WheelPair limit_speed(bool paused) noexcept;
+  WheelPair limit_speed(bool counted) noexcept;
   WheelPair target(const planning::VelocityRequest& limited) const noexcept;
   GuardReason held_by(const planning::VelocityRequest& asked, bool doubted) const noexcept;
   bool assists() const noexcept { return params_.guard.assist == Fitted::yes; }
   bool nodding() const noexcept { return nod_.active(); }
 
-  hal::Rangefinders& rangefinders_;
   const Params& params_;
-  hal::Gyro* gyro_;
 
-  Time last_tick_;
   Time commanded_at_;
-  Duration elapsed_;       // since the last tick, at most the longest gap
-  Duration since_counts_;  // since the counts were last read
   Velocity command_;
   Speed fastest_on_the_spot_;  // of the rims
   Length vouched_;             // radius; zero: nothing
   Vec vouched_at_;
-  bool started_ = false;
   bool commanded_ = false;
-  bool braked_elsewhere_ = false;
-  safety::Assist assist_;
 
   GuardStatus status_;
-  localization::Localizer localizer_;
-  control::WheelDrive wheels_;
-  safety::SpeedLimiter limiter_;
-  safety::WarnedSpeed warned_speed_;
+  safety::Assist assist_;
   safety::Nod nod_;
-  safety::Supervisor supervisor_;
-  perception::Perception perception_;
+  Chassis chassis_;
 };
 
 }  // namespace whisker

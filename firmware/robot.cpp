@@ -15,42 +15,33 @@ constexpr planning::Why out_of_range(bool is) noexcept {
 
 Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Planner& planner,
              const Params& params, hal::Bumper* bumper, hal::Gyro* gyro) noexcept
-    : rangefinders_(rangefinders),
-      planner_(planner),
+    : planner_(planner),
       params_(params),
       bumper_(bumper),
-      gyro_(gyro),
-      localizer_(params, status_, status_.health),
-      wheels_(drive),
-      supervisor_(params, status_.health) {
+      chassis_(rangefinders, drive, gyro, params, status_, status_.health) {
   if (check(params) != ParamFault::none) {
-    supervisor_.fail(Fault::invalid_params);
+    chassis_.supervisor().fail(Fault::invalid_params);
     show_fault();
     return;
   }
-  localizer_.configure();
-  perception_.configure(params);
-  warned_speed_.configure(params);
-  supervisor_.configure();
+  chassis_.configure();
   motion_.configure(params);
 }
 
 bool Robot::placeable(const Pose& pose) noexcept {
   if (within(pose.at, kPlaceLimit)) return true;
-  supervisor_.fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
+  chassis_.supervisor().fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
   show_fault();
   return false;
 }
 
 bool Robot::place(const Pose& pose) noexcept {
   if (!placeable(pose)) return false;
-  if (started_ && !supervisor_.faulted() && has_goal_) {
-    localizer_.move(pose);
+  if (chassis_.started() && !chassis_.faulted() && has_goal_) {
+    chassis_.localizer().move(pose);
   } else {
-    localizer_.put_down(pose);
+    chassis_.put_down(pose);
     if (kGyroBuilt) walls_->restart();
-    perception_.forget(pose);
-    limiter_.reset();
     reflex_.reset();
   }
   if (has_goal_) aim_again();
@@ -58,7 +49,7 @@ bool Robot::place(const Pose& pose) noexcept {
 }
 
 bool Robot::correct(const Pose& pose, const localization::PoseSigma& sigma) noexcept {
-  if (!placeable(pose) || !localizer_.correct(pose, sigma)) return false;
+  if (!placeable(pose) || !chassis_.localizer().correct(pose, sigma)) return false;
   if (has_goal_) aim_again();
   return true;
 }
@@ -70,7 +61,7 @@ bool Robot::keeps(Length tolerance) const noexcept {
 
 void Robot::aim_again() noexcept {
   Vec at;
-  if (aimed(out_of_range(!localizer_.frame().aim_again(at)))) planner_.move_goal(at);
+  if (aimed(out_of_range(!chassis_.localizer().frame().aim_again(at)))) planner_.move_goal(at);
 }
 
 bool Robot::aimed(planning::Why refused) noexcept {
@@ -82,7 +73,7 @@ bool Robot::aimed(planning::Why refused) noexcept {
 
 bool Robot::set_goal(const planning::Goal& goal) noexcept {
   planning::Goal inside = goal;
-  planning::Why refused = out_of_range(!localizer_.frame().aim(goal.at, inside.at));
+  planning::Why refused = out_of_range(!chassis_.localizer().frame().aim(goal.at, inside.at));
   if (refused == planning::Why::none && !keeps(goal.tolerance)) refused = planning::Why::tolerance_too_small;
   if (aimed(refused)) planner_.set_goal(inside);
   return has_goal_;
@@ -96,17 +87,12 @@ void Robot::cancel() noexcept {
 
 void Robot::reset() noexcept {
   if (status_.health.fault == Fault::invalid_params) return;
-  supervisor_.reset();
-  started_ = false;
+  chassis_.reset();
+  chassis_.carry_on();
   was_settled_ = false;
   resting_for_ = Duration{};
-  // The next counts may include the whole braking path.
-  since_counts_ += safety::braking_time(params_);
-  localizer_.restart_lessons();
-  perception_.forget(localizer_.inside());
-  limiter_.reset();
   reflex_.reset();
-  motion_.begin(planning::stop(), localizer_.inside());
+  motion_.begin(planning::stop(), chassis_.pose());
   cancel();
 }
 
@@ -119,94 +105,40 @@ const Status& Robot::tick(Time now) noexcept {
   const bool counted = localize(now, view);
   perceive(view, counted);
   plan(view);
-  actuate(guard(view, !counted));
+  actuate(guard(view.pose, counted));
   return status_;
 }
 
 bool Robot::localize(Time now, planning::View& view) noexcept {
-  take_time(now);
-  const bool counted = take_counts();
+  if (!chassis_.take_time(now)) settled_since_ = now;
+  const Chassis::Counted counted = chassis_.take_counts();
+  if (counted == Chassis::Counted::corrected && has_goal_) aim_again();
   if (motion_.settled() && !was_settled_) settled_since_ = now;
   was_settled_ = motion_.settled();
-  const WheelPair rolling = wheels_.state().rolling;
-  view.pose = localizer_.inside();
-  view.travelled_um = localizer_.travelled_um();
+  const WheelPair rolling = chassis_.wheels().rolling;
+  view.pose = chassis_.pose();
+  view.travelled_um = chassis_.localizer().travelled_um();
   if (kGyroBuilt && status_.sigma_known) view.bound = localization::distance_bound(status_.sigma);
-  view.elapsed = elapsed_;
+  view.elapsed = chassis_.elapsed();
   view.settled = was_settled_;
   view.cut = motion_.cut();
   view.forward = (rolling.left + rolling.right) / 2;
   view.turning = (rolling.right - rolling.left) / 2;
-  view.granted = limiter_.granted();
-  if (counted) view.raw.counts = localizer_.counts();
+  view.granted = chassis_.limiter().granted();
+  if (counted != Chassis::Counted::no) view.raw.counts = chassis_.localizer().counts();
   view.raw.by_gyro = status_.heading_source == localization::HeadingSource::gyro;
-  return counted;
-}
-
-void Robot::take_time(Time now) noexcept {
-  Duration gap = params_.safety.period;
-  if (!started_) {
-    started_ = true;
-    perception_.start(now);
-    settled_since_ = now;
-  } else {
-    const Duration passed = now - last_tick_;
-    const bool longer = passed > longest_gap(params_);
-    const bool excused = braked_elsewhere_ && passed <= params_.safety.lost_after;
-    if (longer && excused) perception_.lose_history();
-    supervisor_.check_gap(passed, excused);
-    if (passed > Duration{}) gap = passed;
-  }
-  elapsed_ = min(gap, longest_gap(params_));
-  since_counts_ += gap;
-  wheels_.pass(elapsed_, params_);
-  supervisor_.expect_wheels(wheels_.state().rolling, elapsed_, gap);
-  last_tick_ = now;
-  braked_elsewhere_ = false;
-}
-
-bool Robot::take_counts() noexcept {
-  localization::Localizer::Step step;
-  const bool read = wheels_.read(step.counts);
-  supervisor_.check_counts(read);
-  if (!read) return false;
-  hal::GyroReading reading{};
-  if (localizer_.has_gyro() && gyro_ != nullptr && gyro_->read(reading)) step.gyro = &reading;
-  step.commanded = status_.command.left != 0 || status_.command.right != 0;
-  step.since = since_counts_;
-  since_counts_ = Duration{};
-  using Stepped = localization::Localizer::Stepped;
-  const Stepped stepped = localizer_.step(step);
-  if (stepped == Stepped::jumped) {
-    supervisor_.fail(Fault::encoder_jump, status_.health.encoder_jumps);
-    return false;
-  }
-  if (stepped == Stepped::corrected && has_goal_) aim_again();
-  const bool within_region =
-      within(status_.pose.at, kBodyLimit) && within(localizer_.inside().at, kBodyLimit);
-  if (!supervisor_.faulted() && !within_region) {
-    supervisor_.fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
-  }
-  supervisor_.check_wheels(localizer_.counts());
-  return true;
+  return counted != Chassis::Counted::no;
 }
 
 void Robot::perceive(planning::View& view, bool counted) noexcept {
-  hal::RangeReadings readings{};
-  const bool read = rangefinders_.read(readings);
-  view.raw.ranges = readings;
-  perception_.sense(read ? &readings : nullptr, last_tick_, view.pose, params_, status_.health);
-  status_.echoes = perception_.latest();
-  supervisor_.check_ranges(perception_.lost_for(last_tick_));
+  chassis_.sense(view.raw.ranges);
+  status_.echoes = chassis_.perception().latest();
   if (params_.bumper.fitted == Fitted::yes) take_bumps(view.pose, counted);
-  if (supervisor_.faulted()) return;
-  perception_.observe({view.pose, last_tick_, view.settled, settled_since_}, params_, view);
-  if (kGyroBuilt && params_.walls.straight == Fitted::yes) {
-    follow_wall(hal::kLeft, view);
-    follow_wall(hal::kRight, view);
-  }
-  status_.health.ranges = perception_.trust();
-  supervisor_.check_trust(perception_.trust().level);
+  if (chassis_.faulted()) return;
+  chassis_.observe(view.settled, settled_since_, view);
+  if (!kGyroBuilt || params_.walls.straight != Fitted::yes) return;
+  follow_wall(hal::kLeft, view);
+  follow_wall(hal::kRight, view);
 }
 
 void Robot::follow_wall(hal::Beam side, const perception::Percept& percept) noexcept {
@@ -217,31 +149,33 @@ void Robot::follow_wall(hal::Beam side, const perception::Percept& percept) noex
   const localization::WallDirection::Echo at{beam.apex + polar(edge, echo.distance),
                                              beam.axis - beam_axis(params_.rangefinders, side)};
   const bool shows = echo.validity == perception::Validity::ok;
-  const Angle outward = status_.pose.heading - localizer_.inside().heading;
+  const Angle outward = status_.pose.heading - chassis_.pose().heading;
   localization::WallDirection::Found found;
   if (!walls_->pass(side, shows ? &at : nullptr, params_.walls.direction - outward, found)) return;
-  if (localizer_.correct_heading(found.ahead, found.sigma) && has_goal_) aim_again();
+  if (chassis_.localizer().correct_heading(found.ahead, found.sigma) && has_goal_) aim_again();
 }
 
 void Robot::take_bumps(const Pose& pose, bool counted) noexcept {
+  safety::Supervisor& supervisor = chassis_.supervisor();
   hal::BumperReading reading{};
   const bool read = bumper_ != nullptr && bumper_->read(reading);
-  supervisor_.check_bumper(read);
+  supervisor.check_bumper(read);
   if (read) status_.pressed = reading.pressed & hal::kAllSwitches;
-  if (supervisor_.faulted()) return;
-  const bool still = counted && localizer_.counts().left == 0 && localizer_.counts().right == 0;
+  if (supervisor.faulted()) return;
+  const localization::CountStep& counts = chassis_.localizer().counts();
+  const bool still = counted && counts.left == 0 && counts.right == 0;
   const bool was_active = reflex_.active();
-  const uint8_t fresh = reflex_.step(pose, {status_.pressed, has_goal_, still, elapsed_}, params_);
+  const uint8_t fresh = reflex_.step(pose, {status_.pressed, has_goal_, still, chassis_.elapsed()}, params_);
   if (reflex_.active() && !was_active) motion_.interrupt();
   if (fresh != 0) {
-    perception_.touch(fresh, pose);
-    supervisor_.check_bump(pose.at);
+    chassis_.perception().touch(fresh, pose);
+    supervisor.check_bump(pose.at);
   }
-  if (reflex_.stuck(params_)) supervisor_.fail(Fault::bumper_stuck, status_.health.bumper_stuck);
+  if (reflex_.stuck(params_)) supervisor.fail(Fault::bumper_stuck, status_.health.bumper_stuck);
 }
 
 void Robot::plan(const planning::View& view) noexcept {
-  if (supervisor_.faulted()) return;
+  if (chassis_.faulted()) return;
   planning::Decision& decision = status_.decision;
   if (reflex_.active()) {
     resting_for_ = Duration{};
@@ -256,10 +190,16 @@ void Robot::plan(const planning::View& view) noexcept {
     decision.why = planning::Why::gyro_rest;
     decision.outcome = planning::Outcome::running;
     decision.looked = false;
-    return;
+  } else {
+    ask_planner(view);
   }
+  if (!chassis_.sees() && decision.outcome == planning::Outcome::running) decision.why = planning::Why::blind;
+}
+
+void Robot::ask_planner(const planning::View& view) noexcept {
+  planning::Decision& decision = status_.decision;
   decision = planner_.step(view);
-  if (decision.lane.opens) perception_.open_lane(decision.lane.from);
+  if (decision.lane.opens) chassis_.perception().open_lane(decision.lane.from);
   const bool running = decision.outcome == planning::Outcome::running;
   has_goal_ = running;
   if (refused_ != planning::Why::none) {
@@ -269,70 +209,55 @@ void Robot::plan(const planning::View& view) noexcept {
   }
   motion_.begin(decision.manoeuvre, view.pose);
   const bool waits = view.settled && running && decision.manoeuvre.kind == planning::ManoeuvreKind::keep;
-  supervisor_.check_look(waits, last_tick_ - settled_since_);
-  supervisor_.check_place(view.pose.at, running, elapsed_);
+  chassis_.supervisor().check_look(waits, chassis_.now() - settled_since_);
+  chassis_.supervisor().check_place(view.pose.at, running, view.elapsed);
 }
 
 /// The planner is not asked meanwhile.
 bool Robot::rests_for_gyro() noexcept {
-  if (!localizer_.has_gyro()) return false;
-  localization::GyroBias& bias = localizer_.gyro_bias();
+  localization::Localizer& localizer = chassis_.localizer();
+  if (!localizer.has_gyro()) return false;
+  localization::GyroBias& bias = localizer.gyro_bias();
   const bool resting = resting_for_ > Duration{};
   const bool begins = bias.stands() || bias.due_for() > kRestDelay;
-  if (has_goal_ && localizer_.wants_rest() && (resting || begins)) {
+  if (has_goal_ && localizer.wants_rest() && (resting || begins)) {
     if (!resting) motion_.interrupt();
-    resting_for_ += elapsed_;
+    resting_for_ += chassis_.elapsed();
     if (resting_for_ < kLongestRest) return true;
     bias.postpone();
   }
   // The look at the surroundings starts again: a planner that waits for it has only waited since now.
-  if (resting) settled_since_ = last_tick_;
+  if (resting) settled_since_ = chassis_.now();
   resting_for_ = Duration{};
   return false;
 }
 
-WheelPair Robot::granted(const planning::View& view, bool stands) noexcept {
-  if (reflex_.stops()) {
-    wheels_.halt();
-    return limiter_.stop();
-  }
-  planning::VelocityRequest request{};
-  if (!stands && reflex_.backs()) {
-    request = reflex_.request(view.pose, params_);
-    if (reflex_.retraces()) return limiter_.retrace(request, wheels_.state(), elapsed_, params_);
-  } else if (!stands) {
-    request = motion_.request(view.pose, elapsed_, limiter_.held_for(), params_);
-  }
-  const bool slows = perception_.slows();
-  if (slows || perception_.doubts()) {
-    const Speed most = warned_speed_.most(request.turning, perception_.readings_err(), slows, params_);
-    request.forward = limit(request.forward, most);
-  }
-  return limiter_.step(request, view.pose, wheels_.state(), perception_.local_grid(), elapsed_, params_);
-}
-
-WheelPair Robot::guard(const planning::View& view, bool paused) noexcept {
-  const bool fresh = perception_.lost_for(last_tick_) <= params_.conditioning.stale_after;
-  if (!fresh && !supervisor_.faulted() && !reflex_.active() &&
-      status_.decision.outcome == planning::Outcome::running) {
-    status_.decision.why = planning::Why::blind;
-  }
-  const bool rests = resting_for_ > Duration{};
-  const bool stands = paused || rests || !fresh || supervisor_.faulted() || supervisor_.refused();
-  const WheelPair speeds = granted(view, stands);
+WheelPair Robot::guard(const Pose& pose, bool counted) noexcept {
+  const bool may_drive = chassis_.may_drive(counted) && resting_for_ == Duration{};
+  const WheelPair speeds = granted(pose, may_drive);
   const bool commanded = speeds.left != Speed{} || speeds.right != Speed{};
-  motion_.settle(paused ? nullptr : &localizer_.counts(), commanded, elapsed_, params_);
-  if (!paused)
-    supervisor_.check_stall(localizer_.counts(), control::turns_on_wire(speeds), wheels_.state().rolling,
-                            elapsed_);
-  supervisor_.check_motion(motion_);
+  const localization::CountStep& counts = chassis_.localizer().counts();
+  motion_.settle(counted ? &counts : nullptr, commanded, chassis_.elapsed(), params_);
+  chassis_.watch(speeds, counted);
+  chassis_.supervisor().check_motion(motion_);
   return speeds;
 }
 
+WheelPair Robot::granted(const Pose& pose, bool may_drive) noexcept {
+  if (reflex_.stops()) return chassis_.halt();
+  planning::VelocityRequest request{};
+  if (may_drive && reflex_.backs()) {
+    request = reflex_.request(pose, params_);
+    if (reflex_.retraces()) return chassis_.retrace(request);
+  } else if (may_drive) {
+    request = motion_.request(pose, chassis_.elapsed(), chassis_.limiter().held_for(), params_);
+  }
+  return chassis_.limit(chassis_.slowed(request));
+}
+
 void Robot::actuate(WheelPair speeds) noexcept {
-  supervisor_.check_command(wheels_.command(speeds));
-  status_.command = wheels_.sent();
-  if (supervisor_.faulted()) show_fault();
+  status_.command = chassis_.actuate(speeds);
+  if (chassis_.faulted()) show_fault();
 }
 
 void Robot::show_fault() noexcept {

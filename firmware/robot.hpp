@@ -1,22 +1,17 @@
 /// The complete core. Each tick: localize -> perceive -> plan -> guard -> actuate.
 #pragma once
 
-#include "firmware/control/wheel_drive.hpp"
+#include "firmware/chassis.hpp"
 #include "firmware/health.hpp"
-#include "firmware/localization/localizer.hpp"
 #include "firmware/localization/wall_direction.hpp"
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
 #include "firmware/part.hpp"
-#include "firmware/perception/perception.hpp"
 #include "firmware/planning/goal_planner.hpp"
 #include "firmware/planning/motion_controller.hpp"
 #include "firmware/planning/planner.hpp"
 #include "firmware/safety/bump_reflex.hpp"
-#include "firmware/safety/speed_limiter.hpp"
-#include "firmware/safety/supervisor.hpp"
-#include "firmware/safety/warned_speed.hpp"
 #include "hal/bumper.hpp"
 #include "hal/drive.hpp"
 #include "hal/gyro.hpp"
@@ -101,7 +96,7 @@ class Robot {
 
   /// Something else has braked the wheels since the last tick, for example a bus that lost messages: the next
   /// gap may be as long as safety.lost_after.
-  void braked_elsewhere() noexcept { braked_elsewhere_ = true; }
+  void braked_elsewhere() noexcept { chassis_.braked_elsewhere(); }
 
   /// One control tick. `now` is about params.safety.period after the last tick and at most
   /// longest_gap(params), because the guard assumes that each command holds for that long.
@@ -111,15 +106,14 @@ class Robot {
  private:
   // The five stages of a tick, in this order, each with its parts. The view collects their results.
   bool localize(Time now, planning::View& view) noexcept;
-  void take_time(Time now) noexcept;
-  bool take_counts() noexcept;
   void perceive(planning::View& view, bool counted) noexcept;
   void follow_wall(hal::Beam side, const perception::Percept& percept) noexcept;
   void take_bumps(const Pose& pose, bool counted) noexcept;
   void plan(const planning::View& view) noexcept;
+  void ask_planner(const planning::View& view) noexcept;
   bool rests_for_gyro() noexcept;
-  WheelPair guard(const planning::View& view, bool paused) noexcept;
-  WheelPair granted(const planning::View& view, bool stands) noexcept;
+  WheelPair guard(const Pose& pose, bool counted) noexcept;
+  WheelPair granted(const Pose& pose, bool may_drive) noexcept;
   void actuate(WheelPair speeds) noexcept;
   void show_fault() noexcept;
 
@@ -129,33 +123,21 @@ class Robot {
   /// Notes why the goal is refused, or that it is not; without one the planner has nothing to do.
   bool aimed(planning::Why refused) noexcept;
 
-  hal::Rangefinders& rangefinders_;
   planning::Planner& planner_;
   const Params& params_;
   hal::Bumper* bumper_;
-  hal::Gyro* gyro_;
 
-  Time last_tick_;
   Time settled_since_;
-  safety::WarnedSpeed warned_speed_;
-  Duration elapsed_;       // since the last tick, at most the longest gap
-  Duration since_counts_;  // since the counts were last read
   Duration resting_for_;   // for the gyro
-  bool started_ = false;
   bool has_goal_ = false;  // a mission is active
   bool was_settled_ = false;
-  bool braked_elsewhere_ = false;
   planning::Why refused_ = planning::Why::none;  // the last goal
 
   Status status_;
-  localization::Localizer localizer_;
   Part<localization::WallDirection, kGyroBuilt> walls_;
-  control::WheelDrive wheels_;
-  safety::SpeedLimiter limiter_;
   safety::BumpReflex reflex_;
   planning::MotionController motion_;
-  safety::Supervisor supervisor_;
-  perception::Perception perception_;
+  Chassis chassis_;
 };
 
 }  // namespace whisker

@@ -9,7 +9,7 @@ from sources import finish, sources
 # The folders of firmware/, lowest first: each may include itself and the folders before it. From localization to control
 # they are the stages of a tick, in order.
 STAGES = ("version", "math", "part", "health", "params", "storage", "calibration", "fuzzy", "localization", "perception", "planning",
-          "safety", "control", "guard", "robot", "can", "c", "apps")
+          "safety", "control", "chassis", "guard", "robot", "can", "c", "apps")
 
 # The files of hal/ that a folder may include; an unlisted folder may include none.
 HAL_OF_STAGE = {
@@ -19,6 +19,7 @@ HAL_OF_STAGE = {
     "planning": {"hal/types.hpp"},
     "control": {"hal/types.hpp", "hal/drive.hpp"},
     "can": {"hal/types.hpp", "hal/can_port.hpp"},
+    "chassis": {"hal/types.hpp", "hal/rangefinders.hpp", "hal/drive.hpp", "hal/gyro.hpp"},
     "guard": {"hal/types.hpp", "hal/rangefinders.hpp", "hal/drive.hpp", "hal/gyro.hpp"},
     "robot": {"hal/types.hpp", "hal/rangefinders.hpp", "hal/drive.hpp", "hal/bumper.hpp", "hal/gyro.hpp"},
 }

@@ -1,0 +1,131 @@
+#include "firmware/chassis.hpp"
+
+namespace whisker {
+
+Chassis::Chassis(hal::Rangefinders& rangefinders, hal::Drive& drive, hal::Gyro* gyro, const Params& params,
+                 localization::Estimate& estimate, Health& health) noexcept
+    : rangefinders_(rangefinders),
+      gyro_(gyro),
+      params_(params),
+      estimate_(estimate),
+      health_(health),
+      localizer_(params, estimate, health),
+      wheels_(drive),
+      supervisor_(params, health) {}
+
+void Chassis::configure() noexcept {
+  localizer_.configure();
+  perception_.configure(params_);
+  warned_speed_.configure(params_);
+  supervisor_.configure();
+}
+
+void Chassis::put_down(const Pose& pose) noexcept {
+  localizer_.put_down(pose);
+  perception_.forget(pose);
+  limiter_.reset();
+}
+
+void Chassis::reset() noexcept {
+  supervisor_.reset();
+  started_ = false;
+}
+
+void Chassis::carry_on() noexcept {
+  since_counts_ += safety::braking_time(params_);
+  localizer_.restart_lessons();
+  perception_.forget(pose());
+  limiter_.reset();
+}
+
+bool Chassis::take_time(Time now) noexcept {
+  const bool first = !started_;
+  Duration gap = params_.safety.period;
+  if (first) {
+    started_ = true;
+    perception_.start(now);
+  } else {
+    const Duration passed = now - last_tick_;
+    const bool excused = braked_elsewhere_ && passed <= params_.safety.lost_after;
+    if (excused && passed > longest_gap(params_)) perception_.lose_history();
+    supervisor_.check_gap(passed, excused);
+    if (passed > Duration{}) gap = passed;
+  }
+  elapsed_ = min(gap, longest_gap(params_));
+  since_counts_ += gap;
+  wheels_.pass(elapsed_, params_);
+  supervisor_.expect_wheels(wheels_.state().rolling, elapsed_, gap);
+  last_tick_ = now;
+  braked_elsewhere_ = false;
+  return !first;
+}
+
+Chassis::Counted Chassis::take_counts() noexcept {
+  using Stepped = localization::Localizer::Stepped;
+  localization::Localizer::Step step;
+  const bool read = wheels_.read(step.counts);
+  supervisor_.check_counts(read);
+  if (!read) return Counted::no;
+  hal::GyroReading reading{};
+  if (localizer_.has_gyro() && gyro_ != nullptr && gyro_->read(reading)) step.gyro = &reading;
+  step.commanded = wheels_.sent().left != 0 || wheels_.sent().right != 0;
+  step.since = since_counts_;
+  since_counts_ = Duration{};
+  const Stepped stepped = localizer_.step(step);
+  if (stepped == Stepped::jumped) {
+    supervisor_.fail(Fault::encoder_jump, health_.encoder_jumps);
+    return Counted::no;
+  }
+  if (!faulted() && !(within(estimate_.pose.at, kBodyLimit) && within(pose().at, kBodyLimit))) {
+    supervisor_.fail(Fault::pose_out_of_range, health_.pose_out_of_range);
+  }
+  supervisor_.check_wheels(localizer_.counts());
+  return stepped == Stepped::corrected ? Counted::corrected : Counted::yes;
+}
+
+void Chassis::sense(hal::RangeReadings& readings) noexcept {
+  const bool read = rangefinders_.read(readings);
+  perception_.sense(read ? &readings : nullptr, last_tick_, pose(), params_, health_);
+  supervisor_.check_ranges(perception_.lost_for(last_tick_));
+}
+
+void Chassis::observe(bool settled, Time settled_since, perception::Percept& out) noexcept {
+  perception_.observe({pose(), last_tick_, settled, settled_since}, params_, out);
+  health_.ranges = perception_.trust();
+  supervisor_.check_trust(perception_.trust().level);
+}
+
+planning::VelocityRequest Chassis::slowed(planning::VelocityRequest request) const noexcept {
+  const bool slows = perception_.slows();
+  if (slows || perception_.doubts()) {
+    const Speed most = warned_speed_.most(request.turning, perception_.readings_err(), slows, params_);
+    request.forward = whisker::limit(request.forward, most);
+  }
+  return request;
+}
+
+WheelPair Chassis::limit(const planning::VelocityRequest& request) noexcept {
+  return limiter_.step(request, pose(), wheels_.state(), perception_.local_grid(), elapsed_, params_);
+}
+
+WheelPair Chassis::retrace(const planning::VelocityRequest& request) noexcept {
+  return limiter_.retrace(request, wheels_.state(), elapsed_, params_);
+}
+
+WheelPair Chassis::halt() noexcept {
+  wheels_.halt();
+  return limiter_.stop();
+}
+
+void Chassis::watch(WheelPair speeds, bool counted) noexcept {
+  if (!counted) return;
+  supervisor_.check_stall(localizer_.counts(), control::turns_on_wire(speeds), wheels_.state().rolling,
+                          elapsed_);
+}
+
+hal::WheelSpeeds Chassis::actuate(WheelPair speeds) noexcept {
+  supervisor_.check_command(wheels_.command(speeds));
+  return wheels_.sent();
+}
+
+}  // namespace whisker
