@@ -78,118 +78,160 @@ void Perception::sense(const hal::RangeReadings* readings, Time now, const Pose&
   conditioner_.update(readings, now, body, params, health);
 }
 
+/// The readings of a tick on their way into the grid.
+struct Perception::Intake {
+  const Standing& body;
+  const Params& params;
+  Percept& out;
+  const bool misaimed;
+  Pose from;  // where the body was at the last of the readings
+  Shown shown[hal::kBeams];
+};
+
 void Perception::observe(const Standing& body, const Params& params, Percept& out) noexcept {
   if (body.settled) out.static_scan = conditioner_.look(body.settled_since, params);
   history_.add(body.pose, body.now);
   local_grid_.move_to(body.pose);
   monitor_.move_to(body.pose.at);
   leave_vouched(body.pose.at);
-  Length free[hal::kBeams];
-  Length moved[hal::kBeams];
-  bool appears[hal::kBeams] = {};
-  Length echo_ends[hal::kBeams];
-  bool too_near[hal::kBeams] = {};
-  SeenRange shown[hal::kBeams];
   // Beams that point beside their axes cause contradictions wherever the robot passes. More of them refute
   // that.
   const bool misaimed = !loses_walls_ && contradicted_ >= kMisaimed && contradicted_ < kMisaimed * 2;
-  Pose from;
-  uint8_t hits = 0;
-  int seen = 0;
+  Intake in{body, params, out, misaimed, {}, {}};
   readings_err_ = misses_;
-  for (int i = 0; i < hal::kBeams; ++i) {
-    const RecentReadings sight = conditioner_.sight(i, params);
-    readings_err_ = readings_err_ || sight.phantoms || sight.misses;
-    out.moving_scan.beam[i] = sight.typical;
-    if (!sight.fresh) continue;
-    out.sighted = true;
-    ConeObservation& observation = out.observations[i];
-    if (!history_.at(sight.taken, from)) continue;
-    observation.number = static_cast<int8_t>(i);
-    observation.beam = beam_of(mounts_[i], from);
-    const Length proving = proving_range(params.rangefinders, i);
-    scatter_[i].add(sight);
-    if (sight.newest.validity == Validity::ok) {
-      shown[i] = {static_cast<uint16_t>(sight.newest.distance.raw() / 1000), scatter_[i].allowance()};
-    }
-    misses_ = misses_ || sight.misses;
-    // What contradicted was a phantom.
-    if (sight.phantoms) contradicted_ = 0;
-    observation.hit = sight.near.validity != Validity::clear && sight.near.distance <= proving;
-    const Length allowance = observation.hit ? scatter_[i].allowance() : Length{};
-    observation.free = free[i] = max(Length{}, min(sight.near.distance, proving) - allowance);
-    // Of readings that scatter, the nearest of four lies before the object, and so does its allowance; the
-    // newest may lie before it by as much. A wall just behind then explains the echo of its own face, and the
-    // flank's ground stays clear. Where walls vanish at an angle, the echo may come from an object that
-    // showed no side.
-    echo_ends[i] = observation.free;
-    if (allowance > Length{}) {
-      echo_ends[i] = max(observation.free, sight.newest.distance);
-      if (loses_only_grazed(params.rangefinders)) echo_ends[i] += allowance;
-    }
-    observation.aimed = body.settled && sight.oldest - body.settled_since >= Duration{};
-    observation.taken = sight.taken;
-    if (observation.hit &&
-        motion_.contradicts(observation.beam, observation.free, sight.farthest, misaimed, local_grid_)) {
-      const bool approaches = contradictions_[i].approaches(observation);
-      if (!sight.phantoms) monitor_.contradict(approaches);
-      const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
-      if (anew && contradicted_ < kDistrusted) ++contradicted_;
-      const bool explained = loses_walls_ || misses_ || sight.phantoms || contradicted_ >= kDistrusted;
-      if (approaches || !explained) moved[i] = sight.farthest;
-    }
-    // It may be anywhere up to the minimum range.
-    too_near[i] = sight.newest.validity == Validity::too_near;
-    if (too_near[i]) echo_ends[i] = max(echo_ends[i], min_range(params.rangefinders, i));
-    const uint8_t bit = static_cast<uint8_t>(1U << i);
-    if (observation.hit) hits = static_cast<uint8_t>(hits | bit);
-    // A single clear reading is not evidence: it needs a second one.
-    const EarlierObservation* const before = sight.single ? &last_[i] : nullptr;
-    if (!sight.single || (seen_ & bit) != 0) {
-      local_grid_.mark(observation, before);
-      local_grid_.chain(observation, before);
-    }
-    appears[i] = (seen_ & bit) != 0 && last_[i].free > observation.free + kAppears;
-    last_[i] = {observation.beam.apex, observation.beam.axis, observation.free};
-    seen_ |= bit;
-    out.observed = static_cast<uint8_t>(out.observed | bit);
-    ++seen;
-  }
-  Length nearest;
+  for (int i = 0; i < hal::kBeams; ++i) take_in(i, in);
   // After all marks, because another beam may clear ground that an echo takes back, or into which a moving
   // object is about to drive.
   for (int i = 0; i < hal::kBeams; ++i) {
-    const bool echo = (out.observed >> i & 1U) != 0 && out.observations[i].hit;
-    if (echo) {
-      local_grid_.revoke(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
-      // What stands on clear ground would be explained by any unclear cell of so deep an arc.
-      const bool hides = too_near[i] && (loses_walls_ || misses_);
-      if (hides || (appears[i] && takes_back(body.pose.at)) || vouched_.any) {
-        local_grid_.take_back(out.observations[i].beam, out.observations[i].free, echo_ends[i]);
-      }
-      if (appears[i]) {
-        local_grid_.revoke_beside(out.observations[i], echo_ends[i],
-                                  loses_walls_ ? kFlankRadiiOfLostWalls : kFlankRadii);
-      }
-    }
-    if (moved[i] == Length{}) continue;
-    local_grid_.doubt(out.observations[i], moved[i]);
-    if (out.mover.seen && free[i] >= nearest) continue;
-    nearest = free[i];
-    const Beam& beam = out.observations[i].beam;
-    out.mover.at = beam.apex + polar(beam.axis, nearest);
-    out.mover.seen = true;
-    if (!motion_.came_from(out.mover.at, out.mover.direction)) {
-      out.mover.direction = bearing(body.pose.at - out.mover.at);
-    }
+    const ConeObservation& observation = out.observations[i];
+    if (observation.hit) revoke(observation, in.shown[i], body.pose.at);
+    if (in.shown[i].moved != Length{}) doubt(observation, in.shown[i].moved, body.pose.at, out.mover);
   }
   for (int i = 0; i < contacts_.count(); ++i) local_grid_.block(contacts_.at(i), contacts_.radius());
+  learn(in);
   out.contacts = &contacts_;
-  if (seen > 0) monitor_.see(from, shown, mounts_);
-  if (seen == hal::kBeams) motion_.add(from, out.observations[0].taken, free, hits);
-  monitor_.judge(conditioner_.phantom_share(), conditioner_.false_clear_share());
   out.doubts = doubts();
   out.local_grid = &local_grid_;
+}
+
+/// What the beam has measured since the last tick, if anything.
+void Perception::take_in(int i, Intake& in) noexcept {
+  const RecentReadings sight = conditioner_.sight(i, in.params);
+  readings_err_ = readings_err_ || sight.phantoms || sight.misses;
+  in.out.moving_scan.beam[i] = sight.typical;
+  if (!sight.fresh) return;
+  in.out.sighted = true;
+  if (!history_.at(sight.taken, in.from)) return;
+  scatter_[i].add(sight);
+  misses_ = misses_ || sight.misses;
+  // What contradicted was a phantom.
+  if (sight.phantoms) contradicted_ = 0;
+  measure(i, sight, in);
+  const ConeObservation& observation = in.out.observations[i];
+  if (observation.hit) in.shown[i].moved = moved(observation, sight, in.misaimed);
+  in.shown[i].appears = mark(observation, sight.single);
+  in.out.observed = static_cast<uint8_t>(in.out.observed | 1U << i);
+}
+
+void Perception::measure(int i, const RecentReadings& sight, Intake& in) noexcept {
+  const RangefinderParams& sensors = in.params.rangefinders;
+  ConeObservation& observation = in.out.observations[i];
+  Shown& shown = in.shown[i];
+  const Length proving = proving_range(sensors, i);
+  const Length scatter = scatter_[i].allowance();
+  observation.number = static_cast<int8_t>(i);
+  observation.beam = beam_of(mounts_[i], in.from);
+  observation.taken = sight.taken;
+  observation.aimed = in.body.settled && sight.oldest - in.body.settled_since >= Duration{};
+  observation.hit = sight.near.validity != Validity::clear && sight.near.distance <= proving;
+  const Length allowance = observation.hit ? scatter : Length{};
+  observation.free = max(Length{}, min(sight.near.distance, proving) - allowance);
+  // Of readings that scatter, the nearest of four lies before the object, and so does its allowance; the
+  // newest may lie before it by as much. A wall just behind then explains the echo of its own face, and the
+  // flank's ground stays clear. Where walls vanish at an angle, the echo may come from an object that
+  // showed no side.
+  shown.echo_ends = observation.free;
+  if (allowance > Length{}) {
+    shown.echo_ends = max(observation.free, sight.newest.distance);
+    if (loses_only_grazed(sensors)) shown.echo_ends += allowance;
+  }
+  // It may be anywhere up to the minimum range.
+  shown.too_near = sight.newest.validity == Validity::too_near;
+  if (shown.too_near) shown.echo_ends = max(shown.echo_ends, min_range(sensors, i));
+  if (sight.newest.validity == Validity::ok) {
+    shown.range = {static_cast<uint16_t>(sight.newest.distance.raw() / 1000), scatter};
+  }
+}
+
+/// An echo from clear ground. Returns up to where what moves may be; zero: nothing does, or the sensors
+/// explain the echo.
+Length Perception::moved(const ConeObservation& observation, const RecentReadings& sight,
+                         bool misaimed) noexcept {
+  if (!motion_.contradicts(observation.beam, observation.free, sight.farthest, misaimed, local_grid_)) {
+    return {};
+  }
+  const bool approaches = contradictions_[observation.number].approaches(observation);
+  if (!sight.phantoms) monitor_.contradict(approaches);
+  const bool anew = !local_grid_.doubting() && !approaches && !sight.phantoms;
+  if (anew && contradicted_ < kDistrusted) ++contradicted_;
+  const bool explained = loses_walls_ || misses_ || sight.phantoms || contradicted_ >= kDistrusted;
+  return approaches || !explained ? sight.farthest : Length{};
+}
+
+/// True: something has come into the beam since its last reading.
+bool Perception::mark(const ConeObservation& observation, bool single) noexcept {
+  EarlierObservation& last = last_[observation.number];
+  const uint8_t bit = static_cast<uint8_t>(1U << observation.number);
+  const bool had_one = (seen_ & bit) != 0;
+  // A single clear reading is not evidence: it needs a second one.
+  if (!single || had_one) {
+    const EarlierObservation* const before = single ? &last : nullptr;
+    local_grid_.mark(observation, before);
+    local_grid_.chain(observation, before);
+  }
+  const bool appears = had_one && last.free > observation.free + kAppears;
+  last = {observation.beam.apex, observation.beam.axis, observation.free};
+  seen_ |= bit;
+  return appears;
+}
+
+/// Clear ground from which the echo may come.
+void Perception::revoke(const ConeObservation& echo, const Shown& shown, Vec body) noexcept {
+  local_grid_.revoke(echo.beam, echo.free, shown.echo_ends);
+  // What stands on clear ground would be explained by any unclear cell of so deep an arc.
+  const bool hides = shown.too_near && (loses_walls_ || misses_);
+  if (hides || (shown.appears && takes_back(body)) || vouched_.any) {
+    local_grid_.take_back(echo.beam, echo.free, shown.echo_ends);
+  }
+  if (!shown.appears) return;
+  local_grid_.revoke_beside(echo, shown.echo_ends, loses_walls_ ? kFlankRadiiOfLostWalls : kFlankRadii);
+}
+
+/// Something moves in the beam, up to this distance. The nearest of all beams is the mover.
+void Perception::doubt(const ConeObservation& echo, Length farthest, Vec body, Mover& mover) noexcept {
+  local_grid_.doubt(echo, farthest);
+  if (mover.seen && echo.free >= mover.distance) return;
+  mover.seen = true;
+  mover.distance = echo.free;
+  mover.at = echo.beam.apex + polar(echo.beam.axis, echo.free);
+  if (!motion_.came_from(mover.at, mover.direction)) mover.direction = bearing(body - mover.at);
+}
+
+/// What the readings tell of the sensors, and of scenes to come.
+void Perception::learn(const Intake& in) noexcept {
+  SeenRange ranges[hal::kBeams];
+  Length free[hal::kBeams];
+  uint8_t hits = 0;
+  for (int i = 0; i < hal::kBeams; ++i) {
+    const ConeObservation& observation = in.out.observations[i];
+    ranges[i] = in.shown[i].range;
+    free[i] = observation.free;
+    if (observation.hit) hits = static_cast<uint8_t>(hits | 1U << i);
+  }
+  constexpr uint8_t kAll = (1U << hal::kBeams) - 1;
+  if (in.out.observed != 0) monitor_.see(in.from, ranges, mounts_);
+  if (in.out.observed == kAll) motion_.add(in.from, in.out.observations[0].taken, free, hits);
+  monitor_.judge(conditioner_.phantom_share(), conditioner_.false_clear_share());
 }
 
 }  // namespace whisker::perception

@@ -72,6 +72,23 @@ class Perception {
   const LocalGrid& local_grid() const noexcept { return local_grid_; }
 
  private:
+  /// What a beam has shown at this tick, besides its observation.
+  struct Shown {
+    Length echo_ends;       ///< an echo comes from between the free distance and this
+    Length moved;           ///< something moves, nearer than this; zero: nothing does
+    SeenRange range;        ///< of the newest reading
+    bool appears = false;   ///< nearer than the reading before: another object
+    bool too_near = false;  ///< the newest reading
+  };
+  struct Intake;
+
+  void take_in(int beam, Intake& in) noexcept;
+  void measure(int beam, const RecentReadings& sight, Intake& in) noexcept;
+  Length moved(const ConeObservation& observation, const RecentReadings& sight, bool misaimed) noexcept;
+  bool mark(const ConeObservation& observation, bool single) noexcept;
+  void revoke(const ConeObservation& echo, const Shown& shown, Vec body) noexcept;
+  void doubt(const ConeObservation& echo, Length farthest, Vec body, Mover& mover) noexcept;
+  void learn(const Intake& in) noexcept;
   void leave_vouched(Vec body) noexcept;
   bool takes_back(Vec body) noexcept;
   /// From this number of contradictions on, clear ground is not trusted. An object that moves causes fewer.
