@@ -180,28 +180,30 @@ void LocalGrid::clear_around(Vec at, int32_t reach) noexcept {
   }
 }
 
+Length LocalGrid::room_for(const ConeObservation& observation) const noexcept {
+  return doubting_ && observation.hit ? approach_ : Length{};
+}
+
 void LocalGrid::mark(const ConeObservation& observation, const EarlierObservation* before) noexcept {
   const Beam& beam = observation.beam;
+  const EarlierObservation last =
+      before != nullptr ? *before : EarlierObservation{beam.apex, beam.axis, observation.free};
   const Point apex = local(beam.apex);
-  if (!nearby(apex)) return;
-  const Angle axis_before = before == nullptr ? beam.axis : before->axis;
-  const Vec from_before = before == nullptr ? beam.apex : before->apex;
-  const Point apex_before = local(from_before);
-  if (!nearby(apex_before)) return;
+  const Point apex_before = local(last.apex);
+  if (!nearby(apex) || !nearby(apex_before)) return;
   if (observation.taken - doubted_ > kDoubt) doubting_ = false;
-  const Length room = doubting_ && observation.hit ? approach_ : Length{};
-  const Length taken_off = room + kReadingRounding;
+  const Length taken_off = room_for(observation) + kReadingRounding;
   const Length cleared = min(observation.free, clears_);
-  const Length earlier = before == nullptr ? cleared : min(before->free, clears_);
+  const Length earlier = min(last.free, clears_);
   if (has_lane()) {
-    lane_.mark(beam, cleared - taken_off, {from_before, axis_before, earlier}, earlier - taken_off);
+    lane_.mark(beam, cleared - taken_off, {last.apex, last.axis, earlier}, earlier - taken_off);
   }
   const int32_t free = units(cleared - taken_off);
   const int32_t free_before = units(earlier - taken_off);
   const int32_t echo = units(observation.free) + kUnitsPerCell;
   const Wedge cone(beam.axis, beam.half_cone);
-  const bool moved = !(beam.apex == from_before) || beam.axis != axis_before || free_before < free;
-  const Wedge cone_before = moved ? Wedge(axis_before, beam.half_cone) : cone;
+  const bool moved = !(beam.apex == last.apex) || beam.axis != last.axis || free_before < free;
+  const Wedge cone_before = moved ? Wedge(last.axis, beam.half_cone) : cone;
   const bool wide = observation.hit && beam.half_cone.raw() > kSuspectHalf.raw();
   const Wedge core = wide ? Wedge(beam.axis, kSuspectHalf) : cone;
   const int32_t reach = observation.aimed ? kWholeWindow : observation.hit ? echo : free;

@@ -166,8 +166,13 @@ class LocalGrid {
     Vec at;
     Angle facing;
   };
+  /// What an object that approaches may have come nearer since the reading.
+  Length room_for(const ConeObservation& observation) const noexcept;
+  bool follows(Chain& chain, const ConeObservation& observation) const noexcept;
   bool link(const Chain& chain, const Vec& from, Angle trail, Angle half_cone,
             Boundary& seen_ahead) const noexcept;
+  bool sweep(Chain& chain, const ConeObservation& observation, const EarlierObservation* before,
+             const Boundary* seen_ahead) noexcept;
 
   int32_t column_ = 0;  // of the window's corner, in world cells
   int32_t row_ = 0;

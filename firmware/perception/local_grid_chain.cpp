@@ -36,25 +36,29 @@ bool LocalGrid::link(const Chain& chain, const Vec& from, Angle trail, Angle hal
   return true;
 }
 
+/// False: the beam has turned back, or has given no reading for too long, so that the chain begins anew.
+bool LocalGrid::follows(Chain& chain, const ConeObservation& observation) const noexcept {
+  const Beam& beam = observation.beam;
+  const Length moved =
+      arc(beam.axis - chain.last.axis, swept_) - across(beam.apex - chain.last.apex, beam.axis);
+  const Length back = chain.left ? -moved : moved;
+  chain.back = back < Length{} ? Length{} : chain.back + back;
+  const bool linked = chain.linked && observation.taken - chain.taken <= kLongestLink;
+  if (chain.back <= kSweptBack && linked) return true;
+  if (linked) chain.left = !chain.left;
+  chain.back = Length{};
+  return false;
+}
+
 void LocalGrid::chain(const ConeObservation& observation, const EarlierObservation* before) noexcept {
   if (reach_.past == Angle{}) return;
   Chain& chain = chains_[observation.number];
   const Beam& beam = observation.beam;
-  const Angle turn = beam.axis - chain.last.axis;
-  const Length moved = arc(turn, swept_) - across(beam.apex - chain.last.apex, beam.axis);
-  const Length back = chain.left ? -moved : moved;
-  chain.back = back < Length{} ? Length{} : chain.back + back;
-  bool linked = chain.linked && observation.taken - chain.taken <= kLongestLink;
-  if (chain.back > kSweptBack || !linked) {
-    if (linked) chain.left = !chain.left;
-    chain.back = Length{};
-    linked = false;
-  }
+  bool linked = follows(chain, observation);
   const int32_t sign = chain.left ? 1 : -1;
   const Angle half = beam.half_cone * sign;
-  const bool both = before != nullptr;
-  const Vec from_before = both ? before->apex : beam.apex;
-  const Angle axis_before = both ? before->axis : beam.axis;
+  const Vec from_before = before != nullptr ? before->apex : beam.apex;
+  const Angle axis_before = before != nullptr ? before->axis : beam.axis;
   // Of two readings, either may be wrong. So a link joins the least advanced leading edge to the most
   // advanced trailing one; of a body that drives and turns, one may have the farther apex, the other the
   // farther axis.
@@ -68,32 +72,48 @@ void LocalGrid::chain(const ConeObservation& observation, const EarlierObservati
   Boundary seen_ahead;
   linked = linked &&
            link(chain, shifted_on(foremost) ? beam.apex : from_before, foremost, beam.half_cone, seen_ahead);
+  chain.linked = sweep(chain, observation, before, linked ? &seen_ahead : nullptr);
+  chain.lead_from = shifted_on(rearmost) ? from_before : beam.apex;
+  chain.lead = rearmost;
+  chain.last = beam;
+  chain.taken = observation.taken;
+}
 
-  const Length room = doubting_ && observation.hit ? approach_ : Length{};
+/// False: the beams lie too far from the window.
+bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const EarlierObservation* before,
+                      const Boundary* seen_ahead) noexcept {
+  const Beam& beam = observation.beam;
+  const bool both = before != nullptr;
+  const Length room = room_for(observation);
   const int32_t most = units(holds_);
   const auto within = [&](Length free) {
     const int32_t empty = units(min(free, clears_) - room - kReadingRounding);
     return empty < most ? empty : most;
   };
-  const Point apex = local(beam.apex);
-  const Point gap = local(seen_ahead.at);
-  const Point apex_before = local(from_before);
-  const int32_t free = within(observation.free);
-  const int32_t free_before = both ? within(before->free) : free;
   const auto side = [&](Angle direction, int32_t which) {
     const HalfPlane left = HalfPlane::left_of(direction);
     return which > 0 ? left : HalfPlane{-left.nx, -left.ny};
   };
-  const bool sound = nearby(apex) && nearby(apex_before) && (!linked || nearby(gap));
+  const int32_t sign = chain.left ? 1 : -1;
+  const Angle half = beam.half_cone * sign;
+  const Angle axis_before = both ? before->axis : beam.axis;
+  const Boundary boundary = seen_ahead != nullptr ? *seen_ahead : Boundary{};
+  const Point apex = local(beam.apex);
+  const Point gap = local(boundary.at);
+  const Point apex_before = local(both ? before->apex : beam.apex);
+  const int32_t free = within(observation.free);
+  const int32_t free_before = both ? within(before->free) : free;
+  const bool sound = nearby(apex) && nearby(apex_before) && (seen_ahead == nullptr || nearby(gap));
+  const bool goes_on = sound && seen_ahead != nullptr;
   const HalfPlane trail = side(beam.axis - half, sign);
   const HalfPlane lead = side(beam.axis + half, -sign);
   const HalfPlane trail_before = side(axis_before - half, sign);
   const HalfPlane lead_before = side(axis_before + half, -sign);
-  const HalfPlane ahead = HalfPlane::facing(seen_ahead.facing);
+  const HalfPlane ahead = HalfPlane::facing(boundary.facing);
   for (int row = 0; row < kCells; ++row) {
     const int s = slot(row);
     Row& swept = chain.swept[s];
-    if (!linked || !sound) swept = 0;
+    if (!goes_on) swept = 0;
     if (!sound) continue;
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
     const int32_t dy_before = row * kUnitsPerCell + kHalfCell - apex_before.y;
@@ -118,11 +138,7 @@ void LocalGrid::chain(const ConeObservation& observation, const EarlierObservati
     suspect_[s] &= ~clear;
     untest(s, clear);
   }
-  chain.lead_from = shifted_on(rearmost) ? from_before : beam.apex;
-  chain.lead = rearmost;
-  chain.last = beam;
-  chain.taken = observation.taken;
-  chain.linked = sound;
+  return sound;
 }
 
 }  // namespace whisker::perception

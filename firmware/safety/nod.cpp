@@ -102,30 +102,40 @@ planning::VelocityRequest Nod::step(const planning::VelocityRequest& asked, Q14 
   for_ += elapsed;
   planning::VelocityRequest request = asked;
   if (phase_ == Phase::look) {
-    const Unseen cells = unseen(pose, grid, params);
-    const bool turns = cells.turn[0] != Angle{} || cells.turn[1] != Angle{};
-    covered_for_ = turns || !cells.any ? Duration{} : covered_for_ + elapsed;
-    if (cells.any && covered_for_ <= kSettles && for_ < kLongest) {
-      if (turns && cells.turn[right_ ? 1 : 0] == Angle{}) right_ = !right_;
-      const Angle turn = cells.turn[right_ ? 1 : 0] + (right_ ? -kBeyond : kBeyond);
-      request.turning = turns ? planning::face(turn, params).turning : Speed{};
-      return request;
-    }
-    tries_ = static_cast<int8_t>(!cells.any ? 0 : tries_ < kTries ? tries_ + 1 : 0);
+    if (look(pose, grid, elapsed, params, request.turning)) return request;
     enter(Phase::back);
   }
+  if (!turn_back(pose, params, request.turning)) enter(Phase::off);
+  return request;
+}
+
+/// False: it has looked for long enough, or all cells are clear.
+bool Nod::look(const Pose& pose, const perception::LocalGrid& grid, Duration elapsed, const Params& params,
+               Speed& turning) noexcept {
+  const Unseen cells = unseen(pose, grid, params);
+  const bool turns = cells.turn[0] != Angle{} || cells.turn[1] != Angle{};
+  covered_for_ = turns || !cells.any ? Duration{} : covered_for_ + elapsed;
+  if (!cells.any || covered_for_ > kSettles || for_ >= kLongest) {
+    tries_ = static_cast<int8_t>(!cells.any ? 0 : tries_ < kTries ? tries_ + 1 : 0);
+    return false;
+  }
+  if (turns && cells.turn[right_ ? 1 : 0] == Angle{}) right_ = !right_;
+  const Angle turn = cells.turn[right_ ? 1 : 0] + (right_ ? -kBeyond : kBeyond);
+  turning = turns ? planning::face(turn, params).turning : Speed{};
+  return true;
+}
+
+/// `turning`: what is asked, and becomes the nod's. False: it is back, or leaves the turning to the operator.
+bool Nod::turn_back(const Pose& pose, const Params& params, Speed& turning) noexcept {
   const Angle rest = heading_ - pose.heading;
   const planning::Manoeuvre back = planning::face(rest, params);
   // Fast, it would turn beyond it.
   const bool slow = magnitude(pose.heading - last_heading_) < kSlow.raw();
   last_heading_ = pose.heading;
-  if ((slow && magnitude(rest) < planning::nearest_facing(kBack, params).raw()) || for_ > kLongestBack ||
-      abs(asked.turning) > abs(back.turning) / 4) {
-    enter(Phase::off);
-    return asked;
-  }
-  request.turning = back.turning;
-  return request;
+  if (slow && magnitude(rest) < planning::nearest_facing(kBack, params).raw()) return false;
+  if (for_ > kLongestBack || abs(turning) > abs(back.turning) / 4) return false;
+  turning = back.turning;
+  return true;
 }
 
 }  // namespace whisker::safety

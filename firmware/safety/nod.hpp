@@ -45,6 +45,10 @@ class Nod {
   bool needed(const planning::VelocityRequest& asked, Q14 granted, const Pose& pose,
               const perception::LocalGrid& grid, Duration elapsed, const Params& params) noexcept;
 
+  bool look(const Pose& pose, const perception::LocalGrid& grid, Duration elapsed, const Params& params,
+            Speed& turning) noexcept;
+  bool turn_back(const Pose& pose, const Params& params, Speed& turning) noexcept;
+
   Phase phase_ = Phase::off;
   int8_t tries_ = 0;    // looks one after another that have not cleared the way
   bool right_ = false;  // it turns to the right

@@ -159,6 +159,12 @@ class Lengths(unittest.TestCase):
     def test_refuses_a_long_file(self):
         self.assertEqual(self.status(a=401, b=100, c=1), 1)
 
+    def test_refuses_many_branches_on_the_safety_path(self):
+        for branches, wanted in ((20, 0), (21, 1)):
+            text = "int f(int a) noexcept {\n" + "  if (a > 1) ++a;  // if\n" * branches + "  return a;\n}\n"
+            for file, status in (("firmware/safety/a.cpp", wanted), ("firmware/planning/a.cpp", 0)):
+                self.assertEqual(run(lengths.main, {file: text, "host/b.cpp": "\n"})[0], status, file)
+
     def test_refuses_a_long_median(self):
         self.assertEqual(self.status(a=400, b=101, c=1), 1)
 
