@@ -1,58 +1,27 @@
-// A complete firmware around the core: three drivers, the parameters of the robot, and a loop.
-#include "firmware/planning/boundary/table_boundary_planner.hpp"
-#include "firmware/robot.hpp"
-#include "hal/clock.hpp"
+// A complete firmware: the parameters of the robot, and a loop. The functions declared here are yours.
+#include "firmware/params/presets.hpp"
+#include "firmware/simple_robot.hpp"
 
 using namespace whisker;
 
-// You implement these: three classes over your own drivers (the headers in hal/ state the requirements), a
-// function that prints a line, and a lamp.
-struct Sonar final : hal::Rangefinders {
-  bool read(hal::RangeReadings& out) noexcept override;
-};
-struct Motors final : hal::Drive {
-  bool command(hal::WheelSpeeds speeds) noexcept override;
-  bool read(hal::EncoderCounts& out) noexcept override;
-};
-struct Timer final : hal::Clock {
-  uint32_t now_ms() noexcept override;
-};
+uint32_t wait_for_next_10_ms();    // the time in ms
+hal::EncoderCounts read_counts();  // hal/types.hpp says what the values mean
+hal::RangeReadings read_rangefinders();
+void set_wheel_speeds(hal::WheelSpeeds);  // a closed loop on each wheel, for example hal::Governor
 void print(const char* words);
-void set_lamp(bool on);
 
-// Set the parameters that differ from the reference robot. check() tests whether they fit together.
-constexpr Params my_robot() {
-  Params p;
-  p.body.radius = 75_mm;
-  p.body.track = 110_mm;
-  p.wheels.max_speed = 250_mm_per_s;
-  p.wheels.counts_per_metre = 3200;
-  return p;
-}
-static_assert(check(my_robot()) == ParamFault::none, "the parameters do not fit: ask `whisker robot check`");
+constexpr BodyParams kBody{75_mm, 30_mm, 110_mm};  // radius around the axle's centre, margin, track
+constexpr WheelParams kWheels{250_mm_per_s, 1000_mm_per_s2, 3000_mrad_per_s, 50_ms, 3200};
+constexpr Params kRobot = params_of(kBody, kWheels, vl53l1x(30_deg));
 
 int main() {
-  static constexpr Params params = my_robot();
-  static Sonar sonar;
-  static Motors motors;
-  static Timer timer;
-  static planning::TableBoundaryPlanner skirt{params, fuzzy::kDefaultTable};
-  static Robot robot{sonar, motors, skirt.planner, params};
-
+  static SimpleRobot<kRobot> robot;
   robot.place({{0_m, 0_m}, 0_deg});
-  robot.set_goal({{4_m, 1_m}, 100_mm});
-  Fault told = Fault::none;
-  for (uint32_t next = timer.now_ms();; next += 10) {
-    while (static_cast<int32_t>(timer.now_ms() - next) < 0) {
-    }
-    const Status& status = robot.tick(Time::from_raw(next));
-    const Fault fault = status.health.fault;
-    if (fault != Fault::none) {
-      // The core stops the wheels until robot.reset(). Report the fault and call an operator.
-      if (fault != told) print(fault == Fault::invalid_params ? name(check(params)) : name(fault));
-      set_lamp(next / 500 % 2 == 0);
-    }
-    told = fault;
-    if (status.decision.outcome == planning::Outcome::reached) robot.cancel();
+  robot.go_to({4_m, 1_m});
+  for (;;) {
+    const Time now = Time::from_raw(wait_for_next_10_ms());
+    const Outputs out = robot.tick({now, read_counts(), read_rangefinders()});
+    set_wheel_speeds(out.wheels);
+    if (out.fault != Fault::none) print(name(out.fault));
   }
 }
