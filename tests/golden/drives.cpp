@@ -10,7 +10,7 @@
 namespace whisker::golden {
 namespace {
 
-/// The largest map that fits into every target of the full recording.
+/// The largest map that fits into every target.
 constexpr PlannerKind kLargestMapOfAll = core_planner("map", 8192);
 
 /// Drives with the core in this process, and records its inputs.
@@ -100,16 +100,6 @@ std::vector<Stream> drives() {
   all.push_back(
       drive("large fast robot", from_file("tests/cli/scenarios/large_fast_robot"), PlannerKind::map, 3));
   all.push_back(gyro_drive());
-  return all;
-}
-
-std::vector<Stream> excerpts() {
-  std::vector<Stream> all;
-  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {
-    all.push_back(drive("discs, excerpt", generated(worlds::Kind::discs, true), planner, 2));
-    all.push_back(storm(planner, 1, 1, 80));
-    all.push_back(storm(planner, 2, 2, 80));
-  }
   return all;
 }
 

@@ -11,6 +11,8 @@ namespace {
 
 using test::Bits;
 
+constexpr int kTicks = 150;  // of a storm
+
 /// Wraps a storm board and records its answers; asked once per tick, before the robot asks.
 class Oracle final : public hal::Rangefinders, public hal::Drive {
  public:
@@ -83,9 +85,8 @@ void interfere(Robot& robot, Bits& bits, Bytes& to) {
   }
 }
 
-}  // namespace
-
-Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
+/// fury: see StormBoard. Seed 1 has the default robot, others a random one.
+Stream storm(PlannerKind kind, std::uint64_t seed, int fury) {
   Stream stream{fmt::format("{} storm {}", name(kind), seed), {}, 0};
   Bytes& to = stream.messages;
   Bits bits(seed);
@@ -103,7 +104,7 @@ Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
   robot.set_goal(goal);
   append_goal(to, goal);
   Time now = Time::from_raw(static_cast<std::uint32_t>(bits.next()));
-  for (int i = 0; i < ticks; ++i) {
+  for (int i = 0; i < kTicks; ++i) {
     now = next_tick(now, params, bits);
     Tick tick = oracle.foresee(now);
     robot.tick(now);
@@ -115,11 +116,13 @@ Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
   return stream;
 }
 
+}  // namespace
+
 std::vector<Stream> storms() {
   std::vector<Stream> all;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     for (const PlannerKind kind : {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map}) {
-      all.push_back(storm(kind, seed, static_cast<int>(seed) % 4, 150));
+      all.push_back(storm(kind, seed, static_cast<int>(seed) % 4));
     }
   }
   return all;

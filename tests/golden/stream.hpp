@@ -24,10 +24,6 @@ Stream table_sweep();
 std::vector<Stream> drives();
 /// Faulty boards, random users, and robots with any accepted parameters.
 std::vector<Stream> storms();
-/// One of them. fury: see StormBoard. Seed 1 has the default robot, others a random one.
-Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks);
-/// The first ticks of some of them, for targets with a slow emulator.
-std::vector<Stream> excerpts();
 
 /// The streams one after the other, and an end; `index` gets a line for each: the offset of
 /// its first byte, and its name.
