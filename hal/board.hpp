@@ -11,10 +11,9 @@ namespace whisker::hal {
 
 struct Board {
   Clock& clock;
-  Console& console;    ///< on the UART
-  ByteStream& serial;  ///< the same UART, for a companion program
-  ByteLine* line;      ///< the same UART, non-blocking; null if it only supports blocking access
-  ByteStream& host;    ///< standard input and output of the emulator: many times faster than the UART
+  Console& console;  ///< on the UART
+  ByteLine* line;    ///< the same UART, non-blocking; null if it only supports blocking access
+  ByteStream& host;  ///< standard input and output of the emulator: many times faster than the UART
   Meter& meter;
 };
 

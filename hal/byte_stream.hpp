@@ -5,8 +5,8 @@
 
 namespace whisker::hal {
 
-/// An ordered and lossless byte channel to a companion computer. Not for the control loop of a real robot,
-/// because both calls block.
+/// An ordered and lossless byte channel to the computer that runs the emulator. Not for the control loop of a
+/// real robot, because both calls block.
 class ByteStream {
  public:
   /// Blocks until all bytes have arrived. False: the stream has ended or failed permanently.

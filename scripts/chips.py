@@ -36,7 +36,6 @@ class Target:
         self.builds = [self.name, *(f"{self.name}-{c}" for c in self.compilers[1:])]
         # Those of the default run of scripts/test.
         self.by_day = [b for b, c in zip(self.builds, self.compilers) if c in facts.get("BY_DAY", "").split()]
-        self.recording = facts.get("RECORDING", "full")  # largest golden recording that is fast enough on it
         self.counts = facts.get("COUNTS")
         self.in_budget = "BUDGET" in facts  # scripts/budget measures it
         self.is_robot = (ROOT / "hal/boards" / str(self.board)).is_dir()

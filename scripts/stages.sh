@@ -120,9 +120,9 @@ build_and_test_core() {
 
 # The code that chips run, and the simulator that tests it. The tests of perception drive missions, too.
 stage_asan() {
-  RC_PARAMS="$RC_PARAMS max_success=30" build_and_test_core asan '^(robot|fuzzy|perception|planning|global|bus|can|pil_link|slcan|sim)$' \
+  RC_PARAMS="$RC_PARAMS max_success=30" build_and_test_core asan '^(robot|fuzzy|perception|planning|global|bus|can|golden|slcan|sim)$' \
     whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_perception_tests whisker_planning_tests whisker_global_tests \
-    whisker_bus_tests whisker_can_tests whisker_link_tests whisker_slcan_tests whisker_sim_tests
+    whisker_bus_tests whisker_can_tests whisker_golden_tests whisker_slcan_tests whisker_sim_tests
 }
 
 stage_asan_all() { build_and_test asan; }

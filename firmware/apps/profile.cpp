@@ -1,7 +1,7 @@
 // Like replay, but counts only the instructions of one part of the core: the local grid, the marking of the
 // map's beams, or the wavefront. The linker puts the functions below between the part and its callers
 // (--wrap).
-#include "firmware/apps/pil_link/session.hpp"
+#include "firmware/apps/golden/player.hpp"
 #include "firmware/perception/local_grid.hpp"
 #include "firmware/planning/global/wavefront.hpp"
 #include "hal/board.hpp"
@@ -71,7 +71,4 @@ WHISKER_MEASURED(_ZN7whisker8planning9Wavefront3runERNS0_7GridMapEl, bool,
                  (Wavefront * wavefront, GridMap& map, int32_t words), (wavefront, map, words))
 #endif
 
-int main() {
-  static link::Session session;
-  return session.run(hal::board().host, meter);
-}
+int main() { return golden::play(meter); }

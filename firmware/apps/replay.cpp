@@ -1,9 +1,4 @@
-// A robot whose sensors and wheels a companion simulates through the emulator's input and output.
-#include "firmware/apps/pil_link/session.hpp"
-#include "hal/board.hpp"
+// Plays the golden streams: a robot whose sensors and wheels answer as recorded.
+#include "firmware/apps/golden/player.hpp"
 
-int main() {
-  const whisker::hal::Board& board = whisker::hal::board();
-  static whisker::link::Session session;
-  return session.run(board.host, board.meter);
-}
+int main() { return whisker::golden::play(whisker::hal::board().meter); }

@@ -1,5 +1,5 @@
-/// The list of the core's planners, for the command line, campaigns, the bus, the companion link, the
-/// playground and their documents. docs/adding.md shows how to add one.
+/// The list of the core's planners, for the command line, campaigns, the bus, the
+/// playground and the golden streams. docs/adding.md shows how to add one.
 #pragma once
 
 #include <stddef.h>
@@ -12,7 +12,7 @@
 namespace whisker::planning {
 
 struct PlannerInfo {
-  uint8_t number;     ///< on the companion's link
+  uint8_t number;     ///< in a golden stream
   const char* name;   ///< on the command line, in traces and on pages
   const char* alias;  ///< accepted alternative name; nullptr: none
   const char* about;  ///< why it avoids deadlocks, or when it does not: shown by the playground

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/apps/pil_link/command_hash.hpp"
+#include "firmware/apps/command_hash.hpp"
 #include "host/run/make_record.hpp"
 #include "host/run/spec.hpp"
 
@@ -63,7 +63,7 @@ RunResult LoggedRun::result() const {
   } else {
     result.detail = "log_ends";
   }
-  link::CommandHash hash;
+  CommandHash hash;
   sim::Vec2 before = scenario_.start.at;
   for (const TickRecord& r : records_) {
     hash.add(r.command);

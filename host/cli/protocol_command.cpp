@@ -26,12 +26,10 @@ void add_dbc(CLI::App& app, int& status) {
 
 void add_protocol(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("protocol", "Print the CAN protocol for a reader (Markdown)");
-  const auto link = std::make_shared<bool>(false);
   const auto params = std::make_shared<bool>(false);
-  cmd->add_flag("--link", *link, "The companion's protocol on a byte stream instead");
   cmd->add_flag("--parameters", *params, "The robot's parameters in the units of a scenario file instead");
-  cmd->callback([link, params, &status] {
-    fmt::print("{}", *params ? params_markdown() : *link ? protocol::link_page() : protocol::page());
+  cmd->callback([params, &status] {
+    fmt::print("{}", *params ? params_markdown() : protocol::page());
     status = 0;
   });
 }

@@ -36,7 +36,7 @@ struct Result {
   double path_m = 0;
   double min_clearance_m = 0;
   double final_distance_m = 0;  ///< from the goal
-  std::uint64_t hash = 0;       ///< link::CommandHash over the commands of the guard; 0 without it
+  std::uint64_t hash = 0;       ///< CommandHash over the commands of the guard; 0 without it
   double granted = 1;           ///< mean share of the asked forward speed, over the ticks that asked for one
   std::uint64_t ticks = 0;
   std::uint64_t stops = 0;           ///< times that the guard brought the asked forward speed to nothing

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware/apps/pil_link/command_hash.hpp"
+#include "firmware/apps/command_hash.hpp"
 #include "firmware/guard.hpp"
 #include "host/guard/operator.hpp"
 #include "host/run/braked_wheels.hpp"
@@ -97,7 +97,7 @@ class GuardedBody {
   std::optional<Guard> guard_;
   sim::Pose put_down_;
   WheelPair bare_;
-  link::CommandHash hash_;
+  CommandHash hash_;
   Twist twist_;
   int gap_ms_ = 10;
   std::uint32_t now_ms_ = 0;

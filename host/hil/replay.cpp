@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "firmware/apps/can/remote_robot.hpp"
-#include "firmware/apps/pil_link/command_hash.hpp"
+#include "firmware/apps/command_hash.hpp"
 #include "firmware/can/codec.hpp"
 #include "host/hil/candump.hpp"
 #include "host/hil/guard_replay.hpp"
@@ -260,7 +260,7 @@ class Replay {
   std::unique_ptr<can_app::RemoteRobot> pilot_;
   GuardReplay guard_;
   ReplayResult result_;
-  link::CommandHash hash_;
+  CommandHash hash_;
   std::uint64_t line_ = 0;
 
   std::optional<can::RulesOrder> rules_order_;  // not answered

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <memory>
 
-#include "firmware/apps/pil_link/command_hash.hpp"
+#include "firmware/apps/command_hash.hpp"
 #include "host/guard/guarded_body.hpp"
 #include "host/hunt/attacker.hpp"
 #include "host/hunt/events.hpp"
@@ -230,7 +230,7 @@ class MissionDrive final : public Driven {
   std::unique_ptr<Pilot> pilot_;
   const Status* status_ = nullptr;
   std::uint32_t now_ms_ = 0;
-  link::CommandHash hash_;
+  CommandHash hash_;
   std::set<std::string> states_;
 };
 

@@ -20,7 +20,7 @@
 ///   bumper
 ///
 /// d, r, sa, sd and the estimate are empty on a bus, which does not carry them. guide and way point are empty
-/// for planners without a map and on a chip, too; the way point is empty if the guide has none.
+/// for planners without a map and on a bus, too; the way point is empty if the guide has none.
 #pragma once
 
 #include <string>

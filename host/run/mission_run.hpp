@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware/apps/pil_link/command_hash.hpp"
+#include "firmware/apps/command_hash.hpp"
 #include "host/run/pilot.hpp"
 #include "host/run/record.hpp"
 #include "host/scenario/scenario.hpp"
@@ -52,7 +52,7 @@ class MissionRun {
   double t_s_ = 0;
   const Status* status_ = nullptr;
   hal::RangeReadings ranges_{};
-  link::CommandHash hash_;
+  CommandHash hash_;
   std::optional<Verdict> verdict_;
   bool mission_to_come_ = false;
   const char* detail_ = "";

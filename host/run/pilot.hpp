@@ -1,4 +1,4 @@
-/// Drives a simulated robot: the core in this process, or one on a chip.
+/// Drives a simulated robot: the core in this process, or one on a bus.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ class Pilot {
   virtual bool play(const Event&) { return false; }
   /// False: it has no controller, and events wait.
   virtual bool hears() const { return true; }
-  /// The local grid last passed to the planner; null before its first step, and on a chip.
+  /// The local grid last passed to the planner; null before its first step, and on a bus.
   virtual const perception::LocalGrid* local_grid() const { return nullptr; }
   /// The advice of the planner's global planner; null without a map, too.
   virtual const RecordingGuide* guide() const { return nullptr; }

@@ -97,7 +97,7 @@ struct Session::Core {
   Board board;
   Robot robot;
   std::optional<Goal> goal;
-  link::CommandHash hash;
+  CommandHash hash;
   std::uint64_t ticks = 0;
 };
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "firmware/apps/pil_link/command_hash.hpp"
+#include "firmware/apps/command_hash.hpp"
 #include "firmware/robot.hpp"
 #include "host/run/record.hpp"
 #include "host/socket/board.hpp"

@@ -16,7 +16,7 @@ from compile import LONG, compile_all
 from sources import core_sources, finish
 
 # They list the planners.
-NUMBERS = ("firmware/apps/pil_link/session.cpp", "firmware/c/whisker.cpp", "host/protocol/link_page.cpp")
+NUMBERS = ("firmware/apps/replay.cpp", "firmware/c/whisker.cpp")
 PARTS = ("firmware", "hal", "host", "toolchain", "CMakeLists.txt")
 WORLD = """time_limit_s = 120.0
 [start]
@@ -65,7 +65,6 @@ def check(whisker, folder):
     bus = json.loads(run(whisker, "hil", world, "--planner", "beeline", "--json").stdout)
     yield "the planner drives alike on the bus", bus["hash"] == direct["hash"]
     yield "the help names the planner", "beeline" in run(whisker, "run", "--help").stdout
-    yield "the link's page numbers the planner", "3 beeline" in run(whisker, "protocol", "--link").stdout
     page = run(whisker, "protocol").stdout
     yield "the protocol has the messages", "### Ping" in page and "| Pong | 0x19 |" in page
     yield "the DBC file has the messages", re.search(r"BO_ \d+ Ping: 4 Base1", run(whisker, "dbc").stdout)

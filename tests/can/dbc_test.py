@@ -37,10 +37,6 @@ class Committed(unittest.TestCase):
         self.assertEqual(printed("protocol"), (ROOT / "docs/protocol.md").read_bytes(), "whisker protocol > docs/protocol.md")
 
 
-    def test_the_link_page_is_the_messages(self):
-        self.assertEqual(printed("protocol", "--link"), (ROOT / "docs/link.md").read_bytes(), "whisker protocol --link > docs/link.md")
-
-
 class Canmatrix(unittest.TestCase):
     def test_golden_frames_have_their_physical_values(self):
         matrix = load_dbc((ROOT / "whisker.dbc").read_bytes())

@@ -13,7 +13,7 @@ from whisker import KINDS, Case, with_time_limit
 WIDEST = 100
 OPTIONS = {
     (): ("--help", "--version"),
-    ("run",): ("SCENARIO", "--planner", "--map-bytes", "--rules", "--map", "--robot", "--seed", "--trace", "--svg", "--html", "--json", "--chip"),
+    ("run",): ("SCENARIO", "--planner", "--map-bytes", "--rules", "--map", "--robot", "--seed", "--trace", "--svg", "--html", "--json"),
     ("campaign",): (
         "KIND|DIR", "--count", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--planner", "--map-bytes", "--rules", "--map",
         "--robot", "--robots", "--jobs", "--shard", "--csv", "--save-failures", "--json", "--merge", "--replay", "--svg", "--trace", "--html",
@@ -46,7 +46,7 @@ OPTIONS = {
     ("bench", "drive"): ("--keys", "--commands", "--speed", "--turn", "--vouch", "--for", "--json", "--can", "--tty", "--socket", "--node", "--timeout", "--drop"),
     ("replay",): ("LOG", "--node", "--planner", "--map-bytes", "--rules", "--map", "--json"),
     ("dbc",): ("--robot",),
-    ("protocol",): ("--link", "--parameters"),
+    ("protocol",): ("--parameters",),
     ("world",): ("KIND", "--seed", "--discs", "--box", "--noise", "--wheel-scale-sigma", "--out", *KINDS),
     ("scanner",): ("--count", "--seed", "--discs", "--box", "--jobs", "--json"),
     ("movers",): ("--count", "--seed", "--planner", "--map-bytes", "--rules", "--map", "--contacts"),

@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "firmware/apps/pil_link/params.hpp"
+#include "firmware/params/words.hpp"
 
 namespace whisker::golden {
 namespace {
@@ -43,28 +43,25 @@ std::string difference(const M& expected, const M& answered) {
   return "";
 }
 
-std::size_t body_size(link::Name name) {
+std::size_t body_size(Name name) {
   switch (name) {
-    case link::Name::hello:
-    case link::Name::cancel:
-    case link::Name::reset:
-    case link::Name::end: return 0;
-    case link::Name::params: return link::kParamsSize;
-    case link::Name::begin: return link::size_of<link::Begin>();
-    case link::Name::goal: return link::size_of<link::Target>();
-    case link::Name::place: return link::size_of<link::Stand>();
-    case link::Name::gyro: return link::size_of<link::GyroSums>();
-    case link::Name::fix: return link::size_of<link::Fix>();
-    case link::Name::tick: return link::size_of<link::Tick>();
-    case link::Name::fuzzy: return link::size_of<link::Probe>();
+    case Name::cancel:
+    case Name::reset:
+    case Name::end: return 0;
+    case Name::params: return kParams * size_of<Word>();
+    case Name::begin: return size_of<Begin>();
+    case Name::goal: return size_of<Target>();
+    case Name::place: return size_of<Stand>();
+    case Name::fix: return size_of<Fix>();
+    case Name::tick: return size_of<Tick>();
+    case Name::fuzzy: return size_of<Probe>();
   }
   throw std::runtime_error("not a recording");
 }
 
 class Judge {
  public:
-  Judge(const chip::Bytes& expected, const chip::Bytes& answered)
-      : expected_(expected), answered_(answered) {}
+  Judge(const Bytes& expected, const Bytes& answered) : expected_(expected), answered_(answered) {}
 
   Judgement result;
 
@@ -73,13 +70,11 @@ class Judge {
     step_ = 0;
   }
   /// False at the end.
-  bool hear(link::Name name) {
+  bool hear(Name name) {
     switch (name) {
-      case link::Name::hello: return greeting();
-      case link::Name::fuzzy: return compare<link::Reaction>(fmt::format("probe {}", step_++));
-      case link::Name::fix: return compare<link::Verdict>(fmt::format("fix before tick {}", step_));
-      case link::Name::tick: return tick();
-      case link::Name::end: return end();
+      case Name::fuzzy: return compare<Reaction>(fmt::format("probe {}", step_++));
+      case Name::tick: return tick();
+      case Name::end: return end();
       default: return true;
     }
   }
@@ -87,19 +82,13 @@ class Judge {
  private:
   template <class M>
   bool next(M& expected, M& answered, const std::string& place) {
-    const std::size_t size = link::size_of<M>();
+    const std::size_t size = size_of<M>();
     if (at_ + size > expected_.size()) throw std::runtime_error("the expected answers end too soon");
     if (at_ + size > answered_.size()) return differ(place, "no answer");
-    expected = link::decode<M>(expected_.data() + at_);
-    answered = link::decode<M>(answered_.data() + at_);
+    expected = decode<M>(expected_.data() + at_);
+    answered = decode<M>(answered_.data() + at_);
     at_ += size;
     return true;
-  }
-  bool greeting() {
-    link::Greeting expected, answered;
-    if (!next(expected, answered, "greeting")) return false;
-    expected.most_map_bytes = answered.most_map_bytes;
-    return differ("greeting", difference(expected, answered));
   }
   template <class M>
   bool compare(const std::string& place) {
@@ -108,7 +97,7 @@ class Judge {
     return differ(place, difference(expected, answered));
   }
   bool tick() {
-    link::Answer expected, answered;
+    Answer expected, answered;
     const std::string place = fmt::format("tick {}", step_++);
     if (!next(expected, answered, place)) return false;
     Cost& cost = result.costs.back();
@@ -119,7 +108,7 @@ class Judge {
     return differ(place, difference(expected, answered));
   }
   bool end() {
-    link::Total expected;
+    Total expected;
     if (!next(expected, result.total, "end")) return false;
     expected.stack = result.total.stack;
     return differ("end", difference(expected, result.total));
@@ -131,16 +120,16 @@ class Judge {
     return false;
   }
 
-  const chip::Bytes& expected_;
-  const chip::Bytes& answered_;
+  const Bytes& expected_;
+  const Bytes& answered_;
   std::size_t at_ = 0;
   int step_ = 0;
 };
 
 }  // namespace
 
-Judgement judge(const chip::Bytes& recorded, const std::string& index, const chip::Bytes& expected,
-                const chip::Bytes& answered) {
+Judgement judge(const Bytes& recorded, const std::string& index, const Bytes& expected,
+                const Bytes& answered) {
   Judge judge(expected, answered);
   std::istringstream lines(index);
   std::size_t next_stream = 0;
@@ -154,7 +143,7 @@ Judgement judge(const chip::Bytes& recorded, const std::string& index, const chi
       judge.begin(next_name);
       read_line();
     }
-    const auto name = static_cast<link::Name>(recorded[at]);
+    const auto name = static_cast<Name>(recorded[at]);
     at += 1 + body_size(name);
     if (!judge.hear(name)) break;
   }

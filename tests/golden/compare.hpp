@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/chip/messages.hpp"
+#include "tests/golden/messages.hpp"
 
 namespace whisker::golden {
 
@@ -19,13 +19,13 @@ struct Cost {
 
 struct Judgement {
   std::string difference;  ///< stream, tick and field of the first one, and both values; "" for none
-  link::Total total;       ///< as the chip reports
+  Total total;             ///< as the chip reports
   std::vector<Cost> costs;
 };
 
-/// `recorded` with `index` is the input of the chip, `expected` the answer of the core in this process. Work,
-/// stack and room for maps are not compared. Throws std::runtime_error for bytes that are not a recording.
-Judgement judge(const chip::Bytes& recorded, const std::string& index, const chip::Bytes& expected,
-                const chip::Bytes& answered);
+/// `recorded` with `index` is the input of the chip, `expected` the answer of the core in this process. Work
+/// and stack are not compared. Throws std::runtime_error for bytes that are not a recording.
+Judgement judge(const Bytes& recorded, const std::string& index, const Bytes& expected,
+                const Bytes& answered);
 
 }  // namespace whisker::golden

@@ -10,21 +10,21 @@
 namespace whisker::golden {
 namespace {
 
-/// The largest map that fits into every target of the full recording.
+/// The largest map that fits into every target.
 constexpr PlannerKind kLargestMapOfAll = core_planner("map", 8192);
 
 /// Drives with the core in this process, and records its inputs.
 class RecordingPilot final : public Pilot {
  public:
-  RecordingPilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant, chip::Bytes& to)
+  RecordingPilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant, Bytes& to)
       : pilot_(core_pilot(scenario, planner, plant)), plant_(plant), fixes_(scenario), to_(to) {
-    chip::append_params(to, scenario.robot);
-    chip::append_begin(to, planner, fixed_pose(scenario.start));
-    chip::append_goal(to, fixed_goal(scenario.goal));
+    append_params(to, scenario.robot);
+    append_begin(to, planner, fixed_pose(scenario.start));
+    append_goal(to, fixed_goal(scenario.goal));
   }
   const Status& tick(Time now) override {
-    chip::append_tick(to_, plant_, now);
-    if (const auto fix = fixes_.take(plant_)) chip::append_fix(to_, *fix);
+    append_tick(to_, plant_, now);
+    if (const auto fix = fixes_.take(plant_)) append_fix(to_, *fix);
     return pilot_->tick(now);
   }
 
@@ -32,18 +32,18 @@ class RecordingPilot final : public Pilot {
   std::unique_ptr<Pilot> pilot_;
   sim::Plant& plant_;
   FixSource fixes_;
-  chip::Bytes& to_;
+  Bytes& to_;
 };
 
 Stream drive(const std::string& world, Scenario scenario, PlannerKind planner, double seconds) {
-  Stream stream{fmt::format("{} {}", name(planner), world), {}};
+  Stream stream{fmt::format("{} {}", name(planner), world), {}, 0};
   scenario.time_limit_s = seconds;
   RunOptions options;
   options.planner = planner;
   options.pilot = [&](const Scenario& s, PlannerKind kind, sim::Plant& plant) {
     return std::make_unique<RecordingPilot>(s, kind, plant, stream.messages);
   };
-  run(scenario, options);
+  stream.hash = run(scenario, options).hash;
   return stream;
 }
 
@@ -100,26 +100,6 @@ std::vector<Stream> drives() {
   all.push_back(
       drive("large fast robot", from_file("tests/cli/scenarios/large_fast_robot"), PlannerKind::map, 3));
   all.push_back(gyro_drive());
-  return all;
-}
-
-std::vector<Stream> thesis_only() {
-  constexpr PlannerKind kPlanner = PlannerKind::thesis;
-  std::vector<Stream> all;
-  all.push_back(drive("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), kPlanner, 12));
-  all.push_back(drive("maze with noise", generated(worlds::Kind::maze, true), kPlanner, 6));
-  all.push_back(drive("rooms with noise", generated(worlds::Kind::rooms, true), kPlanner, 6));
-  all.push_back(drive("discs", generated(worlds::Kind::discs, false), kPlanner, 6));
-  return all;
-}
-
-std::vector<Stream> excerpts() {
-  std::vector<Stream> all;
-  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {
-    all.push_back(drive("discs, excerpt", generated(worlds::Kind::discs, true), planner, 2));
-    all.push_back(storm(planner, 1, 1, 80));
-    all.push_back(storm(planner, 2, 2, 80));
-  }
   return all;
 }
 

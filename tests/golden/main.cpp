@@ -18,12 +18,11 @@
 
 namespace {
 
-using whisker::chip::Bytes;
 using namespace whisker::golden;
 
 constexpr const char* kUsage =
     "usage: whisker_golden record FOLDER\n"
-    "           writes the recordings full, short, table and thesis, of full what the planners skirt and map "
+    "           writes the recordings full and table, of full what the planners skirt and map "
     "say\n"
     "           (full-skirt, full-map), each with its index, and the bytes of both engines' tables\n"
     "       whisker_golden judge RECORDING EXPECTED ANSWERED   exit status 1: they differ, and where\n";
@@ -74,9 +73,7 @@ int record(const std::string& folder) {
   for (const char* planner : {"skirt", "map"}) {
     record(folder + "/full-" + planner, of_planner(full, planner));
   }
-  record(folder + "/short", joined({table_sweep()}, excerpts()));
   record(folder + "/table", {table_sweep()});
-  record(folder + "/thesis", thesis_only());
   write_table(folder + "/table-engine.bin", whisker::fuzzy::kResponseTable);
   write_table(folder + "/closed-engine.bin", whisker::fuzzy::kRules);
   return 0;

@@ -4,15 +4,14 @@
 
 namespace whisker::golden {
 
-chip::Bytes recording(const std::vector<Stream>& streams, std::string& index) {
-  chip::Bytes bytes;
-  chip::append(bytes, link::Name::hello);
+Bytes recording(const std::vector<Stream>& streams, std::string& index) {
+  Bytes bytes;
   index.clear();
   for (const Stream& stream : streams) {
     index += fmt::format("{} {}\n", bytes.size(), stream.name);
     bytes.insert(bytes.end(), stream.messages.begin(), stream.messages.end());
   }
-  chip::append(bytes, link::Name::end);
+  append(bytes, Name::end);
   return bytes;
 }
 

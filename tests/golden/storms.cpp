@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
-#include "host/chip/messages.hpp"
 #include "host/run/planners.hpp"
+#include "tests/golden/messages.hpp"
 #include "tests/golden/stream.hpp"
 #include "tests/robot/properties/random_params.hpp"
 #include "tests/robot/properties/storm_board.hpp"
@@ -11,13 +11,15 @@ namespace {
 
 using test::Bits;
 
+constexpr int kTicks = 150;  // of a storm
+
 /// Wraps a storm board and records its answers; asked once per tick, before the robot asks.
 class Oracle final : public hal::Rangefinders, public hal::Drive {
  public:
   explicit Oracle(test::StormBoard& board) : board_(board) {}
 
-  link::Tick foresee(Time now) {
-    link::Tick tick;
+  Tick foresee(Time now) {
+    Tick tick;
     tick.now_ms = now.raw();
     tick.ranges_given = board_.read(tick.ranges) ? 1 : 0;
     tick.counts_given = board_.read(tick.counts) ? 1 : 0;
@@ -40,7 +42,7 @@ class Oracle final : public hal::Rangefinders, public hal::Drive {
 
  private:
   test::StormBoard& board_;
-  link::Tick input_;
+  Tick input_;
   bool accepted_ = true;
 };
 
@@ -59,35 +61,34 @@ Time next_tick(Time now, const Params& params, Bits& bits) {
 }
 
 /// Random commands of a user, sent to the robot and recorded.
-void interfere(Robot& robot, Bits& bits, chip::Bytes& to) {
+void interfere(Robot& robot, Bits& bits, Bytes& to) {
   const auto set_goal = [&] {
     const planning::Goal goal = random_goal(bits);
     robot.set_goal(goal);
-    chip::append_goal(to, goal);
+    append_goal(to, goal);
   };
   if (bits.one_in(200)) set_goal();
   if (bits.one_in(400)) {
     robot.cancel();
-    chip::append(to, link::Name::cancel);
+    append(to, Name::cancel);
   }
   if (bits.one_in(500)) {
     const Pose pose{{any_length(bits), millimetres(bits.whole(-9, 9))},
                     Angle::from_raw(static_cast<std::uint32_t>(bits.next()))};
     robot.place(pose);
-    chip::append_place(to, pose);
+    append_place(to, pose);
   }
   if (robot.status().health.fault != Fault::none && bits.one_in(30)) {
     robot.reset();
-    chip::append(to, link::Name::reset);
+    append(to, Name::reset);
     set_goal();
   }
 }
 
-}  // namespace
-
-Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
-  Stream stream{fmt::format("{} storm {}", name(kind), seed), {}};
-  chip::Bytes& to = stream.messages;
+/// fury: see StormBoard. Seed 1 has the default robot, others a random one.
+Stream storm(PlannerKind kind, std::uint64_t seed, int fury) {
+  Stream stream{fmt::format("{} storm {}", name(kind), seed), {}, 0};
+  Bytes& to = stream.messages;
   Bits bits(seed);
   Params params = seed == 1 ? Params{} : test::random_params(bits);
   params.gyro.fitted = Fitted::no;  // a stream carries none, and not every image has the code
@@ -96,30 +97,32 @@ Stream storm(PlannerKind kind, std::uint64_t seed, int fury, int ticks) {
   Oracle oracle(board);
   const auto planner = make_planner(kind, params);
   Robot robot(oracle, oracle, *planner, params);
-  chip::append_params(to, params);
-  chip::append_begin(to, kind, Pose{});
+  append_params(to, params);
+  append_begin(to, kind, Pose{});
   robot.place(Pose{});
   const planning::Goal goal = random_goal(bits);
   robot.set_goal(goal);
-  chip::append_goal(to, goal);
+  append_goal(to, goal);
   Time now = Time::from_raw(static_cast<std::uint32_t>(bits.next()));
-  for (int i = 0; i < ticks; ++i) {
+  for (int i = 0; i < kTicks; ++i) {
     now = next_tick(now, params, bits);
-    link::Tick tick = oracle.foresee(now);
+    Tick tick = oracle.foresee(now);
     robot.tick(now);
     tick.accepts = oracle.accepted() ? 1 : 0;
-    chip::append(to, link::Name::tick, tick);
+    append(to, Name::tick, tick);
     board.pass();
     interfere(robot, bits, to);
   }
   return stream;
 }
 
+}  // namespace
+
 std::vector<Stream> storms() {
   std::vector<Stream> all;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     for (const PlannerKind kind : {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map}) {
-      all.push_back(storm(kind, seed, static_cast<int>(seed) % 4, 150));
+      all.push_back(storm(kind, seed, static_cast<int>(seed) % 4));
     }
   }
   return all;

@@ -5,10 +5,10 @@ namespace whisker::golden {
 
 Stream table_sweep() {
   using fuzzy::Bilinear;
-  Stream stream{"table", {}};
+  Stream stream{"table", {}, 0};
   const auto probe = [&](int distance, int bias) {
-    chip::append(stream.messages, link::Name::fuzzy,
-                 link::Probe{static_cast<std::int16_t>(distance), static_cast<std::int16_t>(bias)});
+    append(stream.messages, Name::fuzzy,
+           Probe{static_cast<std::int16_t>(distance), static_cast<std::int16_t>(bias)});
   };
   for (int d = 0; d < Bilinear::kDistanceNodes; ++d) {
     for (int r = 0; r < Bilinear::kBiasNodes; ++r) {

@@ -172,7 +172,6 @@ class Drives(Case):
             (("--rules", thesis, "--map", "SA=steer"), "thesis.toml:1:1: no output 'steer'"),
             (("--rules", thesis, "--map", "XY=steer"), "--map: 'XY=steer' must be D=NAME, R=NAME, SA=NAME or SD=NAME"),
             (("--rules", thesis, "--planner", "fan"), "--rules: planner fan has no table"),
-            (("--rules", thesis, "--chip", "false"), "--chip: "),
             (("--map", "SA=steer"), "--map needs --rules"),
         ):
             with self.subTest(said):

@@ -64,7 +64,7 @@ def main(root, whisker):
         (folder / "world.toml").write_text(WORLD)
         rows = "".join(f"{i / 10},0.3,0\n" for i in range(10 * SECONDS))
         (folder / "ahead.csv").write_text("t_s,v_mps,omega_radps\n" + rows)
-        with can_node.Chip(chips, NODE, folder) as chip:
+        with can_node.Chip(chips, "cortex-m3", NODE, folder) as chip:
             bridge = Bridge(folder / "base", folder / "operator")
             bridge.join(connected(chip.socket))
             plant = subprocess.Popen([whisker, "plant", folder / "world.toml", "--can", f"slcan:{folder / 'base'}", "--json"],

@@ -1,4 +1,4 @@
-"""The tables of docs/protocol.md and docs/link.md: the documents are what this peer knows of Whisker."""
+"""The tables of docs/protocol.md: the document is what this peer knows of Whisker."""
 
 import dataclasses
 import pathlib
@@ -72,21 +72,3 @@ class Protocol:
             least, most = map(int, reach.split(".."))
             self.parameters[name] = Parameter(int(index), int(default), least, most)
         self.examples = [tuple(row) for row in rows(text, "what", "SLCAN")]
-
-
-# What struct calls them.
-_FORMATS = {"uint8": "B", "int8": "b", "uint16": "H", "int16": "h", "uint32": "I", "int32": "i", "uint64": "Q"}
-
-
-class Link:
-    """The companion's protocol on a byte stream: for each body its struct format and its fields' names."""
-
-    def __init__(self):
-        text = (DOCS / "link.md").read_text()
-        self.version = int(re.search(r"the version must be (\d+);", text)[1])
-        self.formats, self.fields = {}, {}
-        for section in text[text.index("\n## Bodies\n") :].split("\n### ")[1:]:
-            name = section.split("\n", 1)[0]
-            table = list(rows(section, "offset", "field", "type"))
-            self.formats[name] = "<" + "".join(_FORMATS[kind] for _, _, kind in table)
-            self.fields[name] = [field for _, field, _ in table]

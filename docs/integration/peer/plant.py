@@ -211,7 +211,7 @@ class Run:
 
     outcome: str = "none"
     fault: int = 0
-    hash: int = 0xCBF29CE484222325  # of the commands, as docs/link.md has it
+    hash: int = 0xCBF29CE484222325  # of the commands, FNV-1a 64 over left and right, 2 bytes each, little-endian
 
     def add(self, outcome, fault, left, right):
         self.outcome, self.fault = OUTCOMES[outcome], fault

@@ -1,29 +1,16 @@
 #pragma once
 
 #include "hal/byte_line.hpp"
-#include "hal/byte_stream.hpp"
 #include "hal/console.hpp"
 
 namespace whisker::hal::mcu {
 
-/// A UART as byte stream, line and console. It is polled: bytes that arrive between polls are lost, unless
+/// A UART as line and console. It is polled: bytes that arrive between polls are lost, unless
 /// the UART buffers them. `Uart`: a class with static bool can_read(), uint8_t get(), bool can_write(), void
 /// put(uint8_t).
 template <class Uart>
-class UartPort final : public ByteStream, public ByteLine, public Console {
+class UartPort final : public ByteLine, public Console {
  public:
-  bool read(uint8_t* to, size_t count) noexcept override {
-    for (; count != 0; --count) {
-      while (!Uart::can_read()) {
-      }
-      *to++ = Uart::get();
-    }
-    return true;
-  }
-  bool write(const uint8_t* from, size_t count) noexcept override {
-    for (; count != 0; --count) put(*from++);
-    return true;
-  }
   size_t take(uint8_t* to, size_t room) noexcept override {
     size_t count = 0;
     while (count < room && Uart::can_read()) to[count++] = Uart::get();
@@ -36,14 +23,11 @@ class UartPort final : public ByteStream, public ByteLine, public Console {
   }
   bool ready() noexcept override { return true; }
   void print(const char* text) noexcept override {
-    while (*text != '\0') put(static_cast<uint8_t>(*text++));
-  }
-
- private:
-  static void put(uint8_t byte) noexcept {
-    while (!Uart::can_write()) {
+    for (; *text != '\0'; ++text) {
+      while (!Uart::can_write()) {
+      }
+      Uart::put(static_cast<uint8_t>(*text));
     }
-    Uart::put(byte);
   }
 };
 

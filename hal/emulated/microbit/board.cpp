@@ -14,7 +14,7 @@ mcu::Milliseconds<mcu::NrfTimer> clock;
 mcu::UartPort<mcu::NrfUart> uart;
 mcu::SemihostStream host;
 mcu::CounterMeter<mcu::NrfTimer> meter;
-const Board kBoard{clock, uart, uart, &uart, host, meter};
+const Board kBoard{clock, uart, &uart, host, meter};
 bool started = false;
 
 }  // namespace

@@ -22,7 +22,7 @@ mcu::Milliseconds<Timer> clock;
 mcu::UartPort<Uart> uart;
 mcu::SemihostStream host;
 mcu::CounterMeter<Timer> meter;
-const Board kBoard{clock, uart, uart, &uart, host, meter};
+const Board kBoard{clock, uart, &uart, host, meter};
 bool started = false;
 
 }  // namespace

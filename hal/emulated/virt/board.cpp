@@ -14,7 +14,7 @@ mcu::Milliseconds<mcu::MachineTimer> clock;
 mcu::UartPort<mcu::Ns16550> uart;
 mcu::SemihostStream host;
 mcu::InstructionMeter meter;
-const Board kBoard{clock, uart, uart, &uart, host, meter};
+const Board kBoard{clock, uart, &uart, host, meter};
 
 }  // namespace
 

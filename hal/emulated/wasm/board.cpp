@@ -45,7 +45,7 @@ class NoMeter final : public Meter {
 HostClock clock;
 HostStream host;
 NoMeter meter;
-const Board kBoard{clock, host, host, nullptr, host, meter};
+const Board kBoard{clock, host, nullptr, host, meter};
 
 }  // namespace
 

@@ -44,7 +44,7 @@ const Board& board() noexcept {
   static StandardStream stream;
   static StandardError console;
   static NoMeter meter;
-  static const Board board{clock, console, stream, nullptr, stream, meter};
+  static const Board board{clock, console, nullptr, stream, meter};
   return board;
 }
 

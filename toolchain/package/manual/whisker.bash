@@ -12,10 +12,10 @@ _whisker() {
       options="-h --help --version" words="run world robot campaign scanner movers guard hunt operators table rules figures plant controller hil bench replay socket dbc protocol" paths=none
       ;;
     "whisker run")
-      options="-h --help --robot --seed --trace --svg --html --json --planner --map-bytes --rules --map --chip" words="" paths=file
+      options="-h --help --robot --seed --trace --svg --html --json --planner --map-bytes --rules --map" words="" paths=file
       case $before in
         --robot | --trace | --svg | --html | --rules) options="" words="" paths=file ;;
-        --seed | --map | --chip) options="" words="" paths=value ;;
+        --seed | --map) options="" words="" paths=value ;;
         --planner) options="" words="skirt boundary thesis map bug2 distbug wall-follower fan repulsion" paths=value ;;
         --map-bytes) options="" words="1024 2048 4096 8192 16384" paths=value ;;
       esac
@@ -322,7 +322,7 @@ _whisker() {
       esac
       ;;
     "whisker protocol")
-      options="-h --help --link --parameters" words="" paths=none
+      options="-h --help --parameters" words="" paths=none
       ;;
   esac
   [[ $here == -* ]] && words=$options

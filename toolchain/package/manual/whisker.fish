@@ -32,7 +32,6 @@ complete -c whisker -n '__fish_seen_subcommand_from run' -l planner -x -a 'skirt
 complete -c whisker -n '__fish_seen_subcommand_from run' -l map-bytes -x -a '1024 2048 4096 8192 16384' -d 'Of planner map: 1024, 2048, 4096, 8192, 16384'
 complete -c whisker -n '__fish_seen_subcommand_from run' -l rules -r -F -d 'Response table from a rule base (.fis, .fll, .fcl, .toml) with inputs D and R, outputs SA and SD; sets bend_course, unless a bus or a log gives the robot\'s parameters'
 complete -c whisker -n '__fish_seen_subcommand_from run' -l map -x -d 'With --rules: the file\'s name of D, R, SA or SD; may be repeated'
-complete -c whisker -n '__fish_seen_subcommand_from run' -l chip -x -d 'Let the core behind this shell command drive, such as "scripts/chip cortex-m3"'
 complete -c whisker -n '__fish_seen_subcommand_from world' -s h -l help -d 'Print this help message and exit'
 complete -c whisker -n '__fish_seen_subcommand_from world' -l seed -x -d 'The same seed gives the same world everywhere'
 complete -c whisker -n '__fish_seen_subcommand_from world' -l discs -x -d 'Number of discs; 30 by default for kind discs'
@@ -472,5 +471,4 @@ complete -c whisker -n '__fish_seen_subcommand_from socket' -l json -d 'Print th
 complete -c whisker -n '__fish_seen_subcommand_from dbc' -s h -l help -d 'Print this help message and exit'
 complete -c whisker -n '__fish_seen_subcommand_from dbc' -l robot -x -d 'Whose identifiers: 1 to 7'
 complete -c whisker -n '__fish_seen_subcommand_from protocol' -s h -l help -d 'Print this help message and exit'
-complete -c whisker -n '__fish_seen_subcommand_from protocol' -l link -d 'The companion\'s protocol on a byte stream instead'
 complete -c whisker -n '__fish_seen_subcommand_from protocol' -l parameters -d 'The robot\'s parameters in the units of a scenario file instead'

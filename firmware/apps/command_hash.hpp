@@ -4,7 +4,7 @@
 
 #include "hal/types.hpp"
 
-namespace whisker::link {
+namespace whisker {
 
 /// FNV-1a 64 over wheel commands as int16 little-endian, left first.
 class CommandHash {
@@ -25,4 +25,4 @@ class CommandHash {
   uint64_t value_ = UINT64_C(0xCBF29CE484222325);
 };
 
-}  // namespace whisker::link
+}  // namespace whisker

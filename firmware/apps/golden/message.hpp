@@ -1,25 +1,18 @@
-/// docs/link.md is generated from this.
-///
-/// Messages between a robot on a chip and the companion that simulates its sensors and its wheels.
-///
-/// The companion sends messages, each a byte that names it and a body; the chip answers some:
+/// The messages of a golden stream (tests/golden), and what a player answers to some of them.
 ///
 /// | message | body | answer |
 /// |---|---|---|
-/// | H hello | - | Greeting |
-/// | P parameters | every parameter's raw value, 4 bytes, in the order of for_each_param | - |
+/// | P parameters | a Word for each parameter, in the order of for_each_param | - |
 /// | B begin | Begin: planner, its map and pose; a new robot with the last parameters | - |
 /// | G goal | Target | - |
 /// | L place | Stand | - |
 /// | C cancel, R reset | - | - |
-/// | Y gyro | GyroSums: what the gyro says at the next tick | - |
-/// | X fix | Fix: a pose from outside, before the next tick | Verdict |
+/// | X fix | Fix: a pose from outside, before the next tick | - |
 /// | T tick | Tick: the time, and the hardware's answers to this tick's calls | Answer |
 /// | F fuzzy | Probe: two inputs of the response table | Reaction |
-/// | E end | - | Total; the chip's program ends |
+/// | E end | - | Total |
 ///
 /// Bodies are the fields that each() names, in its order, little-endian, two's complement, no padding.
-/// A byte that names no message, or a message out of order, ends the program with an error.
 #pragma once
 
 #include <stddef.h>
@@ -27,36 +20,28 @@
 
 #include "hal/types.hpp"
 
-namespace whisker::link {
+namespace whisker::golden {
 
 enum class Name : uint8_t {
-  hello = 'H',
   params = 'P',
   begin = 'B',
   goal = 'G',
   place = 'L',
   cancel = 'C',
   reset = 'R',
-  gyro = 'Y',
   fix = 'X',
   tick = 'T',
   fuzzy = 'F',
   end = 'E',
 };
 
-constexpr uint8_t kVersion = 5;
-
 /// each(m, f) of a message calls f(name, field) for its fields, in byte order; M may be const.
-struct Greeting {
-  uint8_t version = kVersion;
-  uint8_t engine = 0;           ///< 0: look-up, 1: closed form
-  uint16_t most_map_bytes = 0;  ///< of the largest map that there is room for; 0: none
+struct Word {
+  uint32_t raw = 0;
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) {
-    f("version", m.version);
-    f("engine", m.engine);
-    f("most_map_bytes", m.most_map_bytes);
+    f("raw", m.raw);
   }
 };
 
@@ -108,6 +93,8 @@ struct Tick {
   hal::EncoderCounts counts{};
   uint8_t bumps_given = 1;  ///< 0: Bumper::read refuses
   hal::BumperReading bumps{};
+  uint8_t gyro_given = 0;  ///< 0: Gyro::read refuses
+  hal::GyroReading gyro{};
 
   template <class M, class F>
   static constexpr void each(M& m, F& f) {
@@ -125,18 +112,10 @@ struct Tick {
     f("count_right", m.counts.right);
     f("bumps_given", m.bumps_given);
     f("pressed", m.bumps.pressed);
-  }
-};
-
-/// Without it, Gyro::read refuses at the next tick.
-struct GyroSums {
-  hal::GyroReading reading{};
-
-  template <class M, class F>
-  static constexpr void each(M& m, F& f) {
-    f("sum", m.reading.sum);
-    f("samples", m.reading.samples);
-    f("saturated", m.reading.saturated);
+    f("gyro_given", m.gyro_given);
+    f("sum", m.gyro.sum);
+    f("samples", m.gyro.samples);
+    f("saturated", m.gyro.saturated);
   }
 };
 
@@ -152,20 +131,6 @@ struct Fix {
     f("sigma_along", m.sigma_along);
     f("sigma_across", m.sigma_across);
     f("sigma_heading", m.sigma_heading);
-  }
-};
-
-/// What became of a fix.
-struct Verdict {
-  uint8_t accepted = 0;
-  uint32_t jumps = 0;  ///< Health::fix_jumps
-  uint32_t refused = 0;
-
-  template <class M, class F>
-  static constexpr void each(M& m, F& f) {
-    f("accepted", m.accepted);
-    f("jumps", m.jumps);
-    f("refused", m.refused);
   }
 };
 
@@ -259,4 +224,47 @@ struct Total {
   }
 };
 
-}  // namespace whisker::link
+/// The bytes of a message's body.
+template <class M>
+constexpr size_t size_of() noexcept {
+  size_t size = 0;
+  const auto count = [&size](const char*, const auto& field) { size += sizeof field; };
+  const M m{};
+  M::each(m, count);
+  return size;
+}
+
+/// `to` has room for size_of<M>() bytes.
+template <class M>
+void encode(const M& m, uint8_t* to) noexcept {
+  const auto put = [&to](const char*, auto field) {
+    auto bits = static_cast<uint64_t>(field);
+    for (size_t i = 0; i < sizeof field; ++i, bits >>= 8) *to++ = static_cast<uint8_t>(bits);
+  };
+  M::each(m, put);
+}
+
+/// Reads fields.
+class Decoder {
+ public:
+  explicit Decoder(const uint8_t* from) noexcept : at_(from) {}
+  template <class T>
+  void operator()(const char*, T& field) noexcept {
+    uint64_t bits = 0;
+    for (size_t i = 0; i < sizeof field; ++i) bits |= static_cast<uint64_t>(*at_++) << (8 * i);
+    field = static_cast<T>(bits);
+  }
+
+ private:
+  const uint8_t* at_;
+};
+
+template <class M>
+M decode(const uint8_t* from) noexcept {
+  M m{};
+  Decoder decoder{from};
+  M::each(m, decoder);
+  return m;
+}
+
+}  // namespace whisker::golden
