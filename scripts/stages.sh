@@ -102,7 +102,7 @@ stage_vcan() {
 }
 
 stage_targets() {
-  scripts/targets --sample
+  scripts/chip --build --sample
   # Sequentially: each uses all processors.
   ctest --preset host --no-tests=error -L '^targets$' -LE '^night$' -V -j 1
 }
@@ -179,7 +179,7 @@ stage_long() {
   scripts/bars --gate --count 50 --noisy 50
   export WHISKER_LONG=1
   RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" ctest --preset host --no-tests=error -LE '^(targets|vcan|vm)$'
-  scripts/targets
+  scripts/chip --build
   ctest --preset host --no-tests=error -L '^targets$' -V -j 1
   vcan_tests '^night$' '^vm$'
   scripts/playground --build-only
