@@ -1,7 +1,7 @@
 #!/usr/bin/env -S python3 -B
 """Drives the boundary planner through a U-trap and writes an animation of the drive, docs/film/u_trap.svg or FILE.
 
-usage: scripts/film [FILE]
+usage: scripts/lib/film.py [FILE]
 The animated SVG also plays inside a web page; a viewer without animation shows the end of the drive.
 Needs build/host/whisker, or the command in the environment variable WHISKER.
 """
@@ -15,7 +15,7 @@ import sys
 import tempfile
 import tomllib
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORLD = ("u-trap", "--seed", "7")
 BEAMS = (("left", 30, "#0b7f86"), ("front", 0, "#5f4bc4"), ("right", -30, "#b03a80"))
 HALF_CONE = 12.5  # degrees
