@@ -102,7 +102,7 @@ stage_vcan() {
 }
 
 stage_targets() {
-  scripts/targets --sample
+  scripts/chip --build --sample
   # Sequentially: each uses all processors.
   ctest --preset host --no-tests=error -L '^targets$' -LE '^night$' -V -j 1
 }
@@ -170,16 +170,16 @@ stage_analyzer() { tidy '--checks=-*,clang-analyzer-*,-clang-analyzer-optin.perf
 
 stage_campaign() {
   build host
-  scripts/bars --gate --count 25 --noisy 25
+  scripts/measure bars --gate --count 25 --noisy 25
 }
 
 stage_long() {
   build_and_test core-tests
   build host
-  scripts/bars --gate --count 50 --noisy 50
+  scripts/measure bars --gate --count 50 --noisy 50
   export WHISKER_LONG=1
   RC_PARAMS="seed=$((RANDOM << 15 | RANDOM)) max_success=2000" ctest --preset host --no-tests=error -LE '^(targets|vcan|vm)$'
-  scripts/targets
+  scripts/chip --build
   ctest --preset host --no-tests=error -L '^targets$' -V -j 1
   vcan_tests '^night$' '^vm$'
   scripts/playground --build-only
@@ -201,7 +201,7 @@ stage_soak() {
   local seed=${SOAK_SEED:-$RANDOM}
   build asan
   echo "again: SOAK_SEED=$seed SOAK_COUNT=$soak_count scripts/test --only soak"
-  WHISKER=build/asan/whisker scripts/measure "$soak_count" "$seed" skirt
+  WHISKER=build/asan/whisker scripts/measure outcomes "$soak_count" "$seed" skirt
 }
 
 # Only this stage needs the 118 packages, and fails where they cannot be installed.

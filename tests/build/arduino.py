@@ -1,4 +1,4 @@
-"""scripts/arduino: its descriptions follow the specifications of Arduino and PlatformIO, and library and sketch compile for an AVR
+"""scripts/amalgamate: its descriptions follow the specifications of Arduino and PlatformIO, and library and sketch compile for an AVR
 against the headers of Debian's arduino-core-avr, with WHISKER_LONG to code.
 
 usage: arduino.py ROOT WORK_FOLDER CLANGXX-14 ARDUINO_CORE
@@ -92,7 +92,7 @@ def main(root, work, clang, core):
     try:
         archives = [work / f"{i}.zip" for i in range(2)]
         for archive in archives:
-            run(f"{root}/scripts/arduino", archive)
+            run(f"{root}/scripts/amalgamate", archive)
         if archives[0].read_bytes() != archives[1].read_bytes():
             problems.append("two archives of one tree differ")
         zipfile.ZipFile(archives[0]).extractall(work)

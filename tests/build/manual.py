@@ -1,9 +1,10 @@
-"""The man page and the completions are what the help of the command says; groff and the shells accept them; bash completes.
+"""The build's man page and completions name every command; groff and the shells accept them; bash completes.
 
-usage: manual.py ROOT WHISKER
+usage: manual.py FOLDER WHISKER
 """
 
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -14,19 +15,15 @@ from sources import finish
 # Words typed, the last one to complete: what is offered in a folder with the files a.toml and b.csv, and the folder c.
 OFFERS = (
     (("ru",), {"run", "rules"}),
-    (("--v",), {"--version"}),
-    (("run", "--pl"), {"--planner"}),
     (("run", "--planner", "th"), {"thesis"}),
-    (("run", "--seed", ""), set()),
     (("run", ""), {"a.toml", "b.csv", "c"}),
-    (("run", "--robot", "a"), {"a.toml"}),
-    (("robot", ""), {"check", "layout", "calibrate", "calibrate-drive"}),
     (("robot", "layout", "--sens"), {"--sensor"}),
     (("world", "ga"), {"gap", "gap-at-wall"}),
     (("movers", "--contacts", ""), {"c"}),
-    (("campaign", "--robots", ""), {"random"}),
 )
 COMPLETE = 'source "$1"; shift; COMP_WORDS=(whisker "$@"); COMP_CWORD=$#; _whisker; printf "%s\\n" "${COMPREPLY[@]}"'
+# Each with the command that accepts it; zsh and fish only where they are installed.
+FILES = {"whisker.1": "groff -man -ww -z", "whisker.bash": "bash -n", "_whisker": "zsh -n", "whisker.fish": "fish -n"}
 
 
 def offered(script, words):
@@ -38,30 +35,29 @@ def offered(script, words):
         return {line for line in (done.stdout + done.stderr).splitlines() if line}
 
 
-def problems(root, whisker):
-    folder = pathlib.Path(root, "toolchain/package/manual")
-    checks = {
-        "scripts/manual --check": ([f"{root}/scripts/manual", "--check", whisker], True),
-        "groff": (["groff", "-man", "-ww", "-z", folder / "whisker.1"], True),
-        "bash": (["bash", "-n", folder / "whisker.bash"], True),
-        # Checked where they are installed.
-        "zsh": (["zsh", "-n", folder / "_whisker"], False),
-        "fish": (["fish", "-n", folder / "whisker.fish"], False),
-    }
-    for name, (command, needed) in checks.items():
-        if not needed and not shutil.which(command[0]):
-            continue
-        done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
-        if done.returncode or done.stderr:
-            yield f"{name}: exit status {done.returncode}\n{done.stdout}{done.stderr}"
+def problems(folder, whisker):
+    told = subprocess.run([whisker, "--help"], capture_output=True, text=True, check=True).stdout
+    commands = re.findall(r"^  (\w+) ", told.partition("Subcommands:")[2].partition("\n\n")[0], re.MULTILINE)
+    if not commands:
+        yield "the help names no command"
+    for name, command in FILES.items():
+        text = (folder / name).read_text() if (folder / name).is_file() else ""
+        for word in commands:
+            if not re.search(rf"\b{word}\b", text):
+                yield f"{name} does not name {word}"
+        words = command.split()
+        if name.endswith((".1", ".bash")) or shutil.which(words[0]):
+            done = subprocess.run([*words, folder / name], capture_output=True, text=True, check=False)
+            if done.returncode or done.stderr:
+                yield f"{command} {name}: exit status {done.returncode}\n{done.stdout}{done.stderr}"
     for words, wanted in OFFERS:
         found = offered(folder / "whisker.bash", words)
         if found != wanted:
             yield f"whisker {' '.join(words)}: bash offers {sorted(found)}, not {sorted(wanted)}"
 
 
-def main(root, whisker):
-    return finish("the manual", len(OFFERS), list(problems(root, whisker)))
+def main(folder, whisker):
+    return finish("the manual", len(FILES) + len(OFFERS), list(problems(pathlib.Path(folder), whisker)))
 
 
 if __name__ == "__main__":

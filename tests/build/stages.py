@@ -26,10 +26,7 @@ def defined(root):
 
 def problems(root, text):
     programs, labels = defined(root)
-    presets = set()
-    for path in (pathlib.Path(root, "CMakePresets.json"), pathlib.Path(root, "toolchain/presets.json")):
-        if path.is_file():
-            presets.update(p["name"] for p in json.loads(path.read_text())["configurePresets"])
+    presets = {p["name"] for p in json.loads(pathlib.Path(root, "CMakePresets.json").read_text())["configurePresets"]}
     for name in sorted(set(re.findall(r"\bwhisker_core_properties\b|\bwhisker_\w+_tests\b", text)) - programs):
         yield f"scripts/stages.sh: no test program is {name}"
     patterns = re.findall(r"['\"]\^?\(?([\w|$]+)\)?\\?\$?['\"]", text)

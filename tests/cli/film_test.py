@@ -1,4 +1,4 @@
-"""The committed animation equals the output of scripts/film, and shows the drive from start to goal."""
+"""The committed animation equals the output of scripts/lib/film.py, and shows the drive from start to goal."""
 
 import os
 import pathlib
@@ -16,8 +16,8 @@ class Film(Case):
     def test_is_drawn_the_same_again(self):
         file = self.folder / "film.svg"
         environment = {**os.environ, "WHISKER": whisker.binary}
-        subprocess.run([ROOT / "scripts/film", file], check=True, capture_output=True, env=environment, timeout=120)
-        self.assertTrue(file.read_bytes() == COMMITTED.read_bytes(), "scripts/film")
+        subprocess.run([ROOT / "scripts/lib/film.py", file], check=True, capture_output=True, env=environment, timeout=120)
+        self.assertTrue(file.read_bytes() == COMMITTED.read_bytes(), "scripts/lib/film.py")
 
     def test_is_small_and_in_the_readme(self):
         self.assertLess(COMMITTED.stat().st_size, 300000)

@@ -1,11 +1,9 @@
-"""scripts/bars, compare, measure and odometry: their calls of `whisker campaign` and the tables they make of its
-summaries; and the figures that scripts/bus-figures computes from a log.
+"""The tables bars, compare, outcomes and odometry of scripts/measure: their calls of `whisker campaign`, and what they make of its
+summaries; and the figures that bus-figures computes from a log.
 
 WHISKER names a stand-in that records its arguments and prints one summary, which the real command made.
 """
 
-import importlib.machinery
-import importlib.util
 import json
 import os
 import pathlib
@@ -36,7 +34,7 @@ class Scripts(Case):
 
     def run_script(self, name, *arguments, status=0):
         done = subprocess.run(
-            [SCRIPTS / name, *map(str, arguments)],
+            [SCRIPTS / "measure", name, *map(str, arguments)],
             env={**os.environ, "WHISKER": str(self.command)},
             capture_output=True, text=True, timeout=60, check=False,
         )  # fmt: skip
@@ -58,7 +56,7 @@ class Tables(Scripts):
             ("bars", ("--count", 1, "--noisy", 1, "--seed", 1, "--gate"), 20),
             ("bars", ("--planner", "map", "--count", 1, "--noisy", 1, "--seed", 1, "--gate"), 20),
             ("compare", (1,), 8 * 10),
-            ("measure", (1,), 11),
+            ("outcomes", (1,), 11),
             ("odometry", (1, "--only", "wheels"), 3 * 7),
             ("odometry", (1, "--only", "classes"), 10 * 4),
             ("odometry", (1, "--only", "readme"), 10),
@@ -81,14 +79,14 @@ class Tables(Scripts):
         half = {"value": 0.5, "low": 0.25, "high": None}
         there = {**half, "value": 0.375}
         self.answer(reached=half, truly_there=there, s_per_m={"p50": half, "p95": None}, estimate_error_m={"p50": half, "p95": half}, final_distance_m={"p50": there, "p95": None})
-        first = self.rows(self.run_script("measure", 2, 7, "skirt"))[1]
+        first = self.rows(self.run_script("outcomes", 2, 7, "skirt"))[1]
         self.assertEqual(first, ["15 discs", "37.5 %", "50.0 %", "0.0 %", "0.0 %", "0.0 %", "0.0 %", "0.5"])
         self.assertEqual(self.calls()[0], "campaign discs --discs 15 --count 2 --seed 7 --planner skirt --json".split())
         odometry = self.rows(self.run_script("odometry", 1, "--only", "wheels"))[2]
         self.assertEqual(odometry[:5], ["30 discs", "0.01 %", "37.5 (25.0-?)", "50.0 (25.0-?)", "0.38 (0.25-?)"])
         self.assertEqual(odometry[-2:], ["0.50 (0.25-?)", "0.50 (0.25-?)"])
         self.answer(s_per_m={"p50": None, "p95": None})
-        self.assertEqual(self.rows(self.run_script("measure", 1))[1][-1], "-")
+        self.assertEqual(self.rows(self.run_script("outcomes", 1))[1][-1], "-")
 
     def test_compare_asks_every_planner_for_the_same_worlds(self):
         done = self.run_script("compare", 3, 40)
@@ -117,7 +115,7 @@ class Tables(Scripts):
         half = {"value": 0.5, "low": 0.25, "high": None}
         self.answer(reached=half, truly_there={**half, "value": 0.375}, contact={**half, "value": 0}, final_distance_m={"p50": {**half, "value": 2.857}, "p95": None})
         done = self.run_script("odometry", 2, 40, "--only", "readme")
-        self.assertIn("`scripts/odometry --only readme 2 40`: 2 missions a class and grade, seeds 40 to 41, map planner, on ", done.stdout)
+        self.assertIn("`scripts/measure odometry 2 40 --only readme`: 2 missions a class and grade, seeds 40 to 41, on ", done.stdout)
         table = self.rows(done)
         self.assertEqual(table[0], ["world", "gyro, tape", "gyro, wheels 1 %", "no gyro, wheels 1 %"])
         self.assertEqual(table[1], ["15 discs", *["50 % / 37.5 % / 0 / 2.86 m"] * 3])
@@ -135,28 +133,20 @@ class Tables(Scripts):
 
     def test_a_table_is_put_between_its_marks_and_nowhere_else(self):
         page = self.file("page.md", "a\n<!-- x:begin -->\nold\n<!-- x:end -->\nb\n")
-        put = f"import sys, pathlib; sys.path.insert(0, {str(SCRIPTS)!r}); import campaigns; campaigns.put(pathlib.Path({str(page)!r}), sys.argv[1], 'new\\n')"
+        put = f"import sys, pathlib; sys.path.insert(0, {str(SCRIPTS / 'lib')!r}); import campaigns; campaigns.put(pathlib.Path({str(page)!r}), sys.argv[1], 'new\\n')"
         subprocess.run([sys.executable, "-B", "-c", put, "x"], check=True)
         self.assertEqual(page.read_text(), "a\n<!-- x:begin -->\nnew\n<!-- x:end -->\nb\n")
         done = subprocess.run([sys.executable, "-B", "-c", put, "y"], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, "page.md has no place for the table" in done.stderr), (1, True))
-        for name, marks in (("README.md", ("realistic",)), ("docs/odometry.md", ("realistic", "wheels"))):
-            for mark in marks:
-                self.assertEqual((SCRIPTS.parent / name).read_text().count(f"<!-- {mark}:begin -->\n"), 1, name)
 
 
 class BusFigures(unittest.TestCase):
     def setUp(self):
-        self.figures = self.program("bus-figures")
-        self.runs = self.program("bus_runs.py")
+        sys.path.insert(0, str(SCRIPTS / "lib"))
+        self.addCleanup(sys.path.remove, str(SCRIPTS / "lib"))
+        import bus_figures
 
-    def program(self, name):
-        sys.path.insert(0, str(SCRIPTS))
-        self.addCleanup(sys.path.remove, str(SCRIPTS))
-        loader = importlib.machinery.SourceFileLoader(name, str(SCRIPTS / name))
-        module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
-        loader.exec_module(module)
-        return module
+        self.figures = bus_figures
 
     def test_a_stop_is_that_after_the_last_command(self):
         with tempfile.TemporaryDirectory() as box:
@@ -173,7 +163,7 @@ class BusFigures(unittest.TestCase):
                 "(12.310000) vcan0 119#0030030000030000\n"
                 "(12.400000) vcan0 709#0040"  # being written
             )
-            stop = self.runs.stop_of(log)
+            stop = self.figures.stop_of(log)
         self.assertEqual({key: round(value, 3) for key, value in stop.items()}, {"speed_mps": 0.3, "latency_ms": 51, "braking_ms": 249})
 
     def test_what_misses_its_bar_is_bold_and_counted(self):
@@ -181,22 +171,25 @@ class BusFigures(unittest.TestCase):
         trip = {"p50": 1, "p99": 2, "max": 3}
         live = {"world": "spiral", "ticks": 101, "deadline_misses": 0, "round_trip_us": trip, "frames": 730, "load_percent": 19.6}
         stop = {"speed_mps": 0.3, "latency_ms": 49.5, "braking_ms": 400.0}
-        good = self.figures.table_of({"lockstep": [lockstep], "real_time": live, "stops": [stop]}, 1)
-        self.assertEqual((good.missed, good.text().count("**")), (0, 0))
+        lines, missed = self.figures.table_of({"lockstep": [lockstep], "real_time": live, "stops": [stop]}, 1)
+        self.assertEqual((missed, "\n".join(lines).count("**")), (0, 0))
         bad = {
             "lockstep": [{**lockstep, "ticks_per_s": 499.4}, {**lockstep, "same": False}],
             "real_time": {**live, "ticks": 100, "deadline_misses": 1},
             "stops": [stop, {**stop, "latency_ms": 50.2}],
         }
-        table = self.figures.table_of(bad, 1)
-        self.assertEqual((table.missed, table.text().count("**")), (5, 10))
-        self.assertIn("**500 ticks/s, another trajectory**", table.text())
-        self.assertIn("| **49.5 to 50.2 ms** | 50 ms |", table.text())
+        lines, missed = self.figures.table_of(bad, 1)
+        text = "\n".join(lines)
+        self.assertEqual((missed, text.count("**")), (5, 10))
+        self.assertIn("**500 ticks/s, another trajectory**", text)
+        self.assertIn("| **49.5 to 50.2 ms** | 50 ms |", text)
 
-    def test_its_page_has_a_place_for_the_table(self):
-        page = self.figures.PAGE.read_text()
-        for mark in self.figures.MARKS:
-            self.assertEqual(page.count(mark), 1)
+
+class Places(unittest.TestCase):
+    def test_the_pages_have_a_place_for_each_table(self):
+        for name, marks in (("README.md", ("realistic",)), ("docs/odometry.md", ("realistic", "wheels")), ("docs/can.md", ("bus",))):
+            for mark in marks:
+                self.assertEqual((SCRIPTS.parent / name).read_text().count(f"<!-- {mark}:begin -->\n"), 1, (name, mark))
 
 
 class Status(Scripts):
@@ -251,7 +244,7 @@ class Status(Scripts):
 
     def test_bars_are_of_maps_that_have_some(self):
         for wrong in (("--map-bytes", 2048), ("--planner", "map", "--map-bytes", 4096), ("--planner", "fan")):
-            self.assertIn("usage: bars ", self.run_script("bars", *wrong, status=2).stderr)
+            self.assertIn("usage: scripts/measure bars ", self.run_script("bars", *wrong, status=2).stderr)
 
     def test_the_gate_asks_for_no_contact_and_for_success(self):
         share = lambda value: {"value": value, "low": 0, "high": 1}
@@ -264,7 +257,7 @@ class Status(Scripts):
 
     def test_a_fault_is_a_failure(self):
         self.answer(missions=4, fault={"value": 0.25, "low": 0, "high": 1})
-        self.assertIn("measure: 11 runs ended in a fault", self.run_script("measure", 4, status=1).stderr)
+        self.assertIn("outcomes: 11 runs ended in a fault", self.run_script("outcomes", 4, status=1).stderr)
         self.assertIn("compare: 90 runs ended in a fault", self.run_script("compare", 4, status=1).stderr)
 
     def test_a_comparison_of_robots_that_are_not_where_they_say_is_a_failure(self):
@@ -273,20 +266,20 @@ class Status(Scripts):
 
     def test_a_campaign_that_fails_is_named(self):
         self.file("whisker.status", "7")
-        for name, *arguments in (("bars", "--seed", 1), ("compare",), ("measure",), ("odometry",)):
+        for name, *arguments in (("bars", "--seed", 1), ("compare",), ("outcomes",), ("odometry",)):
             done = self.run_script(name, *arguments, status=1)
             self.assertRegex(done.stderr, rf"\A{name}: whisker campaign discs [^\n]*: exit status 7\n\Z")
 
     def test_a_missing_command_is_named(self):
         self.command.unlink()
-        for name in ("bars", "bus-figures", "compare", "measure", "odometry"):
+        for name in ("bars", "bus-figures", "compare", "outcomes", "odometry"):
             done = self.run_script(name, status=1)
             self.assertRegex(done.stderr, rf"\A{name}: [^\n]* is missing: cmake [^\n]*\n\Z")
 
     def test_arguments_that_are_no_numbers_get_the_usage(self):
-        for name in ("compare", "measure", "odometry"):
+        for name in ("compare", "outcomes", "odometry"):
             for wrong in (("x",), ("-1",), ("1", "1.5")):
-                self.assertIn(f"usage: scripts/{name} ", self.run_script(name, *wrong, status=2).stderr)
+                self.assertIn(f"usage: scripts/measure {name} ", self.run_script(name, *wrong, status=2).stderr)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-// A program that uses all of whisker::Guard and nothing else: scripts/guard links it to measure its size.
+// A program that uses all of whisker::Guard and nothing else: scripts/measure guard measures its size.
 #include "firmware/guard.hpp"
 
 namespace {

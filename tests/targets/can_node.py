@@ -119,7 +119,7 @@ def with_rules(whisker, folder, chip, patience_s):
 
 
 def main(root, whisker):
-    sys.path.insert(0, str(pathlib.Path(root, "scripts")))
+    sys.path.insert(0, str(pathlib.Path(root, "scripts/lib")))
     import chips
 
     whole = "WHISKER_LONG" in os.environ

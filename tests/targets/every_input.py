@@ -21,7 +21,7 @@ def output(command):
 
 
 def main(root):
-    sys.path.insert(0, str(pathlib.Path(root, "scripts")))
+    sys.path.insert(0, str(pathlib.Path(root, "scripts/lib")))
     import chips
 
     runs = {"desktop": [chips.BUILD / "host/firmware/apps/every-input-table"]}

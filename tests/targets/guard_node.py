@@ -54,7 +54,7 @@ def wait_for_guard(whisker, path):
 
 
 def main(root, whisker):
-    sys.path[:0] = [str(pathlib.Path(root, "scripts")), str(pathlib.Path(root, "tests/cli"))]
+    sys.path[:0] = [str(pathlib.Path(root, "scripts/lib")), str(pathlib.Path(root, "tests/cli"))]
     import can_node
     import chips
     from slcan_bridge import Bridge

@@ -4,12 +4,22 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${whisker_doc} RENAME co
 install(FILES ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${whisker_doc})
 install(FILES ${PROJECT_SOURCE_DIR}/docs/example/main.cpp DESTINATION ${whisker_doc}/examples)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/integration/c/ DESTINATION ${whisker_doc}/examples)
-set(whisker_manual ${PROJECT_SOURCE_DIR}/toolchain/package/manual)
-install(FILES ${whisker_manual}/whisker.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
-install(FILES ${whisker_manual}/whisker.bash DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions RENAME whisker
-  COMPONENT command)
-install(FILES ${whisker_manual}/_whisker DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/zsh/vendor-completions COMPONENT command)
-install(FILES ${whisker_manual}/whisker.fish DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/fish/vendor_completions.d COMPONENT command)
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  set(manual ${PROJECT_BINARY_DIR}/manual)
+  set(manual_script ${CMAKE_CURRENT_LIST_DIR}/manual.py)
+  set(manual_files ${manual}/whisker.1 ${manual}/whisker.bash ${manual}/_whisker ${manual}/whisker.fish)
+  add_custom_command(OUTPUT ${manual_files} DEPENDS whisker ${manual_script} VERBATIM
+    COMMAND Python3::Interpreter -B ${manual_script} $<TARGET_FILE:whisker> ${PROJECT_VERSION} ${manual})
+  add_custom_target(whisker_manual ALL DEPENDS ${manual_files})
+  install(FILES ${manual}/whisker.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+  set(share ${CMAKE_INSTALL_DATAROOTDIR})
+  install(FILES ${manual}/whisker.bash DESTINATION ${share}/bash-completion/completions RENAME whisker COMPONENT command)
+  install(FILES ${manual}/_whisker DESTINATION ${share}/zsh/vendor-completions COMPONENT command)
+  install(FILES ${manual}/whisker.fish DESTINATION ${share}/fish/vendor_completions.d COMPONENT command)
+else()
+  message(STATUS "No Python 3: neither man page nor completions are made")
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/host/robots ${PROJECT_SOURCE_DIR}/host/worlds/scenarios
   DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/whisker FILES_MATCHING PATTERN "*.toml")
 

@@ -1,16 +1,4 @@
-#!/usr/bin/env -S python3 -B
-"""The examples of host/rules/examples from file to answers on an emulated Cortex-M0+: compiles each to a header, builds its program in
-docs/integration/rules for the chip and for this computer, and runs both. Exit status 1 unless both give the same answers to all inputs,
-and the answers keep the printed bound on exact inference.
-
-usage: scripts/rule-examples             prints the examples in Markdown
-       scripts/rule-examples --update    writes them into docs/rule-compiler.md
-       scripts/rule-examples --check     exit status 1 if the page shows others
-       scripts/rule-examples --broken    one node is wrong in the chip's header only; exit status 0 if the example fails. With
-                                         WHISKER_LONG in the environment each of them, otherwise the first
-
-Needs build/host/whisker, or the command in the environment variable WHISKER; make, gcc, gcc-arm-none-eabi and QEMU (scripts/setup cross).
-"""
+"""The examples of host/rules/examples, from file to answers on an emulated Cortex-M0+: the pages and the test of the rule compiler."""
 
 import concurrent.futures
 import dataclasses
@@ -21,13 +9,12 @@ import random
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 
-import campaigns
+from campaigns import ROOT, WHISKER, Section, fail, heading, line, place_in, table
 
-PAGE = campaigns.ROOT / "docs/rule-compiler.md"
-PROGRAMS = campaigns.ROOT / "docs/integration/rules"
+PAGE = ROOT / "docs/rule-compiler.md"
+PROGRAMS = ROOT / "docs/integration/rules"
 RULES = "host/rules/examples"
 EXAMPLES = {
     "thesis.toml": "The thesis: 25 rules that steer a robot past obstacles, two outputs.",
@@ -86,7 +73,7 @@ class Example:
         self.folder = work / self.stem
         shutil.copytree(PROGRAMS, self.folder)
         self.header = self.folder / "out" / f"{self.stem}.h"
-        self.told = json.loads(run(campaigns.WHISKER, "rules", "compile", self.rules, "--json", cwd=campaigns.ROOT))
+        self.told = json.loads(run(WHISKER, "rules", "compile", self.rules, "--json", cwd=ROOT))
         self.on_page = self.ask_more()
 
     def ask_more(self):
@@ -99,7 +86,7 @@ class Example:
         return text.count("demo_ask(")
 
     def make(self, target):
-        return run("make", "-s", f"WHISKER={campaigns.WHISKER}", f"RULES={campaigns.ROOT / RULES}", target, cwd=self.folder)
+        return run("make", "-s", f"WHISKER={WHISKER}", f"RULES={ROOT / RULES}", target, cwd=self.folder)
 
     def spoil(self):
         """Adds 1 to a node of the header."""
@@ -125,7 +112,7 @@ class Example:
     def judged(self, raw, outputs):
         """[(output, exact, error)] at these raw inputs."""
         at = [f"{i['name']}={i['origin'] + raw[i['name']] / i['raw_per_unit']!r}" for i in self.told["inputs"]]
-        exact = dict(line.split(" = ") for line in run(campaigns.WHISKER, "rules", "evaluate", self.rules, *at, cwd=campaigns.ROOT).splitlines())
+        exact = dict(line.split(" = ") for line in run(WHISKER, "rules", "evaluate", self.rules, *at, cwd=ROOT).splitlines())
         judged = []
         for o in self.told["outputs"]:
             shown, answer = outputs[o["name"]]
@@ -182,8 +169,8 @@ class Example:
         chip = self.answers(broken)
         judged = [self.judged(*asked) for asked in chip.asked]
         self.check_worst(chip, judged)
-        told = run(campaigns.WHISKER, "rules", "compile", self.rules, cwd=campaigns.ROOT)
-        source = (campaigns.ROOT / self.rules).read_text()
+        told = run(WHISKER, "rules", "compile", self.rules, cwd=ROOT)
+        source = (ROOT / self.rules).read_text()
         code, table, products = self.sizes()
         name = pathlib.Path(self.rules).name
         yield f"### {name}\n\n{EXAMPLES[name]}\n\n"
@@ -194,60 +181,50 @@ class Example:
         yield f"```\n$ make -s -C docs/integration/rules {self.stem}.answers\n"
         yield "".join(f"{line}\n" for line in chip.lines[: self.on_page])
         yield f"a look-up: {chip.cost}\n{chip.inputs} inputs, checksum {chip.checksum}\n```\n\n"
-        yield f"{campaigns.heading_of('at', 'exact', 'error of the chip', 'per cent of the span', 'at most')}\n"
+        yield f"{heading('at', 'exact', 'error of the chip', 'per cent of the span', 'at most')}\n"
         for (raw, _), row in list(zip(chip.asked, judged))[: self.on_page]:
             at = ", ".join(f"{i['name']} {i['origin'] + raw[i['name']] / i['raw_per_unit']:.4f}" for i in self.told["inputs"])
             for o, exact, error in row:
                 share = 100 * error / o["span"]
                 cells = (at, f"{o['name']} {exact + 0:.6f}", f"{error:+.6f}", f"{share:+.4f}", f"{o['max_error_percent']:.4f}")
-                yield campaigns.line(*(re.sub(r"[-+](0\.0+)$", r"\1", cell) for cell in cells)) + "\n"
+                yield line(*(re.sub(r"[-+](0\.0+)$", r"\1", cell) for cell in cells)) + "\n"
         yield f"\nTable: {table:,} bytes. Look-up: {code} bytes of code, {chip.cost}, {products} of them multiplications; {self.on_a_cortex_m3()} on a Cortex-M3.\n"
 
 
-def made():
-    compiler = run("arm-none-eabi-gcc", "-dumpfullversion").strip()
-    return f"`scripts/rule-examples`: arm-none-eabi-gcc {compiler}, `-mcpu=cortex-m0plus -Os`.\n\n"
-
-
-def main(argv):
-    if len(argv) > 1 or (argv and argv[0] not in ("--update", "--check", "--broken")):
-        print(__doc__.strip())
-        return 0 if argv in (["--help"], ["-h"]) else 2
-    campaigns.need_whisker()
+@table("docs/rule-compiler.md", check={"action": "store_true", "help": "exit status 1 if the page shows others"},
+       broken={"action": "store_true", "help": "one node is wrong in the chip's header only; fails unless the example fails. With WHISKER_LONG "
+               "in the environment each of them, otherwise the first"})  # fmt: skip
+def rule_examples(o):
+    """The examples of host/rules/examples from file to answers on an emulated Cortex-M0+: compiles each to a header, builds its program
+    in docs/integration/rules for the chip and for this computer, and runs both. Exit status 1 unless both give the same answers to all
+    inputs, and the answers keep the printed bound on exact inference. Needs make, gcc, gcc-arm-none-eabi and QEMU (scripts/setup cross)."""
     if missing := [tool for tool in TOOLS if not shutil.which(tool)]:
-        sys.exit(f"rule-examples: not there: {', '.join(missing)} (scripts/setup build cross)")
-    broken, sections, wrong = argv == ["--broken"], [], []
-    chosen = list(EXAMPLES)[:1] if broken and "WHISKER_LONG" not in os.environ else list(EXAMPLES)
+        fail(f"not there: {', '.join(missing)} (scripts/setup build cross)")
+    chosen = list(EXAMPLES)[:1] if o.broken and "WHISKER_LONG" not in os.environ else list(EXAMPLES)
 
-    def example(name, work):
+    def example(name):
         try:
-            return "".join(Example(name, work).section(broken)), None
+            return "".join(Example(name, pathlib.Path(work)).section(o.broken)), None
         except Wrong as error:
             return "", f"{name}: {error}"
 
     with tempfile.TemporaryDirectory() as work, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for text, error in pool.map(lambda name: example(name, pathlib.Path(work)), chosen):
-            sections.append(text)
-            wrong += [error] if error else []
-    print(*wrong, sep="\n", end="\n" if wrong else "", file=sys.stderr)
-    if broken:
+        sections, errors = zip(*pool.map(example, chosen))
+    wrong = [error for error in errors if error]
+    if o.broken:
         found = sum("the chip answers otherwise" in error for error in wrong)
-        print(f"rule examples: {len(chosen)} broken headers, {found} found")
-        return 0 if found == len(chosen) else 1
+        yield f"rule examples: {len(chosen)} broken headers, {found} found"
+        o.failed = None if found == len(chosen) else "\n".join(["not noticed", *wrong])
+        return
     if wrong:
-        return 1
-    text = made() + "\n".join(sections)
-    if argv == ["--update"]:
-        campaigns.put(PAGE, "examples", text)
-    elif argv == ["--check"]:
-        before, after = campaigns.place_in(PAGE, "examples")
-        if PAGE.read_text() != before + text + after:
-            sys.exit(f"rule-examples: {PAGE.name} shows other examples: scripts/rule-examples --update")
-        print(f"rule examples: {len(EXAMPLES)} on the chip, as on this computer and on the page")
-    else:
-        print(text, end="")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+        fail("\n".join(wrong))
+    compiler = run("arm-none-eabi-gcc", "-dumpfullversion").strip()
+    text = f"`scripts/measure rule-examples`: arm-none-eabi-gcc {compiler}, `-mcpu=cortex-m0plus -Os`.\n\n" + "\n".join(sections)
+    if not o.check:
+        yield Section("docs/rule-compiler.md", "examples", made=False)
+        yield text[:-1]
+        return
+    before, after = place_in(PAGE, "examples")
+    if PAGE.read_text() != before + text + after:
+        fail(f"{PAGE.name} shows other examples: scripts/measure rule-examples --update")
+    yield f"rule examples: {len(EXAMPLES)} on the chip, as on this computer and on the page"

@@ -1,11 +1,11 @@
 """The targets, as the files of toolchain/ declare them. Used by scripts/chip, golden and budget."""
 
-import json
 import os
 import pathlib
 import re
+import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 ENGINES = ("table", "closed")
 
@@ -65,7 +65,7 @@ ROBOTS = {t.name: t for t in ALL if t.is_robot}
 
 
 def builds():
-    """(preset, target) of each target that runs in an emulator."""
+    """(name, target) of each target that runs in an emulator."""
     return [(build, target) for target in TARGETS.values() for build in target.builds]
 
 
@@ -78,50 +78,25 @@ def image(build, target, program):
     return BUILD / build / "firmware/apps" / (program + target.suffix)
 
 
-def presets():
-    """toolchain/presets.json."""
-
-    def preset(name, inherits, title):
-        file = next(t.name for t in ALL if name in t.builds)
-        return {
-            "name": name,
-            "displayName": title,
-            "inherits": inherits,
-            "toolchainFile": f"${{sourceDir}}/toolchain/{file}.cmake",
-        }
-
-    # No cache of compiled files: it would not keep the call graphs (bare_metal.cmake).
-    plain = {
-        "CMAKE_BUILD_TYPE": "Release", "CMAKE_CXX_COMPILER_LAUNCHER": "", "WHISKER_HOST": "OFF", "WHISKER_TESTS": "OFF",
-        "WHISKER_IMAGES": "ON",
-    }
-    hidden = [
-        {"name": "base", "hidden": True, "generator": "Ninja", "binaryDir": "${sourceDir}/build/${presetName}"},
-        {"name": "chip", "hidden": True, "inherits": "base", "cacheVariables": plain},
-        {"name": "chip-clang", "hidden": True, "inherits": "chip", "cacheVariables": {"WHISKER_CLANG": "ON"}},
-    ]
-    named = []
-    for target in ALL:
-        on = f"{target.title} ({target.runs_on.replace('`', '')})"
-        named.append(preset(target.name, "chip", on))
-        named += [preset(b, "chip-clang", on + ", clang 14") for b in target.builds[1:]]
-    builds = [{"name": p["name"], "configurePreset": p["name"]} for p in named]
-    whole = {"version": 6, "configurePresets": hidden + named, "buildPresets": builds}
-    return json.dumps(whole, indent=2) + "\n"
+def make(name, jobs):
+    """Builds the images of a target."""
+    target, folder = next(t for t in ALL if name in t.builds), BUILD / name
+    clang = ["-D", "WHISKER_CLANG=ON"] if name in target.builds[1:] else []
+    toolchain = ROOT / f"toolchain/{target.name}.cmake"
+    subprocess.run(["cmake", "--preset", "chip", "-B", folder, "--toolchain", toolchain, *clang], cwd=ROOT, stdout=subprocess.DEVNULL, check=True)
+    subprocess.run(["cmake", "--build", folder, "-j", str(jobs), "--", "--quiet"], cwd=ROOT, check=True)
 
 
 def table():
     """The table of docs/targets.md."""
-    rows = ["| preset | chip | compilers | runs on | instruction counter |", "|---|---|---|---|---|"]
+    rows = ["| target | chip | compilers | runs on | instruction counter |", "|---|---|---|---|---|"]
     for t in TARGETS.values():
         rows.append(f"| `{t.name}` | {t.title} | {', '.join(t.compilers)} | {t.runs_on} | {t.counts} |")
     return "\n".join(rows) + "\n"
 
 
-def documents():
-    """(file, content) of each file generated from toolchain/."""
-    yield ROOT / "toolchain/presets.json", presets()
-    page = ROOT / "docs/targets.md"
-    marks = "<!-- targets:begin -->\n", "<!-- targets:end -->\n"
-    before, _, rest = page.read_text().partition(marks[0])
-    yield page, before + marks[0] + table() + marks[1] + rest.partition(marks[1])[2]
+def page():
+    """(docs/targets.md, its text with the table)"""
+    path, marks = ROOT / "docs/targets.md", ("<!-- targets:begin -->\n", "<!-- targets:end -->\n")
+    before, _, rest = path.read_text().partition(marks[0])
+    return path, before + marks[0] + table() + marks[1] + rest.partition(marks[1])[2]
