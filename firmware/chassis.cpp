@@ -7,8 +7,6 @@ Chassis::Chassis(hal::Rangefinders& rangefinders, hal::Drive& drive, hal::Gyro* 
     : rangefinders_(rangefinders),
       gyro_(gyro),
       params_(params),
-      estimate_(estimate),
-      health_(health),
       localizer_(params, estimate, health),
       wheels_(drive),
       supervisor_(params, health) {}
@@ -73,11 +71,12 @@ Chassis::Counted Chassis::take_counts() noexcept {
   since_counts_ = Duration{};
   const Stepped stepped = localizer_.step(step);
   if (stepped == Stepped::jumped) {
-    supervisor_.fail(Fault::encoder_jump, health_.encoder_jumps);
+    supervisor_.fail(Fault::encoder_jump, supervisor_.health().encoder_jumps);
     return Counted::no;
   }
-  if (!faulted() && !(within(estimate_.pose.at, kBodyLimit) && within(pose().at, kBodyLimit))) {
-    supervisor_.fail(Fault::pose_out_of_range, health_.pose_out_of_range);
+  const bool inside = within(localizer_.outside().at, kBodyLimit) && within(pose().at, kBodyLimit);
+  if (!faulted() && !inside) {
+    supervisor_.fail(Fault::pose_out_of_range, supervisor_.health().pose_out_of_range);
   }
   supervisor_.check_wheels(localizer_.counts());
   return stepped == Stepped::corrected ? Counted::corrected : Counted::yes;
@@ -85,13 +84,13 @@ Chassis::Counted Chassis::take_counts() noexcept {
 
 void Chassis::sense(hal::RangeReadings& readings) noexcept {
   const bool read = rangefinders_.read(readings);
-  perception_.sense(read ? &readings : nullptr, last_tick_, pose(), params_, health_);
+  perception_.sense(read ? &readings : nullptr, last_tick_, pose(), params_, supervisor_.health());
   supervisor_.check_ranges(perception_.lost_for(last_tick_));
 }
 
 void Chassis::observe(bool settled, Time settled_since, perception::Percept& out) noexcept {
   perception_.observe({pose(), last_tick_, settled, settled_since}, params_, out);
-  health_.ranges = perception_.trust();
+  supervisor_.health().ranges = perception_.trust();
   supervisor_.check_trust(perception_.trust().level);
 }
 

@@ -98,8 +98,6 @@ class Chassis {
   hal::Rangefinders& rangefinders_;
   hal::Gyro* gyro_;
   const Params& params_;
-  localization::Estimate& estimate_;
-  Health& health_;
 
   Time last_tick_;
   Duration elapsed_;

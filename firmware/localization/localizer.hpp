@@ -60,6 +60,8 @@ class Localizer {
   Stepped step(const Step& step) noexcept;
 
   Pose inside() const noexcept { return odometry_.pose(); }
+  /// The same in the user's frame.
+  Pose outside() const noexcept { return estimate_.pose; }
   uint32_t travelled_um() const noexcept { return odometry_.travelled_um(); }
   /// Counts of the last step.
   const CountStep& counts() const noexcept { return counts_; }

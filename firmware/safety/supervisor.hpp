@@ -26,6 +26,7 @@ class Supervisor {
   /// Clears the fault. The wheels may still execute the last command before it.
   void reset() noexcept;
 
+  Health& health() noexcept { return health_; }
   bool faulted() const noexcept { return health_.fault != Fault::none; }
   void fail(Fault fault, uint32_t& counter) noexcept;
   void fail(Fault fault) noexcept;
