@@ -9,7 +9,7 @@ from sources import finish, sources
 # The folders of firmware/, lowest first: each may include itself and the folders before it. From localization to control
 # they are the stages of a tick, in order.
 STAGES = ("version", "math", "part", "health", "params", "storage", "calibration", "fuzzy", "localization", "perception", "planning",
-          "safety", "control", "chassis", "guard", "robot", "can", "c", "apps")
+          "safety", "control", "chassis", "guard", "robot", "simple_robot", "can", "c", "apps")
 
 # The files of hal/ that a folder may include; an unlisted folder may include none.
 HAL_OF_STAGE = {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "host/worlds/generate.hpp"
+#include "tests/unseen_disc.hpp"
 
 namespace whisker {
 namespace {
@@ -133,21 +134,8 @@ auto in_lockstep(const Scenario& scenario, bool base_drops, bool controller_drop
                               controller_drops ? static_cast<hal::CanPort&>(controller) : plain_controller);
 }
 
-/// A disc that no beam sees stands in the way of a slow robot with bump switches.
-Scenario unseen_disc() {
-  Scenario s;
-  s.name = "unseen";
-  s.goal.at = {2, 0.1};
-  s.discs.push_back({{1, 0}, 0.15});
-  s.sensor.soft = 1;
-  s.sensor.soft_range_m = 0;
-  s.robot.wheels.max_speed = 100_mm_per_s;
-  s.robot.bumper.fitted = Fitted::yes;
-  return s;
-}
-
 TEST(Bus, HandsThePressesOfTheBumperOnAlsoIfFramesAreDropped) {
-  const Scenario scenario = unseen_disc();
+  const Scenario scenario = test::unseen_disc();
   const RunResult direct = run(scenario);
   EXPECT_EQ(direct.verdict, Verdict::reached);
   EXPECT_GE(direct.bumps.value_or(0), 1U);
