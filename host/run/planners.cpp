@@ -3,11 +3,6 @@
 #include <algorithm>
 
 #include "firmware/fuzzy/digest.hpp"
-#include "host/baselines/bug2.hpp"
-#include "host/baselines/bug_planner.hpp"
-#include "host/baselines/deflection_laws.hpp"
-#include "host/baselines/distbug.hpp"
-#include "host/baselines/wall_follower.hpp"
 #include "host/run/core_pilot.hpp"
 
 namespace whisker {
@@ -15,24 +10,10 @@ namespace {
 
 using Made = std::shared_ptr<planning::Planner>;
 
-/// A planner that shares the lifetime of its owner, which also holds its rule or law.
-template <class Whole>
-Made made(const Params& params) {
-  const auto whole = std::make_shared<Whole>(params);
-  return {whole, &whole->planner};
+std::vector<Baseline>& added() {
+  static std::vector<Baseline> all;
+  return all;
 }
-
-struct Baseline {
-  const char* name;
-  Made (*make)(const Params& params);
-};
-constexpr Baseline kBaselines[] = {
-    {"bug2", made<baselines::RuledPlanner<baselines::Bug2>>},
-    {"distbug", made<baselines::RuledPlanner<baselines::DistBug>>},
-    {"wall-follower", made<baselines::RuledPlanner<baselines::WallFollower>>},
-    {"fan", made<baselines::DeflectedBoundaryPlanner<baselines::NoDeflection>>},
-    {"repulsion", made<baselines::DeflectedBoundaryPlanner<baselines::RepulsionDeflection>>},
-};
 
 struct Entry {
   PlannerKind kind;
@@ -51,7 +32,7 @@ const std::vector<Entry>& entries() {
       list.push_back({{info.number, type.kMapBytes}, info.name + size, alias});
     });
     int number = list.back().kind.number;
-    for (const Baseline& b : kBaselines) list.push_back({{++number}, b.name, "", b.make});
+    for (const Baseline& b : added()) list.push_back({{++number}, b.name, "", b.make});
     return list;
   }();
   return all;
@@ -63,6 +44,10 @@ const Entry& entry(PlannerKind kind) {
 }
 
 }  // namespace
+
+void add_baselines(const Baseline* baselines, std::size_t count) {
+  added().insert(added().end(), baselines, baselines + count);
+}
 
 RecordedPlanner make_recorded_planner(PlannerKind kind, const Params& params) {
   if (is_baseline(kind)) return {entry(kind).make(params)};

@@ -1,6 +1,8 @@
-/// The planners by name: those of the core (firmware/planning/planners.hpp), and baselines for hosts only.
+/// The planners by name: those of the core (firmware/planning/planners.hpp), and what the program adds.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,7 +19,7 @@ namespace whisker {
 
 /// The response table is not part of the kind: two kinds are equal whatever their tables.
 struct PlannerKind {
-  int number = 0;  ///< in the core's list; the baselines follow it
+  int number = 0;  ///< in the core's list; added planners follow it
   std::int32_t map_bytes = 0;
   const fuzzy::Engine::Table* table = &fuzzy::kDefaultTable;  ///< must outlive the planner
   bool table_chosen = false;                                  ///< by the user, who wants it to drive
@@ -51,13 +53,20 @@ struct RecordedPlanner {
   const RecordingGuide* guide = nullptr;  ///< null without a map; lives as long as the planner
 };
 
-/// A baseline has no response table. The parameters must outlive the planner.
+/// A planner for comparison, on the host only. It has no response table.
+struct Baseline {
+  const char* name;
+  std::shared_ptr<planning::Planner> (*make)(const Params& params);
+};
+/// Adds them to the list, before any other function here is called. They must outlive it.
+void add_baselines(const Baseline* baselines, std::size_t count);
+
+/// The parameters must outlive the planner.
 RecordedPlanner make_recorded_planner(PlannerKind kind, const Params& params);
 std::shared_ptr<planning::Planner> make_planner(PlannerKind kind, const Params& params);
 
 /// All planners, those of the core first.
 std::vector<PlannerKind> planners();
-/// A planner for comparison, on the host only.
 bool is_baseline(PlannerKind kind);
 /// As on the command line: "skirt", "map", and "map-1024" for another size of map.
 const std::string& name(PlannerKind kind);

@@ -112,6 +112,7 @@ class IncludeDirection(unittest.TestCase):
             ("hal/boards/stm32f405/a.cpp", '#include "hal/boards/atmega1284p/b.hpp"'),
             ("hal/emulated/virt/a.cpp", '#include "firmware/robot.hpp"'),
             ("host/run/a.cpp", '#include "tests/support/b.hpp"'),
+            ("host/run/a.cpp", '#include "host/report/b.hpp"'),
             ("host/run/a.cpp", '#include "/usr/include/stdio.h"'),
         ):
             self.assertEqual(len(self.errors(path, line)), 1, (path, line))

@@ -83,6 +83,15 @@ def hal_error(path, quoted, system):
     return "a backend includes the contracts, itself and what its kind shares; boards also firmware/ below apps/"
 
 
+# The robot without hardware, and on a bus. What draws, measures, searches, compiles and calibrates stands on it.
+HARNESS = ("sim", "scenario", "worlds", "run", "bus", "hil")
+
+
+def host_error(path, quoted):
+    within = quoted is None or not quoted.startswith("host/") or quoted.split("/")[1] in HARNESS
+    return None if within or path.split("/")[1] not in HARNESS else f"the harness ({', '.join(HARNESS)}) includes nothing else of host/"
+
+
 def app_error(quoted, system):
     if system is not None:
         return None if system in FREESTANDING else "a program for a chip has only <stdint.h> and <stddef.h>"
@@ -112,6 +121,8 @@ def errors(path, text, exists):
             error = firmware_error(path, quoted, system)
         elif path.startswith("hal/"):
             error = hal_error(path, quoted, system)
+        elif path.startswith("host/"):
+            error = host_error(path, quoted)
         if error:
             found.append((text.count("\n", 0, match.start()) + 1, f"{match.group().strip()}: {error}"))
     return found
