@@ -4,7 +4,6 @@ namespace whisker::can {
 namespace {
 
 constexpr uint32_t kReportTicks = 50;
-constexpr uint32_t kStands_ms = 100;
 constexpr Length kShortestStraight = 499_mm;
 
 }  // namespace
@@ -33,8 +32,8 @@ void ControllerNode::poll(uint32_t now) noexcept {
 /// The counters of another operator, or of one that restarted, are not compared with those of this one.
 void ControllerNode::lose_operator() noexcept {
   operator_heard_ = false;
-  operator_numbered_ = false;
-  operator_parts_.forget();
+  operator_orders_.forget_number();
+  operator_orders_.forget_parts();
   server_.drop(Requester::third_party);
   forget_operator();
 }
@@ -42,12 +41,9 @@ void ControllerNode::lose_operator() noexcept {
 void ControllerNode::watch() noexcept {
   holding_ = false;
   if (!ordered() || !timed()) return;
-  const uint32_t now = now_ms();
-  for (const uint32_t seen : beam_seen_) {
-    if (now - seen > kHoldAfter_ms) holding_ = true;
-    if (now - seen > kRangeLatch_ms) stop(Error::range_late);
-  }
-  if (now - wheels_seen_ > kOdometryLate_ms || now - set_seen_ > kRangeLatch_ms) stop(Error::odometry_late);
+  holding_ = heard_.holds(now_ms());
+  if (heard_.lost_beam(now_ms())) stop(Error::range_late);
+  if (heard_.lost_counts(now_ms())) stop(Error::odometry_late);
 }
 
 void ControllerNode::brake() noexcept {
@@ -66,23 +62,15 @@ void ControllerNode::repeat_answer() noexcept {
 }
 
 bool ControllerNode::take_order(Order& order, Mission& mission) noexcept {
-  if (order_taken_) return false;
-  order_taken_ = true;
-  order = order_;
-  mission = mission_;
-  return true;
+  return orders_.take(order, mission);
 }
 
 bool ControllerNode::take_operator_order(Order& order, planning::Goal& goal) noexcept {
-  if (operator_order_taken_) return false;
-  operator_order_taken_ = true;
-  order = operator_order_;
-  goal = operator_goal_;
-  return true;
+  return operator_orders_.take(order, goal);
 }
 
 bool ControllerNode::take_set(InputSet& set) noexcept {
-  if (!running() || !order_taken_ || !sets_.complete()) return false;
+  if (!running() || !orders_.taken() || !sets_.complete()) return false;
   const InputSet next = sets_.set();
   const uint32_t ahead = next.tick - tick_;
   if (stepped_ && (ahead == 0 || ahead > INT32_MAX || (lockstep() && ahead != 1))) return false;
@@ -91,7 +79,7 @@ bool ControllerNode::take_set(InputSet& set) noexcept {
   stepped_ = true;
   answered_ = false;
   fix_answered_ = false;
-  set_seen_ = now_ms();
+  heard_.set(now_ms());
   set = next;
   return true;
 }
@@ -116,7 +104,7 @@ void ControllerNode::publish_sigma(const PoseSigmaReport& sigma, bool ends) noex
 }
 
 void ControllerNode::publish_calibration(CalibrationReport report) noexcept {
-  report.mission = number_;
+  report.mission = orders_.number();
   if (state() != NodeState::off_bus) send(report);
 }
 
@@ -168,7 +156,7 @@ bool ControllerNode::on_range(int beam, const hal::CanFrame& frame) noexcept {
   Range<kKind> range;
   if (!decode(frame, range) || !InputSets::sound(range.reading)) return false;
   sets_.on_frame(beam, range.reading, range.tick, range.bump);
-  beam_seen_[beam] = now_ms();
+  heard_.beam(beam, now_ms());
   return true;
 }
 
@@ -177,19 +165,8 @@ bool ControllerNode::on_fix(const hal::CanFrame& frame) noexcept {
   return decode(frame, part) && sets_.on_frame(part);
 }
 
-void ControllerNode::on_wheels(const WheelState& state) noexcept {
-  sets_.on_frame(state);
-  if (state.valid == 0) return;
-  wheels_seen_ = now_ms();
-  if (state.counts.left == counts_.left && state.counts.right == counts_.right) return;
-  turned_ = counted_;
-  counted_ = true;
-  counts_ = state.counts;
-  turned_at_ = now_ms();
-}
-
 void ControllerNode::on_sync(const Sync& sync) noexcept {
-  if (!numbered_ || sync.mission != number_) {
+  if (!orders_.is_of(sync.mission)) {
     count(tally().stale);
     return;
   }
@@ -203,7 +180,11 @@ bool ControllerNode::on_mission(const hal::CanFrame& frame, Requester who) noexc
   MissionValue part;
   if (!decode(frame, part)) return false;
   if (part.part != MissionPart::order) {
-    (of_base ? parts_ : operator_parts_).on_frame(part);
+    if (of_base) {
+      orders_.on_frame(part);
+    } else {
+      operator_orders_.on_frame(part);
+    }
     return true;
   }
   MissionOrder order;
@@ -214,10 +195,10 @@ bool ControllerNode::on_mission(const hal::CanFrame& frame, Requester who) noexc
 }
 
 MissionStatus ControllerNode::execute(const MissionOrder& order) noexcept {
-  if (!parts_.complete(order)) return MissionStatus::incomplete;
-  if (numbered_ && order.mission == number_) return MissionStatus::accepted;
+  if (!orders_.complete(order)) return MissionStatus::incomplete;
+  if (orders_.is_of(order.mission)) return MissionStatus::accepted;
   Mission mission;
-  if (!mission_of(parts_.values(), mission)) return MissionStatus::out_of_range;
+  if (!mission_of(orders_.values(), mission)) return MissionStatus::out_of_range;
   if (order.order == Order::resume && !has_mission_) return MissionStatus::unknown;
   if (calibrates(order.order) && !calibrates_) return MissionStatus::unsupported;
   const bool has_length = calibrates(order.order) && order.order != Order::spin;
@@ -233,47 +214,35 @@ MissionStatus ControllerNode::execute(const MissionOrder& order) noexcept {
     has_mission_ = true;
     if (order.order != Order::resume) calibrating_ = calibrates(order.order);
   }
-  number_ = order.mission;
-  numbered_ = true;
-  order_ = order.order;
-  mission_ = mission;
-  order_taken_ = false;
+  orders_.accept(order, mission);
   braked_ = order.order == Order::resume;
   sets_.forget();
   stepped_ = false;
   answered_ = false;
   asked_again_ = false;
-  for (uint32_t& seen : beam_seen_) seen = now_ms();
-  wheels_seen_ = now_ms();
-  set_seen_ = now_ms();
+  heard_.begin(now_ms());
   return MissionStatus::accepted;
 }
 
 /// The order of the base holds on: its sets, its clock and its right to drive are those of this order, too.
 MissionStatus ControllerNode::execute_operator(const MissionOrder& order) noexcept {
   // Each order is executed before the next one is accepted.
-  if (!operator_parts_.complete(order) || !operator_order_taken_) return MissionStatus::incomplete;
-  if (operator_numbered_ && order.mission == operator_number_) return MissionStatus::accepted;
+  if (!operator_orders_.complete(order) || !operator_orders_.taken()) return MissionStatus::incomplete;
+  if (operator_orders_.is_of(order.mission)) return MissionStatus::accepted;
   if (!takes_operator_ || calibrating_ || calibrates(order.order)) return MissionStatus::unsupported;
   Mission mission;
-  if (!mission_of(operator_parts_.values(), mission)) return MissionStatus::out_of_range;
+  if (!mission_of(operator_orders_.values(), mission)) return MissionStatus::out_of_range;
   if (!running() || !stepped_ || !answered_ || status_.fault != 0) return MissionStatus::refused;
   if (order.order == Order::start && !idle()) return MissionStatus::refused;
-  operator_number_ = order.mission;
-  operator_numbered_ = true;
-  operator_order_ = order.order;
-  operator_goal_ = mission.goal;
-  operator_order_taken_ = false;
+  operator_orders_.accept(order, mission.goal);
   return MissionStatus::accepted;
 }
-
-bool ControllerNode::stands() const noexcept { return !turned_ || now_ms() - turned_at_ >= kStands_ms; }
 
 bool ControllerNode::idle() const noexcept {
   if (!ordered()) return true;
   const bool has_goal = inbox_ == nullptr && status_.outcome == planning::Outcome::running;
   const bool commanded = command_.speeds.left != 0 || command_.speeds.right != 0;
-  return answered_ && operator_order_taken_ && !has_goal && !commanded && stands();
+  return answered_ && operator_orders_.taken() && !has_goal && !commanded && heard_.stands(now_ms());
 }
 
 void ControllerNode::on_param(const ParamRequest& request, Requester who) noexcept {
@@ -285,7 +254,7 @@ void ControllerNode::on_param(const ParamRequest& request, Requester who) noexce
 RulesStatus ControllerNode::hindrance() const noexcept {
   if (rules_ == nullptr) return RulesStatus::unsupported;
   if (ordered()) return RulesStatus::running;
-  if (!stands()) return RulesStatus::moving;
+  if (!heard_.stands(now_ms())) return RulesStatus::moving;
   return RulesStatus::receiving;
 }
 
@@ -322,12 +291,12 @@ void ControllerNode::reset_peer() noexcept {
   rules_ordered_ = false;
   rules_replies_ = false;
   sets_.forget();
-  parts_.forget();
   server_.drop(Requester::base);
-  operator_order_taken_ = true;
-  numbered_ = false;
+  operator_orders_.drop();
+  orders_.forget_parts();
+  orders_.forget_number();
+  orders_.drop();
   has_mission_ = false;
-  order_taken_ = true;
   stepped_ = false;
   answered_ = false;
   asked_again_ = false;

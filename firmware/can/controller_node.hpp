@@ -2,10 +2,12 @@
 
 #include <stdint.h>
 
+#include "firmware/can/heard.hpp"
 #include "firmware/can/input_set.hpp"
 #include "firmware/can/mission.hpp"
 #include "firmware/can/node.hpp"
 #include "firmware/can/operator_inbox.hpp"
+#include "firmware/can/order_box.hpp"
 #include "firmware/can/param_server.hpp"
 #include "firmware/can/rules_server.hpp"
 
@@ -73,7 +75,10 @@ class ControllerNode final : public Node {
   bool on_range(int beam, const hal::CanFrame& frame) noexcept;
   bool on_fix(const hal::CanFrame& frame) noexcept;
   FrameResult on_operator(MessageKind kind, const hal::CanFrame& frame) noexcept;
-  void on_wheels(const WheelState& state) noexcept;
+  void on_wheels(const WheelState& state) noexcept {
+    sets_.on_frame(state);
+    heard_.wheels(state, now_ms());
+  }
   void on_sync(const Sync& sync) noexcept;
   bool on_mission(const hal::CanFrame& frame, Requester who) noexcept;
   void on_param(const ParamRequest& request, Requester who) noexcept;
@@ -85,8 +90,6 @@ class ControllerNode final : public Node {
   void announce_rules() noexcept;
   MissionStatus execute(const MissionOrder& order) noexcept;
   MissionStatus execute_operator(const MissionOrder& order) noexcept;
-  /// The counts have not changed for a while.
-  bool stands() const noexcept;
   /// Nothing is to be done, and the wheels stand.
   bool idle() const noexcept;
   bool operator_silent() const noexcept { return !operator_heard_ || now_ms() - operator_at_ > kPeerLost_ms; }
@@ -112,34 +115,18 @@ class ControllerNode final : public Node {
   FixReply fix_reply_;
   bool fix_answered_ = false;  // by fix_reply_, in the answer to the last set
 
-  uint32_t beam_seen_[hal::kBeams] = {};
-  uint32_t wheels_seen_ = 0;
-  hal::EncoderCounts counts_{};
-  uint32_t turned_at_ = 0;
-  bool counted_ = false;  // counts_ are those of the base
-  bool turned_ = false;   // at turned_at_
-  uint32_t set_seen_ = 0;
+  Heard heard_;
   uint32_t braked_at_ = 0;
   bool holding_ = false;
   bool braked_ = false;
 
-  MissionParts parts_;
-  Mission mission_;
-  Order order_ = Order::cancel;
-  uint8_t number_ = 0;
-  bool numbered_ = false;  // number_ belongs to an accepted order
+  OrderBox<Mission> orders_;
   bool has_mission_ = false;
-  bool order_taken_ = true;
   bool calibrates_ = false;
   bool calibrating_ = false;  // the robot was placed by an order to calibrate
 
-  MissionParts operator_parts_;
-  planning::Goal operator_goal_;
-  Order operator_order_ = Order::cancel;
+  OrderBox<planning::Goal> operator_orders_;
   uint32_t operator_at_ = 0;
-  uint8_t operator_number_ = 0;
-  bool operator_numbered_ = false;  // as numbered_
-  bool operator_order_taken_ = true;
   bool operator_heard_ = false;  // at operator_at_
   bool takes_operator_ = false;
 
