@@ -7,7 +7,6 @@ import re
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
-ENGINES = ("table", "closed")
 
 # Time limit of a run; only a broken image reaches it.
 SECONDS = "600"

@@ -24,9 +24,8 @@ or a pipe. The robot steps on the companion's command, as fast as both can run. 
 This page and the list of [parameters](protocol.md#parameters) are sufficient to write a companion of another make.
 [One in Python](integration/peer/README.md) is written from them, reads these tables, and drives missions in the tests.
 
-These programs use the protocol: `build/host/firmware/apps/replay-table` on its standard input and output; on a chip the images `replay-table`
-(to the emulator) and `companion-table` (to the UART): `scripts/chip cortex-m3 companion-table --serial`. `-closed` instead of
-`-table` selects the other fuzzy engine.
+These programs use the protocol: `build/host/firmware/apps/replay` on its standard input and output; on a chip the images `replay`
+(to the emulator) and `companion` (to the UART): `scripts/chip cortex-m3 companion --serial`.
 
 ## Rules
 
@@ -140,7 +139,7 @@ std::string link_page() {
                   fmt::arg("map_sizes", fmt::join(sizes, ", ")));
   out += "## Bodies\n\nLengths are in um, headings in 2^-32 turn.\n\n";
   out += body<link::Greeting>("Greeting",
-                              ". engine: 0 look-up, 1 closed form; most_map_bytes: size of the largest "
+                              ". engine: 0 look-up; most_map_bytes: size of the largest "
                               "map that fits, 0: none.");
   out += body<link::Begin>(
       "Begin", ". planner: " + planner_numbers() + "; map_bytes is 0 for a planner without a map.");

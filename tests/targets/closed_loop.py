@@ -18,9 +18,9 @@ from whisker import RANGE_TRUST
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
 SHORT = "host/worlds/scenarios/two_discs.toml"
 BY_DAY = (
-    ("cortex-m3 companion-table --serial", TRAP, "skirt"),
+    ("cortex-m3 companion --serial", TRAP, "skirt"),
     ("cortex-m3", SHORT, "thesis"),
-    ("rv32imac companion-table --serial", SHORT, "skirt"),
+    ("rv32imac companion --serial", SHORT, "skirt"),
     ("wasm32", TRAP, "skirt"),
     ("cortex-m0plus", SHORT, "map"),
     ("cortex-m3", TRAP, "map --map-bytes 16384"),
@@ -29,7 +29,7 @@ BY_DAY = (
 AT_NIGHT = (
     ("cortex-m0plus", TRAP, "skirt"),
     ("rv32imac", TRAP, "skirt"),
-    ("cortex-m0plus companion-table --serial", SHORT, "skirt"),
+    ("cortex-m0plus companion --serial", SHORT, "skirt"),
 )
 DRIVES = BY_DAY + (AT_NIGHT if "WHISKER_LONG" in os.environ else ())
 NOT_SENT = ("guide", "way_x_m", "way_y_m")

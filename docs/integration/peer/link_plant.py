@@ -3,7 +3,7 @@
 
 usage: link_plant.py SCENARIO.toml [--gyro] [--speed-mm-per-s N] [--limit-s S] [--patience-s S] -- COMMAND [ARGUMENT...]
 
-COMMAND speaks docs/link.md on its standard input and output: build/host/firmware/apps/replay-table, or a chip in an emulator.
+COMMAND speaks docs/link.md on its standard input and output: build/host/firmware/apps/replay, or a chip in an emulator.
 With --gyro the robot has a gyro. Prints what became of the mission as JSON. Exit status 0: the goal is reached without a contact; 1: it is not; 2: the
 robot is silent or speaks another version.
 """

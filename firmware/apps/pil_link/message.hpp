@@ -49,7 +49,7 @@ constexpr uint8_t kVersion = 5;
 /// each(m, f) of a message calls f(name, field) for its fields, in byte order; M may be const.
 struct Greeting {
   uint8_t version = kVersion;
-  uint8_t engine = 0;           ///< 0: look-up, 1: closed form
+  uint8_t engine = 0;           ///< 0: look-up
   uint16_t most_map_bytes = 0;  ///< of the largest map that there is room for; 0: none
 
   template <class M, class F>

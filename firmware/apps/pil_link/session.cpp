@@ -3,13 +3,6 @@
 namespace whisker::link {
 namespace {
 
-constexpr uint8_t kEngine =
-#ifdef WHISKER_ENGINE_CLOSED
-    1;
-#else
-    0;
-#endif
-
 Pose pose(const Stand& s) noexcept {
   return {{Length::from_raw(s.x), Length::from_raw(s.y)}, Angle::from_raw(s.heading)};
 }
@@ -89,7 +82,7 @@ int Session::run(hal::ByteStream& stream, hal::Meter& meter) noexcept {
 
 bool Session::execute(Name name) noexcept {
   switch (name) {
-    case Name::hello: return say(Greeting{kVersion, kEngine, planning::kRoomForMap});
+    case Name::hello: return say(Greeting{kVersion, 0, planning::kRoomForMap});
     case Name::params: {
       if (!on_frame(kParamsSize)) return false;
       decode_params(my_->params, buffer_);
