@@ -141,11 +141,6 @@ stage_coverage() {
     --fail-under-branch "$branch_floor" >/dev/null
 }
 
-stage_closed() {
-  RC_PARAMS="$RC_PARAMS max_success=500" build_and_test_core closed '^(robot|fuzzy|missions)$' \
-    whisker_core_tests whisker_core_properties whisker_fuzzy_tests whisker_run_tests
-}
-
 # Their tests are those of the preset host.
 stage_core() {
   build core

@@ -6,11 +6,7 @@
 
 // Response tables of a base for which the chip has room: 0 to 2.
 #ifndef WHISKER_RULES_ROOMS
-#ifdef WHISKER_ENGINE_CLOSED
-#define WHISKER_RULES_ROOMS 0
-#else
 #define WHISKER_RULES_ROOMS 2
-#endif
 #endif
 
 using namespace whisker;

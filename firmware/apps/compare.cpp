@@ -1,8 +1,7 @@
-// Cost of the fuzzy stage with four engines: one line each, with the minimum, mean and maximum instructions
+// Cost of the fuzzy stage with three engines: one line each, with the minimum, mean and maximum instructions
 // over a grid of inputs. The only program here that uses floating point.
 #include "firmware/apps/float_inference.hpp"
 #include "firmware/apps/work.hpp"
-#include "firmware/fuzzy/closed_form.hpp"
 #include "firmware/fuzzy/exact.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/fuzzy/rules.hpp"
@@ -68,7 +67,6 @@ void report(const char* name, const Engine& engine) {
 int main() {
   const images::FloatRules float_rules = images::as_float(fuzzy::kRules);
   report("table", fuzzy::Bilinear{fuzzy::kResponseTable});
-  report("closed", fuzzy::ClosedForm{fuzzy::kRules});
   report("fixed", fuzzy::Exact{fuzzy::kRules});
   report("float", Floating{float_rules});
   return 0;

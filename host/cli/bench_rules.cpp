@@ -52,7 +52,7 @@ can::RulesReply send(const RulesOptions& o, bench::BaseClient& client, const fuz
 int execute(const RulesOptions& o) {
   if (o.restore && !o.file.empty()) throw UsageError("bench rules: a file, or --restore");
   if (o.file.empty() && !o.names.empty()) throw UsageError("--map needs a file");
-  const fuzzy::Bilinear::Table* const table = o.file.empty() ? nullptr : assist_table(o.file, o.names);
+  const fuzzy::Bilinear::Table* const table = o.file.empty() ? nullptr : response_table(o.file, o.names);
   BenchBus bus(o.bus);
   const auto client = bus.base();
   const bool sends = o.restore || table != nullptr;

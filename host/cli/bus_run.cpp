@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/core.h>
@@ -151,7 +150,7 @@ void guard_on_bus(const BusChoice& bus, PlannerKind rules, double longest_comman
   hil::ControllerOptions how;
   how.guard = true;
   how.planner = rules;
-  if constexpr (std::is_same_v<fuzzy::Engine::Table, fuzzy::Bilinear::Table>) how.assist = rules.table;
+  how.assist = rules.table;
   how.longest_command = milliseconds(static_cast<std::int32_t>(std::lround(longest_command_s * 1000)));
   control_until_interrupted(bus, how, line);
 }

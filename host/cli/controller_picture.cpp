@@ -54,25 +54,16 @@ RuleBase answers_at_centres(const Engine::Table& table) {
 }
 
 std::string engine_name() {
-#ifdef WHISKER_ENGINE_CLOSED
-  return fmt::format("closed form on the 5 x 5 rules, {} bytes", sizeof(Engine::Table));
-#else
   return fmt::format("bilinear table of {} x {} nodes, {} bytes", Engine::kDistanceNodes, Engine::kBiasNodes,
                      sizeof(Engine::Table));
-#endif
 }
 
 /// The boundaries of the engine's cells.
 void add_nodes(report::FuzzyPicture& p) {
-#ifdef WHISKER_ENGINE_CLOSED
-  for (const std::int16_t c : kDistanceCentres) p.d_nodes.push_back(value(Q7::from_raw(c)));
-  for (const std::int16_t c : kBiasCentres) p.r_nodes.push_back(value(Q7::from_raw(c)));
-#else
   const auto node = [](int low, int spacing, int i) { return (low + spacing * i) / 128.0; };
   for (int i = 0; i < Engine::kDistanceNodes; ++i)
     p.d_nodes.push_back(node(kDistanceLow, Engine::kDistanceSpacing, i));
   for (int i = 0; i < Engine::kBiasNodes; ++i) p.r_nodes.push_back(node(kBiasLow, Engine::kBiasSpacing, i));
-#endif
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <list>
 #include <memory>
 #include <stdexcept>
-#include <type_traits>
 #include <vector>
 
 #include <fmt/core.h>
@@ -18,16 +17,6 @@
 
 namespace whisker::cli {
 namespace {
-
-/// By template, because only an engine with this table compiles it.
-template <class Table>
-const Table* of_engine(const fuzzy::Bilinear::Table& table) {
-  if constexpr (std::is_same_v<Table, fuzzy::Bilinear::Table>) {
-    return &table;
-  } else {
-    throw UsageError("--rules: this build evaluates its own 25 rules in closed form");
-  }
-}
 
 struct RulesChoice {
   std::string file;
@@ -47,20 +36,10 @@ bool given(const RulesChoice& choice) {
 
 }  // namespace
 
-const fuzzy::Engine::Table* engine_table(const fuzzy::Bilinear::Table& table) {
-  return of_engine<fuzzy::Engine::Table>(table);
-}
-
 const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
                                            const std::vector<std::string>& names) {
   if (file_or_default == "default") return &fuzzy::kDefaultTable;
-  return engine_table(*assist_table(file_or_default, names));
-}
-
-const fuzzy::Bilinear::Table* assist_table(const std::string& file_or_default,
-                                           const std::vector<std::string>& names) {
-  if (file_or_default == "default") return &fuzzy::kResponseTable;
-  static std::list<fuzzy::Bilinear::Table> tables;
+  static std::list<fuzzy::Engine::Table> tables;
   return &tables.emplace_back(named_response(rules::read_rules(file_or_default), names).table);
 }
 
@@ -68,7 +47,7 @@ void load_event_tables(Scenario& scenario, const std::string& file) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   for (Event& event : scenario.events) {
     if (event.kind == EventKind::table && !event.file.empty())
-      event.table = assist_table((folder / event.file).string(), {});
+      event.table = response_table((folder / event.file).string(), {});
   }
 }
 
@@ -101,7 +80,7 @@ CLI::Option* add_assist_rules(CLI::App& app, const fuzzy::Bilinear::Table*& tabl
   CLI::Option* const rules =
       add_options(app, *choice, "Response table of the assist from this rule base, see docs/rules.md");
   app.parse_complete_callback([choice, &table] {
-    if (given(*choice)) table = assist_table(choice->file, choice->names);
+    if (given(*choice)) table = response_table(choice->file, choice->names);
   });
   return rules;
 }

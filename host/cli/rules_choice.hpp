@@ -14,16 +14,9 @@
 
 namespace whisker::cli {
 
-/// This table for the planners; it must outlive them. Throws UsageError in a build that takes none.
-const fuzzy::Engine::Table* engine_table(const fuzzy::Bilinear::Table& table);
-
 /// The table of a rule base, or of the core for the word "default"; it lives as long as the program. Throws
 /// UsageError or InputError.
 const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
-                                           const std::vector<std::string>& names);
-
-/// The same for the assist of whisker::Guard.
-const fuzzy::Bilinear::Table* assist_table(const std::string& file_or_default,
                                            const std::vector<std::string>& names);
 
 /// Loads the rule bases of the scenario's events; their paths are relative to the scenario file's folder.

@@ -69,7 +69,7 @@ campaign::Row TableSearch::drive(std::size_t of_class, std::uint64_t index, cons
   const campaign::Mission one = mission(missions, index);
   if (plan_.assist) return drive_operator(one, *by.table, stop);
   PlannerKind kind = missions.planner;
-  kind.table = engine_table(*by.table);
+  kind.table = by.table.get();
   kind.table_chosen = true;
   return drive_with_jerk(one, kind, jerk, stop);
 }

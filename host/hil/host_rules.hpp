@@ -14,7 +14,7 @@ class HostRules {
   /// The table of the kind is the built-in one. storage: keeps a base's choice; null: it is lost at the end.
   explicit HostRules(PlannerKind kind, hal::Storage* storage = nullptr);
 
-  /// Null: the planner has no table, or the fuzzy engine takes none.
+  /// Null: the planner has no table.
   can::RulesServer* server() { return server_.get(); }
   /// The kind with the active table.
   PlannerKind kind() const;
@@ -28,7 +28,7 @@ class HostRules {
   fuzzy::Stored loaded_ = fuzzy::Stored::nothing;
 };
 
-/// The table of this kind as a base sends it; null: the planner or the fuzzy engine has none.
+/// The table of this kind as a base sends it; null: the planner has none.
 const can::RulesServer::Table* table_to_send(PlannerKind kind);
 
 }  // namespace whisker::hil

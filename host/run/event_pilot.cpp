@@ -1,25 +1,8 @@
 #include "host/run/event_pilot.hpp"
 
-#include <type_traits>
-
 #include "host/run/spec.hpp"
 
 namespace whisker {
-namespace {
-
-/// By template, because only an engine with this table compiles it. Null: it is not loaded, or the engine
-/// takes none.
-template <class Table>
-const Table* engine_table_of(const Event& event) {
-  if (event.file.empty()) return &fuzzy::kDefaultTable;
-  if constexpr (std::is_same_v<Table, fuzzy::Bilinear::Table>) {
-    return event.table;
-  } else {
-    return nullptr;
-  }
-}
-
-}  // namespace
 
 EventPilot::EventPilot(const Scenario& scenario, PlannerKind planner, sim::Plant& plant)
     : plant_(plant), fixes_(scenario), loss_(scenario.robot), next_(scenario), kind_(planner) {
@@ -95,7 +78,7 @@ bool EventPilot::change(bool changed) {
 }
 
 bool EventPilot::choose_table(const Event& event) {
-  const auto* const table = engine_table_of<fuzzy::Engine::Table>(event);
+  const fuzzy::Engine::Table* const table = event.file.empty() ? &fuzzy::kDefaultTable : event.table;
   if (table == nullptr || is_baseline(kind_)) return false;
   kind_.table = table;
   return true;

@@ -7,7 +7,7 @@
 
 namespace whisker::tools {
 
-/// Markdown table rows, one per grid, and the closed form; errors are maxima over all inputs.
+/// Markdown table rows, one per grid; errors are maxima over all inputs.
 std::string grid_report(const fuzzy::RuleBase& rules);
 
 }  // namespace whisker::tools

@@ -156,14 +156,14 @@ def graph_of(build, folders, image, indirect):
     return CallGraph(files, HELPER_BYTES.get(build, OTHER_HELPER_BYTES), indirect)
 
 
-def core_stack(build, image="bare-table", guide=NO_GUIDE):
+def core_stack(build, image="bare", guide=NO_GUIDE):
     """(worst-case stack of Robot::tick in bytes, its call chain)"""
     return graph_of(build, ["firmware"], image, INDIRECT + guide).deepest("_ZN7whisker5Robot4tickENS_4TimeE")
 
 
 def map_stack(build):
     """The same with the map planner."""
-    return core_stack(build, "bare-map-table", GUIDE)
+    return core_stack(build, "bare-map", GUIDE)
 
 
 def node_stack(build, image):

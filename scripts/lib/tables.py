@@ -480,7 +480,7 @@ def wheels(o):
 IMAGES = {"everything": (), "without the code for a gyro": ("-DWHISKER_GYRO=0",)}
 CHIP = (
     "-mcpu=cortex-m3 -mthumb -ffreestanding -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-use-cxa-atexit"
-    " -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -Os -DNDEBUG -std=c++17 -DWHISKER_ENGINE_ANY=1"
+    " -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections -Os -DNDEBUG -std=c++17"
 ).split()
 GUARD = ("chassis.cpp", "guard.cpp", "health.cpp", "params.cpp", "planning/motion_controller.cpp", "planning/steering.cpp",
          *(f"{folder}/*.cpp" for folder in ("control", "fuzzy", "localization", "math", "params", "perception", "safety")))  # fmt: skip

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cstdio>
 
-#include "firmware/fuzzy/closed_form.hpp"
 #include "firmware/fuzzy/exact.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/fuzzy/rules.hpp"
@@ -41,7 +40,6 @@ void report_engine(const char* name, const Engine& engine) {
 
 int main() {
   report_engine("table", Bilinear{kResponseTable});
-  report_engine("closed", ClosedForm{kRules});
   report_engine("fixed", Exact{kRules});
   const auto engine = fuzzylite_engine(kRules);
   report("fuzzylite", 3, [&](int d, int r) {

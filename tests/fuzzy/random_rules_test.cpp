@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "firmware/fuzzy/bilinear.hpp"
-#include "firmware/fuzzy/closed_form.hpp"
 #include "firmware/fuzzy/generate.hpp"
+#include "tests/fuzzy/closed_form.hpp"
 #include "tests/fuzzy/corners.hpp"
 #include "tests/fuzzy/inputs.hpp"
 

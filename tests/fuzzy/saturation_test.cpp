@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "firmware/fuzzy/bilinear.hpp"
-#include "firmware/fuzzy/closed_form.hpp"
 #include "firmware/fuzzy/exact.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/fuzzy/rules.hpp"
+#include "tests/fuzzy/closed_form.hpp"
 #include "tests/fuzzy/inputs.hpp"
 
 namespace whisker::fuzzy {

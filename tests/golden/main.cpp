@@ -24,7 +24,7 @@ constexpr const char* kUsage =
     "usage: whisker_golden record FOLDER\n"
     "           writes the recordings full and table, of full what the planners skirt and map "
     "say\n"
-    "           (full-skirt, full-map), each with its index, and the bytes of both engines' tables\n"
+    "           (full-skirt, full-map), each with its index, and the bytes of the engine's table\n"
     "       whisker_golden judge RECORDING EXPECTED ANSWERED   exit status 1: they differ, and where\n";
 
 Bytes read(const std::string& path) {
@@ -74,8 +74,7 @@ int record(const std::string& folder) {
     record(folder + "/full-" + planner, of_planner(full, planner));
   }
   record(folder + "/table", {table_sweep()});
-  write_table(folder + "/table-engine.bin", whisker::fuzzy::kResponseTable);
-  write_table(folder + "/closed-engine.bin", whisker::fuzzy::kRules);
+  write_table(folder + "/engine.bin", whisker::fuzzy::kResponseTable);
   return 0;
 }
 

@@ -20,12 +20,6 @@
 namespace whisker {
 namespace {
 
-#ifdef WHISKER_ENGINE_CLOSED
-constexpr const char* kEngine = "closed";
-#else
-constexpr const char* kEngine = "table";
-#endif
-
 const std::filesystem::path kSource = WHISKER_SOURCE_DIR;
 
 struct Case {
@@ -74,7 +68,7 @@ Case generated(worlds::Kind kind) {
 
 void compare(const Scenario& scenario, PlannerKind planner, const std::string& file) {
   const bool update = std::getenv("WHISKER_UPDATE_GOLDEN") != nullptr;
-  const std::filesystem::path path = kSource / "tests/missions/golden" / kEngine / (file + ".csv");
+  const std::filesystem::path path = kSource / "tests/missions/golden" / (file + ".csv");
   const std::string now = decisions(scenario, planner);
   if (update) std::ofstream(path) << now;
   std::ifstream stream(path);

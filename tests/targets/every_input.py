@@ -24,13 +24,13 @@ def main(root):
     sys.path.insert(0, str(pathlib.Path(root, "scripts/lib")))
     import chips
 
-    runs = {"desktop": [chips.BUILD / "host/firmware/apps/every-input-table"]}
+    runs = {"desktop": [chips.BUILD / "host/firmware/apps/every-input"]}
     for name in PACKED:
         target = chips.TARGETS[name]
         for build in target.builds:
             if build not in dict(chips.sample()):
                 continue
-            runs[build] = target.command(chips.image(build, target, "every-input-table"), serial=True)
+            runs[build] = target.command(chips.image(build, target, "every-input"), serial=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         answers = dict(zip(runs, pool.map(output, runs.values())))
     for name, answer in answers.items():

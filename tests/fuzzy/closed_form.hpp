@@ -1,4 +1,4 @@
-/// The closed-form engine: exact inference on the rule base itself, 100 bytes.
+/// Exact inference in closed form, an oracle for the engine and for Exact.
 #pragma once
 
 #include "firmware/fuzzy/variables.hpp"

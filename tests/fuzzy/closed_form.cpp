@@ -1,4 +1,4 @@
-#include "firmware/fuzzy/closed_form.hpp"
+#include "tests/fuzzy/closed_form.hpp"
 
 #include <stddef.h>
 
@@ -47,15 +47,7 @@ struct Rules {
   const Q14* across;
 };
 
-// Inlining saves a fifth of the instructions, but clang 14 for AVR then generates wrong code: the golden
-// streams of the small core fail.
-#ifdef __AVR__
-#define WHISKER_INLINE_MEAN [[gnu::noinline]]
-#else
-#define WHISKER_INLINE_MEAN [[gnu::always_inline]] inline
-#endif
-
-WHISKER_INLINE_MEAN Q14 mean(const Rules& rules, int which, int32_t more, int32_t less) noexcept {
+Q14 mean(const Rules& rules, int which, int32_t more, int32_t less) noexcept {
   const int32_t nearest = rules.nearest[which].raw();
   const int32_t sum = kFull * nearest + more * (rules.along_more[which].raw() - nearest) +
                       less * (int32_t{rules.along_less[which].raw()} + rules.across[which].raw());
