@@ -112,7 +112,7 @@ def presets():
 
 
 def table():
-    """The table of docs/targets.md."""
+    """The table of docs/porting.md."""
     rows = ["| preset | chip | compilers | runs on | instruction counter |", "|---|---|---|---|---|"]
     for t in TARGETS.values():
         rows.append(f"| `{t.name}` | {t.title} | {', '.join(t.compilers)} | {t.runs_on} | {t.counts} |")
@@ -122,7 +122,7 @@ def table():
 def documents():
     """(file, content) of each file generated from toolchain/."""
     yield ROOT / "toolchain/presets.json", presets()
-    page = ROOT / "docs/targets.md"
+    page = ROOT / "docs/porting.md"
     marks = "<!-- targets:begin -->\n", "<!-- targets:end -->\n"
     before, _, rest = page.read_text().partition(marks[0])
     yield page, before + marks[0] + table() + marks[1] + rest.partition(marks[1])[2]

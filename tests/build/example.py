@@ -3,7 +3,7 @@
 import pathlib
 import sys
 
-EXAMPLES = {"docs/firmware.md": "docs/example/main.cpp", "docs/guard.md": "tests/guard/example.cpp"}
+EXAMPLES = {"docs/porting.md": "docs/example/main.cpp", "docs/guard.md": "tests/guard/example.cpp"}
 
 root = pathlib.Path(sys.argv[1])
 for page, file in EXAMPLES.items():

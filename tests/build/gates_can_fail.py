@@ -221,7 +221,7 @@ class AbsolutePaths(unittest.TestCase):
 class ExampleCompiles(unittest.TestCase):
     def status(self, line):
         files = {
-            "docs/firmware.md": f"<!-- compile:begin -->\n```\n{line}\n```\n<!-- compile:end -->\n",
+            "docs/porting.md": f"<!-- compile:begin -->\n```\n{line}\n```\n<!-- compile:end -->\n",
             "docs/example/main.cpp": '#include "firmware/a/a.hpp"\n',
             "firmware/a.cpp": "int a;\n",
             "firmware/a/b.cpp": "int b;\n",
