@@ -1,5 +1,5 @@
 /// The list of the core's planners, for the command line, campaigns, the bus, the companion link, the
-/// playground and their documents. docs/adding.md shows how to add one.
+/// playground and their documents. docs/development.md shows how to add one.
 #pragma once
 
 #include <stddef.h>

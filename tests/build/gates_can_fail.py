@@ -18,11 +18,11 @@ import core_alone
 import cross
 import headers_alone
 import include_direction
+import layout
 import lengths
 import node_versions
 import old_cmake
 import example_compiles
-import readme_layout
 import stages
 import vendor_macros
 import version
@@ -163,10 +163,10 @@ class Lengths(unittest.TestCase):
         self.assertEqual(self.status(a=400, b=101, c=1), 1)
 
 
-class ReadmeLayout(unittest.TestCase):
-    def status(self, readme):
-        files = {f"{part}/a.cpp": "" for part in readme_layout.PARTS}
-        return run(readme_layout.main, {"README.md": readme, **files, "host/run/b.cpp": ""})
+class Layout(unittest.TestCase):
+    def status(self, page):
+        files = {f"{part}/a.cpp": "" for part in layout.PARTS}
+        return run(layout.main, {"docs/development.md": page, **files, "host/run/b.cpp": ""})
 
     def test_wants_every_folder_and_no_other(self):
         rows = "| `firmware/` | |\n| `hal/` | |\n| `host/` | {} |\n"
