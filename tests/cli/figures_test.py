@@ -63,7 +63,7 @@ class Drives(Case):
                 best = left
 
     def test_are_small_and_each_is_in_the_docs(self):
-        text = (ROOT / "docs/skirt-pictures.md").read_text()
+        text = (ROOT / "docs/navigation.md").read_text()
         for name, path in self.drives().items():
             self.assertLess(path.stat().st_size, 60000, name)
             self.assertIn(f"](figures/{name}.svg)", text)
@@ -76,7 +76,7 @@ class Pairs(Case):
 
     def test_show_both_in_one_world_with_the_map_of_one(self):
         folder = ROOT / "docs/figures"
-        text = (ROOT / "docs/map.md").read_text()
+        text = (ROOT / "docs/navigation.md").read_text()
         names = {path.stem.removesuffix("_skirt") for path in folder.glob("map_*.svg")}
         self.assertEqual(len(names), 8)
         for name in names:
