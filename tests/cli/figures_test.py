@@ -28,7 +28,7 @@ class Figures(Case):
         self.assertGreater(len(pictures), 0)
         for path in pictures:
             self.assertLess(path.stat().st_size, 200000, path.name)
-            pages = (ROOT / f"docs/{name}.md" for name in ("guard", "replay", "playground"))
+            pages = (ROOT / f"docs/{name}.md" for name in ("guard", "pages"))
             self.assertTrue(any(f"](figures/{path.name})" in page.read_text() for page in pages), path.name)
         others = [path.name for path in (ROOT / "docs/figures").iterdir() if path.suffix not in (".svg", ".png")]
         # Hashes of the sources of the pages' pictures.
