@@ -52,7 +52,7 @@ def campaign(arguments, count, first_seed, *more):
 
 
 def scan(arguments, count, first_seed):
-    """The summary of `whisker scanner --json`, in the same worlds; see docs/comparison.md."""
+    """The summary of `whisker scanner --json`, in the same worlds; see docs/campaign.md."""
     return summary("scanner", arguments, count, first_seed)
 
 
