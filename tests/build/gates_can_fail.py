@@ -20,6 +20,7 @@ import headers_alone
 import include_direction
 import layout
 import lengths
+import links
 import node_versions
 import old_cmake
 import example_compiles
@@ -161,6 +162,19 @@ class Lengths(unittest.TestCase):
 
     def test_refuses_a_long_median(self):
         self.assertEqual(self.status(a=400, b=101, c=1), 1)
+
+
+class Links(unittest.TestCase):
+    def status(self, link):
+        return run(links.main, {"README.md": f"# A\n[a]({link})\n```\n[no](link)\n```\n", "docs/b.md": "# B\n\n## It's `c`, d\n"})[0]
+
+    def test_accepts_what_is_there(self):
+        for link in ("docs/b.md", "docs/b.md#its-c-d", "#a", "https://example.org/x"):
+            self.assertEqual(self.status(link), 0, link)
+
+    def test_refuses_what_is_not(self):
+        for link in ("docs/c.md", "docs/b.md#c", "#b"):
+            self.assertEqual(self.status(link), 1, link)
 
 
 class Layout(unittest.TestCase):
