@@ -333,7 +333,7 @@ struct RimSweep {
   Angle step;     ///< of the turn between two readings one after the other but one, at most
   Angle past;     ///< see Reach; zero if not needed
 };
-/// Source of the formula: docs/ground.md.
+/// Source of the formula: docs/safety.md.
 constexpr RimSweep rim_sweep(const Params& params) noexcept;
 /// The turn rate up to which the readings clear the ground at the rim, and which the parameters allow.
 constexpr AngularRate turn_rate(const Params& params) noexcept;

@@ -1,6 +1,6 @@
 /// The table of the protocol: every message, its signals, and the field of each signal. The codec uses it at
-/// compile time; whisker.dbc and docs/protocol.md are generated from it. docs/adding.md shows how to add a
-/// message.
+/// compile time; whisker.dbc and docs/protocol.md are generated from it. docs/development.md shows how to add
+/// a message.
 ///
 /// All signals are little-endian: bit n is bit n % 8 of byte n / 8, and a signal starts with its lowest bit.
 /// Every message also has Crc (bits 0 to 7) and Counter (bits 8 to 11), see e2e.hpp.

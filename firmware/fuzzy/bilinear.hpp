@@ -88,7 +88,7 @@ class BilinearGrid {
   const Table* table_;
 };
 
-/// The grid of the committed table; docs/fuzzy.md compares it with others.
+/// The grid of the committed table; docs/rules.md has its error.
 using Bilinear = BilinearGrid<5, 5>;
 
 extern template class BilinearGrid<5, 5>;

@@ -1,4 +1,4 @@
-/// The 25 rules. docs/fuzzy.md gives the reason for each block.
+/// The 25 rules. docs/rules.md gives the reason for each block.
 #pragma once
 
 #include "firmware/fuzzy/variables.hpp"

@@ -7,7 +7,7 @@
 /// | SA | turn factor; positive: turn left | [-1.5, 1.5] | 1/16384 |
 /// | SD | step factor | [0, 2) | 1/16384 |
 ///
-/// docs/fuzzy.md separates the source's figures from reconstructed ones.
+/// docs/rules.md separates the source's figures from reconstructed ones.
 #pragma once
 
 #include <stdint.h>

@@ -150,7 +150,7 @@ class LocalGrid {
   ///
   /// The trailing edge of the cone is the one behind which ground falls as it sweeps. A cell is swept while
   /// it has lain completely before some trailing edge, and no later reading can have missed a part of it. It
-  /// is clear as soon as it also lies completely behind the leading edge (proof: docs/ground.md).
+  /// is clear as soon as it also lies completely behind the leading edge (proof: docs/safety.md).
   struct Chain {
     bool linked = false;
     bool left = true;  // sweeps to the left: the left edge leads

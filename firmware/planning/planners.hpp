@@ -1,5 +1,5 @@
-/// The list of the core's planners, for the command line, campaigns, the bus, the
-/// playground and the golden streams. docs/adding.md shows how to add one.
+/// The list of the core's planners, for the command line, campaigns, the bus, the playground and the golden
+/// streams. docs/development.md shows how to add one.
 #pragma once
 
 #include <stddef.h>

@@ -4,7 +4,7 @@
 
 namespace whisker::cli {
 
-/// A run of the boundary planner in each class of worlds: docs/skirt-pictures.md.
+/// A run of the boundary planner in each class of worlds: docs/navigation.md.
 struct ClassPicture {
   const char* file;
   worlds::Kind kind;
@@ -31,7 +31,7 @@ struct MapPicturePair {
   const char* name;  ///< map_NAME.svg, map_NAME_skirt.svg
   worlds::Kind kind;
   worlds::Options options;  ///< without the seed
-  double skirts_median;     ///< as in docs/skirt.md
+  double skirts_median;     ///< as in docs/campaign.md
 };
 
 constexpr MapPicturePair kMapPictures[] = {

@@ -1,4 +1,4 @@
-/// Runs and campaigns as one self-contained file for a browser. docs/replay.md describes the format.
+/// Runs and campaigns as one self-contained file for a browser. docs/pages.md describes the format.
 #pragma once
 
 #include <cstdint>

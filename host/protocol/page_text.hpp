@@ -191,7 +191,7 @@ In lockstep, the time of a Velocity is that of the next set, so an operator send
 
 inline constexpr const char* kRules = R"(## Response table
 
-The controller drives with a table of {nodes} nodes ([fuzzy.md](fuzzy.md)): 57 nodes in R, from -7 to 7, for each of 33 in D, from 1 to 9.
+The controller drives with a table of {nodes} nodes ([rules.md](rules.md#the-fuzzy-controller)): 57 nodes in R, from -7 to 7, for each of 33 in D, from 1 to 9.
 Node is their number, R within D. RulesHash names a table: CRC-32 (polynomial 0x04C11DB7 reflected, as in Ethernet and zlib) over Turn and
 Step of each node in this order, each 16 bits, low byte first. Info, part 2, has that of the active table; a controller without a table
 does not send this part.

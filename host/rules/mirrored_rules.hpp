@@ -13,7 +13,7 @@ namespace whisker::rules {
 constexpr std::size_t kTerms = fuzzy::kTerms;
 
 /// In a mirrored world (R -> -R), SA is the mirrored SA and SD the same SD. Terms count from 0 in the order
-/// of docs/fuzzy.md, and have the core's names.
+/// of docs/rules.md, and have the core's names.
 struct MirroredRules {
   std::array<double, kTerms> distance{};  ///< centres of D, rising
   std::array<double, 2> bias{};           ///< centres of LB and LVB, rising, above 0; RB and RVB mirror them

@@ -6,7 +6,7 @@
 namespace whisker {
 
 /// m; the planners take every gap at least this wide, as far as the grid is concerned: wherever the cells
-/// lie, it leaves a path of the width that is planned. See docs/gaps.md.
+/// lie, it leaves a path of the width that is planned. See docs/navigation.md.
 double narrowest_gap_m(const Params& params);
 
 }  // namespace whisker

@@ -50,7 +50,7 @@ std::vector<std::string_view> robot_keys();
 /// `key = value` lines for the parameters that differ from the reference robot's.
 std::string robot_toml(const Params& params);
 
-/// The table of docs/scenario.md: key, unit, default and range of every parameter.
+/// The table of docs/parameters.md: key, unit, default and range of every parameter.
 std::string params_markdown();
 
 }  // namespace whisker

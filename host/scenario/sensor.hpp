@@ -1,4 +1,4 @@
-/// What the rangefinders really do, which the robot does not know. docs/simulator.md describes the physics.
+/// What the rangefinders really do, which the robot does not know. docs/scenario.md describes the physics.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 /// The simulated robot in its world: wheels, body, contact, encoders and rangefinders, one control period at
-/// a time. docs/simulator.md describes the models and their exactness.
+/// a time. docs/scenario.md describes the models and their exactness.
 #pragma once
 
 #include <stdint.h>

@@ -37,7 +37,7 @@ class Feed {
   void close();
 
   /// The news since this position as one JSON object; advances the position. None if there is nothing new.
-  /// Beyond some thousand ticks, the next call returns the rest. docs/replay.md describes the format.
+  /// Beyond some thousand ticks, the next call returns the rest. docs/pages.md describes the format.
   std::optional<std::string> news(Place& place) const;
   /// Everything was read, and no more data follows.
   bool over(const Place& place) const;

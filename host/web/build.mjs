@@ -7,7 +7,12 @@ const MOST_BYTES = 160_000;
 const here = (path) => new URL(path, import.meta.url);
 const TEMPLATE = here('../page/template.html');
 
-const page = await bundledPage({html: 'index.html', sheets: ['style.css'], entry: 'main.ts'});
+const page = await bundledPage({
+  html: 'index.html',
+  sheets: ['../node_modules/uplot/dist/uPlot.min.css', 'style.css'],
+  entry: 'main.ts',
+  notices: ['node_modules/uplot/LICENSE'],
+});
 if (page.length > MOST_BYTES) throw new Error(`${page.length} bytes; at most ${MOST_BYTES}`);
 if (process.argv.includes('--check')) {
   if ((await readFile(TEMPLATE, 'utf8')) !== page) {

@@ -23,18 +23,21 @@ async function style(sheets) {
   const texts = await Promise.all(sheets.map((sheet) => readFile(here(`src/${sheet}`), 'utf8')));
   const own = texts.join('\n');
   const dark = own.match(DARK)[1];
-  const plots = await readFile(here('node_modules/uplot/dist/uPlot.min.css'), 'utf8');
-  const contents = `${plots}${own}
+  const contents = `${own}
     @media (prefers-color-scheme: dark) {:root:not([data-theme='light']) {${dark}}}`;
   return bundled({stdin: {contents, loader: 'css'}});
 }
 
-/** The page of src/HTML with everything in its place: its style sheets, its script and what else it asks for. */
-export async function bundledPage({html, sheets, entry, more = {}}) {
-  const [text, css, script] = await Promise.all([
+/**
+ * The page of src/HTML with everything in its place: its style sheets, its script and what else it asks for. It begins with the
+ * notices of what others wrote.
+ */
+export async function bundledPage({html, sheets, entry, notices = [], more = {}}) {
+  const [text, css, script, ...kept] = await Promise.all([
     readFile(here(`src/${html}`), 'utf8'),
     style(sheets),
     bundled({entryPoints: [here(`src/${entry}`).pathname], format: 'iife'}),
+    ...notices.map((notice) => readFile(here(notice), 'utf8')),
   ]);
   if (/<\/(script|style)/i.test(css + script)) throw new Error('the bundle would end its own element');
   const parts = {style: css, script, ...more};
@@ -43,7 +46,11 @@ export async function bundledPage({html, sheets, entry, more = {}}) {
     (whole, [name, part]) => whole.replace(`<!--${name}-->`, () => part),
     text.replace(/\n\s*/g, '\n'),
   );
-  const notAscii = page.match(/[^\x00-\x7f]/);
+  const notice = kept
+    .map((licence, i) => `<!--\n${notices[i].split('/')[1]}: ${licence.trim()}\n-->\n`)
+    .join('');
+  const whole = page.replace(/^<!doctype html>\n?/i, (doctype) => doctype + notice);
+  const notAscii = whole.match(/[^\x00-\x7f]/);
   if (notAscii) throw new Error(`not ASCII: ${notAscii[0]}`);
-  return page;
+  return whole;
 }

@@ -1,4 +1,4 @@
-// Writes the pictures of docs/replay.md, docs/guard.md and docs/playground.md. usage: npm run figures
+// Writes the pictures of docs/pages.md and docs/guard.md. usage: npm run figures
 // The playground's page must have been built: scripts/playground --build-only
 import {execFileSync} from 'node:child_process';
 import {statSync, writeFileSync} from 'node:fs';

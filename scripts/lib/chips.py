@@ -87,7 +87,7 @@ def make(name, jobs):
 
 
 def table():
-    """The table of docs/targets.md."""
+    """The table of docs/porting.md."""
     rows = ["| target | chip | compilers | runs on | instruction counter |", "|---|---|---|---|---|"]
     for t in TARGETS.values():
         rows.append(f"| `{t.name}` | {t.title} | {', '.join(t.compilers)} | {t.runs_on} | {t.counts} |")
@@ -95,7 +95,7 @@ def table():
 
 
 def page():
-    """(docs/targets.md, its text with the table)"""
-    path, marks = ROOT / "docs/targets.md", ("<!-- targets:begin -->\n", "<!-- targets:end -->\n")
+    """(docs/porting.md, its text with the table)"""
+    path, marks = ROOT / "docs/porting.md", ("<!-- targets:begin -->\n", "<!-- targets:end -->\n")
     before, _, rest = path.read_text().partition(marks[0])
     return path, before + marks[0] + table() + marks[1] + rest.partition(marks[1])[2]

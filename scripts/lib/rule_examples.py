@@ -13,7 +13,7 @@ import tempfile
 
 from campaigns import ROOT, WHISKER, Section, fail, heading, line, place_in, table
 
-PAGE = ROOT / "docs/rule-compiler.md"
+PAGE = ROOT / "docs/rules.md"
 PROGRAMS = ROOT / "docs/integration/rules"
 RULES = "host/rules/examples"
 EXAMPLES = {
@@ -151,47 +151,18 @@ class Example:
             raise Wrong(f"the look-up of {self.header.name} branches on a Cortex-M3: {branches}")
         return sum(c not in (".word", "nop") for c in code)
 
-    def declarations(self):
-        """The header without comments, nodes and bodies."""
-        text = re.sub(r"/\*.*?\*/\n?", "", self.header.read_text(), flags=re.DOTALL)
-        scales = re.findall(r"#define \w+_(?:ORIGIN|PER_UNIT) .*\n", text)
-        struct = re.search(r"typedef struct \{\n(.*?)\} (\w+);\n", text, re.DOTALL)
-        nodes = re.search(r"static const int16_t \w+\[\d+ \* \d+\]", text)[0] + ";\n"
-        functions = [f"{head};\n" for head in re.findall(r"^(static inline \w+ \w+\(.*?\)) \{", text, re.MULTILINE)]
-        return "".join((*scales, nodes, f"typedef struct {{ {' '.join(struct[1].split())} }} {struct[2]};\n", *functions))
-
-    def program(self):
-        """The program as a user sees it, without includes and title."""
-        text = (PROGRAMS / f"{self.stem}.c").read_text()
-        return text[text.index("static void look_up") :]
-
     def section(self, broken=False):
         chip = self.answers(broken)
-        judged = [self.judged(*asked) for asked in chip.asked]
-        self.check_worst(chip, judged)
+        self.check_worst(chip, [self.judged(*asked) for asked in chip.asked])
         told = run(WHISKER, "rules", "compile", self.rules, cwd=ROOT)
-        source = (ROOT / self.rules).read_text()
         code, table, products = self.sizes()
         name = pathlib.Path(self.rules).name
-        yield f"### {name}\n\n{EXAMPLES[name]}\n\n"
-        yield f"<details><summary>{name}, {len(source.splitlines())} lines</summary>\n\n```\n{source}```\n</details>\n\n"
+        yield f"#### {name}\n\n{EXAMPLES[name]} [The rule base](../{self.rules}), [its program](integration/rules/{self.stem}.c).\n\n"
         yield f"```\n$ whisker rules compile {self.rules} --header {self.stem}.h\n{told}header: {self.stem}.h\n```\n\n"
-        yield f"The header declares, in short:\n\n```c\n{self.declarations()}```\n\n"
-        yield f"[{self.stem}.c](integration/rules/{self.stem}.c) asks it on the chip:\n\n```c\n{self.program()}```\n\n"
-        yield f"```\n$ make -s -C docs/integration/rules {self.stem}.answers\n"
-        yield "".join(f"{line}\n" for line in chip.lines[: self.on_page])
-        yield f"a look-up: {chip.cost}\n{chip.inputs} inputs, checksum {chip.checksum}\n```\n\n"
-        yield f"{heading('at', 'exact', 'error of the chip', 'per cent of the span', 'at most')}\n"
-        for (raw, _), row in list(zip(chip.asked, judged))[: self.on_page]:
-            at = ", ".join(f"{i['name']} {i['origin'] + raw[i['name']] / i['raw_per_unit']:.4f}" for i in self.told["inputs"])
-            for o, exact, error in row:
-                share = 100 * error / o["span"]
-                cells = (at, f"{o['name']} {exact + 0:.6f}", f"{error:+.6f}", f"{share:+.4f}", f"{o['max_error_percent']:.4f}")
-                yield line(*(re.sub(r"[-+](0\.0+)$", r"\1", cell) for cell in cells)) + "\n"
-        yield f"\nTable: {table:,} bytes. Look-up: {code} bytes of code, {chip.cost}, {products} of them multiplications; {self.on_a_cortex_m3()} on a Cortex-M3.\n"
+        yield f"Table: {table:,} bytes. Look-up: {code} bytes of code, {chip.cost}, {products} of them multiplications; {self.on_a_cortex_m3()} on a Cortex-M3.\n"
 
 
-@table("docs/rule-compiler.md", check={"action": "store_true", "help": "exit status 1 if the page shows others"},
+@table("docs/rules.md", check={"action": "store_true", "help": "exit status 1 if the page shows others"},
        broken={"action": "store_true", "help": "one node is wrong in the chip's header only; fails unless the example fails. With WHISKER_LONG "
                "in the environment each of them, otherwise the first"})  # fmt: skip
 def rule_examples(o):
@@ -221,7 +192,7 @@ def rule_examples(o):
     compiler = run("arm-none-eabi-gcc", "-dumpfullversion").strip()
     text = f"`scripts/measure rule-examples`: arm-none-eabi-gcc {compiler}, `-mcpu=cortex-m0plus -Os`.\n\n" + "\n".join(sections)
     if not o.check:
-        yield Section("docs/rule-compiler.md", "examples", made=False)
+        yield Section("docs/rules.md", "examples", made=False)
         yield text[:-1]
         return
     before, after = place_in(PAGE, "examples")

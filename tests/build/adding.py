@@ -1,4 +1,4 @@
-"""The planner, message and parameter of docs/adding.md, applied to a copy of the tree, compile where they are read; with WHISKER_LONG,
+"""The planner, message and parameter of docs/development.md, applied to a copy of the tree, compile where they are read; with WHISKER_LONG,
 the command is built with them, and they work.
 
 usage: adding.py ROOT WORK_FOLDER CMAKE GENERATOR CXX
@@ -41,7 +41,7 @@ def with_lines(text, diff, file):
         else:
             found = [i for i in range(at + 1, len(lines)) if lines[i].strip() == rest.strip()]
             if not found:
-                raise Failure(f"docs/adding.md: {file} has no line '{rest.strip()}'")
+                raise Failure(f"docs/development.md: {file} has no line '{rest.strip()}'")
             at = found[0]
     return "\n".join(lines) + "\n"
 
@@ -105,7 +105,7 @@ def main(root, work, cmake, generator, compiler):
         else:
             shutil.copy2(root / part, tree / part)
     try:
-        touched = apply((root / "docs/adding.md").read_text(), tree)
+        touched = apply((root / "docs/development.md").read_text(), tree)
         problems = compiler_problems(tree, touched, compiler)
         if LONG and not problems:
             problems = command_problems(tree, build, work, cmake, generator, compiler)

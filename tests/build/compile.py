@@ -1,4 +1,4 @@
-"""Runs compilers in parallel. LONG: whether a gate does all of its work, as every night (WHISKER_LONG, docs/building.md)."""
+"""Runs compilers in parallel. LONG: whether a gate does all of its work, as every night (WHISKER_LONG, docs/development.md)."""
 
 import concurrent.futures
 import os

@@ -1,4 +1,4 @@
-"""The command in docs/firmware.md compiles its example, both in sh and in a makefile. The example also compiles in GNU's
+"""The command in docs/porting.md compiles its example, both in sh and in a makefile. The example also compiles in GNU's
 dialect and with clang, so check() is a constant expression there. usage: example_compiles.py ROOT CXX [CLANG]"""
 
 import os
@@ -30,9 +30,9 @@ def arguments(command, folder, path):
 
 def main(root, *compilers):
     root = pathlib.Path(root).resolve()
-    line = line_of((root / "docs/firmware.md").read_text())
+    line = line_of((root / "docs/porting.md").read_text())
     if line is None:
-        return finish("the line of docs/firmware.md", 1, ["docs/firmware.md: no one line between the marks compile:begin and compile:end"])
+        return finish("the line of docs/porting.md", 1, ["docs/porting.md: no one line between the marks compile:begin and compile:end"])
     problems = []
     with tempfile.TemporaryDirectory() as work:
         for name in ("docs", "firmware", "hal"):
@@ -58,7 +58,7 @@ def main(root, *compilers):
                 command = [compiler, f"-std={standard}", f"-I{root}", "-fsyntax-only", str(root / wanted[0])]
                 jobs.append((f"{compiler} {standard}", command, None))
         problems += [f"{name}:\n{output}" for name, output in compile_all(jobs) if output]
-    return finish("the line of docs/firmware.md", len(jobs), problems)
+    return finish("the line of docs/porting.md", len(jobs), problems)
 
 
 if __name__ == "__main__":

@@ -18,11 +18,12 @@ import core_alone
 import cross
 import headers_alone
 import include_direction
+import layout
 import lengths
+import links
 import node_versions
 import old_cmake
 import example_compiles
-import readme_layout
 import stages
 import vendor_macros
 import version
@@ -170,10 +171,23 @@ class Lengths(unittest.TestCase):
         self.assertEqual(self.status(a=400, b=101, c=1), 1)
 
 
-class ReadmeLayout(unittest.TestCase):
-    def status(self, readme):
-        files = {f"{part}/a.cpp": "" for part in readme_layout.PARTS}
-        return run(readme_layout.main, {"README.md": readme, **files, "host/run/b.cpp": ""})
+class Links(unittest.TestCase):
+    def status(self, link):
+        return run(links.main, {"README.md": f"# A\n[a]({link})\n```\n[no](link)\n```\n", "docs/b.md": "# B\n\n## It's `c`, d\n"})[0]
+
+    def test_accepts_what_is_there(self):
+        for link in ("docs/b.md", "docs/b.md#its-c-d", "#a", "https://example.org/x"):
+            self.assertEqual(self.status(link), 0, link)
+
+    def test_refuses_what_is_not(self):
+        for link in ("docs/c.md", "docs/b.md#c", "#b"):
+            self.assertEqual(self.status(link), 1, link)
+
+
+class Layout(unittest.TestCase):
+    def status(self, page):
+        files = {f"{part}/a.cpp": "" for part in layout.PARTS}
+        return run(layout.main, {"docs/development.md": page, **files, "host/run/b.cpp": ""})
 
     def test_wants_every_folder_and_no_other(self):
         rows = "| `firmware/` | |\n| `hal/` | |\n| `host/` | {} |\n"
@@ -228,7 +242,7 @@ class AbsolutePaths(unittest.TestCase):
 class ExampleCompiles(unittest.TestCase):
     def status(self, line):
         files = {
-            "docs/firmware.md": f"<!-- compile:begin -->\n```\n{line}\n```\n<!-- compile:end -->\n",
+            "docs/porting.md": f"<!-- compile:begin -->\n```\n{line}\n```\n<!-- compile:end -->\n",
             "docs/example/main.cpp": '#include "firmware/a/a.hpp"\n',
             "firmware/a.cpp": "int a;\n",
             "firmware/a/b.cpp": "int b;\n",

@@ -70,7 +70,7 @@ TEST(Meet, ARobotInThePathOfSomethingSlowLeavesIt) {
       for (std::uint64_t seed = 1; seed <= test::effort(60); ++seed) {
         count.add(meet(worlds::meeting(course, 0.1, seed), planner));
       }
-      // docs/ground.md: 3 to 7 % and 20 to 30 %.
+      // docs/perception.md: 3 to 7 % and 20 to 30 %.
       EXPECT_LE(count.contacts, count.missions * (course == Course::oncoming ? 12 : 36) / 100)
           << name(course);
     }
@@ -152,7 +152,7 @@ TEST_P(MeetAt, NothingThatWasSeenIsTouchedByAMovingRobot) {
     for (std::uint64_t seed = 1; seed <= test::effort(200); ++seed) {
       count.add(meet(worlds::meeting(course, GetParam(), seed), PlannerKind::skirt));
     }
-    // docs/ground.md: the rate is one in some thousands.
+    // docs/perception.md: the rate is one in some thousands.
     EXPECT_LE(count.seen, 1U) << name(course);
     EXPECT_GT(count.said, count.missions / 4) << name(course);
   }

@@ -4,6 +4,7 @@ import http.client
 import json
 import pathlib
 import re
+import shlex
 import signal
 import socket
 import subprocess
@@ -19,7 +20,9 @@ PATIENCE_S = 240  # a lockstep goes on as slowly as a busy computer lets it
 PATIENT = ("--timeout", 60)
 SILENCE = ("--timeout", 3)  # nobody will answer; it is enough to get onto the bus of a busy computer
 FAR = "time_limit_s = 3000.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 500.0\ny_m = 0.0\n"
-STRAIGHT = pathlib.Path(__file__).resolve().parents[2] / "host/rules/laws/straight.toml"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs/bench.md"
+STRAIGHT = ROOT / "host/rules/laws/straight.toml"
 
 
 class Ear:
@@ -186,6 +189,20 @@ class Nodes(Beside):
         done = whisker.whisker("bench", "nodes", "--socket", self.folder / "nothing", "--timeout", 0.2)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("not on the bus after 0.2 s: waits for", done.stderr)
+
+
+class Page(Beside):
+    """The commands of docs/bench.md that show what they print."""
+
+    def test_shows_what_the_commands_print(self):
+        self.controller()
+        page = PAGE.read_text()
+        shown = re.findall(r"^\$ whisker (bench .*) --can vcan0\n((?:[^$`].*\n)*)", page, re.MULTILINE)
+        self.assertGreaterEqual(len(shown), 5)
+        varies = re.compile(r"boot \w+  up +\d+ s  heard [\d.]+ s")
+        for command, wanted in shown:
+            done = whisker.whisker(*shlex.split(command), "--socket", self.folder / "bench", *PATIENT, cwd=self.folder, timeout=PATIENCE_S)
+            self.assertEqual(varies.sub("", done.stdout + done.stderr), varies.sub("", wanted), command)
 
 
 class Parameters(Beside):

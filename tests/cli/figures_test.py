@@ -28,7 +28,7 @@ class Figures(Case):
         self.assertGreater(len(pictures), 0)
         for path in pictures:
             self.assertLess(path.stat().st_size, 200000, path.name)
-            pages = (ROOT / f"docs/{name}.md" for name in ("guard", "replay", "playground"))
+            pages = (ROOT / f"docs/{name}.md" for name in ("guard", "pages"))
             self.assertTrue(any(f"](figures/{path.name})" in page.read_text() for page in pages), path.name)
         others = [path.name for path in (ROOT / "docs/figures").iterdir() if path.suffix not in (".svg", ".png")]
         # Hashes of the sources of the pages' pictures.
@@ -63,7 +63,7 @@ class Drives(Case):
                 best = left
 
     def test_are_small_and_each_is_in_the_docs(self):
-        text = (ROOT / "docs/skirt-pictures.md").read_text()
+        text = (ROOT / "docs/navigation.md").read_text()
         for name, path in self.drives().items():
             self.assertLess(path.stat().st_size, 60000, name)
             self.assertIn(f"](figures/{name}.svg)", text)
@@ -76,7 +76,7 @@ class Pairs(Case):
 
     def test_show_both_in_one_world_with_the_map_of_one(self):
         folder = ROOT / "docs/figures"
-        text = (ROOT / "docs/map.md").read_text()
+        text = (ROOT / "docs/navigation.md").read_text()
         names = {path.stem.removesuffix("_skirt") for path in folder.glob("map_*.svg")}
         self.assertEqual(len(names), 8)
         for name in names:

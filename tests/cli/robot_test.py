@@ -126,7 +126,7 @@ class Header(Case):
 
     def test_every_parameter_has_its_field(self):
         """Each parameter slightly off its default, if the relations hold with that change alone."""
-        keys = (ROOT / "docs/scenario.md").read_text().split("<!-- params:begin -->")[1].split("<!-- params:end -->")[0]
+        keys = (ROOT / "docs/parameters.md").read_text().split("<!-- params:begin -->")[1].split("<!-- params:end -->")[0]
         rows = [[cell.strip() for cell in row.strip("|").split("|")] for row in keys.strip().splitlines()[2:]]
         wanted = []
         for key, unit, default, _ in rows:

@@ -1,5 +1,4 @@
 // The committed table and the figures in the documentation follow from the rules.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,7 +7,6 @@
 
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/fuzzy/rules.hpp"
-#include "host/tools/grid_report.hpp"
 #include "host/tools/table_text.hpp"
 #include "tests/fuzzy/inputs.hpp"
 
@@ -51,10 +49,6 @@ TEST(ResponseTable, ChangesItsResponseWithOneUnitOfAnyNode) {
       ++node.step;
     }
   }
-}
-
-TEST(Documentation, ShowsTheMeasuredCostAndErrorOfEveryGrid) {
-  EXPECT_THAT(contents("/docs/fuzzy.md"), testing::HasSubstr(tools::grid_report(kRules)));
 }
 
 }  // namespace

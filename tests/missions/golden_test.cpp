@@ -1,5 +1,5 @@
 // The decisions of whole runs, compared with committed ones. After an intended change of behaviour, run this
-// program once with WHISKER_UPDATE_GOLDEN=1 in the environment, and read the diff (docs/building.md).
+// program once with WHISKER_UPDATE_GOLDEN=1 in the environment, and read the diff (docs/development.md).
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>

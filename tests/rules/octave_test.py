@@ -231,7 +231,7 @@ class Agrees(Case):
         for key, refusal in refusals.items():
             print(f"  {refusal}", end="")
             self.assertRegex(refusal, rf"\A{key}\.fis:\d+:\d+: [^\n]+\n\Z")
-        # The refusals that docs/rule-compiler.md explains, and no other.
+        # The refusals that docs/rules.md names, and no other.
         reasons = ("implication 'einstein_product' cannot be compiled", "this hedge has no agreed meaning")
         self.assertEqual([key for key, refusal in refusals.items() if not any(r in refusal for r in reasons)], [])
         comparison = self.agree(bases)
@@ -328,7 +328,7 @@ def changed(text, *pairs):
 
 
 class Differs(Case):
-    """What docs/rule-compiler.md says Octave defines otherwise: it does, and it is not Whisker's answer."""
+    """What Octave defines otherwise: it does, and it is not Whisker's answer."""
 
     def both(self, text, row, points=POINTS):
         """Octave's own answers or its message, and Whisker's."""

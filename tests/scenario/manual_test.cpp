@@ -1,4 +1,4 @@
-// The parameter table of docs/scenario.md is the generated one, and its example loads.
+// The table of docs/parameters.md is the generated one, and the example of docs/scenario.md loads.
 #include <gtest/gtest.h>
 
 #include "host/scenario/load.hpp"
@@ -16,14 +16,15 @@ std::string between(const std::string& text, const std::string& begin, const std
   return text.substr(from + begin.size(), to - from - begin.size());
 }
 
-std::string manual() { return read_file(WHISKER_SOURCE_DIR "/docs/scenario.md"); }
+std::string page(const std::string& name) { return read_file(WHISKER_SOURCE_DIR "/docs/" + name); }
 
 TEST(Manual, ListsEveryParameterAsTheCodeHasIt) {
-  EXPECT_EQ(between(manual(), "<!-- params:begin -->\n", "<!-- params:end -->"), params_markdown());
+  EXPECT_EQ(between(page("parameters.md"), "<!-- params:begin -->\n", "<!-- params:end -->"),
+            params_markdown());
 }
 
 TEST(Manual, ShowsAnExampleThatLoads) {
-  const std::string example = between(manual(), "```toml\n", "```");
+  const std::string example = between(page("scenario.md"), "```toml\n", "```");
   const Scenario s = parse_scenario(example, "example");
   EXPECT_EQ(s.discs.size() + s.polygons.size() + s.walls.size() + s.movers.size(), 4U);
 }

@@ -50,7 +50,7 @@ TEST(SensorModel, EveryFigureMayStandInAFile) {
 }
 
 TEST(SensorModel, RateAndLatencyStandInTheManual) {
-  const std::string manual = read_file(WHISKER_SOURCE_DIR "/docs/simulator.md");
+  const std::string manual = read_file(WHISKER_SOURCE_DIR "/docs/scenario.md");
   for (const std::string_view name : sensor_model_names()) {
     const SensorModel& m = *find_sensor_model(name);
     const std::string rate =
@@ -165,7 +165,7 @@ TEST(SensorKeys, AndModelsAreInTheManuals) {
   for (const std::string_view key : sensor_keys()) {
     EXPECT_THAT(scenario, HasSubstr("| `" + std::string(key) + "` |"));
   }
-  const std::string simulator = read_file(WHISKER_SOURCE_DIR "/docs/simulator.md");
+  const std::string simulator = read_file(WHISKER_SOURCE_DIR "/docs/scenario.md");
   for (const std::string_view name : sensor_model_names()) {
     EXPECT_THAT(simulator, HasSubstr("`" + std::string(name) + "`"));
   }

@@ -68,7 +68,7 @@ TEST(SensorSpec, LightActsOnTheRangeOfTheSensorItself) {
   EXPECT_EQ(spec(own).echo_range, 0);
 }
 
-// The figures that the table of docs/simulator.md compares with the data sheets.
+// The law of light against the data sheets.
 TEST(EchoShare, FollowsTheDataSheets) {
   EXPECT_DOUBLE_EQ(reach("vl53l0x", 0.88, 0), 2.0);
   EXPECT_DOUBLE_EQ(reach("vl53l0x", 1, 0), 2.0);

@@ -111,7 +111,7 @@ describe('the decoded data', () => {
   }
 
   test('rules weigh up to what the table answers', async () => {
-    // docs/fuzzy.md: the table is at most 1.4 % of the span off exact inference.
+    // docs/rules.md: the table is at most 1.4 % of the span off exact inference.
     const {page} = await openPage(browser, folder.url('noise.html'));
     const rows = await page.evaluate(() => {
       const {run} = window.whisker;

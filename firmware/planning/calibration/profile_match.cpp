@@ -11,7 +11,7 @@ constexpr uint32_t kSmooth = 60;  // mm
 constexpr int kLeastEchoes = 24;
 constexpr int32_t kLeastContrast = 4;  // mm of a sample
 // Sixteenths. Twelve parts say too little of the spread, and less where one of them decides alone: its share
-// is added. Two standard deviations then cover about 95 % (scripts/wheels).
+// is added. Two standard deviations then cover about 95 % (scripts/measure wheels).
 constexpr uint32_t kWider = 16;
 
 /// The vertex of the parabola through the points -kHalf..kHalf, in 1/256 of their distance from the middle.

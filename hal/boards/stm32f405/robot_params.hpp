@@ -9,7 +9,7 @@ namespace whisker::hal::stm32f405 {
 constexpr Params robot_params() noexcept {
   Params p;
   p.rangefinders.max_range = 1200_mm;
-  p.rangefinders.clear_range = 700_mm;  // for a grey target: docs/boards.md
+  p.rangefinders.clear_range = 700_mm;  // for a grey target: docs/porting.md
   p.rangefinders.rate_hz = 25;
   p.rangefinders.latency = 40_ms;
   p.conditioning.stale_after = 150_ms;

@@ -4,7 +4,7 @@
 #include "hal/boards/stm32f405/pin.hpp"
 #include "hal/boards/stm32f405/reg/bases.hpp"
 
-// Another board's own wiring is included before, and defines this: docs/adding.md.
+// Another board's own wiring is included before, and defines this: docs/development.md.
 #ifndef WHISKER_WIRING
 #define WHISKER_WIRING
 

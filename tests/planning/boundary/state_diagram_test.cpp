@@ -189,7 +189,7 @@ std::string document() {
          "Which\n"
          "mode and which reason an arrow shows in the trace stands in the same table. What each rule is for "
          "is\n"
-         "in [skirt.md](skirt.md).\n\n"
+         "in [navigation.md](navigation.md#the-boundary-planner).\n\n"
          "## The planner\n\n"
          "`firmware/planning/boundary/boundary_planner.hpp`. Beside these arrows a mission ends from every\n"
          "phase as *gave up* when the length budget is used up, or after 1,000 phases in one place.\n\n" +

@@ -1,4 +1,4 @@
-"""README.md's Layout names every folder of firmware/, hal/ and host/, optionally deeper ones, and none that does not exist. usage: readme_layout.py ROOT"""
+"""docs/development.md names every folder of firmware/, hal/ and host/, optionally deeper ones, and none that does not exist. usage: layout.py ROOT"""
 
 import pathlib
 import re
@@ -6,6 +6,7 @@ import sys
 
 from sources import finish
 
+PAGE = "docs/development.md"
 PARTS = ("firmware", "hal", "host")
 
 
@@ -16,13 +17,13 @@ def problems(root, text):
         below = {path.name for path in pathlib.Path(root, part).rglob("*") if path.is_dir()}
         there = {path.name for path in pathlib.Path(root, part).iterdir() if path.is_dir()}
         for name in sorted(there - named):
-            yield f"README.md: {part}/{name}/ is not named"
+            yield f"{PAGE}: {part}/{name}/ is not named"
         for name in sorted(named - below):
-            yield f"README.md: {part}/{name}/ is named and not there"
+            yield f"{PAGE}: {part}/{name}/ is named and not there"
 
 
 def main(root):
-    found = list(problems(root, pathlib.Path(root, "README.md").read_text()))
+    found = list(problems(root, pathlib.Path(root, PAGE).read_text()))
     return finish("layout", len(PARTS), found)
 
 
