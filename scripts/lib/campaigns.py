@@ -184,6 +184,13 @@ def heading(*cells):
     return f"{line(*cells)}\n|{'---|' * len(cells)}"
 
 
+def grid(corner, rows, columns, cell):
+    """A table of cell(row, column). rows, columns: title: value; a row may have several titles. corner: what stands above them."""
+    yield heading(*corner, *columns)
+    for title, row in rows.items():
+        yield line(*((title,) if isinstance(title, str) else title), *(cell(row, column) for column in columns.values()))
+
+
 def place_in(page, mark):
     """The page's text before and after a section, including its marks. Exits if the page has no such section."""
     begin, end = f"<!-- {mark}:begin -->\n", f"<!-- {mark}:end -->\n"
