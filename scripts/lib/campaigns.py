@@ -71,9 +71,9 @@ class Table:
         for option, settings in self.options.items():
             value = getattr(o, option.strip("-").replace("-", "_"))
             if value and value != settings.get("default"):
-                for one in value if isinstance(value, list) else (value,):
-                    words += [option] if option.startswith("-") else []
-                    words.append(f'"{one}"' if " " in str(one) else f"{one:g}" if isinstance(one, float) else str(one))
+                shown = [f"{v:g}" if isinstance(v, float) else f'"{v}"' if " " in str(v) else str(v) for v in (value if isinstance(value, list) else [value])]
+                again = settings.get("action") == "append"
+                words += [*([option] if option.startswith("-") else []), f" {option} ".join(shown) if again else " ".join(shown)]
         seeds = f"{o.count} {self.unit}, seeds {o.first} to {o.first + o.count - 1}"
         return f"`scripts/measure {self.name} {' '.join(words)}`: {seeds}, on {machine()}.{self.note}\n"
 
