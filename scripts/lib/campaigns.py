@@ -71,9 +71,9 @@ class Table:
         for option, settings in self.options.items():
             value = getattr(o, option.strip("-").replace("-", "_"))
             if value and value != settings.get("default"):
-                for one in value if isinstance(value, list) else (value,):
-                    words += [option] if option.startswith("-") else []
-                    words.append(f'"{one}"' if " " in str(one) else f"{one:g}" if isinstance(one, float) else str(one))
+                shown = [f"{v:g}" if isinstance(v, float) else f'"{v}"' if " " in str(v) else str(v) for v in (value if isinstance(value, list) else [value])]
+                again = settings.get("action") == "append"
+                words += [*([option] if option.startswith("-") else []), f" {option} ".join(shown) if again else " ".join(shown)]
         seeds = f"{o.count} {self.unit}, seeds {o.first} to {o.first + o.count - 1}"
         return f"`scripts/measure {self.name} {' '.join(words)}`: {seeds}, on {machine()}.{self.note}\n"
 
@@ -182,6 +182,13 @@ def line(*cells):
 
 def heading(*cells):
     return f"{line(*cells)}\n|{'---|' * len(cells)}"
+
+
+def grid(corner, rows, columns, cell):
+    """A table of cell(row, column). rows, columns: title: value; a row may have several titles. corner: what stands above them."""
+    yield heading(*corner, *columns)
+    for title, row in rows.items():
+        yield line(*((title,) if isinstance(title, str) else title), *(cell(row, column) for column in columns.values()))
 
 
 def place_in(page, mark):

@@ -1,4 +1,4 @@
-"""The tables of scripts/measure: which worlds, robots, planners and columns. A seed gives the same world in every row and column."""
+"""The tables of scripts/measure: their worlds, robots, planners and columns. A seed gives the same world in every cell."""
 
 import collections
 import csv
@@ -11,7 +11,8 @@ import subprocess
 import tempfile
 import pathlib
 
-from campaigns import CLASSES, ROBOTS, ROOT, Many, Section, campaign, cell, example, fail, file_of, heading, line, missions_of, summary, table, whisker
+from campaigns import CLASSES, ROBOTS, ROOT, Many, Section, campaign, cell, example, fail, file_of, grid, heading, line
+from campaigns import missions_of, summary, table, whisker
 
 PLANNERS = {
     # With its rules, so that `fan` shows the same planner without.
@@ -63,10 +64,9 @@ def compare(o):
         ("fault", "runs ended in a fault"), ("off_goal", "robots are not at the goal where they say they are"))}  # fmt: skip
     summaries |= {(world, SCANNER): summary("scanner", arguments, o) for world, arguments in CLASSES.items()}
     for title, (figure, scale, digits, of_scanner) in MEASURES.items():
-        columns = (*PLANNERS, SCANNER) if of_scanner else tuple(PLANNERS)
-        yield f"\n### {title}\n\n{heading('world', *columns)}"
-        for world in CLASSES:
-            yield line(world, *(cell(figure(summaries[world, c]), scale, digits) for c in columns))
+        columns = {name: name for name in (*PLANNERS, *((SCANNER,) if of_scanner else ()))}
+        yield f"\n### {title}\n"
+        yield from grid(("world",), {w: w for w in CLASSES}, columns, lambda w, c: cell(figure(summaries[w, c]), scale, digits))
     o.failed = next((f"{count} {what}" for what, count in wrong.items() if count), None)
 
 
@@ -76,10 +76,10 @@ EASY = [world for world in CLASSES if world not in ("75 discs in a box", "enclos
 OTHERS = sorted(path.stem for path in ROBOTS.glob("*.toml") if path.stem != "reference")
 
 
-@table("docs/robots.md", "missions a class", 100, note=" Cells: success %, contact %, s/m p50.", names={"nargs": "*", "help": "only these robots"})
+@table("docs/robots.md", "missions a class", 100, " Cells: success %, contact %, s/m p50.", names={"nargs": "*", "help": "only these robots"})
 def robots(o):
-    """Other robots and worse sensors, beside the reference robot. A robot is a file of host/robots. s/m is the ratio of the medians
-    against the reference robot with ideal sensors, same planner and worlds; the last column is its geometric mean over the classes."""
+    """Other robots and worse sensors, beside the reference robot. A robot is a file of host/robots. s/m is the ratio of the medians to
+    those of the reference robot with ideal sensors in the same worlds; the last column is its geometric mean over the classes."""
     if unknown := {*o.names} - {*OTHERS}:
         fail(f"{ROBOTS} has no {', '.join(sorted(unknown))}")
     yield heading("robot", *EASY, "s/m, ratio")
@@ -103,37 +103,38 @@ def incidence(o):
     """Layouts of three rangefinders with sensors that lose walls seen at an angle: a row is a layout and a speed, a column an incidence
     limit L. The robot believes the true limit. Cells: missions with contact of COUNT in 30 discs / COUNT in rooms, and the success in
     both; "refused" where A + cone / 2 + L < 90."""
-    yield heading("side angle, speed", *(f"L {limit}" for limit in LIMITS))
-    for side, speed in LAYOUTS:
-        cells = []
-        for limit in LIMITS:
-            if side + CONE / 2 + limit < 90:
-                cells.append("refused")
-                continue
-            file = file_of(f"range_side_angle_deg = {side}\nwheel_speed_max_mps = {speed}\nrange_incidence_deg = {limit}\n"
-                           f"[sensor]\nincidence_deg = {limit}\n")  # fmt: skip
-            both = [campaign(world, o, "--robot", file) for world in ("30 discs", "rooms")]
-            success = 100 * statistics.fmean(s["success"]["value"] for s in both)
-            cells.append(f"{' / '.join(str(missions_of(s, 'contact')) for s in both)}, {success:.1f} %")
-        yield line(f"{side} deg, {speed} m/s", *cells)
+
+    def drive(layout, limit):
+        side, speed = layout
+        if side + CONE / 2 + limit < 90:
+            return "refused"
+        file = file_of(f"range_side_angle_deg = {side}\nwheel_speed_max_mps = {speed}\nrange_incidence_deg = {limit}\n"
+                       f"[sensor]\nincidence_deg = {limit}\n")  # fmt: skip
+        both = [campaign(world, o, "--robot", file) for world in ("30 discs", "rooms")]
+        success = 100 * statistics.fmean(s["success"]["value"] for s in both)
+        return f"{' / '.join(str(missions_of(s, 'contact')) for s in both)}, {success:.1f} %"
+
+    rows = {f"{side} deg, {speed} m/s": (side, speed) for side, speed in LAYOUTS}
+    return grid(("side angle, speed",), rows, {f"L {limit}": limit for limit in LIMITS}, drive)
 
 
 DIAMETER, FACTORS = 0.18, (1.1, 1.15, 1.2, 1.25, 1.3, 1.35, 1.45, 1.6)
 
 
-@table("docs/navigation.md", "missions a cell", 100, note=" Cells: passed / contacts / *unreachable*.",
+@table("docs/navigation.md", "missions a cell", 100, " Cells: passed / contacts / *unreachable*.",
        factor={"type": float, "choices": FACTORS, "action": "append", "help": "only this width, in diameters; may be repeated"})  # fmt: skip
 def gaps(o):
     """The reference robot, 0.18 m across, at gaps between walls and between discs of radius 0.2 m. A row is a width. Cells: missions
     that reached the goal behind the gap / with contact / that falsely reported *unreachable*. Sensors and wheels are ideal."""
-    columns = [(kind, planner) for kind in ("gap", "disc-gap") for planner in ("boundary", "map")]
-    yield heading("width", "in diameters", *(f"{'walls' if kind == 'gap' else 'discs'}, {planner}" for kind, planner in columns))
-    for factor in o.factor or FACTORS:
-        width, cells = DIAMETER * factor, []
-        for kind, planner in columns:
-            s = campaign(f"{kind} --width {width:.4g}", o, "--planner", planner)
-            cells.append(" / ".join(str(missions_of(s, key)) for key in ("success", "contact", "unreachable")))
-        yield line(f"{width:.3f} m", f"{factor:g}", *cells)
+
+    def passed(width, column):
+        s = campaign(f"{column[0]} --width {width:.4g}", o, "--planner", column[1])
+        return " / ".join(str(missions_of(s, key)) for key in ("success", "contact", "unreachable"))
+
+    rows = {(f"{DIAMETER * factor:.3f} m", f"{factor:g}"): DIAMETER * factor for factor in o.factor or FACTORS}
+    kinds = (("walls", "gap"), ("discs", "disc-gap"))
+    columns = {f"{title}, {planner}": (kind, planner) for title, kind in kinds for planner in ("boundary", "map")}
+    return grid(("width", "in diameters"), rows, columns, passed)
 
 
 # Name: the line of [sensor] or [noise], or the option of `whisker world`.
@@ -164,7 +165,8 @@ def trust(o):
     """Rooms with good and bad rangefinders, and what the robot notices of them: medians of the figures at the end of the missions, the
     levels of trust at the end, and the outcomes. A row is a kind of sensor."""
     figures = {"contradictions_per_m": (1, 1), "phantom_share": (100, 0), "false_clear_share": (100, 0), "incidence_seen_deg": (1, 0)}
-    yield heading("sensors", "contradictions per metre", "phantoms, %", "false clears, %", "walls seen up to, deg", "trust at the end", "ends")
+    yield heading("sensors", "contradictions per metre", "phantoms, %", "false clears, %", "walls seen up to, deg",
+                  "trust at the end", "ends")  # fmt: skip
     for name, sensor in SENSORS.items():
         results = []
         for seed in range(o.first, o.first + o.count):
@@ -198,17 +200,16 @@ def laws(o):
     def bounds(estimate, scale, digits, sign=""):
         if estimate is None:
             return "-"
-        return "{} ({} to {})".format(*(None if estimate[k] is None else f"{scale * estimate[k]:{sign}.{digits}f}" for k in ("value", "low", "high")))
+        values = (estimate[key] for key in ("value", "low", "high"))
+        return "{} ({} to {})".format(*(None if value is None else f"{scale * value:{sign}.{digits}f}" for value in values))
 
-    yield heading("world", *(f"{planner}, {s}" for planner in o.planners for s in SETTINGS))
-    for world, arguments in CLASSES.items():
-        cells = []
-        for planner in o.planners:
-            for more in SETTINGS.values():
-                c = summary("rules", f"compare {o.a} {o.b} --worlds {arguments}", o, "--planner", planner, *more)
-                figures = bounds(c["time_ratio"], 1, 3), bounds(c["clearance_m_difference"], 1000, 1, "+"), bounds(c["stops_per_m_difference"], 1, 3, "+")
-                cells.append("; ".join((*figures, f"{c['a']['contacts']}, {c['b']['contacts']}")))
-        yield line(world, *cells)
+    def compared(arguments, more):
+        c = summary("rules", f"compare {o.a} {o.b} --worlds {arguments}", o, *more)
+        figures = (("time_ratio", 1, 3), ("clearance_m_difference", 1000, 1, "+"), ("stops_per_m_difference", 1, 3, "+"))
+        return "; ".join((*(bounds(c[key], *how) for key, *how in figures), f"{c['a']['contacts']}, {c['b']['contacts']}"))
+
+    columns = {f"{planner}, {s}": ("--planner", planner, *more) for planner in o.planners for s, more in SETTINGS.items()}
+    return grid(("world",), CLASSES, columns, compared)
 
 
 # ---- Odometry
@@ -311,7 +312,10 @@ HEADINGS = {
 }
 
 
-@table("docs/odometry.md", "missions a cell", 60, world={"choices": SOME, "help": "only this class"}, row={"choices": HEADINGS, "help": "only this row"})
+ONE_CLASS = {"choices": SOME, "help": "only this class"}
+
+
+@table("docs/odometry.md", "missions a cell", 60, world=ONE_CLASS, row={"choices": HEADINGS, "help": "only this row"})
 def gyro(o):
     """How many missions of the default planner truly end within 0.10 m of the goal, in worlds with the reference robot's noise
     (`--noise`), for scale errors of the wheels and of the gyro.
@@ -323,18 +327,18 @@ def gyro(o):
     declares its errors. In the rows "straight walls" it takes walls for a compass."""
     if GYRO.count(GYRO_SCALE) != 1:
         fail(f"host/robots/gyro.toml has no line {GYRO_SCALE.strip()}")
-    worlds = (o.world,) if o.world else SOME
-    yield heading("heading from", "wheels' scale error", *worlds)
-    for name in (o.row,) if o.row else HEADINGS:
-        text, grades = HEADINGS[name]
-        for wheels in grades:
-            noise, cells = ("--noise",) if wheels == "tape" else wheels_off(wheels), []
-            for world in worlds:
-                s = campaign(world, o, *noise, "--jobs", "1", "--robot", file_of(text))
-                off, touched = s["final_distance_m"]["p50"], missions_of(s, "contact")
-                distance = (f"{off['value']:.2f} m" if off else "-") + (f", {touched} touched" if touched else "")
-                cells.append(f"{100 * s['truly_there']['value']:.0f} ({100 * s['reached']['value']:.0f}, {distance})")
-            yield line(name, "0.1 %, common" if wheels == "tape" else f"{100 * wheels:g} % each", *cells)
+
+    def reached(row, world):
+        text, wheels = row
+        noise = ("--noise",) if wheels == "tape" else wheels_off(wheels)
+        s = campaign(world, o, *noise, "--jobs", "1", "--robot", file_of(text))
+        off, touched = s["final_distance_m"]["p50"], missions_of(s, "contact")
+        distance = (f"{off['value']:.2f} m" if off else "-") + (f", {touched} touched" if touched else "")
+        return f"{100 * s['truly_there']['value']:.0f} ({100 * s['reached']['value']:.0f}, {distance})"
+
+    rows = {(name, "0.1 %, common" if wheels == "tape" else f"{100 * wheels:g} % each"): (text, wheels)
+            for name, (text, grades) in HEADINGS.items() if o.row in (None, name) for wheels in grades}  # fmt: skip
+    return grid(("heading from", "wheels' scale error"), rows, {w: w for w in SOME if o.world in (None, w)}, reached)
 
 
 def robot(each, common=0.0, gyro_scale=None, drift=0.3, walls=False, walk=0.4, warm_up=0.1, chip=""):
@@ -382,20 +386,19 @@ def within(world, file, seed):
     return [abs(error) / (2 * sigma) <= 1 for error, sigma in zip(errors, sigmas)]
 
 
-@table("docs/odometry.md", "missions a cell", 40, world={"choices": SOME, "help": "only this class"}, errors={"choices": ERRORS, "help": "only these errors"})
+@table("docs/odometry.md", "missions a cell", 40, world=ONE_CLASS, errors={"choices": ERRORS, "help": "only these errors"})
 def bound(o):
     """How often the robot's own bound of its pose holds, with the default planner and the reference robot's noise (`--noise`): in what
     share of the missions the true position is within `bound_m` of the estimate at the end (2 sigma), and in brackets the shares in which
     the errors along and across the heading and of the heading are within two standard deviations. Correct bounds hold in 93 to 99 %.
     The simulated errors are drawn anew for every seed, with the standard deviations that the robot's parameters declare."""
-    worlds = (o.world,) if o.world else SOME
-    yield heading("errors", *worlds)
-    for name in (o.errors,) if o.errors else ERRORS:
-        cells = []
-        for world in worlds:
-            held = [within(world, file_of(ERRORS[name]), seed) for seed in range(o.first, o.first + o.count)]
-            cells.append("{:.0f} ({:.0f}, {:.0f}, {:.0f})".format(*(100 * sum(one) / o.count for one in zip(*held))))
-        yield line(name, *cells)
+
+    def shares(text, world):
+        held = [within(world, file_of(text), seed) for seed in range(o.first, o.first + o.count)]
+        return "{:.0f} ({:.0f}, {:.0f}, {:.0f})".format(*(100 * sum(one) / o.count for one in zip(*held)))
+
+    rows = {name: text for name, text in ERRORS.items() if o.errors in (None, name)}
+    return grid(("errors",), rows, {w: w for w in SOME if o.world in (None, w)}, shares)
 
 
 # ---- Calibration
