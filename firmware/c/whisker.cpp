@@ -74,7 +74,7 @@ class Drivers final : public hal::Rangefinders, public hal::Drive, public hal::B
   const whisker_board board_;
 };
 
-Params params_of(const whisker_params& from) noexcept {
+Params params_from(const whisker_params& from) noexcept {
   Params params;
   for (int i = 0; i < kParams; ++i) set_raw_param(params, i, from.words[i]);
   return params;
@@ -82,7 +82,7 @@ Params params_of(const whisker_params& from) noexcept {
 
 struct RobotForC {
   RobotForC(const whisker_params& set, const whisker_board& board) noexcept
-      : params(params_of(set)),
+      : params(params_from(set)),
         drivers(board),
         planner(params, fuzzy::kDefaultTable),
         robot(drivers, drivers, planning::planner_in(planner), params, board.bumper ? &drivers : nullptr,
@@ -102,7 +102,7 @@ constexpr Pose pose_of(int32_t x_um, int32_t y_um, uint32_t heading) noexcept {
 
 struct GuardForC {
   GuardForC(const whisker_params& set, const whisker_board& board) noexcept
-      : params(params_of(set)),
+      : params(params_from(set)),
         drivers(board),
         guard(drivers, drivers, params, board.gyro ? &drivers : nullptr) {}
   const Params params;
@@ -178,7 +178,7 @@ uint32_t whisker_get_param(const whisker_params* params, enum whisker_param whic
 }
 
 uint8_t whisker_check_params(const whisker_params* params) {
-  return static_cast<uint8_t>(check(c::params_of(*params)));
+  return static_cast<uint8_t>(check(c::params_from(*params)));
 }
 
 const char* whisker_param_fault_name(uint8_t fault) { return name(static_cast<ParamFault>(fault)); }

@@ -186,7 +186,7 @@ class BusFigures(unittest.TestCase):
 
 class Places(unittest.TestCase):
     def test_the_pages_have_a_place_for_each_table(self):
-        for name, marks in (("README.md", ("realistic",)), ("docs/odometry.md", ("realistic", "wheels")), ("docs/can.md", ("bus",))):
+        for name, marks in (("docs/odometry.md", ("realistic", "wheels")), ("docs/can.md", ("bus",))):
             for mark in marks:
                 self.assertEqual((SCRIPTS.parent / name).read_text().count(f"<!-- {mark}:begin -->\n"), 1, (name, mark))
 
