@@ -83,7 +83,7 @@ struct Perception::Intake {
   const Standing& body;
   const Params& params;
   Percept& out;
-  const bool misaimed;
+  const bool misaimed = false;
   Pose from;  // where the body was at the last of the readings
   Shown shown[hal::kBeams];
 };

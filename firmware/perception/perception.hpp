@@ -82,8 +82,8 @@ class Perception {
   };
   struct Intake;
 
-  void take_in(int beam, Intake& in) noexcept;
-  void measure(int beam, const RecentReadings& sight, Intake& in) noexcept;
+  void take_in(int i, Intake& in) noexcept;
+  void measure(int i, const RecentReadings& sight, Intake& in) noexcept;
   Length moved(const ConeObservation& observation, const RecentReadings& sight, bool misaimed) noexcept;
   bool mark(const ConeObservation& observation, bool single) noexcept;
   void revoke(const ConeObservation& echo, const Shown& shown, Vec body) noexcept;
