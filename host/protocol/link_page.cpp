@@ -60,7 +60,7 @@ that does not fit into memory, or a map_bytes that is not a map size ({map_sizes
 
 Y and X are optional. A robot with the parameter gyro needs Y before every T: without it, its gyro does not answer at that tick.
 X corrects the pose by one that was measured outside and was true at the last T ([odometry.md](odometry.md#fixes-from-outside)). To an image
-without the code for a gyro (ATmega1284P), both are unknown letters.
+without the code for a gyro, both are unknown letters.
 
 Axes, beams, wheels, counts and measurements are defined in [protocol.md](protocol.md#axes), with two differences: the
 distance of a reading that is not ok is ignored, whatever its value; and now_ms increases by control_period_s from any initial value, modulo 2^32.
