@@ -51,8 +51,7 @@ struct RangefinderParams {
   BeamParams beams[3];       ///< indexed by hal::Beam
 };
 
-/// How several readings become one. The enumeration has four bytes like every parameter: clang 14 for AVR
-/// misreads a 16-bit half that crosses the 64th byte of its struct, and four-byte fields never do.
+/// How several readings become one. The enumeration has four bytes like every parameter (params/words.cpp).
 enum class Consensus : int32_t {
   agreeing,  ///< the last `reads` readings lie within `tolerance`: their minimum
   median,    ///< the median of the last `reads` readings

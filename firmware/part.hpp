@@ -15,11 +15,11 @@ constexpr bool kGyroBuilt = WHISKER_GYRO != 0;
 template <class T, bool kBuilt>
 class Part {
  public:
-  [[gnu::always_inline]] constexpr Part() noexcept {}  // NOLINT(modernize-use-equals-default)
+  constexpr Part() noexcept {}  // NOLINT(modernize-use-equals-default)
   template <class Argument>
   explicit Part(Argument& argument) noexcept : part_(argument) {}
-  [[gnu::always_inline]] T* operator->() noexcept { return &part_; }
-  [[gnu::always_inline]] const T* operator->() const noexcept { return &part_; }
+  T* operator->() noexcept { return &part_; }
+  const T* operator->() const noexcept { return &part_; }
 
  private:
   T part_;

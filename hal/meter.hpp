@@ -9,8 +9,8 @@ class Meter {
  public:
   /// The current time stamp, in a unit of its own. Always executes the same path.
   virtual uint32_t stamp() noexcept = 0;
-  /// The work between two stamps: instructions in an emulator that counts them (ARM, RISC-V), cycles where
-  /// they are exact (AVR). The largest measurable difference depends on the board and is at least 600,000.
+  /// The work between two stamps: instructions in an emulator that counts them (ARM, RISC-V). The largest
+  /// measurable difference depends on the board and is at least 600,000.
   virtual uint32_t between(uint32_t from, uint32_t to) noexcept = 0;
   /// The deepest stack since the start, in bytes.
   virtual uint32_t deepest_stack() noexcept = 0;

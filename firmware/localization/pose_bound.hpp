@@ -76,7 +76,6 @@ class PoseBound {
     int32_t heading = 0;  // 2^-28 rad
   };
   enum : uint8_t { kScale, kDifference, kGyroScale, kLastings };
-  // 32 bits, so that all arguments of walk() fit into registers: clang 14 for AVR fails on others here.
   void shorten(int32_t x, int32_t y) noexcept;
   int64_t heading_variance() const noexcept;
   void gather() noexcept;

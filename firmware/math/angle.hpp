@@ -11,8 +11,8 @@ namespace whisker {
 /// An angle; raw unit 2^-32 turn, counter-clockwise positive. Sums wrap intentionally.
 class Angle {
  public:
-  [[gnu::always_inline]] constexpr Angle() noexcept = default;
-  [[gnu::always_inline]] static constexpr Angle from_raw(uint32_t raw) noexcept {
+  constexpr Angle() noexcept = default;
+  static constexpr Angle from_raw(uint32_t raw) noexcept {
     Angle a;
     a.raw_ = raw;
     return a;
@@ -22,23 +22,15 @@ class Angle {
     return from_raw(static_cast<uint32_t>(
         static_cast<uint64_t>(divide_rounded(int64_t{numerator} * (INT64_C(1) << 32), denominator))));
   }
-  [[gnu::always_inline]] constexpr uint32_t raw() const noexcept { return raw_; }
+  constexpr uint32_t raw() const noexcept { return raw_; }
   /// The same angle in [-half a turn, half a turn), unit 2^-32 turn.
   constexpr int32_t wrapped() const noexcept { return as_signed(raw_); }
 
-  [[gnu::always_inline]] friend constexpr bool operator==(Angle a, Angle b) noexcept {
-    return a.raw_ == b.raw_;
-  }
-  [[gnu::always_inline]] friend constexpr bool operator!=(Angle a, Angle b) noexcept {
-    return a.raw_ != b.raw_;
-  }
-  [[gnu::always_inline]] friend constexpr Angle operator-(Angle a) noexcept { return from_raw(0U - a.raw_); }
-  [[gnu::always_inline]] friend constexpr Angle operator+(Angle a, Angle b) noexcept {
-    return from_raw(a.raw_ + b.raw_);
-  }
-  [[gnu::always_inline]] friend constexpr Angle operator-(Angle a, Angle b) noexcept {
-    return from_raw(a.raw_ - b.raw_);
-  }
+  friend constexpr bool operator==(Angle a, Angle b) noexcept { return a.raw_ == b.raw_; }
+  friend constexpr bool operator!=(Angle a, Angle b) noexcept { return a.raw_ != b.raw_; }
+  friend constexpr Angle operator-(Angle a) noexcept { return from_raw(0U - a.raw_); }
+  friend constexpr Angle operator+(Angle a, Angle b) noexcept { return from_raw(a.raw_ + b.raw_); }
+  friend constexpr Angle operator-(Angle a, Angle b) noexcept { return from_raw(a.raw_ - b.raw_); }
   friend constexpr Angle operator*(Angle a, int32_t k) noexcept {
     return from_raw(a.raw_ * static_cast<uint32_t>(k));
   }
@@ -80,7 +72,7 @@ constexpr Direction direction_of(Angle a) noexcept { return Direction::from_raw(
 constexpr Angle angle_of(Direction d) noexcept { return Angle::from_raw(static_cast<uint32_t>(d.raw())); }
 
 namespace literals {
-[[gnu::always_inline]] constexpr Angle operator""_deg(unsigned long long x) noexcept {
+constexpr Angle operator""_deg(unsigned long long x) noexcept {
   return Angle::from_raw(static_cast<uint32_t>(((x << 32) + 180) / 360));
 }
 }  // namespace literals

@@ -68,8 +68,6 @@ constexpr int64_t scale_down_by(int64_t x, int bits) noexcept {
 template <int kBits>
 constexpr int64_t scale_down(int64_t x) noexcept {
   static_assert(kBits > 0 && kBits < 62);
-  // Not x +- a half: clang 14 for AVR loses the carry of a sum with a constant of which only the lowest half
-  // is known.
   const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
   const int64_t quotient = static_cast<int64_t>((size + (UINT64_C(1) << (kBits - 1))) >> kBits);
   return x < 0 ? -quotient : quotient;
@@ -93,8 +91,8 @@ class Fixed {
  public:
   static constexpr int32_t kOne = INT32_C(1) << kFraction;
 
-  [[gnu::always_inline]] constexpr Fixed() noexcept = default;
-  [[gnu::always_inline]] static constexpr Fixed from_raw(Rep raw) noexcept {
+  constexpr Fixed() noexcept = default;
+  static constexpr Fixed from_raw(Rep raw) noexcept {
     Fixed f;
     f.raw_ = raw;
     return f;
@@ -103,7 +101,7 @@ class Fixed {
   static constexpr Fixed ratio(int32_t numerator, int32_t denominator) noexcept {
     return from_raw(clamp(divide_rounded(static_cast<int64_t>(numerator) * kOne, denominator)));
   }
-  [[gnu::always_inline]] constexpr Rep raw() const noexcept { return raw_; }
+  constexpr Rep raw() const noexcept { return raw_; }
 
   friend constexpr bool operator==(Fixed a, Fixed b) noexcept { return a.raw_ == b.raw_; }
   friend constexpr bool operator!=(Fixed a, Fixed b) noexcept { return a.raw_ != b.raw_; }

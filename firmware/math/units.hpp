@@ -20,13 +20,13 @@ namespace whisker {
 template <class Tag>
 class Unit {
  public:
-  [[gnu::always_inline]] constexpr Unit() noexcept = default;
-  [[gnu::always_inline]] static constexpr Unit from_raw(int32_t raw) noexcept {
+  constexpr Unit() noexcept = default;
+  static constexpr Unit from_raw(int32_t raw) noexcept {
     Unit u;
     u.raw_ = raw;
     return u;
   }
-  [[gnu::always_inline]] constexpr int32_t raw() const noexcept { return raw_; }
+  constexpr int32_t raw() const noexcept { return raw_; }
 
   friend constexpr bool operator==(Unit a, Unit b) noexcept { return a.raw_ == b.raw_; }
   friend constexpr bool operator!=(Unit a, Unit b) noexcept { return a.raw_ != b.raw_; }
@@ -90,13 +90,13 @@ constexpr Unit<Tag> limit(Unit<Tag> x, Unit<Tag> limit) noexcept {
 /// An instant on a millisecond counter that wraps; compare instants by their difference only.
 class Time {
  public:
-  [[gnu::always_inline]] constexpr Time() noexcept = default;
-  [[gnu::always_inline]] static constexpr Time from_raw(uint32_t ms) noexcept {
+  constexpr Time() noexcept = default;
+  static constexpr Time from_raw(uint32_t ms) noexcept {
     Time t;
     t.ms_ = ms;
     return t;
   }
-  [[gnu::always_inline]] constexpr uint32_t raw() const noexcept { return ms_; }
+  constexpr uint32_t raw() const noexcept { return ms_; }
   /// Valid for instants less than 24.8 days apart.
   friend constexpr Duration operator-(Time a, Time b) noexcept {
     return Duration::from_raw(as_signed(a.ms_ - b.ms_));
@@ -117,24 +117,23 @@ constexpr Length millimetres(int32_t mm) noexcept { return Length::from_raw(1000
 constexpr Duration milliseconds(int32_t ms) noexcept { return Duration::from_raw(ms); }
 constexpr Ratio millionths(int32_t ppm) noexcept { return Ratio::from_raw(ppm); }
 
-// Always inline: otherwise clang for AVR computes these constants at run time.
 namespace literals {
-[[gnu::always_inline]] constexpr Length operator""_mm(unsigned long long x) noexcept {
+constexpr Length operator""_mm(unsigned long long x) noexcept {
   return Length::from_raw(static_cast<int32_t>(x * 1000));
 }
-[[gnu::always_inline]] constexpr Length operator""_m(unsigned long long x) noexcept {
+constexpr Length operator""_m(unsigned long long x) noexcept {
   return Length::from_raw(static_cast<int32_t>(x * 1000000));
 }
-[[gnu::always_inline]] constexpr Speed operator""_mm_per_s(unsigned long long x) noexcept {
+constexpr Speed operator""_mm_per_s(unsigned long long x) noexcept {
   return Speed::from_raw(static_cast<int32_t>(x * 1000));
 }
-[[gnu::always_inline]] constexpr Acceleration operator""_mm_per_s2(unsigned long long x) noexcept {
+constexpr Acceleration operator""_mm_per_s2(unsigned long long x) noexcept {
   return Acceleration::from_raw(static_cast<int32_t>(x * 1000));
 }
-[[gnu::always_inline]] constexpr AngularRate operator""_mrad_per_s(unsigned long long x) noexcept {
+constexpr AngularRate operator""_mrad_per_s(unsigned long long x) noexcept {
   return AngularRate::from_raw(static_cast<int32_t>(x * 1000));
 }
-[[gnu::always_inline]] constexpr Duration operator""_ms(unsigned long long x) noexcept {
+constexpr Duration operator""_ms(unsigned long long x) noexcept {
   return Duration::from_raw(static_cast<int32_t>(x));
 }
 }  // namespace literals

@@ -138,12 +138,11 @@ constexpr Relation relation(ParamFault fault) noexcept {
     case F::gyro_unfit:
       return {"gyro_unfit",
               "gyro_range_radps must not be less than 5/4 turn_rate_max_radps unless gyro is false, which it "
-              "must be in an image without the code for a gyro (ATmega1284P)"};
+              "must be in an image without the code for a gyro"};
     case F::walls_without_bound:
       return {"walls_without_bound",
               "straight_walls must be false unless wheel_scale_sigma, wheel_scale_common_sigma or "
-              "heading_drift_deg_per_sqrt_m is greater than 0, and in an image without the code for a gyro "
-              "(ATmega1284P)"};
+              "heading_drift_deg_per_sqrt_m is greater than 0, and in an image without the code for a gyro"};
     case F::walls_unseen:
       return {
           "walls_unseen",

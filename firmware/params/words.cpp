@@ -7,7 +7,7 @@
 namespace whisker {
 namespace {
 
-// One table instead of a visitor's code for each parameter: that takes 15 KB of an AVR's flash.
+// One table is smaller than a visitor's code for each parameter.
 struct Word {
   uint8_t at = 0;  // place in Params
   uint32_t low = 0;

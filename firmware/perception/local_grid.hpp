@@ -124,8 +124,8 @@ class LocalGrid {
   using Point = GridPoint;
   Row clear_row(int row) const noexcept { return young_[slot(row)] | old_[slot(row)]; }
   Row solid_row(int row) const noexcept { return to_window(suspect_[slot(row)] | tested(slot(row))); }
-  [[gnu::always_inline]] Row tested(int slot) const noexcept { return tested_[slot]; }
-  [[gnu::always_inline]] void untest(int slot, Row cells) noexcept { tested_[slot] &= ~cells; }
+  Row tested(int slot) const noexcept { return tested_[slot]; }
+  void untest(int slot, Row cells) noexcept { tested_[slot] &= ~cells; }
   int slot(int row) const noexcept { return (row_ + row) & (kCells - 1); }
   uint32_t shift() const noexcept { return static_cast<uint32_t>(column_) & (kCells - 1); }
   Row to_torus(Row window) const noexcept {
@@ -198,7 +198,7 @@ class LocalGrid {
   Length swept_;        // radius of rim_sweep()
   Length holds_;        // from this distance on, a cone holds a cell
   Chain chains_[3];
-  [[gnu::always_inline]] void unlink() noexcept {
+  void unlink() noexcept {
     for (Chain& chain : chains_) chain.linked = false;
   }
 

@@ -7,17 +7,14 @@
 
 namespace whisker::safety {
 
-/// In the header and always inlined, because a call of its own costs an AVR flash that it does not have.
 class WarnedSpeed {
  public:
-  [[gnu::always_inline]] WarnedSpeed() noexcept {}
-  [[gnu::always_inline]] void configure(const Params& params) noexcept {
+  void configure(const Params& params) noexcept {
     for (int err = 0; err < 2; ++err) speed_[err] = warned_speed(params, err != 0);
   }
   /// While the rims turn at `turning`. `err`, `slows`: see Perception::readings_err() and slows(). If the
   /// readings contradict the parameters on which the warned speed rests, at most half the full speed.
-  [[gnu::always_inline]] Speed most(Speed turning, bool err, bool slows,
-                                    const Params& params) const noexcept {
+  Speed most(Speed turning, bool err, bool slows, const Params& params) const noexcept {
     const Speed warned = speed_[err ? 1 : 0];
     const Speed straight = slows ? min(warned, params.wheels.max_speed / 2) : warned;
     return warned_speed(straight, turning);

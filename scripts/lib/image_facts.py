@@ -7,7 +7,7 @@ import subprocess
 
 import chips
 
-FLASH = (".text", ".rodata", ".data", ".progmem")
+FLASH = (".text", ".rodata", ".data")
 RAM = (".data", ".bss")
 
 # The possible targets of each indirect call; an indirect call missing here is an error.
@@ -84,10 +84,8 @@ def weigh(map_file, ram_sections=RAM):
         stage = known.get(member[1], "rest") if of_core else "helpers" if "libgcc" in origin else "rest"
         named = namespace.search(name)
         if stage == "rest" and named:
-            # Functions defined in the core's headers lie in the first object that uses them. An image for AVR is one
-            # object, where functions of no stage's namespace are the robot's or shared.
-            whole = origin.endswith(".o") and not name.startswith(".text._ZN7whisker3hal")
-            stage = named[1] or ("robot" if whole else "rest")
+            # Functions defined in the core's headers lie in the first object that uses them.
+            stage = named[1] or "rest"
         if name.startswith(FLASH):
             flash[stage] += size
         if name.startswith(ram_sections) or name == "COMMON":

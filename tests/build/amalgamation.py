@@ -15,9 +15,7 @@ from sources import core_sources, finish
 
 # Not optimised, which takes a third of the time: the commands are the same.
 CORE = ["-std=c++17", "-O0", "-fno-exceptions", "-fno-rtti", *mission.STRICT]
-# It is compiled completely as Arduino's library (arduino.py).
-AVR = ["-fsyntax-only", "--target=avr", "-mmcu=atmega1284p", "-nostdlibinc", "-ffreestanding"]
-LESS = [f"-DWHISKER_{part}=0" for part in ("MAP_BYTES", "EVASION", "NARROW_GAPS", "GYRO", "INCIDENCE")]
+LESS = [f"-DWHISKER_{part}=0" for part in ("MAP_BYTES", "GYRO")]
 
 
 def each_file_once(root, folder):
@@ -40,9 +38,10 @@ def main(root, build, work, cc, cxx, clang, arm):
     folder = work / "amalgamation"
     problems, compiled = [], {"host": [cxx]}
     if clang != "-":
-        compiled |= {"clang": [clang], "AVR": [clang, *AVR, *LESS]}
+        compiled["clang"] = [clang]
     if arm != "-":
-        compiled["ARM"] = [arm, "-mcpu=cortex-m3", "-mthumb", "-ffreestanding"]
+        chip = [arm, "-mcpu=cortex-m3", "-mthumb", "-ffreestanding"]
+        compiled |= {"ARM": chip, "ARM, without map and gyro": [*chip, "-fsyntax-only", *LESS]}
     try:
         run(f"{root}/scripts/amalgamate", folder)
         problems += each_file_once(root, folder)

@@ -1,7 +1,7 @@
-"""scripts/amalgamate: its descriptions follow the specifications of Arduino and PlatformIO, and library and sketch compile for an AVR
-against the headers of Debian's arduino-core-avr, with WHISKER_LONG to code.
+"""scripts/amalgamate: its descriptions follow the specifications of Arduino and PlatformIO, and library and sketch compile for a
+Cortex-M0+ after the declarations of fixtures/arduino, with WHISKER_LONG to code.
 
-usage: arduino.py ROOT WORK_FOLDER CLANGXX-14 ARDUINO_CORE
+usage: arduino.py ROOT WORK_FOLDER ARM_CXX
 """
 
 import json
@@ -29,11 +29,9 @@ FIELDS = (
     "examples", "dependencies", "export", "scripts", "build",
 )  # fmt: skip
 BUILD = ("flags", "unflags", "includeDir", "srcDir", "srcFilter", "extraScript", "libArchive", "libLDFMode", "libCompatMode", "builder")
-AVR = [
-    "--target=avr", "-mmcu=atmega2560", "-std=gnu++17", "-Os", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics", "-nostdlibinc",
-    # After clang's own headers, which show the limits of stdint.h to C++.
-    "-idirafter", "/usr/lib/avr/include", "-DF_CPU=16000000L", "-DARDUINO=10819", "-DARDUINO_AVR_MEGA2560", "-DARDUINO_ARCH_AVR",
-    *mission.STRICT,
+CHIP = [
+    "-mcpu=cortex-m0plus", "-mthumb", "-std=gnu++17", "-Os", "-ffreestanding", "-fno-exceptions", "-fno-rtti", "-fno-threadsafe-statics",
+    "-isystem", str(pathlib.Path(__file__).parent / "fixtures/arduino"), *mission.STRICT,
 ]  # fmt: skip
 
 
@@ -84,7 +82,7 @@ def sketch_as_cpp(text):
     return f'#include <Arduino.h>\n#line 1 "drive.ino"\n{text}'
 
 
-def main(root, work, clang, core):
+def main(root, work, compiler):
     work = pathlib.Path(work)
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
@@ -105,8 +103,7 @@ def main(root, work, clang, core):
         for sketch in sketches:
             if sketch.stem != sketch.parent.name:
                 problems.append(f"{sketch.name}: a sketch has the name of its folder")
-        headers = ["-isystem", f"{core}/cores/arduino", "-isystem", f"{core}/variants/mega"]
-        command = [str(part) for part in (clang, *AVR, *headers, f"-I{library}/src", "-x", "c++", "-c" if LONG else "-fsyntax-only", "-")]
+        command = [compiler, *CHIP, f"-I{library}/src", "-x", "c++", "-c" if LONG else "-fsyntax-only", "-"]
         jobs = [(sketch.name, [*command, "-o", str(sketch.with_suffix(".o"))], sketch_as_cpp(sketch.read_text())) for sketch in sketches]
         jobs.append(("whisker.cpp", [*command, "-o", str(work / "whisker.o")], (library / "src/whisker.cpp").read_text()))
         problems += [f"{name}:\n{output}" for name, output in compile_all(jobs) if output]

@@ -1,6 +1,6 @@
 """The core compiles for a bare target, and needs no symbol that the target lacks.
 
-usage: cross.py arm|avr|no-float ROOT WORK_FOLDER COMPILER [--nm NM] [--flags FLAG...]
+usage: cross.py arm|no-float ROOT WORK_FOLDER COMPILER [--nm NM] [--flags FLAG...]
 """
 
 import argparse
@@ -14,8 +14,6 @@ from symbols import forbidden
 COMMON = ["-std=c++17", "-fno-exceptions", "-fno-rtti", "-c"]
 TARGETS = {
     "arm": ["-mcpu=cortex-m0plus", "-mthumb", "-Os", "-ffreestanding"],
-    # With the compiler's own headers: the stdint.h of avr-libc, if installed, hides limits from C++.
-    "avr": ["--target=avr", "-mmcu=atmega1284p", "-Os", "-ffreestanding", "-nostdlibinc"],
     # Makes g++ for x86 reject every floating-point operation, even one that the optimiser would fold.
     "no-float": ["-mgeneral-regs-only", "-O0"],
 }

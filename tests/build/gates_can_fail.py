@@ -110,7 +110,7 @@ class IncludeDirection(unittest.TestCase):
             ("hal/ports/slcan/a.cpp", '#include "hal/ports/tty/b.hpp"'),
             ("hal/ports/tty/a.cpp", '#include "firmware/params.hpp"'),
             ("hal/boards/stm32f405/a.cpp", '#include "firmware/apps/b.hpp"'),
-            ("hal/boards/stm32f405/a.cpp", '#include "hal/boards/atmega1284p/b.hpp"'),
+            ("hal/boards/stm32f405/a.cpp", '#include "hal/boards/other/b.hpp"'),
             ("hal/emulated/virt/a.cpp", '#include "firmware/robot.hpp"'),
             ("host/run/a.cpp", '#include "tests/support/b.hpp"'),
             ("host/run/a.cpp", '#include "host/report/b.hpp"'),

@@ -1,7 +1,7 @@
 """The headers for chips compile after Arduino's macros, and in each language mode that other projects may choose. The
 first compiler also compiles the sources as GNU's C++20, with WHISKER_LONG as C++17 too, without the macros.
 
-usage: vendor_macros.py ROOT COMPILER... Each may have options: "clang++-14 --target=avr".
+usage: vendor_macros.py ROOT COMPILER... Each may have options: "arm-none-eabi-g++ -mcpu=cortex-m3 -mthumb".
 """
 
 import pathlib
