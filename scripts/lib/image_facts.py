@@ -13,20 +13,20 @@ RAM = (".data", ".bss")
 # The possible targets of each indirect call; an indirect call missing here is an error.
 INDIRECT = (
     (
-        r"Robot(4plan|8set_goal|6cancel|5reset|5aimed|9aim_again|7correct|8put_down|5place|4tick)E",
+        r"Robot(4plan|11ask_planner|8localize|11follow_wall|8perceive|8set_goal|6cancel|5reset|5aimed|9aim_again|7correct|8put_down|5place|4tick)E",
         r"8planning11GoalPlanner(4stepE|8set_goalE|9move_goalE|6cancelE)",
     ),
     (r"8planning11GoalPlanner6answerE", r"8planning(15BoundaryPlanner|13ThesisPlanner)(5startE|7advanceE)"),
     (r"8planning11GoalPlanner9move_goalE", r"8planning(11GoalPlanner|15BoundaryPlanner)11follow_goalE"),
     (r"8planning6Course", r"8planning15TableDeflection7deflectE"),
     # The linker merges the empty read functions into one.
-    (r"Robot(8perceive|4tick|11take_counts|8localize)E", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
+    (r"Chassis(5sense|11take_counts)E|Robot(8perceive|4tick|8localize)E", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
     (r"Robot10take_bumpsE", r"4readER.*13BumperReadingE"),
-    (r"Robot12advance_poseE", r"4readER.*11GyroReadingE"),
-    (r"Robot12advance_poseE", None),  # most images have no gyro
+    (r"Chassis11take_countsE|Robot8localizeE", r"4readER.*11GyroReadingE"),
+    (r"Chassis11take_countsE|Robot8localizeE", None),  # most images have no gyro
     (r"Robot10take_bumpsE", None),  # most images have no bump switch
     (r"10WheelDrive4readE", r"4readER.*(13RangeReadings|13EncoderCounts)E"),
-    (r"10WheelDrive7commandE|Robot(7actuate|4tick)E", r"7commandE.*11WheelSpeedsE"),
+    (r"10WheelDrive7commandE|Chassis7actuateE|Robot(7actuate|4tick)E", r"7commandE.*11WheelSpeedsE"),
 )  # fmt: skip
 NO_GUIDE = ((r"NK?7whisker8planning(15BoundaryPlanner|8Approach)", None),)
 # The boundary planner with a map.
