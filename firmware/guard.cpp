@@ -8,7 +8,8 @@ constexpr Length kStandsStill = 1_mm;
 /// part / whole, 0 to 1; 1 if nothing was asked.
 Q14 share(Speed part, Speed whole) noexcept {
   if (whole == Speed{}) return Q14::ratio(1, 1);
-  const int64_t q14 = multiply_divide(part.raw(), Q14::kOne, whole.raw());
+  const Speed along = whole < Speed{} ? -part : part;
+  const int32_t q14 = multiply_divide(along.raw(), Q14::kOne, abs(whole).raw());
   return Q14::from_raw(static_cast<int16_t>(q14 < 0 ? 0 : q14 > Q14::kOne ? Q14::kOne : q14));
 }
 

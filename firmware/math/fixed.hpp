@@ -42,23 +42,30 @@ constexpr int32_t saturate32(int64_t x) noexcept {
 
 /// a + b must fit 64 bits. Called, not inlined: short code at every place.
 [[gnu::noinline]] constexpr int32_t saturating_add(int32_t a, int64_t b) noexcept {
+  WHISKER_ASSERT(b <= INT64_MAX - INT32_MAX && b >= INT64_MIN - INT32_MIN);
   return saturate32(a + b);
 }
 
 /// |x| < 2^31.5.
-constexpr int64_t square(int64_t x) noexcept { return x * x; }
+constexpr int64_t square(int64_t x) noexcept {
+  WHISKER_ASSERT(x >= -INT64_C(3037000499) && x <= INT64_C(3037000499));
+  return x * x;
+}
 
 /// n / d to nearest, ties away from zero. d > 0; |n| + d / 2 must fit.
 [[gnu::noinline]] constexpr int64_t divide_rounded(int64_t n, int32_t d) noexcept {
+  WHISKER_ASSERT(d > 0 && n <= INT64_MAX - d / 2 && n >= INT64_MIN + d / 2);
   return quotient(n < 0 ? n - d / 2 : n + d / 2, d);
 }
 /// The same for denominators that may have more than 32 bits.
 [[gnu::noinline]] constexpr int64_t divide_rounded_64(int64_t n, int64_t d) noexcept {
+  WHISKER_ASSERT(d > 0 && n <= INT64_MAX - d / 2 && n >= INT64_MIN + d / 2);
   return quotient_64(n < 0 ? n - d / 2 : n + d / 2, d);
 }
 
-/// x / 2^bits to nearest, ties away from zero.
+/// x / 2^bits to nearest, ties away from zero. 0 < bits < 63.
 constexpr int64_t scale_down_by(int64_t x, int bits) noexcept {
+  WHISKER_ASSERT(bits > 0 && bits < 63);
   const uint64_t size = x < 0 ? 0U - static_cast<uint64_t>(x) : static_cast<uint64_t>(x);
   const int64_t quotient = static_cast<int64_t>(((size >> (bits - 1)) + 1) >> 1);
   return x < 0 ? -quotient : quotient;
@@ -77,6 +84,7 @@ template <int kBits>
 constexpr int32_t scale_down(int32_t x) noexcept {
   static_assert(kBits > 0 && kBits < 30);
   constexpr int32_t kOne = INT32_C(1) << kBits;
+  WHISKER_ASSERT(x <= INT32_MAX - kOne / 2 && x >= INT32_MIN + kOne / 2);
   return (x < 0 ? x - kOne / 2 : x + kOne / 2) / kOne;
 }
 

@@ -7,6 +7,8 @@
 
 #include <stdint.h>
 
+#include "firmware/math/assert.hpp"
+
 namespace whisker {
 
 /// Whether quotients come from quotient_by_parts, which needs fast instructions for 32-bit quotients, 64-bit
@@ -28,6 +30,7 @@ constexpr uint64_t magnitude(int64_t x) noexcept {
 
 /// x > 0.
 constexpr int leading_zeros(uint32_t x) noexcept {
+  WHISKER_ASSERT(x > 0);
   return __builtin_clzl(x) - static_cast<int>(8 * (sizeof(unsigned long) - sizeof x));
 }
 
@@ -65,9 +68,11 @@ constexpr int leading_zeros(uint32_t x) noexcept {
 
 /// n / d.
 [[gnu::always_inline]] constexpr uint64_t quotient(uint64_t n, uint32_t d) noexcept {
+  WHISKER_ASSERT(d != 0);
   return kDividesByParts ? quotient_by_parts(n, d) : n / d;
 }
 constexpr int64_t quotient(int64_t n, int32_t d) noexcept {
+  WHISKER_ASSERT(d != 0);
   // Most numerators are small, and 32-bit division is much faster on most chips.
   if (n >= -INT32_MAX && n <= INT32_MAX) return static_cast<int32_t>(n) / d;
   const uint64_t size = quotient(magnitude(n), magnitude(d));
@@ -76,6 +81,7 @@ constexpr int64_t quotient(int64_t n, int32_t d) noexcept {
 
 /// The same for denominators that may have more than 32 bits.
 [[gnu::always_inline]] constexpr uint64_t quotient_64(uint64_t n, uint64_t d) noexcept {
+  WHISKER_ASSERT(d != 0);
   if (d <= UINT32_MAX) return quotient(n, static_cast<uint32_t>(d));
   return kDividesByParts ? quotient_by_parts_64(n, d) : n / d;
 }

@@ -81,6 +81,7 @@ struct RootAndRest {
 
 /// One step of Newton's from the table. x >= 2^30.
 [[gnu::always_inline]] constexpr RootAndRest root_and_rest(uint32_t x) noexcept {
+  WHISKER_ASSERT(x >> 30 != 0);
   const uint32_t first = (256U + kFirstRoots.of[(x >> 24) - 64]) << 7;
   // Newton's step is never too small, and here it is too large by less than 1.
   const uint32_t root = (first + x / first) >> 1;

@@ -27,14 +27,22 @@ constexpr int32_t kLongest = 4 * kCells * kUnitsPerCell - 1;
 constexpr int32_t kOutermost = 2 * kCells * kUnitsPerCell;
 
 /// d > 0.
-constexpr int32_t floor_div(int32_t n, int32_t d) noexcept { return n >= 0 ? n / d : -((-n + d - 1) / d); }
+constexpr int32_t floor_div(int32_t n, int32_t d) noexcept {
+  WHISKER_ASSERT(d > 0);
+  return n >= 0 ? n / d : -((-n + d - 1) / d);
+}
 constexpr int64_t floor_div(int64_t n, int32_t d) noexcept {
+  WHISKER_ASSERT(d > 0);
   return n >= 0 ? quotient(n, d) : -quotient(-n + d - 1, d);
 }
-constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept { return n > 0 ? (n + d - 1) / d : n / d; }
+constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept {
+  WHISKER_ASSERT(d > 0);
+  return n > 0 ? (n + d - 1) / d : n / d;
+}
 
 /// The columns first..last of the window, both within 0..31.
 constexpr Row columns_between(int first, int last) noexcept {
+  WHISKER_ASSERT(first > last || (first >= 0 && last < kCells));
   return first > last ? 0U : (UINT32_MAX >> (kCells - 1 - (last - first))) << first;
 }
 
