@@ -120,6 +120,13 @@ class BusFigures(unittest.TestCase):
         self.assertIn("| **49.5 to 50.2 ms** | 50 ms |", text)
 
 
+class Places(unittest.TestCase):
+    def test_the_pages_have_a_place_for_each_table(self):
+        for name, marks in (("README.md", ("realistic",)), ("docs/odometry.md", ("realistic", "wheels")), ("docs/can.md", ("bus",))):
+            for mark in marks:
+                self.assertEqual((SCRIPTS.parent / name).read_text().count(f"<!-- {mark}:begin -->\n"), 1, (name, mark))
+
+
 class Status(Scripts):
     def test_bars_that_are_missed_are_counted(self):
         slow = {"value": 99, "low": 99, "high": 99}
