@@ -16,7 +16,6 @@ namespace {
 
 using testing::Element;
 using testing::parse_xml;
-using whisker::testing::parse_xml;
 
 std::string text_of(const std::string& escaped) {
   return parse_xml("<t a=\"" + escaped + "\">" + escaped + "</t>").text;
