@@ -182,13 +182,20 @@ stage_long() {
 }
 
 stage_fuzz() {
-  local fuzzer name
+  local fuzzer name text
+  local mission='name = "bad"\n[start]\nx_m = 0\ny_m = 0\n[goal]\nx_m = 4\ny_m = 1\n'
+  local event='[start]\nx_m = 0\ny_m = 0\n[goal]\nx_m = 1\ny_m = 0\n[[event]]\n'
   build fuzz
+  mkdir -p build/fuzz/bad
+  while IFS='|' read -r name _ text; do
+    text=${text/ @mission /$mission}
+    printf %b "${text/ @event /$event}" >"build/fuzz/bad/${name% }"
+  done < <(grep -v '^#' tests/scenario/bad.txt)
   for fuzzer in build/fuzz/fuzzers/*; do
     name=$(basename "$fuzzer")
     mkdir -p "build/fuzz/corpus/$name" "build/fuzz/findings"
     "$fuzzer" -max_total_time="$fuzz_seconds" -timeout=10 -artifact_prefix="build/fuzz/findings/$name-" \
-      "build/fuzz/corpus/$name" host/worlds/scenarios tests/scenario host/rules/examples
+      "build/fuzz/corpus/$name" host/worlds/scenarios tests/scenario/good build/fuzz/bad host/rules/examples
   done
 }
 

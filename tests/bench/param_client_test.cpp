@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
+#include "firmware/can/codec.hpp"
 #include "firmware/can/controller_node.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/params/words.hpp"
+#include "host/bench/param_values.hpp"
+#include "host/bench/survey.hpp"
 #include "host/bus/memory_bus.hpp"
 
 namespace whisker::bench {
@@ -143,6 +148,130 @@ TEST_F(Bench, NoticesAnotherBase) {
   can::BaseNode other(bus_.attach(), {1, 9, 0}, 1);
   other.poll(static_cast<std::uint32_t>(now_us_ / 1000));
   EXPECT_THROW(client_.read(0), NoAnswer);
+}
+
+/// Every value at and beside the ends of its range, in the words of a robot file.
+TEST(ParamValues, ReadsWhatItWrites) {
+  const std::vector<ParamEntry> list = param_list(Params{});
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const ParamEntry& e = list[i];
+    for (const std::int64_t raw : {e.low, e.low + 1, e.raw, e.high - 1, e.high}) {
+      if (raw < e.low || raw > e.high) continue;
+      const std::string text =
+          e.word != nullptr ? words_of(i)[static_cast<std::size_t>(raw)] : e.text_of(raw);
+      const Assignment read = parse_assignment(std::string(e.key) + "=" + text);
+      EXPECT_EQ(read.place, i) << e.key;
+      EXPECT_EQ(read.raw, raw) << e.key << " = " << text;
+    }
+    if (e.word != nullptr) continue;
+    for (const std::int64_t raw : {e.low - (e.high - e.low), e.high + (e.high - e.low)}) {
+      EXPECT_THROW(parse_assignment(std::string(e.key) + "=" + e.text_of(raw)), std::invalid_argument)
+          << e.key;
+    }
+  }
+}
+
+TEST(ParamValues, NamesTheNearestAllowedValue) {
+  const std::size_t speed = place_of("wheel_speed_max_mps");
+  EXPECT_EQ(
+      outside_text(speed, "9", 9000000),
+      "wheel_speed_max_mps = 9: too large; it may be 0.02 to 3.2 m/s; the nearest allowed value is 3.2 m/s");
+  EXPECT_EQ(
+      outside_text(speed, "0", 0),
+      "wheel_speed_max_mps = 0: too small; it may be 0.02 to 3.2 m/s; the nearest allowed value is 0.02 m/s");
+}
+
+TEST(ParamValues, RefusesWhatIsNoValue) {
+  for (const char* text :
+       {"", "=", "gyro", "gyro=", "gyro=2", "gyro=TRUE", "body_radius_m=", "body_radius_m=0.1m",
+        "body_radius_m=inf", "body_radius_m=1e999", "range_rate_hz=50.5", "nothing=1"}) {
+    EXPECT_THROW(parse_assignment(text), std::invalid_argument) << text;
+  }
+}
+
+hal::CanFrame beat(std::uint8_t node, std::uint16_t boot) {
+  can::Heartbeat h;
+  h.boot = boot;
+  return can::encode(h, node, 0);
+}
+
+TEST(Survey, KnowsEveryNodeByItsHeartbeat) {
+  Survey survey;
+  for (std::uint8_t node = 0; node < 16; ++node) survey.on_frame(beat(node, 1), 5);
+  ASSERT_EQ(survey.nodes().size(), 14U);  // without 0 and 8, which are nobody's
+  for (int robot = 1; robot <= can::kRobots; ++robot) {
+    for (const can::Party party : {can::Party::controller, can::Party::base}) {
+      const SeenNode* const node = survey.find(robot, party);
+      ASSERT_NE(node, nullptr);
+      EXPECT_EQ(node->node(), can::node_of(static_cast<std::uint8_t>(robot), party));
+    }
+  }
+}
+
+TEST(Survey, ANodeIsAliveForTheTimeOfThreeHeartbeats) {
+  Survey survey;
+  survey.on_frame(beat(1, 1), 1000);
+  EXPECT_TRUE(survey.alive(1, can::Party::controller, 301000));
+  EXPECT_FALSE(survey.alive(1, can::Party::controller, 301001));
+  EXPECT_FALSE(survey.alive(1, can::Party::base, 1000));
+  EXPECT_TRUE(survey.alive(1, can::Party::controller, 999)) << "heard after the look for frames had begun";
+}
+
+TEST(Survey, APartnerThatANodeHearsIsMissing) {
+  for (const can::NodeState state : {can::NodeState::ready, can::NodeState::running}) {
+    Survey survey;
+    EXPECT_FALSE(survey.misses_one(1));
+    can::Heartbeat h;
+    h.state = state;
+    survey.on_frame(can::encode(h, 1, 0), 0);
+    EXPECT_TRUE(survey.misses_one(1));
+    EXPECT_FALSE(survey.misses_one(2));
+    survey.on_frame(beat(9, 1), 0);
+    EXPECT_FALSE(survey.misses_one(1));
+  }
+}
+
+TEST(Survey, APartnerThatANodeLostIsMissingIfItDrove) {
+  for (const bool drove : {false, true}) {
+    Survey survey;
+    can::Heartbeat h;
+    h.state = drove ? can::NodeState::running : can::NodeState::ready;
+    survey.on_frame(can::encode(h, 1, 0), 0);
+    h.state = can::NodeState::waiting;
+    survey.on_frame(can::encode(h, 1, 1), 0);
+    EXPECT_EQ(survey.misses_one(1), drove);
+    h.boot = 7;
+    survey.on_frame(can::encode(h, 1, 2), 0);
+    EXPECT_FALSE(survey.misses_one(1));
+  }
+}
+
+TEST(Survey, InfoCountsForItsStartOnly) {
+  Survey survey;
+  const auto info = [&](std::uint16_t boot) {
+    return can::encode(can::Info{can::InfoPart::table_hash, boot, 0xABCD}, 1, 0);
+  };
+  survey.on_frame(info(1), 0);
+  EXPECT_EQ(survey.find(1, can::Party::controller), nullptr);
+  survey.on_frame(beat(1, 1), 0);
+  survey.on_frame(info(2), 0);
+  EXPECT_EQ(survey.find(1, can::Party::controller)->table_hash, std::nullopt);
+  survey.on_frame(info(1), 0);
+  EXPECT_EQ(survey.find(1, can::Party::controller)->table_hash, 0xABCDU);
+  survey.on_frame(beat(1, 2), 0);
+  EXPECT_EQ(survey.find(1, can::Party::controller)->table_hash, std::nullopt);
+}
+
+TEST(Survey, IgnoresEveryDamagedFrame) {
+  for (int byte = 0; byte < 8; ++byte) {
+    for (int bit = 0; bit < 8; ++bit) {
+      hal::CanFrame frame = beat(1, 1);
+      frame.data[byte] = static_cast<std::uint8_t>(frame.data[byte] ^ 1U << bit);
+      Survey survey;
+      survey.on_frame(frame, 0);
+      EXPECT_TRUE(survey.nodes().empty()) << byte << " " << bit;
+    }
+  }
 }
 
 }  // namespace

@@ -2,15 +2,9 @@
 
 #include "hal/boards/stm32f405/clock.hpp"
 #include "hal/boards/stm32f405/reg/bases.hpp"
-#include "tests/boards/models/adc_model.hpp"
 #include "tests/boards/models/can_model.hpp"
-#include "tests/boards/models/clock_models.hpp"
-#include "tests/boards/models/gpio_model.hpp"
 #include "tests/boards/models/i2c_model.hpp"
-#include "tests/boards/models/iwdg_model.hpp"
-#include "tests/boards/models/rng_model.hpp"
-#include "tests/boards/models/tim_model.hpp"
-#include "tests/boards/models/usart_model.hpp"
+#include "tests/boards/models/peripheral_models.hpp"
 
 namespace whisker::hal::stm32f405 {
 

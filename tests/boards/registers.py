@@ -10,6 +10,7 @@ import sys
 
 REG = "hal/boards/stm32f405/reg"
 FACTS = "tests/boards/stm32f405_registers.csv"
+COLUMNS = ("peripheral", "base", "register", "offset", "reset", "field", "lsb", "width")
 
 CONSTANT = re.compile(
     r"inline constexpr (Address|Register|Field|PinField) (k\w+)(\[\])?\s*(?:= )?([^;]*);\s*///< ([^\n]*)")
@@ -106,8 +107,18 @@ def check(headers, facts):
 
 
 def rows_of(path):
+    """A row a field, from the table's row a register."""
     lines = [line for line in pathlib.Path(path).read_text().splitlines() if not line.startswith("#")]
-    return list(csv.DictReader(lines))
+    return [dict(zip(COLUMNS, register + field.split(":")))
+            for *register, fields in csv.reader(lines[1:]) for field in fields.split()]
+
+
+def table_of(rows):
+    """The rows as lines of the table."""
+    registers = {}
+    for *register, field, lsb, width in (row.values() for row in rows):
+        registers.setdefault(",".join(register), []).append(f"{field}:{lsb}:{width}")
+    return [f"{register},{' '.join(fields)}" for register, fields in registers.items()]
 
 
 def keys_of(row):
@@ -137,8 +148,7 @@ def main(root, *options):
     headers = headers_of(root)
     if options[:1] == ("--used-rows",):
         rows = rows_of(options[1])
-        for row in needed(rows, check(headers, Facts(rows))[1]):
-            print(",".join(row.values()))
+        print("\n".join(table_of(needed(rows, check(headers, Facts(rows))[1]))))
         return 0
     rows = rows_of(pathlib.Path(root, FACTS))
     problems, used, checked = check(headers, Facts(rows))

@@ -21,7 +21,6 @@ import include_direction
 import layout
 import lengths
 import links
-import node_versions
 import old_cmake
 import example_compiles
 import stages
@@ -278,40 +277,6 @@ class Stages(unittest.TestCase):
     def test_refuses_what_is_not(self):
         for text in ("  build_and_test_core host '^(a|b)$' whisker_a_tests\n", "  build_and_test guest\n", "  x whisker_b_tests\n"):
             self.assertEqual(self.status(text), 1, text)
-
-
-class NodeVersions(unittest.TestCase):
-    def status(self, **engines):
-        lock = {"packages": {"": {"engines": {"node": ">=18"}}, "node_modules/a": {"version": "1.0.0", "engines": engines}}}
-        return run(node_versions.main, {"web/package-lock.json": json.dumps(lock)})
-
-    def test_accepts_what_debian_can_run(self):
-        self.assertEqual(self.status()[0], 0)
-        self.assertEqual(self.status(node="^18.18.0 || >=20", npm=">=9", vscode="^1.90")[0], 0)
-
-    def test_refuses_what_it_cannot(self):
-        status, output = self.status(node=">=20")
-        self.assertEqual(status, 1)
-        self.assertIn("a 1.0.0 wants node '>=20'; Debian 12 has 18.20.4", output)
-        self.assertEqual(self.status(npm=">=10")[0], 1)
-        self.assertEqual(self.status(node="eighteen")[0], 1)
-        self.assertEqual(run(node_versions.main, {"a.txt": ""})[0], 1)
-        self.assertEqual(run(node_versions.main, {"package-lock.json": '{"dependencies": {}}'})[0], 1)
-
-    def test_ranges(self):
-        node = (18, 20, 4)
-        for wanted in (
-            "", "*", "x", "18", "18.x", "18.20", "v18.20.4", "=18.20.4", ">=18", ">= 18.20.4", ">17", "<=18", "<19", "<18.21",
-            "^18", "^18.18.0", "~18.20.1", "~18", ">=16 <19", "14 || 18 || 20", "16 - 18", "16.0.0 - 18.20.4", "^16||^18", ">18.20.3",
-        ):  # fmt: skip
-            self.assertTrue(node_versions.satisfies(node, wanted), wanted)
-        for wanted in (
-            "19", "20.x", "18.19", "18.20.5", ">=18.20.5", ">18", "<18", "<18.20.4", "<=18.19", "^20", "^18.21.0", "~18.19.0",
-            ">=16 <18", "14 || 16 || 20", "14 - 16", "^20.19.0 || >=22.12.0", "^0.18.0", "<*",
-        ):  # fmt: skip
-            self.assertFalse(node_versions.satisfies(node, wanted), wanted)
-        self.assertTrue(node_versions.satisfies((0, 3, 9), "^0.3.1"))
-        self.assertFalse(node_versions.satisfies((0, 4, 0), "^0.3.1"))
 
 
 class CoreAlone(unittest.TestCase):

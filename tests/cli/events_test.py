@@ -8,7 +8,6 @@ from whisker import STATUS, Case
 
 STRAIGHT = pathlib.Path(__file__).parents[2] / "host/rules/laws/straight.toml"
 PLACES = "time_limit_s = 60\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 2.0\ny_m = 0.0\n[[disc]]\ncenter = [1.0, 0.3]\nradius_m = 0.2\n"
-BACK = "x_m = 0.0\ny_m = -0.8\n"
 
 
 def event(t_s, kind, keys=""):
@@ -26,23 +25,6 @@ class Events(Case):
         if command != "guard":
             self.assertEqual(done.returncode, STATUS[result["outcome"]])
         return result
-
-    def test_hil_gives_the_commands_of_run(self):
-        slow = event(2, "param", 'name = "wheel_speed_max_mps"\nvalue = 0.2\n')
-        for events in (
-            [event(3, "goal", BACK)],
-            [event(3, "correct", "x_m = 0.6\ny_m = 0.05\nsigma_m = 0.03\nsigma_deg = 1\n")],
-            [slow, event(3, "restart")],
-            [event(3, "frames_lost", "for_s = 0.3\n")],
-            [event(3, "cancel"), slow, event(5, "goal", BACK), event(30, "goal", "x_m = 1.0\ny_m = -0.8\n")],
-        ):
-            scene = self.scene(*events)
-            alone, both = self.json_of("run", scene), self.json_of("hil", scene)
-            for key in ("hash", "outcome", "ticks", "final_distance_m", "events"):
-                self.assertEqual(both[key], alone[key], (events, key))
-            self.assertEqual(alone["events"], {"played": len(events), "refused": 0})
-            # A fix that lies leads beside the goal.
-            self.assertIn(alone["outcome"], ("off_goal",) if "correct" in events[0] else ("reached",))
 
     def test_a_table_is_read_beside_the_scenario_and_sent_over_the_bus(self):
         self.file("straight.toml", STRAIGHT.read_text())

@@ -23,18 +23,6 @@ class Figures(Case):
             self.assertTrue(picture == committed[name], f"{name}: build/host/whisker figures docs/figures")
 
 
-    def test_pictures_of_pages_are_small_and_in_the_docs(self):
-        pictures = list((ROOT / "docs/figures").glob("*.png"))
-        self.assertGreater(len(pictures), 0)
-        for path in pictures:
-            self.assertLess(path.stat().st_size, 200000, path.name)
-            pages = (ROOT / f"docs/{name}.md" for name in ("guard", "pages"))
-            self.assertTrue(any(f"](figures/{path.name})" in page.read_text() for page in pages), path.name)
-        others = [path.name for path in (ROOT / "docs/figures").iterdir() if path.suffix not in (".svg", ".png")]
-        # Hashes of the sources of the pages' pictures.
-        self.assertEqual(others, ["pages.sha256"])
-
-
 class Drives(Case):
     """One drive of the boundary planner in each class of worlds."""
 
@@ -61,33 +49,6 @@ class Drives(Case):
                 # By 30 mm, but both are rounded to 10 mm.
                 self.assertGreaterEqual(round(best - left, 2), 0.02, name)
                 best = left
-
-    def test_are_small_and_each_is_in_the_docs(self):
-        text = (ROOT / "docs/navigation.md").read_text()
-        for name, path in self.drives().items():
-            self.assertLess(path.stat().st_size, 60000, name)
-            self.assertIn(f"](figures/{name}.svg)", text)
-            command = re.search(r">(whisker campaign [^<]*)<", path.read_text()).group(1)
-            self.assertIn(f"`{command}`", text, name)
-
-
-class Pairs(Case):
-    """The map planner compared with the boundary planner, one world of each class."""
-
-    def test_show_both_in_one_world_with_the_map_of_one(self):
-        folder = ROOT / "docs/figures"
-        text = (ROOT / "docs/navigation.md").read_text()
-        names = {path.stem.removesuffix("_skirt") for path in folder.glob("map_*.svg")}
-        self.assertEqual(len(names), 8)
-        for name in names:
-            skirt, led = (folder / f"{name}{end}.svg" for end in ("_skirt", ""))
-            for path in (skirt, led):
-                self.assertLess(path.stat().st_size, 60000, path.name)
-                self.assertIn(f"](figures/{path.name})", text)
-            commands = [re.search(r": (whisker campaign [^<]*)<", path.read_text()).group(1) for path in (skirt, led)]
-            self.assertEqual(commands[1].replace(" --planner map ", " --planner boundary "), commands[0])
-            self.assertNotIn("class=\"map\"", skirt.read_text())
-            self.assertIn("class=\"map\"", led.read_text())
 
 
 if __name__ == "__main__":

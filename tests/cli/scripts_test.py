@@ -1,5 +1,5 @@
-"""The tables bars, compare, outcomes and odometry of scripts/measure: their calls of `whisker campaign`, and what they make of its
-summaries; and the figures that bus-figures computes from a log.
+"""The tables bars, compare, outcomes and odometry of scripts/measure: their shape, and what makes them fail;
+and the figures that bus-figures computes from a log.
 
 WHISKER names a stand-in that records its arguments and prints one summary, which the real command made.
 """
@@ -74,70 +74,6 @@ class Tables(Scripts):
             kinds = {call[1] for call in self.calls()}
             self.assertEqual(kinds, {"discs", "maze", "enclosed"} if "wheels" in arguments else set(KINDS), name)
 
-    def test_show_the_figures_of_the_summary(self):
-        half = {"value": 0.5, "low": 0.25, "high": None}
-        there = {**half, "value": 0.375}
-        self.answer(reached=half, truly_there=there, s_per_m={"p50": half, "p95": None}, estimate_error_m={"p50": half, "p95": half}, final_distance_m={"p50": there, "p95": None})
-        first = self.rows(self.run_script("outcomes", 2, 7, "skirt"))[1]
-        self.assertEqual(first, ["15 discs", "37.5 %", "50.0 %", "0.0 %", "0.0 %", "0.0 %", "0.0 %", "0.5"])
-        self.assertEqual(self.calls()[0], "campaign discs --discs 15 --count 2 --seed 7 --planner skirt --json".split())
-        odometry = self.rows(self.run_script("odometry", 1, "--only", "wheels"))[2]
-        self.assertEqual(odometry[:5], ["30 discs", "0.05 %", "37.5 (25.0-?)", "50.0 (25.0-?)", "0.38 (0.25-?)"])
-        self.assertEqual(odometry[-2:], ["0.50 (0.25-?)", "0.50 (0.25-?)"])
-        self.answer(s_per_m={"p50": None, "p95": None})
-        self.assertEqual(self.rows(self.run_script("outcomes", 1))[1][-1], "-")
-
-    def test_compare_asks_every_planner_for_the_same_worlds(self):
-        done = self.run_script("compare", 3, 40)
-        campaigns = [call for call in self.calls() if call[0] == "campaign"]
-        planners = {tuple(call[call.index("--planner") + 1 : -1]) for call in campaigns}
-        core, baselines = whisker.planners()
-        self.assertLessEqual({p[0] for p in planners}, {*core, *baselines})
-        self.assertLessEqual({*((p,) for p in ("thesis", *baselines)), ("skirt", "--rules", "default"), ("map", "--map-bytes", "16384")}, planners)
-        scans = [call for call in self.calls() if call[0] == "scanner"]
-        self.assertEqual((len(campaigns), len(scans)), (len(planners) * 10, 10))
-        headings = [row for row in self.rows(done) if row[0] == "world"]
-        self.assertEqual([row[-1] for row in headings].count("scanner"), 2)
-        self.assertEqual({tuple(row[:4]) for row in headings}, {("world", "skirt", "map", "map, 16 KB")})
-        self.assertEqual({tuple(call[call.index("--count") :][:4]) for call in self.calls()}, {("--count", "3", "--seed", "40")})
-
-    def test_odometry_varies_nothing_but_the_wheels(self):
-        self.run_script("odometry", 3, 40, "--only", "wheels")
-        mazes = [call for call in self.calls() if call[1] == "maze"]
-        sigmas = [call[call.index("--wheel-scale-sigma") + 1] for call in mazes]
-        self.assertEqual(sigmas, ["0", "0.0005", "0.005", "0.01"])
-        rest = {tuple(word for word in call if word not in sigmas) for call in mazes}
-        self.assertEqual(rest, {("campaign", "maze", "--count", "3", "--seed", "40", "--noise", "--wheel-scale-sigma", "--json")})
-
-
-    def test_odometry_shows_wheels_of_one_percent_with_and_without_a_gyro(self):
-        half = {"value": 0.5, "low": 0.25, "high": None}
-        self.answer(reached=half, truly_there={**half, "value": 0.375}, contact={**half, "value": 0}, final_distance_m={"p50": {**half, "value": 2.857}, "p95": None})
-        done = self.run_script("odometry", 2, 40, "--only", "classes")
-        self.assertIn("`scripts/measure odometry 2 40 --only classes`: 2 missions a class and grade, seeds 40 to 41, on ", done.stdout)
-        table = self.rows(done)
-        self.assertEqual(table[0], ["world", "gyro, tape", "gyro, wheels 1 %", "no gyro, wheels 1 %"])
-        self.assertEqual(table[1], ["15 discs", *["50 % / 37.5 % / 0 / 2.86 m"] * 3])
-        rooms = [call for call in self.calls() if "rooms" in call]
-        self.assertEqual(["--robot" in call for call in rooms], [True, True, False])
-        self.assertEqual(["--wheel-scale-sigma 0.01" in " ".join(call) for call in rooms], [False, True, True])
-
-    def test_odometry_drives_no_campaign_twice(self):
-        self.answer(reached={"value": 0.5, "low": 0.25, "high": None})
-        self.run_script("odometry", 2, 40, "--only", "wheels")
-        calls = [" ".join(call) for call in self.calls()]
-        self.assertEqual(len(calls), len(set(calls)))
-
-    def test_a_table_is_put_between_its_marks_and_nowhere_else(self):
-        page = self.file("page.md", "a\n<!-- x:begin -->\nold\n<!-- x:end -->\nb\n")
-        put = f"import sys, pathlib; sys.path.insert(0, {str(SCRIPTS / 'lib')!r}); import campaigns; campaigns.put(pathlib.Path({str(page)!r}), sys.argv[1], 'new\\n')"
-        subprocess.run([sys.executable, "-B", "-c", put, "x"], check=True)
-        self.assertEqual(page.read_text(), "a\n<!-- x:begin -->\nnew\n<!-- x:end -->\nb\n")
-        done = subprocess.run([sys.executable, "-B", "-c", put, "y"], capture_output=True, text=True, check=False)
-        self.assertEqual((done.returncode, "page.md has no place for the table" in done.stderr), (1, True))
-        for mark in ("realistic", "wheels"):
-            self.assertEqual((SCRIPTS.parent / "docs/odometry.md").read_text().count(f"<!-- {mark}:begin -->\n"), 1, mark)
-
 
 class BusFigures(unittest.TestCase):
     def setUp(self):
@@ -199,39 +135,6 @@ class Status(Scripts):
         self.assertIn("bars: 9 figures miss their bar", done.stderr)
         self.assertEqual(done.stdout.count("**99.00 / "), 9)
 
-    def test_the_map_planners_bars_depend_on_its_bytes_and_on_the_skirt_planner(self):
-        figure = lambda value: {"value": value, "low": value, "high": value}
-        self.answer(
-            ratio={"mean": None, "p50": figure(1.22), "p95": figure(1.9)},
-            s_per_m={"p50": figure(5), "p95": None},
-            looks_per_m={"all": figure(8.01), "p50": None},
-            path_m={"p50": figure(28.28), "p95": None},
-        )
-        rows, bold = {}, {}
-        for size in (2048, 16384):
-            (self.folder / "whisker.calls").unlink(missing_ok=True)
-            arguments = ("--planner", "map", "--map-bytes", size, "--count", 3, "--noisy", 2, "--seed", 4)
-            done = self.run_script("bars", *arguments, status=1)
-            rows[size] = {row[0]: row[1:] for row in self.rows(done)}
-            bold[size] = {row[0] for row in self.rows(done) if "**1.2" in row[5]}
-            for kind in ("rooms", "maze"):
-                words = f"campaign {kind} --count {{}} --seed 4"
-                calls = [" ".join(call) for call in self.calls() if call[1] == kind]
-                of_map = f"--planner map --map-bytes {size} --json"
-                self.assertEqual(
-                    calls,
-                    [f"{words.format(3)} --planner skirt --json", f"{words.format(3)} {of_map}", f"{words.format(2)} --noise {of_map}"],
-                )
-        self.assertEqual(rows[2048]["rooms"][4:], ["1.220 / 1.35", "1.90 / 5", "**5.00 / 4.99**", "**8.01 / 8**", "-"])
-        self.assertEqual(rows[16384]["rooms"][4:6], ["1.220 / 1.25", "1.90 / 3.5"])
-        self.assertEqual(rows[2048]["enclosed"][-1], "28.28 / 28.28")
-        self.assertEqual(bold[2048], {"30 discs", "U-traps", "spirals", "mazes"})
-        self.assertEqual(bold[16384], {"30 discs", "50 discs", "U-traps", "spirals", "mazes"})
-        self.answer(s_per_m={"p50": figure(40), "p95": None})
-        done = self.run_script("bars", "--planner", "map", "--count", 1, "--noisy", 0, "--seed", 1, status=1)
-        self.assertIn("| **40.00 / 15** |", done.stdout)
-        self.assertIn("| **40.00 / 39.99** |", done.stdout)
-
     def test_bars_count_belief_and_show_the_truth_beside_it(self):
         share = lambda value: {"value": value, "low": value, "high": value}
         self.answer(success=share(1), truly_there=share(0.02))
@@ -240,10 +143,6 @@ class Status(Scripts):
         self.assertEqual(table[1][:4], ["15 discs", "1", "2.00 % (2.00-2.00)", "100.00 % (100.00-100.00)"])
         self.answer(no_way=1)
         self.assertEqual(self.rows(self.run_script("bars", "--count", 1, "--noisy", 0, "--seed", 1, "--gate"))[-1][2], "-")
-
-    def test_bars_are_of_maps_that_have_some(self):
-        for wrong in (("--map-bytes", 2048), ("--planner", "map", "--map-bytes", 4096), ("--planner", "fan")):
-            self.assertIn("usage: scripts/measure bars ", self.run_script("bars", *wrong, status=2).stderr)
 
     def test_the_gate_asks_for_no_contact_and_for_success(self):
         share = lambda value: {"value": value, "low": 0, "high": 1}
@@ -268,17 +167,6 @@ class Status(Scripts):
         for name, *arguments in (("bars", "--seed", 1), ("compare",), ("outcomes",), ("odometry",)):
             done = self.run_script(name, *arguments, status=1)
             self.assertRegex(done.stderr, rf"\A{name}: whisker campaign discs [^\n]*: exit status 7\n\Z")
-
-    def test_a_missing_command_is_named(self):
-        self.command.unlink()
-        for name in ("bars", "bus-figures", "compare", "outcomes", "odometry"):
-            done = self.run_script(name, status=1)
-            self.assertRegex(done.stderr, rf"\A{name}: [^\n]* is missing: cmake [^\n]*\n\Z")
-
-    def test_arguments_that_are_no_numbers_get_the_usage(self):
-        for name in ("compare", "outcomes", "odometry"):
-            for wrong in (("x",), ("-1",), ("1", "1.5")):
-                self.assertIn(f"usage: scripts/measure {name} ", self.run_script(name, *wrong, status=2).stderr)
 
 
 if __name__ == "__main__":

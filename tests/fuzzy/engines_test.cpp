@@ -1,16 +1,23 @@
 // The look-up, the closed form and exact inference on all 2.6 million pairs of inputs.
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <string>
 
+#include "firmware/fuzzy/bilinear.hpp"
 #include "firmware/fuzzy/engine.hpp"
 #include "firmware/fuzzy/exact.hpp"
+#include "firmware/fuzzy/generate.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/fuzzy/rules.hpp"
 #include "tests/fuzzy/closed_form.hpp"
 #include "tests/fuzzy/corners.hpp"
+#include "tests/fuzzy/fuzzylite_engine.hpp"
 #include "tests/fuzzy/inputs.hpp"
 
 namespace whisker::fuzzy {
@@ -136,6 +143,129 @@ TEST(Engine, RunsOnItsDefaultTable) {
       ASSERT_LE(std::abs(a.step.raw() - b.step.raw()), kStepBar * Q14::kOne) << d << ' ' << r;
     }
   }
+}
+
+// Compares the rule base with fuzzylite, an independent implementation.
+
+// fuzzylite gets constants as raw units / 2^14, so that only our final rounding differs.
+constexpr double kBound = 0.5 / Q14::kOne + 1e-9;
+
+TEST(Exact, AgreesWithFuzzyliteOnADenseGrid) {
+  const auto engine = fuzzylite_engine(kRules);
+  std::string why;
+  ASSERT_TRUE(engine->isReady(&why)) << why;
+  const Exact exact{kRules};
+  double largest = 0;
+  int count = 0;
+  for (int d = 0; d <= kDistanceMax; d += 5) {
+    for (int r = -kBiasMax; r <= kBiasMax; r += 8) {
+      engine->setInputValue("D", d / 128.0);
+      engine->setInputValue("R", r / 128.0);
+      engine->process();
+      const Response response = exact(inputs(d, r));
+      const double turn_error = response.turn.raw() / double{Q14::kOne} - engine->getOutputValue("SA");
+      const double step_error = response.step.raw() / double{Q14::kOne} - engine->getOutputValue("SD");
+      ASSERT_TRUE(std::isfinite(turn_error) && std::isfinite(step_error)) << d << ' ' << r;
+      largest = std::max({largest, std::abs(turn_error), std::abs(step_error)});
+      ++count;
+    }
+  }
+  std::printf("fuzzylite: max difference %.7f on %d inputs\n", largest, count);
+  EXPECT_LE(largest, kBound);
+}
+
+// Random rule bases on a random lattice of inputs. RC_PARAMS="seed=N" repeats a run.
+
+// Bound of the look-up's error, over every input and every rule base, as a part of the spread of the cell's
+// four answers; each of the three roundings adds half a unit.
+constexpr double kErrorPerSpread = 0.0288;
+constexpr double kRoundings = 1.5;
+
+Q14 any_answer() { return Q14::from_raw(*rc::gen::arbitrary<std::int16_t>().as("raw Q14")); }
+
+RuleBase any_rules() {
+  RuleBase rules;
+  for (auto* picture : {&rules.turn, &rules.step})
+    for (auto& row : *picture)
+      for (Q14& answer : row) answer = any_answer();
+  return rules;
+}
+
+/// Calls f(inputs) on a lattice with random offsets; strides are coprime to node and centre spacings.
+template <class F>
+void on_a_lattice(F&& f) {
+  const int first_d = *rc::gen::inRange(0, 13);
+  const int first_r = *rc::gen::inRange(0, 11);
+  for (int d = first_d; d <= kDistanceMax; d += 13)
+    for (int r = first_r - kBiasMax; r <= kBiasMax; r += 11) f(inputs(d, r));
+}
+
+RC_GTEST_PROP(AnyRuleBase, ClosedFormEqualsExactInference, ()) {
+  const RuleBase rules = any_rules();
+  const ClosedForm closed{rules};
+  const Exact exact{rules};
+  on_a_lattice([&](Inputs in) {
+    RC_ASSERT(closed(in).turn.raw() == exact(in).turn.raw());
+    RC_ASSERT(closed(in).step.raw() == exact(in).step.raw());
+  });
+}
+
+RC_GTEST_PROP(AnyRuleBase, ErrorOfTheLookUpIsAtMostAFixedPartOfTheCellsSpread, ()) {
+  const RuleBase rules = any_rules();
+  const auto table = std::make_unique<Bilinear::Table>();
+  generate<Bilinear>(rules, *table);
+  const Bilinear bilinear{*table};
+  const Exact exact{rules};
+  on_a_lattice([&](Inputs in) {
+    const Response a = bilinear(in);
+    const Response b = exact(in);
+    const Corners rule_corners = corners(rules, b.cell);
+    RC_ASSERT(std::abs(a.turn.raw() - b.turn.raw()) <=
+              kErrorPerSpread * spread(rule_corners.turn) + kRoundings);
+    RC_ASSERT(std::abs(a.step.raw() - b.step.raw()) <=
+              kErrorPerSpread * spread(rule_corners.step) + kRoundings);
+  });
+}
+
+RC_GTEST_PROP(AnyRuleBase, EveryEngineStaysWithinTheCornersOfItsCell, ()) {
+  const RuleBase rules = any_rules();
+  const auto table = std::make_unique<Bilinear::Table>();
+  generate<Bilinear>(rules, *table);
+  const Bilinear bilinear{*table};
+  const ClosedForm closed{rules};
+  on_a_lattice([&](Inputs in) {
+    const Response a = bilinear(in);
+    const Response b = closed(in);
+    RC_ASSERT(within(a, corners(*table, a.cell)));
+    RC_ASSERT(within(b, corners(rules, b.cell)));
+  });
+}
+
+RC_GTEST_PROP(AnyRuleBase, MirroredRulesGiveTheMirroredResponse, ()) {
+  RuleBase rules = any_rules();
+  RuleBase mirrored;
+  for (int i = 0; i < kTerms; ++i) {
+    for (int j = 0; j < kTerms; ++j) {
+      rules.turn[i][j] = -(-rules.turn[i][j]);  // -32768 has no negative counterpart
+      mirrored.turn[i][j] = -rules.turn[i][kTerms - 1 - j];
+      mirrored.step[i][j] = rules.step[i][kTerms - 1 - j];
+    }
+  }
+  const auto table = std::make_unique<Bilinear::Table>();
+  const auto mirrored_table = std::make_unique<Bilinear::Table>();
+  generate<Bilinear>(rules, *table);
+  generate<Bilinear>(mirrored, *mirrored_table);
+  const Bilinear bilinear{*table};
+  const Bilinear bilinear_mirrored{*mirrored_table};
+  const ClosedForm closed{rules};
+  const ClosedForm closed_mirrored{mirrored};
+  on_a_lattice([&](Inputs in) {
+    const Inputs other{in.distance, -in.bias};
+    RC_ASSERT(bilinear(in).turn.raw() == -bilinear_mirrored(other).turn.raw());
+    RC_ASSERT(bilinear(in).step.raw() == bilinear_mirrored(other).step.raw());
+    RC_ASSERT(closed(in).turn.raw() == -closed_mirrored(other).turn.raw());
+    RC_ASSERT(closed(in).step.raw() == closed_mirrored(other).step.raw());
+  });
 }
 
 }  // namespace

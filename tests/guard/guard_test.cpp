@@ -1,8 +1,17 @@
 // What the guard grants, and what it says of it.
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
+#include <cmath>
 #include <cstdio>
+#include <tuple>
 
+#include "host/campaign/random_robot.hpp"
+#include "host/guard/drive.hpp"
+#include "host/guard/hostile_drive.hpp"
+#include "host/guard/operators.hpp"
+#include "host/worlds/generate.hpp"
+#include "tests/effort.hpp"
 #include "tests/guard/bench.hpp"
 
 namespace whisker::test {
@@ -180,6 +189,98 @@ TEST(Guard, EveryReasonHasAName) {
   for (int i = 0; i < kGuardReasons; ++i) EXPECT_STRNE(name(static_cast<GuardReason>(i)), "?");
   EXPECT_STREQ(name(static_cast<GuardReason>(kGuardReasons)), "?");
 }
+
+// Whatever is commanded, at whatever rate, the body touches nothing.
+
+constexpr int kParts = 4;
+
+class HostileDrives : public testing::TestWithParam<std::tuple<int, bool>> {};
+
+// WHISKER_LONG=1: 100,000 drives of 20 s.
+TEST_P(HostileDrives, TouchNothing) {
+  const auto [part, noise] = GetParam();
+  const auto count = test::effort(34, 12500);
+  const std::uint64_t first = 1 + static_cast<std::uint64_t>(part) * 12500 + (noise ? 50000 : 0);
+  double path = 0, gap = 1;
+  for (std::uint64_t seed = first; seed < first + count; ++seed) {
+    const guard::Result result = guard::hostile_drive(seed, noise, {});
+    EXPECT_NE(result.end, guard::End::contact) << "seed " << seed << " at " << result.time_s << " s";
+    EXPECT_EQ(result.fault, Fault::none) << name(result.fault) << " seed " << seed;
+    path += result.path_m;
+    gap = std::fmin(gap, result.min_clearance_m);
+  }
+  std::printf("%llu drives%s from seed %llu: %.0f m, the smallest gap is %.4f m\n",
+              static_cast<unsigned long long>(count), noise ? " with noise" : "",
+              static_cast<unsigned long long>(first), path, gap);
+  EXPECT_GT(path, static_cast<double>(count) * 0.25);
+}
+
+INSTANTIATE_TEST_SUITE_P(Part, HostileDrives, testing::Combine(testing::Range(0, kParts), testing::Bool()));
+
+RC_GTEST_PROP(HostileDrive, TouchesNothingFromAnySeed, (std::uint64_t seed, bool noise)) {
+  RC_ASSERT(guard::hostile_drive(seed >> 2, noise, {}).end != guard::End::contact);
+}
+
+TEST(HostileDrive, TouchesNothingWithAnyRobot) {
+  const auto count = test::effort(20, 2000);
+  double path = 0;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    Params robot = campaign::random_robot(seed).params;
+    robot.bumper = {};
+    const guard::Result result = guard::hostile_drive(seed, false, robot);
+    EXPECT_NE(result.end, guard::End::contact) << "seed " << seed << " at " << result.time_s << " s";
+    path += result.path_m;
+  }
+  std::printf("%llu robots, %.0f m\n", static_cast<unsigned long long>(count), path);
+}
+
+// The guard is usable: an operator that follows a path arrives, about as fast as without it.
+
+struct Class {
+  const char* name;
+  int discs;
+  bool box;
+  Angle cone;
+  Angle side;
+  double bar_mps;
+};
+
+void PrintTo(const Class& c, std::ostream* out) { *out << c.name; }
+
+class PerfectOperator : public testing::TestWithParam<Class> {};
+
+TEST_P(PerfectOperator, Arrives) {
+  const Class& c = GetParam();
+  int arrived = 0, drives = 0;
+  double path = 0, time = 0;
+  for (std::uint64_t seed = 1; seed <= test::effort(7, 200); ++seed) {
+    worlds::Options options;
+    options.seed = seed;
+    options.discs = c.discs;
+    options.box = c.box;
+    Scenario s = worlds::generate(worlds::Kind::discs, options);
+    s.robot.rangefinders.cone = c.cone;
+    s.robot.rangefinders.side_angle = c.side;
+    const auto hand = guard::make_operator(guard::Hand::perfect, s, seed);
+    if (!hand) continue;
+    const guard::Result result = guard::drive(s, *hand);
+    EXPECT_NE(result.end, guard::End::contact) << "seed " << seed;
+    ++drives;
+    arrived += result.end == guard::End::arrived ? 1 : 0;
+    path += result.path_m;
+    time += result.time_s;
+  }
+  std::printf("%s: %d of %d arrive, %.3f m/s\n", c.name, arrived, drives, path / time);
+  EXPECT_GE(arrived * 100, drives * 98);
+  EXPECT_GE(path / time, c.bar_mps);
+}
+
+INSTANTIATE_TEST_SUITE_P(In, PerfectOperator,
+                         testing::Values(Class{"discs", 30, false, 25_deg, 30_deg, 0.25},
+                                         Class{"box", 75, true, 25_deg, 30_deg, 0.245},
+                                         Class{"discs_wide", 30, false, 35_deg, 33_deg, 0.27},
+                                         Class{"box_wide", 75, true, 35_deg, 33_deg, 0.265}),
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace whisker::test

@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "host/hunt/draw.hpp"
+#include "host/hunt/premise.hpp"
+#include "host/hunt/shrink.hpp"
 #include "host/hunt/trial.hpp"
 
 namespace whisker::hunt {
@@ -58,6 +60,73 @@ TEST(Cases, EndWithoutContact) {
     EXPECT_EQ(outcome.finding, "") << file;
     EXPECT_GT(outcome.gap_m, 0) << file;
   }
+}
+
+constexpr Effort kEnough{2000, 60};
+
+Case large() {
+  Case c;
+  Scenario& s = c.scenario;
+  s.start.at = {3, 1};
+  s.goal.at = {6, 1};
+  s.sensor.corner_scatter_m = 1000;
+  s.noise.range_dropout = 0.1;
+  for (int i = 0; i < 30; ++i) s.discs.push_back({{5 + 0.1 * i, 2}, 0.02});
+  s.walls = {{{0, 0}, {0, 5}}, {{0, 5}, {5, 5}}};
+  s.bounds = Bounds{{-1, -1}, {9, 9}};
+  s.robot.wheels.motor_lag = 20_ms;
+  s.robot.wheels.max_turn_rate = 2500_mrad_per_s;
+  c.gaps = 17;
+  for (int i = 0; i < 100; ++i) c.commands.push_back({i * 0.1, {0.2, 0.01 * i}});
+  return c;
+}
+
+TEST(Shrunk, KeepsOnlyWhatTheFailureNeeds) {
+  const auto fails = [](const Case& c) {
+    const auto& discs = c.scenario.discs;
+    const bool post = std::any_of(discs.begin(), discs.end(), [&](const sim::Disc& d) {
+      return std::abs(d.center.x - c.scenario.start.at.x - 2.7) < 0.01;
+    });
+    const bool turn = std::any_of(c.commands.begin(), c.commands.end(), [](const guard::Command& command) {
+      return command.twist.turning_radps > 0.7;
+    });
+    return post && turn && c.scenario.robot.wheels.motor_lag == 20_ms;
+  };
+  const Case c = shrunk(large(), fails, kEnough);
+  EXPECT_TRUE(fails(c));
+  EXPECT_EQ(c.scenario.discs.size(), 1U);
+  EXPECT_TRUE(c.scenario.walls.empty());
+  EXPECT_FALSE(c.scenario.bounds);
+  EXPECT_EQ(c.commands.size(), 1U);
+  EXPECT_EQ(c.gaps, 0U);
+  EXPECT_EQ(c.scenario.noise.range_dropout, 0);
+  EXPECT_EQ(c.scenario.start.at.x, 0);
+  EXPECT_EQ(c.scenario.robot.wheels.max_turn_rate, Params{}.wheels.max_turn_rate);
+  EXPECT_EQ(c.scenario.robot.wheels.motor_lag, 20_ms);
+}
+
+TEST(Shrunk, LeavesNothingOutsideThePremise) {
+  Case c = large();
+  // Without its own gap, this period breaks a relation.
+  c.scenario.robot.safety.period = 50_ms;
+  c.scenario.robot.safety.max_gap = 100_ms;
+  const auto fails = [](const Case& other) { return other.scenario.robot.safety.period == 50_ms; };
+  EXPECT_TRUE(holds_premise(shrunk(c, fails, kEnough).scenario));
+}
+
+TEST(Shrunk, EndsWithItsEffort) {
+  int drives = 0;
+  const auto fails = [&](const Case&) { return ++drives > 0; };
+  shrunk(large(), fails, {10, 60});
+  EXPECT_EQ(drives, 10);
+}
+
+TEST(FindingOf, RecordsTheAttacker) {
+  Case c = large();
+  c.commands.clear();
+  c.scenario.time_limit_s = 2;
+  EXPECT_EQ(finding_of(c), "");
+  EXPECT_GT(c.commands.size(), 5U);
 }
 
 }  // namespace

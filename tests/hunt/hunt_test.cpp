@@ -2,9 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <signal.h>
+#include <stdlib.h>
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <set>
+#include <stdexcept>
 
+#include "host/hunt/corpus.hpp"
+#include "host/hunt/crew.hpp"
+#include "host/hunt/draw.hpp"
+#include "host/hunt/rows.hpp"
+#include "tests/effort.hpp"
 #include "tests/hunt/folder.hpp"
 
 namespace whisker::hunt {
@@ -72,6 +82,135 @@ TEST(Hunt, ChangesWhatCameNear) {
   options.stop = [&] { return fresh >= 3 && changed >= 3; };
   hunt(options);
   EXPECT_GE(changed, 3);
+}
+
+TEST(Crew, BringsWhatAJobSaid) {
+  const std::string much(1 << 20, 'x');
+  const Ended ended = isolated([&](const Say& say) {
+    say("a\n");
+    say(much);
+  });
+  EXPECT_EQ(ended.text, "a\n" + much);
+  EXPECT_EQ(ended.death, "");
+}
+
+TEST(Crew, ADeathIsAResult) {
+  const Ended killed = isolated([](const Say& say) {
+    say("before");
+    ::raise(SIGFPE);
+  });
+  EXPECT_EQ(killed.text, "before");
+  EXPECT_EQ(killed.death, "signal 8");
+  const Ended threw = isolated([](const Say& say) {
+    say("before");
+    throw std::runtime_error("why");
+  });
+  EXPECT_EQ(threw.text, "before");
+  EXPECT_EQ(threw.death, "why");
+}
+
+TEST(Crew, RunsSeveralAtOnce) {
+  Crew crew;
+  for (std::uint64_t id = 1; id <= 5; ++id) {
+    crew.start(id, [id](const Say& say) { say(std::to_string(id)); });
+  }
+  std::set<std::string> all;
+  while (crew.busy() > 0) {
+    for (const Ended& ended : crew.wait()) {
+      EXPECT_EQ(ended.text, std::to_string(ended.id));
+      all.insert(ended.text);
+    }
+  }
+  EXPECT_EQ(all.size(), 5U);
+}
+
+// A short hunt over the same seeds each time. What it finds, `whisker hunt --again SEED` repeats.
+
+constexpr std::uint64_t kFirst = 5000;
+constexpr std::uint64_t kSeeds = 300;
+
+/// Faults and missions that give up are for longer hunts.
+TEST(Seeds, NothingTouchesCrashesOrDiffers) {
+  Options options;
+  options.seed = kFirst;
+  options.count = test::effort(kSeeds);
+  std::uint64_t cases = 0;
+  options.show = [&](const Progress&, const Row* row) {
+    if (row == nullptr) return;
+    ++cases;
+    EXPECT_FALSE(harms(row->finding)) << "whisker hunt --again " << row->seed << ": " << row->finding;
+  };
+  hunt(options);
+  EXPECT_EQ(cases, options.count);
+}
+
+Row row(std::uint64_t seed, const std::string& finding) {
+  Row r;
+  r.seed = seed;
+  r.family = "lag";
+  r.world = "posts";
+  r.driver = "guard";
+  r.families = {10, 4};
+  r.keys = {20, 15};
+  r.end = "time";
+  r.finding = finding;
+  r.gap_m = 0.0123456;
+  r.closeness = -0.25;
+  r.hash = 0xABCDEF0123456789;
+  return r;
+}
+
+TEST(Rows, ComeBackFromTheirFile) {
+  const test::Folder folder;
+  {
+    RowFile file(folder / "rows.csv");
+    file.add(row(1, ""));
+    file.add(row(2, "crash what, with\ncommas"));
+  }
+  RowFile(folder / "rows.csv").add(row(3, "contact"));
+  const std::vector<Row> rows = read_rows({folder / "rows.csv"});
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(to_csv(rows[0]), to_csv(row(1, "")));
+  EXPECT_EQ(rows[1].finding, "crash what  with commas");
+  EXPECT_EQ(rows[2].hash, 0xABCDEF0123456789);
+}
+
+TEST(Rows, ARowCutShortByAKillIsForgotten) {
+  const test::Folder folder;
+  RowFile(folder / "rows.csv").add(row(1, ""));
+  std::ofstream(folder / "rows.csv", std::ios::app) << to_csv(row(2, "")).substr(0, 30);
+  EXPECT_EQ(read_rows({folder / "rows.csv"}).size(), 1U);
+  RowFile(folder / "rows.csv").add(row(3, ""));
+  EXPECT_EQ(read_rows({folder / "rows.csv"}).back().seed, 3U);
+}
+
+TEST(Rows, TheSummaryCountsFindingsAndDraws) {
+  const std::string text = summary({row(5, "contact"), row(2, "contact"), row(3, "")});
+  EXPECT_NE(text.find("3 cases"), std::string::npos) << text;
+  EXPECT_NE(text.find("    2  2\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("40.0 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("75.0 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("-0.25000  seed 3"), std::string::npos) << text;
+  EXPECT_NE(summary({row(3, "")}).find("nothing found"), std::string::npos);
+}
+
+TEST(Corpus, KeepsTheNearestOfANicheAndNewStates) {
+  const test::Folder folder;
+  Corpus corpus(folder.path());
+  const Case c = draw_case(1).c;
+  Outcome outcome;
+  outcome.states = {"clear"};
+  outcome.closeness = 5;
+  EXPECT_EQ(corpus.niche("kind", outcome), "state-clear");
+  corpus.keep("state-clear", c, outcome);
+  EXPECT_EQ(corpus.niche("kind", outcome), "");
+  outcome.closeness = 0.1;
+  EXPECT_EQ(corpus.niche("kind", outcome), "kind");
+  corpus.keep("kind", c, outcome);
+  EXPECT_EQ(corpus.niche("kind", outcome), "");
+  outcome.closeness = 0.05;
+  EXPECT_EQ(corpus.niche("kind", outcome), "kind");
+  EXPECT_EQ(Corpus(folder.path()).size(), 2U);
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 // command changes nothing.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
 #include "host/run/pilot.hpp"
+#include "host/run/spec.hpp"
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"
 #include "tests/effort.hpp"
@@ -86,6 +88,85 @@ TEST_P(Planners, TheSameGoalAgainChangesNothing) {
     if (!on) break;
   }
   EXPECT_EQ(again.ended(), "reached");
+}
+
+// After a fault that may have lost distance, a reset discards the local grid, and the robot drives again.
+
+Scenario ahead() {
+  Scenario s;
+  s.start = {{0, 0}, 0};
+  s.goal.at = {6, 0};
+  return s;
+}
+
+/// Brakes to rest, then gets the goal again.
+void reset(Bench& bench, const Scenario& s) {
+  for (int i = 0; i < 80; ++i) bench.step(10);
+  bench.robot().reset();
+  bench.robot().set_goal(fixed_goal(s.goal));
+}
+
+double off(Bench& bench) {
+  const Vec at = bench.status().pose.at;
+  return std::hypot(at.x.raw() * 1e-6 - bench.plant().pose().at.x,
+                    at.y.raw() * 1e-6 - bench.plant().pose().at.y);
+}
+
+TEST(Reset, AfterAClockThatWentBackItDrivesOn) {
+  const Scenario s = ahead();
+  Bench bench(s, PlannerKind::skirt);
+  bench.run(8);
+  ASSERT_EQ(bench.ended(), "running");
+  bench.set_clock(bench.now_ms() - 7000);
+  bench.step(10);
+  ASSERT_EQ(bench.ended(), "clock_jump");
+  reset(bench, s);
+  bench.run(120);
+  EXPECT_EQ(bench.ended(), "reached");
+}
+
+TEST(Reset, AfterAStallOfTheCallerItKnowsWhereItIsAndTrustsNoGround) {
+  const Scenario s = ahead();
+  Bench bench(s, PlannerKind::skirt);
+  bench.run(8);
+  ASSERT_EQ(bench.ended(), "running");
+  bench.pass(600);
+  bench.tick();
+  ASSERT_EQ(bench.ended(), "clock_jump");
+  EXPECT_LT(off(bench), 0.005) << "0.18 m were driven in that time";
+  bench.robot().reset();
+  const double radius = s.robot.body.radius.raw() * 1e-6;
+  const Pose pose = bench.status().pose;
+  for (int i = 0; i < 360; ++i) {
+    for (const double beyond : {0.03, 0.06, 0.1, 0.2}) {
+      const double a = i * 3.14159265358979 / 180;
+      const Vec at = pose.at + Vec{micrometres(static_cast<int32_t>((radius + beyond) * 1e6 * std::cos(a))),
+                                   micrometres(static_cast<int32_t>((radius + beyond) * 1e6 * std::sin(a)))};
+      ASSERT_FALSE(bench.local_grid()->is_clear(at)) << i << " degrees, " << beyond << " m beyond the rim";
+    }
+  }
+}
+
+TEST(Reset, InClutterAfterStallsOfTheCallerItTouchesNothing) {
+  for (std::uint64_t seed = 1; seed <= test::effort(40); ++seed) {
+    worlds::Options options;
+    options.seed = 61000 + seed;
+    const Scenario s = worlds::generate(worlds::Kind::discs, options);
+    Bench bench(s, PlannerKind::skirt);
+    for (int stall = 0; stall < 6 && !bench.plant().in_contact(); ++stall) {
+      bench.run(5);
+      if (bench.ended() != "running") break;
+      // While the caller stalls, the wheels keep turning: a contact then is not the core's fault.
+      bench.board().wheels = [](hal::WheelSpeeds&) { return true; };
+      bench.plant().command({0, 0});
+      bench.pass(700);
+      bench.tick();
+      ASSERT_EQ(bench.ended(), "clock_jump");
+      reset(bench, s);
+    }
+    bench.run(300);
+    EXPECT_NE(bench.ended(), "contact") << options.seed;
+  }
 }
 
 }  // namespace

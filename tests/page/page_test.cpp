@@ -2,16 +2,26 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
+#include <zlib.h>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
+#include "host/page/base64.hpp"
+#include "host/page/columns.hpp"
+#include "host/page/deflate.hpp"
 #include "host/page/template.hpp"
 #include "host/run/runner.hpp"
 
 namespace whisker::page {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 Scenario short_run() {
@@ -181,6 +191,114 @@ TEST(Recording, CoarseHasFiveTicksASecondAndTheLast) {
   for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i], static_cast<std::int64_t>(5 * i));
   EXPECT_LT(stored({scenario, {}, 1}, coarse.ticks(), result, Detail::coarse).columns.size() * 5,
             stored({scenario, {}, 1}, full.ticks(), result).columns.size());
+}
+
+/// The column's numbers, decoded as the header states.
+std::vector<std::int64_t> read(const std::string& bytes, Order order) {
+  std::vector<std::int64_t> values;
+  std::int64_t last = 0, difference = 0;
+  for (std::size_t i = 0; i < bytes.size();) {
+    std::uint64_t raw = 0;
+    for (unsigned shift = 0;; shift += 7) {
+      const auto byte = static_cast<unsigned char>(bytes[i++]);
+      raw |= std::uint64_t{byte & 0x7FU} << shift;
+      if (byte < 0x80) break;
+    }
+    const auto half = static_cast<std::int64_t>(raw >> 1U);
+    const std::int64_t written = (raw & 1U) != 0 ? -half - 1 : half;
+    if (order == Order::values) last = written;
+    if (order == Order::differences) last += written;
+    if (order == Order::second_differences) last += difference += written;
+    values.push_back(last);
+  }
+  return values;
+}
+
+RC_GTEST_PROP(Columns, AreReadBackAsTheyWere, ()) {
+  constexpr std::int64_t kMost = std::int64_t{1} << 50;
+  const auto values = *rc::gen::container<std::vector<std::int64_t>>(
+      rc::gen::oneOf(rc::gen::inRange<std::int64_t>(-200, 200), rc::gen::inRange(-kMost, kMost + 1)));
+  for (const Order order : {Order::values, Order::differences, Order::second_differences}) {
+    Columns columns;
+    columns.add("x", order, 1000, values);
+    RC_ASSERT(read(columns.bytes(), order) == values);
+    RC_ASSERT(columns.list().back().count == values.size());
+  }
+}
+
+TEST(Columns, AreAsTheHeaderSays) {
+  Columns columns;
+  columns.add("plain", Order::values, 1, {0, -1, 1, -2, 64});
+  EXPECT_EQ(columns.bytes(), std::string("\x00\x01\x02\x03\x80\x01", 6));
+  columns.add("line", Order::second_differences, 10, {5, 10, 15, 20});
+  EXPECT_EQ(columns.bytes().substr(6), std::string("\x0a\x00\x00\x00", 4));
+}
+
+TEST(Columns, AnEvenMotionIsAByteATick) {
+  std::vector<std::int64_t> even;
+  for (std::int64_t i = 0; i < 1000; ++i) even.push_back(1000000 + 2700 * i);
+  Columns columns;
+  columns.add("x_m", Order::second_differences, 1000000, even);
+  EXPECT_LT(columns.bytes().size(), 1010U);
+}
+
+TEST(Base64, GivesTheVectorsOfTheRfc) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foob"), "Zm9vYg==");
+  EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xfb\xff\xfe"), "+//+");
+}
+
+RC_GTEST_PROP(Deflate, IsUndoneByZlib, (const std::string& text)) {
+  std::string out(text.size() + 1, '\0');
+  const std::string small = deflated(text);
+  uLongf size = static_cast<uLongf>(out.size());
+  const int status =
+      uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(small.data()),
+                 static_cast<uLong>(small.size()));
+  RC_ASSERT(status == Z_OK);
+  out.resize(size);
+  RC_ASSERT(out == text);
+}
+
+TEST(Deflate, MakesARowOfZerosSmall) { EXPECT_LT(deflated(std::string(100000, '\0')).size(), 200U); }
+
+campaign::Row row(Verdict verdict, double path_m) {
+  campaign::Row r;
+  r.verdict = verdict;
+  r.path_m = path_m;
+  r.shortest_m = 10;
+  r.world = "discs";
+  return r;
+}
+
+TEST(Worst, ContactsThenFaultsThenFailuresThenLongWays) {
+  const std::vector<campaign::Row> rows = {row(Verdict::reached, 11),     row(Verdict::gave_up, 50),
+                                           row(Verdict::reached, 30),     row(Verdict::contact, 3),
+                                           row(Verdict::unreachable, 60), row(Verdict::fault, 2),
+                                           row(Verdict::reached, 30)};
+  EXPECT_THAT(worst(rows, 99), ElementsAre(3, 5, 4, 1, 2, 6, 0));
+  EXPECT_THAT(worst(rows, 2), ElementsAre(3, 5));
+  EXPECT_THAT(worst(rows, 0), IsEmpty());
+}
+
+TEST(Worst, BeforeLongWaysComeThoseThatOnlyBelieveToBeThereTheFarthestOffFirst) {
+  std::vector<campaign::Row> rows = {row(Verdict::reached, 90), row(Verdict::off_goal, 50),
+                                     row(Verdict::off_goal, 12), row(Verdict::gave_up, 20)};
+  rows[1].final_distance_m = 0.2;
+  rows[2].final_distance_m = 5.8;
+  EXPECT_THAT(worst(rows, 99), ElementsAre(3, 2, 1, 0));
+}
+
+TEST(Worst, UnreachableIsNoFailureWhereThereIsNoWay) {
+  std::vector<campaign::Row> rows = {row(Verdict::unreachable, 40), row(Verdict::reached, 12)};
+  rows[0].shortest_m.reset();
+  rows[0].world = "enclosed";
+  EXPECT_THAT(worst(rows, 2), ElementsAre(1, 0));
 }
 
 }  // namespace

@@ -3,12 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <vector>
 
+#include "firmware/fuzzy/response_table.hpp"
+#include "firmware/fuzzy/rules.hpp"
+#include "host/play/rule_faults.hpp"
+#include "host/play/table_of.hpp"
 #include "host/worlds/generate.hpp"
 
 namespace whisker::play {
 namespace {
+
+using fuzzy::kTerms;
 
 Scenario with_everything() {
   Scenario s = worlds::generate(worlds::Kind::rooms, {});
@@ -60,6 +68,79 @@ TEST(Flat, NoNumberMayBeNoneOrHuge) {
       list[i] = bad;
       EXPECT_FALSE(scenario_of(list)) << i << " is " << bad;
     }
+  }
+}
+
+TEST(RuleFaults, TheOwnRulesHaveNone) {
+  EXPECT_EQ(rule_faults(fuzzy::kRules), 0U);
+  for (int d = 0; d < kTerms; ++d)
+    for (int r = 0; r < kTerms; ++r) EXPECT_FALSE(rule_at_fault(fuzzy::kRules, d, r));
+}
+
+TEST(RuleFaults, AChangeOfOneTurnBesideTheMiddleIsNotMirrored) {
+  for (int d = 0; d < kTerms; ++d) {
+    for (int r = 0; r < kTerms; ++r) {
+      fuzzy::RuleBase rules = fuzzy::kRules;
+      rules.turn[d][r] = Q14::from_raw(static_cast<std::int16_t>(rules.turn[d][r].raw() + 100));
+      EXPECT_TRUE(rule_faults(rules) & kTurnNotMirrored) << d << ' ' << r;
+      EXPECT_TRUE(rule_at_fault(rules, d, r)) << d << ' ' << r;
+      EXPECT_TRUE(rule_at_fault(rules, d, kTerms - 1 - r)) << d << ' ' << r;
+    }
+  }
+}
+
+TEST(RuleFaults, AMirroredRuleBaseThatTurnsTheWrongWayIsUnsafe) {
+  fuzzy::RuleBase rules = fuzzy::kRules;
+  for (auto& row : rules.turn)
+    for (Q14& turn : row) turn = -turn;
+  EXPECT_EQ(rule_faults(rules), kTurnsTowardsNearer);
+}
+
+TEST(RuleFaults, TurningLessOrSteppingLongerNearIsUnsafe) {
+  fuzzy::RuleBase rules = fuzzy::kRules;
+  rules.turn[0][0] = Q14::ratio(1, 2);
+  rules.turn[0][kTerms - 1] = Q14::ratio(-1, 2);
+  EXPECT_EQ(rule_faults(rules), kTurnsLessNear);
+  rules = fuzzy::kRules;
+  rules.step[0][2] = fuzzy::step_terms::VB;
+  EXPECT_EQ(rule_faults(rules), kStepsLongerNear);
+  rules.step[0][1] = fuzzy::step_terms::VB;
+  EXPECT_EQ(rule_faults(rules), kStepsLongerNear | kStepNotMirrored);
+}
+
+std::vector<double> committed() {
+  std::vector<double> list;
+  for (const auto& row : fuzzy::kResponseTable.node)
+    for (const fuzzy::Bilinear::Node& node : row)
+      list.insert(list.end(), {double(node.turn), double(node.step)});
+  return list;
+}
+
+TEST(TableOf, GivesTheNodesBack) {
+  const auto table = table_of(committed());
+  ASSERT_TRUE(table);
+  EXPECT_EQ(std::memcmp(&*table, &fuzzy::kResponseTable, sizeof *table), 0);
+}
+
+TEST(TableOf, AnotherCountIsNone) {
+  std::vector<double> list = committed();
+  list.pop_back();
+  EXPECT_FALSE(table_of(list));
+  list.resize(list.size() + 2);
+  EXPECT_FALSE(table_of(list));
+  EXPECT_FALSE(table_of({}));
+}
+
+TEST(TableOf, WhatIsNoAnswerIsNone) {
+  for (const double good : {-32767.0, 32767.0, -0.0}) {
+    std::vector<double> list = committed();
+    list.back() = good;
+    EXPECT_TRUE(table_of(list)) << good;
+  }
+  for (const double bad : {-32768.0, 32768.0, 0.5, 1e300, double(INFINITY), double(NAN)}) {
+    std::vector<double> list = committed();
+    list[7] = bad;
+    EXPECT_FALSE(table_of(list)) << bad;
   }
 }
 

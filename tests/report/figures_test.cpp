@@ -22,73 +22,6 @@ using testing::Element;
 using testing::parse_xml;
 using testing::thesis_picture;
 
-TEST(ThesisFigures, are_figures_2_to_7_well_formed_with_plain_coordinates) {
-  const auto figures = thesis_figures(thesis_picture());
-  ASSERT_EQ(figures.size(), 6U);
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    EXPECT_EQ(figures[i].first, "figure" + std::to_string(i + 2) + ".svg");
-    const Element root = parse_xml(figures[i].second);
-    EXPECT_EQ(testing::odd_coordinate(root), "") << figures[i].first;
-    EXPECT_EQ(root.by_name("title").at(0)->text.rfind("Figure " + std::to_string(i + 2), 0), 0U);
-    EXPECT_LT(figures[i].second.size(), 200000U) << figures[i].first;
-  }
-  EXPECT_EQ(figures, thesis_figures(thesis_picture()));
-}
-
-TEST(MembershipSvg, peaks_at_each_centre_and_crosses_its_neighbour_half_way_up) {
-  const Variable r = thesis_picture().r;
-  const Element root = parse_xml(membership_svg(r, "R"));
-  const Element* frame = root.by_class("frame").at(0);
-  const auto x = [&](double value) {
-    return frame->number("x") + (value - r.min) / (r.max - r.min) * frame->number("width");
-  };
-  const auto peaks = root.by_name("circle");
-  ASSERT_EQ(peaks.size(), 5U);
-  for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_NEAR(peaks[i]->number("cx"), x(r.terms[i].centre), 0.01);
-    EXPECT_NEAR(peaks[i]->number("cy"), frame->number("y"), 0.01);
-  }
-  EXPECT_EQ(root.by_class("term").size(), 5U);
-}
-
-TEST(RulesSvg, has_25_squares_an_output_in_the_colours_of_their_values) {
-  const FuzzyPicture picture = thesis_picture();
-  const Element root = parse_xml(rules_svg(picture, "rules"));
-  const auto squares = root.by_class("turn").at(0)->by_name("rect");
-  ASSERT_EQ(squares.size(), 25U);
-  EXPECT_EQ(root.by_class("step").at(0)->by_name("rect").size(), 25U);
-  const ColourScale scale = ColourScale::diverging(-1.5, 1.5);
-  std::size_t k = 0;
-  for (const auto& row : picture.turn)
-    for (const Rule& rule : row) EXPECT_EQ(squares[k++]->attributes.at("fill"), scale.at(rule.value));
-  // D increases upwards: the first row of rules is the lowest on the page.
-  EXPECT_GT(squares[0]->number("y"), squares[24]->number("y"));
-}
-
-TEST(TableSvg, names_each_rule_at_its_centre) {
-  const FuzzyPicture picture = thesis_picture();
-  const Element root = parse_xml(table_svg(picture));
-  EXPECT_EQ(testing::odd_coordinate(root), "");
-  const std::vector<std::string> labels = root.by_class("turn").at(0)->texts_of_class("rules");
-  ASSERT_EQ(labels.size(), 50U);
-  EXPECT_EQ(labels[0], "TLVB");
-  EXPECT_EQ(labels[1], "+1.50");
-  EXPECT_EQ(labels[9], "-1.50");
-  const Element* map = root.by_class("turn").at(0);
-  const Element* frame = map->by_class("frame").at(0);
-  const Element* first = map->by_class("rules").at(0)->by_name("text").at(0);
-  // TLVB is the rule for an obstacle on the right, and is drawn on the right.
-  EXPECT_NEAR(first->number("x"), frame->number("x") + frame->number("width") * 15 / 16, 0.01);
-}
-
-TEST(TableSvg, the_axis_of_r_is_numbered_from_the_left_side_nearer) {
-  const Element root = parse_xml(table_svg(thesis_picture()));
-  const auto numbers = root.by_class("turn").at(0)->by_class("x-axis").at(0)->by_name("text");
-  ASSERT_EQ(numbers.size(), 9U);
-  EXPECT_EQ(numbers.front()->text, "-8");
-  EXPECT_GT(numbers.front()->number("x"), numbers.back()->number("x"));
-}
-
 /// The fill colour of the heat map at a point of the plane, from the rectangles of the file.
 std::string colour_at(const Element& map, double r01, double d01) {
   const Element* frame = map.by_class("frame").at(0);
@@ -128,11 +61,6 @@ TEST(TableSvg, paints_each_place_in_the_colour_of_its_value) {
   }
 }
 
-TEST(TableSvg, has_a_numbered_colour_bar_for_each_output) {
-  const Element root = parse_xml(table_svg(thesis_picture()));
-  EXPECT_EQ(root.by_class("colour-bar").size(), 2U);
-}
-
 TEST(TableSvg, survives_a_response_that_is_not_a_number) {
   FuzzyPicture picture = thesis_picture();
   picture.sa_at = [](double, double) { return std::numeric_limits<double>::quiet_NaN(); };
@@ -170,11 +98,6 @@ TEST(ColourScale, runs_from_end_to_end_and_stays_there) {
     for (int i = 0; i <= 40; ++i) seen.insert(scale.at(-1 + i / 20.0));
     EXPECT_EQ(seen.size(), 41U);
   }
-}
-
-TEST(ColourScale, of_turns_is_neutral_at_zero) {
-  const std::string middle = ColourScale::diverging(-1.5, 1.5).at(0);
-  EXPECT_EQ(middle, "#f7f7f4");
 }
 
 /// Relative luminance of "#rgb" or "#rrggbb" (WCAG 2.1), 0 to 1.

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <random>
 #include <string>
-#include <utility>
 
 #include "host/report/palette.hpp"
 #include "host/report/run_svg.hpp"
@@ -17,9 +16,7 @@ namespace whisker::report {
 namespace {
 
 using planning::CellState;
-using ::testing::Contains;
 using testing::Element;
-using ::testing::IsSupersetOf;
 
 MapPicture random_map(unsigned seed) {
   std::mt19937 random(seed);
@@ -71,14 +68,6 @@ TEST(RunMap, covers_each_cell_with_its_own_colour_once) {
   }
 }
 
-TEST(RunMap, takes_one_box_for_what_is_one) {
-  MapPicture map = random_map(3);
-  for (CellState& state : map.cells) state = CellState::free;
-  const Element root = drawn(garden_run(), &map);
-  EXPECT_EQ(root.by_class("map-free").at(0)->attributes.at("d"), "M0 0h32v20h-32z");
-  EXPECT_TRUE(root.by_class("map-occupied").empty());
-}
-
 TEST(RunMap, lies_where_the_robot_believes_it_to_lie) {
   auto records = garden_run();
   TickRecord& last = records.back();
@@ -103,61 +92,6 @@ TEST(RunMap, lies_where_the_robot_believes_it_to_lie) {
   EXPECT_NEAR(drifted[2] - exact[2], exact[0], 0.01);
   last.heading_rad += 0.1;
   EXPECT_LT(corner()[1], -0.01) << "turned counter-clockwise, it rises to the right";
-}
-
-TEST(RunMap, shows_plan_way_points_and_hand_overs_with_a_legend) {
-  const MapPicture map = random_map(2);
-  auto records = garden_run();
-  const std::size_t part = records.size() / 4;
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    TickRecord& r = records[i];
-    r.guide = i < part || i / part == 2 ? Guidance::none : Guidance::place;
-    r.way_x_m = 1 + 0.5 * static_cast<double>(i / part);
-    r.way_y_m = 1;
-  }
-  const Element root = drawn(records, &map);
-  EXPECT_EQ(root.by_class("plan").size(), 1U);
-  EXPECT_EQ(root.by_class("to-edges").size(), 2U) << "one in the legend";
-  EXPECT_EQ(root.by_class("to-map").size(), 2U);
-  const auto words = root.texts_of_class("legend");
-  EXPECT_THAT(words, IsSupersetOf({"map: seen free", "map: suspect", "map: occupied",
-                                   "map: window at the end", "way points of the map", "last planned path",
-                                   "fallback to boundary following", "the map resumes"}));
-}
-
-TEST(RunSvg, may_go_without_its_legend) {
-  const Scenario scenario = testing::garden();
-  const auto records = garden_run();
-  RunPicture options;
-  options.legend = false;
-  const Element root = testing::parse_xml(
-      run_svg(scenario, records, testing::result_of(Verdict::reached, scenario, records), options));
-  const Element whole = drawn(records, nullptr);
-  EXPECT_TRUE(root.by_class("legend").empty());
-  EXPECT_EQ(root.by_class("path").size(), 1U);
-  EXPECT_LT(root.number("width") * root.number("height"),
-            0.8 * whole.number("width") * whole.number("height"));
-}
-
-TEST(RunSvg, has_room_for_the_run_beside_it) {
-  const Scenario scenario;
-  const auto near = testing::follow(scenario, {{{1, 0}}});
-  const auto far = testing::follow(scenario, {{{1, 7}}});
-  const auto size = [&](const std::vector<TickRecord>& records, const std::vector<TickRecord>* beside) {
-    RunPicture options;
-    options.beside = beside;
-    const Element root = testing::parse_xml(
-        run_svg(scenario, records, testing::result_of(Verdict::gave_up, scenario, records), options));
-    return std::pair{root.number("width"), root.number("height")};
-  };
-  EXPECT_EQ(size(near, &far), size(far, &near));
-  EXPECT_NE(size(near, &far), size(near, nullptr));
-}
-
-TEST(RunMap, is_not_there_without_one) {
-  const Element root = drawn(garden_run(), nullptr);
-  EXPECT_TRUE(root.by_class("map").empty());
-  EXPECT_THAT(root.texts_of_class("legend"), ::testing::Not(Contains("map: suspect")));
 }
 
 }  // namespace

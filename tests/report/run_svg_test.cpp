@@ -7,8 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "host/report/palette.hpp"
+#include "host/report/run_edges.hpp"
 #include "tests/report/infinity.hpp"
 #include "tests/report/script.hpp"
 #include "tests/report/xml.hpp"
@@ -75,10 +78,6 @@ TEST(RunSvg, is_well_formed_with_plain_coordinates_for_each_verdict) {
   }
 }
 
-TEST(RunSvg, gives_equal_bytes_for_equal_input) {
-  EXPECT_EQ(draw_garden(Verdict::reached).text, draw_garden(Verdict::reached).text);
-}
-
 TEST(RunSvg, says_what_a_robot_off_the_goal_believes) {
   const Drawn drawn = draw_garden(Verdict::off_goal);
   EXPECT_THAT(drawn.root.by_class("verdict").at(0)->text, HasSubstr("believes it is there; is "));
@@ -107,33 +106,6 @@ TEST(RunSvg, puts_the_contact_where_the_robot_last_was) {
   EXPECT_EQ(mark->number("cy"), body->number("cy"));
 }
 
-TEST(RunSvg, has_a_key_for_each_class_and_a_line_for_each_driven_one) {
-  const Drawn drawn = draw_garden(Verdict::reached);
-  EXPECT_EQ(drawn.root.by_class("key").size(), static_cast<std::size_t>(kDoings));
-  const Element* path = drawn.root.by_class("path").at(0);
-  for (const Look& look : kLooks) {
-    ASSERT_EQ(path->by_class(look.name).size(), 1U) << look.name;
-    EXPECT_EQ(path->by_class(look.name).at(0)->attributes.at("stroke"), look.colour);
-  }
-  const Scenario scenario = testing::garden();
-  const auto straight = testing::follow(scenario, {{{0.5, 0.5}}});
-  const Drawn one = draw(scenario, straight, result_of(Verdict::gave_up, scenario, straight));
-  EXPECT_EQ(one.root.by_class("key").size(), static_cast<std::size_t>(kDoings));
-  EXPECT_EQ(one.root.by_class("path").at(0)->children.size(), 1U);
-}
-
-TEST(RunSvg, counts_the_share_of_each_class_in_the_legend) {
-  Scenario scenario;
-  const auto records =
-      testing::follow(scenario, {{{1, 0}}, {{4, 0}, planning::Mode::stepping, planning::Why::table}});
-  const Drawn drawn = draw(scenario, records, result_of(Verdict::reached, scenario, records));
-  std::vector<std::string> words;
-  for (const Element* text : drawn.root.by_class("legend").at(0)->by_name("text"))
-    words.push_back(text->text);
-  EXPECT_THAT(words, ::testing::IsSupersetOf({"free driving", "1.00 m", "25 %", "table deflection", "3.00 m",
-                                              "75 %", "looked here (2 looks)"}));
-}
-
 /// Page coordinates of a small disc, which the picture shows as a circle in the same order.
 std::vector<const Element*> discs_of(const Drawn& drawn) {
   return drawn.root.by_class("obstacles").at(0)->by_name("circle");
@@ -158,31 +130,6 @@ RC_GTEST_PROP(RunSvg, has_equal_axes_and_keeps_places_in_worlds_from_one_to_fift
     RC_ASSERT(std::fabs(x - world.x * scale) <= slack);
     RC_ASSERT(std::fabs(y - world.y * scale) <= slack);
   }
-}
-
-TEST(RunSvg, numbers_its_axes_where_the_metres_are) {
-  const Drawn drawn = draw_garden(Verdict::reached);
-  const auto circles = discs_of(drawn);
-  const double scale = circles.at(0)->number("r") / 0.25;
-  for (const Element* tick : drawn.root.by_class("x-axis").at(0)->by_name("text"))
-    EXPECT_NEAR(tick->number("x"), circles[0]->number("cx") + (std::stod(tick->text) - 1.15) * scale, 0.2)
-        << tick->text;
-  // The numbers are 4 px low, so that they are centred on the line.
-  for (const Element* tick : drawn.root.by_class("y-axis").at(0)->by_name("text"))
-    EXPECT_NEAR(tick->number("y") - 4, circles[0]->number("cy") - (std::stod(tick->text) - 0.75) * scale, 0.2)
-        << tick->text;
-  EXPECT_GE(drawn.root.by_class("x-axis").at(0)->by_name("text").size(), 4U);
-  EXPECT_GE(drawn.root.by_class("y-axis").at(0)->by_name("text").size(), 4U);
-}
-
-TEST(RunSvg, draws_the_scale_bar_as_long_as_it_says) {
-  const Drawn drawn = draw_garden(Verdict::reached);
-  const Element* bar = drawn.root.by_class("scale-bar").at(0);
-  EXPECT_EQ(bar->by_name("text").at(0)->text, "1 m");
-  const Element* label = bar->by_name("text").at(0);
-  const double right =
-      drawn.root.by_class("frame").at(0)->number("x") + drawn.root.by_class("frame").at(0)->number("width");
-  EXPECT_NEAR(right - (label->number("x") + 6), discs_of(drawn).at(0)->number("r") / 0.25, 0.05);
 }
 
 TEST(RunSvg, of_ten_restless_minutes_stays_below_300_kilobytes) {
@@ -236,13 +183,6 @@ TEST(RunSvg, keeps_the_way_in_sight_in_a_world_far_larger) {
   }
 }
 
-TEST(RunSvg, leaves_the_colour_of_the_path_in_sight_where_it_looked_often) {
-  const Drawn drawn = draw_garden(Verdict::reached);
-  ASSERT_EQ(drawn.root.by_class("looks").size(), 1U);
-  for (const Look& look : kLooks)
-    EXPECT_LE(drawn.root.by_class("looks").at(0)->number("stroke-width"), look.width) << look.name;
-}
-
 TEST(RunSvg, survives_numbers_that_no_page_holds) {
   const Scenario scenario = testing::garden();
   auto records = testing::garden_run(scenario);
@@ -259,18 +199,6 @@ TEST(RunSvg, survives_numbers_that_no_page_holds) {
   const Drawn drawn = draw(scenario, records, result);
   EXPECT_EQ(testing::odd_coordinate(drawn.root), "");
   EXPECT_THAT(drawn.text, HasSubstr("3 records without a position left out"));
-}
-
-TEST(RunSvg, shows_the_beams_where_the_danger_area_was_entered) {
-  const Scenario scenario = testing::garden();
-  const auto records = testing::garden_run(scenario);
-  const RunResult result = result_of(Verdict::reached, scenario, records);
-  const Drawn drawn = draw(scenario, records, result);
-  ASSERT_EQ(drawn.root.by_class("cones").size(), 1U);
-  EXPECT_EQ(drawn.root.by_class("cones").at(0)->by_name("path").size(), 3U);
-  RunPicture none;
-  none.cones = 0;
-  EXPECT_TRUE(draw(scenario, records, result, none).root.by_class("cones").empty());
 }
 
 TEST(RunSvg, shows_no_beam_for_a_lost_reading) {
@@ -296,6 +224,27 @@ TEST(RunSvg, keeps_a_name_of_any_bytes_well_formed) {
   EXPECT_NO_THROW(draw(scenario, {}, {}));
   scenario.name = "\xFF\x01]]>&";
   EXPECT_NO_THROW(draw(scenario, {}, {}, {"sub & title <"}));
+}
+
+Element drawn(const Scenario& scenario, const std::vector<TickRecord>& records) {
+  const RunResult result = testing::result_of(Verdict::gave_up, scenario, records);
+  return testing::parse_xml(run_svg(scenario, records, result));
+}
+
+TEST(RunEdges, lists_the_first_eight_boundaries_and_counts_the_others) {
+  Scenario scenario;
+  std::vector<testing::Leg> legs;
+  for (int i = 0; i < 21; ++i) {
+    const double x = i;
+    legs.push_back({{x, 0.5}, planning::Mode::skirting, planning::Why::edge});
+    legs.push_back({{x + 0.5, 0}});
+  }
+  const auto records = testing::follow(scenario, legs);
+  const Element root = drawn(scenario, records);
+  const auto words = root.texts_of_class("legend");
+  EXPECT_THAT(words, ::testing::IsSupersetOf({"boundary 8", "and 13 more boundaries"}));
+  EXPECT_THAT(words, ::testing::Not(::testing::Contains("boundary 9")));
+  EXPECT_EQ(root.by_class("hit").size(), 22U) << "and one in the legend";
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "host/rules/compile.hpp"
 #include "host/rules/read.hpp"
+#include "host/rules/rule_words.hpp"
 #include "tests/effort.hpp"
 #include "tests/rules/oracle.hpp"
 #include "tests/rules/random_base.hpp"
@@ -67,6 +69,38 @@ TEST(RandomRuleBases, AgreeWithFuzzyliteAndKeepTheirBound) {
   RecordProperty("answers", answers);
   std::printf("%d answers of %d rule bases, seeds from %d\n", answers, static_cast<int>(count),
               static_cast<int>(kFirstSeed));
+}
+
+// Rules as text.
+
+std::string words_of(const std::string& rule) {
+  const RuleBase base = parse_rules(
+      "Engine: e\nInputVariable: a\n  range: 0 1\n  term: x Ramp 0 1\n  term: y Ramp 1 0\n"
+      "InputVariable: b\n  range: 0 1\n  term: z Ramp 0 1\n"
+      "OutputVariable: c\n  range: 0 1\n  aggregation: Maximum\n  defuzzifier: Centroid 100\n"
+      "  default: 0\n  term: u Ramp 0 1\n  term: v Ramp 1 0\n"
+      "RuleBlock: r\n  conjunction: Minimum\n  disjunction: Maximum\n  implication: Minimum\n"
+      "  activation: General\n  rule: " +
+          rule + "\n",
+      "t.fll");
+  return words(base, base.rules[0]);
+}
+
+TEST(RuleWords, AreThoseOfTheRule) {
+  for (const char* const rule : {
+           "if a is x then c is u",
+           "if a is not very x then c is u with 0.5",
+           "if a is any and b is somewhat z then c is v",
+           "if (a is x or a is y) and b is z then c is u",
+           "if a is x and (b is z or a is y) then c is u",
+           "if a is x or a is y or b is z then c is u",
+       })
+    EXPECT_EQ(words_of(rule), rule);
+}
+
+TEST(RuleWords, HaveParenthesesWhereOperatorsMix) {
+  EXPECT_EQ(words_of("if a is x and b is z or a is y then c is u"),
+            "if (a is x and b is z) or a is y then c is u");
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "host/scenario/bearing.hpp"
+#include "host/scenario/contact.hpp"
+
 namespace whisker {
 namespace {
 
@@ -83,6 +86,69 @@ TEST(CrossingEdges, AreFoundInAStarAndNotInACircleOfAnySize) {
     }
   }
 }
+
+Scenario one_of_each() {
+  Scenario s;
+  s.bounds = Bounds{{-10, -10}, {10, 10}};
+  s.discs = {{{-5, 0}, 1}};
+  s.polygons = {{{4, -1}, {6, -1}, {6, 1}, {4, 1}}};
+  s.walls = {{{-1, 5}, {1, 5}, {1, 7}}};
+  s.movers = {{{0, -5}, 0.5, {{-2, -5}, {2, -5}}, 0.1}};
+  return s;
+}
+
+struct Case {
+  sim::Vec2 point;
+  double distance_m;
+  const char* what;
+};
+
+TEST(NearestObstacle, IsNamedAndMeasured) {
+  const Scenario s = one_of_each();
+  const Case cases[] = {
+      {{-3, 0}, 1, "disc 1"},          {{-5, 0.2}, -0.8, "disc 1"},         {{3.5, 0}, 0.5, "polygon 1"},
+      {{4.25, 0}, -0.25, "polygon 1"}, {{7, 2}, std::sqrt(2), "polygon 1"}, {{0, 4.5}, 0.5, "wall 1"},
+      {{1.5, 6}, 0.5, "wall 1"},       {{0, -4}, 0.5, "mover 1"},           {{9.75, 9}, 0.25, "the bounds"},
+      {{0, -11}, -1, "the bounds"}};
+  for (const Case& c : cases) {
+    const Nearest nearest = nearest_obstacle(s, c.point);
+    EXPECT_NEAR(nearest.distance_m, c.distance_m, 1e-12) << c.point.x << ", " << c.point.y;
+    EXPECT_EQ(nearest.what, c.what) << c.point.x << ", " << c.point.y;
+  }
+}
+
+TEST(NearestObstacle, OfAnEmptyWorldIsInfinitelyFar) {
+  EXPECT_TRUE(std::isinf(nearest_obstacle(Scenario{}, {0, 0}).distance_m));
+}
+
+TEST(StartFault, DependsOnTheBodysRadius) {
+  Scenario s = one_of_each();
+  s.start.at = {-3.8, 0};
+  EXPECT_EQ(start_fault(s), "");
+  s.robot.body.radius = 201_mm;
+  EXPECT_EQ(start_fault(s),
+            "the start is in contact with disc 1: it is 0.2000 m away, and the body's radius is 0.201 m");
+}
+
+TEST(Bearing, AgreesWithTheLibraryAllAround) {
+  for (int i = -3600; i <= 3600; ++i) {
+    const double angle = i * (3.14159265358979 / 3600);
+    for (const double radius : {1e-4, 1.0, 11.3, 2800.0}) {
+      const sim::Vec2 to{radius * std::cos(angle), radius * std::sin(angle)};
+      EXPECT_NEAR(bearing({0, 0}, to), std::atan2(to.y, to.x), 1e-15) << i;
+    }
+  }
+}
+
+TEST(Bearing, IsExactOnTheAxes) {
+  const double pi = std::acos(-1);
+  EXPECT_EQ(bearing({1, 1}, {5, 1}), 0);
+  EXPECT_EQ(bearing({1, 1}, {1, 5}), pi / 2);
+  EXPECT_EQ(bearing({1, 1}, {-5, 1}), pi);
+  EXPECT_EQ(bearing({1, 1}, {1, -5}), -pi / 2);
+}
+
+TEST(Bearing, OfNoWayAtAllIsZero) { EXPECT_EQ(bearing({2, 3}, {2, 3}), 0); }
 
 }  // namespace
 }  // namespace whisker

@@ -4,7 +4,6 @@ usage: bench_test.py WHISKER
 """
 
 import json
-import pathlib
 import sys
 import time
 import unittest
@@ -12,9 +11,6 @@ import unittest
 from bus import PATIENCE_S, BusCase
 
 BUS = "vbench0"
-LAWS = pathlib.Path(__file__).resolve().parents[2] / "host/rules/laws"
-STRAIGHT, SIDES = LAWS / "straight.toml", LAWS / "sides.toml"
-FAR = "time_limit_s = 3000.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 500.0\ny_m = 0.0\n"
 GOAL = "time_limit_s = 60.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 1.0\ny_m = 0.0\n"
 
 
@@ -57,51 +53,6 @@ class OnTheBus(BusCase):
         self.bench("stop")
         self.assertEqual(plant.result()["detail"], "e_stop")
         self.bench("reset")
-
-    def test_a_response_table_is_sent_drives_and_is_kept(self):
-        scenario, kept = self.folder / "empty.toml", self.folder / "kept"
-        scenario.write_text(GOAL)
-        controller = self.start("controller", "--can", BUS, "--keep", kept)
-        controller.wait_for("waits for the base")
-        built_in = json.loads(self.bench("rules", "--json"))["rules_hash"]
-        told = json.loads(self.bench("rules", SIDES, "--drop", 5, "--json"))
-        self.assertEqual(told["kept"], True)
-        self.assertNotEqual(told["rules_hash"], built_in)
-        for rules in (STRAIGHT, SIDES, "default"):
-            here = json.loads(self.once("run", scenario, "--rules", rules, "--json").stdout)
-            there = json.loads(self.once("plant", scenario, "--can", BUS, "--rules", rules, "--json").stdout)
-            self.assertEqual(there["hash"], here["hash"])
-            self.assertEqual(json.loads(self.bench("rules", "--json"))["rules_hash"], here["rules_digest"])
-        self.bench("rules", SIDES)
-        controller.close()
-        self.start("controller", "--can", BUS, "--keep", kept).wait_for(f"response table {told['rules_hash']}")
-        self.assertEqual(json.loads(self.bench("rules", "--json"))["rules_hash"], told["rules_hash"])
-
-    def test_a_third_party_beside_controller_and_base(self):
-        scenario, log = self.folder / "far.toml", self.folder / "run.log"
-        scenario.write_text(FAR)
-        controller = self.start("controller", "--can", BUS, "--record", log)
-        plant = self.start("plant", scenario, "--can", BUS, "--json")
-        controller.wait_for("drives")
-        busy = self.once("bench", "set", "wheel_speed_max_mps=0.25", "--can", BUS)
-        self.assertEqual((busy.returncode, busy.stdout), (1, ""))
-        self.assertRegex(busy.stderr, r"\A[^\n]*a mission runs \(busy\): nothing was written[^\n]*\n\Z")
-        self.assertEqual(self.bench("cancel"), "robot 1: cancelled\n")
-        last = json.loads(self.bench("watch", "--for", 0.5, "--json").splitlines()[-1])
-        self.assertEqual((last["outcome"], last["wheel_mps"], last["base"]["state"]), ("none", [0, 0], "running"))
-        self.bench("set", "wheel_speed_max_mps=0.25")
-        self.assertEqual(json.loads(self.bench("get", "wheel_speed_max_mps", "--json"))["parameters"][0]["value"], 0.25)
-        kept = self.folder / "kept.toml"
-        self.bench("save", kept)
-        self.bench("set", "wheel_speed_max_mps=0.2")
-        self.assertEqual([w["name"] for w in json.loads(self.bench("restore", kept, "--json"))["written"]], ["wheel_speed_max_mps"])
-        goal = self.once("bench", "goal", 1, 0.5, "--can", BUS, "--json")
-        self.assertEqual((goal.returncode, json.loads(goal.stdout)["outcome"]), (0, "reached"), goal.stderr)
-        result = plant.result()
-        self.assertAlmostEqual(result["final_distance_m"], (499**2 + 0.5**2) ** 0.5, delta=0.15)
-        self.assertEqual(controller.end(), 0)
-        replay = json.loads(self.once("replay", log, "--json").stdout)
-        self.assertEqual((replay["same"], replay["hash"], replay["steps"]), (True, result["hash"], result["ticks"]))
 
     def test_an_interface_that_is_down(self):
         self.interface.down()

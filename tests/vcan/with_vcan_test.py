@@ -51,12 +51,6 @@ class Usage(unittest.TestCase):
             self.assertEqual((status, out), (2, ""), wrong)
             self.assertRegex(err, r"\Awith-vcan: [^\n]*\n\Z", wrong)
 
-    def test_names_its_options(self):
-        status, out, _ = run("--help")
-        self.assertEqual(status, 0)
-        for option in ("--count", "--timeout", "--vm", "--tty", "--which", "--alone"):
-            self.assertIn(option, out)
-
 
 class Alone(unittest.TestCase):
     """The one file for others. Runs anywhere."""
@@ -82,11 +76,6 @@ class Alone(unittest.TestCase):
         for path in (SCRIPT.parent / "vm").iterdir():
             if path.is_file():
                 self.assertEqual((unpacked / "vm" / path.name).read_bytes(), path.read_bytes(), path)
-
-    def test_is_the_same_each_time(self):
-        again = self.folder / "again"
-        run("--alone", again)
-        self.assertEqual(again.read_bytes(), self.file.read_bytes())
 
 
 if __name__ == "__main__":

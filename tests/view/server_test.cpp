@@ -3,13 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
 #include <future>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "host/view/names.hpp"
+#include "host/view/request.hpp"
 #include "tests/view/http.hpp"
 #include "tests/view/watched.hpp"
 
@@ -187,6 +189,101 @@ TEST(Server, MayEndBeforeItBegins) {
   const Server never(kHere, 0, feed, "");
   Server at_once(kHere, 0, feed, "");
   at_once.start();
+}
+
+TEST(Names, OfThisComputerAlone) {
+  for (const char* address : {"127.0.0.1", "localhost", "::1"}) {
+    const Names names(address, 8765);
+    for (const char* host : {"localhost:8765", "127.0.0.1:8765", "[::1]:8765", "LOCALHOST:8765"}) {
+      EXPECT_TRUE(names.knows(host)) << address << " " << host;
+    }
+    for (const char* host :
+         {"", ":", ":8765", "localhost", "localhost:", "localhost:8766", "[::1]", "::1:8765",
+          "192.168.1.7:8765", "robot:8765", "localhost.evil.example:8765", "[::1]:8765:8765"}) {
+      EXPECT_FALSE(names.knows(host)) << address << " " << host;
+    }
+  }
+  EXPECT_TRUE(Names("127.0.0.5", 1).knows("127.0.0.5:1"));
+}
+
+TEST(Names, PortEightyNeedNotBeNamed) { EXPECT_TRUE(Names("127.0.0.1", 80).knows("localhost")); }
+
+TEST(Names, WhereOthersReachItNumbersAreGoodAndForeignNamesAreNot) {
+  const Names names("0.0.0.0", 8765);
+  char own[256] = {};
+  gethostname(own, sizeof own - 1);
+  for (const std::string& host : {std::string("192.168.1.7"), std::string("[fe80::1]"),
+                                  std::string("localhost"), std::string(own), std::string(own) + ".local"}) {
+    EXPECT_TRUE(names.knows(host + ":8765")) << host;
+    EXPECT_FALSE(names.knows(host + ":8766")) << host;
+  }
+  for (const char* host :
+       {"evil.example:8765", "192.168.1.7.evil.example:8765", "[evil]:8765", "1.2.3:8765"}) {
+    EXPECT_FALSE(names.knows(host)) << host;
+  }
+  EXPECT_TRUE(Names("robot.lan", 8765).knows("robot.lan:8765"));
+  EXPECT_FALSE(Names("robot.lan", 8765).knows("other.lan:8765"));
+}
+
+TEST(Names, TheAddressOfThePage) {
+  EXPECT_EQ(Names("127.0.0.1", 8765).url(), "http://127.0.0.1:8765/");
+  EXPECT_EQ(Names("::1", 8765).url(), "http://[::1]:8765/");
+}
+
+Asked asked(const std::string& text) {
+  Head head;
+  const auto all = head.add(text);
+  EXPECT_TRUE(all.has_value()) << text;
+  return all.value_or(Asked{});
+}
+
+TEST(Head, IsTheSameInAnyPieces) {
+  const std::string text =
+      "GET /events?x=1 HTTP/1.1\r\nHost: here\r\nlast-event-id:\t a/7 \r\nORIGIN: "
+      "http://here\r\nX:\r\n\r\nmore";
+  const std::size_t end = text.find("more");
+  for (std::size_t piece = 1; piece <= text.size(); ++piece) {
+    Head head;
+    std::optional<Asked> all;
+    for (std::size_t at = 0; at < text.size() && !all; at += piece) {
+      all = head.add(std::string_view(text).substr(at, piece));
+      EXPECT_EQ(all.has_value(), at + piece >= end) << piece;
+    }
+    ASSERT_TRUE(all.has_value());
+    EXPECT_EQ(all->status, 200);
+    EXPECT_EQ(all->request.path, "/events");
+    EXPECT_EQ(all->request.host, "here");
+    EXPECT_EQ(all->request.last_event_id, "a/7");
+    EXPECT_EQ(all->request.origin, "http://here");
+  }
+}
+
+TEST(Head, MayBeSoLongAndNotLonger) {
+  const std::string begin = "GET / HTTP/1.1\r\nHost: here\r\nX: ";
+  for (const std::size_t length : {kMostHead, kMostHead + 1}) {
+    const std::string text = begin + std::string(length - begin.size(), 'x') + "\r\n\r\n";
+    EXPECT_EQ(asked(text).status, length > kMostHead ? 431 : 200);
+    Head head;
+    std::optional<Asked> all;
+    for (std::size_t at = 0; at < text.size() && !all; ++at)
+      all = head.add(std::string_view(text).substr(at, 1));
+    ASSERT_TRUE(all.has_value());
+    EXPECT_EQ(all->status, length > kMostHead ? 431 : 200);
+  }
+}
+
+TEST(Head, OfNonsenseIsRefused) {
+  const auto status = [](const std::string& text) { return asked(text + "\r\n\r\n").status; };
+  for (const char* text :
+       {"", "GET", "GET / HTTP/1.1", "GET / HTTP/1.1\r\n: x\r\nHost: a", "GET / HTTP/1.1\r\nHost : a",
+        "GET here HTTP/1.1\r\nHost: a", "GET http://a/ HTTP/1.1\r\nHost: a",
+        "GET / HTTP/1.1\r\nHost: a\r\nhost: b", "GET / HTTP/1.1\r\nHost: a\r\nOrigin: b\r\nOrigin: c",
+        "GET /  HTTP/1.1\r\nHost: a"}) {
+    EXPECT_EQ(status(text), 400) << text;
+  }
+  EXPECT_EQ(status("PUT / HTTP/1.1\r\nHost: a"), 405);
+  EXPECT_EQ(status("GET / HTTP/3\r\nHost: a"), 505);
+  EXPECT_EQ(status("GET / HTTP/1.0\r\nHost: a"), 200);
 }
 
 }  // namespace

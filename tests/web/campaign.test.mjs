@@ -1,35 +1,19 @@
 // The page of a campaign in a browser.
 import assert from 'node:assert/strict';
 import {readFileSync, statSync, writeFileSync} from 'node:fs';
-import {after, afterEach, before, describe, test} from 'node:test';
-import {
-  accessibilityFaults,
-  drawn,
-  closePages,
-  launch,
-  openPage,
-  PHONE,
-  pictureOf,
-  tickOf,
-} from './browser.mjs';
-import {Folder, whisker, withoutOrigin} from './scenarios.mjs';
+import {describe, test} from 'node:test';
+import {accessibilityFaults, drawn, PHONE, pictureOf, tickOf} from './browser.mjs';
+import {inBrowser} from './in_browser.mjs';
+import {whisker, withoutOrigin} from './scenarios.mjs';
 
 const MISSIONS = ['campaign', 'u-trap', '--count', 12, '--planner', 'bug2'];
 
 describe('the page of a campaign', () => {
-  const folder = new Folder();
-  let browser;
-  let summary;
-  before(async () => {
+  const {folder, openPage} = inBrowser(() => {
     summary = JSON.parse(whisker(...MISSIONS, '--json', '--html', folder.at('campaign.html')));
-    browser = await launch();
   });
-  afterEach(() => closePages(browser));
-  after(async () => {
-    await browser?.close();
-    folder.remove();
-  });
-  const open = (hash = '', options = {}) => openPage(browser, folder.url('campaign.html', hash), options);
+  let summary;
+  const open = (hash = '', options = {}) => openPage(folder.url('campaign.html', hash), options);
 
   test('shows outcomes, spreads and ways', async () => {
     const {page, complaints} = await open();
@@ -56,7 +40,7 @@ describe('the page of a campaign', () => {
     const told = JSON.parse(whisker('campaign', ...noisy, '--json', '--html', file));
     assert.equal(told.truly_there.value, 0);
     assert.equal(told.reached.value, 1);
-    const {page, complaints} = await openPage(browser, folder.url('noisy.html'));
+    const {page, complaints} = await openPage(folder.url('noisy.html'));
     const rows = await page.locator('#shares tr').allTextContents();
     assert.match(rows[0], /^truly there00\.0 %/);
     const verdicts = page.locator('#replays tr td:nth-child(3)');
@@ -115,14 +99,14 @@ describe('the page of a campaign', () => {
       folder.at('hundred.csv'),
     );
     assert.ok(rows.length > 0 && statSync(file).size < 3e6, `${statSync(file).size} bytes`);
-    const {page, complaints} = await openPage(browser, folder.url('hundred.html'));
+    const {page, complaints} = await openPage(folder.url('hundred.html'));
     assert.equal(await page.locator('#replays tr').count(), 20);
     await page.click('#replays-all');
     assert.equal(await page.locator('#replays a').count(), 100);
     assert.equal(await page.textContent('#replays-note'), '');
     const trace = folder.trace('hundred');
     for (const i of [0, 19, 57, 99]) {
-      const mission = await openPage(browser, folder.url('hundred.html', `#run=${i}&t=99999`));
+      const mission = await openPage(folder.url('hundred.html', `#run=${i}&t=99999`));
       const {seed, t, x, result} = await mission.page.evaluate(() => {
         const {run, player} = window.whisker;
         return {
@@ -155,7 +139,7 @@ describe('the page of a campaign', () => {
       },
     );
     writeFileSync(folder.at('cut.html'), html);
-    const {page, complaints} = await openPage(browser, folder.url('cut.html'));
+    const {page, complaints} = await openPage(folder.url('cut.html'));
     assert.match(await page.textContent('#replays-note'), /room for 11 of 12 missions/);
     await page.evaluate(() =>
       Object.defineProperty(navigator, 'clipboard', {

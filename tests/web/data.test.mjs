@@ -1,8 +1,8 @@
 // The data in the page is the data of the trace.
 import assert from 'node:assert/strict';
-import {after, afterEach, before, describe, test} from 'node:test';
-import {closePages, launch, openPage} from './browser.mjs';
-import {Folder, U_TRAP, withoutOrigin} from './scenarios.mjs';
+import {describe, test} from 'node:test';
+import {inBrowser} from './in_browser.mjs';
+import {U_TRAP, withoutOrigin} from './scenarios.mjs';
 
 // Half a unit of the trace's last decimal, and a little for the arithmetic.
 const TOLERANCES = {
@@ -60,14 +60,7 @@ function decoded(page, ticks) {
 }
 
 describe('the decoded data', () => {
-  const folder = new Folder();
-  let browser;
-  before(async () => (browser = await launch()));
-  afterEach(() => closePages(browser));
-  after(async () => {
-    await browser?.close();
-    folder.remove();
-  });
+  const {folder, openPage} = inBrowser();
 
   const runs = {
     'u-trap': () => folder.run('u-trap', U_TRAP),
@@ -80,7 +73,7 @@ describe('the decoded data', () => {
     test(`of ${name} is that of its trace`, async () => {
       const result = drive();
       const trace = folder.trace(name);
-      const {page, complaints} = await openPage(browser, folder.url(`${name}.html`));
+      const {page, complaints} = await openPage(folder.url(`${name}.html`));
       const ticks = trace.map((_, i) => i).filter((i) => i % 97 === 0 || i === trace.length - 1);
       const rows = await decoded(page, ticks);
       let lost = 0;
@@ -112,7 +105,7 @@ describe('the decoded data', () => {
 
   test('rules weigh up to what the table answers', async () => {
     // docs/rules.md: the table is at most 1.4 % of the span off exact inference.
-    const {page} = await openPage(browser, folder.url('noise.html'));
+    const {page} = await openPage(folder.url('noise.html'));
     const rows = await page.evaluate(() => {
       const {run} = window.whisker;
       const {controller} = run.shared;
@@ -157,7 +150,7 @@ describe('the decoded data', () => {
   });
 
   test('the patch is clear under the body, whichever way one comes to a tick', async () => {
-    const {page} = await openPage(browser, folder.url('noise.html'));
+    const {page} = await openPage(folder.url('noise.html'));
     const counts = await page.evaluate(() => {
       const {run} = window.whisker;
       const {cell, radius} = run.info.robot;
@@ -189,7 +182,7 @@ describe('the decoded data', () => {
   });
 
   test('every state and reason has plain words', async () => {
-    const {page} = await openPage(browser, folder.url('u-trap.html'));
+    const {page} = await openPage(folder.url('u-trap.html'));
     const {modes, whys, faults, guides} = await page.evaluate(() => window.whisker.run.shared);
     const {DOES, BECAUSE, FAULTS, LED, sentence} = await import('./sources.mjs').then(({words}) => words());
     assert.deepEqual([...modes].sort(), Object.keys(DOES).sort());

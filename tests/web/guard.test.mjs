@@ -1,18 +1,9 @@
 // The page of a drive of the guard: what was asked, what was granted, and why.
 import assert from 'node:assert/strict';
-import {after, afterEach, before, describe, test} from 'node:test';
-import {
-  accessibilityFaults,
-  closePages,
-  drawn,
-  launch,
-  openPage,
-  PHONE,
-  pictureOf,
-  seek,
-  tickOf,
-} from './browser.mjs';
-import {Folder, U_TRAP, whisker, withoutOrigin} from './scenarios.mjs';
+import {describe, test} from 'node:test';
+import {accessibilityFaults, drawn, PHONE, pictureOf, seek, tickOf} from './browser.mjs';
+import {inBrowser} from './in_browser.mjs';
+import {U_TRAP, whisker, withoutOrigin} from './scenarios.mjs';
 import * as sources from './sources.mjs';
 
 // Half a unit of the trace's last decimal, and a little for the arithmetic.
@@ -75,27 +66,18 @@ test('every reason of the core has its words', async () => {
 });
 
 describe('the page of a drive of the guard', () => {
-  const folder = new Folder();
-  const results = {};
-  let browser;
-  const drive = (name, ...options) => {
-    const files = ['--html', folder.at(`${name}.html`), '--trace', folder.at(`${name}.csv`)];
-    results[name] = JSON.parse(whisker('guard', folder.at('world.toml'), '--json', ...files, ...options));
-  };
-  before(async () => {
+  const {folder, openPage} = inBrowser(() => {
     whisker('world', 'discs', '--seed', 1, '--out', folder.at('world.toml'));
     drive('sloppy', '--operator', 'sloppy');
     drive('hostile', '--operator', 'hostile');
     drive('bare', '--operator', 'blind', '--bare');
-    browser = await launch();
   });
-  afterEach(() => closePages(browser));
-  after(async () => {
-    await browser?.close();
-    folder.remove();
-  });
-  const open = (name, hash = '', options = {}) =>
-    openPage(browser, folder.url(`${name}.html`, hash), options);
+  const results = {};
+  const drive = (name, ...options) => {
+    const files = ['--html', folder.at(`${name}.html`), '--trace', folder.at(`${name}.csv`)];
+    results[name] = JSON.parse(whisker('guard', folder.at('world.toml'), '--json', ...files, ...options));
+  };
+  const open = (name, hash = '', options = {}) => openPage(folder.url(`${name}.html`, hash), options);
 
   for (const name of ['sloppy', 'hostile', 'bare']) {
     test(`${name}: what the page decodes is the trace`, async () => {

@@ -1,28 +1,20 @@
 // The addresses of the pages: as links that are made, copied and followed, and as links that somebody made to harm.
 import assert from 'node:assert/strict';
 import {join} from 'node:path';
-import {after, afterEach, before, describe, test} from 'node:test';
+import {describe, test} from 'node:test';
 import {deflateSync} from 'node:zlib';
-import {closePages, launch, openPage, seek} from './browser.mjs';
-import {Folder, ROOT, U_TRAP} from './scenarios.mjs';
+import {seek} from './browser.mjs';
+import {inBrowser} from './in_browser.mjs';
+import {ROOT, U_TRAP} from './scenarios.mjs';
 
 const PLAYGROUND = process.env.PLAYGROUND ?? join(ROOT, 'out/playground/index.html');
 
 describe('links', () => {
-  const folder = new Folder();
-  let browser;
-  before(async () => {
+  const {folder, openPage} = inBrowser(() => {
     folder.run('run', U_TRAP);
-    browser = await launch();
   });
-  afterEach(() => closePages(browser));
-  after(async () => {
-    await browser?.close();
-    folder.remove();
-  });
-  const openReplay = (hash = '') => openPage(browser, folder.url('run.html', hash));
-  const openPlayground = (hash) =>
-    openPage(browser, `file://${PLAYGROUND}${hash}`, {reducedMotion: 'reduce'});
+  const openReplay = (hash = '') => openPage(folder.url('run.html', hash));
+  const openPlayground = (hash) => openPage(`file://${PLAYGROUND}${hash}`, {reducedMotion: 'reduce'});
   const play = (page, look) => page.evaluate(`(({play}) => (${look}))(window.whisker)`);
 
   test('while it is scrubbed the address follows at a pace that browsers take, and ends where it stands', async () => {

@@ -4,19 +4,10 @@ import {once} from 'node:events';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {connect, createServer} from 'node:net';
 import {join} from 'node:path';
-import {after, afterEach, before, describe, test} from 'node:test';
-import {
-  accessibilityFaults,
-  closePages,
-  DESKTOP,
-  drawn,
-  launch,
-  openPage,
-  PHONE,
-  pictureOf,
-  tickOf,
-} from './browser.mjs';
-import {Folder, ROOT, Running, whisker} from './scenarios.mjs';
+import {afterEach, describe, test} from 'node:test';
+import {accessibilityFaults, DESKTOP, drawn, PHONE, pictureOf, tickOf} from './browser.mjs';
+import {inBrowser} from './in_browser.mjs';
+import {ROOT, Running, whisker} from './scenarios.mjs';
 
 // Lost frames are sent again after a while: the run takes some seconds, and is the same run.
 const SLOW = ['--drop', 1];
@@ -27,25 +18,15 @@ const state = (page, word) =>
   page.waitForFunction((w) => document.getElementById('live').dataset.state === w, word);
 
 describe('the live page', () => {
-  const folder = new Folder();
+  const {folder, openPage} = inBrowser(() => {
+    alone = folder.drive('trap', ['u-trap', '--seed', 7]);
+    whisker('world', 'rooms', '--seed', 3, '--out', rooms);
+  });
   const all = [];
-  let browser;
   let alone;
   const trap = folder.at('trap.toml');
   const rooms = folder.at('rooms.toml');
-  before(async () => {
-    alone = folder.drive('trap', ['u-trap', '--seed', 7]);
-    whisker('world', 'rooms', '--seed', 3, '--out', rooms);
-    browser = await launch();
-  });
-  afterEach(async () => {
-    await closePages(browser);
-    await Promise.all(all.splice(0).map((one) => one.stop('SIGKILL')));
-  });
-  after(async () => {
-    await browser?.close();
-    folder.remove();
-  });
+  afterEach(() => Promise.all(all.splice(0).map((one) => one.stop('SIGKILL'))));
   const start = (command, scenario, ...options) => {
     const planner = command === 'hil' ? ['--planner', 'skirt'] : [];
     const one = new Running(command, scenario, '--view', 0, '--json', ...planner, ...options);
@@ -56,7 +37,7 @@ describe('the live page', () => {
   const startLong = () => start('hil', rooms, '--realtime');
   const watch = async (one, options = {}) => {
     const server = await one.url();
-    return openPage(browser, server + (options.hash ?? ''), {server, ...options});
+    return openPage(server + (options.hash ?? ''), {server, ...options});
   };
   /** All ticks are there, each once and in order, and they are those of the run. */
   const assertWhole = async (page) => {
@@ -159,7 +140,7 @@ describe('the live page', () => {
     whisker('hil', trap, '--planner', 'skirt', '--html', folder.at('hil.html'));
     const html = readFileSync(folder.at('hil.html'), 'utf8');
     writeFileSync(folder.at('nameless.html'), html.replace('"planner":"skirt"', '"planner":null'));
-    const {page, complaints} = await openPage(browser, folder.url('nameless.html'));
+    const {page, complaints} = await openPage(folder.url('nameless.html'));
     assert.ok(await page.isHidden('#rule-of-progress'));
     assert.match(await page.textContent('#planner-of-progress'), /not known here/);
     assert.match(await page.textContent('#facts'), /plannernot known here/);
@@ -197,7 +178,7 @@ describe('the live page', () => {
     });
     await once(proxy.listen(0, '127.0.0.1'), 'listening');
     try {
-      const {page} = await openPage(browser, `http://127.0.0.1:${proxy.address().port}/`, {server: 'http:'});
+      const {page} = await openPage(`http://127.0.0.1:${proxy.address().port}/`, {server: 'http:'});
       await grown(page, 50);
       for (let i = 0; i < 2; ++i) {
         for (const end of open) end.destroy();

@@ -1,37 +1,19 @@
 // The map of the map planner on the replay page.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
-import {after, afterEach, before, describe, test} from 'node:test';
-import {
-  accessibilityFaults,
-  closePages,
-  DESKTOP,
-  drawn,
-  launch,
-  openPage,
-  PHONE,
-  pictureOf,
-  seek,
-} from './browser.mjs';
-import {Folder, whisker} from './scenarios.mjs';
+import {describe, test} from 'node:test';
+import {accessibilityFaults, DESKTOP, drawn, PHONE, pictureOf, seek} from './browser.mjs';
+import {inBrowser} from './in_browser.mjs';
+import {whisker} from './scenarios.mjs';
 
 const KEYS = ['map: seen free', 'suspect', 'occupied', 'planned path'];
 
 describe('the map on the replay page', () => {
-  const folder = new Folder();
-  let browser;
-  before(async () => {
+  const {folder, openPage} = inBrowser(() => {
     folder.drive('map', ['rooms', '--seed', 9], '--planner', 'map');
     folder.drive('drifting', ['rooms', '--seed', 4, '--noise'], '--planner', 'map', '--map-bytes', 1024);
-    browser = await launch();
   });
-  afterEach(() => closePages(browser));
-  after(async () => {
-    await browser?.close();
-    folder.remove();
-  });
-  const open = (name = 'map', hash = '', options = {}) =>
-    openPage(browser, folder.url(`${name}.html`, hash), options);
+  const open = (name = 'map', hash = '', options = {}) => openPage(folder.url(`${name}.html`, hash), options);
   const keys = (page) => page.locator('.map-key:visible').allTextContents();
 
   test('is said in the head, drawn, and hidden again', async () => {

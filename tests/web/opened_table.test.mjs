@@ -2,9 +2,10 @@
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {after, afterEach, before, describe, test} from 'node:test';
-import {accessibilityFaults, closePages, drawn, launch, openPage, PHONE, pictureOf} from './browser.mjs';
-import {Folder, ROOT, whisker} from './scenarios.mjs';
+import {describe, test} from 'node:test';
+import {accessibilityFaults, drawn, PHONE, pictureOf} from './browser.mjs';
+import {inBrowser} from './in_browser.mjs';
+import {ROOT, whisker} from './scenarios.mjs';
 import * as sources from './sources.mjs';
 
 const PAGE = process.env.PLAYGROUND ?? join(ROOT, 'out/playground/index.html');
@@ -12,27 +13,19 @@ const MODULE = process.env.PLAYGROUND_MODULE ?? join(ROOT, 'build/playground/hos
 const THESIS = join(ROOT, 'host/rules/examples/thesis.toml');
 
 describe('an opened table', () => {
-  const folder = new Folder();
-  const fits = folder.at('thesis.json');
-  // Its left turns are stronger than its right turns.
-  const oneSided = folder.at('one-sided.toml');
-  const other = folder.at('one-sided.json');
-  let browser;
-  before(async () => {
+  const {folder, openPage} = inBrowser(() => {
     whisker('rules', 'table', THESIS, '--out', fits);
     writeFileSync(oneSided, readFileSync(THESIS, 'utf8').replace('["TLVB", 1.5]', '["TLVB", 1.9]'));
     const table = JSON.parse(whisker('rules', 'table', oneSided));
     writeFileSync(other, JSON.stringify({...table, name: '<b>one\n#error sided'}));
-    browser = await launch();
   });
-  afterEach(() => closePages(browser));
-  after(async () => {
-    await browser?.close();
-    folder.remove();
-  });
+  const fits = folder.at('thesis.json');
+  // Its left turns are stronger than its right turns.
+  const oneSided = folder.at('one-sided.toml');
+  const other = folder.at('one-sided.json');
 
   const open = (hash, options = {}) =>
-    openPage(browser, `file://${PAGE}${hash}`, {reducedMotion: 'reduce', ...options});
+    openPage(`file://${PAGE}${hash}`, {reducedMotion: 'reduce', ...options});
   const play = (page, look) => page.evaluate(`(({play}) => (${look}))(window.whisker)`);
   const hashOf = (page) => play(page, 'play.runs[0].result.hash');
   /** By keyboard alone. */

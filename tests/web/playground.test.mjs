@@ -2,26 +2,18 @@
 import assert from 'node:assert/strict';
 import {readFileSync, statSync} from 'node:fs';
 import {join} from 'node:path';
-import {after, afterEach, before, describe, test} from 'node:test';
-import {accessibilityFaults, closePages, drawn, launch, openPage, PHONE, pictureOf} from './browser.mjs';
-import {Folder, ROOT, whisker} from './scenarios.mjs';
+import {describe, test} from 'node:test';
+import {accessibilityFaults, drawn, PHONE, pictureOf} from './browser.mjs';
+import {inBrowser} from './in_browser.mjs';
+import {ROOT, whisker} from './scenarios.mjs';
 
 const PAGE = process.env.PLAYGROUND ?? join(ROOT, 'out/playground/index.html');
 
 describe('the playground', () => {
-  const folder = new Folder();
-  let browser;
-  before(async () => {
-    browser = await launch();
-  });
-  afterEach(() => closePages(browser));
-  after(async () => {
-    await browser?.close();
-    folder.remove();
-  });
+  const {folder, openPage} = inBrowser();
   // It plays by itself unless the reader wants less motion.
   const open = (hash = '', options = {}) =>
-    openPage(browser, `file://${PAGE}${hash}`, {reducedMotion: 'reduce', ...options});
+    openPage(`file://${PAGE}${hash}`, {reducedMotion: 'reduce', ...options});
   const play = (page, look) => page.evaluate(`(({play, stage}) => (${look}))(window.whisker)`);
   const toTheEnd = async (page) => {
     await page.click('#finish');

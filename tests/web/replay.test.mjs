@@ -2,35 +2,17 @@
 import assert from 'node:assert/strict';
 import {readFileSync, statSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
-import {after, afterEach, before, describe, test} from 'node:test';
-import {
-  accessibilityFaults,
-  closePages,
-  DESKTOP,
-  drawn,
-  launch,
-  openPage,
-  PHONE,
-  pictureOf,
-  seek,
-  tickOf,
-} from './browser.mjs';
-import {Folder, ROOT, U_TRAP, whisker} from './scenarios.mjs';
+import {describe, test} from 'node:test';
+import {accessibilityFaults, DESKTOP, drawn, PHONE, pictureOf, seek, tickOf} from './browser.mjs';
+import {inBrowser} from './in_browser.mjs';
+import {ROOT, U_TRAP, whisker} from './scenarios.mjs';
 
 describe('the replay page', () => {
-  const folder = new Folder();
-  let browser;
-  let result;
-  before(async () => {
+  const {folder, openPage} = inBrowser(() => {
     result = folder.run('run', U_TRAP);
-    browser = await launch();
   });
-  afterEach(() => closePages(browser));
-  after(async () => {
-    await browser?.close();
-    folder.remove();
-  });
-  const open = (hash = '', options = {}) => openPage(browser, folder.url('run.html', hash), options);
+  let result;
+  const open = (hash = '', options = {}) => openPage(folder.url('run.html', hash), options);
 
   test('opens from a file, whole and without a complaint', async () => {
     const {page, complaints} = await open();
@@ -71,7 +53,7 @@ describe('the replay page', () => {
     const {page: without} = await open();
     assert.ok(await without.isHidden('#sigma'));
     folder.driveWithSigma('sigma');
-    const {page, complaints} = await openPage(browser, folder.url('sigma.html', '#t=30'));
+    const {page, complaints} = await openPage(folder.url('sigma.html', '#t=30'));
     const [along, across, turn] = await page.evaluate(() => {
       const {run, player} = window.whisker;
       return ['along_m', 'across_m', 'heading_rad'].map((part) => run.column(`sigma_${part}`)[player.tick]);
@@ -233,7 +215,7 @@ describe('the replay page', () => {
 
   test('nothing stands that moves', async () => {
     folder.drive('enclosed', ['enclosed', '--noise', '--seed', 2]);
-    const {page} = await openPage(browser, folder.url('enclosed.html', '#t=99999'));
+    const {page} = await openPage(folder.url('enclosed.html', '#t=99999'));
     assert.ok(parseFloat(await page.textContent('#now-speed')) > 0.1, 'it is still fast when it knows');
     assert.match(await page.textContent('#sentence'), /^Comes to a stand: the goal cannot be reached/);
   });
@@ -247,7 +229,7 @@ describe('the replay page', () => {
     );
     const {outcome} = folder.run('false_clear', scenario);
     assert.equal(outcome, 'contact');
-    const {page} = await openPage(browser, folder.url('false_clear.html', '#t=99'));
+    const {page} = await openPage(folder.url('false_clear.html', '#t=99'));
     const found = await page.evaluate(() => {
       const {run} = window.whisker;
       for (let tick = run.ticks - 1; tick > 0; --tick)
@@ -375,7 +357,7 @@ describe('the replay page', () => {
 
   test('a moving obstacle is where the simulator has it', async () => {
     folder.run('mover', join(ROOT, 'tests/cli/scenarios/crossing_mover.toml'));
-    const {page, complaints} = await openPage(browser, folder.url('mover.html', '#t=2'));
+    const {page, complaints} = await openPage(folder.url('mover.html', '#t=2'));
     const still = await pictureOf(page, 'world');
     await seek(page, 250);
     assert.notEqual((await pictureOf(page, 'world')).sum, still.sum);
@@ -391,7 +373,7 @@ describe('the replay page', () => {
   ]) {
     test(`opens the short run ${name} at its end and at its beginning`, async () => {
       folder.run(name, join(ROOT, `tests/cli/scenarios/${name}.toml`));
-      const {page, complaints} = await openPage(browser, folder.url(`${name}.html`, '#t=999'));
+      const {page, complaints} = await openPage(folder.url(`${name}.html`, '#t=999'));
       assert.match(await page.textContent('#verdict'), words);
       await page.click('#play');
       await page.waitForFunction(() => !window.whisker.player.playing);
@@ -421,7 +403,7 @@ describe('the replay page', () => {
       });
     const off = folder.run('off', join(ROOT, 'tests/cli/scenarios/bad_wheels.toml'));
     assert.equal(off.outcome, 'off_goal');
-    const {page, complaints} = await openPage(browser, folder.url('off.html', '#t=999'));
+    const {page, complaints} = await openPage(folder.url('off.html', '#t=999'));
     const words = `believes it is there; is ${off.final_distance_m.toFixed(2)} m off, after`;
     assert.ok((await page.textContent('#verdict')).startsWith(words));
     assert.ok(
@@ -445,7 +427,7 @@ describe('the replay page', () => {
     const log = folder.at('run.log');
     whisker('hil', U_TRAP, '--record', log);
     whisker('replay', log, '--html', folder.at('log.html'));
-    const {page, complaints} = await openPage(browser, folder.url('log.html', '#t=999'));
+    const {page, complaints} = await openPage(folder.url('log.html', '#t=999'));
     assert.match(await page.textContent('#verdict'), /^believes it is there after \d+\.\d s$/);
     assert.equal(await page.getAttribute('#verdict', 'data-outcome'), 'believed');
     assert.match(await page.textContent('#facts'), /from the goal at the endnot known here/);
@@ -456,7 +438,7 @@ describe('the replay page', () => {
     const long = folder.tenMinutes('long');
     assert.equal(long.ticks, 60001);
     assert.ok(statSync(folder.at('long.html')).size < 5e6);
-    const {page, complaints} = await openPage(browser, folder.url('long.html', '#t=599.99'));
+    const {page, complaints} = await openPage(folder.url('long.html', '#t=599.99'));
     assert.equal(await tickOf(page), 59999);
     assert.deepEqual(complaints, []);
   });

@@ -1,8 +1,9 @@
 // The page of a rule base.
 import assert from 'node:assert/strict';
-import {after, afterEach, before, describe, test} from 'node:test';
-import {accessibilityFaults, closePages, launch, openPage, PHONE} from './browser.mjs';
-import {Folder, ROOT, whisker} from './scenarios.mjs';
+import {describe, test} from 'node:test';
+import {accessibilityFaults, PHONE} from './browser.mjs';
+import {inBrowser} from './in_browser.mjs';
+import {ROOT, whisker} from './scenarios.mjs';
 
 const NAMES = ['thesis.toml', 'tip.fis', 'pendulum.fll', 'fan.fcl', 'follower.fis'];
 
@@ -10,23 +11,15 @@ const NAMES = ['thesis.toml', 'tip.fis', 'pendulum.fll', 'fan.fcl', 'follower.fi
 const SHARES = [0, 0.13, 0.5, 0.71, 1];
 
 describe('the page of a rule base', () => {
-  const folder = new Folder();
-  let browser;
-  before(async () => {
+  const {folder, openPage} = inBrowser(() => {
     for (const name of NAMES) {
       whisker('rules', 'show', `${ROOT}/host/rules/examples/${name}`, '--html', folder.at(`${name}.html`));
     }
-    browser = await launch();
-  });
-  afterEach(() => closePages(browser));
-  after(async () => {
-    await browser?.close();
-    folder.remove();
   });
 
   for (const name of NAMES) {
     test(`${name}: the table answers within its bound`, async () => {
-      const {page, complaints} = await openPage(browser, folder.url(`${name}.html`));
+      const {page, complaints} = await openPage(folder.url(`${name}.html`));
       const sliders = page.locator('#inputs input');
       const count = await sliders.count();
       const {outputs} = JSON.parse(await page.locator('#data').textContent());
@@ -64,7 +57,7 @@ describe('the page of a rule base', () => {
 
   test('is accessible, in the dark and on a phone, too', async () => {
     for (const options of [{}, {colorScheme: 'dark'}, {viewport: PHONE}]) {
-      const {page} = await openPage(browser, folder.url('thesis.toml.html'), options);
+      const {page} = await openPage(folder.url('thesis.toml.html'), options);
       const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
       assert.ok(wide <= 0, `${wide} px too wide`);
       const {width} = await page.locator('#inputs input').first().boundingBox();
