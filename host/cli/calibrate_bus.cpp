@@ -10,7 +10,7 @@
 #include "host/bus/fault_port.hpp"
 #include "host/calibration/collector.hpp"
 #include "host/calibration/spin.hpp"
-#include "host/cli/interrupt.hpp"
+#include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/hil/error_names.hpp"
 #include "host/hil/precedence.hpp"

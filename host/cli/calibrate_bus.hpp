@@ -4,7 +4,7 @@
 
 #include "firmware/params.hpp"
 #include "host/calibration/sample.hpp"
-#include "host/cli/bus_options.hpp"
+#include "host/cli/bus_run.hpp"
 #include "host/hil/line.hpp"
 
 namespace whisker::cli {

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/calibration/log.hpp"
-#include "host/cli/bus_options.hpp"
+#include "host/cli/bus_run.hpp"
 #include "host/cli/calibrate_bus.hpp"
 #include "host/cli/calibrate_output.hpp"
 #include "host/cli/commands.hpp"
@@ -213,48 +213,39 @@ void add_robot_calibrate(CLI::App& robot, int& status) {
   add_file(*cmd, "--log", o->log, "Analyse this log of a spin: a trace (CSV) or a candump log");
   add_bus(*cmd, o->bus);
   add_switch(*cmd, "--realtime", o->bus.real_time, "With --can: run before other processes");
-  cmd->add_option("--wall-heading", o->wall_deg,
-                  "With --log: the heading that faces the wall, in degrees; by default the log's first")
-      ->check(CLI::Range(-360.0, 360.0))
-      ->type_name("DEG");
+  within(
+      cmd->add_option("--wall-heading", o->wall_deg,
+                      "With --log: the heading that faces the wall, in degrees; by default the log's first"),
+      "DEG", -360.0, 360.0);
   add_file(*cmd, "--true", o->truth, "The simulated robot as it really is (TOML); by default as ROBOT");
-  cmd->add_option("--distance", o->distance, "From the robot's centre to the simulated wall, m")
-      ->transform(amount(kFarthestWall))
-      ->type_name("M");
-  cmd->add_option("--along", o->along_m,
-                  "Then drive so many metres to the right, along the wall, and turn once more:\nmeasures "
-                  "whether the body "
-                  "stood square to the wall")
-      ->transform(amount(kLongestAlong))
-      ->type_name("M");
-  cmd->add_option("--turned", o->turned_deg, "The simulated body stands so many degrees off square")
-      ->check(CLI::Range(-30.0, 30.0))
-      ->type_name("DEG");
-  cmd->add_option("--sigma", o->noise.range_sigma_m, "Standard deviation of a simulated distance, m")
-      ->transform(amount(1))
-      ->type_name("M");
-  cmd->add_option("--dropout", o->noise.range_dropout, "Probability that a simulated reading is lost")
-      ->transform(amount(1))
-      ->type_name("P");
-  cmd->add_option("--false-clear", o->noise.range_false_clear,
-                  "Probability that a simulated reading is wrongly clear")
-      ->transform(amount(1))
-      ->type_name("P");
-  cmd->add_option("--phantom", o->phantom, "Probability that a clear reading becomes an echo at 0.1 to 0.5 m")
-      ->transform(amount(1))
-      ->type_name("P");
-  cmd->add_option("--wheel-scale-sigma", o->noise.wheel_scale_sigma, "Scale error of the simulated wheels")
-      ->transform(amount(1))
-      ->type_name("S");
-  cmd->add_option("--seed", o->seed, "Of the simulated noise; 1 by default")
-      ->transform(whole_number())
-      ->type_name("S");
-  cmd->add_option("--count", o->count, "Measure so many random robots instead, and print the errors")
-      ->transform(whole_number(kMostTrials))
-      ->type_name("N");
-  cmd->add_option("--jobs", o->jobs, "Threads of --count; by default one a core")
-      ->check(CLI::Range(1, 256))
-      ->type_name("N");
+  amount(cmd->add_option("--distance", o->distance, "From the robot's centre to the simulated wall, m"), "M",
+         kFarthestWall);
+  amount(
+      cmd->add_option("--along", o->along_m,
+                      "Then drive so many metres to the right, along the wall, and turn once more:\nmeasures "
+                      "whether the body "
+                      "stood square to the wall"),
+      "M", kLongestAlong);
+  within(cmd->add_option("--turned", o->turned_deg, "The simulated body stands so many degrees off square"),
+         "DEG", -30.0, 30.0);
+  amount(cmd->add_option("--sigma", o->noise.range_sigma_m, "Standard deviation of a simulated distance, m"),
+         "M", 1);
+  amount(cmd->add_option("--dropout", o->noise.range_dropout, "Probability that a simulated reading is lost"),
+         "P", 1);
+  amount(cmd->add_option("--false-clear", o->noise.range_false_clear,
+                         "Probability that a simulated reading is wrongly clear"),
+         "P", 1);
+  amount(cmd->add_option("--phantom", o->phantom,
+                         "Probability that a clear reading becomes an echo at 0.1 to 0.5 m"),
+         "P", 1);
+  amount(cmd->add_option("--wheel-scale-sigma", o->noise.wheel_scale_sigma,
+                         "Scale error of the simulated wheels"),
+         "S", 1);
+  whole_number(cmd->add_option("--seed", o->seed, "Of the simulated noise; 1 by default"), "S");
+  whole_number(
+      cmd->add_option("--count", o->count, "Measure so many random robots instead, and print the errors"),
+      "N", kMostTrials);
+  within(cmd->add_option("--jobs", o->jobs, "Threads of --count; by default one a core"), "N", 1, 256);
   add_file(*cmd, "--trace", o->trace, "Write the simulated spin as CSV, one row per control tick");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->footer(kCalibrateFooter);

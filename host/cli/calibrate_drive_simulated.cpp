@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "host/cli/calibrate_drive_options.hpp"
+#include "host/cli/calibrate_drive_output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/report/file.hpp"
 #include "host/report/spin_svg.hpp"

@@ -148,15 +148,12 @@ void add_guard(CLI::App& app, int& status) {
                   "Otherwise who commands: perfect (default), sloppy, blind, joystick\nor hostile")
       ->check(CLI::IsMember({"perfect", "sloppy", "blind", "joystick", "hostile"}))
       ->type_name("NAME");
-  cmd->add_option("--seed", o->seed, "Seed of noise and operator, instead of the scenario's")
-      ->transform(whole_number())
-      ->type_name("N");
-  cmd->add_option("--vouch", o->vouched_m, "You vouch for this radius around the start, m; 0 by default")
-      ->transform(amount(kMostVouched_m))
-      ->type_name("R");
-  cmd->add_option("--time", o->time_s, "Ends after this time, s; 120 by default")
-      ->transform(amount(kMostSeconds))
-      ->type_name("T");
+  whole_number(cmd->add_option("--seed", o->seed, "Seed of noise and operator, instead of the scenario's"),
+               "N");
+  amount(
+      cmd->add_option("--vouch", o->vouched_m, "You vouch for this radius around the start, m; 0 by default"),
+      "R", kMostVouched_m);
+  amount(cmd->add_option("--time", o->time_s, "Ends after this time, s; 120 by default"), "T", kMostSeconds);
   add_switch(*cmd, "--bare", o->bare, "Without the guard: the wheels do what is asked");
   add_assist_rules(*cmd, o->table);
   add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");

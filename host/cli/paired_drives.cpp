@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/campaign/mission.hpp"
-#include "host/cli/many_runs.hpp"
+#include "host/cli/campaign_options.hpp"
 #include "host/cli/rules_choice.hpp"
 
 namespace whisker::cli {

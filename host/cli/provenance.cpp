@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "host/cli/version.hpp"
 #include "host/scenario/param_list.hpp"
 
 namespace whisker::cli {

@@ -9,6 +9,10 @@
 
 namespace whisker::cli {
 
+/// "0.1.0 (1b98848)": the version and the built commit, with "-dirty" if files differ from it; "unknown" if
+/// the sources are not in a git repository.
+std::string version();
+
 /// Version of the objects of --json: increases when a key changes its meaning, not for new keys.
 constexpr int kSchema = 1;
 

@@ -7,8 +7,8 @@
 
 #include "firmware/fuzzy/digest.hpp"
 #include "host/campaign/ordered.hpp"
+#include "host/cli/campaign_options.hpp"
 #include "host/cli/exit_status.hpp"
-#include "host/cli/many_runs.hpp"
 #include "host/cli/paired_drives.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/guard/campaign.hpp"
