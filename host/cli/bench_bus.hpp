@@ -7,8 +7,8 @@
 #include <string>
 
 #include "firmware/can/bus_guard.hpp"
-#include "host/bench/base_client.hpp"
 #include "host/bench/operator_client.hpp"
+#include "host/bench/param_client.hpp"
 #include "host/bench/seat.hpp"
 #include "host/bench/survey.hpp"
 #include "host/bus/fault_port.hpp"

@@ -10,7 +10,7 @@
 
 #include "firmware/can/table_hash.hpp"
 #include "firmware/planning/planner.hpp"
-#include "host/bench/operator_link.hpp"
+#include "host/bench/operator_client.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "host/bench/bus_run.hpp"
 #include "host/bench/bus_state.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/commands.hpp"

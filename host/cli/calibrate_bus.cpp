@@ -8,7 +8,7 @@
 #include "firmware/can/controller_node.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "host/bus/fault_port.hpp"
-#include "host/calibration/collector.hpp"
+#include "host/calibration/sample.hpp"
 #include "host/calibration/spin.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"

@@ -17,7 +17,6 @@
 #include "host/guard/drive.hpp"
 #include "host/guard/operators.hpp"
 #include "host/guard/recorded.hpp"
-#include "host/guard/result_json.hpp"
 #include "host/guard/trace.hpp"
 #include "host/page/guard_recording.hpp"
 #include "host/report/file.hpp"

@@ -14,7 +14,6 @@
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/guard/campaign.hpp"
-#include "host/guard/hostile_drive.hpp"
 #include "host/report/file.hpp"
 #include "host/scenario/load.hpp"
 #include "host/scenario/write.hpp"

@@ -11,7 +11,6 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/protocol/dbc.hpp"
 #include "host/protocol/page.hpp"
 #include "host/report/file.hpp"
 #include "host/report/table_svg.hpp"

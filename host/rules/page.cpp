@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "host/report/html.hpp"
+#include "host/report/file.hpp"
 #include "host/report/svg.hpp"
 #include "host/rules/findings.hpp"
 #include "host/rules/page_template.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/report/axes.hpp"
 #include "host/report/colour.hpp"
-#include "host/report/plot.hpp"
 #include "host/report/svg.hpp"
 
 namespace whisker::rules {

@@ -1,4 +1,4 @@
-#include "host/calibration/collector.hpp"
+#include "host/calibration/sample.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The accuracy over random mounts, skews, cones and incidences.
-#include "host/calibration/trials.hpp"
+#include "host/calibration/simulated.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "host/guard/hostile_drive.hpp"
+#include "host/guard/campaign.hpp"
 #include "host/guard/operators.hpp"
 #include "host/worlds/generate.hpp"
 #include "tests/effort.hpp"

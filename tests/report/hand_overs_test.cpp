@@ -1,4 +1,4 @@
-#include "host/report/hand_overs.hpp"
+#include "host/report/encounters.hpp"
 
 #include <gtest/gtest.h>
 
