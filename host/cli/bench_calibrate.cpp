@@ -8,8 +8,8 @@
 
 #include "host/calibration/drive_procedure.hpp"
 #include "host/cli/bench_bus.hpp"
+#include "host/cli/calibrate_bus.hpp"
 #include "host/cli/calibrate_drive_output.hpp"
-#include "host/cli/calibrate_missions.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
@@ -74,9 +74,7 @@ int execute(const BenchMission& o) {
   }
   report.steps.push_back(step);
   if (o.json) {
-    Provenance origin;
-    origin.robot_digest = robot_digest(report.before);
-    fmt::print("{}\n", with_provenance(drive_json(report), origin));
+    print_object(drive_json(report), {{}, {}, {}, robot_digest(report.before)});
   } else {
     fmt::print("{}", drive_words(report));
   }

@@ -113,7 +113,7 @@ int execute(const NodesOptions& o) {
   if (o.json) {
     Json json = {{"bus", bus.name()}, {"nodes", Json::array()}};
     for (const auto& [number, n] : nodes) json["nodes"].push_back(json_of(n, now_us));
-    fmt::print("{}\n", with_provenance(json.dump(), {}));
+    print_object(json.dump());
   } else {
     for (const auto& [number, n] : nodes) fmt::print("{}\n", line_of(n, now_us));
   }

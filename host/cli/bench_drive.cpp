@@ -45,7 +45,7 @@ void print(Verdict verdict, const std::string& detail, double time_s, bool json)
   if (json) {
     const nlohmann::ordered_json result = {
         {"outcome", report::outcome(verdict)}, {"detail", detail}, {"time_s", time_s}};
-    fmt::print("{}\n", with_provenance(result.dump(), {}));
+    print_object(result.dump());
   } else {
     fmt::print("{} ({}) by its own estimate, after {:.1f} s\n", report::outcome(verdict), detail, time_s);
   }
@@ -179,7 +179,7 @@ class Drive {
                                            {"fault", name(fault())},
                                            {"time_s", link_.time_s()},
                                            {"pose", nullptr}};
-      fmt::print("{}\n", with_provenance(json.dump(), {}));
+      print_object(json.dump());
       return;
     }
     fmt::print("{} after {:.2f} s, through the guard node\n",
@@ -260,11 +260,8 @@ int goal(const SeatOptions& o) {
   if (view) view->feed().end(result);
   result.min_clearance_m = std::numeric_limits<double>::quiet_NaN();  // unknown
   if (o.json) {
-    Provenance origin;
-    origin.planner = name(o.planner);
-    origin.rules_digest = rules_name(o.planner);
-    origin.robot_digest = robot_digest(run.scenario().robot);
-    fmt::print("{}\n", with_provenance(report::result_json(result, ""), origin));
+    print_object(report::result_json(result, ""),
+                 {{}, name(o.planner), {}, robot_digest(run.scenario().robot), rules_name(o.planner)});
   } else {
     fmt::print("{}{} by its own estimate, after {:.1f} s and {:.2f} m, {:.3f} m from the goal\n",
                report::outcome(result.verdict), result.detail.empty() ? "" : " (" + result.detail + ")",
@@ -330,7 +327,7 @@ int drive(const SeatOptions& o) {
         {"fault", name(s.health.fault)},
         {"time_s", seat.time_s()},
         {"pose", {{"x_m", s.pose.at.x.raw() / 1e6}, {"y_m", s.pose.at.y.raw() / 1e6}}}};
-    fmt::print("{}\n", with_provenance(json.dump(), {}));
+    print_object(json.dump());
   } else {
     fmt::print("{} after {:.2f} s, at {:.3f}, {:.3f} m by its own estimate\n",
                failed ? fmt::format("fault {}", name(s.health.fault)) : "ended", seat.time_s(),

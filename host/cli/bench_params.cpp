@@ -100,7 +100,7 @@ int get(const ParamOptions& o) {
                  bench::range_text(e, place), bench::value_text(e, usual[place].raw));
     }
   }
-  if (o.json) fmt::print("{}\n", with_provenance(json.dump(), {}));
+  if (o.json) print_object(json.dump());
   return 0;
 }
 
@@ -128,7 +128,7 @@ void print_written(const ParamOptions& o, const BenchBus& bus, const Params& fro
     }
   }
   if (o.json) {
-    fmt::print("{}\n", with_provenance(json.dump(), {}));
+    print_object(json.dump());
   } else if (json["written"].empty()) {
     fmt::print("the robot has these values already\n");
   }
@@ -277,7 +277,7 @@ int execute(const RulesOptions& o) {
     Json json = {{"bus", bus.name()}, {"robot", bus.robot()}, {"rules_hash", text(now)}};
     if (!now) json["rules_hash"] = nullptr;
     if (sends) json["kept"] = reply.kept != 0;
-    fmt::print("{}\n", with_provenance(json.dump(), {}));
+    print_object(json.dump());
   } else if (sends) {
     fmt::print("response table: {} -> {}, {}\n", text(before), text(now),
                reply.kept != 0 ? "kept for the next start" : "until the controller restarts");

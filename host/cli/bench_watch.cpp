@@ -14,8 +14,8 @@
 #include "host/cli/logged_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/hil/candump.hpp"
 #include "host/hil/error_names.hpp"
-#include "host/hil/recorder.hpp"
 #include "host/run/make_record.hpp"
 #include "host/scenario/load.hpp"
 

@@ -14,10 +14,10 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/hil/candump.hpp"
 #include "host/hil/controller_loop.hpp"
 #include "host/hil/host_rules.hpp"
 #include "host/hil/precedence.hpp"
-#include "host/hil/recorder.hpp"
 #include "host/hil/tap.hpp"
 #include "host/hil/wall_clock.hpp"
 

@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fmt/core.h>
@@ -13,6 +11,7 @@
 #include "host/cli/bus_run.hpp"
 #include "host/cli/calibrate_bus.hpp"
 #include "host/cli/calibrate_output.hpp"
+#include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
@@ -126,23 +125,12 @@ void check_use(const CalibrateOptions& o) {
 
 int many(const CalibrateOptions& o) {
   std::vector<calibration::TrialResult> all(o.count);
-  std::atomic<std::uint64_t> next{0};
-  const auto work = [&] {
-    for (std::uint64_t i = next++; i < o.count; i = next++) {
-      all[i] =
-          calibration::run(calibration::random_trial(o.noise, o.phantom.value_or(0), o.along_m, o.seed + i));
-    }
-  };
-  const unsigned cores = std::max(std::thread::hardware_concurrency(), 1U);
-  std::vector<std::thread> threads;
-  for (unsigned i = 1; i < (o.jobs > 0 ? static_cast<unsigned>(o.jobs) : cores); ++i)
-    threads.emplace_back(work);
-  work();
-  for (std::thread& t : threads) t.join();
+  in_parallel(o.count, o.jobs, [&](std::uint64_t i) {
+    all[i] =
+        calibration::run(calibration::random_trial(o.noise, o.phantom.value_or(0), o.along_m, o.seed + i));
+  });
   if (o.json) {
-    Provenance p;
-    p.seed = o.seed;
-    fmt::print("{}\n", with_provenance(trials_json(all), p));
+    print_object(trials_json(all), {o.seed});
   } else {
     fmt::print(
         "{} random robots, seeds {} to {}: noise {:.0f} mm, dropouts {:.0f} %, phantoms {:.0f} %, wheel "
@@ -166,11 +154,7 @@ int measure(const CalibrateOptions& o) {
   report.measured = calibration::calibrate(spun.sweep, params, o.wall_deg.value_or(spun.wall_deg));
   report.advice = calibration::advise(report.measured, params);
   if (o.json) {
-    Provenance p;
-    p.seed = o.seed;
-    p.robot_name = o.robot;
-    p.robot_digest = robot_digest(params);
-    fmt::print("{}\n", with_provenance(calibration_json(report), p));
+    print_object(calibration_json(report), {o.seed, {}, o.robot, robot_digest(params)});
   } else {
     std::FILE* const out = words_beside({o.trace, o.bus.record});
     fmt::print(out, "{}", calibration_words(report));

@@ -18,7 +18,6 @@
 #include "host/cli/bus_run.hpp"
 #include "host/cli/calibrate_bus.hpp"
 #include "host/cli/calibrate_drive_output.hpp"
-#include "host/cli/calibrate_missions.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
@@ -201,11 +200,8 @@ DriveRobot read_robot_of(const DriveOptions& o) {
 
 int print_drive(const DriveOptions& o, const DriveReport& report) {
   if (o.json) {
-    Provenance p;
-    if (report.truth) p.seed = o.seed;
-    p.robot_name = o.robot;
-    p.robot_digest = robot_digest(report.before);
-    fmt::print("{}\n", with_provenance(drive_json(report), p));
+    const auto seed = report.truth ? std::optional(o.seed) : std::nullopt;
+    print_object(drive_json(report), {seed, {}, o.robot, robot_digest(report.before)});
   } else {
     std::FILE* const out = words_beside({o.svg});
     fmt::print(out, "{}", drive_words(report));

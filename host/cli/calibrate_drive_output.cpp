@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "host/calibration/hand_measured.hpp"
+#include "host/cli/campaign_options.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/provenance.hpp"
+#include "host/report/file.hpp"
+#include "host/report/spin_svg.hpp"
+#include "host/scenario/load.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -85,6 +91,52 @@ std::map<std::string, int> troubles(const std::vector<DriveTrial>& trials) {
     }
   }
   return all;
+}
+
+calibration::WheelErrors errors_of(const Params& believed, const Params& real) {
+  const auto share = [&](calibration::Quantity q) {
+    return static_cast<double>(value_in(real, q)) / value_in(believed, q);
+  };
+  using calibration::Quantity;
+  return {share(Quantity::gyro_scale), share(Quantity::wheel_ratio), share(Quantity::counts_per_metre),
+          share(Quantity::track)};
+}
+
+report::SpinPicture picture_of(const calibration::SpinSeen& spin, const Params& params) {
+  constexpr double kDegrees = 360.0 / planning::RangeProfile::kTurn;
+  constexpr const char* kNames[] = {"left", "front", "right"};
+  report::SpinPicture picture;
+  picture.title = "The spin of a calibration";
+  picture.offset_deg = spin.offset_deg;
+  picture.window_deg = planning::ProfileMatch::kWindow * kDegrees;
+  picture.mismatch_mm = spin.mismatch_mm;
+  picture.range_m = params.rangefinders.max_range.raw() * 1e-6;
+  for (int i = 0; i < hal::kBeams; ++i) {
+    report::SpinPicture::Beam beam{kNames[i], {}, {}};
+    const auto take = [&](const planning::RangeProfile& from, std::vector<report::Sighting>& to) {
+      for (int k = 0; k < from.count(i); ++k) {
+        const auto& sample = from.at(i, k);
+        to.push_back({(sample.at - planning::ProfileMatch::kWindow) * kDegrees, sample.mm * 1e-3});
+      }
+    };
+    take(spin.first, beam.first);
+    take(spin.last, beam.last);
+    picture.beams.push_back(beam);
+  }
+  return picture;
+}
+
+DriveReport report_of(const DriveOptions& o, const DriveRobot& robot, const calibration::Procedure& done,
+                      const calibration::WheelErrors& errors, std::uint64_t seed) {
+  DriveReport report;
+  report.source = fmt::format("simulated robot, seed {}, spin in the scene {}", seed, o.scene);
+  report.robot = o.robot;
+  report.before = robot.params;
+  report.steps = done.steps;
+  report.values = done.values;
+  report.refused = done.refused;
+  report.truth = errors;
+  return report;
 }
 
 }  // namespace
@@ -195,6 +247,39 @@ std::string drive_trials_json(const std::vector<DriveTrial>& trials) {
   const Json json = {
       {"robots", trials.size()}, {"complete", complete}, {"values", values}, {"troubles", troubles(trials)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+int simulate_drive(const DriveOptions& o) {
+  const DriveRobot robot = read_robot_of(o);
+  calibration::WheelErrors errors = calibration::draw({}, o.seed);
+  if (!o.truth.empty()) {
+    Params real = robot.params;
+    apply_robot_file(real, o.truth);
+    errors = errors_of(robot.params, real);
+  }
+  const calibration::Procedure done =
+      calibration::play(robot.params, robot.sensor, robot.noise, errors, plan_of(o), o.seed);
+  if (!o.svg.empty()) report::write_file(o.svg, report::spin_svg(picture_of(done.spin, robot.params)));
+  return print_drive(o, report_of(o, robot, done, errors, o.seed));
+}
+
+int simulate_drives(const DriveOptions& o) {
+  const DriveRobot robot = read_robot_of(o);
+  std::vector<DriveTrial> all(o.count);
+  in_parallel(o.count, o.jobs, [&](std::uint64_t i) {
+    const std::uint64_t seed = o.seed + i;
+    const calibration::WheelErrors errors = calibration::draw({}, seed);
+    const calibration::Procedure done =
+        calibration::play(robot.params, robot.sensor, robot.noise, errors, plan_of(o), seed);
+    all[i] = {report_of(o, robot, done, errors, seed), done.complete()};
+  });
+  if (o.json) {
+    print_object(drive_trials_json(all), {o.seed, {}, o.robot, robot_digest(robot.params)});
+  } else {
+    fmt::print("{} robots, seeds {} to {}, spin in the scene {}\n\n{}", o.count, o.seed, o.seed + o.count - 1,
+               o.scene, drive_trials_words(all));
+  }
+  return 0;
 }
 
 }  // namespace whisker::cli

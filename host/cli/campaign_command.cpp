@@ -13,12 +13,10 @@
 #include <CLI/CLI.hpp>
 
 #include "host/campaign/failures.hpp"
-#include "host/campaign/merge.hpp"
 #include "host/campaign/mission.hpp"
 #include "host/campaign/random_robot.hpp"
 #include "host/campaign/row.hpp"
 #include "host/campaign/row_file.hpp"
-#include "host/campaign/scan.hpp"
 #include "host/campaign/summary.hpp"
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
@@ -93,7 +91,7 @@ void print(const CampaignOptions& o, const std::vector<campaign::Row>& rows, con
   if (rows.empty()) return;
   const campaign::Summary summary = campaign::summarize(rows);
   if (o.json) {
-    fmt::print("{}\n", with_provenance(campaign::summary_json(summary), provenance(o, chosen)));
+    print_object(campaign::summary_json(summary), provenance(o, chosen));
   } else {
     std::FILE* const out = words_beside({o.csv, o.html});
     fmt::print(out, "{}{}", campaign::summary_words(summary), campaign::failure_lines(rows));
@@ -181,9 +179,7 @@ int scan(const CampaignOptions& o) {
   if (!rows.empty()) {
     const campaign::Summary summary = campaign::summarize(rows);
     if (o.json) {
-      Provenance provenance;
-      provenance.seed = o.seed;
-      fmt::print("{}\n", with_provenance(campaign::scan_json(summary), provenance));
+      print_object(campaign::scan_json(summary), {o.seed});
     } else {
       fmt::print("{}", campaign::scan_words(summary));
     }

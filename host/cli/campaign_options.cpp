@@ -145,9 +145,7 @@ Missions missions(const CampaignOptions& o) {
     m.worlds = folder(o);
   }
   m.last = std::visit([&](const auto& worlds) { return count(o, worlds); }, m.worlds);
-  if (m.last == 0) throw UsageError("--count 0: nothing to do");
-  if (o.seed.value_or(1) > INT64_MAX - m.last)
-    throw UsageError("--seed and --count: seeds must be below 2^63");
+  check_seeds(m.last, o.seed.value_or(1));
   take_shard(m, o.shard);
   try {
     mission(m, m.first);
@@ -168,6 +166,22 @@ campaign::Mission mission(const Missions& m, std::uint64_t index) {
   if (!m.robot.empty()) apply_robot_file(mission.scenario, m.robot);
   bend_if_chosen(mission.scenario.robot, m.planner);
   return mission;
+}
+
+void in_parallel(std::uint64_t count, int jobs, const std::function<void(std::uint64_t)>& work) {
+  std::atomic<std::uint64_t> next{0};
+  const auto some = [&] {
+    for (std::uint64_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::thread> others;
+  for (int i = 1; i < threads(jobs); ++i) others.emplace_back(some);
+  some();
+  for (std::thread& t : others) t.join();
+}
+
+void check_seeds(std::uint64_t count, std::uint64_t seed) {
+  if (count == 0) throw UsageError("--count 0: nothing to do");
+  if (seed > INT64_MAX - count) throw UsageError("--seed and --count: seeds must be below 2^63");
 }
 
 bool make_many(std::uint64_t count, int jobs,

@@ -62,6 +62,12 @@ bool has_random_robots(const Missions& missions);
 /// The mission's scenario with the robot's parameters. Throws InputError if they do not fit.
 campaign::Mission mission(const Missions& missions, std::uint64_t index);
 
+/// Calls `work` with each number below `count`, on `jobs` threads (0: one per core). It must not throw.
+void in_parallel(std::uint64_t count, int jobs, const std::function<void(std::uint64_t)>& work);
+
+/// Seeds from `seed` on, one for each of `count`. Throws UsageError for none, or if one does not fit 63 bits.
+void check_seeds(std::uint64_t count, std::uint64_t seed);
+
 /// Makes `count` rows on `jobs` threads (0: one per core), with a progress line on a terminal. `take`
 /// receives each row in order. See campaign::Work. False: interrupted before the end.
 bool make_many(std::uint64_t count, int jobs,

@@ -121,11 +121,9 @@ int execute(const GuardOptions& o) {
     report::write_file(o.html, page::guard_page(recording.stored(setting, result)));
   }
   if (o.json) {
-    Provenance p;
-    p.seed = scenario.seed;
-    p.robot_name = robot_name(scenario.robot, o.robot, o.file);
-    p.robot_digest = robot_digest(scenario.robot);
-    fmt::print("{}\n", with_provenance(guard::result_json(result), p));
+    print_object(
+        guard::result_json(result),
+        {scenario.seed, {}, robot_name(scenario.robot, o.robot, o.file), robot_digest(scenario.robot)});
   } else {
     std::FILE* const out = words_beside({o.trace, o.html});
     print(result, out);

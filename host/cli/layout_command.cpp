@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/params/relations.hpp"
-#include "host/campaign/layout_score.hpp"
 #include "host/campaign/layouts.hpp"
 #include "host/campaign/mission.hpp"
 #include "host/cli/campaign_options.hpp"
@@ -278,20 +277,15 @@ bool drive_all(const LayoutOptions& o, LayoutTrade& t) {
 
 int execute(const LayoutOptions& o) {
   check_outputs({o.svg, o.out}, {o.robot}, o.json);
-  if (o.count == 0) throw UsageError("--count 0: nothing to do");
-  if (o.seed > INT64_MAX - o.count) throw UsageError("--seed and --count: seeds must be below 2^63");
+  check_seeds(o.count, o.seed);
   LayoutTrade trade = trade_of(o);
   if (!drive_all(o, trade)) return kInterrupted;
   if (!o.svg.empty()) report::write_file(o.svg, layout_picture(trade));
   if (!o.out.empty()) report::write_file(o.out, layout_robot_file(trade));
   if (o.json) {
-    Provenance p;
-    p.seed = o.seed;
-    p.planner = name(o.planner);
-    p.rules_digest = rules_name(o.planner);
-    p.robot_name = o.robot.empty() ? "reference" : o.robot;
-    p.robot_digest = robot_digest(trade.ranked.front().layout.robot);
-    fmt::print("{}\n", with_provenance(layout_json(trade), p));
+    print_object(layout_json(trade),
+                 {o.seed, name(o.planner), o.robot.empty() ? "reference" : o.robot,
+                  robot_digest(trade.ranked.front().layout.robot), rules_name(o.planner)});
     return 0;
   }
   std::FILE* const out = words_beside({o.svg, o.out});

@@ -19,6 +19,7 @@
 #include "host/report/result.hpp"
 #include "host/report/run_svg.hpp"
 #include "host/report/trace.hpp"
+#include "host/scenario/contact.hpp"
 #include "host/scenario/load.hpp"
 
 namespace whisker::cli {

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/campaign/meeting.hpp"
+#include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
@@ -60,8 +61,7 @@ campaign::MeetingCount drive(const MoversOptions& o, const Scenario& own, worlds
 }
 
 int execute(const MoversOptions& o) {
-  if (o.count == 0) throw UsageError("--count 0: nothing to do");
-  if (o.seed > INT64_MAX - o.count) throw UsageError("--seed and --count: seeds must be below 2^63");
+  check_seeds(o.count, o.seed);
   std::error_code error;
   if (!o.contacts.empty() && !std::filesystem::is_directory(o.contacts, error)) {
     throw UsageError(fmt::format("--contacts {}: no such folder", o.contacts));

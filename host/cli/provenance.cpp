@@ -63,4 +63,8 @@ std::string with_provenance(const std::string& json_object, const Provenance& p)
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+void print_object(const std::string& json_object, const Provenance& provenance) {
+  fmt::print("{}\n", with_provenance(json_object, provenance));
+}
+
 }  // namespace whisker::cli

@@ -104,7 +104,7 @@ void print_json(const hil::ReplayResult& r, const Provenance& provenance) {
   json["hash"] = fmt::format("{:016x}", r.hash);
   json["difference"] = r.difference;
   json["cut_line"] = r.cut;
-  fmt::print("{}\n", with_provenance(json.dump(), provenance));
+  print_object(json.dump(), provenance);
 }
 
 int execute(const ReplayOptions& o) {

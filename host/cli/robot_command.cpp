@@ -146,12 +146,9 @@ void print_json(const RobotOptions& o, const Params* params, const Json& violati
                      {"violations", violations},
                      {"warnings", warnings_json(warnings)},
                      {"drives", drives_json(drives)}};
-  Provenance provenance;
-  provenance.planner = name(o.planner);
-  provenance.rules_digest = rules_name(o.planner);
-  provenance.robot_name = o.file;
+  Provenance provenance{{}, name(o.planner), o.file, {}, rules_name(o.planner)};
   if (params != nullptr) provenance.robot_digest = robot_digest(*params);
-  fmt::print("{}\n", with_provenance(json.dump(-1, ' ', false, Json::error_handler_t::replace), provenance));
+  print_object(json.dump(-1, ' ', false, Json::error_handler_t::replace), provenance);
 }
 
 int execute(const RobotOptions& o) {

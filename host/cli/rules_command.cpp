@@ -21,7 +21,6 @@
 #include "host/rules/findings.hpp"
 #include "host/rules/header.hpp"
 #include "host/rules/page.hpp"
-#include "host/rules/picture.hpp"
 #include "host/rules/read.hpp"
 #include "host/scenario/text.hpp"
 

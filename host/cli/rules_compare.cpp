@@ -15,9 +15,9 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
-#include "host/cli/paired_drives.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/cli/table_search.hpp"
 #include "host/report/file.hpp"
 #include "host/rules/read.hpp"
 
@@ -72,10 +72,7 @@ int execute(const CompareOptions& o) {
   }
   const campaign::Comparison c = campaign::compare(pairs);
   if (o.campaign.json) {
-    Provenance p;
-    p.planner = name(chosen.planner);
-    p.seed = o.campaign.seed.value_or(1);
-    fmt::print("{}\n", with_provenance(json_of(o, c, kinds).dump(), p));
+    print_object(json_of(o, c, kinds).dump(), {o.campaign.seed.value_or(1), name(chosen.planner)});
   } else {
     fmt::print("A = {}, B = {}: {} worlds, planner {}\n", o.a, o.b, c.worlds, name(o.campaign.planner));
     print_comparison(stdout, c);

@@ -14,7 +14,6 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
-#include "host/cli/paired_drives.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/table_search.hpp"
 #include "host/report/file.hpp"
@@ -227,7 +226,7 @@ int execute(const SearchOptions& o) {
     p.seed = o.seed;
     if (!plan.assist) p.planner = name(o.campaign.planner);
     p.rules_digest = fmt::format("{:08x}", search.best().digest);
-    fmt::print("{}\n", with_provenance(search_json(plan, names, search, validation), p));
+    print_object(search_json(plan, names, search, validation), p);
   } else {
     if (validation) print_validation(out, plan, names, *validation);
     if (!validation) fmt::print(out, "no child was kept: the rules are the base's\n");

@@ -3,8 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include "host/campaign/layout_score.hpp"
-
 namespace whisker::campaign {
 namespace {
 

@@ -1,10 +1,9 @@
-#include "host/campaign/merge.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "host/campaign/row_text.hpp"
+#include "host/campaign/row_file.hpp"
 #include "host/scenario/error.hpp"
 #include "tests/campaign/rows.hpp"
 

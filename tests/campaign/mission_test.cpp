@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host/campaign/row_text.hpp"
+#include "host/campaign/row_file.hpp"
 #include "host/paths/shortest.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/world.hpp"

@@ -1,4 +1,4 @@
-#include "host/campaign/race.hpp"
+#include "host/campaign/comparison.hpp"
 
 #include <cmath>
 

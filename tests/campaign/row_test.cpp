@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "host/campaign/row_file.hpp"
-#include "host/campaign/row_text.hpp"
 #include "tests/campaign/rows.hpp"
 
 namespace whisker::campaign {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host/rules/read.hpp"
-#include "host/rules/rule_words.hpp"
+#include "host/rules/rule_text.hpp"
 
 namespace whisker::rules {
 namespace {
