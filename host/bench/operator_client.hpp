@@ -7,11 +7,69 @@
 
 #include "firmware/can/e2e.hpp"
 #include "firmware/can/mission.hpp"
+#include "hal/can_port.hpp"
 #include "host/bench/bus_state.hpp"
 #include "host/bench/param_client.hpp"
 #include "host/bench/survey.hpp"
+#include "host/guard/operator.hpp"
 
 namespace whisker::bench {
+
+/// An operator of this robot sent it, whole or not.
+bool from_operator(const hal::CanFrame& frame, int robot);
+
+/// Sends what a hand asks for. First it commands zero until the guard node is armed, and its vouch counts.
+/// It answers each GuardStatus, and sends at least every 20 ms, because a Velocity holds for 50 ms only.
+class OperatorLink {
+ public:
+  /// A wish of the hand holds for this long, as a command of whisker::Guard does by default.
+  static constexpr double kHold_s = 0.25;
+
+  /// vouched_m: the operator says that nothing stands within this distance of the body's centre; 0: nothing.
+  /// vouch_number: another one than that of the last operator. The hand must outlive the link; it sees no
+  /// pose, because the bus does not carry it.
+  OperatorLink(hal::CanPort& port, int robot, guard::Operator& hand, double vouched_m,
+               std::uint8_t vouch_number);
+
+  /// Every millisecond: takes the frames from the port, and sends what is due.
+  void poll(std::uint64_t now_us);
+  /// The hand may ask from now on: the guard node has the same table.
+  void trust_table() { trusted_ = true; }
+  /// From now on the wheels are asked to stand.
+  void end() { ended_ = true; }
+
+  /// The hand has commanded, or could have.
+  bool started() const { return first_tick_.has_value(); }
+  /// Seconds since then by the ticks of the base.
+  double time_s() const { return time_s_; }
+  /// Ticks of the robot in which the node was armed, until now.
+  std::uint64_t driven() const { return driven_; }
+  /// The wheels were commanded to stand.
+  bool stands() const;
+  /// Another operator of this robot sends.
+  bool disturbed() const { return disturbed_; }
+  const BusState& seen() const { return seen_; }
+
+ private:
+  void on_frame(const hal::CanFrame& frame);
+  bool steady() const;
+  guard::Twist wish();
+  void send_velocity();
+  void send_vouch();
+
+  hal::CanPort& port_;
+  const int robot_;
+  guard::Operator& hand_;
+  const double vouched_m_;
+  const std::uint8_t vouch_number_;
+  BusState seen_;
+  can::AliveSender velocities_, vouches_;
+  guard::Twist twist_;
+  std::optional<std::uint32_t> first_tick_;
+  std::uint64_t sent_us_ = 0, driven_ = 0;
+  double time_s_ = 0, next_s_ = 0, asked_s_ = 0;
+  bool due_ = true, trusted_ = false, ended_ = false, disturbed_ = false;
+};
 
 /// Commands the controller of a robot whose base is on the bus. The port must feed the survey, and no other
 /// operator of the robot may send: every call throws NoAnswer if one does.

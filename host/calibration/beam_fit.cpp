@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/calibration/wall_search.hpp"
+#include "host/calibration/wall_model.hpp"
 #include "host/scenario/bearing.hpp"
 
 namespace whisker::calibration {

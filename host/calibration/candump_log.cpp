@@ -8,8 +8,8 @@
 #include "firmware/can/headers.hpp"
 #include "firmware/can/input_set.hpp"
 #include "firmware/localization/odometry.hpp"
-#include "host/calibration/collector.hpp"
 #include "host/calibration/log.hpp"
+#include "host/calibration/sample.hpp"
 #include "host/hil/candump.hpp"
 #include "host/scenario/error.hpp"
 

@@ -5,10 +5,11 @@
 #include "host/campaign/motion_count.hpp"
 #include "host/paths/shortest.hpp"
 #include "host/run/runner.hpp"
+#include "host/run/spec.hpp"
+#include "host/scanner/reference_path.hpp"
 #include "host/scenario/world.hpp"
 
 namespace whisker::campaign {
-
 Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop, double way_radius_m,
           const std::function<void(const TickRecord&)>& also) {
   MotionCount count(scenario.robot.body.track.raw() * 1e-6);
@@ -45,6 +46,19 @@ Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>
   row.hash = result.hash;
   row.detail = result.detail;
   row.planner = name(planner);
+  return row;
+}
+
+Row scan(const Scenario& scenario) {
+  const scanner::ReferencePath reference =
+      scanner::drive(make_world(scenario), scenario.start.at, scenario.goal.at, kWayRadius,
+                     robot_spec(scenario).beams[hal::kFront].max_range);
+  Row row;
+  row.seed = scenario.seed;
+  row.verdict = reference.reached ? Verdict::reached : Verdict::unreachable;
+  row.path_m = rounded(reference.driven_m);
+  if (reference.shortest_m) row.shortest_m = rounded(*reference.shortest_m);
+  row.planner = "scanner";
   return row;
 }
 

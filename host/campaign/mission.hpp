@@ -2,9 +2,11 @@
 
 #include <atomic>
 #include <functional>
+#include <string>
 
 #include "host/campaign/ordered.hpp"
 #include "host/campaign/row.hpp"
+#include "host/campaign/summary.hpp"
 #include "host/run/planners.hpp"
 #include "host/scenario/scenario.hpp"
 
@@ -17,5 +19,13 @@ constexpr double kWayRadius = 0.10;  ///< m: the shortest path is for a disc of 
 /// shortest path is measured. also: called with the record of each tick.
 Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>& stop,
           double way_radius_m = kWayRadius, const std::function<void(const TickRecord&)>& also = {});
+
+/// The reference of a body of kWayRadius with the omniscient reference at the range of this robot's beams,
+/// see host/scanner/reference_path.hpp. Sets only seed, verdict, path_m, shortest_m and planner ("scanner").
+Row scan(const Scenario& scenario);
+
+/// As summary_words and summary_json, but only with the figures of these rows.
+std::string scan_words(const Summary& summary);
+std::string scan_json(const Summary& summary);
 
 }  // namespace whisker::campaign

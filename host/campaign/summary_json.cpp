@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "host/campaign/scan.hpp"
+#include "host/campaign/mission.hpp"
 #include "host/campaign/summary.hpp"
 
 namespace whisker::campaign {

@@ -7,12 +7,13 @@
 #include <string>
 
 #include "firmware/can/bus_guard.hpp"
-#include "host/bench/base_client.hpp"
 #include "host/bench/operator_client.hpp"
+#include "host/bench/param_client.hpp"
+#include "host/bench/seat.hpp"
 #include "host/bench/survey.hpp"
 #include "host/bus/fault_port.hpp"
-#include "host/cli/bus_options.hpp"
-#include "host/cli/interrupt.hpp"
+#include "host/cli/bus_run.hpp"
+#include "host/cli/output.hpp"
 #include "host/hil/line.hpp"
 #include "host/hil/wall_clock.hpp"
 
@@ -34,6 +35,9 @@ struct BenchChoice {
 void add_bench_line(CLI::App& app, BenchChoice& choice);
 /// The same with --node.
 void add_bench_bus(CLI::App& app, BenchChoice& choice);
+
+/// The status of `run`; kInterrupted after an interruption.
+int bench_status(const std::function<int()>& run);
 
 /// Opened by the constructor. Waits throw bench::NoAnswer and bench::Interrupted.
 class BenchBus {
@@ -92,5 +96,14 @@ class BenchBus {
   bench::SurveyPort port_;
   can::BusGuard guard_;
 };
+
+/// After listening for a while: the controller's place is free. Throws bench::NoAnswer if the robot has a
+/// controller, or no base.
+void check_place(BenchBus& bus, const BenchChoice& choice);
+
+/// Until `over` for half a second, or the time is over. Throws bench::NoAnswer if the base gives no order, or
+/// stops for longer than the time-out, and bench::Interrupted. Prints what it waits for on standard error.
+void sit(BenchBus& bus, const BenchChoice& choice, bench::Seat& seat, double for_s,
+         const std::function<bool()>& over, const std::function<bool()>& interrupted);
 
 }  // namespace whisker::cli

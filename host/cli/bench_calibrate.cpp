@@ -7,10 +7,10 @@
 #include <CLI/CLI.hpp>
 
 #include "host/calibration/drive_procedure.hpp"
-#include "host/cli/bench_commands.hpp"
-#include "host/cli/bench_seat.hpp"
+#include "host/cli/bench_bus.hpp"
+#include "host/cli/calibrate_bus.hpp"
 #include "host/cli/calibrate_drive_output.hpp"
-#include "host/cli/calibrate_missions.hpp"
+#include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/provenance.hpp"
@@ -74,9 +74,7 @@ int execute(const BenchMission& o) {
   }
   report.steps.push_back(step);
   if (o.json) {
-    Provenance origin;
-    origin.robot_digest = robot_digest(report.before);
-    fmt::print("{}\n", with_provenance(drive_json(report), origin));
+    print_object(drive_json(report), {{}, {}, {}, robot_digest(report.before)});
   } else {
     fmt::print("{}", drive_words(report));
   }
@@ -91,13 +89,11 @@ void add_bench_calibrate(CLI::App& bench, int& status) {
       "calibrate", "Measure wheels and gyro of a real base, with the core on this computer");
   add_name(*cmd, "MISSION", o->mission, "spin, straight, tape, square-left or square-right")->required();
   add_bench_bus(*cmd, o->bus);
-  cmd->add_option("--length", o->length_m,
-                  "Of a drive or the side of a square, m; by default\nstraight 3, tape 5, square 1")
-      ->check(CLI::Range(0.5, 20.0))
-      ->type_name("M");
-  cmd->add_option("--for", o->for_s, "End after this time, s; 600 by default")
-      ->transform(amount(BenchBus::kMost_s))
-      ->type_name("S");
+  within(cmd->add_option("--length", o->length_m,
+                         "Of a drive or the side of a square, m; by default\nstraight 3, tape 5, square 1"),
+         "M", 0.5, 20.0);
+  amount(cmd->add_option("--for", o->for_s, "End after this time, s; 600 by default"), "S",
+         BenchBus::kMost_s);
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->callback([o, &status] { status = bench_status([&] { return execute(*o); }); });
 }

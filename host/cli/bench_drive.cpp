@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -7,12 +8,11 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "host/bench/operator_link.hpp"
+#include "firmware/can/table_hash.hpp"
+#include "firmware/planning/planner.hpp"
+#include "host/bench/operator_client.hpp"
 #include "host/cli/bench_bus.hpp"
-#include "host/cli/bench_commands.hpp"
-#include "host/cli/bench_goal.hpp"
-#include "host/cli/bench_operator.hpp"
-#include "host/cli/bench_seat.hpp"
+#include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/keys.hpp"
 #include "host/cli/live_view.hpp"
@@ -21,13 +21,185 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/guard/operator.hpp"
 #include "host/guard/recorded.hpp"
+#include "host/hil/error_names.hpp"
+#include "host/hil/overheard.hpp"
 #include "host/hil/planners.hpp"
 #include "host/report/result.hpp"
 #include "host/run/make_record.hpp"
 
 namespace whisker::cli {
 namespace {
+
+struct HandDrive {
+  guard::Operator& hand;
+  std::function<bool(double t_s)> done;  ///< the hand has no more to ask
+  double vouched_m = 0;
+  double for_s = 600;
+  bool shown = false;  ///< a line on the terminal says what is granted
+  bool json = false;
+};
+
+void print(Verdict verdict, const std::string& detail, double time_s, bool json) {
+  if (json) {
+    const nlohmann::ordered_json result = {
+        {"outcome", report::outcome(verdict)}, {"detail", detail}, {"time_s", time_s}};
+    print_object(result.dump());
+  } else {
+    fmt::print("{} ({}) by its own estimate, after {:.1f} s\n", report::outcome(verdict), detail, time_s);
+  }
+}
+
+/// Orders the goal as an operator, and follows the drive. Returns the exit status. After for_s, and after an
+/// interruption, it cancels. Throws bench::NoAnswer.
+int drive_through(BenchBus& bus, const planning::Goal& goal, double for_s, bool json) {
+  const auto client = bus.third_party();
+  client->drive_to(goal);
+  fmt::print(stderr, "robot {} on {}: drives\n", bus.robot(), bus.name());
+  std::optional<can::NavStatus> told;
+  while (!(told = client->ended())) {
+    const bool interrupted = bus.interrupt().noted();
+    if (interrupted || client->time_s() >= for_s) {
+      client->cancel();
+      if (interrupted) throw bench::Interrupted("interrupted");
+      print(Verdict::gave_up, "time_limit", client->time_s(), json);
+      return exit_status(Verdict::gave_up);
+    }
+    bus.clock().wait_a_ms();
+  }
+  const Status status = hil::status_of(*told);
+  if (status.health.fault != Fault::none) {
+    print(Verdict::fault, name(status.health.fault), client->time_s(), json);
+    return exit_status(Verdict::fault);
+  }
+  const auto verdict = verdict_of(status.decision.outcome);
+  if (!verdict) throw bench::NoAnswer("the goal was cancelled");
+  print(*verdict, planning::name(status.decision.why), client->time_s(), json);
+  return exit_status(*verdict);
+}
+
+class Drive {
+ public:
+  Drive(BenchBus& bus, const BenchChoice& choice, const HandDrive& drive)
+      : bus_(bus),
+        choice_(choice),
+        drive_(drive),
+        link_(bus.port(), bus.robot(), drive.hand, drive.vouched_m,
+              static_cast<std::uint8_t>(choice.bus.identity().boot)) {}
+
+  int run() {
+    start_us_ = alive_us_ = bus_.clock().now_us();
+    while (!poll()) bus_.clock().wait_a_ms();
+    line_.show("");
+    print();
+    return failed() ? kFault : bus_.interrupt().noted() ? kInterrupted : 0;
+  }
+
+ private:
+  const bench::SeenNode* node() const { return bus_.survey().find(bus_.robot(), can::Party::controller); }
+  double since_s(std::uint64_t then_us) {
+    return static_cast<double>(bus_.clock().now_us() - then_us) * 1e-6;
+  }
+  Fault fault() const {
+    const auto& status = link_.seen().status;
+    return status && status->fault < kFaults ? static_cast<Fault>(status->fault) : Fault::none;
+  }
+  bool failed() const { return link_.started() && fault() != Fault::none; }
+
+  /// True: it is over.
+  bool poll() {
+    link_.poll(bus_.clock().now_us());
+    check_table();
+    if (link_.disturbed()) {
+      throw bench::NoAnswer(fmt::format("{}: another operator drives robot {}", bus_.name(), bus_.robot()));
+    }
+    tell();
+    const bool interrupted = bus_.interrupt().noted();
+    if (interrupted && !link_.started()) throw bench::Interrupted("interrupted");
+    const bool ends =
+        interrupted || (link_.started() && drive_.done(link_.time_s())) || link_.time_s() >= drive_.for_s;
+    if (ends) link_.end();
+    if (failed() || (ends && link_.stands())) return true;
+    check_patience();
+    return false;
+  }
+
+  void check_table() {
+    if (!node()->table_hash) return;
+    if (*node()->table_hash != can::kTableHash) {
+      throw bench::NoAnswer(fmt::format("{}: the guard node speaks with the table {:08x}, not {:08x}",
+                                        bus_.name(), *node()->table_hash, can::kTableHash));
+    }
+    link_.trust_table();
+  }
+
+  std::string words() {
+    if (!bus_.alive(can::Party::controller)) return "not heard";
+    const can::Heartbeat& beat = node()->beat;
+    switch (beat.state) {
+      case can::NodeState::off_bus:
+      case can::NodeState::waiting: return "waits for the base";
+      case can::NodeState::ready: return "waits for the base's order";
+      case can::NodeState::running: break;
+      case can::NodeState::safe_stop: return "safe stop: " + hil::error_names(beat.errors);
+      case can::NodeState::e_stopped: return "E-stop";
+    }
+    const auto& guard = link_.seen().guard;
+    return guard && guard->armed != 0 ? "drives" : "waits until nothing is asked of it";
+  }
+
+  void tell() {
+    std::string now = words();
+    if (now != said_) fmt::print(stderr, "guard {} on {}: {}\n", bus_.robot(), bus_.name(), now);
+    said_ = std::move(now);
+    const auto& guard = link_.seen().guard;
+    if (!drive_.shown || !link_.started() || !guard) return;
+    line_.show(fmt::format("granted {:3} % {:3} %, {:<16}", guard->granted_forward, guard->granted_turning,
+                           can::kGuardReasonWords[guard->reason]));
+  }
+
+  void check_patience() {
+    const bool drove = link_.driven() != driven_;
+    driven_ = link_.driven();
+    const bool there = bus_.alive(can::Party::controller);
+    // Who is held up sends no heartbeat in time, but what it drives is heard.
+    const bool drives = said_ == "drives" || said_ == "not heard";
+    if (drives ? drove : there && !link_.started()) alive_us_ = bus_.clock().now_us();
+    double waited_s = since_s(alive_us_);
+    if (!link_.started() && since_s(start_us_) >= drive_.for_s) waited_s = drive_.for_s;
+    if (waited_s < choice_.timeout_s && waited_s < drive_.for_s) return;
+    throw bench::NoAnswer(fmt::format("{}: the guard node of robot {}: {} for {:.3g} s", bus_.name(),
+                                      bus_.robot(), said_, waited_s));
+  }
+
+  void print() const {
+    if (drive_.json) {
+      const nlohmann::ordered_json json = {{"outcome", failed() ? "fault" : "ended"},
+                                           {"fault", name(fault())},
+                                           {"time_s", link_.time_s()},
+                                           {"pose", nullptr}};
+      print_object(json.dump());
+      return;
+    }
+    fmt::print("{} after {:.2f} s, through the guard node\n",
+               failed() ? fmt::format("fault {}", name(fault())) : "ended", link_.time_s());
+  }
+
+  BenchBus& bus_;
+  const BenchChoice& choice_;
+  const HandDrive& drive_;
+  bench::OperatorLink link_;
+  ProgressLine line_;
+  std::string said_;
+  std::uint64_t start_us_ = 0, alive_us_ = 0, driven_ = 0;
+};
+
+/// Returns the exit status. Throws bench::NoAnswer if the guard node has another table, another operator
+/// sends, or the robot may not drive for longer than the time-out once it has driven.
+int operate(BenchBus& bus, const BenchChoice& choice, const HandDrive& drive) {
+  return Drive(bus, choice, drive).run();
+}
 
 constexpr double kFarthest_m = 1000;
 
@@ -88,11 +260,8 @@ int goal(const SeatOptions& o) {
   if (view) view->feed().end(result);
   result.min_clearance_m = std::numeric_limits<double>::quiet_NaN();  // unknown
   if (o.json) {
-    Provenance origin;
-    origin.planner = name(o.planner);
-    origin.rules_digest = rules_name(o.planner);
-    origin.robot_digest = robot_digest(run.scenario().robot);
-    fmt::print("{}\n", with_provenance(report::result_json(result, ""), origin));
+    print_object(report::result_json(result, ""),
+                 {{}, name(o.planner), {}, robot_digest(run.scenario().robot), rules_name(o.planner)});
   } else {
     fmt::print("{}{} by its own estimate, after {:.1f} s and {:.2f} m, {:.3f} m from the goal\n",
                report::outcome(result.verdict), result.detail.empty() ? "" : " (" + result.detail + ")",
@@ -158,7 +327,7 @@ int drive(const SeatOptions& o) {
         {"fault", name(s.health.fault)},
         {"time_s", seat.time_s()},
         {"pose", {{"x_m", s.pose.at.x.raw() / 1e6}, {"y_m", s.pose.at.y.raw() / 1e6}}}};
-    fmt::print("{}\n", with_provenance(json.dump(), {}));
+    print_object(json.dump());
   } else {
     fmt::print("{} after {:.2f} s, at {:.3f}, {:.3f} m by its own estimate\n",
                failed ? fmt::format("fault {}", name(s.health.fault)) : "ended", seat.time_s(),
@@ -176,12 +345,10 @@ void add_bench_drive(CLI::App& bench, int& status) {
   cmd->add_option("X", goes->x_m, "Goal in the frame of the base's start, m")->required()->type_name("X");
   cmd->add_option("Y", goes->y_m, "The same")->required()->type_name("Y");
   add_bench_bus(*cmd, goes->bus);
-  cmd->add_option("--tolerance", goes->tolerance_m, "Reached within this distance, m; 0.1 by default")
-      ->transform(amount(10))
-      ->type_name("M");
-  cmd->add_option("--for", goes->for_s, "End after this time, s; 600 by default")
-      ->transform(amount(BenchBus::kMost_s))
-      ->type_name("S");
+  amount(cmd->add_option("--tolerance", goes->tolerance_m, "Reached within this distance, m; 0.1 by default"),
+         "M", 10);
+  amount(cmd->add_option("--for", goes->for_s, "End after this time, s; 600 by default"), "S",
+         BenchBus::kMost_s);
   add_planner(*cmd, goes->planner);
   add_view(*cmd, goes->view);
   add_switch(*cmd, "--json", goes->json, "Print the result as one JSON object and nothing else");
@@ -195,18 +362,13 @@ void add_bench_drive(CLI::App& bench, int& status) {
   add_bench_bus(*cmd, drives->bus);
   add_switch(*cmd, "--keys", drives->keys, "With the arrow keys; q ends");
   add_file(*cmd, "--commands", drives->commands, "Commands from this CSV file, or - : t_s,v_mps,omega_radps");
-  cmd->add_option("--speed", drives->speed_mps, "Of the keys ahead, m/s; 0.3 by default")
-      ->transform(amount(3.2))
-      ->type_name("V");
-  cmd->add_option("--turn", drives->turn_radps, "Of the keys aside, rad/s; 1.5 by default")
-      ->transform(amount(20))
-      ->type_name("W");
-  cmd->add_option("--vouch", drives->vouched_m, "You vouch for this radius around the start, m; 0 by default")
-      ->transform(amount(10))
-      ->type_name("R");
-  cmd->add_option("--for", drives->for_s, "End after this time, s; 600 by default")
-      ->transform(amount(BenchBus::kMost_s))
-      ->type_name("S");
+  amount(cmd->add_option("--speed", drives->speed_mps, "Of the keys ahead, m/s; 0.3 by default"), "V", 3.2);
+  amount(cmd->add_option("--turn", drives->turn_radps, "Of the keys aside, rad/s; 1.5 by default"), "W", 20);
+  amount(cmd->add_option("--vouch", drives->vouched_m,
+                         "You vouch for this radius around the start, m; 0 by default"),
+         "R", 10);
+  amount(cmd->add_option("--for", drives->for_s, "End after this time, s; 600 by default"), "S",
+         BenchBus::kMost_s);
   add_switch(*cmd, "--json", drives->json, "Print the result as one JSON object and nothing else");
   cmd->callback([o = drives, &status] { status = bench_status([&] { return drive(*o); }); });
 }

@@ -6,17 +6,16 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "host/bench/bus_run.hpp"
 #include "host/bench/bus_state.hpp"
 #include "host/cli/bench_bus.hpp"
-#include "host/cli/bench_commands.hpp"
+#include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/live_view.hpp"
 #include "host/cli/logged_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
+#include "host/hil/candump.hpp"
 #include "host/hil/error_names.hpp"
-#include "host/hil/recorder.hpp"
 #include "host/run/make_record.hpp"
 #include "host/scenario/load.hpp"
 
@@ -218,9 +217,7 @@ CLI::App* add(CLI::App& bench, int& status, const char* name, const char* about,
               const std::shared_ptr<WatchOptions>& o, int (*execute)(const WatchOptions&)) {
   CLI::App* cmd = bench.add_subcommand(name, about);
   add_bench_bus(*cmd, o->bus);
-  cmd->add_option("--for", o->for_s, "End after this time, s; 60 by default")
-      ->transform(amount(BenchBus::kMost_s))
-      ->type_name("S");
+  amount(cmd->add_option("--for", o->for_s, "End after this time, s; 60 by default"), "S", BenchBus::kMost_s);
   cmd->callback([o, execute, &status] { status = bench_status([&] { return execute(*o); }); });
   return cmd;
 }
@@ -231,9 +228,8 @@ void add_bench_watch(CLI::App& bench, int& status) {
   const auto watches = std::make_shared<WatchOptions>();
   CLI::App* cmd =
       add(bench, status, "watch", "Print what the robot does: a line at each change", watches, watch);
-  cmd->add_option("--every", watches->every_s, "And a line after this time, s; 1 by default")
-      ->transform(amount(BenchBus::kMost_s))
-      ->type_name("S");
+  amount(cmd->add_option("--every", watches->every_s, "And a line after this time, s; 1 by default"), "S",
+         BenchBus::kMost_s);
   add_file(*cmd, "--robot", watches->robot, "Parameters of the robot (TOML), for the page");
   add_view(*cmd, watches->view);
   add_switch(*cmd, "--json", watches->json, "Print one JSON object a line");

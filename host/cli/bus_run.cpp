@@ -2,20 +2,41 @@
 
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <utility>
 
-#include <fmt/core.h>
+#include <unistd.h>
 
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include "firmware/can/ids.hpp"
 #include "host/cli/exit_status.hpp"
-#include "host/cli/interrupt.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
+#include "host/hil/candump.hpp"
 #include "host/hil/controller_loop.hpp"
+#include "host/hil/host_rules.hpp"
 #include "host/hil/precedence.hpp"
-#include "host/hil/recorder.hpp"
 #include "host/hil/tap.hpp"
 #include "host/hil/wall_clock.hpp"
 
 namespace whisker::cli {
 namespace {
+
+/// "1.2.3" as the bytes of one number.
+std::uint32_t version_number() {
+  std::uint32_t number = 0, part = 0;
+  for (const char* c = WHISKER_VERSION; *c != 0; ++c) {
+    if (*c == '.') {
+      number = (number | part) << 8;
+      part = 0;
+    } else {
+      part = part * 10 + static_cast<std::uint32_t>(*c - '0');
+    }
+  }
+  return number | part;
+}
 
 constexpr double kBackWithin_m = 1;
 
@@ -30,7 +51,51 @@ void run_before_others(const std::function<void(const std::string&)>& say) {
   if (!forbidden.empty()) say("ticks may be late, as it gets no real-time priority: " + forbidden);
 }
 
+void control_until(const BusChoice& bus, hil::ControllerOptions how, hil::Line& line) {
+  hil::Recorder recorder(bus.record, bus.name);
+  hil::Tap tap(line.port(), [&recorder](const hal::CanFrame& frame) { recorder.write(frame); });
+  how.identity = bus.identity();
+  bus::FaultPort port = lossy(tap, bus);
+  if (bus.real_time) run_before_others(how.say);
+  hil::control(port, line, how);
+  recorder.close();
+}
+
+void control_until_interrupted(const BusChoice& bus, hil::ControllerOptions how, hil::Line& line) {
+  const Interrupt interrupt;
+  how.say = speaker(how.guard ? "guard" : "controller", bus);
+  how.interrupted = [&interrupt] { return interrupt.noted(); };
+  control_until(bus, std::move(how), line);
+}
+
 }  // namespace
+
+void BusChoice::drive_with(PlannerKind planner) {
+  rules = rules_digest(planner);
+  table = hil::table_to_send(planner);
+}
+
+can::Identity BusChoice::identity() const {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  const auto mixed = static_cast<std::uint32_t>(now.tv_nsec) ^ static_cast<std::uint32_t>(getpid()) * 40503U;
+  return {static_cast<std::uint8_t>(robot), static_cast<std::uint16_t>(mixed ^ mixed >> 16),
+          version_number()};
+}
+
+CLI::Option* add_bus(CLI::App& app, BusChoice& choice) {
+  within(
+      app.add_option("--node", choice.robot, "Number of the robot, 1 to 7: two robots on one bus need two"),
+      "N", 1, static_cast<int>(can::kRobots));
+  add_file(app, "--record", choice.record, "Write all frames as a candump log");
+  amount(app.add_option("--drop", choice.drop_percent,
+                        "Lose so many of the frames that are sent and received, at random"),
+         "PERCENT", 100);
+  return app
+      .add_option("--can", choice.name,
+                  "CAN interface, such as vcan0, or slcan:PATH for a serial\nline; it need not be there yet")
+      ->type_name("IFACE");
+}
 
 bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
   bus::Schedule faults;
@@ -115,27 +180,6 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
   }
   return status;
 }
-
-namespace {
-
-void control_until(const BusChoice& bus, hil::ControllerOptions how, hil::Line& line) {
-  hil::Recorder recorder(bus.record, bus.name);
-  hil::Tap tap(line.port(), [&recorder](const hal::CanFrame& frame) { recorder.write(frame); });
-  how.identity = bus.identity();
-  bus::FaultPort port = lossy(tap, bus);
-  if (bus.real_time) run_before_others(how.say);
-  hil::control(port, line, how);
-  recorder.close();
-}
-
-void control_until_interrupted(const BusChoice& bus, hil::ControllerOptions how, hil::Line& line) {
-  const Interrupt interrupt;
-  how.say = speaker(how.guard ? "guard" : "controller", bus);
-  how.interrupted = [&interrupt] { return interrupt.noted(); };
-  control_until(bus, std::move(how), line);
-}
-
-}  // namespace
 
 void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line, hal::Storage* storage,
                     planning::Calibrator* calibrator) {

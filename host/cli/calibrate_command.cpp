@@ -1,18 +1,17 @@
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "host/calibration/log.hpp"
-#include "host/cli/bus_options.hpp"
+#include "host/cli/bus_run.hpp"
 #include "host/cli/calibrate_bus.hpp"
 #include "host/cli/calibrate_output.hpp"
+#include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
@@ -126,23 +125,12 @@ void check_use(const CalibrateOptions& o) {
 
 int many(const CalibrateOptions& o) {
   std::vector<calibration::TrialResult> all(o.count);
-  std::atomic<std::uint64_t> next{0};
-  const auto work = [&] {
-    for (std::uint64_t i = next++; i < o.count; i = next++) {
-      all[i] =
-          calibration::run(calibration::random_trial(o.noise, o.phantom.value_or(0), o.along_m, o.seed + i));
-    }
-  };
-  const unsigned cores = std::max(std::thread::hardware_concurrency(), 1U);
-  std::vector<std::thread> threads;
-  for (unsigned i = 1; i < (o.jobs > 0 ? static_cast<unsigned>(o.jobs) : cores); ++i)
-    threads.emplace_back(work);
-  work();
-  for (std::thread& t : threads) t.join();
+  in_parallel(o.count, o.jobs, [&](std::uint64_t i) {
+    all[i] =
+        calibration::run(calibration::random_trial(o.noise, o.phantom.value_or(0), o.along_m, o.seed + i));
+  });
   if (o.json) {
-    Provenance p;
-    p.seed = o.seed;
-    fmt::print("{}\n", with_provenance(trials_json(all), p));
+    print_object(trials_json(all), {o.seed});
   } else {
     fmt::print(
         "{} random robots, seeds {} to {}: noise {:.0f} mm, dropouts {:.0f} %, phantoms {:.0f} %, wheel "
@@ -166,11 +154,7 @@ int measure(const CalibrateOptions& o) {
   report.measured = calibration::calibrate(spun.sweep, params, o.wall_deg.value_or(spun.wall_deg));
   report.advice = calibration::advise(report.measured, params);
   if (o.json) {
-    Provenance p;
-    p.seed = o.seed;
-    p.robot_name = o.robot;
-    p.robot_digest = robot_digest(params);
-    fmt::print("{}\n", with_provenance(calibration_json(report), p));
+    print_object(calibration_json(report), {o.seed, {}, o.robot, robot_digest(params)});
   } else {
     std::FILE* const out = words_beside({o.trace, o.bus.record});
     fmt::print(out, "{}", calibration_words(report));
@@ -213,48 +197,39 @@ void add_robot_calibrate(CLI::App& robot, int& status) {
   add_file(*cmd, "--log", o->log, "Analyse this log of a spin: a trace (CSV) or a candump log");
   add_bus(*cmd, o->bus);
   add_switch(*cmd, "--realtime", o->bus.real_time, "With --can: run before other processes");
-  cmd->add_option("--wall-heading", o->wall_deg,
-                  "With --log: the heading that faces the wall, in degrees; by default the log's first")
-      ->check(CLI::Range(-360.0, 360.0))
-      ->type_name("DEG");
+  within(
+      cmd->add_option("--wall-heading", o->wall_deg,
+                      "With --log: the heading that faces the wall, in degrees; by default the log's first"),
+      "DEG", -360.0, 360.0);
   add_file(*cmd, "--true", o->truth, "The simulated robot as it really is (TOML); by default as ROBOT");
-  cmd->add_option("--distance", o->distance, "From the robot's centre to the simulated wall, m")
-      ->transform(amount(kFarthestWall))
-      ->type_name("M");
-  cmd->add_option("--along", o->along_m,
-                  "Then drive so many metres to the right, along the wall, and turn once more:\nmeasures "
-                  "whether the body "
-                  "stood square to the wall")
-      ->transform(amount(kLongestAlong))
-      ->type_name("M");
-  cmd->add_option("--turned", o->turned_deg, "The simulated body stands so many degrees off square")
-      ->check(CLI::Range(-30.0, 30.0))
-      ->type_name("DEG");
-  cmd->add_option("--sigma", o->noise.range_sigma_m, "Standard deviation of a simulated distance, m")
-      ->transform(amount(1))
-      ->type_name("M");
-  cmd->add_option("--dropout", o->noise.range_dropout, "Probability that a simulated reading is lost")
-      ->transform(amount(1))
-      ->type_name("P");
-  cmd->add_option("--false-clear", o->noise.range_false_clear,
-                  "Probability that a simulated reading is wrongly clear")
-      ->transform(amount(1))
-      ->type_name("P");
-  cmd->add_option("--phantom", o->phantom, "Probability that a clear reading becomes an echo at 0.1 to 0.5 m")
-      ->transform(amount(1))
-      ->type_name("P");
-  cmd->add_option("--wheel-scale-sigma", o->noise.wheel_scale_sigma, "Scale error of the simulated wheels")
-      ->transform(amount(1))
-      ->type_name("S");
-  cmd->add_option("--seed", o->seed, "Of the simulated noise; 1 by default")
-      ->transform(whole_number())
-      ->type_name("S");
-  cmd->add_option("--count", o->count, "Measure so many random robots instead, and print the errors")
-      ->transform(whole_number(kMostTrials))
-      ->type_name("N");
-  cmd->add_option("--jobs", o->jobs, "Threads of --count; by default one a core")
-      ->check(CLI::Range(1, 256))
-      ->type_name("N");
+  amount(cmd->add_option("--distance", o->distance, "From the robot's centre to the simulated wall, m"), "M",
+         kFarthestWall);
+  amount(
+      cmd->add_option("--along", o->along_m,
+                      "Then drive so many metres to the right, along the wall, and turn once more:\nmeasures "
+                      "whether the body "
+                      "stood square to the wall"),
+      "M", kLongestAlong);
+  within(cmd->add_option("--turned", o->turned_deg, "The simulated body stands so many degrees off square"),
+         "DEG", -30.0, 30.0);
+  amount(cmd->add_option("--sigma", o->noise.range_sigma_m, "Standard deviation of a simulated distance, m"),
+         "M", 1);
+  amount(cmd->add_option("--dropout", o->noise.range_dropout, "Probability that a simulated reading is lost"),
+         "P", 1);
+  amount(cmd->add_option("--false-clear", o->noise.range_false_clear,
+                         "Probability that a simulated reading is wrongly clear"),
+         "P", 1);
+  amount(cmd->add_option("--phantom", o->phantom,
+                         "Probability that a clear reading becomes an echo at 0.1 to 0.5 m"),
+         "P", 1);
+  amount(cmd->add_option("--wheel-scale-sigma", o->noise.wheel_scale_sigma,
+                         "Scale error of the simulated wheels"),
+         "S", 1);
+  whole_number(cmd->add_option("--seed", o->seed, "Of the simulated noise; 1 by default"), "S");
+  whole_number(
+      cmd->add_option("--count", o->count, "Measure so many random robots instead, and print the errors"),
+      "N", kMostTrials);
+  within(cmd->add_option("--jobs", o->jobs, "Threads of --count; by default one a core"), "N", 1, 256);
   add_file(*cmd, "--trace", o->trace, "Write the simulated spin as CSV, one row per control tick");
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->footer(kCalibrateFooter);

@@ -8,7 +8,6 @@
 
 #include "host/calibration/calibration.hpp"
 #include "host/calibration/simulated.hpp"
-#include "host/calibration/trials.hpp"
 
 namespace whisker::cli {
 

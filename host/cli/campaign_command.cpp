@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,27 +13,55 @@
 #include <CLI/CLI.hpp>
 
 #include "host/campaign/failures.hpp"
-#include "host/campaign/merge.hpp"
 #include "host/campaign/mission.hpp"
 #include "host/campaign/random_robot.hpp"
+#include "host/campaign/row.hpp"
 #include "host/campaign/row_file.hpp"
 #include "host/campaign/summary.hpp"
 #include "host/cli/campaign_options.hpp"
-#include "host/cli/campaign_page.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
-#include "host/cli/many_runs.hpp"
 #include "host/cli/one_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/page/page.hpp"
 #include "host/report/file.hpp"
 #include "host/scenario/load.hpp"
 #include "host/scenario/write.hpp"
 
 namespace whisker::cli {
 namespace {
+
+constexpr std::size_t kMostBytes = 5'000'000;  // of all missions to replay, so that the page can be mailed
+
+page::StoredRun driven_again(const Missions& missions, std::uint64_t index) {
+  const Scenario scenario = mission(missions, index).scenario;
+  page::Recording recording(scenario.robot, page::Detail::coarse);
+  RunOptions options;
+  options.planner = missions.planner;
+  options.watch = [&](const Moment& moment) { recording.add(moment); };
+  const RunResult result = run(scenario, options);
+  recording.end();
+  return page::stored({scenario, options.planner, scenario.seed}, recording.ticks(), result,
+                      page::Detail::coarse);
+}
+
+/// Runs missions again to record them, the worst first and as many as a page holds, and writes a page of all.
+/// rows[i] is mission first + i.
+void write_campaign_page(const std::string& path, const Missions& missions,
+                         const std::vector<campaign::Row>& rows) {
+  std::vector<page::Replay> replays;
+  std::size_t bytes = 0;
+  for (const std::size_t row : page::worst(rows, rows.size())) {
+    page::StoredRun run = driven_again(missions, missions.first + row);
+    bytes += run.json.size() + run.columns.size();
+    if (bytes > kMostBytes && !replays.empty()) break;
+    replays.push_back({row, std::move(run)});
+  }
+  report::write_file(path, page::campaign_page(rows, replays, controller_picture(missions.planner)));
+}
 
 /// chosen: null for rows from files, which state their planner themselves.
 Provenance provenance(const CampaignOptions& o, const Missions* chosen) {
@@ -62,7 +91,7 @@ void print(const CampaignOptions& o, const std::vector<campaign::Row>& rows, con
   if (rows.empty()) return;
   const campaign::Summary summary = campaign::summarize(rows);
   if (o.json) {
-    fmt::print("{}\n", with_provenance(campaign::summary_json(summary), provenance(o, chosen)));
+    print_object(campaign::summary_json(summary), provenance(o, chosen));
   } else {
     std::FILE* const out = words_beside({o.csv, o.html});
     fmt::print(out, "{}{}", campaign::summary_words(summary), campaign::failure_lines(rows));
@@ -141,6 +170,25 @@ void refuse_others(const CLI::App& command, std::initializer_list<std::string> a
   }
 }
 
+int scan(const CampaignOptions& o) {
+  const Missions chosen = missions(o);
+  std::vector<campaign::Row> rows;
+  const bool whole = drive_many(
+      chosen, o.jobs, [](const Scenario& s, const std::atomic<bool>&) { return campaign::scan(s); },
+      [&](const campaign::Row& row) { rows.push_back(row); });
+  if (!rows.empty()) {
+    const campaign::Summary summary = campaign::summarize(rows);
+    if (o.json) {
+      print_object(campaign::scan_json(summary), {o.seed});
+    } else {
+      fmt::print("{}", campaign::scan_words(summary));
+    }
+  }
+  if (whole) return 0;
+  fmt::print(stderr, "whisker: interrupted after {} of {} worlds\n", rows.size(), chosen.last - chosen.first);
+  return kInterrupted;
+}
+
 }  // namespace
 
 void add_campaign(CLI::App& app, int& status) {
@@ -161,9 +209,9 @@ void add_campaign(CLI::App& app, int& status) {
   add_switch(*cmd, "--json", o->json, "Print the summary as one JSON object and nothing else");
   cmd->add_option("--merge", o->merge, "Sum up the rows of these files instead of driving")
       ->type_name("FILE");
-  cmd->add_option("--replay", o->replay, "Drive the mission with this seed alone, as `whisker run` does")
-      ->transform(whole_number())
-      ->type_name("S");
+  whole_number(
+      cmd->add_option("--replay", o->replay, "Drive the mission with this seed alone, as `whisker run` does"),
+      "S");
   add_file(*cmd, "--svg", o->svg, "With --replay: draw the run");
   add_file(*cmd, "--trace", o->trace, "With --replay: write one CSV row per control tick");
   add_file(*cmd, "--html", o->html, "Write a page: the missions, and their replays");
@@ -176,6 +224,16 @@ void add_campaign(CLI::App& app, int& status) {
     }
     status = run_campaign(*o);
   });
+}
+
+void add_scanner(CLI::App& app, int& status) {
+  CLI::App* cmd =
+      app.add_subcommand("scanner", "A yardstick, no planner: how far a robot drives that sees all round");
+  const auto o = std::make_shared<CampaignOptions>();
+  add_worlds(*cmd, *o, "worlds")->required();
+  add_jobs(*cmd, *o);
+  add_switch(*cmd, "--json", o->json, "Print the figures as one JSON object and nothing else");
+  cmd->callback([o, &status] { status = scan(*o); });
 }
 
 }  // namespace whisker::cli

@@ -1,15 +1,20 @@
 #include "host/cli/campaign_options.hpp"
 
 #include <charconv>
+#include <chrono>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <system_error>
+#include <thread>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "host/campaign/ordered.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/scenario/load.hpp"
 
@@ -79,34 +84,48 @@ void take_shard(Missions& m, const std::string& shard) {
   if (m.first == m.last) throw UsageError(fmt::format("--shard {} of {} missions is empty", shard, all));
 }
 
+/// "[#####.....]  512 of 1024, 48.1 a second, 0:11 to go"
+std::string progress(std::uint64_t done, std::uint64_t all, double elapsed_s) {
+  constexpr std::uint64_t kWidth = 30;
+  const auto filled = static_cast<std::size_t>(done * kWidth / all);
+  std::string text =
+      fmt::format("[{}{}] {} of {}", std::string(filled, '#'), std::string(kWidth - filled, '.'), done, all);
+  if (done == 0 || elapsed_s <= 0) return text;
+  const double rate = static_cast<double>(done) / elapsed_s;
+  const auto left_s = static_cast<std::uint64_t>(static_cast<double>(all - done) / rate + 0.5);
+  return text + fmt::format(", {:.1f} a second, {}:{:02} to go", rate, left_s / 60, left_s % 60);
+}
+
+int threads(int jobs) {
+  if (jobs > 0) return jobs;
+  const unsigned cores = std::thread::hardware_concurrency();
+  return cores > 0 ? static_cast<int>(cores) : 1;
+}
+
 }  // namespace
 
 CLI::Option* add_worlds(CLI::App& app, CampaignOptions& o, const std::string& each, const std::string& name) {
   CLI::Option* worlds =
       app.add_option(name, o.worlds, "A kind of world as in `whisker world`, or a folder of scenario files");
   worlds->type_name("");
-  app.add_option("--count", o.count, fmt::format("How many {}; 100 by default, or every file once", each))
-      ->transform(whole_number(kMostMissions))
-      ->type_name("N");
-  app.add_option("--seed", o.seed, "Mission i has seed S + i; 1 by default, or each file's own")
-      ->transform(whole_number())
-      ->type_name("S");
+  whole_number(app.add_option("--count", o.count,
+                              fmt::format("How many {}; 100 by default, or every file once", each)),
+               "N", kMostMissions);
+  whole_number(app.add_option("--seed", o.seed, "Mission i has seed S + i; 1 by default, or each file's own"),
+               "S");
   add_world_shape(app, o);
   return worlds;
 }
 
 void add_world_shape(CLI::App& app, CampaignOptions& o) {
-  app.add_option("--discs", o.world.discs, "Number of discs, as in `whisker world`")
-      ->transform(whole_number(200))
-      ->type_name("N");
+  whole_number(app.add_option("--discs", o.world.discs, "Number of discs, as in `whisker world`"), "N", 200);
   add_gap_width(app, o.world.gap_m, "Of the gap, as in `whisker world`");
   add_switch(app, "--box", o.world.box, "A closed box around, as in `whisker world`");
 }
 
 void add_jobs(CLI::App& app, CampaignOptions& o) {
-  app.add_option("--jobs", o.jobs, "Missions at a time; as many as there are cores by default")
-      ->transform(whole_number(1024))
-      ->type_name("J");
+  whole_number(app.add_option("--jobs", o.jobs, "Missions at a time; as many as there are cores by default"),
+               "J", 1024);
 }
 
 Missions missions(const CampaignOptions& o) {
@@ -126,9 +145,7 @@ Missions missions(const CampaignOptions& o) {
     m.worlds = folder(o);
   }
   m.last = std::visit([&](const auto& worlds) { return count(o, worlds); }, m.worlds);
-  if (m.last == 0) throw UsageError("--count 0: nothing to do");
-  if (o.seed.value_or(1) > INT64_MAX - m.last)
-    throw UsageError("--seed and --count: seeds must be below 2^63");
+  check_seeds(m.last, o.seed.value_or(1));
   take_shard(m, o.shard);
   try {
     mission(m, m.first);
@@ -149,6 +166,54 @@ campaign::Mission mission(const Missions& m, std::uint64_t index) {
   if (!m.robot.empty()) apply_robot_file(mission.scenario, m.robot);
   bend_if_chosen(mission.scenario.robot, m.planner);
   return mission;
+}
+
+void in_parallel(std::uint64_t count, int jobs, const std::function<void(std::uint64_t)>& work) {
+  std::atomic<std::uint64_t> next{0};
+  const auto some = [&] {
+    for (std::uint64_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::thread> others;
+  for (int i = 1; i < threads(jobs); ++i) others.emplace_back(some);
+  some();
+  for (std::thread& t : others) t.join();
+}
+
+void check_seeds(std::uint64_t count, std::uint64_t seed) {
+  if (count == 0) throw UsageError("--count 0: nothing to do");
+  if (seed > INT64_MAX - count) throw UsageError("--seed and --count: seeds must be below 2^63");
+}
+
+bool make_many(std::uint64_t count, int jobs,
+               const std::function<campaign::Row(std::uint64_t, const std::atomic<bool>&)>& make,
+               const std::function<void(const campaign::Row&)>& take) {
+  const Interrupt interrupt;
+  ProgressLine line;
+  const auto began = std::chrono::steady_clock::now();
+  campaign::Work work;
+  work.count = count;
+  work.jobs = threads(jobs);
+  work.make = make;
+  work.take = take;
+  work.wait = [&](std::uint64_t done) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began;
+    line.show(progress(done, work.count, elapsed.count()));
+  };
+  work.stop = [&] { return interrupt.noted(); };
+  return campaign::do_in_order(work) == work.count;
+}
+
+bool drive_many(const Missions& missions, int jobs,
+                const std::function<campaign::Row(const Scenario&, const std::atomic<bool>& stop)>& drive,
+                const std::function<void(const campaign::Row&)>& take) {
+  const auto make = [&](std::uint64_t i, const std::atomic<bool>& stop) {
+    const campaign::Mission m = mission(missions, missions.first + i);
+    campaign::Row row = drive(m.scenario, stop);
+    row.robot = missions.robot;
+    row.world = m.world;
+    return row;
+  };
+  return make_many(missions.last - missions.first, jobs, make, take);
 }
 
 }  // namespace whisker::cli

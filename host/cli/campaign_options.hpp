@@ -1,11 +1,14 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "host/campaign/row.hpp"
 #include "host/campaign/worlds.hpp"
 #include "host/cli/cli11_forward.hpp"
 #include "host/run/planners.hpp"
@@ -58,5 +61,24 @@ bool has_random_robots(const Missions& missions);
 
 /// The mission's scenario with the robot's parameters. Throws InputError if they do not fit.
 campaign::Mission mission(const Missions& missions, std::uint64_t index);
+
+/// Calls `work` with each number below `count`, on `jobs` threads (0: one per core). It must not throw.
+void in_parallel(std::uint64_t count, int jobs, const std::function<void(std::uint64_t)>& work);
+
+/// Seeds from `seed` on, one for each of `count`. Throws UsageError for none, or if one does not fit 63 bits.
+void check_seeds(std::uint64_t count, std::uint64_t seed);
+
+/// Makes `count` rows on `jobs` threads (0: one per core), with a progress line on a terminal. `take`
+/// receives each row in order. See campaign::Work. False: interrupted before the end.
+bool make_many(std::uint64_t count, int jobs,
+               const std::function<campaign::Row(std::uint64_t piece, const std::atomic<bool>& stop)>& make,
+               const std::function<void(const campaign::Row&)>& take);
+
+/// Runs the missions on `jobs` threads (0: one per core), with a progress line. `take` receives each row in
+/// order, with the names of robot and world. `drive` may be called on several threads at once; it may throw
+/// campaign::Stopped once `stop` is true. False: interrupted before the end.
+bool drive_many(const Missions& missions, int jobs,
+                const std::function<campaign::Row(const Scenario&, const std::atomic<bool>& stop)>& drive,
+                const std::function<void(const campaign::Row&)>& take);
 
 }  // namespace whisker::cli

@@ -17,7 +17,6 @@
 #include "host/guard/drive.hpp"
 #include "host/guard/operators.hpp"
 #include "host/guard/recorded.hpp"
-#include "host/guard/result_json.hpp"
 #include "host/guard/trace.hpp"
 #include "host/page/guard_recording.hpp"
 #include "host/report/file.hpp"
@@ -122,11 +121,9 @@ int execute(const GuardOptions& o) {
     report::write_file(o.html, page::guard_page(recording.stored(setting, result)));
   }
   if (o.json) {
-    Provenance p;
-    p.seed = scenario.seed;
-    p.robot_name = robot_name(scenario.robot, o.robot, o.file);
-    p.robot_digest = robot_digest(scenario.robot);
-    fmt::print("{}\n", with_provenance(guard::result_json(result), p));
+    print_object(
+        guard::result_json(result),
+        {scenario.seed, {}, robot_name(scenario.robot, o.robot, o.file), robot_digest(scenario.robot)});
   } else {
     std::FILE* const out = words_beside({o.trace, o.html});
     print(result, out);
@@ -148,15 +145,12 @@ void add_guard(CLI::App& app, int& status) {
                   "Otherwise who commands: perfect (default), sloppy, blind, joystick\nor hostile")
       ->check(CLI::IsMember({"perfect", "sloppy", "blind", "joystick", "hostile"}))
       ->type_name("NAME");
-  cmd->add_option("--seed", o->seed, "Seed of noise and operator, instead of the scenario's")
-      ->transform(whole_number())
-      ->type_name("N");
-  cmd->add_option("--vouch", o->vouched_m, "You vouch for this radius around the start, m; 0 by default")
-      ->transform(amount(kMostVouched_m))
-      ->type_name("R");
-  cmd->add_option("--time", o->time_s, "Ends after this time, s; 120 by default")
-      ->transform(amount(kMostSeconds))
-      ->type_name("T");
+  whole_number(cmd->add_option("--seed", o->seed, "Seed of noise and operator, instead of the scenario's"),
+               "N");
+  amount(
+      cmd->add_option("--vouch", o->vouched_m, "You vouch for this radius around the start, m; 0 by default"),
+      "R", kMostVouched_m);
+  amount(cmd->add_option("--time", o->time_s, "Ends after this time, s; 120 by default"), "T", kMostSeconds);
   add_switch(*cmd, "--bare", o->bare, "Without the guard: the wheels do what is asked");
   add_assist_rules(*cmd, o->table);
   add_file(*cmd, "--trace", o->trace, "Write one CSV row per control tick");

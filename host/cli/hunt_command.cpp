@@ -11,7 +11,6 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
-#include "host/cli/interrupt.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/hunt/draw.hpp"
@@ -126,26 +125,20 @@ void add_hunt(CLI::App& app, int& status) {
   CLI::App* cmd =
       app.add_subcommand("hunt", "Look for drives that break the promise of the guard or of a planner");
   const auto o = std::make_shared<HuntOptions>();
-  cmd->add_option("--count", o->hunt.count,
-                  "Number of fresh cases; 200 by default, without --time all in that time")
-      ->transform(whole_number())
-      ->type_name("N");
-  cmd->add_option("--time", o->hunt.time_s,
-                  "Ends after this time, s; every second case changes one that came near")
-      ->transform(amount(kLongestHunt_s))
-      ->type_name("T");
-  cmd->add_option("--seed", o->hunt.seed, "Case i is drawn from S + i; 1 by default")
-      ->transform(whole_number())
-      ->type_name("S");
-  cmd->add_option("--jobs", o->jobs, "Processes at once; by default one per core")
-      ->transform(whole_number(kMostProcesses))
-      ->type_name("J");
+  whole_number(cmd->add_option("--count", o->hunt.count,
+                               "Number of fresh cases; 200 by default, without --time all in that time"),
+               "N");
+  amount(cmd->add_option("--time", o->hunt.time_s,
+                         "Ends after this time, s; every second case changes one that came near"),
+         "T", kLongestHunt_s);
+  whole_number(cmd->add_option("--seed", o->hunt.seed, "Case i is drawn from S + i; 1 by default"), "S");
+  whole_number(cmd->add_option("--jobs", o->jobs, "Processes at once; by default one per core"), "J",
+               kMostProcesses);
   cmd->add_option("--shard", o->shard, "Only every N-th case from the I-th on")->type_name("I/N");
   add_file(*cmd, "--out", o->hunt.out, "Folder for rows.csv, findings and corpus; a hunt goes on there")
       ->type_name("FOLDER");
-  cmd->add_option("--again", o->again, "Drive the fresh case of this seed alone; --out writes it")
-      ->transform(whole_number())
-      ->type_name("N");
+  whole_number(
+      cmd->add_option("--again", o->again, "Drive the fresh case of this seed alone; --out writes it"), "N");
   add_file(*cmd, "--case", o->file, "Drive a case that a hunt wrote");
   cmd->add_option("--summary", o->summary, "Sum up these rows instead of hunting")->type_name("FILE");
   cmd->footer("\nExit status: 0 nothing found, 1 something found, 2 bad input or usage, 130 interrupted.");

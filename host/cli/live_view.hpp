@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host/cli/cli11_forward.hpp"
-#include "host/cli/interrupt.hpp"
+#include "host/cli/output.hpp"
 #include "host/run/planners.hpp"
 #include "host/view/feed.hpp"
 #include "host/view/server.hpp"

@@ -11,7 +11,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
-#include "host/cli/version.hpp"
+#include "host/cli/provenance.hpp"
 #include "host/hil/line.hpp"
 #include "host/scenario/error.hpp"
 

@@ -1,11 +1,15 @@
 #include "host/cli/one_run.hpp"
 
 #include <chrono>
+#include <memory>
 #include <vector>
 
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
+#include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
@@ -15,6 +19,8 @@
 #include "host/report/result.hpp"
 #include "host/report/run_svg.hpp"
 #include "host/report/trace.hpp"
+#include "host/scenario/contact.hpp"
+#include "host/scenario/load.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -52,6 +58,19 @@ Provenance provenance(const Scenario& scenario, const RunOptions& options, const
   p.robot_name = outputs.robot_name;
   p.robot_digest = robot_digest(scenario.robot);
   return p;
+}
+
+struct RunCommandOptions {
+  ScenarioChoice scenario;
+  PlannerKind planner = kDefaultPlanner;
+};
+
+int execute(const RunCommandOptions& o) {
+  Scenario scenario = o.scenario.load();
+  bend_if_chosen(scenario.robot, o.planner);
+  RunOptions options = o.scenario.run_options();
+  options.planner = o.planner;
+  return drive_one(scenario, options, o.scenario.run_outputs(scenario));
 }
 
 }  // namespace
@@ -107,6 +126,48 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
     if (!o.html.empty()) fmt::print(out, "page:    {}\n", o.html);
   }
   return exit_status(result.verdict);
+}
+
+Scenario ScenarioChoice::load(std::initializer_list<std::string> more_outputs) const {
+  std::vector<std::string> all(more_outputs);
+  all.push_back(outputs.trace);
+  all.push_back(outputs.svg);
+  all.push_back(outputs.html);
+  check_outputs(all, {file, robot}, outputs.json);
+  Scenario scenario = load_scenario(file);
+  if (!robot.empty()) apply_robot_file(scenario, robot);
+  load_event_tables(scenario, file);
+  return scenario;
+}
+
+RunOutputs ScenarioChoice::run_outputs(const Scenario& scenario) const {
+  RunOutputs all = outputs;
+  all.robot_name = robot_name(scenario.robot, robot, file);
+  return all;
+}
+
+RunOptions ScenarioChoice::run_options() const {
+  RunOptions options;
+  options.seed = seed;
+  return options;
+}
+
+void add_scenario(CLI::App& app, ScenarioChoice& choice) {
+  add_file(app, "SCENARIO", choice.file, "Scenario file (TOML)")->required();
+  add_file(app, "--robot", choice.robot, "Parameters of your robot (TOML), over those of the scenario");
+  whole_number(app.add_option("--seed", choice.seed, "Seed of the noise, instead of the scenario's"), "N");
+  add_file(app, "--trace", choice.outputs.trace, "Write one CSV row per control tick");
+  add_file(app, "--svg", choice.outputs.svg, "Draw the run");
+  add_file(app, "--html", choice.outputs.html, "Write a page that replays the run in a browser");
+  add_switch(app, "--json", choice.outputs.json, "Print the result as one JSON object and nothing else");
+}
+
+void add_run(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("run", "Drive the simulated robot through a scenario file");
+  const auto o = std::make_shared<RunCommandOptions>();
+  add_scenario(*cmd, o->scenario);
+  add_planner(*cmd, o->planner);
+  cmd->callback([o, &status] { status = execute(*o); });
 }
 
 }  // namespace whisker::cli

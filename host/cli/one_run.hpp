@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <initializer_list>
+#include <optional>
 #include <string>
 
+#include "host/cli/cli11_forward.hpp"
 #include "host/page/page.hpp"
 #include "host/run/runner.hpp"
 
@@ -30,5 +34,21 @@ page::Setting setting(const Scenario& scenario, const RunOptions& options, const
 /// Runs one scenario with a progress line, writes the requested outputs and prints the result. Returns the
 /// exit status of the verdict.
 int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& outputs);
+
+struct ScenarioChoice {
+  std::string file;
+  std::string robot;
+  std::optional<std::uint64_t> seed;
+  RunOutputs outputs;
+
+  /// Checks all outputs, then reads the files. Throws UsageError and InputError.
+  Scenario load(std::initializer_list<std::string> more_outputs = {}) const;
+  RunOptions run_options() const;
+  /// scenario: the result of load().
+  RunOutputs run_outputs(const Scenario& scenario) const;
+};
+
+/// SCENARIO, --robot, --seed, --trace, --svg, --html and --json.
+void add_scenario(CLI::App& app, ScenarioChoice& choice);
 
 }  // namespace whisker::cli

@@ -1,22 +1,86 @@
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "host/campaign/meeting.hpp"
+#include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
-#include "host/cli/interrupt.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/guard/campaign.hpp"
-#include "host/guard/hostile_drive.hpp"
+#include "host/report/file.hpp"
 #include "host/scenario/load.hpp"
+#include "host/scenario/write.hpp"
+#include "host/worlds/meeting.hpp"
 
 namespace whisker::cli {
 namespace {
+
+constexpr double kSpeeds[] = {0.05, 0.1, 0.2, 0.3};
+constexpr std::uint64_t kMostMeetings = 1000000;
+
+struct MoversOptions {
+  std::uint64_t count = 200;
+  std::uint64_t seed = 1;
+  PlannerKind planner = kDefaultPlanner;
+  std::string robot;
+  std::string contacts;
+};
+
+const char* kind(const campaign::Meeting& contact) {
+  campaign::MeetingCount count;
+  count.add(contact);
+  return count.seen > 0 ? "seen" : count.shown > 0 ? "shown" : count.moving > 0 ? "moving" : "standing";
+}
+
+/// own: a scenario with the robot, its sensors and its noise.
+campaign::MeetingCount drive(const MoversOptions& o, const Scenario& own, worlds::Course course,
+                             double speed_mps, ProgressLine& line) {
+  campaign::MeetingCount count;
+  for (std::uint64_t i = 0; i < o.count; ++i) {
+    Scenario scenario = worlds::meeting(course, speed_mps, o.seed + i, own.robot);
+    scenario.sensor = own.sensor;
+    scenario.noise = own.noise;
+    bend_if_chosen(scenario.robot, o.planner);
+    const campaign::Meeting meeting = campaign::meet(scenario, o.planner);
+    count.add(meeting);
+    if (!o.contacts.empty() && meeting.verdict == Verdict::contact) {
+      const std::string file = fmt::format("{}_{}.toml", scenario.name, kind(meeting));
+      report::write_file((std::filesystem::path(o.contacts) / file).string(), to_toml(scenario));
+    }
+    if (i % 10 == 0) line.show(fmt::format("{} {:.2f} m/s: {} of {}", name(course), speed_mps, i, o.count));
+  }
+  return count;
+}
+
+int execute(const MoversOptions& o) {
+  check_seeds(o.count, o.seed);
+  std::error_code error;
+  if (!o.contacts.empty() && !std::filesystem::is_directory(o.contacts, error)) {
+    throw UsageError(fmt::format("--contacts {}: no such folder", o.contacts));
+  }
+  Scenario own;
+  if (!o.robot.empty()) apply_robot_file(own, o.robot);
+  fmt::print("| course | m/s | missions | reached | said so | contacts | moving | shown | seen in time |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|\n");
+  ProgressLine line;
+  for (const worlds::Course course : worlds::kCourses) {
+    for (const double speed_mps : kSpeeds) {
+      const campaign::MeetingCount c = drive(o, own, course, speed_mps, line);
+      line.show("");
+      fmt::print("| {} | {:.2f} | {} | {} | {} | {} | {} | {} | {} |\n", name(course), speed_mps, c.missions,
+                 c.reached, c.said, c.contacts, c.moving, c.shown, c.seen);
+    }
+  }
+  return 0;
+}
 
 constexpr std::uint64_t kMostDrives = 1000000;
 
@@ -98,23 +162,32 @@ int execute(const OperatorsOptions& o) {
 
 }  // namespace
 
+void add_movers(CLI::App& app, int& status) {
+  CLI::App* cmd = app.add_subcommand("movers", "Drive past things that move and count what is touched");
+  const auto o = std::make_shared<MoversOptions>();
+  whole_number(cmd->add_option("--count", o->count, "How many missions a course and speed; 200 by default"),
+               "N", kMostMeetings);
+  whole_number(cmd->add_option("--seed", o->seed, "Mission i has seed S + i; 1 by default"), "S");
+  add_planner(*cmd, o->planner);
+  add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML)");
+  add_file(*cmd, "--contacts", o->contacts, "Write the scenario of each contact into this folder")
+      ->type_name("FOLDER");
+  cmd->callback([o, &status] { status = execute(*o); });
+}
+
 void add_operators(CLI::App& app, int& status) {
   CLI::App* cmd =
       app.add_subcommand("operators", "Let operators of all kinds drive, with the guard and without it");
   const auto o = std::make_shared<OperatorsOptions>();
-  cmd->add_option("--count", o->count, "How many worlds a row; 60 by default")
-      ->transform(whole_number(kMostDrives))
-      ->type_name("N");
-  cmd->add_option("--seed", o->seed, "Drive i has seed S + i; 1 by default")
-      ->transform(whole_number())
-      ->type_name("S");
+  whole_number(cmd->add_option("--count", o->count, "How many worlds a row; 60 by default"), "N",
+               kMostDrives);
+  whole_number(cmd->add_option("--seed", o->seed, "Drive i has seed S + i; 1 by default"), "S");
   cmd->add_option("--operator", o->hand, "Only this one: perfect, sloppy, blind, joystick or hostile")
       ->check(CLI::IsMember({"perfect", "sloppy", "blind", "joystick", "hostile"}))
       ->type_name("NAME");
-  cmd->add_option("--hostile", o->hostile,
-                  "Instead: this many drives of the adversary in worlds of all kinds")
-      ->transform(whole_number(kMostDrives))
-      ->type_name("N");
+  whole_number(cmd->add_option("--hostile", o->hostile,
+                               "Instead: this many drives of the adversary in worlds of all kinds"),
+               "N", kMostDrives);
   add_switch(*cmd, "--noise", o->noise, "With the reference robot's sensor and odometry noise");
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML)");
   add_assist_rules(*cmd, o->table);

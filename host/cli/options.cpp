@@ -41,12 +41,28 @@ CLI::Validator amount(double most) {
       "");
 }
 
+CLI::Option* whole_number(CLI::Option* option, const char* type, std::uint64_t most) {
+  return option->transform(whole_number(most))->type_name(type);
+}
+
+CLI::Option* amount(CLI::Option* option, const char* type, double most) {
+  return option->transform(amount(most))->type_name(type);
+}
+
+CLI::Option* within(CLI::Option* option, const char* type, int low, int high) {
+  return option->check(CLI::Range(low, high))->type_name(type);
+}
+
+CLI::Option* within(CLI::Option* option, const char* type, double low, double high) {
+  return option->check(CLI::Range(low, high))->type_name(type);
+}
+
 CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, const std::string& help) {
-  return app.add_option("--wheel-scale-sigma", sigma, help)->transform(amount(1))->type_name("S");
+  return amount(app.add_option("--wheel-scale-sigma", sigma, help), "S", 1);
 }
 
 CLI::Option* add_gap_width(CLI::App& app, std::optional<double>& width, const std::string& help) {
-  return app.add_option("--width", width, help)->transform(amount(1))->type_name("W");
+  return amount(app.add_option("--width", width, help), "W", 1);
 }
 
 CLI::Option* add_name(CLI::App& app, const std::string& option, std::string& name, const std::string& help) {

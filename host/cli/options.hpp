@@ -21,6 +21,12 @@ CLI::Validator whole_number(std::uint64_t most = INT64_MAX);
 /// A number from 0 to `most`, in decimal. For Option::transform.
 CLI::Validator amount(double most);
 
+/// Each checks the values of the option and names their type in the help. Returns the option.
+CLI::Option* whole_number(CLI::Option* option, const char* type, std::uint64_t most = INT64_MAX);
+CLI::Option* amount(CLI::Option* option, const char* type, double most);
+CLI::Option* within(CLI::Option* option, const char* type, int low, int high);
+CLI::Option* within(CLI::Option* option, const char* type, double low, double high);
+
 /// --wheel-scale-sigma S, for worlds with noise.
 CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, const std::string& help);
 

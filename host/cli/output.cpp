@@ -1,7 +1,5 @@
 #include "host/cli/output.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -9,6 +7,8 @@
 #include <iostream>
 #include <stdexcept>
 #include <system_error>
+
+#include <unistd.h>
 
 #include <fmt/core.h>
 
@@ -46,6 +46,10 @@ void check_place(const std::string& text) {
     throw UsageError(fmt::format("{}: is a folder", text));
   }
 }
+
+volatile sig_atomic_t g_noted = 0;
+
+void note(int) { g_noted = 1; }
 
 }  // namespace
 
@@ -98,5 +102,21 @@ void ProgressLine::show(const std::string& text) {
   std::fflush(stderr);
   shown_ = true;
 }
+
+Interrupt::Interrupt() {
+  g_noted = 0;
+  struct sigaction action {};
+  action.sa_handler = note;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, &old_int_);
+  sigaction(SIGTERM, &action, &old_term_);
+}
+
+Interrupt::~Interrupt() {
+  sigaction(SIGINT, &old_int_, nullptr);
+  sigaction(SIGTERM, &old_term_, nullptr);
+}
+
+bool Interrupt::noted() const { return g_noted != 0; }
 
 }  // namespace whisker::cli

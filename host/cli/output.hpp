@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <signal.h>
+
 namespace whisker::cli {
 
 /// Checks before any work starts: every named output ("" means none) must lie in an existing folder, no two
@@ -33,6 +35,21 @@ class ProgressLine {
  private:
   bool terminal_;
   bool shown_ = false;
+};
+
+/// During its lifetime, SIGINT and SIGTERM are only recorded. At most one object at a time.
+class Interrupt {
+ public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+
+  bool noted() const;  ///< a signal was received
+
+ private:
+  struct sigaction old_int_ {};
+  struct sigaction old_term_ {};
 };
 
 }  // namespace whisker::cli

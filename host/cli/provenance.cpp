@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "host/cli/version.hpp"
 #include "host/scenario/param_list.hpp"
 
 namespace whisker::cli {
@@ -62,6 +61,10 @@ std::string with_provenance(const std::string& json_object, const Provenance& p)
   json["robot_digest"] = or_null(p.robot_digest);
   json["rules_digest"] = or_null(p.rules_digest);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void print_object(const std::string& json_object, const Provenance& provenance) {
+  fmt::print("{}\n", with_provenance(json_object, provenance));
 }
 
 }  // namespace whisker::cli

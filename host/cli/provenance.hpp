@@ -9,16 +9,20 @@
 
 namespace whisker::cli {
 
+/// "0.1.0 (1b98848)": the version and the built commit, with "-dirty" if files differ from it; "unknown" if
+/// the sources are not in a git repository.
+std::string version();
+
 /// Version of the objects of --json: increases when a key changes its meaning, not for new keys.
 constexpr int kSchema = 1;
 
 /// Unknown values become null.
 struct Provenance {
-  std::optional<std::uint64_t> seed;
-  std::optional<std::string> planner;
-  std::optional<std::string> robot_name;
-  std::optional<std::string> robot_digest;
-  std::optional<std::string> rules_digest;  ///< of the planner's response table
+  std::optional<std::uint64_t> seed = std::nullopt;
+  std::optional<std::string> planner = std::nullopt;
+  std::optional<std::string> robot_name = std::nullopt;
+  std::optional<std::string> robot_digest = std::nullopt;
+  std::optional<std::string> rules_digest = std::nullopt;  ///< of the planner's response table
 };
 
 /// 16 hex digits: FNV-1a 64 over the key and raw value of each parameter. Equal for equal robots.
@@ -29,5 +33,7 @@ std::string robot_name(const Params& params, const std::string& robot_file, cons
 /// The JSON object with the keys schema, version, seed, planner, robot_name, robot_digest and rules_digest
 /// appended.
 std::string with_provenance(const std::string& json_object, const Provenance& provenance);
+/// Prints that as a line.
+void print_object(const std::string& json_object, const Provenance& provenance = {});
 
 }  // namespace whisker::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/fuzzy/bilinear.hpp"
+#include "firmware/fuzzy/engine.hpp"
 #include "host/cli/cli11_forward.hpp"
 #include "host/report/fuzzy_picture.hpp"
 #include "host/rules/response.hpp"
@@ -13,6 +14,10 @@
 #include "host/scenario/scenario.hpp"
 
 namespace whisker::cli {
+
+/// The core's engine with a response table, for the pictures. For another table than the core's own, the
+/// rules are its answers at the centres of the terms.
+report::FuzzyPicture controller_picture(const fuzzy::Engine::Table& table = fuzzy::kDefaultTable);
 
 /// The table of a rule base, or of the core for the word "default"; it lives as long as the program. Throws
 /// UsageError or InputError.

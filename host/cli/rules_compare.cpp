@@ -1,6 +1,5 @@
-#include "host/cli/rules_compare.hpp"
-
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,13 +8,18 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "firmware/fuzzy/digest.hpp"
 #include "host/campaign/comparison.hpp"
 #include "host/cli/campaign_options.hpp"
+#include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
-#include "host/cli/paired_drives.hpp"
+#include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/cli/table_search.hpp"
+#include "host/report/file.hpp"
+#include "host/rules/read.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -68,13 +72,51 @@ int execute(const CompareOptions& o) {
   }
   const campaign::Comparison c = campaign::compare(pairs);
   if (o.campaign.json) {
-    Provenance p;
-    p.planner = name(chosen.planner);
-    p.seed = o.campaign.seed.value_or(1);
-    fmt::print("{}\n", with_provenance(json_of(o, c, kinds).dump(), p));
+    print_object(json_of(o, c, kinds).dump(), {o.campaign.seed.value_or(1), name(chosen.planner)});
   } else {
     fmt::print("A = {}, B = {}: {} worlds, planner {}\n", o.a, o.b, c.worlds, name(o.campaign.planner));
     print_comparison(stdout, c);
+  }
+  return 0;
+}
+
+using fuzzy::Bilinear;
+
+/// Of the file format; the playground refuses others (host/web/src/playground/opened_table.ts).
+constexpr int kFormat = 1;
+
+struct TableOptions {
+  std::string file;
+  std::vector<std::string> names;
+  std::string out;
+};
+
+std::string json_of(const rules::RuleBase& base, const rules::Response& response) {
+  std::vector<std::int16_t> nodes;
+  for (const auto& row : response.table.node)
+    for (const Bilinear::Node& node : row) nodes.insert(nodes.end(), {node.turn, node.step});
+  const Json json = {
+      {"whisker_table", kFormat},
+      {"name", base.name.empty() ? std::filesystem::path(base.file).filename().string() : base.name},
+      {"hash", fmt::format("{:08x}", fuzzy::digest(response.table))},
+      {"rows", Bilinear::kDistanceNodes},
+      {"columns", Bilinear::kBiasNodes},
+      {"symmetric", response.symmetric},
+      {"turn_error", response.turn_error},
+      {"step_error", response.step_error},
+      {"nodes", nodes}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+int execute(const TableOptions& o) {
+  check_outputs({o.out}, {o.file});
+  const rules::RuleBase base = rules::read_rules(o.file);
+  const std::string text = json_of(base, named_response(base, o.names));
+  if (o.out.empty()) {
+    fmt::print("{}", text);
+  } else {
+    report::write_file(o.out, text);
+    fmt::print(words_beside({o.out}), "table: {}\n", o.out);
   }
   return 0;
 }
@@ -96,6 +138,19 @@ void add_rules_compare(CLI::App& rules, int& status) {
   add_jobs(*cmd, o->campaign);
   add_switch(*cmd, "--json", o->campaign.json, "Print the result as one JSON object and nothing else");
   cmd->callback([o, &status] { status = execute(*o); });
+}
+
+CLI::App* add_rules_table(CLI::App& rules, int& status) {
+  CLI::App* cmd =
+      rules.add_subcommand("table", "Write the core's response table of a rule base, for the playground");
+  const auto o = std::make_shared<TableOptions>();
+  add_file(*cmd, "FILE", o->file,
+           "Rule base (.fis, .fll, .fcl, .toml) with\ninputs D and R, outputs SA and SD")
+      ->required();
+  add_map_names(*cmd, o->names, "The file's name of D, R, SA or SD; may be repeated");
+  add_file(*cmd, "--out", o->out, "File to write (JSON), instead of standard output");
+  cmd->callback([o, &status] { status = execute(*o); });
+  return cmd;
 }
 
 }  // namespace whisker::cli

@@ -1,26 +1,116 @@
-#include "host/cli/rules_search.hpp"
-
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
+#include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
-#include "host/cli/rules_search_output.hpp"
 #include "host/cli/table_search.hpp"
 #include "host/report/file.hpp"
 #include "host/rules/read.hpp"
 
 namespace whisker::cli {
 namespace {
+
+struct SearchNames {
+  std::string base;                 ///< a file, or "default"
+  std::vector<std::string> worlds;  ///< of the plan's classes: "discs --discs 75 --box"
+  std::string drives;               ///< "planner map", or "sloppy operator with assist"
+};
+
+using Json = nlohmann::ordered_json;
+
+std::uint64_t first_of_validation(const SearchPlan& plan) { return plan.first_seed + plan.searched(); }
+std::uint64_t last_of_validation(const SearchPlan& plan) {
+  return first_of_validation(plan) + plan.validation - 1;
+}
+
+std::string digest_text(const Candidate& c) { return fmt::format("{:08x}", c.digest); }
+
+const char* verdict_text(const Validation& v) {
+  return v.better ? "better: no more contacts, no fewer successes, and the bounds of the time are below 1"
+                  : "not better";
+}
+
+Json validation_json(const SearchPlan& plan, const SearchNames& names, const Validation& v) {
+  Json classes = Json::array();
+  for (std::size_t k = 0; k < v.classes.size(); ++k) {
+    Json one = {{"world", names.worlds[k]}};
+    one.update(comparison_json(v.classes[k]));
+    classes.push_back(one);
+  }
+  return {{"first_seed", first_of_validation(plan)},
+          {"last_seed", last_of_validation(plan)},
+          {"classes", classes},
+          {"all", comparison_json(v.all)},
+          {"time_ratio_with_failures", estimate_json(v.time)},
+          {"better", v.better}};
+}
+
+void print_generation(std::FILE* out, const Generation& g) {
+  fmt::print(out, "generation {}: {:08x}, time over its parent {}, {}\n", g.number, g.digest,
+             estimate_text(g.time, 3), g.kept ? "kept" : "dropped");
+  std::fflush(out);
+}
+
+void print_validation(std::FILE* out, const SearchPlan& plan, const SearchNames& names, const Validation& v) {
+  fmt::print(out, "validation: A = {}, B = the rules found, {}, seeds {} to {} of each class\n", names.base,
+             names.drives, first_of_validation(plan), last_of_validation(plan));
+  for (std::size_t k = 0; k < v.classes.size(); ++k) {
+    fmt::print(out, "{}, {} worlds\n", names.worlds[k], v.classes[k].worlds);
+    print_comparison(out, v.classes[k]);
+  }
+  if (v.classes.size() > 1) {
+    fmt::print(out, "all classes, {} worlds\n", v.all.worlds);
+    print_comparison(out, v.all);
+  }
+  fmt::print(out, "time with failures, B / A: {}; {}\n", estimate_text(v.time, 3), verdict_text(v));
+}
+
+/// The best rules as a file; its first lines say how they were found.
+std::string searched_file(const SearchPlan& plan, const SearchNames& names, const TableSearch& search,
+                          const std::optional<Validation>& v) {
+  std::string comment = fmt::format(
+      "Found by whisker rules search, {}, in {}: seeds {} to {},\n{} of {} generations of {} children.\n",
+      names.drives, fmt::join(names.worlds, ", "), plan.first_seed, first_of_validation(plan) - 1,
+      search.generations().size(), plan.generations, plan.children);
+  comment += fmt::format("It started from the table {}; this is {}.\n", digest_text(search.base()),
+                         digest_text(search.best()));
+  comment += v ? fmt::format("Seeds {} to {}: time {} of the first table's, with 95 % bounds;\n{}.",
+                             first_of_validation(plan), last_of_validation(plan), estimate_text(v->time, 3),
+                             verdict_text(*v))
+               : "Not validated.";
+  return rules::to_toml(search.best().rules, "searched", comment);
+}
+
+/// One object, without provenance. No validation: no child was kept.
+std::string search_json(const SearchPlan& plan, const SearchNames& names, const TableSearch& search,
+                        const std::optional<Validation>& v) {
+  Json generations = Json::array();
+  for (const Generation& g : search.generations())
+    generations.push_back({{"rules_digest", fmt::format("{:08x}", g.digest)},
+                           {"time_ratio", estimate_json(g.time)},
+                           {"kept", g.kept}});
+  const Json json = {{"base", names.base},
+                     {"base_digest", digest_text(search.base())},
+                     {"assist", plan.assist},
+                     {"children", plan.children},
+                     {"first_seed", plan.first_seed},
+                     {"last_seed", first_of_validation(plan) - 1},
+                     {"generations", generations},
+                     {"validation", v ? validation_json(plan, names, *v) : Json(nullptr)}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 constexpr std::uint64_t kMostGenerations = 10000;
 constexpr std::uint64_t kMostChildren = 256;
@@ -136,7 +226,7 @@ int execute(const SearchOptions& o) {
     p.seed = o.seed;
     if (!plan.assist) p.planner = name(o.campaign.planner);
     p.rules_digest = fmt::format("{:08x}", search.best().digest);
-    fmt::print("{}\n", with_provenance(search_json(plan, names, search, validation), p));
+    print_object(search_json(plan, names, search, validation), p);
   } else {
     if (validation) print_validation(out, plan, names, *validation);
     if (!validation) fmt::print(out, "no child was kept: the rules are the base's\n");
@@ -164,14 +254,12 @@ void add_rules_search(CLI::App& rules, int& status) {
       ->required()
       ->type_name("KIND,..");
   const auto number = [&](const char* option, std::uint64_t& value, std::uint64_t most, const char* help) {
-    cmd->add_option(option, value, fmt::format("{}; {} by default", help, value))
-        ->transform(whole_number(most))
-        ->type_name("N");
+    whole_number(cmd->add_option(option, value, fmt::format("{}; {} by default", help, value)), "N", most);
   };
   number("--count", o->plan.count, kMostWorlds, "Worlds of a kind in a generation");
-  cmd->add_option("--seed", o->seed, "Of the first world of each kind, and of the changes; 1 by default")
-      ->transform(whole_number())
-      ->type_name("S");
+  whole_number(
+      cmd->add_option("--seed", o->seed, "Of the first world of each kind, and of the changes; 1 by default"),
+      "S");
   number("--generations", o->plan.generations, kMostGenerations, "How many");
   number("--children", o->plan.children, kMostChildren, "Changed tables in a generation");
   number("--validate", o->plan.validation, kMostWorlds, "Worlds of a kind to validate in");

@@ -13,8 +13,8 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/cli/version.hpp"
 #include "host/report/result.hpp"
 #include "host/scenario/load.hpp"
 #include "host/socket/channel.hpp"
@@ -111,20 +111,19 @@ int execute(const SocketOptions& o) {
 void add_socket(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("socket", "Drive the robot of another simulator: docs/socket.md");
   const auto o = std::make_shared<SocketOptions>();
-  CLI::Option* tcp = cmd->add_option("--tcp", o->tcp, "Wait for one client on this port; 0: any free port")
-                         ->transform(whole_number(kMostPort))
-                         ->type_name("PORT");
-  CLI::Option* udp = cmd->add_option("--udp", o->udp, "One datagram a line on this port; 0: any free port")
-                         ->transform(whole_number(kMostPort))
-                         ->type_name("PORT");
+  CLI::Option* tcp =
+      whole_number(cmd->add_option("--tcp", o->tcp, "Wait for one client on this port; 0: any free port"),
+                   "PORT", kMostPort);
+  CLI::Option* udp =
+      whole_number(cmd->add_option("--udp", o->udp, "One datagram a line on this port; 0: any free port"),
+                   "PORT", kMostPort);
   add_switch(*cmd, "--stdio", o->standard, "Lines on standard input and output");
   add_name(*cmd, "--address", o->address, "IPv4 address to listen on; 127.0.0.1 by default")->type_name("A");
   add_file(*cmd, "--robot", o->robot, "Parameters; those of the first line override them");
   add_planner(*cmd, o->planner);
-  cmd->add_option("--timeout", o->timeout_s,
-                  "Longest wait for a client, a line or its reader; 10 s by default")
-      ->transform(amount(1e6))
-      ->type_name("S");
+  amount(cmd->add_option("--timeout", o->timeout_s,
+                         "Longest wait for a client, a line or its reader; 10 s by default"),
+         "S", 1e6);
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object");
   cmd->callback([o, tcp, udp, &status] {
     o->has_tcp = tcp->count() > 0;

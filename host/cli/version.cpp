@@ -1,4 +1,4 @@
-#include "host/cli/version.hpp"
+#include "host/cli/provenance.hpp"
 
 #include <commit.hpp>
 

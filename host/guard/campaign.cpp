@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "host/guard/operators.hpp"
+#include "host/worlds/beside.hpp"
 #include "host/worlds/generate.hpp"
 
 namespace whisker::guard {
@@ -11,6 +13,8 @@ namespace {
 constexpr double kWandering_s = 20;
 
 bool has_goal(Hand hand) { return hand != Hand::joystick && hand != Hand::hostile; }
+
+constexpr double kDrive_s = 20;
 
 }  // namespace
 
@@ -54,6 +58,23 @@ Summary drive_many(const Plan& plan, const std::function<bool(std::uint64_t)>& n
     if (const auto result = drive_one(plan, std::move(world))) summary.add(*result);
   }
   return summary;
+}
+
+Result hostile_drive(std::uint64_t seed, bool noise, const Params& robot,
+                     const fuzzy::Bilinear::Table* table) {
+  worlds::Random place(seed);
+  const Scenario scenario = worlds::beside_obstacle(place, worlds::kCrowdedClasses, noise, robot);
+  worlds::Random random(~seed);
+  const auto hand = make_operator(Hand::hostile, scenario, random.bits());
+  Options options;
+  options.time_s = kDrive_s;
+  options.until_goal = false;
+  options.table = table;
+  if (random.chance(1.0 / 3)) {
+    const int longest = static_cast<int>(longest_gap(robot).raw());
+    options.gap_ms = [random, longest]() mutable { return 1 + random.index(longest); };
+  }
+  return drive(scenario, *hand, options);
 }
 
 }  // namespace whisker::guard

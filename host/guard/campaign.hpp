@@ -66,4 +66,10 @@ std::optional<Result> drive_one(const Plan& plan, Scenario world,
 /// Drive i is in the world of seed first_seed + i. `next` is called before each; false ends the campaign.
 Summary drive_many(const Plan& plan, const std::function<bool(std::uint64_t)>& next);
 
+/// Up to 20 s of hostile commands in a random world of any class, beginning beside an obstacle, with random
+/// accepted gaps between ticks in one drive of three. The same seed gives the same drive. seed < 2^62.
+/// `table`: see Options::table.
+Result hostile_drive(std::uint64_t seed, bool noise, const Params& robot,
+                     const fuzzy::Bilinear::Table* table = nullptr);
+
 }  // namespace whisker::guard

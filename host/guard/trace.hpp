@@ -21,4 +21,8 @@ extern const char* const kTraceHeader;
 /// Without the newline.
 std::string trace_row(const Moment& moment, const RangefinderParams& sensors);
 
+/// On one line. `outcome`: reached, contact, fault, gave_up (out of time) or ended. `hash` is that of the
+/// commands, in hex.
+std::string result_json(const Result& result);
+
 }  // namespace whisker::guard

@@ -7,7 +7,7 @@
 
 #include "firmware/can/param_server.hpp"
 #include "firmware/can/rules_sender.hpp"
-#include "host/hil/base_words.hpp"
+#include "host/hil/error_names.hpp"
 #include "host/hil/param_question.hpp"
 
 namespace whisker::hil {

@@ -1,6 +1,6 @@
 #include "host/page/guard_recording.hpp"
 
-#include "host/guard/result_json.hpp"
+#include "host/guard/trace.hpp"
 #include "host/page/json.hpp"
 #include "host/report/units.hpp"
 

@@ -4,7 +4,7 @@
 #include "host/page/guard_recording.hpp"
 #include "host/page/json.hpp"
 #include "host/page/template.hpp"
-#include "host/report/html.hpp"
+#include "host/report/file.hpp"
 
 namespace whisker::page {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/protocol/dbc.hpp"
+#include "host/protocol/page.hpp"
 
 #include <iterator>
 

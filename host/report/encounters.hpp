@@ -47,4 +47,12 @@ class EncounterFinder {
 /// In the order of the run; they point into `records`.
 std::vector<Encounter> encounters(const std::vector<TickRecord>& records);
 
+struct HandOver {
+  const TickRecord* at;
+  bool to_edges;  ///< false: back to the map
+};
+
+/// Alternating, fallbacks first. None before the map has led for the first time.
+std::vector<HandOver> hand_overs(const std::vector<TickRecord>& records);
+
 }  // namespace whisker::report

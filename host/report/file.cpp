@@ -1,16 +1,17 @@
 #include "host/report/file.hpp"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <climits>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
 #include <system_error>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
 
 namespace whisker::report {
 namespace {
@@ -70,6 +71,24 @@ void write_file(const std::string& path, std::string_view text) {
     ::unlink(part.c_str());
     fail(path, error);
   }
+}
+
+std::string script_safe(const std::string& json) {
+  std::string text;
+  for (const char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+void put(std::string& page, std::string_view mark, const std::string& text) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos) throw std::logic_error("the page's template has no " + std::string(mark));
+  page.replace(at, mark.size(), text);
 }
 
 }  // namespace whisker::report

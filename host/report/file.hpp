@@ -12,4 +12,10 @@ namespace whisker::report {
 /// PATH: REASON", and then leaves no trace.
 void write_file(const std::string& path, std::string_view text);
 
+/// JSON that cannot end the script element that holds it.
+std::string script_safe(const std::string& json);
+
+/// Replaces the first mark. Throws std::logic_error if there is none.
+void put(std::string& page, std::string_view mark, const std::string& text);
+
 }  // namespace whisker::report

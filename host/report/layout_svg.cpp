@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/report/axes.hpp"
 #include "host/report/palette.hpp"
-#include "host/report/plot.hpp"
 
 namespace whisker::report {
 namespace {
@@ -21,7 +21,7 @@ struct LineStyle {
 constexpr LineStyle kStyles[] = {
     {"#225aa0", "none", 5.2}, {"#c2690a", "8 4", 4.0}, {"#00795c", "2 4", 2.8}, {"#a0337a", "10 3 2 3", 1.8}};
 
-constexpr double kWidth = 720, kHeight = 626;
+constexpr double kChartWidth = 720, kChartHeight = 626;
 constexpr double kBesideEnds = 2.5;  // deg of the axis beyond the first and the last angle
 constexpr const char* kRule = "A + cone/2 + L = 90";
 
@@ -128,9 +128,9 @@ void draw_legend(Svg& svg, const LayoutChart& chart, bool rule_shown) {
 
 std::string layout_svg(const LayoutChart& chart) {
   const Range x = angles(chart);
-  const Plot success{{64, 146}, kWidth - 94, 170, x, {-6, 106}};
-  const Plot time{{64, 376}, kWidth - 94, 200, x, {0, 1.12 * slowest(chart)}};
-  Svg svg(kWidth, kHeight, chart.title);
+  const Plot success{{64, 146}, kChartWidth - 94, 170, x, {-6, 106}};
+  const Plot time{{64, 376}, kChartWidth - 94, 200, x, {0, 1.12 * slowest(chart)}};
+  Svg svg(kChartWidth, kChartHeight, chart.title);
   svg.text({20, 30}, chart.title, R"(font-size="15" font-weight="bold")");
   svg.text({20, 50}, chart.subtitle, R"(fill="#444")");
   draw_legend(svg, chart, rule_is_shown(chart, success));

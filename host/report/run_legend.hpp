@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host/report/encounters.hpp"
-#include "host/report/hand_overs.hpp"
 #include "host/report/run_svg.hpp"
 #include "host/report/svg.hpp"
 #include "host/report/track.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/report/axes.hpp"
-#include "host/report/hand_overs.hpp"
+#include "host/report/encounters.hpp"
 #include "host/report/svg.hpp"
 #include "host/run/map_picture.hpp"
 

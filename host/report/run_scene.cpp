@@ -1,10 +1,12 @@
 #include "host/report/run_scene.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "host/report/palette.hpp"
 #include "host/report/units.hpp"
@@ -59,10 +61,6 @@ double beam_length(const hal::RangeReading& reading, const RangefinderParams& se
   return 0;
 }
 
-}  // namespace
-
-namespace {
-
 Box way_box(const Scenario& scenario, const std::vector<TickRecord>& records) {
   Box box;
   const double body = metres(scenario.robot.body.radius);
@@ -86,6 +84,28 @@ Box world_box(const Scenario& scenario) {
   for (const Mover& m : scenario.movers)
     for (const Vec2 p : m.path) box.add(p, m.radius_m);
   return box;
+}
+
+struct Label {
+  Point at;
+  double gap;  ///< px from the place to the text
+  std::string_view text;
+  const char* colour;
+};
+
+bool overlap(const Label& a, const Label& b) {
+  return std::fabs(a.at.x - b.at.x) < 48 && std::fabs(a.at.y - b.at.y) < 14 + std::fabs(a.gap - b.gap);
+}
+
+void draw(Svg& svg, const View& view, const Label& label) {
+  const bool below = label.at.y - label.gap < view.corner.y + 14;
+  const double y = below ? label.at.y + label.gap + 11 : label.at.y - label.gap;
+  const char* anchor = label.at.x < view.corner.x + 30  ? "start"
+                       : label.at.x > view.right() - 30 ? "end"
+                                                        : "middle";
+  const double shift = anchor[0] == 's' ? -6 : anchor[0] == 'e' ? 6 : 0;
+  svg.text({label.at.x + shift, y}, label.text,
+           fmt::format(R"(text-anchor="{}" fill="{}")", anchor, label.colour));
 }
 
 }  // namespace
@@ -232,6 +252,27 @@ void draw_contact(Svg& svg, const View& view, double radius_m, const sim::Pose& 
   svg.open(fmt::format(R"(class="contact" fill="none" stroke="{}" stroke-width="3")", kContactColour));
   svg.circle(c, radius, R"(fill="#ffd9ec" fill-opacity="0.6")");
   svg.path(cross, R"(stroke-linecap="round")");
+  svg.close();
+}
+
+void draw_labels(Svg& svg, const View& view, const Scenario& scenario, const TickRecord* end,
+                 Verdict verdict) {
+  const double body = std::max(metres(scenario.robot.body.radius) * view.pixels_per_metre, 8.0);
+  const double circle = std::max(scenario.goal.tolerance_m * view.pixels_per_metre, 8.0);
+  std::vector<Label> labels;
+  const auto add = [&](const Label& label) {
+    for (const Label& other : labels)
+      if (overlap(label, other)) return;
+    labels.push_back(label);
+  };
+  if (end != nullptr && verdict == Verdict::contact)
+    add({view.page({end->x_m, end->y_m}), body + 10, "contact", kContactColour});
+  add({view.page(scenario.goal.at), circle + 5, "goal", kGoalColour});
+  add({view.page(scenario.start.at), body + 5, "start", "#222"});
+  if (end != nullptr) add({view.page({end->x_m, end->y_m}), body + 5, "end", "#222"});
+  svg.open(
+      R"(class="labels" font-weight="bold" stroke="#fff" stroke-width="3" stroke-linejoin="round" paint-order="stroke")");
+  for (const Label& label : labels) draw(svg, view, label);
   svg.close();
 }
 

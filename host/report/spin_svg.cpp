@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "host/report/plot.hpp"
+#include "host/report/axes.hpp"
 
 namespace whisker::report {
 namespace {

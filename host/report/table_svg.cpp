@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "host/report/axes.hpp"
 #include "host/report/colour.hpp"
-#include "host/report/plot.hpp"
 
 namespace whisker::report {
 namespace {

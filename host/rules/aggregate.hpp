@@ -7,6 +7,7 @@
 
 #include "host/rules/canvas.hpp"
 #include "host/rules/norms.hpp"
+#include "host/rules/rule_base.hpp"
 
 namespace whisker::rules {
 
@@ -37,5 +38,9 @@ Moments moments(const Canvas& canvas, Or aggregation, const std::vector<Activate
 /// The aggregated set, piece by piece in ascending order.
 void visit_pieces(const Canvas& canvas, Or aggregation, const std::vector<Activated>& activated,
                   const std::function<void(const Piece&)>& visit);
+
+/// Every defuzzifier of a set. False, and `out` unchanged, if the set is empty.
+bool defuzzify(const Canvas& canvas, Or aggregation, Defuzzifier defuzzifier,
+               const std::vector<Activated>& activated, double& out);
 
 }  // namespace whisker::rules

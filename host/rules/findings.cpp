@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/rules/slopes.hpp"
+#include "host/rules/symmetry.hpp"
 
 namespace whisker::rules {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "host/rules/aggregate.hpp"
 #include "host/rules/canvas.hpp"
-#include "host/rules/defuzzify.hpp"
 #include "host/rules/rule_base.hpp"
 
 namespace whisker::rules {

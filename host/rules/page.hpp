@@ -2,10 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "host/rules/compile.hpp"
+#include "host/rules/surface.hpp"
 
 namespace whisker::rules {
+
+/// SVG. The surface must be of this rule base.
+std::string picture(const RuleBase& base, const Surface& surface);
 
 /// One self-contained HTML file. It computes answers as a chip does, from the table's integers.
 std::string page(const Compiled& compiled);

@@ -1,10 +1,15 @@
 /// Rules as text: "if a is x and b is not y then c is z with 0.5", of .fll and .fcl files.
 #pragma once
 
+#include <string>
+
 #include "host/rules/rule_base.hpp"
 #include "host/rules/source.hpp"
 
 namespace whisker::rules {
+
+/// "if service is poor or food is not rancid then tip is cheap with 0.5".
+std::string words(const RuleBase& base, const Rule& rule);
 
 enum class Dialect {
   fll,  ///< keywords in lower case; hedges before the term

@@ -1,4 +1,4 @@
-#include "host/bench/base_client.hpp"
+#include "host/bench/param_client.hpp"
 
 #include <gtest/gtest.h>
 

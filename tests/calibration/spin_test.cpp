@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "host/calibration/collector.hpp"
-#include "host/calibration/trials.hpp"
+#include "host/calibration/sample.hpp"
+#include "host/calibration/simulated.hpp"
 #include "host/scenario/bearing.hpp"
 #include "tests/effort.hpp"
 

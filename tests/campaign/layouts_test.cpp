@@ -6,7 +6,6 @@
 
 #include <stdexcept>
 
-#include "host/campaign/layout_score.hpp"
 #include "host/campaign/worlds.hpp"
 #include "host/scenario/error.hpp"
 #include "host/scenario/write.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "host/campaign/comparison.hpp"
 #include "host/campaign/failures.hpp"
-#include "host/campaign/race.hpp"
-#include "host/campaign/row_text.hpp"
+#include "host/campaign/row_file.hpp"
 #include "host/paths/shortest.hpp"
 #include "host/run/runner.hpp"
 #include "host/scenario/world.hpp"

@@ -8,7 +8,6 @@
 
 #include "host/campaign/motion_count.hpp"
 #include "host/campaign/row_file.hpp"
-#include "host/campaign/row_text.hpp"
 #include "tests/campaign/rows.hpp"
 
 namespace whisker::campaign {

@@ -1,4 +1,3 @@
-#include "host/campaign/scan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "host/campaign/merge.hpp"
 #include "host/campaign/ordered.hpp"
-#include "host/campaign/row_text.hpp"
+#include "host/campaign/row_file.hpp"
 #include "host/scenario/error.hpp"
 #include "host/worlds/random.hpp"
 #include "tests/campaign/rows.hpp"

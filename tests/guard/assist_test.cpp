@@ -9,7 +9,7 @@
 
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/safety/assist.hpp"
-#include "host/guard/hostile_drive.hpp"
+#include "host/guard/campaign.hpp"
 #include "host/guard/operators.hpp"
 #include "host/worlds/generate.hpp"
 #include "host/worlds/random.hpp"

@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "host/campaign/random_robot.hpp"
+#include "host/guard/campaign.hpp"
 #include "host/guard/drive.hpp"
-#include "host/guard/hostile_drive.hpp"
 #include "host/guard/operators.hpp"
 #include "host/worlds/generate.hpp"
 #include "tests/effort.hpp"

@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "host/report/hand_overs.hpp"
 #include "tests/report/script.hpp"
 
 namespace whisker::report {

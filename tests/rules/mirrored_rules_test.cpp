@@ -11,7 +11,6 @@
 #include "firmware/fuzzy/digest.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "host/rules/compile.hpp"
-#include "host/rules/mutation.hpp"
 #include "host/rules/read.hpp"
 #include "host/rules/response.hpp"
 #include "host/scenario/error.hpp"

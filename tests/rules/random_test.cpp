@@ -6,7 +6,7 @@
 
 #include "host/rules/compile.hpp"
 #include "host/rules/read.hpp"
-#include "host/rules/rule_words.hpp"
+#include "host/rules/rule_text.hpp"
 #include "tests/effort.hpp"
 #include "tests/rules/oracle.hpp"
 #include "tests/rules/random_base.hpp"
