@@ -63,9 +63,9 @@ WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid4markERKNS0_15ConeObservationE
 WHISKER_MEASURED(_ZN7whisker10perception9LocalGrid7move_toERKNS_4PoseE, void,
                  (LocalGrid * local_grid, const Pose& pose), (local_grid, pose))
 #elif defined(WHISKER_PROFILE_MARKS)
-WHISKER_MEASURED(_ZN7whisker8planning7GridMap4markERKNS_10perception15ConeObservationEb, void,
-                 (GridMap * map, const perception::ConeObservation& observation, bool hold),
-                 (map, observation, hold))
+WHISKER_MEASURED(_ZN7whisker8planning7GridMap4markERKNS_10perception15ConeObservationEbb, void,
+                 (GridMap * map, const perception::ConeObservation& observation, bool hold, bool doubts),
+                 (map, observation, hold, doubts))
 #elif defined(WHISKER_PROFILE_FLOOD)
 WHISKER_MEASURED(_ZN7whisker8planning9Wavefront3runERNS0_7GridMapEl, bool,
                  (Wavefront * wavefront, GridMap& map, int32_t words), (wavefront, map, words))
