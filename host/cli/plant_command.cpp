@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -91,13 +90,19 @@ int execute(const ControllerOptions& o) {
   if (!o.keep.empty() && o.keep == o.calibration) throw UsageError("--keep and --calibration: two files");
   const auto storage = open_storage(o);
   const auto kept = open_file("--calibration", o.calibration);
-  std::optional<planning::Calibrator> calibrator;
-  if (kept) calibrator.emplace(*kept);
   const auto line = hil::open_line(o.bus.name);
-  if (o.guard) {
-    guard_on_bus(o.bus, o.planner, o.command_s, *line);
+  const auto drive = [&](planning::Calibrator* calibrator) {
+    if (o.guard) {
+      guard_on_bus(o.bus, o.planner, o.command_s, *line);
+    } else {
+      control_on_bus(o.bus, o.planner, *line, storage.get(), calibrator);
+    }
+  };
+  if (!kept) {
+    drive(nullptr);
   } else {
-    control_on_bus(o.bus, o.planner, *line, storage.get(), calibrator ? &*calibrator : nullptr);
+    planning::Calibrator calibrator(*kept);
+    drive(&calibrator);
   }
   return 0;
 }

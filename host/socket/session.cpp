@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -199,9 +200,9 @@ std::optional<SessionEnd> Session::result() const {
     const sim::Vec2 rest = core_->goal->at - sim::Vec2{si(status.pose.at.x), si(status.pose.at.y)};
     result.believed_distance_m = std::sqrt(sim::dot(rest, rest));
   }
-  result.final_distance_m = NAN;
-  result.min_clearance_m = NAN;
-  result.path_m = NAN;
+  // The world of another simulator is not known here.
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  result.final_distance_m = result.min_clearance_m = result.path_m = kUnknown;
   result.ticks = core_->ticks;
   result.hash = core_->hash.value();
   return end;
