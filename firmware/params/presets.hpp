@@ -21,9 +21,10 @@ constexpr Params params_of(const BodyParams& body, const WheelParams& wheels,
   return params;
 }
 
-/// HC-SR04 sonars, one ahead and one to each side at this angle, triggered in turn 20 times a second. Within
-/// 0.6 m the cone is at least 36 degrees wide; walls seen beyond 40 degrees give no echo. So the angle should
-/// be 37 to 42 degrees. The figures are those of host/robots/hc-sr04.toml.
+/// HC-SR04 sonars, one ahead and one to each side at this angle, each measuring 20 times a second. Within
+/// 0.6 m the cone is at least 36 degrees wide; walls seen beyond 40 degrees give no echo. check() refuses an
+/// angle at which walls ahead stay unseen, below 32 degrees; from 37 on, 5 degrees are to spare. The figures
+/// are those of host/robots/hc-sr04.toml.
 constexpr Sensors hc_sr04(Angle side_angle) noexcept {
   Sensors s{{}, 250_ms};
   s.rangefinders.side_angle = side_angle;

@@ -54,12 +54,8 @@ constexpr Angle slowest_step(Angle half_cone, Angle error) noexcept {
   return Angle::from_raw(slowest > error.raw() * 2 ? slowest : error.raw() * 2);
 }
 
-constexpr RimSweep no_sweep(const Params& p) noexcept {
-  return {false, p.body.radius, Angle::from_raw(UINT32_MAX), {}};
-}
-
 [[gnu::always_inline]] constexpr RimSweep rim_sweep(const Params& p) noexcept {
-  RimSweep sweep = no_sweep(p);
+  RimSweep sweep{false, p.body.radius, Angle::from_raw(UINT32_MAX), {}};
   const Length error = place_error(p);
   const Angle turn_error = turn_of_counts(p);
   Angle widest;
