@@ -60,8 +60,8 @@ stage_gcc() {
 
 stage_web() {
   build host --target whisker
-  npm --prefix host/web ci --ignore-scripts --no-audit --no-fund
-  npm --prefix host/web run check
+  npm --prefix host/lab/web ci --ignore-scripts --no-audit --no-fund
+  npm --prefix host/lab/web run check
   scripts/playground --build-only
   node --test --test-reporter=tap tests/web/*.test.mjs
 }

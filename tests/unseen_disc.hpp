@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/scenario/scenario.hpp"
+#include "host/harness/scenario/scenario.hpp"
 
 namespace whisker::test {
 

@@ -10,7 +10,7 @@
 #include "host/cli/bus_run.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
-#include "host/hil/error_names.hpp"
+#include "host/harness/hil/error_names.hpp"
 
 namespace whisker::cli {
 namespace {

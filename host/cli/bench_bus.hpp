@@ -7,15 +7,15 @@
 #include <string>
 
 #include "firmware/can/bus_guard.hpp"
-#include "host/bench/operator_client.hpp"
-#include "host/bench/param_client.hpp"
-#include "host/bench/seat.hpp"
-#include "host/bench/survey.hpp"
-#include "host/bus/fault_port.hpp"
 #include "host/cli/bus_run.hpp"
 #include "host/cli/output.hpp"
-#include "host/hil/line.hpp"
-#include "host/hil/wall_clock.hpp"
+#include "host/harness/bus/fault_port.hpp"
+#include "host/harness/hil/line.hpp"
+#include "host/harness/hil/wall_clock.hpp"
+#include "host/lab/bench/operator_client.hpp"
+#include "host/lab/bench/param_client.hpp"
+#include "host/lab/bench/seat.hpp"
+#include "host/lab/bench/survey.hpp"
 
 namespace whisker::cli {
 

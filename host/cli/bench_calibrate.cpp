@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "host/calibration/drive_procedure.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/calibrate_bus.hpp"
 #include "host/cli/calibrate_drive_output.hpp"
@@ -14,6 +13,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/lab/calibration/drive_procedure.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -9,14 +9,14 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/table_hash.hpp"
-#include "host/bench/param_client.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
-#include "host/hil/error_names.hpp"
+#include "host/harness/hil/error_names.hpp"
+#include "host/lab/bench/param_client.hpp"
 
 namespace whisker::cli {
 namespace {

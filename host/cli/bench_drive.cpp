@@ -10,7 +10,6 @@
 
 #include "firmware/can/table_hash.hpp"
 #include "firmware/planning/planner.hpp"
-#include "host/bench/operator_client.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
@@ -21,13 +20,14 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/guard/operator.hpp"
-#include "host/guard/recorded.hpp"
-#include "host/hil/error_names.hpp"
-#include "host/hil/overheard.hpp"
-#include "host/hil/planners.hpp"
-#include "host/report/result.hpp"
-#include "host/run/make_record.hpp"
+#include "host/harness/hil/error_names.hpp"
+#include "host/harness/hil/overheard.hpp"
+#include "host/harness/hil/planners.hpp"
+#include "host/harness/run/make_record.hpp"
+#include "host/lab/bench/operator_client.hpp"
+#include "host/lab/guard/operator.hpp"
+#include "host/lab/guard/recorded.hpp"
+#include "host/lab/report/result.hpp"
 
 namespace whisker::cli {
 namespace {

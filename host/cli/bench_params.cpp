@@ -9,7 +9,6 @@
 
 #include "firmware/fuzzy/digest.hpp"
 #include "firmware/params/words.hpp"
-#include "host/bench/param_values.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
@@ -17,10 +16,11 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/report/file.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/reader.hpp"
-#include "host/scenario/violations.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/reader.hpp"
+#include "host/harness/scenario/violations.hpp"
+#include "host/lab/bench/param_values.hpp"
+#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {

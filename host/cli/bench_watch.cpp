@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "host/bench/bus_state.hpp"
 #include "host/cli/bench_bus.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
@@ -14,10 +13,11 @@
 #include "host/cli/logged_run.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
-#include "host/hil/candump.hpp"
-#include "host/hil/error_names.hpp"
-#include "host/run/make_record.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/hil/candump.hpp"
+#include "host/harness/hil/error_names.hpp"
+#include "host/harness/run/make_record.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/lab/bench/bus_state.hpp"
 
 namespace whisker::cli {
 namespace {

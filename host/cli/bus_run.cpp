@@ -14,12 +14,12 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
-#include "host/hil/candump.hpp"
-#include "host/hil/controller_loop.hpp"
-#include "host/hil/host_rules.hpp"
-#include "host/hil/precedence.hpp"
-#include "host/hil/tap.hpp"
-#include "host/hil/wall_clock.hpp"
+#include "host/harness/hil/candump.hpp"
+#include "host/harness/hil/controller_loop.hpp"
+#include "host/harness/hil/host_rules.hpp"
+#include "host/harness/hil/precedence.hpp"
+#include "host/harness/hil/tap.hpp"
+#include "host/harness/hil/wall_clock.hpp"
 
 namespace whisker::cli {
 namespace {

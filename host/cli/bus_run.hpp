@@ -9,13 +9,13 @@
 #include "firmware/apps/can/remote_robot.hpp"
 #include "firmware/can/node.hpp"
 #include "firmware/can/rules_server.hpp"
-#include "host/bus/fault_port.hpp"
 #include "host/cli/cli11_forward.hpp"
 #include "host/cli/live_view.hpp"
 #include "host/cli/one_run.hpp"
-#include "host/hil/bus_pilot.hpp"
-#include "host/hil/line.hpp"
-#include "host/run/planners.hpp"
+#include "host/harness/bus/fault_port.hpp"
+#include "host/harness/hil/bus_pilot.hpp"
+#include "host/harness/hil/line.hpp"
+#include "host/harness/run/planners.hpp"
 
 namespace whisker::cli {
 

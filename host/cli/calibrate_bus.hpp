@@ -10,9 +10,9 @@
 #include "firmware/params.hpp"
 #include "firmware/planning/calibration/square_planner.hpp"
 #include "firmware/planning/calibration/straight_planner.hpp"
-#include "host/calibration/sample.hpp"
 #include "host/cli/bus_run.hpp"
-#include "host/hil/line.hpp"
+#include "host/harness/hil/line.hpp"
+#include "host/lab/calibration/sample.hpp"
 
 namespace whisker::cli {
 

@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "host/calibration/log.hpp"
 #include "host/cli/bus_run.hpp"
 #include "host/cli/calibrate_bus.hpp"
 #include "host/cli/calibrate_output.hpp"
@@ -17,11 +16,12 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
-#include "host/report/file.hpp"
-#include "host/report/trace.hpp"
-#include "host/run/spec.hpp"
-#include "host/scenario/bearing.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/bearing.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/lab/calibration/log.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/report/trace.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -14,7 +14,6 @@
 #include <CLI/CLI.hpp>
 
 #include "firmware/calibration/values.hpp"
-#include "host/calibration/hand_measured.hpp"
 #include "host/cli/bus_run.hpp"
 #include "host/cli/calibrate_bus.hpp"
 #include "host/cli/calibrate_drive_output.hpp"
@@ -23,9 +22,10 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
-#include "host/hil/line.hpp"
-#include "host/scenario/error.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/hil/line.hpp"
+#include "host/harness/scenario/error.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/lab/calibration/hand_measured.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "host/calibration/hand_measured.hpp"
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/provenance.hpp"
-#include "host/report/file.hpp"
-#include "host/report/spin_svg.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/lab/calibration/hand_measured.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/report/spin_svg.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "firmware/calibration/tape.hpp"
-#include "host/calibration/drive_procedure.hpp"
 #include "host/cli/bus_run.hpp"
+#include "host/lab/calibration/drive_procedure.hpp"
 
 namespace whisker::cli {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "host/calibration/calibration.hpp"
-#include "host/calibration/simulated.hpp"
+#include "host/lab/calibration/calibration.hpp"
+#include "host/lab/calibration/simulated.hpp"
 
 namespace whisker::cli {
 

@@ -12,12 +12,6 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "host/campaign/failures.hpp"
-#include "host/campaign/mission.hpp"
-#include "host/campaign/random_robot.hpp"
-#include "host/campaign/row.hpp"
-#include "host/campaign/row_file.hpp"
-#include "host/campaign/summary.hpp"
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
@@ -26,10 +20,16 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/page/page.hpp"
-#include "host/report/file.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/write.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/lab/campaign/failures.hpp"
+#include "host/lab/campaign/mission.hpp"
+#include "host/lab/campaign/random_robot.hpp"
+#include "host/lab/campaign/row.hpp"
+#include "host/lab/campaign/row_file.hpp"
+#include "host/lab/campaign/summary.hpp"
+#include "host/lab/page/page.hpp"
+#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -11,12 +11,12 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "host/campaign/ordered.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/lab/campaign/ordered.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "host/campaign/row.hpp"
-#include "host/campaign/worlds.hpp"
 #include "host/cli/cli11_forward.hpp"
-#include "host/run/planners.hpp"
+#include "host/harness/run/planners.hpp"
+#include "host/lab/campaign/row.hpp"
+#include "host/lab/campaign/worlds.hpp"
 
 namespace whisker::cli {
 

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "host/run/record.hpp"
+#include "host/harness/run/record.hpp"
 
 namespace whisker::cli {
 

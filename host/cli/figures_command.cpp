@@ -9,20 +9,20 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "host/campaign/mission.hpp"
-#include "host/campaign/worlds.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/report/figures.hpp"
-#include "host/report/file.hpp"
-#include "host/report/run_svg.hpp"
-#include "host/report/table_svg.hpp"
-#include "host/run/map_picture.hpp"
-#include "host/run/runner.hpp"
-#include "host/scenario/load.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/map_picture.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/campaign/mission.hpp"
+#include "host/lab/campaign/worlds.hpp"
+#include "host/lab/report/figures.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/report/run_svg.hpp"
+#include "host/lab/report/table_svg.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -14,14 +14,14 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/guard/drive.hpp"
-#include "host/guard/operators.hpp"
-#include "host/guard/recorded.hpp"
-#include "host/guard/trace.hpp"
-#include "host/page/guard_recording.hpp"
-#include "host/report/file.hpp"
-#include "host/scenario/contact.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/scenario/contact.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/lab/guard/drive.hpp"
+#include "host/lab/guard/operators.hpp"
+#include "host/lab/guard/recorded.hpp"
+#include "host/lab/guard/trace.hpp"
+#include "host/lab/page/guard_recording.hpp"
+#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -13,10 +13,10 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
-#include "host/hunt/draw.hpp"
-#include "host/hunt/hunt.hpp"
-#include "host/hunt/shrink.hpp"
-#include "host/hunt/trial.hpp"
+#include "host/lab/hunt/draw.hpp"
+#include "host/lab/hunt/hunt.hpp"
+#include "host/lab/hunt/shrink.hpp"
+#include "host/lab/hunt/trial.hpp"
 
 namespace whisker::cli {
 namespace {

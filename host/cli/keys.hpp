@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "host/guard/operator.hpp"
+#include "host/lab/guard/operator.hpp"
 
 namespace whisker::cli {
 

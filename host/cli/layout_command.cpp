@@ -10,8 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/params/relations.hpp"
-#include "host/campaign/layouts.hpp"
-#include "host/campaign/mission.hpp"
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
@@ -19,13 +17,15 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/report/file.hpp"
-#include "host/report/layout_svg.hpp"
-#include "host/report/units.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/params_text.hpp"
-#include "host/scenario/sensor_models.hpp"
-#include "host/scenario/sensor_text.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/params_text.hpp"
+#include "host/harness/scenario/sensor_models.hpp"
+#include "host/harness/scenario/sensor_text.hpp"
+#include "host/lab/campaign/layouts.hpp"
+#include "host/lab/campaign/mission.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/report/layout_svg.hpp"
+#include "host/lab/report/units.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/page/page.hpp"
-#include "host/view/names.hpp"
+#include "host/lab/page/page.hpp"
+#include "host/lab/view/names.hpp"
 
 namespace whisker::cli {
 namespace {

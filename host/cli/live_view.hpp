@@ -6,9 +6,9 @@
 
 #include "host/cli/cli11_forward.hpp"
 #include "host/cli/output.hpp"
-#include "host/run/planners.hpp"
-#include "host/view/feed.hpp"
-#include "host/view/server.hpp"
+#include "host/harness/run/planners.hpp"
+#include "host/lab/view/feed.hpp"
+#include "host/lab/view/server.hpp"
 
 namespace whisker::cli {
 

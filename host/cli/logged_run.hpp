@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "host/hil/replay.hpp"
-#include "host/run/record.hpp"
-#include "host/scenario/scenario.hpp"
+#include "host/harness/hil/replay.hpp"
+#include "host/harness/run/record.hpp"
+#include "host/harness/scenario/scenario.hpp"
 
 namespace whisker::cli {
 

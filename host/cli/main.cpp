@@ -12,8 +12,8 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
-#include "host/hil/line.hpp"
-#include "host/scenario/error.hpp"
+#include "host/harness/hil/line.hpp"
+#include "host/harness/scenario/error.hpp"
 
 namespace {
 

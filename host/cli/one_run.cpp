@@ -13,14 +13,14 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/page/page.hpp"
-#include "host/page/recording.hpp"
-#include "host/report/file.hpp"
-#include "host/report/result.hpp"
-#include "host/report/run_svg.hpp"
-#include "host/report/trace.hpp"
-#include "host/scenario/contact.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/scenario/contact.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/lab/page/page.hpp"
+#include "host/lab/page/recording.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/report/result.hpp"
+#include "host/lab/report/run_svg.hpp"
+#include "host/lab/report/trace.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "host/cli/cli11_forward.hpp"
-#include "host/page/page.hpp"
-#include "host/run/runner.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/lab/page/page.hpp"
 
 namespace whisker::cli {
 

@@ -7,18 +7,18 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "host/campaign/meeting.hpp"
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/guard/campaign.hpp"
-#include "host/report/file.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/write.hpp"
-#include "host/worlds/meeting.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/harness/worlds/meeting.hpp"
+#include "host/lab/campaign/meeting.hpp"
+#include "host/lab/guard/campaign.hpp"
+#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/cli/rules_choice.hpp"
-#include "host/scenario/text.hpp"
+#include "host/harness/scenario/text.hpp"
 
 namespace whisker::cli {
 

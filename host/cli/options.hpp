@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/cli/cli11_forward.hpp"
-#include "host/run/planners.hpp"
+#include "host/harness/run/planners.hpp"
 
 namespace whisker::cli {
 

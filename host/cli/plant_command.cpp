@@ -20,8 +20,8 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/hil/file_storage.hpp"
-#include "host/hil/host_rules.hpp"
+#include "host/harness/hil/file_storage.hpp"
+#include "host/harness/hil/host_rules.hpp"
 
 namespace whisker::cli {
 namespace {

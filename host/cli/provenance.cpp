@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "host/scenario/param_list.hpp"
+#include "host/harness/scenario/param_list.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -20,13 +20,13 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/hil/replay.hpp"
-#include "host/page/page.hpp"
-#include "host/page/recording.hpp"
-#include "host/report/file.hpp"
-#include "host/report/trace.hpp"
-#include "host/run/make_record.hpp"
-#include "host/run/spec.hpp"
+#include "host/harness/hil/replay.hpp"
+#include "host/harness/run/make_record.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/lab/page/page.hpp"
+#include "host/lab/page/recording.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/report/trace.hpp"
 
 namespace whisker::cli {
 namespace {

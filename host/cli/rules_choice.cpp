@@ -15,7 +15,7 @@
 #include "firmware/fuzzy/rules.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
-#include "host/rules/read.hpp"
+#include "host/lab/rules/read.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -8,10 +8,10 @@
 #include "firmware/fuzzy/bilinear.hpp"
 #include "firmware/fuzzy/engine.hpp"
 #include "host/cli/cli11_forward.hpp"
-#include "host/report/fuzzy_picture.hpp"
-#include "host/rules/response.hpp"
-#include "host/run/planners.hpp"
-#include "host/scenario/scenario.hpp"
+#include "host/harness/run/planners.hpp"
+#include "host/harness/scenario/scenario.hpp"
+#include "host/lab/report/fuzzy_picture.hpp"
+#include "host/lab/rules/response.hpp"
 
 namespace whisker::cli {
 

@@ -16,13 +16,13 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
-#include "host/report/file.hpp"
-#include "host/rules/compile.hpp"
-#include "host/rules/findings.hpp"
-#include "host/rules/header.hpp"
-#include "host/rules/page.hpp"
-#include "host/rules/read.hpp"
-#include "host/scenario/text.hpp"
+#include "host/harness/scenario/text.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/rules/compile.hpp"
+#include "host/lab/rules/findings.hpp"
+#include "host/lab/rules/header.hpp"
+#include "host/lab/rules/page.hpp"
+#include "host/lab/rules/read.hpp"
 
 namespace whisker::cli {
 namespace {

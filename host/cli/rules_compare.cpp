@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/fuzzy/digest.hpp"
-#include "host/campaign/comparison.hpp"
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
@@ -18,8 +17,9 @@
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/cli/table_search.hpp"
-#include "host/report/file.hpp"
-#include "host/rules/read.hpp"
+#include "host/lab/campaign/comparison.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/rules/read.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -82,7 +82,7 @@ int execute(const CompareOptions& o) {
 
 using fuzzy::Bilinear;
 
-/// Of the file format; the playground refuses others (host/web/src/playground/opened_table.ts).
+/// Of the file format; the playground refuses others (host/lab/web/src/playground/opened_table.ts).
 constexpr int kFormat = 1;
 
 struct TableOptions {

@@ -16,8 +16,8 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/table_search.hpp"
-#include "host/report/file.hpp"
-#include "host/rules/read.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/rules/read.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -15,10 +15,10 @@
 #include "host/cli/options.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/report/result.hpp"
-#include "host/scenario/load.hpp"
-#include "host/socket/channel.hpp"
-#include "host/socket/session.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/socket/channel.hpp"
+#include "host/harness/socket/session.hpp"
+#include "host/lab/report/result.hpp"
 
 namespace whisker::cli {
 namespace {

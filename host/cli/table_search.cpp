@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/fuzzy/digest.hpp"
-#include "host/campaign/mission.hpp"
-#include "host/campaign/ordered.hpp"
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/guard/campaign.hpp"
+#include "host/lab/campaign/mission.hpp"
+#include "host/lab/campaign/ordered.hpp"
+#include "host/lab/guard/campaign.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -13,11 +13,11 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "firmware/fuzzy/bilinear.hpp"
-#include "host/campaign/comparison.hpp"
-#include "host/campaign/worlds.hpp"
 #include "host/cli/campaign_options.hpp"
-#include "host/rules/mirrored_rules.hpp"
-#include "host/run/planners.hpp"
+#include "host/harness/run/planners.hpp"
+#include "host/lab/campaign/comparison.hpp"
+#include "host/lab/campaign/worlds.hpp"
+#include "host/lab/rules/mirrored_rules.hpp"
 
 namespace whisker::cli {
 

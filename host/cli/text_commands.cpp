@@ -11,12 +11,12 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/protocol/page.hpp"
-#include "host/report/file.hpp"
-#include "host/report/table_svg.hpp"
-#include "host/scenario/params_text.hpp"
-#include "host/scenario/write.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/scenario/params_text.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/protocol/page.hpp"
+#include "host/lab/report/file.hpp"
+#include "host/lab/report/table_svg.hpp"
 
 namespace whisker::cli {
 namespace {

@@ -191,7 +191,7 @@ SETTINGS = {
 
 
 @table("docs/rules.md", "worlds a class", 100, a={"default": "default", "help": "rule file, or default"},
-       b={"default": str(ROOT / "host/rules/laws/straight.toml"), "help": "the same"},
+       b={"default": str(ROOT / "host/lab/rules/laws/straight.toml"), "help": "the same"},
        planners={"nargs": "+", "default": ["map", "skirt"], "metavar": "NAME"})  # fmt: skip
 def laws(o):
     """Response tables in the same worlds, paired. A is the core's own table; B a rule file, by default the same rules without their

@@ -1,4 +1,4 @@
-#include "host/baselines/deflection_laws.hpp"
+#include "host/lab/baselines/deflection_laws.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "host/run/runner.hpp"
-#include "host/scenario/load.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker {

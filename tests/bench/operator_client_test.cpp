@@ -1,8 +1,8 @@
-#include "host/bench/operator_client.hpp"
+#include "host/lab/bench/operator_client.hpp"
 
 #include <gtest/gtest.h>
 
-#include "host/hil/planners.hpp"
+#include "host/harness/hil/planners.hpp"
 #include "tests/can/rig.hpp"
 
 namespace whisker::bench {

@@ -1,4 +1,4 @@
-#include "host/bench/param_client.hpp"
+#include "host/lab/bench/param_client.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include "firmware/can/controller_node.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/params/words.hpp"
-#include "host/bench/param_values.hpp"
-#include "host/bench/survey.hpp"
-#include "host/bus/memory_bus.hpp"
+#include "host/harness/bus/memory_bus.hpp"
+#include "host/lab/bench/param_values.hpp"
+#include "host/lab/bench/survey.hpp"
 
 namespace whisker::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "host/run/pilot.hpp"
+#include "host/harness/run/pilot.hpp"
 #include "tests/boards/can_node_fixture.hpp"
 
 namespace whisker::hal::test {

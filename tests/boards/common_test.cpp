@@ -7,7 +7,7 @@
 #include "hal/boards/common/governor.hpp"
 #include "hal/boards/common/nearer.hpp"
 #include "hal/boards/common/shared.hpp"
-#include "host/sim/random.hpp"
+#include "host/harness/sim/random.hpp"
 
 namespace whisker::hal::mcu {
 namespace {

@@ -74,7 +74,9 @@ class IncludeDirection(unittest.TestCase):
             ("hal/boards/stm32f405/a.cpp", '#include "firmware/params.hpp"'),
             ("hal/boards/stm32f405/a.cpp", '#include "hal/boards/common/b.hpp"'),
             ("hal/emulated/virt/a.cpp", '#include "hal/runtime/b.hpp"'),
-            ("host/run/a.cpp", '#include "hal/ports/tty/b.hpp"'),
+            ("host/harness/run/a.cpp", '#include "hal/ports/tty/b.hpp"'),
+            ("host/lab/report/a.cpp", '#include "host/harness/run/b.hpp"'),
+            ("host/cli/a.cpp", '#include "host/lab/report/b.hpp"'),
             ("tests/math/a.cpp", '#include "tests/support/b.hpp"'),
         ):
             self.assertEqual(self.errors(path, line), [], (path, line))
@@ -94,14 +96,14 @@ class IncludeDirection(unittest.TestCase):
             ("firmware/planning/a.cpp", "#include <vector>"),
             ("firmware/planning/a.cpp", "  #  include <cstdint>"),
             ("firmware/planning/a.cpp", "#include <arm_acle.h>"),
-            ("firmware/planning/a.cpp", '#include "host/sim/body.hpp"'),
+            ("firmware/planning/a.cpp", '#include "host/harness/sim/body.hpp"'),
             ("firmware/planning/a.cpp", '#include "hal/drive.hpp"'),
             ("firmware/robot.hpp", '#include "hal/ports/tty/b.hpp"'),
             ("firmware/planning/a.cpp", '#include "missing.hpp"'),
             ("firmware/planning/a.cpp", "#include WHERE"),
             ("firmware/apps/a.cpp", "#include <vector>"),
             ("firmware/apps/a.cpp", '#include "hal/ports/tty/b.hpp"'),
-            ("firmware/apps/a.cpp", '#include "host/run/b.hpp"'),
+            ("firmware/apps/a.cpp", '#include "host/harness/run/b.hpp"'),
             ("hal/drive.hpp", "#include <cstdint>"),
             ("hal/drive.hpp", '#include "hal/ports/tty/b.hpp"'),
             ("hal/drive.hpp", '#include "firmware/params.hpp"'),
@@ -111,9 +113,11 @@ class IncludeDirection(unittest.TestCase):
             ("hal/boards/stm32f405/a.cpp", '#include "firmware/apps/b.hpp"'),
             ("hal/boards/stm32f405/a.cpp", '#include "hal/boards/other/b.hpp"'),
             ("hal/emulated/virt/a.cpp", '#include "firmware/robot.hpp"'),
-            ("host/run/a.cpp", '#include "tests/support/b.hpp"'),
-            ("host/run/a.cpp", '#include "host/report/b.hpp"'),
-            ("host/run/a.cpp", '#include "/usr/include/stdio.h"'),
+            ("host/harness/run/a.cpp", '#include "tests/support/b.hpp"'),
+            ("host/harness/run/a.cpp", '#include "host/lab/report/b.hpp"'),
+            ("host/lab/report/a.cpp", '#include "host/cli/b.hpp"'),
+            ("host/report/a.cpp", '#include "host/harness/run/b.hpp"'),
+            ("host/harness/run/a.cpp", '#include "/usr/include/stdio.h"'),
         ):
             self.assertEqual(len(self.errors(path, line)), 1, (path, line))
 
@@ -186,13 +190,13 @@ class Links(unittest.TestCase):
 class Layout(unittest.TestCase):
     def status(self, page):
         files = {f"{part}/a.cpp": "" for part in layout.PARTS}
-        return run(layout.main, {"docs/development.md": page, **files, "host/run/b.cpp": ""})
+        return run(layout.main, {"docs/development.md": page, **files, "host/harness/run/b.cpp": ""})
 
     def test_wants_every_folder_and_no_other(self):
         rows = "| `firmware/` | |\n| `hal/` | |\n| `host/` | {} |\n"
-        self.assertEqual(self.status(rows.format("`run/`"))[0], 0)
-        self.assertIn("host/run/ is not named", self.status(rows.format(""))[1])
-        self.assertIn("host/gone/ is named and not there", self.status(rows.format("`run/`, `gone/`"))[1])
+        self.assertEqual(self.status(rows.format("`harness/`"))[0], 0)
+        self.assertIn("host/harness/ is not named", self.status(rows.format(""))[1])
+        self.assertIn("host/gone/ is named and not there", self.status(rows.format("`harness/`, `gone/`"))[1])
 
 
 class Version(unittest.TestCase):
@@ -234,7 +238,7 @@ class AbsolutePaths(unittest.TestCase):
         self.assertEqual(len(absolute_paths.errors('open("/checkout/whisker/a.toml")', "/checkout/whisker")), 1)
 
     def test_accepts_what_is_everywhere(self):
-        for text in ('"/dev/ttyS0"', 'ROOT "/tests/a/b.txt"', '"/"', '"host/sim/a.hpp"', '"http://example.org/a/b"', '// "a" / b / "c"'):
+        for text in ('"/dev/ttyS0"', 'ROOT "/tests/a/b.txt"', '"/"', '"host/harness/sim/a.hpp"', '"http://example.org/a/b"', '// "a" / b / "c"'):
             self.assertEqual(absolute_paths.errors(text), [], text)
 
 

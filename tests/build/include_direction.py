@@ -83,13 +83,17 @@ def hal_error(path, quoted, system):
     return "a backend includes the contracts, itself and what its kind shares; boards also firmware/ below apps/"
 
 
-# The robot without hardware, and on a bus. What draws, measures, searches, compiles and calibrates stands on it.
-HARNESS = ("sim", "scenario", "worlds", "run", "bus", "hil")
+# What a part of host/ includes of host/: the robot without hardware, and on a bus; what draws, measures, searches, compiles and
+# calibrates; the command.
+HOST_PARTS = {"harness": ("harness",), "lab": ("harness", "lab"), "cli": ("harness", "lab", "cli")}
 
 
 def host_error(path, quoted):
-    within = quoted is None or not quoted.startswith("host/") or quoted.split("/")[1] in HARNESS
-    return None if within or path.split("/")[1] not in HARNESS else f"the harness ({', '.join(HARNESS)}) includes nothing else of host/"
+    part = path.split("/")[1]
+    if part not in HOST_PARTS:
+        return f"unknown part of host/: one of {', '.join(HOST_PARTS)}"
+    within = quoted is None or not quoted.startswith("host/") or quoted.split("/")[1] in HOST_PARTS[part]
+    return None if within else f"host/{part}/ includes of host/ only {', '.join(HOST_PARTS[part])}"
 
 
 def app_error(quoted, system):

@@ -1,4 +1,4 @@
-#include "host/bus/fault_port.hpp"
+#include "host/harness/bus/fault_port.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "host/bus/memory_bus.hpp"
+#include "host/harness/bus/memory_bus.hpp"
 #include "tests/bus/frames.hpp"
 
 namespace whisker::bus {

@@ -1,4 +1,4 @@
-#include "host/bus/memory_bus.hpp"
+#include "host/harness/bus/memory_bus.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

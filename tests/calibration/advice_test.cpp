@@ -1,7 +1,7 @@
 // What is written into the robot file.
 #include <gmock/gmock.h>
 
-#include "host/calibration/calibration.hpp"
+#include "host/lab/calibration/calibration.hpp"
 
 namespace whisker::calibration {
 namespace {

@@ -1,13 +1,13 @@
 // What one beam's readings say, and when they say nothing.
-#include "host/calibration/beam_fit.hpp"
+#include "host/lab/calibration/beam_fit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/calibration/wall_model.hpp"
-#include "host/scenario/bearing.hpp"
-#include "host/sim/elementary.hpp"
+#include "host/harness/scenario/bearing.hpp"
+#include "host/harness/sim/elementary.hpp"
+#include "host/lab/calibration/wall_model.hpp"
 #include "tests/calibration/sweeps.hpp"
 
 namespace whisker::calibration {

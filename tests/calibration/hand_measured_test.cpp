@@ -1,4 +1,4 @@
-#include "host/calibration/hand_measured.hpp"
+#include "host/lab/calibration/hand_measured.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "host/calibration/drive_procedure.hpp"
-#include "host/calibration/umbmark.hpp"
-#include "host/scenario/error.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/scenario/error.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/lab/calibration/drive_procedure.hpp"
+#include "host/lab/calibration/umbmark.hpp"
 
 namespace whisker::calibration {
 namespace {

@@ -1,5 +1,5 @@
 // Logs of a spin: a trace and a candump log.
-#include "host/calibration/log.hpp"
+#include "host/lab/calibration/log.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,12 +8,12 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/fix.hpp"
-#include "host/calibration/calibration.hpp"
-#include "host/calibration/simulated.hpp"
-#include "host/hil/candump.hpp"
-#include "host/report/trace.hpp"
-#include "host/run/spec.hpp"
-#include "host/scenario/error.hpp"
+#include "host/harness/hil/candump.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/error.hpp"
+#include "host/lab/calibration/calibration.hpp"
+#include "host/lab/calibration/simulated.hpp"
+#include "host/lab/report/trace.hpp"
 
 namespace whisker::calibration {
 namespace {

@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "firmware/planning/default_planner.hpp"
-#include "host/calibration/drive_rig.hpp"
-#include "host/run/sim_world.hpp"
-#include "host/run/spec.hpp"
-#include "host/scenario/load.hpp"
-#include "host/sim/sim_board.hpp"
+#include "host/harness/run/sim_world.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/sim/sim_board.hpp"
+#include "host/lab/calibration/drive_rig.hpp"
 #include "tests/calibration/memory_storage.hpp"
 
 namespace whisker {

@@ -1,4 +1,4 @@
-#include "host/calibration/spin.hpp"
+#include "host/lab/calibration/spin.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "host/calibration/sample.hpp"
-#include "host/calibration/simulated.hpp"
-#include "host/scenario/bearing.hpp"
+#include "host/harness/scenario/bearing.hpp"
+#include "host/lab/calibration/sample.hpp"
+#include "host/lab/calibration/simulated.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker::calibration {

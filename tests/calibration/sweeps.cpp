@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "host/scenario/bearing.hpp"
-#include "host/sim/cone.hpp"
-#include "host/sim/random.hpp"
+#include "host/harness/scenario/bearing.hpp"
+#include "host/harness/sim/cone.hpp"
+#include "host/harness/sim/random.hpp"
 
 namespace whisker::calibration {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/calibration/sample.hpp"
-#include "host/sim/geometry.hpp"
+#include "host/harness/sim/geometry.hpp"
+#include "host/lab/calibration/sample.hpp"
 
 namespace whisker::calibration {
 

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/calibration/drive_rig.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/lab/calibration/drive_rig.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker::calibration {

@@ -1,4 +1,4 @@
-#include "host/campaign/bounds.hpp"
+#include "host/lab/campaign/bounds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "host/worlds/random.hpp"
+#include "host/harness/worlds/random.hpp"
 
 namespace whisker::campaign {
 namespace {

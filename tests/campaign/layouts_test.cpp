@@ -1,14 +1,14 @@
 // The mountings that `whisker robot layout` compares, and how it ranks them.
-#include "host/campaign/layouts.hpp"
+#include "host/lab/campaign/layouts.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "host/campaign/worlds.hpp"
-#include "host/scenario/error.hpp"
-#include "host/scenario/write.hpp"
+#include "host/harness/scenario/error.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/lab/campaign/worlds.hpp"
 #include "tests/campaign/rows.hpp"
 
 namespace whisker::campaign {

@@ -1,15 +1,15 @@
-#include "host/campaign/meeting.hpp"
+#include "host/lab/campaign/meeting.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "host/campaign/comparison.hpp"
-#include "host/run/runner.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/write.hpp"
-#include "host/worlds/meeting.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/harness/worlds/meeting.hpp"
+#include "host/lab/campaign/comparison.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker::campaign {

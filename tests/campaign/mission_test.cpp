@@ -1,4 +1,4 @@
-#include "host/campaign/mission.hpp"
+#include "host/lab/campaign/mission.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,13 +6,13 @@
 #include <cmath>
 #include <vector>
 
-#include "host/campaign/comparison.hpp"
-#include "host/campaign/failures.hpp"
-#include "host/campaign/row_file.hpp"
-#include "host/paths/shortest.hpp"
-#include "host/run/runner.hpp"
-#include "host/scenario/world.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/scenario/world.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/campaign/comparison.hpp"
+#include "host/lab/campaign/failures.hpp"
+#include "host/lab/campaign/row_file.hpp"
+#include "host/lab/paths/shortest.hpp"
 
 namespace whisker::campaign {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/campaign/random_robot.hpp"
+#include "host/lab/campaign/random_robot.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "firmware/planning/goal_planner.hpp"
-#include "host/campaign/mission.hpp"
-#include "host/campaign/worlds.hpp"
-#include "host/run/runner.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/params_text.hpp"
-#include "host/scenario/write.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/params_text.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/lab/campaign/mission.hpp"
+#include "host/lab/campaign/worlds.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker::campaign {

@@ -1,4 +1,4 @@
-#include "host/campaign/row.hpp"
+#include "host/lab/campaign/row.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "host/campaign/motion_count.hpp"
-#include "host/campaign/row_file.hpp"
+#include "host/lab/campaign/motion_count.hpp"
+#include "host/lab/campaign/row_file.hpp"
 #include "tests/campaign/rows.hpp"
 
 namespace whisker::campaign {

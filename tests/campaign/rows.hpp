@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "host/campaign/row.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/worlds/random.hpp"
+#include "host/lab/campaign/row.hpp"
 
 namespace whisker::campaign {
 

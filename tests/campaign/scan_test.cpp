@@ -3,12 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/campaign/mission.hpp"
-#include "host/campaign/worlds.hpp"
-#include "host/run/planners.hpp"
-#include "host/scanner/reference_path.hpp"
-#include "host/scenario/load.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/planners.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/campaign/mission.hpp"
+#include "host/lab/campaign/worlds.hpp"
+#include "host/lab/scanner/reference_path.hpp"
 
 namespace whisker::campaign {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/campaign/summary.hpp"
+#include "host/lab/campaign/summary.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <thread>
 #include <vector>
 
-#include "host/campaign/ordered.hpp"
-#include "host/campaign/row_file.hpp"
-#include "host/scenario/error.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/scenario/error.hpp"
+#include "host/harness/worlds/random.hpp"
+#include "host/lab/campaign/ordered.hpp"
+#include "host/lab/campaign/row_file.hpp"
 #include "tests/campaign/rows.hpp"
 
 namespace whisker::campaign {

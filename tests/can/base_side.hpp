@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "firmware/apps/can/base.hpp"
-#include "host/bus/fault_port.hpp"
-#include "host/bus/memory_bus.hpp"
-#include "host/run/sim_world.hpp"
-#include "host/run/spec.hpp"
-#include "host/scenario/load.hpp"
-#include "host/sim/sim_board.hpp"
+#include "host/harness/bus/fault_port.hpp"
+#include "host/harness/bus/memory_bus.hpp"
+#include "host/harness/run/sim_world.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/sim/sim_board.hpp"
 
 namespace whisker::test {
 

@@ -1,4 +1,4 @@
-#include "host/hil/candump.hpp"
+#include "host/harness/hil/candump.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -9,7 +9,7 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/mission.hpp"
-#include "host/hil/candump.hpp"
+#include "host/harness/hil/candump.hpp"
 
 namespace whisker::can {
 namespace {

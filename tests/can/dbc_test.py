@@ -66,7 +66,7 @@ class Canmatrix(unittest.TestCase):
         self.assertLessEqual({"Gyro", "Fix", "FixReply", "PoseSigma"}, self.frames_of_a_run(more))
 
     def test_every_frame_of_a_run_with_other_rules_too(self):
-        straight = ROOT / "host/rules/laws/straight.toml"
+        straight = ROOT / "host/lab/rules/laws/straight.toml"
         self.assertLessEqual({"RulesPart", "RulesOrder", "RulesReply"}, self.frames_of_a_run("", "--rules", straight))
 
     def frames_of_a_run(self, more, *options):

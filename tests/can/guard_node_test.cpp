@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/guard/operators.hpp"
-#include "host/worlds/beside.hpp"
+#include "host/harness/worlds/beside.hpp"
+#include "host/lab/guard/operators.hpp"
 #include "tests/can/guard_rig.hpp"
 #include "tests/effort.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "firmware/apps/can/base.hpp"
 #include "firmware/apps/can/remote_board.hpp"
-#include "host/bus/memory_bus.hpp"
+#include "host/harness/bus/memory_bus.hpp"
 
 namespace whisker::can {
 namespace {

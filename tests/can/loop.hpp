@@ -5,11 +5,11 @@
 #include <functional>
 
 #include "firmware/apps/can/controller.hpp"
-#include "host/bus/memory_bus.hpp"
-#include "host/hil/bus_pilot.hpp"
-#include "host/hil/planners.hpp"
-#include "host/run/runner.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/bus/memory_bus.hpp"
+#include "host/harness/hil/bus_pilot.hpp"
+#include "host/harness/hil/planners.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/worlds/random.hpp"
 
 namespace whisker::test {
 

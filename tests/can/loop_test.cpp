@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "host/hil/planners.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/hil/planners.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/random.hpp"
 #include "tests/can/rig.hpp"
 #include "tests/effort.hpp"
 #include "tests/unseen_disc.hpp"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware/can/mission.hpp"
-#include "host/hil/planners.hpp"
+#include "host/harness/hil/planners.hpp"
 #include "tests/can/guard_rig.hpp"
 #include "tests/can/rig.hpp"
 

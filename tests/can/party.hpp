@@ -6,7 +6,7 @@
 
 #include "firmware/can/codec.hpp"
 #include "firmware/can/table_hash.hpp"
-#include "host/bus/memory_bus.hpp"
+#include "host/harness/bus/memory_bus.hpp"
 
 namespace whisker::test {
 

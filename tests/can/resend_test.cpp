@@ -1,4 +1,4 @@
-#include "host/hil/resend.hpp"
+#include "host/harness/hil/resend.hpp"
 
 #include <rapidcheck/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "host/worlds/generate.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/can/loop.hpp"
 #include "tests/can/party.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "firmware/apps/can/controller.hpp"
 #include "firmware/planning/goal_planner.hpp"
-#include "host/run/runner.hpp"
-#include "host/scenario/robot.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/scenario/robot.hpp"
 #include "tests/can/base_side.hpp"
 #include "tests/can/party.hpp"
 

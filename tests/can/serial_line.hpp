@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hal/ports/slcan/slcan.hpp"
-#include "host/bus/fault_port.hpp"
+#include "host/harness/bus/fault_port.hpp"
 #include "tests/slcan/pipe.hpp"
 
 namespace whisker::test {

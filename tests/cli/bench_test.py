@@ -22,7 +22,7 @@ SILENCE = ("--timeout", 3)  # nobody will answer; it is enough to get onto the b
 FAR = "time_limit_s = 3000.0\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 500.0\ny_m = 0.0\n"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/bench.md"
-STRAIGHT = ROOT / "host/rules/laws/straight.toml"
+STRAIGHT = ROOT / "host/lab/rules/laws/straight.toml"
 
 
 class Ear:

@@ -6,7 +6,7 @@ import pathlib
 import whisker
 from whisker import STATUS, Case
 
-STRAIGHT = pathlib.Path(__file__).parents[2] / "host/rules/laws/straight.toml"
+STRAIGHT = pathlib.Path(__file__).parents[2] / "host/lab/rules/laws/straight.toml"
 PLACES = "time_limit_s = 60\n[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 2.0\ny_m = 0.0\n[[disc]]\ncenter = [1.0, 0.3]\nradius_m = 0.2\n"
 
 

@@ -9,7 +9,7 @@ import unittest
 
 import whisker
 
-STRAIGHT = pathlib.Path(__file__).parents[2] / "host/rules/laws/straight.toml"
+STRAIGHT = pathlib.Path(__file__).parents[2] / "host/lab/rules/laws/straight.toml"
 HEADER = "t_s,v_mps,omega_radps"
 
 

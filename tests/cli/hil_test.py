@@ -146,7 +146,7 @@ class Hil(OnABus):
         self.assertRegex(other.stdout, r"line \d+: tick \d+: recorded .*, the core says ")
 
     def test_a_replay_takes_the_rules_from_the_log(self):
-        log, rules = self.folder / "run.log", pathlib.Path(__file__).resolve().parents[2] / "host/rules/laws/straight.toml"
+        log, rules = self.folder / "run.log", pathlib.Path(__file__).resolve().parents[2] / "host/lab/rules/laws/straight.toml"
         result = self.json_of("hil", self.world("discs", 60), "--rules", rules, "--record", log)
         for options in ((), ("--rules", rules)):
             replay = self.json_of("replay", log, *options)

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "host/guard/drive.hpp"
+#include "host/lab/guard/drive.hpp"
 #include "tests/events/scene.hpp"
 
 namespace whisker::guard {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "host/run/runner.hpp"
-#include "host/scenario/load.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/scenario/load.hpp"
 
 namespace whisker::test {
 

@@ -9,7 +9,7 @@
 #include "firmware/can/base_node.hpp"
 #include "firmware/can/controller_node.hpp"
 #include "firmware/can/table_hash.hpp"
-#include "host/bus/memory_bus.hpp"
+#include "host/harness/bus/memory_bus.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/rules/inference.hpp"
-#include "host/rules/read.hpp"
+#include "host/lab/rules/inference.hpp"
+#include "host/lab/rules/read.hpp"
 
 namespace {
 

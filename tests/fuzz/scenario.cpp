@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "host/scenario/load.hpp"
-#include "host/scenario/write.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/write.hpp"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "firmware/fuzzy/exact.hpp"
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/fuzzy/scale.hpp"
-#include "host/tools/table_text.hpp"
+#include "host/lab/tools/table_text.hpp"
 #include "tests/fuzzy/closed_form.hpp"
 #include "tests/fuzzy/inputs.hpp"
 

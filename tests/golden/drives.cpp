@@ -1,10 +1,10 @@
 #include <fmt/core.h>
 
-#include "host/run/fix_source.hpp"
-#include "host/run/runner.hpp"
-#include "host/run/spec.hpp"
-#include "host/scenario/load.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/fix_source.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/golden/stream.hpp"
 
 namespace whisker::golden {

@@ -6,8 +6,8 @@
 
 #include "firmware/apps/golden/message.hpp"
 #include "firmware/robot.hpp"
-#include "host/run/planners.hpp"
-#include "host/sim/plant.hpp"
+#include "host/harness/run/planners.hpp"
+#include "host/harness/sim/plant.hpp"
 
 namespace whisker::golden {
 

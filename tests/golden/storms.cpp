@@ -1,6 +1,6 @@
 #include <fmt/core.h>
 
-#include "host/run/planners.hpp"
+#include "host/harness/run/planners.hpp"
 #include "tests/golden/messages.hpp"
 #include "tests/golden/stream.hpp"
 #include "tests/robot/properties/random_params.hpp"

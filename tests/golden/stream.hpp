@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/run/planners.hpp"
+#include "host/harness/run/planners.hpp"
 #include "tests/golden/messages.hpp"
 
 namespace whisker::golden {

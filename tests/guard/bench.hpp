@@ -5,9 +5,9 @@
 #include <cstdint>
 
 #include "firmware/guard.hpp"
-#include "host/run/sim_world.hpp"
-#include "host/run/spec.hpp"
-#include "host/sim/sim_board.hpp"
+#include "host/harness/run/sim_world.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/sim/sim_board.hpp"
 
 namespace whisker::test {
 

@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <tuple>
 
-#include "host/campaign/random_robot.hpp"
-#include "host/guard/campaign.hpp"
-#include "host/guard/drive.hpp"
-#include "host/guard/operators.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/campaign/random_robot.hpp"
+#include "host/lab/guard/campaign.hpp"
+#include "host/lab/guard/drive.hpp"
+#include "host/lab/guard/operators.hpp"
 #include "tests/effort.hpp"
 #include "tests/guard/bench.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "firmware/fuzzy/bilinear.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/worlds/random.hpp"
 
 namespace whisker::test {
 

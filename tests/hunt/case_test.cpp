@@ -1,14 +1,14 @@
-#include "host/hunt/case.hpp"
+#include "host/lab/hunt/case.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "host/hunt/draw.hpp"
-#include "host/hunt/premise.hpp"
-#include "host/hunt/shrink.hpp"
-#include "host/hunt/trial.hpp"
+#include "host/lab/hunt/draw.hpp"
+#include "host/lab/hunt/premise.hpp"
+#include "host/lab/hunt/shrink.hpp"
+#include "host/lab/hunt/trial.hpp"
 
 namespace whisker::hunt {
 namespace {

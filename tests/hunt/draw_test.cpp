@@ -1,4 +1,4 @@
-#include "host/hunt/draw.hpp"
+#include "host/lab/hunt/draw.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 #include <set>
 #include <string>
 
-#include "host/hunt/geometry.hpp"
-#include "host/hunt/premise.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/param_list.hpp"
-#include "host/scenario/write.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/param_list.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/lab/hunt/geometry.hpp"
+#include "host/lab/hunt/premise.hpp"
 
 namespace whisker::hunt {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/hunt/hunt.hpp"
+#include "host/lab/hunt/hunt.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "host/hunt/corpus.hpp"
-#include "host/hunt/crew.hpp"
-#include "host/hunt/draw.hpp"
-#include "host/hunt/rows.hpp"
+#include "host/lab/hunt/corpus.hpp"
+#include "host/lab/hunt/crew.hpp"
+#include "host/lab/hunt/draw.hpp"
+#include "host/lab/hunt/rows.hpp"
 #include "tests/effort.hpp"
 #include "tests/hunt/folder.hpp"
 

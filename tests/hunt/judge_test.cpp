@@ -1,16 +1,16 @@
-#include "host/hunt/judge.hpp"
+#include "host/lab/hunt/judge.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/guard/drive.hpp"
-#include "host/hunt/dice.hpp"
-#include "host/hunt/draw.hpp"
-#include "host/hunt/geometry.hpp"
-#include "host/hunt/trial.hpp"
-#include "host/run/runner.hpp"
-#include "host/run/sim_world.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/run/sim_world.hpp"
+#include "host/lab/guard/drive.hpp"
+#include "host/lab/hunt/dice.hpp"
+#include "host/lab/hunt/draw.hpp"
+#include "host/lab/hunt/geometry.hpp"
+#include "host/lab/hunt/trial.hpp"
 
 namespace whisker::hunt {
 namespace {

@@ -1,7 +1,7 @@
 #include "tests/missions/bench.hpp"
 
-#include "host/run/pilot.hpp"
-#include "host/run/spec.hpp"
+#include "host/harness/run/pilot.hpp"
+#include "host/harness/run/spec.hpp"
 
 namespace whisker::test {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/run/runner.hpp"
+#include "host/harness/run/runner.hpp"
 #include "tests/unseen_disc.hpp"
 
 namespace whisker {

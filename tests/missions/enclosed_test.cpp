@@ -5,11 +5,11 @@
 #include <cmath>
 #include <vector>
 
-#include "host/run/narrowest_gap.hpp"
-#include "host/run/runner.hpp"
-#include "host/sim/elementary.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/run/narrowest_gap.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/sim/elementary.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/random.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker {

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "firmware/perception/range_monitor.hpp"
-#include "host/run/runner.hpp"
-#include "host/run/spec.hpp"
-#include "host/scenario/scenario.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/scenario.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/random.hpp"
 #include "tests/effort.hpp"
 #include "tests/missions/bench.hpp"
 #include "tests/perception/cells.hpp"

@@ -11,11 +11,11 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include "host/report/result.hpp"
-#include "host/run/runner.hpp"
-#include "host/scenario/load.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/meeting.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/meeting.hpp"
+#include "host/lab/report/result.hpp"
 
 namespace whisker {
 namespace {

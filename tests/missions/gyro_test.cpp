@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <vector>
 
-#include "host/run/core_pilot.hpp"
-#include "host/run/mission_run.hpp"
-#include "host/run/runner.hpp"
-#include "host/run/sim_world.hpp"
-#include "host/run/spec.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/core_pilot.hpp"
+#include "host/harness/run/mission_run.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/run/sim_world.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/worlds/generate.hpp"
 
 namespace whisker {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/run/record.hpp"
-#include "host/scenario/scenario.hpp"
+#include "host/harness/run/record.hpp"
+#include "host/harness/scenario/scenario.hpp"
 
 namespace whisker::test {
 

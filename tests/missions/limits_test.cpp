@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include "host/worlds/generate.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/random.hpp"
 #include "tests/effort.hpp"
 #include "tests/missions/bench.hpp"
 

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <string>
 
-#include "host/run/pilot.hpp"
-#include "host/run/spec.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/run/pilot.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/random.hpp"
 #include "tests/effort.hpp"
 #include "tests/missions/bench.hpp"
 

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "firmware/robot.hpp"
-#include "host/run/pilot.hpp"
-#include "host/run/spec.hpp"
+#include "host/harness/run/pilot.hpp"
+#include "host/harness/run/spec.hpp"
 
 namespace whisker::test {
 

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <random>
 
-#include "host/run/runner.hpp"
-#include "host/sim/sim_board.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/sim/sim_board.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/effort.hpp"
 #include "tests/missions/pilot_on.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "host/run/runner.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/worlds/generate.hpp"
 
 namespace whisker {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/run/runner.hpp"
+#include "host/harness/run/runner.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/scenario/load.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/effort.hpp"
 #include "tests/missions/judge.hpp"
 

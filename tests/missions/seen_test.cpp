@@ -4,10 +4,10 @@
 #include <cstdlib>
 
 #include "firmware/planning/global/map_planner.hpp"
-#include "host/run/core_pilot.hpp"
-#include "host/run/map_picture.hpp"
-#include "host/run/runner.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/core_pilot.hpp"
+#include "host/harness/run/map_picture.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/worlds/generate.hpp"
 
 namespace whisker {
 namespace {

@@ -6,12 +6,12 @@
 
 #include "firmware/planning/boundary/table_boundary_planner.hpp"
 #include "firmware/robot.hpp"
-#include "host/run/runner.hpp"
-#include "host/run/sim_world.hpp"
-#include "host/run/spec.hpp"
-#include "host/scenario/load.hpp"
-#include "host/sim/sim_board.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/run/sim_world.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/sim/sim_board.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker {

@@ -5,11 +5,11 @@
 
 #include "firmware/params/presets.hpp"
 #include "firmware/simple_robot.hpp"
-#include "host/run/runner.hpp"
-#include "host/run/spec.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/param_list.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/param_list.hpp"
+#include "host/harness/worlds/generate.hpp"
 
 namespace whisker {
 namespace {

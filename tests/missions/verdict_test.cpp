@@ -1,4 +1,4 @@
-#include "host/run/verdict.hpp"
+#include "host/harness/run/verdict.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "firmware/planning/goal_planner.hpp"
-#include "host/run/runner.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/effort.hpp"
 
 namespace whisker {

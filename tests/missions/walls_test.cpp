@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host/run/runner.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/worlds/generate.hpp"
 
 namespace whisker {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "host/report/units.hpp"
-#include "host/run/runner.hpp"
-#include "host/scenario/scenario.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/scenario/scenario.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/report/units.hpp"
 
 namespace whisker::test {
 namespace {

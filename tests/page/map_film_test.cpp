@@ -1,4 +1,4 @@
-#include "host/page/map_film.hpp"
+#include "host/lab/page/map_film.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <set>
 #include <utility>
 
-#include "host/page/film.hpp"
-#include "host/page/recording.hpp"
-#include "host/run/clear_cells.hpp"
-#include "host/run/runner.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/clear_cells.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/page/film.hpp"
+#include "host/lab/page/recording.hpp"
 
 namespace whisker::page {
 namespace {

@@ -1,4 +1,4 @@
-#include "host/page/page.hpp"
+#include "host/lab/page/page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "host/page/base64.hpp"
-#include "host/page/columns.hpp"
-#include "host/page/deflate.hpp"
-#include "host/page/template.hpp"
-#include "host/run/runner.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/lab/page/base64.hpp"
+#include "host/lab/page/columns.hpp"
+#include "host/lab/page/deflate.hpp"
+#include "host/lab/page/template.hpp"
 
 namespace whisker::page {
 namespace {

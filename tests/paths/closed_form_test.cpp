@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "host/paths/shortest.hpp"
-#include "host/paths/tangent.hpp"
-#include "host/scenario/shapes.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/scenario/shapes.hpp"
+#include "host/harness/worlds/random.hpp"
+#include "host/lab/paths/shortest.hpp"
+#include "host/lab/paths/tangent.hpp"
 
 namespace whisker::paths {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/scenario/shapes.hpp"
+#include "host/harness/scenario/shapes.hpp"
 
 namespace whisker::paths {
 namespace {

@@ -1,9 +1,9 @@
-/// An independent path search: on a grid, then shortened. It shares no code with host/paths.
+/// An independent path search: on a grid, then shortened. It shares no code with host/lab/paths.
 #pragma once
 
 #include <optional>
 
-#include "host/scenario/world.hpp"
+#include "host/harness/scenario/world.hpp"
 
 namespace whisker::paths {
 

@@ -1,16 +1,16 @@
 // Properties in every world: the path is free, no known path is shorter, and symmetries of the world do not
 // change its length.
-#include "host/paths/shortest.hpp"
+#include "host/lab/paths/shortest.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "host/scenario/shapes.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/random.hpp"
-#include "host/worlds/reach.hpp"
+#include "host/harness/scenario/shapes.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/random.hpp"
+#include "host/harness/worlds/reach.hpp"
 #include "tests/paths/oracle.hpp"
 
 namespace whisker::paths {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "firmware/perception/local_grid.hpp"
-#include "host/sim/geometry.hpp"
-#include "host/sim/world.hpp"
+#include "host/harness/sim/geometry.hpp"
+#include "host/harness/sim/world.hpp"
 
 namespace whisker::test {
 

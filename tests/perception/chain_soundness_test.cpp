@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "host/run/spec.hpp"
+#include "host/harness/run/spec.hpp"
 #include "tests/effort.hpp"
 #include "tests/perception/cells.hpp"
 #include "tests/perception/chain_worlds.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/run/spec.hpp"
+#include "host/harness/run/spec.hpp"
 
 namespace whisker::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "firmware/params.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/worlds/random.hpp"
 #include "tests/perception/cluttered.hpp"
 
 namespace whisker::test {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "host/run/spec.hpp"
-#include "host/sim/cone.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/sim/cone.hpp"
 
 namespace whisker::test {
 

@@ -5,8 +5,8 @@
 
 #include "firmware/params.hpp"
 #include "firmware/perception/local_grid.hpp"
-#include "host/sim/geometry.hpp"
-#include "host/sim/world.hpp"
+#include "host/harness/sim/geometry.hpp"
+#include "host/harness/sim/world.hpp"
 
 namespace whisker::test {
 

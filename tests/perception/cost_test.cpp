@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "firmware/perception/raster.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/perception/rig.hpp"
 
 namespace {

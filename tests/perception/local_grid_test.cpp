@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "host/run/spec.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/worlds/random.hpp"
 #include "tests/effort.hpp"
 #include "tests/perception/cells.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "host/worlds/generate.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/effort.hpp"
 #include "tests/perception/rig.hpp"
 

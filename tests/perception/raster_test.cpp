@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "host/worlds/random.hpp"
+#include "host/harness/worlds/random.hpp"
 
 namespace whisker::test {
 namespace {

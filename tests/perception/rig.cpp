@@ -1,7 +1,7 @@
 #include "tests/perception/rig.hpp"
 
-#include "host/run/planners.hpp"
-#include "host/run/spec.hpp"
+#include "host/harness/run/planners.hpp"
+#include "host/harness/run/spec.hpp"
 
 namespace whisker::test {
 

@@ -8,11 +8,11 @@
 #include "firmware/perception/local_grid.hpp"
 #include "firmware/planning/planner.hpp"
 #include "firmware/robot.hpp"
-#include "host/run/recording_planner.hpp"
-#include "host/run/sim_world.hpp"
-#include "host/scenario/scenario.hpp"
-#include "host/sim/plant.hpp"
-#include "host/sim/sim_board.hpp"
+#include "host/harness/run/recording_planner.hpp"
+#include "host/harness/run/sim_world.hpp"
+#include "host/harness/scenario/scenario.hpp"
+#include "host/harness/sim/plant.hpp"
+#include "host/harness/sim/sim_board.hpp"
 
 namespace whisker::test {
 

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "host/run/spec.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/random.hpp"
 #include "tests/effort.hpp"
 #include "tests/perception/cells.hpp"
 #include "tests/perception/cluttered.hpp"

@@ -1,13 +1,13 @@
-#include "host/play/drive.hpp"
+#include "host/lab/play/drive.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/guard/drive.hpp"
-#include "host/play/guard_drive.hpp"
-#include "host/run/runner.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/guard/drive.hpp"
+#include "host/lab/play/guard_drive.hpp"
 
 namespace whisker::play {
 namespace {

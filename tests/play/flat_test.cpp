@@ -1,4 +1,4 @@
-#include "host/play/flat.hpp"
+#include "host/lab/play/flat.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 
 #include "firmware/fuzzy/response_table.hpp"
 #include "firmware/fuzzy/rules.hpp"
-#include "host/play/rule_faults.hpp"
-#include "host/play/table_of.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/play/rule_faults.hpp"
+#include "host/lab/play/table_of.hpp"
 
 namespace whisker::play {
 namespace {

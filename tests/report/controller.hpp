@@ -1,7 +1,7 @@
 /// The thesis's controller, computed exactly in double: an input for the pictures, not part of the product.
 #pragma once
 
-#include "host/report/fuzzy_picture.hpp"
+#include "host/lab/report/fuzzy_picture.hpp"
 
 namespace whisker::testing {
 

@@ -1,4 +1,4 @@
-#include "host/report/encounters.hpp"
+#include "host/lab/report/encounters.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/report/figures.hpp"
+#include "host/lab/report/figures.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/report/colour.hpp"
-#include "host/report/table_svg.hpp"
+#include "host/lab/report/colour.hpp"
+#include "host/lab/report/table_svg.hpp"
 #include "tests/report/controller.hpp"
 #include "tests/report/xml.hpp"
 

@@ -1,4 +1,4 @@
-#include "host/report/file.hpp"
+#include "host/lab/report/file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

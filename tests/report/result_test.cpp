@@ -1,4 +1,4 @@
-#include "host/report/result.hpp"
+#include "host/lab/report/result.hpp"
 #include "tests/report/infinity.hpp"
 
 #include <gtest/gtest.h>

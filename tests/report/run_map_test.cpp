@@ -1,4 +1,4 @@
-#include "host/report/run_map.hpp"
+#include "host/lab/report/run_map.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
-#include "host/report/palette.hpp"
-#include "host/report/run_svg.hpp"
+#include "host/lab/report/palette.hpp"
+#include "host/lab/report/run_svg.hpp"
 #include "tests/report/script.hpp"
 #include "tests/report/xml.hpp"
 

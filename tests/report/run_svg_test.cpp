@@ -1,4 +1,4 @@
-#include "host/report/run_svg.hpp"
+#include "host/lab/report/run_svg.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "host/report/palette.hpp"
-#include "host/report/run_edges.hpp"
+#include "host/lab/report/palette.hpp"
+#include "host/lab/report/run_edges.hpp"
 #include "tests/report/infinity.hpp"
 #include "tests/report/script.hpp"
 #include "tests/report/xml.hpp"

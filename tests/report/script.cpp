@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/report/units.hpp"
+#include "host/lab/report/units.hpp"
 #include "tests/report/infinity.hpp"
 
 namespace whisker::testing {

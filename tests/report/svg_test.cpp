@@ -1,4 +1,4 @@
-#include "host/report/svg.hpp"
+#include "host/lab/report/svg.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/report/layout_svg.hpp"
+#include "host/lab/report/layout_svg.hpp"
 #include "tests/report/infinity.hpp"
 #include "tests/report/xml.hpp"
 

@@ -1,4 +1,4 @@
-#include "host/report/trace.hpp"
+#include "host/lab/report/trace.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

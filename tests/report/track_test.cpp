@@ -1,4 +1,4 @@
-#include "host/report/track.hpp"
+#include "host/lab/report/track.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/report/palette.hpp"
+#include "host/lab/report/palette.hpp"
 #include "tests/report/infinity.hpp"
 #include "tests/report/script.hpp"
 

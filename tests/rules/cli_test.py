@@ -20,7 +20,7 @@ from whisker import Case, with_time_limit  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "host/rules/examples"
-STRAIGHT = ROOT / "host/rules/laws/straight.toml"
+STRAIGHT = ROOT / "host/lab/rules/laws/straight.toml"
 NAMES = ("thesis.toml", "tip.fis", "pendulum.fll", "fan.fcl", "follower.fis")
 
 # Prints every output at every representable input, in raw units, row by row.
@@ -136,7 +136,7 @@ class Drives(Case):
         self.assertFalse((self.folder / "kept").exists())
 
     def test_compare_drives_both_in_the_same_worlds(self):
-        straight = ROOT / "host/rules/laws/straight.toml"
+        straight = ROOT / "host/lab/rules/laws/straight.toml"
         arguments = ("rules", "compare", "default", straight, "--worlds", "u-trap", "--count", 3, "--seed", 11, "--planner", "skirt", "--json")
         told = json.loads(whisker.whisker(*arguments).stdout)
         self.assertEqual(told, json.loads(whisker.whisker(*arguments, "--jobs", 1).stdout))

@@ -5,9 +5,9 @@
 #include <exception>
 #include <string>
 
-#include "host/rules/compile.hpp"
-#include "host/rules/read.hpp"
-#include "host/scenario/reader.hpp"
+#include "host/harness/scenario/reader.hpp"
+#include "host/lab/rules/compile.hpp"
+#include "host/lab/rules/read.hpp"
 #include "tests/rules/oracle.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // Tables: the bound, the grid, the symmetry, and the core's own table.
-#include "host/rules/compile.hpp"
+#include "host/lab/rules/compile.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <string>
 
 #include "firmware/fuzzy/response_table.hpp"
-#include "host/rules/findings.hpp"
-#include "host/rules/read.hpp"
+#include "host/lab/rules/findings.hpp"
+#include "host/lab/rules/read.hpp"
 
 namespace whisker::rules {
 namespace {

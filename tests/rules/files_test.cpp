@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/rules/read.hpp"
-#include "host/scenario/reader.hpp"
+#include "host/harness/scenario/reader.hpp"
+#include "host/lab/rules/read.hpp"
 #include "tests/rules/oracle.hpp"
 
 namespace whisker::rules {

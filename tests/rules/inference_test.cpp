@@ -1,12 +1,12 @@
 // Answers in closed form.
-#include "host/rules/inference.hpp"
+#include "host/lab/rules/inference.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "host/rules/read.hpp"
+#include "host/lab/rules/read.hpp"
 
 namespace whisker::rules {
 namespace {

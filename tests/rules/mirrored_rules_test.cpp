@@ -1,4 +1,4 @@
-#include "host/rules/mirrored_rules.hpp"
+#include "host/lab/rules/mirrored_rules.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,16 +10,16 @@
 
 #include "firmware/fuzzy/digest.hpp"
 #include "firmware/fuzzy/response_table.hpp"
-#include "host/rules/compile.hpp"
-#include "host/rules/read.hpp"
-#include "host/rules/response.hpp"
-#include "host/scenario/error.hpp"
+#include "host/harness/scenario/error.hpp"
+#include "host/lab/rules/compile.hpp"
+#include "host/lab/rules/read.hpp"
+#include "host/lab/rules/response.hpp"
 
 namespace whisker::rules {
 namespace {
 
 std::string text_of(const char* file) {
-  std::ifstream in(std::string(WHISKER_SOURCE_DIR) + "/host/rules/" + file);
+  std::ifstream in(std::string(WHISKER_SOURCE_DIR) + "/host/lab/rules/" + file);
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/rules/inference.hpp"
+#include "host/lab/rules/inference.hpp"
 
 namespace whisker::test {
 

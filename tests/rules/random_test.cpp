@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "host/rules/compile.hpp"
-#include "host/rules/read.hpp"
-#include "host/rules/rule_text.hpp"
+#include "host/lab/rules/compile.hpp"
+#include "host/lab/rules/read.hpp"
+#include "host/lab/rules/rule_text.hpp"
 #include "tests/effort.hpp"
 #include "tests/rules/oracle.hpp"
 #include "tests/rules/random_base.hpp"

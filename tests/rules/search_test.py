@@ -14,8 +14,8 @@ import whisker  # noqa: E402
 from whisker import Case  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SIDES = ROOT / "host/rules/laws/sides.toml"
-STRAIGHT = ROOT / "host/rules/laws/straight.toml"
+SIDES = ROOT / "host/lab/rules/laws/sides.toml"
+STRAIGHT = ROOT / "host/lab/rules/laws/straight.toml"
 # One of its children is kept.
 SMALL = ("--base", SIDES, "--worlds", "u-trap", "--count", 5, "--seed", 17, "--generations", 2, "--children", 2, "--validate", 3)
 

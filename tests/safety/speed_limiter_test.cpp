@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <tuple>
 
-#include "host/scenario/contact.hpp"
-#include "host/worlds/beside.hpp"
-#include "host/worlds/random.hpp"
+#include "host/harness/scenario/contact.hpp"
+#include "host/harness/worlds/beside.hpp"
+#include "host/harness/worlds/random.hpp"
 #include "tests/effort.hpp"
 #include "tests/perception/rig.hpp"
 #include "tests/safety/adversary.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "host/worlds/random.hpp"
+#include "host/harness/worlds/random.hpp"
 
 namespace whisker::test {
 namespace {

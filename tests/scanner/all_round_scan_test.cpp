@@ -1,4 +1,4 @@
-#include "host/scanner/all_round_scan.hpp"
+#include "host/lab/scanner/all_round_scan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "host/scenario/shapes.hpp"
-#include "host/sim/elementary.hpp"
+#include "host/harness/scenario/shapes.hpp"
+#include "host/harness/sim/elementary.hpp"
 
 namespace whisker::scanner {
 namespace {

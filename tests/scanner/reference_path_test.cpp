@@ -1,9 +1,9 @@
-#include "host/scanner/reference_path.hpp"
+#include "host/lab/scanner/reference_path.hpp"
 
 #include <gtest/gtest.h>
 
-#include "host/paths/shortest.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/lab/paths/shortest.hpp"
 
 namespace whisker::scanner {
 namespace {

@@ -1,13 +1,13 @@
 // Walls and ground that the cones cover, against an independent count of rays and points.
-#include "host/scenario/coverage.hpp"
+#include "host/harness/scenario/coverage.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/campaign/random_robot.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/params_text.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/params_text.hpp"
+#include "host/lab/campaign/random_robot.hpp"
 #include "tests/scenario/temporary_file.hpp"
 
 namespace whisker {

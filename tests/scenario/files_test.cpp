@@ -4,9 +4,9 @@
 #include <fstream>
 #include <string>
 
-#include "host/scenario/load.hpp"
-#include "host/scenario/nesting.hpp"
-#include "host/scenario/text.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/nesting.hpp"
+#include "host/harness/scenario/text.hpp"
 #include "tests/scenario/temporary_file.hpp"
 
 namespace whisker {

@@ -1,4 +1,4 @@
-#include "host/scenario/load.hpp"
+#include "host/harness/scenario/load.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/scenario/bearing.hpp"
-#include "host/scenario/params_text.hpp"
-#include "host/scenario/reader.hpp"
-#include "host/scenario/world.hpp"
+#include "host/harness/scenario/bearing.hpp"
+#include "host/harness/scenario/params_text.hpp"
+#include "host/harness/scenario/reader.hpp"
+#include "host/harness/scenario/world.hpp"
 
 namespace whisker {
 namespace {

@@ -1,12 +1,12 @@
 // The warnings of `whisker robot check`, and that what they propose ends them.
-#include "host/scenario/mounting.hpp"
+#include "host/harness/scenario/mounting.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cstdlib>
 #include <regex>
 
-#include "host/scenario/load.hpp"
+#include "host/harness/scenario/load.hpp"
 #include "tests/scenario/temporary_file.hpp"
 
 namespace whisker {

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 
-#include "host/scenario/load.hpp"
-#include "host/scenario/param_list.hpp"
-#include "host/scenario/params_text.hpp"
-#include "host/scenario/violations.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/param_list.hpp"
+#include "host/harness/scenario/params_text.hpp"
+#include "host/harness/scenario/violations.hpp"
 #include "tests/scenario/temporary_file.hpp"
 
 namespace whisker {

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/scenario/bearing.hpp"
-#include "host/scenario/check.hpp"
-#include "host/scenario/contact.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/noise.hpp"
-#include "host/scenario/param_list.hpp"
-#include "host/scenario/sensor_models.hpp"
-#include "host/scenario/write.hpp"
+#include "host/harness/scenario/bearing.hpp"
+#include "host/harness/scenario/check.hpp"
+#include "host/harness/scenario/contact.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/noise.hpp"
+#include "host/harness/scenario/param_list.hpp"
+#include "host/harness/scenario/sensor_models.hpp"
+#include "host/harness/scenario/write.hpp"
 
 namespace whisker {
 namespace {

@@ -1,14 +1,14 @@
-#include "host/scenario/sensor_models.hpp"
+#include "host/harness/scenario/sensor_models.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <set>
 
-#include "host/scenario/load.hpp"
-#include "host/scenario/reader.hpp"
-#include "host/scenario/sensor_text.hpp"
-#include "host/scenario/write.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/reader.hpp"
+#include "host/harness/scenario/sensor_text.hpp"
+#include "host/harness/scenario/write.hpp"
 #include "tests/scenario/temporary_file.hpp"
 
 namespace whisker {

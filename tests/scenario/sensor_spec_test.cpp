@@ -5,9 +5,9 @@
 #include <numeric>
 
 #include "hal/types.hpp"
-#include "host/run/spec.hpp"
-#include "host/scenario/sensor_models.hpp"
-#include "host/scenario/world.hpp"
+#include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/sensor_models.hpp"
+#include "host/harness/scenario/world.hpp"
 
 namespace whisker {
 namespace {

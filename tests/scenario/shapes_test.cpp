@@ -1,11 +1,11 @@
-#include "host/scenario/shapes.hpp"
+#include "host/harness/scenario/shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/scenario/bearing.hpp"
-#include "host/scenario/contact.hpp"
+#include "host/harness/scenario/bearing.hpp"
+#include "host/harness/scenario/contact.hpp"
 
 namespace whisker {
 namespace {

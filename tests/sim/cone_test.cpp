@@ -1,4 +1,4 @@
-#include "host/sim/cone.hpp"
+#include "host/harness/sim/cone.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

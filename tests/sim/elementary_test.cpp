@@ -1,4 +1,4 @@
-#include "host/sim/elementary.hpp"
+#include "host/harness/sim/elementary.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "host/sim/distance.hpp"
-#include "host/sim/random.hpp"
+#include "host/harness/sim/distance.hpp"
+#include "host/harness/sim/random.hpp"
 #include "tests/sim/generators.hpp"
 
 namespace whisker::sim {

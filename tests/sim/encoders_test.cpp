@@ -1,11 +1,11 @@
-#include "host/sim/encoders.hpp"
+#include "host/harness/sim/encoders.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "host/sim/fixes.hpp"
-#include "host/sim/gyro.hpp"
+#include "host/harness/sim/fixes.hpp"
+#include "host/harness/sim/gyro.hpp"
 
 namespace whisker::sim {
 namespace {

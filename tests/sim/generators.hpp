@@ -3,7 +3,7 @@
 
 #include <rapidcheck.h>
 
-#include "host/sim/geometry.hpp"
+#include "host/harness/sim/geometry.hpp"
 
 namespace whisker::sim {
 

@@ -1,4 +1,4 @@
-#include "host/sim/motion.hpp"
+#include "host/harness/sim/motion.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host/sim/wheel.hpp"
+#include "host/harness/sim/wheel.hpp"
 #include "tests/sim/generators.hpp"
 
 namespace whisker::sim {

@@ -1,4 +1,4 @@
-#include "host/sim/plant.hpp"
+#include "host/harness/sim/plant.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "host/sim/distance.hpp"
+#include "host/harness/sim/distance.hpp"
 #include "tests/sim/generators.hpp"
 
 namespace whisker::sim {

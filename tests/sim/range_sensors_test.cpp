@@ -1,4 +1,4 @@
-#include "host/sim/range_sensors.hpp"
+#include "host/harness/sim/range_sensors.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "tests/sim/scripted_drive.hpp"
 
-#include "host/sim/plant.hpp"
+#include "host/harness/sim/plant.hpp"
 
 namespace whisker::sim {
 namespace {

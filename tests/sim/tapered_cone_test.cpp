@@ -1,4 +1,4 @@
-#include "host/sim/tapered_cone.hpp"
+#include "host/harness/sim/tapered_cone.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,4 +1,4 @@
-#include "host/sim/world.hpp"
+#include "host/harness/sim/world.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "host/sim/distance.hpp"
+#include "host/harness/sim/distance.hpp"
 #include "tests/sim/generators.hpp"
 #include "tests/sim/scripted_drive.hpp"
 

@@ -1,4 +1,4 @@
-#include "host/socket/request.hpp"
+#include "host/harness/socket/request.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "host/socket/session.hpp"
+#include "host/harness/socket/session.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "host/run/fix_source.hpp"
-#include "host/run/pilot.hpp"
-#include "host/run/runner.hpp"
-#include "host/sim/elementary.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/run/fix_source.hpp"
+#include "host/harness/run/pilot.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/harness/sim/elementary.hpp"
+#include "host/harness/worlds/generate.hpp"
 #include "tests/unseen_disc.hpp"
 
 namespace whisker::socket {

@@ -24,7 +24,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 TRAP = "host/worlds/scenarios/figure8_u_trap.toml"
 NODES = (("cortex-m3", "can-node"), ("cortex-m3", "can-node-stm32f103"), ("rv32imac", "can-node"))
 PLANNER = "map"
-RULES = ("host/rules/laws/straight.toml", "host/rules/laws/sides.toml")
+RULES = ("host/lab/rules/laws/straight.toml", "host/lab/rules/laws/sides.toml")
 PAINT = 0xC0DEC0DE  # hal/runtime/stack.hpp
 
 

@@ -1,4 +1,4 @@
-#include "host/view/feed.hpp"
+#include "host/lab/view/feed.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/page/json.hpp"
+#include "host/lab/page/json.hpp"
 #include "tests/view/watched.hpp"
 
 namespace whisker::view {

@@ -17,7 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "host/view/server.hpp"
+#include "host/lab/view/server.hpp"
 #include "tests/view/http.hpp"
 #include "tests/view/watched.hpp"
 

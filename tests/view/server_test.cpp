@@ -1,4 +1,4 @@
-#include "host/view/server.hpp"
+#include "host/lab/view/server.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "host/view/names.hpp"
-#include "host/view/request.hpp"
+#include "host/lab/view/names.hpp"
+#include "host/lab/view/request.hpp"
 #include "tests/view/http.hpp"
 #include "tests/view/watched.hpp"
 

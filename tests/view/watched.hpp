@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "host/page/page.hpp"
-#include "host/run/runner.hpp"
-#include "host/view/feed.hpp"
+#include "host/harness/run/runner.hpp"
+#include "host/lab/page/page.hpp"
+#include "host/lab/view/feed.hpp"
 
 namespace whisker::view::testing {
 

@@ -4,8 +4,8 @@ import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {ROOT} from './scenarios.mjs';
 
-// The packages are those of host/web.
-export const require = createRequire(join(ROOT, 'host/web/package.json'));
+// The packages are those of host/lab/web.
+export const require = createRequire(join(ROOT, 'host/lab/web/package.json'));
 const {chromium} = require('playwright-core');
 
 export const DESKTOP = {width: 1440, height: 900};

@@ -8,7 +8,7 @@ import {randomSituation} from './random_scenarios.mjs';
 import {Folder, ROOT, whisker} from './scenarios.mjs';
 import * as sources from './sources.mjs';
 
-const MODULE = process.env.PLAYGROUND_MODULE ?? join(ROOT, 'build/playground/host/play/whisker.wasm');
+const MODULE = process.env.PLAYGROUND_MODULE ?? join(ROOT, 'build/playground/host/lab/play/whisker.wasm');
 const REFERENCE_NOISE = [0.01, 0.02, 0.01, 0.0001, 0.3];
 
 describe('the core in the playground', () => {
@@ -128,7 +128,7 @@ describe('the core in the playground', () => {
   });
 
   test('the hashes on record are what the native program gives', () => {
-    const recorded = JSON.parse(readFileSync(join(ROOT, 'host/web/src/playground/native.json'), 'utf8'));
+    const recorded = JSON.parse(readFileSync(join(ROOT, 'host/lab/web/src/playground/native.json'), 'utf8'));
     const now = nativeHashes([1], ['skirt', 'map']);
     assert.equal(Object.keys(now).length, 2 * KINDS.length);
     for (const [name, hash] of Object.entries(now)) assert.equal(recorded[name], hash, name);

@@ -9,7 +9,7 @@ import {ROOT, whisker} from './scenarios.mjs';
 import * as sources from './sources.mjs';
 
 const PAGE = process.env.PLAYGROUND ?? join(ROOT, 'out/playground/index.html');
-const MODULE = process.env.PLAYGROUND_MODULE ?? join(ROOT, 'build/playground/host/play/whisker.wasm');
+const MODULE = process.env.PLAYGROUND_MODULE ?? join(ROOT, 'build/playground/host/lab/play/whisker.wasm');
 const THESIS = join(ROOT, 'host/rules/examples/thesis.toml');
 
 describe('an opened table', () => {

@@ -5,7 +5,7 @@ import {ROOT} from './scenarios.mjs';
 
 async function module(name) {
   const {outputFiles} = await require('esbuild').build({
-    entryPoints: [join(ROOT, 'host/web/src', name)],
+    entryPoints: [join(ROOT, 'host/lab/web/src', name)],
     bundle: true,
     write: false,
     format: 'esm',

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
-#include "host/scenario/shapes.hpp"
-#include "host/scenario/world.hpp"
-#include "host/worlds/direction.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/reach.hpp"
+#include "host/harness/scenario/shapes.hpp"
+#include "host/harness/scenario/world.hpp"
+#include "host/harness/worlds/direction.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/reach.hpp"
 
 namespace whisker::worlds {
 namespace {

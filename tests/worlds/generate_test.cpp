@@ -1,4 +1,4 @@
-#include "host/worlds/generate.hpp"
+#include "host/harness/worlds/generate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 #include <set>
 #include <stdexcept>
 
-#include "host/scenario/contact.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/world.hpp"
-#include "host/scenario/write.hpp"
-#include "host/worlds/reach.hpp"
+#include "host/harness/scenario/contact.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/world.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/harness/worlds/reach.hpp"
 
 namespace whisker::worlds {
 namespace {

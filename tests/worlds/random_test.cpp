@@ -1,9 +1,9 @@
-#include "host/worlds/random.hpp"
+#include "host/harness/worlds/random.hpp"
 
 #include <gtest/gtest.h>
 
-#include "host/scenario/write.hpp"
-#include "host/worlds/generate.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/harness/worlds/generate.hpp"
 
 namespace whisker::worlds {
 namespace {

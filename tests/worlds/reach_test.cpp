@@ -1,4 +1,4 @@
-#include "host/worlds/reach.hpp"
+#include "host/harness/worlds/reach.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "host/scenario/bearing.hpp"
-#include "host/scenario/contact.hpp"
-#include "host/scenario/load.hpp"
-#include "host/scenario/world.hpp"
-#include "host/scenario/write.hpp"
-#include "host/worlds/generate.hpp"
-#include "host/worlds/random.hpp"
-#include "host/worlds/scale.hpp"
+#include "host/harness/scenario/bearing.hpp"
+#include "host/harness/scenario/contact.hpp"
+#include "host/harness/scenario/load.hpp"
+#include "host/harness/scenario/world.hpp"
+#include "host/harness/scenario/write.hpp"
+#include "host/harness/worlds/generate.hpp"
+#include "host/harness/worlds/random.hpp"
+#include "host/harness/worlds/scale.hpp"
 
 namespace whisker::worlds {
 namespace {

@@ -11,7 +11,7 @@ namespace whisker::planning {
 
 /// Four sides, each with a quarter turn after it. The robot believes that it is back at the end; a person
 /// measures where it is. Squares to both sides tell unequal wheels from a wrong track
-/// (host/calibration/umbmark.hpp).
+/// (host/lab/calibration/umbmark.hpp).
 ///
 /// Any goal starts it; the ground must be free, a side to the left or to the right of the start and ahead.
 /// Outcome::reached: it is back; Outcome::gave_up: see trouble().

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "firmware/planning/goal_planner.hpp"
-#include "host/run/spec.hpp"
+#include "host/harness/run/spec.hpp"
 #include "tests/perception/rig.hpp"
 #include "tests/planning/ground.hpp"
 

@@ -1,0 +1,26 @@
+/// Reads scenario and robot files strictly: anything not in docs/scenario.md is an InputError.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "host/harness/scenario/error.hpp"
+#include "host/harness/scenario/scenario.hpp"
+
+namespace whisker {
+
+/// Files of at most 16 MiB, UTF-8.
+Scenario load_scenario(const std::string& file);
+/// `name` is the name of the file in messages.
+Scenario parse_scenario(std::string_view text, const std::string& name);
+
+/// Sets the parameters that a robot file contains (at its top level, or in [robot]) and keeps the others. On
+/// an error, the parameters are unchanged. Its [sensor] and [noise], if any, are only checked.
+void apply_robot_file(Params& params, const std::string& file);
+/// The same, and sets what its [sensor] contains.
+void apply_robot_file(Params& params, Sensor& sensor, const std::string& file);
+/// The same for the robot of a scenario, and sets what its [noise] contains; also throws if the new body is
+/// in contact at the start.
+void apply_robot_file(Scenario& scenario, const std::string& file);
+
+}  // namespace whisker

@@ -1,0 +1,319 @@
+#include "host/lab/campaign/row_file.hpp"
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "host/harness/scenario/error.hpp"
+#include "host/lab/campaign/worlds.hpp"
+#include "host/lab/report/result.hpp"
+
+namespace whisker::campaign {
+namespace {
+
+constexpr Verdict kVerdicts[] = {Verdict::reached, Verdict::off_goal, Verdict::unreachable,
+                                 Verdict::gave_up, Verdict::contact,  Verdict::fault};
+constexpr const char* kNoSuchRow = "the row is not one that campaign writes";
+
+std::string number(std::optional<double> x) { return x ? fmt::format("{:.6f}", *x) : std::string(); }
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result.append(c == '"' ? 2 : 1, c);
+  return result + '"';
+}
+
+/// Reads one unquoted field after the other; errors name the column.
+class Fields {
+ public:
+  explicit Fields(std::string_view line) : rest_(line) {}
+
+  std::string text(const char* column) {
+    if (ended_) throw std::invalid_argument(fmt::format("no column {}", column));
+    std::string field;
+    bool quotes = false;
+    std::size_t i = 0;
+    for (; i < rest_.size() && (quotes || rest_[i] != ','); ++i) {
+      const bool doubled = quotes && rest_.substr(i, 2) == "\"\"";
+      if (rest_[i] != '"' || doubled) field += rest_[i];
+      if (doubled) {
+        ++i;
+      } else if (rest_[i] == '"') {
+        quotes = !quotes;
+      }
+    }
+    if (has_control_characters(field)) {
+      throw std::invalid_argument(fmt::format("column {}: control characters in it", column));
+    }
+    ended_ = i >= rest_.size();
+    rest_.remove_prefix(ended_ ? rest_.size() : i + 1);
+    return field;
+  }
+
+  template <class T>
+  T number(const char* column, int base = 10) {
+    const std::string field = text(column);
+    const char* const end = field.data() + field.size();
+    T value{};
+    std::from_chars_result result{};
+    if constexpr (std::is_floating_point_v<T>) {
+      result = std::from_chars(field.data(), end, value, std::chars_format::fixed);
+    } else {
+      result = std::from_chars(field.data(), end, value, base);
+    }
+    bool good = result.ec == std::errc{} && result.ptr == end;
+    if constexpr (std::is_floating_point_v<T>) good = good && std::isfinite(value);
+    if (!good) {
+      throw std::invalid_argument(fmt::format("column {}: '{}' is no such number", column, field));
+    }
+    return value;
+  }
+
+  double amount(const char* column) {
+    const double value = number<double>(column);
+    if (value < 0) throw std::invalid_argument(fmt::format("column {}: {} is negative", column, value));
+    return value;
+  }
+
+  std::optional<double> amount_or_none(const char* column) {
+    if (rest_.empty() || rest_.front() == ',') {
+      text(column);
+      return std::nullopt;
+    }
+    return amount(column);
+  }
+
+ private:
+  std::string_view rest_;
+  bool ended_ = false;
+};
+
+Verdict verdict_named(const std::string& word) {
+  for (const Verdict verdict : kVerdicts) {
+    if (word == report::outcome(verdict)) return verdict;
+  }
+  throw std::invalid_argument(fmt::format("column outcome: '{}' is none", word));
+}
+
+/// The columns of RowFormat::believed.
+std::string first_columns(const Row& r) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:016x},{},{},{},{}", r.seed,
+                     report::outcome(r.verdict), number(r.time_s), number(r.path_m), number(r.turned_rad),
+                     r.stops, r.flips, r.looks, number(r.min_clearance_m), number(r.final_distance_m),
+                     number(r.estimate_error_m), r.at_goal ? 1 : 0, number(r.shortest_m), number(ratio(r)),
+                     number(s_per_m(r)), r.ticks, r.hash, quoted(r.detail), quoted(r.planner),
+                     quoted(r.robot), quoted(r.world));
+}
+
+/// Reads what first_columns() writes.
+Row first_columns(Fields& fields) {
+  Row r;
+  r.seed = fields.number<std::uint64_t>("seed");
+  r.verdict = verdict_named(fields.text("outcome"));
+  r.time_s = fields.amount("time_s");
+  r.path_m = fields.amount("path_m");
+  r.turned_rad = fields.amount("turned_rad");
+  r.stops = fields.number<std::uint64_t>("stops");
+  r.flips = fields.number<std::uint64_t>("flips");
+  r.looks = fields.number<std::uint64_t>("looks");
+  r.min_clearance_m = fields.number<double>("min_clearance_m");
+  r.final_distance_m = fields.amount("final_distance_m");
+  r.estimate_error_m = fields.amount("estimate_error_m");
+  r.at_goal = fields.text("at_goal") == "1";
+  r.shortest_m = fields.amount_or_none("shortest_m");
+  fields.text("ratio");
+  fields.text("s_per_m");
+  r.ticks = fields.number<std::uint64_t>("ticks");
+  r.hash = fields.number<std::uint64_t>("hash", 16);
+  r.detail = fields.text("detail");
+  r.planner = fields.text("planner");
+  r.robot = fields.text("robot");
+  r.world = fields.text("world");
+  return r;
+}
+
+bool contradicts_itself(const Row& r) { return says_reached(r.verdict) && r.at_goal != truly_there(r); }
+
+using Key = std::tuple<std::string, std::string, std::string, std::uint64_t>;
+
+struct Found {
+  Row row;
+  std::string place;
+};
+using Rows = std::map<Key, Found>;
+
+void add(Rows& rows, const std::string& file, std::size_t number, const std::string& line, RowFormat format) {
+  Row row;
+  try {
+    row = parse_row(line, format);
+  } catch (const std::invalid_argument& e) {
+    throw InputError(file, number, 1, e.what());
+  }
+  const std::uint64_t seed = row.seed;
+  Key key{row.world, row.planner, row.robot, seed};
+  const auto [at, added] =
+      rows.emplace(std::move(key), Found{std::move(row), fmt::format("{}:{}", file, number)});
+  if (!added) {
+    throw InputError(file, number, 1, fmt::format("seed {} is there already, in {}", seed, at->second.place));
+  }
+}
+
+std::optional<RowFormat> format_of(const std::string& header) {
+  for (const RowFormat format : {RowFormat::judged, RowFormat::believed}) {
+    if (header == row_header(format)) return format;
+  }
+  return std::nullopt;
+}
+
+void add_file(Rows& rows, const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw InputError(file, 1, 1, std::generic_category().message(errno));
+  std::string line;
+  std::size_t number = 0;
+  RowFormat format{};
+  while (std::getline(in, line)) {
+    ++number;
+    if (in.eof()) throw InputError(file, number, 1, "the last line is cut off: it has no end of line");
+    if (const auto header = format_of(line)) {
+      format = *header;
+      continue;
+    }
+    if (number == 1)
+      throw InputError(file, 1, 1, fmt::format("not the header of a campaign: {}", kRowHeader));
+    add(rows, file, number, line, format);
+  }
+  if (in.bad()) throw InputError(file, number + 1, 1, "cannot be read");
+  if (number == 0) throw InputError(file, 1, 1, "empty: not even the header of a campaign");
+}
+
+}  // namespace
+
+const char* const kRowHeader =
+    "seed,outcome,time_s,path_m,turned_rad,stops,flips,looks,min_clearance_m,final_distance_m,"
+    "estimate_error_m,at_goal,shortest_m,ratio,s_per_m,ticks,hash,detail,planner,robot,world,"
+    "believed_distance_m,truly_there";
+
+std::string_view row_header(RowFormat format) {
+  const std::string_view all = kRowHeader;
+  return format == RowFormat::judged ? all : all.substr(0, all.find(",believed_distance_m"));
+}
+
+std::string to_csv(const Row& r) {
+  return fmt::format("{},{},{}", first_columns(r), number(r.believed_distance_m), truly_there(r) ? 1 : 0);
+}
+
+Row parse_row(std::string_view line, RowFormat format) {
+  Fields fields(line);
+  Row r = first_columns(fields);
+  if (format == RowFormat::believed) {
+    if (r.verdict == Verdict::off_goal || first_columns(r) != line) throw std::invalid_argument(kNoSuchRow);
+    if (r.verdict == Verdict::reached && !r.at_goal) r.verdict = Verdict::off_goal;
+    return r;
+  }
+  r.believed_distance_m = fields.amount_or_none("believed_distance_m");
+  fields.text("truly_there");
+  if (contradicts_itself(r) || to_csv(r) != line) throw std::invalid_argument(kNoSuchRow);
+  return r;
+}
+
+RowFile::RowFile(const std::string& path) : path_(path), target_(path) {
+  if (path == "-") {
+    fd_ = ::dup(STDOUT_FILENO);
+    if (fd_ < 0) fail(errno);
+    write_line(kRowHeader);
+    return;
+  }
+  struct stat existing {};
+  const bool exists = ::stat(path.c_str(), &existing) == 0;
+  if (exists && S_ISDIR(existing.st_mode)) fail(EISDIR);
+  if (exists && !S_ISREG(existing.st_mode)) {
+    fd_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  } else {
+    std::error_code error;
+    if (exists) target_ = std::filesystem::canonical(path, error).string();
+    if (error) fail(error.value());
+    part_ = target_ + ".part";
+    fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  }
+  if (fd_ < 0) {
+    const int error = errno;
+    part_.clear();
+    fail(error);
+  }
+  if (!part_.empty()) take_part();
+  write_line(kRowHeader);
+}
+
+/// The file belongs to another process while that process holds its lock. After that, it does so if `part_`
+/// no longer names this file: it was renamed or removed between open() and flock().
+void RowFile::take_part() {
+  const bool locked = ::flock(fd_, LOCK_EX | LOCK_NB) == 0;
+  struct stat ours {
+  }, named{};
+  const bool same = locked && ::fstat(fd_, &ours) == 0 && ::stat(part_.c_str(), &named) == 0 &&
+                    ours.st_dev == named.st_dev && ours.st_ino == named.st_ino;
+  if (same && ::ftruncate(fd_, 0) == 0) return;
+  const std::string part = std::exchange(part_, "");
+  ::close(std::exchange(fd_, -1));
+  throw std::runtime_error(fmt::format("cannot write {}: another campaign is writing {}", path_, part));
+}
+
+RowFile::~RowFile() {
+  if (!part_.empty()) ::unlink(part_.c_str());
+  if (fd_ >= 0) ::close(fd_);
+}
+
+void RowFile::add(const Row& row) { write_line(to_csv(row)); }
+
+void RowFile::finish() {
+  // Closing the copy reports delayed write errors; the lock stays until the file has its final name.
+  const int copy = ::dup(fd_);
+  if (copy < 0 || ::close(copy) != 0) fail(errno);
+  if (!part_.empty() && ::rename(part_.c_str(), target_.c_str()) != 0) fail(errno);
+  part_.clear();
+  ::close(std::exchange(fd_, -1));
+}
+
+void RowFile::write_line(std::string_view line) {
+  const std::string text = fmt::format("{}\n", line);
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const ssize_t n = ::write(fd_, rest.data(), rest.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(errno);
+    rest.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+void RowFile::fail(int error) const {
+  throw std::runtime_error(fmt::format("cannot write {}: {}", path_, std::generic_category().message(error)));
+}
+
+std::vector<Row> merged(const std::vector<std::string>& files) {
+  Rows rows;
+  for (const std::string& file : files) add_file(rows, file);
+  if (rows.empty()) throw InputError(files.front(), 1, 1, "no mission in it");
+  std::vector<Row> result;
+  for (auto& [key, found] : rows) result.push_back(std::move(found.row));
+  return result;
+}
+
+}  // namespace whisker::campaign
