@@ -237,17 +237,17 @@ int goal(const SeatOptions& o) {
   }
   check_place(bus, o.bus);
   hil::RecordingPlanners planners(o.planner);
-  LoggedRun run(bus.name());
+  LoggedRun run(bus.name(), o.planner);
   can::Identity identity = o.bus.bus.identity();
   identity.rules = rules_digest(o.planner);
   if (view) view->start();
   bench::GoalSeat::Listener listener;
   listener.begins = [&](const can::Mission& mission, const Params& params) {
     run.begin(mission, params);
-    if (view) view->feed().begin({run.scenario(), o.planner, 1});
+    if (view) view->feed().begin(run.log().setting());
   };
   listener.stepped = [&](const can::InputSet& set, const Status& status) {
-    const TickRecord& record = run.step(set, status, planners.guide());
+    const TickRecord& record = run.step(set, status, planners.local_grid(), planners.guide());
     if (view) view->feed().add({record, status.health, planners.local_grid(), planners.guide()});
   };
   bench::GoalSeat seat(bus.port(), identity, planners, goal_of(o), listener);
@@ -256,12 +256,13 @@ int goal(const SeatOptions& o) {
     return s.health.fault != Fault::none || verdict_of(s.decision.outcome).has_value();
   };
   sit(bus, o.bus, seat, o.for_s, over, [&] { return bus.interrupt().noted(); });
-  RunResult result = run.result();
+  RunResult result = run.end().result();
   if (view) view->feed().end(result);
   result.min_clearance_m = std::numeric_limits<double>::quiet_NaN();  // unknown
   if (o.json) {
-    print_object(report::result_json(result, ""),
-                 {{}, name(o.planner), {}, robot_digest(run.scenario().robot), rules_name(o.planner)});
+    print_object(
+        report::result_json(result, ""),
+        {{}, name(o.planner), {}, robot_digest(run.log().setting().scenario.robot), rules_name(o.planner)});
   } else {
     fmt::print("{}{} by its own estimate, after {:.1f} s and {:.2f} m, {:.3f} m from the goal\n",
                report::outcome(result.verdict), result.detail.empty() ? "" : " (" + result.detail + ")",

@@ -115,19 +115,19 @@ class BusView {
  public:
   BusView(LiveView& view, const BenchBus& bus, const Params& params)
       : view_(view),
-        run_(bus.name()),
+        run_(bus.name(), std::nullopt, false),
         seen_(bus.robot(), params,
               {[this](const can::Mission& m, const Params& p, bool heard) { begin(m, p, heard); },
                [this](const can::InputSet& set, const Status& status) { step(set, status); }}) {
     run_.begin({}, params);
-    view_.feed().begin({run_.scenario(), std::nullopt, 1, false});
+    view_.feed().begin(run_.log().setting());
     view_.feed().say("waits for a tick of the robot");
     view_.start();
   }
 
   void on_frame(const hal::CanFrame& frame) { seen_.on_frame(frame); }
   void end() {
-    if (!over_) view_.feed().end(run_.result());
+    if (!over_) view_.feed().end(run_.end().result());
     over_ = true;
   }
 
@@ -135,13 +135,12 @@ class BusView {
   void begin(const can::Mission& mission, const Params& params, bool heard) {
     over_ = false;
     run_.begin(mission, params);
-    view_.feed().begin({run_.scenario(), std::nullopt, 1, false});
+    view_.feed().begin(run_.log().setting());
     view_.feed().say(heard ? "" : "start, goal and parameters are unknown: the mission began before");
   }
   void step(const can::InputSet& set, const Status& status) {
     if (over_) return;
-    TickRecord record = run_.step(set, status, nullptr);
-    record.inside = false;
+    const TickRecord& record = run_.step(set, status, nullptr, nullptr);
     view_.feed().add({record, status.health, nullptr, nullptr});
     if (status.health.fault != Fault::none || verdict_of(status.decision.outcome)) end();
   }

@@ -67,10 +67,10 @@ Spun simulate(const CalibrateOptions& o, const Params& params, const Sensor& sen
   Scenario scenario = calibration::wall_scenario(real, what, o.noise, wall_m);
   scenario.start.heading = o.turned_deg * kRadPerDeg;
   const sim::RobotSpec spec = robot_spec(scenario);
-  std::vector<TickRecord> records;
+  RunLog log({scenario, std::nullopt, o.seed});
   const calibration::Sweep sweep = calibration::simulated_spin(scenario, params, spec, o.seed, o.along_m,
-                                                               o.trace.empty() ? nullptr : &records);
-  if (!o.trace.empty()) report::write_trace(o.trace, scenario, records);
+                                                               o.trace.empty() ? nullptr : &log);
+  if (!o.trace.empty()) report::write_trace(o.trace, log);
   report.source = fmt::format("simulated spin, wall {:.2f} m away, seed {}: {} readings of a beam", wall_m,
                               o.seed, sweep[0].size());
   report.truth.emplace();

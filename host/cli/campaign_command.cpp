@@ -38,14 +38,12 @@ constexpr std::size_t kMostBytes = 5'000'000;  // of all missions to replay, so 
 
 page::StoredRun driven_again(const Missions& missions, std::uint64_t index) {
   const Scenario scenario = mission(missions, index).scenario;
-  page::Recording recording(scenario.robot, page::Detail::coarse);
+  RunLog log({scenario, missions.planner, scenario.seed}, Detail::coarse);
   RunOptions options;
   options.planner = missions.planner;
-  options.watch = [&](const Moment& moment) { recording.add(moment); };
-  const RunResult result = run(scenario, options);
-  recording.end();
-  return page::stored({scenario, options.planner, scenario.seed}, recording.ticks(), result,
-                      page::Detail::coarse);
+  log.watch(options);
+  log.end(run(scenario, options));
+  return page::stored(log);
 }
 
 /// Runs missions again to record them, the worst first and as many as a page holds, and writes a page of all.

@@ -13,8 +13,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/rules_choice.hpp"
-#include "host/harness/run/map_picture.hpp"
-#include "host/harness/run/runner.hpp"
+#include "host/harness/run/run_log.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/worlds/generate.hpp"
 #include "host/lab/campaign/mission.hpp"
@@ -73,29 +72,18 @@ struct FiguresOptions {
   std::string out;
 };
 
-/// A run with all data of its picture.
-struct Driven {
-  Driven(const Scenario& scenario, PlannerKind planner) : map(scenario.robot) {
-    RunOptions options;
-    options.records = &records;
-    options.planner = planner;
-    options.watch = [this](const Moment& moment) { map.look(moment.guide); };
-    result = run(scenario, options);
-  }
-  void draw(const Scenario& scenario, const std::string& svg_file, report::RunPicture picture) const {
-    if (map.last()) picture.map = &*map.last();
-    report::write_file(svg_file, report::run_svg(scenario, records, result, picture));
-    fmt::print("{}\n", svg_file);
-  }
+RunLog driven(const Scenario& scenario, PlannerKind planner) {
+  RunLog log({scenario, planner, scenario.seed});
+  RunOptions options;
+  options.planner = planner;
+  log.watch(options);
+  log.end(run(scenario, options));
+  return log;
+}
 
-  std::vector<TickRecord> records;
-  MapWatch map;
-  RunResult result;
-};
-
-void draw_run(const Scenario& scenario, PlannerKind planner, const std::string& svg_file,
-              const report::RunPicture& picture = {}) {
-  Driven(scenario, planner).draw(scenario, svg_file, picture);
+void draw(const RunLog& log, const std::string& svg_file, const report::RunPicture& picture = {}) {
+  report::write_file(svg_file, report::run_svg(log, picture));
+  fmt::print("{}\n", svg_file);
 }
 
 void draw_class(const ClassPicture& c, const std::string& folder) {
@@ -103,20 +91,20 @@ void draw_class(const ClassPicture& c, const std::string& folder) {
   picture.subtitle = fmt::format("whisker campaign {} --planner boundary --replay {}",
                                  campaign::arguments(c.kind, c.options), c.options.seed);
   picture.path_tolerance = 2e-3;
-  draw_run(worlds::generate(c.kind, c.options), PlannerKind::skirt, fmt::format("{}/{}", folder, c.file),
-           picture);
+  draw(driven(worlds::generate(c.kind, c.options), PlannerKind::skirt), fmt::format("{}/{}", folder, c.file),
+       picture);
 }
 
 bool shows_the_difference(const MapPicturePair& pair, const campaign::Mission& mission) {
   const std::atomic<bool> never{false};
-  const auto driven = [&](PlannerKind planner) {
+  const auto row_of = [&](PlannerKind planner) {
     campaign::Row row = campaign::drive(mission.scenario, planner, never);
     row.world = mission.world;
     return row;
   };
-  const campaign::Row skirt = driven(PlannerKind::skirt);
+  const campaign::Row skirt = row_of(PlannerKind::skirt);
   if (!campaign::succeeded(skirt) || campaign::ratio(skirt).value_or(1) <= pair.skirts_median) return false;
-  return campaign::succeeded(driven(PlannerKind::map));
+  return campaign::succeeded(row_of(PlannerKind::map));
 }
 
 void draw_pair(const MapPicturePair& pair, const std::string& folder) {
@@ -124,19 +112,19 @@ void draw_pair(const MapPicturePair& pair, const std::string& folder) {
   for (std::uint64_t i = 0; i < kSeeds; ++i) {
     const campaign::Mission mission = campaign::mission(campaign::Generated{pair.kind, pair.options}, i);
     if (!shows_the_difference(pair, mission)) continue;
-    const Driven skirt(mission.scenario, PlannerKind::skirt);
-    const Driven map(mission.scenario, PlannerKind::map);
+    const RunLog skirt = driven(mission.scenario, PlannerKind::skirt);
+    const RunLog map = driven(mission.scenario, PlannerKind::map);
     report::RunPicture picture;
     picture.path_tolerance = 2e-3;
     picture.legend = false;
-    picture.beside = &map.records;
+    picture.beside = &map.ticks().records;
     picture.subtitle = fmt::format("boundary planner: whisker campaign {} --planner boundary --replay {}",
                                    mission.world, mission.seed);
-    skirt.draw(mission.scenario, fmt::format("{}/map_{}_skirt.svg", folder, pair.name), picture);
-    picture.beside = &skirt.records;
+    draw(skirt, fmt::format("{}/map_{}_skirt.svg", folder, pair.name), picture);
+    picture.beside = &skirt.ticks().records;
     picture.subtitle = fmt::format("map planner, 2048 bytes: whisker campaign {} --planner map --replay {}",
                                    mission.world, mission.seed);
-    map.draw(mission.scenario, fmt::format("{}/map_{}.svg", folder, pair.name), picture);
+    draw(map, fmt::format("{}/map_{}.svg", folder, pair.name), picture);
     return;
   }
   throw std::runtime_error(
@@ -169,9 +157,9 @@ int execute(const FiguresOptions& o) {
     report::write_file(path, svg);
     fmt::print("{}\n", path);
   }
-  draw_run(figure8, PlannerKind::thesis, o.out + "/figure8.svg");
-  draw_run(figure9, PlannerKind::thesis, o.out + "/figure9.svg");
-  draw_run(figure10, PlannerKind::thesis, o.out + "/figure10.svg");
+  draw(driven(figure8, PlannerKind::thesis), o.out + "/figure8.svg");
+  draw(driven(figure9, PlannerKind::thesis), o.out + "/figure9.svg");
+  draw(driven(figure10, PlannerKind::thesis), o.out + "/figure10.svg");
   for (const ClassPicture& c : kClassPictures) draw_class(c, o.out);
   for (const MapPicturePair& pair : kMapPictures) draw_pair(pair, o.out);
   return 0;

@@ -90,7 +90,7 @@ int execute(const GuardOptions& o) {
   double now_s = 0;
   const double timeout_s = scenario.robot.guard.command_timeout.raw() * 1e-3;
   std::string rows = fmt::format("{}\n", guard::kTraceHeader);
-  page::GuardRecording recording(scenario.robot);
+  page::GuardRecording recording({scenario, hand_words(o), !o.bare, o.vouched_m});
   ProgressLine line;
   guard::Options options;
   options.guarded = !o.bare;
@@ -116,10 +116,7 @@ int execute(const GuardOptions& o) {
   const guard::Result result = guard::drive(scenario, *hand, options);
   line.show("");
   if (!o.trace.empty()) report::write_file(o.trace, rows);
-  if (!o.html.empty()) {
-    const page::GuardSetting setting{scenario, hand_words(o), !o.bare, o.vouched_m};
-    report::write_file(o.html, page::guard_page(recording.stored(setting, result)));
-  }
+  if (!o.html.empty()) report::write_file(o.html, page::guard_page(recording.stored(result)));
   if (o.json) {
     print_object(
         guard::result_json(result),

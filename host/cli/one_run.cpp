@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <memory>
-#include <vector>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
@@ -16,7 +15,6 @@
 #include "host/harness/scenario/contact.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/lab/page/page.hpp"
-#include "host/lab/page/recording.hpp"
 #include "host/lab/report/file.hpp"
 #include "host/lab/report/result.hpp"
 #include "host/lab/report/run_svg.hpp"
@@ -40,11 +38,9 @@ RunResult with_progress(const Scenario& scenario, RunOptions& options, const Run
 }
 
 /// The picture's title includes the size of the map.
-report::RunPicture picture(const MapWatch& map, PlannerKind planner) {
+report::RunPicture picture(const RunLog& log, PlannerKind planner) {
   report::RunPicture picture;
-  if (!map.last()) return picture;
-  picture.subtitle = fmt::format("map planner, {} bytes", planner.map_bytes);
-  picture.map = &*map.last();
+  if (log.map()) picture.subtitle = fmt::format("map planner, {} bytes", planner.map_bytes);
   return picture;
 }
 
@@ -75,37 +71,21 @@ int execute(const RunCommandOptions& o) {
 
 }  // namespace
 
-page::Setting setting(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs) {
+RunSetting setting(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs) {
   const auto planner = outputs.knows_planner ? std::optional(options.planner) : std::nullopt;
   return {scenario, planner, options.seed.value_or(scenario.seed), !outputs.on_bus()};
 }
 
 int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o) {
-  std::vector<TickRecord> records;
-  page::Recording recording(scenario.robot);
-  MapWatch map(scenario.robot);
-  if (!o.trace.empty() || !o.svg.empty()) options.records = &records;
-  if (!o.html.empty()) {
-    options.watch = [&, also = options.watch](const Moment& moment) {
-      recording.add(moment);
-      if (also) also(moment);
-    };
-  }
-  if (!o.svg.empty()) {
-    options.watch = [&, also = options.watch](const Moment& moment) {
-      map.look(moment.guide);
-      if (also) also(moment);
-    };
-  }
+  RunLog log(setting(scenario, options, o));
+  if (!(o.trace.empty() && o.svg.empty() && o.html.empty())) log.watch(options);
   const RunResult result = with_progress(scenario, options, o);
+  log.end(result);
   if (o.ended) o.ended(result);
-  if (!o.trace.empty()) report::write_trace(o.trace, scenario, records);
-  if (!o.svg.empty())
-    report::write_file(o.svg, report::run_svg(scenario, records, result, picture(map, options.planner)));
-  if (!o.html.empty()) {
-    const page::StoredRun run = page::stored(setting(scenario, options, o), recording.ticks(), result);
-    report::write_file(o.html, page::run_page(run, controller_picture(options.planner)));
-  }
+  if (!o.trace.empty()) report::write_trace(o.trace, log);
+  if (!o.svg.empty()) report::write_file(o.svg, report::run_svg(log, picture(log, options.planner)));
+  if (!o.html.empty())
+    report::write_file(o.html, page::run_page(page::stored(log), controller_picture(options.planner)));
 
   for (const std::string& warning :
        {start_warning(scenario), result.ranges ? report::range_warning(*result.ranges) : std::string()}) {

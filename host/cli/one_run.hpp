@@ -28,8 +28,8 @@ struct RunOutputs {
   bool on_bus() const { return bus_json != nullptr; }
 };
 
-/// Data for a page before the first tick of the run.
-page::Setting setting(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs);
+/// What the log of the run knows before its first tick.
+RunSetting setting(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs);
 
 /// Runs one scenario with a progress line, writes the requested outputs and prints the result. Returns the
 /// exit status of the verdict.

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
@@ -24,7 +26,6 @@
 #include "host/harness/run/make_record.hpp"
 #include "host/harness/run/spec.hpp"
 #include "host/lab/page/page.hpp"
-#include "host/lab/page/recording.hpp"
 #include "host/lab/report/file.hpp"
 #include "host/lab/report/trace.hpp"
 
@@ -46,35 +47,6 @@ struct ReplayOptions {
   std::string trace;  // "": none
   std::string html;   // "": none
   bool json = false;
-};
-
-/// The contents of the log's last mission.
-class Show {
- public:
-  explicit Show(const ReplayOptions& o) : run_(o.log) {}
-
-  void watch(hil::ReplayOptions& replay) {
-    replay.begins = [this](const can::Mission& mission, const Params& params) {
-      run_.begin(mission, params);
-      recording_.emplace(params);
-    };
-    replay.stepped = [this](const can::InputSet& set, const Status& status,
-                            const perception::LocalGrid* local_grid, const RecordingGuide* guide) {
-      recording_->add({run_.step(set, status, guide), status.health, local_grid, guide});
-    };
-  }
-
-  void write(const ReplayOptions& o, PlannerKind planner) const {
-    if (!o.trace.empty()) report::write_trace(o.trace, run_.scenario(), run_.records());
-    if (o.html.empty()) return;
-    const page::StoredRun stored =
-        page::stored({run_.scenario(), planner, run_.scenario().seed}, recording_->ticks(), run_.result());
-    report::write_file(o.html, page::run_page(stored, controller_picture(planner)));
-  }
-
- private:
-  LoggedRun run_;
-  std::optional<page::Recording> recording_;
 };
 
 hil::ReplayResult replayed(const ReplayOptions& o, const hil::ReplayOptions& replay) {
@@ -109,25 +81,35 @@ void print_json(const hil::ReplayResult& r, const Provenance& provenance) {
 
 int execute(const ReplayOptions& o) {
   check_outputs({o.trace, o.html}, {o.log}, o.json);
-  Show show(o);
-  hil::ReplayOptions replay = o.replay;
-  if (!o.trace.empty() || !o.html.empty()) show.watch(replay);
+  const bool shown = !(o.trace.empty() && o.html.empty());
+  LoggedRun run(o.log, o.replay.planner);
   Provenance provenance;
   provenance.planner = name(o.replay.planner);
   provenance.robot_name = o.log;
-  replay.begins = [&provenance, also = replay.begins](const can::Mission& mission, const Params& params) {
+  hil::ReplayOptions replay = o.replay;
+  replay.begins = [&](const can::Mission& mission, const Params& params) {
     provenance.robot_digest = robot_digest(params);
-    if (also) also(mission, params);
+    run.begin(mission, params);
   };
+  if (shown) {
+    replay.stepped = [&run](const can::InputSet& set, const Status& status,
+                            const perception::LocalGrid* local_grid,
+                            const RecordingGuide* guide) { run.step(set, status, local_grid, guide); };
+  }
   const hil::ReplayResult r = replayed(o, replay);
   if (r.cut > 0)
     fmt::print(stderr, "whisker: {}: line {}, the last, is cut off and left out\n", o.log, r.cut);
   if (r.compared == 0) throw UsageError(fmt::format("{}: no commands of a robot with their inputs", o.log));
-  if (r.guard && !(o.trace.empty() && o.html.empty())) {
+  if (r.guard && shown) {
     throw UsageError(fmt::format("{}: the log of a guard node has no planner to show", o.log));
   }
   provenance.rules_digest = rules_name(r.planner);
-  show.write(o, r.planner);
+  if (shown) {
+    const RunLog& log = run.end();
+    if (!o.trace.empty()) report::write_trace(o.trace, log);
+    if (!o.html.empty())
+      report::write_file(o.html, page::run_page(page::stored(log), controller_picture(r.planner)));
+  }
   if (o.json) {
     print_json(r, provenance);
   } else {
@@ -149,64 +131,72 @@ int execute(const ReplayOptions& o) {
 }  // namespace
 
 void LoggedRun::begin(const can::Mission& mission, const Params& params) {
-  scenario_ = {};
-  scenario_.name = name_;
-  scenario_.start = {metres(mission.start.at), radians(mission.start.heading)};
-  scenario_.goal = {metres(mission.goal.at), mission.goal.tolerance.raw() * 1e-6};
-  scenario_.robot = params;
-  records_.clear();
+  Scenario scenario;
+  scenario.name = name_;
+  scenario.start = {metres(mission.start.at), radians(mission.start.heading)};
+  scenario.goal = {metres(mission.goal.at), mission.goal.tolerance.raw() * 1e-6};
+  scenario.robot = params;
+  const std::uint64_t seed = scenario.seed;
+  log_.emplace(RunSetting{std::move(scenario), planner_, seed, inside_});
+  fault_ = Fault::none;
+  outcome_ = planning::Outcome::none;
 }
 
 const TickRecord& LoggedRun::step(const can::InputSet& set, const Status& status,
-                                  const RecordingGuide* guide) {
-  if (records_.empty()) first_tick_ = set.tick;
+                                  const perception::LocalGrid* local_grid, const RecordingGuide* guide) {
+  const std::vector<TickRecord>& records = log_->ticks().records;
+  if (records.empty()) first_tick_ = set.tick;
   const double period_s = set.period_ms * 1e-3;
   TickRecord r = make_record(status, guide, set.ranges, (set.tick - first_tick_) * period_s);
   r.x_m = r.est_x_m;
   r.y_m = r.est_y_m;
   r.heading_rad = r.est_heading_rad;
-  if (!records_.empty() && set.counts_valid) {
-    const double elapsed_s = r.t_s - records_.back().t_s;
-    const double metres_a_count = 1.0 / scenario_.robot.wheels.counts_per_metre;
+  r.inside = inside_;
+  if (!records.empty() && set.counts_valid) {
+    const double elapsed_s = r.t_s - records.back().t_s;
+    const double metres_a_count = 1.0 / log_->setting().scenario.robot.wheels.counts_per_metre;
     r.v_left_mps = change(counts_.left, set.counts.left) * metres_a_count / elapsed_s;
     r.v_right_mps = change(counts_.right, set.counts.right) * metres_a_count / elapsed_s;
   }
   if (set.counts_valid) counts_ = set.counts;
   fault_ = status.health.fault;
   outcome_ = status.decision.outcome;
-  records_.push_back(r);
-  scenario_.time_limit_s = r.t_s;
-  return records_.back();
+  log_->add({r, status.health, local_grid, guide});
+  return records.back();
 }
 
-RunResult LoggedRun::result() const {
+const RunLog& LoggedRun::end() {
+  const std::vector<TickRecord>& records = log_->ticks().records;
+  Scenario& scenario = log_->setting().scenario;
   RunResult result;
   if (fault_ != Fault::none) {
     result.verdict = Verdict::fault;
     result.detail = name(fault_);
   } else if (const auto verdict = verdict_of(outcome_)) {
     result.verdict = *verdict;
-    result.detail = planning::name(records_.back().why);
+    result.detail = planning::name(records.back().why);
   } else {
     result.detail = "log_ends";
   }
   CommandHash hash;
-  sim::Vec2 before = scenario_.start.at;
-  for (const TickRecord& r : records_) {
+  sim::Vec2 before = scenario.start.at;
+  for (const TickRecord& r : records) {
     hash.add(r.command);
     const sim::Vec2 at{r.x_m, r.y_m};
     const sim::Vec2 step = at - before;
     result.path_m += std::sqrt(sim::dot(step, step));
     before = at;
   }
-  const sim::Vec2 left = scenario_.goal.at - before;
+  const sim::Vec2 left = scenario.goal.at - before;
   result.final_distance_m = std::numeric_limits<double>::quiet_NaN();
   result.believed_distance_m = std::sqrt(sim::dot(left, left));
   result.min_clearance_m = kEmptyWorldClearance;
-  result.time_s = scenario_.time_limit_s;
-  result.ticks = records_.size();
+  if (!records.empty()) scenario.time_limit_s = records.back().t_s;
+  result.time_s = scenario.time_limit_s;
+  result.ticks = records.size();
   result.hash = hash.value();
-  return result;
+  log_->end(std::move(result));
+  return *log_;
 }
 
 void add_replay(CLI::App& app, int& status) {

@@ -30,7 +30,7 @@ Drive drive(const Scenario& scenario, PlannerKind planner) {
   Drive d;
   RunOptions options;
   options.planner = planner;
-  options.records = &d.records;
+  options.watch = [&](const Moment& moment) { d.records.push_back(moment.record); };
   d.result = run(scenario, options);
   return d;
 }

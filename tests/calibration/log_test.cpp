@@ -42,9 +42,9 @@ TEST(TraceLog, SaysTheSameAsTheSpin) {
     sensor.skew_deg = 4;
     sensor.phantom = 0.3;
     const Scenario s = wall_scenario(p, sensor, {0.01, 0.1, 0, 0, 0}, 0.3);
-    std::vector<TickRecord> records;
-    const Sweep direct = simulated_spin(s, p, robot_spec(s), 1, 0, &records);
-    std::istringstream in(report::trace_csv(s, records));
+    RunLog spin({s});
+    const Sweep direct = simulated_spin(s, p, robot_spec(s), 1, 0, &spin);
+    std::istringstream in(report::trace_csv(spin));
     const Log log = read_trace(in, "spin.csv", p);
     EXPECT_NEAR(log.start_deg, 0, 1e-3);
     for (std::size_t i = 0; i < log.sweep.size(); ++i) {

@@ -34,7 +34,7 @@ TEST(Mission, TheRowTellsWhatTheRunTells) {
     options.planner = seed == 3 ? PlannerKind::thesis : PlannerKind::skirt;
     const Row row = drive(s, options.planner, kOn);
     std::vector<TickRecord> records;
-    options.records = &records;
+    options.watch = [&](const Moment& moment) { records.push_back(moment.record); };
     const RunResult result = run(s, options);
     EXPECT_EQ(row.planner, name(options.planner));
     EXPECT_EQ(row.seed, seed);

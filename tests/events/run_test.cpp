@@ -20,7 +20,7 @@ Driven drive(const Scenario& scenario, PlannerKind planner = kDefaultPlanner) {
   Driven run;
   RunOptions options;
   options.planner = planner;
-  options.records = &run.records;
+  options.watch = [&](const Moment& moment) { run.records.push_back(moment.record); };
   run.result = whisker::run(scenario, options);
   return run;
 }

@@ -23,7 +23,7 @@ TEST_P(Bumper, FindsTheWayAroundAnObstacleThatNoBeamSees) {
   RunOptions options;
   options.planner = GetParam();
   std::vector<TickRecord> records;
-  options.records = &records;
+  options.watch = [&](const Moment& moment) { records.push_back(moment.record); };
   const RunResult r = run(unseen(true), options);
   EXPECT_EQ(r.verdict, Verdict::reached);
   EXPECT_GE(r.bumps.value_or(0), 1U);

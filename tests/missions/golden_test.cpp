@@ -38,7 +38,7 @@ std::string decisions(const Scenario& scenario, PlannerKind planner) {
   std::vector<TickRecord> records;
   RunOptions options;
   options.planner = planner;
-  options.records = &records;
+  options.watch = [&](const Moment& moment) { records.push_back(moment.record); };
   const RunResult result = run(scenario, options);
   std::string text =
       fmt::format("# {} {} ticks {} hash {:016x}\nt_s,x_m,y_m,heading_rad,state,why,t,d,r,sa,sd\n",

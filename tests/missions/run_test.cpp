@@ -28,7 +28,7 @@ Drive drive(const Scenario& scenario, PlannerKind planner = PlannerKind::skirt) 
   Drive d;
   RunOptions options;
   options.planner = planner;
-  options.records = &d.records;
+  options.watch = [&](const Moment& moment) { d.records.push_back(moment.record); };
   d.result = run(scenario, options);
   d.complaint = test::judge(scenario, d.records, d.result).complaint;
   return d;

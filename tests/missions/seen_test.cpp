@@ -51,7 +51,7 @@ TEST(RecordingGuide, TellsAtEachTickWhatLeads) {
   for (const Scenario& scenario : {rooms(4, 60), open_field()}) {
     RunOptions options = with_map();
     std::vector<TickRecord> records;
-    options.records = &records;
+    options.watch = [&](const Moment& moment) { records.push_back(moment.record); };
     run(scenario, options);
     for (const TickRecord& r : records) {
       ASSERT_NE(r.guide, Guidance::unknown) << r.t_s;
@@ -80,8 +80,10 @@ TEST(RecordingGuide, IsNotThereWithoutAMap) {
   RunOptions options;
   options.planner = PlannerKind::skirt;
   std::vector<TickRecord> records;
-  options.records = &records;
-  options.watch = [](const Moment& moment) { EXPECT_EQ(moment.guide, nullptr); };
+  options.watch = [&](const Moment& moment) {
+    records.push_back(moment.record);
+    EXPECT_EQ(moment.guide, nullptr);
+  };
   run(rooms(4, 5), options);
   for (const TickRecord& r : records) ASSERT_EQ(r.guide, Guidance::unknown);
 }

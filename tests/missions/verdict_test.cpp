@@ -17,7 +17,8 @@ RunResult drive(const Scenario& scenario, std::vector<TickRecord>* records = nul
                 PlannerKind planner = PlannerKind::skirt) {
   RunOptions options;
   options.planner = planner;
-  options.records = records;
+  if (records != nullptr)
+    options.watch = [records](const Moment& moment) { records->push_back(moment.record); };
   return run(scenario, options);
 }
 

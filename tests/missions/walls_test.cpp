@@ -28,7 +28,10 @@ Scenario with_walls(worlds::Kind kind, int i, Fitted straight) {
 double place_off(const Scenario& s) {
   double off = 0;
   RunOptions options;
-  options.observe = [&](const TickRecord& r) { off = std::hypot(r.est_x_m - r.x_m, r.est_y_m - r.y_m); };
+  options.watch = [&](const Moment& moment) {
+    const TickRecord& r = moment.record;
+    off = std::hypot(r.est_x_m - r.x_m, r.est_y_m - r.y_m);
+  };
   EXPECT_NE(run(s, options).verdict, Verdict::contact) << s.seed;
   return off;
 }

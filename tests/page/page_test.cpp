@@ -48,11 +48,12 @@ Controller controller() {
 }
 
 StoredRun watched(const Scenario& scenario, RunResult& result) {
-  Recording recording(scenario.robot);
   RunOptions options;
-  options.watch = [&](const Moment& moment) { recording.add(moment); };
+  RunLog log({scenario, options.planner, 77});
+  log.watch(options);
   result = run(scenario, options);
-  return stored({scenario, options.planner, 77}, recording.ticks(), result);
+  log.end(result);
+  return stored(log);
 }
 
 /// The content of the element with this id.
@@ -139,8 +140,7 @@ TEST(Page, OfACampaignSaysHowToDriveWhatItHasNoRoomFor) {
 TEST(Page, SaysHowLargeTheMapIs) {
   const Scenario scenario = short_run();
   const auto map_of = [&](std::optional<PlannerKind> planner) {
-    const RunResult none;
-    return nlohmann::json::parse(stored({scenario, planner, 1}, {}, none).json)["map"];
+    return nlohmann::json::parse(stored(RunLog({scenario, planner, 1})).json)["map"];
   };
   EXPECT_TRUE(map_of(PlannerKind::skirt).is_null());
   EXPECT_TRUE(map_of(std::nullopt).is_null());
@@ -148,37 +148,36 @@ TEST(Page, SaysHowLargeTheMapIs) {
   EXPECT_EQ(map_of(core_planner("map", 1024)), expected);
 }
 
-TEST(Recording, ChangesNothingAboutTheRun) {
+TEST(RunLog, ChangesNothingAboutTheRun) {
   RunResult result;
   watched(short_run(), result);
   EXPECT_EQ(result.hash, run(short_run()).hash);
 }
 
-TEST(Recording, HasAllTicksAndAFrameEveryFiftyMilliseconds) {
+TEST(RunLog, HasAllTicksAndAFrameEveryFiftyMilliseconds) {
   const Scenario scenario = short_run();
-  Recording recording(scenario.robot);
+  RunLog log({scenario});
   RunOptions options;
-  options.watch = [&](const Moment& moment) { recording.add(moment); };
+  log.watch(options);
   const RunResult result = run(scenario, options);
-  EXPECT_EQ(recording.ticks().records.size(), result.ticks);
-  EXPECT_EQ(recording.ticks().health.size(), result.ticks);
-  ASSERT_GT(recording.ticks().frames.ticks.size(), 2U);
-  for (std::size_t i = 0; i < recording.ticks().frames.ticks.size(); ++i) {
-    EXPECT_EQ(recording.ticks().frames.ticks[i], static_cast<std::int64_t>(5 * i));
+  EXPECT_EQ(log.ticks().records.size(), result.ticks);
+  EXPECT_EQ(log.ticks().health.size(), result.ticks);
+  ASSERT_GT(log.ticks().frames.ticks.size(), 2U);
+  for (std::size_t i = 0; i < log.ticks().frames.ticks.size(); ++i) {
+    EXPECT_EQ(log.ticks().frames.ticks[i], static_cast<std::int64_t>(5 * i));
   }
 }
 
-TEST(Recording, CoarseHasFiveTicksASecondAndTheLast) {
+TEST(RunLog, CoarseHasFiveTicksASecondAndTheLast) {
   const Scenario scenario = short_run();
-  Recording full(scenario.robot), coarse(scenario.robot, Detail::coarse);
+  RunLog full({scenario}), coarse({scenario}, Detail::coarse);
   RunOptions options;
   options.planner = PlannerKind::skirt;
-  options.watch = [&](const Moment& moment) {
-    full.add(moment);
-    coarse.add(moment);
-  };
+  full.watch(options);
+  coarse.watch(options);
   const RunResult result = run(scenario, options);
-  coarse.end();
+  full.end(result);
+  coarse.end(result);
   const std::vector<TickRecord>& all = full.ticks().records;
   const std::vector<TickRecord>& some = coarse.ticks().records;
   ASSERT_EQ(all.size(), result.ticks);
@@ -189,8 +188,7 @@ TEST(Recording, CoarseHasFiveTicksASecondAndTheLast) {
   const std::vector<std::int64_t>& frames = coarse.ticks().frames.ticks;
   ASSERT_GT(frames.size(), 2U);
   for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i], static_cast<std::int64_t>(5 * i));
-  EXPECT_LT(stored({scenario, {}, 1}, coarse.ticks(), result, Detail::coarse).columns.size() * 5,
-            stored({scenario, {}, 1}, full.ticks(), result).columns.size());
+  EXPECT_LT(stored(coarse).columns.size() * 5, stored(full).columns.size());
 }
 
 /// The column's numbers, decoded as the header states.

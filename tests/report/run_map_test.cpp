@@ -33,10 +33,9 @@ MapPicture random_map(unsigned seed) {
 
 Element drawn(const std::vector<TickRecord>& records, const MapPicture* map) {
   const Scenario scenario = testing::garden();
-  RunPicture options;
-  options.map = map;
-  return testing::parse_xml(
-      run_svg(scenario, records, testing::result_of(Verdict::gave_up, scenario, records), options));
+  RunLog log = testing::log_of(scenario, records, testing::result_of(Verdict::gave_up, scenario, records));
+  if (map != nullptr) log.note(*map);
+  return testing::parse_xml(run_svg(log));
 }
 
 std::vector<TickRecord> garden_run() { return testing::garden_run(testing::garden()); }

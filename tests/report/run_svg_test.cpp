@@ -35,7 +35,7 @@ struct Drawn {
 Drawn draw(const Scenario& scenario, const std::vector<TickRecord>& records, const RunResult& result,
            const RunPicture& options = {}) {
   Drawn drawn;
-  drawn.text = run_svg(scenario, records, result, options);
+  drawn.text = run_svg(testing::log_of(scenario, records, result), options);
   drawn.root = parse_xml(drawn.text);
   return drawn;
 }
@@ -228,7 +228,7 @@ TEST(RunSvg, keeps_a_name_of_any_bytes_well_formed) {
 
 Element drawn(const Scenario& scenario, const std::vector<TickRecord>& records) {
   const RunResult result = testing::result_of(Verdict::gave_up, scenario, records);
-  return testing::parse_xml(run_svg(scenario, records, result));
+  return testing::parse_xml(run_svg(testing::log_of(scenario, records, result)));
 }
 
 TEST(RunEdges, lists_the_first_eight_boundaries_and_counts_the_others) {

@@ -93,6 +93,13 @@ std::vector<TickRecord> follow(const Scenario& scenario, const std::vector<Leg>&
   return walker.take();
 }
 
+RunLog log_of(const Scenario& scenario, const std::vector<TickRecord>& records, const RunResult& result) {
+  RunLog log({scenario});
+  for (const TickRecord& r : records) log.add({r, Health{}, nullptr});
+  log.end(result);
+  return log;
+}
+
 RunResult result_of(Verdict verdict, const Scenario& scenario, const std::vector<TickRecord>& records) {
   RunResult result;
   result.verdict = verdict;

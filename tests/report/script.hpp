@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "host/harness/run/record.hpp"
-#include "host/harness/scenario/scenario.hpp"
+#include "host/harness/run/run_log.hpp"
 
 namespace whisker::testing {
 
@@ -18,6 +17,9 @@ struct Leg {
 /// One record every 10 ms: turns on the spot at 2 rad/s towards each leg's end, scans, then drives at 0.25
 /// m/s.
 std::vector<TickRecord> follow(const Scenario& scenario, const std::vector<Leg>& legs);
+
+/// The log of such a run.
+RunLog log_of(const Scenario& scenario, const std::vector<TickRecord>& records, const RunResult& result = {});
 
 /// A verdict with matching figures.
 RunResult result_of(Verdict verdict, const Scenario& scenario, const std::vector<TickRecord>& records);

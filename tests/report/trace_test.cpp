@@ -27,14 +27,14 @@ std::vector<std::string> split(const std::string& text, char at) {
 
 /// The cells of the only row.
 std::vector<std::string> row_of(const TickRecord& record, const Scenario& scenario = {}) {
-  const std::vector<std::string> lines = split(trace_csv(scenario, {record}), '\n');
+  const std::vector<std::string> lines = split(trace_csv(testing::log_of(scenario, {record})), '\n');
   EXPECT_EQ(lines.size(), 3U);
   EXPECT_EQ(lines.back(), "");
   return split(lines.at(1), ',');
 }
 
 TEST(Trace, without_records_is_its_header) {
-  EXPECT_EQ(trace_csv({}, {}),
+  EXPECT_EQ(trace_csv(testing::log_of({}, {})),
             "t_s,x_m,y_m,heading_rad,left_m,front_m,right_m,v_left_mps,v_right_mps,state,why,"
             "t,looked,d,r,sa,sd,cmd_left_mps,cmd_right_mps,est_x_m,est_y_m,est_heading_rad,guide,way_x_m,way_"
             "y_m,pressed,sigma_along_m,sigma_across_m,sigma_heading_rad\n");
@@ -71,7 +71,7 @@ TEST(Trace, writes_a_record_in_every_detail) {
   Scenario scenario;
   scenario.robot.rangefinders.max_range = millimetres(1500);
   scenario.robot.rangefinders.min_range = millimetres(35);
-  EXPECT_EQ(split(trace_csv(scenario, {r}), '\n').at(1),
+  EXPECT_EQ(split(trace_csv(testing::log_of(scenario, {r})), '\n').at(1),
             "12.340,1.234568,-0.500000,3.141593,1.2340,1.5000,0.0350,0.25000,-0.12346,skirting,same_side,"
             "7,1,1.0078,-8.0000,-1.00000,0.00006,0.25010,-0.00030,1.200000,-0.500000,3.250000,place,2.050000,"
             "-0.350000,5,0.020500,0.110000,1.570796");
@@ -158,7 +158,7 @@ RC_GTEST_PROP(Trace, lets_a_judge_read_pose_and_speed_back, (int x, int y, int h
 TEST(Trace, has_one_row_of_all_columns_for_each_tick_of_a_run) {
   const Scenario scenario = testing::garden();
   const auto records = testing::garden_run(scenario);
-  const std::vector<std::string> lines = split(trace_csv(scenario, records), '\n');
+  const std::vector<std::string> lines = split(trace_csv(testing::log_of(scenario, records)), '\n');
   ASSERT_EQ(lines.size(), records.size() + 2);
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) ASSERT_EQ(split(lines[i], ',').size(), 29U) << lines[i];
 }
@@ -167,10 +167,10 @@ TEST(Trace, goes_into_a_file_as_it_is) {
   const std::string path = ::testing::TempDir() + "whisker_trace_test.csv";
   const Scenario scenario = testing::garden();
   const auto records = testing::garden_run(scenario);
-  write_trace(path, scenario, records);
+  write_trace(path, testing::log_of(scenario, records));
   std::ifstream in(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
-  EXPECT_EQ(text, trace_csv(scenario, records));
+  EXPECT_EQ(text, trace_csv(testing::log_of(scenario, records)));
   std::remove(path.c_str());
 }
 

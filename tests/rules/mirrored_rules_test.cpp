@@ -19,7 +19,7 @@ namespace whisker::rules {
 namespace {
 
 std::string text_of(const char* file) {
-  std::ifstream in(std::string(WHISKER_SOURCE_DIR) + "/host/lab/rules/" + file);
+  std::ifstream in(std::string(WHISKER_SOURCE_DIR) + "/host/" + file);
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
@@ -28,7 +28,7 @@ std::string text_of(const char* file) {
 MirroredRules read(const std::string& text) { return mirrored_rules(parse_rules(text, "law.toml")); }
 
 std::string error_of(const std::string& old, const std::string& now) {
-  std::string text = text_of("examples/thesis.toml");
+  std::string text = text_of("rules/examples/thesis.toml");
   const std::size_t at = text.find(old);
   EXPECT_NE(at, std::string::npos) << old;
   try {
@@ -46,7 +46,7 @@ TEST(MirroredRules, TheCoresOwnGiveTheCommittedTableByteForByte) {
 }
 
 TEST(MirroredRules, ReadFromAFileTheyGiveItsTable) {
-  for (const char* file : {"examples/thesis.toml", "laws/straight.toml", "laws/sides.toml"}) {
+  for (const char* file : {"rules/examples/thesis.toml", "lab/rules/laws/straight.toml", "lab/rules/laws/sides.toml"}) {
     const std::string text = text_of(file);
     const Response own = response(parse_rules(text, "law.toml"), {});
     const Response again = response(parse_rules(to_toml(read(text), "again", ""), "again.toml"), {});
@@ -85,7 +85,7 @@ TEST(MirroredRules, RefusesWhatASearchCannotChange) {
   EXPECT_EQ(error_of("[\"VS\", 0.3]", "[\"XS\", 0.1], [\"VS\", 0.3]"),
             "law.toml:30:1: a search starts from five terms of 'SD', not 6");
   try {
-    mirrored_rules(parse_rules(text_of("examples/tip.fis"), "tip.fis"));
+    mirrored_rules(parse_rules(text_of("rules/examples/tip.fis"), "tip.fis"));
     ADD_FAILURE() << "accepted";
   } catch (const InputError& e) {
     EXPECT_STREQ(e.what(), "tip.fis:1:1: a search starts from a rule file in TOML");

@@ -97,8 +97,8 @@ TEST(Feed, EveryoneIsToldEveryTickOnceAtAPaceOfTheirOwn) {
 }
 
 /// The ticks of `all` from this one on.
-page::Ticks behind(const page::Ticks& all, std::size_t from) {
-  page::Ticks ticks;
+Ticks behind(const Ticks& all, std::size_t from) {
+  Ticks ticks;
   ticks.append(all, from, 0);
   return ticks;
 }
@@ -106,20 +106,20 @@ page::Ticks behind(const page::Ticks& all, std::size_t from) {
 TEST(Feed, TheColumnsAreThoseOfTheTicks) {
   Feed feed;
   const Scenario scenario = short_run();
-  page::Recording recording(scenario.robot);
+  RunLog log({scenario});
   Place place;
   std::size_t pictures = 0;
   drive(scenario, feed, [&](const Moment& moment) {
-    recording.add(moment);
+    log.add(moment);
     // Between the ends of the feed's parts, at them and after them.
-    const std::size_t ticks = recording.ticks().records.size();
+    const std::size_t ticks = log.ticks().records.size();
     if (ticks != 1 && ticks != 100 && ticks % 256 > 1 && ticks % 256 < 255) return;
     const std::size_t from = place.next;
     const json news = next(feed, place);
-    const page::Packed expected = page::packed(behind(recording.ticks(), from));
+    const page::Packed expected = page::packed(behind(log.ticks(), from));
     EXPECT_EQ(news["data"], expected.data) << ticks;
     EXPECT_EQ(news["columns"].dump(), json::parse(expected.list.dump()).dump());
-    pictures += behind(recording.ticks(), from).frames.ticks.size();
+    pictures += behind(log.ticks(), from).frames.ticks.size();
   });
   EXPECT_GT(pictures, 100U);
 }

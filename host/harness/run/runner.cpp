@@ -17,11 +17,8 @@ RunResult run(const Scenario& file, const RunOptions& options) {
 
   const auto ticks_a_second = 1000 / static_cast<std::uint64_t>(scenario.robot.safety.period.raw());
   const auto record = [&] {
-    if (options.records == nullptr && !options.observe && !options.watch) return;
-    const TickRecord r = mission.record();
-    if (options.records != nullptr) options.records->push_back(r);
-    if (options.observe) options.observe(r);
-    if (options.watch) options.watch({r, mission.status().health, pilot->local_grid(), pilot->guide()});
+    if (options.watch)
+      options.watch({mission.record(), mission.status().health, pilot->local_grid(), pilot->guide()});
   };
   const auto play = [&] {
     while (pilot->hears()) {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <vector>
 
 #include "firmware/health.hpp"
 #include "firmware/perception/local_grid.hpp"
@@ -25,10 +24,8 @@ struct Moment {
 
 struct RunOptions {
   PlannerKind planner = kDefaultPlanner;
-  std::optional<std::uint64_t> seed;           ///< of the noise; overrides that of the scenario
-  std::vector<TickRecord>* records = nullptr;  ///< receives one record per tick, and one more at a contact
-  std::function<void(const TickRecord&)> observe;  ///< called with each new record
-  std::function<void(const Moment&)> watch;        ///< the same, with the internal state for pictures
+  std::optional<std::uint64_t> seed;         ///< of the noise; overrides that of the scenario
+  std::function<void(const Moment&)> watch;  ///< called at each tick, and once more at a contact
   /// Called about once per simulated second with the simulated time and the remaining distance.
   std::function<void(double time_s, double distance_m)> progress;
   MakePilot pilot = core_pilot;  ///< creates the pilot that drives

@@ -60,7 +60,7 @@ double usual_distance_m(const Params& params, const Sensor& sensor) {
 }
 
 Sweep simulated_spin(const Scenario& scenario, const Params& believed, const sim::RobotSpec& what,
-                     std::uint64_t seed, double along_m, std::vector<TickRecord>* records) {
+                     std::uint64_t seed, double along_m, RunLog* log) {
   const SimWorld world(scenario);
   sim::Plant plant(world.view(), what, noise_spec(scenario.noise), seed, scenario.start);
   localization::Odometry odometry;
@@ -75,7 +75,7 @@ Sweep simulated_spin(const Scenario& scenario, const Params& believed, const sim
     collector.add(plant.time(), odometry.pose(), plant.ranges());
     const hal::WheelSpeeds command =
         spin.step(collector.turned_rad(), collector.from_start_m(), plant.time());
-    if (records != nullptr) records->push_back(record(plant, odometry.pose(), command));
+    if (log != nullptr) log->add({record(plant, odometry.pose(), command), Health{}, nullptr});
     plant.command(command);
     plant.advance();
   }

@@ -3,9 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
-#include "host/harness/run/record.hpp"
+#include "host/harness/run/run_log.hpp"
 #include "host/harness/scenario/scenario.hpp"
 #include "host/harness/sim/spec.hpp"
 #include "host/lab/calibration/calibration.hpp"
@@ -20,10 +19,9 @@ Scenario wall_scenario(const Params& params, const Sensor& sensor, const Noise& 
 double usual_distance_m(const Params& params, const Sensor& sensor);
 
 /// believed: of the odometry and the spin. what: the robot as it is. along_m: see Spin. Headings count from
-/// the start. The spin ends early if the body touches the wall. records: null, or receives a record of each
-/// tick.
+/// the start. The spin ends early if the body touches the wall. log: null, or receives each tick.
 Sweep simulated_spin(const Scenario& scenario, const Params& believed, const sim::RobotSpec& what,
-                     std::uint64_t seed, double along_m = 0, std::vector<TickRecord>* records = nullptr);
+                     std::uint64_t seed, double along_m = 0, RunLog* log = nullptr);
 
 /// deg. What an ideal measurement at this distance would give.
 struct Truth {

@@ -58,7 +58,8 @@ Meeting meet(const Scenario& scenario, PlannerKind planner) {
   double now = 0;
   RunOptions options;
   options.planner = planner;
-  options.observe = [&](const TickRecord& r) {
+  options.watch = [&](const Moment& moment) {
+    const TickRecord& r = moment.record;
     sighting.add(r);
     before = now;
     now = std::fabs(r.v_left_mps + r.v_right_mps) / 2;

@@ -16,7 +16,8 @@ Row drive(const Scenario& scenario, PlannerKind planner, const std::atomic<bool>
   double estimate_error_m = 0;
   RunOptions options;
   options.planner = planner;
-  options.observe = [&](const TickRecord& record) {
+  options.watch = [&](const Moment& moment) {
+    const TickRecord& record = moment.record;
     if (stop) throw Stopped{};
     count.add(record);
     if (also) also(record);

@@ -48,7 +48,7 @@ Json guard_data(const GuardSetting& s) {
 void GuardRecording::add(const guard::Moment& m) {
   const TickRecord record = record_of(m);
   const GuardStatus* const s = m.status;
-  recording_.add({record, s != nullptr ? s->health : Health{}, m.grid});
+  log_.add({record, s != nullptr ? s->health : Health{}, m.grid});
   if (s != nullptr) {
     grants_.push_back({s->asked, s->forward, s->turning, s->reason});
   } else {
@@ -57,9 +57,9 @@ void GuardRecording::add(const guard::Moment& m) {
   }
 }
 
-StoredRun GuardRecording::stored(const GuardSetting& setting, const guard::Result& result) const {
+StoredRun GuardRecording::stored(const guard::Result& result) const {
   Columns columns;
-  add_ticks(columns, recording_.ticks(), Detail::full);
+  add_ticks(columns, log_.ticks(), Detail::full);
   constexpr Order kSteady = Order::differences;
   columns.add("asked_v_mps", kSteady, kMicroUnits,
               column([](const Grant& g) { return g.asked.forward.raw(); }));
@@ -69,8 +69,8 @@ StoredRun GuardRecording::stored(const GuardSetting& setting, const guard::Resul
   columns.add("granted_omega", kSteady, Q14::kOne, column([](const Grant& g) { return g.turning.raw(); }));
   columns.add("reason", kSteady, 1, column([](const Grant& g) { return static_cast<int>(g.reason); }));
   Packed data = packed(columns);
-  Json json = setting_data({setting.scenario, std::nullopt, setting.scenario.seed, setting.guarded});
-  json["guard"] = guard_data(setting);
+  Json json = setting_data(log_.setting());
+  json["guard"] = guard_data(setting_);
   json["detail"] = "full";
   json["result"] = Json::parse(guard::result_json(result));
   json["edges"] = Json::array();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/lab/guard/drive.hpp"
@@ -20,10 +21,12 @@ struct GuardSetting {
 /// Records the data of a drive while it runs.
 class GuardRecording {
  public:
-  explicit GuardRecording(const Params& params) : recording_(params) {}
+  explicit GuardRecording(GuardSetting setting)
+      : setting_(std::move(setting)),
+        log_({setting_.scenario, std::nullopt, setting_.scenario.seed, setting_.guarded}) {}
   /// For guard::Options::watch.
   void add(const guard::Moment& moment);
-  StoredRun stored(const GuardSetting& setting, const guard::Result& result) const;
+  StoredRun stored(const guard::Result& result) const;
 
  private:
   /// What one tick asked for and got.
@@ -40,7 +43,8 @@ class GuardRecording {
     return values;
   }
 
-  Recording recording_;
+  GuardSetting setting_;
+  RunLog log_;
   std::vector<Grant> grants_;
 };
 

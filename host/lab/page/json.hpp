@@ -17,7 +17,7 @@ Json names_data();
 Json shared_data(const Controller& controller);
 
 /// A run before its first tick: world, robot and noise.
-Json setting_data(const Setting& setting);
+Json setting_data(const RunSetting& setting);
 
 Json edges_data(const std::vector<report::EncounterFinder::Found>& found);
 

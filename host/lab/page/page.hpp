@@ -6,21 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "host/harness/run/planners.hpp"
-#include "host/harness/scenario/scenario.hpp"
+#include "host/harness/run/run_log.hpp"
 #include "host/lab/campaign/row.hpp"
-#include "host/lab/page/recording.hpp"
 #include "host/lab/report/fuzzy_picture.hpp"
 
 namespace whisker::page {
-
-/// The data of a run that are known before its first tick.
-struct Setting {
-  const Scenario& scenario;
-  std::optional<PlannerKind> planner;  ///< none: unknown
-  std::uint64_t seed;                  ///< of the noise
-  bool inside = true;                  ///< as TickRecord::inside of all its ticks
-};
 
 /// A run as the page stores it.
 struct StoredRun {
@@ -28,9 +18,7 @@ struct StoredRun {
   std::string columns;  ///< base64 of the deflated columns
 };
 
-/// All recorded ticks up to the verdict.
-StoredRun stored(const Setting& setting, const Ticks& ticks, const RunResult& result,
-                 Detail detail = Detail::full);
+StoredRun stored(const RunLog& log);
 
 /// The active response table, for the page.
 using Controller = report::FuzzyPicture;

@@ -77,7 +77,7 @@ Json noise_data(const Noise& n) {
           {"heading_drift_deg_per_sqrt_m", n.heading_drift_deg_per_sqrt_m}};
 }
 
-Json map_data(const Setting& s) {
+Json map_data(const RunSetting& s) {
   const std::int32_t bytes = s.planner ? s.planner->map_bytes : 0;
   if (bytes == 0) return nullptr;
   const planning::GridShape shape = planning::map_shape(bytes);
@@ -99,7 +99,7 @@ const char* end_name(report::Encounter::End end) {
 
 }  // namespace
 
-Json setting_data(const Setting& s) {
+Json setting_data(const RunSetting& s) {
   Json planner = nullptr;
   if (s.planner) planner = name(*s.planner);
   return {{"name", s.scenario.name},
@@ -123,13 +123,13 @@ Json edges_data(const std::vector<report::EncounterFinder::Found>& found) {
   return edges;
 }
 
-StoredRun stored(const Setting& setting, const Ticks& ticks, const RunResult& result, Detail detail) {
+StoredRun stored(const RunLog& log) {
   report::EncounterFinder finder;
-  for (const TickRecord& r : ticks.records) finder.add(r);
-  Packed columns = packed(ticks, detail);
-  Json json = setting_data(setting);
-  json["detail"] = detail == Detail::full ? "full" : "coarse";
-  json["result"] = Json::parse(report::result_json(result));
+  for (const TickRecord& r : log.ticks().records) finder.add(r);
+  Packed columns = packed(log.ticks(), log.detail());
+  Json json = setting_data(log.setting());
+  json["detail"] = log.detail() == Detail::full ? "full" : "coarse";
+  json["result"] = Json::parse(report::result_json(log.result()));
   json["edges"] = edges_data(finder.found());
   json["columns"] = std::move(columns.list);
   return {text_of(json), std::move(columns.data)};

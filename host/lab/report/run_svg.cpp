@@ -87,8 +87,10 @@ std::string name_of(const Scenario& scenario) {
 
 }  // namespace
 
-std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& records, const RunResult& result,
-                    const RunPicture& options) {
+std::string run_svg(const RunLog& log, const RunPicture& options) {
+  const Scenario& scenario = log.setting().scenario;
+  const std::vector<TickRecord>& records = log.ticks().records;
+  const RunResult& result = log.result();
   const TickRecord* end = last_placed(records);
   const auto entries = danger_entries(records, options.cones);
   LegendContent content;
@@ -103,7 +105,7 @@ std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& rec
   content.walls = !scenario.walls.empty();
   content.movers = !scenario.movers.empty();
   content.hand_overs = hand_overs(records);
-  if (end != nullptr) content.map = options.map;
+  if (end != nullptr && log.map()) content.map = &*log.map();
 
   const double top = options.subtitle.empty() ? 66 : 84;
   const Layout layout = lay_out(box_of(scenario, records, options), top, content, options.legend);

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/harness/run/map_picture.hpp"
-#include "host/harness/run/record.hpp"
-#include "host/harness/scenario/scenario.hpp"
+#include "host/harness/run/run_log.hpp"
 
 namespace whisker::report {
 
@@ -17,14 +15,13 @@ struct RunPicture {
   bool legend = true;
   /// Path of another run in the same world that must fit into the frame.
   const std::vector<TickRecord>* beside = nullptr;
-  const MapPicture* map = nullptr;  ///< the final map of a planner that has one
-  double path_tolerance = 5e-4;     ///< m; path points nearer than this to the drawn line are omitted
+  double path_tolerance = 5e-4;  ///< m; path points nearer than this to the drawn line are omitted
 };
 
-/// The SVG file. Axes have equal scales in metres; the card is 620 to 980 px wide. Records may be empty;
+/// The SVG file, with the last map of a planner that has one. Axes have equal scales in metres; the card is
+/// 620 to 980 px wide. The log may be without ticks;
 /// those without a finite position are omitted, and the legend shows their number. Equal input gives equal
 /// bytes.
-std::string run_svg(const Scenario& scenario, const std::vector<TickRecord>& records, const RunResult& result,
-                    const RunPicture& options = {});
+std::string run_svg(const RunLog& log, const RunPicture& options = {});
 
 }  // namespace whisker::report

@@ -97,16 +97,15 @@ const char* const kTraceHeader =
     "t,looked,d,r,sa,sd,cmd_left_mps,cmd_right_mps,est_x_m,est_y_m,est_heading_rad,guide,way_x_m,way_y_m,"
     "pressed,sigma_along_m,sigma_across_m,sigma_heading_rad";
 
-std::string trace_csv(const Scenario& scenario, const std::vector<TickRecord>& records) {
+std::string trace_csv(const RunLog& log) {
+  const std::vector<TickRecord>& records = log.ticks().records;
   std::string out = kTraceHeader;
   out += '\n';
   out.reserve(out.size() + records.size() * 200);
-  for (const TickRecord& r : records) add_row(out, scenario.robot.rangefinders, r);
+  for (const TickRecord& r : records) add_row(out, log.setting().scenario.robot.rangefinders, r);
   return out;
 }
 
-void write_trace(const std::string& path, const Scenario& scenario, const std::vector<TickRecord>& records) {
-  write_file(path, trace_csv(scenario, records));
-}
+void write_trace(const std::string& path, const RunLog& log) { write_file(path, trace_csv(log)); }
 
 }  // namespace whisker::report

@@ -24,10 +24,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "host/harness/run/record.hpp"
-#include "host/harness/scenario/scenario.hpp"
+#include "host/harness/run/run_log.hpp"
 
 namespace whisker::report {
 
@@ -38,9 +36,9 @@ extern const char* const kTraceHeader;
 std::string range_text(const hal::RangeReading& reading, const RangefinderParams& sensor);
 
 /// The whole file. Lines end in a single newline.
-std::string trace_csv(const Scenario& scenario, const std::vector<TickRecord>& records);
+std::string trace_csv(const RunLog& log);
 
 /// trace_csv into a file, as write_file.
-void write_trace(const std::string& path, const Scenario& scenario, const std::vector<TickRecord>& records);
+void write_trace(const std::string& path, const RunLog& log);
 
 }  // namespace whisker::report

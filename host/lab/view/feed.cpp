@@ -41,12 +41,12 @@ Edges as_of(std::size_t ticks, Edges edges) {
 
 }  // namespace
 
-void Feed::begin(const page::Setting& setting) {
+void Feed::begin(const RunSetting& setting) {
   const std::string json = page::text_of(page::setting_data(setting));
   const std::scoped_lock lock(mutex_);
   run_ = new_name();
   setting_ = json;
-  last_.emplace(setting.scenario.robot);
+  last_.emplace(setting);
   whole_.clear();
   count_ = 0;
   edges_ = {};
@@ -58,7 +58,7 @@ void Feed::add(const Moment& moment) {
   const std::scoped_lock lock(mutex_);
   last_->add(moment);
   edges_.add(moment.record);
-  if (++count_ % kWhole == 0) whole_.push_back(std::make_shared<const page::Ticks>(last_->take()));
+  if (++count_ % kWhole == 0) whole_.push_back(std::make_shared<const Ticks>(last_->take()));
 }
 
 void Feed::say(const std::string& words) {
@@ -95,8 +95,8 @@ std::optional<std::string> Feed::news(Place& place) const {
   Json json;
   std::string setting, result;
   Edges edges;
-  std::vector<std::shared_ptr<const page::Ticks>> parts;
-  page::Ticks last;
+  std::vector<std::shared_ptr<const Ticks>> parts;
+  Ticks last;
   std::size_t from = 0;
   {
     const std::scoped_lock lock(mutex_);
@@ -118,7 +118,7 @@ std::optional<std::string> Feed::news(Place& place) const {
     json = {{"run", run_}, {"from", from}, {"says", words_}, {"ended", all && closed_}};
     place = {run_, next, notes_};
   }
-  page::Ticks ticks;
+  Ticks ticks;
   std::size_t first = from / kWhole * kWhole;
   for (const auto& part : parts) {
     ticks.append(*part, from > first ? from - first : 0, first);

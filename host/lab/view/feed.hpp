@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "host/harness/run/run_log.hpp"
 #include "host/lab/page/page.hpp"
-#include "host/lab/page/recording.hpp"
 #include "host/lab/report/encounters.hpp"
 
 namespace whisker::view {
@@ -27,7 +27,7 @@ struct Place {
 class Feed {
  public:
   /// A run begins, or begins again: data of the one before is discarded. Call it first.
-  void begin(const page::Setting& setting);
+  void begin(const RunSetting& setting);
   /// For RunOptions::watch.
   void add(const Moment& moment);
   /// For people: the item that the run waits for; "" if none.
@@ -48,9 +48,9 @@ class Feed {
   mutable std::mutex mutex_;
   std::string run_;
   std::string setting_;
-  std::optional<page::Recording> last_;                    // less than a complete one
-  std::vector<std::shared_ptr<const page::Ticks>> whole_;  // immutable
-  std::size_t count_ = 0;                                  // ticks
+  std::optional<RunLog> last_;                       // less than a complete one
+  std::vector<std::shared_ptr<const Ticks>> whole_;  // immutable
+  std::size_t count_ = 0;                            // ticks
   report::EncounterFinder edges_;
   std::string words_;
   std::string result_;  // "" before the end

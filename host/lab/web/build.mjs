@@ -16,7 +16,9 @@ const page = await bundledPage({
 if (page.length > MOST_BYTES) throw new Error(`${page.length} bytes; at most ${MOST_BYTES}`);
 if (process.argv.includes('--check')) {
   if ((await readFile(TEMPLATE, 'utf8')) !== page) {
-    console.error('host/lab/page/template.html is not what host/lab/web builds: run npm run build in host/lab/web');
+    console.error(
+      'host/lab/page/template.html is not what host/lab/web builds: run npm run build in host/lab/web',
+    );
     process.exit(1);
   }
 } else {

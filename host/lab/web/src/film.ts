@@ -1,4 +1,4 @@
-/** The local grid and the map over time, as host/lab/page/film.hpp and host/lab/page/map_film.hpp store them. */
+/** The local grid and the map over time, as host/harness/run/film.hpp and host/lab/page/map_film.hpp store them. */
 
 /** A sequence of bit pictures, each stored as its changes since the one before. */
 class Pictures {

@@ -1,4 +1,4 @@
-#include "host/lab/page/map_film.hpp"
+#include "host/harness/run/map_film.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "host/harness/run/clear_cells.hpp"
+#include "host/harness/run/film.hpp"
+#include "host/harness/run/run_log.hpp"
 #include "host/harness/run/runner.hpp"
 #include "host/harness/worlds/generate.hpp"
-#include "host/lab/page/film.hpp"
-#include "host/lab/page/recording.hpp"
 
-namespace whisker::page {
+namespace whisker {
 namespace {
 
 using Cells = std::set<std::pair<std::int64_t, std::int64_t>>;
@@ -107,7 +107,7 @@ TEST(MapFilm, ShowsEveryPictureAsItWas) {
 TEST(MapFilm, IsTheSameWhenItIsCutAndPutTogether) {
   const Scenario scenario = far();
   RunOptions options = smallest();
-  Recording whole(scenario.robot), cut(scenario.robot);
+  RunLog whole({scenario}), cut({scenario});
   std::vector<Ticks> parts;
   std::size_t tick = 0;
   options.watch = [&](const Moment& moment) {
@@ -135,12 +135,12 @@ TEST(MapFilm, IsTheSameWhenItIsCutAndPutTogether) {
 
 TEST(MapFilm, IsEmptyWithoutAMap) {
   const Scenario scenario = far();
-  Recording recording(scenario.robot);
+  RunLog log({scenario});
   RunOptions options;
   options.planner = PlannerKind::skirt;
-  options.watch = [&](const Moment& moment) { recording.add(moment); };
+  log.watch(options);
   run(scenario, options);
-  EXPECT_TRUE(recording.ticks().map.x.empty());
+  EXPECT_TRUE(log.ticks().map.x.empty());
 }
 
 std::int64_t below(double x, double cell) { return static_cast<std::int64_t>(std::floor(x / cell + 1e-6)); }
@@ -208,4 +208,4 @@ TEST(Film, ShowsTheCellsThatThePatchHas) {
 }
 
 }  // namespace
-}  // namespace whisker::page
+}  // namespace whisker

@@ -10,7 +10,7 @@
 #include "firmware/params.hpp"
 #include "firmware/perception/local_grid.hpp"
 
-namespace whisker::page {
+namespace whisker {
 
 /// Pictures as the changes from each to the next.
 struct Frames {
@@ -47,4 +47,4 @@ class Film {
   Picture last_{};
 };
 
-}  // namespace whisker::page
+}  // namespace whisker

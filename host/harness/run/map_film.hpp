@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "host/harness/run/film.hpp"
 #include "host/harness/run/map_picture.hpp"
-#include "host/lab/page/film.hpp"
 
-namespace whisker::page {
+namespace whisker {
 
 /// Pictures as the changes from each to the next, and the window of each: its first cell, in world cells.
 struct MapFrames {
@@ -35,4 +35,4 @@ class MapFilm {
   std::vector<std::uint32_t> last_;
 };
 
-}  // namespace whisker::page
+}  // namespace whisker

@@ -1,11 +1,11 @@
-#include "host/lab/page/film.hpp"
+#include "host/harness/run/film.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 #include "host/harness/run/clear_cells.hpp"
 
-namespace whisker::page {
+namespace whisker {
 namespace {
 
 std::size_t wrapped(std::int64_t cell) { return static_cast<std::uint64_t>(cell) % Film::kSide; }
@@ -57,4 +57,4 @@ void Film::add(std::size_t tick, Vec body, const perception::LocalGrid& local_gr
   last_ = now;
 }
 
-}  // namespace whisker::page
+}  // namespace whisker

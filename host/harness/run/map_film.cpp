@@ -1,8 +1,8 @@
-#include "host/lab/page/map_film.hpp"
+#include "host/harness/run/map_film.hpp"
 
 #include <utility>
 
-namespace whisker::page {
+namespace whisker {
 namespace {
 
 constexpr std::int32_t kWordBits = 32;
@@ -49,4 +49,4 @@ void MapFilm::add(std::size_t tick, const MapPicture& picture, MapFrames& frames
   last_ = std::move(now);
 }
 
-}  // namespace whisker::page
+}  // namespace whisker

@@ -1,9 +1,9 @@
-#include "host/lab/page/recording.hpp"
+#include "host/harness/run/run_log.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace whisker::page {
+namespace whisker {
 namespace {
 
 struct Pace {
@@ -22,9 +22,13 @@ Length fixed(double metres) {
 
 }  // namespace
 
-Recording::Recording(const Params& params, Detail detail) : film_(params), map_watch_(params) {
+RunLog::RunLog(RunSetting setting, Detail detail)
+    : setting_(std::move(setting)),
+      detail_(detail),
+      film_(setting_.scenario.robot),
+      map_watch_(setting_.scenario.robot) {
   const Pace pace = detail == Detail::full ? kFull : kCoarse;
-  const std::int32_t period = params.safety.period.raw();
+  const std::int32_t period = setting_.scenario.robot.safety.period.raw();
   every_ = one_in(pace.sample_ms, period);
   kept_a_frame_ = one_in(pace.frame_ms, period * static_cast<std::int32_t>(every_));
 }
@@ -37,13 +41,20 @@ void Ticks::append(const Ticks& more, std::size_t index, std::size_t first) {
   map.append(more.map, first + index);
 }
 
-void Recording::add(const Moment& moment) {
+void RunLog::watch(RunOptions& options) {
+  options.watch = [this, also = options.watch](const Moment& moment) {
+    add(moment);
+    if (also) also(moment);
+  };
+}
+
+void RunLog::add(const Moment& moment) {
   const TickRecord& r = moment.record;
   const bool kept = count_++ % every_ == 0;
   if (moment.local_grid != nullptr && kept && kept_ % kept_a_frame_ == 0) {
     film_.add(kept_, {fixed(r.est_x_m), fixed(r.est_y_m)}, *moment.local_grid, ticks_.frames);
   }
-  if (map_watch_.look(moment.guide)) map_film_.add(kept_, *map_watch_.last(), ticks_.map);
+  if (map_watch_.look(moment.guide)) note(*map_watch_.last());
   if (kept) {
     keep(r, moment.health);
   } else {
@@ -51,15 +62,21 @@ void Recording::add(const Moment& moment) {
   }
 }
 
-void Recording::end() {
-  if (last_) keep(last_->first, last_->second);
+void RunLog::note(const MapPicture& map) {
+  map_ = map;
+  map_film_.add(kept_, map, ticks_.map);
 }
 
-void Recording::keep(const TickRecord& record, const Health& health) {
+void RunLog::end(RunResult result) {
+  if (last_) keep(last_->first, last_->second);
+  result_ = std::move(result);
+}
+
+void RunLog::keep(const TickRecord& record, const Health& health) {
   ticks_.records.push_back(record);
   ticks_.health.push_back(health);
   last_.reset();
   ++kept_;
 }
 
-}  // namespace whisker::page
+}  // namespace whisker
