@@ -136,7 +136,7 @@ void print_written(const ParamOptions& o, const BenchBus& bus, const Params& fro
 
 /// Throws UsageError for values that do not fit together.
 void check_relations(const Params& params) {
-  for (const Violation& v : violations(params)) {
+  for (const Violation& v : violations(params).all) {
     std::string fits;
     for (const std::string& fit : v.fits) fits += (fits.empty() ? "; it would fit with " : " or ") + fit;
     throw UsageError(fmt::format("the values do not fit together: {}{}", relation(v.fault).words, fits));

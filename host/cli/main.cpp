@@ -127,6 +127,7 @@ int main(int argc, char** argv) {
     return kBadInput;
   } catch (const whisker::InputErrors& e) {
     for (const whisker::InputError& error : e.all()) complain(error.what());
+    if (!e.advice().empty()) complain(e.advice());
     return kBadInput;
   } catch (const whisker::InputError& e) {
     complain(e.what());

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,8 +22,10 @@
 #include "host/harness/run/runner.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/scenario/mounting.hpp"
+#include "host/harness/scenario/params_text.hpp"
 #include "host/harness/scenario/robot_header.hpp"
 #include "host/harness/scenario/sensor.hpp"
+#include "host/harness/scenario/sensor_text.hpp"
 #include "host/harness/worlds/generate.hpp"
 #include "host/lab/report/file.hpp"
 #include "host/lab/report/result.hpp"
@@ -34,7 +37,11 @@ namespace {
 struct TestDrive {
   std::string world;  ///< "the empty world", "the corridor", "the field of discs"
   RunResult result;
+  double straight_s = 0;  ///< of the straight way at full speed
 };
+
+/// A fit robot takes at most this many times the time of the straight way.
+constexpr double kMostDetour = 20;
 
 constexpr double kReferenceRadius = 0.09;  // m
 constexpr int kDiscs = 15;
@@ -98,7 +105,10 @@ std::vector<TestDrive> test_drives(const Params& params, const Sensor& sensor, P
   options.planner = planner;
   std::vector<TestDrive> drives;
   for (const auto& [name, scenario] : worlds) {
-    drives.push_back({name, run(fitted(scenario, params, sensor), options)});
+    const Scenario own = fitted(scenario, params, sensor);
+    const sim::Vec2 way = own.goal.at - own.start.at;
+    drives.push_back(
+        {name, run(own, options), std::sqrt(sim::dot(way, way)) / (params.wheels.max_speed.raw() * 1e-6)});
   }
   return drives;
 }
@@ -108,17 +118,27 @@ using Json = nlohmann::ordered_json;
 struct RobotOptions {
   std::string file;
   std::string header;
+  std::string suggest;
   PlannerKind planner = kDefaultPlanner;
   bool json = false;
 };
 
-bool reached(const TestDrive& drive) { return drive.result.verdict == Verdict::reached; }
+bool slow(const TestDrive& drive) { return drive.result.time_s > kMostDetour * drive.straight_s; }
+
+bool good(const TestDrive& drive) { return drive.result.verdict == Verdict::reached && !slow(drive); }
 
 Json violations_json(const InputErrors& errors) {
   Json all = Json::array();
   for (const InputError& e : errors.all()) {
     all.push_back({{"line", e.line()}, {"column", e.column()}, {"text", e.what()}});
   }
+  return all;
+}
+
+/// Null: there is none.
+Json suggestion_json(const InputErrors& errors) {
+  Json all;
+  for (const auto& [key, value] : errors.changes()) all[key] = Json::parse(value, nullptr, false);
   return all;
 }
 
@@ -140,27 +160,74 @@ Json warnings_json(const std::vector<MountingWarning>& warnings) {
 
 /// params: null if the parameters are invalid.
 void print_json(const RobotOptions& o, const Params* params, const Json& violations,
-                const std::vector<MountingWarning>& warnings, const std::vector<TestDrive>& drives) {
-  const bool fit = params != nullptr && std::all_of(drives.begin(), drives.end(), reached);
-  const Json json = {{"fit", fit},
-                     {"violations", violations},
-                     {"warnings", warnings_json(warnings)},
-                     {"drives", drives_json(drives)}};
+                const std::vector<MountingWarning>& warnings, const std::vector<TestDrive>& drives,
+                const Json& suggestion = nullptr) {
+  const bool fit = params != nullptr && std::all_of(drives.begin(), drives.end(), good);
+  Json json = {{"fit", fit},
+               {"violations", violations},
+               {"warnings", warnings_json(warnings)},
+               {"drives", drives_json(drives)}};
+  if (!suggestion.is_null()) json["suggestion"] = suggestion;
   Provenance provenance{{}, name(o.planner), o.file, {}, rules_name(o.planner)};
   if (params != nullptr) provenance.robot_digest = robot_digest(*params);
   print_object(json.dump(-1, ' ', false, Json::error_handler_t::replace), provenance);
 }
 
+/// The file's text with these lines instead of its own, or on top.
+std::string with_lines(const std::string& text,
+                       const std::vector<std::pair<std::string, std::string>>& lines) {
+  std::string changed = text, added;
+  for (const auto& [key, value] : lines) {
+    const std::regex own("(^|\n)([ \t]*\"?" + key + "\"?[ \t]*=[ \t]*)[^\n#]*?([ \t\r]*)(?=#|\n|$)");
+    std::smatch found;
+    if (std::regex_search(changed, found, own)) {
+      changed = found.prefix().str() + found[1].str() + found[2].str() + value + found[3].str() +
+                found.suffix().str();
+    } else {
+      added += fmt::format("{} = {}\n", key, value);
+    }
+  }
+  return added + changed;
+}
+
+/// Writes the file that fits, if there is one.
+void suggest(const RobotOptions& o, const InputErrors& errors) {
+  if (errors.changes().empty()) {
+    fmt::print(stderr, "whisker: {}: no change of tolerances, steps and margins fits: {} is not written\n",
+               o.file, o.suggest);
+    return;
+  }
+  report::write_file(o.suggest, with_lines(read_file(o.file), errors.changes()));
+  Params params;
+  Sensor sensor;
+  apply_robot_file(params, sensor, o.suggest);
+  for (const TestDrive& drive : test_drives(params, sensor, o.planner)) {
+    if (!good(drive))
+      fmt::print(stderr, "whisker: {}: the drive through {} fails: {}\n", o.suggest, drive.world,
+                 report::verdict_words(drive.result));
+  }
+  if (!o.json) fmt::print(words_beside({o.suggest}), "suggestion: {}\n", o.suggest);
+}
+
 int execute(const RobotOptions& o) {
-  check_outputs({o.header}, {o.file}, o.json);
-  std::FILE* const out = words_beside({o.header});
+  check_outputs({o.header, o.suggest}, {o.file}, o.json);
+  std::FILE* const out = words_beside({o.header, o.suggest});
   Params params;
   Sensor sensor;
   try {
     apply_robot_file(params, sensor, o.file);
   } catch (const InputErrors& errors) {
+    if (!o.suggest.empty()) suggest(o, errors);
     if (!o.json) throw;
-    print_json(o, nullptr, violations_json(errors), {}, {});
+    print_json(o, nullptr, violations_json(errors), {}, {}, suggestion_json(errors));
+    return kBadInput;
+  }
+  const std::vector<std::string> against = contradictions(params, sensor);
+  if (!against.empty()) {
+    std::vector<InputError> errors;
+    for (const std::string& text : against) errors.emplace_back(o.file, 1, 1, text);
+    if (!o.json) throw InputErrors(std::move(errors));
+    print_json(o, nullptr, violations_json(InputErrors(std::move(errors))), {}, {});
     return kBadInput;
   }
   const std::vector<MountingWarning> warnings = mounting_warnings(params, sensor);
@@ -170,19 +237,24 @@ int execute(const RobotOptions& o) {
   Params driven = params;
   bend_if_chosen(driven, o.planner);
   const std::vector<TestDrive> drives = test_drives(driven, sensor, o.planner);
-  const bool fit = std::all_of(drives.begin(), drives.end(), reached);
+  const bool fit = std::all_of(drives.begin(), drives.end(), good);
   if (o.json) print_json(o, &params, Json::array(), warnings, drives);
   for (const TestDrive& drive : drives) {
     if (!o.json) fmt::print(out, "{}: {}\n", drive.world, report::verdict_words(drive.result));
-    if (!reached(drive)) {
-      fmt::print(stderr, "whisker: {}: the drive through {} failed: {}\n", o.file, drive.world,
-                 report::verdict_words(drive.result));
-    }
+    if (good(drive)) continue;
+    fmt::print(stderr, "whisker: {}: the drive through {} failed: {}{}\n", o.file, drive.world,
+               report::verdict_words(drive.result),
+               drive.result.verdict == Verdict::reached
+                   ? fmt::format(", more than {} times the {:.1f} s of the straight way at full speed",
+                                 kMostDetour, drive.straight_s)
+                   : "");
   }
   if (!fit) return kFault;
   if (!o.header.empty()) report::write_file(o.header, robot_header(params, o.file));
   if (!o.json) {
-    fmt::print(out, "fit: {}\n", o.file);
+    const bool empty = robot_toml(params).empty() && sensor_toml(sensor).empty();
+    fmt::print(out, "fit: {}{}\n", o.file, empty ? ", which sets nothing: this is the reference robot" : "");
+    if (!o.suggest.empty()) fmt::print(out, "nothing to suggest: {} is not written\n", o.suggest);
     if (!o.header.empty()) fmt::print(out, "header: {}\n", o.header);
   }
   return 0;
@@ -201,6 +273,7 @@ void add_robot_check(CLI::App& robot, int& status) {
   const auto o = std::make_shared<RobotOptions>();
   add_file(*cmd, "ROBOT", o->file, "Robot file (TOML)")->required();
   add_file(*cmd, "--header", o->header, "Write the parameters of a fit robot as a C++ header");
+  add_file(*cmd, "--suggest", o->suggest, "Write ROBOT with the changes that make all relations hold");
   add_planner(*cmd, o->planner);
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->footer(kStatus);

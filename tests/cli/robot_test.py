@@ -14,6 +14,21 @@ def check(*arguments, **options):
     return whisker.whisker("robot", "check", *arguments, **options)
 
 
+# A TurtleBot3 whose beams are taken from its LIDAR.
+TURTLE = """body_radius_m = 0.124
+wheel_track_m = 0.16
+wheel_speed_max_mps = 0.22
+encoder_counts_per_m = 19755
+range_rate_hz = 5
+range_latency_s = 0.2
+stale_after_s = 0.5
+range_cone_deg = {cone}
+range_left_x_m = -0.032
+range_front_x_m = -0.032
+range_right_x_m = -0.032
+"""
+
+
 class RobotCheck(Case):
     def test_a_fit_robot_drives_in_three_worlds(self):
         for name, text in (
@@ -34,8 +49,9 @@ class RobotCheck(Case):
         robot = self.file("bad.toml", "thesis_small_step_m = 0.3\nstale_after_s = 0.03\n[robot]\nskirt_shield_margin_m = 0.01\n")
         done = check(robot, "--header", self.folder / "bad.hpp")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        lines = done.stderr.splitlines()
+        *lines, advice = done.stderr.splitlines()
         self.assertEqual([line.split(": ")[0] for line in lines], [f"{robot}:{place}" for place in ("1:23", "2:17", "4:25")])
+        self.assertRegex(advice, rf"{robot}:1:1: all of this fits with stale_after_s = ")
         for line in lines:
             self.assertRegex(line, r" \(line \d\).*; it would fit with [a-z_]+ (<=|>=|=|from) ")
         self.assertEqual(list(self.contents()), ["bad.toml"], "no header")
@@ -45,6 +61,57 @@ class RobotCheck(Case):
         result = json.loads(told.stdout)
         self.assertEqual((result["fit"], result["drives"]), (False, []))
         self.assertEqual([v["text"] for v in result["violations"]], lines)
+        self.assertEqual(advice.split("fits with ")[1].replace(" and ", ", ").split(", "), [f"{k} = {v}" for k, v in result["suggestion"].items()])
+
+    def test_suggests_what_the_owner_can_change_and_that_fits(self):
+        discs = "body_radius_m = 0.12\nwheel_track_m = 0.13 # of the wheels\nencoder_counts_per_m = 196\n"
+        micromouse = (
+            "body_radius_m = 0.055\nwheel_track_m = 0.0761\nwheel_speed_max_mps = 0.4\nwheel_acceleration_max_mps2 = 2\n"
+            "motor_lag_s = 0.19\nrange_max_m = 0.25\n[robot]\nmotion_settle_s = 0.08 # s\n"
+        )
+        for name, text in (("discs", discs), ("micromouse", micromouse)):
+            robot, out = self.file(f"{name}.toml", text), self.folder / f"{name}-fit.toml"
+            done = check(robot, "--suggest", out)
+            self.assertEqual((done.returncode, done.stdout), (2, f"suggestion: {out}\n"), done.stderr)
+            self.assertNotRegex(done.stderr, "(counts_per_m|range_max_m|cone_deg|motor_lag_s) (>=|<=|from [0-9])")
+            written = out.read_text().splitlines()
+            for line in text.splitlines():
+                if "speed_max" not in line and "settle" not in line:
+                    self.assertIn(line, written)
+            self.assertEqual(check(out).returncode, 0, out.read_text())
+        self.assertRegex(done.stderr, r"micromouse.toml:1:1: all of this fits with wheel_speed_max_mps = .*, motion_settle_s = \S+ and ")
+        self.assertRegex(out.read_text(), r"(?m)^motion_settle_s = \S+ # s$")
+        spare = check(self.file("spare.toml", ""), "--suggest", self.folder / "none.toml")
+        self.assertEqual(spare.returncode, 0)
+        self.assertRegex(spare.stdout, "which sets nothing: this is the reference robot\nnothing to suggest: .*none.toml is not written")
+        self.assertFalse((self.folder / "none.toml").exists())
+
+    def test_what_only_other_hardware_mends_is_said_and_a_ray_is_no_cone(self):
+        rays = self.file("rays.toml", TURTLE.format(cone=1))
+        done = check(rays, "--suggest", self.folder / "out.toml")
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, "the robot itself would have to differ: it would fit with range_cone_deg from .*; of a scan, let each beam be the nearest reading of a sector 40 degrees")
+        self.assertFalse((self.folder / "out.toml").exists())
+        self.assertEqual(check(self.file("sector.toml", TURTLE.format(cone=40))).returncode, 0)
+
+    def test_a_file_that_contradicts_itself_is_refused(self):
+        for text, says in (
+            ('[sensor]\nmodel = "gp2y0a21"\n', r'model = "gp2y0a21" says that a beam is 5 degrees wide, and the robot believes 25 degrees \(range_cone_deg\)'),
+            ("[sensor]\nmax_range_m = 0.5\n", r"a beam sees to 0.5 m, and the robot believes 2 m"),
+            ("range_cone_deg = 10.3\n[sensor]\ncone_deg = 1\n", r"let each beam be the nearest reading of a sector"),
+        ):
+            robot = self.file("contradicts.toml", text)
+            done = check(robot)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertRegex(done.stderr, says)
+            told = json.loads(check(robot, "--json").stdout)
+            self.assertEqual((told["fit"], [v["text"] for v in told["violations"]]), (False, done.stderr.splitlines()))
+        self.assertEqual(check(self.file("agrees.toml", "range_cone_deg = 25\n[sensor]\ncone_deg = 17.5\n")).returncode, 0)
+
+    def test_a_robot_that_takes_for_ever_is_not_fit(self):
+        slow = check(self.file("slow.toml", "turn_rate_max_radps = 0.1\n"))
+        self.assertEqual(slow.returncode, 6, slow.stdout)
+        self.assertRegex(slow.stderr, r"reached in .*, more than 20 times the \d+\.\d s of the straight way at full speed")
 
     def test_a_drive_that_fails_is_named(self):
         short = self.file("short.toml", "length_budget_m = 5\n")
@@ -57,7 +124,7 @@ class RobotCheck(Case):
         self.assertFalse(result["fit"])
 
     def test_the_drives_have_the_sensors_of_the_file(self):
-        blind = check(self.file("blind.toml", "[sensor]\nmax_range_m = 0.1\n"))
+        blind = check(self.file("blind.toml", "[sensor]\nreflectance = 0.001\nreflectance_reference = 1\n"))
         self.assertEqual(blind.returncode, 6, blind.stdout)
         self.assertRegex(blind.stderr, r"the drive through the field of discs failed: contact")
         self.assertEqual(check(self.file("ideal.toml", "[sensor]\nincidence_deg = 90\n")).stdout.splitlines()[:3],

@@ -26,13 +26,22 @@ class InputError : public std::runtime_error {
 /// Several errors; what() is the first.
 class InputErrors : public InputError {
  public:
-  /// errors: at least one.
-  explicit InputErrors(std::vector<InputError> errors)
-      : InputError(errors.front()), all_(std::move(errors)) {}
+  /// errors: at least one. changes: lines of a robot file, key and value, that end all of them.
+  using Changes = std::vector<std::pair<std::string, std::string>>;
+  explicit InputErrors(std::vector<InputError> errors, std::string advice = "", Changes changes = {})
+      : InputError(errors.front()),
+        all_(std::move(errors)),
+        advice_(std::move(advice)),
+        changes_(std::move(changes)) {}
   const std::vector<InputError>& all() const noexcept { return all_; }
+  /// What ends all of them, one line; may be empty.
+  const std::string& advice() const noexcept { return advice_; }
+  const Changes& changes() const noexcept { return changes_; }
 
  private:
   std::vector<InputError> all_;
+  std::string advice_;
+  Changes changes_;
 };
 
 }  // namespace whisker

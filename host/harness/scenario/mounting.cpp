@@ -112,7 +112,41 @@ std::string unseen(const Params& p, const Sensor& s, const Strip& strip) {
                    : "it would fit with " + fits);
 }
 
+/// The share of what the robot believes that a sensor must see at least.
+constexpr double kLeastSeen = 0.6;
+
 }  // namespace
+
+std::vector<std::string> contradictions(const Params& params, const Sensor& sensor) {
+  const auto metres = [](Length x) { return x.raw() * 1e-6; };
+  const std::string who =
+      sensor.model.empty() ? "[sensor] says" : fmt::format("[sensor] model = \"{}\" says", sensor.model);
+  double widest = 0, farthest = 0;  // that the robot believes of a beam
+  for (int i = 0; i < 3; ++i) {
+    const double cone = mount(params.rangefinders, i).half_cone.raw() * (360.0 / 2147483648.0);
+    const double clear = metres(params.rangefinders.clear_range);
+    const double far = metres(max_range(params.rangefinders, i));
+    widest = std::max(widest, cone);
+    farthest = std::max(farthest, clear > 0 ? std::min(clear, far) : far);
+  }
+  std::vector<std::string> all;
+  if (sensor.cone_deg && *sensor.cone_deg < kLeastSeen * widest) {
+    all.push_back(fmt::format(
+        "{} that a beam is {} degrees wide, and the robot believes {:.3g} degrees (range_cone_deg): it would "
+        "take for seen what no beam has seen; {}",
+        who, *sensor.cone_deg, widest,
+        *sensor.cone_deg < Angle{5_deg}.raw() * (360.0 / 4294967296.0)
+            ? "let each beam be the nearest reading of a sector of a scan, and give its width in both places"
+            : "set range_cone_deg to what the sensor sees"));
+  }
+  if (sensor.max_range_m && *sensor.max_range_m < kLeastSeen * farthest) {
+    all.push_back(fmt::format(
+        "{} that a beam sees to {} m, and the robot believes {:.3g} m: farther ground would count "
+        "as clear; set range_max_m or range_clear_m to what the sensor sees",
+        who, *sensor.max_range_m, farthest));
+  }
+  return all;
+}
 
 std::vector<MountingWarning> mounting_warnings(const Params& params, const Sensor& sensor) {
   std::vector<MountingWarning> all;

@@ -115,8 +115,12 @@ InputError error_of(const RobotTables& tables, const std::vector<ParamEntry>& li
                     table == nullptr ? "not in this file" : fmt::format("line {}", table->line_of(e.key)));
   }
   for (const std::string& fit : v.fits) mends += (mends.empty() ? "" : " or ") + fit;
-  const std::string what = fmt::format("{}: {}{}", values, relation(v.fault).words,
-                                       mends.empty() ? "" : "; it would fit with " + mends);
+  if (v.ray) mends += "; of a scan, let each beam be the nearest reading of a sector 40 degrees wide";
+  const std::string what =
+      fmt::format("{}: {}{}", values, relation(v.fault).words,
+                  mends.empty()   ? ""
+                  : v.of_hardware ? "; the robot itself would have to differ: it would fit with " + mends
+                                  : "; it would fit with " + mends);
   return where == nullptr ? tables.front().error(what) : where->error_at(at, what);
 }
 
@@ -144,8 +148,16 @@ std::int64_t read_param_value(const TableReader& table, const char* key, std::si
 void check_robot(const RobotTables& tables, const Params& params) {
   const std::vector<ParamEntry> list = param_list(params);
   std::vector<InputError> errors;
-  for (const Violation& v : violations(params)) errors.push_back(error_of(tables, list, v));
-  if (!errors.empty()) throw InputErrors(std::move(errors));
+  const Violations found = violations(params);
+  for (const Violation& v : found.all) errors.push_back(error_of(tables, list, v));
+  if (errors.empty()) return;
+  std::string advice =
+      errors.size() > 1 && !found.together.empty()
+          ? tables.front().error("all of this fits with " + words(params, found.together)).what()
+          : std::string();
+  InputErrors::Changes changes;
+  for (const Change& c : found.together) changes.emplace_back(list[c.key].key, list[c.key].text_of(c.raw));
+  throw InputErrors(std::move(errors), std::move(advice), std::move(changes));
 }
 
 }  // namespace whisker

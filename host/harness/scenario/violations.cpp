@@ -7,6 +7,8 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -78,10 +80,10 @@ std::int64_t edge(std::int64_t inside, std::int64_t outside, const std::function
 }
 
 /// The first interval that fits between `now`, which does not fit, and the range's end. It is found if it is
-/// longer than a 64th of that distance, or contains the end.
+/// longer than a 48th of that distance, or contains the end.
 std::optional<Fitting> towards(std::int64_t now, std::int64_t end,
                                const std::function<bool(std::int64_t)>& fits) {
-  constexpr std::int64_t kSamples = 64;
+  constexpr std::int64_t kSamples = 48;
   std::int64_t before = now;
   std::optional<Fitting> found;
   for (std::int64_t i = 1; i <= kSamples; ++i) {
@@ -122,33 +124,135 @@ std::string words(const ParamEntry& e, const Fitting& f) {
                                 : fmt::format("{} from {} to {}", e.key, farthest, nearest);
 }
 
-/// The changes that satisfy the relation; with `strictly`, only those that break no other relation.
-std::vector<std::string> mends(const Params& params, const Violation& v, const Broken& now, bool strictly) {
+bool is_one_of(std::string_view key, std::initializer_list<std::string_view> keys) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// Whether an owner can change the parameter without other hardware, down or up.
+bool is_free(const ParamEntry& e, bool down) {
+  const std::string_view key = e.key;
+  if (e.word != nullptr || (e.of_one_beam() && e.raw == 0)) return false;
+  for (const char* group : {"thesis_", "skirt_", "consensus_", "guard_"})
+    if (key.rfind(group, 0) == 0) return true;
+  if (is_one_of(key, {"wheel_speed_max_mps", "wheel_acceleration_max_mps2", "turn_rate_max_radps",
+                      "range_max_m", "range_left_max_m", "range_front_max_m", "range_right_max_m"}))
+    return down;
+  return is_one_of(key, {"body_margin_m", "stale_after_s", "stuck_turn_deg", "motion_settle_s",
+                         "turn_tolerance_deg", "drive_tolerance_m", "lost_after_s", "wheels_stalled_after_s",
+                         "max_drive_refusals", "range_clear_m", "length_budget_m", "creep_speed_mps"});
+}
+
+/// Whether the relation holds with these parameters; with `strictly`, only if no other one is broken anew.
+bool mended(const Params& params, ParamFault fault, const Broken& now, bool strictly) {
+  const Broken then = broken(params);
+  if (then[static_cast<std::size_t>(fault)]) return false;
+  for (std::size_t i = 0; strictly && i < then.size(); ++i) {
+    if (then[i] && !now[i]) return false;
+  }
+  return true;
+}
+
+enum class Only { free, all };
+
+/// Calls use(place, fitting) for every change of one parameter that satisfies the relation.
+template <class F>
+void for_each_mend(const Params& params, const Violation& v, const Broken& now, bool strictly, Only only,
+                   const F& use) {
   const std::vector<ParamEntry> list = param_list(params);
-  std::vector<std::string> all;
   for (const std::size_t place : v.keys) {
-    if (list[place].word != nullptr || (list[place].of_one_beam() && list[place].raw == 0)) continue;
+    const ParamEntry& e = list[place];
+    if (e.word != nullptr || (e.of_one_beam() && e.raw == 0)) continue;
     const auto fits = [&](std::int64_t raw) {
       Params changed = params;
       set_param(changed, place, raw);
-      const Broken then = broken(changed);
-      if (then[static_cast<std::size_t>(v.fault)]) return false;
-      for (std::size_t i = 0; strictly && i < then.size(); ++i) {
-        if (then[i] && !now[i]) return false;
-      }
-      return true;
+      return mended(changed, v.fault, now, strictly);
     };
-    for (const std::int64_t end : {list[place].low, list[place].high}) {
-      if (const auto found = towards(list[place].raw, end, fits)) all.push_back(words(list[place], *found));
+    for (const bool down : {true, false}) {
+      if (only == Only::free && !is_free(e, down)) continue;
+      if (const auto found = towards(e.raw, down ? e.low : e.high, fits)) use(place, *found);
     }
   }
-  return all;
 }
 
-}  // namespace
+/// How much a change changes: the logarithm of the ratio; 1 from or to zero, which stands for "automatic".
+double weight(std::int64_t from, std::int64_t to) {
+  if (from == to) return 0;
+  if (from <= 0 || to <= 0) return 1;
+  return std::fabs(std::log(static_cast<double>(to) / static_cast<double>(from)));
+}
 
-std::vector<Violation> violations(const Params& params) {
-  const Broken now = broken(params);
+/// Changes with their weight.
+struct Plan {
+  std::vector<Change> changes;
+  double weight = std::numeric_limits<double>::infinity();
+  void keep(Plan other) {
+    if (other.weight < weight) *this = std::move(other);
+  }
+};
+
+/// The lightest change of one free parameter that satisfies the relation.
+Plan single(const Params& params, const Violation& v, const Broken& now, bool strictly) {
+  const std::vector<ParamEntry> list = param_list(params);
+  Plan best;
+  for_each_mend(params, v, now, strictly, Only::free, [&](std::size_t place, const Fitting& f) {
+    best.keep({{{place, f.nearest}}, weight(list[place].raw, f.nearest)});
+  });
+  return best;
+}
+
+/// The same of two: one takes some values of its range, the other follows.
+Plan pair(const Params& params, const Violation& v, const Broken& now, bool strictly) {
+  constexpr int kValues = 8;
+  const std::vector<ParamEntry> list = param_list(params);
+  Plan best;
+  for (const std::size_t place : v.keys) {
+    const ParamEntry& e = list[place];
+    for (const bool down : {true, false}) {
+      if (!is_free(e, down)) continue;
+      const std::int64_t end = down ? e.low : e.high;
+      for (int i = 1; i <= kValues; ++i) {
+        const double share = std::pow(static_cast<double>(i) / kValues, 2);
+        const std::int64_t raw = e.raw + std::llround(static_cast<double>(end - e.raw) * share);
+        Params changed = params;
+        set_param(changed, place, raw);
+        Plan plan = single(changed, v, now, strictly);
+        if (plan.changes.empty() || plan.changes.front().key == place) continue;
+        plan.weight += weight(e.raw, raw);
+        plan.changes.push_back({place, raw});
+        best.keep(std::move(plan));
+      }
+    }
+  }
+  return best;
+}
+
+/// What satisfies the relation. free: changes without other hardware end all violations.
+void find_mends(const Params& params, Violation& v, const Broken& now, bool free) {
+  const std::vector<ParamEntry> list = param_list(params);
+  for (const Only only : {Only::free, Only::all}) {
+    v.of_hardware = only == Only::all;
+    for (const bool strictly : {true, false}) {
+      if (!strictly && !free && only == Only::free) continue;
+      for_each_mend(params, v, now, strictly, only, [&](std::size_t place, const Fitting& f) {
+        const ParamEntry& e = list[place];
+        v.fits.push_back(words(e, f));
+        v.ray = v.ray || (std::string_view(e.key).find("_cone_deg") != std::string_view::npos &&
+                          e.raw < Angle{5_deg}.raw());
+      });
+      const Plan two = only == Only::free && v.fits.empty() ? pair(params, v, now, strictly) : Plan{};
+      if (!two.changes.empty()) v.fits = {words(params, two.changes)};
+      if (!v.fits.empty()) return;
+    }
+  }
+}
+
+Params with(Params params, const std::vector<Change>& changes) {
+  for (const Change& c : changes) set_param(params, c.key, c.raw);
+  return params;
+}
+
+/// The relations that are broken, with their keys.
+std::vector<Violation> found(const Params& params) {
   const std::vector<ParamEntry> list = param_list(params);
   std::vector<Violation> all;
   for_each_relation(params, [&](ParamFault fault, bool holds) {
@@ -157,9 +261,82 @@ std::vector<Violation> violations(const Params& params) {
     add_own_keys(all.back().keys, list);
     return true;
   });
-  for (Violation& v : all) {
-    v.fits = mends(params, v, now, true);
-    if (v.fits.empty()) v.fits = mends(params, v, now, false);
+  return all;
+}
+
+/// Each change as small as the others allow, and then as short as it can be written.
+std::vector<Change> least(const Params& params, const Params& fit) {
+  const std::vector<ParamEntry> before = param_list(params);
+  Params now = fit;
+  const auto fits = [&now](std::size_t key, std::int64_t raw) {
+    Params changed = now;
+    set_param(changed, key, raw);
+    return check(changed) == ParamFault::none;
+  };
+  std::vector<Change> changes;
+  for (std::size_t key = 0; key < before.size(); ++key) {
+    const std::int64_t from = before[key].raw, to = param_list(now)[key].raw;
+    if (from == to) continue;
+    const std::int64_t nearest =
+        fits(key, from) ? from : edge(to, from, [&](std::int64_t raw) { return fits(key, raw); });
+    set_param(now, key, nearest);
+    if (nearest != from) changes.push_back({key, nearest});
+  }
+  for (Change& c : changes) {
+    const ParamEntry& e = before[c.key];
+    const double exact = static_cast<double>(c.raw) * e.unit.denominator / e.unit.numerator;
+    for (double scale = 1; scale <= 1e6; scale *= 10) {
+      const double whole = c.raw > e.raw ? std::ceil(exact * scale) : std::floor(exact * scale);
+      const std::int64_t raw = to_raw(whole / scale, e.unit);
+      const bool near = std::fabs(whole / scale - exact) <= 0.1 * std::fabs(exact);
+      if (!near || raw < e.low || raw > e.high || !fits(c.key, raw)) continue;
+      set_param(now, c.key, c.raw = raw);
+      break;
+    }
+  }
+  return changes;
+}
+
+std::vector<Change> tuned(const Params& params) {
+  constexpr int kMostSteps = 24;
+  Params now = params;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const std::vector<Violation> all = found(now);
+    if (all.empty()) return least(params, now);
+    const Broken broken_now = broken(now);
+    Plan best;
+    for (const bool strictly : {true, false}) {
+      for (const auto& change : {single, pair}) {
+        for (const Violation& v : all) {
+          if (best.changes.empty()) best = change(now, v, broken_now, strictly);
+        }
+      }
+    }
+    if (best.changes.empty()) return {};
+    now = with(now, best.changes);
+  }
+  return {};
+}
+
+}  // namespace
+
+Violations violations(const Params& params) {
+  Violations v{found(params), tuned(params)};
+  const Broken now = broken(params);
+  for (Violation& one : v.all) find_mends(params, one, now, !v.together.empty());
+  return v;
+}
+
+std::string words(const Params& params, const std::vector<Change>& changes) {
+  const std::vector<ParamEntry> list = param_list(params);
+  std::string all;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const ParamEntry& e = list[changes[i].key];
+    all += fmt::format("{}{} = {}",
+                       i == 0                   ? ""
+                       : i + 1 < changes.size() ? ", "
+                                                : " and ",
+                       e.key, e.text_of(changes[i].raw));
   }
   return all;
 }
