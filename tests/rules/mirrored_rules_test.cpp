@@ -46,7 +46,8 @@ TEST(MirroredRules, TheCoresOwnGiveTheCommittedTableByteForByte) {
 }
 
 TEST(MirroredRules, ReadFromAFileTheyGiveItsTable) {
-  for (const char* file : {"rules/examples/thesis.toml", "lab/rules/laws/straight.toml", "lab/rules/laws/sides.toml"}) {
+  for (const char* file :
+       {"rules/examples/thesis.toml", "lab/rules/laws/straight.toml", "lab/rules/laws/sides.toml"}) {
     const std::string text = text_of(file);
     const Response own = response(parse_rules(text, "law.toml"), {});
     const Response again = response(parse_rules(to_toml(read(text), "again", ""), "again.toml"), {});
