@@ -294,8 +294,11 @@ bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool
     const Vec end = polar(beam.axis + side, farthest + Length::from_raw(scale_.cell_um));
     if (!takes && !in_window(local(beam.apex + end), 0)) return false;
   }
+  const Row box = to_torus(Span::around(apex.x, arc.ends).columns());
   for (Rows rows(apex.y, arc.ends); rows.more(); rows.next()) {
     const int s = slot(rows.row());
+    const Row clear = young_[s] | old_[s];
+    if ((box & (takes ? clear : ~clear)) == 0) continue;
     Span under = Span::around(body.x, footprint_);
     under.inside_disc(body.x, rows.offset(body.y), footprint_);
     const Row cells = to_torus(arc.columns(apex.x, rows.offset(apex.y)) & ~under.columns());

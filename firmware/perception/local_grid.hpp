@@ -85,6 +85,9 @@ class LocalGrid {
   /// later rows are not counted.
   Obstacles along(const Vec& from, Angle heading, Length length, Length radius,
                   int32_t enough = INT32_MAX) const noexcept;
+  /// Obstacles::suspect of along() alone, at a quarter of the cost.
+  int32_t suspects_along(const Vec& from, Angle heading, Length length, Length radius,
+                         int32_t enough) const noexcept;
   /// Calls f with the centre of each cell that along() counts, from `from`.
   template <class F>
   void each_unclear(const Vec& from, Angle heading, Length length, Length radius, F&& f,

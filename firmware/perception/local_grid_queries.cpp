@@ -44,6 +44,19 @@ Obstacles LocalGrid::along(const Vec& from, Angle heading, Length length, Length
   return found;
 }
 
+int32_t LocalGrid::suspects_along(const Vec& from, Angle heading, Length length, Length radius,
+                                  int32_t enough) const noexcept {
+  const Point start = local(from);
+  const Stadium stadium({start.x, start.y, heading, units(length), units(radius), abeam()});
+  const Row box = stadium.box();
+  int32_t found = 0;
+  for (Rows rows = stadium.rows(); rows.more() && found < enough; rows.next()) {
+    const Row solid = box & solid_row(rows.row()) & to_window(~clear_row(rows.row()));
+    if (solid != 0) found += bits(solid & stadium.columns(rows.row()));
+  }
+  return found;
+}
+
 bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid avoid) const noexcept {
   const Length step = norm(way);
   if (step < kShortestStep) return false;

@@ -95,7 +95,7 @@ Wedge::Wedge(Angle axis, Angle half) noexcept
       left_corner_(corner(left_.nx, left_.ny)),
       right_corner_(corner(right_.nx, right_.ny)) {}
 
-Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
+Wedge::Extent Wedge::extent(int32_t radius) const noexcept {
   // At this radius the edges are the highest and lowest points, unless the wedge contains the vertical.
   const int32_t left = scale_down<14>(left_.nx * radius);
   const int32_t right = scale_down<14>(-right_.nx * radius);
@@ -103,13 +103,12 @@ Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
   const int32_t lower = left > right ? right : left;
   const bool up = left_.ny >= 0 && right_.ny >= 0;
   const bool down = left_.ny <= 0 && right_.ny <= 0;
-  return Rows(down        ? y - radius
-              : lower < 0 ? y + lower
-                          : y,
-              up           ? y + radius
-              : higher > 0 ? y + higher
-                           : y,
-              kRim);
+  return {down ? -radius : lower < 0 ? lower : 0, up ? radius : higher > 0 ? higher : 0};
+}
+
+Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
+  const Extent e = extent(radius);
+  return Rows(y + e.low, y + e.high, kRim);
 }
 
 void Wedge::hold(Span& span, int32_t x, int32_t dy) const noexcept {
@@ -125,6 +124,7 @@ void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexce
 Row EchoArc::columns(int32_t x, int32_t dy) const noexcept {
   Span touched = Span::around(x, ends);
   cone.clip(touched, x, dy, -kCellCover);
+  if (touched.empty()) return 0;
   touched.within_disc(x, dy, ends);
   Span nearer = Span::around(x, ends);
   nearer.inside_disc(x, dy, begins);

@@ -109,6 +109,12 @@ class Wedge {
   Wedge(Angle axis, Angle half) noexcept;
   /// The rows with points of the wedge at most this far from its apex.
   Rows rows(int32_t y, int32_t radius) const noexcept;
+  /// The same points' least and largest y, from the apex.
+  struct Extent {
+    int32_t low;
+    int32_t high;
+  };
+  Extent extent(int32_t radius) const noexcept;
   /// Keeps the cells of the row that lie completely inside.
   void hold(Span& span, int32_t x, int32_t dy) const noexcept;
   /// Keeps the part of the row that is at least `margin` inside both edges.

@@ -37,7 +37,7 @@ bool Course::choose(const View& view, const Vec& to_goal, HeadingDeflection& law
   Side aside = wall;
   const auto in_the_way = [&](Angle heading, Length beside) {
     heading_ = heading;
-    return view.local_grid->along(view.pose.at, heading, length, beside, kNearlyFree + 1).suspect;
+    return view.local_grid->suspects_along(view.pose.at, heading, length, beside, kNearlyFree + 1);
   };
   const auto found = [&](Length beside, int32_t steps) {
     const auto passable = [&](Angle heading, Side then) {

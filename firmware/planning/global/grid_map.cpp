@@ -203,11 +203,13 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
   const int32_t seen = distance < far_ ? distance : far_;
   const bool echo = observation.hit && distance < far_;
   const perception::Wedge cone(beam.axis, beam.half_cone);
-  const perception::Wedge core(beam.axis, kSuspectHalf);
   const int32_t reach = echo ? distance + kHalfCell : seen - kInside;
   if (reach < 0) return;
-  int32_t first = perception::ceil_div(y - reach - kHalfCell, kUnitsPerCell);
-  int32_t last = floor_div(y + reach - kHalfCell, kUnitsPerCell);
+  const bool within_cone = !echo || beam.half_cone.raw() >= kSuspectHalf.raw();
+  const perception::Wedge::Extent extent =
+      (within_cone ? cone : perception::Wedge(beam.axis, kSuspectHalf)).extent(reach);
+  int32_t first = perception::ceil_div(y + extent.low - perception::kRim - kHalfCell, kUnitsPerCell);
+  int32_t last = floor_div(y + extent.high + perception::kRim - kHalfCell, kUnitsPerCell);
   if (first < 0) first = 0;
   if (last > shape_.rows - 1) last = shape_.rows - 1;
   const bool upright = magnitude(beam.axis + beam.axis) > (90_deg).raw();
@@ -219,6 +221,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
     const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
     perception::Span outer{x - reach, x + reach};
     wedge.clip(outer, x, dy, 0);
+    if (outer.empty()) return;
     outer.within_disc(x, dy, distance + kHalfCell);
     if (outer.empty()) return;
     perception::Span inner{x - reach, x + reach};
@@ -237,6 +240,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
     const int32_t dy = row * kUnitsPerCell + kHalfCell - y;
     perception::Span empty{x - reach, x + reach};
     cone.clip(empty, x, dy, across);
+    if (empty.empty()) continue;
     empty.within_disc(x, dy, seen - kInside);
     if (empty.empty()) continue;
     const Columns c = within(empty);
@@ -253,6 +257,7 @@ void GridMap::mark(const perception::ConeObservation& observation, bool hold, bo
     }
   }
   if (!echo) return;
+  const perception::Wedge core(beam.axis, kSuspectHalf);
   const auto find = [&] {
     for (int32_t row = first; row <= last; ++row) {
       arc(cone, row, [&](int32_t, int w, GridWord cells) {
