@@ -134,8 +134,7 @@ Scenario ScenarioChoice::load(std::initializer_list<std::string> more_outputs) c
   all.push_back(outputs.svg);
   all.push_back(outputs.html);
   check_outputs(all, {file, robot}, outputs.json);
-  Scenario scenario = load_scenario(file);
-  if (!robot.empty()) apply_robot_file(scenario, robot);
+  Scenario scenario = load_scenario(file, robot);
   load_event_tables(scenario, file);
   return scenario;
 }
