@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "host/harness/scenario/error.hpp"
 #include "host/lab/rules/read.hpp"
 
 namespace whisker::rules {
@@ -99,6 +100,54 @@ TEST(Inference, NegatesAConclusion) {
   // The complement of a triangle over the whole range [0, 4]: area 4 - 1, moment 8 - 1.
   EXPECT_NEAR(at(mamdani("centroid", "max", "min", "MF1='a':'trimf',[0 1 2]\n", "2, -1 (1) : 1\n"), 1),
               7.0 / 3, 1e-12);
+}
+
+TEST(Inference, TakesPointsAloneAsSingletons) {
+  const std::string points = "MF1='a':'trimf',[1 1 1]\nMF2='b':'trapmf',[3 3 3 3]\n";
+  const std::string fis =
+      mamdani("centroid", "max", "min", points, "1, 1 (1) : 1\n1, 1 (1) : 1\n2, 2 (1) : 1\n");
+  for (const double s : {0.5, 1.0}) EXPECT_NEAR(at(fis, s), (s * 1 + 1 * 3) / (s + 1), 1e-12) << s;
+  EXPECT_EQ(parse_rules(fis, "t.fis").warnings.size(), 1U);
+}
+
+TEST(Inference, RefusesOtherSetsWithoutArea) {
+  const auto refused = [](const std::string& fis) {
+    try {
+      parse_rules(fis, "t.fis");
+      return std::string();
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+  };
+  const std::string mixed = "MF1='a':'trimf',[1 1 1]\nMF2='b':'trimf',[1 2 3]\n";
+  EXPECT_EQ(refused(mamdani("centroid", "max", "min", mixed, "1, 1 (1) : 1\n")),
+            "t.fis:16:6: 'a' of 'y' has no area from 0 to 4, so it changes no answer");
+  EXPECT_EQ(refused(mamdani("centroid", "max", "min", mixed, "1, 2 (1) : 1\n")), "") << "not concluded";
+  EXPECT_EQ(refused(mamdani("centroid", "max", "min", mixed, "1, -1 (1) : 1\n")), "") << "its complement has";
+  EXPECT_NE(refused(mamdani("mom", "max", "min", "MF1='a':'trimf',[1 1 1]\n", "1, 1 (1) : 1\n")), "");
+  EXPECT_NE(refused(mamdani("centroid", "max", "min", "MF1='a':'trimf',[5 6 7]\n", "1, 1 (1) : 1\n")), "")
+      << "outside the range";
+}
+
+TEST(Inference, CountsEqualRulesWhereTheyCount) {
+  const std::string twice = "1, 1 (1) : 1\n1, 1 (1) : 1\n2, 2 (1) : 1\n",
+                    once = "1, 1 (1) : 1\n2, 2 (1) : 1\n";
+  const RuleBase base = parse_rules(mamdani("centroid", "max", "min", kTwo, twice), "t.fis");
+  EXPECT_EQ(Inference(base).same_as(1), 0U) << "computed once";
+  for (const double s : {0.2, 0.9}) {
+    const double cut = 2 * s - s * s;
+    EXPECT_NEAR(at(mamdani("centroid", "sum", "min", kTwo, twice), s), (2 * cut * 1 + 1 * 2) / (2 * cut + 1),
+                1e-12);
+    EXPECT_EQ(at(mamdani("centroid", "max", "min", kTwo, twice), s),
+              at(mamdani("centroid", "max", "min", kTwo, once), s));
+    const std::string sugeno =
+        "[System]\nType='sugeno'\nAndMethod='prod'\nOrMethod='probor'\nDefuzzMethod='wtaver'\n[Input1]\nName="
+        "'x'\n"
+        "Range=[0 1]\nMF1='m':'linsmf',[0 1]\nMF2='one':'trapmf',[-1 -1 2 2]\n[Output1]\nName='y'\nRange=[0 "
+        "1]\n"
+        "MF1='a':'constant',[1]\nMF2='b':'constant',[2]\n[Rules]\n";
+    EXPECT_NEAR(at(sugeno + twice, s), (2 * s * 1 + 1 * 2) / (2 * s + 1), 1e-12);
+  }
 }
 
 TEST(Inference, AnswersTheMiddleOfTheRangeIfNoRuleFires) {

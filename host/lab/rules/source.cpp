@@ -11,7 +11,7 @@
 namespace whisker::rules {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\f\v";
+constexpr std::string_view kBlanks = " \t\r\n\f\v";
 
 /// False if the word is not a number in decimal.
 bool parse(std::string_view text, double& out) {
@@ -35,6 +35,10 @@ void Source::fail(std::size_t at, std::string_view what) const { fail(place(at),
 
 void Source::fail(Place at, std::string_view what) const {
   throw InputError(file_, at.line, at.column, what);
+}
+
+void Source::warn(Place at, std::string_view what) const {
+  warnings_.push_back(InputError(file_, at.line, at.column, what).what());
 }
 
 std::vector<Word> Source::lines() const {

@@ -39,6 +39,10 @@ class Source {
   [[noreturn]] void fail(const Word& at, std::string_view what) const { fail(at.at, what); }
   [[noreturn]] void fail(std::size_t at, std::string_view what) const;
   [[noreturn]] void fail(Place at, std::string_view what) const;
+  /// For what is read otherwise than the file says.
+  void warn(Place at, std::string_view what) const;
+  void warn(const Word& at, std::string_view what) const { warn(place(at.at), what); }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Its lines without line ends.
   std::vector<Word> lines() const;
@@ -63,6 +67,7 @@ class Source {
 
   std::string_view text_;
   std::string file_;
+  mutable std::vector<std::string> warnings_;
 };
 
 Word trimmed(Word word);
