@@ -1,6 +1,7 @@
 """Every error is one line on standard error, before any file is written."""
 
 import os
+import re
 import subprocess
 
 import whisker
@@ -78,6 +79,19 @@ class Refusals(Case):
         self.file("a.toml", SCENE + "\n[[disc]]\ncenter = [0.0, 1.0]\nradius_m = 0.5\n")
         self.file("large.toml", "body_radius_m = 0.5\nthesis_danger_range_m = 0.6\n")
         self.refused("run", "a.toml", "--robot", "large.toml", says="large.toml:1:1: ")
+
+    def test_every_number_option_refuses_what_is_no_number(self):
+        checked = 0
+        for command in ("run", "world", "guard", "campaign", "movers", "operators", "robot calibrate", "robot calibrate-drive", "robot layout",
+                        "plant", "hil", "bench drive", "bench goal", "socket"):  # fmt: skip
+            options = re.findall(r"(?m)^\s+(--[a-z-]+) [A-Z]", whisker.whisker(*command.split(), "--help").stdout)
+            for option in options:
+                if "is no number" not in whisker.whisker(*command.split(), option, "x").stderr:
+                    continue
+                checked += 1
+                for value in ("nan", "inf", "-inf", "1e400", "0,5"):
+                    self.refused(*command.split(), option, value, says=f"'{value}' is no number from ")
+        self.assertGreater(checked, 30)
 
     def test_outputs_that_cannot_be_written(self):
         for output in ("nowhere/t", "folder", "folder/", "a.toml/t", ""):

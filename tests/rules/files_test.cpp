@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -191,6 +193,17 @@ TEST(Fcl, IsReadInEveryDialect) {
   same(fcl(" f", kFclX, kFclY, replaced(kFclRules, "IF x IS lo THEN", "IF x IS lo\r\n    THEN\n")));
   same(fcl(" f", kFclX, kFclY, replaced(kFclRules, "IF x IS lo", "IF NOT (x IS hi OR x IS hi)")));
   same(fcl(" f", kFclX, kFclY, replaced(kFclRules, "IF x IS lo", "IF NOT NOT (NOT x IS hi)")));
+}
+
+TEST(Rules, MayHaveAByteOrderMarkAndCrlf) {
+  for (const char* name : {"tip.fis", "pendulum.fll", "fan.fcl", "thesis.toml"}) {
+    std::string text = text_of(name);
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+    const std::string file = testing::TempDir() + "whisker_crlf_" + name;
+    std::ofstream(file, std::ios::binary) << "\xEF\xBB\xBF" << text;
+    EXPECT_EQ(read_rules(file).rules.size(), parse_rules(text_of(name), name).rules.size()) << name;
+    std::filesystem::remove(file);
+  }
 }
 
 TEST(Fcl, NotOfAPartIsOneLessItsDegree) {

@@ -12,6 +12,7 @@
 #include "host/harness/scenario/bearing.hpp"
 #include "host/harness/scenario/check.hpp"
 #include "host/harness/scenario/contact.hpp"
+#include "host/harness/scenario/csv.hpp"
 #include "host/harness/scenario/events.hpp"
 #include "host/harness/scenario/noise.hpp"
 #include "host/harness/scenario/params_text.hpp"
@@ -97,7 +98,7 @@ std::string read_file(const std::string& file) {
   if (std::ferror(stream.get()) != 0) {
     throw InputError(file, 1, 1, fmt::format("cannot read the file: {}", std::strerror(errno)));
   }
-  return text;
+  return std::string(without_mark(text, file));
 }
 
 Scenario parse_scenario(std::string_view text, const std::string& name, const std::string& robot_file) {

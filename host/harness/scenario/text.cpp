@@ -72,4 +72,10 @@ std::string join_or(const std::vector<std::string_view>& words) {
   return out;
 }
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
 }  // namespace whisker
