@@ -210,7 +210,7 @@ bool drive_many(const Missions& missions, int jobs,
   const auto make = [&](std::uint64_t i, const std::atomic<bool>& stop) {
     const campaign::Mission m = mission(missions, missions.first + i);
     campaign::Row row = drive(m.scenario, stop);
-    row.robot = missions.robot;
+    row.robot = has_random_robots(missions) ? campaign::random_robot_name(m.seed) : missions.robot;
     row.world = m.world;
     return row;
   };

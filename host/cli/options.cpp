@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "host/cli/exit_status.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/harness/scenario/text.hpp"
 
@@ -48,6 +49,14 @@ CLI::Validator amount(double most) { return between(0, most); }
 
 CLI::Option* whole_number(CLI::Option* option, const char* type, std::uint64_t most) {
   return option->transform(whole_number(most))->type_name(type);
+}
+
+CLI::Option* how_many(CLI::Option* option, const char* type, std::uint64_t most) {
+  const std::string name = option->get_name();
+  return whole_number(option, type, most)->check([name](const std::string& text) {
+    if (text == "0") throw UsageError(name + " 0: nothing to do");
+    return std::string();
+  });
 }
 
 CLI::Option* amount(CLI::Option* option, const char* type, double most) {

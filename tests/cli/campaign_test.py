@@ -278,6 +278,8 @@ class RandomRobots(Driven):
         self.assertEqual(direct["robot_name"], "random")
         again = json.loads(whisker.whisker("campaign", *self.RANDOM[:5], "--replay", 3, "--json").stdout)
         self.assertEqual(again["hash"], rows_of(whole)[1]["hash"])
+        self.assertEqual([row["robot"] for row in rows_of(whole)], [f"random {seed}" for seed in (2, 3, 4, 5)])
+        self.assertEqual(again["robot_name"], "random 3")
 
     def test_are_saved_with_the_failed_missions(self):
         (self.folder / "failed").mkdir()

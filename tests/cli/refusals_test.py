@@ -93,6 +93,23 @@ class Refusals(Case):
                     self.refused(*command.split(), option, value, says=f"'{value}' is no number from ")
         self.assertGreater(checked, 30)
 
+    def test_the_help_that_is_named_lists_the_command_and_its_options(self):
+        for command, help_of in (("run a.toml --sed 3", "run"), ("robot check a.toml --jso", "robot check"), ("robot chek", "robot"), ("--versio", ""), ("rnu", "")):
+            self.refused(*command.split(), says=f"(see whisker {help_of}".rstrip() + " --help)")
+        self.refused("run", "a.toml", "--seed", "x", says="(see whisker run --help)")
+
+    def test_none_of_something_is_nothing_to_do(self):
+        for command in ("campaign discs --count", "movers --count", "operators --count", "operators --hostile", "robot calibrate robot.toml --count",
+                        "robot calibrate-drive robot.toml --count", "robot layout --sensor hc-sr04 --count", "scanner discs --count"):  # fmt: skip
+            self.refused(*command.split(), "0", says=f"whisker: {command.split()[-1]} 0: nothing to do")
+
+    def test_a_file_in_anothers_place_is_called_by_its_kind(self):
+        self.refused("run", "robot.toml", says="robot.toml:1:1: this is a robot file, not a scenario; give it with --robot")
+        self.file("sensor.toml", '[sensor]\nmodel = "VL53L1X"\n')
+        self.refused("guard", "sensor.toml", says="sensor.toml:1:1: this is a robot file")
+        self.refused("run", "a.toml", "--robot", "a.toml", says="a.toml:1:1: this is a scenario, not a robot file")
+        self.refused("robot", "check", "a.toml", says="a.toml:1:1: this is a scenario, not a robot file")
+
     def test_outputs_that_cannot_be_written(self):
         for output in ("nowhere/t", "folder", "folder/", "a.toml/t", ""):
             self.refused("run", "a.toml", "--trace", output)

@@ -317,6 +317,7 @@ class Command(Case):
             done = whisker.whisker("rules", "show", EXAMPLES / name, "--svg", svg)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("input ", done.stdout)
+            self.assertEqual("output SD, 0.3 to 1.7: " in done.stdout, name == "thesis.toml", "as written, not as rounded")
             self.assertTrue(svg.read_text().rstrip().endswith("</svg>"))
 
     def test_a_page(self):

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -65,9 +66,23 @@ void read_obstacles(const TableReader& top, Scenario& s) {
   }
 }
 
+/// A file of one kind in the other's place: without this, its first key would be unknown.
+void refuse_robot_file(const toml::table& root, const std::string& file) {
+  const std::vector<std::string_view> keys = robot_keys();
+  const bool parameters = std::any_of(keys.begin(), keys.end(), [&](auto key) { return root.contains(key); });
+  if (root.contains("start") || root.contains("goal")) return;
+  if (parameters || root.contains("robot") || root.contains("sensor"))
+    throw InputError(file, 1, 1, "this is a robot file, not a scenario; give it with --robot");
+}
+void refuse_scenario(const toml::table& root, const std::string& file) {
+  if (root.contains("start") && root.contains("goal"))
+    throw InputError(file, 1, 1, "this is a scenario, not a robot file");
+}
+
 /// A robot file: parameters at its top level or in [robot], [sensor] and [noise].
 void read_robot_file(const std::string& file, Params& params, Sensor& sensor, Noise& noise) {
   const toml::table root = parse_toml(read_file(file), file);
+  refuse_scenario(root, file);
   std::vector<std::string_view> known = robot_keys();
   known.insert(known.end(), {"robot", "sensor", "noise"});
   const TableReader top(file, root, "", known);
@@ -103,6 +118,7 @@ std::string read_file(const std::string& file) {
 
 Scenario parse_scenario(std::string_view text, const std::string& name, const std::string& robot_file) {
   const toml::table root = parse_toml(text, name);
+  refuse_robot_file(root, name);
   const TableReader top(name, root, "",
                         {"name", "seed", "time_limit_s", "start", "goal", "bounds", "disc", "polygon", "wall",
                          "mover", "noise", "sensor", "robot", "event"});

@@ -39,6 +39,8 @@ bool has_random_robots(std::string_view world) {
          world.substr(world.size() - kRandomRobots.size()) == kRandomRobots;
 }
 
+std::string random_robot_name(std::uint64_t seed) { return fmt::format("random {}", seed); }
+
 Files load_folder(const std::string& folder, const std::string& robot_file) {
   Files files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

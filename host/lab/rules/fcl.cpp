@@ -29,7 +29,7 @@ class FclReader {
   RuleBase run() {
     base_.file = source_.file();
     tokens_.expect("function_block");
-    const std::string first = lower(tokens_.peek().text);
+    const std::string first = lower_case(tokens_.peek().text);
     const auto* const end = std::end(kSections);
     if (std::find(std::begin(kSections), end, first) == end) base_.name = tokens_.next("a name").text;
     while (!tokens_.take("end_function_block")) section();
@@ -42,7 +42,7 @@ class FclReader {
  private:
   void section() {
     const Word word = tokens_.next("a section or END_FUNCTION_BLOCK");
-    const std::string name = lower(word.text);
+    const std::string name = lower_case(word.text);
     if (name == "var_input") {
       declare(base_.inputs, "input");
     } else if (name == "var_output") {
@@ -87,7 +87,7 @@ class FclReader {
     Input& input = named(base_.inputs, "input");
     while (!tokens_.take("end_fuzzify")) {
       const Word word = tokens_.next("END_FUZZIFY");
-      const std::string key = lower(word.text);
+      const std::string key = lower_case(word.text);
       if (key == "term") {
         term(input.terms, -1);
       } else if (key == "range") {
@@ -107,7 +107,7 @@ class FclReader {
     bool method = false;
     while (!tokens_.take("end_defuzzify")) {
       const Word word = tokens_.next("END_DEFUZZIFY");
-      const std::string key = lower(word.text);
+      const std::string key = lower_case(word.text);
       if (key == "term") {
         term(output.terms, static_cast<long>(base_.inputs.size()));
       } else if (key == "range") {
@@ -126,7 +126,7 @@ class FclReader {
       } else if (key == "lock") {
         tokens_.expect(":");
         const Word what = tokens_.next("RANGE");
-        if (lower(what.text) != "range")
+        if (lower_case(what.text) != "range")
           source_.fail(what, "an output that keeps its previous value cannot be compiled");
         output.clamp = true;
         tokens_.expect(";");
@@ -169,8 +169,8 @@ class FclReader {
   void silent(Output& output) {
     tokens_.expect(":=");
     const Word value = tokens_.next("a number or NC");
-    const bool keeps = lower(value.text) == "nc";
-    if (!keeps && lower(value.text) != "nan") {
+    const bool keeps = lower_case(value.text) == "nc";
+    if (!keeps && lower_case(value.text) != "nan") {
       output.silent = Silent::value;
       output.silent_value = source_.number(value);
     }
@@ -188,7 +188,7 @@ class FclReader {
         {"lm", Defuzzifier::first_maximum},  {"rm", Defuzzifier::last_maximum},
         {"mm", Defuzzifier::mean_of_maxima}, {"cogs", Defuzzifier::weighted_average},
         {"cogss", Defuzzifier::weighted_sum}};
-    const auto found = kAll.find(lower(word.text));
+    const auto found = kAll.find(lower_case(word.text));
     if (found == kAll.end()) source_.fail(word, fmt::format("METHOD '{}' cannot be compiled", word.text));
     return found->second;
   }
@@ -198,7 +198,7 @@ class FclReader {
     static const std::map<std::string, Or> kAll = {{"max", Or::maximum},      {"asum", Or::probabilistic_sum},
                                                    {"bsum", Or::bounded_sum}, {"nsum", Or::sum},
                                                    {"esum", Or::einstein},    {"hsum", Or::hamacher}};
-    const auto found = kAll.find(lower(word.text));
+    const auto found = kAll.find(lower_case(word.text));
     if (found == kAll.end()) source_.fail(word, fmt::format("ACCU '{}' cannot be compiled", word.text));
     return found->second;
   }
@@ -233,7 +233,7 @@ class FclReader {
 
   /// The shapes of jFuzzyLogic, which orders some parameters differently.
   bool other_shape(const Word& type, std::vector<Word> p, Term& out) {
-    const std::string name = lower(type.text);
+    const std::string name = lower_case(type.text);
     const auto read = [&](std::string_view as) {
       read_fll_shape(source_, {as, type.at}, p, -1, out);
       return true;
@@ -272,13 +272,13 @@ class FclReader {
     bool has_and = false;
     bool has_or = false;
     Accumulation accu;
-    if (tokens_.peek_after() != ":" && lower(tokens_.peek().text) != "end_ruleblock" &&
-        lower(tokens_.peek().text) != "rule")
+    if (tokens_.peek_after() != ":" && lower_case(tokens_.peek().text) != "end_ruleblock" &&
+        lower_case(tokens_.peek().text) != "rule")
       tokens_.next("a name");
     std::vector<std::pair<Word, Word>> texts;
     while (!tokens_.take("end_ruleblock")) {
       const Word word = tokens_.next("END_RULEBLOCK");
-      const std::string key = lower(word.text);
+      const std::string key = lower_case(word.text);
       if (key == "rule") {
         if (base_.rules.size() + texts.size() >= kMostRules) source_.fail(word, "too many rules");
         texts.push_back({word, tokens_.rule_text()});
@@ -293,7 +293,7 @@ class FclReader {
         operators.disjunction = disjunction(value);
         has_or = true;
       } else if (key == "act") {
-        const std::string act = lower(value.text);
+        const std::string act = lower_case(value.text);
         if (act != "min" && act != "prod")
           source_.fail(value, fmt::format("ACT '{}' cannot be compiled", value.text));
         operators.implication = act == "prod" ? And::product : And::minimum;
@@ -343,7 +343,7 @@ class FclReader {
   }
   template <class Norm>
   Norm norm(const Word& w, const std::map<std::string, Norm>& all) {
-    const auto found = all.find(lower(w.text));
+    const auto found = all.find(lower_case(w.text));
     if (found == all.end()) source_.fail(w, fmt::format("unknown operator '{}'", w.text));
     return found->second;
   }
@@ -354,7 +354,7 @@ class FclReader {
     for (const Accumulation& a : accumulations_) {
       for (const std::size_t r : a.rules) {
         for (const Conclusion& c : base_.rules[r].conclusions) {
-          if (of[c.output] != nullptr && lower(of[c.output]->text) != lower(a.word.text))
+          if (of[c.output] != nullptr && lower_case(of[c.output]->text) != lower_case(a.word.text))
             source_.fail(a.word, fmt::format("'{}' already has another ACCU", base_.outputs[c.output].name));
           of[c.output] = &a.word;
           base_.outputs[c.output].aggregation = accumulation(a.word);

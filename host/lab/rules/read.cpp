@@ -109,7 +109,7 @@ void check(const Source& source, RuleBase& base) {
 
 RuleBase parse_rules(std::string_view text, const std::string& name) {
   const Source source(text, name);
-  const std::string low = lower(name);
+  const std::string low = lower_case(name);
   if (ends_with(low, ".fis")) return read_fis(source);
   if (ends_with(low, ".fll")) return read_fll(source);
   if (ends_with(low, ".fcl")) return read_fcl(source);

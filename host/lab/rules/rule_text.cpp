@@ -84,7 +84,7 @@ class RuleReader {
   bool is(std::string_view keyword) const {
     if (at_ >= tokens_.size()) return false;
     const std::string_view text = tokens_[at_].text;
-    return dialect_ == Dialect::fcl ? lower(text) == keyword : text == keyword;
+    return dialect_ == Dialect::fcl ? lower_case(text) == keyword : text == keyword;
   }
   bool take(std::string_view keyword) {
     const bool found = is(keyword);

@@ -129,7 +129,7 @@ const Form& form_of(const Source& source, const Word& type, const Form (&forms)[
   std::vector<std::string_view> names{"constant", "linear"};
   for (const Form& form : forms) names.emplace_back(form.name);
   for (const Form& form : forms)
-    if (lower(type.text) == lower(form.name)) return form;
+    if (lower_case(type.text) == lower_case(form.name)) return form;
   source.index_of(type, names, "membership function");
   source.fail(type, fmt::format("'{}' is not possible here", type.text));
 }

@@ -6,8 +6,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "host/harness/scenario/text.hpp"
-
 namespace whisker::rules {
 namespace {
 
@@ -114,13 +112,6 @@ Halves split_at(Word word, char c) {
   const std::size_t at = word.text.find(c);
   if (at == std::string_view::npos) return {word, {{}, word.at + word.text.size()}, false};
   return {{word.text.substr(0, at), word.at}, {word.text.substr(at + 1), word.at + at + 1}, true};
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
 }
 
 }  // namespace whisker::rules

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/harness/scenario/error.hpp"
+#include "host/harness/scenario/text.hpp"
 #include "host/lab/rules/rule_base.hpp"
 
 namespace whisker::rules {
@@ -80,7 +81,6 @@ struct Halves {
   bool found;
 };
 Halves split_at(Word word, char c);
-std::string lower(std::string_view text);
 
 template <class Named>
 std::vector<std::string_view> names_of(const std::vector<Named>& all) {
