@@ -108,7 +108,8 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
   }
 
   for (const std::string& warning :
-       {start_warning(scenario), result.ranges ? report::range_warning(*result.ranges) : std::string()}) {
+       {start_warning(scenario),
+        result.ranges ? report::range_warning(*result.ranges, scenario) : std::string()}) {
     if (!warning.empty()) fmt::print(stderr, "whisker: {}\n", warning);
   }
   if (o.json) {
