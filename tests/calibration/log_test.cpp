@@ -145,8 +145,7 @@ TEST(CandumpLog, NamesWhatIsWrong) {
     }
     return "";
   };
-  EXPECT_THAT(told("(1.000000) can0 123#\nrubbish\n", 0),
-              StartsWith("spin.log:2:1: not a frame as candump"));
+  EXPECT_THAT(told("(1.000000) can0 123#\nrubbish\n", 0), StartsWith("spin.log:2:1: not a frame as candump"));
   EXPECT_THAT(told("(1.000000) can0 123#\n", 0), HasSubstr("no input sets of a robot's base"));
   EXPECT_THAT(told("(1.000000) can0 123#\n(1.0", 3), HasSubstr("no input sets of the base of robot 3"));
 }

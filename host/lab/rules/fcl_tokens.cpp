@@ -87,7 +87,8 @@ Word FclTokens::rule_text() {
   }
   const Word first = peek();
   std::size_t end = first.at;
-  while (!ended() && peek() != ";" && lower_case(peek().text) != "rule" && lower_case(peek().text) != "end_ruleblock") {
+  while (!ended() && peek() != ";" && lower_case(peek().text) != "rule" &&
+         lower_case(peek().text) != "end_ruleblock") {
     const Word word = next("';'");
     end = word.at + word.text.size();
   }
