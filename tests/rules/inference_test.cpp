@@ -130,24 +130,29 @@ TEST(Inference, RefusesOtherSetsWithoutArea) {
 }
 
 TEST(Inference, CountsEqualRulesWhereTheyCount) {
-  const std::string twice = "1, 1 (1) : 1\n1, 1 (1) : 1\n2, 2 (1) : 1\n",
-                    once = "1, 1 (1) : 1\n2, 2 (1) : 1\n";
-  const RuleBase base = parse_rules(mamdani("centroid", "max", "min", kTwo, twice), "t.fis");
-  EXPECT_EQ(Inference(base).same_as(1), 0U) << "computed once";
-  for (const double s : {0.2, 0.9}) {
-    const double cut = 2 * s - s * s;
-    EXPECT_NEAR(at(mamdani("centroid", "sum", "min", kTwo, twice), s), (2 * cut * 1 + 1 * 2) / (2 * cut + 1),
-                1e-12);
-    EXPECT_EQ(at(mamdani("centroid", "max", "min", kTwo, twice), s),
-              at(mamdani("centroid", "max", "min", kTwo, once), s));
-    const std::string sugeno =
-        "[System]\nType='sugeno'\nAndMethod='prod'\nOrMethod='probor'\nDefuzzMethod='wtaver'\n[Input1]\nName="
-        "'x'\n"
-        "Range=[0 1]\nMF1='m':'linsmf',[0 1]\nMF2='one':'trapmf',[-1 -1 2 2]\n[Output1]\nName='y'\nRange=[0 "
-        "1]\n"
-        "MF1='a':'constant',[1]\nMF2='b':'constant',[2]\n[Rules]\n";
-    EXPECT_NEAR(at(sugeno + twice, s), (2 * s * 1 + 1 * 2) / (2 * s + 1), 1e-12);
+  // A second term with the same set makes two rules that are not equal, and answer the same.
+  const std::string sets = kTwo + "MF3='c':'trimf',[0 1 2]\n";
+  const std::string equal = "1, 1 (1) : 1\n1, 1 (1) : 1\n2, 2 (1) : 1\n";
+  const std::string other = "1, 1 (1) : 1\n1, 3 (1) : 1\n2, 2 (1) : 1\n";
+  for (const char* method : {"centroid", "bisector", "mom"}) {
+    for (const char* sum : {"max", "sum", "probor", "bounded_sum"}) {
+      for (const char* implication : {"min", "prod"}) {
+        SCOPED_TRACE(std::string(method) + " " + sum + " " + implication);
+        for (const double s : {0.2, 0.9})
+          EXPECT_NEAR(at(mamdani(method, sum, implication, sets, equal), s),
+                      at(mamdani(method, sum, implication, sets, other), s), 1e-9);
+      }
+    }
   }
+  const RuleBase base = parse_rules(mamdani("centroid", "sum", "min", sets, equal), "t.fis");
+  EXPECT_EQ(Inference(base).same_as(1), 0U) << "computed once";
+  const std::string sugeno =
+      "[System]\nType='sugeno'\nAndMethod='prod'\nOrMethod='probor'\nDefuzzMethod='wtaver'\n[Input1]\nName='"
+      "x'\n"
+      "Range=[0 1]\nMF1='m':'linsmf',[0 1]\nMF2='one':'trapmf',[-1 -1 2 2]\n[Output1]\nName='y'\nRange=[0 "
+      "1]\n"
+      "MF1='a':'constant',[1]\nMF2='b':'constant',[2]\n[Rules]\n";
+  EXPECT_NEAR(at(sugeno + equal, 0.9), (2 * 0.9 * 1 + 1 * 2) / (2 * 0.9 + 1), 1e-12);
 }
 
 TEST(Inference, AnswersTheMiddleOfTheRangeIfNoRuleFires) {

@@ -61,7 +61,8 @@ void Inference::prepare(std::size_t o) {
   Prepared& prepared = outputs_.emplace_back();
   std::vector<Canvas::Set> sets;
   std::vector<std::pair<std::size_t, bool>> of;
-  const bool merges = output.aggregation == Or::maximum || (is_weighted(output) && !output.merge_terms);
+  const bool summed = is_weighted(output) ? !output.merge_terms : output.aggregation == Or::sum;
+  const bool merges = summed || output.aggregation == Or::maximum;
   for (std::size_t r = 0; r < base_.rules.size(); ++r) {
     for (const Conclusion& c : base_.rules[r].conclusions) {
       if (c.output != o) continue;
@@ -172,7 +173,7 @@ void Inference::activate(const Output& output, const Prepared& prepared, const d
         continue;
       }
     }
-    out.push_back({part.set, part.product, w});
+    out.push_back({part.set, part.product, w, part.times});
   }
 }
 
