@@ -226,7 +226,7 @@ void add_robot_calibrate(CLI::App& robot, int& status) {
                          "Scale error of the simulated wheels"),
          "S", 1);
   whole_number(cmd->add_option("--seed", o->seed, "Of the simulated noise; 1 by default"), "S");
-  whole_number(
+  how_many(
       cmd->add_option("--count", o->count, "Measure so many random robots instead, and print the errors"),
       "N", kMostTrials);
   within(cmd->add_option("--jobs", o->jobs, "Threads of --count; by default one a core"), "N", 1, 256);

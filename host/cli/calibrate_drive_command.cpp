@@ -287,7 +287,7 @@ void add_robot_calibrate_drive(CLI::App& robot, int& status) {
   within(cmd->add_option("--squares", o->squares, "Simulated squares to each side; 5 by default"), "N", 2,
          50);
   whole_number(cmd->add_option("--seed", o->seed, "Of true values, scene and noise; 1 by default"), "S");
-  whole_number(
+  how_many(
       cmd->add_option("--count", o->count, "Calibrate so many random robots instead, and print the errors"),
       "N", kMostRobots);
   within(cmd->add_option("--jobs", o->jobs, "Threads of --count; by default one a core"), "N", 1, 256);

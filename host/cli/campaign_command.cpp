@@ -138,7 +138,9 @@ int run_campaign(const CampaignOptions& o) {
     RunOptions options;
     options.planner = chosen.planner;
     const Scenario scenario = mission(chosen, 0).scenario;
-    const RunOutputs outputs{o.trace, o.svg, o.html, o.json, robot_name(scenario.robot, o.robot, o.worlds)};
+    const RunOutputs outputs{o.trace, o.svg, o.html, o.json,
+                             o.robots.empty() ? robot_name(scenario.robot, o.robot, o.worlds)
+                                              : campaign::random_robot_name(*o.replay)};
     return drive_one(scenario, options, outputs);
   }
   if (!o.svg.empty() || !o.trace.empty()) throw UsageError("--svg and --trace need --replay");

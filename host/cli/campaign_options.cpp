@@ -45,7 +45,7 @@ campaign::Files folder(const CampaignOptions& o) {
   if (o.replay)
     throw UsageError("--replay is for generated worlds; `whisker run` drives a scenario file again");
   try {
-    campaign::Files files = campaign::load_folder(o.worlds);
+    campaign::Files files = campaign::load_folder(o.worlds, o.robot);
     files.first_seed = o.seed;
     return files;
   } catch (const std::invalid_argument& e) {
@@ -163,7 +163,8 @@ bool has_random_robots(const Missions& m) {
 campaign::Mission mission(const Missions& m, std::uint64_t index) {
   campaign::Mission mission =
       std::visit([&](const auto& worlds) { return campaign::mission(worlds, index); }, m.worlds);
-  if (!m.robot.empty()) apply_robot_file(mission.scenario, m.robot);
+  const bool generated = std::holds_alternative<campaign::Generated>(m.worlds);
+  if (generated && !m.robot.empty()) apply_robot_file(mission.scenario, m.robot);
   bend_if_chosen(mission.scenario.robot, m.planner);
   return mission;
 }
@@ -209,7 +210,7 @@ bool drive_many(const Missions& missions, int jobs,
   const auto make = [&](std::uint64_t i, const std::atomic<bool>& stop) {
     const campaign::Mission m = mission(missions, missions.first + i);
     campaign::Row row = drive(m.scenario, stop);
-    row.robot = missions.robot;
+    row.robot = has_random_robots(missions) ? campaign::random_robot_name(m.seed) : missions.robot;
     row.world = m.world;
     return row;
   };

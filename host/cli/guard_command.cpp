@@ -77,8 +77,7 @@ void print(const guard::Result& r, std::FILE* out) {
 int execute(const GuardOptions& o) {
   if (o.keys && !o.commands.empty()) throw UsageError("--keys and --commands: choose one");
   check_outputs({o.trace, o.html}, {o.file, o.robot, o.commands == "-" ? "" : o.commands}, o.json);
-  Scenario scenario = load_scenario(o.file);
-  if (!o.robot.empty()) apply_robot_file(scenario, o.robot);
+  Scenario scenario = load_scenario(o.file, o.robot);
   if (o.seed) scenario.seed = *o.seed;
   const std::string warning = start_warning(scenario);
   if (!warning.empty()) fmt::print(stderr, "whisker: {}\n", warning);

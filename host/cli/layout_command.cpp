@@ -21,6 +21,7 @@
 #include "host/harness/scenario/params_text.hpp"
 #include "host/harness/scenario/sensor_models.hpp"
 #include "host/harness/scenario/sensor_text.hpp"
+#include "host/harness/scenario/text.hpp"
 #include "host/lab/campaign/layouts.hpp"
 #include "host/lab/campaign/mission.hpp"
 #include "host/lab/report/file.hpp"
@@ -219,7 +220,8 @@ const SensorModel& model_of(const LayoutOptions& o) {
   const SensorModel* model = find_sensor_model(o.sensor);
   if (model != nullptr) return *model;
   const auto names = sensor_model_names();
-  throw UsageError(fmt::format("--sensor: no sensor model '{}'{}", o.sensor, did_you_mean(o.sensor, names)));
+  throw UsageError(
+      fmt::format("--sensor: no sensor model '{}'{}", o.sensor, did_you_mean(lower_case(o.sensor), names)));
 }
 
 LayoutTrade trade_of(const LayoutOptions& o) {

@@ -26,6 +26,14 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// The command that the line names, with its own commands: "whisker robot check".
+std::string named(const CLI::App& app, int argc, char** argv, int at = 1) {
+  std::string name = app.get_name();
+  for (const CLI::App* command : app.get_subcommands({}))
+    if (at < argc && command->get_name() == argv[at]) name += " " + named(*command, argc, argv, at + 1);
+  return name;
+}
+
 /// CLI11 would only report that a subcommand is missing.
 void check_command(const CLI::App& app, int argc, char** argv, int at = 1) {
   if (argc <= at && at > 1) {
@@ -37,7 +45,7 @@ void check_command(const CLI::App& app, int argc, char** argv, int at = 1) {
   const std::string word = argv[at];
   if (word[0] == '-') {
     if (app.get_option_no_throw(word) != nullptr) return;
-    throw whisker::cli::UsageError(fmt::format("no option '{}' (see whisker --help)", word));
+    throw CLI::ParseError(fmt::format("no option '{}'", word), CLI::ExitCodes::ExtrasError);
   }
   std::vector<std::string_view> known;
   for (const CLI::App* command : app.get_subcommands({})) {
@@ -46,8 +54,8 @@ void check_command(const CLI::App& app, int argc, char** argv, int at = 1) {
     const bool has_commands = !command->get_subcommands({}).empty();
     return has_commands ? check_command(*command, argc, argv, at + 1) : void();
   }
-  throw whisker::cli::UsageError(
-      fmt::format("no command '{}'{} (see whisker --help)", word, whisker::cli::did_you_mean(word, known)));
+  throw CLI::ParseError(fmt::format("no command '{}'{}", word, whisker::cli::did_you_mean(word, known)),
+                        CLI::ExitCodes::ExtrasError);
 }
 
 /// Parses and runs; help and version count as success. The command that runs sets `status`.
@@ -117,7 +125,7 @@ int main(int argc, char** argv) {
     finish_standard_output();
     return status;
   } catch (const CLI::ParseError& e) {
-    complain(fmt::format("whisker: {} (see whisker --help)", e.what()));
+    complain(fmt::format("whisker: {} (see {} --help)", e.what(), named(app, argc, argv)));
     return kBadInput;
   } catch (const UsageError& e) {
     complain(fmt::format("whisker: {}", e.what()));

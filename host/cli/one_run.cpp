@@ -88,7 +88,8 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
     report::write_file(o.html, page::run_page(page::stored(log), controller_picture(options.planner)));
 
   for (const std::string& warning :
-       {start_warning(scenario), result.ranges ? report::range_warning(*result.ranges) : std::string()}) {
+       {start_warning(scenario),
+        result.ranges ? report::range_warning(*result.ranges, scenario) : std::string()}) {
     if (!warning.empty()) fmt::print(stderr, "whisker: {}\n", warning);
   }
   if (o.json) {
@@ -114,8 +115,7 @@ Scenario ScenarioChoice::load(std::initializer_list<std::string> more_outputs) c
   all.push_back(outputs.svg);
   all.push_back(outputs.html);
   check_outputs(all, {file, robot}, outputs.json);
-  Scenario scenario = load_scenario(file);
-  if (!robot.empty()) apply_robot_file(scenario, robot);
+  Scenario scenario = load_scenario(file, robot);
   load_event_tables(scenario, file);
   return scenario;
 }

@@ -149,7 +149,6 @@ void drive_hostile(const OperatorsOptions& o, const Interrupt& interrupt) {
 }
 
 int execute(const OperatorsOptions& o) {
-  if (o.count == 0) throw UsageError("--count 0: nothing to do");
   if (o.seed > INT64_MAX / 2 - kMostDrives) throw UsageError("--seed: seeds must be below 2^62");
   const Interrupt interrupt;
   if (o.hostile > 0) {
@@ -179,15 +178,14 @@ void add_operators(CLI::App& app, int& status) {
   CLI::App* cmd =
       app.add_subcommand("operators", "Let operators of all kinds drive, with the guard and without it");
   const auto o = std::make_shared<OperatorsOptions>();
-  whole_number(cmd->add_option("--count", o->count, "How many worlds a row; 60 by default"), "N",
-               kMostDrives);
+  how_many(cmd->add_option("--count", o->count, "How many worlds a row; 60 by default"), "N", kMostDrives);
   whole_number(cmd->add_option("--seed", o->seed, "Drive i has seed S + i; 1 by default"), "S");
   cmd->add_option("--operator", o->hand, "Only this one: perfect, sloppy, blind, joystick or hostile")
       ->check(CLI::IsMember({"perfect", "sloppy", "blind", "joystick", "hostile"}))
       ->type_name("NAME");
-  whole_number(cmd->add_option("--hostile", o->hostile,
-                               "Instead: this many drives of the adversary in worlds of all kinds"),
-               "N", kMostDrives);
+  how_many(cmd->add_option("--hostile", o->hostile,
+                           "Instead: this many drives of the adversary in worlds of all kinds"),
+           "N", kMostDrives);
   add_switch(*cmd, "--noise", o->noise, "With the reference robot's sensor and odometry noise");
   add_file(*cmd, "--robot", o->robot, "Parameters of your robot (TOML)");
   add_assist_rules(*cmd, o->table);

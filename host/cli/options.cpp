@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "host/cli/exit_status.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/harness/scenario/text.hpp"
 
@@ -27,22 +28,35 @@ CLI::Validator whole_number(std::uint64_t most) {
       "");
 }
 
-CLI::Validator amount(double most) {
+namespace {
+
+CLI::Validator between(double low, double high) {
   return CLI::Validator(
-      [most](std::string& text) -> std::string {
+      [low, high](std::string& text) -> std::string {
         double value = 0;
         const char* const end = text.data() + text.size();
         const auto [rest, error] = std::from_chars(text.data(), end, value);
-        if (error != std::errc{} || rest != end || std::signbit(value) || !(value <= most)) {
-          return fmt::format("'{}' is no number from 0 to {}", text, most);
-        }
-        return {};
+        const bool inside = value >= low && value <= high && !(low >= 0 && std::signbit(value));
+        if (error == std::errc{} && rest == end && inside) return {};
+        return fmt::format("'{}' is no number from {} to {}", text, low, high);
       },
       "");
 }
 
+}  // namespace
+
+CLI::Validator amount(double most) { return between(0, most); }
+
 CLI::Option* whole_number(CLI::Option* option, const char* type, std::uint64_t most) {
   return option->transform(whole_number(most))->type_name(type);
+}
+
+CLI::Option* how_many(CLI::Option* option, const char* type, std::uint64_t most) {
+  const std::string name = option->get_name();
+  return whole_number(option, type, most)->check([name](const std::string& text) {
+    if (text == "0") throw UsageError(name + " 0: nothing to do");
+    return std::string();
+  });
 }
 
 CLI::Option* amount(CLI::Option* option, const char* type, double most) {
@@ -54,7 +68,7 @@ CLI::Option* within(CLI::Option* option, const char* type, int low, int high) {
 }
 
 CLI::Option* within(CLI::Option* option, const char* type, double low, double high) {
-  return option->check(CLI::Range(low, high))->type_name(type);
+  return option->check(between(low, high))->type_name(type);
 }
 
 CLI::Option* add_wheel_scale_sigma(CLI::App& app, std::optional<double>& sigma, const std::string& help) {

@@ -23,6 +23,7 @@ CLI::Validator amount(double most);
 
 /// Each checks the values of the option and names their type in the help. Returns the option.
 CLI::Option* whole_number(CLI::Option* option, const char* type, std::uint64_t most = INT64_MAX);
+CLI::Option* how_many(CLI::Option* option, const char* type, std::uint64_t most);  ///< 0: nothing to do
 CLI::Option* amount(CLI::Option* option, const char* type, double most);
 CLI::Option* within(CLI::Option* option, const char* type, int low, int high);
 CLI::Option* within(CLI::Option* option, const char* type, double low, double high);

@@ -25,6 +25,7 @@
 #include "host/harness/hil/replay.hpp"
 #include "host/harness/run/make_record.hpp"
 #include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/error.hpp"
 #include "host/lab/page/page.hpp"
 #include "host/lab/report/file.hpp"
 #include "host/lab/report/trace.hpp"
@@ -55,7 +56,9 @@ hil::ReplayResult replayed(const ReplayOptions& o, const hil::ReplayOptions& rep
     throw UsageError(fmt::format("{}: {}", o.log, log ? "is empty" : std::strerror(errno)));
   }
   try {
-    return hil::replay(log, replay);
+    return hil::replay(log, o.log, replay);
+  } catch (const InputError&) {
+    throw;
   } catch (const std::runtime_error& e) {
     throw UsageError(fmt::format("{}: {}", o.log, e.what()));
   }
@@ -76,6 +79,7 @@ void print_json(const hil::ReplayResult& r, const Provenance& provenance) {
   json["hash"] = fmt::format("{:016x}", r.hash);
   json["difference"] = r.difference;
   json["cut_line"] = r.cut;
+  json["skipped"] = r.skipped;
   print_object(json.dump(), provenance);
 }
 
@@ -99,6 +103,11 @@ int execute(const ReplayOptions& o) {
   const hil::ReplayResult r = replayed(o, replay);
   if (r.cut > 0)
     fmt::print(stderr, "whisker: {}: line {}, the last, is cut off and left out\n", o.log, r.cut);
+  std::string skipped;
+  for (const auto& [kind, count] : r.skipped)
+    skipped += fmt::format("{}{} {}", skipped.empty() ? "" : ", ", count, kind);
+  if (!skipped.empty())
+    fmt::print(stderr, "whisker: {}: frames that are not a robot's are left out: {}\n", o.log, skipped);
   if (r.compared == 0) throw UsageError(fmt::format("{}: no commands of a robot with their inputs", o.log));
   if (r.guard && shown) {
     throw UsageError(fmt::format("{}: the log of a guard node has no planner to show", o.log));

@@ -127,11 +127,17 @@ report::FuzzyPicture controller_picture(const Engine::Table& table) {
   return p;
 }
 
+rules::RuleBase load_rules(const std::string& file) {
+  rules::RuleBase base = rules::read_rules(file);
+  for (const std::string& warning : base.warnings) fmt::print(stderr, "whisker: {}\n", warning);
+  return base;
+}
+
 const fuzzy::Engine::Table* response_table(const std::string& file_or_default,
                                            const std::vector<std::string>& names) {
   if (file_or_default == "default") return &fuzzy::kDefaultTable;
   static std::list<fuzzy::Engine::Table> tables;
-  return &tables.emplace_back(named_response(rules::read_rules(file_or_default), names).table);
+  return &tables.emplace_back(named_response(load_rules(file_or_default), names).table);
 }
 
 void load_event_tables(Scenario& scenario, const std::string& file) {

@@ -19,6 +19,9 @@ namespace whisker::cli {
 /// rules are its answers at the centres of the terms.
 report::FuzzyPicture controller_picture(const fuzzy::Engine::Table& table = fuzzy::kDefaultTable);
 
+/// A rule base; prints its warnings on standard error. Throws InputError.
+rules::RuleBase load_rules(const std::string& file);
+
 /// The table of a rule base, or of the core for the word "default"; it lives as long as the program. Throws
 /// UsageError or InputError.
 const fuzzy::Engine::Table* response_table(const std::string& file_or_default,

@@ -16,13 +16,13 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/harness/scenario/text.hpp"
 #include "host/lab/report/file.hpp"
 #include "host/lab/rules/compile.hpp"
 #include "host/lab/rules/findings.hpp"
 #include "host/lab/rules/header.hpp"
 #include "host/lab/rules/page.hpp"
-#include "host/lab/rules/read.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -255,7 +255,7 @@ int execute_rules_compile(const CompileOptions& o) {
   if (!o.most_bytes.empty()) options.demand.most_bytes = std::stoul(o.most_bytes);
   if (!o.nodes.empty()) options.demand.nodes = nodes(o.nodes);
   if (!o.steps.empty()) options.fewest_steps = std::stoi(o.steps);
-  rules::RuleBase base = rules::read_rules(o.file);
+  rules::RuleBase base = load_rules(o.file);
   options.fixed = fixed(base, o.fixed);
   const rules::Compiled compiled = rules::compile(std::move(base), options);
   if (!o.header.empty()) report::write_file(o.header, rules::header(compiled, o.header));
@@ -273,7 +273,7 @@ int execute_rules_compile(const CompileOptions& o) {
 
 int execute_rules_show(const ShowOptions& o) {
   check_outputs({o.svg, o.html}, {o.file});
-  const rules::RuleBase base = rules::read_rules(o.file);
+  const rules::RuleBase base = load_rules(o.file);
   std::FILE* const out = words_beside({o.svg, o.html});
   if (!o.html.empty()) {
     rules::Options options;
@@ -295,7 +295,7 @@ int execute_rules_show(const ShowOptions& o) {
 }
 
 int execute_rules_evaluate(const EvaluateOptions& o) {
-  const rules::RuleBase base = rules::read_rules(o.file);
+  const rules::RuleBase base = load_rules(o.file);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values(base.inputs.size(), kNone);
   for (const rules::Fixed& one : assigned(base, o.inputs, "evaluate")) values[one.input] = one.value;

@@ -19,7 +19,6 @@
 #include "host/cli/table_search.hpp"
 #include "host/lab/campaign/comparison.hpp"
 #include "host/lab/report/file.hpp"
-#include "host/lab/rules/read.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -110,7 +109,7 @@ std::string json_of(const rules::RuleBase& base, const rules::Response& response
 
 int execute(const TableOptions& o) {
   check_outputs({o.out}, {o.file});
-  const rules::RuleBase base = rules::read_rules(o.file);
+  const rules::RuleBase base = load_rules(o.file);
   const std::string text = json_of(base, named_response(base, o.names));
   if (o.out.empty()) {
     fmt::print("{}", text);

@@ -15,9 +15,9 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/cli/rules_choice.hpp"
 #include "host/cli/table_search.hpp"
 #include "host/lab/report/file.hpp"
-#include "host/lab/rules/read.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -186,7 +186,7 @@ SearchNames names_of(const SearchOptions& o) {
 
 Candidate base_of(const SearchOptions& o) {
   const auto base =
-      candidate(o.base == "default" ? rules::core_rules() : rules::mirrored_rules(rules::read_rules(o.base)));
+      candidate(o.base == "default" ? rules::core_rules() : rules::mirrored_rules(load_rules(o.base)));
   if (base) return *base;
   throw UsageError(fmt::format("{}: the look-up errs by more than {:g} % of the span", o.base,
                                100 * rules::kMostLookUpError));

@@ -34,8 +34,11 @@ std::string bounds(const std::optional<Estimate>& e, double scale, int digits, b
 
 Json or_null(const std::optional<Estimate>& e) { return e ? estimate_json(*e) : Json(nullptr); }
 
-Json side(const Estimate& success, std::uint64_t contacts, std::uint64_t alone) {
-  return {{"success", estimate_json(success)}, {"contacts", contacts}, {"succeeds_alone", alone}};
+Json side(const Estimate& there, const Estimate& success, std::uint64_t contacts, std::uint64_t alone) {
+  return {{"truly_there", estimate_json(there)},
+          {"success", estimate_json(success)},
+          {"contacts", contacts},
+          {"succeeds_alone", alone}};
 }
 
 constexpr std::uint64_t kTriesPerChild = 100;
@@ -102,7 +105,9 @@ campaign::Row drive_with_jerk(campaign::Mission mission, PlannerKind kind, doubl
 }
 
 void print_comparison(std::FILE* out, const campaign::Comparison& c) {
-  fmt::print(out, "success, %        A {}, B {}; only A {}, only B {}\n", bounds(c.success_a, 100, 1, false),
+  fmt::print(out, "truly there, %    A {}, B {}\n", bounds(c.there_a, 100, 1, false),
+             bounds(c.there_b, 100, 1, false));
+  fmt::print(out, "by estimate, %    A {}, B {}; only A {}, only B {}\n", bounds(c.success_a, 100, 1, false),
              bounds(c.success_b, 100, 1, false), c.only_a, c.only_b);
   fmt::print(out, "contacts          A {}, B {}\n", c.contacts_a, c.contacts_b);
   fmt::print(out, "over the {} worlds that both reach, with 95 % bounds:\n", c.both);
@@ -122,8 +127,8 @@ Json estimate_json(const Estimate& e) {
 Json comparison_json(const campaign::Comparison& c) {
   return {{"worlds", c.worlds},
           {"both_reach", c.both},
-          {"a", side(c.success_a, c.contacts_a, c.only_a)},
-          {"b", side(c.success_b, c.contacts_b, c.only_b)},
+          {"a", side(c.there_a, c.success_a, c.contacts_a, c.only_a)},
+          {"b", side(c.there_b, c.success_b, c.contacts_b, c.only_b)},
           {"time_ratio", or_null(c.time)},
           {"path_ratio", or_null(c.path)},
           {"jerk_ratio", or_null(c.jerk)},

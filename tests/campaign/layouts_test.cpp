@@ -206,6 +206,16 @@ TEST(FilesOfAFolder, AreItsScenarioFilesInOrderOfName) {
   EXPECT_EQ(mission(files, 3).world, files.names[1]) << "each file in turn";
 }
 
+TEST(FilesOfAFolder, AreJudgedWithTheRobotThatDrives) {
+  const Folder folder;
+  folder.file(
+      "a.toml",
+      "[start]\nx_m = 0\ny_m = 0\n[goal]\nx_m = 4\ny_m = 0\n[[disc]]\ncenter = [0.38, 0]\nradius_m = 0.3\n");
+  folder.file("robot", "body_radius_m = 0.05\nwheel_track_m = 0.08\n");
+  EXPECT_THROW(load_folder(folder.path("")), InputError);
+  EXPECT_EQ(load_folder(folder.path(""), folder.path("robot")).scenarios[0].robot.body.radius, 50_mm);
+}
+
 TEST(FilesOfAFolder, AreRefusedIfAnyIsWrong) {
   const Folder folder;
   EXPECT_THROW(load_folder(folder.path("")), std::invalid_argument) << "none at all";

@@ -160,11 +160,11 @@ TEST_F(Merge, AWrongFileIsRefusedWithItsLine) {
   EXPECT_EQ(refused(""), ":1:1: empty: not even the header of a campaign");
   EXPECT_EQ(refused(line(2)).substr(0, 40), ":1:1: not the header of a campaign: seed");
   EXPECT_EQ(refused(kHead + line(2) + "x" + line(3)), ":3:1: column seed: 'x3' is no such number");
-  EXPECT_EQ(refused(kHead + line(2) + "\n"), ":3:1: column seed: '' is no such number");
+  EXPECT_EQ(refused(kHead + line(2) + "\n"), ":3:1: no column outcome");
   EXPECT_EQ(refused(kHead + line(2) + "4,gave"), ":3:1: the last line is cut off: it has no end of line");
   EXPECT_EQ(complaint({folder_.path("none.csv")}),
             folder_.path("none.csv") + ":1:1: No such file or directory");
-  EXPECT_EQ(complaint({folder_.path("")}), folder_.path("") + ":1:1: cannot be read");
+  EXPECT_EQ(complaint({folder_.path("")}), folder_.path("") + ":1:1: cannot read the file");
 }
 
 // Written by an older `whisker campaign`, which reported a wrong belief as `reached`.

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <sstream>
+#include <utility>
+
 namespace whisker::hil {
 namespace {
 
@@ -21,6 +24,57 @@ TEST(Candump, ReadsWhatCandumpWrites) {
   EXPECT_EQ(parse_log_line("(1.000000) can0 123# R\r")->frame.size, 0);
 }
 
+TEST(Candump, ReadsItsOtherFormatsAndThoseOfPythonCan) {
+  const LogFrame plain = *parse_log_line("(1.5) can0 123#1122");
+  EXPECT_EQ(plain.time_us, 1500000U);
+  for (const char* line :
+       {"(1.500000)  can0 123#1122", "(1.500000000) can0 123#1122 R", "(1.500000) can0 123#1122 T\r",
+        " (1.500000)  can0  123   [2]  11 22", " (1.500000)  can0  RX - -  123   [2]  11 22   '.\"'",
+        " (1.500000)  can0  TX B -  123   [2]  11 22"}) {
+    const auto entry = parse_log_line(line);
+    ASSERT_TRUE(entry) << line;
+    EXPECT_EQ(log_line(*entry), log_line(plain)) << line;
+    EXPECT_EQ(entry->foreign, nullptr) << line;
+  }
+  EXPECT_EQ(parse_log_line("  can0  123   [0]")->frame.size, 0);
+  const auto code = log_line(*parse_log_line("(0.000000) can0 123#1122334455667788_B"));
+  EXPECT_EQ(code, log_line(*parse_log_line("  can0  123   {B}  11 22 33 44 55 66 77 88")));
+}
+
+TEST(Candump, NamesFramesThatARobotsBusCannotHave) {
+  const std::pair<const char*, const char*> lines[] = {
+      {"(1.000000) can0 20000080#0000000000000000", "error"},
+      {"  can0  20000004   [8]  00 04 00 00 00 00 00 00   ERRORFRAME", "error"},
+      {"(1.000000) can0 123##0112233445566778899", "CAN FD"},
+      {"(1.000000) can0 00000123##1", "CAN FD"},
+      {"  can0  123  [12]  00 01 02 03 04 05 06 07 08 09 0A 0B", "CAN FD"},
+      {"(1.000000) can0 123#R", "remote"},
+      {"(1.000000) can0 123#R8_9", "remote"},
+      {"  can0  123   [4]  remote request", "remote"},
+      {"(1.000000) can0 00000123#11", "29-bit"},
+  };
+  for (const auto& [line, kind] : lines) {
+    const auto entry = parse_log_line(line);
+    ASSERT_TRUE(entry) << line;
+    EXPECT_STREQ(entry->foreign, kind) << line;
+  }
+}
+
+TEST(Candump, ReaderCountsWhatItSkips) {
+  std::istringstream in(
+      "\xEF\xBB\xBF(1.000000) can0 20000080#0000000000000000\r\n\tbus-error{}\n\n(1.000000) can0 123#R\n"
+      "(2.000000) can0 123#11\n(3.000000) can0 123##0\n(4.000000) can0 123#R\n(5.0");
+  LogReader reader(in, "x.log");
+  LogFrame frame;
+  ASSERT_TRUE(reader.next(frame));
+  EXPECT_EQ(reader.line(), 5U);
+  EXPECT_EQ(frame.time_us, 2000000U);
+  EXPECT_FALSE(reader.next(frame));
+  EXPECT_EQ(reader.cut(), 8U);
+  EXPECT_EQ(reader.skipped(),
+            (std::map<std::string, std::uint64_t>{{"CAN FD", 1}, {"error", 1}, {"remote", 2}}));
+}
+
 TEST(Candump, RefusesAllElse) {
   for (const char* line : {"",
                            "x",
@@ -34,12 +88,14 @@ TEST(Candump, RefusesAllElse) {
                            "(1.000000) can0 123#1",
                            "(1.000000) can0 123#11223344556677889900",
                            "(1.000000) can0 123#GG",
-                           "(1.000000) can0 123##0112",
                            "(1.000000) can0 FFF#",
-                           "(1.000000) can0 20000080#0000000000000000",
                            "(1.000000) can0 123#R9",
                            "(a.b) can0 123#",
-                           "(1.0000000) can0 123#",
+                           "(1.0000000000) can0 123#",
+                           "(1.000000) can0 123 [2] 11",
+                           "can0 123 [2 11 22",
+                           "can0 123 [] ",
+                           "can0 1234 [1] 11",
                            "(1.000000)can0 123#",
                            "(1.000000)  123#"}) {
     EXPECT_FALSE(parse_log_line(line)) << line;

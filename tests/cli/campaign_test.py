@@ -109,6 +109,16 @@ class Shards(Driven):
             self.file("all.csv", "".join(parts))
             self.assertEqual(self.campaign("--merge", "all.csv"), words)
 
+    def test_rows_that_a_spreadsheet_has_saved_are_merged(self):
+        self.rows(*KIND, "--count", 3)
+        words = self.campaign("--merge", "rows.csv")
+        rows = list(csv.reader((self.folder / "rows.csv").read_text().splitlines()))
+        for separator, point, end in ((";", ",", "\r\n"), (",", ".", "\n")):
+            short = [[re.sub(r"^(-?\d+)\.(\d*?)0+$", lambda m: m[1] + (point + m[2] if m[2] else ""), field) for field in row] for row in rows]
+            with (self.folder / "saved.csv").open("w", encoding="utf-8-sig", newline="") as file:
+                csv.writer(file, delimiter=separator, lineterminator=end).writerows(short)
+            self.assertEqual(self.campaign("--merge", "saved.csv"), words)
+
     def test_what_cannot_be_merged_is_refused_with_its_place(self):
         text = self.rows(*KIND, "--count", 2)
         self.refused("campaign", "--merge", "rows.csv", "rows.csv", says="rows.csv:2:1: ")
@@ -268,6 +278,8 @@ class RandomRobots(Driven):
         self.assertEqual(direct["robot_name"], "random")
         again = json.loads(whisker.whisker("campaign", *self.RANDOM[:5], "--replay", 3, "--json").stdout)
         self.assertEqual(again["hash"], rows_of(whole)[1]["hash"])
+        self.assertEqual([row["robot"] for row in rows_of(whole)], [f"random {seed}" for seed in (2, 3, 4, 5)])
+        self.assertEqual(again["robot_name"], "random 3")
 
     def test_are_saved_with_the_failed_missions(self):
         (self.folder / "failed").mkdir()

@@ -107,7 +107,7 @@ class Guard(unittest.TestCase):
         self.assertFalse(pathlib.Path(both).exists())
 
     def test_refuses_bad_commands_with_their_line(self):
-        for row, says in (("1,2", "a row has three numbers"), ("-1,0,0", "must not be negative"), ("1,2,3,4", "a row has three")):
+        for row, says in (("1,2", "2 fields; the header has 3"), ("-1,0,0", "must not be negative"), ("1,2,3,4", "4 fields"), ("nan,0,0", "'nan' is no number")):
             file = self.commands("0,0,0", row)
             done = whisker.whisker("guard", self.world, "--commands", file)
             self.assertEqual(done.returncode, 2)

@@ -99,9 +99,26 @@ class Hil(OnABus):
             self.assertEqual((done.returncode, told["same"], told["cut_line"]), (0, True, len(lines)), rest)
             self.assertEqual(done.stderr, f"whisker: {cut}: line {len(lines)}, the last, is cut off and left out\n")
         self.file("cut.log", lines[0] + lines[1][:9] + "\n" + "".join(lines[2:]))
-        self.refused("replay", "cut.log", says="cut.log: line 2: not a frame")
+        self.refused("replay", "cut.log", says="cut.log:2:1: not a frame")
         self.file("cut.log", lines[0][:9])
         self.refused_all("replay", "cut.log")
+
+    def test_frames_that_are_not_a_robots_are_left_out_counted_and_said(self):
+        log = self.folder / "whole.log"
+        self.json_of("hil", self.world("discs", 3), "--record", log)
+        lines = log.read_text().splitlines()
+        whole = json.loads(whisker.whisker("replay", log, "--json").stdout)
+        self.assertEqual(whole["skipped"], {})
+        foreign = ("(1.000000) can0 20000080#0000000000000000", "(1.000000) can0 123##0112233", "(1.0) can0 123#R8 T", "(1.0) can0 18DAF110#0102", "(1.0) can0 7DF#02")
+        # As candump writes it without -L, and with -x and CRLF.
+        loud = [re.sub(r"^\((\S+)\) (\S+) ([0-9A-F]+)#(\S*)$", lambda m: f" ({m[1]})  {m[2]}  RX - -  {m[3]}   [{len(m[4]) // 2}]  {' '.join(re.findall('..', m[4]))}", line) for line in lines]
+        for text in ("\n".join([*foreign, *lines]), "\ufeff" + "\r\n".join([*loud[:20], *foreign, *loud[20:]])):
+            mixed = self.file("mixed.log", text + "\n")
+            done = whisker.whisker("replay", mixed, "--json")
+            told = json.loads(done.stdout)
+            self.assertEqual(told["skipped"], {"29-bit": 1, "CAN FD": 1, "error": 1, "other": 1, "remote": 1})
+            self.assertEqual({**told, "skipped": {}, "robot_name": ""}, {**whole, "robot_name": ""})
+            self.assertEqual(done.stderr, f"whisker: {mixed}: frames that are not a robot's are left out: 1 29-bit, 1 CAN FD, 1 error, 1 other, 1 remote\n")
 
     def refused_all(self, *arguments):
         done = whisker.whisker(*arguments, cwd=self.folder)
@@ -364,7 +381,7 @@ class Refusals(Case):
         self.assertIn("No such file", self.refused("replay", self.folder / "none.log"))
         self.assertIn("is empty", self.refused("replay", self.file("empty.log", "")))
         self.refused("replay", self.file("own.log", "x\n"), "--html", self.folder / "own.log")
-        self.assertIn("line 2: not a frame", self.refused("replay", self.file("bad.log", "(1.000000) can0 123#\nx\n")))
+        self.assertIn("bad.log:2:1: not a frame", self.refused("replay", self.file("bad.log", "(1.000000) can0 123#\nx\n")))
         self.assertIn("no commands", self.refused("replay", self.file("other.log", "(1.000000) can0 123#\n")))
 
     def test_bad_usage_is_one_line(self):

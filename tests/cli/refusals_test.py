@@ -1,6 +1,7 @@
 """Every error is one line on standard error, before any file is written."""
 
 import os
+import re
 import subprocess
 
 import whisker
@@ -78,6 +79,36 @@ class Refusals(Case):
         self.file("a.toml", SCENE + "\n[[disc]]\ncenter = [0.0, 1.0]\nradius_m = 0.5\n")
         self.file("large.toml", "body_radius_m = 0.5\nthesis_danger_range_m = 0.6\n")
         self.refused("run", "a.toml", "--robot", "large.toml", says="large.toml:1:1: ")
+
+    def test_every_number_option_refuses_what_is_no_number(self):
+        checked = 0
+        for command in ("run", "world", "guard", "campaign", "movers", "operators", "robot calibrate", "robot calibrate-drive", "robot layout",
+                        "plant", "hil", "bench drive", "bench goal", "socket"):  # fmt: skip
+            options = re.findall(r"(?m)^\s+(--[a-z-]+) [A-Z]", whisker.whisker(*command.split(), "--help").stdout)
+            for option in options:
+                if "is no number" not in whisker.whisker(*command.split(), option, "x").stderr:
+                    continue
+                checked += 1
+                for value in ("nan", "inf", "-inf", "1e400", "0,5"):
+                    self.refused(*command.split(), option, value, says=f"'{value}' is no number from ")
+        self.assertGreater(checked, 30)
+
+    def test_the_help_that_is_named_lists_the_command_and_its_options(self):
+        for command, help_of in (("run a.toml --sed 3", "run"), ("robot check a.toml --jso", "robot check"), ("robot chek", "robot"), ("--versio", ""), ("rnu", "")):
+            self.refused(*command.split(), says=f"(see whisker {help_of}".rstrip() + " --help)")
+        self.refused("run", "a.toml", "--seed", "x", says="(see whisker run --help)")
+
+    def test_none_of_something_is_nothing_to_do(self):
+        for command in ("campaign discs --count", "movers --count", "operators --count", "operators --hostile", "robot calibrate robot.toml --count",
+                        "robot calibrate-drive robot.toml --count", "robot layout --sensor hc-sr04 --count", "scanner discs --count"):  # fmt: skip
+            self.refused(*command.split(), "0", says=f"whisker: {command.split()[-1]} 0: nothing to do")
+
+    def test_a_file_in_anothers_place_is_called_by_its_kind(self):
+        self.refused("run", "robot.toml", says="robot.toml:1:1: this is a robot file, not a scenario; give it with --robot")
+        self.file("sensor.toml", '[sensor]\nmodel = "VL53L1X"\n')
+        self.refused("guard", "sensor.toml", says="sensor.toml:1:1: this is a robot file")
+        self.refused("run", "a.toml", "--robot", "a.toml", says="a.toml:1:1: this is a scenario, not a robot file")
+        self.refused("robot", "check", "a.toml", says="a.toml:1:1: this is a scenario, not a robot file")
 
     def test_outputs_that_cannot_be_written(self):
         for output in ("nowhere/t", "folder", "folder/", "a.toml/t", ""):

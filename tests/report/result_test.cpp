@@ -41,6 +41,35 @@ TEST(ResultJson, has_the_bound_of_the_pose) {
   EXPECT_EQ(json["sigma_heading_deg"], 1.0);
 }
 
+TEST(RangeWarning, names_only_causes_that_the_scenario_has) {
+  RangeTrust doubtful;
+  doubtful.level = RangeLevel::doubtful;
+  doubtful.contradictions = 5 * RangeTrust::kOnePerMetre;
+  doubtful.incidence_deg = 41;
+  const std::string start = "the ranges are doubtful: 5.0 contradictions per metre; what may cause it: ";
+  Scenario s;
+  EXPECT_EQ(range_warning(RangeTrust{}, s), "");
+  EXPECT_EQ(range_warning(doubtful, s), start + "none in the parameters, which agree with the sensors");
+  s.movers.emplace_back();
+  EXPECT_EQ(range_warning(doubtful, s), start + "things that move");
+  s.movers.clear();
+  s.robot.rangefinders.incidence = 40_deg;
+  s.sensor.incidence_deg = 40;
+  EXPECT_EQ(range_warning(doubtful, s),
+            start + "walls beyond 40 degrees give no echo, as range_incidence_deg says");
+  s.sensor.incidence_deg = 38;
+  EXPECT_EQ(range_warning(doubtful, s), start +
+                                            "walls vanish beyond 38 degrees, and range_incidence_deg is 40 "
+                                            "(other angles fit, see whisker robot layout)");
+  s = {};
+  s.sensor.incidence_deg = 80;
+  s.sensor.cone_deg = 1;
+  EXPECT_EQ(range_warning(doubtful, s),
+            start +
+                "walls vanish beyond 80 degrees, and range_incidence_deg is 90 (set 80), "
+                "the cones are 1 degrees wide, and range_cone_deg is 25");
+}
+
 TEST(VerdictWords, say_how_sure_the_robot_is_of_its_place) {
   RunResult r = sample();
   r.sigma = localization::PoseSigma{millimetres(30), millimetres(40), Angle{}};

@@ -317,6 +317,7 @@ class Command(Case):
             done = whisker.whisker("rules", "show", EXAMPLES / name, "--svg", svg)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("input ", done.stdout)
+            self.assertEqual("output SD, 0.3 to 1.7: " in done.stdout, name == "thesis.toml", "as written, not as rounded")
             self.assertTrue(svg.read_text().rstrip().endswith("</svg>"))
 
     def test_a_page(self):
@@ -355,6 +356,14 @@ class Command(Case):
     def test_evaluate_says_where_no_rule_fires(self):
         rules = self.file("tip.fis", re.sub(r"(?s)\[Rules\].*", "[Rules]\n3 2, 3 (1) : 1\n", (EXAMPLES / "tip.fis").read_text()).replace("NumRules=4", "NumRules=1"))
         self.assertEqual(whisker.whisker("rules", "evaluate", rules, "service=1", "food=1").stdout, "tip = 15 (no rule fires)\n")
+
+    def test_what_is_read_otherwise_than_written_is_said(self):
+        rules = self.file("tip.fis", (EXAMPLES / "tip.fis").read_text().replace("NumRules=4", "NumRules=7"))
+        says = f"whisker: {rules}:8:10: NumRules is 7, but the file has 4, and all are read\n"
+        for command, *arguments in (["compile", "--json"], ["show"], ["evaluate", "service=1", "food=1"]):
+            done = whisker.whisker("rules", command, rules, *arguments)
+            same = whisker.whisker("rules", command, EXAMPLES / "tip.fis", *arguments)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, same.stdout, says))
 
     def test_evaluate_refuses_wrong_inputs(self):
         self.file("tip.fis", (EXAMPLES / "tip.fis").read_text())

@@ -63,6 +63,16 @@ TEST(Compile, LooksUpWhatTheCoreLooksUp) {
   }
 }
 
+TEST(Compile, NamesEveryRuleThatNeverFires) {
+  const std::string fis =
+      "[System]\nType='mamdani'\nAndMethod='min'\nOrMethod='max'\nImpMethod='min'\nAggMethod='max'\n"
+      "DefuzzMethod='centroid'\n[Input1]\nName='x'\nRange=[0 1]\nMF1='m':'linsmf',[0 "
+      "1]\nMF2='far':'trimf',[5 6 7]\n"
+      "[Output1]\nName='y'\nRange=[0 4]\nMF1='a':'trimf',[0 1 2]\nMF2='b':'trimf',[1 2 3]\n[Rules]\n"
+      "1, 1 (1) : 1\n2, 2 (1) : 1\n1, 1 (1) : 1\n2, 2 (1) : 1\n";
+  EXPECT_EQ(compile(parse_rules(fis, "t.fis"), {}).never, (std::vector<std::size_t>{1, 3}));
+}
+
 TEST(Compile, NeedsTwoNodesWhereTheLawIsAStraightLine) {
   const Compiled c =
       compiled(line_of(R"([["a", 0.0], ["b", 8.0]])", R"([["p", 1.0], ["q", 3.0]])", R"(["p", "q"])"));

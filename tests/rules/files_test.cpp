@@ -1,12 +1,18 @@
 // The examples agree with fuzzylite, and errors name their place.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "host/harness/scenario/reader.hpp"
+#include "host/lab/rules/inference.hpp"
 #include "host/lab/rules/read.hpp"
+#include "host/lab/rules/rule_text.hpp"
 #include "tests/rules/oracle.hpp"
 
 namespace whisker::rules {
@@ -72,13 +78,56 @@ TEST(Errors, NameThePlaceInAFisFile) {
   error("ImpMethod='min'", "ImpMethod='einstein'",
         "11:12: implication 'einstein' cannot be compiled; only min and prod");
   error("DefuzzMethod='centroid'", "DefuzzMethod='wtaver'", "13:15: 'wtaver' does not fit a mamdani system");
-  error("NumRules=4", "NumRules=5", "8:10: the file has 4 rules, not 5");
   error("1 0, 1 (1) : 1", "4 0, 1 (1) : 1", "39:1: 'service' has no term 4");
-  error("1 0, 1 (1) : 1", "1.30 0, 1 (1) : 1",
-        "39:1: this hedge has no agreed meaning; only .05, .20 and .40");
+  error("1 0, 1 (1) : 1", "1.25 0, 1 (1) : 1",
+        "39:1: this hedge cannot be compiled; only .05, .20, .30 and .40");
+  error("1 0, 1 (1) : 1", "1 0, 1.20 (1) : 1", "39:6: a hedge in a conclusion cannot be compiled");
   error("1 0, 1 (1) : 1", "1, 1 (1) : 1", "39:1: the rule names 1 inputs, but the file has 2");
   error("1 0, 1 (1) : 1", "1 0, 1 (2) : 1", "39:9: a weight must be from 0 to 1");
   error("[Rules]", "[Rule]", "38:2: unknown section [Rule]");
+}
+
+TEST(Fis, HedgesByNumberArePowers) {
+  const std::string text = replaced(text_of("tip.fis"), "1 0, 1 (1) : 1", "1.30 0, 1 (1) : 1");
+  const std::vector<Hedge> hedges = parse_rules(text, "tip.fis").rules[0].antecedent[0].hedges;
+  EXPECT_DOUBLE_EQ(hedged(0.5, hedges), 0.125);
+}
+
+TEST(Warnings, AreOfNumbersThatDifferFromTheFile) {
+  const std::string tip = text_of("tip.fis");
+  const RuleBase plain = parse_rules(tip, "tip.fis");
+  EXPECT_THAT(plain.warnings, testing::IsEmpty());
+  const auto warnings = [&](const char* from, const char* to) {
+    const RuleBase base = parse_rules(replaced(tip, from, to), "tip.fis");
+    EXPECT_EQ(Inference(base)({6.5, 8}).front().value, Inference(plain)({6.5, 8}).front().value) << to;
+    return base.warnings;
+  };
+  const auto is = [](const char* text) { return testing::ElementsAre(std::string("tip.fis:") + text); };
+  EXPECT_THAT(warnings("NumRules=4", "NumRules=5"),
+              is("8:10: NumRules is 5, but the file has 4, and all are read"));
+  EXPECT_THAT(warnings("NumMFs=3", "NumMFs=2"),
+              is("18:8: NumMFs is 2, but the file has 3, and all are read"));
+  EXPECT_THAT(warnings("'trimf',[2 5 8]", "'trimf',[2 5 8 9]"),
+              is("20:27: 'trimf' has 3 parameters; those after them are not read"));
+  EXPECT_THAT(warnings("'trimf',[2 5 8]", "'trimf',[2 5 8 0]"), testing::IsEmpty()) << "padded";
+}
+
+TEST(Errors, NameARangeThatIsMissing) {
+  const std::string tip = text_of("tip.fis");
+  expect_error("tip.fis", replaced(tip, "Range=[0 10]\n", ""), "tip.fis:16:7: 'service' has no range");
+  expect_error("tip.fis", replaced(tip, "Range=[0 10]", "Range=[0 0]"),
+               "tip.fis:16:7: 'service': the range must be finite and not empty");
+  expect_error("p.fll", replaced(text_of("pendulum.fll"), "  range: -30 30\n", ""),
+               "p.fll:3:16: 'angle' has no range");
+}
+
+TEST(Fll, ABinarySetMayPointToInfinity) {
+  const std::string pendulum = text_of("pendulum.fll");
+  for (const char* direction : {"inf", "-inf"}) {
+    const std::string text =
+        replaced(pendulum, "term: Z Triangle -10 0 10", std::string("term: Z Binary 5 ") + direction);
+    EXPECT_EQ(parse_rules(text, "p.fll").inputs[0].terms[2].set(6), *direction == '-' ? 0 : 1) << direction;
+  }
 }
 
 TEST(Errors, NameThePlaceInAFllFile) {
@@ -116,6 +165,86 @@ TEST(Errors, NameThePlaceInAFclFile) {
   error("END_FUNCTION_BLOCK", "", "51:1: the file ends where a section or END_FUNCTION_BLOCK is expected");
   error("trend IS NOT rising", "trend IS NOT rissing",
         "41:46: 'trend' has no term 'rissing'; did you mean 'rising'?");
+}
+
+/// An FCL file of one input x and one output y, from 0 to 10 each.
+std::string fcl(const std::string& head, const std::string& x, const std::string& y,
+                const std::string& rules) {
+  return "FUNCTION_BLOCK" + head + "\nVAR_INPUT x : REAL; END_VAR VAR_OUTPUT y : REAL; END_VAR\nFUZZIFY x " +
+         x + " RANGE := (0 .. 10); END_FUZZIFY\nDEFUZZIFY y " + y +
+         " RANGE := (0 .. 10); DEFAULT := 0; END_DEFUZZIFY\n" + rules + "\nEND_FUNCTION_BLOCK\n";
+}
+const std::string kFclX = "TERM lo := (0, 1) (10, 0); TERM hi := (0, 0) (10, 1);";
+const std::string kFclY = "TERM off := 0; TERM on := 100; METHOD : COGS;";
+const std::string kFclRules =
+    "RULEBLOCK r AND : MIN; RULE 1 : IF x IS lo THEN y IS on; RULE 2 : IF x IS hi THEN y IS off; "
+    "END_RULEBLOCK";
+double fcl_answer(const std::string& text, double x) {
+  return Inference(parse_rules(text, "f.fcl"))({x}).front().value;
+}
+
+TEST(Fcl, IsReadInEveryDialect) {
+  const auto same = [&](const std::string& text) { EXPECT_NEAR(fcl_answer(text, 3), 70, 1e-9) << text; };
+  same(fcl(" f", kFclX, kFclY, kFclRules));
+  same(fcl("", kFclX, kFclY, kFclRules));
+  same(fcl(" f", kFclX, replaced(kFclY, "COGS", "CoGs"), kFclRules));
+  same(fcl(" f", kFclX, kFclY, replaced(kFclRules, "AND : MIN;", "AND : min; ACT : Prod; ACCU : max;")));
+  same(fcl(" f", kFclX, kFclY, replaced(kFclRules, "AND : MIN;", "OR : asum;")));
+  same(fcl(" f", kFclX, kFclY, replaced(kFclRules, "IF x IS lo THEN", "IF x IS lo\r\n    THEN\n")));
+  same(fcl(" f", kFclX, kFclY, replaced(kFclRules, "IF x IS lo", "IF NOT (x IS hi OR x IS hi)")));
+  same(fcl(" f", kFclX, kFclY, replaced(kFclRules, "IF x IS lo", "IF NOT NOT (NOT x IS hi)")));
+}
+
+TEST(Rules, MayHaveAByteOrderMarkAndCrlf) {
+  for (const char* name : {"tip.fis", "pendulum.fll", "fan.fcl", "thesis.toml"}) {
+    std::string text = text_of(name);
+    for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+    const std::string file = testing::TempDir() + "whisker_crlf_" + name;
+    std::ofstream(file, std::ios::binary) << "\xEF\xBB\xBF" << text;
+    EXPECT_EQ(read_rules(file).rules.size(), parse_rules(text_of(name), name).rules.size()) << name;
+    std::filesystem::remove(file);
+  }
+}
+
+TEST(Fcl, NotOfAPartIsOneLessItsDegree) {
+  const std::string text =
+      fcl(" f", kFclX, kFclY, replaced(kFclRules, "IF x IS lo", "IF NOT (x IS lo AND x IS hi)"));
+  const RuleBase base = parse_rules(text, "f.fcl");
+  EXPECT_NEAR(fcl_answer(text, 3), 100 * 0.7 / (0.7 + 0.3), 1e-9);
+  EXPECT_EQ(words(base, base.rules[0]), "if not (x is lo and x is hi) then y is on");
+}
+
+TEST(Fcl, HasTheShapesOfJFuzzyLogic) {
+  const auto degree = [&](const std::string& shape, double x) {
+    return parse_rules(fcl(" f", kFclX + " TERM t := " + shape + ";", kFclY, kFclRules), "f.fcl")
+        .inputs[0]
+        .terms[2]
+        .set(x);
+  };
+  EXPECT_NEAR(degree("COSINE 2 5", 6), 0.5, 1e-12) << "half of the width, centre";
+  EXPECT_EQ(degree("cosine 2 5", 7.5), 0);
+  EXPECT_NEAR(degree("Cosine 2 5", 3.25), 0.5, 1e-12) << "fuzzylite's: centre, width";
+  EXPECT_NEAR(degree("GAUSS2 4 1 6 2", 8), std::exp(-0.5), 1e-12);
+  EXPECT_EQ(degree("GAUSS2 4 1 6 2", 5), 1);
+  EXPECT_NEAR(degree("DSIGM 8 2 6 7", 2), 0.5, 1e-12);
+  EXPECT_EQ(degree("TRIANGLE 1 2 3", 2), 1);
+  expect_error(
+      "f.fcl", fcl(" f", kFclX, "TERM off := SINGLETONS (1, 1);" + kFclY.substr(15), kFclRules),
+      "f.fcl:4:25: SINGLETONS cannot be compiled; write one number, or points such as (0, 0) (1, 1)");
+}
+
+TEST(Fcl, HasNoRangeOfTermsInOnePlace) {
+  std::string text = fcl(" f", "TERM lo := (4, 1); TERM hi := (4, 1);", kFclY, kFclRules);
+  text = replaced(text, " RANGE := (0 .. 10)", "");
+  expect_error("f.fcl", replaced(text, "; END_FUZZIFY", " END_FUZZIFY"),
+               "f.fcl:2:11: 'x' has no RANGE, and its terms span none");
+}
+
+TEST(Conditions, ThatNestTooDeepAreRefusedAtTheirEnd) {
+  expect_error(
+      "f.fcl",
+      fcl(" f", kFclX, kFclY, replaced(kFclRules, "IF x IS lo THEN y IS on", "IF " + std::string(18, '('))),
+      "f.fcl:5:53: the condition is nested too deep");
 }
 
 TEST(Errors, NameThePlaceInATomlFile) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "host/harness/scenario/error.hpp"
 #include "host/lab/rules/read.hpp"
 
 namespace whisker::rules {
@@ -99,6 +100,59 @@ TEST(Inference, NegatesAConclusion) {
   // The complement of a triangle over the whole range [0, 4]: area 4 - 1, moment 8 - 1.
   EXPECT_NEAR(at(mamdani("centroid", "max", "min", "MF1='a':'trimf',[0 1 2]\n", "2, -1 (1) : 1\n"), 1),
               7.0 / 3, 1e-12);
+}
+
+TEST(Inference, TakesPointsAloneAsSingletons) {
+  const std::string points = "MF1='a':'trimf',[1 1 1]\nMF2='b':'trapmf',[3 3 3 3]\n";
+  const std::string fis =
+      mamdani("centroid", "max", "min", points, "1, 1 (1) : 1\n1, 1 (1) : 1\n2, 2 (1) : 1\n");
+  for (const double s : {0.5, 1.0}) EXPECT_NEAR(at(fis, s), (s * 1 + 1 * 3) / (s + 1), 1e-12) << s;
+  EXPECT_EQ(parse_rules(fis, "t.fis").warnings.size(), 1U);
+}
+
+TEST(Inference, RefusesOtherSetsWithoutArea) {
+  const auto refused = [](const std::string& fis) {
+    try {
+      parse_rules(fis, "t.fis");
+      return std::string();
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+  };
+  const std::string mixed = "MF1='a':'trimf',[1 1 1]\nMF2='b':'trimf',[1 2 3]\n";
+  EXPECT_EQ(refused(mamdani("centroid", "max", "min", mixed, "1, 1 (1) : 1\n")),
+            "t.fis:16:6: 'a' of 'y' has no area from 0 to 4, so it changes no answer");
+  EXPECT_EQ(refused(mamdani("centroid", "max", "min", mixed, "1, 2 (1) : 1\n")), "") << "not concluded";
+  EXPECT_EQ(refused(mamdani("centroid", "max", "min", mixed, "1, -1 (1) : 1\n")), "") << "its complement has";
+  EXPECT_NE(refused(mamdani("mom", "max", "min", "MF1='a':'trimf',[1 1 1]\n", "1, 1 (1) : 1\n")), "");
+  EXPECT_NE(refused(mamdani("centroid", "max", "min", "MF1='a':'trimf',[5 6 7]\n", "1, 1 (1) : 1\n")), "")
+      << "outside the range";
+}
+
+TEST(Inference, CountsEqualRulesWhereTheyCount) {
+  // A second term with the same set makes two rules that are not equal, and answer the same.
+  const std::string sets = kTwo + "MF3='c':'trimf',[0 1 2]\n";
+  const std::string equal = "1, 1 (1) : 1\n1, 1 (1) : 1\n2, 2 (1) : 1\n";
+  const std::string other = "1, 1 (1) : 1\n1, 3 (1) : 1\n2, 2 (1) : 1\n";
+  for (const char* method : {"centroid", "bisector", "mom"}) {
+    for (const char* sum : {"max", "sum", "probor", "bounded_sum"}) {
+      for (const char* implication : {"min", "prod"}) {
+        SCOPED_TRACE(std::string(method) + " " + sum + " " + implication);
+        for (const double s : {0.2, 0.9})
+          EXPECT_NEAR(at(mamdani(method, sum, implication, sets, equal), s),
+                      at(mamdani(method, sum, implication, sets, other), s), 1e-9);
+      }
+    }
+  }
+  const RuleBase base = parse_rules(mamdani("centroid", "sum", "min", sets, equal), "t.fis");
+  EXPECT_EQ(Inference(base).same_as(1), 0U) << "computed once";
+  const std::string sugeno =
+      "[System]\nType='sugeno'\nAndMethod='prod'\nOrMethod='probor'\nDefuzzMethod='wtaver'\n[Input1]\nName='"
+      "x'\n"
+      "Range=[0 1]\nMF1='m':'linsmf',[0 1]\nMF2='one':'trapmf',[-1 -1 2 2]\n[Output1]\nName='y'\nRange=[0 "
+      "1]\n"
+      "MF1='a':'constant',[1]\nMF2='b':'constant',[2]\n[Rules]\n";
+  EXPECT_NEAR(at(sugeno + equal, 0.9), (2 * 0.9 * 1 + 1 * 2) / (2 * 0.9 + 1), 1e-12);
 }
 
 TEST(Inference, AnswersTheMiddleOfTheRangeIfNoRuleFires) {

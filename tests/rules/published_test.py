@@ -24,7 +24,7 @@ SOURCES = (
     f"https://snapshot.debian.org/archive/debian/20250520T000000Z/pool/main/f/fuzzylite/{PACKAGE}",
 )
 SHA256 = "31c871149f63143cd8f25dafcb945cebc56ddd4ba711a020a41b34fa7df643a3"
-FILES, COMPILED = 78, 38
+FILES, COMPILED = 78, 39
 PATIENCE_S = 60
 
 

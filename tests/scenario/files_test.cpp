@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <sstream>
 #include <string>
 
+#include "host/harness/scenario/csv.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/scenario/nesting.hpp"
 #include "host/harness/scenario/text.hpp"
@@ -151,6 +153,54 @@ TEST(Nesting, OfSmallFilesIsLeftToTheParser) {
   accepts("x = '" + many("a.[{\\", 1000) + "'\n");
   accepts("x = \"\"\"" + many("a.[{\n", 1000) + "\"\"\"\n");
   accepts(many("[not closed\n", 1000));
+}
+
+TEST(ScenarioFile, InUtf16IsRefusedByItsName) {
+  const TemporaryFile file(std::string("\xFF\xFE[\0", 4));
+  EXPECT_EQ(message_for(file.path()), file.path() + ":1:1: the text is UTF-16; save it as UTF-8");
+}
+
+/// The numbers of the columns a and b, row by row, or what is wrong.
+std::string numbers_of(const std::string& text) {
+  std::istringstream in(text);
+  try {
+    CsvReader csv(in, "x.csv");
+    const std::size_t a = csv.need("a"), b = csv.need("b");
+    std::string all;
+    while (csv.next()) {
+      const double first = csv.number(a);
+      all += toml_number(first) + " " + toml_number(csv.number(b)) + " ";
+    }
+    return all;
+  } catch (const InputError& e) {
+    return e.what();
+  }
+}
+
+TEST(Csv, IsReadAsSpreadsheetsWriteIt) {
+  for (const char* text : {"a,b\n0.5,-1e3\n",
+                           "\xEF\xBB\xBF"
+                           "a,b\r\n0.5,-1e3\r\n",
+                           "a;b\n0,5;-1000\n", "a;b\n0.5;-1000\n", " b , note, a \n-1000,  x, 0.5 \n",
+                           "\"a\",\"b\"\n\"0,5\",-1000\n", "a,b\n\n  \n0.5,-1000"}) {
+    EXPECT_EQ(numbers_of(text), "0.5 -1000.0 ") << text;
+  }
+}
+
+TEST(Csv, NamesThePlaceOfWhatIsWrong) {
+  EXPECT_EQ(numbers_of(""), "x.csv:1:1: the file is empty");
+  EXPECT_EQ(numbers_of("\xFE\xFF"), "x.csv:1:1: the text is UTF-16; save it as UTF-8");
+  EXPECT_EQ(numbers_of("a;c\n"), "x.csv:1:1: no column 'b' in the header");
+  EXPECT_EQ(numbers_of("a,b\n\n0,5,1\n"), "x.csv:3:1: 3 fields; the header has 2");
+  EXPECT_EQ(numbers_of("a,b\n1,nan\n"), "x.csv:2:2: 'nan' is no number");
+  EXPECT_EQ(numbers_of("a,b\n-inf,1\n"), "x.csv:2:1: '-inf' is no number");
+  EXPECT_EQ(numbers_of("a,b\n1,1e10\n"), "x.csv:2:2: '1e10' must be from -1e+09 to 1e+09");
+  EXPECT_EQ(numbers_of("a;b\n1.234,5;1\n"), "x.csv:2:1: '1.234,5' is no number");
+  EXPECT_EQ(numbers_of("a;b\n0,5;1.234\n"),
+            "x.csv:2:2: '1.234': other numbers of this file have ',' before their decimals");
+  EXPECT_EQ(numbers_of("a,b\n" + std::string(70000, '1')), "x.csv:2:1: a line of more than 65536 bytes");
+  std::ifstream folder("/tmp");
+  EXPECT_EQ(message_of<InputError>([&] { CsvReader(folder, "/tmp"); }), "/tmp:1:1: cannot read the file");
 }
 
 TEST(TomlNumber, IsTheShortestFloatThatReadsBack) {

@@ -210,6 +210,19 @@ TEST(RobotFile, WhoseBodyTouchesAtTheStartIsRefusedForThatScenario) {
   EXPECT_EQ(s.robot.body.radius, 90_mm);
 }
 
+TEST(RobotFile, IsTheRobotThatStartAndGoalAreJudgedWith) {
+  const TemporaryFile small("body_radius_m = 0.05\nwheel_track_m = 0.08\ndrive_tolerance_m = 0.001\n");
+  const std::string tight =
+      std::string(kLeast) + "tolerance_m = 0.002\n[[disc]]\ncenter = [0.38, 0]\nradius_m = 0.3\n";
+  EXPECT_THAT(message_of<InputError>([&] { parse_scenario(tight, "text"); }),
+              HasSubstr("text:2:1: the start is in contact with disc 1"));
+  EXPECT_EQ(parse_scenario(tight, "text", small.path()).robot.body.radius, 50_mm);
+  EXPECT_THAT(message_of<InputError>([&] {
+                parse_scenario(tight + "[bounds]\nmin = [1, 1]\nmax = [2, 2]\n", "text", small.path());
+              }),
+              HasSubstr("text:2:1: the start lies outside the bounds"));
+}
+
 /// The extreme values of every parameter, as text, in a scenario's [robot].
 struct Ends {
   std::vector<std::pair<std::string, std::string>> lines;

@@ -104,7 +104,13 @@ TEST(SensorModel, OfARobotFileReplacesTheSensorAndKeepsTheSurroundings) {
   EXPECT_EQ(s.sensor.skew_deg, 2);
 }
 
+TEST(SensorModel, IsFoundHoweverItsNameIsWritten) {
+  EXPECT_EQ(with("model = \"HC-SR04\"\n").sensor.model, "hc-sr04");
+}
+
 TEST(SensorModel, AnUnknownNameIsRefusedWithTheNearest) {
+  EXPECT_EQ(refusal("model = \"VL53L2X\"\n"),
+            "text:9:9: unknown sensor model 'VL53L2X'; did you mean 'vl53l0x'?");
   EXPECT_EQ(refusal("model = \"hcsr04\"\n"),
             "text:9:9: unknown sensor model 'hcsr04'; did you mean 'hc-sr04'?");
   EXPECT_EQ(refusal("model = \"vl53l2x\"\n"),

@@ -1,13 +1,17 @@
-/// Logs in the format of `candump -L`: (seconds.micros) interface ID#DATA, one line per frame.
+/// Logs in the format of `candump -L`: (seconds.micros) interface ID#DATA, one line per frame. Other logs of
+/// candump and of python-can are read, too.
 #pragma once
 
 #include <cstdint>
 #include <cstdio>
+#include <istream>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "hal/can_port.hpp"
+#include "host/harness/scenario/csv.hpp"
 
 namespace whisker::hil {
 
@@ -15,12 +19,34 @@ struct LogFrame {
   std::uint64_t time_us = 0;
   std::string interface;
   hal::CanFrame frame{};
+  const char* foreign = nullptr;  ///< what the frame is, if not one that a robot's bus can have
 };
 
 /// Without a newline.
 std::string log_line(const LogFrame& entry);
-/// std::nullopt: not a line of a log. Error frames and CAN FD frames are not accepted.
+/// std::nullopt: not a line of a log. Also reads `candump` without -L, with -8, -e and -x.
 std::optional<LogFrame> parse_log_line(std::string_view line);
+
+/// The frames of a log that a robot's bus can have: data of classic CAN with 11 bits.
+class LogReader {
+ public:
+  /// `name` is the name of the file in messages.
+  LogReader(std::istream& in, const std::string& name) : lines_(in, name) {}
+
+  /// False at the end. Throws InputError for a line that is not from a log; only the last one may be
+  /// truncated, as a terminated recorder leaves it.
+  bool next(LogFrame& frame);
+  std::size_t line() const { return lines_.number(); }
+  /// Number of the last line if it is truncated and therefore ignored. 0: it is complete.
+  std::size_t cut() const { return cut_; }
+  /// How many frames of other kinds there were: "error", "CAN FD", "remote", "29-bit".
+  std::map<std::string, std::uint64_t>& skipped() { return skipped_; }
+
+ private:
+  LineReader lines_;
+  std::size_t cut_ = 0;
+  std::map<std::string, std::uint64_t> skipped_;
+};
 
 /// Writes received frames to a log, complete lines only, so that a failed run leaves a usable log.
 class Recorder {

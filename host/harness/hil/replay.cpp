@@ -277,7 +277,7 @@ class Replay {
 
 }  // namespace
 
-ReplayResult replay(std::istream& log, const ReplayOptions& options) {
+ReplayResult replay(std::istream& log, const std::string& name, const ReplayOptions& options) {
   Replay replay(options);
   Judge judge(options.robot);
   std::vector<std::pair<LogFrame, std::uint64_t>> first;  // before it is judged
@@ -288,28 +288,23 @@ ReplayResult replay(std::istream& log, const ReplayOptions& options) {
     for (const auto& [entry, number] : first) replay.on_frame(entry, number);
     first.clear();
   };
-  std::string line;
-  std::uint64_t cut = 0;
-  for (std::uint64_t number = 1; std::getline(log, line); ++number) {
-    if (line.empty()) continue;
-    if (const auto entry = parse_log_line(line)) {
-      if (judged) {
-        replay.on_frame(*entry, number);
-      } else {
-        first.emplace_back(*entry, number);
-        if (judge.see(entry->frame)) begin();
-      }
-      continue;
+  LogReader reader(log, name);
+  LogFrame entry;
+  while (reader.next(entry)) {
+    MessageKind kind = MessageKind::e_stop;
+    if (!can::kind_of(entry.frame.id, kind)) {
+      ++reader.skipped()["other"];
+    } else if (judged) {
+      replay.on_frame(entry, reader.line());
+    } else {
+      first.emplace_back(entry, reader.line());
+      if (judge.see(entry.frame)) begin();
     }
-    const bool unfinished = log.eof() && line.front() == '(';
-    if (!unfinished) {
-      throw std::runtime_error(fmt::format("line {}: not a frame as candump -L writes it", number));
-    }
-    cut = number;
   }
   if (!judged) begin();
   ReplayResult result = replay.result();
-  result.cut = cut;
+  result.cut = reader.cut();
+  result.skipped = reader.skipped();
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <istream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,22 +34,22 @@ struct ReplayResult {
   std::uint64_t frames = 0;   ///< valid frames of this robot
   std::uint64_t damaged = 0;  ///< of this robot, with a wrong length or CRC
   std::uint64_t missions = 0;
-  std::uint64_t steps = 0;           ///< of the core
-  std::uint64_t compared = 0;        ///< commands and states that the log contains
-  std::uint64_t unknown = 0;         ///< answers to sets that are incomplete in the log
-  std::uint64_t missing = 0;         ///< steps whose answers, or GuardStatus, are not in the log
-  PlannerKind planner;               ///< with the response table that drove last
-  std::shared_ptr<HostRules> rules;  ///< owns that table
-  std::uint64_t hash = 0;            ///< FNV-1a 64 over the wheel commands of all steps
-  std::string difference;            ///< the first one, with its line; "": none
-  std::uint64_t cut =
-      0;  ///< number of the last line if it is truncated and therefore ignored. 0: it is complete
+  std::uint64_t steps = 0;                       ///< of the core
+  std::uint64_t compared = 0;                    ///< commands and states that the log contains
+  std::uint64_t unknown = 0;                     ///< answers to sets that are incomplete in the log
+  std::uint64_t missing = 0;                     ///< steps whose answers, or GuardStatus, are not in the log
+  PlannerKind planner;                           ///< with the response table that drove last
+  std::shared_ptr<HostRules> rules;              ///< owns that table
+  std::uint64_t hash = 0;                        ///< FNV-1a 64 over the wheel commands of all steps
+  std::string difference;                        ///< the first one, with its line; "": none
+  std::uint64_t cut = 0;                         ///< as LogReader::cut()
+  std::map<std::string, std::uint64_t> skipped;  ///< as LogReader::skipped(), and "other" identifiers
 };
 
 /// Feeds the recorded inputs to the core and compares its outputs with the recorded ones; of a guard node,
 /// the commands alone, and `stepped` is not called. The log of a guard node has a GuardStatus before the
-/// first mission. Throws std::runtime_error "line N: ..." for a line that is not from a candump log; only the
-/// last line may be truncated, as a terminated recorder leaves it.
-ReplayResult replay(std::istream& log, const ReplayOptions& options);
+/// first mission. `name` is the name of the log in messages. Throws as LogReader, and std::runtime_error for
+/// what cannot be replayed.
+ReplayResult replay(std::istream& log, const std::string& name, const ReplayOptions& options);
 
 }  // namespace whisker::hil

@@ -33,8 +33,7 @@ void check_mover(const TableReader& table, const Mover& mover) {
                 fmt::format("'center' must lie on the mover's path, but is {:.4f} m off", off_path(mover)));
 }
 
-void check_places(const TableReader& start, const Scenario& s) {
-  if (s.bounds && !is_within(s.start.at, *s.bounds)) start.fail("the start lies outside the bounds");
+void check_start(const TableReader& start, const Scenario& s) {
   const std::string fault = start_fault(s);
   if (!fault.empty()) start.fail(fault);
 }

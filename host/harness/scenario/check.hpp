@@ -12,8 +12,8 @@ namespace whisker {
 void check_bounds(const TableReader& table, const Bounds& bounds);
 void check_polygon(const TableReader& table, const std::vector<sim::Vec2>& points);
 void check_mover(const TableReader& table, const Mover& mover);
-/// The start lies within the bounds, and nothing is in contact there.
-void check_places(const TableReader& start, const Scenario& scenario);
+/// Nothing is in contact at the start.
+void check_start(const TableReader& start, const Scenario& scenario);
 void check_goal(const TableReader& goal, const Scenario& scenario);
 /// Why this robot cannot keep the goal's tolerance; "" if it can.
 std::string tolerance_fault(const Scenario& scenario);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -12,12 +13,14 @@
 #include "host/harness/scenario/bearing.hpp"
 #include "host/harness/scenario/check.hpp"
 #include "host/harness/scenario/contact.hpp"
+#include "host/harness/scenario/csv.hpp"
 #include "host/harness/scenario/events.hpp"
 #include "host/harness/scenario/noise.hpp"
 #include "host/harness/scenario/params_text.hpp"
 #include "host/harness/scenario/reader.hpp"
 #include "host/harness/scenario/robot.hpp"
 #include "host/harness/scenario/sensor_text.hpp"
+#include "host/harness/scenario/shapes.hpp"
 
 namespace whisker {
 namespace {
@@ -63,9 +66,23 @@ void read_obstacles(const TableReader& top, Scenario& s) {
   }
 }
 
+/// A file of one kind in the other's place: without this, its first key would be unknown.
+void refuse_robot_file(const toml::table& root, const std::string& file) {
+  const std::vector<std::string_view> keys = robot_keys();
+  const bool parameters = std::any_of(keys.begin(), keys.end(), [&](auto key) { return root.contains(key); });
+  if (root.contains("start") || root.contains("goal")) return;
+  if (parameters || root.contains("robot") || root.contains("sensor"))
+    throw InputError(file, 1, 1, "this is a robot file, not a scenario; give it with --robot");
+}
+void refuse_scenario(const toml::table& root, const std::string& file) {
+  if (root.contains("start") && root.contains("goal"))
+    throw InputError(file, 1, 1, "this is a scenario, not a robot file");
+}
+
 /// A robot file: parameters at its top level or in [robot], [sensor] and [noise].
 void read_robot_file(const std::string& file, Params& params, Sensor& sensor, Noise& noise) {
   const toml::table root = parse_toml(read_file(file), file);
+  refuse_scenario(root, file);
   std::vector<std::string_view> known = robot_keys();
   known.insert(known.end(), {"robot", "sensor", "noise"});
   const TableReader top(file, root, "", known);
@@ -96,11 +113,12 @@ std::string read_file(const std::string& file) {
   if (std::ferror(stream.get()) != 0) {
     throw InputError(file, 1, 1, fmt::format("cannot read the file: {}", std::strerror(errno)));
   }
-  return text;
+  return std::string(without_mark(text, file));
 }
 
-Scenario parse_scenario(std::string_view text, const std::string& name) {
+Scenario parse_scenario(std::string_view text, const std::string& name, const std::string& robot_file) {
   const toml::table root = parse_toml(text, name);
+  refuse_robot_file(root, name);
   const TableReader top(name, root, "",
                         {"name", "seed", "time_limit_s", "start", "goal", "bounds", "disc", "polygon", "wall",
                          "mover", "noise", "sensor", "robot", "event"});
@@ -123,12 +141,20 @@ Scenario parse_scenario(std::string_view text, const std::string& name) {
     check_robot(robot, s.robot);
   }
   s.events = read_events(top);
-  check_places(start, s);
-  check_goal(goal, s);
+  if (s.bounds && !is_within(s.start.at, *s.bounds)) start.fail("the start lies outside the bounds");
+  // The rest of start and goal is judged with the robot that drives.
+  if (!robot_file.empty()) {
+    apply_robot_file(s, robot_file);
+  } else {
+    check_start(start, s);
+    check_goal(goal, s);
+  }
   return s;
 }
 
-Scenario load_scenario(const std::string& file) { return parse_scenario(read_file(file), file); }
+Scenario load_scenario(const std::string& file, const std::string& robot_file) {
+  return parse_scenario(read_file(file), file, robot_file);
+}
 
 void apply_robot_file(Params& params, Sensor& sensor, const std::string& file) {
   Params changed = params;

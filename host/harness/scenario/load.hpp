@@ -9,10 +9,11 @@
 
 namespace whisker {
 
-/// Files of at most 16 MiB, UTF-8.
-Scenario load_scenario(const std::string& file);
+/// Files of at most 16 MiB, UTF-8. A robot file, if named, changes the scenario's robot as apply_robot_file()
+/// does; start and goal are judged with the result.
+Scenario load_scenario(const std::string& file, const std::string& robot_file = {});
 /// `name` is the name of the file in messages.
-Scenario parse_scenario(std::string_view text, const std::string& name);
+Scenario parse_scenario(std::string_view text, const std::string& name, const std::string& robot_file = {});
 
 /// Sets the parameters that a robot file contains (at its top level, or in [robot]) and keeps the others. On
 /// an error, the parameters are unchanged. Its [sensor] and [noise], if any, are only checked.

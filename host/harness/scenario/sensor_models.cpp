@@ -179,7 +179,9 @@ std::vector<std::string_view> sensor_model_names() {
   return names;
 }
 
-const SensorModel* find_sensor_model(std::string_view name) {
+const SensorModel* find_sensor_model(std::string_view spelt) {
+  const std::string lower = lower_case(spelt);
+  std::string_view name = lower;
   for (const auto& a : kAliases) {
     if (name == a.alias) name = a.name;
   }

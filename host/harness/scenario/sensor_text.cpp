@@ -64,7 +64,7 @@ void read_model(const TableReader& table, Sensor& s) {
   const SensorModel* model = find_sensor_model(name);
   if (model == nullptr) {
     const std::vector<std::string_view> names = sensor_model_names();
-    const std::string_view near = nearest_word(name, names);
+    const std::string_view near = nearest_word(lower_case(name), names);
     table.fail_at("model", fmt::format("unknown sensor model '{}'; {}", name,
                                        near.empty() ? "it must be " + join_or(names)
                                                     : fmt::format("did you mean '{}'?", near)));

@@ -17,6 +17,11 @@ std::string toml_string(std::string_view text);
 /// The known word most similar to a misspelt one; empty if none is close.
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& known);
 
+std::string lower_case(std::string_view text);
+
+/// Without the blanks around it.
+std::string_view trimmed(std::string_view text);
+
 /// "a, b or c".
 std::string join_or(const std::vector<std::string_view>& words);
 

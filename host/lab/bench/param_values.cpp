@@ -22,12 +22,6 @@ std::string with_unit(const std::string& number, const ParamEntry& e) {
   return *e.unit.symbol == 0 ? number : fmt::format("{} {}", number, e.unit.symbol);
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
-
 std::int64_t choice_of(std::size_t place, std::string_view text) {
   if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
   const std::vector<std::string> words = words_of(place);

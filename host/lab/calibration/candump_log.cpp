@@ -28,8 +28,7 @@ class Listener {
 
   void on_frame(const hal::CanFrame& frame) {
     MessageKind kind = MessageKind::e_stop;
-    if (frame.extended || frame.remote || !can::kind_of(frame.id, kind) || kind == MessageKind::e_stop)
-      return;
+    if (!can::kind_of(frame.id, kind) || kind == MessageKind::e_stop) return;
     const auto node = static_cast<std::uint8_t>(frame.id & 0x0F);
     const int robot = node - can::kBaseOffset;
     const bool whole = frame.size == can::head_of(kind).size &&
@@ -105,16 +104,9 @@ class Listener {
 
 Log read_candump(std::istream& in, const std::string& name, const Params& params, int robot) {
   Listener listener(params, robot);
-  std::string line;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
-    if (line.empty()) continue;
-    const auto entry = hil::parse_log_line(line);
-    if (entry) listener.on_frame(entry->frame);
-    // A recorder that was terminated leaves the last line unfinished.
-    if (!entry && !(in.eof() && line.front() == '(')) {
-      throw InputError(name, number, 1, "not a frame as candump -L writes it");
-    }
-  }
+  hil::LogReader reader(in, name);
+  hil::LogFrame entry;
+  while (reader.next(entry)) listener.on_frame(entry.frame);
   if (listener.sweep()[0].empty()) {
     throw InputError(name, 1, 1,
                      robot == 0 ? std::string("no input sets of a robot's base")
@@ -126,9 +118,12 @@ Log read_candump(std::istream& in, const std::string& name, const Params& params
 Log read_log(const std::string& file, const Params& params, int robot) {
   std::ifstream in(file);
   if (!in) throw InputError(file, 1, 1, fmt::format("cannot open the file: {}", std::strerror(errno)));
-  const int first = in.peek();
-  if (first == std::ifstream::traits_type::eof()) throw InputError(file, 1, 1, "the file is empty");
-  return first == '(' ? read_candump(in, file, params, robot) : read_trace(in, file, params);
+  LineReader lines(in, file);
+  if (!lines.next()) throw InputError(file, 1, 1, "the file is empty");
+  const bool candump = hil::parse_log_line(lines.line()) || lines.line().substr(0, 1) == "(";
+  in.clear();
+  in.seekg(0);
+  return candump ? read_candump(in, file, params, robot) : read_trace(in, file, params);
 }
 
 }  // namespace whisker::calibration

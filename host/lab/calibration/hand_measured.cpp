@@ -1,13 +1,11 @@
 #include "host/lab/calibration/hand_measured.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <string_view>
 
 #include <fmt/format.h>
 
-#include "host/harness/scenario/error.hpp"
+#include "host/harness/scenario/csv.hpp"
 
 namespace whisker::calibration {
 namespace {
@@ -21,88 +19,6 @@ Ratio ratio_of(double x) {
 std::int32_t times(std::int32_t value, double factor) {
   return static_cast<std::int32_t>(std::lround(value * factor));
 }
-
-std::vector<std::string_view> split(std::string_view line) {
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  std::vector<std::string_view> all;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    all.push_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return all;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-/// Places of the columns; -1: there is none.
-struct Columns {
-  int side = -1, x = -1, y = -1, believed_x = -1, believed_y = -1;
-  std::size_t count = 0;
-};
-
-class EndsReader {
- public:
-  EndsReader(std::istream& in, const std::string& name) : in_(in), name_(name) {}
-
-  std::vector<SquareEnd> ends() {
-    std::string line;
-    ++line_;
-    if (!std::getline(in_, line)) fail(0, "the file is empty");
-    header(split(line));
-    std::vector<SquareEnd> all;
-    while (++line_, std::getline(in_, line)) {
-      if (line.empty() || line == "\r") continue;
-      const auto fields = split(line);
-      if (fields.size() != columns_.count) {
-        fail(0, fmt::format("{} fields; the header has {}", fields.size(), columns_.count));
-      }
-      all.push_back(row(fields));
-    }
-    return all;
-  }
-
- private:
-  [[noreturn]] void fail(int column, const std::string& what) const {
-    throw InputError(name_, line_, static_cast<std::size_t>(column) + 1, what);
-  }
-
-  void header(const std::vector<std::string_view>& names) {
-    const auto find = [&](std::string_view name) {
-      const auto at = std::find(names.begin(), names.end(), name);
-      return at == names.end() ? -1 : static_cast<int>(at - names.begin());
-    };
-    columns_ = {find("side"),         find("x_m"),          find("y_m"),
-                find("believed_x_m"), find("believed_y_m"), names.size()};
-    if (columns_.side < 0) fail(0, "no column 'side' in the header");
-    if (columns_.x < 0) fail(0, "no column 'x_m' in the header");
-    if (columns_.y < 0) fail(0, "no column 'y_m' in the header");
-  }
-
-  double metres(const std::vector<std::string_view>& fields, int column) const {
-    if (column < 0) return 0;
-    const std::string_view field = fields[static_cast<std::size_t>(column)];
-    double value = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value)) {
-      fail(column, fmt::format("'{}' is no number", field));
-    }
-    if (std::abs(value) > kMostMetres) fail(column, fmt::format("{} m: at most {}", field, kMostMetres));
-    return value;
-  }
-
-  SquareEnd row(const std::vector<std::string_view>& fields) const {
-    const std::string_view side = fields[static_cast<std::size_t>(columns_.side)];
-    if (side != "left" && side != "right") {
-      fail(columns_.side, fmt::format("'{}': the side is left or right", side));
-    }
-    return {side == "left", metres(fields, columns_.x), metres(fields, columns_.y),
-            metres(fields, columns_.believed_x), metres(fields, columns_.believed_y)};
-  }
-
-  std::istream& in_;
-  const std::string& name_;
-  std::size_t line_ = 0;
-  Columns columns_;
-};
 
 }  // namespace
 
@@ -118,7 +34,24 @@ Umbmark take_squares(const std::vector<SquareEnd>& ends, double side_m, double s
 }
 
 std::vector<SquareEnd> read_square_ends(std::istream& in, const std::string& name) {
-  return EndsReader(in, name).ends();
+  CsvReader csv(in, name);
+  const std::size_t side = csv.need("side"), x = csv.need("x_m"), y = csv.need("y_m");
+  const std::size_t believed_x = csv.find("believed_x_m"), believed_y = csv.find("believed_y_m");
+  const auto metres = [&](std::size_t column) {
+    if (column == CsvReader::kNone) return 0.0;
+    const double value = csv.number(column);
+    if (std::abs(value) > kMostMetres)
+      csv.fail(column, fmt::format("{} m: at most {}", csv.text(column), kMostMetres));
+    return value;
+  };
+  std::vector<SquareEnd> all;
+  while (csv.next()) {
+    const std::string& word = csv.text(side);
+    if (word != "left" && word != "right")
+      csv.fail(side, fmt::format("'{}': the side is left or right", word));
+    all.push_back({word == "left", metres(x), metres(y), metres(believed_x), metres(believed_y)});
+  }
+  return all;
 }
 
 std::vector<std::string> robot_lines(const Values& values) {

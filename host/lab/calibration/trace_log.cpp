@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "host/harness/scenario/bearing.hpp"
+#include "host/harness/scenario/csv.hpp"
 #include "host/harness/scenario/error.hpp"
 #include "host/lab/calibration/log.hpp"
 
@@ -17,17 +16,6 @@ namespace {
 
 constexpr double kRounding = 0.00006;  // m, of four decimals
 
-std::vector<std::string_view> fields_of(std::string_view line) {
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  std::vector<std::string_view> all;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    all.push_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return all;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 struct Row {
   double t_s = 0;
   double heading_rad = 0;
@@ -35,94 +23,34 @@ struct Row {
   std::array<std::optional<double>, hal::kBeams> metres;  ///< none: an empty field
 };
 
-class Reader {
- public:
-  Reader(std::istream& in, std::string name) : in_(in), name_(std::move(name)) {}
-
-  std::vector<Row> rows() {
-    std::string line;
-    if (!next(line)) fail(0, "is empty");
-    header(fields_of(line));
-    std::vector<Row> all;
-    while (next(line)) {
-      if (line.empty() || line == "\r") continue;
-      const auto fields = fields_of(line);
-      if (fields.size() != columns_) {
-        fail(0, fmt::format("{} fields; the header has {}", fields.size(), columns_));
-      }
-      if (all.empty() && heading_ != plain_heading_ && fields[heading_].empty()) heading_ = plain_heading_;
-      all.push_back(row(fields));
-      if (all.size() > 1 && all.back().t_s <= all[all.size() - 2].t_s) fail(time_, "t_s does not rise");
-    }
-    return all;
-  }
-
- private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-  bool next(std::string& line) {
-    ++line_;
-    return static_cast<bool>(std::getline(in_, line));
-  }
-  [[noreturn]] void fail(std::size_t column, const std::string& what) const {
-    throw InputError(name_, line_, column + 1, what);
-  }
-
-  static std::size_t find(const std::vector<std::string_view>& names, std::string_view name) {
-    const auto at = std::find(names.begin(), names.end(), name);
-    return at == names.end() ? kNone : static_cast<std::size_t>(at - names.begin());
-  }
-  std::size_t need(const std::vector<std::string_view>& names, std::string_view name) const {
-    const std::size_t at = find(names, name);
-    if (at == kNone) fail(0, fmt::format("no column '{}' in the header of a trace", name));
-    return at;
-  }
-
-  void header(const std::vector<std::string_view>& names) {
-    columns_ = names.size();
-    time_ = need(names, "t_s");
-    heading_ = find(names, "est_heading_rad");
-    plain_heading_ = find(names, "heading_rad");
-    if (heading_ == kNone) heading_ = need(names, "heading_rad");
-    if (plain_heading_ == kNone) plain_heading_ = heading_;
-    x_ = find(names, "est_x_m");
-    y_ = find(names, "est_y_m");
-    beams_ = {need(names, "left_m"), need(names, "front_m"), need(names, "right_m")};
-  }
-
-  double number(const std::vector<std::string_view>& fields, std::size_t column) const {
-    const std::string_view text = fields[column];
-    double x = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (error != std::errc{} || end != text.data() + text.size() || !(std::fabs(x) < 1e9)) {
-      fail(column, fmt::format("'{}' is no number", text));
-    }
-    return x;
-  }
-
-  Row row(const std::vector<std::string_view>& fields) const {
+std::vector<Row> read_rows(std::istream& in, const std::string& name) {
+  CsvReader csv(in, name);
+  const std::size_t time = csv.need("t_s"), plain = csv.find("heading_rad");
+  std::size_t heading = csv.find("est_heading_rad");
+  if (heading == CsvReader::kNone) heading = csv.need("heading_rad");
+  const std::size_t x = csv.find("est_x_m"), y = csv.find("est_y_m");
+  const std::array<std::size_t, hal::kBeams> beams{csv.need("left_m"), csv.need("front_m"),
+                                                   csv.need("right_m")};
+  std::vector<Row> all;
+  while (csv.next()) {
+    if (all.empty() && plain != CsvReader::kNone && csv.text(heading).empty()) heading = plain;
     Row r;
-    r.t_s = number(fields, time_);
-    r.heading_rad = number(fields, heading_);
-    if (x_ != kNone && y_ != kNone && !fields[x_].empty()) {
-      r.x_m = number(fields, x_);
-      r.y_m = number(fields, y_);
+    r.t_s = csv.number(time);
+    r.heading_rad = csv.number(heading);
+    if (x != CsvReader::kNone && y != CsvReader::kNone && !csv.text(x).empty()) {
+      r.x_m = csv.number(x);
+      r.y_m = csv.number(y);
     }
-    for (std::size_t i = 0; i < r.metres.size(); ++i) {
-      if (fields[beams_[i]].empty()) continue;
-      r.metres[i] = number(fields, beams_[i]);
-      if (*r.metres[i] < 0) fail(beams_[i], "a distance below 0");
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+      if (csv.text(beams[i]).empty()) continue;
+      r.metres[i] = csv.number(beams[i]);
+      if (*r.metres[i] < 0) csv.fail(beams[i], "a distance below 0");
     }
-    return r;
+    if (!all.empty() && r.t_s <= all.back().t_s) csv.fail(time, "t_s does not rise");
+    all.push_back(r);
   }
-
-  std::istream& in_;
-  std::string name_;
-  std::size_t line_ = 0;
-  std::size_t columns_ = 0, time_ = 0, heading_ = 0, plain_heading_ = 0;
-  std::size_t x_ = kNone, y_ = kNone;
-  std::array<std::size_t, hal::kBeams> beams_{};
-};
+  return all;
+}
 
 /// The heading at a time, between the rows.
 double heading_at(const std::vector<Row>& rows, double t_s) {
@@ -159,7 +87,7 @@ Sample sample(const Row& row, std::size_t beam_index, double heading, const Beli
 }  // namespace
 
 Log read_trace(std::istream& in, const std::string& name, const Params& params) {
-  std::vector<Row> rows = Reader(in, name).rows();
+  std::vector<Row> rows = read_rows(in, name);
   if (rows.size() < 2) throw InputError(name, 1, 1, "a trace without rows");
   unwind(rows);
   const Believed beams[hal::kBeams] = {believed(params, 0), believed(params, 1), believed(params, 2)};

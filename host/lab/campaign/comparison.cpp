@@ -36,12 +36,14 @@ Estimate geometric_mean(const std::vector<double>& logs) {
 Comparison compare(const std::vector<Pair>& pairs) {
   Comparison c;
   c.worlds = pairs.size();
-  std::uint64_t a = 0, b = 0;
+  std::uint64_t a = 0, b = 0, there_a = 0, there_b = 0;
   std::vector<double> time, path, jerk, stops, flips, clearance;
   for (const Pair& pair : pairs) {
     const bool good_a = succeeded(pair.a), good_b = succeeded(pair.b);
     a += good_a;
     b += good_b;
+    there_a += truly_there(pair.a);
+    there_b += truly_there(pair.b);
     c.only_a += good_a && !good_b;
     c.only_b += good_b && !good_a;
     c.contacts_a += pair.a.verdict == Verdict::contact;
@@ -59,6 +61,8 @@ Comparison compare(const std::vector<Pair>& pairs) {
     stops.push_back(more(pair.b.stops, pair.a.stops));
     flips.push_back(more(pair.b.flips, pair.a.flips));
   }
+  c.there_a = share(there_a, c.worlds);
+  c.there_b = share(there_b, c.worlds);
   c.success_a = share(a, c.worlds);
   c.success_b = share(b, c.worlds);
   c.time = geometric(time);

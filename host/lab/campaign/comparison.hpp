@@ -18,8 +18,9 @@ struct Pair {
 };
 
 struct Comparison {
-  std::uint64_t worlds = 0;  ///< at least 1
-  Estimate success_a, success_b;
+  std::uint64_t worlds = 0;                      ///< at least 1
+  Estimate there_a, there_b;                     ///< truly at the goal
+  Estimate success_a, success_b;                 ///< right by the robot's own estimate
   std::uint64_t only_a = 0, only_b = 0;          ///< worlds in which one alone succeeds
   std::uint64_t contacts_a = 0, contacts_b = 0;  ///< missions that end in one
   std::uint64_t both = 0;                        ///< both report "reached"; the rest counts these worlds only

@@ -40,7 +40,7 @@ std::string replay_command(const Row& row) {
                             ? fmt::format("whisker run {} --seed {}", shell_word(row.world), row.seed)
                             : fmt::format("whisker campaign {} --replay {}", row.world, row.seed);
   command += " --planner " + shell_word(row.planner);
-  if (!row.robot.empty()) command += " --robot " + shell_word(row.robot);
+  if (!row.robot.empty() && !has_random_robots(row.world)) command += " --robot " + shell_word(row.robot);
   return command + " --svg " + shell_word(stem(row) + ".svg");
 }
 

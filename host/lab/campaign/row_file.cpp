@@ -1,5 +1,6 @@
 #include "host/lab/campaign/row_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -21,6 +22,7 @@
 
 #include <fmt/format.h>
 
+#include "host/harness/scenario/csv.hpp"
 #include "host/harness/scenario/error.hpp"
 #include "host/lab/campaign/worlds.hpp"
 #include "host/lab/report/result.hpp"
@@ -44,14 +46,16 @@ std::string quoted(const std::string& text) {
 /// Reads one unquoted field after the other; errors name the column.
 class Fields {
  public:
-  explicit Fields(std::string_view line) : rest_(line) {}
+  explicit Fields(std::string_view line, char separator = ',') : rest_(line), separator_(separator) {}
+
+  bool ended() const { return ended_; }
 
   std::string text(const char* column) {
     if (ended_) throw std::invalid_argument(fmt::format("no column {}", column));
     std::string field;
     bool quotes = false;
     std::size_t i = 0;
-    for (; i < rest_.size() && (quotes || rest_[i] != ','); ++i) {
+    for (; i < rest_.size() && (quotes || rest_[i] != separator_); ++i) {
       const bool doubled = quotes && rest_.substr(i, 2) == "\"\"";
       if (rest_[i] != '"' || doubled) field += rest_[i];
       if (doubled) {
@@ -103,6 +107,7 @@ class Fields {
 
  private:
   std::string_view rest_;
+  char separator_;
   bool ended_ = false;
 };
 
@@ -160,10 +165,46 @@ struct Found {
 };
 using Rows = std::map<Key, Found>;
 
-void add(Rows& rows, const std::string& file, std::size_t number, const std::string& line, RowFormat format) {
+std::optional<RowFormat> format_of(std::string header) {
+  std::replace(header.begin(), header.end(), ';', ',');
+  for (const RowFormat format : {RowFormat::judged, RowFormat::believed}) {
+    if (header == row_header(format)) return format;
+  }
+  return std::nullopt;
+}
+
+/// Of a spreadsheet: 0,5 for 0.500000.
+std::string six_decimals(std::string text) {
+  std::replace(text.begin(), text.end(), ',', '.');
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value, std::chars_format::fixed);
+  return error == std::errc{} && stop == end ? number(value) : text;
+}
+
+/// The row as campaign writes it, of one that a spreadsheet has saved.
+std::string as_written(std::string_view line, char separator, RowFormat format) {
+  Fields fields(line, separator);
+  Fields columns(row_header(format));
+  std::string row;
+  while (!columns.ended()) {
+    const std::string column = columns.text("");
+    const std::string field = fields.text(column.c_str());
+    const auto ends = [&](std::string_view end) {
+      return column.size() >= end.size() && column.substr(column.size() - end.size()) == end;
+    };
+    const bool measured = column == "ratio" || ends("_m") || ends("_s") || ends("_rad");
+    row += (row.empty() ? "" : ",") + quoted(measured ? six_decimals(field) : field);
+  }
+  if (!fields.ended()) throw std::invalid_argument(kNoSuchRow);
+  return row;
+}
+
+void add(Rows& rows, const std::string& file, std::size_t number, const std::string& line, char separator,
+         RowFormat format) {
   Row row;
   try {
-    row = parse_row(line, format);
+    row = parse_row(as_written(line, separator, format), format);
   } catch (const std::invalid_argument& e) {
     throw InputError(file, number, 1, e.what());
   }
@@ -176,32 +217,23 @@ void add(Rows& rows, const std::string& file, std::size_t number, const std::str
   }
 }
 
-std::optional<RowFormat> format_of(const std::string& header) {
-  for (const RowFormat format : {RowFormat::judged, RowFormat::believed}) {
-    if (header == row_header(format)) return format;
-  }
-  return std::nullopt;
-}
-
 void add_file(Rows& rows, const std::string& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file, 1, 1, std::generic_category().message(errno));
-  std::string line;
-  std::size_t number = 0;
+  LineReader lines(in, file);
   RowFormat format{};
-  while (std::getline(in, line)) {
-    ++number;
-    if (in.eof()) throw InputError(file, number, 1, "the last line is cut off: it has no end of line");
-    if (const auto header = format_of(line)) {
+  char separator = ',';
+  while (lines.next()) {
+    if (lines.cut()) lines.fail(1, "the last line is cut off: it has no end of line");
+    if (const auto header = format_of(lines.line())) {
       format = *header;
+      separator = lines.line().find(';') == std::string::npos ? ',' : ';';
       continue;
     }
-    if (number == 1)
-      throw InputError(file, 1, 1, fmt::format("not the header of a campaign: {}", kRowHeader));
-    add(rows, file, number, line, format);
+    if (lines.number() == 1) lines.fail(1, fmt::format("not the header of a campaign: {}", kRowHeader));
+    add(rows, file, lines.number(), lines.line(), separator, format);
   }
-  if (in.bad()) throw InputError(file, number + 1, 1, "cannot be read");
-  if (number == 0) throw InputError(file, 1, 1, "empty: not even the header of a campaign");
+  if (lines.number() == 1) throw InputError(file, 1, 1, "empty: not even the header of a campaign");
 }
 
 }  // namespace

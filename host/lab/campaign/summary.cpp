@@ -161,7 +161,7 @@ std::string summary_words(const Summary& s) {
       fmt::format("{} missions, {}, planner {}, seeds {} to {}; 95 % bounds beside each figure\n", s.missions,
                   joined(s.worlds), joined(s.planners), s.least_seed, s.greatest_seed);
   text += percent_line("truly there", s.truly_there);
-  text += percent_line("success", s.success);
+  text += percent_line("right by estimate", s.success);
   text += percent_line("says reached", s.reached);
   text += percent_line("  but off the goal", s.off_goal);
   text += percent_line("unreachable", s.unreachable);

@@ -39,7 +39,9 @@ bool has_random_robots(std::string_view world) {
          world.substr(world.size() - kRandomRobots.size()) == kRandomRobots;
 }
 
-Files load_folder(const std::string& folder) {
+std::string random_robot_name(std::uint64_t seed) { return fmt::format("random {}", seed); }
+
+Files load_folder(const std::string& folder, const std::string& robot_file) {
   Files files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().string();
@@ -51,7 +53,7 @@ Files load_folder(const std::string& folder) {
     if (has_control_characters(name)) {
       throw std::invalid_argument(fmt::format("{}: a file's name has control characters in it", folder));
     }
-    files.scenarios.push_back(load_scenario(name));
+    files.scenarios.push_back(load_scenario(name, robot_file));
     files.scenarios.back().events.clear();
   }
   return files;

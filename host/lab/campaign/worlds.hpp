@@ -38,10 +38,13 @@ std::string arguments(worlds::Kind kind, const worlds::Options& options);
 /// Follows the arguments in the name of a world for random robots.
 constexpr std::string_view kRandomRobots = " --robots random";
 bool has_random_robots(std::string_view world);
+/// "random 7": the robot that this seed draws, which `whisker campaign KIND --robots random --replay 7`
+/// drives.
+std::string random_robot_name(std::uint64_t seed);
 
-/// Every *.toml of the folder in order of name. Throws InputError for an invalid one, std::invalid_argument
-/// if there is none or a name contains control characters.
-Files load_folder(const std::string& folder);
+/// Every *.toml of the folder in order of name, with the robot of load_scenario(). Throws InputError for an
+/// invalid one, std::invalid_argument if there is none or a name contains control characters.
+Files load_folder(const std::string& folder, const std::string& robot_file = {});
 
 struct Mission {
   std::uint64_t seed = 0;

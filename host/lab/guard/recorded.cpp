@@ -4,46 +4,28 @@
 #include <fstream>
 #include <iostream>
 #include <limits>
-#include <sstream>
 #include <utility>
 
+#include "host/harness/scenario/csv.hpp"
 #include "host/harness/scenario/error.hpp"
 
 namespace whisker::guard {
 namespace {
 
-constexpr const char* kHeader = "t_s,v_mps,omega_radps";
 constexpr double kNever = std::numeric_limits<double>::infinity();
-
-Command parse(const std::string& line, const std::string& name, std::size_t number) {
-  std::istringstream in(line);
-  in.imbue(std::locale::classic());
-  Command c;
-  char first = 0, second = 0;
-  in >> c.t_s >> first >> c.twist.forward_mps >> second >> c.twist.turning_radps;
-  std::string rest;
-  if (!in || first != ',' || second != ',' || in >> rest) {
-    throw InputError(name, number, 1, std::string("a row has three numbers: ") + kHeader);
-  }
-  if (c.t_s < 0) throw InputError(name, number, 1, "t_s must not be negative");
-  return c;
-}
 
 }  // namespace
 
 std::vector<Command> read_commands(std::istream& in, const std::string& name) {
+  CsvReader csv(in, name);
+  const std::size_t t_s = csv.need("t_s"), v_mps = csv.need("v_mps"), omega_radps = csv.need("omega_radps");
   std::vector<Command> commands;
-  std::string line;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (number == 1) {
-      if (line != kHeader) throw InputError(name, 1, 1, std::string("the first line must be ") + kHeader);
-      continue;
-    }
-    commands.push_back(parse(line, name, number));
-    if (commands.size() > 1 && commands.back().t_s < commands[commands.size() - 2].t_s) {
-      throw InputError(name, number, 1, "t_s must not be less than in the row before");
-    }
+  while (csv.next()) {
+    const Command c{csv.number(t_s), {csv.number(v_mps), csv.number(omega_radps)}};
+    if (c.t_s < 0) csv.fail(t_s, "t_s must not be negative");
+    if (!commands.empty() && c.t_s < commands.back().t_s)
+      csv.fail(t_s, "t_s must not be less than in the row before");
+    commands.push_back(c);
   }
   if (commands.empty()) throw InputError(name, 1, 1, "no commands");
   return commands;

@@ -1,4 +1,4 @@
-/// Commands from a file: a header `t_s,v_mps,omega_radps`, then a row per command.
+/// Commands from a CSV file with the columns t_s, v_mps and omega_radps, a row per command.
 #pragma once
 
 #include <cstddef>

@@ -66,7 +66,7 @@ std::string differs_on_bus(const Scenario& scenario, PlannerKind planner, std::u
     if (driven(scenario, planner, log) != hash) return "other_hash bus";
     hil::ReplayOptions options;
     options.planner = planner;
-    const hil::ReplayResult again = hil::replay(log, options);
+    const hil::ReplayResult again = hil::replay(log, "the log of the bus", options);
     // What the base commands without a controller is not replayed.
     const bool alike = !scenario.events.empty() || again.hash == hash;
     return again.difference.empty() && alike ? "" : "other_hash replay";

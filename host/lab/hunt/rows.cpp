@@ -12,6 +12,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "host/harness/scenario/csv.hpp"
 #include "host/harness/scenario/error.hpp"
 
 namespace whisker::hunt {
@@ -66,15 +67,15 @@ Row row_of(const std::vector<std::string>& w) {
 void read(const std::string& file, std::vector<Row>& rows) {
   std::ifstream in(file);
   if (!in) throw InputError(file, 1, 1, "cannot be read");
-  std::string line;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
-    const std::vector<std::string> words = split(line);
+  LineReader lines(in, file);
+  while (lines.next()) {
+    const std::vector<std::string> words = split(lines.line());
     // The last row of a killed hunt has no newline.
-    if (line == kColumnNames || words.size() != kColumns || in.eof()) continue;
+    if (lines.line() == kColumnNames || words.size() != kColumns || lines.cut()) continue;
     try {
       rows.push_back(row_of(words));
     } catch (const std::logic_error&) {
-      throw InputError(file, number, 1, "not a row of a hunt");
+      lines.fail(1, "not a row of a hunt");
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "host/lab/report/svg.hpp"
 #include "host/lab/report/units.hpp"
@@ -32,6 +33,45 @@ const char* opening(Verdict verdict) noexcept {
   return "?";
 }
 
+/// What the scenario has that contradicts the robot's belief, with the parameter to change if one helps.
+std::vector<std::string> causes_of_doubt(const Scenario& s) {
+  const RangefinderParams& believed = s.robot.rangefinders;
+  std::vector<std::string> all;
+  if (!s.movers.empty()) all.emplace_back("things that move");
+  const double incidence_deg = degrees(believed.incidence), cone_deg = degrees(believed.cone);
+  if (s.sensor.incidence_deg < incidence_deg) {
+    Params fits = s.robot;
+    fits.rangefinders.incidence =
+        Angle::turns(static_cast<std::int32_t>(std::lround(s.sensor.incidence_deg * 1000)), 360000);
+    all.push_back(fmt::format("walls vanish beyond {:g} degrees, and range_incidence_deg is {:g} ({})",
+                              s.sensor.incidence_deg, incidence_deg,
+                              check(fits) == ParamFault::none
+                                  ? fmt::format("set {:g}", s.sensor.incidence_deg)
+                                  : "other angles fit, see whisker robot layout"));
+  }
+  if (s.sensor.cone_deg && *s.sensor.cone_deg < cone_deg - 0.01)
+    all.push_back(fmt::format("the cones are {:g} degrees wide, and range_cone_deg is {:g}",
+                              *s.sensor.cone_deg, cone_deg));
+  if (s.sensor.max_range_m && *s.sensor.max_range_m < metres(believed.max_range))
+    all.push_back(fmt::format("the sensors see up to {:g} m, and range_max_m is {:g}", *s.sensor.max_range_m,
+                              metres(believed.max_range)));
+  if (s.sensor.skew_deg != 0)
+    all.push_back(fmt::format("the side beams point {:g} degrees farther out than range_*_angle_deg",
+                              s.sensor.skew_deg));
+  if (s.sensor.scale != 1) all.push_back(fmt::format("distances are {:g} times as long", s.sensor.scale));
+  if (s.sensor.crosstalk > 0) all.emplace_back("crosstalk");
+  if (s.sensor.phantom > 0)
+    all.emplace_back("phantoms at 0.1 to 0.5 m (a range_clear_m below their distance keeps them out)");
+  if (s.sensor.cover_glass_probability > 0) all.emplace_back("echoes of the cover glass");
+  if (s.sensor.soft > 0 || s.sensor.reflectance < 1 || s.sensor.ambient_klux > 0)
+    all.emplace_back("obstacles that absorb, or light");
+  if (s.noise.range_false_clear > 0) all.emplace_back("false clear readings");
+  if (all.empty() && incidence_deg < 90)
+    all.push_back(
+        fmt::format("walls beyond {:g} degrees give no echo, as range_incidence_deg says", incidence_deg));
+  return all;
+}
+
 }  // namespace
 
 const char* outcome(Verdict verdict) noexcept {
@@ -52,30 +92,19 @@ double contradictions_per_m(const RangeTrust& ranges) {
 
 double share(std::uint16_t part) { return part / 65536.0; }
 
-std::string range_warning(const RangeTrust& ranges) {
+std::string range_warning(const RangeTrust& ranges, const Scenario& s) {
   if (ranges.level == RangeLevel::trusted) return "";
-  const std::string level = fmt::format("the ranges are {}: ", name(ranges.level));
   const double phantoms = share(ranges.phantoms);
   const double false_clears = share(ranges.false_clears);
-  if (std::max(phantoms, false_clears) >= 0.2) {
-    const bool near = phantoms > false_clears;
-    return level + fmt::format("{:.0f} % {}; check the sensors{}", 100 * std::max(phantoms, false_clears),
-                               near ? "phantoms" : "false clear readings",
-                               near ? ", or set range_clear_m below the distance of the phantoms" : "");
-  }
-  const std::string rate = fmt::format("{:.1f} contradictions per metre", contradictions_per_m(ranges));
-  const int seen = ranges.incidence_deg;
-  if (seen > 0 && seen < 55) {
-    return level + fmt::format(
-                       "{}, and walls are seen up to {} degrees only; set range_incidence_deg = {} if the "
-                       "sensors lose "
-                       "oblique walls, else check which sensor is which",
-                       rate, seen, seen);
-  }
-  return level + fmt::format(
-                     "{}; check range_*_angle_deg, range_*_cone_deg, range_incidence_deg and which sensor is "
-                     "which",
-                     rate);
+  const double most = std::max(phantoms, false_clears);
+  std::string figure = fmt::format("{:.1f} contradictions per metre", contradictions_per_m(ranges));
+  if (most >= 0.2)
+    figure =
+        fmt::format("{:.0f} % {}", 100 * most, phantoms > false_clears ? "phantoms" : "false clear readings");
+  std::string causes;
+  for (const std::string& cause : causes_of_doubt(s)) causes += (causes.empty() ? "" : ", ") + cause;
+  if (causes.empty()) causes = "none in the parameters, which agree with the sensors";
+  return fmt::format("the ranges are {}: {}; what may cause it: {}", name(ranges.level), figure, causes);
 }
 
 std::string result_json(const RunResult& result, const std::string& bus, const char* said) {

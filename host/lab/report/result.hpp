@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/harness/run/record.hpp"
+#include "host/harness/scenario/scenario.hpp"
 
 namespace whisker::report {
 
@@ -20,8 +21,9 @@ std::string result_json(const RunResult& result, const std::string& bus = "", co
 /// The figures of RangeTrust in the units of the JSON object.
 double contradictions_per_m(const RangeTrust& ranges);
 double share(std::uint16_t part);
-/// What is wrong with the rangefinders, its figure and the parameter to change; "" while they are trusted.
-std::string range_warning(const RangeTrust& ranges);
+/// What is wrong with the rangefinders, its figure, and what in the scenario may cause it; "" while they are
+/// trusted.
+std::string range_warning(const RangeTrust& ranges, const Scenario& scenario);
 
 /// ", within 0.08 m (2 sigma)" after a verdict that the goal is reached, and whether that is more than the
 /// tolerance of the goal; "" without a bound.

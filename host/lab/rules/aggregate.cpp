@@ -130,13 +130,13 @@ void visit_part(const Cell& cell, double a, double b, Or aggregation, const std:
 
 void visit_cell(const Cell& cell, Or aggregation, const std::vector<Activated>& activated,
                 const std::function<void(const Piece&)>& visit) {
-  std::vector<Shaped> all;
+  std::vector<std::pair<Shaped, double>> all;
   std::vector<double> cuts;
   for (const Activated& a : activated) {
     Shaped s;
     if (!shape(cell, a, s)) continue;
     if (s.cut) cuts.push_back(limit_root(s));
-    all.push_back(s);
+    all.emplace_back(s, a.times);
   }
   if (all.empty()) return;
   std::sort(cuts.begin(), cuts.end());
@@ -145,7 +145,7 @@ void visit_cell(const Cell& cell, Or aggregation, const std::vector<Activated>& 
   for (const double to : cuts) {
     if (to - from <= 1e-16) continue;
     std::vector<Polynomial> parts;
-    for (const Shaped& s : all) parts.push_back(clipped(s, (from + to) / 2));
+    for (const auto& [s, times] : all) parts.push_back(scaled(clipped(s, (from + to) / 2), times));
     visit_part(cell, from, to, aggregation, parts, visit);
     from = to;
   }
@@ -261,7 +261,12 @@ Moments moments(const Canvas& canvas, Or aggregation, const std::vector<Activate
     if (aggregation == Or::maximum) {
       if (!add_single(cell, activated, m)) maximum_pieces(cell, activated, scratch, count);
     } else if (adds_up(cell, aggregation, activated)) {
-      for (const Activated& a : activated) add_whole(cell, a, m);
+      for (const Activated& a : activated) {
+        Moments one;
+        add_whole(cell, a, one);
+        m.area += a.times * one.area;
+        m.moment += a.times * one.moment;
+      }
     } else {
       visit_cell(cell, aggregation, activated, count);
     }

@@ -16,6 +16,7 @@ struct Activated {
   std::size_t set = 0;
   bool product = false;  ///< of the implication; else minimum
   double strength = 0;   ///< above zero
+  double times = 1;      ///< equal ones that a sum counts
 };
 
 /// factor * p from t = a to t = b of a cell.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "host/lab/rules/fcl_tokens.hpp"
@@ -18,6 +19,9 @@ struct Accumulation {
   std::vector<std::size_t> rules;
 };
 
+constexpr std::string_view kSections[] = {"var_input", "var_output", "fuzzify",
+                                          "defuzzify", "ruleblock",  "end_function_block"};
+
 class FclReader {
  public:
   explicit FclReader(const Source& source) : source_(source), tokens_(source) {}
@@ -25,7 +29,9 @@ class FclReader {
   RuleBase run() {
     base_.file = source_.file();
     tokens_.expect("function_block");
-    base_.name = tokens_.next("a name").text;
+    const std::string first = lower_case(tokens_.peek().text);
+    const auto* const end = std::end(kSections);
+    if (std::find(std::begin(kSections), end, first) == end) base_.name = tokens_.next("a name").text;
     while (!tokens_.take("end_function_block")) section();
     if (!tokens_.ended()) source_.fail(tokens_.peek(), "only one function block can be compiled");
     accumulate();
@@ -36,7 +42,7 @@ class FclReader {
  private:
   void section() {
     const Word word = tokens_.next("a section or END_FUNCTION_BLOCK");
-    const std::string name = lower(word.text);
+    const std::string name = lower_case(word.text);
     if (name == "var_input") {
       declare(base_.inputs, "input");
     } else if (name == "var_output") {
@@ -62,7 +68,7 @@ class FclReader {
         Variable v;
         v.name = name.text;
         v.place = source_.place(name.at);
-        v.low = v.high = 0;
+        v.low = v.high = kNoRange;
         all.push_back(v);
       } while (tokens_.take(","));
       tokens_.expect(":");
@@ -81,7 +87,7 @@ class FclReader {
     Input& input = named(base_.inputs, "input");
     while (!tokens_.take("end_fuzzify")) {
       const Word word = tokens_.next("END_FUZZIFY");
-      const std::string key = lower(word.text);
+      const std::string key = lower_case(word.text);
       if (key == "term") {
         term(input.terms, -1);
       } else if (key == "range") {
@@ -92,7 +98,7 @@ class FclReader {
         source_.fail(word, fmt::format("'{}' cannot be compiled in FUZZIFY", word.text));
       }
     }
-    if (!(input.low < input.high)) widen(input);
+    if (std::isnan(input.low)) widen(input);
   }
 
   void defuzzify() {
@@ -101,7 +107,7 @@ class FclReader {
     bool method = false;
     while (!tokens_.take("end_defuzzify")) {
       const Word word = tokens_.next("END_DEFUZZIFY");
-      const std::string key = lower(word.text);
+      const std::string key = lower_case(word.text);
       if (key == "term") {
         term(output.terms, static_cast<long>(base_.inputs.size()));
       } else if (key == "range") {
@@ -120,7 +126,7 @@ class FclReader {
       } else if (key == "lock") {
         tokens_.expect(":");
         const Word what = tokens_.next("RANGE");
-        if (lower(what.text) != "range")
+        if (lower_case(what.text) != "range")
           source_.fail(what, "an output that keeps its previous value cannot be compiled");
         output.clamp = true;
         tokens_.expect(";");
@@ -129,7 +135,7 @@ class FclReader {
       }
     }
     if (!method) source_.fail(output.place, fmt::format("'{}' has no METHOD", output.name));
-    if (!(output.low < output.high)) widen(output);
+    if (std::isnan(output.low)) widen(output);
     output.merge_terms = output.defuzzifier == Defuzzifier::weighted_average;
   }
 
@@ -146,6 +152,8 @@ class FclReader {
     v.high = *std::max_element(all.begin(), all.end());
     const bool crisp = v.terms.front().crisp;
     if (crisp && v.low == v.high) v.high = v.low + 1;
+    if (v.low == v.high)
+      source_.fail(v.place, fmt::format("'{}' has no RANGE, and its terms span none", v.name));
   }
 
   void range(double& low, double& high) {
@@ -161,8 +169,8 @@ class FclReader {
   void silent(Output& output) {
     tokens_.expect(":=");
     const Word value = tokens_.next("a number or NC");
-    const bool keeps = lower(value.text) == "nc";
-    if (!keeps && lower(value.text) != "nan") {
+    const bool keeps = lower_case(value.text) == "nc";
+    if (!keeps && lower_case(value.text) != "nan") {
       output.silent = Silent::value;
       output.silent_value = source_.number(value);
     }
@@ -176,21 +184,21 @@ class FclReader {
 
   Defuzzifier method(const Word& word) {
     static const std::map<std::string, Defuzzifier> kAll = {
-        {"COG", Defuzzifier::centroid},      {"COA", Defuzzifier::bisector},
-        {"LM", Defuzzifier::first_maximum},  {"RM", Defuzzifier::last_maximum},
-        {"MM", Defuzzifier::mean_of_maxima}, {"COGS", Defuzzifier::weighted_average},
-        {"COGSS", Defuzzifier::weighted_sum}};
-    const auto found = kAll.find(std::string(word.text));
+        {"cog", Defuzzifier::centroid},      {"coa", Defuzzifier::bisector},
+        {"lm", Defuzzifier::first_maximum},  {"rm", Defuzzifier::last_maximum},
+        {"mm", Defuzzifier::mean_of_maxima}, {"cogs", Defuzzifier::weighted_average},
+        {"cogss", Defuzzifier::weighted_sum}};
+    const auto found = kAll.find(lower_case(word.text));
     if (found == kAll.end()) source_.fail(word, fmt::format("METHOD '{}' cannot be compiled", word.text));
     return found->second;
   }
 
   /// A normalized sum divides the whole set by its greatest value, which changes no defuzzified value.
   Or accumulation(const Word& word) {
-    static const std::map<std::string, Or> kAll = {{"MAX", Or::maximum},      {"ASUM", Or::probabilistic_sum},
-                                                   {"BSUM", Or::bounded_sum}, {"NSUM", Or::sum},
-                                                   {"ESUM", Or::einstein},    {"HSUM", Or::hamacher}};
-    const auto found = kAll.find(std::string(word.text));
+    static const std::map<std::string, Or> kAll = {{"max", Or::maximum},      {"asum", Or::probabilistic_sum},
+                                                   {"bsum", Or::bounded_sum}, {"nsum", Or::sum},
+                                                   {"esum", Or::einstein},    {"hsum", Or::hamacher}};
+    const auto found = kAll.find(lower_case(word.text));
     if (found == kAll.end()) source_.fail(word, fmt::format("ACCU '{}' cannot be compiled", word.text));
     return found->second;
   }
@@ -225,7 +233,7 @@ class FclReader {
 
   /// The shapes of jFuzzyLogic, which orders some parameters differently.
   bool other_shape(const Word& type, std::vector<Word> p, Term& out) {
-    const std::string name = lower(type.text);
+    const std::string name = lower_case(type.text);
     const auto read = [&](std::string_view as) {
       read_fll_shape(source_, {as, type.at}, p, -1, out);
       return true;
@@ -237,11 +245,25 @@ class FclReader {
       std::rotate(p.begin(), p.begin() + 2, p.end());
       return read("Bell");
     }
-    if (name == "sigm" && p.size() == 2) {
+    if (name == "gauss2") return read("GaussianProduct");
+    if ((name == "sigm" && p.size() == 2) || (name == "dsigm" && p.size() == 4)) {
       std::swap(p[0], p[1]);
-      return read("Sigmoid");
+      return read(name == "sigm" ? "Sigmoid" : "SigmoidDifference");
     }
+    // Half of the width before the centre; fuzzylite's Cosine has the centre before the width.
+    if (name == "cosine" && type != "Cosine" && p.size() == 2) {
+      out.set = curve(Shape::cosine, {source_.number(p[1]), 2 * positive(p[0])});
+      return true;
+    }
+    if (name == "singletons")
+      source_.fail(type, "SINGLETONS cannot be compiled; write one number, or points such as (0, 0) (1, 1)");
     return false;
+  }
+
+  double positive(const Word& word) {
+    const double x = source_.number(word);
+    if (!(x > 0)) source_.fail(word, "the width must be above zero");
+    return x;
   }
 
   /// One operator of a pair implies the other.
@@ -250,13 +272,13 @@ class FclReader {
     bool has_and = false;
     bool has_or = false;
     Accumulation accu;
-    if (tokens_.peek_after() != ":" && lower(tokens_.peek().text) != "end_ruleblock" &&
-        lower(tokens_.peek().text) != "rule")
+    if (tokens_.peek_after() != ":" && lower_case(tokens_.peek().text) != "end_ruleblock" &&
+        lower_case(tokens_.peek().text) != "rule")
       tokens_.next("a name");
     std::vector<std::pair<Word, Word>> texts;
     while (!tokens_.take("end_ruleblock")) {
       const Word word = tokens_.next("END_RULEBLOCK");
-      const std::string key = lower(word.text);
+      const std::string key = lower_case(word.text);
       if (key == "rule") {
         if (base_.rules.size() + texts.size() >= kMostRules) source_.fail(word, "too many rules");
         texts.push_back({word, tokens_.rule_text()});
@@ -271,9 +293,10 @@ class FclReader {
         operators.disjunction = disjunction(value);
         has_or = true;
       } else if (key == "act") {
-        if (value != "MIN" && value != "PROD")
+        const std::string act = lower_case(value.text);
+        if (act != "min" && act != "prod")
           source_.fail(value, fmt::format("ACT '{}' cannot be compiled", value.text));
-        operators.implication = value == "PROD" ? And::product : And::minimum;
+        operators.implication = act == "prod" ? And::product : And::minimum;
       } else if (key == "accu") {
         accu.word = value;
       } else {
@@ -305,17 +328,23 @@ class FclReader {
   }
 
   And conjunction(const Word& w) {
-    return static_cast<And>(
-        source_.index_of(w, {"MIN", "PROD", "BDIF", "DPROD", "EPROD", "HPROD", "NMIN"}, "operator"));
+    static const std::map<std::string, And> kAll = {
+        {"min", And::minimum},   {"prod", And::product},   {"bdif", And::bounded_difference},
+        {"dprod", And::drastic}, {"eprod", And::einstein}, {"hprod", And::hamacher},
+        {"nmin", And::nilpotent}};
+    return norm(w, kAll);
   }
   Or disjunction(const Word& w) {
-    if (w == "NSUM") return Or::bounded_sum;
-    static const std::map<std::string, Or> kAll = {{"MAX", Or::maximum},      {"ASUM", Or::probabilistic_sum},
-                                                   {"BSUM", Or::bounded_sum}, {"DSUM", Or::drastic},
-                                                   {"ESUM", Or::einstein},    {"HSUM", Or::hamacher},
-                                                   {"NMAX", Or::nilpotent}};
-    const auto found = kAll.find(std::string(w.text));
-    if (found == kAll.end()) source_.fail(w, fmt::format("unknown operator '{}'", w.text));
+    static const std::map<std::string, Or> kAll = {{"max", Or::maximum},      {"asum", Or::probabilistic_sum},
+                                                   {"bsum", Or::bounded_sum}, {"nsum", Or::bounded_sum},
+                                                   {"dsum", Or::drastic},     {"esum", Or::einstein},
+                                                   {"hsum", Or::hamacher},    {"nmax", Or::nilpotent}};
+    return norm(w, kAll);
+  }
+  template <class Norm>
+  Norm norm(const Word& w, const std::map<std::string, Norm>& all) {
+    const auto found = all.find(lower_case(w.text));
+    if (found == all.end()) source_.fail(w, fmt::format("unknown operator '{}'", w.text));
     return found->second;
   }
 
@@ -325,7 +354,7 @@ class FclReader {
     for (const Accumulation& a : accumulations_) {
       for (const std::size_t r : a.rules) {
         for (const Conclusion& c : base_.rules[r].conclusions) {
-          if (of[c.output] != nullptr && of[c.output]->text != a.word.text)
+          if (of[c.output] != nullptr && lower_case(of[c.output]->text) != lower_case(a.word.text))
             source_.fail(a.word, fmt::format("'{}' already has another ACCU", base_.outputs[c.output].name));
           of[c.output] = &a.word;
           base_.outputs[c.output].aggregation = accumulation(a.word);

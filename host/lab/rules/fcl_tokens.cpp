@@ -57,7 +57,7 @@ FclTokens::FclTokens(const Source& source) : source_(source), end_{{}, source.te
 }
 
 bool FclTokens::take(std::string_view keyword) {
-  if (ended() || lower(tokens_[at_].text) != keyword) return false;
+  if (ended() || lower_case(tokens_[at_].text) != keyword) return false;
   ++at_;
   return true;
 }
@@ -87,7 +87,8 @@ Word FclTokens::rule_text() {
   }
   const Word first = peek();
   std::size_t end = first.at;
-  while (!ended() && peek() != ";" && lower(peek().text) != "rule" && lower(peek().text) != "end_ruleblock") {
+  while (!ended() && peek() != ";" && lower_case(peek().text) != "rule" &&
+         lower_case(peek().text) != "end_ruleblock") {
     const Word word = next("';'");
     end = word.at + word.text.size();
   }

@@ -78,13 +78,13 @@ class FisReader {
       in_ = In::rules;
     } else if (numbered("Input", base_.inputs.size())) {
       in_ = In::input;
-      base_.inputs.push_back({std::string(name.text), source_.place(name.at), 0, 0, {}, {}});
+      base_.inputs.push_back({std::string(name.text), source_.place(name.at), kNoRange, kNoRange, {}, {}});
     } else if (numbered("Output", base_.outputs.size())) {
       in_ = In::output;
       Output output;
       output.name = name.text;
       output.place = source_.place(name.at);
-      output.high = 0;
+      output.low = output.high = kNoRange;
       base_.outputs.push_back(output);
     } else {
       source_.fail(name, fmt::format("unknown section [{}]", name.text));
@@ -122,12 +122,8 @@ class FisReader {
       }
     } else if (key == "Version") {
       source_.number(value);
-    } else if (key == "NumInputs") {
-      inputs_ = value;
-    } else if (key == "NumOutputs") {
-      outputs_ = value;
-    } else if (key == "NumRules") {
-      rules_ = value;
+    } else if (key == "NumInputs" || key == "NumOutputs" || key == "NumRules") {
+      counts_.push_back({key, value, in_, 0});
     } else if (key == "AndMethod") {
       and_ = matlab_name(value);
     } else if (key == "OrMethod") {
@@ -167,6 +163,7 @@ class FisReader {
       range(value, v.low, v.high);
     } else if (key == "NumMFs") {
       source_.whole(value, 0, kMostTerms);
+      counts_.push_back({key, value, in_, all.size() - 1});
     } else if (key == "Enabled") {
       if (source_.number(value) != 1) source_.fail(value, "a disabled variable cannot be compiled");
     } else if (key.text.substr(0, 2) == "MF") {
@@ -263,16 +260,27 @@ class FisReader {
     }
   }
 
-  void check_number(const Word& given, std::size_t found, const char* what) {
-    if (given.empty()) return;
-    if (static_cast<std::size_t>(source_.whole(given, 0, 1000000)) != found)
-      source_.fail(given, fmt::format("the file has {} {}, not {}", found, what, given.text));
+  /// A number of lines that follow. All lines count, whatever it says.
+  struct Count {
+    Word key, given;
+    In in;
+    std::size_t variable;
+  };
+  void check_counts() {
+    for (const Count& c : counts_) {
+      const std::size_t found = c.key == "NumInputs"    ? base_.inputs.size()
+                                : c.key == "NumOutputs" ? base_.outputs.size()
+                                : c.key == "NumRules"   ? lines_.size()
+                                : c.in == In::input     ? base_.inputs[c.variable].terms.size()
+                                                        : base_.outputs[c.variable].terms.size();
+      if (static_cast<std::size_t>(source_.whole(c.given, 0, 1000000)) == found) continue;
+      source_.warn(c.given, fmt::format("{} is {}, but the file has {}, and all are read", c.key.text,
+                                        c.given.text, found));
+    }
   }
 
   void finish() {
-    check_number(inputs_, base_.inputs.size(), "inputs");
-    check_number(outputs_, base_.outputs.size(), "outputs");
-    check_number(rules_, lines_.size(), "rules");
+    check_counts();
     operators();
     for (const Word& line : lines_) rule(line);
     check(source_, base_);
@@ -322,8 +330,9 @@ class FisReader {
         case 0: break;
         case 5: step.hedges.push_back(Hedge::somewhat); break;
         case 20: step.hedges.push_back(Hedge::very); break;
+        case 30: step.hedges.push_back(Hedge::cubed); break;
         case 40: step.hedges.push_back(Hedge::very_very); break;
-        default: source_.fail(words[i], "this hedge has no agreed meaning; only .05, .20 and .40");
+        default: source_.fail(words[i], "this hedge cannot be compiled; only .05, .20, .30 and .40");
       }
       rule.antecedent.push_back(step);
       if (rule.antecedent.size() == 1) continue;
@@ -339,6 +348,8 @@ class FisReader {
                                      base_.outputs.size()));
     for (std::size_t o = 0; o < words.size(); ++o) {
       const long count = static_cast<long>(base_.outputs[o].terms.size());
+      const double number = source_.number(words[o]);
+      if (number != std::floor(number)) source_.fail(words[o], "a hedge in a conclusion cannot be compiled");
       const long code = source_.whole(words[o], -count, count);
       if (code == 0) continue;
       if (code < 0 && sugeno_) source_.fail(words[o], "NOT of a constant or linear term has no meaning");
@@ -349,7 +360,8 @@ class FisReader {
   const Source& source_;
   RuleBase base_;
   std::vector<Word> lines_;
-  Word inputs_, outputs_, rules_, and_, or_, implication_, aggregation_, defuzzifier_;
+  std::vector<Count> counts_;
+  Word and_, or_, implication_, aggregation_, defuzzifier_;
   bool sugeno_ = false;
   In in_ = In::nothing;
 };

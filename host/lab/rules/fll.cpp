@@ -91,7 +91,7 @@ class FllReader {
       in_ = In::input;
       if (base_.inputs.size() >= kMostVariables) source_.fail(key, "too many inputs");
       check_new_name(source_, value, base_.inputs, "input");
-      base_.inputs.push_back({std::string(value.text), source_.place(value.at), 0, 0, {}, {}});
+      base_.inputs.push_back({std::string(value.text), source_.place(value.at), kNoRange, kNoRange, {}, {}});
     } else if (key == "OutputVariable") {
       in_ = In::output;
       if (base_.outputs.size() >= kMostVariables) source_.fail(key, "too many outputs");
@@ -99,7 +99,7 @@ class FllReader {
       Output output;
       output.name = value.text;
       output.place = source_.place(value.at);
-      output.high = 0;
+      output.low = output.high = kNoRange;
       base_.outputs.push_back(output);
       notes_.emplace_back();
     } else if (key == "RuleBlock") {

@@ -16,7 +16,7 @@ namespace {
 /// Letters, digits and underscores only.
 std::string identifier(std::string_view name) {
   std::string out;
-  for (const char c : lower(name)) {
+  for (const char c : lower_case(name)) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
     if (plain) {
       out += c;

@@ -1,6 +1,8 @@
 #include "host/lab/rules/inference.hpp"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 namespace whisker::rules {
 namespace {
@@ -26,12 +28,14 @@ double Inference::Proposition::operator()(const RuleBase& base, double x) const 
 }
 
 Inference::Inference(const RuleBase& base) : base_(base) {
+  std::map<std::tuple<std::vector<std::size_t>, double, And, Or>, std::size_t> first;
   for (const Rule& rule : base.rules) {
     std::vector<std::size_t>& steps = steps_.emplace_back();
     bool conjunctive = true;
     for (const Step& step : rule.antecedent) {
-      conjunctive = conjunctive && step.kind != Step::Kind::disjunction;
-      std::size_t at = 0;
+      conjunctive = conjunctive && step.kind != Step::Kind::disjunction && step.kind != Step::Kind::negation;
+      // Of an operator: a number that no proposition has.
+      std::size_t at = SIZE_MAX - static_cast<std::size_t>(step.kind);
       if (step.kind == Step::Kind::proposition) {
         const auto same = [&](const Proposition& p) {
           return p.input == step.input && p.any == step.any && p.hedges == step.hedges &&
@@ -45,6 +49,9 @@ Inference::Inference(const RuleBase& base) : base_(base) {
       steps.push_back(at);
     }
     conjunctive_.push_back(conjunctive);
+    const std::size_t r = same_as_.size();
+    same_as_.push_back(
+        first.try_emplace({steps, rule.weight, rule.conjunction, rule.disjunction}, r).first->second);
   }
   for (std::size_t o = 0; o < base.outputs.size(); ++o) prepare(o);
 }
@@ -54,13 +61,24 @@ void Inference::prepare(std::size_t o) {
   Prepared& prepared = outputs_.emplace_back();
   std::vector<Canvas::Set> sets;
   std::vector<std::pair<std::size_t, bool>> of;
+  const bool summed = is_weighted(output) ? !output.merge_terms : output.aggregation == Or::sum;
+  const bool merges = summed || output.aggregation == Or::maximum;
   for (std::size_t r = 0; r < base_.rules.size(); ++r) {
     for (const Conclusion& c : base_.rules[r].conclusions) {
       if (c.output != o) continue;
       const std::pair<std::size_t, bool> key{c.term, c.negated};
       const auto at = static_cast<std::size_t>(std::find(of.begin(), of.end(), key) - of.begin());
       const bool product = base_.rules[r].implication == And::product;
-      prepared.parts.push_back({r, c.term, at, product});
+      const Part part{same_as_[r], c.term, at, product, 1};
+      const auto same = [&](const Part& p) {
+        return p.rule == part.rule && p.set == part.set && p.product == part.product;
+      };
+      const auto found = std::find_if(prepared.parts.begin(), prepared.parts.end(), same);
+      if (found == prepared.parts.end() || !merges) {
+        prepared.parts.push_back(part);
+      } else {
+        ++found->times;
+      }
       if (at < of.size()) continue;
       of.push_back(key);
       sets.push_back({output.terms[c.term].set, c.negated});
@@ -92,6 +110,7 @@ double Inference::strength(std::size_t r, const double* degrees) const {
     std::size_t top = 0;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       switch (rule.antecedent[i].kind) {
+        case Step::Kind::negation: stack[top - 1] = 1 - stack[top - 1]; continue;
         case Step::Kind::proposition: stack[top++] = degrees[steps[i]]; continue;
         case Step::Kind::conjunction:
           stack[top - 2] = join(rule.conjunction, stack[top - 2], stack[top - 1]);
@@ -133,7 +152,7 @@ bool Inference::weighted(const Output& output, const Prepared& prepared, const d
       if (merged[t] > 0) count(merged[t], t);
   } else {
     for (const Part& part : prepared.parts)
-      if (strengths[part.rule] > 0) count(strengths[part.rule], part.term);
+      if (strengths[part.rule] > 0) count(part.times * strengths[part.rule], part.term);
   }
   if (!(total > 0)) return false;
   out = output.defuzzifier == Defuzzifier::weighted_average ? sum / total : sum;
@@ -154,7 +173,7 @@ void Inference::activate(const Output& output, const Prepared& prepared, const d
         continue;
       }
     }
-    out.push_back({part.set, part.product, w});
+    out.push_back({part.set, part.product, w, part.times});
   }
 }
 

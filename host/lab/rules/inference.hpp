@@ -30,23 +30,27 @@ class Inference {
   };
   const std::vector<Proposition>& propositions() const { return propositions_; }
 
+  /// The first rule with the same strength at every input.
+  std::size_t same_as(std::size_t rule) const { return same_as_[rule]; }
+
   /// Strength of a rule, by the degree of every proposition; 0 if below the least strength.
   double strength(std::size_t rule, const double* degrees) const;
   /// True if the rule's strength is zero whenever the proposition's degree is.
   bool needs(std::size_t rule, std::size_t proposition) const;
 
-  /// By the strengths of all rules; the inputs matter to crisp terms only.
+  /// By the strengths of all rules that are their own same_as(); the inputs matter to crisp terms only.
   Answer answer(std::size_t output, const double* strengths, const double* inputs) const;
 
   /// All outputs at one input.
   std::vector<Answer> operator()(const std::vector<double>& inputs) const;
 
  private:
-  struct Part {  ///< a conclusion of a rule for one output
-    std::size_t rule;
+  struct Part {        ///< a conclusion of a rule for one output
+    std::size_t rule;  ///< the first with this condition
     std::size_t term;
     std::size_t set;
     bool product;
+    double times;  ///< equal parts that count as one
   };
   struct Prepared {
     std::vector<Part> parts;
@@ -63,6 +67,7 @@ class Inference {
   std::vector<Proposition> propositions_;
   std::vector<std::vector<std::size_t>> steps_;  ///< proposition of each step of each rule
   std::vector<bool> conjunctive_;                ///< the antecedent is one conjunction
+  std::vector<std::size_t> same_as_;
   std::vector<Prepared> outputs_;
 };
 

@@ -18,7 +18,8 @@ RuleBase read_fll(const Source& source);
 RuleBase read_fcl(const Source& source);
 RuleBase read_toml(const Source& source);
 
-/// What every format must satisfy: ranges, terms, rules that conclude something.
-void check(const Source& source, const RuleBase& base);
+/// What every format must satisfy: ranges, terms, rules that conclude something. Outputs of points alone
+/// become singletons. Takes the warnings of the source.
+void check(const Source& source, RuleBase& base);
 
 }  // namespace whisker::rules

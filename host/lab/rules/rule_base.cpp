@@ -16,6 +16,7 @@ double apply(Hedge hedge, double x) {
   switch (hedge) {
     case Hedge::negation: return 1 - x;
     case Hedge::very: return x * x;
+    case Hedge::cubed: return x * x * x;
     case Hedge::very_very: return x * x * x * x;
     case Hedge::somewhat: return std::sqrt(x);
     case Hedge::extremely: return x <= 0.5 ? 2 * x * x : 1 - 2 * (1 - x) * (1 - x);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct Term {
   double constant = 0;
   std::vector<double> coefficients;  ///< one for each input, or none
 };
+
+/// The ends of a range that the file does not give.
+constexpr double kNoRange = std::numeric_limits<double>::quiet_NaN();
 
 struct Input {
   std::string name;
@@ -71,11 +75,11 @@ struct Output {
   std::optional<double> raw_per_unit;
 };
 
-enum class Hedge { negation, very, very_very, somewhat, extremely, seldom };
+enum class Hedge { negation, very, cubed, very_very, somewhat, extremely, seldom };
 
 /// Step of an antecedent in postfix order.
 struct Step {
-  enum class Kind { proposition, conjunction, disjunction } kind = Kind::proposition;
+  enum class Kind { proposition, conjunction, disjunction, negation } kind = Kind::proposition;
   std::size_t input = 0;
   std::size_t term = 0;
   bool any = false;           ///< true whatever the input is
@@ -104,7 +108,8 @@ struct RuleBase {
   std::vector<Input> inputs;
   std::vector<Output> outputs;
   std::vector<Rule> rules;
-  double least_strength = 0;  ///< a rule fires with at least this strength, above zero
+  double least_strength = 0;          ///< a rule fires with at least this strength, above zero
+  std::vector<std::string> warnings;  ///< what is read otherwise than the file says, each with its place
 };
 
 /// Throws InputError at a place of the file.

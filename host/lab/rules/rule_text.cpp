@@ -12,6 +12,7 @@ const char* word(Hedge hedge) {
   switch (hedge) {
     case Hedge::negation: return "not ";
     case Hedge::very: return "very ";
+    case Hedge::cubed: return "cubed ";
     case Hedge::very_very: return "very very ";
     case Hedge::somewhat: return "somewhat ";
     case Hedge::extremely: return "extremely ";
@@ -83,7 +84,7 @@ class RuleReader {
   bool is(std::string_view keyword) const {
     if (at_ >= tokens_.size()) return false;
     const std::string_view text = tokens_[at_].text;
-    return dialect_ == Dialect::fcl ? lower(text) == keyword : text == keyword;
+    return dialect_ == Dialect::fcl ? lower_case(text) == keyword : text == keyword;
   }
   bool take(std::string_view keyword) {
     const bool found = is(keyword);
@@ -126,20 +127,26 @@ class RuleReader {
     }
   }
   void operand(int depth) {
-    if (depth > kDeepest) source_.fail(tokens_[at_], "the condition is nested too deep");
+    if (depth > kDeepest)
+      source_.fail(at_ < tokens_.size() ? tokens_[at_] : end_, "the condition is nested too deep");
     if (dialect_ == Dialect::fcl && take("not")) {
-      const bool enclosed = take("(");
-      proposition(true);
-      if (enclosed) expect(")");
+      const std::size_t from = rule_.antecedent.size();
+      operand(depth + 1);
+      if (rule_.antecedent.size() == from + 1) {
+        std::vector<Hedge>& hedges = rule_.antecedent.back().hedges;
+        hedges.insert(hedges.begin(), Hedge::negation);
+      } else {
+        operate(Step::Kind::negation);
+      }
     } else if (take("(")) {
       disjunction(depth + 1);
       expect(")");
     } else {
-      proposition(false);
+      proposition();
     }
   }
 
-  void proposition(bool negated) {
+  void proposition() {
     const Word variable = next("an input");
     for (const Output& output : base_.outputs)
       if (output.name == variable.text)
@@ -147,7 +154,6 @@ class RuleReader {
     Step step;
     step.input = source_.index_of(variable, names_of(base_.inputs), "input");
     if (!take("=")) expect("is");
-    if (negated) step.hedges.push_back(Hedge::negation);
     hedges(step);
     if (!step.any) {
       const Word term = next("a term");
@@ -212,6 +218,10 @@ std::string words(const RuleBase& base, const Rule& rule) {
   for (const Step& step : rule.antecedent) {
     if (step.kind == Step::Kind::proposition) {
       parts.push_back(proposition(base, step));
+      continue;
+    }
+    if (step.kind == Step::Kind::negation) {
+      parts.back() = {"not (" + parts.back().text + ")"};
       continue;
     }
     const char* const joint = step.kind == Step::Kind::conjunction ? kAnd : kOr;

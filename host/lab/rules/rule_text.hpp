@@ -13,7 +13,7 @@ std::string words(const RuleBase& base, const Rule& rule);
 
 enum class Dialect {
   fll,  ///< keywords in lower case; hedges before the term
-  fcl,  ///< keywords in any case; NOT ( proposition ); conclusions also joined by commas
+  fcl,  ///< keywords in any case; NOT before parts of a condition; conclusions also joined by commas
 };
 
 /// Appends antecedent, conclusions and weight to the rule. The variables of the base must be complete.

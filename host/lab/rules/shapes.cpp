@@ -104,13 +104,16 @@ Membership build(const Source& source, const Word& at, const std::string& kind,
   return straight(source, at, kind, p);
 }
 
-/// Infinite corners make shoulders; other shapes have no use for them.
+/// Infinite corners make shoulders, and the direction of a binary set may be infinite; other shapes have no
+/// use for infinity.
 std::vector<double> numbers(const Source& source, const Form& form, const std::vector<Word>& words) {
   std::vector<double> all;
   const bool corners = std::strcmp(form.kind, "triangle") == 0 || std::strcmp(form.kind, "trapezoid") == 0;
   for (std::size_t i = 0; i < form.count; ++i) {
     const bool end = i == 0 || i + 1 == form.count;
-    all.push_back(corners && end ? source.number_or_infinity(words[i]) : source.number(words[i]));
+    const bool direction = i == 1 && std::strcmp(form.kind, "binary") == 0;
+    all.push_back((corners && end) || direction ? source.number_or_infinity(words[i])
+                                                : source.number(words[i]));
   }
   if (corners && (all.front() == HUGE_VAL || all.back() == -HUGE_VAL))
     source.fail(words.front(), "the corners must ascend");
@@ -126,7 +129,7 @@ const Form& form_of(const Source& source, const Word& type, const Form (&forms)[
   std::vector<std::string_view> names{"constant", "linear"};
   for (const Form& form : forms) names.emplace_back(form.name);
   for (const Form& form : forms)
-    if (type == form.name) return form;
+    if (lower_case(type.text) == lower_case(form.name)) return form;
   source.index_of(type, names, "membership function");
   source.fail(type, fmt::format("'{}' is not possible here", type.text));
 }
@@ -136,13 +139,19 @@ void check_count(const Source& source, const Word& type, std::size_t found, std:
     source.fail(type, fmt::format("'{}' needs {} parameters, but has {}", type.text, wanted, found));
 }
 
+void warn_of_more(const Source& source, const Word& type, const std::vector<Word>& words,
+                  std::size_t wanted) {
+  if (words.size() <= wanted) return;
+  source.warn(words[wanted],
+              fmt::format("'{}' has {} parameters; those after them are not read", type.text, wanted));
+}
+
 void read_crisp(const Source& source, const Word& type, const std::vector<Word>& words, long inputs,
                 bool linear, Term& out) {
   if (inputs < 0) source.fail(type, fmt::format("'{}' is for outputs only", type.text));
   const std::size_t wanted = linear ? static_cast<std::size_t>(inputs) + 1 : 1;
   check_count(source, type, words.size(), wanted);
-  if (words.size() > wanted)
-    source.fail(words[wanted], fmt::format("'{}' has only {} parameters", type.text, wanted));
+  warn_of_more(source, type, words, wanted);
   out.crisp = true;
   for (std::size_t i = 0; i + 1 < wanted; ++i) out.coefficients.push_back(source.number(words[i]));
   out.constant = source.number(words[wanted - 1]);
@@ -173,7 +182,6 @@ double height(const Source& source, const Word& word) {
 void read_fis_shape(const Source& source, const Word& type, const std::vector<Word>& words, long inputs,
                     Term& out) {
   if (type == "constant" || type == "linear") {
-    // MATLAB pads short lists with zeros.
     read_crisp(source, type, words, inputs, type == "linear", out);
     return;
   }
@@ -184,9 +192,10 @@ void read_fis_shape(const Source& source, const Word& type, const std::vector<Wo
   }
   const Form& form = form_of(source, type, kFis);
   check_count(source, type, words.size(), form.count);
-  for (std::size_t i = form.count; i < words.size(); ++i)
-    if (source.number(words[i]) != 0)
-      source.fail(words[i], fmt::format("'{}' has only {} parameters", type.text, form.count));
+  // MATLAB pads lists with zeros.
+  const auto padding = [&](const Word& word) { return source.number(word) == 0; };
+  if (!std::all_of(words.begin() + static_cast<std::ptrdiff_t>(form.count), words.end(), padding))
+    warn_of_more(source, type, words, form.count);
   out.set = build(source, type, form.kind, numbers(source, form, words));
 }
 

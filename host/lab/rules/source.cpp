@@ -6,12 +6,10 @@
 #include <charconv>
 #include <cmath>
 
-#include "host/harness/scenario/text.hpp"
-
 namespace whisker::rules {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\f\v";
+constexpr std::string_view kBlanks = " \t\r\n\f\v";
 
 /// False if the word is not a number in decimal.
 bool parse(std::string_view text, double& out) {
@@ -35,6 +33,10 @@ void Source::fail(std::size_t at, std::string_view what) const { fail(place(at),
 
 void Source::fail(Place at, std::string_view what) const {
   throw InputError(file_, at.line, at.column, what);
+}
+
+void Source::warn(Place at, std::string_view what) const {
+  warnings_.push_back(InputError(file_, at.line, at.column, what).what());
 }
 
 std::vector<Word> Source::lines() const {
@@ -110,13 +112,6 @@ Halves split_at(Word word, char c) {
   const std::size_t at = word.text.find(c);
   if (at == std::string_view::npos) return {word, {{}, word.at + word.text.size()}, false};
   return {{word.text.substr(0, at), word.at}, {word.text.substr(at + 1), word.at + at + 1}, true};
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
 }
 
 }  // namespace whisker::rules

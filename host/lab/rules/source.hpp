@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/harness/scenario/error.hpp"
+#include "host/harness/scenario/text.hpp"
 #include "host/lab/rules/rule_base.hpp"
 
 namespace whisker::rules {
@@ -39,6 +40,10 @@ class Source {
   [[noreturn]] void fail(const Word& at, std::string_view what) const { fail(at.at, what); }
   [[noreturn]] void fail(std::size_t at, std::string_view what) const;
   [[noreturn]] void fail(Place at, std::string_view what) const;
+  /// For what is read otherwise than the file says.
+  void warn(Place at, std::string_view what) const;
+  void warn(const Word& at, std::string_view what) const { warn(place(at.at), what); }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Its lines without line ends.
   std::vector<Word> lines() const;
@@ -63,6 +68,7 @@ class Source {
 
   std::string_view text_;
   std::string file_;
+  mutable std::vector<std::string> warnings_;
 };
 
 Word trimmed(Word word);
@@ -75,7 +81,6 @@ struct Halves {
   bool found;
 };
 Halves split_at(Word word, char c);
-std::string lower(std::string_view text);
 
 template <class Named>
 std::vector<std::string_view> names_of(const std::vector<Named>& all) {

@@ -92,7 +92,8 @@ class Evaluation {
       if (!free) others.push_back(p);
     }
     std::vector<std::size_t> rules;
-    for (std::size_t r = 0; r < base.rules.size(); ++r) rules.push_back(r);
+    for (std::size_t r = 0; r < base.rules.size(); ++r)
+      if (inference.same_as(r) == r) rules.push_back(r);
     rules_ = possible(inference, rules, others, fixed_.data());
   }
 
@@ -178,7 +179,7 @@ Surface make_surface(const RuleBase& base, const Inference& inference, const Dom
     for (std::int32_t row = next++; row < domain.rows(); row = next++) evaluation.row(row, fired);
     const std::lock_guard lock(mutex);
     for (std::size_t r = 0; r < fired.size(); ++r)
-      if (fired[r] != 0) s.fired[r] = true;
+      if (fired[inference.same_as(r)] != 0) s.fired[r] = true;
   };
   std::vector<std::thread> threads;
   for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i) threads.emplace_back(work);

@@ -133,8 +133,8 @@ class TomlReader {
       term.crisp = true;
       // As the core, which holds its centres in raw units.
       term.constant = v.raw_per_unit ? std::round(c.value * *v.raw_per_unit) / *v.raw_per_unit : c.value;
-      v.low = std::min(v.low, term.constant);
-      v.high = std::max(v.high, term.constant);
+      v.low = std::min(v.low, c.value);
+      v.high = std::max(v.high, c.value);
       v.terms.push_back(std::move(term));
     }
     if (v.low == v.high) v.high = v.low + 1;
