@@ -31,8 +31,8 @@ constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noex
   const int64_t x = x_q30;
   const int64_t square = scale_down<30>(x * x);
   int32_t sum = c[kTerms - 1];
-  for (size_t i = kTerms - 1; i-- > 0;) sum = static_cast<int32_t>(c[i] + scale_down<30>(sum * square));
-  return static_cast<int32_t>(scale_down<30>(sum * x));
+  for (size_t i = kTerms - 1; i-- > 0;) sum = narrow<int32_t>(c[i] + scale_down<30>(sum * square));
+  return narrow<int32_t>(scale_down<30>(sum * x));
 }
 
 [[gnu::always_inline]] constexpr Q30 sin(Angle a) noexcept {

@@ -134,7 +134,7 @@ void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   const bool echo = farthest < most - kOdd && farthest - nearest <= kAlike;
   const auto follow = [](uint16_t& share, bool seen, int32_t averaged) {
     const int32_t step = ((seen ? int32_t{UINT16_MAX} : 0) - share) / averaged;
-    share = static_cast<uint16_t>(share + step);
+    share = narrow<uint16_t>(share + step);
   };
   // Only where there is room for a phantom, or something to miss. Before a wall, phantoms may be rare.
   const bool near = nearest > middle + kOdd;

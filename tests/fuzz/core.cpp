@@ -172,7 +172,8 @@ class Session {
 
   template <class Step>
   void run(Bytes& bytes, const Step& step) {
-    for (int steps = 0; steps < 6000 && !bytes.ended(); ++steps) {
+    constexpr int kMostTicks = 3000;
+    for (int ticks = 0; ticks < kMostTicks && !bytes.ended();) {
       const std::uint8_t what = bytes.next();
       if (what >= 64 && what < 128) {
         board_.disturb(bytes);
@@ -182,6 +183,7 @@ class Session {
       const bool calm = what < 64;
       const int times = calm ? 1 + what : 1;
       if (!calm) step(what, bytes);
+      ticks += times;
       for (int i = 0; i < times; ++i) tick(calm ? params_.safety.period.raw() : bytes.next(), step);
     }
   }
