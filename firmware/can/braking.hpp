@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "firmware/math/fixed.hpp"
 #include "hal/types.hpp"
 
 namespace whisker::can {
