@@ -79,7 +79,8 @@ std::uint32_t value_within(std::size_t param, Bytes& bytes) {
     case 0: return static_cast<std::uint32_t>(low);
     case 1: return static_cast<std::uint32_t>(high);
     case 2: return static_cast<std::uint32_t>(low + (high - low) * bytes.next() / 255);
-    default: return static_cast<std::uint32_t>(low + bytes.word() % (high - low + 1));
+    default:  // as often near the low end as far away
+      return static_cast<std::uint32_t>(low + (bytes.word() >> bytes.next() % 32) % (high - low + 1));
   }
 }
 
@@ -224,9 +225,10 @@ struct RobotStep {
                  at.heading + Angle::from_raw(static_cast<std::uint32_t>(bytes.next()) << 16)};
         if (bytes.next() > 250) fix = {{bytes.length(), bytes.length()}, bytes.angle()};
         const auto sigma = [&] {
-          return bytes.next() < 240 ? micrometres(bytes.next() * 100) : bytes.length();
+          const std::uint8_t how = bytes.next();
+          return how < 64 ? Length{} : how < 240 ? micrometres(bytes.next() * 100) : bytes.length();
         };
-        robot.correct(fix, {sigma(), sigma(), Angle::from_raw(std::uint32_t{bytes.next()} << 18)});
+        robot.correct(fix, {sigma(), sigma(), angle_of(sigma(), 1_m)});
         break;
       }
       case 5: robot.reset(); break;
