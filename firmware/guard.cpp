@@ -10,7 +10,7 @@ Q14 share(Speed part, Speed whole) noexcept {
   if (whole == Speed{}) return Q14::ratio(1, 1);
   const Speed along = whole < Speed{} ? -part : part;
   const int32_t q14 = multiply_divide(along.raw(), Q14::kOne, abs(whole).raw());
-  return Q14::from_raw(static_cast<int16_t>(q14 < 0 ? 0 : q14 > Q14::kOne ? Q14::kOne : q14));
+  return Q14::from_raw(narrow<int16_t>(q14 < 0 ? 0 : q14 > Q14::kOne ? Q14::kOne : q14));
 }
 
 Speed forward_of(WheelPair wheels) noexcept { return (wheels.left + wheels.right) / 2; }

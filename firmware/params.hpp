@@ -13,7 +13,7 @@ namespace whisker {
 using namespace literals;
 
 struct BodyParams {
-  Length radius = 90_mm;  ///< of the smallest disc that covers the robot
+  Length radius = 90_mm;  ///< of the smallest disc around the middle of the axle that holds the robot
   Length margin = 30_mm;  ///< kept free around the body when a step is planned
   Length track = 140_mm;  ///< distance between the wheels' contact points
 };

@@ -29,6 +29,7 @@ Robot::Robot(hal::Rangefinders& rangefinders, hal::Drive& drive, planning::Plann
 }
 
 bool Robot::placeable(const Pose& pose) noexcept {
+  if (unfit()) return false;
   if (within(pose.at, kPlaceLimit)) return true;
   chassis_.supervisor().fail(Fault::pose_out_of_range, status_.health.pose_out_of_range);
   show_fault();
@@ -54,11 +55,6 @@ bool Robot::correct(const Pose& pose, const localization::PoseSigma& sigma) noex
   return true;
 }
 
-/// Parameters that are refused keep no goal anyway.
-bool Robot::keeps(Length tolerance) const noexcept {
-  return status_.health.fault == Fault::invalid_params || tolerance >= planning::smallest_tolerance(params_);
-}
-
 void Robot::aim_again() noexcept {
   Vec at;
   if (aimed(out_of_range(!chassis_.localizer().frame().aim_again(at)))) planner_.move_goal(at);
@@ -72,9 +68,12 @@ bool Robot::aimed(planning::Why refused) noexcept {
 }
 
 bool Robot::set_goal(const planning::Goal& goal) noexcept {
+  if (unfit()) return false;
   planning::Goal inside = goal;
   planning::Why refused = out_of_range(!chassis_.localizer().frame().aim(goal.at, inside.at));
-  if (refused == planning::Why::none && !keeps(goal.tolerance)) refused = planning::Why::tolerance_too_small;
+  if (refused == planning::Why::none && goal.tolerance < planning::smallest_tolerance(params_)) {
+    refused = planning::Why::tolerance_too_small;
+  }
   if (aimed(refused)) planner_.set_goal(inside);
   return has_goal_;
 }
@@ -86,7 +85,7 @@ void Robot::cancel() noexcept {
 }
 
 void Robot::reset() noexcept {
-  if (status_.health.fault == Fault::invalid_params) return;
+  if (unfit()) return;
   chassis_.reset();
   chassis_.carry_on();
   was_settled_ = false;
@@ -97,7 +96,7 @@ void Robot::reset() noexcept {
 }
 
 const Status& Robot::tick(Time now) noexcept {
-  if (status_.health.fault == Fault::invalid_params) {
+  if (unfit()) {
     actuate({});
     return status_;
   }

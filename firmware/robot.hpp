@@ -37,7 +37,8 @@ struct Status : localization::Estimate {
 ///
 /// A failure leads to the safe state: both wheels ramp down to zero at the acceleration limit and stand, and
 /// status().health.fault names the cause until reset(). All references must outlive the robot, and the
-/// parameters must not change while it lives.
+/// parameters must not change while it lives. With parameters that check() refuses, nothing is computed: the
+/// planner is never asked, each tick commands zero, and place(), correct() and set_goal() return false.
 ///
 /// A bumper is used if BumperParams::fitted says so: then it must be given. A press stops the wheels at that
 /// very tick, the body backs off (safety/bump_reflex.hpp), and the place becomes an obstacle
@@ -119,7 +120,7 @@ class Robot {
 
   bool placeable(const Pose& pose) noexcept;
   void aim_again() noexcept;
-  bool keeps(Length tolerance) const noexcept;
+  bool unfit() const noexcept { return status_.health.fault == Fault::invalid_params; }
   /// Notes why the goal is refused, or that it is not; without one the planner has nothing to do.
   bool aimed(planning::Why refused) noexcept;
 

@@ -11,7 +11,11 @@ namespace whisker::hal {
 /// is the distance up to which the sensor detects every kind of obstacle at every angle. A sensor that
 /// receives no light or sound cannot distinguish open ground from a black, soft or slanted obstacle. Its
 /// driver still reports `clear`, because otherwise the robot could not drive in the open; clear_range of the
-/// board limits that promise. A sensor that detects its own failure reports `invalid`.
+/// board limits that promise. But only the answer of a sensor that works is `clear`: one that does not
+/// answer, or detects its own failure, is `invalid`.
+///
+/// A distance of the maximum range or more counts as `clear`: a light wall that is seen from there does not
+/// show that a dark post on the way would be.
 ///
 /// Below RangefinderParams::min_range a reading is `too_near`: the object is anywhere up to it. A sensor
 /// whose output folds back there cannot tell: mount it so far behind the rim that nothing can be nearer.

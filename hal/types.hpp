@@ -7,16 +7,18 @@
 namespace whisker::hal {
 
 enum class RangeStatus : uint8_t {
-  ok,        ///< mm is a distance
+  ok,        ///< mm is a distance; at or beyond the maximum range it counts as clear
   clear,     ///< the sensor works, and no echo returned from within the maximum range; mm is not used
   too_near,  ///< an object nearer than the minimum range; mm is not used
   invalid,   ///< the reading is lost; mm is not used
   stale,     ///< the sensor has no new reading; mm is not used
 };
 
+constexpr uint16_t kMostMm = 65533;
+
 /// The latest measurement of one rangefinder.
 struct RangeReading {
-  uint16_t mm;  ///< distance from the apex of the sensor in mm; 0..65533
+  uint16_t mm;  ///< distance from the apex of the sensor in mm; 0..kMostMm
   RangeStatus status;
   uint8_t age_ms;    ///< since the distance was true, including the measurement; 255: that or more, ignored
   uint8_t sequence;  ///< increases by one with every new measurement, modulo 16

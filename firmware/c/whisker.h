@@ -141,16 +141,16 @@ uint32_t whisker_heading(int32_t millidegrees);
 /* ---- Your hardware */
 
 enum whisker_range_status {
-  WHISKER_RANGE_OK,       /* mm is a distance */
+  WHISKER_RANGE_OK,       /* mm is a distance; from the maximum range on it counts as clear */
   WHISKER_RANGE_CLEAR,    /* no echo from within the maximum range; mm is not used */
   WHISKER_RANGE_TOO_NEAR, /* nearer than the minimum range; mm is not used */
-  WHISKER_RANGE_INVALID,  /* the reading is lost */
+  WHISKER_RANGE_INVALID,  /* the reading is lost, or the sensor does not answer */
   WHISKER_RANGE_STALE     /* no new reading */
 };
 
 /* The latest measurement of a rangefinder; hal/types.hpp. */
 typedef struct whisker_range {
-  uint16_t mm;      /* from the apex of the sensor */
+  uint16_t mm;      /* from the apex of the sensor; at most 65533 */
   uint8_t status;   /* enum whisker_range_status */
   uint8_t age_ms;   /* since the distance was true; 255: that or more */
   uint8_t sequence; /* increases by one with every new measurement, modulo 16 */

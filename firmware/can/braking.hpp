@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "firmware/math/fixed.hpp"
 #include "hal/types.hpp"
 
 namespace whisker::can {
@@ -14,7 +15,7 @@ constexpr int32_t size_of(int16_t speed) noexcept { return speed < 0 ? -int32_t{
 constexpr hal::WheelSpeeds slowed(hal::WheelSpeeds now, int16_t step) noexcept {
   const int32_t fastest = size_of(now.left) > size_of(now.right) ? size_of(now.left) : size_of(now.right);
   if (fastest <= step) return {};
-  const auto rest = [&](int16_t speed) { return static_cast<int16_t>(speed * (fastest - step) / fastest); };
+  const auto rest = [&](int16_t speed) { return narrow<int16_t>(speed * (fastest - step) / fastest); };
   return {rest(now.left), rest(now.right)};
 }
 

@@ -55,7 +55,7 @@ class Exact {
 
  private:
   static constexpr Q14 quotient(int32_t sum, int32_t weight) noexcept {
-    return Q14::from_raw(static_cast<int16_t>(divide_rounded(sum, weight)));
+    return Q14::from_raw(narrow<int16_t>(divide_rounded(sum, weight)));
   }
   const RuleBase* rules_;
 };

@@ -9,7 +9,7 @@ constexpr int32_t kBiasTop = 8 * Q7::kOne;
 int64_t within(Length x, Length max_range) noexcept { return max(Length{}, min(x, max_range)).raw(); }
 
 Q7 fraction_of(int32_t top, int64_t part, int32_t whole) noexcept {
-  return Q7::from_raw(static_cast<int16_t>(divide_rounded(top * part, whole)));
+  return Q7::from_raw(narrow<int16_t>(divide_rounded(top * part, whole)));
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ void BiasFilter::rescale(int64_t variance) noexcept {
 
 /// The unit becomes coarser by 2^by, which is 2 or 1/2.
 void BiasFilter::scale(int by) noexcept {
-  coarser_ = static_cast<uint8_t>(coarser_ + by);
+  coarser_ = narrow<uint8_t>(coarser_ + by);
   const auto halve = [by](int32_t& x) { x = by > 0 ? (x + 1) >> 1 : x * 2; };
   for (int i = 0; i < kRows; ++i) {
     // The last of each is a square of the unit.

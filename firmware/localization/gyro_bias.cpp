@@ -35,7 +35,7 @@ bool GyroBias::add(int32_t sum, int32_t samples) noexcept {
   const int64_t apart = int64_t{sum} * 65536 - int64_t{value()} * samples;  // 2^-16 units
   const int64_t most = int64_t{kLargestStep} * samples * 65536;
   if (known_ && (apart > most || apart < -most)) return false;
-  samples_ = static_cast<uint16_t>(samples_ + samples);
+  samples_ = narrow<uint16_t>(samples_ + samples);
   sum_ += sum;
   if (known_ && still_for_ > wait_ + kRest) used_for_ = Duration{};
   return true;

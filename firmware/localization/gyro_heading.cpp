@@ -12,9 +12,9 @@ void GyroHeading::configure(const Params& params, const Odometry& odometry) noex
   bias_.configure(params);
   // A microradian per second for a second, in 2^-29 turn, times 2^20; 2^15 units are the range.
   constexpr int64_t kTurnPerMicroradian = 89596268;
-  turn_per_unit_ = static_cast<uint32_t>(divide_rounded_64(scaled_range(params.gyro) * kTurnPerMicroradian,
-                                                           int64_t{params.gyro.rate_hz} * 1048576));
-  most_samples_ = static_cast<uint8_t>(params.gyro.rate_hz / 2 < 255 ? params.gyro.rate_hz / 2 : 255);
+  turn_per_unit_ = narrow<uint32_t>(divide_rounded_64(scaled_range(params.gyro) * kTurnPerMicroradian,
+                                                      int64_t{params.gyro.rate_hz} * 1048576));
+  most_samples_ = narrow<uint8_t>(params.gyro.rate_hz / 2 < 255 ? params.gyro.rate_hz / 2 : 255);
 }
 
 void GyroHeading::restart() noexcept {

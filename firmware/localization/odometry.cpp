@@ -23,12 +23,12 @@ void Odometry::configure(const Params& params) noexcept {
   const Ratio ratio = params.wheels.ratio;
   const Ratio one = millionths(1000000);
   const auto skewed = [&](int64_t x) { return divide_rounded(x * (ratio - one).raw(), (ratio + one).raw()); };
-  skew_.share = static_cast<int32_t>(skewed(INT64_C(1) << 24));
+  skew_.share = narrow<int32_t>(skewed(INT64_C(1) << 24));
   skew_.um_per_count = skewed(um_per_count_);
   skew_.turn_per_count = skewed(static_cast<int64_t>(turn_per_count_));
   period_ = params.safety.period;
   const int32_t um_per_s = params.wheels.max_speed.raw() / 1000 * 512;
-  counts_per_ms_ = static_cast<uint32_t>(multiply_divide(um_per_s, params.wheels.counts_per_metre, 1000000));
+  counts_per_ms_ = narrow<uint32_t>(multiply_divide(um_per_s, params.wheels.counts_per_metre, 1000000));
 }
 
 void Odometry::place(const Pose& pose) noexcept {

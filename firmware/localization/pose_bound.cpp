@@ -47,7 +47,7 @@ GyroNoise noise_of(const Params& params) noexcept {
   const int32_t rate = params.gyro.rate_hz;
   const int64_t unit = square(rate_of(65536, params.gyro));
   if (int64_t{walk} * rate * 1000 / 256 >= unit / 4) return {walk, kRounding};
-  return {walk + static_cast<int32_t>(unit * 256 / (INT64_C(12000) * rate)), unit / 4};
+  return {walk + narrow<int32_t>(unit * 256 / (INT64_C(12000) * rate)), unit / 4};
 }
 
 /// Of a mean of samples, (rad/s)^2 2^-48.
@@ -62,14 +62,13 @@ Length distance_bound(const PoseSigma& sigma) noexcept { return norm({sigma.alon
 void PoseBound::configure(const Params& params) noexcept {
   const PoseErrorParams& e = params.pose_error;
   known_ = declares_errors(e);
-  um_per_counts_ =
-      static_cast<int32_t>(divide_rounded(INT64_C(500000) << 16, params.wheels.counts_per_metre));
+  um_per_counts_ = narrow<int32_t>(divide_rounded(INT64_C(500000) << 16, params.wheels.counts_per_metre));
   // Errors of two wheels: their mean is off by 1 / sqrt(2) of one, their difference by sqrt(2).
   const int64_t both = 2 * square(e.wheel_scale_common.raw()) + square(e.wheel_scale.raw());
   const uint32_t twice = square_root(static_cast<uint64_t>(both) << 20);
-  scale_ = static_cast<int32_t>(quotient(twice * INT64_C(741455), 1000000));
+  scale_ = narrow<int32_t>(quotient(twice * INT64_C(741455), 1000000));
   turn_per_um_ =
-      static_cast<int32_t>(divide_rounded(e.wheel_scale.raw() * INT64_C(24879108), params.body.track.raw()));
+      narrow<int32_t>(divide_rounded(e.wheel_scale.raw() * INT64_C(24879108), params.body.track.raw()));
   gyro_scale_ = multiply_divide(e.gyro_scale.raw(), INT32_C(1) << 30, 1000000);
   // In ten minutes: 2 pi 2^30 / 2^32 / 600.
   bias_.configure(multiply_divide(e.gyro_warm_up.wrapped(), 2617994, 1000000000));
@@ -80,7 +79,7 @@ void PoseBound::configure(const Params& params) noexcept {
 void PoseBound::set_difference(Ratio sigma, Length track) noexcept {
   // 2^44 / 1e6
   const int64_t taught = divide_rounded(sigma.raw() * INT64_C(17592186), track.raw());
-  if (taught < turn_per_um_) turn_per_um_ = static_cast<int32_t>(taught);
+  if (taught < turn_per_um_) turn_per_um_ = narrow<int32_t>(taught);
 }
 
 bool PoseBound::correct_heading(Angle ahead, Angle sigma, Correction& out) noexcept {
@@ -168,7 +167,7 @@ void PoseBound::restart(const Pose& pose, const PoseSigma& sigma) noexcept {
 
 bool PoseBound::step(const Step& step) noexcept {
   counts_ += step.counts.left + step.counts.right;
-  elapsed_ms_ = static_cast<uint16_t>(limited(int64_t{elapsed_ms_} + step.elapsed.raw(), kLongest));
+  elapsed_ms_ = narrow<uint16_t>(limited(int64_t{elapsed_ms_} + step.elapsed.raw(), kLongest));
   if (++ticks_ < kEvery) return false;
   const bool moved = !(step.pose.at == last_.at && step.pose.heading == last_.heading);
   update(step, moved);
@@ -181,8 +180,8 @@ bool PoseBound::step(const Step& step) noexcept {
 
 void PoseBound::update(const Step& step, bool moved) noexcept {
   const Vec way = step.pose.at - last_.at;
-  const int32_t x = static_cast<int32_t>(limited(way.x.raw(), kMostMove));
-  const int32_t y = static_cast<int32_t>(limited(way.y.raw(), kMostMove));
+  const int32_t x = narrow<int32_t>(limited(way.x.raw(), kMostMove));
+  const int32_t y = narrow<int32_t>(limited(way.y.raw(), kMostMove));
   const BiasFilter::Covariance grows = bias_.step(x, y, milliseconds(elapsed_ms_), step.by_gyro && moved);
   if (!moved || !known_) return;
   const int64_t turned = scale_down<16>(int64_t{(step.pose.heading - last_.heading).wrapped()} * 25736);

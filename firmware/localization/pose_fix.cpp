@@ -34,13 +34,12 @@ bool too_far(const Difference& d) noexcept {
 /// The weight of the fix, 2^-16: its share of the inverse variances.
 int32_t weight(const Difference& d) noexcept {
   const int64_t both = square(d.estimate) + square(d.fix);
-  return both == 0 ? 65536 : static_cast<int32_t>(quotient_64(square(d.estimate) << 16, both));
+  return both == 0 ? 65536 : narrow<int32_t>(quotient_64(square(d.estimate) << 16, both));
 }
 
 /// The standard deviation of the mean, in the unit of the fix's.
 int32_t remaining(int32_t fix, int32_t weight) noexcept {
-  return static_cast<int32_t>(int64_t{fix} * square_root(uint64_t{static_cast<uint32_t>(weight)} << 16) >>
-                              16);
+  return narrow<int32_t>(int64_t{fix} * square_root(uint64_t{narrow<uint32_t>(weight)} << 16) >> 16);
 }
 
 }  // namespace

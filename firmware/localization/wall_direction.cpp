@@ -85,8 +85,8 @@ void WallDirection::add(Run& run, const Echo& echo) noexcept {
 
 WallDirection::Place WallDirection::place(const Run& run, Vec at) noexcept {
   const Vec from = at - run.origin;
-  return {static_cast<int16_t>(scale_down<kPlaceShift>(from.x.raw())),
-          static_cast<int16_t>(scale_down<kPlaceShift>(from.y.raw()))};
+  return {narrow<int16_t>(scale_down<kPlaceShift>(from.x.raw())),
+          narrow<int16_t>(scale_down<kPlaceShift>(from.y.raw()))};
 }
 
 Vec WallDirection::point(const Run& run, const Place& place) noexcept {
@@ -114,8 +114,7 @@ bool WallDirection::finish(const Run& run, Angle direction, Found& found) noexce
   const int64_t over =
       int64_t{line.spread.raw()} * as_signed(square_root(static_cast<uint64_t>(count) << 16));
   found.ahead = Angle::from_raw(static_cast<uint32_t>(ahead));
-  found.sigma =
-      Angle::from_raw(static_cast<uint32_t>(quotient_64(error.raw() * (kRadian << 8), over))) + kFloor;
+  found.sigma = Angle::from_raw(narrow<uint32_t>(quotient_64(error.raw() * (kRadian << 8), over))) + kFloor;
   const bool agrees = earlier_sigma_ != Angle{} && magnitude(apart(line.direction - earlier_, 2)) <=
                                                        2 * (earlier_sigma_ + found.sigma).raw();
   earlier_ = line.direction;

@@ -29,7 +29,7 @@ int32_t variance(int32_t most) noexcept {
 /// What remains of a variance after an observation with this share of it.
 int32_t remaining(int32_t variance, int64_t part, int64_t whole, int32_t least) noexcept {
   const int64_t share = divide_rounded_64(part * (INT32_C(1) << 20), whole);
-  const int32_t rest = variance - static_cast<int32_t>(scale_down<20>(variance * share));
+  const int32_t rest = variance - narrow<int32_t>(scale_down<20>(variance * share));
   return rest < least ? least : rest;
 }
 
@@ -76,7 +76,7 @@ int64_t WheelGains::noise_of(Angle sigma) const noexcept { return square(counts_
 
 Ratio WheelGains::skew_sigma() const noexcept {
   return millionths(
-      static_cast<int32_t>(uint64_t{square_root_32(static_cast<uint32_t>(skew_variance_))} * 1000000 >> 16));
+      narrow<int32_t>(uint64_t{square_root_32(narrow<uint32_t>(skew_variance_))} * 1000000 >> 16));
 }
 
 bool WheelGains::compare(const CountStep& step, Angle gyro, Angle nominal) noexcept {

@@ -10,6 +10,13 @@
 
 namespace whisker {
 
+/// x, which must fit. A cast that may change the value is a static_cast.
+template <class To, class From>
+constexpr To narrow(From x) noexcept {
+  WHISKER_ASSERT(static_cast<From>(static_cast<To>(x)) == x && (static_cast<To>(x) < To{}) == (x < From{}));
+  return static_cast<To>(x);
+}
+
 constexpr int16_t saturate16(int32_t x) noexcept {
   return x > INT16_MAX ? INT16_MAX : x < INT16_MIN ? INT16_MIN : static_cast<int16_t>(x);
 }
@@ -143,7 +150,7 @@ using Q15 = Fixed<15, int16_t>;  ///< [-1, 1)
 using Q30 = Fixed<30, int32_t>;  ///< sines and cosines; [-2, 2)
 
 /// In 2^-14, to nearest.
-constexpr int16_t q14(Q30 x) noexcept { return static_cast<int16_t>(scale_down<16>(int64_t{x.raw()})); }
+constexpr int16_t q14(Q30 x) noexcept { return narrow<int16_t>(scale_down<16>(int64_t{x.raw()})); }
 
 static_assert((Q15::from_raw(INT16_MIN) * Q15::from_raw(INT16_MIN)).raw() == INT16_MAX);
 static_assert(scale_down_by(24, 4) == 2 && scale_down_by(-24, 4) == -2 && scale_down_by(23, 4) == 1);

@@ -28,9 +28,7 @@ constexpr int32_t kArcTangent[] = {683565198, -227850059, 136616721, -96801258, 
 /// c[0] x + c[1] x^3 + ... for x in [0, 1] as Q30, in the unit of the coefficients.
 template <size_t kTerms>
 constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noexcept {
-  const auto times = [](int32_t a, int32_t b) {
-    return static_cast<int32_t>(scale_down<30>(int64_t{a} * b));
-  };
+  const auto times = [](int32_t a, int32_t b) { return narrow<int32_t>(scale_down<30>(int64_t{a} * b)); };
   const int32_t square = times(x_q30, x_q30);
   int32_t sum = c[kTerms - 1];
   for (size_t i = kTerms - 1; i-- > 0;) sum = c[i] + times(sum, square);

@@ -51,7 +51,7 @@ class Unit {
   }
   /// Rounded to nearest. k > 0, so the quotient fits.
   friend constexpr Unit operator/(Unit a, int32_t k) noexcept {
-    return from_raw(static_cast<int32_t>(divide_rounded(a.raw_, k)));
+    return from_raw(narrow<int32_t>(divide_rounded(a.raw_, k)));
   }
   constexpr Unit& operator+=(Unit b) noexcept { return *this = *this + b; }
   constexpr Unit& operator-=(Unit b) noexcept { return *this = *this - b; }
@@ -119,22 +119,22 @@ constexpr Ratio millionths(int32_t ppm) noexcept { return Ratio::from_raw(ppm); 
 
 namespace literals {
 constexpr Length operator""_mm(unsigned long long x) noexcept {
-  return Length::from_raw(static_cast<int32_t>(x * 1000));
+  return Length::from_raw(narrow<int32_t>(x * 1000));
 }
 constexpr Length operator""_m(unsigned long long x) noexcept {
-  return Length::from_raw(static_cast<int32_t>(x * 1000000));
+  return Length::from_raw(narrow<int32_t>(x * 1000000));
 }
 constexpr Speed operator""_mm_per_s(unsigned long long x) noexcept {
-  return Speed::from_raw(static_cast<int32_t>(x * 1000));
+  return Speed::from_raw(narrow<int32_t>(x * 1000));
 }
 constexpr Acceleration operator""_mm_per_s2(unsigned long long x) noexcept {
-  return Acceleration::from_raw(static_cast<int32_t>(x * 1000));
+  return Acceleration::from_raw(narrow<int32_t>(x * 1000));
 }
 constexpr AngularRate operator""_mrad_per_s(unsigned long long x) noexcept {
-  return AngularRate::from_raw(static_cast<int32_t>(x * 1000));
+  return AngularRate::from_raw(narrow<int32_t>(x * 1000));
 }
 constexpr Duration operator""_ms(unsigned long long x) noexcept {
-  return Duration::from_raw(static_cast<int32_t>(x));
+  return Duration::from_raw(narrow<int32_t>(x));
 }
 }  // namespace literals
 

@@ -13,7 +13,7 @@ enum class Validity : uint8_t {
   clear,     ///< nothing within the maximum range; distance is the maximum range
   too_near,  ///< nearer than the minimum range; distance is zero
   pending,   ///< too few readings yet, or they disagree
-  invalid,   ///< the sensor reports a lost reading, or the value was out of range
+  invalid,   ///< the sensor reports a lost reading, or the reading is damaged
   stale,     ///< no new reading for too long
   stuck,     ///< the same value although the body turned
 };

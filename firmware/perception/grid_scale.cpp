@@ -6,7 +6,7 @@ namespace {
 constexpr int64_t kNear = INT32_C(1) << 30;
 
 constexpr int32_t within(int64_t x, int32_t limit) noexcept {
-  return static_cast<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
+  return narrow<int32_t>(x > limit ? limit : x < -limit ? -limit : x);
 }
 
 }  // namespace
@@ -14,7 +14,7 @@ constexpr int32_t within(int64_t x, int32_t limit) noexcept {
 int32_t GridScale::units(int64_t um, int32_t most) const noexcept {
   const int64_t n = um * kUnitsPerCell;
   // Most values are small, and a 32-bit division is faster.
-  if (n < kNear && n > -kNear) return within(floor_div(static_cast<int32_t>(n), cell_um), most);
+  if (n < kNear && n > -kNear) return within(floor_div(narrow<int32_t>(n), cell_um), most);
   return within(floor_div(n, cell_um), most);
 }
 

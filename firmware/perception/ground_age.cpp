@@ -35,13 +35,13 @@ GroundAge ground_age(const Params& params) noexcept {
   const bool gyro = params.gyro.fitted == Fitted::yes;
   // Errors of two wheels: their difference is off by sqrt(2) of one, their mean by 1 / sqrt(2).
   const int64_t apart = gyro ? 0 : quotient(int64_t{e.wheel_scale.raw()} * 1414, 1000);
-  age.travel = Length::from_raw(static_cast<int32_t>(
+  age.travel = Length::from_raw(narrow<int32_t>(
       age_until(allowed * params.body.track.raw(), apart, kLeastTravel.raw(), age.travel.raw())));
   const int32_t together = max(e.wheel_scale * 707 / 1000, e.wheel_scale_common).raw();
   const int32_t turning = gyro ? e.gyro_scale.raw() : together;
   constexpr int64_t kPerRadian = 683565276;  // 2^32 / (2 pi)
   age.turn = Angle::from_raw(
-      static_cast<uint32_t>(age_until(allowed * kPerRadian, turning, kLeastTurn.raw(), age.turn.raw())));
+      narrow<uint32_t>(age_until(allowed * kPerRadian, turning, kLeastTurn.raw(), age.turn.raw())));
   return age;
 }
 

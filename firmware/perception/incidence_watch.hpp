@@ -30,7 +30,7 @@ class IncidenceWatch {
            const Mount (&mounts)[hal::kBeams]) noexcept;
   /// In degrees, rounded down; 0 while there are too few measurements.
   uint8_t seen_deg() const noexcept {
-    return measured_ < kEnough ? uint8_t{0} : static_cast<uint8_t>((seen_.raw() >> 16) * 360 >> 16);
+    return measured_ < kEnough ? uint8_t{0} : narrow<uint8_t>((seen_.raw() >> 16) * 360 >> 16);
   }
 
  private:

@@ -21,7 +21,7 @@ class Lane {
   /// `body`: what the body covers between two checked places.
   void configure(Length half_width, Length body) noexcept {
     scale_.cell_um = half_width.raw() / (kRows / 2);
-    body_ = static_cast<int16_t>(scale_.units(body));
+    body_ = narrow<int16_t>(scale_.units(body));
     open_ = false;
   }
   /// The lane begins here, and leads along this heading. Nothing on it is clear.

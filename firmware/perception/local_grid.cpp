@@ -42,7 +42,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   clears_ = loses_walls(params.rangefinders) ? kScatterRange : 60_m;
   place_error_ = formula::place_error(params);
   footprint_ = units(swept_);
-  body_ = static_cast<int16_t>(units(params.body.radius + guard_slack(params)));
+  body_ = narrow<int16_t>(units(params.body.radius + guard_slack(params)));
   reach_ = whisker::reach(params);
   lane_.configure(reach_.guard + swept_ / kLaneTolerance, params.body.radius + guard_slack(params));
   // One true cell of a wall beyond the echo would explain it, and what stands on the clear cells between
@@ -58,8 +58,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   const Length margin = reach_.guard - swept_;
   const uint64_t passed =
       uint64_t{2} * static_cast<uint64_t>(swept_.raw()) * static_cast<uint64_t>(margin.raw());
-  passes_ =
-      static_cast<int16_t>(units(Length::from_raw(static_cast<int32_t>(square_root(passed)))) - kCellCover);
+  passes_ = narrow<int16_t>(units(Length::from_raw(narrow<int32_t>(square_root(passed)))) - kCellCover);
   ring_ = units(reach_.planning) + kUnitsPerCell + kCellCover;
   const GroundAge age = ground_age(params);
   age_travel_ = age.travel;
@@ -109,8 +108,7 @@ void LocalGrid::move_to(const Pose& pose) noexcept {
   // The body is behind the middle of the window, because the beams point ahead.
   const Vec middle = pose.at + polar(pose.heading, Length::from_raw(scale_.cell_um * kAhead));
   const auto corner = [this](Length x) {
-    return static_cast<int32_t>(floor_div(int64_t{x.raw()} + scale_.cell_um / 2, scale_.cell_um)) -
-           kCells / 2;
+    return narrow<int32_t>(floor_div(int64_t{x.raw()} + scale_.cell_um / 2, scale_.cell_um)) - kCells / 2;
   };
   const int32_t right = corner(middle.x) - column_;
   const int32_t up = corner(middle.y) - row_;

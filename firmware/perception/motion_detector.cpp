@@ -49,7 +49,7 @@ void MotionDetector::add(const Pose& from, Time taken, const Length (&free)[kBea
   scan.facing = facing(from.heading);
   scan.hits = hits;
   for (int i = 0; i < kBeams; ++i) {
-    scan.free[i] = static_cast<uint16_t>(min(free[i], kFarthest).raw() / kUm);
+    scan.free[i] = narrow<uint16_t>(min(free[i], kFarthest).raw() / kUm);
   }
 }
 
@@ -59,7 +59,7 @@ MotionDetector::Facing MotionDetector::facing(Angle direction) noexcept {
 
 Vec MotionDetector::seen(Vec v, Facing facing) noexcept {
   const auto sum = [](int64_t a, int64_t b) {
-    return Length::from_raw(static_cast<int32_t>((a + b) / (1 << 14)));
+    return Length::from_raw(narrow<int32_t>((a + b) / (1 << 14)));
   };
   const int64_t x = v.x.raw();
   const int64_t y = v.y.raw();

@@ -159,7 +159,7 @@ void Perception::measure(int i, const RecentReadings& sight, Intake& in) noexcep
   shown.too_near = sight.newest.validity == Validity::too_near;
   if (shown.too_near) shown.echo_ends = max(shown.echo_ends, min_range(sensors, i));
   if (sight.newest.validity == Validity::ok) {
-    shown.range = {static_cast<uint16_t>(sight.newest.distance.raw() / 1000), scatter};
+    shown.range = {narrow<uint16_t>(sight.newest.distance.raw() / 1000), scatter};
   }
 }
 

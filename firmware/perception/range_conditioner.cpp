@@ -34,25 +34,31 @@ void BeamConditioner::reset(Time now) noexcept {
 }
 
 bool BeamConditioner::is_stuck(const hal::RangeReading& reading, const Pose& body,
-                               Angle stuck_turn) noexcept {
-  if (reading.status == hal::RangeStatus::ok) return repetition_.stuck(reading.mm, body, stuck_turn);
+                               const Params& params) noexcept {
+  // A constant distance beyond the range may be how a sensor says that nothing is there.
+  if (reading.status == hal::RangeStatus::ok &&
+      millimetres(reading.mm) < max_range(params.rangefinders, beam_)) {
+    return repetition_.stuck(reading.mm, body, params.conditioning.stuck_turn);
+  }
   repetition_.end();
   return false;
 }
 
 Validity BeamConditioner::classify(const hal::RangeReading& reading, const Pose& body, const Params& params,
                                    Health& health) noexcept {
-  if (is_stuck(reading, body, params.conditioning.stuck_turn)) {
+  if (is_stuck(reading, body, params)) {
     count(health.range_stuck);
     return Validity::stuck;
   }
   switch (reading.status) {
     case hal::RangeStatus::ok:
-      if (millimetres(reading.mm) > max_range(params.rangefinders, beam_)) {
+      if (reading.mm > hal::kMostMm) break;
+      if (millimetres(reading.mm) >= max_range(params.rangefinders, beam_)) {
         // An echo at the maximum range may be rounded up to a whole millimetre.
-        if (millimetres(reading.mm) - 1_mm < max_range(params.rangefinders, beam_)) return Validity::clear;
-        count(health.range_out_of_range);
-        return Validity::invalid;
+        if (millimetres(reading.mm) - 1_mm >= max_range(params.rangefinders, beam_)) {
+          count(health.range_out_of_range);
+        }
+        return Validity::clear;
       }
       if (millimetres(reading.mm) < min_range(params.rangefinders, beam_)) {
         count(health.range_out_of_range);
@@ -64,7 +70,7 @@ Validity BeamConditioner::classify(const hal::RangeReading& reading, const Pose&
     case hal::RangeStatus::invalid:
     case hal::RangeStatus::stale: break;
   }
-  // A status outside the enumeration also ends here: the reading is damaged.
+  // A status or a distance that there is not also ends here: the reading is damaged.
   count(health.range_invalid);
   return Validity::invalid;
 }
@@ -128,7 +134,7 @@ void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   const bool echo = farthest < most - kOdd && farthest - nearest <= kAlike;
   const auto follow = [](uint16_t& share, bool seen, int32_t averaged) {
     const int32_t step = ((seen ? int32_t{UINT16_MAX} : 0) - share) / averaged;
-    share = static_cast<uint16_t>(share + step);
+    share = narrow<uint16_t>(share + step);
   };
   // Only where there is room for a phantom, or something to miss. Before a wall, phantoms may be rare.
   const bool near = nearest > middle + kOdd;

@@ -74,7 +74,7 @@ class BeamConditioner {
   [[gnu::noinline]] const Measurement& recent(int back) const noexcept;
   Validity classify(const hal::RangeReading& reading, const Pose& body, const Params& params,
                     Health& health) noexcept;
-  bool is_stuck(const hal::RangeReading& reading, const Pose& body, Angle stuck_turn) noexcept;
+  bool is_stuck(const hal::RangeReading& reading, const Pose& body, const Params& params) noexcept;
   /// Estimates how many readings are wrong.
   void judge(Angle turned, const Params& params) noexcept;
   /// The nearest distance that enough of these readings confirm, or nothing nearer than `far`. Undecided if

@@ -38,13 +38,13 @@ void RangeMonitor::move_to(Vec at) noexcept {
   counted_ = 0;
   // Rounded up, so that a rate falls to zero.
   trust_.contradictions =
-      static_cast<uint16_t>(trust_.contradictions - (trust_.contradictions + kFading - 1) / kFading);
+      narrow<uint16_t>(trust_.contradictions - (trust_.contradictions + kFading - 1) / kFading);
 }
 
 void RangeMonitor::contradict(bool approaches) noexcept {
   for (const uint8_t counts = approaches ? 2 : 1; counted_ < counts; ++counted_) {
     if (trust_.contradictions <= UINT16_MAX - kOne) {
-      trust_.contradictions = static_cast<uint16_t>(trust_.contradictions + kOne);
+      trust_.contradictions = narrow<uint16_t>(trust_.contradictions + kOne);
     }
   }
 }

@@ -11,7 +11,7 @@ int32_t absolute(int32_t x) noexcept { return x < 0 ? -x : x; }
 /// Chord of the disc around x in a row at distance dy from its centre.
 Span chord(int32_t x, int32_t dy, int32_t radius) noexcept {
   if (radius < 0 || dy > radius || dy < -radius) return {INT16_MAX, -INT16_MAX};
-  const int32_t half = static_cast<int32_t>(square_root_32(static_cast<uint32_t>(radius * radius - dy * dy)));
+  const int32_t half = narrow<int32_t>(square_root_32(narrow<uint32_t>(radius * radius - dy * dy)));
   return {x - half, x + half};
 }
 

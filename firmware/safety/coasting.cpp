@@ -77,7 +77,7 @@ bool Coasting::next(Arc& piece) noexcept {
   const int64_t asked = speed_integral(then_us) - speed_integral(now_us_);
   int32_t rolls = 0, follows = 0;
   if (left_ != 0) {
-    const int32_t mean = static_cast<int32_t>(quotient(asked * kOne, step_us_));
+    const int32_t mean = narrow<int32_t>(quotient(asked * kOne, step_us_));
     rolls = rolls_ - multiply_divide(rolls_, fades_, kOne);
     follows = follows_ + multiply_divide(mean - follows_, fades_, kOne);
   }

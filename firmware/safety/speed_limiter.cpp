@@ -27,7 +27,7 @@ class Track {
       turn = rest;
     }
     int32_t steps = 1 + abs(length).raw() * 9 / (body_.radius.raw() * 2);
-    const int32_t turns = 1 + static_cast<int32_t>(magnitude(turn) / kStepTurn);
+    const int32_t turns = 1 + narrow<int32_t>(magnitude(turn) / kStepTurn);
     // A turn on the spot reaches no other place.
     if (turns > steps && abs(length) >= perception::LocalGrid::kShortestStep) steps = turns;
     return steps_are_free(length, turn, steps);

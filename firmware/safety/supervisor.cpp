@@ -52,7 +52,7 @@ void Supervisor::reset() noexcept {
   bumps_ = 0;
   stall_watch_.reset();
   wheel_watch_.reset();
-  unwatched_ms_ = static_cast<int16_t>(kUnwatched.raw());
+  unwatched_ms_ = narrow<int16_t>(kUnwatched.raw());
 }
 
 void Supervisor::fail(Fault fault) noexcept {
@@ -83,7 +83,7 @@ void Supervisor::check_counts(bool read) noexcept {
 
 void Supervisor::expect_wheels(WheelPair speeds, Duration elapsed, Duration gap) noexcept {
   if (unwatched_ms_ > 0) {
-    unwatched_ms_ = static_cast<int16_t>(gap.raw() < unwatched_ms_ ? unwatched_ms_ - gap.raw() : 0);
+    unwatched_ms_ = narrow<int16_t>(gap.raw() < unwatched_ms_ ? unwatched_ms_ - gap.raw() : 0);
   } else {
     wheel_watch_.expect(speeds, elapsed);
   }

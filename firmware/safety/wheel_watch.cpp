@@ -42,7 +42,7 @@ WheelWatch::Finding WheelWatch::judge(Wheel& wheel) const noexcept {
       const Length beyond = max(abs(wheel.commanded_way) - stretch_, Length{});
       const Length held = min(Length::from_raw(wheel.held << kHeldShift) + beyond, kMostHeld);
       if (held >= min(stretch_ * kHeldStretches, kMostHeld)) return Finding::stalled;
-      wheel.held = static_cast<uint16_t>(held.raw() >> kHeldShift);
+      wheel.held = narrow<uint16_t>(held.raw() >> kHeldShift);
     }
     // Something holds both wheels, which has a separate time-out. The motion missed meanwhile must not count
     // after release.

@@ -119,6 +119,7 @@ struct RobotOptions {
   std::string file;
   std::string header;
   std::string suggest;
+  std::vector<double> body;  // length, width, axle; empty: not told
   PlannerKind planner = kDefaultPlanner;
   bool json = false;
 };
@@ -215,7 +216,14 @@ int execute(const RobotOptions& o) {
   Params params;
   Sensor sensor;
   try {
-    apply_robot_file(params, sensor, o.file);
+    const bool told = !o.body.empty();
+    const Rectangle body = told ? Rectangle{o.body[0], o.body[1], o.body[2]} : Rectangle{};
+    if (told && body.axle > body.length) throw UsageError("--rectangle: the axle must lie within the length");
+    apply_robot_file(params, sensor, o.file, told ? &body : nullptr);
+    if (told && !o.json) {
+      fmt::print(out, "body: within {:.4f} m around the middle of the axle; body_radius_m is {}\n",
+                 body.radius_around_axle(), metres(params.body.radius));
+    }
   } catch (const InputErrors& errors) {
     if (!o.suggest.empty()) suggest(o, errors);
     if (!o.json) throw;
@@ -274,6 +282,12 @@ void add_robot_check(CLI::App& robot, int& status) {
   add_file(*cmd, "ROBOT", o->file, "Robot file (TOML)")->required();
   add_file(*cmd, "--header", o->header, "Write the parameters of a fit robot as a C++ header");
   add_file(*cmd, "--suggest", o->suggest, "Write ROBOT with the changes that make all relations hold");
+  amount(
+      cmd->add_option("--rectangle", o->body,
+                      "Also check that body_radius_m holds a rectangular body: length, width, and distance "
+                      "of the axle from the front, m")
+          ->expected(3),
+      "LENGTH WIDTH AXLE", 4);
   add_planner(*cmd, o->planner);
   add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
   cmd->footer(kStatus);

@@ -53,6 +53,16 @@ TEST_F(DriveTest, DutyAndDirectionAreThoseAskedFor) {
   EXPECT_EQ(tim1.duty(2), 1);
 }
 
+TEST_F(DriveTest, CutOffTheyAreWithoutPulseAndDirectionWhateverTheyDid) {
+  for (const int duty : {-20000, 0, 32767}) {
+    motors.drive(static_cast<int16_t>(duty), static_cast<int16_t>(-duty));
+    Motors::cut_off();
+    EXPECT_EQ(tim1.duty(1), 0);
+    EXPECT_EQ(tim1.duty(2), 0);
+    for (int i = 0; i < 4; ++i) EXPECT_FALSE(high(i));
+  }
+}
+
 TEST_F(DriveTest, WheelsAreAtRestFromTheStart) {
   EXPECT_EQ(tim1.duty(1), 0);
   EXPECT_EQ(tim1.duty(2), 0);

@@ -89,6 +89,23 @@ TEST_F(RangersTest, TellNothingInReachFromALostReading) {
   EXPECT_EQ(reading(2).status, RangeStatus::invalid);
 }
 
+TEST_F(RangersTest, OnlyASensorThatWorksSaysThatNothingIsInReach) {
+  for (std::uint8_t value = 0; value < 16; ++value) {
+    distance[0] = vl53l0x::kOutOfReachMm;
+    distance[1] = 0xFFFF;
+    distance[2] = 2000;
+    for (std::uint8_t& s : status) s = value;
+    pass(250);
+    const bool works = (value >= 4 && value <= 7) || value == 9 || value == vl53l0x::kValid;
+    EXPECT_EQ(reading(0).status, works ? RangeStatus::clear : RangeStatus::invalid) << +value;
+    EXPECT_EQ(reading(1).status, works ? RangeStatus::clear : RangeStatus::invalid) << +value;
+    EXPECT_EQ(reading(2).status, value == vl53l0x::kValid      ? RangeStatus::ok
+                                 : value == vl53l0x::kNoSignal ? RangeStatus::clear
+                                                               : RangeStatus::invalid)
+        << +value;
+  }
+}
+
 TEST_F(RangersTest, ASensorThatIsNotThereLeavesTheOthersAlone) {
   sensor[1].dead = true;
   pass(1000);

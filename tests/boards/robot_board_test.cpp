@@ -31,6 +31,24 @@ TEST_F(RobotBoardTest, AGoalBehindAWallEndsWithoutAContact) {
   EXPECT_GT(plant.pose().at.x, 0.3);
 }
 
+TEST_F(RobotBoardTest, AWallBeyondTheMaximumRangeIsNoLostReading) {
+  for (const double x : {1.5, 1.9}) {
+    wall = {{x, -3.0}, {x, 3.0}};
+    robot.reset();
+    go(robot.status().pose.at.x + 250_mm);
+    EXPECT_TRUE(run(20, [this] { return robot.status().decision.outcome == planning::Outcome::reached; }))
+        << name(robot.status().health.fault);
+    EXPECT_GT(robot.status().health.range_out_of_range, 0U) << x;
+  }
+}
+
+TEST_F(RobotBoardTest, LasersThatFailAreLostAndNotClear) {
+  for (std::uint8_t& status : sensed_as) status = 1;
+  wall = {{9, -3}, {9, 3}};
+  go(1500_mm);
+  EXPECT_TRUE(run(2, [this] { return robot.status().health.fault == Fault::range_lost; }));
+}
+
 TEST_F(RobotBoardTest, ASensorThatDiesStopsTheRobotWithItsName) {
   wall = {{9, -3}, {9, 3}};
   go(5_m);

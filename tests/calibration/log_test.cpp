@@ -33,6 +33,15 @@ std::string complaint(const std::string& text) {
 
 constexpr const char* kHead = "t_s,heading_rad,left_m,front_m,right_m\n";
 
+TEST(Sample, ADistanceBeyondTheBelievedRangeIsClear) {
+  const Believed beam = believed(Params{}, hal::kFront);
+  Sample sample;
+  ASSERT_TRUE(sample_of({1999, hal::RangeStatus::ok, 0, 0}, beam, sample));
+  EXPECT_EQ(sample.reading, Reading::echo);
+  ASSERT_TRUE(sample_of({2500, hal::RangeStatus::ok, 0, 0}, beam, sample));
+  EXPECT_EQ(sample.reading, Reading::clear);
+}
+
 TEST(TraceLog, SaysTheSameAsTheSpin) {
   for (const int rate : {50, 20}) {
     Params p;

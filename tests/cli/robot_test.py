@@ -159,6 +159,22 @@ class RobotCheck(Case):
         self.assertEqual(kinds, {"reference": [], "layout-45": [], "layout-40": [], "layout-45-true-38": ["invisible_walls"],
                                  "hc-sr04": [], "vl53l1x": [], "gyro": []})  # fmt: skip
 
+    def test_the_radius_is_around_the_axle(self):
+        turtle = self.file("turtle.toml", "wheel_track_m = 0.16\nbody_radius_m = 0.105\n")
+        body = ("--rectangle", "0.14", "0.14", "0.038")
+        done = check(turtle, *body)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr, f"{turtle}:2:17: body_radius_m = 0.105: the disc around the middle of the axle must hold the body; "
+                                      "0.14 x 0.14 m with the axle 0.038 m behind the front need 0.124 m\n")  # fmt: skip
+        told = json.loads(check(turtle, *body, "--json").stdout)
+        self.assertEqual((told["fit"], [v["text"] for v in told["violations"]]), (False, [done.stderr.rstrip()]))
+        self.refused("robot", "check", self.file("none.toml", ""), "--rectangle", 0.2, 0.1, 0.1, says="none.toml:1:1: body_radius_m = 0.09: ")
+        held = check(self.file("held.toml", "body_radius_m = 0.124\nwheel_track_m = 0.16\n"), *body)
+        self.assertEqual(held.returncode, 0, held.stderr)
+        self.assertEqual(held.stdout.splitlines()[0], "body: within 0.1237 m around the middle of the axle; body_radius_m is 0.124")
+        for values, says in (((0.14, 0.14, 0.2), "the axle must lie within the length"), ((0.14, "nan", 0), "'nan' is no number"), ((0.1, 0.1), "3")):
+            self.refused("robot", "check", turtle, "--rectangle", *values, says=says)
+
     def test_files_that_are_none(self):
         self.refused("robot", says="robot")
         self.refused("robot", "check", says="ROBOT")

@@ -53,6 +53,21 @@ TEST(WorseSensors, WhatABeamShowsIsNotTouchedWhereWallsVanish) {
   }
 }
 
+TEST(WorseSensors, DistancesBeyondTheMaximumRangeAreClearInEveryRespect) {
+  for (const worlds::Kind kind : {worlds::Kind::rooms, worlds::Kind::u_trap, worlds::Kind::discs}) {
+    Scenario scenario = world_of(kind, 9);
+    scenario.robot.rangefinders.max_range = 1200_mm;
+    const RunResult clear = run(scenario);
+    scenario.sensor.max_range_m = 6;
+    scenario.sensor.far_is = Far::distance;
+    const RunResult far = run(scenario);
+    EXPECT_EQ(clear.verdict, Verdict::reached) << scenario.name;
+    EXPECT_EQ(far.hash, clear.hash) << scenario.name;
+    scenario.sensor.scale = 1.1;
+    EXPECT_EQ(run(scenario).verdict, Verdict::reached) << scenario.name;
+  }
+}
+
 TEST(WorseSensors, ThreeMissesInTenReadingsLeadToNoContact) {
   Scenario scenario = world_of(worlds::Kind::maze, 610025);
   scenario.noise.range_false_clear = 0.3;

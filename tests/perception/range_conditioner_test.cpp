@@ -1,6 +1,7 @@
 #include "firmware/perception/range_conditioner.hpp"
 
 #include <cstdint>
+#include <initializer_list>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@ namespace whisker::perception {
 namespace {
 
 using hal::RangeStatus;
+using Readings = std::initializer_list<std::uint16_t>;
 
 class BeamTest : public testing::Test {
  protected:
@@ -89,17 +91,28 @@ TEST_F(BeamTest, AnUnknownStatusIsALostReading) {
   EXPECT_EQ(health_.range_invalid, 1U);
 }
 
-TEST_F(BeamTest, OutsideTheSensorsRangeIsLostAboveAndTooNearBelow) {
-  see(2001);
-  EXPECT_EQ(beam_.latest().validity, Validity::invalid);
-  see(2000);
+TEST_F(BeamTest, OutsideTheSensorsRangeIsClearAboveAndTooNearBelow) {
+  for (const std::uint16_t mm : Readings{hal::kMostMm, 2001, 2000}) {
+    see(mm);
+    EXPECT_EQ(beam_.latest().validity, Validity::clear) << mm;
+    EXPECT_EQ(beam_.latest().distance, 2000_mm) << mm;
+  }
+  see(1999);
   EXPECT_EQ(beam_.latest().validity, Validity::ok);
   see(20);
   EXPECT_EQ(beam_.latest().validity, Validity::ok);
   see(19);
   EXPECT_EQ(beam_.latest().validity, Validity::too_near);
   EXPECT_EQ(beam_.latest().distance, Length{});
-  EXPECT_EQ(health_.range_out_of_range, 2U);
+  EXPECT_EQ(health_.range_out_of_range, 3U);
+}
+
+TEST_F(BeamTest, ADistanceThatNoBusCarriesIsLost) {
+  for (const std::uint16_t mm : Readings{65534, 65535}) {
+    see(mm);
+    EXPECT_EQ(beam_.latest().validity, Validity::invalid) << mm;
+  }
+  EXPECT_EQ(health_.range_invalid, 2U);
 }
 
 TEST_F(BeamTest, AnEchoAtAMaximumOfNoWholeMillimetresIsClear) {
@@ -111,7 +124,7 @@ TEST_F(BeamTest, AnEchoAtAMaximumOfNoWholeMillimetresIsClear) {
   EXPECT_EQ(beam_.latest().distance, micrometres(1999'100));
   EXPECT_EQ(health_.range_out_of_range, 0U);
   see(2001);
-  EXPECT_EQ(beam_.latest().validity, Validity::invalid);
+  EXPECT_EQ(beam_.latest().validity, Validity::clear);
   EXPECT_EQ(health_.range_out_of_range, 1U);
 }
 
@@ -228,6 +241,14 @@ TEST_F(StuckBeamTest, TheSameMillimetreOverATurnAndThenOverSomeWayIsStuck) {
   EXPECT_EQ(health_.range_stuck, 2U);
   EXPECT_EQ(ahead(0_mm, 701), Validity::ok);
   EXPECT_EQ(ahead(30_mm, 701), Validity::ok);
+}
+
+TEST_F(StuckBeamTest, AConstantDistanceBeyondTheRangeIsNoStuckSensor) {
+  for (const std::uint16_t mm : Readings{2000, 4000}) {
+    for (int deg = 0; deg < 360; deg += 3) see(RangeStatus::ok, mm, Angle::turns(deg, 360));
+    EXPECT_EQ(ahead(500_mm, mm), Validity::clear);
+  }
+  EXPECT_EQ(health_.range_stuck, 0U);
 }
 
 TEST_F(StuckBeamTest, TurnsOnForEverInARoundRoom) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/params/words.hpp"
 #include "firmware/planning/thesis/thesis_planner.hpp"
 #include "tests/robot/allocations.hpp"
 #include "tests/robot/fake_board.hpp"
@@ -283,6 +284,40 @@ TEST_F(RobotTest, AnInvalidParameterSetNeverMoves) {
   robot.tick(Time::from_raw(5000));
   EXPECT_EQ(robot.status().health.drive_refused, 1U);
   robot.reset();
+  EXPECT_EQ(robot.status().health.fault, Fault::invalid_params);
+}
+
+/// Must not be asked.
+class NoPlanner final : public planning::Planner {
+ public:
+  void set_goal(const planning::Goal&) noexcept override { ++asked; }
+  void move_goal(Vec) noexcept override { ++asked; }
+  void cancel() noexcept override {}
+  planning::Decision step(const planning::View&) noexcept override {
+    ++asked;
+    return {};
+  }
+  int asked = 0;
+};
+
+TEST_F(RobotTest, WithAnInvalidParameterSetNothingIsComputed) {
+  Params bad;
+  for (int i = 0; i < kParams; ++i) set_raw_param(bad, i, 0x7FFFFFFF);
+  NoPlanner planner;
+  Robot robot(board_, board_, planner, bad, &board_, &board_);
+  EXPECT_FALSE(robot.place({{1_m, 2_m}, 30_deg}));
+  EXPECT_FALSE(robot.set_goal({{5_m, 0_m}, 100_mm}));
+  for (std::uint32_t t = 10; t < 100; t += 10) {
+    EXPECT_FALSE(robot.correct({{1_m, 2_m}, 30_deg}, {10_mm, 10_mm, 1_deg}));
+    robot.braked_elsewhere();
+    robot.tick(Time::from_raw(t));
+    robot.cancel();
+    robot.reset();
+    board_.pass();
+  }
+  EXPECT_EQ(planner.asked, 0);
+  EXPECT_EQ(board_.gyro_reads, 0);
+  EXPECT_EQ(robot.status().pose.at, Vec{});
   EXPECT_EQ(robot.status().health.fault, Fault::invalid_params);
 }
 

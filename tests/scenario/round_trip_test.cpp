@@ -133,6 +133,7 @@ Sensor any_sensor() {
   set(s.ambient_klux, 0, 100);
   if (below(2) == 0) s.lost_is = below(2) == 0 ? Lost::clear : Lost::invalid;
   if (below(2) == 0) s.near_is = below(2) == 0 ? Near::too_near : Near::farther;
+  s.far_is = below(2) == 0 ? Far::clear : Far::distance;
   return s;
 }
 
@@ -151,6 +152,7 @@ void same(const Sensor& a, const Sensor& b) {
   RC_ASSERT(a.ambient_knee_klux == b.ambient_knee_klux);
   RC_ASSERT(a.lost_is == b.lost_is);
   RC_ASSERT(a.near_is == b.near_is);
+  RC_ASSERT(a.far_is == b.far_is);
   RC_ASSERT(a.skew_deg == b.skew_deg);
   RC_ASSERT(a.scale == b.scale);
   RC_ASSERT(a.phantom == b.phantom);

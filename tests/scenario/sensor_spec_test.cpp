@@ -58,6 +58,13 @@ TEST(SensorSpec, TakesTheShorterOfTheTwoRanges) {
   EXPECT_EQ(spec(model("tfmini")).beams[hal::kFront].min_range, 0.3);
 }
 
+TEST(SensorSpec, ShowsWhatIsBeyondTheBelievedRangeIfTheDriverDoes) {
+  Sensor far = model("hc-sr04");
+  far.far_is = Far::distance;
+  EXPECT_EQ(spec(far).beams[hal::kFront].max_range, 4);
+  EXPECT_EQ(spec(far, 6_m).beams[hal::kFront].max_range, 4);
+}
+
 TEST(SensorSpec, LightActsOnTheRangeOfTheSensorItself) {
   Sensor s = model("tfmini");
   s.reflectance = 0.225;

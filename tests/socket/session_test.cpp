@@ -137,7 +137,12 @@ TEST(Session, DrivesBitForBitAsTheCoreInThisProcess) {
     worlds::Options options;
     options.seed = 11;
     options.noise = true;
-    expect_same(worlds::generate(kind, options));
+    Scenario scenario = worlds::generate(kind, options);
+    expect_same(scenario);
+    scenario.robot.rangefinders.max_range = 1200_mm;
+    scenario.sensor.max_range_m = 2;
+    scenario.sensor.far_is = Far::distance;
+    expect_same(scenario);
   }
 }
 

@@ -30,6 +30,12 @@ void Motors::start(const Clocks& clocks) noexcept {
   drive(0, 0);
 }
 
+void Motors::cut_off() noexcept {
+  for (const Pin& direction : wiring::kDirections) write(direction, false);
+  store(kBase, tim::kCcr1, 0);
+  store(kBase, tim::kCcr2, 0);
+}
+
 void Motors::drive(int16_t left, int16_t right) noexcept {
   drive_one(0, left);
   drive_one(1, right);

@@ -15,6 +15,8 @@ class Motors {
   void start(const Clocks& clocks) noexcept;
   /// +-32767 is full duty, forward positive. 0 brakes: both direction inputs low.
   void drive(int16_t left, int16_t right) noexcept;
+  /// Brakes. Needs no driver, so that it also works after a fault of the processor.
+  static void cut_off() noexcept;
 
  private:
   void drive_one(uint8_t wheel, int16_t duty) noexcept;

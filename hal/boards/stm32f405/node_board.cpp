@@ -2,6 +2,7 @@
 
 #include "hal/board.hpp"
 #include "hal/boards/stm32f405/interrupts.hpp"
+#include "hal/boards/stm32f405/motors.hpp"
 #include "hal/boards/stm32f405/pins.hpp"
 #include "hal/boards/stm32f405/random.hpp"
 
@@ -51,6 +52,7 @@ uint16_t NodeBoard::boot_number() noexcept {
 
 /// Until the watchdog resets the chip.
 void whisker::hal::leave(int) noexcept {
+  whisker::hal::stm32f405::Motors::cut_off();
   for (;;) {
   }
 }

@@ -1,5 +1,6 @@
 // Vector table and reset. Sections and symbols are those of hal/runtime/cortex_m/sections.ld.
 #include "hal/boards/stm32f405/interrupts.hpp"
+#include "hal/boards/stm32f405/motors.hpp"
 
 int main();
 
@@ -22,8 +23,10 @@ namespace {
 using Handler = void (*)();
 using whisker::hal::stm32f405::Interrupt;
 
-/// No fault or other interrupt is expected: the watchdog is no longer fed and resets the chip.
+/// No fault or other interrupt is expected. The pulses would go on without the processor, so the motors are
+/// cut off first; then the watchdog, which is no longer fed, resets the chip.
 [[noreturn]] void stand_still() noexcept {
+  whisker::hal::stm32f405::Motors::cut_off();
   for (;;) {
   }
 }

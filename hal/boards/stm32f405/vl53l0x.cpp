@@ -21,7 +21,8 @@ Taken take(I2c& bus, uint8_t address, hal::RangeReading& out) noexcept {
   if (!bus.write(address, kInterruptClear, 1)) return Taken::failed;
   const uint8_t status = (bytes[0] >> 3) & 0x0F;
   out.mm = static_cast<uint16_t>((bytes[10] << 8) | bytes[11]);
-  if (out.mm >= kOutOfReachMm || status == kNoSignal) {
+  const bool nothing = out.mm >= kOutOfReachMm && (kSeesNothing >> status & 1U) != 0;
+  if (nothing || status == kNoSignal) {
     out.status = hal::RangeStatus::clear;
   } else {
     out.status = status == kValid ? hal::RangeStatus::ok : hal::RangeStatus::invalid;

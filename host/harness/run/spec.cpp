@@ -24,7 +24,7 @@ void set_width(const Sensor& sensor, sim::RobotSpec& spec) {
   spec.beams[hal::kRight].angle -= sensor.skew_deg * kDegree;
 }
 
-/// The driver says clear beyond the range that the robot believes, so a longer one of the sensor only widens
+/// If the driver says clear beyond the range that the robot believes, a longer one of the sensor only widens
 /// the taper and the reach in ambient light.
 void set_reach(const Sensor& sensor, sim::RobotSpec& spec) {
   double believed = 0;
@@ -34,7 +34,7 @@ void set_reach(const Sensor& sensor, sim::RobotSpec& spec) {
   spec.taper_range = reach;
   if (share < 1) spec.echo_range = reach * share;
   for (sim::BeamSpec& beam : spec.beams) {
-    beam.max_range = std::fmin(reach, beam.max_range);
+    beam.max_range = sensor.far_is == Far::distance ? reach : std::fmin(reach, beam.max_range);
     beam.min_range = sensor.min_range_m.value_or(beam.min_range);
   }
   spec.soft_range = sensor.soft_range_m;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -79,8 +80,24 @@ void refuse_scenario(const toml::table& root, const std::string& file) {
     throw InputError(file, 1, 1, "this is a scenario, not a robot file");
 }
 
+/// Throws if the disc does not hold the body.
+void check_body(const RobotTables& tables, const Params& params, const Rectangle& body) {
+  constexpr const char* kKey = "body_radius_m";
+  constexpr double kRounding = 1e-6;
+  const double has = params.body.radius.raw() * 1e-6, needed = body.radius_around_axle();
+  if (has >= needed - kRounding) return;
+  const bool named = tables.back().has(kKey);
+  const TableReader& table = named ? tables.back() : tables.front();
+  const std::string what = fmt::format(
+      "body_radius_m = {}: the disc around the middle of the axle must hold the body; {} x {} m with the "
+      "axle {} m behind the front need {:.3f} m",
+      has, body.length, body.width, body.axle, std::ceil(needed * 1000 - kRounding) / 1000);
+  throw InputErrors({named || table.has(kKey) ? table.error_at(kKey, what) : table.error(what)});
+}
+
 /// A robot file: parameters at its top level or in [robot], [sensor] and [noise].
-void read_robot_file(const std::string& file, Params& params, Sensor& sensor, Noise& noise) {
+void read_robot_file(const std::string& file, Params& params, Sensor& sensor, Noise& noise,
+                     const Rectangle* body = nullptr) {
   const toml::table root = parse_toml(read_file(file), file);
   refuse_scenario(root, file);
   std::vector<std::string_view> known = robot_keys();
@@ -97,9 +114,12 @@ void read_robot_file(const std::string& file, Params& params, Sensor& sensor, No
   if (top.has("noise")) read_noise(top.table("noise", noise_keys()), noise);
   read_robot(tables, params);
   check_robot(tables, params);
+  if (body != nullptr) check_body(tables, params, *body);
 }
 
 }  // namespace
+
+double Rectangle::radius_around_axle() const { return std::hypot(std::fmax(axle, length - axle), width / 2); }
 
 std::string read_file(const std::string& file) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), std::fclose);
@@ -156,11 +176,11 @@ Scenario load_scenario(const std::string& file, const std::string& robot_file) {
   return parse_scenario(read_file(file), file, robot_file);
 }
 
-void apply_robot_file(Params& params, Sensor& sensor, const std::string& file) {
+void apply_robot_file(Params& params, Sensor& sensor, const std::string& file, const Rectangle* body) {
   Params changed = params;
   Sensor changed_sensor = sensor;
   Noise ignored;
-  read_robot_file(file, changed, changed_sensor, ignored);
+  read_robot_file(file, changed, changed_sensor, ignored, body);
   params = changed;
   sensor = changed_sensor;
 }

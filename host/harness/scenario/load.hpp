@@ -18,8 +18,18 @@ Scenario parse_scenario(std::string_view text, const std::string& name, const st
 /// Sets the parameters that a robot file contains (at its top level, or in [robot]) and keeps the others. On
 /// an error, the parameters are unchanged. Its [sensor] and [noise], if any, are only checked.
 void apply_robot_file(Params& params, const std::string& file);
-/// The same, and sets what its [sensor] contains.
-void apply_robot_file(Params& params, Sensor& sensor, const std::string& file);
+/// A body that is a rectangle, m.
+struct Rectangle {
+  double length;
+  double width;
+  double axle;  ///< from the front edge to the axle
+  /// Of the smallest disc around the middle of the axle that holds it.
+  double radius_around_axle() const;
+};
+/// The same, and sets what its [sensor] contains. Also throws if the disc of the robot does not hold its
+/// body.
+void apply_robot_file(Params& params, Sensor& sensor, const std::string& file,
+                      const Rectangle* body = nullptr);
 /// The same for the robot of a scenario, and sets what its [noise] contains; also throws if the new body is
 /// in contact at the start.
 void apply_robot_file(Scenario& scenario, const std::string& file);

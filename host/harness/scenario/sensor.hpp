@@ -13,6 +13,9 @@ enum class Lost { clear, invalid };
 /// reads as one at minimum^2 / d, as of infrared triangulation.
 enum class Near { too_near, farther };
 
+/// The reading of a target beyond the robot's range_max_m that is within the sensor's own range.
+enum class Far { clear, distance };
+
 /// The defaults are what the robot believes.
 struct Sensor {
   std::string_view model;  ///< name of a row of sensor_models.hpp; empty: none
@@ -43,6 +46,7 @@ struct Sensor {
   double soft = 0;          ///< share of the obstacles that absorb
   double reflectance = 1;   ///< of all targets
   double ambient_klux = 0;  ///< light on sensor and targets
+  Far far_is = Far::clear;
 };
 
 /// The share of max_range_m up to which a target gives an echo, given its reflectance and the ambient light:

@@ -58,6 +58,7 @@ struct Choice {
 };
 constexpr Choice kLost{"lost_is", {"clear", "invalid"}, "what is too dark"};
 constexpr Choice kNear{"near_is", {"too_near", "farther"}, "what is nearer than min_range_m"};
+constexpr Choice kFar{"far_is", {"clear", "distance"}, "what is beyond the robot's range_max_m"};
 
 void read_model(const TableReader& table, Sensor& s) {
   const std::string name = table.text("model");
@@ -111,7 +112,7 @@ std::string line(std::string_view name, const std::string& value, std::string_vi
 }  // namespace
 
 std::vector<std::string_view> sensor_keys() {
-  std::vector<std::string_view> names = {"model", kLost.key, kNear.key};
+  std::vector<std::string_view> names = {"model", kLost.key, kNear.key, kFar.key};
   for (const Key& k : kKeys) names.emplace_back(k.name);
   return names;
 }
@@ -129,6 +130,7 @@ void read_sensor(const TableReader& table, Sensor& s) {
   }
   read_choice(table, kLost, s.lost_is);
   read_choice(table, kNear, s.near_is);
+  read_choice(table, kFar, s.far_is);
   check_cone(table, s);
   check_ranges(table, s);
 }
@@ -151,6 +153,7 @@ std::string sensor_toml(const Sensor& s) {
   };
   add(kLost, static_cast<int>(s.lost_is), static_cast<int>(usual.lost_is));
   add(kNear, static_cast<int>(s.near_is), static_cast<int>(usual.near_is));
+  add(kFar, static_cast<int>(s.far_is), static_cast<int>(usual.far_is));
   return out.empty() ? out : "\n[sensor]  # what the rangefinders really do\n" + out;
 }
 

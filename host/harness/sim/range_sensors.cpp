@@ -10,9 +10,8 @@ namespace {
 int64_t nearest(double x) { return whole_below(x + 0.5); }
 
 uint16_t millimetres_of(double metres) {
-  constexpr int64_t kMost = 65533;
   const int64_t mm = nearest(metres * 1000);
-  return static_cast<uint16_t>(mm < 0 ? 0 : mm > kMost ? kMost : mm);
+  return static_cast<uint16_t>(mm < 0 ? 0 : mm > hal::kMostMm ? hal::kMostMm : mm);
 }
 
 hal::RangeReading without_distance(hal::RangeStatus status) { return {0, status, 0, 0}; }

@@ -20,9 +20,9 @@ namespace {
 
 using Value = nlohmann::json;
 
-constexpr double kMostRange = 65.533;           // m, the largest hal::RangeReading::mm
-constexpr double kMostTime = 4294967;           // s, in 32 bits of milliseconds
-constexpr double kTooLarge = 9007199254740992;  // 2^53: a double has every whole number below it
+constexpr double kMostRange = hal::kMostMm / 1000.0;  // m
+constexpr double kMostTime = 4294967;                 // s, in 32 bits of milliseconds
+constexpr double kTooLarge = 9007199254740992;        // 2^53: a double has every whole number below it
 constexpr double kDegree = sim::kPi / 180;
 
 Value parsed(const std::string& line) {

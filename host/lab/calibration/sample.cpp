@@ -28,8 +28,8 @@ Believed believed(const Params& params, int beam) {
 bool sample_of(const hal::RangeReading& reading, const Believed& beam, Sample& sample) {
   switch (reading.status) {
     case hal::RangeStatus::ok:
-      sample.reading = Reading::echo;
       sample.metres = reading.mm * 1e-3;
+      sample.reading = sample.metres < beam.max_range_m ? Reading::echo : Reading::clear;
       return true;
     case hal::RangeStatus::too_near:
       sample.reading = Reading::echo;

@@ -46,7 +46,10 @@ void draw_better_sensor(Dice& dice, const RangefinderParams& r, Sensor& sensor) 
   if (dice.chance(0.5)) sensor.incidence_deg = dice.uniform(sensor.incidence_deg, 90);
   if (dice.chance(0.3)) sensor.cone_deg = std::min(170.0, all.cone_deg * dice.uniform(1, 1.5));
   if (dice.chance(0.3)) sensor.min_range_m = all.min_range_m * dice.uniform(0, 1);
-  if (dice.chance(0.3)) sensor.max_range_m = std::min(60.0, all.max_range_m * dice.uniform(1, 1.5));
+  if (dice.chance(0.3)) {
+    sensor.max_range_m = std::min(60.0, all.max_range_m * dice.uniform(1, 1.5));
+    sensor.far_is = Far::distance;
+  }
 }
 
 void draw_fixes(Dice& dice, Noise& noise) {

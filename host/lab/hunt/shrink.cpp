@@ -74,6 +74,7 @@ class Shrinker {
         c.scenario.sensor.cone_deg.reset();
         c.scenario.sensor.min_range_m.reset();
         c.scenario.sensor.max_range_m.reset();
+        c.scenario.sensor.far_is = Far::clear;
       });
     }
   }

@@ -178,7 +178,8 @@ In lockstep, the time of a Velocity is that of the next set, so an operator send
 ## Measurements
 
 - Distance is the distance from the apex of the sensor to the nearest object in its cone. It is 65535 for Status clear (nothing up to
-  range_max_m) and 65534 for too_near, invalid and stale. Any other value with these is out of range.
+  range_max_m) and 65534 for too_near, invalid and stale. Any other value with these is out of range. With Status ok, range_max_m or more
+  counts as clear.
 - Age is the time from when the distance was true to this tick. Sequence increases with every new measurement, so a set may
   repeat one. The core expects the rate range_rate_hz and the latency range_latency_s.
 - Counts increase by encoder_counts_per_m for each metre of rim travel, from any initial value. Tick in WheelState is that of Sync, modulo 8.

@@ -28,16 +28,21 @@ constexpr Params my_robot() {
 }
 static_assert(check(my_robot()) == ParamFault::none, "the parameters do not fit: ask `whisker robot check`");
 
-volatile uint32_t echo_began[3], echo_took[3];  // us
+enum Line : uint8_t { kSilent, kHigh, kEnded };
+volatile Line echo[3];                            // since the trigger
+volatile uint32_t echo_began[3], echo_ended[3];  // us
 volatile int32_t counted[2];
 
 template <int kBeam>
 void on_echo() {
   const uint32_t now = micros();
-  if (digitalRead(kEcho[kBeam]) == HIGH) {
+  const bool high = digitalRead(kEcho[kBeam]) == HIGH;
+  if (high && echo[kBeam] == kSilent) {
     echo_began[kBeam] = now;
-  } else {
-    echo_took[kBeam] = now - echo_began[kBeam];
+    echo[kBeam] = kHigh;
+  } else if (!high && echo[kBeam] == kHigh) {
+    echo_ended[kBeam] = now;
+    echo[kBeam] = kEnded;
   }
 }
 
@@ -47,17 +52,20 @@ void on_count() {
   counted[kWheel] = counted[kWheel] + (same ? 1 : -1);
 }
 
-// One sensor after another, so that none hears the ping of another.
+// One sensor after another, so that none hears the ping of another. An HC-SR04 raises its echo line within 0.5
+// ms of the trigger, and lowers it when the echo returns or after 38 ms. A line that does not rise in time is
+// that of a sensor that is dead, unplugged or locked up, and proves nothing.
 class Sonars final : public hal::Rangefinders {
  public:
   void poll() {
     if (millis() - pinged_ms_ < 17) return;
     take(active_);
     active_ = (active_ + 1) % hal::kBeams;
-    echo_took[active_] = 0;
+    echo[active_] = kSilent;
     digitalWrite(kTrigger[active_], HIGH);
     delayMicroseconds(10);
     digitalWrite(kTrigger[active_], LOW);
+    triggered_us_ = micros();
     pinged_ms_ = millis();
   }
   bool read(hal::RangeReadings& out) noexcept override {
@@ -72,22 +80,24 @@ class Sonars final : public hal::Rangefinders {
  private:
   void take(int beam) {
     noInterrupts();
-    const uint32_t us = echo_took[beam];
+    const Line line = echo[beam];
+    const uint32_t began = echo_began[beam], ended = echo_ended[beam];
     interrupts();
-    const uint32_t mm = us * 17 / 100;  // there and back at 340 m/s
+    const bool answered = line != kSilent && began - triggered_us_ < kAnswersWithinUs;
     hal::RangeReading& reading = latest_[beam];
-    reading.mm = static_cast<uint16_t>(mm < 65533 ? mm : 65533);
-    reading.status = hal::RangeStatus::ok;
-    if (us == 0 || mm >= 2000) reading.status = hal::RangeStatus::clear;
-    if (us != 0 && mm < 20) reading.status = hal::RangeStatus::too_near;
+    reading.status = hal::RangeStatus::invalid;
+    if (answered) reading.status = line == kEnded ? hal::RangeStatus::ok : hal::RangeStatus::clear;
+    reading.mm = static_cast<uint16_t>((ended - began) * 17 / 100);  // there and back at 340 m/s
     reading.sequence = static_cast<uint8_t>((reading.sequence + 1) % 16);
     measured_ms_[beam] = pinged_ms_;
   }
 
+  static constexpr uint32_t kAnswersWithinUs = 1000;
   static constexpr hal::RangeReading kNone{0, hal::RangeStatus::stale, 255, 0};
   hal::RangeReading latest_[hal::kBeams] = {kNone, kNone, kNone};
   uint32_t measured_ms_[hal::kBeams] = {};
   uint32_t pinged_ms_ = 0;
+  uint32_t triggered_us_ = 0;
   int active_ = 0;
 };
 
@@ -134,7 +144,7 @@ void setup() {
   Serial.begin(115200);
   for (int i = 0; i < 3; ++i) {
     pinMode(kTrigger[i], OUTPUT);
-    pinMode(kEcho[i], INPUT);
+    pinMode(kEcho[i], INPUT_PULLUP);  // so that an unplugged sensor has a steady line
   }
   for (int i = 0; i < 2; ++i) {
     pinMode(kEncoderA[i], INPUT_PULLUP);
