@@ -93,7 +93,8 @@ class Drive {
     while (!poll()) bus_.clock().wait_a_ms();
     line_.show("");
     print();
-    return failed() ? kFault : bus_.interrupt().noted() ? kInterrupted : 0;
+    if (!failed() && bus_.interrupt().noted()) throw Interrupted("");
+    return failed() ? kFault : 0;
   }
 
  private:
@@ -333,7 +334,8 @@ int drive(const SeatOptions& o) {
                failed ? fmt::format("fault {}", name(s.health.fault)) : "ended", seat.time_s(),
                s.pose.at.x.raw() * 1e-6, s.pose.at.y.raw() * 1e-6);
   }
-  return failed ? kFault : bus.interrupt().noted() ? kInterrupted : 0;
+  if (!failed && bus.interrupt().noted()) throw Interrupted("");
+  return failed ? kFault : 0;
 }
 
 }  // namespace

@@ -154,13 +154,12 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
     all.ended = [view](const RunResult& result) { view->feed().end(result); };
     view->start();
   }
-  int status = kInterrupted;
-  for (;;) {
+  std::optional<int> status;
+  while (!status) {
     if (view != nullptr) view->feed().begin(setting(scenario, options, all));
     try {
       status = drive_one(scenario, options, all);
       recorder.close();
-      break;
     } catch (const hil::ControllerRestarted&) {
       how.say("the controller started anew, so the run begins again");
       figures = {};
@@ -169,16 +168,16 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
     } catch (const hil::NoCalibration& e) {
       throw UsageError(e.what());
     } catch (const hil::Interrupted&) {
-      break;
+      throw Interrupted(recorder.keep());
     }
   }
   if (view != nullptr) view->stay(interrupt);
-  if (figures.calibrated && figures.calibrated->stored != storage::Stored::ok && status == 0) {
+  if (figures.calibrated && figures.calibrated->stored != storage::Stored::ok && *status == 0) {
     fmt::print(stderr, "whisker: the controller did not keep the calibration: {}\n",
                name(figures.calibrated->stored));
     return kFault;
   }
-  return status;
+  return *status;
 }
 
 void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line, hal::Storage* storage,

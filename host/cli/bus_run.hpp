@@ -47,7 +47,7 @@ bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice);
 
 /// Runs one scenario as drive_one does, with the controller at the other end of the bus. A calibration's goal
 /// is its start. Starts again if the controller restarts. view: the live view, or null. Returns the exit
-/// status, kInterrupted after an interruption.
+/// status. Throws Interrupted.
 int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
                  const BusChoice& bus, hil::Line& line, LiveView* view);
 

@@ -13,6 +13,7 @@
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/run/map_picture.hpp"
 #include "host/harness/run/runner.hpp"
 #include "host/harness/scenario/load.hpp"
@@ -20,7 +21,6 @@
 #include "host/lab/campaign/mission.hpp"
 #include "host/lab/campaign/worlds.hpp"
 #include "host/lab/report/figures.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/run_svg.hpp"
 #include "host/lab/report/table_svg.hpp"
 
@@ -84,7 +84,7 @@ struct Driven {
   }
   void draw(const Scenario& scenario, const std::string& svg_file, report::RunPicture picture) const {
     if (map.last()) picture.map = &*map.last();
-    report::write_file(svg_file, report::run_svg(scenario, records, result, picture));
+    files::write(svg_file, report::run_svg(scenario, records, result, picture));
     fmt::print("{}\n", svg_file);
   }
 
@@ -166,7 +166,7 @@ int execute(const FiguresOptions& o) {
   drawn.emplace_back("response.svg", report::table_svg(picture));
   for (const auto& [file, svg] : drawn) {
     const std::string path = fmt::format("{}/{}", o.out, file);
-    report::write_file(path, svg);
+    files::write(path, svg);
     fmt::print("{}\n", path);
   }
   draw_run(figure8, PlannerKind::thesis, o.out + "/figure8.svg");

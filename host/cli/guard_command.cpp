@@ -14,6 +14,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/contact.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/lab/guard/drive.hpp"
@@ -21,7 +22,6 @@
 #include "host/lab/guard/recorded.hpp"
 #include "host/lab/guard/trace.hpp"
 #include "host/lab/page/guard_recording.hpp"
-#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -115,10 +115,10 @@ int execute(const GuardOptions& o) {
   };
   const guard::Result result = guard::drive(scenario, *hand, options);
   line.show("");
-  if (!o.trace.empty()) report::write_file(o.trace, rows);
+  if (!o.trace.empty()) files::write(o.trace, rows);
   if (!o.html.empty()) {
     const page::GuardSetting setting{scenario, hand_words(o), !o.bare, o.vouched_m};
-    report::write_file(o.html, page::guard_page(recording.stored(setting, result)));
+    files::write(o.html, page::guard_page(recording.stored(setting, result)));
   }
   if (o.json) {
     print_object(

@@ -19,7 +19,7 @@ namespace {
 
 /// Prints an error on one line, even if a library's message has several.
 std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   for (char& c : text) {
     if (c == '\n') c = ' ';
   }
@@ -84,6 +84,7 @@ First steps:
 
 int main(int argc, char** argv) {
   using namespace whisker::cli;
+  end_on_signals();
   CLI::App app{"Whisker: a navigation core for small robots with three rangefinders, in a simulated world."};
   app.name("whisker");
   app.require_subcommand(1);
@@ -116,6 +117,10 @@ int main(int argc, char** argv) {
     status = parse(app, argc, argv, status);
     finish_standard_output();
     return status;
+  } catch (const Interrupted& e) {
+    std::fflush(stdout);
+    complain(fmt::format("whisker: interrupted {}", e.what()));
+    return kInterrupted;
   } catch (const CLI::ParseError& e) {
     complain(fmt::format("whisker: {} (see whisker --help)", e.what()));
     return kBadInput;

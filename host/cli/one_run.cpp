@@ -13,11 +13,11 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/contact.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/lab/page/page.hpp"
 #include "host/lab/page/recording.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/result.hpp"
 #include "host/lab/report/run_svg.hpp"
 #include "host/lab/report/trace.hpp"
@@ -101,10 +101,10 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
   if (o.ended) o.ended(result);
   if (!o.trace.empty()) report::write_trace(o.trace, scenario, records);
   if (!o.svg.empty())
-    report::write_file(o.svg, report::run_svg(scenario, records, result, picture(map, options.planner)));
+    files::write(o.svg, report::run_svg(scenario, records, result, picture(map, options.planner)));
   if (!o.html.empty()) {
     const page::StoredRun run = page::stored(setting(scenario, options, o), recording.ticks(), result);
-    report::write_file(o.html, page::run_page(run, controller_picture(options.planner)));
+    files::write(o.html, page::run_page(run, controller_picture(options.planner)));
   }
 
   for (const std::string& warning :

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -50,6 +51,16 @@ void check_place(const std::string& text) {
 volatile sig_atomic_t g_noted = 0;
 
 void note(int) { g_noted = 1; }
+
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
+void end(int) {
+  constexpr std::string_view kWipe = "\r\033[K", kWords = "whisker: interrupted\n";
+  if (isatty(STDERR_FILENO) == 1 && ::write(STDERR_FILENO, kWipe.data(), kWipe.size()) < 0)
+    _exit(kInterrupted);
+  if (::write(STDERR_FILENO, kWords.data(), kWords.size()) < 0) _exit(kInterrupted);
+  _exit(kInterrupted);
+}
 
 }  // namespace
 
@@ -103,18 +114,26 @@ void ProgressLine::show(const std::string& text) {
   shown_ = true;
 }
 
+void end_on_signals() {
+  signal(SIGINT, end);
+  signal(SIGTERM, end);
+  signal(SIGXFSZ, SIG_IGN);  // the write fails instead
+}
+
 Interrupt::Interrupt() {
   g_noted = 0;
   struct sigaction action {};
   action.sa_handler = note;
   action.sa_flags = SA_RESTART;
-  sigaction(SIGINT, &action, &old_int_);
-  sigaction(SIGTERM, &action, &old_term_);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
+    sigaction(kSignals[i], &action, &old_[i]);
+    // nohup
+    if (kSignals[i] == SIGHUP && old_[i].sa_handler == SIG_IGN) sigaction(SIGHUP, &old_[i], nullptr);
+  }
 }
 
 Interrupt::~Interrupt() {
-  sigaction(SIGINT, &old_int_, nullptr);
-  sigaction(SIGTERM, &old_term_, nullptr);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &old_[i], nullptr);
 }
 
 bool Interrupt::noted() const { return g_noted != 0; }

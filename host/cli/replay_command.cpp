@@ -20,12 +20,12 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/hil/replay.hpp"
 #include "host/harness/run/make_record.hpp"
 #include "host/harness/run/spec.hpp"
 #include "host/lab/page/page.hpp"
 #include "host/lab/page/recording.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/trace.hpp"
 
 namespace whisker::cli {
@@ -69,7 +69,7 @@ class Show {
     if (o.html.empty()) return;
     const page::StoredRun stored =
         page::stored({run_.scenario(), planner, run_.scenario().seed}, recording_->ticks(), run_.result());
-    report::write_file(o.html, page::run_page(stored, controller_picture(planner)));
+    files::write(o.html, page::run_page(stored, controller_picture(planner)));
   }
 
  private:

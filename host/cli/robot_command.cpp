@@ -16,6 +16,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/run/planners.hpp"
 #include "host/harness/run/record.hpp"
 #include "host/harness/run/runner.hpp"
@@ -24,7 +25,6 @@
 #include "host/harness/scenario/robot_header.hpp"
 #include "host/harness/scenario/sensor.hpp"
 #include "host/harness/worlds/generate.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/result.hpp"
 #include "host/lab/report/units.hpp"
 
@@ -180,7 +180,7 @@ int execute(const RobotOptions& o) {
     }
   }
   if (!fit) return kFault;
-  if (!o.header.empty()) report::write_file(o.header, robot_header(params, o.file));
+  if (!o.header.empty()) files::write(o.header, robot_header(params, o.file));
   if (!o.json) {
     fmt::print(out, "fit: {}\n", o.file);
     if (!o.header.empty()) fmt::print(out, "header: {}\n", o.header);

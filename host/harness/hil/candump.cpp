@@ -1,13 +1,9 @@
 #include "host/harness/hil/candump.hpp"
 
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <ctime>
 #include <iterator>
 #include <stdexcept>
-
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -89,31 +85,46 @@ std::optional<LogFrame> parse_log_line(std::string_view line) {
 Recorder::Recorder(const std::string& file, const std::string& interface)
     : name_(file), interface_(interface) {
   if (file.empty()) return;
-  const int copy = file == "-" ? ::dup(STDOUT_FILENO) : -1;
-  file_ = copy < 0 ? std::fopen(file.c_str(), "we") : ::fdopen(copy, "w");
-  if (file_ == nullptr) throw std::runtime_error("cannot write " + file + ": " + std::strerror(errno));
-  std::setvbuf(file_, nullptr, _IOLBF, 1 << 12);
+  file_.emplace(file);
+  if (file_->found().empty()) return;
+  throw std::runtime_error(fmt::format(
+      "cannot write {}: {} is there, of a run that did not end: rename or remove it", file, file_->part()));
 }
 
-Recorder::~Recorder() {
-  if (file_ != nullptr) std::fclose(file_);
-}
+Recorder::~Recorder() { keep(); }
 
 void Recorder::write(const hal::CanFrame& frame) {
-  if (file_ == nullptr) return;
+  if (!file_ || lost_) return;
   timespec t{};
   clock_gettime(CLOCK_REALTIME, &t);
   const auto seconds = static_cast<std::uint64_t>(t.tv_sec);
   LogFrame entry{seconds * 1000000 + static_cast<std::uint64_t>(t.tv_nsec) / 1000, interface_, frame};
-  std::fputs((log_line(entry) + "\n").c_str(), file_);
+  try {
+    file_->write(log_line(entry) + "\n");
+  } catch (const std::runtime_error&) {
+    lost_ = std::current_exception();
+  }
 }
 
 void Recorder::close() {
-  if (file_ == nullptr) return;
-  std::FILE* const file = file_;
-  file_ = nullptr;
-  const bool failed = std::ferror(file) != 0;
-  if (std::fclose(file) != 0 || failed) throw std::runtime_error("cannot write all of " + name_);
+  if (lost_) std::rethrow_exception(lost_);
+  if (file_) file_->finish();
+  file_.reset();
+}
+
+std::string Recorder::keep() noexcept {
+  if (!file_) return "";
+  std::string place = file_->part();
+  try {
+    if (!lost_ && !files::has_content(name_)) {
+      file_->finish();
+      place = name_;
+    }
+  } catch (const std::runtime_error&) {
+    // They stay in the part.
+  }
+  file_.reset();
+  return "; the frames are in " + place;
 }
 
 }  // namespace whisker::hil

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "host/lab/report/file.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/lab/report/units.hpp"
 
 namespace whisker::report {
@@ -106,7 +106,7 @@ std::string trace_csv(const Scenario& scenario, const std::vector<TickRecord>& r
 }
 
 void write_trace(const std::string& path, const Scenario& scenario, const std::vector<TickRecord>& records) {
-  write_file(path, trace_csv(scenario, records));
+  files::write(path, trace_csv(scenario, records));
 }
 
 }  // namespace whisker::report

@@ -40,7 +40,7 @@ std::string range_text(const hal::RangeReading& reading, const RangefinderParams
 /// The whole file. Lines end in a single newline.
 std::string trace_csv(const Scenario& scenario, const std::vector<TickRecord>& records);
 
-/// trace_csv into a file, as write_file.
+/// trace_csv into a file, as files::write.
 void write_trace(const std::string& path, const Scenario& scenario, const std::vector<TickRecord>& records);
 
 }  // namespace whisker::report
