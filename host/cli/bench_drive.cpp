@@ -294,13 +294,13 @@ bool has_guard_node(BenchBus& bus, double timeout_s) {
 
 int drive(const SeatOptions& o) {
   if (o.keys != o.commands.empty()) throw UsageError("bench drive: choose --keys or --commands");
-  std::unique_ptr<Keys> keys;
   std::unique_ptr<guard::Recorded> recorded;
-  if (o.keys) keys = std::make_unique<Keys>(o.speed_mps, o.turn_radps);
   if (!o.keys) recorded = std::make_unique<guard::Recorded>(guard::load_commands(o.commands));
+  BenchBus bus(o.bus);
+  std::unique_ptr<Keys> keys;
+  if (o.keys) keys = std::make_unique<Keys>(o.speed_mps, o.turn_radps, bus.interrupt());
   guard::Operator& hand = keys ? static_cast<guard::Operator&>(*keys) : *recorded;
   const auto done = [&](double t_s) { return keys ? keys->ended() : t_s > recorded->last_s(); };
-  BenchBus bus(o.bus);
   if (has_guard_node(bus, o.bus.timeout_s))
     return operate(bus, o.bus, {hand, done, o.vouched_m, o.for_s, o.keys, o.json});
   check_place(bus, o.bus);

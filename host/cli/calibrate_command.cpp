@@ -129,7 +129,7 @@ int many(const CalibrateOptions& o) {
     all[i] =
         calibration::run(calibration::random_trial(o.noise, o.phantom.value_or(0), o.along_m, o.seed + i));
   }));
-  const Interrupted interrupted(fmt::format("after {} of {} robots", all.size(), o.count));
+  const Interrupted interrupted(fmt::format(" after {} of {} robots", all.size(), o.count));
   if (all.empty()) throw interrupted;
   if (o.json) {
     print_object(trials_json(all), {o.seed});

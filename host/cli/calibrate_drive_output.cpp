@@ -273,7 +273,7 @@ int simulate_drives(const DriveOptions& o) {
         calibration::play(robot.params, robot.sensor, robot.noise, errors, plan_of(o), seed);
     all[i] = {report_of(o, robot, done, errors, seed), done.complete()};
   }));
-  const Interrupted interrupted(fmt::format("after {} of {} robots", all.size(), o.count));
+  const Interrupted interrupted(fmt::format(" after {} of {} robots", all.size(), o.count));
   if (all.empty()) throw interrupted;
   if (o.json) {
     print_object(drive_trials_json(all), {o.seed, {}, o.robot, robot_digest(robot.params)});

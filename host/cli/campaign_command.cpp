@@ -186,7 +186,7 @@ int run_campaign(const CampaignOptions& o) {
     if (!o.json) fmt::print(words_beside({o.csv, o.html}), "page: {}\n", o.html);
   }
   if (whole) return 0;
-  throw Interrupted(fmt::format("after {} of {} missions{}", rows.size(), chosen.last - chosen.first,
+  throw Interrupted(fmt::format(" after {} of {} missions{}", rows.size(), chosen.last - chosen.first,
                                 rows_in == o.csv ? "" : "; the same command goes on"));
 }
 
@@ -214,7 +214,7 @@ int scan(const CampaignOptions& o) {
     }
   }
   if (whole) return 0;
-  throw Interrupted(fmt::format("after {} of {} worlds", rows.size(), chosen.last - chosen.first));
+  throw Interrupted(fmt::format(" after {} of {} worlds", rows.size(), chosen.last - chosen.first));
 }
 
 }  // namespace

@@ -276,7 +276,7 @@ int execute(const LayoutOptions& o) {
   LayoutTrade trade = trade_of(o);
   const bool whole = drive_all(o, trade);
   const Interrupted interrupted(
-      fmt::format("after {} of {} layouts", trade.ranked.size(), trade.grid.layouts.size()));
+      fmt::format(" after {} of {} layouts", trade.ranked.size(), trade.grid.layouts.size()));
   if (!whole && trade.ranked.empty()) throw interrupted;
   // A chart and a robot are of all layouts.
   if (whole && !o.svg.empty()) files::write(o.svg, layout_picture(trade));

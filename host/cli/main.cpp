@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
     return status;
   } catch (const Interrupted& e) {
     std::fflush(stdout);
-    complain(fmt::format("whisker: interrupted {}", e.what()));
+    complain(fmt::format("whisker: interrupted{}", e.what()));
     return kInterrupted;
   } catch (const CLI::ParseError& e) {
     complain(fmt::format("whisker: {} (see whisker --help)", e.what()));

@@ -76,7 +76,7 @@ int execute(const MoversOptions& o) {
     for (const double speed_mps : kSpeeds) {
       const campaign::MeetingCount c = drive(o, own, course, speed_mps, line, interrupt);
       line.show("");
-      if (interrupt.noted()) throw Interrupted(fmt::format("in {} at {:.2f} m/s", name(course), speed_mps));
+      if (interrupt.noted()) throw Interrupted(fmt::format(" in {} at {:.2f} m/s", name(course), speed_mps));
       fmt::print("| {} | {:.2f} | {} | {} | {} | {} | {} | {} | {} |\n", name(course), speed_mps, c.missions,
                  c.reached, c.said, c.contacts, c.moving, c.shown, c.seen);
     }

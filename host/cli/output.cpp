@@ -54,11 +54,15 @@ void note(int) { g_noted = 1; }
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
+pid_t g_speaker = 0;  // a process that it has forked says nothing
+
 void end(int) {
   constexpr std::string_view kWipe = "\r\033[K", kWords = "whisker: interrupted\n";
-  if (isatty(STDERR_FILENO) == 1 && ::write(STDERR_FILENO, kWipe.data(), kWipe.size()) < 0)
-    _exit(kInterrupted);
-  if (::write(STDERR_FILENO, kWords.data(), kWords.size()) < 0) _exit(kInterrupted);
+  if (getpid() != g_speaker) _exit(kInterrupted);
+  const std::string_view words[] = {isatty(STDERR_FILENO) == 1 ? kWipe : "", kWords};
+  for (const std::string_view text : words) {
+    if (::write(STDERR_FILENO, text.data(), text.size()) < 0) break;
+  }
   _exit(kInterrupted);
 }
 
@@ -115,6 +119,7 @@ void ProgressLine::show(const std::string& text) {
 }
 
 void end_on_signals() {
+  g_speaker = getpid();
   signal(SIGINT, end);
   signal(SIGTERM, end);
   signal(SIGXFSZ, SIG_IGN);  // the write fails instead

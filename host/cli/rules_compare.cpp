@@ -75,7 +75,7 @@ int execute(const CompareOptions& o) {
     print_comparison(stdout, c);
   }
   if (!whole)
-    throw Interrupted(fmt::format("after {} of {} worlds", pairs.size(), chosen.last - chosen.first));
+    throw Interrupted(fmt::format(" after {} of {} worlds", pairs.size(), chosen.last - chosen.first));
   return 0;
 }
 

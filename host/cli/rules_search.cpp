@@ -197,7 +197,7 @@ Candidate base_of(const SearchOptions& o) {
                               const TableSearch& search) {
   const bool found = search.best().digest != search.base().digest;
   if (found) files::write(o.out, searched_file(plan, names, search, std::nullopt));
-  throw Interrupted(fmt::format("after {} of {} generations; {}", search.generations().size(),
+  throw Interrupted(fmt::format(" after {} of {} generations; {}", search.generations().size(),
                                 plan.generations,
                                 found ? fmt::format("{}: the best rules so far", o.out) : "nothing written"));
 }
