@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -16,15 +17,6 @@
 #include "host/harness/scenario/error.hpp"
 
 namespace {
-
-/// Prints an error on one line, even if a library's message has several.
-std::string one_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  return text;
-}
 
 /// CLI11 would only report that a subcommand is missing.
 void check_command(const CLI::App& app, int argc, char** argv, int at = 1) {
@@ -61,8 +53,12 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
   }
 }
 
-/// Not fmt: it throws if standard error is closed.
-void complain(const std::string& text) { std::fputs((one_line(text) + "\n").c_str(), stderr); }
+/// One line, even if a library's message has several. Not fmt: it throws if standard error is closed.
+void complain(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::fputs((whisker::one_line(text) + "\n").c_str(), stderr);
+}
 
 constexpr const char* kExitStatus = R"(
 Exit status of run, hil and plant: 0 reached and truly there, 7 the robot says reached and is off

@@ -1,6 +1,7 @@
 """Every error is one line on standard error, before any file is written."""
 
 import os
+import pathlib
 import subprocess
 
 import whisker
@@ -31,6 +32,15 @@ class Refusals(Case):
         self.refused("world", "--seed", "1", says="KIND")
         self.refused("world", "cubes", "--seed", "1", says="cubes")
         self.refused("figures", says="FOLDER")
+
+    def test_names_that_would_act_on_a_terminal(self):
+        self.refused("run", "\x1b]0;owned\x07.toml", says="?]0;owned?.toml:1:1: ")
+        self.refused("run", "a.toml", "--plan\x1b[2J", says="--plan?[2J")
+        self.refused("\x9b2J", says="?2J")
+        rules = (pathlib.Path(__file__).parents[2] / "host/rules/examples/tip.fis").read_text()
+        for name in ("tip", "service"):
+            self.file("r.fis", rules.replace(f"'{name}'", f"'{name}\x1b[2J'"))
+            self.refused("rules", "show", "r.fis", says=f"'{name}?[2J': a control character in a name")
 
     def test_planners_that_are_unknown(self):
         for planner in ("nonsense", ""):

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "host/harness/scenario/error.hpp"
 #include "host/harness/scenario/reader.hpp"
 
 namespace whisker::rules {
@@ -24,6 +25,22 @@ void check_range(const Source& source, const Variable& v) {
     source.fail(v.place, fmt::format("'{}': the range must be finite and not empty", v.name));
 }
 
+/// They are printed.
+void check_names(const Source& source, const RuleBase& base) {
+  const auto check = [&](const Place& place, const std::string& name) {
+    if (one_line(name) != name) source.fail(place, fmt::format("'{}': a control character in a name", name));
+  };
+  const auto check_all = [&](const auto& variables) {
+    for (const auto& v : variables) {
+      check(v.place, v.name);
+      for (const Term& term : v.terms) check(term.place, term.name);
+    }
+  };
+  check(Place{}, base.name);
+  check_all(base.inputs);
+  check_all(base.outputs);
+}
+
 void check_output(const Source& source, const Output& output) {
   check_range(source, output);
   for (const Term& term : output.terms) {
@@ -38,6 +55,7 @@ void check_output(const Source& source, const Output& output) {
 }  // namespace
 
 void check(const Source& source, const RuleBase& base) {
+  check_names(source, base);
   if (base.inputs.empty()) source.fail(Place{}, "the file has no input");
   if (base.outputs.empty()) source.fail(Place{}, "the file has no output");
   if (base.rules.empty()) source.fail(Place{}, "the file has no rule");
