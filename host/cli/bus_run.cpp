@@ -108,7 +108,7 @@ bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
 }
 
 int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& outputs, const BusChoice& bus,
-                 hil::Line& line, LiveView* view) {
+                 hil::Line& line, LiveView* view, const std::function<void()>& check) {
   const Interrupt interrupt;
   hil::Recorder recorder(bus.record, bus.name);
   hil::Figures figures;
@@ -142,7 +142,10 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
     if (view != nullptr) view->feed().say(words);
   };
   how.bus_waits_for = [&line] { return line.waits_for(); };
-  how.interrupted = [&interrupt] { return interrupt.noted(); };
+  how.interrupted = [&] {
+    if (check && !interrupt.noted()) check();
+    return interrupt.noted();
+  };
   if (bus.real_time) run_before_others(speaker("plant", bus));
   options.pilot = hil::bus_pilot(port, clock, how, figures);
   RunOutputs all = outputs;

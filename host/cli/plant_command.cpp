@@ -137,11 +137,22 @@ class ControllerProcess {
     _exit(status);
   }
   ~ControllerProcess() {
+    if (child_ < 0) return;
     kill(child_, SIGTERM);
     waitpid(child_, nullptr, 0);
   }
   ControllerProcess(const ControllerProcess&) = delete;
   ControllerProcess& operator=(const ControllerProcess&) = delete;
+
+  /// Throws std::runtime_error if it has ended.
+  void check() {
+    int status = 0;
+    if (child_ < 0 || waitpid(child_, &status, WNOHANG) != child_) return;
+    child_ = -1;
+    throw std::runtime_error(
+        WIFSIGNALED(status) ? fmt::format("the controller's process was ended by signal {}", WTERMSIG(status))
+                            : "the controller's process has ended");
+  }
 
  private:
   pid_t child_ = -1;
@@ -164,7 +175,7 @@ int execute(const HilOptions& o) {
   const auto view = o.view.open(o.planner);
   auto lines =
       is_private ? hil::private_lines() : std::pair{hil::open_line(o.bus.name), hil::open_line(o.bus.name)};
-  const ControllerProcess child([&] {
+  ControllerProcess child([&] {
     if (view) view->abandon();
     lines.first.reset();
     control_on_bus(controller, with_own_table(o.planner), *lines.second);
@@ -174,7 +185,8 @@ int execute(const HilOptions& o) {
   options.planner = o.planner;
   BusChoice base = o.bus;
   if (!is_baseline(o.planner)) base.drive_with(o.planner);
-  return drive_on_bus(scenario, options, o.scenario.run_outputs(scenario), base, *lines.first, view.get());
+  return drive_on_bus(scenario, options, o.scenario.run_outputs(scenario), base, *lines.first, view.get(),
+                      [&] { child.check(); });
 }
 
 }  // namespace

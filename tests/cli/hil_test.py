@@ -114,6 +114,33 @@ class Hil(OnABus):
         self.assertGreater(both["bus"]["resent"], 0)
         self.assertGreater(both["bus"]["lost"], 0)
 
+    def test_it_ends_when_its_controller_does(self):
+        for pace in ((), ("--realtime",)):
+            log = self.folder / f"{len(pace)}.log"
+            with subprocess.Popen([whisker.binary, "hil", self.world("rooms", 3600), *pace, "--record", log], stderr=subprocess.PIPE, text=True) as process:
+                part = pathlib.Path(f"{log}.part")
+                while not part.exists() or part.read_text().count("\n") < 100:
+                    self.assertIsNone(process.poll())
+                (child,) = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+                os.kill(int(child), signal.SIGKILL)
+                error = process.communicate(timeout=60)[1]
+            self.assertEqual((process.returncode, error.splitlines()[-1]), (1, "whisker: the controller's process was ended by signal 9"))
+            self.assertGreaterEqual(log.read_text().count("\n"), 100)
+
+    def test_an_adapter_that_sends_no_frames_is_said(self):
+        for name, arguments, partner in (("plant", ("plant", self.world("discs")), "controller"), ("controller", ("controller",), "base")):
+            path = self.folder / name
+            with socket.socket(socket.AF_UNIX) as listener:
+                listener.bind(str(path))
+                listener.listen(1)
+                with subprocess.Popen([whisker.binary, *map(str, arguments), "--can", f"slcan:{path}"], stderr=subprocess.PIPE, text=True) as process, listener.accept()[0] as adapter:
+                    said = ""
+                    while said != f"{name} 1 on slcan:{path}: waits for the {partner}, and for frames: the adapter sends lines that are none\n":
+                        adapter.sendall(b"x1232AABB\r")
+                        said = process.stderr.readline()
+                        self.assertTrue(said, "it has ended")
+                    process.terminate()
+
     def test_options_reach_the_other_process(self):
         scenario = self.world("discs")
         robot = self.file("robot.toml", "body_radius_m = 0.1\nwheel_speed_max_mps = 0.25\n")
