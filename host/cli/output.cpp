@@ -49,6 +49,7 @@ void check_place(const std::string& text) {
 }
 
 volatile sig_atomic_t g_noted = 0;
+int g_interrupts = 0;
 
 void note(int) { g_noted = 1; }
 
@@ -126,6 +127,7 @@ void end_on_signals() {
 }
 
 Interrupt::Interrupt() {
+  if (g_interrupts++ > 0) return;
   g_noted = 0;
   struct sigaction action {};
   action.sa_handler = note;
@@ -138,6 +140,7 @@ Interrupt::Interrupt() {
 }
 
 Interrupt::~Interrupt() {
+  if (--g_interrupts > 0) return;
   for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &old_[i], nullptr);
 }
 

@@ -40,7 +40,8 @@ class ProgressLine {
 /// SIGINT and SIGTERM end the command with a line and kInterrupted, where no Interrupt records them.
 void end_on_signals();
 
-/// During its lifetime, SIGINT, SIGTERM and SIGHUP are only recorded. At most one object at a time.
+/// During its lifetime, SIGINT, SIGTERM and SIGHUP are only recorded. One within another shares what
+/// is recorded.
 class Interrupt {
  public:
   Interrupt();

@@ -97,7 +97,9 @@ std::vector<TestDrive> test_drives(const Params& params, const Sensor& sensor, P
   RunOptions options;
   options.planner = planner;
   std::vector<TestDrive> drives;
+  ProgressLine line;
   for (const auto& [name, scenario] : worlds) {
+    line.show(fmt::format("drives through {}", name));
     drives.push_back({name, run(fitted(scenario, params, sensor), options)});
   }
   return drives;

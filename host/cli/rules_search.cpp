@@ -206,13 +206,14 @@ int execute(const SearchOptions& o) {
   const bool from_file = o.base != "default";
   check_outputs({o.out}, {from_file ? o.base : "", o.campaign.robot}, o.campaign.json);
   check(o);
+  const Interrupt noted;  // also between two rounds of missions
   const SearchPlan plan = plan_of(o);
   const SearchNames names = names_of(o);
   const Candidate base = base_of(o);
   TableSearch search(plan, base);
   std::FILE* const out = words_beside({o.out});
   const auto after = [&](const Generation& g) {
-    // A signal between two rounds of missions ends the command at once.
+    // For a process that is killed.
     if (g.kept && o.out != "-") files::write(o.out, searched_file(plan, names, search, std::nullopt));
     if (!o.campaign.json) print_generation(out, g);
   };
