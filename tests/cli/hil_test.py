@@ -118,8 +118,7 @@ class Hil(OnABus):
         for pace in ((), ("--realtime",)):
             log = self.folder / f"{len(pace)}.log"
             with subprocess.Popen([whisker.binary, "hil", self.world("rooms", 3600), *pace, "--record", log], stderr=subprocess.PIPE, text=True) as process:
-                part = pathlib.Path(f"{log}.part")
-                while not part.exists() or part.read_text().count("\n") < 100:
+                while not log.exists() or log.read_text().count("\n") < 100:
                     self.assertIsNone(process.poll())
                 (child,) = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
                 os.kill(int(child), signal.SIGKILL)

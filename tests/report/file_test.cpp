@@ -183,6 +183,29 @@ TEST_F(WriteFile, grows_beside_the_old_file_and_stays_there_until_it_is_finished
   EXPECT_THAT(names(), ::testing::ElementsAre("a")) << "an empty one is no loss";
 }
 
+TEST_F(WriteFile, grows_at_its_place_where_nothing_is_lost) {
+  const auto in_place = Growing::From::path_if_new;
+  write(path("empty"), "");
+  for (const char* name : {"new", "empty"}) {
+    {
+      Growing grows(path(name), in_place);
+      EXPECT_EQ(grows.part(), path(name));
+      EXPECT_THROW(Growing(path(name), in_place), std::runtime_error) << "it has a writer";
+      grows.write("1");
+      EXPECT_EQ(content(path(name)), "1");
+      EXPECT_THROW(Growing(path(name), in_place), std::runtime_error) << "also now";
+    }
+    Growing(path(name), in_place).write("2");
+    EXPECT_EQ(content(path(name)), "1");
+    EXPECT_EQ(content(path(name) + ".part"), "2");
+    Growing grows(path(name), in_place);
+    EXPECT_EQ(grows.found(), "2");
+    grows.finish();
+    EXPECT_EQ(content(path(name)), "2");
+  }
+  EXPECT_THAT(names(), ::testing::UnorderedElementsAre("empty", "new"));
+}
+
 TEST_F(WriteFile, grows_by_all_of_a_text_or_nothing) {
   Growing grows(path("a"));
   grows.write("1\n");

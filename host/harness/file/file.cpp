@@ -102,6 +102,15 @@ class NoSignals {
 
 constexpr int kMostNames = 1000;
 
+/// Another process has it as its part.
+bool is_growing(const std::string& file) {
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool locked = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(fd);
+  return locked;
+}
+
 /// A new file beside the target, whose name nobody else has. -1: errno says why.
 int create_beside(const std::string& target, std::string& name) {
   for (int i = 0; i < kMostNames; ++i) {
@@ -135,12 +144,13 @@ void write(const std::string& path, std::string_view text) {
   fail_with(path, error);
 }
 
-Growing::Growing(const std::string& path) : path_(path) {
+Growing::Growing(const std::string& path, From from) : path_(path) {
   const Place place = place_of(path);
   fd_ = place.direct;
   if (fd_ >= 0) return;
   target_ = place.target;
-  part_ = target_ + ".part";
+  part_ = from == From::path_if_new && !has_content(path) ? target_ : target_ + ".part";
+  if (is_growing(target_)) refuse_second(target_);
   fd_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (fd_ < 0) {
     const int error = errno;
@@ -156,6 +166,10 @@ Growing::Growing(const std::string& path) : path_(path) {
   }
 }
 
+void Growing::refuse_second(const std::string& file) const {
+  throw std::runtime_error(fmt::format("cannot write {}: another process is writing {}", path_, file));
+}
+
 /// The file belongs to another process while that process holds its lock. After that, it does so if `part_`
 /// no longer names this file: it was renamed or removed between open() and flock().
 void Growing::take_part() {
@@ -164,8 +178,7 @@ void Growing::take_part() {
   }, named{};
   const bool same = locked && ::fstat(fd_, &ours) == 0 && ::lstat(part_.c_str(), &named) == 0 &&
                     ours.st_dev == named.st_dev && ours.st_ino == named.st_ino;
-  if (!same)
-    throw std::runtime_error(fmt::format("cannot write {}: another process is writing {}", path_, part_));
+  if (!same) refuse_second(part_);
   if (!S_ISREG(ours.st_mode) || ours.st_nlink != 1) {
     throw std::runtime_error(fmt::format("cannot write {}: {} is no file of its own", path_, part_));
   }
@@ -182,7 +195,7 @@ void Growing::take_part() {
 
 Growing::~Growing() {
   if (fd_ < 0) return;
-  if (!part_.empty() && size_ == 0) ::unlink(part_.c_str());
+  if (!part_.empty() && part_ != target_ && size_ == 0) ::unlink(part_.c_str());
   ::close(fd_);
 }
 

@@ -19,7 +19,9 @@ void write(const std::string& path, std::string_view text);
 /// that nothing is lost; a second writer of PATH is refused.
 class Growing {
  public:
-  explicit Growing(const std::string& path);
+  /// A file that others follow while it grows is PATH at once where there is no content to lose.
+  enum class From : bool { part, path_if_new };
+  explicit Growing(const std::string& path, From from = From::part);
   ~Growing();  ///< without finish(): PATH.part stays, unless it is empty
   Growing(const Growing&) = delete;
   Growing& operator=(const Growing&) = delete;
@@ -38,6 +40,7 @@ class Growing {
 
  private:
   void take_part();
+  [[noreturn]] void refuse_second(const std::string& file) const;
   [[noreturn]] void fail(int error) const;
 
   std::string path_, target_, part_, found_;

@@ -85,13 +85,11 @@ std::optional<LogFrame> parse_log_line(std::string_view line) {
 Recorder::Recorder(const std::string& file, const std::string& interface)
     : name_(file), interface_(interface) {
   if (file.empty()) return;
-  file_.emplace(file);
+  file_.emplace(file, files::Growing::From::path_if_new);
   if (file_->found().empty()) return;
   throw std::runtime_error(fmt::format(
       "cannot write {}: {} is there, of a run that did not end: rename or remove it", file, file_->part()));
 }
-
-Recorder::~Recorder() { keep(); }
 
 void Recorder::write(const hal::CanFrame& frame) {
   if (!file_ || lost_) return;
@@ -112,17 +110,9 @@ void Recorder::close() {
   file_.reset();
 }
 
-std::string Recorder::keep() noexcept {
+std::string Recorder::keep() {
   if (!file_) return "";
-  std::string place = file_->part();
-  try {
-    if (!lost_ && !files::has_content(name_)) {
-      file_->finish();
-      place = name_;
-    }
-  } catch (const std::runtime_error&) {
-    // They stay in the part.
-  }
+  const std::string place = file_->part().empty() ? name_ : file_->part();
   file_.reset();
   return "; the frames are in " + place;
 }

@@ -23,22 +23,20 @@ std::string log_line(const LogFrame& entry);
 /// std::nullopt: not a line of a log. Error frames and CAN FD frames are not accepted.
 std::optional<LogFrame> parse_log_line(std::string_view line);
 
-/// Writes received frames to a log as files::Growing does, so that also a failed run leaves a usable log.
+/// Writes received frames to a log as files::Growing does, so that also a failed run leaves a usable log:
+/// FILE, or FILE.part if FILE had content.
 class Recorder {
  public:
   /// file: "" for none, "-" for standard output. interface: name of the bus in the log. Throws
   /// std::runtime_error, also if FILE.part is there.
   Recorder(const std::string& file, const std::string& interface);
-  ~Recorder();  ///< keep()
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
 
   void write(const hal::CanFrame& frame);
   /// Throws std::runtime_error if not everything could be written.
   void close();
-  /// After a run that did not end: replaces no earlier log. Says where the frames are: "the frames are in
+  /// After a run that did not end: replaces no earlier log. Says where the frames are: "; the frames are in
   /// FILE".
-  std::string keep() noexcept;
+  std::string keep();
 
  private:
   std::string name_;
