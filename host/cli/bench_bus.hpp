@@ -36,7 +36,7 @@ void add_bench_line(CLI::App& app, BenchChoice& choice);
 /// The same with --node.
 void add_bench_bus(CLI::App& app, BenchChoice& choice);
 
-/// The status of `run`; kInterrupted after an interruption.
+/// The status of `run`. Throws Interrupted for bench::Interrupted.
 int bench_status(const std::function<int()>& run);
 
 /// Opened by the constructor. Waits throw bench::NoAnswer and bench::Interrupted.

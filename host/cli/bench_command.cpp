@@ -187,7 +187,7 @@ int bench_status(const std::function<int()>& run) {
   try {
     return run();
   } catch (const bench::Interrupted&) {
-    return kInterrupted;
+    throw Interrupted("");
   }
 }
 

@@ -93,7 +93,8 @@ class Drive {
     while (!poll()) bus_.clock().wait_a_ms();
     line_.show("");
     print();
-    return failed() ? kFault : bus_.interrupt().noted() ? kInterrupted : 0;
+    if (!failed() && bus_.interrupt().noted()) throw Interrupted("");
+    return failed() ? kFault : 0;
   }
 
  private:
@@ -294,13 +295,13 @@ bool has_guard_node(BenchBus& bus, double timeout_s) {
 
 int drive(const SeatOptions& o) {
   if (o.keys != o.commands.empty()) throw UsageError("bench drive: choose --keys or --commands");
-  std::unique_ptr<Keys> keys;
   std::unique_ptr<guard::Recorded> recorded;
-  if (o.keys) keys = std::make_unique<Keys>(o.speed_mps, o.turn_radps);
   if (!o.keys) recorded = std::make_unique<guard::Recorded>(guard::load_commands(o.commands));
+  BenchBus bus(o.bus);
+  std::unique_ptr<Keys> keys;
+  if (o.keys) keys = std::make_unique<Keys>(o.speed_mps, o.turn_radps, bus.interrupt());
   guard::Operator& hand = keys ? static_cast<guard::Operator&>(*keys) : *recorded;
   const auto done = [&](double t_s) { return keys ? keys->ended() : t_s > recorded->last_s(); };
-  BenchBus bus(o.bus);
   if (has_guard_node(bus, o.bus.timeout_s))
     return operate(bus, o.bus, {hand, done, o.vouched_m, o.for_s, o.keys, o.json});
   check_place(bus, o.bus);
@@ -334,7 +335,8 @@ int drive(const SeatOptions& o) {
                failed ? fmt::format("fault {}", name(s.health.fault)) : "ended", seat.time_s(),
                s.pose.at.x.raw() * 1e-6, s.pose.at.y.raw() * 1e-6);
   }
-  return failed ? kFault : bus.interrupt().noted() ? kInterrupted : 0;
+  if (!failed && bus.interrupt().noted()) throw Interrupted("");
+  return failed ? kFault : 0;
 }
 
 }  // namespace

@@ -16,11 +16,11 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/scenario/reader.hpp"
 #include "host/harness/scenario/violations.hpp"
 #include "host/lab/bench/param_values.hpp"
-#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -192,7 +192,7 @@ int save(const ParamOptions& o) {
   const std::string origin =
       fmt::format("Parameters of robot {} on {}, firmware {}; unit and range behind each", bus.robot(),
                   bus.name(), version_text(v));
-  report::write_file(o.file, bench::saved_toml(params, origin));
+  files::write(o.file, bench::saved_toml(params, origin));
   fmt::print(words_beside({o.file}), "{} parameters: {}\n", kParams, o.file);
   return 0;
 }

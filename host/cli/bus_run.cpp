@@ -108,7 +108,7 @@ bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice) {
 }
 
 int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& outputs, const BusChoice& bus,
-                 hil::Line& line, LiveView* view) {
+                 hil::Line& line, LiveView* view, const std::function<void()>& check) {
   const Interrupt interrupt;
   hil::Recorder recorder(bus.record, bus.name);
   hil::Figures figures;
@@ -142,7 +142,10 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
     if (view != nullptr) view->feed().say(words);
   };
   how.bus_waits_for = [&line] { return line.waits_for(); };
-  how.interrupted = [&interrupt] { return interrupt.noted(); };
+  how.interrupted = [&] {
+    if (check && !interrupt.noted()) check();
+    return interrupt.noted();
+  };
   if (bus.real_time) run_before_others(speaker("plant", bus));
   options.pilot = hil::bus_pilot(port, clock, how, figures);
   RunOutputs all = outputs;
@@ -154,13 +157,12 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
     all.ended = [view](const RunResult& result) { view->feed().end(result); };
     view->start();
   }
-  int status = kInterrupted;
-  for (;;) {
+  std::optional<int> status;
+  while (!status) {
     if (view != nullptr) view->feed().begin(setting(scenario, options, all));
     try {
       status = drive_one(scenario, options, all);
       recorder.close();
-      break;
     } catch (const hil::ControllerRestarted&) {
       how.say("the controller started anew, so the run begins again");
       figures = {};
@@ -169,16 +171,16 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
     } catch (const hil::NoCalibration& e) {
       throw UsageError(e.what());
     } catch (const hil::Interrupted&) {
-      break;
+      throw Interrupted(recorder.keep());
     }
   }
   if (view != nullptr) view->stay(interrupt);
-  if (figures.calibrated && figures.calibrated->stored != storage::Stored::ok && status == 0) {
+  if (figures.calibrated && figures.calibrated->stored != storage::Stored::ok && *status == 0) {
     fmt::print(stderr, "whisker: the controller did not keep the calibration: {}\n",
                name(figures.calibrated->stored));
     return kFault;
   }
-  return status;
+  return *status;
 }
 
 void control_on_bus(const BusChoice& bus, PlannerKind planner, hil::Line& line, hal::Storage* storage,

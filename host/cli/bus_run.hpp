@@ -46,10 +46,12 @@ constexpr double kBitrate = 500000;  ///< bus for which the load is reported
 bus::FaultPort lossy(hal::CanPort& port, const BusChoice& choice);
 
 /// Runs one scenario as drive_one does, with the controller at the other end of the bus. A calibration's goal
-/// is its start. Starts again if the controller restarts. view: the live view, or null. Returns the exit
-/// status, kInterrupted after an interruption.
+/// is its start. Starts again if the controller restarts. view: the live view, or null.
+/// check: called while it waits; throws what ends the run. Returns the exit
+/// status. Throws Interrupted.
 int drive_on_bus(const Scenario& scenario, RunOptions options, const RunOutputs& outputs,
-                 const BusChoice& bus, hil::Line& line, LiveView* view);
+                 const BusChoice& bus, hil::Line& line, LiveView* view,
+                 const std::function<void()>& check = nullptr);
 
 /// Runs the controller until it is interrupted; it prints its actions on standard error. Its pace is that of
 /// the plant; `real_time` only prepares it for that. storage: keeps the response table of a base; null: none.

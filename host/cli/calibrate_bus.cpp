@@ -9,6 +9,7 @@
 #include "firmware/can/controller_node.hpp"
 #include "firmware/localization/odometry.hpp"
 #include "firmware/planning/calibration/spin_planner.hpp"
+#include "host/cli/exit_status.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/harness/bus/fault_port.hpp"
@@ -137,7 +138,7 @@ calibration::Sweep spin_on_bus(const BusChoice& bus, const Params& params, doubl
   const std::string forbidden = bus.real_time ? hil::take_precedence() : "";
   if (!forbidden.empty()) say("commands may be late, as it gets no real-time priority: " + forbidden);
   while (spinner.poll(clock.now_ms())) {
-    if (interrupt.noted()) throw SpinInterrupted();
+    if (interrupt.noted()) throw Interrupted("");
     say(spinner.words());
     if (spinner.lockstep()) {
       clock.wait(hil::Clock::kNap_us);

@@ -21,12 +21,9 @@ struct SpinError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A signal ended the spin. The base brakes by itself.
-struct SpinInterrupted {};
-
 /// along_m: see Spin. Takes the controller's place on the bus: waits for the base and its order to start,
 /// turns on the spot there and back, and stops. Prints what it waits for on standard error. Throws SpinError
-/// if the base stops the drive, and SpinInterrupted.
+/// if the base stops the drive, and Interrupted after a signal: the base brakes by itself.
 calibration::Sweep spin_on_bus(const BusChoice& bus, const Params& params, double along_m, hil::Line& line);
 
 /// spin, straight, tape, square-left, square-right.

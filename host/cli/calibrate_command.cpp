@@ -16,11 +16,11 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/run/spec.hpp"
 #include "host/harness/scenario/bearing.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/lab/calibration/log.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/trace.hpp"
 
 namespace whisker::cli {
@@ -125,19 +125,22 @@ void check_use(const CalibrateOptions& o) {
 
 int many(const CalibrateOptions& o) {
   std::vector<calibration::TrialResult> all(o.count);
-  in_parallel(o.count, o.jobs, [&](std::uint64_t i) {
+  all.resize(in_parallel(o.count, o.jobs, [&](std::uint64_t i) {
     all[i] =
         calibration::run(calibration::random_trial(o.noise, o.phantom.value_or(0), o.along_m, o.seed + i));
-  });
+  }));
+  const Interrupted interrupted(fmt::format(" after {} of {} robots", all.size(), o.count));
+  if (all.empty()) throw interrupted;
   if (o.json) {
     print_object(trials_json(all), {o.seed});
   } else {
     fmt::print(
         "{} random robots, seeds {} to {}: noise {:.0f} mm, dropouts {:.0f} %, phantoms {:.0f} %, wheel "
         "scale {:.2g} %\n\n{}",
-        o.count, o.seed, o.seed + o.count - 1, o.noise.range_sigma_m * 1e3, o.noise.range_dropout * 100,
+        all.size(), o.seed, o.seed + all.size() - 1, o.noise.range_sigma_m * 1e3, o.noise.range_dropout * 100,
         o.phantom.value_or(0) * 100, o.noise.wheel_scale_sigma * 100, trials_words(all));
   }
+  if (all.size() < o.count) throw interrupted;
   return 0;
 }
 
@@ -176,8 +179,6 @@ int execute(const CalibrateOptions& o) {
   } catch (const SpinError& e) {
     fmt::print(stderr, "whisker: the spin ended early: {}\n", e.what());
     return kFault;
-  } catch (const SpinInterrupted&) {
-    return kInterrupted;
   }
 }
 

@@ -59,7 +59,7 @@ constexpr std::chrono::milliseconds kLeaveAfter{500};
 
 /// Takes the controller's place on the bus: waits for the base and its order to start, drives the mission
 /// under the guard of the core, and stops. length_m: of a straight drive or a side. Prints what it waits for
-/// on standard error. Throws SpinInterrupted.
+/// on standard error. Throws Interrupted.
 BusMission drive_mission_on_bus(const BusChoice& bus, const Params& params, const std::string& mission,
                                 double length_m, hil::Line& line) {
   using Clock = std::chrono::steady_clock;
@@ -78,7 +78,7 @@ BusMission drive_mission_on_bus(const BusChoice& bus, const Params& params, cons
         if (ended && !over) over = Clock::now();
         return over && Clock::now() - *over > kLeaveAfter;
       });
-  if (interrupted) throw SpinInterrupted();
+  if (interrupted) throw Interrupted("");
   if (robot_digest(planners.params()) != robot_digest(params)) {
     fmt::print(stderr, "whisker: the base sent other parameters than those of the robot file\n");
   }
@@ -152,13 +152,7 @@ int on_bus(const DriveOptions& o) {
 int execute(const DriveOptions& o) {
   check_outputs({o.svg, o.bus.record}, {o.robot, o.truth, o.square_ends}, o.json);
   check_use(o);
-  if (!o.bus.name.empty()) {
-    try {
-      return on_bus(o);
-    } catch (const SpinInterrupted&) {
-      return kInterrupted;
-    }
-  }
+  if (!o.bus.name.empty()) return on_bus(o);
   if (o.by_hand()) return compute_drive(o);
   return o.count > 0 ? simulate_drives(o) : simulate_drive(o);
 }

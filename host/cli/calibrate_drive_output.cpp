@@ -11,9 +11,9 @@
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/provenance.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/lab/calibration/hand_measured.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/spin_svg.hpp"
 
 namespace whisker::cli {
@@ -259,26 +259,29 @@ int simulate_drive(const DriveOptions& o) {
   }
   const calibration::Procedure done =
       calibration::play(robot.params, robot.sensor, robot.noise, errors, plan_of(o), o.seed);
-  if (!o.svg.empty()) report::write_file(o.svg, report::spin_svg(picture_of(done.spin, robot.params)));
+  if (!o.svg.empty()) files::write(o.svg, report::spin_svg(picture_of(done.spin, robot.params)));
   return print_drive(o, report_of(o, robot, done, errors, o.seed));
 }
 
 int simulate_drives(const DriveOptions& o) {
   const DriveRobot robot = read_robot_of(o);
   std::vector<DriveTrial> all(o.count);
-  in_parallel(o.count, o.jobs, [&](std::uint64_t i) {
+  all.resize(in_parallel(o.count, o.jobs, [&](std::uint64_t i) {
     const std::uint64_t seed = o.seed + i;
     const calibration::WheelErrors errors = calibration::draw({}, seed);
     const calibration::Procedure done =
         calibration::play(robot.params, robot.sensor, robot.noise, errors, plan_of(o), seed);
     all[i] = {report_of(o, robot, done, errors, seed), done.complete()};
-  });
+  }));
+  const Interrupted interrupted(fmt::format(" after {} of {} robots", all.size(), o.count));
+  if (all.empty()) throw interrupted;
   if (o.json) {
     print_object(drive_trials_json(all), {o.seed, {}, o.robot, robot_digest(robot.params)});
   } else {
-    fmt::print("{} robots, seeds {} to {}, spin in the scene {}\n\n{}", o.count, o.seed, o.seed + o.count - 1,
-               o.scene, drive_trials_words(all));
+    fmt::print("{} robots, seeds {} to {}, spin in the scene {}\n\n{}", all.size(), o.seed,
+               o.seed + all.size() - 1, o.scene, drive_trials_words(all));
   }
+  if (all.size() < o.count) throw interrupted;
   return 0;
 }
 

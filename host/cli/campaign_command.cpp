@@ -20,6 +20,8 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
+#include "host/harness/scenario/error.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/scenario/write.hpp"
 #include "host/lab/campaign/failures.hpp"
@@ -29,7 +31,6 @@
 #include "host/lab/campaign/row_file.hpp"
 #include "host/lab/campaign/summary.hpp"
 #include "host/lab/page/page.hpp"
-#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -52,13 +53,15 @@ void write_campaign_page(const std::string& path, const Missions& missions,
                          const std::vector<campaign::Row>& rows) {
   std::vector<page::Replay> replays;
   std::size_t bytes = 0;
+  ProgressLine line;
   for (const std::size_t row : page::worst(rows, rows.size())) {
+    line.show(fmt::format("page: {} replays", replays.size()));
     page::StoredRun run = driven_again(missions, missions.first + row);
     bytes += run.json.size() + run.columns.size();
     if (bytes > kMostBytes && !replays.empty()) break;
     replays.push_back({row, std::move(run)});
   }
-  report::write_file(path, page::campaign_page(rows, replays, controller_picture(missions.planner)));
+  files::write(path, page::campaign_page(rows, replays, controller_picture(missions.planner)));
 }
 
 /// chosen: null for rows from files, which state their planner themselves.
@@ -85,7 +88,9 @@ Provenance provenance(const CampaignOptions& o, const Missions* chosen) {
   return p;
 }
 
-void print(const CampaignOptions& o, const std::vector<campaign::Row>& rows, const Missions* chosen) {
+/// rows_in: the file of the rows.
+void print(const CampaignOptions& o, const std::vector<campaign::Row>& rows, const Missions* chosen,
+           const std::string& rows_in = "") {
   if (rows.empty()) return;
   const campaign::Summary summary = campaign::summarize(rows);
   if (o.json) {
@@ -93,14 +98,32 @@ void print(const CampaignOptions& o, const std::vector<campaign::Row>& rows, con
   } else {
     std::FILE* const out = words_beside({o.csv, o.html});
     fmt::print(out, "{}{}", campaign::summary_words(summary), campaign::failure_lines(rows));
-    if (!o.csv.empty()) fmt::print(out, "rows: {}\n", o.csv);
+    if (!rows_in.empty()) fmt::print(out, "rows: {}\n", rows_in);
   }
 }
 
-/// True if the campaign finished.
-bool drive_all(const CampaignOptions& o, const Missions& missions, std::vector<campaign::Row>& rows) {
+/// Goes on after the rows of an earlier start; the last of them is driven again, so that rows of another
+/// robot, other rules or another version are noticed. rows_in: their file. True if the campaign finished.
+bool drive_all(const CampaignOptions& o, Missions missions, std::vector<campaign::Row>& rows,
+               std::string& rows_in) {
+  if (!o.overwrite && files::has_content(o.csv))
+    throw UsageError(fmt::format("--csv {}: is there already; --overwrite replaces it", o.csv));
   std::optional<campaign::RowFile> file;
   if (!o.csv.empty()) file.emplace(o.csv);
+  if (file) rows = file->found();
+  const auto other = [&](const std::string& what) {
+    return InputError(file->part(), rows.size() + 1, 1,
+                      fmt::format("{}: name another file, or remove this one", what));
+  };
+  bool known = !rows.empty();
+  if (known) {
+    const campaign::Row& last = rows.back();
+    if (last.missions != missions.all || last.mission != missions.first + rows.size() ||
+        last.mission > missions.last) {
+      throw other(fmt::format("mission {} of {} of another campaign", last.mission, last.missions));
+    }
+    missions.first += rows.size() - 1;
+  }
   const bool random = has_random_robots(missions);
   const bool whole = drive_many(
       missions, o.jobs,
@@ -109,10 +132,16 @@ bool drive_all(const CampaignOptions& o, const Missions& missions, std::vector<c
         return campaign::drive(scenario, missions.planner, stop, campaign::kWayRadius * size);
       },
       [&](const campaign::Row& row) {
+        if (std::exchange(known, false)) {
+          if (to_csv(row) != to_csv(rows.back())) throw other("this command drives that mission otherwise");
+          fmt::print(stderr, "whisker: goes on after the {} missions of {}\n", rows.size(), file->part());
+          return;
+        }
         if (file) file->add(row);
         rows.push_back(row);
       });
-  if (file) file->finish();
+  if (file && whole) file->finish();
+  rows_in = file && !file->part().empty() ? file->part() : o.csv;
   return whole;
 }
 
@@ -122,13 +151,13 @@ void save_failures(const std::string& folder, const Missions& chosen,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!campaign::is_failure(rows[i])) continue;
     const std::string text = to_toml(mission(chosen, chosen.first + i).scenario);
-    report::write_file(folder + "/" + campaign::scenario_file(rows[i]), text);
+    files::write(folder + "/" + campaign::scenario_file(rows[i]), text);
   }
 }
 
 int run_campaign(const CampaignOptions& o) {
   if (!o.merge.empty()) {
-    print(o, campaign::merged(o.merge), nullptr);
+    print(o, campaign::merged(o.merge, o.incomplete), nullptr);
     return 0;
   }
   if (o.worlds.empty()) throw UsageError("KIND|DIR is required");
@@ -148,17 +177,17 @@ int run_campaign(const CampaignOptions& o) {
     throw UsageError(fmt::format("--save-failures {}: no such folder", o.save_failures));
   }
   std::vector<campaign::Row> rows;
-  const bool whole = drive_all(o, chosen, rows);
-  print(o, rows, &chosen);
+  std::string rows_in;
+  const bool whole = drive_all(o, chosen, rows, rows_in);
+  print(o, rows, &chosen, rows_in);
   if (!o.save_failures.empty()) save_failures(o.save_failures, chosen, rows);
   if (whole && !o.html.empty()) {
     write_campaign_page(o.html, chosen, rows);
     if (!o.json) fmt::print(words_beside({o.csv, o.html}), "page: {}\n", o.html);
   }
   if (whole) return 0;
-  fmt::print(stderr, "whisker: interrupted after {} of {} missions\n", rows.size(),
-             chosen.last - chosen.first);
-  return kInterrupted;
+  throw Interrupted(fmt::format(" after {} of {} missions{}", rows.size(), chosen.last - chosen.first,
+                                rows_in == o.csv ? "" : "; the same command goes on"));
 }
 
 /// CLI11's own exclusions would lengthen the help text.
@@ -185,8 +214,7 @@ int scan(const CampaignOptions& o) {
     }
   }
   if (whole) return 0;
-  fmt::print(stderr, "whisker: interrupted after {} of {} worlds\n", rows.size(), chosen.last - chosen.first);
-  return kInterrupted;
+  throw Interrupted(fmt::format(" after {} of {} worlds", rows.size(), chosen.last - chosen.first));
 }
 
 }  // namespace
@@ -207,8 +235,10 @@ void add_campaign(CLI::App& app, int& status) {
   add_name(*cmd, "--save-failures", o->save_failures, "Write the scenario of each failed mission there")
       ->type_name("FOLDER");
   add_switch(*cmd, "--json", o->json, "Print the summary as one JSON object and nothing else");
+  add_switch(*cmd, "--overwrite", o->overwrite, "Replace the file of --csv, which is complete");
   cmd->add_option("--merge", o->merge, "Sum up the rows of these files instead of driving")
       ->type_name("FILE");
+  add_switch(*cmd, "--incomplete", o->incomplete, "With --merge: missions of a campaign may be missing");
   whole_number(
       cmd->add_option("--replay", o->replay, "Drive the mission with this seed alone, as `whisker run` does"),
       "S");
@@ -216,7 +246,7 @@ void add_campaign(CLI::App& app, int& status) {
   add_file(*cmd, "--trace", o->trace, "With --replay: write one CSV row per control tick");
   add_file(*cmd, "--html", o->html, "Write a page: the missions, and their replays");
   cmd->callback([o, cmd, &status] {
-    if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--json"});
+    if (!o->merge.empty()) refuse_others(*cmd, {"--merge", "--incomplete", "--json"});
     if (o->replay) {
       refuse_others(*cmd, {"--replay", "KIND|DIR", "--discs", "--width", "--box", "--noise",
                            "--wheel-scale-sigma", "--planner", "--map-bytes", "--rules", "--map", "--robot",

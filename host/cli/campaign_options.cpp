@@ -145,6 +145,7 @@ Missions missions(const CampaignOptions& o) {
     m.worlds = folder(o);
   }
   m.last = std::visit([&](const auto& worlds) { return count(o, worlds); }, m.worlds);
+  m.all = m.last;
   check_seeds(m.last, o.seed.value_or(1));
   take_shard(m, o.shard);
   try {
@@ -169,15 +170,14 @@ campaign::Mission mission(const Missions& m, std::uint64_t index) {
   return mission;
 }
 
-void in_parallel(std::uint64_t count, int jobs, const std::function<void(std::uint64_t)>& work) {
-  std::atomic<std::uint64_t> next{0};
-  const auto some = [&] {
-    for (std::uint64_t i = next++; i < count; i = next++) work(i);
+std::uint64_t in_parallel(std::uint64_t count, int jobs, const std::function<void(std::uint64_t)>& work) {
+  const auto make = [&](std::uint64_t i, const std::atomic<bool>&) {
+    work(i);
+    return campaign::Row{};
   };
-  std::vector<std::thread> others;
-  for (int i = 1; i < threads(jobs); ++i) others.emplace_back(some);
-  some();
-  for (std::thread& t : others) t.join();
+  std::uint64_t done = 0;
+  make_many(count, jobs, make, [&](const campaign::Row&) { ++done; });
+  return done;
 }
 
 void check_seeds(std::uint64_t count, std::uint64_t seed) {
@@ -212,6 +212,8 @@ bool drive_many(const Missions& missions, int jobs,
     campaign::Row row = drive(m.scenario, stop);
     row.robot = has_random_robots(missions) ? campaign::random_robot_name(m.seed) : missions.robot;
     row.world = m.world;
+    row.mission = missions.first + i + 1;
+    row.missions = missions.all;
     return row;
   };
   return make_many(missions.last - missions.first, jobs, make, take);

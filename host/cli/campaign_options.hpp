@@ -26,6 +26,8 @@ struct CampaignOptions {
   int jobs = 0;        ///< 0: one per core
   std::string shard;
   std::string csv;
+  bool overwrite = false;     ///< the file of csv
+  bool incomplete = false;    ///< merge
   std::string save_failures;  ///< folder
   bool json = false;
   std::vector<std::string> merge;
@@ -42,6 +44,7 @@ struct Missions {
   std::string robot;
   std::uint64_t first = 0;
   std::uint64_t last = 0;
+  std::uint64_t all = 0;  ///< of the whole campaign
 };
 
 /// The worlds under this name, --count, --seed, --discs, --width and --box; `each` names the counted items in
@@ -62,8 +65,9 @@ bool has_random_robots(const Missions& missions);
 /// The mission's scenario with the robot's parameters. Throws InputError if they do not fit.
 campaign::Mission mission(const Missions& missions, std::uint64_t index);
 
-/// Calls `work` with each number below `count`, on `jobs` threads (0: one per core). It must not throw.
-void in_parallel(std::uint64_t count, int jobs, const std::function<void(std::uint64_t)>& work);
+/// Calls `work` with each number below `count`, on `jobs` threads (0: one per core), with a progress line. It
+/// must not throw. Returns how many of them are done, the first ones: fewer than `count` if interrupted.
+std::uint64_t in_parallel(std::uint64_t count, int jobs, const std::function<void(std::uint64_t)>& work);
 
 /// Seeds from `seed` on, one for each of `count`. Throws UsageError for none, or if one does not fit 63 bits.
 void check_seeds(std::uint64_t count, std::uint64_t seed);

@@ -24,6 +24,12 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Ctrl-C or SIGTERM ended the command; what(), which may be empty, follows "interrupted": " after 3 of 8
+/// missions".
+class Interrupted : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 constexpr int exit_status(Verdict verdict) {
   switch (verdict) {
     case Verdict::reached: return kReached;

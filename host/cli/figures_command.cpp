@@ -19,7 +19,6 @@
 #include "host/lab/campaign/mission.hpp"
 #include "host/lab/campaign/worlds.hpp"
 #include "host/lab/report/figures.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/run_svg.hpp"
 #include "host/lab/report/table_svg.hpp"
 
@@ -82,7 +81,7 @@ RunLog driven(const Scenario& scenario, PlannerKind planner) {
 }
 
 void draw(const RunLog& log, const std::string& svg_file, const report::RunPicture& picture = {}) {
-  report::write_file(svg_file, report::run_svg(log, picture));
+  files::write(svg_file, report::run_svg(log, picture));
   fmt::print("{}\n", svg_file);
 }
 
@@ -154,7 +153,7 @@ int execute(const FiguresOptions& o) {
   drawn.emplace_back("response.svg", report::table_svg(picture));
   for (const auto& [file, svg] : drawn) {
     const std::string path = fmt::format("{}/{}", o.out, file);
-    report::write_file(path, svg);
+    files::write(path, svg);
     fmt::print("{}\n", path);
   }
   draw(driven(figure8, PlannerKind::thesis), o.out + "/figure8.svg");

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/contact.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/lab/guard/drive.hpp"
@@ -21,7 +23,6 @@
 #include "host/lab/guard/recorded.hpp"
 #include "host/lab/guard/trace.hpp"
 #include "host/lab/page/guard_recording.hpp"
-#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -29,6 +30,7 @@ namespace {
 constexpr double kMostSeconds = 3600;
 constexpr double kMostVouched_m = 10;
 constexpr double kStanding_mps = 1e-3;
+constexpr std::uint64_t kShownEach = 1000;
 
 struct GuardOptions {
   std::string file, robot, commands, hand = "perfect", trace, html;
@@ -49,8 +51,9 @@ int exit_status(guard::End end) {
   return kFailure;
 }
 
-std::unique_ptr<guard::Operator> operator_of(const GuardOptions& o, const Scenario& s) {
-  if (o.keys) return std::make_unique<Keys>(s.robot.wheels.max_speed.raw() * 1e-6, 1.5);
+std::unique_ptr<guard::Operator> operator_of(const GuardOptions& o, const Scenario& s,
+                                             const std::optional<Interrupt>& interrupt) {
+  if (interrupt) return std::make_unique<Keys>(s.robot.wheels.max_speed.raw() * 1e-6, 1.5, *interrupt);
   if (!o.commands.empty()) return std::make_unique<guard::Recorded>(guard::load_commands(o.commands));
   auto hand = guard::make_operator(*guard::hand_named(o.hand), s, s.seed);
   if (!hand) throw UsageError(fmt::format("{}: no path with the margin of operator {}", o.file, o.hand));
@@ -82,11 +85,15 @@ int execute(const GuardOptions& o) {
   const std::string warning = start_warning(scenario);
   if (!warning.empty()) fmt::print(stderr, "whisker: {}\n", warning);
   load_event_tables(scenario, o.file);
-  const auto hand = operator_of(o, scenario);
+  // A drive of keys cannot be repeated: a signal ends it as q does.
+  std::optional<Interrupt> interrupt;
+  if (o.keys) interrupt.emplace();
+  auto hand = operator_of(o, scenario, interrupt);
   const auto* const keys = dynamic_cast<Keys*>(hand.get());
   const auto* const recorded = dynamic_cast<guard::Recorded*>(hand.get());
   bool stands = false;
   double now_s = 0;
+  std::uint64_t ticks = 0;
   const double timeout_s = scenario.robot.guard.command_timeout.raw() * 1e-3;
   std::string rows = fmt::format("{}\n", guard::kTraceHeader);
   page::GuardRecording recording({scenario, hand_words(o), !o.bare, o.vouched_m});
@@ -99,13 +106,17 @@ int execute(const GuardOptions& o) {
   options.until_goal = o.commands.empty();
   options.ended = [&] {
     if (recorded != nullptr) return stands && now_s > recorded->last_s() + timeout_s;
-    return keys != nullptr && keys->ended();
+    return keys != nullptr && (keys->ended() || interrupt->noted());
   };
   options.watch = [&](const guard::Moment& m) {
     if (!o.trace.empty()) rows += guard::trace_row(m, scenario.robot.rangefinders) + "\n";
     if (!o.html.empty()) recording.add(m);
     now_s = m.t_s;
     stands = std::abs(m.v_left_mps) < kStanding_mps && std::abs(m.v_right_mps) < kStanding_mps;
+    if (keys == nullptr && ++ticks % kShownEach == 0) {
+      line.show(fmt::format("{:.0f} s of at most {:.0f} s, at {:.2f}, {:.2f} m", m.t_s, o.time_s, m.pose.at.x,
+                            m.pose.at.y));
+    }
     if (keys == nullptr || m.status == nullptr) return;
     line.show(fmt::format(
         "asked {:5.2f} m/s {:5.2f} rad/s, granted {:3.0f} % {:3.0f} %, {:<16} at {:.2f}, {:.2f} m",
@@ -113,9 +124,10 @@ int execute(const GuardOptions& o) {
         m.status->turning.raw() / 163.84, name(m.status->reason), m.pose.at.x, m.pose.at.y));
   };
   const guard::Result result = guard::drive(scenario, *hand, options);
+  hand.reset();
   line.show("");
-  if (!o.trace.empty()) report::write_file(o.trace, rows);
-  if (!o.html.empty()) report::write_file(o.html, page::guard_page(recording.stored(result)));
+  if (!o.trace.empty()) files::write(o.trace, rows);
+  if (!o.html.empty()) files::write(o.html, page::guard_page(recording.stored(result)));
   if (o.json) {
     print_object(
         guard::result_json(result),
@@ -125,6 +137,7 @@ int execute(const GuardOptions& o) {
     print(result, out);
     if (!o.html.empty()) fmt::print(out, "page: {}\n", o.html);
   }
+  if (interrupt && interrupt->noted()) throw Interrupted(fmt::format(" after {:.2f} s", result.time_s));
   return exit_status(result.end);
 }
 

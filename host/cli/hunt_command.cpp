@@ -115,7 +115,7 @@ int execute(HuntOptions o) {
   const bool nothing = hunt::hunt(o.hunt);
   line.show("");
   fmt::print("{}", hunt::summary(rows));
-  if (interrupt.noted()) return kInterrupted;
+  if (interrupt.noted()) throw Interrupted(fmt::format(" after {} cases", rows.size()));
   return nothing ? 0 : kFailure;
 }
 

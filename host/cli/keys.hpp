@@ -3,15 +3,17 @@
 
 #include <memory>
 
+#include "host/cli/output.hpp"
 #include "host/lab/guard/operator.hpp"
 
 namespace whisker::cli {
 
 /// Arrow keys or w, a, s, d hold for a third of a second; space stops; q ends. In real time. Throws
-/// UsageError unless standard input is a terminal, whose settings come back at the end.
+/// UsageError unless standard input is a terminal, whose settings come back at the end, also while Ctrl-Z
+/// stops the command. Only with an Interrupt, so that no signal ends the command without them.
 class Keys final : public guard::Operator {
  public:
-  Keys(double speed_mps, double turn_radps);
+  Keys(double speed_mps, double turn_radps, const Interrupt&);
   ~Keys() override;
   Keys(const Keys&) = delete;
   Keys& operator=(const Keys&) = delete;

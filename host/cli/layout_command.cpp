@@ -17,6 +17,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/scenario/params_text.hpp"
 #include "host/harness/scenario/sensor_models.hpp"
@@ -24,7 +25,6 @@
 #include "host/harness/scenario/text.hpp"
 #include "host/lab/campaign/layouts.hpp"
 #include "host/lab/campaign/mission.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/layout_svg.hpp"
 #include "host/lab/report/units.hpp"
 
@@ -268,30 +268,30 @@ bool drive_all(const LayoutOptions& o, LayoutTrade& t) {
         t.ranked.push_back(campaign::score(t.grid.layouts[t.ranked.size()], t.what, rows));
         rows.clear();
       });
-  if (!whole) {
-    fmt::print(stderr, "whisker: interrupted after {} of {} layouts\n", t.ranked.size(),
-               t.grid.layouts.size());
-    return false;
-  }
   campaign::rank(t.ranked);
-  return true;
+  return whole;
 }
 
 int execute(const LayoutOptions& o) {
   check_outputs({o.svg, o.out}, {o.robot}, o.json);
   check_seeds(o.count, o.seed);
   LayoutTrade trade = trade_of(o);
-  if (!drive_all(o, trade)) return kInterrupted;
-  if (!o.svg.empty()) report::write_file(o.svg, layout_picture(trade));
-  if (!o.out.empty()) report::write_file(o.out, layout_robot_file(trade));
+  const bool whole = drive_all(o, trade);
+  const Interrupted interrupted(
+      fmt::format(" after {} of {} layouts", trade.ranked.size(), trade.grid.layouts.size()));
+  if (!whole && trade.ranked.empty()) throw interrupted;
+  // A chart and a robot are of all layouts.
+  if (whole && !o.svg.empty()) files::write(o.svg, layout_picture(trade));
+  if (whole && !o.out.empty()) files::write(o.out, layout_robot_file(trade));
   if (o.json) {
     print_object(layout_json(trade),
                  {o.seed, name(o.planner), o.robot.empty() ? "reference" : o.robot,
                   robot_digest(trade.ranked.front().layout.robot), rules_name(o.planner)});
-    return 0;
+    return whole ? 0 : throw interrupted;
   }
   std::FILE* const out = words_beside({o.svg, o.out});
   fmt::print(out, "{}", layout_words(trade));
+  if (!whole) throw interrupted;
   if (!o.svg.empty()) fmt::print(out, "chart: {}\n", o.svg);
   if (!o.out.empty()) fmt::print(out, "robot: {}\n", o.out);
   return 0;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -16,15 +17,6 @@
 #include "host/harness/scenario/error.hpp"
 
 namespace {
-
-/// Prints an error on one line, even if a library's message has several.
-std::string one_line(std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  for (char& c : text) {
-    if (c == '\n') c = ' ';
-  }
-  return text;
-}
 
 /// The command that the line names, with its own commands: "whisker robot check".
 std::string named(const CLI::App& app, int argc, char** argv, int at = 1) {
@@ -69,8 +61,12 @@ int parse(CLI::App& app, int argc, char** argv, const int& status) {
   }
 }
 
-/// Not fmt: it throws if standard error is closed.
-void complain(const std::string& text) { std::fputs((one_line(text) + "\n").c_str(), stderr); }
+/// One line, even if a library's message has several. Not fmt: it throws if standard error is closed.
+void complain(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::fputs((whisker::one_line(text) + "\n").c_str(), stderr);
+}
 
 constexpr const char* kExitStatus = R"(
 Exit status of run, hil and plant: 0 reached and truly there, 7 the robot says reached and is off
@@ -92,6 +88,7 @@ First steps:
 
 int main(int argc, char** argv) {
   using namespace whisker::cli;
+  end_on_signals();
   CLI::App app{"Whisker: a navigation core for small robots with three rangefinders, in a simulated world."};
   app.name("whisker");
   app.require_subcommand(1);
@@ -124,6 +121,10 @@ int main(int argc, char** argv) {
     status = parse(app, argc, argv, status);
     finish_standard_output();
     return status;
+  } catch (const Interrupted& e) {
+    std::fflush(stdout);
+    complain(fmt::format("whisker: interrupted{}", e.what()));
+    return kInterrupted;
   } catch (const CLI::ParseError& e) {
     complain(fmt::format("whisker: {} (see {} --help)", e.what(), named(app, argc, argv)));
     return kBadInput;

@@ -12,10 +12,10 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/contact.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/lab/page/page.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/result.hpp"
 #include "host/lab/report/run_svg.hpp"
 #include "host/lab/report/trace.hpp"
@@ -83,9 +83,9 @@ int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o)
   log.end(result);
   if (o.ended) o.ended(result);
   if (!o.trace.empty()) report::write_trace(o.trace, log);
-  if (!o.svg.empty()) report::write_file(o.svg, report::run_svg(log, picture(log, options.planner)));
+  if (!o.svg.empty()) files::write(o.svg, report::run_svg(log, picture(log, options.planner)));
   if (!o.html.empty())
-    report::write_file(o.html, page::run_page(page::stored(log), controller_picture(options.planner)));
+    files::write(o.html, page::run_page(page::stored(log), controller_picture(options.planner)));
 
   for (const std::string& warning :
        {start_warning(scenario),

@@ -13,12 +13,12 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/scenario/write.hpp"
 #include "host/harness/worlds/meeting.hpp"
 #include "host/lab/campaign/meeting.hpp"
 #include "host/lab/guard/campaign.hpp"
-#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -42,9 +42,9 @@ const char* kind(const campaign::Meeting& contact) {
 
 /// own: a scenario with the robot, its sensors and its noise.
 campaign::MeetingCount drive(const MoversOptions& o, const Scenario& own, worlds::Course course,
-                             double speed_mps, ProgressLine& line) {
+                             double speed_mps, ProgressLine& line, const Interrupt& interrupt) {
   campaign::MeetingCount count;
-  for (std::uint64_t i = 0; i < o.count; ++i) {
+  for (std::uint64_t i = 0; i < o.count && !interrupt.noted(); ++i) {
     Scenario scenario = worlds::meeting(course, speed_mps, o.seed + i, own.robot);
     scenario.sensor = own.sensor;
     scenario.noise = own.noise;
@@ -53,7 +53,7 @@ campaign::MeetingCount drive(const MoversOptions& o, const Scenario& own, worlds
     count.add(meeting);
     if (!o.contacts.empty() && meeting.verdict == Verdict::contact) {
       const std::string file = fmt::format("{}_{}.toml", scenario.name, kind(meeting));
-      report::write_file((std::filesystem::path(o.contacts) / file).string(), to_toml(scenario));
+      files::write((std::filesystem::path(o.contacts) / file).string(), to_toml(scenario));
     }
     if (i % 10 == 0) line.show(fmt::format("{} {:.2f} m/s: {} of {}", name(course), speed_mps, i, o.count));
   }
@@ -70,11 +70,13 @@ int execute(const MoversOptions& o) {
   if (!o.robot.empty()) apply_robot_file(own, o.robot);
   fmt::print("| course | m/s | missions | reached | said so | contacts | moving | shown | seen in time |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|\n");
+  const Interrupt interrupt;
   ProgressLine line;
   for (const worlds::Course course : worlds::kCourses) {
     for (const double speed_mps : kSpeeds) {
-      const campaign::MeetingCount c = drive(o, own, course, speed_mps, line);
+      const campaign::MeetingCount c = drive(o, own, course, speed_mps, line, interrupt);
       line.show("");
+      if (interrupt.noted()) throw Interrupted(fmt::format(" in {} at {:.2f} m/s", name(course), speed_mps));
       fmt::print("| {} | {:.2f} | {} | {} | {} | {} | {} | {} | {} |\n", name(course), speed_mps, c.missions,
                  c.reached, c.said, c.contacts, c.moving, c.shown, c.seen);
     }
@@ -156,7 +158,8 @@ int execute(const OperatorsOptions& o) {
   } else {
     drive_operators(o, interrupt);
   }
-  return interrupt.noted() ? kInterrupted : 0;
+  if (interrupt.noted()) throw Interrupted("");
+  return 0;
 }
 
 }  // namespace

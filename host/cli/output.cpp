@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -48,8 +49,23 @@ void check_place(const std::string& text) {
 }
 
 volatile sig_atomic_t g_noted = 0;
+int g_interrupts = 0;
 
 void note(int) { g_noted = 1; }
+
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
+pid_t g_speaker = 0;  // a process that it has forked says nothing
+
+void end(int) {
+  constexpr std::string_view kWipe = "\r\033[K", kWords = "whisker: interrupted\n";
+  if (getpid() != g_speaker) _exit(kInterrupted);
+  const std::string_view words[] = {isatty(STDERR_FILENO) == 1 ? kWipe : "", kWords};
+  for (const std::string_view text : words) {
+    if (::write(STDERR_FILENO, text.data(), text.size()) < 0) break;
+  }
+  _exit(kInterrupted);
+}
 
 }  // namespace
 
@@ -103,18 +119,29 @@ void ProgressLine::show(const std::string& text) {
   shown_ = true;
 }
 
+void end_on_signals() {
+  g_speaker = getpid();
+  signal(SIGINT, end);
+  signal(SIGTERM, end);
+  signal(SIGXFSZ, SIG_IGN);  // the write fails instead
+}
+
 Interrupt::Interrupt() {
+  if (g_interrupts++ > 0) return;
   g_noted = 0;
   struct sigaction action {};
   action.sa_handler = note;
   action.sa_flags = SA_RESTART;
-  sigaction(SIGINT, &action, &old_int_);
-  sigaction(SIGTERM, &action, &old_term_);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) {
+    sigaction(kSignals[i], &action, &old_[i]);
+    // nohup
+    if (kSignals[i] == SIGHUP && old_[i].sa_handler == SIG_IGN) sigaction(SIGHUP, &old_[i], nullptr);
+  }
 }
 
 Interrupt::~Interrupt() {
-  sigaction(SIGINT, &old_int_, nullptr);
-  sigaction(SIGTERM, &old_term_, nullptr);
+  if (--g_interrupts > 0) return;
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &old_[i], nullptr);
 }
 
 bool Interrupt::noted() const { return g_noted != 0; }

@@ -37,7 +37,11 @@ class ProgressLine {
   bool shown_ = false;
 };
 
-/// During its lifetime, SIGINT and SIGTERM are only recorded. At most one object at a time.
+/// SIGINT and SIGTERM end the command with a line and kInterrupted, where no Interrupt records them.
+void end_on_signals();
+
+/// During its lifetime, SIGINT, SIGTERM and SIGHUP are only recorded. One within another shares what
+/// is recorded.
 class Interrupt {
  public:
   Interrupt();
@@ -48,8 +52,7 @@ class Interrupt {
   bool noted() const;  ///< a signal was received
 
  private:
-  struct sigaction old_int_ {};
-  struct sigaction old_term_ {};
+  struct sigaction old_[3]{};
 };
 
 }  // namespace whisker::cli

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -12,7 +13,9 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "firmware/calibration/store.hpp"
 #include "firmware/can/limits.hpp"
+#include "firmware/fuzzy/table_store.hpp"
 #include "host/cli/bus_run.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
@@ -67,19 +70,36 @@ struct ControllerOptions {
   std::string calibration;
 };
 
+/// What it is not used for would be lost with the next record.
+void check_content(const char* option, const std::string& path, hal::Storage& storage) {
+  fuzzy::Bilinear::Table table;
+  bool has_table = false;
+  calibration::Values values;
+  const storage::Stored tables = fuzzy::TableStore(storage).load(table, has_table);
+  const storage::Stored calibrations = calibration::Store(storage).load(values);
+  const bool keeps = std::string_view(option) == "--keep";
+  if ((keeps ? tables : calibrations) == storage::Stored::other_version)
+    throw UsageError(
+        fmt::format("{}: {}: another version of whisker has written it: name another file", option, path));
+  if ((keeps ? calibrations : tables) != storage::Stored::nothing)
+    throw UsageError(fmt::format("{}: {}: has a {}: name another file", option, path,
+                                 keeps ? "calibration" : "response table"));
+}
+
 /// Null without a file.
 std::unique_ptr<hil::FileStorage> open_file(const char* option, const std::string& path) {
   if (path.empty()) return nullptr;
   try {
-    return std::make_unique<hil::FileStorage>(path);
+    auto file = std::make_unique<hil::FileStorage>(path);
+    check_content(option, path, *file);
+    return file;
   } catch (const hil::FileStorageError& e) {
     throw UsageError(fmt::format("{}: {}", option, e.what()));
   }
 }
 
 std::unique_ptr<hil::FileStorage> open_storage(const ControllerOptions& o) {
-  if (o.keep.empty()) return nullptr;
-  if (hil::table_to_send(o.planner) == nullptr) {
+  if (!o.keep.empty() && hil::table_to_send(o.planner) == nullptr) {
     throw UsageError(fmt::format("--keep: planner {} takes no table", name(o.planner)));
   }
   return open_file("--keep", o.keep);
@@ -137,11 +157,22 @@ class ControllerProcess {
     _exit(status);
   }
   ~ControllerProcess() {
+    if (child_ < 0) return;
     kill(child_, SIGTERM);
     waitpid(child_, nullptr, 0);
   }
   ControllerProcess(const ControllerProcess&) = delete;
   ControllerProcess& operator=(const ControllerProcess&) = delete;
+
+  /// Throws std::runtime_error if it has ended.
+  void check() {
+    int status = 0;
+    if (child_ < 0 || waitpid(child_, &status, WNOHANG) != child_) return;
+    child_ = -1;
+    throw std::runtime_error(
+        WIFSIGNALED(status) ? fmt::format("the controller's process was ended by signal {}", WTERMSIG(status))
+                            : "the controller's process has ended");
+  }
 
  private:
   pid_t child_ = -1;
@@ -164,7 +195,7 @@ int execute(const HilOptions& o) {
   const auto view = o.view.open(o.planner);
   auto lines =
       is_private ? hil::private_lines() : std::pair{hil::open_line(o.bus.name), hil::open_line(o.bus.name)};
-  const ControllerProcess child([&] {
+  ControllerProcess child([&] {
     if (view) view->abandon();
     lines.first.reset();
     control_on_bus(controller, with_own_table(o.planner), *lines.second);
@@ -174,7 +205,8 @@ int execute(const HilOptions& o) {
   options.planner = o.planner;
   BusChoice base = o.bus;
   if (!is_baseline(o.planner)) base.drive_with(o.planner);
-  return drive_on_bus(scenario, options, o.scenario.run_outputs(scenario), base, *lines.first, view.get());
+  return drive_on_bus(scenario, options, o.scenario.run_outputs(scenario), base, *lines.first, view.get(),
+                      [&] { child.check(); });
 }
 
 }  // namespace

@@ -22,12 +22,12 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/hil/replay.hpp"
 #include "host/harness/run/make_record.hpp"
 #include "host/harness/run/spec.hpp"
 #include "host/harness/scenario/error.hpp"
 #include "host/lab/page/page.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/trace.hpp"
 
 namespace whisker::cli {
@@ -117,7 +117,7 @@ int execute(const ReplayOptions& o) {
     const RunLog& log = run.end();
     if (!o.trace.empty()) report::write_trace(o.trace, log);
     if (!o.html.empty())
-      report::write_file(o.html, page::run_page(page::stored(log), controller_picture(r.planner)));
+      files::write(o.html, page::run_page(page::stored(log), controller_picture(r.planner)));
   }
   if (o.json) {
     print_json(r, provenance);

@@ -17,6 +17,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/run/planners.hpp"
 #include "host/harness/run/record.hpp"
 #include "host/harness/run/runner.hpp"
@@ -27,7 +28,6 @@
 #include "host/harness/scenario/sensor.hpp"
 #include "host/harness/scenario/sensor_text.hpp"
 #include "host/harness/worlds/generate.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/result.hpp"
 #include "host/lab/report/units.hpp"
 
@@ -104,7 +104,9 @@ std::vector<TestDrive> test_drives(const Params& params, const Sensor& sensor, P
   RunOptions options;
   options.planner = planner;
   std::vector<TestDrive> drives;
+  ProgressLine line;
   for (const auto& [name, scenario] : worlds) {
+    line.show(fmt::format("drives through {}", name));
     const Scenario own = fitted(scenario, params, sensor);
     const sim::Vec2 way = own.goal.at - own.start.at;
     drives.push_back(
@@ -198,7 +200,7 @@ void suggest(const RobotOptions& o, const InputErrors& errors) {
                o.file, o.suggest);
     return;
   }
-  report::write_file(o.suggest, with_lines(read_file(o.file), errors.changes()));
+  files::write(o.suggest, with_lines(read_file(o.file), errors.changes()));
   Params params;
   Sensor sensor;
   apply_robot_file(params, sensor, o.suggest);
@@ -258,7 +260,7 @@ int execute(const RobotOptions& o) {
                    : "");
   }
   if (!fit) return kFault;
-  if (!o.header.empty()) report::write_file(o.header, robot_header(params, o.file));
+  if (!o.header.empty()) files::write(o.header, robot_header(params, o.file));
   if (!o.json) {
     const bool empty = robot_toml(params).empty() && sensor_toml(sensor).empty();
     fmt::print(out, "fit: {}{}\n", o.file, empty ? ", which sets nothing: this is the reference robot" : "");

@@ -17,8 +17,8 @@
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/text.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/rules/compile.hpp"
 #include "host/lab/rules/findings.hpp"
 #include "host/lab/rules/header.hpp"
@@ -258,8 +258,8 @@ int execute_rules_compile(const CompileOptions& o) {
   rules::RuleBase base = load_rules(o.file);
   options.fixed = fixed(base, o.fixed);
   const rules::Compiled compiled = rules::compile(std::move(base), options);
-  if (!o.header.empty()) report::write_file(o.header, rules::header(compiled, o.header));
-  if (!o.svg.empty()) report::write_file(o.svg, rules::picture(compiled.base, compiled.surface));
+  if (!o.header.empty()) files::write(o.header, rules::header(compiled, o.header));
+  if (!o.svg.empty()) files::write(o.svg, rules::picture(compiled.base, compiled.surface));
   if (o.json) {
     fmt::print("{}\n", table_json(compiled));
   } else {
@@ -279,14 +279,14 @@ int execute_rules_show(const ShowOptions& o) {
     rules::Options options;
     options.fixed = fixed(base, o.fixed);
     const rules::Compiled compiled = rules::compile(base, options);
-    report::write_file(o.html, rules::page(compiled));
-    if (!o.svg.empty()) report::write_file(o.svg, rules::picture(base, compiled.surface));
+    files::write(o.html, rules::page(compiled));
+    if (!o.svg.empty()) files::write(o.svg, rules::picture(base, compiled.surface));
   } else {
     const rules::Inference inference(base);
     const rules::Domain domain =
         rules::make_domain(base, inference, fixed(base, o.fixed), rules::kFewestSteps);
     if (!o.svg.empty())
-      report::write_file(o.svg, rules::picture(base, rules::make_surface(base, inference, domain)));
+      files::write(o.svg, rules::picture(base, rules::make_surface(base, inference, domain)));
   }
   print_rule_base(out, base);
   if (!o.svg.empty()) fmt::print(out, "picture: {}\n", o.svg);

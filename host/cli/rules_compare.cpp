@@ -17,8 +17,8 @@
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/cli/table_search.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/lab/campaign/comparison.hpp"
-#include "host/lab/report/file.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -65,10 +65,7 @@ int execute(const CompareOptions& o) {
   const Missions chosen = missions(o.campaign);
   std::vector<campaign::Pair> pairs;
   const bool whole = drive_both(chosen, kinds, o.campaign.jobs, pairs);
-  if (!whole) {
-    fmt::print(stderr, "whisker: interrupted\n");
-    return kInterrupted;
-  }
+  if (pairs.empty()) throw Interrupted("");
   const campaign::Comparison c = campaign::compare(pairs);
   if (o.campaign.json) {
     print_object(json_of(o, c, kinds).dump(), {o.campaign.seed.value_or(1), name(chosen.planner)});
@@ -76,6 +73,8 @@ int execute(const CompareOptions& o) {
     fmt::print("A = {}, B = {}: {} worlds, planner {}\n", o.a, o.b, c.worlds, name(o.campaign.planner));
     print_comparison(stdout, c);
   }
+  if (!whole)
+    throw Interrupted(fmt::format(" after {} of {} worlds", pairs.size(), chosen.last - chosen.first));
   return 0;
 }
 
@@ -114,7 +113,7 @@ int execute(const TableOptions& o) {
   if (o.out.empty()) {
     fmt::print("{}", text);
   } else {
-    report::write_file(o.out, text);
+    files::write(o.out, text);
     fmt::print(words_beside({o.out}), "table: {}\n", o.out);
   }
   return 0;

@@ -17,7 +17,7 @@
 #include "host/cli/provenance.hpp"
 #include "host/cli/rules_choice.hpp"
 #include "host/cli/table_search.hpp"
-#include "host/lab/report/file.hpp"
+#include "host/harness/file/file.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -193,34 +193,35 @@ Candidate base_of(const SearchOptions& o) {
 }
 
 /// Writes the best so far, if there is one.
-int interrupted(const SearchOptions& o, const SearchPlan& plan, const SearchNames& names,
-                const TableSearch& search) {
+[[noreturn]] void interrupted(const SearchOptions& o, const SearchPlan& plan, const SearchNames& names,
+                              const TableSearch& search) {
   const bool found = search.best().digest != search.base().digest;
-  if (found) report::write_file(o.out, searched_file(plan, names, search, std::nullopt));
-  fmt::print(stderr, "whisker: interrupted after {} of {} generations; {}\n", search.generations().size(),
-             plan.generations, found ? fmt::format("{}: the best rules so far", o.out) : "nothing written");
-  return kInterrupted;
+  if (found) files::write(o.out, searched_file(plan, names, search, std::nullopt));
+  throw Interrupted(fmt::format(" after {} of {} generations; {}", search.generations().size(),
+                                plan.generations,
+                                found ? fmt::format("{}: the best rules so far", o.out) : "nothing written"));
 }
 
 int execute(const SearchOptions& o) {
   const bool from_file = o.base != "default";
   check_outputs({o.out}, {from_file ? o.base : "", o.campaign.robot}, o.campaign.json);
   check(o);
+  const Interrupt noted;  // also between two rounds of missions
   const SearchPlan plan = plan_of(o);
   const SearchNames names = names_of(o);
   const Candidate base = base_of(o);
   TableSearch search(plan, base);
   std::FILE* const out = words_beside({o.out});
   const auto after = [&](const Generation& g) {
-    // A signal between two rounds of missions ends the command at once.
-    if (g.kept && o.out != "-") report::write_file(o.out, searched_file(plan, names, search, std::nullopt));
+    // For a process that is killed.
+    if (g.kept && o.out != "-") files::write(o.out, searched_file(plan, names, search, std::nullopt));
     if (!o.campaign.json) print_generation(out, g);
   };
-  if (!search.run(after)) return interrupted(o, plan, names, search);
+  if (!search.run(after)) interrupted(o, plan, names, search);
   const bool found = search.best().digest != base.digest;
   const auto validation = found ? search.validate() : std::nullopt;
-  if (found && !validation) return interrupted(o, plan, names, search);
-  report::write_file(o.out, searched_file(plan, names, search, validation));
+  if (found && !validation) interrupted(o, plan, names, search);
+  files::write(o.out, searched_file(plan, names, search, validation));
   if (o.campaign.json) {
     Provenance p;
     p.seed = o.seed;

@@ -19,6 +19,7 @@
 #include "host/harness/socket/channel.hpp"
 #include "host/harness/socket/session.hpp"
 #include "host/lab/report/result.hpp"
+#include "host/lab/view/names.hpp"
 
 namespace whisker::cli {
 namespace {
@@ -38,13 +39,16 @@ struct SocketOptions {
   bool json = false;
 };
 
-void say_port(int port) { fmt::print(stderr, "listening on port {}\n", port); }
-
 std::unique_ptr<socket::Channel> open_channel(const SocketOptions& o) {
   if (o.has_tcp + o.has_udp + o.standard != 1)
     throw UsageError("socket needs one of --tcp, --udp and --stdio");
   if (o.standard && o.json) throw UsageError("--json: --stdio takes the standard output");
   if (o.standard) return socket::standard_channel();
+  const auto say_port = [&](int port) {
+    fmt::print(stderr, "listening on port {}\n", port);
+    if (!view::is_loopback(o.address))
+      fmt::print(stderr, "whoever can reach {} port {} can drive this robot\n", o.address, port);
+  };
   if (o.has_tcp) return socket::accept_tcp(o.address, static_cast<int>(o.tcp), o.timeout_s, say_port);
   return socket::bind_udp(o.address, static_cast<int>(o.udp), say_port);
 }

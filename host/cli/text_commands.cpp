@@ -11,11 +11,11 @@
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/params_text.hpp"
 #include "host/harness/scenario/write.hpp"
 #include "host/harness/worlds/generate.hpp"
 #include "host/lab/protocol/page.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/table_svg.hpp"
 
 namespace whisker::cli {
@@ -54,7 +54,7 @@ void print_rules(const report::FuzzyPicture& p, const report::Variable& out,
 int execute(const ResponseOptions& o) {
   check_outputs({o.svg}, {}, o.csv);
   const report::FuzzyPicture picture = controller_picture();
-  if (!o.svg.empty()) report::write_file(o.svg, report::table_svg(picture));
+  if (!o.svg.empty()) files::write(o.svg, report::table_svg(picture));
   if (o.csv) {
     print_csv(picture);
   } else if (o.svg != "-") {
@@ -86,7 +86,7 @@ int execute(const WorldOptions& o) {
   if (o.out.empty()) {
     fmt::print("{}", text);
   } else {
-    report::write_file(o.out, text);
+    files::write(o.out, text);
   }
   return 0;
 }

@@ -16,8 +16,9 @@ namespace {
 const std::string kLine =
     "7,reached,12.500000,2.000000,3.100000,1,2,3,0.050000,0.010000,0.020000,1,1.600000,1.250000,7.812500,"
     "1250,"
-    "00000000000000ff,at_goal,thesis,,discs --noise,0.080000,1";
-/// The same row in the format without off_goal.
+    "00000000000000ff,at_goal,thesis,,discs --noise,0.080000,1,5,60";
+/// The same row in the older formats.
+const std::string kJudgedLine = kLine.substr(0, kLine.find(",5,60"));
 const std::string kOldLine = kLine.substr(0, kLine.find(",0.080000,1"));
 
 std::string complaint(const std::string& line) {
@@ -105,12 +106,13 @@ TEST(RowText, WhatIsWrongIsNamed) {
   EXPECT_EQ(complaint(with("12.500000", "inf")), "column time_s: 'inf' is no such number");
   EXPECT_EQ(complaint(with("2.000000", "-2.000000")), "column path_m: -2 is negative");
   EXPECT_EQ(complaint(with(",1,2,3,", ",1,2.5,3,")), "column flips: '2.5' is no such number");
-  EXPECT_EQ(complaint(kLine + "\r"), "column truly_there: control characters in it");
+  EXPECT_EQ(complaint(kLine + "\r"), "column missions: control characters in it");
   EXPECT_EQ(complaint(kOldLine), "no column believed_distance_m");
+  EXPECT_EQ(complaint(kJudgedLine), "no column mission");
   for (const std::string& line :
        {with("1.250000", "1.260000"), with("12.500000", "12.5"), with("discs", "\"discs\""), kLine + ",",
         with("00ff", "00FF"), with(",1,1.6", ",2,1.6"), with(",1,1.6", ",,1.6"), with(",1,1.6", ",0,1.6"),
-        with("reached", "off_goal"), with(",0.080000,1", ",0.080000,0")}) {
+        with("reached", "off_goal"), with(",0.080000,1", ",0.080000,0"), with(",5,60", ",61,60")}) {
     EXPECT_EQ(complaint(line), "the row is not one that campaign writes") << line;
   }
 }
@@ -129,6 +131,13 @@ TEST(RowText, AnOldRowTellsWhatItsRobotBelievedAndIsJudgedByItsTruePlace) {
   for (std::string wrong :
        {with("reached", "off_goal").substr(0, kOldLine.size() + 1), kLine, kOldLine + ","})
     EXPECT_THROW(parse_row(wrong, RowFormat::believed), std::invalid_argument) << wrong;
+}
+
+TEST(RowText, ARowWithoutTheNumberOfItsMissionIsRead) {
+  const Row row = parse_row(kJudgedLine, RowFormat::judged);
+  EXPECT_EQ(row.missions, 0U);
+  EXPECT_EQ(to_csv(row), kJudgedLine + ",0,0");
+  EXPECT_THROW(parse_row(kLine, RowFormat::judged), std::invalid_argument);
 }
 
 TEST(RowText, ADamagedRowIsRefusedOrIsAnotherRow) {
@@ -154,7 +163,7 @@ TEST(RowText, ADamagedRowIsRefusedOrIsAnotherRow) {
 }
 
 TEST(RowText, NoPrefixOfARowIsARow) {
-  for (std::size_t n = 0; n < kLine.size(); ++n) EXPECT_NE(complaint(kLine.substr(0, n)), "") << n;
+  for (std::size_t n = 0; n <= kLine.rfind(',') + 1; ++n) EXPECT_NE(complaint(kLine.substr(0, n)), "") << n;
 }
 
 TEST(RowFile, HoldsTheHeaderAndEveryRow) {
@@ -169,15 +178,21 @@ TEST(RowFile, HoldsTheHeaderAndEveryRow) {
   EXPECT_EQ(text_of(path + ".part"), "");
 }
 
-TEST(RowFile, LeavesNoTraceWhenItIsNotFinished) {
+TEST(RowFile, GoesOnAfterTheRowsOfAnEarlierOne) {
   const Folder folder;
   const std::string path = folder.file("rows.csv", "old\n");
   {
     RowFile file(path);
+    EXPECT_TRUE(file.found().empty());
     file.add(parse_row(kLine));
   }
   EXPECT_EQ(text_of(path), "old\n");
-  EXPECT_EQ(text_of(path + ".part"), "");
+  RowFile file(path);
+  ASSERT_EQ(file.found().size(), 1U);
+  EXPECT_EQ(to_csv(file.found().front()), kLine);
+  file.add(parse_row(with("7,", "8,")));
+  file.finish();
+  EXPECT_EQ(text_of(path), std::string(kRowHeader) + "\n" + kLine + "\n" + with("7,", "8,") + "\n");
 }
 
 TEST(RowFile, SaysWhyItCannotBeWritten) {

@@ -50,6 +50,8 @@ Row random_row(worlds::Random& random) {
   r.planner = random_text(random);
   r.robot = random_text(random);
   r.world = random_text(random);
+  r.missions = random.bits() >> random.index(64);
+  r.mission = r.missions / 2;
   return r;
 }
 

@@ -366,6 +366,8 @@ class Rules(Beside):
                 self.assertEqual((told["rules_hash"], told["kept"]), (self.built_in, True))
             controller.kill()
             controller.wait()
+            refused = whisker.whisker("controller", "--can", "slcan:none", "--calibration", kept)
+            self.assertEqual((refused.returncode, refused.stderr), (2, f"whisker: --calibration: {kept}: has a response table: name another file\n"))
             controller = self.controller("--keep", kept)
             self.assertEqual(self.rules(), expected)
 

@@ -4,6 +4,7 @@ import json
 import pathlib
 import subprocess
 import xml.etree.ElementTree
+import zlib
 
 import whisker
 from slcan_bridge import Bridge
@@ -183,6 +184,17 @@ class Bus(Case):
         self.assertEqual((spin["trouble"], spin["stored"], list(spin["values"])), ("none", "ok", ["gyro_scale", "wheel_track_m"]))
         first.kill()
         first.wait()
+        self.refused("controller", "--can", self.ends[0], "--keep", kept, says=f"--keep: {kept}: has a calibration: name another file")
+        # The same record of another version.
+        stored = bytearray(kept.read_bytes())
+        for slot in (16, 16 + 8192):
+            if stored[slot] == 0xFF:
+                continue
+            stored[slot] += 1
+            stored[slot + 36 : slot + 40] = zlib.crc32(stored[slot : slot + 36]).to_bytes(4, "little")
+        newer = self.folder / "newer"
+        newer.write_bytes(stored)
+        self.refused("controller", "--can", self.ends[0], "--calibration", newer, says=f"--calibration: {newer}: another version of whisker has written it: name another file")
         self.controller("--calibration", kept)
         straight, _ = self.ordered("straight", world)
         self.assertEqual(list(straight["values"]), ["gyro_scale", "wheel_ratio", "wheel_track_m"])

@@ -6,6 +6,7 @@ import json
 import os
 import pty
 import re
+import resource
 import select
 import shlex
 import signal
@@ -33,7 +34,7 @@ class Driven(Case):
 
     def rows(self, *arguments):
         """The bytes of the CSV file."""
-        self.campaign(*arguments, "--csv", "rows.csv")
+        self.campaign(*arguments, "--csv", "rows.csv", "--overwrite")
         return (self.folder / "rows.csv").read_text()
 
 
@@ -45,7 +46,11 @@ class Campaigns(Driven):
             self.assertEqual(self.rows(*KIND, "--count", COUNT, "--seed", 5, "--jobs", jobs), alone)
         self.assertEqual(self.rows(*KIND, "--count", COUNT, "--seed", 5), alone)
         later = self.rows(*KIND, "--count", 3, "--seed", 9)
-        self.assertEqual(rows_of(later), rows_of(alone)[4:7])
+        def without_number(row):
+            return {key: value for key, value in row.items() if key not in ("mission", "missions")}
+
+        self.assertEqual([*map(without_number, rows_of(later))], [*map(without_number, rows_of(alone)[4:7])])
+        self.assertEqual([(row["mission"], row["missions"]) for row in rows_of(later)], [("1", "3"), ("2", "3"), ("3", "3")])
 
     def test_are_what_world_and_run_give(self):
         for kind, seed in ((("discs", "--discs", 12, "--box", "--noise"), 3), (("u-trap",), 8), (("maze", "--noise", "--wheel-scale-sigma", "0.01"), 2), (("rooms", "--discs", 0), 2)):
@@ -98,7 +103,7 @@ class Shards(Driven):
         words = self.campaign("--merge", "rows.csv")
         self.assertIn(words, self.campaign(*KIND, "--count", COUNT))
         for shards in (1, 5, COUNT):
-            names = [f"shard{i}.csv" for i in range(1, shards + 1)]
+            names = [f"shard{i}of{shards}.csv" for i in range(1, shards + 1)]
             for i, name in enumerate(names, 1):
                 self.campaign(*KIND, "--count", COUNT, "--shard", f"{i}/{shards}", "--csv", name)
             parts = [(self.folder / name).read_text() for name in names]
@@ -123,13 +128,29 @@ class Shards(Driven):
         text = self.rows(*KIND, "--count", 2)
         self.refused("campaign", "--merge", "rows.csv", "rows.csv", says="rows.csv:2:1: ")
         self.refused("campaign", "--merge", "none.csv", says="none.csv:1:1: ")
-        self.file("cut.csv", text[:-9])
+        self.file("cut.csv", text[:-2])
         self.refused("campaign", "--merge", "cut.csv", says="cut.csv:3:1: ")
         self.file("odd.csv", text.replace(",reached,", ",arrived,").replace(",gave_up,", ",tired,"))
         self.refused("campaign", "--merge", "odd.csv", says="odd.csv:2:1: ")
         self.refused("campaign", "--merge", "rows.csv", "--count", 3, says="--count")
         self.refused("campaign", "discs", "--merge", "rows.csv", says="KIND|DIR")
         self.refused("campaign", "--merge", says="--merge")
+
+    def test_a_missing_shard_is_noticed(self):
+        for i in (1, 2, 3):
+            self.campaign(*KIND, "--count", 6, "--shard", f"{i}/3", "--csv", f"{i}.csv")
+        for some, first in ((("1.csv", "3.csv"), 3), (("1.csv", "2.csv"), 5), (("3.csv", "2.csv"), 1)):
+            self.refused("campaign", "--merge", *some, says=f"2 of 6 missions of discs --discs 10 are missing, the first is number {first}: --incomplete")
+            self.assertEqual(json.loads(self.campaign("--merge", *some, "--incomplete", "--json"))["missions"], 4)
+        # Two campaigns are whole each.
+        self.campaign("maze", "--count", 1, "--csv", "maze.csv")
+        self.campaign(*KIND, "--count", 1, "--seed", 7, "--csv", "later.csv")
+        self.campaign("--merge", "1.csv", "2.csv", "3.csv", "maze.csv", "later.csv")
+        (self.folder / "worlds").mkdir()
+        for name in ("a", "b"):
+            (self.folder / "worlds" / f"{name}.toml").write_text(with_time_limit((SCENARIOS / "nothing.toml").read_text(), 1))
+        self.campaign("worlds", "--shard", "2/2", "--csv", "b.csv")
+        self.refused("campaign", "--merge", "b.csv", says="1 of 2 missions of worlds/ are missing, the first is number 1")
 
 
 class Summary(Driven):
@@ -309,6 +330,8 @@ class Refusals(Driven):
         self.refused("campaign", "discs", "--svg", "a.svg", says="--replay")
         self.refused("campaign", "discs", "--replay", 3, "--csv", "a.csv", says="--csv")
         self.refused("campaign", "discs", "--csv", "nowhere/a.csv", says="nowhere")
+        self.file("old.csv", "old\n")
+        self.refused("campaign", "discs", "--csv", "old.csv", says="old.csv: is there already; --overwrite replaces it")
         self.refused("campaign", "discs", "--robot", "none.toml", "--csv", "a.csv", says="none.toml:1:1")
         for shard in ("0/3", "4/3", "1", "1/", "/2", "1/0", "-1/2", "1/2/3", "a/b", "1 /2", "2/2000000"):
             self.refused("campaign", "discs", "--shard", shard, says="--shard")
@@ -323,8 +346,8 @@ class Refusals(Driven):
 class Interruption(Driven):
     """The campaign is far too long to end by itself."""
 
-    def begun(self, stderr=subprocess.PIPE):
-        arguments = ("campaign", *KIND, "--count", 10**6, "--csv", "rows.csv")
+    def begun(self, stderr=subprocess.PIPE, count=10**6):
+        arguments = ("campaign", *KIND, "--count", count, "--csv", "rows.csv", "--overwrite")
         return subprocess.Popen(
             [whisker.binary, *map(str, arguments)],
             stdout=subprocess.PIPE, stderr=stderr, text=True, cwd=self.folder,
@@ -341,22 +364,79 @@ class Interruption(Driven):
         self.fail("no rows in a minute")
 
     def test_leaves_the_rows_so_far_and_their_summary(self):
-        for number in (signal.SIGINT, signal.SIGTERM):
+        self.file("rows.csv", "old\n")
+        before = 0
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.begun() as process:
-                self.wait_for_rows(process, 3)
+                self.wait_for_rows(process, before + 3)
                 process.send_signal(number)
                 process.send_signal(number)
                 words, error = process.communicate(timeout=60)
             self.assertEqual(process.returncode, 130)
-            self.assertRegex(error, r"\Awhisker: interrupted after \d+ of 1000000 missions\n\Z")
-            text = (self.folder / "rows.csv").read_text()
+            *goes_on, last = error.splitlines()
+            self.assertEqual(goes_on, [f"whisker: goes on after the {before} missions of rows.csv.part"] if before else [])
+            self.assertRegex(last, r"\Awhisker: interrupted after \d+ of 1000000 missions; the same command goes on\Z")
+            self.assertEqual((self.folder / "rows.csv").read_text(), "old\n")
+            text = (self.folder / "rows.csv.part").read_text()
             seeds = [int(row["seed"]) for row in rows_of(text)]
             self.assertEqual(seeds, list(range(1, len(seeds) + 1)))
-            self.assertGreaterEqual(len(seeds), 3)
-            self.assertTrue(words.startswith(self.campaign("--merge", "rows.csv")))
-            self.assertEqual(sorted(os.listdir(self.folder)), ["rows.csv"])
-            again = self.rows(*KIND, "--count", len(seeds))
-            self.assertEqual(again, text)
+            self.assertGreaterEqual(len(seeds), before + 3)
+            before = len(seeds)
+            self.assertTrue(words.startswith(self.campaign("--merge", "rows.csv.part", "--incomplete")))
+            self.assertEqual(sorted(os.listdir(self.folder)), ["rows.csv", "rows.csv.part"])
+
+    def test_goes_on_where_it_was_stopped_or_killed(self):
+        whole = self.rows(*KIND, "--count", 9, "--noise")
+        arguments = (*KIND, "--count", 9, "--noise", "--csv", "again.csv")
+        lines = whole.splitlines(keepends=True)
+        for some in ("", lines[0][:30], lines[0], "".join(lines[:2]), "".join(lines[:5]) + lines[5][:40], whole):
+            self.file("again.csv.part", some)
+            done = whisker.whisker("campaign", *arguments, cwd=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            n = max(some.count("\n") - 1, 0)
+            self.assertEqual(done.stderr, f"whisker: goes on after the {n} missions of again.csv.part\n" if n else "")
+            self.assertEqual((self.folder / "again.csv").read_text(), whole)
+            self.assertEqual(done.stdout, self.campaign("--merge", "rows.csv") + "rows: again.csv\n")
+            self.assertFalse((self.folder / "again.csv.part").exists())
+            (self.folder / "again.csv").unlink()
+        # Of the third shard, with what --html and --json need of all rows.
+        shard = ("--shard", "3/3", "--csv", "3.csv", "--html", "3.html", "--json")
+        first = self.campaign(*KIND, "--count", 9, "--noise", *shard)
+        rows, page = (self.folder / "3.csv").read_text(), (self.folder / "3.html").read_text()
+        (self.folder / "3.csv").rename(self.folder / "3.csv.part")
+        done = whisker.whisker("campaign", *KIND, "--count", 9, "--noise", *shard, cwd=self.folder)
+        self.assertEqual((done.returncode, done.stdout), (0, first))
+        self.assertEqual(((self.folder / "3.csv").read_text(), (self.folder / "3.html").read_text()), (rows, page))
+
+    def test_no_rows_of_another_campaign_are_continued_or_lost(self):
+        whole = self.rows(*KIND, "--count", 3)
+        (self.folder / "rows.csv").rename(self.folder / "rows.csv.part")
+        self.file("slow.toml", "wheel_speed_max_mps = 0.1\n")
+        for other in (("--planner", "skirt"), ("--seed", 2), ("--robot", "slow.toml"), ("--noise",), ("--box",)):
+            self.refused("campaign", *KIND, "--count", 3, *other, "--csv", "rows.csv", says="rows.csv.part:4:1: this command drives that mission otherwise: name another file, or remove this one")
+        self.refused("campaign", *KIND, "--count", 4, "--csv", "rows.csv", says="rows.csv.part:4:1: mission 3 of 3 of another campaign")
+        self.refused("campaign", *KIND, "--count", 3, "--shard", "2/3", "--csv", "rows.csv", says="rows.csv.part:4:1: mission 3 of 3 of another campaign")
+        for text, place in (("precious", 1), (whole.replace("mission,missions", "mission"), 1), (whole.replace("reached", "bored", 1), 2), (whole.partition("\n")[0] + "\n\n", 2)):
+            self.file("rows.csv.part", text)
+            self.refused("campaign", *KIND, "--count", 3, "--csv", "rows.csv", says=f"rows.csv.part:{place}:1: ")
+        (self.folder / "rows.csv.part").unlink()
+        self.file("target", "precious\n")
+        (self.folder / "rows.csv.part").symlink_to("target")
+        self.refused("campaign", *KIND, "--count", 3, "--csv", "rows.csv", status=1, says="rows.csv.part: is a symbolic link")
+        (self.folder / "rows.csv.part").unlink()
+        (self.folder / "rows.csv.part").hardlink_to(self.folder / "target")
+        self.refused("campaign", *KIND, "--count", 3, "--csv", "rows.csv", status=1, says="rows.csv.part is no file of its own")
+
+    def test_a_disk_that_fills_keeps_the_rows(self):
+        whole = self.rows(*KIND, "--count", 9)
+        lines = whole.splitlines(keepends=True)
+        limit = len("".join(lines[:5])) + 10
+        done = whisker.whisker("campaign", *KIND, "--count", 9, "--csv", "full.csv", cwd=self.folder, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertEqual(done.stderr, "whisker: cannot write full.csv: File too large; full.csv.part keeps what there is\n")
+        self.assertEqual((self.folder / "full.csv.part").read_text(), "".join(lines[:5]))
+        done = whisker.whisker("campaign", *KIND, "--count", 9, "--csv", "full.csv", cwd=self.folder)
+        self.assertEqual((self.folder / "full.csv").read_text(), whole)
 
     def test_a_terminal_sees_a_progress_bar_that_is_wiped_in_the_end(self):
         terminal, theirs = pty.openpty()
@@ -373,28 +453,28 @@ class Interruption(Driven):
         os.close(terminal)
         os.close(theirs)
         self.assertRegex(seen, PROGRESS)
-        self.assertRegex(seen, rb"to go\r\x1b\[Kwhisker: interrupted after \d+ of 1000000 missions\r\n\Z")
+        self.assertRegex(seen, rb"to go\r\x1b\[Kwhisker: interrupted after \d+ of 1000000 missions; the same command goes on\r\n\Z")
 
     def test_two_campaigns_do_not_share_a_file(self):
         with self.begun() as process:
             self.wait_for_rows(process, 2)
             done = whisker.whisker("campaign", *KIND, "--count", 2, "--csv", "rows.csv", cwd=self.folder)
             self.assertEqual((done.returncode, done.stdout), (1, ""))
-            self.assertRegex(done.stderr, r"\Awhisker: cannot write rows.csv: another campaign is writing \S*rows.csv.part\n\Z")
+            self.assertRegex(done.stderr, r"\Awhisker: cannot write rows.csv: another process is writing \S*rows.csv.part\n\Z")
             process.send_signal(signal.SIGINT)
             process.communicate(timeout=60)
-        seeds = [int(row["seed"]) for row in rows_of((self.folder / "rows.csv").read_text())]
+        seeds = [int(row["seed"]) for row in rows_of((self.folder / "rows.csv.part").read_text())]
         self.assertEqual(seeds, list(range(1, len(seeds) + 1)), "nothing lost, nothing mixed")
-        self.assertEqual(len(rows_of(self.rows(*KIND, "--count", 2))), 2, "free again")
 
     def test_a_killed_campaign_leaves_whole_rows_beside_the_file(self):
-        self.file("rows.csv", "old\n")
-        with self.begun() as process:
+        whole = self.rows(*KIND, "--count", 60)
+        with self.begun(count=60) as process:
             self.wait_for_rows(process, 2)
             process.kill()
-        self.assertEqual((self.folder / "rows.csv").read_text(), "old\n")
-        self.campaign("--merge", "rows.csv.part")
-        self.campaign(*KIND, "--count", 1, "--csv", "rows.csv")
+        self.assertEqual((self.folder / "rows.csv").read_text(), whole)
+        self.campaign("--merge", "rows.csv.part", "--incomplete")
+        done = whisker.whisker("campaign", *KIND, "--count", 60, "--csv", "rows.csv", "--overwrite", cwd=self.folder)
+        self.assertEqual((done.returncode, (self.folder / "rows.csv").read_text()), (0, whole))
 
 
 if __name__ == "__main__":

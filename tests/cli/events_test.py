@@ -48,7 +48,7 @@ class Events(Case):
         for events in ("", event(1, "cancel")):
             (self.folder / "worlds/a.toml").write_text(PLACES + events)
             csv = self.folder / "rows.csv"
-            whisker.whisker("campaign", self.folder / "worlds", "--csv", csv)
+            whisker.whisker("campaign", self.folder / "worlds", "--csv", csv, "--overwrite")
             hashes.append(csv.read_text())
         self.assertEqual(hashes[0], hashes[1])
 

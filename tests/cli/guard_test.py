@@ -1,16 +1,38 @@
 """whisker guard and whisker operators from outside."""
 
 import csv
+import fcntl
 import json
+import os
 import pathlib
+import pty
 import re
+import select
+import signal
+import subprocess
 import tempfile
+import termios
 import unittest
 
 import whisker
 
 STRAIGHT = pathlib.Path(__file__).parents[2] / "host/lab/rules/laws/straight.toml"
 HEADER = "t_s,v_mps,omega_radps"
+
+
+def own(terminal):
+    """The process that calls it gets this as the terminal of its own session."""
+    os.setsid()
+    fcntl.ioctl(terminal, termios.TIOCSCTTY, 0)
+
+
+def until(terminal, enough):
+    """What is read from it, from now on, until it is enough; all of a minute."""
+    said = b""
+    while not enough(said):
+        assert select.select([terminal], [], [], 60)[0], said
+        said += os.read(terminal, 4096)
+    return said
 
 
 class Guard(unittest.TestCase):
@@ -114,6 +136,35 @@ class Guard(unittest.TestCase):
             self.assertTrue(done.stderr.startswith(f"{file}:3:1: "), done.stderr)
             self.assertIn(says, done.stderr)
         self.assertEqual(whisker.whisker("guard", self.world, "--commands", "none.csv").returncode, 2)
+
+    def test_keys_leave_the_terminal_as_it_was_however_they_end(self):
+        """Ctrl-Z gives it back until fg; a signal ends the drive as q does, with its page and trace."""
+        for how, status in ((b"q", 0), (b"\x03", 130), (signal.SIGTERM, 130), (signal.SIGHUP, 130), (b"\x1c", 131)):
+            with self.subTest(how), tempfile.TemporaryDirectory() as folder:
+                page, trace = pathlib.Path(folder, "k.html"), pathlib.Path(folder, "k.csv")
+                ours, theirs = pty.openpty()
+                before = termios.tcgetattr(theirs)
+                command = [whisker.binary, "guard", self.world, "--keys", "--html", str(page), "--trace", str(trace)]
+                with subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, preexec_fn=lambda theirs=theirs: own(theirs)) as process:
+                    said = until(ours, lambda said: b"asked" in said)
+                    self.assertFalse(termios.tcgetattr(theirs)[3] & termios.ECHO)
+                    os.write(ours, b"\x1a")
+                    self.assertTrue(os.WIFSTOPPED(os.waitpid(process.pid, os.WUNTRACED)[1]))
+                    self.assertEqual(termios.tcgetattr(theirs), before)
+                    process.send_signal(signal.SIGCONT)
+                    until(ours, lambda said: b"asked" in said)
+                    self.assertFalse(termios.tcgetattr(theirs)[3] & termios.ECHO)
+                    os.write(ours, how) if isinstance(how, bytes) else process.send_signal(how)
+                    process.wait(60)
+                    self.assertEqual((process.returncode, termios.tcgetattr(theirs)), (status, before))
+                    if status == 131:
+                        continue
+                    said = until(ours, lambda said: b"page: " in said and (status == 0 or b"interrupted" in said))
+                    self.assertIn(b"ended after", said)
+                    if status == 130:
+                        self.assertRegex(said, rb"whisker: interrupted after \d+\.\d\d s\r\n")
+                    self.assertIn("</html>", page.read_text())
+                    self.assertGreater(trace.read_text().count("\n"), 1)
 
     def test_keys_need_a_terminal(self):
         done = whisker.whisker("guard", self.world, "--keys")

@@ -131,6 +131,57 @@ class Hil(OnABus):
         self.assertGreater(both["bus"]["resent"], 0)
         self.assertGreater(both["bus"]["lost"], 0)
 
+    def test_it_ends_when_its_controller_does(self):
+        for pace in ((), ("--realtime",)):
+            log = self.folder / f"{len(pace)}.log"
+            with subprocess.Popen([whisker.binary, "hil", self.world("rooms", 3600), *pace, "--record", log], stderr=subprocess.PIPE, text=True) as process:
+                while not log.exists() or log.read_text().count("\n") < 100:
+                    self.assertIsNone(process.poll())
+                (child,) = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+                os.kill(int(child), signal.SIGKILL)
+                error = process.communicate(timeout=60)[1]
+            self.assertEqual((process.returncode, error.splitlines()[-1]), (1, "whisker: the controller's process was ended by signal 9"))
+            self.assertGreaterEqual(log.read_text().count("\n"), 100)
+
+    def test_a_storage_that_was_not_finished_is_created_again(self):
+        size = 16 + 2 * 8192
+        for left in (b"", b"\xff" * 100, b"\0" * 16 + b"\xff" * 8192, b"\0" * 16 + b"\xff" * (size - 16), b"\0" * size):
+            (self.folder / "kept").write_bytes(left)
+            self.with_a_storage()
+            self.assertEqual((self.folder / "kept").read_bytes(), b"whisker storage\n" + b"\xff" * (size - 16))
+        for other in (b"precious", b"\xff" * (size + 1), b"whisker storage\n", b"x" * size):
+            (self.folder / "kept").write_bytes(other)
+            self.refused("controller", "--can", "slcan:none", "--keep", "kept", says="--keep: kept: not a storage of whisker controller: name another file")
+
+    def with_a_storage(self, also=lambda: None):
+        with subprocess.Popen([whisker.binary, "controller", "--can", "slcan:none", "--keep", "kept"], stderr=subprocess.PIPE, text=True, cwd=self.folder) as process:
+            self.assertIn("waits for", process.stderr.readline())
+            also()
+            process.terminate()
+        self.assertEqual(process.returncode, 0)
+
+    def test_two_controllers_do_not_share_a_storage(self):
+        def another():
+            for option in ("--keep", "--calibration"):
+                self.refused("controller", "--can", "slcan:none", option, "kept", says=f"{option}: kept: another controller uses it")
+
+        self.with_a_storage(another)
+        self.with_a_storage()
+
+    def test_an_adapter_that_sends_no_frames_is_said(self):
+        for name, arguments, partner in (("plant", ("plant", self.world("discs")), "controller"), ("controller", ("controller",), "base")):
+            path = self.folder / name
+            with socket.socket(socket.AF_UNIX) as listener:
+                listener.bind(str(path))
+                listener.listen(1)
+                with subprocess.Popen([whisker.binary, *map(str, arguments), "--can", f"slcan:{path}"], stderr=subprocess.PIPE, text=True) as process, listener.accept()[0] as adapter:
+                    said = ""
+                    while said != f"{name} 1 on slcan:{path}: waits for the {partner}, and for frames: the adapter sends lines that are none\n":
+                        adapter.sendall(b"x1232AABB\r")
+                        said = process.stderr.readline()
+                        self.assertTrue(said, "it has ended")
+                    process.terminate()
+
     def test_options_reach_the_other_process(self):
         scenario = self.world("discs")
         robot = self.file("robot.toml", "body_radius_m = 0.1\nwheel_speed_max_mps = 0.25\n")

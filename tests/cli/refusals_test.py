@@ -2,6 +2,7 @@
 
 import os
 import re
+import pathlib
 import subprocess
 
 import whisker
@@ -32,6 +33,15 @@ class Refusals(Case):
         self.refused("world", "--seed", "1", says="KIND")
         self.refused("world", "cubes", "--seed", "1", says="cubes")
         self.refused("figures", says="FOLDER")
+
+    def test_names_that_would_act_on_a_terminal(self):
+        self.refused("run", "\x1b]0;owned\x07.toml", says="?]0;owned?.toml:1:1: ")
+        self.refused("run", "a.toml", "--plan\x1b[2J", says="--plan?[2J")
+        self.refused("\x9b2J", says="?2J")
+        rules = (pathlib.Path(__file__).parents[2] / "host/rules/examples/tip.fis").read_text()
+        for name in ("tip", "service"):
+            self.file("r.fis", rules.replace(f"'{name}'", f"'{name}\x1b[2J'"))
+            self.refused("rules", "show", "r.fis", says=f"'{name}?[2J': a control character in a name")
 
     def test_planners_that_are_unknown(self):
         for planner in ("nonsense", ""):

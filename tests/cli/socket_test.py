@@ -74,6 +74,47 @@ class Socket(Case):
             self.assertEqual((status, out), (4, ""), err)
             self.assertIn("running after 0.01 s, 4 lines", err)
 
+    def test_udp_hears_the_first_sender_only(self):
+        with Server("--udp", "0", "--timeout", "30") as server, socket.socket(type=socket.SOCK_DGRAM) as client, socket.socket(type=socket.SOCK_DGRAM) as other:
+            for one in (client, other):
+                one.settimeout(10)
+                one.connect(("127.0.0.1", server.port))
+
+            def ask(line):
+                client.send(line.encode())
+                return json.loads(client.recv(65536))
+
+            def disturb():
+                for line in (b"", b"wrong", HELLO.encode(), b'{"t_s": 0.5, "counts": [0, 0], "place": {"x_m": 20}}'):
+                    other.send(line)
+
+            client.send(b"")
+            other.send(b"")
+            ask(LINES[0])
+            client.send(b"")
+            for line in LINES[1:]:
+                disturb()
+                answer = ask(line)
+                self.assertEqual((answer["t_s"], answer["pose"]["x_m"]), (json.loads(line)["t_s"], 0))
+            disturb()
+            client.send(b"")
+            status, out, err = server.end()
+            self.assertEqual((status, out), (4, ""), err)
+            self.assertIn("running after 0.02 s, 4 lines", err)
+            other.setblocking(False)
+            self.assertRaises(OSError, other.recv, 65536)
+
+    def test_an_address_that_others_reach_is_said(self):
+        for kind in ("--tcp", "--udp"):
+            with Server(kind, "0", "--timeout", "0.1", "--address", "0.0.0.0") as server:
+                self.assertEqual(server.process.stderr.readline(), f"whoever can reach 0.0.0.0 port {server.port} can drive this robot\n")
+
+    def test_what_a_client_says_does_not_act_on_the_terminal(self):
+        done = by_standard_input('{"whisker":1,"\\u001b]0;owned\\u0007":1}\n')
+        self.assertEqual((done.returncode, done.stderr), (2, b"whisker: line 1: unknown key '?]0;owned?'\n"))
+        done = by_standard_input(HELLO + '\n{"range_m": ["\\u009b2J", 1, 1]}\n')
+        self.assertTrue(done.stderr.endswith(b"but is '?2J'\n"), done.stderr)
+
     def test_standard_input_and_output(self):
         done = by_standard_input("\n".join(LINES) + "\n")
         answers = [json.loads(line) for line in done.stdout.splitlines()]

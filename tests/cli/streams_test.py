@@ -3,6 +3,8 @@
 import json
 import pathlib
 import re
+import resource
+import signal
 import subprocess
 
 import whisker
@@ -55,6 +57,79 @@ class StandardOutput(Case):
             ("robot", "check", "r.toml", "--header", "-", "--json"),
         ):
             self.refused(*arguments, says="-: standard output")
+
+
+class Interruption(Case):
+    """Every command that may take long says that it was interrupted, and replaces no complete file by less."""
+
+    def setUp(self):
+        super().setUp()
+        self.file("world.toml", run("world", "rooms", "--seed", 5).stdout)
+        self.file("robot.toml", "gyro = true\n")
+
+    def interrupted(self, number, arguments):
+        with subprocess.Popen([whisker.binary, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder) as process:
+            status = f"/proc/{process.pid}/status"
+            # Those that keep what they have note also SIGHUP while they work.
+            noted = number if arguments[0] in ("run", "guard", "socket") else signal.SIGHUP
+            while not int(re.search(r"SigCgt:\s+(\w+)", pathlib.Path(status).read_text())[1], 16) >> (noted - 1) & 1:
+                self.assertIsNone(process.poll())
+            process.send_signal(number)
+            out, error = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, (arguments, error))
+        self.assertRegex(error.splitlines()[-1], r"\Awhisker: interrupted", arguments)
+        return out
+
+    def test_is_said_and_destroys_nothing(self):
+        many = 100000
+        for arguments, output in (
+            (("run", "world.toml", "--planner", "thesis"), "--trace"),
+            (("guard", "world.toml", "--time", 3600, "--operator", "hostile"), "--html"),
+            (("hil", "world.toml", "--realtime"), "--record"),
+            (("hil", "world.toml", "--realtime"), "--trace"),
+            (("campaign", "rooms", "--count", many), "--html"),
+            (("scanner", "rooms", "--count", many), None),
+            (("movers", "--count", many), None),
+            (("operators", "--count", many), None),
+            (("operators", "--hostile", many), None),
+            (("rules", "compare", "default", "default", "--worlds", "rooms", "--count", many), None),
+            (("rules", "search", "--worlds", "rooms", "--count", many), "--out"),
+            (("robot", "layout", "--sensor", "vl53l1x", "--count", 1000), "--out"),
+            (("robot", "calibrate", "robot.toml", "--count", many), None),
+            (("robot", "calibrate-drive", "robot.toml", "--count", many), None),
+            (("socket", "--stdio"), None),
+        ):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                with self.subTest(arguments, signal=number):
+                    self.file("old", "complete\n")
+                    self.interrupted(number, (*arguments, output, "old") if output else arguments)
+                    self.assertEqual((self.folder / "old").read_text(), "complete\n")
+                    (self.folder / "old.part").unlink(missing_ok=True)
+                    self.assertEqual({*self.contents()}, {"old", "robot.toml", "world.toml"})
+
+    def test_of_hil_keeps_the_frames_so_far(self):
+        self.file("old.log", "complete\n")
+        for log, kept in (("new.log", "new.log"), ("old.log", "old.log.part")):
+            with subprocess.Popen([whisker.binary, "hil", "world.toml", "--realtime", "--record", log], stderr=subprocess.PIPE, text=True, cwd=self.folder) as process:
+                while not (self.folder / kept).exists() or (self.folder / kept).read_text().count("\n") < 50:
+                    self.assertIsNone(process.poll())
+                process.send_signal(signal.SIGINT)
+                self.assertIn(f"whisker: interrupted; the frames are in {kept}\n", process.communicate(timeout=60)[1])
+            self.assertEqual(process.returncode, 130)
+            self.assertGreaterEqual((self.folder / kept).read_text().count("\n"), 50)
+        self.assertEqual((self.folder / "old.log").read_text(), "complete\n")
+        before = self.contents()
+        done = run("hil", "world.toml", "--record", "old.log", cwd=self.folder)
+        self.assertEqual((done.returncode, self.contents()), (1, before))
+        self.assertEqual(done.stderr.splitlines()[-1], "whisker: cannot write old.log: old.log.part is there, of a run that did not end: rename or remove it")
+
+    def test_a_log_that_no_longer_fits_is_said_at_the_end_and_kept(self):
+        limit = 20000
+        done = run("hil", NOTHING, "--record", "full.log", cwd=self.folder, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.splitlines()[-1], "whisker: cannot write full.log: File too large; full.log keeps what there is")
+        log = (self.folder / "full.log").read_text()
+        self.assertTrue(limit - 100 < len(log) <= limit and log.endswith("\n"))
 
 
 class Origin(Case):

@@ -35,7 +35,7 @@ class SlcanHost : public ::testing::Test {
 };
 
 TEST_F(SlcanHost, OpensTheAdapterStepByStep) {
-  EXPECT_EQ(pass(1), "\r\r\rC\r");
+  EXPECT_EQ(pass(1), "\r\r\rC\rZ0\r");
   EXPECT_EQ(port.state(), CanState::starting);
   pipe.come("\a\a\r\at1230\r");
   EXPECT_EQ(pass(Slcan::kSettleMs), "S6\r");
@@ -74,7 +74,7 @@ TEST_F(SlcanHost, IsOffWhenTheAdapterRefusesUntilItIsRestarted) {
   EXPECT_EQ(port.counts().not_started, 1U);
   EXPECT_EQ(port.line_counts().refusals, 1U);
   port.restart();
-  EXPECT_EQ(pass(1), "\r\r\rC\r");
+  EXPECT_EQ(pass(1), "\r\r\rC\rZ0\r");
   EXPECT_EQ(port.state(), CanState::starting);
 }
 
@@ -86,6 +86,17 @@ TEST_F(SlcanHost, NeitherAnswersNorMindsAnswers) {
   EXPECT_EQ(port.line_counts().refusals, 1U);
   EXPECT_EQ(port.line_counts().bad_lines, 1U);
   EXPECT_EQ(port.state(), CanState::active);
+}
+
+TEST_F(SlcanHost, IgnoresTheTimeStampsOfAnAdapter) {
+  open();
+  pipe.come("t1232AABB1F2C\rT1FFFFFFF80011223344556677ea60\rr12301f2c\rt123000\rt12301F2G\rt12301F2C0\r");
+  pass(1);
+  EXPECT_THAT(taken(port),
+              ElementsAre(CanFrame{0x123, false, false, 2, {0xAA, 0xBB}},
+                          CanFrame{0x1FFFFFFF, true, false, 8, {0, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77}},
+                          bus::remote(0x123, 0)));
+  EXPECT_EQ(port.line_counts().bad_lines, 3U);
 }
 
 TEST_F(SlcanHost, KnowsTheStateThatAnAdapterReports) {
@@ -119,7 +130,7 @@ TEST_F(SlcanHost, OpensAnewAfterALoss) {
   pass(1);
   EXPECT_EQ(port.state(), CanState::starting);
   pipe.up = true;
-  EXPECT_EQ(pass(1), "\r\r\rC\r");
+  EXPECT_EQ(pass(1), "\r\r\rC\rZ0\r");
 }
 
 TEST_F(SlcanHost, TalksToOurAdapterBothWays) {

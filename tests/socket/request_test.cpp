@@ -41,8 +41,7 @@ TEST(Request, ReadsEveryKeyOfATick) {
   EXPECT_EQ(t.beam[0].age_ms, 10);
   EXPECT_EQ(t.beam[1].status, hal::RangeStatus::clear);
   EXPECT_FALSE(t.beam[2].fresh);
-  EXPECT_EQ(t.counts->left, 0xFFFFFFU) << "modulo 2^24";
-  EXPECT_EQ(t.counts->right, 1U);
+  EXPECT_EQ(*t.counts, (std::array<std::int64_t, 2>{-1, 16777217}));
   EXPECT_EQ(t.bumper->pressed, 1 << hal::kLeft | 1 << hal::kRight);
   EXPECT_TRUE(t.reset);
   EXPECT_FALSE(t.cancel);
@@ -60,8 +59,7 @@ TEST(Request, ReadsEveryKeyOfATick) {
 TEST(Request, AWholeNumberMayHaveADecimalPoint) {
   const Tick t = read_tick(
       R"({"counts": [-1.0, 9.007199254740991e15], "gyro": {"sum": -5.0, "samples": 7.0, "saturated": -0.0}})");
-  EXPECT_EQ(t.counts->left, 0xFFFFFFU);
-  EXPECT_EQ(t.counts->right, 0xFFFFFFU) << "2^53 - 1 modulo 2^24";
+  EXPECT_EQ(*t.counts, (std::array<std::int64_t, 2>{-1, 9007199254740991}));
   EXPECT_EQ(t.gyro->sum, 0xFFFFFFFBU);
   EXPECT_EQ(t.gyro->samples, 7);
   EXPECT_EQ(t.gyro->saturated, 0);
@@ -69,6 +67,20 @@ TEST(Request, AWholeNumberMayHaveADecimalPoint) {
   EXPECT_EQ(o.robot.wheels.counts_per_metre, 4000);
   EXPECT_THAT(refusal(R"({"whisker": 1, "robot": {"encoder_counts_per_m": 4000.5}})", true),
               testing::HasSubstr("must be an integer"));
+}
+
+TEST(Request, WhatIsNoFiniteNumberSaysOfASensorWhatItIs) {
+  Tick t = read_tick(R"({"range_m": [NaN, Infinity, -Infinity], "counts": [NaN, 2], "pressed": []})");
+  EXPECT_EQ(t.beam[0].status, hal::RangeStatus::invalid);
+  EXPECT_EQ(t.beam[1].status, hal::RangeStatus::clear);
+  EXPECT_EQ(t.beam[2].status, hal::RangeStatus::too_near);
+  EXPECT_FALSE(t.counts) << "a failed read";
+  t = read_tick(R"({"range_m": [65.535, 1e9, 65.533]})");
+  for (const Beam& beam : t.beam) {
+    EXPECT_EQ(beam.status, hal::RangeStatus::ok);
+    EXPECT_EQ(beam.mm, 65533) << "the farthest that there is";
+  }
+  EXPECT_EQ(refusal(R"({"NaN \" Infinity": 1})"), "unknown key 'NaN \" Infinity'") << "in a text it is text";
 }
 
 TEST(Request, OneAgeForAllBeams) {
@@ -80,7 +92,10 @@ TEST(Request, RefusesWhatDoesNotFollowTheProtocol) {
   EXPECT_EQ(refusal("hello"), "no JSON at byte 1");
   EXPECT_EQ(refusal(R"({"t_s": })"), "no JSON at byte 9");
   EXPECT_EQ(refusal(R"({"t_s": 1} 2)"), "no JSON at byte 12");
-  EXPECT_EQ(refusal(R"({"t_s": NaN})"), "no JSON at byte 9");
+  EXPECT_EQ(refusal(R"({"t_s": NaN})"), "'t_s' must be a number, but is NaN");
+  EXPECT_EQ(refusal(R"({"goal": {"x_m": -Infinity, "y_m": 0}})"), "'x_m' must be a number, but is -Infinity");
+  EXPECT_EQ(refusal(R"({"t_s": NaN, })"), "no JSON at byte 9");
+  EXPECT_EQ(refusal("{\"\\u001b]0;\\u009bx\\u0007\": 1}"), "unknown key '?]0;?x?'");
   EXPECT_EQ(refusal(R"({"t_s": 1)"), "no JSON: it ends after byte 9");
   EXPECT_EQ(refusal(R"({"t_s": 1e999})"), "a number is too large");
   EXPECT_EQ(refusal("[1]"), "not a JSON object");

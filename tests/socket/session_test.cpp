@@ -251,6 +251,51 @@ TEST(Session, TheTimeOfArrivalCountsWithoutATime) {
   EXPECT_EQ(Json::parse(session.answer("{}", 5000))["fault"], "clock_jump");
 }
 
+/// The fault of a robot that is told these counts of its left wheel, one after the other.
+std::string fault_of(const std::vector<std::int64_t>& counts) {
+  Session session({}, "");
+  session.answer(R"({"whisker": 1})", 0);
+  std::uint32_t now = 0;
+  Json answer;
+  for (const std::int64_t count : counts) {
+    answer = Json::parse(session.answer(Json{{"counts", {count, 0}}}.dump(), now += 10));
+  }
+  return answer["fault"];
+}
+
+TEST(Session, AJumpOfTheCountsIsOneHoweverFar) {
+  for (const std::int64_t jump : {std::int64_t{1} << 20, std::int64_t{1} << 23, std::int64_t{1} << 24,
+                                  std::int64_t{3} << 24, std::int64_t{1} << 32, std::int64_t{1} << 52}) {
+    for (const std::int64_t from : {-5, 0, 5}) {
+      EXPECT_EQ(fault_of({from, from + jump}), "encoder_jump") << jump;
+      EXPECT_EQ(fault_of({from, from - jump}), "encoder_jump") << -jump;
+    }
+  }
+}
+
+TEST(Session, CountersMayWrap) {
+  for (const int bits : {24, 32}) {
+    const std::int64_t all = std::int64_t{1} << bits;
+    EXPECT_EQ(fault_of({all - 2, 1, all - 1}), "none") << bits;
+    EXPECT_EQ(fault_of({all / 2 - 2, -all / 2 + 1, all / 2 - 1}), "none") << bits;
+  }
+}
+
+TEST(Session, OneReadingThatIsNoneEndsNoMission) {
+  Session session({}, "");
+  session.answer(R"({"whisker": 1, "goal": {"x_m": 6, "y_m": 0}})", 0);
+  for (std::uint32_t now = 10; now <= 3000; now += 10) {
+    const char* const front = now % 100 != 0   ? "1.9"
+                              : now % 200 != 0 ? "65.535"
+                              : now % 400 != 0 ? "NaN"
+                                               : "Infinity";
+    const std::string line = std::string(R"({"counts": [0, 0], "range_m": [1.9, )") + front + ", 1.9]}";
+    const Json answer = Json::parse(session.answer(line, now));
+    if (answer["fault"] == "wheels_stalled") break;  // the wheels of this test stand still
+    ASSERT_EQ(answer["fault"], "none") << now;
+  }
+}
+
 TEST(Session, TakesCommandsWithATick) {
   Session session({}, "");
   session.answer(R"({"whisker": 1})", 0);

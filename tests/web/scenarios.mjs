@@ -97,9 +97,9 @@ export class Folder {
     // A few at a time: their cost is that of their missions.
     const seedFrom = (first) => {
       assert.ok(first <= 300, 'no mission takes that long');
-      const all = ['--planner', 'skirt', '--csv', this.at(`${name}_all.csv`)];
+      const all = ['--planner', 'skirt', '--csv', this.at(`${name}_${first}.csv`)];
       whisker('campaign', ...kind, '--seed', first, '--count', 20, ...all);
-      const mission = this.trace(`${name}_all`).find(({time_s}) => time_s > 601);
+      const mission = this.trace(`${name}_${first}`).find(({time_s}) => time_s > 601);
       return mission?.seed ?? seedFrom(first + 20);
     };
     const seed = seedFrom(1);

@@ -69,7 +69,11 @@ bool read_line(const uint8_t* line, uint8_t size, CanFrame& out) noexcept {
   if (size < head || !read_digits(line + 1, digits, frame.id) || !read_digits(line + 1 + digits, 1, bytes))
     return false;
   frame.size = static_cast<uint8_t>(bytes);
-  if (!well_formed(frame) || size != head + (frame.remote ? 0U : 2 * bytes)) return false;
+  if (!well_formed(frame)) return false;
+  const uint32_t whole = head + (frame.remote ? 0U : 2 * bytes);
+  uint32_t stamp = 0;
+  if (size != whole && (size != whole + kTimeStamp || !read_digits(line + whole, kTimeStamp, stamp)))
+    return false;
   for (uint8_t i = 0; !frame.remote && i < frame.size; ++i) {
     uint32_t value = 0;
     if (!read_digits(line + head + 2 * i, 2, value)) return false;

@@ -7,13 +7,15 @@
 
 namespace whisker::hal::slcan {
 
-constexpr uint8_t kLongestLine = 1 + 8 + 1 + 2 * 8;
+constexpr uint8_t kTimeStamp = 4;  ///< digits
+constexpr uint8_t kLongestLine = 1 + 8 + 1 + 2 * 8 + kTimeStamp;
 constexpr uint8_t kEnd = '\r';
 
-/// Returns the length of the line. frame: well-formed; to: room for kLongestLine.
+/// Returns the length of the line, without a time stamp. frame: well-formed; to: room for kLongestLine.
 uint8_t write_line(const CanFrame& frame, uint8_t* to) noexcept;
 
-/// False: not a frame; `out` is unchanged. Digits of either case; nothing may follow them.
+/// False: not a frame; `out` is unchanged. Digits of either case; only a time stamp may follow, which is
+/// ignored.
 bool read_line(const uint8_t* line, uint8_t size, CanFrame& out) noexcept;
 
 }  // namespace whisker::hal::slcan

@@ -24,8 +24,8 @@ void Slcan::begin() noexcept {
     return;
   }
   enter(Phase::settling, CanState::starting);
-  // The empty lines end a partial line of an earlier session.
-  say("\r\r\rC\r");
+  // The empty lines end a partial line of an earlier session; no time stamps.
+  say("\r\r\rC\rZ0\r");
 }
 
 void Slcan::lose() noexcept {

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <ctime>
 #include <iterator>
 #include <stdexcept>
 #include <vector>
-
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -168,31 +165,36 @@ bool LogReader::next(LogFrame& frame) {
 Recorder::Recorder(const std::string& file, const std::string& interface)
     : name_(file), interface_(interface) {
   if (file.empty()) return;
-  const int copy = file == "-" ? ::dup(STDOUT_FILENO) : -1;
-  file_ = copy < 0 ? std::fopen(file.c_str(), "we") : ::fdopen(copy, "w");
-  if (file_ == nullptr) throw std::runtime_error("cannot write " + file + ": " + std::strerror(errno));
-  std::setvbuf(file_, nullptr, _IOLBF, 1 << 12);
-}
-
-Recorder::~Recorder() {
-  if (file_ != nullptr) std::fclose(file_);
+  file_.emplace(file, files::Growing::From::path_if_new);
+  if (file_->found().empty()) return;
+  throw std::runtime_error(fmt::format(
+      "cannot write {}: {} is there, of a run that did not end: rename or remove it", file, file_->part()));
 }
 
 void Recorder::write(const hal::CanFrame& frame) {
-  if (file_ == nullptr) return;
+  if (!file_ || lost_) return;
   timespec t{};
   clock_gettime(CLOCK_REALTIME, &t);
   const auto seconds = static_cast<std::uint64_t>(t.tv_sec);
   LogFrame entry{seconds * 1000000 + static_cast<std::uint64_t>(t.tv_nsec) / 1000, interface_, frame};
-  std::fputs((log_line(entry) + "\n").c_str(), file_);
+  try {
+    file_->write(log_line(entry) + "\n");
+  } catch (const std::runtime_error&) {
+    lost_ = std::current_exception();
+  }
 }
 
 void Recorder::close() {
-  if (file_ == nullptr) return;
-  std::FILE* const file = file_;
-  file_ = nullptr;
-  const bool failed = std::ferror(file) != 0;
-  if (std::fclose(file) != 0 || failed) throw std::runtime_error("cannot write all of " + name_);
+  if (lost_) std::rethrow_exception(lost_);
+  if (file_) file_->finish();
+  file_.reset();
+}
+
+std::string Recorder::keep() {
+  if (!file_) return "";
+  const std::string place = file_->part().empty() ? name_ : file_->part();
+  file_.reset();
+  return "; the frames are in " + place;
 }
 
 }  // namespace whisker::hil

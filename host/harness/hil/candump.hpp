@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
+#include <exception>
 #include <istream>
 #include <map>
 #include <optional>
@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "hal/can_port.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/csv.hpp"
 
 namespace whisker::hil {
@@ -48,24 +49,26 @@ class LogReader {
   std::map<std::string, std::uint64_t> skipped_;
 };
 
-/// Writes received frames to a log, complete lines only, so that a failed run leaves a usable log.
+/// Writes received frames to a log as files::Growing does, so that also a failed run leaves a usable log:
+/// FILE, or FILE.part if FILE had content.
 class Recorder {
  public:
   /// file: "" for none, "-" for standard output. interface: name of the bus in the log. Throws
-  /// std::runtime_error.
+  /// std::runtime_error, also if FILE.part is there.
   Recorder(const std::string& file, const std::string& interface);
-  ~Recorder();
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
 
   void write(const hal::CanFrame& frame);
   /// Throws std::runtime_error if not everything could be written.
   void close();
+  /// After a run that did not end: replaces no earlier log. Says where the frames are: "; the frames are in
+  /// FILE".
+  std::string keep();
 
  private:
   std::string name_;
   std::string interface_;
-  std::FILE* file_ = nullptr;
+  std::optional<files::Growing> file_;
+  std::exception_ptr lost_;  ///< the first error; nothing is written after it
 };
 
 }  // namespace whisker::hil

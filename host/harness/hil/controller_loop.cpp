@@ -12,14 +12,12 @@ namespace whisker::hil {
 namespace {
 
 std::string words_for(const can::Node& node, const Line& line) {
+  const std::string what = line.waits_for();
   switch (node.state()) {
-    case can::NodeState::off_bus: {
-      const std::string what = line.waits_for();
-      return what.empty() ? "waits for the bus" : "waits for " + what;
-    }
+    case can::NodeState::off_bus: return "waits for " + (what.empty() ? "the bus" : what);
     case can::NodeState::waiting:
-      return (node.errors() & can::Error::wrong_version) != 0 ? "the base speaks another protocol"
-                                                              : "waits for the base";
+      if ((node.errors() & can::Error::wrong_version) != 0) return "the base speaks another protocol";
+      return "waits for the base" + (what.empty() ? "" : ", and for " + what);
     case can::NodeState::ready: return "waits for a mission";
     case can::NodeState::running: return "drives";
     case can::NodeState::safe_stop: return "safe stop: " + error_names(node.errors());

@@ -16,14 +16,12 @@ std::string error_names(std::uint16_t errors) {
 }
 
 std::string waits_for(const can::BaseNode& node, const BusOptions& options) {
+  const std::string what = options.bus_waits_for ? options.bus_waits_for() : "";
   switch (node.state()) {
-    case can::NodeState::off_bus: {
-      const std::string what = options.bus_waits_for ? options.bus_waits_for() : "";
-      return "waits for " + (what.empty() ? "the bus" : what);
-    }
+    case can::NodeState::off_bus: return "waits for " + (what.empty() ? "the bus" : what);
     case can::NodeState::waiting:
-      return (node.errors() & can::Error::wrong_version) != 0 ? "the controller speaks another protocol"
-                                                              : "waits for the controller";
+      if ((node.errors() & can::Error::wrong_version) != 0) return "the controller speaks another protocol";
+      return "waits for the controller" + (what.empty() ? "" : ", and for " + what);
     case can::NodeState::e_stopped: return "E-stop";
     case can::NodeState::safe_stop: return "safe stop: " + error_names(node.errors());
     case can::NodeState::ready:

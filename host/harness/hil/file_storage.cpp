@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr std::string_view kHead = "whisker storage\n";
 constexpr std::uint8_t kErased = 0xFF;
+constexpr std::string_view kUnfinished{"\0\xFF", 2};
 
 bool write_all(int file, const void* data, std::size_t size, off_t at) {
   return pwrite(file, data, size, at) == static_cast<ssize_t>(size);
@@ -34,18 +36,20 @@ FileStorage::FileStorage(const std::string& path) {
   };
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file_ < 0) fail(std::strerror(errno));
-  const off_t size = lseek(file_, 0, SEEK_END);
-  if (size == 0) {
-    if (!erase(0) || !erase(1) || !synced() || !write_all(file_, kHead.data(), kHead.size(), 0)) {
-      fail(std::strerror(errno));
-    }
-    return;
+  if (flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) fail("another controller uses it");
+  std::string bytes(static_cast<std::size_t>(place(kSlots, 0, kSize)) + 1, '\0');
+  const ssize_t size = pread(file_, bytes.data(), bytes.size(), 0);
+  if (size < 0) fail(std::strerror(errno));
+  const bool whole = static_cast<std::size_t>(size) == bytes.size() - 1;
+  bytes.resize(static_cast<std::size_t>(size));
+  if (whole && bytes.rfind(kHead, 0) == 0) return;
+  // Its head is written last: without it, only erased bytes and holes are those of an unfinished one.
+  const bool unfinished =
+      size <= place(kSlots, 0, kSize) && bytes.find_first_not_of(kUnfinished) == std::string::npos;
+  if (!unfinished) fail("not a storage of whisker controller: name another file");
+  if (!erase(0) || !erase(1) || !synced() || !write_all(file_, kHead.data(), kHead.size(), 0)) {
+    fail(std::strerror(errno));
   }
-  std::array<char, kHead.size()> head{};
-  const bool is_storage = size == place(kSlots, 0, kSize) &&
-                          pread(file_, head.data(), head.size(), 0) == static_cast<ssize_t>(head.size()) &&
-                          std::string_view(head.data(), head.size()) == kHead;
-  if (!is_storage) fail("not a storage of whisker controller: name another file");
 }
 
 FileStorage::~FileStorage() { close(file_); }

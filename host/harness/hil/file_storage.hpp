@@ -16,7 +16,8 @@ class FileStorageError : public std::runtime_error {
 /// Two slots of 8 KB in a file, behind a line that names it. What read() returns is on the disk.
 class FileStorage final : public hal::Storage {
  public:
-  /// Creates the file if it is not there or empty. Throws FileStorageError, also for any other file.
+  /// Creates the file if it is not there, empty, or left unfinished by a process that was ended. Throws
+  /// FileStorageError, also for any other file, and for one that another process has open.
   explicit FileStorage(const std::string& path);
   ~FileStorage();
   FileStorage(const FileStorage&) = delete;

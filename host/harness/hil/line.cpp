@@ -29,7 +29,13 @@ class SlcanLine final : public Line {
   explicit SlcanLine(const std::string& path) : tty_(path), port_(tty_, hal::slcan::Role::host) {}
   hal::CanPort& port() override { return port_; }
   int descriptor() const override { return tty_.descriptor(); }
-  std::string waits_for() const override { return tty_.waits_for(); }
+  std::string waits_for() const override {
+    const std::string what = tty_.waits_for();
+    if (!what.empty()) return what;
+    if (port_.state() == hal::CanState::off) return "the adapter, which refuses 500 kbit/s or to open";
+    const bool none = port_.line_counts().bad_lines > 0 && port_.counts().received == 0;
+    return none ? "frames: the adapter sends lines that are none" : "";
+  }
 
  private:
   hal::tty::TtyLine tty_;

@@ -22,7 +22,7 @@ class Line {
   virtual hal::CanPort& port() = 0;
   /// Becomes readable when the port has something to receive; -1: not supported.
   virtual int descriptor() const = 0;
-  /// For people: the reason why the port is off the bus; empty if it is on.
+  /// For people: the reason why the port is off the bus, or understands nothing on it; else empty.
   virtual std::string waits_for() const = 0;
 };
 

@@ -5,15 +5,16 @@
 #include <algorithm>
 
 namespace whisker {
-namespace {
 
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7F'; }, '?');
+  // U+0080 to U+009F
+  for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+    if (text[i] == '\xC2' && static_cast<unsigned char>(text[i + 1]) < 0xA0) text.replace(i, 2, "?");
+  }
   return text;
 }
-
-}  // namespace
 
 InputError::InputError(std::string_view file, std::size_t line, std::size_t column, std::string_view what)
     : std::runtime_error(one_line(fmt::format("{}:{}:{}: {}", file, line, column, what))),

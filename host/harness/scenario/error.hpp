@@ -9,6 +9,9 @@
 
 namespace whisker {
 
+/// The text with '?' for each control character: what others wrote must not act on a terminal.
+std::string one_line(std::string text);
+
 /// Invalid input from a user. what() is one line, `FILE:LINE:COLUMN: what is wrong`; an error of the whole
 /// file (missing, unreadable) is reported at 1:1.
 class InputError : public std::runtime_error {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <optional>
 
 #include "hal/bumper.hpp"
 #include "hal/drive.hpp"
@@ -16,6 +19,12 @@ class Board final : public hal::Rangefinders, public hal::Drive, public hal::Bum
  public:
   void take(const Tick& tick, std::uint32_t now_ms) noexcept {
     tick_ = tick;
+    if (tick.counts) {
+      if (!told_) told_ = {0, 0};
+      counts_.left = turned(counts_.left, (*tick.counts)[0], (*told_)[0]);
+      counts_.right = turned(counts_.right, (*tick.counts)[1], (*told_)[1]);
+      told_ = tick.counts;
+    }
     for (int i = 0; i < hal::kBeams; ++i) {
       hal::RangeReading& reading = ranges_.beam[i];
       const Beam& beam = tick.beam[i];
@@ -34,7 +43,7 @@ class Board final : public hal::Rangefinders, public hal::Drive, public hal::Bum
     return tick_.has_ranges;
   }
   bool read(hal::EncoderCounts& out) noexcept override {
-    if (tick_.counts) out = *tick_.counts;
+    if (tick_.counts) out = counts_;
     return tick_.counts.has_value();
   }
   bool read(hal::BumperReading& out) noexcept override {
@@ -50,7 +59,25 @@ class Board final : public hal::Rangefinders, public hal::Drive, public hal::Bum
  private:
   static constexpr hal::RangeReading kNothing{0, hal::RangeStatus::stale, UINT8_MAX, 0};
 
+  /// A counter of so many bits, with or without a sign, has gone over its end.
+  static bool wrapped(std::int64_t now, std::int64_t before, int bits) {
+    const std::int64_t all = std::int64_t{1} << bits, low = std::min(now, before),
+                       high = std::max(now, before);
+    return high - low > all - kMost && ((low >= 0 && high < all) || (low >= -all / 2 && high < all / 2));
+  }
+
+  /// The encoder's next count. A jump that its range does not show is made one that it does.
+  static std::uint32_t turned(std::uint32_t count, std::int64_t now, std::int64_t before) {
+    std::int64_t step = now - before;
+    if (std::abs(step) >= kMost && !wrapped(now, before, 24) && !wrapped(now, before, 32)) step = kMost;
+    return static_cast<std::uint32_t>(count + step) % hal::kEncoderModulus;
+  }
+
+  static constexpr std::int64_t kMost = hal::kEncoderModulus / 2;
+
   Tick tick_;
+  hal::EncoderCounts counts_{};
+  std::optional<std::array<std::int64_t, 2>> told_;
   hal::RangeReadings ranges_{{kNothing, kNothing, kNothing}};
   std::uint32_t taken_ms_[hal::kBeams] = {};
 };

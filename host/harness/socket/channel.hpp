@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -39,8 +40,9 @@ class Channel {
 std::unique_ptr<Channel> standard_channel();
 /// A TCP server for one client. Waits for it at most this long. listening() is called with the port.
 std::unique_ptr<Channel> accept_tcp(const std::string& address, int port, double most_s,
-                                    void (*listening)(int port));
-/// One datagram a line. Answers go to the sender of the last one.
-std::unique_ptr<Channel> bind_udp(const std::string& address, int port, void (*listening)(int port));
+                                    const std::function<void(int)>& listening);
+/// One datagram a line. The sender of the first one is the other end; others are not heard.
+std::unique_ptr<Channel> bind_udp(const std::string& address, int port,
+                                  const std::function<void(int)>& listening);
 
 }  // namespace whisker::socket

@@ -93,7 +93,7 @@ std::unique_ptr<Channel> standard_channel() {
 }
 
 std::unique_ptr<Channel> accept_tcp(const std::string& address, int port, double most_s,
-                                    void (*listening)(int port)) {
+                                    const std::function<void(int)>& listening) {
   const Descriptor server = bound(SOCK_STREAM, address, port);
   if (::listen(server.number(), 1) != 0) throw ChannelError(fmt::format("listen: {}", std::strerror(errno)));
   listening(port_of(server));

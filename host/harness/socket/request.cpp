@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -25,9 +26,36 @@ constexpr double kMostTime = 4294967;                 // s, in 32 bits of millis
 constexpr double kTooLarge = 9007199254740992;        // 2^53: a double has every whole number below it
 constexpr double kDegree = sim::kPi / 180;
 
+constexpr const char* kNotFinite[] = {"NaN", "-Infinity", "Infinity"};
+
+bool is_not_finite(const Value& value) {
+  return std::find(std::begin(kNotFinite), std::end(kNotFinite), value) != std::end(kNotFinite);
+}
+
+/// The same line with what many languages write for numbers that JSON does not have as strings.
+std::string without_not_finite(const std::string& line) {
+  std::string text;
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size();) {
+    std::size_t size = quoted && line[i] == '\\' ? 2 : 1;
+    if (line[i] == '"') quoted = !quoted;
+    bool found = false;
+    for (const std::string_view name : kNotFinite) {
+      if (quoted || found || line.compare(i, name.size(), name) != 0) continue;
+      found = true;
+      size = name.size();
+    }
+    text += found ? fmt::format("\"{}\"", line.substr(i, size)) : line.substr(i, size);
+    i += size;
+  }
+  return text;
+}
+
 Value parsed(const std::string& line) {
   try {
-    Value json = Value::parse(line);
+    Value json = Value::parse(line, nullptr, false);
+    if (json.is_discarded()) json = Value::parse(without_not_finite(line), nullptr, false);
+    if (json.is_discarded()) json = Value::parse(line);  // where it is wrong
     if (!json.is_object()) throw ProtocolError("not a JSON object");
     return json;
   } catch (const Value::parse_error& e) {
@@ -46,6 +74,8 @@ void check_keys(const Value& object, std::string_view where, std::initializer_li
 }
 
 double number(const Value& value, std::string_view key, Limits limits) {
+  if (is_not_finite(value))
+    throw ProtocolError(fmt::format("'{}' must be a number, but is {}", key, value.get<std::string>()));
   if (!value.is_number()) throw ProtocolError(fmt::format("'{}' must be a number", key));
   const double x = value.get<double>();
   if (!limits.allow(x))
@@ -154,18 +184,20 @@ Beam beam_of(const Value& value) {
   Beam beam{true, hal::RangeStatus::ok, 0, 0};
   if (value.is_string()) {
     const auto word = value.get<std::string>();
-    if (word == "clear")
+    if (word == "clear" || word == "Infinity")
       beam.status = hal::RangeStatus::clear;
-    else if (word == "too_near")
+    else if (word == "too_near" || word == "-Infinity")
       beam.status = hal::RangeStatus::too_near;
-    else if (word == "invalid")
+    else if (word == "invalid" || word == "NaN")
       beam.status = hal::RangeStatus::invalid;
     else
       throw ProtocolError(
           fmt::format("'range_m' may be a number, null, clear, too_near or invalid, but is '{}'", word));
     return beam;
   }
-  beam.mm = static_cast<std::uint16_t>(std::lround(number(value, "range_m", {0, kMostRange}) * 1000));
+  const bool farther = value.is_number() && value.get<double>() > kMostRange;
+  const double m = farther ? kMostRange : number(value, "range_m", {0, kMostRange});
+  beam.mm = static_cast<std::uint16_t>(std::lround(m * 1000));
   return beam;
 }
 
@@ -178,10 +210,6 @@ std::int64_t whole(const Value& value, const char* key, const char* must_be = "a
   if (!is_whole(value)) throw ProtocolError(fmt::format("'{}' must be {}", key, must_be));
   if (!fits(value)) throw ProtocolError(fmt::format("'{}' must be within 2^53", key));
   return value.get<std::int64_t>();
-}
-
-std::uint32_t count_of(const Value& value) {
-  return static_cast<std::uint32_t>(whole(value, "counts", "whole numbers")) % hal::kEncoderModulus;
 }
 
 hal::GyroReading gyro_in(const Value& object) {
@@ -244,7 +272,9 @@ Tick read_tick(const std::string& line) {
   }
   if (json.contains("counts")) {
     const Value& list = list_in(json, "counts", 2);
-    out.counts = hal::EncoderCounts{count_of(list[0]), count_of(list[1])};
+    const bool failed = is_not_finite(list[0]) || is_not_finite(list[1]);
+    const auto count = [&](std::size_t side) { return whole(list[side], "counts", "whole numbers"); };
+    if (!failed) out.counts = {count(0), count(1)};
   }
   if (json.contains("pressed")) out.bumper = bumper_in(json);
   if (json.contains("gyro")) out.gyro = gyro_in(json);

@@ -1,6 +1,7 @@
 /// What a simulator says, one JSON object a line: docs/socket.md.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -10,15 +11,16 @@
 #include "firmware/params.hpp"
 #include "hal/types.hpp"
 #include "host/harness/run/planners.hpp"
+#include "host/harness/scenario/error.hpp"
 #include "host/harness/scenario/scenario.hpp"
 
 namespace whisker::socket {
 
 constexpr int kProtocol = 1;  ///< version
 
-/// A line that does not follow the protocol; what() is the reason in one line.
+/// A line that does not follow the protocol; what() is the reason, as one_line().
 struct ProtocolError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit ProtocolError(const std::string& what) : std::runtime_error(one_line(what)) {}
 };
 
 /// The first line.
@@ -42,7 +44,7 @@ struct Tick {
   std::optional<std::uint32_t> now_ms;  ///< none: the time of arrival counts
   bool has_ranges = false;
   Beam beam[hal::kBeams];
-  std::optional<hal::EncoderCounts> counts;
+  std::optional<std::array<std::int64_t, 2>> counts;  ///< left, right
   std::optional<hal::BumperReading> bumper;
   std::optional<hal::GyroReading> gyro;
   // Commands before the tick, in this order.

@@ -31,6 +31,8 @@ struct Row {
   /// Arguments of `whisker world` without the seed, then kRandomRobots for such robots; or a scenario file
   /// (*.toml).
   std::string world;
+  /// The number of this mission in its whole campaign, from 1, of so many; 0: unknown.
+  std::uint64_t mission = 0, missions = 0;
 };
 
 /// x rounded to the nearest multiple of 1e-6.

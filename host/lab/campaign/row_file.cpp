@@ -4,21 +4,17 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -155,7 +151,9 @@ Row first_columns(Fields& fields) {
   return r;
 }
 
-bool contradicts_itself(const Row& r) { return says_reached(r.verdict) && r.at_goal != truly_there(r); }
+bool contradicts_itself(const Row& r) {
+  return (says_reached(r.verdict) && r.at_goal != truly_there(r)) || r.mission > r.missions;
+}
 
 using Key = std::tuple<std::string, std::string, std::string, std::uint64_t>;
 
@@ -167,7 +165,7 @@ using Rows = std::map<Key, Found>;
 
 std::optional<RowFormat> format_of(std::string header) {
   std::replace(header.begin(), header.end(), ';', ',');
-  for (const RowFormat format : {RowFormat::judged, RowFormat::believed}) {
+  for (const RowFormat format : {RowFormat::numbered, RowFormat::judged, RowFormat::believed}) {
     if (header == row_header(format)) return format;
   }
   return std::nullopt;
@@ -217,9 +215,9 @@ void add(Rows& rows, const std::string& file, std::size_t number, const std::str
   }
 }
 
-void add_file(Rows& rows, const std::string& file) {
-  std::ifstream in(file);
-  if (!in) throw InputError(file, 1, 1, std::generic_category().message(errno));
+/// Reads the lines of a file in `text`.
+void add_text(Rows& rows, const std::string& file, const std::string& text) {
+  std::istringstream in(text);
   LineReader lines(in, file);
   RowFormat format{};
   char separator = ',';
@@ -236,20 +234,57 @@ void add_file(Rows& rows, const std::string& file) {
   if (lines.number() == 1) throw InputError(file, 1, 1, "empty: not even the header of a campaign");
 }
 
+void add_file(Rows& rows, const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file, 1, 1, std::generic_category().message(errno));
+  std::ostringstream text;
+  if (in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
+  if (in.bad() || text.bad()) throw InputError(file, 1, 1, "cannot be read");
+  add_text(rows, file, text.str());
+}
+
+/// What tells campaigns apart: planner, robot, worlds, first seed, number of missions.
+using Campaign = std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t>;
+
+Campaign campaign_of(const Row& r) {
+  const bool files = is_scenario_file(r.world);
+  return {r.planner, r.robot, files ? r.world.substr(0, r.world.rfind('/') + 1) : r.world,
+          files ? 0 : r.seed - r.mission, r.missions};
+}
+
+void check_whole(const Rows& rows, const std::string& file) {
+  std::map<Campaign, std::set<std::uint64_t>> all;
+  for (const auto& [key, found] : rows) {
+    if (found.row.missions > 0) all[campaign_of(found.row)].insert(found.row.mission);
+  }
+  for (const auto& [campaign, missions] : all) {
+    const std::uint64_t wanted = std::get<4>(campaign);
+    if (missions.size() == wanted) continue;
+    std::uint64_t first = 1;
+    while (missions.count(first) != 0) ++first;
+    throw InputError(file, 1, 1,
+                     fmt::format("{} of {} missions of {} are missing, the first is number {}: --incomplete "
+                                 "merges what there is",
+                                 wanted - missions.size(), wanted, std::get<2>(campaign), first));
+  }
+}
+
 }  // namespace
 
 const char* const kRowHeader =
     "seed,outcome,time_s,path_m,turned_rad,stops,flips,looks,min_clearance_m,final_distance_m,"
     "estimate_error_m,at_goal,shortest_m,ratio,s_per_m,ticks,hash,detail,planner,robot,world,"
-    "believed_distance_m,truly_there";
+    "believed_distance_m,truly_there,mission,missions";
 
 std::string_view row_header(RowFormat format) {
   const std::string_view all = kRowHeader;
-  return format == RowFormat::judged ? all : all.substr(0, all.find(",believed_distance_m"));
+  if (format == RowFormat::numbered) return all;
+  return all.substr(0, all.find(format == RowFormat::judged ? ",mission," : ",believed_distance_m"));
 }
 
 std::string to_csv(const Row& r) {
-  return fmt::format("{},{},{}", first_columns(r), number(r.believed_distance_m), truly_there(r) ? 1 : 0);
+  return fmt::format("{},{},{},{},{}", first_columns(r), number(r.believed_distance_m),
+                     truly_there(r) ? 1 : 0, r.mission, r.missions);
 }
 
 Row parse_row(std::string_view line, RowFormat format) {
@@ -262,87 +297,43 @@ Row parse_row(std::string_view line, RowFormat format) {
   }
   r.believed_distance_m = fields.amount_or_none("believed_distance_m");
   fields.text("truly_there");
-  if (contradicts_itself(r) || to_csv(r) != line) throw std::invalid_argument(kNoSuchRow);
+  std::string written = to_csv(r);
+  if (format == RowFormat::judged) {
+    written.resize(written.size() - std::string_view(",0,0").size());
+  } else {
+    r.mission = fields.number<std::uint64_t>("mission");
+    r.missions = fields.number<std::uint64_t>("missions");
+    written = to_csv(r);
+  }
+  if (contradicts_itself(r) || written != line) throw std::invalid_argument(kNoSuchRow);
   return r;
 }
 
-RowFile::RowFile(const std::string& path) : path_(path), target_(path) {
-  if (path == "-") {
-    fd_ = ::dup(STDOUT_FILENO);
-    if (fd_ < 0) fail(errno);
-    write_line(kRowHeader);
+RowFile::RowFile(const std::string& path) : file_(path) {
+  const std::string header = fmt::format("{}\n", kRowHeader), text = file_.found();
+  if (text.size() < header.size() && header.rfind(text, 0) == 0) {
+    file_.keep(0);
+    file_.write(header);
     return;
   }
-  struct stat existing {};
-  const bool exists = ::stat(path.c_str(), &existing) == 0;
-  if (exists && S_ISDIR(existing.st_mode)) fail(EISDIR);
-  if (exists && !S_ISREG(existing.st_mode)) {
-    fd_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  } else {
-    std::error_code error;
-    if (exists) target_ = std::filesystem::canonical(path, error).string();
-    if (error) fail(error.value());
-    part_ = target_ + ".part";
-    fd_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-  }
-  if (fd_ < 0) {
-    const int error = errno;
-    part_.clear();
-    fail(error);
-  }
-  if (!part_.empty()) take_part();
-  write_line(kRowHeader);
+  if (text.rfind(header, 0) != 0)
+    throw InputError(part(), 1, 1, "not the rows of a campaign of this version");
+  // A killed process may leave a piece of a row.
+  const std::size_t whole = text.rfind('\n') + 1;
+  Rows rows;
+  add_text(rows, part(), text.substr(0, whole));
+  for (auto& [key, found] : rows) found_.push_back(std::move(found.row));
+  std::sort(found_.begin(), found_.end(), [](const Row& a, const Row& b) { return a.mission < b.mission; });
+  file_.keep(whole);
 }
 
-/// The file belongs to another process while that process holds its lock. After that, it does so if `part_`
-/// no longer names this file: it was renamed or removed between open() and flock().
-void RowFile::take_part() {
-  const bool locked = ::flock(fd_, LOCK_EX | LOCK_NB) == 0;
-  struct stat ours {
-  }, named{};
-  const bool same = locked && ::fstat(fd_, &ours) == 0 && ::stat(part_.c_str(), &named) == 0 &&
-                    ours.st_dev == named.st_dev && ours.st_ino == named.st_ino;
-  if (same && ::ftruncate(fd_, 0) == 0) return;
-  const std::string part = std::exchange(part_, "");
-  ::close(std::exchange(fd_, -1));
-  throw std::runtime_error(fmt::format("cannot write {}: another campaign is writing {}", path_, part));
-}
+void RowFile::add(const Row& row) { file_.write(fmt::format("{}\n", to_csv(row))); }
 
-RowFile::~RowFile() {
-  if (!part_.empty()) ::unlink(part_.c_str());
-  if (fd_ >= 0) ::close(fd_);
-}
-
-void RowFile::add(const Row& row) { write_line(to_csv(row)); }
-
-void RowFile::finish() {
-  // Closing the copy reports delayed write errors; the lock stays until the file has its final name.
-  const int copy = ::dup(fd_);
-  if (copy < 0 || ::close(copy) != 0) fail(errno);
-  if (!part_.empty() && ::rename(part_.c_str(), target_.c_str()) != 0) fail(errno);
-  part_.clear();
-  ::close(std::exchange(fd_, -1));
-}
-
-void RowFile::write_line(std::string_view line) {
-  const std::string text = fmt::format("{}\n", line);
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    const ssize_t n = ::write(fd_, rest.data(), rest.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(errno);
-    rest.remove_prefix(static_cast<std::size_t>(n));
-  }
-}
-
-void RowFile::fail(int error) const {
-  throw std::runtime_error(fmt::format("cannot write {}: {}", path_, std::generic_category().message(error)));
-}
-
-std::vector<Row> merged(const std::vector<std::string>& files) {
+std::vector<Row> merged(const std::vector<std::string>& files, bool incomplete) {
   Rows rows;
   for (const std::string& file : files) add_file(rows, file);
   if (rows.empty()) throw InputError(files.front(), 1, 1, "no mission in it");
+  if (!incomplete) check_whole(rows, files.front());
   std::vector<Row> result;
   for (auto& [key, found] : rows) result.push_back(std::move(found.row));
   return result;

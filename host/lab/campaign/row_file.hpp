@@ -5,14 +5,16 @@
 #include <string_view>
 #include <vector>
 
+#include "host/harness/file/file.hpp"
 #include "host/lab/campaign/row.hpp"
 
 namespace whisker::campaign {
 
 enum class RowFormat {
-  judged,    ///< the current format
-  believed,  ///< the format without `off_goal`: `reached` is the robot's report, and at_goal says whether it
-             ///< is true
+  numbered,  ///< the current format
+  judged,    ///< without the mission's number
+  believed,  ///< also without `off_goal`: `reached` is the robot's report, and at_goal says whether it is
+             ///< true
 };
 
 /// The header line, without its newline.
@@ -24,36 +26,31 @@ std::string to_csv(const Row& row);
 
 /// Parses the output of to_csv in that format; throws std::invalid_argument that names the first wrong
 /// column.
-Row parse_row(std::string_view line, RowFormat format = RowFormat::judged);
+Row parse_row(std::string_view line, RowFormat format = RowFormat::numbered);
 
-/// Each row is written to PATH.part in one write; finish() renames it. So PATH is the old file or the
-/// complete new one, and the PATH.part of a killed process holds complete rows too. Two writers of one PATH
-/// would mix their rows, so the constructor of the second one throws. A device, a pipe, or standard output,
-/// "-", is written directly. Errors throw std::runtime_error "cannot write PATH: REASON".
+/// Grows by rows as files::Growing grows, so that a campaign goes on where it was stopped: PATH.part always
+/// holds complete rows.
 class RowFile {
  public:
-  explicit RowFile(const std::string& path);  ///< writes the header
-  ~RowFile();                                 ///< without finish(): removes PATH.part
-  RowFile(const RowFile&) = delete;
-  RowFile& operator=(const RowFile&) = delete;
+  /// Writes the header, or reads the rows of PATH.part. Throws also InputError, for a PATH.part that holds
+  /// anything else.
+  explicit RowFile(const std::string& path);
 
+  const std::vector<Row>& found() const { return found_; }
+  /// PATH.part; "" if there is none.
+  const std::string& part() const { return file_.part(); }
   void add(const Row& row);
-  void finish();
+  void finish() { file_.finish(); }
 
  private:
-  void take_part();
-  void write_line(std::string_view line);
-  [[noreturn]] void fail(int error) const;
-
-  std::string path_;
-  std::string target_;
-  std::string part_;  ///< empty: written directly, or finished
-  int fd_ = -1;
+  files::Growing file_;
+  std::vector<Row> found_;
 };
 
 /// The rows of several files written by RowFile, each possibly several files joined (the header may repeat),
 /// in any RowFormat. Sorted by world, planner, robot, seed. Throws InputError with file and line for a
-/// missing header, a malformed row, a duplicate mission, or files without any row.
-std::vector<Row> merged(const std::vector<std::string>& files);
+/// missing header, a malformed row, a duplicate mission, or files without any row, and unless `incomplete`,
+/// if missions of a campaign are missing.
+std::vector<Row> merged(const std::vector<std::string>& files, bool incomplete = false);
 
 }  // namespace whisker::campaign

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "host/harness/file/file.hpp"
 #include "host/harness/scenario/error.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/scenario/write.hpp"
-#include "host/lab/report/file.hpp"
 
 namespace whisker::hunt {
 namespace {
@@ -86,8 +86,8 @@ Texts texts(const Case& c, const std::string& name) {
 
 void save(const Case& c, const std::string& path) {
   const Texts both = texts(c, base_name(path));
-  report::write_file(path + ".toml", both.toml);
-  if (!both.csv.empty()) report::write_file(path + ".csv", both.csv);
+  files::write(path + ".toml", both.toml);
+  if (!both.csv.empty()) files::write(path + ".csv", both.csv);
 }
 
 Case parse_case(const Texts& texts, const std::string& name) {

@@ -4,7 +4,7 @@
 #include "host/lab/page/guard_recording.hpp"
 #include "host/lab/page/json.hpp"
 #include "host/lab/page/template.hpp"
-#include "host/lab/report/file.hpp"
+#include "host/lab/report/svg.hpp"
 
 namespace whisker::page {
 namespace {

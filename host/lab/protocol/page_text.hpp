@@ -299,7 +299,7 @@ Unix socket with a listener. The other end acts as the adapter, as the images fo
 | line | from | meaning |
 |---|---|---|
 | `tIIILDD...` | both | a frame: three hex digits of identifier, one of length, two for each byte |
-| three empty lines, `C` | computer | sent first; earlier input is void. The computer ignores answers for 20 ms |
+| three empty lines, `C`, `Z0` | computer | sent first; earlier input is void, and no time stamps are wanted (four hex digits after a frame, which are ignored). The computer ignores answers for 20 ms |
 | `S6`, then `O` | computer | 500 kbit/s, open. The adapter answers each with an empty line or 100 ms of silence; BELL (7) refuses |
 | `z` | adapter | the frame was accepted; optional |
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 
 namespace whisker::report {
 namespace {
@@ -66,6 +67,24 @@ std::string escape(std::string_view text) {
     text.remove_prefix(character.size());
   }
   return out;
+}
+
+std::string script_safe(const std::string& json) {
+  std::string text;
+  for (const char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+void put(std::string& page, std::string_view mark, const std::string& text) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos) throw std::logic_error("the page's template has no " + std::string(mark));
+  page.replace(at, mark.size(), text);
 }
 
 std::string shortened(std::string_view text, std::size_t characters) {

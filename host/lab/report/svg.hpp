@@ -15,6 +15,12 @@ struct Point {
 /// characters that XML forbids become U+FFFD.
 std::string escape(std::string_view text);
 
+/// JSON that cannot end the script element that holds it.
+std::string script_safe(const std::string& json);
+
+/// Replaces the first mark of a page. Throws std::logic_error if there is none.
+void put(std::string& page, std::string_view mark, const std::string& text);
+
 /// At most `characters` characters of UTF-8 text; a longer text ends in an ellipsis.
 std::string shortened(std::string_view text, std::size_t characters);
 

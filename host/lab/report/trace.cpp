@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "host/lab/report/file.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/lab/report/units.hpp"
 
 namespace whisker::report {
@@ -106,6 +106,6 @@ std::string trace_csv(const RunLog& log) {
   return out;
 }
 
-void write_trace(const std::string& path, const RunLog& log) { write_file(path, trace_csv(log)); }
+void write_trace(const std::string& path, const RunLog& log) { files::write(path, trace_csv(log)); }
 
 }  // namespace whisker::report

@@ -38,7 +38,7 @@ std::string range_text(const hal::RangeReading& reading, const RangefinderParams
 /// The whole file. Lines end in a single newline.
 std::string trace_csv(const RunLog& log);
 
-/// trace_csv into a file, as write_file.
+/// trace_csv into a file, as files::write.
 void write_trace(const std::string& path, const RunLog& log);
 
 }  // namespace whisker::report

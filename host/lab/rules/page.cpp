@@ -9,7 +9,6 @@
 
 #include "host/lab/report/axes.hpp"
 #include "host/lab/report/colour.hpp"
-#include "host/lab/report/file.hpp"
 #include "host/lab/report/svg.hpp"
 #include "host/lab/rules/findings.hpp"
 #include "host/lab/rules/page_template.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/harness/scenario/error.hpp"
 #include "host/harness/scenario/reader.hpp"
 #include "host/lab/rules/canvas.hpp"
 
@@ -25,6 +26,22 @@ void check_range(const Source& source, const Variable& v) {
   if (std::isnan(v.low)) source.fail(v.place, fmt::format("'{}' has no range", v.name));
   if (!std::isfinite(v.low) || !std::isfinite(v.high) || !(v.low < v.high))
     source.fail(v.place, fmt::format("'{}': the range must be finite and not empty", v.name));
+}
+
+/// They are printed.
+void check_names(const Source& source, const RuleBase& base) {
+  const auto check = [&](const Place& place, const std::string& name) {
+    if (one_line(name) != name) source.fail(place, fmt::format("'{}': a control character in a name", name));
+  };
+  const auto check_all = [&](const auto& variables) {
+    for (const auto& v : variables) {
+      check(v.place, v.name);
+      for (const Term& term : v.terms) check(term.place, term.name);
+    }
+  };
+  check(Place{}, base.name);
+  check_all(base.inputs);
+  check_all(base.outputs);
 }
 
 void check_output(const Source& source, const Output& output) {
@@ -89,6 +106,7 @@ void check_areas(const Source& source, RuleBase& base, std::size_t o) {
 }  // namespace
 
 void check(const Source& source, RuleBase& base) {
+  check_names(source, base);
   if (base.inputs.empty()) source.fail(Place{}, "the file has no input");
   if (base.outputs.empty()) source.fail(Place{}, "the file has no output");
   if (base.rules.empty()) source.fail(Place{}, "the file has no rule");
