@@ -14,7 +14,7 @@ describe('the map on the replay page', () => {
     folder.drive('drifting', ['rooms', '--seed', 4, '--noise'], '--planner', 'map', '--map-bytes', 1024);
   });
   const open = (name = 'map', hash = '', options = {}) => openPage(folder.url(`${name}.html`, hash), options);
-  const keys = (page) => page.locator('.map-key:visible').allTextContents();
+  const keys = (page) => page.locator('[data-state]:visible').allTextContents();
 
   test('is said in the head, drawn, and hidden again', async () => {
     const {page, complaints} = await open('map', '#t=40');
