@@ -6,10 +6,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "firmware/can/input_set.hpp"
 #include "firmware/can/mission.hpp"
 #include "firmware/robot.hpp"
+#include "hal/can_port.hpp"
+#include "host/harness/hil/candump.hpp"
 #include "host/harness/hil/host_rules.hpp"
 #include "host/harness/run/planners.hpp"
 
@@ -50,5 +53,35 @@ struct ReplayResult {
 /// first mission. Throws std::runtime_error "line N: ..." for a line that is not from a candump log; only the
 /// last line may be truncated, as a terminated recorder leaves it.
 ReplayResult replay(std::istream& log, const ReplayOptions& options);
+
+class Replay;
+
+/// A core that takes the steps of a controller on this computer, from the frames of its bus, and so knows
+/// what the bus does not carry.
+class Shadow {
+ public:
+  Shadow(int robot, PlannerKind planner);
+  ~Shadow();
+  /// Any frame on the bus, in this order; it is only kept. time_us: of any clock.
+  void hear(const hal::CanFrame& frame, std::uint64_t time_us);
+  /// Takes the steps that the frames heard have the answers of. False: there was none yet.
+  bool follow();
+  /// The first answer of the controller that this core would not have given; "": none.
+  const std::string& difference() const;
+
+  /// Of the last step.
+  const Status& status() const { return status_; }
+  const perception::LocalGrid* local_grid() const { return local_grid_; }
+  const RecordingGuide* guide() const { return guide_; }
+
+ private:
+  ReplayOptions options_;
+  std::unique_ptr<Replay> replay_;
+  std::vector<LogFrame> heard_;
+  Status status_;
+  const perception::LocalGrid* local_grid_ = nullptr;
+  const RecordingGuide* guide_ = nullptr;
+  bool stepped_ = false;
+};
 
 }  // namespace whisker::hil
