@@ -94,14 +94,15 @@ void draw_line(Svg& svg, Point corner, const RuleBase& base, const Surface& s, s
 
 /// The core's response table is drawn as `whisker table` and the replay page draw it: the distance upward,
 /// and the bias to the left, so that the left side means nearer on the left.
-bool is_response(const RuleBase& base) {
+bool is_response(const RuleBase& base, const Domain& domain) {
   const ResponseNames names;
-  return base.inputs[0].name == names.distance && base.inputs[1].name == names.bias;
+  const auto axis = [&](std::size_t part) { return base.inputs[domain.parts[part].axis.input].name; };
+  return axis(0) == names.distance && axis(1) == names.bias;
 }
 
 /// An output over two inputs: the first to the right, the second upward.
 void draw_map(Svg& svg, Point corner, const RuleBase& base, const Surface& s, std::size_t o) {
-  const bool turned = is_response(base);
+  const bool turned = is_response(base, s.domain);
   const Domain::Part& across = s.domain.parts[turned ? 1 : 0];
   const Domain::Part& up = s.domain.parts[turned ? 0 : 1];
   const Input& x = base.inputs[across.axis.input];
