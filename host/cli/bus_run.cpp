@@ -112,18 +112,22 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
   const Interrupt interrupt;
   hil::Recorder recorder(bus.record, bus.name);
   hil::Figures figures;
+  hil::WallClock clock([&line] { return line.descriptor(); });
+  std::optional<hil::Shadow> shadow;
+  if (bus.beside) shadow.emplace(bus.robot, *bus.beside);
   hil::Tap tap(line.port(), [&](const hal::CanFrame& frame) {
     ++figures.frames;
     figures.bits += hil::bits_on_bus(frame);
     recorder.write(frame);
+    if (shadow) shadow->hear(frame, clock.now_us());
   });
   bus::FaultPort port = lossy(tap, bus);
-  hil::WallClock clock([&line] { return line.descriptor(); });
   hil::BusOptions how;
   how.identity = bus.identity();
   how.rules = bus.rules;
   how.table = bus.table;
   how.order = bus.order;
+  how.shadow = shadow ? &*shadow : nullptr;
   Scenario scenario = world;
   if (calibrates(bus.order)) {
     // It ends where it began, or ahead, as well as the uncalibrated robot turns.
@@ -150,6 +154,7 @@ int drive_on_bus(const Scenario& world, RunOptions options, const RunOutputs& ou
   options.pilot = hil::bus_pilot(port, clock, how, figures);
   RunOutputs all = outputs;
   all.record = bus.record;
+  all.inside = shadow.has_value();
   all.bus_json = [&figures] { return hil::figures_json(figures, kBitrate); };
   all.bus_words = [&figures] { return hil::figures_words(figures, kBitrate); };
   if (view != nullptr) {

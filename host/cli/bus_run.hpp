@@ -29,6 +29,8 @@ struct BusChoice {
   std::optional<std::uint32_t> rules;              ///< digest that the controller must name; none: any
   const can::RulesServer::Table* table = nullptr;  ///< of that digest, to send it
   can::Order order = can::Order::start;            ///< start, spin or straight
+  std::optional<PlannerKind>
+      beside;  ///< the controller is on this computer, and was started with this planner
 
   /// The controller must drive with the table of this planner, which has one.
   void drive_with(PlannerKind planner);

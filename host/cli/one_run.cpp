@@ -73,7 +73,7 @@ int execute(const RunCommandOptions& o) {
 
 RunSetting setting(const Scenario& scenario, const RunOptions& options, const RunOutputs& outputs) {
   const auto planner = outputs.knows_planner ? std::optional(options.planner) : std::nullopt;
-  return {scenario, planner, options.seed.value_or(scenario.seed), !outputs.on_bus()};
+  return {scenario, planner, options.seed.value_or(scenario.seed), outputs.inside};
 }
 
 int drive_one(const Scenario& scenario, RunOptions options, const RunOutputs& o) {

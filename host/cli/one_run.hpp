@@ -23,9 +23,8 @@ struct RunOutputs {
   std::function<std::string()> bus_json = nullptr;
   std::function<std::string()> bus_words = nullptr;
   bool knows_planner = true;                              ///< false: unknown
+  bool inside = true;                                     ///< of its log
   std::function<void(const RunResult&)> ended = nullptr;  ///< receives the verdict first
-
-  bool on_bus() const { return bus_json != nullptr; }
 };
 
 /// What the log of the run knows before its first tick.

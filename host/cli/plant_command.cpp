@@ -204,6 +204,7 @@ int execute(const HilOptions& o) {
   RunOptions options = o.scenario.run_options();
   options.planner = o.planner;
   BusChoice base = o.bus;
+  base.beside = with_own_table(o.planner);
   if (!is_baseline(o.planner)) base.drive_with(o.planner);
   return drive_on_bus(scenario, options, o.scenario.run_outputs(scenario), base, *lines.first, view.get(),
                       [&] { child.check(); });

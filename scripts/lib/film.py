@@ -34,7 +34,7 @@ SAYS = {
     "looking": "turns a beam onto unknown ground",
     "searching": "searches both sides for a clear heading, because the path is blocked",
     "skirting": "follows the boundary until it is nearer to the goal than ever before",
-    "arrived": "is at the goal: no map, three rangefinders",
+    "arrived": "is at the goal: three rangefinders, the boundary planner without a map",
 }
 
 

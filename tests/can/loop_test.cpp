@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/harness/hil/planners.hpp"
+#include "host/harness/hil/tap.hpp"
 #include "host/harness/worlds/generate.hpp"
 #include "host/harness/worlds/random.hpp"
 #include "tests/can/rig.hpp"
@@ -38,6 +39,32 @@ TEST_P(EveryWorld, TheTrajectoryOverTheBusIsTheOneInProcess) {
   EXPECT_EQ(over_bus.result.verdict, direct.verdict);
   EXPECT_EQ(over_bus.result.detail, direct.detail);
   EXPECT_GT(direct.ticks, 100U);
+}
+
+TEST(Shadow, ThatStepsOtherwiseIsSaidAndTheControllerKeepsItsWord) {
+  const Scenario scenario = scenario_of(worlds::Kind::discs);
+  RunOptions options;
+  options.planner = *planner_named("skirt");
+  const RunResult direct = run(scenario, options);
+  bus::MemoryBus wire;
+  hal::CanPort& base = wire.attach();
+  hil::HostPlanners planners(options.planner);
+  can_app::Controller controller(wire.attach(), {1, 77, 0}, planners);
+  test::SharedTime time([&](std::uint32_t now_ms) { controller.poll(now_ms); });
+  hil::Shadow shadow(1, *planner_named("thesis"));
+  hil::Tap tap(base, [&](const hal::CanFrame& frame) { shadow.hear(frame, time.now_us()); });
+  int told = 0;
+  hil::BusOptions bus;
+  bus.shadow = &shadow;
+  bus.say = [&](const std::string& words) {
+    told += words.rfind("what is inside the controller is not known any more: tick ", 0) == 0 ? 1 : 0;
+  };
+  hil::Figures figures;
+  options.pilot = hil::bus_pilot(tap, time, bus, figures);
+  const RunResult result = run(scenario, options);
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(result.hash, direct.hash);
+  EXPECT_EQ(result.verdict, direct.verdict);
 }
 
 TEST_P(EveryWorld, TheTrajectoryIsTheSameWithTwoPercentOfTheFramesDropped) {

@@ -18,6 +18,11 @@ class Film(Case):
         subprocess.run([ROOT / "scripts/lib/film.py", file], check=True, capture_output=True, env=environment, timeout=120)
         self.assertTrue(file.read_bytes() == COMMITTED.read_bytes(), "scripts/lib/film.py")
 
+    def test_says_which_planner_needs_no_map(self):
+        says = [line for line in COMMITTED.read_text(encoding="utf-8").splitlines() if "a map" in line or "no map" in line]
+        self.assertEqual(len(says), 1)
+        self.assertIn("boundary planner", says[0])
+
 
 if __name__ == "__main__":
     whisker.main()

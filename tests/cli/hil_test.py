@@ -11,6 +11,7 @@ import socket
 import subprocess
 import time
 
+import slcan_bridge
 import whisker
 from whisker import KINDS, SCENARIOS, STATUS, Case, with_time_limit
 
@@ -56,7 +57,7 @@ class Hil(OnABus):
         alone = self.json_of("run", scenario, "--robot", robot)
         both = self.json_of("hil", scenario, "--robot", robot, "--record", log)
         self.assertEqual(both["hash"], alone["hash"])
-        self.assertIsNone(both["believed_distance_m"])
+        self.assertEqual(both["believed_distance_m"], alone["believed_distance_m"])
         for key in ("sigma_along_m", "sigma_across_m", "bound_m"):
             self.assertAlmostEqual(both[key], alone[key], delta=0.005, msg=key)
         sent = both["bus"]["fixes"]["sent"]
@@ -191,14 +192,31 @@ class Hil(OnABus):
         self.assertEqual(both["hash"], alone["hash"])
         self.assertNotEqual(both["hash"], self.json_of("hil", scenario)["hash"])
 
-    def test_the_trace_has_all_that_the_bus_carries(self):
+    def test_knows_of_its_controller_what_the_bus_does_not_carry(self):
+        robot = self.file("fixed.toml", "gyro = true\nbend_course = true\n[noise]\ngyro_bias_dps = 1\nfix_every_m = 1\nfix_sigma_m = 0.02\n")
+        for kind, *options in (("u-trap",), ("rooms", "--robot", robot), ("discs", "--planner", "thesis"), ("maze", "--drop", 3)):
+            scenario = self.world(kind, 20)
+            alone = [option for option in options if option not in ("--drop", 3)]
+            files = {name: self.folder / name for name in ("run.csv", "run.html", "hil.csv", "hil.html")}
+            self.json_of("run", scenario, *alone, "--trace", files["run.csv"], "--html", files["run.html"])
+            self.json_of("hil", scenario, *options, "--trace", files["hil.csv"], "--html", files["hil.html"])
+            self.assertEqual(files["hil.csv"].read_text(), files["run.csv"].read_text(), kind)
+            ticks = [re.search(r'id="columns-0">(.*?)<', files[name].read_text(), re.S)[1] for name in ("run.html", "hil.html")]
+            self.assertEqual(ticks[0], ticks[1], kind)
+
+    def test_the_trace_of_a_plant_has_what_the_bus_carries(self):
         scenario = self.world("u-trap", 10)
         self.json_of("run", scenario, "--trace", self.folder / "run.csv")
-        self.json_of("hil", scenario, "--trace", self.folder / "hil.csv")
-        rows = [list(csv.DictReader((self.folder / name).read_text().splitlines())) for name in ("run.csv", "hil.csv")]
+        places = self.folder / "plant", self.folder / "controller"
+        bridge = slcan_bridge.Bridge(*places)
+        self.addCleanup(bridge.close)
+        controller = subprocess.Popen([whisker.binary, "controller", "--can", f"slcan:{places[1]}"], stderr=subprocess.DEVNULL)
+        self.addCleanup(controller.wait)
+        self.addCleanup(controller.terminate)
+        self.json_of("plant", scenario, "--can", f"slcan:{places[0]}", "--trace", self.folder / "plant.csv")
+        rows = [list(csv.DictReader((self.folder / name).read_text().splitlines())) for name in ("run.csv", "plant.csv")]
         self.assertEqual(len(rows[0]), len(rows[1]))
         for alone, both in zip(*rows):
-            self.assertEqual([both[key] for key in PRIVATE_TRACE], [""] * len(PRIVATE_TRACE))
             self.assertEqual(both, {**alone, **dict.fromkeys(PRIVATE_TRACE, "")})
 
     def test_a_recorded_run_replays_to_the_bit(self):
@@ -262,7 +280,7 @@ class Hil(OnABus):
         pictures = [[count for name, _, _, count in page["columns"] if name == "map_tick"] for page in pages]
         self.assertEqual(pictures[0], pictures[1])
         self.assertGreater(pictures[0][0], 20)
-        self.assertEqual(pictures[2], [0])
+        self.assertEqual(pictures[2], pictures[0])
         for page in pages:
             self.assertEqual(page["map"], {"bytes": 1024, "columns": 32, "rows": 48, "cell": 0.125})
 
@@ -395,12 +413,12 @@ class View(OnABus):
         done = whisker.whisker("hil", self.world("discs", 1), "--view", 0, "--view-address", "0.0.0.0")
         self.assertRegex(done.stderr, r"(?m)^whoever can reach 0\.0\.0\.0 port \d+ can watch this run$")
 
-    def test_a_page_of_a_run_on_a_bus_knows_what_it_does_not_know(self):
+    def test_a_page_of_a_run_on_a_bus_knows_what_this_computer_knows(self):
         page = self.folder / "page.html"
         whisker.whisker("hil", self.world("discs", 5), "--planner", "thesis", "--html", page)
         data = re.search(r'<script type="application/json" id="data">(.*?)</script>', page.read_text(), re.S)[1]
         run = json.loads(data)["runs"][0]
-        self.assertEqual((run["planner"], run["inside"]), ("thesis", False))
+        self.assertEqual((run["planner"], run["inside"]), ("thesis", True))
 
     def test_what_cannot_be_served_is_refused_before_anything_starts(self):
         scenario = self.world("discs", 5)

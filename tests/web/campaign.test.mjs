@@ -162,9 +162,45 @@ describe('the page of a campaign', () => {
     assert.equal(await page.evaluate(() => window.whisker.run.info.row !== undefined), true);
   });
 
-  test('fits a phone', async () => {
-    const {page} = await open('', {viewport: PHONE});
-    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), PHONE.width);
+  test('a link to a mission that it does not have is said', async () => {
+    for (const hash of ['#run=12', '#run=2.5']) {
+      const {page, complaints} = await open(hash);
+      assert.match(await page.textContent('#link-fault:visible'), /a run that is not in this page/);
+      assert.ok(await page.isVisible('#replays'));
+      assert.deepEqual(complaints, []);
+    }
+  });
+
+  test('fits a phone, and shades the side where a table goes on', async () => {
+    for (const colorScheme of ['light', 'dark']) {
+      const {page} = await open('', {viewport: PHONE, colorScheme});
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), PHONE.width);
+      const [shares, missions] = await page.locator('.scroll').all();
+      assert.ok(await shares.evaluate((e) => e.scrollWidth <= e.clientWidth), 'the outcomes are cut');
+      assert.ok(await missions.evaluate((e) => e.scrollWidth > e.clientWidth), 'the missions need no sign');
+      await missions.scrollIntoViewIfNeeded();
+      // A column of pixels at each side, without what the table has there.
+      const sides = async () => {
+        const png = await missions.screenshot({style: 'table { visibility: hidden }'});
+        return page.evaluate(async (base64) => {
+          const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+          const picture = await createImageBitmap(new Blob([bytes], {type: 'image/png'}));
+          const c = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
+          c.drawImage(picture, 0, 0);
+          const at = (x) => c.getImageData(x, picture.height >> 1, 1, 1).data.join();
+          return [at(1), at(picture.width - 2), at(picture.width >> 1)];
+        }, png.toString('base64'));
+      };
+      const scrolledTo = (x) => missions.evaluate((e, to) => (e.scrollLeft = to), x).then(() => drawn(page));
+      const shaded = async () => {
+        const [left, right, panel] = await sides();
+        return [left !== panel, right !== panel];
+      };
+      await scrolledTo(0);
+      assert.deepEqual(await shaded(), [false, true]);
+      await scrolledTo(1e4);
+      assert.deepEqual(await shaded(), [true, false]);
+    }
   });
 
   for (const colorScheme of ['light', 'dark']) {

@@ -56,6 +56,29 @@ describe('links', () => {
     assert.equal(await page.evaluate(() => window.copied), folder.url('run.html', '#t=7.65'));
   });
 
+  test('a part that no page knows is said, on both pages', async () => {
+    for (const hash of ['#wrold=maze&seed=3', '#maze', '#t=31']) {
+      const {page} = await openPlayground(hash);
+      const name = hash.match(/\w+/)[0];
+      assert.match(
+        await page.textContent('#link-fault:visible'),
+        new RegExp(`its part .${name}. is unknown`),
+      );
+    }
+    for (const [hash, words] of [
+      ['#time=3', /its part .time. is unknown/],
+      ['#t=soon', /its t is not a number/],
+      ['#run=7', /a run that is not in this page/],
+    ]) {
+      const {page, complaints} = await openReplay(hash);
+      assert.match(await page.textContent('#link-fault:visible'), words);
+      await page.evaluate(() => (location.hash = '#t=2'));
+      await page.waitForSelector('#link-fault', {state: 'hidden'});
+      assert.deepEqual(complaints, []);
+    }
+    assert.ok(await (await openReplay('#t=1')).page.isHidden('#link-fault'));
+  });
+
   test('an address that says nonsense opens the first world', async () => {
     for (const hash of [
       '#world=moon&seed=x&planner=me&noise=a_b&rules=9&own=!!',

@@ -1,5 +1,6 @@
 // A run on a bus, watched in a browser while it goes on.
 import assert from 'node:assert/strict';
+import {spawn} from 'node:child_process';
 import {once} from 'node:events';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {connect, createServer} from 'node:net';
@@ -121,10 +122,39 @@ describe('the live page', () => {
     assert.equal(chip, 'over');
   });
 
-  test('says what the bus does not tell', async () => {
+  test('knows of its own controller what a run knows', async () => {
     const hil = start('hil', trap, '--view-stay');
     await hil.says(/the run is over/);
     const {page} = await watch(hil);
+    await state(page, 'ended');
+    await drawn(page);
+    for (const id of ['clear-known', 'clear-key', 'ranges-known'])
+      assert.ok(await page.isVisible(`#${id}`), id);
+    for (const id of ['clear-unknown', 'counters-unknown']) assert.ok(await page.isHidden(`#${id}`), id);
+    assert.doesNotMatch(await page.innerText('#run'), /not known here|true distance/);
+    const estimate = await page.evaluate(() => [...window.whisker.run.column('est_x_m')]);
+    const trace = folder.trace('trap');
+    assert.ok(estimate.every((x, tick) => Math.abs(x - Number(trace[tick].est_x_m)) < 6e-7));
+    assert.ok((await page.evaluate(() => window.whisker.run.film.ticks.length)) > 100);
+  });
+
+  test('says what the bus does not tell', async () => {
+    // A bus of two places, which ends with its input.
+    const places = ['plant', 'controller'].map((name) => folder.at(name));
+    const program =
+      'import sys, slcan_bridge; slcan_bridge.Bridge(*sys.argv[1:]); print(flush=True); sys.stdin.read()';
+    const bridge = spawn('python3', ['-B', '-c', program, ...places], {
+      env: {...process.env, PYTHONPATH: join(ROOT, 'tests/cli')},
+      stdio: ['pipe', 'pipe', 'inherit'],
+    });
+    await once(bridge.stdout, 'data');
+    const [plantAt, controllerAt] = places.map((place) => `slcan:${place}`);
+    const controller = new Running('controller', '--can', controllerAt, '--planner', 'skirt');
+    all.push(controller);
+    const plant = start('plant', trap, '--can', plantAt, '--view-stay');
+    await plant.says(/the run is over/);
+    bridge.stdin.end();
+    const {page} = await watch(plant);
     await state(page, 'ended');
     await drawn(page);
     for (const id of ['clear-unknown', 'counters-unknown']) assert.ok(await page.isVisible(`#${id}`), id);
@@ -132,7 +162,7 @@ describe('the live page', () => {
     assert.match(await page.textContent('#table-says'), /not known here/);
     assert.match(await page.textContent('#plot-goal'), /true distance to the goal/);
     assert.equal(await page.locator('#counters > *').count(), 0);
-    assert.ok(await page.isVisible('#rule-of-progress'));
+    assert.match(await page.textContent('#facts'), /plannernot known here/);
     assert.equal(await page.textContent('#leave-rule'), '');
   });
 

@@ -265,7 +265,6 @@ describe('the playground', () => {
   test('the map planner drives natively to the same hash, and shows its map', async () => {
     const {page, complaints} = await open('#world=rooms&seed=3&planner=map');
     assert.equal(await page.textContent('#card-0 h2'), 'map planner');
-    assert.equal(await page.locator('.map-key:visible').count(), 5);
     const canvas = () =>
       page.evaluate(() => {
         const picture = document.querySelector('.card canvas');
@@ -281,6 +280,7 @@ describe('the playground', () => {
     });
     await drawn(page);
     assert.ok((await canvas()) > before, 'nothing of a map is drawn');
+    assert.equal(await page.locator('[data-state]:visible').count(), 5);
     const known = await play(
       page,
       '[...Array(64 * 56).keys()].filter((i) => { const {map} = play.runs[0]; return map.state(map.corner[0] + (i % 64), map.corner[1] + Math.floor(i / 64)) > 0; }).length',
@@ -293,7 +293,7 @@ describe('the playground', () => {
     await page.waitForFunction(() => location.hash.includes('planner=skirt-map'));
     await page.click('#who-both');
     await drawn(page);
-    assert.equal(await page.locator('.map-key:visible').count(), 0);
+    assert.equal(await page.locator('[data-state]:visible').count(), 0);
     assert.deepEqual(complaints, []);
   });
 
@@ -351,6 +351,51 @@ describe('the playground', () => {
       assert.deepEqual(off, []);
     });
   }
+
+  for (const [width, height] of [
+    [844, 390],
+    [800, 600],
+    [1280, 520],
+    [1180, 580],
+    [390, 844],
+  ]) {
+    test(`what plays the run is in sight at ${width}x${height}`, async () => {
+      for (const hash of ['', '#world=rooms&seed=3&planner=you']) {
+        const {page} = await open(hash, {viewport: {width, height}});
+        const {y, height: tall} = await page.locator('#play').boundingBox();
+        assert.ok(y >= 0 && y + tall <= height, `#play is at ${y}`);
+        assert.ok((await page.locator('.card canvas').first().boundingBox()).height > 150);
+      }
+    });
+  }
+
+  test('its keys list what has occurred', async () => {
+    const {page} = await open('#world=u-trap&seed=7&planner=skirt');
+    const keys = async () =>
+      (await page.locator('.key-list li:visible').allTextContents()).map((key) => key.trim());
+    assert.deepEqual(await keys(), ['drives freely', 'ground proved clear']);
+    await toTheEnd(page);
+    const after = await keys();
+    assert.ok(after.includes('follows a boundary') && !after.includes('deflected by the table'), `${after}`);
+    assert.ok(await page.isHidden('#course-key'));
+    await page.click('#who-thesis');
+    await toTheEnd(page);
+    assert.ok((await keys()).includes('deflected by the table'));
+    assert.ok(await page.isVisible('#course-key'));
+    await page.click('#who-you');
+    await drawn(page);
+    await page.keyboard.down('ArrowUp');
+    await page.evaluate(() => window.whisker.play.pass(0.3));
+    await page.keyboard.up('ArrowUp');
+    await drawn(page);
+    const came = await page.evaluate(() => {
+      const {play, core} = window.whisker;
+      return play.runs[0].stretches.map(({kind}) => core.words.reasons[kind].replaceAll('_', ' '));
+    });
+    const [asked, ...reasons] = await keys();
+    assert.equal(asked, 'asked');
+    assert.deepEqual(new Set(reasons), new Set([...came, 'ground proved clear']));
+  });
 
   test('noise begins the drive anew, and the same noise gives the same drive', async () => {
     const {page} = await open('#world=u-trap&seed=3&planner=skirt');

@@ -29,6 +29,54 @@ describe('the replay page', () => {
     assert.deepEqual(complaints, []);
   });
 
+  test('begins where the beams see something', async () => {
+    const {page} = await open();
+    const [row, before] = await tickOf(page).then((tick) =>
+      [tick, tick - 1].map((i) => folder.trace('run')[i]),
+    );
+    const read = ({left_m, front_m, right_m}) => [left_m, front_m, right_m].every((m) => m !== '');
+    assert.ok(read(row) && !read(before));
+    assert.doesNotMatch(await page.textContent('.beams'), /stale|lost/);
+    assert.doesNotMatch(await page.textContent('#plot-ranges'), /lost/);
+  });
+
+  test('lists what occurs in this run, and claims no more', async () => {
+    const keys = async (page) =>
+      (await page.locator('.key-list li:visible').allTextContents()).map((key) => key.trim());
+    const still = ['stands, scans', 'ground proved clear'];
+    const {page} = await open();
+    assert.deepEqual(await keys(page), [
+      'drives freely',
+      'follows a boundary',
+      'candidate heading',
+      ...still,
+    ]);
+    assert.ok(await page.isHidden('#course-key'));
+    writeFileSync(
+      folder.at('three.toml'),
+      '[start]\nx_m = 0.0\ny_m = 0.0\n[goal]\nx_m = 5.0\ny_m = 0.0\n' +
+        [1.5, 2.8, 4.1].map((x) => `[[disc]]\ncenter = [${x}, 0.05]\nradius_m = 0.2\n`).join(''),
+    );
+    folder.run('three', folder.at('three.toml'));
+    const three = await openPage(folder.url('three.html'));
+    assert.deepEqual(await keys(three.page), ['drives freely', 'candidate heading', ...still]);
+    assert.equal(await three.page.textContent('#edges-none'), 'It followed no boundary in this run.');
+    assert.doesNotMatch(await three.page.textContent('#run'), /No obstacle/);
+    folder.run('thesis', folder.at('three.toml'), '--planner', 'thesis');
+    const thesis = await openPage(folder.url('thesis.html'));
+    assert.ok((await keys(thesis.page)).includes('deflected by the table'));
+    assert.ok(await thesis.page.isVisible('#course-key'));
+    // The map planner goes straight in an empty world.
+    writeFileSync(
+      folder.at('empty.toml'),
+      readFileSync(folder.at('three.toml'), 'utf8').split('[[disc]]')[0],
+    );
+    folder.run('empty', folder.at('empty.toml'), '--planner', 'map');
+    const empty = await openPage(folder.url('empty.html'));
+    assert.deepEqual(await keys(empty.page), ['drives freely', ...still, 'map: seen free', 'planned path']);
+    assert.ok(await empty.page.isHidden('#way-key'));
+  });
+
   test('plays, pauses at the end, and plays again from the start', async () => {
     const {page, complaints} = await open();
     await page.click('#play');
@@ -144,8 +192,9 @@ describe('the replay page', () => {
       assert.ok(reached.has(id), `${id} was not reached`);
     }
     await page.focus('#scrub');
+    const before = await tickOf(page);
     await page.keyboard.press('ArrowRight');
-    assert.equal(await tickOf(page), 1, 'the slider moves by one tick');
+    assert.equal(await tickOf(page), before + 1, 'the slider moves by one tick');
   });
 
   test('scrubs, and everything follows', async () => {
@@ -209,7 +258,7 @@ describe('the replay page', () => {
     const late = await open('#t=99999');
     assert.equal(await tickOf(late.page), result.ticks - 1);
     const nonsense = await open('#t=soon');
-    assert.equal(await tickOf(nonsense.page), 0);
+    assert.equal(await tickOf(nonsense.page), await tickOf((await open()).page));
     assert.deepEqual(nonsense.complaints, []);
   });
 
@@ -303,6 +352,37 @@ describe('the replay page', () => {
     );
   });
 
+  test('no label of a plot is cut, wherever its ticks are', async () => {
+    folder.run('gentle', join(ROOT, 'tests/cli/scenarios/crossing_mover.toml'));
+    whisker('guard', U_TRAP, '--operator', 'sloppy', '--html', folder.at('guard.html'));
+    for (const name of ['run', 'gentle', 'guard']) {
+      const {page} = await openPage(folder.url(`${name}.html`));
+      const cut = await page.evaluate(async () => {
+        const found = new Set();
+        const fillText = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+          if (this.canvas.closest('.plot')) {
+            const {actualBoundingBoxLeft: left, actualBoundingBoxRight: right} = this.measureText(text);
+            const at = this.getTransform().transformPoint({x, y}).x;
+            if (at - left < 0 || at + right > this.canvas.width) found.add(text);
+          }
+          fillText.call(this, text, x, y);
+        };
+        const {player, run} = window.whisker;
+        const frames = () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+        document.getElementById('theme').click();
+        await frames();
+        document.querySelector('.plot-buttons button').click();
+        for (let i = 0; i <= 20; ++i) {
+          player.seek(Math.floor(((run.ticks - 1) * i) / 20));
+          await frames();
+        }
+        return [...found];
+      });
+      assert.deepEqual(cut, [], name);
+    }
+  });
+
   test('light and dark, by the system and by the button', async () => {
     const ground = (page) => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
     const [light, dark] = [await open('#t=8'), await open('#t=8', {colorScheme: 'dark'})];
@@ -321,6 +401,10 @@ describe('the replay page', () => {
   for (const [name, viewport] of [
     ['a phone', PHONE],
     ['a small phone', {width: 320, height: 568}],
+    ['a phone on its side', {width: 844, height: 390}],
+    ['a small window', {width: 800, height: 600}],
+    ['a flat window', {width: 1280, height: 520}],
+    ['a low window', {width: 1180, height: 580}],
     ['a tablet', {width: 820, height: 1180}],
   ]) {
     test(`fits ${name}`, async () => {
@@ -338,7 +422,16 @@ describe('the replay page', () => {
           .map((e) => e.id || e.className || e.tagName),
       );
       assert.deepEqual(wide, []);
-      assert.ok(await page.isVisible('#play'));
+      const inSight = (id) =>
+        page.evaluate((name) => {
+          const {top, bottom} = document.getElementById(name).getBoundingClientRect();
+          return top >= 0 && bottom <= innerHeight;
+        }, id);
+      for (const id of ['play', 'lanes', 'clock']) assert.ok(await inSight(id), `${id} is out of sight`);
+      const world = await page.locator('#world').boundingBox();
+      const bar = await page.locator('.transport').boundingBox();
+      const seen = Math.min(world.y + world.height, bar.y) - world.y;
+      assert.ok(seen > 100, `${seen} px of the world`);
       await page.tap('#play');
       await page.waitForFunction(() => window.whisker.player.tick > 830);
       assert.deepEqual(complaints, []);

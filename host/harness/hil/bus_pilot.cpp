@@ -73,6 +73,7 @@ class BusPilot final : public Pilot {
       await_calibration();
     } catch (const Hopeless&) {
     }
+    look_inside();
     status_.command = base_.drive();
     take_reports();
     figures_.run_s = static_cast<double>(figures_.sets * period_us_) * 1e-6;
@@ -99,7 +100,11 @@ class BusPilot final : public Pilot {
   }
   bool hears() const override { return !loss_.lost(); }
 
-  bool sees_inside() const override { return false; }
+  bool sees_inside() const override { return options_.shadow != nullptr; }
+  const perception::LocalGrid* local_grid() const override {
+    return sees_inside() ? options_.shadow->local_grid() : nullptr;
+  }
+  const RecordingGuide* guide() const override { return sees_inside() ? options_.shadow->guide() : nullptr; }
   /// With a gyro or fixes, only the controller knows its estimate.
   std::optional<Pose> estimate() const override {
     return reckons_ ? std::optional(odometry_.pose()) : std::nullopt;
@@ -223,10 +228,30 @@ class BusPilot final : public Pilot {
     changed_ = false;
   }
 
+  /// Completes the status with what the bus does not carry. What decides remains the controller's word.
+  void look_inside() {
+    if (!sees_inside()) return;
+    Shadow& shadow = *options_.shadow;
+    const bool alike = shadow.difference().empty();
+    status_.pose = mission_.start;
+    if (!shadow.follow()) return;
+    if (alike && !shadow.difference().empty())
+      options_.say(
+          fmt::format("what is inside the controller is not known any more: {}", shadow.difference()));
+    const Status told = status_;
+    status_ = shadow.status();
+    status_.decision.outcome = told.decision.outcome;
+    status_.decision.mode = told.decision.mode;
+    status_.decision.why = told.decision.why;
+    status_.health.fault = told.health.fault;
+  }
+
   void take_reports() {
-    const auto known = sigma();
-    status_.sigma_known = known.has_value();
-    if (known) status_.sigma = *known;
+    if (!sees_inside()) {
+      const auto known = sigma();
+      status_.sigma_known = known.has_value();
+      if (known) status_.sigma = *known;
+    }
     can::FixReply reply;
     if (!node_.replied(reply)) return;
     status_.health.fix_jumps = reply.jumps;

@@ -10,6 +10,7 @@
 #include "firmware/can/rules_server.hpp"
 #include "host/harness/hil/clock.hpp"
 #include "host/harness/hil/figures.hpp"
+#include "host/harness/hil/replay.hpp"
 #include "host/harness/run/pilot.hpp"
 
 namespace whisker::hil {
@@ -46,6 +47,7 @@ struct BusOptions {
   can::Order order = can::Order::start;            ///< with which the run begins: one that drives
   std::optional<planning::Goal> goal;              ///< instead of the scenario's
   can::SyncMode sync_mode = can::SyncMode::lockstep;
+  Shadow* shadow = nullptr;           ///< of a controller on this computer: what it knows is known
   std::uint32_t resend_ms = 20;       ///< lockstep: the shortest wait before a set is repeated, see Resend
   std::uint32_t patience_ms = 30000;  ///< for the answer to one request while the handshake holds
   std::function<void(const std::string&)> say;  ///< receives each awaited item once; "": it drives

@@ -44,6 +44,8 @@ class Judge {
   bool guards_ = false;
 };
 
+}  // namespace
+
 class Replay {
  public:
   explicit Replay(const ReplayOptions& options)
@@ -66,6 +68,8 @@ class Replay {
     ++(sender->whole ? result_.frames : result_.damaged);
     if (sender->whole) execute(sender->kind, frame);
   }
+
+  const std::string& difference() const { return result_.difference; }
 
   ReplayResult result() {
     step_guard(nullptr);
@@ -251,7 +255,8 @@ class Replay {
   }
 
   void differ(const std::string& what) {
-    if (result_.difference.empty()) result_.difference = fmt::format("line {}: {}", line_, what);
+    if (!result_.difference.empty()) return;
+    result_.difference = line_ == 0 ? what : fmt::format("line {}: {}", line_, what);
   }
 
   const ReplayOptions& options_;
@@ -261,7 +266,7 @@ class Replay {
   GuardReplay guard_;
   ReplayResult result_;
   CommandHash hash_;
-  std::uint64_t line_ = 0;
+  std::uint64_t line_ = 0;  // 0: not from a log
 
   std::optional<can::RulesOrder> rules_order_;  // not answered
   Overheard overheard_{Params{}, [this](auto who, auto order, const auto& m) { accept(who, order, m); }};
@@ -274,8 +279,6 @@ class Replay {
   std::uint16_t waits_for_ = 0;  // tick of the guard's answer
   std::uint8_t counter_ = 0;
 };
-
-}  // namespace
 
 ReplayResult replay(std::istream& log, const std::string& name, const ReplayOptions& options) {
   Replay replay(options);
@@ -307,5 +310,32 @@ ReplayResult replay(std::istream& log, const std::string& name, const ReplayOpti
   result.skipped = reader.skipped();
   return result;
 }
+
+Shadow::Shadow(int robot, PlannerKind planner) {
+  options_.robot = robot;
+  options_.planner = planner;
+  options_.stepped = [this](const can::InputSet&, const Status& status,
+                            const perception::LocalGrid* local_grid, const RecordingGuide* guide) {
+    status_ = status;
+    local_grid_ = local_grid;
+    guide_ = guide;
+    stepped_ = true;
+  };
+  replay_ = std::make_unique<Replay>(options_);
+}
+
+Shadow::~Shadow() = default;
+
+void Shadow::hear(const hal::CanFrame& frame, std::uint64_t time_us) {
+  heard_.push_back({time_us, "", frame});
+}
+
+bool Shadow::follow() {
+  for (const LogFrame& entry : heard_) replay_->on_frame(entry, 0);
+  heard_.clear();
+  return stepped_;
+}
+
+const std::string& Shadow::difference() const { return replay_->difference(); }
 
 }  // namespace whisker::hil

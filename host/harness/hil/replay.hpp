@@ -7,10 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "firmware/can/input_set.hpp"
 #include "firmware/can/mission.hpp"
 #include "firmware/robot.hpp"
+#include "hal/can_port.hpp"
+#include "host/harness/hil/candump.hpp"
 #include "host/harness/hil/host_rules.hpp"
 #include "host/harness/run/planners.hpp"
 
@@ -51,5 +54,35 @@ struct ReplayResult {
 /// first mission. `name` is the name of the log in messages. Throws as LogReader, and std::runtime_error for
 /// what cannot be replayed.
 ReplayResult replay(std::istream& log, const std::string& name, const ReplayOptions& options);
+
+class Replay;
+
+/// A core that takes the steps of a controller on this computer, from the frames of its bus, and so knows
+/// what the bus does not carry.
+class Shadow {
+ public:
+  Shadow(int robot, PlannerKind planner);
+  ~Shadow();
+  /// Any frame on the bus, in this order; it is only kept. time_us: of any clock.
+  void hear(const hal::CanFrame& frame, std::uint64_t time_us);
+  /// Takes the steps that the frames heard have the answers of. False: there was none yet.
+  bool follow();
+  /// The first answer of the controller that this core would not have given; "": none.
+  const std::string& difference() const;
+
+  /// Of the last step.
+  const Status& status() const { return status_; }
+  const perception::LocalGrid* local_grid() const { return local_grid_; }
+  const RecordingGuide* guide() const { return guide_; }
+
+ private:
+  ReplayOptions options_;
+  std::unique_ptr<Replay> replay_;
+  std::vector<LogFrame> heard_;
+  Status status_;
+  const perception::LocalGrid* local_grid_ = nullptr;
+  const RecordingGuide* guide_ = nullptr;
+  bool stepped_ = false;
+};
 
 }  // namespace whisker::hil

@@ -42,7 +42,7 @@ MapWatch::MapWatch(const Params& params)
 
 bool MapWatch::look(const RecordingGuide* guide) {
   ++since_;
-  if (guide == nullptr || since_ < every_ || !guide->inside().planned()) return false;
+  if (guide == nullptr || !guide->started() || since_ < every_ || !guide->inside().planned()) return false;
   since_ = 0;
   last_ = picture_of(*guide);
   return true;

@@ -11,6 +11,7 @@ class RecordingGuide final : public planning::GlobalPlanner {
   explicit RecordingGuide(planning::WavefrontPlanner& guide) : guide_(guide) {}
 
   void start(const planning::View& view, const planning::Goal& goal) noexcept override {
+    started_ = true;
     said_ = Guidance::none;
     goal_ = goal.at;
     body_ = view.pose.at;
@@ -38,6 +39,8 @@ class RecordingGuide final : public planning::GlobalPlanner {
   bool knows_no_way() const noexcept override { return guide_.knows_no_way(); }
   bool doubt() noexcept override { return guide_.doubt(); }
 
+  /// Before its first start, its map is no map.
+  bool started() const { return started_; }
   /// Its last advice. It is asked in free space only, and the advice ends with its final refusal.
   Guidance said() const { return said_; }
   /// The way point, in the frame of the estimate; only if has_place().
@@ -58,6 +61,7 @@ class RecordingGuide final : public planning::GlobalPlanner {
   }
 
   planning::WavefrontPlanner& guide_;
+  bool started_ = false;
   Guidance said_ = Guidance::none;
   Vec way_;
   Vec body_;

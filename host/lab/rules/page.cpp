@@ -12,6 +12,7 @@
 #include "host/lab/report/svg.hpp"
 #include "host/lab/rules/findings.hpp"
 #include "host/lab/rules/page_template.hpp"
+#include "host/lab/rules/response.hpp"
 #include "host/lab/rules/rule_text.hpp"
 
 namespace whisker::rules {
@@ -29,7 +30,7 @@ constexpr double kRow = 200;     ///< of the memberships
 constexpr double kMapRow = 500;  ///< of the surfaces
 constexpr double kColumn = 540;
 constexpr int kCells = 100;
-constexpr int kLevels = 32;
+constexpr int kLevels = 33;  // odd, so that zero has its own level in the middle of a diverging scale
 
 /// Distinct in hue for colour-blind eyes; neighbours also differ in dashes for grey print.
 constexpr const char* kColours[] = {"#225aa0", "#c2690a", "#00795c", "#a0337a", "#3a3a3a"};
@@ -47,12 +48,12 @@ Range span_over(const std::vector<double>& values) {
 /// One variable: each set as a curve, each crisp term as a line at its constant.
 void draw_sets(Svg& svg, Point corner, const std::string& name, Range range, const std::vector<Term>& terms) {
   const Plot plot{corner, kWidth, kSetHeight, {range.low, range.high}, {0, 1}};
-  svg.rect(plot.corner, plot.width, plot.height, R"(fill="#fff")");
+  svg.rect(plot.corner, plot.width, plot.height, R"(class="ground" fill="#fff")");
   draw_plot_axes(svg, plot, name, "membership", 8, 2);
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const std::string stroke =
-        fmt::format(R"(fill="none" stroke="{}" stroke-width="1.8" stroke-dasharray="{}")", kColours[t % 5],
-                    t % 2 == 0 ? "none" : "7 3");
+        fmt::format(R"(class="set set-{}" fill="none" stroke="{}" stroke-width="1.8" stroke-dasharray="{}")",
+                    t % 5, kColours[t % 5], t % 2 == 0 ? "none" : "7 3");
     double peak = terms[t].constant;
     if (terms[t].crisp) {
       const double x = std::min(std::max(peak, range.low), range.high);
@@ -70,7 +71,8 @@ void draw_sets(Svg& svg, Point corner, const std::string& name, Range range, con
     }
     const Point at = plot.page(std::min(std::max(peak, range.low), range.high), 1);
     svg.text({at.x, at.y - 4 - (t % 2 == 0 ? 0 : 10)}, report::shortened(terms[t].name, 12),
-             fmt::format(R"(text-anchor="middle" font-size="9" fill="{}")", kColours[t % 5]));
+             fmt::format(R"(class="set set-{}" text-anchor="middle" font-size="9" fill="{}")", t % 5,
+                         kColours[t % 5]));
   }
 }
 
@@ -86,41 +88,62 @@ void draw_line(Svg& svg, Point corner, const RuleBase& base, const Surface& s, s
     const Point p = plot.page(part.axis.value(part.from + i), s.values[o][static_cast<std::size_t>(i)]);
     i == 0 ? data.move(p) : data.line(p);
   }
-  svg.path(data, R"(fill="none" stroke="#225aa0" stroke-width="1.8")");
+  svg.path(data, R"(class="set set-0" fill="none" stroke="#225aa0" stroke-width="1.8")");
+}
+
+/// The core's response table is drawn as `whisker table` and the replay page draw it: the distance upward,
+/// and the bias to the left, so that the left side means nearer on the left.
+bool is_response(const RuleBase& base, const Domain& domain) {
+  const ResponseNames names;
+  const auto axis = [&](std::size_t part) { return base.inputs[domain.parts[part].axis.input].name; };
+  return axis(0) == names.distance && axis(1) == names.bias;
 }
 
 /// An output over two inputs: the first to the right, the second upward.
 void draw_map(Svg& svg, Point corner, const RuleBase& base, const Surface& s, std::size_t o) {
-  const Domain::Part& a = s.domain.parts[0];
-  const Domain::Part& b = s.domain.parts[1];
-  const Plot plot{corner,
-                  kWidth,
-                  kMapHeight,
-                  {a.axis.value(a.from), a.axis.value(a.to)},
-                  {b.axis.value(b.from), b.axis.value(b.to)}};
-  const Range range = span_over(s.values[o]);
-  const report::ColourScale scale = report::ColourScale::sequential(range.low, range.high);
+  const bool turned = is_response(base, s.domain);
+  const Domain::Part& across = s.domain.parts[turned ? 1 : 0];
+  const Domain::Part& up = s.domain.parts[turned ? 0 : 1];
+  const Input& x = base.inputs[across.axis.input];
+  const Input& y = base.inputs[up.axis.input];
+  const Plot plot{
+      corner, kWidth, kMapHeight, {turned ? x.high : x.low, turned ? x.low : x.high}, {y.low, y.high}};
+  const Range span = span_over(s.values[o]);
+  const bool is_signed = base.outputs[o].low == -base.outputs[o].high;
+  const double most = std::max(-span.low, span.high);
+  const Range range = is_signed ? Range{-most, most} : span;
+  const report::ColourScale scale = is_signed ? report::ColourScale::diverging(range.low, range.high)
+                                              : report::ColourScale::sequential(range.low, range.high);
+  const auto index = [](const Domain::Part& part, const report::Range& shown, int cell) {
+    const double value = shown.min + (shown.max - shown.min) * (cell + 0.5) / kCells;
+    const double raw = std::round((value - part.axis.origin) * part.axis.per_unit);
+    return static_cast<std::size_t>(std::clamp<double>(raw, part.from, part.to) - part.from);
+  };
   std::vector<PathData> levels(kLevels);
   const double w = kWidth / kCells;
   const double h = kMapHeight / kCells;
   for (int i = 0; i < kCells; ++i) {
     for (int j = 0; j < kCells; ++j) {
-      const auto row = static_cast<std::size_t>((a.count() - 1) * (2 * i + 1) / (2 * kCells));
-      const auto column = static_cast<std::size_t>((b.count() - 1) * (2 * j + 1) / (2 * kCells));
-      const double value = s.values[o][row * static_cast<std::size_t>(b.count()) + column];
+      const std::size_t column = index(across, plot.x, i), row = index(up, plot.y, j);
+      const auto columns = static_cast<std::size_t>(s.domain.columns());
+      const double value = s.values[o][turned ? row * columns + column : column * columns + row];
       const double share = (value - range.low) / (range.high - range.low);
       const auto level = static_cast<std::size_t>(std::min(std::max(share * kLevels, 0.0), kLevels - 1.0));
       levels[level].box({corner.x + i * w, corner.y + kMapHeight - (j + 1) * h}, w, h);
     }
   }
+  svg.open(fmt::format(R"(class="{}")", is_signed ? "diverging" : "sequential"));
   svg.open(R"(shape-rendering="crispEdges")");
   for (std::size_t l = 0; l < kLevels; ++l) {
-    const double value = range.low + (range.high - range.low) * (static_cast<double>(l) + 0.5) / kLevels;
-    if (!levels[l].empty()) svg.path(levels[l], fmt::format(R"(fill="{}")", scale.at(value)));
+    const double share = (static_cast<double>(l) + 0.5) / kLevels;
+    if (levels[l].empty()) continue;
+    svg.path(levels[l], fmt::format(R"(data-k="{:.3f}" fill="{}")", share,
+                                    scale.at(range.low + (range.high - range.low) * share)));
   }
   svg.close();
-  draw_plot_axes(svg, plot, base.inputs[a.axis.input].name, base.inputs[b.axis.input].name, 8, 8);
+  draw_plot_axes(svg, plot, x.name, y.name, 8, 8);
   draw_colour_bar(svg, {corner.x + kWidth + 14, corner.y}, 14, kMapHeight, scale, 5);
+  svg.close();
 }
 
 using Json = nlohmann::ordered_json;

@@ -1,5 +1,7 @@
 /** The address of the page, kept up to date with what it shows. */
 
+import {element, setText} from './dom.ts';
+
 /** Browsers refuse more than about three changes of the address a second. */
 const EVERY_MS = 400;
 
@@ -37,6 +39,17 @@ export class Address {
       // The browser refuses it for now; a copied link does not depend on the address.
     }
   }
+}
+
+/** Shows what is wrong with the link that the page was opened with; "" for nothing. */
+export function sayLinkFault(fault: string): void {
+  element('link-fault').hidden = fault === '';
+  setText('link-fault', fault && `This link could not be read: ${fault}. Something else is shown.`);
+}
+
+/** The fault of a link with a part of this name. */
+export function unknownPart(name: string): string {
+  return `its part \u201c${name.slice(0, 20)}\u201d is unknown to this page`;
 }
 
 /** A link to this page with another hash. */

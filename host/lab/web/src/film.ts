@@ -1,4 +1,5 @@
-/** The local grid and the map over time, as host/harness/run/film.hpp and host/lab/page/map_film.hpp store them. */
+/** The local grid and the map over time, as host/harness/run/film.hpp and map_film.hpp beside it store them. */
+import {PLANNED} from './legend.ts';
 
 /** A sequence of bit pictures, each stored as its changes since the one before. */
 class Pictures {
@@ -85,7 +86,10 @@ export interface MapInfo {
 export class MapFilm extends Pictures {
   private x = new Float64Array();
   private y = new Float64Array();
+  /** What occurs in its pictures, for showMapKeys. */
+  readonly holds = new Set<number>();
   private readonly rowWords: number;
+  private scanned = 0;
 
   constructor(readonly info: MapInfo) {
     super((3 * info.columns * info.rows) / 32);
@@ -95,6 +99,22 @@ export class MapFilm extends Pictures {
   /** The windows of all pictures. */
   growWindows(x: Float64Array, y: Float64Array): void {
     Object.assign(this, {x, y});
+    for (; this.scanned < this.ticks.length; ++this.scanned) {
+      this.seek(this.ticks[this.scanned]);
+      this.scan();
+    }
+  }
+
+  private scan(): void {
+    const {picture, holds} = this;
+    const plane = picture.length / 3;
+    for (let i = 0; i < plane; ++i) {
+      const [high, low] = [picture[i], picture[i + plane]];
+      if (low & ~high) holds.add(1);
+      if (high & ~low) holds.add(2);
+      if (high & low) holds.add(3);
+      if (picture[i + 2 * plane]) holds.add(PLANNED);
+    }
   }
 
   /** First cell of the window of the picture that is shown, in cells of the world. */

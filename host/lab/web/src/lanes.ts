@@ -57,6 +57,10 @@ export class BlockLane implements Lane {
     this.grow();
   }
 
+  colours(): Set<Colour> {
+    return new Set(this.segments.map(({colour}) => colour));
+  }
+
   changes(): number[] {
     return this.stops ? this.segments.map(({from}) => from) : [];
   }

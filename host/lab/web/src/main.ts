@@ -1,7 +1,8 @@
+import {sayLinkFault} from './address.ts';
 import {CampaignView} from './campaign.ts';
 import {loadRun, pageData, type PageData, type Run} from './data.ts';
 import {element, setText} from './dom.ts';
-import {placeOf} from './link.ts';
+import {faultOf, placeOf} from './link.ts';
 import {Live} from './live.ts';
 import {openReplay, type Replay} from './replay.ts';
 import {Theme} from './theme.ts';
@@ -38,6 +39,13 @@ async function open(): Promise<void> {
     element(id).addEventListener('click', () => element<HTMLDialogElement>('keys').showModal());
   }
   const {run} = placeOf(location.hash);
+  const judge = () => {
+    const fault = faultOf(location.hash, data.runs.length);
+    sayLinkFault(fault);
+    return fault;
+  };
+  const fault = judge();
+  addEventListener('hashchange', judge);
   if (data.live) {
     view('waiting');
     const opened = (opened: Run, replay: Replay) => {
@@ -47,7 +55,7 @@ async function open(): Promise<void> {
     new Live(data, theme, opened, fail);
   } else if (!data.campaign) {
     await openRun(data, 0, theme);
-  } else if (run !== null && run < data.runs.length) {
+  } else if (run !== null && fault === '') {
     await openRun(data, run, theme);
   } else {
     view('campaign');

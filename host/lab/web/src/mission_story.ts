@@ -2,8 +2,10 @@
 import {speedOf, type Result, type Run, type Seen} from './data.ts';
 import {element, setText} from './dom.ts';
 import {BlockLane, type Lane} from './lanes.ts';
+import {showPathKeys} from './legend.ts';
 import {noiseWords, sharedFacts} from './run_facts.ts';
 import {showPartsOf, type Story} from './story.ts';
+import {usesTable} from './table_use.ts';
 import type {Colour} from './theme.ts';
 import {DOING_COLOURS, DOING_WIDTHS} from './way_looks.ts';
 import {metres, sentence, shownName, verdict, verdictClass} from './words.ts';
@@ -67,23 +69,25 @@ function orUnknown(distance: number | null): string {
 /** On a bus, part of the data stays in the controller. */
 function sayWhatIsUnknown(run: Run): void {
   const {inside, map} = run.info;
-  element('way-key').hidden = !run.map;
   element('map-unknown').hidden = !map || run.map !== null;
   element('counters-unknown').hidden = inside;
-  for (const id of ['course-key', 'rules']) element(id).hidden = !inside;
+  element('rules').hidden = !inside;
   element('clear-unknown').hidden = run.hasFilm;
 }
 
 export class MissionStory implements Story {
   readonly lanes: Lane[];
+  private readonly state: BlockLane;
+  private readonly map: BlockLane | null;
+  private scanned = 0;
+  private asksTable = false;
   readonly way = {column: 'doing', colours: DOING_COLOURS, widths: DOING_WIDTHS};
 
   constructor(private readonly run: Run) {
-    this.lanes = [
-      new BlockLane('state', run, (tick) => [shownName(run.mode(tick)), stateColour(run, tick)]),
-      new BlockLane('why', run, (tick) => this.why(tick)),
-    ];
-    if (run.map) this.lanes.push(new BlockLane('map', run, (tick) => this.guide(tick), false));
+    this.state = new BlockLane('state', run, (tick) => this.chip(tick));
+    this.map = run.map && new BlockLane('map', run, (tick) => this.guide(tick), false);
+    this.lanes = [this.state, new BlockLane('why', run, (tick) => this.why(tick))];
+    if (this.map) this.lanes.push(this.map);
   }
 
   open(): void {
@@ -91,6 +95,18 @@ export class MissionStory implements Story {
     setText('planner-name', plannerWords(this.run.info));
     setText('and-map', andMap(this.run.info));
     sayWhatIsUnknown(this.run);
+    this.grow();
+  }
+
+  /** Shows the keys of what has occurred. */
+  grow(): void {
+    const {run, state, map} = this;
+    for (; this.scanned < run.ticks; ++this.scanned) this.asksTable ||= usesTable(run, this.scanned);
+    state.grow();
+    map?.grow();
+    showPathKeys(state.colours());
+    element('way-key').hidden = !map?.colours().has('map');
+    element('course-key').hidden = !this.asksTable;
   }
 
   chip(tick: number): [words: string, colour: Colour] {

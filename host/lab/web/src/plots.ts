@@ -106,7 +106,7 @@ export class Plots {
       head.style.transform = `translateX(${at}px)`;
       plot.lines.forEach(({values: all}, i) => {
         const value = all()[tick] ?? null;
-        const text = value === null ? 'lost' : value.toFixed(2);
+        const text = value === null ? 'lost' : `${value.toFixed(2)} ${plot.unit}`;
         if (values[i].textContent !== text) values[i].textContent = text;
       });
     }
@@ -188,7 +188,7 @@ export class Plots {
       key.style.setProperty('--key', p[colour]);
       const value = document.createElement('b');
       const item = document.createElement('span');
-      item.append(key, ` ${label} `, value, ` ${plot.unit}`);
+      item.append(key, ` ${label} `, value);
       legend.append(item);
       return value;
     });
@@ -202,7 +202,7 @@ export class Plots {
       {
         width: Math.max(200, host.clientWidth),
         height: HEIGHT,
-        padding: [6, 4, 0, 0],
+        padding: [6, 20, 0, 0],
         legend: {show: false},
         cursor: {show: false},
         scales: {
@@ -211,7 +211,7 @@ export class Plots {
         },
         axes: [
           {...axis, size: 26, space: 60, values: (_, splits) => splits.map((s) => `${s} s`)},
-          {...axis, size: 36, space: 26},
+          {...axis, size: 44, space: 26},
         ],
         hooks: plot.edges ? {drawClear: [(u) => this.shadeEdges(u)]} : {},
         series: [

@@ -52,9 +52,7 @@ export class ProgressPanel {
     if (now === this.shown) return;
     this.shown = now;
     element('edges').hidden = edges.length === 0;
-    const none = result
-      ? 'No obstacle blocked the path in this run.'
-      : 'No obstacle has blocked the path so far.';
+    const none = result ? 'It followed no boundary in this run.' : 'It has followed no boundary so far.';
     setText('edges-none', edges.length === 0 ? none : '');
     this.rows = edges.map((edge, i) => this.row(edge, i));
     element('edge-rows').replaceChildren(...this.rows);

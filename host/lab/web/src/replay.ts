@@ -2,7 +2,7 @@
 import {Address} from './address.ts';
 import {CloseUp} from './closeup.ts';
 import {CommandArcs} from './command_arcs.ts';
-import type {Edge, Result, Run} from './data.ts';
+import {BEAMS, type Edge, type Result, type Run} from './data.ts';
 import {Facts} from './facts.ts';
 import {WayToGoal} from './goal.ts';
 import {Grants} from './grants.ts';
@@ -46,12 +46,13 @@ interface Parts {
 function missionParts(run: Run, player: Player, theme: Theme, way: WayToGoal): Parts {
   const response = new ResponsePanel(run, player, theme, run.shared.controller!);
   const progress = new ProgressPanel(run, player, way);
+  const story = new MissionStory(run);
   return {
-    story: new MissionStory(run),
+    story,
     commands: null,
     plots: [goalPlot(run, way)],
     panels: [response, progress],
-    growing: [progress],
+    growing: [story, progress],
     restyle: () => response.restyle(),
   };
 }
@@ -71,6 +72,14 @@ function guardParts(run: Run, player: Player): Parts {
     growing: [],
     restyle: () => undefined,
   };
+}
+
+/** The first tick at which all beams have been read; 0 if that never is. */
+function firstSight(run: Run): number {
+  const blind = (tick: number) => BEAMS.some((_, beam) => run.range(beam, tick) === null);
+  let tick = 0;
+  while (tick < run.ticks && blind(tick)) ++tick;
+  return tick < run.ticks ? tick : 0;
 }
 
 /** `index` is the run's number in the address; null if there is only one. `live`: more ticks follow. */
@@ -117,7 +126,7 @@ export function openReplay(run: Run, index: number | null, theme: Theme, live = 
     if (time !== null && player.run.tickAt(time) !== player.tick) player.seekTime(time);
   };
   addEventListener('hashchange', followAddress);
-  if (live) player.seek(player.end);
+  player.seek(live ? player.end : firstSight(run));
   followAddress();
   player.request();
   let plotsWait = false;

@@ -6,6 +6,7 @@ import type {Run} from './data.ts';
 import {element, Surface} from './dom.ts';
 import type {Player} from './player.ts';
 import {listenToHands} from './hands.ts';
+import {showMapKeys} from './legend.ts';
 import {Scenery} from './scenery.ts';
 import {sceneBox} from './scene_box.ts';
 import {pathPieces, type Piece} from './shapes.ts';
@@ -56,6 +57,7 @@ export class WorldView {
   /** The run has more ticks. */
   grow(): void {
     this.extend();
+    this.showMapKeys();
     const box = sceneBox(this.run);
     const same = (['left', 'bottom', 'right', 'top'] as const).every((side) => box[side] === this.box[side]);
     this.box = box;
@@ -123,9 +125,7 @@ export class WorldView {
 
   private showMapKeys(): void {
     element('show-map').setAttribute('aria-pressed', String(this.showsMap));
-    for (const key of document.querySelectorAll<HTMLElement>('.map-key')) {
-      key.hidden = !this.run.map || !this.showsMap;
-    }
+    showMapKeys((this.showsMap && this.run.map?.holds) || new Set());
   }
 
   /** The last piece may become longer. */

@@ -1,5 +1,6 @@
 /** The controls of world, planner and speed, and the keys. */
 import {element, make, setText} from '../dom.ts';
+import {showMapKeys, showPathKeys} from '../legend.ts';
 import {ending, shownName} from '../words.ts';
 import {YOU} from './driver.ts';
 import type {Playground} from './playground.ts';
@@ -55,8 +56,13 @@ export class Controls {
     for (const name of Object.keys(play.teams)) {
       element(`who-${name}`).setAttribute('aria-pressed', String(name === who));
     }
-    const noMap = play.runs.every((run) => run.map === null);
-    for (const key of document.querySelectorAll<HTMLElement>('.map-key')) key.hidden = noMap;
+    showMapKeys(new Set(play.runs.flatMap(({map}) => [...(map?.holds ?? [])])));
+    if (!play.drivenByUser) {
+      element('course-key').hidden = !play.runs.some(
+        ({planner, info}) => planner === 'thesis' || info.robot.bends,
+      );
+      showPathKeys(new Set(play.runs.flatMap(({stretches, looks}) => stretches.map(({kind}) => looks.colours[kind])))); // prettier-ignore
+    }
     element('original').hidden = own === null;
     element('play').setAttribute('aria-label', play.playing ? 'Pause' : 'Play');
     element('play').classList.toggle('playing', play.playing);

@@ -8,14 +8,11 @@ import {Hand} from './hand.ts';
 import type {Playground} from './playground.ts';
 import {showPartsOf} from '../story.ts';
 
-/** Reasons of the legend: the others are rare. */
-const LEGEND = ['clear', 'nodding', 'obstacle', 'unseen', 'assisted'];
-
 const HINT = 'Drive with the arrow keys, W A S D or the joystick, and try to hit something.';
 const OVER = 'The drive is over: Again, or the key r, puts the robot back to its start.';
 
 /** There, world and joystick do not fit below the head of the page. */
-const PHONE = '(max-width: 560px)';
+const SMALL = '(max-width: 560px), (max-height: 640px)';
 
 /** A scale from -1 to 1 with what is granted as an area and what is asked as a mark. */
 function showMeter(id: string, asked: number, granted: number, colour: string): void {
@@ -30,10 +27,13 @@ function showMeter(id: string, asked: number, granted: number, colour: string): 
 export class DriveBar {
   private readonly hand: Hand;
   private shown: boolean | null = null;
+  /** By reason. */
+  private readonly keys: HTMLElement[];
 
   constructor(
     private readonly play: Playground,
     private readonly driver: Driver,
+    reasons: string[],
     private readonly most: {forward: number; turning: number},
   ) {
     this.hand = new Hand({
@@ -48,14 +48,14 @@ export class DriveBar {
     for (const name of SWITCHES) {
       element(`switch-${name}`).addEventListener('click', () => this.toggle(name));
     }
-    const keys = LEGEND.map((reason) => {
+    this.keys = reasons.map((reason) => {
       const key = make('span', 'key');
       key.style.setProperty('--key', `var(--${REASONS[reason].colour})`);
       const item = make('li', '', [key, document.createTextNode(shownName(reason))]);
-      item.dataset.of = 'guard';
+      item.hidden = true;
       return item;
     });
-    element('clear-key').before(...keys);
+    element('clear-key').before(...this.keys);
   }
 
   update(): void {
@@ -64,10 +64,13 @@ export class DriveBar {
       this.shown = play.drivenByUser;
       showPartsOf(this.shown ? 'guard' : 'mission');
       this.hand.release();
-      if (this.shown && matchMedia(PHONE).matches) element('cards').scrollIntoView();
+      if (this.shown && matchMedia(SMALL).matches) element('cards').scrollIntoView();
     }
     const run = play.runs[0];
-    if (!(run instanceof GuardRun)) return;
+    const drives = run instanceof GuardRun;
+    const came = new Set(run.stretches.map(({kind}) => kind));
+    this.keys.forEach((key, reason) => (key.hidden = !drives || !came.has(reason)));
+    if (!drives) return;
     this.showKnob();
     setText('drive-hint', run.over ? OVER : HINT);
     for (const name of SWITCHES) {

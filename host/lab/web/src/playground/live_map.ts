@@ -1,5 +1,6 @@
 /** The current map of a robot, as host/lab/play/exports.cpp exports it. */
 import type {MapInfo} from '../film.ts';
+import {PLANNED} from '../legend.ts';
 import type {MapSeen} from '../map_scenery.ts';
 
 export class LiveMap implements MapSeen {
@@ -7,6 +8,8 @@ export class LiveMap implements MapSeen {
   corner: [x: number, y: number] = [0, 0];
   private states: Float64Array = new Float64Array();
   private way = new Set<number>();
+  /** What has occurred in its pictures, for showMapKeys. */
+  readonly holds = new Set<number>();
   /** Pictures so far. */
   private count = 0;
 
@@ -23,6 +26,8 @@ export class LiveMap implements MapSeen {
     this.way.clear();
     for (let i = 5 + columns * rows; i < told.length; i += 2) this.way.add(told[i] + columns * told[i + 1]);
     ++this.count;
+    for (const state of this.states) this.holds.add(state);
+    if (this.way.size > 0) this.holds.add(PLANNED);
   }
 
   seek(): number {

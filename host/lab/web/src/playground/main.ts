@@ -1,6 +1,6 @@
 import {CloseUp} from '../closeup.ts';
 import {bytesOfBase64, inflated} from '../columns.ts';
-import {Address} from '../address.ts';
+import {Address, sayLinkFault} from '../address.ts';
 import {element, setText} from '../dom.ts';
 import {ResponsePanel} from '../response.ts';
 import {firedRules} from '../rules.ts';
@@ -27,11 +27,6 @@ const FIRST: State = {kind: 'u-trap', seed: 7, who: 'skirt-map', own: null, nois
 const PANELS_EVERY = 80;
 
 const NO_SUCH_WORLD = 'its world is not valid, or too large for this page';
-
-function sayLinkFault(fault: string): void {
-  element('link-fault').hidden = fault === '';
-  setText('link-fault', fault && `This link could not be read: ${fault}.`);
-}
 
 async function module(): Promise<Uint8Array> {
   return inflated(bytesOfBase64(element('module').textContent ?? ''));
@@ -75,7 +70,7 @@ async function open(): Promise<void> {
   });
   // Before the controls: the keys of a driver come first.
   const most = {forward: core.robot.max_speed, turning: MOST_TURNING};
-  const bar = new DriveBar(play, driver, most);
+  const bar = new DriveBar(play, driver, core.words.reasons, most);
   const controls = new Controls(play, stage, core.words.kinds);
   offerFiles(play, core, driver);
 

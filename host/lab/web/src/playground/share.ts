@@ -1,4 +1,5 @@
 /** The whole state of the page in its address. */
+import {unknownPart} from '../address.ts';
 import {bytesOfBase64, inflatedUpTo} from '../columns.ts';
 import {YOU} from './driver.ts';
 import {flat, situationOf, type Situation} from './situation.ts';
@@ -80,6 +81,8 @@ async function ownOf(text: string): Promise<Situation> {
   }
 }
 
+const PARTS = ['world', 'seed', 'planner', 'noise', 'rules', 'own'];
+
 type Words = {kinds: string[]; planners: string[]};
 
 /** Throws LinkError. */
@@ -94,6 +97,8 @@ async function readLink(hash: string, {kinds, planners}: Words, otherwise: State
     return value;
   };
   const own = params.get('own');
+  const stranger = [...params.keys()].find((name) => !PARTS.includes(name));
+  demand(stranger === undefined, null, unknownPart(stranger ?? ''));
   return {
     kind: take(
       'world',
