@@ -21,8 +21,10 @@ HEADER = "t_s,v_mps,omega_radps"
 
 
 def own(terminal):
-    """The process that calls it gets this as the terminal of its own session."""
+    """The process that calls it gets this as the terminal of its own session, and the signals of a shell's job."""
     os.setsid()
+    for number in (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP, signal.SIGTERM, signal.SIGTSTP):
+        signal.signal(number, signal.SIG_DFL)
     fcntl.ioctl(terminal, termios.TIOCSCTTY, 0)
 
 

@@ -239,16 +239,18 @@ void add_file(Rows& rows, const std::string& file) {
   if (!in) throw InputError(file, 1, 1, std::generic_category().message(errno));
   std::ostringstream text;
   if (in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
-  if (in.bad() || text.bad()) throw InputError(file, 1, 1, "cannot be read");
+  if (in.bad() || text.bad()) throw InputError(file, 1, 1, "cannot read the file");
   add_text(rows, file, text.str());
 }
 
-/// What tells campaigns apart: planner, robot, worlds, first seed, number of missions.
+/// What tells campaigns apart: planner, robot (random ones count as one), worlds, first seed, number of
+/// missions.
 using Campaign = std::tuple<std::string, std::string, std::string, std::uint64_t, std::uint64_t>;
 
 Campaign campaign_of(const Row& r) {
   const bool files = is_scenario_file(r.world);
-  return {r.planner, r.robot, files ? r.world.substr(0, r.world.rfind('/') + 1) : r.world,
+  const std::string robot = r.robot.rfind("random ", 0) == 0 ? "random" : r.robot;
+  return {r.planner, robot, files ? r.world.substr(0, r.world.rfind('/') + 1) : r.world,
           files ? 0 : r.seed - r.mission, r.missions};
 }
 
