@@ -1,5 +1,6 @@
 #include "host/harness/run/runner.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -55,6 +56,26 @@ TEST(Run, AnEmptyWorldIsCrossedStraight) {
   EXPECT_NEAR(d.result.path_m, 2.0, 0.1);
   EXPECT_LT(d.result.final_distance_m, 0.1);
   EXPECT_EQ(d.records.size(), d.result.ticks);
+}
+
+TEST(Run, ADoorIsPassedAtTheFirstApproach) {
+  // From the start, a cone covers the door and its posts: the map suspects the door until the body is near.
+  for (const double width : {0.32, 0.36, 0.48}) {
+    for (const PlannerKind planner : {PlannerKind(PlannerKind::skirt), PlannerKind(PlannerKind::map)}) {
+      Scenario s = small_world("");
+      s.goal.at = {4, 0};
+      s.bounds = Bounds{{-1, -2}, {5, 2}};
+      for (const double side : {1.0, -1.0}) {
+        s.polygons.push_back(
+            {{2, side * width / 2}, {2.1, side * width / 2}, {2.1, side * 2}, {2, side * 2}});
+        if (side < 0) std::reverse(s.polygons.back().begin(), s.polygons.back().end());
+      }
+      const Drive d = drive(s, planner);
+      EXPECT_EQ(d.result.verdict, Verdict::reached) << width;
+      EXPECT_EQ(d.complaint, "");
+      EXPECT_LT(d.result.path_m, 4.5) << width << " m, " << name(planner);
+    }
+  }
 }
 
 TEST(Run, AFixIsTrueAtTheCountsOfItsTick) {

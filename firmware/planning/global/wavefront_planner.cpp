@@ -7,7 +7,9 @@ namespace {
 
 constexpr int32_t kRowsATick = 800;
 constexpr int32_t kEvery = 16;
-constexpr Length kDearer = 2500_mm;  // extra cost accepted to avoid suspected cells
+constexpr Length kDearer = 2500_mm;  // extra cost accepted to avoid suspected cells that are far away
+constexpr Length kLittle = 400_mm;   // the same if they are at hand
+constexpr Length kFarAway = 1500_mm;
 constexpr Length kHorizon = 3000_mm;
 constexpr Length kAhead = 600_mm;
 constexpr Length kSlack = 100_mm;
@@ -110,13 +112,12 @@ void WavefrontPlanner::plan(const View& view) noexcept {
     return;
   }
   if (!wavefront_.run(map_, kRowsATick * map_.shape().words)) return;
-  const int32_t dearer = reference(kDearer).raw() / map_.cell().raw();
   switch (stage_) {
     case Stage::idle: break;
     case Stage::strict:
       strict_ = wavefront_.reached() ? wavefront_.level() : kNoWay;
       if (!wavefront_.outside() &&
-          strict_ - cell_distance(map_.place(goal_.at) - map_.place(view.pose.at)) <= dearer) {
+          strict_ - cell_distance(map_.place(goal_.at) - map_.place(view.pose.at)) <= levels(kLittle)) {
         shut_ = false;
         break;
       }
@@ -131,7 +132,7 @@ void WavefrontPlanner::plan(const View& view) noexcept {
         waits_ = false;
         return;
       }
-      if (strict_ - wavefront_.level() > dearer) break;
+      if (strict_ - wavefront_.level() > accepted(view)) break;
       begin(Stage::again, view);
       return;
     case Stage::again: break;
@@ -139,6 +140,19 @@ void WavefrontPlanner::plan(const View& view) noexcept {
   finish(view);
   stage_ = Stage::idle;
   waits_ = false;
+}
+
+int32_t WavefrontPlanner::levels(Length l) const noexcept { return reference(l).raw() / map_.cell().raw(); }
+
+/// How many levels the body may drive more to avoid suspected cells of the plan: about the way to them and
+/// back, because it sees on the way whether they are there.
+int32_t WavefrontPlanner::accepted(const View& view) const noexcept {
+  const int32_t most = levels(kFarAway);
+  const Cell goal = map_.place(goal_.at);
+  Cell p = map_.place(view.pose.at);
+  int32_t steps = 0;
+  while (steps < most && wavefront_.next(map_, p, goal, p) && map_.at(p) != CellState::suspect) ++steps;
+  return steps == most ? levels(kDearer) : levels(kLittle) + 1 * steps;
 }
 
 bool WavefrontPlanner::sees(Vec from, Vec to) const noexcept {

@@ -41,6 +41,8 @@ class WavefrontPlanner final : public GlobalPlanner {
   void plan(const View& view) noexcept;
   void finish(const View& view) noexcept;
   Length dearer(Vec from, Vec to) const noexcept;
+  int32_t accepted(const View& view) const noexcept;
+  int32_t levels(Length l) const noexcept;
   bool straight(const View& view) const noexcept;
   bool sees(Vec from, Vec to) const noexcept;
   void place_virtual_obstacles() noexcept;
