@@ -36,6 +36,19 @@ constexpr Sensors hc_sr04(Angle side_angle) noexcept {
   return s;
 }
 
+/// VL53L0X time-of-flight sensors with their default timing, which see a grey target to 0.7 m:
+/// host/robots/vl53l0x.toml.
+constexpr Sensors vl53l0x(Angle side_angle) noexcept {
+  Sensors s{{}, 150_ms};
+  s.rangefinders.side_angle = side_angle;
+  s.rangefinders.max_range = 1200_mm;
+  s.rangefinders.clear_range = 700_mm;
+  s.rangefinders.rate_hz = 25;
+  s.rangefinders.latency = 40_ms;
+  s.rangefinders.incidence = 80_deg;
+  return s;
+}
+
 /// VL53L1X time-of-flight sensors, which see walls at almost any angle: host/robots/vl53l1x.toml.
 constexpr Sensors vl53l1x(Angle side_angle) noexcept {
   Sensors s{{}, 100_ms};

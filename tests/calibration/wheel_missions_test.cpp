@@ -66,6 +66,18 @@ Scenario ring_wall(double distance_m) {
   return world;
 }
 
+TEST(WheelMissions, ADistanceBeyondTheRangeIsNoStructure) {
+  Scenario of = robot("gyro");
+  of.sensor.max_range_m = 4;
+  std::string troubles[2];
+  for (const Far far : {Far::clear, Far::distance}) {
+    of.sensor.far_is = far;
+    troubles[far == Far::distance] = Mission(of, kWrong).spin(ring(5, 2.6)).trouble;
+  }
+  EXPECT_NE(troubles[0], "");
+  EXPECT_EQ(troubles[1], troubles[0]);
+}
+
 TEST(WheelMissions, ASpinMeasuresGyroAndTrackInEveryScene) {
   const std::uint64_t robots = test::effort(6);
   for (std::uint64_t seed = 1; seed <= robots; ++seed) {

@@ -185,9 +185,9 @@ class RobotCheck(Case):
 
 
 class Header(Case):
-    def compiled(self, text, compiler="g++"):
+    def compiled(self, text, core=ROOT, compiler="g++"):
         source = self.file("use.cpp", text)
-        command = [compiler, "-std=c++17", "-Wall", "-Wextra", "-Werror", "-Wconversion", f"-I{ROOT}", f"-I{self.folder}", "-fsyntax-only", source]
+        command = [compiler, "-std=c++17", "-Wall", "-Wextra", "-Werror", "-Wconversion", f"-I{core}", f"-I{self.folder}", "-fsyntax-only", source]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
@@ -200,12 +200,15 @@ class Header(Case):
         text = header.read_text()
         self.assertIn("static_assert(whisker::check(my_robot()) == whisker::ParamFault::none", text)
         self.assertEqual(text.count("  p."), 5, "only what differs from the reference robot")
-        self.compiled(
-            '#include "my_robot.hpp"\n#include "my_robot.hpp"\nusing namespace whisker;\n'
-            "static_assert(my_robot().body.radius == 75_mm && my_robot().conditioning.reads == 5);\n"
-            "static_assert(my_robot().conditioning.consensus == Consensus::median);\n"
-            "static_assert(my_robot().motion.turn_tolerance == Angle::turns(25, 3600));\n"
-        )
+        subprocess.run([ROOT / "scripts/amalgamate", self.folder / "two"], check=True, capture_output=True)
+        for core in (ROOT, self.folder / "two"):
+            self.compiled(
+                '#include "my_robot.hpp"\n#include "my_robot.hpp"\nusing namespace whisker;\n'
+                "static_assert(my_robot().body.radius == 75_mm && my_robot().conditioning.reads == 5);\n"
+                "static_assert(my_robot().conditioning.consensus == Consensus::median);\n"
+                "static_assert(my_robot().motion.turn_tolerance == Angle::turns(25, 3600));\n",
+                core,
+            )
 
     def test_every_parameter_has_its_field(self):
         """Each parameter slightly off its default, if the relations hold with that change alone."""

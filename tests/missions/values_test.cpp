@@ -85,6 +85,7 @@ void expect_the_same_robot(const Sensors& sensors, const char* file) {
 
 TEST(Presets, AreTheRobotsOfTheirFiles) {
   expect_the_same_robot(hc_sr04(Angle::turns(375, 3600)), "hc-sr04.toml");
+  expect_the_same_robot(vl53l0x(30_deg), "vl53l0x.toml");
   expect_the_same_robot(vl53l1x(30_deg), "vl53l1x.toml");
 }
 

@@ -47,7 +47,11 @@ std::string robot_header(const Params& params, const std::string& source) {
   return fmt::format(R"(// {}, written by `whisker robot check`: what differs from Whisker's reference robot.
 #pragma once
 
+#if __has_include("firmware/params.hpp")
 #include "firmware/params.hpp"
+#else
+#include "whisker.hpp"  // the core as two files, Arduino's, PlatformIO's
+#endif
 
 constexpr whisker::Params my_robot() noexcept {{
   using namespace whisker;
