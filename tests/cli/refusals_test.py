@@ -1,14 +1,57 @@
 """Every error is one line on standard error, before any file is written."""
 
 import os
-import re
 import pathlib
+import random
+import re
 import subprocess
 
 import whisker
 from whisker import SCENARIOS, Case
 
 SCENE = (SCENARIOS / "no_time.toml").read_text()
+
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+# Words that mean nothing, or too much, wherever they stand.
+WORDS = """nan -nan inf -1 0 1 2 1e999 1e-320 99999999999999999999 0x10 abc 3.5 -0 1,5 vcan9 ../x %s%n rooms map true - . nofile /dev/null
+bad.toml bytes.dat""".split()  # fmt: skip
+WORDS += ["", " ", "\u0661", "\x1b[31m", "a" * 300, *map(str, (SCENARIOS / "nothing.toml", ROOT / "host/robots/hc-sr04.toml", ROOT / "host/rules/examples/tip.fis"))]
+# They drive for minutes if nothing is wrong.
+LONG = {("operators",), ("movers",), ("figures",), ("hunt",)}
+
+
+def commands(*names):
+    """Every command that does something, with its options."""
+    text = whisker.whisker(*names, "--help").stdout
+    below = re.search(r"^(?:Subcommands|SUBCOMMANDS):\n((?:  .*\n)+)", text, re.MULTILINE)
+    found = [line.split()[0] for line in below[1].splitlines() if re.match("  [a-z]", line)] if below else []
+    if not found:
+        yield names, sorted({*re.findall("--[a-z][a-z0-9-]*", text)} - {"--help", "--view-stay"})
+    for name in found:
+        yield from commands(*names, name)
+
+
+class Drawn(Case):
+    def test_no_line_crashes_hangs_or_speaks_of_the_library(self):
+        seed = int(os.environ.get("SEED", "1"))
+        print("SEED", seed, flush=True)
+        rng = random.Random(seed)
+        self.file("bad.toml", "[start\nx=nan")
+        (self.folder / "bytes.dat").write_bytes(rng.randbytes(4000))
+        known = [(names, options) for names, options in commands() if names not in LONG]
+        self.assertGreater(len(known), 30)
+        for _ in range(2000 if "WHISKER_LONG" in os.environ else 400):
+            names, options = rng.choice(known)
+            line = [*names, *rng.choices(WORDS, k=rng.randrange(3))]
+            for option in rng.choices(options, k=rng.randrange(4)) if options else ():
+                line += [option] + rng.choices(WORDS, k=rng.random() < 0.75)
+            done = subprocess.run([whisker.binary, *line], stdin=subprocess.DEVNULL, capture_output=True, timeout=60, cwd=self.folder)
+            error = done.stderr.decode(errors="replace")
+            with self.subTest(line):
+                self.assertIn(done.returncode, range(8), error)
+                self.assertNotRegex(error, r"terminate|what\(\)|std::|Assertion|logic_error|bad_alloc|basic_string|stoi|stod|\x1b")
+                self.assertTrue(error.strip() or done.returncode in (0, 3, 4, 5, 6, 7), "a failure without a word")
 
 
 class Refusals(Case):
