@@ -32,6 +32,14 @@ std::string in_a_comment(std::string text) {
   return text;
 }
 
+/// The second one is for the core as two files, Arduino's and PlatformIO's.
+constexpr const char* kCore =
+    "#if __has_include(\"firmware/params.hpp\")\n"
+    "#include \"firmware/params.hpp\"\n"
+    "#else\n"
+    "#include \"whisker.hpp\"\n"
+    "#endif\n";
+
 }  // namespace
 
 std::string robot_header(const Params& params, const std::string& source) {
@@ -47,12 +55,7 @@ std::string robot_header(const Params& params, const std::string& source) {
   return fmt::format(R"(// {}, written by `whisker robot check`: what differs from Whisker's reference robot.
 #pragma once
 
-#if __has_include("firmware/params.hpp")
-#include "firmware/params.hpp"
-#else
-#include "whisker.hpp"  // the core as two files, Arduino's, PlatformIO's
-#endif
-
+{}
 constexpr whisker::Params my_robot() noexcept {{
   using namespace whisker;
   Params p;
@@ -60,7 +63,7 @@ constexpr whisker::Params my_robot() noexcept {{
 }}
 static_assert(whisker::check(my_robot()) == whisker::ParamFault::none, "the parameters do not fit together");
 )",
-                     in_a_comment(source), lines);
+                     in_a_comment(source), kCore, lines);
 }
 
 }  // namespace whisker
