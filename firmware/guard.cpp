@@ -175,8 +175,8 @@ GuardReason Guard::held_by(const planning::VelocityRequest& asked, bool doubted)
   const perception::LocalGrid& grid = local_grid();
   const Pose pose = chassis_.pose();
   const Angle way = pose.heading + (asked.forward < Speed{} ? 180_deg : Angle{});
-  const perception::Obstacles found = grid.along(pose.at, way, params_.body.radius, grid.reach().guard, 1);
-  return found.suspect > 0 ? GuardReason::obstacle : GuardReason::unseen;
+  const int32_t suspects = grid.suspects_along(pose.at, way, params_.body.radius, grid.reach().guard, 1);
+  return suspects > 0 ? GuardReason::obstacle : GuardReason::unseen;
 }
 
 }  // namespace whisker

@@ -94,7 +94,8 @@ Scenario fitted(Scenario s, const Params& params, const Sensor& sensor) {
 
 /// With these sensors and no other noise, in worlds that scale with the body. The parameters must pass
 /// check().
-std::vector<TestDrive> test_drives(const Params& params, const Sensor& sensor, PlannerKind planner) {
+std::vector<TestDrive> test_drives(Params params, const Sensor& sensor, PlannerKind planner) {
+  bend_if_chosen(params, planner);
   const double wide = 2.8 * (1 + metres(params.skirt.planning_margin) / metres(params.body.radius));
   const std::pair<const char*, Scenario> worlds[] = {
       {"the empty world", empty_world()},
@@ -226,27 +227,20 @@ int execute(const RobotOptions& o) {
       fmt::print(out, "body: within {:.4f} m around the middle of the axle; body_radius_m is {}\n",
                  body.radius_around_axle(), metres(params.body.radius));
     }
+    std::vector<InputError> against;
+    for (const std::string& text : contradictions(params, sensor)) against.emplace_back(o.file, 1, 1, text);
+    if (!against.empty()) throw InputErrors(std::move(against));
   } catch (const InputErrors& errors) {
     if (!o.suggest.empty()) suggest(o, errors);
     if (!o.json) throw;
     print_json(o, nullptr, violations_json(errors), {}, {}, suggestion_json(errors));
     return kBadInput;
   }
-  const std::vector<std::string> against = contradictions(params, sensor);
-  if (!against.empty()) {
-    std::vector<InputError> errors;
-    for (const std::string& text : against) errors.emplace_back(o.file, 1, 1, text);
-    if (!o.json) throw InputErrors(std::move(errors));
-    print_json(o, nullptr, violations_json(InputErrors(std::move(errors))), {}, {});
-    return kBadInput;
-  }
   const std::vector<MountingWarning> warnings = mounting_warnings(params, sensor);
   for (const MountingWarning& w : warnings) {
     if (!o.json) fmt::print(stderr, "whisker: {}: warning: {}\n", o.file, w.text);
   }
-  Params driven = params;
-  bend_if_chosen(driven, o.planner);
-  const std::vector<TestDrive> drives = test_drives(driven, sensor, o.planner);
+  const std::vector<TestDrive> drives = test_drives(params, sensor, o.planner);
   const bool fit = std::all_of(drives.begin(), drives.end(), good);
   if (o.json) print_json(o, &params, Json::array(), warnings, drives);
   for (const TestDrive& drive : drives) {

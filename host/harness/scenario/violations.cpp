@@ -128,10 +128,13 @@ bool is_one_of(std::string_view key, std::initializer_list<std::string_view> key
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
+/// A number, and not the zero of a beam that has no value of its own.
+bool is_of_use(const ParamEntry& e) { return e.word == nullptr && !(e.of_one_beam() && e.raw == 0); }
+
 /// Whether an owner can change the parameter without other hardware, down or up.
 bool is_free(const ParamEntry& e, bool down) {
   const std::string_view key = e.key;
-  if (e.word != nullptr || (e.of_one_beam() && e.raw == 0)) return false;
+  if (!is_of_use(e)) return false;
   for (const char* group : {"thesis_", "skirt_", "consensus_", "guard_"})
     if (key.rfind(group, 0) == 0) return true;
   if (is_one_of(key, {"wheel_speed_max_mps", "wheel_acceleration_max_mps2", "turn_rate_max_radps",
@@ -161,7 +164,7 @@ void for_each_mend(const Params& params, const Violation& v, const Broken& now, 
   const std::vector<ParamEntry> list = param_list(params);
   for (const std::size_t place : v.keys) {
     const ParamEntry& e = list[place];
-    if (e.word != nullptr || (e.of_one_beam() && e.raw == 0)) continue;
+    if (!is_of_use(e)) continue;
     const auto fits = [&](std::int64_t raw) {
       Params changed = params;
       set_param(changed, place, raw);
@@ -246,11 +249,6 @@ void find_mends(const Params& params, Violation& v, const Broken& now, bool free
   }
 }
 
-Params with(Params params, const std::vector<Change>& changes) {
-  for (const Change& c : changes) set_param(params, c.key, c.raw);
-  return params;
-}
-
 /// The relations that are broken, with their keys.
 std::vector<Violation> found(const Params& params) {
   const std::vector<ParamEntry> list = param_list(params);
@@ -313,7 +311,7 @@ std::vector<Change> tuned(const Params& params) {
       }
     }
     if (best.changes.empty()) return {};
-    now = with(now, best.changes);
+    for (const Change& c : best.changes) set_param(now, c.key, c.raw);
   }
   return {};
 }
