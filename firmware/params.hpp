@@ -83,9 +83,9 @@ struct ThesisParams {
 
 enum class Fitted : int32_t { no, yes };
 
-struct SkirtParams {
-  Length cell;                       ///< side of a cell of the local grid; zero: see patch_cell
-  Length shield_margin = 4_mm;       ///< clearance around the body that the guard keeps at every tick
+struct BoundaryParams {
+  Length cell;                       ///< side of a cell of the local grid; zero: see grid_cell
+  Length guard_margin = 4_mm;        ///< clearance around the body that the guard keeps at every tick
   Length probe;                      ///< length of the path that is checked ahead; zero: see Reach
   Length planning_margin = 6_mm;     ///< clearance for a chosen heading; more than the guard's
   Length age_travel = 500_mm;        ///< clear cells expire after one to two of these distances
@@ -159,7 +159,7 @@ struct Params {
   RangefinderParams rangefinders;
   ConditioningParams conditioning;
   ThesisParams thesis;
-  SkirtParams skirt;
+  BoundaryParams boundary;
   MotionParams motion;
   SafetyParams safety;
   BumperParams bumper;
@@ -216,13 +216,13 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("thesis_danger_range_m", p.thesis.danger_range, 50_mm, 5_m);
   f.count("thesis_max_steps", p.thesis.max_steps, 1, 1000000);
 
-  f.number("skirt_cell_m", p.skirt.cell, 0_mm, 250_mm);
-  f.number("skirt_probe_m", p.skirt.probe, 0_mm, 2_m);
-  f.number("skirt_shield_margin_m", p.skirt.shield_margin, 0_mm, 500_mm);
-  f.number("skirt_planning_margin_m", p.skirt.planning_margin, 0_mm, 500_mm);
-  f.number("skirt_age_travel_m", p.skirt.age_travel, 100_mm, 1000_m);
-  f.number("skirt_age_turn_deg", p.skirt.age_turn, 90_deg, 359_deg);
-  f.number("skirt_mover_speed_mps", p.skirt.mover_speed, 0_mm_per_s, 1000_mm_per_s);
+  f.number("skirt_cell_m", p.boundary.cell, 0_mm, 250_mm);
+  f.number("skirt_probe_m", p.boundary.probe, 0_mm, 2_m);
+  f.number("skirt_shield_margin_m", p.boundary.guard_margin, 0_mm, 500_mm);
+  f.number("skirt_planning_margin_m", p.boundary.planning_margin, 0_mm, 500_mm);
+  f.number("skirt_age_travel_m", p.boundary.age_travel, 100_mm, 1000_m);
+  f.number("skirt_age_turn_deg", p.boundary.age_turn, 90_deg, 359_deg);
+  f.number("skirt_mover_speed_mps", p.boundary.mover_speed, 0_mm_per_s, 1000_mm_per_s);
 
   f.number("motion_settle_s", p.motion.settle, 20_ms, 1000_ms);
   f.number("turn_tolerance_deg", p.motion.turn_tolerance, Angle::turns(1, 3600), 10_deg);
@@ -236,7 +236,7 @@ constexpr void for_each_param(P& p, F&& f) {
 
   // The index of a parameter on the CAN bus is its place in this list: append new ones.
   f.number("range_clear_m", p.rangefinders.clear_range, 0_mm, 60_m);
-  f.number("length_budget_m", p.skirt.length_budget, 1_m, 2000_m);
+  f.number("length_budget_m", p.boundary.length_budget, 1_m, 2000_m);
   f.number("range_incidence_deg", p.rangefinders.incidence, 5_deg, 90_deg);
 
   constexpr Direction kOutermost = direction_of(85_deg);
@@ -280,7 +280,7 @@ constexpr void for_each_param(P& p, F&& f) {
   f.choice("guard_assist", p.guard.assist, kBoolean, 2);
   f.choice("straight_walls", p.walls.straight, kBoolean, 2);
   f.number("wall_direction_deg", p.walls.direction, Angle{}, 90_deg);
-  f.choice("bend_course", p.skirt.bend, kBoolean, 2);
+  f.choice("bend_course", p.boundary.bend, kBoolean, 2);
 }
 
 /// A rangefinder on the body, in the body's frame: x ahead, y to the left.
@@ -313,7 +313,7 @@ constexpr bool loses_walls(const RangefinderParams& r) noexcept { return r.incid
 /// Where walls may give no echo, their ends and corners give one up to this distance from the apex of a beam.
 constexpr Length kScatterRange = 500_mm;
 /// Side of a cell of the local grid; by default 2/9 of the radius.
-constexpr Length patch_cell(const Params& params) noexcept;
+constexpr Length grid_cell(const Params& params) noexcept;
 /// A disc of this radius around the centre covers the cell, in 1/256 of a cell: 0.7072, rounded up.
 constexpr int32_t kCellCover = 184;
 /// Paths are checked within this number of cells from the centre of the local grid.

@@ -14,31 +14,31 @@ namespace whisker {
 /// The relations between parameters; each comment states the condition.
 enum class ParamFault : uint8_t {
   none,
-  out_of_range,               ///< a value lies outside its own range
-  track_wider_than_body,      ///< track <= 2 radius
-  ranges_reversed,            ///< min_range < max_range, of each beam
-  cones_apart_from_front,     ///< each beam: angle of the axis + cone / 2 <= 90 degrees
-  danger_inside_body,         ///< danger_range > radius + margin
-  steps_reversed,             ///< small_step <= base_step
-  stop_longer_than_range,     ///< stopping distance from full speed <= max_range / 4
-  stale_before_next_reading,  ///< stale_after > 1 / rate + latency
-  lost_before_stale,          ///< lost_after >= stale_after
-  tolerance_below_encoder,    ///< drive_tolerance and the rim distance of turn_tolerance >= one count
-  gap_below_period,           ///< max_gap, unless zero, >= 2 period
-  stuck_within_cone,          ///< stuck_turn > cone: within its cone, a real object keeps its distance
-  cone_too_wide,              ///< cone <= 60 degrees: square rooms do not look round
-  tolerance_above_step,       ///< drive_tolerance < small_step, turn_tolerance < delta
-  tolerance_below_wire,       ///< the rim distance of turn_tolerance >= 0.1 mm/s x settle
-  stalled_before_count,       ///< stalled_after >= the time of the slowest count and the slowest stop
-  settle_below_lag,           ///< settle >= motor_lag + period
-  cone_too_narrow,            ///< radius of rim_sweep() <= 7/4 radius; if needed, cell <= 2/5 of it
-  patch_too_small,            ///< 15 cells >= planning reach + probe, and probe >= radius / 2
-  planning_below_shield,      ///< planning_margin >= shield_margin
-  step_beyond_range,          ///< clear_range >= 2 base_step + radius + margin: no step is longer
-  beams_crossed,              ///< the axes point from left to right
-  creep_without_bumper,       ///< creep_speed is zero unless a bumper is fitted
-  gyro_unfit,                 ///< a fitted gyro: kGyroBuilt, range >= 5/4 max_turn_rate
-  walls_without_bound,        ///< straight walls need kGyroBuilt and a bound of the pose: PoseErrorParams
+  out_of_range,                 ///< a value lies outside its own range
+  track_wider_than_body,        ///< track <= 2 radius
+  ranges_reversed,              ///< min_range < max_range, of each beam
+  cones_apart_from_front,       ///< each beam: angle of the axis + cone / 2 <= 90 degrees
+  danger_inside_body,           ///< danger_range > radius + margin
+  steps_reversed,               ///< small_step <= base_step
+  stop_longer_than_range,       ///< stopping distance from full speed <= max_range / 4
+  stale_before_next_reading,    ///< stale_after > 1 / rate + latency
+  lost_before_stale,            ///< lost_after >= stale_after
+  tolerance_below_encoder,      ///< drive_tolerance and the rim distance of turn_tolerance >= one count
+  gap_below_period,             ///< max_gap, unless zero, >= 2 period
+  stuck_within_cone,            ///< stuck_turn > cone: within its cone, a real object keeps its distance
+  cone_too_wide,                ///< cone <= 60 degrees: square rooms do not look round
+  tolerance_above_step,         ///< drive_tolerance < small_step, turn_tolerance < delta
+  tolerance_below_wire,         ///< the rim distance of turn_tolerance >= 0.1 mm/s x settle
+  stalled_before_count,         ///< stalled_after >= the time of the slowest count and the slowest stop
+  settle_below_lag,             ///< settle >= motor_lag + period
+  cone_too_narrow,              ///< radius of rim_sweep() <= 7/4 radius; if needed, cell <= 2/5 of it
+  local_grid_too_small,         ///< 15 cells >= planning reach + probe, and probe >= radius / 2
+  planning_below_guard_margin,  ///< planning_margin >= guard_margin
+  step_beyond_range,            ///< clear_range >= 2 base_step + radius + margin: no step is longer
+  beams_crossed,                ///< the axes point from left to right
+  creep_without_bumper,         ///< creep_speed is zero unless a bumper is fitted
+  gyro_unfit,                   ///< a fitted gyro: kGyroBuilt, range >= 5/4 max_turn_rate
+  walls_without_bound,          ///< straight walls need kGyroBuilt and a bound of the pose: PoseErrorParams
   walls_unseen,  ///< incidence below 90 degrees: each wall ahead lies within cone / 2 + incidence of a beam
   flank_unseen,  ///< incidence below 90 degrees: see flank_is_seen() in this file
   blind_at_rim,  ///< incidence below 90 degrees: no minimum range ends beyond planning reach + radius / 2
@@ -116,15 +116,16 @@ constexpr Relation relation(ParamFault fault) noexcept {
           "spot must leave no gap between the cones of readings one after another; it does with a smaller "
           "range_offset_m, a larger range_cone_deg or more encoder_counts_per_m; and where no single reading "
           "clears a cell at the rim, skirt_cell_m must not be greater than 2/5 body_radius_m"};
-    case F::patch_too_small:
+    case F::local_grid_too_small:
       return {
-          "patch_too_small",
+          "local_grid_too_small",
           "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
           "skirt_probe_m, with cell = skirt_cell_m or, if 0, automatic; skirt_probe_m must not be less than "
           "body_radius_m / 2, nor must what is left of it if range_incidence_deg is below 90: it then ends "
           "0.5 m ahead of the front beam (range_front_x_m or range_offset_m)"};
-    case F::planning_below_shield:
-      return {"planning_below_shield", "skirt_planning_margin_m must not be less than skirt_shield_margin_m"};
+    case F::planning_below_guard_margin:
+      return {"planning_below_guard_margin",
+              "skirt_planning_margin_m must not be less than skirt_shield_margin_m"};
     case F::step_beyond_range:
       return {"step_beyond_range",
               "range_clear_m and range_max_m must not be less than 2 thesis_base_step_m + body_radius_m + "
@@ -259,12 +260,12 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
 /// A larger cell at the rim would reach behind what the body may touch between two readings.
 [[gnu::always_inline]] constexpr bool beams_clear_the_rim(const Params& p) noexcept {
   const RimSweep sweep = rim_sweep(p);
-  return sweep.radius <= p.body.radius * 7 / 4 && (!sweep.needed || patch_cell(p) <= sweep.radius * 2 / 5);
+  return sweep.radius <= p.body.radius * 7 / 4 && (!sweep.needed || grid_cell(p) <= sweep.radius * 2 / 5);
 }
 
-[[gnu::always_inline]] constexpr bool patch_holds_ways(const Params& p) noexcept {
+[[gnu::always_inline]] constexpr bool local_grid_holds_ways(const Params& p) noexcept {
   const Reach ways = reach(p);
-  return patch_cell(p) * kHalfWindow >= ways.planning + cell_cover(p) + ways.probe &&
+  return grid_cell(p) * kHalfWindow >= ways.planning + cell_cover(p) + ways.probe &&
          ways.probe >= p.body.radius / 2;
 }
 
@@ -300,7 +301,7 @@ constexpr bool sees_flank(const Params& p, int beam, bool left) noexcept {
     const Angle to = Angle::from_raw(static_cast<uint32_t>(ray));
     return m.apex.x + Length::from_raw(multiply_divide(beside.raw(), cos(to).raw(), sin(to).raw()));
   };
-  return ahead(outer) <= patch_cell(p) * (kHalfWindow + 3) &&
+  return ahead(outer) <= grid_cell(p) * (kHalfWindow + 3) &&
          ahead(first) >= min(stopping_distance(p), ways.probe);
 }
 
@@ -361,8 +362,8 @@ template <class Visit>
       visit(F::settle_below_lag, p.motion.settle >= p.wheels.motor_lag + p.safety.period) &&
       visit(F::step_beyond_range, beams.proving >= swept) &&
       visit(F::cone_too_narrow, r::beams_clear_the_rim(p)) &&
-      visit(F::patch_too_small, r::patch_holds_ways(p)) &&
-      visit(F::planning_below_shield, p.skirt.planning_margin >= p.skirt.shield_margin) &&
+      visit(F::local_grid_too_small, r::local_grid_holds_ways(p)) &&
+      visit(F::planning_below_guard_margin, p.boundary.planning_margin >= p.boundary.guard_margin) &&
       visit(F::beams_crossed, beams.ordered) &&
       visit(F::creep_without_bumper, p.bumper.fitted == Fitted::yes || p.bumper.creep_speed == Speed{}) &&
       visit(F::gyro_unfit,

@@ -25,13 +25,13 @@ constexpr int64_t age_until(int64_t part, int64_t error, int64_t least, int64_t 
 }  // namespace
 
 GroundAge ground_age(const Params& params) noexcept {
-  GroundAge age{params.skirt.age_travel, params.skirt.age_turn};
+  GroundAge age{params.boundary.age_travel, params.boundary.age_turn};
   const PoseErrorParams& e = params.pose_error;
   if (!kGyroBuilt || (e.wheel_scale == Ratio{} && e.wheel_scale_common == Ratio{})) return age;
   const Reach reach = whisker::reach(params);
   // One standard deviation of the heading, millionths of a radian.
   const int64_t allowed =
-      quotient_64(int64_t{patch_cell(params).raw()} * kOne, 4 * int64_t{(reach.guard + reach.probe).raw()});
+      quotient_64(int64_t{grid_cell(params).raw()} * kOne, 4 * int64_t{(reach.guard + reach.probe).raw()});
   const bool gyro = params.gyro.fitted == Fitted::yes;
   // Errors of two wheels: their difference is off by sqrt(2) of one, their mean by 1 / sqrt(2).
   const int64_t apart = gyro ? 0 : quotient(int64_t{e.wheel_scale.raw()} * 1414, 1000);

@@ -12,9 +12,9 @@ struct GroundAge {
   Angle turn;
 };
 
-/// By SkirtParams. If PoseErrorParams declare an error of the wheels, sooner where the heading becomes
+/// By BoundaryParams. If PoseErrorParams declare an error of the wheels, sooner where the heading becomes
 /// uncertain sooner: while the ground ages, an error of the heading of two standard deviations moves it by at
-/// most half a cell at the distance that the guard looks at. But never sooner than SkirtParams may say:
+/// most half a cell at the distance that the guard looks at. But never sooner than BoundaryParams may say:
 /// above 1.8 % of each wheel, the ground of the reference robot moves farther.
 GroundAge ground_age(const Params& params) noexcept;
 

@@ -37,7 +37,7 @@ Beam beam_of(const Mount& mount, const Pose& body) noexcept {
 }
 
 void LocalGrid::configure(const Params& params) noexcept {
-  scale_.cell_um = patch_cell(params).raw();
+  scale_.cell_um = grid_cell(params).raw();
   swept_ = rim_sweep(params).radius;
   clears_ = loses_walls(params.rangefinders) ? kScatterRange : 60_m;
   place_error_ = formula::place_error(params);
@@ -53,7 +53,7 @@ void LocalGrid::configure(const Params& params) noexcept {
     // While it turns, two readings one after another share little more than half a cone.
     const int64_t cover = int64_t{cell_cover(params).raw()} * 2 * Q30::kOne;
     const int64_t holds = quotient(cover, sin(mount(params.rangefinders, i).half_cone).raw());
-    holds_ = max(holds_, Length::from_raw(saturate32(holds)) + patch_cell(params) * 2);
+    holds_ = max(holds_, Length::from_raw(saturate32(holds)) + grid_cell(params) * 2);
   }
   const Length margin = reach_.guard - swept_;
   const uint64_t passed =
@@ -63,7 +63,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   const GroundAge age = ground_age(params);
   age_travel_ = age.travel;
   age_turn_ = age.turn.raw();
-  approach_ = params.skirt.mover_speed * time_to_stop(params);
+  approach_ = params.boundary.mover_speed * time_to_stop(params);
 }
 
 LocalGrid::Point LocalGrid::local(Vec at) const noexcept {

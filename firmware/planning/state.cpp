@@ -11,7 +11,7 @@ const char* name(Mode mode) noexcept {
     case Mode::probing: return "probing";
     case Mode::stepping: return "stepping";
     case Mode::searching: return "searching";
-    case Mode::skirting: return "skirting";
+    case Mode::following: return "skirting";
     case Mode::surveying: return "surveying";
     case Mode::going: return "going";
     case Mode::unreachable: return "unreachable";

@@ -14,7 +14,7 @@ enum class Mode : uint8_t {
   probing,      ///< deflecting by delta to find a heading on which the step is safe
   stepping,     ///< driving a step in free space
   searching,    ///< danger area: searching for an exit on both sides
-  skirting,     ///< danger area: driving a small step along the obstacle's boundary
+  following,    ///< danger area: driving a small step along the obstacle's boundary
   surveying,    ///< turning to both sides before the first movement
   going,        ///< driving towards the goal by the response table
   arrived,      ///< at the goal, standing

@@ -33,26 +33,26 @@ struct ClassPicture {
 };
 
 constexpr ClassPicture kClassPictures[] = {
-    {"skirt_15_discs.svg", worlds::Kind::discs, {6, 15, false, false}},
-    {"skirt_30_discs.svg", worlds::Kind::discs, {8, {}, false, false}},
-    {"skirt_50_discs.svg", worlds::Kind::discs, {7, 50, false, false}},
-    {"skirt_75_discs.svg", worlds::Kind::discs, {14, 75, true, false}},
-    {"skirt_u_trap.svg", worlds::Kind::u_trap, {8, {}, false, false}},
-    {"skirt_spiral.svg", worlds::Kind::spiral, {4, {}, false, false}},
-    {"skirt_maze.svg", worlds::Kind::maze, {1, {}, false, false}},
-    {"skirt_rooms.svg", worlds::Kind::rooms, {4, {}, false, false}},
-    {"skirt_poles.svg", worlds::Kind::poles, {4, {}, false, false}},
-    {"skirt_enclosed.svg", worlds::Kind::enclosed, {1, {}, false, false}},
+    {"boundary_15_discs.svg", worlds::Kind::discs, {6, 15, false, false}},
+    {"boundary_30_discs.svg", worlds::Kind::discs, {8, {}, false, false}},
+    {"boundary_50_discs.svg", worlds::Kind::discs, {7, 50, false, false}},
+    {"boundary_75_discs.svg", worlds::Kind::discs, {14, 75, true, false}},
+    {"boundary_u_trap.svg", worlds::Kind::u_trap, {8, {}, false, false}},
+    {"boundary_spiral.svg", worlds::Kind::spiral, {4, {}, false, false}},
+    {"boundary_maze.svg", worlds::Kind::maze, {1, {}, false, false}},
+    {"boundary_rooms.svg", worlds::Kind::rooms, {4, {}, false, false}},
+    {"boundary_poles.svg", worlds::Kind::poles, {4, {}, false, false}},
+    {"boundary_enclosed.svg", worlds::Kind::enclosed, {1, {}, false, false}},
 };
 
 /// The map planner beside the boundary planner in one world of a class: the first one, with seeds from 1,
 /// whose goal both reach and in which the boundary planner's path ratio exceeds its median in the class; for
 /// `enclosed` the first one that both report as unreachable.
 struct MapPicturePair {
-  const char* name;  ///< map_NAME.svg, map_NAME_skirt.svg
+  const char* name;  ///< map_NAME.svg, map_NAME_boundary.svg
   worlds::Kind kind;
   worlds::Options options;  ///< without the seed
-  double skirts_median;     ///< as in docs/campaign.md
+  double boundary_median;   ///< as in docs/campaign.md
 };
 
 constexpr MapPicturePair kMapPictures[] = {
@@ -90,8 +90,8 @@ void draw_class(const ClassPicture& c, const std::string& folder) {
   picture.subtitle = fmt::format("whisker campaign {} --planner boundary --replay {}",
                                  campaign::arguments(c.kind, c.options), c.options.seed);
   picture.path_tolerance = 2e-3;
-  draw(driven(worlds::generate(c.kind, c.options), PlannerKind::skirt), fmt::format("{}/{}", folder, c.file),
-       picture);
+  draw(driven(worlds::generate(c.kind, c.options), PlannerKind::boundary),
+       fmt::format("{}/{}", folder, c.file), picture);
 }
 
 bool shows_the_difference(const MapPicturePair& pair, const campaign::Mission& mission) {
@@ -101,8 +101,9 @@ bool shows_the_difference(const MapPicturePair& pair, const campaign::Mission& m
     row.world = mission.world;
     return row;
   };
-  const campaign::Row skirt = row_of(PlannerKind::skirt);
-  if (!campaign::succeeded(skirt) || campaign::ratio(skirt).value_or(1) <= pair.skirts_median) return false;
+  const campaign::Row boundary = row_of(PlannerKind::boundary);
+  if (!campaign::succeeded(boundary) || campaign::ratio(boundary).value_or(1) <= pair.boundary_median)
+    return false;
   return campaign::succeeded(row_of(PlannerKind::map));
 }
 
@@ -111,7 +112,7 @@ void draw_pair(const MapPicturePair& pair, const std::string& folder) {
   for (std::uint64_t i = 0; i < kSeeds; ++i) {
     const campaign::Mission mission = campaign::mission(campaign::Generated{pair.kind, pair.options}, i);
     if (!shows_the_difference(pair, mission)) continue;
-    const RunLog skirt = driven(mission.scenario, PlannerKind::skirt);
+    const RunLog boundary = driven(mission.scenario, PlannerKind::boundary);
     const RunLog map = driven(mission.scenario, PlannerKind::map);
     report::RunPicture picture;
     picture.path_tolerance = 2e-3;
@@ -119,8 +120,8 @@ void draw_pair(const MapPicturePair& pair, const std::string& folder) {
     picture.beside = &map.ticks().records;
     picture.subtitle = fmt::format("boundary planner: whisker campaign {} --planner boundary --replay {}",
                                    mission.world, mission.seed);
-    draw(skirt, fmt::format("{}/map_{}_skirt.svg", folder, pair.name), picture);
-    picture.beside = &skirt.ticks().records;
+    draw(boundary, fmt::format("{}/map_{}_boundary.svg", folder, pair.name), picture);
+    picture.beside = &boundary.ticks().records;
     picture.subtitle = fmt::format("map planner, 2048 bytes: whisker campaign {} --planner map --replay {}",
                                    mission.world, mission.seed);
     draw(map, fmt::format("{}/map_{}.svg", folder, pair.name), picture);

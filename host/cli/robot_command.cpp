@@ -96,7 +96,7 @@ Scenario fitted(Scenario s, const Params& params, const Sensor& sensor) {
 /// check().
 std::vector<TestDrive> test_drives(Params params, const Sensor& sensor, PlannerKind planner) {
   bend_if_chosen(params, planner);
-  const double wide = 2.8 * (1 + metres(params.skirt.planning_margin) / metres(params.body.radius));
+  const double wide = 2.8 * (1 + metres(params.boundary.planning_margin) / metres(params.body.radius));
   const std::pair<const char*, Scenario> worlds[] = {
       {"the empty world", empty_world()},
       {"the corridor", corridor(wide * kReferenceRadius)},

@@ -183,7 +183,7 @@ CLI::Option* add_assist_rules(CLI::App& app, const fuzzy::Bilinear::Table*& tabl
 }
 
 void bend_if_chosen(Params& robot, PlannerKind kind) {
-  if (kind.table_chosen && kind != PlannerKind::thesis) robot.skirt.bend = Fitted::yes;
+  if (kind.table_chosen && kind != PlannerKind::thesis) robot.boundary.bend = Fitted::yes;
 }
 
 std::optional<std::string> rules_name(PlannerKind kind) {

@@ -69,7 +69,7 @@ TEST_F(CanNodeTest, ATableOfABaseIsKeptOverAPowerCut) {
 class Drives : public CanNodeTest {
  protected:
   static constexpr int kTicks = 300;
-  Drives() { scenario.robot.skirt.bend = Fitted::yes; }
+  Drives() { scenario.robot.boundary.bend = Fitted::yes; }
   sim::Plant plant() { return {world.view(), robot_spec(scenario), {}, 1, scenario.start}; }
   std::vector<WheelSpeeds> through_the_chip() {
     sim::Plant robot = plant();

@@ -57,7 +57,7 @@ TEST(Scaled, RobotsOfEverySizeFit) {
     EXPECT_EQ(p.body.radius, micrometres(static_cast<std::int32_t>(radius * 1e6 + 0.5)));
     EXPECT_EQ(check(p), ParamFault::none) << name(check(p)) << " " << radius;
   }
-  EXPECT_EQ(scaled({}, 2).skirt.shield_margin, 8_mm);
+  EXPECT_EQ(scaled({}, 2).boundary.guard_margin, 8_mm);
   EXPECT_EQ(scaled({}, 2).rangefinders.max_range, 2_m);
 }
 

@@ -58,7 +58,7 @@ TEST(Meet, ARobotThatIsCrossedWaitsOrGoesAroundAndSaysSo) {
   for (const char* y : {"1.1", "1.2", "1.3"}) {
     const Scenario s = scene("center = [1.5, " + std::string(y) + "]\nradius_m = 0.15\npath = [[1.5, " + y +
                              "], [1.5, -20.0]]\nspeed_mps = 0.2\n");
-    const Meeting m = meet(s, PlannerKind::skirt);
+    const Meeting m = meet(s, PlannerKind::boundary);
     EXPECT_EQ(m.verdict, Verdict::reached) << y;
     EXPECT_TRUE(m.said) << y;
   }
@@ -66,7 +66,7 @@ TEST(Meet, ARobotThatIsCrossedWaitsOrGoesAroundAndSaysSo) {
 
 // It would run into a robot that only stops before it.
 TEST(Meet, ARobotInThePathOfSomethingSlowLeavesIt) {
-  for (const PlannerKind planner : {PlannerKind::skirt, kDefaultPlanner}) {
+  for (const PlannerKind planner : {PlannerKind::boundary, kDefaultPlanner}) {
     for (const Course course : {Course::oncoming, Course::crossing}) {
       MeetingCount count;
       for (std::uint64_t seed = 1; seed <= test::effort(60); ++seed) {
@@ -94,7 +94,7 @@ TEST(Meet, ASmallRobotLeavesAsFar) {
 TEST(Meet, NothingIsSaidOfWhatStands) {
   const Meeting m = meet(scene("center = [2.0, 0.05]\nradius_m = 0.2\npath = [[2.0, 0.05], [2.0, 9.0]]\n"
                                "speed_mps = 0.0\n"),
-                         PlannerKind::skirt);
+                         PlannerKind::boundary);
   EXPECT_EQ(m.verdict, Verdict::reached);
   EXPECT_FALSE(m.said);
 }
@@ -152,7 +152,7 @@ TEST_P(MeetAt, NothingThatWasSeenIsTouchedByAMovingRobot) {
   for (const Course course : {Course::oncoming, Course::crossing}) {
     MeetingCount count;
     for (std::uint64_t seed = 1; seed <= test::effort(200); ++seed) {
-      count.add(meet(worlds::meeting(course, GetParam(), seed), PlannerKind::skirt));
+      count.add(meet(worlds::meeting(course, GetParam(), seed), PlannerKind::boundary));
     }
     // docs/perception.md: the rate is one in some thousands.
     EXPECT_LE(count.seen, 1U) << name(course);

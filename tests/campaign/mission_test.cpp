@@ -31,7 +31,7 @@ TEST(Mission, TheRowTellsWhatTheRunTells) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const Scenario s = scenario(seed);
     RunOptions options;
-    options.planner = seed == 3 ? PlannerKind::thesis : PlannerKind::skirt;
+    options.planner = seed == 3 ? PlannerKind::thesis : PlannerKind::boundary;
     const Row row = drive(s, options.planner, kOn);
     std::vector<TickRecord> records;
     options.watch = [&](const Moment& moment) { records.push_back(moment.record); };

@@ -282,7 +282,7 @@ std::uint64_t soak(std::uint64_t seed, std::uint32_t ticks) {
   options.seed = seed;
   const Scenario scenario =
       worlds::generate(seed % 2 == 0 ? worlds::Kind::discs : worlds::Kind::rooms, options);
-  hil::HostPlanners planners(PlannerKind::skirt);
+  hil::HostPlanners planners(PlannerKind::boundary);
   test::Rig rig(scenario, random_faults(seed * 2, ticks), random_faults(seed * 2 + 1, ticks), seed,
                 &planners);
   rig.drive(20);

@@ -191,7 +191,7 @@ class PlantWithRules : public testing::Test {
     worlds::Options options;
     options.seed = 3;
     Scenario scenario = worlds::generate(worlds::Kind::discs, options);
-    scenario.robot.skirt.bend = Fitted::yes;
+    scenario.robot.boundary.bend = Fitted::yes;
     return scenario;
   }();
   const Table table_ = straight();

@@ -27,7 +27,7 @@ class Drives(Case):
     """One drive of the boundary planner in each class of worlds."""
 
     def drives(self):
-        drives = {path.stem: path for path in (ROOT / "docs/figures").glob("skirt_*.svg")}
+        drives = {path.stem: path for path in (ROOT / "docs/figures").glob("boundary_*.svg")}
         self.assertEqual(len(drives), 10)
         return drives
 
@@ -40,7 +40,7 @@ class Drives(Case):
         for name, path in self.drives().items():
             boundaries = self.distances(path)
             self.assertGreater(len(boundaries), 0, name)
-            if name == "skirt_enclosed":
+            if name == "boundary_enclosed":
                 self.assertEqual([left for _, left in boundaries], ["closed loop"])
                 continue
             best = float("inf")

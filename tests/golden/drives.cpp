@@ -66,7 +66,7 @@ Stream gyro_drive() {
   scenario.robot.walls.straight = Fitted::yes;
   scenario.noise.fix_every_m = 4;
   scenario.robot.safety.period = 20_ms;
-  Stream stream = drive("rooms, gyro and fixes", scenario, PlannerKind::skirt, 66);
+  Stream stream = drive("rooms, gyro and fixes", scenario, PlannerKind::boundary, 66);
   stream.name = "with " + stream.name;
   return stream;
 }
@@ -75,7 +75,7 @@ Stream gyro_drive() {
 
 std::vector<Stream> drives() {
   std::vector<Stream> all;
-  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis}) {
+  for (const PlannerKind planner : {PlannerKind::boundary, PlannerKind::thesis}) {
     const auto add = [&](const char* world, const Scenario& scenario, double seconds) {
       all.push_back(drive(world, scenario, planner, seconds));
     };
@@ -87,8 +87,8 @@ std::vector<Stream> drives() {
     add("large fast robot", from_file("tests/cli/scenarios/large_fast_robot"), 3);
     add("small slow robot", from_file("tests/cli/scenarios/small_slow_robot"), 3);
   }
-  all.push_back(drive("spiral", generated(worlds::Kind::spiral, false), PlannerKind::skirt, 6));
-  all.push_back(drive("enclosed", generated(worlds::Kind::enclosed, false), PlannerKind::skirt, 6));
+  all.push_back(drive("spiral", generated(worlds::Kind::spiral, false), PlannerKind::boundary, 6));
+  all.push_back(drive("enclosed", generated(worlds::Kind::enclosed, false), PlannerKind::boundary, 6));
   for (const PlannerKind planner : {PlannerKind::map, kLargestMapOfAll}) {
     all.push_back(drive("U-trap", from_file("host/worlds/scenarios/figure8_u_trap"), planner, 12));
     all.push_back(drive("maze with noise", generated(worlds::Kind::maze, true), planner, 6));

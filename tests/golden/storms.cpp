@@ -121,7 +121,7 @@ Stream storm(PlannerKind kind, std::uint64_t seed, int fury) {
 std::vector<Stream> storms() {
   std::vector<Stream> all;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    for (const PlannerKind kind : {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map}) {
+    for (const PlannerKind kind : {PlannerKind::boundary, PlannerKind::thesis, PlannerKind::map}) {
       all.push_back(storm(kind, seed, static_cast<int>(seed) % 4));
     }
   }

@@ -35,7 +35,7 @@ TEST(Case, ItsTextsRepeatTheDrive) {
 
 TEST(Case, ItsFirstLineSaysHowToRepeatIt) {
   Case c = draw_case(1).c;
-  c.planner = PlannerKind::skirt;
+  c.planner = PlannerKind::boundary;
   c.gaps = 0;
   EXPECT_EQ(texts(c, "x").toml.rfind("# whisker run x.toml --planner skirt\n", 0), 0U);
   c.gaps = 3;

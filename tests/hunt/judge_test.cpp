@@ -123,7 +123,7 @@ TEST(Attempt, FindsTheContactsOfRobotsOutsideThePremise) {
     Case c = draw_case(seed).c;
     c.scenario.robot = {};
     if (nearest(c.scenario, c.scenario.start.at).distance_m < 0.1) continue;
-    c.planner = PlannerKind::skirt;
+    c.planner = PlannerKind::boundary;
     c.scenario.sensor.incidence_deg = 10;
     c.scenario.time_limit_s = 60;
     c.gaps = 0;

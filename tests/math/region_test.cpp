@@ -26,7 +26,7 @@ constexpr Vec kCorners[] = {
 class Region : public testing::TestWithParam<int> {
  protected:
   Region() {
-    planning::Planner* const planners[] = {&thesis_, &skirt_.planner, &map_.planner, &fine_.planner};
+    planning::Planner* const planners[] = {&thesis_, &boundary_.planner, &map_.planner, &fine_.planner};
     planner_ = planners[GetParam()];
   }
   const Status& tick(int times = 1) {
@@ -45,7 +45,7 @@ class Region : public testing::TestWithParam<int> {
   Params params_;
   test::FakeBoard board_;
   planning::ThesisPlanner thesis_{params_, fuzzy::kDefaultTable};
-  planning::TableBoundaryPlanner skirt_{params_, fuzzy::kDefaultTable};
+  planning::TableBoundaryPlanner boundary_{params_, fuzzy::kDefaultTable};
   planning::TableMapPlanner<2048> map_{params_, fuzzy::kDefaultTable};
   planning::TableMapPlanner<16384> fine_{params_, fuzzy::kDefaultTable};
   planning::Planner* planner_ = nullptr;

@@ -55,7 +55,7 @@ TEST_P(Bumper, AnEnclosureThatNoBeamSeesEndsInAVerdict) {
 }
 
 INSTANTIATE_TEST_SUITE_P(With, Bumper,
-                         testing::Values(PlannerKind::skirt, PlannerKind::map, PlannerKind::thesis));
+                         testing::Values(PlannerKind::boundary, PlannerKind::map, PlannerKind::thesis));
 
 }  // namespace
 }  // namespace whisker

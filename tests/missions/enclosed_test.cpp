@@ -56,7 +56,7 @@ TEST(Enclosed, SlitsOfOnePlaceAreTriedOnce) {
 
 /// A gap between two obstacles of the enclosure leads no nearer to the goal.
 TEST(Enclosed, AGapIsNotPassedToAndFro) {
-  EXPECT_EQ(drive(worlds::Kind::enclosed, 710037, PlannerKind::skirt).verdict, Verdict::unreachable);
+  EXPECT_EQ(drive(worlds::Kind::enclosed, 710037, PlannerKind::boundary).verdict, Verdict::unreachable);
 }
 
 /// A closed pentagon in a box: between its lowest corner and the wall is a gap that the body passes on some
@@ -78,7 +78,7 @@ Scenario pocket() {
 
 TEST(ClosedPolygon, WithAGapToTheWallIsNotCircledForEver) {
   RunOptions options;
-  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::map}) {
+  for (const PlannerKind planner : {PlannerKind::boundary, PlannerKind::map}) {
     options.planner = planner;
     const RunResult r = run(pocket(), options);
     EXPECT_EQ(r.verdict, Verdict::unreachable) << name(planner) << ": " << r.detail;
@@ -113,7 +113,7 @@ TEST(ClosedPolygon, IsSaidToBeUnreachable) {
   std::uint64_t gave_up = 0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     RunOptions options;
-    options.planner = PlannerKind::skirt;
+    options.planner = PlannerKind::boundary;
     const Verdict verdict = run(closed_polygon(seed), options).verdict;
     EXPECT_TRUE(verdict == Verdict::unreachable || verdict == Verdict::gave_up) << seed;
     gave_up += verdict == Verdict::gave_up;
@@ -146,7 +146,7 @@ TEST(Gap, NarrowerThanNamedIsPassedOnALane) {
       options.seed = seed;
       options.gap_m = 0.225;
       RunOptions boundary;
-      boundary.planner = PlannerKind::skirt;
+      boundary.planner = PlannerKind::boundary;
       const RunResult r = run(worlds::generate(kind, options), boundary);
       EXPECT_TRUE(r.verdict == Verdict::reached || r.verdict == Verdict::unreachable) << r.detail;
       EXPECT_EQ(r.unreachable_above_m.has_value(), r.verdict == Verdict::unreachable);
@@ -165,7 +165,7 @@ TEST(Gap, OnTheSeamOfBothLoopsIsPassed) {
     options.seed = seed;
     options.gap_m = 0.225;
     RunOptions run_options;
-    run_options.planner = PlannerKind::skirt;
+    run_options.planner = PlannerKind::boundary;
     const RunResult r = run(worlds::generate(worlds::Kind::gap, options), run_options);
     EXPECT_EQ(r.verdict, Verdict::reached) << seed << ": " << r.detail;
   }
@@ -181,7 +181,7 @@ TEST(ContestMaze, IsSolvedAsOftenAsWithoutAMap) {
     }
     return n;
   };
-  const int without = solved(PlannerKind::skirt);
+  const int without = solved(PlannerKind::boundary);
   for (const PlannerKind planner : kMaps) EXPECT_GE(solved(planner), without) << name(planner);
 }
 

@@ -72,8 +72,8 @@ TEST(LoneFalseClears, ClearNoCellThatHoldsAnything) {
     worlds::Options options;
     options.seed = 81000 + seed;
     const Scenario scenario = worlds::generate(worlds::Kind::discs, options);
-    const double cell = metres(patch_cell(scenario.robot));
-    Bench bench(scenario, PlannerKind::skirt);
+    const double cell = metres(grid_cell(scenario.robot));
+    Bench bench(scenario, PlannerKind::boundary);
     bench.board().ranges = LoneFalseClears(seed);
     int here = 0, ticks = 0;
     while (bench.plant().time() < 300) {

@@ -137,7 +137,7 @@ TEST(MapFilm, IsEmptyWithoutAMap) {
   const Scenario scenario = far();
   RunLog log({scenario});
   RunOptions options;
-  options.planner = PlannerKind::skirt;
+  options.planner = PlannerKind::boundary;
   log.watch(options);
   run(scenario, options);
   EXPECT_TRUE(log.ticks().map.x.empty());
@@ -146,7 +146,7 @@ TEST(MapFilm, IsEmptyWithoutAMap) {
 std::int64_t below(double x, double cell) { return static_cast<std::int64_t>(std::floor(x / cell + 1e-6)); }
 
 Length centre(std::int64_t cell, const Params& params) {
-  const std::int32_t um = patch_cell(params).raw();
+  const std::int32_t um = grid_cell(params).raw();
   return Length::from_raw(static_cast<std::int32_t>(cell * um + um / 2));
 }
 
@@ -173,7 +173,7 @@ Scenario discs() {
 
 TEST(Film, ShowsTheCellsThatThePatchHas) {
   const Scenario scenario = discs();
-  const double cell = patch_cell(scenario.robot).raw() * 1e-6;
+  const double cell = grid_cell(scenario.robot).raw() * 1e-6;
   Film film(scenario.robot);
   Frames frames;
   std::array<std::uint32_t, Film::kSide * 2> picture{};
@@ -191,8 +191,8 @@ TEST(Film, ShowsTheCellsThatThePatchHas) {
     }
     const std::int64_t x = below(r.est_x_m, cell), y = below(r.est_y_m, cell);
     Cells shown;
-    for (std::int64_t j = y - kPatchReach; j <= y + kPatchReach; ++j) {
-      for (std::int64_t i = x - kPatchReach; i <= x + kPatchReach; ++i) {
+    for (std::int64_t j = y - kGridReach; j <= y + kGridReach; ++j) {
+      for (std::int64_t i = x - kGridReach; i <= x + kGridReach; ++i) {
         const auto column = static_cast<std::uint64_t>(i) % Film::kSide;
         const auto row = static_cast<std::uint64_t>(j) % Film::kSide;
         if ((picture[2 * row + column / 32] >> (column % 32) & 1U) != 0) shown.emplace(i, j);

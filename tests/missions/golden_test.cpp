@@ -90,12 +90,12 @@ TEST(Golden, EveryDecisionOfTheThesisPlannerIsTheCommittedOne) {
   }
 }
 
-TEST(Golden, EveryDecisionOfTheSkirtPlannerIsTheCommittedOne) {
+TEST(Golden, EveryDecisionOfTheBoundaryPlannerIsTheCommittedOne) {
   const Case cases[] = {{"figure8_u_trap", shipped("figure8_u_trap")},
                         generated(worlds::Kind::discs),
                         generated(worlds::Kind::rooms),
                         {"crossing_1", worlds::meeting(worlds::Course::crossing, 0.1, 1)}};
-  for (const Case& c : cases) compare(c.scenario, PlannerKind::skirt, "skirt_" + c.name);
+  for (const Case& c : cases) compare(c.scenario, PlannerKind::boundary, "boundary_" + c.name);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ End drive(const Scenario& s, double gyro_dies_s, bool taught = true) {
   Scenario own = s;
   if (!taught) own.robot.gyro.fitted = Fitted::no;
   sim::Plant plant(world.view(), robot, noise_spec(s.noise), s.seed, s.start);
-  const auto pilot = core_pilot(own, PlannerKind::skirt, plant);
+  const auto pilot = core_pilot(own, PlannerKind::boundary, plant);
   MissionRun run(own, plant, *pilot);
   for (;;) {
     run.decide();

@@ -57,7 +57,7 @@ class LimitsOf : public testing::TestWithParam<PlannerKind> {
     return most;
   }
   // The other planners may fail in this world; 90 s are enough to test their limits.
-  static bool must_arrive() { return GetParam() == PlannerKind::skirt || GetParam() == PlannerKind::map; }
+  static bool must_arrive() { return GetParam() == PlannerKind::boundary || GetParam() == PlannerKind::map; }
 
   std::string ended_;
 };
@@ -122,7 +122,7 @@ TEST_P(UnevenTicks, BringNoContactAndNoFault) {
     options.seed = 70000 + seed;
     Scenario scenario = worlds::generate(seed % 4 == 0 ? worlds::Kind::rooms : worlds::Kind::discs, options);
     scenario.robot.safety.max_gap = milliseconds(gaps.max_gap_ms);
-    Bench bench(scenario, seed % 2 == 0 ? PlannerKind::skirt : PlannerKind::map);
+    Bench bench(scenario, seed % 2 == 0 ? PlannerKind::boundary : PlannerKind::map);
     Random random(seed);
     bench.run(900, [&] { return gaps.least_ms + random.index(gaps.most_ms - gaps.least_ms + 1); });
     ++ends[bench.ended()];
@@ -170,7 +170,7 @@ TEST(UnevenTicks, BringNoContactToOtherRobots) {
     options.seed = 80000 + seed;
     Scenario scenario = worlds::generate(worlds::Kind::discs, options);
     scenario.robot = draw_robot(random);
-    Bench bench(scenario, seed % 2 == 0 ? PlannerKind::skirt : PlannerKind::map);
+    Bench bench(scenario, seed % 2 == 0 ? PlannerKind::boundary : PlannerKind::map);
     const int most = longest_gap(scenario.robot).raw();
     bench.run(600, [&] { return 1 + random.index(most); });
     ++ends[bench.ended()];
@@ -187,7 +187,7 @@ TEST(UnevenTicks, BeyondTheLongestGapTheyAreAFault) {
   for (const int gap : {61, 80, 100}) {
     worlds::Options options;
     options.seed = 5;
-    Bench bench(worlds::generate(worlds::Kind::discs, options), PlannerKind::skirt);
+    Bench bench(worlds::generate(worlds::Kind::discs, options), PlannerKind::boundary);
     bench.run(10);
     ASSERT_EQ(bench.ended(), "running");
     bench.run(1, [gap] { return gap; });

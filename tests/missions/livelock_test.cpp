@@ -16,7 +16,7 @@
 namespace whisker::test {
 namespace {
 
-constexpr PlannerKind kPlannersOfTheCore[] = {PlannerKind::skirt, PlannerKind::map, PlannerKind::thesis};
+constexpr PlannerKind kPlannersOfTheCore[] = {PlannerKind::boundary, PlannerKind::map, PlannerKind::thesis};
 
 Scenario open_ground(double x, double y) {
   Scenario s;
@@ -114,7 +114,7 @@ double off(Bench& bench) {
 
 TEST(Reset, AfterAClockThatWentBackItDrivesOn) {
   const Scenario s = ahead();
-  Bench bench(s, PlannerKind::skirt);
+  Bench bench(s, PlannerKind::boundary);
   bench.run(8);
   ASSERT_EQ(bench.ended(), "running");
   bench.set_clock(bench.now_ms() - 7000);
@@ -127,7 +127,7 @@ TEST(Reset, AfterAClockThatWentBackItDrivesOn) {
 
 TEST(Reset, AfterAStallOfTheCallerItKnowsWhereItIsAndTrustsNoGround) {
   const Scenario s = ahead();
-  Bench bench(s, PlannerKind::skirt);
+  Bench bench(s, PlannerKind::boundary);
   bench.run(8);
   ASSERT_EQ(bench.ended(), "running");
   bench.pass(600);
@@ -152,7 +152,7 @@ TEST(Reset, InClutterAfterStallsOfTheCallerItTouchesNothing) {
     worlds::Options options;
     options.seed = 61000 + seed;
     const Scenario s = worlds::generate(worlds::Kind::discs, options);
-    Bench bench(s, PlannerKind::skirt);
+    Bench bench(s, PlannerKind::boundary);
     for (int stall = 0; stall < 6 && !bench.plant().in_contact(); ++stall) {
       bench.run(5);
       if (bench.ended() != "running") break;

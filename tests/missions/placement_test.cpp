@@ -13,7 +13,7 @@
 namespace whisker {
 namespace {
 
-constexpr PlannerKind kAll[] = {PlannerKind::skirt, PlannerKind::map, PlannerKind::thesis};
+constexpr PlannerKind kAll[] = {PlannerKind::boundary, PlannerKind::map, PlannerKind::thesis};
 
 /// The pose that is given to the robot every second.
 using PlacedAt = std::function<Pose(const sim::Pose& truth, const Pose& believed)>;

@@ -14,7 +14,7 @@ namespace whisker::test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr PlannerKind kPlanners[] = {PlannerKind::skirt, PlannerKind::map, PlannerKind::thesis};
+constexpr PlannerKind kPlanners[] = {PlannerKind::boundary, PlannerKind::map, PlannerKind::thesis};
 
 enum class Ring { closed, door, posts };
 

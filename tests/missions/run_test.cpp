@@ -25,7 +25,7 @@ struct Drive {
   std::string complaint;
 };
 
-Drive drive(const Scenario& scenario, PlannerKind planner = PlannerKind::skirt) {
+Drive drive(const Scenario& scenario, PlannerKind planner = PlannerKind::boundary) {
   Drive d;
   RunOptions options;
   options.planner = planner;
@@ -61,7 +61,7 @@ TEST(Run, AnEmptyWorldIsCrossedStraight) {
 TEST(Run, ADoorIsPassedAtTheFirstApproach) {
   // From the start, a cone covers the door and its posts: the map suspects the door until the body is near.
   for (const double width : {0.32, 0.36, 0.48}) {
-    for (const PlannerKind planner : {PlannerKind(PlannerKind::skirt), PlannerKind(PlannerKind::map)}) {
+    for (const PlannerKind planner : {PlannerKind(PlannerKind::boundary), PlannerKind(PlannerKind::map)}) {
       Scenario s = small_world("");
       s.goal.at = {4, 0};
       s.bounds = Bounds{{-1, -2}, {5, 2}};
@@ -110,9 +110,9 @@ TEST(Run, AWallWithoutEndMakesTheThesisPlannerGiveUp) {
 }
 
 TEST(Run, TheLengthBudgetIsTheRobots) {
-  for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::map}) {
+  for (const PlannerKind planner : {PlannerKind::boundary, PlannerKind::map}) {
     Scenario s = small_world("");
-    s.robot.skirt.length_budget = 1_m;
+    s.robot.boundary.length_budget = 1_m;
     const Drive d = drive(s, planner);
     EXPECT_EQ(d.result.verdict, Verdict::gave_up);
     EXPECT_EQ(d.result.detail, "length_budget");
@@ -132,7 +132,7 @@ TEST(Run, AClosedRoomGivesNoExitOrABudget) {
 
 TEST(Planners, AreFoundByTheirNames) {
   for (const PlannerKind kind : planners()) EXPECT_EQ(planner_named(name(kind)), kind) << name(kind);
-  EXPECT_EQ(planner_named("boundary"), PlannerKind::skirt);
+  EXPECT_EQ(planner_named("boundary"), PlannerKind::boundary);
   EXPECT_EQ(planner_named("Boundary"), std::nullopt);
 }
 

@@ -58,7 +58,7 @@ TEST(RecordingGuide, TellsAtEachTickWhatLeads) {
       if (r.mode == planning::Mode::surveying) {
         EXPECT_EQ(r.guide, Guidance::none) << r.t_s;
       }
-      if (r.mode == planning::Mode::searching || r.mode == planning::Mode::skirting) {
+      if (r.mode == planning::Mode::searching || r.mode == planning::Mode::following) {
         EXPECT_EQ(r.guide, Guidance::none) << r.t_s;
       }
       if (r.guide == Guidance::goal) {
@@ -78,7 +78,7 @@ TEST(RecordingGuide, TellsAtEachTickWhatLeads) {
 
 TEST(RecordingGuide, IsNotThereWithoutAMap) {
   RunOptions options;
-  options.planner = PlannerKind::skirt;
+  options.planner = PlannerKind::boundary;
   std::vector<TickRecord> records;
   options.watch = [&](const Moment& moment) {
     records.push_back(moment.record);

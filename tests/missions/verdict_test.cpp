@@ -14,7 +14,7 @@ namespace whisker {
 namespace {
 
 RunResult drive(const Scenario& scenario, std::vector<TickRecord>* records = nullptr,
-                PlannerKind planner = PlannerKind::skirt) {
+                PlannerKind planner = PlannerKind::boundary) {
   RunOptions options;
   options.planner = planner;
   if (records != nullptr)
@@ -83,7 +83,7 @@ TEST(Verdicts, IdealWheelsAreNeverOffTheGoal) {
       Scenario s = worlds::generate(kind, options);
       s.noise.range_sigma_m = 0.01;
       s.time_limit_s = 300;
-      for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map}) {
+      for (const PlannerKind planner : {PlannerKind::boundary, PlannerKind::thesis, PlannerKind::map}) {
         const RunResult r = drive(s, nullptr, planner);
         EXPECT_NE(r.verdict, Verdict::off_goal)
             << s.name << ", " << name(planner) << ": " << r.final_distance_m;
@@ -105,7 +105,7 @@ TEST(Verdicts, TheSmallestToleranceIsKept) {
   };
   const Wheels all[] = {{5000, 2_mm, 1_deg}, {2000, 1_mm, 1_deg}, {200, 5_mm, 9_deg}, {100, 10_mm, 9_deg}};
   for (const Wheels& wheels : all) {
-    for (const PlannerKind planner : {PlannerKind::skirt, PlannerKind::thesis, PlannerKind::map}) {
+    for (const PlannerKind planner : {PlannerKind::boundary, PlannerKind::thesis, PlannerKind::map}) {
       for (std::uint64_t i = 0; i < test::effort(12); ++i) {
         Scenario s;
         const double at = 2.4 * static_cast<double>(i);

@@ -77,7 +77,7 @@ TEST_P(OneWheel, ThatFailsIsAFaultBeforeItDoesHarm) {
     worlds::Options options;
     options.seed = 52000 + seed;
     Bench bench(worlds::generate(worlds::Kind::discs, options),
-                seed % 2 == 0 ? PlannerKind::skirt : PlannerKind::map);
+                seed % 2 == 0 ? PlannerKind::boundary : PlannerKind::map);
     if (seed % 4 >= 2) bench.run(2.0 + static_cast<double>(seed % 7));
     if (bench.ended() != "running") continue;
     GetParam().strike(bench.board());

@@ -142,7 +142,7 @@ TEST(Page, SaysHowLargeTheMapIs) {
   const auto map_of = [&](std::optional<PlannerKind> planner) {
     return nlohmann::json::parse(stored(RunLog({scenario, planner, 1})).json)["map"];
   };
-  EXPECT_TRUE(map_of(PlannerKind::skirt).is_null());
+  EXPECT_TRUE(map_of(PlannerKind::boundary).is_null());
   EXPECT_TRUE(map_of(std::nullopt).is_null());
   const nlohmann::json expected = {{"bytes", 1024}, {"columns", 32}, {"rows", 48}, {"cell", 0.125}};
   EXPECT_EQ(map_of(core_planner("map", 1024)), expected);
@@ -172,7 +172,7 @@ TEST(RunLog, CoarseHasFiveTicksASecondAndTheLast) {
   const Scenario scenario = short_run();
   RunLog full({scenario}), coarse({scenario}, Detail::coarse);
   RunOptions options;
-  options.planner = PlannerKind::skirt;
+  options.planner = PlannerKind::boundary;
   full.watch(options);
   coarse.watch(options);
   const RunResult result = run(scenario, options);

@@ -87,12 +87,12 @@ void search(Fault fault) {
   for (std::uint64_t seed = 1; seed <= test::effort(3334, 200000); ++seed) {
     Random random(seed);
     const Params p = draw_robot(random);
-    const double cell = metres(patch_cell(p));
+    const double cell = metres(grid_cell(p));
     std::vector<Pose> walk = draw_walk(p, random);
     Cluttered world;
     const int obstacles = 1 + random.index(1 + random.index(5));
     for (int i = 0; i < obstacles; ++i) add_obstacle(world, p, walk, fault == Fault::false_clear, random);
-    if (random.chance(0.7)) align(world, walk, patch_cell(p).raw(), slack, random);
+    if (random.chance(0.7)) align(world, walk, grid_cell(p).raw(), slack, random);
     if (world.discs.empty() && world.segments.empty()) continue;
     ++worlds_seen;
     const bool aimed = random.chance(0.8);
@@ -121,11 +121,11 @@ void search(Fault fault) {
       now = now + milliseconds(random.chance(0.02) ? 460 : 50);
     }
     bool hidden = false;
-    for_each_clear(grid, at, patch_cell(p).raw(), [&](int column, int row) {
+    for_each_clear(grid, at, grid_cell(p).raw(), [&](int column, int row) {
       ++clear;
-      const Vec corner{Length::from_raw(column * patch_cell(p).raw()),
-                       Length::from_raw(row * patch_cell(p).raw())};
-      chained += unchained.is_clear(corner + Vec{patch_cell(p) / 2, patch_cell(p) / 2}) ? 0 : 1;
+      const Vec corner{Length::from_raw(column * grid_cell(p).raw()),
+                       Length::from_raw(row * grid_cell(p).raw())};
+      chained += unchained.is_clear(corner + Vec{grid_cell(p) / 2, grid_cell(p) / 2}) ? 0 : 1;
       hidden = hidden || occupied(square(column, row, cell, slack), world.view(), Shift{});
     });
     if (hidden && unsound++ == 0) first_unsound = seed;
@@ -142,7 +142,7 @@ TEST(ChainSoundness, AFalseClearReadingIsNoEvidenceWhileTheBodySways) {
   Params p;
   p.body.radius = 66_mm;
   p.body.track = 100_mm;
-  p.skirt.cell = 13_mm;
+  p.boundary.cell = 13_mm;
   p.thesis.base_step = 100_mm;
   p.thesis.small_step = 50_mm;
   p.rangefinders.max_range = 1052_mm;
@@ -179,7 +179,7 @@ TEST(ChainSoundness, AFalseClearReadingIsNoEvidenceWhileTheBodySways) {
 /// Cells that touch the ring between the body and two cells beyond the swept radius, and are not clear after
 /// a turn on the spot with nothing in range.
 int left_over(const Params& p, Random& random) {
-  const int32_t cell = patch_cell(p).raw();
+  const int32_t cell = grid_cell(p).raw();
   Pose pose{{Length::from_raw(random.index(cell)), Length::from_raw(random.index(cell))},
             Angle::from_raw(static_cast<uint32_t>(random.bits()))};
   perception::LocalGrid grid;
@@ -200,7 +200,7 @@ int left_over(const Params& p, Random& random) {
     }
     now = now + milliseconds(1000 / p.rangefinders.rate_hz);
   }
-  const double side = metres(patch_cell(p));
+  const double side = metres(grid_cell(p));
   const double outer = metres(rim_sweep(p).radius) + 2 * side;
   const int reach = static_cast<int>(outer / side) + 2;
   int missed = 0;
@@ -226,9 +226,9 @@ TEST(ChainReach, ATurnOnTheSpotClearsTheRim) {
     bool narrow = false;
     for (int i = 0; i < 3; ++i) narrow = narrow || beam_cone(p.rangefinders, i).raw() < (5_deg).raw();
     // The window reaches 13 cells behind the body.
-    const bool within = rim_sweep(p).radius + patch_cell(p) * 4 < patch_cell(p) * 13;
+    const bool within = rim_sweep(p).radius + grid_cell(p) * 4 < grid_cell(p) * 13;
     // A larger cell at the rim reaches below the middle of the body, where no chain begins.
-    const bool small = patch_cell(p) * 5 <= rim_sweep(p).radius * 2;
+    const bool small = grid_cell(p) * 5 <= rim_sweep(p).radius * 2;
     if (narrow || !within || !small || check(p) != ParamFault::none) continue;
     ++robots;
     const int missed = left_over(p, random);

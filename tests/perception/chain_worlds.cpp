@@ -23,7 +23,7 @@ Params draw_any_robot(Random& random) {
   p.body.radius = millimetres(20 + random.index(130));
   p.body.margin = millimetres(random.index(30));
   p.body.track = p.body.radius * 3 / 2;
-  p.skirt.cell = millimetres(5 + random.index(36));
+  p.boundary.cell = millimetres(5 + random.index(36));
   p.thesis.base_step = 100_mm;
   p.thesis.small_step = 50_mm;
   if (random.chance(0.5)) p.wheels.counts_per_metre = 1000000;

@@ -21,8 +21,8 @@ TEST(GroundAge, IsThatOfTheParametersIfNoErrorIsDeclared) {
   Params p;
   p.gyro.fitted = Fitted::yes;
   const GroundAge age = ground_age(p);
-  EXPECT_EQ(age.travel, p.skirt.age_travel);
-  EXPECT_EQ(age.turn, p.skirt.age_turn);
+  EXPECT_EQ(age.travel, p.boundary.age_travel);
+  EXPECT_EQ(age.turn, p.boundary.age_turn);
 }
 
 TEST(GroundAge, TwoStandardDeviationsOfTheHeadingMoveTheGroundByHalfACell) {
@@ -31,7 +31,7 @@ TEST(GroundAge, TwoStandardDeviationsOfTheHeadingMoveTheGroundByHalfACell) {
     const GroundAge age = ground_age(p);
     const Reach reach = whisker::reach(p);
     const double far = (reach.guard + reach.probe).raw() * 1e-6;
-    const double most = patch_cell(p).raw() * 1e-6 / 2;
+    const double most = grid_cell(p).raw() * 1e-6 / 2;
     const double each = millionth * 1e-6;
     const double by_travel = age.travel.raw() * 1e-6 * each * std::sqrt(2) / (p.body.track.raw() * 1e-6);
     EXPECT_NEAR(2 * by_travel * far, most, most * 0.01) << millionth;
@@ -49,25 +49,25 @@ TEST(GroundAge, TheLargestErrorsLeaveWhatTheParametersMaySet) {
 
 TEST(GroundAge, GoodWheelsAreNoReasonToAgeSooner) {
   const GroundAge age = ground_age(wheels(1000));
-  EXPECT_EQ(age.travel, Params{}.skirt.age_travel);
-  EXPECT_EQ(age.turn, Params{}.skirt.age_turn);
+  EXPECT_EQ(age.travel, Params{}.boundary.age_travel);
+  EXPECT_EQ(age.turn, Params{}.boundary.age_turn);
 }
 
 TEST(GroundAge, AGyroCountsInsteadOfTheWheels) {
   Params p = wheels(50000);
   p.gyro.fitted = Fitted::yes;
   p.pose_error.gyro_scale = millionths(1000);
-  EXPECT_EQ(ground_age(p).travel, p.skirt.age_travel);
-  EXPECT_EQ(ground_age(p).turn, p.skirt.age_turn);
+  EXPECT_EQ(ground_age(p).travel, p.boundary.age_travel);
+  EXPECT_EQ(ground_age(p).turn, p.boundary.age_turn);
   p.pose_error.gyro_scale = millionths(50000);
-  EXPECT_LT(ground_age(p).turn.raw(), p.skirt.age_turn.raw());
+  EXPECT_LT(ground_age(p).turn.raw(), p.boundary.age_turn.raw());
 }
 
 TEST(GroundAge, ACommonErrorOfTheWheelsTurnsTheBodyToo) {
   Params p;
   p.pose_error.wheel_scale_common = millionths(30000);
-  EXPECT_EQ(ground_age(p).travel, p.skirt.age_travel);
-  EXPECT_LT(ground_age(p).turn.raw(), p.skirt.age_turn.raw());
+  EXPECT_EQ(ground_age(p).travel, p.boundary.age_travel);
+  EXPECT_LT(ground_age(p).turn.raw(), p.boundary.age_turn.raw());
 }
 
 }  // namespace

@@ -128,8 +128,8 @@ TEST(LocalGrid, AMovingWindowNeitherLeaksNorLoses) {
   for (std::uint64_t seed = 1; seed <= test::effort(300); ++seed) {
     Random random(seed);
     Params params;
-    params.skirt.age_travel = 1000_m;
-    params.skirt.age_turn = 359_deg;
+    params.boundary.age_travel = 1000_m;
+    params.boundary.age_turn = 359_deg;
     perception::LocalGrid local_grid;
     local_grid.configure(params);
     Pose pose{{millimetres(random.index(4000) - 2000), millimetres(random.index(4000) - 2000)},
@@ -159,7 +159,7 @@ TEST(LocalGrid, AMovingWindowNeitherLeaksNorLoses) {
 }
 
 /// A local grid with random clear ground around a body at rest.
-perception::LocalGrid draw_patch(Random& random, const Pose& pose) {
+perception::LocalGrid draw_local_grid(Random& random, const Pose& pose) {
   perception::LocalGrid local_grid;
   local_grid.configure(Params{});
   local_grid.reset(pose);
@@ -187,7 +187,7 @@ TEST(LocalGrid, AlongCountsWhatIsNotClearOnTheWay) {
   for (std::uint64_t seed = 1; seed <= test::effort(3000); ++seed) {
     Random random(seed);
     const Pose pose = draw_pose(random);
-    const perception::LocalGrid local_grid = draw_patch(random, pose);
+    const perception::LocalGrid local_grid = draw_local_grid(random, pose);
     const Length length = millimetres(random.index(150));
     const Length radius = millimetres(20 + random.index(90));
     const perception::Obstacles found = local_grid.along(pose.at, pose.heading, length, radius);
@@ -230,7 +230,7 @@ TEST(LocalGrid, ApproachesTellsWhatComesNearer) {
   for (std::uint64_t seed = 1; seed <= test::effort(3000); ++seed) {
     Random random(seed);
     const Pose pose = draw_pose(random);
-    const perception::LocalGrid local_grid = draw_patch(random, pose);
+    const perception::LocalGrid local_grid = draw_local_grid(random, pose);
     const Length step = micrometres(100 + random.index(60000));
     const Length radius = millimetres(50 + random.index(60));
     const double heading = radians(pose.heading);
@@ -266,7 +266,7 @@ TEST(LocalGrid, ApproachesTellsWhatComesNearer) {
 // Seen once, then left behind or turned away from.
 TEST(LocalGrid, AClearCellLivesForOneToTwoSpans) {
   const Params params;
-  const Length span = params.skirt.age_travel;
+  const Length span = params.boundary.age_travel;
   perception::LocalGrid local_grid;
   local_grid.configure(params);
   Pose pose;

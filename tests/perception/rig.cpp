@@ -11,7 +11,7 @@ Rig::Rig(const Scenario& scenario, planning::Planner* planner)
       plant_(world_.view(), robot_spec(scenario_), noise_spec(scenario_.noise), scenario_.seed,
              scenario_.start),
       board_(plant_),
-      own_(planner == nullptr ? make_planner(PlannerKind::skirt, scenario_.robot) : nullptr),
+      own_(planner == nullptr ? make_planner(PlannerKind::boundary, scenario_.robot) : nullptr),
       recording_(planner == nullptr ? *own_ : *planner),
       robot_(board_, board_, recording_, scenario_.robot, &board_) {
   robot_.place(fixed_pose(scenario_.start));

@@ -24,7 +24,7 @@ constexpr double kTurn = 2 * 3.14159265358979323846;
 Params draw_params(Random& random) {
   Params p;
   if (random.chance(0.5)) return p;
-  p.skirt.cell = millimetres(5 + random.index(36));
+  p.boundary.cell = millimetres(5 + random.index(36));
   p.rangefinders.cone = Angle::turns(10 + random.index(450), 3600);
   p.rangefinders.side_angle = Angle::turns(50 + random.index(350), 3600);
   p.rangefinders.offset = millimetres(random.chance(0.5) ? random.index(90) : 0);
@@ -42,7 +42,7 @@ Pose draw_pose(Random& random) {
 
 /// Near the body, or where the rule is weakest: cell corners, cone edges, and tiny distances from them.
 sim::Vec2 draw_point(const Params& p, const Pose& pose, Random& random) {
-  const double cell = metres(patch_cell(p));
+  const double cell = metres(grid_cell(p));
   const sim::Vec2 body{metres(pose.at.x), metres(pose.at.y)};
   const double hair =
       random.chance(0.5) ? 0 : std::pow(10.0, random.uniform(-9, -3)) * (random.chance(0.5) ? 1 : -1);
@@ -108,9 +108,9 @@ TEST(Soundness, NoAdversaryHidesInAClearCell) {
       pose.heading += Angle::from_raw(static_cast<uint32_t>(random.index(1 << 29)));
       local_grid.move_to(pose);
     }
-    for_each_clear(local_grid, pose, patch_cell(p).raw(), [&](int column, int row) {
+    for_each_clear(local_grid, pose, grid_cell(p).raw(), [&](int column, int row) {
       ++clear;
-      ASSERT_FALSE(occupied(square(column, row, metres(patch_cell(p))), world.view(), Shift{}))
+      ASSERT_FALSE(occupied(square(column, row, metres(grid_cell(p))), world.view(), Shift{}))
           << "seed " << seed << ": cell " << column << ' ' << row;
     });
     if (HasFatalFailure()) return;
@@ -193,7 +193,7 @@ TEST_P(SoundnessIn, MotionHoldsButForAHair) {
     options.seed = 900 + seed;
     const Scenario scenario = worlds::generate(GetParam(), options);
     Rig rig(scenario);
-    const double cell = metres(patch_cell(scenario.robot));
+    const double cell = metres(grid_cell(scenario.robot));
     int ticks = 0;
     while (rig.plant().time() < 40) {
       const sim::Pose truth = rig.plant().pose();
@@ -201,7 +201,7 @@ TEST_P(SoundnessIn, MotionHoldsButForAHair) {
       if (++ticks % every != 0) continue;
       const Pose& pose = rig.status().pose;
       const Shift shift{truth, {{metres(pose.at.x), metres(pose.at.y)}, radians(pose.heading)}};
-      for_each_clear(*rig.local_grid(), pose, patch_cell(scenario.robot).raw(), [&](int column, int row) {
+      for_each_clear(*rig.local_grid(), pose, grid_cell(scenario.robot).raw(), [&](int column, int row) {
         ++clear;
         for (int i = 0; i < 2; ++i) {
           if (!occupied(square(column, row, cell, slacks[i]), rig.world(), shift)) break;

@@ -20,9 +20,9 @@ Scenario u_trap() {
   return worlds::generate(worlds::Kind::u_trap, options);
 }
 
-RunResult by_skirt(const Scenario& scenario) {
+RunResult by_boundary(const Scenario& scenario) {
   RunOptions options;
-  options.planner = PlannerKind::skirt;
+  options.planner = PlannerKind::boundary;
   return run(scenario, options);
 }
 
@@ -30,9 +30,9 @@ TEST(Drive, IsTheRunHoweverItsTicksAreCut) {
   worlds::Options options;
   options.noise = true;
   const Scenario scenario = worlds::generate(worlds::Kind::u_trap, options);
-  const RunResult expected = by_skirt(scenario);
+  const RunResult expected = by_boundary(scenario);
   for (const int ticks : {1, 7, kMost}) {
-    Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+    Drive drive(scenario, PlannerKind::boundary, fuzzy::kDefaultTable);
     while (!drive.mission().verdict()) drive.advance(ticks);
     const RunResult result = drive.mission().result();
     EXPECT_EQ(result.hash, expected.hash) << ticks;
@@ -46,18 +46,18 @@ TEST(Drive, IsTheRunHoweverItsTicksAreCut) {
 
 TEST(Drive, AChangeToTheSameWorldChangesNothing) {
   const Scenario scenario = u_trap();
-  Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+  Drive drive(scenario, PlannerKind::boundary, fuzzy::kDefaultTable);
   while (!drive.mission().verdict()) {
     drive.advance(50);
     if (!drive.mission().verdict()) drive.change(scenario);
   }
-  EXPECT_EQ(drive.mission().result().hash, by_skirt(scenario).hash);
+  EXPECT_EQ(drive.mission().result().hash, by_boundary(scenario).hash);
 }
 
 TEST(Drive, ReachesAGoalThatMovesAgainAndAgain) {
   Scenario scenario;
   scenario.goal.at = {1, 0};
-  Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+  Drive drive(scenario, PlannerKind::boundary, fuzzy::kDefaultTable);
   for (const sim::Vec2 goal : {sim::Vec2{1, 0}, sim::Vec2{0.5, 0.8}, sim::Vec2{-0.5, 0}}) {
     scenario.goal.at = goal;
     drive.change(scenario);
@@ -71,7 +71,7 @@ TEST(Drive, WhoOnlyBelievesToBeThereIsOffTheGoalAndSetsOutAgainForAnother) {
   Scenario scenario;
   scenario.goal.at = {4, 0};
   scenario.noise.wheel_scale_sigma = 0.02;
-  Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+  Drive drive(scenario, PlannerKind::boundary, fuzzy::kDefaultTable);
   drive.advance(kMost);
   ASSERT_EQ(drive.mission().verdict(), Verdict::off_goal);
   scenario.goal.at = {0, 0};
@@ -84,7 +84,7 @@ TEST(Drive, WhoOnlyBelievesToBeThereIsOffTheGoalAndSetsOutAgainForAnother) {
 TEST(Drive, AContactIsForGood) {
   Scenario scenario;
   scenario.goal.at = {2, 0};
-  Drive drive(scenario, PlannerKind::skirt, fuzzy::kDefaultTable);
+  Drive drive(scenario, PlannerKind::boundary, fuzzy::kDefaultTable);
   drive.advance(300);
   Scenario struck = scenario;
   struck.discs = {{drive.plant().pose().at, 0.2}};

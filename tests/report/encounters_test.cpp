@@ -33,7 +33,7 @@ std::vector<TickRecord> drive(const std::vector<Doings>& script) {
 
 constexpr Doings kGoing{Mode::going, Why::target_free};
 constexpr Doings kHit{Mode::searching, Why::target_blocked};
-constexpr Doings kEdge{Mode::skirting, Why::edge};
+constexpr Doings kEdge{Mode::following, Why::edge};
 
 TEST(Encounters, LastFromTheHitToTheLeave) {
   const auto records = drive({{Mode::surveying, Why::goal_set},
@@ -60,7 +60,7 @@ TEST(Encounters, LastFromTheHitToTheLeave) {
 TEST(Encounters, OfTheThesisPlannerLastWhileItsDangerCounterRuns) {
   const auto records = drive({{Mode::facing, Why::target_free},
                               {Mode::looking, Why::target_blocked, 1},
-                              {Mode::skirting, Why::exit_left, 1},
+                              {Mode::following, Why::exit_left, 1},
                               {Mode::facing, Why::exit_left, 1},
                               {Mode::looking, Why::same_side, 2},
                               {Mode::looking, Why::target_free, 0},
@@ -79,7 +79,7 @@ TEST(Encounters, MayEndWithTheWallLostOrTheVerdictOrTheRun) {
 
   const auto shut = drive({kHit,
                            kEdge,
-                           {Mode::skirting, Why::came_round},
+                           {Mode::following, Why::came_round},
                            {Mode::searching, Why::came_round},
                            kEdge,
                            {Mode::unreachable, Why::came_round}});
@@ -88,7 +88,7 @@ TEST(Encounters, MayEndWithTheWallLostOrTheVerdictOrTheRun) {
   EXPECT_EQ(encounters(shut)[0].turned, &shut[2]);
   EXPECT_EQ(encounters(shut)[0].left, &shut[5]);
 
-  for (const Mode mode : {Mode::gave_up, Mode::stopped, Mode::skirting}) {
+  for (const Mode mode : {Mode::gave_up, Mode::stopped, Mode::following}) {
     const auto open = drive({kHit, kEdge, {mode, Why::no_exit}});
     ASSERT_EQ(encounters(open).size(), 1U);
     EXPECT_EQ(encounters(open)[0].end, Encounter::End::none);

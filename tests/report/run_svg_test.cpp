@@ -236,7 +236,7 @@ TEST(RunEdges, lists_the_first_eight_boundaries_and_counts_the_others) {
   std::vector<testing::Leg> legs;
   for (int i = 0; i < 21; ++i) {
     const double x = i;
-    legs.push_back({{x, 0.5}, planning::Mode::skirting, planning::Why::edge});
+    legs.push_back({{x, 0.5}, planning::Mode::following, planning::Why::edge});
     legs.push_back({{x + 0.5, 0}});
   }
   const auto records = testing::follow(scenario, legs);

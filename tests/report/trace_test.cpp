@@ -51,7 +51,7 @@ TEST(Trace, writes_a_record_in_every_detail) {
   r.ranges.beam[hal::kRight] = {0, hal::RangeStatus::too_near, 0, 0};
   r.v_left_mps = 0.25;
   r.v_right_mps = -0.123456;
-  r.mode = planning::Mode::skirting;
+  r.mode = planning::Mode::following;
   r.why = planning::Why::same_side;
   r.danger_count = 7;
   r.looked = true;

@@ -49,7 +49,7 @@ TEST(Doing, outside_a_step_follows_the_mode_whatever_the_reason) {
     EXPECT_EQ(doing(tick(Mode::steering, why)), Doing::table);
     EXPECT_EQ(doing(tick(Mode::probing, why)), Doing::probing);
     EXPECT_EQ(doing(tick(Mode::searching, why)), Doing::danger);
-    EXPECT_EQ(doing(tick(Mode::skirting, why)), Doing::danger);
+    EXPECT_EQ(doing(tick(Mode::following, why)), Doing::danger);
     EXPECT_EQ(doing(tick(Mode::facing, why)), Doing::free);
   }
 }

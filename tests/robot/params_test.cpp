@@ -14,15 +14,15 @@ namespace whisker {
 namespace {
 
 // Errors that the compiler finds.
-constexpr Params with_shield_margin(Length margin) {
+constexpr Params with_guard_margin(Length margin) {
   Params p;
-  p.skirt.shield_margin = margin;
+  p.boundary.guard_margin = margin;
   return p;
 }
 static_assert(check(Params{}) == ParamFault::none);
-static_assert(check(with_shield_margin(6_mm)) == ParamFault::none);
-static_assert(check(with_shield_margin(7_mm)) == ParamFault::planning_below_shield);
-static_assert(check(with_shield_margin(501_mm)) == ParamFault::out_of_range);
+static_assert(check(with_guard_margin(6_mm)) == ParamFault::none);
+static_assert(check(with_guard_margin(7_mm)) == ParamFault::planning_below_guard_margin);
+static_assert(check(with_guard_margin(501_mm)) == ParamFault::out_of_range);
 
 TEST(Params, TheDefaultsAreAccepted) { EXPECT_EQ(check(Params{}), ParamFault::none); }
 
@@ -99,15 +99,15 @@ TEST(Params, EveryRelationIsChecked) {
       {ParamFault::walls_without_bound, [](Params& p) { p.walls.straight = Fitted::yes; }},
       {ParamFault::beams_crossed,
        [](Params& p) { p.rangefinders.beams[hal::kFront].angle = direction_of(31_deg); }},
-      {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 200_mm; }},
-      {ParamFault::patch_too_small, [](Params& p) { p.skirt.probe = 44_mm; }},
-      {ParamFault::patch_too_small,
+      {ParamFault::local_grid_too_small, [](Params& p) { p.boundary.probe = 200_mm; }},
+      {ParamFault::local_grid_too_small, [](Params& p) { p.boundary.probe = 44_mm; }},
+      {ParamFault::local_grid_too_small,
        [](Params& p) {
          p.body.radius = 340_mm;
          p.thesis.danger_range = 500_mm;
          p.rangefinders.incidence = 80_deg;
        }},
-      {ParamFault::planning_below_shield, [](Params& p) { p.skirt.shield_margin = 7_mm; }},
+      {ParamFault::planning_below_guard_margin, [](Params& p) { p.boundary.guard_margin = 7_mm; }},
       {ParamFault::walls_unseen, [](Params& p) { p.rangefinders.incidence = 47_deg; }},
       {ParamFault::walls_unseen,
        [](Params& p) {
@@ -167,9 +167,9 @@ TEST(Params, EveryRelationIsAskedOnceAndAllThatFailAreFound) {
   Params p;
   p.body.track = 181_mm;
   p.thesis.small_step = 201_mm;
-  p.skirt.shield_margin = 7_mm;
+  p.boundary.guard_margin = 7_mm;
   EXPECT_EQ(violated(p), (std::set<ParamFault>{ParamFault::track_wider_than_body, ParamFault::steps_reversed,
-                                               ParamFault::planning_below_shield}));
+                                               ParamFault::planning_below_guard_margin}));
   EXPECT_EQ(check(p), ParamFault::track_wider_than_body) << "the first";
 }
 

@@ -29,12 +29,12 @@ struct Torment {
   int worlds = 0;
 };
 
-Torment torment(std::uint64_t seed, int count, bool noise, Length margin = Params{}.skirt.shield_margin) {
+Torment torment(std::uint64_t seed, int count, bool noise, Length margin = Params{}.boundary.guard_margin) {
   Torment nearest;
   for (int i = 0; i < count; ++i) {
     Random random(seed + static_cast<std::uint64_t>(i));
     Scenario scenario = worlds::beside_obstacle(random, worlds::kAllClasses, noise, {});
-    scenario.robot.skirt.shield_margin = margin;
+    scenario.robot.boundary.guard_margin = margin;
     Adversary adversary(random.bits());
     Rig rig(scenario, &adversary);
     while (rig.plant().time() < kMission_s && rig.step()) {
@@ -79,7 +79,7 @@ TEST(SpeedLimiter, TouchesNothingWithoutAMarginEither) {
 }
 
 RC_GTEST_PROP(SpeedLimiter, NeverTouchesFromAnySeed, (std::uint64_t seed, bool noise)) {
-  const auto margin = micrometres(*rc::gen::inRange(0, Params{}.skirt.planning_margin.raw() + 1));
+  const auto margin = micrometres(*rc::gen::inRange(0, Params{}.boundary.planning_margin.raw() + 1));
   const Torment n = torment(seed, 1, noise, margin);
   RC_ASSERT(n.gap > 0);
   RC_ASSERT(n.beside > 0);
@@ -157,7 +157,7 @@ TEST(SpeedLimiter, ChecksTheWholeWayOfTheSmallestBody) {
   Params p;
   p.body.radius = 20_mm;
   p.body.track = 30_mm;
-  p.skirt.shield_margin = micrometres(900);
+  p.boundary.guard_margin = micrometres(900);
   p.wheels.max_speed = 115_mm_per_s;
   const auto granted = [&](Length beside) {
     const Pose pose{{micrometres(1350), micrometres(17778) - beside}, {}};

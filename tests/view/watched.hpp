@@ -12,7 +12,7 @@ namespace whisker::view::testing {
 /// Some seconds to the goal, around a disc.
 Scenario short_run();
 
-inline RunSetting setting(const Scenario& scenario) { return {scenario, PlannerKind::skirt, 7}; }
+inline RunSetting setting(const Scenario& scenario) { return {scenario, PlannerKind::boundary, 7}; }
 
 /// Begins, drives and ends a run; calls `each` after every tick.
 RunResult drive(const Scenario& scenario, Feed& feed, const std::function<void(const Moment&)>& each = {});

@@ -35,8 +35,8 @@ int main() {
   static constexpr Params params;
   static EmptyWorld sensors;
   static PerfectWheels wheels;
-  static planning::TableBoundaryPlanner skirt{params, fuzzy::kDefaultTable};
-  static Robot robot{sensors, wheels, skirt.planner, params};
+  static planning::TableBoundaryPlanner boundary{params, fuzzy::kDefaultTable};
+  static Robot robot{sensors, wheels, boundary.planner, params};
   hal::Console& console = hal::board().console;
 
   robot.place({});

@@ -28,13 +28,13 @@ class BoundaryFollower {
   static constexpr Transition<Phase, Event> kTransitions[] = {
       {Phase::brake, Event::settled, Phase::search},
       {Phase::search, Event::unknown, Phase::scan, Mode::looking, Why::unknown_ahead},
-      {Phase::scan, Event::scanned, Phase::search, Mode::skirting},
-      {Phase::search, Event::free, Phase::turn, Mode::skirting, Why::edge},
-      {Phase::turn, Event::facing, Phase::follow, Mode::skirting},
+      {Phase::scan, Event::scanned, Phase::search, Mode::following},
+      {Phase::search, Event::free, Phase::turn, Mode::following, Why::edge},
+      {Phase::turn, Event::facing, Phase::follow, Mode::following},
       {Phase::follow, Event::opening, Phase::brake, Mode::idle, Why::opening},
       {Phase::follow, Event::stuck, Phase::brake},
-      {Phase::search, Event::none_free, Phase::retreat, Mode::skirting, Why::way_back},
-      {Phase::retreat, Event::back, Phase::follow, Mode::skirting, Why::edge},
+      {Phase::search, Event::none_free, Phase::retreat, Mode::following, Why::way_back},
+      {Phase::retreat, Event::back, Phase::follow, Mode::following, Why::edge},
       {Phase::retreat, Event::stuck, Phase::brake},
   };
 

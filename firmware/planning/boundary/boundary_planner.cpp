@@ -63,7 +63,7 @@ bool BoundaryPlanner::gives_way(const View& view) const noexcept {
 }
 
 void BoundaryPlanner::act(const View& view) noexcept {
-  const Why exhausted = behaviours_.progress.exhausted(behaviours_.params.skirt.length_budget);
+  const Why exhausted = behaviours_.progress.exhausted(behaviours_.params.boundary.length_budget);
   if (exhausted != Why::none) {
     phase_ = Phase::over;
     finish(Mode::gave_up, exhausted, Outcome::gave_up);

@@ -63,7 +63,7 @@ class BoundaryPlanner final : public GoalPlanner {
   static constexpr Transition<Phase, Event> kTransitions[] = {
       {Phase::survey, Event::surveyed, Phase::approach, Mode::going, Why::target_free},
       {Phase::approach, Event::blocked, Phase::choose_side, Mode::searching, Why::target_blocked},
-      {Phase::choose_side, Event::exit, Phase::boundary, Mode::skirting},
+      {Phase::choose_side, Event::exit, Phase::boundary, Mode::following},
       {Phase::choose_side, Event::no_exit, Phase::boundary},
       {Phase::boundary, Event::nearer, Phase::approach, Mode::going, Why::target_free},
       {Phase::boundary, Event::closed, Phase::boundary, Mode::idle, Why::came_round},
@@ -79,7 +79,7 @@ class BoundaryPlanner final : public GoalPlanner {
       {Phase::evade, Event::at_goal, Phase::arrive},
       {Phase::boundary, Event::slit, Phase::gap, Mode::looking, Why::opening},
       {Phase::gap, Event::through, Phase::approach, Mode::going, Why::target_free},
-      {Phase::gap, Event::too_narrow, Phase::boundary, Mode::skirting, Why::edge},
+      {Phase::gap, Event::too_narrow, Phase::boundary, Mode::following, Why::edge},
       {Phase::survey, Event::at_goal, Phase::arrive},
       {Phase::approach, Event::at_goal, Phase::arrive},
       {Phase::choose_side, Event::at_goal, Phase::arrive},

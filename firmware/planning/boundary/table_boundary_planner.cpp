@@ -10,7 +10,7 @@ Angle TableDeflection::deflect(const perception::Echoes& sight, const Params& pa
                                  sight.beam[hal::kRight].distance, params.rangefinders.max_range,
                                  params.thesis.distance_source);
   decision.response = engine_(decision.inputs);
-  if (params.skirt.bend == Fitted::no) return {};
+  if (params.boundary.bend == Fitted::no) return {};
   return scaled(params.thesis.base_turn, decision.response.turn);
 }
 

@@ -7,7 +7,7 @@
 
 namespace whisker::planning {
 
-/// SA x base angle, by the response table, if SkirtParams::bend asks for it.
+/// SA x base angle, by the response table, if BoundaryParams::bend asks for it.
 class TableDeflection final : public HeadingDeflection {
  public:
   explicit TableDeflection(const fuzzy::Engine::Table& table) noexcept : engine_(table) {}

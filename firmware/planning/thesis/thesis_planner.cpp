@@ -240,7 +240,7 @@ void ThesisPlanner::turn_to(Angle heading) noexcept {
 
 void ThesisPlanner::drive(Length length) noexcept {
   phase_ = Phase::move;
-  decision_.mode = decision_.danger_count == 0 ? Mode::stepping : Mode::skirting;
+  decision_.mode = decision_.danger_count == 0 ? Mode::stepping : Mode::following;
   decision_.manoeuvre = {ManoeuvreKind::drive, base_ + deflection(), length};
 }
 

@@ -3,7 +3,7 @@
 ///
 ///   idle -> facing -> looking -> steering -> probing -> stepping -> facing ...        (t = 0)
 ///                        |                      ^
-///                        +-> searching ---------+---> skirting -> facing ...          (t > 0)
+///                        +-> searching ---------+---> following -> facing ...          (t > 0)
 ///
 /// Source: "Simulation Implementation of Path Planning Algorithm Based on Fuzzy Control"; docs/navigation.md
 /// separates the thesis from reconstructions. It is the baseline: it can enter the same trap again until its

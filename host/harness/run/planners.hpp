@@ -24,7 +24,7 @@ struct PlannerKind {
   const fuzzy::Engine::Table* table = &fuzzy::kDefaultTable;  ///< must outlive the planner
   bool table_chosen = false;                                  ///< by the user, who wants it to drive
 
-  static const PlannerKind skirt, thesis, map;
+  static const PlannerKind boundary, thesis, map;
   friend constexpr bool operator==(PlannerKind a, PlannerKind b) {
     return a.number == b.number && a.map_bytes == b.map_bytes;
   }
@@ -39,13 +39,13 @@ constexpr PlannerKind core_planner(std::string_view name, std::int32_t map_bytes
   });
   return found;
 }
-inline constexpr PlannerKind PlannerKind::skirt = core_planner("skirt");
+inline constexpr PlannerKind PlannerKind::boundary = core_planner("skirt");
 inline constexpr PlannerKind PlannerKind::thesis = core_planner("thesis");
 inline constexpr PlannerKind PlannerKind::map = core_planner("map", planning::kUsualMapBytes);
 
 /// The default planner: see firmware/planning/default_planner.hpp.
 constexpr PlannerKind kDefaultPlanner =
-    planning::kDefaultMapBytes == 0 ? PlannerKind::skirt : core_planner("map", planning::kDefaultMapBytes);
+    planning::kDefaultMapBytes == 0 ? PlannerKind::boundary : core_planner("map", planning::kDefaultMapBytes);
 
 /// A planner and the global planner in it.
 struct RecordedPlanner {

@@ -66,7 +66,7 @@ bool sees(const Cone& c, double y, Stretch x) {
 /// The widest on this side of the course.
 Strip unseen_beside(const Params& p, const Cone (&cones)[3], bool left) {
   const double swept = metres(reach(p).guard), step = metres(p.body.radius) / kSamples;
-  const double window = kCellsAhead * metres(patch_cell(p)), ahead = seen_ahead_m(p);
+  const double window = kCellsAhead * metres(grid_cell(p)), ahead = seen_ahead_m(p);
   Strip widest{0, 0, left}, now = widest;
   for (int i = 0; (i + 0.5) * step < swept; ++i) {
     const double y = (i + 0.5) * step;
@@ -143,7 +143,7 @@ Strip unseen_strip(const Params& params, const Sensor& sensor) {
 }
 
 bool hides_obstacles(const Strip& strip, const Params& params) {
-  return strip.width() > metres(params.skirt.shield_margin);
+  return strip.width() > metres(params.boundary.guard_margin);
 }
 
 }  // namespace whisker

@@ -91,7 +91,7 @@ void BugPlanner::look(const View& view) {
   decision_.looked = true;
   if (phase_ == Phase::look_away) {
     if (leave(view)) return;
-    enter(Phase::follow, Mode::skirting, Why::edge);
+    enter(Phase::follow, Mode::following, Why::edge);
     follower_.begin_at_wall(view, follow_heading_, wall_, decision_);
   } else if (behaviours_.scan.in_vain()) {
     begin_follow(view);

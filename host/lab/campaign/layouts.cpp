@@ -62,12 +62,12 @@ Params scaled(Params p, double size) {
   scale(p.thesis.base_step, size, 0.02, 2);
   scale(p.thesis.small_step, size, 0.01, 1);
   scale(p.thesis.danger_range, size, 0.05, 5);
-  scale(p.skirt.cell, size, 0, 0.25);
-  scale(p.skirt.probe, size, 0, 2);
-  scale(p.skirt.shield_margin, size, 0, 0.5);
-  scale(p.skirt.planning_margin, size, 0, 0.5);
-  scale(p.skirt.age_travel, size, 0.1, 1000);
-  scale(p.skirt.length_budget, size, 1, 2000);
+  scale(p.boundary.cell, size, 0, 0.25);
+  scale(p.boundary.probe, size, 0, 2);
+  scale(p.boundary.guard_margin, size, 0, 0.5);
+  scale(p.boundary.planning_margin, size, 0, 0.5);
+  scale(p.boundary.age_travel, size, 0.1, 1000);
+  scale(p.boundary.length_budget, size, 1, 2000);
   scale(p.motion.drive_tolerance, size, std::max(0.001, 1.1 / p.wheels.counts_per_metre), 0.05);
   return p;
 }

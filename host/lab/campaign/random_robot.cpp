@@ -106,9 +106,9 @@ class Draw {
     set_si(p_.thesis.base_step, step);
     set_si(p_.thesis.small_step, std::clamp(random_.uniform(0.25, 1) * step, 0.01, 1.0));
     set_si(p_.thesis.danger_range, std::clamp(random_.uniform(0.15, 0.6) * size_, 0.05, 5.0));
-    set_si(p_.skirt.age_travel, std::max(0.1, 0.5 * size_));
-    set_si(p_.skirt.length_budget, std::min(2000.0, 400 * size_));
-    set_si(p_.skirt.mover_speed, random_.chance(0.5) ? 0 : std::min(1.0, speed_ * random_.uniform(0, 1)));
+    set_si(p_.boundary.age_travel, std::max(0.1, 0.5 * size_));
+    set_si(p_.boundary.length_budget, std::min(2000.0, 400 * size_));
+    set_si(p_.boundary.mover_speed, random_.chance(0.5) ? 0 : std::min(1.0, speed_ * random_.uniform(0, 1)));
   }
 
   /// Tolerances of at least one count, and the times that motor and encoder need.
@@ -130,9 +130,9 @@ class Draw {
   }
 
   void margins() {
-    const double shield = random_.uniform(0, 0.006) * size_;
-    set_si(p_.skirt.shield_margin, shield);
-    set_si(p_.skirt.planning_margin, shield + random_.uniform(0, 0.006) * size_);
+    const double guard = random_.uniform(0, 0.006) * size_;
+    set_si(p_.boundary.guard_margin, guard);
+    set_si(p_.boundary.planning_margin, guard + random_.uniform(0, 0.006) * size_);
   }
 
   Random& random_;

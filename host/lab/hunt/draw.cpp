@@ -20,7 +20,7 @@ constexpr std::size_t kManyShapes = 300;
 
 PlannerKind draw_planner(Dice& dice) {
   const double which = dice.uniform(0, 1);
-  return which < 0.6 ? PlannerKind::map : which < 0.85 ? PlannerKind::skirt : PlannerKind::thesis;
+  return which < 0.6 ? PlannerKind::map : which < 0.85 ? PlannerKind::boundary : PlannerKind::thesis;
 }
 
 /// Slow robots in their large worlds take longer; worlds of many obstacles make slow trials.

@@ -38,7 +38,7 @@ Judge::Judge(const Scenario& scenario)
   least_m_ = last_gap_m_ = nearest(scenario, scenario.start.at).distance_m - radius_m_;
   // A robot that creeps touches with its bumper.
   const bool creeps = scenario.robot.bumper.creep_speed != Speed{};
-  margin_m_ = creeps ? 0 : std::min(least_m_, scenario.robot.skirt.shield_margin.raw() * 1e-6);
+  margin_m_ = creeps ? 0 : std::min(least_m_, scenario.robot.boundary.guard_margin.raw() * 1e-6);
 }
 
 void Judge::see(const sim::Pose& pose, double t_s) {

@@ -56,9 +56,9 @@ void ticks(Dice& dice, Params& p) {
 
 void cells(Dice& dice, Params& p) {
   wide_cone(dice, p);
-  set_si(p.skirt.cell, std::min(0.25, radius_m(p) * dice.uniform(0.3, 0.48)));
-  set_si(p.skirt.shield_margin, half(dice, 0, dice.uniform(0, 0.006)));
-  p.skirt.planning_margin = p.skirt.shield_margin + millimetres(dice.index(6));
+  set_si(p.boundary.cell, std::min(0.25, radius_m(p) * dice.uniform(0.3, 0.48)));
+  set_si(p.boundary.guard_margin, half(dice, 0, dice.uniform(0, 0.006)));
+  p.boundary.planning_margin = p.boundary.guard_margin + millimetres(dice.index(6));
 }
 
 void turns(Dice& dice, Params& p) {
@@ -79,8 +79,8 @@ void encoders(Dice& dice, Params& p) {
   set_si(p.motion.drive_tolerance, dice.uniform(0.01, 0.05));
   set_si(p.thesis.delta, dice.uniform(11, 40));
   set_si(p.safety.stalled_after, 5);
-  set_si(p.skirt.age_travel, half(dice, 1000, dice.log_uniform(0.1, 10)));
-  set_si(p.skirt.age_turn, half(dice, 359, dice.uniform(90, 359)));
+  set_si(p.boundary.age_travel, half(dice, 1000, dice.log_uniform(0.1, 10)));
+  set_si(p.boundary.age_turn, half(dice, 359, dice.uniform(90, 359)));
   wide_cone(dice, p);
 }
 

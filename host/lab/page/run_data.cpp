@@ -63,9 +63,9 @@ Json robot_data(const Params& p) {
           {"max_range", metres(sensor.max_range)},
           {"offset", metres(sensor.offset)},
           {"beams", beams},
-          {"cell", metres(patch_cell(p))},
+          {"cell", metres(grid_cell(p))},
           {"base_turn", radians(p.thesis.base_turn)},
-          {"bends", p.skirt.bend == Fitted::yes},
+          {"bends", p.boundary.bend == Fitted::yes},
           {"period", static_cast<double>(p.safety.period.raw()) / 1000.0}};
 }
 

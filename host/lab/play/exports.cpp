@@ -114,7 +114,7 @@ WHISKER_EXPORT(judge) int judge() {
 WHISKER_EXPORT(begin) int begin(int side, int planner) {
   std::optional<Scenario> scenario = scenario_of(exchanged);
   if (!scenario) return 0;
-  if (edited) scenario->robot.skirt.bend = Fitted::yes;
+  if (edited) scenario->robot.boundary.bend = Fitted::yes;
   if (side == 0) driven = nullptr;
   robots[side] = std::make_unique<Drive>(*scenario, offered(planner), table);
   return 1;
@@ -270,7 +270,7 @@ WHISKER_EXPORT(robot) int robot() {
                metres(p.rangefinders.min_range),
                metres(p.rangefinders.max_range),
                metres(p.rangefinders.offset),
-               metres(patch_cell(p)),
+               metres(grid_cell(p)),
                half_turns(p.thesis.base_turn),
                p.safety.period.raw() / 1000.0};
   return answer();

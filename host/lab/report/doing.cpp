@@ -44,7 +44,7 @@ Doing doing(const TickRecord& record) noexcept {
     case planning::Mode::steering: return Doing::table;
     case planning::Mode::probing: return Doing::probing;
     case planning::Mode::searching:
-    case planning::Mode::skirting: return Doing::danger;
+    case planning::Mode::following: return Doing::danger;
     case planning::Mode::going:
     case planning::Mode::stepping: return doing_of_step(record.why);
     case planning::Mode::idle:

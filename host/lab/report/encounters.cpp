@@ -20,7 +20,7 @@ bool leaves(const TickRecord& r) {
     case planning::Mode::idle:
     case planning::Mode::looking:
     case planning::Mode::searching:
-    case planning::Mode::skirting:
+    case planning::Mode::following:
     case planning::Mode::surveying:
     case planning::Mode::gave_up:
     case planning::Mode::stopped: return false;

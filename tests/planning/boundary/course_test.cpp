@@ -195,7 +195,7 @@ TEST(Course, ReachesAGoalThatStandsBeforeAWall) {
 TEST(TableDeflection, TurnsAwayFromTheNearerSide) {
   TableDeflection law(fuzzy::kDefaultTable);
   Params params;
-  params.skirt.bend = Fitted::yes;
+  params.boundary.bend = Fitted::yes;
   Decision decision;
   const Angle right = law.deflect(echoes(300, 600, 2000), params, decision);
   EXPECT_LT(in_degrees(right), -1);

@@ -155,7 +155,7 @@ TEST(HeadingSearch, IsLostWhenItIsStuckInOnePlaceAgainAndAgain) {
   }
 }
 
-TEST(HeadingSearch, GoesOnWithTheNextWayWhereTheShieldRefusesOne) {
+TEST(HeadingSearch, GoesOnWithTheNextWayWhereTheGuardRefusesOne) {
   Ground g;
   g.free(0, 360);
   HeadingSearch feeler = come();

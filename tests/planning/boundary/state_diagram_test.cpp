@@ -171,10 +171,10 @@ TEST(StateDiagram, TablesAreSound) {
 TEST(StateDiagram, ChangesNothingWithoutAnArrow) {
   BoundaryFollower::Phase phase = BoundaryFollower::Phase::turn;
   Decision decision;
-  decision.mode = Mode::skirting;
+  decision.mode = Mode::following;
   change(BoundaryFollower::kTransitions, BoundaryFollower::Event::opening, phase, decision);
   EXPECT_EQ(phase, BoundaryFollower::Phase::turn);
-  EXPECT_EQ(decision.mode, Mode::skirting);
+  EXPECT_EQ(decision.mode, Mode::following);
   change(BoundaryFollower::kTransitions, BoundaryFollower::Event::facing, phase, decision);
   EXPECT_EQ(phase, BoundaryFollower::Phase::follow);
 }

@@ -43,7 +43,7 @@ TEST(StuckDetector, NeedsFourTicksHoweverLongTheyAre) {
   EXPECT_EQ(ticks(stall, held), 4);
 }
 
-TEST(StuckDetector, IsLessPatientWhereTheShieldHoldsBack) {
+TEST(StuckDetector, IsLessPatientWhereTheGuardHoldsBack) {
   StuckDetector stall;
   EXPECT_EQ(ticks(stall, driving({}, kHalf)), kTicks / 4);
   stall.reset();

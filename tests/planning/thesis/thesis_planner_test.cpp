@@ -171,7 +171,7 @@ TEST(Thesis, ABlockedTargetIsDangerAndTheSmallerTurnWins) {
   };
   const Decision d = p.next_drive(exit_at(60, 40));
   EXPECT_EQ(d.danger_count, 1);
-  EXPECT_EQ(d.mode, Mode::skirting);
+  EXPECT_EQ(d.mode, Mode::following);
   EXPECT_EQ(d.why, Why::exit_right);
   EXPECT_EQ(degrees(d.manoeuvre.heading), -40);
   EXPECT_EQ(d.manoeuvre.length, 100_mm);
@@ -198,7 +198,7 @@ TEST(Thesis, WhileTheTargetStaysBlockedItKeepsTheSideAndCounts) {
   const Decision second = p.next_drive(either);
   EXPECT_EQ(second.danger_count, 2);
   EXPECT_EQ(second.why, Why::same_side);
-  EXPECT_EQ(second.mode, Mode::skirting);
+  EXPECT_EQ(second.mode, Mode::following);
   EXPECT_LE(degrees(second.manoeuvre.heading), -50);
   EXPECT_EQ(second.manoeuvre.length, 100_mm);
   EXPECT_EQ(p.next_drive(either).danger_count, 3);

@@ -53,7 +53,7 @@ bool may_differ(const planning::Decision& d) {
 bool held_otherwise(const Status& a, const Status& b) {
   const bool mirrored = a.command.left == b.command.right && a.command.right == b.command.left;
   return !mirrored &&
-         (a.decision.mode == planning::Mode::stepping || a.decision.mode == planning::Mode::skirting);
+         (a.decision.mode == planning::Mode::stepping || a.decision.mode == planning::Mode::following);
 }
 
 void expect_mirrored(const Status& a, const Status& b) {

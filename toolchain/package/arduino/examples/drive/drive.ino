@@ -136,8 +136,8 @@ Encoders encoders;
 Motors motors;
 Timer timer;
 hal::mcu::GovernedWheels<Motors, Encoders> wheels{kMotor, kMotor, motors, encoders, timer};
-planning::TableBoundaryPlanner skirt{kRobot, fuzzy::kDefaultTable};
-Robot robot{sonars, wheels, skirt.planner, kRobot};
+planning::TableBoundaryPlanner boundary{kRobot, fuzzy::kDefaultTable};
+Robot robot{sonars, wheels, boundary.planner, kRobot};
 uint32_t next_ms;
 
 void setup() {

@@ -39,7 +39,7 @@ RunResult drive(const Scenario& scenario, PlannerKind planner) {
   return run(scenario, options);
 }
 
-constexpr PlannerKind kBoth[] = {PlannerKind::skirt, PlannerKind::map};
+constexpr PlannerKind kBoth[] = {PlannerKind::boundary, PlannerKind::map};
 
 void expect(const Case& c) {
   for (const PlannerKind planner : kBoth) {
@@ -51,7 +51,7 @@ void expect(const Case& c) {
   }
 }
 
-TEST(Skirt, GetsOutOfTraps) {
+TEST(BoundaryPlanner, GetsOutOfTraps) {
   const std::string u = "[[1.0, -1.0], [2.0, -1.0], [2.0, 1.0], [1.0, 1.0]]";
   const std::string inner = "[[1.3, -0.5], [1.7, -0.5], [1.7, 0.5], [1.3, 0.5]]";
   const std::string g =
@@ -79,13 +79,13 @@ std::string gate(double width) {
          "[bounds]\nmin = [-1.0, -3.0]\nmax = [5.0, 3.0]\n";
 }
 
-TEST(Skirt, TellsAGapFromAWall) {
+TEST(BoundaryPlanner, TellsAGapFromAWall) {
   const Case cases[] = {{"wide", scene(kAhead, gate(0.29)), Verdict::reached},
                         {"narrower than the body", scene(kAhead, gate(0.17)), Verdict::unreachable}};
   for (const Case& c : cases) expect(c);
 }
 
-TEST(Skirt, FindsTheUnreachableUnreachable) {
+TEST(BoundaryPlanner, FindsTheUnreachableUnreachable) {
   const std::string box = "[[3.0, -1.0], [5.0, -1.0], [5.0, 1.0], [3.0, 1.0], [3.0, -1.0]]";
   const std::string cell = "[[-0.5, -0.6], [0.7, -0.6], [0.7, 0.6], [-0.5, 0.6], [-0.5, -0.6]]";
   const std::string tight = "[[-0.12, -0.12], [0.12, -0.12], [0.12, 0.12], [-0.12, 0.12], [-0.12, -0.12]]";
@@ -102,7 +102,7 @@ TEST(Skirt, FindsTheUnreachableUnreachable) {
   }
 }
 
-TEST(Skirt, StartsWhereItIsPut) {
+TEST(BoundaryPlanner, StartsWhereItIsPut) {
   const std::string behind = "[[disc]]\ncenter = [-0.2901, 0.0]\nradius_m = 0.2\n";
   const std::string beside = "[[disc]]\ncenter = [0.0, 0.2901]\nradius_m = 0.2\n";
   const Case cases[] = {{"at the goal", scene("x_m = 0.0\ny_m = 0.0\n", ""), Verdict::reached},
@@ -112,13 +112,13 @@ TEST(Skirt, StartsWhereItIsPut) {
   for (const Case& c : cases) expect(c);
 }
 
-TEST(Skirt, TakesAnotherGoalOrNoneWhileItFollowsAWall) {
+TEST(BoundaryPlanner, TakesAnotherGoalOrNoneWhileItFollowsAWall) {
   const Scenario s = scene(kAhead, wall("[[1.5, -2.0], [1.5, 2.0]]"));
   const SimWorld world(s);
   sim::Plant plant(world.view(), robot_spec(s), noise_spec(s.noise), 1, s.start);
   hal::SimBoard board(plant);
-  planning::TableBoundaryPlanner skirt(s.robot, fuzzy::kDefaultTable);
-  Robot robot(board, board, skirt.planner, s.robot);
+  planning::TableBoundaryPlanner boundary(s.robot, fuzzy::kDefaultTable);
+  Robot robot(board, board, boundary.planner, s.robot);
   robot.place(fixed_pose(s.start));
   robot.set_goal({{4_m, Length{}}, 100_mm});
   std::uint32_t now = 0;
@@ -146,9 +146,9 @@ TEST(Skirt, TakesAnotherGoalOrNoneWhileItFollowsAWall) {
   EXPECT_FALSE(plant.in_contact());
 }
 
-class SkirtIn : public testing::TestWithParam<worlds::Kind> {};
+class BoundaryPlannerIn : public testing::TestWithParam<worlds::Kind> {};
 
-TEST_P(SkirtIn, EveryWorldComesToItsTrueVerdict) {
+TEST_P(BoundaryPlannerIn, EveryWorldComesToItsTrueVerdict) {
   for (std::uint64_t seed = 1; seed <= test::effort(8); ++seed) {
     worlds::Options options;
     options.seed = 300 + seed;
@@ -163,7 +163,7 @@ TEST_P(SkirtIn, EveryWorldComesToItsTrueVerdict) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Worlds, SkirtIn, testing::ValuesIn(worlds::kKinds), [](const auto& kind) {
+INSTANTIATE_TEST_SUITE_P(Worlds, BoundaryPlannerIn, testing::ValuesIn(worlds::kKinds), [](const auto& kind) {
   std::string name = worlds::name(kind.param);
   for (char& c : name) c = c == '-' ? '_' : c;
   return name;
