@@ -65,7 +65,7 @@ uint8_t BumpReflex::step(const Pose& pose, const Senses& senses, const Params& p
                                                                   : kStillTicks);
   const Duration driving =
       milliseconds(multiply_divide(way_back(params).raw(), 1000, backwards(params).raw()));
-  const Duration longest = params.safety.stalled_after + (phase_ == Phase::back ? driving : Duration{});
+  const Duration longest = derived::stalled_after(params) + (phase_ == Phase::back ? driving : Duration{});
   const bool late = phase_for_ > longest;
   switch (phase_) {
     case Phase::watch: break;

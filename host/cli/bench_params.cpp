@@ -45,10 +45,16 @@ auto as_usage(const F& parse) {
   }
 }
 
+/// Its index on the bus, and its key.
+std::pair<int, const char*> name_of(std::size_t place) {
+  static const std::vector<ParamEntry> list = param_list(Params{});
+  return {list[place].number, list[place].key};
+}
+
 void take(Params& params, std::size_t place, bench::ParamClient& client) {
-  const auto index = static_cast<std::uint8_t>(place);
+  const auto& [number, key] = name_of(place);
+  const auto index = static_cast<std::uint8_t>(number);
   const auto raw = client.read(index);
-  const char* const key = param_list(params)[place].key;
   if (!raw) throw bench::NoAnswer(fmt::format("the controller has no parameter {}", key));
   if (!in_own_range(index, *raw)) throw bench::NoAnswer(fmt::format("{} has no valid value", key));
   set_raw_param(params, index, *raw);
@@ -56,7 +62,7 @@ void take(Params& params, std::size_t place, bench::ParamClient& client) {
 
 Params read_all(bench::ParamClient& client) {
   Params params;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kParams); ++i) take(params, i, client);
+  for (std::size_t i = 0; i < robot_keys().size(); ++i) take(params, i, client);
   return params;
 }
 
@@ -75,7 +81,7 @@ Json entry_json(const ParamEntry& e, std::size_t place) {
     json["words"] = bench::words_of(place);
   }
   json["default"] = value_json(e, param_list(Params{})[place].raw);
-  json["index"] = place;
+  json["index"] = e.number;
   json["raw"] = e.raw;
   return json;
 }
@@ -84,7 +90,7 @@ int get(const ParamOptions& o) {
   if (o.all != o.names.empty()) throw UsageError("bench get: name parameters, or --all");
   std::vector<std::size_t> places;
   for (const std::string& name : o.names) places.push_back(as_usage([&] { return bench::place_of(name); }));
-  for (std::size_t i = 0; o.all && i < static_cast<std::size_t>(kParams); ++i) places.push_back(i);
+  for (std::size_t i = 0; o.all && i < robot_keys().size(); ++i) places.push_back(i);
   BenchBus bus(o.bus);
   const auto client = bus.client();
   Params params;
@@ -193,7 +199,7 @@ int save(const ParamOptions& o) {
       fmt::format("Parameters of robot {} on {}, firmware {}; unit and range behind each", bus.robot(),
                   bus.name(), version_text(v));
   files::write(o.file, bench::saved_toml(params, origin));
-  fmt::print(words_beside({o.file}), "{} parameters: {}\n", kParams, o.file);
+  fmt::print(words_beside({o.file}), "{} parameters: {}\n", robot_keys().size(), o.file);
   return 0;
 }
 

@@ -130,7 +130,7 @@ class Refusals(Case):
 
     def test_a_robot_too_large_for_the_start(self):
         self.file("a.toml", SCENE + "\n[[disc]]\ncenter = [0.0, 1.0]\nradius_m = 0.5\n")
-        self.file("large.toml", "body_radius_m = 0.5\nthesis_danger_range_m = 0.6\n")
+        self.file("large.toml", "body_radius_m = 0.5\n")
         self.refused("run", "a.toml", "--robot", "large.toml", says="large.toml:1:1: ")
 
     def test_every_number_option_refuses_what_is_no_number(self):

@@ -15,15 +15,13 @@ constexpr int kStepsPerTick = 2;
 constexpr Length kMoved = 40_mm;
 constexpr uint8_t kTooOld = 255;
 
-int32_t most_millimetres(const Params& params, int beam) noexcept {
-  return max_range(params.rangefinders, beam).raw() / 1000;
-}
+int32_t most_millimetres(const Params& params) noexcept { return params.rangefinders.max_range.raw() / 1000; }
 
-uint16_t millimetres_of(const hal::RangeReading& reading, const Params& params, int beam) noexcept {
-  const int32_t most = most_millimetres(params, beam);
+uint16_t millimetres_of(const hal::RangeReading& reading, const Params& params) noexcept {
+  const int32_t most = most_millimetres(params);
   if (reading.status == hal::RangeStatus::clear) return static_cast<uint16_t>(most);
   if (reading.status == hal::RangeStatus::too_near) {
-    return static_cast<uint16_t>(min_range(params.rangefinders, beam).raw() / 1000);
+    return static_cast<uint16_t>(params.rangefinders.min_range.raw() / 1000);
   }
   return reading.mm < most ? reading.mm : static_cast<uint16_t>(most);
 }
@@ -131,8 +129,8 @@ void SpinPlanner::sample(const hal::RangeReadings& ranges) noexcept {
     int32_t heading = 0;
     if (reading.age_ms == kTooOld || !says(reading) || !heading_at(ms_ - reading.age_ms, heading)) continue;
     const int32_t at = static_cast<int32_t>(divide_rounded(heading, 256));
-    const uint16_t mm = millimetres_of(reading, params_, i);
-    const bool echo = reading.status == hal::RangeStatus::ok && mm < most_millimetres(params_, i);
+    const uint16_t mm = millimetres_of(reading, params_);
+    const bool echo = reading.status == hal::RangeStatus::ok && mm < most_millimetres(params_);
     if (at <= RangeProfile::kTurn + 2 * ProfileMatch::kWindow) first_.add(i, at, mm, echo);
     const int32_t later = at - kBetween;
     if (later >= ProfileMatch::kWindow) last_.add(i, later, mm, echo);

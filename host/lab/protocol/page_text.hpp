@@ -316,7 +316,7 @@ ParamReply with its Index; without a reply, the base repeats the request. Reques
 1. write stages a value. ok: Value is the new one. out_of_range: the value is outside its range, and nothing changed.
 2. commit checks all relations between the staged values; Index is not used. ok: the next mission that starts uses them.
    inconsistent: Value is the number of a violated relation, and nothing changed.
-3. read returns the staged value. no_such: no parameter has this index.
+3. read returns the staged value. no_such: no parameter has this index, or the robot derives it.
 
 While a mission runs, the reply to write and commit is busy. A controller starts with the defaults, and keeps staged and
 committed values until it restarts. The indices belong to the firmware version in Info: compare it before you write.
