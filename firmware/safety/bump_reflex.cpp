@@ -18,7 +18,7 @@ Speed backwards(const Params& params) noexcept { return params.wheels.max_speed 
 }  // namespace
 
 void BumpReflex::enter(Phase phase) noexcept {
-  phase_ = phase;
+  planning::follow(kArrows, phase_, phase);
   phase_for_ = Duration{};
   still_ticks_ = 0;
 }

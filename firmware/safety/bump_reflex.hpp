@@ -6,6 +6,7 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/planning/arrows.hpp"
 #include "firmware/planning/manoeuvre.hpp"
 
 namespace whisker::safety {
@@ -48,6 +49,12 @@ class BumpReflex {
 
  private:
   enum class Phase : uint8_t { watch, stop, back, wait };
+  static constexpr planning::Arrow<Phase> kArrows[] = {
+      {Phase::watch, Phase::stop},
+      {Phase::stop, Phase::back},
+      {Phase::back, Phase::wait},
+      {Phase::wait, Phase::watch},
+  };
   static constexpr int8_t kPlaces = 9;
 
   void enter(Phase phase) noexcept;

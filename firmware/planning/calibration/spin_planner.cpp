@@ -63,14 +63,14 @@ void SpinPlanner::advance(const View& view) noexcept {
       by_gyro_ = view.raw.by_gyro;
       decision_.manoeuvre = cruise({{}, rate()}, params_);
       report(Mode::surveying, Why::none);
-      phase_ = Phase::running_up;
+      planning::follow(kArrows, phase_, Phase::running_up);
       break;
     case Phase::running_up:
       turned_ += step.wrapped();
       watch(view);
       if (turned_ < kRunUp || trouble() != Trouble::not_finished) break;
       turned_ = 0;
-      phase_ = Phase::spinning;
+      planning::follow(kArrows, phase_, Phase::spinning);
       phase_ms_ = 0;
       for (int i = 0; i < hal::kBeams; ++i) sequence_[i] = view.raw.ranges.beam[i].sequence;
       break;
@@ -83,7 +83,7 @@ void SpinPlanner::advance(const View& view) noexcept {
     case Phase::stopping:
       if (!view.settled) break;
       match_.start();
-      phase_ = Phase::matching;
+      planning::follow(kArrows, phase_, Phase::matching);
       break;
     case Phase::matching:
       for (int i = 0; i < kStepsPerTick; ++i) {
@@ -105,7 +105,7 @@ void SpinPlanner::follow(const View& view) noexcept {
   spun_ms_ = phase_ms_;
   decision_.manoeuvre = stop();
   report(Mode::looking, Why::none);
-  phase_ = Phase::stopping;
+  planning::follow(kArrows, phase_, Phase::stopping);
 }
 
 bool SpinPlanner::heading_at(int32_t ms, int32_t& heading) const noexcept {

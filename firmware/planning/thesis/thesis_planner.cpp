@@ -56,7 +56,7 @@ void ThesisPlanner::end_step(const View& view) noexcept {
   if (!scanned_ || norm(view.pose.at - scanned_at_) > kMoved) {
     scanned_ = true;
     scanned_at_ = view.pose.at;
-    phase_ = Phase::scan;
+    enter(Phase::scan);
     report(Mode::looking, Why::unknown_ahead);
     scan_.begin(base_ + deflection(), min(rest_of_step(view), view.local_grid->reach().probe),
                 decision_.manoeuvre);
@@ -72,7 +72,7 @@ void ThesisPlanner::end_step(const View& view) noexcept {
 
 void ThesisPlanner::scan(const View& view) noexcept {
   if (!scan_.step(view, params_, decision_.manoeuvre)) return;
-  phase_ = Phase::face_again;
+  enter(Phase::face_again);
   turn_to(base_ + deflection());
 }
 
@@ -100,7 +100,7 @@ void ThesisPlanner::arrive_at_position(const View& view) noexcept {
   ++steps_;
   surroundings_.forget();
   target_ = bearing(to_goal);
-  phase_ = Phase::face;
+  enter(Phase::face);
   decision_.mode = Mode::facing;
   turn_to(target_);
 }
@@ -144,7 +144,7 @@ void ThesisPlanner::steer(const View& view, Length distance) noexcept {
   }
   decision_.mode = Mode::steering;
   decision_.why = Why::table;
-  phase_ = Phase::probe;
+  enter(Phase::probe);
   turn_to(base_);
 }
 
@@ -222,14 +222,14 @@ void ThesisPlanner::search(const View& view) noexcept {
 void ThesisPlanner::take_exit(int32_t side, Why why) noexcept {
   side_ = side;
   decision_.why = why;
-  phase_ = Phase::probe;
+  enter(Phase::probe);
   turn_to(base_ + deflection());
 }
 
 Angle ThesisPlanner::deflection() const noexcept { return derived::kDelta * (deflections_ * side_); }
 
 void ThesisPlanner::deflect(Phase phase) noexcept {
-  phase_ = phase;
+  enter(phase);
   ++deflections_;
   turn_to(base_ + deflection());
 }
@@ -239,7 +239,7 @@ void ThesisPlanner::turn_to(Angle heading) noexcept {
 }
 
 void ThesisPlanner::drive(Length length) noexcept {
-  phase_ = Phase::move;
+  enter(Phase::move);
   decision_.mode = decision_.danger_count == 0 ? Mode::stepping : Mode::following;
   decision_.manoeuvre = {ManoeuvreKind::drive, base_ + deflection(), length};
 }
