@@ -63,7 +63,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   const GroundAge age = ground_age(params);
   age_travel_ = age.travel;
   age_turn_ = age.turn.raw();
-  approach_ = params.boundary.mover_speed * time_to_stop(params);
+  approach_ = derived::kMoverSpeed * time_to_stop(params);
 }
 
 LocalGrid::Point LocalGrid::local(Vec at) const noexcept {

@@ -39,6 +39,9 @@ void add_bench_bus(CLI::App& app, BenchChoice& choice);
 /// The status of `run`. Throws Interrupted for bench::Interrupted.
 int bench_status(const std::function<int()>& run);
 
+/// Prints the nodes that are heard in this time, s. Returns the exit status: 1 if there is none.
+int list_nodes(const BenchChoice& choice, double for_s, bool json);
+
 /// Opened by the constructor. Waits throw bench::NoAnswer and bench::Interrupted.
 class BenchBus {
  public:

@@ -101,7 +101,7 @@ TEST(Run, TheTimeLimitIsGaveUpAndSaysSo) {
 
 TEST(Run, AWallWithoutEndMakesTheThesisPlannerGiveUp) {
   Scenario s = small_world("[[wall]]\npoints = [[1.0, -9.0], [1.0, 9.0]]\n");
-  s.robot.thesis.max_steps = 60;
+  s.robot.boundary.length_budget = 6_m;
   s.time_limit_s = 600;
   const Drive d = drive(s, PlannerKind::thesis);
   EXPECT_EQ(d.result.verdict, Verdict::gave_up);
@@ -123,7 +123,7 @@ TEST(Run, TheLengthBudgetIsTheRobots) {
 
 TEST(Run, AClosedRoomGivesNoExitOrABudget) {
   Scenario s = small_world("[[polygon]]\npoints = [[1.7, -0.3], [2.3, -0.3], [2.3, 0.3], [1.7, 0.3]]\n");
-  s.robot.thesis.max_steps = 60;
+  s.robot.boundary.length_budget = 6_m;
   s.time_limit_s = 600;
   const Drive d = drive(s, PlannerKind::thesis);
   EXPECT_EQ(d.result.verdict, Verdict::gave_up);

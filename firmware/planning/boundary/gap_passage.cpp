@@ -35,13 +35,18 @@ constexpr int index(Side side) noexcept { return side == Side::left ? 0 : 1; }
 }  // namespace
 
 void GapPassage::enter(Phase phase) noexcept {
-  phase_ = phase;
+  follow(kArrows, phase_, phase);
+  pause();
+}
+
+void GapPassage::pause() noexcept {
   behaviours_.enter();
   last_ = Length{};
 }
 
 void GapPassage::begin(const View& view, const Pose& gap, Decision& decision) noexcept {
-  enter(Phase::brake);
+  phase_ = Phase::brake;
+  pause();
   at_ = gap.at;
   ahead_ = gap.heading;
   came_along_ = view.pose.heading;

@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "firmware/params.hpp"
+#include "firmware/planning/arrows.hpp"
 #include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/side.hpp"
 #include "firmware/planning/planner.hpp"
@@ -38,8 +39,15 @@ class GapPassage {
     move,   // drives there
     creep,  // drives along the lane
   };
+  static constexpr Arrow<Phase> kArrows[] = {
+      {Phase::brake, Phase::face}, {Phase::brake, Phase::aim},   {Phase::face, Phase::creep},
+      {Phase::face, Phase::sweep}, {Phase::sweep, Phase::face},  {Phase::sweep, Phase::aim},
+      {Phase::aim, Phase::face},   {Phase::aim, Phase::move},    {Phase::move, Phase::brake},
+      {Phase::creep, Phase::face}, {Phase::creep, Phase::sweep},
+  };
 
   void enter(Phase phase) noexcept;
+  void pause() noexcept;
   Result sweep(const View& view, Decision& decision) noexcept;
   /// Looks for the innermost point of the jamb on this side. True: the beam is past it.
   bool jamb(const View& view) noexcept;
