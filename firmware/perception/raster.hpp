@@ -35,7 +35,7 @@ constexpr int64_t floor_div(int64_t n, int32_t d) noexcept {
   WHISKER_ASSERT(d > 0);
   return n >= 0 ? quotient(n, d) : -quotient(-n + d - 1, d);
 }
-constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept {
+[[gnu::always_inline]] constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept {
   WHISKER_ASSERT(d > 0);
   return n > 0 ? (n + d - 1) / d : n / d;
 }
@@ -156,6 +156,7 @@ class Stadium {
   Row box() const noexcept;
 
  private:
+  void ends(Span& span, int32_t dy) const noexcept;
   void side(Span& span, int32_t dy, int32_t sign) const noexcept;
   int32_t x_, y_;
   int32_t end_x_, end_y_;  // from the start
@@ -163,7 +164,8 @@ class Stadium {
   int32_t beside_;  // distance from the path to its edge: centres of cells that just touch it
   int32_t
       skew_;  // offset along the path at which that edge begins on the left; the negative offset on the right
-  int32_t ux_, uy_;  // direction, 2^-14
+  int32_t ux_, uy_;            // direction, 2^-14
+  int32_t aside_x_, aside_y_;  // from the path to its left edge
 };
 
 }  // namespace whisker::perception
