@@ -299,7 +299,7 @@ bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool
                     units(farthest) + (takes ? kUnitsPerCell : explains_)};
   if (!takes && leaves_window(beam, farthest)) return false;
   const Row box = to_torus(Span::around(apex.x, arc.ends).columns());
-  for (Rows rows(apex.y, arc.ends); rows.more(); rows.next()) {
+  for (Rows rows = arc.rows(apex.y); rows.more(); rows.next()) {
     const int s = slot(rows.row());
     const Row clear = young_[s] | old_[s];
     if ((box & (takes ? clear : ~clear)) == 0) continue;

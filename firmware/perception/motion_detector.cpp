@@ -129,28 +129,28 @@ bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthe
   const Length beyond = farthest + kNoise / 3;
   const Length middle = (nearest + beyond) / 2;
   const Length radius = (beyond - nearest) / 2 + arc(step, far) / 2 + kSlack;
-  // The sectors that contain the ray from `nearest` to `far`.
-  const auto across = [&](Angle direction) {
-    const Q30 x = cos(direction);
-    const Q30 y = sin(direction);
-    const Mask behind = holding(beam.apex + Vec{far * x, far * y}, ~Mask{0});
+  const auto ray = [&](int k) { return beam.axis - half + step * k; };
+  // The sectors in `among` that contain the ray k from `nearest` to `far`.
+  const auto across = [&](int k, Mask among) {
+    if (among == 0) return Mask{0};
+    const Q30 x = cos(ray(k));
+    const Q30 y = sin(ray(k));
+    const Mask behind = holding(beam.apex + Vec{far * x, far * y}, among);
     return behind == 0 ? Mask{0} : holding(beam.apex + Vec{nearest * x, nearest * y}, behind);
   };
-  // Of the ray that was examined last.
-  Angle examined;
-  Mask around = 0;
+  // Sectors that contain the ray examined last: only some, until others are asked for.
+  int examined = -1;
+  Mask some = 0;
   for (int n = 0; n < kSectors; ++n) {
     // Middle sectors first: an obstacle is most likely in the middle of the cone.
     const int k = (n + kSectors / 2) % kSectors;
-    const Angle right = beam.axis - half + step * k;
-    const Angle centre = right + step - Angle::from_raw(step.raw() / 2);
+    const Angle centre = ray(k + 1) - Angle::from_raw(step.raw() / 2);
     if (local_grid.all_clear(beam.apex + polar(centre, middle), radius)) continue;
-    if (around == 0 || examined != right) around = across(right);
-    if (around == 0) return false;
-    const Mask before = around;
-    examined = right + step;
-    around = across(examined);
-    if ((before & around) == 0) return false;
+    const Mask known = examined == k ? some : 0;
+    some = across(k + 1, known);
+    if (some == 0) some = across(k + 1, across(k, ~known));
+    if (some == 0) return false;
+    examined = k + 1;
   }
   return true;
 }

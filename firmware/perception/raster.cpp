@@ -106,6 +106,14 @@ Wedge::Extent Wedge::extent(int32_t radius) const noexcept {
   return {down ? -radius : lower < 0 ? lower : 0, up ? radius : higher > 0 ? higher : 0};
 }
 
+int32_t Wedge::outside(int32_t margin) const noexcept {
+  // The sum of both normals is twice the sine of half the cone long.
+  const int32_t x = absolute(left_.nx + right_.nx);
+  const int32_t y = absolute(left_.ny + right_.ny);
+  const int32_t longer = x > y ? x : y;
+  return longer == 0 ? kLongest : kRim + margin * (1 << 15) / longer;
+}
+
 Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
   const Extent e = extent(radius);
   return Rows(y + e.low, y + e.high, kRim);
@@ -119,6 +127,12 @@ void Wedge::hold(Span& span, int32_t x, int32_t dy) const noexcept {
 void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
   left_.clip(span, x, dy, margin);
   right_.clip(span, x, dy, margin);
+}
+
+Rows EchoArc::rows(int32_t y) const noexcept {
+  const Wedge::Extent e = cone.extent(ends);
+  const int32_t off = cone.outside(kCellCover);
+  return Rows(y + e.low, y + e.high, off < ends ? off : ends);
 }
 
 Row EchoArc::columns(int32_t x, int32_t dy) const noexcept {

@@ -115,6 +115,8 @@ class Wedge {
     int32_t high;
   };
   Extent extent(int32_t radius) const noexcept;
+  /// No point that is at most this margin outside both edges is farther than this from the wedge.
+  int32_t outside(int32_t margin) const noexcept;
   /// Keeps the cells of the row that lie completely inside.
   void hold(Span& span, int32_t x, int32_t dy) const noexcept;
   /// Keeps the part of the row that is at least `margin` inside both edges.
@@ -132,6 +134,8 @@ struct EchoArc {
   Wedge cone;
   int32_t begins;
   int32_t ends;
+  /// The rows with cells of the arc, for an apex at y.
+  Rows rows(int32_t y) const noexcept;
   /// The apex is at x, and dy from the row.
   Row columns(int32_t x, int32_t dy) const noexcept;
 };
