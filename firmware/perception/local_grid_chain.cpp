@@ -113,9 +113,10 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
   for (int row = 0; row < kCells; ++row) {
     const int s = slot(row);
     Row& swept = chain.swept[s];
-    if (!goes_on) swept = 0;
-    if (!sound) continue;
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
+    const bool beyond = dy > free || dy < -free;
+    if (!goes_on || beyond) swept = 0;
+    if (!sound || beyond) continue;
     const int32_t dy_before = row * kUnitsPerCell + kHalfCell - apex_before.y;
     Span empty = Span::around(apex.x, free);
     empty.inside_disc(apex.x, dy, free);
@@ -129,10 +130,11 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
     Span entered = empty;
     trail.hold(entered, apex.x, dy);
     if (both) trail_before.hold(entered, apex_before.x, dy_before);
+    swept = (swept & to_torus(kept.columns())) | to_torus(entered.columns());
+    if ((swept & (~young_[s] | suspect_[s] | tested(s))) == 0) continue;
     Span left_behind = empty;
     lead.hold(left_behind, apex.x, dy);
     if (both) lead_before.hold(left_behind, apex_before.x, dy_before);
-    swept = (swept & to_torus(kept.columns())) | to_torus(entered.columns());
     const Row clear = swept & to_torus(left_behind.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;
