@@ -36,7 +36,8 @@ void BoundaryPlanner::advance(const View& view) noexcept {
   if (decision_.why == Why::something_moves) decision_.why = otherwise_;
   target_ = {goal_, view};
   behaviours_.progress.move(view, behaviours_.params);
-  loop_.move(view);
+  // What the body turns in front of a gap is none of the boundary.
+  if (phase_ != Phase::gap) loop_.move(view);
   follower_.move(view);
   approach_.observe(view);
   act(view);
