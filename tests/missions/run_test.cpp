@@ -59,9 +59,11 @@ TEST(Run, AnEmptyWorldIsCrossedStraight) {
 }
 
 TEST(Run, ADoorIsPassedAtTheFirstApproach) {
+  // A door of 0.30 m looks closed to the local grid: with a map, the robot measures its jambs.
   // From the start, a cone covers the door and its posts: the map suspects the door until the body is near.
-  for (const double width : {0.32, 0.36, 0.48}) {
+  for (const double width : {0.30, 0.32, 0.36, 0.48}) {
     for (const PlannerKind planner : {PlannerKind(PlannerKind::boundary), PlannerKind(PlannerKind::map)}) {
+      if (width == 0.30 && planner == PlannerKind::boundary) continue;
       Scenario s = small_world("");
       s.goal.at = {4, 0};
       s.bounds = Bounds{{-1, -2}, {5, 2}};

@@ -46,6 +46,7 @@ const char* name(BoundaryPlanner::Event event) {
     case BoundaryPlanner::Event::passed: return "it has passed";
     case BoundaryPlanner::Event::slit: return "the boundary may have a narrow gap";
     case BoundaryPlanner::Event::through: return "through the gap";
+    case BoundaryPlanner::Event::no_door: return "the gap straight ahead is too narrow";
     case BoundaryPlanner::Event::too_narrow: return "the gap is too narrow";
     case BoundaryPlanner::Event::at_goal: return "at the goal";
     case BoundaryPlanner::Event::slid_off: return "at rest beside the goal";
