@@ -1,0 +1,102 @@
+#pragma once
+
+#include "firmware/apps/static_storage.hpp"
+#include "hal/boards/common/governed_wheels.hpp"
+#include "hal/boards/common/schedule.hpp"
+#include "hal/boards/pico/encoders.hpp"
+#include "hal/boards/pico/flash_storage.hpp"
+#include "hal/boards/pico/led.hpp"
+#include "hal/boards/pico/line.hpp"
+#include "hal/boards/pico/motors.hpp"
+#include "hal/boards/pico/rangers.hpp"
+#include "hal/boards/pico/robot_params.hpp"
+#include "hal/boards/pico/switches.hpp"
+#include "hal/boards/pico/ticker.hpp"
+
+namespace whisker::hal::pico {
+
+/// The speed controllers of both wheels, for parameters that may change while the wheels stand.
+class Wheels final : public Drive {
+ public:
+  Wheels(Motors& motors, Encoders& encoders, Clock& clock) noexcept
+      : motors_(motors), encoders_(encoders), clock_(clock) {
+    adopt(kRobotParams);
+  }
+  void adopt(const Params& params) noexcept {
+    motor_ = motor_of(params);
+    governed_ = &room_.make<Governed>(motor_, motor_, motors_, encoders_, clock_);
+  }
+  bool command(WheelSpeeds speeds) noexcept override { return governed_->command(speeds); }
+  bool read(EncoderCounts& out) noexcept override { return governed_->read(out); }
+
+ private:
+  using Governed = mcu::GovernedWheels<Motors, Encoders>;
+  Motors& motors_;
+  Encoders& encoders_;
+  Clock& clock_;
+  mcu::MotorParams motor_;
+  Governed* governed_ = nullptr;
+  StaticStorage<sizeof(Governed)> room_;
+};
+
+/// All drivers of the board; a failed one counts its failures.
+///
+///   if (!board.start()) board.refuse();
+///   for (;;) { board.sleep(); board.poll(); if (board.due(10)) ...; }
+class RobotBoard {
+ public:
+  static constexpr uint32_t kWatchdogMs = 200;
+
+  RobotBoard() noexcept = default;
+  RobotBoard(const RobotBoard&) = delete;
+  RobotBoard& operator=(const RobotBoard&) = delete;
+
+  /// Call once. The motors are off until drive() is used. False: the crystal does not run, or the image is
+  /// damaged.
+  bool start() noexcept;
+  /// After start() has failed: flashes five times a second, for ever. The motor driver sleeps.
+  [[noreturn]] void refuse() noexcept;
+  /// Starts the watchdog and the motor driver.
+  void watch() noexcept;
+  /// Until the next millisecond.
+  void sleep() noexcept { ticker_.sleep(); }
+  /// Every millisecond: switches, button, counters.
+  void poll() noexcept;
+  /// True once per period. Also feeds the watchdog.
+  bool due(uint32_t period_ms) noexcept;
+  uint32_t now_ms() noexcept { return ticker_.now_ms(); }
+  /// Differs from that of the last start: noise of the ring oscillator.
+  uint16_t boot_number() noexcept;
+
+  Rangefinders& rangefinders() noexcept { return rangers_; }
+  Wheels& wheels() noexcept { return wheels_; }
+  Bumper& bumper() noexcept { return bumper_; }
+  hal::Button& button() noexcept { return button_; }
+  ByteLine& line() noexcept { return line_; }
+  Led& led() noexcept { return led_; }
+  Storage& storage(FlashUse use) noexcept { return storage_[static_cast<uint8_t>(use)]; }
+  const Troubles& troubles() const noexcept { return troubles_; }
+
+  void on_millisecond() noexcept;
+  void on_line_interrupt() noexcept { line_.on_interrupt(); }
+  void on_bus_interrupt() noexcept { rangers_.on_bus_interrupt(); }
+
+ private:
+  Troubles troubles_;
+  Ticker ticker_;
+  Line line_;
+  Rangers rangers_;
+  Motors motors_;
+  Encoders encoders_;
+  Wheels wheels_{motors_, encoders_, ticker_};
+  BumpSwitches bumper_;
+  PushButton button_;
+  Led led_;
+  Watchdog watchdog_;
+  FlashStorage storage_[kFlashUses] = {{FlashUse::response_table, watchdog_},
+                                       {FlashUse::calibration, watchdog_},
+                                       {FlashUse::parameters, watchdog_}};
+  mcu::Schedule schedule_;
+};
+
+}  // namespace whisker::hal::pico
