@@ -41,6 +41,9 @@ int main() {
     const uint32_t now = board.now_ms();
     if (robot.poll(now)) board.wheels().adopt(robot.params());
     board.led().show(pattern_of(robot.sign()), now);
-    if (board.due(static_cast<uint32_t>(robot.params().safety.period.raw()))) robot.tick(board.now_ms());
+    if (!board.due(static_cast<uint32_t>(robot.params().safety.period.raw()))) continue;
+    board.mark_tick(true);
+    robot.tick(board.now_ms());
+    board.mark_tick(false);
   }
 }

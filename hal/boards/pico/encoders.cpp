@@ -97,8 +97,7 @@ void Encoders::start() noexcept {
     store(base::kPio0, of_machine(pio::kSm0Execctrl, m), bits(pio::kWrapTop, kEnd - 1));
     store(base::kPio0, of_machine(pio::kSm0Shiftctrl, m), mask(pio::kOutShiftdir));
     store(base::kPio0, of_machine(pio::kSm0Pinctrl, m), bits(pio::kInBase, kPins[m]));
-    for (const uint16_t instruction : kBegin)
-      execute(m, instruction);
+    for (const uint16_t instruction : kBegin) execute(m, instruction);
   }
   store(base::kPio0, pio::kCtrl, bits(pio::kSmEnable, (1U << kMachines) - 1));
 }

@@ -50,6 +50,7 @@ void set_up_pins() noexcept {
   for (const Gpio pin : kMotors) make_output(pin, false);
   for (const Gpio pin : kAwake) make_output(pin, false);
   make_output(kLed, false);
+  make_output(kTick, false);
   for (const Gpio pin : kEncoders) connect(pin, Function::pio0, Pull::up);
   for (const Gpio pin : kBumpers) connect(pin, Function::sio, Pull::up);
   connect(kButton, Function::sio, Pull::up);

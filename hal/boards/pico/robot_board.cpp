@@ -70,6 +70,8 @@ bool RobotBoard::due(uint32_t period_ms) noexcept {
   return true;
 }
 
+void RobotBoard::mark_tick(bool runs) noexcept { write(wiring::kTick, runs); }
+
 uint16_t RobotBoard::boot_number() noexcept {
   uint16_t number = 0;
   for (int i = 0; i < kBootBits; ++i) {

@@ -65,6 +65,8 @@ class RobotBoard {
   /// True once per period. Also feeds the watchdog.
   bool due(uint32_t period_ms) noexcept;
   uint32_t now_ms() noexcept { return ticker_.now_ms(); }
+  /// For who measures how long a tick takes.
+  void mark_tick(bool runs) noexcept;
   /// Differs from that of the last start: noise of the ring oscillator.
   uint16_t boot_number() noexcept;
 

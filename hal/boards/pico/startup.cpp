@@ -1,5 +1,4 @@
 // Vector table and reset. Sections and symbols are those of hal/runtime/cortex_m/sections.ld.
-#include "firmware/math/crc32.hpp"
 #include "hal/board.hpp"
 #include "hal/boards/pico/image.hpp"
 #include "hal/boards/pico/interrupts.hpp"
@@ -61,6 +60,28 @@ constexpr Vectors vectors() noexcept {
 
 constexpr uintptr_t kFlash = 0x10000000;
 
+struct Table {
+  uint32_t of[16];
+};
+
+constexpr Table table() noexcept {
+  Table t{};
+  for (uint32_t half = 0; half < 16; ++half) {
+    uint32_t bits = half;
+    for (int i = 0; i < 4; ++i) bits = (bits >> 1) ^ ((bits & 1U) != 0 ? UINT32_C(0xEDB88320) : 0);
+    t.of[half] = bits;
+  }
+  return t;
+}
+
+constexpr Table kTable = table();
+
+/// CRC-32 as firmware/math/crc32.hpp, by half a byte.
+uint32_t add(uint32_t sum, uint8_t byte) noexcept {
+  sum = (sum >> 4) ^ kTable.of[(sum ^ byte) & 15U];
+  return (sum >> 4) ^ kTable.of[(sum ^ byte >> 4) & 15U];
+}
+
 }  // namespace
 
 bool image_is_intact() noexcept {
@@ -72,10 +93,10 @@ bool image_is_intact() noexcept {
       end != __image_end) {
     return false;
   }
-  Crc32 crc;
+  uint32_t found = UINT32_MAX;
   for (const auto* at = first; at < end; ++at)
-    crc.add(at >= sum && at < sum + sizeof(uint32_t) ? UINT8_MAX : *at);
-  return crc.value() == *reinterpret_cast<const volatile uint32_t*>(&kVectors.image.sum);
+    found = add(found, at >= sum && at < sum + sizeof(uint32_t) ? UINT8_MAX : *at);
+  return ~found == *reinterpret_cast<const volatile uint32_t*>(&kVectors.image.sum);
 }
 
 }  // namespace whisker::hal::pico

@@ -26,6 +26,7 @@ inline constexpr Gpio kLeftMotorBack = 17;   ///< motor driver: AIN2
 inline constexpr Gpio kRightMotor = 18;      ///< motor driver: BIN1
 inline constexpr Gpio kRightMotorBack = 19;  ///< motor driver: BIN2
 inline constexpr Gpio kMotorsAwake = 20;     ///< motor driver: SLP (TB6612: STBY)
+inline constexpr Gpio kTick = 21;            ///< oscilloscope: high during a tick
 inline constexpr Gpio kButton = 22;          ///< button: to ground
 inline constexpr Gpio kLed = 25;             ///< on the Pico itself
 

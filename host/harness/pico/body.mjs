@@ -10,6 +10,7 @@ export const PINS = {
   bumpers: [14, 15],
   motors: [16, 18],
   motorsAwake: 20,
+  tick: 21,
   button: 22,
   led: 25,
 };
@@ -102,6 +103,7 @@ export class Body {
     this.sequences = [-1, -1, -1];
     this.pressed = false;
     this.sent = [];
+    this.ticks = []; // cycles of the core, with those of the handlers within
     chip.attach(this);
   }
   plug(mcu) {
@@ -112,6 +114,11 @@ export class Body {
     mcu.gpio[1].setInputValue(true);
     this.led = false;
     mcu.gpio[PINS.led].addListener((value) => (this.led = value === 1));
+    let began = 0;
+    mcu.gpio[PINS.tick].addListener((value) => {
+      if (value === 1) began = mcu.core.cycles;
+      else if (began !== 0) this.ticks.push(mcu.core.cycles - began);
+    });
   }
   press(down) {
     this.mcu.gpio[PINS.button].setInputValue(!down);

@@ -5,6 +5,8 @@ import * as strict from './strict.mjs';
 import {Uart} from './uart.mjs';
 
 const UART0_IRQ = 20;
+/** Of PSM.WDSEL, without the oscillators. */
+const ALL_STAGES = 0x1fffc;
 const SILENT = {debug() {}, info() {}, warn() {}, error() {}};
 
 /** The ring oscillator, whose lowest bit is noise; the noise of a chip begins with its seed. */
@@ -77,6 +79,9 @@ export class Chip {
     const watchdog = mcu.peripherals[0x40058];
     watchdog.onWatchdogTrigger = () => {
       watchdog.timer.enable = watchdog.alarm.enable = false;
+      const stages = mcu.peripherals[0x40010].readUint32(8);
+      if ((stages & ALL_STAGES) !== ALL_STAGES)
+        return this.sin('the watchdog is told to reset only a part of the chip');
       this.#reset = {kind: watchdog.reason === 1 ? 'watchdog' : 'forced', reason: watchdog.reason};
     };
     const store = mcu.ppb.writeUint32.bind(mcu.ppb);

@@ -27,7 +27,21 @@ drive.until(limit * 1000, (now) => {
 });
 const verdict = drive.rig.verdict();
 drive.close();
-const {chip} = drive;
+const {chip, body} = drive;
+const sorted = [...body.ticks].sort((a, b) => a - b);
 const seconds = Number(process.hrtime.bigint() - began) / 1e9;
-console.log({...verdict, sins: chip.sins, faults: chip.faults, resets: chip.resets.length, stack: drive.stack, realtime: verdict.time_s / seconds});
-process.exit(verdict.outcome === 'reached' && !verdict.contact && verdict.difference === '' ? 0 : 1);
+const figures = {
+  ...verdict,
+  first_command_ms: drive.firstCommandMs,
+  tick_cycles_mean: Math.round(sorted.reduce((sum, cycles) => sum + cycles, 0) / sorted.length),
+  tick_cycles_worst: sorted.at(-1),
+  ticks_over_3_ms: sorted.filter((cycles) => cycles > 375000).length,
+  stack_bytes: drive.stack,
+  resets: chip.resets.length - 1,
+  faults: chip.faults,
+  sins: chip.sins,
+  simulated_s_a_second: Number((verdict.time_s / seconds).toFixed(2)),
+};
+for (const [name, value] of Object.entries(figures)) console.log(`${name}: ${Array.isArray(value) ? value.join('; ') || 'none' : value}`);
+const good = verdict.outcome === 'reached' && !verdict.contact && verdict.difference === '' && !chip.sins.length && !chip.faults.length;
+process.exit(good ? 0 : 1);
