@@ -107,6 +107,14 @@ stage_targets() {
   ctest --preset host --no-tests=error -L '^targets$' -LE '^night$' -V -j 1
 }
 
+# The image of the Pico in its emulator: rp2040js from the npm registry, or from npm's cache.
+stage_pico() {
+  npm --prefix host/harness/pico ci --ignore-scripts --no-audit --no-fund
+  build host --target whisker_rig whisker
+  build pico
+  node --test --test-reporter=tap tests/pico/*.test.mjs
+}
+
 stage_clang() { build_and_test clang; }
 
 # build_and_test_core PRESET LABELS TARGET...: builds only these programs, and runs the tests with these labels.

@@ -30,16 +30,16 @@ int main() {
   static hal::slcan::Slcan line(board.line(), hal::slcan::Role::adapter);
   static can_app::WholeRobot robot(
       line, board.boot_number(), kRobotParams,
-      {board.rangefinders(), board.wheels(), board.button(), &board.bumper(), nullptr},
+      {board.rangefinders(), board.drive(), board.button(), &board.bumper(), nullptr},
       {board.storage(FlashUse::response_table), board.storage(FlashUse::calibration),
        board.storage(FlashUse::parameters)});
-  board.wheels().adopt(robot.params());
+  board.adopt(robot.params());
   board.watch();
   for (;;) {
     board.sleep();
     board.poll();
     const uint32_t now = board.now_ms();
-    if (robot.poll(now)) board.wheels().adopt(robot.params());
+    if (robot.poll(now)) board.adopt(robot.params());
     board.led().show(pattern_of(robot.sign()), now);
     if (!board.due(static_cast<uint32_t>(robot.params().safety.period.raw()))) continue;
     board.mark_tick(true);

@@ -40,7 +40,7 @@ function bare(halfwords, registers = {}, set = () => {}) {
   return {
     mcu,
     run(cycles) {
-      for (let n = 0; n < cycles; ) {
+      for (let n = 0; n < cycles;) {
         if (mcu.core.waiting) {
           mcu.clock.tick(8);
           n++;
@@ -269,7 +269,9 @@ describe('the boot ROM', () => {
     const bytes = new Uint8Array(512);
     const words = new DataView(bytes.buffer);
     const put32 = (i, value) => words.setUint32(4 * i, value, true);
-    [0x0a324655, 0x9e5d5157, 0x2000, 0x10000000, 256, 0, 1, 0xe48bff56].forEach((value, i) => put32(i, value));
+    [0x0a324655, 0x9e5d5157, 0x2000, 0x10000000, 256, 0, 1, 0xe48bff56].forEach((value, i) =>
+      put32(i, value),
+    );
     put32(127, 0x0ab16f30);
     const boot2 = bytes.subarray(32, 32 + 252);
     boot2.set([0xfe, 0xe7]);
@@ -278,7 +280,11 @@ describe('the boot ROM', () => {
   };
   test('starts a second-stage bootloader with the right sum, and no other', () => {
     assert.equal(bare([]).mcu.loadUF2, undefined, 'the bare package has none');
-    for (const [flipped, waits] of [[null, false], [32, true], [32 + 252, true]]) {
+    for (const [flipped, waits] of [
+      [null, false],
+      [32, true],
+      [32 + 252, true],
+    ]) {
       const file = block();
       if (flipped !== null) file[flipped] ^= 1;
       const chip = new Chip();
@@ -289,7 +295,12 @@ describe('the boot ROM', () => {
     }
   });
   test('ignores a file that is not for it', () => {
-    for (const [at, value, why] of [[0, 0, /magic/], [28, 1, /family/], [15, 0x20, /address/], [508, 0, /magic/]]) {
+    for (const [at, value, why] of [
+      [0, 0, /magic/],
+      [28, 1, /family/],
+      [15, 0x20, /address/],
+      [508, 0, /magic/],
+    ]) {
       const file = block();
       file[at] = value;
       assert.throws(() => blocksOf(file), why);

@@ -29,8 +29,8 @@ enum class Sign : uint8_t {
 /// kept, and hold at once: the place where it stands is its origin again.
 ///
 ///   WholeRobot robot{line, boot, defaults, devices, stores};
-///   drive.adopt(robot.params());
-///   every millisecond:  if (robot.poll(now)) drive.adopt(robot.params());
+///   board.adopt(robot.params());
+///   every millisecond:  if (robot.poll(now)) board.adopt(robot.params());
 ///   every period:       robot.tick(now);
 class WholeRobot {
  public:

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "firmware/apps/static_storage.hpp"
 #include "hal/boards/common/governed_wheels.hpp"
 #include "hal/boards/common/schedule.hpp"
 #include "hal/boards/pico/encoders.hpp"
@@ -15,29 +14,7 @@
 
 namespace whisker::hal::pico {
 
-/// The speed controllers of both wheels, for parameters that may change while the wheels stand.
-class Wheels final : public Drive {
- public:
-  Wheels(Motors& motors, Encoders& encoders, Clock& clock) noexcept
-      : motors_(motors), encoders_(encoders), clock_(clock) {
-    adopt(kRobotParams);
-  }
-  void adopt(const Params& params) noexcept {
-    motor_ = motor_of(params);
-    governed_ = &room_.make<Governed>(motor_, motor_, motors_, encoders_, clock_);
-  }
-  bool command(WheelSpeeds speeds) noexcept override { return governed_->command(speeds); }
-  bool read(EncoderCounts& out) noexcept override { return governed_->read(out); }
-
- private:
-  using Governed = mcu::GovernedWheels<Motors, Encoders>;
-  Motors& motors_;
-  Encoders& encoders_;
-  Clock& clock_;
-  mcu::MotorParams motor_;
-  Governed* governed_ = nullptr;
-  StaticStorage<sizeof(Governed)> room_;
-};
+using Wheels = mcu::GovernedWheels<Motors, Encoders>;
 
 /// All drivers of the board; a failed one counts its failures.
 ///
@@ -71,7 +48,9 @@ class RobotBoard {
   uint16_t boot_number() noexcept;
 
   Rangefinders& rangefinders() noexcept { return rangers_; }
-  Wheels& wheels() noexcept { return wheels_; }
+  Drive& drive() noexcept { return wheels_; }
+  /// The speed controllers follow these parameters. Only while the wheels stand.
+  void adopt(const Params& params) noexcept { wheels_.adopt(motor_of(params), motor_of(params)); }
   Bumper& bumper() noexcept { return bumper_; }
   hal::Button& button() noexcept { return button_; }
   ByteLine& line() noexcept { return line_; }
@@ -90,7 +69,7 @@ class RobotBoard {
   Rangers rangers_;
   Motors motors_;
   Encoders encoders_;
-  Wheels wheels_{motors_, encoders_, ticker_};
+  Wheels wheels_{motor_of(kRobotParams), motor_of(kRobotParams), motors_, encoders_, ticker_};
   BumpSwitches bumper_;
   PushButton button_;
   Led led_;

@@ -129,7 +129,10 @@ export class Body {
   }
   /** Of the last millisecond: what the simulator needs. */
   line() {
-    const bytes = this.sent.splice(0).map((byte) => byte.toString(16).padStart(2, '0')).join('');
+    const bytes = this.sent
+      .splice(0)
+      .map((byte) => byte.toString(16).padStart(2, '0'))
+      .join('');
     return `${this.motors.duty(0)} ${this.motors.duty(1)} ${bytes || '-'}`;
   }
   /** For the next millisecond: what the simulator says. */

@@ -36,6 +36,9 @@ Cable::Cable(const Params& params, PlannerKind planner, const planning::Goal& go
 
 std::string Cable::step(std::uint64_t now_us, const std::string& came) {
   now_us_ = now_us;
+  // What is said to a robot that still starts gets lost.
+  speaks_ = speaks_ || !came.empty();
+  if (!speaks_) return {};
   bytes_.arrive(came);
   hal::CanPort& port = orders_.port();
   port.poll(static_cast<std::uint32_t>(now_us / 1000));

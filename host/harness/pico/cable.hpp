@@ -79,6 +79,7 @@ class Cable {
   std::uint64_t answers_ = 0;
   Phase phase_ = Phase::waits;
   bool listens_ = false;
+  bool speaks_ = false;  // the robot does
   std::uint8_t index_ = 0;
   std::optional<can::ParamReply> reply_;
   std::optional<std::uint64_t> asked_us_;

@@ -14,11 +14,13 @@ export class Drive {
   ms = 0;
   /** Of the simulator's last line. */
   now = {ordered: false, outcome: 'none', fault: 'none', base: 'off_bus', speeds: [0, 0], contact: false};
-  constructor(rigArguments, {image = IMAGE, seed = 1} = {}) {
+  /** prepare(chip): before the power comes. */
+  constructor(rigArguments, {image = IMAGE, seed = 1, prepare = () => {}} = {}) {
     this.chip = new Chip({seed});
     this.chip.flash.load(readFileSync(image));
     this.body = new Body(this.chip);
     this.rig = new Rig(rigArguments);
+    prepare(this.chip);
     this.chip.powerOn();
   }
   step() {
@@ -38,7 +40,7 @@ export class Drive {
   }
   /** Until done(), or for so many milliseconds. True: it was done. */
   until(ms, done) {
-    for (const end = this.ms + ms; this.ms < end; ) {
+    for (const end = this.ms + ms; this.ms < end;) {
       this.step();
       if (done(this.now)) return true;
     }

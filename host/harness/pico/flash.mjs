@@ -30,7 +30,8 @@ export function blocksOf(uf2) {
   for (let at = 0; at < uf2.length; at += 512) {
     const word = (i) => words.getUint32(at + 4 * i, true);
     const say = (what) => new Error(`block ${at / 512}: ${what}`);
-    if (word(0) !== 0x0a324655 || word(1) !== 0x9e5d5157 || word(127) !== 0x0ab16f30) throw say('no UF2 magic');
+    if (word(0) !== 0x0a324655 || word(1) !== 0x9e5d5157 || word(127) !== 0x0ab16f30)
+      throw say('no UF2 magic');
     if (word(2) & 1) continue; // not for the main flash
     if (!(word(2) & 0x2000) || word(7) !== 0xe48bff56) throw say('not of the family RP2040');
     if (word(4) !== PAGE || word(3) % PAGE) throw say('not a page of 256 bytes');
@@ -101,7 +102,13 @@ class Ssi {
     return this.#registers.get(offset) ?? 0;
   }
   writeUint32Atomic(offset, value, kind) {
-    if (kind !== 0) value = [value, this.readUint32(offset) ^ value, this.readUint32(offset) | value, this.readUint32(offset) & ~value][kind];
+    if (kind !== 0)
+      value = [
+        value,
+        this.readUint32(offset) ^ value,
+        this.readUint32(offset) | value,
+        this.readUint32(offset) & ~value,
+      ][kind];
     this.#registers.set(offset, value >>> 0);
     if (offset === 0x60) this.#send(value >>> 0);
     if (offset === 0x08) this.#enable(value & 1);
@@ -113,7 +120,7 @@ class Ssi {
       // The first read of a continuous read mode: command, then address and mode bits on four lines.
       this.#command.push(word);
       if (this.#command.length === 2 && this.#command[0] === 0xeb && this.flash.quad)
-        this.#continuous = ((word & 0xff) >> 4) === 0xa;
+        this.#continuous = (word & 0xff) >> 4 === 0xa;
       if (this.#command.length === 2) this.#answers.push(0xffffffff);
       return;
     }
@@ -140,7 +147,13 @@ class Ssi {
     const spi = this.#registers.get(0xf4) ?? 0;
     const reads = ((this.#frame >> 8) & 3) === 3 && ((this.#frame >> 16) & 31) === 31;
     const lines = (this.#frame >> 21) & 3;
-    const [command, wait, size, address, kind] = [spi >>> 24, (spi >> 11) & 31, (spi >> 8) & 3, (spi >> 2) & 15, spi & 3];
+    const [command, wait, size, address, kind] = [
+      spi >>> 24,
+      (spi >> 11) & 31,
+      (spi >> 8) & 3,
+      (spi >> 2) & 15,
+      spi & 3,
+    ];
     const serial = lines === 0 && command === 3 && wait === 0 && size === 2 && address === 6 && kind === 0;
     const quad = lines === 2 && command === 0xa0 && wait === 4 && size === 0 && address === 8 && kind === 2;
     const divider = this.#registers.get(0x14) ?? 0;
@@ -150,7 +163,13 @@ class Ssi {
   /** What the boot ROM sets up: serial reads. */
   readSerially() {
     this.#continuous = false;
-    for (const [offset, value] of [[0x08, 0], [0x14, 4], [0x00, 0x001f0300], [0xf4, 0x03000218], [0x08, 1]])
+    for (const [offset, value] of [
+      [0x08, 0],
+      [0x14, 4],
+      [0x00, 0x001f0300],
+      [0xf4, 0x03000218],
+      [0x08, 1],
+    ])
       this.writeUint32Atomic(offset, value, 0);
   }
   exitReads() {
@@ -177,7 +196,8 @@ export function plugFlash(mcu, flash, chip) {
       ssi.exitReads();
     },
     RE: ([at, size]) => {
-      if (!exited || at % SECTOR || size % SECTOR) return mcu.fault('an erasure of no sectors, or before the exit of XIP');
+      if (!exited || at % SECTOR || size % SECTOR)
+        return mcu.fault('an erasure of no sectors, or before the exit of XIP');
       for (let sector = at; sector < at + size; sector += SECTOR) {
         flash.erase(sector);
         refresh(sector, SECTOR);
@@ -185,7 +205,8 @@ export function plugFlash(mcu, flash, chip) {
       }
     },
     RP: ([at, from, size]) => {
-      if (!exited || at % PAGE || size % PAGE) return mcu.fault('a program of no pages, or before the exit of XIP');
+      if (!exited || at % PAGE || size % PAGE)
+        return mcu.fault('a program of no pages, or before the exit of XIP');
       for (let page = 0; page < size; page += PAGE) {
         const bytes = Uint8Array.from({length: PAGE}, (_, i) => mcu.sram[from - RAM + page + i]);
         flash.program(at + page, bytes);
@@ -202,7 +223,8 @@ export function plugFlash(mcu, flash, chip) {
   const fault = mcu.onBreak;
   mcu.onBreak = (number) => {
     const at = mcu.core.PC - 2;
-    if (at >= ROM_CODE && at < ROM_CODE + 8 * FUNCTIONS.length) functions[FUNCTIONS[number]](mcu.core.registers);
+    if (at >= ROM_CODE && at < ROM_CODE + 8 * FUNCTIONS.length)
+      functions[FUNCTIONS[number]](mcu.core.registers);
     else fault(number);
   };
   return () => {

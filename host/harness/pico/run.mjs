@@ -42,6 +42,12 @@ const figures = {
   sins: chip.sins,
   simulated_s_a_second: Number((verdict.time_s / seconds).toFixed(2)),
 };
-for (const [name, value] of Object.entries(figures)) console.log(`${name}: ${Array.isArray(value) ? value.join('; ') || 'none' : value}`);
-const good = verdict.outcome === 'reached' && !verdict.contact && verdict.difference === '' && !chip.sins.length && !chip.faults.length;
+for (const [name, value] of Object.entries(figures))
+  console.log(`${name}: ${Array.isArray(value) ? value.join('; ') || 'none' : value}`);
+const good =
+  verdict.outcome === 'reached' &&
+  !verdict.contact &&
+  verdict.difference === '' &&
+  !chip.sins.length &&
+  !chip.faults.length;
 process.exit(good ? 0 : 1);

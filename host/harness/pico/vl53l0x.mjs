@@ -72,7 +72,8 @@ export class Vl53l0x {
     if (!this.awake || !this.measures || this.fault === 'dead' || this.fault === 'unplugged') return;
     this.measurements++;
     if (this.fault !== 'stuck') {
-      const code = this.fault === 'laser' ? 3 : status === OK || status === TOO_NEAR ? 11 : status === CLEAR ? 4 : 15;
+      const code =
+        this.fault === 'laser' ? 3 : status === OK || status === TOO_NEAR ? 11 : status === CLEAR ? 4 : 15;
       const distance = status === TOO_NEAR ? 0 : status === OK ? mm : 8190;
       this.#registers[0x14] = code << 3;
       this.#registers[0x14 + 10] = distance >> 8;
