@@ -12,6 +12,8 @@ const RAM_TOP = 256 * 1024;
 
 export class Drive {
   ms = 0;
+  /** Takes what the robot sends, instead of the simulator. */
+  takesBytes = null;
   /** Of the simulator's last line. */
   now = {ordered: false, outcome: 'none', fault: 'none', base: 'off_bus', speeds: [0, 0], contact: false};
   /** prepare(chip): before the power comes. */
@@ -25,6 +27,7 @@ export class Drive {
   }
   step() {
     this.chip.run(++this.ms * MS);
+    this.takesBytes?.(this.body.sent.splice(0));
     const words = this.rig.ask(this.body.line()).split(' ');
     this.body.feel(words);
     const [left, right, contact, ordered, outcome, fault, base] = words.slice(14, 21);

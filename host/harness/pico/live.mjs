@@ -10,6 +10,7 @@ import {ROOT} from './paths.mjs';
 
 const CABLE = 3;
 const SLICE_MS = 20;
+const LONGEST_MS = 50;
 const BRIEF_MS = 200;
 const HELD_MS = 1500;
 
@@ -35,6 +36,9 @@ function write(bytes) {
   }
 }
 
+drive.takesBytes = (bytes) => {
+  if (bytes.length) write(bytes);
+};
 let releaseAt = Infinity;
 createInterface({input: process.stdin}).on('line', (line) => {
   const ms = {button: BRIEF_MS, hold: HELD_MS}[line.trim()];
@@ -47,18 +51,16 @@ const began = Date.now();
 let said = '';
 let lost = 0;
 function slice() {
-  const due = Date.now() - began - lost;
-  // A computer that is too slow: the robot's time goes on from now.
-  if (due - drive.ms > 1000) lost += due - drive.ms;
+  // On a computer that is too slow, the robot's time is longer.
+  const behind = Date.now() - began - lost - drive.ms;
+  if (behind > LONGEST_MS) lost += behind - LONGEST_MS;
   drive.body.mcu.uart[0].feed(read());
-  while (drive.ms < due) {
+  for (const due = Date.now() - began - lost; drive.ms < due;) {
     if (drive.ms >= releaseAt) {
       drive.body.press(false);
       releaseAt = Infinity;
     }
     drive.step();
-    const sent = drive.body.sent.splice(0);
-    if (sent.length) write(sent);
   }
   const state = `${(drive.ms / 1000).toFixed(0).padStart(4)} s: light ${drive.body.led ? 'on' : 'off'}, wheels ${drive.now.speeds.map((speed) => (speed / 1e6).toFixed(2)).join(' ')} m/s${drive.now.contact ? ', CONTACT' : ''}`;
   if (process.env.WHISKER_PICO_TELLS && state.slice(0, 6) !== said.slice(0, 6)) console.log(state);
