@@ -30,7 +30,7 @@ int main() {
   static hal::slcan::Slcan line(board.line(), hal::slcan::Role::adapter);
   static can_app::WholeRobot robot(
       line, board.boot_number(), kRobotParams,
-      {board.rangefinders(), board.drive(), board.button(), &board.bumper(), nullptr},
+      {board.rangefinders(), board.drive(), board.button(), &board.bumper(), &board.gyro()},
       {board.storage(FlashUse::response_table), board.storage(FlashUse::calibration),
        board.storage(FlashUse::parameters)});
   board.adopt(robot.params());

@@ -19,7 +19,7 @@ GP16 GP17 GND GP18 GP19 GP20 GP21 GND GP22 RUN GP26 GP27 GND GP28 VREF 3V3 3V3_E
 
 # Power: (part, terminal, name of the Pico's pin).
 POWER = (
-    ("all sensors", "VIN", "3V3"),
+    ("all sensors, gyro", "VIN", "3V3"),
     ("left encoder", "VCC", "3V3"),
     ("right encoder", "VCC", "3V3"),
     ("battery, 5 V", "+", "VSYS"),

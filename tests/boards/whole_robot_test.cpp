@@ -1,5 +1,6 @@
 // Controller and base on one chip, with a simulated body, and an operator at the port to the outside.
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 

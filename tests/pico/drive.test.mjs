@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import {after, describe, test} from 'node:test';
 import {Drive} from '../../host/harness/pico/drive.mjs';
-import {ROBOT, world} from './worlds.mjs';
+import {ROBOT, robotWith, world} from './worlds.mjs';
 
 const MOST_STACK = 3072;
 const MOST_CYCLES = 1_250_000; // a period at 125 MHz
@@ -12,9 +12,15 @@ const FIRST_COMMAND_MS = 100;
 const figures = [];
 
 describe('the image of the Pico', () => {
-  for (const name of ['discs', 'u_trap', 'room']) {
-    test(`drives to the goal: ${name}`, () => {
-      const drive = new Drive([world(name), '--robot', ROBOT]);
+  const robots = [
+    ['discs', ROBOT],
+    ['u_trap', ROBOT],
+    ['room', ROBOT],
+    ['discs', robotWith('gyro = true\nbumper = true\n')],
+  ];
+  for (const [name, robot] of robots) {
+    test(`drives to the goal: ${name}${robot === ROBOT ? '' : ', with a gyro and a bumper'}`, () => {
+      const drive = new Drive([world(name), '--robot', robot]);
       try {
         let running = false;
         drive.until(60000, (now) => {
@@ -28,6 +34,7 @@ describe('the image of the Pico', () => {
         assert.equal(verdict.contact, false);
         assert.ok(verdict.distance_m < 0.1, `${verdict.distance_m} m from the goal`);
         assert.equal(verdict.difference, '');
+        assert.equal(verdict.turned_by_gyro, robot !== ROBOT);
         assert.ok(verdict.answers > 500);
         assert.deepEqual(drive.chip.sins, []);
         assert.deepEqual(drive.chip.faults, []);

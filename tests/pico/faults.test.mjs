@@ -1,21 +1,19 @@
 // What breaks at the pins and registers of a driving robot ends in its named fault and in standstill, which the simulator
 // measures.
 import assert from 'node:assert/strict';
-import {readFileSync, writeFileSync} from 'node:fs';
-import {join} from 'node:path';
-import {tmpdir} from 'node:os';
+import {readFileSync} from 'node:fs';
 import {describe, test} from 'node:test';
 import {Chip} from '../../host/harness/pico/chip.mjs';
 import {Drive} from '../../host/harness/pico/drive.mjs';
 import {IMAGE} from '../../host/harness/pico/paths.mjs';
-import {ROBOT, world} from './worlds.mjs';
+import {ROBOT, robotWith, world} from './worlds.mjs';
 
 const MOVES_UM_S = 20000;
 const LOOP = 0x20030000;
 
 /** A robot that has begun to move. */
-function moving() {
-  const drive = new Drive([world('discs'), '--robot', ROBOT]);
+function moving(robot = ROBOT) {
+  const drive = new Drive([world('discs'), '--robot', robot]);
   assert.ok(
     drive.until(8000, ({ordered, speeds}) => ordered && speeds.some((speed) => Math.abs(speed) > MOVES_UM_S)),
     'it moves',
@@ -51,6 +49,15 @@ const broken = [
   ['a dead encoder', encoder(0, 'dead'), 'wheels_stalled', 1200],
   ['an encoder with a broken channel', encoder(1, 'a'), 'wheels_stalled', 1200],
   ['an unplugged encoder', encoder(1, 'unplugged'), 'wheels_stalled', 1200],
+  [
+    'all sensors unplugged',
+    (drive) => drive.body.rangers.forEach((ranger) => (ranger.fault = 'unplugged')),
+    'range_lost',
+    1200,
+  ],
+  ['an encoder with swapped channels', encoder(0, 'swapped'), 'wheel_runaway', 1200],
+  ['a motor with swapped wires', (drive) => (drive.body.motors.swapped[1] = true), 'wheel_runaway', 1200],
+  ['motors without power', (drive) => (drive.body.motors.stalled = [true, true]), 'wheels_stalled', 1200],
   ['a stalled motor', (drive) => (drive.body.motors.stalled[0] = true), 'wheels_stalled', 1200],
 ];
 
@@ -80,6 +87,106 @@ describe('of a driving robot', () => {
       assert.equal(drive.body.bus.heldFor, 0);
       drive.body.rangers.forEach((ranger, beam) => assert.ok(ranger.measurements > before[beam] + 4));
       assert.equal(drive.now.fault, 'none');
+    } finally {
+      drive.close();
+    }
+  });
+  test('a sensor whose supply fails for a moment: started anew, and the drive goes on', () => {
+    const drive = moving();
+    try {
+      const before = drive.body.rangers[2].measurements;
+      drive.body.rangers[2].glitch();
+      drive.until(900, () => false);
+      assert.ok(drive.body.rangers[2].measurements > before + 5);
+      assert.equal(drive.now.fault, 'none');
+    } finally {
+      drive.close();
+    }
+  });
+  test('an E-stop on the cable', () => {
+    const drive = moving();
+    try {
+      drive.body.mcu.uart[0].feed(Buffer.from('t0110\r'));
+      const stood = standstill(drive, 1500);
+      assert.equal(drive.now.base, 'e_stopped');
+      assert.ok(stood <= 700, `it stands after ${stood} ms`);
+    } finally {
+      drive.close();
+    }
+  });
+  test('noise on the cable: nothing', () => {
+    const drive = moving();
+    try {
+      let state = 7;
+      for (let ms = 0; ms < 400; ms++) {
+        const bytes = Array.from(
+          {length: 90},
+          () => (state = (Math.imul(state, 1103515245) + 12345) >>> 0) >>> 24,
+        );
+        drive.body.mcu.uart[0].feed(bytes.filter((byte) => byte !== 0x74 && byte !== 0x54));
+        drive.step();
+      }
+      assert.equal(drive.now.fault, 'none');
+      assert.equal(drive.now.base, 'running');
+      assert.ok(!drive.stands);
+    } finally {
+      drive.close();
+    }
+  });
+  test('a supply that fails for a moment: it stands, and rests after its start', () => {
+    const drive = moving();
+    try {
+      drive.chip.losePower();
+      const stood = standstill(drive, 1500);
+      assert.ok(stood <= 500, `it stands after ${stood} ms`);
+      assert.deepEqual(drive.chip.resets, ['power', 'power']);
+      drive.until(1500, () => false);
+      assert.ok(drive.stands);
+      assert.deepEqual(drive.chip.sins, []);
+    } finally {
+      drive.close();
+    }
+  });
+  test('a dead gyro: the wheels turn the pose, and the drive goes on', () => {
+    const drive = moving(robotWith('gyro = true\n'));
+    try {
+      assert.ok(drive.rig.verdict().turned_by_gyro);
+      drive.body.gyro.fault = 'dead';
+      drive.until(1000, () => false);
+      assert.equal(drive.rig.verdict().turned_by_gyro, false);
+      assert.equal(drive.now.fault, 'none');
+      assert.ok(drive.body.gyro.resets >= 2, 'it was started again');
+      drive.body.gyro.fault = null;
+      assert.ok(drive.until(6000, () => drive.ms % 100 === 0 && drive.rig.verdict().turned_by_gyro));
+    } finally {
+      drive.close();
+    }
+  });
+  test('a bump: it stops and backs off', () => {
+    const drive = moving(robotWith('bumper = true\n'));
+    try {
+      drive.body.bump(0, true);
+      const stood = drive.until(700, () => drive.stands);
+      assert.ok(stood, 'it stops');
+      assert.equal(drive.rig.verdict().why, 'bumped');
+      drive.until(300, () => false);
+      drive.body.bump(0, false);
+      drive.until(500, () => false);
+      assert.equal(drive.now.fault, 'none');
+    } finally {
+      drive.close();
+    }
+  });
+  test('a bump switch that stays closed: bumper_stuck', () => {
+    const drive = moving(robotWith('bumper = true\n'));
+    try {
+      drive.body.bump(1, true);
+      assert.ok(
+        drive.until(15000, ({fault}) => fault === 'bumper_stuck'),
+        drive.now.fault,
+      );
+      drive.until(800, () => false);
+      assert.ok(drive.stands);
     } finally {
       drive.close();
     }
@@ -141,6 +248,42 @@ function damaged(flash) {
   return {chip, flashes: () => flashes, asleep: !chip.mcu.gpio[20].outputValue};
 }
 
+describe('at the start', () => {
+  const starts = (prepare) => new Drive([world('discs'), '--robot', ROBOT, '--listen'], {prepare});
+  test('a sensor that is not there: range_lost, and no motion', () => {
+    const drive = starts(() => {});
+    try {
+      drive.body.rangers[0].fault = 'unplugged';
+      assert.ok(drive.until(6000, ({fault}) => fault === 'range_lost'));
+      assert.ok(drive.rig.verdict().path_m < 1e-3);
+    } finally {
+      drive.close();
+    }
+  });
+  test('a button that is down: no press', () => {
+    const drive = starts(() => {});
+    try {
+      drive.body.press(true);
+      drive.until(2500, () => false);
+      assert.ok(drive.rig.verdict().path_m < 1e-3);
+      assert.equal(drive.now.base, 'running');
+    } finally {
+      drive.close();
+    }
+  });
+  test('a crystal that does not start: it flashes, and the motor driver sleeps', () => {
+    const chip = new Chip();
+    chip.flash.load(readFileSync(IMAGE));
+    chip.crystalDead = true;
+    let flashes = 0;
+    chip.attach({plug: (mcu) => mcu.gpio[25].addListener((value) => (flashes += value === 1 ? 1 : 0))});
+    chip.powerOn();
+    chip.run(3e9);
+    assert.ok(flashes >= 2, `${flashes} flashes`);
+    assert.ok(!chip.mcu.gpio[20].outputValue);
+  });
+});
+
 describe('of an image', () => {
   test('a flipped bit of the second-stage bootloader: it waits for another image', () => {
     assert.ok(damaged(17).chip.waitsForUsb);
@@ -186,11 +329,7 @@ function kept(flash) {
 
 /** Until the operator's parameters are kept, or there is no hope. */
 function commits(flash, speed) {
-  const robot = join(tmpdir(), `whisker-pico-${process.pid}.toml`);
-  writeFileSync(
-    robot,
-    readFileSync(ROBOT, 'utf8').replace('wheel_speed_max_mps = 0.3', `wheel_speed_max_mps = ${speed}`),
-  );
+  const robot = robotWith(`wheel_speed_max_mps = ${speed}`, 'wheel_speed_max_mps = 0.3');
   const prepare = (chip) => {
     chip.flash.bytes.set(flash.bytes.subarray(SLOTS[0]), SLOTS[0]);
     chip.flash.powerFor = flash.powerFor;

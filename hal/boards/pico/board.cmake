@@ -5,6 +5,7 @@ target_sources(whisker_board PRIVATE
   ${CMAKE_CURRENT_LIST_DIR}/divider.cpp
   ${CMAKE_CURRENT_LIST_DIR}/encoders.cpp
   ${CMAKE_CURRENT_LIST_DIR}/flash_storage.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/gyro.cpp
   ${CMAKE_CURRENT_LIST_DIR}/i2c.cpp
   ${CMAKE_CURRENT_LIST_DIR}/led.cpp
   ${CMAKE_CURRENT_LIST_DIR}/line.cpp
@@ -12,6 +13,7 @@ target_sources(whisker_board PRIVATE
   ${CMAKE_CURRENT_LIST_DIR}/pins.cpp
   ${CMAKE_CURRENT_LIST_DIR}/rangers.cpp
   ${CMAKE_CURRENT_LIST_DIR}/robot_board.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/sensor_bus.cpp
   ${CMAKE_CURRENT_LIST_DIR}/startup.cpp
   ${CMAKE_CURRENT_LIST_DIR}/switches.cpp
   ${CMAKE_CURRENT_LIST_DIR}/ticker.cpp

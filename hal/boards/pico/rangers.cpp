@@ -9,7 +9,6 @@ namespace vl53l0x = mcu::vl53l0x;
 void Rangers::start(uint32_t now_ms) noexcept {
   now_ms_ = now_ms;
   for (uint8_t i = 0; i < kBeams; ++i) hold(i);
-  bus_.start();
 }
 
 void Rangers::hold(uint8_t beam) noexcept {
@@ -26,29 +25,10 @@ bool Rangers::is_alone_awake() const noexcept {
   return true;
 }
 
-void Rangers::on_millisecond() noexcept {
-  now_ms_ = now_ms_ + 1;
-  if (busy_) {
-    if (now_ms_ - begun_ms_ < kTransferMs) return;
-    timeouts_.happened();
-    bus_.recover();
-    busy_ = false;
-    fail(served_);
-  }
-  serve(0);
-}
-
-void Rangers::serve(uint8_t beam) noexcept {
-  for (; beam < kBeams; ++beam) {
-    if (begin_transfer(beam)) return;
-  }
-}
-
-bool Rangers::begin_transfer(uint8_t beam) noexcept {
+bool Rangers::next(uint8_t beam, I2c::Transfer& transfer) noexcept {
   Sensor& sensor = sensor_[beam];
   const uint32_t passed = now_ms_ - sensor.since_ms;
   const uint8_t address = address_of(beam);
-  I2c::Transfer transfer{address, {}, 1, 0};
   switch (sensor.phase) {
     case Phase::held:
       if (passed < kHeldMs || !is_alone_awake()) return false;
@@ -68,36 +48,16 @@ bool Rangers::begin_transfer(uint8_t beam) noexcept {
     case Phase::ask: transfer = {address, {vl53l0x::kInterruptStatus}, 1, 1}; break;
     case Phase::fetch: transfer = {address, {vl53l0x::kRangeStatus}, 1, vl53l0x::kRangeBytes}; break;
   }
-  served_ = beam;
-  begun_ms_ = now_ms_;
-  busy_ = true;
-  bus_.begin(transfer);
   return true;
 }
 
-void Rangers::on_bus_interrupt() noexcept {
-  const I2c::End end = bus_.on_interrupt();
-  if (end == I2c::End::none || !busy_) return;
-  busy_ = false;
-  const uint8_t beam = served_;
-  if (end == I2c::End::done) {
-    serve(succeed(beam) ? beam : static_cast<uint8_t>(beam + 1));
-    return;
-  }
-  no_answer_.happened();
-  if (end == I2c::End::lost) bus_.recover();
-  fail(beam);
-  serve(static_cast<uint8_t>(beam + 1));
-}
-
-/// True: this sensor goes on at once.
-bool Rangers::succeed(uint8_t beam) noexcept {
+bool Rangers::succeed(uint8_t beam, const I2c& bus) noexcept {
   Sensor& sensor = sensor_[beam];
   switch (sensor.phase) {
     case Phase::held:
     case Phase::waking: return false;
     case Phase::identify:
-      if (bus_.in()[0] != vl53l0x::kModelValue) {
+      if (bus.in()[0] != vl53l0x::kModelValue) {
         fail(beam);
         return false;
       }
@@ -110,7 +70,7 @@ bool Rangers::succeed(uint8_t beam) noexcept {
       sensor.measured_ms = now_ms_;
       return false;
     case Phase::ask:
-      if ((bus_.in()[0] & 0x07) != 0) {
+      if ((bus.in()[0] & 0x07) != 0) {
         sensor.phase = Phase::fetch;
         return true;
       }
@@ -118,7 +78,7 @@ bool Rangers::succeed(uint8_t beam) noexcept {
       return false;
     case Phase::fetch: {
       uint8_t bytes[vl53l0x::kRangeBytes];
-      for (uint8_t i = 0; i < vl53l0x::kRangeBytes; ++i) bytes[i] = bus_.in()[i];
+      for (uint8_t i = 0; i < vl53l0x::kRangeBytes; ++i) bytes[i] = bus.in()[i];
       vl53l0x::decode(bytes, sensor.reading);
       sensor.reading.sequence = static_cast<uint8_t>((sensor.reading.sequence + 1) % 16);
       sensor.measured_ms = now_ms_;
@@ -131,7 +91,6 @@ bool Rangers::succeed(uint8_t beam) noexcept {
   return false;
 }
 
-/// A sensor that measures is asked again until it has been silent for long; one that starts is held.
 void Rangers::fail(uint8_t beam) noexcept {
   Sensor& sensor = sensor_[beam];
   const bool measures = sensor.phase >= Phase::ask;
@@ -154,8 +113,6 @@ bool Rangers::read(RangeReadings& out) noexcept {
 }
 
 void Rangers::collect(Troubles& troubles) noexcept {
-  troubles.count(Trouble::i2c_no_answer, no_answer_.collect());
-  troubles.count(Trouble::i2c_timeout, timeouts_.collect());
   troubles.count(Trouble::ranger_not_started, not_started_.collect());
   troubles.count(Trouble::ranger_silent, silent_.collect());
 }

@@ -25,15 +25,20 @@ class Rangers final : public Rangefinders {
   static constexpr uint32_t kSilentMs = 200;      ///< without a measurement for this long, it is started anew
   static constexpr uint32_t kTransferMs = 3;      ///< the longest takes 0.4 ms
 
+  /// Holds all in reset.
   void start(uint32_t now_ms) noexcept;
   bool read(RangeReadings& out) noexcept override;
   /// Adds what has failed since the last call.
   void collect(Troubles& troubles) noexcept;
 
-  /// In the handler of the millisecond: asks each sensor, one after the other.
-  void on_millisecond() noexcept;
-  /// Handler of the bus.
-  void on_bus_interrupt() noexcept;
+  // In the handlers, by SensorBus.
+  void on_millisecond() noexcept { now_ms_ = now_ms_ + 1; }
+  /// False: nothing to ask this one now.
+  bool next(uint8_t beam, I2c::Transfer& transfer) noexcept;
+  /// The transfer has ended well. True: it goes on at once.
+  bool succeed(uint8_t beam, const I2c& bus) noexcept;
+  /// A sensor that measures is asked again until it has been silent for long; one that starts is held.
+  void fail(uint8_t beam) noexcept;
 
  private:
   enum class Phase : uint8_t { held, waking, identify, move, clear, begin, ask, fetch, acknowledge };
@@ -50,20 +55,11 @@ class Rangers final : public Rangefinders {
   static uint8_t address_of(uint8_t beam) noexcept { return static_cast<uint8_t>(kFirstAddress + beam); }
   void hold(uint8_t beam) noexcept;
   bool is_alone_awake() const noexcept;
-  /// Serves this sensor and those after it, until a transfer begins or all have been served.
-  void serve(uint8_t beam) noexcept;
-  bool begin_transfer(uint8_t beam) noexcept;
-  bool succeed(uint8_t beam) noexcept;
-  void fail(uint8_t beam) noexcept;
 
-  I2c bus_;
   Sensor sensor_[kBeams];
   mcu::Latest<Published> published_[kBeams];
-  mcu::Events no_answer_, timeouts_, not_started_, silent_;
+  mcu::Events not_started_, silent_;
   volatile uint32_t now_ms_ = 0;  // the handler of the millisecond counts
-  uint32_t begun_ms_ = 0;
-  uint8_t served_ = 0;
-  bool busy_ = false;
 };
 
 }  // namespace whisker::hal::pico

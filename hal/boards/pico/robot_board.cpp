@@ -37,7 +37,7 @@ bool RobotBoard::start() noexcept {
   ticker_.start();
   line_.start();
   encoders_.start();
-  rangers_.start(ticker_.now_ms());
+  sensors_.start(ticker_.now_ms());
   return true;
 }
 
@@ -46,6 +46,11 @@ void RobotBoard::refuse() noexcept {
     led_.show(Led::kFast, ms);
     spend(Led::kSixteenthMs * 1000, kSlowHz);
   }
+}
+
+void RobotBoard::adopt(const Params& params) noexcept {
+  wheels_.adopt(motor_of(params), motor_of(params));
+  sensors_.adopt(params.gyro);
 }
 
 void RobotBoard::watch() noexcept {
@@ -59,7 +64,7 @@ void RobotBoard::poll() noexcept {
   const uint32_t now = ticker_.now_ms();
   bumper_.poll(now);
   button_.poll(now);
-  rangers_.collect(troubles_);
+  sensors_.collect(troubles_);
   encoders_.collect(troubles_);
   troubles_.count(Trouble::line_bytes_lost, line_.collect_lost());
 }
@@ -83,7 +88,7 @@ uint16_t RobotBoard::boot_number() noexcept {
 
 void RobotBoard::on_millisecond() noexcept {
   ticker_.on_interrupt();
-  rangers_.on_millisecond();
+  sensors_.on_millisecond();
 }
 
 }  // namespace whisker::hal::pico

@@ -7,8 +7,8 @@
 #include "hal/boards/pico/led.hpp"
 #include "hal/boards/pico/line.hpp"
 #include "hal/boards/pico/motors.hpp"
-#include "hal/boards/pico/rangers.hpp"
 #include "hal/boards/pico/robot_params.hpp"
+#include "hal/boards/pico/sensor_bus.hpp"
 #include "hal/boards/pico/switches.hpp"
 #include "hal/boards/pico/ticker.hpp"
 
@@ -47,10 +47,11 @@ class RobotBoard {
   /// Differs from that of the last start: noise of the ring oscillator.
   uint16_t boot_number() noexcept;
 
-  Rangefinders& rangefinders() noexcept { return rangers_; }
+  Rangefinders& rangefinders() noexcept { return sensors_.rangers(); }
+  hal::Gyro& gyro() noexcept { return sensors_.gyro(); }
   Drive& drive() noexcept { return wheels_; }
-  /// The speed controllers follow these parameters. Only while the wheels stand.
-  void adopt(const Params& params) noexcept { wheels_.adopt(motor_of(params), motor_of(params)); }
+  /// The speed controllers and the gyro follow these parameters. Only while the wheels stand.
+  void adopt(const Params& params) noexcept;
   Bumper& bumper() noexcept { return bumper_; }
   hal::Button& button() noexcept { return button_; }
   ByteLine& line() noexcept { return line_; }
@@ -60,13 +61,13 @@ class RobotBoard {
 
   void on_millisecond() noexcept;
   void on_line_interrupt() noexcept { line_.on_interrupt(); }
-  void on_bus_interrupt() noexcept { rangers_.on_bus_interrupt(); }
+  void on_bus_interrupt() noexcept { sensors_.on_interrupt(); }
 
  private:
   Troubles troubles_;
   Ticker ticker_;
   Line line_;
-  Rangers rangers_;
+  SensorBus sensors_;
   Motors motors_;
   Encoders encoders_;
   Wheels wheels_{motor_of(kRobotParams), motor_of(kRobotParams), motors_, encoders_, ticker_};

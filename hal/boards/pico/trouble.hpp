@@ -13,9 +13,12 @@ enum class Trouble : uint8_t {
   i2c_timeout,         ///< a transfer did not end in time: the bus was freed by nine clocks
   ranger_not_started,  ///< a rangefinder did not give the answer of its kind
   ranger_silent,       ///< a rangefinder stopped measuring and was reset
-  counts_not_ready,    ///< the encoders' state machine did not answer
+  gyro_not_started,  ///< the gyro did not give the answer of its kind, or does not have the rate or the range
+  gyro_silent,       ///< the gyro stopped measuring and was reset
+  gyro_samples_lost,  ///< samples of the gyro were lost, and it was reset
+  counts_not_ready,   ///< the encoders' state machine did not answer
 };
-constexpr uint8_t kTroubles = 8;
+constexpr uint8_t kTroubles = 11;
 
 using Troubles = mcu::Tally<Trouble, kTroubles>;
 

@@ -10,8 +10,8 @@ using Gpio = uint8_t;  ///< number of a pin, 0..29
 // Each comment: what is at the other end, and its terminal.
 inline constexpr Gpio kLineOut = 0;          ///< serial cable: RX
 inline constexpr Gpio kLineIn = 1;           ///< serial cable: TX
-inline constexpr Gpio kI2cData = 4;          ///< all sensors: SDA
-inline constexpr Gpio kI2cClock = 5;         ///< all sensors: SCL
+inline constexpr Gpio kI2cData = 4;          ///< all sensors, gyro: SDA
+inline constexpr Gpio kI2cClock = 5;         ///< all sensors, gyro: SCL
 inline constexpr Gpio kLeftAwake = 6;        ///< left sensor: XSHUT
 inline constexpr Gpio kFrontAwake = 7;       ///< front sensor: XSHUT
 inline constexpr Gpio kRightAwake = 8;       ///< right sensor: XSHUT

@@ -1,5 +1,6 @@
 // What is soldered to the pins of a robot: sensors, motors, encoders, button. The simulator says what they see.
 import {I2cBus} from './i2c.mjs';
+import {Mpu6050} from './mpu6050.mjs';
 import {Vl53l0x} from './vl53l0x.mjs';
 
 export const PINS = {
@@ -24,6 +25,8 @@ const MS = 1e6;
 export class MotorDriver {
   /** By wheel: a motor that does not turn, or whose wires are broken. */
   stalled = [false, false];
+  /** By wheel: its two wires are swapped. */
+  swapped = [false, false];
   plug(mcu) {
     this.mcu = mcu;
   }
@@ -42,7 +45,8 @@ export class MotorDriver {
     const awake = this.mcu.gpio[PINS.motorsAwake];
     if (!(awake.outputEnable && awake.outputValue) || this.stalled[wheel]) return 0;
     const first = PINS.motors[wheel];
-    return Math.round((this.#high(first) - this.#high(first + 1)) * FULL);
+    const share = this.#high(first) - this.#high(first + 1);
+    return Math.round((this.swapped[wheel] ? -share : share) * FULL);
   }
   get asleep() {
     const awake = this.mcu.gpio[PINS.motorsAwake];
@@ -52,7 +56,7 @@ export class MotorDriver {
 
 /** The edges of an encoder, at even distances within a millisecond. */
 export class Quadrature {
-  /** 'unplugged' (both pulled up), 'dead' (no edge any more), 'a' (one channel broken). */
+  /** 'unplugged' (both pulled up), 'dead' (no edge any more), 'a' (one channel broken), 'swapped' (A and B). */
   fault = null;
   count = 0;
   constructor(pin) {
@@ -66,7 +70,8 @@ export class Quadrature {
   }
   #levels() {
     const levels = QUARTERS[this.count & 3];
-    const [a, b] = [this.mcu.gpio[this.pin], this.mcu.gpio[this.pin + 1]];
+    const pins = [this.mcu.gpio[this.pin], this.mcu.gpio[this.pin + 1]];
+    const [a, b] = this.fault === 'swapped' ? pins.reverse() : pins;
     if (this.fault === 'dead') return;
     const open = this.fault === 'unplugged';
     a.setInputValue(open || this.fault === 'a' || (levels & 1) !== 0);
@@ -97,7 +102,8 @@ export class Body {
     this.chip = chip;
     this.bus = chip.attach(new I2cBus(chip, 0, {data: PINS.data, clock: PINS.clock}));
     this.rangers = PINS.awake.map((pin) => chip.attach(new Vl53l0x(chip, pin)));
-    this.bus.devices.push(...this.rangers);
+    this.gyro = chip.attach(new Mpu6050());
+    this.bus.devices.push(...this.rangers, this.gyro);
     this.motors = chip.attach(new MotorDriver());
     this.encoders = PINS.encoders.map((pin) => chip.attach(new Quadrature(pin)));
     this.sequences = [-1, -1, -1];
@@ -123,6 +129,9 @@ export class Body {
   press(down) {
     this.mcu.gpio[PINS.button].setInputValue(!down);
   }
+  bump(side, closed) {
+    this.mcu.gpio[PINS.bumpers[side]].setInputValue(!closed);
+  }
   connect(on) {
     this.cable = on;
     this.mcu.uart[0].connected = on;
@@ -144,6 +153,7 @@ export class Body {
       this.sequences[beam] = sequence;
       ranger.measured(mm, status);
     });
+    this.gyro.pass(Number(words[12]), Number(words[13]));
     const hex = words.at(-1);
     if (hex !== '-') this.mcu.uart[0].feed(Buffer.from(hex, 'hex'));
   }

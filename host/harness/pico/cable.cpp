@@ -46,7 +46,7 @@ std::string Cable::step(std::uint64_t now_us, const std::string& came) {
     // The queue holds only some of what a millisecond brings.
     port.poll(static_cast<std::uint32_t>(now_us / 1000));
   }
-  if (shadow_) shadow_->follow();
+  if (shadow_) followed_ = shadow_->follow();
   if (!listens_) act();
   port.poll(static_cast<std::uint32_t>(now_us / 1000));
   return bytes_.leave();

@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "firmware/can/codec.hpp"
 #include "firmware/robot.hpp"
@@ -52,6 +53,8 @@ class Cable {
   const can::Heartbeat& base() const { return base_; }
   std::uint64_t frames() const { return frames_; }
   std::uint64_t answers() const { return answers_; }  ///< that were compared
+  /// Of the core on this computer, at the last tick; null: none yet.
+  const Status* inside() const { return shadow_ && followed_ ? &shadow_->status() : nullptr; }
   /// The first answer that the core on this computer would not have given; "": none.
   std::string difference() const { return shadow_ ? shadow_->difference() : std::string(); }
 
@@ -79,6 +82,7 @@ class Cable {
   std::uint64_t answers_ = 0;
   Phase phase_ = Phase::waits;
   bool listens_ = false;
+  bool followed_ = false;
   bool speaks_ = false;  // the robot does
   std::uint8_t index_ = 0;
   std::optional<can::ParamReply> reply_;

@@ -31,6 +31,7 @@ export class Chip {
   /** 'power', 'watchdog', 'forced' or 'request', in order. */
   resets = [];
   lockup = false;
+  crystalDead = false;
   /** Waits for a UF2 file, because its second-stage bootloader is damaged. */
   waitsForUsb = false;
   powered = false;
@@ -39,7 +40,7 @@ export class Chip {
 
   constructor({seed = 1} = {}) {
     this.flash = new Flash();
-    this.flash.onPowerLost = () => (this.#reset = {kind: 'power'});
+    this.flash.onPowerLost = () => this.losePower();
     this.seed = seed;
   }
   sin(what) {
@@ -53,6 +54,10 @@ export class Chip {
   }
   powerOn() {
     this.#start('power', new RP2040());
+  }
+  /** The supply fails, and comes back. */
+  losePower() {
+    this.#reset = {kind: 'power'};
   }
   get nanos() {
     return this.mcu.clock.nanos;

@@ -130,12 +130,19 @@ class Rig {
             {"distance_m", std::hypot(left.x, left.y)},
             {"contact", plant_.in_contact()},
             {"clearance_m", std::fmin(plant_.min_clearance(), 1e3)},
+            {"bumps", plant_.bumps()},
+            {"turned_by_gyro", by_gyro()},
             {"answers", cable_.answers()},
             {"frames", cable_.frames()},
             {"difference", cable_.difference()}};
   }
 
  private:
+  bool by_gyro() const {
+    const Status* const inside = cable_.inside();
+    return inside != nullptr && inside->heading_source == localization::HeadingSource::gyro;
+  }
+
   std::int16_t speed(int duty) const {
     const double tenths = duty / 32767.0 * options_.full_speed_mps * 1e4;
     return static_cast<std::int16_t>(std::lround(tenths));

@@ -134,7 +134,10 @@ export function holdInReset(mcu, chip) {
   mcu.pwm.enterReset = () => mcu.pwm.reset();
   for (const pio of mcu.pio)
     pio.enterReset = () => pio.machines.forEach((machine) => (machine.enabled = false));
-  for (const pin of mcu.gpio) pin.padValue = 0x56;
+  for (const pin of mcu.gpio) {
+    pin.padValue = 0x56;
+    pin.refreshInput();
+  }
 }
 
 /** The crystal and a PLL take time; the core starts on the ring oscillator; microseconds need the tick generator. */
@@ -148,7 +151,7 @@ export function gateClocks(mcu, chip) {
   const xoscWrite = xosc.writeUint32.bind(xosc);
   xosc.writeUint32 = (offset, value) => {
     xoscWrite(offset, value);
-    if (offset === 0 && xosc.enabled && stableAt === Infinity)
+    if (offset === 0 && xosc.enabled && stableAt === Infinity && !chip.crystalDead)
       stableAt = clock.nanos + ((xosc.startup & 0x3fff) * 256 * 1e9) / mcu.xoscFreq;
   };
   const xoscRead = xosc.readUint32.bind(xosc);

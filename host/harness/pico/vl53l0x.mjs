@@ -44,6 +44,10 @@ export class Vl53l0x {
     this.#registers[0xc0] = 0xee;
     this.measures = false;
   }
+  /** Its supply fails for a moment. */
+  glitch() {
+    this.#boot();
+  }
   answers(address) {
     const ready = this.awake && this.mcu.clock.nanos - this.#since >= WAKE_NS;
     return ready && this.fault !== 'unplugged' && this.fault !== 'mute' && address === this.address;
