@@ -2,7 +2,6 @@
 
 #include "firmware/can/param_server.hpp"
 #include "firmware/math/crc32.hpp"
-#include "firmware/version.hpp"
 
 namespace whisker::can {
 namespace {
@@ -28,8 +27,8 @@ class Sum {
   Crc32 crc_;
 };
 
-void put(uint8_t* to, uint32_t word) noexcept {
-  for (int i = 0; i < 4; ++i) to[i] = static_cast<uint8_t>(word >> (8 * i));
+void put(uint8_t (&record)[kParamRecordBytes], uint16_t at, uint32_t word) noexcept {
+  for (uint16_t i = 0; i < 4; ++i) record[4U * at + i] = static_cast<uint8_t>(word >> (8U * i));
 }
 
 }  // namespace
@@ -60,7 +59,7 @@ Content ParamStore::judge(uint8_t slot, uint16_t& sequence, Params* params) noex
   if (!read(slot, kSum, word)) return Content::no_answer;
   if (word != sum.value()) return Content::damaged;
   sequence = static_cast<uint16_t>(first >> 16);
-  if (first != header(sequence) || version != kVersionNumber) return Content::other_version;
+  if (first != header(sequence) || version != version_) return Content::other_version;
   if (!in_range || check(found) != ParamFault::none) return Content::other_version;
   if (params != nullptr) *params = found;
   return Content::record;
@@ -85,17 +84,17 @@ Stored ParamStore::save(const Params& params) noexcept {
   uint8_t bytes[kParamRecordBytes];
   Sum sum;
   const auto add = [&](uint16_t at, uint32_t word) {
-    put(bytes + 4 * at, word);
+    put(bytes, at, word);
     sum.add(word);
   };
   add(0, header(sequence));
-  add(1, kVersionNumber);
+  add(1, version_);
   for (uint8_t i = 0; i < kParams; ++i) {
     uint32_t raw = 0;
     read_param(params, i, raw);
     add(static_cast<uint16_t>(kHeaderWords + i), raw);
   }
-  put(bytes + 4 * kSum, sum.value());
+  put(bytes, kSum, sum.value());
   if (!storage_.erase(slot) || !storage_.write(slot, 0, bytes, sizeof bytes)) return Stored::not_written;
   uint16_t written = 0;
   return judge(slot, written, nullptr) == Content::record && written == sequence ? Stored::ok

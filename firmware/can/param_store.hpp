@@ -27,8 +27,9 @@ constexpr uint16_t kParamRecordBytes = 8 + 4 * kParams + 4;
 
 class ParamStore {
  public:
-  /// Must outlive it. With slots smaller than kParamRecordBytes, nothing can be saved.
-  explicit ParamStore(hal::Storage& storage) noexcept : storage_(storage) {}
+  /// Must outlive it. With slots smaller than kParamRecordBytes, nothing can be saved. version: of the
+  /// firmware; records of another one do not count.
+  ParamStore(hal::Storage& storage, uint32_t version) noexcept : storage_(storage), version_(version) {}
 
   /// The newest undamaged parameters that check() accepts. Unless ok, `params` is unchanged.
   Stored load(Params& params) noexcept;
@@ -42,6 +43,7 @@ class ParamStore {
   bool read(uint8_t slot, uint16_t word, uint32_t& value) noexcept;
 
   hal::Storage& storage_;
+  const uint32_t version_;
 };
 
 }  // namespace whisker::can

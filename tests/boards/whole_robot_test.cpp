@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware/apps/can/whole_robot.hpp"
+#include "firmware/version.hpp"
 #include "host/harness/bus/memory_bus.hpp"
 #include "host/harness/run/spec.hpp"
 #include "host/harness/sim/sim_board.hpp"
@@ -129,7 +130,7 @@ TEST_F(WholeRobotTest, WhatAnOperatorCommitsIsKeptAndHoldsAtOnce) {
   EXPECT_EQ(robot.params().wheels.max_speed, 200_mm_per_s);
   EXPECT_EQ(robot.sign(), Sign::rests);
   Params stored;
-  EXPECT_EQ(can::ParamStore(kept).load(stored), storage::Stored::ok);
+  EXPECT_EQ(can::ParamStore(kept, kVersionNumber).load(stored), storage::Stored::ok);
   EXPECT_EQ(stored.wheels.max_speed, 200_mm_per_s);
 }
 

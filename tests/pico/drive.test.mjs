@@ -3,11 +3,12 @@
 import assert from 'node:assert/strict';
 import {after, describe, test} from 'node:test';
 import {Drive} from '../../host/harness/pico/drive.mjs';
-import {ROBOT, robotWith, world} from './worlds.mjs';
+import {ROBOT, generated, robotWith, world} from './worlds.mjs';
 
 const MOST_STACK = 3072;
 const MOST_CYCLES = 1_250_000; // a period at 125 MHz
 const FIRST_COMMAND_MS = 100;
+const LONGEST_MS = 300000;
 
 const figures = [];
 
@@ -16,14 +17,17 @@ describe('the image of the Pico', () => {
     ['discs', ROBOT],
     ['u_trap', ROBOT],
     ['room', ROBOT],
-    ['discs', robotWith('gyro = true\nbumper = true\n')],
   ];
+  // At night, also a gyro, and worlds of the generator.
+  if (process.env.WHISKER_LONG) robots.push(['discs', robotWith('gyro = true\nbumper = true\n')]);
+  for (const kind of process.env.WHISKER_LONG ? ['discs', 'u-trap', 'rooms'] : [])
+    for (const seed of [1, 2, 3]) robots.push([generated(kind, seed), ROBOT]);
   for (const [name, robot] of robots) {
     test(`drives to the goal: ${name}${robot === ROBOT ? '' : ', with a gyro and a bumper'}`, () => {
       const drive = new Drive([world(name), '--robot', robot]);
       try {
         let running = false;
-        drive.until(60000, (now) => {
+        drive.until(LONGEST_MS, (now) => {
           running ||= now.ordered && now.outcome === 'running';
           return (
             now.contact || now.fault !== 'none' || (running && now.outcome !== 'running' && drive.stands)

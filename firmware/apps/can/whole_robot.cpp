@@ -27,7 +27,7 @@ Params kept_or(const Params& defaults, can::ParamStore& store) noexcept {
 WholeRobot::WholeRobot(hal::CanPort& line, uint16_t boot, const Params& defaults, const Devices& devices,
                        const Stores& stores) noexcept
     : bus_(line),
-      store_(stores.params),
+      store_(stores.params, kVersionNumber),
       params_(kept_or(defaults, store_)),
       devices_(devices),
       keeping_(bus_.port(InnerBus::kController), {kRobot, boot, kVersionNumber}, stores.tables,

@@ -1,6 +1,6 @@
 // The second-stage bootloader: the boot ROM copies these 256 bytes into the RAM and calls them, if their sum
 // is right (toolchain/uf2.py adds it). They make the flash of a Pico, a W25Q16JV, readable over four lines in
-// 28 clocks a word, and start the program; called by the program, they return.
+// 20 clocks a word, and start the program; called by the program, they return.
 //
 // Registers: RP2040 data sheet, 4.10.13. Commands: W25Q16JV data sheet, 8.1.2.
 

@@ -109,6 +109,7 @@ export class Body {
     this.sequences = [-1, -1, -1];
     this.pressed = false;
     this.sent = [];
+    this.misses = []; // of the flash's cache in each tick
     this.ticks = []; // cycles of the core, with those of the handlers within
     chip.attach(this);
   }
@@ -120,10 +121,13 @@ export class Body {
     mcu.gpio[1].setInputValue(true);
     this.led = false;
     mcu.gpio[PINS.led].addListener((value) => (this.led = value === 1));
-    let began = 0;
+    let [began, missed] = [0, 0];
     mcu.gpio[PINS.tick].addListener((value) => {
-      if (value === 1) began = mcu.core.cycles;
-      else if (began !== 0) this.ticks.push(mcu.core.cycles - began);
+      if (value === 1) [began, missed] = [mcu.core.cycles, this.chip.misses];
+      else if (began !== 0) {
+        this.ticks.push(mcu.core.cycles - began);
+        this.misses.push(this.chip.misses - missed);
+      }
     });
   }
   press(down) {

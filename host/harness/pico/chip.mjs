@@ -32,6 +32,9 @@ export class Chip {
   resets = [];
   lockup = false;
   crystalDead = false;
+  /** Of the flash's cache, if they are counted. */
+  misses = 0;
+  countsMisses = false;
   /** Waits for a UF2 file, because its second-stage bootloader is damaged. */
   waitsForUsb = false;
   powered = false;
@@ -94,6 +97,7 @@ export class Chip {
       if (offset !== 0xd0c) return store(offset, value);
       if (value >>> 16 === 0x05fa && value & 4) this.#reset = {kind: 'request', reason: 0};
     };
+    if (this.countsMisses) strict.countMisses(mcu, this);
     this.waitsForUsb = !plugFlash(mcu, this.flash, this)();
     this.pwmOff(mcu);
   }

@@ -224,6 +224,37 @@ export function gateFlash(mcu) {
   return (readable) => names.forEach((name, i) => (mcu[name] = readable ? open[i] : closed[i]));
 }
 
+/**
+ * Counts what the flash's cache does not have: 16 KB in two ways, RP2040 data sheet, 2.6.3; lines of 8 bytes. The cost of a
+ * miss is not charged: see XIP_MISS_CYCLES.
+ */
+export function countMisses(mcu, chip) {
+  const LINE = 8;
+  const SETS = 16384 / 2 / LINE;
+  const lines = new Int32Array(2 * SETS).fill(-1);
+  const next = new Uint8Array(SETS);
+  const look = (address) => {
+    const line = (address & 0xffffff) >> 3;
+    const set = 2 * (line % SETS);
+    if (lines[set] === line) next[set >> 1] = 1;
+    else if (lines[set + 1] === line) next[set >> 1] = 0;
+    else {
+      chip.misses++;
+      lines[set + next[set >> 1]] = line;
+      next[set >> 1] ^= 1;
+    }
+  };
+  for (const name of ['readUint16', 'readUint32']) {
+    const read = mcu[name].bind(mcu);
+    mcu[name] = (address) => {
+      if (address >>> 0 >= FLASH && address >>> 0 < FLASH_END) look(address);
+      return read(address);
+    };
+  }
+}
+/** Address, mode, pause and 8 bytes over four lines are 28 clocks, each two of the core: boot2.cpp. */
+export const XIP_MISS_CYCLES = 56;
+
 /** The divider's answers to a division by zero: measured on a chip, vak.dreamwidth.org/1097369. */
 export function repairDivider(mcu) {
   const {sio} = mcu;
