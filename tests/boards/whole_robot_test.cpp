@@ -6,8 +6,10 @@
 
 #include "firmware/apps/can/whole_robot.hpp"
 #include "firmware/version.hpp"
+#include "hal/boards/pico/robot_params.hpp"
 #include "host/harness/bus/memory_bus.hpp"
 #include "host/harness/run/spec.hpp"
+#include "host/harness/scenario/load.hpp"
 #include "host/harness/sim/sim_board.hpp"
 #include "tests/calibration/memory_storage.hpp"
 
@@ -132,6 +134,12 @@ TEST_F(WholeRobotTest, WhatAnOperatorCommitsIsKeptAndHoldsAtOnce) {
   Params stored;
   EXPECT_EQ(can::ParamStore(kept, kVersionNumber).load(stored), storage::Stored::ok);
   EXPECT_EQ(stored.wheels.max_speed, 200_mm_per_s);
+}
+
+TEST(PicoParamsTest, AreThoseOfItsRobotFile) {
+  Params file;
+  apply_robot_file(file, WHISKER_SOURCE_DIR "/host/robots/pico.toml");
+  for (int i = 0; i < kParams; ++i) EXPECT_EQ(raw_param(hal::pico::kRobotParams, i), raw_param(file, i)) << i;
 }
 
 }  // namespace
