@@ -30,6 +30,7 @@ ParamStatus ParamServer::commit(ParamReply& reply) noexcept {
   if (fault != ParamFault::none) return ParamStatus::inconsistent;
   committed_ = staged_;
   stager_ = Requester::none;
+  ++commits_;
   return ParamStatus::ok;
 }
 

@@ -43,6 +43,8 @@ class ParamServer {
   /// Both the committed and the staged ones.
   void set(const Params& params) noexcept { committed_ = staged_ = params; }
   Requester stager() const noexcept { return stager_; }
+  /// Number of accepted commits, modulo 2^32.
+  uint32_t commits() const noexcept { return commits_; }
   /// Drops what `who` has staged and not committed.
   void drop(Requester who) noexcept;
 
@@ -52,6 +54,7 @@ class ParamServer {
   Params staged_;
   Params committed_;
   Requester stager_ = Requester::none;
+  uint32_t commits_ = 0;
 };
 
 }  // namespace whisker::can

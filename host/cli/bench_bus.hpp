@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "firmware/can/bus_guard.hpp"
@@ -24,6 +25,7 @@ std::string version_text(std::uint32_t v);
 
 struct BenchChoice {
   std::string can, tty, socket;
+  std::optional<int> baud;
   BusChoice bus;  ///< without a name; see bus_name
   double timeout_s = 3;
 
