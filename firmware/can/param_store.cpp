@@ -2,6 +2,7 @@
 
 #include "firmware/can/param_server.hpp"
 #include "firmware/math/crc32.hpp"
+#include "firmware/params/words.hpp"
 
 namespace whisker::can {
 namespace {
@@ -54,6 +55,7 @@ Content ParamStore::judge(uint8_t slot, uint16_t& sequence, Params* params) noex
     if (i == 1) version = word;
     if (i < kHeaderWords) continue;
     const auto index = static_cast<uint8_t>(i - kHeaderWords);
+    if (is_derived(index)) continue;
     in_range = write_param(found, index, word) == ParamStatus::ok && in_range;
   }
   if (!read(slot, kSum, word)) return Content::no_answer;

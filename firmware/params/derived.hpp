@@ -1,10 +1,13 @@
 /// What the robot derives instead of asking for it: constants, and values that follow from the parameters.
-#pragma once
-
+// No #pragma once: params.hpp includes this file at its end, before the relations, whoever includes which
+// first.
 #include <stdint.h>
 
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
+
+#ifndef WHISKER_PARAMS_DERIVED
+#define WHISKER_PARAMS_DERIVED
 
 namespace whisker::derived {
 
@@ -89,3 +92,5 @@ constexpr int32_t most_steps(const Params& p) noexcept {
 }
 
 }  // namespace whisker::derived
+
+#endif
