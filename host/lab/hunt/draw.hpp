@@ -15,8 +15,10 @@ struct Drawn {
   World world = World::scatter;
 };
 
-/// The same seed gives the same case on every machine.
+/// A drive. The same seed gives the same case on every machine.
 Drawn draw_case(std::uint64_t seed);
+/// An odd seed gives a part of the core, the parts in turn, and any other draw_case().
+Drawn draw_fresh(std::uint64_t seed);
 
 /// A few changes of robot, world, commands, goal or gaps that keep the premise; the case itself if none does.
 Case changed(const Case& c, std::uint64_t seed);

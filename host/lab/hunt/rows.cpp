@@ -155,7 +155,7 @@ std::string nearest_table(std::vector<Row> rows) {
 
 bool harms(const std::string& finding) {
   return finding == "contact" || finding == "judges_disagree" || finding.rfind("other_hash", 0) == 0 ||
-         finding.rfind("crash", 0) == 0;
+         finding.rfind("crash", 0) == 0 || finding.rfind("part", 0) == 0;
 }
 
 std::string to_csv(const Row& r) {
