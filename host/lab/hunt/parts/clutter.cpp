@@ -57,12 +57,11 @@ sim::WorldView Clutter::view() const {
   return v;
 }
 
-bool Clutter::reaches(Vec2 at, double distance_m) const {
-  for (const sim::Disc& d : discs) {
-    if (std::hypot(d.center.x - at.x, d.center.y - at.y) - d.radius <= distance_m) return true;
-  }
-  return std::any_of(segments.begin(), segments.end(),
-                     [&](const sim::Segment& s) { return from_segment(at, s) <= distance_m; });
+double Clutter::distance(Vec2 at) const {
+  double least = 1e9;
+  for (const sim::Disc& d : discs) least = std::min(least, length_of(d.center - at) - d.radius);
+  for (const sim::Segment& s : segments) least = std::min(least, from_segment(at, s));
+  return least;
 }
 
 Clutter draw_clutter(Dice& dice, const Params& p, const Pose& pose, double free_m) {
@@ -83,19 +82,23 @@ Clutter draw_clutter(Dice& dice, const Params& p, const Pose& pose, double free_
   return world;
 }
 
-perception::ConeObservation look(const Params& p, const Clutter& world, const Pose& pose, int beam) {
+double range_m(const Params& p, const Clutter& world, const sim::Pose& pose, int beam) {
   const sim::BeamSpec mounted = sim::robot_spec(p).beams[beam];
-  const double heading = radians(pose.heading), axis = heading + mounted.angle;
-  const Vec2 ahead{std::cos(heading), std::sin(heading)}, left{-ahead.y, ahead.x};
-  const sim::Cone cone{vec(pose.at) + ahead * mounted.x + left * mounted.y,
+  const double axis = pose.heading + mounted.angle;
+  const Vec2 ahead{std::cos(pose.heading), std::sin(pose.heading)}, left{-ahead.y, ahead.x};
+  const sim::Cone cone{pose.at + ahead * mounted.x + left * mounted.y,
                        {std::cos(axis), std::sin(axis)},
                        std::cos(mounted.cone_half_width),
                        std::sin(mounted.cone_half_width)};
-  const double d = sim::range(cone, world.view(), 0, mounted.max_range);
+  return sim::range(cone, world.view(), 0, mounted.max_range);
+}
+
+perception::ConeObservation look(const Params& p, const Clutter& world, const Pose& pose, int beam) {
+  const double d = range_m(p, world, {vec(pose.at), radians(pose.heading)}, beam);
   perception::ConeObservation seen;
   seen.number = static_cast<std::int8_t>(beam);
   seen.beam = perception::beam_of(mount(p.rangefinders, beam), pose);
-  seen.hit = d < mounted.max_range;
+  seen.hit = d < metres(max_range(p.rangefinders, beam));
   seen.free =
       seen.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5))) : max_range(p.rangefinders, beam);
   return seen;

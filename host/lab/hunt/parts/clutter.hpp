@@ -18,13 +18,16 @@ struct Clutter {
   std::vector<sim::Disc> discs;
   std::vector<sim::Segment> segments;
   sim::WorldView view() const;
-  /// Something lies within this distance.
-  bool reaches(sim::Vec2 at, double distance_m) const;
+  /// Of the nearest obstacle; 1e9 without one.
+  double distance(sim::Vec2 at) const;
+  bool reaches(sim::Vec2 at, double distance_m) const { return distance(at) <= distance_m; }
 };
 
 /// Up to six obstacles around the body, none within `free_m` of it.
 Clutter draw_clutter(Dice& dice, const Params& p, const Pose& pose, double free_m);
 
+/// The nearest distance in the cone of this beam, at most the maximum range.
+double range_m(const Params& p, const Clutter& world, const sim::Pose& pose, int beam);
 /// What this beam measures, rounded to a millimetre.
 perception::ConeObservation look(const Params& p, const Clutter& world, const Pose& pose, int beam);
 

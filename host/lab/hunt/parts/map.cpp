@@ -69,6 +69,9 @@ std::string judge_cell(const Sector& sector, sim::Vec2 at, double seen, double d
   if (blocked && (off_arc < -kSlack || (ahead && sector.inside_by(at, widest) < -kSlack - edge))) {
     return "ground is blocked beside the echo";
   }
+  const bool untouched =
+      empty_by < -0.5 && (!echo || off_arc < -0.5 || (ahead && sector.inside_by(at, widest) < -1));
+  if (untouched && after != before) return "ground beside the beam changes";
   const bool must_block = echo && off_arc > kSlack && ahead && sector.inside_by(at, core) > kSlack + edge;
   if (must_block && before != CellState::free && empty_by < -kSlack && after < CellState::suspect) {
     return "ground at the echo does not block";

@@ -4,14 +4,26 @@ namespace whisker::hunt {
 
 const std::vector<Part>& parts() {
   static const std::vector<Part> all = {
-      {"wavefront", judge_wavefront}, {"map", judge_map},
-      {"window", judge_map_window},   {"raster", judge_raster},
-      {"grid", judge_grid},           {"paths", judge_grid_paths},
-      {"ground", judge_grid_times},   {"chains", judge_chains},
-      {"readings", judge_readings},   {"odometry", judge_odometry},
-      {"coasting", judge_coasting},   {"wheels", judge_wheels},
-      {"faults", judge_faults},       {"manoeuvres", judge_manoeuvres},
+      {"wavefront", judge_wavefront},
+      {"map", judge_map},
+      {"window", judge_map_window},
+      {"raster", judge_raster},
+      {"grid", judge_grid},
+      {"paths", judge_grid_paths},
+      {"ground", judge_grid_times},
+      {"chains", judge_chains},
+      {"readings", judge_readings},
+      {"odometry", judge_odometry},
+      {"coasting", judge_coasting},
+      {"wheels", judge_wheels},
+      {"faults", judge_faults},
+      {"manoeuvres", judge_manoeuvres},
       {"loops", judge_loops},
+      {"base", judge_base},
+      {"controller", judge_controller},
+      {"guarded", judge_guarded},
+      {"missions", judge_missions},
+      {"planners", judge_planners},
   };
   return all;
 }

@@ -37,5 +37,10 @@ std::string judge_wheels(Dice& dice);
 std::string judge_faults(Dice& dice);
 std::string judge_manoeuvres(Dice& dice);
 std::string judge_loops(Dice& dice);
+std::string judge_guarded(Dice& dice);
+std::string judge_missions(Dice& dice);
+std::string judge_planners(Dice& dice);
+std::string judge_base(Dice& dice);
+std::string judge_controller(Dice& dice);
 
 }  // namespace whisker::hunt

@@ -167,6 +167,7 @@ struct Stream {
   BeamConditioner core;
   Time now;
   std::uint8_t sequence = 0;
+  bool latest_is(Validity v) const { return core.latest().validity == v; }
   void see(RangeStatus status, int mm, const Pose& body = {}) {
     now = now + 20_ms;
     sequence = static_cast<std::uint8_t>((sequence + 1) % 16);
@@ -183,15 +184,17 @@ std::string judge_shares(Dice& dice) {
     misses.see(miss ? RangeStatus::clear : RangeStatus::ok, 400);
   }
   const auto seen = [&](const Stream& s) { return s.core.sight(s.p); };
-  if (seen(phantoms).phantoms != (share > 0) || seen(phantoms).misses) return "other phantoms";
-  if (seen(misses).misses != (share > 0)) return "other misses";
+  if (share == 0 && (seen(phantoms).phantoms || seen(misses).misses)) return "phantoms or misses of nothing";
+  // Far above what is few.
+  const bool many = share > 0.28;
+  if (seen(phantoms).misses || (many && !seen(phantoms).phantoms)) return "other phantoms";
   const double measured = phantoms.core.phantom_share() / 65536.0,
                false_clear = misses.core.false_clear_share() / 65536.0;
   // A reading counts as single only between others that differ from it.
   if (share == 0 && (measured > 0.001 || false_clear > 0.001)) return "shares of nothing";
   if (share > 0 && (measured < 0.04 || measured > 0.6 || false_clear < 0.06 || false_clear > 0.5))
     return "other shares";
-  if (share == 0) return "";
+  if (!seen(phantoms).phantoms) return "";
   // An object counts from the fourth reading on and is clear in none.
   for (int i = 0; i < 4; ++i) {
     phantoms.see(RangeStatus::ok, 400);
@@ -199,6 +202,28 @@ std::string judge_shares(Dice& dice) {
       return "an object is cleared away";
   }
   return seen(phantoms).fresh && seen(phantoms).near.distance <= 400_mm ? "" : "an object is a phantom";
+}
+
+/// Round a pillar at the same distance all the time.
+std::string judge_circle(Dice& dice) {
+  Stream s;
+  const int way = dice.chance(0.5) ? 3 : -3;
+  const Length radius = millimetres(100 + dice.index(1500));
+  const auto at = [&](int deg) {
+    const Angle heading = Angle::turns(deg, 360);
+    return Pose{polar(heading - 90_deg, radius), heading};
+  };
+  for (int i = 0; i < 300; ++i) s.see(RangeStatus::ok, 700, at(i * way % 360));
+  if (s.health.range_stuck > 0) return "stuck on a circle";
+  // By the tangent.
+  const Pose left = at(300 * way % 360);
+  const double out = metres(radius) + 0.4;
+  for (double on = 0; on < 2 * out; on += 0.01) {
+    const Pose body{left.at + polar(left.heading, micrometres(static_cast<std::int32_t>(on * 1e6))),
+                    left.heading};
+    s.see(RangeStatus::ok, 700, body);
+  }
+  return s.latest_is(Validity::stuck) ? "" : "a stuck beam leaves a circle unnoticed";
 }
 
 /// Repeats over a turn and a way that leaves it.
@@ -246,6 +271,7 @@ std::string judge_readings(Dice& dice) {
     }
   }
   std::string wrong = judge_shares(dice);
+  if (wrong.empty()) wrong = judge_circle(dice);
   return wrong.empty() ? judge_stuck(dice) : wrong;
 }
 

@@ -157,6 +157,9 @@ std::string judge_wavefront(Dice& dice) {
   Wavefront::Task task;
   task.body = draw_cell(dice, shape);
   task.goal = draw_cell(dice, shape, dice.chance(0.5) ? 0 : 90);
+  // In line with a rim of the window.
+  if (dice.chance(0.2)) task.goal.y = dice.chance(0.5) ? 0 : shape.rows - dice.index(2);
+  if (dice.chance(0.2)) task.goal.x = dice.chance(0.5) ? 0 : shape.columns() - dice.index(2);
   task.strict = dice.chance(0.5);
   if (dice.chance(0.2)) task.most = 1 + dice.index(60);
   if (dice.chance(0.1)) task.goal = task.body;

@@ -4,7 +4,9 @@
 
 #include "firmware/safety/coasting.hpp"
 #include "firmware/safety/stall_watch.hpp"
+#include "firmware/safety/warning.hpp"
 #include "firmware/safety/wheel_watch.hpp"
+#include "host/harness/run/spec.hpp"
 #include "host/lab/hunt/parts/clutter.hpp"
 #include "host/lab/hunt/parts/parts.hpp"
 
@@ -277,11 +279,32 @@ std::string judge_stall(Dice& dice) {
   return "";
 }
 
+/// The speed from which the body stops before what its sensors may see late.
+std::string judge_warning(Dice& dice) {
+  Params p;
+  p.rangefinders.side_angle = Angle::turns(10 + dice.index(70), 360);
+  p.rangefinders.incidence = Angle::turns(20 + dice.index(69), 360);
+  p.wheels.max_acceleration = Acceleration::from_raw(50000 + dice.index(5000000));
+  p.rangefinders.latency = milliseconds(dice.index(200));
+  p.rangefinders.rate_hz = 5 + dice.index(95);
+  const bool err = dice.chance(0.5);
+  const double radius = metres(p.body.radius);
+  const double edge =
+      std::min(sim::kPi / 2, radians(p.rangefinders.side_angle) + radians(p.rangefinders.cone) / 2);
+  const double shortest = radius * std::sin(radians(p.rangefinders.incidence)) / std::sin(edge) * 2 / 3;
+  if (std::fabs(metres(safety::shortest_warning(p)) - shortest) > 1e-4) return "another shortest warning";
+  const double v = si(safety::warned_speed(p, err)), a = p.wheels.max_acceleration.raw() * 1e-6;
+  const double delay = p.rangefinders.latency.raw() * 1e-3 + (err ? 3.0 : 1.0) / p.rangefinders.rate_hz;
+  if (v * delay + v * v / 2 / a > shortest * 1.001) return "a warning comes too late";
+  const double settle = p.motion.settle.raw() * 1e-3 + 0.002;
+  return v * (delay + settle) + v * v / 2 / a < shortest * 0.98 ? "slower than the warning asks for" : "";
+}
+
 }  // namespace
 
 std::string judge_wheels(Dice& dice) {
   for (int i = 0; i < 15; ++i) {
-    for (const JudgePart judge : {judge_follow, judge_disobey, judge_held, judge_stall}) {
+    for (const JudgePart judge : {judge_follow, judge_disobey, judge_held, judge_stall, judge_warning}) {
       std::string wrong = judge(dice);
       if (!wrong.empty()) return wrong;
     }
