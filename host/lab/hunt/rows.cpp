@@ -136,8 +136,9 @@ std::string shares_table(const std::vector<Row>& rows) {
 }
 
 std::string nearest_table(std::vector<Row> rows) {
-  rows.erase(std::remove_if(rows.begin(), rows.end(),
-                            [](const Row& r) { return !r.finding.empty() || !r.parent.empty(); }),
+  rows.erase(std::remove_if(
+                 rows.begin(), rows.end(),
+                 [](const Row& r) { return !r.finding.empty() || !r.parent.empty() || r.driver == "part"; }),
              rows.end());
   std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
     return a.closeness != b.closeness ? a.closeness < b.closeness : a.seed < b.seed;

@@ -24,6 +24,10 @@ const std::vector<Part>& parts() {
       {"guarded", judge_guarded},
       {"missions", judge_missions},
       {"planners", judge_planners},
+      {"guide", judge_guide},
+      {"broken", judge_broken_body},
+      {"reports", judge_reports_of_base},
+      {"orders", judge_orders_of_controller},
   };
   return all;
 }

@@ -38,9 +38,13 @@ std::string judge_faults(Dice& dice);
 std::string judge_manoeuvres(Dice& dice);
 std::string judge_loops(Dice& dice);
 std::string judge_guarded(Dice& dice);
+std::string judge_broken_body(Dice& dice);
 std::string judge_missions(Dice& dice);
 std::string judge_planners(Dice& dice);
+std::string judge_guide(Dice& dice);
 std::string judge_base(Dice& dice);
+std::string judge_reports_of_base(Dice& dice);
+std::string judge_orders_of_controller(Dice& dice);
 std::string judge_controller(Dice& dice);
 
 }  // namespace whisker::hunt

@@ -4,7 +4,6 @@
 
 #include "firmware/planning/boundary/follow_side_search.hpp"
 #include "firmware/planning/candidate_headings.hpp"
-#include "firmware/planning/global/map_planner.hpp"
 #include "firmware/planning/scan_behaviour.hpp"
 #include "firmware/planning/thesis/step_probe.hpp"
 #include "firmware/planning/thesis/surroundings.hpp"
@@ -19,7 +18,6 @@ namespace {
 using perception::Echoes;
 using perception::Validity;
 using planning::View;
-using Advice = planning::GlobalPlanner::Advice;
 
 double degrees(Angle a) { return radians(a) * 180 / sim::kPi; }
 Angle angle(double deg) {
@@ -132,7 +130,7 @@ std::string judge_scan(Dice& dice) {
 /// From a blocked direction to both sides; the smaller turn wins, whichever came first.
 std::string judge_sides(Dice& dice) {
   Ground g(dice);
-  const double right = -dice.uniform(30, 85), left = dice.uniform(30, 85);
+  const double right = -dice.uniform(30, 75), left = dice.uniform(30, 75);
   if (std::fabs(left + right) < 12) return "";
   const auto shown = [&](double deg) { return deg >= right - 12.5 && deg <= left + 12.5; };
   const Angle target = draw_angle(dice);
@@ -166,7 +164,7 @@ std::string judge_sides(Dice& dice) {
   if (search.side() != due) return "a search takes the larger turn";
   const double off = degrees(search.heading() - target), edge = due == planning::Side::left ? left : -right;
   const double turned = due == planning::Side::left ? off : -off;
-  if (turned < edge || turned > edge + 75) return "a search takes another heading";
+  if (turned < edge || turned > edge + 90) return "a search takes another heading";
   if (!both && (first == planning::Side::left ? rightmost < -2 : leftmost > 2))
     return "a search turns to the other side";
   const Reach& reach = g.grid.reach();
@@ -218,7 +216,8 @@ std::string judge_ring(Dice& dice) {
   const double radius = metres(p.body.radius);
   for (int i = 1 + dice.index(3); i > 0; --i) {
     const int mm[] = {80 + dice.index(500), 80 + dice.index(500), 80 + dice.index(500)};
-    const Angle heading = Angle::turns(dice.index(360), 360);
+    // Not where a sector just ends.
+    const Angle heading = Angle::turns(4 * dice.index(360) + 1, 1440);
     ring.add(echoes(mm[0], mm[1], mm[2]), heading);
     mirrored.add(echoes(mm[2], mm[1], mm[0]), -heading);
     for (int beam = 0; beam < 3; ++beam) {
@@ -241,7 +240,8 @@ std::string judge_ring(Dice& dice) {
     const double step = 0.05 + dice.uniform(0, 0.2);
     const Length length = micrometres(static_cast<std::int32_t>(step * 1e6));
     const bool allowed = ring.allow(Angle::turns(way, 360), length);
-    if (allowed != mirrored.allow(Angle::turns(-way, 360), length)) return "left and right are not alike";
+    if (p.rangefinders.offset == Length{} && allowed != mirrored.allow(Angle::turns(-way, 360), length))
+      return "left and right are not alike";
     bool blocked = false, may_block = false;
     for (std::size_t d = 0; d < 360; ++d) {
       const double off = std::remainder(static_cast<double>(d) - way, 360) * sim::kPi / 180;
@@ -306,98 +306,10 @@ std::string judge_steps(Dice& dice) {
   return metres(norm(goal - pose.at)) <= 0.1 ? "" : "steps end elsewhere";
 }
 
-/// A guide whose body the judge moves.
-struct Guided {
-  Params p;
-  perception::LocalGrid grid;
-  View view;
-  planning::MapOf<2048> map{p};
-  Vec goal;
-  Guided(Dice& dice, double far) {
-    grid.configure(p);
-    grid.reset({});
-    view.local_grid = &grid;
-    view.travelled_um = static_cast<std::uint32_t>(dice.bits());
-    goal = polar(draw_angle(dice), micrometres(static_cast<std::int32_t>(far * 1e6)));
-    map.guide.start(view, {goal, 100_mm});
-  }
-  void stay(int ticks) {
-    for (int i = 0; i < ticks; ++i) map.guide.observe(view);
-  }
-  Advice advice(Vec& place) { return map.guide.advise(view, norm(goal - view.pose.at), place); }
-  Advice advice() {
-    Vec place;
-    return advice(place);
-  }
-  void go_to(Vec at) {
-    view.travelled_um += static_cast<std::uint32_t>(norm(at - view.pose.at).raw());
-    view.pose.at = at;
-    grid.move_to(view.pose);
-    map.guide.observe(view);
-  }
-  /// Walls all round, or up to this angle.
-  void see_ring(int degrees_of_it, int from) {
-    view.observed = 1;
-    for (int deg = 0; deg < degrees_of_it; deg += 5) {
-      const Pose eye{view.pose.at, Angle::turns((deg + from) % 360, 360)};
-      view.observations[0] = {perception::beam_of(mount(p.rangefinders, hal::kFront), eye), 0, 250_mm, true};
-      stay(1);
-    }
-    view.observed = 0;
-    stay(150);
-  }
-  std::int32_t dither(std::int32_t most_mm, Advice until) {
-    const Vec from = view.pose.at;
-    for (std::int32_t way = 0; way < most_mm; way += 5) {
-      go_to(from - Vec{millimetres(way / 5 % 2 == 0 ? 5 : 0), Length{}});
-      if (advice() == until) return way;
-    }
-    return most_mm;
-  }
-};
-
-std::string judge_guide(Dice& dice) {
-  const double far = dice.uniform(1.2, 2.4);
-  Guided g(dice, far);
-  if (g.advice() != Advice::none) return "advice before a plan";
-  g.stay(60);
-  Vec place;
-  if (g.advice(place) != Advice::place) return "no advice after a plan";
-  if (std::fabs(radians(bearing(place) - bearing(g.goal))) > 0.3) return "the open way is another one";
-  const int kind = dice.index(4);
-  if (kind == 0) {
-    // Round what stands between.
-    const int from = static_cast<int>(std::lround(degrees(bearing(g.goal)))) + 360 - 60;
-    g.see_ring(125, from);
-    if (g.map.guide.knows_no_way()) return "no way round a part of a ring";
-    if (g.advice(place) != Advice::place) return "no advice round a wall";
-    return std::fabs(radians(bearing(place) - bearing(g.goal))) > 0.5 ? "" : "the way leads through a wall";
-  }
-  if (kind == 1) {
-    g.see_ring(360, 0);
-    if (!g.map.guide.knows_no_way() || g.advice() != Advice::none) return "a way out of a ring";
-    return g.map.guide.doubt() ? "a doubt without need" : "";
-  }
-  if (kind == 2) {
-    if (std::abs(g.dither(25000, Advice::none) - 20000) > 20)
-      return "advice without progress has another end";
-    g.go_to(g.view.pose.at + polar(bearing(g.goal - g.view.pose.at), 300_mm));
-    g.stay(60);
-    if (g.advice() != Advice::place) return "no advice after progress";
-    return std::abs(g.dither(25000, Advice::none) - 10000) > 20 ? "the second spell has another length" : "";
-  }
-  if (!g.map.guide.doubt() || g.map.guide.doubt()) return "it does not doubt once";
-  if (!g.map.guide.knows_no_way()) return "a last try is none";
-  g.stay(60);
-  if (g.advice() != Advice::place) return "no advice for a last try";
-  return std::abs(g.dither(12000, Advice::no_way) - 8000) > 20 ? "a last try has another length" : "";
-}
-
 }  // namespace
 
 std::string judge_planners(Dice& dice) {
-  for (const JudgePart judge :
-       {judge_ways, judge_scan, judge_sides, judge_probe, judge_ring, judge_steps, judge_guide}) {
+  for (const JudgePart judge : {judge_ways, judge_scan, judge_sides, judge_probe, judge_ring, judge_steps}) {
     std::string wrong = judge(dice);
     if (!wrong.empty()) return wrong;
   }

@@ -1,0 +1,200 @@
+// How long ground stays clear, and what takes it back.
+#include <set>
+#include <utility>
+
+#include "host/lab/hunt/parts/grid_bench.hpp"
+#include "host/lab/hunt/parts/parts.hpp"
+
+namespace whisker::hunt {
+namespace {
+
+/// What drops out of the window is forgotten, the rest is kept, and nothing wraps around.
+std::string judge_window(Dice& dice) {
+  Params p;
+  p.boundary.age_travel = 1000_m;
+  p.boundary.age_turn = 359_deg;
+  LocalGrid grid;
+  grid.configure(p);
+  Pose pose = draw_pose(dice);
+  pose.heading = Angle::turns(dice.index(8), 8);
+  grid.reset(pose);
+  const double cell = metres(grid_cell(p)), radius = metres(rim_sweep(p).radius);
+  using Cells = std::set<std::pair<std::int32_t, std::int32_t>>;
+  const auto all = [&] {
+    Cells cells;
+    each_cell(pose.at, grid_cell(p), [&](Vec at) {
+      if (grid.is_clear(at)) cells.insert({at.x.raw(), at.y.raw()});
+    });
+    return cells;
+  };
+  Cells before = all();
+  for (int step = 0; step < 12; ++step) {
+    const int reach = dice.chance(0.1) ? 1500 : 60;
+    pose.at = pose.at + Vec{millimetres(dice.index(2 * reach + 1) - reach),
+                            millimetres(dice.index(2 * reach + 1) - reach)};
+    grid.move_to(pose);
+    const Cells now = all();
+    for (const auto& [x, y] : now) {
+      const Square square = Square::around({Length::from_raw(x), Length::from_raw(y)}, grid_cell(p));
+      if (before.count({x, y}) == 0 && square.farthest(vec(pose.at)) > radius + 1e-4)
+        return "clear ground from nowhere";
+    }
+    for (const auto& [x, y] : before) {
+      const bool inside = well_inside(p, pose, {Length::from_raw(x), Length::from_raw(y)});
+      if (inside && now.count({x, y}) == 0) return "clear ground is lost";
+    }
+    ConeObservation seen;
+    seen.beam = {pose.at, draw_angle(dice), Angle::from_raw(p.rangefinders.cone.raw() / 2)};
+    seen.free = 2_m;
+    grid.mark(seen);
+    before = all();
+  }
+  static_cast<void>(cell);
+  return "";
+}
+
+/// Clear ground lives for one to two spans of travel or turning.
+std::string judge_age(Dice& dice) {
+  Params p;
+  p.boundary.age_travel = millimetres(300 + dice.index(1500));
+  p.boundary.age_turn = Angle::turns(60 + dice.index(250), 360);
+  if (check(p) != ParamFault::none) return "";
+  LocalGrid grid;
+  grid.configure(p);
+  Pose pose{{}, Angle{}};
+  grid.reset(pose);
+  ConeObservation seen;
+  seen.beam = {pose.at, Angle{}, Angle::from_raw(p.rangefinders.cone.raw() / 2)};
+  seen.free = 2_m;
+  grid.mark(seen);
+  const Vec there{250_mm, 0_mm};
+  if (!grid.is_clear(there)) return "ground seen empty is not clear";
+  const bool turns = dice.chance(0.5);
+  const double span = turns ? p.boundary.age_turn.raw() / 4294967296.0 : metres(p.boundary.age_travel);
+  double spent = 0;
+  for (bool even = false; spent < 2.2 * span; even = !even) {
+    if (turns) {
+      pose.heading = even ? Angle{} : 5_deg;
+      spent += 5.0 / 360;
+    } else {
+      pose.at.y = even ? 0_mm : 10_mm;
+      spent += 0.01;
+    }
+    grid.move_to(pose);
+    const bool clear = grid.is_clear(there);
+    if (!clear && spent < 0.98 * span) return "clear ground expires too soon";
+    if (clear && spent > 2.05 * span) return "clear ground never expires";
+  }
+  return "";
+}
+
+/// An echo takes back the arc that it comes from, where all of that is clear, and nothing else.
+std::string judge_revocation(Dice& dice) {
+  const Params p;
+  const double cell = metres(grid_cell(p));
+  const Pose pose = draw_pose(dice);
+  LocalGrid grid;
+  grid.configure(p);
+  grid.reset(pose);
+  grid.move_to(pose);
+  const auto beam = [&](Angle off) {
+    return perception::Beam{pose.at, pose.heading + off, Angle::from_raw(p.rangefinders.cone.raw() / 2)};
+  };
+  for (int deg = -44; deg <= 44; deg += 2) {
+    ConeObservation seen;
+    seen.beam = beam(Angle::turns(deg, 360));
+    seen.free = 2_m;
+    grid.mark(seen);
+  }
+  const LocalGrid before = grid;
+  const perception::Beam echo = beam(Angle::turns(dice.index(41) - 20, 360));
+  const Length nearest = millimetres(130 + dice.index(90)), farthest = nearest + millimetres(dice.index(40));
+  const bool takes = dice.chance(0.5);
+  if (takes) grid.take_back(echo, nearest, farthest);
+  if (!takes) grid.revoke(echo, nearest, farthest);
+  std::string wrong;
+  each_cell(pose.at, grid_cell(p), [&](Vec at) {
+    if (!before.is_clear(at)) return;
+    const Vec2 off = vec(at) - vec(echo.apex);
+    const double far = length_of(off);
+    const double angle =
+        std::fabs(std::remainder(std::atan2(off.y, off.x) - radians(echo.axis), 2 * sim::kPi));
+    const double half = radians(echo.half_cone);
+    const bool in = far > metres(nearest) && far < metres(farthest) + cell * 0.9 && angle < half - 0.01;
+    const bool out =
+        far < metres(nearest) - cell || far > metres(farthest) + 2 * cell || (angle - half) * far > cell;
+    if (in && grid.is_clear(at)) wrong = "an echo leaves its ground clear";
+    if (out && !grid.is_clear(at)) wrong = "an echo takes other ground back";
+  });
+  return wrong;
+}
+
+/// Someone says that nothing stands within a distance.
+std::string judge_vouched(Dice& dice) {
+  const Params p;
+  const Pose pose = draw_pose(dice);
+  LocalGrid grid;
+  grid.configure(p);
+  grid.reset(pose);
+  perception::Beam beams[3];
+  Length free[3];
+  for (int i = 0; i < 3; ++i) {
+    beams[i] = perception::beam_of(mount(p.rangefinders, i), pose);
+    free[i] = millimetres(150 + dice.index(300));
+  }
+  const Length radius = millimetres(100 + dice.index(120));
+  grid.vouch(pose.at, radius, beams, free);
+  std::string wrong;
+  each_cell(pose.at, grid_cell(p), [&](Vec at) {
+    const Square square = Square::around(at, grid_cell(p));
+    const bool clear = grid.is_clear(at);
+    const double by = metres(radius) - square.farthest(vec(pose.at));
+    if (clear && by < -1e-4 && !is_under(p, pose, at)) wrong = "ground beyond the vouched is clear";
+    bool covered = false, beside = true;
+    for (int i = 0; i < 3; ++i) {
+      covered = covered || empty_by(square, beams[i], 100_m) > metres(grid_cell(p)) * 0.05;
+      beside = beside && empty_by(square, beams[i], 100_m) < -2.2 * metres(grid_cell(p));
+    }
+    if (clear && covered && !is_under(p, pose, at)) wrong = "ground in a beam is vouched for";
+    if (!clear && beside && by > metres(grid_cell(p)) * 0.1) wrong = "vouched ground is not clear";
+  });
+  return wrong;
+}
+
+/// Cells that a disc touches are suspect afterwards, except under the body.
+std::string judge_block(Dice& dice) {
+  const Params p;
+  const Pose pose = draw_pose(dice);
+  LocalGrid grid = draw_grid(dice, p, pose);
+  const LocalGrid before = grid;
+  const Vec at = pose.at + polar(draw_angle(dice), millimetres(60 + dice.index(150)));
+  const Length radius = millimetres(1 + dice.index(40));
+  grid.block(at, radius);
+  std::string wrong;
+  each_cell(pose.at, grid_cell(p), [&](Vec centre) {
+    const double by = metres(radius) - Square::around(centre, grid_cell(p)).nearest(vec(at));
+    const bool under =
+        Square::around(centre, grid_cell(p)).farthest(vec(pose.at)) < metres(rim_sweep(p).radius) + 0.001;
+    if (by > 0.0005 && !under && grid.is_clear(centre)) wrong = "touched ground is clear";
+    const bool surely_under =
+        Square::around(centre, grid_cell(p)).farthest(vec(pose.at)) < metres(rim_sweep(p).radius) - 0.001;
+    if ((by < -0.001 || surely_under) && before.is_clear(centre) && !grid.is_clear(centre)) {
+      wrong = "ground beside a touch is taken back";
+    }
+  });
+  return wrong;
+}
+
+}  // namespace
+
+std::string judge_grid_times(Dice& dice) {
+  for (int i = 0; i < 6; ++i) {
+    for (const JudgePart judge : {judge_window, judge_age, judge_revocation, judge_vouched, judge_block}) {
+      std::string wrong = judge(dice);
+      if (!wrong.empty()) return wrong;
+    }
+  }
+  return "";
+}
+
+}  // namespace whisker::hunt
