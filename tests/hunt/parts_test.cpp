@@ -12,11 +12,11 @@
 namespace whisker::hunt {
 namespace {
 
-constexpr std::uint64_t kFirst = 700001;
+constexpr std::uint64_t kFirstOfParts = 700001;
 
 TEST(Parts, AreSilentOnTheCore) {
   for (const Part& part : parts()) {
-    for (std::uint64_t seed = kFirst; seed < kFirst + test::effort(15); ++seed) {
+    for (std::uint64_t seed = kFirstOfParts; seed < kFirstOfParts + test::effort(15); ++seed) {
       EXPECT_EQ(judge_part(part.name, seed), "") << part.name << ' ' << seed;
     }
   }

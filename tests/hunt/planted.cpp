@@ -8,7 +8,8 @@
 
 int main(int argc, char** argv) {
   if (argc != 4) return 2;
-  const std::uint64_t first = std::strtoull(argv[2], nullptr, 10), count = std::strtoull(argv[3], nullptr, 10);
+  const std::uint64_t first = std::strtoull(argv[2], nullptr, 10),
+                      count = std::strtoull(argv[3], nullptr, 10);
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const std::string wrong = whisker::hunt::judge_part(argv[1], seed);
     if (wrong.empty()) continue;

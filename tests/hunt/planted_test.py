@@ -36,6 +36,8 @@ PLANTED = (
     ("broken", "guard.cpp", "now - commanded_at_ <= params_.guard.command_timeout", "now - commanded_at_ >= params_.guard.command_timeout"),
     ("missions", "chassis.cpp", "since_counts_ += safety::braking_time(params_);", ";"),
     ("planners", "planning/thesis/step_probe.cpp", "aside > half ? aside - half : 0", "aside > half ? aside + half : 0"),
+    ("senses", "planning/global/grid_map.cpp", "cell_um_ / 5 * 3", "cell_um_ / 5"),
+    ("rules", "can/controller_node.cpp", "rules_replies_ = true;", ";"),
     ("guide", "planning/global/wavefront_planner.cpp", "++attempts_;", ";"),
 )  # fmt: skip
 

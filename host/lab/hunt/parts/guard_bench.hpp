@@ -73,6 +73,8 @@ struct GuardBench {
     if (s.forward < Q14{} || s.forward > Q14::ratio(1, 1) || s.turning > Q14::ratio(1, 1))
       wrong = "a share that is none";
     const bool full = s.forward >= Q14::ratio(999, 1000) && s.turning >= Q14::ratio(999, 1000);
+    if (guard.local_grid().doubting()) wrong = "a world at rest moves";
+    if (s.health.ranges.level != RangeLevel::trusted) wrong = "true readings are not trusted";
     if (s.reason == GuardReason::clear && !full) wrong = "clear and not granted in full";
     const sim::Pose& truth = body.pose();
     static_cast<void>(truth);

@@ -212,6 +212,12 @@ std::string judge_hold(Dice& dice) {
 
 std::string judge_map_window(Dice& dice) {
   Room room(draw_shape(dice), {}, {});
+  for (int i = 0; i < 20; ++i) {
+    const Cell p = draw_cell(dice, room.map.shape());
+    const auto state = static_cast<CellState>(dice.index(4));
+    room.map.set(p, state);
+    if (room.map.at(p) != state) return "a cell is not what it was set to";
+  }
   room.scatter(dice, 0.3, 0.2);
   for (int i = 0; i < 8; ++i) {
     const std::string wrong = judge_window(dice, room);

@@ -25,6 +25,8 @@ const std::vector<Part>& parts() {
       {"missions", judge_missions},
       {"planners", judge_planners},
       {"guide", judge_guide},
+      {"senses", judge_senses},
+      {"rules", judge_rules},
       {"broken", judge_broken_body},
       {"reports", judge_reports_of_base},
       {"orders", judge_orders_of_controller},

@@ -42,6 +42,8 @@ std::string judge_broken_body(Dice& dice);
 std::string judge_missions(Dice& dice);
 std::string judge_planners(Dice& dice);
 std::string judge_guide(Dice& dice);
+std::string judge_senses(Dice& dice);
+std::string judge_rules(Dice& dice);
 std::string judge_base(Dice& dice);
 std::string judge_reports_of_base(Dice& dice);
 std::string judge_orders_of_controller(Dice& dice);
