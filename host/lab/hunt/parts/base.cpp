@@ -59,11 +59,13 @@ std::string judge_stop(Dice& dice) {
       return b.brakes();
     }
   }
-  const std::uint32_t stops = b.base.health().stops;
+  const std::uint32_t stops = b.base.health().stops, e_stops = b.base.health().e_stops;
   const int ms = b.until([&] { return b.base.state() != NodeState::running; });
   if (ms < least || ms > most) return "it stops at another time";
   if (cause == 3) b.peer.greet(b.peer_boot, NodeState::ready);
   if (b.base.health().stops != stops + 1) return "a stop is not counted once";
+  if (b.base.health().e_stops != e_stops + (cause == 4 ? 1 : 0))
+    return "an emergency stop is not counted once";
   if (b.base.state() != due && cause != 1) return "another state after a stop";
   if (cause == 0) {
     b.pass(2);

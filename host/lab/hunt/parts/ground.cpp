@@ -161,6 +161,65 @@ std::string judge_vouched(Dice& dice) {
   return wrong;
 }
 
+/// Something has moved: the ground that it can reach is taken back, and readings clear none near an echo for
+/// a second.
+std::string judge_doubted(Dice& dice) {
+  const Params p;
+  const double cell = metres(grid_cell(p));
+  const Pose pose = draw_pose(dice);
+  LocalGrid grid;
+  grid.configure(p);
+  grid.reset(pose);
+  grid.move_to(pose);
+  const auto beam = [&](int deg) {
+    return perception::Beam{pose.at, pose.heading + Angle::turns(deg, 360),
+                            Angle::from_raw(p.rangefinders.cone.raw() / 2)};
+  };
+  ConeObservation seen;
+  seen.taken = Time::from_raw(static_cast<std::uint32_t>(dice.bits()));
+  for (int deg = -44; deg <= 44; deg += 2) {
+    seen.beam = beam(deg);
+    seen.free = 2_m;
+    grid.mark(seen);
+  }
+  const LocalGrid before = grid;
+  seen.beam = beam(dice.index(41) - 20);
+  seen.free = millimetres(180 + dice.index(80));
+  seen.hit = true;
+  grid.doubt(seen, seen.free);
+  if (!grid.doubting()) return "it does not doubt";
+  // As far as an object comes until the body stands.
+  const double stop_s = (p.rangefinders.latency + longest_gap(p) + p.wheels.motor_lag).raw() * 1e-3 +
+                        2.0 / p.rangefinders.rate_hz +
+                        static_cast<double>(p.wheels.max_speed.raw()) / p.wheels.max_acceleration.raw();
+  const double reach = p.boundary.mover_speed.raw() * 1e-6 * stop_s, at = metres(seen.free);
+  std::string wrong;
+  each_cell(pose.at, grid_cell(p), [&](Vec centre) {
+    if (!before.is_clear(centre) || is_under(p, pose, centre)) return;
+    const Vec2 off = vec(centre) - vec(pose.at);
+    const double a = radians(seen.beam.axis), h = radians(seen.beam.half_cone), far = length_of(off);
+    const double left = off.x * std::sin(a + h) - off.y * std::cos(a + h),
+                 right = -off.x * std::sin(a - h) + off.y * std::cos(a - h);
+    const double inside_by = std::min(left, right), ahead = off.x * std::cos(a) + off.y * std::sin(a);
+    const bool under =
+        Square::around(centre, grid_cell(p)).farthest(vec(pose.at)) < metres(rim_sweep(p).radius) + 0.002;
+    if (!under && ahead > 0.01 && inside_by > -reach && far > at - reach && far < at + reach &&
+        grid.is_clear(centre))
+      wrong = "what moves may stand on clear ground";
+    const bool out =
+        inside_by < -reach - 2 * cell || far > at + reach + 3 * cell || far < at - reach - 2 * cell;
+    if (out && !grid.is_clear(centre)) wrong = "a doubt takes other ground";
+  });
+  seen.hit = false;
+  seen.free = 2_m;
+  seen.taken = seen.taken + 1000_ms;
+  grid.mark(seen);
+  if (!grid.doubting()) return "a doubt ends too soon";
+  seen.taken = seen.taken + 1_ms;
+  grid.mark(seen);
+  return grid.doubting() ? "a doubt does not end" : wrong;
+}
+
 /// Cells that a disc touches are suspect afterwards, except under the body.
 std::string judge_block(Dice& dice) {
   const Params p;
@@ -189,7 +248,8 @@ std::string judge_block(Dice& dice) {
 
 std::string judge_grid_times(Dice& dice) {
   for (int i = 0; i < 6; ++i) {
-    for (const JudgePart judge : {judge_window, judge_age, judge_revocation, judge_vouched, judge_block}) {
+    for (const JudgePart judge :
+         {judge_window, judge_age, judge_revocation, judge_vouched, judge_doubted, judge_block}) {
       std::string wrong = judge(dice);
       if (!wrong.empty()) return wrong;
     }

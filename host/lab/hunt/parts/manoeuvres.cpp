@@ -184,7 +184,7 @@ std::string judge_cruise(Dice& dice) {
   Manoeuvre m{ManoeuvreKind::cruise, {}, {}, {}, {}};
   const double track = metres(p.body.track);
   if (dice.chance(0.8)) m.forward = Speed::from_raw(dice.index(600000) - 300000);
-  m.turning = Speed::from_raw(dice.index(2000000) - 1000000);
+  m.turning = Speed::from_raw(dice.chance(0.3) ? 0 : dice.index(2000000) - 1000000);
   body.begin(m);
   body.tick();
   const double fastest = (m.forward == Speed{} ? turn_rate(p) : p.wheels.max_turn_rate).raw() * track / 2;
@@ -194,6 +194,17 @@ std::string judge_cruise(Dice& dice) {
   if (!body.request.moves || off(body.request.turning, m.turning) > 20) return "a cruise turns otherwise";
   if (off(body.request.forward, m.forward) > 20) return "a cruise has another curvature";
   if (body.controller().settled() || body.controller().cut()) return "a cruise ends";
+  if (dice.chance(0.5)) {
+    for (int i = 0; i < 30; ++i) body.tick();
+    const Vec from = body.pose().at;
+    const Angle heading = body.pose().heading;
+    if (abs(m.turning) > 5_mm_per_s || m.forward < Speed{}) return "";
+    body.begin({ManoeuvreKind::drive, heading, 500_mm, {}, {}});
+    if (body.run(2000) >= 2000) return "a drive after a cruise does not end";
+    return std::fabs(metres(along(body.pose().at - from, heading)) - 0.5) < 0.01
+               ? ""
+               : "a drive after a cruise ends elsewhere";
+  }
   body.begin(planning::stop());
   return body.run(600) < 600 && body.speeds.left == Speed{} ? "" : "a stop does not settle";
 }

@@ -230,16 +230,18 @@ std::string judge_bump(Dice& dice) {
   if (s.health.bumps != 1) return "a press is not counted once";
   for (int i = dice.index(20); i > 0; --i) t.tick();
   if (!dice.chance(0.2)) t.body.pressed = 0;
-  double back = 0;
+  double back = 0, fastest = 0;
   int ms = 0;
   for (; t.robot.status().decision.why == Why::bumped && ms < 9000; ms += 10) {
     t.tick();
     back = std::max(back, length_of(t.body.pose().at - there));
+    fastest = std::min(fastest, (t.body.commanded.left + t.body.commanded.right) / 2e4);
     if (back > 0.02) t.body.pressed = 0;
   }
   if (!t.wrong.empty()) return t.wrong;
   if (ms >= 9000) return "it never goes on after a press";
   const double due = metres(p.body.radius) / 2;
+  if (std::fabs(fastest + t.speed() / 4) > 0.005) return "it backs off at another speed";
   if (back < due - 0.02 || back > due + 0.08) return "it backs off by another length";
   return t.arrives(15 + 4 * distance, distance + 0.8);
 }

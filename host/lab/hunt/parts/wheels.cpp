@@ -135,7 +135,7 @@ std::string judge_lengths(Dice& dice) {
 std::string judge_coasting(Dice& dice) {
   for (int i = 0; i < 60; ++i) {
     std::string wrong = judge_lengths(dice);
-    if (wrong.empty() && i % 30 == 0) wrong = judge_shape(dice);
+    if (wrong.empty() && i % 10 == 0) wrong = judge_shape(dice);
     if (!wrong.empty()) return wrong;
   }
   return "";
