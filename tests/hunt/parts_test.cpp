@@ -22,15 +22,17 @@ TEST(Parts, AreSilentOnTheCore) {
   }
 }
 
-TEST(Parts, TakeTurnsInFreshCasesOfOddSeeds) {
+TEST(Parts, TakeTurnsInThreeOfFourFreshCases) {
   std::set<std::string> names;
-  for (std::uint64_t seed = 1; seed < 2 * parts().size(); seed += 2) {
+  std::uint64_t count = 0;
+  for (std::uint64_t seed = 1; count < parts().size(); ++seed) {
     const Case c = draw_fresh(seed).c;
-    EXPECT_EQ(driver(c), "part") << seed;
+    EXPECT_EQ(driver(c) == "part", seed % 4 != 0) << seed;
+    if (seed % 4 == 0) continue;
     names.insert(c.part);
+    ++count;
   }
   EXPECT_EQ(names.size(), parts().size());
-  EXPECT_EQ(draw_fresh(2).c.part, "");
 }
 
 TEST(Parts, ComeBackFromTheirFile) {

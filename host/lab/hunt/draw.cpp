@@ -122,9 +122,9 @@ Drawn draw_case(std::uint64_t seed) {
 }
 
 Drawn draw_fresh(std::uint64_t seed) {
-  if (seed % 2 == 0) return draw_case(seed);
+  if (seed % 4 == 0) return draw_case(seed);
   Drawn drawn;
-  drawn.c.part = parts()[seed / 2 % parts().size()].name;
+  drawn.c.part = parts()[(seed - seed / 4 - 1) % parts().size()].name;
   drawn.c.attacker = seed;
   return drawn;
 }

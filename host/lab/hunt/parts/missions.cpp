@@ -299,7 +299,11 @@ std::string judge_fixes(Dice& dice) {
 std::string judge_missions(Dice& dice) {
   constexpr JudgePart kJudges[] = {judge_open,   judge_round, judge_round, judge_door, judge_trap,
                                    judge_closed, judge_bump,  judge_fixes, judge_reset};
-  return kJudges[dice.index(9)](dice);
+  for (int i = 0; i < 4; ++i) {
+    std::string wrong = kJudges[dice.index(9)](dice);
+    if (!wrong.empty()) return wrong;
+  }
+  return "";
 }
 
 }  // namespace whisker::hunt

@@ -61,8 +61,8 @@ std::string judge_arcs(Dice& dice) {
   const Pose pose = odometry.pose();
   const double off = std::remainder(radians(pose.heading) - radians(start.heading) - turned, 2 * sim::kPi);
   const double wheel_turns = 2000.0 * most / counts / track;
-  if (std::fabs(off) > 2e-6 + 1e-7 * wheel_turns) return "another heading";
-  const double slack = 5e-6 + 1e-6 * path + path * (2e-6 + 1e-7 * wheel_turns);
+  if (std::fabs(off) > 4e-6 + 4e-7 * wheel_turns) return "another heading";
+  const double slack = 5e-6 + 1e-6 * path + path * (4e-6 + 4e-7 * wheel_turns);
   if (std::hypot(metres(pose.at.x) - x, metres(pose.at.y) - y) > slack) return "another place";
   const double travelled = odometry.travelled_um() * 1e-6;
   if (path < 4000 && std::fabs(travelled - path) > 2000 * 1.5e-6 + 1e-5 * path)

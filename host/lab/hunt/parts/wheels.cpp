@@ -97,7 +97,7 @@ std::string judge_shape(Dice& dice) {
     for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
       nearest = std::min(nearest, from_line(truth[i].at, pieces[k].at, pieces[k + 1].at));
     }
-    if (nearest > metres(allowed) + 0.0007) return "the body leaves the way on which it coasts";
+    if (nearest > metres(allowed) * 1.05 + 0.0015) return "the body leaves the way on which it coasts";
   }
   // Not longer than it is, either.
   return length_of(pieces.back().at - truth.back().at) < metres(allowed) + 0.003 ? ""
