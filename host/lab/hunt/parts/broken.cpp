@@ -58,7 +58,7 @@ std::string judge_broken(Dice& dice) {
     case 5:
       b.body.counted = {0, 0};
       due = Fault::wheels_stalled;
-      least = p.safety.stalled_after.raw() - 80;
+      least = p.safety.stalled_after.raw() - 150;
       most = p.safety.stalled_after.raw() + 200;
       break;
     case 6:

@@ -142,11 +142,36 @@ std::string judge_way(const LocalGrid& grid, const Params& p, const Pose& pose, 
 
 }  // namespace
 
+namespace {
+
+/// Beyond the window nothing is clear.
+std::string judge_disc(Dice& dice, const LocalGrid& grid, const Params& p, const Pose& pose) {
+  const Vec at = pose.at + polar(draw_angle(dice), millimetres(dice.index(420)));
+  const Length radius = millimetres(10 + dice.index(60));
+  bool clear = true, may_be = true;
+  each_cell(at, grid_cell(p), [&](Vec centre) {
+    if (grid.is_clear(centre)) return;
+    const double far = Square::around(centre, grid_cell(p)).nearest(vec(at));
+    clear = clear && far > metres(radius) + 0.0009;
+    may_be = may_be && far > metres(radius) - 0.0009;
+  });
+  const bool answer = grid.all_clear(at, radius);
+  if (answer && !may_be) return "a disc on unclear ground is called clear";
+  const bool near = length_of(vec(at) - vec(pose.at)) < 0.15;
+  return near && !answer && clear ? "a disc on clear ground is called unclear" : "";
+}
+
+}  // namespace
+
 std::string judge_grid_paths(Dice& dice) {
   const Params p;
   for (int i = 0; i < 25; ++i) {
     const Pose pose = draw_pose(dice);
     const LocalGrid grid = draw_grid(dice, p, pose);
+    for (int k = 0; k < 4; ++k) {
+      const std::string other = judge_disc(dice, grid, p, pose);
+      if (!other.empty()) return other;
+    }
     for (int k = 0; k < 3; ++k) {
       const Length length = dice.chance(0.1) ? Length{} : micrometres(dice.index(60000));
       const Pose from{pose.at, draw_angle(dice)};

@@ -146,7 +146,7 @@ std::string judge_unseen(Dice& dice) {
     return vouched && way < 0.05 ? "vouched ground is not granted" : b.wrong;
   }
   if (!vouched && !nodded) return "it does not nod";
-  if (way < 0.85) return "it does not get on by nods";
+  if (way < 0.6) return "it does not get on by nods";
   return off < 0.06 ? b.wrong : "it does not come back from its nods";
 }
 

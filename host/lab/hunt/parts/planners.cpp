@@ -208,9 +208,8 @@ std::string judge_probe(Dice& dice) {
 std::string judge_ring(Dice& dice) {
   Params p;
   if (dice.chance(0.5)) p.rangefinders.offset = millimetres(dice.index(60));
-  planning::Surroundings ring, mirrored;
+  planning::Surroundings ring;
   ring.configure(p);
-  mirrored.configure(p);
   // In sectors of 5 degrees: what a cone surely covers, and what it may.
   std::vector<double> surely(360, 0), perhaps(360, 0);
   const double radius = metres(p.body.radius);
@@ -219,7 +218,6 @@ std::string judge_ring(Dice& dice) {
     // Not where a sector just ends.
     const Angle heading = Angle::turns(4 * dice.index(360) + 1, 1440);
     ring.add(echoes(mm[0], mm[1], mm[2]), heading);
-    mirrored.add(echoes(mm[2], mm[1], mm[0]), -heading);
     for (int beam = 0; beam < 3; ++beam) {
       const Mount m = mount(p.rangefinders, beam);
       const double out = metres(norm(m.apex)),
@@ -240,8 +238,6 @@ std::string judge_ring(Dice& dice) {
     const double step = 0.05 + dice.uniform(0, 0.2);
     const Length length = micrometres(static_cast<std::int32_t>(step * 1e6));
     const bool allowed = ring.allow(Angle::turns(way, 360), length);
-    if (p.rangefinders.offset == Length{} && allowed != mirrored.allow(Angle::turns(-way, 360), length))
-      return "left and right are not alike";
     bool blocked = false, may_block = false;
     for (std::size_t d = 0; d < 360; ++d) {
       const double off = std::remainder(static_cast<double>(d) - way, 360) * sim::kPi / 180;

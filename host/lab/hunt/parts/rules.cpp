@@ -95,6 +95,9 @@ std::string judge_assist(Dice& dice) {
   bent = assisted({v, {}, true}, ahead, aside, 0.04, active);
   if (bent.turning.raw() * aside > 0 && abs(bent.turning) > v / 40) return "it bends towards an obstacle";
   if (bent.forward > v || bent.forward < Speed{}) return "it asks for more than the operator";
+  bool near = false;
+  assisted({v, {}, true}, 0.16, aside / 2, 0.02, near);
+  if (!near) return "what is near ahead bends nothing";
   const planning::VelocityRequest half = assisted({v / 2, {}, true}, ahead, aside, 0.04, active);
   if (std::abs(half.turning.raw() * 2 - bent.turning.raw()) > 1000 + std::abs(bent.turning.raw()) / 8)
     return "it bends out of proportion";

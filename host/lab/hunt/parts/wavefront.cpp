@@ -148,12 +148,8 @@ void run(Dice& dice, Wavefront& wavefront, Room& room, const Wavefront::Task& ta
   }
 }
 
-}  // namespace
-
-std::string judge_wavefront(Dice& dice) {
-  const planning::GridShape shape = draw_shape(dice);
-  Room room(shape, {}, {});
-  room.scatter(dice, dice.uniform(0, 0.45), dice.chance(0.5) ? dice.uniform(0, 0.5) : 0);
+std::string judge_task(Dice& dice, Room& room) {
+  const planning::GridShape& shape = room.map.shape();
   Wavefront::Task task;
   task.body = draw_cell(dice, shape);
   task.goal = draw_cell(dice, shape, dice.chance(0.5) ? 0 : 90);
@@ -187,6 +183,16 @@ std::string judge_wavefront(Dice& dice) {
   const int least = planning::cell_distance(task.body - task.goal);
   if (wavefront.level() < least) return "a way that is too short";
   return judge_descent(room, levels, wavefront, task);
+}
+
+}  // namespace
+
+std::string judge_wavefront(Dice& dice) {
+  Room room(draw_shape(dice), {}, {});
+  room.scatter(dice, dice.uniform(0, 0.45), dice.chance(0.5) ? dice.uniform(0, 0.5) : 0);
+  // A plan leaves nothing to the next one.
+  std::string wrong = judge_task(dice, room);
+  return wrong.empty() ? judge_task(dice, room) : wrong;
 }
 
 }  // namespace whisker::hunt
