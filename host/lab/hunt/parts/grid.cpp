@@ -97,6 +97,8 @@ std::string judge_way(const LocalGrid& grid, const Params& p, const Pose& pose, 
   double nearest = 1e9;
   const double ahead_of_middle = std::max(abeam, path.length / 2);
   const double body = metres(p.body.radius + guard_slack(p));
+  // The direction of a short way is rounded.
+  const double sharp = length < 5_mm ? 0.004 : kRounding;
   each_cell(pose.at, grid_cell(p), [&](Vec at) {
     const Square square = Square::around(at, grid_cell(p));
     if (grid.is_clear(at)) return;
@@ -109,7 +111,7 @@ std::string judge_way(const LocalGrid& grid, const Params& p, const Pose& pose, 
     perhaps += by > -kRounding ? 1 : 0;
     if (by > kRounding) nearest = std::min(nearest, length_of(vec(at) - path.from));
     const double end = path.off(square, path.length);
-    nears = nears || std::min(metres(radius) - end, ahead - ahead_of_middle) > kRounding;
+    nears = nears || std::min(metres(radius) - end, ahead - ahead_of_middle) > sharp;
     may_near = may_near || std::min(metres(radius) - end, ahead - ahead_of_middle) > -kRounding ||
                std::min(body - end, ahead - (path.length / 2 - kCellCover * cell / 256)) > -kRounding;
   });
