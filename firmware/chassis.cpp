@@ -44,7 +44,7 @@ bool Chassis::take_time(Time now) noexcept {
     perception_.start(now);
   } else {
     const Duration passed = now - last_tick_;
-    const bool excused = braked_elsewhere_ && passed <= params_.safety.lost_after;
+    const bool excused = braked_elsewhere_ && passed <= derived::lost_after(params_);
     if (excused && passed > longest_gap(params_)) perception_.lose_history();
     supervisor_.check_gap(passed, excused);
     if (passed > Duration{}) gap = passed;

@@ -12,6 +12,9 @@ namespace whisker {
 
 using namespace literals;
 
+// Body, wheels and rangefinders describe the hardware and must be set (kMustSet has the keys); all others may
+// be tuned.
+
 struct BodyParams {
   Length radius = 90_mm;  ///< of the smallest disc around the middle of the axle that holds the robot
   Length margin = 30_mm;  ///< kept free around the body when a step is planned
@@ -34,8 +37,6 @@ struct BeamParams {
   Length y;         ///< the same to the left
   Direction angle;  ///< of its axis; zero: side_angle, 0 or -side_angle
   Angle cone;       ///< full width, at least 1 degree
-  Length min_range;
-  Length max_range;
 };
 
 struct RangefinderParams {
@@ -53,60 +54,26 @@ struct RangefinderParams {
 
 /// How several readings become one. The enumeration has four bytes like every parameter (params/words.cpp).
 enum class Consensus : int32_t {
-  agreeing,  ///< the last `reads` readings lie within `tolerance`: their minimum
-  median,    ///< the median of the last `reads` readings
+  agreeing,  ///< the last three readings agree (derived::kConsensusTolerance): their minimum
+  median,    ///< the median of the last three readings
 };
 
 struct ConditioningParams {
   Consensus consensus = Consensus::agreeing;
-  int32_t reads = 3;
-  Length tolerance = 60_mm;       ///< of agreeing readings
   Duration stale_after = 100_ms;  ///< no new measurement for this long: stale
-  Angle stuck_turn = 150_deg;     ///< the same millimetre over this turn: suspected to be stuck
-};
-
-/// Which distance is D; the thesis states both.
-enum class DistanceSource : int32_t {
-  front,  ///< the main sensor (section 1.2)
-  mean,   ///< the mean of the three (section 1.1)
-};
-
-struct ThesisParams {
-  DistanceSource distance_source = DistanceSource::front;
-  Angle base_turn = 30_deg;
-  Length base_step = 200_mm;
-  Length small_step = 100_mm;
-  Angle delta = 10_deg;          ///< deflection between two probes
-  Length danger_range = 300_mm;  ///< the target direction is blocked below this
-  int32_t max_steps = 4000;      ///< visited positions, after which it gives up
 };
 
 enum class Fitted : int32_t { no, yes };
 
 struct BoundaryParams {
-  Length cell;                       ///< side of a cell of the local grid; zero: see grid_cell
-  Length guard_margin = 4_mm;        ///< clearance around the body that the guard keeps at every tick
-  Length probe;                      ///< length of the path that is checked ahead; zero: see Reach
-  Length planning_margin = 6_mm;     ///< clearance for a chosen heading; more than the guard's
-  Length age_travel = 500_mm;        ///< clear cells expire after one to two of these distances
-  Angle age_turn = 340_deg;          ///< or after one to two of these turns, whichever comes first
-  Speed mover_speed = 300_mm_per_s;  ///< assumed speed of moving objects; 0: nothing moves
-  Length length_budget = 400_m;      ///< travel after which it gives up; also for the map planner
-  Fitted bend = Fitted::no;          ///< SA of the response table bends the course; also for the map planner
-};
-
-struct MotionParams {
-  Duration settle = 80_ms;  ///< time constant of the approach to a stop
-  Angle turn_tolerance = 1_deg;
-  Length drive_tolerance = 2_mm;
+  Length guard_margin = 4_mm;    ///< clearance around the body that the guard keeps at every tick
+  Length length_budget = 400_m;  ///< travel after which a mission gives up; see also derived::most_steps
+  Fitted bend = Fitted::no;      ///< SA of the response table bends the course; also for the map planner
 };
 
 struct SafetyParams {
-  Duration period = 10_ms;           ///< of tick(): the control period
-  Duration max_gap;                  ///< longest gap between two ticks; zero: see longest_gap
-  Duration lost_after = 1000_ms;     ///< a beam lost for this long is a fault
-  Duration stalled_after = 2000_ms;  ///< wheels without counts, or a manoeuvre without progress: a fault
-  int32_t max_refusals = 5;          ///< of the drive, close to one another
+  Duration period = 10_ms;  ///< of tick(): the control period
+  Duration max_gap;         ///< longest gap between two ticks; zero: see longest_gap
 };
 
 struct BumperParams {
@@ -121,8 +88,8 @@ struct GyroParams {
   Ratio scale = millionths(1000000);  ///< true rate / measured rate; includes the error of the chip's clock
 };
 
-/// Standard deviations of the errors that the pose rests on. Without any of the first three, they are unknown
-/// and the pose has no bound. See Robot for what it changes.
+/// Standard deviations of the errors that the pose rests on. Without any of the first three, they are
+/// unknown and the pose has no bound. See Robot for what it changes.
 struct PoseErrorParams {
   Ratio wheel_scale;                           ///< of each wheel's counts per metre, relative
   Ratio wheel_scale_common;                    ///< of both together
@@ -158,9 +125,7 @@ struct Params {
   WheelParams wheels;
   RangefinderParams rangefinders;
   ConditioningParams conditioning;
-  ThesisParams thesis;
   BoundaryParams boundary;
-  MotionParams motion;
   SafetyParams safety;
   BumperParams bumper;
   GyroParams gyro;
@@ -174,13 +139,14 @@ struct Params {
 enum class ParamFault : uint8_t;
 const char* name(ParamFault fault) noexcept;
 
-/// Calls f.number(key, field, min, max), f.count(key, field, min, max) or f.choice(key, field, names, count)
-/// for every parameter; a choice between "false" and "true" is a boolean in a file. The suffix of the key is
-/// the unit on the host: m, mps, mps2, radps, deg, s, hz.
+/// Calls f.number(key, field, min, max), f.count(key, field, min, max) or f.choice(key, field, names,
+/// count) for every parameter; a choice between "false" and "true" is a boolean in a file. The suffix of
+/// the key is the unit on the host: m, mps, mps2, radps, deg, s, hz. f.derived(key) stands for a parameter
+/// that the robot derives (params/derived.hpp): a file may set it, without effect, and its index on the bus
+/// stays free.
 template <class P, class F>
 constexpr void for_each_param(P& p, F&& f) {
   constexpr const char* kConsensus[] = {"agreeing", "median"};
-  constexpr const char* kSource[] = {"front", "mean"};
   constexpr const char* kBoolean[] = {"false", "true"};
   constexpr const char* kJumps[] = {"accept", "refuse"};
 
@@ -203,36 +169,36 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("range_latency_s", p.rangefinders.latency, 0_ms, 200_ms);
 
   f.choice("consensus", p.conditioning.consensus, kConsensus, 2);
-  f.count("consensus_reads", p.conditioning.reads, 1, 5);
-  f.number("consensus_tolerance_m", p.conditioning.tolerance, 1_mm, 1_m);
+  f.derived("consensus_reads");
+  f.derived("consensus_tolerance_m");
   f.number("stale_after_s", p.conditioning.stale_after, 20_ms, 2000_ms);
-  f.number("stuck_turn_deg", p.conditioning.stuck_turn, 30_deg, 170_deg);
+  f.derived("stuck_turn_deg");
 
-  f.choice("thesis_distance", p.thesis.distance_source, kSource, 2);
-  f.number("thesis_base_turn_deg", p.thesis.base_turn, 5_deg, 60_deg);
-  f.number("thesis_base_step_m", p.thesis.base_step, 20_mm, 2_m);
-  f.number("thesis_small_step_m", p.thesis.small_step, 10_mm, 1_m);
-  f.number("thesis_delta_deg", p.thesis.delta, 1_deg, 45_deg);
-  f.number("thesis_danger_range_m", p.thesis.danger_range, 50_mm, 5_m);
-  f.count("thesis_max_steps", p.thesis.max_steps, 1, 1000000);
+  f.derived("thesis_distance");
+  f.derived("thesis_base_turn_deg");
+  f.derived("thesis_base_step_m");
+  f.derived("thesis_small_step_m");
+  f.derived("thesis_delta_deg");
+  f.derived("thesis_danger_range_m");
+  f.derived("thesis_max_steps");
 
-  f.number("skirt_cell_m", p.boundary.cell, 0_mm, 250_mm);
-  f.number("skirt_probe_m", p.boundary.probe, 0_mm, 2_m);
+  f.derived("skirt_cell_m");
+  f.derived("skirt_probe_m");
   f.number("skirt_shield_margin_m", p.boundary.guard_margin, 0_mm, 500_mm);
-  f.number("skirt_planning_margin_m", p.boundary.planning_margin, 0_mm, 500_mm);
-  f.number("skirt_age_travel_m", p.boundary.age_travel, 100_mm, 1000_m);
-  f.number("skirt_age_turn_deg", p.boundary.age_turn, 90_deg, 359_deg);
-  f.number("skirt_mover_speed_mps", p.boundary.mover_speed, 0_mm_per_s, 1000_mm_per_s);
+  f.derived("skirt_planning_margin_m");
+  f.derived("skirt_age_travel_m");
+  f.derived("skirt_age_turn_deg");
+  f.derived("skirt_mover_speed_mps");
 
-  f.number("motion_settle_s", p.motion.settle, 20_ms, 1000_ms);
-  f.number("turn_tolerance_deg", p.motion.turn_tolerance, Angle::turns(1, 3600), 10_deg);
-  f.number("drive_tolerance_m", p.motion.drive_tolerance, 1_mm, 50_mm);
+  f.derived("motion_settle_s");
+  f.derived("turn_tolerance_deg");
+  f.derived("drive_tolerance_m");
 
   f.number("control_period_s", p.safety.period, 5_ms, 50_ms);
   f.number("max_tick_gap_s", p.safety.max_gap, 0_ms, 250_ms);
-  f.number("lost_after_s", p.safety.lost_after, 50_ms, 10000_ms);
-  f.number("wheels_stalled_after_s", p.safety.stalled_after, 200_ms, 10000_ms);
-  f.count("max_drive_refusals", p.safety.max_refusals, 1, 1000);
+  f.derived("lost_after_s");
+  f.derived("wheels_stalled_after_s");
+  f.derived("max_drive_refusals");
 
   // The index of a parameter on the CAN bus is its place in this list: append new ones.
   f.number("range_clear_m", p.rangefinders.clear_range, 0_mm, 60_m);
@@ -244,20 +210,20 @@ constexpr void for_each_param(P& p, F&& f) {
   f.number("range_left_y_m", p.rangefinders.beams[0].y, -1_m, 1_m);
   f.number("range_left_angle_deg", p.rangefinders.beams[0].angle, -kOutermost, kOutermost);
   f.number("range_left_cone_deg", p.rangefinders.beams[0].cone, Angle{}, 90_deg);
-  f.number("range_left_min_m", p.rangefinders.beams[0].min_range, 0_mm, 1_m);
-  f.number("range_left_max_m", p.rangefinders.beams[0].max_range, 0_mm, 60_m);
+  f.derived("range_left_min_m");
+  f.derived("range_left_max_m");
   f.number("range_front_x_m", p.rangefinders.beams[1].x, -1_m, 1_m);
   f.number("range_front_y_m", p.rangefinders.beams[1].y, -1_m, 1_m);
   f.number("range_front_angle_deg", p.rangefinders.beams[1].angle, -kOutermost, kOutermost);
   f.number("range_front_cone_deg", p.rangefinders.beams[1].cone, Angle{}, 90_deg);
-  f.number("range_front_min_m", p.rangefinders.beams[1].min_range, 0_mm, 1_m);
-  f.number("range_front_max_m", p.rangefinders.beams[1].max_range, 0_mm, 60_m);
+  f.derived("range_front_min_m");
+  f.derived("range_front_max_m");
   f.number("range_right_x_m", p.rangefinders.beams[2].x, -1_m, 1_m);
   f.number("range_right_y_m", p.rangefinders.beams[2].y, -1_m, 1_m);
   f.number("range_right_angle_deg", p.rangefinders.beams[2].angle, -kOutermost, kOutermost);
   f.number("range_right_cone_deg", p.rangefinders.beams[2].cone, Angle{}, 90_deg);
-  f.number("range_right_min_m", p.rangefinders.beams[2].min_range, 0_mm, 1_m);
-  f.number("range_right_max_m", p.rangefinders.beams[2].max_range, 0_mm, 60_m);
+  f.derived("range_right_min_m");
+  f.derived("range_right_max_m");
 
   f.choice("bumper", p.bumper.fitted, kBoolean, 2);
   f.number("creep_speed_mps", p.bumper.creep_speed, 0_mm_per_s, 100_mm_per_s);
@@ -283,6 +249,16 @@ constexpr void for_each_param(P& p, F&& f) {
   f.choice("bend_course", p.boundary.bend, kBoolean, 2);
 }
 
+/// The keys that describe the hardware, so that whoever builds a robot must set them: their defaults are
+/// the reference robot's. All others may be tuned; their defaults fit any robot, or stand for what is not
+/// fitted.
+inline constexpr const char* kMustSet[] = {
+    "body_radius_m",       "wheel_track_m",   "wheel_speed_max_mps",  "wheel_acceleration_max_mps2",
+    "turn_rate_max_radps", "motor_lag_s",     "encoder_counts_per_m", "range_side_angle_deg",
+    "range_cone_deg",      "range_min_m",     "range_max_m",          "range_offset_m",
+    "range_rate_hz",       "range_latency_s", "range_incidence_deg",
+};
+
 /// A rangefinder on the body, in the body's frame: x ahead, y to the left.
 struct Mount {
   Vec apex;
@@ -291,28 +267,23 @@ struct Mount {
 };
 /// The beams of these rangefinders; 0 <= beam < 3.
 constexpr Mount mount(const RangefinderParams& rangefinders, int beam) noexcept;
-/// The axis of a beam, its cone, and its ranges. A clear reading stands for the maximum range.
+/// The axis of a beam, and its cone.
 constexpr Angle beam_axis(const RangefinderParams& r, int beam) noexcept {
   return r.beams[beam].angle == Direction{} ? r.side_angle * (1 - beam) : angle_of(r.beams[beam].angle);
 }
 constexpr Angle beam_cone(const RangefinderParams& r, int beam) noexcept {
   return r.beams[beam].cone == Angle{} ? r.cone : r.beams[beam].cone;
 }
-constexpr Length min_range(const RangefinderParams& r, int beam) noexcept {
-  return r.beams[beam].min_range == Length{} ? r.min_range : r.beams[beam].min_range;
-}
-constexpr Length max_range(const RangefinderParams& r, int beam) noexcept {
-  return r.beams[beam].max_range == Length{} ? r.max_range : r.beams[beam].max_range;
-}
-/// The distance up to which readings of a beam mark ground as free.
-constexpr Length proving_range(const RangefinderParams& r, int beam) noexcept {
-  return r.clear_range == Length{} ? max_range(r, beam) : min(r.clear_range, max_range(r, beam));
+/// The distance up to which readings mark ground as free.
+constexpr Length proving_range(const RangefinderParams& r) noexcept {
+  return r.clear_range == Length{} ? r.max_range : min(r.clear_range, r.max_range);
 }
 /// Walls may give no echo: see RangefinderParams::incidence.
 constexpr bool loses_walls(const RangefinderParams& r) noexcept { return r.incidence.raw() < (90_deg).raw(); }
-/// Where walls may give no echo, their ends and corners give one up to this distance from the apex of a beam.
+/// Where walls may give no echo, their ends and corners give one up to this distance from the apex of a
+/// beam.
 constexpr Length kScatterRange = 500_mm;
-/// Side of a cell of the local grid; by default 2/9 of the radius.
+/// Side of a cell of the local grid: 2/9 of the radius.
 constexpr Length grid_cell(const Params& params) noexcept;
 /// A disc of this radius around the centre covers the cell, in 1/256 of a cell: 0.7072, rounded up.
 constexpr int32_t kCellCover = 184;
@@ -340,16 +311,16 @@ constexpr AngularRate turn_rate(const Params& params) noexcept;
 struct Reach {
   Length guard;     ///< distance from the centre of the body within which cells must be clear at every tick
   Length planning;  ///< the same for a chosen heading
-  Length probe;     ///< length of the checked path; by default 5/3 of the radius, or the reach of the local
-                    ///< grid. Where walls may give no echo, it ends at kScatterRange from the front beam
+  Length probe;     ///< length of the checked path: 5/3 of the radius, or the reach of the local grid. Where
+                    ///< walls may give no echo, it ends at kScatterRange from the front beam
   Angle past;  ///< a beam clears a cell at the rim while it turns from this angle before the cell to this
                ///< angle behind it; zero if a single reading does
 };
 /// Computes a sine and divisions, so perception::LocalGrid stores the result.
 constexpr Reach reach(const Params& params) noexcept;
 /// The longest accepted time between two ticks; a longer gap is Fault::clock_jump. The guard assumes it for
-/// every movement: the body must be able to stop even if the next tick comes that late. By default 50 ms more
-/// than the period, so that the robot survives 40 ms of bus silence.
+/// every movement: the body must be able to stop even if the next tick comes that late. By default 50 ms
+/// more than the period, so that the robot survives 40 ms of bus silence.
 constexpr Duration longest_gap(const Params& p) noexcept {
   if (p.safety.max_gap != Duration{}) return p.safety.max_gap;
   return p.safety.period + 50_ms;
@@ -364,4 +335,5 @@ constexpr ParamFault check(const Params& params) noexcept;
 }  // namespace whisker
 
 // Definitions of the constexpr functions above.
+#include "firmware/params/derived.hpp"
 #include "firmware/params/relations.hpp"

@@ -96,7 +96,7 @@ class Robot {
   void reset() noexcept;
 
   /// Something else has braked the wheels since the last tick, for example a bus that lost messages: the next
-  /// gap may be as long as safety.lost_after.
+  /// gap may be as long as derived::lost_after().
   void braked_elsewhere() noexcept { chassis_.braked_elsewhere(); }
 
   /// One control tick. `now` is about params.safety.period after the last tick and at most

@@ -107,6 +107,16 @@ stage_targets() {
   ctest --preset host --no-tests=error -L '^targets$' -LE '^night$' -V -j 1
 }
 
+# pico_tests FILE...: the image of the Pico in its emulator, rp2040js from the npm registry or from npm's cache.
+pico_tests() {
+  npm --prefix host/harness/pico ci --ignore-scripts --no-audit --no-fund
+  build host --target whisker_rig whisker
+  build pico
+  node --test --test-reporter=tap "$@"
+}
+
+stage_pico() { pico_tests tests/pico/*.test.mjs; }
+
 stage_clang() { build_and_test clang; }
 
 # build_and_test_core PRESET LABELS TARGET...: builds only these programs, and runs the tests with these labels.
@@ -179,6 +189,7 @@ stage_long() {
   vcan_tests '^night$' '^vm$'
   scripts/playground --build-only
   node --test --test-reporter=tap tests/web/core.test.mjs
+  pico_tests tests/pico/*.test.mjs
 }
 
 stage_fuzz() {

@@ -54,32 +54,32 @@ enum whisker_param {
   WHISKER_PARAM_RANGE_RATE_HZ,                /* 1; 50; 5 to 100 */
   WHISKER_PARAM_RANGE_LATENCY,                /* ms; 20; 0 to 200 */
   WHISKER_PARAM_CONSENSUS,                    /* choice; 0; 0 to 1 */
-  WHISKER_PARAM_CONSENSUS_READS,              /* 1; 3; 1 to 5 */
-  WHISKER_PARAM_CONSENSUS_TOLERANCE,          /* um; 60000; 1000 to 1000000 */
+  WHISKER_PARAM_CONSENSUS_READS,              /* derived: cannot be set */
+  WHISKER_PARAM_CONSENSUS_TOLERANCE,          /* derived: cannot be set */
   WHISKER_PARAM_STALE_AFTER,                  /* ms; 100; 20 to 2000 */
-  WHISKER_PARAM_STUCK_TURN,                   /* 2^-32 turn; 1789569707; 357913941 to 2028179001 */
-  WHISKER_PARAM_THESIS_DISTANCE,              /* choice; 0; 0 to 1 */
-  WHISKER_PARAM_THESIS_BASE_TURN,             /* 2^-32 turn; 357913941; 59652324 to 715827883 */
-  WHISKER_PARAM_THESIS_BASE_STEP,             /* um; 200000; 20000 to 2000000 */
-  WHISKER_PARAM_THESIS_SMALL_STEP,            /* um; 100000; 10000 to 1000000 */
-  WHISKER_PARAM_THESIS_DELTA,                 /* 2^-32 turn; 119304647; 11930465 to 536870912 */
-  WHISKER_PARAM_THESIS_DANGER_RANGE,          /* um; 300000; 50000 to 5000000 */
-  WHISKER_PARAM_THESIS_MAX_STEPS,             /* 1; 4000; 1 to 1000000 */
-  WHISKER_PARAM_SKIRT_CELL,                   /* um; 0; 0 to 250000 */
-  WHISKER_PARAM_SKIRT_PROBE,                  /* um; 0; 0 to 2000000 */
+  WHISKER_PARAM_STUCK_TURN,                   /* derived: cannot be set */
+  WHISKER_PARAM_THESIS_DISTANCE,              /* derived: cannot be set */
+  WHISKER_PARAM_THESIS_BASE_TURN,             /* derived: cannot be set */
+  WHISKER_PARAM_THESIS_BASE_STEP,             /* derived: cannot be set */
+  WHISKER_PARAM_THESIS_SMALL_STEP,            /* derived: cannot be set */
+  WHISKER_PARAM_THESIS_DELTA,                 /* derived: cannot be set */
+  WHISKER_PARAM_THESIS_DANGER_RANGE,          /* derived: cannot be set */
+  WHISKER_PARAM_THESIS_MAX_STEPS,             /* derived: cannot be set */
+  WHISKER_PARAM_SKIRT_CELL,                   /* derived: cannot be set */
+  WHISKER_PARAM_SKIRT_PROBE,                  /* derived: cannot be set */
   WHISKER_PARAM_SKIRT_SHIELD_MARGIN,          /* um; 4000; 0 to 500000 */
-  WHISKER_PARAM_SKIRT_PLANNING_MARGIN,        /* um; 6000; 0 to 500000 */
-  WHISKER_PARAM_SKIRT_AGE_TRAVEL,             /* um; 500000; 100000 to 1000000000 */
-  WHISKER_PARAM_SKIRT_AGE_TURN,               /* 2^-32 turn; 4056358002; 1073741824 to 4283036831 */
-  WHISKER_PARAM_SKIRT_MOVER_SPEED,            /* um/s; 300000; 0 to 1000000 */
-  WHISKER_PARAM_MOTION_SETTLE,                /* ms; 80; 20 to 1000 */
-  WHISKER_PARAM_TURN_TOLERANCE,               /* 2^-32 turn; 11930465; 1193046 to 119304647 */
-  WHISKER_PARAM_DRIVE_TOLERANCE,              /* um; 2000; 1000 to 50000 */
+  WHISKER_PARAM_SKIRT_PLANNING_MARGIN,        /* derived: cannot be set */
+  WHISKER_PARAM_SKIRT_AGE_TRAVEL,             /* derived: cannot be set */
+  WHISKER_PARAM_SKIRT_AGE_TURN,               /* derived: cannot be set */
+  WHISKER_PARAM_SKIRT_MOVER_SPEED,            /* derived: cannot be set */
+  WHISKER_PARAM_MOTION_SETTLE,                /* derived: cannot be set */
+  WHISKER_PARAM_TURN_TOLERANCE,               /* derived: cannot be set */
+  WHISKER_PARAM_DRIVE_TOLERANCE,              /* derived: cannot be set */
   WHISKER_PARAM_CONTROL_PERIOD,               /* ms; 10; 5 to 50 */
   WHISKER_PARAM_MAX_TICK_GAP,                 /* ms; 0; 0 to 250 */
-  WHISKER_PARAM_LOST_AFTER,                   /* ms; 1000; 50 to 10000 */
-  WHISKER_PARAM_WHEELS_STALLED_AFTER,         /* ms; 2000; 200 to 10000 */
-  WHISKER_PARAM_MAX_DRIVE_REFUSALS,           /* 1; 5; 1 to 1000 */
+  WHISKER_PARAM_LOST_AFTER,                   /* derived: cannot be set */
+  WHISKER_PARAM_WHEELS_STALLED_AFTER,         /* derived: cannot be set */
+  WHISKER_PARAM_MAX_DRIVE_REFUSALS,           /* derived: cannot be set */
   WHISKER_PARAM_RANGE_CLEAR,                  /* um; 0; 0 to 60000000 */
   WHISKER_PARAM_LENGTH_BUDGET,                /* um; 400000000; 1000000 to 2000000000 */
   WHISKER_PARAM_RANGE_INCIDENCE,              /* 2^-32 turn; 1073741824; 59652324 to 1073741824 */
@@ -87,20 +87,20 @@ enum whisker_param {
   WHISKER_PARAM_RANGE_LEFT_Y,                 /* um; 0; -1000000 to 1000000 */
   WHISKER_PARAM_RANGE_LEFT_ANGLE,             /* 2^-32 turn; 0; -1014089500 to 1014089500 */
   WHISKER_PARAM_RANGE_LEFT_CONE,              /* 2^-32 turn; 0; 0 to 1073741824 */
-  WHISKER_PARAM_RANGE_LEFT_MIN,               /* um; 0; 0 to 1000000 */
-  WHISKER_PARAM_RANGE_LEFT_MAX,               /* um; 0; 0 to 60000000 */
+  WHISKER_PARAM_RANGE_LEFT_MIN,               /* derived: cannot be set */
+  WHISKER_PARAM_RANGE_LEFT_MAX,               /* derived: cannot be set */
   WHISKER_PARAM_RANGE_FRONT_X,                /* um; 0; -1000000 to 1000000 */
   WHISKER_PARAM_RANGE_FRONT_Y,                /* um; 0; -1000000 to 1000000 */
   WHISKER_PARAM_RANGE_FRONT_ANGLE,            /* 2^-32 turn; 0; -1014089500 to 1014089500 */
   WHISKER_PARAM_RANGE_FRONT_CONE,             /* 2^-32 turn; 0; 0 to 1073741824 */
-  WHISKER_PARAM_RANGE_FRONT_MIN,              /* um; 0; 0 to 1000000 */
-  WHISKER_PARAM_RANGE_FRONT_MAX,              /* um; 0; 0 to 60000000 */
+  WHISKER_PARAM_RANGE_FRONT_MIN,              /* derived: cannot be set */
+  WHISKER_PARAM_RANGE_FRONT_MAX,              /* derived: cannot be set */
   WHISKER_PARAM_RANGE_RIGHT_X,                /* um; 0; -1000000 to 1000000 */
   WHISKER_PARAM_RANGE_RIGHT_Y,                /* um; 0; -1000000 to 1000000 */
   WHISKER_PARAM_RANGE_RIGHT_ANGLE,            /* 2^-32 turn; 0; -1014089500 to 1014089500 */
   WHISKER_PARAM_RANGE_RIGHT_CONE,             /* 2^-32 turn; 0; 0 to 1073741824 */
-  WHISKER_PARAM_RANGE_RIGHT_MIN,              /* um; 0; 0 to 1000000 */
-  WHISKER_PARAM_RANGE_RIGHT_MAX,              /* um; 0; 0 to 60000000 */
+  WHISKER_PARAM_RANGE_RIGHT_MIN,              /* derived: cannot be set */
+  WHISKER_PARAM_RANGE_RIGHT_MAX,              /* derived: cannot be set */
   WHISKER_PARAM_BUMPER,                       /* choice; 0; 0 to 1 */
   WHISKER_PARAM_CREEP_SPEED,                  /* um/s; 0; 0 to 100000 */
   WHISKER_PARAM_GYRO,                         /* choice; 0; 0 to 1 */

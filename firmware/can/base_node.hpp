@@ -30,6 +30,9 @@ class BaseNode final : public Node {
   /// ramp: change of a wheel's speed per period while it brakes, in 0.1 mm/s; above 0.
   BaseNode(hal::CanPort& port, const Identity& identity, int16_t ramp) noexcept;
 
+  /// Another ramp, from now on.
+  void brake_by(int16_t ramp) noexcept { ramp_ = ramp; }
+
   void poll(uint32_t now_ms) noexcept;
   /// Sends the measurements of a tick. In lockstep, the same tick may be sent again. False: the port did not
   /// accept all of it.
@@ -76,7 +79,7 @@ class BaseNode final : public Node {
   void on_report(const CalibrationReport& report) noexcept;
   void send_order() noexcept;
 
-  const int16_t ramp_;
+  int16_t ramp_;
   hal::WheelSpeeds speeds_{};
   WheelCommand command_;
   NavStatus status_;

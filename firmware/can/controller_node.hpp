@@ -64,6 +64,10 @@ class ControllerNode final : public Node {
 
   /// Parameters accepted by a commit.
   const Params& params() const noexcept { return server_.committed(); }
+  /// Number of accepted commits, modulo 2^32.
+  uint32_t commits() const noexcept { return server_.commits(); }
+  /// The parameters until a commit, instead of the defaults; check() accepts them.
+  void begin_with(const Params& params) noexcept { server_.set(params); }
 
  private:
   FrameResult on_frame(MessageKind kind, const hal::CanFrame& frame) noexcept override;

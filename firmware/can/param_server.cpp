@@ -6,14 +6,18 @@ namespace whisker::can {
 
 static_assert(kParams <= kCommitIndex);
 
+namespace {
+bool exists(uint8_t index) noexcept { return index < kParams && !is_derived(index); }
+}  // namespace
+
 bool read_param(const Params& params, uint8_t index, uint32_t& raw) noexcept {
-  if (index >= kParams) return false;
+  if (!exists(index)) return false;
   raw = raw_param(params, index);
   return true;
 }
 
 ParamStatus write_param(Params& params, uint8_t index, uint32_t raw) noexcept {
-  if (index >= kParams) return ParamStatus::no_such;
+  if (!exists(index)) return ParamStatus::no_such;
   if (!in_own_range(index, raw)) return ParamStatus::out_of_range;
   set_raw_param(params, index, raw);
   return ParamStatus::ok;
@@ -26,6 +30,7 @@ ParamStatus ParamServer::commit(ParamReply& reply) noexcept {
   if (fault != ParamFault::none) return ParamStatus::inconsistent;
   committed_ = staged_;
   stager_ = Requester::none;
+  ++commits_;
   return ParamStatus::ok;
 }
 

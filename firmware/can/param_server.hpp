@@ -17,8 +17,16 @@ constexpr bool outlasts_hold(const Params& params) noexcept {
   return longest_gap(params) >= milliseconds(kCommandLate_ms) + params.safety.period;
 }
 
-/// False: no parameter has this index.
+/// False: no parameter has this index, or the robot derives it.
 bool read_param(const Params& params, uint8_t index, uint32_t& raw) noexcept;
+/// Calls use(index, raw) for every parameter.
+template <class F>
+void each_param(const Params& params, const F& use) {
+  uint32_t raw = 0;
+  for (uint8_t i = 0; i < kCommitIndex; ++i) {
+    if (read_param(params, i, raw)) use(i, raw);
+  }
+}
 /// Refuses values outside the parameter's own range.
 ParamStatus write_param(Params& params, uint8_t index, uint32_t raw) noexcept;
 
@@ -35,6 +43,8 @@ class ParamServer {
   /// Both the committed and the staged ones.
   void set(const Params& params) noexcept { committed_ = staged_ = params; }
   Requester stager() const noexcept { return stager_; }
+  /// Number of accepted commits, modulo 2^32.
+  uint32_t commits() const noexcept { return commits_; }
   /// Drops what `who` has staged and not committed.
   void drop(Requester who) noexcept;
 
@@ -44,6 +54,7 @@ class ParamServer {
   Params staged_;
   Params committed_;
   Requester stager_ = Requester::none;
+  uint32_t commits_ = 0;
 };
 
 }  // namespace whisker::can

@@ -14,17 +14,13 @@ Q7 fraction_of(int32_t top, int64_t part, int32_t whole) noexcept {
 
 }  // namespace
 
-Inputs scale(Length left, Length front, Length right, Length max_range, DistanceSource source) noexcept {
+Inputs scale(Length left, Length front, Length right, Length max_range) noexcept {
   const int32_t whole = max_range.raw();
   const int64_t l = within(left, max_range);
   const int64_t f = within(front, max_range);
   const int64_t r = within(right, max_range);
   const Q7 bias = fraction_of(kBiasTop, r - l, whole);
-  switch (source) {
-    case DistanceSource::front: return {fraction_of(kDistanceTop, f, whole), bias};
-    case DistanceSource::mean: break;
-  }
-  return {fraction_of(kDistanceTop, l + f + r, 3 * whole), bias};
+  return {fraction_of(kDistanceTop, f, whole), bias};
 }
 
 }  // namespace whisker::fuzzy

@@ -7,9 +7,8 @@
 
 namespace whisker::fuzzy {
 
-/// D = 10 d / max_range, where d is the front distance or the mean of the three; R = 8 (right - left) /
-/// max_range. Distances are limited to [0, max_range]. Both results are rounded to nearest, ties away from
-/// zero, so that swapped sides give exactly -R. 0 < max_range.
-Inputs scale(Length left, Length front, Length right, Length max_range, DistanceSource source) noexcept;
+/// D = 10 front / max_range; R = 8 (right - left) / max_range. Distances are limited to [0, max_range]. Both
+/// results are rounded to nearest, ties away from zero, so that swapped sides give exactly -R. 0 < max_range.
+Inputs scale(Length left, Length front, Length right, Length max_range) noexcept;
 
 }  // namespace whisker::fuzzy

@@ -95,6 +95,30 @@ constexpr int32_t scale_down(int32_t x) noexcept {
   return (x < 0 ? x - kOne / 2 : x + kOne / 2) / kOne;
 }
 
+#if defined(__ARM_ARCH_6M__)
+constexpr bool kMultipliesByParts = true;  // the product of 32 bits by 32 is a call of the compiler's library
+#else
+constexpr bool kMultipliesByParts = false;
+#endif
+
+/// a * b.
+[[gnu::always_inline]] constexpr uint64_t product(uint32_t a, uint32_t b) noexcept {
+  if (!kMultipliesByParts) return uint64_t{a} * b;
+  const uint32_t a_low = a & UINT16_MAX, a_high = a >> 16, b_low = b & UINT16_MAX, b_high = b >> 16;
+  const uint32_t low = a_low * b_low;
+  const uint32_t first = a_high * b_low + (low >> 16);
+  const uint32_t second = a_low * b_high + (first & UINT16_MAX);
+  const uint32_t high = a_high * b_high + (first >> 16) + (second >> 16);
+  return uint64_t{high} << 32 | (second << 16 | (low & UINT16_MAX));
+}
+
+/// a * b / 2^kBits to nearest, ties up; it must fit.
+template <int kBits>
+[[gnu::always_inline]] constexpr uint32_t scaled_product(uint32_t a, uint32_t b) noexcept {
+  static_assert(kBits > 0 && kBits <= 32);
+  return narrow<uint32_t>((product(a, b) + (UINT64_C(1) << (kBits - 1))) >> kBits);
+}
+
 /// a * b / c to nearest, saturating. c > 0.
 constexpr int32_t multiply_divide(int32_t a, int32_t b, int32_t c) noexcept {
   return saturate32(divide_rounded(static_cast<int64_t>(a) * b, c));
@@ -150,9 +174,10 @@ using Q15 = Fixed<15, int16_t>;  ///< [-1, 1)
 using Q30 = Fixed<30, int32_t>;  ///< sines and cosines; [-2, 2)
 
 /// In 2^-14, to nearest.
-constexpr int16_t q14(Q30 x) noexcept { return narrow<int16_t>(scale_down<16>(int64_t{x.raw()})); }
+constexpr int16_t q14(Q30 x) noexcept { return narrow<int16_t>(scale_down<16>(x.raw())); }
 
 static_assert((Q15::from_raw(INT16_MIN) * Q15::from_raw(INT16_MIN)).raw() == INT16_MAX);
+static_assert(scaled_product<4>(3, 8) == 2 && scaled_product<4>(23, 1) == 1);
 static_assert(scale_down_by(24, 4) == 2 && scale_down_by(-24, 4) == -2 && scale_down_by(23, 4) == 1);
 static_assert(scale_down<4>(INT32_C(24)) == 2 && scale_down<4>(INT32_C(-24)) == -2);
 

@@ -21,18 +21,18 @@ Length along(Vec v, Angle direction) noexcept;
 namespace formula {
 
 // Minimax fits (Remez exchange) of sin(x pi / 2), unit 2^-30, and of atan(x), unit 2^-32 turn.
-constexpr int32_t kSine[] = {1686629674, -693597876, 85564854, -5016767, 161942};
-constexpr int32_t kArcTangent[] = {683565198, -227850059, 136616721, -96801258, 71767194,
-                                   -49455063, 27193166,   -9844330,  1679347};
+constexpr uint32_t kSine[] = {1686629674, 693597876, 85564854, 5016767, 161942};
+constexpr uint32_t kArcTangent[] = {683565198, 227850059, 136616721, 96801258, 71767194,
+                                    49455063,  27193166,  9844330,   1679347};
 
-/// c[0] x + c[1] x^3 + ... for x in [0, 1] as Q30, in the unit of the coefficients.
+/// c[0] x - c[1] x^3 + c[2] x^5 - ... for x in [0, 1] as Q30, in the unit of the coefficients, which fall: so
+/// no sum is negative.
 template <size_t kTerms>
-constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noexcept {
-  const auto times = [](int32_t a, int32_t b) { return narrow<int32_t>(scale_down<30>(int64_t{a} * b)); };
-  const int32_t square = times(x_q30, x_q30);
-  int32_t sum = c[kTerms - 1];
-  for (size_t i = kTerms - 1; i-- > 0;) sum = c[i] + times(sum, square);
-  return times(sum, x_q30);
+constexpr int32_t odd_polynomial(const uint32_t (&c)[kTerms], uint32_t x_q30) noexcept {
+  const uint32_t square = scaled_product<30>(x_q30, x_q30);
+  uint32_t sum = c[kTerms - 1];
+  for (size_t i = kTerms - 1; i-- > 0;) sum = c[i] - scaled_product<30>(sum, square);
+  return static_cast<int32_t>(scaled_product<30>(sum, x_q30));
 }
 
 [[gnu::always_inline]] constexpr Q30 sin(Angle a) noexcept {
@@ -41,7 +41,7 @@ constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noex
   const bool negative = a.raw() > half;
   uint32_t first_half = negative ? 0U - a.raw() : a.raw();
   if (first_half > quarter) first_half = half - first_half;
-  const int32_t s = odd_polynomial(kSine, static_cast<int32_t>(first_half));
+  const int32_t s = odd_polynomial(kSine, first_half);
   const int32_t capped = s > Q30::kOne ? Q30::kOne : s;
   return Q30::from_raw(negative ? -capped : capped);
 }
@@ -53,7 +53,7 @@ constexpr int32_t odd_polynomial(const int32_t (&c)[kTerms], int32_t x_q30) noex
   const uint32_t low = ax < ay ? ax : ay;
   const uint32_t high = ax < ay ? ay : ax;
   const uint64_t ratio = quotient((uint64_t{low} << 30) + high / 2, high);
-  uint32_t turn = static_cast<uint32_t>(odd_polynomial(kArcTangent, static_cast<int32_t>(ratio)));
+  uint32_t turn = static_cast<uint32_t>(odd_polynomial(kArcTangent, static_cast<uint32_t>(ratio)));
   if (ax < ay) turn = (UINT32_C(1) << 30) - turn;
   if (x < 0) turn = (UINT32_C(1) << 31) - turn;
   return Angle::from_raw(y < 0 ? 0U - turn : turn);

@@ -6,6 +6,7 @@
 
 #include "firmware/math/trig.hpp"
 #include "firmware/params.hpp"
+#include "firmware/params/derived.hpp"
 
 namespace whisker {
 namespace at_run_time {
@@ -14,9 +15,7 @@ RimSweep rim_sweep(const Params& p) noexcept;
 Reach reach(const Params& p) noexcept;
 }  // namespace at_run_time
 
-constexpr Length grid_cell(const Params& p) noexcept {
-  return p.boundary.cell != Length{} ? p.boundary.cell : p.body.radius * 2 / 9;
-}
+constexpr Length grid_cell(const Params& p) noexcept { return p.body.radius * 2 / 9; }
 constexpr Length cell_cover(const Params& p) noexcept { return grid_cell(p) * kCellCover / 256; }
 constexpr Length guard_slack(const Params& p) noexcept { return p.body.radius / 56; }
 
@@ -101,10 +100,9 @@ constexpr Angle slowest_step(Angle half_cone, Angle error) noexcept {
 [[gnu::always_inline]] constexpr Reach reach(const Params& p) noexcept {
   const RimSweep sweep = whisker::rim_sweep(p);
   const Length swept = sweep.radius;
-  const Length planning = swept + p.boundary.planning_margin;
+  const Length planning = swept + derived::planning_margin(p);
   const Length window = whisker::grid_cell(p) * kHalfWindow - whisker::cell_cover(p);
-  Length probe =
-      p.boundary.probe != Length{} ? p.boundary.probe : min(p.body.radius * 5 / 3, window - planning);
+  Length probe = min(p.body.radius * 5 / 3, window - planning);
   if (loses_walls(p.rangefinders)) {
     probe = min(probe, kScatterRange + whisker::mount(p.rangefinders, 1).apex.x - planning);
   }

@@ -11,42 +11,38 @@
 
 namespace whisker {
 
-/// The relations between parameters; each comment states the condition.
+/// The relations between parameters; each comment states the condition. The numbers are those on the bus: a
+/// missing one belonged to a parameter that is derived now, and stays free.
 enum class ParamFault : uint8_t {
-  none,
-  out_of_range,                 ///< a value lies outside its own range
-  track_wider_than_body,        ///< track <= 2 radius
-  ranges_reversed,              ///< min_range < max_range, of each beam
-  cones_apart_from_front,       ///< each beam: angle of the axis + cone / 2 <= 90 degrees
-  danger_inside_body,           ///< danger_range > radius + margin
-  steps_reversed,               ///< small_step <= base_step
-  stop_longer_than_range,       ///< stopping distance from full speed <= max_range / 4
-  stale_before_next_reading,    ///< stale_after > 1 / rate + latency
-  lost_before_stale,            ///< lost_after >= stale_after
-  tolerance_below_encoder,      ///< drive_tolerance and the rim distance of turn_tolerance >= one count
-  gap_below_period,             ///< max_gap, unless zero, >= 2 period
-  stuck_within_cone,            ///< stuck_turn > cone: within its cone, a real object keeps its distance
-  cone_too_wide,                ///< cone <= 60 degrees: square rooms do not look round
-  tolerance_above_step,         ///< drive_tolerance < small_step, turn_tolerance < delta
-  tolerance_below_wire,         ///< the rim distance of turn_tolerance >= 0.1 mm/s x settle
-  stalled_before_count,         ///< stalled_after >= the time of the slowest count and the slowest stop
-  settle_below_lag,             ///< settle >= motor_lag + period
-  cone_too_narrow,              ///< radius of rim_sweep() <= 7/4 radius; if needed, cell <= 2/5 of it
-  local_grid_too_small,         ///< 15 cells >= planning reach + probe, and probe >= radius / 2
-  planning_below_guard_margin,  ///< planning_margin >= guard_margin
-  step_beyond_range,            ///< clear_range >= 2 base_step + radius + margin: no step is longer
-  beams_crossed,                ///< the axes point from left to right
-  creep_without_bumper,         ///< creep_speed is zero unless a bumper is fitted
-  gyro_unfit,                   ///< a fitted gyro: kGyroBuilt, range >= 5/4 max_turn_rate
-  walls_without_bound,          ///< straight walls need kGyroBuilt and a bound of the pose: PoseErrorParams
-  walls_unseen,  ///< incidence below 90 degrees: each wall ahead lies within cone / 2 + incidence of a beam
-  flank_unseen,  ///< incidence below 90 degrees: see flank_is_seen() in this file
-  blind_at_rim,  ///< incidence below 90 degrees: no minimum range ends beyond planning reach + radius / 2
+  none = 0,
+  out_of_range = 1,               ///< a value lies outside its own range
+  track_wider_than_body = 2,      ///< track <= 2 radius
+  ranges_reversed = 3,            ///< min_range < max_range
+  cones_apart_from_front = 4,     ///< each beam: angle of the axis + cone / 2 <= 90 degrees
+  stop_longer_than_range = 7,     ///< stopping distance from full speed <= max_range / 4
+  stale_before_next_reading = 8,  ///< stale_after > 1 / rate + latency
+  gap_below_period = 11,          ///< max_gap, unless zero, >= 2 period
+  cone_too_wide = 13,             ///< cone <= 60 degrees: square rooms do not look round
+  tolerance_above_step = 14,  ///< drive_tolerance() < small_step(), turn_tolerance() < kDelta: derived.hpp
+  stalled_before_count = 16,  ///< derived::slowest_count() <= kMostStalledAfter
+  cone_too_narrow = 18,       ///< radius of rim_sweep() <= 7/4 radius
+  local_grid_too_small = 19,  ///< the checked path, Reach::probe, >= radius / 2
+  step_beyond_range = 21,     ///< derived::base_step() >= kShortestStep: no step is longer than the beams see
+  beams_crossed = 22,         ///< the axes point from left to right
+  creep_without_bumper = 23,  ///< creep_speed is zero unless a bumper is fitted
+  gyro_unfit = 24,            ///< a fitted gyro: kGyroBuilt, range >= 5/4 max_turn_rate
+  walls_without_bound = 25,   ///< straight walls need kGyroBuilt and a bound of the pose: PoseErrorParams
+  walls_unseen =
+      26,  ///< incidence below 90 degrees: each wall ahead lies within cone / 2 + incidence of a beam
+  flank_unseen = 27,  ///< incidence below 90 degrees: see flank_is_seen() in this file
+  blind_at_rim =
+      28,  ///< incidence below 90 degrees: no minimum range ends beyond planning reach + radius / 2
 };
+constexpr int kParamFaults = static_cast<int>(ParamFault::blind_at_rim) + 1;  ///< with the missing numbers
 
 struct Relation {
   const char* name;
-  const char* words;  ///< the relation as a sentence for users; empty for ParamFault::none
+  const char* words;  ///< the relation as a sentence for users; empty for none and for missing numbers
 };
 constexpr Relation relation(ParamFault fault) noexcept {
   using F = ParamFault;
@@ -56,21 +52,13 @@ constexpr Relation relation(ParamFault fault) noexcept {
     case F::track_wider_than_body:
       return {"track_wider_than_body",
               "the wheels must lie within the body: wheel_track_m <= 2 body_radius_m"};
-    case F::ranges_reversed:
-      return {"ranges_reversed",
-              "range_min_m must be less than range_max_m; the same holds for a beam's own range_left_min_m, "
-              "range_left_max_m, range_front_min_m, range_front_max_m, range_right_min_m, range_right_max_m"};
+    case F::ranges_reversed: return {"ranges_reversed", "range_min_m must be less than range_max_m"};
     case F::cones_apart_from_front:
       return {
           "cones_apart_from_front",
           "the beams must look ahead: range_side_angle_deg + range_cone_deg / 2 <= 90; the same holds for a "
           "beam's own range_left_angle_deg, range_left_cone_deg, range_front_angle_deg, "
           "range_front_cone_deg, range_right_angle_deg, range_right_cone_deg"};
-    case F::danger_inside_body:
-      return {"danger_inside_body",
-              "thesis_danger_range_m must be greater than body_radius_m + body_margin_m"};
-    case F::steps_reversed:
-      return {"steps_reversed", "thesis_small_step_m must not be greater than thesis_base_step_m"};
     case F::stop_longer_than_range:
       return {"stop_longer_than_range",
               "the stopping distance from wheel_speed_max_mps, with wheel_acceleration_max_mps2, motor_lag_s "
@@ -79,57 +67,39 @@ constexpr Relation relation(ParamFault fault) noexcept {
     case F::stale_before_next_reading:
       return {"stale_before_next_reading",
               "stale_after_s must be greater than 1 / range_rate_hz + range_latency_s"};
-    case F::lost_before_stale:
-      return {"lost_before_stale", "lost_after_s must not be less than stale_after_s"};
-    case F::tolerance_below_encoder:
-      return {
-          "tolerance_below_encoder",
-          "drive_tolerance_m, and the rim distance of turn_tolerance_deg (at wheel_track_m / 2), must not "
-          "be less than 1 / encoder_counts_per_m"};
     case F::gap_below_period:
       return {
           "gap_below_period",
           "max_tick_gap_s must be at least 2 control_period_s, over CAN also control_period_s + 0.049, or 0"};
-    case F::stuck_within_cone:
-      return {"stuck_within_cone", "stuck_turn_deg must be greater than range_cone_deg"};
     case F::cone_too_wide: return {"cone_too_wide", "range_cone_deg must not be greater than 60"};
     case F::tolerance_above_step:
-      return {"tolerance_above_step",
-              "drive_tolerance_m must be less than thesis_small_step_m, and turn_tolerance_deg less than "
-              "thesis_delta_deg"};
-    case F::tolerance_below_wire:
       return {
-          "tolerance_below_wire",
-          "the rim distance of turn_tolerance_deg (at wheel_track_m / 2) must not be less than 0.0001 m/s "
-          "x motion_settle_s"};
+          "tolerance_above_step",
+          "1 / encoder_counts_per_m must be less than the thesis planner's small step (0.1 m, or less for "
+          "short range_max_m or range_clear_m), and at the rim (wheel_track_m / 2) less than 10 degrees"};
     case F::stalled_before_count:
-      return {"stalled_before_count",
-              "wheels_stalled_after_s must not be less than 16 motor_lag_s + 6 control_period_s + 2 "
-              "motion_settle_s + twice the time in which a wheel covers 1 / encoder_counts_per_m from rest "
-              "and again at full turn rate"};
-    case F::settle_below_lag:
-      return {"settle_below_lag", "motion_settle_s must not be less than motor_lag_s + control_period_s"};
+      return {
+          "stalled_before_count",
+          "the wheels must count soon: 16 motor_lag_s + 6 control_period_s + twice the time in which it "
+          "settles (0.08 s, or motor_lag_s + control_period_s if longer) + twice the time in which a wheel "
+          "covers 1 / encoder_counts_per_m from rest (wheel_acceleration_max_mps2) and again at full turn "
+          "rate (turn_rate_max_radps, wheel_track_m, wheel_speed_max_mps) must not exceed 10 s"};
     case F::cone_too_narrow:
       return {
           "cone_too_narrow",
           "the beams must be able to clear the ground near the body: beyond 7/4 body_radius_m, a turn on the "
           "spot must leave no gap between the cones of readings one after another; it does with a smaller "
-          "range_offset_m, a larger range_cone_deg or more encoder_counts_per_m; and where no single reading "
-          "clears a cell at the rim, skirt_cell_m must not be greater than 2/5 body_radius_m"};
+          "range_offset_m, a larger range_cone_deg or more encoder_counts_per_m"};
     case F::local_grid_too_small:
       return {
           "local_grid_too_small",
-          "15 cells must reach as far as body_radius_m + 0.72 cell + skirt_planning_margin_m + "
-          "skirt_probe_m, with cell = skirt_cell_m or, if 0, automatic; skirt_probe_m must not be less than "
-          "body_radius_m / 2, nor must what is left of it if range_incidence_deg is below 90: it then ends "
-          "0.5 m ahead of the front beam (range_front_x_m or range_offset_m)"};
-    case F::planning_below_guard_margin:
-      return {"planning_below_guard_margin",
-              "skirt_planning_margin_m must not be less than skirt_shield_margin_m"};
+          "the beams must see half of body_radius_m ahead of the body: if range_incidence_deg is below 90, "
+          "the path is checked up to 0.5 m ahead of the front beam (range_front_x_m or range_offset_m); nor "
+          "may "
+          "skirt_shield_margin_m leave less of the local grid"};
     case F::step_beyond_range:
       return {"step_beyond_range",
-              "range_clear_m and range_max_m must not be less than 2 thesis_base_step_m + body_radius_m + "
-              "body_margin_m"};
+              "range_clear_m and range_max_m must not be less than 0.04 + body_radius_m + body_margin_m"};
     case F::beams_crossed:
       return {"beams_crossed",
               "range_left_angle_deg must be greater than range_front_angle_deg, and that greater than "
@@ -155,25 +125,16 @@ constexpr Relation relation(ParamFault fault) noexcept {
           "flank_unseen",
           "the cones must see ends of walls before the flank meets them: if range_incidence_deg is below 90, "
           "on either side some cone must cover, at most 0.5 m from its apex and at least the stopping "
-          "distance (wheel_speed_max_mps, at most skirt_probe_m) ahead, the line body_radius_m beside the "
-          "course (range_side_angle_deg, range_cone_deg; range_left_angle_deg, range_right_angle_deg)"};
+          "distance (wheel_speed_max_mps, at most 5/3 body_radius_m) ahead, the line body_radius_m beside "
+          "the course (range_side_angle_deg, range_cone_deg; range_left_angle_deg, range_right_angle_deg)"};
     case F::blind_at_rim:
-      return {
-          "blind_at_rim",
-          "the sensors must measure what stands near the rim: if range_incidence_deg is below 90, "
-          "range_min_m "
-          "(range_left_min_m, range_front_min_m, range_right_min_m) and the distance of the apex along its "
-          "beam (range_offset_m) must not exceed 3/2 body_radius_m + skirt_planning_margin_m"};
+      return {"blind_at_rim",
+              "the sensors must measure what stands near the rim: if range_incidence_deg is below 90, "
+              "range_min_m and the distance of the apex along its beam (range_offset_m) must not exceed 3/2 "
+              "body_radius_m + 0.002 + skirt_shield_margin_m"};
   }
   return {"?", ""};
 }
-
-constexpr int count_param_faults() noexcept {
-  int count = 0;
-  while (relation(static_cast<ParamFault>(count)).name[0] != '?') ++count;
-  return count;
-}
-constexpr int kParamFaults = count_param_faults();
 
 namespace at_run_time {
 bool in_range(const Params& p) noexcept;
@@ -185,7 +146,6 @@ namespace relations {
 // Walls at right angles, one body radius away: 15 degrees beyond the rim of the cone, each is 3.5 %
 // farther.
 constexpr Angle kWidestCone = 60_deg;
-constexpr Speed kWireSpeed = Speed::from_raw(100);  // the smallest speed that hal::WheelSpeeds can represent
 
 struct Ranges {
   bool hold = true;
@@ -203,6 +163,7 @@ struct Ranges {
   constexpr void choice(const char*, const E& x, const char* const*, int names) noexcept {
     hold = hold && 0 <= static_cast<int>(x) && static_cast<int>(x) < names;
   }
+  constexpr void derived(const char*) noexcept {}
 };
 
 [[gnu::always_inline]] constexpr bool in_range(const Params& p) noexcept {
@@ -214,12 +175,9 @@ struct Ranges {
 
 /// What relations need to know of the three beams together.
 struct Beams {
-  bool range = true;                              ///< of each beam: the minimum is below the maximum
-  bool ordered = true;                            ///< the axes point from left to right
-  uint32_t outermost = 0;                         ///< direction of an edge from straight ahead
-  uint32_t widest = 0;                            ///< cone
-  Length shortest = Length::from_raw(INT32_MAX);  ///< maximum range
-  Length proving = shortest;
+  bool ordered = true;     ///< the axes point from left to right
+  uint32_t outermost = 0;  ///< direction of an edge from straight ahead
+  uint32_t widest = 0;     ///< cone
 };
 constexpr Beams beams(const RangefinderParams& r) noexcept {
   Beams all;
@@ -227,12 +185,9 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
   for (int i = 0; i < 3; ++i) {
     const Mount m = mount(r, i);
     const uint32_t edge = magnitude(m.axis) + m.half_cone.raw();
-    all.range = all.range && min_range(r, i) < max_range(r, i);
     all.ordered = all.ordered && m.axis.wrapped() < left_of_it;
     all.outermost = edge > all.outermost ? edge : all.outermost;
     all.widest = beam_cone(r, i).raw() > all.widest ? beam_cone(r, i).raw() : all.widest;
-    all.shortest = (min)(all.shortest, max_range(r, i));
-    all.proving = (min)(all.proving, proving_range(r, i));
     left_of_it = m.axis.wrapped();
   }
   return all;
@@ -245,28 +200,12 @@ constexpr Beams beams(const RangefinderParams& r) noexcept {
   return Length::from_raw(saturate32(braking)) + p.wheels.max_speed * (p.wheels.motor_lag + longest_gap(p));
 }
 
-/// Twice the time from a command to the first count, and from one count to the next, both at the top speed of
-/// a turn and near the end of a manoeuvre at a tolerance (at least one count) per `settle`; plus the time in
-/// which the motor lag brings full speed below one count, with the ticks in which counts must stand still.
-[[gnu::always_inline]] constexpr Duration slowest_count(const Params& p, Length count) noexcept {
-  const int64_t square_ms2 = quotient(int64_t{count.raw()} * 2 * 1000000, p.wheels.max_acceleration.raw());
-  const uint32_t starting_ms = square_root(static_cast<uint64_t>(square_ms2));
-  const Speed turning = min(p.wheels.max_speed, p.wheels.max_turn_rate * (p.body.track / 2));
-  const Duration rolling = milliseconds(multiply_divide(count.raw(), 1000, turning.raw()));
-  return (p.motion.settle + rolling + milliseconds(static_cast<int32_t>(starting_ms))) * 2 +
-         p.wheels.motor_lag * 16 + p.safety.period * 6;
-}
-
-/// A larger cell at the rim would reach behind what the body may touch between two readings.
 [[gnu::always_inline]] constexpr bool beams_clear_the_rim(const Params& p) noexcept {
-  const RimSweep sweep = rim_sweep(p);
-  return sweep.radius <= p.body.radius * 7 / 4 && (!sweep.needed || grid_cell(p) <= sweep.radius * 2 / 5);
+  return rim_sweep(p).radius <= p.body.radius * 7 / 4;
 }
 
-[[gnu::always_inline]] constexpr bool local_grid_holds_ways(const Params& p) noexcept {
-  const Reach ways = reach(p);
-  return grid_cell(p) * kHalfWindow >= ways.planning + cell_cover(p) + ways.probe &&
-         ways.probe >= p.body.radius / 2;
+[[gnu::always_inline]] constexpr bool sees_ways(const Params& p) noexcept {
+  return reach(p).probe >= p.body.radius / 2;
 }
 
 /// A wall gives an echo to a beam in whose cone a ray meets it within the incidence of its normal.
@@ -290,7 +229,7 @@ constexpr bool sees_flank(const Params& p, int beam, bool left) noexcept {
   const Mount m = mount(p.rangefinders, beam);
   const Reach ways = reach(p);
   const Length beside = ways.guard - (left ? m.apex.y : -m.apex.y);
-  const Length range = min(proving_range(p.rangefinders, beam), kScatterRange);
+  const Length range = min(proving_range(p.rangefinders), kScatterRange);
   if (beside <= Length{} || beside > range) return beside <= Length{};
   const int64_t axis = left ? m.axis.wrapped() : -int64_t{m.axis.wrapped()};
   const int64_t inner = axis - m.half_cone.raw(), outer = axis + m.half_cone.raw();
@@ -321,7 +260,7 @@ constexpr bool rim_is_measured(const Params& p) noexcept {
   bool holds = true;
   for (int i = 0; i < 3; ++i) {
     const Mount m = mount(p.rangefinders, i);
-    holds = holds && along(m.apex, m.axis) + min_range(p.rangefinders, i) <= most;
+    holds = holds && along(m.apex, m.axis) + p.rangefinders.min_range <= most;
   }
   return holds;
 }
@@ -338,33 +277,21 @@ template <class Visit>
   if (!visit(F::out_of_range, ranged) || !ranged) return;
 
   const Duration between_readings = milliseconds(1000 / p.rangefinders.rate_hz) + p.rangefinders.latency;
-  const Length count = millimetres(1000) / p.wheels.counts_per_metre;
-  const Length turn_way = arc(p.motion.turn_tolerance, p.body.track / 2);
-  const Length swept = p.thesis.base_step * 2 + p.body.radius + p.body.margin;
   const r::Beams beams = r::beams(p.rangefinders);
   static_cast<void>(
       visit(F::track_wider_than_body, p.body.track <= p.body.radius * 2) &&
-      visit(F::ranges_reversed, beams.range) &&
+      visit(F::ranges_reversed, p.rangefinders.min_range < p.rangefinders.max_range) &&
       visit(F::cones_apart_from_front, beams.outermost <= (90_deg).raw()) &&
-      visit(F::danger_inside_body, p.thesis.danger_range > p.body.radius + p.body.margin) &&
-      visit(F::steps_reversed, p.thesis.small_step <= p.thesis.base_step) &&
-      visit(F::stop_longer_than_range, r::stopping_distance(p) <= beams.shortest / 4) &&
+      visit(F::stop_longer_than_range, r::stopping_distance(p) <= p.rangefinders.max_range / 4) &&
       visit(F::stale_before_next_reading, p.conditioning.stale_after > between_readings) &&
-      visit(F::lost_before_stale, p.safety.lost_after >= p.conditioning.stale_after) &&
-      visit(F::tolerance_below_encoder, p.motion.drive_tolerance >= count && turn_way >= count) &&
       visit(F::gap_below_period, longest_gap(p) >= p.safety.period * 2) &&
-      visit(F::stuck_within_cone, p.conditioning.stuck_turn.raw() > beams.widest) &&
       visit(F::cone_too_wide, beams.widest <= r::kWidestCone.raw()) &&
-      visit(F::tolerance_above_step, p.motion.drive_tolerance < p.thesis.small_step &&
-                                         p.motion.turn_tolerance.raw() < p.thesis.delta.raw()) &&
-      visit(F::tolerance_below_wire, turn_way >= r::kWireSpeed * p.motion.settle) &&
-      visit(F::stalled_before_count, p.safety.stalled_after >= r::slowest_count(p, count)) &&
-      visit(F::settle_below_lag, p.motion.settle >= p.wheels.motor_lag + p.safety.period) &&
-      visit(F::step_beyond_range, beams.proving >= swept) &&
+      visit(F::step_beyond_range, derived::base_step(p) >= derived::kShortestStep) &&
+      visit(F::tolerance_above_step, derived::drive_tolerance(p) < derived::small_step(p) &&
+                                         derived::turn_tolerance(p).raw() < derived::kDelta.raw()) &&
+      visit(F::stalled_before_count, derived::slowest_count(p) <= derived::kMostStalledAfter) &&
       visit(F::cone_too_narrow, r::beams_clear_the_rim(p)) &&
-      visit(F::local_grid_too_small, r::local_grid_holds_ways(p)) &&
-      visit(F::planning_below_guard_margin, p.boundary.planning_margin >= p.boundary.guard_margin) &&
-      visit(F::beams_crossed, beams.ordered) &&
+      visit(F::local_grid_too_small, r::sees_ways(p)) && visit(F::beams_crossed, beams.ordered) &&
       visit(F::creep_without_bumper, p.bumper.fitted == Fitted::yes || p.bumper.creep_speed == Speed{}) &&
       visit(F::gyro_unfit,
             p.gyro.fitted == Fitted::no || (kGyroBuilt && p.gyro.range >= p.wheels.max_turn_rate * 5 / 4)) &&

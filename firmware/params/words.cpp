@@ -7,9 +7,12 @@
 namespace whisker {
 namespace {
 
+constexpr int kWordsOfParams = sizeof(Params) / sizeof(uint32_t);
+constexpr uint8_t kNowhere = 255;
+
 // One table is smaller than a visitor's code for each parameter.
 struct Word {
-  uint8_t at = 0;  // place in Params
+  uint8_t at = kNowhere;  // place in Params
   uint32_t low = 0;
   uint32_t span = 0;  // of the accepted values, signed or not, from the lowest up
 };
@@ -17,14 +20,14 @@ struct Words {
   Word of[kParams];
 };
 struct Raw {
-  uint32_t of[kParams];
+  uint32_t of[kWordsOfParams];
 };
-static_assert(sizeof(Raw) == sizeof(Params), "every word is a parameter");
 
 // Writes each parameter's number into the parameter, and its range into the table.
 struct Numberer {
   Words words{};
   int next = 0;
+  int fields = 0;
 
   template <class T>
   constexpr void number(const char*, T& field, T low, T high) noexcept {
@@ -40,43 +43,50 @@ struct Numberer {
     field = static_cast<E>(next);
     add(0, static_cast<uint32_t>(names - 1));
   }
+  constexpr void derived(const char*) noexcept { ++next; }
   constexpr void add(uint32_t low, uint32_t high) noexcept {
     words.of[next].low = low;
     words.of[next++].span = high - low;
+    ++fields;
   }
 };
 
-constexpr Words make_words() noexcept {
+constexpr Numberer number_params() noexcept {
   Params p{};
   Numberer numberer;
   for_each_param(p, numberer);
   const Raw raw = __builtin_bit_cast(Raw, p);
-  for (int at = 0; at < kParams; ++at) numberer.words.of[raw.of[at]].at = static_cast<uint8_t>(at);
-  return numberer.words;
+  for (int at = 0; at < kWordsOfParams; ++at) numberer.words.of[raw.of[at]].at = static_cast<uint8_t>(at);
+  return numberer;
 }
-constexpr Words kWords = make_words();
+static_assert(number_params().fields == kWordsOfParams, "every word is a parameter");
+constexpr Words kWords = number_params().words;
 
 constexpr ptrdiff_t place_of(int number) noexcept { return ptrdiff_t{4} * kWords.of[number].at; }
 
 }  // namespace
 
+bool is_derived(int number) noexcept { return kWords.of[number].at == kNowhere; }
+
 uint32_t raw_param(const Params& params, int number) noexcept {
+  if (is_derived(number)) return 0;
   uint32_t raw = 0;
   __builtin_memcpy(&raw, reinterpret_cast<const unsigned char*>(&params) + place_of(number), 4);
   return raw;
 }
 
 void set_raw_param(Params& params, int number, uint32_t raw) noexcept {
+  if (is_derived(number)) return;
   __builtin_memcpy(reinterpret_cast<unsigned char*>(&params) + place_of(number), &raw, 4);
 }
 
 bool in_own_range(int number, uint32_t raw) noexcept {
-  return raw - kWords.of[number].low <= kWords.of[number].span;
+  return !is_derived(number) && raw - kWords.of[number].low <= kWords.of[number].span;
 }
 
 bool at_run_time::in_range(const Params& params) noexcept {
   for (int i = 0; i < kParams; ++i) {
-    if (!in_own_range(i, raw_param(params, i))) return false;
+    if (!is_derived(i) && !in_own_range(i, raw_param(params, i))) return false;
   }
   return true;
 }

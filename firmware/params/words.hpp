@@ -1,5 +1,5 @@
 /// The parameters by number, each as a raw 32-bit word. The number is the parameter's place in
-/// for_each_param.
+/// for_each_param. What is derived has a number and no word.
 #pragma once
 
 #include <stdint.h>
@@ -19,6 +19,7 @@ struct ParamCounter {
   constexpr void choice(const char*, const E&, const char* const*, int) noexcept {
     ++counted;
   }
+  constexpr void derived(const char*) noexcept { ++counted; }
 };
 constexpr int count_params() noexcept {
   const Params p{};
@@ -28,10 +29,13 @@ constexpr int count_params() noexcept {
 }
 constexpr int kParams = count_params();
 
-/// 0 <= number < kParams for all three.
+/// 0 <= number < kParams for all four. The robot derives the parameter.
+bool is_derived(int number) noexcept;
+/// Zero if it is derived.
 uint32_t raw_param(const Params& params, int number) noexcept;
-/// Takes every value, also one outside the parameter's range.
+/// Takes every value, also one outside the parameter's range. No effect if it is derived.
 void set_raw_param(Params& params, int number, uint32_t raw) noexcept;
+/// False if it is derived.
 bool in_own_range(int number, uint32_t raw) noexcept;
 
 }  // namespace whisker

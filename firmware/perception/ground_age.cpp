@@ -25,7 +25,7 @@ constexpr int64_t age_until(int64_t part, int64_t error, int64_t least, int64_t 
 }  // namespace
 
 GroundAge ground_age(const Params& params) noexcept {
-  GroundAge age{params.boundary.age_travel, params.boundary.age_turn};
+  GroundAge age{derived::kAgeTravel, derived::kAgeTurn};
   const PoseErrorParams& e = params.pose_error;
   if (!kGyroBuilt || (e.wheel_scale == Ratio{} && e.wheel_scale_common == Ratio{})) return age;
   const Reach reach = whisker::reach(params);

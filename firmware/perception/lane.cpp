@@ -59,7 +59,7 @@ void Lane::take_back(const Beam& beam, Length begins, Length farthest) noexcept 
   if (!nearby(apex)) return;
   const EchoArc arc{Wedge(beam.axis - from_.heading, beam.half_cone), scale_.units(begins),
                     scale_.units(farthest) + kUnitsPerCell};
-  for (Rows rows(apex.y, arc.ends); rows.more() && rows.row() < kRows; rows.next()) {
+  for (Rows rows = arc.rows(apex.y); rows.more() && rows.row() < kRows; rows.next()) {
     clear_[rows.row()] &= ~arc.columns(apex.x, rows.offset(apex.y));
   }
 }

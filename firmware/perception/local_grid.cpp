@@ -63,7 +63,7 @@ void LocalGrid::configure(const Params& params) noexcept {
   const GroundAge age = ground_age(params);
   age_travel_ = age.travel;
   age_turn_ = age.turn.raw();
-  approach_ = params.boundary.mover_speed * time_to_stop(params);
+  approach_ = derived::kMoverSpeed * time_to_stop(params);
 }
 
 LocalGrid::Point LocalGrid::local(Vec at) const noexcept {
@@ -281,19 +281,25 @@ void LocalGrid::doubt(const ConeObservation& observation, Length farthest) noexc
   }
 }
 
+/// What lies outside the window explains an echo.
+bool LocalGrid::leaves_window(const Beam& beam, Length farthest) const noexcept {
+  if (in_window(local(beam.apex), units(farthest) + 2 * kUnitsPerCell)) return false;
+  const Angle sides[] = {-beam.half_cone, Angle{}, beam.half_cone};
+  for (const Angle side : sides) {
+    const Vec end = polar(beam.axis + side, farthest + Length::from_raw(scale_.cell_um));
+    if (!in_window(local(beam.apex + end), 0)) return true;
+  }
+  return false;
+}
+
 bool LocalGrid::echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept {
   const Point apex = local(beam.apex);
   const Point body = local(last_.at);
   const EchoArc arc{Wedge(beam.axis, beam.half_cone), units(nearest - kReadingRounding),
                     units(farthest) + (takes ? kUnitsPerCell : explains_)};
-  // What lies outside the window explains an echo.
-  const Angle sides[] = {-beam.half_cone, Angle{}, beam.half_cone};
-  for (const Angle side : sides) {
-    const Vec end = polar(beam.axis + side, farthest + Length::from_raw(scale_.cell_um));
-    if (!takes && !in_window(local(beam.apex + end), 0)) return false;
-  }
+  if (!takes && leaves_window(beam, farthest)) return false;
   const Row box = to_torus(Span::around(apex.x, arc.ends).columns());
-  for (Rows rows(apex.y, arc.ends); rows.more(); rows.next()) {
+  for (Rows rows = arc.rows(apex.y); rows.more(); rows.next()) {
     const int s = slot(rows.row());
     const Row clear = young_[s] | old_[s];
     if ((box & (takes ? clear : ~clear)) == 0) continue;

@@ -119,6 +119,7 @@ class LocalGrid {
   /// The cells that an echo between these distances may come from: takes them back, or tells whether all are
   /// clear.
   bool echo_arc(const Beam& beam, Length nearest, Length farthest, bool takes) noexcept;
+  bool leaves_window(const Beam& beam, Length farthest) const noexcept;
   static constexpr int32_t kAbeam = 80;  // a body that passes an obstacle may turn a little towards it
   // An obstacle at the guard's margin from the body comes nearer by less than that margin where the body
   // passes it, if it lies at most sqrt(2 radius margin) ahead.
@@ -141,6 +142,15 @@ class LocalGrid {
   Length length_of(int32_t units) const noexcept;
   Point local(Vec at) const noexcept;
   static bool in_window(Point p, int32_t reach) noexcept;
+  /// Of approaches(): a way that touches cells of this row, and of none before, that are not clear.
+  struct Approach {
+    const Vec& from;
+    const Vec& way;
+    int32_t reach;
+    int row;
+    Avoid avoid;
+  };
+  bool nears(const Approach& to) const noexcept;
   bool has_lane() const noexcept { return lane_.is_open(); }
   void close_lane() noexcept { lane_.close(); }
   void drop_rows(int first, int count) noexcept;

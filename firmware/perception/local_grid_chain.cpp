@@ -85,10 +85,8 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
   const Beam& beam = observation.beam;
   const bool both = before != nullptr;
   const Length room = room_for(observation);
-  const int32_t most = units(holds_);
   const auto within = [&](Length free) {
-    const int32_t empty = units(min(free, clears_) - room - kReadingRounding);
-    return empty < most ? empty : most;
+    return units(min(min(free, clears_) - room - kReadingRounding, holds_));
   };
   const auto side = [&](Angle direction, int32_t which) {
     const HalfPlane left = HalfPlane::left_of(direction);
@@ -110,12 +108,16 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
   const HalfPlane trail_before = side(axis_before - half, sign);
   const HalfPlane lead_before = side(axis_before + half, -sign);
   const HalfPlane ahead = HalfPlane::facing(boundary.facing);
+  const int32_t reach = sound ? free : -1;
   for (int row = 0; row < kCells; ++row) {
     const int s = slot(row);
     Row& swept = chain.swept[s];
-    if (!goes_on) swept = 0;
-    if (!sound) continue;
     const int32_t dy = row * kUnitsPerCell + kHalfCell - apex.y;
+    if (static_cast<int32_t>(magnitude(dy)) > reach) {
+      swept = 0;
+      continue;
+    }
+    if (!goes_on) swept = 0;
     const int32_t dy_before = row * kUnitsPerCell + kHalfCell - apex_before.y;
     Span empty = Span::around(apex.x, free);
     empty.inside_disc(apex.x, dy, free);
@@ -129,10 +131,11 @@ bool LocalGrid::sweep(Chain& chain, const ConeObservation& observation, const Ea
     Span entered = empty;
     trail.hold(entered, apex.x, dy);
     if (both) trail_before.hold(entered, apex_before.x, dy_before);
+    swept = (swept & to_torus(kept.columns())) | to_torus(entered.columns());
+    if ((swept & (~young_[s] | suspect_[s] | tested(s))) == 0) continue;
     Span left_behind = empty;
     lead.hold(left_behind, apex.x, dy);
     if (both) lead_before.hold(left_behind, apex_before.x, dy_before);
-    swept = (swept & to_torus(kept.columns())) | to_torus(entered.columns());
     const Row clear = swept & to_torus(left_behind.columns());
     young_[s] |= clear;
     suspect_[s] &= ~clear;

@@ -58,33 +58,53 @@ int32_t LocalGrid::suspects_along(const Vec& from, Angle heading, Length length,
 }
 
 bool LocalGrid::approaches(const Vec& from, const Vec& way, Length radius, Avoid avoid) const noexcept {
-  const Length step = norm(way);
-  if (step < kShortestStep) return false;
-  const Point here = local(from);
+  if (!farther(way, kShortestStep - micrometres(1))) return false;
   const Point there = local(from + way);
   const int32_t reach = units(radius);
-  const int32_t half = units(step / 2);
   // Beyond the window nothing is known.
   if (!in_window(there, reach + kHalfSquare)) return true;
-  const HalfPlane ahead = HalfPlane::facing(way, step);
-  const int32_t strict = half - kCellCover > passes_ ? half - kCellCover : passes_;
-  const int32_t abeam = half > kAbeam ? half : kAbeam;
-  const Row box = Span::around(there.x, reach).columns();
+  const int32_t widest = reach > body_ ? reach : body_;
+  const Row box = Span::around(there.x, widest).columns();
   for (Rows rows(there.y, reach + kHalfSquare); rows.more(); rows.next()) {
     Row unclear = box & to_window(~clear_row(rows.row()));
     if (avoid == Avoid::suspect) unclear &= solid_row(rows.row());
     if (unclear == 0) continue;
+    Span any;
+    any.touched_by_disc(there.x, rows.offset(there.y), widest);
+    if ((any.columns() & unclear) != 0) {
+      return nears({from, way, reach, rows.row(), avoid}) && !(has_lane() && lane_.holds(from, way, radius));
+    }
+  }
+  return false;
+}
+
+/// From this row on. Only now is it worth to know which cells lie ahead.
+bool LocalGrid::nears(const Approach& to) const noexcept {
+  const Length step = norm(to.way);
+  const Point here = local(to.from);
+  const Point there = local(to.from + to.way);
+  const int32_t half = units(step / 2);
+  const HalfPlane ahead = HalfPlane::facing(to.way, step);
+  const int32_t strict = half - kCellCover > passes_ ? half - kCellCover : passes_;
+  const int32_t abeam = half > kAbeam ? half : kAbeam;
+  const Row box = Span::around(there.x, to.reach).columns();
+  for (Rows rows(there.y, to.reach + kHalfSquare); rows.more(); rows.next()) {
+    if (rows.row() < to.row) continue;
+    Row unclear = box & to_window(~clear_row(rows.row()));
+    if (to.avoid == Avoid::suspect) unclear &= solid_row(rows.row());
+    if (unclear == 0) continue;
     Span span;
-    span.touched_by_disc(there.x, rows.offset(there.y), reach);
+    span.touched_by_disc(there.x, rows.offset(there.y), to.reach);
     ahead.clip(span, here.x, rows.offset(here.y), abeam < strict ? abeam : strict);
+    if ((span.columns() & unclear) != 0) return true;
+    const Row solid = unclear & solid_row(rows.row());
+    if (solid == 0) continue;
     // The point of an unclear cell that the body would reach first may lie half a diagonal ahead of its
     // centre.
     Span rim;
     rim.touched_by_disc(there.x, rows.offset(there.y), body_);
     ahead.clip(rim, here.x, rows.offset(here.y), half - kCellCover);
-    if ((span.columns() & unclear) != 0 || (rim.columns() & unclear & solid_row(rows.row())) != 0) {
-      return !(has_lane() && lane_.holds(from, way, radius));
-    }
+    if ((rim.columns() & solid) != 0) return true;
   }
   return false;
 }

@@ -14,7 +14,7 @@ constexpr Length kNoise = 30_mm;
 constexpr Length kStep = 60_mm;
 constexpr Angle kTurn = Angle::turns(75, 3600);
 constexpr Duration kWhile = 250_ms;
-// Closer than this to a sector's rim, direction cosines in 2^-14 are too coarse to decide.
+// Closer than this to a sector's rim, MotionDetector::Near is too coarse to decide.
 constexpr Length kHair = micrometres(500);
 // Displacement of a moving object over the kept scans. A shorter one has no certain direction.
 constexpr Length kDisplaced = 40_mm;
@@ -26,8 +26,8 @@ void MotionDetector::configure(const Mount (&mounts)[kBeams]) noexcept {
   mounts_ = mounts;
   outermost_ = Length{};
   for (int i = 0; i < kBeams; ++i) {
-    beam_[i] = facing(mounts[i].axis);
-    edge_[i] = facing(mounts[i].half_cone);
+    left_[i] = facing(mounts[i].axis + mounts[i].half_cone);
+    right_[i] = facing(mounts[i].axis - mounts[i].half_cone);
     outermost_ = max(outermost_, norm(mounts[i].apex));
   }
 }
@@ -57,14 +57,23 @@ MotionDetector::Facing MotionDetector::facing(Angle direction) noexcept {
   return {q14(cos(direction)), q14(sin(direction))};
 }
 
-Vec MotionDetector::seen(Vec v, Facing facing) noexcept {
-  const auto sum = [](int64_t a, int64_t b) {
-    return Length::from_raw(narrow<int32_t>((a + b) / (1 << 14)));
-  };
-  const int64_t x = v.x.raw();
-  const int64_t y = v.y.raw();
-  return {sum(x * facing.cos, y * facing.sin), sum(y * facing.cos, -x * facing.sin)};
-}
+/// A vector of at most 4 m in 32 um, so that its products with a direction fit into 32 bits. The error of
+/// what follows is at most 0.3 mm at 2 m.
+struct MotionDetector::Near {
+  int32_t x;
+  int32_t y;
+
+  static constexpr int32_t units(Length l) noexcept { return l.raw() / 32; }
+  static constexpr Near of(const Vec& v) noexcept { return {units(v.x), units(v.y)}; }
+  constexpr int32_t along(Facing d) const noexcept { return (x * d.cos + y * d.sin) / (1 << 14); }
+  /// To the left of a line in this direction.
+  constexpr int32_t aside(Facing d) const noexcept { return (y * d.cos - x * d.sin) / (1 << 14); }
+  /// norm() > distance >= 0.
+  constexpr bool farther(int32_t distance) const noexcept {
+    const auto squared = [](int32_t a) { return static_cast<uint32_t>(a / 2 * (a / 2)); };
+    return squared(x) + squared(y) > squared(distance);
+  }
+};
 
 bool MotionDetector::holds(const Scan& scan, int beam, Vec way) const noexcept {
   const Mount& mount = mounts_[beam];
@@ -80,23 +89,30 @@ bool MotionDetector::holds(const Scan& scan, int beam, Vec way) const noexcept {
 }
 
 MotionDetector::Mask MotionDetector::holding(Vec point, Mask among) const noexcept {
+  constexpr Mask kOfScan = (Mask{1} << kBeams) - 1;
   Mask holding = 0;
   for (int n = 0; n < count_ && among >> (n * kBeams) != 0; ++n) {
+    if ((among >> (n * kBeams) & kOfScan) == 0) continue;
     const Scan& scan = scan_[n];
     const Vec way = point - scan.at;
     uint16_t free = 0;
     for (const uint16_t f : scan.free) free = f > free ? f : free;
     if (farther(way, min(kFarthest, outermost_ + Length::from_raw(free * kUm)))) continue;
-    const Vec ahead = seen(way, scan.facing);
+    const Near off = Near::of(way);
+    const Near seen{off.along(scan.facing), off.aside(scan.facing)};
     for (int i = 0; i < kBeams; ++i) {
       const Mask bit = Mask{1} << (n * kBeams + i);
       if ((among & bit) == 0) continue;
-      const Vec at = seen(ahead - mounts_[i].apex, beam_[i]);
-      const Vec from_apex{at.x, abs(at.y)};
-      const Length inwards = -seen(from_apex, edge_[i]).y;
+      const Near apex = Near::of(mounts_[i].apex);
+      const Near from_apex{seen.x - apex.x, seen.y - apex.y};
+      const int32_t right_of_left = -from_apex.aside(left_[i]);
+      const int32_t left_of_right = from_apex.aside(right_[i]);
+      const int32_t inwards = right_of_left < left_of_right ? right_of_left : left_of_right;
+      if (inwards < Near::units(kSlack - kHair)) continue;
       const Length rim = Length::from_raw(scan.free[i] * kUm) - kSlack;
-      if (inwards < kSlack - kHair || farther(from_apex, rim + kHair)) continue;
-      const bool well_inside = inwards >= kSlack + kHair && !farther(from_apex, rim - kHair);
+      if (rim < -kHair || from_apex.farther(Near::units(rim + kHair))) continue;
+      const bool well_inside = inwards >= Near::units(kSlack + kHair) && rim > kHair &&
+                               !from_apex.farther(Near::units(rim - kHair));
       if (well_inside || holds(scan, i, way)) holding |= bit;
     }
   }
@@ -113,21 +129,28 @@ bool MotionDetector::contradicts(const Beam& beam, Length nearest, Length farthe
   const Length beyond = farthest + kNoise / 3;
   const Length middle = (nearest + beyond) / 2;
   const Length radius = (beyond - nearest) / 2 + arc(step, far) / 2 + kSlack;
-  // The sectors in `among` that contain the ray from `nearest` to `far`.
-  const auto across = [&](Angle direction, Mask among) {
+  const auto ray = [&](int k) { return beam.axis - half + step * k; };
+  // The sectors in `among` that contain the ray k from `nearest` to `far`.
+  const auto across = [&](int k, Mask among) {
     if (among == 0) return Mask{0};
-    const Q30 x = cos(direction);
-    const Q30 y = sin(direction);
+    const Q30 x = cos(ray(k));
+    const Q30 y = sin(ray(k));
     const Mask behind = holding(beam.apex + Vec{far * x, far * y}, among);
     return behind == 0 ? Mask{0} : holding(beam.apex + Vec{nearest * x, nearest * y}, behind);
   };
+  // Sectors that contain the ray examined last: only some, until others are asked for.
+  int examined = -1;
+  Mask some = 0;
   for (int n = 0; n < kSectors; ++n) {
     // Middle sectors first: an obstacle is most likely in the middle of the cone.
     const int k = (n + kSectors / 2) % kSectors;
-    const Angle right = beam.axis - half + step * k;
-    const Angle centre = right + step - Angle::from_raw(step.raw() / 2);
+    const Angle centre = ray(k + 1) - Angle::from_raw(step.raw() / 2);
     if (local_grid.all_clear(beam.apex + polar(centre, middle), radius)) continue;
-    if (across(right + step, across(right, ~Mask{0})) == 0) return false;
+    const Mask known = examined == k ? some : 0;
+    some = across(k + 1, known);
+    if (some == 0) some = across(k + 1, across(k, ~known));
+    if (some == 0) return false;
+    examined = k + 1;
   }
   return true;
 }

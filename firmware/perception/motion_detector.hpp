@@ -54,8 +54,6 @@ class MotionDetector {
     int16_t sin = 0;
   };
   static Facing facing(Angle direction) noexcept;
-  /// The vector v in the frame of this direction; error up to 90 um at 2 m.
-  [[gnu::noinline]] static Vec seen(Vec v, Facing facing) noexcept;
   struct Scan {
     Vec at;
     Angle heading;
@@ -63,6 +61,7 @@ class MotionDetector {
     uint16_t free[kBeams] = {};  // 1/8 mm
     uint8_t hits = 0;            // as in add()
   };
+  struct Near;
   /// The kept sectors that contain this point.
   Mask holding(Vec point, Mask among) const noexcept;
   /// The same for one sector, given the vector from its scan to the point; exact to the micrometre.
@@ -72,9 +71,9 @@ class MotionDetector {
   int8_t newest_ = kKept - 1;
   uint8_t count_ = 0;
   const Mount* mounts_ = nullptr;
-  Facing beam_[kBeams];
-  Facing edge_[kBeams];  // of the half cone
-  Length outermost_;     // distance of an apex from the centre
+  Facing left_[kBeams];   // edge of the cone, on a body that faces 0
+  Facing right_[kBeams];  // the other one
+  Length outermost_;      // distance of an apex from the centre
   Scan scan_[kKept];
 };
 

@@ -137,7 +137,7 @@ void Perception::measure(int i, const RecentReadings& sight, Intake& in) noexcep
   const RangefinderParams& sensors = in.params.rangefinders;
   ConeObservation& observation = in.out.observations[i];
   Shown& shown = in.shown[i];
-  const Length proving = proving_range(sensors, i);
+  const Length proving = proving_range(sensors);
   const Length scatter = scatter_[i].allowance();
   observation.number = static_cast<int8_t>(i);
   observation.beam = beam_of(mounts_[i], in.from);
@@ -157,7 +157,7 @@ void Perception::measure(int i, const RecentReadings& sight, Intake& in) noexcep
   }
   // It may be anywhere up to the minimum range.
   shown.too_near = sight.newest.validity == Validity::too_near;
-  if (shown.too_near) shown.echo_ends = max(shown.echo_ends, min_range(sensors, i));
+  if (shown.too_near) shown.echo_ends = max(shown.echo_ends, sensors.min_range);
   if (sight.newest.validity == Validity::ok) {
     shown.range = {narrow<uint16_t>(sight.newest.distance.raw() / 1000), scatter};
   }

@@ -36,9 +36,8 @@ void BeamConditioner::reset(Time now) noexcept {
 bool BeamConditioner::is_stuck(const hal::RangeReading& reading, const Pose& body,
                                const Params& params) noexcept {
   // A constant distance beyond the range may be how a sensor says that nothing is there.
-  if (reading.status == hal::RangeStatus::ok &&
-      millimetres(reading.mm) < max_range(params.rangefinders, beam_)) {
-    return repetition_.stuck(reading.mm, body, params.conditioning.stuck_turn);
+  if (reading.status == hal::RangeStatus::ok && millimetres(reading.mm) < params.rangefinders.max_range) {
+    return repetition_.stuck(reading.mm, body, derived::kStuckTurn);
   }
   repetition_.end();
   return false;
@@ -53,14 +52,14 @@ Validity BeamConditioner::classify(const hal::RangeReading& reading, const Pose&
   switch (reading.status) {
     case hal::RangeStatus::ok:
       if (reading.mm > hal::kMostMm) break;
-      if (millimetres(reading.mm) >= max_range(params.rangefinders, beam_)) {
+      if (millimetres(reading.mm) >= params.rangefinders.max_range) {
         // An echo at the maximum range may be rounded up to a whole millimetre.
-        if (millimetres(reading.mm) - 1_mm >= max_range(params.rangefinders, beam_)) {
+        if (millimetres(reading.mm) - 1_mm >= params.rangefinders.max_range) {
           count(health.range_out_of_range);
         }
         return Validity::clear;
       }
-      if (millimetres(reading.mm) < min_range(params.rangefinders, beam_)) {
+      if (millimetres(reading.mm) < params.rangefinders.min_range) {
         count(health.range_out_of_range);
         return Validity::too_near;
       }
@@ -99,7 +98,7 @@ void BeamConditioner::update(const hal::RangeReading& reading, Time now, const P
   sequence_ = reading.sequence;
   last_new_ = now;
   const Validity validity = classify(reading, body, params, health);
-  latest_ = {distance_of(validity, reading.mm, max_range(params.rangefinders, beam_)), validity};
+  latest_ = {distance_of(validity, reading.mm, params.rangefinders.max_range), validity};
   if (!usable(validity)) return;
 
   fresh_ = true;
@@ -122,7 +121,7 @@ void BeamConditioner::judge(Angle turned, const Params& params) noexcept {
   steady_ = !slow ? int8_t{0} : steady_ < kHistory ? static_cast<int8_t>(steady_ + 1) : steady_;
   if (count_ < kHistory || steady_ < kHistory) return;
   const Length middle = recent(kHistory / 2).distance;
-  const Length most = max_range(params.rangefinders, beam_);
+  const Length most = params.rangefinders.max_range;
   Length nearest = most;
   Length farthest;
   for (int i = 0; i < kHistory; ++i) {
@@ -178,7 +177,7 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
   for (int i = 0; i < kNear; ++i) last[i] = recent(i).distance;
   const Length low = min(last[0], last[1]);
   const Length high = max(last[0], last[1]);
-  const Length far = max_range(params.rangefinders, beam_);
+  const Length far = params.rangefinders.max_range;
   bool agreed = true;
   Length median = max(low, min(high, last[kTypical - 1]));
   Length nearest = min(min(low, last[2]), last[3]);
@@ -208,25 +207,25 @@ RecentReadings BeamConditioner::sight(const Params& params) const noexcept {
 }
 
 Echo BeamConditioner::look(Time since, const Params& params) const noexcept {
-  const int wanted = static_cast<int>(params.conditioning.reads);
-  if (count_ < wanted) return {};
-  Length sorted[kHistory];
-  for (int i = 0; i < wanted; ++i) {
+  constexpr int kWanted = derived::kConsensusReads;
+  if (count_ < kWanted) return {};
+  Length sorted[kWanted];
+  for (int i = 0; i < kWanted; ++i) {
     const Measurement& m = recent(i);
     if (m.taken - since < Duration{}) return {};
     int slot = i;
     for (; slot > 0 && sorted[slot - 1] > m.distance; --slot) sorted[slot] = sorted[slot - 1];
     sorted[slot] = m.distance;
   }
-  Length agreed = sorted[(wanted - 1) / 2];
+  Length agreed = sorted[(kWanted - 1) / 2];
   switch (params.conditioning.consensus) {
     case Consensus::agreeing:
-      if (sorted[wanted - 1] - sorted[0] > params.conditioning.tolerance) return {};
+      if (sorted[kWanted - 1] - sorted[0] > derived::kConsensusTolerance) return {};
       agreed = sorted[0];
       break;
     case Consensus::median: break;
   }
-  return {agreed, validity_of(agreed, max_range(params.rangefinders, beam_))};
+  return {agreed, validity_of(agreed, params.rangefinders.max_range)};
 }
 
 void RangeConditioner::reset(Time now) noexcept {

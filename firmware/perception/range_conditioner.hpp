@@ -35,7 +35,7 @@ struct RecentReadings {
 /// means "far" nor takes part in the consensus.
 class BeamConditioner {
  public:
-  static constexpr int kHistory = 5;  ///< the largest ConditioningParams::reads
+  static constexpr int kHistory = 5;  ///< readings that are judged together
 
   /// The beam, a hal::Beam, chooses its own parameters.
   explicit BeamConditioner(int beam = 0) noexcept : beam_(static_cast<int8_t>(beam)) {}

@@ -106,6 +106,14 @@ Wedge::Extent Wedge::extent(int32_t radius) const noexcept {
   return {down ? -radius : lower < 0 ? lower : 0, up ? radius : higher > 0 ? higher : 0};
 }
 
+int32_t Wedge::outside(int32_t margin) const noexcept {
+  // The sum of both normals is twice the sine of half the cone long.
+  const int32_t x = absolute(left_.nx + right_.nx);
+  const int32_t y = absolute(left_.ny + right_.ny);
+  const int32_t longer = x > y ? x : y;
+  return longer == 0 ? kLongest : kRim + margin * (1 << 15) / longer;
+}
+
 Rows Wedge::rows(int32_t y, int32_t radius) const noexcept {
   const Extent e = extent(radius);
   return Rows(y + e.low, y + e.high, kRim);
@@ -119,6 +127,12 @@ void Wedge::hold(Span& span, int32_t x, int32_t dy) const noexcept {
 void Wedge::clip(Span& span, int32_t x, int32_t dy, int32_t margin) const noexcept {
   left_.clip(span, x, dy, margin);
   right_.clip(span, x, dy, margin);
+}
+
+Rows EchoArc::rows(int32_t y) const noexcept {
+  const Wedge::Extent e = cone.extent(ends);
+  const int32_t off = cone.outside(kCellCover);
+  return Rows(y + e.low, y + e.high, off < ends ? off : ends);
 }
 
 Row EchoArc::columns(int32_t x, int32_t dy) const noexcept {
@@ -144,6 +158,8 @@ Stadium::Stadium(const Sweep& sweep) noexcept
   skew_ = scale_down<14>(skew * kHalfCell);
   end_x_ = scale_down<14>(ux_ * length_);
   end_y_ = scale_down<14>(uy_ * length_);
+  aside_x_ = -scale_down<14>(uy_ * beside_);
+  aside_y_ = scale_down<14>(ux_ * beside_);
 }
 
 Rows Stadium::rows() const noexcept {
@@ -157,26 +173,36 @@ Row Stadium::box() const noexcept {
                     : Span{x_ - reach, x_ + end_x_ + reach}.columns();
 }
 
+/// Adds what the discs at both ends touch.
+void Stadium::ends(Span& span, int32_t dy) const noexcept {
+  const int32_t reach = radius_ + kHalfSquare;
+  span = {INT16_MAX, -INT16_MAX};
+  if (absolute(dy) <= reach) span = touch(x_, dy, radius_);
+  if (absolute(dy - end_y_) > reach) return;
+  const Span end = touch(x_ + end_x_, dy - end_y_, radius_);
+  if (end.low < span.low) span.low = end.low;
+  if (end.high > span.high) span.high = end.high;
+}
+
+/// Adds where the row crosses this long edge, if at all.
 void Stadium::side(Span& span, int32_t dy, int32_t sign) const noexcept {
-  // Where the row crosses this long edge, if at all.
-  const int32_t from_y = dy - sign * scale_down<14>(ux_ * beside_);
-  if (uy_ == 0) return;
+  const int32_t from_y = dy - sign * aside_y_;
   const int32_t half = uy_ / 2;
   const int32_t t = (from_y * (1 << 14) + ((from_y < 0) == (uy_ < 0) ? half : -half)) / uy_;
   if (t < sign * skew_ || t > length_ + sign * skew_) return;
-  const int32_t x = x_ - sign * scale_down<14>(uy_ * beside_) + scale_down<14>(ux_ * t);
+  const int32_t x = x_ + sign * aside_x_ + scale_down<14>(ux_ * t);
   if (x < span.low) span.low = x;
   if (x > span.high) span.high = x;
 }
 
 Row Stadium::columns(int row) const noexcept {
   const int32_t dy = row * kUnitsPerCell + kHalfCell - y_;
-  Span span = touch(x_, dy, radius_);
-  const Span end = touch(x_ + end_x_, dy - end_y_, radius_);
-  if (end.low < span.low) span.low = end.low;
-  if (end.high > span.high) span.high = end.high;
-  side(span, dy, 1);
-  side(span, dy, -1);
+  Span span;
+  ends(span, dy);
+  if (uy_ != 0) {
+    side(span, dy, 1);
+    side(span, dy, -1);
+  }
   if (span.empty()) return 0;
   HalfPlane{ux_, uy_}.clip(span, x_, dy, abeam_);
   return span.empty() ? 0 : span.columns();

@@ -35,7 +35,7 @@ constexpr int64_t floor_div(int64_t n, int32_t d) noexcept {
   WHISKER_ASSERT(d > 0);
   return n >= 0 ? quotient(n, d) : -quotient(-n + d - 1, d);
 }
-constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept {
+[[gnu::always_inline]] constexpr int32_t ceil_div(int32_t n, int32_t d) noexcept {
   WHISKER_ASSERT(d > 0);
   return n > 0 ? (n + d - 1) / d : n / d;
 }
@@ -115,6 +115,8 @@ class Wedge {
     int32_t high;
   };
   Extent extent(int32_t radius) const noexcept;
+  /// No point that is at most this margin outside both edges is farther than this from the wedge.
+  int32_t outside(int32_t margin) const noexcept;
   /// Keeps the cells of the row that lie completely inside.
   void hold(Span& span, int32_t x, int32_t dy) const noexcept;
   /// Keeps the part of the row that is at least `margin` inside both edges.
@@ -132,6 +134,8 @@ struct EchoArc {
   Wedge cone;
   int32_t begins;
   int32_t ends;
+  /// The rows with cells of the arc, for an apex at y.
+  Rows rows(int32_t y) const noexcept;
   /// The apex is at x, and dy from the row.
   Row columns(int32_t x, int32_t dy) const noexcept;
 };
@@ -156,6 +160,7 @@ class Stadium {
   Row box() const noexcept;
 
  private:
+  void ends(Span& span, int32_t dy) const noexcept;
   void side(Span& span, int32_t dy, int32_t sign) const noexcept;
   int32_t x_, y_;
   int32_t end_x_, end_y_;  // from the start
@@ -163,7 +168,8 @@ class Stadium {
   int32_t beside_;  // distance from the path to its edge: centres of cells that just touch it
   int32_t
       skew_;  // offset along the path at which that edge begins on the left; the negative offset on the right
-  int32_t ux_, uy_;  // direction, 2^-14
+  int32_t ux_, uy_;            // direction, 2^-14
+  int32_t aside_x_, aside_y_;  // from the path to its left edge
 };
 
 }  // namespace whisker::perception

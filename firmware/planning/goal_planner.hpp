@@ -14,9 +14,7 @@ constexpr Length reserve(Length tolerance) noexcept { return tolerance / 8; }
 /// drive_tolerance ends inside the reserve, and the reserve holds the rounding of an encoder count. A long
 /// way needs more: see Robot::set_goal(). For parameters that check() accepts.
 constexpr Length smallest_tolerance(const Params& params) noexcept {
-  const Length count =
-      micrometres((1000000 + params.wheels.counts_per_metre - 1) / params.wheels.counts_per_metre);
-  return max(count * 8, (params.motion.drive_tolerance * 8 + micrometres(3)) / 7);
+  return max(derived::encoder_count(params) * 8, (derived::drive_tolerance(params) * 8 + micrometres(3)) / 7);
 }
 
 /// Processes a command at the next step(), and calls advance() at every other one while the outcome is open.

@@ -67,7 +67,7 @@ VelocityRequest MotionController::request(const Pose& pose, Duration elapsed, Du
     case ManoeuvreKind::stop: break;
     case ManoeuvreKind::turn: return turn(error, elapsed, params);
     case ManoeuvreKind::drive:
-      if (held_for <= longest_hold(params) && waiting_for_ <= params.safety.stalled_after) {
+      if (held_for <= longest_hold(params) && !derived::outlasts_a_stall(waiting_for_, params)) {
         return drive(pose, error, elapsed, params);
       }
       finished_ = cut_ = true;
@@ -88,7 +88,7 @@ VelocityRequest MotionController::cruise() const noexcept {
 }
 
 VelocityRequest MotionController::turn(Angle error, Duration elapsed, const Params& params) noexcept {
-  if (magnitude(error) <= params.motion.turn_tolerance.raw()) {
+  if (magnitude(error) <= derived::turn_tolerance(params).raw()) {
     finished_ = true;
     return {};
   }
@@ -100,7 +100,7 @@ VelocityRequest MotionController::turn(Angle error, Duration elapsed, const Para
 VelocityRequest MotionController::drive(const Pose& pose, Angle error, Duration elapsed,
                                         const Params& params) noexcept {
   const Length rest = current_.length - along(pose.at - origin_, current_.heading);
-  if (rest <= params.motion.drive_tolerance) {
+  if (rest <= derived::drive_tolerance(params)) {
     finished_ = true;
     return {};
   }

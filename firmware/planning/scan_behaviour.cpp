@@ -13,9 +13,10 @@ constexpr Angle kPast = 2_deg;
 constexpr Angle kUnbraked = 10_deg;
 constexpr int8_t kSweeps = 4;
 
-/// Shorter than the supervisor lets a body stand for a look.
-Duration longest_wait(const Params& params) noexcept {
-  return min(params.safety.stalled_after, params.safety.lost_after * params.conditioning.reads);
+/// Less than the supervisor lets a body stand for a look.
+bool waited_too_long(Duration waited, const Params& params) noexcept {
+  return derived::outlasts_a_stall(waited, params) ||
+         waited > derived::lost_after(params) * derived::kConsensusReads;
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ bool ScanBehaviour::step(const View& view, const Params& params, Manoeuvre& mano
   const Angle turn = rest.turn;
   const bool aimed = magnitude(turn) <= nearest_facing(kAimed, params).raw();
   if (aimed || (!halting_ && view.granted == Q14{})) waited_for_ += view.elapsed;
-  in_vain_ = waited_for_ > longest_wait(params);
+  in_vain_ = waited_too_long(waited_for_, params);
   if (in_vain_) return true;
   if (magnitude(turn) > nearest_facing(kHeld, params).raw()) {
     halting_ = false;
@@ -68,7 +69,7 @@ bool ScanBehaviour::sweep(const View& view, const Unseen& rest, const Params& pa
     left_ = !left_;
     ++sweeps_;
   }
-  in_vain_ = sweeps_ >= kSweeps || waited_for_ > params.safety.stalled_after;
+  in_vain_ = sweeps_ >= kSweeps || derived::outlasts_a_stall(waited_for_, params);
   manoeuvre = face(beyond, params);
   return in_vain_;
 }

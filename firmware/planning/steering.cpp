@@ -35,7 +35,7 @@ Speed stopping_speed(Length rest, Duration delay, const Params& params) noexcept
 }
 
 Speed approach_speed(Length rest, const Params& params) noexcept {
-  return stopping_speed(rest, params.motion.settle, params);
+  return stopping_speed(rest, derived::settle_time(params), params);
 }
 
 Manoeuvre cruise(Twist twist, const Params& params) noexcept {

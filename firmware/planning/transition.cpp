@@ -1,5 +1,7 @@
 #include "firmware/planning/transition.hpp"
 
+#include "firmware/math/assert.hpp"
+
 namespace whisker::planning {
 
 uint8_t next_phase(const uint8_t* rows, size_t count, uint8_t phase, uint8_t event,
@@ -11,6 +13,7 @@ uint8_t next_phase(const uint8_t* rows, size_t count, uint8_t phase, uint8_t eve
     if (row[why] != static_cast<uint8_t>(Why::none)) decision.why = static_cast<Why>(row[why]);
     return row[to];
   }
+  WHISKER_ASSERT(!"an event that the table does not know in this phase");
   return phase;
 }
 

@@ -23,7 +23,8 @@ struct Transition {
 uint8_t next_phase(const uint8_t* rows, size_t count, uint8_t phase, uint8_t event,
                    Decision& decision) noexcept;
 
-/// Follows the arrow of `event` from `phase`. Where the table has none, the phase stays.
+/// Follows the arrow of `event` from `phase`. Where the table has none, tests stop and on a chip the phase
+/// stays.
 template <class Phase, class Event, size_t kRows>
 void change(const Transition<Phase, Event> (&table)[kRows], Event event, Phase& phase,
             Decision& decision) noexcept {

@@ -42,8 +42,7 @@ planning::VelocityRequest Assist::step(const planning::VelocityRequest& asked, S
     left = max(left, room(grid, pose, pose.heading + aside, length, wide));
     right = max(right, room(grid, pose, pose.heading - aside, length, wide));
   }
-  const fuzzy::Response response =
-      fuzzy::Bilinear(*table_)(fuzzy::scale(left, ahead, right, length, DistanceSource::front));
+  const fuzzy::Response response = fuzzy::Bilinear(*table_)(fuzzy::scale(left, ahead, right, length));
 
   planning::VelocityRequest bent = asked;
   constexpr Q14 kAll = Q14::ratio(1, 1);

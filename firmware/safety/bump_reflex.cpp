@@ -18,7 +18,7 @@ Speed backwards(const Params& params) noexcept { return params.wheels.max_speed 
 }  // namespace
 
 void BumpReflex::enter(Phase phase) noexcept {
-  phase_ = phase;
+  planning::follow(kArrows, phase_, phase);
   phase_for_ = Duration{};
   still_ticks_ = 0;
 }
@@ -65,7 +65,7 @@ uint8_t BumpReflex::step(const Pose& pose, const Senses& senses, const Params& p
                                                                   : kStillTicks);
   const Duration driving =
       milliseconds(multiply_divide(way_back(params).raw(), 1000, backwards(params).raw()));
-  const Duration longest = params.safety.stalled_after + (phase_ == Phase::back ? driving : Duration{});
+  const Duration longest = derived::stalled_after(params) + (phase_ == Phase::back ? driving : Duration{});
   const bool late = phase_for_ > longest;
   switch (phase_) {
     case Phase::watch: break;

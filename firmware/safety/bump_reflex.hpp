@@ -6,6 +6,7 @@
 #include "firmware/math/trig.hpp"
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
+#include "firmware/planning/arrows.hpp"
 #include "firmware/planning/manoeuvre.hpp"
 
 namespace whisker::safety {
@@ -16,7 +17,7 @@ namespace whisker::safety {
 /// 2. back: along the places that the body has just passed, half its radius far. That ground is free,
 ///    whatever the beams say of it. If they end earlier and the switch is still pressed, straight back as the
 ///    guard grants;
-/// 3. wait: until no switch is pressed. A switch that stays pressed for SafetyParams::stalled_after is stuck.
+/// 3. wait: until no switch is pressed. A switch that stays pressed for derived::stalled_after() is stuck.
 ///
 /// Without a mission, the wheels stand while a switch is pressed, and nothing else happens.
 class BumpReflex {
@@ -43,11 +44,17 @@ class BumpReflex {
   /// Only if backs().
   planning::VelocityRequest request(const Pose& pose, const Params& params) const noexcept;
   bool stuck(const Params& params) const noexcept {
-    return phase_ == Phase::wait && pressed_ && phase_for_ > params.safety.stalled_after;
+    return phase_ == Phase::wait && pressed_ && derived::outlasts_a_stall(phase_for_, params);
   }
 
  private:
   enum class Phase : uint8_t { watch, stop, back, wait };
+  static constexpr planning::Arrow<Phase> kArrows[] = {
+      {Phase::watch, Phase::stop},
+      {Phase::stop, Phase::back},
+      {Phase::back, Phase::wait},
+      {Phase::wait, Phase::watch},
+  };
   static constexpr int8_t kPlaces = 9;
 
   void enter(Phase phase) noexcept;

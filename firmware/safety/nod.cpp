@@ -35,7 +35,7 @@ Angle chord(const planning::VelocityRequest& asked, Length length, const Params&
 }  // namespace
 
 void Nod::enter(Phase phase) noexcept {
-  phase_ = phase;
+  planning::follow(kArrows, phase_, phase);
   for_ = covered_for_ = Duration{};
 }
 

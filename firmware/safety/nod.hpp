@@ -7,6 +7,7 @@
 #include "firmware/math/units.hpp"
 #include "firmware/params.hpp"
 #include "firmware/perception/local_grid.hpp"
+#include "firmware/planning/arrows.hpp"
 #include "firmware/planning/manoeuvre.hpp"
 
 namespace whisker::safety {
@@ -34,6 +35,10 @@ class Nod {
 
  private:
   enum class Phase : uint8_t { off, look, back };
+  static constexpr planning::Arrow<Phase> kArrows[] = {
+      {Phase::off, Phase::off},  {Phase::off, Phase::look}, {Phase::look, Phase::back},
+      {Phase::look, Phase::off}, {Phase::back, Phase::off},
+  };
   /// Unseen cells in the way.
   struct Unseen {
     bool any = false;

@@ -13,11 +13,11 @@ bool StallWatch::stalled(const localization::CountStep& counts, bool commanded, 
     reset();
     return false;
   }
-  for_ = min(for_ + elapsed, params.safety.stalled_after * 2);
+  for_ = min(for_ + elapsed, derived::kMostStalledAfter * 2);
   missing_[0] += rolling.left * elapsed;
   missing_[1] += rolling.right * elapsed;
   const Length most = millimetres(1000 * kCounts) / params.wheels.counts_per_metre;
-  return for_ > params.safety.stalled_after && max(abs(missing_[0]), abs(missing_[1])) > most;
+  return derived::outlasts_a_stall(for_, params) && max(abs(missing_[0]), abs(missing_[1])) > most;
 }
 
 }  // namespace whisker::safety

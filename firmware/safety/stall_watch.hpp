@@ -9,7 +9,7 @@
 namespace whisker::safety {
 
 /// Finds both wheels held, which WheelWatch cannot judge: commanded to turn, but no wheel counts for
-/// SafetyParams::stalled_after, and a wheel has missed ten counts. A command to turn by less than a count, or
+/// derived::stalled_after(), and a wheel has missed ten counts. A command to turn by less than a count, or
 /// to and fro, moves the body without a count, so that the time alone says nothing.
 class StallWatch {
  public:

@@ -8,8 +8,7 @@ namespace {
 // Motion that remains from before a reset matches no command.
 constexpr Duration kUnwatched = 500_ms;
 constexpr Length kPlace = 30_mm;  // for the reference body
-// Limits within one place: kWaits times stalled_after or longer, kTurns full turns, kSteps crossings.
-constexpr Duration kUsualWait = 2000_ms;
+// Limits within one place: kWaits times stalled_after(), kTurns full turns, kSteps crossings.
 constexpr int32_t kWaits = 60;
 constexpr int32_t kTurns = 30;
 constexpr int32_t kSteps = 30;
@@ -26,7 +25,7 @@ Duration longest_stay(const Params& p) noexcept {
   const AngularRate rate = min(turn_rate(p), planning::kFastestTurn);
   const Duration turn = max(milliseconds(multiply_divide(kMicroradians, 1000, rate.raw())),
                             ms_at(p.body.track * 22 / 7, 1, p.wheels.max_speed));
-  return max(p.safety.stalled_after, kUsualWait) * kWaits + turn * kTurns +
+  return derived::stalled_after(p) * kWaits + turn * kTurns +
          ms_at(for_body(p, kPlace), kSteps, p.wheels.max_speed);
 }
 
@@ -41,7 +40,7 @@ void Supervisor::configure() noexcept {
   wheel_watch_.configure(params_);
   longest_stay_ = longest_stay(params_);
   // A manoeuvre may begin in full motion the other way.
-  longest_wait_ = params_.safety.stalled_after + braking_time(params_) * 2;
+  longest_wait_ = derived::stalled_after(params_) + braking_time(params_) * 2;
 }
 
 void Supervisor::reset() noexcept {
@@ -78,7 +77,7 @@ void Supervisor::check_counts(bool read) noexcept {
     return;
   }
   count(health_.encoder_refused);
-  if (encoder_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::drive_refused);
+  if (encoder_refusals_.refuse(derived::kMostRefusals)) fail(Fault::drive_refused);
 }
 
 void Supervisor::expect_wheels(WheelPair speeds, Duration elapsed, Duration gap) noexcept {
@@ -99,7 +98,7 @@ void Supervisor::check_wheels(const localization::CountStep& step) noexcept {
 }
 
 void Supervisor::check_ranges(Duration lost) noexcept {
-  if (lost > params_.safety.lost_after) fail(Fault::range_lost);
+  if (lost > derived::lost_after(params_)) fail(Fault::range_lost);
 }
 
 void Supervisor::check_trust(RangeLevel level) noexcept {
@@ -108,7 +107,7 @@ void Supervisor::check_trust(RangeLevel level) noexcept {
 
 void Supervisor::check_look(bool waits, Duration stood) noexcept {
   // Each reading of a static scan may take `lost_after` before the beam is lost; one more is under way.
-  const Duration longest = params_.safety.lost_after * (params_.conditioning.reads + 1);
+  const Duration longest = derived::lost_after(params_) * (derived::kConsensusReads + 1);
   if (waits && stood > longest) fail(Fault::range_unsteady, health_.unsteady_looks);
 }
 
@@ -129,7 +128,7 @@ void Supervisor::check_bumper(bool read) noexcept {
     return;
   }
   count(health_.bumper_refused);
-  if (bumper_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::bumper_lost);
+  if (bumper_refusals_.refuse(derived::kMostRefusals)) fail(Fault::bumper_lost);
 }
 
 void Supervisor::check_bump(Vec at) noexcept {
@@ -159,7 +158,7 @@ void Supervisor::check_command(bool taken) noexcept {
     return;
   }
   count(health_.drive_refused);
-  if (drive_refusals_.refuse(params_.safety.max_refusals)) fail(Fault::drive_refused);
+  if (drive_refusals_.refuse(derived::kMostRefusals)) fail(Fault::drive_refused);
 }
 
 }  // namespace whisker::safety

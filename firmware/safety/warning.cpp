@@ -23,7 +23,7 @@ Length shortest_warning(const Params& params) noexcept {
 Speed warned_speed(const Params& params, bool readings_err) noexcept {
   const RangefinderParams& r = params.rangefinders;
   const int32_t readings = readings_err ? kAgreeing : kReadings;
-  const Duration delay = r.latency + milliseconds(readings * 1000 / r.rate_hz) + params.motion.settle;
+  const Duration delay = r.latency + milliseconds(readings * 1000 / r.rate_hz) + derived::settle_time(params);
   return planning::stopping_speed(shortest_warning(params), delay, params);
 }
 

@@ -50,13 +50,18 @@ std::string version_text(std::uint32_t v) {
 std::string BenchChoice::bus_name() const {
   const int given = (can.empty() ? 0 : 1) + (tty.empty() ? 0 : 1) + (socket.empty() ? 0 : 1);
   if (given != 1) throw UsageError("bench: choose one of --can, --tty and --socket");
-  return !can.empty() ? can : "slcan:" + (tty.empty() ? socket : tty);
+  if (!can.empty()) return can;
+  return "slcan:" + (tty.empty() ? socket : baud ? fmt::format("{}@{}", tty, *baud) : tty);
 }
 
 void add_bench_line(CLI::App& app, BenchChoice& choice) {
   add_name(app, "--can", choice.can, "CAN interface, such as can0 or vcan0")->type_name("IFACE");
   add_name(app, "--tty", choice.tty, "Serial CAN adapter or board (SLCAN), such as /dev/ttyACM0")
       ->type_name("DEV");
+  app.add_option("--baud", choice.baud, "Speed of the line of --tty; 115200 by default")
+      ->type_name("N")
+      ->check(CLI::Range(9600, 4000000))
+      ->needs("--tty");
   add_name(app, "--socket", choice.socket, "The same behind a Unix socket, such as that of an emulator")
       ->type_name("PATH");
   amount(app.add_option("--timeout", choice.timeout_s, "Wait so long for each answer, s; 3 by default"), "S",

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "firmware/can/bus_guard.hpp"
@@ -24,6 +25,7 @@ std::string version_text(std::uint32_t v);
 
 struct BenchChoice {
   std::string can, tty, socket;
+  std::optional<int> baud;
   BusChoice bus;  ///< without a name; see bus_name
   double timeout_s = 3;
 
@@ -38,6 +40,9 @@ void add_bench_bus(CLI::App& app, BenchChoice& choice);
 
 /// The status of `run`. Throws Interrupted for bench::Interrupted.
 int bench_status(const std::function<int()>& run);
+
+/// Prints the nodes that are heard in this time, s. Returns the exit status: 1 if there is none.
+int list_nodes(const BenchChoice& choice, double for_s, bool json);
 
 /// Opened by the constructor. Waits throw bench::NoAnswer and bench::Interrupted.
 class BenchBus {

@@ -23,12 +23,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct NodesOptions {
-  BenchChoice bus;
-  double for_s = 1;
-  bool json = false;
-};
-
 const char* role(const bench::SeenNode& n) {
   return n.party == can::Party::base ? "base" : n.guards ? "guard" : "controller";
 }
@@ -100,30 +94,9 @@ std::string line_of(const bench::SeenNode& n, std::uint64_t now_us) {
       errors.empty() ? "" : ": " + errors);
 }
 
-int execute(const NodesOptions& o) {
-  BenchBus bus(o.bus);
-  bus.listen(o.for_s, nullptr);
-  const std::uint64_t end_us = bus.clock().now_us() + static_cast<std::uint64_t>(o.bus.timeout_s * 1e6);
-  while (any_unasked(bus) && bus.clock().now_us() < end_us) {
-    ask_lone_nodes(bus);
-    bus.listen(kAskAgain_s, [&] { return !any_unasked(bus); });
-  }
-  const std::uint64_t now_us = bus.clock().now_us();
-  const auto& nodes = bus.survey().nodes();
-  if (o.json) {
-    Json json = {{"bus", bus.name()}, {"nodes", Json::array()}};
-    for (const auto& [number, n] : nodes) json["nodes"].push_back(json_of(n, now_us));
-    print_object(json.dump());
-  } else {
-    for (const auto& [number, n] : nodes) fmt::print("{}\n", line_of(n, now_us));
-  }
-  if (nodes.empty())
-    fmt::print(stderr, "whisker: {}: no node sent a heartbeat in {} s\n", bus.name(), o.for_s);
-  return nodes.empty() ? kFailure : 0;
-}
-
 struct OrderOptions {
   BenchChoice bus;
+  bool clear = false, cancel = false;
 };
 
 constexpr double kAgain_s = 0.1;  // period of heartbeats
@@ -171,9 +144,6 @@ int press(const OrderOptions& o, std::uint8_t command) {
                                     stop ? "" : ": the wheels must stand"));
 }
 
-int stop(const OrderOptions& o) { return press(o, can::kStopCommand); }
-int reset(const OrderOptions& o) { return press(o, can::kClearCommand); }
-
 int cancel(const OrderOptions& o) {
   BenchBus bus(o.bus);
   bus.client()->cancel();
@@ -181,7 +151,32 @@ int cancel(const OrderOptions& o) {
   return 0;
 }
 
+int execute(const OrderOptions& o) {
+  return o.cancel ? cancel(o) : press(o, o.clear ? can::kClearCommand : can::kStopCommand);
+}
+
 }  // namespace
+
+int list_nodes(const BenchChoice& choice, double for_s, bool json_wanted) {
+  BenchBus bus(choice);
+  bus.listen(for_s, nullptr);
+  const std::uint64_t end_us = bus.clock().now_us() + static_cast<std::uint64_t>(choice.timeout_s * 1e6);
+  while (any_unasked(bus) && bus.clock().now_us() < end_us) {
+    ask_lone_nodes(bus);
+    bus.listen(kAskAgain_s, [&] { return !any_unasked(bus); });
+  }
+  const std::uint64_t now_us = bus.clock().now_us();
+  const auto& nodes = bus.survey().nodes();
+  if (json_wanted) {
+    Json json = {{"bus", bus.name()}, {"nodes", Json::array()}};
+    for (const auto& [number, n] : nodes) json["nodes"].push_back(json_of(n, now_us));
+    print_object(json.dump());
+  } else {
+    for (const auto& [number, n] : nodes) fmt::print("{}\n", line_of(n, now_us));
+  }
+  if (nodes.empty()) fmt::print(stderr, "whisker: {}: no node sent a heartbeat in {} s\n", bus.name(), for_s);
+  return nodes.empty() ? kFailure : 0;
+}
 
 int bench_status(const std::function<int()>& run) {
   try {
@@ -194,7 +189,6 @@ int bench_status(const std::function<int()>& run) {
 void add_bench(CLI::App& app, int& status) {
   CLI::App* bench = app.add_subcommand("bench", "Look at a real robot on its bus, and set its parameters");
   bench->require_subcommand(1);
-  add_bench_nodes(*bench, status);
   add_bench_watch(*bench, status);
   add_bench_params(*bench, status);
   add_bench_rules(*bench, status);
@@ -208,25 +202,17 @@ void add_bench(CLI::App& app, int& status) {
   }
 }
 
-void add_bench_nodes(CLI::App& bench, int& status) {
-  CLI::App* cmd = bench.add_subcommand("nodes", "List the nodes on the bus");
-  const auto o = std::make_shared<NodesOptions>();
-  add_bench_line(*cmd, o->bus);
-  amount(cmd->add_option("--for", o->for_s, "Listen so long, s; 1 by default"), "S", 3600);
-  add_switch(*cmd, "--json", o->json, "Print the result as one JSON object and nothing else");
-  cmd->callback([o, &status] { status = bench_status([&] { return execute(*o); }); });
-}
-
 void add_bench_orders(CLI::App& bench, int& status) {
-  const auto add = [&](const char* name, const char* about, int (*execute)(const OrderOptions&)) {
-    const auto o = std::make_shared<OrderOptions>();
-    CLI::App* cmd = bench.add_subcommand(name, about);
-    add_bench_bus(*cmd, o->bus);
-    cmd->callback([o, execute, &status] { status = bench_status([&] { return execute(*o); }); });
-  };
-  add("stop", "E-stop of the robot: the wheels brake and stand until reset", stop);
-  add("reset", "Clear the E-stop, once the wheels stand; starts nothing", reset);
-  add("cancel", "Stop the robot and clear its goal; its base may be on the bus", cancel);
+  CLI::App* cmd =
+      bench.add_subcommand("stop", "E-stop of the robot: the wheels brake and stand until it is cleared");
+  const auto o = std::make_shared<OrderOptions>();
+  add_bench_bus(*cmd, o->bus);
+  CLI::Option* const clear =
+      cmd->add_flag("--clear", o->clear, "Clear the E-stop instead, once the wheels stand; starts nothing");
+  cmd->add_flag("--cancel", o->cancel,
+                "Only stop the mission and clear its goal; the robot's base may be on the bus")
+      ->excludes(clear);
+  cmd->callback([o, &status] { status = bench_status([&] { return execute(*o); }); });
 }
 
 }  // namespace whisker::cli

@@ -45,10 +45,16 @@ auto as_usage(const F& parse) {
   }
 }
 
+/// Its index on the bus, and its key.
+std::pair<int, const char*> name_of(std::size_t place) {
+  static const std::vector<ParamEntry> list = param_list(Params{});
+  return {list[place].number, list[place].key};
+}
+
 void take(Params& params, std::size_t place, bench::ParamClient& client) {
-  const auto index = static_cast<std::uint8_t>(place);
+  const auto& [number, key] = name_of(place);
+  const auto index = static_cast<std::uint8_t>(number);
   const auto raw = client.read(index);
-  const char* const key = param_list(params)[place].key;
   if (!raw) throw bench::NoAnswer(fmt::format("the controller has no parameter {}", key));
   if (!in_own_range(index, *raw)) throw bench::NoAnswer(fmt::format("{} has no valid value", key));
   set_raw_param(params, index, *raw);
@@ -56,7 +62,7 @@ void take(Params& params, std::size_t place, bench::ParamClient& client) {
 
 Params read_all(bench::ParamClient& client) {
   Params params;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kParams); ++i) take(params, i, client);
+  for (std::size_t i = 0; i < robot_keys().size(); ++i) take(params, i, client);
   return params;
 }
 
@@ -75,16 +81,32 @@ Json entry_json(const ParamEntry& e, std::size_t place) {
     json["words"] = bench::words_of(place);
   }
   json["default"] = value_json(e, param_list(Params{})[place].raw);
-  json["index"] = place;
+  json["index"] = e.number;
   json["raw"] = e.raw;
   return json;
 }
 
+int save(const ParamOptions& o) {
+  check_outputs({o.file});
+  BenchBus bus(o.bus);
+  const auto client = bus.client();
+  const Params params = read_all(*client);
+  const bench::SeenNode* const node = bus.survey().find(bus.robot(), can::Party::controller);
+  const std::uint32_t v = node != nullptr ? node->version.value_or(0) : 0;
+  const std::string origin =
+      fmt::format("Parameters of robot {} on {}, firmware {}; unit and range behind each", bus.robot(),
+                  bus.name(), version_text(v));
+  files::write(o.file, bench::saved_toml(params, origin));
+  fmt::print(words_beside({o.file}), "{} parameters: {}\n", robot_keys().size(), o.file);
+  return 0;
+}
+
 int get(const ParamOptions& o) {
+  if (!o.file.empty()) return save(o);
   if (o.all != o.names.empty()) throw UsageError("bench get: name parameters, or --all");
   std::vector<std::size_t> places;
   for (const std::string& name : o.names) places.push_back(as_usage([&] { return bench::place_of(name); }));
-  for (std::size_t i = 0; o.all && i < static_cast<std::size_t>(kParams); ++i) places.push_back(i);
+  for (std::size_t i = 0; o.all && i < robot_keys().size(); ++i) places.push_back(i);
   BenchBus bus(o.bus);
   const auto client = bus.client();
   Params params;
@@ -166,7 +188,30 @@ void write(bench::ParamClient& client, const Params& from, const Params& to,
       fmt::format("the controller says {}: {}; nothing was written", word, relation(fault).words));
 }
 
+/// From a robot file.
+int restore(const ParamOptions& o, const std::string& file) {
+  Params alone;
+  apply_robot_file(alone, file);
+  BenchBus bus(o.bus);
+  const auto client = bus.client();
+  const Params from = read_all(*client);
+  Params to = from;
+  apply_robot_file(to, file);
+  write(*client, from, to, [&](std::size_t place, const std::string& words) {
+    const toml::table root = parse_toml(read_file(file), file);
+    const toml::table* const own = root["robot"].as_table();
+    const char* const key = param_list(to)[place].key;
+    const toml::node* const at = own != nullptr && own->contains(key) ? own->get(key) : root.get(key);
+    const auto where = at != nullptr ? at->source().begin : toml::source_position{1, 1};
+    throw InputError(file, where.line, where.column, words);
+  });
+  print_written(o, bus, from, to);
+  return 0;
+}
+
 int set(const ParamOptions& o) {
+  if (o.names.size() == 1 && o.names.front().find('=') == std::string::npos)
+    return restore(o, o.names.front());
   std::vector<bench::Assignment> wanted;
   for (const std::string& text : o.names) {
     wanted.push_back(as_usage([&] { return bench::parse_assignment(text); }));
@@ -178,41 +223,6 @@ int set(const ParamOptions& o) {
   for (const bench::Assignment& a : wanted) set_param(to, a.place, a.raw);
   check_relations(to);
   write(*client, from, to, [](std::size_t, const std::string& words) { throw UsageError(words); });
-  print_written(o, bus, from, to);
-  return 0;
-}
-
-int save(const ParamOptions& o) {
-  check_outputs({o.file});
-  BenchBus bus(o.bus);
-  const auto client = bus.client();
-  const Params params = read_all(*client);
-  const bench::SeenNode* const node = bus.survey().find(bus.robot(), can::Party::controller);
-  const std::uint32_t v = node != nullptr ? node->version.value_or(0) : 0;
-  const std::string origin =
-      fmt::format("Parameters of robot {} on {}, firmware {}; unit and range behind each", bus.robot(),
-                  bus.name(), version_text(v));
-  files::write(o.file, bench::saved_toml(params, origin));
-  fmt::print(words_beside({o.file}), "{} parameters: {}\n", kParams, o.file);
-  return 0;
-}
-
-int restore(const ParamOptions& o) {
-  Params alone;
-  apply_robot_file(alone, o.file);
-  BenchBus bus(o.bus);
-  const auto client = bus.client();
-  const Params from = read_all(*client);
-  Params to = from;
-  apply_robot_file(to, o.file);
-  write(*client, from, to, [&](std::size_t place, const std::string& words) {
-    const toml::table file = parse_toml(read_file(o.file), o.file);
-    const toml::table* const own = file["robot"].as_table();
-    const char* const key = param_list(to)[place].key;
-    const toml::node* const at = own != nullptr && own->contains(key) ? own->get(key) : file.get(key);
-    const auto where = at != nullptr ? at->source().begin : toml::source_position{1, 1};
-    throw InputError(o.file, where.line, where.column, words);
-  });
   print_written(o, bus, from, to);
   return 0;
 }
@@ -294,22 +304,17 @@ void add_bench_params(CLI::App& bench, int& status) {
   CLI::App* cmd = add(bench, status, "get", "Read parameters of the controller", reads, get);
   cmd->add_option("NAME", reads->names, "Names as in a robot file")->type_name("NAME");
   add_switch(*cmd, "--all", reads->all, "All of them");
+  add_file(*cmd, "--out", reads->file, "Write all of them to a robot file (TOML) instead")
+      ->excludes("NAME")
+      ->excludes("--all");
   add_json(*cmd, *reads);
 
   const auto sets = std::make_shared<ParamOptions>();
-  cmd = add(bench, status, "set", "Write parameters: all of them, or none", sets, set);
-  cmd->add_option("NAME=VALUE", sets->names, "Values in the units of a robot file")->required();
+  cmd = add(bench, status, "set",
+            "Write parameters, or what differs from a robot file: all of it, or nothing", sets, set);
+  cmd->add_option("NAME=VALUE|FILE", sets->names, "Values in the units of a robot file, or such a file")
+      ->required();
   add_json(*cmd, *sets);
-
-  const auto saves = std::make_shared<ParamOptions>();
-  cmd = add(bench, status, "save", "Write all parameters of the controller to a robot file", saves, save);
-  add_file(*cmd, "FILE", saves->file, "Robot file (TOML)")->required();
-
-  const auto restores = std::make_shared<ParamOptions>();
-  cmd = add(bench, status, "restore", "Write what differs from a robot file: all of it, or nothing", restores,
-            restore);
-  add_file(*cmd, "FILE", restores->file, "Robot file (TOML)")->required();
-  add_json(*cmd, *restores);
 }
 
 void add_bench_rules(CLI::App& bench, int& status) {

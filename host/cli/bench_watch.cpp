@@ -24,12 +24,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kUsual_s = 60;
+
 struct WatchOptions {
   BenchChoice bus;
   std::string file, robot;
   ViewChoice view;
-  double for_s = 60, every_s = 1;
-  bool json = false;
+  std::optional<double> for_s;
+  double every_s = 1;
+  bool json = false, nodes = false;
 };
 
 Json node_json(const BenchBus& bus, can::Party party) {
@@ -180,63 +183,65 @@ int watch(const WatchOptions& o) {
   };
   std::optional<BusView> page;
   if (view) page.emplace(*view, bus, params);
-  bus.listen(o.for_s, tell, [&](const hal::CanFrame& frame) {
+  bus.listen(o.for_s.value_or(kUsual_s), tell, [&](const hal::CanFrame& frame) {
     state.on_frame(frame, bus.robot());
     if (page) page->on_frame(frame);
   });
   if (page) page->end();
   if (view) view->stay(bus.interrupt());
   if (!last.empty()) return 0;
-  throw bench::NoAnswer(fmt::format("{}: robot {} was silent for {} s", bus.name(), bus.robot(), o.for_s));
+  throw bench::NoAnswer(
+      fmt::format("{}: robot {} was silent for {} s", bus.name(), bus.robot(), o.for_s.value_or(kUsual_s)));
 }
 
 int record(const WatchOptions& o) {
   check_outputs({o.file});
   BenchBus bus(o.bus);
   hil::Recorder recorder(o.file, o.bus.can.empty() ? "slcan" : bus.name());
+  const double for_s = o.for_s.value_or(kUsual_s);
   std::uint64_t frames = 0;
   const auto note = [&](const hal::CanFrame& frame) {
     recorder.write(frame);
     ++frames;
   };
   try {
-    bus.listen(o.for_s, nullptr, note);
+    bus.listen(for_s, nullptr, note);
   } catch (const bench::Interrupted&) {
     // Ctrl-C is the usual end of a record without --for.
   }
   recorder.close();
-  if (frames == 0) throw bench::NoAnswer(fmt::format("{}: no frame in {} s", bus.name(), o.for_s));
+  if (frames == 0) throw bench::NoAnswer(fmt::format("{}: no frame in {} s", bus.name(), for_s));
   fmt::print(words_beside({o.file}), "{} frames: {}\n", frames, o.file);
   const std::uint32_t overrun = bus.port().counts().overrun;
   if (overrun > 0) fmt::print(stderr, "whisker: {}: frames were lost {} times\n", bus.name(), overrun);
   return overrun > 0 ? kFailure : 0;
 }
 
-CLI::App* add(CLI::App& bench, int& status, const char* name, const char* about,
-              const std::shared_ptr<WatchOptions>& o, int (*execute)(const WatchOptions&)) {
-  CLI::App* cmd = bench.add_subcommand(name, about);
-  add_bench_bus(*cmd, o->bus);
-  amount(cmd->add_option("--for", o->for_s, "End after this time, s; 60 by default"), "S", BenchBus::kMost_s);
-  cmd->callback([o, execute, &status] { status = bench_status([&] { return execute(*o); }); });
-  return cmd;
+int execute(const WatchOptions& o) {
+  if (o.nodes) return list_nodes(o.bus, o.for_s.value_or(1), o.json);
+  return o.file.empty() ? watch(o) : record(o);
 }
 
 }  // namespace
 
 void add_bench_watch(CLI::App& bench, int& status) {
-  const auto watches = std::make_shared<WatchOptions>();
-  CLI::App* cmd =
-      add(bench, status, "watch", "Print what the robot does: a line at each change", watches, watch);
-  amount(cmd->add_option("--every", watches->every_s, "And a line after this time, s; 1 by default"), "S",
+  CLI::App* cmd = bench.add_subcommand("watch", "Print what the robot does: a line at each change");
+  const auto o = std::make_shared<WatchOptions>();
+  add_bench_bus(*cmd, o->bus);
+  amount(cmd->add_option("--for", o->for_s, "End after this time, s; 60 by default"), "S", BenchBus::kMost_s);
+  amount(cmd->add_option("--every", o->every_s, "And a line after this time, s; 1 by default"), "S",
          BenchBus::kMost_s);
-  add_file(*cmd, "--robot", watches->robot, "Parameters of the robot (TOML), for the page");
-  add_view(*cmd, watches->view);
-  add_switch(*cmd, "--json", watches->json, "Print one JSON object a line");
-
-  const auto records = std::make_shared<WatchOptions>();
-  cmd = add(bench, status, "record", "Write all frames as a log for whisker replay, until Ctrl-C", records,
-            record);
-  add_file(*cmd, "FILE", records->file, "Log as of candump -L, or - for standard output")->required();
+  add_file(*cmd, "--robot", o->robot, "Parameters of the robot (TOML), for the page");
+  add_view(*cmd, o->view);
+  add_switch(*cmd, "--json", o->json, "Print one JSON object a line");
+  CLI::Option* const nodes =
+      cmd->add_flag("--nodes", o->nodes, "List the nodes on the bus instead, after 1 s");
+  add_file(
+      *cmd, "--log", o->file,
+      "Write all frames instead, as of candump -L, for whisker replay, until Ctrl-C; - for standard output")
+      ->excludes(nodes)
+      ->excludes("--json");
+  cmd->callback([o, &status] { status = bench_status([&] { return execute(*o); }); });
 }
 
 }  // namespace whisker::cli

@@ -200,6 +200,7 @@ void refuse_others(const CLI::App& command, std::initializer_list<std::string> a
 }
 
 int scan(const CampaignOptions& o) {
+  if (o.worlds.empty()) throw UsageError("KIND|DIR is required");
   const Missions chosen = missions(o);
   std::vector<campaign::Row> rows;
   const bool whole = drive_many(
@@ -234,6 +235,8 @@ void add_campaign(CLI::App& app, int& status) {
   add_file(*cmd, "--csv", o->csv, "Write one row per mission");
   add_name(*cmd, "--save-failures", o->save_failures, "Write the scenario of each failed mission there")
       ->type_name("FOLDER");
+  add_switch(*cmd, "--scanner", o->scanner,
+             "A yardstick, no planner: how far a robot drives that sees all round");
   add_switch(*cmd, "--json", o->json, "Print the summary as one JSON object and nothing else");
   add_switch(*cmd, "--overwrite", o->overwrite, "Replace the file of --csv, which is complete");
   cmd->add_option("--merge", o->merge, "Sum up the rows of these files instead of driving")
@@ -252,18 +255,12 @@ void add_campaign(CLI::App& app, int& status) {
                            "--wheel-scale-sigma", "--planner", "--map-bytes", "--rules", "--map", "--robot",
                            "--robots", "--svg", "--trace", "--html", "--json"});
     }
-    status = run_campaign(*o);
+    if (o->scanner) {
+      refuse_others(*cmd, {"--scanner", "KIND|DIR", "--discs", "--width", "--box", "--count", "--seed",
+                           "--jobs", "--json"});
+    }
+    status = o->scanner ? scan(*o) : run_campaign(*o);
   });
-}
-
-void add_scanner(CLI::App& app, int& status) {
-  CLI::App* cmd =
-      app.add_subcommand("scanner", "A yardstick, no planner: how far a robot drives that sees all round");
-  const auto o = std::make_shared<CampaignOptions>();
-  add_worlds(*cmd, *o, "worlds")->required();
-  add_jobs(*cmd, *o);
-  add_switch(*cmd, "--json", o->json, "Print the figures as one JSON object and nothing else");
-  cmd->callback([o, &status] { status = scan(*o); });
 }
 
 }  // namespace whisker::cli

@@ -16,6 +16,7 @@
 namespace whisker::cli {
 
 struct CampaignOptions {
+  bool scanner = false;
   std::string worlds;  ///< KIND or DIR
   std::optional<std::uint64_t> count;
   std::optional<std::uint64_t> seed;

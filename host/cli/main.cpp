@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include "host/cli/aliases.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
 #include "host/cli/options.hpp"
@@ -18,23 +19,25 @@
 
 namespace {
 
+using Words = std::vector<std::string>;
+
 /// The command that the line names, with its own commands: "whisker robot check".
-std::string named(const CLI::App& app, int argc, char** argv, int at = 1) {
+std::string named(const CLI::App& app, const Words& words, std::size_t at = 0) {
   std::string name = app.get_name();
   for (const CLI::App* command : app.get_subcommands({}))
-    if (at < argc && command->get_name() == argv[at]) name += " " + named(*command, argc, argv, at + 1);
+    if (at < words.size() && command->get_name() == words[at]) name += " " + named(*command, words, at + 1);
   return name;
 }
 
 /// CLI11 would only report that a subcommand is missing.
-void check_command(const CLI::App& app, int argc, char** argv, int at = 1) {
-  if (argc <= at && at > 1) {
+void check_command(const CLI::App& app, const Words& words, std::size_t at = 0) {
+  if (words.size() <= at && at > 0) {
     const std::string first = app.get_subcommands({}).front()->get_name();
     throw whisker::cli::UsageError(
         fmt::format("{0} needs a command: whisker {0} {1}", app.get_name(), first));
   }
-  if (argc <= at) return;
-  const std::string word = argv[at];
+  if (words.size() <= at) return;
+  const std::string& word = words[at];
   if (word[0] == '-') {
     if (app.get_option_no_throw(word) != nullptr) return;
     throw CLI::ParseError(fmt::format("no option '{}'", word), CLI::ExitCodes::ExtrasError);
@@ -44,17 +47,17 @@ void check_command(const CLI::App& app, int argc, char** argv, int at = 1) {
     known.emplace_back(command->get_name());
     if (command->get_name() != word) continue;
     const bool has_commands = !command->get_subcommands({}).empty();
-    return has_commands ? check_command(*command, argc, argv, at + 1) : void();
+    return has_commands ? check_command(*command, words, at + 1) : void();
   }
   throw CLI::ParseError(fmt::format("no command '{}'{}", word, whisker::cli::did_you_mean(word, known)),
                         CLI::ExitCodes::ExtrasError);
 }
 
 /// Parses and runs; help and version count as success. The command that runs sets `status`.
-int parse(CLI::App& app, int argc, char** argv, const int& status) {
+int parse(CLI::App& app, const Words& words, const int& status) {
   try {
-    check_command(app, argc, argv);
-    app.parse(argc, argv);
+    check_command(app, words);
+    app.parse(Words{words.rbegin(), words.rend()});
     return status;
   } catch (const CLI::Success& e) {
     return app.exit(e);
@@ -74,7 +77,7 @@ the goal, 3 unreachable, 4 time limit or gave up, 5 contact, 6 fault (safe stop)
 2 bad input or usage, 1 anything else.)";
 
 constexpr const char* kCampaignExitStatus = R"(
-Exit status of campaign and scanner: 0 whatever the missions came to, 130 interrupted,
+Exit status of campaign: 0 whatever the missions came to, 130 interrupted,
 2 bad input or usage, 1 anything else.)";
 
 constexpr const char* kFirstSteps = R"(
@@ -93,32 +96,30 @@ int main(int argc, char** argv) {
   app.name("whisker");
   app.require_subcommand(1);
   app.set_version_flag("--version", "whisker " + version());
+  const Words words = with_present_names({argv + 1, argv + argc});
   int status = kFailure;
   add_run(app, status);
   add_world(app, status);
   add_robot(app, status);
   add_campaign(app, status);
-  add_scanner(app, status);
   add_movers(app, status);
   add_guard(app, status);
   add_hunt(app, status);
   add_operators(app, status);
   add_table(app, status);
   add_rules(app, status);
-  add_figures(app, status);
   add_plant(app, status);
   add_controller(app, status);
   add_hil(app, status);
   add_bench(app, status);
   add_replay(app, status);
   add_socket(app, status);
-  add_dbc(app, status);
   add_protocol(app, status);
   app.footer(std::string(kExitStatus) + kCampaignExitStatus + kFirstSteps);
   for (const char* name : {"run", "hil", "plant"}) app.get_subcommand(name)->footer(kExitStatus);
-  for (const char* name : {"campaign", "scanner"}) app.get_subcommand(name)->footer(kCampaignExitStatus);
+  app.get_subcommand("campaign")->footer(kCampaignExitStatus);
   try {
-    status = parse(app, argc, argv, status);
+    status = parse(app, words, status);
     finish_standard_output();
     return status;
   } catch (const Interrupted& e) {
@@ -126,7 +127,7 @@ int main(int argc, char** argv) {
     complain(fmt::format("whisker: interrupted{}", e.what()));
     return kInterrupted;
   } catch (const CLI::ParseError& e) {
-    complain(fmt::format("whisker: {} (see {} --help)", e.what(), named(app, argc, argv)));
+    complain(fmt::format("whisker: {} (see {} --help)", e.what(), named(app, words)));
     return kBadInput;
   } catch (const UsageError& e) {
     complain(fmt::format("whisker: {}", e.what()));

@@ -23,6 +23,7 @@
 #include "host/harness/run/runner.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/scenario/mounting.hpp"
+#include "host/harness/scenario/param_list.hpp"
 #include "host/harness/scenario/params_text.hpp"
 #include "host/harness/scenario/robot_header.hpp"
 #include "host/harness/scenario/sensor.hpp"
@@ -83,7 +84,7 @@ Scenario fitted(Scenario s, const Params& params, const Sensor& sensor) {
   }
   s.goal.tolerance_m = std::max(
       s.goal.tolerance_m * by,
-      std::max(2 * metres(params.motion.drive_tolerance), metres(planning::smallest_tolerance(params))));
+      std::max(2 * metres(derived::drive_tolerance(params)), metres(planning::smallest_tolerance(params))));
   const sim::Vec2 way = s.goal.at - s.start.at;
   s.time_limit_s = 600 + 40 * std::sqrt(sim::dot(way, way)) / (params.wheels.max_speed.raw() * 1e-6);
   s.noise = {};
@@ -96,7 +97,7 @@ Scenario fitted(Scenario s, const Params& params, const Sensor& sensor) {
 /// check().
 std::vector<TestDrive> test_drives(Params params, const Sensor& sensor, PlannerKind planner) {
   bend_if_chosen(params, planner);
-  const double wide = 2.8 * (1 + metres(params.boundary.planning_margin) / metres(params.body.radius));
+  const double wide = 2.8 * (1 + metres(derived::planning_margin(params)) / metres(params.body.radius));
   const std::pair<const char*, Scenario> worlds[] = {
       {"the empty world", empty_world()},
       {"the corridor", corridor(wide * kReferenceRadius)},
@@ -172,6 +173,7 @@ void print_json(const RobotOptions& o, const Params* params, const Json& violati
                {"warnings", warnings_json(warnings)},
                {"drives", drives_json(drives)}};
   if (!suggestion.is_null()) json["suggestion"] = suggestion;
+  if (params != nullptr) json["unset"] = unset_keys(o.file);
   Provenance provenance{{}, name(o.planner), o.file, {}, rules_name(o.planner)};
   if (params != nullptr) provenance.robot_digest = robot_digest(*params);
   print_object(json.dump(-1, ' ', false, Json::error_handler_t::replace), provenance);
@@ -192,6 +194,17 @@ std::string with_lines(const std::string& text,
     }
   }
   return added + changed;
+}
+
+/// "body_radius_m = 0.09": what the robot takes from the reference robot although no other has the same.
+std::string unset_words(const std::string& file, const Params& params) {
+  const std::vector<std::string_view> unset = unset_keys(file);
+  std::string words;
+  for (const ParamEntry& e : param_list(params)) {
+    if (std::find(unset.begin(), unset.end(), std::string_view(e.key)) == unset.end()) continue;
+    words += fmt::format("{}{} = {}", words.empty() ? "" : ", ", e.key, e.text());
+  }
+  return words;
 }
 
 /// Writes the file that fits, if there is one.
@@ -256,6 +269,8 @@ int execute(const RobotOptions& o) {
   if (!fit) return kFault;
   if (!o.header.empty()) files::write(o.header, robot_header(params, o.file));
   if (!o.json) {
+    const std::string unset = unset_words(o.file, params);
+    if (!unset.empty()) fmt::print(out, "not set, so the reference robot's: {}\n", unset);
     const bool empty = robot_toml(params).empty() && sensor_toml(sensor).empty();
     fmt::print(out, "fit: {}{}\n", o.file, empty ? ", which sets nothing: this is the reference robot" : "");
     if (!o.suggest.empty()) fmt::print(out, "nothing to suggest: {} is not written\n", o.suggest);

@@ -180,10 +180,6 @@ struct ShowOptions {
   std::vector<std::string> fixed;
   std::string svg;
   std::string html;
-};
-
-struct EvaluateOptions {
-  std::string file;
   std::vector<std::string> inputs;
 };
 
@@ -294,7 +290,9 @@ int execute_rules_show(const ShowOptions& o) {
   return 0;
 }
 
-int execute_rules_evaluate(const EvaluateOptions& o) {
+int evaluate(const ShowOptions& o) {
+  if (!o.svg.empty() || !o.html.empty() || !o.fixed.empty())
+    throw UsageError("rules show: INPUT=VALUE goes with no other option");
   const rules::RuleBase base = load_rules(o.file);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values(base.inputs.size(), kNone);
@@ -319,23 +317,16 @@ void add_fix(CLI::App& cmd, std::vector<std::string>& fixed) {
 }
 
 void add_show(CLI::App& rules, int& status) {
-  CLI::App* cmd = rules.add_subcommand("show", "List variables and rules, and draw memberships and surface");
+  CLI::App* cmd = rules.add_subcommand(
+      "show", "List variables and rules, draw memberships and surface, or answer one input");
   const auto o = std::make_shared<ShowOptions>();
   add_file(*cmd, "FILE", o->file, "Rule base: .fis, .fll, .fcl or .toml")->required();
+  cmd->add_option("INPUT=VALUE", o->inputs, "Print only the exact answers there: the value of each input");
   add_fix(*cmd, o->fixed);
   add_file(*cmd, "--svg", o->svg, "Draw the memberships and the exact answers");
   add_file(*cmd, "--html", o->html, "Write a page: picture, rules, warnings, and the table for 1% to ask");
   cmd->footer(kRulesStatus);
-  cmd->callback([o, &status] { status = execute_rules_show(*o); });
-}
-
-void add_evaluate(CLI::App& rules, int& status) {
-  CLI::App* cmd = rules.add_subcommand("evaluate", "Print the exact answers at one input");
-  const auto o = std::make_shared<EvaluateOptions>();
-  add_file(*cmd, "FILE", o->file, "Rule base: .fis, .fll, .fcl or .toml")->required();
-  cmd->add_option("INPUT=VALUE", o->inputs, "The value of each input")->required();
-  cmd->footer(kRulesStatus);
-  cmd->callback([o, &status] { status = execute_rules_evaluate(*o); });
+  cmd->callback([o, &status] { status = o->inputs.empty() ? execute_rules_show(*o) : evaluate(*o); });
 }
 
 void add_compile(CLI::App& rules, int& status) {
@@ -367,8 +358,6 @@ void add_rules(CLI::App& app, int& status) {
   rules->require_subcommand(1);
   add_compile(*rules, status);
   add_show(*rules, status);
-  add_evaluate(*rules, status);
-  add_rules_table(*rules, status)->footer(kRulesStatus);
   add_rules_compare(*rules, status);
   add_rules_search(*rules, status);
 }

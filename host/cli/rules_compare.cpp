@@ -12,6 +12,7 @@
 #include "host/cli/campaign_options.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/figures.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/provenance.hpp"
@@ -83,12 +84,6 @@ using fuzzy::Bilinear;
 /// Of the file format; the playground refuses others (host/lab/web/src/playground/opened_table.ts).
 constexpr int kFormat = 1;
 
-struct TableOptions {
-  std::string file;
-  std::vector<std::string> names;
-  std::string out;
-};
-
 std::string json_of(const rules::RuleBase& base, const rules::Response& response) {
   std::vector<std::int16_t> nodes;
   for (const auto& row : response.table.node)
@@ -106,20 +101,21 @@ std::string json_of(const rules::RuleBase& base, const rules::Response& response
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-int execute(const TableOptions& o) {
-  check_outputs({o.out}, {o.file});
-  const rules::RuleBase base = load_rules(o.file);
-  const std::string text = json_of(base, named_response(base, o.names));
-  if (o.out.empty()) {
+}  // namespace
+
+int write_table(const std::string& rules_file, const std::vector<std::string>& names,
+                const std::string& out) {
+  if (rules_file.empty()) throw UsageError("table --json needs a FILE");
+  const rules::RuleBase base = load_rules(rules_file);
+  const std::string text = json_of(base, named_response(base, names));
+  if (out.empty()) {
     fmt::print("{}", text);
   } else {
-    files::write(o.out, text);
-    fmt::print(words_beside({o.out}), "table: {}\n", o.out);
+    files::write(out, text);
+    fmt::print(words_beside({out}), "table: {}\n", out);
   }
   return 0;
 }
-
-}  // namespace
 
 void add_rules_compare(CLI::App& rules, int& status) {
   CLI::App* cmd = rules.add_subcommand("compare", "Drive with two response tables in the same worlds");
@@ -136,19 +132,6 @@ void add_rules_compare(CLI::App& rules, int& status) {
   add_jobs(*cmd, o->campaign);
   add_switch(*cmd, "--json", o->campaign.json, "Print the result as one JSON object and nothing else");
   cmd->callback([o, &status] { status = execute(*o); });
-}
-
-CLI::App* add_rules_table(CLI::App& rules, int& status) {
-  CLI::App* cmd =
-      rules.add_subcommand("table", "Write the core's response table of a rule base, for the playground");
-  const auto o = std::make_shared<TableOptions>();
-  add_file(*cmd, "FILE", o->file,
-           "Rule base (.fis, .fll, .fcl, .toml) with\ninputs D and R, outputs SA and SD")
-      ->required();
-  add_map_names(*cmd, o->names, "The file's name of D, R, SA or SD; may be repeated");
-  add_file(*cmd, "--out", o->out, "File to write (JSON), instead of standard output");
-  cmd->callback([o, &status] { status = execute(*o); });
-  return cmd;
 }
 
 }  // namespace whisker::cli

@@ -1,6 +1,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 #include "firmware/can/ids.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/figures.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/rules_choice.hpp"
@@ -22,8 +24,9 @@ namespace whisker::cli {
 namespace {
 
 struct ResponseOptions {
-  bool csv = false;
-  std::string svg;
+  bool csv = false, json = false;
+  std::string svg, file, out;
+  std::vector<std::string> names;
 };
 
 /// In steps of a quarter unit, over the full range of both inputs.
@@ -52,8 +55,11 @@ void print_rules(const report::FuzzyPicture& p, const report::Variable& out,
 }
 
 int execute(const ResponseOptions& o) {
-  check_outputs({o.svg}, {}, o.csv);
-  const report::FuzzyPicture picture = controller_picture();
+  check_outputs({o.svg, o.out}, {o.file}, o.csv || (o.json && o.out.empty()));
+  if (o.json) return write_table(o.file, o.names, o.out);
+  if (!o.out.empty()) throw UsageError("--out needs --json");
+  const report::FuzzyPicture picture =
+      o.file.empty() ? controller_picture() : controller_picture(*response_table(o.file, o.names));
   if (!o.svg.empty()) files::write(o.svg, report::table_svg(picture));
   if (o.csv) {
     print_csv(picture);
@@ -96,7 +102,13 @@ int execute(const WorldOptions& o) {
 void add_table(CLI::App& app, int& status) {
   CLI::App* cmd = app.add_subcommand("table", "Show the control response table");
   const auto o = std::make_shared<ResponseOptions>();
+  add_file(
+      *cmd, "FILE", o->file,
+      "Rule base (.fis, .fll, .fcl, .toml) with\ninputs D and R, outputs SA and SD; by default the core's");
+  add_map_names(*cmd, o->names, "The file's name of D, R, SA or SD; may be repeated");
   add_switch(*cmd, "--csv", o->csv, "Print SA and SD over D and R, every quarter of a unit");
+  add_switch(*cmd, "--json", o->json, "Print the table as JSON, for the playground");
+  add_file(*cmd, "--out", o->out, "With --json: file to write, instead of standard output");
   add_file(*cmd, "--svg", o->svg, "Draw both outputs as heat maps with the rules on them");
   cmd->callback([o, &status] { status = execute(*o); });
 }
@@ -127,24 +139,31 @@ void add_world(CLI::App& app, int& status) {
   cmd->callback([o, &status] { status = execute(*o); });
 }
 
-void add_dbc(CLI::App& app, int& status) {
-  CLI::App* cmd = app.add_subcommand("dbc", "Print the CAN protocol as a DBC file");
-  const auto robot = std::make_shared<int>(1);
-  within(cmd->add_option("--robot", *robot, "Whose identifiers: 1 to 7"), "N", 1,
-         static_cast<int>(can::kRobots));
-  cmd->callback([robot, &status] {
-    fmt::print("{}", protocol::dbc(static_cast<std::uint8_t>(*robot)));
-    status = 0;
-  });
-}
+struct ProtocolOptions {
+  bool params = false, dbc = false;
+  int robot = 1;
+  FiguresOptions figures;
+};
 
 void add_protocol(CLI::App& app, int& status) {
-  CLI::App* cmd = app.add_subcommand("protocol", "Print the CAN protocol for a reader (Markdown)");
-  const auto params = std::make_shared<bool>(false);
-  cmd->add_flag("--parameters", *params, "The robot's parameters in the units of a scenario file instead");
-  cmd->callback([params, &status] {
-    fmt::print("{}", *params ? params_markdown() : protocol::page());
+  CLI::App* cmd = app.add_subcommand("protocol", "Print the CAN protocol, or another part of docs/");
+  const auto o = std::make_shared<ProtocolOptions>();
+  add_switch(*cmd, "--dbc", o->dbc, "As a DBC file");
+  within(cmd->add_option("--robot", o->robot, "With --dbc: whose identifiers, 1 to 7"), "N", 1,
+         static_cast<int>(can::kRobots));
+  cmd->add_flag("--parameters", o->params, "The robot's parameters in the units of a scenario file instead");
+  add_file(*cmd, "--figures", o->figures.out, "Draw the figures of docs/ anew, into this folder, instead")
+      ->type_name("FOLDER");
+  add_file(*cmd, "--scenarios", o->figures.scenarios, "Folder of other scenario files for figures 8 to 10");
+  cmd->callback([o, &status] {
     status = 0;
+    if (!o->figures.out.empty()) {
+      status = draw_figures(o->figures);
+    } else {
+      fmt::print("{}", o->dbc      ? protocol::dbc(static_cast<std::uint8_t>(o->robot))
+                       : o->params ? params_markdown()
+                                   : protocol::page());
+    }
   });
 }
 

@@ -112,7 +112,7 @@ class Example:
     def judged(self, raw, outputs):
         """[(output, exact, error)] at these raw inputs."""
         at = [f"{i['name']}={i['origin'] + raw[i['name']] / i['raw_per_unit']!r}" for i in self.told["inputs"]]
-        exact = dict(line.split(" = ") for line in run(WHISKER, "rules", "evaluate", self.rules, *at, cwd=ROOT).splitlines())
+        exact = dict(line.split(" = ") for line in run(WHISKER, "rules", "show", self.rules, *at, cwd=ROOT).splitlines())
         judged = []
         for o in self.told["outputs"]:
             shown, answer = outputs[o["name"]]

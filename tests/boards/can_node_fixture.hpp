@@ -114,11 +114,10 @@ class CanNodeTest : public ::testing::Test {
     return base.peer_rules();
   }
   void send_params(const Params& params) {
-    std::uint32_t raw = 0;
-    for (std::uint8_t i = 0; can::read_param(params, i, raw); ++i) {
-      base.request({can::ParamAction::write, i, raw});
+    can::each_param(params, [this](std::uint8_t index, std::uint32_t raw) {
+      base.request({can::ParamAction::write, index, raw});
       pass(3);
-    }
+    });
     base.request({can::ParamAction::commit, can::kCommitIndex, 0});
     pass(3);
     can::ParamReply reply;

@@ -1,11 +1,12 @@
 #include "hal/boards/stm32f405/clock.hpp"
+#include "hal/boards/common/schedule.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 
-#include "hal/boards/stm32f405/patience.hpp"
+#include "hal/boards/common/patience.hpp"
 #include "hal/boards/stm32f405/ticker.hpp"
 #include "hal/boards/stm32f405/watchdog.hpp"
 #include "tests/boards/chip_fixture.hpp"
@@ -102,7 +103,7 @@ TEST_F(ClockTest, MillisecondsGoOnOverTheCountersWrap) {
 
 TEST(ScheduleTest, FiresOnceAPeriodOnItsGridAndCountsWhatItMissed) {
   const std::uint32_t start = UINT32_MAX - 55;
-  Schedule schedule;
+  mcu::Schedule schedule;
   schedule.begin(start);
   int fired = 0;
   for (std::uint32_t t = 0; t <= 1000; ++t) fired += schedule.due(start + t, 10) ? 1 : 0;

@@ -1,6 +1,6 @@
-"""Every address, register and bit constant in the drivers of the STM32F405 matches the table of facts.
+"""Every address, register and bit constant in the drivers of a board matches the table of facts of its chip.
 
-usage: registers.py ROOT [--used-rows TABLE]    --used-rows prints the rows of a larger table that are needed
+usage: registers.py ROOT [--used-rows BOARD TABLE]    --used-rows prints the rows of a larger table that are needed
 """
 
 import csv
@@ -8,13 +8,14 @@ import pathlib
 import re
 import sys
 
-REG = "hal/boards/stm32f405/reg"
-FACTS = "tests/boards/stm32f405_registers.csv"
+BOARDS = ("pico", "stm32f405")
+REG = "hal/boards/{}/reg"
+FACTS = "tests/boards/{}_registers.csv"
 COLUMNS = ("peripheral", "base", "register", "offset", "reset", "field", "lsb", "width")
 
 CONSTANT = re.compile(
     r"inline constexpr (Address|Register|Field|PinField) (k\w+)(\[\])?\s*(?:= )?([^;]*);\s*///< ([^\n]*)")
-NAMESPACE = re.compile(r"namespace whisker::hal::stm32f405::(\w+) \{(?:  // ([A-Z0-9_ ]+))?\n")
+NAMESPACE = re.compile(r"namespace whisker::hal::(?:pico|stm32f405)::(\w+) \{(?:  // ([A-Z0-9_ ]+))?\n")
 PLAIN = re.compile(r"inline constexpr uint8_t k\w+ = \d+;")
 NUMBER = re.compile(r"0x[0-9A-Fa-f]+|\d+")
 FIELDS_OF = {"Address": 1, "Register": 1, "Field": 3, "PinField": 3}
@@ -126,9 +127,9 @@ def keys_of(row):
     return {("base", p), ("register", p, r), ("field", p, r, row["field"])}
 
 
-def headers_of(root):
-    folder = pathlib.Path(root, REG)
-    return {f"{REG}/{path.name}": path.read_text() for path in sorted(folder.glob("*.hpp"))}
+def headers_of(root, board):
+    folder = pathlib.Path(root, REG.format(board))
+    return {f"{REG.format(board)}/{path.name}": path.read_text() for path in sorted(folder.glob("*.hpp"))}
 
 
 def needed(rows, used):
@@ -144,23 +145,28 @@ def needed(rows, used):
     return sorted(chosen, key=lambda row: (row["peripheral"], int(row["offset"], 16), int(row["lsb"])))
 
 
-def main(root, *options):
-    headers = headers_of(root)
-    if options[:1] == ("--used-rows",):
-        rows = rows_of(options[1])
-        print("\n".join(table_of(needed(rows, check(headers, Facts(rows))[1]))))
-        return 0
-    rows = rows_of(pathlib.Path(root, FACTS))
+def check_board(root, board):
+    headers, table = headers_of(root, board), FACTS.format(board)
+    rows = rows_of(pathlib.Path(root, table))
     problems, used, checked = check(headers, Facts(rows))
     wanted = needed(rows, used)
-    problems += [f"{FACTS}: no driver uses {'.'.join(r[c] for c in ('peripheral', 'register', 'field'))}"
+    problems += [f"{table}: no driver uses {'.'.join(r[c] for c in ('peripheral', 'register', 'field'))}"
                  for r in rows if r not in wanted]
     if checked == 0:
-        problems.append(f"{REG}: nothing to check")
+        problems.append(f"{REG.format(board)}: nothing to check")
     for problem in problems:
         print(problem)
-    print(f"registers: {checked} constants, {len(rows)} facts, {len(problems)} wrong")
-    return 1 if problems else 0
+    print(f"registers of {board}: {checked} constants, {len(rows)} facts, {len(problems)} wrong")
+    return len(problems)
+
+
+def main(root, *options):
+    if options[:1] == ("--used-rows",):
+        rows = rows_of(options[2])
+        used = check(headers_of(root, options[1]), Facts(rows))[1]
+        print("\n".join(table_of(needed(rows, used))))
+        return 0
+    return 1 if sum(check_board(root, board) for board in BOARDS) else 0
 
 
 if __name__ == "__main__":

@@ -21,9 +21,14 @@ def altered(text):
             yield match.group(2), f"{opening}{wrong}\n}}  // namespace"
 
 
-def main(root):
-    facts = registers.Facts(registers.rows_of(pathlib.Path(root, registers.FACTS)))
-    headers = registers.headers_of(root)
+# Assembly, which has no constants of reg/, and numbers that are no addresses: sums and a magic.
+NO_ADDRESSES = {"pico": ("boot2.cpp", "divider.cpp", "image.hpp", "startup.cpp"), "stm32f405": ()}
+
+
+def try_board(root, board):
+    """(problems, number of alterations)"""
+    facts = registers.Facts(registers.rows_of(pathlib.Path(root, registers.FACTS.format(board))))
+    headers = registers.headers_of(root, board)
     problems = registers.check(headers, facts)[0]
     tried = 0
     for path, text in headers.items():
@@ -35,14 +40,21 @@ def main(root):
             body = text.replace("}  // namespace", extra + "}  // namespace")
             if not registers.check({path: body}, facts)[0]:
                 problems.append(f"{path}: {extra.strip()} went unseen")
-    drivers = pathlib.Path(root, "hal/boards/stm32f405")
-    for path in sorted(drivers.glob("*.[ch]pp")):
+    for path in sorted(pathlib.Path(root, "hal/boards", board).glob("*.[ch]pp")):
         for number in re.findall(r"0x[0-9A-Fa-f']{8,}", path.read_text()):
-            if int(number.replace("'", ""), 16) >= 0x20000000:
+            if int(number.replace("'", ""), 16) >= 0x20000000 and path.name not in NO_ADDRESSES[board]:
                 problems.append(f"{path.name}: {number}: an address belongs into reg/")
-    print("\n".join(problems))
-    print(f"registers_test: {tried} alterations tried, {len(problems)} problems")
-    return 1 if problems or tried < 300 else 0
+    return problems, tried
+
+
+def main(root):
+    failed = False
+    for board in registers.BOARDS:
+        problems, tried = try_board(root, board)
+        print("\n".join(problems))
+        print(f"registers_test of {board}: {tried} alterations tried, {len(problems)} problems")
+        failed = failed or bool(problems) or tried < 200
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

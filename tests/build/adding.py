@@ -26,7 +26,7 @@ y_m = 0.0
 x_m = 1.0
 y_m = 0.0
 [robot]
-motion_patience_s = 0.25
+patience_s = 0.25
 """
 
 
@@ -67,9 +67,9 @@ def check(whisker, folder):
     yield "the help names the planner", "beeline" in run(whisker, "run", "--help").stdout
     page = run(whisker, "protocol").stdout
     yield "the protocol has the messages", "### Ping" in page and "| Pong | 0x19 |" in page
-    yield "the DBC file has the messages", re.search(r"BO_ \d+ Ping: 4 Base1", run(whisker, "dbc").stdout)
-    yield "the protocol has the parameter", "| 44 | motion_patience_s | ms | 500 | 0..5000 |" in page
-    yield "the manual's table has it", "| `motion_patience_s` | s | 0.5 | 0 to 5 |" in run(whisker, "protocol", "--parameters").stdout
+    yield "the DBC file has the messages", re.search(r"BO_ \d+ Ping: 4 Base1", run(whisker, "protocol", "--dbc").stdout)
+    yield "the protocol has the parameter", "| 83 | patience_s | ms | 500 | 0..5000 |" in page
+    yield "the manual's table has it", "| `patience_s` | s | 0.5 | 0 to 5 |" in run(whisker, "protocol", "--parameters").stdout
 
 
 def command_problems(tree, build, work, cmake, generator, compiler):

@@ -10,15 +10,17 @@ import sys
 from sources import finish
 
 HEADER, TABLE = "firmware/c/whisker.h", "docs/protocol.md"
-ROW = re.compile(r"^\| (\d+) \| (\w+) \| ([^|]+) \| (\d+|-\d+) \| (-?\d+)\.\.(-?\d+) \|$", re.MULTILINE)
+ROW = re.compile(r"^\| (\d+) \| (\w+) \| ([^|]+) \|(?: (\d+|-\d+) \| (-?\d+)\.\.(-?\d+) \|| \| \|)$", re.MULTILINE)
 BLOCK = re.compile(r"(  /\* params:begin \*/\n)(.*?)(  /\* params:end \*/\n)", re.DOTALL)
 # The unit of the value 1, and the suffix of the key that it replaces.
 SUFFIX = {"um": "_m", "um/s": "_mps", "um/s2": "_mps2", "urad/s": "_radps", "2^-32 turn": "_deg", "ms": "_s"}
 
 
 def name(key, unit):
-    suffix = SUFFIX.get(unit, "")
-    return "WHISKER_PARAM_" + (key[: -len(suffix)] if suffix and key.endswith(suffix) else key).upper()
+    own = [SUFFIX[unit]] if unit in SUFFIX else []
+    ends = SUFFIX.values() if unit == "derived" else own
+    suffix = next((end for end in ends if key.endswith(end)), "")
+    return "WHISKER_PARAM_" + key.removesuffix(suffix).upper()
 
 
 def lines(table):
@@ -28,7 +30,8 @@ def lines(table):
         if place != int(index):
             raise ValueError(f"{TABLE}: parameter {key} is the {place}th row and has the index {index}")
         comma = "," if place + 1 < len(rows) else ""
-        yield f"  {name(key, unit) + comma:<{width}} /* {unit}; {default}; {low} to {high} */\n"
+        about = "derived: cannot be set" if unit == "derived" else f"{unit}; {default}; {low} to {high}"
+        yield f"  {name(key, unit) + comma:<{width}} /* {about} */\n"
 
 
 def main(root, write=None):

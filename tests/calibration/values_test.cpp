@@ -56,7 +56,6 @@ TEST(CalibrationValues, AreRefusedAsCheckRefusesThem) {
       {Quantity::wheel_ratio, 1100001, ParamFault::out_of_range},
       {Quantity::wheel_ratio, INT32_MIN, ParamFault::out_of_range},
       {Quantity::counts_per_metre, 99, ParamFault::out_of_range},
-      {Quantity::counts_per_metre, 400, ParamFault::tolerance_below_encoder},
       {Quantity::track, 181000, ParamFault::track_wider_than_body},
       {Quantity::track, INT32_MAX, ParamFault::out_of_range},
   };

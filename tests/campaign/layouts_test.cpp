@@ -46,9 +46,8 @@ TEST(Equipped, CountsATaperingConeWhereReadingsClearGround) {
 
 TEST(Equipped, ShortensStepsToTheRange) {
   const Params p = equipped({}, model("gp2y0a41"));
-  EXPECT_EQ(p.thesis.base_step, 90_mm);
-  EXPECT_EQ(p.thesis.small_step, 90_mm);
-  EXPECT_EQ(equipped({}, model("vl53l0x")).thesis.base_step, Params{}.thesis.base_step);
+  EXPECT_EQ(derived::base_step(p), 90_mm);
+  EXPECT_EQ(derived::base_step(equipped({}, model("vl53l0x"))), derived::kLongestStep);
 }
 
 TEST(Scaled, RobotsOfEverySizeFit) {

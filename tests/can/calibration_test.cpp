@@ -42,11 +42,10 @@ class Pair {
         controller_(std::make_unique<can_app::Controller>(at_controller_, can::Identity{1, 22, 0}, planners_,
                                                           nullptr, &calibrator_)) {
     pass(50);
-    std::uint32_t raw = 0;
-    for (std::uint8_t i = 0; can::read_param(robot_.robot, i, raw); ++i) {
-      node_.request({can::ParamAction::write, i, raw});
+    can::each_param(robot_.robot, [this](std::uint8_t index, std::uint32_t raw) {
+      node_.request({can::ParamAction::write, index, raw});
       pass(2);
-    }
+    });
     node_.request({can::ParamAction::commit, 255, 0});
     pass(2);
     can::ParamReply reply;

@@ -31,7 +31,7 @@ def load_dbc(data):
 
 class Committed(unittest.TestCase):
     def test_the_dbc_file_is_that_of_robot_1(self):
-        self.assertEqual(printed("dbc"), (ROOT / "whisker.dbc").read_bytes(), "whisker dbc > whisker.dbc")
+        self.assertEqual(printed("protocol", "--dbc"), (ROOT / "whisker.dbc").read_bytes(), "whisker protocol --dbc > whisker.dbc")
 
     def test_the_page_is_the_tables(self):
         self.assertEqual(printed("protocol"), (ROOT / "docs/protocol.md").read_bytes(), "whisker protocol > docs/protocol.md")
@@ -101,7 +101,7 @@ class Canmatrix(unittest.TestCase):
     def test_every_robot_has_its_own_identifiers(self):
         seen = set()
         for robot in range(1, 8):
-            frames = load_dbc(printed("dbc", "--robot", str(robot))).frames
+            frames = load_dbc(printed("protocol", "--dbc", "--robot", str(robot))).frames
             own = {f.arbitration_id.id for f in frames} - {0x010}
             self.assertEqual(len(own), len(frames) - 1)
             self.assertFalse(own & seen)

@@ -74,7 +74,7 @@ class CalibrateDrive(Case):
         self.assertLess(result["values"]["gyro_scale"]["rms"], 0.0005)
 
     def test_a_robot_without_a_scene_says_so(self):
-        blind = self.file("blind.toml", "range_max_m = 0.6\nthesis_base_step_m = 0.15\nwheel_speed_max_mps = 0.15\n[sensor]\nmax_range_m = 0.1\n")
+        blind = self.file("blind.toml", "range_max_m = 0.6\nwheel_speed_max_mps = 0.15\n[sensor]\nmax_range_m = 0.1\n")
         done = calibrate(blind, "--scene", "wall")
         self.assertEqual((done.returncode, done.stderr), (6, "whisker: spin: no result: nothing_in_range\n"))
         self.assertIn("wheel_track_m = ", done.stdout, "the squares measure the track")

@@ -20,7 +20,7 @@ class Figures(Case):
         committed = {path.name: path.read_bytes() for path in (ROOT / "docs/figures").glob("*.svg")}
         self.assertEqual(sorted(fresh), sorted(committed))
         for name, picture in fresh.items():
-            self.assertTrue(picture == committed[name], f"{name}: build/host/whisker figures docs/figures")
+            self.assertTrue(picture == committed[name], f"{name}: build/host/whisker protocol --figures docs/figures")
 
 
 class Drives(Case):

@@ -46,7 +46,7 @@ class Movers(Case):
         self.assertGreater(contacts[0], contacts[1])
 
     def test_a_large_body_starts_and_arrives_clear(self):
-        large = self.file("large.toml", "body_radius_m = 0.3\nwheel_track_m = 0.4\nthesis_danger_range_m = 0.5\n")
+        large = self.file("large.toml", "body_radius_m = 0.3\nwheel_track_m = 0.4\n")
         table = self.table("--count", 3, "--robot", large, "--contacts", self.folder)
         self.assertGreater(table["oncoming", "0.05"]["reached"], 0)
         files = sorted(self.folder.glob("*_*.toml"))

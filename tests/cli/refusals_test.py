@@ -18,7 +18,7 @@ WORDS = """nan -nan inf -1 0 1 2 1e999 1e-320 99999999999999999999 0x10 abc 3.5 
 bad.toml bytes.dat""".split()  # fmt: skip
 WORDS += ["", " ", "\u0661", "\x1b[31m", "a" * 300, *map(str, (SCENARIOS / "nothing.toml", ROOT / "host/robots/hc-sr04.toml", ROOT / "host/rules/examples/tip.fis"))]
 # They drive for minutes if nothing is wrong.
-LONG = {("operators",), ("movers",), ("figures",), ("hunt",)}
+LONG = {("operators",), ("movers",), ("hunt",)}
 
 
 def commands(*names):
@@ -27,7 +27,7 @@ def commands(*names):
     below = re.search(r"^(?:Subcommands|SUBCOMMANDS):\n((?:  .*\n)+)", text, re.MULTILINE)
     found = [line.split()[0] for line in below[1].splitlines() if re.match("  [a-z]", line)] if below else []
     if not found:
-        yield names, sorted({*re.findall("--[a-z][a-z0-9-]*", text)} - {"--help", "--view-stay"})
+        yield names, sorted({*re.findall("--[a-z][a-z0-9-]*", text)} - {"--help", "--view-stay", "--figures"})
     for name in found:
         yield from commands(*names, name)
 
@@ -40,7 +40,7 @@ class Drawn(Case):
         self.file("bad.toml", "[start\nx=nan")
         (self.folder / "bytes.dat").write_bytes(rng.randbytes(4000))
         known = [(names, options) for names, options in commands() if names not in LONG]
-        self.assertGreater(len(known), 30)
+        self.assertGreater(len(known), 25)
         for _ in range(2000 if "WHISKER_LONG" in os.environ else 400):
             names, options = rng.choice(known)
             line = [*names, *rng.choices(WORDS, k=rng.randrange(3))]
@@ -76,6 +76,18 @@ class Refusals(Case):
         self.refused("world", "--seed", "1", says="KIND")
         self.refused("world", "cubes", "--seed", "1", says="cubes")
         self.refused("figures", says="FOLDER")
+
+    def test_former_names_of_commands_mean_the_present_ones(self):
+        fuzzy = ROOT / "host/rules/examples/thesis.toml"
+        for former, now in (
+            (["dbc", "--robot", "2"], ["protocol", "--dbc", "--robot", "2"]),
+            (["rules", "table", fuzzy], ["table", fuzzy, "--json"]),
+            (["scanner", "discs", "--count", "1"], ["campaign", "discs", "--scanner", "--count", "1"]),
+            (["bench", "save", "--socket", "none", "kept.toml"], ["bench", "get", "--out", "kept.toml", "--socket", "none"]),
+        ):
+            one, other = whisker.whisker(*former), whisker.whisker(*now)
+            self.assertEqual((one.returncode, one.stdout, one.stderr), (other.returncode, other.stdout, other.stderr), former)
+        self.assertNotIn("dbc ", whisker.whisker("--help").stdout)
 
     def test_names_that_would_act_on_a_terminal(self):
         self.refused("run", "\x1b]0;owned\x07.toml", says="?]0;owned?.toml:1:1: ")
@@ -130,7 +142,7 @@ class Refusals(Case):
 
     def test_a_robot_too_large_for_the_start(self):
         self.file("a.toml", SCENE + "\n[[disc]]\ncenter = [0.0, 1.0]\nradius_m = 0.5\n")
-        self.file("large.toml", "body_radius_m = 0.5\nthesis_danger_range_m = 0.6\n")
+        self.file("large.toml", "body_radius_m = 0.5\n")
         self.refused("run", "a.toml", "--robot", "large.toml", says="large.toml:1:1: ")
 
     def test_every_number_option_refuses_what_is_no_number(self):

@@ -1,5 +1,4 @@
-"""The tables bars, compare, outcomes and odometry of scripts/measure: their shape, and what makes them fail;
-and the figures that bus-figures computes from a log.
+"""What makes the tables bars, compare, outcomes and odometry of scripts/measure fail.
 
 WHISKER names a stand-in that records its arguments and prints one summary, which the real command made.
 """
@@ -8,12 +7,9 @@ import json
 import os
 import pathlib
 import subprocess
-import sys
-import tempfile
-import unittest
 
 import whisker
-from whisker import KINDS, Case
+from whisker import Case
 
 SCRIPTS = pathlib.Path(__file__).resolve().parent.parent.parent / "scripts"
 STAND_IN = '#!/bin/sh\necho "$*" >>"$0.calls"\ncat "$0.json"\nexit "$(cat "$0.status")"\n'
@@ -45,86 +41,6 @@ class Scripts(Case):
         """The cells of all table rows except the separators."""
         lines = [line for line in done.stdout.splitlines() if line.startswith("| ")]
         return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-
-    def calls(self):
-        return [line.split() for line in (self.folder / "whisker.calls").read_text().splitlines()]
-
-
-class Tables(Scripts):
-    def test_have_a_row_for_each_class_and_as_many_cells_as_the_heading(self):
-        for name, arguments, rows in (
-            ("bars", ("--count", 1, "--noisy", 1, "--seed", 1, "--gate"), 20),
-            ("bars", ("--planner", "map", "--count", 1, "--noisy", 1, "--seed", 1, "--gate"), 20),
-            ("compare", (1,), 8 * 10),
-            ("outcomes", (1,), 11),
-            ("odometry", (1, "--only", "wheels"), 3 * 4),
-            ("odometry", (1, "--only", "classes"), 10),
-        ):
-            (self.folder / "whisker.calls").unlink(missing_ok=True)
-            table = self.rows(self.run_script(name, *arguments))
-            headings = [row for row in table if row[0] == "world"]
-            self.assertEqual(len(table) - len(headings), rows, name)
-            width = 0
-            for row in table:
-                width = len(row) if row in headings else width
-                self.assertEqual(len(row), width, (name, row))
-            for call in self.calls():
-                self.assertIn(call[0], ("campaign", "scanner") if name == "compare" else ("campaign",))
-                self.assertEqual(call[call.index("--count") + 1], "1")
-            kinds = {call[1] for call in self.calls()}
-            self.assertEqual(kinds, {"discs", "maze", "enclosed"} if "wheels" in arguments else set(KINDS), name)
-
-
-class BusFigures(unittest.TestCase):
-    def setUp(self):
-        sys.path.insert(0, str(SCRIPTS / "lib"))
-        self.addCleanup(sys.path.remove, str(SCRIPTS / "lib"))
-        import bus_figures
-
-        self.figures = bus_figures
-
-    def test_a_stop_is_that_after_the_last_command(self):
-        with tempfile.TemporaryDirectory() as box:
-            log = pathlib.Path(box, "run.log")
-            log.write_text(
-                "(10.000000) vcan0 101#0010000000000000\n"  # drive command, speed 0
-                "(10.055000) vcan0 709#0040000000000000\n"  # safe stop
-                "(11.000000) vcan0 709#0030000000000000\n"
-                "(12.000000) vcan0 101#0010B80BB80B0000\n"
-                "(12.000500) vcan0 101#0000000000000000\n"  # to stop
-                "(12.051000) vcan0 709#0040000000000000\n"
-                "(12.060000) vcan0 119#0010020000030000\n"
-                "(12.300000) vcan0 119#0020030000030000\n"
-                "(12.310000) vcan0 119#0030030000030000\n"
-                "(12.400000) vcan0 709#0040"  # being written
-            )
-            stop = self.figures.stop_of(log)
-        self.assertEqual({key: round(value, 3) for key, value in stop.items()}, {"speed_mps": 0.3, "latency_ms": 51, "braking_ms": 249})
-
-    def test_what_misses_its_bar_is_bold_and_counted(self):
-        lockstep = {"world": "u-trap", "ticks": 7, "ticks_per_s": 500.0, "same": True}
-        trip = {"p50": 1, "p99": 2, "max": 3}
-        live = {"world": "spiral", "ticks": 101, "deadline_misses": 0, "round_trip_us": trip, "frames": 730, "load_percent": 19.6}
-        stop = {"speed_mps": 0.3, "latency_ms": 49.5, "braking_ms": 400.0}
-        lines, missed = self.figures.table_of({"lockstep": [lockstep], "real_time": live, "stops": [stop]}, 1)
-        self.assertEqual((missed, "\n".join(lines).count("**")), (0, 0))
-        bad = {
-            "lockstep": [{**lockstep, "ticks_per_s": 499.4}, {**lockstep, "same": False}],
-            "real_time": {**live, "ticks": 100, "deadline_misses": 1},
-            "stops": [stop, {**stop, "latency_ms": 50.2}],
-        }
-        lines, missed = self.figures.table_of(bad, 1)
-        text = "\n".join(lines)
-        self.assertEqual((missed, text.count("**")), (5, 10))
-        self.assertIn("**500 ticks/s, another trajectory**", text)
-        self.assertIn("| **49.5 to 50.2 ms** | 50 ms |", text)
-
-
-class Places(unittest.TestCase):
-    def test_the_pages_have_a_place_for_each_table(self):
-        for name, marks in (("docs/odometry.md", ("realistic", "wheels")), ("docs/can.md", ("bus",))):
-            for mark in marks:
-                self.assertEqual((SCRIPTS.parent / name).read_text().count(f"<!-- {mark}:begin -->\n"), 1, (name, mark))
 
 
 class Status(Scripts):

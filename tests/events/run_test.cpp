@@ -195,7 +195,7 @@ TEST(Events, ARestartBrakesAndDrivesOnFromTheTruePose) {
 }
 
 TEST(Events, ARestartEndsAFault) {
-  const std::string lost = "[robot]\nlost_after_s = 0.2\n[noise]\nrange_dropout = 1\n";
+  const std::string lost = "[noise]\nrange_dropout = 1\n";
   Scenario s = scene(event(4, "restart"), lost);
   EXPECT_EQ(whisker::run(scene("", lost)).verdict, Verdict::fault);
   const RunResult result = whisker::run(s);

@@ -43,7 +43,7 @@ TEST_P(Bumper, AnEnclosureThatNoBeamSeesEndsInAVerdict) {
   s.discs.clear();
   s.walls.push_back({{-0.3, -0.3}, {0.5, -0.3}, {0.5, 0.4}, {-0.3, 0.4}, {-0.3, -0.3}});
   s.time_limit_s = 3000;
-  s.robot.thesis.max_steps = 100;
+  s.robot.boundary.length_budget = 10_m;
   RunOptions options;
   options.planner = GetParam();
   const RunResult r = run(s, options);

@@ -59,6 +59,11 @@ TEST(Enclosed, AGapIsNotPassedToAndFro) {
   EXPECT_EQ(drive(worlds::Kind::enclosed, 710037, PlannerKind::boundary).verdict, Verdict::unreachable);
 }
 
+/// What the body turns in front of slits is no lap around another obstacle.
+TEST(Enclosed, LooksIntoSlitsAreNoLaps) {
+  EXPECT_EQ(drive(worlds::Kind::enclosed, 2046074, PlannerKind::boundary).verdict, Verdict::unreachable);
+}
+
 /// A closed pentagon in a box: between its lowest corner and the wall is a gap that the body passes on some
 /// loops only.
 Scenario pocket() {

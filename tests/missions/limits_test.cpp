@@ -73,7 +73,6 @@ TEST_P(LimitsOf, TheWheels) {
         robot.wheels.max_speed = Speed::from_raw(mm_per_s * 1000);
         robot.wheels.max_turn_rate = AngularRate::from_raw(mrad_per_s * 1000);
         robot.wheels.max_acceleration = Acceleration::from_raw(mm_per_s2 * 1000);
-        robot.safety.stalled_after = 4000_ms;
         const Most most = drive(robot);
         SCOPED_TRACE(std::to_string(mm_per_s) + " mm/s, " + std::to_string(mrad_per_s) + " mrad/s, " +
                      std::to_string(mm_per_s2) + " mm/s2: " + ended_);

@@ -60,14 +60,12 @@ TEST_P(Planners, ABodyThatTurnsAndNeverDrivesIsAFault) {
       << bench.ended();
 }
 
-TEST_P(Planners, CoarseEncodersWithFittingTolerancesArrive) {
+TEST_P(Planners, CoarseEncodersArrive) {
   worlds::Random random(7);
   for (int i = 0; i < static_cast<int>(test::effort(12)); ++i) {
     Scenario s = open_ground(random.uniform(1, 4), random.uniform(-2, 2));
     s.start.heading = random.uniform(-3, 3);
     s.robot.wheels.counts_per_metre = 100;
-    s.robot.motion.drive_tolerance = 11_mm;
-    s.robot.motion.turn_tolerance = 9_deg;
     ASSERT_EQ(check(s.robot), ParamFault::none);
     Bench bench(s, GetParam());
     bench.run(600);

@@ -59,9 +59,11 @@ TEST(Run, AnEmptyWorldIsCrossedStraight) {
 }
 
 TEST(Run, ADoorIsPassedAtTheFirstApproach) {
+  // A door of 0.30 m looks closed to the local grid: with a map, the robot measures its jambs.
   // From the start, a cone covers the door and its posts: the map suspects the door until the body is near.
-  for (const double width : {0.32, 0.36, 0.48}) {
+  for (const double width : {0.30, 0.32, 0.36, 0.48}) {
     for (const PlannerKind planner : {PlannerKind(PlannerKind::boundary), PlannerKind(PlannerKind::map)}) {
+      if (width == 0.30 && planner == PlannerKind::boundary) continue;
       Scenario s = small_world("");
       s.goal.at = {4, 0};
       s.bounds = Bounds{{-1, -2}, {5, 2}};
@@ -101,7 +103,7 @@ TEST(Run, TheTimeLimitIsGaveUpAndSaysSo) {
 
 TEST(Run, AWallWithoutEndMakesTheThesisPlannerGiveUp) {
   Scenario s = small_world("[[wall]]\npoints = [[1.0, -9.0], [1.0, 9.0]]\n");
-  s.robot.thesis.max_steps = 60;
+  s.robot.boundary.length_budget = 6_m;
   s.time_limit_s = 600;
   const Drive d = drive(s, PlannerKind::thesis);
   EXPECT_EQ(d.result.verdict, Verdict::gave_up);
@@ -123,7 +125,7 @@ TEST(Run, TheLengthBudgetIsTheRobots) {
 
 TEST(Run, AClosedRoomGivesNoExitOrABudget) {
   Scenario s = small_world("[[polygon]]\npoints = [[1.7, -0.3], [2.3, -0.3], [2.3, 0.3], [1.7, 0.3]]\n");
-  s.robot.thesis.max_steps = 60;
+  s.robot.boundary.length_budget = 6_m;
   s.time_limit_s = 600;
   const Drive d = drive(s, PlannerKind::thesis);
   EXPECT_EQ(d.result.verdict, Verdict::gave_up);

@@ -98,27 +98,19 @@ TEST(Verdicts, IdealWheelsAreNeverOffTheGoal) {
 // By the estimate always, and in truth but for the rounding of the counts over the way.
 TEST(Verdicts, TheSmallestToleranceIsKept) {
   int off = 0, drives = 0;
-  struct Wheels {
-    int counts_per_metre;
-    Length drive_tolerance;
-    Angle turn_tolerance;
-  };
-  const Wheels all[] = {{5000, 2_mm, 1_deg}, {2000, 1_mm, 1_deg}, {200, 5_mm, 9_deg}, {100, 10_mm, 9_deg}};
-  for (const Wheels& wheels : all) {
+  for (const int counts_per_metre : {5000, 2000, 200, 100}) {
     for (const PlannerKind planner : {PlannerKind::boundary, PlannerKind::thesis, PlannerKind::map}) {
       for (std::uint64_t i = 0; i < test::effort(12); ++i) {
         Scenario s;
         const double at = 2.4 * static_cast<double>(i);
         s.start = {{2 * std::cos(at) + 0.01 * at, 1.3 * std::sin(at)}, at};
         s.time_limit_s = 200;
-        s.robot.wheels.counts_per_metre = wheels.counts_per_metre;
-        s.robot.motion.drive_tolerance = wheels.drive_tolerance;
-        s.robot.motion.turn_tolerance = wheels.turn_tolerance;
+        s.robot.wheels.counts_per_metre = counts_per_metre;
         s.goal.tolerance_m = planning::smallest_tolerance(s.robot).raw() * 1e-6;
         const RunResult r = drive(s, nullptr, planner);
         EXPECT_TRUE(r.verdict == Verdict::reached || r.verdict == Verdict::off_goal)
-            << wheels.counts_per_metre << ", " << name(planner) << ", " << i << ": " << r.detail;
-        const double beside = 2 * r.path_m / (wheels.counts_per_metre * 0.14);
+            << counts_per_metre << ", " << name(planner) << ", " << i << ": " << r.detail;
+        const double beside = 2 * r.path_m / (counts_per_metre * 0.14);
         EXPECT_LE(r.final_distance_m, s.goal.tolerance_m + beside);
         ++drives;
         off += r.verdict == Verdict::off_goal;

@@ -31,7 +31,7 @@ class Eye {
 
   void see(perception::ConeObservation seen, const Params& p, perception::LocalGrid& grid,
            perception::LocalGrid& unchained) {
-    const Length far = max_range(p.rangefinders, seen.number);
+    const Length far = p.rangefinders.max_range;
     bool clear = !seen.hit;
     if (fault_ == Fault::false_clear) {
       ++since_;
@@ -142,9 +142,6 @@ TEST(ChainSoundness, AFalseClearReadingIsNoEvidenceWhileTheBodySways) {
   Params p;
   p.body.radius = 66_mm;
   p.body.track = 100_mm;
-  p.boundary.cell = 13_mm;
-  p.thesis.base_step = 100_mm;
-  p.thesis.small_step = 50_mm;
   p.rangefinders.max_range = 1052_mm;
   p.rangefinders.cone = tenths(363);
   p.rangefinders.side_angle = tenths(484);

@@ -23,9 +23,6 @@ Params draw_any_robot(Random& random) {
   p.body.radius = millimetres(20 + random.index(130));
   p.body.margin = millimetres(random.index(30));
   p.body.track = p.body.radius * 3 / 2;
-  p.boundary.cell = millimetres(5 + random.index(36));
-  p.thesis.base_step = 100_mm;
-  p.thesis.small_step = 50_mm;
   if (random.chance(0.5)) p.wheels.counts_per_metre = 1000000;
   RangefinderParams& r = p.rangefinders;
   const auto cone = [&] { return tenths(20 + random.index(random.chance(0.1) ? 580 : 380)); };

@@ -35,7 +35,6 @@ class ClearRange : public testing::Test {
     return planner_.local_grid->is_clear({ahead, Length{}});
   }
   void prove_to(Length range) {
-    params_.thesis.base_step = params_.thesis.small_step = 50_mm;
     params_.rangefinders.clear_range = range;
     ASSERT_EQ(check(params_), ParamFault::none);
   }
@@ -67,7 +66,7 @@ TEST_F(ClearRange, NorDoesAnEchoFromBeyond) {
 
 TEST_F(ClearRange, MoreThanTheMaximumRangeIsThat) {
   params_.rangefinders.clear_range = 50_m;
-  EXPECT_EQ(proving_range(params_.rangefinders, hal::kFront), params_.rangefinders.max_range);
+  EXPECT_EQ(proving_range(params_.rangefinders), params_.rangefinders.max_range);
 }
 
 TEST_F(ClearRange, AReadingOfUnknownAgeProvesNothing) {

@@ -31,8 +31,8 @@ perception::ConeObservation look(const Params& p, const Cluttered& world, const 
   observation.number = static_cast<int8_t>(beam);
   observation.beam = perception::beam_of(mount(p.rangefinders, beam), pose);
   observation.hit = d < mounted.max_range;
-  observation.free = observation.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5)))
-                                     : max_range(p.rangefinders, beam);
+  observation.free =
+      observation.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5))) : p.rangefinders.max_range;
   return observation;
 }
 

@@ -21,8 +21,8 @@ TEST(GroundAge, IsThatOfTheParametersIfNoErrorIsDeclared) {
   Params p;
   p.gyro.fitted = Fitted::yes;
   const GroundAge age = ground_age(p);
-  EXPECT_EQ(age.travel, p.boundary.age_travel);
-  EXPECT_EQ(age.turn, p.boundary.age_turn);
+  EXPECT_EQ(age.travel, derived::kAgeTravel);
+  EXPECT_EQ(age.turn, derived::kAgeTurn);
 }
 
 TEST(GroundAge, TwoStandardDeviationsOfTheHeadingMoveTheGroundByHalfACell) {
@@ -49,25 +49,25 @@ TEST(GroundAge, TheLargestErrorsLeaveWhatTheParametersMaySet) {
 
 TEST(GroundAge, GoodWheelsAreNoReasonToAgeSooner) {
   const GroundAge age = ground_age(wheels(1000));
-  EXPECT_EQ(age.travel, Params{}.boundary.age_travel);
-  EXPECT_EQ(age.turn, Params{}.boundary.age_turn);
+  EXPECT_EQ(age.travel, derived::kAgeTravel);
+  EXPECT_EQ(age.turn, derived::kAgeTurn);
 }
 
 TEST(GroundAge, AGyroCountsInsteadOfTheWheels) {
   Params p = wheels(50000);
   p.gyro.fitted = Fitted::yes;
   p.pose_error.gyro_scale = millionths(1000);
-  EXPECT_EQ(ground_age(p).travel, p.boundary.age_travel);
-  EXPECT_EQ(ground_age(p).turn, p.boundary.age_turn);
+  EXPECT_EQ(ground_age(p).travel, derived::kAgeTravel);
+  EXPECT_EQ(ground_age(p).turn, derived::kAgeTurn);
   p.pose_error.gyro_scale = millionths(50000);
-  EXPECT_LT(ground_age(p).turn.raw(), p.boundary.age_turn.raw());
+  EXPECT_LT(ground_age(p).turn.raw(), derived::kAgeTurn.raw());
 }
 
 TEST(GroundAge, ACommonErrorOfTheWheelsTurnsTheBodyToo) {
   Params p;
   p.pose_error.wheel_scale_common = millionths(30000);
-  EXPECT_EQ(ground_age(p).travel, p.boundary.age_travel);
-  EXPECT_LT(ground_age(p).turn.raw(), p.boundary.age_turn.raw());
+  EXPECT_EQ(ground_age(p).travel, derived::kAgeTravel);
+  EXPECT_LT(ground_age(p).turn.raw(), derived::kAgeTurn.raw());
 }
 
 }  // namespace

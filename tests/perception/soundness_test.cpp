@@ -24,7 +24,8 @@ constexpr double kTurn = 2 * 3.14159265358979323846;
 Params draw_params(Random& random) {
   Params p;
   if (random.chance(0.5)) return p;
-  p.boundary.cell = millimetres(5 + random.index(36));
+  p.body.radius = millimetres(25 + random.index(155));
+  p.body.track = p.body.radius * 3 / 2;
   p.rangefinders.cone = Angle::turns(10 + random.index(450), 3600);
   p.rangefinders.side_angle = Angle::turns(50 + random.index(350), 3600);
   p.rangefinders.offset = millimetres(random.chance(0.5) ? random.index(90) : 0);

@@ -170,7 +170,7 @@ TEST(MotionController, ADriveThatComesNoNearerIsCut) {
   Loop loop(params);
   loop.begin({ManoeuvreKind::drive, {}, 300_mm});
   loop.block();
-  const int patience = params.safety.stalled_after.raw() / params.safety.period.raw();
+  const int patience = derived::stalled_after(params).raw() / params.safety.period.raw();
   for (int i = 0; i < patience; ++i) loop.tick(false);
   EXPECT_FALSE(loop.controller().cut());
   loop.run(100);

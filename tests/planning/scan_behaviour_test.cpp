@@ -116,7 +116,7 @@ int ticks_with(Q14 granted, ScanBehaviour& look) {
 TEST(ScanBehaviour, EndsInVainWhereTheGuardLetsNoTurnThrough) {
   ScanBehaviour held, turning;
   const Params params;
-  const int patience = params.safety.stalled_after.raw() / params.safety.period.raw();
+  const int patience = derived::stalled_after(params).raw() / params.safety.period.raw();
   EXPECT_NEAR(ticks_with(Q14{}, held), patience, 2);
   EXPECT_TRUE(held.in_vain());
   EXPECT_EQ(ticks_with(Q14::ratio(1, 1), turning), 1000);

@@ -25,7 +25,7 @@ int found_after(Command command, localization::CountStep counts = {}) {
 }
 
 TEST(StallWatch, WheelsThatCountNothingAreStalledAfterTheTimeout) {
-  const int timeout = Params{}.safety.stalled_after.raw() / kStep.raw();
+  const int timeout = derived::stalled_after(Params{}).raw() / kStep.raw();
   EXPECT_EQ(found_after([](int) { return WheelPair{200_mm_per_s, 200_mm_per_s}; }), timeout);
   EXPECT_EQ(found_after([](int) { return WheelPair{-200_mm_per_s, 200_mm_per_s}; }), timeout);
   EXPECT_EQ(found_after([](int) { return WheelPair{{}, 200_mm_per_s}; }), timeout);

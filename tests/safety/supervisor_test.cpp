@@ -75,7 +75,7 @@ TEST(Supervisor, TheFirstFaultStays) {
   const Params params;
   Supervisor supervisor(params, health);
   supervisor.configure();
-  supervisor.check_ranges(params.safety.lost_after + 1_ms);
+  supervisor.check_ranges(derived::lost_after(params) + 1_ms);
   supervisor.check_gap({}, false);
   EXPECT_EQ(health.fault, Fault::range_lost);
   EXPECT_EQ(health.clock_jumps, 1U) << "counted all the same";

@@ -97,7 +97,7 @@ bool in_a_cone(const Params& p, double x, double y) {
     const double dx = x - m.apex.x.raw() * 1e-6, dy = y - m.apex.y.raw() * 1e-6;
     const double axis = m.axis.wrapped() * (180.0 / 2147483648.0);
     const double half = m.half_cone.wrapped() * (180.0 / 2147483648.0);
-    const double reach = proving_range(p.rangefinders, beam).raw() * 1e-6;
+    const double reach = proving_range(p.rangefinders).raw() * 1e-6;
     if (std::hypot(dx, dy) <= reach && std::fabs(std::atan2(dy, dx) / kRad - axis) <= half) return true;
   }
   return false;

@@ -72,6 +72,7 @@ struct Shuffle {
     x = static_cast<E>(below(count));
     if (check(whole) != ParamFault::none) x = old;
   }
+  void derived(const char*) {}
 };
 
 struct Values {
@@ -85,6 +86,7 @@ struct Values {
   void choice(const char*, const E& x, const char* const*, int) {
     all.push_back(static_cast<std::int64_t>(x));
   }
+  void derived(const char*) {}
 };
 
 std::vector<std::int64_t> values(const Params& params) {

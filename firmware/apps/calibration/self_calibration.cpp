@@ -20,10 +20,10 @@ void SelfCalibration::on_press(hal::Press press, Time now) noexcept {
   active().cancel();
   calibrator_.abandon();
   if (phase_ == Phase::starts || phase_ == Phase::measures) {
-    phase_ = Phase::cancelled;
+    planning::follow(kArrows, phase_, Phase::cancelled);
     return;
   }
-  phase_ = Phase::starts;
+  planning::follow(kArrows, phase_, Phase::starts);
   wanted_ = press;
   pressed_at_ = now;
 }
@@ -37,18 +37,18 @@ void SelfCalibration::begin() noexcept {
                             devices_.gyro);
   own_->place({});
   own_->set_goal({{kStraight, Length{}}, 100_mm});
-  phase_ = Phase::measures;
+  planning::follow(kArrows, phase_, Phase::measures);
 }
 
 void SelfCalibration::watch(const Status& status) noexcept {
   if (status.health.fault != Fault::none) {
     calibrator_.abandon();
-    phase_ = Phase::cancelled;
+    planning::follow(kArrows, phase_, Phase::cancelled);
   } else if (status.decision.outcome != planning::Outcome::running && stands(status)) {
     calibrator_.finish();
     // No ticks came meanwhile.
     own_->reset();
-    phase_ = Phase::ended;
+    planning::follow(kArrows, phase_, Phase::ended);
   }
 }
 

@@ -28,6 +28,12 @@ class SelfCalibration {
     cancelled,  ///< by a press or a fault
     ended,      ///< with a result, or for the reason Calibrator::trouble()
   };
+  static constexpr planning::Arrow<Phase> kArrows[] = {
+      {Phase::none, Phase::starts},      {Phase::cancelled, Phase::starts},
+      {Phase::ended, Phase::starts},     {Phase::starts, Phase::measures},
+      {Phase::starts, Phase::cancelled}, {Phase::measures, Phase::cancelled},
+      {Phase::measures, Phase::ended},
+  };
   static constexpr Duration kHandsOff = milliseconds(3000);
   static constexpr Length kStraight = 3000_mm;
 

@@ -23,6 +23,7 @@ class KeepingController {
   KeepingController& operator=(const KeepingController&) = delete;
 
   Controller& controller() noexcept { return controller_; }
+  const Controller& controller() const noexcept { return controller_; }
   /// The active table.
   const fuzzy::Engine::Table& table() const noexcept { return rules_.active(); }
   /// What the storage of the tables had.

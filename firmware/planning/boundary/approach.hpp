@@ -55,6 +55,8 @@ class Approach {
   bool knows_no_way() const noexcept { return guide_ != nullptr && guide_->knows_no_way(); }
   bool doubt() noexcept { return guide_ != nullptr && guide_->doubt(); }
 
+  /// The guide's way was blocked: the body brakes, and the guide finds another one.
+  bool blocked() const noexcept { return phase_ == Phase::brake; }
   /// A global planner guides; without one, only the body's turning proves a closed loop.
   bool has_guide() const noexcept { return guide_ != nullptr; }
   /// The path is blocked because the global planner found none.

@@ -10,6 +10,8 @@ constexpr Length kNearer = 30_mm;
 constexpr Length kKeepSide = 500_mm;    // of travel after leaving a boundary
 constexpr Length kOtherSide = 4500_mm;  // of travel after a lost wall, in addition to kKeepSide
 constexpr int8_t kEscapes = 6;
+constexpr int8_t kDoors = 3;           // tried in vain
+constexpr Angle kStraightOn = 20_deg;  // of a door from the way
 
 static_assert(sizeof(void*) > 4 || sizeof(BoundaryPlanner) + sizeof(perception::LocalGrid) <= 1800);
 
@@ -25,6 +27,7 @@ void BoundaryPlanner::start(const View& view) noexcept {
   loop_.begin(view, behaviours_.params);
   left_edge_mm_ = -behaviours_.mm(kKeepSide);
   escapes_ = 0;
+  passage_.reset();
   slits_.reset();
   sought_ = false;
   phase_ = Phase::survey;
@@ -36,7 +39,8 @@ void BoundaryPlanner::advance(const View& view) noexcept {
   if (decision_.why == Why::something_moves) decision_.why = otherwise_;
   target_ = {goal_, view};
   behaviours_.progress.move(view, behaviours_.params);
-  loop_.move(view);
+  // What the body turns in front of a gap is none of the boundary.
+  if (phase_ != Phase::gap) loop_.move(view);
   follower_.move(view);
   approach_.observe(view);
   act(view);
@@ -116,6 +120,7 @@ void BoundaryPlanner::survey(const View& view) noexcept {
 
 void BoundaryPlanner::approach(const View& view) noexcept {
   if (view.sighted && decision_.why == Why::narrow) slits_.look(view, view.pose.heading);
+  if (approach_.blocked() && try_door(view, view.pose.heading)) return;
   if (approach_.step(view, target_, wall_, decision_)) return;
   if (approach_.refuted()) {
     end(Event::refuted, Outcome::unreachable);
@@ -140,6 +145,7 @@ void BoundaryPlanner::begin_side_search(const View& view) noexcept {
 void BoundaryPlanner::choose_side(const View& view) noexcept {
   Twist twist;
   if (view.sighted) slits_.look(view, view.pose.heading);
+  if (approach_.has_guide() && try_door(view, target_.direction())) return;
   const bool over = side_search_.step(view, twist);
   decision_.manoeuvre = cruise(twist, behaviours_.params);
   if (!over) return;
@@ -196,6 +202,11 @@ void BoundaryPlanner::gap(const View& view) noexcept {
       begin_approach(Event::through);
       break;
     case GapPassage::Result::failed:
+      if (passage_.promised()) {
+        passage_.count_failure();
+        begin_approach(Event::no_door);
+        break;
+      }
       slits_.end_attempt();
       on(Event::too_narrow);
       follower_.begin_at_wall(view, passage_.came_along(), wall_, decision_);
@@ -206,7 +217,17 @@ void BoundaryPlanner::gap(const View& view) noexcept {
 bool BoundaryPlanner::try_slit(const View& view) noexcept {
   if (!slits_.at_hand(view)) return false;
   on(Event::slit);
-  passage_.begin(view, slits_.take(view), decision_);
+  passage_.begin(view, slits_.take(view), false, decision_);
+  return true;
+}
+
+bool BoundaryPlanner::try_door(const View& view, Angle way) noexcept {
+  if (passage_.failures() == kDoors || !slits_.at_hand(view)) return false;
+  const Pose door = slits_.next(view);
+  if (magnitude(door.heading - way) > kStraightOn.raw()) return false;
+  if (passage_.failures() > 0 && slits_.taken_near(door.at)) return false;
+  on(Event::slit);
+  passage_.begin(view, slits_.take(view), true, decision_);
   return true;
 }
 

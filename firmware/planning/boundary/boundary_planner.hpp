@@ -54,6 +54,7 @@ class BoundaryPlanner final : public GoalPlanner {
     passed,      ///< it has passed, or is out of sight
     slit,        ///< at a place from which a narrow gap was seen
     through,     ///< the body is through the gap
+    no_door,     ///< a gap straight ahead is too narrow
     too_narrow,  ///< the body does not fit, or the gap is none
     at_goal,
     slid_off,  ///< at rest, but outside the goal's tolerance
@@ -78,6 +79,9 @@ class BoundaryPlanner final : public GoalPlanner {
       {Phase::evade, Event::passed, Phase::approach, Mode::going, Why::target_free},
       {Phase::evade, Event::at_goal, Phase::arrive},
       {Phase::boundary, Event::slit, Phase::gap, Mode::looking, Why::opening},
+      {Phase::approach, Event::slit, Phase::gap, Mode::looking, Why::opening},
+      {Phase::choose_side, Event::slit, Phase::gap, Mode::looking, Why::opening},
+      {Phase::gap, Event::no_door, Phase::approach, Mode::going, Why::target_free},
       {Phase::gap, Event::through, Phase::approach, Mode::going, Why::target_free},
       {Phase::gap, Event::too_narrow, Phase::boundary, Mode::following, Why::edge},
       {Phase::survey, Event::at_goal, Phase::arrive},
@@ -122,6 +126,8 @@ class BoundaryPlanner final : public GoalPlanner {
   bool knows_slit() const noexcept { return slits_.known(); }
   /// Begins to pass the slit, if it is at hand and worth it.
   bool try_slit(const View& view) noexcept;
+  /// The same where the way in this direction is blocked, for a gap as wide as the verdict promises.
+  bool try_door(const View& view, Angle way) noexcept;
   void go_the_other_way(const View& view) noexcept;
   void escape(const View& view) noexcept;
   void give_up_goal(const View& view) noexcept;

@@ -26,6 +26,7 @@ constexpr Length kBeside = 5_mm;  // the place in front of the gap
 constexpr int8_t kMoves = 4;
 constexpr Length kBehind = 125_mm;  // the gap: the body has passed it
 constexpr Length kOff = 1_mm;       // of the lane from the middle of the jambs
+constexpr int32_t kSparePart = 8;   // the same, of the room on each side of the body
 constexpr Angle kAstray = 25_deg;   // of the first heading from the middle of the gap
 constexpr Angle kTilted = 2_deg;
 constexpr Length kPursuit = 60_mm;
@@ -35,16 +36,22 @@ constexpr int index(Side side) noexcept { return side == Side::left ? 0 : 1; }
 }  // namespace
 
 void GapPassage::enter(Phase phase) noexcept {
-  phase_ = phase;
+  follow(kArrows, phase_, phase);
+  pause();
+}
+
+void GapPassage::pause() noexcept {
   behaviours_.enter();
   last_ = Length{};
 }
 
-void GapPassage::begin(const View& view, const Pose& gap, Decision& decision) noexcept {
-  enter(Phase::brake);
+void GapPassage::begin(const View& view, const Pose& gap, bool promised, Decision& decision) noexcept {
+  phase_ = Phase::brake;
+  pause();
   at_ = gap.at;
   ahead_ = gap.heading;
   came_along_ = view.pose.heading;
+  promised_ = promised;
   sweeps_ = rounds_ = stops_ = 0;
   seen_ = 0;
   moves_ = lanes_ = 0;
@@ -87,7 +94,7 @@ GapPassage::Result GapPassage::step(const View& view, Decision& decision) noexce
 GapPassage::Result GapPassage::sweep(const View& view, Decision& decision) noexcept {
   const Params& params = behaviours_.params;
   const bool glances = stops_ > 0;
-  const AngularRate rate = glances || rounds_ == 0 ? kFirstRate : kSweepRate;
+  const AngularRate rate = glances || rounds_ == 0 || promised_ ? kFirstRate : kSweepRate;
   decision.manoeuvre = cruise({Speed{}, rate * sign(side_)}, params);
   const Angle most = glances ? kGlance : kSweep;
   bool ends = ((view.pose.heading - way()) * sign(side_)).wrapped() > static_cast<int32_t>(most.raw());
@@ -138,6 +145,7 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
   ++rounds_;
   seen_ = 0;
   sweeps_ = 0;
+  if (promised_ && width < promised_width(view)) return Result::failed;
   if (narrow || width > for_body(params, kJambs)) {
     const bool again = !doubtful_ && moves_ > 0;
     doubtful_ = true;
@@ -146,10 +154,14 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
   doubtful_ = false;
   // The line between the innermost points of round jambs is askew by more than the heading, and to the other
   // side; that between corners is not askew. This part of the change is good for both.
-  const Angle change = Angle::from_raw(static_cast<uint32_t>((ahead - ahead_).wrapped() / 8 * 3));
+  // Of a thick wall, the innermost points may be a corner in front and one behind, by turns: their mean is
+  // good.
+  const int32_t part = promised_ ? rounds_ : 1;
+  const Angle change = Angle::from_raw(static_cast<uint32_t>((ahead - ahead_).wrapped() / 8 * 3 / part));
   const Length aside = across(at - at_, ahead_);
-  const bool same =
-      opened_ && magnitude(change) < kTilted.raw() && max(aside, -aside) < for_body(params, kOff);
+  const Length spare = width / 2 - view.local_grid->reach().guard;
+  const bool same = opened_ && magnitude(change) < kTilted.raw() &&
+                    max(aside, -aside) < (promised_ ? spare / kSparePart : for_body(params, kOff));
   at_ = at;
   ahead_ += change;
   if (same || (opened_ && rounds_ > kRounds)) {
@@ -157,7 +169,8 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
     return Result::under_way;
   }
   if (rounds_ > kRounds) return Result::failed;
-  if (moves_ < kMoves && farther(before(kInFront) - view.pose.at, for_body(params, kBeside))) {
+  const Length beside = promised_ ? spare : for_body(params, kBeside);
+  if (moves_ < kMoves && farther(before(kInFront) - view.pose.at, beside)) {
     ++moves_;
     opened_ = false;
     enter(Phase::aim);
@@ -167,6 +180,10 @@ GapPassage::Result GapPassage::measured(const View& view, Decision& decision) no
   decision.lane.opens = true;
   decision.lane.from = {before(kLane), ahead_};
   return Result::under_way;
+}
+
+Length GapPassage::promised_width(const View& view) const noexcept {
+  return (view.local_grid->reach().planning + grid_cell(behaviours_.params) * 2) * 2;
 }
 
 Vec GapPassage::before(Length reference) const noexcept {

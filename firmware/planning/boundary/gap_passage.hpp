@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "firmware/params.hpp"
+#include "firmware/planning/arrows.hpp"
 #include "firmware/planning/boundary/behaviours.hpp"
 #include "firmware/planning/boundary/side.hpp"
 #include "firmware/planning/planner.hpp"
@@ -22,10 +23,17 @@ class GapPassage {
   /// The behaviours must outlive it.
   explicit GapPassage(Behaviours& behaviours) noexcept : behaviours_(behaviours) {}
 
-  /// The gap lies at about this place and leads along this heading. Brings the body to rest.
-  void begin(const View& view, const Pose& gap, Decision& decision) noexcept;
+  /// The gap lies at about this place and leads along this heading. `promised`: only if it is as wide as an
+  /// *unreachable* names; so much room needs less precision. Brings the body to rest.
+  void begin(const View& view, const Pose& gap, bool promised, Decision& decision) noexcept;
   /// Once per tick after that.
   Result step(const View& view, Decision& decision) noexcept;
+  /// Promised gaps of this mission that were none.
+  int8_t failures() const noexcept { return failures_; }
+  void count_failure() noexcept { ++failures_; }
+  void reset() noexcept { failures_ = 0; }
+  /// As begin() was told.
+  bool promised() const noexcept { return promised_; }
   /// The heading of the body when it began.
   Angle came_along() const noexcept { return came_along_; }
 
@@ -38,11 +46,20 @@ class GapPassage {
     move,   // drives there
     creep,  // drives along the lane
   };
+  static constexpr Arrow<Phase> kArrows[] = {
+      {Phase::brake, Phase::face}, {Phase::brake, Phase::aim},   {Phase::face, Phase::creep},
+      {Phase::face, Phase::sweep}, {Phase::sweep, Phase::face},  {Phase::sweep, Phase::aim},
+      {Phase::aim, Phase::face},   {Phase::aim, Phase::move},    {Phase::move, Phase::brake},
+      {Phase::creep, Phase::face}, {Phase::creep, Phase::sweep},
+  };
 
   void enter(Phase phase) noexcept;
+  void pause() noexcept;
   Result sweep(const View& view, Decision& decision) noexcept;
   /// Looks for the innermost point of the jamb on this side. True: the beam is past it.
   bool jamb(const View& view) noexcept;
+  /// Nearly the width that an *unreachable* names.
+  Length promised_width(const View& view) const noexcept;
   Result measured(const View& view, Decision& decision) noexcept;
   Result move(const View& view, Decision& decision) noexcept;
   Result creep(const View& view, Decision& decision) noexcept;
@@ -66,12 +83,14 @@ class GapPassage {
   bool returns_ = false;    // drives back along it
   bool meets_ = false;      // this sweep has met a jamb
   bool doubtful_ = false;   // the last pair of jambs was none
-  uint8_t seen_ = 0;        // jambs, a bit for each side
-  Length last_;             // the last reading of this sweep; zero: none
-  Vec jambs_[2];            // left, right
-  Vec stopped_;             // the last stop on the lane
-  Vec at_;                  // the middle of the gap
-  Angle ahead_;             // heading through it
+  int8_t failures_ = 0;
+  bool promised_ = false;  // a narrow gap is not tried
+  uint8_t seen_ = 0;       // jambs, a bit for each side
+  Length last_;            // the last reading of this sweep; zero: none
+  Vec jambs_[2];           // left, right
+  Vec stopped_;            // the last stop on the lane
+  Vec at_;                 // the middle of the gap
+  Angle ahead_;            // heading through it
   Angle came_along_;
 };
 

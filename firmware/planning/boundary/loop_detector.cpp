@@ -10,6 +10,7 @@ constexpr uint32_t kDrift = 50;  // odometry error: at most 1 / 50 of the travel
 constexpr int32_t kMostLaps = 3;
 constexpr int8_t kMostReturns = 3;
 constexpr uint64_t kDegree = (1_deg).raw();
+constexpr uint64_t kAskew = 15 * kDegree;  // of the headings at the two ends of a lap
 
 }  // namespace
 
@@ -59,17 +60,27 @@ bool LoopDetector::may_part(Vec from, Vec to, Side wall) const noexcept {
 }
 
 bool LoopDetector::strays(const View& view, Evidence evidence) noexcept {
-  if (magnitude(turned_) < 360 * kDegree * static_cast<uint64_t>(laps_ + 1)) return false;
+  const uint64_t whole = 360 * kDegree * static_cast<uint64_t>(laps_ + 1);
+  const bool first = laps_ == 0;
+  if (!first && magnitude(turned_) > whole - kAskew && rounds(view)) return true;
+  if (magnitude(turned_) < (first ? whole : whole + kAskew)) return false;
+  ++laps_;
   const bool by_place = evidence == Evidence::place;
-  const Length way = Length::from_raw(saturate32(int64_t{view.travelled_um - lap_um_}));
-  const bool first = laps_++ == 0;
   // Laps of less travel count together: one around a small obstacle, or around nothing, is shorter.
-  if (by_place && !first && way <= scale_ * 10) return false;
+  if (by_place && !first && travelled(view) <= scale_ * 10) return false;
   const bool same_place = !first && norm(view.pose.at - lap_at_) < scale_ * 7 / 2;
   const bool again = same_place || (!by_place && laps_ > kMostLaps);
   lap_at_ = view.pose.at;
   lap_um_ = view.travelled_um;
   return again;
+}
+
+Length LoopDetector::travelled(const View& view) const noexcept {
+  return Length::from_raw(saturate32(int64_t{view.travelled_um - lap_um_}));
+}
+
+bool LoopDetector::rounds(const View& view) const noexcept {
+  return travelled(view) > scale_ * 10 && !farther(view.pose.at - lap_at_, scale_ * 3 / 2);
 }
 
 }  // namespace whisker::planning

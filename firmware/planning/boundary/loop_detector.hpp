@@ -41,6 +41,10 @@ class LoopDetector {
  private:
   /// Counts how often the body came back to the hit point.
   bool returned(Length off) noexcept;
+  /// Since the end of the last lap.
+  Length travelled(const View& view) const noexcept;
+  /// A lap that began where the last one ended ends there, with about the same heading.
+  bool rounds(const View& view) const noexcept;
 
   Vec at_;
   Length scale_;  // 100 mm, scaled from the reference body

@@ -12,6 +12,7 @@ constexpr int32_t kUnknown = 2;   // cells
 constexpr Length kJamb = 130_mm;  // from the middle of a slit to the paths that its sides block
 constexpr Length kSame = 150_mm;  // the distance between two views of one slit
 constexpr Length kTried = 50_mm;  // from a slit that was tried
+constexpr Length kNear = 300_mm;  // a slit that was taken
 constexpr Length kHere = 500_mm;
 constexpr Length kExpected = 1500_mm;  // of travel
 constexpr Length kPast = 600_mm;       // the same, where no slit is known
@@ -82,14 +83,23 @@ void SlitSearch::end_loop(const View& view) noexcept {
   if (known()) known_ = static_cast<uint8_t>(known_ & ~within(view, kHere));
 }
 
-Pose SlitSearch::take(const View& view) noexcept {
+int SlitSearch::index_at_hand(const View& view) const noexcept {
   const uint8_t found = within(view, kAtHand);
   int i = 0;
   while (i < kKept - 1 && (found >> i & 1U) == 0) ++i;
+  return i;
+}
+
+Pose SlitSearch::take(const View& view) noexcept {
+  const int i = index_at_hand(view);
   known_ = static_cast<uint8_t>(known_ & ~(1U << i));
   expected_ = false;
   taken_ = slits_[i].at;
   return slits_[i];
+}
+
+bool SlitSearch::taken_near(Vec at) const noexcept {
+  return !farther(at - taken_, for_body(behaviours_.params, kNear));
 }
 
 bool SlitSearch::tried(Vec at) const noexcept {

@@ -32,13 +32,18 @@ class SlitSearch {
   bool expects() const noexcept { return expected_; }
   /// At the end of a loop: forgets the slits that lie here.
   void end_loop(const View& view) noexcept;
-  /// A place in the slit at hand, and the heading there. Forgets it.
+  /// A place in the slit at hand, and the heading there.
+  const Pose& next(const View& view) const noexcept { return slits_[index_at_hand(view)]; }
+  /// The same. Forgets it.
   Pose take(const View& view) noexcept;
+  /// The slit that was taken last lies within 0.3 m of this place.
+  bool taken_near(Vec at) const noexcept;
   /// The slit that was taken last was tried in vain: none within 50 mm of the last three such slits is tried.
   /// After six such attempts in a mission, there are no slits.
   void end_attempt() noexcept;
 
  private:
+  int index_at_hand(const View& view) const noexcept;
   bool tried(Vec at) const noexcept;
   /// The slits that were seen from places within this distance, one bit each.
   uint8_t within(const View& view, Length reference) const noexcept;

@@ -7,11 +7,10 @@ namespace whisker::planning {
 Angle TableDeflection::deflect(const perception::Echoes& sight, const Params& params,
                                Decision& decision) noexcept {
   decision.inputs = fuzzy::scale(sight.beam[hal::kLeft].distance, sight.beam[hal::kFront].distance,
-                                 sight.beam[hal::kRight].distance, params.rangefinders.max_range,
-                                 params.thesis.distance_source);
+                                 sight.beam[hal::kRight].distance, params.rangefinders.max_range);
   decision.response = engine_(decision.inputs);
   if (params.boundary.bend == Fitted::no) return {};
-  return scaled(params.thesis.base_turn, decision.response.turn);
+  return scaled(derived::kBaseTurn, decision.response.turn);
 }
 
 }  // namespace whisker::planning

@@ -15,15 +15,13 @@ constexpr int kStepsPerTick = 2;
 constexpr Length kMoved = 40_mm;
 constexpr uint8_t kTooOld = 255;
 
-int32_t most_millimetres(const Params& params, int beam) noexcept {
-  return max_range(params.rangefinders, beam).raw() / 1000;
-}
+int32_t most_millimetres(const Params& params) noexcept { return params.rangefinders.max_range.raw() / 1000; }
 
-uint16_t millimetres_of(const hal::RangeReading& reading, const Params& params, int beam) noexcept {
-  const int32_t most = most_millimetres(params, beam);
+uint16_t millimetres_of(const hal::RangeReading& reading, const Params& params) noexcept {
+  const int32_t most = most_millimetres(params);
   if (reading.status == hal::RangeStatus::clear) return static_cast<uint16_t>(most);
   if (reading.status == hal::RangeStatus::too_near) {
-    return static_cast<uint16_t>(min_range(params.rangefinders, beam).raw() / 1000);
+    return static_cast<uint16_t>(params.rangefinders.min_range.raw() / 1000);
   }
   return reading.mm < most ? reading.mm : static_cast<uint16_t>(most);
 }
@@ -65,14 +63,14 @@ void SpinPlanner::advance(const View& view) noexcept {
       by_gyro_ = view.raw.by_gyro;
       decision_.manoeuvre = cruise({{}, rate()}, params_);
       report(Mode::surveying, Why::none);
-      phase_ = Phase::running_up;
+      planning::follow(kArrows, phase_, Phase::running_up);
       break;
     case Phase::running_up:
       turned_ += step.wrapped();
       watch(view);
       if (turned_ < kRunUp || trouble() != Trouble::not_finished) break;
       turned_ = 0;
-      phase_ = Phase::spinning;
+      planning::follow(kArrows, phase_, Phase::spinning);
       phase_ms_ = 0;
       for (int i = 0; i < hal::kBeams; ++i) sequence_[i] = view.raw.ranges.beam[i].sequence;
       break;
@@ -85,7 +83,7 @@ void SpinPlanner::advance(const View& view) noexcept {
     case Phase::stopping:
       if (!view.settled) break;
       match_.start();
-      phase_ = Phase::matching;
+      planning::follow(kArrows, phase_, Phase::matching);
       break;
     case Phase::matching:
       for (int i = 0; i < kStepsPerTick; ++i) {
@@ -107,7 +105,7 @@ void SpinPlanner::follow(const View& view) noexcept {
   spun_ms_ = phase_ms_;
   decision_.manoeuvre = stop();
   report(Mode::looking, Why::none);
-  phase_ = Phase::stopping;
+  planning::follow(kArrows, phase_, Phase::stopping);
 }
 
 bool SpinPlanner::heading_at(int32_t ms, int32_t& heading) const noexcept {
@@ -131,8 +129,8 @@ void SpinPlanner::sample(const hal::RangeReadings& ranges) noexcept {
     int32_t heading = 0;
     if (reading.age_ms == kTooOld || !says(reading) || !heading_at(ms_ - reading.age_ms, heading)) continue;
     const int32_t at = static_cast<int32_t>(divide_rounded(heading, 256));
-    const uint16_t mm = millimetres_of(reading, params_, i);
-    const bool echo = reading.status == hal::RangeStatus::ok && mm < most_millimetres(params_, i);
+    const uint16_t mm = millimetres_of(reading, params_);
+    const bool echo = reading.status == hal::RangeStatus::ok && mm < most_millimetres(params_);
     if (at <= RangeProfile::kTurn + 2 * ProfileMatch::kWindow) first_.add(i, at, mm, echo);
     const int32_t later = at - kBetween;
     if (later >= ProfileMatch::kWindow) last_.add(i, later, mm, echo);

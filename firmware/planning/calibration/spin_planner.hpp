@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "firmware/planning/arrows.hpp"
 #include "firmware/planning/calibration/calibration_planner.hpp"
 #include "firmware/planning/calibration/profile_match.hpp"
 #include "firmware/planning/calibration/range_profile.hpp"
@@ -37,6 +38,12 @@ class SpinPlanner final : public CalibrationPlanner {
 
  private:
   enum class Phase : uint8_t { resting, running_up, spinning, stopping, matching };
+  static constexpr Arrow<Phase> kArrows[] = {
+      {Phase::resting, Phase::running_up},
+      {Phase::running_up, Phase::spinning},
+      {Phase::spinning, Phase::stopping},
+      {Phase::stopping, Phase::matching},
+  };
   struct Past {
     int32_t ms;
     int32_t heading;  // 1/256 unit of a profile

@@ -63,7 +63,7 @@ void StraightPlanner::advance(const View& view) noexcept {
       drive_.begin(from_, course_, length_);
       drive_.step(view, decision_.manoeuvre);
       report(Mode::stepping, Why::none);
-      phase_ = Phase::driving;
+      follow(kArrows, phase_, Phase::driving);
       break;
     case Phase::driving:
       if (view.raw.by_gyro != by_gyro_) return end(Trouble::gyro_lost);
@@ -75,7 +75,7 @@ void StraightPlanner::advance(const View& view) noexcept {
       break;
     case Phase::turning:
       if (!view.settled) break;
-      phase_ = Phase::resting;
+      follow(kArrows, phase_, Phase::resting);
       phase_ms_ = 0;
       break;
   }
@@ -90,7 +90,7 @@ void StraightPlanner::end_of_way(const View& view) noexcept {
   course_ += 180_deg;
   decision_.manoeuvre = {ManoeuvreKind::turn, course_, {}, {}, {}};
   report(Mode::facing, Why::none);
-  phase_ = Phase::turning;
+  follow(kArrows, phase_, Phase::turning);
 }
 
 /// The gyro's random walk and bias and the counts' resolution say how much is off at least; the parts of the

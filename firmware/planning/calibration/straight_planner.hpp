@@ -3,6 +3,7 @@
 
 #include <stdint.h>
 
+#include "firmware/planning/arrows.hpp"
 #include "firmware/planning/calibration/calibration_planner.hpp"
 #include "firmware/planning/calibration/course_drive.hpp"
 
@@ -36,6 +37,11 @@ class StraightPlanner final : public CalibrationPlanner {
 
  private:
   enum class Phase : uint8_t { resting, driving, turning };
+  static constexpr Arrow<Phase> kArrows[] = {
+      {Phase::resting, Phase::driving},
+      {Phase::driving, Phase::turning},
+      {Phase::turning, Phase::resting},
+  };
   /// Of the skew, 1e-7, on a sixth of a way each: how much the floor changes it.
   struct Parts {
     int32_t turned = 0;

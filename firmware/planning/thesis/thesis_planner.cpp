@@ -56,7 +56,7 @@ void ThesisPlanner::end_step(const View& view) noexcept {
   if (!scanned_ || norm(view.pose.at - scanned_at_) > kMoved) {
     scanned_ = true;
     scanned_at_ = view.pose.at;
-    phase_ = Phase::scan;
+    enter(Phase::scan);
     report(Mode::looking, Why::unknown_ahead);
     scan_.begin(base_ + deflection(), min(rest_of_step(view), view.local_grid->reach().probe),
                 decision_.manoeuvre);
@@ -72,7 +72,7 @@ void ThesisPlanner::end_step(const View& view) noexcept {
 
 void ThesisPlanner::scan(const View& view) noexcept {
   if (!scan_.step(view, params_, decision_.manoeuvre)) return;
-  phase_ = Phase::face_again;
+  enter(Phase::face_again);
   turn_to(base_ + deflection());
 }
 
@@ -93,14 +93,14 @@ void ThesisPlanner::arrive_at_position(const View& view) noexcept {
     end(Mode::arrived, Why::at_goal, Outcome::reached);
     return;
   }
-  if (steps_ >= params_.thesis.max_steps) {
+  if (steps_ >= derived::most_steps(params_)) {
     end(Mode::gave_up, Why::step_budget, Outcome::gave_up);
     return;
   }
   ++steps_;
   surroundings_.forget();
   target_ = bearing(to_goal);
-  phase_ = Phase::face;
+  enter(Phase::face);
   decision_.mode = Mode::facing;
   turn_to(target_);
 }
@@ -108,7 +108,8 @@ void ThesisPlanner::arrive_at_position(const View& view) noexcept {
 void ThesisPlanner::choose(const View& view) noexcept {
   const Length distance = norm(goal_.at - view.pose.at);
   const Length reach = params_.body.radius + params_.body.margin;
-  const bool target_free = probe_.free(view.static_scan, min(params_.thesis.danger_range - reach, distance));
+  const bool target_free =
+      probe_.free(view.static_scan, min(derived::danger_range(params_) - reach, distance));
   if (target_free) {
     steer(view, distance);
   } else {
@@ -122,12 +123,11 @@ void ThesisPlanner::steer(const View& view, Length distance) noexcept {
   const Length front = beam[hal::kFront].distance;
   const Length right = beam[hal::kRight].distance;
   decision_.danger_count = 0;
-  decision_.inputs =
-      fuzzy::scale(left, front, right, params_.rangefinders.max_range, params_.thesis.distance_source);
+  decision_.inputs = fuzzy::scale(left, front, right, params_.rangefinders.max_range);
   decision_.response = engine_(decision_.inputs);
-  planned_ = min(params_.thesis.base_step * decision_.response.step, distance);
+  planned_ = min(derived::base_step(params_) * decision_.response.step, distance);
 
-  const Angle turn = front >= distance ? Angle{} : scaled(params_.thesis.base_turn, decision_.response.turn);
+  const Angle turn = front >= distance ? Angle{} : scaled(derived::kBaseTurn, decision_.response.turn);
   base_ = target_ + turn;
   deflections_ = 0;
   // Deflect to the side of the table's output; if it is 0, to the side with more room.
@@ -144,13 +144,13 @@ void ThesisPlanner::steer(const View& view, Length distance) noexcept {
   }
   decision_.mode = Mode::steering;
   decision_.why = Why::table;
-  phase_ = Phase::probe;
+  enter(Phase::probe);
   turn_to(base_);
 }
 
 void ThesisPlanner::follow_danger(const View& view) noexcept {
   base_ = target_;
-  planned_ = params_.thesis.small_step;
+  planned_ = derived::small_step(params_);
   if (decision_.danger_count == 0) {
     decision_.danger_count = 1;
     decision_.mode = Mode::searching;
@@ -178,7 +178,7 @@ void ThesisPlanner::probe(const View& view) noexcept {
 }
 
 void ThesisPlanner::deflect_or_end() noexcept {
-  if (static_cast<uint64_t>(deflections_ + 1) * params_.thesis.delta.raw() >= (UINT64_C(1) << 32)) {
+  if (static_cast<uint64_t>(deflections_ + 1) * derived::kDelta.raw() >= (UINT64_C(1) << 32)) {
     end(Mode::gave_up, Why::no_exit, Outcome::gave_up);
     return;
   }
@@ -199,8 +199,8 @@ void ThesisPlanner::search(const View& view) noexcept {
   // The right side is searched only up to less than the turn to the left exit.
   const uint64_t limit = left || exit_left_ == 0
                              ? uint64_t{kSearchLimit}
-                             : static_cast<uint64_t>(exit_left_ - 1) * params_.thesis.delta.raw();
-  const uint64_t next = static_cast<uint64_t>(deflections_ + 1) * params_.thesis.delta.raw();
+                             : static_cast<uint64_t>(exit_left_ - 1) * derived::kDelta.raw();
+  const uint64_t next = static_cast<uint64_t>(deflections_ + 1) * derived::kDelta.raw();
   if ((!left || exit_left_ == 0) && next <= limit) {
     deflect(phase_);
     return;
@@ -222,14 +222,14 @@ void ThesisPlanner::search(const View& view) noexcept {
 void ThesisPlanner::take_exit(int32_t side, Why why) noexcept {
   side_ = side;
   decision_.why = why;
-  phase_ = Phase::probe;
+  enter(Phase::probe);
   turn_to(base_ + deflection());
 }
 
-Angle ThesisPlanner::deflection() const noexcept { return params_.thesis.delta * (deflections_ * side_); }
+Angle ThesisPlanner::deflection() const noexcept { return derived::kDelta * (deflections_ * side_); }
 
 void ThesisPlanner::deflect(Phase phase) noexcept {
-  phase_ = phase;
+  enter(phase);
   ++deflections_;
   turn_to(base_ + deflection());
 }
@@ -239,7 +239,7 @@ void ThesisPlanner::turn_to(Angle heading) noexcept {
 }
 
 void ThesisPlanner::drive(Length length) noexcept {
-  phase_ = Phase::move;
+  enter(Phase::move);
   decision_.mode = decision_.danger_count == 0 ? Mode::stepping : Mode::following;
   decision_.manoeuvre = {ManoeuvreKind::drive, base_ + deflection(), length};
 }

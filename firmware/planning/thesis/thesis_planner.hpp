@@ -14,6 +14,7 @@
 
 #include "firmware/fuzzy/engine.hpp"
 #include "firmware/params.hpp"
+#include "firmware/planning/arrows.hpp"
 #include "firmware/planning/goal_planner.hpp"
 #include "firmware/planning/scan_behaviour.hpp"
 #include "firmware/planning/thesis/step_probe.hpp"
@@ -37,9 +38,28 @@ class ThesisPlanner final : public GoalPlanner {
     scan,        // the guard cut the step: turning beams onto unseen cells of its path
     face_again,  // back to the heading of the step
   };
+  static constexpr Arrow<Phase> kArrows[] = {
+      {Phase::at_position, Phase::face},
+      {Phase::face, Phase::probe},
+      {Phase::face, Phase::move},
+      {Phase::face, Phase::search_left},
+      {Phase::probe, Phase::probe},
+      {Phase::probe, Phase::move},
+      {Phase::search_left, Phase::search_left},
+      {Phase::search_left, Phase::search_right},
+      {Phase::search_left, Phase::probe},
+      {Phase::search_right, Phase::search_right},
+      {Phase::search_right, Phase::probe},
+      {Phase::move, Phase::face},
+      {Phase::move, Phase::scan},
+      {Phase::move, Phase::probe},
+      {Phase::scan, Phase::face_again},
+      {Phase::face_again, Phase::move},
+  };
 
   void start(const View& view) noexcept override;
   void advance(const View& view) noexcept override;
+  void enter(Phase phase) noexcept { follow(kArrows, phase_, phase); }
   bool step_is_free(const View& view) const noexcept;
   bool sees(const View& view) noexcept;
   void arrive_at_position(const View& view) noexcept;

@@ -18,6 +18,11 @@ class GovernedWheels final : public Drive {
                  Clock& clock) noexcept
       : motors_(motors), encoders_(encoders), clock_(clock), left_(left), right_(right) {}
 
+  /// Other motors, while the wheels stand.
+  void adopt(const MotorParams& left, const MotorParams& right) noexcept {
+    left_ = Governor(left);
+    right_ = Governor(right);
+  }
   bool command(WheelSpeeds speeds) noexcept override {
     const uint32_t now = clock_.now_ms();
     const uint32_t elapsed = now - governed_ms_;

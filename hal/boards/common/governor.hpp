@@ -27,7 +27,7 @@ class Governor {
   int16_t step(int16_t wanted, int16_t counted, uint8_t elapsed_ms) noexcept;
 
  private:
-  const MotorParams& params_;
+  MotorParams params_;
   int32_t way_per_count_;  // 0.1 um
   int32_t lag_ = 0;        // 0.1 um
   int16_t wanted_ = 0;     // of the last call

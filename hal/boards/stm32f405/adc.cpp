@@ -1,6 +1,6 @@
 #include "hal/boards/stm32f405/adc.hpp"
 
-#include "hal/boards/stm32f405/patience.hpp"
+#include "hal/boards/common/patience.hpp"
 #include "hal/boards/stm32f405/reg/adc.hpp"
 #include "hal/boards/stm32f405/reg/adc_common.hpp"
 #include "hal/boards/stm32f405/reg/bases.hpp"

@@ -1,6 +1,6 @@
 #include "hal/boards/stm32f405/clock.hpp"
 
-#include "hal/boards/stm32f405/patience.hpp"
+#include "hal/boards/common/patience.hpp"
 #include "hal/boards/stm32f405/reg/bases.hpp"
 #include "hal/boards/stm32f405/reg/flash.hpp"
 #include "hal/boards/stm32f405/reg/rcc.hpp"

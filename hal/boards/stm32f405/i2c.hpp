@@ -2,8 +2,9 @@
 
 #include <stdint.h>
 
+#include "hal/boards/common/patience.hpp"
 #include "hal/boards/stm32f405/clock.hpp"
-#include "hal/boards/stm32f405/patience.hpp"
+#include "hal/boards/stm32f405/io.hpp"
 
 namespace whisker::hal::stm32f405 {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hal/boards/common/schedule.hpp"
 #include "hal/boards/stm32f405/bx_can.hpp"
 #include "hal/boards/stm32f405/reporter.hpp"
 #include "hal/boards/stm32f405/ticker.hpp"
@@ -65,7 +66,7 @@ class NodeBoard {
   WatchedStorage tables_;
   WatchedStorage calibration_;
   Reporter reporter_;
-  Schedule schedule_;
+  mcu::Schedule schedule_;
 };
 
 }  // namespace whisker::hal::stm32f405

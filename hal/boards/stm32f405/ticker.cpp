@@ -25,12 +25,4 @@ uint32_t Ticker::now_ms() noexcept {
   return ms_;
 }
 
-bool Schedule::due(uint32_t now_ms, uint32_t period_ms) noexcept {
-  const uint32_t periods = (now_ms - last_) / period_ms;
-  if (periods == 0) return false;
-  missed_ += periods - 1;
-  last_ += periods * period_ms;
-  return true;
-}
-
 }  // namespace whisker::hal::stm32f405

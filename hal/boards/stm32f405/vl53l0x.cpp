@@ -19,14 +19,7 @@ Taken take(I2c& bus, uint8_t address, hal::RangeReading& out) noexcept {
   uint8_t bytes[kRangeBytes];
   if (!bus.read(address, kRangeStatus, bytes, kRangeBytes)) return Taken::failed;
   if (!bus.write(address, kInterruptClear, 1)) return Taken::failed;
-  const uint8_t status = (bytes[0] >> 3) & 0x0F;
-  out.mm = static_cast<uint16_t>((bytes[10] << 8) | bytes[11]);
-  const bool nothing = out.mm >= kOutOfReachMm && (kSeesNothing >> status & 1U) != 0;
-  if (nothing || status == kNoSignal) {
-    out.status = hal::RangeStatus::clear;
-  } else {
-    out.status = status == kValid ? hal::RangeStatus::ok : hal::RangeStatus::invalid;
-  }
+  decode(bytes, out);
   return Taken::measured;
 }
 

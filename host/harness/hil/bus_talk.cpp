@@ -126,10 +126,9 @@ void BusTalk::give(can::Order order, const can::Mission& mission) {
 }
 
 void BusTalk::hand_over(const Params& params) {
-  std::uint32_t raw = 0;
-  for (std::uint8_t i = 0; can::read_param(params, i, raw); ++i) {
-    ask({can::ParamAction::write, i, raw});
-  }
+  can::each_param(params, [this](std::uint8_t index, std::uint32_t raw) {
+    ask({can::ParamAction::write, index, raw});
+  });
   ask({can::ParamAction::commit, can::kCommitIndex, 0});
 }
 

@@ -26,7 +26,7 @@ class SocketCanLine final : public Line {
 
 class SlcanLine final : public Line {
  public:
-  explicit SlcanLine(const std::string& path) : tty_(path), port_(tty_, hal::slcan::Role::host) {}
+  SlcanLine(const std::string& path, int baud) : tty_(path, baud), port_(tty_, hal::slcan::Role::host) {}
   hal::CanPort& port() override { return port_; }
   int descriptor() const override { return tty_.descriptor(); }
   std::string waits_for() const override {
@@ -87,7 +87,13 @@ class PacketLine final : public Line, private hal::CanPort {
 std::unique_ptr<Line> open_line(const std::string& name) {
   try {
     if (name.rfind(kSlcan, 0) == 0) {
-      return std::make_unique<SlcanLine>(name.substr(std::char_traits<char>::length(kSlcan)));
+      const std::string device = name.substr(std::char_traits<char>::length(kSlcan));
+      const std::size_t at = device.rfind('@');
+      const std::string speed = at == std::string::npos ? "" : device.substr(at + 1);
+      const bool is_speed =
+          !speed.empty() && speed.size() < 8 && speed.find_first_not_of("0123456789") == std::string::npos;
+      if (!is_speed) return std::make_unique<SlcanLine>(device, hal::tty::TtyLine::kBaud);
+      return std::make_unique<SlcanLine>(device.substr(0, at), std::stoi(speed));
     }
     return std::make_unique<SocketCanLine>(name);
   } catch (const hal::socketcan::SocketCanError& e) {

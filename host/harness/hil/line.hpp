@@ -27,7 +27,8 @@ class Line {
 };
 
 /// name: a CAN interface of Linux, or "slcan:PATH" for an adapter or a board at a serial device, a pseudo
-/// terminal or a Unix socket. The target need not exist yet. Throws BusError.
+/// terminal or a Unix socket; "slcan:PATH@BAUD" for another speed than 115200. The target need not exist yet.
+/// Throws BusError.
 std::unique_ptr<Line> open_line(const std::string& name);
 
 /// The two ends of a private bus; each may be passed to another process. Throws BusError.

@@ -23,7 +23,7 @@ struct Cone {
 
 Cone cone(const Params& p, const Sensor& sensor, int beam) {
   const Mount m = mount(p.rangefinders, beam);
-  double half = degrees(m.half_cone), reach = metres(proving_range(p.rangefinders, beam));
+  double half = degrees(m.half_cone), reach = metres(proving_range(p.rangefinders));
   reach = std::min(reach, sensor.max_range_m.value_or(reach));
   if (sensor.cone_deg) {
     const double wide = *sensor.cone_deg, far = std::min(wide, sensor.cone_far_deg.value_or(wide));
@@ -116,7 +116,7 @@ bool wall_in_time(const Params& params, const Sensor& sensor, double normal_deg,
     const double off = std::fabs(ray - normal_deg);
     if (off > incidence_deg || off >= 90) continue;
     const double range = (away - c.x * std::cos(w) - c.y * std::sin(w)) / std::cos(off * kRadiansADegree);
-    if (range <= c.reach_m && range >= metres(min_range(params.rangefinders, i))) return true;
+    if (range <= c.reach_m && range >= metres(params.rangefinders.min_range)) return true;
   }
   return false;
 }

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <mutex>
+#include <set>
 
 namespace whisker {
 
@@ -20,5 +23,12 @@ InputError::InputError(std::string_view file, std::size_t line, std::size_t colu
     : std::runtime_error(one_line(fmt::format("{}:{}:{}: {}", file, line, column, what))),
       line_(line),
       column_(column) {}
+
+void notice(const InputError& what) {
+  static std::mutex mutex;
+  static std::set<std::string> said;
+  const std::lock_guard lock(mutex);
+  if (said.insert(what.what()).second) fmt::print(stderr, "{}\n", what.what());
+}
 
 }  // namespace whisker

@@ -26,6 +26,9 @@ class InputError : public std::runtime_error {
   std::size_t column_;
 };
 
+/// Prints it on standard error: a word to the user that is no failure. Each text once.
+void notice(const InputError& what);
+
 /// Several errors; what() is the first.
 class InputErrors : public InputError {
  public:

@@ -1,12 +1,12 @@
 #include "host/harness/scenario/event.hpp"
 
-#include "firmware/params/words.hpp"
+#include "host/harness/scenario/param_list.hpp"
 
 namespace whisker {
 
 bool apply_param(const Event& event, Params& params) {
   Params changed = params;
-  set_raw_param(changed, static_cast<std::uint8_t>(event.param), static_cast<std::uint32_t>(event.raw));
+  set_param(changed, event.param, event.raw);
   if (check(changed) != ParamFault::none) return false;
   params = changed;
   return true;

@@ -80,6 +80,16 @@ void read_param(const TableReader& table, Event& e) {
   e.raw = read_param_value(table, "value", e.param);
 }
 
+/// The event would set what the robot derives: it is read and has no effect.
+bool sets_derived(const TableReader& table) {
+  if (!table.has("kind") || table.text("kind") != "param" || !table.has("name")) return false;
+  const std::vector<std::string_view> derived = derived_keys();
+  const std::string key = table.text("name");
+  if (std::find(derived.begin(), derived.end(), key) == derived.end()) return false;
+  notice(table.error_at("name", derived_words(key)));
+  return true;
+}
+
 void read_table(const TableReader& table, Event& e) {
   if (table.has("name") == table.has("file"))
     table.fail(fmt::format("an event of kind \"table\" has either file, or name = \"{}\"", kDefaultTable));
@@ -163,7 +173,9 @@ bool is_fixed_in_a_run(const char* key) {
 
 std::vector<Event> read_events(const TableReader& top) {
   std::vector<Event> events;
-  for (const TableReader& table : top.tables("event", all_keys())) events.push_back(read_event(table));
+  for (const TableReader& table : top.tables("event", all_keys())) {
+    if (!sets_derived(table)) events.push_back(read_event(table));
+  }
   return events;
 }
 

@@ -69,7 +69,7 @@ void read_obstacles(const TableReader& top, Scenario& s) {
 
 /// A file of one kind in the other's place: without this, its first key would be unknown.
 void refuse_robot_file(const toml::table& root, const std::string& file) {
-  const std::vector<std::string_view> keys = robot_keys();
+  const std::vector<std::string_view> keys = keys_in_files();
   const bool parameters = std::any_of(keys.begin(), keys.end(), [&](auto key) { return root.contains(key); });
   if (root.contains("start") || root.contains("goal")) return;
   if (parameters || root.contains("robot") || root.contains("sensor"))
@@ -100,12 +100,12 @@ void read_robot_file(const std::string& file, Params& params, Sensor& sensor, No
                      const Rectangle* body = nullptr) {
   const toml::table root = parse_toml(read_file(file), file);
   refuse_scenario(root, file);
-  std::vector<std::string_view> known = robot_keys();
+  std::vector<std::string_view> known = keys_in_files();
   known.insert(known.end(), {"robot", "sensor", "noise"});
   const TableReader top(file, root, "", known);
   RobotTables tables{top};
-  if (top.has("robot")) tables.push_back(top.table("robot", robot_keys()));
-  for (const std::string_view key : robot_keys()) {
+  if (top.has("robot")) tables.push_back(top.table("robot", keys_in_files()));
+  for (const std::string_view key : keys_in_files()) {
     if (tables.size() > 1 && top.has(key) && tables.back().has(key)) {
       tables.back().fail_at(key, fmt::format("'{}' is set both at the top level and in [robot]", key));
     }
@@ -156,7 +156,7 @@ Scenario parse_scenario(std::string_view text, const std::string& name, const st
   if (top.has("noise")) read_noise(top.table("noise", noise_keys()), s.noise);
   if (top.has("sensor")) read_sensor(top.table("sensor", sensor_keys()), s.sensor);
   if (top.has("robot")) {
-    const RobotTables robot{top.table("robot", robot_keys())};
+    const RobotTables robot{top.table("robot", keys_in_files())};
     read_robot(robot, s.robot);
     check_robot(robot, s.robot);
   }
@@ -188,6 +188,17 @@ void apply_robot_file(Params& params, Sensor& sensor, const std::string& file, c
 void apply_robot_file(Params& params, const std::string& file) {
   Sensor ignored;
   apply_robot_file(params, ignored, file);
+}
+
+std::vector<std::string_view> unset_keys(const std::string& file) {
+  const toml::table root = parse_toml(read_file(file), file);
+  const toml::table* const own = root["robot"].as_table();
+  std::vector<std::string_view> unset;
+  for (const std::string_view key : robot_keys()) {
+    const bool set = root.contains(key) || (own != nullptr && own->contains(key));
+    if (must_set(key) && !set) unset.push_back(key);
+  }
+  return unset;
 }
 
 void apply_robot_file(Scenario& scenario, const std::string& file) {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/harness/scenario/error.hpp"
 #include "host/harness/scenario/scenario.hpp"
@@ -18,6 +19,8 @@ Scenario parse_scenario(std::string_view text, const std::string& name, const st
 /// Sets the parameters that a robot file contains (at its top level, or in [robot]) and keeps the others. On
 /// an error, the parameters are unchanged. Its [sensor] and [noise], if any, are only checked.
 void apply_robot_file(Params& params, const std::string& file);
+/// The keys of must_set() that a robot file does not set, so that the reference robot's value holds.
+std::vector<std::string_view> unset_keys(const std::string& file);
 /// A body that is a rectangle, m.
 struct Rectangle {
   double length;

@@ -121,13 +121,11 @@ std::vector<std::string> contradictions(const Params& params, const Sensor& sens
   const auto metres = [](Length x) { return x.raw() * 1e-6; };
   const std::string who =
       sensor.model.empty() ? "[sensor] says" : fmt::format("[sensor] model = \"{}\" says", sensor.model);
-  double widest = 0, farthest = 0;  // that the robot believes of a beam
+  const double farthest = metres(proving_range(params.rangefinders));  // that the robot believes of a beam
+  double widest = 0;
   for (int i = 0; i < 3; ++i) {
     const double cone = mount(params.rangefinders, i).half_cone.raw() * (360.0 / 2147483648.0);
-    const double clear = metres(params.rangefinders.clear_range);
-    const double far = metres(max_range(params.rangefinders, i));
     widest = std::max(widest, cone);
-    farthest = std::max(farthest, clear > 0 ? std::min(clear, far) : far);
   }
   std::vector<std::string> all;
   if (sensor.cone_deg && *sensor.cone_deg < kLeastSeen * widest) {
@@ -163,7 +161,7 @@ std::vector<MountingWarning> mounting_warnings(const Params& params, const Senso
   }
   for (int i = 0; i < 3 && sensor.near_is == Near::farther; ++i) {
     const double hidden =
-        sensor.min_range_m.value_or(min_range(params.rangefinders, i).raw() * 1e-6) - rim_ahead_m(params, i);
+        sensor.min_range_m.value_or(params.rangefinders.min_range.raw() * 1e-6) - rim_ahead_m(params, i);
     if (hidden <= 1e-6) continue;
     all.push_back(
         {"near_reads_farther",

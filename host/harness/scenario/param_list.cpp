@@ -20,18 +20,20 @@ const char* type_of(const Direction&) { return "Direction"; }
 
 struct Lister {
   std::vector<ParamEntry> all;
+  int at = 0;
   template <class T>
   void number(const char* key, const T& x, T low, T high) {
-    all.push_back({key, x.raw(), low.raw(), high.raw(), unit_of(x), nullptr, type_of(x)});
+    all.push_back({at++, key, x.raw(), low.raw(), high.raw(), unit_of(x), nullptr, type_of(x)});
   }
   void count(const char* key, const std::int32_t& x, std::int32_t low, std::int32_t high) {
-    all.push_back({key, x, low, high, kPlain, nullptr, "int32_t"});
+    all.push_back({at++, key, x, low, high, kPlain, nullptr, "int32_t"});
   }
   template <class E>
   void choice(const char* key, const E& x, const char* const* names, int count) {
     const int chosen = static_cast<int>(x);
-    all.push_back({key, chosen, 0, count - 1, kPlain, names[chosen], "", is_boolean(names, count)});
+    all.push_back({at++, key, chosen, 0, count - 1, kPlain, names[chosen], "", is_boolean(names, count)});
   }
+  void derived(const char*) { ++at; }
 };
 
 struct RawSetter {
@@ -52,6 +54,7 @@ struct RawSetter {
   void choice(const char*, E& x, const char* const*, int) {
     if (at++ == place) x = static_cast<E>(raw);
   }
+  void derived(const char*) {}
 };
 
 }  // namespace

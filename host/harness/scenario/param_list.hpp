@@ -11,6 +11,7 @@
 namespace whisker {
 
 struct ParamEntry {
+  int number;  ///< on the bus
   const char* key;
   std::int64_t raw;
   std::int64_t low;  ///< range of the parameter
@@ -24,7 +25,7 @@ struct ParamEntry {
   std::string text_of(std::int64_t other) const;
 };
 
-/// In the order of for_each_param.
+/// In the order of for_each_param, without what is derived.
 std::vector<ParamEntry> param_list(const Params& params);
 
 /// Sets the parameter at this index of the list; raw must lie within its range.

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 namespace whisker {
 namespace {
@@ -19,6 +21,17 @@ struct Keys {
   void choice(const char* key, const E&, const char* const*, int) {
     all.emplace_back(key);
   }
+  void derived(const char*) {}
+};
+
+struct DerivedKeys {
+  std::vector<std::string_view> all;
+  template <class T>
+  void number(const char*, const T&, T, T) {}
+  void count(const char*, const std::int32_t&, std::int32_t, std::int32_t) {}
+  template <class E>
+  void choice(const char*, const E&, const char* const*, int) {}
+  void derived(const char* key) { all.emplace_back(key); }
 };
 
 struct Row {
@@ -44,6 +57,7 @@ struct Rows {
     const char* const chosen = names[static_cast<int>(x)];
     all.push_back({key, boolean ? "boolean" : "one of", choice_text(chosen, boolean), words});
   }
+  void derived(const char*) {}
 };
 
 std::vector<Row> rows(const Params& params) {
@@ -84,6 +98,19 @@ std::vector<std::string_view> robot_keys() {
   return keys.all;
 }
 
+std::vector<std::string_view> derived_keys() {
+  DerivedKeys keys;
+  const Params reference;
+  for_each_param(reference, keys);
+  return keys.all;
+}
+
+std::vector<std::string_view> keys_in_files() {
+  std::vector<std::string_view> keys = robot_keys(), derived = derived_keys();
+  keys.insert(keys.end(), derived.begin(), derived.end());
+  return keys;
+}
+
 std::string robot_toml(const Params& params) {
   const std::vector<Row> reference = rows(Params{});
   const std::vector<Row> chosen = rows(params);
@@ -95,12 +122,26 @@ std::string robot_toml(const Params& params) {
   return out;
 }
 
+bool must_set(std::string_view key) {
+  return std::find(std::begin(kMustSet), std::end(kMustSet), key) != std::end(kMustSet);
+}
+
+std::string derived_words(std::string_view key) { return fmt::format("'{}' is derived: ignored", key); }
+
 std::string params_markdown() {
-  std::string out = "| Key | Unit | Default | Range |\n|---|---|---|---|\n";
-  for (const Row& row : rows(Params{})) {
-    out += fmt::format("| `{}` | {} | {} | {} |\n", row.key, row.unit, row.value, row.range);
+  std::string out;
+  for (const bool must : {true, false}) {
+    out += must ? "Of the robot, to be set (the default is the reference robot's):\n\n"
+                : "\nThat may be tuned:\n\n";
+    out += "| Key | Unit | Default | Range |\n|---|---|---|---|\n";
+    for (const Row& row : rows(Params{})) {
+      if (must_set(row.key) != must) continue;
+      out += fmt::format("| `{}` | {} | {} | {} |\n", row.key, row.unit, row.value, row.range);
+    }
   }
-  return out;
+  out += "\nDerived (`firmware/params/derived.hpp`): a file may have these keys, and they are ignored:";
+  for (const std::string_view key : derived_keys()) out += fmt::format("\n`{}`", key);
+  return out + "\n";
 }
 
 }  // namespace whisker

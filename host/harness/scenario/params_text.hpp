@@ -44,13 +44,22 @@ inline void set_si(Angle& field, double deg) {
 /// The shortest decimal that to_raw() converts back to the same raw value.
 std::string si_text(std::int64_t raw, ParamUnit unit);
 
-/// The keys of a [robot] table, in the order of for_each_param.
+/// The keys of the parameters, in the order of for_each_param.
 std::vector<std::string_view> robot_keys();
+/// The keys of former parameters that the robot derives now.
+std::vector<std::string_view> derived_keys();
+/// What to say where one of them is set.
+std::string derived_words(std::string_view key);
+/// Both: the keys that a [robot] table may have.
+std::vector<std::string_view> keys_in_files();
 
 /// `key = value` lines for the parameters that differ from the reference robot's.
 std::string robot_toml(const Params& params);
 
-/// The table of docs/parameters.md: key, unit, default and range of every parameter.
+/// What robot_keys() says of a parameter: the robot's owner must set it, or may tune it.
+bool must_set(std::string_view key);
+
+/// The tables of docs/parameters.md: what must be set, what may be tuned, what is derived.
 std::string params_markdown();
 
 }  // namespace whisker

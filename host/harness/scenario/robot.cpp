@@ -66,6 +66,10 @@ struct Setter {
     });
   }
 
+  void derived(const char* key) {
+    if (table.has(key)) notice(table.error_at(key, derived_words(key)));
+  }
+
   template <class F>
   void tried(const F& set) {
     try {
@@ -93,6 +97,7 @@ struct OneSetter {
   void choice(const char* name, E& x, const char* const* names, int count) {
     if (name == param) setter.choice(key, x, names, count);
   }
+  void derived(const char*) {}
 };
 
 const TableReader* table_with(const RobotTables& tables, const char* key) {

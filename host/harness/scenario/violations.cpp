@@ -135,14 +135,11 @@ bool is_of_use(const ParamEntry& e) { return e.word == nullptr && !(e.of_one_bea
 bool is_free(const ParamEntry& e, bool down) {
   const std::string_view key = e.key;
   if (!is_of_use(e)) return false;
-  for (const char* group : {"thesis_", "skirt_", "consensus_", "guard_"})
-    if (key.rfind(group, 0) == 0) return true;
-  if (is_one_of(key, {"wheel_speed_max_mps", "wheel_acceleration_max_mps2", "turn_rate_max_radps",
-                      "range_max_m", "range_left_max_m", "range_front_max_m", "range_right_max_m"}))
+  if (is_one_of(key,
+                {"wheel_speed_max_mps", "wheel_acceleration_max_mps2", "turn_rate_max_radps", "range_max_m"}))
     return down;
-  return is_one_of(key, {"body_margin_m", "stale_after_s", "stuck_turn_deg", "motion_settle_s",
-                         "turn_tolerance_deg", "drive_tolerance_m", "lost_after_s", "wheels_stalled_after_s",
-                         "max_drive_refusals", "range_clear_m", "length_budget_m", "creep_speed_mps"});
+  return is_one_of(key, {"body_margin_m", "stale_after_s", "wheels_stalled_after_s", "range_clear_m",
+                         "length_budget_m", "creep_speed_mps"});
 }
 
 /// Whether the relation holds with these parameters; with `strictly`, only if no other one is broken anew.

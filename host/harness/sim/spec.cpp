@@ -24,8 +24,8 @@ RobotSpec robot_spec(const Params& params) {
                      radial ? si(r.offset) * direction.sin : own.y,
                      axis,
                      si(beam_cone(r, i)) / 2,
-                     si(min_range(r, i)),
-                     si(max_range(r, i))};
+                     si(r.min_range),
+                     si(r.max_range)};
   }
   spec.rate_hz = params.rangefinders.rate_hz;
   spec.latency_s = si(params.rangefinders.latency);

@@ -160,7 +160,7 @@ Params robot_in(const Value& object, const Params& defaults) {
   static const std::string kName = "robot";
   try {
     const toml::table table = parse_toml(text, kName);
-    const RobotTables tables{TableReader(kName, table, "", robot_keys())};
+    const RobotTables tables{TableReader(kName, table, "", keys_in_files())};
     Params params = defaults;
     read_robot(tables, params);
     check_robot(tables, params);

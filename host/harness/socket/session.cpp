@@ -47,8 +47,8 @@ Json beam_json(const RangefinderParams& r, int beam) {
   json["y_m"] = si(m.apex.y);
   json["angle_deg"] = degrees(m.axis);
   json["cone_deg"] = degrees(beam_cone(r, beam));
-  json["min_m"] = si(min_range(r, beam));
-  json["max_m"] = si(max_range(r, beam));
+  json["min_m"] = si(r.min_range);
+  json["max_m"] = si(r.max_range);
   return json;
 }
 

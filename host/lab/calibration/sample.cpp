@@ -21,8 +21,8 @@ Believed believed(const Params& params, int beam) {
           degrees(m.half_cone),
           metres(m.apex.x),
           metres(m.apex.y),
-          metres(min_range(params.rangefinders, beam)),
-          metres(max_range(params.rangefinders, beam))};
+          metres(params.rangefinders.min_range),
+          metres(params.rangefinders.max_range)};
 }
 
 bool sample_of(const hal::RangeReading& reading, const Believed& beam, Sample& sample) {

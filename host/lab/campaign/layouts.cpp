@@ -58,17 +58,8 @@ Params scaled(Params p, double size) {
   scale(p.body.radius, size, 0.02, 1);
   scale(p.body.margin, size, 0, 0.5);
   scale(p.body.track, size, 0.02, 2);
-  scale(p.conditioning.tolerance, size, 0.001, 1);
-  scale(p.thesis.base_step, size, 0.02, 2);
-  scale(p.thesis.small_step, size, 0.01, 1);
-  scale(p.thesis.danger_range, size, 0.05, 5);
-  scale(p.boundary.cell, size, 0, 0.25);
-  scale(p.boundary.probe, size, 0, 2);
   scale(p.boundary.guard_margin, size, 0, 0.5);
-  scale(p.boundary.planning_margin, size, 0, 0.5);
-  scale(p.boundary.age_travel, size, 0.1, 1000);
   scale(p.boundary.length_budget, size, 1, 2000);
-  scale(p.motion.drive_tolerance, size, std::max(0.001, 1.1 / p.wheels.counts_per_metre), 0.05);
   return p;
 }
 
@@ -79,17 +70,12 @@ Params equipped(Params p, const SensorModel& model) {
   set_si(r.min_range, model.min_range_m);
   set_si(r.max_range, model.max_range_m);
   const double taper = model.cone_deg - std::min(model.cone_deg, model.cone_far_deg);
-  set_si(r.cone, model.cone_deg - taper * proving_range(r, 1).raw() / r.max_range.raw());
+  set_si(r.cone, model.cone_deg - taper * proving_range(r).raw() / r.max_range.raw());
   r.rate_hz = model.rate_hz;
   set_si(r.latency, model.latency_s);
-  // No step may be longer than the sensors see.
-  const Length room = proving_range(r, 1) - p.body.radius - p.body.margin;
-  p.thesis.base_step = (std::min)(p.thesis.base_step, Length::from_raw(room.raw() / 2));
-  p.thesis.small_step = (std::min)(p.thesis.small_step, p.thesis.base_step);
   const double oldest = 1.0 / model.rate_hz + model.latency_s;
   // A lost reading must not make a slow sensor stale.
   set_si(p.conditioning.stale_after, std::max(p.conditioning.stale_after.raw() * 1e-3, 2.5 * oldest));
-  p.safety.lost_after = (std::max)(p.safety.lost_after, p.conditioning.stale_after);
   return p;
 }
 

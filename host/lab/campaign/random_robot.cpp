@@ -33,9 +33,7 @@ class Draw {
     rangefinders();
     if (own) own_mounts();
     conditioning();
-    planners();
-    motion();
-    margins();
+    driving();
     return p_;
   }
 
@@ -43,15 +41,14 @@ class Draw {
   void body() {
     set_si(p_.body.radius, radius_);
     set_si(p_.body.margin, 0.03 * size_);
-    track_ = random_.uniform(0.8, 2) * radius_;
-    set_si(p_.body.track, track_);
+    set_si(p_.body.track, random_.uniform(0.8, 2) * radius_);
   }
 
   void wheels() {
     // In radii, because a large body at 2 cm/s would take days, and a small one at 3 m/s cannot stop.
-    speed_ = std::clamp(log_uniform(random_, 0.5, 20) * radius_, 0.02, 3.2);
-    set_si(p_.wheels.max_speed, speed_);
-    set_si(p_.wheels.max_acceleration, std::clamp(speed_ / log_uniform(random_, 0.05, 3), 0.05, 20.0));
+    const double speed = std::clamp(log_uniform(random_, 0.5, 20) * radius_, 0.02, 3.2);
+    set_si(p_.wheels.max_speed, speed);
+    set_si(p_.wheels.max_acceleration, std::clamp(speed / log_uniform(random_, 0.05, 3), 0.05, 20.0));
     set_si(p_.wheels.max_turn_rate, log_uniform(random_, 0.3, 20));
     set_si(p_.wheels.motor_lag, random_.uniform(0, 0.15));
     p_.wheels.counts_per_metre = static_cast<std::int32_t>(log_uniform(random_, 100, 100000));
@@ -63,12 +60,10 @@ class Draw {
     set_si(r.cone, log_uniform(random_, 2, 60));
     set_si(r.offset, random_.uniform(0, 1.1) * radius_);
     set_si(r.min_range, random_.uniform(0, 0.5) * radius_);
-    set_si(r.max_range, max_range());
+    set_si(r.max_range, std::clamp(random_.uniform(1, 4) * size_, 1.5, 60.0));
     r.rate_hz = 5 + random_.index(96);
     set_si(r.latency, random_.uniform(0, 0.1));
   }
-
-  double max_range() { return std::clamp(random_.uniform(1, 4) * size_, 1.5, 60.0); }
 
   void own_mounts() {
     constexpr double kInner[] = {10, -15, -80}, kOuter[] = {80, 15, -10};
@@ -85,8 +80,6 @@ class Draw {
       set_si(beam.y, off * direction.sin);
       set_si(beam.angle, axis);
       set_si(beam.cone, log_uniform(random_, 2, 60));
-      set_si(beam.min_range, random_.uniform(0, 0.5) * radius_);
-      set_si(beam.max_range, max_range());
     }
   }
 
@@ -95,49 +88,18 @@ class Draw {
     const double gap = 1.0 / r.rate_hz + r.latency.raw() * 1e-3;
     const double stale = std::max(0.02, gap * random_.uniform(1.2, 3));
     set_si(p_.conditioning.stale_after, stale);
-    set_si(p_.safety.lost_after, std::max(1.0, 10 * stale));
     p_.conditioning.consensus = random_.chance(0.5) ? Consensus::agreeing : Consensus::median;
-    p_.conditioning.reads = 1 + random_.index(5);
-    set_si(p_.conditioning.tolerance, 0.06 * size_);
   }
 
-  void planners() {
-    const double step = std::clamp(random_.uniform(0.1, 0.4) * size_, 0.02, 2.0);
-    set_si(p_.thesis.base_step, step);
-    set_si(p_.thesis.small_step, std::clamp(random_.uniform(0.25, 1) * step, 0.01, 1.0));
-    set_si(p_.thesis.danger_range, std::clamp(random_.uniform(0.15, 0.6) * size_, 0.05, 5.0));
-    set_si(p_.boundary.age_travel, std::max(0.1, 0.5 * size_));
+  void driving() {
     set_si(p_.boundary.length_budget, std::min(2000.0, 400 * size_));
-    set_si(p_.boundary.mover_speed, random_.chance(0.5) ? 0 : std::min(1.0, speed_ * random_.uniform(0, 1)));
-  }
-
-  /// Tolerances of at least one count, and the times that motor and encoder need.
-  void motion() {
     p_.safety.period = milliseconds(5 + random_.index(16));
-    const double period = p_.safety.period.raw() * 1e-3;
-    const double count = 1.0 / p_.wheels.counts_per_metre;
-    const double lag = p_.wheels.motor_lag.raw() * 1e-3;
-    const double settle = std::clamp((lag + period) * random_.uniform(1.1, 3), 0.02, 1.0);
-    set_si(p_.motion.settle, settle);
-    const double least_way = std::max(count, 1e-4 * settle);
-    const double least_turn = least_way / (track_ / 2) * (180 / sim::kPi);
-    const double turn = std::max(random_.uniform(0.5, 3), 1.1 * least_turn);
-    set_si(p_.motion.turn_tolerance, turn);
-    set_si(p_.thesis.delta, std::min(45.0, std::max(random_.uniform(5, 30), 1.2 * turn)));
-    set_si(p_.motion.drive_tolerance, std::max({0.001, 0.002 * size_, 1.1 * count}));
-    const Duration slowest = relations::slowest_count(p_, millimetres(1000) / p_.wheels.counts_per_metre);
-    set_si(p_.safety.stalled_after, std::clamp(slowest.raw() * 1e-3 * random_.uniform(1, 3), 0.2, 10.0));
-  }
-
-  void margins() {
-    const double guard = random_.uniform(0, 0.006) * size_;
-    set_si(p_.boundary.guard_margin, guard);
-    set_si(p_.boundary.planning_margin, guard + random_.uniform(0, 0.006) * size_);
+    set_si(p_.boundary.guard_margin, random_.uniform(0, 0.006) * size_);
   }
 
   Random& random_;
   Params p_;
-  double radius_, size_, track_ = 0, speed_ = 0;
+  double radius_, size_;
 };
 
 }  // namespace

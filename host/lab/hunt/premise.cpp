@@ -31,12 +31,8 @@ struct Believed {
 };
 
 Believed believed(const RangefinderParams& r) {
-  Believed all;
-  for (int i = 0; i < 3; ++i) {
-    all.cone_deg = std::max(all.cone_deg, degrees(beam_cone(r, i)));
-    all.min_range_m = std::min(all.min_range_m, metres(min_range(r, i)));
-    all.max_range_m = std::max(all.max_range_m, metres(max_range(r, i)));
-  }
+  Believed all{0, metres(r.min_range), metres(r.max_range)};
+  for (int i = 0; i < 3; ++i) all.cone_deg = std::max(all.cone_deg, degrees(beam_cone(r, i)));
   return all;
 }
 

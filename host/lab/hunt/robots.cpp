@@ -30,10 +30,7 @@ void speeds(Dice& dice, Params& p, double slowest, double fastest) {
 }
 
 void lag(Dice& dice, Params& p) {
-  const double lag_s = dice.uniform(0.05, 0.5);
-  set_si(p.wheels.motor_lag, lag_s);
-  set_si(p.motion.settle, std::min(1.0, lag_s + 0.06 + dice.uniform(0, 0.2)));
-  set_si(p.safety.stalled_after, 10);
+  set_si(p.wheels.motor_lag, dice.uniform(0.05, 0.5));
   set_si(p.wheels.max_acceleration, dice.log_uniform(0.5, 20));
   set_si(p.wheels.max_turn_rate, dice.log_uniform(1, 20));
   speeds(dice, p, 0.1, 1.2);
@@ -45,7 +42,6 @@ void ticks(Dice& dice, Params& p) {
   set_si(p.safety.period, period_s);
   set_si(p.safety.max_gap, half(dice, 0.25, dice.uniform(2 * period_s + 0.002, 0.25)));
   set_si(p.wheels.motor_lag, half(dice, 0, dice.uniform(0, 0.02)));
-  set_si(p.motion.settle, dice.uniform(0.08, 0.3));
   set_si(p.wheels.max_acceleration, dice.log_uniform(1, 20));
   set_si(p.wheels.max_turn_rate, dice.log_uniform(2, 20));
   set_si(p.conditioning.stale_after, 0.4);
@@ -56,9 +52,8 @@ void ticks(Dice& dice, Params& p) {
 
 void cells(Dice& dice, Params& p) {
   wide_cone(dice, p);
-  set_si(p.boundary.cell, std::min(0.25, radius_m(p) * dice.uniform(0.3, 0.48)));
+  set_si(p.body.radius, dice.log_uniform(0.02, 1));
   set_si(p.boundary.guard_margin, half(dice, 0, dice.uniform(0, 0.006)));
-  p.boundary.planning_margin = p.boundary.guard_margin + millimetres(dice.index(6));
 }
 
 void turns(Dice& dice, Params& p) {
@@ -75,12 +70,6 @@ void turns(Dice& dice, Params& p) {
 
 void encoders(Dice& dice, Params& p) {
   p.wheels.counts_per_metre = static_cast<std::int32_t>(dice.log_uniform(100, 800));
-  set_si(p.motion.turn_tolerance, dice.uniform(4, 10));
-  set_si(p.motion.drive_tolerance, dice.uniform(0.01, 0.05));
-  set_si(p.thesis.delta, dice.uniform(11, 40));
-  set_si(p.safety.stalled_after, 5);
-  set_si(p.boundary.age_travel, half(dice, 1000, dice.log_uniform(0.1, 10)));
-  set_si(p.boundary.age_turn, half(dice, 359, dice.uniform(90, 359)));
   wide_cone(dice, p);
 }
 
@@ -101,8 +90,6 @@ void mounts(Dice& dice, Params& p) {
     if (dice.chance(0.7)) set_si(beam.y, at.y);
     if (dice.chance(0.7)) set_si(beam.angle, dice.uniform(kInner[i], kOuter[i]));
     if (dice.chance(0.5)) set_si(beam.cone, dice.uniform(10, 60));
-    if (dice.chance(0.3)) set_si(beam.min_range, dice.log_uniform(0.02, 1.5) * radius_m(p));
-    if (dice.chance(0.3)) set_si(beam.max_range, dice.uniform(1, 4) * size_of(p));
   }
 }
 
@@ -128,7 +115,6 @@ void readings(Dice& dice, Params& p) {
   const double oldest_s = 1.0 / p.rangefinders.rate_hz + p.rangefinders.latency.raw() * 1e-3;
   set_si(p.conditioning.stale_after, std::clamp(oldest_s * dice.log_uniform(1.02, 4), 0.02, 2.0));
   p.conditioning.consensus = dice.chance(0.5) ? Consensus::median : Consensus::agreeing;
-  p.conditioning.reads = 1 + dice.index(5);
 }
 
 void bumper(Dice& dice, Params& p) {

@@ -51,8 +51,8 @@ Json robot_data(const Params& p) {
                      {"y", metres(m.apex.y)},
                      {"angle", radians(m.axis)},
                      {"cone", radians(m.half_cone) * 2},
-                     {"min_range", metres(min_range(sensor, i))},
-                     {"max_range", metres(max_range(sensor, i))}});
+                     {"min_range", metres(sensor.min_range)},
+                     {"max_range", metres(sensor.max_range)}});
   }
   return {{"radius", metres(p.body.radius)},
           {"track", metres(p.body.track)},
@@ -64,7 +64,7 @@ Json robot_data(const Params& p) {
           {"offset", metres(sensor.offset)},
           {"beams", beams},
           {"cell", metres(grid_cell(p))},
-          {"base_turn", radians(p.thesis.base_turn)},
+          {"base_turn", radians(derived::kBaseTurn)},
           {"bends", p.boundary.bend == Fitted::yes},
           {"period", static_cast<double>(p.safety.period.raw()) / 1000.0}};
 }

@@ -271,7 +271,7 @@ WHISKER_EXPORT(robot) int robot() {
                metres(p.rangefinders.max_range),
                metres(p.rangefinders.offset),
                metres(grid_cell(p)),
-               half_turns(p.thesis.base_turn),
+               half_turns(derived::kBaseTurn),
                p.safety.period.raw() / 1000.0};
   return answer();
 }

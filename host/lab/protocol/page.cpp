@@ -248,6 +248,8 @@ class Writer {
     put("| {} | {} | {} | {} | {}..{} |\n", index_++, name, unit, raw, low, high);
   }
 
+  void derived_row(const char* name) { put("| {} | {} | derived | | |\n", index_++, name); }
+
   void params();
 
   friend class ParamRows;
@@ -284,6 +286,7 @@ class ParamRows {
   void choice(const char* key, const E& x, const char* const*, int names) {
     writer_.number_row(key, "choice", static_cast<std::int64_t>(x), 0, names - 1);
   }
+  void derived(const char* key) { writer_.derived_row(key); }
 
  private:
   template <class T>

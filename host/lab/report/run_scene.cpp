@@ -50,11 +50,11 @@ void draw_movers(Svg& svg, const View& view, const std::vector<Mover>& movers, d
   svg.close();
 }
 
-double beam_length(const hal::RangeReading& reading, const RangefinderParams& sensor, int beam) {
+double beam_length(const hal::RangeReading& reading, const RangefinderParams& sensor) {
   switch (reading.status) {
     case hal::RangeStatus::ok: return reading.mm / 1000.0;
-    case hal::RangeStatus::clear: return metres(max_range(sensor, beam));
-    case hal::RangeStatus::too_near: return metres(min_range(sensor, beam));
+    case hal::RangeStatus::clear: return metres(sensor.max_range);
+    case hal::RangeStatus::too_near: return metres(sensor.min_range);
     case hal::RangeStatus::invalid:
     case hal::RangeStatus::stale: return 0;
   }
@@ -213,7 +213,7 @@ void draw_cones(Svg& svg, const View& view, const RangefinderParams& sensor, con
   svg.open(
       R"(class="cones" fill="#e69f00" fill-opacity="0.13" stroke="#8a6000" stroke-opacity="0.55" stroke-width="0.7")");
   for (int beam = 0; beam < hal::kBeams; ++beam) {
-    const double range = beam_length(record.ranges.beam[beam], sensor, beam);
+    const double range = beam_length(record.ranges.beam[beam], sensor);
     if (range <= 0) continue;
     const Mount m = mount(sensor, beam);
     const double half = radians(m.half_cone);

@@ -5,11 +5,16 @@
 #include <cstdlib>
 #include <iterator>
 
+namespace whisker::hal::mcu {
+
+std::uint32_t load(Address address) noexcept { return stm32f405::model::Chip::current().load(address); }
+void store(Address address, std::uint32_t value) noexcept {
+  stm32f405::model::Chip::current().store(address, value);
+}
+
+}  // namespace whisker::hal::mcu
+
 namespace whisker::hal::stm32f405 {
-
-std::uint32_t load(Address address) noexcept { return model::Chip::current().load(address); }
-void store(Address address, std::uint32_t value) noexcept { model::Chip::current().store(address, value); }
-
 namespace model {
 namespace {
 

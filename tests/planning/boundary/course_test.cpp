@@ -199,7 +199,7 @@ TEST(TableDeflection, TurnsAwayFromTheNearerSide) {
   Decision decision;
   const Angle right = law.deflect(echoes(300, 600, 2000), params, decision);
   EXPECT_LT(in_degrees(right), -1);
-  EXPECT_EQ(scaled(params.thesis.base_turn, decision.response.turn), right);
+  EXPECT_EQ(scaled(derived::kBaseTurn, decision.response.turn), right);
   EXPECT_EQ(law.deflect(echoes(2000, 600, 300), params, decision), -right);
 }
 

@@ -58,15 +58,15 @@ Scenario corners(const Gap& gap, double width) {
 /// Passes the gap that lies about here. Outcome::reached: it is through; Outcome::gave_up: it failed.
 class PassagePlanner final : public GoalPlanner {
  public:
-  PassagePlanner(const Params& params, const Pose& gap)
-      : behaviours_(params), passage_(behaviours_), gap_(gap) {}
+  PassagePlanner(const Params& params, const Pose& gap, bool promised)
+      : behaviours_(params), passage_(behaviours_), gap_(gap), promised_(promised) {}
   const Pose& lane() const { return lane_; }
 
  private:
   void start(const View& view) noexcept override {
     behaviours_.progress.start(view);
     report(Mode::looking, Why::opening);
-    passage_.begin(view, gap_, decision_);
+    passage_.begin(view, gap_, promised_, decision_);
   }
   void advance(const View& view) noexcept override {
     behaviours_.progress.move(view, behaviours_.params);
@@ -81,6 +81,7 @@ class PassagePlanner final : public GoalPlanner {
   Behaviours behaviours_;
   GapPassage passage_;
   const Pose gap_;
+  const bool promised_;
   Pose lane_;
 };
 
@@ -93,9 +94,9 @@ struct Passed {
 };
 
 /// The passage is told of a place 20 mm aside, and a heading 6 degrees askew.
-Passed pass(const Gap& gap, const Scenario& scenario) {
+Passed pass(const Gap& gap, const Scenario& scenario, bool promised = false) {
   const Pose told = fixed_pose({gap.at(0, 0.02), gap.heading + 0.1});
-  PassagePlanner planner(scenario.robot, told);
+  PassagePlanner planner(scenario.robot, told, promised);
   test::Rig rig(scenario, &planner);
   Passed p;
   while (p.seconds < 400 && rig.step()) p.seconds += 0.01;
@@ -135,6 +136,21 @@ TEST(GapPassage, MeasuresTheMiddleBetweenCornersToAMillimetre) {
   EXPECT_EQ(passed(corners, 0.225), 4);
   EXPECT_EQ(passed(corners, 0.24), 4);
   EXPECT_EQ(passed(corners, 0.27), 4);
+}
+
+TEST(GapPassage, APromisedWidthNeedsLessTime) {
+  for (const double heading : {0.0, 0.3, 0.7, -1.2}) {
+    const Gap gap{heading};
+    for (const Place place : {posts, corners}) {
+      const Passed wide = pass(gap, place(gap, 0.30), true);
+      EXPECT_EQ(wide.outcome, Outcome::reached);
+      EXPECT_LT(wide.seconds, pass(gap, place(gap, 0.30)).seconds);
+      const Passed narrow = pass(gap, place(gap, 0.25), true);
+      EXPECT_EQ(narrow.outcome, Outcome::gave_up);
+      EXPECT_LT(narrow.seconds, 20);
+      EXPECT_FALSE(wide.touched || narrow.touched);
+    }
+  }
 }
 
 TEST(GapPassage, FailsSoonWhereThereAreNoJambs) {

@@ -31,6 +31,11 @@ class Round {
     view_.travelled_um += static_cast<uint32_t>(norm(view_.pose.at - before).raw());
     loop_.move(view_);
   }
+  /// Leaves the circle with a heading that is off by this much.
+  void look(int deg) {
+    off_ = degrees(deg);
+    place();
+  }
   void grow_bound(Length by) { view_.bound += by; }
   void jump(Vec by) {
     centre_ = centre_ + by;
@@ -39,10 +44,11 @@ class Round {
   const View& view() const { return view_; }
 
  private:
-  void place() { view_.pose = {centre_ + polar(degrees(deg_) - 90_deg, radius_), degrees(deg_)}; }
+  void place() { view_.pose = {centre_ + polar(degrees(deg_) - 90_deg, radius_), degrees(deg_) + off_}; }
   LoopDetector& loop_;
   Length radius_;
   Vec centre_;
+  Angle off_;
   int deg_ = 0;
   View view_;
 };
@@ -213,7 +219,24 @@ TEST(LoopDetector, StraysRoundSomethingElse) {
       EXPECT_FALSE(circuit.closed(round.view()));
       if (circuit.strays(round.view(), evidence)) strays = deg;
     }
-    EXPECT_NEAR(strays, 720, 2) << "two laps that end in one place";
+    EXPECT_NEAR(strays, 715, 12) << "two laps that end in one place";
+  }
+}
+
+// A look to one side shifts the place where the second turn is complete, by more than that place may be off.
+TEST(LoopDetector, StraysInTwoLapsWhereverTheirTurnsAreComplete) {
+  for (const int look : {-10, 10}) {
+    LoopDetector circuit;
+    Round round(circuit, 3_m);
+    round.begin();
+    round.jump({20_m, 0_mm});
+    int strays = 0;
+    for (int deg = 1; deg <= 1300 && strays == 0; ++deg) {
+      if (deg % 360 == 300) round.look(look * deg / 360);
+      round.drive();
+      if (circuit.strays(round.view())) strays = deg;
+    }
+    EXPECT_NEAR(strays, 720, 15) << look;
   }
 }
 
@@ -227,7 +250,7 @@ TEST(LoopDetector, SmallLapsByPlaceCountTogether) {
     round.drive();
     if (circuit.strays(round.view(), LoopDetector::Evidence::place)) strays = deg;
   }
-  EXPECT_NEAR(strays, 1080, 2) << "two laps of 0.63 m after the first";
+  EXPECT_NEAR(strays, 1080, 16) << "two laps of 0.63 m after the first";
 }
 
 TEST(LoopDetector, DoesNotStrayWhileItGetsOn) {
@@ -239,7 +262,7 @@ TEST(LoopDetector, DoesNotStrayWhileItGetsOn) {
     round.drive({2_mm, 0_mm});
     if (circuit.strays(round.view())) strays = deg;
   }
-  EXPECT_NEAR(strays, 1440, 2) << "so many laps are none of a spiral";
+  EXPECT_NEAR(strays, 1455, 2) << "so many laps are none of a spiral";
 }
 
 // Counter-clockwise: a wall on the left lies inside the circle, a wall on the right outside.

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/planning/arrows.hpp"
 #include "firmware/planning/boundary/boundary_planner.hpp"
 
 namespace whisker::planning {
@@ -45,6 +46,7 @@ const char* name(BoundaryPlanner::Event event) {
     case BoundaryPlanner::Event::passed: return "it has passed";
     case BoundaryPlanner::Event::slit: return "the boundary may have a narrow gap";
     case BoundaryPlanner::Event::through: return "through the gap";
+    case BoundaryPlanner::Event::no_door: return "the gap straight ahead is too narrow";
     case BoundaryPlanner::Event::too_narrow: return "the gap is too narrow";
     case BoundaryPlanner::Event::at_goal: return "at the goal";
     case BoundaryPlanner::Event::slid_off: return "at rest beside the goal";
@@ -168,15 +170,31 @@ TEST(StateDiagram, TablesAreSound) {
   FollowerDiagram::expect_sound(kFollowerEntries, {});
 }
 
-TEST(StateDiagram, ChangesNothingWithoutAnArrow) {
+TEST(StateDiagram, StopsTheTestsAtAnEventWithoutAnArrow) {
   BoundaryFollower::Phase phase = BoundaryFollower::Phase::turn;
   Decision decision;
   decision.mode = Mode::following;
+#ifdef WHISKER_ASSERTS
+  EXPECT_DEATH(change(BoundaryFollower::kTransitions, BoundaryFollower::Event::opening, phase, decision),
+               "an event that the table does not know");
+#else
   change(BoundaryFollower::kTransitions, BoundaryFollower::Event::opening, phase, decision);
+#endif
   EXPECT_EQ(phase, BoundaryFollower::Phase::turn);
   EXPECT_EQ(decision.mode, Mode::following);
   change(BoundaryFollower::kTransitions, BoundaryFollower::Event::facing, phase, decision);
   EXPECT_EQ(phase, BoundaryFollower::Phase::follow);
+}
+
+TEST(Arrows, StopTheTestsAtAChangeWithoutAnArrow) {
+  enum class Phase : uint8_t { off, on };
+  static constexpr Arrow<Phase> kArrows[] = {{Phase::off, Phase::on}};
+  Phase phase = Phase::off;
+  follow(kArrows, phase, Phase::on);
+  EXPECT_EQ(phase, Phase::on);
+#ifdef WHISKER_ASSERTS
+  EXPECT_DEATH(follow(kArrows, phase, Phase::off), "leads");
+#endif
 }
 
 std::string document() {

@@ -209,7 +209,7 @@ TEST(Thesis, WhileTheTargetStaysBlockedItKeepsTheSideAndCounts) {
 
 TEST(Thesis, TheDangerCountSaturates) {
   Params params;
-  params.thesis.max_steps = 1000;
+  params.boundary.length_budget = 100_m;
   Puppet p = with_goal(100000, 0, params);
   Decision d;
   for (int i = 0; i < 400; ++i)
@@ -236,7 +236,7 @@ TEST(Thesis, GivesUpWhereASecondPositionHasNoFreeHeading) {
 
 TEST(Thesis, GivesUpWhenTheStepsAreUsedUp) {
   Params params;
-  params.thesis.max_steps = 3;
+  params.boundary.length_budget = 300_mm;
   Puppet p = with_goal(3000, 0, params);
   const auto open = [](int) { return kOpen; };
   for (int i = 0; i < 3; ++i) EXPECT_EQ(p.next_drive(open).manoeuvre.kind, ManoeuvreKind::drive);
@@ -284,14 +284,6 @@ TEST(Thesis, CancelRestsAtOnce) {
   EXPECT_EQ(d.why, Why::cancelled);
   EXPECT_EQ(d.outcome, Outcome::none);
   EXPECT_EQ(p.planner().step(view_of(p.pose, true, kOpen)).manoeuvre.kind, ManoeuvreKind::keep);
-}
-
-TEST(Thesis, TheMeanOfThreeIsSelectable) {
-  Params params;
-  params.thesis.distance_source = DistanceSource::mean;
-  Puppet p = with_goal(3000, 0, params);
-  const Decision d = p.next_drive([](int) { return echoes(1000, 1500, 2000); });
-  EXPECT_EQ(d.inputs.distance.raw(), 960);  // 10 x 1.5 m / 2 m
 }
 
 TEST(State, EveryWordIsNamedOnce) {

@@ -27,7 +27,7 @@ Ending drive(const Params& params, Bits& bits) {
   planning::ThesisPlanner planner(params, fuzzy::kDefaultTable);
   Robot robot(board, board, planner, params);
   Watch watch(params);
-  const Length tolerance = max(50_mm, params.motion.drive_tolerance * 4);
+  const Length tolerance = max(50_mm, derived::drive_tolerance(params) * 4);
   const planning::Goal goal{{millimetres(bits.whole(-900, 900)), millimetres(bits.whole(-900, 900))},
                             tolerance};
   robot.set_goal(goal);
@@ -44,7 +44,7 @@ Ending drive(const Params& params, Bits& bits) {
     board.pass();
   }
   const planning::Decision& d = robot.status().decision;
-  const bool used_up = d.why == planning::Why::step_budget && params.thesis.max_steps < 1000;
+  const bool used_up = d.why == planning::Why::step_budget && derived::most_steps(params) < 1000;
   const bool there = norm(robot.status().pose.at - goal.at) <= tolerance;
   end.arrived = used_up || (d.outcome == planning::Outcome::reached && there);
   end.words = std::string(name(robot.status().health.fault)) + ", " + planning::name(d.mode) + ", " +
@@ -77,7 +77,7 @@ TEST(OpenWorld, SluggishWheelsDoNotSwingForEver) {
 RC_GTEST_PROP(OpenWorld, EveryAcceptedParameterSetEndsWithAReason, (std::uint64_t seed)) {
   Bits bits(seed);
   Params params = random_params(bits);
-  params.thesis.max_steps = 100;
+  params.boundary.length_budget = max(1_m, derived::small_step(params) * 100);
   const Ending end = drive(params, bits);
   RC_ASSERT(end.broken == "");
   if (!end.ended) RC_FAIL(end.words);

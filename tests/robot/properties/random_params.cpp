@@ -42,6 +42,7 @@ struct Draw {
   void choice(const char* key, E& x, const char* const*, int names) {
     if (!is_of_a_bumper(key)) draw<E>(x, 0, names - 1, [](std::int64_t v) { return static_cast<E>(v); });
   }
+  void derived(const char*) {}
 };
 
 }  // namespace
@@ -70,7 +71,6 @@ Params robot_like_the_reference(Bits& bits) {
     p.rangefinders.rate_hz = static_cast<std::int32_t>(bits.whole(20, 80));
     p.rangefinders.latency = milliseconds(static_cast<std::int32_t>(bits.whole(0, 60)));
     p.safety.period = milliseconds(static_cast<std::int32_t>(bits.whole(5, 20)));
-    p.thesis.base_step = scaled(millimetres(static_cast<std::int32_t>(bits.whole(100, 400))));
   } while (check(p) != ParamFault::none);
   return p;
 }

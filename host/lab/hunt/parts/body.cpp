@@ -55,8 +55,7 @@ bool Body::read(hal::RangeReadings& out) noexcept {
     r.age_ms = static_cast<std::uint8_t>(std::min(254, now_ms_ - m.at_ms));
     r.sequence = sequence_;
     r.mm = static_cast<std::uint16_t>(std::lround(std::min(d, 60.0) * 1000));
-    const bool far = d >= metres(max_range(p_.rangefinders, i)),
-               near = d < metres(min_range(p_.rangefinders, i));
+    const bool far = d >= metres(p_.rangefinders.max_range), near = d < metres(p_.rangefinders.min_range);
     r.status = far ? hal::RangeStatus::clear : near ? hal::RangeStatus::too_near : hal::RangeStatus::ok;
     if (i == lost_beam) r.status = hal::RangeStatus::invalid;
   }

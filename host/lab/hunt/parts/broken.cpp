@@ -9,9 +9,7 @@ namespace {
 std::string judge_broken(Dice& dice) {
   Params p = draw_guarded(dice);
   p.guard.nods = p.guard.assist = Fitted::no;
-  p.safety.lost_after = milliseconds(400 + dice.index(1000));
-  p.safety.stalled_after = milliseconds(500 + dice.index(2000));
-  p.conditioning.stale_after = milliseconds(150 + dice.index(150));
+  p.conditioning.stale_after = milliseconds(150 + dice.index(dice.chance(0.3) ? 1500 : 150));
   if (check(p) != ParamFault::none) return "";
   GuardBench b(dice, p, {});
   b.survey();
@@ -26,28 +24,28 @@ std::string judge_broken(Dice& dice) {
     case 0:
       b.body.refuses_ranges = true;
       due = Fault::range_lost;
-      least = p.safety.lost_after.raw() - 80;
-      most = p.safety.lost_after.raw() + 30;
+      least = derived::lost_after(p).raw() - 80;
+      most = derived::lost_after(p).raw() + 30;
       stale = true;
       break;
     case 1:
       b.body.lost_beam = dice.index(3);
       due = Fault::range_lost;
-      least = p.safety.lost_after.raw() - 80;
-      most = p.safety.lost_after.raw() + 30;
+      least = derived::lost_after(p).raw() - 80;
+      most = derived::lost_after(p).raw() + 30;
       stale = true;
       break;
     case 2:
       b.body.refuses_counts = true;
       due = Fault::drive_refused;
-      least = 10 * (p.safety.max_refusals - 1);
-      most = 10 * (p.safety.max_refusals + 1);
+      least = 10 * (derived::kMostRefusals - 1);
+      most = 10 * (derived::kMostRefusals + 1);
       break;
     case 3:
       b.body.refuses_commands = true;
       due = Fault::drive_refused;
-      least = 10 * (p.safety.max_refusals - 1);
-      most = 10 * (p.safety.max_refusals + 1);
+      least = 10 * (derived::kMostRefusals - 1);
+      most = 10 * (derived::kMostRefusals + 1);
       break;
     case 4:
       b.body.jump[dice.chance(0.5) ? 0 : 1] +=
@@ -58,8 +56,8 @@ std::string judge_broken(Dice& dice) {
     case 5:
       b.body.counted = {0, 0};
       due = Fault::wheels_stalled;
-      least = p.safety.stalled_after.raw() - 150;
-      most = p.safety.stalled_after.raw() + 200;
+      least = derived::stalled_after(p).raw() - 150;
+      most = derived::stalled_after(p).raw() + 200;
       break;
     case 6:
       b.body.counted[dice.chance(0.5) ? 0 : 1] = 0;

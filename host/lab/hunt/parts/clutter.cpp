@@ -98,9 +98,8 @@ perception::ConeObservation look(const Params& p, const Clutter& world, const Po
   perception::ConeObservation seen;
   seen.number = static_cast<std::int8_t>(beam);
   seen.beam = perception::beam_of(mount(p.rangefinders, beam), pose);
-  seen.hit = d < metres(max_range(p.rangefinders, beam));
-  seen.free =
-      seen.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5))) : max_range(p.rangefinders, beam);
+  seen.hit = d < metres(p.rangefinders.max_range);
+  seen.free = seen.hit ? millimetres(static_cast<int>(std::floor(d * 1000 + 0.5))) : p.rangefinders.max_range;
   return seen;
 }
 
@@ -122,10 +121,11 @@ Params draw_eyes(Dice& dice) {
   while (true) {
     Params p;
     if (dice.chance(0.4)) return p;
-    p.boundary.cell = millimetres(8 + dice.index(33));
+    p.body.radius = millimetres(40 + dice.index(140));
+    p.body.track = p.body.radius * 3 / 2;
     p.rangefinders.cone = Angle::turns(40 + dice.index(400), 3600);
     p.rangefinders.side_angle = Angle::turns(100 + dice.index(700), 3600);
-    if (dice.chance(0.5)) p.rangefinders.offset = millimetres(dice.index(90));
+    if (dice.chance(0.5)) p.rangefinders.offset = p.body.radius * dice.index(100) / 100;
     if (dice.chance(0.5)) p.rangefinders.max_range = millimetres(400 + dice.index(1600));
     if (check(p) == ParamFault::none) return p;
   }

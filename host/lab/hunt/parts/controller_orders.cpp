@@ -1,4 +1,7 @@
 // How the node that decides answers orders and requests.
+#include <set>
+
+#include "firmware/params/words.hpp"
 #include "host/harness/scenario/param_list.hpp"
 #include "host/lab/hunt/parts/controller_bench.hpp"
 #include "host/lab/hunt/parts/parts.hpp"
@@ -82,7 +85,7 @@ std::string judge_params(Dice& dice) {
   b.pass(2);
   const bool by_hand = dice.chance(0.3);
   Voice& voice = by_hand ? b.hand : b.peer;
-  const auto ask = [&](ParamAction action, std::size_t index, std::int64_t raw, ParamReply& reply) {
+  const auto ask = [&](ParamAction action, int index, std::int64_t raw, ParamReply& reply) {
     b.peer.forget();
     voice.say(ParamRequest{action, static_cast<std::uint8_t>(index), static_cast<std::uint32_t>(raw)});
     b.pass(2);
@@ -93,7 +96,7 @@ std::string judge_params(Dice& dice) {
   for (int i = 0; i < 12; ++i) {
     const auto k = static_cast<std::size_t>(dice.index(static_cast<int>(usual.size())));
     const ParamEntry now = param_list(b.node.params())[k];
-    if (!ask(ParamAction::read, k, 0, reply) ||
+    if (!ask(ParamAction::read, now.number, 0, reply) ||
         static_cast<std::int32_t>(reply.value) != static_cast<std::int32_t>(now.raw))
       return "a parameter reads otherwise";
     const int how = dice.index(3);
@@ -104,7 +107,7 @@ std::string judge_params(Dice& dice) {
                                                          static_cast<double>(now.high - now.low));
     if (raw != static_cast<std::int64_t>(static_cast<std::int32_t>(raw)) && now.low >= 0 && how == 0)
       continue;
-    if (!ask(ParamAction::write, k, raw, reply)) return "a write is not answered";
+    if (!ask(ParamAction::write, now.number, raw, reply)) return "a write is not answered";
     const bool in = how == 2;
     if (now.high < INT32_MAX && now.low > INT32_MIN && (reply.status == ParamStatus::ok) != in)
       return "another range of a parameter";
@@ -117,10 +120,18 @@ std::string judge_params(Dice& dice) {
     if ((reply.status == ParamStatus::ok) != fits) return "another commit";
     if (param_list(b.node.params())[k].raw != (fits ? raw : now.raw))
       return "a commit that changes otherwise";
-    if (!fits && !ask(ParamAction::write, k, now.raw, reply)) return "no way back";
+    if (!fits && !ask(ParamAction::write, now.number, now.raw, reply)) return "no way back";
   }
-  if (!ask(ParamAction::read, usual.size(), 0, reply) || reply.status != ParamStatus::no_such)
-    return "a parameter too many";
+  // Also what the robot derives.
+  std::set<int> numbers;
+  for (const ParamEntry& e : usual) numbers.insert(e.number);
+  for (int number = 0; number <= kParams; ++number) {
+    if (numbers.count(number) > 0) continue;
+    for (const ParamAction action : {ParamAction::read, ParamAction::write}) {
+      if (!ask(action, number, 1, reply) || reply.status != ParamStatus::no_such)
+        return "a parameter too many";
+    }
+  }
   b.order(b.peer, Order::start, b.draw_mission());
   if (!b.replied(MissionStatus::accepted)) return "no start after parameters";
   const auto first = static_cast<std::uint32_t>(usual[0].raw);

@@ -18,10 +18,7 @@ struct Watched {
   explicit Watched(Dice& dice) {
     if (dice.chance(0.5)) p.safety.period = milliseconds(5 + dice.index(30));
     if (dice.chance(0.5)) p.safety.max_gap = milliseconds(2 * p.safety.period.raw() + 2 + dice.index(150));
-    if (dice.chance(0.5)) p.safety.lost_after = milliseconds(300 + dice.index(1500));
-    if (dice.chance(0.5)) p.safety.max_refusals = 2 + dice.index(20);
-    if (dice.chance(0.5)) p.safety.stalled_after = milliseconds(500 + dice.index(3000));
-    if (dice.chance(0.5)) p.conditioning.reads = 1 + dice.index(5);
+    if (dice.chance(0.5)) p.conditioning.stale_after = milliseconds(300 + dice.index(1500));
     supervisor.configure();
     supervisor.reset();
   }
@@ -50,7 +47,7 @@ std::string judge_gap(Dice& dice) {
     return "another jump of the clock";
   if (w.health.late_ticks != (late ? 1U : 0U)) return "another late tick";
   if (!jump) return "";
-  w.supervisor.check_ranges(w.p.safety.lost_after + 1_ms);
+  w.supervisor.check_ranges(derived::lost_after(w.p) + 1_ms);
   if (!w.has(Fault::clock_jump)) return "the first fault does not stay";
   w.supervisor.reset();
   return w.supervisor.faulted() ? "a reset leaves a fault" : "";
@@ -59,10 +56,10 @@ std::string judge_gap(Dice& dice) {
 std::string judge_waits(Dice& dice) {
   Watched w(dice);
   const bool lost = dice.chance(0.5);
-  w.supervisor.check_ranges(w.p.safety.lost_after + milliseconds(lost ? 1 : 0));
+  w.supervisor.check_ranges(derived::lost_after(w.p) + milliseconds(lost ? 1 : 0));
   if (w.has(Fault::range_lost) != lost) return "a beam is lost at another time";
   Watched look(dice);
-  const Duration longest = look.p.safety.lost_after * (look.p.conditioning.reads + 1);
+  const Duration longest = derived::lost_after(look.p) * (derived::kConsensusReads + 1);
   const bool waits = dice.chance(0.7), late = dice.chance(0.5);
   look.supervisor.check_look(waits, longest + milliseconds(late ? 1 : 0));
   if (look.has(Fault::range_unsteady) != (waits && late)) return "a look is unsteady at another time";
@@ -93,7 +90,7 @@ std::string judge_refusals(Dice& dice) {
     if (part == 1) w.supervisor.check_counts(taken);
     if (part == 2) w.supervisor.check_bumper(taken);
     if (part == 0 && w.supervisor.refused() == taken) return "refused and not";
-    if (w.has(due) != (count >= w.p.safety.max_refusals)) return "other refusals are a fault";
+    if (w.has(due) != (count >= derived::kMostRefusals)) return "other refusals are a fault";
     const std::uint32_t counted = part == 0   ? w.health.drive_refused
                                   : part == 1 ? w.health.encoder_refused
                                               : w.health.bumper_refused;
@@ -122,6 +119,8 @@ std::string judge_bumps(Dice& dice) {
 /// Minutes in one place, and longer where wheels are slow; none where the body leaves it or rests.
 std::string judge_place(Dice& dice) {
   Watched w(dice);
+  w.p.wheels.motor_lag = milliseconds(dice.index(450));
+  w.supervisor.configure();
   const Length place = for_body(w.p, 30_mm);
   const int kind = dice.index(3);
   int seconds = 0;
@@ -133,7 +132,7 @@ std::string judge_place(Dice& dice) {
   if (!w.has(Fault::no_progress) || w.health.no_progress != 1) return "a place is never left";
   const double turn_s = std::max(2 * sim::kPi / (turn_rate(w.p).raw() * 1e-6),
                                  sim::kPi * metres(w.p.body.track) / (w.p.wheels.max_speed.raw() * 1e-6));
-  const double least = std::max(2.0, w.p.safety.stalled_after.raw() * 1e-3) * 60 + 30 * turn_s;
+  const double least = derived::stalled_after(w.p).raw() * 1e-3 * 60 + 30 * turn_s;
   return seconds >= least * 0.99 && seconds < least * 1.5 + 60 ? "" : "a place is left at another time";
 }
 

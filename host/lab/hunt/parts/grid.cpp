@@ -14,8 +14,8 @@ Pose draw_step(Dice& dice, const Params& p, const Clutter& world, const Pose& po
   Pose next = pose;
   next.heading += Angle::from_raw(static_cast<std::uint32_t>(dice.index(1 << 29)) - (1U << 28));
   if (dice.chance(0.4)) {
-    next.at =
-        pose.at + polar(next.heading, Length::from_raw(static_cast<std::int32_t>(dice.uniform(-40e3, 40e3))));
+    next.at = pose.at + polar(next.heading, Length::from_raw(static_cast<std::int32_t>(
+                                                dice.uniform(-0.44, 0.44) * p.body.radius.raw())));
   }
   const double free_m = metres(rim_sweep(p).radius) + metres(Length::from_raw(60));
   return world.reaches(vec(next.at), free_m) ? pose : next;

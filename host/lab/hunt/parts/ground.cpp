@@ -1,5 +1,5 @@
 // How long ground stays clear, and what takes it back.
-#include <set>
+#include <map>
 #include <utility>
 
 #include "host/lab/hunt/parts/grid_bench.hpp"
@@ -8,57 +8,79 @@
 namespace whisker::hunt {
 namespace {
 
-/// What drops out of the window is forgotten, the rest is kept, and nothing wraps around.
+/// What drops out of the window is forgotten, the rest is kept while it is young, and nothing wraps around.
 std::string judge_window(Dice& dice) {
-  Params p;
-  p.boundary.age_travel = 1000_m;
-  p.boundary.age_turn = 359_deg;
+  const Params p;
   LocalGrid grid;
   grid.configure(p);
   Pose pose = draw_pose(dice);
   pose.heading = Angle::turns(dice.index(8), 8);
   grid.reset(pose);
-  const double cell = metres(grid_cell(p)), radius = metres(rim_sweep(p).radius);
-  using Cells = std::set<std::pair<std::int32_t, std::int32_t>>;
-  const auto all = [&] {
+  const double radius = metres(rim_sweep(p).radius), young = 0.98 * metres(derived::kAgeTravel);
+  double travelled = 0;
+  // Clear cells, each with the travel from which on it has been clear.
+  using Cells = std::map<std::pair<std::int32_t, std::int32_t>, double>;
+  const auto all = [&](const Cells& earlier) {
     Cells cells;
     each_cell(pose.at, grid_cell(p), [&](Vec at) {
-      if (grid.is_clear(at)) cells.insert({at.x.raw(), at.y.raw()});
+      const auto known = earlier.find({at.x.raw(), at.y.raw()});
+      if (grid.is_clear(at))
+        cells[{at.x.raw(), at.y.raw()}] = known == earlier.end() ? travelled : known->second;
     });
     return cells;
   };
-  Cells before = all();
+  Cells before = all({});
   for (int step = 0; step < 12; ++step) {
     const int reach = dice.chance(0.1) ? 1500 : 60;
-    pose.at = pose.at + Vec{millimetres(dice.index(2 * reach + 1) - reach),
-                            millimetres(dice.index(2 * reach + 1) - reach)};
+    const Vec way{millimetres(dice.index(2 * reach + 1) - reach),
+                  millimetres(dice.index(2 * reach + 1) - reach)};
+    pose.at = pose.at + way;
+    travelled += length_of(vec(way));
     grid.move_to(pose);
-    const Cells now = all();
-    for (const auto& [x, y] : now) {
+    const Cells now = all(before);
+    for (const auto& [place, since] : now) {
+      const auto [x, y] = place;
       const Square square = Square::around({Length::from_raw(x), Length::from_raw(y)}, grid_cell(p));
       if (before.count({x, y}) == 0 && square.farthest(vec(pose.at)) > radius + 1e-4)
         return "clear ground from nowhere";
     }
-    for (const auto& [x, y] : before) {
-      const bool inside = well_inside(p, pose, {Length::from_raw(x), Length::from_raw(y)});
-      if (inside && now.count({x, y}) == 0) return "clear ground is lost";
+    for (const auto& [place, since] : before) {
+      const bool inside =
+          well_inside(p, pose, {Length::from_raw(place.first), Length::from_raw(place.second)});
+      if (inside && travelled - since < young && now.count(place) == 0) return "clear ground is lost";
     }
     ConeObservation seen;
     seen.beam = {pose.at, draw_angle(dice), Angle::from_raw(p.rangefinders.cone.raw() / 2)};
     seen.free = 2_m;
     grid.mark(seen);
-    before = all();
+    before = all(now);
   }
-  static_cast<void>(cell);
   return "";
+}
+
+/// One standard deviation of the heading, in radians: twice of it moves the ground at the distance that the
+/// guard looks at by half a cell.
+double allowed_error(const Params& p) {
+  const Reach far = reach(p);
+  return metres(grid_cell(p)) / (4 * metres(far.guard + far.probe));
+}
+/// In metres, by the declared errors of the two wheels, which are independent of one another.
+double travel_span(const Params& p) {
+  const double apart = std::sqrt(2) * p.pose_error.wheel_scale.raw() * 1e-6;
+  return std::clamp(allowed_error(p) * metres(p.body.track) / std::max(apart, 1e-9), 0.1,
+                    metres(derived::kAgeTravel));
+}
+/// In whole turns.
+double turned_span(const Params& p) {
+  const double together = std::sqrt(0.5) * p.pose_error.wheel_scale.raw() * 1e-6;
+  const double turns = allowed_error(p) / (2 * sim::kPi) / std::max(together, 1e-9);
+  return std::clamp(turns, 0.25, derived::kAgeTurn.raw() / 4294967296.0);
 }
 
 /// Clear ground lives for one to two spans of travel or turning.
 std::string judge_age(Dice& dice) {
   Params p;
-  p.boundary.age_travel = millimetres(300 + dice.index(1500));
-  p.boundary.age_turn = Angle::turns(60 + dice.index(250), 360);
-  if (check(p) != ParamFault::none) return "";
+  if (dice.chance(0.7)) p.pose_error.wheel_scale = millionths(1 + dice.index(40000));
   LocalGrid grid;
   grid.configure(p);
   Pose pose{{}, Angle{}};
@@ -70,20 +92,19 @@ std::string judge_age(Dice& dice) {
   const Vec there{250_mm, 0_mm};
   if (!grid.is_clear(there)) return "ground seen empty is not clear";
   const bool turns = dice.chance(0.5);
-  const double span = turns ? p.boundary.age_turn.raw() / 4294967296.0 : metres(p.boundary.age_travel);
+  const double span = turns ? turned_span(p) : travel_span(p), step = turns ? 5.0 / 360 : 0.01;
   double spent = 0;
-  for (bool even = false; spent < 2.2 * span; even = !even) {
+  for (bool even = false; spent < 2.1 * span + 3 * step; even = !even) {
     if (turns) {
       pose.heading = even ? Angle{} : 5_deg;
-      spent += 5.0 / 360;
     } else {
       pose.at.y = even ? 0_mm : 10_mm;
-      spent += 0.01;
     }
+    spent += step;
     grid.move_to(pose);
     const bool clear = grid.is_clear(there);
     if (!clear && spent < 0.98 * span) return "clear ground expires too soon";
-    if (clear && spent > 2.05 * span) return "clear ground never expires";
+    if (clear && spent > 2.02 * span + 2 * step) return "clear ground never expires";
   }
   return "";
 }
@@ -192,7 +213,7 @@ std::string judge_doubted(Dice& dice) {
   const double stop_s = (p.rangefinders.latency + longest_gap(p) + p.wheels.motor_lag).raw() * 1e-3 +
                         2.0 / p.rangefinders.rate_hz +
                         static_cast<double>(p.wheels.max_speed.raw()) / p.wheels.max_acceleration.raw();
-  const double reach = p.boundary.mover_speed.raw() * 1e-6 * stop_s, at = metres(seen.free);
+  const double reach = derived::kMoverSpeed.raw() * 1e-6 * stop_s, at = metres(seen.free);
   std::string wrong;
   each_cell(pose.at, grid_cell(p), [&](Vec centre) {
     if (!before.is_clear(centre) || is_under(p, pose, centre)) return;

@@ -76,8 +76,9 @@ Params draw_body(Dice& dice) {
     if (dice.chance(0.3)) return p;
     p.wheels.max_speed = Speed::from_raw(1000 * (100 + dice.index(300)));
     p.wheels.max_acceleration = Acceleration::from_raw(1000 * (500 + dice.index(2500)));
-    p.wheels.motor_lag = milliseconds(10 + dice.index(50));
-    p.motion.settle = max(80_ms, p.wheels.motor_lag + 50_ms);
+    // The time in which it settles leaves 30 ms: where it leaves a tick, a turn ends two degrees beside its
+    // end.
+    p.wheels.motor_lag = milliseconds(10 + dice.index(41));
     p.body.track = millimetres(90 + dice.index(80));
     if (check(p) == ParamFault::none) return p;
   }
@@ -86,7 +87,7 @@ Params draw_body(Dice& dice) {
 double degrees(Angle a) { return radians(a) * 180 / sim::kPi; }
 /// What the coarsest of tolerance and counts leaves.
 double turn_slack(const Params& p) {
-  return degrees(p.motion.turn_tolerance) + degrees(planning::nearest_facing(Angle{}, p)) + 1.3;
+  return degrees(derived::turn_tolerance(p)) + degrees(planning::nearest_facing(Angle{}, p)) + 1.3;
 }
 
 std::string judge_turn(Dice& dice) {
@@ -129,7 +130,7 @@ std::string judge_drive(Dice& dice) {
   if (!body.controller().settled()) return "a drive does not end";
   if (body.controller().cut()) return "a free drive is cut";
   const double on = metres(along(body.pose().at, heading));
-  if (std::fabs(on - way) > metres(p.motion.drive_tolerance) + 0.004) return "a drive ends elsewhere";
+  if (std::fabs(on - way) > metres(derived::drive_tolerance(p)) + 0.004) return "a drive ends elsewhere";
   return std::fabs(metres(across(body.pose().at, heading))) < 0.01 + 0.05 * way ? ""
                                                                                 : "a drive leaves its line";
 }
@@ -163,12 +164,11 @@ std::string judge_cut(Dice& dice) {
 
 /// An obstacle that nobody sees: it waits as long as it may.
 std::string judge_patience(Dice& dice) {
-  Params p = draw_body(dice);
-  p.safety.stalled_after = milliseconds(500 + dice.index(2000));
+  const Params p = draw_body(dice);
   Body body(p);
   const bool turns = dice.chance(0.5);
   body.begin({turns ? ManoeuvreKind::turn : ManoeuvreKind::drive, turns ? 90_deg : 0_deg, 2_m, {}, {}});
-  const int patience = p.safety.stalled_after.raw() / p.safety.period.raw();
+  const int patience = derived::stalled_after(p).raw() / p.safety.period.raw();
   for (int i = 0; i < patience; ++i) body.tick({}, true);
   if (body.controller().cut()) return "no patience";
   const int waited = body.controller().waiting_for().raw();
@@ -219,13 +219,13 @@ std::string judge_steering(Dice& dice) {
   const double stops = v * v / (2 * a) + v * delay.raw() * 1e-3;
   if (rest <= Length{} ? v != 0 : std::fabs(stops - metres(rest)) > 1e-5 + 1e-3 * metres(rest))
     return "it stops elsewhere";
-  if (planning::approach_speed(rest, p) != planning::stopping_speed(rest, p.motion.settle, p))
+  if (planning::approach_speed(rest, p) != planning::stopping_speed(rest, derived::settle_time(p), p))
     return "it approaches otherwise";
   const Angle error = Angle::turns(dice.index(3599) - 1799, 3600);
   const double e = radians(error), way = std::fabs(e) * track / 2;
   const auto turning = [&](const Manoeuvre& m) { return m.turning.raw() * 1e-6; };
   const auto stop_v = [&](double l) {
-    const double t = p.motion.settle.raw() * 1e-3;
+    const double t = derived::settle_time(p).raw() * 1e-3;
     return -a * t + std::sqrt(a * a * t * t + 2 * a * l);
   };
   const double rate = std::min(2.5, std::fabs(e) * 5) * track / 2;

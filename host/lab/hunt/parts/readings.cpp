@@ -23,8 +23,8 @@ struct Measured {
 class Beam {
  public:
   Beam(Dice& dice, const Params& p, int beam) : dice_(dice), p_(p), number_(beam), core_(beam) {
-    most_ = max_range(p.rangefinders, beam).raw();
-    least_ = min_range(p.rangefinders, beam).raw();
+    most_ = p.rangefinders.max_range.raw();
+    least_ = p.rangefinders.min_range.raw();
     core_.reset(Time::from_raw(0));
   }
 
@@ -108,7 +108,7 @@ class Beam {
 
   std::string judge_look() const {
     const std::int32_t since = now_ms_ - dice_.index(200);
-    const auto wanted = static_cast<std::size_t>(p_.conditioning.reads);
+    const auto wanted = std::size_t{derived::kConsensusReads};
     Echo due{};
     if (all_.size() >= wanted) {
       std::vector<std::int32_t> last;
@@ -119,7 +119,7 @@ class Beam {
       }
       std::sort(last.begin(), last.end());
       const bool median = p_.conditioning.consensus == Consensus::median;
-      const bool agree = last.back() - last.front() <= p_.conditioning.tolerance.raw();
+      const bool agree = last.back() - last.front() <= derived::kConsensusTolerance.raw();
       if (recent && (median || agree)) due = echo(median ? last[(wanted - 1) / 2] : last.front());
     }
     const Echo looked = core_.look(Time::from_raw(static_cast<std::uint32_t>(since)), p_);
@@ -232,7 +232,7 @@ std::string judge_stuck(Dice& dice) {
   const int mm = 100 + dice.index(1500);
   const Vec at{millimetres(dice.index(2000) - 1000), millimetres(dice.index(2000) - 1000)};
   const Angle from = draw_angle(dice);
-  const double most_deg = static_cast<double>(s.p.conditioning.stuck_turn.raw()) * 360 / 4294967296.0;
+  const double most_deg = static_cast<double>(derived::kStuckTurn.raw()) * 360 / 4294967296.0;
   const double turned_deg = dice.chance(0.5) ? most_deg - 4 : most_deg + 4;
   Pose body{at, from};
   for (double deg = 0; deg <= turned_deg; deg += 2) {
@@ -257,9 +257,7 @@ std::string judge_stuck(Dice& dice) {
 std::string judge_readings(Dice& dice) {
   for (int i = 0; i < 8; ++i) {
     Params p;
-    p.conditioning.reads = 1 + dice.index(5);
     p.conditioning.consensus = dice.chance(0.5) ? Consensus::median : Consensus::agreeing;
-    p.conditioning.tolerance = millimetres(10 + dice.index(100));
     p.conditioning.stale_after = milliseconds(60 + dice.index(200));
     p.rangefinders.max_range =
         micrometres(600000 + dice.index(2000) * 1000 + (dice.chance(0.5) ? dice.index(1000) : 0));

@@ -80,8 +80,9 @@ std::string judge_lane(Dice& dice) {
     }
   }
   const perception::Beam& beam = seen[1].beam;
-  grid.revoke(beam, 200_mm, 200_mm);
-  grid.block(pose.at + polar(pose.heading, 200_mm), 10_mm);
+  const Length far = p.body.radius * 20 / 9;
+  grid.revoke(beam, far, far);
+  grid.block(pose.at + polar(pose.heading, far), p.body.radius / 9);
   return grid.lane().is_open() ? "a touch leaves the lane open" : "";
 }
 

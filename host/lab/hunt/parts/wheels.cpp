@@ -243,7 +243,7 @@ std::string judge_held(Dice& dice) {
 
 std::string judge_stall(Dice& dice) {
   Params p;
-  p.safety.stalled_after = milliseconds(300 + dice.index(3000));
+  p.wheels.motor_lag = milliseconds(dice.index(450));
   p.wheels.counts_per_metre = static_cast<std::int32_t>(dice.log_uniform(500, 20000));
   const Duration step = milliseconds(5 + dice.index(20));
   const Speed v = Speed::from_raw(3000 + dice.index(300000));
@@ -256,7 +256,7 @@ std::string judge_stall(Dice& dice) {
   safety::StallWatch watch;
   // A count or a pause begins anew.
   for (int i = 0; i < 3; ++i) {
-    const int before = dice.index(p.safety.stalled_after.raw() / step.raw());
+    const int before = dice.index(derived::stalled_after(p).raw() / step.raw());
     for (int tick = 0; tick < before; ++tick) {
       if (watch.stalled({}, true, speeds, step, p)) return "stalled too soon";
     }
@@ -270,10 +270,10 @@ std::string judge_stall(Dice& dice) {
   for (int tick = 1; tick < 4000; ++tick) {
     const bool found = watch.stalled({}, true, speeds, step, p);
     const double ms = static_cast<double>(tick) * step.raw(), missing = per_tick * tick;
-    if (found && (ms <= p.safety.stalled_after.raw() || missing < ten_counts * 0.95))
+    if (found && (ms <= derived::stalled_after(p).raw() || missing < ten_counts * 0.95))
       return "stalled too soon";
     if (found) return "";
-    if (ms > p.safety.stalled_after.raw() && missing > ten_counts * 1.02 + 4e-6 * tick)
+    if (ms > derived::stalled_after(p).raw() && missing > ten_counts * 1.02 + 4e-6 * tick)
       return "a stall is not noticed";
   }
   return "";
@@ -296,7 +296,7 @@ std::string judge_warning(Dice& dice) {
   const double v = si(safety::warned_speed(p, err)), a = p.wheels.max_acceleration.raw() * 1e-6;
   const double delay = p.rangefinders.latency.raw() * 1e-3 + (err ? 3.0 : 1.0) / p.rangefinders.rate_hz;
   if (v * delay + v * v / 2 / a > shortest * 1.001) return "a warning comes too late";
-  const double settle = p.motion.settle.raw() * 1e-3 + 0.002;
+  const double settle = derived::settle_time(p).raw() * 1e-3 + 0.002;
   return v * (delay + settle) + v * v / 2 / a < shortest * 0.98 ? "slower than the warning asks for" : "";
 }
 

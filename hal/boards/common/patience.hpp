@@ -3,9 +3,9 @@
 
 #include <stdint.h>
 
-#include "hal/boards/stm32f405/io.hpp"
+#include "hal/boards/common/io.hpp"
 
-namespace whisker::hal::stm32f405 {
+namespace whisker::hal::mcu {
 
 /// A number of polls of a register, shared by all waits of one operation.
 class Patience {
@@ -37,4 +37,4 @@ class Patience {
   uint32_t left_;
 };
 
-}  // namespace whisker::hal::stm32f405
+}  // namespace whisker::hal::mcu

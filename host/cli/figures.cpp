@@ -1,18 +1,17 @@
 #include <atomic>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 
-#include "host/cli/commands.hpp"
 #include "host/cli/exit_status.hpp"
+#include "host/cli/figures.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/rules_choice.hpp"
+#include "host/harness/file/file.hpp"
 #include "host/harness/run/run_log.hpp"
 #include "host/harness/scenario/load.hpp"
 #include "host/harness/worlds/generate.hpp"
@@ -64,11 +63,6 @@ constexpr MapPicturePair kMapPictures[] = {
     {"maze", worlds::Kind::maze, {}, 1.506},
     {"rooms", worlds::Kind::rooms, {}, 2.667},
     {"enclosed", worlds::Kind::enclosed, {}, 0},
-};
-
-struct FiguresOptions {
-  std::string scenarios;  // "": the built-in scenarios
-  std::string out;
 };
 
 RunLog driven(const Scenario& scenario, PlannerKind planner) {
@@ -144,7 +138,9 @@ Scenario scenario(const FiguresOptions& o, const std::string& name) {
   throw std::logic_error("no scenario " + name);
 }
 
-int execute(const FiguresOptions& o) {
+}  // namespace
+
+int draw_figures(const FiguresOptions& o) {
   if (!std::filesystem::is_directory(o.out)) throw UsageError(fmt::format("{}: no such folder", o.out));
   const Scenario figure8 = scenario(o, "figure8_u_trap.toml");
   const Scenario figure9 = scenario(o, "figure9_discs.toml");
@@ -163,16 +159,6 @@ int execute(const FiguresOptions& o) {
   for (const ClassPicture& c : kClassPictures) draw_class(c, o.out);
   for (const MapPicturePair& pair : kMapPictures) draw_pair(pair, o.out);
   return 0;
-}
-
-}  // namespace
-
-void add_figures(CLI::App& app, int& status) {
-  CLI::App* cmd = app.add_subcommand("figures", "Draw the figures of docs/ anew");
-  const auto o = std::make_shared<FiguresOptions>();
-  add_file(*cmd, "FOLDER", o->out, "Where to write the figures")->required()->type_name("FOLDER");
-  add_file(*cmd, "--scenarios", o->scenarios, "Folder of other scenario files for figures 8 to 10");
-  cmd->callback([o, &status] { status = execute(*o); });
 }
 
 }  // namespace whisker::cli

@@ -1,0 +1,22 @@
+target_sources(whisker_board PRIVATE
+  ${CMAKE_CURRENT_LIST_DIR}/../common/governor.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/boot2.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/clock.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/divider.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/encoders.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/flash_storage.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/gyro.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/i2c.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/led.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/line.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/motors.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/pins.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/rangers.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/robot_board.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/sensor_bus.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/startup.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/switches.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/ticker.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/watchdog.cpp
+  ${PROJECT_SOURCE_DIR}/hal/runtime/cortex_m/aeabi_memory.cpp)
+whisker_linker_script(hal/boards/pico/pico.ld)

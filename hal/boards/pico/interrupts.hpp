@@ -1,0 +1,36 @@
+#pragma once
+
+#include <stdint.h>
+
+#include "hal/boards/pico/io.hpp"
+#include "hal/boards/pico/reg/bases.hpp"
+#include "hal/boards/pico/reg/ppb.hpp"
+
+namespace whisker::hal::pico {
+
+/// Numbers of the interrupts that the board uses: RP2040 data sheet, 2.3.2. All have the same priority, so no
+/// handler interrupts another.
+enum class Interrupt : uint8_t { timer0 = 0, uart0 = 20, i2c0 = 23 };
+constexpr uint8_t kInterrupts = 26;
+
+inline void enable(Interrupt interrupt) noexcept {
+  const uint32_t bit = UINT32_C(1) << static_cast<uint8_t>(interrupt);
+  store(base::kPpb, ppb::kNvicIcpr, bit);
+  store(base::kPpb, ppb::kNvicIser, bit);
+}
+
+/// No handler runs while this lives.
+class Uninterrupted {
+ public:
+  Uninterrupted() noexcept { asm volatile("mrs %0, primask\n cpsid i" : "=r"(before_)::"memory"); }
+  ~Uninterrupted() { asm volatile("msr primask, %0" ::"r"(before_) : "memory"); }
+  Uninterrupted(const Uninterrupted&) = delete;
+  Uninterrupted& operator=(const Uninterrupted&) = delete;
+
+ private:
+  uint32_t before_;
+};
+
+inline void wait_for_interrupt() noexcept { asm volatile("wfi" ::: "memory"); }
+
+}  // namespace whisker::hal::pico

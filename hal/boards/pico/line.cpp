@@ -1,0 +1,74 @@
+#include "hal/boards/pico/line.hpp"
+
+#include "hal/boards/pico/clock.hpp"
+#include "hal/boards/pico/interrupts.hpp"
+#include "hal/boards/pico/reg/uart.hpp"
+
+namespace whisker::hal::pico {
+namespace {
+
+constexpr uint32_t kSixtyFourths = (kCoreHz * 4 + Line::kBaud / 2) / Line::kBaud;  // of a sixteenth of a bit
+constexpr uint32_t kEightBits = 3;
+constexpr uint32_t kWhenHalfFull = 2;
+constexpr uint32_t kWhenNearlyEmpty = 0;
+/// Overrun, break, parity and framing errors come with the byte.
+constexpr uint32_t kErrors = 0xF00;
+constexpr uint32_t kReceives = mask(uart::kRxim) | mask(uart::kRtim) | mask(uart::kOeim);
+
+}  // namespace
+
+void Line::start() noexcept {
+  store(base::kUart0, uart::kUartibrd, kSixtyFourths / 64);
+  store(base::kUart0, uart::kUartfbrd, kSixtyFourths % 64);
+  store(base::kUart0, uart::kUartlcrH, bits(uart::kWlen, kEightBits) | mask(uart::kFen));
+  store(base::kUart0, uart::kUartifls,
+        bits(uart::kRxiflsel, kWhenHalfFull) | bits(uart::kTxiflsel, kWhenNearlyEmpty));
+  store(base::kUart0, uart::kUartcr, mask(uart::kUarten) | mask(uart::kTxe) | mask(uart::kRxe));
+  store(base::kUart0, uart::kUartimsc, kReceives);
+  enable(Interrupt::uart0);
+}
+
+size_t Line::take(uint8_t* to, size_t room) noexcept {
+  size_t taken = 0;
+  while (taken < room && received_.pop(to[taken])) ++taken;
+  return taken;
+}
+
+size_t Line::offer(const uint8_t* from, size_t count) noexcept {
+  size_t put = 0;
+  for (; put < count; ++put) {
+    const uint16_t head = out_head_;
+    if (static_cast<uint16_t>(head - out_tail_) == kOutDepth) break;
+    out_[head % kOutDepth] = from[put];
+    mcu::compiler_barrier();
+    out_head_ = static_cast<uint16_t>(head + 1);
+  }
+  // The interrupt comes when the queue becomes nearly empty, so the first bytes need a start.
+  clear_bits(base::kUart0, uart::kUartimsc, mask(uart::kTxim));
+  fill();
+  return put;
+}
+
+void Line::fill() noexcept {
+  while (out_tail_ != out_head_ && !is_set(base::kUart0, uart::kTxff)) {
+    const uint16_t tail = out_tail_;
+    store(base::kUart0, uart::kUartdr, out_[tail % kOutDepth]);
+    out_tail_ = static_cast<uint16_t>(tail + 1);
+  }
+  if (out_tail_ != out_head_) set_bits(base::kUart0, uart::kUartimsc, mask(uart::kTxim));
+}
+
+void Line::on_interrupt() noexcept {
+  const uint32_t why = load(base::kUart0, uart::kUartmis);
+  store(base::kUart0, uart::kUarticr, why);
+  if ((why & mask(uart::kOeim)) != 0) lost_.happened();
+  while (!is_set(base::kUart0, uart::kRxfe)) {
+    const uint32_t data = load(base::kUart0, uart::kUartdr);
+    if ((data & kErrors) != 0 || !received_.push(static_cast<uint8_t>(data))) lost_.happened();
+  }
+  if ((why & mask(uart::kTxim)) == 0) return;
+  clear_bits(base::kUart0, uart::kUartimsc, mask(uart::kTxim));
+  fill();
+}
+
+}  // namespace whisker::hal::pico

@@ -1,0 +1,70 @@
+// usage: node host/harness/pico/live.mjs WORLD
+//
+// The robot in a world, in real time. Its cable is file descriptor 3, which does not block; scripts/pico opens it. A line
+// `button` or `hold` on standard input presses the button, briefly or for 1.5 s.
+import {readSync, writeSync} from 'node:fs';
+import {createInterface} from 'node:readline';
+import {join} from 'node:path';
+import {Drive} from './drive.mjs';
+import {ROOT} from './paths.mjs';
+
+const CABLE = 3;
+const SLICE_MS = 20;
+const LONGEST_MS = 50;
+const BRIEF_MS = 200;
+const HELD_MS = 1500;
+
+const drive = new Drive([process.argv[2], '--robot', join(ROOT, 'host/robots/pico.toml'), '--listen'], {
+  seed: Date.now() & 0xffffffff,
+});
+const buffer = Buffer.alloc(4096);
+
+/** What has come; nothing, while nobody has opened the other end. */
+function read() {
+  try {
+    return buffer.subarray(0, readSync(CABLE, buffer));
+  } catch {
+    return buffer.subarray(0, 0);
+  }
+}
+
+function write(bytes) {
+  try {
+    writeSync(CABLE, Buffer.from(bytes));
+  } catch {
+    // Nobody reads: a serial line loses it.
+  }
+}
+
+drive.takesBytes = (bytes) => {
+  if (bytes.length) write(bytes);
+};
+let releaseAt = Infinity;
+createInterface({input: process.stdin}).on('line', (line) => {
+  const ms = {button: BRIEF_MS, hold: HELD_MS}[line.trim()];
+  if (ms === undefined) return console.log('button or hold');
+  drive.body.press(true);
+  releaseAt = drive.ms + ms;
+});
+
+const began = Date.now();
+let said = '';
+let lost = 0;
+function slice() {
+  // On a computer that is too slow, the robot's time is longer.
+  const behind = Date.now() - began - lost - drive.ms;
+  if (behind > LONGEST_MS) lost += behind - LONGEST_MS;
+  drive.body.mcu.uart[0].feed(read());
+  for (const due = Date.now() - began - lost; drive.ms < due;) {
+    if (drive.ms >= releaseAt) {
+      drive.body.press(false);
+      releaseAt = Infinity;
+    }
+    drive.step();
+  }
+  const state = `${(drive.ms / 1000).toFixed(0).padStart(4)} s: light ${drive.body.led ? 'on' : 'off'}, wheels ${drive.now.speeds.map((speed) => (speed / 1e6).toFixed(2)).join(' ')} m/s${drive.now.contact ? ', CONTACT' : ''}`;
+  if (process.env.WHISKER_PICO_TELLS && state.slice(0, 6) !== said.slice(0, 6)) console.log(state);
+  said = state;
+  setTimeout(slice, SLICE_MS);
+}
+slice();

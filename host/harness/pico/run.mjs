@@ -1,0 +1,66 @@
+// usage: node host/harness/pico/run.mjs WORLD [--robot FILE] [--seed N] [--limit S] [--misses]
+//
+// The image of the Raspberry Pi Pico drives the simulated robot through a world. Needs build/pico/whisker.uf2 and
+// build/host.
+import {join} from 'node:path';
+import {Drive} from './drive.mjs';
+import {ROOT} from './paths.mjs';
+import {XIP_MISS_CYCLES} from './strict.mjs';
+
+const args = process.argv.slice(2);
+const take = (name, otherwise) => {
+  const at = args.indexOf(name);
+  return at < 0 ? otherwise : args.splice(at, 2)[1];
+};
+const limit = Number(take('--limit', 600));
+const robot = take('--robot', join(ROOT, 'host/robots/pico.toml'));
+const seed = take('--seed');
+const countsMisses = args.includes('--misses');
+if (countsMisses) args.splice(args.indexOf('--misses'), 1);
+if (args.length !== 1) {
+  console.error(
+    'usage: node host/harness/pico/run.mjs WORLD [--robot FILE] [--seed N] [--limit S] [--misses]',
+  );
+  process.exit(2);
+}
+const began = process.hrtime.bigint();
+const drive = new Drive([args[0], '--robot', robot, ...(seed === undefined ? [] : ['--seed', seed])], {
+  prepare: (chip) => (chip.countsMisses = countsMisses),
+});
+let running = false;
+drive.until(limit * 1000, (now) => {
+  running ||= now.ordered && now.outcome === 'running';
+  return now.contact || now.fault !== 'none' || (running && now.outcome !== 'running' && drive.stands);
+});
+const verdict = drive.rig.verdict();
+drive.close();
+const {chip, body} = drive;
+const sorted = [...body.ticks].sort((a, b) => a - b);
+const seconds = Number(process.hrtime.bigint() - began) / 1e9;
+const figures = {
+  ...verdict,
+  first_command_ms: drive.firstCommandMs,
+  tick_cycles_mean: Math.round(sorted.reduce((sum, cycles) => sum + cycles, 0) / sorted.length),
+  tick_cycles_worst: sorted.at(-1),
+  ...(countsMisses && {
+    misses_mean: Math.round(body.misses.reduce((sum, n) => sum + n, 0) / body.misses.length),
+    tick_cycles_worst_with_misses: Math.max(
+      ...body.ticks.map((n, i) => n + XIP_MISS_CYCLES * body.misses[i]),
+    ),
+  }),
+  ticks_over_3_ms: sorted.filter((cycles) => cycles > 375000).length,
+  stack_bytes: drive.stack,
+  resets: chip.resets.length - 1,
+  faults: chip.faults,
+  sins: chip.sins,
+  simulated_s_a_second: Number((verdict.time_s / seconds).toFixed(2)),
+};
+for (const [name, value] of Object.entries(figures))
+  console.log(`${name}: ${Array.isArray(value) ? value.join('; ') || 'none' : value}`);
+const good =
+  verdict.outcome === 'reached' &&
+  !verdict.contact &&
+  verdict.difference === '' &&
+  !chip.sins.length &&
+  !chip.faults.length;
+process.exit(good ? 0 : 1);

@@ -1,0 +1,60 @@
+// The image that is flashed drives in three worlds. Every answer of its core is compared with that of a core on this
+// computer, for the same readings and times.
+import assert from 'node:assert/strict';
+import {after, describe, test} from 'node:test';
+import {Drive} from '../../host/harness/pico/drive.mjs';
+import {ROBOT, generated, robotWith, world} from './worlds.mjs';
+
+const MOST_STACK = 3072;
+const MOST_CYCLES = 1_250_000; // a period at 125 MHz
+const FIRST_COMMAND_MS = 100;
+const LONGEST_MS = 300000;
+
+const figures = [];
+
+describe('the image of the Pico', () => {
+  const robots = [
+    ['discs', ROBOT],
+    ['u_trap', ROBOT],
+    ['room', ROBOT],
+  ];
+  // At night, also a gyro, and worlds of the generator.
+  if (process.env.WHISKER_LONG) robots.push(['discs', robotWith('gyro = true\nbumper = true\n')]);
+  for (const kind of process.env.WHISKER_LONG ? ['discs', 'u-trap', 'rooms'] : [])
+    for (const seed of [1, 2, 3]) robots.push([generated(kind, seed), ROBOT]);
+  for (const [name, robot] of robots) {
+    test(`drives to the goal: ${name}${robot === ROBOT ? '' : ', with a gyro and a bumper'}`, () => {
+      const drive = new Drive([world(name), '--robot', robot]);
+      try {
+        let running = false;
+        drive.until(LONGEST_MS, (now) => {
+          running ||= now.ordered && now.outcome === 'running';
+          return (
+            now.contact || now.fault !== 'none' || (running && now.outcome !== 'running' && drive.stands)
+          );
+        });
+        const verdict = drive.rig.verdict();
+        assert.equal(verdict.outcome, 'reached', JSON.stringify(verdict));
+        assert.equal(verdict.contact, false);
+        assert.ok(verdict.distance_m < 0.1, `${verdict.distance_m} m from the goal`);
+        assert.equal(verdict.difference, '');
+        assert.equal(verdict.turned_by_gyro, robot !== ROBOT);
+        assert.ok(verdict.answers > 500);
+        assert.deepEqual(drive.chip.sins, []);
+        assert.deepEqual(drive.chip.faults, []);
+        assert.deepEqual(drive.chip.resets, ['power']);
+        const worst = Math.max(...drive.body.ticks);
+        assert.ok(worst < MOST_CYCLES, `a tick of ${worst} cycles`);
+        assert.ok(drive.stack < MOST_STACK, `${drive.stack} bytes of stack`);
+        assert.ok(drive.firstCommandMs < FIRST_COMMAND_MS, `${drive.firstCommandMs} ms to the first command`);
+        const mean = drive.body.ticks.reduce((sum, cycles) => sum + cycles, 0) / drive.body.ticks.length;
+        figures.push(
+          `${name}: ${verdict.answers} answers alike, tick ${Math.round(mean)} cycles, worst ${worst} (${(worst / 125000).toFixed(1)} ms), stack ${drive.stack} bytes, first command after ${drive.firstCommandMs} ms`,
+        );
+      } finally {
+        drive.close();
+      }
+    });
+  }
+  after(() => console.log(figures.join('\n')));
+});

@@ -1,0 +1,58 @@
+// The first evening of docs/build-a-pico-robot.md: its commands, at the robot behind a pseudo terminal.
+import assert from 'node:assert/strict';
+import {execFile, spawn} from 'node:child_process';
+import {readFileSync} from 'node:fs';
+import {join} from 'node:path';
+import {createInterface} from 'node:readline';
+import {test} from 'node:test';
+import {setTimeout as sleep} from 'node:timers/promises';
+import {promisify} from 'node:util';
+import {ROOT} from '../../host/harness/pico/paths.mjs';
+
+const PAGE = readFileSync(join(ROOT, 'docs/build-a-pico-robot.md'), 'utf8');
+const BETWEEN_MS = 2000;
+const TRIES = 4; // on a computer that is slower than the robot
+
+/** What each of them says, by its second word. */
+const SAYS = {
+  nodes: /controller .*running[^]*base .*running/,
+  get: /encoder_counts_per_m +14324/,
+  set: /-> 0\.25 m\/s/,
+  watch: /ranges \[\d/,
+  goal: /reached/,
+};
+
+async function said(command) {
+  const [program, ...words] = command.split(' ');
+  const options = {cwd: ROOT, timeout: 120000};
+  const {stdout, stderr} = await promisify(execFile)(program, words, options).catch((error) => error);
+  return stdout + stderr;
+}
+
+test('the commands of the first evening', {timeout: 600000}, async () => {
+  const block = /<!-- evening:begin -->\n```\n([^]*?)```/.exec(PAGE)[1].trim().split('\n');
+  const robot = spawn(join(ROOT, 'scripts/pico'), ['--tty'], {stdio: ['ignore', 'pipe', 'ignore']});
+  try {
+    let cable = null;
+    for await (const line of createInterface({input: robot.stdout})) {
+      cable = /cable: (\S+)/.exec(line)?.[1] ?? null;
+      if (cable !== null) break;
+    }
+    assert.ok(cable);
+    assert.deepEqual(
+      block.map((line) => line.split(' ')[2]),
+      Object.keys(SAYS),
+    );
+    for (const line of block) {
+      const command = line.replace('$CABLE', cable);
+      let text = '';
+      for (let i = 0; i < TRIES && !SAYS[line.split(' ')[2]].test(text); i++) {
+        await sleep(BETWEEN_MS * (i + 1));
+        text = await said(command);
+      }
+      assert.match(text, SAYS[line.split(' ')[2]], command);
+    }
+  } finally {
+    robot.kill('SIGINT');
+  }
+});
