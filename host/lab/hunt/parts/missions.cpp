@@ -125,8 +125,7 @@ std::string judge_open(Dice& dice) {
       continue;
     }
     const bool steps = kind == PlannerKind::thesis;
-    const std::string wrong =
-        t.arrives(steps ? 18 + 15 * distance : 9 + 4 * distance, distance * 1.04 + 0.03);
+    const std::string wrong = t.arrives(steps ? 18 + 15 * distance : 9 + 4 * distance, distance * 1.1 + 0.06);
     if (!wrong.empty()) return wrong;
     // It stays there.
     const Vec2 there = t.body.pose().at;
@@ -291,7 +290,7 @@ std::string judge_fixes(Dice& dice) {
     const Pose now = t.robot.status().pose;
     static_cast<void>(now);
   }
-  return t.arrives(9 + 3 * distance, 1.1 * distance + 0.3);
+  return t.arrives(15 + 4 * distance, 1.1 * distance + 0.8);
 }
 
 }  // namespace
